@@ -1,0 +1,73 @@
+// Errors of bad data: what the mesher refuses, with the ids, values and place in a file.
+//
+// Bad data is found once, at the boundary (a reader, Mesher::insert, the command line), and thrown
+// as the one type `mesher::Error`. Programming mistakes are contract checks instead.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace mesher {
+
+/// What is wrong; `code_name` gives the word printed in `error[...]`.
+enum class ErrorCode : std::uint8_t {
+  duplicate_point,    ///< two input points with equal coordinates
+  outside_domain,     ///< a point outside the meshing domain
+  not_finite,         ///< NaN or infinity
+  magnitude,          ///< a coordinate that is neither 0 nor within 2^-100 .. 2^100
+  unknown_id,         ///< an edit of a point that is not there
+  repeated_id,        ///< an id given twice
+  wrong_count,        ///< a header that disagrees with what follows
+  truncated,          ///< the file ends too early
+  bad_number,         ///< not a number, or trailing junk
+  bad_header,         ///< a header that cannot be read
+  bad_edit,           ///< an edit that cannot be parsed
+  unbalanced_commit,  ///< begin without commit, or the reverse
+  bad_dimension,      ///< the dimension is not the one asked for
+  bad_mesh,           ///< a mesh file that is not a mesh (index out of range, ...)
+  bad_quality,        ///< `check`: a mesh that does not keep its promise
+  unknown_format,     ///< an extension that no reader or writer knows
+  cannot_read,        ///< the file cannot be opened or read
+  cannot_write,       ///< the file cannot be written
+  bad_option,         ///< an option whose value makes no sense
+  too_close,          ///< two points nearer than the domain's resolution
+  too_many,           ///< more vertices or memory than a run can hold
+  cancelled,          ///< stopped by the user
+};
+
+/// What a process exits with.
+enum class ExitCode : int {
+  ok = 0, geometry = 1, usage = 2, format = 3, limit = 4, cancelled = 5, bug = 70
+};
+
+[[nodiscard]] std::string_view code_name(ErrorCode code) noexcept;
+[[nodiscard]] ExitCode exit_code(ErrorCode code) noexcept;
+
+/// A place in a file; line and column count from 1, and 0 means "not known".
+struct Place {
+  std::string file;
+  long line = 0;
+  long column = 0;
+};
+
+/// Bad data. `what()` reads `FILE:LINE:COL: error[code]: message` (the place only where known).
+class Error : public std::runtime_error {
+ public:
+  Error(ErrorCode code, std::string message, Place place = {});
+
+  [[nodiscard]] ErrorCode code() const noexcept { return code_; }
+  [[nodiscard]] const std::string& message() const noexcept { return message_; }
+  [[nodiscard]] const Place& place() const noexcept { return place_; }
+
+  /// The same error, said of a place in a file.
+  [[nodiscard]] Error at(Place place) const { return Error(code_, message_, std::move(place)); }
+
+ private:
+  ErrorCode code_;
+  std::string message_;
+  Place place_;
+};
+
+}  // namespace mesher

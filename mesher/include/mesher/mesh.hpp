@@ -1,0 +1,65 @@
+// The plain values that go into the mesher and come out of it: points, boxes, options, meshes.
+//
+// A `Mesh` is canonical: it depends on the set of vertices and simplices alone, so two meshes of
+// the same input compare equal however they were reached.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace mesher {
+
+/// Coordinates, input length units, finite.
+template <int D>
+using Point = std::array<double, D>;
+
+/// The caller's name of an input feature.
+enum class FeatureId : std::int64_t {};
+
+/// A closed axis-aligned box: lo[i] <= hi[i].
+template <int D>
+struct Box {
+  Point<D> lo{};
+  Point<D> hi{};
+  friend bool operator==(const Box&, const Box&) = default;
+};
+
+/// Which point to insert into a poor region.
+enum class Rule : std::uint8_t {
+  radius_edge,     ///< off-centre of a simplex whose circumradius exceeds rho times its shortest edge
+  voronoi_aspect,  ///< the paper's rule [Def 4.2.3]: no gap ball larger than rho * NN(v)
+};
+
+/// Where a vertex comes from.
+enum class VertexKind : std::uint8_t { steiner = 0, boundary = 1, input = 2 };
+
+/// What to mesh, and how well.
+template <int D>
+struct Options {
+  Box<D> domain{};                ///< where input points may lie; must not be empty
+  double rho = 1.4142;            ///< bound of circumradius over shortest edge; > 1.01
+  Rule rule = Rule::radius_edge;
+};
+
+/// A triangulation of the meshing box.
+/// Vertices are in lexicographic order of coordinates. A simplex lists D+1 vertex indices,
+/// smallest first, positively oriented; simplices are in lexicographic order.
+template <int D>
+struct Mesh {
+  using Simplex = std::array<std::uint32_t, D + 1>;
+  std::vector<Point<D>> vertices;
+  std::vector<VertexKind> kinds;  ///< one per vertex
+  std::vector<Simplex> simplices;
+  friend bool operator==(const Mesh&, const Mesh&) = default;
+};
+
+/// The domain used when none is given: the bounding box of `points`, each side moved outward to a
+/// multiple of a power of two (an eighth to a quarter of the longest side), so that meshes before
+/// and after most edits share it. `points`: n x D, finite; n = 0 gives the unit box.
+template <int D>
+[[nodiscard]] Box<D> snapped_domain(const std::vector<Point<D>>& points);
+
+}  // namespace mesher
