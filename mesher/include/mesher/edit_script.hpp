@@ -1,0 +1,119 @@
+// Scripts of edits: a file of lines that change the input points of a mesh.
+//
+//   # comment
+//   +point ID x y        a new point
+//   -point ID            a point less
+//   move ID x y          a point somewhere else
+//   begin                the edits up to `commit` are one update;
+//   commit               outside, each edit is an update of its own
+//
+// Example:
+//   mesher::EditScript script("edits.txt");
+//   mesher::apply(script, m, [](const mesher::Update<2>& u) { ... u.change ... });
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesher/error.hpp"
+#include "mesher/mesh.hpp"
+#include "mesher/mesher.hpp"
+
+namespace mesher {
+
+/// One edit of one point.
+struct Edit {
+  enum class Kind : std::uint8_t { insert, remove, move };
+  Kind kind = Kind::insert;
+  FeatureId id{};
+  Point<2> point{};  ///< of insert and move
+  std::string text;  ///< the line without comment and outer blanks
+  Place place;
+};
+
+/// Reads a script a batch at a time; a batch is one update.
+class EditScript {
+ public:
+  /// Throws: Error(cannot_read).
+  explicit EditScript(const std::string& path);
+
+  /// The next edit, or the edits of the next block; nothing at the end of the script. A line
+  /// is read only when it is asked for.
+  /// Throws: Error (bad_edit, bad_number, not_finite, magnitude, unbalanced_commit, cannot_read).
+  [[nodiscard]] std::optional<std::vector<Edit>> next();
+
+ private:
+  [[nodiscard]] bool read_line();
+  [[nodiscard]] std::vector<Edit> read_block();
+  [[nodiscard]] Place here() const { return {path_, number_, 1}; }
+
+  std::string path_;
+  std::ifstream stream_;
+  std::string text_;  // the current line
+  long number_ = 0;
+};
+
+/// What one update of a script did.
+template <int D>
+struct Update {
+  std::vector<Edit> edits;
+  Change<D> change;
+  double seconds = 0;  ///< of wall-clock time: the edits and the update
+
+  /// The edits' lines, with "; " between them.
+  [[nodiscard]] std::string text() const;
+};
+
+/// Announces `edit` to a mesher, or to anything with its insert, remove and move.
+/// Throws: Error as those, said of the edit's place.
+template <class Target>
+void announce(const Edit& edit, Target& target) {
+  try {
+    switch (edit.kind) {
+      case Edit::Kind::insert:
+        return target.insert(edit.id, edit.point);
+      case Edit::Kind::remove:
+        return target.remove(edit.id);
+      case Edit::Kind::move:
+        return target.move(edit.id, edit.point);
+    }
+  } catch (const Error& error) {
+    throw error.at(edit.place);
+  }
+}
+
+/// Seconds of wall-clock time since some fixed moment.
+[[nodiscard]] double now();
+
+/// Makes one batch one update of `target`.
+/// Throws: Error, with the place of the edit to blame; `target` is then as before the batch.
+template <class Target>
+Update<2> apply(std::vector<Edit> edits, Target& target) {
+  const double start = now();
+  try {
+    for (const Edit& edit : edits) announce(edit, target);
+    Change<2> change = target.update();
+    return {std::move(edits), std::move(change), now() - start};
+  } catch (const Error& error) {
+    target.discard_edits();
+    if (error.place().line > 0 || edits.empty()) throw;
+    throw error.at(edits.back().place);
+  } catch (...) {
+    target.discard_edits();
+    throw;
+  }
+}
+
+/// Applies a whole script, calling `each(update)` after every update.
+/// Throws: Error at the first bad line; what came before it stays applied, and of the block it
+/// stands in, nothing.
+template <class Target, class Each>
+void apply(EditScript& script, Target& target, Each each) {
+  while (auto edits = script.next()) each(apply(std::move(*edits), target));
+}
+
+}  // namespace mesher

@@ -1,0 +1,56 @@
+// Families of points for tests and benchmarks, the same on every machine.
+//
+// Everything is computed by + - * / and square roots of doubles, which IEEE 754 rounds in one way:
+// no distribution of the standard library, no logarithm or cosine of the C library.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "mesher/mesh.hpp"
+
+namespace mesher {
+
+/// Random bits: splitmix64 (Steele, Lea, Flood, OOPSLA 2014).
+class SplitMix64 {
+ public:
+  explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
+
+  [[nodiscard]] std::uint64_t bits() {
+    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return z ^ (z >> 31);
+  }
+  /// Within [0, 1), a multiple of 2^-53.
+  [[nodiscard]] double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  /// Within 0 .. n-1. Requires: 0 < n < 2^32. The bias is below n / 2^64.
+  [[nodiscard]] std::uint64_t below(std::uint64_t n) { return ((bits() >> 32) * n) >> 32; }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// A family of points. n: how many are asked for.
+enum class PointKind : std::uint8_t {
+  uniform,      ///< the unit box
+  gaussian,     ///< normal distribution around 0 with deviation 1
+  clusters,     ///< normal clouds of deviation 1/8 to 1/256 around sqrt(n)/4 places of the unit box
+  grid,         ///< the first n places of an integer grid: cocircular everywhere
+  line_circle,  ///< half on a line, half on a circle around it; in space, on the circle's axis
+  spiral,       ///< eight turns outward from 0; in space, upward to 1 as well
+};
+
+/// "uniform", "gaussian", "clusters", "grid", "line-circle" or "spiral"; nothing for other names.
+[[nodiscard]] std::optional<PointKind> point_kind(std::string_view name);
+
+/// `n` distinct points, n x D, fit to be input. `seed` is ignored by the last three kinds.
+/// Cost: O(n).
+template <int D>
+[[nodiscard]] std::vector<Point<D>> generate_points(PointKind kind, std::size_t n,
+                                                    std::uint64_t seed);
+
+}  // namespace mesher

@@ -1,0 +1,87 @@
+// Output files that appear whole, together, at the end, or not at all.
+//
+// Each file is written under a temporary name in its own directory. `commit` closes all of them,
+// looks at every error a disk can report, and only then renames them to their targets. Whatever
+// ends before that (an exception, too little space) removes the temporaries and leaves the
+// targets as they were.
+#pragma once
+
+#include <concepts>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesher/error.hpp"
+
+namespace mesher {
+
+/// A text file being written. Throws Error(cannot_write) where the system refuses.
+class TextFile {
+ public:
+  /// Opens `path` for writing and empties it. Errors speak of `shown_as`.
+  TextFile(const std::string& path, std::string shown_as);
+  TextFile(const TextFile&) = delete;
+  TextFile& operator=(const TextFile&) = delete;
+  ~TextFile();
+
+  TextFile& operator<<(std::string_view text);
+  TextFile& operator<<(char c) { return *this << std::string_view(&c, 1); }
+  /// The shortest decimal that reads back bit for bit.
+  TextFile& operator<<(double value);
+  TextFile& operator<<(std::integral auto value) { return add_integer(value); }
+
+  /// Writes what is left and closes.
+  void close();
+
+ private:
+  TextFile& add_integer(long long value);
+  void flush();
+  [[noreturn]] void fail();
+
+  std::string shown_as_;
+  std::string buffer_;
+  std::FILE* file_;
+};
+
+/// The output files of one command.
+class OutputFiles {
+ public:
+  OutputFiles() = default;
+  OutputFiles(const OutputFiles&) = delete;
+  OutputFiles& operator=(const OutputFiles&) = delete;
+  /// Removes what has not been committed.
+  ~OutputFiles();
+
+  /// A new file that `commit` will name `target`; the reference stays valid until then.
+  /// Throws: Error(cannot_write) if that could not work, Error(bad_option) if `target` is taken
+  /// by another output or protected.
+  TextFile& open(const std::string& target);
+
+  /// Refuses `path` as a target: it is an input.
+  void protect(const std::string& path) { protected_.push_back(path); }
+
+  /// Closes all files and renames them to their targets.
+  /// Throws: Error(cannot_write), and then leaves none of them.
+  void commit();
+
+  /// Where the files are until they are committed.
+  [[nodiscard]] std::vector<std::string> temporaries() const;
+  /// What they will be called, in the order of opening.
+  [[nodiscard]] std::vector<std::string> targets() const;
+
+ private:
+  struct Entry {
+    std::string target;     // as given
+    std::string resolved;   // behind symbolic links
+    std::string temporary;  // in the directory of `resolved`
+    std::unique_ptr<TextFile> file;
+  };
+  void require_free(const Entry& entry) const;
+
+  std::vector<Entry> entries_;
+  std::vector<std::string> protected_;
+};
+
+}  // namespace mesher

@@ -1,0 +1,85 @@
+// The words and exit codes of errors, and the one line that a person reads.
+#include "mesher/error.hpp"
+
+namespace mesher {
+namespace {
+
+struct CodeRow {
+  std::string_view name;
+  ExitCode exit;
+};
+
+// Points that cannot be meshed together exit as geometry; what a file may not contain as format;
+// what the command line names wrongly (an unreadable path included) as usage.
+CodeRow row(ErrorCode code) noexcept {
+  switch (code) {
+    case ErrorCode::duplicate_point:
+      return {"duplicate_point", ExitCode::geometry};
+    case ErrorCode::outside_domain:
+      return {"outside_domain", ExitCode::geometry};
+    case ErrorCode::too_close:
+      return {"too_close", ExitCode::geometry};
+    case ErrorCode::bad_quality:
+      return {"bad_quality", ExitCode::geometry};
+    case ErrorCode::not_finite:
+      return {"not_finite", ExitCode::format};
+    case ErrorCode::magnitude:
+      return {"magnitude", ExitCode::format};
+    case ErrorCode::unknown_id:
+      return {"unknown_id", ExitCode::format};
+    case ErrorCode::repeated_id:
+      return {"repeated_id", ExitCode::format};
+    case ErrorCode::wrong_count:
+      return {"wrong_count", ExitCode::format};
+    case ErrorCode::truncated:
+      return {"truncated", ExitCode::format};
+    case ErrorCode::bad_number:
+      return {"bad_number", ExitCode::format};
+    case ErrorCode::bad_header:
+      return {"bad_header", ExitCode::format};
+    case ErrorCode::bad_edit:
+      return {"bad_edit", ExitCode::format};
+    case ErrorCode::unbalanced_commit:
+      return {"unbalanced_commit", ExitCode::format};
+    case ErrorCode::bad_dimension:
+      return {"bad_dimension", ExitCode::format};
+    case ErrorCode::bad_mesh:
+      return {"bad_mesh", ExitCode::format};
+    case ErrorCode::unknown_format:
+      return {"unknown_format", ExitCode::usage};
+    case ErrorCode::cannot_read:
+      return {"cannot_read", ExitCode::usage};
+    case ErrorCode::cannot_write:
+      return {"cannot_write", ExitCode::usage};
+    case ErrorCode::bad_option:
+      return {"bad_option", ExitCode::usage};
+    case ErrorCode::too_many:
+      return {"too_many", ExitCode::limit};
+    case ErrorCode::cancelled:
+      return {"cancelled", ExitCode::cancelled};
+  }
+  return {"unknown", ExitCode::bug};
+}
+
+std::string place_text(const Place& place) {
+  if (place.file.empty()) return {};
+  std::string text = place.file + ":";
+  if (place.line > 0) text += std::to_string(place.line) + ":";
+  if (place.line > 0 && place.column > 0) text += std::to_string(place.column) + ":";
+  return text + " ";
+}
+
+}  // namespace
+
+std::string_view code_name(ErrorCode code) noexcept { return row(code).name; }
+
+ExitCode exit_code(ErrorCode code) noexcept { return row(code).exit; }
+
+Error::Error(ErrorCode code, std::string message, Place place)
+    : std::runtime_error(place_text(place) + "error[" + std::string(code_name(code)) +
+                         "]: " + message),
+      code_(code),
+      message_(std::move(message)),
+      place_(std::move(place)) {}
+
+}  // namespace mesher

@@ -1,0 +1,157 @@
+// Output files that appear whole or not at all: temporaries, then renames.
+#include "mesher/output_files.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace mesher {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kBufferBytes = 1 << 16;
+
+Error cannot_write(const std::string& path, int error) {
+  return {
+      ErrorCode::cannot_write, std::string("cannot be written: ") + std::strerror(error), {path}};
+}
+
+// A name in the directory of `target` that nobody has, created at once so that nobody takes it and
+// so that a directory one may not write to is found before the work begins.
+std::string create_temporary(const std::string& target, const std::string& shown_as) {
+  const std::string stem =
+      (fs::path(target).parent_path() / (".mesher-" + std::to_string(::getpid()) + "-")).string();
+  for (int i = 0;; ++i) {
+    const std::string path = stem + std::to_string(i) + ".part";
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) {
+      ::close(descriptor);
+      return path;
+    }
+    if (errno != EEXIST) throw cannot_write(shown_as, errno);
+  }
+}
+
+// The file a target stands for: behind symbolic links, so that a link stays a link.
+std::string resolve(const std::string& target) {
+  std::error_code error;
+  const auto path = fs::weakly_canonical(fs::absolute(target, error), error);
+  if (error) throw cannot_write(target, error.value());
+  if (fs::is_directory(path, error)) throw cannot_write(target, EISDIR);
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
+    throw Error(ErrorCode::cannot_write, "cannot be written: not a regular file", {target});
+  }
+  if (fs::exists(path, error) && ::access(path.c_str(), W_OK) != 0) {
+    throw cannot_write(target, errno);
+  }
+  return path.string();
+}
+
+}  // namespace
+
+TextFile::TextFile(const std::string& path, std::string shown_as)
+    : shown_as_(std::move(shown_as)), file_(std::fopen(path.c_str(), "wbe")) {
+  if (!file_) fail();
+  std::setvbuf(file_, nullptr, _IONBF, 0);  // buffer_ is the buffer
+  buffer_.reserve(kBufferBytes);
+}
+
+TextFile::~TextFile() {
+  if (file_) std::fclose(file_);
+}
+
+void TextFile::fail() { throw cannot_write(shown_as_, errno); }
+
+void TextFile::flush() {
+  if (std::fwrite(buffer_.data(), 1, buffer_.size(), file_) != buffer_.size()) fail();
+  buffer_.clear();
+}
+
+TextFile& TextFile::operator<<(std::string_view text) {
+  buffer_ += text;
+  if (buffer_.size() >= kBufferBytes) flush();
+  return *this;
+}
+
+TextFile& TextFile::operator<<(double value) {
+  char digits[32];  // the longest shortest form has 24 characters
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  return *this << std::string_view(digits, end - digits);
+}
+
+TextFile& TextFile::add_integer(long long value) {
+  char digits[24];  // -2^63 has 20 characters
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  return *this << std::string_view(digits, end - digits);
+}
+
+void TextFile::close() {
+  if (!file_) return;
+  flush();
+  std::FILE* const file = std::exchange(file_, nullptr);
+  if (std::fclose(file) != 0) fail();
+}
+
+OutputFiles::~OutputFiles() {
+  for (const auto& path : temporaries()) ::unlink(path.c_str());
+}
+
+void OutputFiles::require_free(const Entry& entry) const {
+  for (const auto& other : entries_) {
+    if (other.resolved != entry.resolved) continue;
+    throw Error(ErrorCode::bad_option, "is written twice: name each output once", {entry.target});
+  }
+  std::error_code error;
+  for (const auto& path : protected_) {
+    if (fs::weakly_canonical(fs::absolute(path, error), error).string() != entry.resolved) continue;
+    throw Error(ErrorCode::bad_option, "is an input: write the output elsewhere", {entry.target});
+  }
+}
+
+TextFile& OutputFiles::open(const std::string& target) {
+  Entry entry{target, resolve(target), {}, nullptr};
+  require_free(entry);
+  entries_.reserve(entries_.size() + 1);  // nothing may throw once there is a temporary
+  entry.temporary = create_temporary(entry.resolved, target);
+  try {
+    entry.file = std::make_unique<TextFile>(entry.temporary, target);
+  } catch (...) {
+    ::unlink(entry.temporary.c_str());
+    throw;
+  }
+  entries_.push_back(std::move(entry));
+  return *entries_.back().file;
+}
+
+void OutputFiles::commit() {
+  for (auto& entry : entries_) entry.file->close();
+  for (std::size_t done = 0; done < entries_.size(); ++done) {
+    Entry& entry = entries_[done];
+    if (std::rename(entry.temporary.c_str(), entry.resolved.c_str()) == 0) continue;
+    const int error = errno;
+    for (std::size_t i = 0; i < done; ++i) ::unlink(entries_[i].resolved.c_str());
+    throw cannot_write(entry.target, error);
+  }
+  entries_.clear();
+}
+
+std::vector<std::string> OutputFiles::temporaries() const {
+  std::vector<std::string> paths;
+  for (const auto& entry : entries_) paths.push_back(entry.temporary);
+  return paths;
+}
+
+std::vector<std::string> OutputFiles::targets() const {
+  std::vector<std::string> paths;
+  for (const auto& entry : entries_) paths.push_back(entry.target);
+  return paths;
+}
+
+}  // namespace mesher

@@ -1,0 +1,111 @@
+// Reading text files: lines, fields with their columns, and numbers that are checked.
+//
+// Every reader walks a file line by line with `Line`, which knows its place; so each error carries
+// file, line and column without the reader's help. Numbers are parsed by std::from_chars (no
+// locale); a leading '+' is accepted.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesher/error.hpp"
+#include "mesher/mesh.hpp"
+
+namespace mesher::text {
+
+/// The whole file. Throws: Error(cannot_read).
+[[nodiscard]] std::string read_file(const std::string& path);
+
+/// The part of a path from its last dot, in lower case (".node"); empty if there is none.
+[[nodiscard]] std::string extension(const std::string& path);
+
+/// `path` with `extension` in place of its own.
+[[nodiscard]] std::string with_extension(const std::string& path, const std::string& extension);
+
+/// `text` in quotes, cut to 40 bytes, with '?' for what cannot be printed.
+[[nodiscard]] std::string quoted(std::string_view text);
+
+/// The shortest decimal that reads back as `value`.
+[[nodiscard]] std::string to_text(double value);
+
+/// "(x, y)"
+template <int D>
+[[nodiscard]] std::string to_text(const Point<D>& p) {
+  std::string text = "(";
+  for (int i = 0; i < D; ++i) text += (i > 0 ? ", " : "") + to_text(p[i]);
+  return text + ")";
+}
+
+/// Whether `value` is 0 or of magnitude 2^-100 .. 2^100, as input coordinates must be.
+[[nodiscard]] bool is_coordinate(double value) noexcept;
+
+/// One line of a file as fields: between blanks, or between separators as in a .csv file.
+class Line {
+ public:
+  explicit Line(std::string file) : file_(std::move(file)) {}
+
+  /// Takes the next line; a '#' and what follows it is dropped. `text` must outlive the fields.
+  void split_blanks(long number, std::string_view text);
+  /// The same with fields between `separator`s, trimmed; a field may stand in double quotes.
+  void split_separated(long number, std::string_view text, char separator);
+
+  [[nodiscard]] std::size_t size() const { return fields_.size(); }
+  [[nodiscard]] std::string_view operator[](std::size_t i) const { return fields_[i]; }
+  [[nodiscard]] long number() const { return number_; }
+  /// The line without comment and outer blanks.
+  [[nodiscard]] std::string_view trimmed() const;
+
+  /// The place of field i, or just behind the last field.
+  [[nodiscard]] Place place(std::size_t i) const;
+  [[nodiscard]] Error error(ErrorCode code, const std::string& message, std::size_t i) const {
+    return {code, message, place(i)};
+  }
+
+  /// Field i as a number. Throws: Error (bad_number, not_finite, magnitude beyond a double's).
+  [[nodiscard]] double finite(std::size_t i) const;
+  /// Field i as an input coordinate; -0 becomes 0. Throws: as finite, or Error(magnitude).
+  [[nodiscard]] double coordinate(std::size_t i) const;
+  /// Field i as an integer. Throws: Error(bad_number).
+  [[nodiscard]] std::int64_t integer(std::size_t i) const;
+
+ private:
+  std::string file_;
+  std::string_view text_;
+  long number_ = 0;
+  std::vector<std::string_view> fields_;
+};
+
+/// Cuts a text into lines; LF or CRLF, the last line's end may be missing.
+class Lines {
+ public:
+  explicit Lines(std::string_view text);
+  /// Goes to the next line. False at the end of the text.
+  bool next();
+  [[nodiscard]] std::string_view text() const { return line_; }
+  [[nodiscard]] long number() const { return number_; }
+  /// Whether nothing but blanks and comments follows the current line.
+  [[nodiscard]] bool at_end() const;
+
+ private:
+  std::string_view rest_;
+  std::string_view line_;
+  long number_ = 0;
+};
+
+/// The lines of a text that hold fields, split at blanks.
+class FieldLines {
+ public:
+  FieldLines(const std::string& file, std::string_view content) : lines_(content), line_(file) {}
+  /// Goes to the next line with a field. False at the end of the text.
+  bool next();
+  [[nodiscard]] const Line& line() const { return line_; }
+  [[nodiscard]] bool at_end() const { return lines_.at_end(); }
+
+ private:
+  Lines lines_;
+  Line line_;
+};
+
+}  // namespace mesher::text

@@ -1,0 +1,167 @@
+// Writes pictures of meshes as SVG. Each edge is drawn once; all edges are one path, and so are all
+// dots (lines of length 0 with round ends), which keeps files small and viewers fast.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "mesher/svg.hpp"
+
+namespace mesher {
+namespace {
+
+constexpr double kLongerSide = 1000;  // units of the picture
+constexpr double kThinnest = 0.05;    // a line that most printers still show
+constexpr double kThickest = 1;
+
+void grow(Box<2>& box, const Point<2>& p) {
+  for (int i = 0; i < 2; ++i) {
+    box.lo[i] = std::min(box.lo[i], p[i]);
+    box.hi[i] = std::max(box.hi[i], p[i]);
+  }
+}
+
+double longer_side(const Box<2>& box) {
+  return std::max(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1]);
+}
+
+bool overlaps(const Box<2>& a, const Box<2>& b) {
+  return a.lo[0] <= b.hi[0] && b.lo[0] <= a.hi[0] && a.lo[1] <= b.hi[1] && b.lo[1] <= a.hi[1];
+}
+
+// Maps the window onto the picture and writes rounded coordinates.
+class Canvas {
+ public:
+  Canvas(const Box<2>& window, TextFile& file)
+      : window_(window), scale_(kLongerSide / longer_side(window)), file_(file) {}
+
+  [[nodiscard]] bool shows(const Point<2>& a, const Point<2>& b) const {
+    Box<2> box{a, a};
+    grow(box, b);
+    return overlaps(box, window_);
+  }
+  [[nodiscard]] double width() const { return scale_ * (window_.hi[0] - window_.lo[0]); }
+  [[nodiscard]] double height() const { return scale_ * (window_.hi[1] - window_.lo[1]); }
+
+  void point(const Point<2>& p) {
+    number((p[0] - window_.lo[0]) * scale_);
+    file_ << ' ';
+    number((window_.hi[1] - p[1]) * scale_);
+  }
+  // Three decimals, without what the value does not need. Far outside the view they are capped.
+  void number(double value) {
+    constexpr double kFar = 1e9;
+    char digits[32];  // '-', 10 digits, '.', 3 digits
+    const double rounded = std::round(std::clamp(value, -kFar, kFar) * 1000) / 1000 + 0.0;
+    const auto end =
+        std::to_chars(digits, digits + sizeof digits, rounded, std::chars_format::fixed).ptr;
+    file_ << std::string_view(digits, end - digits);
+  }
+
+ private:
+  Box<2> window_;
+  double scale_;
+  TextFile& file_;
+};
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_of(const Mesh<2>& mesh) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  edges.reserve(3 * mesh.simplices.size());
+  for (const auto& t : mesh.simplices) {
+    for (int i = 0; i < 3; ++i) edges.push_back(std::minmax({t[i], t[(i + 1) % 3]}));
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+// Lines get thinner as the lines in view get more: a tenth of the mean distance of lines.
+double line_width(std::size_t lines) {
+  const double mean = kLongerSide / std::sqrt(1.0 + static_cast<double>(lines));
+  return std::clamp(mean / 10, kThinnest, kThickest);
+}
+
+void draw_triangles(const SvgView& view, Canvas& canvas, TextFile& file) {
+  if (view.coloured.empty()) return;
+  file << "<path fill=\"#ffb347\" d=\"";
+  for (const auto& [a, b, c] : view.coloured) {
+    file << 'M';
+    canvas.point(a);
+    file << 'L';
+    canvas.point(b);
+    file << 'L';
+    canvas.point(c);
+    file << "Z\n";
+  }
+  file << "\"/>\n";
+}
+
+void draw_edges(const Mesh<2>& mesh, Canvas& canvas, TextFile& file) {
+  auto edges = edges_of(mesh);
+  std::erase_if(edges, [&](const auto& e) {
+    return !canvas.shows(mesh.vertices[e.first], mesh.vertices[e.second]);
+  });
+  file << "<path fill=\"none\" stroke=\"#3b5b7c\" stroke-width=\"";
+  canvas.number(line_width(edges.size()));
+  file << "\" d=\"";
+  for (const auto& [a, b] : edges) {
+    file << 'M';
+    canvas.point(mesh.vertices[a]);
+    file << 'L';
+    canvas.point(mesh.vertices[b]);
+    file << '\n';
+  }
+  file << "\"/>\n";
+}
+
+void draw_input(const Mesh<2>& mesh, Canvas& canvas, TextFile& file) {
+  std::vector<Point<2>> dots;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Point<2>& p = mesh.vertices[i];
+    if (mesh.kinds[i] == VertexKind::input && canvas.shows(p, p)) dots.push_back(p);
+  }
+  if (dots.empty()) return;
+  file << "<path fill=\"none\" stroke=\"#c0392b\" stroke-linecap=\"round\" stroke-width=\"";
+  canvas.number(6 * line_width(3 * dots.size()));  // a planar mesh has three edges a vertex
+  file << "\" d=\"";
+  for (const Point<2>& p : dots) {
+    file << 'M';
+    canvas.point(p);
+    file << "h0\n";
+  }
+  file << "\"/>\n";
+}
+
+}  // namespace
+
+SvgView svg_view(const Mesh<2>& mesh) {
+  const auto inputs = std::count(mesh.kinds.begin(), mesh.kinds.end(), VertexKind::input);
+  std::vector<Point<2>> shown;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (inputs < 2 || mesh.kinds[i] == VertexKind::input) shown.push_back(mesh.vertices[i]);
+  }
+  if (shown.empty()) return {{{0, 0}, {1, 1}}, {}};
+  Box<2> box{shown.front(), shown.front()};
+  for (const Point<2>& p : shown) grow(box, p);
+  const double margin = longer_side(box) > 0 ? longer_side(box) / 8 : 1;
+  for (int i = 0; i < 2; ++i) {
+    box.lo[i] -= margin;
+    box.hi[i] += margin;
+  }
+  return {box, {}};
+}
+
+void write_svg(const Mesh<2>& mesh, const SvgView& view, TextFile& file) {
+  Canvas canvas(view.window, file);
+  file << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 ";
+  canvas.number(canvas.width());
+  file << ' ';
+  canvas.number(canvas.height());
+  file << "\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+  draw_triangles(view, canvas, file);
+  draw_edges(mesh, canvas, file);
+  draw_input(mesh, canvas, file);
+  file << "</svg>\n";
+}
+
+}  // namespace mesher
