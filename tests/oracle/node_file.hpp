@@ -1,0 +1,112 @@
+// Reading .node and .ele files for the judges: on purpose none of the mesher's own code.
+//
+// Comments run from '#' to the end of the line; records are read by lines. A coordinate is what
+// std::from_chars makes of its whole token, so it is the double that was meant, bit for bit.
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace oracle {
+
+struct Site {
+  double x = 0;
+  double y = 0;
+};
+
+/// A .node file in the plane: ids as written, in the order of the file.
+struct NodeFile {
+  std::vector<long> ids;
+  std::vector<Site> sites;
+};
+
+/// A .ele file: corners are positions in `NodeFile::sites`, not ids.
+struct EleFile {
+  std::vector<long> ids;
+  std::vector<std::array<std::size_t, 3>> triangles;
+};
+
+/// The lines of a file that hold something, as tokens.
+class TokenLines {
+ public:
+  explicit TokenLines(const std::string& path) : path_(path), in_(path) {
+    if (!in_) throw std::runtime_error(path + ": cannot open");
+  }
+
+  /// Requires `least` tokens; throws when the file ends.
+  std::vector<std::string> next(std::size_t least) {
+    for (std::string line; std::getline(in_, line);) {
+      ++number_;
+      std::istringstream words(line.substr(0, line.find('#')));
+      std::vector<std::string> tokens;
+      for (std::string word; words >> word;) tokens.push_back(word);
+      if (tokens.empty()) continue;
+      if (tokens.size() < least) fail("too few values");
+      return tokens;
+    }
+    fail("file ends too early");
+  }
+
+  template <class Number>
+  Number parse(const std::string& token) const {
+    Number value{};
+    const char* end = token.data() + token.size();
+    const auto [stop, error] = std::from_chars(token.data(), end, value);
+    if (error != std::errc() || stop != end) fail("not a number: " + token);
+    return value;
+  }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::runtime_error(path_ + ":" + std::to_string(number_) + ": " + what);
+  }
+
+ private:
+  std::string path_;
+  std::ifstream in_;
+  long number_ = 0;
+};
+
+inline NodeFile read_node(const std::string& path) {
+  TokenLines lines(path);
+  const auto header = lines.next(1);
+  const auto count = lines.parse<std::size_t>(header[0]);
+  if (header.size() > 1 && lines.parse<int>(header[1]) != 2) lines.fail("not in the plane");
+  NodeFile file;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto tokens = lines.next(3);
+    file.ids.push_back(lines.parse<long>(tokens[0]));
+    file.sites.push_back({lines.parse<double>(tokens[1]), lines.parse<double>(tokens[2])});
+  }
+  return file;
+}
+
+inline EleFile read_ele(const std::string& path, const NodeFile& nodes) {
+  std::unordered_map<long, std::size_t> position;
+  for (std::size_t i = 0; i < nodes.ids.size(); ++i) position[nodes.ids[i]] = i;
+  TokenLines lines(path);
+  const auto header = lines.next(1);
+  const auto count = lines.parse<std::size_t>(header[0]);
+  if (header.size() > 1 && lines.parse<int>(header[1]) != 3) lines.fail("not triangles");
+  EleFile file;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto tokens = lines.next(4);
+    file.ids.push_back(lines.parse<long>(tokens[0]));
+    std::array<std::size_t, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto found = position.find(lines.parse<long>(tokens[k + 1]));
+      if (found == position.end()) lines.fail("unknown vertex " + tokens[k + 1]);
+      corners[k] = found->second;
+    }
+    file.triangles.push_back(corners);
+  }
+  return file;
+}
+
+}  // namespace oracle
