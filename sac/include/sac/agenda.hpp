@@ -1,0 +1,174 @@
+// Agenda: a work queue whose order is a function of the calls' labels alone.
+//
+// `while Q not empty: w = DeleteMin(Q); ...` written with an agenda is monotone by construction
+// [Def 1.4.3]: two runs make their common calls in the same order; and concise by construction:
+// equal posts merge into one call.
+//
+//   agenda.post<visit>(s, sac::Key{.bucket = level}, node);   // an effect of the posting call
+//   agenda.drain(s);                                          // runs everything in key order
+//
+// (1) A call lives while somebody posts it. One that nobody posts any more is dying: it waits in
+//     the propagation queue and is discarded when its turn comes, unless posted again before.
+// (2) In a first run calls get their time stamps as they run; a call posted during propagation gets
+//     its place between its neighbours at once.
+// (3) Posting a call that would run before its poster is an error that names both.
+// (4) Cost of a post: O(1) expected in a first run and when repeated; O(log) of the calls of the
+//     same bucket otherwise.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "sac/engine.hpp"
+#include "sac/ordered_calls.hpp"
+#include "sac/scope.hpp"
+
+namespace sac {
+
+/// When a posted call runs: by bucket, phase, colour, then order; ties by the call's arguments.
+struct Key {
+  int bucket = 0;            ///< -32768 .. 32767, smallest first
+  unsigned phase = 0;        ///< 0 .. 15
+  unsigned colour = 0;       ///< 0 .. 4095
+  std::uint64_t order = 0;   ///< canonical order of the label
+
+  /// (bucket, phase, colour) as one number. Throws: UsageError if out of range.
+  [[nodiscard]] std::uint32_t rank() const {
+    SAC_EXPECTS(bucket >= -32768 && bucket <= 32767 && phase < 16 && colour < 4096);
+    return static_cast<std::uint32_t>(bucket + 32768) << 16 | phase << 12 | colour;
+  }
+};
+
+/// The bucket of a length [§1.5]: equal for lengths within a factor of two, read off the exponent
+/// of the double. Requires: length > 0.
+[[nodiscard]] int exponent_bucket(double length);
+
+namespace detail {
+
+// Where a posted call stands; lies between the call and its arguments.
+struct Slot {
+  std::uint64_t order = 0;
+  std::uint32_t rank = 0;
+  std::uint16_t agenda = 0;
+  std::uint16_t outside_posts = 0;
+};
+
+template <class... Args>
+struct PostedFrame {
+  Call call;
+  Slot slot;
+  std::tuple<Args...> args;
+};
+
+struct PostEdge : Edge {
+  Handle target;
+};
+
+template <auto F, class... Args>
+inline constexpr Function kPosted{
+    .name = function_name<F>(),
+    .frame_bytes = sizeof(PostedFrame<Args...>),
+    .posted = true,
+    .execute = &execute_frame<F, PostedFrame<Args...>, Scope>,
+    .destroy = kTrivialArgs<PostedFrame<Args...>> ? nullptr : &destroy_args<PostedFrame<Args...>>,
+    .equal = &equal_args<PostedFrame<Args...>>,
+    .compare = &compare_args<PostedFrame<Args...>>,
+    .hash = &hash_args<PostedFrame<Args...>>,
+    .print = &print_args<PostedFrame<Args...>>,
+};
+
+}  // namespace detail
+
+class Agenda final : public Structure {
+ public:
+  /// Use Engine::make_agenda.
+  Agenda(Engine& engine, std::string name);
+
+  /// Asks for the call f(scope, args...) at `key`, on behalf of the running call. `key` must be a
+  /// function of the label. Throws: UsageError if that is in the past.
+  template <auto F, class... Args>
+  void post(Scope& s, const Key& key, Args... args) {
+    const std::tuple<Args...> tuple(std::move(args)...);
+    post_call(s, detail::kPosted<F, Args...>, key, detail::label_hash<F>(tuple), &tuple,
+              &detail::construct_args<detail::PostedFrame<Args...>>);
+  }
+
+  /// Asks for a call on behalf of the outside: an input, as Engine::set is.
+  template <auto F, class... Args>
+  void post_from_outside(const Key& key, Args... args) {
+    const std::tuple<Args...> tuple(std::move(args)...);
+    outside_post(detail::kPosted<F, Args...>, key, detail::label_hash<F>(tuple), &tuple,
+                 &detail::construct_args<detail::PostedFrame<Args...>>);
+  }
+  /// Takes one post_from_outside back. Throws: UsageError if there is none.
+  template <auto F, class... Args>
+  void retract_from_outside(Args... args) {
+    const std::tuple<Args...> tuple(std::move(args)...);
+    outside_retract(detail::kPosted<F, Args...>, detail::label_hash<F>(tuple), &tuple);
+  }
+
+  /// Runs what was posted, in order, as children of the running call. Once per agenda.
+  void drain(Scope& s);
+
+  /// Key::rank() of a posted call. Requires: the call was posted on an agenda.
+  [[nodiscard]] static std::uint32_t rank_of(const Call& call) noexcept { return slot(call).rank; }
+
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  [[nodiscard]] std::size_t bytes() const noexcept;
+  [[nodiscard]] std::uint64_t pending_calls() const noexcept { return pending_calls_; }
+  void check_invariants() const;
+
+  void retract(Call& call, Edge& edge) noexcept override;
+
+ private:
+  friend class Engine;
+  using Entry = OrderedCalls::Entry;
+  using Construct = void (*)(void*, const void*);
+
+  static detail::Slot& slot(Call& call) noexcept {
+    return *reinterpret_cast<detail::Slot*>(&call + 1);
+  }
+  static const detail::Slot& slot(const Call& call) noexcept {
+    return *reinterpret_cast<const detail::Slot*>(&call + 1);
+  }
+  static void forget(Engine& engine, Call& call) noexcept;
+
+  void post_call(Scope& s, const Function& function, const Key& key, std::uint32_t hash,
+                 const void* args, Construct construct);
+  void outside_post(const Function& function, const Key& key, std::uint32_t hash, const void* args,
+                    Construct construct);
+  void outside_retract(const Function& function, std::uint32_t hash, const void* args);
+  [[nodiscard]] Handle find(const Function& function, std::uint32_t hash, const void* args) const;
+  Handle create(const Function& function, const Key& key, std::uint32_t hash, const void* args,
+                Construct construct);
+  void require_future(const Call& poster, const Call& posted) const;
+  void add_pending(Handle call);
+  void place(Handle call);
+  [[nodiscard]] Handle predecessor(const Call& call) const;
+  void add_post(Call& call) noexcept { call.state += Call::kOnePost; }
+  void drop_post(Call& call) noexcept;
+  [[nodiscard]] bool before(const Call& a, const Call& b) const;
+
+  void run_pending(Engine& engine);
+  void run_class(std::uint32_t rank);
+  void run_one(Handle call, OrderedCalls& done);
+  void return_to_pending(std::vector<Entry>& batch, std::size_t from) noexcept;
+  struct Drain;
+
+  Engine& engine_;
+  std::string name_;
+  std::uint16_t id_;
+  std::map<std::uint32_t, std::vector<Entry>> pending_;
+  std::map<std::uint32_t, OrderedCalls> classes_;
+  std::uint64_t pending_calls_ = 0;
+  Handle drain_call_ = 0;
+  bool draining_ = false;
+  bool drained_ = false;
+};
+
+}  // namespace sac

@@ -1,0 +1,153 @@
+// The posted calls of one (bucket, phase, colour), in order: a two-level sorted array.
+//
+// Leaves of up to 128 entries under a directory of leaves; 12 bytes an entry at full leaves. Built
+// in bulk by a first run, then searched and edited in O(log) comparisons of plain numbers; a call
+// itself is looked at only where orders tie.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "sac/arena.hpp"
+
+namespace sac {
+
+class OrderedCalls {
+ public:
+  struct Entry {
+    std::uint64_t order = 0;
+    Handle call = 0;
+  };
+
+  [[nodiscard]] bool empty() const noexcept { return leaves_.empty(); }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] Handle last() const noexcept {
+    return leaves_.back()->calls[leaves_.back()->count - 1];
+  }
+
+  /// Adds an entry behind all others. Requires: it belongs there.
+  void append(Entry entry) {
+    if (leaves_.empty() || leaves_.back()->count == kFill) leaves_.push_back(std::make_unique<Leaf>());
+    Leaf& leaf = *leaves_.back();
+    put(leaf, leaf.count, entry);
+    ++size_;
+  }
+
+  /// Inserts in order; `before(a, b)` decides between calls of equal order.
+  template <class Before>
+  void insert(Entry entry, Before&& before) {
+    if (leaves_.empty()) return append(entry);
+    std::size_t l = leaf_for(entry, before);
+    if (leaves_[l]->count == kCapacity) {
+      split(l);
+      if (!less(entry, first(*leaves_[l + 1]), before)) ++l;
+    }
+    Leaf& leaf = *leaves_[l];
+    put(leaf, position(leaf, entry, before), entry);
+    ++size_;
+  }
+
+  /// Takes out the entry of `entry.call`. Requires: it is there.
+  template <class Before>
+  void erase(Entry entry, Before&& before) {
+    const std::size_t l = leaf_for(entry, before);
+    Leaf& leaf = *leaves_[l];
+    const std::size_t i = position(leaf, entry, before) - 1;
+    std::copy(&leaf.orders[i + 1], &leaf.orders[leaf.count], &leaf.orders[i]);
+    std::copy(&leaf.calls[i + 1], &leaf.calls[leaf.count], &leaf.calls[i]);
+    --size_;
+    if (--leaf.count == 0) leaves_.erase(leaves_.begin() + static_cast<std::ptrdiff_t>(l));
+  }
+
+  /// The last call that comes before `entry`; 0 if there is none.
+  template <class Before>
+  [[nodiscard]] Handle predecessor(Entry entry, Before&& before) const {
+    if (leaves_.empty()) return 0;
+    const Leaf& leaf = *leaves_[leaf_for(entry, before)];
+    const std::size_t i = position(leaf, entry, before);
+    return i == 0 ? 0 : leaf.calls[i - 1];
+  }
+
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (const auto& leaf : leaves_) {
+      for (std::size_t i = 0; i < leaf->count; ++i) visit(Entry{leaf->orders[i], leaf->calls[i]});
+    }
+  }
+
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return leaves_.capacity() * sizeof(leaves_[0]) + leaves_.size() * sizeof(Leaf);
+  }
+
+ private:
+  static constexpr std::size_t kCapacity = 128;
+  static constexpr std::size_t kFill = 112;  // a first run leaves room for the edits to come
+
+  struct Leaf {
+    std::uint32_t count = 0;
+    std::array<Handle, kCapacity> calls;
+    std::array<std::uint64_t, kCapacity> orders;
+  };
+
+  template <class Before>
+  static bool less(const Entry& a, const Entry& b, Before&& before) {
+    if (a.order != b.order) return a.order < b.order;
+    return a.call != b.call && before(a.call, b.call);
+  }
+  static Entry first(const Leaf& leaf) { return {leaf.orders[0], leaf.calls[0]}; }
+
+  // The last leaf that does not begin behind `entry`; the first leaf if all do.
+  template <class Before>
+  std::size_t leaf_for(const Entry& entry, Before&& before) const {
+    std::size_t low = 0;
+    std::size_t high = leaves_.size();
+    while (high - low > 1) {
+      const std::size_t middle = (low + high) / 2;
+      (less(entry, first(*leaves_[middle]), before) ? high : low) = middle;
+    }
+    return low;
+  }
+
+  // The number of entries of `leaf` that are not behind `entry`.
+  template <class Before>
+  static std::size_t position(const Leaf& leaf, const Entry& entry, Before&& before) {
+    std::size_t low = 0;
+    std::size_t high = leaf.count;
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      if (less(entry, {leaf.orders[middle], leaf.calls[middle]}, before)) {
+        high = middle;
+      } else {
+        low = middle + 1;
+      }
+    }
+    return low;
+  }
+
+  static void put(Leaf& leaf, std::size_t i, const Entry& entry) {
+    std::copy_backward(&leaf.orders[i], &leaf.orders[leaf.count], &leaf.orders[leaf.count + 1]);
+    std::copy_backward(&leaf.calls[i], &leaf.calls[leaf.count], &leaf.calls[leaf.count + 1]);
+    leaf.orders[i] = entry.order;
+    leaf.calls[i] = entry.call;
+    ++leaf.count;
+  }
+
+  void split(std::size_t l) {
+    leaves_.insert(leaves_.begin() + static_cast<std::ptrdiff_t>(l) + 1, std::make_unique<Leaf>());
+    Leaf& left = *leaves_[l];
+    Leaf& right = *leaves_[l + 1];
+    const std::size_t half = left.count / 2;
+    std::copy(&left.orders[half], &left.orders[left.count], &right.orders[0]);
+    std::copy(&left.calls[half], &left.calls[left.count], &right.calls[0]);
+    right.count = static_cast<std::uint32_t>(left.count - half);
+    left.count = static_cast<std::uint32_t>(half);
+  }
+
+  std::vector<std::unique_ptr<Leaf>> leaves_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace sac

@@ -1,0 +1,237 @@
+// Plain execution: the same program text, run without recording anything.
+//
+// A program written as `template <class S> void operator()(S& s, ...)` runs on sac::Scope (traced)
+// or on sac::PlainScope (not traced); the compiler chooses. Modifiables are plain memory here,
+// calls are calls, an agenda is a bucketed queue. Results are the same, bit for bit.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <new>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "sac/agenda.hpp"
+#include "sac/check.hpp"
+
+namespace sac {
+
+class PlainScope;
+
+/// A modifiable of a plain run: a place in memory.
+template <class T>
+class PlainMod {
+ public:
+  PlainMod() = default;
+  explicit PlainMod(std::optional<T>* place) : place_(place) {}
+  [[nodiscard]] std::optional<T>& place() const { return *place_; }
+  explicit operator bool() const noexcept { return place_ != nullptr; }
+  friend bool operator==(const PlainMod&, const PlainMod&) = default;
+
+ private:
+  std::optional<T>* place_ = nullptr;
+};
+
+/// A work queue with the order of sac::Agenda; equal posts merge.
+class PlainAgenda {
+ public:
+  PlainAgenda() = default;
+  PlainAgenda(const PlainAgenda&) = delete;
+  PlainAgenda& operator=(const PlainAgenda&) = delete;
+
+  template <auto F, class... Args>
+  void post(PlainScope&, const Key& key, Args... args) {
+    add<F>(key, std::tuple<Args...>(std::move(args)...));
+  }
+  template <auto F, class... Args>
+  void post_from_outside(const Key& key, Args... args) {
+    add<F>(key, std::tuple<Args...>(std::move(args)...));
+  }
+  void drain(PlainScope& s);
+
+ private:
+  struct Record {
+    const Function* function;
+    std::uint64_t order;
+  };
+  template <class Tuple>
+  struct TypedRecord : Record {
+    Tuple args;
+  };
+  // The posts of one (bucket, phase, colour), with the memory they lie in.
+  struct Class {
+    std::vector<Record*> records;
+    std::vector<std::unique_ptr<std::byte[]>> blocks;
+    std::size_t used = kBlock;
+  };
+  static constexpr std::size_t kBlock = 16384;
+
+  // The operations of a record go by the same descriptor as those of a call.
+  struct Operations : Function {
+    void (*run)(PlainScope&, const Record&);
+    bool (*same)(const Record&, const Record&);
+    std::strong_ordering (*order)(const Record&, const Record&);
+  };
+
+  template <auto F, class Tuple>
+  static void run_record(PlainScope& s, const Record& r) {
+    std::apply([&](const auto&... a) { F(s, a...); },
+               static_cast<const TypedRecord<Tuple>&>(r).args);
+  }
+  template <class Tuple>
+  static bool same_record(const Record& a, const Record& b) {
+    return static_cast<const TypedRecord<Tuple>&>(a).args ==
+           static_cast<const TypedRecord<Tuple>&>(b).args;
+  }
+  template <class Tuple>
+  static std::strong_ordering order_record(const Record& a, const Record& b) {
+    const auto order = static_cast<const TypedRecord<Tuple>&>(a).args <=>
+                       static_cast<const TypedRecord<Tuple>&>(b).args;
+    return order < 0 ? std::strong_ordering::less
+                     : order > 0 ? std::strong_ordering::greater : std::strong_ordering::equal;
+  }
+  template <auto F, class Tuple>
+  static constexpr Operations kOperations{
+      {.name = function_name<F>(), .frame_bytes = 0, .posted = true, .execute = nullptr,
+       .destroy = nullptr, .equal = nullptr, .compare = nullptr, .hash = nullptr, .print = nullptr},
+      &run_record<F, Tuple>, &same_record<Tuple>, &order_record<Tuple>};
+
+  static const Operations& operations(const Record& r) {
+    return static_cast<const Operations&>(*r.function);
+  }
+  static bool before(const Record* a, const Record* b);
+  static bool same(const Record* a, const Record* b);
+
+  template <auto F, class Tuple>
+  void add(const Key& key, Tuple&& args) {
+    using Typed = TypedRecord<std::decay_t<Tuple>>;
+    static_assert(std::is_trivially_destructible_v<Typed>, "agenda arguments must be trivial");
+    static_assert(sizeof(Typed) <= kBlock);
+    const std::uint32_t rank = key.rank();
+    if (running_ && rank < rank_) throw UsageError("posting into the past");
+    Class& c = cached_ != nullptr && cached_rank_ == rank ? *cached_ : classes_[rank];
+    cached_ = &c;
+    cached_rank_ = rank;
+    constexpr std::size_t bytes = (sizeof(Typed) + 15) / 16 * 16;
+    if (c.used + bytes > kBlock) {
+      c.blocks.push_back(std::make_unique<std::byte[]>(kBlock));
+      c.used = 0;
+    }
+    void* memory = c.blocks.back().get() + c.used;
+    c.used += bytes;
+    c.records.push_back(::new (memory) Typed{
+        {&kOperations<F, std::decay_t<Tuple>>, key.order}, std::forward<Tuple>(args)});
+  }
+
+  void run_class(PlainScope& s, Class& c);
+
+  std::map<std::uint32_t, Class> classes_;
+  Class* cached_ = nullptr;
+  std::uint32_t cached_rank_ = 0;
+  std::uint32_t rank_ = 0;
+  bool running_ = false;
+};
+
+/// The counterpart of sac::Scope that records nothing.
+class PlainScope {
+ public:
+  template <class T>
+  using ModType = PlainMod<T>;
+  using AgendaType = PlainAgenda;
+  static constexpr bool kTraced = false;
+
+  PlainScope() = default;
+  PlainScope(const PlainScope&) = delete;
+  PlainScope& operator=(const PlainScope&) = delete;
+
+  /// Throws: UsageError if the modifiable has no value yet.
+  template <class T>
+  const T& read(PlainMod<T> mod) {
+    if (!mod.place().has_value()) throw UsageError("read of a modifiable that nobody has written");
+    return *mod.place();
+  }
+  template <class T>
+  void write(PlainMod<T> mod, T value) {
+    mod.place() = std::move(value);
+  }
+
+  template <auto F, class... Args>
+  void call(Args... args) {
+    F(*this, args...);
+    run_tails();
+  }
+  template <auto F, class... Args>
+  void tail(Args... args) {
+    using Tuple = std::tuple<Args...>;
+    static_assert(sizeof(Tuple) <= kTailBytes && alignof(Tuple) <= 16);
+    ::new (static_cast<void*>(tail_args_)) Tuple(std::move(args)...);
+    tail_ = [](PlainScope& s) {
+      Tuple* stored = std::launder(reinterpret_cast<Tuple*>(s.tail_args_));
+      const Tuple mine(std::move(*stored));
+      stored->~Tuple();
+      std::apply([&](const auto&... a) { F(s, a...); }, mine);
+    };
+  }
+
+  void set_environment(void* environment) noexcept { environment_ = environment; }
+  template <class T>
+  [[nodiscard]] T& environment() const noexcept {
+    return *static_cast<T*>(environment_);
+  }
+
+  template <class T, class... Key>
+  T& make(Key...) {
+    auto owner = std::make_unique<Owned<T>>();
+    T& object = owner->object;
+    owned_.push_back(std::move(owner));
+    return object;
+  }
+  template <class T, class... Key>
+  PlainMod<T> cell(Key...) {
+    return PlainMod<T>(&make<std::optional<T>>());
+  }
+
+  /// The client's side, as that of sac::Engine.
+  template <class T>
+  PlainMod<T> input(T value) {
+    PlainMod<T> mod = cell<T>();
+    mod.place() = std::move(value);
+    return mod;
+  }
+  template <class T>
+  const T& get(PlainMod<T> mod) {
+    return read(mod);
+  }
+  template <auto F, class... Args>
+  void run(Args... args) {
+    call<F>(std::move(args)...);
+  }
+  PlainAgenda& make_agenda(const char*) { return make<PlainAgenda>(); }
+
+  void run_tails() {
+    while (tail_ != nullptr) std::exchange(tail_, nullptr)(*this);
+  }
+
+ private:
+  static constexpr std::size_t kTailBytes = 256;
+  struct AnyOwned {
+    virtual ~AnyOwned() = default;
+  };
+  template <class T>
+  struct Owned : AnyOwned {
+    T object{};
+  };
+
+  void* environment_ = nullptr;
+  void (*tail_)(PlainScope&) = nullptr;
+  alignas(16) std::byte tail_args_[kTailBytes];
+  std::deque<std::unique_ptr<AnyOwned>> owned_;
+};
+
+}  // namespace sac
