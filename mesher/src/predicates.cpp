@@ -2,8 +2,8 @@
 //
 // The coordinates given are multiples of some 2^low, so their determinants are integers in a power
 // of that unit. How many bits they need is read off the doubles, and the narrowest width is taken:
-//   1 limb   coordinate differences of up to 62 bits, if exact as doubles (always so on grids, mostly
-//            so for points near each other), or coordinates of up to 61 bits
+//   1 limb   coordinate differences of up to 62 bits, if exact as doubles (always so on grids,
+//            mostly so for points near each other), or coordinates of up to 61 bits
 //   2 limbs  coordinates of up to 125 bits: nearly all other points
 //   4 limbs  coordinates of up to 253 bits: the rest, since a coordinate of magnitude 2^-100 to
 //            2^100 is a multiple of 2^-152 below 2^101
