@@ -1,0 +1,64 @@
+# The same input gives the same bytes whatever compiler and optimisation built the tool.
+#   determinism.sh SCRATCH_FOLDER
+# Builds the tool with g++ and clang++, Debug and Release (about a minute and 500 MB each), meshes
+# inputs of each family and an edited one, statically and with the engine, and compares files.
+set -euo pipefail
+source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+mkdir -p "$1"
+scratch=$(cd "$1" && pwd)
+jobs=${JOBS:-$(nproc)}
+kinds=(uniform gaussian clusters grid line-circle spiral)
+points=400
+
+# A hundred edits of points 1..n near the middle of the first ones: added, moved, removed.
+write_edits() {
+  awk -v n=$points 'BEGIN {
+    srand(7)
+    for (i = 1; i <= 40; ++i) printf "+point %d %.17g %.17g\n", n + i, 0.2 + 0.6 * rand(), 0.2 + 0.6 * rand()
+    print "begin"
+    for (i = 1; i <= 20; ++i) printf "move %d %.17g %.17g\n", n + i, 0.2 + 0.6 * rand(), 0.2 + 0.6 * rand()
+    print "commit"
+    for (i = 1; i <= 40; ++i) printf "-point %d\n", 2 * i
+  }'
+}
+
+build_tool() {  # COMPILER CONFIGURATION FOLDER
+  cmake -S "$source_folder" -B "$3" -DCMAKE_CXX_COMPILER="$1" -DCMAKE_BUILD_TYPE="$2" \
+    -DBUILD_TESTING=OFF >"$3.log" 2>&1 || { cat "$3.log"; return 1; }
+  cmake --build "$3" -j "$jobs" --target mesher_tool >"$3.log" 2>&1 || { cat "$3.log"; return 1; }
+}
+
+write_meshes() {  # TOOL FOLDER
+  local kind tool=$1
+  rm -rf "$2"
+  mkdir -p "$2"
+  cd "$2"
+  write_edits >edits.txt
+  for kind in "${kinds[@]}"; do
+    "$tool" gen "$kind" --n $points --seed 3 -o "$kind.node"
+    "$tool" mesh "$kind.node" --quiet -o "$kind.out.node" -o "$kind.vtu" -o "$kind.svg"
+    "$tool" mesh "$kind.node" --quiet --static -o "$kind.static.node"
+    "$tool" mesh "$kind.node" --quiet --rule voronoi-aspect -o "$kind.aspect.node"
+    cmp "$kind.out.node" "$kind.static.node"
+    cmp "$kind.out.ele" "$kind.static.ele"
+  done
+  "$tool" edit uniform.node --script edits.txt --quiet -o edited.node
+  "$tool" mesh "$source_folder/tests/data/places.node" --quiet -o places.node
+  cd "$scratch"
+}
+
+first=""
+for compiler in g++ clang++; do
+  for configuration in Release Debug; do
+    name=$compiler-$configuration
+    echo "== $name"
+    build_tool "$compiler" "$configuration" "$scratch/build-$name"
+    write_meshes "$scratch/build-$name/bin/mesher" "$scratch/meshes-$name"
+    if [[ -z $first ]]; then
+      first=$name
+    else
+      diff -rq "$scratch/meshes-$first" "$scratch/meshes-$name"
+    fi
+  done
+done
+echo "$(find "$scratch/meshes-$first" -type f | wc -l) files, the same bytes from every build"
