@@ -37,7 +37,7 @@ struct PointFile {
   std::vector<Point<D>> points;
   std::vector<long> lines;  ///< from 1
 
-  [[nodiscard]] Place place(std::size_t i) const { return {file, lines[i]}; }
+  [[nodiscard]] Place place(std::size_t i) const { return {file, lines[i], 1}; }
 };
 
 /// Reads points, by the extension of `path`. D is 2 or 3.

@@ -1,0 +1,118 @@
+// The arguments that `mesh` and `edit` share.
+#include "arguments.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+namespace tool {
+namespace {
+
+using mesher::Error;
+using mesher::ErrorCode;
+
+constexpr double kLeastRho = 1.01;  // Options::rho
+constexpr const char* kDomainHint = "; --domain XMIN YMIN XMAX YMAX sets another domain";
+
+std::string to_text(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+std::string to_text(const mesher::Point<2>& p) {
+  return "(" + to_text(p[0]) + ", " + to_text(p[1]) + ")";
+}
+
+bool contains(const mesher::Box<2>& box, const mesher::Point<2>& p) {
+  return box.lo[0] <= p[0] && p[0] <= box.hi[0] && box.lo[1] <= p[1] && p[1] <= box.hi[1];
+}
+
+double domain_coordinate(const std::string& text) {
+  const double value = option_number("--domain", text);
+  const double size = std::abs(value);
+  if (value == 0 || (size >= 0x1p-100 && size <= 0x1p100)) return value;
+  throw Error(ErrorCode::bad_option,
+              "--domain " + text + ": neither 0 nor of magnitude 2^-100 to 2^100");
+}
+
+mesher::Box<2> domain_of(const std::vector<std::string>& texts) {
+  const mesher::Box<2> box{{domain_coordinate(texts[0]), domain_coordinate(texts[1])},
+                           {domain_coordinate(texts[2]), domain_coordinate(texts[3])}};
+  if (box.lo[0] < box.hi[0] && box.lo[1] < box.hi[1]) return box;
+  throw Error(ErrorCode::bad_option, "--domain " + to_text(box.lo) + " to " + to_text(box.hi) +
+                                         ": the first corner must be below and left");
+}
+
+}  // namespace
+
+void add_mesh_options(CLI::App& command, MeshArguments& args) {
+  command.add_option("INPUT", args.input, "Points: .node, .xyz or .csv")->required();
+  command
+      .add_option("-o", args.outputs,
+                  "A mesh: .node (with .ele), .vtu, .off or .svg; may be repeated")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  command.add_option("--rho", args.rho, "Bound of circumradius over shortest edge, above 1.01")
+      ->capture_default_str();
+  command.add_option("--rule", args.rule, "Where to insert: radius-edge or voronoi-aspect")
+      ->check(CLI::IsMember({"radius-edge", "voronoi-aspect"}))
+      ->capture_default_str();
+  command
+      .add_option("--domain", args.domain,
+                  "Where points may lie (default: the box of INPUT, moved outward to a\n"
+                  "power-of-two grid)")
+      ->type_name("XMIN YMIN XMAX YMAX")
+      ->type_size(4)
+      ->expected(1);
+  command.add_flag("--static", args.is_static, "Without the engine; the mesh is the same");
+  command.add_option("--stats", args.stats, "Figures as JSON")->type_name("FILE");
+  command.add_flag("--quiet", args.quiet, "Print nothing but errors");
+}
+
+double option_number(const std::string& option, const std::string& text) {
+  const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  const char* const end = text.data() + text.size();
+  double value = 0;
+  const auto result = std::from_chars(text.data() + (plus ? 1 : 0), end, value);
+  if (result.ec == std::errc{} && result.ptr == end && std::isfinite(value)) return value + 0.0;
+  throw Error(ErrorCode::bad_option, option + " '" + text + "': not a finite number");
+}
+
+double option_rho(const std::string& text) {
+  const double rho = option_number("--rho", text);
+  if (rho > kLeastRho) return rho;
+  throw Error(ErrorCode::bad_option, "--rho " + text + ": must be above " + to_text(kLeastRho));
+}
+
+mesher::Options<2> mesh_options(const MeshArguments& args,
+                                const std::vector<mesher::Point<2>>& points) {
+  mesher::Options<2> options;
+  options.rho = option_rho(args.rho);
+  options.rule =
+      args.rule == "radius-edge" ? mesher::Rule::radius_edge : mesher::Rule::voronoi_aspect;
+  options.domain = args.domain.empty() ? mesher::snapped_domain<2>(points) : domain_of(args.domain);
+  return options;
+}
+
+void require_inside(const mesher::PointFile<2>& input, const mesher::Box<2>& domain) {
+  for (std::size_t i = 0; i < input.points.size(); ++i) {
+    if (contains(domain, input.points[i])) continue;
+    throw Error(ErrorCode::outside_domain,
+                "point " + std::to_string(static_cast<std::int64_t>(input.ids[i])) + " at " +
+                    to_text(input.points[i]) + " is outside the domain " + to_text(domain.lo) +
+                    " to " + to_text(domain.hi) + kDomainHint,
+                input.place(i));
+  }
+}
+
+Error with_domain_hint(const Error& error) {
+  if (error.code() != ErrorCode::outside_domain) return error;
+  return Error(error.code(), error.message() + kDomainHint, error.place());
+}
+
+void open_outputs(const MeshArguments& args, Outputs& outputs) {
+  outputs.protect(args.input);
+  for (const auto& path : args.outputs) outputs.open_mesh(path);
+}
+
+}  // namespace tool

@@ -1,0 +1,52 @@
+// The arguments that `mesh` and `edit` share, and what they mean.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "mesher/io.hpp"
+#include "mesher/mesh.hpp"
+#include "outputs.hpp"
+
+namespace tool {
+
+struct MeshArguments {
+  std::string input;
+  std::vector<std::string> outputs;
+  std::string rho = "1.4142";
+  std::string rule = "radius-edge";
+  std::vector<std::string> domain;  // XMIN YMIN XMAX YMAX, or nothing
+  bool is_static = false;
+  std::string stats;
+  bool quiet = false;
+};
+
+/// What the help says of the quality figures.
+inline constexpr const char* kQualityHelp =
+    "Its min_angle_deg and max_radius_edge are over the triangles with at least one vertex\n"
+    "off the boundary grid; null if there is none.";
+
+/// Adds the shared options. `args` must outlive `command`.
+void add_mesh_options(CLI::App& command, MeshArguments& args);
+
+/// A number from the command line. Throws: Error(bad_option) naming `option`.
+[[nodiscard]] double option_number(const std::string& option, const std::string& text);
+
+/// The value of --rho. Throws: Error(bad_option).
+[[nodiscard]] double option_rho(const std::string& text);
+
+/// What to mesh: the domain as given, or around the input. Throws: Error(bad_option).
+[[nodiscard]] mesher::Options<2> mesh_options(const MeshArguments& args,
+                                              const std::vector<mesher::Point<2>>& points);
+
+/// Throws: Error(outside_domain) with the line of the first point outside, naming --domain.
+void require_inside(const mesher::PointFile<2>& input, const mesher::Box<2>& domain);
+
+/// The same error with a hint to --domain, if it is one of a point outside.
+[[nodiscard]] mesher::Error with_domain_hint(const mesher::Error& error);
+
+/// Opens the mesh outputs. Throws: Error (unknown_format, cannot_write, bad_option).
+void open_outputs(const MeshArguments& args, Outputs& outputs);
+
+}  // namespace tool

@@ -1,0 +1,31 @@
+// Stopping by signal: the process ends with exit code 5 and leaves no temporary file.
+//
+// What a signal does is a matter of the process, so this is the tool's one piece of global state.
+#pragma once
+
+#include <csignal>
+#include <string>
+#include <vector>
+
+namespace tool {
+
+/// From now on an interrupt, a termination or a hang-up removes the doomed files and exits with
+/// code 5. A signal that the parent process had ignored stays ignored.
+void catch_interrupts();
+
+/// Sets the files that an interrupt removes; they replace those of the last call.
+void set_doomed(std::vector<std::string> paths);
+
+/// While it lives, interrupts wait.
+class HoldInterrupts {
+ public:
+  HoldInterrupts();
+  ~HoldInterrupts();
+  HoldInterrupts(const HoldInterrupts&) = delete;
+  HoldInterrupts& operator=(const HoldInterrupts&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+}  // namespace tool

@@ -1,0 +1,14 @@
+// The subcommands. Each adds itself, with its options, help and examples, to the command line, and
+// runs when it is parsed. What goes wrong leaves as mesher::Error.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace tool {
+
+void add_gen(CLI::App& app);
+void add_mesh(CLI::App& app);
+void add_edit(CLI::App& app);
+void add_check(CLI::App& app);
+
+}  // namespace tool

@@ -1,0 +1,54 @@
+// The first mesh of an input, made with or without the engine.
+#pragma once
+
+#include <string>
+
+#include "mesher/check.hpp"
+#include "mesher/edit_script.hpp"
+#include "mesher/io.hpp"
+#include "report.hpp"
+
+namespace tool {
+
+struct Result {
+  mesher::Mesh<2> mesh;
+  Run run;
+};
+
+/// Tells people who wait what for, if it is worth it.
+inline void announce_run(std::size_t points, Progress& progress) {
+  constexpr std::size_t kManyPoints = 50'000;  // more take about a second
+  if (points >= kManyPoints) progress.show("meshing " + std::to_string(points) + " points ...");
+}
+
+/// Gives `target` the points and updates it.
+/// Throws: Error, said of the line of the point to blame or of the file.
+template <class Target>
+void insert_all(const mesher::PointFile<2>& input, Target& target) {
+  for (std::size_t i = 0; i < input.points.size(); ++i) {
+    try {
+      target.insert(input.ids[i], input.points[i]);
+    } catch (const mesher::Error& error) {
+      throw error.at(input.place(i));
+    }
+  }
+  try {
+    target.update();
+  } catch (const mesher::Error& error) {
+    throw error.at({input.file});
+  }
+}
+
+/// Runs `target`, a mesher without points, on the input. Throws: Error, as insert_all.
+template <class Target>
+Result first_run(const mesher::PointFile<2>& input, Target& target) {
+  const double start = mesher::now();
+  insert_all(input, target);
+  Result result{target.mesh(), {}};
+  result.run.seconds_total = mesher::now() - start;
+  result.run.stats = target.stats();
+  result.run.quality = mesher::quality(result.mesh);
+  return result;
+}
+
+}  // namespace tool

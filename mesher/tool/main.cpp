@@ -1,0 +1,65 @@
+// mesher: quality meshes of files of points, that follow edits of the points.
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "cancel.hpp"
+#include "commands.hpp"
+#include "mesher/error.hpp"
+#include "mesher/predicates.hpp"
+
+namespace {
+
+using mesher::ExitCode;
+
+constexpr const char* kHelpFooter =
+    "Examples:\n"
+    "  mesher gen uniform --n 10000 -o points.node\n"
+    "  mesher mesh points.node -o mesh.node -o mesh.vtu\n"
+    "  mesher edit points.node --script edits.txt -o after.node --stats updates.jsonl\n"
+    "  mesher check after.node --rho 1.4142\n"
+    "'mesher COMMAND --help' says more.\n"
+    "Exit codes: 0 ok, 1 geometry, 2 usage, 3 format, 4 limit, 5 cancelled, 70 a bug of ours.";
+
+int fail(ExitCode code, const std::string& message) {
+  std::cerr << message << std::endl;
+  return static_cast<int>(code);
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Quality Delaunay meshes of points in the plane, and their updates.", "mesher"};
+  app.footer(kHelpFooter);
+  app.require_subcommand(1);
+  tool::add_gen(app);
+  tool::add_mesh(app);
+  tool::add_edit(app);
+  tool::add_check(app);
+  try {
+    app.parse(argc, argv);
+    return static_cast<int>(ExitCode::ok);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return fail(ExitCode::usage,
+                std::string("error[bad_option]: ") + error.what() + "; see 'mesher --help'");
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tool::catch_interrupts();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file grown too large is then an error of the write
+  try {
+    mesher::predicates::self_test();
+    return run(argc, argv);
+  } catch (const mesher::Error& error) {
+    return fail(mesher::exit_code(error.code()), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::limit, "error[too_many]: out of memory");
+  } catch (const std::exception& error) {
+    return fail(ExitCode::bug, std::string("error[bug]: ") + error.what() +
+                                   "; this is our mistake: please report it with the input");
+  }
+}
