@@ -1,3 +1,4 @@
+#!/usr/bin/env bash
 # The installed packages work for a project outside of this one, from a prefix that has moved.
 #   consumer_test.sh BUILD_FOLDER CONSUMER_FOLDER CMAKE_GENERATOR CXX_COMPILER [CXX_FLAGS]
 set -euo pipefail

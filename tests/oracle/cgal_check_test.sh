@@ -1,3 +1,4 @@
+#!/usr/bin/env bash
 # The judge itself: a good mesh passes, and each way of being bad is named.
 #   cgal_check_test.sh CGAL_CHECK
 set -euo pipefail

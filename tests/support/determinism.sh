@@ -1,3 +1,4 @@
+#!/usr/bin/env bash
 # The same input gives the same bytes whatever compiler and optimisation built the tool.
 #   determinism.sh SCRATCH_FOLDER
 # Builds the tool with g++ and clang++, Debug and Release (about a minute and 500 MB each), meshes
