@@ -10,10 +10,11 @@ namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-// Changed only while the signals wait, so that the handler finds it whole.
+// Changed only while the signals wait, so that the handler finds it whole; never destroyed, so that
+// it does while the process ends as well.
 std::vector<std::string>& doomed() {
-  static std::vector<std::string> paths;
-  return paths;
+  static auto* const paths = new std::vector<std::string>;
+  return *paths;
 }
 
 // Calls only what is safe in a signal handler.

@@ -50,6 +50,7 @@ void run_edit_on(Target target, const EditArguments& args, const mesher::PointFi
   outputs.write(target.mesh());
   const auto targets = outputs.targets();
   outputs.commit();
+  progress.erase();
   if (args.quiet) return;
   print_run(args.input, input.points.size(), run);
   print_updates(seconds);

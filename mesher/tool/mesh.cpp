@@ -44,6 +44,7 @@ void run_mesh(const MeshArguments& args) {
   outputs.write(result.mesh);
   const auto targets = outputs.targets();
   outputs.commit();
+  progress.erase();
   if (args.quiet) return;
   print_run(args.input, input.points.size(), result.run);
   print_outputs(targets);

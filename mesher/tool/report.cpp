@@ -101,8 +101,9 @@ void print_outputs(const std::vector<std::string>& paths) {
 Progress::Progress(bool quiet)
     : enabled_(!quiet && isatty(STDERR_FILENO) != 0), last_(mesher::now()) {}
 
-Progress::~Progress() {
+void Progress::erase() {
   if (shown_) std::fputs("\r\033[K", stderr);
+  shown_ = false;
 }
 
 void Progress::show(const std::string& text) {

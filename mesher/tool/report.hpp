@@ -42,7 +42,7 @@ void print_outputs(const std::vector<std::string>& paths);
 class Progress {
  public:
   explicit Progress(bool quiet);
-  ~Progress();
+  ~Progress() { erase(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
@@ -50,6 +50,8 @@ class Progress {
   void show(const std::string& text);
   /// Shows `text` if the last line is old enough. Cost: a look at the clock.
   void tick(const std::string& text);
+  /// Makes room for other output.
+  void erase();
 
  private:
   bool enabled_;

@@ -1,0 +1,214 @@
+// mesher_demo POINTS FOLDER: meshes real points, edits them, and shows what following edits costs
+// beside meshing anew.
+//
+// The edits are the same each time: remove a point, put it back, add a point, move a point, each
+// one update. At the end the mesh is compared, bit for bit, with one made from scratch.
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "mesher/check.hpp"
+#include "mesher/edit_script.hpp"
+#include "mesher/generate.hpp"
+#include "mesher/io.hpp"
+#include "mesher/mesher.hpp"
+#include "mesher/svg.hpp"
+
+namespace {
+
+using mesher::FeatureId;
+using mesher::Mesh;
+using mesher::Point;
+
+constexpr int kUpdates = 2000;
+constexpr std::uint64_t kSeed = 2026;
+
+/// The points that are in the mesh, and the edits that change both.
+class World {
+ public:
+  World(const mesher::PointFile<2>& file, const mesher::Options<2>& options)
+      : ids_(file.ids), points_(file.points), mesher_(options), random_(kSeed) {
+    for (std::size_t i = 0; i < ids_.size(); ++i) mesher_.insert(ids_[i], points_[i]);
+    mesher_.update();
+    next_id_ = static_cast<std::int64_t>(*std::max_element(ids_.begin(), ids_.end())) + 1;
+  }
+
+  /// Makes edit number i of the script; its seconds.
+  double edit(int i) {
+    const double start = mesher::now();
+    switch (i % 4) {
+      case 0:
+        remove(random_.below(ids_.size()));
+        break;
+      case 1:
+        insert(removed_id_, removed_);
+        break;
+      case 2:
+        insert(FeatureId{next_id_++}, anywhere());
+        break;
+      case 3:
+        move(random_.below(ids_.size()));
+        break;
+    }
+    mesher_.update();
+    return mesher::now() - start;
+  }
+
+  /// Adds a point a third of the way from a point to its nearest neighbour.
+  mesher::Change<2> add_between_neighbours() {
+    const Point<2> p = points_[random_.below(points_.size())];
+    const auto distance = [&](const Point<2>& q) {
+      const double x = q[0] - p[0], y = q[1] - p[1];
+      return p == q ? 1e300 : x * x + y * y;
+    };
+    const Point<2> q = *std::min_element(
+        points_.begin(), points_.end(),
+        [&](const Point<2>& a, const Point<2>& b) { return distance(a) < distance(b); });
+    insert(FeatureId{next_id_++}, {p[0] + (q[0] - p[0]) / 3, p[1] + (q[1] - p[1]) / 3});
+    return mesher_.update();
+  }
+
+  [[nodiscard]] Mesh<2> mesh() const { return mesher_.mesh(); }
+  [[nodiscard]] Mesh<2> mesh_from_scratch() const {
+    return mesher::mesh_statically<2>(points_, mesher_.options(), ids_);
+  }
+
+ private:
+  void insert(FeatureId id, const Point<2>& p) {
+    mesher_.insert(id, p);
+    ids_.push_back(id);
+    points_.push_back(p);
+  }
+  void remove(std::size_t i) {
+    removed_id_ = ids_[i];
+    removed_ = points_[i];
+    mesher_.remove(ids_[i]);
+    ids_.erase(ids_.begin() + static_cast<std::ptrdiff_t>(i));
+    points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  // A thousandth of the way to some place in the domain.
+  void move(std::size_t i) {
+    const Point<2> towards = anywhere();
+    for (int k = 0; k < 2; ++k) points_[i][k] += (towards[k] - points_[i][k]) / 1000;
+    mesher_.move(ids_[i], points_[i]);
+  }
+  Point<2> anywhere() {
+    const auto& box = mesher_.options().domain;
+    Point<2> p;
+    for (int k = 0; k < 2; ++k) p[k] = box.lo[k] + (box.hi[k] - box.lo[k]) * random_.unit();
+    return p;
+  }
+
+  std::vector<FeatureId> ids_;
+  std::vector<Point<2>> points_;
+  mesher::Mesher<2> mesher_;
+  mesher::SplitMix64 random_;
+  std::int64_t next_id_ = 0;
+  FeatureId removed_id_{};
+  Point<2> removed_{};
+};
+
+// The median of five runs.
+double seconds_from_scratch(const World& world) {
+  std::vector<double> seconds;
+  for (int i = 0; i < 5; ++i) {
+    const double start = mesher::now();
+    (void)world.mesh_from_scratch();
+    seconds.push_back(mesher::now() - start);
+  }
+  std::sort(seconds.begin(), seconds.end());
+  return seconds[2];
+}
+
+// The triangles that came or went, with as much again around them.
+mesher::SvgView view_of(const mesher::Change<2>& change) {
+  mesher::SvgView view{{change.vertices_added.front(), change.vertices_added.front()}, {}};
+  auto& [lo, hi] = view.window;
+  for (const auto* triangles : {&change.simplices_added, &change.simplices_removed}) {
+    for (const auto& triangle : *triangles) {
+      for (const auto& p : triangle) {
+        lo = {std::min(lo[0], p[0]), std::min(lo[1], p[1])};
+        hi = {std::max(hi[0], p[0]), std::max(hi[1], p[1])};
+      }
+    }
+  }
+  const double margin = std::max(hi[0] - lo[0], hi[1] - lo[1]) / 2;
+  lo = {lo[0] - margin, lo[1] - margin};
+  hi = {hi[0] + margin, hi[1] + margin};
+  return view;
+}
+
+void draw(mesher::OutputFiles& files, const std::string& path, const Mesh<2>& mesh,
+          mesher::SvgView view, const std::vector<std::array<Point<2>, 3>>& coloured) {
+  view.coloured = coloured;
+  mesher::write_svg(mesh, view, files.open(path));
+}
+
+void print_table(const Mesh<2>& mesh, double scratch, std::vector<double> seconds) {
+  std::sort(seconds.begin(), seconds.end());
+  const double median = seconds[seconds.size() / 2], p99 = seconds[seconds.size() * 99 / 100];
+  const auto quality = mesher::quality(mesh);
+  std::printf("  vertices                  %10zu\n", mesh.vertices.size());
+  std::printf("  triangles                 %10zu\n", mesh.simplices.size());
+  std::printf("  smallest angle            %10.2f degrees\n", quality.min_angle_deg);
+  std::printf("  from scratch              %10.3f ms\n", scratch * 1e3);
+  std::printf("  update, median            %10.3f ms  (%zu updates)\n", median * 1e3,
+              seconds.size());
+  std::printf("  update, 99 of 100 below   %10.3f ms\n", p99 * 1e3);
+  std::printf("  speed-up, median          %10.1f times\n", scratch / median);
+}
+
+void run(const std::string& input_path, const std::string& folder) {
+  const auto file = mesher::read_points<2>(input_path);
+  if (file.points.empty())
+    throw mesher::Error(mesher::ErrorCode::bad_option, "no points", {input_path});
+  mesher::Options<2> options;
+  options.domain = mesher::snapped_domain<2>(file.points);
+  World world(file, options);
+  const Mesh<2> first = world.mesh();
+  std::printf("%s: %zu points\n", input_path.c_str(), file.points.size());
+  const double scratch = seconds_from_scratch(world);
+  std::vector<double> seconds;
+  for (int i = 0; i < kUpdates; ++i) seconds.push_back(world.edit(i));
+  print_table(first, scratch, seconds);
+
+  const Mesh<2> before = world.mesh();
+  const mesher::Change<2> change = world.add_between_neighbours();
+  const Mesh<2> after = world.mesh();
+  if (after != world.mesh_from_scratch()) throw std::logic_error("the mesh differs from scratch");
+  std::printf("  after all updates the mesh is that from scratch, bit for bit\n");
+
+  mesher::OutputFiles files;
+  mesher::open_mesh(files, folder + "/cities.vtu")(first);
+  mesher::open_mesh(files, folder + "/cities.svg")(first);
+  draw(files, folder + "/edit_before.svg", before, view_of(change), change.simplices_removed);
+  draw(files, folder + "/edit_after.svg", after, view_of(change), change.simplices_added);
+  std::printf("Written, the last two a new point with the triangles that it replaces and makes:\n");
+  for (const auto& path : files.targets()) std::printf("  %s\n", path.c_str());
+  files.commit();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: mesher_demo POINTS FOLDER\n");
+    return static_cast<int>(mesher::ExitCode::usage);
+  }
+  try {
+    std::filesystem::create_directories(argv[2]);
+    run(argv[1], argv[2]);
+    return 0;
+  } catch (const mesher::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return static_cast<int>(mesher::exit_code(error.code()));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error[bug]: %s\n", error.what());
+    return static_cast<int>(mesher::ExitCode::bug);
+  }
+}
