@@ -37,10 +37,10 @@ Engine::~Engine() {
   for (const auto& [head, destroy] : outside_mods_) destroy(*this, head);
 }
 
-std::uint16_t Engine::add_structure(Structure& structure) {
-  SAC_EXPECTS(structures_.size() < 0xffff);
+std::uint8_t Engine::add_structure(Structure& structure) {
+  SAC_EXPECTS(structures_.size() < 0xff);
   structures_.push_back(&structure);
-  return static_cast<std::uint16_t>(structures_.size() - 1);
+  return static_cast<std::uint8_t>(structures_.size() - 1);
 }
 
 Agenda& Engine::make_agenda(std::string name) {
@@ -398,12 +398,12 @@ void Engine::discard_subtree(Handle call) noexcept {
 
 // --- Edges -----------------------------------------------------------------------------------
 
-Edge& Engine::attach(std::uint16_t structure, std::uint8_t kind, std::size_t bytes) {
+Edge& Engine::attach(std::uint8_t structure, std::uint8_t kind, std::size_t bytes) {
   const Handle h = arena_.allocate(bytes);
   Edge& edge = *at<Edge>(h);
   edge.next = 0;
   edge.structure = structure;
-  edge.granules = static_cast<std::uint8_t>((bytes + Arena::kGranule - 1) / Arena::kGranule);
+  edge.granules = static_cast<std::uint16_t>((bytes + Arena::kGranule - 1) / Arena::kGranule);
   edge.kind = kind;
   Activation& a = *current_;
   (a.last_edge != 0 ? at<Edge>(a.last_edge)->next : a.call->edges) = h;

@@ -75,6 +75,8 @@ class Mesher {
   /// Throws: Error (repeated_id, unknown_id, duplicate_point, outside_domain, not_finite,
   /// magnitude, too_close) and then changes nothing. Cost: O(log n).
   void insert(FeatureId id, const Point<D>& point);
+  /// All of ids[i] at points[i], or none: faster than one by one for large inputs.
+  void insert(const std::vector<FeatureId>& ids, const std::vector<Point<D>>& points);
   void remove(FeatureId id);
   void move(FeatureId id, const Point<D>& point);
 

@@ -54,8 +54,7 @@ namespace detail {
 struct Slot {
   std::uint64_t order = 0;
   std::uint32_t rank = 0;
-  std::uint16_t agenda = 0;
-  std::uint16_t outside_posts = 0;
+  std::uint8_t agenda = 0;
 };
 
 template <class... Args>
@@ -162,7 +161,7 @@ class Agenda final : public Structure {
 
   Engine& engine_;
   std::string name_;
-  std::uint16_t id_;
+  std::uint8_t id_;
   std::map<std::uint32_t, std::vector<Entry>> pending_;
   std::map<std::uint32_t, OrderedCalls> classes_;
   std::uint64_t pending_calls_ = 0;

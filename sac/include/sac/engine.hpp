@@ -122,7 +122,7 @@ class Engine {
   // --- For structures ----------------------------------------------------------------------
 
   /// Gives a structure the number that its edges carry. The structure outlives the trace.
-  std::uint16_t add_structure(Structure& structure);
+  std::uint8_t add_structure(Structure& structure);
 
   /// Before an outside edit: refuses if the engine runs or is broken.
   void begin_edit();
@@ -208,7 +208,7 @@ class Engine {
   void discard(Handle call) noexcept;
   void discard_subtree(Handle call) noexcept;
 
-  Edge& attach(std::uint16_t structure, std::uint8_t kind, std::size_t bytes);
+  Edge& attach(std::uint8_t structure, std::uint8_t kind, std::size_t bytes);
   void free_edge(Edge& edge) noexcept;
   void retract_all(Call& call, Handle edges) noexcept;
   // Moves the first edge of last time that `matches` into this execution's list.

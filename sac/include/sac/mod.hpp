@@ -135,7 +135,7 @@ class ModStructure final : public Structure {
   void require_unread(Scope& scope, const detail::Version& version) const;
 
   Engine& engine_;
-  std::uint16_t id_;
+  std::uint8_t id_;
 };
 
 namespace detail {

@@ -211,29 +211,32 @@ class Scope {
   /// Repeats something of last time: moves the first edge E of `structure` for which
   /// `matches(const E&)` into this execution and returns it; null if there is none.
   template <class E, class Matches>
-  E* recall(std::uint16_t structure, std::uint8_t kind, Matches&& matches) {
+  E* recall(std::uint8_t structure, std::uint8_t kind, Matches&& matches) {
     return static_cast<E*>(engine_.recall([&](Edge& edge) {
       return edge.structure == structure && edge.kind == kind &&
              matches(static_cast<const E&>(edge));
     }));
   }
 
-  /// Records that this call depends on something in `structure`; `E` says on what.
+  /// Records that this call depends on something in `structure`; `E`, and `extra` bytes behind it,
+  /// say on what.
   template <class E>
-  E& observe(std::uint16_t structure, std::uint8_t kind) {
-    return attach<E>(structure, kind);
+  E& observe(std::uint8_t structure, std::uint8_t kind, std::size_t extra = 0) {
+    return attach<E>(structure, kind, extra);
   }
-  /// Records that this call did something to `structure`; `E` says what.
+  /// Records that this call did something to `structure`; `E`, and `extra` bytes behind it, say
+  /// what.
   template <class E>
-  E& effect(std::uint16_t structure, std::uint8_t kind) {
-    return attach<E>(structure, kind);
+  E& effect(std::uint8_t structure, std::uint8_t kind, std::size_t extra = 0) {
+    return attach<E>(structure, kind, extra);
   }
 
  private:
   template <class E>
-  E& attach(std::uint16_t structure, std::uint8_t kind) {
+  E& attach(std::uint8_t structure, std::uint8_t kind, std::size_t extra) {
     static_assert(std::is_base_of_v<Edge, E> && std::is_trivially_destructible_v<E>);
-    return static_cast<E&>(engine_.attach(structure, kind, sizeof(E)));
+    SAC_EXPECTS(sizeof(E) + extra < 0xffff * Arena::kGranule);
+    return static_cast<E&>(engine_.attach(structure, kind, sizeof(E) + extra));
   }
 
   Engine& engine_;

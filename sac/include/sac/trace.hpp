@@ -62,9 +62,9 @@ static_assert(sizeof(Call) == 48);
 /// The head of every edge; structures derive their own edges from it.
 struct Edge {
   Handle next = 0;  // next edge of the same call
-  std::uint16_t structure = 0;
-  std::uint8_t granules = 0;  // its size
-  std::uint8_t kind = 0;      // the structure's own
+  std::uint8_t structure = 0;
+  std::uint8_t kind = 0;       // the structure's own
+  std::uint16_t granules = 0;  // its size
 };
 static_assert(sizeof(Edge) == 8);
 

@@ -1,0 +1,85 @@
+// The meshing box, and the integer coordinates that name quadtree cells.
+//
+// The box [lo, lo + L]^D has a power-of-two side L, and lo is a multiple of L/64. A coordinate x
+// maps to floor((x - lo) / L * 2^50): a monotone function of x alone, so every use agrees on the
+// cell of a point. A cell of level k holds the points that agree in their first k bits.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "mesher/mesh.hpp"
+#include "sac/label.hpp"
+
+namespace mesher::detail {
+
+// 2^50 steps: points closer than L * 2^-49 may share the finest cell and are refused.
+inline constexpr int kLevels = 50;
+
+template <int D>
+using Fixed = std::array<std::uint64_t, D>;
+
+/// A quadtree cell: `corner` has its lowest kLevels - level bits zero.
+template <int D>
+struct Cell {
+  Fixed<D> corner{};
+  int level = 0;
+  friend auto operator<=>(const Cell&, const Cell&) = default;
+  friend std::uint64_t hash_value(const Cell& c) noexcept {
+    auto h = static_cast<std::uint64_t>(c.level);
+    for (const std::uint64_t x : c.corner) h = sac::mix(h + x);
+    return h;
+  }
+  friend std::ostream& operator<<(std::ostream& out, const Cell& c) {
+    out << c.level;
+    for (const std::uint64_t x : c.corner) out << ':' << (x >> (kLevels - c.level));
+    return out;
+  }
+};
+
+template <int D>
+struct MeshBox {
+  Point<D> lo{};
+  double side = 1;
+  int boundary_steps = 16;  // grid steps along a side [L 4.4.1]
+
+  [[nodiscard]] double hi(int axis) const { return lo[axis] + side; }
+  [[nodiscard]] double cell_side(int level) const { return std::ldexp(side, -level); }
+
+  [[nodiscard]] Fixed<D> fixed(const Point<D>& p) const {
+    constexpr double kSteps = static_cast<double>(std::uint64_t{1} << kLevels);
+    Fixed<D> f;
+    for (int i = 0; i < D; ++i) {
+      const double step = (p[i] - lo[i]) / side * kSteps;  // exact but for the subtraction
+      f[i] = step >= kSteps ? (std::uint64_t{1} << kLevels) - 1
+                            : step <= 0 ? 0 : static_cast<std::uint64_t>(step);
+    }
+    return f;
+  }
+
+  /// The cell of `level` that contains `f`.
+  [[nodiscard]] static Cell<D> cell(const Fixed<D>& f, int level) {
+    Cell<D> c{.level = level};
+    for (int i = 0; i < D; ++i) c.corner[i] = f[i] >> (kLevels - level) << (kLevels - level);
+    return c;
+  }
+};
+
+/// The first 64/D bits of each coordinate, interleaved: Morton order, a canonical order of places.
+template <int D>
+[[nodiscard]] std::uint64_t morton(const Fixed<D>& f);
+
+template <>
+[[nodiscard]] inline std::uint64_t morton<2>(const Fixed<2>& f) {
+  const auto spread = [](std::uint64_t x) {
+    x = (x | x << 16) & 0x0000ffff0000ffffu;
+    x = (x | x << 8) & 0x00ff00ff00ff00ffu;
+    x = (x | x << 4) & 0x0f0f0f0f0f0f0f0fu;
+    x = (x | x << 2) & 0x3333333333333333u;
+    return (x | x << 1) & 0x5555555555555555u;
+  };
+  return spread(f[0] >> (kLevels - 32)) | spread(f[1] >> (kLevels - 32)) << 1;
+}
+
+}  // namespace mesher::detail

@@ -1,0 +1,72 @@
+// Errors of input points say the id and the coordinates.
+#include "input.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace mesher::detail {
+
+namespace {
+
+std::string number(double x) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), x).ptr;
+  return {text.data(), end};
+}
+
+std::string named(const Point<2>& p, FeatureId id) {
+  return "point " + std::to_string(static_cast<std::int64_t>(id)) + " (" + number(p[0]) + ", " +
+         number(p[1]) + ")";
+}
+
+bool in_range(double x) { return x == 0 || (std::abs(x) >= 0x1p-100 && std::abs(x) <= 0x1p100); }
+
+}  // namespace
+
+void check_point(const Point<2>& p, const Box<2>& domain, FeatureId id) {
+  for (int i = 0; i < 2; ++i) {
+    if (!std::isfinite(p[i])) throw Error(ErrorCode::not_finite, named(p, id) + " is not finite");
+  }
+  for (int i = 0; i < 2; ++i) {
+    if (in_range(p[i])) continue;
+    throw Error(ErrorCode::magnitude,
+                named(p, id) + ": a coordinate must be 0 or of magnitude 2^-100 to 2^100");
+  }
+  for (int i = 0; i < 2; ++i) {
+    if (p[i] >= domain.lo[i] && p[i] <= domain.hi[i]) continue;
+    throw Error(ErrorCode::outside_domain,
+                named(p, id) + " lies outside the domain [" + number(domain.lo[0]) + ", " +
+                    number(domain.hi[0]) + "] x [" + number(domain.lo[1]) + ", " +
+                    number(domain.hi[1]) + "]");
+  }
+}
+
+void fail_too_near(const Point<2>& p, FeatureId id, const Point<2>& other, FeatureId other_id) {
+  if (p == other) {
+    throw Error(ErrorCode::duplicate_point,
+                named(p, id) + " lies on point " +
+                    std::to_string(static_cast<std::int64_t>(other_id)));
+  }
+  throw Error(ErrorCode::too_close, named(p, id) + " is too close to " + named(other, other_id) +
+                                        ": nearer than the domain's size allows (2^-49 of it)");
+}
+
+std::vector<std::size_t> morton_order(const std::vector<Point<2>>& points, const MeshBox<2>& box) {
+  std::vector<std::uint64_t> code(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool finite = std::isfinite(points[i][0]) && std::isfinite(points[i][1]);
+    code[i] = finite ? morton<2>(box.fixed(points[i])) : 0;
+  }
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return code[a] != code[b] ? code[a] < code[b] : a < b;
+  });
+  return order;
+}
+
+}  // namespace mesher::detail

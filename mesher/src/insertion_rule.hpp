@@ -1,0 +1,70 @@
+// Which point to insert, and when to look again: the two rules behind Complete.
+//
+// Lengths fall into buckets [rho^i l_0, rho^(i+1) l_0): a vertex inserted in bucket i has its
+// nearest neighbour in a later bucket [L 4.3.1].
+//
+// radius_edge. A corner q_i of v's cell between u_i and u_{i+1} is a triangle; it is poor if its
+//   circumradius exceeds rho times its shortest edge. A corner hidden by the clip stands for a
+//   triangle on each visible edge beside it, of larger circumradius than any bound of the bucket.
+//   The new vertex lies on the bisector of the shortest edge, as high as a circumradius of rho times
+//   that edge allows (the off-centre [Ungor 2004]), or at the circumcentre if that is lower.
+// voronoi_aspect [Def 4.2.3]. While the farthest corner is beyond rho NN(v), insert it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "grid.hpp"
+#include "mesher/mesh.hpp"
+#include "voronoi_cell.hpp"
+
+namespace mesher::detail {
+
+class InsertionRule {
+ public:
+  InsertionRule(const Options<2>& options, const MeshBox<2>& box);
+
+  /// The bucket of a length, given its square. Cost: O(log log L/s).
+  [[nodiscard]] int bucket(double length2) const;
+  [[nodiscard]] int buckets() const noexcept { return static_cast<int>(start2_.size()); }
+
+  /// How far Complete looks in bucket b.
+  [[nodiscard]] double clip_radius(int b) const { return clip_[static_cast<std::size_t>(b)]; }
+
+  struct NewPoint {
+    Point<2> p;
+    double nearest2;  // squared distance to the vertices of the gap ball around it
+  };
+  /// A point to insert now, in bucket b; none if v is complete up to b.
+  [[nodiscard]] std::optional<NewPoint> next_point(const VoronoiCell& cell, int b) const;
+
+  /// The bucket in which v must be looked at again, later than b; none if v's star is good.
+  [[nodiscard]] std::optional<int> next_bucket(const VoronoiCell& cell, int b) const;
+
+  /// The colour of v in bucket b: vertices of one colour in different squares are independent
+  /// [Fig 4.9].
+  [[nodiscard]] unsigned colour(const Fixed<2>& f, int b) const;
+
+ private:
+  // An edge p -> q of a poor triangle on its left.
+  struct Poor {
+    double edge2 = 0;
+    Point<2> p;
+    Point<2> q;
+    std::optional<Point<2>> circumcentre;
+  };
+  template <class Visit>
+  void for_each_poor(const VoronoiCell& cell, Visit&& visit) const;
+  [[nodiscard]] Point<2> place(const Poor& poor) const;
+  [[nodiscard]] std::optional<NewPoint> poor_triangle_point(const VoronoiCell& cell, int b) const;
+  [[nodiscard]] std::optional<NewPoint> farthest_corner(const VoronoiCell& cell) const;
+
+  Rule rule_;
+  double rho2_;         // poor above this
+  double height_;       // of the off-centre, in units of the edge
+  std::vector<double> start2_;  // squared start of each bucket
+  std::vector<double> clip_;
+  std::vector<int> square_level_;  // squares of the colouring are cells of this level; 0: no colour
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,209 @@
+// Cutting the Voronoi cell.
+#include "voronoi_cell.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mesher/predicates.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+// Eight unit directions, a turn of 45 degrees apart, starting at 0.3 radians: no grid is aligned
+// with them.
+constexpr std::array<Point<2>, VoronoiCell::kClips> kDirections{{
+    {0.955336489125606, 0.29552020666134}, {0.466559651251443, 0.884489248146117},
+    {-0.29552020666134, 0.955336489125606}, {-0.884489248146117, 0.466559651251443},
+    {-0.955336489125606, -0.29552020666134}, {-0.466559651251443, -0.884489248146117},
+    {0.29552020666134, -0.955336489125606}, {0.884489248146117, -0.466559651251443},
+}};
+
+Point<2> clip_place(const Point<2>& v, double radius, std::size_t i) {
+  return {v[0] + 2 * radius * kDirections[i][0], v[1] + 2 * radius * kDirections[i][1]};
+}
+
+struct Corner {
+  double x, y, tolerance;
+};
+
+// The circumcentre of (0, a, b), and a bound on the error of 2 w.q in units of |w|.
+// With k = |a||b|/|a x b| and eps = 2^-53, rounding in the numerators is at most
+// 4 eps k (|a| + |b|), in the denominator 4 eps k |q|, and the rounded a, b move q by as much
+// again; |a|, |b| <= 2|q|. So the error of q is below 40 eps k |q|, that of 2 w.q below
+// 80 eps k |q| |w|, and that of the sum and of |w|^2 below 16 eps |q| |w| since a corner is only
+// asked about |w| <= 2 max|q|. 256 eps k |q| is three times that.
+Corner circumcentre(double ax, double ay, double bx, double by) {
+  const double a2 = ax * ax + ay * ay;
+  const double b2 = bx * bx + by * by;
+  const double cross = ax * by - ay * bx;
+  const double d = 0.5 / cross;
+  const double x = (a2 * by - b2 * ay) * d;
+  const double y = (b2 * ax - a2 * bx) * d;
+  const double k = std::sqrt(a2 * b2) / std::abs(cross);
+  return {x, y, 256 * 0x1p-53 * k * std::sqrt(x * x + y * y)};
+}
+
+}  // namespace
+
+void VoronoiCell::resize(int n) {
+  size_ = n;
+  if (ux_.size() >= index(n)) return;
+  const std::size_t room = 2 * index(n);
+  for (auto* column : {&ux_, &uy_, &qx_, &qy_, &q2_, &tolerance_, &value_}) column->resize(room);
+  place_.resize(room);
+  handle_.resize(room);
+  clip_.resize(room);
+}
+
+void VoronoiCell::reset(const Vertex<2>& v, double radius) {
+  v_ = &v;
+  resize(kClips);
+  for (std::size_t i = 0; i < kClips; ++i) {
+    place_[i] = clip_place(v.p, radius, i);
+    ux_[i] = place_[i][0] - v.p[0];
+    uy_[i] = place_[i][1] - v.p[1];
+    handle_[i] = 0;
+    clip_[i] = static_cast<std::uint8_t>(i);
+  }
+  for (int i = 0; i < kClips; ++i) set_corner(i);
+  update_reach();
+}
+
+void VoronoiCell::set_corner(int i) {
+  const std::size_t a = index(i);
+  const std::size_t b = index(next(i));
+  const Corner c = circumcentre(ux_[a], uy_[a], ux_[b], uy_[b]);
+  qx_[a] = c.x;
+  qy_[a] = c.y;
+  q2_[a] = c.x * c.x + c.y * c.y;
+  tolerance_[a] = c.tolerance;
+}
+
+void VoronoiCell::update_reach() {
+  reach2_ = 0;
+  for (int i = 0; i < size_; ++i) reach2_ = std::max(reach2_, q2_[index(i)]);
+  reach2_ *= 1 + 0x1p-30;  // so that rounding never leaves out a vertex that cuts
+}
+
+bool VoronoiCell::exactly_nearer(int i, const Vertex<2>& w) {
+  const int j = next(i);
+  for (const int k : {i, j}) {
+    if (place(k) == w.p) {
+      replaces_ = k;
+      return false;
+    }
+  }
+  return predicates::incircle_perturbed(v_->p, place(i), place(j), w.p) > 0;
+}
+
+// Finds the run of corners that w takes; by convexity there is one run.
+bool VoronoiCell::find_cut(const Vertex<2>& w) {
+  wx_ = w.p[0] - v_->p[0];
+  wy_ = w.p[1] - v_->p[1];
+  replaces_ = -1;
+  run_count_ = 0;
+  const double w2 = wx_ * wx_ + wy_ * wy_;
+  const double length = std::sqrt(w2);
+  bool any = false;
+  for (std::size_t i = 0; i < index(size_); ++i) {
+    value_[i] = 2 * (wx_ * qx_[i] + wy_ * qy_[i]) - w2;
+    any |= value_[i] > -tolerance_[i] * length;
+  }
+  if (!any) return false;
+  const auto nearer = [&](int i) {
+    const double value = value_[index(i)];
+    const double error = tolerance_[index(i)] * length;
+    if (value > error) return true;
+    if (value < -error) return false;
+    return exactly_nearer(i, w);
+  };
+  int seed = -1;
+  for (int i = 0; i < size_ && seed < 0; ++i) {
+    if (nearer(i)) seed = i;
+  }
+  if (seed < 0) return replaces_ >= 0 && !real(replaces_);
+  int first = seed;
+  int count = 1;
+  if (seed == 0) {
+    for (int i = size_ - 1; i > 0 && nearer(i); --i) first = i, ++count;
+  }
+  for (int i = seed + 1; i < (first > seed ? first : size_) && nearer(i); ++i) ++count;
+  replaces_ = -1;
+  run_first_ = first;
+  run_count_ = count;
+  return true;
+}
+
+void VoronoiCell::cut(const Vertex<2>& w) {
+  if (replaces_ >= 0) {
+    handle_[index(replaces_)] = w.self;
+    return;
+  }
+  insert_neighbour(run_first_, run_count_, w);
+  update_reach();
+}
+
+// Corners first .. first + count - 1 go, and with them the neighbours between; w comes instead.
+void VoronoiCell::insert_neighbour(int first, int count, const Vertex<2>& w) {
+  const int before = first;                         // u_first stays
+  const int after = (first + count) % size_;        // u_{first+count} stays
+  const int old_size = size_;
+  const int fresh_size = size_ - count + 2;         // count - 1 neighbours go, one comes
+  int at;                                           // where w goes
+  const auto move = [&](int from, int to, int n) {
+    const auto shift = [&](auto& column) {
+      if (from < to) {
+        std::copy_backward(column.begin() + from, column.begin() + from + n, column.begin() + to + n);
+      } else if (from > to) {
+        std::copy(column.begin() + from, column.begin() + from + n, column.begin() + to);
+      }
+    };
+    for (auto* column : {&ux_, &uy_, &qx_, &qy_, &q2_, &tolerance_}) shift(*column);
+    shift(place_);
+    shift(handle_);
+    shift(clip_);
+  };
+  resize(std::max(fresh_size, old_size));
+  size_ = fresh_size;
+  if (after > before || after == 0) {
+    const int end = after == 0 ? old_size : after;
+    move(end, before + 2, old_size - end);
+    at = before + 1;
+  } else {  // the run wraps around: what stays is after .. before
+    move(after, 0, before - after + 1);
+    at = before - after + 1;
+  }
+  const std::size_t k = index(at);
+  ux_[k] = wx_;
+  uy_[k] = wy_;
+  place_[k] = w.p;
+  handle_[k] = w.self;
+  clip_[k] = 0;
+  set_corner(at == 0 ? size_ - 1 : at - 1);
+  set_corner(at);
+}
+
+bool VoronoiCell::may_cut(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
+                          const std::uint32_t* handles, int m, const Point<2>& p) {
+  const double wx = p[0] - v.p[0];
+  const double wy = p[1] - v.p[1];
+  const double w2 = wx * wx + wy * wy;
+  const double length = std::sqrt(w2);
+  const auto neighbour = [&](int i) -> Point<2> {
+    const std::uint32_t h = handles[i];
+    const Point<2> place = h >= kVirtual ? clip_place(v.p, radius, h & 0xff) : pool[h].p;
+    return {place[0] - v.p[0], place[1] - v.p[1]};
+  };
+  Point<2> a = neighbour(m - 1);
+  for (int i = 0; i < m; ++i) {
+    const Point<2> b = neighbour(i);
+    const Corner q = circumcentre(a[0], a[1], b[0], b[1]);
+    if (2 * (wx * q.x + wy * q.y) - w2 >= -q.tolerance * length) return true;
+    a = b;
+  }
+  return false;
+}
+
+}  // namespace mesher::detail
