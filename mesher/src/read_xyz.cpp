@@ -14,11 +14,11 @@ Point<D> read_point(const text::FieldLines& lines) {
                      "a point needs " + std::to_string(D) + " coordinates", line.size());
   }
   if (line.size() > 3) throw line.error(ErrorCode::wrong_count, "a point is 'x y [z]'", 3);
+  Point<D> point;
+  for (int i = 0; i < D; ++i) point[i] = line.coordinate(i);
   if (D == 2 && line.size() == 3 && line.coordinate(2) != 0) {
     throw line.error(ErrorCode::bad_dimension, "a point in space, expected the plane (z = 0)", 2);
   }
-  Point<D> point;
-  for (int i = 0; i < D; ++i) point[i] = line.coordinate(i);
   return point;
 }
 

@@ -1,0 +1,151 @@
+// Scripts of edits: what is read, what is refused and where, and what a bad line leaves behind.
+#include "mesher/edit_script.hpp"
+
+#include <catch2/catch.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scratch_file.hpp"
+
+namespace {
+
+using mesher::Edit;
+using mesher::Error;
+using mesher::ErrorCode;
+using mesher::FeatureId;
+using mesher::Point;
+using support::failure_of;
+using support::ScratchFolder;
+
+// Has the editing half of a mesher's interface, and logs what reaches it.
+class Table {
+ public:
+  void insert(FeatureId id, const Point<2>& p) {
+    if (edited_.contains(id)) throw Error(ErrorCode::repeated_id, "there");
+    edited_[id] = p;
+  }
+  void remove(FeatureId id) {
+    if (edited_.erase(id) == 0) throw Error(ErrorCode::unknown_id, "not there");
+  }
+  void move(FeatureId id, const Point<2>& p) {
+    remove(id);
+    insert(id, p);
+  }
+  void discard_edits() { edited_ = points; }
+  mesher::Change<2> update() {
+    if (fail_update) throw Error(ErrorCode::too_close, "too close");
+    points = edited_;
+    ++updates;
+    return {};
+  }
+
+  std::map<FeatureId, Point<2>> points;
+  int updates = 0;
+  bool fail_update = false;
+
+ private:
+  std::map<FeatureId, Point<2>> edited_;
+};
+
+// Applies a script; the texts of the updates.
+std::vector<std::string> apply(const std::string& content, Table& table) {
+  const ScratchFolder folder;
+  mesher::EditScript script(folder.write("edits.txt", content));
+  std::vector<std::string> texts;
+  mesher::apply(script, table, [&](const mesher::Update<2>& u) { texts.push_back(u.text()); });
+  return texts;
+}
+
+struct Refused {
+  const char* content;
+  const char* failure;  // code@line:column
+};
+
+}  // namespace
+
+TEST_CASE("each edit is an update of its own, and those of a block are one") {
+  Table table;
+  const auto texts = apply(
+      "# a comment\r\n"
+      "\r\n"
+      "+point 1 0.5 -2e-1\r\n"
+      "  begin  # of a block\n"
+      "+point 2 +1 2   # two\n"
+      "-point 1\n"
+      "\n"
+      "commit\n"
+      "begin\n"
+      "commit\n"
+      "move 2 3 -0",
+      table);
+  CHECK(texts == std::vector<std::string>{"+point 1 0.5 -2e-1", "+point 2 +1 2; -point 1", "",
+                                          "move 2 3 -0"});
+  CHECK(table.points == std::map<FeatureId, Point<2>>{{FeatureId{2}, {3, 0}}});
+  CHECK(table.updates == 4);
+}
+
+TEST_CASE("an edit carries its id, its point and its place") {
+  const ScratchFolder folder;
+  const auto path = folder.write("edits.txt", "\n  move -8 1 2\n-point 3\n");
+  mesher::EditScript script(path);
+  const auto edits = script.next().value();
+  REQUIRE(edits.size() == 1);
+  CHECK(edits[0].kind == Edit::Kind::move);
+  CHECK(edits[0].id == FeatureId{-8});
+  CHECK(edits[0].point == Point<2>{1, 2});
+  CHECK(edits[0].place.file == path);
+  CHECK(edits[0].place.line == 2);
+  CHECK(edits[0].place.column == 3);
+  CHECK(script.next().value()[0].kind == Edit::Kind::remove);
+  CHECK_FALSE(script.next().has_value());
+}
+
+TEST_CASE("a bad line is refused with its place and leaves the edits before it applied") {
+  const Refused refused = GENERATE(values<Refused>({
+      {"+segment 1 2\n", "bad_edit@2:1"},
+      {"+Point 1 2 3\n", "bad_edit@2:1"},
+      {"+point 2 3\n", "bad_edit@2:11"},
+      {"+point 2 3 4 5\n", "bad_edit@2:14"},
+      {"-point\n", "bad_edit@2:7"},
+      {"-point 1 0 0\n", "bad_edit@2:10"},
+      {"move 1 0\n", "bad_edit@2:9"},
+      {"begin now\n", "bad_edit@2:7"},
+      {"+point 2.0 3 4\n", "bad_number@2:8"},
+      {"+point 2 3 4z\n", "bad_number@2:12"},
+      {"+point 2 nan 4\n", "not_finite@2:10"},
+      {"move 1 0 -inf\n", "not_finite@2:10"},
+      {"+point 2 1e31 4\n", "magnitude@2:10"},
+      {"move 1 1e-31 4\n", "magnitude@2:8"},
+      {"commit\n", "unbalanced_commit@2:1"},
+      {"begin\n+point 2 3 4\n", "unbalanced_commit@2:1"},
+      {"begin\n+point 2 3 4\nbegin\ncommit\n", "unbalanced_commit@4:1"},
+      {"begin\n+point 2 3 4\nwhat\ncommit\n", "bad_edit@4:1"},
+      {"begin\n+point 2 3 4\n  -point 7\ncommit\n", "unknown_id@4:3"},
+      {"-point 2\n", "unknown_id@2:1"},
+      {"move 2 3 4\n", "unknown_id@2:1"},
+      {" +point 1 3 4\n", "repeated_id@2:2"},
+  }));
+  INFO(refused.content);
+  Table table;
+  const std::string script = "+point 1 0 0\n" + std::string(refused.content) + "-point 1\n";
+  CHECK(failure_of([&] { apply(script, table); }) == refused.failure);
+  CHECK(table.points == std::map<FeatureId, Point<2>>{{FeatureId{1}, {0, 0}}});
+  table.update();  // nothing of the bad line or its block is left waiting
+  CHECK(table.points.size() == 1);
+}
+
+TEST_CASE("an update that fails is said of the last edit of its batch") {
+  Table table;
+  table.fail_update = true;
+  CHECK(failure_of([&] { apply("begin\n+point 1 0 0\n +point 2 1 1\ncommit\n", table); }) ==
+        "too_close@3:2");
+  CHECK(table.points.empty());
+}
+
+TEST_CASE("a script that is not there, or is a folder, cannot be read") {
+  const ScratchFolder folder;
+  CHECK(failure_of([&] { mesher::EditScript script(folder.path("none.txt")); }) ==
+        "cannot_read@0:0");
+  CHECK(failure_of([&] { mesher::EditScript script(folder.path("")); }) == "cannot_read@0:0");
+}

@@ -1,0 +1,255 @@
+#!/usr/bin/env bash
+# The built tool end to end: what it writes, what it says, how it exits, what it leaves behind.
+#
+#   tool_test.sh TOOL DATA_FOLDER [SCRATCH_FOLDER]
+set -u
+tool=$(realpath "$1")
+data=$(realpath "$2")
+scratch=${3:-$(mktemp -d)}
+mkdir -p "$scratch"
+scratch=$(mktemp -d "$scratch/tool_test.XXXXXX")
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch" || exit 1
+
+checks=0
+failures=0
+
+fail() {
+  failures=$((failures + 1))
+  echo "FAILED: $*" >&2
+}
+
+# expect CODE TEXT ARGUMENT...: runs the tool; its exit code, and TEXT in what it says (both streams).
+expect() {
+  local code=$1 text=$2 said status
+  shift 2
+  checks=$((checks + 1))
+  said=$("$tool" "$@" 2>&1)
+  status=$?
+  ((status == code)) || fail "mesher $*: exit code $status, expected $code: $said"
+  [[ $said == *"$text"* ]] || fail "mesher $*: no '$text' in: $said"
+}
+
+# refuse CODE TEXT ARGUMENT...: the same, and the folder out/ stays empty.
+refuse() {
+  expect "$@"
+  [[ -z $(ls -A out) ]] || fail "mesher ${*:3}: left behind: $(ls -A out)"
+  rm -rf out
+  mkdir out
+}
+
+same() {
+  checks=$((checks + 1))
+  cmp -- "$1" "$2" || fail "$1 and $2 differ"
+}
+
+# has FILE PATTERN: a line of the file matches the extended regular expression.
+has() {
+  checks=$((checks + 1))
+  grep -Eq -- "$2" "$1" || fail "$1 has no $2: $(head -c 300 "$1")"
+}
+
+mkdir out
+
+echo "== gen"
+for kind in uniform gaussian clusters grid line-circle spiral; do
+  expect 0 '' gen "$kind" --n 200 --seed 3 -o "$kind.node"
+  has "$kind.node" '^200 2 0 0$'
+done
+expect 0 '' gen uniform --n 200 --seed 3 -o again.node
+same uniform.node again.node
+expect 0 '' gen spiral --n 20 --dim 3 -o space.node
+has space.node '^20 3 0 0$'
+refuse 2 'error[bad_option]' gen circle --n 5 -o out/x.node
+refuse 2 'error[bad_option]' gen uniform --n -5 -o out/x.node
+refuse 2 'error[bad_option]' gen uniform --n 5 --dim 4 -o out/x.node
+refuse 2 'out/x.xyz: error[unknown_format]' gen uniform --n 5 -o out/x.xyz
+
+echo "== help"
+for command in '' gen mesh edit check; do
+  # shellcheck disable=SC2086
+  expect 0 'Examples:' $command --help
+done
+refuse 2 'error[bad_option]'
+refuse 2 'error[bad_option]' paint
+refuse 2 'error[bad_option]' mesh
+refuse 2 'error[bad_option]' mesh uniform.node --colour red
+
+echo "== mesh and check"
+for kind in uniform gaussian clusters grid line-circle spiral; do
+  expect 0 'vertices' mesh "$kind.node" -o "$kind.mesh.node" -o "$kind.off" -o "$kind.vtu" \
+    -o "$kind.svg" --stats "$kind.json"
+  expect 0 'delaunay' check "$kind.mesh.node" --input "$kind.node" --rho 1.4142
+  expect 0 'delaunay' check "$kind.off" --input "$kind.node" --rho 1.4142
+  expect 0 '' mesh "$kind.node" --static --quiet -o "$kind.static.node" -o "$kind.static.vtu"
+  same "$kind.mesh.node" "$kind.static.node"
+  same "$kind.mesh.ele" "$kind.static.ele"
+  same "$kind.vtu" "$kind.static.vtu"
+done
+for field in vertices simplices min_angle_deg max_radius_edge quadtree steiner triangulate total \
+  calls edges trace_bytes peak_rss_bytes; do
+  has uniform.json "^ *\"$field\": [0-9]"
+done
+[[ -z $("$tool" mesh uniform.node --quiet 2>&1) ]] || fail "--quiet is not quiet"
+expect 0 '' mesh uniform.node --rho 2 --rule voronoi-aspect -o paper.node
+expect 0 'quality' check paper.node --input uniform.node --rho 2
+printf '0 2 0 0\n' >empty.node
+expect 0 '' mesh empty.node -o empty.mesh.node --stats empty.json
+expect 0 '' check empty.mesh.node
+has empty.json '"min_angle_deg": null'
+
+echo "== formats and order of input give the same bytes"
+tail -n +2 uniform.node | sed 's/^[0-9]* //' >uniform.xyz
+(echo 'name,Y,X' && awk '{ print "p," $2 "," $1 }' uniform.xyz) >uniform.csv
+{ head -1 uniform.node && tail -n +2 uniform.node | tac; } | sed 's/$/\r/' >backward.node
+for input in uniform.xyz uniform.csv backward.node; do
+  expect 0 '200 points' mesh "$input" -o other.node
+  same uniform.mesh.node other.node
+  same uniform.mesh.ele other.ele
+done
+
+echo "== bad options and outputs"
+refuse 2 'none.node: error[cannot_read]' mesh none.node -o out/x.vtu
+refuse 2 'uniform.poly: error[unknown_format]' mesh uniform.poly -o out/x.vtu
+refuse 2 'out/x.stl: error[unknown_format]' mesh uniform.node -o out/x.off -o out/x.stl
+refuse 2 'error[cannot_write]' mesh uniform.node -o out/x.vtu -o none/x.vtu
+refuse 2 'error[cannot_write]' mesh uniform.node -o out/x.vtu --stats none/x.json
+refuse 2 'out/x.vtu: error[bad_option]' mesh uniform.node -o out/x.vtu -o out/x.vtu
+refuse 2 './uniform.node: error[bad_option]' mesh uniform.node -o out/x.vtu -o ./uniform.node
+refuse 2 '--rho' mesh uniform.node --rho 1 -o out/x.vtu
+refuse 2 '--rho' mesh uniform.node --rho nan -o out/x.vtu
+refuse 2 '--rho' mesh uniform.node --rho 2x -o out/x.vtu
+refuse 2 'error[bad_option]' mesh uniform.node --rule best -o out/x.vtu
+refuse 2 '--domain' mesh uniform.node --domain 0 0 1 inf -o out/x.vtu
+refuse 2 '--domain' mesh uniform.node --domain 0 0 1 0 -o out/x.vtu
+refuse 2 '--domain' mesh uniform.node --domain 0 0 1 1e40 -o out/x.vtu
+refuse 2 'error[bad_option]' mesh uniform.node --domain 0 0 1 -o out/x.vtu
+expect 0 '' mesh uniform.node --domain -.5 -1e0 +2 2 -o wide.node
+
+echo "== bad points: FILE:LINE:COL: error[code]"
+points() { printf '%b' "$1" >bad.node; }
+points '2 2 0 0\n1 0 0\n2 0.5\n'
+refuse 3 'bad.node:3:6: error[truncated]' mesh bad.node -o out/x.vtu
+points '1 2 0 0\n1 0 0\n2 0.5 1\n'
+refuse 3 'bad.node:3:1: error[wrong_count]' mesh bad.node -o out/x.vtu
+points '1 2 0 0\n1 0 nan\n'
+refuse 3 'bad.node:2:5: error[not_finite]' mesh bad.node -o out/x.vtu
+points '1 2 0 0\n1 0 1e31\n'
+refuse 3 'bad.node:2:5: error[magnitude]' mesh bad.node -o out/x.vtu
+points '2 2 0 0\n7 0 1\n7 1 0\n'
+refuse 3 'bad.node:3:1: error[repeated_id]' mesh bad.node -o out/x.vtu
+points '2 2 0 0\n7 0 1\n8 0 1\n'
+refuse 1 'bad.node:3:1: error[duplicate_point]: point 8 lies on point 7' mesh bad.node -o out/x.vtu
+refuse 3 'space.node:1:4: error[bad_dimension]' mesh space.node -o out/x.vtu
+points '2 2 0 0\n7 0 1\n8 3 1\n'
+refuse 1 'bad.node:3:1: error[outside_domain]: point 8' mesh bad.node --domain 0 0 1 1 -o out/x.vtu
+refuse 1 '--domain' mesh bad.node --domain 0 0 1 1 --static -o out/x.vtu
+
+echo "== edit"
+cat >edits.txt <<'END'
+# every kind of edit
++point 1000 0.5 0.5000001
+-point 3
+move 4 0.25 0.75
+begin
++point 1001 0.125 0.875
+-point 1000
+move 5 .9 .1
+commit
+END
+awk 'NR == 1 { print "200 2 0 0"; next }
+  $1 == 3 { next }
+  $1 == 4 { print "4 0.25 0.75"; next }
+  $1 == 5 { print "5 .9 .1"; next }
+  { print }
+  END { print "1001 0.125 0.875" }' uniform.node >edited.node
+domain=(--domain 0 0 1 1)
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  expect 0 'updates' edit uniform.node "${domain[@]}" --script edits.txt $engine -o after.node \
+    --stats "after$engine.jsonl"
+  # shellcheck disable=SC2086
+  expect 0 '' mesh edited.node "${domain[@]}" $engine -o fresh.node
+  same after.node fresh.node
+  same after.ele fresh.ele
+  expect 0 '' check after.node --input edited.node --rho 1.4142
+  [[ $(wc -l <"after$engine.jsonl") == 5 ]] || fail "after$engine.jsonl has not 5 lines"
+  has "after$engine.jsonl" '^\{"vertices":[0-9]+,"simplices":[0-9]+,"min_angle_deg":'
+  has "after$engine.jsonl" '^\{"edit":"-point 3","seconds":[0-9.e-]+,"calls":\{"executed":[0-9]+,"reused":[0-9]+,"created":[0-9]+,"discarded":[0-9]+\},"vertices":\{"added":[0-9]+,"removed":[1-9][0-9]*\},"simplices":\{"added":[0-9]+,"removed":[0-9]+\}\}$'
+  has "after$engine.jsonl" '^\{"edit":"\+point 1001 0\.125 0\.875; -point 1000; move 5 \.9 \.1"'
+done
+counts() { sed 's/.*"vertices":{/{/' "$1" | tail -n +2; }
+counts after.jsonl >engine.counts
+counts after--static.jsonl >static.counts
+same engine.counts static.counts
+: >nothing.txt
+expect 0 '' edit uniform.node --script nothing.txt -o after.node
+same after.node uniform.mesh.node
+
+echo "== bad edits: FILE:LINE:COL: error[code], nothing written"
+# bad_edit CODE TEXT SCRIPT: after a good line
+bad_edit() {
+  printf '+point 1000 .5 .4999\n%b\n' "$3" >bad.txt
+  for engine in '' --static; do
+    # shellcheck disable=SC2086
+    refuse "$1" "bad.txt:$2" edit uniform.node --script bad.txt $engine -o out/x.node \
+      --stats out/x.jsonl
+  done
+}
+bad_edit 3 '2:1: error[bad_edit]' '+polygon 1 2'
+bad_edit 3 '2:10: error[bad_edit]' '-point 5 6'
+bad_edit 3 '2:13: error[bad_number]' '+point 1 .5 z'
+bad_edit 3 '2:10: error[not_finite]' '+point 1 nan .5'
+bad_edit 3 '2:8: error[magnitude]' 'move 1 1e-40 .5'
+bad_edit 3 '2:1: error[unknown_id]' '-point 999'
+bad_edit 3 '2:1: error[unknown_id]' 'move 999 .1 .1'
+bad_edit 3 '2:1: error[repeated_id]' '+point 1000 .1 .1'
+bad_edit 1 '2:1: error[duplicate_point]' '+point 1002 .5 .4999'
+bad_edit 1 '3:2: error[duplicate_point]' 'begin\n move 7 .5 .4999\ncommit'
+bad_edit 1 '2:1: error[outside_domain]' '+point 1002 7 7'
+bad_edit 3 '2:1: error[unbalanced_commit]' 'commit'
+bad_edit 3 '2:1: error[unbalanced_commit]' 'begin'
+printf '+point 1002 7 7\n' >bad.txt
+refuse 1 '--domain' edit uniform.node --script bad.txt -o out/x.node
+refuse 2 'none.txt: error[cannot_read]' edit uniform.node --script none.txt -o out/x.node
+refuse 2 'error[bad_option]' edit uniform.node -o out/x.node
+refuse 2 'edits.off: error[bad_option]' edit uniform.node --script edits.off -o edits.off
+
+echo "== check speaks"
+sed '2s/ [0-9]* \([0-9]*\)$/ \1 \1/' uniform.mesh.ele >bent.ele
+cp uniform.mesh.node bent.node
+refuse 3 'bent.ele:2:' check bent.node
+cp uniform.mesh.node holed.node
+awk 'NR == 1 { print $1 - 1, 3, 0; next } NR != 9' uniform.mesh.ele >holed.ele
+refuse 1 'error[bad_quality]' check holed.node
+refuse 1 'input' check uniform.mesh.node --input spiral.node
+refuse 1 'quality' check uniform.mesh.node --rho 1.02
+refuse 2 'error[unknown_format]' check uniform.vtu
+
+echo "== failing disk and interrupts leave nothing behind"
+cp uniform.mesh.node out/kept.node
+before=$(ls -lA --full-time out)
+(
+  ulimit -f 8
+  "$tool" mesh uniform.node -o out/kept.node -o out/x.vtu --stats out/x.json >said.txt 2>&1
+  echo $? >>said.txt
+)
+has said.txt 'error\[cannot_write\]: .*too large'
+has said.txt '^2$'
+[[ $(ls -lA --full-time out) == "$before" ]] || fail "a failing disk left: $(ls -A out)"
+expect 0 '' gen uniform --n 300000 -o large.node
+for signal in INT TERM; do
+  timeout --preserve-status -s "$signal" 1 \
+    "$tool" mesh large.node -o out/kept.node -o out/x.vtu >said.txt 2>&1
+  echo $? >>said.txt
+  has said.txt 'error\[cancelled\]'
+  has said.txt '^5$'
+  [[ $(ls -lA --full-time out) == "$before" ]] || fail "SIG$signal left: $(ls -A out)"
+done
+
+echo "== the cities of the world"
+expect 0 '7343 points' mesh "$data/places.node" -o cities.node
+expect 0 'input       ok' check cities.node --input "$data/places.node" --rho 1.4142
+
+echo "$checks checks, $failures failures"
+((failures == 0))
