@@ -1,8 +1,11 @@
-// Writes pictures of meshes as SVG. Each edge is drawn once; all edges are one path, and so are all
-// dots (lines of length 0 with round ends), which keeps files small and viewers fast.
+// Writes pictures of meshes as SVG. Each edge is drawn once, as wide as its length allows, and each
+// dot as wide as the shortest edge at it, so that fine parts stay clear when one zooms in. What has
+// one width is one path (dots are lines of length 0 with round ends), which keeps files small and
+// viewers fast; widths are powers of two, so that there are few.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "mesher/svg.hpp"
@@ -10,9 +13,11 @@
 namespace mesher {
 namespace {
 
-constexpr double kLongerSide = 1000;  // units of the picture
-constexpr double kThinnest = 0.05;    // a line that most printers still show
-constexpr double kThickest = 1;
+constexpr double kLongerSide = 1000;   // units of the picture
+constexpr int kLongest = 3;            // lines of length 2^3 and more have the full width,
+constexpr int kShortest = -6;          // those below 2^-6 the least
+constexpr double kLineShare = 0x1p-3;  // a line's width over its length
+constexpr double kDotShare = 0.625;    // a dot's width over the shortest edge at it
 
 void grow(Box<2>& box, const Point<2>& p) {
   for (int i = 0; i < 2; ++i) {
@@ -29,6 +34,8 @@ bool overlaps(const Box<2>& a, const Box<2>& b) {
   return a.lo[0] <= b.hi[0] && b.lo[0] <= a.hi[0] && a.lo[1] <= b.hi[1] && b.lo[1] <= a.hi[1];
 }
 
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
 // Maps the window onto the picture and writes rounded coordinates.
 class Canvas {
  public:
@@ -42,6 +49,12 @@ class Canvas {
   }
   [[nodiscard]] double width() const { return scale_ * (window_.hi[0] - window_.lo[0]); }
   [[nodiscard]] double height() const { return scale_ * (window_.hi[1] - window_.lo[1]); }
+
+  // In units of the picture.
+  [[nodiscard]] double distance(const Point<2>& a, const Point<2>& b) const {
+    const double x = (a[0] - b[0]) * scale_, y = (a[1] - b[1]) * scale_;
+    return std::sqrt(x * x + y * y);
+  }
 
   void point(const Point<2>& p) {
     number((p[0] - window_.lo[0]) * scale_);
@@ -64,8 +77,16 @@ class Canvas {
   TextFile& file_;
 };
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_of(const Mesh<2>& mesh) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+// Lines or dots by the binary exponent of a length in the picture.
+template <class T>
+using ByLength = std::map<int, std::vector<T>>;
+
+int length_class(double length) {
+  return length > 0 ? std::clamp(std::ilogb(length), kShortest, kLongest) : kShortest;
+}
+
+std::vector<Edge> edges_of(const Mesh<2>& mesh) {
+  std::vector<Edge> edges;
   edges.reserve(3 * mesh.simplices.size());
   for (const auto& t : mesh.simplices) {
     for (int i = 0; i < 3; ++i) edges.push_back(std::minmax({t[i], t[(i + 1) % 3]}));
@@ -73,12 +94,6 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_of(const Mesh<2>& mes
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
-}
-
-// Lines get thinner as the lines in view get more: a tenth of the mean distance of lines.
-double line_width(std::size_t lines) {
-  const double mean = kLongerSide / std::sqrt(1.0 + static_cast<double>(lines));
-  return std::clamp(mean / 10, kThinnest, kThickest);
 }
 
 void draw_triangles(const SvgView& view, Canvas& canvas, TextFile& file) {
@@ -96,40 +111,56 @@ void draw_triangles(const SvgView& view, Canvas& canvas, TextFile& file) {
   file << "\"/>\n";
 }
 
-void draw_edges(const Mesh<2>& mesh, Canvas& canvas, TextFile& file) {
-  auto edges = edges_of(mesh);
-  std::erase_if(edges, [&](const auto& e) {
-    return !canvas.shows(mesh.vertices[e.first], mesh.vertices[e.second]);
-  });
-  file << "<path fill=\"none\" stroke=\"#3b5b7c\" stroke-width=\"";
-  canvas.number(line_width(edges.size()));
+void begin_path(double width, const char* style, Canvas& canvas, TextFile& file) {
+  file << "<path fill=\"none\" " << style << " stroke-width=\"";
+  canvas.number(width);
   file << "\" d=\"";
-  for (const auto& [a, b] : edges) {
-    file << 'M';
-    canvas.point(mesh.vertices[a]);
-    file << 'L';
-    canvas.point(mesh.vertices[b]);
-    file << '\n';
-  }
-  file << "\"/>\n";
 }
 
-void draw_input(const Mesh<2>& mesh, Canvas& canvas, TextFile& file) {
-  std::vector<Point<2>> dots;
+void draw_edges(const Mesh<2>& mesh, const std::vector<Edge>& edges, Canvas& canvas,
+                TextFile& file) {
+  ByLength<Edge> shown;
+  for (const auto& [a, b] : edges) {
+    const Point<2>&p = mesh.vertices[a], &q = mesh.vertices[b];
+    if (canvas.shows(p, q)) shown[length_class(canvas.distance(p, q))].push_back({a, b});
+  }
+  for (const auto& [exponent, lines] : shown) {
+    begin_path(std::ldexp(kLineShare, exponent), "stroke=\"#3b5b7c\"", canvas, file);
+    for (const auto& [a, b] : lines) {
+      file << 'M';
+      canvas.point(mesh.vertices[a]);
+      file << 'L';
+      canvas.point(mesh.vertices[b]);
+      file << '\n';
+    }
+    file << "\"/>\n";
+  }
+}
+
+void draw_input(const Mesh<2>& mesh, const std::vector<Edge>& edges, Canvas& canvas,
+                TextFile& file) {
+  std::vector<double> shortest(mesh.vertices.size(), kLongerSide);
+  for (const auto& [a, b] : edges) {
+    const double length = canvas.distance(mesh.vertices[a], mesh.vertices[b]);
+    shortest[a] = std::min(shortest[a], length);
+    shortest[b] = std::min(shortest[b], length);
+  }
+  ByLength<Point<2>> shown;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Point<2>& p = mesh.vertices[i];
-    if (mesh.kinds[i] == VertexKind::input && canvas.shows(p, p)) dots.push_back(p);
+    if (mesh.kinds[i] != VertexKind::input || !canvas.shows(p, p)) continue;
+    shown[length_class(shortest[i])].push_back(p);
   }
-  if (dots.empty()) return;
-  file << "<path fill=\"none\" stroke=\"#c0392b\" stroke-linecap=\"round\" stroke-width=\"";
-  canvas.number(6 * line_width(3 * dots.size()));  // a planar mesh has three edges a vertex
-  file << "\" d=\"";
-  for (const Point<2>& p : dots) {
-    file << 'M';
-    canvas.point(p);
-    file << "h0\n";
+  for (const auto& [exponent, dots] : shown) {
+    begin_path(std::ldexp(kDotShare, exponent), "stroke=\"#c0392b\" stroke-linecap=\"round\"",
+               canvas, file);
+    for (const Point<2>& p : dots) {
+      file << 'M';
+      canvas.point(p);
+      file << "h0\n";
+    }
+    file << "\"/>\n";
   }
-  file << "\"/>\n";
 }
 
 }  // namespace
@@ -159,8 +190,9 @@ void write_svg(const Mesh<2>& mesh, const SvgView& view, TextFile& file) {
   canvas.number(canvas.height());
   file << "\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
   draw_triangles(view, canvas, file);
-  draw_edges(mesh, canvas, file);
-  draw_input(mesh, canvas, file);
+  const auto edges = edges_of(mesh);
+  draw_edges(mesh, edges, canvas, file);
+  draw_input(mesh, edges, canvas, file);
   file << "</svg>\n";
 }
 

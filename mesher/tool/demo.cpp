@@ -33,7 +33,7 @@ class World {
  public:
   World(const mesher::PointFile<2>& file, const mesher::Options<2>& options)
       : ids_(file.ids), points_(file.points), mesher_(options), random_(kSeed) {
-    for (std::size_t i = 0; i < ids_.size(); ++i) mesher_.insert(ids_[i], points_[i]);
+    mesher_.insert(ids_, points_);
     mesher_.update();
     next_id_ = static_cast<std::int64_t>(*std::max_element(ids_.begin(), ids_.end())) + 1;
   }

@@ -21,16 +21,29 @@ inline void announce_run(std::size_t points, Progress& progress) {
   if (points >= kManyPoints) progress.show("meshing " + std::to_string(points) + " points ...");
 }
 
+/// Throws the error that the first refused point makes, said of its line; else `error`, said of the
+/// file.
+template <class Target>
+[[noreturn]] void throw_with_place(const mesher::PointFile<2>& input, Target& target,
+                                   const mesher::Error& error) {
+  for (std::size_t i = 0; i < input.points.size(); ++i) {
+    try {
+      target.insert(input.ids[i], input.points[i]);
+    } catch (const mesher::Error& refusal) {
+      throw refusal.at(input.place(i));
+    }
+  }
+  throw error.at({input.file});
+}
+
 /// Gives `target` the points and updates it.
 /// Throws: Error, said of the line of the point to blame or of the file.
 template <class Target>
 void insert_all(const mesher::PointFile<2>& input, Target& target) {
-  for (std::size_t i = 0; i < input.points.size(); ++i) {
-    try {
-      target.insert(input.ids[i], input.points[i]);
-    } catch (const mesher::Error& error) {
-      throw error.at(input.place(i));
-    }
+  try {
+    target.insert(input.ids, input.points);
+  } catch (const mesher::Error& error) {
+    throw_with_place(input, target, error);
   }
   try {
     target.update();

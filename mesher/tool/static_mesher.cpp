@@ -76,6 +76,16 @@ void StaticMesher::insert(FeatureId id, const Point<2>& point) {
   edited_.ids.emplace(point, id);
 }
 
+void StaticMesher::insert(const std::vector<FeatureId>& ids, const std::vector<Point<2>>& points) {
+  const Features before = edited_;
+  try {
+    for (std::size_t i = 0; i < ids.size(); ++i) insert(ids[i], points[i]);
+  } catch (...) {
+    edited_ = before;
+    throw;
+  }
+}
+
 void StaticMesher::remove(FeatureId id) {
   require_known(id);
   const auto row = edited_.points.find(id);

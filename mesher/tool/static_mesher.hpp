@@ -18,6 +18,8 @@ class StaticMesher {
   /// As those of Mesher<2>. Throws: Error (repeated_id, unknown_id, duplicate_point,
   /// outside_domain), and then changes nothing.
   void insert(mesher::FeatureId id, const mesher::Point<2>& point);
+  void insert(const std::vector<mesher::FeatureId>& ids,
+              const std::vector<mesher::Point<2>>& points);
   void remove(mesher::FeatureId id);
   void move(mesher::FeatureId id, const mesher::Point<2>& point);
   void discard_edits() { edited_ = current_; }

@@ -248,6 +248,17 @@ TEST_CASE("a picture shows each edge in view once and each input point") {
   CHECK(text.size() < 2000);
 }
 
+TEST_CASE("a picture has thinner lines and dots where the mesh is finer") {
+  Mesh<2> mesh = sample_mesh();
+  mesh.vertices = {{0, 0}, {0, 4}, {0.001, 0.001}, {4, 0}, {4, 4}};
+  const ScratchFolder folder;
+  mesher::write_mesh(mesh, folder.path("m.svg"));
+  const std::string text = folder.read("m.svg");
+  CHECK(text.find("stroke-width=\"1\" d=") != std::string::npos);           // the long edges
+  CHECK(text.find("stroke-width=\"0.031\" d=") != std::string::npos);       // from vertex 0 to 2
+  CHECK(text.find("round\" stroke-width=\"0.156\"") != std::string::npos);  // the dot at 2
+}
+
 TEST_CASE("a picture of a far window leaves out what it does not show") {
   const ScratchFolder folder;
   mesher::TextFile file(folder.path("m.svg"), "m.svg");

@@ -1,4 +1,5 @@
-// Pictures of meshes as SVG: thin lines scaled to the view, input points as small dots.
+// Pictures of meshes as SVG: thin lines, input points as small dots, both finer where the
+// mesh is.
 //
 // The picture is 1000 units on its longer side, y upward in the mesh and downward in the file.
 // Coordinates are rounded to a thousandth of a unit, and what lies outside the view is left out.
