@@ -14,6 +14,11 @@
 
 namespace mesher::detail {
 
+#ifndef COARSER
+#define COARSER 2
+#endif
+inline constexpr int kCoarser = COARSER;
+
 struct Split {
   static constexpr std::string_view kName = "split";
   template <class S>
@@ -43,8 +48,8 @@ void Locate::operator()(S& s, VertexRef<2> p) const {
   const Fixed<2> f = w.box.fixed(p->p);
   const int level = w.features.level(s, *p);
   w.vertices.insert(s, p);
-  if (level >= 0) {
-    const Cell<2> c = MeshBox<2>::cell(f, level);
+  if (level >= kCoarser) {
+    const Cell<2> c = MeshBox<2>::cell(f, level - kCoarser);
     w.quadtree.template post<split>(s, split_key(c), c);
   }
   w.post_nearest(s, p, level + 1);

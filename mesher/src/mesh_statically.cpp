@@ -27,7 +27,7 @@ Mesh<D> mesh_statically(const std::vector<Point<D>>& points, const Options<D>& o
       detail::fail_too_near(points[i], id, other->p,
                             ids.empty() ? FeatureId{h + 1} : ids[static_cast<std::size_t>(h)]);
     }
-    auto& v = world.vertices.add_input(points[i]);
+    auto& v = world.vertices.add_input(points[i], true);
     handles[i] = v.self;
     features.insert_only(v);
   }

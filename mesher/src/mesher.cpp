@@ -84,13 +84,13 @@ void Mesher<2>::Impl::check_new(FeatureId id, const Point<2>& p, FeatureId repla
 void Mesher<2>::Impl::add(FeatureId id, const Point<2>& p) {
   ids.reserve(ids.size() + 1);
   if (!ran) {
-    Vertex<2>& v = vertices().add_input(p);
+    Vertex<2>& v = vertices().add_input(p, true);
     features().tree().insert_only(v);
     ids.emplace(id, v.self);
     return;
   }
   engine->begin_edit();
-  Vertex<2>& v = vertices().add_input(p);
+  Vertex<2>& v = vertices().add_input(p, false);
   vertices().touch(v);
   engine->on_rollback([this, &v, id] {
     v.input = false;

@@ -28,6 +28,7 @@ class Quadtree {
 
   Quadtree(const MeshBox<D>& box, VertexPool<D>& vertices) : box_(box), vertices_(vertices) {
     nodes_.resize(1);
+    buckets_.resize(1);
   }
 
   /// Marks `cell` as split, with the cells above it given children as needed; returns its node.
@@ -42,10 +43,13 @@ class Quadtree {
   /// The record with exactly these coordinates; null if there is none.
   [[nodiscard]] Vertex<D>* find(const Point<D>& p) const;
 
-  /// Visits vertices u around `center` near ones first, by cells: visit(u) for every u with
-  /// |u - center|^2 <= radius2(), a bound that may shrink while visiting.
-  template <class Radius2, class Visit>
-  void visit_around(const Point<D>& center, Radius2&& radius2, Visit&& visit) const;
+  /// Visits vertices u around `center`, by cells, in shells of doubling radius so that what bounds
+  /// the search is met early: visit(handle, place) for every vertex within radius() of
+  /// the center, a bound that may shrink while visiting (visit says true when it has), and for some
+  /// beyond.
+  /// A cell is only entered if enters(its lower corner relative to the center, its side).
+  template <class Radius, class Enters, class Visit>
+  void visit_around(const Point<D>& center, Radius&& radius, Enters&& enters, Visit&& visit) const;
 
   /// Calls visit(v) for every vertex v with |v - p| <= v.reach (in units of the box's side), and tightens the cells' bounds.
   template <class Visit>
@@ -58,22 +62,29 @@ class Quadtree {
   /// Throws InvariantError if a cell underestimates the reach of its vertices.
   void check_reach() const { check_reach_below(0, 0); }
 
-  /// Calls visit(cell, vertices_in_it) for every leaf.
+  /// Calls visit(cell) for every leaf.
   template <class Visit>
   void for_each_leaf(Visit&& visit) const;
 
-  [[nodiscard]] std::size_t bytes() const noexcept { return nodes_.capacity() * sizeof(Node); }
+  [[nodiscard]] std::size_t bytes() const noexcept { return nodes_.capacity() * sizeof(Node) + buckets_.capacity() * sizeof(Bucket);
+  }
 
  private:
   struct Node {
     NodeIndex child = 0;  // first of kChildren; 0: a leaf
     NodeIndex parent_and_mark = 0;
-    VertexHandle head = 0;
+    std::uint32_t head = 0;  // first bucket of a leaf
     float reach = 0;
 
     [[nodiscard]] NodeIndex parent() const noexcept { return parent_and_mark & 0x7fffffffu; }
     [[nodiscard]] bool marked() const noexcept { return parent_and_mark >> 31 != 0; }
   };
+  // The first shell's radius, in sides of the center's leaf.
+  #ifndef SHELL
+#define SHELL 1
+#endif
+  static constexpr double kFirstShell = SHELL;
+
   struct Step {
     NodeIndex node;
     Point<D> rel;  // lower corner of the cell, relative to the center
@@ -94,7 +105,6 @@ class Quadtree {
   }
   void give_children(NodeIndex n, int level);
   void take_children(NodeIndex n);
-  [[nodiscard]] double margin() const { return margin_; }
   static double distance2(const Point<D>& rel, double side) {
     double d2 = 0;
     for (int i = 0; i < D; ++i) {
@@ -103,16 +113,45 @@ class Quadtree {
     }
     return d2;
   }
-  template <class Radius2, class Visit>
-  void descend(const Step& from, Radius2&& radius2, Visit&& visit) const;
+  static double farthest2(const Point<D>& rel, double side) {
+    double d2 = 0;
+    for (int i = 0; i < D; ++i) {
+      const double d = std::max(-rel[i], rel[i] + side);
+      d2 += d * d;
+    }
+    return d2;
+  }
+  // Where a search stands: the path of cells down to the center's leaf, and the shell.
+  struct Search {
+    std::array<Step, kLevels + 1> path;
+    int depth = 0;
+    double inner = -1;  // cells wholly nearer than this were visited before
+    double outer = 0;   // cells beyond this wait for the next shell
+  };
+  void find_path(const Point<D>& center, Search& search) const;
+  template <class Enters, class Visit>
+  void visit_shell(const Search& search, Enters&& enters, Visit&& visit) const;
+  template <class Enters, class Visit>
+  void descend(const Step& from, const Search& search, Enters&& enters, Visit&& visit) const;
+  // The vertices of a leaf, with their coordinates: a search that is not interested in a vertex
+  // does not touch its record. Two cache lines in the plane.
+  struct Bucket {
+    std::uint32_t next = 0;  // further bucket of the same leaf; 0: none
+    std::uint32_t count = 0;
+    std::array<VertexHandle, 6> handle;
+    std::array<Point<D>, 6> place;
+  };
+  using BucketIndex = std::uint32_t;
+
   template <class Visit>
   void visit_leaf(NodeIndex n, Visit&& visit) const {
-    for (VertexHandle h = nodes_[n].head; h != 0;) {
-      Vertex<D>& v = vertices_[h];
-      h = v.next;
-      visit(v);
+    for (BucketIndex b = nodes_[n].head; b != 0; b = buckets_[b].next) {
+      const Bucket& bucket = buckets_[b];
+      for (std::uint32_t i = 0; i < bucket.count; ++i) visit(bucket.handle[i], bucket.place[i]);
     }
   }
+  void put(NodeIndex leaf, VertexHandle h, const Point<D>& p);
+  [[nodiscard]] BucketIndex new_bucket(BucketIndex next);
   template <class Visit>
   float reach_below(NodeIndex n, const Point<D>& lo, double side, const Point<D>& p, Visit& visit);
   template <class Visit>
@@ -123,8 +162,15 @@ class Quadtree {
   VertexPool<D>& vertices_;
   std::vector<Node> nodes_;
   std::vector<NodeIndex> free_;
+  std::vector<Bucket> buckets_;
+  std::vector<BucketIndex> free_buckets_;
   // Cells are computed to within a few units in the last place of the largest coordinate.
   double margin_ = largest(box_) * 0x1p-50;
+
+ public:
+  [[nodiscard]] double margin() const noexcept { return margin_; }
+
+ private:
 
   static double largest(const MeshBox<D>& box) {
     double m = box.side;
@@ -147,23 +193,55 @@ void Quadtree<D>::give_children(NodeIndex n, int level) {
     nodes_[first + static_cast<NodeIndex>(i)] = Node{.parent_and_mark = n, .reach = nodes_[n].reach};
   }
   nodes_[n].child = first;
-  for (VertexHandle h = std::exchange(nodes_[n].head, 0); h != 0;) {
-    Vertex<D>& v = vertices_[h];
-    h = v.next;
-    Node& c = nodes_[first + static_cast<NodeIndex>(child_of(box_.fixed(v.p), level))];
-    v.next = std::exchange(c.head, v.self);
+  for (BucketIndex b = std::exchange(nodes_[n].head, 0); b != 0;) {
+    const Bucket bucket = buckets_[b];
+    free_buckets_.push_back(b);
+    for (std::uint32_t i = 0; i < bucket.count; ++i) {
+      const int c = child_of(box_.fixed(bucket.place[i]), level);
+      put(first + static_cast<NodeIndex>(c), bucket.handle[i], bucket.place[i]);
+    }
+    b = bucket.next;
   }
+}
+
+template <int D>
+typename Quadtree<D>::BucketIndex Quadtree<D>::new_bucket(BucketIndex next) {
+  BucketIndex b;
+  if (free_buckets_.empty()) {
+    b = static_cast<BucketIndex>(buckets_.size());
+    buckets_.emplace_back();
+    free_buckets_.reserve(buckets_.capacity());  // so that giving back cannot fail
+  } else {
+    b = free_buckets_.back();
+    free_buckets_.pop_back();
+  }
+  buckets_[b].next = next;
+  buckets_[b].count = 0;
+  return b;
+}
+
+// Only the first bucket of a leaf may have room.
+template <int D>
+void Quadtree<D>::put(NodeIndex leaf, VertexHandle h, const Point<D>& p) {
+  const BucketIndex head = nodes_[leaf].head;
+  if (head == 0 || buckets_[head].count == buckets_[head].handle.size()) {
+    nodes_[leaf].head = new_bucket(head);
+  }
+  Bucket& bucket = buckets_[nodes_[leaf].head];
+  bucket.handle[bucket.count] = h;
+  bucket.place[bucket.count++] = p;
 }
 
 template <int D>
 void Quadtree<D>::take_children(NodeIndex n) {
   const NodeIndex first = std::exchange(nodes_[n].child, 0);
   for (int i = 0; i < kChildren; ++i) {
-    Node& c = nodes_[first + static_cast<NodeIndex>(i)];
-    while (c.head != 0) {
-      Vertex<D>& v = vertices_[c.head];
-      c.head = std::exchange(v.next, nodes_[n].head);
-      nodes_[n].head = v.self;
+    const NodeIndex c = first + static_cast<NodeIndex>(i);
+    for (BucketIndex b = std::exchange(nodes_[c].head, 0); b != 0;) {
+      const Bucket bucket = buckets_[b];
+      free_buckets_.push_back(b);
+      for (std::uint32_t k = 0; k < bucket.count; ++k) put(n, bucket.handle[k], bucket.place[k]);
+      b = bucket.next;
     }
   }
   free_.push_back(first);
@@ -196,36 +274,51 @@ void Quadtree<D>::unmark(NodeIndex n) {
 
 template <int D>
 void Quadtree<D>::insert(Vertex<D>& v) {
-  Node& leaf = nodes_[leaf_of(box_.fixed(v.p))];
-  v.next = std::exchange(leaf.head, v.self);
+  put(leaf_of(box_.fixed(v.p)), v.self, v.p);
 }
 
+// The last vertex of the first bucket takes the place of the one that goes.
 template <int D>
 void Quadtree<D>::erase(Vertex<D>& v) {
-  VertexHandle* link = &nodes_[leaf_of(box_.fixed(v.p))].head;
-  while (*link != v.self) link = &vertices_[*link].next;
-  *link = v.next;
+  Node& leaf = nodes_[leaf_of(box_.fixed(v.p))];
+  Bucket& first = buckets_[leaf.head];
+  for (BucketIndex b = leaf.head; b != 0; b = buckets_[b].next) {
+    Bucket& bucket = buckets_[b];
+    for (std::uint32_t i = 0; i < bucket.count; ++i) {
+      if (bucket.handle[i] != v.self) continue;
+      bucket.handle[i] = first.handle[first.count - 1];
+      bucket.place[i] = first.place[first.count - 1];
+      if (--first.count == 0) {
+        free_buckets_.push_back(leaf.head);
+        leaf.head = first.next;
+      }
+      return;
+    }
+  }
 }
 
 template <int D>
 Vertex<D>* Quadtree<D>::find(const Point<D>& p) const {
-  for (VertexHandle h = nodes_[leaf_of(box_.fixed(p))].head; h != 0; h = vertices_[h].next) {
-    if (vertices_[h].p == p) return &vertices_[h];
-  }
-  return nullptr;
+  Vertex<D>* found = nullptr;
+  visit_leaf(leaf_of(box_.fixed(p)), [&](VertexHandle h, const Point<D>& place) {
+    if (place == p) found = &vertices_[h];
+  });
+  return found;
 }
 
-// Depth first, nearest child first.
+// Depth first, nearest child first, within the shell.
 template <int D>
-template <class Radius2, class Visit>
-void Quadtree<D>::descend(const Step& from, Radius2&& radius2, Visit&& visit) const {
+template <class Enters, class Visit>
+void Quadtree<D>::descend(const Step& from, const Search& search, Enters&& enters,
+                          Visit&& visit) const {
   std::array<Step, (kLevels + 1) * (kChildren - 1) + 1> stack;
   std::size_t top = 0;
   stack[top++] = from;
   while (top > 0) {
     const Step s = stack[--top];
-    const double d2 = distance2(s.rel, s.side) ;
-    if (d2 > radius2()) continue;
+    if (distance2(s.rel, s.side) > search.outer * search.outer) continue;
+    if (search.inner > 0 && farthest2(s.rel, s.side) < search.inner * search.inner) continue;
+    if (!enters(s.rel, s.side)) continue;
     const NodeIndex child = nodes_[s.node].child;
     if (child == 0) {
       visit_leaf(s.node, visit);
@@ -244,48 +337,61 @@ void Quadtree<D>::descend(const Step& from, Radius2&& radius2, Visit&& visit) co
   }
 }
 
-// Starts at the center's leaf and climbs until the ball lies inside the cell, visiting siblings.
 template <int D>
-template <class Radius2, class Visit>
-void Quadtree<D>::visit_around(const Point<D>& center, Radius2&& radius2, Visit&& visit) const {
+void Quadtree<D>::find_path(const Point<D>& center, Search& search) const {
   const Fixed<D> f = box_.fixed(center);
-  std::array<Step, kLevels + 1> path;
   Step s{0, {}, box_.side};
   for (int i = 0; i < D; ++i) s.rel[i] = box_.lo[i] - center[i];
-  int depth = 0;
-  for (;; ++depth) {
-    path[static_cast<std::size_t>(depth)] = s;
+  for (;; ++search.depth) {
+    search.path[static_cast<std::size_t>(search.depth)] = s;
     const NodeIndex child = nodes_[s.node].child;
-    if (child == 0) break;
-    const int c = child_of(f, depth);
+    if (child == 0) return;
+    const int c = child_of(f, search.depth);
     s.node = child + static_cast<NodeIndex>(c);
     s.side /= 2;
     for (int i = 0; i < D; ++i) s.rel[i] += (c >> i & 1) != 0 ? s.side : 0;
   }
-  const auto padded = [&] {
-    const double r = std::sqrt(radius2()) + margin_;
-    return r * r;
-  };
-  double bound = padded();
-  const auto bounded = [&] { return bound; };
-  const auto visit_and_shrink = [&](Vertex<D>& v) {
-    if (visit(v)) bound = padded();
-  };
-  visit_leaf(path[static_cast<std::size_t>(depth)].node, visit_and_shrink);
-  for (; depth > 0; --depth) {
-    const Step& own = path[static_cast<std::size_t>(depth)];
-    double inner = own.side;  // distance from the center to the cell's boundary
-    for (int i = 0; i < D; ++i) inner = std::min({inner, -own.rel[i], own.rel[i] + own.side});
-    if (inner > 0 && inner * inner >= bound) return;
-    const Step& up = path[static_cast<std::size_t>(depth - 1)];
+}
+
+// From the center's leaf up to the first cell that holds the whole shell, visiting siblings.
+template <int D>
+template <class Enters, class Visit>
+void Quadtree<D>::visit_shell(const Search& search, Enters&& enters, Visit&& visit) const {
+  descend(search.path[static_cast<std::size_t>(search.depth)], search, enters, visit);
+  for (int depth = search.depth; depth > 0; --depth) {
+    const Step& own = search.path[static_cast<std::size_t>(depth)];
+    double inside = own.side;  // distance from the center to the cell's boundary
+    for (int i = 0; i < D; ++i) inside = std::min({inside, -own.rel[i], own.rel[i] + own.side});
+    if (inside >= search.outer) return;
+    const Step& up = search.path[static_cast<std::size_t>(depth - 1)];
     const NodeIndex first = nodes_[up.node].child;
     const int c = static_cast<int>(own.node - first);
     for (int k = 1; k < kChildren; ++k) {
       const int other = c ^ k;
       Step t{first + static_cast<NodeIndex>(other), up.rel, own.side};
       for (int i = 0; i < D; ++i) t.rel[i] += (other >> i & 1) != 0 ? own.side : 0;
-      if (distance2(t.rel, t.side) <= bound) descend(t, bounded, visit_and_shrink);
+      descend(t, search, enters, visit);
     }
+  }
+}
+
+template <int D>
+template <class Radius, class Enters, class Visit>
+void Quadtree<D>::visit_around(const Point<D>& center, Radius&& radius, Enters&& enters,
+                               Visit&& visit) const {
+  Search search;
+  find_path(center, search);
+  double bound = radius() + margin_;
+  double shell = kFirstShell * search.path[static_cast<std::size_t>(search.depth)].side;
+  for (;; shell *= 2) {
+    search.outer = std::min(shell, bound);
+    visit_shell(search, enters, [&](VertexHandle h, const Point<D>& p) {
+      if (!visit(h, p)) return;
+      bound = radius() + margin_;
+      search.outer = std::min(search.outer, bound);
+    });
+    if (search.outer >= bound) return;
+    search.inner = search.outer - margin_;
   }
 }
 
@@ -309,9 +415,10 @@ float Quadtree<D>::reach_below(NodeIndex n, const Point<D>& lo, double side, con
   if (distance2(rel, side) > bound * bound) return nodes_[n].reach;
   float reach = 0;
   if (nodes_[n].child == 0) {
-    visit_leaf(n, [&](Vertex<D>& v) {
+    visit_leaf(n, [&](VertexHandle h, const Point<D>& place) {
+      Vertex<D>& v = vertices_[h];
       double d2 = 0;
-      for (int i = 0; i < D; ++i) d2 += (v.p[i] - p[i]) * (v.p[i] - p[i]);
+      for (int i = 0; i < D; ++i) d2 += (place[i] - p[i]) * (place[i] - p[i]);
       const double own = v.reach * box_.side;
       if (d2 <= own * own) visit(v);
       reach = std::max(reach, v.reach);
@@ -331,7 +438,10 @@ template <int D>
 float Quadtree<D>::check_reach_below(NodeIndex n, int level) const {
   float reach = 0;
   bool below = false;
-  visit_leaf(n, [&](const Vertex<D>& v) { reach = std::max(reach, v.reach); });
+  visit_leaf(n, [&](VertexHandle h, const Point<D>& p) {
+    SAC_INVARIANT(vertices_[h].p == p);
+    reach = std::max(reach, vertices_[h].reach);
+  });
   if (nodes_[n].child != 0) {
     SAC_INVARIANT(nodes_[n].head == 0);
     for (int c = 0; c < kChildren; ++c) {
@@ -355,7 +465,7 @@ void Quadtree<D>::for_each_leaf(Visit&& visit) const {
 template <int D>
 template <class Visit>
 void Quadtree<D>::leaves_below(NodeIndex n, const Cell<D>& cell, Visit& visit) const {
-  if (nodes_[n].child == 0) return visit(cell, nodes_[n].head);
+  if (nodes_[n].child == 0) return visit(cell);
   for (int c = 0; c < kChildren; ++c) {
     Cell<D> inner{cell.corner, cell.level + 1};
     for (int i = 0; i < D; ++i) {

@@ -22,7 +22,6 @@ template <int D>
 struct Vertex {
   Point<D> p{};
   VertexHandle self = 0;
-  VertexHandle next = 0;        // next vertex of the same quadtree cell
   sac::Handle producers = 0;    // edges of the calls that insert it
   sac::Handle birth = 0;        // the earliest of these calls; 0: the outside
   std::uint32_t birth_rank = 0; // its place in the agenda's order

@@ -91,7 +91,7 @@ void Index::appeared(const Vertex<2>& v, const sac::Call* before) {
   const sac::Call& birth = engine_.call(v.birth);
   tree_.visit_reaching(v.p, [&](Vertex<2>& center) {
     if (center.self == v.self) return;
-    const double d2 = distance2(center, v);
+    const double d2 = distance2(center.p, v.p);
     for (sac::Handle h = center.queries; h != 0; h = query(h).next_query) {
       const QueryEdge& q = query(h);
       const double reach = unpacked(q.reach);
@@ -128,7 +128,7 @@ void Index::vanished(const Vertex<2>& v, const sac::Call& from, const sac::Call*
 VoronoiCell& Index::voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius) {
   const sac::Call& self = s.self();
   VoronoiCell& cell =
-      cut_around(*v, radius, [&](const Vertex<2>& u) { return born_before(u, self); });
+      cut_around(*v, radius, [&](VertexHandle u) { return born_before(pool_[u], self); });
   codes_.clear();
   for (int i = 0; i < cell.size(); ++i) codes_.push_back(cell.code(i));
   record(s, kCell, *v, packed(2 * std::sqrt(cell.reach2())), packed(radius));
@@ -137,14 +137,14 @@ VoronoiCell& Index::voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius) {
 
 double Index::nearest2(sac::Scope& s, VertexRef<2> v) {
   const sac::Call& self = s.self();
-  const Nearest n = nearest_around(*v, [&](const Vertex<2>& u) { return born_before(u, self); });
+  const Nearest n = nearest_around(*v, [&](VertexHandle u) { return born_before(pool_[u], self); });
   codes_.assign(1, n.handle);
   record(s, kNearest, *v, packed(std::sqrt(n.distance2) * (1 + 0x1p-40)), 0);
   return n.distance2;
 }
 
 VoronoiCell& Index::star(sac::Scope& s, VertexRef<2> v) {
-  VoronoiCell& cell = cut_around(*v, whole(), [](const Vertex<2>& u) { return u.alive; });
+  VoronoiCell& cell = cut_around(*v, whole(), [&](VertexHandle u) { return pool_[u].alive; });
   codes_.clear();
   for (int i = 0; i < cell.size(); ++i) codes_.push_back(cell.code(i));
   record(s, kStar, *v, packed(2 * std::sqrt(cell.reach2())), packed(whole()));

@@ -49,9 +49,10 @@ class VertexSearch {
   /// Clip radius at which no corner of a star is hidden: circumcentres lie in the box.
   [[nodiscard]] double whole() const noexcept { return 2 * box_.side; }
 
-  /// The record of an input point, not alive yet.
-  Vertex<2>& add_input(const Point<2>& p) {
-    Vertex<2>* v = tree_.find(p);
+  /// The record of an input point, not alive yet. `first`: no vertex but the boundary's and inputs
+  /// at other places is there.
+  Vertex<2>& add_input(const Point<2>& p, bool first) {
+    Vertex<2>* v = first ? nullptr : tree_.find(p);
     if (v == nullptr) {
       v = &pool_.create(p);
       tree_.insert(*v);
@@ -69,12 +70,18 @@ class VertexSearch {
   }
 
  protected:
-  // Cuts `cell_` by all vertices u for which seen(u).
+  // Cuts `cell_` by all vertices u for which seen(u); u is a handle.
   template <class Seen>
   VoronoiCell& cut_around(const Vertex<2>& v, double radius, Seen&& seen) {
     cell_.reset(v, radius);
-    tree_.visit_around(v.p, [&] { return 4 * cell_.reach2(); }, [&](Vertex<2>& u) {
-      if (&u == &v || !cell_.in_reach(distance2(u, v)) || !cell_.cuts(u) || !seen(u)) return false;
+    const auto reach = [&] { return 2 * std::sqrt(cell_.reach2()); };
+    const auto enters = [&](const Point<2>& corner, double side) {
+      return cell_.enters(corner, side, tree_.margin());
+    };
+    tree_.visit_around(v.p, reach, enters, [&](VertexHandle u, const Point<2>& p) {
+      if (u == v.self || !cell_.in_reach(distance2(p, v.p)) || !cell_.cuts(p) || !seen(u)) {
+        return false;
+      }
       cell_.cut(u);
       return true;
     });
@@ -88,19 +95,21 @@ class VertexSearch {
   template <class Seen>
   Nearest nearest_around(const Vertex<2>& v, Seen&& seen) const {
     Nearest best{0, 4 * box_.side * box_.side};
-    tree_.visit_around(v.p, [&] { return best.distance2; }, [&](Vertex<2>& u) {
-      const double d2 = distance2(u, v);
-      if (&u == &v || d2 > best.distance2 || !seen(u)) return false;
-      if (d2 == best.distance2 && best.handle != 0 && pool_[best.handle].p < u.p) return false;
-      best = {u.self, d2};
+    const auto reach = [&] { return std::sqrt(best.distance2); };
+    const auto enters = [](const Point<2>&, double) { return true; };
+    tree_.visit_around(v.p, reach, enters, [&](VertexHandle u, const Point<2>& p) {
+      const double d2 = distance2(p, v.p);
+      if (u == v.self || d2 > best.distance2 || !seen(u)) return false;
+      if (d2 == best.distance2 && best.handle != 0 && pool_[best.handle].p < p) return false;
+      best = {u, d2};
       return true;
     });
     return best;
   }
 
-  static double distance2(const Vertex<2>& u, const Vertex<2>& v) {
-    const double x = u.p[0] - v.p[0];
-    const double y = u.p[1] - v.p[1];
+  static double distance2(const Point<2>& u, const Point<2>& v) {
+    const double x = u[0] - v[0];
+    const double y = u[1] - v[1];
     return x * x + y * y;
   }
 
@@ -126,10 +135,10 @@ class VertexIndex<sac::PlainScope> : public VertexSearch {
   }
   void insert(sac::PlainScope&, VertexRef<2> v) { v->alive = true; }
   VoronoiCell& voronoi_cell(sac::PlainScope&, VertexRef<2> v, double radius) {
-    return cut_around(*v, radius, [](const Vertex<2>&) { return true; });
+    return cut_around(*v, radius, [](VertexHandle) { return true; });
   }
   double nearest2(sac::PlainScope&, VertexRef<2> v) {
-    return nearest_around(*v, [](const Vertex<2>&) { return true; }).distance2;
+    return nearest_around(*v, [](VertexHandle) { return true; }).distance2;
   }
   VoronoiCell& star(sac::PlainScope& s, VertexRef<2> v) { return voronoi_cell(s, v, whole()); }
   void split(sac::PlainScope&, const Cell<2>& cell) { tree_.mark(cell); }

@@ -51,7 +51,7 @@ void VoronoiCell::resize(int n) {
   size_ = n;
   if (ux_.size() >= index(n)) return;
   const std::size_t room = 2 * index(n);
-  for (auto* column : {&ux_, &uy_, &qx_, &qy_, &q2_, &tolerance_, &value_}) column->resize(room);
+  for (auto* column : {&ux_, &uy_, &qx_, &qy_, &q2_, &tolerance_}) column->resize(room);
   place_.resize(room);
   handle_.resize(room);
   clip_.resize(room);
@@ -83,37 +83,67 @@ void VoronoiCell::set_corner(int i) {
 
 void VoronoiCell::update_reach() {
   reach2_ = 0;
-  for (int i = 0; i < size_; ++i) reach2_ = std::max(reach2_, q2_[index(i)]);
+  double tolerance = 0;
+  for (std::size_t i = 0; i < index(size_); ++i) {
+    reach2_ = std::max(reach2_, q2_[i]);
+    tolerance = std::max(tolerance, tolerance_[i]);
+  }
   reach2_ *= 1 + 0x1p-30;  // so that rounding never leaves out a vertex that cuts
+  error_ = tolerance * std::sqrt(reach2_) * 1.01;  // half of 2 w.q's error, for any w in reach
 }
 
-bool VoronoiCell::exactly_nearer(int i, const Vertex<2>& w) {
+bool VoronoiCell::exactly_nearer(int i, const Point<2>& w) {
   const int j = next(i);
   for (const int k : {i, j}) {
-    if (place(k) == w.p) {
+    if (place(k) == w) {
       replaces_ = k;
       return false;
     }
   }
-  return predicates::incircle_perturbed(v_->p, place(i), place(j), w.p) > 0;
+  return predicates::incircle_perturbed(v_->p, place(i), place(j), w) > 0;
+}
+
+bool VoronoiCell::enters(const Point<2>& corner, double side, double margin) const noexcept {
+  const double x0 = corner[0] - margin;
+  const double y0 = corner[1] - margin;
+  const double x1 = corner[0] + side + margin;
+  const double y1 = corner[1] + side + margin;
+  if (x0 <= 0 && y0 <= 0 && x1 >= 0 && y1 >= 0) return true;  // v itself
+  for (std::size_t i = 0; i < index(size_); ++i) {
+    const double dx = std::max(std::max(x0 - qx_[i], qx_[i] - x1), 0.0);
+    const double dy = std::max(std::max(y0 - qy_[i], qy_[i] - y1), 0.0);
+    if (dx * dx + dy * dy <= q2_[i] * (1 + 0x1p-30)) return true;
+  }
+  return false;
+}
+
+// max w.q over the corners.
+double VoronoiCell::largest_projection() const noexcept {
+  const double* x = qx_.data();
+  const double* y = qy_.data();
+  double a = wx_ * x[0] + wy_ * y[0];
+  double b = a;
+  int i = 1;
+  for (; i + 1 < size_; i += 2) {
+    a = std::max(a, wx_ * x[i] + wy_ * y[i]);
+    b = std::max(b, wx_ * x[i + 1] + wy_ * y[i + 1]);
+  }
+  if (i < size_) a = std::max(a, wx_ * x[i] + wy_ * y[i]);
+  return std::max(a, b);
 }
 
 // Finds the run of corners that w takes; by convexity there is one run.
-bool VoronoiCell::find_cut(const Vertex<2>& w) {
-  wx_ = w.p[0] - v_->p[0];
-  wy_ = w.p[1] - v_->p[1];
+bool VoronoiCell::find_cut(const Point<2>& w) {
+  w_ = w;
+  wx_ = w[0] - v_->p[0];
+  wy_ = w[1] - v_->p[1];
   replaces_ = -1;
   run_count_ = 0;
   const double w2 = wx_ * wx_ + wy_ * wy_;
+  if (largest_projection() < w2 / 2 - error_) return false;  // most vertices end here
   const double length = std::sqrt(w2);
-  bool any = false;
-  for (std::size_t i = 0; i < index(size_); ++i) {
-    value_[i] = 2 * (wx_ * qx_[i] + wy_ * qy_[i]) - w2;
-    any |= value_[i] > -tolerance_[i] * length;
-  }
-  if (!any) return false;
   const auto nearer = [&](int i) {
-    const double value = value_[index(i)];
+    const double value = 2 * (wx_ * qx_[index(i)] + wy_ * qy_[index(i)]) - w2;
     const double error = tolerance_[index(i)] * length;
     if (value > error) return true;
     if (value < -error) return false;
@@ -136,9 +166,9 @@ bool VoronoiCell::find_cut(const Vertex<2>& w) {
   return true;
 }
 
-void VoronoiCell::cut(const Vertex<2>& w) {
+void VoronoiCell::cut(VertexHandle w) {
   if (replaces_ >= 0) {
-    handle_[index(replaces_)] = w.self;
+    handle_[index(replaces_)] = w;
     return;
   }
   insert_neighbour(run_first_, run_count_, w);
@@ -146,7 +176,7 @@ void VoronoiCell::cut(const Vertex<2>& w) {
 }
 
 // Corners first .. first + count - 1 go, and with them the neighbours between; w comes instead.
-void VoronoiCell::insert_neighbour(int first, int count, const Vertex<2>& w) {
+void VoronoiCell::insert_neighbour(int first, int count, VertexHandle w) {
   const int before = first;                         // u_first stays
   const int after = (first + count) % size_;        // u_{first+count} stays
   const int old_size = size_;
@@ -178,8 +208,8 @@ void VoronoiCell::insert_neighbour(int first, int count, const Vertex<2>& w) {
   const std::size_t k = index(at);
   ux_[k] = wx_;
   uy_[k] = wy_;
-  place_[k] = w.p;
-  handle_[k] = w.self;
+  place_[k] = w_;
+  handle_[k] = w;
   clip_[k] = 0;
   set_corner(at == 0 ? size_ - 1 : at - 1);
   set_corner(at);

@@ -31,9 +31,13 @@ class VoronoiCell {
   [[nodiscard]] bool in_reach(double distance2) const noexcept { return distance2 <= 4 * reach2_; }
 
   /// Whether w is nearer than v to some corner; of a virtual neighbour's place: whether it takes it.
-  [[nodiscard]] bool cuts(const Vertex<2>& w) { return find_cut(w); }
-  /// Cuts the cell by w. Requires: the last call was cuts(w), and it said true.
-  void cut(const Vertex<2>& w);
+  [[nodiscard]] bool cuts(const Point<2>& w) { return find_cut(w); }
+  /// Cuts the cell by the vertex w. Requires: the last call was cuts(its place), and it said true.
+  void cut(VertexHandle w);
+
+  /// Whether a gap ball reaches into the square [corner, corner + side]^2, relative to v, widened by
+  /// `margin` [L 4.3.3].
+  [[nodiscard]] bool enters(const Point<2>& corner, double side, double margin) const noexcept;
 
   [[nodiscard]] int size() const noexcept { return size_; }
   [[nodiscard]] bool real(int i) const noexcept { return handle_[index(i)] != 0; }
@@ -63,23 +67,26 @@ class VoronoiCell {
 
  private:
   static std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
-  bool find_cut(const Vertex<2>& w);
-  bool exactly_nearer(int i, const Vertex<2>& w);
+  [[nodiscard]] double largest_projection() const noexcept;
+  bool find_cut(const Point<2>& w);
+  bool exactly_nearer(int i, const Point<2>& w);
   void set_corner(int i);
-  void insert_neighbour(int first, int count, const Vertex<2>& w);
+  void insert_neighbour(int first, int count, VertexHandle w);
   void resize(int n);
   void update_reach();
 
   const Vertex<2>* v_ = nullptr;
   int size_ = 0;
   double reach2_ = 0;
+  double error_ = 0;
   // Of the candidate under test: its place relative to v, and the run of corners it takes.
+  Point<2> w_{};
   double wx_ = 0;
   double wy_ = 0;
   int run_first_ = 0;
   int run_count_ = 0;
   int replaces_ = -1;  // a virtual neighbour at the candidate's very place
-  std::vector<double> ux_, uy_, qx_, qy_, q2_, tolerance_, value_;
+  std::vector<double> ux_, uy_, qx_, qy_, q2_, tolerance_;
   std::vector<Point<2>> place_;
   std::vector<VertexHandle> handle_;
   std::vector<std::uint8_t> clip_;

@@ -280,7 +280,7 @@ std::size_t Agenda::bytes() const noexcept {
 void Agenda::check_invariants() const {
   const Call* previous = nullptr;
   for (const auto& [rank, calls] : classes_) {
-    calls.for_each([&](const Entry& entry) {
+    calls.for_each([&, rank = rank](const Entry& entry) {
       const Call& c = engine_.call(entry.call);
       SAC_INVARIANT(!c.has(Call::kDead | Call::kPending) && c.posts() > 0);
       SAC_INVARIANT(slot(c).rank == rank && slot(c).order == entry.order);
