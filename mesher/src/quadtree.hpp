@@ -108,7 +108,7 @@ class Quadtree {
   static double distance2(const Point<D>& rel, double side) {
     double d2 = 0;
     for (int i = 0; i < D; ++i) {
-      const double d = rel[i] > 0 ? rel[i] : rel[i] + side < 0 ? rel[i] + side : 0;
+      const double d = std::max(std::max(rel[i], -(rel[i] + side)), 0.0);
       d2 += d * d;
     }
     return d2;
@@ -128,6 +128,10 @@ class Quadtree {
     double inner = -1;  // cells wholly nearer than this were visited before
     double outer = 0;   // cells beyond this wait for the next shell
   };
+  static bool in_shell(const Step& s, const Search& search) {
+    return distance2(s.rel, s.side) <= search.outer * search.outer &&
+           (search.inner <= 0 || farthest2(s.rel, s.side) >= search.inner * search.inner);
+  }
   void find_path(const Point<D>& center, Search& search) const;
   template <class Enters, class Visit>
   void visit_shell(const Search& search, Enters&& enters, Visit&& visit) const;
@@ -316,8 +320,6 @@ void Quadtree<D>::descend(const Step& from, const Search& search, Enters&& enter
   stack[top++] = from;
   while (top > 0) {
     const Step s = stack[--top];
-    if (distance2(s.rel, s.side) > search.outer * search.outer) continue;
-    if (search.inner > 0 && farthest2(s.rel, s.side) < search.inner * search.inner) continue;
     if (!enters(s.rel, s.side)) continue;
     const NodeIndex child = nodes_[s.node].child;
     if (child == 0) {
@@ -329,10 +331,11 @@ void Quadtree<D>::descend(const Step& from, const Search& search, Enters&& enter
     for (int i = 0; i < D; ++i) near |= (s.rel[i] + half <= 0 ? 1 : 0) << i;
     for (int k = kChildren - 1; k >= 0; --k) {
       const int c = near ^ k;
-      Step& t = stack[top++];
+      Step& t = stack[top];
       t.node = child + static_cast<NodeIndex>(c);
       t.side = half;
       for (int i = 0; i < D; ++i) t.rel[i] = s.rel[i] + ((c >> i & 1) != 0 ? half : 0);
+      top += in_shell(t, search) ? 1 : 0;
     }
   }
 }
@@ -370,7 +373,7 @@ void Quadtree<D>::visit_shell(const Search& search, Enters&& enters, Visit&& vis
       const int other = c ^ k;
       Step t{first + static_cast<NodeIndex>(other), up.rel, own.side};
       for (int i = 0; i < D; ++i) t.rel[i] += (other >> i & 1) != 0 ? own.side : 0;
-      descend(t, search, enters, visit);
+      if (in_shell(t, search)) descend(t, search, enters, visit);
     }
   }
 }

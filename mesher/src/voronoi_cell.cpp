@@ -25,24 +25,24 @@ Point<2> clip_place(const Point<2>& v, double radius, std::size_t i) {
 }
 
 struct Corner {
-  double x, y, tolerance;
+  double x, y, length2, tolerance2;
 };
 
-// The circumcentre of (0, a, b), and a bound on the error of 2 w.q in units of |w|.
+// The circumcentre q of (0, a, b), and the square of a bound on the error of 2 w.q in units of |w|.
 // With k = |a||b|/|a x b| and eps = 2^-53, rounding in the numerators is at most
 // 4 eps k (|a| + |b|), in the denominator 4 eps k |q|, and the rounded a, b move q by as much
 // again; |a|, |b| <= 2|q|. So the error of q is below 40 eps k |q|, that of 2 w.q below
-// 80 eps k |q| |w|, and that of the sum and of |w|^2 below 16 eps |q| |w| since a corner is only
-// asked about |w| <= 2 max|q|. 256 eps k |q| is three times that.
+// 80 eps k |q| |w|, and that of the sum and of |w|^2 below 16 eps |q| |w| where |w| <= 4|q| (beyond,
+// 2 w.q - |w|^2 <= -|w|^2 / 2 is clear). 256 eps k |q| is more than twice that.
 Corner circumcentre(double ax, double ay, double bx, double by) {
   const double a2 = ax * ax + ay * ay;
   const double b2 = bx * bx + by * by;
-  const double cross = ax * by - ay * bx;
-  const double d = 0.5 / cross;
+  const double d = 0.5 / (ax * by - ay * bx);
   const double x = (a2 * by - b2 * ay) * d;
   const double y = (b2 * ax - a2 * bx) * d;
-  const double k = std::sqrt(a2 * b2) / std::abs(cross);
-  return {x, y, 256 * 0x1p-53 * k * std::sqrt(x * x + y * y)};
+  const double q2 = x * x + y * y;
+  constexpr double kBound = 2 * 256 * 0x1p-53;  // k = 2 |a||b||d|
+  return {x, y, q2, kBound * kBound * (a2 * d) * (b2 * d) * q2};
 }
 
 }  // namespace
@@ -51,7 +51,9 @@ void VoronoiCell::resize(int n) {
   size_ = n;
   if (ux_.size() >= index(n)) return;
   const std::size_t room = 2 * index(n);
-  for (auto* column : {&ux_, &uy_, &qx_, &qy_, &q2_, &tolerance_}) column->resize(room);
+  for (auto* column : {&ux_, &uy_, &qx_, &qy_, &q2_, &tolerance2_}) {
+    column->resize(room);
+  }
   place_.resize(room);
   handle_.resize(room);
   clip_.resize(room);
@@ -77,19 +79,19 @@ void VoronoiCell::set_corner(int i) {
   const Corner c = circumcentre(ux_[a], uy_[a], ux_[b], uy_[b]);
   qx_[a] = c.x;
   qy_[a] = c.y;
-  q2_[a] = c.x * c.x + c.y * c.y;
-  tolerance_[a] = c.tolerance;
+  q2_[a] = c.length2;
+  tolerance2_[a] = c.tolerance2;
 }
 
 void VoronoiCell::update_reach() {
   reach2_ = 0;
-  double tolerance = 0;
+  double tolerance2 = 0;
   for (std::size_t i = 0; i < index(size_); ++i) {
     reach2_ = std::max(reach2_, q2_[i]);
-    tolerance = std::max(tolerance, tolerance_[i]);
+    tolerance2 = std::max(tolerance2, tolerance2_[i]);
   }
   reach2_ *= 1 + 0x1p-30;  // so that rounding never leaves out a vertex that cuts
-  error_ = tolerance * std::sqrt(reach2_) * 1.01;  // half of 2 w.q's error, for any w in reach
+  error_ = std::sqrt(tolerance2 * reach2_) * 1.01;  // half of 2 w.q's error, for any w in reach
 }
 
 bool VoronoiCell::exactly_nearer(int i, const Point<2>& w) {
@@ -141,12 +143,9 @@ bool VoronoiCell::find_cut(const Point<2>& w) {
   run_count_ = 0;
   const double w2 = wx_ * wx_ + wy_ * wy_;
   if (largest_projection() < w2 / 2 - error_) return false;  // most vertices end here
-  const double length = std::sqrt(w2);
   const auto nearer = [&](int i) {
     const double value = 2 * (wx_ * qx_[index(i)] + wy_ * qy_[index(i)]) - w2;
-    const double error = tolerance_[index(i)] * length;
-    if (value > error) return true;
-    if (value < -error) return false;
+    if (value * value > tolerance2_[index(i)] * w2) return value > 0;
     return exactly_nearer(i, w);
   };
   int seed = -1;
@@ -175,6 +174,27 @@ void VoronoiCell::cut(VertexHandle w) {
   update_reach();
 }
 
+void VoronoiCell::move_entries(int from, int to, int n) {
+  const auto copy = [&](int i, int j) {
+    const std::size_t a = index(i);
+    const std::size_t b = index(j);
+    ux_[b] = ux_[a];
+    uy_[b] = uy_[a];
+    qx_[b] = qx_[a];
+    qy_[b] = qy_[a];
+    q2_[b] = q2_[a];
+    tolerance2_[b] = tolerance2_[a];
+    place_[b] = place_[a];
+    handle_[b] = handle_[a];
+    clip_[b] = clip_[a];
+  };
+  if (from > to) {
+    for (int i = 0; i < n; ++i) copy(from + i, to + i);
+  } else if (from < to) {
+    for (int i = n - 1; i >= 0; --i) copy(from + i, to + i);
+  }
+}
+
 // Corners first .. first + count - 1 go, and with them the neighbours between; w comes instead.
 void VoronoiCell::insert_neighbour(int first, int count, VertexHandle w) {
   const int before = first;                         // u_first stays
@@ -182,27 +202,14 @@ void VoronoiCell::insert_neighbour(int first, int count, VertexHandle w) {
   const int old_size = size_;
   const int fresh_size = size_ - count + 2;         // count - 1 neighbours go, one comes
   int at;                                           // where w goes
-  const auto move = [&](int from, int to, int n) {
-    const auto shift = [&](auto& column) {
-      if (from < to) {
-        std::copy_backward(column.begin() + from, column.begin() + from + n, column.begin() + to + n);
-      } else if (from > to) {
-        std::copy(column.begin() + from, column.begin() + from + n, column.begin() + to);
-      }
-    };
-    for (auto* column : {&ux_, &uy_, &qx_, &qy_, &q2_, &tolerance_}) shift(*column);
-    shift(place_);
-    shift(handle_);
-    shift(clip_);
-  };
   resize(std::max(fresh_size, old_size));
   size_ = fresh_size;
   if (after > before || after == 0) {
     const int end = after == 0 ? old_size : after;
-    move(end, before + 2, old_size - end);
+    move_entries(end, before + 2, old_size - end);
     at = before + 1;
   } else {  // the run wraps around: what stays is after .. before
-    move(after, 0, before - after + 1);
+    move_entries(after, 0, before - after + 1);
     at = before - after + 1;
   }
   const std::size_t k = index(at);
@@ -220,7 +227,6 @@ bool VoronoiCell::may_cut(const VertexPool<2>& pool, const Vertex<2>& v, double 
   const double wx = p[0] - v.p[0];
   const double wy = p[1] - v.p[1];
   const double w2 = wx * wx + wy * wy;
-  const double length = std::sqrt(w2);
   const auto neighbour = [&](int i) -> Point<2> {
     const std::uint32_t h = handles[i];
     const Point<2> place = h >= kVirtual ? clip_place(v.p, radius, h & 0xff) : pool[h].p;
@@ -230,7 +236,8 @@ bool VoronoiCell::may_cut(const VertexPool<2>& pool, const Vertex<2>& v, double 
   for (int i = 0; i < m; ++i) {
     const Point<2> b = neighbour(i);
     const Corner q = circumcentre(a[0], a[1], b[0], b[1]);
-    if (2 * (wx * q.x + wy * q.y) - w2 >= -q.tolerance * length) return true;
+    const double value = 2 * (wx * q.x + wy * q.y) - w2;
+    if (value >= 0 || !(value * value > q.tolerance2 * w2)) return true;
     a = b;
   }
   return false;

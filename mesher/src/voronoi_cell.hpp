@@ -71,6 +71,7 @@ class VoronoiCell {
   bool find_cut(const Point<2>& w);
   bool exactly_nearer(int i, const Point<2>& w);
   void set_corner(int i);
+  void move_entries(int from, int to, int n);
   void insert_neighbour(int first, int count, VertexHandle w);
   void resize(int n);
   void update_reach();
@@ -86,7 +87,7 @@ class VoronoiCell {
   int run_first_ = 0;
   int run_count_ = 0;
   int replaces_ = -1;  // a virtual neighbour at the candidate's very place
-  std::vector<double> ux_, uy_, qx_, qy_, q2_, tolerance_;
+  std::vector<double> ux_, uy_, qx_, qy_, q2_, tolerance2_;
   std::vector<Point<2>> place_;
   std::vector<VertexHandle> handle_;
   std::vector<std::uint8_t> clip_;
