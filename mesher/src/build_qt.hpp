@@ -14,10 +14,11 @@
 
 namespace mesher::detail {
 
-#ifndef COARSER
-#define COARSER 2
-#endif
-inline constexpr int kCoarser = COARSER;
+// Cells are split this many levels less deep than crowding asks for: a leaf then holds a handful of
+// mesh vertices instead of a twentieth of one. Measured (uniform 10^5 points, static run): 0 levels
+// 4.6 s, 1 2.6 s, 2 2.3 s, 3 1.5 s, 4 1.2 s, 5 1.0 s; on a grid 5 is a quarter slower than 4, since
+// a leaf may hold 16^2 times more vertices for each two levels.
+inline constexpr int kCoarser = 4;
 
 struct Split {
   static constexpr std::string_view kName = "split";

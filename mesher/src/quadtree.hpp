@@ -80,10 +80,7 @@ class Quadtree {
     [[nodiscard]] bool marked() const noexcept { return parent_and_mark >> 31 != 0; }
   };
   // The first shell's radius, in sides of the center's leaf.
-  #ifndef SHELL
-#define SHELL 1
-#endif
-  static constexpr double kFirstShell = SHELL;
+  static constexpr double kFirstShell = 2;
 
   struct Step {
     NodeIndex node;
