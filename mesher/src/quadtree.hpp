@@ -324,15 +324,31 @@ void Quadtree<D>::descend(const Step& from, const Search& search, Enters&& enter
       continue;
     }
     const double half = s.side / 2;
-    int near = 0;
-    for (int i = 0; i < D; ++i) near |= (s.rel[i] + half <= 0 ? 1 : 0) << i;
+    // Per axis and half of the cell: squared distance to the near and to the far side.
+    std::array<std::array<double, 2>, D> near2;
+    std::array<std::array<double, 2>, D> far2;
+    int nearest = 0;
+    for (int i = 0; i < D; ++i) {
+      const double low = s.rel[i];
+      const double middle = low + half;
+      const double high = middle + half;
+      const auto square = [](double x) { return x * x; };
+      near2[i] = {square(std::max(std::max(low, -middle), 0.0)),
+                  square(std::max(std::max(middle, -high), 0.0))};
+      far2[i] = {square(std::max(-low, middle)), square(std::max(-middle, high))};
+      nearest |= (middle <= 0 ? 1 : 0) << i;
+    }
     for (int k = kChildren - 1; k >= 0; --k) {
-      const int c = near ^ k;
-      Step& t = stack[top];
+      const int c = nearest ^ k;
+      double n2 = 0;
+      double f2 = 0;
+      for (int i = 0; i < D; ++i) n2 += near2[i][c >> i & 1], f2 += far2[i][c >> i & 1];
+      if (n2 > search.outer * search.outer) continue;
+      if (search.inner > 0 && f2 < search.inner * search.inner) continue;
+      Step& t = stack[top++];
       t.node = child + static_cast<NodeIndex>(c);
       t.side = half;
       for (int i = 0; i < D; ++i) t.rel[i] = s.rel[i] + ((c >> i & 1) != 0 ? half : 0);
-      top += in_shell(t, search) ? 1 : 0;
     }
   }
 }

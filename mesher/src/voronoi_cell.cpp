@@ -105,20 +105,6 @@ bool VoronoiCell::exactly_nearer(int i, const Point<2>& w) {
   return predicates::incircle_perturbed(v_->p, place(i), place(j), w) > 0;
 }
 
-bool VoronoiCell::enters(const Point<2>& corner, double side, double margin) const noexcept {
-  const double x0 = corner[0] - margin;
-  const double y0 = corner[1] - margin;
-  const double x1 = corner[0] + side + margin;
-  const double y1 = corner[1] + side + margin;
-  if (x0 <= 0 && y0 <= 0 && x1 >= 0 && y1 >= 0) return true;  // v itself
-  for (std::size_t i = 0; i < index(size_); ++i) {
-    const double dx = std::max(std::max(x0 - qx_[i], qx_[i] - x1), 0.0);
-    const double dy = std::max(std::max(y0 - qy_[i], qy_[i] - y1), 0.0);
-    if (dx * dx + dy * dy <= q2_[i] * (1 + 0x1p-30)) return true;
-  }
-  return false;
-}
-
 // max w.q over the corners.
 double VoronoiCell::largest_projection() const noexcept {
   const double* x = qx_.data();

@@ -12,6 +12,7 @@
 // on the order of cuts.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -92,5 +93,22 @@ class VoronoiCell {
   std::vector<VertexHandle> handle_;
   std::vector<std::uint8_t> clip_;
 };
+
+inline bool VoronoiCell::enters(const Point<2>& corner, double side, double margin) const noexcept {
+  const double x0 = corner[0] - margin;
+  const double y0 = corner[1] - margin;
+  const double x1 = corner[0] + side + margin;
+  const double y1 = corner[1] + side + margin;
+  if (x0 <= 0 && y0 <= 0 && x1 >= 0 && y1 >= 0) return true;  // v itself
+  const double* qx = qx_.data();
+  const double* qy = qy_.data();
+  const double* q2 = q2_.data();
+  for (int i = 0; i < size_; ++i) {
+    const double dx = std::max(std::max(x0 - qx[i], qx[i] - x1), 0.0);
+    const double dy = std::max(std::max(y0 - qy[i], qy[i] - y1), 0.0);
+    if (dx * dx + dy * dy <= q2[i] * (1 + 0x1p-30)) return true;
+  }
+  return false;
+}
 
 }  // namespace mesher::detail

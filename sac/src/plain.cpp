@@ -3,14 +3,14 @@
 
 namespace sac {
 
-bool PlainAgenda::before(const Record* a, const Record* b) {
-  if (a->order != b->order) return a->order < b->order;
-  if (a->function != b->function) return a->function->name < b->function->name;
-  return operations(*a).order(*a, *b) < 0;
+bool PlainAgenda::before_in_tie(const Record& a, const Record& b) {
+  if (a.function != b.function) return a.function->name < b.function->name;
+  return operations(a).order(a, b) < 0;
 }
 
-bool PlainAgenda::same(const Record* a, const Record* b) {
-  return a->order == b->order && a->function == b->function && operations(*a).same(*a, *b);
+bool PlainAgenda::same(const Entry& a, const Entry& b) {
+  return a.order == b.order && a.record->function == b.record->function &&
+         operations(*a.record).same(*a.record, *b.record);
 }
 
 void PlainAgenda::drain(PlainScope& s) {
@@ -28,15 +28,15 @@ void PlainAgenda::drain(PlainScope& s) {
 
 // What was posted before runs in order, merged with what these calls post into the same class.
 void PlainAgenda::run_class(PlainScope& s, Class& c) {
-  const auto later = [](const Record* a, const Record* b) { return before(b, a); };
-  std::vector<Record*> batch = std::move(c.records);
+  const auto later = [](const Entry& a, const Entry& b) { return before(b, a); };
+  std::vector<Entry> batch = std::move(c.records);
   c.records.clear();
-  std::sort(batch.begin(), batch.end(), before);
-  std::vector<Record*> late;  // a heap
-  const Record* previous = nullptr;
+  std::sort(batch.begin(), batch.end(), [](const Entry& a, const Entry& b) { return before(a, b); });
+  std::vector<Entry> late;  // a heap
+  Entry previous{0, nullptr};
   for (std::size_t i = 0; i < batch.size() || !late.empty();) {
     const bool from_late = i == batch.size() || (!late.empty() && before(late.front(), batch[i]));
-    const Record* next;
+    Entry next;
     if (from_late) {
       std::pop_heap(late.begin(), late.end(), later);
       next = late.back();
@@ -44,12 +44,12 @@ void PlainAgenda::run_class(PlainScope& s, Class& c) {
     } else {
       next = batch[i++];
     }
-    if (previous != nullptr && same(previous, next)) continue;
-    if (previous != nullptr && before(next, previous)) throw UsageError("posting into the past");
+    if (previous.record != nullptr && same(previous, next)) continue;
+    if (previous.record != nullptr && before(next, previous)) throw UsageError("posting into the past");
     previous = next;
-    operations(*next).run(s, *next);
+    operations(*next.record).run(s, *next.record);
     s.run_tails();
-    for (Record* r : c.records) {
+    for (const Entry& r : c.records) {
       late.push_back(r);
       std::push_heap(late.begin(), late.end(), later);
     }

@@ -58,7 +58,10 @@ class PlainAgenda {
  private:
   struct Record {
     const Function* function;
+  };
+  struct Entry {
     std::uint64_t order;
+    Record* record;
   };
   template <class Tuple>
   struct TypedRecord : Record {
@@ -66,7 +69,7 @@ class PlainAgenda {
   };
   // The posts of one (bucket, phase, colour), with the memory they lie in.
   struct Class {
-    std::vector<Record*> records;
+    std::vector<Entry> records;
     std::vector<std::unique_ptr<std::byte[]>> blocks;
     std::size_t used = kBlock;
   };
@@ -105,8 +108,11 @@ class PlainAgenda {
   static const Operations& operations(const Record& r) {
     return static_cast<const Operations&>(*r.function);
   }
-  static bool before(const Record* a, const Record* b);
-  static bool same(const Record* a, const Record* b);
+  static bool before(const Entry& a, const Entry& b) {
+    return a.order != b.order ? a.order < b.order : before_in_tie(*a.record, *b.record);
+  }
+  static bool before_in_tie(const Record& a, const Record& b);
+  static bool same(const Entry& a, const Entry& b);
 
   template <auto F, class Tuple>
   void add(const Key& key, Tuple&& args) {
@@ -125,8 +131,8 @@ class PlainAgenda {
     }
     void* memory = c.blocks.back().get() + c.used;
     c.used += bytes;
-    c.records.push_back(::new (memory) Typed{
-        {&kOperations<F, std::decay_t<Tuple>>, key.order}, std::forward<Tuple>(args)});
+    c.records.push_back({key.order, ::new (memory) Typed{{&kOperations<F, std::decay_t<Tuple>>},
+                                                          std::forward<Tuple>(args)}});
   }
 
   void run_class(PlainScope& s, Class& c);
