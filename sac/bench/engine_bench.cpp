@@ -1,0 +1,217 @@
+// The engine alone: time stamps, reads, calls, and a list map.
+//
+//   engine_bench [N]         default 1000000
+//
+// One JSON line per figure, medians of 5 rounds:
+//   timeline_append/hotspot/random   nanoseconds per insertion
+//   compare_local/random             nanoseconds per comparison
+//   read                             nanoseconds per read in a first run
+//   call                             nanoseconds per call in a first run
+//   list_map                         from scratch; one insertion or deletion; bytes per element
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <vector>
+
+#include "sac/sac.hpp"
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double nanoseconds(const std::function<void()>& body) {
+  const auto start = Clock::now();
+  body();
+  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+}
+
+double median(std::vector<double> x) {
+  std::sort(x.begin(), x.end());
+  return x[x.size() / 2];
+}
+
+void print(const char* figure, std::size_t n, const char* unit, double value) {
+  std::printf("{\"bench\":\"engine\",\"figure\":\"%s\",\"n\":%zu,\"%s\":%.2f}\n", figure, n, unit,
+              value);
+}
+
+struct Random {
+  std::uint64_t state = 1;
+  std::uint64_t next() { return sac::mix(state += 0x9e3779b97f4a7c15u); }
+};
+
+volatile std::uint64_t sink;
+
+// --- Time stamps -----------------------------------------------------------------------------
+
+struct Stamps {
+  sac::Arena arena;
+  sac::Timeline timeline{arena};
+  std::vector<sac::Handle> nodes;
+
+  sac::Handle fresh() {
+    const sac::Handle h = arena.allocate(sizeof(sac::TimeNode));
+    *arena.at<sac::TimeNode>(h) = {};
+    return h;
+  }
+  void insert_after(sac::Handle place) {
+    const sac::Handle h = fresh();
+    timeline.insert_after(place, h);
+    nodes.push_back(h);
+  }
+};
+
+void bench_timeline(std::size_t n) {
+  std::vector<double> append, hotspot, random, local, far;
+  for (int round = 0; round < 5; ++round) {
+    Stamps s;
+    s.nodes.reserve(2 * n);
+    append.push_back(nanoseconds([&] {
+      for (std::size_t i = 0; i < n; ++i) s.insert_after(s.timeline.back());
+    }));
+    Random r;
+    std::vector<std::uint32_t> picks(n);
+    for (auto& p : picks) p = static_cast<std::uint32_t>(r.next() % n);
+    const auto less = [&](std::size_t a, std::size_t b) {
+      return s.timeline.precedes(*s.arena.at<sac::TimeNode>(s.nodes[a]),
+                                 *s.arena.at<sac::TimeNode>(s.nodes[b]));
+    };
+    local.push_back(nanoseconds([&] {
+      std::uint64_t count = 0;
+      for (std::size_t i = 0; i + 8 < n; ++i) count += less(i, i + 7) ? 1 : 0;
+      sink = count;
+    }));
+    far.push_back(nanoseconds([&] {
+      std::uint64_t count = 0;
+      for (std::size_t i = 0; i + 1 < n; ++i) count += less(picks[i], picks[i + 1]) ? 1 : 0;
+      sink = count;
+    }));
+    random.push_back(nanoseconds([&] {
+      for (std::size_t i = 0; i < n; ++i) s.insert_after(s.nodes[picks[i]]);
+    }));
+    Stamps h;
+    h.nodes.reserve(n);
+    const sac::Handle place = h.timeline.front();
+    hotspot.push_back(nanoseconds([&] {
+      for (std::size_t i = 0; i < n; ++i) h.insert_after(place);
+    }));
+  }
+  const auto per = [&](const std::vector<double>& x) { return median(x) / static_cast<double>(n); };
+  print("timeline_append", n, "ns", per(append));
+  print("timeline_hotspot", n, "ns", per(hotspot));
+  print("timeline_random", n, "ns", per(random));
+  print("compare_local", n, "ns", per(local));
+  print("compare_random", n, "ns", per(far));
+}
+
+// --- Calls and reads -------------------------------------------------------------------------
+
+struct Nothing {
+  static constexpr std::string_view kName = "nothing";
+  void operator()(sac::Scope&, std::uint64_t) const {}
+};
+inline constexpr Nothing nothing{};
+
+struct ManyCalls {
+  static constexpr std::string_view kName = "many_calls";
+  void operator()(sac::Scope& s, std::uint64_t n) const {
+    for (std::uint64_t i = 0; i < n; ++i) s.call<nothing>(i);
+  }
+};
+inline constexpr ManyCalls many_calls{};
+
+struct ManyReads {
+  static constexpr std::string_view kName = "many_reads";
+  void operator()(sac::Scope& s, const std::vector<sac::Mod<std::uint64_t>>* mods) const {
+    std::uint64_t sum = 0;
+    for (const auto m : *mods) sum += s.read(m);
+    sink = sum;
+  }
+};
+inline constexpr ManyReads many_reads{};
+
+void bench_calls(std::size_t n) {
+  std::vector<double> calls, reads;
+  double bytes = 0;
+  for (int round = 0; round < 5; ++round) {
+    sac::Engine e;
+    const std::size_t before = e.bytes();
+    calls.push_back(nanoseconds([&] { e.run<many_calls>(std::uint64_t{n}); }));
+    bytes = static_cast<double>(e.bytes() - before) / static_cast<double>(n);
+    sac::Engine f;
+    std::vector<sac::Mod<std::uint64_t>> mods;
+    for (std::size_t i = 0; i < n; ++i) mods.push_back(f.input<std::uint64_t>(i));
+    const auto* all = &mods;
+    reads.push_back(nanoseconds([&] { f.run<many_reads>(all); }));
+  }
+  print("call", n, "ns", median(calls) / static_cast<double>(n));
+  print("call", n, "bytes_with_argument", bytes);
+  print("read", n, "ns", median(reads) / static_cast<double>(n));
+}
+
+// --- A list map ------------------------------------------------------------------------------
+
+struct Node {
+  std::uint64_t value = 0;
+  sac::Mod<Node*> next;
+};
+
+struct MapList {
+  static constexpr std::string_view kName = "map_list";
+  void operator()(sac::Scope& s, sac::Mod<Node*> in, sac::Mod<Node*> out) const;
+};
+inline constexpr MapList map_list{};
+
+void MapList::operator()(sac::Scope& s, sac::Mod<Node*> in, sac::Mod<Node*> out) const {
+  const Node* cell = s.read(in);
+  if (cell == nullptr) return s.write(out, static_cast<Node*>(nullptr));
+  Node& copy = s.make<Node>(cell);
+  copy.value = cell->value / 3 + cell->value / 7 + cell->value / 9;
+  copy.next = s.cell<Node*>(cell);
+  s.write(out, &copy);
+  s.tail<map_list>(cell->next, copy.next);
+}
+
+void bench_list_map(std::size_t n) {
+  sac::Engine e;
+  std::vector<Node> nodes(n);
+  for (std::size_t i = n; i-- > 0;) {
+    nodes[i].value = sac::mix(i);
+    nodes[i].next = e.input<Node*>(i + 1 < n ? &nodes[i + 1] : nullptr);
+  }
+  const auto head = e.input<Node*>(&nodes[0]);
+  const auto out = e.cell<Node*>();
+  const std::size_t before = e.bytes();
+  const double scratch = nanoseconds([&] { e.run<map_list>(head, out); });
+  print("list_map_from_scratch", n, "ms", scratch / 1e6);
+  print("list_map", n, "bytes_per_element",
+        static_cast<double>(e.bytes() - before) / static_cast<double>(n));
+  Random r;
+  std::vector<double> updates;
+  for (int k = 0; k < 20000; ++k) {
+    Node& at = nodes[r.next() % (n - 2)];
+    Node* const next = e.get(at.next);
+    if (next == nullptr) continue;
+    updates.push_back(nanoseconds([&] {  // take one element out
+      e.set(at.next, e.get(next->next));
+      e.propagate();
+    }));
+    updates.push_back(nanoseconds([&] {  // and put it back
+      e.set(at.next, next);
+      e.propagate();
+    }));
+  }
+  print("list_map_update", n, "us", median(updates) / 1e3);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::size_t n = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000000;
+  bench_timeline(n);
+  bench_calls(n);
+  bench_list_map(n);
+}
