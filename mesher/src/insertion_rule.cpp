@@ -136,10 +136,15 @@ std::optional<InsertionRule::NewPoint> InsertionRule::farthest_corner(const Voro
   for (int i = 0; i < cell.size(); ++i) {
     if (cell.real(i)) nearest2 = std::min(nearest2, squared(cell.neighbour(i)));
   }
-  double farthest2 = rho2_ * nearest2;
+  double farthest2 = 0;
   std::optional<NewPoint> point;
   for (int i = 0; i < cell.size(); ++i) {
-    if (cell.corner2(i) < farthest2 || cell.corner2(i) <= rho2_ * nearest2) continue;
+    const int j = cell.next(i);
+    double shortest2 = nearest2;
+    if (cell.real(i) && cell.real(j)) {
+      shortest2 = std::min(shortest2, squared_distance(cell.place(i), cell.place(j)));
+    }
+    if (cell.corner2(i) < farthest2 || cell.corner2(i) <= rho2_ * shortest2) continue;
     const Point<2> x = plus(cell.center().p, cell.corner(i));
     if (point.has_value() && cell.corner2(i) == farthest2 && point->p < x) continue;
     farthest2 = cell.corner2(i);

@@ -8,7 +8,9 @@
 //   triangle on each visible edge beside it, of larger circumradius than any bound of the bucket.
 //   The new vertex lies on the bisector of the shortest edge, as high as a circumradius of rho times
 //   that edge allows (the off-centre [Ungor 2004]), or at the circumcentre if that is lower.
-// voronoi_aspect [Def 4.2.3]. While the farthest corner is beyond rho NN(v), insert it.
+// voronoi_aspect [Def 4.2.3]. While a corner is beyond rho NN(v), insert the farthest. A corner
+//   between neighbours nearer to each other than NN(v) is measured by their distance: they are
+//   incomplete by it, and those on the boundary grid have no event of their own.
 #pragma once
 
 #include <optional>
