@@ -21,17 +21,25 @@ inline constexpr Star star{};
 [[nodiscard]] inline sac::Key star_key(const Fixed<2>& f) { return {.order = morton<2>(f)}; }
 
 /// Calls emit(triangle) for each triangle of v's star that v outputs: its corners counterclockwise,
-/// v first. `ring`: the m neighbours of v counterclockwise; virtual ones bound nothing.
+/// v first. v has m neighbours, counterclockwise: code(i) is a handle or a virtual neighbour, which
+/// bounds nothing; place(i) is asked of handles only.
+template <class Code, class Place, class Emit>
+void for_each_own_triangle(const Vertex<2>& v, int m, Code&& code, Place&& place, Emit&& emit) {
+  const auto later = [&](int i) {
+    return code(i) < VoronoiCell::kVirtual && v.p < place(i);
+  };
+  for (int i = 0; i < m; ++i) {
+    const int j = i + 1 == m ? 0 : i + 1;
+    if (later(i) && later(j)) emit(std::array<VertexHandle, 3>{v.self, code(i), code(j)});
+  }
+}
+
+/// The same for a recorded star.
 template <class Emit>
 void for_each_own_triangle(const VertexPool<2>& pool, const Vertex<2>& v,
                            const std::uint32_t* ring, int m, Emit&& emit) {
-  for (int i = 0; i < m; ++i) {
-    const std::uint32_t a = ring[i];
-    const std::uint32_t b = ring[i + 1 == m ? 0 : i + 1];
-    if (a >= VoronoiCell::kVirtual || b >= VoronoiCell::kVirtual) continue;
-    if (pool[a].p < v.p || pool[b].p < v.p) continue;
-    emit(std::array<VertexHandle, 3>{v.self, a, b});
-  }
+  for_each_own_triangle(
+      v, m, [&](int i) { return ring[i]; }, [&](int i) { return pool[ring[i]].p; }, emit);
 }
 
 }  // namespace mesher::detail

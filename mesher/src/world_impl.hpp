@@ -43,10 +43,10 @@ void World<S>::post_star(S& s, VertexRef<2> v) {
 template <class S>
 void World<S>::output(S&, VertexRef<2> v, const VoronoiCell& cell) {
   if constexpr (!S::kTraced) {
-    std::vector<std::uint32_t> ring;
-    for (int i = 0; i < cell.size(); ++i) ring.push_back(cell.code(i));
-    for_each_own_triangle(vertices.pool(), *v, ring.data(), cell.size(),
-                          [&](const auto& t) { plain.triangles.push_back(t); });
+    for_each_own_triangle(
+        *v, cell.size(), [&](int i) { return cell.code(i); },
+        [&](int i) -> const Point<2>& { return cell.place(i); },
+        [&](const auto& t) { plain.triangles.push_back(t); });
   } else {
     (void)v, (void)cell;
   }
