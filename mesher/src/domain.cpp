@@ -11,8 +11,8 @@ namespace {
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::bad_option, what); }
 
 void check(const Options<2>& options) {
-  if (!(options.rho >= 1.05) || !(options.rho <= 100)) {
-    refuse("rho is " + std::to_string(options.rho) + ", it must be between 1.05 and 100");
+  if (!(options.rho > 1.01) || !(options.rho <= 100)) {
+    refuse("rho is " + std::to_string(options.rho) + ", it must be above 1.01 and at most 100");
   }
   for (int i = 0; i < 2; ++i) {
     const double lo = options.domain.lo[i];
