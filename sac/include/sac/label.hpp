@@ -3,19 +3,35 @@
 // The label of a call is (function, arguments). An argument type needs ==; a hash is found by
 // `hash_value(const T&)` (argument-dependent) or std::hash; order (agendas only) by <=>; print by
 // operator<<, else only the type's size is shown.
+//
+// To compare traces of different runs a label needs a name that is the same in all of them, which
+// neither the hash nor the print of a handle is. print_arguments() on a LabelStream gives that name
+// to a LabelSink instead of text to people. An argument's name is the first of these that applies:
+//   (1) what `label_bytes(LabelSink&, const T&)` (argument-dependent) says;
+//   (2) the value of a number, an enumerator or a string;
+//   (3) the object that a pointer points to, which the sink must know by name;
+//   (4) what operator<< prints, with all digits; hence (1) is needed for a type of one's own that
+//       prints a handle or an address;
+//   (5) the names of the elements of a tuple or range;
+//   (6) nothing: the sink is told so.
 #pragma once
 
+#include <bit>
 #include <compare>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <ostream>
+#include <ranges>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
 
 namespace sac {
+
+template <class T>
+class Mod;
 
 /// Mixes 64 bits so that every input bit reaches every output bit (finaliser of splitmix64).
 [[nodiscard]] constexpr std::uint64_t mix(std::uint64_t x) noexcept {
@@ -58,8 +74,95 @@ void print_argument(std::ostream& out, const T& value) {
   }
 }
 
+/// Takes the name of an argument: equal names in equal order for equal arguments of any two runs.
+class LabelSink {
+ public:
+  virtual void number(std::uint64_t value) = 0;
+  virtual void text(std::string_view value) = 0;
+  /// An object in the engine's arena, by handle.
+  virtual void handle(std::uint32_t handle) = 0;
+  /// An object anywhere; null: none.
+  virtual void address(const void* object) = 0;
+  /// Text of unknown length: what is printed to print_begin() until print_end().
+  virtual std::ostream& print_begin() = 0;
+  virtual void print_end() = 0;
+  /// The argument has no name; `hash` tells it from others in this run.
+  virtual void nameless(std::uint64_t hash) = 0;
+
+ protected:
+  ~LabelSink() = default;
+};
+
+/// A stream that takes the names of arguments, no text: see print_arguments.
+class LabelStream final : public std::ostream {
+ public:
+  explicit LabelStream(LabelSink& sink) : std::ostream(nullptr), sink_(sink) {}
+  [[nodiscard]] LabelSink& sink() const noexcept { return sink_; }
+
+ private:
+  LabelSink& sink_;
+};
+
+template <class T>
+void label_bytes(LabelSink& sink, const Mod<T>& mod) {
+  sink.handle(mod.head());
+}
+
+namespace detail {
+
+template <class T>
+concept NamedByItself = requires(LabelSink& sink, const T& value) { label_bytes(sink, value); };
+
+template <class T>
+concept SmartPointer = requires(const T& value) {
+  *value;
+  { value.get() } -> std::convertible_to<const void*>;
+};
+
+template <class T>
+concept TupleLike = requires { std::tuple_size<T>::value; };
+
+// -0.0 equals 0.0 and gets its name.
+inline std::uint64_t number_of(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }
+
+template <class T>
+void name_argument(LabelSink& sink, const T& value) {
+  if constexpr (NamedByItself<T>) {
+    label_bytes(sink, value);
+  } else if constexpr (std::is_integral_v<T> || std::is_enum_v<T>) {
+    sink.number(static_cast<std::uint64_t>(value));
+  } else if constexpr (std::is_same_v<T, float> || std::is_same_v<T, double>) {
+    sink.number(number_of(value));
+  } else if constexpr (std::is_same_v<T, const char*> || std::is_same_v<T, char*>) {
+    value != nullptr ? sink.text(value) : sink.address(nullptr);
+  } else if constexpr (std::is_convertible_v<const T&, std::string_view>) {
+    sink.text(value);
+  } else if constexpr (std::is_convertible_v<const T&, const void*>) {
+    sink.address(value);
+  } else if constexpr (SmartPointer<T>) {
+    sink.address(value.get());
+  } else if constexpr (Printable<T>) {
+    sink.print_begin() << value;
+    sink.print_end();
+  } else if constexpr (TupleLike<T>) {
+    std::apply([&](const auto&... part) { (name_argument(sink, part), ...); }, value);
+  } else if constexpr (std::ranges::sized_range<const T>) {
+    sink.number(std::ranges::size(value));
+    for (const auto& part : value) name_argument(sink, part);
+  } else {
+    sink.nameless(hash_argument(value));
+  }
+}
+
+}  // namespace detail
+
+/// `a, b, c` for people; on a LabelStream their names in all runs.
 template <class... Args>
 void print_arguments(std::ostream& out, const std::tuple<Args...>& args) {
+  if (auto* labels = dynamic_cast<LabelStream*>(&out)) {
+    std::apply([&](const auto&... a) { (detail::name_argument(labels->sink(), a), ...); }, args);
+    return;
+  }
   const char* separator = "";
   std::apply([&](const auto&... a) { ((out << separator, print_argument(out, a), separator = ", "), ...); },
              args);

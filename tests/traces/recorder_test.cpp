@@ -1,0 +1,183 @@
+#include "traces/recorder.hpp"
+
+#include <catch2/catch.hpp>
+#include <memory>
+#include <vector>
+
+#include "programs.hpp"
+#include "scratch_file.hpp"
+#include "traces/trace.hpp"
+#include "traces/trace_file.hpp"
+
+namespace {
+
+using support::ScratchFolder;
+
+struct Line {
+  std::uint32_t depth;
+  std::string label;
+  bool named;
+  traces::LabelHash hash;
+};
+
+std::vector<Line> lines_of(const std::string& path) {
+  std::vector<Line> lines;
+  traces::TraceReader reader(path);
+  while (const auto* call = reader.next()) {
+    lines.push_back({call->depth,
+                     traces::label_text(reader.functions()[call->function], call->arguments),
+                     call->named, call->hash});
+  }
+  return lines;
+}
+
+// Records f(args...) in an engine of its own; its lines.
+template <auto F, class... Args>
+std::vector<Line> recorded(Args... args) {
+  ScratchFolder folder;
+  sac::Engine engine;
+  engine.run<F>(args...);
+  traces::Recorder(engine).record(folder.path("t"));
+  return lines_of(folder.path("t"));
+}
+
+template <auto F, class... Args>
+traces::LabelHash hash_of(Args... args) {
+  const auto lines = recorded<F>(args...);
+  REQUIRE(lines.front().named);
+  return lines.front().hash;
+}
+
+void leaf(sac::Scope&, int) {}
+void tree(sac::Scope& s, int height) {
+  if (height == 0) return;
+  s.call<tree>(height - 1);
+  s.call<leaf>(height);
+}
+
+void take_real(sac::Scope&, double) {}
+void take_text(sac::Scope&, std::string) {}
+void take_c_text(sac::Scope&, const char*) {}
+
+// Prints its address, like a handle, and names itself by its id.
+struct Named {
+  int id;
+  const void* place;
+  friend bool operator==(const Named&, const Named&) = default;
+  friend std::uint64_t hash_value(const Named& n) {
+    return reinterpret_cast<std::uintptr_t>(n.place);
+  }
+  friend std::ostream& operator<<(std::ostream& out, const Named& n) { return out << n.place; }
+  friend void label_bytes(sac::LabelSink& sink, const Named& n) {
+    sink.number(static_cast<std::uint64_t>(n.id));
+  }
+};
+void take_named(sac::Scope&, Named) {}
+
+// Only printed; full digits matter.
+struct Printed {
+  double x;
+  friend bool operator==(const Printed&, const Printed&) = default;
+  friend std::uint64_t hash_value(const Printed&) { return 0; }
+  friend std::ostream& operator<<(std::ostream& out, const Printed& p) { return out << '<' << p.x; }
+};
+void take_printed(sac::Scope&, Printed) {}
+
+struct Opaque {
+  int id;
+  friend bool operator==(const Opaque&, const Opaque&) = default;
+  friend std::uint64_t hash_value(const Opaque& o) { return static_cast<std::uint64_t>(o.id); }
+};
+void take_opaque(sac::Scope&, Opaque) {}
+void take_pointer(sac::Scope&, const int*) {}
+void take_mod(sac::Scope&, sac::Mod<int>) {}
+
+}  // namespace
+
+TEST_CASE("A recording holds the live calls in pre-order with depth and label") {
+  const auto lines = recorded<tree>(2);
+  std::vector<std::pair<std::uint32_t, std::string>> shown;
+  for (const Line& line : lines) shown.emplace_back(line.depth, line.label);
+  CHECK(shown ==
+        std::vector<std::pair<std::uint32_t, std::string>>{
+            {0, "tree(2)"}, {1, "tree(1)"}, {2, "tree(0)"}, {2, "leaf(1)"}, {1, "leaf(2)"}});
+}
+
+TEST_CASE("Labels of numbers and strings have a name by value") {
+  CHECK(hash_of<leaf>(1) == hash_of<leaf>(1));
+  CHECK(hash_of<leaf>(1) != hash_of<leaf>(-1));
+  CHECK(hash_of<take_real>(0.0) == hash_of<take_real>(-0.0));
+  CHECK(hash_of<take_real>(0.1) != hash_of<take_real>(0.1 + 1e-17 * 4));
+  CHECK(hash_of<take_text>(std::string("abc")) != hash_of<take_text>(std::string("abd")));
+  const std::string same = "text";
+  CHECK(hash_of<take_c_text, const char*>(same.c_str()) ==
+        hash_of<take_c_text, const char*>(std::string(same).c_str()));
+}
+
+TEST_CASE("A type that says its own name is named by it, not by its print or hash") {
+  const int here = 0, there = 0;
+  CHECK(hash_of<take_named>(Named{7, &here}) == hash_of<take_named>(Named{7, &there}));
+  CHECK(hash_of<take_named>(Named{7, &here}) != hash_of<take_named>(Named{8, &here}));
+}
+
+TEST_CASE("A type that only prints is named by its print with all digits") {
+  CHECK(hash_of<take_printed>(Printed{1.5}) == hash_of<take_printed>(Printed{1.5}));
+  CHECK(hash_of<take_printed>(Printed{1}) != hash_of<take_printed>(Printed{1 + 1e-15}));
+}
+
+TEST_CASE("A call with an argument that has no name is marked, and told apart in its run") {
+  CHECK_FALSE(recorded<take_opaque>(Opaque{1}).front().named);
+  CHECK(recorded<take_opaque>(Opaque{1}).front().hash !=
+        recorded<take_opaque>(Opaque{2}).front().hash);
+  const int object = 0;
+  CHECK_FALSE(recorded<take_pointer, const int*>(&object).front().named);
+  CHECK(recorded<take_pointer, const int*>(nullptr).front().named);
+
+  ScratchFolder folder;
+  sac::Engine engine;
+  engine.run<take_mod>(engine.input(1));
+  CHECK(traces::Recorder(engine).record(folder.path("t")).unnamed == 1);
+}
+
+TEST_CASE("Inputs and outside objects are named by name()") {
+  ScratchFolder folder;
+  const int objects[2] = {0, 0};
+  std::vector<traces::LabelHash> hashes;
+  for (const int run : {0, 1}) {
+    sac::Engine engine;
+    for (int i = 0; i < run; ++i) static_cast<void>(engine.input(i));
+    const auto mod = engine.input(5);
+    engine.run<take_mod>(mod);
+    engine.run<take_pointer, const int*>(&objects[run]);
+    traces::Recorder recorder(engine);
+    recorder.name(mod, "five");
+    recorder.name(&objects[run], "object", 1);
+    CHECK(recorder.record(folder.path("t")).unnamed == 0);
+    for (const Line& line : lines_of(folder.path("t"))) hashes.push_back(line.hash);
+  }
+  CHECK(hashes[0] == hashes[2]);
+  CHECK(hashes[1] == hashes[3]);
+}
+
+TEST_CASE("What keyed allocation made is named by its key, whatever its handle is") {
+  ScratchFolder folder;
+  const programs::ListMap one({1, 2, 3}), other({1, 2, 3}, 1000);
+  CHECK(one.record(folder.path("one")).unnamed == 0);
+  CHECK(other.record(folder.path("other")).unnamed == 0);
+  const auto a = lines_of(folder.path("one")), b = lines_of(folder.path("other"));
+  REQUIRE(a.size() == 4 + 2 * 3);
+  REQUIRE(b.size() == a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) CHECK(a[i].hash == b[i].hash);
+  CHECK(a[0].label != b[0].label);  // handles print differently: the runs do differ in them
+}
+
+TEST_CASE("A trace after propagation is the trace of a fresh run") {
+  ScratchFolder folder;
+  programs::ListMap edited({1, 2, 4, 5});
+  edited.insert(3, 2);
+  edited.record(folder.path("edited"));
+  programs::ListMap({1, 2, 3, 4, 5}).record(folder.path("fresh"));
+  const auto a = lines_of(folder.path("edited")), b = lines_of(folder.path("fresh"));
+  REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) CHECK(a[i].hash == b[i].hash);
+}

@@ -1,0 +1,30 @@
+// The distance of two traces [Def 1.4.2]: |T| + |T'| - 2|C|, where C holds the common labels.
+//
+// Labels count as often as they occur: a label that occurs twice in T and once in T' is in C once.
+// Functions with one name are counted together.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "traces/trace.hpp"
+
+namespace traces {
+
+struct CallCounts {
+  std::uint64_t calls_a = 0;
+  std::uint64_t calls_b = 0;
+  std::uint64_t common = 0;
+  [[nodiscard]] std::uint64_t distance() const noexcept { return calls_a + calls_b - 2 * common; }
+};
+
+struct Distance {
+  CallCounts all;
+  std::map<std::string, CallCounts> by_function;
+};
+
+/// Cost: O(n log n).
+[[nodiscard]] Distance distance(const Trace& a, const Trace& b);
+
+}  // namespace traces

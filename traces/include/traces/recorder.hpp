@@ -1,0 +1,84 @@
+// Recording: the calls of a live engine, into a trace file.
+//
+// A call's label is (function, arguments); values read and results of children are not part of it
+// yet. Its hash is made of the function's name and of the arguments' names in the sense of
+// sac/label.hpp, so that equal labels of two runs have equal hashes. Handles and addresses differ
+// from run to run; an object behind one has a name
+// (1) if name() was called for it: inputs and cells made outside, objects of the environment;
+// (2) else, if it lies in an object made by keyed allocation: the label of that call, that is the
+//     key, and the offset in the object;
+// (3) else it has none. The hash then depends on the handle and is good within this engine only;
+//     the call is marked in the file and counted.
+//
+// Two kinds of labels are confused when traces of two runs are compared: functions of one name, and
+// keyed allocations of different types with equal keys. Within one trace they are told apart.
+//
+// Example
+//   traces::Recorder recorder(engine);
+//   for (const Item& item : items) recorder.name(item.next, "next", item.id);
+//   recorder.record("before.trace");
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "sac/engine.hpp"
+#include "sac/label.hpp"
+#include "sac/mod.hpp"
+#include "traces/label_hash.hpp"
+
+namespace traces {
+
+struct Recording {
+  std::uint64_t calls = 0;
+  std::uint64_t unnamed = 0;  // calls whose label contains an object without a name
+};
+
+class Recorder {
+ public:
+  /// `engine` outlives the recorder.
+  explicit Recorder(const sac::Engine& engine) : engine_(engine) {}
+
+  /// From now on `mod` is called `key` in labels; a key is made of numbers and strings.
+  /// Requires: no other object has this key.
+  template <class T, class... Key>
+  void name(sac::Mod<T> mod, const Key&... key) {
+    handles_[mod.head()] = hash_of_key(key...);
+  }
+  /// As above, for an object that traced functions take by pointer.
+  template <class... Key>
+  void name(const void* object, const Key&... key) {
+    addresses_[object] = hash_of_key(key...);
+  }
+
+  /// Writes the trace as it is. Throws: FileError; UsageError if the engine runs.
+  /// Cost: O(n log n); memory 20 bytes for each keyed allocation.
+  Recording record(const std::string& path) const;
+
+ private:
+  friend class Labeller;
+
+  template <class T>
+  static void add_to_key(LabelHasher& hasher, const T& part) {
+    if constexpr (std::is_convertible_v<const T&, std::string_view>) {
+      hasher.text(part);
+    } else {
+      static_assert(std::is_integral_v<T> || std::is_enum_v<T>, "keys are numbers and strings");
+      hasher.word(static_cast<std::uint64_t>(part));
+    }
+  }
+  template <class... Key>
+  static LabelHash hash_of_key(const Key&... key) {
+    LabelHasher hasher;
+    (add_to_key(hasher, key), ...);
+    return hasher.result();
+  }
+
+  const sac::Engine& engine_;
+  std::map<sac::Handle, LabelHash> handles_;
+  std::map<const void*, LabelHash> addresses_;
+};
+
+}  // namespace traces

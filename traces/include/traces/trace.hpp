@@ -1,0 +1,40 @@
+// A trace in memory: the labels' hashes in pre-order. 24 bytes a call; texts stay in the file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "traces/label_hash.hpp"
+
+namespace traces {
+
+struct Trace {
+  struct Call {
+    LabelHash hash;
+    std::uint32_t function;  // index
+  };
+  std::vector<Call> calls;             // in pre-order
+  std::vector<std::string> functions;  // names by index; two functions may have one name
+  std::uint64_t unnamed = 0;           // calls whose hash is good within their run only
+};
+
+/// Throws: FileError.
+[[nodiscard]] Trace load_trace(const std::string& path);
+
+/// The labels of some calls, as text. `calls`: numbers in pre-order from 0, in any order.
+/// Throws: FileError.  Cost: O(file).
+[[nodiscard]] std::vector<std::string> labels_at(const std::string& path,
+                                                 const std::vector<std::uint32_t>& calls);
+
+/// Calls of two traces paired by label.
+struct Pair {
+  std::uint32_t a;  // number of the call in the one
+  std::uint32_t b;  // and in the other
+};
+
+/// The labels common to `a` and `b` as multisets: the k-th call of a label in one is paired with
+/// the k-th in the other. In the order of `a`.  Cost: O(n log n).
+[[nodiscard]] std::vector<Pair> common_calls(const Trace& a, const Trace& b);
+
+}  // namespace traces

@@ -1,0 +1,27 @@
+// Constants of the trace file's format, and its checksum.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace traces::format {
+
+// A byte above 127 and an end of line: a file mangled as text is recognised at once.
+inline constexpr std::string_view kMagic = "\x89traces\n";
+inline constexpr char kFunction = 'F';
+inline constexpr char kCall = 'C';
+inline constexpr char kUnnamedCall = 'U';
+inline constexpr char kEnd = 'E';
+
+class Checksum {
+ public:
+  void add(char byte) noexcept {
+    value_ = (value_ ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
+  }
+  [[nodiscard]] std::uint64_t value() const noexcept { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+}  // namespace traces::format

@@ -1,0 +1,187 @@
+// Two walks over the trace: one names the keyed objects, the next writes the calls.
+#include "traces/recorder.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <locale>
+#include <optional>
+#include <ostream>
+#include <streambuf>
+#include <vector>
+
+#include "sac/check.hpp"
+#include "traces/trace_file.hpp"
+
+namespace traces {
+namespace {
+
+class TextBuffer final : public std::streambuf {
+ public:
+  std::string text;
+
+ private:
+  int_type overflow(int_type c) override {
+    if (c != traits_type::eof()) text.push_back(traits_type::to_char_type(c));
+    return traits_type::not_eof(c);
+  }
+  std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+    text.append(bytes, static_cast<std::size_t>(count));
+    return count;
+  }
+};
+
+// A stream into a string that keeps its memory.
+class TextStream final : public std::ostream {
+ public:
+  TextStream() : std::ostream(nullptr) {
+    rdbuf(&buffer_);
+    imbue(std::locale::classic());
+  }
+  /// Empties the stream; formats that the last printer left behind are forgotten.
+  TextStream& start(std::streamsize digits) {
+    buffer_.text.clear();
+    clear();
+    flags(std::ios::dec | std::ios::skipws);
+    precision(digits);
+    fill(' ');
+    return *this;
+  }
+  [[nodiscard]] const std::string& text() const noexcept { return buffer_.text; }
+
+ private:
+  TextBuffer buffer_;
+};
+
+// The keyed allocations of the trace: which one a handle lies in, and its label.
+class KeyedObjects {
+ public:
+  explicit KeyedObjects(const sac::Engine& engine) {
+    engine.walk([&](const sac::Call& call, std::size_t) {
+      if (is_keyed(call)) starts_.push_back(engine.handle_of(call));
+    });
+    std::sort(starts_.begin(), starts_.end());
+    labels_.resize(starts_.size());
+  }
+
+  // sac names every keyed allocation "make"; what else begins so does no harm here.
+  static bool is_keyed(const sac::Call& call) { return call.function->name.starts_with("make"); }
+
+  void set_label(sac::Handle call, const LabelHash& label) { labels_[index_of(call)] = label; }
+
+  /// Label and offset of what lies at `handle`; nothing if that is in no object named so far.
+  [[nodiscard]] std::optional<LabelHash> name(const sac::Engine& engine, sac::Handle handle) const {
+    if (starts_.empty() || handle < starts_.front()) return {};
+    const std::size_t i = index_of(handle);
+    const std::size_t offset = std::size_t{handle - starts_[i]} * sac::Arena::kGranule;
+    if (offset >= engine.call(starts_[i]).function->frame_bytes || labels_[i] == LabelHash{})
+      return {};
+    LabelHasher hasher;
+    hasher.hash(labels_[i]);
+    hasher.word(offset);
+    return hasher.result();
+  }
+
+ private:
+  // The last object that starts at or before `handle`.
+  [[nodiscard]] std::size_t index_of(sac::Handle handle) const {
+    const auto behind = std::upper_bound(starts_.begin(), starts_.end(), handle);
+    return static_cast<std::size_t>(behind - starts_.begin()) - 1;
+  }
+
+  std::vector<sac::Handle> starts_;
+  std::vector<LabelHash> labels_;  // of the call at starts_[i]; zero: not yet named
+};
+
+}  // namespace
+
+// Hashes labels; a name refers to objects made earlier in the trace, so one walk names them all.
+class Labeller final : public sac::LabelSink {
+ public:
+  explicit Labeller(const Recorder& recorder)
+      : recorder_(recorder), engine_(recorder.engine_), objects_(engine_) {
+    engine_.walk([&](const sac::Call& call, std::size_t) {
+      if (!KeyedObjects::is_keyed(call)) return;
+      const LabelHash label = hash(call);
+      if (named_) objects_.set_label(engine_.handle_of(call), label);
+    });
+  }
+
+  LabelHash hash(const sac::Call& call) {
+    hasher_ = {};
+    named_ = true;
+    hasher_.text(call.function->name);
+    call.function->print(call, stream_);
+    return hasher_.result();
+  }
+  /// Whether all in the last label had a name.
+  [[nodiscard]] bool named() const noexcept { return named_; }
+
+  void number(std::uint64_t value) override { hasher_.word(value); }
+  void text(std::string_view value) override { hasher_.text(value); }
+  void handle(sac::Handle handle) override {
+    if (handle == 0) return hasher_.word(0);
+    if (const auto it = recorder_.handles_.find(handle); it != recorder_.handles_.end()) {
+      return hasher_.hash(it->second);
+    }
+    const auto name = objects_.name(engine_, handle);
+    name ? hasher_.hash(*name) : nameless(handle);
+  }
+  void address(const void* object) override {
+    if (object == nullptr) return hasher_.word(0);
+    if (const auto it = recorder_.addresses_.find(object); it != recorder_.addresses_.end()) {
+      return hasher_.hash(it->second);
+    }
+    const auto* start = engine_.arena().at<std::byte>(0);
+    const auto* byte = static_cast<const std::byte*>(object);
+    const bool in_arena = std::less_equal<>{}(start, byte) &&
+                          std::less<>{}(byte, start + engine_.arena().bytes_committed());
+    if (!in_arena) return nameless(reinterpret_cast<std::uintptr_t>(object));
+    handle(engine_.arena().handle_of(object));
+    hasher_.word(static_cast<std::size_t>(byte - start) % sac::Arena::kGranule);
+  }
+  std::ostream& print_begin() override { return printed_.start(kAllDigits); }
+  void print_end() override { hasher_.text(printed_.text()); }
+  void nameless(std::uint64_t hash) override {
+    named_ = false;
+    hasher_.word(hash);
+  }
+
+ private:
+  static constexpr std::streamsize kAllDigits = 21;  // of a long double, in decimal
+
+  const Recorder& recorder_;
+  const sac::Engine& engine_;
+  KeyedObjects objects_;
+  TextStream printed_;
+  sac::LabelStream stream_{*this};
+  LabelHasher hasher_;
+  bool named_ = true;
+};
+
+Recording Recorder::record(const std::string& path) const {
+  if (!engine_.idle()) throw sac::UsageError("record: the engine is running");
+  TraceWriter writer(path);
+  Labeller labeller(*this);
+  TextStream printed;
+  std::map<const sac::Function*, std::uint32_t> functions;
+  Recording result;
+  CallRecord record;
+  engine_.walk([&](const sac::Call& call, std::size_t depth) {
+    const auto [function, is_new] = functions.try_emplace(call.function, 0);
+    if (is_new) function->second = writer.add_function(call.function->name);
+    record.depth = static_cast<std::uint32_t>(depth);
+    record.function = function->second;
+    record.hash = labeller.hash(call);
+    record.named = labeller.named();
+    call.function->print(call, printed.start(6));
+    record.arguments = printed.text();
+    writer.add_call(record);
+    ++result.calls;
+    result.unnamed += record.named ? 0 : 1;
+  });
+  writer.finish();
+  return result;
+}
+
+}  // namespace traces

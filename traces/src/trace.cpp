@@ -1,0 +1,68 @@
+// Loading, looking up texts, and pairing the calls of two traces.
+#include "traces/trace.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "traces/trace_file.hpp"
+
+namespace traces {
+namespace {
+
+// Numbers of calls, by label, then in pre-order.
+std::vector<std::uint32_t> by_label(const Trace& trace) {
+  std::vector<std::uint32_t> order(trace.calls.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t x, std::uint32_t y) {
+    const auto label_order = trace.calls[x].hash <=> trace.calls[y].hash;
+    return label_order != 0 ? label_order < 0 : x < y;
+  });
+  return order;
+}
+
+}  // namespace
+
+Trace load_trace(const std::string& path) {
+  TraceReader reader(path);
+  Trace trace;
+  while (const CallRecord* call = reader.next()) {
+    trace.calls.push_back({call->hash, call->function});
+    if (!call->named) ++trace.unnamed;
+  }
+  trace.functions = reader.functions();
+  return trace;
+}
+
+std::vector<std::string> labels_at(const std::string& path,
+                                   const std::vector<std::uint32_t>& calls) {
+  std::multimap<std::uint32_t, std::size_t> wanted;
+  for (std::size_t i = 0; i < calls.size(); ++i) wanted.emplace(calls[i], i);
+  std::vector<std::string> labels(calls.size());
+  TraceReader reader(path);
+  for (std::uint32_t number = 0; !wanted.empty(); ++number) {
+    const CallRecord* call = reader.next();
+    if (call == nullptr) break;
+    for (auto it = wanted.begin(); it != wanted.end() && it->first == number;) {
+      labels[it->second] = label_text(reader.functions()[call->function], call->arguments);
+      it = wanted.erase(it);
+    }
+  }
+  return labels;
+}
+
+std::vector<Pair> common_calls(const Trace& a, const Trace& b) {
+  const auto order_a = by_label(a), order_b = by_label(b);
+  std::vector<Pair> pairs;
+  auto i = order_a.begin(), j = order_b.begin();
+  while (i != order_a.end() && j != order_b.end()) {
+    const auto order = a.calls[*i].hash <=> b.calls[*j].hash;
+    if (order == 0) pairs.push_back({*i, *j});
+    if (order <= 0) ++i;
+    if (order >= 0) ++j;
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) { return x.a < y.a; });
+  return pairs;
+}
+
+}  // namespace traces
