@@ -92,6 +92,12 @@ void take_opaque(sac::Scope&, Opaque) {}
 void take_pointer(sac::Scope&, const int*) {}
 void take_mod(sac::Scope&, sac::Mod<int>) {}
 
+void post_and_drain(sac::Scope& s) {
+  auto& agenda = s.environment<sac::Agenda>();
+  agenda.post<leaf>(s, sac::Key{.bucket = 1}, 5);
+  agenda.drain(s);
+}
+
 }  // namespace
 
 TEST_CASE("A recording holds the live calls in pre-order with depth and label") {
@@ -157,6 +163,22 @@ TEST_CASE("Inputs and outside objects are named by name()") {
   }
   CHECK(hashes[0] == hashes[2]);
   CHECK(hashes[1] == hashes[3]);
+}
+
+TEST_CASE("The drain of an agenda is named by the agenda") {
+  const auto run = [](const std::string& name) {
+    ScratchFolder folder;
+    sac::Engine engine;
+    sac::Agenda& agenda = engine.make_agenda(name);
+    engine.set_environment(&agenda);
+    engine.run<post_and_drain>();
+    CHECK(traces::Recorder(engine).record(folder.path("t")).unnamed == 0);
+    return lines_of(folder.path("t"));
+  };
+  const auto one = run("queue"), same = run("queue"), other = run("stack");
+  REQUIRE(one.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) CHECK(one[i].hash == same[i].hash);
+  CHECK(one[1].hash != other[1].hash);
 }
 
 TEST_CASE("What keyed allocation made is named by its key, whatever its handle is") {

@@ -32,6 +32,7 @@ namespace sac {
 
 template <class T>
 class Mod;
+class Agenda;
 
 /// Mixes 64 bits so that every input bit reaches every output bit (finaliser of splitmix64).
 [[nodiscard]] constexpr std::uint64_t mix(std::uint64_t x) noexcept {
@@ -106,6 +107,12 @@ class LabelStream final : public std::ostream {
 template <class T>
 void label_bytes(LabelSink& sink, const Mod<T>& mod) {
   sink.handle(mod.head());
+}
+
+// A template, so that agendas need not be known here.
+template <std::same_as<Agenda> A>
+void label_bytes(LabelSink& sink, A* const& agenda) {
+  sink.text(agenda->name());
 }
 
 namespace detail {
