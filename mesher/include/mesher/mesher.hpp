@@ -112,8 +112,4 @@ template <int D>
                                       const std::vector<FeatureId>& ids = {},
                                       MeshStats* stats = nullptr);
 
-extern template class Mesher<2>;
-extern template Mesh<2> mesh_statically<2>(const std::vector<Point<2>>&, const Options<2>&,
-                                           const std::vector<FeatureId>&, MeshStats*);
-
 }  // namespace mesher
