@@ -50,7 +50,7 @@ void Complete::operator()(S& s, VertexRef<2> v, int b) const {
   VoronoiCell& gaps = w.vertices.voronoi_cell(s, v, w.rule.clip_radius(b));
   while (const auto point = w.rule.next_point(gaps, b)) {
     const VertexRef<2> x = w.vertices.insert(s, point->p);
-    if (!gaps.cuts(x->p)) w.fail_useless(*v, *x);
+    if (!point->farther || !gaps.cuts(x->p)) w.fail_useless(*v, *x);
     gaps.cut(x->self);
     w.post_complete(s, x, std::max(b + 1, w.rule.bucket(point->nearest2)));
     w.post_star(s, x);

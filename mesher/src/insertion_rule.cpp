@@ -38,7 +38,8 @@ constexpr double kAim = 1 - 0x1p-16;
 }  // namespace
 
 InsertionRule::InsertionRule(const Options<2>& options, const MeshBox<2>& box)
-    : rule_(options.rule), rho2_(options.rho * options.rho * kSlack) {
+    : rule_(options.rule), rho2_(options.rho * options.rho * kSlack),
+      growth2_((1 + options.rho) * (1 + options.rho) / 4), tiny_(box.side * 0x1p-60) {
   const double aim = options.rho * kAim;
   height_ = aim + std::sqrt(aim * aim - 0.25);
   // No length is below side * 2^-51 (two points differ in their finest cell or a neighbouring
@@ -67,7 +68,7 @@ int InsertionRule::bucket(double length2) const {
 }
 
 unsigned InsertionRule::colour(const Fixed<2>& f, int b) const {
-  const int level = square_level_[static_cast<std::size_t>(b)];
+  const int level = square_level_[index(b)];
   if (level == 0) return 0;
   const auto bit = [&](int i) { return static_cast<unsigned>(f[static_cast<std::size_t>(i)] >> (kLevels - level) & 1); };
   return bit(0) | bit(1) << 1;
@@ -118,17 +119,18 @@ Point<2> InsertionRule::place(const Poor& poor) const {
 }
 
 std::optional<InsertionRule::NewPoint> InsertionRule::poor_triangle_point(const VoronoiCell& cell, int b) const {
-  std::optional<Poor> best;
-  std::optional<NewPoint> point;
+  double shortest2 = std::numeric_limits<double>::infinity();
+  Point<2> point{};
   for_each_poor(cell, [&](const Poor& poor) {
-    if (bucket(poor.edge2) > b || (best.has_value() && poor.edge2 > best->edge2)) return;
+    if (bucket(poor.edge2) > b || poor.edge2 > shortest2) return;
     const Point<2> x = place(poor);
     // Shortest edge first; ties by the place of the new vertex.
-    if (best.has_value() && poor.edge2 == best->edge2 && point->p < x) return;
-    best = poor;
-    point = NewPoint{x, squared_distance(x, poor.p)};
+    if (poor.edge2 == shortest2 && point < x) return;
+    shortest2 = poor.edge2;
+    point = x;
   });
-  return point;
+  if (std::isinf(shortest2)) return std::nullopt;
+  return new_point(cell, point, shortest2);
 }
 
 std::optional<InsertionRule::NewPoint> InsertionRule::farthest_corner(const VoronoiCell& cell) const {
@@ -137,7 +139,8 @@ std::optional<InsertionRule::NewPoint> InsertionRule::farthest_corner(const Voro
     if (cell.real(i)) nearest2 = std::min(nearest2, squared(cell.neighbour(i)));
   }
   double farthest2 = 0;
-  std::optional<NewPoint> point;
+  double length2 = 0;
+  Point<2> point{};
   for (int i = 0; i < cell.size(); ++i) {
     const int j = cell.next(i);
     double shortest2 = nearest2;
@@ -146,10 +149,32 @@ std::optional<InsertionRule::NewPoint> InsertionRule::farthest_corner(const Voro
     }
     if (cell.corner2(i) < farthest2 || cell.corner2(i) <= rho2_ * shortest2) continue;
     const Point<2> x = plus(cell.center().p, cell.corner(i));
-    if (point.has_value() && cell.corner2(i) == farthest2 && point->p < x) continue;
+    if (cell.corner2(i) == farthest2 && point < x) continue;
     farthest2 = cell.corner2(i);
-    point = NewPoint{x, farthest2};
+    length2 = shortest2;
+    point = x;
   }
+  if (farthest2 == 0) return std::nullopt;
+  return new_point(cell, point, length2);
+}
+
+// Sums that cancel near an axis leave noise in the last places; a vertex beside such a one has
+// noise in places as far down again. Zero is as near, and keeps coordinates within a range of bits.
+Point<2> InsertionRule::rounded(const Point<2>& p) const {
+  return {std::abs(p[0]) < tiny_ ? 0 : p[0], std::abs(p[1]) < tiny_ ? 0 : p[1]};
+}
+
+// In exact arithmetic p is at least rho lengths from every vertex. The rounded place must keep half
+// of the growth: lengths that grow by a factor are what ends the refinement.
+InsertionRule::NewPoint InsertionRule::new_point(const VoronoiCell& cell, const Point<2>& p,
+                                                 double length2) const {
+  NewPoint point{rounded(p), 0, false};
+  point.nearest2 = squared_distance(point.p, cell.center().p);
+  for (int i = 0; i < cell.size(); ++i) {
+    if (!cell.real(i)) continue;
+    point.nearest2 = std::min(point.nearest2, squared_distance(point.p, cell.place(i)));
+  }
+  point.farther = point.nearest2 > growth2_ * length2;
   return point;
 }
 

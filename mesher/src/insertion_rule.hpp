@@ -13,6 +13,7 @@
 //   incomplete by it, and those on the boundary grid have no event of their own.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -30,12 +31,14 @@ class InsertionRule {
   [[nodiscard]] int bucket(double length2) const;
   [[nodiscard]] int buckets() const noexcept { return static_cast<int>(start2_.size()); }
 
-  /// How far Complete looks in bucket b.
-  [[nodiscard]] double clip_radius(int b) const { return clip_[static_cast<std::size_t>(b)]; }
+  /// How far Complete looks in bucket b; from the last bucket on, everywhere. (A vertex that comes
+  /// in bucket b is looked at in b + 1, however short the lengths beside it.)
+  [[nodiscard]] double clip_radius(int b) const { return clip_[index(b)]; }
 
   struct NewPoint {
     Point<2> p;
     double nearest2;  // squared distance to the vertices of the gap ball around it
+    bool farther;     // clearly more than the length that asked for it, in spite of rounding
   };
   /// A point to insert now, in bucket b; none if v is complete up to b.
   [[nodiscard]] std::optional<NewPoint> next_point(const VoronoiCell& cell, int b) const;
@@ -55,14 +58,21 @@ class InsertionRule {
     Point<2> q;
     std::optional<Point<2>> circumcentre;
   };
+  [[nodiscard]] std::size_t index(int b) const noexcept {
+    return std::min(static_cast<std::size_t>(b), start2_.size() - 1);
+  }
   template <class Visit>
   void for_each_poor(const VoronoiCell& cell, Visit&& visit) const;
   [[nodiscard]] Point<2> place(const Poor& poor) const;
   [[nodiscard]] std::optional<NewPoint> poor_triangle_point(const VoronoiCell& cell, int b) const;
   [[nodiscard]] std::optional<NewPoint> farthest_corner(const VoronoiCell& cell) const;
+  [[nodiscard]] Point<2> rounded(const Point<2>& p) const;
+  [[nodiscard]] NewPoint new_point(const VoronoiCell& cell, const Point<2>& p, double length2) const;
 
   Rule rule_;
   double rho2_;         // poor above this
+  double growth2_;      // a new vertex is farther from all than this times its squared length
+  double tiny_;         // coordinates below are noise around zero
   double height_;       // of the off-centre, in units of the edge
   std::vector<double> start2_;  // squared start of each bucket
   std::vector<double> clip_;

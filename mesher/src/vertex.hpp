@@ -78,7 +78,7 @@ class VertexPool {
       free_.pop_back();
     }
     Vertex<D>& v = (*this)[h] = Vertex<D>{};
-    v.p = p;
+    for (int i = 0; i < D; ++i) v.p[i] = p[i] + 0.0;  // no negative zero: equal places, equal bits
     v.self = h;
     return v;
   }
