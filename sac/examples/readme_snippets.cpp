@@ -1,0 +1,177 @@
+// The snippets of sac/README.md as one program; check() throws where a snippet is not true.
+//
+// tests/sac/readme_snippets_test.cpp runs it, and compares it with the README line by line.
+#include <deque>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <sac/sac.hpp>
+
+namespace readme {
+
+void check(bool holds, int line = __builtin_LINE()) {
+  if (!holds) throw std::logic_error("not true: line " + std::to_string(line));
+}
+
+// --- 1. Read and write -----------------------------------------------------------------------
+
+void add(sac::Scope& s, sac::Mod<int> a, sac::Mod<int> b, sac::Mod<int> out) {
+  s.write(out, s.read(a) + s.read(b));
+}
+
+void read_and_write() {
+  sac::Engine e;
+  const auto a = e.input(3), b = e.input(4);
+  const auto sum = e.cell<int>();
+  e.run<add>(a, b, sum);
+  check(e.get(sum) == 7);
+  e.set(a, 10);
+  check(e.propagate().executed == 1);
+  check(e.get(sum) == 14);
+}
+
+// --- 2. Calls that are reused ----------------------------------------------------------------
+
+struct Node;
+using List = sac::Mod<const Node*>;  // null: the end
+struct Node {
+  int value = 0;
+  List next;
+};
+
+void squares(sac::Scope& s, List in, List out) {
+  const Node* node = s.read(in);
+  if (node == nullptr) return s.write<const Node*>(out, nullptr);
+  Node& square = s.make<Node>(node);
+  square = {node->value * node->value, s.cell<const Node*>(node)};
+  s.write<const Node*>(out, &square);
+  s.tail<squares>(node->next, square.next);
+}
+
+int total(const sac::Engine& e, List list) {
+  int sum = 0;
+  for (const Node* n = e.get(list); n != nullptr; n = e.get(n->next)) sum += n->value;
+  return sum;
+}
+
+void calls_that_are_reused() {
+  sac::Engine e;
+  std::deque<Node> nodes;
+  List head = e.input<const Node*>(nullptr);
+  for (int i = 1000; i > 0; --i) {
+    nodes.push_back({i % 10, head});
+    head = e.input<const Node*>(&nodes.back());
+  }
+  const List out = e.cell<const Node*>();
+  e.run<squares>(head, out);
+  check(total(e, out) == 28500);
+
+  const Node& middle = nodes[500];
+  nodes.push_back({3, e.input(e.get(middle.next))});  // insert a 3 behind it
+  e.set<const Node*>(middle.next, &nodes.back());
+  const sac::Counts work = e.propagate();
+  check(total(e, out) == 28509);
+  check(work.executed == 4 && work.created == 3 && work.discarded == 0);
+}
+
+// --- 3. A modifiable written more than once --------------------------------------------------
+
+void copy(sac::Scope& s, sac::Mod<int> from, sac::Mod<int> to) {
+  s.write(to, s.read(from));
+}
+
+void twice(sac::Scope& s, sac::Mod<int> a, sac::Mod<int> b, sac::Mod<int> x,
+           sac::Mod<int> first, sac::Mod<int> second) {
+  s.call<copy>(a, x);
+  s.call<copy>(x, first);  // sees a
+  s.call<copy>(b, x);
+  s.call<copy>(x, second);  // sees b
+}
+
+void written_more_than_once() {
+  sac::Engine e;
+  const auto a = e.input(1), b = e.input(2);
+  const auto x = e.cell<int>(), first = e.cell<int>(), second = e.cell<int>();
+  e.run<twice>(a, b, x, first, second);
+  check(e.get(first) == 1 && e.get(second) == 2);
+  e.set(a, 5);
+  check(e.propagate().executed == 2);  // copy(a, x) and copy(x, first)
+  check(e.get(first) == 5 && e.get(second) == 2);
+}
+
+// --- 4. A work queue -------------------------------------------------------------------------
+
+struct Graph {
+  std::vector<sac::Mod<std::vector<int>>> edges;  // inputs: where each vertex leads
+  std::vector<sac::Mod<int>> hops;                // from vertex 0; 99: not reached
+  sac::Agenda& queue;
+};
+
+void visit(sac::Scope& s, int v, int d) {
+  auto& g = s.environment<Graph>();
+  if (s.read(g.hops[v]) <= d) return;
+  s.write(g.hops[v], d);
+  for (const int w : s.read(g.edges[v])) g.queue.post<visit>(s, {.bucket = d + 1}, w, d + 1);
+}
+
+void search(sac::Scope& s) {
+  auto& g = s.environment<Graph>();
+  for (const auto hops : g.hops) s.write(hops, 99);
+  g.queue.post<visit>(s, {.bucket = 0}, 0, 0);
+  g.queue.drain(s);
+}
+
+void work_queue() {
+  sac::Engine e;
+  Graph g{{}, {}, e.make_agenda("visits")};
+  for (const auto& to : std::vector<std::vector<int>>{{1}, {2}, {3}, {}}) {
+    g.edges.push_back(e.input(to));
+    g.hops.push_back(e.cell<int>());
+  }
+  e.set_environment(&g);
+  e.run<search>();
+  check(e.get(g.hops[3]) == 3);
+  e.set(g.edges[0], {1, 3});
+  e.propagate();
+  check(e.get(g.hops[3]) == 1);
+}
+
+// --- 5. The same text without a trace --------------------------------------------------------
+
+struct Cube {
+  template <class S, class M>
+  void operator()(S& s, M in, M out) const {
+    const int x = s.read(in);
+    s.write(out, x * x * x);
+  }
+};
+inline constexpr Cube cube{};
+
+template <class Host>
+int cube_of(Host& host, int x) {
+  const auto in = host.input(x);
+  const auto out = host.template cell<int>();
+  host.template run<cube>(in, out);
+  return host.get(out);
+}
+
+void without_a_trace() {
+  sac::Engine e;
+  sac::PlainScope plain;
+  check(cube_of(e, 3) == 27 && cube_of(plain, 3) == 27);
+}
+
+void run_all() {
+  read_and_write();
+  calls_that_are_reused();
+  written_more_than_once();
+  work_queue();
+  without_a_trace();
+}
+
+}  // namespace readme
+
+#ifndef SAC_README_WITHOUT_MAIN
+int main() { readme::run_all(); }
+#endif
