@@ -47,78 +47,84 @@ void Agenda::post_call(Scope& s, const Function& function, const Key& key, std::
     const Call& c = engine_.call(edge.target);
     return c.hash == hash && c.function == &function && function.equal(c, args);
   };
-  if (s.recall<PostEdge>(id_, 0, repeats) != nullptr) return;
+  if (s.recall<PostEdge>(id_, kPost, repeats) != nullptr) return;
   Handle h = find(function, hash, args);
   const bool fresh = h == 0;
   if (fresh) h = create(function, key, hash, args, construct);
   Call& posted = engine_.call(h);
   try {
     require_future(s.self(), posted);
-    if (fresh) {
-      drained_ ? place(h) : add_pending(h);
-    }
-    s.effect<PostEdge>(id_, 0).target = h;
+    if (fresh) drained_ ? place(h) : add_pending(h);
   } catch (...) {
-    if (fresh) {
-      if (posted.has(Call::kPending)) {
-        posted.set(Call::kDead);
-        --pending_calls_;
-        --engine_.live_calls_;
-        engine_.graveyard_.push_back(h);
-      } else {
-        engine_.invalidate(posted);  // placed without a post: it is discarded when popped
-      }
-    }
+    if (fresh) drop_pending(h);
     throw;
   }
+  s.effect<PostEdge>(id_, kPost).target = h;  // if this throws, a call that nobody posts is left
   add_post(posted);
 }
 
+// Whether `posted` runs after `poster`. Before the drain everything is in the future; during the
+// drain, what comes after the posted call that runs; then, what has its place behind the poster.
+bool Agenda::in_future(const Call& poster, const Call& posted) const {
+  if (!draining_ && !drained_) return true;
+  if (poster.function->posted && slot(poster).agenda == id_) return before(poster, posted);
+  if (draining_) return running_ != 0 && before(engine_.call(running_), posted);
+  if (!posted.has(Call::kPending)) return engine_.precedes(poster, posted);
+  if (engine_.precedes(poster, engine_.call(drain_call_))) return true;
+  const Handle after = predecessor(posted);
+  if (after == drain_call_) return false;
+  const Handle end = engine_.end_of(after);
+  return !engine_.linked(end) || engine_.precedes(poster, engine_.call(end));
+}
+
 void Agenda::require_future(const Call& poster, const Call& posted) const {
-  const bool together = poster.function->posted && slot(poster).agenda == id_;
-  bool future = true;
-  if (together) {
-    future = before(poster, posted);
-  } else if (drained_ || draining_) {
-    future = engine_.precedes(poster, engine_.call(drain_call_));
-  }
-  if (future) return;
+  if (in_future(poster, posted)) return;
   throw UsageError("posting into the past: " + Engine::describe(poster) + " posts " +
                    Engine::describe(posted) + " on agenda '" + name_ + "'");
 }
 
+Key Agenda::key_of(const Call& call) noexcept {
+  const std::uint32_t rank = slot(call).rank;
+  return {.bucket = static_cast<int>(rank >> 16) - 32768, .phase = rank >> 12 & 15,
+          .colour = rank & 4095, .order = slot(call).order};
+}
+
 void Agenda::outside_post(const Function& function, const Key& key, std::uint32_t hash,
                           const void* args, Construct construct) {
-  engine_.begin_edit();
   Handle h = find(function, hash, args);
   if (h == 0) {
     h = create(function, key, hash, args, construct);
-    drained_ ? place(h) : add_pending(h);
+    try {
+      drained_ ? place(h) : add_pending(h);
+    } catch (...) {
+      drop_pending(h);
+      if (engine_.idle()) engine_.purge();
+      throw;
+    }
   }
-  Call& c = engine_.call(h);
-  add_post(c);
-  engine_.on_rollback([this, h] { drop_post(engine_.call(h)); });
+  add_post(engine_.call(h));
 }
 
-void Agenda::outside_retract(const Function& function, std::uint32_t hash, const void* args) {
-  engine_.begin_edit();
+const Call& Agenda::require_posted(const Function& function, std::uint32_t hash,
+                                   const void* args) const {
   const Handle h = find(function, hash, args);
   if (h == 0 || engine_.call(h).posts() == 0) {
     throw UsageError("agenda '" + name_ + "': nothing to retract");
   }
-  // Until the next propagation ends the call is only dying, so the handle stays good.
-  engine_.on_rollback([this, h] { add_post(engine_.call(h)); });
-  drop_post(engine_.call(h));
+  return engine_.call(h);
 }
 
 void Agenda::drop_post(Call& call) noexcept {
   call.state -= Call::kOnePost;
+  if (call.has(Call::kPending)) unposted_ = true;
   if (call.posts() != 0 || call.has(Call::kPending | Call::kDead) || call.queue != 0) return;
   engine_.enqueue(call);
 }
 
 void Agenda::retract(Call&, Edge& edge) noexcept {
-  drop_post(engine_.call(static_cast<PostEdge&>(edge).target));
+  if (edge.kind == kPost) return drop_post(engine_.call(static_cast<PostEdge&>(edge).target));
+  drained_ = false;
+  drain_call_ = 0;
 }
 
 // --- Placing ---------------------------------------------------------------------------------
@@ -126,6 +132,54 @@ void Agenda::retract(Call&, Edge& edge) noexcept {
 void Agenda::add_pending(Handle call) {
   const detail::Slot& s = slot(engine_.call(call));
   pending_[s.rank].push_back({s.order, call});
+}
+
+// Requires: the call is in no list.
+void Agenda::drop_pending(Handle call) noexcept {
+  --pending_calls_;
+  engine_.drop_call(call);
+}
+
+// Pending calls that nobody posts leave.
+void Agenda::drop_unposted() noexcept {
+  if (!std::exchange(unposted_, false)) return;
+  const auto drop = [&](Handle h) {
+    const bool unposted = engine_.call(h).posts() == 0;
+    if (unposted) drop_pending(h);
+    return unposted;
+  };
+  for (auto& [rank, entries] : pending_) {
+    std::erase_if(entries, [&](const Entry& entry) { return drop(entry.call); });
+  }
+  for (Handle* link = &detached_; *link != 0;) {
+    Call& c = engine_.call(*link);
+    if (drop(*link)) {
+      *link = std::exchange(c.edges, 0);
+    } else {
+      link = &c.edges;
+    }
+  }
+}
+
+// A call whose drain is gone waits for another one.
+void Agenda::detach(Engine& engine, Call& call) noexcept {
+  auto& agenda = static_cast<Agenda&>(*engine.structures_[slot(call).agenda]);
+  call.clear(Call::kRunning);
+  call.set(Call::kPending | Call::kInvalid);
+  call.end = 0;
+  ++agenda.pending_calls_;
+  agenda.chain(call);
+}
+
+void Agenda::chain(Call& call) noexcept {
+  call.edges = std::exchange(detached_, engine_.handle_of(call));
+}
+
+void Agenda::adopt_detached() {
+  while (detached_ != 0) {
+    add_pending(detached_);
+    detached_ = std::exchange(engine_.call(detached_).edges, 0);
+  }
 }
 
 Handle Agenda::predecessor(const Call& call) const {
@@ -143,14 +197,16 @@ Handle Agenda::predecessor(const Call& call) const {
   return drain_call_;
 }
 
-// Puts a call posted during propagation between its neighbours.
+// Puts a call posted during propagation between its neighbours. All that a neighbour which still
+// runs has done so far lies before now; what it will do comes between now and the new call.
 void Agenda::place(Handle call) {
   Call& c = engine_.call(call);
   const detail::Slot& s = slot(c);
   const auto order = [&](Handle a, Handle b) { return before(engine_.call(a), engine_.call(b)); };
   const Handle after = predecessor(c);
   OrderedCalls& calls = classes_[s.rank];
-  engine_.timeline_.insert_after(after == drain_call_ ? after : engine_.end_of(after), call);
+  const Handle end = after == drain_call_ ? after : engine_.end_of(after);
+  engine_.timeline_.insert_after(engine_.linked(end) ? end : engine_.now_, call);
   try {
     calls.insert({s.order, call}, order);
   } catch (...) {
@@ -176,21 +232,35 @@ void Agenda::forget(Engine& engine, Call& call) noexcept {
 // --- Draining --------------------------------------------------------------------------------
 
 struct Agenda::Drain {
-  void operator()(Scope& s, Agenda* agenda) const { agenda->run_pending(s.engine()); }
+  void operator()(Scope& s, Agenda* agenda) const { agenda->run_pending(s); }
   static constexpr std::string_view kName = "drain";
 };
 
 void Agenda::drain(Scope& s) {
-  if (draining_ || drained_) throw UsageError("agenda '" + name_ + "' is drained twice");
+  if (draining_) throw UsageError("agenda '" + name_ + "' is drained twice");
   static constexpr Drain kDrain{};
   s.call<kDrain>(this);
 }
 
-void Agenda::run_pending(Engine& engine) {
-  drain_call_ = engine.handle_of(*engine.current_->call);
+// What an earlier drain ran waits again: that drain threw, or it is gone and left its calls ahead.
+void Agenda::begin_drain(Scope& s) {
+  if (draining_ || drained_) throw UsageError("agenda '" + name_ + "' is drained twice");
+  drain_call_ = engine_.handle_of(s.self());
+  running_ = 0;
+  if (s.recall<Edge>(id_, kDrain, [](const Edge&) { return true; }) == nullptr) {
+    s.effect<Edge>(id_, kDrain);
+  }
+  engine_.need_end(*engine_.current_);
+  for (auto& [rank, calls] : classes_) {
+    while (!calls.empty()) engine_.discard_subtree(calls.first());
+  }
+  adopt_detached();
+}
+
+void Agenda::run_pending(Scope& s) {
+  begin_drain(s);
   draining_ = true;
   try {
-    engine.need_end(*engine.current_);
     while (!pending_.empty()) run_class(pending_.begin()->first);
   } catch (...) {
     draining_ = false;
@@ -207,65 +277,62 @@ void Agenda::run_class(std::uint32_t rank) {
     if (a.order != b.order) return a.order > b.order;
     return a.call != b.call && before(engine_.call(b.call), engine_.call(a.call));
   };
-  std::vector<Entry> batch = std::move(pending_[rank]);
-  pending_[rank].clear();
-  std::sort(batch.begin(), batch.end(), [&](const Entry& a, const Entry& b) { return later(b, a); });
-  OrderedCalls& done = classes_[rank];
+  std::vector<Entry> batch = std::exchange(pending_[rank], {});
   std::vector<Entry> late;  // a heap
   std::size_t i = 0;
+  Entry next;
   try {
+    OrderedCalls& done = classes_[rank];
+    std::sort(batch.begin(), batch.end(),
+              [&](const Entry& a, const Entry& b) { return later(b, a); });
     while (i < batch.size() || !late.empty()) {
       const bool from_late = i == batch.size() || (!late.empty() && later(batch[i], late.front()));
-      Handle next;
       if (from_late) {
         std::pop_heap(late.begin(), late.end(), later);
-        next = late.back().call;
+        next = late.back();
         late.pop_back();
       } else {
-        next = batch[i++].call;
+        next = batch[i++];
       }
       run_one(next, done);
+      next = {};
       auto& posted = pending_[rank];
+      if (late.capacity() < late.size() + posted.size()) {
+        late.reserve(2 * (late.size() + posted.size()));
+      }
       for (const Entry& entry : posted) {
         late.push_back(entry);
         std::push_heap(late.begin(), late.end(), later);
       }
       posted.clear();
     }
-  } catch (...) {
-    batch.insert(batch.end(), late.begin(), late.end());
-    return_to_pending(batch, i);
+  } catch (...) {  // what has not run waits for the drain to run again
+    if (next.call != 0 && engine_.call(next.call).has(Call::kPending)) chain(engine_.call(next.call));
+    for (; i < batch.size(); ++i) chain(engine_.call(batch[i].call));
+    for (const Entry& entry : late) chain(engine_.call(entry.call));
     throw;
   }
   pending_.erase(rank);
 }
 
-void Agenda::run_one(Handle call, OrderedCalls& done) {
-  Call& c = engine_.call(call);
+void Agenda::run_one(const Entry& entry, OrderedCalls& done) {
+  Call& c = engine_.call(entry.call);
+  if (c.posts() == 0) {  // posted, then taken back before it could run
+    c.clear(Call::kPending);
+    return drop_pending(entry.call);
+  }
+  engine_.timeline_.insert_after(engine_.now_, entry.call);
+  try {
+    done.append(entry);
+  } catch (...) {
+    engine_.timeline_.erase(entry.call);
+    throw;
+  }
   --pending_calls_;
   c.clear(Call::kPending);
-  if (c.posts() == 0) {  // posted, then taken back before it could run
-    c.set(Call::kDead);
-    --engine_.live_calls_;
-    engine_.graveyard_.push_back(call);
-    return;
-  }
-  done.append({slot(c).order, call});
-  engine_.timeline_.insert_after(engine_.now_, call);
-  engine_.now_ = call;
-  engine_.execute(call, engine_.current_->limit);
-}
-
-// After a failure: what has not run is dropped, since the run that posted it is taken back.
-void Agenda::return_to_pending(std::vector<Entry>& batch, std::size_t from) noexcept {
-  for (std::size_t i = from; i < batch.size(); ++i) {
-    Call& c = engine_.call(batch[i].call);
-    c.set(Call::kDead);
-    c.clear(Call::kPending);
-    --pending_calls_;
-    --engine_.live_calls_;
-    engine_.graveyard_.push_back(batch[i].call);
-  }
+  engine_.now_ = running_ = entry.call;
+  engine_.execute(entry.call, engine_.current_->limit);
+  engine_.settle_child(entry.call);
 }
 
 // --- Bookkeeping -----------------------------------------------------------------------------

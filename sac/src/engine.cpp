@@ -15,7 +15,8 @@ Engine::Engine()
   now_ = timeline_.front();
 }
 
-// Nothing is retracted: only what needs destroying is visited.
+// Nothing is retracted: only what needs destroying is visited. Values go before the cells that
+// hold them.
 Engine::~Engine() {
   agendas_.clear();
   for (Handle h = at<TimeNode>(timeline_.front())->next; h != 0; h = at<TimeNode>(h)->next) {
@@ -32,8 +33,10 @@ Engine::~Engine() {
         destroy_versions(*at<Edge>(e));
       }
     }
-    if (c.function->destroy != nullptr) c.function->destroy(c);
   }
+  memo_.for_each([](Call& c) {
+    if (c.function->destroy != nullptr) c.function->destroy(c);
+  });
   for (const auto& [head, destroy] : outside_mods_) destroy(*this, head);
 }
 
@@ -93,13 +96,14 @@ Counts Engine::run_root(const Function& function, std::uint32_t hash, const void
     throw UsageError("run: propagate the edits first");
   }
   enter(Mode::running);
+  rollback_.clear();
   now_ = timeline_.back();
   const Handle before = now_;
   try {
     const Handle root = new_call(function, hash, args, construct);
-    timeline_.insert_after(now_, root);
-    now_ = root;
+    insert_call(root);
     execute(root, 0);
+    check_audit();
   } catch (...) {
     current_ = nullptr;
     discard_between(before, 0);
@@ -107,8 +111,6 @@ Counts Engine::run_root(const Function& function, std::uint32_t hash, const void
     throw;
   }
   const Counts done = counts_;
-  check_audit();
-  rollback_.clear();
   finish();
   return done;
 }
@@ -116,20 +118,30 @@ Counts Engine::run_root(const Function& function, std::uint32_t hash, const void
 Counts Engine::propagate() {
   enter(Mode::propagating);
   try {
-    propagate_queue();
+    propagate_within(0);
+    check_audit();
   } catch (...) {
     roll_back();
     throw;
   }
-  check_audit();
   rollback_.clear();
   const Counts done = counts_;
   finish();
   return done;
 }
 
-void Engine::propagate_queue() {
-  while (!queue_.empty()) {
+// Whether the earliest invalid call is `call` or a descendant. A posted call can die while it runs,
+// when it passes over its last poster; it waits until what runs has ended.
+bool Engine::next_is_within(Handle call) const noexcept {
+  const Call& first = *at<Call>(queue_.front());
+  if (queue_.front() == call) return !first.function->posted || first.posts() != 0;
+  return precedes(*at<Call>(call), first) &&
+         !timeline_.precedes(*at<TimeNode>(end_of(call)), first);
+}
+
+// Runs what is invalid in `call`'s interval; 0: everywhere.
+void Engine::propagate_within(Handle call) {
+  while (!queue_.empty() && (call == 0 || next_is_within(call))) {
     const Handle h = queue_.pop();
     Call& c = *at<Call>(h);
     if (c.function->posted && c.posts() == 0) {
@@ -143,9 +155,10 @@ void Engine::propagate_queue() {
 
 void Engine::roll_back() {
   current_ = nullptr;
+  suspects_.clear();
   try {
     for (auto undo = rollback_.rbegin(); undo != rollback_.rend(); ++undo) (*undo)();
-    propagate_queue();
+    if (!broken_) propagate_within(0);
   } catch (...) {
     broken_ = true;
   }
@@ -154,6 +167,7 @@ void Engine::roll_back() {
 }
 
 void Engine::finish() noexcept {
+  for (const auto& agenda : agendas_) agenda->drop_unposted();
   purge();
   suspects_.clear();
   current_ = nullptr;
@@ -219,6 +233,24 @@ void Engine::free_call(Handle call) noexcept {
   arena_.release(call, c.function->frame_bytes);
 }
 
+// A call that got no place, or lost it, leaves for good.
+void Engine::drop_call(Handle call) noexcept {
+  at<Call>(call)->set(Call::kDead);
+  graveyard_.push_back(call);
+  --live_calls_;
+}
+
+// Gives a new call its place: now.
+void Engine::insert_call(Handle call) {
+  try {
+    timeline_.insert_after(now_, call);
+  } catch (...) {
+    drop_call(call);
+    throw;
+  }
+  now_ = call;
+}
+
 void Engine::suspect(Handle fresh, const void* args) {
   const Call& f = *at<Call>(fresh);
   const Handle other = memo_.find(f.hash, [&](Handle, const Call& c) {
@@ -227,15 +259,18 @@ void Engine::suspect(Handle fresh, const void* args) {
   if (other != 0) suspects_.emplace_back(fresh, other);
 }
 
-Handle Engine::find_reusable(const Function& function, std::uint32_t hash,
-                             const void* args) const {
+// A call whose end stamp is the limit itself can only be the tail of the call that ends there:
+// as anything else it would leave no room before that end.
+Handle Engine::find_reusable(const Function& function, std::uint32_t hash, const void* args,
+                             bool tail) const {
   const Handle limit = current_->limit;
   if (at<TimeNode>(now_)->next == limit) return 0;  // nothing ahead: a first run
+  const bool may_share_end = tail && current_->end == limit;
   return memo_.find(hash, [&](Handle, const Call& c) {
     constexpr std::uint32_t kUnfit = Call::kDead | Call::kRunning | Call::kPending;
     return c.function == &function && !c.has(kUnfit) && !function.posted &&
            lies_ahead(c) && (limit == 0 || timeline_.precedes(c, *at<TimeNode>(limit))) &&
-           function.equal(c, args);
+           (c.end == 0 || c.end != limit || may_share_end) && function.equal(c, args);
   });
 }
 
@@ -243,19 +278,32 @@ Handle Engine::call_child(const Function& function, std::uint32_t hash, const vo
                           void (*construct)(void*, const void*)) {
   if (current_ == nullptr) throw UsageError("call: only a running function can call");
   if (current_->tail != 0) throw UsageError("call: a tail call must be the last thing done");
-  if (const Handle old = find_reusable(function, hash, args); old != 0) {
-    discard_between(now_, old);
-    now_ = end_of(old);
-    ++counts_.reused;
-    need_end(*current_);
-    return old;
-  }
   need_end(*current_);
-  const Handle fresh = new_call(function, hash, args, construct);
-  timeline_.insert_after(now_, fresh);
-  now_ = fresh;
-  execute(fresh, current_->limit);
-  return fresh;
+  Handle child = find_reusable(function, hash, args, false);
+  if (child != 0) {
+    discard_between(now_, child);
+    now_ = end_of(child);
+    ++counts_.reused;
+  } else {
+    child = new_call(function, hash, args, construct);
+    insert_call(child);
+    execute(child, current_->limit);
+  }
+  settle_child(child);
+  return child;
+}
+
+// Runs what is invalid in a child that was reused, or in what the child reused: whatever precedes
+// the running call is settled.
+void Engine::settle_child(Handle child) {
+  if (mode_ != Mode::propagating || queue_.empty()) return;
+  try {
+    propagate_within(child);
+  } catch (...) {
+    now_ = end_of(child);
+    throw;
+  }
+  now_ = end_of(child);
 }
 
 void Engine::call_tail(const Function& function, std::uint32_t hash, const void* args,
@@ -263,7 +311,7 @@ void Engine::call_tail(const Function& function, std::uint32_t hash, const void*
   if (current_ == nullptr) throw UsageError("tail: only a running function can call");
   if (current_->tail != 0) throw UsageError("tail: a tail call must be the last thing done");
   need_end(*current_);
-  const Handle old = find_reusable(function, hash, args);
+  const Handle old = find_reusable(function, hash, args, true);
   current_->tail_reused = old != 0;
   current_->tail = old != 0 ? old : new_call(function, hash, args, construct);
 }
@@ -290,8 +338,7 @@ void Engine::execute(Handle call, Handle limit) {
     run_body(a, call);
     while (a.tail != 0 && !a.tail_reused) {
       const Handle next = std::exchange(a.tail, 0);
-      timeline_.insert_after(now_, next);
-      now_ = next;
+      insert_call(next);
       at<Call>(next)->end = a.end;
       run_body(a, next);
     }
@@ -316,10 +363,11 @@ void Engine::run_body(Activation& a, Handle call) {
   settle(a);
 }
 
-// The call has said all it has to say: what it did not repeat is taken back.
+// The call has said all it has to say: what it did not repeat is taken back. It has not seen that
+// in this execution, so it is not invalidated by it.
 void Engine::settle(Activation& a) noexcept {
-  a.call->clear(Call::kRunning);
   retract_all(*a.call, std::exchange(a.old_edges, 0));
+  a.call->clear(Call::kRunning | Call::kInvalid);
 }
 
 // Ends the interval: a reused tail ends it, what was not reused is discarded.
@@ -341,12 +389,7 @@ void Engine::close(Activation& a) {
 
 // Client code threw: the call stays, as one that must run again.
 void Engine::abandon(Activation& a) noexcept {
-  if (a.tail != 0 && !a.tail_reused) {
-    at<Call>(a.tail)->set(Call::kDead);
-    --live_calls_;
-    graveyard_.push_back(a.tail);
-    a.tail = 0;
-  }
+  if (a.tail != 0 && !a.tail_reused) drop_call(std::exchange(a.tail, 0));
   settle(a);
   if (a.end != 0 && !a.end_linked) {
     // Cannot fail in the middle of a group with room; a failure leaves the call a leaf.
@@ -374,16 +417,17 @@ void Engine::discard_between(Handle from, Handle to) noexcept {
   }
 }
 
+// A posted call that is still asked for goes back to its agenda: only the drain that ran it left.
 void Engine::discard(Handle call) noexcept {
   Call& c = *at<Call>(call);
-  c.set(Call::kDead);
-  c.clear(Call::kRunning);
+  const bool asked_for = c.posts() != 0;
+  c.set(asked_for ? Call::kPending : Call::kDead);
   if (c.queue != 0) queue_.erase(c);
   retract_all(c, std::exchange(c.edges, 0));
   if (c.function->posted) Agenda::forget(*this, c);
   timeline_.erase(call);
-  graveyard_.push_back(call);
-  --live_calls_;
+  if (asked_for) return Agenda::detach(*this, c);
+  drop_call(call);
   ++counts_.discarded;
 }
 
@@ -448,7 +492,11 @@ void Engine::check_invariants() const {
       ++edges;
       SAC_INVARIANT(at<Edge>(e)->structure < structures_.size());
     }
+    if (queue_.empty()) mods_->check_writes(c);
   });
+  if (queue_.empty()) {
+    for (const auto& [head, destroy] : outside_mods_) mods_->check_invariants(head);
+  }
   for (const auto& agenda : agendas_) calls += agenda->pending_calls();
   SAC_INVARIANT(calls == live_calls_ && edges == live_edges_);
   SAC_INVARIANT(memo_.size() == live_calls_);

@@ -213,11 +213,12 @@ void ModStructure::retract(Call&, Edge& edge) noexcept {
   if (edge.kind == kRead) return unlink_reader(static_cast<ReadEdge&>(edge));
   auto& write = static_cast<WriteEdge&>(edge);
   Version& version = *at(write.version);
+  Version* previous = before(write.head, version);
+  const bool same = previous != nullptr && version.written && write.ops->equal(*previous, version);
   if (version.written) write.ops->destroy(version);
   version.written = false;
-  Version* previous = before(write.head, version);
   if (previous != nullptr) {
-    move_readers(version, *previous, nullptr, true);
+    move_readers(version, *previous, nullptr, !same);
   } else if (write.version != write.head) {
     move_readers(version, *at(write.head), nullptr, true);
   } else {
@@ -232,17 +233,30 @@ void ModStructure::retract(Call&, Edge& edge) noexcept {
 }
 
 void ModStructure::check_invariants(Handle head) const {
-  const Version* previous = nullptr;
+  const auto writer = [&](Handle v) -> const Call& { return *engine_.at<Call>(at(v)->writer); };
+  Handle previous = 0;
   for (Handle v = head; v != 0; v = at(v)->next) {
-    if (at(v)->written && previous != nullptr && previous->writer != 0) {
-      SAC_INVARIANT(engine_.precedes(*engine_.at<Call>(previous->writer),
-                                     *engine_.at<Call>(at(v)->writer)));
-    }
-    if (at(v)->written) previous = at(v);
+    SAC_INVARIANT(at(v)->written || v == head);
+    if (!at(v)->written) continue;
+    if (previous != 0) SAC_INVARIANT(engine_.precedes(writer(previous), writer(v)));
     Handle last = 0;
     for (Handle r = at(v)->readers; r != 0; last = r, r = reader(r)->next_reader) {
       SAC_INVARIANT(reader(r)->version == v && reader(r)->prev == last);
+      const Call& call = *engine_.at<Call>(reader(r)->call);
+      SAC_INVARIANT(at(v)->outside || &writer(v) == &call || engine_.precedes(writer(v), call));
+      const Handle next = at(v)->next;
+      SAC_INVARIANT(next == 0 || !engine_.precedes(writer(next), call));
     }
+    previous = v;
+  }
+}
+
+void ModStructure::check_writes(const Call& call) const {
+  for (Handle e = call.edges; e != 0; e = engine_.at<Edge>(e)->next) {
+    const Edge& edge = *engine_.at<Edge>(e);
+    if (edge.structure != id_ || edge.kind != kWrite) continue;
+    const auto& write = static_cast<const WriteEdge&>(edge);
+    if (write.version == write.head || !at(write.head)->written) check_invariants(write.head);
   }
 }
 

@@ -11,9 +11,12 @@
 //     the propagation queue and is discarded when its turn comes, unless posted again before.
 // (2) In a first run calls get their time stamps as they run; a call posted during propagation gets
 //     its place between its neighbours at once.
-// (3) Posting a call that would run before its poster is an error that names both.
+// (3) Posting a call that would run before its poster is an error that names both. A child of a
+//     posted call posts as that call does.
 // (4) Cost of a post: O(1) expected in a first run and when repeated; O(log) of the calls of the
 //     same bucket otherwise.
+// (5) An agenda is drained by one call. When that call leaves the trace, what is still posted waits
+//     for another drain.
 #pragma once
 
 #include <compare>
@@ -59,6 +62,7 @@ struct Slot {
 
 template <class... Args>
 struct PostedFrame {
+  static_assert(((alignof(Args) <= 8) && ...), "arguments in the arena are aligned to 8 bytes");
   Call call;
   Slot slot;
   std::tuple<Args...> args;
@@ -101,14 +105,24 @@ class Agenda final : public Structure {
   template <auto F, class... Args>
   void post_from_outside(const Key& key, Args... args) {
     const std::tuple<Args...> tuple(std::move(args)...);
-    outside_post(detail::kPosted<F, Args...>, key, detail::label_hash<F>(tuple), &tuple,
-                 &detail::construct_args<detail::PostedFrame<Args...>>);
+    engine_.begin_edit();
+    engine_.on_rollback([this, tuple] { drop_labelled<F>(tuple); });
+    try {
+      add_labelled<F>(key, tuple);
+    } catch (...) {
+      engine_.rollback_.pop_back();
+      throw;
+    }
   }
   /// Takes one post_from_outside back. Throws: UsageError if there is none.
   template <auto F, class... Args>
   void retract_from_outside(Args... args) {
     const std::tuple<Args...> tuple(std::move(args)...);
-    outside_retract(detail::kPosted<F, Args...>, detail::label_hash<F>(tuple), &tuple);
+    engine_.begin_edit();
+    const Key key = key_of(require_posted(detail::kPosted<F, Args...>,
+                                          detail::label_hash<F>(tuple), &tuple));
+    engine_.on_rollback([this, key, tuple] { add_labelled<F>(key, tuple); });
+    drop_labelled<F>(tuple);
   }
 
   /// Runs what was posted, in order, as children of the running call. Once per agenda.
@@ -135,29 +149,54 @@ class Agenda final : public Structure {
   static const detail::Slot& slot(const Call& call) noexcept {
     return *reinterpret_cast<const detail::Slot*>(&call + 1);
   }
+  static Key key_of(const Call& call) noexcept;
   static void forget(Engine& engine, Call& call) noexcept;
+  static void detach(Engine& engine, Call& call) noexcept;
+
+  // Outside edits and their inverses go by label: a call discarded in a propagation that fails is
+  // another one after the roll-back.
+  template <auto F, class... Args>
+  void add_labelled(const Key& key, const std::tuple<Args...>& args) {
+    outside_post(detail::kPosted<F, Args...>, key, detail::label_hash<F>(args), &args,
+                 &detail::construct_args<detail::PostedFrame<Args...>>);
+  }
+  template <auto F, class... Args>
+  void drop_labelled(const std::tuple<Args...>& args) {
+    const auto& function = detail::kPosted<F, Args...>;
+    if (const Handle h = find(function, detail::label_hash<F>(args), &args); h != 0) {
+      drop_post(engine_.call(h));
+    }
+  }
 
   void post_call(Scope& s, const Function& function, const Key& key, std::uint32_t hash,
                  const void* args, Construct construct);
   void outside_post(const Function& function, const Key& key, std::uint32_t hash, const void* args,
                     Construct construct);
-  void outside_retract(const Function& function, std::uint32_t hash, const void* args);
+  [[nodiscard]] const Call& require_posted(const Function& function, std::uint32_t hash,
+                                           const void* args) const;
   [[nodiscard]] Handle find(const Function& function, std::uint32_t hash, const void* args) const;
   Handle create(const Function& function, const Key& key, std::uint32_t hash, const void* args,
                 Construct construct);
+  [[nodiscard]] bool in_future(const Call& poster, const Call& posted) const;
   void require_future(const Call& poster, const Call& posted) const;
   void add_pending(Handle call);
+  void drop_pending(Handle call) noexcept;
+  void drop_unposted() noexcept;
+  void chain(Call& call) noexcept;
+  void adopt_detached();
   void place(Handle call);
   [[nodiscard]] Handle predecessor(const Call& call) const;
   void add_post(Call& call) noexcept { call.state += Call::kOnePost; }
   void drop_post(Call& call) noexcept;
   [[nodiscard]] bool before(const Call& a, const Call& b) const;
 
-  void run_pending(Engine& engine);
+  void begin_drain(Scope& s);
+  void run_pending(Scope& s);
   void run_class(std::uint32_t rank);
-  void run_one(Handle call, OrderedCalls& done);
-  void return_to_pending(std::vector<Entry>& batch, std::size_t from) noexcept;
+  void run_one(const Entry& entry, OrderedCalls& done);
   struct Drain;
+  static constexpr std::uint8_t kPost = 0;
+  static constexpr std::uint8_t kDrain = 1;
 
   Engine& engine_;
   std::string name_;
@@ -165,7 +204,10 @@ class Agenda final : public Structure {
   std::map<std::uint32_t, std::vector<Entry>> pending_;
   std::map<std::uint32_t, OrderedCalls> classes_;
   std::uint64_t pending_calls_ = 0;
+  bool unposted_ = false;  // a pending call lost a post
+  Handle detached_ = 0;  // pending calls of a drain that is gone, chained by Call::edges
   Handle drain_call_ = 0;
+  Handle running_ = 0;  // the posted call that the drain runs
   bool draining_ = false;
   bool drained_ = false;
 };

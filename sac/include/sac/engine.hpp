@@ -9,7 +9,9 @@
 // (1) After propagate() everything observable is what a run from scratch would leave.
 // (2) Invalidated calls run in trace order; whatever precedes the running call is settled.
 // (3) A call that runs again reuses children with equal labels that lie ahead of it in its own
-//     interval, subtrees included, without running them; what it passes over is discarded.
+//     interval, subtrees included, without running them; what it passes over is discarded. What
+//     is invalid in a reused subtree runs before its new parent goes on. (A tail call that ends
+//     the interval is reused by a tail call only: its end stamp is the interval's.)
 // (4) If client code throws in propagate(), the edits of the batch are undone and propagated; if
 //     that fails too, the engine refuses all further work.
 // (5) Memory of discarded calls is freed when the propagation ends, not before.
@@ -82,7 +84,7 @@ class Engine {
   template <class T>
   [[nodiscard]] const T& get(Mod<T> mod) const;
 
-  /// Runs f(scope, args...) at the end of the trace.
+  /// Runs f(scope, args...) at the end of the trace. Edits made before can no longer be undone.
   /// Throws: what the program throws, with everything it did taken back.
   template <auto F, class... Args>
   Counts run(Args... args);
@@ -177,13 +179,16 @@ class Engine {
     const Handle end = at<Call>(call)->end;
     return end != 0 ? end : call;
   }
+  // An end stamp has no place until its call closes.
+  [[nodiscard]] bool linked(Handle stamp) const noexcept { return at<TimeNode>(stamp)->prev != 0; }
   void enqueue(Call& call) noexcept { queue_.push(handle_of(call)); }
 
   void enter(Mode mode);
   void require_usable() const;
   Counts run_root(const Function& function, std::uint32_t hash, const void* args,
                   void (*construct)(void*, const void*));
-  void propagate_queue();
+  [[nodiscard]] bool next_is_within(Handle call) const noexcept;
+  void propagate_within(Handle call);
   void roll_back();
   void finish() noexcept;
   void purge() noexcept;
@@ -192,13 +197,17 @@ class Engine {
   Handle new_call(const Function& function, std::uint32_t hash, const void* args,
                   void (*construct)(void*, const void*));
   void free_call(Handle call) noexcept;
-  Handle find_reusable(const Function& function, std::uint32_t hash, const void* args) const;
+  void drop_call(Handle call) noexcept;
+  void insert_call(Handle call);
+  Handle find_reusable(const Function& function, std::uint32_t hash, const void* args,
+                       bool tail) const;
   void suspect(Handle fresh, const void* args);
   Handle call_child(const Function& function, std::uint32_t hash, const void* args,
                     void (*construct)(void*, const void*));
   void call_tail(const Function& function, std::uint32_t hash, const void* args,
                  void (*construct)(void*, const void*));
   void need_end(Activation& a);
+  void settle_child(Handle child);
   void execute(Handle call, Handle limit);
   void run_body(Activation& a, Handle call);
   void settle(Activation& a) noexcept;

@@ -39,6 +39,14 @@ class MemoTable {
     return 0;
   }
 
+  /// Calls `visit(call)` for every call of the table.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (const Handle head : buckets_) {
+      for (Handle h = head; h != 0; h = at(h)->memo_next) visit(*at(h));
+    }
+  }
+
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   [[nodiscard]] std::size_t bytes() const noexcept { return buckets_.capacity() * sizeof(Handle); }
 

@@ -44,8 +44,9 @@ struct ReadEdge : Edge {
 };
 static_assert(sizeof(ReadEdge) == 24);
 
-// How to destroy and to move the value of a version, and how large the version is.
+// How to compare, destroy and move the value of a version, and how large the version is.
 struct ValueOps {
+  bool (*equal)(Version&, Version&);
   void (*destroy)(Version&);
   void (*move)(Version& from, Version& to);  // leaves `from` without a value
   std::uint32_t bytes;
@@ -60,6 +61,9 @@ static_assert(sizeof(WriteEdge) == 24);
 
 template <class T>
 inline constexpr ValueOps kValueOps{
+    [](Version& a, Version& b) {
+      return static_cast<TypedVersion<T>&>(a).value() == static_cast<TypedVersion<T>&>(b).value();
+    },
     [](Version& v) { static_cast<TypedVersion<T>&>(v).value().~T(); },
     [](Version& from, Version& to) {
       T& old = static_cast<TypedVersion<T>&>(from).value();
@@ -115,7 +119,11 @@ class ModStructure final : public Structure {
   void invalidate_readers(detail::Version& version) noexcept;
 
   void retract(Call& call, Edge& edge) noexcept override;
+  /// Throws: InvariantError unless the versions of the modifiable are in trace order and every
+  /// reader is at the version that it sees.
   void check_invariants(Handle head) const;
+  /// The same for the modifiables whose first version `call` wrote.
+  void check_writes(const Call& call) const;
 
  private:
   [[nodiscard]] detail::Version* at(Handle h) const noexcept {
@@ -154,10 +162,10 @@ void destroy_mod(Engine& engine, Handle head) {
   engine.arena().release(head, sizeof(TypedVersion<T>));
 }
 
-// A modifiable as a keyed object: the first version in place.
+// A modifiable as a keyed object: the first version in place, where a handle can point.
 template <class T>
 struct Cell {
-  TypedVersion<T> version;
+  alignas(Arena::kGranule) TypedVersion<T> version;
   ~Cell() {
     if (version.written) version.value().~T();
   }

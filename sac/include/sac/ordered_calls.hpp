@@ -24,13 +24,15 @@ class OrderedCalls {
 
   [[nodiscard]] bool empty() const noexcept { return leaves_.empty(); }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// Requires: not empty.
+  [[nodiscard]] Handle first() const noexcept { return leaves_.front()->calls[0]; }
   [[nodiscard]] Handle last() const noexcept {
     return leaves_.back()->calls[leaves_.back()->count - 1];
   }
 
   /// Adds an entry behind all others. Requires: it belongs there.
   void append(Entry entry) {
-    if (leaves_.empty() || leaves_.back()->count == kFill) leaves_.push_back(std::make_unique<Leaf>());
+    if (leaves_.empty() || leaves_.back()->count >= kFill) leaves_.push_back(std::make_unique<Leaf>());
     Leaf& leaf = *leaves_.back();
     put(leaf, leaf.count, entry);
     ++size_;

@@ -25,6 +25,8 @@ class PropagationQueue {
 
   /// Requires: the call is not queued and has a place in the timeline. Cost: O(log size).
   void push(Handle call);
+  /// The earliest call. Requires: not empty.
+  [[nodiscard]] Handle front() const noexcept { return heap_.front(); }
   [[nodiscard]] Handle pop();
   void erase(Call& call) noexcept;
 

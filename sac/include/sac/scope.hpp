@@ -21,6 +21,7 @@ namespace detail {
 // A call in memory: header, then arguments.
 template <class... Args>
 struct Frame {
+  static_assert(((alignof(Args) <= 8) && ...), "arguments in the arena are aligned to 8 bytes");
   Call call;
   std::tuple<Args...> args;
 };
@@ -28,6 +29,8 @@ struct Frame {
 // A keyed allocation in memory: header, key, object.
 template <class T, class... Key>
 struct MakeFrame {
+  static_assert(alignof(T) <= 8 && ((alignof(Key) <= 8) && ...),
+                "objects in the arena are aligned to 8 bytes");
   Call call;
   std::tuple<Key...> args;
   alignas(T) std::byte storage[sizeof(T)];
