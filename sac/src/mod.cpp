@@ -35,6 +35,7 @@ Version& ModStructure::observe(Scope& scope, Handle head) {
     if (sees(call, *at(v))) {
       seen = v;
     } else if (at(v)->written && at(v)->writer != engine_.handle_of(call)) {
+      require_ahead(call, *at(v), head);
       break;
     }
   }
@@ -46,6 +47,14 @@ Version& ModStructure::observe(Scope& scope, Handle head) {
     link_reader(edge, *at(seen));
   }
   return *at(seen);
+}
+
+// The effects of own children lie later in time than their parent: it cannot read them.
+void ModStructure::require_ahead(const Call& reader, const Version& version, Handle head) const {
+  const Call& writer = *engine_.at<Call>(version.writer);
+  if (engine_.lies_ahead(writer)) return;
+  throw UsageError(Engine::describe(reader) + " reads modifiable @" + std::to_string(head) +
+                   " after its own child " + Engine::describe(writer) + " has written it");
 }
 
 void ModStructure::fail_unwritten(const Call& reader, Handle head) const {

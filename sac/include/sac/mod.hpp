@@ -139,6 +139,7 @@ class ModStructure final : public Structure {
   void unlink_reader(detail::ReadEdge& edge) noexcept;
   void move_readers(detail::Version& from, detail::Version& to, const Call* later_than,
                     bool invalidate) noexcept;
+  void require_ahead(const Call& reader, const detail::Version& version, Handle head) const;
   [[noreturn]] void fail_unwritten(const Call& reader, Handle head) const;
   void require_unread(Scope& scope, const detail::Version& version) const;
 
