@@ -1,0 +1,179 @@
+// The engine's containers: arena, memo table, propagation queue, ordered calls; names of labels.
+#include <catch2/catch.hpp>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "sac/sac.hpp"
+
+namespace {
+
+using sac::Handle;
+
+struct Random {
+  std::uint64_t state = 11;
+  std::size_t operator()(std::size_t n) {
+    state = sac::mix(state + 0x9e3779b97f4a7c15u);
+    return state % n;
+  }
+};
+
+TEST_CASE("arena blocks do not overlap, keep their address, and are handed out again") {
+  sac::Arena arena;
+  Random random;
+  std::map<Handle, std::size_t> live;
+  for (int step = 0; step < 20000; ++step) {
+    if (live.empty() || random(2) == 0) {
+      const std::size_t bytes = random(20) == 0 ? 1000 + random(3000) : 8 + random(200);
+      const Handle h = arena.allocate(bytes);
+      REQUIRE(h != 0);
+      REQUIRE(reinterpret_cast<std::uintptr_t>(arena.at<char>(h)) % 8 == 0);
+      REQUIRE(arena.handle_of(arena.at<char>(h)) == h);
+      const auto next = live.lower_bound(h);
+      const std::size_t granules = (bytes + 7) / 8;
+      REQUIRE((next == live.end() || h + granules <= next->first));
+      REQUIRE((next == live.begin() ||
+               std::prev(next)->first + (std::prev(next)->second + 7) / 8 <= h));
+      live[h] = bytes;
+    } else {
+      const auto it = std::next(live.begin(), static_cast<std::ptrdiff_t>(random(live.size())));
+      arena.release(it->first, it->second);
+      live.erase(it);
+    }
+  }
+  arena.check_invariants();
+  const auto committed = arena.bytes_committed();
+  for (int round = 0; round < 1000; ++round) arena.release(arena.allocate(64), 64);
+  CHECK(arena.bytes_committed() == committed);
+}
+
+// Calls that lie in a timeline without an engine.
+struct Calls {
+  sac::Arena arena;
+  sac::Timeline timeline{arena};
+  Handle make(Handle after, std::uint32_t hash = 0) {
+    const Handle h = arena.allocate(sizeof(sac::Call));
+    ::new (arena.at<void>(h)) sac::Call;
+    arena.at<sac::Call>(h)->hash = hash;
+    timeline.insert_after(after, h);
+    return h;
+  }
+};
+
+TEST_CASE("the propagation queue pops calls in trace order, whatever was pushed and taken out") {
+  Calls calls;
+  sac::PropagationQueue queue(calls.arena, calls.timeline);
+  Random random;
+  std::vector<Handle> order;
+  for (int i = 0; i < 500; ++i) order.push_back(calls.make(order.empty() ? calls.timeline.front() : order.back()));
+  std::set<std::size_t> queued;
+  for (int step = 0; step < 5000; ++step) {
+    const std::size_t i = random(order.size());
+    auto& call = *calls.arena.at<sac::Call>(order[i]);
+    if (random(3) == 0 && !queued.empty()) {
+      REQUIRE(queue.front() == order[*queued.begin()]);
+      REQUIRE(queue.pop() == order[*queued.begin()]);
+      queued.erase(queued.begin());
+    } else if (call.queue != 0) {
+      queue.erase(call);
+      queued.erase(i);
+    } else {
+      queue.push(order[i]);
+      queued.insert(i);
+    }
+    queue.check_invariants();
+    REQUIRE(queue.size() == queued.size());
+  }
+}
+
+TEST_CASE("the memo table finds every call by its hash, through growth and erasure") {
+  Calls calls;
+  sac::MemoTable memo(calls.arena);
+  std::vector<Handle> all;
+  for (std::uint32_t i = 0; i < 5000; ++i) {
+    all.push_back(calls.make(calls.timeline.back(), i % 1700 * 2048));
+    memo.insert(all.back());
+  }
+  const auto found = [&](Handle h) {
+    return memo.find(calls.arena.at<sac::Call>(h)->hash,
+                     [&](Handle other, const sac::Call&) { return other == h; }) == h;
+  };
+  for (std::size_t i = 0; i < all.size(); i += 2) memo.erase(all[i]);
+  CHECK(memo.size() == all.size() / 2);
+  for (std::size_t i = 0; i < all.size(); ++i) REQUIRE(found(all[i]) == (i % 2 == 1));
+  std::size_t visited = 0;
+  memo.for_each([&](const sac::Call&) { ++visited; });
+  CHECK(visited == memo.size());
+}
+
+TEST_CASE("ordered calls are those of a std::set, with ties decided by the calls") {
+  sac::OrderedCalls calls;
+  using Entry = sac::OrderedCalls::Entry;
+  const auto before = [](Handle a, Handle b) { return a < b; };
+  std::set<std::pair<std::uint64_t, Handle>> oracle;
+  Random random;
+  for (Handle h = 1; h <= 300; ++h) {  // a first run appends
+    calls.append({h / 7, h});
+    oracle.insert({h / 7, h});
+  }
+  for (int step = 0; step < 20000; ++step) {
+    const auto h = static_cast<Handle>(1 + random(step % 4000 < 2000 ? 3000 : 40));
+    const Entry entry{h / 7, h};
+    if (oracle.insert({entry.order, h}).second) {
+      const auto it = oracle.find({entry.order, h});
+      const Handle expected = it == oracle.begin() ? 0 : std::prev(it)->second;
+      REQUIRE(calls.predecessor(entry, before) == expected);
+      calls.insert(entry, before);
+    } else {
+      calls.erase(entry, before);
+      oracle.erase({entry.order, h});
+    }
+    REQUIRE(calls.size() == oracle.size());
+    REQUIRE(calls.empty() == oracle.empty());
+    if (!oracle.empty()) {
+      REQUIRE(calls.first() == oracle.begin()->second);
+      REQUIRE(calls.last() == oracle.rbegin()->second);
+    }
+    if (step % 500 != 0) continue;
+    std::vector<Handle> now, expected;
+    calls.for_each([&](const Entry& e) { now.push_back(e.call); });
+    for (const auto& e : oracle) expected.push_back(e.second);
+    REQUIRE(now == expected);
+  }
+}
+
+TEST_CASE("entries can be appended to a last leaf that insertions have filled") {
+  sac::OrderedCalls calls;
+  const auto before = [](Handle a, Handle b) { return a < b; };
+  for (Handle h = 1; h <= 112; ++h) calls.append({2 * h, h});
+  for (Handle h = 1; h <= 16; ++h) calls.insert({2 * h + 1, 1000 + h}, before);
+  calls.append({1000, 2000});
+  CHECK(calls.size() == 129);
+  CHECK(calls.last() == 2000);
+}
+
+void some_function(sac::Scope&, int) {}
+struct Object {
+  static constexpr std::string_view kName = "an object";
+  void operator()(sac::Scope&) const {}
+};
+struct Plain {
+  void operator()(sac::Scope&) const {}
+};
+
+TEST_CASE("a function's name comes from the function itself") {
+  CHECK(sac::function_name<&some_function>() == "some_function");
+  CHECK(sac::function_name<some_function>() == "some_function");
+  CHECK(sac::function_name<Object{}>() == "an object");
+  CHECK(sac::function_name<Plain{}>() == "Plain");
+}
+
+TEST_CASE("a call is described by its name and arguments") {
+  sac::Engine e;
+  e.run<some_function>(42);
+  e.walk([](const sac::Call& c, std::size_t) { CHECK(sac::Engine::describe(c) == "some_function(42)"); });
+}
+
+}  // namespace
