@@ -96,7 +96,7 @@ TEST_CASE("soak: the same over many seeds", "[.soak][soak]") {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     for (const Family family : support::kFamilies) {
       for (const Setting& setting : kSettings) {
-        run(family, setting, 5 + static_cast<int>(seed * 7 % 60), 300, seed, 0);
+        run(family, setting, 5 + static_cast<int>(seed * 7 % 60), 300, seed, 25);
       }
     }
   }
