@@ -168,6 +168,7 @@ TEST_CASE("a function's name comes from the function itself") {
   CHECK(sac::function_name<some_function>() == "some_function");
   CHECK(sac::function_name<Object{}>() == "an object");
   CHECK(sac::function_name<Plain{}>() == "Plain");
+  CHECK(sac::function_name<[](sac::Scope&) {}>() == "lambda");
 }
 
 TEST_CASE("a call is described by its name and arguments") {

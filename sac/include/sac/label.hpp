@@ -191,6 +191,25 @@ template <auto F>
   return s;
 }
 
+// The same for a type, which every compiler spells alike: some write an object as {}.
+template <class T>
+[[nodiscard]] constexpr std::string_view spelled_type() {
+  std::string_view s = __PRETTY_FUNCTION__;
+  s.remove_prefix(s.find("T = ") + 4);
+  s = s.substr(0, s.find_first_of(";]"));
+  if (s.find("lambda") != s.npos) return "lambda";
+  return s;
+}
+
+template <auto F>
+[[nodiscard]] constexpr std::string_view spelled_function() {
+  if constexpr (std::is_class_v<std::remove_cv_t<decltype(F)>>) {
+    return spelled_type<std::remove_cv_t<decltype(F)>>();
+  } else {
+    return spelled<F>();
+  }
+}
+
 }  // namespace detail
 
 /// The name of a traced function for people: an object's member `kName` if it has one, else the
@@ -200,7 +219,7 @@ template <auto F>
   if constexpr (requires { decltype(F)::kName; }) {
     return decltype(F)::kName;
   } else {
-    constexpr std::string_view full = detail::spelled<F>();
+    constexpr std::string_view full = detail::spelled_function<F>();
     constexpr auto colon = full.rfind("::");
     return colon == full.npos ? full : full.substr(colon + 2);
   }
