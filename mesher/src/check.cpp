@@ -2,6 +2,7 @@
 #include "mesher/check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -54,11 +55,16 @@ class Checker {
     return verdict.holds;
   }
 
+  // What the predicates can judge.
+  static bool in_range(double x) {
+    return x == 0 || (std::abs(x) >= 0x1p-160 && std::abs(x) <= 0x1p101);
+  }
+
   Verdict coordinates() {
     for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
       const auto& p = mesh_.vertices[v];
-      if (text::is_coordinate(p[0]) && text::is_coordinate(p[1])) continue;
-      return bad(vertex(v) + " is beyond the magnitudes 2^-100 to 2^100");
+      if (in_range(p[0]) && in_range(p[1])) continue;
+      return bad(vertex(v) + " is beyond the magnitudes 2^-160 to 2^101");
     }
     return good(std::to_string(mesh_.vertices.size()) + " vertices");
   }

@@ -45,7 +45,7 @@ class FeatureTree {
   /// K(p) from the tree. Cost: O(K(p)).
   [[nodiscard]] int crowded_level(const Vertex<D>& v) const;
 
-  /// Adds a point without updating K; set_levels() does it for all.
+  /// Adds a point without updating K: for many at once, each then asked for its crowded_level().
   void insert_only(Vertex<D>& v);
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }

@@ -14,7 +14,8 @@
 
 namespace mesher::detail {
 
-// 2^50 steps: points closer than L * 2^-49 may share the finest cell and are refused.
+// 2^50 steps: points closer than L * 2^-50 in both coordinates may share the finest cell, and are
+// then refused; points farther apart than that in one coordinate never are.
 inline constexpr int kLevels = 50;
 
 template <int D>

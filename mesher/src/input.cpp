@@ -52,7 +52,7 @@ void fail_too_near(const Point<2>& p, FeatureId id, const Point<2>& other, Featu
                     std::to_string(static_cast<std::int64_t>(other_id)));
   }
   throw Error(ErrorCode::too_close, named(p, id) + " is too close to " + named(other, other_id) +
-                                        ": nearer than the domain's size allows (2^-49 of it)");
+                                        ": they share a cell of 2^-50 of the meshing box's side");
 }
 
 std::vector<std::size_t> morton_order(const std::vector<Point<2>>& points, const MeshBox<2>& box) {

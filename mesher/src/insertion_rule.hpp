@@ -1,7 +1,8 @@
 // Which point to insert, and when to look again: the two rules behind Complete.
 //
-// Lengths fall into buckets [rho^i l_0, rho^(i+1) l_0): a vertex inserted in bucket i has its
-// nearest neighbour in a later bucket [L 4.3.1].
+// Lengths fall into buckets [rho^i l_0, rho^(i+1) l_0). A vertex inserted for a length of bucket i has
+// its nearest neighbour in a later bucket [L 4.3.1]; its event runs later than the one that inserts
+// it in any case (an edge of the boundary grid may be looked at after its bucket).
 //
 // radius_edge. A corner q_i of v's cell between u_i and u_{i+1} is a triangle; it is poor if its
 //   circumradius exceeds rho times its shortest edge. A corner hidden by the clip stands for a

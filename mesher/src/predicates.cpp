@@ -5,8 +5,9 @@
 //   1 limb   coordinate differences of up to 62 bits, if exact as doubles (always so on grids,
 //            mostly so for points near each other), or coordinates of up to 61 bits
 //   2 limbs  coordinates of up to 125 bits: nearly all other points
-//   4 limbs  coordinates of up to 253 bits: the rest, since a coordinate of magnitude 2^-100 to
-//            2^100 is a multiple of 2^-152 below 2^101
+//   4 limbs  coordinates of up to 253 bits: the rest. An input coordinate, of magnitude 2^-100 to
+//            2^100, is a multiple of 2^-152 below 2^101; that of a new vertex is 0 or above 2^-60
+//            of its box's side, so a multiple of 2^-113 of a side that bounds it
 // Why not the usual expansions, sums of doubles: an in-circle determinant at full range takes some
 // 400 limb products here, each exact by construction, and no rounding to reason about.
 #include "mesher/predicates.hpp"

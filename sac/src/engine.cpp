@@ -74,7 +74,6 @@ void Engine::enter(Mode mode) {
   require_usable();
   if (mode_ != Mode::idle) throw UsageError("the engine is running: it cannot be entered again");
   mode_ = mode;
-  counts_ = {};
 }
 
 void Engine::begin_edit() {
@@ -167,6 +166,7 @@ void Engine::roll_back() {
 }
 
 void Engine::finish() noexcept {
+  counts_ = {};
   for (const auto& agenda : agendas_) agenda->drop_unposted();
   purge();
   suspects_.clear();

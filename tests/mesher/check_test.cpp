@@ -6,6 +6,7 @@
 
 #include "mesher/generate.hpp"
 #include "mesher/mesh.hpp"
+#include "mesher/mesher.hpp"
 
 namespace {
 
@@ -41,7 +42,7 @@ TEST_CASE("a good mesh has every property") {
 TEST_CASE("each way to break a mesh is found as what it is") {
   Mesh<2> mesh = square();
   SECTION("coordinates") {
-    mesh.vertices[2][0] = 0x1p-101;
+    mesh.vertices[2][0] = 0x1p-161;
     CHECK(broken(mesh) == "coordinates");
   }
   SECTION("vertices: two coincide") {
@@ -160,4 +161,25 @@ TEST_CASE("the default domain has sides an eighth to a quarter of the longest ap
   CHECK(mesher::snapped_domain<2>(Points{{0, 1}, {8, 1}}) == mesher::Box<2>{{0, 0}, {8, 2}});
   CHECK(mesher::snapped_domain<2>(Points{{-180, -90}, {179, 83}}) ==
         mesher::Box<2>{{-192, -128}, {192, 128}});
+}
+
+TEST_CASE("a mesh of points at the lower end of the range of coordinates passes every check") {
+  std::uint64_t state = 7;
+  const auto next = [&] { return state = state * 6364136223846793005u + 1442695040888963407u; };
+  std::vector<mesher::Point<2>> points;
+  for (int i = 0; i < 240; ++i) {
+    mesher::Point<2> p;
+    for (double& x : p) {
+      const int exponent = -60 - static_cast<int>((next() >> 33) % 41);
+      const double size = std::ldexp(1 + static_cast<double>(next() >> 12) * 0x1p-52, exponent);
+      x = (next() >> 40) % 2 == 0 ? size : -size;
+    }
+    points.push_back(p);
+  }
+  const mesher::Options<2> options{.domain = mesher::snapped_domain<2>(points)};
+  const auto mesh = mesher::mesh_statically<2>(points, options);
+  for (const auto& finding : mesher::check_mesh(mesh, {.rho = options.rho})) {
+    INFO(finding.property << ": " << finding.detail);
+    CHECK(finding.holds);
+  }
 }

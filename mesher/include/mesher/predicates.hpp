@@ -11,8 +11,10 @@
 //  (3) Scaling all coordinates by a power of two, or moving them without rounding, keeps it.
 //  (4) Nothing is allocated or shared: any thread may call, and equal calls give equal results.
 //
-// Requires (of every coordinate): 0, or of magnitude 2^-100 to 2^100. Points that spread too far
-// for the exact evaluation throw std::domain_error; other breaches may go unnoticed.
+// Requires (of every coordinate): 0, or of magnitude 2^-160 to 2^101: the range of inputs, 2^-100 to
+// 2^100, with room for the vertices that a mesher puts between them. Points that spread over more
+// bits than the exact evaluation holds (253; never points of one mesh) throw std::domain_error;
+// other breaches may go unnoticed.
 //
 // The idea: a floating-point filter, inline, decides all but near-degenerate calls by an a priori
 // bound of its own error; what is left goes to predicates.cpp, which computes in integers just wide
@@ -37,10 +39,10 @@ static_assert(FLT_EVAL_METHOD == 0, "intermediate results must be doubles");
 namespace detail {
 
 /// u: a rounded operation is the exact one times 1+e with |e| <= u. Under the range above nothing
-/// underflows or overflows: a coordinate is an integer multiple of 2^-152 (52 bits below 2^-100) of
-/// magnitude <= 2^100. Multiples stay multiples under rounding, so a nonzero difference is between
-/// 2^-152 and 2^101, and a product of four, the highest degree met, between 2^-608 and 2^404; the
-/// sums below stay under 2^408, the error bounds above 2^-660: all normal.
+/// underflows or overflows: a coordinate is an integer multiple of 2^-212 (52 bits below 2^-160) of
+/// magnitude <= 2^101. Multiples stay multiples under rounding, so a nonzero difference is between
+/// 2^-212 and 2^102, and a product of four, the highest degree met, between 2^-848 and 2^408; the
+/// sums below stay under 2^412, the error bounds above 2^-900: all normal.
 inline constexpr double kUnitRoundoff = 0x1p-53;
 
 /// Both filters compute X, a sum of n monomials, as det = fl(X~), where X~ is exact but for the

@@ -44,7 +44,7 @@ class Mod;
 class Agenda;
 class ModStructure;
 
-/// The work of one run or propagation.
+/// The work of one run or propagation, with that of the edits before it.
 struct Counts {
   std::uint64_t executed = 0;       ///< bodies run
   std::uint64_t reused = 0;         ///< calls asked for again and kept without running
