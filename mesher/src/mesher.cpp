@@ -97,7 +97,7 @@ void Mesher<2>::Impl::add(FeatureId id, const Point<2>& p) {
     ids.erase(id);
   });
   ids.emplace(id, v.self);
-  features().insert(*engine, v);
+  features().insert(v);
   world->quadtree.post_from_outside<detail::locate>(detail::locate_key(box.fixed(p)),
                                                     VertexRef<2>{&v});
 }
@@ -119,7 +119,7 @@ void Mesher<2>::Impl::take(FeatureId id) {
   });
   ids.erase(id);
   v.input = false;
-  features().erase(*engine, v);
+  features().erase(v);
   world->quadtree.retract_from_outside<detail::locate>(VertexRef<2>{&v});
 }
 

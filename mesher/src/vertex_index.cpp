@@ -219,7 +219,6 @@ void Index::retract(sac::Call& call, sac::Edge& edge) noexcept {
 void Index::retract_birth(BirthEdge& birth) {
   Vertex<2>& v = pool_[birth.vertex];
   touch(v);
-  if (v.locator == birth.call) v.locator = 0;  // the record may live on as a Steiner vertex
   const sac::Handle self = engine_.arena().handle_of(&birth);
   sac::Handle* link = &v.producers;
   while (*link != self) link = &producer(*link).next_producer;

@@ -19,43 +19,54 @@
 
 namespace mesher::detail {
 
-/// The input points as a traceable data type: each has one observer of its crowded level.
+/// The input points: for each, the deepest level at which it is crowded.
 template <class S>
-class Features {
+class Features;
+
+template <>
+class Features<sac::PlainScope> {
  public:
-  Features(const MeshBox<2>& box, const VertexPool<2>& pool) : tree_(box, pool) {}
+  Features(const MeshBox<2>& box, const VertexPool<2>& pool, sac::PlainScope&) : tree_(box, pool) {}
+
+  [[nodiscard]] FeatureTree<2>& tree() noexcept { return tree_; }
+  int level(sac::PlainScope&, const Vertex<2>& v) { return v.level; }
+
+ private:
+  FeatureTree<2> tree_;
+};
+
+/// As a traceable data type: a level has one observer, the call that locates the point. Edits come
+/// from the outside, before all calls, so an observation is only invalidated by a changed level.
+template <>
+class Features<sac::Scope> : public sac::Structure {
+ public:
+  Features(const MeshBox<2>& box, VertexPool<2>& pool, sac::Engine& engine)
+      : engine_(engine), pool_(pool), tree_(box, pool), id_(engine.add_structure(*this)) {}
 
   [[nodiscard]] FeatureTree<2>& tree() noexcept { return tree_; }
   [[nodiscard]] const FeatureTree<2>& tree() const noexcept { return tree_; }
 
   /// The deepest level at which v is crowded, -1 if at none; observed by the running call.
-  int level(S& s, Vertex<2>& v) {
-    if constexpr (S::kTraced) v.locator = s.engine().handle_of(s.self());
-    return v.level;
-  }
+  int level(sac::Scope& s, Vertex<2>& v);
 
   /// An outside edit, with its inverse noted for a roll-back.
-  void insert(sac::Engine& engine, Vertex<2>& v) {
-    tree_.insert(v, [&](Vertex<2>& f) { changed(engine, f); });
-    engine.on_rollback([this, &engine, &v] {
-      tree_.erase(v, [&](Vertex<2>& f) { changed(engine, f); });
-    });
-    changed(engine, v);
-  }
-  void erase(sac::Engine& engine, Vertex<2>& v) {
-    tree_.erase(v, [&](Vertex<2>& f) { changed(engine, f); });
-    engine.on_rollback([this, &engine, &v] {
-      tree_.insert(v, [&](Vertex<2>& f) { changed(engine, f); });
-      changed(engine, v);
-    });
-  }
+  void insert(Vertex<2>& v);
+  void erase(Vertex<2>& v);
+
+  void retract(sac::Call& call, sac::Edge& edge) noexcept override;
 
  private:
-  static void changed(sac::Engine& engine, Vertex<2>& v) {
-    if (v.locator != 0) engine.invalidate(engine.call(v.locator));
-  }
+  struct LevelEdge : sac::Edge {
+    VertexHandle vertex;
+  };
+  void put(Vertex<2>& v);
+  void take(Vertex<2>& v);
+  void changed(Vertex<2>& v);
 
+  sac::Engine& engine_;
+  VertexPool<2>& pool_;
   FeatureTree<2> tree_;
+  std::uint8_t id_;
 };
 
 /// The triangles of a static run, as they are output.
@@ -83,7 +94,7 @@ struct World {
       : box(mesh_box),
         rule(options, box),
         vertices(make_vertices(box, host)),
-        features(box, vertices.pool()),
+        features(box, vertices.pool(), host),
         quadtree(host.make_agenda("quadtree")),
         steiner(host.make_agenda("steiner")),
         stars(host.make_agenda("stars")) {

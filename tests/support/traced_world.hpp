@@ -38,7 +38,7 @@ class TracedWorld {
     Vertex& v = world_->vertices.add_input(p, false);
     world_->vertices.touch(v);
     inputs_[id] = &v;
-    world_->features.insert(*engine_, v);
+    world_->features.insert(v);
     world_->quadtree.post_from_outside<mesher::detail::locate>(
         mesher::detail::locate_key(box_.fixed(p)), Ref{&v});
   }
@@ -47,7 +47,7 @@ class TracedWorld {
     inputs_.erase(id);
     world_->vertices.touch(v);
     v.input = false;
-    world_->features.erase(*engine_, v);
+    world_->features.erase(v);
     world_->quadtree.retract_from_outside<mesher::detail::locate>(Ref{&v});
   }
   void move(mesher::FeatureId id, const mesher::Point<2>& p) {
