@@ -19,13 +19,16 @@ std::string number(double x) {
 }
 
 std::string named(const Point<2>& p, FeatureId id) {
-  return "point " + std::to_string(static_cast<std::int64_t>(id)) + " (" + number(p[0]) + ", " +
-         number(p[1]) + ")";
+  return "point " + std::to_string(static_cast<std::int64_t>(id)) + " " + place_text(p);
 }
 
 bool in_range(double x) { return x == 0 || (std::abs(x) >= 0x1p-100 && std::abs(x) <= 0x1p100); }
 
 }  // namespace
+
+std::string place_text(const Point<2>& p) {
+  return "(" + number(p[0]) + ", " + number(p[1]) + ")";
+}
 
 void check_point(const Point<2>& p, const Box<2>& domain, FeatureId id) {
   for (int i = 0; i < 2; ++i) {

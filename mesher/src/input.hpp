@@ -1,6 +1,7 @@
 // Checking input points at the boundary, and putting them into spatial order.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "grid.hpp"
@@ -8,6 +9,9 @@
 #include "mesher/mesh.hpp"
 
 namespace mesher::detail {
+
+/// "(x, y)", digits that read back to the same doubles.
+[[nodiscard]] std::string place_text(const Point<2>& p);
 
 /// Throws: Error (not_finite, magnitude, outside_domain).
 void check_point(const Point<2>& p, const Box<2>& domain, FeatureId id);

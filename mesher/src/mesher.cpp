@@ -303,6 +303,7 @@ void Mesher<D>::discard_edits() {
     return;
   }
   impl_->engine->undo_edits();
+  impl_->propagate();  // nothing changes; what the edits had announced is let go
 }
 
 template <int D>

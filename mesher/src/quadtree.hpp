@@ -186,6 +186,7 @@ void Quadtree<D>::give_children(NodeIndex n, int level) {
   if (free_.empty()) {
     first = static_cast<NodeIndex>(nodes_.size());
     nodes_.resize(nodes_.size() + kChildren);
+    free_.reserve(nodes_.capacity() / kChildren + 1);  // so that taking back cannot fail
   } else {
     first = free_.back();
     free_.pop_back();
@@ -263,7 +264,6 @@ typename Quadtree<D>::NodeIndex Quadtree<D>::mark(const Cell<D>& cell) {
 template <int D>
 void Quadtree<D>::unmark(NodeIndex n) {
   nodes_[n].parent_and_mark &= 0x7fffffffu;
-  free_.reserve(free_.size() + 1);
   while (!nodes_[n].marked() && nodes_[n].child != 0) {
     for (int i = 0; i < kChildren; ++i) {
       if (nodes_[nodes_[n].child + static_cast<NodeIndex>(i)].child != 0) return;

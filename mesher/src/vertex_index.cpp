@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
+
+#include "input.hpp"
 
 namespace mesher::detail {
 
@@ -17,10 +18,9 @@ float VertexSearch::packed(double x) const noexcept {
 }
 
 void VertexSearch::fail_coincident(const Point<2>& p) {
-  std::ostringstream text;
-  text << "input points are too close for double precision near (" << p[0] << ", " << p[1]
-       << "): a new vertex would coincide with another";
-  throw Error(ErrorCode::too_close, text.str());
+  throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
+                                        place_text(p) +
+                                        ": a new vertex would coincide with another");
 }
 
 // --- Time ------------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 
 #include "build_qt.hpp"
 #include "choose_steiners.hpp"
+#include "input.hpp"
 #include "triangulate.hpp"
 #include "world.hpp"
 
@@ -54,10 +55,9 @@ void World<S>::output(S&, VertexRef<2> v, const VoronoiCell& cell) {
 
 template <class S>
 void World<S>::fail_useless(const Vertex<2>& v, const Vertex<2>& x) const {
-  throw Error(ErrorCode::too_close, "input points are too close for double precision near (" +
-                                        std::to_string(v.p[0]) + ", " + std::to_string(v.p[1]) +
-                                        "): rounding moved a new vertex to (" +
-                                        std::to_string(x.p[0]) + ", " + std::to_string(x.p[1]) + ")");
+  throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
+                                        place_text(v.p) + ": rounding moved a new vertex to " +
+                                        place_text(x.p));
 }
 
 }  // namespace mesher::detail

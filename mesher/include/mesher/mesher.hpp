@@ -96,7 +96,8 @@ class Mesher {
   [[nodiscard]] MeshStats stats() const;
   [[nodiscard]] const Options<D>& options() const;
 
-  /// Throws std::logic_error naming the broken invariant. Cost: O(trace).
+  /// Requires: no edit announced since the last update(). Throws std::logic_error naming the broken
+  /// invariant. Cost: O(trace).
   void check_invariants() const;
 
  private:

@@ -1,6 +1,7 @@
 // The posted calls of one (bucket, phase, colour), in order: a two-level sorted array.
 //
-// Leaves of up to 128 entries under a directory of leaves; 12 bytes an entry at full leaves. Built
+// Leaves of up to 32 entries under a directory of leaves; 12 bytes an entry at full leaves, and
+// leaves that two edits leave half empty are merged, so that memory follows the number of calls. Built
 // in bulk by a first run, then searched and edited in O(log) comparisons of plain numbers; a call
 // itself is looked at only where orders tie.
 #pragma once
@@ -58,10 +59,20 @@ class OrderedCalls {
     const std::size_t l = leaf_for(entry, before);
     Leaf& leaf = *leaves_[l];
     const std::size_t i = position(leaf, entry, before) - 1;
-    std::copy(&leaf.orders[i + 1], &leaf.orders[leaf.count], &leaf.orders[i]);
-    std::copy(&leaf.calls[i + 1], &leaf.calls[leaf.count], &leaf.calls[i]);
+    const auto close_gap = [&](auto* column) {
+      std::copy(column + i + 1, column + leaf.count, column + i);
+    };
+    close_gap(leaf.orders.data());
+    close_gap(leaf.calls.data());
     --size_;
-    if (--leaf.count == 0) leaves_.erase(leaves_.begin() + static_cast<std::ptrdiff_t>(l));
+    --leaf.count;
+    if (leaf.count == 0) {
+      drop_leaf(l);
+    } else if (l + 1 < leaves_.size() && leaf.count + leaves_[l + 1]->count <= kMerge) {
+      merge(l);
+    } else if (l > 0 && leaf.count + leaves_[l - 1]->count <= kMerge) {
+      merge(l - 1);
+    }
   }
 
   /// The last call that comes before `entry`; 0 if there is none.
@@ -85,8 +96,9 @@ class OrderedCalls {
   }
 
  private:
-  static constexpr std::size_t kCapacity = 128;
-  static constexpr std::size_t kFill = 112;  // a first run leaves room for the edits to come
+  static constexpr std::size_t kCapacity = 32;
+  static constexpr std::size_t kFill = 28;   // a first run leaves room for the edits to come
+  static constexpr std::size_t kMerge = 20;  // neighbours of so few entries in all become one leaf
 
   struct Leaf {
     std::uint32_t count = 0;
@@ -130,8 +142,11 @@ class OrderedCalls {
   }
 
   static void put(Leaf& leaf, std::size_t i, const Entry& entry) {
-    std::copy_backward(&leaf.orders[i], &leaf.orders[leaf.count], &leaf.orders[leaf.count + 1]);
-    std::copy_backward(&leaf.calls[i], &leaf.calls[leaf.count], &leaf.calls[leaf.count + 1]);
+    const auto open_gap = [&](auto* column) {
+      std::copy_backward(column + i, column + leaf.count, column + leaf.count + 1);
+    };
+    open_gap(leaf.orders.data());
+    open_gap(leaf.calls.data());
     leaf.orders[i] = entry.order;
     leaf.calls[i] = entry.call;
     ++leaf.count;
@@ -141,11 +156,28 @@ class OrderedCalls {
     leaves_.insert(leaves_.begin() + static_cast<std::ptrdiff_t>(l) + 1, std::make_unique<Leaf>());
     Leaf& left = *leaves_[l];
     Leaf& right = *leaves_[l + 1];
-    const std::size_t half = left.count / 2;
-    std::copy(&left.orders[half], &left.orders[left.count], &right.orders[0]);
-    std::copy(&left.calls[half], &left.calls[left.count], &right.calls[0]);
-    right.count = static_cast<std::uint32_t>(left.count - half);
-    left.count = static_cast<std::uint32_t>(half);
+    const std::uint32_t half = left.count / 2;
+    move_entries(left, half, right);
+    left.count = half;
+  }
+
+  // Appends what `from` has from `first` on.
+  static void move_entries(const Leaf& from, std::uint32_t first, Leaf& to) noexcept {
+    const auto copy = [&](const auto& source, auto& target) {
+      std::copy(source.data() + first, source.data() + from.count, target.data() + to.count);
+    };
+    copy(from.orders, to.orders);
+    copy(from.calls, to.calls);
+    to.count += from.count - first;
+  }
+
+  void merge(std::size_t l) noexcept {
+    move_entries(*leaves_[l + 1], 0, *leaves_[l]);
+    drop_leaf(l + 1);
+  }
+
+  void drop_leaf(std::size_t l) noexcept {
+    leaves_.erase(leaves_.begin() + static_cast<std::ptrdiff_t>(l));
   }
 
   std::vector<std::unique_ptr<Leaf>> leaves_;
