@@ -52,7 +52,8 @@ struct Sample {
     executed += static_cast<double>(change.calls.executed);
     edges += static_cast<double>(change.calls.edges);
     vertices += static_cast<double>(change.vertices_added.size() + change.vertices_removed.size());
-    triangles += static_cast<double>(change.simplices_added.size() + change.simplices_removed.size());
+    triangles +=
+        static_cast<double>(change.simplices_added.size() + change.simplices_removed.size());
   }
   double quantile(double q) {
     std::sort(microseconds.begin(), microseconds.end());
@@ -60,11 +61,12 @@ struct Sample {
   }
   void print(const char* figure, std::size_t n) {
     const auto k = static_cast<double>(microseconds.size());
-    std::printf("{\"bench\":\"mesher\",\"figure\":\"%s\",\"n\":%zu,\"updates\":%zu,\"median_us\":%.1f,"
-                "\"p99_us\":%.1f,\"calls_executed\":%.1f,\"edges\":%.1f,\"vertices\":%.2f,"
-                "\"triangles\":%.2f}\n",
-                figure, n, microseconds.size(), quantile(0.5), quantile(0.99), executed / k,
-                edges / k, vertices / k, triangles / k);
+    std::printf(
+        "{\"bench\":\"mesher\",\"figure\":\"%s\",\"n\":%zu,\"updates\":%zu,\"median_us\":%.1f,"
+        "\"p99_us\":%.1f,\"calls_executed\":%.1f,\"edges\":%.1f,\"vertices\":%.2f,"
+        "\"triangles\":%.2f}\n",
+        figure, n, microseconds.size(), quantile(0.5), quantile(0.99), executed / k, edges / k,
+        vertices / k, triangles / k);
   }
 };
 
@@ -73,24 +75,25 @@ double print_static(const std::vector<Point<2>>& points, const mesher::Options<2
   const auto start = Clock::now();
   const auto mesh = mesher::mesh_statically<2>(points, options, {}, &stats);
   const double total = seconds_since(start);
-  std::printf("{\"bench\":\"mesher\",\"figure\":\"static\",\"n\":%zu,\"vertices\":%zu,"
-              "\"triangles\":%zu,\"quadtree_s\":%.4f,\"steiner_s\":%.4f,\"triangulate_s\":%.4f,"
-              "\"total_s\":%.4f}\n",
-              points.size(), stats.vertices, stats.simplices, stats.seconds_quadtree,
-              stats.seconds_steiner, stats.seconds_triangulate, total);
+  std::printf(
+      "{\"bench\":\"mesher\",\"figure\":\"static\",\"n\":%zu,\"vertices\":%zu,"
+      "\"triangles\":%zu,\"quadtree_s\":%.4f,\"steiner_s\":%.4f,\"triangulate_s\":%.4f,"
+      "\"total_s\":%.4f}\n",
+      points.size(), stats.vertices, stats.simplices, stats.seconds_quadtree, stats.seconds_steiner,
+      stats.seconds_triangulate, total);
   return stats.seconds_quadtree + stats.seconds_steiner + stats.seconds_triangulate;
 }
 
 void print_first_run(const mesher::MeshStats& s, std::size_t n, double static_seconds) {
   const double run = s.seconds_quadtree + s.seconds_steiner + s.seconds_triangulate;
-  std::printf("{\"bench\":\"mesher\",\"figure\":\"first_run\",\"n\":%zu,\"quadtree_s\":%.4f,"
-              "\"steiner_s\":%.4f,\"triangulate_s\":%.4f,\"run_s\":%.4f,\"over_static\":%.3f,"
-              "\"calls\":%llu,\"edges\":%llu,\"trace_bytes\":%llu,\"bytes_per_vertex\":%.1f}\n",
-              n, s.seconds_quadtree, s.seconds_steiner, s.seconds_triangulate, run,
-              run / static_seconds, static_cast<unsigned long long>(s.calls),
-              static_cast<unsigned long long>(s.edges),
-              static_cast<unsigned long long>(s.trace_bytes),
-              static_cast<double>(s.trace_bytes) / static_cast<double>(s.vertices));
+  std::printf(
+      "{\"bench\":\"mesher\",\"figure\":\"first_run\",\"n\":%zu,\"quadtree_s\":%.4f,"
+      "\"steiner_s\":%.4f,\"triangulate_s\":%.4f,\"run_s\":%.4f,\"over_static\":%.3f,"
+      "\"calls\":%llu,\"edges\":%llu,\"trace_bytes\":%llu,\"bytes_per_vertex\":%.1f}\n",
+      n, s.seconds_quadtree, s.seconds_steiner, s.seconds_triangulate, run, run / static_seconds,
+      static_cast<unsigned long long>(s.calls), static_cast<unsigned long long>(s.edges),
+      static_cast<unsigned long long>(s.trace_bytes),
+      static_cast<double>(s.trace_bytes) / static_cast<double>(s.vertices));
 }
 
 void bench(std::size_t n) {

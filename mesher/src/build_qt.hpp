@@ -1,7 +1,8 @@
 // BuildQT-Dyn [Fig 4.3, 4.4]: the quadtree that conforms to the local feature size.
 //
 // Departures (docs/paper_map.md has the proofs):
-// - Crowding is a question about the block of 3^d cells of the same size around a point, answered by
+// - Crowding is a question about the block of 3^d cells of the same size around a point, answered
+// by
 //   FeatureTree for all levels at once: locate(p) asks for the deepest crowded level of p, which is
 //   lines 10-13 and 20-24 of Fig 4.4 for all cells on p's path. An answer that does not change
 //   re-executes nothing.

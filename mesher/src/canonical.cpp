@@ -9,7 +9,8 @@ using Simplex = Mesh<2>::Simplex;
 
 // The triangles in lexicographic order: counted by their first corner, then each corner's few.
 std::vector<Simplex> sorted_by_corner(const std::vector<std::array<VertexHandle, 3>>& triangles,
-                                      const std::vector<std::uint32_t>& index, std::size_t corners) {
+                                      const std::vector<std::uint32_t>& index,
+                                      std::size_t corners) {
   std::vector<Simplex> renamed;
   renamed.reserve(triangles.size());
   std::vector<std::uint32_t> start(corners + 1, 0);

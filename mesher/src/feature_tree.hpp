@@ -131,7 +131,8 @@ int FeatureTree<D>::crowded_level(const Vertex<D>& v) const {
     bool alone = around[kBlock3 / 2] == (kPoint | v.self);
     for (int n = 0; alone && n < kBlock3; ++n) alone = n == kBlock3 / 2 || around[n] == 0;
     if (alone) return level - 1;
-    if (level == kLevels) return kLevels - 1;  // neighbours in the finest cells: cannot be told apart
+    if (level == kLevels)
+      return kLevels - 1;  // neighbours in the finest cells: cannot be told apart
     around = down(around, f, level);
   }
 }

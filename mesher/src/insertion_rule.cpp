@@ -38,8 +38,10 @@ constexpr double kAim = 1 - 0x1p-16;
 }  // namespace
 
 InsertionRule::InsertionRule(const Options<2>& options, const MeshBox<2>& box)
-    : rule_(options.rule), rho2_(options.rho * options.rho * kSlack),
-      growth2_((1 + options.rho) * (1 + options.rho) / 4), tiny_(box.side * 0x1p-60) {
+    : rule_(options.rule),
+      rho2_(options.rho * options.rho * kSlack),
+      growth2_((1 + options.rho) * (1 + options.rho) / 4),
+      tiny_(box.side * 0x1p-60) {
   const double aim = options.rho * kAim;
   height_ = aim + std::sqrt(aim * aim - 0.25);
   // No length is below side * 2^-51 (two points differ in their finest cell or a neighbouring
@@ -70,7 +72,9 @@ int InsertionRule::bucket(double length2) const {
 unsigned InsertionRule::colour(const Fixed<2>& f, int b) const {
   const int level = square_level_[index(b)];
   if (level == 0) return 0;
-  const auto bit = [&](int i) { return static_cast<unsigned>(f[static_cast<std::size_t>(i)] >> (kLevels - level) & 1); };
+  const auto bit = [&](int i) {
+    return static_cast<unsigned>(f[static_cast<std::size_t>(i)] >> (kLevels - level) & 1);
+  };
   return bit(0) | bit(1) << 1;
 }
 
@@ -118,7 +122,8 @@ Point<2> InsertionRule::place(const Poor& poor) const {
   return {middle[0] - h * dy, middle[1] + h * dx};
 }
 
-std::optional<InsertionRule::NewPoint> InsertionRule::poor_triangle_point(const VoronoiCell& cell, int b) const {
+std::optional<InsertionRule::NewPoint> InsertionRule::poor_triangle_point(const VoronoiCell& cell,
+                                                                          int b) const {
   double shortest2 = std::numeric_limits<double>::infinity();
   Point<2> point{};
   for_each_poor(cell, [&](const Poor& poor) {
@@ -133,7 +138,8 @@ std::optional<InsertionRule::NewPoint> InsertionRule::poor_triangle_point(const 
   return new_point(cell, point, shortest2);
 }
 
-std::optional<InsertionRule::NewPoint> InsertionRule::farthest_corner(const VoronoiCell& cell) const {
+std::optional<InsertionRule::NewPoint> InsertionRule::farthest_corner(
+    const VoronoiCell& cell) const {
   double nearest2 = std::numeric_limits<double>::infinity();
   for (int i = 0; i < cell.size(); ++i) {
     if (cell.real(i)) nearest2 = std::min(nearest2, squared(cell.neighbour(i)));
@@ -178,7 +184,8 @@ InsertionRule::NewPoint InsertionRule::new_point(const VoronoiCell& cell, const 
   return point;
 }
 
-std::optional<InsertionRule::NewPoint> InsertionRule::next_point(const VoronoiCell& cell, int b) const {
+std::optional<InsertionRule::NewPoint> InsertionRule::next_point(const VoronoiCell& cell,
+                                                                 int b) const {
   return rule_ == Rule::radius_edge ? poor_triangle_point(cell, b) : farthest_corner(cell);
 }
 

@@ -1,14 +1,14 @@
 // Which point to insert, and when to look again: the two rules behind Complete.
 //
-// Lengths fall into buckets [rho^i l_0, rho^(i+1) l_0). A vertex inserted for a length of bucket i has
-// its nearest neighbour in a later bucket [L 4.3.1]; its event runs later than the one that inserts
-// it in any case (an edge of the boundary grid may be looked at after its bucket).
+// Lengths fall into buckets [rho^i l_0, rho^(i+1) l_0). A vertex inserted for a length of bucket i
+// has its nearest neighbour in a later bucket [L 4.3.1]; its event runs later than the one that
+// inserts it in any case (an edge of the boundary grid may be looked at after its bucket).
 //
 // radius_edge. A corner q_i of v's cell between u_i and u_{i+1} is a triangle; it is poor if its
 //   circumradius exceeds rho times its shortest edge. A corner hidden by the clip stands for a
 //   triangle on each visible edge beside it, of larger circumradius than any bound of the bucket.
-//   The new vertex lies on the bisector of the shortest edge, as high as a circumradius of rho times
-//   that edge allows (the off-centre [Ungor 2004]), or at the circumcentre if that is lower.
+//   The new vertex lies on the bisector of the shortest edge, as high as a circumradius of rho
+//   times that edge allows (the off-centre [Ungor 2004]), or at the circumcentre if that is lower.
 // voronoi_aspect [Def 4.2.3]. While a corner is beyond rho NN(v), insert the farthest. A corner
 //   between neighbours nearer to each other than NN(v) is measured by their distance: they are
 //   incomplete by it, and those on the boundary grid have no event of their own.
@@ -68,13 +68,14 @@ class InsertionRule {
   [[nodiscard]] std::optional<NewPoint> poor_triangle_point(const VoronoiCell& cell, int b) const;
   [[nodiscard]] std::optional<NewPoint> farthest_corner(const VoronoiCell& cell) const;
   [[nodiscard]] Point<2> rounded(const Point<2>& p) const;
-  [[nodiscard]] NewPoint new_point(const VoronoiCell& cell, const Point<2>& p, double length2) const;
+  [[nodiscard]] NewPoint new_point(const VoronoiCell& cell, const Point<2>& p,
+                                   double length2) const;
 
   Rule rule_;
-  double rho2_;         // poor above this
-  double growth2_;      // a new vertex is farther from all than this times its squared length
-  double tiny_;         // coordinates below are noise around zero
-  double height_;       // of the off-centre, in units of the edge
+  double rho2_;     // poor above this
+  double growth2_;  // a new vertex is farther from all than this times its squared length
+  double tiny_;     // coordinates below are noise around zero
+  double height_;   // of the off-centre, in units of the edge
   std::vector<double> start2_;  // squared start of each bucket
   std::vector<double> clip_;
   std::vector<int> square_level_;  // squares of the colouring are cells of this level; 0: no colour

@@ -40,7 +40,8 @@ Mesh<D> mesh_statically(const std::vector<Point<D>>& points, const Options<D>& o
   scope.run<detail::refine>();
   std::vector<VertexHandle> vertices;
   world.vertices.pool().for_each([&](detail::Vertex<2>& v) { vertices.push_back(v.self); });
-  Mesh<2> mesh = detail::canonical(world.vertices.pool(), std::move(vertices), world.plain.triangles);
+  Mesh<2> mesh =
+      detail::canonical(world.vertices.pool(), std::move(vertices), world.plain.triangles);
   if (stats != nullptr) *stats = detail::timed_stats(world, mesh);
   return mesh;
 }

@@ -30,7 +30,9 @@ CallCounts call_counts(const sac::Counts& c) {
 template <>
 struct Mesher<2>::Impl {
   explicit Impl(const Options<2>& o)
-      : options(o), box(detail::mesh_box(o)), engine(std::make_unique<sac::Engine>()),
+      : options(o),
+        box(detail::mesh_box(o)),
+        engine(std::make_unique<sac::Engine>()),
         world(std::make_unique<detail::World<sac::Scope>>(options, box, *engine)) {
     predicates::self_test();
   }
@@ -69,7 +71,8 @@ struct Mesher<2>::Impl {
 // --- Edits -----------------------------------------------------------------------------------
 
 FeatureId Mesher<2>::Impl::id_of(VertexHandle h) const {
-  const auto it = std::find_if(ids.begin(), ids.end(), [&](const auto& e) { return e.second == h; });
+  const auto it =
+      std::find_if(ids.begin(), ids.end(), [&](const auto& e) { return e.second == h; });
   return it == ids.end() ? FeatureId{} : it->first;
 }
 
@@ -78,7 +81,8 @@ void Mesher<2>::Impl::check_new(FeatureId id, const Point<2>& p, FeatureId repla
   const Vertex<2>* other = world->features.tree().obstacle(p);
   if (other == nullptr) return;
   const FeatureId other_id = id_of(other->self);
-  if (other_id != replaced || !ids.contains(replaced)) detail::fail_too_near(p, id, other->p, other_id);
+  if (other_id != replaced || !ids.contains(replaced))
+    detail::fail_too_near(p, id, other->p, other_id);
 }
 
 void Mesher<2>::Impl::add(FeatureId id, const Point<2>& p) {
@@ -124,7 +128,8 @@ void Mesher<2>::Impl::take(FeatureId id) {
 }
 
 void Mesher<2>::Impl::insert(FeatureId id, const Point<2>& p) {
-  if (ids.contains(id)) throw Error(ErrorCode::repeated_id, "point " + text(id) + " is there already");
+  if (ids.contains(id))
+    throw Error(ErrorCode::repeated_id, "point " + text(id) + " is there already");
   check_new(id, p, id);
   add(id, p);
 }
@@ -187,7 +192,8 @@ Change<2> Mesher<2>::Impl::first_run() {
   change.vertices_added = mesh.vertices;
   change.simplices_added.reserve(mesh.simplices.size());
   for (const auto& s : mesh.simplices) {
-    change.simplices_added.push_back({mesh.vertices[s[0]], mesh.vertices[s[1]], mesh.vertices[s[2]]});
+    change.simplices_added.push_back(
+        {mesh.vertices[s[0]], mesh.vertices[s[1]], mesh.vertices[s[2]]});
   }
   return change;
 }
@@ -197,10 +203,9 @@ void Mesher<2>::Impl::report_stars(Change<2>& change) const {
   const auto own = [&](const auto& records) {
     std::vector<Triangle> all;
     for (const auto& r : records) {
-      detail::for_each_own_triangle(pool(), pool()[r.center], r.ring.data(),
-                                    static_cast<int>(r.ring.size()), [&](const Triangle& t) {
-                                      all.push_back(detail::smallest_first(t));
-                                    });
+      detail::for_each_own_triangle(
+          pool(), pool()[r.center], r.ring.data(), static_cast<int>(r.ring.size()),
+          [&](const Triangle& t) { all.push_back(detail::smallest_first(t)); });
     }
     std::sort(all.begin(), all.end());
     return all;

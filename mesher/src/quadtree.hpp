@@ -51,7 +51,8 @@ class Quadtree {
   template <class Radius, class Enters, class Visit>
   void visit_around(const Point<D>& center, Radius&& radius, Enters&& enters, Visit&& visit) const;
 
-  /// Calls visit(v) for every vertex v with |v - p| <= v.reach (in units of the box's side), and tightens the cells' bounds.
+  /// Calls visit(v) for every vertex v with |v - p| <= v.reach (in units of the box's side), and
+  /// tightens the cells' bounds.
   template <class Visit>
   void visit_reaching(const Point<D>& p, Visit&& visit) {
     reach_below(0, box_.lo, box_.side, p, visit);
@@ -66,7 +67,10 @@ class Quadtree {
   template <class Visit>
   void for_each_leaf(Visit&& visit) const;
 
-  [[nodiscard]] std::size_t bytes() const noexcept { return nodes_.capacity() * sizeof(Node) + buckets_.capacity() * sizeof(Bucket);
+  /// How far a cell's computed sides may be off.
+  [[nodiscard]] double margin() const noexcept { return margin_; }
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return nodes_.capacity() * sizeof(Node) + buckets_.capacity() * sizeof(Bucket);
   }
 
  private:
@@ -168,11 +172,6 @@ class Quadtree {
   // Cells are computed to within a few units in the last place of the largest coordinate.
   double margin_ = largest(box_) * 0x1p-50;
 
- public:
-  [[nodiscard]] double margin() const noexcept { return margin_; }
-
- private:
-
   static double largest(const MeshBox<D>& box) {
     double m = box.side;
     for (int i = 0; i < D; ++i) m = std::max({m, std::abs(box.lo[i]), std::abs(box.hi(i))});
@@ -192,7 +191,8 @@ void Quadtree<D>::give_children(NodeIndex n, int level) {
     free_.pop_back();
   }
   for (int i = 0; i < kChildren; ++i) {
-    nodes_[first + static_cast<NodeIndex>(i)] = Node{.parent_and_mark = n, .reach = nodes_[n].reach};
+    nodes_[first + static_cast<NodeIndex>(i)] =
+        Node{.parent_and_mark = n, .reach = nodes_[n].reach};
   }
   nodes_[n].child = first;
   for (BucketIndex b = std::exchange(nodes_[n].head, 0); b != 0;) {

@@ -14,10 +14,14 @@ namespace {
 // Eight unit directions, a turn of 45 degrees apart, starting at 0.3 radians: no grid is aligned
 // with them.
 constexpr std::array<Point<2>, VoronoiCell::kClips> kDirections{{
-    {0.955336489125606, 0.29552020666134}, {0.466559651251443, 0.884489248146117},
-    {-0.29552020666134, 0.955336489125606}, {-0.884489248146117, 0.466559651251443},
-    {-0.955336489125606, -0.29552020666134}, {-0.466559651251443, -0.884489248146117},
-    {0.29552020666134, -0.955336489125606}, {0.884489248146117, -0.466559651251443},
+    {0.955336489125606, 0.29552020666134},
+    {0.466559651251443, 0.884489248146117},
+    {-0.29552020666134, 0.955336489125606},
+    {-0.884489248146117, 0.466559651251443},
+    {-0.955336489125606, -0.29552020666134},
+    {-0.466559651251443, -0.884489248146117},
+    {0.29552020666134, -0.955336489125606},
+    {0.884489248146117, -0.466559651251443},
 }};
 
 Point<2> clip_place(const Point<2>& v, double radius, std::size_t i) {
@@ -32,8 +36,8 @@ struct Corner {
 // With k = |a||b|/|a x b| and eps = 2^-53, rounding in the numerators is at most
 // 4 eps k (|a| + |b|), in the denominator 4 eps k |q|, and the rounded a, b move q by as much
 // again; |a|, |b| <= 2|q|. So the error of q is below 40 eps k |q|, that of 2 w.q below
-// 80 eps k |q| |w|, and that of the sum and of |w|^2 below 16 eps |q| |w| where |w| <= 4|q| (beyond,
-// 2 w.q - |w|^2 <= -|w|^2 / 2 is clear). 256 eps k |q| is more than twice that.
+// 80 eps k |q| |w|, and that of the sum and of |w|^2 below 16 eps |q| |w| where |w| <= 4|q|
+// (beyond, 2 w.q - |w|^2 <= -|w|^2 / 2 is clear). 256 eps k |q| is more than twice that.
 Corner circumcentre(double ax, double ay, double bx, double by) {
   const double a2 = ax * ax + ay * ay;
   const double b2 = bx * bx + by * by;
@@ -183,11 +187,11 @@ void VoronoiCell::move_entries(int from, int to, int n) {
 
 // Corners first .. first + count - 1 go, and with them the neighbours between; w comes instead.
 void VoronoiCell::insert_neighbour(int first, int count, VertexHandle w) {
-  const int before = first;                         // u_first stays
-  const int after = (first + count) % size_;        // u_{first+count} stays
+  const int before = first;                   // u_first stays
+  const int after = (first + count) % size_;  // u_{first+count} stays
   const int old_size = size_;
-  const int fresh_size = size_ - count + 2;         // count - 1 neighbours go, one comes
-  int at;                                           // where w goes
+  const int fresh_size = size_ - count + 2;  // count - 1 neighbours go, one comes
+  int at;                                    // where w goes
   resize(std::max(fresh_size, old_size));
   size_ = fresh_size;
   if (after > before || after == 0) {

@@ -31,13 +31,14 @@ class VoronoiCell {
   /// Whether w might cut, by distance: |w - v|^2 < 4 max |q|^2.
   [[nodiscard]] bool in_reach(double distance2) const noexcept { return distance2 <= 4 * reach2_; }
 
-  /// Whether w is nearer than v to some corner; of a virtual neighbour's place: whether it takes it.
+  /// Whether w is nearer than v to some corner; of a virtual neighbour's place: whether it takes
+  /// it.
   [[nodiscard]] bool cuts(const Point<2>& w) { return find_cut(w); }
   /// Cuts the cell by the vertex w. Requires: the last call was cuts(its place), and it said true.
   void cut(VertexHandle w);
 
-  /// Whether a gap ball reaches into the square [corner, corner + side]^2, relative to v, widened by
-  /// `margin` [L 4.3.3].
+  /// Whether a gap ball reaches into the square [corner, corner + side]^2, relative to v, widened
+  /// by `margin` [L 4.3.3].
   [[nodiscard]] bool enters(const Point<2>& corner, double side, double margin) const noexcept;
 
   [[nodiscard]] int size() const noexcept { return size_; }

@@ -85,8 +85,10 @@ void Agenda::require_future(const Call& poster, const Call& posted) const {
 
 Key Agenda::key_of(const Call& call) noexcept {
   const std::uint32_t rank = slot(call).rank;
-  return {.bucket = static_cast<int>(rank >> 16) - 32768, .phase = rank >> 12 & 15,
-          .colour = rank & 4095, .order = slot(call).order};
+  return {.bucket = static_cast<int>(rank >> 16) - 32768,
+          .phase = rank >> 12 & 15,
+          .colour = rank & 4095,
+          .order = slot(call).order};
 }
 
 void Agenda::outside_post(const Function& function, const Key& key, std::uint32_t hash,
@@ -307,7 +309,8 @@ void Agenda::run_class(std::uint32_t rank) {
       posted.clear();
     }
   } catch (...) {  // what has not run waits for the drain to run again
-    if (next.call != 0 && engine_.call(next.call).has(Call::kPending)) chain(engine_.call(next.call));
+    if (next.call != 0 && engine_.call(next.call).has(Call::kPending))
+      chain(engine_.call(next.call));
     for (; i < batch.size(); ++i) chain(engine_.call(batch[i].call));
     for (const Entry& entry : late) chain(engine_.call(entry.call));
     throw;
@@ -351,7 +354,8 @@ void Agenda::check_invariants() const {
       const Call& c = engine_.call(entry.call);
       SAC_INVARIANT(!c.has(Call::kDead | Call::kPending) && c.posts() > 0);
       SAC_INVARIANT(slot(c).rank == rank && slot(c).order == entry.order);
-      SAC_INVARIANT(previous == nullptr || (before(*previous, c) && engine_.precedes(*previous, c)));
+      SAC_INVARIANT(previous == nullptr ||
+                    (before(*previous, c) && engine_.precedes(*previous, c)));
       previous = &c;
     });
   }

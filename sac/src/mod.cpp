@@ -73,7 +73,8 @@ Version& ModStructure::last(Handle head) const {
     if (at(v)->written) found = v;
   }
   if (found == 0) {
-    throw UsageError("modifiable @" + std::to_string(head) + " has no value: nobody has written it");
+    throw UsageError("modifiable @" + std::to_string(head) +
+                     " has no value: nobody has written it");
   }
   return *at(found);
 }
@@ -165,7 +166,8 @@ void ModStructure::appeared(Scope& scope, Handle head, Version& version, bool sa
   const Call& self = scope.self();
   for (Handle r = previous->readers; r != 0; r = reader(r)->next_reader) {
     const Call& call = *engine_.at<Call>(reader(r)->call);
-    if (&call != &self && engine_.precedes(self, call) && !engine_.lies_ahead(call) && !same_as_before) {
+    if (&call != &self && engine_.precedes(self, call) && !engine_.lies_ahead(call) &&
+        !same_as_before) {
       throw UsageError(Engine::describe(self) + " writes modifiable @" + std::to_string(head) +
                        " after its own child " + Engine::describe(call) + " has read it");
     }

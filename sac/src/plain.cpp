@@ -31,7 +31,8 @@ void PlainAgenda::run_class(PlainScope& s, Class& c) {
   const auto later = [](const Entry& a, const Entry& b) { return before(b, a); };
   std::vector<Entry> batch = std::move(c.records);
   c.records.clear();
-  std::sort(batch.begin(), batch.end(), [](const Entry& a, const Entry& b) { return before(a, b); });
+  std::sort(batch.begin(), batch.end(),
+            [](const Entry& a, const Entry& b) { return before(a, b); });
   std::vector<Entry> late;  // a heap
   Entry previous{0, nullptr};
   for (std::size_t i = 0; i < batch.size() || !late.empty();) {
@@ -45,7 +46,8 @@ void PlainAgenda::run_class(PlainScope& s, Class& c) {
       next = batch[i++];
     }
     if (previous.record != nullptr && same(previous, next)) continue;
-    if (previous.record != nullptr && before(next, previous)) throw UsageError("posting into the past");
+    if (previous.record != nullptr && before(next, previous))
+      throw UsageError("posting into the past");
     previous = next;
     operations(*next.record).run(s, *next.record);
     s.run_tails();

@@ -4,7 +4,8 @@
 #include "edit_sequence.hpp"
 #include "traced_world.hpp"
 
-TEST_CASE("no two calls have one label, and none is made again, over random edits [Def 1.4.2, 1.4.3]") {
+TEST_CASE(
+    "no two calls have one label, and none is made again, over random edits [Def 1.4.2, 1.4.3]") {
   for (const support::Family family : support::kFamilies) {
     for (const auto rule : {mesher::Rule::radius_edge, mesher::Rule::voronoi_aspect}) {
       mesher::Options<2> options;

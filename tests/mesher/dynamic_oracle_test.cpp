@@ -20,7 +20,7 @@ struct Setting {
   double rho;
 };
 constexpr Setting kSettings[] = {
-    {Rule::radius_edge, 1.4142}, {Rule::radius_edge, 2.0},     {Rule::radius_edge, 1.15},
+    {Rule::radius_edge, 1.4142}, {Rule::radius_edge, 2.0},       {Rule::radius_edge, 1.15},
     {Rule::radius_edge, 1.1},    {Rule::voronoi_aspect, 1.4142}, {Rule::voronoi_aspect, 2.0},
     {Rule::voronoi_aspect, 1.2},
 };
@@ -86,7 +86,8 @@ void run(Family family, const Setting& setting, int n, int most, std::uint64_t s
 
 }  // namespace
 
-TEST_CASE("after every edit the mesh, and the change that led to it, is that of a run from scratch") {
+TEST_CASE(
+    "after every edit the mesh, and the change that led to it, is that of a run from scratch") {
   for (const Family family : support::kFamilies) {
     for (const Setting& setting : kSettings) run(family, setting, 24, 120, 7, 6);
   }

@@ -65,24 +65,39 @@ TEST_CASE("an edit that is refused names ids and values and changes nothing") {
 
   CHECK(insert({0.25, 0.5}) == "duplicate_point: point 7 (0.25, 0.5) lies on point 1");
   CHECK(move({0.25, 0.5}) == "duplicate_point: point 2 (0.25, 0.5) lies on point 1");
-  CHECK(insert({0.25, 0.5 + 0x1p-52}).starts_with("too_close: point 7 (0.25, 0.5000000000000002) is too close to point 1 (0.25, 0.5)"));
+  CHECK(
+      insert({0.25, 0.5 + 0x1p-52})
+          .starts_with(
+              "too_close: point 7 (0.25, 0.5000000000000002) is too close to point 1 (0.25, 0.5)"));
   CHECK(move({0.25 + 0x1p-54, 0.5}).starts_with("too_close: point 2 "));
-  CHECK(insert({1.5, 0.5}) == "outside_domain: point 7 (1.5, 0.5) lies outside the domain [0, 1] x [0, 1]");
-  CHECK(move({0.5, -1}) == "outside_domain: point 2 (0.5, -1) lies outside the domain [0, 1] x [0, 1]");
+  CHECK(insert({1.5, 0.5}) ==
+        "outside_domain: point 7 (1.5, 0.5) lies outside the domain [0, 1] x [0, 1]");
+  CHECK(move({0.5, -1}) ==
+        "outside_domain: point 2 (0.5, -1) lies outside the domain [0, 1] x [0, 1]");
   CHECK(insert({nan, 0}).starts_with("not_finite: point 7 (nan, 0)"));
   CHECK(insert({0, -infinity}).starts_with("not_finite: point 7 (0, -inf)"));
   CHECK(insert({1e-40, 0.5}).starts_with("magnitude: point 7 (1e-40, 0.5)"));
-  CHECK(refused(m, [&] { m.insert(FeatureId{1}, {0.75, 0.75}); }) == "repeated_id: point 1 is there already");
+  CHECK(refused(m, [&] {
+          m.insert(FeatureId{1}, {0.75, 0.75});
+        }) == "repeated_id: point 1 is there already");
   CHECK(refused(m, [&] { m.remove(FeatureId{9}); }) == "unknown_id: point 9 is not there");
-  CHECK(refused(m, [&] { m.move(FeatureId{9}, {0.5, 0.5}); }) == "unknown_id: point 9 is not there");
+  CHECK(refused(m, [&] {
+          m.move(FeatureId{9}, {0.5, 0.5});
+        }) == "unknown_id: point 9 is not there");
 }
 
 TEST_CASE("of many points to insert, all are or none is") {
   Mesher<2> m = with(kUnit, {{0.25, 0.5}});
   const std::vector<FeatureId> ids{FeatureId{2}, FeatureId{3}, FeatureId{4}};
-  CHECK(error_of([&] { m.insert(ids, {{0.1, 0.1}, {0.9, 0.9}, {0.25, 0.5}}); }).code() == ErrorCode::duplicate_point);
-  CHECK(error_of([&] { m.insert(ids, {{0.1, 0.1}, {0.9, 0.9}, {2, 2}}); }).code() == ErrorCode::outside_domain);
-  CHECK(error_of([&] { m.insert({FeatureId{2}, FeatureId{2}}, {{0.1, 0.1}, {0.9, 0.9}}); }).code() == ErrorCode::repeated_id);
+  CHECK(error_of([&] {
+          m.insert(ids, {{0.1, 0.1}, {0.9, 0.9}, {0.25, 0.5}});
+        }).code() == ErrorCode::duplicate_point);
+  CHECK(error_of([&] {
+          m.insert(ids, {{0.1, 0.1}, {0.9, 0.9}, {2, 2}});
+        }).code() == ErrorCode::outside_domain);
+  CHECK(error_of([&] {
+          m.insert({FeatureId{2}, FeatureId{2}}, {{0.1, 0.1}, {0.9, 0.9}});
+        }).code() == ErrorCode::repeated_id);
   CHECK(m.size() == 1);
   CHECK_FALSE(m.contains(FeatureId{2}));
   m.update();
@@ -91,7 +106,9 @@ TEST_CASE("of many points to insert, all are or none is") {
 }
 
 TEST_CASE("options that make no sense are refused") {
-  const auto code = [](Options<2> options) { return error_of([&] { Mesher<2> m(options); }).code(); };
+  const auto code = [](Options<2> options) {
+    return error_of([&] { Mesher<2> m(options); }).code();
+  };
   CHECK(code({.domain = {{0, 0}, {0, 0}}}) == ErrorCode::bad_option);
   CHECK(code({.domain = {{1, 0}, {0, 1}}}) == ErrorCode::bad_option);
   CHECK(code({.domain = {{0, 0}, {1, 1}}, .rho = 1}) == ErrorCode::bad_option);
@@ -157,7 +174,7 @@ TEST_CASE("an update that fails leaves mesh and points as before its edits") {
   m.remove(FeatureId{2});
   m.update();
   CHECK(m.mesh() == mesher::mesh_statically<2>(
-      {kA, {kFar + 0.75, kFar + 0.25}, {kFar + 0.5, kFar + 0.875}}, kFarAway));
+                        {kA, {kFar + 0.75, kFar + 0.25}, {kFar + 0.5, kFar + 0.875}}, kFarAway));
   m.check_invariants();
 }
 

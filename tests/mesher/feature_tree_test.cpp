@@ -31,7 +31,8 @@ int crowded_by_definition(const Vertex<2>& v, const std::vector<Vertex<2>*>& all
       if (u == &v) continue;
       const auto g = kBox.fixed(u->p);
       const auto apart = [&](std::size_t i) {
-        return std::abs(static_cast<long long>(f[i] >> shift) - static_cast<long long>(g[i] >> shift));
+        return std::abs(static_cast<long long>(f[i] >> shift) -
+                        static_cast<long long>(g[i] >> shift));
       };
       if (apart(0) <= 1 && apart(1) <= 1) return std::min(level, kLevels - 1);
     }
@@ -82,7 +83,8 @@ TEST_CASE("the tree's crowded levels are those of the definition, and every chan
         const Point<2> p = source.point(all);
         const auto f = kBox.fixed(p);
         const auto* obstacle = tree.obstacle(p);
-        const auto same = std::find_if(all.begin(), all.end(), [&](const Vertex<2>* u) { return kBox.fixed(u->p) == f; });
+        const auto same = std::find_if(all.begin(), all.end(),
+                                       [&](const Vertex<2>* u) { return kBox.fixed(u->p) == f; });
         REQUIRE(obstacle == (same == all.end() ? nullptr : *same));
         if (obstacle != nullptr) continue;
         fresh = &pool.create(p);
@@ -111,7 +113,8 @@ TEST_CASE("the tree's crowded levels are those of the definition, and every chan
   }
 }
 
-TEST_CASE("a tree from which all points went is the empty tree, and keeps no memory for old shapes") {
+TEST_CASE(
+    "a tree from which all points went is the empty tree, and keeps no memory for old shapes") {
   Source source(77);
   VertexPool<2> pool;
   FeatureTree<2> tree(kBox, pool);

@@ -18,14 +18,18 @@ using mesher::detail::InsertionRule;
 using mesher::detail::MeshBox;
 using mesher::detail::VertexHandle;
 
-Options<2> options(double rho, Rule rule) { return {.domain = {{0, 0}, {1, 1}}, .rho = rho, .rule = rule}; }
+Options<2> options(double rho, Rule rule) {
+  return {.domain = {{0, 0}, {1, 1}}, .rho = rho, .rule = rule};
+}
 
 struct Search : mesher::detail::VertexSearch {
   using VertexSearch::cut_around;
   using VertexSearch::VertexSearch;
 };
 
-double distance(const Point<2>& a, const Point<2>& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+double distance(const Point<2>& a, const Point<2>& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1]);
+}
 
 }  // namespace
 
@@ -55,7 +59,8 @@ TEST_CASE("buckets grow with length, by one for a factor of rho; clips grow with
   }
 }
 
-TEST_CASE("vertices of one colour in different squares are farther apart than three clips [Fig 4.9]") {
+TEST_CASE(
+    "vertices of one colour in different squares are farther apart than three clips [Fig 4.9]") {
   const auto o = options(1.4142, Rule::radius_edge);
   const MeshBox<2> box = mesher::detail::mesh_box(o);
   const InsertionRule r(o, box);
@@ -65,7 +70,8 @@ TEST_CASE("vertices of one colour in different squares are farther apart than th
     const int b = r.bucket(std::pow(2.0, -20 * random.unit()));
     const double clip = r.clip_radius(b);
     const Point<2> p{random.unit(), random.unit()};
-    const Point<2> q{p[0] + 6 * clip * (random.unit() - 0.5), p[1] + 6 * clip * (random.unit() - 0.5)};
+    const Point<2> q{p[0] + 6 * clip * (random.unit() - 0.5),
+                     p[1] + 6 * clip * (random.unit() - 0.5)};
     const auto f = box.fixed(p);
     const auto g = box.fixed(q);
     if (r.colour(f, b) != r.colour(g, b) || distance(p, q) >= 3.3 * clip) continue;
@@ -88,7 +94,8 @@ TEST_CASE("a new point's nearest vertex is rho lengths away, and what the rule s
     std::vector<mesher::detail::Vertex<2>*> all;
     const double scale = std::pow(2.0, -30 * random.unit());
     for (int k = 0; k < 12; ++k) {
-      auto& v = search.pool().create({0.5 + scale * random.unit(), 0.5 + scale * random.unit() * random.unit()});
+      auto& v = search.pool().create(
+          {0.5 + scale * random.unit(), 0.5 + scale * random.unit() * random.unit()});
       search.tree().insert(v);
       all.push_back(&v);
     }
@@ -137,7 +144,8 @@ TEST_CASE("a lone point, whose events run in the last buckets, is meshed for eve
 
 TEST_CASE("vertices beside an axis of symmetry have no noise for coordinates") {
   const Options<2> o{.domain = {{-1, -1}, {1, 1}}, .rho = 1.1, .rule = Rule::voronoi_aspect};
-  const auto mesh = mesher::mesh_statically<2>({{-0.3, 0.1}, {0.3, 0.1}, {-0.3, -0.1}, {0.3, -0.1}}, o);
+  const auto mesh =
+      mesher::mesh_statically<2>({{-0.3, 0.1}, {0.3, 0.1}, {-0.3, -0.1}, {0.3, -0.1}}, o);
   for (const auto& p : mesh.vertices) {
     for (const double x : p) CHECK((x == 0 || std::abs(x) >= 8 * 0x1p-60));
   }

@@ -32,7 +32,8 @@ bool graded(const std::set<Cell>& leaves) {
       if (a.level <= b.level + 1) continue;
       bool touch = true;
       for (std::size_t i = 0; i < 2; ++i) {
-        touch = touch && a.corner[i] <= b.corner[i] + size(b) && b.corner[i] <= a.corner[i] + size(a);
+        touch =
+            touch && a.corner[i] <= b.corner[i] + size(b) && b.corner[i] <= a.corner[i] + size(a);
       }
       if (touch) return false;
     }
@@ -42,7 +43,8 @@ bool graded(const std::set<Cell>& leaves) {
 
 }  // namespace
 
-TEST_CASE("after every edit the quadtree is the naive one of the points, and graded 2:1 [Fig 4.3, 4.4]") {
+TEST_CASE(
+    "after every edit the quadtree is the naive one of the points, and graded 2:1 [Fig 4.3, 4.4]") {
   for (const support::Family family : support::kFamilies) {
     const auto sequence = random_sequence(family, {}, 30, 60, 19);
     INFO(name(family) << ", seed 19");
@@ -73,8 +75,10 @@ TEST_CASE("a search meets every vertex within its radius, in trees of any depth"
     std::vector<mesher::detail::Vertex<2>*> all;
     const auto coordinate = [&] {
       const double cell = std::ldexp(static_cast<double>(random.below(65)) / 16, 0);  // on borders
-      const double x = random.below(3) == 0 ? cell : random.below(2) == 0 ? 4 * random.unit()
-                     : 1 + std::ldexp(random.unit(), -static_cast<int>(random.below(40)));
+      const double x = random.below(3) == 0 ? cell
+                       : random.below(2) == 0
+                           ? 4 * random.unit()
+                           : 1 + std::ldexp(random.unit(), -static_cast<int>(random.below(40)));
       return std::clamp(box.lo[0] + x, box.lo[0], box.lo[0] + 4);
     };
     for (int i = 0; i < 200; ++i) {
@@ -93,12 +97,17 @@ TEST_CASE("a search meets every vertex within its radius, in trees of any depth"
       const auto* center = all[random.below(all.size())];
       const auto* other = all[random.below(all.size())];
       const auto distance = [&](const Point<2>& p) {
-        return std::sqrt((p[0] - center->p[0]) * (p[0] - center->p[0]) + (p[1] - center->p[1]) * (p[1] - center->p[1]));
+        return std::sqrt((p[0] - center->p[0]) * (p[0] - center->p[0]) +
+                         (p[1] - center->p[1]) * (p[1] - center->p[1]));
       };
       const double radius = distance(other->p);  // a vertex just on the border of the search
       std::set<VertexHandle> met;
-      tree.visit_around(center->p, [&] { return radius; }, [](const Point<2>&, double) { return true; },
-                        [&](VertexHandle h, const Point<2>&) { met.insert(h); return false; });
+      tree.visit_around(
+          center->p, [&] { return radius; }, [](const Point<2>&, double) { return true; },
+          [&](VertexHandle h, const Point<2>&) {
+            met.insert(h);
+            return false;
+          });
       for (const auto* v : all) {
         if (distance(v->p) <= radius) REQUIRE(met.contains(v->self));
       }

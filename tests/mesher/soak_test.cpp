@@ -2,13 +2,14 @@
 //
 // One edit is a random point inserted and a random one removed, as one update. The figures are
 // printed; n and the number of edits can be given: SOAK_POINTS, SOAK_EDITS.
+#include <unistd.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 #include "mesher/generate.hpp"
@@ -72,7 +73,8 @@ void soak(std::size_t n, std::size_t edits) {
   }
   const auto mesh = m.mesh();
   mesher::Mesher<2> fresh(options);
-  for (std::size_t i = 0; i < n; ++i) fresh.insert(FeatureId{static_cast<std::int64_t>(i)}, points[i]);
+  for (std::size_t i = 0; i < n; ++i)
+    fresh.insert(FeatureId{static_cast<std::int64_t>(i)}, points[i]);
   fresh.update();
   std::cout << "n " << n << " edits " << edits << ": vertices " << mesh.vertices.size()
             << ", fresh " << fresh.stats().vertices << "; trace " << m.stats().trace_bytes

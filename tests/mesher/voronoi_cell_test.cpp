@@ -109,8 +109,12 @@ Scene make_scene(SplitMix64& random, Kind kind) {
     const auto small = [&] { return static_cast<double>(random.below(9)) - 4; };
     const auto sign = [&] { return random.below(2) == 0 ? 1.0 : -1.0; };
     switch (kind) {
-      case Kind::uniform: at(8 * random.unit() - 4, 8 * random.unit() - 4); break;
-      case Kind::lattice: at(small(), small()); break;
+      case Kind::uniform:
+        at(8 * random.unit() - 4, 8 * random.unit() - 4);
+        break;
+      case Kind::lattice:
+        at(small(), small());
+        break;
       case Kind::circle:
       case Kind::near_circle: {  // around (1, 2), through v if i is even
         const auto& c = kOnCircle[random.below(6)];
@@ -120,15 +124,19 @@ Scene make_scene(SplitMix64& random, Kind kind) {
         at(x, y);
         break;
       }
-      case Kind::line: random.below(3) == 0 ? at(small(), small() / 2) : at(small(), 2 * (random.below(2) + 0.0)); break;
+      case Kind::line:
+        random.below(3) == 0 ? at(small(), small() / 2) : at(small(), 2 * (random.below(2) + 0.0));
+        break;
       case Kind::on_clip: {
         VoronoiCell clip;
         clip.reset(*scene.v, scene.radius);
-        scene.add(random.below(2) == 0 ? clip.place(static_cast<int>(random.below(8)))
-                                       : Point<2>{scene.v->p[0] + unit * small(), scene.v->p[1] + unit * small()});
+        scene.add(random.below(2) == 0
+                      ? clip.place(static_cast<int>(random.below(8)))
+                      : Point<2>{scene.v->p[0] + unit * small(), scene.v->p[1] + unit * small()});
         break;
       }
-      case Kind::kinds: break;
+      case Kind::kinds:
+        break;
     }
   }
   return scene;
@@ -136,7 +144,8 @@ Scene make_scene(SplitMix64& random, Kind kind) {
 
 }  // namespace
 
-TEST_CASE("a cell is that of brute force with exact signs, whatever the order of cuts; ties included") {
+TEST_CASE(
+    "a cell is that of brute force with exact signs, whatever the order of cuts; ties included") {
   SplitMix64 random(31);
   INFO("seed 31");
   VoronoiCell cell;
@@ -176,7 +185,8 @@ TEST_CASE("a new vertex that cuts is in reach, in an entered square, and may_cut
     for (const auto* w : scene.others) scene.cut_by(cell, *w);
     std::vector<std::uint32_t> codes;
     for (int k = 0; k < cell.size(); ++k) codes.push_back(cell.code(k));
-    const bool may = VoronoiCell::may_cut(scene.pool, *scene.v, scene.radius, codes.data(), cell.size(), fresh->p);
+    const bool may = VoronoiCell::may_cut(scene.pool, *scene.v, scene.radius, codes.data(),
+                                          cell.size(), fresh->p);
     const double x = fresh->p[0] - scene.v->p[0], y = fresh->p[1] - scene.v->p[1];
     const double side = std::ldexp(scene.radius, -static_cast<int>(random.below(20)));
     const Point<2> corner{x - side * random.unit(), y - side * random.unit()};

@@ -195,7 +195,8 @@ void root_of_workers(Scope& s, Mod<std::vector<int>> posts) {
   for (const int n : s.read(posts)) p.agenda->post<worker>(s, key_of(n), n);
 }
 
-TEST_CASE("a posted call may have children before and after it posts, and they may post as it does") {
+TEST_CASE(
+    "a posted call may have children before and after it posts, and they may post as it does") {
   const auto make = [](Engine& e, Program& p, int extra) {
     p.agenda = &e.make_agenda("main");
     p.input = e.input(extra);
@@ -209,7 +210,8 @@ TEST_CASE("a posted call may have children before and after it posts, and they m
   e.run<drain_all>();
   int extra = 0;
   for (const int step : {0, 1, 2, 3, 4, 5, 6, 7}) {
-    const std::vector<int> now = step % 2 == 0 ? std::vector<int>{100, 300} : std::vector<int>{300, 500, 700};
+    const std::vector<int> now =
+        step % 2 == 0 ? std::vector<int>{100, 300} : std::vector<int>{300, 500, 700};
     extra = step % 3 == 0 ? 0 : 50;
     e.set(posts, now);
     e.set(p.input, extra);
@@ -343,7 +345,8 @@ TEST_CASE("an agenda is drained once") {
   f.e.check_invariants();
 }
 
-// --- A drain in a call that runs again -------------------------------------------------------------
+// --- A drain in a call that runs again
+// -------------------------------------------------------------
 
 void post_and_drain(Scope& s, Mod<std::vector<int>> posts, Mod<int> how) {
   auto& p = s.environment<Program>();
@@ -396,7 +399,8 @@ TEST_CASE("a drain is reused, discarded and made again as any call") {
   }
 }
 
-// --- Random ---------------------------------------------------------------------------------------
+// --- Random
+// ---------------------------------------------------------------------------------------
 
 TEST_CASE("random posts from a call and from outside leave the trace of a fresh run") {
   std::uint64_t state = 2024;

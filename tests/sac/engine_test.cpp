@@ -8,10 +8,10 @@
 
 namespace {
 
+using Catch::Contains;
 using sac::Engine;
 using sac::Mod;
 using sac::Scope;
-using Catch::Contains;
 
 void add(Scope& s, Mod<int> a, Mod<int> b, Mod<int> out) { s.write(out, s.read(a) + s.read(b)); }
 
@@ -201,11 +201,18 @@ void link(Scope& s, Mod<int> how, Mod<int> total, int n) {
 }
 void tail_or_call(Scope& s, Mod<int> how, Mod<int> total) {
   switch (s.read(how)) {
-    case 0: return s.tail<link>(how, total, 3);
-    case 1: s.call<link>(how, total, 3); return s.call<leaf>(how, total, 100);
-    case 2: s.call<leaf>(how, total, 100); return s.tail<link>(how, total, 2);
-    case 3: return s.call<link>(how, total, 1);
-    default: return;
+    case 0:
+      return s.tail<link>(how, total, 3);
+    case 1:
+      s.call<link>(how, total, 3);
+      return s.call<leaf>(how, total, 100);
+    case 2:
+      s.call<leaf>(how, total, 100);
+      return s.tail<link>(how, total, 2);
+    case 3:
+      return s.call<link>(how, total, 1);
+    default:
+      return;
   }
 }
 void after(Scope& s, Mod<int> how, Mod<int> seen) { s.write(seen, s.read(how)); }
@@ -274,7 +281,8 @@ void map(Scope& s, Link in, Mod<MapCell*> out) {
   s.tail<map>(cell->next, s.cell<MapCell*>(cell));
 }
 
-TEST_CASE("an insertion into a mapped list costs one call re-executed, one new, and what it makes") {
+TEST_CASE(
+    "an insertion into a mapped list costs one call re-executed, one new, and what it makes") {
   Engine e;
   std::vector<std::unique_ptr<List>> cells;
   Link head = e.input<const List*>(nullptr);
@@ -332,7 +340,8 @@ void fill(Scope& s, Mod<std::string> cell, Mod<int> in) {
 }
 void make_and_fill(Scope& s, Mod<int> in) { s.call<fill>(s.cell<std::string>(1), in); }
 
-TEST_CASE("a value in a cell that another call wrote is destroyed once, with the engine or before") {
+TEST_CASE(
+    "a value in a cell that another call wrote is destroyed once, with the engine or before") {
   Engine e;
   auto in = e.input(0);
   e.run<make_and_fill>(in);

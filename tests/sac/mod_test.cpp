@@ -31,7 +31,9 @@ TEST_CASE("reads between two writes move when a write appears, changes or goes")
   e.run<copy>(m, seen[1], 1);
   e.run<maybe_write>(c, m, 2);
   e.run<copy>(m, seen[2], 2);
-  const auto values = [&] { return std::vector<int>{e.get(seen[0]), e.get(seen[1]), e.get(seen[2])}; };
+  const auto values = [&] {
+    return std::vector<int>{e.get(seen[0]), e.get(seen[1]), e.get(seen[2])};
+  };
   CHECK(values() == std::vector<int>{1, 1, 3});
   e.set(b, 2);  // appears
   CHECK(e.propagate().executed == 2);
@@ -86,7 +88,8 @@ TEST_CASE("another call that writes the same value in place of the first disturb
   e.check_invariants();
 }
 
-TEST_CASE("a write that appears before the first write of a modifiable is not seen behind that one") {
+TEST_CASE(
+    "a write that appears before the first write of a modifiable is not seen behind that one") {
   Engine e;
   auto early = e.input(-1), late = e.input(5);
   auto m = e.cell<int>(), seen = e.cell<int>();

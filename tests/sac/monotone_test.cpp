@@ -37,7 +37,8 @@ std::vector<int> mapped(auto& engine, typename S::template ModType<const List<S>
   return values;
 }
 
-TEST_CASE("a mapped list under random edits: constant work, flat memory, silent detectors, plain twin") {
+TEST_CASE(
+    "a mapped list under random edits: constant work, flat memory, silent detectors, plain twin") {
   using Cell = List<sac::Scope>;
   using PlainCell = List<sac::PlainScope>;
   support::Random random(5);
@@ -73,7 +74,8 @@ TEST_CASE("a mapped list under random edits: constant work, flat memory, silent 
     const auto plain_head = plain.input<const PlainCell*>(nullptr);
     auto link = plain_head;
     for (const Cell* c = e.get(head); c != nullptr; c = e.get(c->next)) {
-      twins.push_back(std::make_unique<PlainCell>(PlainCell{c->value, plain.input<const PlainCell*>(nullptr)}));
+      twins.push_back(
+          std::make_unique<PlainCell>(PlainCell{c->value, plain.input<const PlainCell*>(nullptr)}));
       link.place() = twins.back().get();
       link = twins.back()->next;
     }

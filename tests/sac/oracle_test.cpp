@@ -14,8 +14,8 @@ namespace {
 using namespace support;
 
 struct Edit {
-  std::vector<std::pair<int, int>> sets;           // input, value
-  std::vector<std::pair<int, bool>> posts;         // node 3 .. with argument 9; posted or taken back
+  std::vector<std::pair<int, int>> sets;    // input, value
+  std::vector<std::pair<int, bool>> posts;  // node 3 .. with argument 9; posted or taken back
   int fuse = -1;
 };
 struct Case {
@@ -27,7 +27,8 @@ struct Case {
 struct Traced {
   RandomWorld<sac::Scope> world;
   sac::Engine engine;
-  Traced(const RandomProgram& program, const std::vector<int>& inputs, const std::multiset<int>& posts) {
+  Traced(const RandomProgram& program, const std::vector<int>& inputs,
+         const std::multiset<int>& posts) {
     world.program = &program;
     world.start(engine, inputs);
     for (const int n : posts) world.agenda->post_from_outside<node>(node_key(n, 9), n, 9);
@@ -105,7 +106,8 @@ std::string run(const Case& c) {
     }
     const Traced fresh(program, inputs, posts);
     if (values_of(t) != values_of(fresh)) return where + "values differ from a run from scratch";
-    if (values_of(t) != plain_values(program, inputs, posts)) return where + "values differ from plain";
+    if (values_of(t) != plain_values(program, inputs, posts))
+      return where + "values differ from plain";
     if (t.engine.live_calls() != fresh.engine.live_calls()) {
       return where + "calls: " + std::to_string(t.engine.live_calls()) + " for " +
              std::to_string(fresh.engine.live_calls()) + "\n" + t.shape() + "\n" + fresh.shape();
@@ -122,7 +124,8 @@ Case random_case(std::uint64_t seed) {
     Edit edit;
     for (int k = 1 + random(3); k > 0; --k) edit.sets.push_back({random(4), random(5)});
     if (random(3) == 0) {
-      for (int k = 1 + random(2); k > 0; --k) edit.posts.push_back({3 % c.nodes + random(c.nodes - 3), random(2) == 0});
+      for (int k = 1 + random(2); k > 0; --k)
+        edit.posts.push_back({3 % c.nodes + random(c.nodes - 3), random(2) == 0});
     }
     if (random(4) == 0) edit.fuse = random(12);
     c.edits.push_back(edit);
@@ -187,7 +190,8 @@ void check_seeds(std::uint64_t from, std::uint64_t to) {
   }
 }
 
-TEST_CASE("random programs under random edits and failures equal a run from scratch and a plain run") {
+TEST_CASE(
+    "random programs under random edits and failures equal a run from scratch and a plain run") {
   check_seeds(0, 400);
 }
 

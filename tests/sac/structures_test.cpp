@@ -67,7 +67,8 @@ TEST_CASE("the propagation queue pops calls in trace order, whatever was pushed 
   sac::PropagationQueue queue(calls.arena, calls.timeline);
   Random random;
   std::vector<Handle> order;
-  for (int i = 0; i < 500; ++i) order.push_back(calls.make(order.empty() ? calls.timeline.front() : order.back()));
+  for (int i = 0; i < 500; ++i)
+    order.push_back(calls.make(order.empty() ? calls.timeline.front() : order.back()));
   std::set<std::size_t> queued;
   for (int step = 0; step < 5000; ++step) {
     const std::size_t i = random(order.size());
@@ -174,7 +175,9 @@ TEST_CASE("a function's name comes from the function itself") {
 TEST_CASE("a call is described by its name and arguments") {
   sac::Engine e;
   e.run<some_function>(42);
-  e.walk([](const sac::Call& c, std::size_t) { CHECK(sac::Engine::describe(c) == "some_function(42)"); });
+  e.walk([](const sac::Call& c, std::size_t) {
+    CHECK(sac::Engine::describe(c) == "some_function(42)");
+  });
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 // The order-maintenance list against std::list.
+#include "sac/timeline.hpp"
+
 #include <catch2/catch.hpp>
 #include <list>
 #include <vector>
 
 #include "sac/check.hpp"
 #include "sac/label.hpp"
-#include "sac/timeline.hpp"
 
 namespace {
 
@@ -85,11 +86,18 @@ TEST_CASE("random insertions, bursts at one place and erasures keep the order of
   for (int step = 0; step < 60; ++step) {
     const std::size_t hotspot = f.random(f.places.size());
     switch (f.random(4)) {
-      case 0: for (int i = 0; i < 300; ++i) f.insert(hotspot); break;
-      case 1: for (int i = 0; i < 300; ++i) f.insert(f.random(f.places.size())); break;
-      case 2: for (int i = 0; i < 300; ++i) f.insert(f.places.size() - 1); break;
+      case 0:
+        for (int i = 0; i < 300; ++i) f.insert(hotspot);
+        break;
+      case 1:
+        for (int i = 0; i < 300; ++i) f.insert(f.random(f.places.size()));
+        break;
+      case 2:
+        for (int i = 0; i < 300; ++i) f.insert(f.places.size() - 1);
+        break;
       default:
-        for (int i = 0; i < 400 && f.places.size() > 1; ++i) f.erase(1 + f.random(f.places.size() - 1));
+        for (int i = 0; i < 400 && f.places.size() > 1; ++i)
+          f.erase(1 + f.random(f.places.size() - 1));
     }
     f.check();
     for (int i = 0; i < 100; ++i) {

@@ -24,28 +24,44 @@ using Corners = std::array<Point<2>, 3>;
 
 const char* name(Family family) {
   switch (family) {
-    case Family::uniform: return "uniform";
-    case Family::gaussian: return "gaussian";
-    case Family::clustered: return "clustered";
-    case Family::lattice: return "lattice";
-    case Family::collinear: return "collinear";
-    case Family::spiral: return "spiral";
-    case Family::spread: return "spread";
-    case Family::borders: return "borders";
-    case Family::steiner: return "steiner";
-    case Family::far: return "far";
+    case Family::uniform:
+      return "uniform";
+    case Family::gaussian:
+      return "gaussian";
+    case Family::clustered:
+      return "clustered";
+    case Family::lattice:
+      return "lattice";
+    case Family::collinear:
+      return "collinear";
+    case Family::spiral:
+      return "spiral";
+    case Family::spread:
+      return "spread";
+    case Family::borders:
+      return "borders";
+    case Family::steiner:
+      return "steiner";
+    case Family::far:
+      return "far";
   }
   return "?";
 }
 
 mesher::Box<2> domain(Family family) {
   switch (family) {
-    case Family::lattice: return {{0, 0}, {16, 16}};
-    case Family::gaussian: return {{-8, -8}, {8, 8}};
-    case Family::spiral: return {{-9, -9}, {9, 9}};
-    case Family::borders: return {{-1, -0.5}, {1, 0.75}};
-    case Family::far: return {{1048576, -3}, {1048577, -2.25}};
-    default: return {{0, 0}, {1, 1}};
+    case Family::lattice:
+      return {{0, 0}, {16, 16}};
+    case Family::gaussian:
+      return {{-8, -8}, {8, 8}};
+    case Family::spiral:
+      return {{-9, -9}, {9, 9}};
+    case Family::borders:
+      return {{-1, -0.5}, {1, 0.75}};
+    case Family::far:
+      return {{1048576, -3}, {1048577, -2.25}};
+    default:
+      return {{0, 0}, {1, 1}};
   }
 }
 
@@ -87,13 +103,15 @@ class Source {
     switch (family_) {
       case Family::gaussian:
       case Family::clustered:
-      case Family::spiral: return pool_[random_.below(pool_.size())];
+      case Family::spiral:
+        return pool_[random_.below(pool_.size())];
       case Family::lattice:
         return {static_cast<double>(below(17)), static_cast<double>(below(17))};
       case Family::collinear: {
         const double t = below(3) == 0 ? random_.unit() : below(33) / 32.0;
-        return below(3) == 0 ? Point<2>{t, 0.5} : below(2) == 0 ? Point<2>{0.25, t}
-                                                               : Point<2>{t, 0.125 + t / 2};
+        return below(3) == 0   ? Point<2>{t, 0.5}
+               : below(2) == 0 ? Point<2>{0.25, t}
+                               : Point<2>{t, 0.125 + t / 2};
       }
       case Family::spread: {
         if (points.empty() || below(4) == 0) return unit();
@@ -277,7 +295,8 @@ Parts parts_of(const Mesh<2>& mesh) {
 }
 
 template <class T>
-void apply_difference(const std::vector<T>& added, const std::vector<T>& removed, std::set<T>& all) {
+void apply_difference(const std::vector<T>& added, const std::vector<T>& removed,
+                      std::set<T>& all) {
   require(std::is_sorted(added.begin(), added.end()), "change: added is not sorted");
   require(std::is_sorted(removed.begin(), removed.end()), "change: removed is not sorted");
   for (const T& x : removed) require(all.erase(x) == 1, "change: removes what is not there");
@@ -317,7 +336,9 @@ void check_input(const Mesh<2>& mesh, const PointSet& points) {
 }
 
 void check_counts(const mesher::Change<2>& change, const Mesher<2>& m, const Mesh<2>& mesh) {
-  require(change.calls.executed >= change.calls.created, "created calls were not executed");
+  // A point inserted and removed in one batch makes a call that never runs.
+  require(change.calls.executed + change.calls.discarded >= change.calls.created,
+          "created calls were neither executed nor discarded");
   const auto stats = m.stats();
   require(stats.vertices == mesh.vertices.size(), "stats: vertices");
   require(stats.simplices == mesh.simplices.size(), "stats: simplices");
@@ -394,9 +415,8 @@ std::string verdict(const Sequence& sequence, const Checks& checks) {
   const std::string failure = first_failure(sequence, checks);
   if (failure.empty()) return "";
   const Checks again{.fresh_every = 1, .each = {}};
-  const Sequence small = shrunk(sequence, [&](const Sequence& s) {
-    return !first_failure(s, again).empty();
-  });
+  const Sequence small =
+      shrunk(sequence, [&](const Sequence& s) { return !first_failure(s, again).empty(); });
   return failure + "\nshrunk: " + first_failure(small, again) + "\n" + describe(small);
 }
 

@@ -47,10 +47,10 @@ enum class Family : std::uint8_t {
   lattice,    ///< an integer lattice: cocircular everywhere
   collinear,  ///< on a level, an upright and a slanting line
   spiral,
-  spread,     ///< beside another point, at distances down to 1e-12 of the domain
-  borders,    ///< on the domain's sides and corners, on cells' borders and next to them
-  steiner,    ///< on vertices of the mesh of the moment
-  far,        ///< far from the origin for the domain's size
+  spread,   ///< beside another point, at distances down to 1e-12 of the domain
+  borders,  ///< on the domain's sides and corners, on cells' borders and next to them
+  steiner,  ///< on vertices of the mesh of the moment
+  far,      ///< far from the origin for the domain's size
 };
 inline constexpr Family kFamilies[] = {
     Family::uniform, Family::gaussian, Family::clustered, Family::lattice, Family::collinear,
@@ -100,9 +100,15 @@ void perform(const Edit& edit, Target& target, PointSet& points) {
   const mesher::FeatureId id{edit.id};
   try {
     switch (edit.kind) {
-      case Edit::Kind::insert: target.insert(id, edit.point); break;
-      case Edit::Kind::remove: target.remove(id); break;
-      case Edit::Kind::move: target.move(id, edit.point); break;
+      case Edit::Kind::insert:
+        target.insert(id, edit.point);
+        break;
+      case Edit::Kind::remove:
+        target.remove(id);
+        break;
+      case Edit::Kind::move:
+        target.move(id, edit.point);
+        break;
     }
   } catch (const mesher::Error& error) {
     using mesher::ErrorCode;
@@ -112,6 +118,7 @@ void perform(const Edit& edit, Target& target, PointSet& points) {
   points = std::move(next);
 }
 
-[[nodiscard]] mesher::Mesh<2> static_mesh(const PointSet& points, const mesher::Options<2>& options);
+[[nodiscard]] mesher::Mesh<2> static_mesh(const PointSet& points,
+                                          const mesher::Options<2>& options);
 
 }  // namespace support

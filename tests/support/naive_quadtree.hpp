@@ -1,4 +1,5 @@
-// The naive twin of BuildQT [Fig 4.3, 4.4]: largest cells first, every question asked of all points.
+// The naive twin of BuildQT [Fig 4.3, 4.4]: largest cells first, every question asked of all
+// points.
 #pragma once
 
 #include <cmath>
@@ -53,7 +54,8 @@ class NaiveQuadtree {
     for (const Fixed& q : points_) {
       if (q == p) continue;
       const auto apart = [&](std::size_t i) {
-        return std::abs(static_cast<long long>(p[i] >> shift) - static_cast<long long>(q[i] >> shift));
+        return std::abs(static_cast<long long>(p[i] >> shift) -
+                        static_cast<long long>(q[i] >> shift));
       };
       if (apart(0) <= 1 && apart(1) <= 1) return true;
     }
@@ -63,7 +65,8 @@ class NaiveQuadtree {
   // Splits c, after its parent, and every larger cell that touches it.
   void enqueue(const Cell& c) {
     if (!split_.insert(c).second || c.level == 0) return;
-    const auto size = static_cast<std::int64_t>(std::uint64_t{1} << (mesher::detail::kLevels - c.level));
+    const auto size =
+        static_cast<std::int64_t>(std::uint64_t{1} << (mesher::detail::kLevels - c.level));
     const std::int64_t all = std::int64_t{1} << mesher::detail::kLevels;
     for (int dx = -1; dx <= 1; ++dx) {
       for (int dy = -1; dy <= 1; ++dy) {

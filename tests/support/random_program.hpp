@@ -1,4 +1,5 @@
-// Random programs for the engine, from a seed; the same text runs on sac::Scope and sac::PlainScope.
+// Random programs for the engine, from a seed; the same text runs on sac::Scope and
+// sac::PlainScope.
 //
 // A program is a table of nodes. A node, called with its number and a small argument, reads inputs
 // and cells, writes cells (several nodes and calls write one cell: imperative), allocates, calls
@@ -34,8 +35,8 @@ struct Failure : std::runtime_error {
 
 struct Op {
   enum Kind { read_input, read_cell, write_cell, rewrite_cell, call, pass, post, tail } kind;
-  int target;     // input, cell or node
-  int modulus;    // happens if (what was read) % modulus < threshold
+  int target;   // input, cell or node
+  int modulus;  // happens if (what was read) % modulus < threshold
   int threshold;
 };
 
@@ -114,7 +115,8 @@ struct Node {
 inline constexpr Node node{};
 
 inline sac::Key node_key(int id, int argument) {
-  return {.bucket = id / 2, .colour = static_cast<unsigned>(id % 2),
+  return {.bucket = id / 2,
+          .colour = static_cast<unsigned>(id % 2),
           .order = static_cast<std::uint64_t>(argument / 2)};
 }
 
@@ -128,11 +130,21 @@ void Node::operator()(S& s, int id, int argument) const {
   for (const Op& op : w.program->nodes[static_cast<std::size_t>(id)]) {
     if (sum % op.modulus >= op.threshold) continue;
     switch (op.kind) {
-      case Op::read_input: sum += s.read(w.inputs[static_cast<std::size_t>(op.target)]); break;
-      case Op::read_cell: sum += s.read(cell(op.target)); break;
-      case Op::rewrite_cell: s.write(cell(op.target), sum % 3); [[fallthrough]];
-      case Op::write_cell: s.write(cell(op.target), (sum + id) % 5); break;
-      case Op::call: s.template call<node>(op.target, sum % 3); break;
+      case Op::read_input:
+        sum += s.read(w.inputs[static_cast<std::size_t>(op.target)]);
+        break;
+      case Op::read_cell:
+        sum += s.read(cell(op.target));
+        break;
+      case Op::rewrite_cell:
+        s.write(cell(op.target), sum % 3);
+        [[fallthrough]];
+      case Op::write_cell:
+        s.write(cell(op.target), (sum + id) % 5);
+        break;
+      case Op::call:
+        s.template call<node>(op.target, sum % 3);
+        break;
       case Op::pass: {
         auto own = s.template cell<int>(id, argument, passed++);
         s.write(own, sum % 4);
@@ -142,13 +154,16 @@ void Node::operator()(S& s, int id, int argument) const {
       case Op::post:
         w.agenda->template post<node>(s, node_key(op.target, sum % 3), op.target, sum % 3);
         break;
-      case Op::tail: s.template tail<node>(op.target, sum % 3); break;
+      case Op::tail:
+        s.template tail<node>(op.target, sum % 3);
+        break;
     }
   }
   w.burn();
 }
 
-// The program: all cells are written, three nodes are called, what they posted is run, a cell is passed on.
+// The program: all cells are written, three nodes are called, what they posted is run, a cell is
+// passed on.
 struct Root {
   template <class S>
   void operator()(S& s) const {

@@ -29,7 +29,7 @@ struct Box {
 
 /// Which point to insert into a poor region.
 enum class Rule : std::uint8_t {
-  radius_edge,     ///< off-centre of a simplex whose circumradius exceeds rho times its shortest edge
+  radius_edge,  ///< off-centre of a simplex whose circumradius exceeds rho times its shortest edge
   voronoi_aspect,  ///< the paper's rule [Def 4.2.3]: no gap ball larger than rho * NN(v)
 };
 
@@ -39,8 +39,8 @@ enum class VertexKind : std::uint8_t { steiner = 0, boundary = 1, input = 2 };
 /// What to mesh, and how well.
 template <int D>
 struct Options {
-  Box<D> domain{};                ///< where input points may lie; must not be empty
-  double rho = 1.4142;            ///< bound of circumradius over shortest edge; > 1.01
+  Box<D> domain{};      ///< where input points may lie; must not be empty
+  double rho = 1.4142;  ///< bound of circumradius over shortest edge; > 1.01
   Rule rule = Rule::radius_edge;
 };
 

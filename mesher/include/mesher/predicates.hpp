@@ -11,10 +11,10 @@
 //  (3) Scaling all coordinates by a power of two, or moving them without rounding, keeps it.
 //  (4) Nothing is allocated or shared: any thread may call, and equal calls give equal results.
 //
-// Requires (of every coordinate): 0, or of magnitude 2^-160 to 2^101: the range of inputs, 2^-100 to
-// 2^100, with room for the vertices that a mesher puts between them. Points that spread over more
-// bits than the exact evaluation holds (253; never points of one mesh) throw std::domain_error;
-// other breaches may go unnoticed.
+// Requires (of every coordinate): 0, or of magnitude 2^-160 to 2^101: the range of inputs, 2^-100
+// to 2^100, with room for the vertices that a mesher puts between them. Points that spread over
+// more bits than the exact evaluation holds (253; never points of one mesh) throw
+// std::domain_error; other breaches may go unnoticed.
 //
 // The idea: a floating-point filter, inline, decides all but near-degenerate calls by an a priori
 // bound of its own error; what is left goes to predicates.cpp, which computes in integers just wide

@@ -29,8 +29,9 @@ namespace detail {
 
 }  // namespace sac
 
-#define SAC_EXPECTS(condition) \
-  (static_cast<bool>(condition) ? void(0) : ::sac::detail::fail_expects(#condition, __FILE__, __LINE__))
+#define SAC_EXPECTS(condition)            \
+  (static_cast<bool>(condition) ? void(0) \
+                                : ::sac::detail::fail_expects(#condition, __FILE__, __LINE__))
 
 #define SAC_INVARIANT(condition)          \
   (static_cast<bool>(condition) ? void(0) \

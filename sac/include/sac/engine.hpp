@@ -142,7 +142,9 @@ class Engine {
     return timeline_.precedes(a, b);
   }
   [[nodiscard]] Call& call(Handle handle) const noexcept { return *arena_.at<Call>(handle); }
-  [[nodiscard]] Handle handle_of(const Call& call) const noexcept { return arena_.handle_of(&call); }
+  [[nodiscard]] Handle handle_of(const Call& call) const noexcept {
+    return arena_.handle_of(&call);
+  }
   /// True while a first run appends to the trace: every call there is precedes the running one.
   [[nodiscard]] bool appending() const noexcept { return mode_ == Mode::running; }
   [[nodiscard]] Arena& arena() noexcept { return arena_; }

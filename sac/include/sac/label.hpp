@@ -58,13 +58,16 @@ template <class T>
 template <class... Args>
 [[nodiscard]] std::uint64_t hash_arguments(std::uint64_t seed, const std::tuple<Args...>& args) {
   std::uint64_t h = seed;
-  std::apply([&](const auto&... a) { ((h = mix(h + 0x9e3779b97f4a7c15u + hash_argument(a))), ...); },
-             args);
+  std::apply(
+      [&](const auto&... a) { ((h = mix(h + 0x9e3779b97f4a7c15u + hash_argument(a))), ...); },
+      args);
   return h;
 }
 
 template <class T>
-concept Printable = requires(std::ostream& out, const T& value) { out << value; };
+concept Printable = requires(std::ostream& out, const T& value) {
+  out << value;
+};
 
 template <class T>
 void print_argument(std::ostream& out, const T& value) {
@@ -118,7 +121,9 @@ void label_bytes(LabelSink& sink, A* const& agenda) {
 namespace detail {
 
 template <class T>
-concept NamedByItself = requires(LabelSink& sink, const T& value) { label_bytes(sink, value); };
+concept NamedByItself = requires(LabelSink& sink, const T& value) {
+  label_bytes(sink, value);
+};
 
 template <class T>
 concept SmartPointer = requires(const T& value) {
@@ -127,7 +132,9 @@ concept SmartPointer = requires(const T& value) {
 };
 
 template <class T>
-concept TupleLike = requires { std::tuple_size<T>::value; };
+concept TupleLike = requires {
+  std::tuple_size<T>::value;
+};
 
 // -0.0 equals 0.0 and gets its name.
 inline std::uint64_t number_of(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }
@@ -171,8 +178,11 @@ void print_arguments(std::ostream& out, const std::tuple<Args...>& args) {
     return;
   }
   const char* separator = "";
-  std::apply([&](const auto&... a) { ((out << separator, print_argument(out, a), separator = ", "), ...); },
-             args);
+  std::apply(
+      [&](const auto&... a) {
+        ((out << separator, print_argument(out, a), separator = ", "), ...);
+      },
+      args);
 }
 
 namespace detail {
@@ -184,7 +194,8 @@ template <auto F>
   s.remove_prefix(s.find("F = ") + 4);
   s = s.substr(0, s.find_first_of(";]"));
   if (s.starts_with('&')) s.remove_prefix(1);
-  if (const auto brace = s.find_last_of("{("); brace != s.npos && (s.back() == '}' || s.back() == ')')) {
+  if (const auto brace = s.find_last_of("{(");
+      brace != s.npos && (s.back() == '}' || s.back() == ')')) {
     s = s.substr(0, brace);
   }
   if (s.starts_with('(')) s = s.substr(s.rfind(')') + 1);

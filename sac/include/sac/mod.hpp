@@ -178,7 +178,8 @@ template <class T>
 Mod<T> Engine::cell() {
   require_usable();
   outside_mods_.reserve(outside_mods_.size() + 1 > outside_mods_.capacity()
-                            ? 2 * outside_mods_.size() + 16 : outside_mods_.capacity());
+                            ? 2 * outside_mods_.size() + 16
+                            : outside_mods_.capacity());
   const Handle head = detail::new_mod<T>(*this);
   outside_mods_.emplace_back(head, &detail::destroy_mod<T>);
   return Mod<T>(head);
@@ -233,7 +234,8 @@ void Scope::write(Mod<T> mod, T value) {
   ::new (static_cast<void*>(version.storage)) T(std::move(value));
   version.written = true;
   auto* before = static_cast<detail::TypedVersion<T>*>(mods.before(mod.head(), version));
-  mods.appeared(*this, mod.head(), version, before != nullptr && before->value() == version.value());
+  mods.appeared(*this, mod.head(), version,
+                before != nullptr && before->value() == version.value());
 }
 
 template <class T, class... Key>

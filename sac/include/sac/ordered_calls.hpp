@@ -1,9 +1,9 @@
 // The posted calls of one (bucket, phase, colour), in order: a two-level sorted array.
 //
 // Leaves of up to 32 entries under a directory of leaves; 12 bytes an entry at full leaves, and
-// leaves that two edits leave half empty are merged, so that memory follows the number of calls. Built
-// in bulk by a first run, then searched and edited in O(log) comparisons of plain numbers; a call
-// itself is looked at only where orders tie.
+// leaves that two edits leave half empty are merged, so that memory follows the number of calls.
+// Built in bulk by a first run, then searched and edited in O(log) comparisons of plain numbers; a
+// call itself is looked at only where orders tie.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,8 @@ class OrderedCalls {
 
   /// Adds an entry behind all others. Requires: it belongs there.
   void append(Entry entry) {
-    if (leaves_.empty() || leaves_.back()->count >= kFill) leaves_.push_back(std::make_unique<Leaf>());
+    if (leaves_.empty() || leaves_.back()->count >= kFill)
+      leaves_.push_back(std::make_unique<Leaf>());
     Leaf& leaf = *leaves_.back();
     put(leaf, leaf.count, entry);
     ++size_;
