@@ -35,7 +35,6 @@ class Quadtree {
   NodeIndex mark(const Cell<D>& cell);
   /// Takes the mark back and removes children that no mark needs.
   void unmark(NodeIndex node);
-  [[nodiscard]] bool is_marked(NodeIndex n) const noexcept { return nodes_[n].marked(); }
 
   /// Puts a vertex into its leaf. Cost: O(depth).
   void insert(Vertex<D>& v);

@@ -24,7 +24,6 @@ struct Vertex {
   VertexHandle self = 0;
   sac::Handle producers = 0;    // edges of the calls that insert it
   sac::Handle birth = 0;        // the earliest of these calls; 0: the outside
-  std::uint32_t birth_rank = 0; // its place in the agenda's order
   sac::Handle queries = 0;      // observations centred at it
   float reach = 0;              // no query of it looks farther; in units of the box's side
   sac::Handle locator = 0;      // the call that observes `level`

@@ -25,7 +25,6 @@ void VertexSearch::fail_coincident(const Point<2>& p) {
 
 // --- Time ------------------------------------------------------------------------------------
 
-// Posted calls of one agenda run in the order of rank, so different ranks need no time stamps.
 bool Index::born_before(const Vertex<2>& u, const sac::Call& call) const {
   if (!u.alive) return false;
   if (u.birth == 0 || engine_.appending()) return true;

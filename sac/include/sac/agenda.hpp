@@ -128,9 +128,6 @@ class Agenda final : public Structure {
   /// Runs what was posted, in order, as children of the running call. Once per agenda.
   void drain(Scope& s);
 
-  /// Key::rank() of a posted call. Requires: the call was posted on an agenda.
-  [[nodiscard]] static std::uint32_t rank_of(const Call& call) noexcept { return slot(call).rank; }
-
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] std::size_t bytes() const noexcept;
   [[nodiscard]] std::uint64_t pending_calls() const noexcept { return pending_calls_; }
