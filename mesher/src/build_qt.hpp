@@ -2,9 +2,8 @@
 //
 // Departures (docs/paper_map.md has the proofs):
 // - Crowding is a question about the block of 3^d cells of the same size around a point, answered
-// by
-//   FeatureTree for all levels at once: locate(p) asks for the deepest crowded level of p, which is
-//   lines 10-13 and 20-24 of Fig 4.4 for all cells on p's path. An answer that does not change
+//   by FeatureTree for all levels at once: locate(p) asks for the deepest crowded level of p, which
+//   is lines 10-13 and 20-24 of Fig 4.4 for all cells on p's path. An answer that does not change
 //   re-executes nothing.
 // - Crowding is then a function of the input alone, so the shadows of Fig 4.4 need not be run
 //   between crowded splits: split(c) runs deepest first and asks for the larger neighbours. Equal
@@ -18,7 +17,7 @@ namespace mesher::detail {
 // Cells are split this many levels less deep than crowding asks for: a leaf then holds a handful of
 // mesh vertices instead of a twentieth of one. Measured (uniform 10^5 points, static run): 0 levels
 // 4.6 s, 1 2.6 s, 2 2.3 s, 3 1.5 s, 4 1.2 s, 5 1.0 s; on a grid 5 is a quarter slower than 4, since
-// a leaf may hold 16^2 times more vertices for each two levels.
+// each level lets a leaf hold four times as many vertices.
 inline constexpr int kCoarser = 4;
 
 struct Split {

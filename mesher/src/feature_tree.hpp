@@ -61,11 +61,6 @@ class FeatureTree {
   using Block = std::array<Node, kChildren>;
   using Around = std::array<Node, kBlock3>;
 
-  static int child_of(const Fixed<D>& f, int level) {
-    int child = 0;
-    for (int i = 0; i < D; ++i) child |= static_cast<int>(f[i] >> (kLevels - 1 - level) & 1) << i;
-    return child;
-  }
   [[nodiscard]] Fixed<D> fixed_of(Node point) const {
     return box_.fixed(vertices_[point & ~kPoint].p);
   }
@@ -159,7 +154,7 @@ const Vertex<D>* FeatureTree<D>::obstacle(const Point<D>& p) const {
   const Fixed<D> f = box_.fixed(p);
   Node node = root_;
   for (int level = 0; node != 0 && (node & kPoint) == 0; ++level) {
-    node = blocks_[node][child_of(f, level)];
+    node = blocks_[node][MeshBox<D>::child_of(f, level)];
   }
   if (node == 0) return nullptr;
   return fixed_of(node) == f ? &vertices_[node & ~kPoint] : nullptr;
@@ -189,11 +184,11 @@ void FeatureTree<D>::insert_only(Vertex<D>& v) {
     if ((link() & kPoint) != 0) {
       const Node other = link();
       const Node fresh = new_block();
-      blocks_[fresh][child_of(fixed_of(other), level)] = other;
+      blocks_[fresh][MeshBox<D>::child_of(fixed_of(other), level)] = other;
       link() = fresh;
     }
     block = link();
-    child = child_of(f, level++);
+    child = MeshBox<D>::child_of(f, level++);
   }
   link() = kPoint | v.self;
   ++size_;
@@ -223,12 +218,15 @@ void FeatureTree<D>::erase(Vertex<D>& v, Changed&& changed) {
   std::array<Node, kLevels + 1> path{};
   int depth = 0;
   Node node = root_;
-  for (; (node & kPoint) == 0; ++depth) node = blocks_[path[depth] = node][child_of(f, depth)];
+  for (; (node & kPoint) == 0; ++depth) {
+    path[depth] = node;
+    node = blocks_[node][MeshBox<D>::child_of(f, depth)];
+  }
   Node rest = 0;  // what the parent's link becomes
   while (depth > 0) {
     --depth;
     Block& block = blocks_[path[depth]];
-    block[child_of(f, depth)] = rest;
+    block[MeshBox<D>::child_of(f, depth)] = rest;
     int children = 0;
     Node last = 0;
     for (const Node n : block) {

@@ -59,6 +59,13 @@ struct MeshBox {
     return f;
   }
 
+  /// Which child of its cell of `level` contains `f`: bit i is the half along axis i.
+  [[nodiscard]] static int child_of(const Fixed<D>& f, int level) {
+    int child = 0;
+    for (int i = 0; i < D; ++i) child |= static_cast<int>(f[i] >> (kLevels - 1 - level) & 1) << i;
+    return child;
+  }
+
   /// The cell of `level` that contains `f`.
   [[nodiscard]] static Cell<D> cell(const Fixed<D>& f, int level) {
     Cell<D> c{.level = level};

@@ -2,32 +2,24 @@
 #include "input.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <string>
+
+#include "text.hpp"
 
 namespace mesher::detail {
 
 namespace {
 
-std::string number(double x) {
-  std::array<char, 32> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), x).ptr;
-  return {text.data(), end};
-}
-
 std::string named(const Point<2>& p, FeatureId id) {
   return "point " + std::to_string(static_cast<std::int64_t>(id)) + " " + place_text(p);
 }
 
-bool in_range(double x) { return x == 0 || (std::abs(x) >= 0x1p-100 && std::abs(x) <= 0x1p100); }
-
 }  // namespace
 
 std::string place_text(const Point<2>& p) {
-  return "(" + number(p[0]) + ", " + number(p[1]) + ")";
+  return "(" + text::to_text(p[0]) + ", " + text::to_text(p[1]) + ")";
 }
 
 void check_point(const Point<2>& p, const Box<2>& domain, FeatureId id) {
@@ -35,16 +27,16 @@ void check_point(const Point<2>& p, const Box<2>& domain, FeatureId id) {
     if (!std::isfinite(p[i])) throw Error(ErrorCode::not_finite, named(p, id) + " is not finite");
   }
   for (int i = 0; i < 2; ++i) {
-    if (in_range(p[i])) continue;
+    if (text::is_coordinate(p[i])) continue;
     throw Error(ErrorCode::magnitude,
                 named(p, id) + ": a coordinate must be 0 or of magnitude 2^-100 to 2^100");
   }
   for (int i = 0; i < 2; ++i) {
     if (p[i] >= domain.lo[i] && p[i] <= domain.hi[i]) continue;
     throw Error(ErrorCode::outside_domain,
-                named(p, id) + " lies outside the domain [" + number(domain.lo[0]) + ", " +
-                    number(domain.hi[0]) + "] x [" + number(domain.lo[1]) + ", " +
-                    number(domain.hi[1]) + "]");
+                named(p, id) + " lies outside the domain [" + text::to_text(domain.lo[0]) + ", " +
+                    text::to_text(domain.hi[0]) + "] x [" + text::to_text(domain.lo[1]) + ", " +
+                    text::to_text(domain.hi[1]) + "]");
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "canonical.hpp"
 #include "input.hpp"
+#include "mesher/predicates.hpp"
 #include "world_impl.hpp"
 
 namespace mesher {
@@ -14,6 +15,7 @@ template <int D>
 Mesh<D> mesh_statically(const std::vector<Point<D>>& points, const Options<D>& options,
                         const std::vector<FeatureId>& ids, MeshStats* stats) {
   static_assert(D == 2);
+  predicates::self_test();
   const detail::MeshBox<2> box = detail::mesh_box(options);
   sac::PlainScope scope;
   detail::World<sac::PlainScope> world(options, box, scope);

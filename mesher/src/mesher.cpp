@@ -86,7 +86,7 @@ void Mesher<2>::Impl::check_new(FeatureId id, const Point<2>& p, FeatureId repla
 }
 
 void Mesher<2>::Impl::add(FeatureId id, const Point<2>& p) {
-  ids.reserve(ids.size() + 1);
+  if (ids.size() + 1 > ids.bucket_count()) ids.reserve(2 * ids.size() + 16);
   if (!ran) {
     Vertex<2>& v = vertices().add_input(p, true);
     features().tree().insert_only(v);

@@ -91,15 +91,10 @@ class Quadtree {
     double side;
   };
 
-  static int child_of(const Fixed<D>& f, int level) {
-    int child = 0;
-    for (int i = 0; i < D; ++i) child |= static_cast<int>(f[i] >> (kLevels - 1 - level) & 1) << i;
-    return child;
-  }
   [[nodiscard]] NodeIndex leaf_of(const Fixed<D>& f, int* level = nullptr) const {
     NodeIndex n = 0;
     int depth = 0;
-    for (; nodes_[n].child != 0; ++depth) n = nodes_[n].child + child_of(f, depth);
+    for (; nodes_[n].child != 0; ++depth) n = nodes_[n].child + MeshBox<D>::child_of(f, depth);
     if (level != nullptr) *level = depth;
     return n;
   }
@@ -198,7 +193,7 @@ void Quadtree<D>::give_children(NodeIndex n, int level) {
     const Bucket bucket = buckets_[b];
     free_buckets_.push_back(b);
     for (std::uint32_t i = 0; i < bucket.count; ++i) {
-      const int c = child_of(box_.fixed(bucket.place[i]), level);
+      const int c = MeshBox<D>::child_of(box_.fixed(bucket.place[i]), level);
       put(first + static_cast<NodeIndex>(c), bucket.handle[i], bucket.place[i]);
     }
     b = bucket.next;
@@ -254,7 +249,7 @@ typename Quadtree<D>::NodeIndex Quadtree<D>::mark(const Cell<D>& cell) {
   for (int level = 0;; ++level) {
     if (nodes_[n].child == 0) give_children(n, level);
     if (level == cell.level) break;
-    n = nodes_[n].child + static_cast<NodeIndex>(child_of(cell.corner, level));
+    n = nodes_[n].child + static_cast<NodeIndex>(MeshBox<D>::child_of(cell.corner, level));
   }
   nodes_[n].parent_and_mark |= 0x80000000u;
   return n;
@@ -361,7 +356,7 @@ void Quadtree<D>::find_path(const Point<D>& center, Search& search) const {
     search.path[static_cast<std::size_t>(search.depth)] = s;
     const NodeIndex child = nodes_[s.node].child;
     if (child == 0) return;
-    const int c = child_of(f, search.depth);
+    const int c = MeshBox<D>::child_of(f, search.depth);
     s.node = child + static_cast<NodeIndex>(c);
     s.side /= 2;
     for (int i = 0; i < D; ++i) s.rel[i] += (c >> i & 1) != 0 ? s.side : 0;
