@@ -1,35 +1,49 @@
 // Plain execution: the same program text, run without recording anything.
 //
 // A program written as `template <class S> void operator()(S& s, ...)` runs on sac::Scope (traced)
-// or on sac::PlainScope (not traced); the compiler chooses. Modifiables are plain memory here,
-// calls are calls, an agenda is a bucketed queue. Results are the same, bit for bit.
+// or on sac::PlainScope (not traced); the compiler chooses. Modifiables are plain memory here, a
+// call is a function call, a tail call a loop, and keyed allocation takes the next free bytes.
+//
+// Nothing is freed before the scope is: it is one run.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <deque>
-#include <map>
+#include <functional>
 #include <memory>
 #include <new>
 #include <optional>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "sac/agenda.hpp"
 #include "sac/check.hpp"
+#include "sac/plain_agenda.hpp"
 
 namespace sac {
 
-class PlainScope;
+template <class T, class Same>
+class PlainMod;
 
-/// A modifiable of a plain run: a place in memory.
-template <class T>
+/// A modifiable of a plain run, as a member of an object. Neither copied nor moved.
+template <class T, class Same = std::equal_to<>>
+class PlainCell {
+ public:
+  PlainCell() = default;
+  PlainCell(const PlainCell&) = delete;
+  PlainCell& operator=(const PlainCell&) = delete;
+
+ private:
+  friend class PlainMod<T, Same>;
+  mutable std::optional<T> value_;
+};
+
+/// A handle of a modifiable of a plain run.
+template <class T, class Same = std::equal_to<>>
 class PlainMod {
  public:
   PlainMod() = default;
-  explicit PlainMod(std::optional<T>* place) : place_(place) {}
+  PlainMod(const PlainCell<T, Same>& cell) : place_(&cell.value_) {}
   [[nodiscard]] std::optional<T>& place() const { return *place_; }
   explicit operator bool() const noexcept { return place_ != nullptr; }
   friend bool operator==(const PlainMod&, const PlainMod&) = default;
@@ -38,151 +52,88 @@ class PlainMod {
   std::optional<T>* place_ = nullptr;
 };
 
-/// A work queue with the order of sac::Agenda; equal posts merge.
-class PlainAgenda {
- public:
-  PlainAgenda() = default;
-  PlainAgenda(const PlainAgenda&) = delete;
-  PlainAgenda& operator=(const PlainAgenda&) = delete;
-
-  template <auto F, class... Args>
-  void post(PlainScope&, const Key& key, Args... args) {
-    add<F>(key, std::tuple<Args...>(std::move(args)...));
-  }
-  template <auto F, class... Args>
-  void post_from_outside(const Key& key, Args... args) {
-    add<F>(key, std::tuple<Args...>(std::move(args)...));
-  }
-  void drain(PlainScope& s);
-
- private:
-  struct Record {
-    const Function* function;
-  };
-  struct Entry {
-    std::uint64_t order;
-    Record* record;
-  };
-  template <class Tuple>
-  struct TypedRecord : Record {
-    Tuple args;
-  };
-  // The posts of one (bucket, phase, colour), with the memory they lie in.
-  struct Class {
-    std::vector<Entry> records;
-    std::vector<std::unique_ptr<std::byte[]>> blocks;
-    std::size_t used = kBlock;
-  };
-  static constexpr std::size_t kBlock = 16384;
-
-  // The operations of a record go by the same descriptor as those of a call.
-  struct Operations : Function {
-    void (*run)(PlainScope&, const Record&);
-    bool (*same)(const Record&, const Record&);
-    std::strong_ordering (*order)(const Record&, const Record&);
-  };
-
-  template <auto F, class Tuple>
-  static void run_record(PlainScope& s, const Record& r) {
-    std::apply([&](const auto&... a) { F(s, a...); },
-               static_cast<const TypedRecord<Tuple>&>(r).args);
-  }
-  template <class Tuple>
-  static bool same_record(const Record& a, const Record& b) {
-    return static_cast<const TypedRecord<Tuple>&>(a).args ==
-           static_cast<const TypedRecord<Tuple>&>(b).args;
-  }
-  template <class Tuple>
-  static std::strong_ordering order_record(const Record& a, const Record& b) {
-    const auto order = static_cast<const TypedRecord<Tuple>&>(a).args <=>
-                       static_cast<const TypedRecord<Tuple>&>(b).args;
-    return order < 0 ? std::strong_ordering::less
-                     : order > 0 ? std::strong_ordering::greater : std::strong_ordering::equal;
-  }
-  template <auto F, class Tuple>
-  static constexpr Operations kOperations{
-      {.name = function_name<F>(), .frame_bytes = 0, .posted = true, .execute = nullptr,
-       .destroy = nullptr, .equal = nullptr, .compare = nullptr, .hash = nullptr, .print = nullptr},
-      &run_record<F, Tuple>, &same_record<Tuple>, &order_record<Tuple>};
-
-  static const Operations& operations(const Record& r) {
-    return static_cast<const Operations&>(*r.function);
-  }
-  static bool before(const Entry& a, const Entry& b) {
-    return a.order != b.order ? a.order < b.order : before_in_tie(*a.record, *b.record);
-  }
-  static bool before_in_tie(const Record& a, const Record& b);
-  static bool same(const Entry& a, const Entry& b);
-
-  template <auto F, class Tuple>
-  void add(const Key& key, Tuple&& args) {
-    using Typed = TypedRecord<std::decay_t<Tuple>>;
-    static_assert(std::is_trivially_destructible_v<Typed>, "agenda arguments must be trivial");
-    static_assert(sizeof(Typed) <= kBlock);
-    const std::uint32_t rank = key.rank();
-    if (running_ && rank < rank_) throw UsageError("posting into the past");
-    Class& c = cached_ != nullptr && cached_rank_ == rank ? *cached_ : classes_[rank];
-    cached_ = &c;
-    cached_rank_ = rank;
-    constexpr std::size_t bytes = (sizeof(Typed) + 15) / 16 * 16;
-    if (c.used + bytes > kBlock) {
-      c.blocks.push_back(std::make_unique<std::byte[]>(kBlock));
-      c.used = 0;
-    }
-    void* memory = c.blocks.back().get() + c.used;
-    c.used += bytes;
-    c.records.push_back({key.order, ::new (memory) Typed{{&kOperations<F, std::decay_t<Tuple>>},
-                                                          std::forward<Tuple>(args)}});
-  }
-
-  void run_class(PlainScope& s, Class& c);
-
-  std::map<std::uint32_t, Class> classes_;
-  Class* cached_ = nullptr;
-  std::uint32_t cached_rank_ = 0;
-  std::uint32_t rank_ = 0;
-  bool running_ = false;
-};
-
 /// The counterpart of sac::Scope that records nothing.
 class PlainScope {
  public:
-  template <class T>
-  using ModType = PlainMod<T>;
+  template <class T, class Same = std::equal_to<>>
+  using ModType = PlainMod<T, Same>;
+  template <class T, class Same = std::equal_to<>>
+  using CellType = PlainCell<T, Same>;
   using AgendaType = PlainAgenda;
   static constexpr bool kTraced = false;
 
   PlainScope() = default;
   PlainScope(const PlainScope&) = delete;
   PlainScope& operator=(const PlainScope&) = delete;
+  ~PlainScope() {
+    for (auto it = owned_.rbegin(); it != owned_.rend(); ++it) it->destroy(it->object);
+  }
 
   /// Throws: UsageError if the modifiable has no value yet.
-  template <class T>
-  const T& read(PlainMod<T> mod) {
+  template <class T, class Same>
+  const T& read(PlainMod<T, Same> mod) {
     if (!mod.place().has_value()) throw UsageError("read of a modifiable that nobody has written");
     return *mod.place();
   }
-  template <class T>
-  void write(PlainMod<T> mod, T value) {
+  template <class T, class Same>
+  const T& read(const PlainCell<T, Same>& cell) {
+    return read(PlainMod<T, Same>(cell));
+  }
+  template <class T, class Same>
+  void write(PlainMod<T, Same> mod, std::type_identity_t<T> value) {
     mod.place() = std::move(value);
+  }
+  template <class T, class Same>
+  void write(const PlainCell<T, Same>& cell, std::type_identity_t<T> value) {
+    write(PlainMod<T, Same>(cell), std::move(value));
   }
 
   template <auto F, class... Args>
-  void call(Args... args) {
-    F(*this, args...);
-    run_tails();
+  std::invoke_result_t<decltype(F), PlainScope&, Args...> call(Args... args) {
+    require_no_tail();
+    if constexpr (std::is_void_v<std::invoke_result_t<decltype(F), PlainScope&, Args...>>) {
+      F(*this, args...);
+      run_tails();
+    } else {
+      auto result = F(*this, args...);
+      run_tails();
+      return result;
+    }
   }
   template <auto F, class... Args>
   void tail(Args... args) {
-    using Tuple = std::tuple<Args...>;
-    static_assert(sizeof(Tuple) <= kTailBytes && alignof(Tuple) <= 16);
-    ::new (static_cast<void*>(tail_args_)) Tuple(std::move(args)...);
-    tail_ = [](PlainScope& s) {
-      Tuple* stored = std::launder(reinterpret_cast<Tuple*>(s.tail_args_));
-      const Tuple mine(std::move(*stored));
-      stored->~Tuple();
-      std::apply([&](const auto&... a) { F(s, a...); }, mine);
-    };
+    set_tail([](PlainScope& s, const Args&... stored) { F(s, stored...); }, std::move(args)...);
+  }
+
+  /// A default-constructed T.
+  template <class T, class... Key>
+  T& make(Key...) {
+    T& object = *::new (allocate(sizeof(T), alignof(T))) T();
+    if constexpr (!std::is_trivially_destructible_v<T>) {
+      owned_.push_back({&object, [](void* o) { static_cast<T*>(o)->~T(); }});
+    }
+    return object;
+  }
+  /// A T that F(scope, object, key...) has worked on.
+  template <class T, auto F, class... Key>
+  T& make(Key... key) {
+    require_no_tail();
+    T& object = make<T>();
+    F(*this, object, key...);
+    run_tails();
+    return object;
+  }
+  /// A T that F(scope, object, key...) works on when the running function is done.
+  template <class T, auto F, class... Key>
+  T& tail_make(Key... key) {
+    T& object = make<T>();
+    set_tail([](PlainScope& s, T* o, const Key&... stored) { F(s, *o, stored...); }, &object,
+             std::move(key)...);
+    return object;
+  }
+  template <class T, class Same = std::equal_to<>, class... Key>
+  PlainMod<T, Same> cell(Key...) {
+    return make<PlainCell<T, Same>>();
   }
 
   void set_environment(void* environment) noexcept { environment_ = environment; }
@@ -191,27 +142,19 @@ class PlainScope {
     return *static_cast<T*>(environment_);
   }
 
-  template <class T, class... Key>
-  T& make(Key...) {
-    auto owner = std::make_unique<Owned<T>>();
-    T& object = owner->object;
-    owned_.push_back(std::move(owner));
-    return object;
-  }
-  template <class T, class... Key>
-  PlainMod<T> cell(Key...) {
-    return PlainMod<T>(&make<std::optional<T>>());
-  }
-
   /// The client's side, as that of sac::Engine.
-  template <class T>
-  PlainMod<T> input(T value) {
-    PlainMod<T> mod = cell<T>();
+  template <class T, class Same = std::equal_to<>>
+  PlainMod<T, Same> input(T value) {
+    const PlainMod<T, Same> mod = cell<T, Same>();
     mod.place() = std::move(value);
     return mod;
   }
-  template <class T>
-  const T& get(PlainMod<T> mod) {
+  template <class M>
+  void set(const M& mod, auto value) {
+    write(mod, std::move(value));
+  }
+  template <class M>
+  decltype(auto) get(const M& mod) {
     return read(mod);
   }
   template <auto F, class... Args>
@@ -226,18 +169,48 @@ class PlainScope {
 
  private:
   static constexpr std::size_t kTailBytes = 256;
-  struct AnyOwned {
-    virtual ~AnyOwned() = default;
+  static constexpr std::size_t kBlock = std::size_t{1} << 18;
+
+  struct Owned {
+    void* object;
+    void (*destroy)(void*);
   };
-  template <class T>
-  struct Owned : AnyOwned {
-    T object{};
-  };
+
+  void require_no_tail() const {
+    if (tail_ != nullptr) throw UsageError("call: a tail call must be the last thing done");
+  }
+
+  template <class Body, class... Args>
+  void set_tail(Body, Args... args) {
+    using Tuple = std::tuple<Args...>;
+    static_assert(sizeof(Tuple) <= kTailBytes && alignof(Tuple) <= 16);
+    require_no_tail();
+    ::new (static_cast<void*>(tail_args_)) Tuple(std::move(args)...);
+    tail_ = [](PlainScope& s) {
+      Tuple* stored = std::launder(reinterpret_cast<Tuple*>(s.tail_args_));
+      const Tuple mine(std::move(*stored));
+      stored->~Tuple();
+      std::apply([&](const auto&... a) { Body{}(s, a...); }, mine);
+    };
+  }
+
+  void* allocate(std::size_t bytes, std::size_t alignment) {
+    used_ = (used_ + alignment - 1) / alignment * alignment;
+    if (used_ + bytes > block_bytes_) {
+      block_bytes_ = bytes > kBlock ? bytes : kBlock;
+      blocks_.push_back(std::make_unique_for_overwrite<std::byte[]>(block_bytes_));
+      used_ = 0;
+    }
+    return blocks_.back().get() + std::exchange(used_, used_ + bytes);
+  }
 
   void* environment_ = nullptr;
   void (*tail_)(PlainScope&) = nullptr;
   alignas(16) std::byte tail_args_[kTailBytes];
-  std::deque<std::unique_ptr<AnyOwned>> owned_;
+  std::vector<std::unique_ptr<std::byte[]>> blocks_;
+  std::size_t block_bytes_ = 0;
+  std::size_t used_ = 0;
+  std::vector<Owned> owned_;
 };
 
 }  // namespace sac
