@@ -11,22 +11,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include "random.hpp"
 #include "sac/sac.hpp"
 
 namespace support {
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(sac::mix(seed + 1)) {}
-  /// 0 .. n - 1
-  int operator()(int n) {
-    state_ = sac::mix(state_ + 0x9e3779b97f4a7c15u);
-    return static_cast<int>(state_ % static_cast<std::uint64_t>(n));
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 /// Thrown by a program whose fuse has burnt down.
 struct Failure : std::runtime_error {
