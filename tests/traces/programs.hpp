@@ -53,6 +53,7 @@ class ListMap {
     throw std::out_of_range("no such item");
   }
   traces::Recording record(const std::string& path) const { return recorder_.record(path); }
+  [[nodiscard]] traces::Trace trace() const { return recorder_.trace(); }
 
  private:
   Item& new_item(int id, Item* next) {

@@ -193,6 +193,34 @@ TEST_CASE("What keyed allocation made is named by its key, whatever its handle i
   CHECK(a[0].label != b[0].label);  // handles print differently: the runs do differ in them
 }
 
+TEST_CASE("A trace in memory is the one that a file holds") {
+  ScratchFolder folder;
+  const programs::ListMap list({1, 2, 3});
+  const auto recording = list.record(folder.path("t"));
+  const traces::Trace loaded = traces::load_trace(folder.path("t")), trace = list.trace();
+  CHECK(trace.functions == loaded.functions);
+  CHECK(trace.unnamed == recording.unnamed);
+  REQUIRE(trace.calls.size() == loaded.calls.size());
+  REQUIRE(trace.calls.size() == recording.calls);
+  for (std::size_t i = 0; i < trace.calls.size(); ++i) {
+    const auto &a = trace.calls[i], &b = loaded.calls[i];
+    CHECK(a.hash == b.hash);
+    CHECK(a.function == b.function);
+    CHECK(a.depth == b.depth);
+    CHECK(a.tail == b.tail);
+  }
+}
+
+TEST_CASE("Tail calls are told from other children") {
+  std::vector<std::pair<int, bool>> calls;
+  for (const auto& call : programs::ListMap({1, 2}).trace().calls) {
+    calls.emplace_back(call.depth, call.tail);
+  }
+  CHECK(calls ==
+        std::vector<std::pair<int, bool>>{
+            {0, false}, {1, false}, {1, false}, {1, true}, {2, false}, {2, false}, {2, true}});
+}
+
 TEST_CASE("A trace after propagation is the trace of a fresh run") {
   ScratchFolder folder;
   programs::ListMap edited({1, 2, 4, 5});

@@ -16,7 +16,8 @@ const std::vector<CallRecord> kCalls = {
     {0, 0, {1, 2}, true, "7"},
     {1, 1, {~0ull, 0x8000000000000000u}, false, "@12, \"a b\""},
     {2, 1, {3, 4}, true, ""},
-    {1, 0, {0, 0}, true, std::string("\0\n\xff", 3)},
+    {1, 0, {0, 0}, true, std::string("\0\n\xff", 3), true},
+    {2, 0, {5, 6}, false, "tail", true},
 };
 
 void write_calls(const std::string& path) {
@@ -54,6 +55,7 @@ TEST_CASE("A trace file reads back as it was written") {
     CHECK(call->hash == expected.hash);
     CHECK(call->named == expected.named);
     CHECK(call->arguments == expected.arguments);
+    CHECK(call->tail == expected.tail);
   }
   CHECK(reader.next() == nullptr);
   CHECK(reader.next() == nullptr);
@@ -91,28 +93,23 @@ TEST_CASE("A file with any byte changed is an error") {
 
 TEST_CASE("Counts in a file are refused, never believed") {
   ScratchFolder folder;
-  const std::string header = "\x89traces\n\x01\x03";
-  const std::string huge = "\xff\xff\xff\xff\xff\xff\xff\xff\x7f";
-  const std::string hash(16, '\0');
+  const std::string header = "\x89traces\n\x02\x03",
+                    name =
+                        "F\x01"
+                        "f",
+                    zero(1, '\0');
+  const std::string huge = "\xff\xff\xff\xff\xff\xff\xff\xff\x7f", hash(16, '\0');
   const auto code = [&](const std::string& rest) {
     return failure_of(folder.write("t", header + rest));
   };
-  CHECK(code("F" + huge) == "corrupt");             // length of a name
-  CHECK(code("F\xff" + huge + huge) == "corrupt");  // no number
-  CHECK(code("F\x01"
-             "fC" +
-             huge) == "corrupt");  // depth
-  CHECK(code(std::string("F\x01"
-                         "fC\x01",
-                         5)) == "corrupt");  // no parent
-  CHECK(code(std::string("F\x01"
-                         "fC\x00\x01",
-                         6)) == "corrupt");  // no such function
-  CHECK(code(std::string("F\x01"
-                         "fC\x00\x00",
-                         6) +
-             hash + huge) == "corrupt");              // length of text
-  CHECK(code(std::string("E\x05", 2)) == "corrupt");  // number of calls
+  CHECK(code("F" + huge) == "corrupt");                                     // length of a name
+  CHECK(code("F\xff" + huge + huge) == "corrupt");                          // no number
+  CHECK(code(name + "C\x04") == "corrupt");                                 // flags
+  CHECK(code(name + "C" + zero + huge) == "corrupt");                       // depth
+  CHECK(code(name + "C" + zero + "\x01") == "corrupt");                     // no parent
+  CHECK(code(name + "C" + zero + zero + "\x01") == "corrupt");              // no such function
+  CHECK(code(name + "C" + zero + zero + zero + hash + huge) == "corrupt");  // length of text
+  CHECK(code("E\x05") == "corrupt");                                        // number of calls
   CHECK(code("?") == "corrupt");
 }
 

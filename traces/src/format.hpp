@@ -10,8 +10,11 @@ namespace traces::format {
 inline constexpr std::string_view kMagic = "\x89traces\n";
 inline constexpr char kFunction = 'F';
 inline constexpr char kCall = 'C';
-inline constexpr char kUnnamedCall = 'U';
 inline constexpr char kEnd = 'E';
+
+// Flags of a call.
+inline constexpr unsigned kUnnamed = 1;
+inline constexpr unsigned kTail = 2;
 
 class Checksum {
  public:

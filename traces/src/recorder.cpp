@@ -159,22 +159,54 @@ class Labeller final : public sac::LabelSink {
   bool named_ = true;
 };
 
+namespace {
+
+// A call as the walk meets it.
+struct Visit {
+  const sac::Call& call;
+  std::uint32_t depth;
+  bool tail;
+  std::uint32_t function;  // index, in the order of first calls
+  bool new_function;
+};
+
+// Calls each(Visit) for every live call in pre-order. A tail call shares the end stamp of the call
+// that it continues.
+template <class Each>
+void walk_calls(const sac::Engine& engine, Each&& each) {
+  std::map<const sac::Function*, std::uint32_t> functions;
+  std::vector<sac::Handle> ends;  // of the calls around the current one
+  engine.walk([&](const sac::Call& call, std::size_t depth) {
+    const auto next = static_cast<std::uint32_t>(functions.size());
+    const auto [function, is_new] = functions.try_emplace(call.function, next);
+    ends.resize(depth);
+    const bool tail = depth > 0 && call.end != 0 && call.end == ends.back();
+    ends.push_back(call.end);
+    each(Visit{call, static_cast<std::uint32_t>(depth), tail, function->second, is_new});
+  });
+}
+
+void require_idle(const sac::Engine& engine) {
+  if (!engine.idle()) throw sac::UsageError("record: the engine is running");
+}
+
+}  // namespace
+
 Recording Recorder::record(const std::string& path) const {
-  if (!engine_.idle()) throw sac::UsageError("record: the engine is running");
+  require_idle(engine_);
   TraceWriter writer(path);
   Labeller labeller(*this);
   TextStream printed;
-  std::map<const sac::Function*, std::uint32_t> functions;
   Recording result;
   CallRecord record;
-  engine_.walk([&](const sac::Call& call, std::size_t depth) {
-    const auto [function, is_new] = functions.try_emplace(call.function, 0);
-    if (is_new) function->second = writer.add_function(call.function->name);
-    record.depth = static_cast<std::uint32_t>(depth);
-    record.function = function->second;
-    record.hash = labeller.hash(call);
+  walk_calls(engine_, [&](const Visit& visit) {
+    if (visit.new_function) writer.add_function(visit.call.function->name);
+    record.depth = visit.depth;
+    record.tail = visit.tail;
+    record.function = visit.function;
+    record.hash = labeller.hash(visit.call);
     record.named = labeller.named();
-    call.function->print(call, printed.start(6));
+    visit.call.function->print(visit.call, printed.start(6));
     record.arguments = printed.text();
     writer.add_call(record);
     ++result.calls;
@@ -182,6 +214,19 @@ Recording Recorder::record(const std::string& path) const {
   });
   writer.finish();
   return result;
+}
+
+Trace Recorder::trace() const {
+  require_idle(engine_);
+  Labeller labeller(*this);
+  Trace trace;
+  trace.calls.reserve(engine_.live_calls());
+  walk_calls(engine_, [&](const Visit& visit) {
+    if (visit.new_function) trace.functions.emplace_back(visit.call.function->name);
+    trace.calls.push_back({labeller.hash(visit.call), visit.function, visit.depth, visit.tail});
+    trace.unnamed += labeller.named() ? 0 : 1;
+  });
+  return trace;
 }
 
 }  // namespace traces

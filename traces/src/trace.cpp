@@ -27,7 +27,7 @@ Trace load_trace(const std::string& path) {
   TraceReader reader(path);
   Trace trace;
   while (const CallRecord* call = reader.next()) {
-    trace.calls.push_back({call->hash, call->function});
+    trace.calls.push_back({call->hash, call->function, call->depth, call->tail});
     if (!call->named) ++trace.unnamed;
   }
   trace.functions = reader.functions();
@@ -63,6 +63,19 @@ std::vector<Pair> common_calls(const Trace& a, const Trace& b) {
   }
   std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) { return x.a < y.a; });
   return pairs;
+}
+
+Difference difference(const Trace& a, const Trace& b) {
+  std::vector<bool> common_a(a.calls.size()), common_b(b.calls.size());
+  for (const Pair& pair : common_calls(a, b)) common_a[pair.a] = common_b[pair.b] = true;
+  const auto rest = [](const std::vector<bool>& common) {
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t i = 0; i < common.size(); ++i) {
+      if (!common[i]) numbers.push_back(i);
+    }
+    return numbers;
+  };
+  return {rest(common_a), rest(common_b)};
 }
 
 }  // namespace traces

@@ -61,6 +61,7 @@ struct TraceReader::Input {
 
 namespace {
 constexpr std::uint64_t kLargest = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint64_t kDeepest = kLargest >> 1;  // Trace::Call::depth
 }  // namespace
 
 TraceReader::TraceReader(std::string path) : in_(std::make_unique<Input>(std::move(path))) {
@@ -90,9 +91,7 @@ const CallRecord* TraceReader::next() {
         in_->text(functions_.emplace_back());
         break;
       case format::kCall:
-        return read_call(true), &call_;
-      case format::kUnnamedCall:
-        return read_call(false), &call_;
+        return read_call(), &call_;
       case format::kEnd:
         read_end();
         break;
@@ -103,9 +102,12 @@ const CallRecord* TraceReader::next() {
   return nullptr;
 }
 
-void TraceReader::read_call(bool named) {
-  call_.named = named;
-  call_.depth = static_cast<std::uint32_t>(in_->number(kLargest));
+void TraceReader::read_call() {
+  const auto flags = static_cast<unsigned char>(in_->byte());
+  if ((flags & ~(format::kUnnamed | format::kTail)) != 0) in_->fail("corrupt", "unknown flags");
+  call_.named = (flags & format::kUnnamed) == 0;
+  call_.tail = (flags & format::kTail) != 0;
+  call_.depth = static_cast<std::uint32_t>(in_->number(kDeepest));
   if (call_.depth > depth_ + 1) in_->fail("corrupt", "a call without a parent");
   call_.function = static_cast<std::uint32_t>(in_->number(kLargest));
   if (call_.function >= functions_.size()) in_->fail("corrupt", "a call of an unknown function");

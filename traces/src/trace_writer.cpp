@@ -10,7 +10,9 @@ namespace traces {
 
 struct TraceWriter::Output {
   explicit Output(std::string p)
-      : path(std::move(p)), part(path + ".part"), file(part, std::ios::binary | std::ios::trunc) {
+      : path(std::move(p)),
+        part(temporary_of(path)),
+        file(part, std::ios::binary | std::ios::trunc) {
     require_good("cannot be written");
   }
   ~Output() {
@@ -55,6 +57,8 @@ struct TraceWriter::Output {
   bool open = true;
 };
 
+std::string temporary_of(const std::string& path) { return path + ".part"; }
+
 TraceWriter::TraceWriter(std::string path) : out_(std::make_unique<Output>(std::move(path))) {
   out_->bytes(format::kMagic);
   out_->byte(static_cast<char>(kVersion));
@@ -72,7 +76,9 @@ std::uint32_t TraceWriter::add_function(std::string_view name) {
 void TraceWriter::add_call(const CallRecord& call) {
   SAC_EXPECTS(call.function < functions_);
   SAC_EXPECTS(call.depth <= depth_ + 1);
-  out_->byte(call.named ? format::kCall : format::kUnnamedCall);
+  out_->byte(format::kCall);
+  out_->byte(
+      static_cast<char>((call.named ? 0 : format::kUnnamed) | (call.tail ? format::kTail : 0)));
   out_->number(call.depth);
   out_->number(call.function);
   out_->fixed(call.hash.high);

@@ -1,4 +1,4 @@
-// Recording: the calls of a live engine, into a trace file.
+// Recording: the calls of a live engine, into a trace file or into memory.
 //
 // A call's label is (function, arguments); values read and results of children are not part of it
 // yet. Its hash is made of the function's name and of the arguments' names in the sense of
@@ -17,6 +17,7 @@
 //   traces::Recorder recorder(engine);
 //   for (const Item& item : items) recorder.name(item.next, "next", item.id);
 //   recorder.record("before.trace");
+//   const traces::Trace before = recorder.trace();
 #pragma once
 
 #include <cstdint>
@@ -28,6 +29,7 @@
 #include "sac/label.hpp"
 #include "sac/mod.hpp"
 #include "traces/label_hash.hpp"
+#include "traces/trace.hpp"
 
 namespace traces {
 
@@ -56,6 +58,9 @@ class Recorder {
   /// Writes the trace as it is. Throws: FileError; UsageError if the engine runs.
   /// Cost: O(n log n); memory 20 bytes for each keyed allocation.
   Recording record(const std::string& path) const;
+  /// The trace as it is, as load_trace() would read it from a file.
+  /// Throws: UsageError if the engine runs.  Cost: as record(), without printing arguments.
+  [[nodiscard]] Trace trace() const;
 
  private:
   friend class Labeller;

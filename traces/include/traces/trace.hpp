@@ -1,4 +1,5 @@
-// A trace in memory: the labels' hashes in pre-order. 24 bytes a call; texts stay in the file.
+// A trace in memory: hashes of labels and depths in pre-order. 24 bytes a call; texts stay in the
+// file.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,9 @@ namespace traces {
 struct Trace {
   struct Call {
     LabelHash hash;
-    std::uint32_t function;  // index
+    std::uint32_t function = 0;    // index
+    std::uint32_t depth : 31 = 0;  // at most one more than that of the call before
+    std::uint32_t tail : 1 = 0;    // continues its parent: see CallRecord
   };
   std::vector<Call> calls;             // in pre-order
   std::vector<std::string> functions;  // names by index; two functions may have one name
@@ -33,8 +36,17 @@ struct Pair {
   std::uint32_t b;  // and in the other
 };
 
+/// Calls that only one of two traces has, by number, ascending.
+struct Difference {
+  std::vector<std::uint32_t> only_a;
+  std::vector<std::uint32_t> only_b;
+};
+
 /// The labels common to `a` and `b` as multisets: the k-th call of a label in one is paired with
 /// the k-th in the other. In the order of `a`.  Cost: O(n log n).
 [[nodiscard]] std::vector<Pair> common_calls(const Trace& a, const Trace& b);
+
+/// What common_calls() leaves unpaired.  Cost: O(n log n).
+[[nodiscard]] Difference difference(const Trace& a, const Trace& b);
 
 }  // namespace traces

@@ -1,13 +1,14 @@
 // The trace file: the calls of one run in pre-order, written and read as a stream.
 //
-// Version 1. Integers are unsigned LEB128 (7 bits a byte, lowest first) unless a size is given;
+// Version 2. Integers are unsigned LEB128 (7 bits a byte, lowest first) unless a size is given;
 // fixed sizes are little-endian; a text is its length and its bytes.
 //
 //   header    "\x89traces\n"  version  parts    8 bytes, 1 byte, 1 byte
 //   function  'F'  name                        its index is the number of functions before it
-//   call      'C' or 'U'  depth  function index  hash  arguments
-//             the hash is 16 bytes, high half first; 'U': the label contains an object without a
-//             name (recorder.hpp), so the hash is good within this run only
+//   call      'C'  flags  depth  function index  hash  arguments
+//             flags, 1 byte: bit 0: the label contains an object without a name (recorder.hpp), so
+//             the hash is good within this run only; bit 1: a tail call. The hash is 16 bytes, high
+//             half first
 //   end       'E'  number of calls  checksum    8 bytes: FNV-1a of all bytes before it
 //
 // `parts` says what the hash covers: bit 0 the function, bit 1 its arguments, bit 2 the values it
@@ -32,7 +33,7 @@
 
 namespace traces {
 
-inline constexpr std::uint8_t kVersion = 1;
+inline constexpr std::uint8_t kVersion = 2;
 inline constexpr std::uint8_t kParts = 3;  // function and arguments
 /// Longer texts are cut by the writer and refused by the reader.
 inline constexpr std::size_t kLongestText = 4096;
@@ -53,12 +54,16 @@ class FileError : public std::runtime_error {
 };
 
 struct CallRecord {
-  std::uint32_t depth = 0;     // at most one more than that of the call before
+  std::uint32_t depth = 0;     // at most one more than that of the call before, and < 2^31
   std::uint32_t function = 0;  // index
   LabelHash hash;
   bool named = true;      // all in the label has a name that is the same in every run
   std::string arguments;  // as printed
+  bool tail = false;      // a tail call: runs after its parent, as its last child
 };
+
+/// Where a writer writes until it has finished.
+[[nodiscard]] std::string temporary_of(const std::string& path);
 
 class TraceWriter {
  public:
@@ -96,7 +101,7 @@ class TraceReader {
 
  private:
   void read_header();
-  void read_call(bool named);
+  void read_call();
   void read_end();
 
   struct Input;
