@@ -1,0 +1,66 @@
+// traces distance: how far two runs are apart.
+#include "traces/distance.hpp"
+
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+
+namespace tool {
+namespace {
+
+struct Arguments {
+  std::string a;
+  std::string b;
+  bool json = false;
+};
+
+Json to_json(const traces::CallCounts& counts) {
+  return {{"distance", counts.distance()},
+          {"common", counts.common},
+          {"calls_a", counts.calls_a},
+          {"calls_b", counts.calls_b}};
+}
+
+void print_row(const traces::CallCounts& counts, const std::string& name) {
+  const std::string cells[] = {std::to_string(counts.distance()), std::to_string(counts.common),
+                               std::to_string(counts.calls_a), std::to_string(counts.calls_b)};
+  for (const std::string& cell : cells) {
+    std::cout << std::string(cell.size() < 10 ? 10 - cell.size() : 0, ' ') << cell << ' ';
+  }
+  std::cout << ' ' << name << '\n';
+}
+
+void print_distance(const traces::Distance& d) {
+  std::cout << "  distance     common    calls_a    calls_b   function\n";
+  for (const auto& [name, counts] : d.by_function) print_row(counts, name);
+  print_row(d.all, "all");
+}
+
+void distance(const Arguments& args) {
+  const traces::Trace a = traces::load_trace(args.a), b = traces::load_trace(args.b);
+  warn_of_unnamed(args.a, a);
+  warn_of_unnamed(args.b, b);
+  const traces::Distance d = traces::distance(a, b);
+  if (!args.json) return print_distance(d);
+  Json object = to_json(d.all);
+  object["unnamed_a"] = a.unnamed;
+  object["unnamed_b"] = b.unnamed;
+  object["functions"] = Json::object();
+  for (const auto& [name, counts] : d.by_function) object["functions"][name] = to_json(counts);
+  print_json(object);
+}
+
+}  // namespace
+
+void add_distance(CLI::App& app) {
+  const auto args = std::make_shared<Arguments>();
+  CLI::App* sub =
+      app.add_subcommand("distance", "Counts the calls that only one of two traces has");
+  sub->add_option("A", args->a, "A trace file")->required();
+  sub->add_option("B", args->b, "Another trace file")->required();
+  sub->add_flag("--json", args->json, "One JSON object instead of a table");
+  sub->callback([args] { distance(*args); });
+}
+
+}  // namespace tool
