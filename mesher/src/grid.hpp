@@ -37,6 +37,10 @@ struct Cell {
     for (const std::uint64_t x : c.corner) out << ':' << (x >> (kLevels - c.level));
     return out;
   }
+  friend void label_bytes(sac::LabelSink& sink, const Cell& c) {
+    sink.number(static_cast<std::uint64_t>(c.level));
+    for (const std::uint64_t x : c.corner) sink.number(x);
+  }
 };
 
 template <int D>

@@ -353,6 +353,11 @@ const Options<D>& Mesher<D>::options() const {
 }
 
 template <int D>
+const sac::Engine& Mesher<D>::engine() const {
+  return *impl_->engine;
+}
+
+template <int D>
 void Mesher<D>::check_invariants() const {
   impl_->check_invariants();
 }

@@ -4,6 +4,7 @@
 // record, so calls about it are recognised again. A record is alive while somebody produces it.
 #pragma once
 
+#include <bit>
 #include <compare>
 #include <cstdint>
 #include <memory>
@@ -55,6 +56,9 @@ struct VertexRef {
     const char* separator = "(";
     for (const double x : r.v->p) out << separator << x, separator = " ";
     return out << ')';
+  }
+  friend void label_bytes(sac::LabelSink& sink, const VertexRef& r) {
+    for (const double x : r.v->p) sink.number(std::bit_cast<std::uint64_t>(x));
   }
 };
 

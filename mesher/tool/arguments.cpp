@@ -1,4 +1,4 @@
-// The arguments that `mesh` and `edit` share.
+// The arguments that `mesh`, `edit` and `trace` share.
 #include "arguments.hpp"
 
 #include <charconv>
@@ -45,13 +45,8 @@ mesher::Box<2> domain_of(const std::vector<std::string>& texts) {
 
 }  // namespace
 
-void add_mesh_options(CLI::App& command, MeshArguments& args) {
+void add_program_options(CLI::App& command, MeshArguments& args) {
   command.add_option("INPUT", args.input, "Points: .node, .xyz or .csv")->required();
-  command
-      .add_option("-o", args.outputs,
-                  "A mesh: .node (with .ele), .vtu, .off or .svg; may be repeated")
-      ->type_name("OUT")
-      ->allow_extra_args(false);
   command.add_option("--rho", args.rho, "Bound of circumradius over shortest edge, above 1.01")
       ->capture_default_str();
   command.add_option("--rule", args.rule, "Where to insert: radius-edge or voronoi-aspect")
@@ -64,6 +59,15 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
       ->type_name("XMIN YMIN XMAX YMAX")
       ->type_size(4)
       ->expected(1);
+}
+
+void add_mesh_options(CLI::App& command, MeshArguments& args) {
+  add_program_options(command, args);
+  command
+      .add_option("-o", args.outputs,
+                  "A mesh: .node (with .ele), .vtu, .off or .svg; may be repeated")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
   command.add_flag("--static", args.is_static, "Without the engine; the mesh is the same");
   command.add_option("--stats", args.stats, "Figures as JSON")->type_name("FILE");
   command.add_flag("--quiet", args.quiet, "Print nothing but errors");

@@ -1,4 +1,4 @@
-// The arguments that `mesh` and `edit` share, and what they mean.
+// The arguments that `mesh`, `edit` and `trace` share, and what they mean.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -27,7 +27,10 @@ inline constexpr const char* kQualityHelp =
     "Its min_angle_deg and max_radius_edge are over the triangles with at least one vertex\n"
     "off the boundary grid; null if there is none.";
 
-/// Adds the shared options. `args` must outlive `command`.
+/// Adds what says which mesh it is: INPUT, --rho, --rule, --domain. `args` must outlive `command`.
+void add_program_options(CLI::App& command, MeshArguments& args);
+
+/// Adds these and what is to become of the mesh.
 void add_mesh_options(CLI::App& command, MeshArguments& args);
 
 /// A number from the command line. Throws: Error(bad_option) naming `option`.

@@ -10,5 +10,6 @@ void add_gen(CLI::App& app);
 void add_mesh(CLI::App& app);
 void add_edit(CLI::App& app);
 void add_check(CLI::App& app);
+void add_trace(CLI::App& app);
 
 }  // namespace tool

@@ -19,6 +19,7 @@ constexpr const char* kHelpFooter =
     "  mesher mesh points.node -o mesh.node -o mesh.vtu\n"
     "  mesher edit points.node --script edits.txt -o after.node --stats updates.jsonl\n"
     "  mesher check after.node --rho 1.4142\n"
+    "  mesher trace points.node --script edits.txt -o after.trace\n"
     "'mesher COMMAND --help' says more.\n"
     "Exit codes: 0 ok, 1 geometry, 2 usage, 3 format, 4 limit, 5 cancelled, 70 a bug of ours.";
 
@@ -35,6 +36,7 @@ int run(int argc, char** argv) {
   tool::add_mesh(app);
   tool::add_edit(app);
   tool::add_check(app);
+  tool::add_trace(app);
   try {
     app.parse(argc, argv);
     return static_cast<int>(ExitCode::ok);

@@ -26,6 +26,10 @@
 #include "mesher/error.hpp"
 #include "mesher/mesh.hpp"
 
+namespace sac {
+class Engine;
+}
+
 namespace mesher {
 
 /// Work done by one run or update, counted in calls of traced functions.
@@ -95,6 +99,10 @@ class Mesher {
   [[nodiscard]] bool contains(FeatureId id) const;
   [[nodiscard]] MeshStats stats() const;
   [[nodiscard]] const Options<D>& options() const;
+
+  /// The engine, for those who look at its trace. It may be another after discard_edits() or an
+  /// update() that throws.
+  [[nodiscard]] const sac::Engine& engine() const;
 
   /// Requires: no edit announced since the last update(). Throws std::logic_error naming the broken
   /// invariant. Cost: O(trace).

@@ -1,0 +1,94 @@
+// mesher trace: what the mesher's engine did for a file of points, for the tool `traces`.
+#include <cstdio>
+#include <memory>
+
+#include "arguments.hpp"
+#include "cancel.hpp"
+#include "commands.hpp"
+#include "first_run.hpp"
+#include "mesher/edit_script.hpp"
+#include "mesher/mesher.hpp"
+#include "traces/recorder.hpp"
+#include "traces/trace_file.hpp"
+
+namespace tool {
+namespace {
+
+struct TraceArguments : MeshArguments {
+  std::string script;
+  std::string trace;
+};
+
+// Throws: Error (cannot_write, bad_option) if the trace could not be written at the end.
+void require_writable(const TraceArguments& args) {
+  mesher::OutputFiles files;
+  files.protect(args.input);
+  if (!args.script.empty()) files.protect(args.script);
+  files.open(args.trace);
+}
+
+void follow_script(const TraceArguments& args, mesher::Mesher<2>& mesher, Progress& progress) {
+  mesher::EditScript script(args.script);
+  std::size_t updates = 0;
+  try {
+    mesher::apply(script, mesher, [&](const mesher::Update<2>&) {
+      progress.tick(std::to_string(++updates) + " updates ...");
+    });
+  } catch (const mesher::Error& error) {
+    throw with_domain_hint(error);
+  }
+}
+
+traces::Recording record(const mesher::Mesher<2>& mesher, const std::string& path) {
+  set_doomed({traces::temporary_of(path)});
+  try {
+    const traces::Recording recording = traces::Recorder(mesher.engine()).record(path);
+    set_doomed({});
+    return recording;
+  } catch (const traces::FileError& error) {
+    set_doomed({});
+    throw mesher::Error(mesher::ErrorCode::cannot_write, error.what(), {path});
+  }
+}
+
+void run_trace(const TraceArguments& args) {
+  const auto input = mesher::read_points<2>(args.input);
+  const auto options = mesh_options(args, input.points);
+  require_inside(input, options.domain);
+  require_writable(args);
+  Progress progress(args.quiet);
+  announce_run(input.points.size(), progress);
+  mesher::Mesher<2> mesher(options);
+  insert_all(input, mesher);
+  if (!args.script.empty()) follow_script(args, mesher, progress);
+  const traces::Recording recording = record(mesher, args.trace);
+  progress.erase();
+  if (!args.quiet) {
+    std::printf("%s: %llu calls\n", args.trace.c_str(),
+                static_cast<unsigned long long>(recording.calls));
+  }
+}
+
+}  // namespace
+
+void add_trace(CLI::App& app) {
+  const auto args = std::make_shared<TraceArguments>();
+  CLI::App* trace =
+      app.add_subcommand("trace", "Records the engine's trace of a mesh and its updates.");
+  add_program_options(*trace, *args);
+  trace->add_option("--script", args->script, "Edits to follow first")->type_name("EDITS");
+  trace->add_option("-o", args->trace, "The recording")->required()->type_name("FILE.trace");
+  trace->add_flag("--quiet", args->quiet, "Print nothing but errors");
+  trace->footer(
+      "The tool 'traces' compares, audits and draws recordings. With --script the trace is the "
+      "one\n"
+      "that the updates leave: the same as that of a fresh mesh of the edited points in the same\n"
+      "domain, which by default is that of INPUT.\n"
+      "Examples:\n"
+      "  mesher trace points.node -o before.trace\n"
+      "  mesher trace points.node --script edits.txt -o after.trace\n"
+      "  traces distance before.trace after.trace");
+  trace->callback([args] { run_trace(*args); });
+}
+
+}  // namespace tool

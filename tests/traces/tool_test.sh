@@ -1,0 +1,164 @@
+#!/usr/bin/env bash
+# The tool `traces` end to end, on traces of the tool `mesher`: what it says, how it exits, what it
+# leaves behind.
+#
+#   tool_test.sh TRACES_TOOL MESHER_TOOL
+set -u
+traces=$(realpath "$1")
+mesher=$(realpath "$2")
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch" || exit 1
+
+checks=0
+failures=0
+
+fail() {
+  failures=$((failures + 1))
+  echo "FAILED: $*" >&2
+}
+
+# expect_of TOOL CODE TEXT ARGUMENT...: exit code, and TEXT in what it says (both streams).
+expect_of() {
+  local tool=$1 code=$2 text=$3 said status
+  shift 3
+  checks=$((checks + 1))
+  said=$("$tool" "$@" 2>&1)
+  status=$?
+  ((status == code)) || fail "$* exits with $status, expected $code: $said"
+  [[ $said == *"$text"* ]] || fail "$*: no '$text' in: $said"
+}
+expect() { expect_of "$traces" "$@"; }
+
+# refuse CODE TEXT ARGUMENT...: the same, and the folder out/ stays empty.
+refuse_of() {
+  expect_of "$@"
+  [[ -z $(ls -A out) ]] || fail "${*:4}: left behind: $(ls -A out)"
+  rm -rf out
+  mkdir out
+}
+refuse() { refuse_of "$traces" "$@"; }
+
+# value NAME [FUNCTION]: a field of distance.json, in all or of a function.
+value() {
+  local object rest
+  object=$(cat distance.json)
+  rest=${object#*${2:+\"$2\":\{}}
+  [[ $rest =~ \"$1\":([0-9]+) ]] && echo "${BASH_REMATCH[1]}"
+}
+
+# holds CONDITION: arithmetic.
+holds() {
+  checks=$((checks + 1))
+  (($1)) || fail "not $1 in: $(cat distance.json)"
+}
+
+mkdir out
+domain=(--domain 0 0 1 1)
+
+echo "== mesher trace"
+"$mesher" gen uniform --n 300 --seed 3 -o points.node >/dev/null || exit 1
+cat >edits.txt <<'END'
++point 1000 0.5 0.5000001
+-point 3
+begin
+move 4 0.25 0.75
+move 5 .9 .1
+commit
+END
+awk 'NR == 1 { print "300 2 0 0"; next }
+  $1 == 3 { next }
+  $1 == 4 { print "4 0.25 0.75"; next }
+  $1 == 5 { print "5 .9 .1"; next }
+  { print }
+  END { print "1000 0.5 0.5000001" }' points.node >edited.node
+expect_of "$mesher" 0 'before.trace: ' trace points.node "${domain[@]}" -o before.trace
+expect_of "$mesher" 0 ' calls' trace points.node "${domain[@]}" --script edits.txt -o after.trace
+expect_of "$mesher" 0 '' trace edited.node "${domain[@]}" -o fresh.trace
+expect_of "$mesher" 0 '' trace points.node "${domain[@]}" --quiet -o again.trace
+[[ -z $("$mesher" trace points.node --quiet -o out/x.trace 2>&1) ]] || fail "--quiet is not quiet"
+rm out/x.trace
+for options in '--rho 2' '--rule voronoi-aspect'; do
+  # shellcheck disable=SC2086
+  expect_of "$mesher" 0 '' trace points.node "${domain[@]}" $options -o other.trace
+  "$traces" distance before.trace other.trace --json >distance.json
+  holds "$(value distance) > 0 && $(value unnamed_a) == 0 && $(value unnamed_b) == 0"
+done
+expect_of "$mesher" 0 'Examples:' trace --help
+refuse_of "$mesher" 2 'error[bad_option]' trace points.node
+refuse_of "$mesher" 2 'error[cannot_read]' trace none.node -o out/x.trace
+refuse_of "$mesher" 2 'error[cannot_write]' trace points.node -o none/x.trace
+refuse_of "$mesher" 2 './points.node: error[bad_option]' trace points.node -o ./points.node
+refuse_of "$mesher" 2 'edits.txt: error[bad_option]' trace points.node --script edits.txt \
+  -o edits.txt
+refuse_of "$mesher" 1 '--domain' trace points.node --domain 0 0 .5 .5 -o out/x.trace
+printf -- '-point 999\n' >bad.txt
+refuse_of "$mesher" 3 'bad.txt:1:1: error[unknown_id]' trace points.node --script bad.txt \
+  -o out/x.trace
+
+echo "== help and usage"
+expect 0 'Examples:' --help
+for command in show distance audit render; do
+  expect 0 'A trace file' "$command" --help
+  refuse 2 'error[bad_option]' "$command"
+done
+refuse 2 'error[bad_option]'
+refuse 2 'error[bad_option]' paint before.trace
+refuse 2 'error[bad_option]' show before.trace --limit -1
+refuse 2 'error[bad_option]' distance before.trace
+
+echo "== show"
+expect 0 '0 refine()' show before.trace --limit 1
+expect 0 '1 drain(' show before.trace --limit 2
+expect 0 'star((' show before.trace
+[[ $("$traces" show before.trace --limit 7 | wc -l) == 7 ]] || fail "--limit 7 is not 7 lines"
+
+echo "== distance"
+"$traces" distance before.trace after.trace --json >distance.json
+holds "$(value distance) == $(value calls_a) + $(value calls_b) - 2 * $(value common)"
+holds "0 < $(value distance) && 4 * $(value distance) < $(value calls_a)"
+holds "$(value unnamed_a) == 0 && $(value unnamed_b) == 0"
+for field in distance common calls_a calls_b; do  # all first, then functions, which add up to it
+  sum=$(grep -o "\"$field\":[0-9]*" distance.json | cut -d: -f2 | paste -sd+)
+  holds "2 * $(value $field) == $sum"
+done
+holds "$(value distance locate) == 6"  # 1 more, 1 less, 2 moved
+for pair in 'after.trace fresh.trace' 'before.trace again.trace'; do
+  # shellcheck disable=SC2086
+  "$traces" distance $pair --json >distance.json
+  holds "$(value distance) == 0 && $(value common) == $(value calls_a) && $(value common) > 1000"
+done
+expect 0 ' locate' distance before.trace after.trace
+expect 0 'distance     common    calls_a    calls_b   function' distance before.trace after.trace
+
+echo "== audit"
+expect 0 '' audit before.trace
+expect 0 '' audit before.trace after.trace
+[[ -z $("$traces" audit before.trace after.trace 2>&1) ]] || fail "audit is not silent"
+
+echo "== render"
+expect 0 '' render before.trace -o before.svg
+expect 0 '' render before.trace after.trace -o both.svg --width 800 --rows 5
+grep -q 'star((' before.svg || fail "before.svg does not name the calls"
+grep -q 'Only in after.trace' both.svg || fail "both.svg does not show the blame region"
+refuse 2 'error[bad_option]' render before.trace
+refuse 2 'error[bad_option]' render before.trace -o before.trace
+refuse 2 'error[bad_option]' render before.trace -o out/x.svg --width 10
+refuse 3 'error[cannot_write]' render before.trace -o none/x.svg
+
+echo "== bad files"
+refuse 3 'none.trace:byte 0: error[io]' show none.trace
+refuse 3 'points.node:byte 1: error[not_a_trace]' audit points.node
+head -c 1000 before.trace >cut.trace
+for command in 'show cut.trace' 'distance before.trace cut.trace' 'audit cut.trace' \
+  'render before.trace cut.trace -o out/x.svg'; do
+  # shellcheck disable=SC2086
+  refuse 3 'cut.trace:byte 1000: error[truncated]' $command
+done
+{ head -c 500 before.trace && printf 'x' && tail -c +502 before.trace; } >bent.trace
+refuse 3 'bent.trace:byte ' distance before.trace bent.trace
+{ printf '\x89traces\n\x7f' && tail -c +10 before.trace; } >future.trace
+refuse 3 'error[version]: version 127' show future.trace
+
+echo "$checks checks, $failures failures"
+((failures == 0))
