@@ -139,7 +139,7 @@ expect 0 '' audit before.trace after.trace
 echo "== render"
 expect 0 '' render before.trace -o before.svg
 expect 0 '' render before.trace after.trace -o both.svg --width 800 --rows 5
-grep -q 'star((' before.svg || fail "before.svg does not name the calls"
+grep -q '>refine()<' before.svg || fail "before.svg does not name the calls"
 grep -q 'Only in after.trace' both.svg || fail "both.svg does not show the blame region"
 refuse 2 'error[bad_option]' render before.trace
 refuse 2 'error[bad_option]' render before.trace -o before.trace
