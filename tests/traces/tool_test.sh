@@ -146,6 +146,21 @@ refuse 2 'error[bad_option]' render before.trace -o before.trace
 refuse 2 'error[bad_option]' render before.trace -o out/x.svg --width 10
 refuse 3 'error[cannot_write]' render before.trace -o none/x.svg
 
+echo "== stability"
+expect 0 'ratio' stability --n 50 --edits 5
+expect 0 'ratio' stability --n 50 --n 60 --edits 5 --kind grid --rule voronoi-aspect --trust
+"$traces" stability --n 50 --edits 6 --json >rows.jsonl
+[[ $(wc -l <rows.jsonl) == 6 ]] || fail "rows.jsonl has not 6 lines"
+checks=$((checks + 1))
+row='^\{"n":[0-9]+,"m":[0-9]+,"lg_L_s":[0-9.]+,"lg_L_d":[0-9.]+,"distance":[0-9]+,'
+row+='"executed":[0-9]+,"created":[0-9]+,"discarded":[0-9]+,"work":[0-9]+,"ratio":[0-9.]+,'
+row+='"drift":0\}$'
+[[ $(grep -Ec -- "$row" rows.jsonl) == 6 ]] || fail "rows.jsonl: $(head -1 rows.jsonl)"
+refuse 2 'error[bad_option]' stability --n 1
+refuse 2 'error[bad_option]' stability --kind circle
+refuse 2 'error[bad_option]' stability --rho 1
+refuse 2 'error[bad_option]' stability --edits -1
+
 echo "== bad files"
 refuse 3 'none.trace:byte 0: error[io]' show none.trace
 refuse 3 'points.node:byte 1: error[not_a_trace]' audit points.node

@@ -21,6 +21,7 @@ void add_distance(CLI::App& app);
 /// `exit_code` becomes kFound if something is found.
 void add_audit(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app);
+void add_stability(CLI::App& app, int& exit_code);
 
 /// Says on standard error that hashes of calls without names mean nothing in another run.
 void warn_of_unnamed(const std::string& path, const traces::Trace& trace);

@@ -20,7 +20,8 @@ constexpr const char* kHelpFooter =
     "  traces audit a.trace                    is the program concise?\n"
     "  traces audit a.trace b.trace            and monotone?\n"
     "  traces render a.trace b.trace -o c.svg  both runs, and what they differ in\n"
-    "Exit codes: 0 ok, 1 audit found something, 2 usage, 3 a file is no trace or cannot be used,\n"
+    "  traces stability --n 1000 --edits 100   what random edits of meshes change and cost\n"
+    "Exit codes: 0 ok, 1 something was found, 2 usage, 3 a file is no trace or cannot be used,\n"
     "4 out of memory, 70 a bug of ours.";
 
 int run(int argc, char** argv) {
@@ -32,6 +33,7 @@ int run(int argc, char** argv) {
   tool::add_distance(app);
   tool::add_audit(app, exit_code);
   tool::add_render(app);
+  tool::add_stability(app, exit_code);
   try {
     app.parse(argc, argv);
     return exit_code;

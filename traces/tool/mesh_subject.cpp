@@ -1,0 +1,139 @@
+// Random edits of the mesher's input, and figures of the input.
+#include "mesh_subject.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mesher/error.hpp"
+#include "traces/recorder.hpp"
+
+namespace tool {
+namespace {
+
+using mesher::FeatureId;
+using mesher::Point;
+
+double distance2(const Point<2>& a, const Point<2>& b) {
+  const double x = a[0] - b[0], y = a[1] - b[1];
+  return x * x + y * y;
+}
+
+// Squared, of two different points. Cost: O(n log n) for points that are not all in a column.
+double least_distance2(std::vector<Point<2>> points) {
+  std::sort(points.begin(), points.end());
+  double least = HUGE_VAL;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = i + 1; j < points.size(); ++j) {
+      const double x = points[j][0] - points[i][0];
+      if (x * x >= least) break;
+      least = std::min(least, distance2(points[i], points[j]));
+    }
+  }
+  return least;
+}
+
+std::vector<FeatureId> first_ids(std::size_t count) {
+  std::vector<FeatureId> ids;
+  for (std::size_t i = 1; i <= count; ++i) ids.push_back(FeatureId{static_cast<std::int64_t>(i)});
+  return ids;
+}
+
+}  // namespace
+
+MeshSubject::MeshSubject(const mesher::Options<2>& options, std::vector<Point<2>> points,
+                         std::uint64_t seed)
+    : options_(options),
+      points_(std::move(points)),
+      ids_(first_ids(points_.size())),
+      next_id_(static_cast<std::int64_t>(points_.size()) + 1),
+      random_(seed),
+      mesher_(meshed(options_, points_, ids_)) {}
+
+mesher::Mesher<2> MeshSubject::meshed(const mesher::Options<2>& options,
+                                      const std::vector<Point<2>>& points,
+                                      const std::vector<FeatureId>& ids) {
+  mesher::Mesher<2> mesher(options);
+  mesher.insert(ids, points);
+  mesher.update();
+  return mesher;
+}
+
+traces::Trace MeshSubject::trace() const { return traces::Recorder(mesher_.engine()).trace(); }
+
+traces::Trace MeshSubject::fresh_trace() const {
+  const mesher::Mesher<2> fresh = meshed(options_, points_, ids_);
+  return traces::Recorder(fresh.engine()).trace();
+}
+
+double MeshSubject::side() const {
+  const auto& [lo, hi] = options_.domain;
+  return std::max(hi[0] - lo[0], hi[1] - lo[1]);
+}
+
+Point<2> MeshSubject::somewhere() {
+  const auto& [lo, hi] = options_.domain;
+  Point<2> p;
+  if (points_.empty() || random_.below(2) == 0) {
+    for (int i = 0; i < 2; ++i) p[i] = lo[i] + (hi[i] - lo[i]) * random_.unit();
+    return p;
+  }
+  const Point<2> near = points_[random_.below(points_.size())];
+  const double reach = std::ldexp(side(), -3 - static_cast<int>(random_.below(28)));
+  for (int i = 0; i < 2; ++i) {
+    const double offset = reach * (0.5 + random_.unit() / 5);  // their length: 0.7 to 1 of reach
+    p[i] = std::clamp(near[i] + (random_.below(2) == 0 ? offset : -offset), lo[i], hi[i]);
+  }
+  return p;
+}
+
+// Where the mesher refuses a point (it is there already, or too near to another), another is tried.
+Point<2> MeshSubject::insert() {
+  for (;;) {
+    const Point<2> p = somewhere();
+    try {
+      mesher_.insert(FeatureId{next_id_}, p);
+    } catch (const mesher::Error&) {
+      continue;
+    }
+    ids_.push_back(FeatureId{next_id_++});
+    points_.push_back(p);
+    return p;
+  }
+}
+
+Point<2> MeshSubject::remove() {
+  const std::size_t i = random_.below(points_.size());
+  mesher_.remove(ids_[i]);
+  std::swap(ids_[i], ids_.back());
+  std::swap(points_[i], points_.back());
+  const Point<2> p = points_.back();
+  ids_.pop_back();
+  points_.pop_back();
+  return p;
+}
+
+MeshSubject::Edit MeshSubject::edit() {
+  Edit result;
+  const bool inserts = points_.size() <= 2 || random_.below(2) == 0;
+  const auto before = points_;
+  const Point<2> edited = inserts ? insert() : remove();
+  const std::size_t m = mesher_.stats().vertices;
+  const mesher::CallCounts calls = mesher_.update().calls;
+  result.work.executed = calls.executed;
+  result.work.reused = calls.reused;
+  result.work.created = calls.created;
+  result.work.discarded = calls.discarded;
+  const auto& larger = inserts ? points_ : before;
+  double d2 = HUGE_VAL;
+  for (const Point<2>& p : larger) {
+    if (p != edited) d2 = std::min(d2, distance2(p, edited));
+  }
+  result.figures = {{"n", static_cast<double>(larger.size())},
+                    {"m", static_cast<double>(std::max(m, mesher_.stats().vertices))},
+                    {"lg_L_s", std::log2(side() / std::sqrt(least_distance2(larger)))},
+                    {"lg_L_d", std::log2(side() / std::sqrt(d2))}};
+  return result;
+}
+
+}  // namespace tool

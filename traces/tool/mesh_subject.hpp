@@ -1,0 +1,52 @@
+// The mesher under random edits of points, as a subject for stability.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "mesher/generate.hpp"
+#include "mesher/mesher.hpp"
+#include "traces/stability.hpp"
+
+namespace tool {
+
+/// Every edit inserts or removes one point, evenly often. Half of the insertions are anywhere in
+/// the domain; the other half next to a point, at a distance that is as likely to lie between 2^-k
+/// and 2^-k-1 of the domain's side for each k from 3 to 30, so that the spread varies.
+///
+/// Figures, of the larger of the inputs before and after the edit:
+///   n        points
+///   m        vertices of the mesh
+///   lg_L_s   binary logarithm of L/s: the domain's side over the least distance of two points
+///   lg_L_d   the same for d, the distance from the edited point to its nearest neighbour; last
+/// A point is one vertex of the mesh: m_f is 1.
+class MeshSubject final : public traces::Subject {
+ public:
+  /// Requires: at least two points, in the domain.
+  MeshSubject(const mesher::Options<2>& options, std::vector<mesher::Point<2>> points,
+              std::uint64_t seed);
+
+  Edit edit() override;
+  [[nodiscard]] traces::Trace trace() const override;
+  [[nodiscard]] traces::Trace fresh_trace() const override;
+
+ private:
+  [[nodiscard]] static mesher::Mesher<2> meshed(const mesher::Options<2>& options,
+                                                const std::vector<mesher::Point<2>>& points,
+                                                const std::vector<mesher::FeatureId>& ids);
+  [[nodiscard]] mesher::Point<2> somewhere();
+  [[nodiscard]] double side() const;
+  mesher::Point<2> insert();
+  mesher::Point<2> remove();
+
+  mesher::Options<2> options_;
+  std::vector<mesher::Point<2>> points_;
+  std::vector<mesher::FeatureId> ids_;
+  std::int64_t next_id_;
+  mesher::SplitMix64 random_;
+  mesher::Mesher<2> mesher_;
+};
+
+}  // namespace tool
