@@ -1,16 +1,17 @@
 // Folding a list with an associative operation, by random contraction.
 //
-// A level above the list, there is a group for every element of height 1 or more; it stands for
-// that element and those of height 0 behind it, up to the next group. Groups are contracted in the
-// same way, with heights less by one, until one group is left. Heights come from the elements' ids,
-// so an edit changes O(1) groups a level, expected, and O(log n) in all; where a group's fold comes
-// out as before, that is the end of it. A group is an object keyed by its first member.
+// A level above the list, there is a group for every element of height 1 or more, which is one in
+// eight; it stands for that element and those of height 0 behind it, up to the next group. Groups
+// are contracted in the same way, with heights less by one, until one group is left. Heights come
+// from the elements' ids, so an edit changes O(1) groups a level, expected, and O(log n) in all;
+// where a group's fold comes out as before, that is the end of it. A group is an object keyed by
+// its first member.
 //
 // From scratch O(n). Source: [Aca05, §8.2.3], with groups of 8 in the mean instead of 2.
 //
-// Op is a type with    using Value = ...;  static Value of(const Element&);
-//                      static Value join(const Value&, const Value&);   associative
-// where of(Element{}) is neutral: the header's.
+// Op is a type with    using Value = ...;   static Value join(const Value&, const Value&);
+//                      static Value of(const Element&);   for lists of nodes
+// where join is associative and a header's value is neutral.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +19,9 @@
 #include "list.hpp"
 
 namespace examples {
+
+/// The number of levels above the lowest that the element reaches; a header reaches all.
+[[nodiscard]] inline int height_of(std::uint32_t id) noexcept { return heads(id) / 3; }
 
 template <class S, class Op>
 struct Group {
@@ -34,6 +38,11 @@ template <class Op, class S>
 [[nodiscard]] typename Group<S, Op>::State read_group(S& s, const Group<S, Op>* group) {
   return s.read(group->state);
 }
+template <class S, class Op>
+[[nodiscard]] int height(const Group<S, Op>& group) noexcept {
+  return group.height;
+}
+
 /// A member of the lowest level is a node of the list.
 template <class S, class Op>
 struct NodeState {
@@ -44,13 +53,9 @@ template <class Op, class S>
 [[nodiscard]] NodeState<S, Op> read_group(S& s, const Node<S>* node) {
   return {Op::of(node->element), s.read(node->next)};
 }
-template <class S, class Op>
-[[nodiscard]] int height(const Group<S, Op>& group) noexcept {
-  return group.height;
-}
 template <class S>
 [[nodiscard]] int height(const Node<S>& node) noexcept {
-  return height(node.element);
+  return height_of(node.element.id);
 }
 
 /// Makes the group of `first` and the members of height 0 behind it, and the groups behind.
@@ -97,15 +102,17 @@ void ContractAll<Op>::operator()(S& s, const Group<S, Op>* header,
   s.template tail<contract_all<Op>>(up, result);
 }
 
-/// Writes the fold of `list` with Op to `result`.
+/// Writes the fold of `list`, whose header is a node or another lowest member, to `result`.
 template <class Op>
 struct Fold {
-  template <class S>
-  void operator()(S& s, const Node<S>* list,
+  template <class S, class Member>
+  void operator()(S& s, const Member* list,
                   typename S::template ModType<typename Op::Value> result) const {
     const Group<S, Op>* up = &s.template make<Group<S, Op>, contract<Op>>(list);
     s.template tail<contract_all<Op>>(up, result);
   }
 };
+template <class Op>
+inline constexpr Fold<Op> fold{};
 
 }  // namespace examples

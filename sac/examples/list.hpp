@@ -9,6 +9,7 @@
 #include <bit>
 #include <compare>
 #include <cstdint>
+#include <limits>
 #include <ostream>
 #include <vector>
 
@@ -18,8 +19,8 @@ namespace examples {
 
 /// What lists hold: ordered by value, equal values by id.
 struct Element {
-  int value = 0;
-  std::uint32_t id = 0;  ///< 0: a header, which holds nothing
+  int value = std::numeric_limits<int>::min();  // a header's comes before all others
+  std::uint32_t id = 0;                         ///< 0: a header, which holds nothing
   friend auto operator<=>(const Element&, const Element&) = default;
   friend std::uint64_t hash_value(const Element& e) noexcept {
     return sac::mix(std::uint64_t{e.id} << 32 | static_cast<std::uint32_t>(e.value));
@@ -29,26 +30,25 @@ struct Element {
   }
 };
 
-template <class S>
+template <class S, class T = Element>
 struct Node {
-  Element element;
+  T element;
   typename S::template CellType<const Node*> next;  // null: the end
 };
 
-template <class S>
-using NodeMod = typename S::template ModType<const Node<S>*>;
+template <class S, class T = Element>
+using NodeMod = typename S::template ModType<const Node<S, T>*>;
 
-/// How many of the levels above the list an element reaches: k with probability 7/8^(k+1). A
-/// header reaches all.
-[[nodiscard]] inline int height(const Element& e) noexcept {
-  if (e.id == 0) return 255;
-  return std::countr_zero(sac::mix(e.id) | std::uint64_t{1} << 63) / 3;
+/// How often the coin of an element fell on heads in a row: k with probability 1/2^(k+1). A
+/// header's always does.
+[[nodiscard]] inline int heads(std::uint32_t id) noexcept {
+  return id == 0 ? 1000 : std::countr_zero(sac::mix(id));
 }
 
 /// The elements behind `node`, read by the host (sac::Engine, sac::PlainScope).
 template <class Host, class N>
-[[nodiscard]] std::vector<Element> elements_behind(Host& host, const N* node) {
-  std::vector<Element> elements;
+[[nodiscard]] auto elements_behind(Host& host, const N* node) {
+  std::vector<decltype(node->element)> elements;
   while ((node = host.get(node->next)) != nullptr) elements.push_back(node->element);
   return elements;
 }

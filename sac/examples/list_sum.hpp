@@ -10,7 +10,7 @@ namespace examples {
 
 struct Sum {
   using Value = std::int64_t;
-  static Value of(const Element& e) { return e.value; }
+  static Value of(const Element& e) { return e.id == 0 ? 0 : e.value; }
   static Value join(Value a, Value b) { return a + b; }
 };
 
