@@ -2,38 +2,51 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include "diameter.hpp"
+#include "distance.hpp"
 #include "example_harness.hpp"
 #include "list_filter.hpp"
 #include "list_map.hpp"
 #include "list_minimum.hpp"
 #include "list_reverse.hpp"
 #include "list_sum.hpp"
+#include "mergesort.hpp"
+#include "quickhull.hpp"
+#include "quicksort.hpp"
 
 namespace {
 
 using namespace support;
 using namespace examples;
 
-// Inputs and edits of programs on one list.
+Element random_value(Random& random, std::uint32_t id) { return {random(40) - 20, id}; }
+// Few places, so that many points share one or lie on a line.
+Point random_point(Random& random, std::uint32_t id, int from_x, int size) {
+  return {from_x + random(size), random(size), id};
+}
+
+template <class T>
+struct ListEdit {
+  enum Kind { insert, erase } kind;
+  int place;
+  T element;
+};
+
+// Inputs and edits of programs on one list; `element(Random&, id)` is a random element.
+template <class T, auto element>
 struct ListApp {
   struct Input {
-    std::vector<Element> elements;
+    std::vector<T> elements;
     std::uint32_t next_id = 1;
   };
-  struct Edit {
-    enum Kind { insert, erase } kind;
-    int place;
-    Element element;
-  };
+  using Edit = ListEdit<T>;
 
-  static Element random_element(Random& random, std::uint32_t id) { return {random(40) - 20, id}; }
   static Input random_input(Random& random, int size) {
     Input input;
-    for (int i = 0; i < size; ++i) {
-      input.elements.push_back(random_element(random, input.next_id++));
-    }
+    for (int i = 0; i < size; ++i) input.elements.push_back(element(random, input.next_id++));
     return input;
   }
   static Edit random_edit(Random& random, const Input& input) {
@@ -42,7 +55,7 @@ struct ListApp {
       const int place = random(n);
       return {Edit::erase, place, input.elements[static_cast<std::size_t>(place)]};
     }
-    return {Edit::insert, random(n + 1), random_element(random, input.next_id)};
+    return {Edit::insert, random(n + 1), element(random, input.next_id)};
   }
   static Edit inverse(const Input&, Edit edit) {
     edit.kind = edit.kind == Edit::insert ? Edit::erase : Edit::insert;
@@ -54,27 +67,28 @@ struct ListApp {
       input.elements.erase(at);
     } else {
       input.elements.insert(at, edit.element);
-      input.next_id = std::max(input.next_id, edit.element.id + 1);
+      ++input.next_id;
     }
   }
 };
+using ElementApp = ListApp<Element, random_value>;
 
 // A list of the host's, edited by place.
-template <class Host>
+template <class Host, class T>
 class HostList {
  public:
-  using N = Node<ScopeOf<Host>>;
+  using N = Node<ScopeOf<Host>, T>;
 
-  HostList(Host& host, const std::vector<Element>& elements) : host_(host) {
+  HostList(Host& host, const std::vector<T>& elements) : host_(host) {
     nodes_.push_back(&host_.template make<N>());
     host_.set(header()->next, static_cast<const N*>(nullptr));
     for (std::size_t i = 0; i < elements.size(); ++i) insert(i, elements[i]);
   }
   [[nodiscard]] const N* header() const { return nodes_.front(); }
 
-  void edit(const ListApp::Edit& e) {
+  void edit(const ListEdit<T>& e) {
     const auto place = static_cast<std::size_t>(e.place);
-    if (e.kind == ListApp::Edit::erase) {
+    if (e.kind == ListEdit<T>::erase) {
       erase(place);
     } else {
       insert(place, e.element);
@@ -82,7 +96,7 @@ class HostList {
   }
 
  private:
-  void insert(std::size_t place, const Element& element) {
+  void insert(std::size_t place, const T& element) {
     N& node = host_.template make<N>();
     node.element = element;
     const N* const next = host_.get(nodes_[place]->next);
@@ -108,11 +122,11 @@ class ListToList {
  public:
   using N = Node<ScopeOf<Host>>;
 
-  ListToList(Host& host, const ListApp::Input& input)
+  ListToList(Host& host, const ElementApp::Input& input)
       : host_(host), list_(host, input.elements), result_(host.template cell<const N*>()) {
     host.template run<f>(list_.header(), result_);
   }
-  void edit(const ListApp::Edit& e) { list_.edit(e); }
+  void edit(const ElementApp::Edit& e) { list_.edit(e); }
   std::vector<Element> result() {
     const N* const node = host_.get(result_);
     if (!kFirst) return elements_behind(host_, node);
@@ -124,28 +138,29 @@ class ListToList {
 
  private:
   Host& host_;
-  HostList<Host> list_;
+  HostList<Host, Element> list_;
   NodeMod<ScopeOf<Host>> result_;
 };
 
 // Programs from a list to one value.
-template <auto f, class Value, class Host>
+template <auto f, class T, class Value, class Host>
 class ListToValue {
  public:
-  ListToValue(Host& host, const ListApp::Input& input)
+  template <class Input>
+  ListToValue(Host& host, const Input& input)
       : host_(host), list_(host, input.elements), result_(host.template cell<Value>()) {
     host.template run<f>(list_.header(), result_);
   }
-  void edit(const ListApp::Edit& e) { list_.edit(e); }
+  void edit(const ListEdit<T>& e) { list_.edit(e); }
   Value result() { return host_.get(result_); }
 
  private:
   Host& host_;
-  HostList<Host> list_;
+  HostList<Host, T> list_;
   typename ScopeOf<Host>::template ModType<Value> result_;
 };
 
-struct MapApp : ListApp {
+struct MapApp : ElementApp {
   static constexpr const char* kName = "list map";
   template <class Host>
   using World = ListToList<map_list, false, Host>;
@@ -156,7 +171,7 @@ struct MapApp : ListApp {
   }
 };
 
-struct FilterApp : ListApp {
+struct FilterApp : ElementApp {
   static constexpr const char* kName = "list filter";
   template <class Host>
   using World = ListToList<filter_list, false, Host>;
@@ -167,7 +182,7 @@ struct FilterApp : ListApp {
   }
 };
 
-struct ReverseApp : ListApp {
+struct ReverseApp : ElementApp {
   static constexpr const char* kName = "list reverse";
   template <class Host>
   using World = ListToList<reverse_list, true, Host>;
@@ -176,10 +191,10 @@ struct ReverseApp : ListApp {
   }
 };
 
-struct SumApp : ListApp {
+struct SumApp : ElementApp {
   static constexpr const char* kName = "list sum";
   template <class Host>
-  using World = ListToValue<sum_list, Sum::Value, Host>;
+  using World = ListToValue<sum_list, Element, Sum::Value, Host>;
   static std::int64_t oracle(const Input& input) {
     std::int64_t sum = 0;
     for (const Element& e : input.elements) sum += e.value;
@@ -187,19 +202,173 @@ struct SumApp : ListApp {
   }
 };
 
-struct MinimumApp : ListApp {
+struct MinimumApp : ElementApp {
   static constexpr const char* kName = "list minimum";
   template <class Host>
-  using World = ListToValue<minimum_list, Minimum::Value, Host>;
+  using World = ListToValue<minimum_list, Element, Minimum::Value, Host>;
   static int oracle(const Input& input) {
     const auto least = std::min_element(input.elements.begin(), input.elements.end());
     return least == input.elements.end() ? Minimum::kNone : least->value;
   }
 };
 
+struct SortApp : ElementApp {
+  static std::vector<Element> oracle(Input input) {
+    std::sort(input.elements.begin(), input.elements.end());
+    return input.elements;
+  }
+};
+
+struct QuicksortApp : SortApp {
+  static constexpr const char* kName = "quicksort";
+  template <class Host>
+  using World = ListToList<quicksort, false, Host>;
+};
+
+struct MergesortApp : SortApp {
+  static constexpr const char* kName = "mergesort";
+  template <class Host>
+  using World = ListToList<mergesort, false, Host>;
+};
+
+// --- Hulls -----------------------------------------------------------------------------------
+
+Point any_point(Random& random, std::uint32_t id) { return random_point(random, id, 0, 12); }
+Point spread_point(Random& random, std::uint32_t id) { return random_point(random, id, 0, 2000); }
+
+// Andrew's monotone chain: corners only, clockwise, from the leftmost.
+std::vector<Point> naive_hull(std::vector<Point> points) {
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end(), same_place), points.end());
+  if (points.size() < 2) return points;
+  std::vector<Point> hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t start = hull.size();
+    for (const Point& p : points) {
+      while (hull.size() >= start + 2 && left_of(hull[hull.size() - 2], hull.back(), p) >= 0) {
+        hull.pop_back();
+      }
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+template <auto element>
+struct QuickhullApp : ListApp<Point, element> {
+  using typename ListApp<Point, element>::Input;
+  static constexpr const char* kName = "quickhull";
+  static std::vector<Point> oracle(const Input& input) { return naive_hull(input.elements); }
+
+  template <class Host>
+  class World : ListToValue<quickhull, Point, Hull<ScopeOf<Host>>, Host> {
+    using Base = ListToValue<quickhull, Point, Hull<ScopeOf<Host>>, Host>;
+
+   public:
+    World(Host& host, const Input& input) : Base(host, input), host_(host) {}
+    using Base::edit;
+    std::vector<Point> result() { return corners_of(host_, Base::result()); }
+
+   private:
+    Host& host_;
+  };
+};
+
+template <auto element>
+struct DiameterApp : ListApp<Point, element> {
+  using typename ListApp<Point, element>::Input;
+  static constexpr const char* kName = "diameter";
+  template <class Host>
+  using World = ListToValue<diameter, Point, std::int64_t, Host>;
+  static std::int64_t oracle(const Input& input) {
+    std::int64_t most = 0;
+    for (const Point& p : input.elements) {
+      for (const Point& q : input.elements) most = std::max(most, squared_distance(p, q));
+    }
+    return most;
+  }
+};
+
+// Two sets of points, one to the left of the other; their ids differ.
+template <int size>
+struct DistanceApp {
+  static Point left(Random& random, std::uint32_t id) { return random_point(random, id, 0, size); }
+  static Point right(Random& random, std::uint32_t id) {
+    return random_point(random, (1u << 30) + id, size, size);
+  }
+  using Left = ListApp<Point, left>;
+  using Right = ListApp<Point, right>;
+  static constexpr const char* kName = "distance";
+  struct Input {
+    typename Left::Input left;
+    typename Right::Input right;
+  };
+  struct Edit {
+    bool is_left;
+    ListEdit<Point> edit;
+  };
+
+  static Input random_input(Random& random, int n) {
+    const int some = random(n + 1);
+    return {Left::random_input(random, some), Right::random_input(random, n - some)};
+  }
+  static Edit random_edit(Random& random, const Input& input) {
+    if (random(2) == 0) return {true, Left::random_edit(random, input.left)};
+    return {false, Right::random_edit(random, input.right)};
+  }
+  static Edit inverse(const Input& input, const Edit& e) {
+    return {e.is_left, Left::inverse(input.left, e.edit)};
+  }
+  static void apply(Input& input, const Edit& e) {
+    if (e.is_left) {
+      Left::apply(input.left, e.edit);
+    } else {
+      Right::apply(input.right, e.edit);
+    }
+  }
+  static double oracle(const Input& input) {
+    const std::vector<Point> a = naive_hull(input.left.elements);
+    const std::vector<Point> b = naive_hull(input.right.elements);
+    double least = std::numeric_limits<double>::infinity();
+    const auto from = [&](const std::vector<Point>& corners, const std::vector<Point>& hull) {
+      for (const Point& p : corners) {
+        for (std::size_t i = 0; i < hull.size(); ++i) {
+          least = std::min(least, squared_distance(p, hull[i], hull[(i + 1) % hull.size()]));
+        }
+      }
+    };
+    from(a, b);
+    from(b, a);
+    return least;
+  }
+
+  template <class Host>
+  class World {
+   public:
+    World(Host& host, const Input& input)
+        : host_(host),
+          left_(host, input.left.elements),
+          right_(host, input.right.elements),
+          result_(host.template cell<double>()) {
+      host.template run<distance>(left_.header(), right_.header(), result_);
+    }
+    void edit(const Edit& e) { (e.is_left ? left_ : right_).edit(e.edit); }
+    double result() { return host_.get(result_); }
+
+   private:
+    Host& host_;
+    HostList<Host, Point> left_, right_;
+    typename ScopeOf<Host>::template ModType<double> result_;
+  };
+};
+
 }  // namespace
 
 TEMPLATE_TEST_CASE("list examples run plainly give what naive programs give", "", MapApp, FilterApp,
-                   ReverseApp, SumApp, MinimumApp) {
+                   ReverseApp, SumApp, MinimumApp, QuicksortApp, MergesortApp,
+                   QuickhullApp<any_point>, QuickhullApp<spread_point>, DiameterApp<any_point>,
+                   DiameterApp<spread_point>, DistanceApp<8>, DistanceApp<1000>) {
   check_example_plain<TestType>(100, 100);
 }

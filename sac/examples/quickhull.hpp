@@ -1,0 +1,251 @@
+// Quickhull: the convex hull of points in the plane.
+//
+// The points are cut into chunks (chunk.hpp). The leftmost and the rightmost point divide the hull;
+// the points outside of a line from a to b are filtered chunk by chunk; the farthest of them, found
+// by contraction (contraction.hpp), is on the hull and gives two lines that go on in the same way.
+// A part of the hull is a call (points, node before, node after): so nothing is appended. Few
+// points are done at once.
+//
+// Points equally far from a line lie on an edge of the hull; the first by coordinates is one of its
+// ends. So the hull has corners only, and depends on the set of points alone.
+//
+// From scratch O(n) where a filter drops a constant part of the points, O(n h) at worst for h
+// corners. An inserted or deleted point that is no corner costs one chunk of each filter that it
+// passes, and O(log n) where it was farthest of a group. Source: [Aca05, §8.3.4], there without
+// chunks.
+#pragma once
+
+#include <vector>
+
+#include "chunk.hpp"
+#include "contraction.hpp"
+#include "point.hpp"
+
+namespace examples {
+
+template <class S>
+using PointNode = Node<S, Point>;
+
+/// A convex hull: circular, clockwise; null: of no points.
+template <class S>
+struct Hull {
+  const PointNode<S>* left = nullptr;   ///< the leftmost corner, the lowest of these
+  const PointNode<S>* right = nullptr;  ///< the rightmost, the highest of these
+  friend bool operator==(const Hull&, const Hull&) = default;
+};
+template <class S>
+using HullMod = typename S::template ModType<Hull<S>>;
+
+// --- Extremes and farthest points ------------------------------------------------------------
+
+struct Extremes {
+  struct Value {
+    Point left, right;
+    friend bool operator==(const Value&, const Value&) = default;
+  };
+  static Value join(const Value& a, const Value& b) {
+    if (a.left.id == 0) return b;
+    if (b.left.id == 0) return a;
+    return {std::min(a.left, b.left), further_right(a.right, b.right)};
+  }
+  static Value of(const std::vector<Point>& points) {
+    Value value;
+    for (const Point& p : points) value = join(value, {p, p});
+    return value;
+  }
+
+ private:
+  static Point further_right(const Point& a, const Point& b) {
+    return same_place(a, b) ? std::min(a, b) : std::max(a, b);
+  }
+};
+
+struct Farthest {
+  struct Value {
+    std::int64_t distance = 0;  // times the length of the line
+    Point point;
+    friend bool operator==(const Value&, const Value&) = default;
+  };
+  static Value join(const Value& a, const Value& b) {
+    if (a.distance != b.distance) return a.distance > b.distance ? a : b;
+    return b.point.id != 0 && b.point < a.point ? b : a;
+  }
+};
+
+/// A chunk of the points that lie outside of a line.
+template <class S>
+struct Outside {
+  struct State {
+    std::vector<Point> elements;
+    Farthest::Value farthest;
+    const Outside* next = nullptr;
+    friend bool operator==(const State&, const State&) = default;
+  };
+  Point boundary;
+  typename S::template CellType<State> state;
+};
+
+// Chunks as members of the lowest groups of a contraction.
+template <class S, class Op, class C>
+struct ChunkValue {
+  typename Op::Value value;
+  const C* next;
+};
+template <class Op, class S>
+[[nodiscard]] ChunkValue<S, Op, Chunk<S, Point>> read_group(S& s, const Chunk<S, Point>* chunk) {
+  const auto& state = s.read(chunk->state);
+  return {Op::of(state.elements), state.next};
+}
+template <class Op, class S>
+[[nodiscard]] ChunkValue<S, Op, Outside<S>> read_group(S& s, const Outside<S>* chunk) {
+  const auto& state = s.read(chunk->state);
+  return {state.farthest, state.next};
+}
+template <class S>
+[[nodiscard]] int height(const Chunk<S, Point>& chunk) noexcept {
+  return height_of(chunk.boundary.id) - 1;  // all chunks begin with an element of height 1
+}
+template <class S>
+[[nodiscard]] int height(const Outside<S>& chunk) noexcept {
+  return height_of(chunk.boundary.id) - 1;
+}
+
+// --- The hull --------------------------------------------------------------------------------
+
+/// The points of `from`, and of the chunks behind it, that lie to the left of the line from a to b.
+struct KeepOutside {
+  static constexpr std::string_view kName = "keep_outside";
+  template <class S, class C>
+  void operator()(S& s, Outside<S>& self, const C* from, Point a, Point b) const;
+};
+inline constexpr KeepOutside keep_outside{};
+
+template <class S, class C>
+void KeepOutside::operator()(S& s, Outside<S>& self, const C* from, Point a, Point b) const {
+  self.boundary = from->boundary;
+  typename Outside<S>::State kept;
+  const C* chunk = from;
+  do {  // chunks whose boundary is dropped are joined to the one before
+    const auto& state = s.read(chunk->state);
+    for (const Point& p : state.elements) {
+      const std::int64_t distance = left_of(a, b, p);
+      if (distance <= 0) continue;
+      kept.elements.push_back(p);
+      kept.farthest = Farthest::join(kept.farthest, {distance, p});
+    }
+    chunk = state.next;
+  } while (chunk != nullptr && left_of(a, b, chunk->boundary) <= 0);
+  if (chunk != nullptr) kept.next = &s.template tail_make<Outside<S>, keep_outside>(chunk, a, b);
+  s.write(self.state, std::move(kept));
+}
+
+/// Appends the corners between a and b of the hull of few points outside of ab.
+inline void hull_of_few(const std::vector<Point>& points, Point a, Point b,
+                        std::vector<Point>& corners) {
+  Farthest::Value farthest;
+  for (const Point& p : points) farthest = Farthest::join(farthest, {left_of(a, b, p), p});
+  if (farthest.distance <= 0) return;
+  hull_of_few(points, a, farthest.point, corners);
+  corners.push_back(farthest.point);
+  hull_of_few(points, farthest.point, b, corners);
+}
+
+/// Links the corners of the hull of `points`, which lie outside of ab, between a and b.
+struct HullPart {
+  static constexpr std::string_view kName = "hull_part";
+  template <class S>
+  void operator()(S& s, const Outside<S>* points, PointNode<S>* a, const PointNode<S>* b) const;
+};
+inline constexpr HullPart hull_part{};
+
+/// The same, where the farthest of the points is known.
+struct HullCorner {
+  static constexpr std::string_view kName = "hull_corner";
+  template <class S>
+  void operator()(S& s, const Outside<S>* points,
+                  typename S::template ModType<Farthest::Value> farthest, PointNode<S>* a,
+                  const PointNode<S>* b) const;
+};
+inline constexpr HullCorner hull_corner{};
+
+template <class S>
+void HullPart::operator()(S& s, const Outside<S>* points, PointNode<S>* a,
+                          const PointNode<S>* b) const {
+  const auto& state = s.read(points->state);
+  if (state.next == nullptr) {
+    std::vector<Point> corners;
+    hull_of_few(state.elements, a->element, b->element, corners);
+    return s.write(link_behind(s, a, corners)->next, b);
+  }
+  const auto farthest = s.template cell<Farthest::Value>(points);
+  s.template call<fold<Farthest>>(points, farthest);
+  s.template tail<hull_corner>(points, farthest, a, b);
+}
+
+template <class S>
+void HullCorner::operator()(S& s, const Outside<S>* points,
+                            typename S::template ModType<Farthest::Value> farthest, PointNode<S>* a,
+                            const PointNode<S>* b) const {
+  const Point p = s.read(farthest).point;
+  const Outside<S>& left = s.template make<Outside<S>, keep_outside>(points, a->element, p);
+  const Outside<S>& right = s.template make<Outside<S>, keep_outside>(points, p, b->element);
+  PointNode<S>& corner = node_of(s, p);
+  s.template call<hull_part>(&left, a, static_cast<const PointNode<S>*>(&corner));
+  s.template tail<hull_part>(&right, &corner, b);
+}
+
+/// Both parts of the hull, where the extreme points are known.
+struct HullOfExtremes {
+  static constexpr std::string_view kName = "hull_of_extremes";
+  template <class S>
+  void operator()(S& s, const Chunk<S, Point>* points,
+                  typename S::template ModType<Extremes::Value> extremes, HullMod<S> result) const;
+};
+inline constexpr HullOfExtremes hull_of_extremes{};
+
+template <class S>
+void HullOfExtremes::operator()(S& s, const Chunk<S, Point>* points,
+                                typename S::template ModType<Extremes::Value> extremes,
+                                HullMod<S> result) const {
+  const auto [left, right] = s.read(extremes);
+  if (left.id == 0) return s.write(result, {});
+  PointNode<S>& l = node_of(s, left);
+  if (same_place(left, right)) {
+    s.write(l.next, &l);
+    return s.write(result, {&l, &l});
+  }
+  PointNode<S>& r = node_of(s, right);
+  s.write(result, {&l, &r});
+  const Outside<S>& above = s.template make<Outside<S>, keep_outside>(points, left, right);
+  const Outside<S>& below = s.template make<Outside<S>, keep_outside>(points, right, left);
+  s.template call<hull_part>(&above, &l, static_cast<const PointNode<S>*>(&r));
+  s.template tail<hull_part>(&below, &r, static_cast<const PointNode<S>*>(&l));
+}
+
+/// Writes the convex hull of the points of `list` to `result`.
+struct Quickhull {
+  static constexpr std::string_view kName = "quickhull";
+  template <class S>
+  void operator()(S& s, const PointNode<S>* list, HullMod<S> result) const {
+    const Chunk<S, Point>* points = &s.template make<Chunk<S, Point>, cut_into_chunks>(list);
+    const auto extremes = s.template cell<Extremes::Value>(list);
+    s.template call<fold<Extremes>>(points, extremes);
+    s.template tail<hull_of_extremes>(points, extremes, result);
+  }
+};
+inline constexpr Quickhull quickhull{};
+
+/// The corners of a hull, from the leftmost, read by the host.
+template <class Host, class S>
+[[nodiscard]] std::vector<Point> corners_of(Host& host, const Hull<S>& hull) {
+  std::vector<Point> corners;
+  if (hull.left == nullptr) return corners;
+  const PointNode<S>* node = hull.left;
+  do {
+    corners.push_back(node->element);
+    node = host.get(node->next);
+  } while (node != hull.left);
+  return corners;
+}
+
+}  // namespace examples
