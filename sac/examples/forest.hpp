@@ -1,0 +1,83 @@
+// Vertices and edges of a forest, and what they carry of those that were contracted into them.
+//
+// Nothing in here is traced; tree_contraction.hpp is the program.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace examples::tree_contraction {
+
+inline constexpr int kDegree = 3;  ///< most edges at a vertex
+
+/// The inputs of a vertex: its weight, and its edges by ascending neighbour.
+struct Vertex {
+  struct Edge {
+    int to;
+    std::int64_t length;
+    friend bool operator==(const Edge&, const Edge&) = default;
+  };
+  std::int64_t weight = 0;
+  std::vector<Edge> edges;
+  friend bool operator==(const Vertex&, const Vertex&) = default;
+};
+
+/// An edge of the contracted forest, seen from its near end: a path of the forest with all that
+/// hangs on its inner vertices.
+struct Path {
+  int to = -1;  // the far end
+  std::int64_t length = 0;
+  std::int64_t sum = 0;       // weights of the inner vertices
+  std::int64_t near = 0;      // greatest distance of an inner vertex from the near end
+  std::int64_t far = 0;       // and from the far end
+  std::int64_t diameter = 0;  // greatest distance of two inner vertices
+  friend bool operator==(const Path&, const Path&) = default;
+};
+
+/// A vertex with all that has been raked into it.
+struct State {
+  std::int64_t sum = 0;
+  std::int64_t reach = 0;     // greatest distance from the vertex
+  std::int64_t diameter = 0;  // greatest distance of two vertices
+  int degree = 0;
+  std::array<Path, kDegree> paths;
+  friend bool operator==(const State&, const State&) = default;
+};
+
+enum class Fate { stays, raked, compressed, last };
+
+/// What has become of a vertex, and into which neighbour it went.
+struct Outcome {
+  Fate fate = Fate::stays;
+  int into = -1;
+  friend bool operator==(const Outcome&, const Outcome&) = default;
+};
+
+// The leaf at the far end of `path`, in state `leaf`, goes into `state`.
+inline void rake(State& state, const Path& path, const State& leaf) {
+  state.diameter = std::max({state.diameter, leaf.diameter, path.diameter, state.reach + path.near,
+                             leaf.reach + path.far, state.reach + path.length + leaf.reach});
+  state.reach = std::max({state.reach, path.near, path.length + leaf.reach});
+  state.sum += path.sum + leaf.sum;
+}
+
+// `first` to a vertex in state `middle` and `second` from there on, as one path.
+inline Path join(const Path& first, const State& middle, const Path& second) {
+  return {.to = second.to,
+          .length = first.length + second.length,
+          .sum = first.sum + middle.sum + second.sum,
+          .near = std::max({first.near, first.length + middle.reach, first.length + second.near}),
+          .far = std::max({second.far, second.length + middle.reach, second.length + first.far}),
+          .diameter =
+              std::max({first.diameter, middle.diameter, second.diameter, first.far + middle.reach,
+                        middle.reach + second.near, first.far + second.near})};
+}
+
+// The path that does not lead to `from`. Requires: two paths, one of which does.
+inline const Path& other_path(const State& middle, int from) {
+  return middle.paths[middle.paths[0].to == from ? 1 : 0];
+}
+
+}  // namespace examples::tree_contraction

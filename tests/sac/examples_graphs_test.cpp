@@ -1,0 +1,431 @@
+// The examples on trees and graphs (sac/examples) under random edits.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "breadth_first_search.hpp"
+#include "connected_components.hpp"
+#include "example_harness.hpp"
+#include "expression_tree.hpp"
+#include "tree_contraction.hpp"
+
+namespace {
+
+using namespace support;
+
+// --- Expression tree -----------------------------------------------------------------------------
+
+struct ExpressionApp {
+  static constexpr const char* kName = "expression tree";
+
+  // Nodes by number, 0 is the root; those with op 0 that are nobody's operand wait for being used.
+  struct Term {
+    char op = 0;
+    std::uint64_t number = 0;
+    int left = -1;
+    int right = -1;
+  };
+  using Input = std::vector<Term>;
+  struct Edit {
+    int node;
+    Term term;
+  };
+
+  static char random_op(Random& random) { return "+-*"[random(3)]; }
+  static Term number(Random& random) { return {.number = static_cast<std::uint64_t>(random(9))}; }
+
+  static void used_below(const Input& input, int node, std::vector<int>& nodes) {
+    nodes.push_back(node);
+    const Term& term = input[static_cast<std::size_t>(node)];
+    if (term.op == 0) return;
+    used_below(input, term.left, nodes);
+    used_below(input, term.right, nodes);
+  }
+  static std::vector<int> used(const Input& input) {
+    std::vector<int> nodes;
+    used_below(input, 0, nodes);
+    return nodes;
+  }
+  // An operator with two new numbers below it, if there are two nodes left.
+  static Term grown(Random& random, const Input& input) {
+    const auto taken = used(input);
+    std::vector<int> free;
+    for (int i = 0; i < static_cast<int>(input.size()) && free.size() < 2; ++i) {
+      const bool waits = input[static_cast<std::size_t>(i)].op == 0;
+      if (waits && std::find(taken.begin(), taken.end(), i) == taken.end()) free.push_back(i);
+    }
+    if (free.size() < 2) return number(random);
+    return {.op = random_op(random), .left = free[0], .right = free[1]};
+  }
+  static Input random_input(Random& random, int size) {
+    Input input(static_cast<std::size_t>(2 * size + 3));
+    for (auto& term : input) term = number(random);
+    for (int i = 0; i < size / 2; ++i) {
+      const auto nodes = used(input);
+      const int node = nodes[static_cast<std::size_t>(random(static_cast<int>(nodes.size())))];
+      auto& term = input[static_cast<std::size_t>(node)];
+      if (term.op == 0) term = grown(random, input);
+    }
+    return input;
+  }
+  static Edit random_edit(Random& random, const Input& input) {
+    const auto nodes = used(input);
+    const int node = nodes[static_cast<std::size_t>(random(static_cast<int>(nodes.size())))];
+    Term term = input[static_cast<std::size_t>(node)];
+    if (term.op == 0) return {node, random(2) == 0 ? grown(random, input) : number(random)};
+    if (random(3) == 0) return {node, number(random)};  // cuts off what is below
+    term.op = random_op(random);
+    return {node, term};
+  }
+  static Edit inverse(const Input& before, const Edit& edit) {
+    return {edit.node, before[static_cast<std::size_t>(edit.node)]};
+  }
+  static void apply(Input& input, const Edit& edit) {
+    input[static_cast<std::size_t>(edit.node)] = edit.term;
+  }
+  static std::uint64_t value_of(const Input& input, int node) {
+    const Term& term = input[static_cast<std::size_t>(node)];
+    if (term.op == 0) return term.number;
+    const std::uint64_t left = value_of(input, term.left);
+    const std::uint64_t right = value_of(input, term.right);
+    return term.op == '+' ? left + right : term.op == '-' ? left - right : left * right;
+  }
+  static std::uint64_t oracle(const Input& input) { return value_of(input, 0); }
+
+  template <class Host>
+  class World {
+   public:
+    using S = ScopeOf<Host>;
+    World(Host& host, const Input& input) : host_(host), out_(host.template cell<std::uint64_t>()) {
+      for (std::size_t i = 0; i < input.size(); ++i) {
+        nodes_.push_back(&host.template make<examples::expression_tree::Node<S>>());
+      }
+      for (std::size_t i = 0; i < input.size(); ++i) edit({static_cast<int>(i), input[i]});
+      const auto* root = nodes_[0];
+      host.template run<examples::expression_tree::total>(root, out_);
+    }
+    void edit(const Edit& e) {
+      const auto node = [&](int i) {
+        return i < 0 ? nullptr : nodes_[static_cast<std::size_t>(i)];
+      };
+      host_.set(node(e.node)->term,
+                examples::expression_tree::Term<S>{e.term.op, e.term.number, node(e.term.left),
+                                                   node(e.term.right)});
+    }
+    std::uint64_t result() { return host_.get(out_); }
+
+   private:
+    Host& host_;
+    std::vector<examples::expression_tree::Node<S>*> nodes_;
+    typename S::template ModType<std::uint64_t> out_;
+  };
+};
+
+// --- Tree contraction ----------------------------------------------------------------------------
+
+struct ForestApp {
+  static constexpr const char* kName = "tree contraction";
+  using Vertex = examples::tree_contraction::Vertex;
+  using Input = std::vector<Vertex>;
+  struct Edit {
+    enum Kind { link, cut, weigh } kind;
+    int v, w;
+    std::int64_t length;  // or weight
+  };
+
+  static std::vector<int> tree_of(const Input& input, int v) {
+    std::vector<int> tree{v};
+    std::set<int> seen{v};
+    for (std::size_t i = 0; i < tree.size(); ++i) {
+      for (const auto& edge : input[static_cast<std::size_t>(tree[i])].edges) {
+        if (seen.insert(edge.to).second) tree.push_back(edge.to);
+      }
+    }
+    return tree;
+  }
+  static Edit random_edit(Random& random, const Input& input) {
+    const int n = static_cast<int>(input.size());
+    const auto at = [&](int v) -> const Vertex& { return input[static_cast<std::size_t>(v)]; };
+    const int v = random(n);
+    const int kind = random(8);
+    if (kind < 2 && !at(v).edges.empty()) {
+      const auto& edge =
+          at(v).edges[static_cast<std::size_t>(random(static_cast<int>(at(v).edges.size())))];
+      return {Edit::cut, v, edge.to, edge.length};
+    }
+    if (kind < 7) {
+      const int w = random(n);
+      const auto tree = tree_of(input, v);
+      const auto full = [&](int u) { return at(u).edges.size() == 3; };
+      if (!full(v) && !full(w) && std::find(tree.begin(), tree.end(), w) == tree.end()) {
+        return {Edit::link, v, w, 1 + random(9)};
+      }
+    }
+    return {Edit::weigh, v, v, random(9)};
+  }
+  static Input random_input(Random& random, int size) {
+    Input input(static_cast<std::size_t>(size + 1));
+    for (int i = 0; i < 2 * size; ++i) apply(input, random_edit(random, input));
+    return input;
+  }
+  static Edit inverse(const Input& before, Edit edit) {
+    switch (edit.kind) {
+      case Edit::link:
+        edit.kind = Edit::cut;
+        break;
+      case Edit::cut:
+        edit.kind = Edit::link;
+        break;
+      case Edit::weigh:
+        edit.length = before[static_cast<std::size_t>(edit.v)].weight;
+        break;
+    }
+    return edit;
+  }
+  // What an edit makes of one of its vertices.
+  static Vertex edited(Vertex vertex, const Edit& edit, int other) {
+    const auto place = std::find_if(vertex.edges.begin(), vertex.edges.end(),
+                                    [&](const auto& edge) { return edge.to >= other; });
+    switch (edit.kind) {
+      case Edit::link:
+        vertex.edges.insert(place, {other, edit.length});
+        break;
+      case Edit::cut:
+        vertex.edges.erase(place);
+        break;
+      case Edit::weigh:
+        vertex.weight = edit.length;
+        break;
+    }
+    return vertex;
+  }
+  static void apply(Input& input, const Edit& edit) {
+    const auto change = [&](int v, int other) {
+      auto& vertex = input[static_cast<std::size_t>(v)];
+      vertex = edited(vertex, edit, other);
+    };
+    change(edit.v, edit.w);
+    if (edit.v != edit.w) change(edit.w, edit.v);
+  }
+
+  // For each vertex: the least vertex of its tree, the tree's sum and diameter.
+  struct Answer {
+    int least;
+    std::int64_t sum, diameter;
+    friend bool operator==(const Answer&, const Answer&) = default;
+  };
+  static std::pair<std::int64_t, int> farthest(const Input& input, int v, int from) {
+    std::pair<std::int64_t, int> best{0, v};
+    for (const auto& edge : input[static_cast<std::size_t>(v)].edges) {
+      if (edge.to == from) continue;
+      auto below = farthest(input, edge.to, v);
+      below.first += edge.length;
+      best = std::max(best, below);
+    }
+    return best;
+  }
+  static std::vector<Answer> oracle(const Input& input) {
+    std::vector<Answer> answers;
+    for (int v = 0; v < static_cast<int>(input.size()); ++v) {
+      const auto tree = tree_of(input, v);
+      Answer answer{*std::min_element(tree.begin(), tree.end()), 0, 0};
+      for (const int u : tree) answer.sum += input[static_cast<std::size_t>(u)].weight;
+      answer.diameter = farthest(input, farthest(input, v, -1).second, -1).first;
+      answers.push_back(answer);
+    }
+    return answers;
+  }
+
+  template <class Host>
+  class World {
+   public:
+    World(Host& host, const Input& input)
+        : host_(host), forest_(host, static_cast<int>(input.size())) {
+      for (std::size_t v = 0; v < input.size(); ++v) host.set(forest_.vertices[v], input[v]);
+      host.template run<examples::tree_contraction::contract>();
+    }
+    void edit(const Edit& e) {
+      const auto change = [&](int v, int other) {
+        const auto& vertex = forest_.vertices[static_cast<std::size_t>(v)];
+        host_.set(vertex, edited(host_.get(vertex), e, other));
+      };
+      change(e.v, e.w);
+      if (e.v != e.w) change(e.w, e.v);
+    }
+    std::vector<Answer> result() {
+      std::map<int, int> least;
+      std::vector<Answer> answers;
+      for (int v = 0; v < static_cast<int>(forest_.vertices.size()); ++v) {
+        const int last = examples::tree_contraction::last_vertex(host_, forest_, v);
+        const auto state = host_.get(forest_.states[static_cast<std::size_t>(last)]);
+        answers.push_back({least.emplace(last, v).first->second, state.sum, state.diameter});
+      }
+      return answers;
+    }
+
+   private:
+    Host& host_;
+    examples::tree_contraction::Forest<ScopeOf<Host>> forest_;
+  };
+};
+
+// --- Graphs --------------------------------------------------------------------------------------
+
+struct GraphApp {
+  struct Input {
+    std::vector<std::vector<int>> edges;  // ascending
+    int source = 0;
+  };
+  struct Edit {
+    int v, w;  // the edge comes or goes; v == w: the source moves to v
+  };
+  static Edit random_edit(Random& random, const Input& input) {
+    const int n = static_cast<int>(input.edges.size());
+    return {random(n), random(n)};
+  }
+  static Edit inverse(const Input& before, const Edit& edit) {
+    return edit.v != edit.w ? edit : Edit{before.source, before.source};
+  }
+  static std::vector<int> toggled(std::vector<int> edges, int w) {
+    const auto at = std::lower_bound(edges.begin(), edges.end(), w);
+    if (at != edges.end() && *at == w) {
+      edges.erase(at);
+    } else {
+      edges.insert(at, w);
+    }
+    return edges;
+  }
+  static void apply(Input& input, const Edit& e) {
+    if (e.v == e.w) {
+      input.source = e.v;
+      return;
+    }
+    for (const auto& [v, w] : {std::pair{e.v, e.w}, {e.w, e.v}}) {
+      auto& edges = input.edges[static_cast<std::size_t>(v)];
+      edges = toggled(edges, w);
+    }
+  }
+  static Input random_input(Random& random, int size) {
+    Input input{.edges = std::vector<std::vector<int>>(static_cast<std::size_t>(size + 1))};
+    for (int i = 0; i < size; ++i) apply(input, random_edit(random, input));
+    return input;
+  }
+  static std::vector<int> hops(const Input& input, int source) {
+    std::vector<int> hops(input.edges.size(), examples::breadth_first_search::kUnreached);
+    std::deque<int> queue{source};
+    hops[static_cast<std::size_t>(source)] = 0;
+    for (; !queue.empty(); queue.pop_front()) {
+      for (const int w : input.edges[static_cast<std::size_t>(queue.front())]) {
+        int& far = hops[static_cast<std::size_t>(w)];
+        if (far != examples::breadth_first_search::kUnreached) continue;
+        far = hops[static_cast<std::size_t>(queue.front())] + 1;
+        queue.push_back(w);
+      }
+    }
+    return hops;
+  }
+};
+
+struct SearchApp : GraphApp {
+  static constexpr const char* kName = "breadth-first search";
+  static std::vector<int> oracle(const Input& input) { return hops(input, input.source); }
+
+  template <class Host>
+  class World {
+   public:
+    World(Host& host, const Input& input)
+        : host_(host), graph_(host, static_cast<int>(input.edges.size())) {
+      host.set(graph_.source, input.source);
+      for (std::size_t v = 0; v < input.edges.size(); ++v) {
+        host.set(graph_.edges[v], input.edges[v]);
+      }
+      host.template run<examples::breadth_first_search::search>();
+    }
+    void edit(const Edit& e) {
+      if (e.v == e.w) return host_.set(graph_.source, int{e.v});
+      for (const auto& [v, w] : {std::pair{e.v, e.w}, {e.w, e.v}}) {
+        const auto& edges = graph_.edges[static_cast<std::size_t>(v)];
+        host_.set(edges, toggled(host_.get(edges), w));
+      }
+    }
+    std::vector<int> result() {
+      std::vector<int> hops;
+      for (const auto& h : graph_.hops) hops.push_back(host_.get(h));
+      return hops;
+    }
+
+   private:
+    Host& host_;
+    examples::breadth_first_search::Graph<ScopeOf<Host>> graph_;
+  };
+};
+
+struct ComponentsApp : GraphApp {
+  static constexpr const char* kName = "connected components";
+  // For each vertex, the least one connected with it.
+  static std::vector<int> oracle(const Input& input) {
+    std::vector<int> least;
+    for (int v = 0; v < static_cast<int>(input.edges.size()); ++v) {
+      const auto from = hops(input, v);
+      const auto near = std::find_if(from.begin(), from.end(), [](int h) {
+        return h != examples::breadth_first_search::kUnreached;
+      });
+      least.push_back(static_cast<int>(near - from.begin()));
+    }
+    return least;
+  }
+
+  template <class Host>
+  class World {
+   public:
+    World(Host& host, const Input& input)
+        : host_(host), graph_(host, static_cast<int>(input.edges.size())) {
+      for (int v = 0; v < static_cast<int>(input.edges.size()); ++v) {
+        for (const int w : input.edges[static_cast<std::size_t>(v)]) {
+          if (v >= w) continue;
+          there_.insert({v, w});
+          graph_.insert(v, w);
+        }
+      }
+      host.template run<examples::connected_components::connect>();
+    }
+    void edit(const Edit& e) {
+      const std::pair<int, int> edge = std::minmax(e.v, e.w);
+      if (e.v == e.w) return;
+      if (there_.insert(edge).second) return graph_.insert(edge.first, edge.second);
+      there_.erase(edge);
+      graph_.erase(edge.first, edge.second);
+    }
+    std::vector<int> result() {
+      std::map<int, int> least;
+      std::vector<int> answers;
+      for (int v = 0; v < static_cast<int>(graph_.parents.size()); ++v) {
+        const int root = examples::connected_components::root_of(
+            v, [&](int u) { return host_.get(graph_.parents[static_cast<std::size_t>(u)]); });
+        answers.push_back(least.emplace(root, v).first->second);
+      }
+      return answers;
+    }
+
+   private:
+    Host& host_;
+    examples::connected_components::Components<ScopeOf<Host>> graph_;
+    std::set<std::pair<int, int>> there_;
+  };
+};
+
+TEMPLATE_TEST_CASE("graph examples run plainly give what naive programs give", "", ExpressionApp,
+                   ForestApp, SearchApp, ComponentsApp) {
+  check_example_plain<TestType>(200, 60);
+}
+
+TEMPLATE_TEST_CASE("graph examples under random edits", "", ForestApp, SearchApp, ComponentsApp) {
+  check_example<TestType>(60, 40, 30);
+}
+
+}  // namespace
