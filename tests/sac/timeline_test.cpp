@@ -2,11 +2,33 @@
 #include "sac/timeline.hpp"
 
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <list>
+#include <new>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "sac/check.hpp"
 #include "sac/label.hpp"
+
+namespace {
+
+/// While true, operator new fails.
+bool memory_is_out = false;
+
+}  // namespace
+
+void* operator new(std::size_t bytes) {
+  void* const block = memory_is_out ? nullptr : std::malloc(bytes);
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
+}
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  return memory_is_out ? nullptr : std::malloc(bytes);
+}
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
 namespace {
 
@@ -17,7 +39,7 @@ struct Fixture {
   sac::Arena arena;
   sac::Timeline timeline{arena};
   std::list<Handle> oracle{timeline.front()};
-  std::vector<std::list<Handle>::iterator> places{oracle.begin()};
+  std::vector<std::list<Handle>::iterator> places{oracle.begin()};  // the last one is the latest
   std::uint64_t state = 7;
 
   std::size_t random(std::size_t n) {
@@ -25,12 +47,22 @@ struct Fixture {
     return state % n;
   }
   TimeNode& at(Handle h) { return *arena.at<TimeNode>(h); }
-  void insert(std::size_t i) {
+  Handle fresh() {
     const Handle node = arena.allocate(sizeof(TimeNode));
     ::new (arena.at<void>(node)) TimeNode;
     if (node % 3 == 0) at(node).mark();
+    return node;
+  }
+  void insert(std::size_t i) { insert(i, fresh()); }
+  void insert(std::size_t i, Handle node) {
     timeline.insert_after(*places[i], node);
     places.push_back(oracle.insert(std::next(places[i]), node));
+  }
+  void insert_after_latest(int count) {
+    for (int i = 0; i < count; ++i) insert(places.size() - 1);
+  }
+  void insert_at_random(int count) {
+    for (int i = 0; i < count; ++i) insert(random(places.size()));
   }
   void erase(std::size_t i) {
     const Handle node = *places[i];
@@ -40,84 +72,256 @@ struct Fixture {
     places[i] = places.back();
     places.pop_back();
   }
+  /// Takes out the `count` nodes behind `from`, or as many as there are.
+  void erase_range(std::list<Handle>::iterator from, std::size_t count, bool counted) {
+    auto to = std::next(from);
+    for (std::size_t left = count; left > 0 && to != oracle.end(); --left) ++to;
+    const Handle end = to == oracle.end() ? 0 : *to;
+    const auto length = static_cast<std::size_t>(std::distance(std::next(from), to));
+    counted ? timeline.erase_between(*from, end, length) : timeline.erase_between(*from, end);
+    for (auto it = std::next(from); it != to; ++it) arena.release(*it, sizeof(TimeNode));
+    oracle.erase(std::next(from), to);
+    places.clear();
+    for (auto it = oracle.begin(); it != oracle.end(); ++it) places.push_back(it);
+  }
   void check() {
     timeline.check_invariants();
     REQUIRE(timeline.size() == oracle.size());
     Handle node = timeline.front();
     const TimeNode* previous = nullptr;
+    bool same = true;
     for (const Handle expected : oracle) {
-      REQUIRE(node == expected);
-      REQUIRE((previous == nullptr || timeline.precedes(*previous, at(node))));
-      REQUIRE((previous == nullptr || !timeline.precedes(at(node), *previous)));
-      REQUIRE((node == timeline.front() || at(node).marked() == (node % 3 == 0)));
+      same = same && node == expected &&
+             (previous == nullptr || timeline.precedes(*previous, at(node))) &&
+             (previous == nullptr || !timeline.precedes(at(node), *previous)) &&
+             (node == timeline.front() || at(node).marked() == (node % 3 == 0));
       previous = &at(node);
       node = at(node).next;
     }
+    REQUIRE(same);
     REQUIRE(node == 0);
     REQUIRE(timeline.back() == oracle.back());
   }
+  /// Random pairs are in the order of their positions.
+  void check_pairs(int count) {
+    std::unordered_map<Handle, std::size_t> rank;
+    for (const Handle h : oracle) rank.emplace(h, rank.size());
+    bool same = true;
+    for (int i = 0; i < count; ++i) {
+      const Handle a = *places[random(places.size())], b = *places[random(places.size())];
+      same = same && timeline.precedes(at(a), at(b)) == (rank.at(a) < rank.at(b));
+    }
+    REQUIRE(same);
+  }
 };
+
+TEST_CASE("a group number has 31 bits and leaves the mark alone") {
+  TimeNode n;
+  n.group_and_mark = 0x7ffffffeu;
+  CHECK_FALSE(n.marked());
+  n.mark();
+  CHECK(n.marked());
+  CHECK(n.group() == 0x7ffffffeu);
+}
 
 TEST_CASE("appending keeps the order") {
   Fixture f;
-  for (int i = 0; i < 20000; ++i) f.insert(f.places.size() - 1);
+  f.insert_after_latest(20000);
   f.check();
+  CHECK(f.timeline.bytes() < f.timeline.size());
 }
 
 TEST_CASE("inserting at one place over and over keeps the order through all relabellings") {
+  const std::size_t before = GENERATE(0, 5, 700, 1500);
   Fixture f;
-  for (int i = 0; i < 10; ++i) f.insert(f.places.size() - 1);
+  f.insert_after_latest(2000);
   for (int i = 0; i < 50000; ++i) {
-    f.insert(5);
+    f.insert(before);
     if (i % 10000 == 0) f.check();
   }
   f.check();
+  CHECK(f.timeline.bytes() < f.timeline.size());
 }
 
 TEST_CASE("inserting right before one node over and over keeps the order") {
+  const std::size_t before = GENERATE(0, 5, 700, 1500);
   Fixture f;
-  f.insert(0);
-  for (int i = 0; i < 50000; ++i) f.insert(i == 0 ? 0 : f.places.size() - 1);
+  f.insert_after_latest(2000);
+  f.insert(before);
+  f.insert_after_latest(50000);
+  f.check();
+  CHECK(f.timeline.bytes() < f.timeline.size());
+}
+
+TEST_CASE("inserting on both sides of one node in turns keeps the order") {
+  Fixture f;
+  f.insert_after_latest(100);
+  for (int i = 0; i < 20000; ++i) {
+    const Handle place = i % 2 == 0 ? *f.places[50] : f.at(*f.places[50]).prev;
+    const Handle node = f.fresh();
+    f.timeline.insert_after(place, node);
+    f.oracle.insert(i % 2 == 0 ? std::next(f.places[50]) : f.places[50], node);
+  }
   f.check();
 }
 
-TEST_CASE("random insertions, bursts at one place and erasures keep the order of std::list") {
+TEST_CASE("inserting into the narrowest gap relabels a bounded number of nodes per insertion") {
   Fixture f;
-  for (int step = 0; step < 60; ++step) {
-    const std::size_t hotspot = f.random(f.places.size());
-    switch (f.random(4)) {
+  f.insert_after_latest(1500);
+  std::unordered_map<Handle, std::uint64_t> stamps;
+  const auto stamp = [&](Handle h) { return std::uint64_t{f.at(h).group()} << 32 | f.at(h).label; };
+  for (const Handle h : f.oracle) stamps[h] = stamp(h);
+  std::size_t written = 0;
+  const int insertions = 4000;
+  for (int i = 0; i < insertions; ++i) {
+    std::size_t narrowest = 0;
+    std::uint32_t least = 0xffffffffu;
+    for (std::size_t p = 0; p < f.places.size(); ++p) {
+      const TimeNode& n = f.at(*f.places[p]);
+      if (n.next == 0 || f.at(n.next).group() != n.group()) continue;
+      const std::uint32_t gap = f.at(n.next).label - n.label;
+      if (gap < least) least = gap, narrowest = p;
+    }
+    f.insert(narrowest);
+    for (Handle h = f.timeline.front(); h != 0; h = f.at(h).next) {
+      written += std::exchange(stamps[h], stamp(h)) != stamp(h) ? 1 : 0;
+    }
+  }
+  f.check();
+  CHECK(written < 3 * std::size_t{insertions});
+}
+
+TEST_CASE("insertions, bursts and erasures of all kinds keep the order of std::list") {
+  const std::uint64_t seed = GENERATE(range(1, 7));
+  INFO("seed " << seed);
+  Fixture f;
+  f.state = seed;
+  for (int step = 0; step < 100; ++step) {
+    const std::size_t spot = f.random(f.places.size());
+    switch (f.random(10)) {
       case 0:
-        for (int i = 0; i < 300; ++i) f.insert(hotspot);
+        for (int i = 0; i < 2000; ++i) f.insert(spot);
         break;
       case 1:
-        for (int i = 0; i < 300; ++i) f.insert(f.random(f.places.size()));
+        f.insert(spot);
+        f.insert_after_latest(2000);
         break;
       case 2:
-        for (int i = 0; i < 300; ++i) f.insert(f.places.size() - 1);
+        f.insert_at_random(1000);
+        break;
+      case 3:
+        for (int burst = 0; burst < 20; ++burst) {
+          f.insert_at_random(1);
+          f.insert_after_latest(50);
+        }
+        break;
+      case 4:
+        for (int burst = 0; burst < 20; ++burst) {
+          const std::size_t place = f.random(f.places.size());
+          for (int i = 0; i < 50; ++i) f.insert(place);
+        }
+        break;
+      case 5:  // a subtree of the trace that is replaced by one of another size
+        f.erase_range(f.places[spot], f.random(2000), f.random(2) == 0);
+        f.insert(f.random(f.places.size()));
+        f.insert_after_latest(static_cast<int>(f.random(2000)));
+        break;
+      case 6:
+        f.erase_range(f.places[spot], f.random(f.places.size()), f.random(2) == 0);
+        break;
+      case 7:
+        if (f.random(4) == 0) f.timeline.shrink();
         break;
       default:
-        for (int i = 0; i < 400 && f.places.size() > 1; ++i)
-          f.erase(1 + f.random(f.places.size() - 1));
+        for (int i = 0; i < 700 && f.places.size() > 1; ++i) {
+          const std::size_t place = f.random(f.places.size());
+          if (f.places[place] != f.oracle.begin()) f.erase(place);
+        }
     }
     f.check();
-    for (int i = 0; i < 100; ++i) {
-      const auto a = f.random(f.places.size()), b = f.random(f.places.size());
-      const auto rank = [&](std::size_t k) { return std::distance(f.oracle.begin(), f.places[k]); };
-      REQUIRE(f.timeline.precedes(f.at(*f.places[a]), f.at(*f.places[b])) == (rank(a) < rank(b)));
-    }
+    f.check_pairs(200);
   }
 }
 
-TEST_CASE("erase_between takes out what lies strictly between, or all that follows") {
+TEST_CASE("many random insertions from an empty list on keep the order") {
   Fixture f;
-  for (int i = 0; i < 3000; ++i) f.insert(f.random(f.places.size()));
-  auto from = std::next(f.oracle.begin(), 100);
-  auto to = std::next(f.oracle.begin(), 2000);
-  f.timeline.erase_between(*from, *to);
-  f.oracle.erase(std::next(from), to);
+  f.insert_at_random(100000);
   f.check();
-  f.timeline.erase_between(*from, 0);
-  f.oracle.erase(std::next(from), f.oracle.end());
+  f.check_pairs(100000);
+  CHECK(f.timeline.bytes() < f.timeline.size());
+}
+
+TEST_CASE("erase_between takes out what lies strictly between, or all that follows") {
+  const bool counted = GENERATE(false, true);
+  Fixture f;
+  f.insert_at_random(3000);
+  f.insert_after_latest(5000);
+  f.erase_range(std::next(f.oracle.begin(), 100), 1900, counted);
+  f.check();
+  f.erase_range(std::next(f.oracle.begin(), 1000), 0, counted);
+  f.check();
+  f.erase_range(std::next(f.oracle.begin(), 100), f.oracle.size(), counted);
+  f.check();
+  CHECK(f.timeline.size() == 101);
+  f.insert_after_latest(5000);
+  f.check();
+}
+
+TEST_CASE("groups that are no more are used again") {
+  Fixture f;
+  f.insert_after_latest(20000);
+  const std::size_t bytes = f.timeline.bytes();
+  for (int round = 0; round < 20; ++round) {
+    f.erase_range(std::next(f.oracle.begin(), 3000), 15000, round % 2 == 0);
+    while (f.places.size() > 2000) f.erase(f.places.size() - 1);
+    f.insert_after_latest(18000);
+  }
+  f.check();
+  CHECK(f.timeline.bytes() <= bytes);
+}
+
+TEST_CASE("shrink gives the memory of dropped groups back and keeps order and marks") {
+  Fixture f;
+  f.insert_at_random(30000);
+  f.insert_after_latest(100000);
+  const std::size_t bytes = f.timeline.bytes();
+  f.erase_range(std::next(f.oracle.begin(), 2000), f.oracle.size(), true);
+  CHECK(f.timeline.bytes() == bytes);
+  f.timeline.shrink();
+  CHECK(f.timeline.bytes() < 100);
+  f.check();
+  f.insert_at_random(5000);
+  f.insert_after_latest(5000);
+  f.check();
+}
+
+TEST_CASE("an insertion that finds no memory changes nothing and can be done again") {
+  Fixture f;
+  int failures = 0;
+  const auto insert = [&](std::size_t place) {
+    const Handle node = f.fresh();
+    memory_is_out = true;
+    try {
+      f.timeline.insert_after(*f.places[place], node);
+      memory_is_out = false;
+      f.places.push_back(f.oracle.insert(std::next(f.places[place]), node));
+    } catch (const std::bad_alloc&) {
+      memory_is_out = false;
+      ++failures;
+      f.check();
+      f.insert(place, node);
+      f.check();
+    }
+  };
+  for (int i = 0; i < 10000; ++i) insert(f.random(f.places.size()));
+  const int in_chops = failures;
+  for (int i = 0; i < 50000; ++i) insert(f.places.size() - 1);
+  for (int i = 0; i < 50000; ++i) insert(5);
+  CHECK(in_chops >= 3);
+  CHECK(failures - in_chops >= 2);
+  memory_is_out = true;
+  CHECK_THROWS_AS(f.timeline.shrink(), std::bad_alloc);
+  memory_is_out = false;
   f.check();
 }
 

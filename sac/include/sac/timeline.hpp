@@ -2,8 +2,13 @@
 //
 // A node is four 32-bit words at the head of the object it stamps. Nodes sit in groups; a node's
 // label orders it within its group, a group's 64-bit label orders the groups [Dietz, Sleator 1987;
-// Bender et al. 2002]. A group is split only when the labels around an insertion run out, never
-// for its size alone.
+// Bender et al. 2002]. A group is as large as its labels allow, it is never split for its size
+// alone, and an insertion does not touch its record: neither size nor ends are kept there. Where
+// labels have run out, the group is walked from that place and its smaller side moves out.
+//
+// An insertion costs its cache misses: the place, its successor (whose `prev` changes), the new
+// node. Labels are chosen so that little else is left to do: a new node takes the middle of its
+// gap; in a run (each node after the last one), and at one place over and over, a small part of it.
 //
 // Guarantees:
 // (1) precedes(a, b) is O(1): one comparison within a group, two loads more across groups.
@@ -41,28 +46,38 @@ class Timeline {
   [[nodiscard]] Handle front() const noexcept { return front_; }
   [[nodiscard]] Handle back() const noexcept { return back_; }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  [[nodiscard]] std::size_t bytes() const noexcept {
-    return groups_.capacity() * sizeof(Group) + free_groups_.capacity() * sizeof(std::uint32_t);
-  }
+  /// Memory for the groups; the nodes are the arena's.
+  [[nodiscard]] std::size_t bytes() const noexcept { return groups_.capacity() * sizeof(Group); }
 
   /// Puts `node` right after `place`. Throws: std::bad_alloc, and then changes nothing.
+  /// Cost: amortised O(1).
   void insert_after(Handle place, Handle node) {
     TimeNode& before = *at(place);
+    const Handle next = before.next;
     const std::uint32_t group = before.group();
-    if (before.next != 0 && at(before.next)->group() == group) {
-      const std::uint32_t gap = at(before.next)->label - before.label;
-      if (gap >= 2) return link(before, place, node, group, before.label + gap / 2);
-    } else if (before.label < kLastLabel - kAppendStep) {
-      return link(before, place, node, group, before.label + kAppendStep);
+    if (next != 0 && at(next)->group() == group) {
+      const std::uint32_t gap = at(next)->label - before.label;
+      if (gap >= 2) return link(before, place, node, group, before.label + part(gap, place, next));
+    } else if (const std::uint32_t room = kLastLabel - before.label; room > 2 * kAppendStep) {
+      const std::uint32_t step = next == 0 || place == latest_ ? kAppendStep
+                                 : next == latest_             ? room - kAppendStep
+                                                               : room / 2;
+      return link(before, place, node, group, before.label + step);
     }
-    insert_crowded(place, node);
+    make_room_after(place);
+    insert_after(place, node);
   }
 
-  /// Takes `node` out. Requires: node != front().
+  /// Takes `node` out. Requires: node != front(). Cost: O(1).
   void erase(Handle node) noexcept;
 
   /// Takes out all nodes strictly between `from` and `to`; to == 0 is the end of the list.
+  /// Cost: a walk over these nodes, without writing.
   void erase_between(Handle from, Handle to) noexcept;
+
+  /// The same for who has counted them. Cost: O(groups that lie wholly between), no walk.
+  /// Requires: `count` nodes lie strictly between `from` and `to`.
+  void erase_between(Handle from, Handle to, std::size_t count) noexcept;
 
   [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
     const std::uint32_t ga = a.group();
@@ -71,56 +86,77 @@ class Timeline {
     return groups_[ga].label < groups_[gb].label;
   }
 
+  /// Numbers and labels everything anew, in full groups, and gives back the memory of those that
+  /// are no more. Throws: std::bad_alloc, and then changes nothing. Cost: O(size()).
+  void shrink();
+
   void check_invariants() const;
 
  private:
   struct Group {
     std::uint64_t label = 0;
     std::uint32_t prev = kNone;
-    std::uint32_t next = kNone;
-    Handle first = 0;
-    std::uint32_t count = 0;
+    std::uint32_t next = kNone;  // of a free group: the next free one
   };
   static constexpr std::uint32_t kNone = 0x7fffffffu;
   static constexpr std::uint32_t kLastLabel = 0xffffffffu;
-  // Appending leaves gaps of 2^22: a group takes 1023 appended nodes, and each gap then 22
-  // insertions at one place before anything is relabelled.
+  // Appending leaves gaps of 2^22: a group takes 1021 appended nodes, and each gap then 22
+  // insertions by halves before anything is relabelled.
   static constexpr std::uint32_t kAppendStep = std::uint32_t{1} << 22;
-  // A crowded group above 128 nodes is cut into groups of 64, whose gaps are 2^26.
-  static constexpr std::uint32_t kCut = 64;
-  static constexpr std::uint64_t kGroupStep = std::uint64_t{1} << 36;
+  // A run takes 1/64 of the gap each time, so that a gap of 2^22 holds 500 of its nodes with a gap
+  // of at least 2^4 for each. An insertion right before the latest one takes 1/16: it may be the
+  // second of many at one place, or the first of a run up to a node that was put there before.
+  // In gaps below 2^10 such parts would leave nothing: halves.
+  static constexpr int kRunPart = 6;
+  static constexpr int kHotPart = 4;
+  static constexpr std::uint32_t kNarrow = std::uint32_t{1} << 10;
 
   [[nodiscard]] TimeNode* at(Handle h) const noexcept { return arena_.at<TimeNode>(h); }
+
+  /// Where in the gap between `place` and `next`, 0 < part < gap. Requires: gap >= 2.
+  [[nodiscard]] std::uint32_t part(std::uint32_t gap, Handle place, Handle next) const noexcept {
+    if (gap < kNarrow) return gap / 2;
+    if (place == latest_) return gap >> kRunPart;
+    return next == latest_ ? gap - (gap >> kHotPart) : gap / 2;
+  }
 
   void link(TimeNode& before, Handle place, Handle node, std::uint32_t group,
             std::uint32_t label) noexcept {
     TimeNode& n = *at(node);
+    const Handle next = before.next;
     n.prev = place;
-    n.next = before.next;
-    n.group_and_mark = (n.group_and_mark & 0x80000000u) | group;
-    n.label = label;
-    (before.next != 0 ? at(before.next)->prev : back_) = node;
+    n.next = next;
+    stamp(n, group, label);
+    (next != 0 ? at(next)->prev : back_) = node;
     before.next = node;
-    ++groups_[group].count;
+    latest_ = node;
     ++size_;
   }
-
-  void insert_crowded(Handle place, Handle node);
-  void insert_in_new_group(Handle place, Handle node);
-  void spread(std::uint32_t group) noexcept;
-  void cut(std::uint32_t group);
-  [[nodiscard]] std::uint32_t new_group_after(std::uint32_t group);
-  void drop_group(std::uint32_t group) noexcept;
-  void make_group_room(std::uint32_t group) noexcept;
-  void set_group(TimeNode& n, std::uint32_t group) noexcept {
+  static void stamp(TimeNode& n, std::uint32_t group, std::uint32_t label) noexcept {
     n.group_and_mark = (n.group_and_mark & 0x80000000u) | group;
+    n.label = label;
   }
+
+  struct Surroundings;
+  [[nodiscard]] Surroundings look_around(Handle place) const noexcept;
+  [[nodiscard]] bool in_group(Handle node, std::uint32_t group) const noexcept {
+    return node != 0 && at(node)->group() == group;
+  }
+  void make_room_after(Handle place);
+  void spread(Handle first, std::uint32_t group, std::uint32_t left, std::uint32_t right) noexcept;
+  void chop(Handle place);
+  [[nodiscard]] std::uint32_t new_group(std::uint32_t prev, std::uint32_t next);
+  void free_group(std::uint32_t group) noexcept;
+  void join_groups(std::uint32_t prev, std::uint32_t next) noexcept;
+  [[nodiscard]] std::uint64_t room_between(std::uint32_t prev, std::uint32_t next) const noexcept;
+  void relabel_groups_around(std::uint32_t group) noexcept;
 
   Arena& arena_;
   std::vector<Group> groups_;
-  std::vector<std::uint32_t> free_groups_;
+  std::uint32_t free_groups_ = kNone;
   Handle front_ = 0;
   Handle back_ = 0;
+  Handle latest_ = 0;  // the last node that was inserted: a hint, it may be gone
   std::size_t size_ = 0;
 };
 
