@@ -1,13 +1,11 @@
-// The engine alone: time stamps, reads, calls, and a list map.
+// The engine alone: reads, calls, and a list map.
 //
 //   engine_bench [N]         default 1000000
 //
 // One JSON line per figure, medians of 5 rounds:
-//   timeline_append/hotspot/random   nanoseconds per insertion
-//   compare_local/random             nanoseconds per comparison
-//   read                             nanoseconds per read in a first run
-//   call                             nanoseconds per call in a first run
-//   list_map                         from scratch; one insertion or deletion; bytes per element
+//   read      nanoseconds per read in a first run
+//   call      nanoseconds per call in a first run
+//   list_map  from scratch; one insertion or deletion; bytes per element
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -44,68 +42,6 @@ struct Random {
 };
 
 volatile std::uint64_t sink;
-
-// --- Time stamps -----------------------------------------------------------------------------
-
-struct Stamps {
-  sac::Arena arena;
-  sac::Timeline timeline{arena};
-  std::vector<sac::Handle> nodes;
-
-  sac::Handle fresh() {
-    const sac::Handle h = arena.allocate(sizeof(sac::TimeNode));
-    *arena.at<sac::TimeNode>(h) = {};
-    return h;
-  }
-  void insert_after(sac::Handle place) {
-    const sac::Handle h = fresh();
-    timeline.insert_after(place, h);
-    nodes.push_back(h);
-  }
-};
-
-void bench_timeline(std::size_t n) {
-  std::vector<double> append, hotspot, random, local, far;
-  for (int round = 0; round < 5; ++round) {
-    Stamps s;
-    s.nodes.reserve(2 * n);
-    append.push_back(nanoseconds([&] {
-      for (std::size_t i = 0; i < n; ++i) s.insert_after(s.timeline.back());
-    }));
-    Random r;
-    std::vector<std::uint32_t> picks(n);
-    for (auto& p : picks) p = static_cast<std::uint32_t>(r.next() % n);
-    const auto less = [&](std::size_t a, std::size_t b) {
-      return s.timeline.precedes(*s.arena.at<sac::TimeNode>(s.nodes[a]),
-                                 *s.arena.at<sac::TimeNode>(s.nodes[b]));
-    };
-    local.push_back(nanoseconds([&] {
-      std::uint64_t count = 0;
-      for (std::size_t i = 0; i + 8 < n; ++i) count += less(i, i + 7) ? 1 : 0;
-      sink = count;
-    }));
-    far.push_back(nanoseconds([&] {
-      std::uint64_t count = 0;
-      for (std::size_t i = 0; i + 1 < n; ++i) count += less(picks[i], picks[i + 1]) ? 1 : 0;
-      sink = count;
-    }));
-    random.push_back(nanoseconds([&] {
-      for (std::size_t i = 0; i < n; ++i) s.insert_after(s.nodes[picks[i]]);
-    }));
-    Stamps h;
-    h.nodes.reserve(n);
-    const sac::Handle place = h.timeline.front();
-    hotspot.push_back(nanoseconds([&] {
-      for (std::size_t i = 0; i < n; ++i) h.insert_after(place);
-    }));
-  }
-  const auto per = [&](const std::vector<double>& x) { return median(x) / static_cast<double>(n); };
-  print("timeline_append", n, "ns", per(append));
-  print("timeline_hotspot", n, "ns", per(hotspot));
-  print("timeline_random", n, "ns", per(random));
-  print("compare_local", n, "ns", per(local));
-  print("compare_random", n, "ns", per(far));
-}
 
 // --- Calls and reads -------------------------------------------------------------------------
 
@@ -211,7 +147,6 @@ void bench_list_map(std::size_t n) {
 
 int main(int argc, char** argv) {
   const std::size_t n = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000000;
-  bench_timeline(n);
   bench_calls(n);
   bench_list_map(n);
 }
