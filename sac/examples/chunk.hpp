@@ -9,6 +9,7 @@
 // A list is its header: the chunk of the elements before the first boundary.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +19,8 @@ namespace examples {
 
 /// Log of the mean number of elements of a chunk.
 inline constexpr int kChunkBits = 3;
+/// Room for the elements of most chunks.
+inline constexpr std::size_t kRoom = std::size_t{2} << kChunkBits;
 
 [[nodiscard]] inline bool is_boundary(std::uint32_t id) noexcept { return heads(id) >= kChunkBits; }
 
@@ -55,6 +58,7 @@ template <class S, class T>
 void CutIntoChunks::operator()(S& s, Chunk<S, T>& self, const Node<S, T>* first) const {
   self.boundary = first->element;
   typename Chunk<S, T>::State state;
+  state.elements.reserve(kRoom);
   const auto* next = read_to_boundary(s, first, [&](const T& e) { state.elements.push_back(e); });
   if (next != nullptr) state.next = &s.template tail_make<Chunk<S, T>, cut_into_chunks>(next);
   s.write(self.state, std::move(state));

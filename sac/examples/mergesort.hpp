@@ -16,6 +16,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 
 #include "chunk.hpp"
 
@@ -37,16 +38,17 @@ void Merge::operator()(S& s, Chunk<S>& self, const Chunk<S>* a, const Chunk<S>* 
   const bool a_ends =
       in_a.next != nullptr && (in_b.next == nullptr || in_a.next->boundary < in_b.next->boundary);
   const Chunk<S>* const behind = a_ends ? in_a.next : in_b.next;
-  const auto first = [&](const auto& elements) {
-    return std::lower_bound(elements.begin(), elements.end(), self.boundary);
+  const auto shared = [&](const std::vector<Element>& elements) {
+    const auto begin = std::lower_bound(elements.begin(), elements.end(), self.boundary);
+    const auto end = behind == nullptr
+                         ? elements.end()
+                         : std::lower_bound(begin, elements.end(), behind->boundary);
+    return std::span(begin, end);
   };
-  const auto last = [&](const auto& elements) {
-    if (behind == nullptr) return elements.end();
-    return std::lower_bound(elements.begin(), elements.end(), behind->boundary);
-  };
+  const auto from_a = shared(in_a.elements), from_b = shared(in_b.elements);
   typename Chunk<S>::State state;
-  std::merge(first(in_a.elements), last(in_a.elements), first(in_b.elements), last(in_b.elements),
-             std::back_inserter(state.elements));
+  state.elements.resize(from_a.size() + from_b.size());
+  std::merge(from_a.begin(), from_a.end(), from_b.begin(), from_b.end(), state.elements.begin());
   if (behind != nullptr) {
     state.next = &s.template tail_make<Chunk<S>, merge>(a_ends ? behind : a, a_ends ? b : behind);
   }

@@ -33,6 +33,7 @@ void Part<kLess>::operator()(S& s, Chunk<S>& self, const Chunk<S>* from, Element
   const auto belongs = [&](const Element& e) { return kLess ? e < pivot : pivot < e; };
   self.boundary = from->boundary;
   typename Chunk<S>::State part_state;
+  part_state.elements.reserve(kRoom);
   const Chunk<S>* chunk = from;
   do {  // chunks whose boundary does not belong are joined to the one before
     const auto& state = s.read(chunk->state);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "array_map.hpp"
 #include "diameter.hpp"
 #include "distance.hpp"
 #include "example_harness.hpp"
@@ -231,6 +232,56 @@ struct MergesortApp : SortApp {
   using World = ListToList<mergesort, false, Host>;
 };
 
+// --- Arrays ----------------------------------------------------------------------------------
+
+struct ArrayApp {
+  static constexpr const char* kName = "array map";
+  using Input = std::vector<int>;
+  struct Edit {
+    std::size_t place;
+    int value;
+  };
+
+  static Input random_input(Random& random, int size) {
+    Input input;
+    for (int i = 0; i <= size; ++i) input.push_back(random(100));
+    return input;
+  }
+  static Edit random_edit(Random& random, const Input& input) {
+    return {static_cast<std::size_t>(random(static_cast<int>(input.size()))), random(100)};
+  }
+  static Edit inverse(const Input& input, const Edit& e) { return {e.place, input[e.place]}; }
+  static void apply(Input& input, const Edit& e) { input[e.place] = e.value; }
+  static std::vector<int> oracle(const Input& input) {
+    std::vector<int> out;
+    for (const int x : input) out.push_back(image(x));
+    return out;
+  }
+
+  template <class Host>
+  class World {
+   public:
+    World(Host& host, const Input& input) : host_(host) {
+      for (const int x : input) {
+        array_.in.push_back(host_.template input<int>(x));
+        array_.out.push_back(host_.template cell<int>());
+      }
+      host_.set_environment(&array_);
+      host_.template run<map_array>();
+    }
+    void edit(const Edit& e) { host_.set(array_.in[e.place], e.value); }
+    std::vector<int> result() {
+      std::vector<int> values;
+      for (const auto& mod : array_.out) values.push_back(host_.get(mod));
+      return values;
+    }
+
+   private:
+    Host& host_;
+    Array<ScopeOf<Host>> array_;
+  };
+};
+
 // --- Hulls -----------------------------------------------------------------------------------
 
 Point any_point(Random& random, std::uint32_t id) { return random_point(random, id, 0, 12); }
@@ -366,9 +417,10 @@ struct DistanceApp {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("list examples run plainly give what naive programs give", "", MapApp, FilterApp,
-                   ReverseApp, SumApp, MinimumApp, QuicksortApp, MergesortApp,
+TEMPLATE_TEST_CASE("list examples run plainly give what naive programs give", "", ArrayApp, MapApp,
+                   FilterApp, ReverseApp, SumApp, MinimumApp, QuicksortApp, MergesortApp,
                    QuickhullApp<any_point>, QuickhullApp<spread_point>, DiameterApp<any_point>,
                    DiameterApp<spread_point>, DistanceApp<8>, DistanceApp<1000>) {
   check_example_plain<TestType>(100, 100);
+  check_example_plain<TestType>(5, 2000);
 }
