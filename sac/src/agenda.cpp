@@ -18,15 +18,16 @@ bool Agenda::before(const Call& a, const Call& b) const {
   const detail::Slot& y = slot(b);
   if (x.rank != y.rank) return x.rank < y.rank;
   if (x.order != y.order) return x.order < y.order;
-  if (a.function != b.function) return a.function->name < b.function->name;
-  return a.function->compare(a, b) < 0;
+  if (a.function_number != b.function_number) return a.function().name < b.function().name;
+  return a.function().compare(a, b) < 0;
 }
 
 // --- Posting ---------------------------------------------------------------------------------
 
 Handle Agenda::find(const Function& function, std::uint32_t hash, const void* args) const {
+  const std::uint16_t number = engine_.functions_.number(function);
   return engine_.memo_.find(hash, [&](Handle, const Call& c) {
-    return c.function == &function && !c.has(Call::kDead) && slot(c).agenda == id_ &&
+    return c.function_number == number && !c.has(Call::kDead) && slot(c).agenda() == id_ &&
            function.equal(c, args);
   });
 }
@@ -35,7 +36,8 @@ Handle Agenda::create(const Function& function, const Key& key, std::uint32_t ha
                       const void* args, Construct construct) {
   const std::uint32_t rank = key.rank();
   const Handle h = engine_.new_call(function, hash, args, construct);
-  slot(engine_.call(h)) = detail::Slot{.order = key.order, .rank = rank, .agenda = id_};
+  slot(engine_.call(h)) =
+      detail::Slot{.order = key.order, .rank = rank, .agenda_and_posts = id_};
   engine_.call(h).set(Call::kPending);
   ++pending_calls_;
   return h;
@@ -43,9 +45,10 @@ Handle Agenda::create(const Function& function, const Key& key, std::uint32_t ha
 
 void Agenda::post_call(Scope& s, const Function& function, const Key& key, std::uint32_t hash,
                        const void* args, Construct construct) {
+  const std::uint16_t number = engine_.functions_.number(function);
   const auto repeats = [&](const PostEdge& edge) {
     const Call& c = engine_.call(edge.target);
-    return c.hash == hash && c.function == &function && function.equal(c, args);
+    return c.function_number == number && function.equal(c, args);
   };
   if (s.recall<PostEdge>(id_, kPost, repeats) != nullptr) return;
   Handle h = find(function, hash, args);
@@ -53,6 +56,7 @@ void Agenda::post_call(Scope& s, const Function& function, const Key& key, std::
   if (fresh) h = create(function, key, hash, args, construct);
   Call& posted = engine_.call(h);
   try {
+    require_room(posted);
     require_future(s.self(), posted);
     if (fresh) drained_ ? place(h) : add_pending(h);
   } catch (...) {
@@ -67,7 +71,7 @@ void Agenda::post_call(Scope& s, const Function& function, const Key& key, std::
 // drain, what comes after the posted call that runs; then, what has its place behind the poster.
 bool Agenda::in_future(const Call& poster, const Call& posted) const {
   if (!draining_ && !drained_) return true;
-  if (poster.function->posted && slot(poster).agenda == id_) return before(poster, posted);
+  if (poster.has(Call::kPosted) && slot(poster).agenda() == id_) return before(poster, posted);
   if (draining_) return running_ != 0 && before(engine_.call(running_), posted);
   if (!posted.has(Call::kPending)) return engine_.precedes(poster, posted);
   if (engine_.precedes(poster, engine_.call(drain_call_))) return true;
@@ -104,22 +108,28 @@ void Agenda::outside_post(const Function& function, const Key& key, std::uint32_
       throw;
     }
   }
+  require_room(engine_.call(h));
   add_post(engine_.call(h));
+}
+
+void Agenda::require_room(const Call& call) const {
+  if (slot(call).posts() < detail::Slot::kMostPosts) return;
+  throw UsageError("agenda '" + name_ + "': too many calls post " + Engine::describe(call));
 }
 
 const Call& Agenda::require_posted(const Function& function, std::uint32_t hash,
                                    const void* args) const {
   const Handle h = find(function, hash, args);
-  if (h == 0 || engine_.call(h).posts() == 0) {
+  if (h == 0 || slot(engine_.call(h)).posts() == 0) {
     throw UsageError("agenda '" + name_ + "': nothing to retract");
   }
   return engine_.call(h);
 }
 
 void Agenda::drop_post(Call& call) noexcept {
-  call.state -= Call::kOnePost;
+  slot(call).agenda_and_posts -= detail::Slot::kOnePost;
   if (call.has(Call::kPending)) unposted_ = true;
-  if (call.posts() != 0 || call.has(Call::kPending | Call::kDead) || call.queue != 0) return;
+  if (slot(call).posts() != 0 || call.has(Call::kPending | Call::kDead) || call.queue != 0) return;
   engine_.enqueue(call);
 }
 
@@ -146,7 +156,7 @@ void Agenda::drop_pending(Handle call) noexcept {
 void Agenda::drop_unposted() noexcept {
   if (!std::exchange(unposted_, false)) return;
   const auto drop = [&](Handle h) {
-    const bool unposted = engine_.call(h).posts() == 0;
+    const bool unposted = slot(engine_.call(h)).posts() == 0;
     if (unposted) drop_pending(h);
     return unposted;
   };
@@ -165,7 +175,7 @@ void Agenda::drop_unposted() noexcept {
 
 // A call whose drain is gone waits for another one.
 void Agenda::detach(Engine& engine, Call& call) noexcept {
-  auto& agenda = static_cast<Agenda&>(*engine.structures_[slot(call).agenda]);
+  auto& agenda = static_cast<Agenda&>(*engine.structures_[slot(call).agenda()]);
   call.clear(Call::kRunning);
   call.set(Call::kPending | Call::kInvalid);
   call.end = 0;
@@ -223,7 +233,7 @@ void Agenda::place(Handle call) {
 // A discarded call leaves the order.
 void Agenda::forget(Engine& engine, Call& call) noexcept {
   const detail::Slot& s = slot(call);
-  auto& agenda = static_cast<Agenda&>(*engine.structures_[s.agenda]);
+  auto& agenda = static_cast<Agenda&>(*engine.structures_[s.agenda()]);
   const auto order = [&](Handle a, Handle b) {
     return agenda.before(engine.call(a), engine.call(b));
   };
@@ -320,7 +330,7 @@ void Agenda::run_class(std::uint32_t rank) {
 
 void Agenda::run_one(const Entry& entry, OrderedCalls& done) {
   Call& c = engine_.call(entry.call);
-  if (c.posts() == 0) {  // posted, then taken back before it could run
+  if (slot(c).posts() == 0) {  // posted, then taken back before it could run
     c.clear(Call::kPending);
     return drop_pending(entry.call);
   }
@@ -352,7 +362,7 @@ void Agenda::check_invariants() const {
   for (const auto& [rank, calls] : classes_) {
     calls.for_each([&, rank = rank](const Entry& entry) {
       const Call& c = engine_.call(entry.call);
-      SAC_INVARIANT(!c.has(Call::kDead | Call::kPending) && c.posts() > 0);
+      SAC_INVARIANT(!c.has(Call::kDead | Call::kPending) && slot(c).posts() > 0);
       SAC_INVARIANT(slot(c).rank == rank && slot(c).order == entry.order);
       SAC_INVARIANT(previous == nullptr ||
                     (before(*previous, c) && engine_.precedes(*previous, c)));

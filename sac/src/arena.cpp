@@ -1,4 +1,4 @@
-// Reserving, committing and the free lists of large blocks.
+// Reserving, committing, the free lists of large blocks, and giving pages back.
 #include "sac/arena.hpp"
 
 #include <sys/mman.h>
@@ -12,33 +12,52 @@ namespace sac {
 
 namespace {
 
-// 2^32 handles of 8 bytes.
-constexpr std::size_t kReserve = (std::size_t{1} << 32) * Arena::kGranule;
-// Commit in steps of 2 MiB (one huge page) at least, growing by a 16th.
+// Commit in steps of 2 MiB (one huge page) at least, growing by a 16th. The first steps do without
+// huge pages: a small engine touches a few small ones.
 constexpr std::size_t kStep = std::size_t{2} << 20;
+constexpr std::size_t kHugeFrom = 4 * kStep;
+constexpr std::size_t kPage = 4096;
+constexpr std::size_t kPageGranules = kPage / Arena::kGranule;
+constexpr std::size_t kHeaderGranules =
+    (sizeof(Arena::Header) + Arena::kGranule - 1) / Arena::kGranule;
 
 }  // namespace
 
-Arena::Arena() {
-  void* range =
-      mmap(nullptr, kReserve, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+Arena::Arena() : next_(kHeaderGranules) {
+  constexpr int kFlags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
+  void* range = mmap(nullptr, 2 * kReserve, PROT_NONE, kFlags, -1, 0);
   if (range == MAP_FAILED) throw std::bad_alloc();
-  base_ = static_cast<std::byte*>(range);
+  auto* start = static_cast<std::byte*>(range);
+  const std::size_t before = -reinterpret_cast<std::uintptr_t>(start) & (kReserve - 1);
+  base_ = start + before;
+  if (before != 0) munmap(start, before);
+  munmap(base_ + kReserve, kReserve - before);
+  try {
+    commit(kPage);
+  } catch (...) {
+    munmap(base_, kReserve);
+    throw;
+  }
+  ::new (static_cast<void*>(base_)) Header;
 }
 
 Arena::~Arena() { munmap(base_, kReserve); }
 
 void Arena::commit(std::size_t bytes) {
+  if (bytes > limit_) throw std::bad_alloc();
   if (bytes <= committed_) return;
-  if (bytes > kReserve) throw std::bad_alloc();
   const std::size_t wanted = std::max(bytes, committed_ + committed_ / 16);
   const std::size_t target = std::min(kReserve, (wanted + kStep - 1) / kStep * kStep);
   if (mprotect(base_ + committed_, target - committed_, PROT_READ | PROT_WRITE) != 0) {
     throw std::bad_alloc();
   }
-  madvise(base_ + committed_, target - committed_, MADV_HUGEPAGE);  // a hint: failure is harmless
+  if (committed_ >= kHugeFrom) {  // a hint: failure is harmless
+    madvise(base_ + committed_, target - committed_, MADV_HUGEPAGE);
+  }
   committed_ = target;
 }
+
+void Arena::fail() { throw std::bad_alloc(); }
 
 Handle Arena::allocate_slowly(std::size_t granules) {
   SAC_EXPECTS(granules > 0);
@@ -51,9 +70,19 @@ Handle Arena::allocate_slowly(std::size_t granules) {
     }
     free_large_.try_emplace(granules, 0);  // so that release_large cannot fail
   }
-  commit((next_ + granules) * kGranule);
-  const Handle handle = static_cast<Handle>(next_);
-  next_ += granules;
+  Handle handle;
+  if (!spares_.empty() && spares_.back().granules >= granules) {
+    Run& run = spares_.back();
+    handle = run.first;
+    run.first += static_cast<Handle>(granules);
+    run.granules -= granules;
+    spare_ -= granules;
+    if (run.granules == 0) spares_.pop_back();
+  } else {
+    commit((next_ + granules) * kGranule);
+    handle = static_cast<Handle>(next_);
+    next_ += granules;
+  }
   used_ += granules;
   return handle;
 }
@@ -64,18 +93,85 @@ void Arena::release_large(Handle handle, std::size_t granules) noexcept {
   head = handle;
 }
 
-void Arena::check_invariants() const {
-  std::size_t free_granules = 0;
-  const auto walk = [&](std::size_t granules, Handle head) {
-    for (; head != 0; head = *at<Handle>(head)) {
-      SAC_INVARIANT(head + granules <= next_);
-      free_granules += granules;
-    }
+// --- Giving pages back -----------------------------------------------------------------------
+
+std::vector<Arena::Run> Arena::free_blocks() const {
+  std::vector<Run> blocks;
+  const auto collect = [&](std::size_t granules, Handle head) {
+    for (; head != 0; head = *at<Handle>(head)) blocks.push_back({head, granules});
   };
-  for (std::size_t granules = 1; granules < kSmall; ++granules) walk(granules, free_[granules]);
-  for (const auto& [granules, head] : free_large_) walk(granules, head);
-  SAC_INVARIANT(free_granules + used_ + 1 == next_);
-  SAC_INVARIANT(next_ * kGranule <= committed_ || next_ == 1);
+  for (std::size_t granules = 1; granules < kSmall; ++granules) collect(granules, free_[granules]);
+  for (const auto& [granules, head] : free_large_) collect(granules, head);
+  return blocks;
+}
+
+// Puts a run of free granules on the free lists, in blocks of the largest small size.
+void Arena::keep_free(Run run) noexcept {
+  while (run.granules > 0) {
+    const std::size_t size = std::min(run.granules, kSmall - 1);
+    *at<Handle>(run.first) = free_[size];
+    free_[size] = run.first;
+    run.first += static_cast<Handle>(size);
+    run.granules -= size;
+  }
+}
+
+// Free blocks that touch are joined; of a run, whole pages go back to the system and their
+// granules are spare, and what is left keeps waiting on the free lists.
+void Arena::shrink() {
+  std::vector<Run> runs = free_blocks();
+  runs.insert(runs.end(), spares_.begin(), spares_.end());
+  std::sort(runs.begin(), runs.end(), [](Run a, Run b) { return a.first > b.first; });
+  std::vector<Run> joined;  // from the last to the first, so that low ones are used first
+  joined.reserve(runs.size());
+  for (const Run& run : runs) {
+    if (!joined.empty() && run.first + run.granules == joined.back().first) {
+      joined.back() = {run.first, run.granules + joined.back().granules};
+    } else {
+      joined.push_back(run);
+    }
+  }
+  std::vector<Run> spares;
+  spares.reserve(joined.size());
+  for (auto& [granules, head] : free_large_) head = 0;
+  free_.fill(0);
+  spare_ = 0;
+  for (const Run& run : joined) {
+    const std::size_t end = run.first + run.granules;
+    if (end == next_) {
+      next_ = run.first;
+      continue;
+    }
+    const std::size_t first_page = (run.first + kPageGranules - 1) / kPageGranules;
+    const std::size_t end_page = end / kPageGranules;
+    if (first_page >= end_page) {
+      keep_free(run);
+      continue;
+    }
+    const std::size_t from = first_page * kPageGranules;
+    const std::size_t granules = (end_page - first_page) * kPageGranules;
+    keep_free({run.first, from - run.first});
+    keep_free({static_cast<Handle>(from + granules), end - from - granules});
+    madvise(base_ + from * kGranule, granules * kGranule, MADV_DONTNEED);
+    spares.push_back({static_cast<Handle>(from), granules});
+    spare_ += granules;
+  }
+  spares_.swap(spares);
+  const std::size_t behind = (next_ * kGranule + kPage - 1) / kPage * kPage;
+  if (behind < committed_) madvise(base_ + behind, committed_ - behind, MADV_DONTNEED);
+}
+
+void Arena::check_invariants() const {
+  std::size_t free_granules = spare_;
+  for (const Run& block : free_blocks()) {
+    SAC_INVARIANT(block.first + block.granules <= next_);
+    free_granules += block.granules;
+  }
+  std::size_t spare = 0;
+  for (const Run& run : spares_) spare += run.granules;
+  SAC_INVARIANT(spare == spare_);
+  SAC_INVARIANT(free_granules + used_ + kHeaderGranules == next_);
+  SAC_INVARIANT(next_ * kGranule <= committed_);
 }
 
 }  // namespace sac

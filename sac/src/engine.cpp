@@ -1,6 +1,7 @@
 // Execution, re-execution, settling, discarding and roll-back.
 #include "sac/engine.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "sac/agenda.hpp"
@@ -18,26 +19,17 @@ Engine::Engine()
 // Nothing is retracted: only what needs destroying is visited. Values go before the cells that
 // hold them.
 Engine::~Engine() {
+  arena_.header().ending = true;
   agendas_.clear();
   for (Handle h = at<TimeNode>(timeline_.front())->next; h != 0; h = at<TimeNode>(h)->next) {
-    if (at<TimeNode>(h)->marked()) continue;
-    Call& c = *at<Call>(h);
-    const auto destroy_versions = [&](Edge& edge) {
-      auto& write = static_cast<detail::WriteEdge&>(edge);
-      auto& version = *at<detail::Version>(write.version);
-      if (version.written) write.ops->destroy(version);
-      version.written = false;
-    };
-    for (Handle e = c.edges; e != 0; e = at<Edge>(e)->next) {
-      if (at<Edge>(e)->structure == 0 && at<Edge>(e)->kind == ModStructure::kWrite) {
-        destroy_versions(*at<Edge>(e));
-      }
-    }
+    if (!at<TimeNode>(h)->marked()) mods_->destroy_values(*at<Call>(h));
   }
   memo_.for_each([](Call& c) {
-    if (c.function->destroy != nullptr) c.function->destroy(c);
+    if (c.function().destroy != nullptr) c.function().destroy(c);
   });
-  for (const auto& [head, destroy] : outside_mods_) destroy(*this, head);
+  for (const Handle h : outside_) {
+    outside_types_[at<OutsideHead>(h)->type].destroy(at<OutsideHead>(h) + 1);
+  }
 }
 
 std::uint8_t Engine::add_structure(Structure& structure) {
@@ -52,33 +44,153 @@ Agenda& Engine::make_agenda(std::string name) {
   return *agendas_.back();
 }
 
-std::size_t Engine::bytes() const noexcept {
-  std::size_t total = arena_.bytes_used() + timeline_.bytes() + memo_.bytes();
-  for (const auto& agenda : agendas_) total += agenda->bytes();
-  return total;
-}
-
 std::string Engine::describe(const Call& call) {
   std::ostringstream out;
-  out << call.function->name << '(';
-  call.function->print(call, out);
+  out << call.function().name << '(';
+  call.function().print(call, out);
   out << ')';
   return out.str();
 }
+
+std::string Engine::describe_mod(Handle head) const {
+  const std::string handle = '@' + std::to_string(head);
+  const auto name = names_.find(head);
+  return name == names_.end() ? "modifiable " + handle
+                              : "modifiable '" + name->second + "' (" + handle + ')';
+}
+
+// --- Objects of the outside ------------------------------------------------------------------
+
+Handle Engine::new_outside(const OutsideType& type) {
+  if (outside_.size() == outside_.capacity()) outside_.reserve(2 * outside_.size() + 16);
+  const std::uint16_t number = outside_types_.number(type);
+  const Handle head = arena_.allocate(type.bytes);
+  ::new (at<void>(head)) OutsideHead{static_cast<std::uint32_t>(outside_.size()), number, false};
+  outside_.push_back(head);
+  return head;
+}
+
+void Engine::release_outside(void* object) {
+  begin_edit();
+  const Handle head = arena_.handle_of(static_cast<OutsideHead*>(object) - 1);
+  const bool known = arena_.contains(object) && at<OutsideHead>(head)->position < outside_.size() &&
+                     outside_[at<OutsideHead>(head)->position] == head;
+  if (!known) throw UsageError("release: not an object of the outside");
+  if (at<OutsideHead>(head)->released) throw UsageError("release: it has been released already");
+  released_.reserve(released_.size() + 1);
+  on_rollback([this] {
+    at<OutsideHead>(released_.back())->released = false;
+    released_.pop_back();
+  });
+  at<OutsideHead>(head)->released = true;
+  released_.push_back(head);
+}
+
+void Engine::free_released() noexcept {
+  for (const Handle h : released_) {
+    OutsideHead& head = *at<OutsideHead>(h);
+    const OutsideType& type = outside_types_[head.type];
+    outside_[head.position] = outside_.back();
+    at<OutsideHead>(outside_.back())->position = head.position;
+    outside_.pop_back();
+    type.destroy(&head + 1);
+    arena_.release(h, type.bytes);
+  }
+  released_.clear();
+}
+
+void Engine::require_unwritten(Handle head) const {
+  const auto& version = *at<detail::Version>(head);
+  if (!version.written && version.history == 0) return;
+  throw UsageError("set: " + describe_mod(head) + " is written by the program, in " +
+                   describe(*at<Call>(mods_->last(head).writer)));
+}
+
+// --- What the client is told -----------------------------------------------------------------
+
+Memory Engine::memory() const noexcept {
+  Memory m;
+  m.calls_and_edges_live = arena_.bytes_used();
+  m.calls_and_edges_held = arena_.bytes_held();
+  m.time_stamps = timeline_.bytes();
+  m.memo_table = memo_.bytes();
+  m.queue = queue_.bytes();
+  for (const auto& agenda : agendas_) m.agendas += agenda->bytes();
+  m.versions = mods_->bytes();
+  return m;
+}
+
+std::vector<FunctionProfile> Engine::profile() const {
+  std::vector<FunctionProfile> functions(functions_.size());
+  walk([&](const Call& c, std::size_t) {
+    FunctionProfile& f = functions[c.function_number];
+    ++f.calls;
+    f.bytes += c.function().frame_bytes;
+    for_each_edge(c, [&](const Edge& edge) {
+      ++f.edges;
+      f.edge_bytes += edge.granules * Arena::kGranule;
+    });
+  });
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    functions[i].name = functions_[static_cast<std::uint16_t>(i)].name;
+  }
+  std::erase_if(functions, [](const FunctionProfile& f) { return f.calls == 0; });
+  std::stable_sort(functions.begin(), functions.end(), [](const auto& a, const auto& b) {
+    return a.bytes + a.edge_bytes > b.bytes + b.edge_bytes;
+  });
+  return functions;
+}
+
+void Engine::shrink() {
+  require_usable();
+  require_idle("shrink");
+  arena_.shrink();
+  memo_.shrink();
+  queue_.shrink(live_calls_);
+  graveyard_ = {};
+  graveyard_.reserve(live_calls_);
+}
+
+void Engine::set_progress(std::function<bool(const Progress&)> report, std::uint64_t every) {
+  require_idle("set_progress");
+  SAC_EXPECTS(every > 0);
+  progress_ = std::move(report);
+  progress_every_ = every;
+}
+
+void Engine::report_progress() {
+  progress_at_ += progress_every_;
+  if (!progress_({.executed = counts_.executed, .queued = queue_.size()})) throw Cancelled();
+}
+
+// --- Entering --------------------------------------------------------------------------------
 
 void Engine::require_usable() const {
   if (broken_) throw UsageError("the engine is broken: a roll-back failed earlier");
 }
 
+void Engine::require_idle(const char* what) const {
+  if (mode_ == Mode::idle) return;
+  std::string text = std::string(what) + ": the engine is running";
+  if (current_ != nullptr && current_->call != nullptr) text += ' ' + describe(*current_->call);
+  throw UsageError(text);
+}
+
+Engine::Activation& Engine::running(const char* what) {
+  if (current_ != nullptr) return *current_;
+  throw UsageError(std::string(what) + ": used while no traced function runs");
+}
+
 void Engine::enter(Mode mode) {
   require_usable();
-  if (mode_ != Mode::idle) throw UsageError("the engine is running: it cannot be entered again");
+  require_idle(mode == Mode::running ? "run" : "propagate");
   mode_ = mode;
+  progress_at_ = progress_ ? counts_.executed : ~std::uint64_t{0};
 }
 
 void Engine::begin_edit() {
   require_usable();
-  if (mode_ != Mode::idle) throw UsageError("the engine is running: inputs cannot be edited");
+  require_idle("edit");
 }
 
 void Engine::undo_edits() {
@@ -109,6 +221,7 @@ Counts Engine::run_root(const Function& function, std::uint32_t hash, const void
     finish();
     throw;
   }
+  free_released();
   const Counts done = counts_;
   finish();
   return done;
@@ -124,16 +237,21 @@ Counts Engine::propagate() {
     throw;
   }
   rollback_.clear();
+  free_released();
   const Counts done = counts_;
   finish();
   return done;
+}
+
+bool Engine::unposted(const Call& call) const noexcept {
+  return call.has(Call::kPosted) && Agenda::slot(call).posts() == 0;
 }
 
 // Whether the earliest invalid call is `call` or a descendant. A posted call can die while it runs,
 // when it passes over its last poster; it waits until what runs has ended.
 bool Engine::next_is_within(Handle call) const noexcept {
   const Call& first = *at<Call>(queue_.front());
-  if (queue_.front() == call) return !first.function->posted || first.posts() != 0;
+  if (queue_.front() == call) return !unposted(first);
   return precedes(*at<Call>(call), first) &&
          !timeline_.precedes(*at<TimeNode>(end_of(call)), first);
 }
@@ -143,7 +261,7 @@ void Engine::propagate_within(Handle call) {
   while (!queue_.empty() && (call == 0 || next_is_within(call))) {
     const Handle h = queue_.pop();
     Call& c = *at<Call>(h);
-    if (c.function->posted && c.posts() == 0) {
+    if (unposted(c)) {
       discard_subtree(h);
     } else if (c.has(Call::kInvalid)) {
       now_ = h;
@@ -155,6 +273,8 @@ void Engine::propagate_within(Handle call) {
 void Engine::roll_back() {
   current_ = nullptr;
   suspects_.clear();
+  mode_ = Mode::undoing;
+  progress_at_ = ~std::uint64_t{0};
   try {
     for (auto undo = rollback_.rbegin(); undo != rollback_.rend(); ++undo) (*undo)();
     if (!broken_) propagate_within(0);
@@ -197,16 +317,18 @@ void Engine::check_audit() {
 // --- Calls -----------------------------------------------------------------------------------
 
 Handle Engine::new_call(const Function& function, std::uint32_t hash, const void* args,
-                        void (*construct)(void*, const void*)) {
+                        Construct construct) {
   queue_.reserve(live_calls_ + 1);  // so that invalidating and discarding cannot fail
   if (graveyard_.capacity() < live_calls_ + graveyard_.size() + 1) {
     graveyard_.reserve(2 * (live_calls_ + graveyard_.size()) + 64);
   }
+  const std::uint16_t number = functions_.number(function);
+  arena_.header().functions = functions_.data();
   const Handle h = arena_.allocate(function.frame_bytes);
   Call& c = *::new (at<void>(h)) Call;
-  c.function = &function;
-  c.hash = hash;
-  c.state = Call::kInvalid;
+  c.function_number = number;
+  c.state = function.execute != nullptr ? Call::kInvalid : 0;
+  if (function.posted) c.set(Call::kPosted);
   try {
     construct(&c, args);
   } catch (...) {
@@ -214,8 +336,8 @@ Handle Engine::new_call(const Function& function, std::uint32_t hash, const void
     throw;
   }
   try {
-    if (audit_) suspect(h, args);
-    memo_.insert(h);
+    if (audit_) suspect(h, hash, args);
+    appending() ? memo_.insert_soon(h, hash) : memo_.insert(h, hash);
   } catch (...) {
     if (function.destroy != nullptr) function.destroy(c);
     arena_.release(h, function.frame_bytes);
@@ -223,14 +345,16 @@ Handle Engine::new_call(const Function& function, std::uint32_t hash, const void
   }
   ++live_calls_;
   ++counts_.created;
+  if (observer_ != nullptr) [[unlikely]] note(Event::Kind::created, &c);
   return h;
 }
 
 void Engine::free_call(Handle call) noexcept {
   Call& c = *at<Call>(call);
-  memo_.erase(call);
-  if (c.function->destroy != nullptr) c.function->destroy(c);
-  arena_.release(call, c.function->frame_bytes);
+  const Function& function = c.function();
+  memo_.erase(call, function.hash(c));
+  if (function.destroy != nullptr) function.destroy(c);
+  arena_.release(call, function.frame_bytes);
 }
 
 // A call that got no place, or lost it, leaves for good.
@@ -251,10 +375,10 @@ void Engine::insert_call(Handle call) {
   now_ = call;
 }
 
-void Engine::suspect(Handle fresh, const void* args) {
+void Engine::suspect(Handle fresh, std::uint32_t hash, const void* args) {
   const Call& f = *at<Call>(fresh);
-  const Handle other = memo_.find(f.hash, [&](Handle, const Call& c) {
-    return c.function == f.function && c.function->equal(c, args);
+  const Handle other = memo_.find(hash, [&](Handle, const Call& c) {
+    return c.function_number == f.function_number && f.function().equal(c, args);
   });
   if (other != 0) suspects_.emplace_back(fresh, other);
 }
@@ -262,41 +386,63 @@ void Engine::suspect(Handle fresh, const void* args) {
 // A call whose end stamp is the limit itself can only be the tail of the call that ends there:
 // as anything else it would leave no room before that end.
 Handle Engine::find_reusable(const Function& function, std::uint32_t hash, const void* args,
-                             bool tail) const {
+                             bool tail) {
   const Handle limit = current_->limit;
   if (at<TimeNode>(now_)->next == limit) return 0;  // nothing ahead: a first run
   const bool may_share_end = tail && current_->end == limit;
+  const std::uint16_t number = functions_.number(function);
   return memo_.find(hash, [&](Handle, const Call& c) {
-    constexpr std::uint32_t kUnfit = Call::kDead | Call::kRunning | Call::kPending;
-    return c.function == &function && !c.has(kUnfit) && !function.posted &&
-           lies_ahead(c) && (limit == 0 || timeline_.precedes(c, *at<TimeNode>(limit))) &&
+    constexpr std::uint16_t kUnfit = Call::kDead | Call::kRunning | Call::kPosted;
+    return c.function_number == number && !c.has(kUnfit) && lies_ahead(c) &&
+           (limit == 0 || timeline_.precedes(c, *at<TimeNode>(limit))) &&
            (c.end == 0 || c.end != limit || may_share_end) && function.equal(c, args);
   });
 }
 
 Handle Engine::call_child(const Function& function, std::uint32_t hash, const void* args,
-                          void (*construct)(void*, const void*)) {
-  if (current_ == nullptr) throw UsageError("call: only a running function can call");
-  if (current_->tail != 0) throw UsageError("call: a tail call must be the last thing done");
-  need_end(*current_);
+                          Construct construct) {
+  Activation& caller = running("call");
+  require_no_tail(caller, function);
+  need_end(caller);
   Handle child = find_reusable(function, hash, args, false);
   if (child != 0) {
     discard_between(now_, child);
     now_ = end_of(child);
     ++counts_.reused;
+    if (observer_ != nullptr) [[unlikely]] note(Event::Kind::reused, at<Call>(child));
+    if (function.has_result) depend_on_result(child);
   } else {
     child = new_call(function, hash, args, construct);
     insert_call(child);
-    execute(child, current_->limit);
+    if (function.has_result) depend_on_result(child);
+    if (function.execute == nullptr) return child;
+    execute(child, caller.limit);
   }
   settle_child(child);
   return child;
 }
 
+void Engine::require_no_tail(const Activation& caller, const Function& function) const {
+  if (caller.tail == 0) return;
+  throw UsageError(describe(*caller.call) + " calls " + std::string(function.name) +
+                   " behind its tail call, which must be the last");
+}
+
+// The last call that asked for it depends on its result.
+void Engine::depend_on_result(Handle child) noexcept {
+  reinterpret_cast<ResultHead*>(at<Call>(child) + 1)->caller = handle_of(*current_->call);
+}
+
+void Engine::result_changed(Handle caller) noexcept {
+  Call& c = *at<Call>(caller);
+  if (observer_ != nullptr) [[unlikely]] note(Event::Kind::returned, &c);
+  invalidate(c);
+}
+
 // Runs what is invalid in a child that was reused, or in what the child reused: whatever precedes
 // the running call is settled.
 void Engine::settle_child(Handle child) {
-  if (mode_ != Mode::propagating || queue_.empty()) return;
+  if (mode_ == Mode::running || queue_.empty()) return;
   try {
     propagate_within(child);
   } catch (...) {
@@ -306,14 +452,15 @@ void Engine::settle_child(Handle child) {
   now_ = end_of(child);
 }
 
-void Engine::call_tail(const Function& function, std::uint32_t hash, const void* args,
-                       void (*construct)(void*, const void*)) {
-  if (current_ == nullptr) throw UsageError("tail: only a running function can call");
-  if (current_->tail != 0) throw UsageError("tail: a tail call must be the last thing done");
-  need_end(*current_);
+Handle Engine::call_tail(const Function& function, std::uint32_t hash, const void* args,
+                         Construct construct) {
+  Activation& caller = running("tail");
+  require_no_tail(caller, function);
+  need_end(caller);
   const Handle old = find_reusable(function, hash, args, true);
-  current_->tail_reused = old != 0;
-  current_->tail = old != 0 ? old : new_call(function, hash, args, construct);
+  caller.tail_reused = old != 0;
+  caller.tail = old != 0 ? old : new_call(function, hash, args, construct);
+  return caller.tail;
 }
 
 // A call gets its end stamp with its first child. It is linked when the call closes, because the
@@ -357,9 +504,11 @@ void Engine::run_body(Activation& a, Handle call) {
   a.last_edge = 0;
   c.clear(Call::kInvalid);
   c.set(Call::kRunning);
+  if (counts_.executed >= progress_at_) [[unlikely]] report_progress();
   ++counts_.executed;
+  if (observer_ != nullptr) [[unlikely]] note(Event::Kind::executed, &c);
   Scope scope(*this);
-  c.function->execute(scope, c);
+  c.function().execute(scope, c);
   settle(a);
 }
 
@@ -375,8 +524,9 @@ void Engine::close(Activation& a) {
   if (a.tail != 0) {
     discard_between(now_, a.tail);
     now_ = end_of(a.tail);
-    a.tail = 0;
     ++counts_.reused;
+    if (observer_ != nullptr) [[unlikely]] note(Event::Kind::reused, at<Call>(a.tail));
+    a.tail = 0;
   }
   if (a.end == 0 || now_ == a.end) return;  // a reused tail may share the end
   if (a.end_linked) {
@@ -420,11 +570,12 @@ void Engine::discard_between(Handle from, Handle to) noexcept {
 // A posted call that is still asked for goes back to its agenda: only the drain that ran it left.
 void Engine::discard(Handle call) noexcept {
   Call& c = *at<Call>(call);
-  const bool asked_for = c.posts() != 0;
+  const bool asked_for = c.has(Call::kPosted) && Agenda::slot(c).posts() != 0;
+  if (observer_ != nullptr) [[unlikely]] note(Event::Kind::discarded, &c);
   c.set(asked_for ? Call::kPending : Call::kDead);
   if (c.queue != 0) queue_.erase(c);
   retract_all(c, std::exchange(c.edges, 0));
-  if (c.function->posted) Agenda::forget(*this, c);
+  if (c.has(Call::kPosted)) Agenda::forget(*this, c);
   timeline_.erase(call);
   if (asked_for) return Agenda::detach(*this, c);
   drop_call(call);
@@ -478,6 +629,7 @@ void Engine::check_invariants() const {
   SAC_INVARIANT(mode_ == Mode::idle && current_ == nullptr && graveyard_.empty());
   arena_.check_invariants();
   timeline_.check_invariants();
+  memo_.check_invariants();
   queue_.check_invariants();
   std::uint64_t calls = 0;
   std::uint64_t edges = 0;
@@ -485,17 +637,16 @@ void Engine::check_invariants() const {
     ++calls;
     SAC_INVARIANT(!c.has(Call::kDead | Call::kRunning | Call::kPending));
     SAC_INVARIANT(c.end == 0 || precedes(c, *at<Call>(c.end)));
-    SAC_INVARIANT(c.function->hash != nullptr);
     const Handle self = arena_.handle_of(&c);
-    SAC_INVARIANT(memo_.find(c.hash, [&](Handle h, const Call&) { return h == self; }) == self);
+    SAC_INVARIANT(memo_.contains(self, c.function().hash(c)));
     for (Handle e = c.edges; e != 0; e = at<Edge>(e)->next) {
       ++edges;
       SAC_INVARIANT(at<Edge>(e)->structure < structures_.size());
     }
     if (queue_.empty()) mods_->check_writes(c);
   });
-  if (queue_.empty()) {
-    for (const auto& [head, destroy] : outside_mods_) mods_->check_invariants(head);
+  for (std::size_t i = 0; i < outside_.size(); ++i) {
+    SAC_INVARIANT(at<OutsideHead>(outside_[i])->position == i);
   }
   for (const auto& agenda : agendas_) calls += agenda->pending_calls();
   SAC_INVARIANT(calls == live_calls_ && edges == live_edges_);

@@ -1,28 +1,97 @@
-// Growing and erasing of the memo table.
+// Moving entries of the memo table.
 #include "sac/memo_table.hpp"
+
+#include <algorithm>
+
+#include "sac/check.hpp"
 
 namespace sac {
 
-void MemoTable::erase(Handle call) noexcept {
-  Handle* link = &buckets_[bucket(at(call)->hash)];
-  while (*link != call) link = &at(*link)->memo_next;
-  *link = at(call)->memo_next;
-  --size_;
+// Pushes larger hashes one place on. The last entry stays free, to end every search.
+void MemoTable::put(Entry entry) {
+  std::size_t i = place(entry.hash);
+  while (entries_[i].call != 0 && entries_[i].hash <= entry.hash) ++i;
+  std::size_t free = i;
+  while (entries_[free].call != 0) ++free;
+  if (free + 1 >= entries_.size()) {
+    entries_.resize(entries_.size() + entries_.size() / 2);  // many equal hashes, near the end
+  }
+  std::move_backward(entries_.begin() + static_cast<std::ptrdiff_t>(i),
+                     entries_.begin() + static_cast<std::ptrdiff_t>(free),
+                     entries_.begin() + static_cast<std::ptrdiff_t>(free + 1));
+  entries_[i] = entry;
 }
 
-void MemoTable::grow() {
-  std::vector<Handle> wider(buckets_.size() * 2, 0);
-  const std::size_t mask = wider.size() - 1;
-  for (Handle head : buckets_) {
-    while (head != 0) {
-      Call& c = *at(head);
-      const Handle next = c.memo_next;
-      c.memo_next = wider[c.hash & mask];
-      wider[c.hash & mask] = head;
-      head = next;
+void MemoTable::settle() {
+  for (Entry& e : waiting_) {
+    if (e.call != 0) put(e);
+    e = {};
+  }
+  any_waiting_ = false;
+}
+
+void MemoTable::erase(Handle call, std::uint32_t hash) noexcept {
+  --size_;
+  if (any_waiting_) {
+    for (Entry& e : waiting_) {
+      if (e.call != call) continue;
+      e = {};
+      return;
     }
   }
-  buckets_.swap(wider);
+  std::size_t i = place(hash);
+  while (entries_[i].call != call) ++i;
+  for (; entries_[i + 1].call != 0 && place(entries_[i + 1].hash) <= i; ++i) {
+    entries_[i] = entries_[i + 1];
+  }
+  entries_[i] = {};
+}
+
+bool MemoTable::contains(Handle call, std::uint32_t hash) const noexcept {
+  for (const Entry& e : waiting_) {
+    if (e.call == call) return e.hash == hash;
+  }
+  for (std::size_t i = place(hash); entries_[i].call != 0 && entries_[i].hash <= hash; ++i) {
+    if (entries_[i].call == call) return entries_[i].hash == hash;
+  }
+  return false;
+}
+
+// Entries come in the order of their hashes, and are put down in it.
+void MemoTable::resize(std::size_t places) {
+  std::vector<Entry> fresh(places + places / 16 + 64);
+  const auto place_in_fresh = [&](std::uint32_t hash) {
+    return static_cast<std::size_t>(std::uint64_t{hash} * places >> 32);
+  };
+  std::size_t next = 0;
+  for (const Entry& e : entries_) {
+    if (e.call == 0) continue;
+    next = std::max(next, place_in_fresh(e.hash));
+    if (next + 1 >= fresh.size()) fresh.resize(fresh.size() + fresh.size() / 2);
+    fresh[next++] = e;
+  }
+  entries_.swap(fresh);
+  places_ = places;
+}
+
+void MemoTable::shrink() {
+  const std::size_t needed = std::max(kFirst, size_ + size_ / 2);
+  if (needed < places_) resize(needed);
+}
+
+void MemoTable::check_invariants() const {
+  std::size_t count = 0;
+  for (const Entry& e : waiting_) count += e.call != 0 ? 1 : 0;
+  std::uint32_t last = 0;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& e = entries_[i];
+    if (e.call == 0) continue;
+    SAC_INVARIANT(place(e.hash) <= i && last <= e.hash);
+    SAC_INVARIANT(place(e.hash) == i || entries_[i - 1].call != 0);
+    last = e.hash;
+    ++count;
+  }
+  SAC_INVARIANT(count == size_ && entries_.back().call == 0);
 }
 
 }  // namespace sac

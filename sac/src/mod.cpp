@@ -1,25 +1,56 @@
 // Versions, readers and writers of modifiables.
 #include "sac/mod.hpp"
 
+#include <algorithm>
+
 namespace sac {
 
+using detail::History;
 using detail::ReadEdge;
 using detail::Version;
 using detail::WriteEdge;
 
 // --- Reading ---------------------------------------------------------------------------------
 
-bool ModStructure::sees(const Call& call, const Version& version) const {
-  if (!version.written) return false;
-  if (version.outside) return true;
-  const Call& writer = *engine_.at<Call>(version.writer);
-  if (&writer == &call) return !unconfirmed(version);
-  return engine_.precedes(writer, call);
+Version& ModStructure::observe(Scope& scope, Handle head) {
+  const Call& call = scope.self();
+  Version* version = at(head);
+  if (!version->outside) [[likely]] {
+    version = seen_by(call, head);
+    if (version == nullptr) fail_unwritten(call, head);
+  }
+  const Handle seen = handle_of(*version);
+  const auto same = [&](const ReadEdge& edge) { return edge.version == seen; };
+  if (scope.recall<ReadEdge>(id_, kRead, same) == nullptr) {
+    auto& edge = scope.observe<ReadEdge>(id_, kRead);
+    edge.call = engine_.handle_of(call);
+    link_reader(edge, *version);
+  }
+  return *version;
+}
+
+// The last version before `call`, or its own, if that is of this execution; null if there is none.
+Version* ModStructure::seen_by(const Call& call, Handle head) const {
+  Version* version = at(head);
+  if (version->history == 0) {
+    if (!version->written) return nullptr;
+    if (&writer(*version) == &call) return unconfirmed(*version) ? nullptr : version;
+    if (engine_.precedes(writer(*version), call)) return version;
+    require_ahead(call, head);
+    return nullptr;
+  }
+  require_ahead(call, head);
+  const OrderedCalls& versions = history(version->history).versions;
+  Handle seen = versions.last_not_behind({0, 0}, order(&call));
+  if (seen != 0 && &writer(*at(seen)) == &call && unconfirmed(*at(seen))) {
+    seen = versions.predecessor({0, seen}, order());
+  }
+  return seen != 0 ? at(seen) : nullptr;
 }
 
 // Whether the running call wrote `version` last time and has not yet repeated it.
 bool ModStructure::unconfirmed(const Version& version) const noexcept {
-  const Handle target = engine_.arena().handle_of(&version);
+  const Handle target = handle_of(version);
   for (Handle e = engine_.current_->old_edges; e != 0; e = engine_.at<Edge>(e)->next) {
     const Edge& edge = *engine_.at<Edge>(e);
     if (edge.structure != id_ || edge.kind != kWrite) continue;
@@ -28,172 +59,171 @@ bool ModStructure::unconfirmed(const Version& version) const noexcept {
   return false;
 }
 
-Version& ModStructure::observe(Scope& scope, Handle head) {
-  Call& call = scope.self();
-  Handle seen = 0;
-  for (Handle v = head; v != 0; v = at(v)->next) {
-    if (sees(call, *at(v))) {
-      seen = v;
-    } else if (at(v)->written && at(v)->writer != engine_.handle_of(call)) {
-      require_ahead(call, *at(v), head);
-      break;
-    }
-  }
-  if (seen == 0) fail_unwritten(call, head);
-  const auto same = [&](const ReadEdge& edge) { return edge.version == seen; };
-  if (scope.recall<ReadEdge>(id_, kRead, same) == nullptr) {
-    auto& edge = scope.observe<ReadEdge>(id_, kRead);
-    edge.call = engine_.handle_of(call);
-    link_reader(edge, *at(seen));
-  }
-  return *at(seen);
-}
-
 // The effects of own children lie later in time than their parent: it cannot read them.
-void ModStructure::require_ahead(const Call& reader, const Version& version, Handle head) const {
-  const Call& writer = *engine_.at<Call>(version.writer);
-  if (engine_.lies_ahead(writer)) return;
-  throw UsageError(Engine::describe(reader) + " reads modifiable @" + std::to_string(head) +
-                   " after its own child " + Engine::describe(writer) + " has written it");
+void ModStructure::require_ahead(const Call& reader, Handle head) const {
+  Handle next = head;
+  if (const std::uint32_t h = at(head)->history; h != 0) {
+    next = history(h).versions.successor({0, 0}, order(&reader));
+    if (next == 0) return;
+  }
+  const Call& other = writer(*at(next));
+  if (engine_.lies_ahead(other)) return;
+  throw UsageError(Engine::describe(reader) + " reads " + engine_.describe_mod(head) +
+                   " after its own child " + Engine::describe(other) + " has written it");
 }
 
 void ModStructure::fail_unwritten(const Call& reader, Handle head) const {
-  std::string text = Engine::describe(reader) + " reads modifiable @" + std::to_string(head);
-  for (Handle v = head; v != 0; v = at(v)->next) {
-    if (!at(v)->written || at(v)->outside) continue;
-    throw UsageError(text + ", which is written only by the later call " +
-                     Engine::describe(*engine_.at<Call>(at(v)->writer)));
+  std::string text = Engine::describe(reader) + " reads " + engine_.describe_mod(head);
+  const Version* later = nullptr;
+  if (const std::uint32_t h = at(head)->history; h != 0) {
+    if (!history(h).versions.empty()) later = at(history(h).versions.first());
+  } else if (at(head)->written) {
+    later = at(head);
   }
-  throw UsageError(text + ", which nobody has written");
+  if (later == nullptr) throw UsageError(text + ", which nobody has written");
+  throw UsageError(text + ", which is written only by the later call " +
+                   Engine::describe(writer(*later)));
 }
 
 Version& ModStructure::last(Handle head) const {
-  Handle found = 0;
-  for (Handle v = head; v != 0; v = at(v)->next) {
-    if (at(v)->written) found = v;
+  if (const std::uint32_t h = at(head)->history; h != 0 && !history(h).versions.empty()) {
+    return *at(history(h).versions.last());
   }
-  if (found == 0) {
-    throw UsageError("modifiable @" + std::to_string(head) +
-                     " has no value: nobody has written it");
+  if (!at(head)->written) {
+    throw UsageError(engine_.describe_mod(head) + " has no value: nobody has written it");
   }
-  return *at(found);
+  return *at(head);
 }
 
 // --- Writing ---------------------------------------------------------------------------------
 
-ModStructure::Slot ModStructure::own_version(Scope& scope, Handle head,
-                                             const detail::ValueOps& ops) {
-  Call& call = scope.self();
-  const Handle self = engine_.handle_of(call);
-  if (at(head)->outside) {
-    throw UsageError(Engine::describe(call) + " writes modifiable @" + std::to_string(head) +
-                     ", which is an input");
+Version* ModStructure::find_own(const Call& call, Handle head) const noexcept {
+  Version* version = at(head);
+  if (version->history == 0) {
+    return version->written && &writer(*version) == &call ? version : nullptr;
   }
-  for (Handle v = head; v != 0; v = at(v)->next) {
-    if (!at(v)->written || at(v)->writer != self) continue;
-    const auto same = [&](const WriteEdge& edge) { return edge.version == v; };
-    scope.recall<WriteEdge>(id_, kWrite, same);  // null: written already in this execution
-    return {at(v), false};
-  }
-  if (at(head)->written && !engine_.precedes(*engine_.at<Call>(at(head)->writer), call)) {
-    vacate(head, ops);
-  }
-  Handle place = head;  // the last version before the call, or the vacant head
-  for (Handle v = at(head)->next; v != 0; v = at(v)->next) {
-    if (!engine_.precedes(*engine_.at<Call>(at(v)->writer), call)) break;
-    place = v;
-  }
-  Handle fresh = head;
-  if (at(head)->written || place != head) {
-    fresh = engine_.arena().allocate(ops.bytes);
-    ::new (static_cast<void*>(at(fresh))) Version();
-  }
-  WriteEdge* edge = nullptr;
-  try {
-    edge = &scope.effect<WriteEdge>(id_, kWrite);
-  } catch (...) {
-    if (fresh != head) engine_.arena().release(fresh, ops.bytes);
-    throw;
-  }
-  edge->head = head;
-  edge->version = fresh;
-  edge->ops = &ops;
-  at(fresh)->writer = self;
-  if (fresh != head) at(fresh)->next = std::exchange(at(place)->next, fresh);
-  return {at(fresh), true};
+  const Handle own = history(version->history).versions.last_not_behind({0, 0}, order(&call));
+  return own != 0 && &writer(*at(own)) == &call ? at(own) : nullptr;
 }
 
-// Moves the version in place to the chain behind it, to make way for an earlier one.
-void ModStructure::vacate(Handle head, const detail::ValueOps& ops) {
-  const Handle moved = engine_.arena().allocate(ops.bytes);
-  ::new (static_cast<void*>(at(moved))) Version();
-  Version& from = *at(head);
-  Version& to = *at(moved);
+Version* ModStructure::own_version(Scope& scope, Handle head) {
+  const Call& call = scope.self();
+  if (at(head)->outside) {
+    throw UsageError(Engine::describe(call) + " writes " + engine_.describe_mod(head) +
+                     ", which is an input");
+  }
+  Version* own = find_own(call, head);
+  if (own != nullptr) {
+    const Handle version = handle_of(*own);
+    const auto same = [&](const WriteEdge& edge) { return edge.version == version; };
+    scope.recall<WriteEdge>(id_, kWrite, same);  // null: written already in this execution
+  }
+  return own;
+}
+
+// The edge comes first: if anything fails behind it, it has no version to take back.
+Version& ModStructure::new_version(Scope& scope, Handle head, const detail::ValueType& type) {
+  const std::uint16_t type_number = number(type);
+  const Handle self = engine_.handle_of(scope.self());
+  auto& edge = scope.effect<WriteEdge>(id_, kWrite);
+  edge.head = head;
+  edge.version = 0;
+  Version& first = *at(head);
+  if (!first.written && first.history == 0) {
+    first.writer = self;
+    first.type = type_number;
+    edge.version = head;
+    return first;
+  }
+  if (first.history == 0) first.history = new_history(head);
+  Handle fresh = head;
+  if (first.written) {
+    fresh = engine_.arena().allocate(type.bytes);
+    ::new (static_cast<void*>(at(fresh))) Version();
+  }
+  at(fresh)->writer = self;
+  at(fresh)->type = type_number;
   try {
-    ops.move(from, to);
+    history(first.history).versions.insert({0, fresh}, order());
   } catch (...) {
-    engine_.arena().release(moved, ops.bytes);
+    if (fresh != head) engine_.arena().release(fresh, type.bytes);
     throw;
   }
-  to.writer = std::exchange(from.writer, 0);
-  to.written = std::exchange(from.written, false);
-  to.next = std::exchange(from.next, moved);
-  move_readers(from, to, nullptr, false);
-  for (Handle e = engine_.at<Call>(to.writer)->edges; e != 0; e = engine_.at<Edge>(e)->next) {
-    auto& edge = *engine_.at<Edge>(e);
-    if (edge.structure != id_ || edge.kind != kWrite) continue;
-    auto& write = static_cast<WriteEdge&>(edge);
-    if (write.version == head) write.version = moved;
+  edge.version = fresh;
+  return *at(fresh);
+}
+
+std::uint32_t ModStructure::new_history(Handle head) {
+  auto fresh = std::make_unique<History>();
+  fresh->head = head;
+  if (at(head)->written) fresh->versions.append({0, head});
+  if (histories_.empty()) histories_.emplace_back();
+  if (free_histories_.empty()) {
+    if (free_histories_.capacity() <= histories_.size()) {  // so that drop_history cannot fail
+      free_histories_.reserve(2 * histories_.size() + 8);
+    }
+    histories_.push_back(std::move(fresh));
+    return static_cast<std::uint32_t>(histories_.size() - 1);
   }
+  const std::uint32_t number = free_histories_.back();
+  free_histories_.pop_back();
+  histories_[number] = std::move(fresh);
+  return number;
+}
+
+// A version in place needs no order; nor does none.
+void ModStructure::drop_history(Handle head) noexcept {
+  const std::uint32_t number = at(head)->history;
+  const OrderedCalls& versions = history(number).versions;
+  if (versions.size() > 1 || (versions.size() == 1 && versions.first() != head)) return;
+  at(head)->history = 0;
+  histories_[number].reset();
+  free_histories_.push_back(number);
 }
 
 Version* ModStructure::before(Handle head, const Version& version) const noexcept {
-  Version* found = nullptr;
-  for (Handle v = head; at(v) != &version; v = at(v)->next) {
-    if (at(v)->written) found = at(v);
-  }
-  return found;
+  const std::uint32_t h = at(head)->history;
+  if (h == 0) return nullptr;
+  const Handle found = history(h).versions.predecessor({0, handle_of(version)}, order());
+  return found != 0 ? at(found) : nullptr;
 }
 
-void ModStructure::changed(Scope& scope, Version& version) {
-  require_unread(scope, version);
+void ModStructure::require_unread(Scope& scope, Handle head, const Version& version) const {
+  const Call& self = scope.self();
+  for (Handle r = version.readers; r != 0; r = reader(r)->next_reader) {
+    const Call& call = engine_.call(reader(r)->call);
+    if (&call == &self || !engine_.precedes(self, call) || engine_.lies_ahead(call)) continue;
+    throw UsageError(Engine::describe(self) + " writes " + engine_.describe_mod(head) +
+                     " after its own child " + Engine::describe(call) + " has read it");
+  }
+}
+
+void ModStructure::changed(Handle head, Version& version) noexcept {
+  if (engine_.observer_ != nullptr) [[unlikely]] {
+    engine_.note(version.outside ? Event::Kind::edited : Event::Kind::changed, nullptr, head);
+  }
   invalidate_readers(version);
 }
 
-void ModStructure::appeared(Scope& scope, Handle head, Version& version, bool same_as_before) {
-  Version* previous = before(head, version);
-  if (previous == nullptr) return;
-  const Call& self = scope.self();
-  for (Handle r = previous->readers; r != 0; r = reader(r)->next_reader) {
-    const Call& call = *engine_.at<Call>(reader(r)->call);
-    if (&call != &self && engine_.precedes(self, call) && !engine_.lies_ahead(call) &&
-        !same_as_before) {
-      throw UsageError(Engine::describe(self) + " writes modifiable @" + std::to_string(head) +
-                       " after its own child " + Engine::describe(call) + " has read it");
-    }
+void ModStructure::appeared(Scope& scope, Handle head, Version& version, Version* previous,
+                            bool same) noexcept {
+  if (engine_.observer_ != nullptr && !same) [[unlikely]] {
+    engine_.note(Event::Kind::changed, nullptr, head);
   }
-  move_readers(*previous, version, &self, !same_as_before);
+  if (previous != nullptr) move_readers(*previous, version, &scope.self(), !same);
 }
 
-// A value read by the writer's own children cannot change under them.
-void ModStructure::require_unread(Scope& scope, const Version& version) const {
-  for (Handle r = version.readers; r != 0; r = reader(r)->next_reader) {
-    const Call& call = *engine_.at<Call>(reader(r)->call);
-    if (&call == &scope.self() || engine_.lies_ahead(call)) continue;
-    throw UsageError(Engine::describe(scope.self()) + " changes what its own child " +
-                     Engine::describe(call) + " has read");
-  }
-}
+// --- Readers ---------------------------------------------------------------------------------
 
 void ModStructure::invalidate_readers(Version& version) noexcept {
   for (Handle r = version.readers; r != 0; r = reader(r)->next_reader) {
-    engine_.invalidate(*engine_.at<Call>(reader(r)->call));
+    engine_.invalidate(engine_.call(reader(r)->call));
   }
 }
 
 void ModStructure::link_reader(ReadEdge& edge, Version& version) noexcept {
   const Handle self = engine_.arena().handle_of(&edge);
-  edge.version = engine_.arena().handle_of(&version);
+  edge.version = handle_of(version);
   edge.prev = 0;
   edge.next_reader = version.readers;
   if (version.readers != 0) reader(version.readers)->prev = self;
@@ -201,6 +231,7 @@ void ModStructure::link_reader(ReadEdge& edge, Version& version) noexcept {
 }
 
 void ModStructure::unlink_reader(ReadEdge& edge) noexcept {
+  if (edge.version == 0) return;
   if (edge.next_reader != 0) reader(edge.next_reader)->prev = edge.prev;
   (edge.prev != 0 ? reader(edge.prev)->next_reader : at(edge.version)->readers) = edge.next_reader;
 }
@@ -210,7 +241,7 @@ void ModStructure::move_readers(Version& from, Version& to, const Call* later_th
   for (Handle r = from.readers; r != 0;) {
     ReadEdge& edge = *reader(r);
     r = edge.next_reader;
-    Call& call = *engine_.at<Call>(edge.call);
+    Call& call = engine_.call(edge.call);
     if (later_than != nullptr && !engine_.precedes(*later_than, call)) continue;
     unlink_reader(edge);
     link_reader(edge, to);
@@ -218,57 +249,139 @@ void ModStructure::move_readers(Version& from, Version& to, const Call* later_th
   }
 }
 
+// What the readers saw is gone and nothing takes its place: they run again, and see what is there
+// then.
+void ModStructure::orphan_readers(Version& version) noexcept {
+  for (Handle r = std::exchange(version.readers, 0); r != 0;) {
+    ReadEdge& edge = *reader(r);
+    r = edge.next_reader;
+    edge.version = 0;
+    engine_.invalidate(engine_.call(edge.call));
+  }
+}
+
 // --- Taking back -----------------------------------------------------------------------------
 
 void ModStructure::retract(Call&, Edge& edge) noexcept {
   if (edge.kind == kRead) return unlink_reader(static_cast<ReadEdge&>(edge));
-  auto& write = static_cast<WriteEdge&>(edge);
+  const auto& write = static_cast<const WriteEdge&>(edge);
+  if (write.version == 0) return;
   Version& version = *at(write.version);
-  Version* previous = before(write.head, version);
-  const bool same = previous != nullptr && version.written && write.ops->equal(*previous, version);
-  if (version.written) write.ops->destroy(version);
-  version.written = false;
-  if (previous != nullptr) {
-    move_readers(version, *previous, nullptr, !same);
-  } else if (write.version != write.head) {
-    move_readers(version, *at(write.head), nullptr, true);
-  } else {
-    invalidate_readers(version);
+  if (version.written) {
+    Version* previous = before(write.head, version);
+    bool same = false;
+    if (previous != nullptr) {
+      try {
+        same = types_[version.type].same(*previous, version);
+      } catch (...) {  // client code that fails here makes the readers run again
+      }
+    }
+    if (engine_.observer_ != nullptr && !same) [[unlikely]] {
+      engine_.note(Event::Kind::changed, nullptr, write.head);
+    }
+    if (previous != nullptr) {
+      move_readers(version, *previous, nullptr, !same);
+    } else {
+      orphan_readers(version);
+    }
+    types_[version.type].destroy(version);
+    version.written = false;
   }
-  version.writer = 0;
-  if (write.version == write.head) return;
-  Handle* link = &at(write.head)->next;
-  while (*link != write.version) link = &at(*link)->next;
-  *link = version.next;
-  engine_.arena().release(write.version, write.ops->bytes);
+  forget_version(write.head, version);
 }
 
+void ModStructure::forget_version(Handle head, Version& version) noexcept {
+  if (const std::uint32_t h = at(head)->history; h != 0) {
+    history(h).versions.erase({0, handle_of(version)}, order());
+    drop_history(head);
+  }
+  version.writer = 0;
+  if (handle_of(version) == head) return;
+  engine_.arena().release(handle_of(version), types_[version.type].bytes);
+}
+
+void ModStructure::destroy_values(const Call& call) noexcept {
+  engine_.for_each_edge(call, [&](const Edge& edge) {
+    if (edge.structure != id_ || edge.kind != kWrite) return;
+    const Handle v = static_cast<const WriteEdge&>(edge).version;
+    if (v == 0 || !at(v)->written) return;
+    types_[at(v)->type].destroy(*at(v));
+    at(v)->written = false;
+  });
+}
+
+// --- For people and for traces ---------------------------------------------------------------
+
+void ModStructure::label(const Call&, const Edge& edge, LabelSink& sink) const {
+  if (edge.kind != kRead) return;
+  const auto& read = static_cast<const ReadEdge&>(edge);
+  if (read.version != 0) types_[at(read.version)->type].label(*at(read.version), sink);
+}
+
+void ModStructure::print(const Call&, const Edge& edge, std::ostream& out) const {
+  const bool reads = edge.kind == kRead;
+  const Handle v = reads ? static_cast<const ReadEdge&>(edge).version
+                         : static_cast<const WriteEdge&>(edge).version;
+  out << (reads ? "reads " : "writes ");
+  if (!reads) out << engine_.describe_mod(static_cast<const WriteEdge&>(edge).head) << ": ";
+  if (v == 0 || !at(v)->written) {
+    out << "nothing";
+  } else {
+    types_[at(v)->type].print(*at(v), out);
+  }
+}
+
+std::size_t ModStructure::bytes() const noexcept {
+  std::size_t total = histories_.capacity() * sizeof(histories_[0]);
+  for (const auto& h : histories_) {
+    if (h != nullptr) total += sizeof(History) + h->versions.bytes();
+  }
+  return total;
+}
+
+// --- Invariants ------------------------------------------------------------------------------
+
 void ModStructure::check_invariants(Handle head) const {
-  const auto writer = [&](Handle v) -> const Call& { return *engine_.at<Call>(at(v)->writer); };
   Handle previous = 0;
-  for (Handle v = head; v != 0; v = at(v)->next) {
-    SAC_INVARIANT(at(v)->written || v == head);
-    if (!at(v)->written) continue;
-    if (previous != 0) SAC_INVARIANT(engine_.precedes(writer(previous), writer(v)));
+  const auto check = [&](Handle v, Handle next) {
+    SAC_INVARIANT(at(v)->written && (previous == 0 || order()(previous, v)));
     Handle last = 0;
     for (Handle r = at(v)->readers; r != 0; last = r, r = reader(r)->next_reader) {
       SAC_INVARIANT(reader(r)->version == v && reader(r)->prev == last);
-      const Call& call = *engine_.at<Call>(reader(r)->call);
-      SAC_INVARIANT(at(v)->outside || &writer(v) == &call || engine_.precedes(writer(v), call));
-      const Handle next = at(v)->next;
-      SAC_INVARIANT(next == 0 || !engine_.precedes(writer(next), call));
+      const Call& call = engine_.call(reader(r)->call);
+      SAC_INVARIANT(&writer(*at(v)) == &call || engine_.precedes(writer(*at(v)), call));
+      SAC_INVARIANT(next == 0 || !engine_.precedes(writer(*at(next)), call));
     }
     previous = v;
-  }
+  };
+  if (at(head)->history == 0) return check(head, 0);
+  const OrderedCalls& versions = history(at(head)->history).versions;
+  SAC_INVARIANT(versions.size() > 1 || versions.first() != head);
+  Handle before = 0;
+  versions.for_each([&](const OrderedCalls::Entry& entry) {
+    if (before != 0) check(before, entry.call);
+    before = entry.call;
+  });
+  check(before, 0);
 }
 
 void ModStructure::check_writes(const Call& call) const {
-  for (Handle e = call.edges; e != 0; e = engine_.at<Edge>(e)->next) {
-    const Edge& edge = *engine_.at<Edge>(e);
-    if (edge.structure != id_ || edge.kind != kWrite) continue;
+  engine_.for_each_edge(call, [&](const Edge& edge) {
+    if (edge.structure != id_) return;
+    if (edge.kind == kRead) {
+      const auto& read = static_cast<const ReadEdge&>(edge);
+      SAC_INVARIANT(read.version != 0 && &engine_.call(read.call) == &call);
+      SAC_INVARIANT(at(read.version)->written);
+      const Handle self = engine_.arena().handle_of(&edge);
+      SAC_INVARIANT((read.prev != 0 ? reader(read.prev)->next_reader
+                                    : at(read.version)->readers) == self);
+      return;
+    }
     const auto& write = static_cast<const WriteEdge&>(edge);
-    if (write.version == write.head || !at(write.head)->written) check_invariants(write.head);
-  }
+    SAC_INVARIANT(write.version != 0 && &writer(*at(write.version)) == &call);
+    const std::uint32_t h = at(write.head)->history;
+    if (h == 0 || history(h).versions.first() == write.version) check_invariants(write.head);
+  });
 }
 
 }  // namespace sac

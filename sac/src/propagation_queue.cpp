@@ -1,9 +1,18 @@
 // The heap of the propagation queue.
 #include "sac/propagation_queue.hpp"
 
+#include <algorithm>
+
 #include "sac/check.hpp"
 
 namespace sac {
+
+void PropagationQueue::shrink(std::size_t count) {
+  std::vector<Handle> smaller;
+  smaller.reserve(std::max(count, heap_.size()));
+  smaller.assign(heap_.begin(), heap_.end());
+  heap_.swap(smaller);
+}
 
 void PropagationQueue::push(Handle call) {
   SAC_ENSURES(at(call)->queue == 0);

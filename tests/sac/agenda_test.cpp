@@ -26,7 +26,7 @@ std::vector<std::string> trace(const Engine& e) {
 std::vector<int> visited(const Engine& e) {
   std::vector<int> out;
   e.walk([&](const sac::Call& c, std::size_t) {
-    if (!c.function->posted) return;
+    if (!c.function().posted) return;
     const std::string text = Engine::describe(c);
     out.push_back(std::stoi(text.substr(text.find('(') + 1)));
   });

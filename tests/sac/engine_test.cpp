@@ -86,7 +86,7 @@ TEST_CASE("a call with an equal label is reused with its whole subtree, what is 
   e.set(which, 2);
   counts = e.propagate();
   CHECK(counts.created == 4);
-  CHECK(counts.executed == 5);
+  CHECK(counts.executed == 4);  // and a cell, which has no body
   CHECK(e.live_calls() == calls);
   e.check_invariants();
 }
@@ -302,7 +302,7 @@ TEST_CASE(
   e.set<const List*>(place, cells.back().get());
   auto counts = e.propagate();
   CHECK(counts.created == 1 + 2);  // a map, with the object and the cell that it makes
-  CHECK(counts.executed == counts.created + 1);
+  CHECK(counts.executed == 2);
   CHECK(e.live_calls() == calls + 3);
   CHECK(e.get(out) == first);
   e.check_invariants();
@@ -549,9 +549,9 @@ TEST_CASE("walk visits calls in pre-order with their depths") {
   e.run<copy_then_check>(in);
   std::string text;
   e.walk([&](const sac::Call& c, std::size_t depth) {
-    text += std::to_string(depth) + std::string(c.function->name) + ' ';
+    text += std::to_string(depth) + std::string(c.function().name) + ' ';
   });
-  CHECK(text == "0copy_then_check 1make 1copy 1expect_equal ");
+  CHECK(text == "0copy_then_check 1make Cell 1copy 1expect_equal ");
 }
 
 }  // namespace

@@ -38,8 +38,8 @@ struct Traced {
   std::string shape() const {
     std::ostringstream out;
     engine.walk([&](const sac::Call& c, std::size_t depth) {
-      out << depth << c.function->name;
-      if (c.function->name != "pass") c.function->print(c, out);
+      out << depth << c.function().name;
+      if (c.function().name != "pass") c.function().print(c, out);
       out << ' ';
     });
     return out.str();

@@ -1,5 +1,8 @@
 // The engine's containers: arena, memo table, propagation queue, ordered calls; names of labels.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstring>
+#include <functional>
 #include <map>
 #include <set>
 #include <sstream>
@@ -44,19 +47,18 @@ TEST_CASE("arena blocks do not overlap, keep their address, and are handed out a
     }
   }
   arena.check_invariants();
-  const auto committed = arena.bytes_committed();
+  const auto held = arena.bytes_held();
   for (int round = 0; round < 1000; ++round) arena.release(arena.allocate(64), 64);
-  CHECK(arena.bytes_committed() == committed);
+  CHECK(arena.bytes_held() == held);
 }
 
 // Calls that lie in a timeline without an engine.
 struct Calls {
   sac::Arena arena;
   sac::Timeline timeline{arena};
-  Handle make(Handle after, std::uint32_t hash = 0) {
+  Handle make(Handle after) {
     const Handle h = arena.allocate(sizeof(sac::Call));
     ::new (arena.at<void>(h)) sac::Call;
-    arena.at<sac::Call>(h)->hash = hash;
     timeline.insert_after(after, h);
     return h;
   }
@@ -89,24 +91,107 @@ TEST_CASE("the propagation queue pops calls in trace order, whatever was pushed 
   }
 }
 
-TEST_CASE("the memo table finds every call by its hash, through growth and erasure") {
+TEST_CASE("a shrunk arena keeps what is live, gives pages back, and hands their memory out again") {
+  sac::Arena arena;
+  Random random;
+  std::vector<std::pair<Handle, std::size_t>> live;
+  const auto fill = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      const std::size_t bytes = 8 * (1 + random(40));
+      live.emplace_back(arena.allocate(bytes), bytes);
+      std::memset(arena.at<void>(live.back().first), static_cast<int>(live.size()), bytes);
+    }
+  };
+  for (int round = 0; round < 6; ++round) {
+    fill(20000);
+    const std::size_t keep = random(3) == 0 ? 0 : live.size() / (2 + random(20));
+    for (std::size_t i = live.size(); i-- > keep;) {
+      std::swap(live[i], live[random(i + 1)]);
+      arena.release(live[i].first, live[i].second);
+      live.pop_back();
+    }
+    std::vector<std::vector<char>> contents;
+    for (const auto& [h, bytes] : live)
+      contents.emplace_back(arena.at<char>(h), arena.at<char>(h) + bytes);
+    const std::size_t before = arena.bytes_held();
+    arena.shrink();
+    arena.check_invariants();
+    CHECK(arena.bytes_held() <= before);
+    if (live.empty()) CHECK(arena.bytes_held() < 4096);
+    for (std::size_t i = 0; i < live.size(); ++i) {
+      const char* bytes = arena.at<char>(live[i].first);
+      REQUIRE(std::equal(contents[i].begin(), contents[i].end(), bytes));
+    }
+  }
+  const std::size_t held = arena.bytes_held();
+  fill(1000);
+  arena.check_invariants();
+  CHECK(arena.bytes_held() >= held);
+}
+
+TEST_CASE("the n-th allocation of an arena fails once, and a limit holds") {
+  sac::Arena arena;
+  arena.fail_after(3);
+  static_cast<void>(arena.allocate(8));
+  static_cast<void>(arena.allocate(8));
+  const std::size_t used = arena.bytes_used();
+  CHECK_THROWS_AS(static_cast<void>(arena.allocate(8)), std::bad_alloc);
+  CHECK(arena.bytes_used() == used);
+  static_cast<void>(arena.allocate(8));
+  arena.set_limit(1 << 16);
+  const auto exhaust = [&] {
+    while (true) static_cast<void>(arena.allocate(64));
+  };
+  CHECK_THROWS_AS(exhaust(), std::bad_alloc);
+  CHECK(arena.bytes_held() <= 1 << 16);
+  CHECK(arena.bytes_held() > (1 << 16) - 64);
+  arena.check_invariants();
+}
+
+void check_memo_table(const std::function<std::uint32_t(std::uint32_t)>& hash_of, bool soon) {
   Calls calls;
   sac::MemoTable memo(calls.arena);
   std::vector<Handle> all;
-  for (std::uint32_t i = 0; i < 5000; ++i) {
-    all.push_back(calls.make(calls.timeline.back(), i % 1700 * 2048));
-    memo.insert(all.back());
-  }
-  const auto found = [&](Handle h) {
-    return memo.find(calls.arena.at<sac::Call>(h)->hash,
-                     [&](Handle other, const sac::Call&) { return other == h; }) == h;
+  const auto found = [&](std::size_t i) {
+    return memo.find(hash_of(static_cast<std::uint32_t>(i)),
+                     [&](Handle other, const sac::Call&) { return other == all[i]; }) == all[i];
   };
-  for (std::size_t i = 0; i < all.size(); i += 2) memo.erase(all[i]);
+  for (std::uint32_t i = 0; i < 5000; ++i) {
+    all.push_back(calls.make(calls.timeline.back()));
+    soon ? memo.insert_soon(all.back(), hash_of(i)) : memo.insert(all.back(), hash_of(i));
+    REQUIRE(memo.contains(all.back(), hash_of(i)));
+    if (i % 100 == 99) REQUIRE(found(i - 3));
+    if (i % 100 == 50) {
+      memo.erase(all[i], hash_of(i));
+      REQUIRE_FALSE(memo.contains(all[i], hash_of(i)));
+      memo.insert(all[i], hash_of(i));
+    }
+  }
+  memo.check_invariants();
+  for (std::uint32_t i = 0; i < all.size(); i += 2) memo.erase(all[i], hash_of(i));
+  memo.check_invariants();
+  memo.shrink();
+  memo.check_invariants();
   CHECK(memo.size() == all.size() / 2);
-  for (std::size_t i = 0; i < all.size(); ++i) REQUIRE(found(all[i]) == (i % 2 == 1));
+  for (std::size_t i = 0; i < all.size(); ++i) REQUIRE(found(i) == (i % 2 == 1));
   std::size_t visited = 0;
   memo.for_each([&](const sac::Call&) { ++visited; });
   CHECK(visited == memo.size());
+}
+
+TEST_CASE("the memo table finds every call by its hash, through growth and erasure") {
+  const auto random = [](std::uint32_t i) { return static_cast<std::uint32_t>(sac::mix(i)); };
+  const auto repeated = [](std::uint32_t i) {
+    return static_cast<std::uint32_t>(sac::mix(i % 700));
+  };
+  const auto close = [](std::uint32_t i) { return 0xfffffff0u + i % 16; };
+  const auto all_alike = [](std::uint32_t) { return 0xffffffffu; };
+  for (const bool soon : {false, true}) {
+    check_memo_table(random, soon);
+    check_memo_table(repeated, soon);
+    check_memo_table(close, soon);
+    check_memo_table(all_alike, soon);
+  }
 }
 
 TEST_CASE("ordered calls are those of a std::set, with ties decided by the calls") {

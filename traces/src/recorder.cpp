@@ -64,8 +64,7 @@ class KeyedObjects {
     labels_.resize(starts_.size());
   }
 
-  // sac names every keyed allocation "make"; what else begins so does no harm here.
-  static bool is_keyed(const sac::Call& call) { return call.function->name.starts_with("make"); }
+  static bool is_keyed(const sac::Call& call) { return call.function().object_offset != 0; }
 
   void set_label(sac::Handle call, const LabelHash& label) { labels_[index_of(call)] = label; }
 
@@ -74,7 +73,7 @@ class KeyedObjects {
     if (starts_.empty() || handle < starts_.front()) return {};
     const std::size_t i = index_of(handle);
     const std::size_t offset = std::size_t{handle - starts_[i]} * sac::Arena::kGranule;
-    if (offset >= engine.call(starts_[i]).function->frame_bytes || labels_[i] == LabelHash{})
+    if (offset >= engine.call(starts_[i]).function().frame_bytes || labels_[i] == LabelHash{})
       return {};
     LabelHasher hasher;
     hasher.hash(labels_[i]);
@@ -110,8 +109,8 @@ class Labeller final : public sac::LabelSink {
   LabelHash hash(const sac::Call& call) {
     hasher_ = {};
     named_ = true;
-    hasher_.text(call.function->name);
-    call.function->print(call, stream_);
+    hasher_.text(call.function().name);
+    call.function().label(call, *this);
     return hasher_.result();
   }
   /// Whether all in the last label had a name.
@@ -132,13 +131,10 @@ class Labeller final : public sac::LabelSink {
     if (const auto it = recorder_.addresses_.find(object); it != recorder_.addresses_.end()) {
       return hasher_.hash(it->second);
     }
-    const auto* start = engine_.arena().at<std::byte>(0);
-    const auto* byte = static_cast<const std::byte*>(object);
-    const bool in_arena = std::less_equal<>{}(start, byte) &&
-                          std::less<>{}(byte, start + engine_.arena().bytes_committed());
-    if (!in_arena) return nameless(reinterpret_cast<std::uintptr_t>(object));
+    const auto number = reinterpret_cast<std::uintptr_t>(object);
+    if (!engine_.arena().contains(object)) return nameless(number);
     handle(engine_.arena().handle_of(object));
-    hasher_.word(static_cast<std::size_t>(byte - start) % sac::Arena::kGranule);
+    hasher_.word(number % sac::Arena::kGranule);
   }
   std::ostream& print_begin() override { return printed_.start(kAllDigits); }
   void print_end() override { hasher_.text(printed_.text()); }
@@ -154,7 +150,6 @@ class Labeller final : public sac::LabelSink {
   const sac::Engine& engine_;
   KeyedObjects objects_;
   TextStream printed_;
-  sac::LabelStream stream_{*this};
   LabelHasher hasher_;
   bool named_ = true;
 };
@@ -178,7 +173,7 @@ void walk_calls(const sac::Engine& engine, Each&& each) {
   std::vector<sac::Handle> ends;  // of the calls around the current one
   engine.walk([&](const sac::Call& call, std::size_t depth) {
     const auto next = static_cast<std::uint32_t>(functions.size());
-    const auto [function, is_new] = functions.try_emplace(call.function, next);
+    const auto [function, is_new] = functions.try_emplace(&call.function(), next);
     ends.resize(depth);
     const bool tail = depth > 0 && call.end != 0 && call.end == ends.back();
     ends.push_back(call.end);
@@ -200,13 +195,13 @@ Recording Recorder::record(const std::string& path) const {
   Recording result;
   CallRecord record;
   walk_calls(engine_, [&](const Visit& visit) {
-    if (visit.new_function) writer.add_function(visit.call.function->name);
+    if (visit.new_function) writer.add_function(visit.call.function().name);
     record.depth = visit.depth;
     record.tail = visit.tail;
     record.function = visit.function;
     record.hash = labeller.hash(visit.call);
     record.named = labeller.named();
-    visit.call.function->print(visit.call, printed.start(6));
+    visit.call.function().print(visit.call, printed.start(6));
     record.arguments = printed.text();
     writer.add_call(record);
     ++result.calls;
@@ -222,7 +217,7 @@ Trace Recorder::trace() const {
   Trace trace;
   trace.calls.reserve(engine_.live_calls());
   walk_calls(engine_, [&](const Visit& visit) {
-    if (visit.new_function) trace.functions.emplace_back(visit.call.function->name);
+    if (visit.new_function) trace.functions.emplace_back(visit.call.function().name);
     trace.calls.push_back({labeller.hash(visit.call), visit.function, visit.depth, visit.tail});
     trace.unnamed += labeller.named() ? 0 : 1;
   });

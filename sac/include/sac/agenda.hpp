@@ -53,37 +53,42 @@ struct Key {
 
 namespace detail {
 
-// Where a posted call stands; lies between the call and its arguments.
+// Where a posted call stands, and how many posts ask for it; behind the head of the call.
 struct Slot {
   std::uint64_t order = 0;
   std::uint32_t rank = 0;
-  std::uint8_t agenda = 0;
+  std::uint32_t agenda_and_posts = 0;  // agenda's number in the low 8 bits
+
+  static constexpr std::uint32_t kOnePost = 256;
+  static constexpr std::uint32_t kMostPosts = 0xffffffu;
+
+  [[nodiscard]] std::uint8_t agenda() const noexcept {
+    return static_cast<std::uint8_t>(agenda_and_posts);
+  }
+  [[nodiscard]] std::uint32_t posts() const noexcept { return agenda_and_posts / kOnePost; }
 };
+static_assert(sizeof(Slot) == 16);
 
 template <class... Args>
-struct PostedFrame {
-  static_assert(((alignof(Args) <= 8) && ...), "arguments in the arena are aligned to 8 bytes");
-  Call call;
-  Slot slot;
-  std::tuple<Args...> args;
-};
+using PostedFrame = Frame<Slot, Nothing, Args...>;
 
 struct PostEdge : Edge {
   Handle target;
 };
 
 template <auto F, class... Args>
-inline constexpr Function kPosted{
-    .name = function_name<F>(),
-    .frame_bytes = sizeof(PostedFrame<Args...>),
-    .posted = true,
-    .execute = &execute_frame<F, PostedFrame<Args...>, Scope>,
-    .destroy = kTrivialArgs<PostedFrame<Args...>> ? nullptr : &destroy_args<PostedFrame<Args...>>,
-    .equal = &equal_args<PostedFrame<Args...>>,
-    .compare = &compare_args<PostedFrame<Args...>>,
-    .hash = &hash_args<PostedFrame<Args...>>,
-    .print = &print_args<PostedFrame<Args...>>,
-};
+constexpr Function describe_posted() {
+  static_assert(std::is_void_v<std::invoke_result_t<decltype(F), Scope&, const Args&...>>,
+                "a posted call has nobody to return to");
+  using Type = PostedFrame<Args...>;
+  Function f = describe_frame<Type, &function_name<F>>();
+  f.posted = true;
+  f.execute = &execute_frame<F, Type>;
+  f.compare = &compare_args<Type>;
+  return f;
+}
+template <auto F, class... Args>
+inline constexpr Function kPosted = describe_posted<F, Args...>();
 
 }  // namespace detail
 
@@ -96,19 +101,19 @@ class Agenda final : public Structure {
   /// function of the label. Throws: UsageError if that is in the past.
   template <auto F, class... Args>
   void post(Scope& s, const Key& key, Args... args) {
-    const std::tuple<Args...> tuple(std::move(args)...);
-    post_call(s, detail::kPosted<F, Args...>, key, detail::label_hash<F>(tuple), &tuple,
-              &detail::construct_args<detail::PostedFrame<Args...>>);
+    const detail::Label<Args...> label = label_of<F>(std::tuple<Args...>(std::move(args)...));
+    post_call(s, detail::kPosted<F, Args...>, key, label.hash, &label,
+              detail::constructor_of<detail::PostedFrame<Args...>>());
   }
 
   /// Asks for a call on behalf of the outside: an input, as Engine::set is.
   template <auto F, class... Args>
   void post_from_outside(const Key& key, Args... args) {
-    const std::tuple<Args...> tuple(std::move(args)...);
     engine_.begin_edit();
-    engine_.on_rollback([this, tuple] { drop_labelled<F>(tuple); });
+    const detail::Label<Args...> label = label_of<F>(std::tuple<Args...>(std::move(args)...));
+    engine_.on_rollback([this, label] { drop_labelled<F>(label); });
     try {
-      add_labelled<F>(key, tuple);
+      add_labelled<F>(key, label);
     } catch (...) {
       engine_.rollback_.pop_back();
       throw;
@@ -117,12 +122,11 @@ class Agenda final : public Structure {
   /// Takes one post_from_outside back. Throws: UsageError if there is none.
   template <auto F, class... Args>
   void retract_from_outside(Args... args) {
-    const std::tuple<Args...> tuple(std::move(args)...);
     engine_.begin_edit();
-    const Key key = key_of(require_posted(detail::kPosted<F, Args...>,
-                                          detail::label_hash<F>(tuple), &tuple));
-    engine_.on_rollback([this, key, tuple] { add_labelled<F>(key, tuple); });
-    drop_labelled<F>(tuple);
+    const detail::Label<Args...> label = label_of<F>(std::tuple<Args...>(std::move(args)...));
+    const Key key = key_of(require_posted(detail::kPosted<F, Args...>, label.hash, &label));
+    engine_.on_rollback([this, key, label] { add_labelled<F>(key, label); });
+    drop_labelled<F>(label);
   }
 
   /// Runs what was posted, in order, as children of the running call. Once per agenda.
@@ -153,16 +157,19 @@ class Agenda final : public Structure {
   // Outside edits and their inverses go by label: a call discarded in a propagation that fails is
   // another one after the roll-back.
   template <auto F, class... Args>
-  void add_labelled(const Key& key, const std::tuple<Args...>& args) {
-    outside_post(detail::kPosted<F, Args...>, key, detail::label_hash<F>(args), &args,
-                 &detail::construct_args<detail::PostedFrame<Args...>>);
+  static detail::Label<Args...> label_of(std::tuple<Args...> args) {
+    const std::uint32_t hash = detail::label_hash<&function_name<F>>(args);
+    return {std::move(args), hash};
   }
   template <auto F, class... Args>
-  void drop_labelled(const std::tuple<Args...>& args) {
+  void add_labelled(const Key& key, const detail::Label<Args...>& label) {
+    outside_post(detail::kPosted<F, Args...>, key, label.hash, &label,
+                 detail::constructor_of<detail::PostedFrame<Args...>>());
+  }
+  template <auto F, class... Args>
+  void drop_labelled(const detail::Label<Args...>& label) {
     const auto& function = detail::kPosted<F, Args...>;
-    if (const Handle h = find(function, detail::label_hash<F>(args), &args); h != 0) {
-      drop_post(engine_.call(h));
-    }
+    if (const Handle h = find(function, label.hash, &label); h != 0) drop_post(engine_.call(h));
   }
 
   void post_call(Scope& s, const Function& function, const Key& key, std::uint32_t hash,
@@ -183,7 +190,10 @@ class Agenda final : public Structure {
   void adopt_detached();
   void place(Handle call);
   [[nodiscard]] Handle predecessor(const Call& call) const;
-  void add_post(Call& call) noexcept { call.state += Call::kOnePost; }
+  static void add_post(Call& call) noexcept {
+    slot(call).agenda_and_posts += detail::Slot::kOnePost;
+  }
+  void require_room(const Call& call) const;
   void drop_post(Call& call) noexcept;
   [[nodiscard]] bool before(const Call& a, const Call& b) const;
 

@@ -1,8 +1,10 @@
 // Pooled memory for calls and edges, addressed by 32-bit handles.
 //
-// One range of address space is reserved per arena; memory is committed as it is needed and never
-// moves. A handle counts 8-byte granules from the start of the range; 0 is "nothing". Freed blocks
-// go to a free list of their exact size and are handed out again, last freed first.
+// One range of address space is reserved per arena, aligned to its own size; memory is committed as
+// it is needed and never moves. A handle counts 8-byte granules from the start of the range; 0 is
+// "nothing". Freed blocks go to a free list of their exact size and are handed out again, last
+// freed first. The alignment makes the handle of an object, and the arena that it lies in, known
+// from its address alone.
 //
 // Guarantees:
 // (1) A block's address is fixed from allocate() to release().
@@ -14,8 +16,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <vector>
 
 namespace sac {
+
+struct Function;
 
 /// A 32-bit handle of an object in an arena; 0 is null.
 using Handle = std::uint32_t;
@@ -23,8 +28,16 @@ using Handle = std::uint32_t;
 class Arena {
  public:
   static constexpr std::size_t kGranule = 8;
+  /// Address space of an arena: 2^32 handles.
+  static constexpr std::size_t kReserve = (std::size_t{1} << 32) * kGranule;
 
-  /// Reserves the address range; commits nothing. Throws: std::bad_alloc.
+  /// What lies at the start of the range, for objects that know nothing but their own address.
+  struct Header {
+    const Function* const* functions = nullptr;  // by number
+    bool ending = false;                         // the engine is being destroyed
+  };
+
+  /// Reserves the address range. Throws: std::bad_alloc.
   Arena();
   ~Arena();
   Arena(const Arena&) = delete;
@@ -33,6 +46,7 @@ class Arena {
   /// `bytes` of memory aligned to 8. Throws: std::bad_alloc. Cost: O(1).
   [[nodiscard]] Handle allocate(std::size_t bytes) {
     const std::size_t granules = granules_for(bytes);
+    if (--until_failure_ == 0) fail();
     if (granules < kSmall && free_[granules] != 0) {
       const Handle head = free_[granules];
       free_[granules] = *at<Handle>(head);
@@ -55,18 +69,52 @@ class Arena {
   [[nodiscard]] T* at(Handle handle) const noexcept {
     return reinterpret_cast<T*>(base_ + std::size_t{handle} * kGranule);
   }
+  [[nodiscard]] Handle handle_of(const void* object) const noexcept { return locate(object); }
+  [[nodiscard]] bool contains(const void* object) const noexcept {
+    return static_cast<std::size_t>(static_cast<const std::byte*>(object) - base_) <
+           next_ * kGranule;
+  }
+  [[nodiscard]] Header& header() const noexcept { return *reinterpret_cast<Header*>(base_); }
 
-  [[nodiscard]] Handle handle_of(const void* object) const noexcept {
-    return static_cast<Handle>((static_cast<const std::byte*>(object) - base_) / kGranule);
+  /// The handle of an object that lies in some arena.
+  [[nodiscard]] static Handle locate(const void* object) noexcept {
+    return static_cast<Handle>((reinterpret_cast<std::uintptr_t>(object) & (kReserve - 1)) /
+                               kGranule);
+  }
+  /// The header of the arena that `object` lies in.
+  [[nodiscard]] static Header& header_of(const void* object) noexcept {
+    return *reinterpret_cast<Header*>(reinterpret_cast<std::uintptr_t>(object) & ~(kReserve - 1));
+  }
+  /// The object of this handle in the arena that `neighbour` lies in.
+  template <class T>
+  [[nodiscard]] static T* in_arena_of(const void* neighbour, Handle handle) noexcept {
+    return reinterpret_cast<T*>(
+        (reinterpret_cast<std::uintptr_t>(neighbour) & ~(kReserve - 1)) + handle * kGranule);
   }
 
+  /// Memory of live blocks.
   [[nodiscard]] std::size_t bytes_used() const noexcept { return used_ * kGranule; }
-  [[nodiscard]] std::size_t bytes_committed() const noexcept { return committed_; }
+  /// Memory taken from the system: live blocks, and freed ones that wait to be used again.
+  [[nodiscard]] std::size_t bytes_held() const noexcept { return (next_ - spare_) * kGranule; }
+
+  /// From now on allocate() fails rather than hold more than `bytes`.
+  void set_limit(std::size_t bytes) noexcept { limit_ = bytes; }
+  /// The `count`-th allocation from now fails, once; 0: none. For tests.
+  void fail_after(std::uint64_t count) noexcept { until_failure_ = count; }
+
+  /// Gives freed memory back to the system where whole pages of it are free.
+  /// Cost: O(f log f) for f free blocks. Throws: std::bad_alloc, and then changes nothing.
+  void shrink();
 
   void check_invariants() const;
 
  private:
   static constexpr std::size_t kSmall = 129;  // size classes of up to 128 granules: 1 KiB
+
+  struct Run {  // of free granules
+    Handle first;
+    std::size_t granules;
+  };
 
   static std::size_t granules_for(std::size_t bytes) noexcept {
     return (bytes + kGranule - 1) / kGranule;
@@ -74,13 +122,20 @@ class Arena {
   Handle allocate_slowly(std::size_t granules);
   void release_large(Handle handle, std::size_t granules) noexcept;
   void commit(std::size_t bytes);
+  [[noreturn]] void fail();
+  [[nodiscard]] std::vector<Run> free_blocks() const;
+  void keep_free(Run run) noexcept;
 
   std::byte* base_ = nullptr;
-  std::size_t next_ = 1;  // first granule never handed out; granule 0 is null
-  std::size_t used_ = 0;
+  std::size_t next_;       // first granule never handed out
+  std::size_t used_ = 0;   // granules of live blocks
+  std::size_t spare_ = 0;  // granules in spare runs
   std::size_t committed_ = 0;
+  std::size_t limit_ = kReserve;
+  std::uint64_t until_failure_ = 0;
   std::array<Handle, kSmall> free_{};
   std::map<std::size_t, Handle> free_large_;
+  std::vector<Run> spares_;  // whose pages the system has; used from the back
 };
 
 }  // namespace sac

@@ -16,6 +16,12 @@ class UsageError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
+/// The progress callback asked for the end.
+class Cancelled : public std::runtime_error {
+ public:
+  Cancelled() : std::runtime_error("cancelled by the progress callback") {}
+};
+
 /// A structure of the library is not what it promises to be: our bug.
 class InvariantError : public std::logic_error {
  public:

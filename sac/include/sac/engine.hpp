@@ -22,6 +22,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <tuple>
@@ -33,14 +34,18 @@
 #include "sac/check.hpp"
 #include "sac/label.hpp"
 #include "sac/memo_table.hpp"
+#include "sac/observer.hpp"
 #include "sac/propagation_queue.hpp"
+#include "sac/registry.hpp"
 #include "sac/timeline.hpp"
 #include "sac/trace.hpp"
 
 namespace sac {
 
-template <class T>
+template <class T, class Same = std::equal_to<>>
 class Mod;
+template <class T, class Same = std::equal_to<>>
+class Cell;
 class Agenda;
 class ModStructure;
 
@@ -62,6 +67,39 @@ struct AuditReport {
   std::string first_reordered;   ///< label of the first such call
 };
 
+/// Memory of an engine in bytes. `live` is in use; `held` is what the engine has taken from the
+/// system, freed blocks that wait to be used again included.
+struct Memory {
+  std::size_t calls_and_edges_live = 0;
+  std::size_t calls_and_edges_held = 0;
+  std::size_t time_stamps = 0;  // groups; the stamps themselves lie in the calls
+  std::size_t memo_table = 0;
+  std::size_t queue = 0;    // and what else a propagation needs
+  std::size_t agendas = 0;
+  std::size_t versions = 0;  // order of modifiables that are written more than once
+  [[nodiscard]] std::size_t live() const noexcept {
+    return calls_and_edges_live + time_stamps + memo_table + queue + agendas + versions;
+  }
+  [[nodiscard]] std::size_t held() const noexcept {
+    return live() - calls_and_edges_live + calls_and_edges_held;
+  }
+};
+
+/// The calls of one function: how many, and the bytes of their frames and edges.
+struct FunctionProfile {
+  std::string_view name;
+  std::uint64_t calls = 0;
+  std::uint64_t bytes = 0;
+  std::uint64_t edges = 0;
+  std::uint64_t edge_bytes = 0;
+};
+
+/// What a progress callback is told, at a call that is about to run.
+struct Progress {
+  std::uint64_t executed = 0;  // bodies run so far
+  std::uint64_t queued = 0;    // calls known to wait
+};
+
 class Engine {
  public:
   Engine();
@@ -72,17 +110,39 @@ class Engine {
   // --- The client's side -------------------------------------------------------------------
 
   /// A new modifiable with a value, to be changed by set().
-  template <class T>
-  [[nodiscard]] Mod<T> input(T value);
+  template <class T, class Same = std::equal_to<>>
+  [[nodiscard]] Mod<T, Same> input(T value);
   /// A new modifiable for the program to write.
+  template <class T, class Same = std::equal_to<>>
+  [[nodiscard]] Mod<T, Same> cell();
+  /// A new object of the outside, with cells as members that set() may make inputs: a node of an
+  /// input list, say.
   template <class T>
-  [[nodiscard]] Mod<T> cell();
-  /// Changes an input; an equal value changes nothing. Cost: O(readers).
+  [[nodiscard]] T& make();
+  /// Frees what input(), cell() or make() gave, at the end of the next propagation: an edit.
+  /// Requires: no call uses it after that propagation.
   template <class T>
-  void set(Mod<T> mod, T value);
+  void release(T& object);
+  template <class T, class Same>
+  void release(Mod<T, Same> mod);
+
+  /// Changes an input, or makes one of a cell that nobody has written. A value that is the same
+  /// changes nothing. Throws: UsageError if the program writes it. Cost: O(readers).
+  template <class T, class Same>
+  void set(Mod<T, Same> mod, std::type_identity_t<T> value);
+  template <class T, class Same>
+  void set(const Cell<T, Same>& cell, std::type_identity_t<T> value);
   /// The value at the end of the trace. Throws: UsageError if unwritten.
-  template <class T>
-  [[nodiscard]] const T& get(Mod<T> mod) const;
+  template <class T, class Same>
+  [[nodiscard]] const T& get(Mod<T, Same> mod) const;
+  template <class T, class Same>
+  [[nodiscard]] const T& get(const Cell<T, Same>& cell) const;
+
+  /// What messages shall call a modifiable.
+  template <class T, class Same>
+  void name(Mod<T, Same> mod, std::string name) {
+    names_[mod.head()] = std::move(name);
+  }
 
   /// Runs f(scope, args...) at the end of the trace. Edits made before can no longer be undone.
   /// Throws: what the program throws, with everything it did taken back.
@@ -90,7 +150,7 @@ class Engine {
   Counts run(Args... args);
 
   /// Brings the trace up to date with the edits since the last call.
-  /// Throws: what the program throws, with the edits undone.
+  /// Throws: what the program throws, and Cancelled, with the edits undone.
   /// Cost: calls run again, plus O(log) of the queue for each.
   Counts propagate();
 
@@ -101,22 +161,40 @@ class Engine {
   /// the trace, and not itself a dependence (what in it changes must be a mod or a structure).
   void set_environment(void* environment) noexcept { environment_ = environment; }
 
+  /// Calls `report` before the first of every `every` calls that run; if it returns false, the run
+  /// or propagation ends with Cancelled, and the engine is as before it. Null: nobody is told.
+  /// Not called while edits are undone.
+  void set_progress(std::function<bool(const Progress&)> report, std::uint64_t every = 1024);
+
+  /// Tells `observer` of all that happens; null: nobody.
+  void set_observer(Observer* observer) noexcept { observer_ = observer; }
+
   /// Watches for calls that break conciseness or monotonicity; costs a table look-up a call.
   void set_audit(bool on) noexcept { audit_ = on; }
   [[nodiscard]] const AuditReport& audit() const noexcept { return report_; }
 
   [[nodiscard]] std::uint64_t live_calls() const noexcept { return live_calls_; }
   [[nodiscard]] std::uint64_t live_edges() const noexcept { return live_edges_; }
-  /// Memory held by the trace: calls, edges, time stamps, tables.
-  [[nodiscard]] std::size_t bytes() const noexcept;
+  /// Memory that the trace uses: memory().live().
+  [[nodiscard]] std::size_t bytes() const noexcept { return memory().live(); }
+  [[nodiscard]] Memory memory() const noexcept;
+  /// Calls and bytes by function, the largest first. Cost: O(trace).
+  [[nodiscard]] std::vector<FunctionProfile> profile() const;
+  /// Gives memory that is not in use back to the system. Throws: UsageError if the engine runs.
+  /// Cost: O(free blocks) and the size of the tables.
+  void shrink();
+  /// From now on the trace may hold so many bytes of calls and edges; beyond, std::bad_alloc.
+  void set_memory_limit(std::size_t bytes) noexcept { arena_.set_limit(bytes); }
   [[nodiscard]] bool idle() const noexcept { return mode_ == Mode::idle; }
 
   /// Calls visit(call, depth) for every live call in pre-order.
   template <class Visit>
   void walk(Visit&& visit) const;
 
-  /// Prints `name(arguments)`.
+  /// `name(arguments)`.
   [[nodiscard]] static std::string describe(const Call& call);
+  /// What messages call a modifiable: `modifiable 'price' (@7)`.
+  [[nodiscard]] std::string describe_mod(Handle head) const;
 
   /// Throws: InvariantError. Cost: O(trace).
   void check_invariants() const;
@@ -135,6 +213,7 @@ class Engine {
 
   /// The call's observation may have changed: it will run again.
   void invalidate(Call& call) noexcept {
+    if (observer_ != nullptr) [[unlikely]] note(Event::Kind::invalidated, &call);
     call.set(Call::kInvalid);
     if (call.queue == 0 && !call.has(Call::kRunning | Call::kPending | Call::kDead)) enqueue(call);
   }
@@ -147,6 +226,17 @@ class Engine {
   }
   /// True while a first run appends to the trace: every call there is precedes the running one.
   [[nodiscard]] bool appending() const noexcept { return mode_ == Mode::running; }
+  /// The structure that `edge` belongs to.
+  [[nodiscard]] const Structure& structure_of(const Edge& edge) const noexcept {
+    return *structures_[edge.structure];
+  }
+  /// Calls visit(edge) for what `call` did and saw, in its order.
+  template <class Visit>
+  void for_each_edge(const Call& call, Visit&& visit) const {
+    for (Handle e = call.edges; e != 0; e = at<Edge>(e)->next) {
+      visit(static_cast<const Edge&>(*at<Edge>(e)));
+    }
+  }
   [[nodiscard]] Arena& arena() noexcept { return arena_; }
   [[nodiscard]] const Arena& arena() const noexcept { return arena_; }
 
@@ -155,7 +245,22 @@ class Engine {
   friend class Agenda;
   friend class ModStructure;
 
-  enum class Mode : std::uint8_t { idle, running, propagating };
+  enum class Mode : std::uint8_t { idle, running, propagating, undoing };
+
+  // An object of the outside in memory: head, object.
+  struct OutsideHead {
+    std::uint32_t position;  // in outside_
+    std::uint16_t type;
+    bool released;
+  };
+  struct OutsideType {
+    std::uint32_t bytes;  // with the head
+    void (*destroy)(void*);
+  };
+  template <class T>
+  static constexpr OutsideType kOutsideType{sizeof(OutsideHead) + sizeof(T),
+                                            [](void* object) { static_cast<T*>(object)->~T(); }};
+  using Construct = void (*)(void*, const void*);
 
   // One execution on the native stack: a call and the tail calls that continue it.
   struct Activation {
@@ -184,11 +289,28 @@ class Engine {
   // An end stamp has no place until its call closes.
   [[nodiscard]] bool linked(Handle stamp) const noexcept { return at<TimeNode>(stamp)->prev != 0; }
   void enqueue(Call& call) noexcept { queue_.push(handle_of(call)); }
+  void note(Event::Kind kind, const Call* call, Handle source = 0) noexcept {
+    observer_->on({.kind = kind,
+                   .call = call,
+                   .source = source,
+                   .by = current_ != nullptr ? current_->call : nullptr});
+  }
 
   void enter(Mode mode);
+  void report_progress();
+  [[nodiscard]] bool unposted(const Call& call) const noexcept;
+  void result_changed(Handle caller) noexcept;
+  [[nodiscard]] Handle new_outside(const OutsideType& type);
+  void release_outside(void* object);
+  void require_unwritten(Handle head) const;
+  void free_released() noexcept;
+  void require_idle(const char* what) const;
+  void require_no_tail(const Activation& caller, const Function& function) const;
+  void depend_on_result(Handle child) noexcept;
+  [[nodiscard]] Activation& running(const char* what);
   void require_usable() const;
   Counts run_root(const Function& function, std::uint32_t hash, const void* args,
-                  void (*construct)(void*, const void*));
+                  Construct construct);
   [[nodiscard]] bool next_is_within(Handle call) const noexcept;
   void propagate_within(Handle call);
   void roll_back();
@@ -197,17 +319,16 @@ class Engine {
   void check_audit();
 
   Handle new_call(const Function& function, std::uint32_t hash, const void* args,
-                  void (*construct)(void*, const void*));
+                  Construct construct);
   void free_call(Handle call) noexcept;
   void drop_call(Handle call) noexcept;
   void insert_call(Handle call);
-  Handle find_reusable(const Function& function, std::uint32_t hash, const void* args,
-                       bool tail) const;
-  void suspect(Handle fresh, const void* args);
+  Handle find_reusable(const Function& function, std::uint32_t hash, const void* args, bool tail);
+  void suspect(Handle fresh, std::uint32_t hash, const void* args);
   Handle call_child(const Function& function, std::uint32_t hash, const void* args,
-                    void (*construct)(void*, const void*));
-  void call_tail(const Function& function, std::uint32_t hash, const void* args,
-                 void (*construct)(void*, const void*));
+                    Construct construct);
+  Handle call_tail(const Function& function, std::uint32_t hash, const void* args,
+                   Construct construct);
   void need_end(Activation& a);
   void settle_child(Handle child);
   void execute(Handle call, Handle limit);
@@ -233,7 +354,15 @@ class Engine {
   std::vector<Structure*> structures_;
   std::unique_ptr<ModStructure> mods_;
   std::vector<std::unique_ptr<Agenda>> agendas_;
-  std::vector<std::pair<Handle, void (*)(Engine&, Handle)>> outside_mods_;
+  Registry<Function> functions_;
+  Registry<OutsideType> outside_types_;
+  std::vector<Handle> outside_;  // objects of the outside, by their heads
+  std::vector<Handle> released_;  // those to be freed when the edits are final
+  std::map<Handle, std::string> names_;
+  std::function<bool(const Progress&)> progress_;
+  std::uint64_t progress_every_ = 0;
+  std::uint64_t progress_at_ = ~std::uint64_t{0};  // number of bodies run at the next report
+  Observer* observer_ = nullptr;
   std::vector<std::function<void()>> rollback_;
   std::vector<Handle> graveyard_;
   std::vector<std::pair<Handle, Handle>> suspects_;

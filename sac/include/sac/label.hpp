@@ -5,8 +5,8 @@
 // operator<<, else only the type's size is shown.
 //
 // To compare traces of different runs a label needs a name that is the same in all of them, which
-// neither the hash nor the print of a handle is. print_arguments() on a LabelStream gives that name
-// to a LabelSink instead of text to people. An argument's name is the first of these that applies:
+// neither the hash nor the print of a handle is. label_arguments() gives that name to a LabelSink. An
+// argument's name is the first of these that applies:
 //   (1) what `label_bytes(LabelSink&, const T&)` (argument-dependent) says;
 //   (2) the value of a number, an enumerator or a string;
 //   (3) the object that a pointer points to, which the sink must know by name;
@@ -16,11 +16,13 @@
 //   (6) nothing: the sink is told so.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <compare>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <ostream>
 #include <ranges>
@@ -30,7 +32,7 @@
 
 namespace sac {
 
-template <class T>
+template <class T, class Same>
 class Mod;
 class Agenda;
 
@@ -47,13 +49,40 @@ concept HashedByValue = requires(const T& value) {
 };
 
 template <class T>
+concept HashedByStd = requires(const T& value) {
+  { std::hash<T>{}(value) } -> std::convertible_to<std::size_t>;
+};
+/// Equal values have equal bytes, and no others.
+template <class T>
+concept HashedByBytes =
+    std::is_trivially_copyable_v<T> && std::has_unique_object_representations_v<T>;
+
+/// Hashes by the first of: hash_value (argument-dependent), std::hash, bytes.
+template <class T>
 [[nodiscard]] std::uint64_t hash_argument(const T& value) {
   if constexpr (HashedByValue<T>) {
     return hash_value(value);
-  } else {
+  } else if constexpr (HashedByStd<T>) {
     return std::hash<T>{}(value);
+  } else {
+    static_assert(HashedByBytes<T>, "a type of arguments needs hash_value(const T&) or std::hash");
+    std::uint64_t h = 0;
+    for (std::size_t i = 0; i < sizeof(T); i += 8) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, reinterpret_cast<const char*>(&value) + i,
+                  sizeof(T) - i < 8 ? sizeof(T) - i : 8);
+      h = mix(h + word + 0x9e3779b97f4a7c15u);
+    }
+    return h;
   }
 }
+
+/// Whether hashing a T again needs no client code: then its calls do not store their hash.
+template <class T>
+inline constexpr bool kCheapHash =
+    std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_pointer_v<T>;
+template <class T, class Same>
+inline constexpr bool kCheapHash<Mod<T, Same>> = true;
 
 template <class... Args>
 [[nodiscard]] std::uint64_t hash_arguments(std::uint64_t seed, const std::tuple<Args...>& args) {
@@ -97,18 +126,8 @@ class LabelSink {
   ~LabelSink() = default;
 };
 
-/// A stream that takes the names of arguments, no text: see print_arguments.
-class LabelStream final : public std::ostream {
- public:
-  explicit LabelStream(LabelSink& sink) : std::ostream(nullptr), sink_(sink) {}
-  [[nodiscard]] LabelSink& sink() const noexcept { return sink_; }
-
- private:
-  LabelSink& sink_;
-};
-
-template <class T>
-void label_bytes(LabelSink& sink, const Mod<T>& mod) {
+template <class T, class Same>
+void label_bytes(LabelSink& sink, const Mod<T, Same>& mod) {
   sink.handle(mod.head());
 }
 
@@ -163,26 +182,30 @@ void name_argument(LabelSink& sink, const T& value) {
   } else if constexpr (std::ranges::sized_range<const T>) {
     sink.number(std::ranges::size(value));
     for (const auto& part : value) name_argument(sink, part);
-  } else {
+  } else if constexpr (HashedByValue<T> || HashedByStd<T> || HashedByBytes<T>) {
     sink.nameless(hash_argument(value));
+  } else {
+    sink.nameless(0);  // a value may be of a type that cannot be an argument
   }
 }
 
 }  // namespace detail
 
-/// `a, b, c` for people; on a LabelStream their names in all runs.
+/// `a, b, c`, for people.
 template <class... Args>
 void print_arguments(std::ostream& out, const std::tuple<Args...>& args) {
-  if (auto* labels = dynamic_cast<LabelStream*>(&out)) {
-    std::apply([&](const auto&... a) { (detail::name_argument(labels->sink(), a), ...); }, args);
-    return;
-  }
   const char* separator = "";
   std::apply(
       [&](const auto&... a) {
         ((out << separator, print_argument(out, a), separator = ", "), ...);
       },
       args);
+}
+
+/// The arguments' names in all runs.
+template <class... Args>
+void label_arguments(LabelSink& sink, const std::tuple<Args...>& args) {
+  std::apply([&](const auto&... a) { (detail::name_argument(sink, a), ...); }, args);
 }
 
 namespace detail {
@@ -221,6 +244,28 @@ template <auto F>
   }
 }
 
+// "make " and the name of a type without namespaces and template arguments (which compilers spell
+// differently), composed by the compiler.
+template <class T>
+struct MakerName {
+  static constexpr std::string_view short_type() {
+    constexpr std::string_view full = spelled_type<T>();
+    constexpr std::string_view bare = full.substr(0, full.find('<'));
+    constexpr auto colon = bare.rfind("::");
+    return colon == bare.npos ? bare : bare.substr(colon + 2);
+  }
+  static constexpr auto text = [] {
+    constexpr std::string_view prefix = "make ";
+    std::array<char, prefix.size() + short_type().size()> joined{};
+    std::size_t n = 0;
+    for (const char c : prefix) joined[n++] = c;
+    for (const char c : short_type()) joined[n++] = c;
+    return joined;
+  }();
+};
+template <class T>
+inline constexpr std::string_view kMakerName{MakerName<T>::text.data(), MakerName<T>::text.size()};
+
 }  // namespace detail
 
 /// The name of a traced function for people: an object's member `kName` if it has one, else the
@@ -234,6 +279,12 @@ template <auto F>
     constexpr auto colon = full.rfind("::");
     return colon == full.npos ? full : full.substr(colon + 2);
   }
+}
+
+/// The name of a keyed allocation of a T, for people and in labels: `make Node`.
+template <class T>
+[[nodiscard]] constexpr std::string_view maker_name() {
+  return detail::kMakerName<T>;
 }
 
 }  // namespace sac

@@ -1,10 +1,18 @@
 // label -> live call: finds the call to reuse.
 //
-// Chained through the calls themselves; four bytes of table per call. Calls discarded in the
-// propagation under way stay findable until it ends, so that a program which asks for them again
-// (not monotone) can be told.
+// One array of (hash, call), in the order of the hashes: an entry lies at or behind the place that
+// its hash has in proportion to all hashes, and a search ends at a larger hash. So the calls
+// themselves are touched only where a hash matches, and the table grows by one pass from front to
+// back. 10 to 15 bytes a call.
+//
+// In a first run nobody searches: insert_soon() puts an entry off while its place is fetched into
+// the cache.
+//
+// Calls discarded in the propagation under way stay findable until it ends, so that a program which
+// asks for them again (not monotone) can be told.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -15,51 +23,91 @@ namespace sac {
 
 class MemoTable {
  public:
-  explicit MemoTable(Arena& arena) : arena_(arena), buckets_(1024, 0) {}
+  explicit MemoTable(Arena& arena) : arena_(arena), entries_(kFirst + kFirst / 2), places_(kFirst) {}
 
-  /// Throws: std::bad_alloc, and then changes nothing.
-  void insert(Handle call) {
-    if (size_ >= buckets_.size()) grow();
-    Call& c = *at(call);
-    Handle& head = buckets_[bucket(c.hash)];
-    c.memo_next = head;
-    head = call;
+  /// Throws: std::bad_alloc, and then changes nothing. Cost: O(1) expected.
+  void insert(Handle call, std::uint32_t hash) {
+    make_room();
+    put({hash, call});
     ++size_;
   }
 
-  void erase(Handle call) noexcept;
+  /// As insert(), a little later. Throws: std::bad_alloc, and then changes nothing.
+  void insert_soon(Handle call, std::uint32_t hash) {
+    make_room();
+    Entry& oldest = waiting_[turn_];
+    if (oldest.call != 0) put(oldest);
+    oldest = {hash, call};
+    __builtin_prefetch(&entries_[place(hash)], 1);
+    turn_ = (turn_ + 1) % kWaiting;
+    ++size_;
+    any_waiting_ = true;
+  }
+
+  /// Requires: the call is there, under this hash.
+  void erase(Handle call, std::uint32_t hash) noexcept;
 
   /// Calls `visit(handle, call)` for every call of this hash until it returns true; the handle it
   /// stopped at, or 0.
   template <class Visit>
-  [[nodiscard]] Handle find(std::uint32_t hash, Visit&& visit) const {
-    for (Handle h = buckets_[bucket(hash)]; h != 0; h = at(h)->memo_next) {
-      if (at(h)->hash == hash && visit(h, *at(h))) return h;
+  [[nodiscard]] Handle find(std::uint32_t hash, Visit&& visit) {
+    if (any_waiting_) settle();
+    for (std::size_t i = place(hash);; ++i) {
+      const Entry& e = entries_[i];
+      if (e.call == 0 || e.hash > hash) return 0;
+      if (e.hash == hash && visit(e.call, *arena_.at<Call>(e.call))) return e.call;
     }
-    return 0;
   }
+
+  /// Whether the call is there, under this hash.
+  [[nodiscard]] bool contains(Handle call, std::uint32_t hash) const noexcept;
 
   /// Calls `visit(call)` for every call of the table.
   template <class Visit>
   void for_each(Visit&& visit) const {
-    for (const Handle head : buckets_) {
-      for (Handle h = head; h != 0; h = at(h)->memo_next) visit(*at(h));
+    for (const Entry& e : waiting_) {
+      if (e.call != 0) visit(*arena_.at<Call>(e.call));
+    }
+    for (const Entry& e : entries_) {
+      if (e.call != 0) visit(*arena_.at<Call>(e.call));
     }
   }
 
+  /// Gives memory back that fewer calls do not need. Throws: std::bad_alloc, and then changes
+  /// nothing.
+  void shrink();
+
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  [[nodiscard]] std::size_t bytes() const noexcept { return buckets_.capacity() * sizeof(Handle); }
+  [[nodiscard]] std::size_t bytes() const noexcept { return entries_.capacity() * sizeof(Entry); }
+
+  void check_invariants() const;
 
  private:
-  [[nodiscard]] Call* at(Handle h) const noexcept { return arena_.at<Call>(h); }
-  [[nodiscard]] std::size_t bucket(std::uint32_t hash) const noexcept {
-    return hash & (buckets_.size() - 1);
+  struct Entry {
+    std::uint32_t hash = 0;
+    Handle call = 0;
+  };
+  static constexpr std::size_t kFirst = 512;
+  static constexpr std::size_t kWaiting = 16;  // more misses at once than a core can have
+
+  [[nodiscard]] std::size_t place(std::uint32_t hash) const noexcept {
+    return static_cast<std::size_t>(std::uint64_t{hash} * places_ >> 32);
   }
-  void grow();
+  // At most 4 calls to 5 places.
+  void make_room() {
+    if (5 * (size_ + 1) > 4 * places_) resize(places_ + places_ / 2);
+  }
+  void put(Entry entry);
+  void settle();
+  void resize(std::size_t places);
 
   Arena& arena_;
-  std::vector<Handle> buckets_;
+  std::vector<Entry> entries_;  // the places, and room for those pushed behind the last
+  std::size_t places_;
   std::size_t size_ = 0;
+  std::array<Entry, kWaiting> waiting_{};
+  std::size_t turn_ = 0;
+  bool any_waiting_ = false;
 };
 
 }  // namespace sac

@@ -1,18 +1,25 @@
 // Modifiables: memory whose readers run again when it changes.
 //
-// A modifiable is a chain of versions in trace order, the first one in place; with a single write
-// the chain is one version and a read checks one pointer more than a plain load would. Each version
-// lists its readers. A write that appears between two others takes over the readers behind it.
+// A modifiable is one version of its value per call that writes it, in trace order; a read sees the
+// last one before it. The version of the only writer lies in place, where the modifiable's handle
+// points, and a read checks one number more than a plain load would. With more writers a `History`
+// keeps the versions in order: O(log) a read or write. Each version lists its readers; a write that
+// appears between two others takes over the readers behind it.
 //
 // Example (imperative): call A writes 1, call B reads 1, call C writes 2, call D reads 2.
 #pragma once
 
 #include <compare>
+#include <functional>
+#include <memory>
 #include <new>
 #include <ostream>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "sac/engine.hpp"
+#include "sac/ordered_calls.hpp"
 #include "sac/scope.hpp"
 
 namespace sac {
@@ -21,65 +28,80 @@ namespace detail {
 
 // One value over a stretch of the trace: 16 bytes, value behind it.
 struct Version {
-  Handle writer = 0;   // the call that wrote it; 0: the outside
-  Handle readers = 0;  // chain of ReadEdges
-  Handle next = 0;     // next version in trace order
+  Handle writer = 0;          // the call that wrote it; 0: the outside
+  Handle readers = 0;         // chain of ReadEdges
+  std::uint32_t history = 0;  // number of the modifiable's History; 0: this version is all there is
+  std::uint16_t type = 0;
   bool written = false;
-  bool outside = false;  // written by Engine::input / set
+  bool outside = false;  // an input
 };
 static_assert(sizeof(Version) == 16);
 
 template <class T>
 struct TypedVersion : Version {
   static_assert(alignof(T) <= 8, "values in the arena are aligned to 8 bytes");
+  static_assert(std::is_nothrow_move_constructible_v<T> && std::is_nothrow_move_assignable_v<T>,
+                "a value that may throw when it is moved would be lost: hold it by a pointer");
   alignas(T) std::byte storage[sizeof(T)];
   T& value() noexcept { return *std::launder(reinterpret_cast<T*>(storage)); }
+  const T& value() const noexcept { return *std::launder(reinterpret_cast<const T*>(storage)); }
+};
+
+// The versions of a modifiable that more than one call writes, in trace order.
+struct History {
+  Handle head = 0;
+  OrderedCalls versions;  // by their handles
 };
 
 struct ReadEdge : Edge {
-  Handle version;
+  Handle version;  // 0: what it saw is gone; the call is invalid
   Handle call;
   Handle prev;  // previous reader; 0: first
   Handle next_reader;
 };
 static_assert(sizeof(ReadEdge) == 24);
 
-// How to compare, destroy and move the value of a version, and how large the version is.
-struct ValueOps {
-  bool (*equal)(Version&, Version&);
+struct WriteEdge : Edge {
+  Handle head;  // the modifiable
+  Handle version;
+};
+static_assert(sizeof(WriteEdge) == 16);
+
+// What can be done with a version without knowing the type of its value.
+struct ValueType {
+  bool (*same)(const Version&, const Version&);
   void (*destroy)(Version&);
-  void (*move)(Version& from, Version& to);  // leaves `from` without a value
+  void (*print)(const Version&, std::ostream&);
+  void (*label)(const Version&, LabelSink&);
   std::uint32_t bytes;
 };
 
-struct WriteEdge : Edge {
-  Handle head;  // first version of the modifiable
-  Handle version;
-  const ValueOps* ops;
-};
-static_assert(sizeof(WriteEdge) == 24);
-
-template <class T>
-inline constexpr ValueOps kValueOps{
-    [](Version& a, Version& b) {
-      return static_cast<TypedVersion<T>&>(a).value() == static_cast<TypedVersion<T>&>(b).value();
+template <class T, class Same>
+inline constexpr ValueType kValueType{
+    [](const Version& a, const Version& b) {
+      return static_cast<bool>(Same{}(static_cast<const TypedVersion<T>&>(a).value(),
+                                      static_cast<const TypedVersion<T>&>(b).value()));
     },
     [](Version& v) { static_cast<TypedVersion<T>&>(v).value().~T(); },
-    [](Version& from, Version& to) {
-      T& old = static_cast<TypedVersion<T>&>(from).value();
-      ::new (static_cast<void*>(static_cast<TypedVersion<T>&>(to).storage)) T(std::move(old));
-      old.~T();
+    [](const Version& v, std::ostream& out) {
+      print_argument(out, static_cast<const TypedVersion<T>&>(v).value());
+    },
+    [](const Version& v, LabelSink& sink) {
+      name_argument(sink, static_cast<const TypedVersion<T>&>(v).value());
     },
     sizeof(TypedVersion<T>)};
 
 }  // namespace detail
 
-/// A handle of a modifiable holding a T; 4 bytes, copied freely.
-template <class T>
+/// A handle of a modifiable holding a T; 4 bytes, copied freely. A new value that is `Same` as the
+/// old one disturbs nobody.
+template <class T, class Same>
 class Mod {
  public:
   Mod() = default;
   explicit Mod(Handle head) : head_(head) {}
+  /// Requires: the cell lies in an object that an engine made.
+  Mod(const Cell<T, Same>& cell) : head_(Arena::locate(&cell)) {}
   [[nodiscard]] Handle head() const noexcept { return head_; }
   explicit operator bool() const noexcept { return head_ != 0; }
   friend auto operator<=>(const Mod&, const Mod&) = default;
@@ -88,6 +110,21 @@ class Mod {
 
  private:
   Handle head_ = 0;
+};
+
+/// A modifiable as a member of an object that an engine made. Neither copied nor moved.
+template <class T, class Same>
+class alignas(Arena::kGranule) Cell {
+ public:
+  Cell() = default;
+  Cell(const Cell&) = delete;
+  Cell& operator=(const Cell&) = delete;
+  ~Cell();
+
+ private:
+  friend class Engine;
+  friend class Scope;
+  detail::TypedVersion<T> version_;
 };
 
 /// The untyped half of modifiables: versions, readers, and who must run again.
@@ -101,28 +138,39 @@ class ModStructure final : public Structure {
   /// The version that the running call sees, with the read recorded.
   detail::Version& observe(Scope& scope, Handle head);
 
-  struct Slot {
-    detail::Version* version;
-    bool fresh;  // the value is not constructed yet
-  };
-  /// The running call's own version: last time's, confirmed, or a fresh one in its place.
-  Slot own_version(Scope& scope, Handle head, const detail::ValueOps& ops);
-  /// The value of `version` changed: its readers run again.
-  void changed(Scope& scope, detail::Version& version);
-  /// A fresh version got its value: takes over the readers behind it; those of an equal value do
-  /// not run again.
-  void appeared(Scope& scope, Handle head, detail::Version& version, bool same_as_before);
-  /// The written version before `version` in the chain; null if none.
-  detail::Version* before(Handle head, const detail::Version& version) const noexcept;
-  /// The last version of the chain. Throws: UsageError if nothing is written.
-  detail::Version& last(Handle head) const;
+  /// The running call's own version: last time's, confirmed; null if it has none.
+  detail::Version* own_version(Scope& scope, Handle head);
+  /// A version for the running call, without a value yet.
+  detail::Version& new_version(Scope& scope, Handle head, const detail::ValueType& type);
+  /// The written version before `version`; null if none.
+  [[nodiscard]] detail::Version* before(Handle head, const detail::Version& version) const noexcept;
+  /// Throws: UsageError if the running call's own children have read `version`: then it may not
+  /// change.
+  void require_unread(Scope& scope, Handle head, const detail::Version& version) const;
+  /// The value of `version` is another: its readers run again.
+  void changed(Handle head, detail::Version& version) noexcept;
+  /// A new version has its value: takes over the readers of `previous` that are behind it; those of
+  /// the same value do not run again.
+  void appeared(Scope& scope, Handle head, detail::Version& version, detail::Version* previous,
+                bool same) noexcept;
+  /// The last version. Throws: UsageError if nothing is written.
+  [[nodiscard]] detail::Version& last(Handle head) const;
   void invalidate_readers(detail::Version& version) noexcept;
 
+  /// The number of a type of values. Throws: std::bad_alloc.
+  [[nodiscard]] std::uint16_t number(const detail::ValueType& type) { return types_.number(type); }
+
   void retract(Call& call, Edge& edge) noexcept override;
+  void label(const Call& call, const Edge& edge, LabelSink& sink) const override;
+  void print(const Call& call, const Edge& edge, std::ostream& out) const override;
+
+  [[nodiscard]] std::size_t bytes() const noexcept;
+  /// The value of every version that `call` wrote is destroyed: the engine ends.
+  void destroy_values(const Call& call) noexcept;
   /// Throws: InvariantError unless the versions of the modifiable are in trace order and every
   /// reader is at the version that it sees.
   void check_invariants(Handle head) const;
-  /// The same for the modifiables whose first version `call` wrote.
+  /// The same for the modifiables that `call` wrote.
   void check_writes(const Call& call) const;
 
  private:
@@ -132,115 +180,181 @@ class ModStructure final : public Structure {
   [[nodiscard]] detail::ReadEdge* reader(Handle h) const noexcept {
     return engine_.arena().at<detail::ReadEdge>(h);
   }
-  bool sees(const Call& call, const detail::Version& version) const;
-  bool unconfirmed(const detail::Version& version) const noexcept;
-  void vacate(Handle head, const detail::ValueOps& ops);
+  [[nodiscard]] Handle handle_of(const detail::Version& version) const noexcept {
+    return engine_.arena().handle_of(&version);
+  }
+  [[nodiscard]] const Call& writer(const detail::Version& version) const noexcept {
+    return engine_.call(version.writer);
+  }
+  // Orders versions by their writers; handle 0 stands for `probe`.
+  [[nodiscard]] auto order(const Call* probe = nullptr) const noexcept {
+    return [this, probe](Handle a, Handle b) {
+      const Call& x = a != 0 ? writer(*at(a)) : *probe;
+      const Call& y = b != 0 ? writer(*at(b)) : *probe;
+      return engine_.precedes(x, y);
+    };
+  }
+  [[nodiscard]] detail::History& history(std::uint32_t number) const noexcept {
+    return *histories_[number];
+  }
+  [[nodiscard]] detail::Version* seen_by(const Call& call, Handle head) const;
+  [[nodiscard]] detail::Version* find_own(const Call& call, Handle head) const noexcept;
+  [[nodiscard]] bool unconfirmed(const detail::Version& version) const noexcept;
+  [[nodiscard]] std::uint32_t new_history(Handle head);
+  void drop_history(Handle head) noexcept;
+  void forget_version(Handle head, detail::Version& version) noexcept;
   void link_reader(detail::ReadEdge& edge, detail::Version& version) noexcept;
   void unlink_reader(detail::ReadEdge& edge) noexcept;
   void move_readers(detail::Version& from, detail::Version& to, const Call* later_than,
                     bool invalidate) noexcept;
-  void require_ahead(const Call& reader, const detail::Version& version, Handle head) const;
+  void orphan_readers(detail::Version& version) noexcept;
+  void require_ahead(const Call& reader, Handle head) const;
   [[noreturn]] void fail_unwritten(const Call& reader, Handle head) const;
-  void require_unread(Scope& scope, const detail::Version& version) const;
 
   Engine& engine_;
   std::uint8_t id_;
+  Registry<detail::ValueType> types_;
+  std::vector<std::unique_ptr<detail::History>> histories_;  // by number; the first is not used
+  std::vector<std::uint32_t> free_histories_;
 };
 
-namespace detail {
-
-template <class T>
-Handle new_mod(Engine& engine) {
-  const Handle h = engine.arena().allocate(sizeof(TypedVersion<T>));
-  ::new (engine.arena().at<void>(h)) TypedVersion<T>();
-  return h;
-}
-
-template <class T>
-void destroy_mod(Engine& engine, Handle head) {
-  auto& version = *engine.arena().at<TypedVersion<T>>(head);
-  if (version.written) version.value().~T();
-  engine.arena().release(head, sizeof(TypedVersion<T>));
-}
-
-// A modifiable as a keyed object: the first version in place, where a handle can point.
-template <class T>
-struct Cell {
-  alignas(Arena::kGranule) TypedVersion<T> version;
-  ~Cell() {
-    if (version.written) version.value().~T();
+template <class T, class Same>
+Cell<T, Same>::~Cell() {
+  if (version_.readers != 0 && !Arena::header_of(this).ending) {
+    // Nobody may read it any more; what the readers saw is gone.
+    for (Handle r = version_.readers; r != 0;) {
+      auto& edge = *Arena::in_arena_of<detail::ReadEdge>(this, r);
+      r = edge.next_reader;
+      edge.version = 0;
+    }
   }
-};
-
-}  // namespace detail
-
-template <class T>
-Mod<T> Engine::cell() {
-  require_usable();
-  outside_mods_.reserve(outside_mods_.size() + 1 > outside_mods_.capacity()
-                            ? 2 * outside_mods_.size() + 16
-                            : outside_mods_.capacity());
-  const Handle head = detail::new_mod<T>(*this);
-  outside_mods_.emplace_back(head, &detail::destroy_mod<T>);
-  return Mod<T>(head);
+  if (version_.written) version_.value().~T();
 }
 
 template <class T>
-Mod<T> Engine::input(T value) {
-  const Mod<T> mod = cell<T>();
+T& Engine::make() {
+  require_usable();
+  static_assert(alignof(T) <= 8, "objects in the arena are aligned to 8 bytes");
+  const Handle head = new_outside(kOutsideType<T>);
+  try {
+    return *::new (static_cast<void*>(at<OutsideHead>(head) + 1)) T();
+  } catch (...) {
+    outside_.pop_back();
+    arena_.release(head, kOutsideType<T>.bytes);
+    throw;
+  }
+}
+
+template <class T>
+void Engine::release(T& object) {
+  release_outside(&object);
+}
+template <class T, class Same>
+void Engine::release(Mod<T, Same> mod) {
+  release_outside(at<void>(mod.head()));
+}
+
+template <class T, class Same>
+Mod<T, Same> Engine::cell() {
+  return Mod<T, Same>(arena_.handle_of(&make<Cell<T, Same>>()));
+}
+
+template <class T, class Same>
+Mod<T, Same> Engine::input(T value) {
+  const std::uint16_t type = mods_->number(detail::kValueType<T, Same>);
+  const Mod<T, Same> mod = cell<T, Same>();
   auto& version = *at<detail::TypedVersion<T>>(mod.head());
   ::new (static_cast<void*>(version.storage)) T(std::move(value));
+  version.type = type;
   version.written = version.outside = true;
   return mod;
 }
 
-template <class T>
-void Engine::set(Mod<T> mod, T value) {
+template <class T, class Same>
+void Engine::set(Mod<T, Same> mod, std::type_identity_t<T> value) {
   begin_edit();
+  SAC_EXPECTS(arena_.contains(at<void>(mod.head())));
   auto& version = *at<detail::TypedVersion<T>>(mod.head());
-  if (!version.outside) throw UsageError("set: this modifiable is written by the program");
-  if (version.value() == value) return;
-  auto undo = [this, mod, old = version.value()]() mutable {
+  if (!version.outside) {
+    require_unwritten(mod.head());
+    version.type = mods_->number(detail::kValueType<T, Same>);
+    on_rollback([this, mod] {
+      auto& v = *at<detail::TypedVersion<T>>(mod.head());
+      v.written = v.outside = false;
+      v.value().~T();
+    });
+    ::new (static_cast<void*>(version.storage)) T(std::move(value));
+    version.written = version.outside = true;
+    return;
+  }
+  if (Same{}(version.value(), value)) return;
+  on_rollback([this, mod, old = version.value()]() mutable {
     auto& v = *at<detail::TypedVersion<T>>(mod.head());
-    std::swap(v.value(), old);
-    mods_->invalidate_readers(v);
-  };
-  on_rollback(std::move(undo));
+    v.value() = std::move(old);
+    mods_->changed(mod.head(), v);
+  });
   version.value() = std::move(value);
-  mods_->invalidate_readers(version);
+  mods_->changed(mod.head(), version);
 }
 
-template <class T>
-const T& Engine::get(Mod<T> mod) const {
+template <class T, class Same>
+void Engine::set(const Cell<T, Same>& cell, std::type_identity_t<T> value) {
+  SAC_EXPECTS(arena_.contains(&cell));
+  set(Mod<T, Same>(cell), std::move(value));
+}
+
+template <class T, class Same>
+const T& Engine::get(Mod<T, Same> mod) const {
   return static_cast<detail::TypedVersion<T>&>(mods_->last(mod.head())).value();
 }
 
-template <class T>
-const T& Scope::read(Mod<T> mod) {
+template <class T, class Same>
+const T& Engine::get(const Cell<T, Same>& cell) const {
+  SAC_EXPECTS(arena_.contains(&cell));
+  return get(Mod<T, Same>(cell));
+}
+
+template <class T, class Same>
+const T& Scope::read(Mod<T, Same> mod) {
   auto& version = engine_.mods_->observe(*this, mod.head());
   return static_cast<detail::TypedVersion<T>&>(version).value();
 }
 
-template <class T>
-void Scope::write(Mod<T> mod, T value) {
-  ModStructure& mods = *engine_.mods_;
-  const auto slot = mods.own_version(*this, mod.head(), detail::kValueOps<T>);
-  auto& version = static_cast<detail::TypedVersion<T>&>(*slot.version);
-  if (!slot.fresh) {
-    if (version.value() == value) return;
-    version.value() = std::move(value);
-    return mods.changed(*this, version);
-  }
-  ::new (static_cast<void*>(version.storage)) T(std::move(value));
-  version.written = true;
-  auto* before = static_cast<detail::TypedVersion<T>*>(mods.before(mod.head(), version));
-  mods.appeared(*this, mod.head(), version,
-                before != nullptr && before->value() == version.value());
+template <class T, class Same>
+const T& Scope::read(const Cell<T, Same>& cell) {
+  SAC_EXPECTS(engine_.arena_.contains(&cell));
+  return read(Mod<T, Same>(cell));
 }
 
-template <class T, class... Key>
-Mod<T> Scope::cell(Key... key) {
-  return Mod<T>(engine_.arena_.handle_of(&make<detail::Cell<T>>(std::move(key)...).version));
+template <class T, class Same>
+void Scope::write(Mod<T, Same> mod, std::type_identity_t<T> value) {
+  ModStructure& mods = *engine_.mods_;
+  const Handle head = mod.head();
+  if (auto* own = static_cast<detail::TypedVersion<T>*>(mods.own_version(*this, head))) {
+    if (Same{}(own->value(), value)) return;
+    mods.require_unread(*this, head, *own);
+    own->value() = std::move(value);
+    return mods.changed(head, *own);
+  }
+  auto& version = static_cast<detail::TypedVersion<T>&>(
+      mods.new_version(*this, head, detail::kValueType<T, Same>));
+  auto* previous = static_cast<detail::TypedVersion<T>*>(mods.before(head, version));
+  const bool same = previous != nullptr && Same{}(previous->value(), value);
+  if (previous != nullptr && !same) mods.require_unread(*this, head, *previous);
+  ::new (static_cast<void*>(version.storage)) T(std::move(value));
+  version.written = true;
+  mods.appeared(*this, head, version, previous, same);
+}
+
+template <class T, class Same>
+void Scope::write(const Cell<T, Same>& cell, std::type_identity_t<T> value) {
+  SAC_EXPECTS(engine_.arena_.contains(&cell));
+  write(Mod<T, Same>(cell), std::move(value));
+}
+
+template <class T, class Same, class... Key>
+Mod<T, Same> Scope::cell(Key... key) {
+  return Mod<T, Same>(engine_.arena_.handle_of(&make<Cell<T, Same>>(std::move(key)...)));
 }
 
 }  // namespace sac

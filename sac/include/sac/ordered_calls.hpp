@@ -76,13 +76,33 @@ class OrderedCalls {
     }
   }
 
-  /// The last call that comes before `entry`; 0 if there is none.
+  /// The last call that comes before `entry`, which may be there or not; 0 if there is none.
   template <class Before>
   [[nodiscard]] Handle predecessor(Entry entry, Before&& before) const {
+    if (leaves_.empty()) return 0;
+    std::size_t l = leaf_for(entry, before);
+    std::size_t i = position(*leaves_[l], entry, before);
+    if (i > 0 && !less({leaves_[l]->orders[i - 1], leaves_[l]->calls[i - 1]}, entry, before)) --i;
+    if (i > 0) return leaves_[l]->calls[i - 1];
+    return l > 0 ? leaves_[l - 1]->calls[leaves_[l - 1]->count - 1] : 0;
+  }
+  /// The last call that does not come behind `entry`; 0 if there is none.
+  template <class Before>
+  [[nodiscard]] Handle last_not_behind(Entry entry, Before&& before) const {
     if (leaves_.empty()) return 0;
     const Leaf& leaf = *leaves_[leaf_for(entry, before)];
     const std::size_t i = position(leaf, entry, before);
     return i == 0 ? 0 : leaf.calls[i - 1];
+  }
+
+  /// The first call that comes behind `entry`; 0 if there is none.
+  template <class Before>
+  [[nodiscard]] Handle successor(Entry entry, Before&& before) const {
+    if (leaves_.empty()) return 0;
+    const std::size_t l = leaf_for(entry, before);
+    const std::size_t i = position(*leaves_[l], entry, before);
+    if (i < leaves_[l]->count) return leaves_[l]->calls[i];
+    return l + 1 < leaves_.size() ? leaves_[l + 1]->calls[0] : 0;
   }
 
   template <class Visit>

@@ -23,6 +23,11 @@ class PropagationQueue {
     if (count > heap_.capacity()) heap_.reserve(count + count / 2);
   }
 
+  /// Gives memory back that `count` calls do not need. Throws: std::bad_alloc.
+  void shrink(std::size_t count);
+  /// What calls that wait take; room for more is not memory before they do.
+  [[nodiscard]] std::size_t bytes() const noexcept { return heap_.size() * sizeof(Handle); }
+
   /// Requires: the call is not queued and has a place in the timeline. Cost: O(log size).
   void push(Handle call);
   /// The earliest call. Requires: not empty.

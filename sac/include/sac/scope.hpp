@@ -7,7 +7,9 @@
 
 #include <memory>
 #include <new>
+#include <optional>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "sac/engine.hpp"
@@ -18,117 +20,49 @@ class Scope;
 
 namespace detail {
 
-// A call in memory: header, then arguments.
+// What lies behind the head of a call: first what only some functions have, then the arguments.
+struct Nothing {};
+
+// A hash that client code computes is stored: that code may throw, and must not when a call leaves.
 template <class... Args>
+inline constexpr bool kStoresHash = !(kCheapHash<Args> && ...);
+template <bool kStored>
+struct HashField {
+  std::uint32_t hash;
+};
+template <>
+struct HashField<false> {};
+
+// Arguments on their way into a call.
+template <class... Args>
+struct Label {
+  std::tuple<Args...> args;
+  std::uint32_t hash;
+};
+
+// `Head`: Nothing, the Slot of a posted call, or ResultHead. `Tail`: Nothing, Result or Object.
+template <class Head, class Tail, class... Args>
 struct Frame {
   static_assert(((alignof(Args) <= 8) && ...), "arguments in the arena are aligned to 8 bytes");
+  using LabelType = Label<Args...>;
   Call call;
+  [[no_unique_address]] Head head;
+  [[no_unique_address]] HashField<kStoresHash<Args...>> hash;
   std::tuple<Args...> args;
+  [[no_unique_address]] Tail tail;
+
+  static Frame& of(Call& call) noexcept { return reinterpret_cast<Frame&>(call); }
+  static const Frame& of(const Call& call) noexcept { return reinterpret_cast<const Frame&>(call); }
 };
 
-// A keyed allocation in memory: header, key, object.
-template <class T, class... Key>
-struct MakeFrame {
-  static_assert(alignof(T) <= 8 && ((alignof(Key) <= 8) && ...),
-                "objects in the arena are aligned to 8 bytes");
-  Call call;
-  std::tuple<Key...> args;
-  alignas(T) std::byte storage[sizeof(T)];
-  bool built = false;
-
-  T& object() noexcept { return *std::launder(reinterpret_cast<T*>(storage)); }
+template <class R>
+struct Result {
+  std::optional<R> value;
 };
-
-template <class F>
-bool equal_args(const Call& call, const void* args) {
-  using Tuple = decltype(F::args);
-  return reinterpret_cast<const F&>(call).args == *static_cast<const Tuple*>(args);
-}
-
-template <class F>
-void construct_args(void* frame, const void* args) {
-  using Tuple = decltype(F::args);
-  ::new (&static_cast<F*>(frame)->args) Tuple(*static_cast<const Tuple*>(args));
-}
-
-template <class F>
-void destroy_args(Call& call) {
-  std::destroy_at(&reinterpret_cast<F&>(call).args);
-}
-
-template <class F>
-void print_args(const Call& call, std::ostream& out) {
-  print_arguments(out, reinterpret_cast<const F&>(call).args);
-}
-
-template <class F>
-std::uint64_t hash_args(const Call& call) {
-  return hash_arguments(0, reinterpret_cast<const F&>(call).args);
-}
-
-template <class F>
-std::strong_ordering compare_args(const Call& a, const Call& b) {
-  const auto order = reinterpret_cast<const F&>(a).args <=> reinterpret_cast<const F&>(b).args;
-  return order < 0 ? std::strong_ordering::less
-                   : order > 0 ? std::strong_ordering::greater : std::strong_ordering::equal;
-}
-
-// Runs F on the arguments stored in the frame.
-template <auto F, class FrameType, class S>
-void execute_frame(S& scope, Call& call) {
-  auto& frame = reinterpret_cast<FrameType&>(call);
-  std::apply([&](const auto&... args) { F(scope, args...); }, frame.args);
-}
-
-template <class F>
-inline constexpr bool kTrivialArgs = std::is_trivially_destructible_v<decltype(F::args)>;
-
-template <auto F, class... Args>
-inline constexpr Function kFunction{
-    .name = function_name<F>(),
-    .frame_bytes = sizeof(Frame<Args...>),
-    .posted = false,
-    .execute = &execute_frame<F, Frame<Args...>, Scope>,
-    .destroy = kTrivialArgs<Frame<Args...>> ? nullptr : &destroy_args<Frame<Args...>>,
-    .equal = &equal_args<Frame<Args...>>,
-    .compare = nullptr,
-    .hash = &hash_args<Frame<Args...>>,
-    .print = &print_args<Frame<Args...>>,
-};
-
-template <class T, class... Key>
-void build_object(Scope&, Call& call) {
-  auto& frame = reinterpret_cast<MakeFrame<T, Key...>&>(call);
-  if (frame.built) return;
-  ::new (static_cast<void*>(frame.storage)) T();
-  frame.built = true;
-}
-
-template <class T, class... Key>
-void destroy_object(Call& call) {
-  auto& frame = reinterpret_cast<MakeFrame<T, Key...>&>(call);
-  if (frame.built) frame.object().~T();
-  std::destroy_at(&frame.args);
-}
-
-template <class T, class... Key>
-void construct_key(void* memory, const void* key) {
-  auto* frame = static_cast<MakeFrame<T, Key...>*>(memory);
-  ::new (&frame->args) std::tuple<Key...>(*static_cast<const std::tuple<Key...>*>(key));
-  frame->built = false;
-}
-
-template <class T, class... Key>
-inline constexpr Function kMaker{
-    .name = "make",
-    .frame_bytes = sizeof(MakeFrame<T, Key...>),
-    .posted = false,
-    .execute = &build_object<T, Key...>,
-    .destroy = &destroy_object<T, Key...>,
-    .equal = &equal_args<MakeFrame<T, Key...>>,
-    .compare = nullptr,
-    .hash = &hash_args<MakeFrame<T, Key...>>,
-    .print = &print_args<MakeFrame<T, Key...>>,
+template <class T>
+struct Object {
+  static_assert(alignof(T) <= 8, "objects in the arena are aligned to 8 bytes");
+  alignas(Arena::kGranule) T value;
 };
 
 // A function's identity enters its calls' hashes by name, so that hashes are the same in every run.
@@ -138,23 +72,188 @@ constexpr std::uint64_t hash_name(std::string_view name) {
   return h;
 }
 
-template <class... Args>
-std::uint32_t label_hash(const Function& function, const std::tuple<Args...>& args) {
-  return static_cast<std::uint32_t>(hash_arguments(hash_name(function.name), args));
-}
-
-template <auto F, class... Args>
+template <auto Name, class... Args>
 std::uint32_t label_hash(const std::tuple<Args...>& args) {
-  constexpr std::uint64_t seed = hash_name(function_name<F>());
+  constexpr std::uint64_t seed = hash_name(Name());
   return static_cast<std::uint32_t>(hash_arguments(seed, args));
 }
+
+// --- The operations of a frame ---------------------------------------------------------------
+
+template <class F>
+bool equal_args(const Call& call, const void* label) {
+  return F::of(call).args == static_cast<const typename F::LabelType*>(label)->args;
+}
+
+// If the object's constructor throws, the arguments are destroyed again.
+template <class Head, class Tail, class... Args>
+void construct_frame(void* memory, const void* label) {
+  using F = Frame<Head, Tail, Args...>;
+  const auto& from = *static_cast<const Label<Args...>*>(label);
+  F& frame = *static_cast<F*>(memory);
+  ::new (static_cast<void*>(&frame.head)) Head();
+  if constexpr (kStoresHash<Args...>) frame.hash.hash = from.hash;
+  ::new (static_cast<void*>(&frame.args)) std::tuple<Args...>(from.args);
+  if constexpr (!std::is_nothrow_default_constructible_v<Tail>) {
+    try {
+      ::new (static_cast<void*>(&frame.tail)) Tail();
+    } catch (...) {
+      std::destroy_at(&frame.args);
+      throw;
+    }
+  } else if constexpr (!std::is_empty_v<Tail>) {
+    ::new (static_cast<void*>(&frame.tail)) Tail();
+  }
+}
+
+template <class F>
+struct ConstructorOf;
+template <class Head, class Tail, class... Args>
+struct ConstructorOf<Frame<Head, Tail, Args...>> {
+  static constexpr auto value = &construct_frame<Head, Tail, Args...>;
+};
+template <class F>
+constexpr auto constructor_of() {
+  return ConstructorOf<F>::value;
+}
+
+template <class F>
+void destroy_frame(Call& call) {
+  F& frame = F::of(call);
+  std::destroy_at(&frame.tail);
+  std::destroy_at(&frame.args);
+}
+
+template <class F>
+std::strong_ordering compare_args(const Call& a, const Call& b) {
+  const auto order = F::of(a).args <=> F::of(b).args;
+  return order < 0 ? std::strong_ordering::less
+                   : order > 0 ? std::strong_ordering::greater : std::strong_ordering::equal;
+}
+
+template <class F, auto Name>
+std::uint32_t hash_frame(const Call& call) noexcept {
+  if constexpr (requires { F::of(call).hash.hash; }) {
+    return F::of(call).hash.hash;
+  } else {
+    return label_hash<Name>(F::of(call).args);
+  }
+}
+
+template <class F>
+void print_args(const Call& call, std::ostream& out) {
+  print_arguments(out, F::of(call).args);
+}
+template <class F>
+void label_args(const Call& call, LabelSink& sink) {
+  label_arguments(sink, F::of(call).args);
+}
+template <class F>
+void print_result(const Call& call, std::ostream& out) {
+  if (const auto& result = F::of(call).tail.value) print_argument(out, *result);
+}
+template <class F>
+void label_result(const Call& call, LabelSink& sink) {
+  if (const auto& result = F::of(call).tail.value) name_argument(sink, *result);
+}
+
+// --- Running a frame -------------------------------------------------------------------------
+
+template <auto F, class FrameType>
+void execute_frame(Scope& scope, Call& call) {
+  std::apply([&](const auto&... args) { F(scope, args...); }, FrameType::of(call).args);
+}
+
+template <auto F, class FrameType>
+void execute_body(Scope& scope, Call& call) {
+  auto& frame = FrameType::of(call);
+  std::apply([&](const auto&... args) { F(scope, frame.tail.value, args...); }, frame.args);
+}
+
+// How results of F are compared: its member type Same, or ==.
+template <auto F>
+struct SameResult {
+  using type = std::equal_to<>;
+};
+template <auto F>
+requires requires { typename decltype(F)::Same; }
+struct SameResult<F> {
+  using type = typename decltype(F)::Same;
+};
+
+template <auto F, class FrameType>
+void execute_with_result(Scope& scope, Call& call);
+
+template <class F, auto Name>
+constexpr Function describe_frame() {
+  Function f{.name = Name(), .frame_bytes = sizeof(F)};
+  constexpr bool trivial = std::is_trivially_destructible_v<decltype(F::args)> &&
+                           std::is_trivially_destructible_v<decltype(F::tail)>;
+  if constexpr (!trivial) f.destroy = &destroy_frame<F>;
+  f.equal = &equal_args<F>;
+  f.hash = &hash_frame<F, Name>;
+  f.print = &print_args<F>;
+  f.label = &label_args<F>;
+  return f;
+}
+
+// --- Descriptors -----------------------------------------------------------------------------
+
+// A call.
+template <auto F, class... Args>
+constexpr Function describe_call() {
+  using R = std::invoke_result_t<decltype(F), Scope&, const Args&...>;
+  if constexpr (std::is_void_v<R>) {
+    using Type = Frame<Nothing, Nothing, Args...>;
+    Function f = describe_frame<Type, &function_name<F>>();
+    f.execute = &execute_frame<F, Type>;
+    return f;
+  } else {
+    using Type = Frame<ResultHead, Result<std::decay_t<R>>, Args...>;
+    Function f = describe_frame<Type, &function_name<F>>();
+    f.execute = &execute_with_result<F, Type>;
+    f.has_result = true;
+    f.print_result = &print_result<Type>;
+    f.label_result = &label_result<Type>;
+    return f;
+  }
+}
+template <auto F, class... Args>
+inline constexpr Function kFunction = describe_call<F, Args...>();
+
+// A keyed object, with or without a body.
+template <class T, class... Key>
+using ObjectFrame = Frame<Nothing, Object<T>, Key...>;
+
+template <class T, class... Key>
+constexpr Function describe_object() {
+  using Type = ObjectFrame<T, Key...>;
+  Function f = describe_frame<Type, &maker_name<T>>();
+  f.object_offset = sizeof(Type) - sizeof(Object<T>);  // it is what lies last
+  return f;
+}
+template <class T, class... Key>
+inline constexpr Function kMaker = describe_object<T, Key...>();
+
+template <class T, auto F, class... Key>
+constexpr Function describe_built() {
+  using Type = ObjectFrame<T, Key...>;
+  Function f = describe_frame<Type, &function_name<F>>();
+  f.object_offset = sizeof(Type) - sizeof(Object<T>);  // it is what lies last
+  f.execute = &execute_body<F, Type>;
+  return f;
+}
+template <class T, auto F, class... Key>
+inline constexpr Function kBuilder = describe_built<T, F, Key...>();
 
 }  // namespace detail
 
 class Scope {
  public:
-  template <class T>
-  using ModType = Mod<T>;
+  template <class T, class Same = std::equal_to<>>
+  using ModType = Mod<T, Same>;
+  template <class T, class Same = std::equal_to<>>
+  using CellType = Cell<T, Same>;
   using AgendaType = Agenda;
   static constexpr bool kTraced = true;
 
@@ -166,50 +265,78 @@ class Scope {
   [[nodiscard]] T& environment() const noexcept {
     return *static_cast<T*>(engine_.environment_);
   }
-  /// The running call.
-  [[nodiscard]] Call& self() noexcept { return *engine_.current_->call; }
+  /// The running call. Throws: UsageError if none runs: the scope was kept for too long.
+  [[nodiscard]] Call& self() { return *engine_.running("a scope").call; }
 
   /// The value of `mod` at this point of the trace, recording the dependence.
   /// Throws: UsageError if no earlier call has written it.
-  template <class T>
-  const T& read(Mod<T> mod);
+  template <class T, class Same>
+  const T& read(Mod<T, Same> mod);
+  template <class T, class Same>
+  const T& read(const Cell<T, Same>& cell);
 
-  /// Gives `mod` a value from here on; an equal value disturbs nobody.
-  template <class T>
-  void write(Mod<T> mod, T value);
+  /// Gives `mod` a value from here on; one that is the same disturbs nobody.
+  template <class T, class Same>
+  void write(Mod<T, Same> mod, std::type_identity_t<T> value);
+  template <class T, class Same>
+  void write(const Cell<T, Same>& cell, std::type_identity_t<T> value);
 
-  /// Makes a child call, or reuses an equal one ahead in the interval that runs again.
+  /// Makes a child call, or reuses an equal one ahead in the interval that runs again. If F returns
+  /// something, so does call(): by reference, good while the caller runs. The caller depends on it.
   template <auto F, class... Args>
-  void call(Args... args) {
-    using Frame = detail::Frame<Args...>;
-    const std::tuple<Args...> tuple(std::move(args)...);
-    engine_.call_child(detail::kFunction<F, Args...>, detail::label_hash<F>(tuple), &tuple,
-                       &detail::construct_args<Frame>);
+  decltype(auto) call(Args... args) {
+    using R = std::invoke_result_t<decltype(F), Scope&, const Args&...>;
+    constexpr bool kVoid = std::is_void_v<R>;
+    using Frame = typename decltype(frame_of<F, Args...>())::type;
+    const Handle child = child_call<Frame>(detail::kFunction<F, Args...>,
+                                           label<&function_name<F>>(std::move(args)...));
+    if constexpr (!kVoid) {
+      return static_cast<const std::decay_t<R>&>(
+          *Frame::of(engine_.call(child)).tail.value);
+    }
   }
 
   /// As call(), as the last thing that the function does: runs after it, without native recursion.
+  /// A result is not returned.
   template <auto F, class... Args>
   void tail(Args... args) {
-    using Frame = detail::Frame<Args...>;
-    const std::tuple<Args...> tuple(std::move(args)...);
-    engine_.call_tail(detail::kFunction<F, Args...>, detail::label_hash<F>(tuple), &tuple,
-                      &detail::construct_args<Frame>);
+    using Frame = typename decltype(frame_of<F, Args...>())::type;
+    static_assert(std::is_void_v<std::invoke_result_t<decltype(F), Scope&, const Args&...>>,
+                  "a tail call has nobody to return to");
+    tail_call<Frame>(detail::kFunction<F, Args...>, label<&function_name<F>>(std::move(args)...));
   }
 
   /// Keyed allocation: a default-constructed T that keeps its address while some run asks for
   /// (T, key) again within the interval that runs again, whichever call asks.
   template <class T, class... Key>
   T& make(Key... key) {
-    const std::tuple<Key...> tuple(std::move(key)...);
-    const auto& maker = detail::kMaker<T, Key...>;
-    const Handle made = engine_.call_child(maker, detail::label_hash(maker, tuple), &tuple,
-                                           &detail::construct_key<T, Key...>);
-    return engine_.at<detail::MakeFrame<T, Key...>>(made)->object();
+    using Frame = detail::ObjectFrame<T, Key...>;
+    const Handle made = child_call<Frame>(detail::kMaker<T, Key...>,
+                                          label<&maker_name<T>>(std::move(key)...));
+    return Frame::of(engine_.call(made)).tail.value;
+  }
+  /// Keyed allocation of a T that F(scope, object, key...) works on: an object and the call that
+  /// fills it in one. The label is that of F(key...).
+  template <class T, auto F, class... Key>
+  T& make(Key... key) {
+    using Frame = detail::ObjectFrame<T, Key...>;
+    const Handle made = child_call<Frame>(detail::kBuilder<T, F, Key...>,
+                                          label<&function_name<F>>(std::move(key)...));
+    return Frame::of(engine_.call(made)).tail.value;
+  }
+  /// As make(), but F runs as a tail call: the object is there at once, and empty. After it the
+  /// function may still read and write, but not call.
+  template <class T, auto F, class... Key>
+  T& tail_make(Key... key) {
+    using Frame = detail::ObjectFrame<T, Key...>;
+    const Handle made = tail_call<Frame>(detail::kBuilder<T, F, Key...>,
+                                         label<&function_name<F>>(std::move(key)...));
+    return Frame::of(engine_.call(made)).tail.value;
   }
 
   /// A keyed modifiable for the program to write.
-  template <class T, class... Key>
-  Mod<T> cell(Key... key);
+  template <class T, class Same = std::equal_to<>, class... Key>
+  Mod<T, Same> cell(Key... key);
 
   /// Repeats something of last time: moves the first edge E of `structure` for which
   /// `matches(const E&)` into this execution and returns it; null if there is none.
@@ -235,6 +362,33 @@ class Scope {
   }
 
  private:
+  template <auto F, class FrameType>
+  friend void detail::execute_with_result(Scope& scope, Call& call);
+  void result_changed(Handle caller) noexcept { engine_.result_changed(caller); }
+
+  template <auto F, class... Args>
+  static auto frame_of() {
+    using R = std::invoke_result_t<decltype(F), Scope&, const Args&...>;
+    if constexpr (std::is_void_v<R>) {
+      return std::type_identity<detail::Frame<detail::Nothing, detail::Nothing, Args...>>();
+    } else {
+      return std::type_identity<detail::Frame<ResultHead, detail::Result<std::decay_t<R>>, Args...>>();
+    }
+  }
+  template <auto Name, class... Args>
+  static detail::Label<Args...> label(Args&&... args) {
+    std::tuple<Args...> tuple(std::move(args)...);
+    const std::uint32_t hash = detail::label_hash<Name>(tuple);
+    return {std::move(tuple), hash};
+  }
+  template <class Frame, class... Args>
+  Handle child_call(const Function& function, const detail::Label<Args...>& label) {
+    return engine_.call_child(function, label.hash, &label, detail::constructor_of<Frame>());
+  }
+  template <class Frame, class... Args>
+  Handle tail_call(const Function& function, const detail::Label<Args...>& label) {
+    return engine_.call_tail(function, label.hash, &label, detail::constructor_of<Frame>());
+  }
   template <class E>
   E& attach(std::uint8_t structure, std::uint8_t kind, std::size_t extra) {
     static_assert(std::is_base_of_v<Edge, E> && std::is_trivially_destructible_v<E>);
@@ -245,11 +399,30 @@ class Scope {
   Engine& engine_;
 };
 
+namespace detail {
+
+template <auto F, class FrameType>
+void execute_with_result(Scope& scope, Call& call) {
+  auto& frame = FrameType::of(call);
+  auto result = std::apply([&](const auto&... args) { return F(scope, args...); }, frame.args);
+  auto& known = frame.tail.value;
+  if (known.has_value() && typename SameResult<F>::type{}(*known, result)) return;
+  known.reset();
+  known.emplace(std::move(result));
+  scope.result_changed(frame.head.caller);
+}
+
+}  // namespace detail
+
 template <auto F, class... Args>
 Counts Engine::run(Args... args) {
-  const std::tuple<Args...> tuple(std::move(args)...);
-  return run_root(detail::kFunction<F, Args...>, detail::label_hash<F>(tuple), &tuple,
-                  &detail::construct_args<detail::Frame<Args...>>);
+  using Frame = detail::Frame<detail::Nothing, detail::Nothing, Args...>;
+  static_assert(std::is_void_v<std::invoke_result_t<decltype(F), Scope&, const Args&...>>,
+                "what a program computes is in modifiables");
+  std::tuple<Args...> tuple(std::move(args)...);
+  const std::uint32_t hash = detail::label_hash<&function_name<F>>(tuple);
+  const detail::Label<Args...> label{std::move(tuple), hash};
+  return run_root(detail::kFunction<F, Args...>, hash, &label, detail::constructor_of<Frame>());
 }
 
 }  // namespace sac

@@ -6,6 +6,10 @@
 //
 // Everything a call did or saw is an edge in its list, in the order of execution. An edge belongs
 // to a `Structure`, which knows how to take it back; the engine only keeps the lists.
+//
+// A call in memory is its head, 32 bytes, then what its function asks for and others do not pay
+// for: the slot of a posted call, the result, the arguments, the keyed object, the hash if client
+// code computes it.
 #pragma once
 
 #include <compare>
@@ -15,6 +19,7 @@
 #include <string_view>
 
 #include "sac/arena.hpp"
+#include "sac/label.hpp"
 #include "sac/timeline.hpp"
 
 namespace sac {
@@ -26,38 +31,49 @@ struct Call;
 /// What the engine knows of a traced function; one constant object per function and signature.
 struct Function {
   std::string_view name;
-  std::uint32_t frame_bytes;  // the call with its arguments
-  bool posted;                // runs from an agenda
-  void (*execute)(Scope&, Call&);
-  void (*destroy)(Call&);  // null where nothing needs destroying
-  bool (*equal)(const Call&, const void* arguments);
-  std::strong_ordering (*compare)(const Call&, const Call&);  // null unless posted
-  std::uint64_t (*hash)(const Call&);
-  void (*print)(const Call&, std::ostream&);
+  std::uint32_t frame_bytes;        // the call with all that lies behind it
+  std::uint32_t object_offset = 0;  // of the keyed object; 0: there is none
+  bool posted = false;              // runs from an agenda
+  bool has_result = false;          // a ResultHead lies behind the head
+  void (*execute)(Scope&, Call&) = nullptr;  // null: a keyed object without a body
+  void (*destroy)(Call&) = nullptr;          // null where nothing needs destroying
+  bool (*equal)(const Call&, const void* arguments) = nullptr;
+  std::strong_ordering (*compare)(const Call&, const Call&) = nullptr;  // null unless posted
+  std::uint32_t (*hash)(const Call&) noexcept = nullptr;
+  void (*print)(const Call&, std::ostream&) = nullptr;     // the arguments, for people
+  void (*label)(const Call&, LabelSink&) = nullptr;        // the arguments' names in all runs
+  void (*print_result)(const Call&, std::ostream&) = nullptr;  // null unless there is one
+  void (*label_result)(const Call&, LabelSink&) = nullptr;     // null unless there is one
 };
 
-/// A node of the trace: 48 bytes, arguments behind it.
+/// A node of the trace.
 struct Call : TimeNode {
-  const Function* function = nullptr;
-  Handle end = 0;         // end stamp; 0: a leaf
-  Handle edges = 0;       // what it did and saw, oldest first
-  Handle memo_next = 0;   // next call in its bucket of the memo table
-  std::uint32_t hash = 0;
+  std::uint16_t function_number = 0;
+  std::uint16_t state = 0;  // flags
+  Handle end = 0;           // end stamp; 0: a leaf
+  Handle edges = 0;         // what it did and saw, oldest first
   std::uint32_t queue = 0;  // 1 + position in the propagation queue; 0: not there
-  std::uint32_t state = 0;  // flags, and above them the number of posts
 
-  static constexpr std::uint32_t kInvalid = 1;    // must run again
-  static constexpr std::uint32_t kDead = 2;       // discarded, not yet freed
-  static constexpr std::uint32_t kRunning = 4;
-  static constexpr std::uint32_t kPending = 8;    // on an agenda not yet drained: has no place
-  static constexpr std::uint32_t kOnePost = 16;
+  static constexpr std::uint16_t kInvalid = 1;   // must run again
+  static constexpr std::uint16_t kDead = 2;      // discarded, not yet freed
+  static constexpr std::uint16_t kRunning = 4;
+  static constexpr std::uint16_t kPending = 8;   // on an agenda not yet drained: has no place
+  static constexpr std::uint16_t kPosted = 16;   // runs from an agenda
 
-  [[nodiscard]] bool has(std::uint32_t flag) const noexcept { return (state & flag) != 0; }
-  void set(std::uint32_t flag) noexcept { state |= flag; }
-  void clear(std::uint32_t flag) noexcept { state &= ~flag; }
-  [[nodiscard]] std::uint32_t posts() const noexcept { return state / kOnePost; }
+  [[nodiscard]] bool has(std::uint16_t flag) const noexcept { return (state & flag) != 0; }
+  void set(std::uint16_t flag) noexcept { state = static_cast<std::uint16_t>(state | flag); }
+  void clear(std::uint16_t flag) noexcept { state = static_cast<std::uint16_t>(state & ~flag); }
+  /// Requires: the call lies in its engine's arena.
+  [[nodiscard]] const Function& function() const noexcept {
+    return *Arena::header_of(this).functions[function_number];
+  }
 };
-static_assert(sizeof(Call) == 48);
+static_assert(sizeof(Call) == 32 && alignof(Call) == 4);
+
+/// Behind the head of a call whose function returns something.
+struct ResultHead {
+  Handle caller = 0;  // who depends on the result
+};
 
 /// The head of every edge; structures derive their own edges from it.
 struct Edge {
@@ -78,6 +94,11 @@ class Structure {
   /// Takes `edge` back: an observation is forgotten; an effect is reverted, and the observations
   /// it reached later in time are invalidated. Must not throw.
   virtual void retract(Call& call, Edge& edge) noexcept = 0;
+  /// Names what an observation saw, equally in every run (label.hpp): a part of the call's label
+  /// [Def 1.4.1]. An effect has nothing to say.
+  virtual void label(const Call&, const Edge&, LabelSink&) const {}
+  /// Prints what an edge saw or did, for people; nothing by default.
+  virtual void print(const Call&, const Edge&, std::ostream&) const {}
 };
 
 }  // namespace sac
