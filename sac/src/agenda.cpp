@@ -25,7 +25,7 @@ bool Agenda::before(const Call& a, const Call& b) const {
 // --- Posting ---------------------------------------------------------------------------------
 
 Handle Agenda::find(const Function& function, std::uint32_t hash, const void* args) const {
-  const std::uint16_t number = engine_.functions_.number(function);
+  const std::uint16_t number = engine_.number_of(function);
   return engine_.memo_.find(hash, [&](Handle, const Call& c) {
     return c.function_number == number && !c.has(Call::kDead) && slot(c).agenda() == id_ &&
            function.equal(c, args);
@@ -45,7 +45,7 @@ Handle Agenda::create(const Function& function, const Key& key, std::uint32_t ha
 
 void Agenda::post_call(Scope& s, const Function& function, const Key& key, std::uint32_t hash,
                        const void* args, Construct construct) {
-  const std::uint16_t number = engine_.functions_.number(function);
+  const std::uint16_t number = engine_.number_of(function);
   const auto repeats = [&](const PostEdge& edge) {
     const Call& c = engine_.call(edge.target);
     return c.function_number == number && function.equal(c, args);

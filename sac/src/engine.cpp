@@ -322,8 +322,7 @@ Handle Engine::new_call(const Function& function, std::uint32_t hash, const void
   if (graveyard_.capacity() < live_calls_ + graveyard_.size() + 1) {
     graveyard_.reserve(2 * (live_calls_ + graveyard_.size()) + 64);
   }
-  const std::uint16_t number = functions_.number(function);
-  arena_.header().functions = functions_.data();
+  const std::uint16_t number = number_of(function);
   const Handle h = arena_.allocate(function.frame_bytes);
   Call& c = *::new (at<void>(h)) Call;
   c.function_number = number;
@@ -390,7 +389,7 @@ Handle Engine::find_reusable(const Function& function, std::uint32_t hash, const
   const Handle limit = current_->limit;
   if (at<TimeNode>(now_)->next == limit) return 0;  // nothing ahead: a first run
   const bool may_share_end = tail && current_->end == limit;
-  const std::uint16_t number = functions_.number(function);
+  const std::uint16_t number = number_of(function);
   return memo_.find(hash, [&](Handle, const Call& c) {
     constexpr std::uint16_t kUnfit = Call::kDead | Call::kRunning | Call::kPosted;
     return c.function_number == number && !c.has(kUnfit) && lies_ahead(c) &&

@@ -200,9 +200,9 @@ TEST_CASE("A picture has the labels, the functions and their calls") {
   const std::string svg = traces::render(folder.path("a"));
   require_well_formed(svg);
   CHECK(svg.find("<title>a: 13 calls</title>") != std::string::npos);
-  CHECK(svg.find(">make 8<") != std::string::npos);
+  CHECK(svg.find(">make Item 4<") != std::string::npos);
   CHECK(svg.find(">map 5<") != std::string::npos);
-  CHECK(svg.find("<title>make(copy, 4)\ncall ") != std::string::npos);
+  CHECK(svg.find("<title>make Item(copy, 4)\ncall ") != std::string::npos);
   CHECK(svg == traces::render(folder.path("a")));
 }
 
@@ -214,7 +214,7 @@ TEST_CASE("A picture of two traces shows what only one has, and folds what both 
   CHECK(svg.find("<title>a and b: distance 3</title>") != std::string::npos);
   CHECK(svg.find("Only in a:") == std::string::npos);  // nothing is
   CHECK(svg.find("Only in b:") != std::string::npos);
-  CHECK(svg.find(">make(copy, 3)</text>") != std::string::npos);
+  CHECK(svg.find(">make Item(copy, 3)</text>") != std::string::npos);
   CHECK(count(svg, "calls that both traces have</title>") > 0);
   CHECK(count(svg, "fill=\"black\"") == 3);  // marks
   const std::string same = traces::render_difference(folder.path("a"), folder.path("a"));

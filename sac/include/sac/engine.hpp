@@ -296,6 +296,12 @@ class Engine {
                    .by = current_ != nullptr ? current_->call : nullptr});
   }
 
+  // Calls find their function by its number through the arena's header.
+  [[nodiscard]] std::uint16_t number_of(const Function& function) {
+    const std::uint16_t number = functions_.number(function);
+    arena_.header().functions = functions_.data();
+    return number;
+  }
   void enter(Mode mode);
   void report_progress();
   [[nodiscard]] bool unposted(const Call& call) const noexcept;
