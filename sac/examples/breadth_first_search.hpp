@@ -59,9 +59,9 @@ inline constexpr Visit visit{};
 template <class S>
 void post_visit(S& s, int v, int level) {
   constexpr int kLastBucket = 32767;  // levels beyond share it, in order
-  s.template environment<Graph<S>>().queue->template post<visit>(
-      s, {.bucket = std::min(level, kLastBucket), .order = static_cast<std::uint64_t>(level)}, v,
-      level);
+  const sac::Key key{.bucket = std::min(level, kLastBucket),
+                     .order = static_cast<std::uint64_t>(level) << 32 | static_cast<unsigned>(v)};
+  s.template environment<Graph<S>>().queue->template post<visit>(s, key, v, level);
 }
 
 template <class S>

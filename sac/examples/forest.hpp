@@ -24,10 +24,16 @@ struct Vertex {
   friend bool operator==(const Vertex&, const Vertex&) = default;
 };
 
-/// An edge of the contracted forest, seen from its near end: a path of the forest with all that
-/// hangs on its inner vertices.
+/// The neighbours of a vertex in the contracted forest: to[0], .. to[degree - 1].
+struct Shape {
+  int degree = 0;
+  std::array<int, kDegree> to{};
+  friend bool operator==(const Shape&, const Shape&) = default;
+};
+
+/// What an edge of the contracted forest stands for, seen from its near end: a path of the forest
+/// with all that hangs on its inner vertices.
 struct Path {
-  int to = -1;  // the far end
   std::int64_t length = 0;
   std::int64_t sum = 0;       // weights of the inner vertices
   std::int64_t near = 0;      // greatest distance of an inner vertex from the near end
@@ -36,14 +42,13 @@ struct Path {
   friend bool operator==(const Path&, const Path&) = default;
 };
 
-/// A vertex with all that has been raked into it.
-struct State {
+/// What a vertex carries: all that has been raked into it, and the paths to its neighbours.
+struct Load {
   std::int64_t sum = 0;
   std::int64_t reach = 0;     // greatest distance from the vertex
   std::int64_t diameter = 0;  // greatest distance of two vertices
-  int degree = 0;
   std::array<Path, kDegree> paths;
-  friend bool operator==(const State&, const State&) = default;
+  friend bool operator==(const Load&, const Load&) = default;
 };
 
 enum class Fate { stays, raked, compressed, last };
@@ -55,29 +60,23 @@ struct Outcome {
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
-// The leaf at the far end of `path`, in state `leaf`, goes into `state`.
-inline void rake(State& state, const Path& path, const State& leaf) {
-  state.diameter = std::max({state.diameter, leaf.diameter, path.diameter, state.reach + path.near,
-                             leaf.reach + path.far, state.reach + path.length + leaf.reach});
-  state.reach = std::max({state.reach, path.near, path.length + leaf.reach});
-  state.sum += path.sum + leaf.sum;
+// The leaf at the far end of `path` goes into a vertex.
+inline void rake(Load& load, const Path& path, const Load& leaf) {
+  load.diameter = std::max({load.diameter, leaf.diameter, path.diameter, load.reach + path.near,
+                            leaf.reach + path.far, load.reach + path.length + leaf.reach});
+  load.reach = std::max({load.reach, path.near, path.length + leaf.reach});
+  load.sum += path.sum + leaf.sum;
 }
 
-// `first` to a vertex in state `middle` and `second` from there on, as one path.
-inline Path join(const Path& first, const State& middle, const Path& second) {
-  return {.to = second.to,
-          .length = first.length + second.length,
+// `first` to the vertex `middle` and `second` from there on, as one path.
+inline Path join(const Path& first, const Load& middle, const Path& second) {
+  return {.length = first.length + second.length,
           .sum = first.sum + middle.sum + second.sum,
           .near = std::max({first.near, first.length + middle.reach, first.length + second.near}),
           .far = std::max({second.far, second.length + middle.reach, second.length + first.far}),
           .diameter =
               std::max({first.diameter, middle.diameter, second.diameter, first.far + middle.reach,
                         middle.reach + second.near, first.far + second.near})};
-}
-
-// The path that does not lead to `from`. Requires: two paths, one of which does.
-inline const Path& other_path(const State& middle, int from) {
-  return middle.paths[middle.paths[0].to == from ? 1 : 0];
 }
 
 }  // namespace examples::tree_contraction

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -96,9 +97,10 @@ inline constexpr int kNoLevel = std::numeric_limits<int>::max();
 
 // Calls of a level: first what gets it, then what is evaluated in it. Levels beyond the last bucket
 // share it, in order: evaluation asks for nothing.
-inline sac::Key key_of(int level, unsigned phase) {
-  return {
-      .bucket = std::min(level, 32767), .phase = phase, .order = static_cast<std::uint64_t>(level)};
+inline sac::Key key_of(int level, unsigned phase, int cell) {
+  return {.bucket = std::min(level, 32767),
+          .phase = phase,
+          .order = static_cast<std::uint64_t>(level) << 32 | static_cast<unsigned>(cell)};
 }
 
 struct Evaluate {
@@ -125,9 +127,9 @@ void Place::operator()(S& s, int cell, int level) const {
     if (s.read(sheet.levels[c]) >= level) return;
   }
   s.write(sheet.levels[cell], level);
-  sheet.queue->template post<evaluate>(s, key_of(level, 1), cell, level);
+  sheet.queue->template post<evaluate>(s, key_of(level, 1, cell), cell, level);
   for (const int user : s.read(sheet.used_by[cell])) {
-    sheet.queue->template post<place>(s, key_of(level + 1, 0), user, level + 1);
+    sheet.queue->template post<place>(s, key_of(level + 1, 0, user), user, level + 1);
   }
 }
 
@@ -139,7 +141,7 @@ struct Calculate {
     for (int c = 0; c < sheet.rows * kColumns; ++c) {
       s.write(sheet.levels[c], kNoLevel);
       s.write(sheet.values[c], Value{0, Fault::cycle});
-      sheet.queue->template post<place>(s, key_of(0, 0), c, 0);
+      sheet.queue->template post<place>(s, key_of(0, 0, c), c, 0);
     }
     sheet.queue->drain(s);
   }

@@ -14,7 +14,8 @@
 // rounds are the buckets of an agenda, so common calls come in one order. An edit changes a
 // constant number of vertices in each round: those whose surroundings it reaches.
 //
-// A vertex's state is one modifiable that each of its rounds writes.
+// A vertex's neighbours, which decide, and its load, which does not, are two modifiables that its
+// rounds write.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +33,8 @@ struct Forest {
   using Mod = typename S::template ModType<T>;
 
   std::vector<Mod<Vertex>> vertices;  // inputs
-  std::vector<Mod<State>> states;
+  std::vector<Mod<Shape>> shapes;
+  std::vector<Mod<Load>> loads;
   std::vector<Mod<Outcome>> outcomes;
   typename S::AgendaType* rounds = nullptr;
 
@@ -41,7 +43,8 @@ struct Forest {
   Forest(Host& host, int size) : rounds(&host.make_agenda("rounds")) {
     for (int v = 0; v < size; ++v) {
       vertices.push_back(host.input(Vertex{}));
-      states.push_back(host.template cell<State>());
+      shapes.push_back(host.template cell<Shape>());
+      loads.push_back(host.template cell<Load>());
       outcomes.push_back(host.template cell<Outcome>());
     }
     host.set_environment(this);
@@ -50,8 +53,8 @@ struct Forest {
   Forest& operator=(const Forest&) = delete;
 };
 
-/// The state of the last vertex of v's tree: the tree's sum and diameter. Equal answers from
-/// `last_vertex` for two vertices: they are connected. Cost: O(log n) expected.
+/// The last vertex of v's tree, the same for all of its vertices; its load has the tree's sum and
+/// diameter. Cost: O(log n) expected.
 template <class Host, class S>
 int last_vertex(Host& host, const Forest<S>& forest, int v) {
   for (;;) {
@@ -84,10 +87,8 @@ inline constexpr Start start{};
 inline constexpr Decide decide{};
 inline constexpr Advance advance{};
 
-template <class S>
-void post_decide(S& s, int v, int round) {
-  auto& forest = s.template environment<Forest<S>>();
-  forest.rounds->template post<decide>(s, {.bucket = round, .phase = 1}, v, round);
+inline sac::Key key_of(int round, unsigned phase, int v) {
+  return {.bucket = round, .phase = phase, .order = static_cast<unsigned>(v)};
 }
 
 template <class S>
@@ -95,31 +96,32 @@ void Start::operator()(S& s, int v) const {
   auto& forest = s.template environment<Forest<S>>();
   const Vertex& vertex = s.read(forest.vertices[v]);
   SAC_EXPECTS(vertex.edges.size() <= kDegree);
-  State state;
-  state.sum = vertex.weight;
+  Shape shape;
+  Load load{.sum = vertex.weight, .paths = {}};
   for (const auto& edge : vertex.edges) {
-    state.paths[state.degree++] = {.to = edge.to, .length = edge.length};
+    load.paths[shape.degree].length = edge.length;
+    shape.to[shape.degree++] = edge.to;
   }
-  s.write(forest.states[v], state);
+  s.write(forest.shapes[v], shape);
+  s.write(forest.loads[v], load);
   s.write(forest.outcomes[v], Outcome{});
-  post_decide(s, v, 0);
+  forest.rounds->template post<decide>(s, key_of(0, 1, v), v, 0);
 }
 
 // What v does in this round, by the degrees of its neighbours.
 template <class S>
 Outcome outcome_of(S& s, int v, int round) {
   auto& forest = s.template environment<Forest<S>>();
-  const State state = s.read(forest.states[v]);
-  const int next = state.paths[0].to;
-  const auto degree = [&](int w) { return s.read(forest.states[w]).degree; };
-  if (state.degree == 0) return {Fate::last, v};
-  if (state.degree == 1) {
+  const Shape shape = s.read(forest.shapes[v]);
+  const auto degree = [&](int w) { return s.read(forest.shapes[w]).degree; };
+  const int next = shape.to[0];
+  if (shape.degree == 0) return {Fate::last, v};
+  if (shape.degree == 1) {
     return degree(next) > 1 || next < v ? Outcome{Fate::raked, next} : Outcome{};
   }
-  if (state.degree > 2) return {};
+  if (shape.degree > 2) return {};
   const auto gives_way = [&](int w) { return coin(w, round) < coin(v, round) && degree(w) > 1; };
-  return gives_way(next) && gives_way(state.paths[1].to) ? Outcome{Fate::compressed, next}
-                                                         : Outcome{};
+  return gives_way(next) && gives_way(shape.to[1]) ? Outcome{Fate::compressed, next} : Outcome{};
 }
 
 template <class S>
@@ -127,29 +129,38 @@ void Decide::operator()(S& s, int v, int round) const {
   auto& forest = s.template environment<Forest<S>>();
   const Outcome outcome = outcome_of(s, v, round);
   if (outcome.fate != Fate::stays) return s.write(forest.outcomes[v], outcome);
-  forest.rounds->template post<advance>(s, {.bucket = round, .phase = 2}, v, round);
+  forest.rounds->template post<advance>(s, key_of(round, 2, v), v, round);
 }
 
 template <class S>
 void Advance::operator()(S& s, int v, int round) const {
   auto& forest = s.template environment<Forest<S>>();
-  const State before = s.read(forest.states[v]);
-  State state = before;
-  state.degree = 0;
-  state.paths = {};
-  for (int i = 0; i < before.degree; ++i) {
-    const Path& path = before.paths[i];
-    const Fate fate = s.read(forest.outcomes[path.to]).fate;
+  const Shape old_shape = s.read(forest.shapes[v]);
+  const Load old_load = s.read(forest.loads[v]);
+  Shape shape;
+  Load load = old_load;
+  load.paths = {};
+  const auto keep = [&](int to, const Path& path) {
+    load.paths[shape.degree] = path;
+    shape.to[shape.degree++] = to;
+  };
+  for (int i = 0; i < old_shape.degree; ++i) {
+    const int w = old_shape.to[i];
+    const Path& path = old_load.paths[i];
+    const Fate fate = s.read(forest.outcomes[w]).fate;
     if (fate == Fate::stays) {
-      state.paths[state.degree++] = path;
-    } else if (const State& gone = s.read(forest.states[path.to]); fate == Fate::raked) {
-      rake(state, path, gone);
+      keep(w, path);
+    } else if (const Load& gone = s.read(forest.loads[w]); fate == Fate::raked) {
+      rake(load, path, gone);
     } else {
-      state.paths[state.degree++] = join(path, gone, other_path(gone, v));
+      const Shape& ends = s.read(forest.shapes[w]);
+      const int other = ends.to[0] == v ? 1 : 0;
+      keep(ends.to[other], join(path, gone, gone.paths[other]));
     }
   }
-  s.write(forest.states[v], state);
-  post_decide(s, v, round + 1);
+  s.write(forest.loads[v], load);
+  if (shape != old_shape) s.write(forest.shapes[v], shape);
+  forest.rounds->template post<decide>(s, key_of(round + 1, 1, v), v, round + 1);
 }
 
 struct Contract {
@@ -158,7 +169,7 @@ struct Contract {
   void operator()(S& s) const {
     auto& forest = s.template environment<Forest<S>>();
     for (int v = 0; v < static_cast<int>(forest.vertices.size()); ++v) {
-      forest.rounds->template post<start>(s, {.bucket = 0}, v);
+      forest.rounds->template post<start>(s, key_of(0, 0, v), v);
     }
     forest.rounds->drain(s);
   }

@@ -262,8 +262,8 @@ struct ForestApp {
       std::vector<Answer> answers;
       for (int v = 0; v < static_cast<int>(forest_.vertices.size()); ++v) {
         const int last = examples::tree_contraction::last_vertex(host_, forest_, v);
-        const auto state = host_.get(forest_.states[static_cast<std::size_t>(last)]);
-        answers.push_back({least.emplace(last, v).first->second, state.sum, state.diameter});
+        const auto load = host_.get(forest_.loads[static_cast<std::size_t>(last)]);
+        answers.push_back({least.emplace(last, v).first->second, load.sum, load.diameter});
       }
       return answers;
     }
