@@ -23,14 +23,17 @@ using namespace support;
 struct ExpressionApp {
   static constexpr const char* kName = "expression tree";
 
-  // Nodes by number, 0 is the root; those with op 0 that are nobody's operand wait for being used.
   struct Term {
     char op = 0;
     std::uint64_t number = 0;
     int left = -1;
     int right = -1;
   };
-  using Input = std::vector<Term>;
+  struct Input {
+    std::vector<Term> terms;  // by node; node 0 is the root
+    int used = 1;             // the nodes from here on have never been in the tree, and are numbers
+    const Term& at(int node) const { return terms[static_cast<std::size_t>(node)]; }
+  };
   struct Edit {
     int node;
     Term term;
@@ -39,57 +42,48 @@ struct ExpressionApp {
   static char random_op(Random& random) { return "+-*"[random(3)]; }
   static Term number(Random& random) { return {.number = static_cast<std::uint64_t>(random(9))}; }
 
-  static void used_below(const Input& input, int node, std::vector<int>& nodes) {
+  static void collect(const Input& input, int node, std::vector<int>& nodes) {
     nodes.push_back(node);
-    const Term& term = input[static_cast<std::size_t>(node)];
-    if (term.op == 0) return;
-    used_below(input, term.left, nodes);
-    used_below(input, term.right, nodes);
+    if (input.at(node).op == 0) return;
+    collect(input, input.at(node).left, nodes);
+    collect(input, input.at(node).right, nodes);
   }
-  static std::vector<int> used(const Input& input) {
+  static int random_node(Random& random, const Input& input) {
     std::vector<int> nodes;
-    used_below(input, 0, nodes);
-    return nodes;
+    collect(input, 0, nodes);
+    return nodes[static_cast<std::size_t>(random(static_cast<int>(nodes.size())))];
   }
-  // An operator with two new numbers below it, if there are two nodes left.
+  // An operator with two new numbers below it, while there are new nodes.
   static Term grown(Random& random, const Input& input) {
-    const auto taken = used(input);
-    std::vector<int> free;
-    for (int i = 0; i < static_cast<int>(input.size()) && free.size() < 2; ++i) {
-      const bool waits = input[static_cast<std::size_t>(i)].op == 0;
-      if (waits && std::find(taken.begin(), taken.end(), i) == taken.end()) free.push_back(i);
-    }
-    if (free.size() < 2) return number(random);
-    return {.op = random_op(random), .left = free[0], .right = free[1]};
+    if (input.used + 2 > static_cast<int>(input.terms.size())) return number(random);
+    return {.op = random_op(random), .left = input.used, .right = input.used + 1};
   }
   static Input random_input(Random& random, int size) {
-    Input input(static_cast<std::size_t>(2 * size + 3));
-    for (auto& term : input) term = number(random);
+    Input input{.terms = std::vector<Term>(static_cast<std::size_t>(2 * size + 100))};
+    for (auto& term : input.terms) term = number(random);
     for (int i = 0; i < size / 2; ++i) {
-      const auto nodes = used(input);
-      const int node = nodes[static_cast<std::size_t>(random(static_cast<int>(nodes.size())))];
-      auto& term = input[static_cast<std::size_t>(node)];
-      if (term.op == 0) term = grown(random, input);
+      const int node = random_node(random, input);
+      if (input.at(node).op == 0) apply(input, {node, grown(random, input)});
     }
     return input;
   }
   static Edit random_edit(Random& random, const Input& input) {
-    const auto nodes = used(input);
-    const int node = nodes[static_cast<std::size_t>(random(static_cast<int>(nodes.size())))];
-    Term term = input[static_cast<std::size_t>(node)];
+    const int node = random_node(random, input);
+    Term term = input.at(node);
     if (term.op == 0) return {node, random(2) == 0 ? grown(random, input) : number(random)};
     if (random(3) == 0) return {node, number(random)};  // cuts off what is below
     term.op = random_op(random);
     return {node, term};
   }
   static Edit inverse(const Input& before, const Edit& edit) {
-    return {edit.node, before[static_cast<std::size_t>(edit.node)]};
+    return {edit.node, before.at(edit.node)};
   }
   static void apply(Input& input, const Edit& edit) {
-    input[static_cast<std::size_t>(edit.node)] = edit.term;
+    input.terms[static_cast<std::size_t>(edit.node)] = edit.term;
+    input.used = std::max(input.used, edit.term.right + 1);
   }
   static std::uint64_t value_of(const Input& input, int node) {
-    const Term& term = input[static_cast<std::size_t>(node)];
+    const Term& term = input.at(node);
     if (term.op == 0) return term.number;
     const std::uint64_t left = value_of(input, term.left);
     const std::uint64_t right = value_of(input, term.right);
@@ -102,10 +96,10 @@ struct ExpressionApp {
    public:
     using S = ScopeOf<Host>;
     World(Host& host, const Input& input) : host_(host), out_(host.template cell<std::uint64_t>()) {
-      for (std::size_t i = 0; i < input.size(); ++i) {
+      for (std::size_t i = 0; i < input.terms.size(); ++i) {
         nodes_.push_back(&host.template make<examples::expression_tree::Node<S>>());
       }
-      for (std::size_t i = 0; i < input.size(); ++i) edit({static_cast<int>(i), input[i]});
+      for (std::size_t i = 0; i < nodes_.size(); ++i) edit({static_cast<int>(i), input.terms[i]});
       const auto* root = nodes_[0];
       host.template run<examples::expression_tree::total>(root, out_);
     }
@@ -424,7 +418,8 @@ TEMPLATE_TEST_CASE("graph examples run plainly give what naive programs give", "
   check_example_plain<TestType>(200, 60);
 }
 
-TEMPLATE_TEST_CASE("graph examples under random edits", "", ForestApp, SearchApp, ComponentsApp) {
+TEMPLATE_TEST_CASE("graph examples under random edits", "", ExpressionApp, ForestApp, SearchApp,
+                   ComponentsApp) {
   check_example<TestType>(60, 40, 30);
 }
 

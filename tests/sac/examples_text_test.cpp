@@ -512,7 +512,7 @@ TEMPLATE_TEST_CASE("text examples run plainly give what naive programs give", ""
   check_example_plain<TestType>(200, 60);
 }
 
-TEMPLATE_TEST_CASE("text examples under random edits", "", SheetApp) {
+TEMPLATE_TEST_CASE("text examples under random edits", "", SpellApp, StringApp, SheetApp) {
   check_example<TestType>(60, 40, 30);
 }
 
