@@ -146,6 +146,7 @@ void Engine::shrink() {
   require_idle("shrink");
   arena_.shrink();
   memo_.shrink();
+  timeline_.shrink();
   queue_.shrink(live_calls_);
   graveyard_ = {};
   graveyard_.reserve(live_calls_);
