@@ -2,20 +2,26 @@
 #include "traces/audit.hpp"
 
 #include <algorithm>
-#include <numeric>
-#include <tuple>
+
+#include "by_label.hpp"
 
 namespace traces {
 namespace {
 
 // Numbers of calls, by (label, function), then in pre-order.
 std::vector<std::uint32_t> sorted(const Trace& trace) {
-  std::vector<std::uint32_t> order(trace.calls.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](std::uint32_t i) {
-    return std::tuple(trace.calls[i].hash, trace.calls[i].function, i);
-  };
-  std::sort(order.begin(), order.end(), [&](auto x, auto y) { return key(x) < key(y); });
+  auto order = by_label(trace);
+  const auto& calls = trace.calls;
+  for (auto begin = order.begin(); begin != order.end();) {
+    const auto differs = [&](std::uint32_t x) { return calls[x].hash != calls[*begin].hash; };
+    const auto end = std::find_if(begin, order.end(), differs);
+    if (end - begin > 1) {
+      std::stable_sort(begin, end, [&](std::uint32_t x, std::uint32_t y) {
+        return calls[x].function < calls[y].function;
+      });
+    }
+    begin = end;
+  }
   return order;
 }
 

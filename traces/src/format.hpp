@@ -1,6 +1,7 @@
 // Constants of the trace file's format, and its checksum.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -15,6 +16,9 @@ inline constexpr char kEnd = 'E';
 // Flags of a call.
 inline constexpr unsigned kUnnamed = 1;
 inline constexpr unsigned kTail = 2;
+
+// Files are read and written in blocks of so many bytes.
+inline constexpr std::size_t kBlock = std::size_t{1} << 16;
 
 class Checksum {
  public:

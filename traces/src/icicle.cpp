@@ -59,17 +59,17 @@ class Placer {
     bars_.push_back(std::move(bar));
   }
 
-  // Columns are kThinnest wide; those that show one function alone grow to the right.
+  // What begins within kThinnest pixels is one column; those that show one function alone, without
+  // a gap, grow to the right. So there are at most two columns for every kThinnest pixels.
   void add_to_column(const Bar& bar) {
     Bar& column = columns_[bar.row];
     const auto place = [](double x) { return static_cast<long>(x / kThinnest); };
     const std::uint32_t function =
         bar.kind == Bar::Kind::fold ? Bar::kFolded : trace_.calls[bar.first].function;
     const std::uint64_t calls = bar.kind == Bar::Kind::fold ? bar.calls : 1;
-    const bool alike = column.shares.size() == 1 && column.shares[0].function == function &&
-                       column.changed == bar.changed;
-    if (column.shares.empty() || (place(column.begin) != place(bar.begin) && !alike) ||
-        column.end < bar.begin) {
+    const bool grows = column.shares.size() == 1 && column.shares[0].function == function &&
+                       column.changed == bar.changed && column.end >= bar.begin;
+    if (column.shares.empty() || (place(column.begin) != place(bar.begin) && !grows)) {
       flush(bar.row);
       column = {Bar::Kind::column, false, bar.leaf, bar.row, bar.first, 0,
                 bar.begin,         0,     bar.end,  {}};

@@ -254,9 +254,9 @@ class Picture {
   [[nodiscard]] static std::string column_tooltip(const Subject& subject, const Bar& bar) {
     std::string text = calls_text(bar.calls) + " from call " + grouped(bar.first) + " on";
     for (const Bar::Share& share : bar.shares) {
-      text += "\n" + grouped(share.calls) + " " +
-              (share.function == Bar::kFolded ? "that both traces have"
-                                              : subject.trace.functions[share.function]);
+      text.append("\n").append(grouped(share.calls)).append(" ");
+      text += share.function == Bar::kFolded ? "that both traces have"
+                                             : subject.trace.functions[share.function];
     }
     return text;
   }
@@ -310,6 +310,12 @@ class Picture {
   double y_ = kMargin;
 };
 
+std::vector<Subject> loaded(const std::vector<std::string>& paths) {
+  std::vector<Subject> subjects;
+  for (const std::string& path : paths) subjects.push_back({path, load_trace(path), {}});
+  return subjects;
+}
+
 void require(const RenderOptions& options) {
   SAC_EXPECTS(options.width >= 200 && options.rows >= 1);
 }
@@ -318,13 +324,13 @@ void require(const RenderOptions& options) {
 
 std::string render(const std::string& path, const RenderOptions& options) {
   require(options);
-  return Picture({{path, load_trace(path), {}}}, options).draw_one();
+  return Picture(loaded({path}), options).draw_one();
 }
 
 std::string render_difference(const std::string& a, const std::string& b,
                               const RenderOptions& options) {
   require(options);
-  std::vector<Subject> subjects{{a, load_trace(a), {}}, {b, load_trace(b), {}}};
+  auto subjects = loaded({a, b});
   auto [only_a, only_b] = difference(subjects[0].trace, subjects[1].trace);
   subjects[0].changed = std::move(only_a);
   subjects[1].changed = std::move(only_b);

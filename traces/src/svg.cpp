@@ -83,7 +83,7 @@ void Svg::stack(const Box& box, const std::vector<Slice>& slices, std::string_vi
 void Svg::text(double x, double y, std::string_view text, std::string_view attributes) {
   body_ += "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\"";
   if (!attributes.empty()) body_.append(" ").append(attributes);
-  body_ += ">" + escaped(text) + "</text>\n";
+  body_.append(">").append(escaped(text)).append("</text>\n");
 }
 
 void Svg::text_down(double x, double y, std::string_view text) {
@@ -116,9 +116,13 @@ std::string fitted(std::string_view text, double width) {
 }
 
 std::string grouped(unsigned long long number) {
-  std::string digits = std::to_string(number);
-  for (std::size_t i = digits.size(); i > 3;) digits.insert(i -= 3, " ");
-  return digits;
+  const std::string digits = std::to_string(number);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ' ';
+    text += digits[i];
+  }
+  return text;
 }
 
 }  // namespace traces

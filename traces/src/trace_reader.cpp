@@ -16,20 +16,21 @@ struct TraceReader::Input {
     throw FileError(path, offset, code, what);
   }
   [[nodiscard]] bool at_end() {
-    if (file.peek() != std::ifstream::traits_type::eof()) return false;
-    if (!file.eof()) fail("io", "reading failed");
-    return true;
+    if (next == end) refill();
+    return next == end;
+  }
+  void refill() {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    if (file.bad() || (file.fail() && !file.eof())) fail("io", "reading failed");
+    next = block.data();
+    end = next + file.gcount();
   }
 
   char byte() {
-    const auto c = file.get();
-    if (c == std::ifstream::traits_type::eof()) {
-      if (!file.eof()) fail("io", "reading failed");
-      fail("truncated", "the file ends within a trace");
-    }
-    checksum.add(static_cast<char>(c));
+    if (at_end()) fail("truncated", "the file ends within a trace");
+    checksum.add(*next);
     ++offset;
-    return static_cast<char>(c);
+    return *next++;
   }
   std::uint64_t fixed() {
     std::uint64_t value = 0;
@@ -55,6 +56,9 @@ struct TraceReader::Input {
 
   std::string path;
   std::ifstream file;
+  std::vector<char> block = std::vector<char>(format::kBlock);
+  const char* next = nullptr;  // the part of the block that is not yet read
+  const char* end = nullptr;
   format::Checksum checksum;
   std::uint64_t offset = 0;
 };

@@ -14,6 +14,7 @@ struct TraceWriter::Output {
         part(temporary_of(path)),
         file(part, std::ios::binary | std::ios::trunc) {
     require_good("cannot be written");
+    buffer.reserve(format::kBlock);
   }
   ~Output() {
     if (!open) return;
@@ -27,8 +28,14 @@ struct TraceWriter::Output {
   }
   void byte(char c) {
     checksum.add(c);
-    file.put(c);
-    ++offset;
+    buffer.push_back(c);
+    if (buffer.size() == format::kBlock) flush();
+  }
+  void flush() {
+    file.write(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    offset += buffer.size();
+    buffer.clear();
+    require_good("writing failed");
   }
   void fixed(std::uint64_t value) {
     for (int i = 0; i < 8; ++i, value >>= 8) byte(static_cast<char>(value & 0xff));
@@ -52,8 +59,9 @@ struct TraceWriter::Output {
   std::string path;
   std::string part;
   std::ofstream file;
+  std::string buffer;  // not yet given to the file
   format::Checksum checksum;
-  std::uint64_t offset = 0;
+  std::uint64_t offset = 0;  // bytes given to the file
   bool open = true;
 };
 
@@ -84,7 +92,6 @@ void TraceWriter::add_call(const CallRecord& call) {
   out_->fixed(call.hash.high);
   out_->fixed(call.hash.low);
   out_->text(call.arguments);
-  out_->require_good("writing failed");
   depth_ = call.depth;
   ++calls_;
 }
@@ -93,6 +100,7 @@ void TraceWriter::finish() {
   out_->byte(format::kEnd);
   out_->number(calls_);
   out_->fixed(out_->checksum.value());
+  out_->flush();
   out_->file.close();
   out_->require_good("writing failed");
   std::error_code error;
