@@ -1,15 +1,15 @@
 // The value of an expression tree whose numbers, operators and subtrees change.
 //
-// Idea: the value of a node is the result of a call. A call runs again if its node changes or if
-// the value of a child does; so an edit runs again the path from the node to the root, up to the
-// first value that stays what it was.
+// Idea: each operator has a call that asks for the values of its operands, and behind it one that
+// combines them. A new number runs again the combinations on the path to the root, up to the first
+// value that stays what it was; nobody asks again.
 //
 // Source: the benchmark `exptrees` of Hammer, Acar, Chen, *CEAL: a C-based language for
 // self-adjusting computation* (PLDI 2009).
-// Cost of an update: O(depth of the node); native recursion is as deep as the tree, so balanced
-// trees only: tree_contraction.hpp is for the others.
-// Stable because: one call a node, named by the node, the left operand's before the right one's. A
-// subtree that is moved to another place is computed anew.
+// Cost of an update: O(depth), besides what is new. Native recursion is as deep as the tree: for
+// balanced trees; tree_contraction.hpp is for others.
+// Stable because: two calls an operator, named by it, the left operand's before the right one's.
+// Not monotone under moves: a subtree put elsewhere is computed anew.
 #pragma once
 
 #include <cstdint>
@@ -18,54 +18,86 @@
 namespace examples::expression_tree {
 
 template <class S>
+using NumberMod = typename S::template ModType<std::uint64_t>;
+
+template <class S>
 struct Node;
 
-/// What stands at a node: an operator with its operands, or a number.
+/// An operator's term, or else a number, which is an input.
+template <class S>
+struct Operand {
+  const Node<S>* node = nullptr;
+  NumberMod<S> number;  // if there is no node
+  friend bool operator==(const Operand&, const Operand&) = default;
+};
+
 template <class S>
 struct Term {
-  char op = 0;  ///< '+', '-' or '*', modulo 2^64; 0: a number
-  std::uint64_t number = 0;
-  const Node<S>* left = nullptr;
-  const Node<S>* right = nullptr;
+  char op = '+';  ///< '+', '-' or '*', modulo 2^64
+  Operand<S> left, right;
   friend bool operator==(const Term&, const Term&) = default;
 };
 
-/// An input: edits set its term.
+/// An operator: edits set its term.
 template <class S>
 struct Node {
   typename S::template CellType<Term<S>> term;
 };
 
+/// The value of an operator's term.
+template <class S>
 struct Value {
-  static constexpr std::string_view kName = "value";
-  template <class S>
-  std::uint64_t operator()(S& s, const Node<S>* node) const;
+  typename S::template CellType<std::uint64_t> number;
 };
-inline constexpr Value value{};
+
+struct Combine {
+  static constexpr std::string_view kName = "combine";
+  template <class S, class M>
+  void operator()(S& s, M out, char op, M left, M right) const {
+    const std::uint64_t x = s.read(left);
+    const std::uint64_t y = s.read(right);
+    s.write(out, op == '+' ? x + y : op == '-' ? x - y : x * y);
+  }
+};
+inline constexpr Combine combine{};
+
+// The body of a value.
+struct Evaluate {
+  static constexpr std::string_view kName = "evaluate";
+  template <class S>
+  void operator()(S& s, Value<S>& self, const Node<S>* node) const;
+};
+inline constexpr Evaluate evaluate{};
 
 template <class S>
-std::uint64_t Value::operator()(S& s, const Node<S>* node) const {
-  const Term<S>& term = s.read(node->term);
-  if (term.op == 0) return term.number;
-  const std::uint64_t left = s.template call<value>(term.left);
-  const std::uint64_t right = s.template call<value>(term.right);
-  switch (term.op) {
-    case '+':
-      return left + right;
-    case '-':
-      return left - right;
-    default:
-      return left * right;
-  }
+NumberMod<S> value_of(S& s, const Operand<S>& operand) {
+  if (operand.node == nullptr) return operand.number;
+  return s.template make<Value<S>, evaluate>(operand.node).number;
 }
 
-/// The program: the value of the tree at `root`. Requires: a tree.
+template <class S>
+void Evaluate::operator()(S& s, Value<S>& self, const Node<S>* node) const {
+  const Term<S>& term = s.read(node->term);
+  const NumberMod<S> left = value_of(s, term.left);
+  const NumberMod<S> right = value_of(s, term.right);
+  s.template tail<combine>(NumberMod<S>(self.number), term.op, left, right);
+}
+
+struct Copy {
+  static constexpr std::string_view kName = "copy";
+  template <class S, class M>
+  void operator()(S& s, M from, M to) const {
+    s.write(to, s.read(from));
+  }
+};
+inline constexpr Copy copy{};
+
+/// The program: writes the value of the tree at `root` to `out`. Requires: a tree.
 struct Total {
   static constexpr std::string_view kName = "total";
   template <class S>
-  void operator()(S& s, const Node<S>* root,
-                  typename S::template ModType<std::uint64_t> out) const {
-    s.write(out, s.template call<value>(root));
+  void operator()(S& s, const Node<S>* root, NumberMod<S> out) const {
+    s.template tail<copy>(value_of(s, Operand<S>{root, {}}), out);
   }
 };
 inline constexpr Total total{};

@@ -95,28 +95,58 @@ struct ExpressionApp {
   class World {
    public:
     using S = ScopeOf<Host>;
-    World(Host& host, const Input& input) : host_(host), out_(host.template cell<std::uint64_t>()) {
-      for (std::size_t i = 0; i < input.terms.size(); ++i) {
-        nodes_.push_back(&host.template make<examples::expression_tree::Node<S>>());
+    using Node = examples::expression_tree::Node<S>;
+    using Operand = examples::expression_tree::Operand<S>;
+    using ExpressionTerm = examples::expression_tree::Term<S>;
+
+    World(Host& host, const Input& input)
+        : host_(host), out_(host.template cell<std::uint64_t>()), parents_(input.terms.size(), -1) {
+      for (const Term& term : input.terms) {
+        terms_.push_back({});
+        nodes_.push_back(&host.template make<Node>());
+        numbers_.push_back(host.input(std::uint64_t{term.number}));
       }
-      for (std::size_t i = 0; i < nodes_.size(); ++i) edit({static_cast<int>(i), input.terms[i]});
-      const auto* root = nodes_[0];
-      host.template run<examples::expression_tree::total>(root, out_);
+      for (std::size_t i = 0; i < terms_.size(); ++i) edit({static_cast<int>(i), input.terms[i]});
+      host.template run<examples::expression_tree::total>(static_cast<const Node*>(root_), out_);
     }
     void edit(const Edit& e) {
-      const auto node = [&](int i) {
-        return i < 0 ? nullptr : nodes_[static_cast<std::size_t>(i)];
-      };
-      host_.set(node(e.node)->term,
-                examples::expression_tree::Term<S>{e.term.op, e.term.number, node(e.term.left),
-                                                   node(e.term.right)});
+      const auto i = static_cast<std::size_t>(e.node);
+      terms_[i] = e.term;
+      if (e.term.op == 0) {
+        host_.set(numbers_[i], std::uint64_t{e.term.number});
+      } else {
+        for (const int side : {e.term.left, e.term.right}) {
+          parents_[static_cast<std::size_t>(side)] = e.node;
+        }
+        set_term(e.node);
+      }
+      set_term(parents_[i]);  // which sees whether its operand is a number
     }
     std::uint64_t result() { return host_.get(out_); }
 
    private:
+    // The root of all: node 0 plus 0, so that node 0 may be a number.
+    void set_term(int node) {
+      const auto zero = Operand{nullptr, zero_};
+      if (node < 0) return host_.set(root_->term, ExpressionTerm{'+', operand(0), zero});
+      const Term& term = terms_[static_cast<std::size_t>(node)];
+      host_.set(nodes_[static_cast<std::size_t>(node)]->term,
+                ExpressionTerm{term.op, operand(term.left), operand(term.right)});
+    }
+    Operand operand(int node) const {
+      const auto i = static_cast<std::size_t>(node);
+      if (terms_[i].op != 0) return {nodes_[i], {}};
+      return {nullptr, numbers_[i]};
+    }
+
     Host& host_;
-    std::vector<examples::expression_tree::Node<S>*> nodes_;
-    typename S::template ModType<std::uint64_t> out_;
+    examples::expression_tree::NumberMod<S> out_;
+    std::vector<Term> terms_;
+    std::vector<int> parents_;
+    std::vector<Node*> nodes_;
+    std::vector<examples::expression_tree::NumberMod<S>> numbers_;
+    examples::expression_tree::NumberMod<S> zero_ = host_.input(std::uint64_t{0});
+    Node* root_ = &host_.template make<Node>();
   };
 };
 
