@@ -30,6 +30,10 @@ struct Value {
   friend bool operator==(const Value&, const Value&) = default;
 };
 
+inline std::string name_of(int cell) {
+  return static_cast<char>('A' + cell % kColumns) + std::to_string(cell / kColumns + 1);
+}
+
 inline std::string to_text(const Value& value) {
   switch (value.fault) {
     case Fault::cycle:
