@@ -64,19 +64,21 @@ void CutIntoChunks::operator()(S& s, Chunk<S, T>& self, const Node<S, T>* first)
   s.write(self.state, std::move(state));
 }
 
-/// The node for `e` in the result of a program.
-template <class S, class T>
-Node<S, T>& node_of(S& s, const T& e) {
-  Node<S, T>& node = s.template make<Node<S, T>>(e);
+/// The node for `e` in the result of a program. A program that does not meet elements in the order
+/// of its result gives the part in which it met this one as `part`: a label then is not in another
+/// part, at another time, when a part is divided elsewhere.
+template <class S, class T, class... Part>
+Node<S, T>& node_of(S& s, const T& e, Part... part) {
+  Node<S, T>& node = s.template make<Node<S, T>>(e, part...);
   node.element = e;
   return node;
 }
 
 /// Links nodes for `elements` behind `last`. Returns the last one.
-template <class S, class T>
-Node<S, T>* link_behind(S& s, Node<S, T>* last, const std::vector<T>& elements) {
+template <class S, class T, class... Part>
+Node<S, T>* link_behind(S& s, Node<S, T>* last, const std::vector<T>& elements, Part... part) {
   for (const T& e : elements) {
-    Node<S, T>& node = node_of(s, e);
+    Node<S, T>& node = node_of(s, e, part...);
     s.write(last->next, &node);
     last = &node;
   }

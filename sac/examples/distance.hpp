@@ -43,6 +43,10 @@ struct DistanceOfHulls {
     if (a_left == nullptr || b_left == nullptr) {
       return s.write(result, std::numeric_limits<double>::infinity());
     }
+    if (a_left == a_right && b_left == b_right) {  // no edges, so no turns
+      return s.write(result, LeastDistance::of(a_left->element, a_left->element, b_left->element,
+                                               b_left->element));
+    }
     const auto there = s.template cell<double>(0), back = s.template cell<double>(1);
     s.template call<fold_pairs<LeastDistance>>(a_left, b_right, a_right, b_left, there);
     s.template call<fold_pairs<LeastDistance>>(a_right, b_left, a_left, b_right, back);

@@ -7,11 +7,14 @@
 // small ones with high probability.
 //
 // Sorted lists are lists of chunks. A step of a merge makes the chunk that begins with the greater
-// boundary of two chunks a and b and ends at the next boundary of either list: an object keyed by
-// (a, b).
+// boundary of two chunks and ends at the next boundary of either list. A chunk is an object keyed
+// by its boundary and by what is merged in; the two chunks that it is made of are told to it in a
+// modifiable. Keyed by them, chunks would be new up to the last merge wherever a boundary comes or
+// goes below: for each, twice as many a level.
 //
 // From scratch O(n log n). An inserted or deleted element is in one chunk of each of O(log n)
-// lists; the two or three steps that read the chunk run again: O(log n) calls expected.
+// lists; the two or three steps that read the chunk run again. With probability 1/k it begins or
+// ends a group of k elements, and the group is merged again: O(log n) calls expected.
 // Source: [Aca05, §8.3.2], there with a pass for each level of dividing, and without chunks.
 #pragma once
 
@@ -22,50 +25,93 @@
 
 namespace examples {
 
-/// The chunk that `a` and `b` share, and those behind.
-struct Merge {
-  static constexpr std::string_view kName = "merge";
-  template <class S>
-  void operator()(S& s, Chunk<S>& self, const Chunk<S>* a, const Chunk<S>* b) const;
-};
-inline constexpr Merge merge{};
-
+/// A chunk of a sorted list.
 template <class S>
-void Merge::operator()(S& s, Chunk<S>& self, const Chunk<S>* a, const Chunk<S>* b) const {
-  self.boundary = std::max(a->boundary, b->boundary);
-  const auto& in_a = s.read(a->state);
-  const auto& in_b = s.read(b->state);
-  const bool a_ends =
-      in_a.next != nullptr && (in_b.next == nullptr || in_a.next->boundary < in_b.next->boundary);
-  const Chunk<S>* const behind = a_ends ? in_a.next : in_b.next;
-  const auto shared = [&](const std::vector<Element>& elements) {
-    const auto begin = std::lower_bound(elements.begin(), elements.end(), self.boundary);
-    const auto end = behind == nullptr
-                         ? elements.end()
-                         : std::lower_bound(begin, elements.end(), behind->boundary);
-    return std::span(begin, end);
+struct SortedChunk {
+  struct State {
+    std::vector<Element> elements;
+    const SortedChunk* next = nullptr;
+    friend bool operator==(const State&, const State&) = default;
   };
-  const auto from_a = shared(in_a.elements), from_b = shared(in_b.elements);
-  typename Chunk<S>::State state;
-  state.elements.resize(from_a.size() + from_b.size());
-  std::merge(from_a.begin(), from_a.end(), from_b.begin(), from_b.end(), state.elements.begin());
-  if (behind != nullptr) {
-    state.next = &s.template tail_make<Chunk<S>, merge>(a_ends ? behind : a, a_ends ? b : behind);
-  }
-  s.write(self.state, std::move(state));
-}
+  struct Source {
+    const SortedChunk* a;
+    const SortedChunk* b;
+    friend bool operator==(const Source&, const Source&) = default;
+  };
+  Element boundary;
+  typename S::template CellType<Source> source;  // where it comes from, unless known from the key
+  typename S::template CellType<State> state;
+};
 
 /// A stretch of the input, sorted.
 template <class S>
 struct Sorted {
   struct State {
-    const Chunk<S>* chunks;
+    const SortedChunk<S>* chunks;
     const Sorted* next;  // the stretch behind
     friend bool operator==(const State&, const State&) = default;
   };
   int height = 0;  // the number of levels above that begin a group with it
   typename S::template CellType<State> state;
 };
+
+// --- Merging two lists -----------------------------------------------------------------------
+
+/// The chunk that begins with `boundary` where `added` is merged in, and those behind.
+struct MergedChunk {
+  static constexpr std::string_view kName = "merged_chunk";
+  template <class S>
+  void operator()(S& s, SortedChunk<S>& self, Element boundary, const Sorted<S>* added) const;
+};
+inline constexpr MergedChunk merged_chunk{};
+
+/// Fills `self` with what `a` and `b` share from its boundary on, and makes the chunks behind.
+template <class S>
+void merge_into(S& s, SortedChunk<S>& self, const SortedChunk<S>* a, const SortedChunk<S>* b,
+                const Sorted<S>* added) {
+  const auto& in_a = s.read(a->state);
+  const auto& in_b = s.read(b->state);
+  const bool a_ends =
+      in_a.next != nullptr && (in_b.next == nullptr || in_a.next->boundary < in_b.next->boundary);
+  const SortedChunk<S>* const behind = a_ends ? in_a.next : in_b.next;
+  const auto shared = [&](const std::vector<Element>& elements) {
+    const auto begin = std::lower_bound(elements.begin(), elements.end(), self.boundary);
+    const auto end = behind == nullptr ? elements.end()
+                                       : std::lower_bound(begin, elements.end(), behind->boundary);
+    return std::span(begin, end);
+  };
+  const auto from_a = shared(in_a.elements), from_b = shared(in_b.elements);
+  typename SortedChunk<S>::State state;
+  state.elements.resize(from_a.size() + from_b.size());
+  std::merge(from_a.begin(), from_a.end(), from_b.begin(), from_b.end(), state.elements.begin());
+  if (behind != nullptr) {
+    auto& next = s.template tail_make<SortedChunk<S>, merged_chunk>(behind->boundary, added);
+    s.write(next.source, {a_ends ? behind : a, a_ends ? b : behind});
+    state.next = &next;
+  }
+  s.write(self.state, std::move(state));
+}
+
+template <class S>
+void MergedChunk::operator()(S& s, SortedChunk<S>& self, Element boundary,
+                             const Sorted<S>* added) const {
+  self.boundary = boundary;
+  const auto [a, b] = s.read(self.source);
+  merge_into(s, self, a, b, added);
+}
+
+/// The header of the merge of two lists, `b` being that of `added`, and the chunks behind.
+struct Merge {
+  static constexpr std::string_view kName = "merge";
+  template <class S>
+  void operator()(S& s, SortedChunk<S>& self, const SortedChunk<S>* a, const SortedChunk<S>* b,
+                  const Sorted<S>* added) const {
+    merge_into(s, self, a, b, added);
+  }
+};
+inline constexpr Merge merge{};
+
+// --- Groups ----------------------------------------------------------------------------------
 
 /// Sorts the lowest group, which begins with `first`, and those behind.
 struct SortGroup {
@@ -78,15 +124,15 @@ inline constexpr SortGroup sort_group{};
 template <class S>
 void SortGroup::operator()(S& s, Sorted<S>& self, const Node<S>* first) const {
   self.height = heads(first->element.id) - kChunkBits;
-  typename Chunk<S>::State low, high;  // before and behind the only boundary
+  typename SortedChunk<S>::State low, high;  // before and behind the only boundary
   const Node<S>* const next = read_to_boundary(
       s, first, [&](const Element& e) { (e < first->element ? low : high).elements.push_back(e); });
   if (first->element.id == 0) std::swap(low, high);  // a header is no boundary
   std::sort(low.elements.begin(), low.elements.end());
   std::sort(high.elements.begin(), high.elements.end());
-  Chunk<S>& chunks = s.template make<Chunk<S>>(first);
+  SortedChunk<S>& chunks = s.template make<SortedChunk<S>>(first);
   if (first->element.id != 0) {
-    Chunk<S>& behind = s.template make<Chunk<S>>(first->element);
+    SortedChunk<S>& behind = s.template make<SortedChunk<S>>(first->element);
     behind.boundary = first->element;
     low.next = &behind;
     s.write(behind.state, std::move(high));
@@ -111,7 +157,7 @@ void MergeGroup::operator()(S& s, Sorted<S>& self, const Sorted<S>* first) const
   auto [chunks, next] = s.read(first->state);
   while (next != nullptr && next->height == 0) {
     const auto member = s.read(next->state);
-    chunks = &s.template make<Chunk<S>, merge>(chunks, member.chunks);
+    chunks = &s.template make<SortedChunk<S>, merge>(chunks, member.chunks, next);
     next = member.next;
   }
   s.write(
@@ -123,12 +169,12 @@ void MergeGroup::operator()(S& s, Sorted<S>& self, const Sorted<S>* first) const
 struct LinkChunks {
   static constexpr std::string_view kName = "link_chunks";
   template <class S>
-  void operator()(S& s, const Chunk<S>* chunk, Node<S>* before) const;
+  void operator()(S& s, const SortedChunk<S>* chunk, Node<S>* before) const;
 };
 inline constexpr LinkChunks link_chunks{};
 
 template <class S>
-void LinkChunks::operator()(S& s, const Chunk<S>* chunk, Node<S>* before) const {
+void LinkChunks::operator()(S& s, const SortedChunk<S>* chunk, Node<S>* before) const {
   const auto& state = s.read(chunk->state);
   Node<S>* const last = link_behind(s, before, state.elements);
   if (state.next == nullptr) return s.write(last->next, nullptr);

@@ -175,7 +175,7 @@ void HullPart::operator()(S& s, const Outside<S>* points, PointNode<S>* a,
   if (state.next == nullptr) {
     std::vector<Point> corners;
     hull_of_few(state.elements, a->element, b->element, corners);
-    return s.write(link_behind(s, a, corners)->next, b);
+    return s.write(link_behind(s, a, corners, points)->next, b);
   }
   const auto farthest = s.template cell<Farthest::Value>(points);
   s.template call<fold<Farthest>>(points, farthest);
@@ -189,7 +189,7 @@ void HullCorner::operator()(S& s, const Outside<S>* points,
   const Point p = s.read(farthest).point;
   const Outside<S>& left = s.template make<Outside<S>, keep_outside>(points, a->element, p);
   const Outside<S>& right = s.template make<Outside<S>, keep_outside>(points, p, b->element);
-  PointNode<S>& corner = node_of(s, p);
+  PointNode<S>& corner = node_of(s, p, points);
   s.template call<hull_part>(&left, a, static_cast<const PointNode<S>*>(&corner));
   s.template tail<hull_part>(&right, &corner, b);
 }
@@ -209,12 +209,12 @@ void HullOfExtremes::operator()(S& s, const Chunk<S, Point>* points,
                                 HullMod<S> result) const {
   const auto [left, right] = s.read(extremes);
   if (left.id == 0) return s.write(result, {});
-  PointNode<S>& l = node_of(s, left);
+  PointNode<S>& l = node_of(s, left, points);
   if (same_place(left, right)) {
     s.write(l.next, &l);
     return s.write(result, {&l, &l});
   }
-  PointNode<S>& r = node_of(s, right);
+  PointNode<S>& r = node_of(s, right, points);
   s.write(result, {&l, &r});
   const Outside<S>& above = s.template make<Outside<S>, keep_outside>(points, left, right);
   const Outside<S>& below = s.template make<Outside<S>, keep_outside>(points, right, left);

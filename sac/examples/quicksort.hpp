@@ -62,12 +62,12 @@ void QuicksortPart::operator()(S& s, const Chunk<S>* list, Node<S>* before,
   if (state.next == nullptr) {
     std::vector<Element> elements = state.elements;
     std::sort(elements.begin(), elements.end());
-    return s.write(link_behind(s, before, elements)->next, after);
+    return s.write(link_behind(s, before, elements, list)->next, after);
   }
   const Element pivot = state.elements.empty() ? state.next->boundary : state.elements.front();
   const Chunk<S>& less = s.template make<Chunk<S>, part<true>>(list, pivot);
   const Chunk<S>& greater = s.template make<Chunk<S>, part<false>>(list, pivot);
-  Node<S>& middle = node_of(s, pivot);
+  Node<S>& middle = node_of(s, pivot, list);
   s.template call<quicksort_part>(&less, before, static_cast<const Node<S>*>(&middle));
   s.template tail<quicksort_part>(&greater, &middle, after);
 }

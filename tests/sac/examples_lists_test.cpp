@@ -417,10 +417,17 @@ struct DistanceApp {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("list examples run plainly give what naive programs give", "", ArrayApp, MapApp,
-                   FilterApp, ReverseApp, SumApp, MinimumApp, QuicksortApp, MergesortApp,
-                   QuickhullApp<any_point>, QuickhullApp<spread_point>, DiameterApp<any_point>,
-                   DiameterApp<spread_point>, DistanceApp<8>, DistanceApp<1000>) {
+#define LIST_EXAMPLES                                                                      \
+  ArrayApp, MapApp, FilterApp, ReverseApp, SumApp, MinimumApp, QuicksortApp, MergesortApp, \
+      QuickhullApp<any_point>, QuickhullApp<spread_point>, DiameterApp<any_point>,         \
+      DiameterApp<spread_point>, DistanceApp<8>, DistanceApp<1000>
+
+TEMPLATE_TEST_CASE("list examples run plainly give what naive programs give", "", LIST_EXAMPLES) {
   check_example_plain<TestType>(100, 100);
   check_example_plain<TestType>(5, 2000);
+}
+
+TEMPLATE_TEST_CASE("list examples follow random edits as if run from scratch", "", LIST_EXAMPLES) {
+  check_example<TestType>(100, 60, 12);
+  check_example<TestType>(3, 1000, 12);
 }
