@@ -21,6 +21,12 @@
 //   erase_range         the N appended nodes, in ranges of 1000 that are walked
 //   erase_counted       the same ranges for who has walked them already
 //   bytes_...           bytes per node, its share of the groups' memory included
+//
+// Where the time goes. While all it touches is in the first-level cache an insertion is some 40
+// instructions, 4 ns: append, hotspot. The rest is cache misses, on the place and, once that is
+// there, on its successor: `random` takes 18 ns at N = 10^6 and 6 ns at 10^5, where the nodes fit
+// into the second-level cache. At 10^6, `random_from_empty` has just chopped its first groups, of
+// 27000 nodes each: walking these takes about half of its time. At 3 x 10^6 that is past.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>

@@ -137,23 +137,17 @@ void Timeline::spread(Handle first, std::uint32_t group, std::uint32_t left,
 // Cuts the group of `node` into pieces, from the back, so that a failure to allocate leaves a
 // correct list.
 void Timeline::chop(Handle node) {
+  constexpr std::uint32_t kGap = kLastLabel / (kPiece + 1);
   const std::uint32_t group = at(node)->group();
   while (in_group(at(node)->next, group)) node = at(node)->next;
-  constexpr std::uint32_t kGap = kLastLabel / (kPiece + 1);
-  const auto longer_than_a_piece = [&] {
-    Handle h = node;
-    for (std::uint32_t i = 0; i < kPiece; ++i) {
-      if (!in_group(h = at(h)->prev, group)) return false;
-    }
-    return true;
-  };
-  for (bool more = true; more;) {
-    more = longer_than_a_piece();
-    const std::uint32_t piece = more ? new_group(group, groups_[group].next) : group;
+  while (in_group(node, group)) {
+    const std::uint32_t piece = new_group(group, groups_[group].next);
     for (std::uint32_t i = kPiece; i > 0 && in_group(node, group); --i, node = at(node)->prev) {
       stamp(*at(node), piece, i * kGap);
     }
   }
+  join_groups(groups_[group].prev, groups_[group].next);
+  free_group(group);
 }
 
 std::uint32_t Timeline::new_group(std::uint32_t prev, std::uint32_t next) {

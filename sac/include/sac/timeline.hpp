@@ -59,9 +59,8 @@ class Timeline {
       const std::uint32_t gap = at(next)->label - before.label;
       if (gap >= 2) return link(before, place, node, group, before.label + part(gap, place, next));
     } else if (const std::uint32_t room = kLastLabel - before.label; room > 2 * kAppendStep) {
-      const std::uint32_t step = next == 0 || place == latest_ ? kAppendStep
-                                 : next == latest_             ? room - kAppendStep
-                                                               : room / 2;
+      const bool run = next == 0 || place == latest_;
+      const std::uint32_t step = run ? kAppendStep : room / 2;
       return link(before, place, node, group, before.label + step);
     }
     make_room_after(place);
