@@ -9,9 +9,9 @@
 // Cost of an update: O(degree) for each vertex whose level changes, and no update could do with
 // less than one step for each, since the levels are the output; an edge at the source may change
 // all of them.
-// Stable because: calls are named by vertex and level, three at most for a vertex (its own level,
-// and up to two later ones that its neighbours ask for in vain), and the agenda orders them by
-// level.
+// Stable because: calls are named by vertex and level, and the agenda orders them by level. A
+// vertex of an undirected graph has three calls at most: its own level, and two later ones that
+// its neighbours ask for in vain.
 #pragma once
 
 #include <algorithm>
