@@ -117,8 +117,8 @@ void Agenda::require_room(const Call& call) const {
   throw UsageError("agenda '" + name_ + "': too many calls post " + Engine::describe(call));
 }
 
-const Call& Agenda::require_posted(const Function& function, std::uint32_t hash,
-                                   const void* args) const {
+Call& Agenda::require_posted(const Function& function, std::uint32_t hash,
+                             const void* args) const {
   const Handle h = find(function, hash, args);
   if (h == 0 || slot(engine_.call(h)).posts() == 0) {
     throw UsageError("agenda '" + name_ + "': nothing to retract");
@@ -238,7 +238,12 @@ void Agenda::forget(Engine& engine, Call& call) noexcept {
     return agenda.before(engine.call(a), engine.call(b));
   };
   const auto it = agenda.classes_.find(s.rank);
-  if (it != agenda.classes_.end()) it->second.erase({s.order, engine.handle_of(call)}, order);
+  if (it == agenda.classes_.end()) return;
+  try {
+    it->second.erase({s.order, engine.handle_of(call)}, order);
+  } catch (...) {  // client code failed
+    it->second.erase_without_order(engine.handle_of(call));
+  }
 }
 
 // --- Draining --------------------------------------------------------------------------------
@@ -283,46 +288,41 @@ void Agenda::run_pending(Scope& s) {
 }
 
 // Runs one (bucket, phase, colour): what was posted before in order, merged with what its own
-// calls post into it.
+// calls post into it. Comparing calls may throw in the middle of sorting, so a copy is sorted.
 void Agenda::run_class(std::uint32_t rank) {
-  const auto later = [&](const Entry& a, const Entry& b) {
-    if (a.order != b.order) return a.order > b.order;
-    return a.call != b.call && before(engine_.call(b.call), engine_.call(a.call));
+  const auto order = [&](Handle a, Handle b) { return before(engine_.call(a), engine_.call(b)); };
+  const auto earlier = [&](const Entry& a, const Entry& b) {
+    if (a.order != b.order) return a.order < b.order;
+    return a.call != b.call && order(a.call, b.call);
   };
-  std::vector<Entry> batch = std::exchange(pending_[rank], {});
-  std::vector<Entry> late;  // a heap
+  std::vector<Entry> batch = pending_[rank];
+  std::sort(batch.begin(), batch.end(), earlier);
+  pending_[rank].clear();
+  OrderedCalls late;
   std::size_t i = 0;
+  std::size_t taken = 0;  // of what the running call posted
   Entry next;
   try {
     OrderedCalls& done = classes_[rank];
-    std::sort(batch.begin(), batch.end(),
-              [&](const Entry& a, const Entry& b) { return later(b, a); });
     while (i < batch.size() || !late.empty()) {
-      const bool from_late = i == batch.size() || (!late.empty() && later(batch[i], late.front()));
-      if (from_late) {
-        std::pop_heap(late.begin(), late.end(), later);
-        next = late.back();
-        late.pop_back();
-      } else {
-        next = batch[i++];
-      }
+      const bool from_late =
+          i == batch.size() || (!late.empty() && earlier(late.first_entry(), batch[i]));
+      next = from_late ? late.pop_first() : batch[i++];
+      taken = 0;
       run_one(next, done);
       next = {};
       auto& posted = pending_[rank];
-      if (late.capacity() < late.size() + posted.size()) {
-        late.reserve(2 * (late.size() + posted.size()));
-      }
-      for (const Entry& entry : posted) {
-        late.push_back(entry);
-        std::push_heap(late.begin(), late.end(), later);
-      }
+      for (; taken < posted.size(); ++taken) late.insert(posted[taken], order);
       posted.clear();
     }
   } catch (...) {  // what has not run waits for the drain to run again
-    if (next.call != 0 && engine_.call(next.call).has(Call::kPending))
+    auto& posted = pending_[rank];
+    posted.erase(posted.begin(), posted.begin() + static_cast<std::ptrdiff_t>(taken));
+    if (next.call != 0 && engine_.call(next.call).has(Call::kPending)) {
       chain(engine_.call(next.call));
+    }
     for (; i < batch.size(); ++i) chain(engine_.call(batch[i].call));
-    for (const Entry& entry : late) chain(engine_.call(entry.call));
+    late.for_each([&](const Entry& entry) { chain(engine_.call(entry.call)); });
     throw;
   }
   pending_.erase(rank);

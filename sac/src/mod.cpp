@@ -135,7 +135,6 @@ Version& ModStructure::new_version(Scope& scope, Handle head, const detail::Valu
     edge.version = head;
     return first;
   }
-  if (first.history == 0) first.history = new_history(head);
   Handle fresh = head;
   if (first.written) {
     fresh = engine_.arena().allocate(type.bytes);
@@ -144,9 +143,11 @@ Version& ModStructure::new_version(Scope& scope, Handle head, const detail::Valu
   at(fresh)->writer = self;
   at(fresh)->type = type_number;
   try {
+    if (first.history == 0) first.history = new_history(head);
     history(first.history).versions.insert({0, fresh}, order());
   } catch (...) {
     if (fresh != head) engine_.arena().release(fresh, type.bytes);
+    if (first.history != 0) drop_history(head);
     throw;
   }
   edge.version = fresh;
@@ -181,7 +182,17 @@ void ModStructure::drop_history(Handle head) noexcept {
   free_histories_.push_back(number);
 }
 
-Version* ModStructure::before(Handle head, const Version& version) const noexcept {
+Version* ModStructure::before(Scope& scope, Handle head) const {
+  const Call& self = scope.self();
+  Version* version = at(head);
+  if (version->history == 0) {
+    return version->written && engine_.precedes(writer(*version), self) ? version : nullptr;
+  }
+  const Handle last = history(version->history).versions.last_not_behind({0, 0}, order(&self));
+  return last != 0 ? at(last) : nullptr;
+}
+
+Version* ModStructure::predecessor(Handle head, const Version& version) const noexcept {
   const std::uint32_t h = at(head)->history;
   if (h == 0) return nullptr;
   const Handle found = history(h).versions.predecessor({0, handle_of(version)}, order());
@@ -267,26 +278,24 @@ void ModStructure::retract(Call&, Edge& edge) noexcept {
   const auto& write = static_cast<const WriteEdge&>(edge);
   if (write.version == 0) return;
   Version& version = *at(write.version);
-  if (version.written) {
-    Version* previous = before(write.head, version);
-    bool same = false;
-    if (previous != nullptr) {
-      try {
-        same = types_[version.type].same(*previous, version);
-      } catch (...) {  // client code that fails here makes the readers run again
-      }
+  Version* previous = predecessor(write.head, version);
+  bool same = false;
+  if (previous != nullptr) {
+    try {
+      same = types_[version.type].same(*previous, version);
+    } catch (...) {  // client code that fails here makes the readers run again
     }
-    if (engine_.observer_ != nullptr && !same) [[unlikely]] {
-      engine_.note(Event::Kind::changed, nullptr, write.head);
-    }
-    if (previous != nullptr) {
-      move_readers(version, *previous, nullptr, !same);
-    } else {
-      orphan_readers(version);
-    }
-    types_[version.type].destroy(version);
-    version.written = false;
   }
+  if (engine_.observer_ != nullptr && !same) [[unlikely]] {
+    engine_.note(Event::Kind::changed, nullptr, write.head);
+  }
+  if (previous != nullptr) {
+    move_readers(version, *previous, nullptr, !same);
+  } else {
+    orphan_readers(version);
+  }
+  types_[version.type].destroy(version);
+  version.written = false;
   forget_version(write.head, version);
 }
 

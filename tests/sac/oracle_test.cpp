@@ -31,8 +31,8 @@ struct Traced {
          const std::multiset<int>& posts) {
     world.program = &program;
     world.start(engine, inputs);
-    for (const int n : posts) world.agenda->post_from_outside<node>(node_key(n, 9), n, 9);
-    engine.run<random_root>();
+    for (const int n : posts) world.agenda->post_from_outside<node<int>>(node_key(n, 9), n, 9);
+    engine.run<random_root<int>>();
   }
   // Label, depth and number of edges of every call, in order.
   std::string shape() const {
@@ -52,8 +52,8 @@ std::vector<int> plain_values(const RandomProgram& program, const std::vector<in
   sac::PlainScope scope;
   world.program = &program;
   world.start(scope, inputs);
-  for (const int n : posts) world.agenda->post_from_outside<node>(node_key(n, 9), n, 9);
-  scope.run<random_root>();
+  for (const int n : posts) world.agenda->post_from_outside<node<int>>(node_key(n, 9), n, 9);
+  scope.run<random_root<int>>();
   std::vector<int> values;
   for (const auto& c : world.cells) values.push_back(scope.get(c));
   return values;
@@ -84,10 +84,10 @@ std::string run(const Case& c) {
       for (const auto& [n, on] : edit.posts) {
         if (on) {
           new_posts.insert(n);
-          t.world.agenda->post_from_outside<node>(node_key(n, 9), n, 9);
+          t.world.agenda->post_from_outside<node<int>>(node_key(n, 9), n, 9);
         } else if (const auto it = new_posts.find(n); it != new_posts.end()) {
           new_posts.erase(it);
-          t.world.agenda->retract_from_outside<node>(n, 9);
+          t.world.agenda->retract_from_outside<node<int>>(n, 9);
         }
       }
       t.world.fuse = edit.fuse;

@@ -2,38 +2,21 @@
 #include "sac/timeline.hpp"
 
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <list>
 #include <new>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "failing_new.hpp"
 #include "sac/check.hpp"
 #include "sac/label.hpp"
 
 namespace {
 
-/// While true, operator new fails.
-bool memory_is_out = false;
-
-}  // namespace
-
-void* operator new(std::size_t bytes) {
-  void* const block = memory_is_out ? nullptr : std::malloc(bytes);
-  if (block == nullptr) throw std::bad_alloc();
-  return block;
-}
-void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
-  return memory_is_out ? nullptr : std::malloc(bytes);
-}
-void operator delete(void* block) noexcept { std::free(block); }
-void operator delete(void* block, std::size_t) noexcept { std::free(block); }
-
-namespace {
-
 using sac::Handle;
 using sac::TimeNode;
+using support::memory_is_out;
 
 struct Fixture {
   sac::Arena arena;

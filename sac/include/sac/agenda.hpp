@@ -124,9 +124,9 @@ class Agenda final : public Structure {
   void retract_from_outside(Args... args) {
     engine_.begin_edit();
     const detail::Label<Args...> label = label_of<F>(std::tuple<Args...>(std::move(args)...));
-    const Key key = key_of(require_posted(detail::kPosted<F, Args...>, label.hash, &label));
-    engine_.on_rollback([this, key, label] { add_labelled<F>(key, label); });
-    drop_labelled<F>(label);
+    Call& call = require_posted(detail::kPosted<F, Args...>, label.hash, &label);
+    engine_.on_rollback([this, key = key_of(call), label] { add_labelled<F>(key, label); });
+    drop_post(call);
   }
 
   /// Runs what was posted, in order, as children of the running call. Once per agenda.
@@ -176,8 +176,8 @@ class Agenda final : public Structure {
                  const void* args, Construct construct);
   void outside_post(const Function& function, const Key& key, std::uint32_t hash, const void* args,
                     Construct construct);
-  [[nodiscard]] const Call& require_posted(const Function& function, std::uint32_t hash,
-                                           const void* args) const;
+  [[nodiscard]] Call& require_posted(const Function& function, std::uint32_t hash,
+                                     const void* args) const;
   [[nodiscard]] Handle find(const Function& function, std::uint32_t hash, const void* args) const;
   Handle create(const Function& function, const Key& key, std::uint32_t hash, const void* args,
                 Construct construct);

@@ -100,7 +100,9 @@ concept Printable = requires(std::ostream& out, const T& value) {
 
 template <class T>
 void print_argument(std::ostream& out, const T& value) {
-  if constexpr (Printable<T>) {
+  if constexpr (std::is_same_v<T, Agenda*>) {
+    out << value->name();
+  } else if constexpr (Printable<T>) {
     out << value;
   } else {
     out << '<' << sizeof(T) << " bytes>";

@@ -140,10 +140,10 @@ class ModStructure final : public Structure {
 
   /// The running call's own version: last time's, confirmed; null if it has none.
   detail::Version* own_version(Scope& scope, Handle head);
-  /// A version for the running call, without a value yet.
+  /// The last version before the running call, which has none; null if there is none.
+  [[nodiscard]] detail::Version* before(Scope& scope, Handle head) const;
+  /// A version for the running call, without a value yet: to be given one at once.
   detail::Version& new_version(Scope& scope, Handle head, const detail::ValueType& type);
-  /// The written version before `version`; null if none.
-  [[nodiscard]] detail::Version* before(Handle head, const detail::Version& version) const noexcept;
   /// Throws: UsageError if the running call's own children have read `version`: then it may not
   /// change.
   void require_unread(Scope& scope, Handle head, const detail::Version& version) const;
@@ -202,6 +202,8 @@ class ModStructure final : public Structure {
   [[nodiscard]] bool unconfirmed(const detail::Version& version) const noexcept;
   [[nodiscard]] std::uint32_t new_history(Handle head);
   void drop_history(Handle head) noexcept;
+  [[nodiscard]] detail::Version* predecessor(Handle head,
+                                             const detail::Version& version) const noexcept;
   void forget_version(Handle head, detail::Version& version) noexcept;
   void link_reader(detail::ReadEdge& edge, detail::Version& version) noexcept;
   void unlink_reader(detail::ReadEdge& edge) noexcept;
@@ -336,11 +338,11 @@ void Scope::write(Mod<T, Same> mod, std::type_identity_t<T> value) {
     own->value() = std::move(value);
     return mods.changed(head, *own);
   }
-  auto& version = static_cast<detail::TypedVersion<T>&>(
-      mods.new_version(*this, head, detail::kValueType<T, Same>));
-  auto* previous = static_cast<detail::TypedVersion<T>*>(mods.before(head, version));
+  auto* previous = static_cast<detail::TypedVersion<T>*>(mods.before(*this, head));
   const bool same = previous != nullptr && Same{}(previous->value(), value);
   if (previous != nullptr && !same) mods.require_unread(*this, head, *previous);
+  auto& version = static_cast<detail::TypedVersion<T>&>(
+      mods.new_version(*this, head, detail::kValueType<T, Same>));  // the last that may fail
   ::new (static_cast<void*>(version.storage)) T(std::move(value));
   version.written = true;
   mods.appeared(*this, head, version, previous, same);

@@ -3,7 +3,7 @@
 // Leaves of up to 32 entries under a directory of leaves; 12 bytes an entry at full leaves, and
 // leaves that two edits leave half empty are merged, so that memory follows the number of calls.
 // Built in bulk by a first run, then searched and edited in O(log) comparisons of plain numbers; a
-// call itself is looked at only where orders tie.
+// call itself is looked at only where orders tie. If comparing calls throws, nothing has changed.
 #pragma once
 
 #include <algorithm>
@@ -27,6 +27,7 @@ class OrderedCalls {
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   /// Requires: not empty.
   [[nodiscard]] Handle first() const noexcept { return leaves_.front()->calls[0]; }
+  [[nodiscard]] Entry first_entry() const noexcept { return first(*leaves_.front()); }
   [[nodiscard]] Handle last() const noexcept {
     return leaves_.back()->calls[leaves_.back()->count - 1];
   }
@@ -58,22 +59,24 @@ class OrderedCalls {
   template <class Before>
   void erase(Entry entry, Before&& before) {
     const std::size_t l = leaf_for(entry, before);
-    Leaf& leaf = *leaves_[l];
-    const std::size_t i = position(leaf, entry, before) - 1;
-    const auto close_gap = [&](auto* column) {
-      std::copy(column + i + 1, column + leaf.count, column + i);
-    };
-    close_gap(leaf.orders.data());
-    close_gap(leaf.calls.data());
-    --size_;
-    --leaf.count;
-    if (leaf.count == 0) {
-      drop_leaf(l);
-    } else if (l + 1 < leaves_.size() && leaf.count + leaves_[l + 1]->count <= kMerge) {
-      merge(l);
-    } else if (l > 0 && leaf.count + leaves_[l - 1]->count <= kMerge) {
-      merge(l - 1);
+    erase_at(l, position(*leaves_[l], entry, before) - 1);
+  }
+
+  /// Takes out `call`, looking at every entry: for when `before` fails. Requires: it is there.
+  void erase_without_order(Handle call) noexcept {
+    for (std::size_t l = 0;; ++l) {
+      const Leaf& leaf = *leaves_[l];
+      for (std::size_t i = 0; i < leaf.count; ++i) {
+        if (leaf.calls[i] == call) return erase_at(l, i);
+      }
     }
+  }
+
+  /// Takes out the first entry. Requires: not empty.
+  Entry pop_first() noexcept {
+    const Entry entry = first(*leaves_.front());
+    erase_at(0, 0);
+    return entry;
   }
 
   /// The last call that comes before `entry`, which may be there or not; 0 if there is none.
@@ -171,6 +174,24 @@ class OrderedCalls {
     leaf.orders[i] = entry.order;
     leaf.calls[i] = entry.call;
     ++leaf.count;
+  }
+
+  void erase_at(std::size_t l, std::size_t i) noexcept {
+    Leaf& leaf = *leaves_[l];
+    const auto close_gap = [&](auto* column) {
+      std::copy(column + i + 1, column + leaf.count, column + i);
+    };
+    close_gap(leaf.orders.data());
+    close_gap(leaf.calls.data());
+    --size_;
+    --leaf.count;
+    if (leaf.count == 0) {
+      drop_leaf(l);
+    } else if (l + 1 < leaves_.size() && leaf.count + leaves_[l + 1]->count <= kMerge) {
+      merge(l);
+    } else if (l > 0 && leaf.count + leaves_[l - 1]->count <= kMerge) {
+      merge(l - 1);
+    }
   }
 
   void split(std::size_t l) {
