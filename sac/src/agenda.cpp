@@ -259,10 +259,15 @@ void Agenda::drain(Scope& s) {
   s.call<kDrain>(this);
 }
 
-// What an earlier drain ran waits again: that drain threw, or it is gone and left its calls ahead.
+// What an earlier drain ran waits again: that drain failed, if only at its end, or it is gone and
+// left its calls ahead.
 void Agenda::begin_drain(Scope& s) {
-  if (draining_ || drained_) throw UsageError("agenda '" + name_ + "' is drained twice");
-  drain_call_ = engine_.handle_of(s.self());
+  const Handle self = engine_.handle_of(s.self());
+  if (draining_ || (drained_ && drain_call_ != self)) {
+    throw UsageError("agenda '" + name_ + "' is drained twice");
+  }
+  drained_ = false;
+  drain_call_ = self;
   running_ = 0;
   if (s.recall<Edge>(id_, kDrain, [](const Edge&) { return true; }) == nullptr) {
     s.effect<Edge>(id_, kDrain);
