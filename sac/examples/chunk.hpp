@@ -1,10 +1,10 @@
 // Lists of chunks: several elements to a node, cut so that edits stay local.
 //
 // A chunk is a stretch of a list from one *boundary* to the next; boundaries are elements chosen by
-// a coin flipped with their id, one in eight. Wherever an element goes in the course of a program,
+// a coin flipped with their id, one in 16. Wherever an element goes in the course of a program,
 // it is a boundary or it is not; so the chunks of a list depend on its elements alone, and an
 // insertion changes one chunk, or divides one. A step of a program takes a chunk instead of an
-// element: still O(1) work expected, at an eighth of the calls.
+// element: still O(1) work expected, at a sixteenth of the calls.
 //
 // A list is its header: the chunk of the elements before the first boundary.
 #pragma once
@@ -18,7 +18,7 @@
 namespace examples {
 
 /// Log of the mean number of elements of a chunk.
-inline constexpr int kChunkBits = 3;
+inline constexpr int kChunkBits = 4;
 /// Room for the elements of most chunks.
 inline constexpr std::size_t kRoom = std::size_t{2} << kChunkBits;
 

@@ -20,8 +20,11 @@
 
 namespace examples {
 
+/// Log of the mean number of members of a group.
+inline constexpr int kHeightBits = 3;
+
 /// The number of levels above the lowest that the element reaches; a header reaches all.
-[[nodiscard]] inline int height_of(std::uint32_t id) noexcept { return heads(id) / 3; }
+[[nodiscard]] inline int height_of(std::uint32_t id) noexcept { return heads(id) / kHeightBits; }
 
 template <class S, class Op>
 struct Group {

@@ -1,10 +1,10 @@
 // Mergesort of a list.
 //
 // What is merged with what is decided by coins flipped with the elements' ids, as in a skip list: a
-// group of the lowest level begins with a boundary (chunk.hpp) and is sorted at once; a group of
-// the level above begins with a group whose first element has one more head in a row, and merges
-// its members. So dividing costs O(n) in all, and an insertion changes the members of O(1) groups,
-// small ones with high probability.
+// group of the lowest level begins with an element that has kGroupBits heads in a row, and is
+// sorted at once; a group of the level above begins with a group whose first element has one more,
+// and merges its members. So dividing costs O(n) in all, and an insertion changes the members of
+// O(1) groups, small ones with high probability.
 //
 // Sorted lists are lists of chunks. A step of a merge makes the chunk that begins with the greater
 // boundary of two chunks and ends at the next boundary of either list. A chunk is an object keyed
@@ -24,6 +24,9 @@
 #include "chunk.hpp"
 
 namespace examples {
+
+/// Log of the mean number of elements that are sorted at once.
+inline constexpr int kGroupBits = kChunkBits + 2;
 
 /// A chunk of a sorted list.
 template <class S>
@@ -113,6 +116,27 @@ inline constexpr Merge merge{};
 
 // --- Groups ----------------------------------------------------------------------------------
 
+/// A list of chunks with these elements, which are sorted. Chunks are keyed by `group` as well.
+template <class S>
+const SortedChunk<S>& make_chunks(S& s, const Node<S>* group,
+                                  const std::vector<Element>& elements) {
+  SortedChunk<S>& header = s.template make<SortedChunk<S>>(group);
+  SortedChunk<S>* chunk = &header;
+  typename SortedChunk<S>::State state;
+  for (const Element& e : elements) {
+    if (is_boundary(e.id)) {
+      SortedChunk<S>& next = s.template make<SortedChunk<S>>(group, e);
+      next.boundary = e;
+      state.next = &next;
+      s.write(chunk->state, std::exchange(state, {}));
+      chunk = &next;
+    }
+    state.elements.push_back(e);
+  }
+  s.write(chunk->state, std::move(state));
+  return header;
+}
+
 /// Sorts the lowest group, which begins with `first`, and those behind.
 struct SortGroup {
   static constexpr std::string_view kName = "sort_group";
@@ -123,21 +147,15 @@ inline constexpr SortGroup sort_group{};
 
 template <class S>
 void SortGroup::operator()(S& s, Sorted<S>& self, const Node<S>* first) const {
-  self.height = heads(first->element.id) - kChunkBits;
-  typename SortedChunk<S>::State low, high;  // before and behind the only boundary
-  const Node<S>* const next = read_to_boundary(
-      s, first, [&](const Element& e) { (e < first->element ? low : high).elements.push_back(e); });
-  if (first->element.id == 0) std::swap(low, high);  // a header is no boundary
-  std::sort(low.elements.begin(), low.elements.end());
-  std::sort(high.elements.begin(), high.elements.end());
-  SortedChunk<S>& chunks = s.template make<SortedChunk<S>>(first);
-  if (first->element.id != 0) {
-    SortedChunk<S>& behind = s.template make<SortedChunk<S>>(first->element);
-    behind.boundary = first->element;
-    low.next = &behind;
-    s.write(behind.state, std::move(high));
-  }
-  s.write(chunks.state, std::move(low));
+  self.height = heads(first->element.id) - kGroupBits;
+  std::vector<Element> elements;
+  const Node<S>* next = first;
+  do {
+    if (next->element.id != 0) elements.push_back(next->element);
+    next = s.read(next->next);
+  } while (next != nullptr && heads(next->element.id) < kGroupBits);
+  std::sort(elements.begin(), elements.end());
+  const SortedChunk<S>& chunks = make_chunks(s, first, elements);
   s.write(
       self.state,
       {&chunks, next == nullptr ? nullptr : &s.template tail_make<Sorted<S>, sort_group>(next)});

@@ -48,11 +48,6 @@ struct Extremes {
     if (b.left.id == 0) return a;
     return {std::min(a.left, b.left), further_right(a.right, b.right)};
   }
-  static Value of(const std::vector<Point>& points) {
-    Value value;
-    for (const Point& p : points) value = join(value, {p, p});
-    return value;
-  }
 
  private:
   static Point further_right(const Point& a, const Point& b) {
@@ -72,42 +67,58 @@ struct Farthest {
   }
 };
 
-/// A chunk of the points that lie outside of a line.
-template <class S>
-struct Outside {
+/// A chunk of points, and the fold of them; Op as for contraction.hpp.
+template <class S, class Op>
+struct PointChunk {
   struct State {
-    std::vector<Point> elements;
-    Farthest::Value farthest;
-    const Outside* next = nullptr;
+    std::vector<Point> points;
+    typename Op::Value value;
+    const PointChunk* next = nullptr;
     friend bool operator==(const State&, const State&) = default;
+    void add(const Point& p, const typename Op::Value& its_value) {
+      points.push_back(p);
+      value = Op::join(value, its_value);
+    }
   };
   Point boundary;
   typename S::template CellType<State> state;
 };
+template <class S>
+using AllPoints = PointChunk<S, Extremes>;
+template <class S>
+using Outside = PointChunk<S, Farthest>;  // of a line
 
-// Chunks as members of the lowest groups of a contraction.
-template <class S, class Op, class C>
+// Chunks are the members of the lowest groups of a contraction.
+template <class S, class Op>
 struct ChunkValue {
   typename Op::Value value;
-  const C* next;
+  const PointChunk<S, Op>* next;
 };
 template <class Op, class S>
-[[nodiscard]] ChunkValue<S, Op, Chunk<S, Point>> read_group(S& s, const Chunk<S, Point>* chunk) {
+[[nodiscard]] ChunkValue<S, Op> read_group(S& s, const PointChunk<S, Op>* chunk) {
   const auto& state = s.read(chunk->state);
-  return {Op::of(state.elements), state.next};
+  return {state.value, state.next};
 }
-template <class Op, class S>
-[[nodiscard]] ChunkValue<S, Op, Outside<S>> read_group(S& s, const Outside<S>* chunk) {
-  const auto& state = s.read(chunk->state);
-  return {state.farthest, state.next};
+template <class S, class Op>
+[[nodiscard]] int height(const PointChunk<S, Op>& chunk) noexcept {
+  return (heads(chunk.boundary.id) - kChunkBits) / kHeightBits;
 }
+
+/// The chunk that begins with `first`, and those behind.
+struct CutPoints {
+  static constexpr std::string_view kName = "cut_points";
+  template <class S>
+  void operator()(S& s, AllPoints<S>& self, const PointNode<S>* first) const;
+};
+inline constexpr CutPoints cut_points{};
+
 template <class S>
-[[nodiscard]] int height(const Chunk<S, Point>& chunk) noexcept {
-  return height_of(chunk.boundary.id) - 1;  // all chunks begin with an element of height 1
-}
-template <class S>
-[[nodiscard]] int height(const Outside<S>& chunk) noexcept {
-  return height_of(chunk.boundary.id) - 1;
+void CutPoints::operator()(S& s, AllPoints<S>& self, const PointNode<S>* first) const {
+  self.boundary = first->element;
+  typename AllPoints<S>::State state;
+  const auto* next = read_to_boundary(s, first, [&](const Point& p) { state.add(p, {p, p}); });
+  if (next != nullptr) state.next = &s.template tail_make<AllPoints<S>, cut_points>(next);
+  s.write(self.state, std::move(state));
 }
 
 // --- The hull --------------------------------------------------------------------------------
@@ -127,11 +138,8 @@ void KeepOutside::operator()(S& s, Outside<S>& self, const C* from, Point a, Poi
   const C* chunk = from;
   do {  // chunks whose boundary is dropped are joined to the one before
     const auto& state = s.read(chunk->state);
-    for (const Point& p : state.elements) {
-      const std::int64_t distance = left_of(a, b, p);
-      if (distance <= 0) continue;
-      kept.elements.push_back(p);
-      kept.farthest = Farthest::join(kept.farthest, {distance, p});
+    for (const Point& p : state.points) {
+      if (const std::int64_t d = left_of(a, b, p); d > 0) kept.add(p, {d, p});
     }
     chunk = state.next;
   } while (chunk != nullptr && left_of(a, b, chunk->boundary) <= 0);
@@ -174,7 +182,7 @@ void HullPart::operator()(S& s, const Outside<S>* points, PointNode<S>* a,
   const auto& state = s.read(points->state);
   if (state.next == nullptr) {
     std::vector<Point> corners;
-    hull_of_few(state.elements, a->element, b->element, corners);
+    hull_of_few(state.points, a->element, b->element, corners);
     return s.write(link_behind(s, a, corners, points)->next, b);
   }
   const auto farthest = s.template cell<Farthest::Value>(points);
@@ -198,13 +206,13 @@ void HullCorner::operator()(S& s, const Outside<S>* points,
 struct HullOfExtremes {
   static constexpr std::string_view kName = "hull_of_extremes";
   template <class S>
-  void operator()(S& s, const Chunk<S, Point>* points,
+  void operator()(S& s, const AllPoints<S>* points,
                   typename S::template ModType<Extremes::Value> extremes, HullMod<S> result) const;
 };
 inline constexpr HullOfExtremes hull_of_extremes{};
 
 template <class S>
-void HullOfExtremes::operator()(S& s, const Chunk<S, Point>* points,
+void HullOfExtremes::operator()(S& s, const AllPoints<S>* points,
                                 typename S::template ModType<Extremes::Value> extremes,
                                 HullMod<S> result) const {
   const auto [left, right] = s.read(extremes);
@@ -227,7 +235,7 @@ struct Quickhull {
   static constexpr std::string_view kName = "quickhull";
   template <class S>
   void operator()(S& s, const PointNode<S>* list, HullMod<S> result) const {
-    const Chunk<S, Point>* points = &s.template make<Chunk<S, Point>, cut_into_chunks>(list);
+    const AllPoints<S>* points = &s.template make<AllPoints<S>, cut_points>(list);
     const auto extremes = s.template cell<Extremes::Value>(list);
     s.template call<fold<Extremes>>(points, extremes);
     s.template tail<hull_of_extremes>(points, extremes, result);

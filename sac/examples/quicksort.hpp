@@ -58,13 +58,20 @@ inline constexpr QuicksortPart quicksort_part{};
 template <class S>
 void QuicksortPart::operator()(S& s, const Chunk<S>* list, Node<S>* before,
                                const Node<S>* after) const {
-  const auto& state = s.read(list->state);
-  if (state.next == nullptr) {
-    std::vector<Element> elements = state.elements;
+  std::vector<Element> elements;
+  std::vector<Element> boundaries;
+  for (const Chunk<S>* chunk = list; chunk != nullptr && boundaries.size() < 3;) {
+    const auto& state = s.read(chunk->state);
+    elements.insert(elements.end(), state.elements.begin(), state.elements.end());
+    chunk = state.next;
+    if (chunk != nullptr) boundaries.push_back(chunk->boundary);
+  }
+  if (boundaries.size() < 3) {
     std::sort(elements.begin(), elements.end());
     return s.write(link_behind(s, before, elements, list)->next, after);
   }
-  const Element pivot = state.elements.empty() ? state.next->boundary : state.elements.front();
+  std::sort(boundaries.begin(), boundaries.end());
+  const Element pivot = boundaries[1];
   const Chunk<S>& less = s.template make<Chunk<S>, part<true>>(list, pivot);
   const Chunk<S>& greater = s.template make<Chunk<S>, part<false>>(list, pivot);
   Node<S>& middle = node_of(s, pivot, list);

@@ -428,6 +428,10 @@ TEMPLATE_TEST_CASE("list examples run plainly give what naive programs give", ""
 }
 
 TEMPLATE_TEST_CASE("list examples follow random edits as if run from scratch", "", LIST_EXAMPLES) {
-  check_example<TestType>(100, 60, 12);
-  check_example<TestType>(3, 1000, 12);
+  check_example<TestType>(60, 300, 9);
+  check_example<TestType>(3, 4000, 6);
+}
+
+TEMPLATE_TEST_CASE("list examples follow many random edits", "[.soak]", LIST_EXAMPLES) {
+  check_example<TestType>(2000, 500, 15);
 }
