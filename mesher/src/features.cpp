@@ -17,6 +17,15 @@ void TracedFeatures::retract(sac::Call& call, sac::Edge& edge) noexcept {
   if (v.locator == engine_.handle_of(call)) v.locator = 0;
 }
 
+void TracedFeatures::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
+  const Vertex<2>& v = pool_[static_cast<const LevelEdge&>(edge).vertex];
+  sink.number(static_cast<std::uint64_t>(v.level));
+}
+
+void TracedFeatures::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
+  out << "crowded to level " << pool_[static_cast<const LevelEdge&>(edge).vertex].level;
+}
+
 void TracedFeatures::changed(Vertex<2>& v) {
   if (v.locator != 0) engine_.invalidate(engine_.call(v.locator));
 }

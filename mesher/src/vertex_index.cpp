@@ -228,6 +228,44 @@ void Index::retract_birth(BirthEdge& birth) {
   vanished(v, engine_.call(old_birth), v.alive ? &engine_.call(v.birth) : nullptr);
 }
 
+// --- For people and for traces ---------------------------------------------------------------
+
+// The neighbours from the smallest on: virtual ones by number, the others by place. In which order
+// vertices were made does not matter then.
+std::vector<std::uint32_t> Index::canonical_codes(const QueryEdge& q) const {
+  std::vector<std::uint32_t> codes(q.codes(), q.codes() + q.count);
+  const auto before = [&](std::uint32_t a, std::uint32_t b) {
+    if (a >= VoronoiCell::kVirtual || b >= VoronoiCell::kVirtual) return a < b;
+    return pool_[a].p < pool_[b].p;
+  };
+  std::rotate(codes.begin(), std::min_element(codes.begin(), codes.end(), before), codes.end());
+  return codes;
+}
+
+void Index::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
+  if (edge.kind == kBirth || edge.kind == kSplit) return;
+  const auto codes = canonical_codes(static_cast<const QueryEdge&>(edge));
+  sink.number(codes.size());
+  for (const std::uint32_t code : codes) {
+    if (code == 0 || code >= VoronoiCell::kVirtual) {
+      sink.number(code);
+    } else {
+      label_bytes(sink, VertexRef<2>{&pool_[code]});
+    }
+  }
+}
+
+void Index::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
+  if (edge.kind == kBirth) {
+    out << "inserts " << VertexRef<2>{&pool_[static_cast<const BirthEdge&>(edge).vertex]};
+  } else if (edge.kind != kSplit) {
+    out << (edge.kind == kNearest ? "nearest" : "neighbours");
+    for (const std::uint32_t code : canonical_codes(static_cast<const QueryEdge&>(edge))) {
+      if (code != 0 && code < VoronoiCell::kVirtual) out << ' ' << VertexRef<2>{&pool_[code]};
+    }
+  }
+}
+
 // --- Between updates -------------------------------------------------------------------------
 
 Index::Ring Index::ring(const Vertex<2>& v) const {

@@ -158,6 +158,8 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   void split(sac::Scope& s, const Cell<2>& cell);
 
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
+  void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
+  void print(const sac::Call& call, const sac::Edge& edge, std::ostream& out) const override;
 
   /// The neighbours in v's star, counterclockwise, as recorded by the call that computed it.
   struct Ring {
@@ -234,6 +236,7 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   void unlink(QueryEdge& q);
   void retract_birth(BirthEdge& birth);
   [[nodiscard]] StarRecord star_record(const QueryEdge& q) const;
+  [[nodiscard]] std::vector<std::uint32_t> canonical_codes(const QueryEdge& q) const;
 
   sac::Engine& engine_;
   std::uint8_t id_;

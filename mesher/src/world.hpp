@@ -54,6 +54,8 @@ class Features<sac::Scope> : public sac::Structure {
   void erase(Vertex<2>& v);
 
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
+  void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
+  void print(const sac::Call& call, const sac::Edge& edge, std::ostream& out) const override;
 
  private:
   struct LevelEdge : sac::Edge {

@@ -17,6 +17,7 @@ namespace {
 struct TraceArguments : MeshArguments {
   std::string script;
   std::string trace;
+  bool edges = false;
 };
 
 // Throws: Error (cannot_write, bad_option) if the trace could not be written at the end.
@@ -39,10 +40,11 @@ void follow_script(const TraceArguments& args, mesher::Mesher<2>& mesher, Progre
   }
 }
 
-traces::Recording record(const mesher::Mesher<2>& mesher, const std::string& path) {
+traces::Recording record(const mesher::Mesher<2>& mesher, const std::string& path,
+                         traces::Edges edges) {
   set_doomed({traces::temporary_of(path)});
   try {
-    const traces::Recording recording = traces::Recorder(mesher.engine()).record(path);
+    const traces::Recording recording = traces::Recorder(mesher.engine()).record(path, edges);
     set_doomed({});
     return recording;
   } catch (const traces::FileError& error) {
@@ -61,7 +63,8 @@ void run_trace(const TraceArguments& args) {
   mesher::Mesher<2> mesher(options);
   insert_all(input, mesher);
   if (!args.script.empty()) follow_script(args, mesher, progress);
-  const traces::Recording recording = record(mesher, args.trace);
+  const traces::Recording recording =
+      record(mesher, args.trace, args.edges ? traces::Edges::yes : traces::Edges::no);
   progress.erase();
   if (!args.quiet) {
     std::printf("%s: %llu calls\n", args.trace.c_str(),
@@ -78,6 +81,7 @@ void add_trace(CLI::App& app) {
   add_program_options(*trace, *args);
   trace->add_option("--script", args->script, "Edits to follow first")->type_name("EDITS");
   trace->add_option("-o", args->trace, "The recording")->required()->type_name("FILE.trace");
+  trace->add_flag("--edges", args->edges, "With what each call saw and did, as text");
   trace->add_flag("--quiet", args->quiet, "Print nothing but errors");
   trace->footer(
       "The tool 'traces' compares, audits and draws recordings. With --script the trace is the "

@@ -58,6 +58,7 @@ class ListMap {
  private:
   Item& new_item(int id, Item* next) {
     Item& item = items_.emplace_back(Item{id, engine_.input(next)});
+    recorder_.name(&item, "item", id);
     recorder_.name(item.next, "link", id);
     return item;
   }

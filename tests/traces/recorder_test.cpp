@@ -6,6 +6,7 @@
 
 #include "programs.hpp"
 #include "scratch_file.hpp"
+#include "traces/distance.hpp"
 #include "traces/trace.hpp"
 #include "traces/trace_file.hpp"
 
@@ -92,6 +93,46 @@ void take_opaque(sac::Scope&, Opaque) {}
 void take_pointer(sac::Scope&, const int*) {}
 void take_mod(sac::Scope&, sac::Mod<int>) {}
 
+void copy_int(sac::Scope& s, sac::Mod<int> in, sac::Mod<int> out) { s.write(out, s.read(in)); }
+void read_pointer(sac::Scope& s, sac::Mod<const int*> mod) { static_cast<void>(s.read(mod)); }
+
+void read_and_write(sac::Scope& s, sac::Mod<int> in, sac::Mod<int> out) {
+  static_cast<void>(s.read(in));
+  s.write(out, s.environment<int>());
+}
+// The label of a call that reads `value` and writes `written`.
+traces::LabelHash read_and_written(int value, int written) {
+  sac::Engine engine;
+  engine.set_environment(&written);
+  const auto in = engine.input(value), out = engine.cell<int>();
+  engine.run<read_and_write>(in, out);
+  traces::Recorder recorder(engine);
+  recorder.name(in, "in");
+  recorder.name(out, "out");
+  return recorder.trace().calls.at(0).hash;
+}
+
+int value_of(sac::Scope& s, sac::Mod<int> in) { return s.read(in); }
+int sum(sac::Scope& s, sac::Mod<int> a, sac::Mod<int> b) {
+  const int first = s.call<value_of>(a);
+  return first + s.call<value_of>(b);
+}
+void sum_twice(sac::Scope& s, sac::Mod<int> a, sac::Mod<int> b) {
+  static_cast<void>(2 * s.call<sum>(a, b));
+}
+// The labels of sum_twice(a, b) and its descendants.
+std::vector<traces::LabelHash> sum_labels(int a, int b) {
+  sac::Engine engine;
+  const auto first = engine.input(a), second = engine.input(b);
+  engine.run<sum_twice>(first, second);
+  traces::Recorder recorder(engine);
+  recorder.name(first, "first");
+  recorder.name(second, "second");
+  std::vector<traces::LabelHash> labels;
+  for (const auto& call : recorder.trace().calls) labels.push_back(call.hash);
+  return labels;
+}
+
 void post_and_drain(sac::Scope& s) {
   auto& agenda = s.environment<sac::Agenda>();
   agenda.post<leaf>(s, sac::Key{.bucket = 1}, 5);
@@ -163,6 +204,92 @@ TEST_CASE("Inputs and outside objects are named by name()") {
   }
   CHECK(hashes[0] == hashes[2]);
   CHECK(hashes[1] == hashes[3]);
+}
+
+TEST_CASE("What lies in an outside object that has a name is named by it and its place") {
+  struct Pair {
+    int first, second;
+  };
+  std::vector<traces::LabelHash> hashes;
+  for (const int run : {0, 1}) {
+    std::vector<Pair> pairs(static_cast<std::size_t>(3 + run));
+    sac::Engine engine;
+    engine.run<take_pointer, const int*>(&pairs[1].first);
+    engine.run<take_pointer, const int*>(&pairs[1].second);
+    traces::Recorder recorder(engine);
+    recorder.name(&pairs[1], "pair", 1);
+    const traces::Trace trace = recorder.trace();
+    CHECK(trace.unnamed == 0);
+    for (const auto& call : trace.calls) hashes.push_back(call.hash);
+  }
+  CHECK(hashes[0] == hashes[2]);
+  CHECK(hashes[1] == hashes[3]);
+  CHECK(hashes[0] != hashes[1]);
+}
+
+TEST_CASE("Values read are part of the label [Def 1.4.1]") {
+  const auto one = read_and_written(1, 5);
+  CHECK(one == read_and_written(1, 5));
+  CHECK(one != read_and_written(2, 5));
+  CHECK(one == read_and_written(1, 6));  // what is written is not
+}
+
+TEST_CASE("A value read that has no name marks the call") {
+  const int object = 0;
+  sac::Engine engine;
+  const auto mod = engine.input(&object);
+  engine.run<read_pointer>(mod);
+  traces::Recorder recorder(engine);
+  recorder.name(mod, "mod");
+  CHECK(recorder.trace().unnamed == 1);
+  recorder.name(&object, "object");
+  CHECK(recorder.trace().unnamed == 0);
+}
+
+TEST_CASE("Results of children are part of the label, and of their callers' only [Def 1.4.1]") {
+  const auto a = sum_labels(3, 4), same = sum_labels(3, 4), b = sum_labels(3, 5);
+  const auto swapped = sum_labels(4, 3);
+  REQUIRE(a.size() == 4);  // sum_twice, sum, value_of, value_of
+  CHECK(a == same);
+  CHECK(a[0] != b[0]);  // sum returns something else
+  CHECK(a[1] != b[1]);  // value_of does
+  CHECK(a[2] == b[2]);
+  CHECK(a[3] != b[3]);        // reads something else
+  CHECK(a[0] == swapped[0]);  // the sum is the same
+  CHECK(a[1] != swapped[1]);
+}
+
+TEST_CASE("Edges that were asked for are recorded as text, with what observations saw") {
+  ScratchFolder folder;
+  sac::Engine engine;
+  const auto in = engine.input(1), out = engine.cell<int>();
+  engine.run<copy_int>(in, out);
+  engine.run<sum_twice>(in, in);
+  traces::Recorder recorder(engine);
+  recorder.name(in, "in");
+  recorder.name(out, "out");
+  recorder.record(folder.path("t"), traces::Edges::yes);
+  traces::TraceReader reader(folder.path("t"));
+  const auto* call = reader.next();
+  REQUIRE(call->edges.size() == 2);
+  CHECK(call->edges[0].text == "reads 1");
+  CHECK(call->edges[0].hash != traces::LabelHash{});
+  CHECK(call->edges[1].text.starts_with("writes "));
+  CHECK(call->edges[1].text.ends_with(": 1"));
+  CHECK(call->edges[1].hash == traces::LabelHash{});
+  call = reader.next();
+  CHECK(call->edges.empty());
+  call = reader.next();
+  REQUIRE(call->edges.size() == 1);
+  CHECK(call->edges[0].text == "returns 2");
+  call = reader.next();
+  REQUIRE(call->edges.size() == 2);
+  CHECK(call->edges[0].text == "reads 1");
+  CHECK(call->edges[1].text == "returns 1");
+  recorder.record(folder.path("plain"));
+  CHECK(traces::distance(traces::load_trace(folder.path("t")),
+                         traces::load_trace(folder.path("plain")))
+            .all.distance() == 0);
 }
 
 TEST_CASE("The drain of an agenda is named by the agenda") {

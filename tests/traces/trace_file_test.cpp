@@ -17,7 +17,8 @@ const std::vector<CallRecord> kCalls = {
     {1, 1, {~0ull, 0x8000000000000000u}, false, "@12, \"a b\""},
     {2, 1, {3, 4}, true, ""},
     {1, 0, {0, 0}, true, std::string("\0\n\xff", 3), true},
-    {2, 0, {5, 6}, false, "tail", true},
+    {2, 0, {5, 6}, false, "tail", true, {{{7, 8}, "reads 5"}, {{}, "writes\n\"6\""}}},
+    {0, 1, {9, 9}, true, "X", false, {{{1, 1}, ""}}},
 };
 
 void write_calls(const std::string& path) {
@@ -56,6 +57,11 @@ TEST_CASE("A trace file reads back as it was written") {
     CHECK(call->named == expected.named);
     CHECK(call->arguments == expected.arguments);
     CHECK(call->tail == expected.tail);
+    REQUIRE(call->edges.size() == expected.edges.size());
+    for (std::size_t i = 0; i < call->edges.size(); ++i) {
+      CHECK(call->edges[i].hash == expected.edges[i].hash);
+      CHECK(call->edges[i].text == expected.edges[i].text);
+    }
   }
   CHECK(reader.next() == nullptr);
   CHECK(reader.next() == nullptr);
@@ -93,7 +99,7 @@ TEST_CASE("A file with any byte changed is an error") {
 
 TEST_CASE("Counts in a file are refused, never believed") {
   ScratchFolder folder;
-  const std::string header = "\x89traces\n\x02\x03",
+  const std::string header = "\x89traces\n\x03\x0f",
                     name =
                         "F\x01"
                         "f",
@@ -109,6 +115,7 @@ TEST_CASE("Counts in a file are refused, never believed") {
   CHECK(code(name + "C" + zero + "\x01") == "corrupt");                     // no parent
   CHECK(code(name + "C" + zero + zero + "\x01") == "corrupt");              // no such function
   CHECK(code(name + "C" + zero + zero + zero + hash + huge) == "corrupt");  // length of text
+  CHECK(code(name + "X" + hash + zero) == "corrupt");                       // an edge of no call
   CHECK(code("E\x05") == "corrupt");                                        // number of calls
   CHECK(code("?") == "corrupt");
 }

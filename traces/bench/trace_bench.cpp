@@ -85,6 +85,7 @@ class Bench {
 void measure_all(const char* program, const sac::Engine& engine, const traces::Recorder& recorder) {
   const std::string path = "trace_bench." + std::to_string(std::random_device{}()) + ".trace";
   const Bench bench(program, engine.live_calls());
+  if (recorder.trace().unnamed != 0) std::abort();
   bench.print("engine", "memory_bytes_per_call", static_cast<double>(engine.bytes()));
   bench.measure("record", [&] { recorder.record(path); });
   bench.print("record", "file_bytes_per_call",
@@ -145,6 +146,7 @@ void bench_list(std::uint64_t calls) {
   for (std::uint64_t i = items.size(); i > 0; --i) {
     Item& item = items[i - 1];
     item = {i, engine.input(next)};
+    recorder.name(&item, "item", i);
     recorder.name(item.next, "link", i);
     next = &item;
   }

@@ -11,6 +11,7 @@ namespace traces::format {
 inline constexpr std::string_view kMagic = "\x89traces\n";
 inline constexpr char kFunction = 'F';
 inline constexpr char kCall = 'C';
+inline constexpr char kEdge = 'X';
 inline constexpr char kEnd = 'E';
 
 // Flags of a call.

@@ -94,24 +94,39 @@ class KeyedObjects {
 
 }  // namespace
 
-// Hashes labels; a name refers to objects made earlier in the trace, so one walk names them all.
+// Hashes labels. A keyed object is named by function and key alone, which refer to objects made
+// earlier in the trace: one walk names them all. What calls read and return may refer to any.
 class Labeller final : public sac::LabelSink {
  public:
   explicit Labeller(const Recorder& recorder)
       : recorder_(recorder), engine_(recorder.engine_), objects_(engine_) {
+    bool results = false;
     engine_.walk([&](const sac::Call& call, std::size_t) {
+      results = results || call.function().has_result;
       if (!KeyedObjects::is_keyed(call)) return;
-      const LabelHash label = hash(call);
-      if (named_) objects_.set_label(engine_.handle_of(call), label);
+      start(call);
+      if (named_) objects_.set_label(engine_.handle_of(call), hasher_.result());
     });
+    if (results) collect_results();
   }
 
-  LabelHash hash(const sac::Call& call) {
-    hasher_ = {};
-    named_ = true;
-    hasher_.text(call.function().name);
-    call.function().label(call, *this);
+  /// The label of call `number` in pre-order.
+  LabelHash hash(const sac::Call& call, std::size_t number) {
+    start(call);
+    engine_.for_each_edge(
+        call, [&](const sac::Edge& edge) { engine_.structure_of(edge).label(call, edge, *this); });
+    if (!results_.empty() && results_[number].any) {
+      hasher_.hash(results_[number].names);
+      named_ = named_ && results_[number].named;
+    }
     return hasher_.result();
+  }
+  /// What the edge saw; 0: it is no observation.
+  LabelHash hash(const sac::Call& call, const sac::Edge& edge) {
+    hasher_ = {};
+    engine_.structure_of(edge).label(call, edge, *this);
+    const LabelHash saw = hasher_.result();
+    return saw == LabelHasher().result() ? LabelHash{} : saw;
   }
   /// Whether all in the last label had a name.
   [[nodiscard]] bool named() const noexcept { return named_; }
@@ -123,14 +138,12 @@ class Labeller final : public sac::LabelSink {
     if (const auto it = recorder_.handles_.find(handle); it != recorder_.handles_.end()) {
       return hasher_.hash(it->second);
     }
-    const auto name = objects_.name(engine_, handle);
-    name ? hasher_.hash(*name) : nameless(handle);
+    if (const auto name = objects_.name(engine_, handle)) return hasher_.hash(*name);
+    if (!name_outside(engine_.arena().at<std::byte>(handle))) nameless(handle);
   }
   void address(const void* object) override {
     if (object == nullptr) return hasher_.word(0);
-    if (const auto it = recorder_.addresses_.find(object); it != recorder_.addresses_.end()) {
-      return hasher_.hash(it->second);
-    }
+    if (name_outside(static_cast<const std::byte*>(object))) return;
     const auto number = reinterpret_cast<std::uintptr_t>(object);
     if (!engine_.arena().contains(object)) return nameless(number);
     handle(engine_.arena().handle_of(object));
@@ -144,6 +157,50 @@ class Labeller final : public sac::LabelSink {
   }
 
  private:
+  // Function and arguments.
+  void start(const sac::Call& call) {
+    hasher_ = {};
+    named_ = true;
+    hasher_.text(call.function().name);
+    call.function().label(call, *this);
+  }
+
+  void collect_results() {
+    results_.resize(engine_.live_calls());
+    std::vector<std::size_t> open;  // numbers of the current call and those around it
+    std::size_t number = 0;
+    engine_.walk([&](const sac::Call& call, std::size_t depth) {
+      open.resize(depth);
+      open.push_back(number++);
+      if (depth == 0 || !call.function().has_result) return;
+      Results& results = results_[open[depth - 1]];
+      hasher_ = {};
+      named_ = results.named;
+      hasher_.hash(results.names);
+      call.function().label_result(call, *this);
+      results = {hasher_.result(), named_, true};
+    });
+  }
+
+  // Names what lies in an object that name() was called for; false if it lies in none.
+  bool name_outside(const std::byte* place) {
+    auto it = recorder_.addresses_.upper_bound(place);
+    if (it == recorder_.addresses_.begin()) return false;
+    const auto& [start, object] = *--it;
+    const auto offset = static_cast<std::size_t>(place - start);
+    if (offset >= object.bytes) return false;
+    hasher_.hash(object.name);
+    if (offset != 0) hasher_.word(offset);
+    return true;
+  }
+
+  // Of a call's children, in order.
+  struct Results {
+    LabelHash names;
+    bool named = true;
+    bool any = false;
+  };
+
   static constexpr std::streamsize kAllDigits = 21;  // of a long double, in decimal
 
   const Recorder& recorder_;
@@ -152,6 +209,7 @@ class Labeller final : public sac::LabelSink {
   TextStream printed_;
   LabelHasher hasher_;
   bool named_ = true;
+  std::vector<Results> results_;  // by number of call; empty: no call has a result
 };
 
 namespace {
@@ -159,6 +217,7 @@ namespace {
 // A call as the walk meets it.
 struct Visit {
   const sac::Call& call;
+  std::size_t number;
   std::uint32_t depth;
   bool tail;
   std::uint32_t function;  // index, in the order of first calls
@@ -171,13 +230,14 @@ template <class Each>
 void walk_calls(const sac::Engine& engine, Each&& each) {
   std::map<const sac::Function*, std::uint32_t> functions;
   std::vector<sac::Handle> ends;  // of the calls around the current one
+  std::size_t number = 0;
   engine.walk([&](const sac::Call& call, std::size_t depth) {
     const auto next = static_cast<std::uint32_t>(functions.size());
     const auto [function, is_new] = functions.try_emplace(&call.function(), next);
     ends.resize(depth);
     const bool tail = depth > 0 && call.end != 0 && call.end == ends.back();
     ends.push_back(call.end);
-    each(Visit{call, static_cast<std::uint32_t>(depth), tail, function->second, is_new});
+    each(Visit{call, number++, static_cast<std::uint32_t>(depth), tail, function->second, is_new});
   });
 }
 
@@ -185,9 +245,24 @@ void require_idle(const sac::Engine& engine) {
   if (!engine.idle()) throw sac::UsageError("record: the engine is running");
 }
 
+// What a call read, did and returned.
+void print_edges(const sac::Engine& engine, const sac::Call& call, Labeller& labeller,
+                 TextStream& printed, std::vector<EdgeRecord>& edges) {
+  edges.clear();
+  engine.for_each_edge(call, [&](const sac::Edge& edge) {
+    engine.structure_of(edge).print(call, edge, printed.start(6));
+    const LabelHash hash = labeller.hash(call, edge);
+    if (!printed.text().empty() || hash != LabelHash{}) edges.push_back({hash, printed.text()});
+  });
+  if (!call.function().has_result) return;
+  printed.start(6) << "returns ";
+  call.function().print_result(call, printed);
+  edges.push_back({{}, printed.text()});
+}
+
 }  // namespace
 
-Recording Recorder::record(const std::string& path) const {
+Recording Recorder::record(const std::string& path, Edges edges) const {
   require_idle(engine_);
   TraceWriter writer(path);
   Labeller labeller(*this);
@@ -195,14 +270,18 @@ Recording Recorder::record(const std::string& path) const {
   Recording result;
   CallRecord record;
   walk_calls(engine_, [&](const Visit& visit) {
-    if (visit.new_function) writer.add_function(visit.call.function().name);
+    const sac::Function& function = visit.call.function();
+    if (visit.new_function) writer.add_function(function.name);
     record.depth = visit.depth;
     record.tail = visit.tail;
     record.function = visit.function;
-    record.hash = labeller.hash(visit.call);
+    record.hash = labeller.hash(visit.call, visit.number);
     record.named = labeller.named();
-    visit.call.function().print(visit.call, printed.start(6));
+    function.print(visit.call, printed.start(6));
     record.arguments = printed.text();
+    if (edges == Edges::yes) {
+      print_edges(engine_, visit.call, labeller, printed, record.edges);
+    }
     writer.add_call(record);
     ++result.calls;
     result.unnamed += record.named ? 0 : 1;
@@ -218,7 +297,8 @@ Trace Recorder::trace() const {
   trace.calls.reserve(engine_.live_calls());
   walk_calls(engine_, [&](const Visit& visit) {
     if (visit.new_function) trace.functions.emplace_back(visit.call.function().name);
-    trace.calls.push_back({labeller.hash(visit.call), visit.function, visit.depth, visit.tail});
+    trace.calls.push_back(
+        {labeller.hash(visit.call, visit.number), visit.function, visit.depth, visit.tail});
     trace.unnamed += labeller.named() ? 0 : 1;
   });
   return trace;

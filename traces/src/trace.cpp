@@ -65,7 +65,9 @@ std::vector<std::string> labels_at(const std::string& path,
     const CallRecord* call = reader.next();
     if (call == nullptr) break;
     for (auto it = wanted.begin(); it != wanted.end() && it->first == number;) {
-      labels[it->second] = label_text(reader.functions()[call->function], call->arguments);
+      std::string& label = labels[it->second];
+      label = label_text(reader.functions()[call->function], call->arguments);
+      for (const EdgeRecord& edge : call->edges) label.append("; ").append(edge_text(edge));
       it = wanted.erase(it);
     }
   }

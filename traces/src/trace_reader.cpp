@@ -39,6 +39,14 @@ struct TraceReader::Input {
     }
     return value;
   }
+  LabelHash hash() {
+    LabelHash value;
+    value.high = fixed();
+    value.low = fixed();
+    return value;
+  }
+  // Whether the next byte is `c`, which is then read.
+  bool follows(char c) { return !at_end() && *next == c && (byte(), true); }
   std::uint64_t number(std::uint64_t limit) {
     std::uint64_t value = 0;
     for (int shift = 0; shift < 64; shift += 7) {
@@ -84,7 +92,7 @@ void TraceReader::read_header() {
                              " of the format; this program reads " + std::to_string(kVersion));
   }
   if (static_cast<unsigned char>(in_->byte()) != kParts) {
-    in_->fail("version", "its labels are not made of function and arguments");
+    in_->fail("version", "its labels do not have the parts that this program compares");
   }
 }
 
@@ -95,7 +103,9 @@ const CallRecord* TraceReader::next() {
         in_->text(functions_.emplace_back());
         break;
       case format::kCall:
-        return read_call(), &call_;
+        read_call();
+        read_edges();
+        return &call_;
       case format::kEnd:
         read_end();
         break;
@@ -115,11 +125,19 @@ void TraceReader::read_call() {
   if (call_.depth > depth_ + 1) in_->fail("corrupt", "a call without a parent");
   call_.function = static_cast<std::uint32_t>(in_->number(kLargest));
   if (call_.function >= functions_.size()) in_->fail("corrupt", "a call of an unknown function");
-  call_.hash.high = in_->fixed();
-  call_.hash.low = in_->fixed();
+  call_.hash = in_->hash();
   in_->text(call_.arguments);
   depth_ = call_.depth;
   if (++calls_ > kLargest) in_->fail("corrupt", "more calls than an engine can hold");
+}
+
+void TraceReader::read_edges() {
+  call_.edges.clear();
+  while (in_->follows(format::kEdge)) {
+    EdgeRecord& edge = call_.edges.emplace_back();
+    edge.hash = in_->hash();
+    in_->text(edge.text);
+  }
 }
 
 void TraceReader::read_end() {

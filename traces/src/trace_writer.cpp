@@ -40,6 +40,10 @@ struct TraceWriter::Output {
   void fixed(std::uint64_t value) {
     for (int i = 0; i < 8; ++i, value >>= 8) byte(static_cast<char>(value & 0xff));
   }
+  void hash(const LabelHash& value) {
+    fixed(value.high);
+    fixed(value.low);
+  }
   void number(std::uint64_t value) {
     for (; value >= 0x80; value >>= 7) byte(static_cast<char>(0x80 | (value & 0x7f)));
     byte(static_cast<char>(value));
@@ -89,9 +93,13 @@ void TraceWriter::add_call(const CallRecord& call) {
       static_cast<char>((call.named ? 0 : format::kUnnamed) | (call.tail ? format::kTail : 0)));
   out_->number(call.depth);
   out_->number(call.function);
-  out_->fixed(call.hash.high);
-  out_->fixed(call.hash.low);
+  out_->hash(call.hash);
   out_->text(call.arguments);
+  for (const EdgeRecord& edge : call.edges) {
+    out_->byte(format::kEdge);
+    out_->hash(edge.hash);
+    out_->text(edge.text);
+  }
   depth_ = call.depth;
   ++calls_;
 }

@@ -23,6 +23,9 @@ void show(const Arguments& args) {
     std::cout << call->depth << ' '
               << traces::label_text(reader.functions()[call->function], call->arguments)
               << (call->named ? "" : "  [unnamed]") << '\n';
+    for (const traces::EdgeRecord& edge : call->edges) {
+      std::cout << "  " << traces::edge_text(edge) << '\n';
+    }
   }
 }
 

@@ -1,17 +1,18 @@
 // Recording: the calls of a live engine, into a trace file or into memory.
 //
-// A call's label is (function, arguments); values read and results of children are not part of it
-// yet. Its hash is made of the function's name and of the arguments' names in the sense of
-// sac/label.hpp, so that equal labels of two runs have equal hashes. Handles and addresses differ
-// from run to run; an object behind one has a name
-// (1) if name() was called for it: inputs and cells made outside, objects of the environment;
+// A call's label is (function, arguments, values read, results of children) [Def 1.4.1]. Its hash
+// is made of their names in the sense of sac/label.hpp, so that equal labels of two runs have equal
+// hashes; what was read is named by the structure that it was read from (sac::Structure::label).
+// Handles and addresses differ from run to run; an object behind one has a name
+// (1) if name() was called for it, or for the object that it lies in: inputs and cells made
+//     outside, objects of the environment;
 // (2) else, if it lies in an object made by keyed allocation: the label of that call, that is the
 //     key, and the offset in the object;
 // (3) else it has none. The hash then depends on the handle and is good within this engine only;
 //     the call is marked in the file and counted.
 //
 // Two kinds of labels are confused when traces of two runs are compared: functions of one name, and
-// keyed allocations of different types with equal keys. Within one trace they are told apart.
+// keyed allocations of types of one name with equal keys. Within one trace they are told apart.
 //
 // Example
 //   traces::Recorder recorder(engine);
@@ -20,6 +21,7 @@
 //   const traces::Trace before = recorder.trace();
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -38,6 +40,8 @@ struct Recording {
   std::uint64_t unnamed = 0;  // calls whose label contains an object without a name
 };
 
+enum class Edges : bool { no, yes };
+
 class Recorder {
  public:
   /// `engine` outlives the recorder.
@@ -49,15 +53,18 @@ class Recorder {
   void name(sac::Mod<T> mod, const Key&... key) {
     handles_[mod.head()] = hash_of_key(key...);
   }
-  /// As above, for an object that traced functions take by pointer.
-  template <class... Key>
-  void name(const void* object, const Key&... key) {
-    addresses_[object] = hash_of_key(key...);
+  /// As above, for an object that traced functions take or read by pointer; what lies in it is
+  /// named by it and the place in it.
+  template <class T, class... Key>
+  void name(const T* object, const Key&... key) {
+    addresses_[reinterpret_cast<const std::byte*>(object)] = {sizeof(T), hash_of_key(key...)};
   }
 
-  /// Writes the trace as it is. Throws: FileError; UsageError if the engine runs.
-  /// Cost: O(n log n); memory 20 bytes for each keyed allocation.
-  Recording record(const std::string& path) const;
+  /// Writes the trace as it is. `edges`: with what each call read and did, as text.
+  /// Throws: FileError; UsageError if the engine runs.
+  /// Cost: O(n log n); memory 20 bytes for each keyed allocation, and 24 a call if any call has a
+  /// result.
+  Recording record(const std::string& path, Edges edges = Edges::no) const;
   /// The trace as it is, as load_trace() would read it from a file.
   /// Throws: UsageError if the engine runs.  Cost: as record(), without printing arguments.
   [[nodiscard]] Trace trace() const;
@@ -83,7 +90,11 @@ class Recorder {
 
   const sac::Engine& engine_;
   std::map<sac::Handle, LabelHash> handles_;
-  std::map<const void*, LabelHash> addresses_;
+  struct Object {
+    std::size_t bytes;
+    LabelHash name;
+  };
+  std::map<const std::byte*, Object> addresses_;  // do not overlap
 };
 
 }  // namespace traces

@@ -25,8 +25,8 @@ struct Trace {
 /// Throws: FileError.
 [[nodiscard]] Trace load_trace(const std::string& path);
 
-/// The labels of some calls, as text. `calls`: numbers in pre-order from 0, in any order.
-/// Throws: FileError.  Cost: O(file).
+/// The labels of some calls, as text, with their edges if they were recorded. `calls`: numbers in
+/// pre-order from 0, in any order. Throws: FileError.  Cost: O(file).
 [[nodiscard]] std::vector<std::string> labels_at(const std::string& path,
                                                  const std::vector<std::uint32_t>& calls);
 

@@ -1,6 +1,6 @@
 // The trace file: the calls of one run in pre-order, written and read as a stream.
 //
-// Version 2. Integers are unsigned LEB128 (7 bits a byte, lowest first) unless a size is given;
+// Version 3. Integers are unsigned LEB128 (7 bits a byte, lowest first) unless a size is given;
 // fixed sizes are little-endian; a text is its length and its bytes.
 //
 //   header    "\x89traces\n"  version  parts    8 bytes, 1 byte, 1 byte
@@ -9,11 +9,15 @@
 //             flags, 1 byte: bit 0: the label contains an object without a name (recorder.hpp), so
 //             the hash is good within this run only; bit 1: a tail call. The hash is 16 bytes, high
 //             half first
+//   edge      'X'  hash  what it is
+//             of the call before, in the order of execution, if edges were asked for: what the call
+//             read or did, or its result. The hash is that of what an observation saw, in words of
+//             its label; 0 of other edges
 //   end       'E'  number of calls  checksum    8 bytes: FNV-1a of all bytes before it
 //
-// `parts` says what the hash covers: bit 0 the function, bit 1 its arguments, bit 2 the values it
-// read, bit 3 the results of its children [Def 1.4.1]. This version writes 3: labels are (function,
-// arguments). The texts are for people; only hashes are compared.
+// `parts` says what a call's hash covers: bit 0 the function, bit 1 its arguments, bit 2 the values
+// it read, bit 3 the results of its children [Def 1.4.1]. This version writes 15: all of them. The
+// texts are for people; only hashes are compared.
 //
 // Guarantees:
 // (1) Writing and reading take O(1) memory beside the names of functions.
@@ -33,8 +37,8 @@
 
 namespace traces {
 
-inline constexpr std::uint8_t kVersion = 2;
-inline constexpr std::uint8_t kParts = 3;  // function and arguments
+inline constexpr std::uint8_t kVersion = 3;
+inline constexpr std::uint8_t kParts = 15;  // function, arguments, values read, results of children
 /// Longer texts are cut by the writer and refused by the reader.
 inline constexpr std::size_t kLongestText = 4096;
 
@@ -53,13 +57,19 @@ class FileError : public std::runtime_error {
   std::uint64_t offset_;
 };
 
+struct EdgeRecord {
+  LabelHash hash;    // of what an observation saw; else 0
+  std::string text;  // as printed
+};
+
 struct CallRecord {
   std::uint32_t depth = 0;     // at most one more than that of the call before, and < 2^31
   std::uint32_t function = 0;  // index
   LabelHash hash;
-  bool named = true;      // all in the label has a name that is the same in every run
-  std::string arguments;  // as printed
-  bool tail = false;      // a tail call: runs after its parent, as its last child
+  bool named = true;                   // all in the label has a name that is the same in every run
+  std::string arguments;               // as printed
+  bool tail = false;                   // a tail call: runs after its parent, as its last child
+  std::vector<EdgeRecord> edges = {};  // none unless they were asked for
 };
 
 /// Where a writer writes until it has finished.
@@ -102,6 +112,7 @@ class TraceReader {
  private:
   void read_header();
   void read_call();
+  void read_edges();
   void read_end();
 
   struct Input;
@@ -115,5 +126,7 @@ class TraceReader {
 
 /// `name(arguments)` on one line: bytes that do not print are shown as '?'.
 [[nodiscard]] std::string label_text(std::string_view name, std::string_view arguments);
+/// The text of an edge, likewise.
+[[nodiscard]] std::string edge_text(const EdgeRecord& edge);
 
 }  // namespace traces
