@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "list.hpp"
@@ -30,6 +31,9 @@ struct Chunk {
     std::vector<T> elements;  // the boundary among them
     const Chunk* next = nullptr;
     friend bool operator==(const State&, const State&) = default;
+    friend void label_bytes(sac::LabelSink& sink, const State& s) {
+      sac::label_arguments(sink, std::tie(s.elements, s.next));
+    }
   };
   T boundary;  // a header's is T{}
   typename S::template CellType<State> state;

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <span>
+#include <tuple>
 
 #include "chunk.hpp"
 
@@ -35,11 +36,17 @@ struct SortedChunk {
     std::vector<Element> elements;
     const SortedChunk* next = nullptr;
     friend bool operator==(const State&, const State&) = default;
+    friend void label_bytes(sac::LabelSink& sink, const State& s) {
+      sac::label_arguments(sink, std::tie(s.elements, s.next));
+    }
   };
   struct Source {
     const SortedChunk* a;
     const SortedChunk* b;
     friend bool operator==(const Source&, const Source&) = default;
+    friend void label_bytes(sac::LabelSink& sink, const Source& s) {
+      sac::label_arguments(sink, std::tie(s.a, s.b));
+    }
   };
   Element boundary;
   typename S::template CellType<Source> source;  // where it comes from, unless known from the key
@@ -53,6 +60,9 @@ struct Sorted {
     const SortedChunk<S>* chunks;
     const Sorted* next;  // the stretch behind
     friend bool operator==(const State&, const State&) = default;
+    friend void label_bytes(sac::LabelSink& sink, const State& s) {
+      sac::label_arguments(sink, std::tie(s.chunks, s.next));
+    }
   };
   int height = 0;  // the number of levels above that begin a group with it
   typename S::template CellType<State> state;
