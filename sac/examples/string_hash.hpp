@@ -60,7 +60,7 @@ void Chunk::operator()(S& s, Item<S>& self, const Item<S>* first) const {
   while (next != nullptr) {
     const Content<S> item = s.read(next->content);
     if (item.hash > last.hash && falling) break;
-    if (item.hash != last.hash) falling = item.hash < last.hash;
+    if (item.hash < last.hash) falling = true;
     sum = sac::mix(sum + item.hash);
     last = item;
     next = item.next;

@@ -516,4 +516,9 @@ TEMPLATE_TEST_CASE("text examples under random edits", "", SpellApp, StringApp, 
   check_example<TestType>(60, 40, 30);
 }
 
+TEMPLATE_TEST_CASE("text examples under many random edits", "[.soak]", SpellApp, StringApp,
+                   SheetApp) {
+  check_example<TestType>(300, 150, 60);
+}
+
 }  // namespace
