@@ -248,26 +248,54 @@ bool Engine::unposted(const Call& call) const noexcept {
   return call.has(Call::kPosted) && Agenda::slot(call).posts() == 0;
 }
 
-// Whether the earliest invalid call is `call` or a descendant. A posted call can die while it runs,
-// when it passes over its last poster; it waits until what runs has ended.
-bool Engine::next_is_within(Handle call) const noexcept {
+// Whether the earliest call that waits is `call` or behind it, up to `end`.
+bool Engine::next_is_up_to(Handle call, Handle end) const noexcept {
   const Call& first = *at<Call>(queue_.front());
   if (queue_.front() == call) return !unposted(first);
-  return precedes(*at<Call>(call), first) &&
-         !timeline_.precedes(*at<TimeNode>(end_of(call)), first);
+  return precedes(*at<Call>(call), first) && !timeline_.precedes(*at<TimeNode>(end), first);
+}
+
+// A posted call can lose its last poster when it has run or runs already. It may not go before what
+// runs has ended, and not stand in the way of others in the queue.
+bool Engine::set_dying_aside(Handle call) noexcept {
+  const Handle first = queue_.front();
+  Call& c = *at<Call>(first);
+  if (!unposted(c) || (first != call && precedes(*at<Call>(call), c))) return false;
+  static_cast<void>(queue_.pop());
+  if (!c.has(Call::kAside)) aside_.push_back(first);
+  c.set(Call::kAside);
+  return true;
+}
+
+void Engine::take_dying_back() noexcept {
+  for (const Handle h : aside_) {
+    Call& c = *at<Call>(h);
+    c.clear(Call::kAside);
+    if (c.queue == 0 && !c.has(Call::kDead | Call::kPending)) enqueue(c);
+  }
+  aside_.clear();
 }
 
 // Runs what is invalid in `call`'s interval; 0: everywhere.
 void Engine::propagate_within(Handle call) {
-  while (!queue_.empty() && (call == 0 || next_is_within(call))) {
-    const Handle h = queue_.pop();
-    Call& c = *at<Call>(h);
-    if (unposted(c)) {
-      discard_subtree(h);
-    } else if (c.has(Call::kInvalid)) {
-      now_ = h;
-      execute(h, c.end != 0 ? c.end : c.next);
+  while (true) {
+    if (call == 0) take_dying_back();
+    if (queue_.empty()) return;
+    if (call != 0 && !next_is_up_to(call, end_of(call))) {
+      if (set_dying_aside(call)) continue;
+      return;
     }
+    run_from_queue(queue_.pop());
+  }
+}
+
+void Engine::run_from_queue(Handle call) {
+  Call& c = *at<Call>(call);
+  if (unposted(c)) {
+    discard_subtree(call);
+  } else if (c.has(Call::kInvalid)) {
+    now_ = call;
+    execute(call, c.end != 0 ? c.end : c.next);
   }
 }
 
@@ -289,6 +317,7 @@ void Engine::roll_back() {
 void Engine::finish() noexcept {
   counts_ = {};
   for (const auto& agenda : agendas_) agenda->drop_unposted();
+  aside_.clear();
   purge();
   suspects_.clear();
   current_ = nullptr;
@@ -320,6 +349,7 @@ void Engine::check_audit() {
 Handle Engine::new_call(const Function& function, std::uint32_t hash, const void* args,
                         Construct construct) {
   queue_.reserve(live_calls_ + 1);  // so that invalidating and discarding cannot fail
+  if (function.posted && aside_.capacity() <= live_calls_) aside_.reserve(2 * live_calls_ + 64);
   if (graveyard_.capacity() < live_calls_ + graveyard_.size() + 1) {
     graveyard_.reserve(2 * (live_calls_ + graveyard_.size()) + 64);
   }
@@ -419,6 +449,7 @@ Handle Engine::call_child(const Function& function, std::uint32_t hash, const vo
     execute(child, caller.limit);
   }
   settle_child(child);
+  SAC_ENSURES(!at<Call>(child)->has(Call::kInvalid));
   return child;
 }
 
@@ -483,11 +514,11 @@ void Engine::execute(Handle call, Handle limit) {
   current_ = &a;
   try {
     run_body(a, call);
-    while (a.tail != 0 && !a.tail_reused) {
-      const Handle next = std::exchange(a.tail, 0);
-      insert_call(next);
-      at<Call>(next)->end = a.end;
-      run_body(a, next);
+    for (Handle link = call; settle_link(a, link);) {
+      link = std::exchange(a.tail, 0);
+      insert_call(link);
+      at<Call>(link)->end = a.end;
+      run_body(a, link);
     }
     close(a);
   } catch (...) {
@@ -495,6 +526,28 @@ void Engine::execute(Handle call, Handle limit) {
     throw;
   }
   current_ = a.outer;
+}
+
+// Whether a new tail call follows `link`, which has just run: then what `link` took back when it
+// settled, and its children may have seen, is brought up to date before. If a result changes by
+// that, the link runs again.
+bool Engine::settle_link(Activation& a, Handle link) {
+  while (a.tail != 0 && !a.tail_reused) {
+    if (mode_ == Mode::running) return true;
+    const Handle reached = now_;
+    if (queue_.empty() || (!next_is_up_to(link, reached) && !set_dying_aside(link))) return true;
+    if (queue_.empty() || !next_is_up_to(link, reached)) continue;
+    const Handle h = queue_.pop();
+    if (h == link) {
+      drop_call(std::exchange(a.tail, 0));
+      now_ = link;
+      run_body(a, link);
+    } else {
+      run_from_queue(h);
+      now_ = h == reached ? end_of(h) : reached;
+    }
+  }
+  return false;
 }
 
 void Engine::run_body(Activation& a, Handle call) {

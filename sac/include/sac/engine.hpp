@@ -317,7 +317,11 @@ class Engine {
   void require_usable() const;
   Counts run_root(const Function& function, std::uint32_t hash, const void* args,
                   Construct construct);
-  [[nodiscard]] bool next_is_within(Handle call) const noexcept;
+  [[nodiscard]] bool next_is_up_to(Handle call, Handle end) const noexcept;
+  void run_from_queue(Handle call);
+  bool settle_link(Activation& a, Handle link);
+  bool set_dying_aside(Handle call) noexcept;
+  void take_dying_back() noexcept;
   void propagate_within(Handle call);
   void roll_back();
   void finish() noexcept;
@@ -370,6 +374,7 @@ class Engine {
   std::uint64_t progress_at_ = ~std::uint64_t{0};  // number of bodies run at the next report
   Observer* observer_ = nullptr;
   std::vector<std::function<void()>> rollback_;
+  std::vector<Handle> aside_;  // calls that nobody posts any more and that may not go yet
   std::vector<Handle> graveyard_;
   std::vector<std::pair<Handle, Handle>> suspects_;
   void* environment_ = nullptr;

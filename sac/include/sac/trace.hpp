@@ -59,6 +59,7 @@ struct Call : TimeNode {
   static constexpr std::uint16_t kRunning = 4;
   static constexpr std::uint16_t kPending = 8;   // on an agenda not yet drained: has no place
   static constexpr std::uint16_t kPosted = 16;   // runs from an agenda
+  static constexpr std::uint16_t kAside = 32;    // waits beside the queue
 
   [[nodiscard]] bool has(std::uint16_t flag) const noexcept { return (state & flag) != 0; }
   void set(std::uint16_t flag) noexcept { state = static_cast<std::uint16_t>(state | flag); }
