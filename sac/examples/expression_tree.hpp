@@ -14,6 +14,9 @@
 
 #include <cstdint>
 #include <string_view>
+#include <tuple>
+
+#include "sac/sac.hpp"
 
 namespace examples::expression_tree {
 
@@ -29,6 +32,9 @@ struct Operand {
   const Node<S>* node = nullptr;
   NumberMod<S> number;  // if there is no node
   friend bool operator==(const Operand&, const Operand&) = default;
+  friend void label_bytes(sac::LabelSink& sink, const Operand& o) {
+    sac::label_arguments(sink, std::tie(o.node, o.number));
+  }
 };
 
 template <class S>
@@ -36,6 +42,9 @@ struct Term {
   char op = '+';  ///< '+', '-' or '*', modulo 2^64
   Operand<S> left, right;
   friend bool operator==(const Term&, const Term&) = default;
+  friend void label_bytes(sac::LabelSink& sink, const Term& t) {
+    sac::label_arguments(sink, std::tie(t.op, t.left, t.right));
+  }
 };
 
 /// An operator: edits set its term.

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
+
+#include "sac/label.hpp"
 
 namespace examples::tree_contraction {
 
@@ -18,10 +21,16 @@ struct Vertex {
     int to;
     std::int64_t length;
     friend bool operator==(const Edge&, const Edge&) = default;
+    friend void label_bytes(sac::LabelSink& sink, const Edge& e) {
+      sac::label_arguments(sink, std::tie(e.to, e.length));
+    }
   };
   std::int64_t weight = 0;
   std::vector<Edge> edges;
   friend bool operator==(const Vertex&, const Vertex&) = default;
+  friend void label_bytes(sac::LabelSink& sink, const Vertex& v) {
+    sac::label_arguments(sink, std::tie(v.weight, v.edges));
+  }
 };
 
 /// The neighbours of a vertex in the contracted forest: to[0], .. to[degree - 1].
@@ -29,6 +38,9 @@ struct Shape {
   int degree = 0;
   std::array<int, kDegree> to{};
   friend bool operator==(const Shape&, const Shape&) = default;
+  friend void label_bytes(sac::LabelSink& sink, const Shape& s) {
+    sac::label_arguments(sink, std::tie(s.degree, s.to));
+  }
 };
 
 /// What an edge of the contracted forest stands for, seen from its near end: a path of the forest
@@ -40,6 +52,9 @@ struct Path {
   std::int64_t far = 0;       // and from the far end
   std::int64_t diameter = 0;  // greatest distance of two inner vertices
   friend bool operator==(const Path&, const Path&) = default;
+  friend void label_bytes(sac::LabelSink& sink, const Path& p) {
+    sac::label_arguments(sink, std::tie(p.length, p.sum, p.near, p.far, p.diameter));
+  }
 };
 
 /// What a vertex carries: all that has been raked into it, and the paths to its neighbours.
@@ -49,6 +64,9 @@ struct Load {
   std::int64_t diameter = 0;  // greatest distance of two vertices
   std::array<Path, kDegree> paths;
   friend bool operator==(const Load&, const Load&) = default;
+  friend void label_bytes(sac::LabelSink& sink, const Load& l) {
+    sac::label_arguments(sink, std::tie(l.sum, l.reach, l.diameter, l.paths));
+  }
 };
 
 enum class Fate { stays, raked, compressed, last };
@@ -58,6 +76,9 @@ struct Outcome {
   Fate fate = Fate::stays;
   int into = -1;
   friend bool operator==(const Outcome&, const Outcome&) = default;
+  friend void label_bytes(sac::LabelSink& sink, const Outcome& o) {
+    sac::label_arguments(sink, std::tie(o.fate, o.into));
+  }
 };
 
 // The leaf at the far end of `path` goes into a vertex.

@@ -15,7 +15,10 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
+
+#include "sac/label.hpp"
 
 namespace examples::spreadsheet {
 
@@ -28,6 +31,9 @@ struct Value {
   double number = 0;  ///< finite; 0 if there is a fault
   Fault fault = Fault::none;
   friend bool operator==(const Value&, const Value&) = default;
+  friend void label_bytes(sac::LabelSink& sink, const Value& v) {
+    sac::label_arguments(sink, std::tie(v.number, v.fault));
+  }
 };
 
 inline std::string name_of(int cell) {

@@ -17,7 +17,11 @@
 #include <numeric>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <utility>
 #include <vector>
+
+#include "sac/sac.hpp"
 
 namespace examples::spell_check {
 
@@ -41,6 +45,9 @@ struct Match {
   int distance = std::numeric_limits<int>::max();
   int entry = -1;
   friend auto operator<=>(const Match&, const Match&) = default;
+  friend void label_bytes(sac::LabelSink& sink, const Match& m) {
+    sac::label_arguments(sink, std::tie(m.distance, m.entry));
+  }
 };
 /// The nearest entries, nearest first, equals by number.
 using Nearest = std::array<Match, 4>;

@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <tuple>
 
 #include "sac/sac.hpp"
 
@@ -30,6 +31,9 @@ struct Content {
   std::uint64_t hash = 0;
   const Item<S>* next = nullptr;
   friend bool operator==(const Content&, const Content&) = default;
+  friend void label_bytes(sac::LabelSink& sink, const Content& c) {
+    sac::label_arguments(sink, std::tie(c.hash, c.next));
+  }
 };
 
 /// A letter (an input: edits set its content), or a chunk of a list of items.

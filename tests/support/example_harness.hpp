@@ -41,6 +41,12 @@ namespace support {
 template <class Host>
 using ScopeOf = std::conditional_t<std::is_same_v<Host, sac::Engine>, sac::Scope, sac::PlainScope>;
 
+/// Tells a recorder (traces::Recorder) the names of modifiables: `name`, and their places.
+template <class Recorder, class Mods>
+void name_all(Recorder& recorder, const Mods& mods, const char* name) {
+  for (std::size_t i = 0; i < mods.size(); ++i) recorder.name(mods[i], name, i);
+}
+
 /// A random run is named by these; an equal plan does the same again.
 struct Plan {
   std::uint64_t seed;
