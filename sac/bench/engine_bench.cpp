@@ -6,42 +6,23 @@
 //   read      nanoseconds per read in a first run
 //   call      nanoseconds per call in a first run
 //   list_map  from scratch; one insertion or deletion; bytes per element
-#include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
 #include <vector>
 
+#include "bench_support.hpp"
 #include "sac/sac.hpp"
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double nanoseconds(const std::function<void()>& body) {
-  const auto start = Clock::now();
-  body();
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-}
-
-double median(std::vector<double> x) {
-  std::sort(x.begin(), x.end());
-  return x[x.size() / 2];
-}
+using bench::median;
+using bench::nanoseconds;
 
 void print(const char* figure, std::size_t n, const char* unit, double value) {
   std::printf("{\"bench\":\"engine\",\"figure\":\"%s\",\"n\":%zu,\"%s\":%.2f}\n", figure, n, unit,
               value);
 }
-
-struct Random {
-  std::uint64_t state = 1;
-  std::uint64_t next() { return sac::mix(state += 0x9e3779b97f4a7c15u); }
-};
-
-volatile std::uint64_t sink;
 
 // --- Calls and reads -------------------------------------------------------------------------
 
@@ -64,7 +45,7 @@ struct ManyReads {
   void operator()(sac::Scope& s, const std::vector<sac::Mod<std::uint64_t>>* mods) const {
     std::uint64_t sum = 0;
     for (const auto m : *mods) sum += s.read(m);
-    sink = sum;
+    bench::sink = sum;
   }
 };
 inline constexpr ManyReads many_reads{};
@@ -125,7 +106,7 @@ void bench_list_map(std::size_t n) {
   print("list_map_from_scratch", n, "ms", scratch / 1e6);
   print("list_map", n, "bytes_per_element",
         static_cast<double>(e.bytes() - before) / static_cast<double>(n));
-  Random r;
+  bench::Random r;
   std::vector<double> updates;
   for (int k = 0; k < 20000; ++k) {
     Node& at = nodes[r.next() % (n - 2)];
