@@ -67,37 +67,50 @@ struct Farthest {
   }
 };
 
-/// A chunk of points, and the fold of them; Op as for contraction.hpp.
+/// A chunk of points, and the fold of them; Op as for contraction.hpp. Who folds further does not
+/// run again when points change and their fold does not.
 template <class S, class Op>
 struct PointChunk {
   struct State {
     std::vector<Point> points;
-    typename Op::Value value;
     const PointChunk* next = nullptr;
     friend bool operator==(const State&, const State&) = default;
-    void add(const Point& p, const typename Op::Value& its_value) {
-      points.push_back(p);
-      value = Op::join(value, its_value);
-    }
+  };
+  struct Folded {
+    typename Op::Value value;
+    const PointChunk* next = nullptr;
+    friend bool operator==(const Folded&, const Folded&) = default;
   };
   Point boundary;
   typename S::template CellType<State> state;
+  typename S::template CellType<Folded> folded;
 };
+
+/// Collects what goes into a chunk.
+template <class S, class Op>
+struct PointCollector {
+  typename PointChunk<S, Op>::State state;
+  typename Op::Value value;
+
+  void add(const Point& p, const typename Op::Value& its_value) {
+    state.points.push_back(p);
+    value = Op::join(value, its_value);
+  }
+  void write_to(S& s, const PointChunk<S, Op>& chunk) {
+    s.write(chunk.folded, {value, state.next});
+    s.write(chunk.state, std::move(state));
+  }
+};
+
 template <class S>
 using AllPoints = PointChunk<S, Extremes>;
 template <class S>
 using Outside = PointChunk<S, Farthest>;  // of a line
 
 // Chunks are the members of the lowest groups of a contraction.
-template <class S, class Op>
-struct ChunkValue {
-  typename Op::Value value;
-  const PointChunk<S, Op>* next;
-};
 template <class Op, class S>
-[[nodiscard]] ChunkValue<S, Op> read_group(S& s, const PointChunk<S, Op>* chunk) {
-  const auto& state = s.read(chunk->state);
-  return {state.value, state.next};
+[[nodiscard]] typename PointChunk<S, Op>::Folded read_group(S& s, const PointChunk<S, Op>* chunk) {
+  return s.read(chunk->folded);
 }
 template <class S, class Op>
 [[nodiscard]] int height(const PointChunk<S, Op>& chunk) noexcept {
@@ -115,10 +128,10 @@ inline constexpr CutPoints cut_points{};
 template <class S>
 void CutPoints::operator()(S& s, AllPoints<S>& self, const PointNode<S>* first) const {
   self.boundary = first->element;
-  typename AllPoints<S>::State state;
-  const auto* next = read_to_boundary(s, first, [&](const Point& p) { state.add(p, {p, p}); });
-  if (next != nullptr) state.next = &s.template tail_make<AllPoints<S>, cut_points>(next);
-  s.write(self.state, std::move(state));
+  PointCollector<S, Extremes> cut;
+  const auto* next = read_to_boundary(s, first, [&](const Point& p) { cut.add(p, {p, p}); });
+  if (next != nullptr) cut.state.next = &s.template tail_make<AllPoints<S>, cut_points>(next);
+  cut.write_to(s, self);
 }
 
 // --- The hull --------------------------------------------------------------------------------
@@ -134,7 +147,7 @@ inline constexpr KeepOutside keep_outside{};
 template <class S, class C>
 void KeepOutside::operator()(S& s, Outside<S>& self, const C* from, Point a, Point b) const {
   self.boundary = from->boundary;
-  typename Outside<S>::State kept;
+  PointCollector<S, Farthest> kept;
   const C* chunk = from;
   do {  // chunks whose boundary is dropped are joined to the one before
     const auto& state = s.read(chunk->state);
@@ -143,8 +156,9 @@ void KeepOutside::operator()(S& s, Outside<S>& self, const C* from, Point a, Poi
     }
     chunk = state.next;
   } while (chunk != nullptr && left_of(a, b, chunk->boundary) <= 0);
-  if (chunk != nullptr) kept.next = &s.template tail_make<Outside<S>, keep_outside>(chunk, a, b);
-  s.write(self.state, std::move(kept));
+  if (chunk != nullptr)
+    kept.state.next = &s.template tail_make<Outside<S>, keep_outside>(chunk, a, b);
+  kept.write_to(s, self);
 }
 
 /// Appends the corners between a and b of the hull of few points outside of ab.
