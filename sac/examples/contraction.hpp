@@ -7,7 +7,7 @@
 // where a group's fold comes out as before, that is the end of it. A group is an object keyed by
 // its first member.
 //
-// From scratch O(n). Source: [Aca05, §8.2.3], with groups of 8 in the mean instead of 2.
+// From scratch O(n). Source: [Aca05], with groups of 8 in the mean instead of 2.
 //
 // Op is a type with    using Value = ...;   static Value join(const Value&, const Value&);
 //                      static Value of(const Element&);   for lists of nodes

@@ -2,7 +2,7 @@
 //
 // A list is its header: the node before the first. So that an edit is always at the link of some
 // node, and a program need not treat the beginning apart. Elements have ids of their own, all
-// different; a program that flips coins takes them from the id [Aca05, §8.1]: not from places,
+// different; a program that flips coins takes them from the id [Aca05]: not from places,
 // which insertions move, and not from addresses, which differ from run to run.
 #pragma once
 

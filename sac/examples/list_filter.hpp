@@ -6,7 +6,7 @@
 //
 // From scratch O(n). An insertion or deletion costs O(1) calls, and one for each element that is
 // passed over behind a kept one that comes or goes: O(1) expected where a constant part of the
-// elements is kept. Source: [Aca05, §8.2], where calls carry the destination of the next node.
+// elements is kept. Source: [Aca05], where calls carry the destination of the next node.
 #pragma once
 
 #include "list.hpp"

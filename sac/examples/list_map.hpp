@@ -4,7 +4,7 @@
 // one link and writes one. An inserted element so costs two calls: its own, and that of the node
 // before it, whose link has changed. Everything behind is asked for with the same key and reused.
 //
-// From scratch O(n); an insertion or deletion O(1). Source: [Aca05, §8.2].
+// From scratch O(n); an insertion or deletion O(1). Source: [Aca05].
 #pragma once
 
 #include "list.hpp"

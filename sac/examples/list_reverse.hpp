@@ -2,7 +2,7 @@
 //
 // A node of the result is an object keyed by its original. It is linked to the node before it by
 // the call for that node, which is in hand there: so no call has the rest of the result, which
-// changes at an insertion, among its arguments. [Aca05, §8.2] passes it along, and makes one call
+// changes at an insertion, among its arguments. [Aca05] passes it along, and makes one call
 // more anew.
 //
 // From scratch O(n); an insertion or deletion O(1).

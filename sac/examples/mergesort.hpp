@@ -15,12 +15,13 @@
 // From scratch O(n log n). An inserted or deleted element is in one chunk of each of O(log n)
 // lists; the two or three steps that read the chunk run again. With probability 1/k it begins or
 // ends a group of k elements, and the group is merged again: O(log n) calls expected.
-// Source: [Aca05, §8.3.2], there with a pass for each level of dividing, and without chunks.
+// Source: [Aca05], there with a pass for each level of dividing, and without chunks.
 #pragma once
 
 #include <algorithm>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "chunk.hpp"
 

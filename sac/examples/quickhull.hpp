@@ -11,10 +11,11 @@
 //
 // From scratch O(n) where a filter drops a constant part of the points, O(n h) at worst for h
 // corners. An inserted or deleted point that is no corner costs one chunk of each filter that it
-// passes, and O(log n) where it was farthest of a group. Source: [Aca05, §8.3.4], there without
+// passes, and O(log n) where it was farthest of a group. Source: [Aca05], there without
 // chunks.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "chunk.hpp"

@@ -1,17 +1,19 @@
 // Quicksort of a list.
 //
-// The list is cut into chunks (chunk.hpp). The pivot is the first element; two passes make the
-// lists of what is less and of what is greater, as objects keyed by the chunk that they come from
-// and the pivot. Sorting a part is a call (part, node before, node after): the nodes are those of
-// pivots, so nothing is appended, and an insertion into one part leaves the labels of all others as
-// they are. A list of one chunk is sorted at once.
+// The list is cut into chunks (chunk.hpp). The pivot is the median of the first three boundaries;
+// two passes make the lists of what is less and of what is greater, as objects keyed by the chunk
+// that they come from and the pivot. Sorting a part is a call (part, node before, node after): the
+// nodes are those of pivots, so nothing is appended, and an insertion into one part leaves the
+// labels of all others as they are. A list of up to three chunks is sorted at once.
 //
 // For a random order of the elements: from scratch O(n log n). An inserted or deleted element is in
-// O(log n) parts, one chunk of each, which two calls read; it is the pivot of a part of k elements
-// with probability 1/k. O(log n) calls expected. Source: [Aca05, §8.3.1], there without chunks.
+// O(log n) parts, in one chunk of each, which two calls read: O(log n) calls. With probability
+// O(1/k) it changes the pivot of a part of k elements, which is sorted anew: O(log^2 n) expected.
+// Source: [Aca05], there without chunks, and with the first element as the pivot.
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 
 #include "chunk.hpp"
 
