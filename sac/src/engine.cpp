@@ -540,6 +540,7 @@ bool Engine::settle_link(Activation& a, Handle link) {
     const Handle h = queue_.pop();
     if (h == link) {
       drop_call(std::exchange(a.tail, 0));
+      if (!a.end_linked) link_end(a);  // what it does not repeat lies before
       now_ = link;
       run_body(a, link);
     } else {
@@ -585,9 +586,14 @@ void Engine::close(Activation& a) {
   if (a.end_linked) {
     discard_between(now_, a.end);
   } else {
-    timeline_.insert_after(now_, a.end);
+    link_end(a);
   }
   now_ = a.end;
+}
+
+void Engine::link_end(Activation& a) {
+  timeline_.insert_after(now_, a.end);
+  a.end_linked = true;
 }
 
 // Client code threw: the call stays, as one that must run again.
@@ -597,7 +603,7 @@ void Engine::abandon(Activation& a) noexcept {
   if (a.end != 0 && !a.end_linked) {
     // Cannot fail in the middle of a group with room; a failure leaves the call a leaf.
     try {
-      timeline_.insert_after(now_, a.end);
+      link_end(a);
       now_ = a.end;
     } catch (...) {
       broken_ = true;
@@ -612,7 +618,12 @@ void Engine::discard_between(Handle from, Handle to) noexcept {
     const Handle next = at<TimeNode>(h)->next;
     if (at<TimeNode>(h)->marked()) {
       timeline_.erase(h);
-      arena_.release(h, sizeof(TimeNode));
+      if (current_ != nullptr && h == current_->end) {  // to be put behind what it does instead
+        at<TimeNode>(h)->prev = 0;
+        current_->end_linked = false;
+      } else {
+        arena_.release(h, sizeof(TimeNode));
+      }
     } else {
       discard(h);
     }

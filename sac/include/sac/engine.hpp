@@ -345,6 +345,7 @@ class Engine {
   void run_body(Activation& a, Handle call);
   void settle(Activation& a) noexcept;
   void close(Activation& a);
+  void link_end(Activation& a);
   void abandon(Activation& a) noexcept;
   void discard_between(Handle from, Handle to) noexcept;
   void discard(Handle call) noexcept;
