@@ -422,7 +422,8 @@ Handle Engine::find_reusable(const Function& function, std::uint32_t hash, const
   const bool may_share_end = tail && current_->end == limit;
   const std::uint16_t number = number_of(function);
   return memo_.find(hash, [&](Handle, const Call& c) {
-    constexpr std::uint16_t kUnfit = Call::kDead | Call::kRunning | Call::kPosted;
+    constexpr std::uint16_t kUnfit =
+        Call::kDead | Call::kRunning | Call::kPending | Call::kPosted;
     return c.function_number == number && !c.has(kUnfit) && lies_ahead(c) &&
            (limit == 0 || timeline_.precedes(c, *at<TimeNode>(limit))) &&
            (c.end == 0 || c.end != limit || may_share_end) && function.equal(c, args);
@@ -490,7 +491,11 @@ Handle Engine::call_tail(const Function& function, std::uint32_t hash, const voi
   need_end(caller);
   const Handle old = find_reusable(function, hash, args, true);
   caller.tail_reused = old != 0;
-  caller.tail = old != 0 ? old : new_call(function, hash, args, construct);
+  caller.tail = old;
+  if (old == 0) {
+    caller.tail = new_call(function, hash, args, construct);
+    at<Call>(caller.tail)->set(Call::kPending);
+  }
   return caller.tail;
 }
 
@@ -516,6 +521,7 @@ void Engine::execute(Handle call, Handle limit) {
     run_body(a, call);
     for (Handle link = call; settle_link(a, link);) {
       link = std::exchange(a.tail, 0);
+      at<Call>(link)->clear(Call::kPending);
       insert_call(link);
       at<Call>(link)->end = a.end;
       run_body(a, link);

@@ -57,7 +57,7 @@ struct Call : TimeNode {
   static constexpr std::uint16_t kInvalid = 1;   // must run again
   static constexpr std::uint16_t kDead = 2;      // discarded, not yet freed
   static constexpr std::uint16_t kRunning = 4;
-  static constexpr std::uint16_t kPending = 8;   // on an agenda not yet drained: has no place
+  static constexpr std::uint16_t kPending = 8;   // has no place yet: on an agenda, or a tail call
   static constexpr std::uint16_t kPosted = 16;   // runs from an agenda
   static constexpr std::uint16_t kAside = 32;    // waits beside the queue
 
