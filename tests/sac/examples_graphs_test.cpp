@@ -7,6 +7,11 @@ namespace {
 
 using namespace support;
 
+TEMPLATE_TEST_CASE("graph examples run plainly give what naive programs give", "", ExpressionApp,
+                   ForestApp, SearchApp, ComponentsApp) {
+  check_example_plain<TestType>(200, 60);
+}
+
 // A path of edges of length 1, with two edges of length 1000 hanging on it: the diameter lies
 // inside of what was contracted.
 TEST_CASE("two vertices that hang on contracted paths may be the farthest of their tree") {

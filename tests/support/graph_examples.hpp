@@ -472,9 +472,4 @@ struct ComponentsApp : GraphApp {
   };
 };
 
-TEMPLATE_TEST_CASE("graph examples run plainly give what naive programs give", "", ExpressionApp,
-                   ForestApp, SearchApp, ComponentsApp) {
-  check_example_plain<TestType>(200, 60);
-}
-
 }  // namespace support
