@@ -29,29 +29,32 @@ Version& ModStructure::observe(Scope& scope, Handle head) {
   return *version;
 }
 
-// The last version before `call`, or its own, if that is of this execution; null if there is none.
+// The last version before `call`, or its own; null if there is none. What a running call wrote last
+// time and has not repeated is not there for it, nor for the children that it makes.
 Version* ModStructure::seen_by(const Call& call, Handle head) const {
   Version* version = at(head);
   if (version->history == 0) {
     if (!version->written) return nullptr;
-    if (&writer(*version) == &call) return unconfirmed(*version) ? nullptr : version;
-    if (engine_.precedes(writer(*version), call)) return version;
+    const Call& w = writer(*version);
+    if (&w == &call || engine_.precedes(w, call)) return unconfirmed(*version) ? nullptr : version;
     require_ahead(call, head);
     return nullptr;
   }
   require_ahead(call, head);
   const OrderedCalls& versions = history(version->history).versions;
   Handle seen = versions.last_not_behind({0, 0}, order(&call));
-  if (seen != 0 && &writer(*at(seen)) == &call && unconfirmed(*at(seen))) {
-    seen = versions.predecessor({0, seen}, order());
-  }
+  while (seen != 0 && unconfirmed(*at(seen))) seen = versions.predecessor({0, seen}, order());
   return seen != 0 ? at(seen) : nullptr;
 }
 
-// Whether the running call wrote `version` last time and has not yet repeated it.
+// Whether a running call wrote `version` last time and has not yet repeated it.
 bool ModStructure::unconfirmed(const Version& version) const noexcept {
+  const Call& w = writer(version);
+  if (!w.has(Call::kRunning)) [[likely]] return false;
+  const Engine::Activation* a = engine_.current_;
+  while (a->call != &w) a = a->outer;
   const Handle target = handle_of(version);
-  for (Handle e = engine_.current_->old_edges; e != 0; e = engine_.at<Edge>(e)->next) {
+  for (Handle e = a->old_edges; e != 0; e = engine_.at<Edge>(e)->next) {
     const Edge& edge = *engine_.at<Edge>(e);
     if (edge.structure != id_ || edge.kind != kWrite) continue;
     if (static_cast<const WriteEdge&>(edge).version == target) return true;
@@ -116,7 +119,11 @@ Version* ModStructure::own_version(Scope& scope, Handle head) {
   if (own != nullptr) {
     const Handle version = handle_of(*own);
     const auto same = [&](const WriteEdge& edge) { return edge.version == version; };
-    scope.recall<WriteEdge>(id_, kWrite, same);  // null: written already in this execution
+    const bool repeated = scope.recall<WriteEdge>(id_, kWrite, same) != nullptr;
+    // Children that have run meanwhile did not see it.
+    const bool has_children = engine_.now_ != engine_.handle_of(call);
+    const Version* before = repeated && has_children ? predecessor(head, *own) : nullptr;
+    if (before != nullptr) require_unread(scope, head, *before);
   }
   return own;
 }
@@ -221,7 +228,13 @@ void ModStructure::appeared(Scope& scope, Handle head, Version& version, Version
   if (engine_.observer_ != nullptr && !same) [[unlikely]] {
     engine_.note(Event::Kind::changed, nullptr, head);
   }
-  if (previous != nullptr) move_readers(*previous, version, &scope.self(), !same);
+  if (previous == nullptr) return;
+  move_readers(*previous, version, &scope.self(), !same);
+  // Children of a running call read past what that call has not repeated.
+  for (Version* v = previous; v != nullptr && unconfirmed(*v);) {
+    v = predecessor(head, *v);
+    if (v != nullptr) move_readers(*v, version, &scope.self(), true);
+  }
 }
 
 // --- Readers ---------------------------------------------------------------------------------
@@ -268,6 +281,28 @@ void ModStructure::orphan_readers(Version& version) noexcept {
     r = edge.next_reader;
     edge.version = 0;
     engine_.invalidate(engine_.call(edge.call));
+  }
+}
+
+// Of a version with many readers only some are looked at: what is missed runs again when the caller
+// has settled, and the caller after it.
+void ModStructure::hide_unconfirmed(Handle child, Handle old_edges) noexcept {
+  constexpr int kLookedAt = 64;
+  for (Handle e = old_edges; e != 0; e = engine_.at<Edge>(e)->next) {
+    const Edge& edge = *engine_.at<Edge>(e);
+    if (edge.structure != id_ || edge.kind != kWrite) continue;
+    const Handle version = static_cast<const WriteEdge&>(edge).version;
+    if (version == 0) continue;
+    Handle r = at(version)->readers;
+    for (int looked_at = 0; r != 0 && looked_at < kLookedAt; ++looked_at) {
+      ReadEdge& read = *reader(r);
+      r = read.next_reader;
+      Call& call = engine_.call(read.call);
+      if (!engine_.lies_within(call, child)) continue;
+      unlink_reader(read);
+      read.version = 0;
+      engine_.invalidate(call);
+    }
   }
 }
 

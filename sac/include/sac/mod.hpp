@@ -156,6 +156,9 @@ class ModStructure final : public Structure {
   /// The last version. Throws: UsageError if nothing is written.
   [[nodiscard]] detail::Version& last(Handle head) const;
   void invalidate_readers(detail::Version& version) noexcept;
+  /// The caller of `child` wrote something last time (`old_edges`) that it has not repeated yet:
+  /// what in the child has seen it runs again, so that the result is not of a past that ends.
+  void hide_unconfirmed(Handle child, Handle old_edges) noexcept;
 
   /// The number of a type of values. Throws: std::bad_alloc.
   [[nodiscard]] std::uint16_t number(const detail::ValueType& type) { return types_.number(type); }
