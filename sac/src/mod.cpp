@@ -41,9 +41,9 @@ Version* ModStructure::seen_by(const Call& call, Handle head) const {
     return nullptr;
   }
   require_ahead(call, head);
-  const OrderedCalls& versions = history(version->history).versions;
-  Handle seen = versions.last_not_behind({0, 0}, order(&call));
-  while (seen != 0 && unconfirmed(*at(seen))) seen = versions.predecessor({0, seen}, order());
+  const VersionOrder& versions = history(version->history).versions;
+  Handle seen = versions.last_not_behind(0, order(&call));
+  while (seen != 0 && unconfirmed(*at(seen))) seen = versions.predecessor(seen, order());
   return seen != 0 ? at(seen) : nullptr;
 }
 
@@ -66,7 +66,7 @@ bool ModStructure::unconfirmed(const Version& version) const noexcept {
 void ModStructure::require_ahead(const Call& reader, Handle head) const {
   Handle next = head;
   if (const std::uint32_t h = at(head)->history; h != 0) {
-    next = history(h).versions.successor({0, 0}, order(&reader));
+    next = history(h).versions.successor(0, order(&reader));
     if (next == 0) return;
   }
   const Call& other = writer(*at(next));
@@ -105,7 +105,7 @@ Version* ModStructure::find_own(const Call& call, Handle head) const noexcept {
   if (version->history == 0) {
     return version->written && &writer(*version) == &call ? version : nullptr;
   }
-  const Handle own = history(version->history).versions.last_not_behind({0, 0}, order(&call));
+  const Handle own = history(version->history).versions.last_not_behind(0, order(&call));
   return own != 0 && &writer(*at(own)) == &call ? at(own) : nullptr;
 }
 
@@ -151,7 +151,7 @@ Version& ModStructure::new_version(Scope& scope, Handle head, const detail::Valu
   at(fresh)->type = type_number;
   try {
     if (first.history == 0) first.history = new_history(head);
-    history(first.history).versions.insert({0, fresh}, order());
+    history(first.history).versions.insert(fresh, order());
   } catch (...) {
     if (fresh != head) engine_.arena().release(fresh, type.bytes);
     if (first.history != 0) drop_history(head);
@@ -164,7 +164,7 @@ Version& ModStructure::new_version(Scope& scope, Handle head, const detail::Valu
 std::uint32_t ModStructure::new_history(Handle head) {
   auto fresh = std::make_unique<History>();
   fresh->head = head;
-  if (at(head)->written) fresh->versions.append({0, head});
+  if (at(head)->written) fresh->versions.insert(head, order());
   if (histories_.empty()) histories_.emplace_back();
   if (free_histories_.empty()) {
     if (free_histories_.capacity() <= histories_.size()) {  // so that drop_history cannot fail
@@ -182,7 +182,7 @@ std::uint32_t ModStructure::new_history(Handle head) {
 // A version in place needs no order; nor does none.
 void ModStructure::drop_history(Handle head) noexcept {
   const std::uint32_t number = at(head)->history;
-  const OrderedCalls& versions = history(number).versions;
+  const VersionOrder& versions = history(number).versions;
   if (versions.size() > 1 || (versions.size() == 1 && versions.first() != head)) return;
   at(head)->history = 0;
   histories_[number].reset();
@@ -195,14 +195,14 @@ Version* ModStructure::before(Scope& scope, Handle head) const {
   if (version->history == 0) {
     return version->written && engine_.precedes(writer(*version), self) ? version : nullptr;
   }
-  const Handle last = history(version->history).versions.last_not_behind({0, 0}, order(&self));
+  const Handle last = history(version->history).versions.last_not_behind(0, order(&self));
   return last != 0 ? at(last) : nullptr;
 }
 
 Version* ModStructure::predecessor(Handle head, const Version& version) const noexcept {
   const std::uint32_t h = at(head)->history;
   if (h == 0) return nullptr;
-  const Handle found = history(h).versions.predecessor({0, handle_of(version)}, order());
+  const Handle found = history(h).versions.predecessor(handle_of(version), order());
   return found != 0 ? at(found) : nullptr;
 }
 
@@ -336,7 +336,7 @@ void ModStructure::retract(Call&, Edge& edge) noexcept {
 
 void ModStructure::forget_version(Handle head, Version& version) noexcept {
   if (const std::uint32_t h = at(head)->history; h != 0) {
-    history(h).versions.erase({0, handle_of(version)}, order());
+    history(h).versions.erase(handle_of(version), order());
     drop_history(head);
   }
   version.writer = 0;
@@ -399,12 +399,12 @@ void ModStructure::check_invariants(Handle head) const {
     previous = v;
   };
   if (at(head)->history == 0) return check(head, 0);
-  const OrderedCalls& versions = history(at(head)->history).versions;
+  const VersionOrder& versions = history(at(head)->history).versions;
   SAC_INVARIANT(versions.size() > 1 || versions.first() != head);
   Handle before = 0;
-  versions.for_each([&](const OrderedCalls::Entry& entry) {
-    if (before != 0) check(before, entry.call);
-    before = entry.call;
+  versions.for_each([&](Handle v) {
+    if (before != 0) check(before, v);
+    before = v;
   });
   check(before, 0);
 }

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "sac/engine.hpp"
-#include "sac/ordered_calls.hpp"
 #include "sac/scope.hpp"
+#include "sac/version_order.hpp"
 
 namespace sac {
 
@@ -50,7 +50,7 @@ struct TypedVersion : Version {
 // The versions of a modifiable that more than one call writes, in trace order.
 struct History {
   Handle head = 0;
-  OrderedCalls versions;  // by their handles
+  VersionOrder versions;
 };
 
 struct ReadEdge : Edge {
