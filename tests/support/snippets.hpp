@@ -1,0 +1,55 @@
+// Documents whose snippets are parts of a program that the tests run.
+#pragma once
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "test_paths.hpp"
+
+namespace support {
+
+/// The lines of a file of sac/, without indentation.
+inline std::vector<std::string> lines_of(const std::string& path) {
+  std::ifstream file(std::string(test_paths::kData) + "/../../sac/" + path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) {
+    const auto first = line.find_first_not_of(' ');
+    lines.push_back(first == line.npos ? "" : line.substr(first));
+  }
+  return lines;
+}
+
+/// The blocks of a document that are fenced as `language`.
+inline std::vector<std::vector<std::string>> blocks_of(const std::string& document,
+                                                       const std::string& language) {
+  std::vector<std::vector<std::string>> blocks;
+  bool inside = false;
+  for (const std::string& line : lines_of(document)) {
+    if (line.starts_with("```")) {
+      inside = line == "```" + language;
+      if (inside) blocks.emplace_back();
+    } else if (inside) {
+      blocks.back().push_back(line);
+    }
+  }
+  return blocks;
+}
+
+/// Requires every C++ block of the document to be a stretch of the program. Returns their number.
+inline std::size_t require_snippets(const std::string& document, const std::string& program) {
+  const auto lines = lines_of(program);
+  const auto blocks = blocks_of(document, "cpp");
+  for (const auto& block : blocks) {
+    std::string text;
+    for (const std::string& line : block) text += line + '\n';
+    INFO(text);
+    const auto at = std::search(lines.begin(), lines.end(), block.begin(), block.end());
+    REQUIRE(at != lines.end());
+  }
+  return blocks.size();
+}
+
+}  // namespace support
