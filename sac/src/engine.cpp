@@ -293,9 +293,20 @@ void Engine::run_from_queue(Handle call) {
   Call& c = *at<Call>(call);
   if (unposted(c)) {
     discard_subtree(call);
-  } else if (c.has(Call::kInvalid)) {
-    now_ = call;
-    execute(call, c.end != 0 ? c.end : c.next);
+    return;
+  }
+  now_ = call;
+  if (!c.has(Call::kInvalid) && reads_the_same(c)) return c.clear(Call::kDoubtful);
+  execute(call, c.end != 0 ? c.end : c.next);
+}
+
+// Client code compares, and may fail.
+bool Engine::reads_the_same(Call& call) {
+  try {
+    return mods_->reads_the_same(call);
+  } catch (...) {
+    invalidate(call);
+    throw;
   }
 }
 
@@ -453,7 +464,7 @@ Handle Engine::call_child(const Function& function, std::uint32_t hash, const vo
     execute(child, caller.limit);
   }
   settle_child(child);
-  SAC_ENSURES(!at<Call>(child)->has(Call::kInvalid));
+  SAC_ENSURES(!at<Call>(child)->has(Call::kInvalid | Call::kDoubtful));
   return child;
 }
 
@@ -565,7 +576,7 @@ void Engine::run_body(Activation& a, Handle call) {
   a.call = &c;
   a.old_edges = std::exchange(c.edges, 0);
   a.last_edge = 0;
-  c.clear(Call::kInvalid);
+  c.clear(Call::kInvalid | Call::kDoubtful);
   c.set(Call::kRunning);
   if (counts_.executed >= progress_at_) [[unlikely]] report_progress();
   ++counts_.executed;
@@ -579,7 +590,7 @@ void Engine::run_body(Activation& a, Handle call) {
 // in this execution, so it is not invalidated by it.
 void Engine::settle(Activation& a) noexcept {
   retract_all(*a.call, std::exchange(a.old_edges, 0));
-  a.call->clear(Call::kRunning | Call::kInvalid);
+  a.call->clear(Call::kRunning | Call::kInvalid | Call::kDoubtful);
 }
 
 // Ends the interval: a reused tail ends it, what was not reused is discarded.

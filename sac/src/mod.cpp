@@ -20,11 +20,17 @@ Version& ModStructure::observe(Scope& scope, Handle head) {
     if (version == nullptr) fail_unwritten(call, head);
   }
   const Handle seen = handle_of(*version);
-  const auto same = [&](const ReadEdge& edge) { return edge.version == seen; };
-  if (scope.recall<ReadEdge>(id_, kRead, same) == nullptr) {
-    auto& edge = scope.observe<ReadEdge>(id_, kRead);
-    edge.call = engine_.handle_of(call);
-    link_reader(edge, *version);
+  const auto of_this = [&](const ReadEdge& edge) {  // of this version, or another of the modifiable
+    return edge.version == seen || (edge.version != 0 && head_of(*at(edge.version)) == head);
+  };
+  ReadEdge* edge = scope.recall<ReadEdge>(id_, kRead, of_this);
+  if (edge == nullptr) {
+    edge = &scope.observe<ReadEdge>(id_, kRead);
+    edge->call = engine_.handle_of(call);
+    link_reader(*edge, *version);
+  } else if (edge->version != seen) {
+    unlink_reader(*edge);
+    link_reader(*edge, *version);
   }
   return *version;
 }
@@ -146,6 +152,8 @@ Version& ModStructure::new_version(Scope& scope, Handle head, const detail::Valu
   if (first.written) {
     fresh = engine_.arena().allocate(type.bytes);
     ::new (static_cast<void*>(at(fresh))) Version();
+    at(fresh)->apart = true;
+    at(fresh)->history = head;
   }
   at(fresh)->writer = self;
   at(fresh)->type = type_number;
@@ -216,11 +224,12 @@ void ModStructure::require_unread(Scope& scope, Handle head, const Version& vers
   }
 }
 
-void ModStructure::changed(Handle head, Version& version) noexcept {
+void ModStructure::replace(Handle head, Version& version) noexcept {
   if (engine_.observer_ != nullptr) [[unlikely]] {
     engine_.note(version.outside ? Event::Kind::edited : Event::Kind::changed, nullptr, head);
   }
-  invalidate_readers(version);
+  const Engine::Activation* running = engine_.current_;
+  leave_past(head, version, running != nullptr ? engine_.handle_of(*running->call) : 0);
 }
 
 void ModStructure::appeared(Scope& scope, Handle head, Version& version, Version* previous,
@@ -229,21 +238,16 @@ void ModStructure::appeared(Scope& scope, Handle head, Version& version, Version
     engine_.note(Event::Kind::changed, nullptr, head);
   }
   if (previous == nullptr) return;
-  move_readers(*previous, version, &scope.self(), !same);
+  const Call& self = scope.self();
+  same ? move_readers(*previous, version, &self) : doubt_readers(*previous, self);
   // Children of a running call read past what that call has not repeated.
   for (Version* v = previous; v != nullptr && unconfirmed(*v);) {
     v = predecessor(head, *v);
-    if (v != nullptr) move_readers(*v, version, &scope.self(), true);
+    if (v != nullptr) doubt_readers(*v, self);
   }
 }
 
 // --- Readers ---------------------------------------------------------------------------------
-
-void ModStructure::invalidate_readers(Version& version) noexcept {
-  for (Handle r = version.readers; r != 0; r = reader(r)->next_reader) {
-    engine_.invalidate(engine_.call(reader(r)->call));
-  }
-}
 
 void ModStructure::link_reader(ReadEdge& edge, Version& version) noexcept {
   const Handle self = engine_.arena().handle_of(&edge);
@@ -256,32 +260,114 @@ void ModStructure::link_reader(ReadEdge& edge, Version& version) noexcept {
 
 void ModStructure::unlink_reader(ReadEdge& edge) noexcept {
   if (edge.version == 0) return;
+  Version& version = *at(edge.version);
   if (edge.next_reader != 0) reader(edge.next_reader)->prev = edge.prev;
-  (edge.prev != 0 ? reader(edge.prev)->next_reader : at(edge.version)->readers) = edge.next_reader;
+  (edge.prev != 0 ? reader(edge.prev)->next_reader : version.readers) = edge.next_reader;
+  if (version.past && version.readers == 0) free_past(version);
 }
 
-void ModStructure::move_readers(Version& from, Version& to, const Call* later_than,
-                                bool invalidate) noexcept {
+void ModStructure::move_readers(Version& from, Version& to, const Call* later_than) noexcept {
   for (Handle r = from.readers; r != 0;) {
     ReadEdge& edge = *reader(r);
     r = edge.next_reader;
-    Call& call = engine_.call(edge.call);
-    if (later_than != nullptr && !engine_.precedes(*later_than, call)) continue;
+    if (later_than != nullptr && !engine_.precedes(*later_than, engine_.call(edge.call))) continue;
     unlink_reader(edge);
     link_reader(edge, to);
-    if (invalidate) engine_.invalidate(call);
   }
 }
 
-// What the readers saw is gone and nothing takes its place: they run again, and see what is there
-// then.
-void ModStructure::orphan_readers(Version& version) noexcept {
-  for (Handle r = std::exchange(version.readers, 0); r != 0;) {
+// They stay with what they have seen.
+void ModStructure::doubt_readers(const Version& version, const Call& later_than) noexcept {
+  for (Handle r = version.readers; r != 0; r = reader(r)->next_reader) {
+    Call& call = engine_.call(reader(r)->call);
+    if (engine_.precedes(later_than, call)) engine_.doubt(call);
+  }
+}
+
+// Takes the value out of `version`. Those who have seen it are in doubt, and keep it until it is
+// their turn; if there is no memory for that, they run again in any case. Call `except` stays: it
+// replaces the value itself.
+void ModStructure::leave_past(Handle head, Version& version, Handle except) noexcept {
+  const detail::ValueType& type = types_[version.type];
+  Version* past = nullptr;
+  for (Handle r = version.readers; r != 0;) {
     ReadEdge& edge = *reader(r);
     r = edge.next_reader;
-    edge.version = 0;
-    engine_.invalidate(engine_.call(edge.call));
+    if (edge.call == except) continue;
+    if (past == nullptr) {
+      try {
+        past = at(engine_.arena().allocate(type.bytes));
+        ::new (static_cast<void*>(past)) Version();
+        past->type = version.type;
+        past->apart = past->past = true;
+        past->history = head;
+      } catch (...) {
+        orphan(edge);
+        continue;
+      }
+    }
+    unlink_reader(edge);
+    link_reader(edge, *past);
+    engine_.doubt(engine_.call(edge.call));
   }
+  if (past != nullptr) {
+    type.move(version, *past);
+    past->written = true;
+  } else {
+    type.destroy(version);
+  }
+  version.written = false;
+}
+
+void ModStructure::orphan(ReadEdge& edge) noexcept {
+  unlink_reader(edge);
+  edge.version = 0;
+  engine_.invalidate(engine_.call(edge.call));
+}
+
+void ModStructure::free_past(Version& version) noexcept {
+  const detail::ValueType& type = types_[version.type];
+  if (version.written) type.destroy(version);
+  engine_.arena().release(handle_of(version), type.bytes);
+}
+
+// What `call` would read where it has read `seen`. Its own version it would see only where it has
+// written it before; what it has read of others it has read before it wrote.
+Version* ModStructure::visible_to(const Call& call, const Version& seen) const {
+  if (!seen.past && !seen.outside && &writer(seen) == &call) return at(handle_of(seen));
+  const Handle head = head_of(seen);
+  if (at(head)->outside) return at(head);
+  Version* now = seen_by(call, head);
+  if (now != nullptr && &writer(*now) == &call) now = predecessor(head, *now);
+  while (now != nullptr && unconfirmed(*now)) now = predecessor(head, *now);
+  return now;
+}
+
+bool ModStructure::reads_the_same(Call& call) {
+  const auto for_each_read = [&](auto&& visit) {
+    for (Handle e = call.edges; e != 0; e = engine_.at<Edge>(e)->next) {
+      Edge& edge = *engine_.at<Edge>(e);
+      if (edge.structure == id_ && edge.kind == kRead && !visit(static_cast<ReadEdge&>(edge))) {
+        return false;
+      }
+    }
+    return true;
+  };
+  const bool same = for_each_read([&](ReadEdge& edge) {
+    if (edge.version == 0) return false;
+    const Version& seen = *at(edge.version);
+    const Version* now = visible_to(call, seen);
+    return now == &seen || (now != nullptr && types_[seen.type].same(seen, *now));
+  });
+  if (!same) return false;
+  for_each_read([&](ReadEdge& edge) {
+    Version* now = visible_to(call, *at(edge.version));
+    if (handle_of(*now) == edge.version) return true;
+    unlink_reader(edge);
+    link_reader(edge, *now);
+    return true;
+  });
+  return true;
 }
 
 // Of a version with many readers only some are looked at: what is missed runs again when the caller
@@ -295,13 +381,9 @@ void ModStructure::hide_unconfirmed(Handle child, Handle old_edges) noexcept {
     if (version == 0) continue;
     Handle r = at(version)->readers;
     for (int looked_at = 0; r != 0 && looked_at < kLookedAt; ++looked_at) {
-      ReadEdge& read = *reader(r);
-      r = read.next_reader;
-      Call& call = engine_.call(read.call);
-      if (!engine_.lies_within(call, child)) continue;
-      unlink_reader(read);
-      read.version = 0;
-      engine_.invalidate(call);
+      Call& call = engine_.call(reader(r)->call);
+      r = reader(r)->next_reader;
+      if (engine_.lies_within(call, child)) engine_.doubt(call);
     }
   }
 }
@@ -324,13 +406,8 @@ void ModStructure::retract(Call&, Edge& edge) noexcept {
   if (engine_.observer_ != nullptr && !same) [[unlikely]] {
     engine_.note(Event::Kind::changed, nullptr, write.head);
   }
-  if (previous != nullptr) {
-    move_readers(version, *previous, nullptr, !same);
-  } else {
-    orphan_readers(version);
-  }
-  types_[version.type].destroy(version);
-  version.written = false;
+  if (same) move_readers(version, *previous, nullptr);
+  leave_past(write.head, version, 0);
   forget_version(write.head, version);
 }
 
@@ -346,9 +423,11 @@ void ModStructure::forget_version(Handle head, Version& version) noexcept {
 
 void ModStructure::destroy_values(const Call& call) noexcept {
   engine_.for_each_edge(call, [&](const Edge& edge) {
-    if (edge.structure != id_ || edge.kind != kWrite) return;
-    const Handle v = static_cast<const WriteEdge&>(edge).version;
-    if (v == 0 || !at(v)->written) return;
+    if (edge.structure != id_) return;
+    const bool reads = edge.kind == kRead;
+    const Handle v = reads ? static_cast<const ReadEdge&>(edge).version
+                           : static_cast<const WriteEdge&>(edge).version;
+    if (v == 0 || !at(v)->written || (reads && !at(v)->past)) return;
     types_[at(v)->type].destroy(*at(v));
     at(v)->written = false;
   });
@@ -415,7 +494,7 @@ void ModStructure::check_writes(const Call& call) const {
     if (edge.kind == kRead) {
       const auto& read = static_cast<const ReadEdge&>(edge);
       SAC_INVARIANT(read.version != 0 && &engine_.call(read.call) == &call);
-      SAC_INVARIANT(at(read.version)->written);
+      SAC_INVARIANT(at(read.version)->written && !at(read.version)->past);
       const Handle self = engine_.arena().handle_of(&edge);
       SAC_INVARIANT((read.prev != 0 ? reader(read.prev)->next_reader
                                     : at(read.version)->readers) == self);

@@ -191,7 +191,7 @@ TEST_CASE("work is within a constant factor of the distance, on random programs"
 
 TEST_CASE("work is within a constant factor of the distance, on many random programs",
           "[.soak]") {
-  check_seeds(1000, 20000, 3);
+  check_seeds(1000, 20000, 4);
 }
 
 }  // namespace

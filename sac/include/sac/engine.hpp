@@ -217,6 +217,13 @@ class Engine {
     call.set(Call::kInvalid);
     if (call.queue == 0 && !call.has(Call::kRunning | Call::kPending | Call::kDead)) enqueue(call);
   }
+  /// A modifiable that the call has read may have another value: it will run again if that is so
+  /// when its turn comes.
+  void doubt(Call& call) noexcept {
+    if (observer_ != nullptr) [[unlikely]] note(Event::Kind::invalidated, &call);
+    call.set(Call::kDoubtful);
+    if (call.queue == 0 && !call.has(Call::kRunning | Call::kPending | Call::kDead)) enqueue(call);
+  }
   [[nodiscard]] bool precedes(const Call& a, const Call& b) const noexcept {
     return timeline_.precedes(a, b);
   }
@@ -322,6 +329,7 @@ class Engine {
                   Construct construct);
   [[nodiscard]] bool next_is_up_to(Handle call, Handle end) const noexcept;
   void run_from_queue(Handle call);
+  [[nodiscard]] bool reads_the_same(Call& call);
   bool settle_link(Activation& a, Handle link);
   bool set_dying_aside(Handle call) noexcept;
   void take_dying_back() noexcept;

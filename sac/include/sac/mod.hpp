@@ -28,12 +28,16 @@ namespace detail {
 
 // One value over a stretch of the trace: 16 bytes, value behind it.
 struct Version {
-  Handle writer = 0;          // the call that wrote it; 0: the outside
-  Handle readers = 0;         // chain of ReadEdges
-  std::uint32_t history = 0;  // number of the modifiable's History; 0: this version is all there is
+  Handle writer = 0;   // the call that wrote it; 0: the outside
+  Handle readers = 0;  // chain of ReadEdges
+  // In place: the number of the modifiable's History; 0: this version is all there is.
+  // Apart: the handle of the modifiable.
+  std::uint32_t history = 0;
   std::uint16_t type = 0;
-  bool written = false;
-  bool outside = false;  // an input
+  bool written : 1 = false;
+  bool outside : 1 = false;  // an input
+  bool apart : 1 = false;    // not where the modifiable's handle points
+  bool past : 1 = false;     // apart, and gone: kept for those who have seen it, until their turn
 };
 static_assert(sizeof(Version) == 16);
 
@@ -54,7 +58,7 @@ struct History {
 };
 
 struct ReadEdge : Edge {
-  Handle version;  // 0: what it saw is gone; the call is invalid
+  Handle version;  // what it saw; 0: that is gone, and the call is invalid
   Handle call;
   Handle prev;  // previous reader; 0: first
   Handle next_reader;
@@ -71,6 +75,7 @@ static_assert(sizeof(WriteEdge) == 16);
 struct ValueType {
   bool (*same)(const Version&, const Version&);
   void (*destroy)(Version&);
+  void (*move)(Version& from, Version& to);  // leaves `from` without a value
   void (*print)(const Version&, std::ostream&);
   void (*label)(const Version&, LabelSink&);
   std::uint32_t bytes;
@@ -83,6 +88,11 @@ inline constexpr ValueType kValueType{
                                       static_cast<const TypedVersion<T>&>(b).value()));
     },
     [](Version& v) { static_cast<TypedVersion<T>&>(v).value().~T(); },
+    [](Version& from, Version& to) {
+      T& value = static_cast<TypedVersion<T>&>(from).value();
+      ::new (static_cast<void*>(static_cast<TypedVersion<T>&>(to).storage)) T(std::move(value));
+      value.~T();
+    },
     [](const Version& v, std::ostream& out) {
       print_argument(out, static_cast<const TypedVersion<T>&>(v).value());
     },
@@ -147,15 +157,17 @@ class ModStructure final : public Structure {
   /// Throws: UsageError if the running call's own children have read `version`: then it may not
   /// change.
   void require_unread(Scope& scope, Handle head, const detail::Version& version) const;
-  /// The value of `version` is another: its readers run again.
-  void changed(Handle head, detail::Version& version) noexcept;
-  /// A new version has its value: takes over the readers of `previous` that are behind it; those of
-  /// the same value do not run again.
+  /// Takes the value of `version` out, to be given another at once; its readers are in doubt.
+  void replace(Handle head, detail::Version& version) noexcept;
+  /// A new version has its value: takes over the readers of `previous` that are behind it if its
+  /// value is the same; else they are in doubt.
   void appeared(Scope& scope, Handle head, detail::Version& version, detail::Version* previous,
                 bool same) noexcept;
   /// The last version. Throws: UsageError if nothing is written.
   [[nodiscard]] detail::Version& last(Handle head) const;
-  void invalidate_readers(detail::Version& version) noexcept;
+  /// Whether a call in doubt would read the values that it has read; if so, it is in no doubt any
+  /// more. Throws: what comparing values throws. Cost: O(log versions) a read.
+  [[nodiscard]] bool reads_the_same(Call& call);
   /// The caller of `child` wrote something last time (`old_edges`) that it has not repeated yet:
   /// what in the child has seen it runs again, so that the result is not of a past that ends.
   void hide_unconfirmed(Handle child, Handle old_edges) noexcept;
@@ -168,7 +180,7 @@ class ModStructure final : public Structure {
   void print(const Call& call, const Edge& edge, std::ostream& out) const override;
 
   [[nodiscard]] std::size_t bytes() const noexcept;
-  /// The value of every version that `call` wrote is destroyed: the engine ends.
+  /// Destroys the values that `call` wrote, and the past ones that it has seen: the engine ends.
   void destroy_values(const Call& call) noexcept;
   /// Throws: InvariantError unless the versions of the modifiable are in trace order and every
   /// reader is at the version that it sees.
@@ -210,9 +222,15 @@ class ModStructure final : public Structure {
   void forget_version(Handle head, detail::Version& version) noexcept;
   void link_reader(detail::ReadEdge& edge, detail::Version& version) noexcept;
   void unlink_reader(detail::ReadEdge& edge) noexcept;
-  void move_readers(detail::Version& from, detail::Version& to, const Call* later_than,
-                    bool invalidate) noexcept;
-  void orphan_readers(detail::Version& version) noexcept;
+  [[nodiscard]] Handle head_of(const detail::Version& version) const noexcept {
+    return version.apart ? version.history : handle_of(version);
+  }
+  [[nodiscard]] detail::Version* visible_to(const Call& call, const detail::Version& seen) const;
+  void move_readers(detail::Version& from, detail::Version& to, const Call* later_than) noexcept;
+  void doubt_readers(const detail::Version& version, const Call& later_than) noexcept;
+  void leave_past(Handle head, detail::Version& version, Handle except) noexcept;
+  void orphan(detail::ReadEdge& edge) noexcept;
+  void free_past(detail::Version& version) noexcept;
   void require_ahead(const Call& reader, Handle head) const;
   [[noreturn]] void fail_unwritten(const Call& reader, Handle head) const;
 
@@ -295,11 +313,13 @@ void Engine::set(Mod<T, Same> mod, std::type_identity_t<T> value) {
   if (Same{}(version.value(), value)) return;
   on_rollback([this, mod, old = version.value()]() mutable {
     auto& v = *at<detail::TypedVersion<T>>(mod.head());
-    v.value() = std::move(old);
-    mods_->changed(mod.head(), v);
+    mods_->replace(mod.head(), v);
+    ::new (static_cast<void*>(v.storage)) T(std::move(old));
+    v.written = true;
   });
-  version.value() = std::move(value);
-  mods_->changed(mod.head(), version);
+  mods_->replace(mod.head(), version);
+  ::new (static_cast<void*>(version.storage)) T(std::move(value));
+  version.written = true;
 }
 
 template <class T, class Same>
@@ -338,8 +358,10 @@ void Scope::write(Mod<T, Same> mod, std::type_identity_t<T> value) {
   if (auto* own = static_cast<detail::TypedVersion<T>*>(mods.own_version(*this, head))) {
     if (Same{}(own->value(), value)) return;
     mods.require_unread(*this, head, *own);
-    own->value() = std::move(value);
-    return mods.changed(head, *own);
+    mods.replace(head, *own);
+    ::new (static_cast<void*>(own->storage)) T(std::move(value));
+    own->written = true;
+    return;
   }
   auto* previous = static_cast<detail::TypedVersion<T>*>(mods.before(*this, head));
   const bool same = previous != nullptr && Same{}(previous->value(), value);

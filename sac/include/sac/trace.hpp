@@ -60,6 +60,7 @@ struct Call : TimeNode {
   static constexpr std::uint16_t kPending = 8;   // has no place yet: on an agenda, or a tail call
   static constexpr std::uint16_t kPosted = 16;   // runs from an agenda
   static constexpr std::uint16_t kAside = 32;    // waits beside the queue
+  static constexpr std::uint16_t kDoubtful = 64;  // must run again if it would read other values
 
   [[nodiscard]] bool has(std::uint16_t flag) const noexcept { return (state & flag) != 0; }
   void set(std::uint16_t flag) noexcept { state = static_cast<std::uint16_t>(state | flag); }
