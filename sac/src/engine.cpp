@@ -452,10 +452,8 @@ Handle Engine::call_child(const Function& function, std::uint32_t hash, const vo
     now_ = end_of(child);
     ++counts_.reused;
     if (observer_ != nullptr) [[unlikely]] note(Event::Kind::reused, at<Call>(child));
-    if (function.has_result) {
-      depend_on_result(child);
-      mods_->hide_unconfirmed(child, caller.old_edges);
-    }
+    if (function.has_result) depend_on_result(child);
+    if (caller.old_edges != 0) mods_->hide_unconfirmed(child, caller.old_edges);
   } else {
     child = new_call(function, hash, args, construct);
     insert_call(child);

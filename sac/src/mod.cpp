@@ -373,7 +373,7 @@ bool ModStructure::reads_the_same(Call& call) {
 // Of a version with many readers only some are looked at: what is missed runs again when the caller
 // has settled, and the caller after it.
 void ModStructure::hide_unconfirmed(Handle child, Handle old_edges) noexcept {
-  constexpr int kLookedAt = 64;
+  constexpr int kLookedAt = 16;
   for (Handle e = old_edges; e != 0; e = engine_.at<Edge>(e)->next) {
     const Edge& edge = *engine_.at<Edge>(e);
     if (edge.structure != id_ || edge.kind != kWrite) continue;

@@ -1,6 +1,6 @@
 // Optimality of propagation [Theorem 1.4.4]: on random programs that are concise and monotone, the
-// work of a propagation is within a constant factor of the distance of the traces of runs from
-// scratch before and after the edit.
+// work of a propagation is at most twice the distance of the traces of runs from scratch before and
+// after the edit. Two is the least there can be: a call that is new is made and run.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdint>
@@ -186,12 +186,12 @@ void check_seeds(std::uint64_t from, std::uint64_t to, double limit) {
 }
 
 TEST_CASE("work is within a constant factor of the distance, on random programs") {
-  check_seeds(0, 300, 3);
+  check_seeds(0, 300, 2);
 }
 
 TEST_CASE("work is within a constant factor of the distance, on many random programs",
           "[.soak]") {
-  check_seeds(1000, 20000, 4);
+  check_seeds(1000, 20000, 2);
 }
 
 }  // namespace

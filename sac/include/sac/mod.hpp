@@ -169,7 +169,7 @@ class ModStructure final : public Structure {
   /// more. Throws: what comparing values throws. Cost: O(log versions) a read.
   [[nodiscard]] bool reads_the_same(Call& call);
   /// The caller of `child` wrote something last time (`old_edges`) that it has not repeated yet:
-  /// what in the child has seen it runs again, so that the result is not of a past that ends.
+  /// what in the child has seen it is in doubt, so that the child is not of a past that ends.
   void hide_unconfirmed(Handle child, Handle old_edges) noexcept;
 
   /// The number of a type of values. Throws: std::bad_alloc.
