@@ -196,8 +196,18 @@ void Engine::begin_edit() {
 
 void Engine::undo_edits() {
   begin_edit();
-  for (auto undo = rollback_.rbegin(); undo != rollback_.rend(); ++undo) (*undo)();
-  rollback_.clear();
+  undo_edits_behind(0);
+}
+
+// Undoes the newest edits, until so many are left. Undoing may fail only where the client's part in
+// it does.
+void Engine::undo_edits_behind(std::size_t edits) {
+  try {
+    for (; rollback_.size() > edits; rollback_.pop_back()) rollback_.back()();
+  } catch (...) {
+    broken_ = true;
+    throw;
+  }
 }
 
 // --- Running and propagating -----------------------------------------------------------------

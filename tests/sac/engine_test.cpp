@@ -465,6 +465,28 @@ TEST_CASE("undo_edits takes the edits back, newest first") {
   CHECK(e.get(out) == 3);
 }
 
+TEST_CASE("edits made together are made all or none, and earlier ones stay") {
+  sac::Engine e;
+  const auto a = e.input(1), b = e.input(2);
+  e.set(a, 10);
+  const auto fail = [&] {
+    e.edit_together([&] {
+      e.set(a, 11);
+      e.edit_together([&] { e.set(b, 20); });
+      e.release(b);
+      throw std::runtime_error("no");
+    });
+  };
+  CHECK_THROWS_AS(fail(), std::runtime_error);
+  CHECK(e.get(a) == 10);
+  CHECK(e.get(b) == 2);
+  e.edit_together([&] { e.set(b, 21); });
+  CHECK(e.get(b) == 21);
+  e.undo_edits();
+  CHECK(e.get(a) == 1);
+  CHECK(e.get(b) == 2);
+}
+
 struct Throwing {
   int id = 0;
   inline static int copies_left = -1;

@@ -208,6 +208,9 @@ class Engine {
   void begin_edit();
   /// How to take the edit back if the next propagation fails. Cleared when it succeeds.
   void on_rollback(std::function<void()> undo) { rollback_.push_back(std::move(undo)); }
+  /// Makes the edits of body(): all of them, or none if it throws.
+  template <class Body>
+  void edit_together(Body&& body);
   /// Forgets all edits since the last propagation by undoing them, newest first.
   void undo_edits();
 
@@ -313,6 +316,7 @@ class Engine {
     return number;
   }
   void enter(Mode mode);
+  void undo_edits_behind(std::size_t edits);
   void report_progress();
   [[nodiscard]] bool unposted(const Call& call) const noexcept;
   void result_changed(Handle caller) noexcept;
@@ -400,6 +404,18 @@ class Engine {
   std::uint64_t live_calls_ = 0;
   std::uint64_t live_edges_ = 0;
 };
+
+template <class Body>
+void Engine::edit_together(Body&& body) {
+  begin_edit();
+  const std::size_t before = rollback_.size();
+  try {
+    body();
+  } catch (...) {
+    undo_edits_behind(before);
+    throw;
+  }
+}
 
 template <class Matches>
 Edge* Engine::recall(Matches&& matches) {
