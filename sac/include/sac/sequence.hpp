@@ -21,6 +21,7 @@
 // the run, and nothing is freed.
 #pragma once
 
+#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -47,7 +48,7 @@ class EntryTable {
   /// Room for n entries. Throws: std::bad_alloc.
   void reserve(std::size_t n) {
     if (n <= chains_.size()) return;
-    std::vector<Entry*> wider(2 * n + 14, nullptr);
+    std::vector<Entry*> wider(std::bit_ceil(n + 15), nullptr);
     chains_.swap(wider);
     for (Entry* e : wider) {
       while (e != nullptr) insert(*std::exchange(e, e->chain));
@@ -69,11 +70,11 @@ class EntryTable {
 
  private:
   [[nodiscard]] std::size_t place_of(ElementId id) const noexcept {
-    return mix(id.value) % chains_.size();
+    return mix(id.value) & (chains_.size() - 1);
   }
   [[nodiscard]] Entry*& chain_of(ElementId id) noexcept { return chains_[place_of(id)]; }
 
-  std::vector<Entry*> chains_;
+  std::vector<Entry*> chains_;  // a power of two of them
 };
 
 }  // namespace detail
