@@ -38,16 +38,20 @@ inline std::vector<std::vector<std::string>> blocks_of(const std::string& docume
   return blocks;
 }
 
-/// Requires every C++ block of the document to be a stretch of the program. Returns their number.
-inline std::size_t require_snippets(const std::string& document, const std::string& program) {
-  const auto lines = lines_of(program);
+/// Requires every C++ block of the document to be a stretch of one of the programs. Returns their
+/// number.
+template <class... Programs>
+std::size_t require_snippets(const std::string& document, const Programs&... programs) {
   const auto blocks = blocks_of(document, "cpp");
   for (const auto& block : blocks) {
     std::string text;
     for (const std::string& line : block) text += line + '\n';
     INFO(text);
-    const auto at = std::search(lines.begin(), lines.end(), block.begin(), block.end());
-    REQUIRE(at != lines.end());
+    const auto is_part_of = [&](const std::string& program) {
+      const auto lines = lines_of(program);
+      return std::search(lines.begin(), lines.end(), block.begin(), block.end()) != lines.end();
+    };
+    REQUIRE((is_part_of(programs) || ...));
   }
   return blocks.size();
 }

@@ -1,0 +1,153 @@
+// A traceable data type written outside of the library: keys that calls claim.
+//
+// The first call in trace order that claims a key has it; those behind are told so. With
+// modifiables, a key would be a chain of reads and writes through all calls that claim it. Here a
+// call runs again only if it gains a key or loses it. docs/traceable_types.md goes through it.
+//
+// Cost: a claim O(log) of the keys and of the claims of the key; one that comes or goes makes at
+// most one other call run again. An object of this type outlives the trace.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <ostream>
+#include <set>
+#include <vector>
+
+#include "sac/sac.hpp"
+
+namespace examples {
+
+/// Keys have < and ==, which do not throw.
+template <class Key, class S = sac::Scope>
+class Claims final : public sac::Structure {
+ public:
+  explicit Claims(sac::Engine& engine) : engine_(engine), id_(engine.add_structure(*this)) {}
+
+  /// Claims `key` for the running call. Returns whether nobody has claimed it before.
+  /// Throws: UsageError if a child of the call has; std::bad_alloc.
+  bool claim(sac::Scope& s, const Key& key);
+
+  void retract(sac::Call& call, sac::Edge& edge) noexcept override;
+  void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
+  void print(const sac::Call& call, const sac::Edge& edge, std::ostream& out) const override;
+
+  /// Throws: InvariantError.
+  void check_invariants() const;
+
+ private:
+  struct Claim;
+  using Claimants = std::map<Key, std::vector<Claim*>>;  // of each key in trace order; never none
+
+  // What a call did, and what it was told.
+  struct Claim : sac::Edge {
+    sac::Handle call;
+    bool first;                        // what it was told
+    bool entered;                      // false: memory ran out before it was among the claimants
+    typename Claimants::iterator key;  // where, if it was
+  };
+  static constexpr std::uint8_t kClaim = 0;
+
+  Claim& enter(sac::Scope& s, const Key& key);
+  void tell(const std::vector<Claim*>& claims) noexcept;
+  [[nodiscard]] sac::Call& call_of(const Claim& claim) const { return engine_.call(claim.call); }
+
+  sac::Engine& engine_;
+  std::uint8_t id_;
+  Claimants claimants_;
+};
+
+template <class Key, class S>
+bool Claims<Key, S>::claim(sac::Scope& s, const Key& key) {
+  const auto same = [&](const Claim& c) { return c.entered && c.key->first == key; };
+  Claim* claim = s.recall<Claim>(id_, kClaim, same);
+  if (claim == nullptr) claim = &enter(s, key);
+  claim->first = claim->key->second.front() == claim;
+  return claim->first;
+}
+
+// A claim that was not there last time. The edge comes first: a failure behind it leaves an edge
+// that has nothing to take back.
+template <class Key, class S>
+auto Claims<Key, S>::enter(sac::Scope& s, const Key& key) -> Claim& {
+  sac::Call& self = s.self();
+  Claim& claim = s.effect<Claim>(id_, kClaim);
+  claim.call = engine_.handle_of(self);
+  claim.entered = false;
+  const auto at = claimants_.try_emplace(key).first;
+  auto& claims = at->second;
+  const auto place = std::upper_bound(
+      claims.begin(), claims.end(), &claim,
+      [&](const Claim* a, const Claim* b) { return engine_.precedes(call_of(*a), call_of(*b)); });
+  if (engine_.appending() && place != claims.end()) {
+    throw sac::UsageError(engine_.describe(self) + " claims what its own child has claimed");
+  }
+  try {
+    claims.insert(place, &claim);
+  } catch (...) {
+    if (claims.empty()) claimants_.erase(at);
+    throw;
+  }
+  claim.key = at;
+  claim.first = claims.front() == &claim;
+  claim.entered = true;
+  tell(claims);
+  return claim;
+}
+
+// A claim came or went: only the first two can have been told what is no longer so.
+template <class Key, class S>
+void Claims<Key, S>::tell(const std::vector<Claim*>& claims) noexcept {
+  for (std::size_t i = 0; i < claims.size() && i < 2; ++i) {
+    if (claims[i]->first != (i == 0)) engine_.invalidate(call_of(*claims[i]));
+  }
+}
+
+template <class Key, class S>
+void Claims<Key, S>::retract(sac::Call&, sac::Edge& edge) noexcept {
+  auto& claim = static_cast<Claim&>(edge);
+  if (!claim.entered) return;
+  auto& claims = claim.key->second;
+  claims.erase(std::find(claims.begin(), claims.end(), &claim));
+  tell(claims);
+  if (claims.empty()) claimants_.erase(claim.key);
+}
+
+template <class Key, class S>
+void Claims<Key, S>::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
+  sink.number(static_cast<const Claim&>(edge).first);
+}
+
+template <class Key, class S>
+void Claims<Key, S>::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
+  const auto& claim = static_cast<const Claim&>(edge);
+  out << "claims ";
+  if (claim.entered) sac::print_argument(out, claim.key->first);
+  out << (claim.first ? ": gets it" : ": too late");
+}
+
+template <class Key, class S>
+void Claims<Key, S>::check_invariants() const {
+  for (const auto& [key, claims] : claimants_) {
+    SAC_INVARIANT(!claims.empty());
+    for (std::size_t i = 0; i < claims.size(); ++i) {
+      SAC_INVARIANT(claims[i]->key->first == key && claims[i]->first == (i == 0));
+      SAC_INVARIANT(i == 0 || !engine_.precedes(call_of(*claims[i]), call_of(*claims[i - 1])));
+    }
+  }
+}
+
+/// In a plain run nothing is earlier but what has been.
+template <class Key>
+class Claims<Key, sac::PlainScope> {
+ public:
+  explicit Claims(sac::PlainScope&) {}
+  bool claim(sac::PlainScope&, const Key& key) { return claimed_.insert(key).second; }
+
+ private:
+  std::set<Key> claimed_;
+};
+
+}  // namespace examples
