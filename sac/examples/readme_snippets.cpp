@@ -2,6 +2,7 @@
 //
 // tests/sac/readme_snippets_test.cpp runs it, and compares it with the README line by line.
 #include <deque>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -162,12 +163,47 @@ void without_a_trace() {
   check(cube_of(e, 3) == 27 && cube_of(plain, 3) == 27);
 }
 
+// --- Sequences -------------------------------------------------------------------------------
+
+int tens(int x) { return x / 10; }
+bool is_even(int x) { return x % 2 == 0; }
+
+void report(sac::Scope& s, sac::List<int> in, sac::Mod<sac::List<int>> out, sac::Mod<int> sum) {
+  const auto even = sac::filter<is_even>(s, sac::map<tens>(s, in));
+  s.write(out, sac::sort<std::less<>{}>(s, even));
+  s.write(sum, sac::fetch(s, sac::reduce<std::plus<>{}>(s, even, 0)));
+}
+
+std::vector<int> values(const sac::Engine& e, sac::List<int> list) {
+  std::vector<int> all;
+  for (const auto& element : list.view(e)) all.push_back(element.value());
+  return all;
+}
+
+void sequences() {
+  sac::Engine e;
+  sac::Sequence<int> numbers(e, {62, 10, 45, 83});
+  const auto out = e.cell<sac::List<int>>();
+  const auto sum = e.cell<int>();
+  e.run<report>(numbers.list(), out, sum);
+  check(values(e, e.get(out)) == std::vector{4, 6, 8} && e.get(sum) == 18);
+
+  const sac::ElementId id = numbers.insert_after(numbers.first(), 20);
+  numbers.erase(numbers.last());
+  e.propagate();
+  check(values(e, e.get(out)) == std::vector{2, 4, 6} && e.get(sum) == 12);
+  numbers.set(id, 0);
+  e.propagate();
+  check(values(e, e.get(out)) == std::vector{0, 4, 6} && e.get(sum) == 10);
+}
+
 void run_all() {
   read_and_write();
   calls_that_are_reused();
   written_more_than_once();
   work_queue();
   without_a_trace();
+  sequences();
 }
 
 }  // namespace readme
