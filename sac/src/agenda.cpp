@@ -362,6 +362,10 @@ std::size_t Agenda::bytes() const noexcept {
   return total;
 }
 
+void Agenda::shrink() noexcept {
+  std::erase_if(classes_, [](const auto& entry) { return entry.second.empty(); });
+}
+
 void Agenda::check_invariants() const {
   const Call* previous = nullptr;
   for (const auto& [rank, calls] : classes_) {

@@ -156,6 +156,7 @@ void Arena::shrink() {
     spares.push_back({static_cast<Handle>(from), granules});
     spare_ += granules;
   }
+  spares.shrink_to_fit();  // there are fewer of them than free runs
   spares_.swap(spares);
   const std::size_t behind = (next_ * kGranule + kPage - 1) / kPage * kPage;
   if (behind < committed_) madvise(base_ + behind, committed_ - behind, MADV_DONTNEED);

@@ -10,6 +10,16 @@
 
 namespace sac {
 
+namespace {
+
+std::vector<Handle> room_for(std::size_t count) {
+  std::vector<Handle> empty;
+  empty.reserve(count);
+  return empty;
+}
+
+}  // namespace
+
 Engine::Engine()
     : timeline_(arena_), memo_(arena_), queue_(arena_, timeline_),
       mods_(std::make_unique<ModStructure>(*this)) {
@@ -77,7 +87,7 @@ void Engine::release_outside(void* object) {
                      outside_[at<OutsideHead>(head)->position] == head;
   if (!known) throw UsageError("release: not an object of the outside");
   if (at<OutsideHead>(head)->released) throw UsageError("release: it has been released already");
-  released_.reserve(released_.size() + 1);
+  if (released_.size() == released_.capacity()) released_.reserve(2 * released_.size() + 16);
   on_rollback([this] {
     at<OutsideHead>(released_.back())->released = false;
     released_.pop_back();
@@ -114,9 +124,11 @@ Memory Engine::memory() const noexcept {
   m.calls_and_edges_held = arena_.bytes_held();
   m.time_stamps = timeline_.bytes();
   m.memo_table = memo_.bytes();
-  m.queue = queue_.bytes();
+  m.queue = queue_.bytes() + most_leaving_ * sizeof(Handle);
   for (const auto& agenda : agendas_) m.agendas += agenda->bytes();
   m.versions = mods_->bytes();
+  m.outside = (outside_.capacity() + released_.capacity()) * sizeof(Handle) +
+              rollback_.capacity() * sizeof(rollback_[0]);
   return m;
 }
 
@@ -148,8 +160,13 @@ void Engine::shrink() {
   memo_.shrink();
   timeline_.shrink();
   queue_.shrink(live_calls_);
-  graveyard_ = {};
-  graveyard_.reserve(live_calls_);
+  for (const auto& agenda : agendas_) agenda->shrink();
+  graveyard_ = room_for(live_calls_);
+  if (aside_.capacity() > live_calls_) aside_ = room_for(live_calls_);
+  most_leaving_ = graveyard_.capacity() + aside_.capacity();  // taken from memory used before
+  outside_.shrink_to_fit();
+  released_.shrink_to_fit();
+  rollback_.shrink_to_fit();
 }
 
 void Engine::set_progress(std::function<bool(const Progress&)> report, std::uint64_t every) {
@@ -346,6 +363,7 @@ void Engine::finish() noexcept {
 }
 
 void Engine::purge() noexcept {
+  most_leaving_ = std::max(most_leaving_, graveyard_.size());
   for (const Handle h : graveyard_) free_call(h);
   graveyard_.clear();
 }

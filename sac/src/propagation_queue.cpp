@@ -12,11 +12,13 @@ void PropagationQueue::shrink(std::size_t count) {
   smaller.reserve(std::max(count, heap_.size()));
   smaller.assign(heap_.begin(), heap_.end());
   heap_.swap(smaller);
+  most_ = heap_.capacity();  // taken from memory used before
 }
 
 void PropagationQueue::push(Handle call) {
   SAC_ENSURES(at(call)->queue == 0);
   heap_.push_back(call);
+  most_ = std::max(most_, heap_.size());
   put(heap_.size() - 1, call);
   sift_up(heap_.size() - 1);
 }

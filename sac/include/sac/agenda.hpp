@@ -151,6 +151,7 @@ class Agenda final : public Structure {
     return *reinterpret_cast<const detail::Slot*>(&call + 1);
   }
   static Key key_of(const Call& call) noexcept;
+  void shrink() noexcept;
   static void forget(Engine& engine, Call& call) noexcept;
   static void detach(Engine& engine, Call& call) noexcept;
 

@@ -77,8 +77,9 @@ struct Memory {
   std::size_t queue = 0;    // and what else a propagation needs
   std::size_t agendas = 0;
   std::size_t versions = 0;  // order of modifiables that are written more than once
+  std::size_t outside = 0;   // list of the outside's objects, and how to take edits back
   [[nodiscard]] std::size_t live() const noexcept {
-    return calls_and_edges_live + time_stamps + memo_table + queue + agendas + versions;
+    return calls_and_edges_live + time_stamps + memo_table + queue + agendas + versions + outside;
   }
   [[nodiscard]] std::size_t held() const noexcept {
     return live() - calls_and_edges_live + calls_and_edges_held;
@@ -392,6 +393,7 @@ class Engine {
   std::vector<std::function<void()>> rollback_;
   std::vector<Handle> aside_;  // calls that nobody posts any more and that may not go yet
   std::vector<Handle> graveyard_;
+  std::size_t most_leaving_ = 0;  // so much of the two above has been in use
   std::vector<std::pair<Handle, Handle>> suspects_;
   void* environment_ = nullptr;
   Activation* current_ = nullptr;

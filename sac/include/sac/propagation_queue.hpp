@@ -25,8 +25,8 @@ class PropagationQueue {
 
   /// Gives memory back that `count` calls do not need. Throws: std::bad_alloc.
   void shrink(std::size_t count);
-  /// What calls that wait take; room for more is not memory before they do.
-  [[nodiscard]] std::size_t bytes() const noexcept { return heap_.size() * sizeof(Handle); }
+  /// What the calls that waited at one time took at most; room for more has not been touched.
+  [[nodiscard]] std::size_t bytes() const noexcept { return most_ * sizeof(Handle); }
 
   /// Requires: the call is not queued and has a place in the timeline. Cost: O(log size).
   void push(Handle call);
@@ -52,6 +52,7 @@ class PropagationQueue {
   Arena& arena_;
   const Timeline& timeline_;
   std::vector<Handle> heap_;
+  std::size_t most_ = 0;  // calls that have waited at one time since the last shrink()
 };
 
 }  // namespace sac
