@@ -121,7 +121,8 @@ Call& Agenda::require_posted(const Function& function, std::uint32_t hash,
                              const void* args) const {
   const Handle h = find(function, hash, args);
   if (h == 0 || slot(engine_.call(h)).posts() == 0) {
-    throw UsageError("agenda '" + name_ + "': nothing to retract");
+    throw UsageError("retract_from_outside: no call " + std::string(function.name) +
+                     " with these arguments is posted on agenda '" + name_ + "'");
   }
   return engine_.call(h);
 }
@@ -254,9 +255,17 @@ struct Agenda::Drain {
 };
 
 void Agenda::drain(Scope& s) {
-  if (draining_) throw UsageError("agenda '" + name_ + "' is drained twice");
+  if (draining_) fail_drained_twice(s.self());
   static constexpr Drain kDrain{};
   s.call<kDrain>(this);
+}
+
+void Agenda::fail_drained_twice(const Call& caller) const {
+  std::string text = Engine::describe(caller) + ": agenda '" + name_ + "' is drained twice";
+  if (draining_ && running_ != 0) {
+    text += "; of the first drain " + Engine::describe(engine_.call(running_)) + " is running";
+  }
+  throw UsageError(text);
 }
 
 // What an earlier drain ran waits again: that drain failed, if only at its end, or it is gone and
@@ -264,7 +273,8 @@ void Agenda::drain(Scope& s) {
 void Agenda::begin_drain(Scope& s) {
   const Handle self = engine_.handle_of(s.self());
   if (draining_ || (drained_ && drain_call_ != self)) {
-    throw UsageError("agenda '" + name_ + "' is drained twice");
+    const auto* caller = engine_.current_->outer;
+    fail_drained_twice(caller != nullptr ? *caller->call : s.self());
   }
   drained_ = false;
   drain_call_ = self;

@@ -1,6 +1,8 @@
 // Execution, re-execution, settling, discarding and roll-back.
 #include "sac/engine.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -12,6 +14,14 @@ namespace sac {
 
 namespace {
 
+// A quarter is left for what the client has on the stack already, and for the last call's own.
+std::size_t default_stack_limit() {
+  constexpr rlim_t kUnknown = rlim_t{2} << 20;
+  rlimit limit{};
+  const bool known = getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  return static_cast<std::size_t>((known ? limit.rlim_cur : kUnknown) / 4 * 3);
+}
+
 std::vector<Handle> room_for(std::size_t count) {
   std::vector<Handle> empty;
   empty.reserve(count);
@@ -22,7 +32,7 @@ std::vector<Handle> room_for(std::size_t count) {
 
 Engine::Engine()
     : timeline_(arena_), memo_(arena_), queue_(arena_, timeline_),
-      mods_(std::make_unique<ModStructure>(*this)) {
+      mods_(std::make_unique<ModStructure>(*this)), stack_limit_(default_stack_limit()) {
   now_ = timeline_.front();
 }
 
@@ -63,6 +73,7 @@ std::string Engine::describe(const Call& call) {
 }
 
 std::string Engine::describe_mod(Handle head) const {
+  if (head == 0) return "a modifiable that is null";
   const std::string handle = '@' + std::to_string(head);
   const auto name = names_.find(head);
   return name == names_.end() ? "modifiable " + handle
@@ -80,13 +91,19 @@ Handle Engine::new_outside(const OutsideType& type) {
   return head;
 }
 
-void Engine::release_outside(void* object) {
-  begin_edit();
+void Engine::release_outside(void* object, const char* kind) {
+  begin_edit("release");
   const Handle head = arena_.handle_of(static_cast<OutsideHead*>(object) - 1);
   const bool known = arena_.contains(object) && at<OutsideHead>(head)->position < outside_.size() &&
                      outside_[at<OutsideHead>(head)->position] == head;
-  if (!known) throw UsageError("release: not an object of the outside");
-  if (at<OutsideHead>(head)->released) throw UsageError("release: it has been released already");
+  if (!known) throw UsageError(std::string("release: the outside has not made this ") + kind);
+  if (at<OutsideHead>(head)->released) {
+    const Handle handle = arena_.handle_of(object);
+    const std::string name = names_.contains(handle)
+                                 ? describe_mod(handle)
+                                 : std::string(kind) + " @" + std::to_string(handle);
+    throw UsageError("release: " + name + " has been released already");
+  }
   if (released_.size() == released_.capacity()) released_.reserve(2 * released_.size() + 16);
   on_rollback([this] {
     at<OutsideHead>(released_.back())->released = false;
@@ -104,9 +121,18 @@ void Engine::free_released() noexcept {
     at<OutsideHead>(outside_.back())->position = head.position;
     outside_.pop_back();
     type.destroy(&head + 1);
+    forget_names(h, type.bytes);
     arena_.release(h, type.bytes);
   }
   released_.clear();
+}
+
+// The handles will be those of other modifiables.
+void Engine::forget_names(Handle from, std::size_t bytes) noexcept {
+  const auto first = names_.lower_bound(from);
+  auto last = first;
+  while (last != names_.end() && (last->first - from) * Arena::kGranule < bytes) ++last;
+  names_.erase(first, last);
 }
 
 void Engine::require_unwritten(Handle head) const {
@@ -194,25 +220,32 @@ void Engine::require_idle(const char* what) const {
   throw UsageError(text);
 }
 
-Engine::Activation& Engine::running(const char* what) {
-  if (current_ != nullptr) return *current_;
-  throw UsageError(std::string(what) + ": used while no traced function runs");
+void Engine::fail_not_running() const {
+  throw UsageError("a scope is used while no traced function runs: it was kept for too long");
+}
+
+void Engine::fail_foreign(const char* what) const {
+  std::string text = std::string(what) + " is not in memory of this engine";
+  if (current_ != nullptr) text = describe(*current_->call) + ": " + text;
+  throw UsageError(text);
 }
 
 void Engine::enter(Mode mode) {
   require_usable();
   require_idle(mode == Mode::running ? "run" : "propagate");
   mode_ = mode;
+  const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
+  stack_end_ = here > stack_limit_ ? here - stack_limit_ : 0;
   progress_at_ = progress_ ? counts_.executed : ~std::uint64_t{0};
 }
 
-void Engine::begin_edit() {
+void Engine::begin_edit(const char* what) {
   require_usable();
-  require_idle("edit");
+  require_idle(what);
 }
 
 void Engine::undo_edits() {
-  begin_edit();
+  begin_edit("undo_edits");
   undo_edits_behind(0);
 }
 
@@ -423,6 +456,7 @@ void Engine::free_call(Handle call) noexcept {
   const Function& function = c.function();
   memo_.erase(call, function.hash(c));
   if (function.destroy != nullptr) function.destroy(c);
+  if (function.object_offset != 0 && !names_.empty()) forget_names(call, function.frame_bytes);
   arena_.release(call, function.frame_bytes);
 }
 
@@ -471,8 +505,9 @@ Handle Engine::find_reusable(const Function& function, std::uint32_t hash, const
 
 Handle Engine::call_child(const Function& function, std::uint32_t hash, const void* args,
                           Construct construct) {
-  Activation& caller = running("call");
+  Activation& caller = running();
   require_no_tail(caller, function);
+  require_stack(caller, function);
   need_end(caller);
   Handle child = find_reusable(function, hash, args, false);
   if (child != 0) {
@@ -497,7 +532,15 @@ Handle Engine::call_child(const Function& function, std::uint32_t hash, const vo
 void Engine::require_no_tail(const Activation& caller, const Function& function) const {
   if (caller.tail == 0) return;
   throw UsageError(describe(*caller.call) + " calls " + std::string(function.name) +
-                   " behind its tail call, which must be the last");
+                   " behind its tail call " + describe(*at<Call>(caller.tail)) +
+                   ", which must be the last");
+}
+
+void Engine::require_stack(const Activation& caller, const Function& function) const {
+  if (reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) >= stack_end_) [[likely]] return;
+  throw UsageError(describe(*caller.call) + " calls " + std::string(function.name) +
+                   " too deep: calls inside of calls have taken " + std::to_string(stack_limit_) +
+                   " bytes of the native stack; use tail calls, or divide");
 }
 
 // The last call that asked for it depends on its result.
@@ -526,7 +569,7 @@ void Engine::settle_child(Handle child) {
 
 Handle Engine::call_tail(const Function& function, std::uint32_t hash, const void* args,
                          Construct construct) {
-  Activation& caller = running("tail");
+  Activation& caller = running();
   require_no_tail(caller, function);
   need_end(caller);
   const Handle old = find_reusable(function, hash, args, true);
@@ -704,13 +747,13 @@ void Engine::discard_subtree(Handle call) noexcept {
 // --- Edges -----------------------------------------------------------------------------------
 
 Edge& Engine::attach(std::uint8_t structure, std::uint8_t kind, std::size_t bytes) {
+  Activation& a = running();
   const Handle h = arena_.allocate(bytes);
   Edge& edge = *at<Edge>(h);
   edge.next = 0;
   edge.structure = structure;
   edge.granules = static_cast<std::uint16_t>((bytes + Arena::kGranule - 1) / Arena::kGranule);
   edge.kind = kind;
-  Activation& a = *current_;
   (a.last_edge != 0 ? at<Edge>(a.last_edge)->next : a.call->edges) = h;
   a.last_edge = h;
   ++live_edges_;

@@ -83,6 +83,7 @@ void ModStructure::require_ahead(const Call& reader, Handle head) const {
 
 void ModStructure::fail_unwritten(const Call& reader, Handle head) const {
   std::string text = Engine::describe(reader) + " reads " + engine_.describe_mod(head);
+  if (head == 0) throw UsageError(text);
   const Version* later = nullptr;
   if (const std::uint32_t h = at(head)->history; h != 0) {
     if (!history(h).versions.empty()) later = at(history(h).versions.first());
@@ -136,6 +137,9 @@ Version* ModStructure::own_version(Scope& scope, Handle head) {
 
 // The edge comes first: if anything fails behind it, it has no version to take back.
 Version& ModStructure::new_version(Scope& scope, Handle head, const detail::ValueType& type) {
+  if (head == 0) {
+    throw UsageError(Engine::describe(scope.self()) + " writes " + engine_.describe_mod(head));
+  }
   const std::uint16_t type_number = number(type);
   const Handle self = engine_.handle_of(scope.self());
   auto& edge = scope.effect<WriteEdge>(id_, kWrite);

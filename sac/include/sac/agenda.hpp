@@ -109,7 +109,7 @@ class Agenda final : public Structure {
   /// Asks for a call on behalf of the outside: an input, as Engine::set is.
   template <auto F, class... Args>
   void post_from_outside(const Key& key, Args... args) {
-    engine_.begin_edit();
+    engine_.begin_edit("post_from_outside");
     const detail::Label<Args...> label = label_of<F>(std::tuple<Args...>(std::move(args)...));
     engine_.on_rollback([this, label] { drop_labelled<F>(label); });
     try {
@@ -122,7 +122,7 @@ class Agenda final : public Structure {
   /// Takes one post_from_outside back. Throws: UsageError if there is none.
   template <auto F, class... Args>
   void retract_from_outside(Args... args) {
-    engine_.begin_edit();
+    engine_.begin_edit("retract_from_outside");
     const detail::Label<Args...> label = label_of<F>(std::tuple<Args...>(std::move(args)...));
     Call& call = require_posted(detail::kPosted<F, Args...>, label.hash, &label);
     engine_.on_rollback([this, key = key_of(call), label] { add_labelled<F>(key, label); });
@@ -198,6 +198,7 @@ class Agenda final : public Structure {
   void drop_post(Call& call) noexcept;
   [[nodiscard]] bool before(const Call& a, const Call& b) const;
 
+  [[noreturn]] void fail_drained_twice(const Call& caller) const;
   void begin_drain(Scope& s);
   void run_pending(Scope& s);
   void run_class(std::uint32_t rank);

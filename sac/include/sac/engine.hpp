@@ -170,6 +170,11 @@ class Engine {
   /// Tells `observer` of all that happens; null: nobody.
   void set_observer(Observer* observer) noexcept { observer_ = observer; }
 
+  /// How much native stack calls inside of calls may take, in bytes, counted from run() or
+  /// propagate(); beyond, UsageError. At first 3/4 of the process's limit (RLIMIT_STACK; 2 MiB if
+  /// it has none): to be set for threads that have less, and if the client's own frames need more.
+  void set_stack_limit(std::size_t bytes) noexcept { stack_limit_ = bytes; }
+
   /// Watches for calls that break conciseness or monotonicity; costs a table look-up a call.
   void set_audit(bool on) noexcept { audit_ = on; }
   [[nodiscard]] const AuditReport& audit() const noexcept { return report_; }
@@ -205,8 +210,8 @@ class Engine {
   /// Gives a structure the number that its edges carry. The structure outlives the trace.
   std::uint8_t add_structure(Structure& structure);
 
-  /// Before an outside edit: refuses if the engine runs or is broken.
-  void begin_edit();
+  /// Before an outside edit: refuses if the engine runs or is broken. `what` names it.
+  void begin_edit(const char* what = "edit");
   /// How to take the edit back if the next propagation fails. Cleared when it succeeds.
   void on_rollback(std::function<void()> undo) { rollback_.push_back(std::move(undo)); }
   /// Makes the edits of body(): all of them, or none if it throws.
@@ -322,13 +327,23 @@ class Engine {
   [[nodiscard]] bool unposted(const Call& call) const noexcept;
   void result_changed(Handle caller) noexcept;
   [[nodiscard]] Handle new_outside(const OutsideType& type);
-  void release_outside(void* object);
+  void release_outside(void* object, const char* kind);
+  void forget_names(Handle from, std::size_t bytes) noexcept;
   void require_unwritten(Handle head) const;
   void free_released() noexcept;
   void require_idle(const char* what) const;
   void require_no_tail(const Activation& caller, const Function& function) const;
+  void require_stack(const Activation& caller, const Function& function) const;
+  void require_own(const void* object, const char* what) const {
+    if (!arena_.contains(object)) [[unlikely]] fail_foreign(what);
+  }
+  [[noreturn]] void fail_foreign(const char* what) const;
   void depend_on_result(Handle child) noexcept;
-  [[nodiscard]] Activation& running(const char* what);
+  [[nodiscard]] Activation& running() const {
+    if (current_ != nullptr) [[likely]] return *current_;
+    fail_not_running();
+  }
+  [[noreturn]] void fail_not_running() const;
   void require_usable() const;
   Counts run_root(const Function& function, std::uint32_t hash, const void* args,
                   Construct construct);
@@ -397,6 +412,8 @@ class Engine {
   std::vector<std::pair<Handle, Handle>> suspects_;
   void* environment_ = nullptr;
   Activation* current_ = nullptr;
+  std::size_t stack_limit_;
+  std::uintptr_t stack_end_ = 0;  // no call is made when the native stack has grown down to here
   Handle now_ = 0;  // the last time stamp that is settled or running
   Mode mode_ = Mode::idle;
   bool audit_ = false;
@@ -421,7 +438,7 @@ void Engine::edit_together(Body&& body) {
 
 template <class Matches>
 Edge* Engine::recall(Matches&& matches) {
-  Activation& a = *current_;
+  Activation& a = running();
   for (Handle* link = &a.old_edges; *link != 0; link = &at<Edge>(*link)->next) {
     Edge& edge = *at<Edge>(*link);
     if (!matches(edge)) continue;

@@ -270,11 +270,11 @@ T& Engine::make() {
 
 template <class T>
 void Engine::release(T& object) {
-  release_outside(&object);
+  release_outside(&object, "object");
 }
 template <class T, class Same>
 void Engine::release(Mod<T, Same> mod) {
-  release_outside(at<void>(mod.head()));
+  release_outside(at<void>(mod.head()), "modifiable");
 }
 
 template <class T, class Same>
@@ -295,8 +295,8 @@ Mod<T, Same> Engine::input(T value) {
 
 template <class T, class Same>
 void Engine::set(Mod<T, Same> mod, std::type_identity_t<T> value) {
-  begin_edit();
-  SAC_EXPECTS(arena_.contains(at<void>(mod.head())));
+  begin_edit("set");
+  if (!mod || !arena_.contains(at<void>(mod.head()))) fail_foreign("set: the modifiable");
   auto& version = *at<detail::TypedVersion<T>>(mod.head());
   if (!version.outside) {
     require_unwritten(mod.head());
@@ -324,7 +324,7 @@ void Engine::set(Mod<T, Same> mod, std::type_identity_t<T> value) {
 
 template <class T, class Same>
 void Engine::set(const Cell<T, Same>& cell, std::type_identity_t<T> value) {
-  SAC_EXPECTS(arena_.contains(&cell));
+  require_own(&cell, "set: the cell");
   set(Mod<T, Same>(cell), std::move(value));
 }
 
@@ -335,7 +335,7 @@ const T& Engine::get(Mod<T, Same> mod) const {
 
 template <class T, class Same>
 const T& Engine::get(const Cell<T, Same>& cell) const {
-  SAC_EXPECTS(arena_.contains(&cell));
+  require_own(&cell, "get: the cell");
   return get(Mod<T, Same>(cell));
 }
 
@@ -347,7 +347,7 @@ const T& Scope::read(Mod<T, Same> mod) {
 
 template <class T, class Same>
 const T& Scope::read(const Cell<T, Same>& cell) {
-  SAC_EXPECTS(engine_.arena_.contains(&cell));
+  engine_.require_own(&cell, "read: the cell");
   return read(Mod<T, Same>(cell));
 }
 
@@ -375,7 +375,7 @@ void Scope::write(Mod<T, Same> mod, std::type_identity_t<T> value) {
 
 template <class T, class Same>
 void Scope::write(const Cell<T, Same>& cell, std::type_identity_t<T> value) {
-  SAC_EXPECTS(engine_.arena_.contains(&cell));
+  engine_.require_own(&cell, "write: the cell");
   write(Mod<T, Same>(cell), std::move(value));
 }
 

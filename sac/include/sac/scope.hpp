@@ -266,7 +266,7 @@ class Scope {
     return *static_cast<T*>(engine_.environment_);
   }
   /// The running call. Throws: UsageError if none runs: the scope was kept for too long.
-  [[nodiscard]] Call& self() { return *engine_.running("a scope").call; }
+  [[nodiscard]] Call& self() { return *engine_.running().call; }
 
   /// The value of `mod` at this point of the trace, recording the dependence.
   /// Throws: UsageError if no earlier call has written it.

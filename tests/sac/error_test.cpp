@@ -1,0 +1,391 @@
+// Errors name the calls and the modifiables that they are about. Each test asserts the whole text.
+#include <catch2/catch.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "sac/sac.hpp"
+
+namespace {
+
+using sac::Engine;
+using sac::Mod;
+using sac::Scope;
+
+// What act() says when it fails; empty if it does not.
+template <class Act>
+std::string error_of(Act&& act) {
+  try {
+    act();
+  } catch (const sac::UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string at(sac::Handle handle) { return "@" + std::to_string(handle); }
+
+Mod<int> named(Engine& e, Mod<int> mod, const char* name) {
+  e.name(mod, name);
+  return mod;
+}
+std::string text(const char* name, Mod<int> mod) {
+  return "modifiable '" + std::string(name) + "' (" + at(mod.head()) + ")";
+}
+template <class... Args>
+std::string call(const char* name, const Args&... args) {
+  std::ostringstream out;
+  sac::print_arguments(out, std::make_tuple(args...));
+  return std::string(name) + '(' + out.str() + ')';
+}
+
+void copy(Scope& s, Mod<int> from, Mod<int> to) { s.write(to, s.read(from)); }
+// Writes `value` to `out` unless it is negative.
+void maybe(Scope& s, Mod<int> value, Mod<int> out) {
+  if (const int v = s.read(value); v >= 0) s.write(out, v);
+}
+
+// --- Entering ------------------------------------------------------------------------------------
+
+void reenter(Scope& s, Mod<int> how) {
+  Engine& e = s.engine();
+  switch (s.read(how)) {
+    case 0:
+      return;
+    case 1:
+      return static_cast<void>(e.propagate());
+    case 2:
+      return static_cast<void>(e.run<reenter>(how));
+    case 3:
+      return e.set(how, 9);
+    case 4:
+      return e.shrink();
+    case 5:
+      return e.undo_edits();
+    case 6:
+      return e.release(how);
+    case 7:
+      return e.begin_edit();
+    default:
+      return e.set_progress([](const sac::Progress&) { return true; });
+  }
+}
+
+TEST_CASE("entering a running engine: the operation and the running call are named") {
+  const std::vector<std::string> operations{"propagate",  "run",     "set",  "shrink",
+                                            "undo_edits", "release", "edit", "set_progress"};
+  Engine e;
+  const auto how = e.input(0);
+  e.run<reenter>(how);
+  for (std::size_t i = 0; i < operations.size(); ++i) {
+    const std::string text = operations[i] + ": the engine is running " + call("reenter", how);
+    e.set(how, static_cast<int>(i) + 1);
+    CHECK(error_of([&] { e.propagate(); }) == text);
+    CHECK(e.get(how) == 0);
+    Engine first;
+    const auto same_how = first.input(static_cast<int>(i) + 1);
+    REQUIRE(same_how == how);
+    CHECK(error_of([&] { first.run<reenter>(same_how); }) == text);
+  }
+}
+
+TEST_CASE("running with edits that have not been propagated") {
+  Engine e;
+  const auto a = e.input(1), b = e.cell<int>();
+  e.run<copy>(a, b);
+  e.set(a, 2);
+  CHECK(error_of([&] { e.run<copy>(b, e.cell<int>()); }) == "run: propagate the edits first");
+}
+
+// --- Reading -------------------------------------------------------------------------------------
+
+TEST_CASE("reading what nobody has written") {
+  Engine e;
+  const auto m = named(e, e.cell<int>(), "price"), out = e.cell<int>();
+  CHECK(error_of([&] { e.run<copy>(m, out); }) ==
+        call("copy", m, out) + " reads " + text("price", m) + ", which nobody has written");
+  CHECK(error_of([&] { static_cast<void>(e.get(m)); }) ==
+        text("price", m) + " has no value: nobody has written it");
+  CHECK(error_of([&] { static_cast<void>(e.get(out)); }) ==
+        "modifiable " + at(out.head()) + " has no value: nobody has written it");
+}
+
+TEST_CASE("reading what only a later call writes, because an earlier one does so no longer") {
+  for (const bool several : {false, true}) {
+    Engine e;
+    const auto early = e.input(1), late = e.input(several ? 1 : -1), out = e.cell<int>();
+    const auto m = named(e, e.cell<int>(), "m");
+    e.run<maybe>(early, m);
+    e.run<copy>(m, out);
+    e.run<maybe>(late, m);
+    e.set(early, -1);
+    CHECK(error_of([&] { e.propagate(); }) ==
+          call("copy", m, out) + " reads " + text("m", m) +
+              (several ? ", which is written only by the later call " + call("maybe", late, m)
+                       : std::string(", which nobody has written")));
+    CHECK(e.get(out) == 1);
+  }
+}
+
+void write_behind(Scope& s, Mod<int> order, Mod<int> in, Mod<int> m, Mod<int> out) {
+  if (s.read(order) == 0) s.call<copy>(in, m);
+  s.call<copy>(m, out);
+  if (s.read(order) == 1) s.call<copy>(in, m);
+}
+
+TEST_CASE("a call that comes to read what a later call writes") {
+  Engine e;
+  const auto order = e.input(0), in = e.input(3), out = e.cell<int>();
+  const auto m = named(e, e.cell<int>(), "m");
+  e.run<write_behind>(order, in, m, out);
+  e.set(order, 1);
+  // The writer is not there when the reader runs.
+  CHECK(error_of([&] { e.propagate(); }) ==
+        call("copy", m, out) + " reads " + text("m", m) + ", which nobody has written");
+  CHECK(e.get(out) == 3);
+  e.check_invariants();
+}
+
+void read_after_child(Scope& s, Mod<int> in, Mod<int> m, Mod<int> out) {
+  s.call<copy>(in, m);
+  s.write(out, s.read(m));
+}
+void write_after_child(Scope& s, Mod<int> in, Mod<int> m, Mod<int> out) {
+  s.write(m, s.read(in));
+  s.call<copy>(m, out);
+  s.write(m, s.read(in) + 1);
+}
+
+TEST_CASE("reading what an own child has written, and writing what one has read") {
+  Engine e;
+  const auto in = e.input(1), out = e.cell<int>();
+  const auto m = named(e, e.cell<int>(), "m");
+  CHECK(error_of([&] { e.run<read_after_child>(in, m, out); }) ==
+        call("read_after_child", in, m, out) + " reads " + text("m", m) + " after its own child " +
+            call("copy", in, m) + " has written it");
+  CHECK(error_of([&] { e.run<write_after_child>(in, m, out); }) ==
+        call("write_after_child", in, m, out) + " writes " + text("m", m) +
+            " after its own child " + call("copy", m, out) + " has read it");
+}
+
+// --- Writing -------------------------------------------------------------------------------------
+
+TEST_CASE("writing an input, and setting what the program writes") {
+  Engine e;
+  const auto in = named(e, e.input(1), "in"), out = named(e, e.cell<int>(), "out");
+  CHECK(error_of([&] { e.run<copy>(in, in); }) ==
+        call("copy", in, in) + " writes " + text("in", in) + ", which is an input");
+  e.run<copy>(in, out);
+  CHECK(error_of([&] { e.set(out, 3); }) ==
+        "set: " + text("out", out) + " is written by the program, in " + call("copy", in, out));
+  CHECK(e.get(out) == 1);
+}
+
+void use_stray(Scope& s, int write) {
+  const sac::Cell<int> cell{};
+  write == 1 ? s.write(cell, 1) : static_cast<void>(s.read(cell));
+}
+
+TEST_CASE("modifiables that are null or in no memory of the engine") {
+  Engine e;
+  const Mod<int> null, out = e.cell<int>(), in = e.input(1);
+  CHECK(error_of([&] { e.run<copy>(null, out); }) ==
+        "copy(@0, " + at(out.head()) + ") reads a modifiable that is null");
+  CHECK(error_of([&] { e.run<copy>(in, null); }) ==
+        "copy(" + at(in.head()) + ", @0) writes a modifiable that is null");
+  CHECK(error_of([&] { e.set(null, 1); }) == "set: the modifiable is not in memory of this engine");
+  CHECK(error_of([&] { static_cast<void>(e.get(null)); }) ==
+        "a modifiable that is null has no value: nobody has written it");
+  const sac::Cell<int> stray{};
+  CHECK(error_of([&] { e.set(stray, 1); }) == "set: the cell is not in memory of this engine");
+  CHECK(error_of([&] { static_cast<void>(e.get(stray)); }) ==
+        "get: the cell is not in memory of this engine");
+  CHECK(error_of([&] { e.run<use_stray>(0); }) ==
+        "use_stray(0): read: the cell is not in memory of this engine");
+  CHECK(error_of([&] { e.run<use_stray>(1); }) ==
+        "use_stray(1): write: the cell is not in memory of this engine");
+  e.check_invariants();
+}
+
+struct Kept {
+  Scope* scope = nullptr;
+  sac::Agenda* agenda = nullptr;
+};
+void keep(Scope& s) { s.environment<Kept>().scope = new Scope(s); }
+
+TEST_CASE("a scope that was kept for too long") {
+  Engine e;
+  const auto in = e.input(1), out = e.cell<int>();
+  Kept kept{.agenda = &e.make_agenda("work")};
+  e.set_environment(&kept);
+  e.run<keep>();
+  Scope& s = *kept.scope;
+  const std::string text =
+      "a scope is used while no traced function runs: it was kept for too long";
+  CHECK(error_of([&] { s.write(out, 1); }) == text);
+  CHECK(error_of([&] { s.read(in); }) == text);
+  CHECK(error_of([&] { s.call<copy>(in, out); }) == text);
+  CHECK(error_of([&] { s.tail<copy>(in, out); }) == text);
+  CHECK(error_of([&] { s.make<int>(1); }) == text);
+  CHECK(error_of([&] { kept.agenda->post<copy>(s, {}, in, out); }) == text);
+  CHECK(error_of([&] { kept.agenda->drain(s); }) == text);
+  CHECK(error_of([&] { s.observe<sac::Edge>(0, 0); }) == text);
+  CHECK(error_of([&] { s.recall<sac::Edge>(0, 0, [](const auto&) { return true; }); }) == text);
+  delete kept.scope;
+  CHECK(e.live_calls() == 1);
+  e.check_invariants();
+}
+
+// --- Calls ---------------------------------------------------------------------------------------
+
+void call_behind_tail(Scope& s, Mod<int> in, Mod<int> out, bool tail) {
+  s.tail<copy>(in, out);
+  tail ? s.tail<maybe>(in, out) : s.call<maybe>(in, out);
+}
+
+TEST_CASE("a call behind a tail call") {
+  Engine e;
+  const auto in = e.input(1), out = e.cell<int>();
+  for (const bool tail : {false, true}) {
+    CHECK(error_of([&] { e.run<call_behind_tail>(in, out, tail); }) ==
+          call("call_behind_tail", in, out, tail) + " calls maybe behind its tail call " +
+              call("copy", in, out) + ", which must be the last");
+  }
+  CHECK(e.live_calls() == 0);
+}
+
+void dig(Scope& s, Mod<int> depth, int level) {
+  if (level < s.read(depth)) s.call<dig>(depth, level + 1);
+}
+
+TEST_CASE("calls inside of calls that would overflow the native stack") {
+  Engine e;
+  const auto depth = e.input(100'000);
+  const std::string text = error_of([&] { e.run<dig>(depth, 0); });
+  CHECK_THAT(text, Catch::StartsWith("dig(" + at(depth.head()) + ", "));
+  CHECK_THAT(text, Catch::Contains(") calls dig too deep: calls inside of calls have taken "));
+  CHECK_THAT(text, Catch::EndsWith(" bytes of the native stack; use tail calls, or divide"));
+  CHECK(e.live_calls() == 0);
+  e.check_invariants();
+  e.set(depth, 20);
+  e.propagate();
+  e.run<dig>(depth, 0);
+  e.set(depth, 100'000);
+  CHECK(error_of([&] { e.propagate(); }).substr(0, 4) == "dig(");
+  CHECK(e.get(depth) == 20);
+  CHECK(e.live_calls() == 21);
+  e.check_invariants();
+  e.set(depth, 1000);
+  e.propagate();
+  CHECK(e.live_calls() == 1001);
+}
+
+// How deep calls go in a stack of so many bytes.
+std::uint64_t depth_in(std::size_t bytes) {
+  Engine e;
+  std::uint64_t deepest = 0;
+  e.set_stack_limit(bytes);
+  e.set_progress(
+      [&](const sac::Progress& p) {
+        deepest = p.executed + 1;
+        return true;
+      },
+      1);
+  const std::string end = "have taken " + std::to_string(bytes) +
+                          " bytes of the native stack; use tail calls, or divide";
+  CHECK_THAT(error_of([&] { e.run<dig>(e.input(100'000), 0); }), Catch::EndsWith(end));
+  return deepest;
+}
+
+TEST_CASE("the limit of the native stack can be set") {
+  const auto small = depth_in(std::size_t{1} << 16);
+  const auto large = depth_in(std::size_t{1} << 20);
+  CHECK(small > 4);
+  CHECK(large > 14 * small);
+  CHECK(large < 18 * small);
+}
+
+// --- Agendas -------------------------------------------------------------------------------------
+
+struct World {
+  sac::Agenda* agenda = nullptr;
+  Mod<int> back;
+};
+void visit(Scope& s, int n) {
+  auto& world = s.environment<World>();
+  if (const int to = s.read(world.back); n == 5 && to != 0) {
+    world.agenda->post<visit>(s, {.bucket = to}, to);
+  }
+}
+void drain(Scope& s) { s.environment<World>().agenda->drain(s); }
+void outsider(Scope& s) { s.environment<World>().agenda->post_from_outside<visit>({}, 1); }
+void drain_inside(Scope& s, int) { s.environment<World>().agenda->drain(s); }
+
+TEST_CASE("posting into the past, in a first run and in a propagation") {
+  const std::string text = "posting into the past: visit(5) posts visit(3) on agenda 'work'";
+  for (const bool first : {true, false}) {
+    Engine e;
+    World world{&e.make_agenda("work"), e.input(first ? 3 : 0)};
+    e.set_environment(&world);
+    world.agenda->post_from_outside<visit>({.bucket = 5}, 5);
+    if (first) {
+      CHECK(error_of([&] { e.run<drain>(); }) == text);
+    } else {
+      e.run<drain>();
+      e.set(world.back, 3);
+      CHECK(error_of([&] { e.propagate(); }) == text);
+    }
+    e.check_invariants();
+  }
+}
+
+TEST_CASE("draining an agenda twice") {
+  Engine e;
+  World world{&e.make_agenda("work"), e.input(0)};
+  e.set_environment(&world);
+  e.run<drain>();
+  CHECK(error_of([&] { e.run<drain>(); }) == "drain(): agenda 'work' is drained twice");
+  Engine inside;
+  World other{&inside.make_agenda("work"), inside.input(0)};
+  inside.set_environment(&other);
+  other.agenda->post_from_outside<drain_inside>({}, 1);
+  CHECK(error_of([&] { inside.run<drain>(); }) ==
+        "drain_inside(1): agenda 'work' is drained twice; of the first drain drain_inside(1) is "
+        "running");
+}
+
+TEST_CASE("taking back a post that is not there, and posting while the engine runs") {
+  Engine e;
+  World world{&e.make_agenda("work"), e.input(0)};
+  e.set_environment(&world);
+  CHECK(error_of([&] { world.agenda->retract_from_outside<visit>(4); }) ==
+        "retract_from_outside: no call visit with these arguments is posted on agenda 'work'");
+  CHECK(error_of([&] { e.run<outsider>(); }) ==
+        "post_from_outside: the engine is running outsider()");
+}
+
+// --- Objects of the outside ----------------------------------------------------------------------
+
+TEST_CASE("releasing twice, and what the outside has not made") {
+  Engine e;
+  const auto a = named(e, e.input(1), "a"), b = e.input(2);
+  int& object = e.make<int>();
+  e.release(a);
+  e.release(b);
+  e.release(object);
+  CHECK(error_of([&] { e.release(a); }) ==
+        "release: " + text("a", a) + " has been released already");
+  CHECK(error_of([&] { e.release(b); }) ==
+        "release: modifiable " + at(b.head()) + " has been released already");
+  CHECK(error_of([&] { e.release(object); }) ==
+        "release: object " + at(e.arena().handle_of(&object)) + " has been released already");
+  int stray = 0;
+  CHECK(error_of([&] { e.release(stray); }) == "release: the outside has not made this object");
+  e.propagate();
+  e.check_invariants();
+}
+
+}  // namespace
