@@ -101,7 +101,7 @@ void Index::appeared(const Vertex<2>& v, const sac::Call* before) {
       if (q.kind == kNearest ||
           VoronoiCell::may_cut(pool_, center, unpacked(q.radius), q.codes(),
                                static_cast<int>(q.count), v.p)) {
-        engine_.invalidate(call);
+        engine_.invalidate(call, &q);
       }
     }
   });
@@ -117,7 +117,7 @@ void Index::vanished(const Vertex<2>& v, const sac::Call& from, const sac::Call*
       sac::Call& call = engine_.call(q.call);
       if (!engine_.precedes(from, call)) continue;
       if (before != nullptr && engine_.precedes(*before, call)) continue;
-      engine_.invalidate(call);
+      engine_.invalidate(call, &q);
     }
   });
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <sac/event_log.hpp>
 #include <sac/sac.hpp>
 
 namespace readme {
@@ -197,6 +198,22 @@ void sequences() {
   check(values(e, e.get(out)) == std::vector{0, 4, 6} && e.get(sum) == 10);
 }
 
+// --- Why did it run again? -------------------------------------------------------------------
+
+void why_again() {
+  sac::Engine e;
+  const auto a = e.input(3), b = e.input(4);
+  const auto sum = e.cell<int>(), out = e.cell<int>();
+  e.run<add>(a, b, sum);
+  e.run<copy>(sum, out);
+  sac::EventLog log(e);
+  e.name(a, "price");
+  e.set(a, 12);
+  e.propagate();
+  const std::string why = log.explain("copy");
+  check(why.find(" ran again because modifiable 'price' (@") != why.npos);
+}
+
 void run_all() {
   read_and_write();
   calls_that_are_reused();
@@ -204,6 +221,7 @@ void run_all() {
   work_queue();
   without_a_trace();
   sequences();
+  why_again();
 }
 
 }  // namespace readme

@@ -127,15 +127,26 @@ Call& Agenda::require_posted(const Function& function, std::uint32_t hash,
   return engine_.call(h);
 }
 
-void Agenda::drop_post(Call& call) noexcept {
+void Agenda::add_post(Call& call) noexcept {
+  if (engine_.observer_ != nullptr) [[unlikely]] engine_.note(Event::Kind::posted, &call);
+  slot(call).agenda_and_posts += detail::Slot::kOnePost;
+}
+
+// `poster`: null for the outside.
+void Agenda::drop_post(Call& call, const Call* poster) noexcept {
+  if (engine_.observer_ != nullptr) [[unlikely]] {
+    engine_.observer_->on({.kind = Event::Kind::unposted, .call = &call, .by = poster});
+  }
   slot(call).agenda_and_posts -= detail::Slot::kOnePost;
   if (call.has(Call::kPending)) unposted_ = true;
   if (slot(call).posts() != 0 || call.has(Call::kPending | Call::kDead) || call.queue != 0) return;
   engine_.enqueue(call);
 }
 
-void Agenda::retract(Call&, Edge& edge) noexcept {
-  if (edge.kind == kPost) return drop_post(engine_.call(static_cast<PostEdge&>(edge).target));
+void Agenda::retract(Call& call, Edge& edge) noexcept {
+  if (edge.kind == kPost) {
+    return drop_post(engine_.call(static_cast<PostEdge&>(edge).target), &call);
+  }
   drained_ = false;
   drain_call_ = 0;
 }
@@ -150,6 +161,9 @@ void Agenda::add_pending(Handle call) {
 // Requires: the call is in no list.
 void Agenda::drop_pending(Handle call) noexcept {
   --pending_calls_;
+  if (engine_.observer_ != nullptr) [[unlikely]] {
+    engine_.note(Event::Kind::dying, &engine_.call(call));
+  }
   engine_.drop_call(call);
 }
 
@@ -228,7 +242,7 @@ void Agenda::place(Handle call) {
   }
   c.clear(Call::kPending);
   --pending_calls_;
-  engine_.invalidate(c);
+  engine_.enqueue(c);  // it is invalid: it has not run, or not since its drain went
 }
 
 // A discarded call leaves the order.

@@ -236,6 +236,9 @@ void Engine::enter(Mode mode) {
   mode_ = mode;
   const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
   stack_end_ = here > stack_limit_ ? here - stack_limit_ : 0;
+  if (observer_ != nullptr) [[unlikely]] {
+    note(mode == Mode::running ? Event::Kind::run_started : Event::Kind::propagation_started);
+  }
   progress_at_ = progress_ ? counts_.executed : ~std::uint64_t{0};
 }
 
@@ -278,6 +281,7 @@ Counts Engine::run_root(const Function& function, std::uint32_t hash, const void
     check_audit();
   } catch (...) {
     current_ = nullptr;
+    if (observer_ != nullptr) [[unlikely]] note(Event::Kind::roll_back_started);
     discard_between(before, 0);
     finish();
     throw;
@@ -352,11 +356,15 @@ void Engine::propagate_within(Handle call) {
 void Engine::run_from_queue(Handle call) {
   Call& c = *at<Call>(call);
   if (unposted(c)) {
+    if (observer_ != nullptr) [[unlikely]] note(Event::Kind::dying, &c);
     discard_subtree(call);
     return;
   }
   now_ = call;
-  if (!c.has(Call::kInvalid) && reads_the_same(c)) return c.clear(Call::kDoubtful);
+  if (!c.has(Call::kInvalid) && reads_the_same(c)) {
+    if (observer_ != nullptr) [[unlikely]] note(Event::Kind::confirmed, &c);
+    return c.clear(Call::kDoubtful);
+  }
   execute(call, c.end != 0 ? c.end : c.next);
 }
 
@@ -365,6 +373,7 @@ bool Engine::reads_the_same(Call& call) {
   try {
     return mods_->reads_the_same(call);
   } catch (...) {
+    if (observer_ != nullptr) [[unlikely]] note(Event::Kind::failed, &call);
     invalidate(call);
     throw;
   }
@@ -374,6 +383,7 @@ void Engine::roll_back() {
   current_ = nullptr;
   suspects_.clear();
   mode_ = Mode::undoing;
+  if (observer_ != nullptr) [[unlikely]] note(Event::Kind::roll_back_started);
   progress_at_ = ~std::uint64_t{0};
   try {
     for (auto undo = rollback_.rbegin(); undo != rollback_.rend(); ++undo) (*undo)();
@@ -387,11 +397,12 @@ void Engine::roll_back() {
 
 void Engine::finish() noexcept {
   counts_ = {};
+  current_ = nullptr;
   for (const auto& agenda : agendas_) agenda->drop_unposted();
+  if (observer_ != nullptr) [[unlikely]] note(Event::Kind::finished);
   aside_.clear();
   purge();
   suspects_.clear();
-  current_ = nullptr;
   mode_ = Mode::idle;
 }
 
@@ -462,7 +473,9 @@ void Engine::free_call(Handle call) noexcept {
 
 // A call that got no place, or lost it, leaves for good.
 void Engine::drop_call(Handle call) noexcept {
-  at<Call>(call)->set(Call::kDead);
+  Call& c = *at<Call>(call);
+  if (observer_ != nullptr && !c.has(Call::kDead)) [[unlikely]] note(Event::Kind::discarded, &c);
+  c.set(Call::kDead);
   graveyard_.push_back(call);
   --live_calls_;
 }
@@ -550,7 +563,7 @@ void Engine::depend_on_result(Handle child) noexcept {
 
 void Engine::result_changed(Handle caller) noexcept {
   Call& c = *at<Call>(caller);
-  if (observer_ != nullptr) [[unlikely]] note(Event::Kind::returned, &c);
+  if (observer_ != nullptr && !c.has(Call::kRunning)) [[unlikely]] note(Event::Kind::returned, &c);
   invalidate(c);
 }
 
@@ -687,6 +700,7 @@ void Engine::link_end(Activation& a) {
 
 // Client code threw: the call stays, as one that must run again.
 void Engine::abandon(Activation& a) noexcept {
+  if (observer_ != nullptr) [[unlikely]] note(Event::Kind::failed, a.call);
   if (a.tail != 0 && !a.tail_reused) drop_call(std::exchange(a.tail, 0));
   settle(a);
   if (a.end != 0 && !a.end_linked) {
@@ -724,7 +738,9 @@ void Engine::discard_between(Handle from, Handle to) noexcept {
 void Engine::discard(Handle call) noexcept {
   Call& c = *at<Call>(call);
   const bool asked_for = c.has(Call::kPosted) && Agenda::slot(c).posts() != 0;
-  if (observer_ != nullptr) [[unlikely]] note(Event::Kind::discarded, &c);
+  if (observer_ != nullptr) [[unlikely]] {
+    note(asked_for ? Event::Kind::detached : Event::Kind::discarded, &c);
+  }
   c.set(asked_for ? Call::kPending : Call::kDead);
   if (c.queue != 0) queue_.erase(c);
   retract_all(c, std::exchange(c.edges, 0));

@@ -230,7 +230,8 @@ void ModStructure::require_unread(Scope& scope, Handle head, const Version& vers
 
 void ModStructure::replace(Handle head, Version& version) noexcept {
   if (engine_.observer_ != nullptr) [[unlikely]] {
-    engine_.note(version.outside ? Event::Kind::edited : Event::Kind::changed, nullptr, head);
+    version.outside ? engine_.note(Event::Kind::edited, nullptr, head)
+                    : engine_.note(Event::Kind::changed, &writer(version), head);
   }
   const Engine::Activation* running = engine_.current_;
   leave_past(head, version, running != nullptr ? engine_.handle_of(*running->call) : 0);
@@ -239,15 +240,15 @@ void ModStructure::replace(Handle head, Version& version) noexcept {
 void ModStructure::appeared(Scope& scope, Handle head, Version& version, Version* previous,
                             bool same) noexcept {
   if (engine_.observer_ != nullptr && !same) [[unlikely]] {
-    engine_.note(Event::Kind::changed, nullptr, head);
+    engine_.note(Event::Kind::changed, &scope.self(), head);
   }
   if (previous == nullptr) return;
   const Call& self = scope.self();
-  same ? move_readers(*previous, version, &self) : doubt_readers(*previous, self);
+  same ? move_readers(*previous, version, &self) : doubt_readers(head, *previous, self);
   // Children of a running call read past what that call has not repeated.
   for (Version* v = previous; v != nullptr && unconfirmed(*v);) {
     v = predecessor(head, *v);
-    if (v != nullptr) doubt_readers(*v, self);
+    if (v != nullptr) doubt_readers(head, *v, self);
   }
 }
 
@@ -281,10 +282,11 @@ void ModStructure::move_readers(Version& from, Version& to, const Call* later_th
 }
 
 // They stay with what they have seen.
-void ModStructure::doubt_readers(const Version& version, const Call& later_than) noexcept {
+void ModStructure::doubt_readers(Handle head, const Version& version,
+                                 const Call& later_than) noexcept {
   for (Handle r = version.readers; r != 0; r = reader(r)->next_reader) {
     Call& call = engine_.call(reader(r)->call);
-    if (engine_.precedes(later_than, call)) engine_.doubt(call);
+    if (engine_.precedes(later_than, call)) engine_.doubt(call, head);
   }
 }
 
@@ -312,7 +314,7 @@ void ModStructure::leave_past(Handle head, Version& version, Handle except) noex
     }
     unlink_reader(edge);
     link_reader(edge, *past);
-    engine_.doubt(engine_.call(edge.call));
+    engine_.doubt(engine_.call(edge.call), head);
   }
   if (past != nullptr) {
     type.move(version, *past);
@@ -394,7 +396,7 @@ void ModStructure::hide_unconfirmed(Handle child, Handle old_edges) noexcept {
 
 // --- Taking back -----------------------------------------------------------------------------
 
-void ModStructure::retract(Call&, Edge& edge) noexcept {
+void ModStructure::retract(Call& call, Edge& edge) noexcept {
   if (edge.kind == kRead) return unlink_reader(static_cast<ReadEdge&>(edge));
   const auto& write = static_cast<const WriteEdge&>(edge);
   if (write.version == 0) return;
@@ -408,7 +410,7 @@ void ModStructure::retract(Call&, Edge& edge) noexcept {
     }
   }
   if (engine_.observer_ != nullptr && !same) [[unlikely]] {
-    engine_.note(Event::Kind::changed, nullptr, write.head);
+    engine_.note(Event::Kind::reverted, &call, write.head);
   }
   if (same) move_readers(version, *previous, nullptr);
   leave_past(write.head, version, 0);

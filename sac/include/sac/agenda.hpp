@@ -191,11 +191,9 @@ class Agenda final : public Structure {
   void adopt_detached();
   void place(Handle call);
   [[nodiscard]] Handle predecessor(const Call& call) const;
-  static void add_post(Call& call) noexcept {
-    slot(call).agenda_and_posts += detail::Slot::kOnePost;
-  }
+  void add_post(Call& call) noexcept;
   void require_room(const Call& call) const;
-  void drop_post(Call& call) noexcept;
+  void drop_post(Call& call, const Call* poster = nullptr) noexcept;
   [[nodiscard]] bool before(const Call& a, const Call& b) const;
 
   [[noreturn]] void fail_drained_twice(const Call& caller) const;

@@ -167,8 +167,9 @@ class Engine {
   /// Not called while edits are undone.
   void set_progress(std::function<bool(const Progress&)> report, std::uint64_t every = 1024);
 
-  /// Tells `observer` of all that happens; null: nobody.
+  /// Tells `observer` of all that happens; null: nobody. See EventLog.
   void set_observer(Observer* observer) noexcept { observer_ = observer; }
+  [[nodiscard]] Observer* observer() const noexcept { return observer_; }
 
   /// How much native stack calls inside of calls may take, in bytes, counted from run() or
   /// propagate(); beyond, UsageError. At first 3/4 of the process's limit (RLIMIT_STACK; 2 MiB if
@@ -220,18 +221,15 @@ class Engine {
   /// Forgets all edits since the last propagation by undoing them, newest first.
   void undo_edits();
 
-  /// The call's observation may have changed: it will run again.
-  void invalidate(Call& call) noexcept {
-    if (observer_ != nullptr) [[unlikely]] note(Event::Kind::invalidated, &call);
-    call.set(Call::kInvalid);
-    if (call.queue == 0 && !call.has(Call::kRunning | Call::kPending | Call::kDead)) enqueue(call);
+  /// The call's observation may have changed: it will run again. `seen` tells observers which: the
+  /// edge that says what it saw.
+  void invalidate(Call& call, const Edge* seen = nullptr) noexcept {
+    ask_again(call, Call::kInvalid, seen, 0);
   }
   /// A modifiable that the call has read may have another value: it will run again if that is so
-  /// when its turn comes.
-  void doubt(Call& call) noexcept {
-    if (observer_ != nullptr) [[unlikely]] note(Event::Kind::invalidated, &call);
-    call.set(Call::kDoubtful);
-    if (call.queue == 0 && !call.has(Call::kRunning | Call::kPending | Call::kDead)) enqueue(call);
+  /// when its turn comes. `source` tells observers which; 0: not known.
+  void doubt(Call& call, Handle source = 0) noexcept {
+    ask_again(call, Call::kDoubtful, nullptr, source);
   }
   [[nodiscard]] bool precedes(const Call& a, const Call& b) const noexcept {
     return timeline_.precedes(a, b);
@@ -308,11 +306,23 @@ class Engine {
   // An end stamp has no place until its call closes.
   [[nodiscard]] bool linked(Handle stamp) const noexcept { return at<TimeNode>(stamp)->prev != 0; }
   void enqueue(Call& call) noexcept { queue_.push(handle_of(call)); }
-  void note(Event::Kind kind, const Call* call, Handle source = 0) noexcept {
-    observer_->on({.kind = kind,
-                   .call = call,
-                   .source = source,
-                   .by = current_ != nullptr ? current_->call : nullptr});
+  void ask_again(Call& call, std::uint16_t why, const Edge* seen, Handle source) noexcept {
+    call.set(why);
+    if (call.has(Call::kRunning | Call::kPending | Call::kDead)) return;
+    if (observer_ != nullptr) [[unlikely]] {
+      observer_->on({.kind = Event::Kind::invalidated,
+                     .call = &call,
+                     .source = source,
+                     .seen = seen,
+                     .by = running_call()});
+    }
+    if (call.queue == 0) enqueue(call);
+  }
+  [[nodiscard]] const Call* running_call() const noexcept {
+    return current_ != nullptr ? current_->call : nullptr;
+  }
+  void note(Event::Kind kind, const Call* call = nullptr, Handle source = 0) noexcept {
+    observer_->on({.kind = kind, .call = call, .source = source, .by = running_call()});
   }
 
   // Calls find their function by its number through the arena's header.

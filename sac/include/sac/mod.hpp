@@ -227,7 +227,7 @@ class ModStructure final : public Structure {
   }
   [[nodiscard]] detail::Version* visible_to(const Call& call, const detail::Version& seen) const;
   void move_readers(detail::Version& from, detail::Version& to, const Call* later_than) noexcept;
-  void doubt_readers(const detail::Version& version, const Call& later_than) noexcept;
+  void doubt_readers(Handle head, const detail::Version& version, const Call& later_than) noexcept;
   void leave_past(Handle head, detail::Version& version, Handle except) noexcept;
   void orphan(detail::ReadEdge& edge) noexcept;
   void free_past(detail::Version& version) noexcept;

@@ -1,0 +1,343 @@
+// Writing events down, and following causes backwards through them.
+#include "sac/event_log.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace sac {
+
+namespace {
+
+using Kind = Event::Kind;
+
+// The order is that of Event::Kind.
+// clang-format off
+constexpr std::array<std::string_view, Event::kKinds> kWords = {
+    "run_started", "propagation_started", "roll_back_started", "finished",
+    "edited", "changed", "reverted", "invalidated", "returned",
+    "executed", "confirmed", "failed", "reused", "created",
+    "posted", "unposted", "dying", "detached", "discarded",
+};
+// clang-format on
+
+bool is_phase(Kind kind) { return kind <= Kind::finished; }
+bool is_change(Kind kind) {
+  return kind == Kind::edited || kind == Kind::changed || kind == Kind::reverted;
+}
+bool is_deed(Kind kind) { return kind == Kind::executed || kind == Kind::discarded; }
+
+constexpr std::size_t kMostCauses = 3;  // that one line names
+constexpr std::size_t kMostLines = 12;  // of an explanation; the middle of a longer one is left out
+
+}  // namespace
+
+std::string_view word(Event::Kind kind) { return kWords[static_cast<std::size_t>(kind)]; }
+
+EventLog::EventLog(Engine& engine) : engine_(engine) {
+  clear();
+  engine_.set_observer(this);
+}
+
+EventLog::~EventLog() {
+  if (engine_.observer() == this) engine_.set_observer(nullptr);
+}
+
+void EventLog::clear() {
+  entries_.clear();
+  calls_.assign(1, {});
+  texts_.assign(1, {});
+  ids_.clear();
+  text_ids_.clear();
+  counts_.clear();
+  lost_ = 0;
+}
+
+// --- Writing down ----------------------------------------------------------------------------
+
+void EventLog::on(const Event& event) noexcept {
+  try {
+    const CallId by = id_of(event.by, false);
+    const CallId call = id_of(event.call, event.kind == Kind::created);
+    entries_.push_back({event.kind, call, by != call ? by : 0, text_id(text_of(event))});
+    ++counts_[calls_[call].function][static_cast<std::size_t>(event.kind)];
+  } catch (...) {
+    ++lost_;
+  }
+}
+
+EventLog::CallId EventLog::id_of(const Call* call, bool fresh) {
+  if (call == nullptr) return 0;
+  if (const auto known = ids_.find(call); known != ids_.end() && !fresh) return known->second;
+  calls_.push_back({Engine::describe(*call), call->function().name});
+  return ids_[call] = static_cast<CallId>(calls_.size() - 1);
+}
+
+EventLog::TextId EventLog::text_id(std::string text) {
+  if (text.empty()) return 0;
+  const auto [known, fresh] = text_ids_.emplace(text, static_cast<TextId>(texts_.size()));
+  if (fresh) texts_.push_back(std::move(text));
+  return known->second;
+}
+
+std::string EventLog::text_of(const Event& event) const {
+  if (event.source != 0) return engine_.describe_mod(event.source);
+  if (event.seen == nullptr) return "";
+  std::ostringstream seen;
+  engine_.structure_of(*event.seen).print(*event.call, *event.seen, seen);
+  return seen.str().empty() ? "" : "what it saw (" + seen.str() + ")";
+}
+
+// --- The log itself --------------------------------------------------------------------------
+
+std::uint64_t EventLog::count(Event::Kind kind) const noexcept {
+  std::uint64_t total = 0;
+  for (const auto& [function, counts] : counts_) total += counts[static_cast<std::size_t>(kind)];
+  return total;
+}
+
+std::uint64_t EventLog::count(Event::Kind kind, std::string_view function) const {
+  const auto counts = counts_.find(function);
+  return counts != counts_.end() ? counts->second[static_cast<std::size_t>(kind)] : 0;
+}
+
+void EventLog::print_counts(std::ostream& out) const {
+  std::vector<std::string_view> functions;
+  for (const auto& [function, counts] : counts_) functions.push_back(function);
+  std::sort(functions.begin(), functions.end());
+  for (const std::string_view function : functions) {
+    out << (function.empty() ? "outside" : function);
+    const char* separator = ": ";
+    for (std::size_t kind = 0; kind < Event::kKinds; ++kind) {
+      const std::uint64_t n = counts_.at(function)[kind];
+      if (n == 0) continue;
+      out << separator << kWords[kind] << ' ' << n;
+      separator = ", ";
+    }
+    out << '\n';
+  }
+}
+
+std::string EventLog::line(std::size_t i) const {
+  const Entry& e = entries_[i];
+  std::string text(word(e.kind));
+  if (is_change(e.kind)) {
+    text += ' ' + texts_[e.what];
+    if (e.call != 0) text += " in " + label(e.call);
+  } else {
+    if (e.call != 0) text += ' ' + label(e.call);
+    if (e.what != 0) text += " at " + texts_[e.what];
+  }
+  if (e.by != 0) text += " by " + label(e.by);
+  return text;
+}
+
+void EventLog::print(std::ostream& out) const {
+  for (std::size_t i = 0; i < size(); ++i) out << line(i) << '\n';
+  if (lost_ != 0) out << lost_ << " events are lost\n";
+}
+
+// --- Looking back ----------------------------------------------------------------------------
+
+template <class Matches>
+std::size_t EventLog::last_before(std::size_t end, Matches&& matches) const {
+  while (end-- > 0) {
+    if (matches(entries_[end])) return end;
+  }
+  return kNone;
+}
+
+// When `call` last ran or was discarded.
+std::size_t EventLog::last_deed(CallId call, std::size_t end) const {
+  if (call == 0) return kNone;
+  return last_before(end, [&](const Entry& e) { return e.call == call && is_deed(e.kind); });
+}
+
+// The start of the run, propagation or roll-back that event i is in; an end if it is in none.
+std::size_t EventLog::phase_of(std::size_t i) const {
+  return last_before(i, [](const Entry& e) { return is_phase(e.kind); });
+}
+
+// What threw, for what happens in a roll-back: exceptions pass through calls from the inside out.
+std::string EventLog::failure_before(std::size_t i) const {
+  const std::size_t from = last_before(i, [](const Entry& e) {
+    return e.kind == Kind::run_started || e.kind == Kind::propagation_started;
+  });
+  for (std::size_t k = from == kNone ? 0 : from; k < i; ++k) {
+    if (entries_[k].kind == Kind::failed) return label(entries_[k].call) + " failed";
+  }
+  return "the propagation failed";
+}
+
+// --- Explaining ------------------------------------------------------------------------------
+
+// Why something was done: `text`, and where to ask on: `lead` says what call `who` has to do with
+// it, `next` is what that call did then.
+struct EventLog::Reason {
+  std::string text;
+  std::string lead = {};
+  CallId who = 0;
+  std::size_t next = kNone;
+};
+
+std::string EventLog::explain(std::string_view wanted) const {
+  std::size_t same = 0;
+  std::size_t like = 0;
+  std::vector<char> match(calls_.size());  // 1: contains it, 2: is it
+  for (CallId c = 1; c < calls_.size(); ++c) {
+    if (label(c).find(wanted) == std::string::npos) continue;
+    match[c] = label(c) == wanted ? 2 : 1;
+    ++(label(c) == wanted ? same : like);
+  }
+  const char least = same != 0 ? 2 : 1;
+  const std::size_t last =
+      last_before(size(), [&](const Entry& e) { return match[e.call] >= least; });
+  if (last == kNone) return "No call '" + std::string(wanted) + "' is in the log.\n";
+  std::string text = explain_last(entries_[last].call);
+  if (const std::size_t n = same != 0 ? same : like; n > 1) {
+    text += "(The last of " + std::to_string(n) + " calls '" + std::string(wanted) + "'.)\n";
+  }
+  return text;
+}
+
+std::string EventLog::explain(const Call& call) const {
+  const auto known = ids_.find(&call);
+  if (known != ids_.end()) return explain_last(known->second);
+  return "No call '" + Engine::describe(call) + "' is in the log.\n";
+}
+
+std::string EventLog::explain_last(CallId call) const {
+  const std::size_t deed = last_before(size(), [&](const Entry& e) {
+    return e.call == call && (is_deed(e.kind) || e.kind == Kind::confirmed ||
+                              e.kind == Kind::reused || e.kind == Kind::created);
+  });
+  if (deed == kNone) return label(call) + " has not run since the log began.\n";
+  return explain_deed(deed);
+}
+
+std::string EventLog::explain_deed(std::size_t deed) const {
+  std::vector<std::string> lines{label(entries_[deed].call) + ' '};
+  while (deed != kNone) {
+    const Reason reason = reason_of(deed);
+    lines.back() += reason.text;
+    if (reason.who != 0) {
+      std::string next = "  " + reason.lead + label(reason.who);
+      if (reason.next != kNone) next += reason.lead.empty() ? " " : ", which ";
+      lines.push_back(std::move(next));
+    }
+    deed = reason.next;
+  }
+  std::string text;
+  const std::size_t left_out = lines.size() > kMostLines ? lines.size() - kMostLines : 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (left_out != 0 && i == kMostLines / 2) {
+      text += "  (" + std::to_string(left_out) + " more)\n";
+      i += left_out;
+    }
+    text += lines[i] + (i + 1 < lines.size() ? ",\n" : ".\n");
+  }
+  return text;
+}
+
+EventLog::Reason EventLog::reason_of(std::size_t deed) const {
+  const Entry& e = entries_[deed];
+  switch (e.kind) {
+    case Kind::executed:
+      return why_executed(deed);
+    case Kind::created:
+      return why_created(deed);
+    case Kind::confirmed:
+      return {"did not run again: it would have read what it has read"};
+    case Kind::reused:
+      return {"was kept", "asked for again by ", e.by, last_deed(e.by, deed)};
+    default:
+      return why_discarded(deed);
+  }
+}
+
+// All that has happened to the call since it ran before, or found that it need not.
+EventLog::Reason EventLog::why_executed(std::size_t deed) const {
+  const CallId call = entries_[deed].call;
+  const std::size_t before = last_before(deed, [&](const Entry& e) {
+    return e.call == call && (e.kind == Kind::executed || e.kind == Kind::confirmed);
+  });
+  Reason reason;
+  std::vector<std::string> causes;
+  for (std::size_t i = before == kNone ? 0 : before + 1; i < deed; ++i) {
+    if (is(i, call, Kind::created)) return why_created(i);
+    if (is(i, call, Kind::detached)) return {"ran again because the drain that ran it is gone"};
+    if (!is(i, call, Kind::invalidated)) continue;
+    Reason cause = why_invalidated(i);
+    if (causes.empty()) reason = cause;
+    if (std::find(causes.begin(), causes.end(), cause.text) == causes.end()) {
+      causes.push_back(std::move(cause.text));
+    }
+  }
+  if (causes.empty()) return {"ran; why, was before the log began"};
+  reason.text = "ran again because ";
+  for (std::size_t i = 0; i < std::min(causes.size(), kMostCauses); ++i) {
+    reason.text += (i > 0 ? " and " : "") + causes[i];
+  }
+  if (causes.size() > kMostCauses) {
+    reason.text += " and for " + std::to_string(causes.size() - kMostCauses) + " causes more";
+  }
+  if (causes.size() > 1 && !reason.lead.empty()) reason.lead = "the first " + reason.lead;
+  return reason;
+}
+
+EventLog::Reason EventLog::why_created(std::size_t created) const {
+  const Entry& e = entries_[created];
+  bool posted = false;
+  for (std::size_t i = created + 1; i < size() && !posted && !is_deed(entries_[i].kind); ++i) {
+    posted = is(i, e.call, Kind::posted);
+  }
+  if (e.by == 0) return {posted ? "is new: posted from outside" : "is new: run from outside"};
+  return {"is new", posted ? "posted by " : "asked for by ", e.by, last_deed(e.by, created)};
+}
+
+EventLog::Reason EventLog::why_invalidated(std::size_t invalidated) const {
+  const Entry& e = entries_[invalidated];
+  const std::size_t previous = invalidated > 0 ? invalidated - 1 : 0;
+  if (is(previous, e.call, Kind::failed)) return {"it had failed"};
+  if (is(previous, e.call, Kind::returned)) {
+    const CallId by = entries_[previous].by;
+    return {"the result of " + label(by) + " changed", "", by, last_deed(by, invalidated)};
+  }
+  const std::string text = e.what != 0 ? texts_[e.what] : "what it saw";
+  const std::size_t change = e.what == 0 ? kNone : last_before(invalidated, [&](const Entry& c) {
+    return c.what == e.what && is_change(c.kind);
+  });
+  if (change == kNone) {
+    return {text + " changed", "because of ", e.by, last_deed(e.by, invalidated)};
+  }
+  const Entry& c = entries_[change];
+  if (c.kind == Kind::edited) {
+    const std::size_t phase = phase_of(change);
+    const bool back = phase != kNone && entries_[phase].kind == Kind::roll_back_started;
+    return {text +
+            (back ? " was set back when " + failure_before(change) : " was set from outside")};
+  }
+  return {text + " changed", c.kind == Kind::changed ? "written by " : "no longer written by ",
+          c.call, last_deed(c.call, change)};
+}
+
+EventLog::Reason EventLog::why_discarded(std::size_t deed) const {
+  const Entry& e = entries_[deed];
+  const std::size_t dying = last_before(deed, [](const Entry& d) { return d.kind == Kind::dying; });
+  const CallId dead = dying != kNone ? entries_[dying].call : 0;
+  const std::size_t gone = last_before(
+      deed, [&](const Entry& d) { return d.kind == Kind::discarded && d.call == dead; });
+  if (dead != 0 && (gone == kNone || gone < dying)) {
+    const std::size_t last = last_before(
+        dying, [&](const Entry& u) { return u.kind == Kind::unposted && u.call == dead; });
+    const CallId poster = last != kNone ? entries_[last].by : 0;
+    const std::string text = e.call == dead
+                                 ? ": nobody posts it any more"
+                                 : " with " + label(dead) + ", which nobody posts any more";
+    return {"was discarded" + text, "last posted by ", poster, last_deed(poster, dying)};
+  }
+  if (e.by == 0) return {"was discarded because " + failure_before(deed)};
+  return {"was discarded", "not asked for again by ", e.by, last_deed(e.by, deed)};
+}
+
+}  // namespace sac
