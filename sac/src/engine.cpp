@@ -646,7 +646,12 @@ bool Engine::settle_link(Activation& a, Handle link) {
       now_ = link;
       run_body(a, link);
     } else {
-      run_from_queue(h);
+      try {
+        run_from_queue(h);
+      } catch (...) {
+        now_ = h == reached ? end_of(h) : reached;
+        throw;
+      }
       now_ = h == reached ? end_of(h) : reached;
     }
   }

@@ -530,6 +530,45 @@ TEST_CASE("arguments that throw when copied leave the engine as it was") {
   }
 }
 
+int runs_until_failure = 0;
+
+void sees(Scope& s, Mod<int> m, Mod<int> out) {
+  if (runs_until_failure > 0 && --runs_until_failure == 0) throw std::runtime_error("enough");
+  s.write(out, s.read(m));
+}
+void pass_on(Scope& s, Mod<int> in, Mod<int> out) { s.write(out, s.read(in) + 1); }
+// For 0 it writes m and calls nobody; else its calls see m as it was, and it goes on with a tail.
+void write_or_call(Scope& s, Mod<int> in, Mod<int> m, Mod<int> first, Mod<int> second) {
+  if (s.read(in) == 0) return s.write(m, 5);
+  s.call<sees>(m, first);
+  s.call<pass_on>(first, second);
+  s.tail<pass_on>(second, s.cell<int>(0));
+}
+void write_and_go_on(Scope& s, Mod<int> in, Mod<int> m, Mod<int> first, Mod<int> second) {
+  s.write(m, 1);
+  s.call<write_or_call>(in, m, first, second);
+}
+
+TEST_CASE("calls behind one that fails between the links of a tail chain leave with the chain") {
+  for (int runs = 1; runs < 4; ++runs) {
+    Engine e;
+    auto in = e.input(0);
+    auto m = e.cell<int>(), first = e.cell<int>(), second = e.cell<int>();
+    e.run<write_and_go_on>(in, m, first, second);
+    e.set(in, 1);
+    runs_until_failure = runs;
+    try {
+      e.propagate();
+      CHECK(e.get(second) == 2);
+    } catch (const std::runtime_error&) {
+      CHECK(e.live_calls() == 2);
+      CHECK(e.get(m) == 5);
+    }
+    runs_until_failure = 0;
+    e.check_invariants();
+  }
+}
+
 // --- Detectors -----------------------------------------------------------------------------------
 
 void duplicate(Scope& s, Mod<int> in) {
