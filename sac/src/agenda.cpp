@@ -63,7 +63,12 @@ void Agenda::post_call(Scope& s, const Function& function, const Key& key, std::
     if (fresh) drop_pending(h);
     throw;
   }
-  s.effect<PostEdge>(id_, kPost).target = h;  // if this throws, a call that nobody posts is left
+  try {
+    s.effect<PostEdge>(id_, kPost).target = h;
+  } catch (...) {
+    unposted_ = true;  // a call that waits and that nobody posts leaves at the end
+    throw;
+  }
   add_post(posted);
 }
 

@@ -1,6 +1,7 @@
 // Agendas: order, merging, life of posted calls, placing, posting into the past, roll-back.
 #include <catch2/catch.hpp>
 #include <map>
+#include <new>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -397,6 +398,32 @@ TEST_CASE("a drain is reused, discarded and made again as any call") {
     CHECK(e.live_calls() == fresh.live_calls());
     CHECK(e.live_edges() == fresh.live_edges());
   }
+}
+
+void post_some(Scope& s, Mod<std::vector<int>> posts, Agenda* agenda) {
+  for (const int n : s.read(posts)) agenda->post<visit>(s, key_of(n), n);
+}
+
+TEST_CASE("a post that fails leaves no call behind, even where nothing is drained") {
+  Engine e;
+  auto& agenda = e.make_agenda("undrained");
+  const auto posts = e.input(std::vector<int>{});
+  e.run<post_some>(posts, &agenda);
+  for (std::uint64_t count = 1;; ++count) {
+    e.set(posts, {1, 2});
+    e.arena().fail_after(count);
+    try {
+      e.propagate();
+      CHECK(count == 5);  // two calls and two posts
+      break;
+    } catch (const std::bad_alloc&) {
+      CHECK(agenda.pending_calls() == 0);
+      CHECK(e.live_calls() == 1);
+      e.check_invariants();
+    }
+  }
+  e.arena().fail_after(0);
+  CHECK(agenda.pending_calls() == 2);
 }
 
 // --- Random
