@@ -219,6 +219,7 @@ class Engine {
   template <class Body>
   void edit_together(Body&& body);
   /// Forgets all edits since the last propagation by undoing them, newest first.
+  /// Throws: what the client's arguments throw when compared; the engine is broken then.
   void undo_edits();
 
   /// The call's observation may have changed: it will run again. `seen` tells observers which: the
