@@ -400,7 +400,8 @@ void Agenda::check_invariants() const {
   for (const auto& [rank, calls] : classes_) {
     calls.for_each([&, rank = rank](const Entry& entry) {
       const Call& c = engine_.call(entry.call);
-      SAC_INVARIANT(!c.has(Call::kDead | Call::kPending) && slot(c).posts() > 0);
+      SAC_INVARIANT(!c.has(Call::kDead | Call::kPending));
+      SAC_INVARIANT(slot(c).posts() > 0 || c.queue != 0);  // or it is dying
       SAC_INVARIANT(slot(c).rank == rank && slot(c).order == entry.order);
       SAC_INVARIANT(previous == nullptr ||
                     (before(*previous, c) && engine_.precedes(*previous, c)));

@@ -268,6 +268,7 @@ TEST_CASE("posts from outside run, merge with others, and are taken back") {
   f.p.agenda->post_from_outside<visit>(key_of(0), 0);
   f.p.agenda->retract_from_outside<visit>(1);
   f.p.agenda->retract_from_outside<visit>(2);
+  f.e.check_invariants();
   f.e.propagate();
   f.e.check_invariants();
   CHECK(visited(f.e) == std::vector<int>{0, 2});
