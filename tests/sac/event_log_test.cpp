@@ -521,14 +521,12 @@ TEST_CASE("in random programs the log tells what the engine counts, failures inc
     Random random(seed);
     const RandomProgram text(seed, 4 + random(10));
     RandomWorld<Scope> world, silent_world;
-    world.program = silent_world.program = &text;
-    std::vector<int> inputs(4, 1);
     Engine e, silent;
     EventLog log(e);
-    world.start(e, inputs);
-    silent_world.start(silent, inputs);
-    e.run<random_root<int>>();
-    silent.run<random_root<int>>();
+    world.start(e, text, {});
+    silent_world.start(silent, text, {});
+    world.run(e, {});
+    silent_world.run(silent, {});
     for (int step = 0; step < 20; ++step) {
       const auto i = static_cast<std::size_t>(random(4));
       const int value = random(5);

@@ -37,11 +37,10 @@ std::string random_program(std::uint64_t seed) {
   Random random(seed ^ 0x7e57);
   const RandomProgram program(seed, 4 + random(10));
   RandomWorld<Scope> world;
-  world.program = &program;
   Engine e;
   sac::EventLog log(e);
-  world.start(e, {1, 1, 1, 1});
-  e.run<random_root<int>>();
+  world.start(e, program, {});
+  world.run(e, {});
   for (int step = 0; step < 12; ++step) {
     const auto input = static_cast<std::size_t>(random(4));
     e.set(world.inputs[input], random(5));

@@ -118,7 +118,7 @@ struct Run {
       world.inputs.push_back(engine.input(values[i]));
       recorder.name(world.inputs.back(), "input", i);
     }
-    for (int i = 0; i < program.cells; ++i) {
+    for (int i = 0; i < program.kCells; ++i) {
       world.cells.push_back(engine.cell<int>());
       recorder.name(world.cells.back(), "cell", i);
     }
@@ -135,11 +135,11 @@ bool within(std::uint64_t seed, int nodes, int edits, double limit, double& wide
             std::uint64_t& measured) {
   const RandomProgram program(seed, nodes);
   Random random(seed + 77);
-  std::vector<int> values(static_cast<std::size_t>(program.inputs), 1);
+  std::vector<int> values(std::size_t{RandomProgram::kInputs}, 1);
   auto run = std::make_unique<Run>(program, values);
   traces::Trace before = run->recorder.trace();
   for (int i = 0; i < edits; ++i) {
-    const auto first = static_cast<std::size_t>(random(program.inputs));
+    const auto first = static_cast<std::size_t>(random(program.kInputs));
     for (std::size_t k = 0; k < 1 + static_cast<std::size_t>(random(2)); ++k) {
       const std::size_t input = (first + k) % values.size();  // each once: no edit undoes another
       values[input] = random(5);
