@@ -133,6 +133,8 @@ class Agenda final : public Structure {
   void drain(Scope& s);
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  /// The same for the agenda that was made as the same one of another engine.
+  [[nodiscard]] std::uint64_t number() const noexcept { return id_; }
   [[nodiscard]] std::size_t bytes() const noexcept;
   [[nodiscard]] std::uint64_t pending_calls() const noexcept { return pending_calls_; }
   void check_invariants() const;

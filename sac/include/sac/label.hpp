@@ -30,6 +30,8 @@
 #include <tuple>
 #include <type_traits>
 
+#include "sac/arena.hpp"
+
 namespace sac {
 
 template <class T, class Same>
@@ -62,6 +64,11 @@ template <class T>
 [[nodiscard]] std::uint64_t hash_argument(const T& value) {
   if constexpr (HashedByValue<T>) {
     return hash_value(value);
+  } else if constexpr (std::is_same_v<T, Agenda*>) {
+    return value->number();
+  } else if constexpr (std::is_pointer_v<T>) {
+    // By its place in an arena, so that engines with equal traces have equal hashes.
+    return reinterpret_cast<std::uintptr_t>(value) & (Arena::kReserve - 1);
   } else if constexpr (HashedByStd<T>) {
     return std::hash<T>{}(value);
   } else {
