@@ -113,7 +113,7 @@ void sort_of(sac::Scope& s, sac::List<int> in) {
   static_cast<void>(sac::sort<std::less<>{}>(s, in));
 }
 void reduce_of(sac::Scope& s, sac::List<int> in) {
-  static_cast<void>(sac::reduce<std::plus<>{}>(s, in, 0));
+  static_cast<void>(sac::reduce<std::plus<>{}>(s, in, std::int64_t{0}));
 }
 
 struct Work {
