@@ -6,12 +6,14 @@
 // read and write modifiables and make child calls; not tail calls. What an operation gives is
 // complete when it returns, and is up to date after every propagation.
 //
-// Cost, in calls, f being one. From scratch: one an element (map by an f that takes a scope: two).
-// Insertion, erasure or another value of an element:
-//   for_each, map, reverse   O(1): see the measurements in bench/sequence_bench.cpp
-//   filter                   O(1), and one for each element passed over behind a kept one that
-//                            comes or goes: O(1) expected if a constant part is kept
-// What f reads through its scope changes: the calls that have read it.
+// Cost, in calls. From scratch: one an element; map by an f that takes a scope: two. An edit makes
+// the call before its place run again, and that of the element new or go; a new value does both:
+//   for_each, map, reverse   2 executed at most, 1 created, 1 discarded
+//   map in a scope           3 executed at most, 2 created, 2 discarded
+//   filter                   as map, and one created and discarded for each element passed over
+//                            behind a kept one that comes or goes: O(1) expected if a constant part
+//                            is kept
+// When a modifiable changes that f reads through its scope, the calls that have read it run again.
 //
 // Labels. The calls of an operation are named by it, its functions, and the nodes of its list: `map
 // image`. The same operation on the same list twice makes calls of equal labels; use the result of
