@@ -529,7 +529,7 @@ Handle Engine::call_child(const Function& function, std::uint32_t hash, const vo
     ++counts_.reused;
     if (observer_ != nullptr) [[unlikely]] note(Event::Kind::reused, at<Call>(child));
     if (function.has_result) depend_on_result(child);
-    if (caller.old_edges != 0) mods_->hide_unconfirmed(child, caller.old_edges);
+    hide_unconfirmed(child);
   } else {
     child = new_call(function, hash, args, construct);
     insert_call(child);
@@ -540,6 +540,13 @@ Handle Engine::call_child(const Function& function, std::uint32_t hash, const vo
   settle_child(child);
   SAC_ENSURES(!at<Call>(child)->has(Call::kInvalid | Call::kDoubtful));
   return child;
+}
+
+// What a running call has not repeated is no more for its children, nor for theirs.
+void Engine::hide_unconfirmed(Handle child) noexcept {
+  for (const Activation* a = current_; a != nullptr; a = a->outer) {
+    if (a->old_edges != 0) mods_->hide_unconfirmed(child, a->old_edges);
+  }
 }
 
 void Engine::require_no_tail(const Activation& caller, const Function& function) const {

@@ -304,4 +304,46 @@ TEST_CASE("values with memory of their own are moved, replaced and freed with th
   }
 }
 
+// --- Pointers to what is made and unmade -------------------------------------------------------
+
+struct Box {
+  sac::Cell<int> content;
+};
+using BoxMod = Mod<const Box*>;
+
+void fill(Scope& s, Box& self, int value) { s.write(self.content, value); }
+void point(Scope& s, BoxMod from, BoxMod to) { s.write(to, s.read(from)); }
+void show(Scope& s, BoxMod box, Mod<int> out, int) {
+  const Box* b = s.read(box);
+  s.write(out, b != nullptr ? s.read(b->content) : -1);
+}
+void point_and_show(Scope& s, BoxMod from, BoxMod to, Mod<int> out, int kind) {
+  s.call<point>(from, to);
+  s.call<show>(to, out, kind);
+}
+void maybe_box(Scope& s, Mod<int> in, BoxMod a, BoxMod b, Mod<int> out) {
+  const int v = s.read(in);
+  if (v > 0) s.write(a, &s.make<Box, fill>(v));
+  s.call<point_and_show>(a, b, out, v);
+}
+void no_box(Scope& s, Mod<int> in, BoxMod a, BoxMod b, Mod<int> out) {
+  s.write(a, nullptr);
+  s.call<maybe_box>(in, a, b, out);
+}
+
+TEST_CASE("a reused child of a child does not hand on what their caller does not write again") {
+  Engine e;
+  auto in = e.input(7);
+  auto a = e.cell<const Box*>(), b = e.cell<const Box*>();
+  auto out = e.cell<int>();
+  e.run<no_box>(in, a, b, out);
+  CHECK(e.get(out) == 7);
+  for (const int v : {0, 5, 6, 0, 0, 7}) {
+    e.set(in, v);
+    e.propagate();
+    CHECK(e.get(out) == (v > 0 ? v : -1));
+    e.check_invariants();
+  }
+}
+
 }  // namespace

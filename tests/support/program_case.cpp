@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::array<std::string_view, Op::kKinds> kOpNames{
     "read input", "read cell", "read coarse", "read link", "read list", "write cell",
-    "rewrite cell", "write coarse", "link", "ask", "call", "pass", "box", "post", "stripe", "tail",
-    "tail box"};
+    "rewrite cell", "write coarse", "link", "ask", "call", "pass", "box", "post", "stripe",
+    "relink", "tail", "tail box"};
 constexpr std::array<std::string_view, Step::kKinds> kStepNames{
     "set", "post", "retract", "insert", "remove", "weigh", "propagate", "undo", "run", "shrink",
     "fuse", "client", "heap", "arena", "cancel", "starve"};

@@ -40,7 +40,7 @@ struct Op {
     // allocates and writes,
     link,
     // calls,
-    ask, call, pass, box, post, stripe,
+    ask, call, pass, box, post, stripe, relink,
     // and does last
     tail, tail_box
   };
@@ -72,7 +72,8 @@ struct RandomProgram {
       case Op::read_coarse:
       case Op::write_coarse: return kCoarse;
       case Op::read_link:
-      case Op::link: return kLinks;
+      case Op::link:
+      case Op::relink: return kLinks;
       case Op::read_list: return 4;       // so many elements
       case Op::stripe: return 12 * kCells;  // length and cell
       case Op::call:
@@ -111,6 +112,7 @@ struct RandomProgram {
       some(2, Op::post);
       some(1, Op::call);
       if (random(4) == 0) some(1, Op::stripe);
+      if (random(4) == 0) some(1, Op::relink);
       some(1, random(2) == 0 ? Op::tail : Op::tail_box);
     }
   }
@@ -326,6 +328,21 @@ struct Fill {
 template <class V>
 inline constexpr Fill<V> fill{};
 
+// Points the other link to the same box.
+template <class V>
+struct Relink {
+  static constexpr std::string_view kName = "relink";
+  template <class S>
+  void operator()(S& s, int from) const {
+    auto& w = s.template environment<RandomWorld<S, V>>();
+    w.burn();
+    s.write(w.links[static_cast<std::size_t>(1 - from)],
+            s.read(w.links[static_cast<std::size_t>(from)]));
+  }
+};
+template <class V>
+inline constexpr Relink<V> relink{};
+
 // `length` versions of a cell and those behind it, as the inputs will have it.
 template <class V>
 struct Stripe {
@@ -424,6 +441,9 @@ void Node<V>::operator()(S& s, int id, V argument) const {
         break;
       case Op::stripe:
         s.template call<stripe<V>>(op.target / w.program->kCells, op.target % w.program->kCells);
+        break;
+      case Op::relink:
+        s.template call<relink<V>>(op.target);
         break;
       case Op::tail:
         s.template tail<node<V>>(other, V(sum % 3));

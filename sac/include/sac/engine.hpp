@@ -381,6 +381,7 @@ class Engine {
                     Construct construct);
   Handle call_tail(const Function& function, std::uint32_t hash, const void* args,
                    Construct construct);
+  void hide_unconfirmed(Handle child) noexcept;
   void need_end(Activation& a);
   void settle_child(Handle child);
   void execute(Handle call, Handle limit);
