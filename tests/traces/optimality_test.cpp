@@ -61,6 +61,7 @@ void node(sac::Scope& s, int id, std::uint64_t path) {
   for (std::size_t i = 0; i < ops.size(); ++i) {
     const Op& op = ops[i];
     if (sum % op.modulus >= op.threshold) continue;
+    const int other = id + 1 + op.target;  // a node behind this one
     switch (op.kind) {
       case Op::read_input:
         sum += s.read(w.inputs[static_cast<std::size_t>(op.target)]);
@@ -76,7 +77,7 @@ void node(sac::Scope& s, int id, std::uint64_t path) {
         sum += s.call<ask>(step(path, i), op.target);
         break;
       case Op::call:
-        s.call<node>(op.target, step(path, i));
+        s.call<node>(other, step(path, i));
         break;
       case Op::pass:
       case Op::box: {
@@ -85,10 +86,10 @@ void node(sac::Scope& s, int id, std::uint64_t path) {
         break;
       }
       case Op::post:
-        w.agenda->post<node>(s, node_key(op.target, 0), op.target, step(path, i));
+        w.agenda->post<node>(s, node_key(other, 0), other, step(path, i));
         break;
       case Op::tail:
-        s.tail<node>(op.target, step(path, i));
+        s.tail<node>(other, step(path, i));
         break;
       case Op::tail_box:
         s.tail_make<Box, fill>(step(path, i), op.target);
@@ -127,7 +128,6 @@ struct Run {
     engine.run<root>();
   }
 };
-
 
 // Edits until a propagation costs more than `limit` times its distance; what it then cost.
 // `widest`: the largest ratio seen. Throws what the engine throws.

@@ -81,6 +81,9 @@ class Arena {
     return static_cast<Handle>((reinterpret_cast<std::uintptr_t>(object) & (kReserve - 1)) /
                                kGranule);
   }
+  [[nodiscard]] static bool same_arena(const void* a, const void* b) noexcept {
+    return (reinterpret_cast<std::uintptr_t>(a) ^ reinterpret_cast<std::uintptr_t>(b)) < kReserve;
+  }
   /// The header of the arena that `object` lies in.
   [[nodiscard]] static Header& header_of(const void* object) noexcept {
     return *reinterpret_cast<Header*>(reinterpret_cast<std::uintptr_t>(object) & ~(kReserve - 1));

@@ -100,15 +100,30 @@ template <class... Args>
   return h;
 }
 
+/// Pointers other than strings and functions.
+template <class T>
+inline constexpr bool kPointerToObject =
+    std::is_pointer_v<T> && std::is_convertible_v<T, const void*> &&
+    !std::is_same_v<std::remove_cv_t<std::remove_pointer_t<T>>, char>;
+
 template <class T>
 concept Printable = requires(std::ostream& out, const T& value) {
   out << value;
 };
 
+/// `neighbour`: any object in the engine's arena; pointers into it are printed as @handle.
 template <class T>
-void print_argument(std::ostream& out, const T& value) {
+void print_argument(std::ostream& out, const T& value, const void* neighbour = nullptr) {
   if constexpr (std::is_same_v<T, Agenda*>) {
     out << value->name();
+  } else if constexpr (kPointerToObject<T>) {
+    if (value == nullptr) {
+      out << "null";
+    } else if (Arena::same_arena(value, neighbour)) {
+      out << '@' << Arena::locate(value);
+    } else {
+      out << static_cast<const void*>(value);
+    }
   } else if constexpr (Printable<T>) {
     out << value;
   } else {
@@ -202,11 +217,12 @@ void name_argument(LabelSink& sink, const T& value) {
 
 /// `a, b, c`, for people.
 template <class... Args>
-void print_arguments(std::ostream& out, const std::tuple<Args...>& args) {
+void print_arguments(std::ostream& out, const std::tuple<Args...>& args,
+                     const void* neighbour = nullptr) {
   const char* separator = "";
   std::apply(
       [&](const auto&... a) {
-        ((out << separator, print_argument(out, a), separator = ", "), ...);
+        ((out << separator, print_argument(out, a, neighbour), separator = ", "), ...);
       },
       args);
 }

@@ -94,7 +94,7 @@ inline constexpr ValueType kValueType{
       value.~T();
     },
     [](const Version& v, std::ostream& out) {
-      print_argument(out, static_cast<const TypedVersion<T>&>(v).value());
+      print_argument(out, static_cast<const TypedVersion<T>&>(v).value(), &v);
     },
     [](const Version& v, LabelSink& sink) {
       name_argument(sink, static_cast<const TypedVersion<T>&>(v).value());

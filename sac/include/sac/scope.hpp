@@ -142,7 +142,7 @@ std::uint32_t hash_frame(const Call& call) noexcept {
 
 template <class F>
 void print_args(const Call& call, std::ostream& out) {
-  print_arguments(out, F::of(call).args);
+  print_arguments(out, F::of(call).args, &call);
 }
 template <class F>
 void label_args(const Call& call, LabelSink& sink) {
@@ -150,7 +150,7 @@ void label_args(const Call& call, LabelSink& sink) {
 }
 template <class F>
 void print_result(const Call& call, std::ostream& out) {
-  if (const auto& result = F::of(call).tail.value) print_argument(out, *result);
+  if (const auto& result = F::of(call).tail.value) print_argument(out, *result, &call);
 }
 template <class F>
 void label_result(const Call& call, LabelSink& sink) {
