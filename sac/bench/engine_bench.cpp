@@ -6,6 +6,7 @@
 //   read      nanoseconds per read in a first run
 //   call      nanoseconds per call in a first run
 //   list_map  from scratch; one insertion or deletion; bytes per element
+//   write_among_readers  a write that comes or goes among n readers, 10 of them behind it
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -124,10 +125,47 @@ void bench_list_map(std::size_t n) {
   print("list_map_update", n, "us", median(updates) / 1e3);
 }
 
+// --- A modifiable with many readers and few writers -------------------------------------------
+
+struct Step {
+  static constexpr std::string_view kName = "step";
+  void operator()(sac::Scope& s, sac::Mod<int> value, sac::Mod<int> among) const {
+    if (const int v = s.read(value); v >= 0) s.write(among, v);
+    bench::sink = static_cast<std::uint64_t>(s.read(among));
+  }
+};
+inline constexpr Step step{};
+
+struct ManySteps {
+  static constexpr std::string_view kName = "many_steps";
+  void operator()(sac::Scope& s, const std::vector<sac::Mod<int>>* values,
+                  sac::Mod<int> among) const {
+    for (const auto value : *values) s.call<step>(value, among);
+  }
+};
+inline constexpr ManySteps many_steps{};
+
+void bench_write_among_readers(std::size_t n) {
+  sac::Engine e;
+  std::vector<sac::Mod<int>> values;
+  for (std::size_t i = 0; i < n; ++i) values.push_back(e.input(i == 0 ? 0 : -1));
+  const auto* all = &values;
+  e.run<many_steps>(all, e.cell<int>());
+  std::vector<double> updates;
+  for (int k = 0; k < 2000; ++k) {
+    e.set(values[n - 10], k % 2 == 0 ? 1 + k : -1);
+    updates.push_back(nanoseconds([&] { e.propagate(); }));
+  }
+  print("write_among_readers", n, "us", median(updates) / 1e3);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::size_t n = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000000;
   bench_calls(n);
   bench_list_map(n);
+  for (const std::size_t readers : {std::size_t{1000}, n / 10, n}) {
+    bench_write_among_readers(readers);
+  }
 }

@@ -29,8 +29,7 @@ Version& ModStructure::observe(Scope& scope, Handle head) {
     edge->call = engine_.handle_of(call);
     link_reader(*edge, *version);
   } else if (edge->version != seen) {
-    unlink_reader(*edge);
-    link_reader(*edge, *version);
+    move_reader(*edge, *version);
   }
   return *version;
 }
@@ -47,7 +46,7 @@ Version* ModStructure::seen_by(const Call& call, Handle head) const {
     return nullptr;
   }
   require_ahead(call, head);
-  const VersionOrder& versions = history(version->history).versions;
+  const TraceOrder& versions = history(version->history).versions;
   Handle seen = versions.last_not_behind(0, order(&call));
   while (seen != 0 && unconfirmed(*at(seen))) seen = versions.predecessor(seen, order());
   return seen != 0 ? at(seen) : nullptr;
@@ -194,7 +193,7 @@ std::uint32_t ModStructure::new_history(Handle head) {
 // A version in place needs no order; nor does none.
 void ModStructure::drop_history(Handle head) noexcept {
   const std::uint32_t number = at(head)->history;
-  const VersionOrder& versions = history(number).versions;
+  const TraceOrder& versions = history(number).versions;
   if (versions.size() > 1 || (versions.size() == 1 && versions.first() != head)) return;
   at(head)->history = 0;
   histories_[number].reset();
@@ -218,14 +217,18 @@ Version* ModStructure::predecessor(Handle head, const Version& version) const no
   return found != 0 ? at(found) : nullptr;
 }
 
-void ModStructure::require_unread(Scope& scope, Handle head, const Version& version) const {
+void ModStructure::require_unread(Scope& scope, Handle head, const Version& version) {
   const Call& self = scope.self();
-  for (Handle r = version.readers; r != 0; r = reader(r)->next_reader) {
-    const Call& call = engine_.call(reader(r)->call);
-    if (&call == &self || !engine_.precedes(self, call) || engine_.lies_ahead(call)) continue;
-    throw UsageError(Engine::describe(self) + " writes " + engine_.describe_mod(head) +
-                     " after its own child " + Engine::describe(call) + " has read it");
-  }
+  if (engine_.now_ == engine_.handle_of(self)) return;  // it has no children yet
+  const Call* child = nullptr;
+  for_each_reader_behind(version, self, [&](ReadEdge& edge) {
+    const Call& call = engine_.call(edge.call);
+    if (!engine_.lies_ahead(call)) child = &call;
+    return child == nullptr && !version.ordered;  // in order, the first decides
+  });
+  if (child == nullptr) return;
+  throw UsageError(Engine::describe(self) + " writes " + engine_.describe_mod(head) +
+                   " after its own child " + Engine::describe(*child) + " has read it");
 }
 
 void ModStructure::replace(Handle head, Version& version) noexcept {
@@ -244,7 +247,14 @@ void ModStructure::appeared(Scope& scope, Handle head, Version& version, Version
   }
   if (previous == nullptr) return;
   const Call& self = scope.self();
-  same ? move_readers(*previous, version, &self) : doubt_readers(head, *previous, self);
+  if (same) {
+    for_each_reader_behind(*previous, self, [&](ReadEdge& edge) {
+      move_reader(edge, version);
+      return true;
+    });
+  } else {
+    doubt_readers(head, *previous, self);
+  }
   // Children of a running call read past what that call has not repeated.
   for (Version* v = previous; v != nullptr && unconfirmed(*v);) {
     v = predecessor(head, *v);
@@ -261,33 +271,84 @@ void ModStructure::link_reader(ReadEdge& edge, Version& version) noexcept {
   edge.next_reader = version.readers;
   if (version.readers != 0) reader(version.readers)->prev = self;
   version.readers = self;
+  if (!version.ordered) [[likely]] return;
+  try {
+    reader_orders_.find(edge.version)->second.insert(self, reader_order());
+  } catch (const std::bad_alloc&) {
+    forget_order(version);
+  }
 }
 
 void ModStructure::unlink_reader(ReadEdge& edge) noexcept {
   if (edge.version == 0) return;
   Version& version = *at(edge.version);
+  if (version.ordered) [[unlikely]] {
+    reader_orders_.find(edge.version)->second.erase(engine_.arena().handle_of(&edge), reader_order());
+  }
   if (edge.next_reader != 0) reader(edge.next_reader)->prev = edge.prev;
   (edge.prev != 0 ? reader(edge.prev)->next_reader : version.readers) = edge.next_reader;
   if (version.past && version.readers == 0) free_past(version);
 }
 
-void ModStructure::move_readers(Version& from, Version& to, const Call* later_than) noexcept {
-  for (Handle r = from.readers; r != 0;) {
+void ModStructure::move_reader(ReadEdge& edge, Version& to) noexcept {
+  unlink_reader(edge);
+  link_reader(edge, to);
+}
+
+template <class Visit>
+void ModStructure::for_each_reader_behind(const Version& version, const Call& call,
+                                          Visit&& visit) {
+  if (version.ordered) {
+    const TraceOrder& readers = reader_orders_.find(handle_of(version))->second;
+    for (Handle r = readers.successor(0, reader_order(&call)); r != 0;) {
+      const Handle next = readers.successor(r, reader_order());
+      if (!visit(*reader(r))) return;
+      r = next;
+    }
+    return;
+  }
+  constexpr std::size_t kMany = 64;
+  std::size_t passed = 0;
+  std::size_t visited = 0;
+  for (Handle r = version.readers; r != 0;) {
     ReadEdge& edge = *reader(r);
     r = edge.next_reader;
-    if (later_than != nullptr && !engine_.precedes(*later_than, engine_.call(edge.call))) continue;
-    unlink_reader(edge);
-    link_reader(edge, to);
+    if (!engine_.precedes(call, engine_.call(edge.call))) {
+      ++passed;
+      continue;
+    }
+    ++visited;
+    if (!visit(edge)) return;
   }
+  if (passed > kMany && passed / 8 > visited && !engine_.appending()) order_readers(version);
+}
+
+void ModStructure::order_readers(const Version& version) noexcept {
+  try {
+    std::vector<Handle> readers;
+    for (Handle r = version.readers; r != 0; r = reader(r)->next_reader) readers.push_back(r);
+    std::sort(readers.begin(), readers.end(), reader_order());
+    TraceOrder order;
+    for (const Handle r : readers) order.append(r);
+    reader_orders_[handle_of(version)] = std::move(order);
+    at(handle_of(version))->ordered = true;
+  } catch (const std::bad_alloc&) {  // then they stay as they are
+  }
+}
+
+void ModStructure::forget_order(Version& version) noexcept {
+  if (!version.ordered) return;
+  reader_orders_.erase(handle_of(version));
+  version.ordered = false;
 }
 
 // They stay with what they have seen.
 void ModStructure::doubt_readers(Handle head, const Version& version,
                                  const Call& later_than) noexcept {
-  for (Handle r = version.readers; r != 0; r = reader(r)->next_reader) {
-    Call& call = engine_.call(reader(r)->call);
-    if (engine_.precedes(later_than, call)) engine_.doubt(call, head);
-  }
+  for_each_reader_behind(version, later_than, [&](ReadEdge& edge) {
+    engine_.doubt(engine_.call(edge.call), head);
+    return true;
+  });
 }
 
 // Takes the value out of `version`. Those who have seen it are in doubt, and keep it until it is
@@ -296,6 +357,7 @@ void ModStructure::doubt_readers(Handle head, const Version& version,
 void ModStructure::leave_past(Handle head, Version& version, Handle except) noexcept {
   const detail::ValueType& type = types_[version.type];
   Version* past = nullptr;
+  forget_order(version);
   for (Handle r = version.readers; r != 0;) {
     ReadEdge& edge = *reader(r);
     r = edge.next_reader;
@@ -312,8 +374,7 @@ void ModStructure::leave_past(Handle head, Version& version, Handle except) noex
         continue;
       }
     }
-    unlink_reader(edge);
-    link_reader(edge, *past);
+    move_reader(edge, *past);
     engine_.doubt(engine_.call(edge.call), head);
   }
   if (past != nullptr) {
@@ -369,8 +430,7 @@ bool ModStructure::reads_the_same(Call& call) {
   for_each_read([&](ReadEdge& edge) {
     Version* now = visible_to(call, *at(edge.version));
     if (handle_of(*now) == edge.version) return true;
-    unlink_reader(edge);
-    link_reader(edge, *now);
+    move_reader(edge, *now);
     return true;
   });
   return true;
@@ -412,7 +472,10 @@ void ModStructure::retract(Call& call, Edge& edge) noexcept {
   if (engine_.observer_ != nullptr && !same) [[unlikely]] {
     engine_.note(Event::Kind::reverted, &call, write.head);
   }
-  if (same) move_readers(version, *previous, nullptr);
+  if (same) {
+    forget_order(version);
+    while (version.readers != 0) move_reader(*reader(version.readers), *previous);
+  }
   leave_past(write.head, version, 0);
   forget_version(write.head, version);
 }
@@ -465,6 +528,7 @@ std::size_t ModStructure::bytes() const noexcept {
   for (const auto& h : histories_) {
     if (h != nullptr) total += sizeof(History) + h->versions.bytes();
   }
+  for (const auto& [version, readers] : reader_orders_) total += 64 + readers.bytes();
   return total;
 }
 
@@ -475,16 +539,26 @@ void ModStructure::check_invariants(Handle head) const {
   const auto check = [&](Handle v, Handle next) {
     SAC_INVARIANT(at(v)->written && (previous == 0 || order()(previous, v)));
     Handle last = 0;
-    for (Handle r = at(v)->readers; r != 0; last = r, r = reader(r)->next_reader) {
+    std::size_t count = 0;
+    for (Handle r = at(v)->readers; r != 0; last = r, r = reader(r)->next_reader, ++count) {
       SAC_INVARIANT(reader(r)->version == v && reader(r)->prev == last);
       const Call& call = engine_.call(reader(r)->call);
       SAC_INVARIANT(&writer(*at(v)) == &call || engine_.precedes(writer(*at(v)), call));
       SAC_INVARIANT(next == 0 || !engine_.precedes(writer(*at(next)), call));
     }
+    if (at(v)->ordered) {
+      const TraceOrder& readers = reader_orders_.at(v);
+      SAC_INVARIANT(readers.size() == count);
+      Handle before = 0;
+      readers.for_each([&](Handle r) {
+        SAC_INVARIANT(reader(r)->version == v && (before == 0 || reader_order()(before, r)));
+        before = r;
+      });
+    }
     previous = v;
   };
   if (at(head)->history == 0) return check(head, 0);
-  const VersionOrder& versions = history(at(head)->history).versions;
+  const TraceOrder& versions = history(at(head)->history).versions;
   SAC_INVARIANT(versions.size() > 1 || versions.first() != head);
   Handle before = 0;
   versions.for_each([&](Handle v) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "random.hpp"
 #include "sac/sac.hpp"
 
 namespace {
@@ -67,6 +68,43 @@ TEST_CASE("a write of the value that precedes it, appearing or going, disturbs n
   e.set(a, 4);
   e.propagate();
   CHECK(e.get(seen) == 4);
+}
+
+// Writes what it is told, if anything, and passes on what it then sees.
+void step(Scope& s, Mod<int> value, Mod<int> among, Mod<int> seen) {
+  if (const int v = s.read(value); v >= 0) s.write(among, v);
+  s.write(seen, s.read(among));
+}
+
+TEST_CASE("writes come and go among many readers") {
+  constexpr std::size_t kSteps = 600;
+  support::Random random(7);
+  Engine e;
+  const auto among = e.cell<int>();
+  std::vector<Mod<int>> values, seen;
+  std::vector<int> value(kSteps, -1);
+  value[0] = 0;
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    values.push_back(e.input(value[i]));
+    seen.push_back(e.cell<int>());
+    e.run<step>(values[i], among, seen[i]);
+  }
+  const std::size_t least = e.memory().versions;
+  for (int edit = 0; edit < 300; ++edit) {
+    const bool late = edit % 10 < 7;  // with few readers behind
+    const auto i = static_cast<std::size_t>(late ? 599 - random(20) : 1 + random(599));
+    value[i] = value[i] >= 0 && random(2) == 0 ? -1 : random(3);
+    e.set(values[i], value[i]);
+    if (edit % 50 == 49) e.set(values[0], value[0] = random(3));
+    e.propagate();
+    e.check_invariants();
+    int expected = 0;
+    for (std::size_t k = 0; k < kSteps; ++k) {
+      if (value[k] >= 0) expected = value[k];
+      REQUIRE(e.get(seen[k]) == expected);
+    }
+    if (edit == 0) CHECK(e.memory().versions > least + kSteps * 4);  // the readers, in order
+  }
 }
 
 void writer_of(Scope& s, Mod<int> in, Mod<int> out, int) { s.write(out, s.read(in) / 10); }

@@ -4,7 +4,8 @@
 // last one before it. The version of the only writer lies in place, where the modifiable's handle
 // points, and a read checks one number more than a plain load would. With more writers a `History`
 // keeps the versions in order: O(log) a read or write. Each version lists its readers; a write that
-// appears between two others takes over the readers behind it.
+// appears between two others takes over the readers behind it. Where it had to pass many others to
+// find them, the readers of that version are kept in order from then on.
 //
 // Example (imperative): call A writes 1, call B reads 1, call C writes 2, call D reads 2.
 #pragma once
@@ -15,12 +16,13 @@
 #include <new>
 #include <ostream>
 #include <type_traits>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "sac/engine.hpp"
 #include "sac/scope.hpp"
-#include "sac/version_order.hpp"
+#include "sac/trace_order.hpp"
 
 namespace sac {
 
@@ -38,6 +40,7 @@ struct Version {
   bool outside : 1 = false;  // an input
   bool apart : 1 = false;    // not where the modifiable's handle points
   bool past : 1 = false;     // apart, and gone: kept for those who have seen it, until their turn
+  bool ordered : 1 = false;  // its readers are in reader_orders_ as well
 };
 static_assert(sizeof(Version) == 16);
 
@@ -54,7 +57,7 @@ struct TypedVersion : Version {
 // The versions of a modifiable that more than one call writes, in trace order.
 struct History {
   Handle head = 0;
-  VersionOrder versions;
+  TraceOrder versions;
 };
 
 struct ReadEdge : Edge {
@@ -156,7 +159,7 @@ class ModStructure final : public Structure {
   detail::Version& new_version(Scope& scope, Handle head, const detail::ValueType& type);
   /// Throws: UsageError if the running call's own children have read `version`: then it may not
   /// change.
-  void require_unread(Scope& scope, Handle head, const detail::Version& version) const;
+  void require_unread(Scope& scope, Handle head, const detail::Version& version);
   /// Takes the value of `version` out, to be given another at once; its readers are in doubt.
   void replace(Handle head, detail::Version& version) noexcept;
   /// A new version has its value: takes over the readers of `previous` that are behind it if its
@@ -220,13 +223,28 @@ class ModStructure final : public Structure {
   [[nodiscard]] detail::Version* predecessor(Handle head,
                                              const detail::Version& version) const noexcept;
   void forget_version(Handle head, detail::Version& version) noexcept;
+  // Orders readers by their calls; handle 0 stands for `probe`.
+  [[nodiscard]] auto reader_order(const Call* probe = nullptr) const noexcept {
+    return [this, probe](Handle a, Handle b) {
+      const Call& x = a != 0 ? engine_.call(reader(a)->call) : *probe;
+      const Call& y = b != 0 ? engine_.call(reader(b)->call) : *probe;
+      return &x == &y ? a != 0 && b != 0 && a < b : engine_.precedes(x, y);
+    };
+  }
+  // Visits the readers of `version` behind `call`, in any order, until `visit` returns false; it
+  // may unlink the one that it is given. Cost: O(log) a reader visited; the first time that many
+  // others are passed, O(log) for each of these.
+  template <class Visit>
+  void for_each_reader_behind(const detail::Version& version, const Call& call, Visit&& visit);
+  void order_readers(const detail::Version& version) noexcept;
+  void forget_order(detail::Version& version) noexcept;
   void link_reader(detail::ReadEdge& edge, detail::Version& version) noexcept;
   void unlink_reader(detail::ReadEdge& edge) noexcept;
   [[nodiscard]] Handle head_of(const detail::Version& version) const noexcept {
     return version.apart ? version.history : handle_of(version);
   }
   [[nodiscard]] detail::Version* visible_to(const Call& call, const detail::Version& seen) const;
-  void move_readers(detail::Version& from, detail::Version& to, const Call* later_than) noexcept;
+  void move_reader(detail::ReadEdge& edge, detail::Version& to) noexcept;
   void doubt_readers(Handle head, const detail::Version& version, const Call& later_than) noexcept;
   void leave_past(Handle head, detail::Version& version, Handle except) noexcept;
   void orphan(detail::ReadEdge& edge) noexcept;
@@ -239,6 +257,7 @@ class ModStructure final : public Structure {
   Registry<detail::ValueType> types_;
   std::vector<std::unique_ptr<detail::History>> histories_;  // by number; the first is not used
   std::vector<std::uint32_t> free_histories_;
+  std::unordered_map<Handle, TraceOrder> reader_orders_;  // by version
 };
 
 template <class T, class Same>

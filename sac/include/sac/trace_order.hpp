@@ -1,5 +1,6 @@
-// The versions of a modifiable in trace order: a sorted array while they are few, as they mostly are,
-// and a two-level one beyond. O(log) a search; O(log), and the few entries behind, an edit.
+// Versions of a modifiable, or readers of a version, in trace order: a sorted array while they are
+// few, as they mostly are, and a two-level one beyond. O(log) a search; O(log), and the few entries
+// behind, an edit.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace sac {
 
 /// Handles in the order of `before(a, b)`, which must not throw and may be asked about handles that
 /// are not there.
-class VersionOrder {
+class TraceOrder {
  public:
   [[nodiscard]] std::size_t size() const noexcept { return many_ ? many_->size() : few_.size(); }
   [[nodiscard]] bool empty() const noexcept { return size() == 0; }
@@ -27,6 +28,11 @@ class VersionOrder {
     if (!many_ && few_.size() == kFew) spread();
     if (many_) return many_->insert({0, h}, before);
     few_.insert(behind(h, before), h);
+  }
+  /// Adds `h` behind all others. Requires: it belongs there. Throws: std::bad_alloc.
+  void append(Handle h) {
+    if (!many_ && few_.size() == kFew) spread();
+    many_ ? many_->append({0, h}) : few_.push_back(h);
   }
   /// Requires: `h` is there.
   template <class Before>
