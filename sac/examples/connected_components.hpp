@@ -13,9 +13,6 @@
 // 2 * 10^5 edges drawn at random, 90 on a grid, and it grows with n, but slowly.
 // Stable because: a call is named by its edge, its place is a hash of that name, and the lots of
 // vertices are hashes too: nothing depends on what else is in the graph, or was.
-// Where work may exceed the distance of the traces: a root that comes to hang under the same parent
-// by another edge is the same value, written at another time; those that ask behind both edges run
-// again in vain. It is seldom: in the mean the work is half the distance.
 #pragma once
 
 #include <cstdint>

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 
 #include "list.hpp"
 
@@ -32,6 +33,9 @@ struct Group {
     typename Op::Value value;
     const Group* next;
     friend bool operator==(const State&, const State&) = default;
+    friend void label_bytes(sac::LabelSink& sink, const State& s) {
+      sac::label_arguments(sink, std::tie(s.value, s.next));
+    }
   };
   int height = 0;
   typename S::template CellType<State> state;

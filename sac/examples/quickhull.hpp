@@ -15,6 +15,7 @@
 // chunks.
 #pragma once
 
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct Hull {
   const PointNode<S>* left = nullptr;   ///< the leftmost corner, the lowest of these
   const PointNode<S>* right = nullptr;  ///< the rightmost, the highest of these
   friend bool operator==(const Hull&, const Hull&) = default;
+  friend void label_bytes(sac::LabelSink& sink, const Hull& x) {
+    sac::label_arguments(sink, std::tie(x.left, x.right));
+  }
 };
 template <class S>
 using HullMod = typename S::template ModType<Hull<S>>;
@@ -43,6 +47,9 @@ struct Extremes {
   struct Value {
     Point left, right;
     friend bool operator==(const Value&, const Value&) = default;
+    friend void label_bytes(sac::LabelSink& sink, const Value& x) {
+      sac::label_arguments(sink, std::tie(x.left, x.right));
+    }
   };
   static Value join(const Value& a, const Value& b) {
     if (a.left.id == 0) return b;
@@ -61,6 +68,9 @@ struct Farthest {
     std::int64_t distance = 0;  // times the length of the line
     Point point;
     friend bool operator==(const Value&, const Value&) = default;
+    friend void label_bytes(sac::LabelSink& sink, const Value& x) {
+      sac::label_arguments(sink, std::tie(x.distance, x.point));
+    }
   };
   static Value join(const Value& a, const Value& b) {
     if (a.distance != b.distance) return a.distance > b.distance ? a : b;
@@ -76,11 +86,17 @@ struct PointChunk {
     std::vector<Point> points;
     const PointChunk* next = nullptr;
     friend bool operator==(const State&, const State&) = default;
+    friend void label_bytes(sac::LabelSink& sink, const State& x) {
+      sac::label_arguments(sink, std::tie(x.points, x.next));
+    }
   };
   struct Folded {
     typename Op::Value value;
     const PointChunk* next = nullptr;
     friend bool operator==(const Folded&, const Folded&) = default;
+    friend void label_bytes(sac::LabelSink& sink, const Folded& x) {
+      sac::label_arguments(sink, std::tie(x.value, x.next));
+    }
   };
   Point boundary;
   typename S::template CellType<State> state;

@@ -363,6 +363,7 @@ void Engine::run_from_queue(Handle call) {
   now_ = call;
   if (!c.has(Call::kInvalid) && reads_the_same(c)) {
     if (observer_ != nullptr) [[unlikely]] note(Event::Kind::confirmed, &c);
+    ++counts_.confirmed;
     return c.clear(Call::kDoubtful);
   }
   execute(call, c.end != 0 ? c.end : c.next);

@@ -122,7 +122,9 @@ TEST_CASE("a call that would read what it has read does not run again") {
   w.news();
   w.e.set(a, 2);
   w.e.set(a, 1);
-  w.e.propagate();
+  const sac::Counts counts = w.e.propagate();
+  CHECK(counts.confirmed == 1);
+  CHECK(counts.executed == 0);
   CHECK(w.news() == Lines{"edited modifiable 'a'", "invalidated copy(x, @, @) at modifiable 'a'",
                           "edited modifiable 'a'", "propagation_started", "confirmed copy(x, @, @)",
                           "finished"});

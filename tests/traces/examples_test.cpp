@@ -1,125 +1,119 @@
 // The engine's examples, recorded: their traces have names throughout, propagated traces are those
 // of fresh runs, and work follows the distance [Theorem 1.4.4].
+//
+// `traces_tests "[.table]"` prints a line for each example: distance and work of random edits.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdint>
-#include <random>
-#include <string>
-#include <utility>
+#include <cstdio>
 #include <vector>
 
-#include "list_filter.hpp"
-#include "list_map.hpp"
-#include "list_reverse.hpp"
-#include "mergesort.hpp"
-#include "quicksort.hpp"
+#include "graph_examples.hpp"
+#include "list_examples.hpp"
+#include "text_examples.hpp"
 #include "traces/recorder.hpp"
 #include "traces/stability.hpp"
 
 namespace {
 
-using examples::Element;
-using Node = examples::Node<sac::Scope>;
+using namespace support;
 
-// A program on a list, in an engine of its own.
-template <auto Program>
-class ListRun {
- public:
-  explicit ListRun(const std::vector<Element>& elements) {
-    nodes_.push_back(&make({}));
-    for (std::size_t i = 0; i < elements.size(); ++i) link(i, elements[i]);
-    const auto result = engine_.template cell<const Node*>();
-    recorder_.name(result, "result");
-    engine_.template run<Program>(static_cast<const Node*>(nodes_[0]), result);
-  }
-  sac::Counts insert(std::size_t place, const Element& element) {
-    link(place, element);
-    return engine_.propagate();
-  }
-  sac::Counts erase(std::size_t place) {
-    engine_.set(nodes_[place]->next, engine_.get(nodes_[place + 1]->next));
-    nodes_.erase(nodes_.begin() + static_cast<std::ptrdiff_t>(place) + 1);
-    return engine_.propagate();
-  }
-  [[nodiscard]] traces::Trace trace() const { return recorder_.trace(); }
+template <class App>
+struct Run {
+  sac::Engine engine;
+  typename App::template World<sac::Engine> world;
 
- private:
-  Node& make(const Element& element) {
-    Node& node = engine_.template make<Node>();
-    node.element = element;
-    engine_.set(node.next, static_cast<const Node*>(nullptr));
-    recorder_.name(&node, "node", element.id);
-    return node;
+  explicit Run(const typename App::Input& input) : world(engine, input) {}
+  [[nodiscard]] traces::Trace trace() const {
+    traces::Recorder recorder(engine);
+    world.name(recorder);
+    return recorder.trace();
   }
-  void link(std::size_t place, const Element& element) {
-    Node& node = make(element);
-    engine_.set(node.next, engine_.get(nodes_[place]->next));
-    engine_.set(nodes_[place]->next, static_cast<const Node*>(&node));
-    nodes_.insert(nodes_.begin() + static_cast<std::ptrdiff_t>(place) + 1, &node);
-  }
-
-  sac::Engine engine_;
-  traces::Recorder recorder_{engine_};
-  std::vector<Node*> nodes_;  // the header first
 };
 
-// The same under random insertions and deletions.
-template <auto Program>
-class ListSubject final : public traces::Subject {
+// An App of example_harness.hpp under its random edits.
+template <class App>
+class AppSubject final : public traces::Subject {
  public:
-  ListSubject(std::uint32_t size, unsigned seed)
-      : random_(seed), elements_(random_elements(size)), run_(elements_) {}
+  AppSubject(std::uint64_t seed, int size)
+      : random_(seed), input_(App::random_input(random_, size)), run_(input_) {}
 
   Edit edit() override {
-    const bool erases = !elements_.empty() && random_() % 2 == 0;
-    const std::size_t place = random_() % (elements_.size() + (erases ? 0 : 1));
-    const auto at = elements_.begin() + static_cast<std::ptrdiff_t>(place);
-    if (erases) {
-      elements_.erase(at);
-      return {run_.erase(place), {}};
-    }
-    const Element element = random_element();
-    elements_.insert(at, element);
-    return {run_.insert(place, element), {}};
+    const auto e = App::random_edit(random_, input_);
+    App::apply(input_, e);
+    run_.world.edit(e);
+    return {run_.engine.propagate(), {}};
   }
   [[nodiscard]] traces::Trace trace() const override { return run_.trace(); }
-  [[nodiscard]] traces::Trace fresh_trace() const override {
-    return ListRun<Program>(elements_).trace();
-  }
+  [[nodiscard]] traces::Trace fresh_trace() const override { return Run<App>(input_).trace(); }
 
  private:
-  Element random_element() { return {static_cast<int>(random_() % 1000), ++last_id_}; }
-  std::vector<Element> random_elements(std::uint32_t size) {
-    std::vector<Element> elements;
-    while (elements.size() < size) elements.push_back(random_element());
-    return elements;
-  }
-
-  std::mt19937 random_;
-  std::uint32_t last_id_ = 0;
-  std::vector<Element> elements_;
-  ListRun<Program> run_;
+  Random random_;
+  typename App::Input input_;
+  Run<App> run_;
 };
 
-template <auto Program>
-void check_example(const std::string& name, double bound) {
-  const unsigned seed = std::random_device{}();
-  for (const std::uint32_t size : {0u, 3u, 60u}) {
-    ListSubject<Program> subject(size, seed);
-    for (const traces::StabilityRow& row : traces::stability(subject, 40)) {
-      INFO(name << ", size " << size << ", seed " << seed);
+#define EXAMPLES                                                                           \
+  ArrayApp, MapApp, FilterApp, ReverseApp, SumApp, MinimumApp, QuicksortApp, MergesortApp, \
+      QuickhullApp<any_point>, QuickhullApp<spread_point>, DiameterApp<spread_point>,      \
+      DistanceApp<1000>, ExpressionApp, ForestApp, SearchApp, ComponentsApp, SpellApp,     \
+      StringApp, SheetApp
+
+// Inputs of `size` elements, and few.
+template <class App>
+void check_work(std::uint64_t seeds, int size) {
+  std::uint64_t work = 0;
+  std::uint64_t distance = 0;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const int n = seed % 4 == 0 ? static_cast<int>(seed % 12) / 2 : size;
+    AppSubject<App> subject(seed, n);
+    CHECK(subject.trace().unnamed == 0);
+    for (const traces::StabilityRow& row : traces::stability(subject, 60)) {
+      INFO(App::kName << ", size " << n << ", seed " << seed);
       REQUIRE(row.drift == 0);
       CAPTURE(row.work(), row.distance);
-      REQUIRE(row.ratio() <= bound);
+      REQUIRE(row.ratio() <= 2);
+      work += row.work();
+      distance += row.distance;
     }
   }
+  INFO(App::kName << ": " << work << " for " << distance);
+  CHECK(work <= distance * 3 / 2);
+}
+
+TEMPLATE_TEST_CASE("examples: work is at most twice the distance [Thm 1.4.4]", "", EXAMPLES) {
+  check_work<TestType>(12, 60);
+}
+
+TEMPLATE_TEST_CASE("examples: the same for many edits", "[.soak]", EXAMPLES) {
+  check_work<TestType>(300, 150);
+}
+
+TEMPLATE_TEST_CASE("table of distance and work", "[.table]", EXAMPLES) {
+  AppSubject<TestType> subject(1, 1000);
+  std::vector<std::uint64_t> distances;
+  std::vector<double> ratios;
+  std::uint64_t work = 0;
+  std::uint64_t confirmed = 0;
+  std::uint64_t distance = 0;
+  traces::StabilityOptions options;
+  options.fresh = false;
+  for (const auto& row : traces::stability(subject, 300, options)) {
+    distances.push_back(row.distance);
+    ratios.push_back(row.ratio());
+    work += row.work();
+    confirmed += row.counts.confirmed;
+    distance += row.distance;
+  }
+  const double all = static_cast<double>(std::max<std::uint64_t>(distance, 1));
+  std::sort(distances.begin(), distances.end());
+  std::sort(ratios.begin(), ratios.end());
+  std::printf("{\"example\":\"%s\",\"n\":1000,\"edits\":300,\"distance_median\":%d,"
+              "\"distance_max\":%d,\"ratio_median\":%.2f,\"ratio_max\":%.2f,\"ratio_mean\":%.2f,"
+              "\"confirmed_mean\":%.2f}\n",
+              TestType::kName, static_cast<int>(distances[150]), static_cast<int>(distances[299]),
+              ratios[150], ratios[299], static_cast<double>(work) / all,
+              static_cast<double>(confirmed) / all);
 }
 
 }  // namespace
-
-TEST_CASE("Examples: propagated traces are fresh ones, and work follows distance [Thm 1.4.4]") {
-  check_example<examples::map_list>("map", 2);
-  check_example<examples::filter_list>("filter", 2);
-  check_example<examples::reverse_list>("reverse", 2);
-  check_example<examples::quicksort>("quicksort", 2);
-  check_example<examples::mergesort>("mergesort", 2);
-}

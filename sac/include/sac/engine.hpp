@@ -57,6 +57,7 @@ struct Counts {
   std::uint64_t discarded = 0;      ///< calls that left the trace
   std::uint64_t edges_made = 0;     ///< reads, writes, posts, ... recorded
   std::uint64_t edges_removed = 0;  ///< reads, writes, posts, ... taken back
+  std::uint64_t confirmed = 0;      ///< calls not run: they would read what they have read
 };
 
 /// What the detectors saw; both empty for a program that is concise and monotone.
