@@ -1,10 +1,12 @@
 // The examples on trees and graphs (sac/examples) under random edits.
 #include <catch2/catch.hpp>
 
-#include "graph_examples.hpp"
+#include "apps/graphs.hpp"
+#include "example_harness.hpp"
 
 namespace {
 
+using namespace apps;
 using namespace support;
 
 TEMPLATE_TEST_CASE("graph examples run plainly give what naive programs give", "", ExpressionApp,

@@ -1,8 +1,11 @@
 // The examples on lists, arrays and points (sac/examples) under random edits.
-#include "list_examples.hpp"
+#include "apps/lists.hpp"
 
 #include <catch2/catch.hpp>
 
+#include "example_harness.hpp"
+
+using namespace apps;
 using namespace support;
 
 #define LIST_EXAMPLES                                                                      \

@@ -6,10 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "text_examples.hpp"
+#include "apps/text.hpp"
+#include "example_harness.hpp"
 
 namespace {
 
+using namespace apps;
 using namespace support;
 
 TEST_CASE("strings that differ in one letter have different hashes") {

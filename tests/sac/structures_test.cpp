@@ -248,12 +248,17 @@ struct Object {
 struct Plain {
   void operator()(sac::Scope&) const {}
 };
+template <class T>
+struct Of {
+  void operator()(sac::Scope&) const {}
+};
 
 TEST_CASE("a function's name comes from the function itself") {
   CHECK(sac::function_name<&some_function>() == "some_function");
   CHECK(sac::function_name<some_function>() == "some_function");
   CHECK(sac::function_name<Object{}>() == "an object");
   CHECK(sac::function_name<Plain{}>() == "Plain");
+  CHECK(sac::function_name<Of<sac::Scope>{}>() == "Of<sac::Scope>");
   CHECK(sac::function_name<[](sac::Scope&) {}>() == "lambda");
 }
 

@@ -1,23 +1,6 @@
 // Checks an example program (sac/examples) under random edits.
 //
-// An App says what the example is; everything in it is a plain value except for World, which is
-// the program with its inputs on a host, sac::Engine (traced) or sac::PlainScope (not traced):
-//
-//   struct App {
-//     static constexpr const char* kName = "list map";
-//     using Input = ...;                                   // copied freely
-//     using Edit = ...;                                    // one change of an Input
-//     static Input random_input(Random&, int size);        // size: 0 ..
-//     static Edit random_edit(Random&, const Input&);      // one that can be applied
-//     static Edit inverse(const Input& before, const Edit&);
-//     static void apply(Input&, const Edit&);
-//     static auto oracle(const Input&);                    // naive; a value with ==
-//     template <class Host> struct World {
-//       World(Host&, const Input&);                        // makes the inputs and runs the program
-//       void edit(const Edit&);                            // the same change; does not propagate
-//       auto result();                                     // to be compared with the oracle
-//     };
-//   };
+// An App (sac/examples/apps/app.hpp) is a program with random inputs and edits.
 //
 // After every propagation: (1) the engine's invariants hold; (2) the result is that of the oracle
 // and of a plain run; (3) result, calls and edges are as many as in a fresh engine; (4) no two
@@ -37,15 +20,8 @@
 
 namespace support {
 
-/// The scope that programs get from a host.
-template <class Host>
-using ScopeOf = std::conditional_t<std::is_same_v<Host, sac::Engine>, sac::Scope, sac::PlainScope>;
-
-/// Tells a recorder (traces::Recorder) the names of modifiables: `name`, and their places.
-template <class Recorder, class Mods>
-void name_all(Recorder& recorder, const Mods& mods, const char* name) {
-  for (std::size_t i = 0; i < mods.size(); ++i) recorder.name(mods[i], name, i);
-}
+using apps::ScopeOf;
+using apps::name_all;
 
 /// A random run is named by these; an equal plan does the same again.
 struct Plan {

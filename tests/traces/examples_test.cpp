@@ -8,50 +8,16 @@
 #include <cstdio>
 #include <vector>
 
-#include "graph_examples.hpp"
-#include "list_examples.hpp"
-#include "text_examples.hpp"
-#include "traces/recorder.hpp"
+#include "app_subject.hpp"
+#include "apps/graphs.hpp"
+#include "apps/lists.hpp"
+#include "apps/text.hpp"
 #include "traces/stability.hpp"
 
 namespace {
 
-using namespace support;
-
-template <class App>
-struct Run {
-  sac::Engine engine;
-  typename App::template World<sac::Engine> world;
-
-  explicit Run(const typename App::Input& input) : world(engine, input) {}
-  [[nodiscard]] traces::Trace trace() const {
-    traces::Recorder recorder(engine);
-    world.name(recorder);
-    return recorder.trace();
-  }
-};
-
-// An App of example_harness.hpp under its random edits.
-template <class App>
-class AppSubject final : public traces::Subject {
- public:
-  AppSubject(std::uint64_t seed, int size)
-      : random_(seed), input_(App::random_input(random_, size)), run_(input_) {}
-
-  Edit edit() override {
-    const auto e = App::random_edit(random_, input_);
-    App::apply(input_, e);
-    run_.world.edit(e);
-    return {run_.engine.propagate(), {}};
-  }
-  [[nodiscard]] traces::Trace trace() const override { return run_.trace(); }
-  [[nodiscard]] traces::Trace fresh_trace() const override { return Run<App>(input_).trace(); }
-
- private:
-  Random random_;
-  typename App::Input input_;
-  Run<App> run_;
-};
+using namespace apps;
+using tool::AppSubject;
 
 #define EXAMPLES                                                                           \
   ArrayApp, MapApp, FilterApp, ReverseApp, SumApp, MinimumApp, QuicksortApp, MergesortApp, \

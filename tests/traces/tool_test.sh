@@ -104,6 +104,24 @@ printf -- '-point 999\n' >bad.txt
 refuse_of "$mesher" 3 'bad.txt:1:1: error[unknown_id]' trace points.node --script bad.txt \
   -o out/x.trace
 
+echo "== example"
+for example in array-map list-map list-filter list-reverse list-sum list-minimum quicksort \
+  mergesort quickhull diameter distance expression-tree tree-contraction breadth-first-search \
+  connected-components spell-check string-hash spreadsheet; do
+  expect 0 'ex4.trace: ' example $example --n 40 --edits 4 -o ex4.trace
+  expect 0 'the last edit: ' example $example --n 40 --edits 5 -o ex5.trace
+  [[ -z $("$traces" audit ex4.trace ex5.trace 2>&1) ]] || fail "audit of $example is not silent"
+  "$traces" distance ex4.trace ex5.trace --json >distance.json
+  holds "$(value unnamed_a) == 0 && $(value common) > 0"
+done
+expect 0 ' calls' example quicksort --edges --n 0 -o out/none.trace
+expect 0 'all ' stability --example quicksort --n 40 --edits 5
+rm out/none.trace
+refuse 2 'there are array-map, ' example bubblesort -o out/x.trace
+refuse 2 'there are array-map, ' stability --example bubblesort
+refuse 2 'error[bad_option]' example quicksort
+refuse 3 'none/x.trace' example quicksort -o none/x.trace
+
 echo "== help and usage"
 expect 0 'Examples:' --help
 for command in show distance audit render; do

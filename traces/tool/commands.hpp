@@ -16,6 +16,7 @@ enum Exit { kOk = 0, kFound = 1, kUsage = 2, kFile = 3, kLimit = 4, kBug = 70 };
 /// Keeps the order in which fields are given.
 using Json = nlohmann::ordered_json;
 
+void add_example(CLI::App& app);
 void add_show(CLI::App& app);
 void add_distance(CLI::App& app);
 /// `exit_code` becomes kFound if something is found.
@@ -31,5 +32,7 @@ void print_json(const Json& object);
 
 /// An option's check: what is wrong with `text`, or nothing. CLI11 takes -1 for a large number.
 [[nodiscard]] std::string is_count(const std::string& text);
+/// An option's check: `name` is an example of the engine.
+[[nodiscard]] std::string is_example(const std::string& name);
 
 }  // namespace tool

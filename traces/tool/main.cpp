@@ -14,6 +14,7 @@ using tool::Exit;
 constexpr const char* kHelpFooter =
     "Examples:\n"
     "  mesher trace points.node -o a.trace     records what these commands read\n"
+    "  traces example quicksort -o q.trace     so does this, of an example of the engine\n"
     "  traces show a.trace --limit 20          the first calls, one a line: depth and label\n"
     "  traces distance a.trace b.trace         calls that only one of two runs makes\n"
     "  traces distance a.trace b.trace --json\n"
@@ -29,6 +30,7 @@ int run(int argc, char** argv) {
   app.footer(kHelpFooter);
   app.require_subcommand(1);
   int exit_code = Exit::kOk;
+  tool::add_example(app);
   tool::add_show(app);
   tool::add_distance(app);
   tool::add_audit(app, exit_code);

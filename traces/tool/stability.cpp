@@ -1,4 +1,4 @@
-// traces stability: the mesher under random edits; distance and work of each.
+// traces stability: the mesher, or an example, under random edits; distance and work of each.
 #include "traces/stability.hpp"
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "example_subject.hpp"
 #include "mesh_subject.hpp"
 #include "mesher/error.hpp"
 #include "mesher/generate.hpp"
@@ -20,6 +21,7 @@ namespace tool {
 namespace {
 
 struct Arguments {
+  std::string example;  // empty: the mesher
   std::vector<std::uint64_t> sizes = {1000};
   std::uint64_t edits = 100;
   std::uint64_t seed = 1;
@@ -95,9 +97,13 @@ void print_summary_line(const std::string& name, const std::vector<traces::Stabi
   print_line(cells);
 }
 
-// Distance and ratio, by lg(L/d) and in all.
-void print_summary(const std::vector<traces::StabilityRow>& rows) {
+// Distance and ratio, of meshes by lg(L/d), and in all.
+void print_summary(const std::vector<traces::StabilityRow>& rows, bool of_meshes) {
   if (rows.empty()) return;
+  if (!of_meshes) {
+    std::cout << "Edits; distance, median and largest; ratio, median and largest\n";
+    return print_summary_line("all", rows);
+  }
   constexpr int kBand = 4;
   std::map<int, std::vector<traces::StabilityRow>> bands;
   for (const traces::StabilityRow& row : rows) {
@@ -120,12 +126,16 @@ mesher::Options<2> options_of(const Arguments& args, const std::vector<mesher::P
   return options;
 }
 
+std::unique_ptr<traces::Subject> make_subject(const Arguments& args, std::uint64_t n) {
+  if (!args.example.empty()) return make_example(args.example, args.seed, static_cast<int>(n));
+  auto points = mesher::generate_points<2>(*mesher::point_kind(args.kind), n, args.seed);
+  const auto options = options_of(args, points);
+  return std::make_unique<MeshSubject>(options, std::move(points), args.seed);
+}
+
 // Whether a propagated trace was not that of a fresh run.
 bool run_size(const Arguments& args, std::uint64_t n) {
-  const auto kind = mesher::point_kind(args.kind);
-  auto points = mesher::generate_points<2>(*kind, n, args.seed);
-  const auto options = options_of(args, points);
-  MeshSubject subject(options, std::move(points), args.seed);
+  const auto subject = make_subject(args, n);
   bool first = true, drifted = false;
   traces::StabilityOptions how;
   how.fresh = !args.trust;
@@ -134,8 +144,8 @@ bool run_size(const Arguments& args, std::uint64_t n) {
     first = false;
     drifted = drifted || row.drift != 0;
   };
-  const auto rows = traces::stability(subject, args.edits, how);
-  if (!args.json) print_summary(rows);
+  const auto rows = traces::stability(*subject, args.edits, how);
+  if (!args.json) print_summary(rows, args.example.empty());
   return drifted;
 }
 
@@ -151,8 +161,12 @@ bool run(const Arguments& args) {
 void add_stability(CLI::App& app, int& exit_code) {
   const auto args = std::make_shared<Arguments>();
   CLI::App* sub = app.add_subcommand(
-      "stability", "Edits random meshes, and tables what each edit changes and costs");
-  sub->add_option("--n", args->sizes, "Input points, 2 to 1000000; may be repeated")
+      "stability", "Edits random inputs, and tables what each edit changes and costs");
+  sub->add_option("--example", args->example,
+                  "An example of the engine (traces example --help); without it, the mesher")
+      ->check(is_example, "")
+      ->type_name("NAME");
+  sub->add_option("--n", args->sizes, "Input points or elements, 2 to 1000000; may be repeated")
       ->check(CLI::Range(2, 1'000'000), "")
       ->type_name("N")
       ->allow_extra_args(false)
@@ -161,7 +175,7 @@ void add_stability(CLI::App& app, int& exit_code) {
       ->check(is_count, "")
       ->type_name("K")
       ->capture_default_str();
-  sub->add_option("--seed", args->seed, "Of points and edits")
+  sub->add_option("--seed", args->seed, "Of input and edits")
       ->check(is_count, "")
       ->type_name("S")
       ->capture_default_str();
@@ -183,12 +197,14 @@ void add_stability(CLI::App& app, int& exit_code) {
                 "Take propagated traces for those of runs from scratch: faster");
   sub->add_flag("--json", args->json, "A JSON object a line for each edit");
   sub->footer(
-      "An edit inserts or removes a point. A line says: points, vertices of the mesh, lg(L/s),\n"
+      "An edit of a mesh inserts or removes a point. A line says: points, vertices of the mesh, lg(L/s),\n"
       "lg(L/d), the distance of the traces, and the work of the propagation. L is the domain's\n"
       "side, s the least distance of two points, d that from the edited point to its nearest.\n"
+      "Of an example it says distance and work.\n"
       "Exit code 1 if a propagated trace is not that of a run from scratch.\n"
       "Examples:\n"
       "  traces stability --n 1000 --n 10000 --edits 100\n"
+      "  traces stability --example mergesort --n 1000\n"
       "  traces stability --kind line-circle --rule voronoi-aspect --json");
   sub->callback([args, &exit_code] {
     if (run(*args)) exit_code = kFound;

@@ -301,7 +301,7 @@ template <auto F>
     return decltype(F)::kName;
   } else {
     constexpr std::string_view full = detail::spelled_function<F>();
-    constexpr auto colon = full.rfind("::");
+    constexpr auto colon = full.rfind("::", full.find('<'));
     return colon == full.npos ? full : full.substr(colon + 2);
   }
 }

@@ -1,5 +1,4 @@
-// The examples on words, strings and formulas (sac/examples), as Apps of example_harness.hpp. A
-// World also tells the names of its inputs and cells, for recordings.
+// The examples on words, strings and formulas (sac/examples), as Apps (app.hpp).
 #pragma once
 
 #include <algorithm>
@@ -11,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "example_harness.hpp"
-#include "spell_check.hpp"
-#include "spreadsheet.hpp"
-#include "string_hash.hpp"
+#include "../spell_check.hpp"
+#include "../spreadsheet.hpp"
+#include "../string_hash.hpp"
+#include "app.hpp"
 
-namespace support {
+namespace apps {
 
 // --- Spell check ---------------------------------------------------------------------------------
 
@@ -485,4 +484,4 @@ struct SheetApp {
   };
 };
 
-}  // namespace support
+}  // namespace apps

@@ -1,5 +1,4 @@
-// The examples on trees and graphs (sac/examples), as Apps of example_harness.hpp. A World also
-// tells the names of its inputs and cells, for recordings.
+// The examples on trees and graphs (sac/examples), as Apps (app.hpp).
 #pragma once
 
 #include <algorithm>
@@ -10,13 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include "breadth_first_search.hpp"
-#include "connected_components.hpp"
-#include "example_harness.hpp"
-#include "expression_tree.hpp"
-#include "tree_contraction.hpp"
+#include "../breadth_first_search.hpp"
+#include "../connected_components.hpp"
+#include "../expression_tree.hpp"
+#include "../tree_contraction.hpp"
+#include "app.hpp"
 
-namespace support {
+namespace apps {
 
 // --- Expression tree -----------------------------------------------------------------------------
 
@@ -472,4 +471,4 @@ struct ComponentsApp : GraphApp {
   };
 };
 
-}  // namespace support
+}  // namespace apps

@@ -1,5 +1,4 @@
-// The examples on lists, arrays and points (sac/examples), as Apps of example_harness.hpp. A World
-// also tells the names of its inputs and cells, for recordings.
+// The examples on lists, arrays and points (sac/examples), as Apps (app.hpp).
 #pragma once
 
 #include <algorithm>
@@ -8,20 +7,20 @@
 #include <limits>
 #include <vector>
 
-#include "array_map.hpp"
-#include "diameter.hpp"
-#include "distance.hpp"
-#include "example_harness.hpp"
-#include "list_filter.hpp"
-#include "list_map.hpp"
-#include "list_minimum.hpp"
-#include "list_reverse.hpp"
-#include "list_sum.hpp"
-#include "mergesort.hpp"
-#include "quickhull.hpp"
-#include "quicksort.hpp"
+#include "../array_map.hpp"
+#include "../diameter.hpp"
+#include "../distance.hpp"
+#include "../list_filter.hpp"
+#include "../list_map.hpp"
+#include "../list_minimum.hpp"
+#include "../list_reverse.hpp"
+#include "../list_sum.hpp"
+#include "../mergesort.hpp"
+#include "../quickhull.hpp"
+#include "../quicksort.hpp"
+#include "app.hpp"
 
-namespace support {
+namespace apps {
 
 using namespace examples;
 
@@ -89,8 +88,8 @@ class HostList {
   }
   [[nodiscard]] const N* header() const { return nodes_.front(); }
   template <class Recorder>
-  void name(Recorder& recorder) const {
-    for (const N* node : nodes_) recorder.name(node, "node", node->element.id);
+  void name(Recorder& recorder, const char* node_name = "node") const {
+    for (const N* node : nodes_) recorder.name(node, node_name, node->element.id);
   }
 
   void edit(const ListEdit<T>& e) {
@@ -430,8 +429,8 @@ struct DistanceApp {
     void edit(const Edit& e) { (e.is_left ? left_ : right_).edit(e.edit); }
     template <class Recorder>
     void name(Recorder& recorder) const {
-      left_.name(recorder);
-      right_.name(recorder);
+      left_.name(recorder, "left");
+      right_.name(recorder, "right");
       recorder.name(result_, "result");
     }
     double result() { return host_.get(result_); }
@@ -443,4 +442,4 @@ struct DistanceApp {
   };
 };
 
-}  // namespace support
+}  // namespace apps

@@ -1,0 +1,74 @@
+// traces example: records an example of the engine.
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+#include "example_subject.hpp"
+
+namespace tool {
+namespace {
+
+struct Arguments {
+  std::string name;
+  std::string output;
+  int n = 100;
+  std::uint64_t edits = 0;
+  std::uint64_t seed = 1;
+  bool with_edges = false;
+};
+
+void run(const Arguments& args) {
+  const auto subject = make_example(args.name, args.seed, args.n);
+  sac::Counts last;
+  for (std::uint64_t i = 0; i < args.edits; ++i) last = subject->edit().work;
+  const auto recording =
+      subject->record(args.output, args.with_edges ? traces::Edges::yes : traces::Edges::no);
+  std::cout << args.output << ": " << recording.calls << " calls";
+  if (args.edits > 0) {
+    std::cout << "; the last edit: " << last.executed << " executed, " << last.created
+              << " created, " << last.discarded << " discarded";
+  }
+  std::cout << '\n';
+}
+
+}  // namespace
+
+std::string is_example(const std::string& name) {
+  std::string all;
+  for (const std::string& known : example_names()) {
+    if (name == known) return "";
+    all += (all.empty() ? "" : ", ") + known;
+  }
+  return "'" + name + "' is no example; there are " + all;
+}
+
+void add_example(CLI::App& app) {
+  const auto args = std::make_shared<Arguments>();
+  CLI::App* sub =
+      app.add_subcommand("example", "Runs an example of the engine, edits its input, records it");
+  sub->add_option("NAME", args->name, "list-map, quicksort, ...: any other name lists them all")
+      ->required()
+      ->check(is_example, "");
+  sub->add_option("-o", args->output, "The trace")->required()->type_name("FILE.trace");
+  sub->add_option("--n", args->n, "Elements of the input, about; 0 to 100000")
+      ->check(CLI::Range(0, 100'000), "")
+      ->type_name("N")
+      ->capture_default_str();
+  sub->add_option("--edits", args->edits, "Random edits, each propagated")
+      ->check(is_count, "")
+      ->type_name("K")
+      ->capture_default_str();
+  sub->add_option("--seed", args->seed, "Of input and edits")
+      ->check(is_count, "")
+      ->type_name("S")
+      ->capture_default_str();
+  sub->add_flag("--edges", args->with_edges, "With what each call read and did");
+  sub->footer(
+      "Runs of one seed make the same edits: what the fifth edit changes is\n"
+      "  traces example quicksort --edits 4 -o before.trace\n"
+      "  traces example quicksort --edits 5 -o after.trace\n"
+      "  traces render before.trace after.trace -o edit.svg");
+  sub->callback([args] { run(*args); });
+}
+
+}  // namespace tool
