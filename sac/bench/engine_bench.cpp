@@ -4,7 +4,9 @@
 //
 // One JSON line per figure, medians of 5 rounds:
 //   read      nanoseconds per read in a first run
+//   write     nanoseconds per write of a cell of its own in a first run
 //   call      nanoseconds per call in a first run
+//   post      nanoseconds per call that is posted, put in order and run in a first run
 //   list_map  from scratch; one insertion or deletion; bytes per element
 //   write_among_readers  a write that comes or goes among n readers, 10 of them behind it
 #include <cstdint>
@@ -51,8 +53,28 @@ struct ManyReads {
 };
 inline constexpr ManyReads many_reads{};
 
+struct ManyWrites {
+  static constexpr std::string_view kName = "many_writes";
+  void operator()(sac::Scope& s, const std::vector<sac::Mod<std::uint64_t>>* mods) const {
+    std::uint64_t i = 0;
+    for (const auto m : *mods) s.write(m, i++);
+  }
+};
+inline constexpr ManyWrites many_writes{};
+
+struct ManyPosts {
+  static constexpr std::string_view kName = "many_posts";
+  void operator()(sac::Scope& s, sac::Agenda* agenda, std::uint64_t n) const {
+    for (std::uint64_t i = 0; i < n; ++i) {
+      agenda->post<nothing>(s, {.bucket = static_cast<int>(i % 16)}, sac::mix(i));
+    }
+    agenda->drain(s);
+  }
+};
+inline constexpr ManyPosts many_posts{};
+
 void bench_calls(std::size_t n) {
-  std::vector<double> calls, reads;
+  std::vector<double> calls, reads, writes, posts;
   double bytes = 0;
   for (int round = 0; round < 5; ++round) {
     sac::Engine e;
@@ -64,10 +86,18 @@ void bench_calls(std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) mods.push_back(f.input<std::uint64_t>(i));
     const auto* all = &mods;
     reads.push_back(nanoseconds([&] { f.run<many_reads>(all); }));
+    sac::Engine g;
+    for (auto& m : mods) m = g.cell<std::uint64_t>();
+    writes.push_back(nanoseconds([&] { g.run<many_writes>(all); }));
+    sac::Engine h;
+    sac::Agenda* const agenda = &h.make_agenda("nothings");
+    posts.push_back(nanoseconds([&] { h.run<many_posts>(agenda, std::uint64_t{n}); }));
   }
   print("call", n, "ns", median(calls) / static_cast<double>(n));
   print("call", n, "bytes_with_argument", bytes);
   print("read", n, "ns", median(reads) / static_cast<double>(n));
+  print("write", n, "ns", median(writes) / static_cast<double>(n));
+  print("post", n, "ns", median(posts) / static_cast<double>(n));
 }
 
 // --- A list map ------------------------------------------------------------------------------

@@ -13,6 +13,7 @@
 //   over_static, over_arena             from_scratch divided by these
 //   update            us; median, mean and 99th percentile of: take a random element out, or put it
 //                     back, and propagate; the mean is of processor time, timers included
+//   update_in_order   the same for one element after the other
 //   work              calls executed, created and discarded in an update, means; and their sum's
 //                     median and 99th percentile
 //   trace             bytes, calls and edges per element; resident bytes of the process, inputs
@@ -20,6 +21,7 @@
 //   batch             us; that many values of an array changed, and a propagation
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -253,10 +255,14 @@ struct Updates {
     edges += real(counts.edges_made + counts.edges_removed);
     work.push_back(real(counts.executed + counts.created + counts.discarded));
   }
+  void print_times(const Report& report, const char* figure, double cpu_nanoseconds) const {
+    report(figure, "\"median_us\":%.3f,\"mean_us\":%.3f,\"p99_us\":%.3f", median(microseconds),
+           cpu_nanoseconds / 1e3 / static_cast<double>(microseconds.size()),
+           bench::quantile(microseconds, 0.99));
+  }
   void print(const Report& report, double cpu_nanoseconds) const {
     const auto n = static_cast<double>(microseconds.size());
-    report("update", "\"median_us\":%.3f,\"mean_us\":%.3f,\"p99_us\":%.3f", median(microseconds),
-           cpu_nanoseconds / 1e3 / n, bench::quantile(microseconds, 0.99));
+    print_times(report, "update", cpu_nanoseconds);
     report("work",
            "\"executed\":%.2f,\"created\":%.2f,\"discarded\":%.2f,\"edges\":%.2f,"
            "\"median\":%.0f,\"p99\":%.0f",
@@ -265,23 +271,33 @@ struct Updates {
   }
 };
 
+// At random places; then at places one behind the other, where what an update touches is in cache.
 template <class App>
 void bench_updates(const Report& report, World<App, sac::Engine>& world) {
   using N = typename World<App, sac::Engine>::N;
   sac::Engine& engine = *world.host;
   bench::Random random;
-  Updates updates;
+  const auto take_out_and_put_back = [&](Updates& updates, const auto& nodes, std::size_t i) {
+    const N* const taken = nodes[i + 1];
+    const N* const behind = engine.get(taken->next);
+    updates.add(engine, [&] { engine.set(nodes[i]->next, behind); });
+    updates.add(engine, [&] { engine.set(nodes[i]->next, taken); });
+  };
+  Updates updates, in_order;
   const double total = cpu_nanoseconds([&] {
     for (int k = 0; k < 5000; ++k) {
       const auto& nodes = world.lists[random.below(world.lists.size())];
-      const std::size_t i = random.below(nodes.size() - 1);
-      const N* const taken = nodes[i + 1];
-      const N* const behind = engine.get(taken->next);
-      updates.add(engine, [&] { engine.set(nodes[i]->next, behind); });
-      updates.add(engine, [&] { engine.set(nodes[i]->next, taken); });
+      take_out_and_put_back(updates, nodes, random.below(nodes.size() - 1));
     }
   });
   updates.print(report, total);
+  const double total_in_order = cpu_nanoseconds([&] {
+    const auto& nodes = world.lists[0];
+    for (std::size_t i = 0; i < std::min<std::size_t>(5000, nodes.size() - 1); ++i) {
+      take_out_and_put_back(in_order, nodes, i);
+    }
+  });
+  in_order.print_times(report, "update_in_order", total_in_order);
 }
 
 template <class App>

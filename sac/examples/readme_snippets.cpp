@@ -1,7 +1,6 @@
 // The snippets of sac/README.md as one program; check() throws where a snippet is not true.
 //
 // tests/sac/readme_snippets_test.cpp runs it, and compares it with the README line by line.
-#include <deque>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -35,46 +34,48 @@ void read_and_write() {
 
 // --- 2. Calls that are reused ----------------------------------------------------------------
 
-struct Node;
-using List = sac::Mod<const Node*>;  // null: the end
 struct Node {
   int value = 0;
-  List next;
+  sac::Cell<const Node*> next;  // null: the end
 };
 
-void squares(sac::Scope& s, List in, List out) {
-  const Node* node = s.read(in);
-  if (node == nullptr) return s.write<const Node*>(out, nullptr);
-  Node& square = s.make<Node>(node);
-  square = {node->value * node->value, s.cell<const Node*>(node)};
-  s.write<const Node*>(out, &square);
-  s.tail<squares>(node->next, square.next);
+void square(sac::Scope& s, Node& self, const Node* node) {
+  self.value = node->value * node->value;
+  const Node* next = s.read(node->next);
+  s.write(self.next, next == nullptr ? nullptr : &s.tail_make<Node, square>(next));
 }
 
-int total(const sac::Engine& e, List list) {
+void squares(sac::Scope& s, const Node* list, sac::Mod<const Node*> out) {
+  s.write(out, &s.tail_make<Node, square>(list));
+}
+
+int total(const sac::Engine& e, const Node* list) {
   int sum = 0;
-  for (const Node* n = e.get(list); n != nullptr; n = e.get(n->next)) sum += n->value;
+  for (; list != nullptr; list = e.get(list->next)) sum += list->value;
   return sum;
 }
 
 void calls_that_are_reused() {
   sac::Engine e;
-  std::deque<Node> nodes;
-  List head = e.input<const Node*>(nullptr);
-  for (int i = 1000; i > 0; --i) {
-    nodes.push_back({i % 10, head});
-    head = e.input<const Node*>(&nodes.back());
+  std::vector<Node*> nodes(1000);
+  for (int i = 999; i >= 0; --i) {
+    nodes[i] = &e.make<Node>();
+    nodes[i]->value = i % 10;
+    e.set(nodes[i]->next, i < 999 ? nodes[i + 1] : nullptr);
   }
-  const List out = e.cell<const Node*>();
-  e.run<squares>(head, out);
-  check(total(e, out) == 28500);
+  const Node* first = nodes[0];
+  const auto out = e.cell<const Node*>();
+  e.propagate();
+  e.run<squares>(first, out);
+  check(total(e, e.get(out)) == 28500);
 
-  const Node& middle = nodes[500];
-  nodes.push_back({3, e.input(e.get(middle.next))});  // insert a 3 behind it
-  e.set<const Node*>(middle.next, &nodes.back());
+  Node& fresh = e.make<Node>();  // insert a 3 in the middle
+  fresh.value = 3;
+  e.set(fresh.next, e.get(nodes[500]->next));
+  e.set(nodes[500]->next, &fresh);
   const sac::Counts work = e.propagate();
-  check(total(e, out) == 28509);
-  check(work.executed == 2 && work.created == 3 && work.discarded == 0);
+  check(total(e, e.get(out)) == 28509);
+  check(work.executed == 2 && work.created == 1 && work.discarded == 0);
 }
 
 // --- 3. A modifiable written more than once --------------------------------------------------

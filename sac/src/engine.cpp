@@ -386,12 +386,15 @@ void Engine::roll_back() {
   mode_ = Mode::undoing;
   if (observer_ != nullptr) [[unlikely]] note(Event::Kind::roll_back_started);
   progress_at_ = ~std::uint64_t{0};
+  const std::size_t limit = arena_.limit();
+  arena_.set_limit(Arena::kReserve);
   try {
     for (auto undo = rollback_.rbegin(); undo != rollback_.rend(); ++undo) (*undo)();
     if (!broken_) propagate_within(0);
   } catch (...) {
     broken_ = true;
   }
+  arena_.set_limit(limit);
   rollback_.clear();
   finish();
 }

@@ -102,6 +102,7 @@ class Arena {
 
   /// From now on allocate() fails rather than hold more than `bytes`.
   void set_limit(std::size_t bytes) noexcept { limit_ = bytes; }
+  [[nodiscard]] std::size_t limit() const noexcept { return limit_; }
   /// The `count`-th allocation from now fails, once; 0: none. For tests.
   void fail_after(std::uint64_t count) noexcept { until_failure_ = count; }
 

@@ -192,6 +192,7 @@ class Engine {
   /// Cost: O(free blocks) and the size of the tables.
   void shrink();
   /// From now on the trace may hold so many bytes of calls and edges; beyond, std::bad_alloc.
+  /// Edits are undone without a limit.
   void set_memory_limit(std::size_t bytes) noexcept { arena_.set_limit(bytes); }
   [[nodiscard]] bool idle() const noexcept { return mode_ == Mode::idle; }
 
