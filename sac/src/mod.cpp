@@ -283,7 +283,8 @@ void ModStructure::unlink_reader(ReadEdge& edge) noexcept {
   if (edge.version == 0) return;
   Version& version = *at(edge.version);
   if (version.ordered) [[unlikely]] {
-    reader_orders_.find(edge.version)->second.erase(engine_.arena().handle_of(&edge), reader_order());
+    const Handle self = engine_.arena().handle_of(&edge);
+    reader_orders_.find(edge.version)->second.erase(self, reader_order());
   }
   if (edge.next_reader != 0) reader(edge.next_reader)->prev = edge.prev;
   (edge.prev != 0 ? reader(edge.prev)->next_reader : version.readers) = edge.next_reader;

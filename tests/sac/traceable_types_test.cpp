@@ -172,7 +172,7 @@ TEST_CASE("a propagation of claims that runs out of memory anywhere leaves them 
   CHECK(failures > 100);
 }
 
-// --- Calls that claim more than once --------------------------------------------------------------
+// --- Calls that claim more than once -------------------------------------------------------------
 
 using Numbers = examples::Claims<int>;
 

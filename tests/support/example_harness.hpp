@@ -20,8 +20,8 @@
 
 namespace support {
 
-using apps::ScopeOf;
 using apps::name_all;
+using apps::ScopeOf;
 
 /// A random run is named by these; an equal plan does the same again.
 struct Plan {

@@ -19,11 +19,11 @@ namespace {
 using namespace apps;
 using tool::AppSubject;
 
-#define EXAMPLES                                                                           \
-  ArrayApp, MapApp, FilterApp, ReverseApp, SumApp, MinimumApp, QuicksortApp, MergesortApp, \
-      QuickhullApp<any_point>, QuickhullApp<spread_point>, DiameterApp<spread_point>,      \
-      DistanceApp<1000>, ExpressionApp, ForestApp, SearchApp, ComponentsApp, SpellApp,     \
-      StringApp, SheetApp
+#define EXAMPLES                                                                                  \
+  ArrayApp, MapApp, FilterApp, ReverseApp, SumApp, MinimumApp, QuicksortApp, MergesortApp,        \
+      QuickhullApp<any_point>, QuickhullApp<spread_point>, DiameterApp<spread_point>,             \
+      DistanceApp<1000>, ExpressionApp, ForestApp, SearchApp, ComponentsApp, SpellApp, StringApp, \
+      SheetApp
 
 // Inputs of `size` elements, and few.
 template <class App>
@@ -74,12 +74,13 @@ TEMPLATE_TEST_CASE("table of distance and work", "[.table]", EXAMPLES) {
   const double all = static_cast<double>(std::max<std::uint64_t>(distance, 1));
   std::sort(distances.begin(), distances.end());
   std::sort(ratios.begin(), ratios.end());
-  std::printf("{\"example\":\"%s\",\"n\":1000,\"edits\":300,\"distance_median\":%d,"
-              "\"distance_max\":%d,\"ratio_median\":%.2f,\"ratio_max\":%.2f,\"ratio_mean\":%.2f,"
-              "\"confirmed_mean\":%.2f}\n",
-              TestType::kName, static_cast<int>(distances[150]), static_cast<int>(distances[299]),
-              ratios[150], ratios[299], static_cast<double>(work) / all,
-              static_cast<double>(confirmed) / all);
+  std::printf(
+      "{\"example\":\"%s\",\"n\":1000,\"edits\":300,\"distance_median\":%d,"
+      "\"distance_max\":%d,\"ratio_median\":%.2f,\"ratio_max\":%.2f,\"ratio_mean\":%.2f,"
+      "\"confirmed_mean\":%.2f}\n",
+      TestType::kName, static_cast<int>(distances[150]), static_cast<int>(distances[299]),
+      ratios[150], ratios[299], static_cast<double>(work) / all,
+      static_cast<double>(confirmed) / all);
 }
 
 }  // namespace

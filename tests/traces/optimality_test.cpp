@@ -18,10 +18,10 @@
 
 namespace {
 
+using support::node_key;
 using support::Op;
 using support::Random;
 using support::RandomProgram;
-using support::node_key;
 
 // The nodes of a random program, made concise: every call has the path on which it was reached as
 // its argument. Calls come in the order of the text and posts in that of their labels, so it is
@@ -189,8 +189,7 @@ TEST_CASE("work is within a constant factor of the distance, on random programs"
   check_seeds(0, 300, 2);
 }
 
-TEST_CASE("work is within a constant factor of the distance, on many random programs",
-          "[.soak]") {
+TEST_CASE("work is within a constant factor of the distance, on many random programs", "[.soak]") {
   check_seeds(1000, 20000, 2);
 }
 

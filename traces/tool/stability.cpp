@@ -197,7 +197,8 @@ void add_stability(CLI::App& app, int& exit_code) {
                 "Take propagated traces for those of runs from scratch: faster");
   sub->add_flag("--json", args->json, "A JSON object a line for each edit");
   sub->footer(
-      "An edit of a mesh inserts or removes a point. A line says: points, vertices of the mesh, lg(L/s),\n"
+      "An edit of a mesh inserts or removes a point. A line says: points, vertices of the mesh, "
+      "lg(L/s),\n"
       "lg(L/d), the distance of the traces, and the work of the propagation. L is the domain's\n"
       "side, s the least distance of two points, d that from the edited point to its nearest.\n"
       "Of an example it says distance and work.\n"

@@ -305,7 +305,9 @@ struct ArrayApp {
 // --- Hulls -----------------------------------------------------------------------------------
 
 inline Point any_point(Random& random, std::uint32_t id) { return random_point(random, id, 0, 12); }
-inline Point spread_point(Random& random, std::uint32_t id) { return random_point(random, id, 0, 2000); }
+inline Point spread_point(Random& random, std::uint32_t id) {
+  return random_point(random, id, 0, 2000);
+}
 
 // Andrew's monotone chain: corners only, clockwise, from the leftmost.
 inline std::vector<Point> naive_hull(std::vector<Point> points) {

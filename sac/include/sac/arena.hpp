@@ -91,8 +91,8 @@ class Arena {
   /// The object of this handle in the arena that `neighbour` lies in.
   template <class T>
   [[nodiscard]] static T* in_arena_of(const void* neighbour, Handle handle) noexcept {
-    return reinterpret_cast<T*>(
-        (reinterpret_cast<std::uintptr_t>(neighbour) & ~(kReserve - 1)) + handle * kGranule);
+    return reinterpret_cast<T*>((reinterpret_cast<std::uintptr_t>(neighbour) & ~(kReserve - 1)) +
+                                handle * kGranule);
   }
 
   /// Memory of live blocks.

@@ -5,8 +5,8 @@
 // operator<<, else only the type's size is shown.
 //
 // To compare traces of different runs a label needs a name that is the same in all of them, which
-// neither the hash nor the print of a handle is. label_arguments() gives that name to a LabelSink. An
-// argument's name is the first of these that applies:
+// neither the hash nor the print of a handle is. label_arguments() gives that name to a LabelSink.
+// An argument's name is the first of these that applies:
 //   (1) what `label_bytes(LabelSink&, const T&)` (argument-dependent) says;
 //   (2) the value of a number, an enumerator or a string;
 //   (3) the object that a pointer points to, which the sink must know by name;

@@ -23,7 +23,8 @@ namespace sac {
 
 class MemoTable {
  public:
-  explicit MemoTable(Arena& arena) : arena_(arena), entries_(kFirst + kFirst / 2), places_(kFirst) {}
+  explicit MemoTable(Arena& arena)
+      : arena_(arena), entries_(kFirst + kFirst / 2), places_(kFirst) {}
 
   /// Throws: std::bad_alloc, and then changes nothing. Cost: O(1) expected.
   void insert(Handle call, std::uint32_t hash) {
