@@ -42,12 +42,13 @@ Version* ModStructure::seen_by(const Call& call, Handle head) const {
     if (!version->written) return nullptr;
     const Call& w = writer(*version);
     if (&w == &call || engine_.precedes(w, call)) return unconfirmed(*version) ? nullptr : version;
-    require_ahead(call, head);
+    require_ahead(call, head, head);
     return nullptr;
   }
-  require_ahead(call, head);
   const TraceOrder& versions = history(version->history).versions;
-  Handle seen = versions.last_not_behind(0, order(&call));
+  const auto place = versions.place_of(0, order(&call));
+  if (place.behind != 0) require_ahead(call, head, place.behind);
+  Handle seen = place.before;
   while (seen != 0 && unconfirmed(*at(seen))) seen = versions.predecessor(seen, order());
   return seen != 0 ? at(seen) : nullptr;
 }
@@ -67,13 +68,9 @@ bool ModStructure::unconfirmed(const Version& version) const noexcept {
   return false;
 }
 
-// The effects of own children lie later in time than their parent: it cannot read them.
-void ModStructure::require_ahead(const Call& reader, Handle head) const {
-  Handle next = head;
-  if (const std::uint32_t h = at(head)->history; h != 0) {
-    next = history(h).versions.successor(0, order(&reader));
-    if (next == 0) return;
-  }
+// The effects of own children lie later in time than their parent: it cannot read them. `next` is
+// the first version behind it.
+void ModStructure::require_ahead(const Call& reader, Handle head, Handle next) const {
   const Call& other = writer(*at(next));
   if (engine_.lies_ahead(other)) return;
   throw UsageError(Engine::describe(reader) + " reads " + engine_.describe_mod(head) +
@@ -111,7 +108,7 @@ Version* ModStructure::find_own(const Call& call, Handle head) const noexcept {
   if (version->history == 0) {
     return version->written && &writer(*version) == &call ? version : nullptr;
   }
-  const Handle own = history(version->history).versions.last_not_behind(0, order(&call));
+  const Handle own = history(version->history).versions.place_of(0, order(&call)).before;
   return own != 0 && &writer(*at(own)) == &call ? at(own) : nullptr;
 }
 
@@ -173,20 +170,19 @@ Version& ModStructure::new_version(Scope& scope, Handle head, const detail::Valu
 }
 
 std::uint32_t ModStructure::new_history(Handle head) {
-  auto fresh = std::make_unique<History>();
-  fresh->head = head;
-  if (at(head)->written) fresh->versions.insert(head, order());
   if (histories_.empty()) histories_.emplace_back();
   if (free_histories_.empty()) {
     if (free_histories_.capacity() <= histories_.size()) {  // so that drop_history cannot fail
       free_histories_.reserve(2 * histories_.size() + 8);
     }
-    histories_.push_back(std::move(fresh));
-    return static_cast<std::uint32_t>(histories_.size() - 1);
+    histories_.emplace_back();
+    free_histories_.push_back(static_cast<std::uint32_t>(histories_.size() - 1));
   }
   const std::uint32_t number = free_histories_.back();
+  History& fresh = history(number);
+  if (at(head)->written) fresh.versions.insert(head, order());  // in place: it cannot fail
+  fresh.head = head;
   free_histories_.pop_back();
-  histories_[number] = std::move(fresh);
   return number;
 }
 
@@ -196,7 +192,7 @@ void ModStructure::drop_history(Handle head) noexcept {
   const TraceOrder& versions = history(number).versions;
   if (versions.size() > 1 || (versions.size() == 1 && versions.first() != head)) return;
   at(head)->history = 0;
-  histories_[number].reset();
+  histories_[number] = History();
   free_histories_.push_back(number);
 }
 
@@ -206,7 +202,7 @@ Version* ModStructure::before(Scope& scope, Handle head) const {
   if (version->history == 0) {
     return version->written && engine_.precedes(writer(*version), self) ? version : nullptr;
   }
-  const Handle last = history(version->history).versions.last_not_behind(0, order(&self));
+  const Handle last = history(version->history).versions.place_of(0, order(&self)).before;
   return last != 0 ? at(last) : nullptr;
 }
 
@@ -301,8 +297,8 @@ void ModStructure::for_each_reader_behind(const Version& version, const Call& ca
                                           Visit&& visit) {
   if (version.ordered) {
     const TraceOrder& readers = reader_orders_.find(handle_of(version))->second;
-    for (Handle r = readers.successor(0, reader_order(&call)); r != 0;) {
-      const Handle next = readers.successor(r, reader_order());
+    for (Handle r = readers.place_of(0, reader_order(&call)).behind; r != 0;) {
+      const Handle next = readers.place_of(r, reader_order()).behind;
       if (!visit(*reader(r))) return;
       r = next;
     }
@@ -526,9 +522,7 @@ void ModStructure::print(const Call&, const Edge& edge, std::ostream& out) const
 
 std::size_t ModStructure::bytes() const noexcept {
   std::size_t total = histories_.capacity() * sizeof(histories_[0]);
-  for (const auto& h : histories_) {
-    if (h != nullptr) total += sizeof(History) + h->versions.bytes();
-  }
+  for (const History& h : histories_) total += h.versions.bytes();
   for (const auto& [version, readers] : reader_orders_) total += 64 + readers.bytes();
   return total;
 }

@@ -212,8 +212,11 @@ class ModStructure final : public Structure {
       return engine_.precedes(x, y);
     };
   }
-  [[nodiscard]] detail::History& history(std::uint32_t number) const noexcept {
-    return *histories_[number];
+  [[nodiscard]] detail::History& history(std::uint32_t number) noexcept {
+    return histories_[number];
+  }
+  [[nodiscard]] const detail::History& history(std::uint32_t number) const noexcept {
+    return histories_[number];
   }
   [[nodiscard]] detail::Version* seen_by(const Call& call, Handle head) const;
   [[nodiscard]] detail::Version* find_own(const Call& call, Handle head) const noexcept;
@@ -249,13 +252,13 @@ class ModStructure final : public Structure {
   void leave_past(Handle head, detail::Version& version, Handle except) noexcept;
   void orphan(detail::ReadEdge& edge) noexcept;
   void free_past(detail::Version& version) noexcept;
-  void require_ahead(const Call& reader, Handle head) const;
+  void require_ahead(const Call& reader, Handle head, Handle next) const;
   [[noreturn]] void fail_unwritten(const Call& reader, Handle head) const;
 
   Engine& engine_;
   std::uint8_t id_;
   Registry<detail::ValueType> types_;
-  std::vector<std::unique_ptr<detail::History>> histories_;  // by number; the first is not used
+  std::vector<detail::History> histories_;  // by number; the first is not used
   std::vector<std::uint32_t> free_histories_;
   std::unordered_map<Handle, TraceOrder> reader_orders_;  // by version
 };

@@ -1,12 +1,13 @@
 // Versions of a modifiable, or readers of a version, in trace order: a sorted array while they are
 // few, as they mostly are, and a two-level one beyond. O(log) a search; O(log), and the few entries
-// behind, an edit.
+// behind, an edit. Four lie in place.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <vector>
+#include <utility>
 
 #include "sac/ordered_calls.hpp"
 
@@ -16,29 +17,59 @@ namespace sac {
 /// are not there.
 class TraceOrder {
  public:
-  [[nodiscard]] std::size_t size() const noexcept { return many_ ? many_->size() : few_.size(); }
+  /// What an entry lies between; 0: nothing.
+  struct Place {
+    Handle before = 0;  // the last that does not come behind it
+    Handle behind = 0;  // the first that does
+  };
+
+  TraceOrder() = default;
+  TraceOrder(TraceOrder&& other) noexcept
+      : size_(std::exchange(other.size_, 0)),
+        capacity_(std::exchange(other.capacity_, kInPlace)),
+        few_(other.few_),
+        many_(std::move(other.many_)) {}
+  TraceOrder& operator=(TraceOrder&& other) noexcept {
+    std::swap(size_, other.size_);
+    std::swap(capacity_, other.capacity_);
+    std::swap(few_, other.few_);
+    std::swap(many_, other.many_);
+    return *this;
+  }
+  ~TraceOrder() {
+    if (capacity_ > kInPlace) delete[] few_.apart;
+  }
+
+  [[nodiscard]] std::size_t size() const noexcept { return many_ ? many_->size() : size_; }
   [[nodiscard]] bool empty() const noexcept { return size() == 0; }
   /// Requires: not empty.
-  [[nodiscard]] Handle first() const noexcept { return many_ ? many_->first() : few_.front(); }
-  [[nodiscard]] Handle last() const noexcept { return many_ ? many_->last() : few_.back(); }
+  [[nodiscard]] Handle first() const noexcept { return many_ ? many_->first() : *begin(); }
+  [[nodiscard]] Handle last() const noexcept { return many_ ? many_->last() : end()[-1]; }
 
   /// Throws: std::bad_alloc, and then changes nothing.
   template <class Before>
   void insert(Handle h, Before&& before) {
-    if (!many_ && few_.size() == kFew) spread();
+    make_room();
     if (many_) return many_->insert({0, h}, before);
-    few_.insert(behind(h, before), h);
+    Handle* const place = std::upper_bound(begin(), end(), h, before);
+    std::copy_backward(place, end(), end() + 1);
+    *place = h;
+    ++size_;
   }
   /// Adds `h` behind all others. Requires: it belongs there. Throws: std::bad_alloc.
   void append(Handle h) {
-    if (!many_ && few_.size() == kFew) spread();
-    many_ ? many_->append({0, h}) : few_.push_back(h);
+    make_room();
+    if (many_) return many_->append({0, h});
+    *end() = h;
+    ++size_;
   }
   /// Requires: `h` is there.
   template <class Before>
   void erase(Handle h, Before&& before) noexcept {
     if (!many_) {
-      few_.erase(std::lower_bound(few_.begin(), few_.end(), h, before));
+      Handle* const place = std::lower_bound(begin(), end(), h, before);
+      std::copy(place + 1, end(), place);
+      --size_;
       return;
     }
     many_->erase({0, h}, before);
@@ -49,54 +80,71 @@ class TraceOrder {
   template <class Before>
   [[nodiscard]] Handle predecessor(Handle h, Before&& before) const noexcept {
     if (many_) return many_->predecessor({0, h}, before);
-    const auto it = std::lower_bound(few_.begin(), few_.end(), h, before);
-    return it != few_.begin() ? it[-1] : 0;
+    const Handle* const place = std::lower_bound(begin(), end(), h, before);
+    return place != begin() ? place[-1] : 0;
   }
-  /// The last that does not come behind `h`; 0 if there is none.
   template <class Before>
-  [[nodiscard]] Handle last_not_behind(Handle h, Before&& before) const noexcept {
-    if (many_) return many_->last_not_behind({0, h}, before);
-    const auto it = behind(h, before);
-    return it != few_.begin() ? it[-1] : 0;
-  }
-  /// The first that comes behind `h`; 0 if there is none.
-  template <class Before>
-  [[nodiscard]] Handle successor(Handle h, Before&& before) const noexcept {
-    if (many_) return many_->successor({0, h}, before);
-    const auto it = behind(h, before);
-    return it != few_.end() ? *it : 0;
+  [[nodiscard]] Place place_of(Handle h, Before&& before) const noexcept {
+    if (many_) return {many_->last_not_behind({0, h}, before), many_->successor({0, h}, before)};
+    const Handle* const place = std::upper_bound(begin(), end(), h, before);
+    return {place != begin() ? place[-1] : 0, place != end() ? *place : 0};
   }
 
   template <class Visit>
   void for_each(Visit&& visit) const {
     if (many_) return many_->for_each([&](const OrderedCalls::Entry& e) { visit(e.call); });
-    for (const Handle h : few_) visit(h);
+    std::for_each(begin(), end(), visit);
   }
 
+  /// Beside the object itself.
   [[nodiscard]] std::size_t bytes() const noexcept {
-    return few_.capacity() * sizeof(Handle) + (many_ ? sizeof(OrderedCalls) + many_->bytes() : 0);
+    return (capacity_ > kInPlace ? capacity_ * sizeof(Handle) : 0) +
+           (many_ ? sizeof(OrderedCalls) + many_->bytes() : 0);
   }
 
  private:
-  static constexpr std::size_t kFew = 32;  // a leaf of the two-level array
+  static constexpr std::uint32_t kInPlace = 4;
+  static constexpr std::uint32_t kFew = 32;  // a leaf of the two-level array
 
-  template <class Before>
-  [[nodiscard]] std::vector<Handle>::const_iterator behind(Handle h, Before&& before) const {
-    return std::upper_bound(few_.begin(), few_.end(), h, before);
+  union Few {
+    Handle in_place[kInPlace] = {};
+    Handle* apart;
+  };
+
+  [[nodiscard]] Handle* begin() noexcept {
+    return capacity_ > kInPlace ? few_.apart : few_.in_place;
   }
-  void spread() {
+  [[nodiscard]] const Handle* begin() const noexcept {
+    return capacity_ > kInPlace ? few_.apart : few_.in_place;
+  }
+  [[nodiscard]] Handle* end() noexcept { return begin() + size_; }
+  [[nodiscard]] const Handle* end() const noexcept { return begin() + size_; }
+
+  // For one more.
+  void make_room() {
+    if (many_ || size_ < capacity_) return;
+    if (size_ < kFew) {
+      Handle* const larger = new Handle[2 * std::size_t{capacity_}];
+      std::copy(begin(), end(), larger);
+      if (capacity_ > kInPlace) delete[] few_.apart;
+      few_.apart = larger;
+      capacity_ *= 2;
+      return;
+    }
     auto many = std::make_unique<OrderedCalls>();
-    for (const Handle h : few_) many->append({0, h});
+    std::for_each(begin(), end(), [&](Handle h) { many->append({0, h}); });
     many_ = std::move(many);
-    few_.clear();
+    size_ = 0;
   }
   // The array has kept its capacity.
   void gather() noexcept {
-    many_->for_each([&](const OrderedCalls::Entry& e) { few_.push_back(e.call); });
+    many_->for_each([&](const OrderedCalls::Entry& e) { begin()[size_++] = e.call; });
     many_.reset();
   }
 
-  std::vector<Handle> few_;
+  std::uint32_t size_ = 0;  // of the array
+  std::uint32_t capacity_ = kInPlace;
+  Few few_;
   std::unique_ptr<OrderedCalls> many_;
 };
 
