@@ -28,7 +28,8 @@ struct Lesser {
   static constexpr std::string_view kName = "lesser";
   template <class S, class M>
   void operator()(S& s, M a, M b, M result) const {
-    s.write(result, std::min(s.read(a), s.read(b)));
+    const auto first = s.read(a);
+    s.write(result, std::min(first, s.read(b)));
   }
 };
 inline constexpr Lesser lesser{};

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # The same input gives the same bytes whatever compiler and optimisation built the tool.
 #   determinism.sh SCRATCH_FOLDER
-# Builds the tool with g++ and clang++, Debug and Release (about a minute and 500 MB each), meshes
-# inputs of each family and an edited one, statically and with the engine, and compares files.
+# Builds the tools with g++ and clang++, Debug and Release (about a minute and 500 MB each), meshes
+# inputs of each family and an edited one, statically and with the engine, records the examples of
+# the engine after edits, and compares files.
 set -euo pipefail
 source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 mkdir -p "$1"
@@ -10,6 +11,9 @@ scratch=$(cd "$1" && pwd)
 jobs=${JOBS:-$(nproc)}
 kinds=(uniform gaussian clusters grid line-circle spiral)
 points=400
+examples=(array-map list-map list-filter list-reverse list-sum list-minimum quicksort mergesort
+  quickhull diameter distance expression-tree tree-contraction breadth-first-search
+  connected-components spell-check string-hash spreadsheet)
 
 # A hundred edits of points 1..n near the middle of the first ones: added, moved, removed.
 write_edits() {
@@ -26,11 +30,11 @@ write_edits() {
 build_tool() {  # COMPILER CONFIGURATION FOLDER
   cmake -S "$source_folder" -B "$3" -DCMAKE_CXX_COMPILER="$1" -DCMAKE_BUILD_TYPE="$2" \
     -DBUILD_TESTING=OFF >"$3.log" 2>&1 || { cat "$3.log"; return 1; }
-  cmake --build "$3" -j "$jobs" --target mesher_tool >"$3.log" 2>&1 || { cat "$3.log"; return 1; }
+  cmake --build "$3" -j "$jobs" --target mesher_tool traces_tool >"$3.log" 2>&1 || { cat "$3.log"; return 1; }
 }
 
-write_meshes() {  # TOOL FOLDER
-  local kind tool=$1
+write_files() {  # TOOLS FOLDER
+  local kind tool=$1/mesher example
   rm -rf "$2"
   mkdir -p "$2"
   cd "$2"
@@ -45,6 +49,10 @@ write_meshes() {  # TOOL FOLDER
   done
   "$tool" edit uniform.node --script edits.txt --quiet -o edited.node
   "$tool" mesh "$source_folder/tests/data/places.node" --quiet -o places.node
+  "$tool" trace uniform.node --script edits.txt --quiet --edges -o edited.trace
+  for example in "${examples[@]}"; do
+    "$1/traces" example "$example" --n 200 --edits 50 --edges -o "$example.trace" >"$example.txt"
+  done
   cd "$scratch"
 }
 
@@ -54,12 +62,12 @@ for compiler in g++ clang++; do
     name=$compiler-$configuration
     echo "== $name"
     build_tool "$compiler" "$configuration" "$scratch/build-$name"
-    write_meshes "$scratch/build-$name/bin/mesher" "$scratch/meshes-$name"
+    write_files "$scratch/build-$name/bin" "$scratch/files-$name"
     if [[ -z $first ]]; then
       first=$name
     else
-      diff -rq "$scratch/meshes-$first" "$scratch/meshes-$name"
+      diff -rq "$scratch/files-$first" "$scratch/files-$name"
     fi
   done
 done
-echo "$(find "$scratch/meshes-$first" -type f | wc -l) files, the same bytes from every build"
+echo "$(find "$scratch/files-$first" -type f | wc -l) files, the same bytes from every build"

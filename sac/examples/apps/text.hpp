@@ -387,15 +387,20 @@ struct SheetApp {
     return std::string(1, static_cast<char>('A' + cell % 26)) + std::to_string(cell / 26 + 1);
   }
   // Cells in use: a block of 3 columns.
-  static int random_cell(Random& random) { return random(kRows) * 26 + random(3); }
+  static int random_cell(Random& random) {
+    const int row = random(kRows);
+    return row * 26 + random(3);
+  }
   static std::string random_factor(Random& random) {
     switch (random(6)) {
       case 0:
         return std::to_string(random(4));
       case 1:
         return "-" + random_factor(random);
-      case 2:
-        return "(" + random_factor(random) + "-" + random_factor(random) + ")";
+      case 2: {
+        const std::string left = random_factor(random);
+        return "(" + left + "-" + random_factor(random) + ")";
+      }
       case 3: {
         const int a = random_cell(random);
         const int b = random_cell(random);
@@ -426,7 +431,8 @@ struct SheetApp {
     }
     std::string text = "=" + random_factor(random);
     for (int i = random(3); i > 0; --i) {
-      text += std::string(1, "+-*/"[random(4)]) + random_factor(random);
+      text += "+-*/"[random(4)];
+      text += random_factor(random);
     }
     return text;
   }
