@@ -342,6 +342,7 @@ void Engine::take_dying_back() noexcept {
 
 // Runs what is invalid in `call`'s interval; 0: everywhere.
 void Engine::propagate_within(Handle call) {
+  if (call == 0) queue_.sort();
   while (true) {
     if (call == 0) take_dying_back();
     if (queue_.empty()) return;

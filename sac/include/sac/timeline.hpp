@@ -16,6 +16,7 @@
 // (3) Relabelling never changes the order of live nodes.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -83,6 +84,16 @@ class Timeline {
     const std::uint32_t gb = b.group();
     if (ga == gb) return a.label < b.label;
     return groups_[ga].label < groups_[gb].label;
+  }
+
+  /// The place of a node as numbers, for sorting: good until nodes are inserted.
+  struct Place {
+    std::uint64_t group = 0;
+    std::uint32_t label = 0;
+    friend auto operator<=>(const Place&, const Place&) = default;
+  };
+  [[nodiscard]] Place place(const TimeNode& n) const noexcept {
+    return {groups_[n.group()].label, n.label};
   }
 
   /// Numbers and labels everything anew, in full groups, and gives back the memory of those that
