@@ -18,7 +18,13 @@ bool Agenda::before(const Call& a, const Call& b) const {
   const detail::Slot& y = slot(b);
   if (x.rank != y.rank) return x.rank < y.rank;
   if (x.order != y.order) return x.order < y.order;
-  if (a.function_number != b.function_number) return a.function().name < b.function().name;
+  if (a.function_number != b.function_number) {
+    const Function& f = a.function();
+    const Function& g = b.function();
+    if (f.name != g.name) return f.name < g.name;
+    if (f.identity != g.identity) return f.identity < g.identity;
+    return a.function_number < b.function_number;
+  }
   return a.function().compare(a, b) < 0;
 }
 
@@ -275,6 +281,9 @@ struct Agenda::Drain {
 
 void Agenda::drain(Scope& s) {
   if (draining_) fail_drained_twice(s.self());
+  // What was posted last time, and is not by now, is in no drain any more.
+  engine_.retract_unrepeated(
+      [&](const Edge& edge) { return edge.structure == id_ && edge.kind == kPost; });
   static constexpr Drain kDrain{};
   s.call<kDrain>(this);
 }

@@ -535,6 +535,7 @@ Handle Engine::call_child(const Function& function, std::uint32_t hash, const vo
   Activation& caller = running();
   require_no_tail(caller, function);
   require_stack(caller, function);
+  hide_unconfirmed(caller);
   need_end(caller);
   Handle child = find_reusable(function, hash, args, false);
   if (child != 0) {
@@ -543,7 +544,6 @@ Handle Engine::call_child(const Function& function, std::uint32_t hash, const vo
     ++counts_.reused;
     if (observer_ != nullptr) [[unlikely]] note(Event::Kind::reused, at<Call>(child));
     if (function.has_result) depend_on_result(child);
-    hide_unconfirmed(child);
   } else {
     child = new_call(function, hash, args, construct);
     insert_call(child);
@@ -556,13 +556,12 @@ Handle Engine::call_child(const Function& function, std::uint32_t hash, const vo
   return child;
 }
 
-// What a running call has not repeated is no more for its children, nor for theirs.
-void Engine::hide_unconfirmed(Handle child) noexcept {
-  const Call& c = *at<Call>(child);
-  if (c.end == 0 && c.edges == 0) return;  // it has seen nothing
-  for (const Activation* a = current_; a != nullptr; a = a->outer) {
-    if (a->old_edges != 0) mods_->hide_unconfirmed(child, a->old_edges);
-  }
+// What a running call has not repeated before its first child is no more for its children, nor for
+// theirs, even if they are reused: what in its old interval has seen it is in doubt.
+void Engine::hide_unconfirmed(Activation& a) noexcept {
+  if (a.old_edges == 0 || a.hidden) return;
+  a.hidden = true;
+  if (a.end_linked) mods_->hide_unconfirmed(*a.call, a.end, a.old_edges);
 }
 
 void Engine::require_no_tail(const Activation& caller, const Function& function) const {
@@ -607,6 +606,7 @@ Handle Engine::call_tail(const Function& function, std::uint32_t hash, const voi
                          Construct construct) {
   Activation& caller = running();
   require_no_tail(caller, function);
+  hide_unconfirmed(caller);
   need_end(caller);
   const Handle old = find_reusable(function, hash, args, true);
   caller.tail_reused = old != 0;
@@ -686,6 +686,7 @@ void Engine::run_body(Activation& a, Handle call) {
   a.call = &c;
   a.old_edges = std::exchange(c.edges, 0);
   a.last_edge = 0;
+  a.hidden = false;
   c.clear(Call::kInvalid | Call::kDoubtful);
   c.set(Call::kRunning);
   if (counts_.executed >= progress_at_) [[unlikely]] report_progress();

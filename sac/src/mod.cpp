@@ -217,7 +217,7 @@ void ModStructure::require_unread(Scope& scope, Handle head, const Version& vers
   const Call& self = scope.self();
   if (engine_.now_ == engine_.handle_of(self)) return;  // it has no children yet
   const Call* child = nullptr;
-  for_each_reader_behind(version, self, [&](ReadEdge& edge) {
+  for_each_reader_behind(version, self, 0, [&](ReadEdge& edge) {
     const Call& call = engine_.call(edge.call);
     if (!engine_.lies_ahead(call)) child = &call;
     return child == nullptr && !version.ordered;  // in order, the first decides
@@ -244,7 +244,7 @@ void ModStructure::appeared(Scope& scope, Handle head, Version& version, Version
   if (previous == nullptr) return;
   const Call& self = scope.self();
   if (same) {
-    for_each_reader_behind(*previous, self, [&](ReadEdge& edge) {
+    for_each_reader_behind(*previous, self, 0, [&](ReadEdge& edge) {
       move_reader(edge, version);
       return true;
     });
@@ -293,13 +293,16 @@ void ModStructure::move_reader(ReadEdge& edge, Version& to) noexcept {
 }
 
 template <class Visit>
-void ModStructure::for_each_reader_behind(const Version& version, const Call& call,
+void ModStructure::for_each_reader_behind(const Version& version, const Call& call, Handle end,
                                           Visit&& visit) {
+  const auto is_before_end = [&](const ReadEdge& edge) {
+    return end == 0 || engine_.timeline_.precedes(engine_.call(edge.call), *engine_.at<TimeNode>(end));
+  };
   if (version.ordered) {
     const TraceOrder& readers = reader_orders_.find(handle_of(version))->second;
     for (Handle r = readers.place_of(0, reader_order(&call)).behind; r != 0;) {
       const Handle next = readers.place_of(r, reader_order()).behind;
-      if (!visit(*reader(r))) return;
+      if (!is_before_end(*reader(r)) || !visit(*reader(r))) return;
       r = next;
     }
     return;
@@ -310,7 +313,7 @@ void ModStructure::for_each_reader_behind(const Version& version, const Call& ca
   for (Handle r = version.readers; r != 0;) {
     ReadEdge& edge = *reader(r);
     r = edge.next_reader;
-    if (!engine_.precedes(call, engine_.call(edge.call))) {
+    if (!engine_.precedes(call, engine_.call(edge.call)) || !is_before_end(edge)) {
       ++passed;
       continue;
     }
@@ -342,7 +345,7 @@ void ModStructure::forget_order(Version& version) noexcept {
 // They stay with what they have seen.
 void ModStructure::doubt_readers(Handle head, const Version& version,
                                  const Call& later_than) noexcept {
-  for_each_reader_behind(version, later_than, [&](ReadEdge& edge) {
+  for_each_reader_behind(version, later_than, 0, [&](ReadEdge& edge) {
     engine_.doubt(engine_.call(edge.call), head);
     return true;
   });
@@ -433,21 +436,16 @@ bool ModStructure::reads_the_same(Call& call) {
   return true;
 }
 
-// Of a version with many readers only some are looked at: what is missed runs again when the caller
-// has settled, and the caller after it.
-void ModStructure::hide_unconfirmed(Handle child, Handle old_edges) noexcept {
-  constexpr int kLookedAt = 16;
+void ModStructure::hide_unconfirmed(const Call& call, Handle end, Handle old_edges) noexcept {
   for (Handle e = old_edges; e != 0; e = engine_.at<Edge>(e)->next) {
     const Edge& edge = *engine_.at<Edge>(e);
     if (edge.structure != id_ || edge.kind != kWrite) continue;
     const Handle version = static_cast<const WriteEdge&>(edge).version;
     if (version == 0) continue;
-    Handle r = at(version)->readers;
-    for (int looked_at = 0; r != 0 && looked_at < kLookedAt; ++looked_at) {
-      Call& call = engine_.call(reader(r)->call);
-      r = reader(r)->next_reader;
-      if (engine_.lies_within(call, child)) engine_.doubt(call);
-    }
+    for_each_reader_behind(*at(version), call, end, [&](ReadEdge& read) {
+      engine_.doubt(engine_.call(read.call));
+      return true;
+    });
   }
 }
 

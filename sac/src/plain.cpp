@@ -4,7 +4,11 @@
 namespace sac {
 
 bool PlainAgenda::before_in_tie(const Record& a, const Record& b) {
-  if (a.function != b.function) return a.function->name < b.function->name;
+  if (a.function != b.function) {
+    const Function& f = *a.function;
+    const Function& g = *b.function;
+    return f.name != g.name ? f.name < g.name : f.identity < g.identity;
+  }
   return operations(a).order(a, b) < 0;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "random.hpp"
 #include "sac/sac.hpp"
 
 namespace {
@@ -469,6 +470,97 @@ TEST_CASE("random posts from a call and from outside leave the trace of a fresh 
     REQUIRE(visited(f.e) == visited(fresh.e));
     REQUIRE(f.e.live_calls() == fresh.e.live_calls());
     REQUIRE(f.e.live_edges() == fresh.e.live_edges());
+  }
+}
+
+// --- Posts that are not repeated before a drain ------------------------------------------------
+
+struct Marked {
+  Mod<int> in, mark, out;
+  Agenda& agenda;
+};
+
+void set_mark(Scope& s, int) { s.write(s.environment<Marked>().mark, 1); }
+void require_mark(Scope& s) {
+  auto& m = s.environment<Marked>();
+  const int in = s.read(m.in), mark = s.read(m.mark);
+  if (in != mark) throw std::logic_error("the mark is wrong");
+  s.write(m.out, mark);
+}
+void maybe_mark(Scope& s) {
+  auto& m = s.environment<Marked>();
+  s.write(m.mark, 0);
+  if (s.read(m.in) != 0) m.agenda.post<set_mark>(s, {}, 0);
+  m.agenda.drain(s);
+  s.call<require_mark>();
+}
+
+TEST_CASE("a drain that is reused does not hand on what is not posted again") {
+  Engine e;
+  Marked m{e.input(1), e.cell<int>(), e.cell<int>(), e.make_agenda("marks")};
+  e.set_environment(&m);
+  e.run<maybe_mark>();
+  for (const int in : {0, 1, 0, 0, 1}) {
+    e.set(m.in, in);
+    e.propagate();
+    CHECK(e.get(m.out) == in);
+    e.check_invariants();
+  }
+}
+
+// --- Functions of one name ---------------------------------------------------------------------
+
+struct Claims {
+  std::vector<Mod<int>> in, even, odd;
+  Agenda& agenda;
+};
+
+namespace even {
+void claim(Scope& s, int i) { s.write(s.environment<Claims>().even[static_cast<std::size_t>(i)], 1); }
+}  // namespace even
+namespace odd {
+void claim(Scope& s, int i) { s.write(s.environment<Claims>().odd[static_cast<std::size_t>(i)], 1); }
+}  // namespace odd
+
+void post_claims(Scope& s, int i) {
+  auto& c = s.environment<Claims>();
+  const int v = s.read(c.in[static_cast<std::size_t>(i)]);
+  if (v % 2 == 1) c.agenda.post<even::claim>(s, {}, i);
+  if (v / 2 == 1) c.agenda.post<odd::claim>(s, {}, i);
+}
+void all_claims(Scope& s) {
+  auto& c = s.environment<Claims>();
+  for (std::size_t i = 0; i < c.in.size(); ++i) {
+    s.write(c.even[i], 0);
+    s.write(c.odd[i], 0);
+    s.call<post_claims>(static_cast<int>(i));
+  }
+  c.agenda.drain(s);
+}
+
+TEST_CASE("functions of one name are apart in the order of an agenda") {
+  Engine e;
+  Claims c{{}, {}, {}, e.make_agenda("claims")};
+  support::Random random(1);
+  std::vector<int> values;
+  for (int i = 0; i < 10; ++i) {
+    values.push_back(random(4));
+    c.in.push_back(e.input(values.back()));
+    c.even.push_back(e.cell<int>());
+    c.odd.push_back(e.cell<int>());
+  }
+  e.set_environment(&c);
+  e.run<all_claims>();
+  for (int round = 0; round < 200; ++round) {
+    const auto i = static_cast<std::size_t>(random(10));
+    values[i] = random(4);
+    e.set(c.in[i], values[i]);
+    e.propagate();
+    e.check_invariants();
+    for (std::size_t k = 0; k < 10; ++k) {
+      REQUIRE(e.get(c.even[k]) == values[k] % 2);
+      REQUIRE(e.get(c.odd[k]) == values[k] / 2);
+    }
   }
 }
 

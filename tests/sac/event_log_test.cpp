@@ -336,9 +336,10 @@ TEST_CASE("posts make calls, their end makes calls go") {
         Lines{"edited modifiable 'wanted'", "invalidated visit(1) at modifiable 'wanted'",
               "invalidated post() at modifiable 'wanted'",
               "invalidated post() at modifiable 'wanted'", "propagation_started", "executed post()",
-              "reused drain(work) by post()", "executed visit(1)", "unposted visit(3) by visit(1)",
-              "dying visit(3) by post()", "discarded visit(3) by post()",
-              "unposted visit(2) by post()", "dying visit(2)", "discarded visit(2)", "finished"});
+              "unposted visit(2) by post()", "reused drain(work) by post()", "executed visit(1)",
+              "unposted visit(3) by visit(1)", "dying visit(2) by post()",
+              "discarded visit(2) by post()", "dying visit(3) by post()",
+              "discarded visit(3) by post()", "finished"});
   CHECK(w.why("visit(2)") ==
         "visit(2) was discarded: nobody posts it any more,\n"
         "  last posted by post(), which ran again because modifiable 'wanted' was set from "

@@ -1,5 +1,6 @@
 // Modifiables: single and many writes, what reads see, errors that name calls.
 #include <catch2/catch.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -381,6 +382,93 @@ TEST_CASE("a reused child of a child does not hand on what their caller does not
     e.propagate();
     CHECK(e.get(out) == (v > 0 ? v : -1));
     e.check_invariants();
+  }
+}
+
+// --- What a running call has not repeated ------------------------------------------------------
+
+struct Shared {
+  Mod<int> in, x, y, z, out;
+  std::vector<Mod<int>> outs;
+  explicit Shared(Engine& e, int readers = 0)
+      : in(e.input(1)), x(e.cell<int>()), y(e.cell<int>()), z(e.cell<int>()), out(e.cell<int>()) {
+    for (int i = 0; i < readers; ++i) outs.push_back(e.cell<int>());
+    e.set_environment(this);
+  }
+};
+
+void y_to_z(Scope& s) {
+  auto& shared = s.environment<Shared>();
+  s.write(shared.z, s.read(shared.y));
+}
+void by_tail(Scope& s, int) { s.tail<y_to_z>(); }
+void require_equal(Scope& s) {
+  auto& shared = s.environment<Shared>();
+  const int y = s.read(shared.y), z = s.read(shared.z);
+  if (y != z) throw std::logic_error("y and z differ");
+  s.write(shared.out, z);
+}
+void maybe_y(Scope& s) {
+  auto& shared = s.environment<Shared>();
+  const int v = s.read(shared.in);
+  if (v != 0) s.write(shared.y, v);
+  s.call<by_tail>(v);
+  s.call<require_equal>();
+}
+void zero_y_first(Scope& s) {
+  s.write(s.environment<Shared>().y, 0);
+  s.call<maybe_y>();
+}
+
+TEST_CASE("a tail call that a new child reuses does not hand on what is not written again") {
+  Engine e;
+  Shared shared(e);
+  e.run<zero_y_first>();
+  for (const int v : {0, 1, 2, 0}) {
+    e.set(shared.in, v);
+    e.propagate();
+    CHECK(e.get(shared.out) == v);
+    e.check_invariants();
+  }
+}
+
+void x_to_out(Scope& s) {
+  auto& shared = s.environment<Shared>();
+  s.write(shared.out, s.read(shared.x));
+}
+void if_y(Scope& s) {
+  if (s.read(s.environment<Shared>().y) == 1) s.call<x_to_out>();
+}
+void y_to(Scope& s, int i) {
+  auto& shared = s.environment<Shared>();
+  s.write(shared.outs[static_cast<std::size_t>(i)], s.read(shared.y));
+}
+void maybe_x_and_y(Scope& s) {
+  auto& shared = s.environment<Shared>();
+  if (const int v = s.read(shared.in); v != 0) {
+    s.write(shared.y, 1);
+    s.write(shared.x, v);
+  }
+  s.call<if_y>();
+  for (std::size_t i = 0; i < shared.outs.size(); ++i) s.call<y_to>(static_cast<int>(i));
+}
+void zero_y_before(Scope& s) {
+  s.write(s.environment<Shared>().y, 0);
+  s.call<maybe_x_and_y>();
+}
+
+TEST_CASE("what is not written again is hidden however many have read it") {
+  for (const int readers : {0, 15, 16, 200}) {
+    Engine e;
+    Shared shared(e, readers);
+    e.run<zero_y_before>();
+    e.set(shared.in, 0);
+    e.propagate();
+    e.check_invariants();
+    e.set(shared.in, 5);
+    e.propagate();
+    e.check_invariants();
+    CHECK(e.get(shared.out) == 5);
   }
 }
 

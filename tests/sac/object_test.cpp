@@ -1,5 +1,8 @@
 // Objects with a body, cells as members, objects of the outside, and results of calls.
 #include <catch2/catch.hpp>
+#include <ostream>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -322,6 +325,66 @@ TEST_CASE("a scope that is used when nothing runs says so") {
   CHECK_THROWS_AS((late.call<value_of>(in)), sac::UsageError);
   CHECK_THROWS_AS((late.tail<one_way>(in, out)), sac::UsageError);
   e.check_invariants();
+}
+
+// --- Arguments are kept as what the function takes ---------------------------------------------
+
+void keep_text(Scope& s, const std::string& text, Mod<std::size_t> out) {
+  s.write(out, text.size());
+}
+struct KeepLong {
+  void operator()(Scope& s, long x, Mod<long> out) const { s.write(out, x); }
+};
+inline constexpr KeepLong keep_long{};
+void write_out_in_two_ways(Scope& s, Mod<int> in, Mod<std::size_t> size, Mod<long> number) {
+  const std::string name = "temporary" + std::to_string(s.read(in));
+  s.call<keep_text>(name.c_str(), size);  // a copy
+  s.call<keep_long>(s.read(in) % 2, number);
+}
+
+TEST_CASE("an argument is converted to what the function takes, and copied") {
+  Engine e;
+  const auto in = e.input(7);
+  const auto size = e.cell<std::size_t>();
+  const auto number = e.cell<long>();
+  e.run<write_out_in_two_ways>(in, size, number);
+  CHECK(e.get(size) == 10);
+  e.set(in, 15);
+  e.propagate();
+  CHECK(e.get(size) == 11);
+  e.set(in, 17);
+  e.propagate();
+  CHECK(e.get(size) == 11);
+  CHECK(e.get(number) == 1);
+  std::set<std::string> labels;
+  e.walk([&](const sac::Call& c, std::size_t) { labels.insert(Engine::describe(c)); });
+  CHECK(labels.count("keep_text(temporary17, @" + std::to_string(size.head()) + ")") == 1);
+  CHECK(sac::detail::kFunction<keep_long, long, Mod<long>>.frame_bytes > 0);
+}
+
+struct Printed {
+  int number;
+  friend std::ostream& operator<<(std::ostream& out, const Printed* p) {
+    return out << 'P' << p->number;
+  }
+};
+
+TEST_CASE("pointers print as handles in the engine's memory, unless they print themselves") {
+  Engine e;
+  const int& inside = e.make<int>();
+  const int outside = 3;
+  const Printed printed{4};
+  const unsigned char text[] = "abc";
+  const auto print = [&](const auto& value) {
+    std::ostringstream out;
+    sac::print_argument(out, value, &inside);
+    return out.str();
+  };
+  CHECK(print(&inside) == "@" + std::to_string(e.arena().handle_of(&inside)));
+  CHECK_THAT(print(&outside), Catch::StartsWith("0x"));
+  CHECK(print(static_cast<const int*>(nullptr)) == "null");
+  CHECK(print(&printed) == "P4");
+  CHECK(print(static_cast<const unsigned char*>(text)) == "abc");
 }
 
 }  // namespace

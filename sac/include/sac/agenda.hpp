@@ -82,6 +82,7 @@ constexpr Function describe_posted() {
                 "a posted call has nobody to return to");
   using Type = PostedFrame<Args...>;
   Function f = describe_frame<Type, &function_name<F>>();
+  f.identity = identity<F>();
   f.posted = true;
   f.execute = &execute_frame<F, Type>;
   f.compare = &compare_args<Type>;
@@ -101,16 +102,14 @@ class Agenda final : public Structure {
   /// function of the label. Throws: UsageError if that is in the past.
   template <auto F, class... Args>
   void post(Scope& s, const Key& key, Args... args) {
-    const detail::Label<Args...> label = label_of<F>(std::tuple<Args...>(std::move(args)...));
-    post_call(s, detail::kPosted<F, Args...>, key, label.hash, &label,
-              detail::constructor_of<detail::PostedFrame<Args...>>());
+    post_labelled<F>(s, key, label_as<F>(std::move(args)...));
   }
 
   /// Asks for a call on behalf of the outside: an input, as Engine::set is.
   template <auto F, class... Args>
   void post_from_outside(const Key& key, Args... args) {
     engine_.begin_edit("post_from_outside");
-    const detail::Label<Args...> label = label_of<F>(std::tuple<Args...>(std::move(args)...));
+    const auto label = label_as<F>(std::move(args)...);
     engine_.on_rollback([this, label] { drop_labelled<F>(label); });
     try {
       add_labelled<F>(key, label);
@@ -123,8 +122,8 @@ class Agenda final : public Structure {
   template <auto F, class... Args>
   void retract_from_outside(Args... args) {
     engine_.begin_edit("retract_from_outside");
-    const detail::Label<Args...> label = label_of<F>(std::tuple<Args...>(std::move(args)...));
-    Call& call = require_posted(detail::kPosted<F, Args...>, label.hash, &label);
+    const auto label = label_as<F>(std::move(args)...);
+    Call& call = require_labelled<F>(label);
     engine_.on_rollback([this, key = key_of(call), label] { add_labelled<F>(key, label); });
     drop_post(call);
   }
@@ -160,9 +159,23 @@ class Agenda final : public Structure {
   // Outside edits and their inverses go by label: a call discarded in a propagation that fails is
   // another one after the roll-back.
   template <auto F, class... Args>
-  static detail::Label<Args...> label_of(std::tuple<Args...> args) {
-    const std::uint32_t hash = detail::label_hash<&function_name<F>>(args);
-    return {std::move(args), hash};
+  static auto label_as(Args... args) {
+    return label_of<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
+  }
+  template <auto F, class... P, class... Args>
+  static detail::Label<P...> label_of(detail::Types<P...>, Args&&... args) {
+    std::tuple<P...> tuple(static_cast<P>(std::move(args))...);
+    const std::uint32_t hash = detail::label_hash<&function_name<F>>(tuple);
+    return {std::move(tuple), hash};
+  }
+  template <auto F, class... Args>
+  void post_labelled(Scope& s, const Key& key, const detail::Label<Args...>& label) {
+    post_call(s, detail::kPosted<F, Args...>, key, label.hash, &label,
+              detail::constructor_of<detail::PostedFrame<Args...>>());
+  }
+  template <auto F, class... Args>
+  Call& require_labelled(const detail::Label<Args...>& label) const {
+    return require_posted(detail::kPosted<F, Args...>, label.hash, &label);
   }
   template <auto F, class... Args>
   void add_labelled(const Key& key, const detail::Label<Args...>& label) {

@@ -35,6 +35,7 @@
 #include "sac/label.hpp"
 #include "sac/memo_table.hpp"
 #include "sac/observer.hpp"
+#include "sac/parameters.hpp"
 #include "sac/propagation_queue.hpp"
 #include "sac/registry.hpp"
 #include "sac/timeline.hpp"
@@ -288,6 +289,7 @@ class Engine {
     Handle end = 0;    // end stamp, once there are children
     bool end_linked = false;
     bool tail_reused = false;
+    bool hidden = false;  // what it has not repeated is hidden from its children
     Handle tail = 0;
     Activation* outer = nullptr;
   };
@@ -345,6 +347,8 @@ class Engine {
   void require_unwritten(Handle head) const;
   void free_released() noexcept;
   void require_idle(const char* what) const;
+  template <auto F, class... P, class... Args>
+  Counts run_as(detail::Types<P...>, Args&&... args);
   void require_no_tail(const Activation& caller, const Function& function) const;
   void require_stack(const Activation& caller, const Function& function) const;
   void require_own(const void* object, const char* what) const {
@@ -383,7 +387,10 @@ class Engine {
                     Construct construct);
   Handle call_tail(const Function& function, std::uint32_t hash, const void* args,
                    Construct construct);
-  void hide_unconfirmed(Handle child) noexcept;
+  void hide_unconfirmed(Activation& a) noexcept;
+  // Takes back what the running calls did last time for which `which(edge)`, and have not repeated.
+  template <class Which>
+  void retract_unrepeated(Which&& which) noexcept;
   void need_end(Activation& a);
   void settle_child(Handle child);
   void execute(Handle call, Handle limit);
@@ -477,6 +484,22 @@ void Engine::walk(Visit&& visit) const {
     const Call& c = *at<Call>(h);
     visit(c, open.size());
     if (c.end != 0) open.push_back(c.end);
+  }
+}
+
+template <class Which>
+void Engine::retract_unrepeated(Which&& which) noexcept {
+  for (Activation* a = current_; a != nullptr; a = a->outer) {
+    for (Handle* link = &a->old_edges; *link != 0;) {
+      Edge& edge = *at<Edge>(*link);
+      if (!which(edge)) {
+        link = &edge.next;
+        continue;
+      }
+      *link = edge.next;
+      structures_[edge.structure]->retract(*a->call, edge);
+      free_edge(edge);
+    }
   }
 }
 

@@ -100,11 +100,15 @@ template <class... Args>
   return h;
 }
 
-/// Pointers other than strings and functions.
+template <class T>
+concept PrintsItself = requires(std::ostream& out, const T& value) {
+  operator<<(out, value);  // a function, not a member of the stream
+};
+
+/// Pointers that a stream would print as an address.
 template <class T>
 inline constexpr bool kPointerToObject =
-    std::is_pointer_v<T> && std::is_convertible_v<T, const void*> &&
-    !std::is_same_v<std::remove_cv_t<std::remove_pointer_t<T>>, char>;
+    std::is_pointer_v<T> && std::is_convertible_v<T, const void*> && !PrintsItself<T>;
 
 template <class T>
 concept Printable = requires(std::ostream& out, const T& value) {
@@ -119,7 +123,7 @@ void print_argument(std::ostream& out, const T& value, const void* neighbour = n
   } else if constexpr (kPointerToObject<T>) {
     if (value == nullptr) {
       out << "null";
-    } else if (Arena::same_arena(value, neighbour)) {
+    } else if (neighbour != nullptr && Arena::same_arena(value, neighbour)) {
       out << '@' << Arena::locate(value);
     } else {
       out << static_cast<const void*>(value);
@@ -304,6 +308,12 @@ template <auto F>
     constexpr auto colon = full.rfind("::", full.find('<'));
     return colon == full.npos ? full : full.substr(colon + 2);
   }
+}
+
+/// What tells functions of one name apart, in one order for every run of a build.
+template <auto F>
+[[nodiscard]] constexpr std::string_view identity() {
+  return __PRETTY_FUNCTION__;
 }
 
 /// The name of a keyed allocation of a T, for people and in labels: `make Node`.

@@ -171,9 +171,9 @@ class ModStructure final : public Structure {
   /// Whether a call in doubt would read the values that it has read; if so, it is in no doubt any
   /// more. Throws: what comparing values throws. Cost: O(log versions) a read.
   [[nodiscard]] bool reads_the_same(Call& call);
-  /// The caller of `child` wrote something last time (`old_edges`) that it has not repeated yet:
-  /// what in the child has seen it is in doubt, so that the child is not of a past that ends.
-  void hide_unconfirmed(Handle child, Handle old_edges) noexcept;
+  /// `call` wrote something last time (`old_edges`) that it has not repeated: what up to `end` has
+  /// seen it is in doubt.
+  void hide_unconfirmed(const Call& call, Handle end, Handle old_edges) noexcept;
 
   /// The number of a type of values. Throws: std::bad_alloc.
   [[nodiscard]] std::uint16_t number(const detail::ValueType& type) { return types_.number(type); }
@@ -234,11 +234,12 @@ class ModStructure final : public Structure {
       return &x == &y ? a != 0 && b != 0 && a < b : engine_.precedes(x, y);
     };
   }
-  // Visits the readers of `version` behind `call`, in any order, until `visit` returns false; it
-  // may unlink the one that it is given. Cost: O(log) a reader visited; the first time that many
-  // others are passed, O(log) for each of these.
+  // Visits the readers of `version` behind `call`, and before time stamp `end` unless that is 0, in
+  // any order, until `visit` returns false; it may unlink the one that it is given. Cost: O(log) a
+  // reader visited; the first time that many others are passed, O(log) for each of these.
   template <class Visit>
-  void for_each_reader_behind(const detail::Version& version, const Call& call, Visit&& visit);
+  void for_each_reader_behind(const detail::Version& version, const Call& call, Handle end,
+                              Visit&& visit);
   void order_readers(const detail::Version& version) noexcept;
   void forget_order(detail::Version& version) noexcept;
   void link_reader(detail::ReadEdge& edge, detail::Version& version) noexcept;

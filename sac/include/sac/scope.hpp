@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "sac/engine.hpp"
+#include "sac/parameters.hpp"
 
 namespace sac {
 
@@ -44,6 +45,8 @@ struct Label {
 template <class Head, class Tail, class... Args>
 struct Frame {
   static_assert(((alignof(Args) <= 8) && ...), "arguments in the arena are aligned to 8 bytes");
+  static_assert(!(kCString<Args> || ...),
+                "the characters behind a pointer may change or go: pass a std::string");
   using LabelType = Label<Args...>;
   Call call;
   [[no_unique_address]] Head head;
@@ -285,53 +288,33 @@ class Scope {
   /// something, so does call(): by reference, good while the caller runs. The caller depends on it.
   template <auto F, class... Args>
   decltype(auto) call(Args... args) {
-    using R = std::invoke_result_t<decltype(F), Scope&, const Args&...>;
-    constexpr bool kVoid = std::is_void_v<R>;
-    using Frame = typename decltype(frame_of<F, Args...>())::type;
-    const Handle child = child_call<Frame>(detail::kFunction<F, Args...>,
-                                           label<&function_name<F>>(std::move(args)...));
-    if constexpr (!kVoid) {
-      return static_cast<const std::decay_t<R>&>(
-          *Frame::of(engine_.call(child)).tail.value);
-    }
+    return call_as<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
   }
 
   /// As call(), as the last thing that the function does: runs after it, without native recursion.
   /// A result is not returned.
   template <auto F, class... Args>
   void tail(Args... args) {
-    using Frame = typename decltype(frame_of<F, Args...>())::type;
-    static_assert(std::is_void_v<std::invoke_result_t<decltype(F), Scope&, const Args&...>>,
-                  "a tail call has nobody to return to");
-    tail_call<Frame>(detail::kFunction<F, Args...>, label<&function_name<F>>(std::move(args)...));
+    tail_as<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
   }
 
   /// Keyed allocation: a default-constructed T that keeps its address while some run asks for
   /// (T, key) again within the interval that runs again, whichever call asks.
   template <class T, class... Key>
   T& make(Key... key) {
-    using Frame = detail::ObjectFrame<T, Key...>;
-    const Handle made = child_call<Frame>(detail::kMaker<T, Key...>,
-                                          label<&maker_name<T>>(std::move(key)...));
-    return Frame::of(engine_.call(made)).tail.value;
+    return make_keyed<T>(detail::Types<detail::Kept<Key>...>(), std::move(key)...);
   }
   /// Keyed allocation of a T that F(scope, object, key...) works on: an object and the call that
   /// fills it in one. The label is that of F(key...).
   template <class T, auto F, class... Key>
   T& make(Key... key) {
-    using Frame = detail::ObjectFrame<T, Key...>;
-    const Handle made = child_call<Frame>(detail::kBuilder<T, F, Key...>,
-                                          label<&function_name<F>>(std::move(key)...));
-    return Frame::of(engine_.call(made)).tail.value;
+    return make_as<T, F>(detail::parameters<F, true, Key...>(), std::move(key)...);
   }
   /// As make(), but F runs as a tail call: the object is there at once, and empty. After it the
   /// function may still read and write, but not call.
   template <class T, auto F, class... Key>
   T& tail_make(Key... key) {
-    using Frame = detail::ObjectFrame<T, Key...>;
-    const Handle made = tail_call<Frame>(detail::kBuilder<T, F, Key...>,
-                                         label<&function_name<F>>(std::move(key)...));
-    return Frame::of(engine_.call(made)).tail.value;
+    return tail_make_as<T, F>(detail::parameters<F, true, Key...>(), std::move(key)...);
   }
 
   /// A keyed modifiable for the program to write.
@@ -366,6 +349,48 @@ class Scope {
   friend void detail::execute_with_result(Scope& scope, Call& call);
   void result_changed(Handle caller) noexcept { engine_.result_changed(caller); }
 
+  // The public operations, with arguments converted to what they are kept as.
+  template <auto F, class... P, class... Args>
+  decltype(auto) call_as(detail::Types<P...>, Args&&... args) {
+    using R = std::invoke_result_t<decltype(F), Scope&, const P&...>;
+    using Frame = typename decltype(frame_of<F, P...>())::type;
+    const Handle child = child_call<Frame>(
+        detail::kFunction<F, P...>, label<&function_name<F>>(static_cast<P>(std::move(args))...));
+    if constexpr (!std::is_void_v<R>) {
+      return static_cast<const std::decay_t<R>&>(*Frame::of(engine_.call(child)).tail.value);
+    }
+  }
+  template <auto F, class... P, class... Args>
+  void tail_as(detail::Types<P...>, Args&&... args) {
+    using Frame = typename decltype(frame_of<F, P...>())::type;
+    static_assert(std::is_void_v<std::invoke_result_t<decltype(F), Scope&, const P&...>>,
+                  "a tail call has nobody to return to");
+    tail_call<Frame>(detail::kFunction<F, P...>,
+                     label<&function_name<F>>(static_cast<P>(std::move(args))...));
+  }
+  template <class T, class... P, class... Key>
+  T& make_keyed(detail::Types<P...>, Key&&... key) {
+    using Frame = detail::ObjectFrame<T, P...>;
+    const Handle made = child_call<Frame>(
+        detail::kMaker<T, P...>, label<&maker_name<T>>(static_cast<P>(std::move(key))...));
+    return Frame::of(engine_.call(made)).tail.value;
+  }
+  template <class T, auto F, class... P, class... Key>
+  T& make_as(detail::Types<P...>, Key&&... key) {
+    using Frame = detail::ObjectFrame<T, P...>;
+    const Handle made =
+        child_call<Frame>(detail::kBuilder<T, F, P...>,
+                          label<&function_name<F>>(static_cast<P>(std::move(key))...));
+    return Frame::of(engine_.call(made)).tail.value;
+  }
+  template <class T, auto F, class... P, class... Key>
+  T& tail_make_as(detail::Types<P...>, Key&&... key) {
+    using Frame = detail::ObjectFrame<T, P...>;
+    const Handle made =
+        tail_call<Frame>(detail::kBuilder<T, F, P...>,
+                         label<&function_name<F>>(static_cast<P>(std::move(key))...));
+    return Frame::of(engine_.call(made)).tail.value;
+  }
   template <auto F, class... Args>
   static auto frame_of() {
     using R = std::invoke_result_t<decltype(F), Scope&, const Args&...>;
@@ -416,13 +441,18 @@ void execute_with_result(Scope& scope, Call& call) {
 
 template <auto F, class... Args>
 Counts Engine::run(Args... args) {
-  using Frame = detail::Frame<detail::Nothing, detail::Nothing, Args...>;
-  static_assert(std::is_void_v<std::invoke_result_t<decltype(F), Scope&, const Args&...>>,
+  return run_as<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
+}
+
+template <auto F, class... P, class... Args>
+Counts Engine::run_as(detail::Types<P...>, Args&&... args) {
+  using Frame = detail::Frame<detail::Nothing, detail::Nothing, P...>;
+  static_assert(std::is_void_v<std::invoke_result_t<decltype(F), Scope&, const P&...>>,
                 "what a program computes is in modifiables");
-  std::tuple<Args...> tuple(std::move(args)...);
+  std::tuple<P...> tuple(static_cast<P>(std::move(args))...);
   const std::uint32_t hash = detail::label_hash<&function_name<F>>(tuple);
-  const detail::Label<Args...> label{std::move(tuple), hash};
-  return run_root(detail::kFunction<F, Args...>, hash, &label, detail::constructor_of<Frame>());
+  const detail::Label<P...> label{std::move(tuple), hash};
+  return run_root(detail::kFunction<F, P...>, hash, &label, detail::constructor_of<Frame>());
 }
 
 }  // namespace sac

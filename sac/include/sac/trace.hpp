@@ -30,8 +30,9 @@ struct Call;
 
 /// What the engine knows of a traced function; one constant object per function and signature.
 struct Function {
-  std::string_view name;
-  std::uint32_t frame_bytes;        // the call with all that lies behind it
+  std::string_view name;            // for people; others may have it, too
+  std::string_view identity = {};   // all that the compiler says of it; empty unless posted
+  std::uint32_t frame_bytes = 0;    // the call with all that lies behind it
   std::uint32_t object_offset = 0;  // of the keyed object; 0: there is none
   bool posted = false;              // runs from an agenda
   bool has_result = false;          // a ResultHead lies behind the head
