@@ -557,7 +557,8 @@ Handle Engine::call_child(const Function& function, std::uint32_t hash, const vo
 }
 
 // What a running call has not repeated before its first child is no more for its children, nor for
-// theirs, even if they are reused: what in its old interval has seen it is in doubt.
+// theirs, even if they are reused: what in its old interval has seen it is in doubt. A tail call
+// runs when its caller has settled.
 void Engine::hide_unconfirmed(Activation& a) noexcept {
   if (a.old_edges == 0 || a.hidden) return;
   a.hidden = true;
@@ -606,7 +607,6 @@ Handle Engine::call_tail(const Function& function, std::uint32_t hash, const voi
                          Construct construct) {
   Activation& caller = running();
   require_no_tail(caller, function);
-  hide_unconfirmed(caller);
   need_end(caller);
   const Handle old = find_reusable(function, hash, args, true);
   caller.tail_reused = old != 0;
