@@ -224,6 +224,12 @@ void Engine::fail_not_running() const {
   throw UsageError("a scope is used while no traced function runs: it was kept for too long");
 }
 
+void Engine::fail_no_environment() const {
+  std::string text = "there is no environment: Engine::set_environment gives one";
+  if (current_ != nullptr) text = describe(*current_->call) + ": " + text;
+  throw UsageError(text);
+}
+
 void Engine::fail_foreign(const char* what) const {
   std::string text = std::string(what) + " is not in memory of this engine";
   if (current_ != nullptr) text = describe(*current_->call) + ": " + text;

@@ -2,6 +2,7 @@
 #include "sac/event_log.hpp"
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 #include <utility>
 
@@ -181,20 +182,28 @@ struct EventLog::Reason {
 };
 
 std::string EventLog::explain(std::string_view wanted) const {
-  std::size_t same = 0;
-  std::size_t like = 0;
-  std::vector<char> match(calls_.size());  // 1: contains it, 2: is it
+  enum Match : char { none, contains, is_of_function, is_it };
+  std::vector<Match> match(calls_.size());
+  std::array<std::size_t, is_it + 1> counts{};
   for (CallId c = 1; c < calls_.size(); ++c) {
-    if (label(c).find(wanted) == std::string::npos) continue;
-    match[c] = label(c) == wanted ? 2 : 1;
-    ++(label(c) == wanted ? same : like);
+    const std::string& text = label(c);
+    if (text == wanted) {
+      match[c] = is_it;
+    } else if (text.starts_with(wanted) && text[wanted.size()] == '(') {
+      match[c] = is_of_function;
+    } else if (text.find(wanted) != std::string::npos) {
+      match[c] = contains;
+    }
+    ++counts[match[c]];
   }
-  const char least = same != 0 ? 2 : 1;
+  const Match best = counts[is_it] != 0            ? is_it
+                     : counts[is_of_function] != 0 ? is_of_function
+                                                   : contains;
   const std::size_t last =
-      last_before(size(), [&](const Entry& e) { return match[e.call] >= least; });
+      last_before(size(), [&](const Entry& e) { return match[e.call] == best; });
   if (last == kNone) return "No call '" + std::string(wanted) + "' is in the log.\n";
   std::string text = explain_last(entries_[last].call);
-  if (const std::size_t n = same != 0 ? same : like; n > 1) {
+  if (const std::size_t n = counts[best]; n > 1) {
     text += "(The last of " + std::to_string(n) + " calls '" + std::string(wanted) + "'.)\n";
   }
   return text;

@@ -388,4 +388,14 @@ TEST_CASE("releasing twice, and what the outside has not made") {
   e.check_invariants();
 }
 
+// --- The environment -----------------------------------------------------------------------------
+
+void use_environment(Scope& s, int) { static_cast<void>(s.environment<World>()); }
+
+TEST_CASE("an environment that nobody gave") {
+  Engine e;
+  CHECK(error_of([&] { e.run<use_environment>(3); }) ==
+        "use_environment(3): there is no environment: Engine::set_environment gives one");
+}
+
 }  // namespace

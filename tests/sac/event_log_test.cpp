@@ -114,6 +114,18 @@ TEST_CASE("an equal value set or written invalidates nobody") {
   CHECK(w.why("copy(") == "copy(x, @, @) is new: run from outside.\n");
 }
 
+void copy_if(Scope& s, Mod<int> from, Mod<int> to) { s.write(to, s.read(from)); }
+
+TEST_CASE("a function of exactly this name comes before others that contain it") {
+  Watched w;
+  const auto a = w.input(1, "a");
+  const auto out = w.cell("out"), other = w.cell("other");
+  w.e.run<copy>('x', a, out);
+  w.e.run<copy_if>(a, other);
+  CHECK(w.why("copy") == "copy(x, @, @) is new: run from outside.\n");
+  CHECK(w.why("copy_i") == "copy_if(@, @) is new: run from outside.\n");
+}
+
 TEST_CASE("a call that would read what it has read does not run again") {
   Watched w;
   const auto a = w.input(1, "a");

@@ -361,6 +361,7 @@ class Engine {
     fail_not_running();
   }
   [[noreturn]] void fail_not_running() const;
+  [[noreturn]] void fail_no_environment() const;
   void require_usable() const;
   Counts run_root(const Function& function, std::uint32_t hash, const void* args,
                   Construct construct);

@@ -40,7 +40,8 @@ class EventLog final : public Observer {
 
   /// Why the call of this label did last what it did (ran, was kept, was discarded), back to an
   /// edit from outside or to the run that made it: lines that end with a newline. If no call has
-  /// this label, of those that have it in theirs the one that the log speaks of last.
+  /// this label, of those of this function, or else of those that have it in their label, the one
+  /// that the log speaks of last.
   /// Cost: O(size()).
   [[nodiscard]] std::string explain(std::string_view label) const;
   [[nodiscard]] std::string explain(const Call& call) const;

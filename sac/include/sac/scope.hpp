@@ -263,9 +263,10 @@ class Scope {
   explicit Scope(Engine& engine) : engine_(engine) {}
 
   [[nodiscard]] Engine& engine() noexcept { return engine_; }
-  /// The object given to Engine::set_environment.
+  /// The object given to Engine::set_environment. Throws: UsageError if there is none.
   template <class T>
-  [[nodiscard]] T& environment() const noexcept {
+  [[nodiscard]] T& environment() const {
+    if (engine_.environment_ == nullptr) [[unlikely]] engine_.fail_no_environment();
     return *static_cast<T*>(engine_.environment_);
   }
   /// The running call. Throws: UsageError if none runs: the scope was kept for too long.
