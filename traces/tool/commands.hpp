@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -29,6 +30,10 @@ void warn_of_unnamed(const std::string& path, const traces::Trace& trace);
 
 /// Prints one line. Names come from files: what is no UTF-8 is replaced.
 void print_json(const Json& object);
+
+/// --edits and --seed.
+void add_random_edits(CLI::App& sub, std::uint64_t& edits, std::uint64_t& seed,
+                      const std::string& about_edits);
 
 /// An option's check: what is wrong with `text`, or nothing. CLI11 takes -1 for a large number.
 [[nodiscard]] std::string is_count(const std::string& text);

@@ -16,6 +16,18 @@ void print_json(const Json& object) {
   std::cout << object.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
+void add_random_edits(CLI::App& sub, std::uint64_t& edits, std::uint64_t& seed,
+                      const std::string& about_edits) {
+  sub.add_option("--edits", edits, about_edits)
+      ->check(is_count, "")
+      ->type_name("K")
+      ->capture_default_str();
+  sub.add_option("--seed", seed, "Of input and edits")
+      ->check(is_count, "")
+      ->type_name("S")
+      ->capture_default_str();
+}
+
 std::string is_count(const std::string& text) {
   const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
   return digits ? "" : "'" + text + "' is not a number";

@@ -54,14 +54,7 @@ void add_example(CLI::App& app) {
       ->check(CLI::Range(0, 100'000), "")
       ->type_name("N")
       ->capture_default_str();
-  sub->add_option("--edits", args->edits, "Random edits, each propagated")
-      ->check(is_count, "")
-      ->type_name("K")
-      ->capture_default_str();
-  sub->add_option("--seed", args->seed, "Of input and edits")
-      ->check(is_count, "")
-      ->type_name("S")
-      ->capture_default_str();
+  add_random_edits(*sub, args->edits, args->seed, "Random edits, each propagated");
   sub->add_flag("--edges", args->with_edges, "With what each call read and did");
   sub->footer(
       "Runs of one seed make the same edits: what the fifth edit changes is\n"

@@ -1,26 +1,19 @@
 #include "example_subject.hpp"
 
 #include <algorithm>
+#include <tuple>
+#include <type_traits>
 
-#include "apps/graphs.hpp"
-#include "apps/lists.hpp"
-#include "apps/text.hpp"
+#include "apps/all.hpp"
 
 namespace tool {
 namespace {
 
-using namespace apps;
-
-template <class... Apps, class Visit>
-void for_each_app(Visit&& visit) {
-  (visit.template operator()<Apps>(), ...);
-}
 template <class Visit>
 void for_each_example(Visit&& visit) {
-  for_each_app<ArrayApp, MapApp, FilterApp, ReverseApp, SumApp, MinimumApp, QuicksortApp,
-               MergesortApp, QuickhullApp<spread_point>, DiameterApp<spread_point>,
-               DistanceApp<1000>, ExpressionApp, ForestApp, SearchApp, ComponentsApp, SpellApp,
-               StringApp, SheetApp>(visit);
+  [&]<class... App>(std::type_identity<std::tuple<App...>>) {
+    (visit.template operator()<App>(), ...);
+  }(std::type_identity<apps::All>());
 }
 
 std::string option_name(std::string name) {

@@ -171,14 +171,7 @@ void add_stability(CLI::App& app, int& exit_code) {
       ->type_name("N")
       ->allow_extra_args(false)
       ->capture_default_str();
-  sub->add_option("--edits", args->edits, "Of each size")
-      ->check(is_count, "")
-      ->type_name("K")
-      ->capture_default_str();
-  sub->add_option("--seed", args->seed, "Of input and edits")
-      ->check(is_count, "")
-      ->type_name("S")
-      ->capture_default_str();
+  add_random_edits(*sub, args->edits, args->seed, "Of each size");
   sub->add_option("--kind", args->kind, "uniform, gaussian, clusters, grid, line-circle or spiral")
       ->check(
           [](const std::string& name) {

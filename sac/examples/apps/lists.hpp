@@ -122,37 +122,6 @@ class HostList {
   std::vector<N*> nodes_;  // in the order of the list, the header first
 };
 
-// Programs from a list to a list; `f` writes the header, or with kFirst the first node.
-template <auto f, bool kFirst, class Host>
-class ListToList {
- public:
-  using N = Node<ScopeOf<Host>>;
-
-  ListToList(Host& host, const ElementApp::Input& input)
-      : host_(host), list_(host, input.elements), result_(host.template cell<const N*>()) {
-    host.template run<f>(list_.header(), result_);
-  }
-  void edit(const ElementApp::Edit& e) { list_.edit(e); }
-  template <class Recorder>
-  void name(Recorder& recorder) const {
-    list_.name(recorder);
-    recorder.name(result_, "result");
-  }
-  std::vector<Element> result() {
-    const N* const node = host_.get(result_);
-    if (!kFirst) return elements_behind(host_, node);
-    if (node == nullptr) return {};
-    std::vector<Element> elements = elements_behind(host_, node);
-    elements.insert(elements.begin(), node->element);
-    return elements;
-  }
-
- private:
-  Host& host_;
-  HostList<Host, Element> list_;
-  NodeMod<ScopeOf<Host>> result_;
-};
-
 // Programs from a list to one value.
 template <auto f, class T, class Value, class Host>
 class ListToValue {
@@ -174,6 +143,27 @@ class ListToValue {
   Host& host_;
   HostList<Host, T> list_;
   typename ScopeOf<Host>::template ModType<Value> result_;
+};
+
+// Programs from a list to a list; `f` writes the header, or with kFirst the first node.
+template <auto f, bool kFirst, class Host>
+class ListToList : public ListToValue<f, Element, const Node<ScopeOf<Host>>*, Host> {
+  using N = Node<ScopeOf<Host>>;
+  using Base = ListToValue<f, Element, const N*, Host>;
+
+ public:
+  ListToList(Host& host, const ElementApp::Input& input) : Base(host, input), host_(host) {}
+  std::vector<Element> result() {
+    const N* const node = Base::result();
+    if (!kFirst) return elements_behind(host_, node);
+    if (node == nullptr) return {};
+    std::vector<Element> elements = elements_behind(host_, node);
+    elements.insert(elements.begin(), node->element);
+    return elements;
+  }
+
+ private:
+  Host& host_;
 };
 
 struct MapApp : ElementApp {

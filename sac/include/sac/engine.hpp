@@ -305,9 +305,6 @@ class Engine {
     const Handle end = at<Call>(call)->end;
     return end != 0 ? end : call;
   }
-  [[nodiscard]] bool lies_within(const Call& c, Handle call) const noexcept {
-    return !precedes(c, *at<Call>(call)) && !timeline_.precedes(*at<TimeNode>(end_of(call)), c);
-  }
   // An end stamp has no place until its call closes.
   [[nodiscard]] bool linked(Handle stamp) const noexcept { return at<TimeNode>(stamp)->prev != 0; }
   void enqueue(Call& call) noexcept { queue_.push(handle_of(call)); }
