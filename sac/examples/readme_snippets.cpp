@@ -199,6 +199,29 @@ void sequences() {
   check(values(e, e.get(out)) == std::vector{0, 4, 6} && e.get(sum) == 10);
 }
 
+struct Limits {
+  sac::Mod<int> most;
+};
+
+bool fits(sac::Scope& s, int x) { return x <= s.read(s.environment<Limits>().most); }
+
+void small(sac::Scope& s, sac::List<int> in, sac::Mod<sac::List<int>> out) {
+  s.write(out, sac::filter<fits>(s, in));
+}
+
+void parameters() {
+  sac::Engine e;
+  sac::Sequence<int> numbers(e, {62, 10, 45, 83});
+  const auto out = e.cell<sac::List<int>>();
+  Limits limits{e.input(50)};
+  e.set_environment(&limits);
+  e.run<small>(numbers.list(), out);
+  check(values(e, e.get(out)) == std::vector{10, 45});
+  e.set(limits.most, 70);
+  e.propagate();
+  check(values(e, e.get(out)) == std::vector{62, 10, 45});
+}
+
 // --- Why did it run again? -------------------------------------------------------------------
 
 void why_again() {
@@ -222,6 +245,7 @@ void run_all() {
   work_queue();
   without_a_trace();
   sequences();
+  parameters();
   why_again();
 }
 

@@ -28,6 +28,21 @@ std::vector<Handle> room_for(std::size_t count) {
   return empty;
 }
 
+// Lifts the arena's limit while it lives.
+class Unlimited {
+ public:
+  explicit Unlimited(Arena& arena) noexcept : arena_(arena), limit_(arena.limit()) {
+    arena_.set_limit(Arena::kReserve);
+  }
+  ~Unlimited() { arena_.set_limit(limit_); }
+  Unlimited(const Unlimited&) = delete;
+  Unlimited& operator=(const Unlimited&) = delete;
+
+ private:
+  Arena& arena_;
+  std::size_t limit_;
+};
+
 }  // namespace
 
 Engine::Engine()
@@ -113,6 +128,26 @@ void Engine::release_outside(void* object, const char* kind) {
   released_.push_back(head);
 }
 
+void Engine::require_released_unused() const {
+  constexpr Handle kHead = sizeof(OutsideHead) / Arena::kGranule;
+  for (const Handle h : released_) {
+    const std::size_t bytes = outside_types_[at<OutsideHead>(h)->type].bytes;
+    const ModStructure::Use use = mods_->use_within(h + kHead, bytes - sizeof(OutsideHead));
+    if (use.call == nullptr) continue;
+    throw UsageError("release: " + describe(*use.call) + (use.writes ? " writes " : " reads ") +
+                     describe_mod(use.head) + ", which has been released");
+  }
+}
+
+// What is linked from both of its sides is in the list.
+bool Engine::in_trace(Handle stamp) const noexcept {
+  const auto is_stamp = [&](Handle h) { return h != 0 && arena_.contains(at<TimeNode>(h) + 1); };
+  if (!is_stamp(stamp)) return false;
+  const TimeNode& node = *at<TimeNode>(stamp);
+  return is_stamp(node.prev) && at<TimeNode>(node.prev)->next == stamp &&
+         (is_stamp(node.next) ? at<TimeNode>(node.next)->prev == stamp : stamp == timeline_.back());
+}
+
 void Engine::free_released() noexcept {
   for (const Handle h : released_) {
     OutsideHead& head = *at<OutsideHead>(h);
@@ -184,6 +219,7 @@ void Engine::shrink() {
   require_idle("shrink");
   arena_.shrink();
   memo_.shrink();
+  mods_->shrink();
   timeline_.shrink();
   queue_.shrink(live_calls_);
   for (const auto& agenda : agendas_) agenda->shrink();
@@ -262,6 +298,7 @@ void Engine::undo_edits() {
 // it does.
 void Engine::undo_edits_behind(std::size_t edits) {
   try {
+    const Unlimited unlimited(arena_);
     for (; rollback_.size() > edits; rollback_.pop_back()) rollback_.back()();
   } catch (...) {
     broken_ = true;
@@ -273,9 +310,9 @@ void Engine::undo_edits_behind(std::size_t edits) {
 
 Counts Engine::run_root(const Function& function, std::uint32_t hash, const void* args,
                         void (*construct)(void*, const void*)) {
-  if (mode_ == Mode::idle && !rollback_.empty() && !queue_.empty()) {
-    throw UsageError("run: propagate the edits first");
-  }
+  begin_edit("run");
+  if (!rollback_.empty() && !queue_.empty()) throw UsageError("run: propagate the edits first");
+  require_released_unused();
   enter(Mode::running);
   rollback_.clear();
   now_ = timeline_.back();
@@ -284,10 +321,11 @@ Counts Engine::run_root(const Function& function, std::uint32_t hash, const void
     const Handle root = new_call(function, hash, args, construct);
     insert_call(root);
     execute(root, 0);
+    require_released_unused();
     check_audit();
   } catch (...) {
     current_ = nullptr;
-    if (observer_ != nullptr) [[unlikely]] note(Event::Kind::roll_back_started);
+    if (observer_ != nullptr) [[unlikely]] note_failure(Event::Kind::roll_back_started);
     discard_between(before, 0);
     finish();
     throw;
@@ -302,6 +340,7 @@ Counts Engine::propagate() {
   enter(Mode::propagating);
   try {
     propagate_within(0);
+    require_released_unused();
     check_audit();
   } catch (...) {
     roll_back();
@@ -381,9 +420,21 @@ bool Engine::reads_the_same(Call& call) {
   try {
     return mods_->reads_the_same(call);
   } catch (...) {
-    if (observer_ != nullptr) [[unlikely]] note(Event::Kind::failed, &call);
+    if (observer_ != nullptr) [[unlikely]] note_failure(Event::Kind::failed, &call);
     invalidate(call);
     throw;
+  }
+}
+
+void Engine::note_failure(Event::Kind kind, const Call* call) noexcept {
+  Event event{.kind = kind, .call = call, .by = running_call()};
+  try {
+    throw;
+  } catch (const std::exception& error) {
+    event.message = error.what();
+    observer_->on(event);
+  } catch (...) {
+    observer_->on(event);
   }
 }
 
@@ -391,17 +442,15 @@ void Engine::roll_back() {
   current_ = nullptr;
   suspects_.clear();
   mode_ = Mode::undoing;
-  if (observer_ != nullptr) [[unlikely]] note(Event::Kind::roll_back_started);
+  if (observer_ != nullptr) [[unlikely]] note_failure(Event::Kind::roll_back_started);
   progress_at_ = ~std::uint64_t{0};
-  const std::size_t limit = arena_.limit();
-  arena_.set_limit(Arena::kReserve);
   try {
+    const Unlimited unlimited(arena_);
     for (auto undo = rollback_.rbegin(); undo != rollback_.rend(); ++undo) (*undo)();
     if (!broken_) propagate_within(0);
   } catch (...) {
     broken_ = true;
   }
-  arena_.set_limit(limit);
   rollback_.clear();
   finish();
 }
@@ -735,7 +784,7 @@ void Engine::link_end(Activation& a) {
 
 // Client code threw: the call stays, as one that must run again.
 void Engine::abandon(Activation& a) noexcept {
-  if (observer_ != nullptr) [[unlikely]] note(Event::Kind::failed, a.call);
+  if (observer_ != nullptr) [[unlikely]] note_failure(Event::Kind::failed, a.call);
   if (a.tail != 0 && !a.tail_reused) drop_call(std::exchange(a.tail, 0));
   settle(a);
   if (a.end != 0 && !a.end_linked) {

@@ -26,6 +26,7 @@ bool is_phase(Kind kind) { return kind <= Kind::finished; }
 bool is_change(Kind kind) {
   return kind == Kind::edited || kind == Kind::changed || kind == Kind::reverted;
 }
+bool is_failure(Kind kind) { return kind == Kind::failed || kind == Kind::roll_back_started; }
 bool is_deed(Kind kind) { return kind == Kind::executed || kind == Kind::discarded; }
 
 constexpr std::size_t kMostCauses = 3;  // that one line names
@@ -82,6 +83,7 @@ EventLog::TextId EventLog::text_id(std::string text) {
 }
 
 std::string EventLog::text_of(const Event& event) const {
+  if (event.message != nullptr) return event.message;
   if (event.source != 0) return engine_.describe_mod(event.source);
   if (event.seen == nullptr) return "";
   std::ostringstream seen;
@@ -127,7 +129,7 @@ std::string EventLog::line(std::size_t i) const {
     if (e.call != 0) text += " in " + label(e.call);
   } else {
     if (e.call != 0) text += ' ' + label(e.call);
-    if (e.what != 0) text += " at " + texts_[e.what];
+    if (e.what != 0) text.append(is_failure(e.kind) ? ": " : " at ").append(texts_[e.what]);
   }
   if (e.by != 0) text += " by " + label(e.by);
   return text;
@@ -165,7 +167,13 @@ std::string EventLog::failure_before(std::size_t i) const {
     return e.kind == Kind::run_started || e.kind == Kind::propagation_started;
   });
   for (std::size_t k = from == kNone ? 0 : from; k < i; ++k) {
-    if (entries_[k].kind == Kind::failed) return label(entries_[k].call) + " failed";
+    const Entry& e = entries_[k];
+    if (!is_failure(e.kind)) continue;
+    const bool in_run = from != kNone && entries_[from].kind == Kind::run_started;
+    std::string text = e.call != 0 ? label(e.call) : in_run ? "the run" : "the propagation";
+    text += " failed";
+    if (e.what != 0) text.append(" (").append(texts_[e.what]).append(")");
+    return text;
   }
   return "the propagation failed";
 }

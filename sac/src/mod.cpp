@@ -497,6 +497,41 @@ void ModStructure::destroy_values(const Call& call) noexcept {
   });
 }
 
+// What lies there is not known to the engine: anything aligned may be a modifiable. Whether it is
+// one, others know: the read that has seen it, its history, or the call that has written it.
+ModStructure::Use ModStructure::use_within(Handle from, std::size_t bytes) const noexcept {
+  for (Handle h = from; (h - from) * Arena::kGranule + sizeof(Version) <= bytes; ++h) {
+    if (const Use use = use_of(h); use.call != nullptr) return use;
+  }
+  return {};
+}
+
+ModStructure::Use ModStructure::use_of(Handle head) const noexcept {
+  const Version& version = *at(head);
+  if (const std::uint32_t h = version.history; h != 0) {
+    if (h >= histories_.size() || history(h).head != head) return {};
+    return {&writer(*at(history(h).versions.first())), head, true};
+  }
+  if (version.readers != 0 && engine_.arena().contains(reader(version.readers) + 1)) {
+    const ReadEdge& read = *reader(version.readers);
+    const bool is_read = read.structure == id_ && read.kind == kRead && read.prev == 0;
+    if (is_read && read.version == head) return {&engine_.call(read.call), head, false};
+  }
+  if (!version.outside && engine_.in_trace(version.writer) && !writer(version).marked()) {
+    if (find_write(writer(version), head)) return {&writer(version), head, true};
+  }
+  return {};
+}
+
+bool ModStructure::find_write(const Call& call, Handle version) const noexcept {
+  bool found = false;
+  engine_.for_each_edge(call, [&](const Edge& edge) {
+    found |= edge.structure == id_ && edge.kind == kWrite &&
+             static_cast<const WriteEdge&>(edge).version == version;
+  });
+  return found;
+}
+
 // --- For people and for traces ---------------------------------------------------------------
 
 void ModStructure::label(const Call&, const Edge& edge, LabelSink& sink) const {
@@ -523,6 +558,21 @@ std::size_t ModStructure::bytes() const noexcept {
   for (const History& h : histories_) total += h.versions.bytes();
   for (const auto& [version, readers] : reader_orders_) total += 64 + readers.bytes();
   return total;
+}
+
+void ModStructure::shrink() {
+  for (const auto& [version, readers] : reader_orders_) at(version)->ordered = false;
+  std::unordered_map<Handle, TraceOrder>().swap(reader_orders_);
+  std::sort(free_histories_.begin(), free_histories_.end());
+  while (!free_histories_.empty() && free_histories_.back() + 1 == histories_.size()) {
+    free_histories_.pop_back();
+    histories_.pop_back();
+  }
+  histories_.shrink_to_fit();
+  std::vector<std::uint32_t> free;
+  free.reserve(histories_.size());  // so that drop_history cannot fail
+  free.assign(free_histories_.begin(), free_histories_.end());
+  free_histories_.swap(free);
 }
 
 // --- Invariants ------------------------------------------------------------------------------

@@ -276,6 +276,19 @@ TEST_CASE("posts from outside run, merge with others, and are taken back") {
   CHECK_THROWS_AS(f.p.agenda->retract_from_outside<visit>(1), sac::UsageError);
 }
 
+TEST_CASE("edits are undone beyond the memory limit") {
+  Fixture f({2});
+  f.p.agenda->post_from_outside<visit>(key_of(1), 1);
+  f.run();
+  f.p.agenda->retract_from_outside<visit>(1);
+  f.e.set_memory_limit(0);
+  CHECK_THROWS_AS(f.p.agenda->post_from_outside<visit>(key_of(3), 3), std::bad_alloc);
+  f.e.undo_edits();
+  CHECK(f.e.propagate().discarded == 0);
+  CHECK(visited(f.e) == std::vector<int>{1, 2});
+  f.e.check_invariants();
+}
+
 TEST_CASE("a call posted from outside and taken back before the run does not run") {
   Fixture f({});
   f.p.agenda->post_from_outside<visit>(key_of(1), 1);

@@ -388,6 +388,87 @@ TEST_CASE("releasing twice, and what the outside has not made") {
   e.check_invariants();
 }
 
+struct Box {
+  int number = 7;
+  const Box* self = this;  // looks like no modifiable
+  sac::Cell<int> first, second;
+  std::string text = "box";
+};
+// Reads what a box holds, if there is one.
+void look_into(Scope& s, Mod<Box*> which, Mod<int> out) {
+  Box* const box = s.read(which);
+  s.write(out, box != nullptr ? s.read(box->second) : 0);
+}
+void fill(Scope& s, Mod<Box*> which, Mod<int> from) {
+  if (Box* const box = s.read(which)) s.write(box->first, s.read(from));
+}
+void look_at(Scope& s, Mod<int> number, Mod<int> out) { s.write(out, s.read(number)); }
+
+TEST_CASE("what has been released is read still, or written: the release is taken back") {
+  Engine e;
+  auto& box = e.make<Box>();
+  e.set(box.second, 5);
+  const auto which = e.input(&box);
+  const auto out = e.cell<int>(), number = e.input(1);
+  const auto reader = [&] { return "look_into(" + at(which.head()) + ", " + at(out.head()) + ")"; };
+  const auto second = at(Mod<int>(box.second).head());
+  e.run<look_into>(which, out);
+
+  e.release(box);
+  CHECK(error_of([&] { e.run<look_at>(number, e.cell<int>()); }) ==
+        "release: " + reader() + " reads modifiable " + second + ", which has been released");
+  CHECK(error_of([&] { e.propagate(); }) ==
+        "release: " + reader() + " reads modifiable " + second + ", which has been released");
+  e.check_invariants();
+  e.set(box.second, 6);
+  e.propagate();
+  CHECK(e.get(out) == 6);
+
+  e.run<fill>(which, number);
+  e.release(number);
+  CHECK(error_of([&] { e.propagate(); }) ==
+        "release: fill(" + at(which.head()) + ", " + at(number.head()) + ") reads modifiable " +
+            at(number.head()) + ", which has been released");
+
+  // Nobody reads `first`, but it is written.
+  e.run<look_at>(number, out);  // out gets a second version
+  e.release(out);
+  CHECK(error_of([&] { e.propagate(); }) ==
+        "release: " + reader() + " writes modifiable " + at(out.head()) +
+            ", which has been released");
+  auto& other = e.make<Box>();
+  e.set(other.second, 9);
+  const auto third = e.input(&other);
+  e.run<fill>(third, number);
+  e.release(other);
+  CHECK(error_of([&] { e.propagate(); }) ==
+        "release: fill(" + at(third.head()) + ", " + at(number.head()) + ") writes modifiable " +
+            at(Mod<int>(other.first).head()) + ", which has been released");
+
+  e.set(which, nullptr);
+  e.set(third, nullptr);
+  e.release(box);
+  e.release(other);
+  e.propagate();
+  CHECK(e.get(out) == 1);
+  e.check_invariants();
+}
+
+TEST_CASE("a run that reads what has been released is taken back") {
+  Engine e;
+  auto& box = e.make<Box>();
+  e.set(box.second, 5);
+  const auto which = e.input(&box);
+  const auto out = e.cell<int>();
+  e.release(box);
+  CHECK(error_of([&] { e.run<look_into>(which, out); }) ==
+        "release: look_into(" + at(which.head()) + ", " + at(out.head()) + ") reads modifiable " +
+            at(Mod<int>(box.second).head()) + ", which has been released");
+  CHECK(e.live_calls() == 0);
+  e.propagate();  // now it is free
+  e.check_invariants();
+}
+
 // --- The environment -----------------------------------------------------------------------------
 
 void use_environment(Scope& s, int) { static_cast<void>(s.environment<World>()); }

@@ -400,15 +400,27 @@ TEST_CASE("a propagation that fails says what is set back") {
   CHECK(w.news() == Lines{"edited modifiable 'a'", "invalidated refuse(@, @) at modifiable 'a'",
                           "invalidated copy(x, @, @) at modifiable 'a'", "propagation_started",
                           "executed copy(x, @, @)", "changed modifiable 'out' in copy(x, @, @)",
-                          "executed refuse(@, @)", "failed refuse(@, @)",
+                          "executed refuse(@, @)", "failed refuse(@, @): negative",
                           "reverted modifiable 'last' in refuse(@, @)", "invalidated refuse(@, @)",
-                          "roll_back_started", "edited modifiable 'a'",
+                          "roll_back_started: negative", "edited modifiable 'a'",
                           "invalidated refuse(@, @) at modifiable 'a'",
                           "invalidated copy(x, @, @) at modifiable 'a'", "executed copy(x, @, @)",
                           "changed modifiable 'out' in copy(x, @, @)", "executed refuse(@, @)",
                           "changed modifiable 'last' in refuse(@, @)", "finished"});
   CHECK(w.why("copy(") ==
-        "copy(x, @, @) ran again because modifiable 'a' was set back when refuse(@, @) failed.\n");
+        "copy(x, @, @) ran again because modifiable 'a' was set back when refuse(@, @) failed "
+        "(negative).\n");
+}
+
+void measure(Scope& s, sac::List<int> list, Mod<int> out) {
+  s.write(out, static_cast<int>(sac::fetch(s, sac::size(s, list))));
+}
+
+TEST_CASE("a list is named by its handle") {
+  Watched w;
+  sac::Sequence<int> numbers(w.e, {1, 2});
+  w.e.run<measure>(numbers.list(), w.cell("out"));
+  CHECK(w.why("measure") == "measure(@, @) is new: run from outside.\n");
 }
 
 TEST_CASE("a run that fails is discarded") {
@@ -416,9 +428,10 @@ TEST_CASE("a run that fails is discarded") {
   const auto a = w.input(-1, "a");
   CHECK_THROWS_AS(w.e.run<refuse>(a, w.cell("out")), std::runtime_error);
   CHECK(w.news() == Lines{"run_started", "created refuse(@, @)", "executed refuse(@, @)",
-                          "failed refuse(@, @)", "invalidated refuse(@, @)", "roll_back_started",
-                          "discarded refuse(@, @)", "finished"});
-  CHECK(w.why("refuse") == "refuse(@, @) was discarded because refuse(@, @) failed.\n");
+                          "failed refuse(@, @): negative", "invalidated refuse(@, @)",
+                          "roll_back_started: negative", "discarded refuse(@, @)", "finished"});
+  CHECK(w.why("refuse") ==
+        "refuse(@, @) was discarded because refuse(@, @) failed (negative).\n");
 }
 
 // --- A structure of the client's -----------------------------------------------------------------

@@ -197,6 +197,23 @@ TEST_CASE("memory held is memory resident: modifiables written 300 times each") 
   check_memory<Rewrites>();
 }
 
+TEST_CASE("shrink gives the order of versions and readers back that are no more") {
+  Rewrites program;
+  Engine e;
+  program.start(e);
+  const std::size_t before = e.memory().versions;
+  e.set(program.steps, 10);
+  e.propagate();
+  e.shrink();
+  CHECK(e.memory().versions < 100);
+  e.check_invariants();
+  e.set(program.steps, 300'000);
+  e.propagate();
+  CHECK(e.memory().versions <= before);
+  CHECK(e.get(program.mods[0]) == 299);
+  e.check_invariants();
+}
+
 }  // namespace
 
 #endif

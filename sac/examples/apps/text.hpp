@@ -384,7 +384,8 @@ struct SheetApp {
   };
 
   static std::string name_of(int cell) {
-    return std::string(1, static_cast<char>('A' + cell % 26)) + std::to_string(cell / 26 + 1);
+    std::string name(1, static_cast<char>('A' + cell % 26));
+    return name.append(std::to_string(cell / 26 + 1));
   }
   // Cells in use: a block of 3 columns.
   static int random_cell(Random& random) {
@@ -429,7 +430,8 @@ struct SheetApp {
       default:
         break;
     }
-    std::string text = "=" + random_factor(random);
+    std::string text("=");
+    text += random_factor(random);
     for (int i = random(3); i > 0; --i) {
       text += "+-*/"[random(4)];
       text += random_factor(random);

@@ -20,6 +20,7 @@
 #pragma once
 
 #include <compare>
+#include <concepts>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -76,8 +77,16 @@ struct PostEdge : Edge {
   Handle target;
 };
 
+template <class T>
+concept Ordered = std::three_way_comparable<T> || requires(const T& a, const T& b) {
+  { a < b } -> std::convertible_to<bool>;
+};
+
 template <auto F, class... Args>
 constexpr Function describe_posted() {
+  static_assert((Ordered<Args> && ...),
+                "an argument of a posted call needs <=> or <: calls of one key run in the order of "
+                "their arguments");
   static_assert(std::is_void_v<std::invoke_result_t<decltype(F), Scope&, const Args&...>>,
                 "a posted call has nobody to return to");
   using Type = PostedFrame<Args...>;
@@ -160,13 +169,8 @@ class Agenda final : public Structure {
   // another one after the roll-back.
   template <auto F, class... Args>
   static auto label_as(Args... args) {
-    return label_of<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
-  }
-  template <auto F, class... P, class... Args>
-  static detail::Label<P...> label_of(detail::Types<P...>, Args&&... args) {
-    std::tuple<P...> tuple(static_cast<P>(std::move(args))...);
-    const std::uint32_t hash = detail::label_hash<&function_name<F>>(tuple);
-    return {std::move(tuple), hash};
+    return detail::make_label<&function_name<F>>(detail::parameters<F, false, Args...>(),
+                                                 std::move(args)...);
   }
   template <auto F, class... Args>
   void post_labelled(Scope& s, const Key& key, const detail::Label<Args...>& label) {

@@ -122,8 +122,9 @@ class Engine {
   /// input list, say.
   template <class T>
   [[nodiscard]] T& make();
-  /// Frees what input(), cell() or make() gave, at the end of the next propagation: an edit.
-  /// Requires: no call uses it after that propagation.
+  /// Frees what input(), cell() or make() gave, at the end of the next propagation: an edit. That
+  /// propagation fails with UsageError if a call still reads or writes a modifiable in it; no call
+  /// may use it in another way.
   template <class T>
   void release(T& object);
   template <class T, class Same>
@@ -320,12 +321,16 @@ class Engine {
     }
     if (call.queue == 0) enqueue(call);
   }
+  // Whether a call or end stamp that is in the trace lies at `stamp`, where anything may lie.
+  [[nodiscard]] bool in_trace(Handle stamp) const noexcept;
   [[nodiscard]] const Call* running_call() const noexcept {
     return current_ != nullptr ? current_->call : nullptr;
   }
   void note(Event::Kind kind, const Call* call = nullptr, Handle source = 0) noexcept {
     observer_->on({.kind = kind, .call = call, .source = source, .by = running_call()});
   }
+  // Requires: an exception is being handled.
+  void note_failure(Event::Kind kind, const Call* call = nullptr) noexcept;
 
   // Calls find their function by its number through the arena's header.
   [[nodiscard]] std::uint16_t number_of(const Function& function) {
@@ -342,6 +347,7 @@ class Engine {
   void release_outside(void* object, const char* kind);
   void forget_names(Handle from, std::size_t bytes) noexcept;
   void require_unwritten(Handle head) const;
+  void require_released_unused() const;
   void free_released() noexcept;
   void require_idle(const char* what) const;
   template <auto F, class... P, class... Args>

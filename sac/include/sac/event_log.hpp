@@ -74,7 +74,7 @@ class EventLog final : public Observer {
     Event::Kind kind;
     CallId call;
     CallId by;
-    TextId what;  // the modifiable, or what was seen
+    TextId what;  // the modifiable, or what was seen, or how it failed
   };
   struct KnownCall {
     std::string label;

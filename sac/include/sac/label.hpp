@@ -2,6 +2,7 @@
 //
 // The label of a call is (function, arguments). An argument type needs ==; a hash is found by
 // `hash_value(const T&)` (argument-dependent) or std::hash; order (agendas only) by <=>; print by
+// `print_argument(std::ostream&, const T&, const void* neighbour)` (argument-dependent) or
 // operator<<, else only the type's size is shown.
 //
 // To compare traces of different runs a label needs a name that is the same in all of them, which

@@ -157,8 +157,8 @@ class List {
     return hash_argument(list.header_);
   }
   friend void label_bytes(LabelSink& sink, const List& list) { sink.address(list.header_); }
-  friend std::ostream& operator<<(std::ostream& out, const List& list) {
-    return out << list.header_;
+  friend void print_argument(std::ostream& out, const List& list, const void* neighbour) {
+    sac::print_argument(out, list.header_, neighbour);
   }
 
  private:

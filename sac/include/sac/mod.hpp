@@ -87,8 +87,8 @@ struct ValueType {
 template <class T, class Same>
 inline constexpr ValueType kValueType{
     [](const Version& a, const Version& b) {
-      return static_cast<bool>(Same{}(static_cast<const TypedVersion<T>&>(a).value(),
-                                      static_cast<const TypedVersion<T>&>(b).value()));
+      return same<Same>(static_cast<const TypedVersion<T>&>(a).value(),
+                        static_cast<const TypedVersion<T>&>(b).value());
     },
     [](Version& v) { static_cast<TypedVersion<T>&>(v).value().~T(); },
     [](Version& from, Version& to) {
@@ -178,11 +178,21 @@ class ModStructure final : public Structure {
   /// The number of a type of values. Throws: std::bad_alloc.
   [[nodiscard]] std::uint16_t number(const detail::ValueType& type) { return types_.number(type); }
 
+  /// A call that reads or writes a modifiable in the `bytes` from `from`, and which.
+  struct Use {
+    const Call* call = nullptr;  // null: none does
+    Handle head = 0;
+    bool writes = false;
+  };
+  [[nodiscard]] Use use_within(Handle from, std::size_t bytes) const noexcept;
+
   void retract(Call& call, Edge& edge) noexcept override;
   void label(const Call& call, const Edge& edge, LabelSink& sink) const override;
   void print(const Call& call, const Edge& edge, std::ostream& out) const override;
 
   [[nodiscard]] std::size_t bytes() const noexcept;
+  /// Forgets what can be found anew. Throws: std::bad_alloc, and then loses nothing else.
+  void shrink();
   /// Destroys the values that `call` wrote, and the past ones that it has seen: the engine ends.
   void destroy_values(const Call& call) noexcept;
   /// Throws: InvariantError unless the versions of the modifiable are in trace order and every
@@ -221,6 +231,8 @@ class ModStructure final : public Structure {
   [[nodiscard]] detail::Version* seen_by(const Call& call, Handle head) const;
   [[nodiscard]] detail::Version* find_own(const Call& call, Handle head) const noexcept;
   [[nodiscard]] bool unconfirmed(const detail::Version& version) const noexcept;
+  [[nodiscard]] Use use_of(Handle head) const noexcept;
+  [[nodiscard]] bool find_write(const Call& call, Handle version) const noexcept;
   [[nodiscard]] std::uint32_t new_history(Handle head);
   void drop_history(Handle head) noexcept;
   [[nodiscard]] detail::Version* predecessor(Handle head,
@@ -333,7 +345,7 @@ void Engine::set(Mod<T, Same> mod, std::type_identity_t<T> value) {
     version.written = version.outside = true;
     return;
   }
-  if (Same{}(version.value(), value)) return;
+  if (detail::same<Same>(version.value(), value)) return;
   on_rollback([this, mod, old = version.value()]() mutable {
     auto& v = *at<detail::TypedVersion<T>>(mod.head());
     mods_->replace(mod.head(), v);
@@ -379,7 +391,7 @@ void Scope::write(Mod<T, Same> mod, std::type_identity_t<T> value) {
   ModStructure& mods = *engine_.mods_;
   const Handle head = mod.head();
   if (auto* own = static_cast<detail::TypedVersion<T>*>(mods.own_version(*this, head))) {
-    if (Same{}(own->value(), value)) return;
+    if (detail::same<Same>(own->value(), value)) return;
     mods.require_unread(*this, head, *own);
     mods.replace(head, *own);
     ::new (static_cast<void*>(own->storage)) T(std::move(value));
@@ -387,7 +399,7 @@ void Scope::write(Mod<T, Same> mod, std::type_identity_t<T> value) {
     return;
   }
   auto* previous = static_cast<detail::TypedVersion<T>*>(mods.before(*this, head));
-  const bool same = previous != nullptr && Same{}(previous->value(), value);
+  const bool same = previous != nullptr && detail::same<Same>(previous->value(), value);
   if (previous != nullptr && !same) mods.require_unread(*this, head, *previous);
   auto& version = static_cast<detail::TypedVersion<T>&>(
       mods.new_version(*this, head, detail::kValueType<T, Same>));  // the last that may fail

@@ -47,9 +47,19 @@ struct Declared<R (C::*)(Scope&, P...) const noexcept> {
   using type = Types<P...>;
 };
 
+// Member functions that may change their object.
+template <class F>
+inline constexpr bool kChangesItself = false;
+template <class R, class C, class... P>
+inline constexpr bool kChangesItself<R (C::*)(P...)> = true;
+template <class R, class C, class... P>
+inline constexpr bool kChangesItself<R (C::*)(P...) noexcept> = true;
+
 template <class F>
 constexpr auto declared() {
   if constexpr (requires { &F::operator(); }) {
+    static_assert(!kChangesItself<decltype(&F::operator())>,
+                  "a traced function has no state: its operator() is const");
     return std::type_identity<typename Declared<decltype(&F::operator())>::type>();
   } else {
     return std::type_identity<typename Declared<F>::type>();
@@ -85,6 +95,8 @@ template <auto F, bool kObject, class... Args>
 constexpr auto parameters() {
   using List = typename decltype(declared<std::remove_cv_t<decltype(F)>>())::type;
   if constexpr (std::is_void_v<List>) {
+    static_assert(kObject || std::is_invocable_v<decltype(F), Scope&, const Kept<Args>&...>,
+                  "a traced function takes a Scope&, then arguments of these types");
     return Types<Kept<Args>...>();
   } else if constexpr (kObject) {
     return kept_as<Args...>(behind_first(List()));

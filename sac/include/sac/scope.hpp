@@ -5,6 +5,7 @@
 // that depends on nothing but its arguments and what it reads through `s`.
 #pragma once
 
+#include <concepts>
 #include <memory>
 #include <new>
 #include <optional>
@@ -47,6 +48,8 @@ struct Frame {
   static_assert(((alignof(Args) <= 8) && ...), "arguments in the arena are aligned to 8 bytes");
   static_assert(!(kCString<Args> || ...),
                 "the characters behind a pointer may change or go: pass a std::string");
+  static_assert((std::equality_comparable<Args> && ...),
+                "an argument of a call needs ==: calls are told apart by their arguments");
   using LabelType = Label<Args...>;
   Call call;
   [[no_unique_address]] Head head;
@@ -57,6 +60,14 @@ struct Frame {
   static Frame& of(Call& call) noexcept { return reinterpret_cast<Frame&>(call); }
   static const Frame& of(const Call& call) noexcept { return reinterpret_cast<const Frame&>(call); }
 };
+
+template <class Same, class T>
+bool same(const T& a, const T& b) {
+  constexpr bool kCompares = std::is_invocable_r_v<bool, Same, const T&, const T&>;
+  static_assert(kCompares,
+                "a value or result needs ==, or a Same of its own: an equal one disturbs nobody");
+  if constexpr (kCompares) return static_cast<bool>(Same{}(a, b));
+}
 
 template <class R>
 struct Result {
@@ -79,6 +90,14 @@ template <auto Name, class... Args>
 std::uint32_t label_hash(const std::tuple<Args...>& args) {
   constexpr std::uint64_t seed = hash_name(Name());
   return static_cast<std::uint32_t>(hash_arguments(seed, args));
+}
+
+// The label of a call of what has this name, with arguments kept as P.
+template <auto Name, class... P, class... Args>
+Label<P...> make_label(Types<P...>, Args&&... args) {
+  std::tuple<P...> kept(static_cast<P>(std::move(args))...);
+  const std::uint32_t hash = label_hash<Name>(kept);
+  return {std::move(kept), hash};
 }
 
 // --- The operations of a frame ---------------------------------------------------------------
@@ -352,44 +371,46 @@ class Scope {
 
   // The public operations, with arguments converted to what they are kept as.
   template <auto F, class... P, class... Args>
-  decltype(auto) call_as(detail::Types<P...>, Args&&... args) {
+  decltype(auto) call_as(detail::Types<P...> kept, Args&&... args) {
     using R = std::invoke_result_t<decltype(F), Scope&, const P&...>;
     using Frame = typename decltype(frame_of<F, P...>())::type;
-    const Handle child = child_call<Frame>(
-        detail::kFunction<F, P...>, label<&function_name<F>>(static_cast<P>(std::move(args))...));
+    const Handle child =
+        child_call<Frame>(detail::kFunction<F, P...>,
+                          detail::make_label<&function_name<F>>(kept, std::move(args)...));
     if constexpr (!std::is_void_v<R>) {
       return static_cast<const std::decay_t<R>&>(*Frame::of(engine_.call(child)).tail.value);
     }
   }
   template <auto F, class... P, class... Args>
-  void tail_as(detail::Types<P...>, Args&&... args) {
+  void tail_as(detail::Types<P...> kept, Args&&... args) {
     using Frame = typename decltype(frame_of<F, P...>())::type;
     static_assert(std::is_void_v<std::invoke_result_t<decltype(F), Scope&, const P&...>>,
                   "a tail call has nobody to return to");
     tail_call<Frame>(detail::kFunction<F, P...>,
-                     label<&function_name<F>>(static_cast<P>(std::move(args))...));
+                     detail::make_label<&function_name<F>>(kept, std::move(args)...));
   }
   template <class T, class... P, class... Key>
-  T& make_keyed(detail::Types<P...>, Key&&... key) {
+  T& make_keyed(detail::Types<P...> kept, Key&&... key) {
     using Frame = detail::ObjectFrame<T, P...>;
-    const Handle made = child_call<Frame>(
-        detail::kMaker<T, P...>, label<&maker_name<T>>(static_cast<P>(std::move(key))...));
+    const Handle made =
+        child_call<Frame>(detail::kMaker<T, P...>,
+                          detail::make_label<&maker_name<T>>(kept, std::move(key)...));
     return Frame::of(engine_.call(made)).tail.value;
   }
   template <class T, auto F, class... P, class... Key>
-  T& make_as(detail::Types<P...>, Key&&... key) {
+  T& make_as(detail::Types<P...> kept, Key&&... key) {
     using Frame = detail::ObjectFrame<T, P...>;
     const Handle made =
         child_call<Frame>(detail::kBuilder<T, F, P...>,
-                          label<&function_name<F>>(static_cast<P>(std::move(key))...));
+                          detail::make_label<&function_name<F>>(kept, std::move(key)...));
     return Frame::of(engine_.call(made)).tail.value;
   }
   template <class T, auto F, class... P, class... Key>
-  T& tail_make_as(detail::Types<P...>, Key&&... key) {
+  T& tail_make_as(detail::Types<P...> kept, Key&&... key) {
     using Frame = detail::ObjectFrame<T, P...>;
     const Handle made =
         tail_call<Frame>(detail::kBuilder<T, F, P...>,
-                         label<&function_name<F>>(static_cast<P>(std::move(key))...));
+                         detail::make_label<&function_name<F>>(kept, std::move(key)...));
     return Frame::of(engine_.call(made)).tail.value;
   }
   template <auto F, class... Args>
@@ -400,12 +421,6 @@ class Scope {
     } else {
       return std::type_identity<detail::Frame<ResultHead, detail::Result<std::decay_t<R>>, Args...>>();
     }
-  }
-  template <auto Name, class... Args>
-  static detail::Label<Args...> label(Args&&... args) {
-    std::tuple<Args...> tuple(std::move(args)...);
-    const std::uint32_t hash = detail::label_hash<Name>(tuple);
-    return {std::move(tuple), hash};
   }
   template <class Frame, class... Args>
   Handle child_call(const Function& function, const detail::Label<Args...>& label) {
@@ -432,7 +447,7 @@ void execute_with_result(Scope& scope, Call& call) {
   auto& frame = FrameType::of(call);
   auto result = std::apply([&](const auto&... args) { return F(scope, args...); }, frame.args);
   auto& known = frame.tail.value;
-  if (known.has_value() && typename SameResult<F>::type{}(*known, result)) return;
+  if (known.has_value() && same<typename SameResult<F>::type>(*known, result)) return;
   known.reset();
   known.emplace(std::move(result));
   scope.result_changed(frame.head.caller);
@@ -446,14 +461,12 @@ Counts Engine::run(Args... args) {
 }
 
 template <auto F, class... P, class... Args>
-Counts Engine::run_as(detail::Types<P...>, Args&&... args) {
+Counts Engine::run_as(detail::Types<P...> kept, Args&&... args) {
   using Frame = detail::Frame<detail::Nothing, detail::Nothing, P...>;
   static_assert(std::is_void_v<std::invoke_result_t<decltype(F), Scope&, const P&...>>,
                 "what a program computes is in modifiables");
-  std::tuple<P...> tuple(static_cast<P>(std::move(args))...);
-  const std::uint32_t hash = detail::label_hash<&function_name<F>>(tuple);
-  const detail::Label<P...> label{std::move(tuple), hash};
-  return run_root(detail::kFunction<F, P...>, hash, &label, detail::constructor_of<Frame>());
+  const auto label = detail::make_label<&function_name<F>>(kept, std::move(args)...);
+  return run_root(detail::kFunction<F, P...>, label.hash, &label, detail::constructor_of<Frame>());
 }
 
 }  // namespace sac

@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# What does not fit is refused by the compiler, and the first error says why.
+#   compile_errors.sh COMPILER INCLUDE_DIRECTORY
+set -euo pipefail
+compiler=$1
+include=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+# compile DECLARATIONS STATEMENTS
+compile() {
+  cat >"$work/program.cpp" <<END
+#include <memory>
+#include <sac/sac.hpp>
+struct Bare { int x; };
+struct Equal { int x; bool operator==(const Equal&) const = default; };
+struct Ordered { int x; auto operator<=>(const Ordered&) const = default; };
+struct AnySame { template <class T> bool operator()(const T&, const T&) const { return false; } };
+$1
+int main() {
+  sac::Engine e;
+  auto& agenda = e.make_agenda("work");
+  static_cast<void>(agenda);
+  $2
+}
+END
+  "$compiler" -std=c++20 -fsyntax-only -I"$include" "$work/program.cpp" 2>"$work/errors"
+}
+fail() {
+  echo "$1" >&2
+  cat "$work/program.cpp" "$work/errors" >&2
+  failures=$((failures + 1))
+}
+# accepted DECLARATIONS STATEMENTS: what is like that which is refused below, and right.
+accepted() {
+  compile "$@" || fail "refused:"
+}
+# refused MESSAGE DECLARATIONS STATEMENTS
+refused() {
+  local message=$1
+  shift
+  if compile "$@"; then fail "accepted:"; return; fi
+  [[ $(grep -m1 'error' "$work/errors") == *"$message"* ]] || fail "the first error is not '$message':"
+}
+
+accepted 'void f(sac::Scope& s, Equal a, sac::Mod<Equal> m) { s.write(m, a); }' \
+  'e.run<f>(Equal{1}, e.cell<Equal>());'
+accepted 'void f(sac::Scope&, Ordered) {}' 'agenda.post_from_outside<f>({}, Ordered{1});'
+accepted '' 'e.set(e.cell<Bare, AnySame>(), Bare{1});'
+accepted 'struct F { void operator()(sac::Scope&, int) const {} };' 'e.run<F{}>(1);'
+accepted 'void f(sac::Scope&, const std::string&) {}' 'e.run<f>("text");'
+
+same='a value or result needs ==, or a Same of its own'
+refused "$same" '' 'static_cast<void>(e.input(Bare{1}));'
+refused "$same" '' 'e.set(e.cell<Bare>(), Bare{1});'
+refused "$same" 'void f(sac::Scope& s, sac::Mod<Bare> m) { s.write(m, Bare{1}); }' \
+  'e.run<f>(e.cell<Bare>());'
+refused "$same" 'Bare g(sac::Scope&) { return {1}; } void f(sac::Scope& s) { s.call<g>(); }' \
+  'e.run<f>();'
+refused 'an argument of a call needs ==' 'void f(sac::Scope&, Bare) {}' 'e.run<f>(Bare{1});'
+refused 'an argument of a posted call needs <=> or <' 'void f(sac::Scope&, Equal) {}' \
+  'agenda.post_from_outside<f>({}, Equal{1});'
+refused 'a traced function has no state' 'struct F { void operator()(sac::Scope&, int) {} };' \
+  'e.run<F{}>(1);'
+refused 'a traced function takes a Scope&' 'void f(int) {}' 'e.run<f>(1);'
+refused 'takes another number of arguments' 'void f(sac::Scope&, int) {}' 'e.run<f>();'
+refused 'an argument is not of the type' 'void f(sac::Scope&, std::unique_ptr<int>) {}' \
+  'e.run<f>(1);'
+refused 'a traced function changes modifiables, not its arguments' \
+  'void f(sac::Scope&, int&) {}' 'e.run<f>(1);'
+refused 'a tail call has nobody to return to' \
+  'int g(sac::Scope&) { return 1; } void f(sac::Scope& s) { s.tail<g>(); }' 'e.run<f>();'
+refused 'a posted call has nobody to return to' 'int f(sac::Scope&) { return 1; }' \
+  'agenda.post_from_outside<f>({});'
+refused 'what a program computes is in modifiables' 'int f(sac::Scope&) { return 1; }' 'e.run<f>();'
+refused 'a value that may throw when it is moved would be lost' \
+  'struct Throws { Throws(int); Throws(const Throws&); bool operator==(const Throws&) const; };' \
+  'static_cast<void>(e.input(Throws(1)));'
+
+((failures == 0))
