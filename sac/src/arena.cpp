@@ -7,6 +7,7 @@
 #include <new>
 
 #include "sac/check.hpp"
+#include "sac/huge_pages.hpp"
 
 namespace sac {
 
@@ -22,6 +23,10 @@ constexpr std::size_t kHeaderGranules =
     (sizeof(Arena::Header) + Arena::kGranule - 1) / Arena::kGranule;
 
 }  // namespace
+
+void advise_huge_pages(void* block, std::size_t bytes) noexcept {
+  madvise(block, bytes, MADV_HUGEPAGE);
+}
 
 Arena::Arena() : next_(kHeaderGranules) {
   constexpr int kFlags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
@@ -51,10 +56,9 @@ void Arena::commit(std::size_t bytes) {
   if (mprotect(base_ + committed_, target - committed_, PROT_READ | PROT_WRITE) != 0) {
     throw std::bad_alloc();
   }
-  if (committed_ >= kHugeFrom) {  // a hint: failure is harmless
-    madvise(base_ + committed_, target - committed_, MADV_HUGEPAGE);
-  }
+  if (committed_ >= kHugeFrom) advise_huge_pages(base_ + committed_, target - committed_);
   committed_ = target;
+  usable_ = std::min(limit_, committed_);
 }
 
 void Arena::fail() { throw std::bad_alloc(); }

@@ -322,11 +322,13 @@ Counts Engine::run_root(const Function& function, std::uint32_t hash, const void
     insert_call(root);
     execute(root, 0);
     require_released_unused();
+    memo_.settle();
     check_audit();
   } catch (...) {
     current_ = nullptr;
     if (observer_ != nullptr) [[unlikely]] note_failure(Event::Kind::roll_back_started);
     discard_between(before, 0);
+    memo_.forget_waiting();  // only what this run made waits
     finish();
     throw;
   }

@@ -22,25 +22,34 @@ void MemoTable::put(Entry entry) {
   entries_[i] = entry;
 }
 
+// In the order in which they came: of calls with equal labels the first is found first.
 void MemoTable::settle() {
-  for (Entry& e : waiting_) {
-    if (e.call != 0) put(e);
-    e = {};
+  if (5 * size_ > 4 * places_) resize(std::max(size_ + size_ / 2, places_ + places_ / 2));
+  std::size_t done = 0;
+  try {
+    for (; done < waiting_.size(); ++done) {
+      if (done + kAhead < waiting_.size()) fetch(waiting_[done + kAhead]);
+      put(waiting_[done]);
+    }
+  } catch (...) {
+    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(done));
+    throw;
   }
-  any_waiting_ = false;
+  waiting_.clear();
+  if (waiting_.capacity() > kFirst) Entries().swap(waiting_);
+}
+
+void MemoTable::forget_waiting() noexcept {
+  size_ -= waiting_.size();
+  Entries().swap(waiting_);
 }
 
 void MemoTable::erase(Handle call, std::uint32_t hash) noexcept {
-  --size_;
-  if (any_waiting_) {
-    for (Entry& e : waiting_) {
-      if (e.call != call) continue;
-      e = {};
-      return;
-    }
-  }
   std::size_t i = place(hash);
-  while (entries_[i].call != call) ++i;
+  for (; entries_[i].call != call; ++i) {
+    if (entries_[i].call == 0 || entries_[i].hash > hash) return;
+  }
+  --size_;
   for (; entries_[i + 1].call != 0 && place(entries_[i + 1].hash) <= i; ++i) {
     entries_[i] = entries_[i + 1];
   }
@@ -59,7 +68,7 @@ bool MemoTable::contains(Handle call, std::uint32_t hash) const noexcept {
 
 // Entries come in the order of their hashes, and are put down in it.
 void MemoTable::resize(std::size_t places) {
-  std::vector<Entry> fresh(places + places / 16 + 64);
+  Entries fresh(places + places / 16 + 64);
   const auto place_in_fresh = [&](std::uint32_t hash) {
     return static_cast<std::size_t>(std::uint64_t{hash} * places >> 32);
   };
@@ -80,8 +89,7 @@ void MemoTable::shrink() {
 }
 
 void MemoTable::check_invariants() const {
-  std::size_t count = 0;
-  for (const Entry& e : waiting_) count += e.call != 0 ? 1 : 0;
+  std::size_t count = waiting_.size();
   std::uint32_t last = 0;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& e = entries_[i];

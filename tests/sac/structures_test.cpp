@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "failing_new.hpp"
 #include "sac/sac.hpp"
 
 namespace {
@@ -164,11 +165,14 @@ void check_memo_table(const std::function<std::uint32_t(std::uint32_t)>& hash_of
     REQUIRE(memo.contains(all.back(), hash_of(i)));
     if (i % 100 == 99) REQUIRE(found(i - 3));
     if (i % 100 == 50) {
+      memo.settle();
       memo.erase(all[i], hash_of(i));
       REQUIRE_FALSE(memo.contains(all[i], hash_of(i)));
       memo.insert(all[i], hash_of(i));
     }
   }
+  memo.check_invariants();
+  memo.settle();
   memo.check_invariants();
   for (std::uint32_t i = 0; i < all.size(); i += 2) memo.erase(all[i], hash_of(i));
   memo.check_invariants();
@@ -179,6 +183,51 @@ void check_memo_table(const std::function<std::uint32_t(std::uint32_t)>& hash_of
   std::size_t visited = 0;
   memo.for_each([&](const sac::Call&) { ++visited; });
   CHECK(visited == memo.size());
+}
+
+TEST_CASE("what waits for its place in the memo table is found in the order in which it came") {
+  Calls calls;
+  sac::MemoTable memo(calls.arena);
+  std::vector<Handle> all;
+  const auto hash_of = [](std::size_t i) { return static_cast<std::uint32_t>(sac::mix(i / 3)); };
+  for (std::size_t i = 0; i < 3000; ++i) {
+    all.push_back(calls.make(calls.timeline.back()));
+    memo.insert_soon(all.back(), hash_of(i));
+  }
+  support::memory_is_out = true;
+  bool settled = true;
+  try {
+    memo.settle();
+  } catch (const std::bad_alloc&) {
+    settled = false;
+  }
+  support::memory_is_out = false;
+  CHECK_FALSE(settled);
+  memo.check_invariants();
+  memo.settle();
+  for (std::size_t i = 0; i < 3000; i += 5) memo.erase(all[i], hash_of(i));
+  memo.check_invariants();
+  for (std::size_t i = 0; i < 3000; i += 3) {
+    std::vector<Handle> expected, found;
+    for (std::size_t k = i; k < i + 3; ++k) {
+      if (k % 5 != 0) expected.push_back(all[k]);
+    }
+    const Handle last = memo.find(hash_of(i), [&](Handle h, const sac::Call&) {
+      found.push_back(h);
+      return false;
+    });
+    REQUIRE(last == 0);
+    REQUIRE(found == expected);
+  }
+  memo.check_invariants();
+  CHECK(memo.size() == 2400);
+  memo.insert_soon(all[0], hash_of(0));
+  memo.insert_soon(all[5], hash_of(5));
+  memo.forget_waiting();
+  CHECK(memo.size() == 2400);
+  memo.erase(all[5], hash_of(5));
+  CHECK(memo.size() == 2400);
+  memo.check_invariants();
 }
 
 TEST_CASE("the memo table finds every call by its hash, through growth and erasure") {

@@ -12,6 +12,7 @@
 // (3) A program that allocates and frees the same sizes over and over keeps its memory flat.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -52,6 +53,12 @@ class Arena {
       free_[granules] = *at<Handle>(head);
       used_ += granules;
       return head;
+    }
+    if (granules < kSmall && spares_.empty() && (next_ + granules) * kGranule <= usable_) {
+      const auto fresh = static_cast<Handle>(next_);
+      next_ += granules;
+      used_ += granules;
+      return fresh;
     }
     return allocate_slowly(granules);
   }
@@ -101,7 +108,10 @@ class Arena {
   [[nodiscard]] std::size_t bytes_held() const noexcept { return (next_ - spare_) * kGranule; }
 
   /// From now on allocate() fails rather than hold more than `bytes`.
-  void set_limit(std::size_t bytes) noexcept { limit_ = bytes; }
+  void set_limit(std::size_t bytes) noexcept {
+    limit_ = bytes;
+    usable_ = std::min(limit_, committed_);
+  }
   [[nodiscard]] std::size_t limit() const noexcept { return limit_; }
   /// The `count`-th allocation from now fails, once; 0: none. For tests.
   void fail_after(std::uint64_t count) noexcept { until_failure_ = count; }
@@ -136,6 +146,7 @@ class Arena {
   std::size_t spare_ = 0;  // granules in spare runs
   std::size_t committed_ = 0;
   std::size_t limit_ = kReserve;
+  std::size_t usable_ = 0;  // committed, and within the limit
   std::uint64_t until_failure_ = 0;
   std::array<Handle, kSmall> free_{};
   std::map<std::size_t, Handle> free_large_;

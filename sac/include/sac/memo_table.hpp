@@ -5,18 +5,18 @@
 // themselves are touched only where a hash matches, and the table grows by one pass from front to
 // back. 10 to 15 bytes a call.
 //
-// In a first run nobody searches: insert_soon() puts an entry off while its place is fetched into
-// the cache.
+// In a first run nobody searches: insert_soon() only notes the entry. All that wait are put into the
+// table together, while the places of the next are fetched into the cache.
 //
 // Calls discarded in the propagation under way stay findable until it ends, so that a program which
 // asks for them again (not monotone) can be told.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "sac/huge_pages.hpp"
 #include "sac/trace.hpp"
 
 namespace sac {
@@ -33,26 +33,25 @@ class MemoTable {
     ++size_;
   }
 
-  /// As insert(), a little later. Throws: std::bad_alloc, and then changes nothing.
+  /// As insert(), but into the table by settle() or the next search. Throws: std::bad_alloc, and
+  /// then changes nothing.
   void insert_soon(Handle call, std::uint32_t hash) {
-    make_room();
-    Entry& oldest = waiting_[turn_];
-    if (oldest.call != 0) put(oldest);
-    oldest = {hash, call};
-    __builtin_prefetch(&entries_[place(hash)], 1);
-    turn_ = (turn_ + 1) % kWaiting;
+    waiting_.push_back({hash, call});
+    if (waiting_.size() <= kAhead) fetch(waiting_.back());
     ++size_;
-    any_waiting_ = true;
   }
+  /// Puts what waits into the table. Throws: std::bad_alloc, and then it waits on.
+  void settle();
+  void forget_waiting() noexcept;
 
-  /// Requires: the call is there, under this hash.
+  /// Does nothing if the call is not there, under this hash. Requires: it does not wait.
   void erase(Handle call, std::uint32_t hash) noexcept;
 
   /// Calls `visit(handle, call)` for every call of this hash until it returns true; the handle it
   /// stopped at, or 0.
   template <class Visit>
   [[nodiscard]] Handle find(std::uint32_t hash, Visit&& visit) {
-    if (any_waiting_) settle();
+    if (!waiting_.empty()) settle();
     for (std::size_t i = place(hash);; ++i) {
       const Entry& e = entries_[i];
       if (e.call == 0 || e.hash > hash) return 0;
@@ -66,9 +65,7 @@ class MemoTable {
   /// Calls `visit(call)` for every call of the table.
   template <class Visit>
   void for_each(Visit&& visit) const {
-    for (const Entry& e : waiting_) {
-      if (e.call != 0) visit(*arena_.at<Call>(e.call));
-    }
+    for (const Entry& e : waiting_) visit(*arena_.at<Call>(e.call));
     for (const Entry& e : entries_) {
       if (e.call != 0) visit(*arena_.at<Call>(e.call));
     }
@@ -79,7 +76,9 @@ class MemoTable {
   void shrink();
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  [[nodiscard]] std::size_t bytes() const noexcept { return entries_.capacity() * sizeof(Entry); }
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return (entries_.capacity() + waiting_.capacity()) * sizeof(Entry);
+  }
 
   void check_invariants() const;
 
@@ -89,7 +88,7 @@ class MemoTable {
     Handle call = 0;
   };
   static constexpr std::size_t kFirst = 512;
-  static constexpr std::size_t kWaiting = 16;  // more misses at once than a core can have
+  static constexpr std::size_t kAhead = 16;  // more misses at once than a core can have
 
   [[nodiscard]] std::size_t place(std::uint32_t hash) const noexcept {
     return static_cast<std::size_t>(std::uint64_t{hash} * places_ >> 32);
@@ -98,17 +97,18 @@ class MemoTable {
   void make_room() {
     if (5 * (size_ + 1) > 4 * places_) resize(places_ + places_ / 2);
   }
+  void fetch(const Entry& entry) const noexcept {
+    __builtin_prefetch(&entries_[place(entry.hash)], 1);
+  }
   void put(Entry entry);
-  void settle();
   void resize(std::size_t places);
 
   Arena& arena_;
-  std::vector<Entry> entries_;  // the places, and room for those pushed behind the last
+  using Entries = std::vector<Entry, HugePages<Entry>>;
+  Entries entries_;  // the places, and room for those pushed behind the last
+  Entries waiting_;
   std::size_t places_;
-  std::size_t size_ = 0;
-  std::array<Entry, kWaiting> waiting_{};
-  std::size_t turn_ = 0;
-  bool any_waiting_ = false;
+  std::size_t size_ = 0;  // with those that wait
 };
 
 }  // namespace sac

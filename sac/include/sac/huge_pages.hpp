@@ -1,0 +1,41 @@
+// Huge pages for tables that are read at random places: most of these reads miss the cache, and
+// with small pages the address translation as well.
+#pragma once
+
+#include <cstddef>
+#include <new>
+
+namespace sac {
+
+/// Asks the system for huge pages; a hint, whose failure is harmless.
+void advise_huge_pages(void* block, std::size_t bytes) noexcept;
+
+/// An allocator of large blocks on huge pages, and of others as usual.
+template <class T>
+class HugePages {
+ public:
+  using value_type = T;
+
+  HugePages() = default;
+  template <class U>
+  HugePages(const HugePages<U>&) noexcept {}
+
+  [[nodiscard]] T* allocate(std::size_t n) {
+    const std::size_t bytes = n * sizeof(T);
+    if (bytes < kFrom) return static_cast<T*>(::operator new(bytes));
+    void* const block = ::operator new(bytes, std::align_val_t(kPage));
+    advise_huge_pages(block, bytes);
+    return static_cast<T*>(block);
+  }
+  void deallocate(T* block, std::size_t n) noexcept {
+    if (n * sizeof(T) < kFrom) return ::operator delete(block);
+    ::operator delete(block, std::align_val_t(kPage));
+  }
+  friend bool operator==(const HugePages&, const HugePages&) noexcept { return true; }
+
+ private:
+  static constexpr std::size_t kPage = std::size_t{2} << 20;
+  static constexpr std::size_t kFrom = 2 * kPage;
+};
+
+}  // namespace sac
