@@ -139,13 +139,13 @@ void Engine::require_released_unused() const {
   }
 }
 
-// What is linked from both of its sides is in the list.
-bool Engine::in_trace(Handle stamp) const noexcept {
-  const auto is_stamp = [&](Handle h) { return h != 0 && arena_.contains(at<TimeNode>(h) + 1); };
-  if (!is_stamp(stamp)) return false;
-  const TimeNode& node = *at<TimeNode>(stamp);
-  return is_stamp(node.prev) && at<TimeNode>(node.prev)->next == stamp &&
-         (is_stamp(node.next) ? at<TimeNode>(node.next)->prev == stamp : stamp == timeline_.back());
+// What is linked from both of its sides is in the list: what has left has no links.
+bool Engine::is_live_call(Handle h) const noexcept {
+  const auto is_stamp = [&](Handle s) { return arena_.contains(s, sizeof(TimeNode)); };
+  if (!arena_.contains(h, sizeof(Call))) return false;
+  const TimeNode& node = *at<TimeNode>(h);
+  return !node.marked() && is_stamp(node.prev) && at<TimeNode>(node.prev)->next == h &&
+         (is_stamp(node.next) ? at<TimeNode>(node.next)->prev == h : h == timeline_.back());
 }
 
 void Engine::free_released() noexcept {
@@ -423,6 +423,7 @@ bool Engine::reads_the_same(Call& call) {
     return mods_->reads_the_same(call);
   } catch (...) {
     if (observer_ != nullptr) [[unlikely]] note_failure(Event::Kind::failed, &call);
+    if (current_ != nullptr) current_->failed_child = handle_of(call);
     invalidate(call);
     throw;
   }
@@ -629,6 +630,13 @@ void Engine::require_no_tail(const Activation& caller, const Function& function)
                    ", which must be the last");
 }
 
+// A call that has failed must run again: nobody may go on as if it had not.
+void Engine::fail_caught(const Activation& caller) const {
+  throw UsageError(describe(*caller.call) + " has caught what " +
+                   describe(*at<Call>(caller.failed_child)) +
+                   " threw: exceptions of calls must pass");
+}
+
 void Engine::require_stack(const Activation& caller, const Function& function) const {
   if (reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) >= stack_end_) [[likely]] return;
   throw UsageError(describe(*caller.call) + " calls " + std::string(function.name) +
@@ -744,6 +752,7 @@ void Engine::run_body(Activation& a, Handle call) {
   a.old_edges = std::exchange(c.edges, 0);
   a.last_edge = 0;
   a.hidden = false;
+  a.failed_child = 0;
   c.clear(Call::kInvalid | Call::kDoubtful);
   c.set(Call::kRunning);
   if (counts_.executed >= progress_at_) [[unlikely]] report_progress();
@@ -751,6 +760,7 @@ void Engine::run_body(Activation& a, Handle call) {
   if (observer_ != nullptr) [[unlikely]] note(Event::Kind::executed, &c);
   Scope scope(*this);
   c.function().execute(scope, c);
+  if (a.failed_child != 0) [[unlikely]] fail_caught(a);
   settle(a);
 }
 
@@ -799,6 +809,7 @@ void Engine::abandon(Activation& a) noexcept {
     }
   }
   invalidate(*a.call);
+  if (a.outer != nullptr) a.outer->failed_child = handle_of(*a.call);
   current_ = a.outer;
 }
 

@@ -161,21 +161,25 @@ std::size_t EventLog::phase_of(std::size_t i) const {
   return last_before(i, [](const Entry& e) { return is_phase(e.kind); });
 }
 
-// What threw, for what happens in a roll-back: exceptions pass through calls from the inside out.
+// What threw, for what happens in a roll-back. Exceptions pass through calls from the inside out;
+// what a call has caught said something else, mostly.
 std::string EventLog::failure_before(std::size_t i) const {
-  const std::size_t from = last_before(i, [](const Entry& e) {
+  const std::size_t end =
+      last_before(i, [](const Entry& e) { return e.kind == Kind::roll_back_started; });
+  const std::size_t from = last_before(end == kNone ? i : end, [](const Entry& e) {
     return e.kind == Kind::run_started || e.kind == Kind::propagation_started;
   });
-  for (std::size_t k = from == kNone ? 0 : from; k < i; ++k) {
-    const Entry& e = entries_[k];
-    if (!is_failure(e.kind)) continue;
-    const bool in_run = from != kNone && entries_[from].kind == Kind::run_started;
-    std::string text = e.call != 0 ? label(e.call) : in_run ? "the run" : "the propagation";
-    text += " failed";
-    if (e.what != 0) text.append(" (").append(texts_[e.what]).append(")");
-    return text;
+  if (end == kNone || from == kNone) return "the propagation failed";
+  const TextId what = entries_[end].what;
+  std::size_t first = from;
+  while (first < end && !(entries_[first].kind == Kind::failed && entries_[first].what == what)) {
+    ++first;
   }
-  return "the propagation failed";
+  std::string text = entries_[from].kind == Kind::run_started ? "the run" : "the propagation";
+  if (first < end) text = label(entries_[first].call);
+  text += " failed";
+  if (what != 0) text.append(" (").append(texts_[what]).append(")");
+  return text;
 }
 
 // --- Explaining ------------------------------------------------------------------------------

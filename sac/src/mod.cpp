@@ -512,24 +512,26 @@ ModStructure::Use ModStructure::use_of(Handle head) const noexcept {
     if (h >= histories_.size() || history(h).head != head) return {};
     return {&writer(*at(history(h).versions.first())), head, true};
   }
-  if (version.readers != 0 && engine_.arena().contains(reader(version.readers) + 1)) {
+  const auto has_edge = [&](Handle call, auto&& matches) {
+    if (!engine_.is_live_call(call)) return false;
+    bool found = false;
+    engine_.for_each_edge(engine_.call(call), [&](const Edge& edge) {
+      found |= edge.structure == id_ && matches(edge);
+    });
+    return found;
+  };
+  if (engine_.arena().contains(version.readers, sizeof(ReadEdge))) {
     const ReadEdge& read = *reader(version.readers);
-    const bool is_read = read.structure == id_ && read.kind == kRead && read.prev == 0;
-    if (is_read && read.version == head) return {&engine_.call(read.call), head, false};
+    const auto is_it = [&](const Edge& edge) {
+      return &edge == &read && edge.kind == kRead && read.version == head;
+    };
+    if (has_edge(read.call, is_it)) return {&engine_.call(read.call), head, false};
   }
-  if (!version.outside && engine_.in_trace(version.writer) && !writer(version).marked()) {
-    if (find_write(writer(version), head)) return {&writer(version), head, true};
-  }
+  const auto writes_it = [&](const Edge& edge) {
+    return edge.kind == kWrite && static_cast<const WriteEdge&>(edge).version == head;
+  };
+  if (has_edge(version.writer, writes_it)) return {&writer(version), head, true};
   return {};
-}
-
-bool ModStructure::find_write(const Call& call, Handle version) const noexcept {
-  bool found = false;
-  engine_.for_each_edge(call, [&](const Edge& edge) {
-    found |= edge.structure == id_ && edge.kind == kWrite &&
-             static_cast<const WriteEdge&>(edge).version == version;
-  });
-  return found;
 }
 
 // --- For people and for traces ---------------------------------------------------------------

@@ -37,6 +37,7 @@ Timeline::Timeline(Arena& arena) : arena_(arena) {
 void Timeline::erase(Handle node) noexcept {
   const TimeNode n = *at(node);
   const std::uint32_t group = n.group();
+  at(node)->prev = at(node)->next = 0;
   at(n.prev)->next = n.next;
   (n.next != 0 ? at(n.next)->prev : back_) = n.prev;
   --size_;

@@ -3,10 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "random.hpp"
+#include "sac/event_log.hpp"
 #include "sac/sac.hpp"
 
 namespace {
@@ -367,6 +370,55 @@ TEST_CASE("taking back a post that is not there, and posting while the engine ru
         "post_from_outside: the engine is running outsider()");
 }
 
+// --- Exceptions that are caught ------------------------------------------------------------------
+
+void refuse(Scope& s, Mod<int> in) {
+  if (s.read(in) < 0) throw std::runtime_error("negative");
+}
+void lenient(Scope& s, Mod<int> in, Mod<int> out) {
+  try {
+    s.call<refuse>(in);
+    s.write(out, 1);
+  } catch (const std::runtime_error&) {
+    s.write(out, 0);
+  }
+}
+void above(Scope& s, Mod<int> on, Mod<int> in, Mod<int> out) {
+  if (s.read(on) != 0) s.call<lenient>(in, out);
+}
+
+TEST_CASE("a call that catches what its child throws is told that this does not do") {
+  Engine e;
+  const auto on = e.input(1), in = e.input(-1), out = e.cell<int>();
+  const std::string message = call("lenient", in, out) + " has caught what " +
+                              call("refuse", in) + " threw: exceptions of calls must pass";
+  CHECK(error_of([&] { e.run<above>(on, in, out); }) == message);
+  CHECK(e.live_calls() == 0);
+
+  e.set(in, 1);
+  e.propagate();
+  e.run<above>(on, in, out);
+  sac::EventLog log(e);
+  e.set(in, -2);
+  // In a propagation the child runs by itself: there is nobody to catch what it throws.
+  CHECK_THROWS_AS(e.propagate(), std::runtime_error);
+  CHECK(e.get(out) == 1);
+  CHECK(log.explain("refuse").find("was set back when " + call("refuse", in) +
+                                   " failed (negative)") != std::string::npos);
+
+  e.set(on, 0);
+  e.propagate();
+  e.set(in, -2);
+  e.propagate();
+  e.set(on, 1);
+  log.clear();
+  CHECK(error_of([&] { e.propagate(); }) == message);
+  CHECK(log.explain("above").find("was set back when " + call("lenient", in, out) +
+                                  " failed (" + message + ")") != std::string::npos);
+  CHECK(e.live_calls() == 1);
+  e.check_invariants();
+}
+
 // --- Objects of the outside ----------------------------------------------------------------------
 
 TEST_CASE("releasing twice, and what the outside has not made") {
@@ -451,6 +503,79 @@ TEST_CASE("what has been released is read still, or written: the release is take
   e.release(other);
   e.propagate();
   CHECK(e.get(out) == 1);
+  e.check_invariants();
+}
+
+void only_read(Scope& s, Mod<int> in) { static_cast<void>(s.read(in)); }
+void only_write(Scope& s, Mod<int> out) { s.write(out, 1); }
+void leaf(Scope&, int) {}
+void grow(Scope& s, Mod<int> count) {
+  for (int i = s.read(count); i > 0; --i) s.call<leaf>(i);
+}
+
+// What says that a modifiable is in use may be the last block in memory.
+TEST_CASE("a use that was recorded last keeps a release from being done") {
+  Engine e;
+  const auto a = e.input(1);
+  e.run<only_read>(a);
+  e.release(a);
+  CHECK_THROWS_AS(e.propagate(), sac::UsageError);
+  e.release(a);
+  CHECK_THROWS_AS(e.run<only_read>(e.input(1)), sac::UsageError);
+  e.undo_edits();
+
+  const auto first = e.input(0), second = e.input(0), out = e.cell<int>();
+  e.run<grow>(first);
+  e.run<grow>(second);
+  e.run<only_write>(out);
+  e.set(first, 1);
+  e.propagate();
+  e.set(second, 1);
+  e.propagate();
+  e.release(out);
+  CHECK_THROWS_AS(e.propagate(), sac::UsageError);
+  e.check_invariants();
+}
+
+struct Numbers {
+  Numbers() {}  // what was there before stays
+  std::uint32_t numbers[240];
+};
+struct Cells {
+  sac::Cell<int> cells[40];
+};
+static_assert(sizeof(Numbers) == sizeof(Cells));
+void look_at_all(Scope& s, Mod<Cells*> which) {
+  if (Cells* const cells = s.read(which)) {
+    for (const auto& cell : cells->cells) static_cast<void>(s.read(cell));
+  }
+}
+
+TEST_CASE("an object of numbers that look like handles is released like any other") {
+  support::Random random(7);
+  Engine e;
+  const auto which = e.input<Cells*>(nullptr);
+  const auto count = e.input(0);
+  e.run<look_at_all>(which);
+  e.run<grow>(count);
+  for (int step = 0; step < 2000; ++step) {
+    auto& cells = e.make<Cells>();
+    for (auto& cell : cells.cells) e.set(cell, 1);
+    e.set(which, &cells);
+    e.set(count, random(60));
+    e.propagate();
+    e.set(which, nullptr);
+    e.set(count, 0);
+    e.release(cells);
+    e.propagate();
+    if (step % 3 == 0) e.shrink();
+    auto& numbers = e.make<Numbers>();
+    for (auto& number : numbers.numbers) {
+      if (random(4) == 0) number = static_cast<std::uint32_t>(random(400));
+    }
+    e.release(numbers);
+    e.propagate();
+  }
   e.check_invariants();
 }
 

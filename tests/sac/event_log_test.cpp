@@ -416,6 +416,18 @@ void measure(Scope& s, sac::List<int> list, Mod<int> out) {
   s.write(out, static_cast<int>(sac::fetch(s, sac::size(s, list))));
 }
 
+TEST_CASE("a release that is refused says so") {
+  Watched w;
+  const auto a = w.input(1, "a");
+  w.e.run<copy>('x', a, w.cell("out"));
+  w.e.set(a, 2);
+  w.e.release(a);
+  CHECK_THROWS_AS(w.e.propagate(), sac::UsageError);
+  CHECK(w.why("copy(") ==
+        "copy(x, @, @) ran again because modifiable 'a' was set back when the propagation failed "
+        "(release: copy(x, @, @) reads modifiable 'a', which has been released).\n");
+}
+
 TEST_CASE("a list is named by its handle") {
   Watched w;
   sac::Sequence<int> numbers(w.e, {1, 2});

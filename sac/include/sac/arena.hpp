@@ -81,6 +81,9 @@ class Arena {
     return static_cast<std::size_t>(static_cast<const std::byte*>(object) - base_) <
            next_ * kGranule;
   }
+  [[nodiscard]] bool contains(Handle handle, std::size_t bytes) const noexcept {
+    return handle != 0 && handle + granules_for(bytes) <= next_;
+  }
   [[nodiscard]] Header& header() const noexcept { return *reinterpret_cast<Header*>(base_); }
 
   /// The handle of an object that lies in some arena.

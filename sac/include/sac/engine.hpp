@@ -122,9 +122,9 @@ class Engine {
   /// input list, say.
   template <class T>
   [[nodiscard]] T& make();
-  /// Frees what input(), cell() or make() gave, at the end of the next propagation: an edit. That
-  /// propagation fails with UsageError if a call still reads or writes a modifiable in it; no call
-  /// may use it in another way.
+  /// Frees what input(), cell() or make() gave, at the end of the next propagation or run: an edit.
+  /// That fails with UsageError if a call still reads or writes a modifiable in it; no call may use
+  /// it in another way, nor wait on an agenda to do so.
   template <class T>
   void release(T& object);
   template <class T, class Same>
@@ -292,6 +292,7 @@ class Engine {
     bool tail_reused = false;
     bool hidden = false;  // what it has not repeated is hidden from its children
     Handle tail = 0;
+    Handle failed_child = 0;  // whose exception passes through the call's body
     Activation* outer = nullptr;
   };
 
@@ -321,8 +322,8 @@ class Engine {
     }
     if (call.queue == 0) enqueue(call);
   }
-  // Whether a call or end stamp that is in the trace lies at `stamp`, where anything may lie.
-  [[nodiscard]] bool in_trace(Handle stamp) const noexcept;
+  // Whether a call that is in the trace lies at `h`, where anything may lie.
+  [[nodiscard]] bool is_live_call(Handle h) const noexcept;
   [[nodiscard]] const Call* running_call() const noexcept {
     return current_ != nullptr ? current_->call : nullptr;
   }
@@ -391,6 +392,7 @@ class Engine {
                     Construct construct);
   Handle call_tail(const Function& function, std::uint32_t hash, const void* args,
                    Construct construct);
+  [[noreturn]] void fail_caught(const Activation& caller) const;
   void hide_unconfirmed(Activation& a) noexcept;
   // Takes back what the running calls did last time for which `which(edge)`, and have not repeated.
   template <class Which>

@@ -232,7 +232,6 @@ class ModStructure final : public Structure {
   [[nodiscard]] detail::Version* find_own(const Call& call, Handle head) const noexcept;
   [[nodiscard]] bool unconfirmed(const detail::Version& version) const noexcept;
   [[nodiscard]] Use use_of(Handle head) const noexcept;
-  [[nodiscard]] bool find_write(const Call& call, Handle version) const noexcept;
   [[nodiscard]] std::uint32_t new_history(Handle head);
   void drop_history(Handle head) noexcept;
   [[nodiscard]] detail::Version* predecessor(Handle head,

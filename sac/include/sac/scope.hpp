@@ -63,7 +63,7 @@ struct Frame {
 
 template <class Same, class T>
 bool same(const T& a, const T& b) {
-  constexpr bool kCompares = std::is_invocable_r_v<bool, Same, const T&, const T&>;
+  constexpr bool kCompares = requires { static_cast<bool>(Same{}(a, b)); };
   static_assert(kCompares,
                 "a value or result needs ==, or a Same of its own: an equal one disturbs nobody");
   if constexpr (kCompares) return static_cast<bool>(Same{}(a, b));

@@ -68,7 +68,7 @@ class Timeline {
     insert_after(place, node);
   }
 
-  /// Takes `node` out. Requires: node != front(). Cost: O(1).
+  /// Takes `node` out, and clears its links. Requires: node != front(). Cost: O(1).
   void erase(Handle node) noexcept;
 
   /// Takes out all nodes strictly between `from` and `to`; to == 0 is the end of the list.
