@@ -24,7 +24,7 @@ void MemoTable::put(Entry entry) {
 
 // In the order in which they came: of calls with equal labels the first is found first.
 void MemoTable::settle() {
-  if (5 * size_ > 4 * places_) resize(std::max(size_ + size_ / 2, places_ + places_ / 2));
+  if (5 * size_ > 4 * places_) resize(std::max(2 * size_, places_ + places_ / 2));
   std::size_t done = 0;
   try {
     for (; done < waiting_.size(); ++done) {

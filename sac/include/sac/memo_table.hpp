@@ -3,7 +3,7 @@
 // One array of (hash, call), in the order of the hashes: an entry lies at or behind the place that
 // its hash has in proportion to all hashes, and a search ends at a larger hash. So the calls
 // themselves are touched only where a hash matches, and the table grows by one pass from front to
-// back. 10 to 15 bytes a call.
+// back. 10 to 17 bytes a call.
 //
 // In a first run nobody searches: insert_soon() only notes the entry. All that wait are put into the
 // table together, while the places of the next are fetched into the cache.
