@@ -9,45 +9,12 @@ scratch=${3:-$(mktemp -d)}
 mkdir -p "$scratch"
 scratch=$(mktemp -d "$scratch/tool_test.XXXXXX")
 trap 'rm -rf "$scratch"' EXIT
+# shellcheck source=../support/tool_checks.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../support/tool_checks.sh"
 cd "$scratch" || exit 1
 
-checks=0
-failures=0
-
-fail() {
-  failures=$((failures + 1))
-  echo "FAILED: $*" >&2
-}
-
-# expect CODE TEXT ARGUMENT...: runs the tool; its exit code, and TEXT in what it says (both streams).
-expect() {
-  local code=$1 text=$2 said status
-  shift 2
-  checks=$((checks + 1))
-  said=$("$tool" "$@" 2>&1)
-  status=$?
-  ((status == code)) || fail "mesher $*: exit code $status, expected $code: $said"
-  [[ $said == *"$text"* ]] || fail "mesher $*: no '$text' in: $said"
-}
-
-# refuse CODE TEXT ARGUMENT...: the same, and the folder out/ stays empty.
-refuse() {
-  expect "$@"
-  [[ -z $(ls -A out) ]] || fail "mesher ${*:3}: left behind: $(ls -A out)"
-  rm -rf out
-  mkdir out
-}
-
-same() {
-  checks=$((checks + 1))
-  cmp -- "$1" "$2" || fail "$1 and $2 differ"
-}
-
-# has FILE PATTERN: a line of the file matches the extended regular expression.
-has() {
-  checks=$((checks + 1))
-  grep -Eq -- "$2" "$1" || fail "$1 has no $2: $(head -c 300 "$1")"
-}
+expect() { expect_of "$tool" "$@"; }
+refuse() { refuse_of "$tool" "$@"; }
 
 mkdir out
 
@@ -251,5 +218,4 @@ echo "== the cities of the world"
 expect 0 '7343 points' mesh "$data/places.node" -o cities.node
 expect 0 'input       ok' check cities.node --input "$data/places.node" --rho 1.4142
 
-echo "$checks checks, $failures failures"
-((failures == 0))
+report_checks

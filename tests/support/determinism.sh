@@ -11,9 +11,6 @@ scratch=$(cd "$1" && pwd)
 jobs=${JOBS:-$(nproc)}
 kinds=(uniform gaussian clusters grid line-circle spiral)
 points=400
-examples=(array-map list-map list-filter list-reverse list-sum list-minimum quicksort mergesort
-  quickhull diameter distance expression-tree tree-contraction breadth-first-search
-  connected-components spell-check string-hash spreadsheet)
 
 # A hundred edits of points 1..n near the middle of the first ones: added, moved, removed.
 write_edits() {
@@ -33,6 +30,10 @@ build_tool() {  # COMPILER CONFIGURATION FOLDER
   cmake --build "$3" -j "$jobs" --target mesher_tool traces_tool >"$3.log" 2>&1 || { cat "$3.log"; return 1; }
 }
 
+example_names() {  # TRACES_TOOL
+  "$1" example '?' -o none 2>&1 | sed -n 's/.*there are \(.*\); see.*/\1/p' | tr -d ,
+}
+
 write_files() {  # TOOLS FOLDER
   local kind tool=$1/mesher example
   rm -rf "$2"
@@ -50,7 +51,7 @@ write_files() {  # TOOLS FOLDER
   "$tool" edit uniform.node --script edits.txt --quiet -o edited.node
   "$tool" mesh "$source_folder/tests/data/places.node" --quiet -o places.node
   "$tool" trace uniform.node --script edits.txt --quiet --edges -o edited.trace
-  for example in "${examples[@]}"; do
+  for example in $(example_names "$1/traces"); do
     "$1/traces" example "$example" --n 200 --edits 50 --edges -o "$example.trace" >"$example.txt"
   done
   cd "$scratch"

@@ -8,41 +8,12 @@ traces=$(realpath "$1")
 mesher=$(realpath "$2")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
+# shellcheck source=../support/tool_checks.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../support/tool_checks.sh"
 cd "$scratch" || exit 1
 
-checks=0
-failures=0
-
-fail() {
-  failures=$((failures + 1))
-  echo "FAILED: $*" >&2
-}
-
-# expect_of TOOL CODE TEXT ARGUMENT...: exit code, and TEXT in what it says (both streams).
-expect_of() {
-  local tool=$1 code=$2 text=$3 said status
-  shift 3
-  checks=$((checks + 1))
-  said=$("$tool" "$@" 2>&1)
-  status=$?
-  ((status == code)) || fail "$* exits with $status, expected $code: $said"
-  [[ $said == *"$text"* ]] || fail "$*: no '$text' in: $said"
-}
 expect() { expect_of "$traces" "$@"; }
-
-# refuse CODE TEXT ARGUMENT...: the same, and the folder out/ stays empty.
-refuse_of() {
-  expect_of "$@"
-  [[ -z $(ls -A out) ]] || fail "${*:4}: left behind: $(ls -A out)"
-  rm -rf out
-  mkdir out
-}
 refuse() { refuse_of "$traces" "$@"; }
-
-same() {
-  checks=$((checks + 1))
-  cmp -- "$1" "$2" || fail "$1 and $2 differ"
-}
 
 # value NAME [FUNCTION]: a field of distance.json, in all or of a function.
 value() {
@@ -206,5 +177,4 @@ refuse 3 'bent.trace:byte ' distance before.trace bent.trace
 { printf '\x89traces\n\x7f' && tail -c +10 before.trace; } >future.trace
 refuse 3 'error[version]: version 127' show future.trace
 
-echo "$checks checks, $failures failures"
-((failures == 0))
+report_checks
