@@ -458,7 +458,7 @@ void ModStructure::retract(Call& call, Edge& edge) noexcept {
   Version& version = *at(write.version);
   Version* previous = predecessor(write.head, version);
   bool same = false;
-  if (previous != nullptr) {
+  if (previous != nullptr && !unconfirmed(*previous)) {  // else its readers must ask anew
     try {
       same = types_[version.type].same(*previous, version);
     } catch (...) {  // client code that fails here makes the readers run again

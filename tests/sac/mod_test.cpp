@@ -472,4 +472,36 @@ TEST_CASE("what is not written again is hidden however many have read it") {
   }
 }
 
+// While in is 1, y is 1, and a child says so once more.
+void y_again(Scope& s) {
+  auto& shared = s.environment<Shared>();
+  s.write(shared.y, s.read(shared.in));
+}
+void maybe_y_twice(Scope& s) {
+  auto& shared = s.environment<Shared>();
+  const int v = s.read(shared.in);
+  if (v == 1) {
+    s.write(shared.y, 1);
+    s.call<y_again>();
+  }
+  s.call<y_to_z>();
+  if (v == 0) s.call<require_equal>();  // new, where y_to_z is not
+}
+void zero_y_before_twice(Scope& s) {
+  s.write(s.environment<Shared>().y, 0);
+  s.call<maybe_y_twice>();
+}
+
+TEST_CASE("what a child wrote again goes, and with it what its caller has not written again") {
+  Engine e;
+  Shared shared(e);
+  e.run<zero_y_before_twice>();
+  for (const int v : {0, 1, 0}) {
+    e.set(shared.in, v);
+    e.propagate();
+    CHECK(e.get(shared.z) == v);
+    e.check_invariants();
+  }
+}
+
 }  // namespace
