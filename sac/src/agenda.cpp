@@ -19,11 +19,8 @@ bool Agenda::before(const Call& a, const Call& b) const {
   if (x.rank != y.rank) return x.rank < y.rank;
   if (x.order != y.order) return x.order < y.order;
   if (a.function_number != b.function_number) {
-    const Function& f = a.function();
-    const Function& g = b.function();
-    if (f.name != g.name) return f.name < g.name;
-    if (f.identity != g.identity) return f.identity < g.identity;
-    return a.function_number < b.function_number;
+    const std::strong_ordering order = order_by_name(a.function(), b.function());
+    return order != 0 ? order < 0 : a.function_number < b.function_number;
   }
   return a.function().compare(a, b) < 0;
 }

@@ -4,11 +4,7 @@
 namespace sac {
 
 bool PlainAgenda::before_in_tie(const Record& a, const Record& b) {
-  if (a.function != b.function) {
-    const Function& f = *a.function;
-    const Function& g = *b.function;
-    return f.name != g.name ? f.name < g.name : f.identity < g.identity;
-  }
+  if (a.function != b.function) return order_by_name(*a.function, *b.function) < 0;
   return operations(a).order(a, b) < 0;
 }
 

@@ -551,6 +551,58 @@ void all_claims(Scope& s) {
   c.agenda.drain(s);
 }
 
+struct Spell {
+  static constexpr std::string_view kName = "spell";
+  template <class S, class T>
+  void operator()(S& s, T) const;
+};
+inline constexpr Spell spell{};
+template <class S>
+struct Spelling {
+  typename S::template ModType<int> in, out;
+  typename S::AgendaType& agenda;
+};
+template <class S, class T>
+void Spell::operator()(S& s, T) const {
+  const auto out = s.template environment<Spelling<S>>().out;
+  s.write(out, 10 * s.read(out) + static_cast<int>(sizeof(T)));
+}
+struct PostSpells {
+  static constexpr std::string_view kName = "post_spells";
+  template <class S>
+  void operator()(S& s) const {
+    auto& spelling = s.template environment<Spelling<S>>();
+    s.write(spelling.out, 0);
+    const bool long_first = s.read(spelling.in) == 1;
+    if (long_first) spelling.agenda.template post<spell>(s, {}, 1L);
+    spelling.agenda.template post<spell>(s, {}, 1);
+    if (!long_first) spelling.agenda.template post<spell>(s, {}, 2L);
+    spelling.agenda.drain(s);
+  }
+};
+inline constexpr PostSpells post_spells{};
+template <class S>
+int spelled(auto& host, int first, int then) {
+  Spelling<S> spelling{host.input(first), host.template cell<int>(), host.make_agenda("spells")};
+  host.set_environment(&spelling);
+  host.template run<post_spells>();
+  if constexpr (S::kTraced) {
+    host.set(spelling.in, then);
+    host.propagate();
+    host.check_invariants();
+  }
+  return host.get(spelling.out);
+}
+
+// Which was posted first in the life of the engine must not matter.
+TEST_CASE("one function with arguments of two types has one order on an agenda") {
+  Engine changed, fresh;
+  sac::PlainScope plain;
+  const int expected = spelled<sac::PlainScope>(plain, 1, 1);
+  CHECK(spelled<Scope>(fresh, 1, 1) == expected);
+  CHECK(spelled<Scope>(changed, 0, 1) == expected);
+}
+
 TEST_CASE("functions of one name are apart in the order of an agenda") {
   Engine e;
   Claims c{{}, {}, {}, e.make_agenda("claims")};

@@ -91,7 +91,7 @@ constexpr Function describe_posted() {
                 "a posted call has nobody to return to");
   using Type = PostedFrame<Args...>;
   Function f = describe_frame<Type, &function_name<F>>();
-  f.identity = identity<F>();
+  f.identity = identity<F, std::tuple<Args...>>();
   f.posted = true;
   f.execute = &execute_frame<F, Type>;
   f.compare = &compare_args<Type>;

@@ -311,8 +311,9 @@ template <auto F>
   }
 }
 
-/// What tells functions of one name apart, in one order for every run of a build.
-template <auto F>
+/// What tells functions of one name apart, and one function with arguments of different types, in
+/// one order for every run of a build. Args: the std::tuple of the arguments.
+template <auto F, class Args>
 [[nodiscard]] constexpr std::string_view identity() {
   return __PRETTY_FUNCTION__;
 }

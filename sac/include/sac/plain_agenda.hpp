@@ -80,8 +80,9 @@ class PlainAgenda {
   }
   template <auto F, class Tuple>
   static constexpr Operations kOperations{
-      {.name = function_name<F>(), .identity = identity<F>(), .frame_bytes = 0, .posted = true, .execute = nullptr,
-       .destroy = nullptr, .equal = nullptr, .compare = nullptr, .hash = nullptr, .print = nullptr},
+      {.name = function_name<F>(), .identity = identity<F, Tuple>(), .frame_bytes = 0,
+       .posted = true, .execute = nullptr, .destroy = nullptr, .equal = nullptr, .compare = nullptr,
+       .hash = nullptr, .print = nullptr},
       &run_record<F, Tuple>, &same_record<Tuple>, &order_record<Tuple>};
 
   static const Operations& operations(const Record& r) {

@@ -47,6 +47,11 @@ struct Function {
   void (*label_result)(const Call&, LabelSink&) = nullptr;     // null unless there is one
 };
 
+/// The order of posted functions whose calls have equal keys.
+[[nodiscard]] inline std::strong_ordering order_by_name(const Function& a, const Function& b) {
+  return a.name != b.name ? a.name <=> b.name : a.identity <=> b.identity;
+}
+
 /// A node of the trace.
 struct Call : TimeNode {
   std::uint16_t function_number = 0;
