@@ -6,7 +6,7 @@
 #include <numeric>
 #include <string>
 
-#include "text.hpp"
+#include "io/text.hpp"
 
 namespace mesher::detail {
 

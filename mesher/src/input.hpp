@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "grid.hpp"
+#include "geometry/grid.hpp"
 #include "mesher/error.hpp"
 #include "mesher/mesh.hpp"
 

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "canonical.hpp"
+#include "mesh/canonical.hpp"
 #include "input.hpp"
 #include "mesher/predicates.hpp"
-#include "world_impl.hpp"
+#include "program/world_impl.hpp"
 
 namespace mesher {
 

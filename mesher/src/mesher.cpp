@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <unordered_map>
 
-#include "canonical.hpp"
+#include "mesh/canonical.hpp"
 #include "input.hpp"
 #include "mesher/predicates.hpp"
-#include "world_impl.hpp"
+#include "program/world_impl.hpp"
 
 namespace mesher {
 

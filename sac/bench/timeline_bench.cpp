@@ -37,9 +37,9 @@
 #include <utility>
 #include <vector>
 
-#include "sac/arena.hpp"
+#include "sac/internal/arena.hpp"
 #include "sac/label.hpp"
-#include "sac/timeline.hpp"
+#include "sac/internal/timeline.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Reserving, committing, the free lists of large blocks, and giving pages back.
-#include "sac/arena.hpp"
+#include "sac/internal/arena.hpp"
 
 #include <sys/mman.h>
 
@@ -7,7 +7,7 @@
 #include <new>
 
 #include "sac/check.hpp"
-#include "sac/huge_pages.hpp"
+#include "sac/internal/huge_pages.hpp"
 
 namespace sac {
 

@@ -1,5 +1,5 @@
 // Moving entries of the memo table.
-#include "sac/memo_table.hpp"
+#include "sac/internal/memo_table.hpp"
 
 #include <algorithm>
 

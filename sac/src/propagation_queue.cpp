@@ -1,5 +1,5 @@
 // Run and heap of the propagation queue.
-#include "sac/propagation_queue.hpp"
+#include "sac/internal/propagation_queue.hpp"
 
 #include <new>
 

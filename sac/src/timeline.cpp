@@ -6,7 +6,7 @@
 // before it sits in a small group; so that this is a constant, a group that has grown beyond kFar
 // on both sides is chopped into pieces of kPiece, one write for each of the insertions that made it
 // so large. A new group costs O(log) relabelled groups [Bender et al. 2002].
-#include "sac/timeline.hpp"
+#include "sac/internal/timeline.hpp"
 
 #include <algorithm>
 #include <new>

@@ -1,5 +1,5 @@
 // The order-maintenance list against std::list.
-#include "sac/timeline.hpp"
+#include "sac/internal/timeline.hpp"
 
 #include <catch2/catch.hpp>
 #include <list>

@@ -7,8 +7,8 @@
 #include <set>
 #include <vector>
 
-#include "build_qt.hpp"
-#include "grid.hpp"
+#include "program/build_qt.hpp"
+#include "geometry/grid.hpp"
 
 namespace support {
 

@@ -9,7 +9,7 @@
 #include "input.hpp"
 #include "mesher/mesher.hpp"
 #include "sac/sac.hpp"
-#include "world_impl.hpp"
+#include "program/world_impl.hpp"
 
 namespace support {
 

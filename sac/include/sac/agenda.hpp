@@ -29,7 +29,7 @@
 #include <vector>
 
 #include "sac/engine.hpp"
-#include "sac/ordered_calls.hpp"
+#include "sac/internal/ordered_calls.hpp"
 #include "sac/scope.hpp"
 
 namespace sac {

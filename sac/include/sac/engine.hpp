@@ -30,15 +30,15 @@
 #include <utility>
 #include <vector>
 
-#include "sac/arena.hpp"
+#include "sac/internal/arena.hpp"
 #include "sac/check.hpp"
 #include "sac/label.hpp"
-#include "sac/memo_table.hpp"
+#include "sac/internal/memo_table.hpp"
 #include "sac/observer.hpp"
-#include "sac/parameters.hpp"
-#include "sac/propagation_queue.hpp"
-#include "sac/registry.hpp"
-#include "sac/timeline.hpp"
+#include "sac/internal/parameters.hpp"
+#include "sac/internal/propagation_queue.hpp"
+#include "sac/internal/registry.hpp"
+#include "sac/internal/timeline.hpp"
 #include "sac/trace.hpp"
 
 namespace sac {

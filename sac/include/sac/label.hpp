@@ -31,7 +31,7 @@
 #include <tuple>
 #include <type_traits>
 
-#include "sac/arena.hpp"
+#include "sac/internal/arena.hpp"
 
 namespace sac {
 

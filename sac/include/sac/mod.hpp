@@ -22,7 +22,7 @@
 
 #include "sac/engine.hpp"
 #include "sac/scope.hpp"
-#include "sac/trace_order.hpp"
+#include "sac/internal/trace_order.hpp"
 
 namespace sac {
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "sac/check.hpp"
-#include "sac/plain_agenda.hpp"
+#include "sac/internal/plain_agenda.hpp"
 
 namespace sac {
 

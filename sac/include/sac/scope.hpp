@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "sac/engine.hpp"
-#include "sac/parameters.hpp"
+#include "sac/internal/parameters.hpp"
 
 namespace sac {
 

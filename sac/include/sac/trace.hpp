@@ -18,9 +18,9 @@
 #include <ostream>
 #include <string_view>
 
-#include "sac/arena.hpp"
+#include "sac/internal/arena.hpp"
 #include "sac/label.hpp"
-#include "sac/timeline.hpp"
+#include "sac/internal/timeline.hpp"
 
 namespace sac {
 

@@ -1,0 +1,236 @@
+// Cutting the Voronoi cell.
+#include "geometry/voronoi_cell.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mesher/predicates.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+// Eight unit directions, a turn of 45 degrees apart, starting at 0.3 radians: no grid is aligned
+// with them.
+constexpr std::array<Point<2>, VoronoiCell::kClips> kDirections{{
+    {0.955336489125606, 0.29552020666134},
+    {0.466559651251443, 0.884489248146117},
+    {-0.29552020666134, 0.955336489125606},
+    {-0.884489248146117, 0.466559651251443},
+    {-0.955336489125606, -0.29552020666134},
+    {-0.466559651251443, -0.884489248146117},
+    {0.29552020666134, -0.955336489125606},
+    {0.884489248146117, -0.466559651251443},
+}};
+
+Point<2> clip_place(const Point<2>& v, double radius, std::size_t i) {
+  return {v[0] + 2 * radius * kDirections[i][0], v[1] + 2 * radius * kDirections[i][1]};
+}
+
+struct Corner {
+  double x, y, length2, tolerance2;
+};
+
+// The circumcentre q of (0, a, b), and the square of a bound on the error of 2 w.q in units of |w|.
+// With k = |a||b|/|a x b| and eps = 2^-53, rounding in the numerators is at most
+// 4 eps k (|a| + |b|), in the denominator 4 eps k |q|, and the rounded a, b move q by as much
+// again; |a|, |b| <= 2|q|. So the error of q is below 40 eps k |q|, that of 2 w.q below
+// 80 eps k |q| |w|, and that of the sum and of |w|^2 below 16 eps |q| |w| where |w| <= 4|q|
+// (beyond, 2 w.q - |w|^2 <= -|w|^2 / 2 is clear). 256 eps k |q| is more than twice that.
+Corner circumcentre(double ax, double ay, double bx, double by) {
+  const double a2 = ax * ax + ay * ay;
+  const double b2 = bx * bx + by * by;
+  const double d = 0.5 / (ax * by - ay * bx);
+  const double x = (a2 * by - b2 * ay) * d;
+  const double y = (b2 * ax - a2 * bx) * d;
+  const double q2 = x * x + y * y;
+  constexpr double kBound = 2 * 256 * 0x1p-53;  // k = 2 |a||b||d|
+  return {x, y, q2, kBound * kBound * (a2 * d) * (b2 * d) * q2};
+}
+
+}  // namespace
+
+void VoronoiCell::resize(int n) {
+  size_ = n;
+  if (ux_.size() >= index(n)) return;
+  const std::size_t room = 2 * index(n);
+  for (auto* column : {&ux_, &uy_, &qx_, &qy_, &q2_, &tolerance2_}) {
+    column->resize(room);
+  }
+  place_.resize(room);
+  handle_.resize(room);
+  clip_.resize(room);
+}
+
+void VoronoiCell::reset(const Vertex<2>& v, double radius) {
+  v_ = &v;
+  resize(kClips);
+  for (std::size_t i = 0; i < kClips; ++i) {
+    place_[i] = clip_place(v.p, radius, i);
+    ux_[i] = place_[i][0] - v.p[0];
+    uy_[i] = place_[i][1] - v.p[1];
+    handle_[i] = 0;
+    clip_[i] = static_cast<std::uint8_t>(i);
+  }
+  for (int i = 0; i < kClips; ++i) set_corner(i);
+  update_reach();
+}
+
+void VoronoiCell::set_corner(int i) {
+  const std::size_t a = index(i);
+  const std::size_t b = index(next(i));
+  const Corner c = circumcentre(ux_[a], uy_[a], ux_[b], uy_[b]);
+  qx_[a] = c.x;
+  qy_[a] = c.y;
+  q2_[a] = c.length2;
+  tolerance2_[a] = c.tolerance2;
+}
+
+void VoronoiCell::update_reach() {
+  reach2_ = 0;
+  double tolerance2 = 0;
+  for (std::size_t i = 0; i < index(size_); ++i) {
+    reach2_ = std::max(reach2_, q2_[i]);
+    tolerance2 = std::max(tolerance2, tolerance2_[i]);
+  }
+  reach2_ *= 1 + 0x1p-30;  // so that rounding never leaves out a vertex that cuts
+  error_ = std::sqrt(tolerance2 * reach2_) * 1.01;  // half of 2 w.q's error, for any w in reach
+}
+
+bool VoronoiCell::exactly_nearer(int i, const Point<2>& w) {
+  const int j = next(i);
+  for (const int k : {i, j}) {
+    if (place(k) == w) {
+      replaces_ = k;
+      return false;
+    }
+  }
+  return predicates::incircle_perturbed(v_->p, place(i), place(j), w) > 0;
+}
+
+// max w.q over the corners.
+double VoronoiCell::largest_projection() const noexcept {
+  const double* x = qx_.data();
+  const double* y = qy_.data();
+  double a = wx_ * x[0] + wy_ * y[0];
+  double b = a;
+  int i = 1;
+  for (; i + 1 < size_; i += 2) {
+    a = std::max(a, wx_ * x[i] + wy_ * y[i]);
+    b = std::max(b, wx_ * x[i + 1] + wy_ * y[i + 1]);
+  }
+  if (i < size_) a = std::max(a, wx_ * x[i] + wy_ * y[i]);
+  return std::max(a, b);
+}
+
+// Finds the run of corners that w takes; by convexity there is one run.
+bool VoronoiCell::find_cut(const Point<2>& w) {
+  w_ = w;
+  wx_ = w[0] - v_->p[0];
+  wy_ = w[1] - v_->p[1];
+  replaces_ = -1;
+  run_count_ = 0;
+  const double w2 = wx_ * wx_ + wy_ * wy_;
+  if (largest_projection() < w2 / 2 - error_) return false;  // most vertices end here
+  const auto nearer = [&](int i) {
+    const double value = 2 * (wx_ * qx_[index(i)] + wy_ * qy_[index(i)]) - w2;
+    if (value * value > tolerance2_[index(i)] * w2) return value > 0;
+    return exactly_nearer(i, w);
+  };
+  int seed = -1;
+  for (int i = 0; i < size_ && seed < 0; ++i) {
+    if (nearer(i)) seed = i;
+  }
+  if (seed < 0) return replaces_ >= 0 && !real(replaces_);
+  int first = seed;
+  int count = 1;
+  if (seed == 0) {
+    for (int i = size_ - 1; i > 0 && nearer(i); --i) first = i, ++count;
+  }
+  for (int i = seed + 1; i < (first > seed ? first : size_) && nearer(i); ++i) ++count;
+  replaces_ = -1;
+  run_first_ = first;
+  run_count_ = count;
+  return true;
+}
+
+void VoronoiCell::cut(VertexHandle w) {
+  if (replaces_ >= 0) {
+    handle_[index(replaces_)] = w;
+    return;
+  }
+  insert_neighbour(run_first_, run_count_, w);
+  update_reach();
+}
+
+void VoronoiCell::move_entries(int from, int to, int n) {
+  const auto copy = [&](int i, int j) {
+    const std::size_t a = index(i);
+    const std::size_t b = index(j);
+    ux_[b] = ux_[a];
+    uy_[b] = uy_[a];
+    qx_[b] = qx_[a];
+    qy_[b] = qy_[a];
+    q2_[b] = q2_[a];
+    tolerance2_[b] = tolerance2_[a];
+    place_[b] = place_[a];
+    handle_[b] = handle_[a];
+    clip_[b] = clip_[a];
+  };
+  if (from > to) {
+    for (int i = 0; i < n; ++i) copy(from + i, to + i);
+  } else if (from < to) {
+    for (int i = n - 1; i >= 0; --i) copy(from + i, to + i);
+  }
+}
+
+// Corners first .. first + count - 1 go, and with them the neighbours between; w comes instead.
+void VoronoiCell::insert_neighbour(int first, int count, VertexHandle w) {
+  const int before = first;                   // u_first stays
+  const int after = (first + count) % size_;  // u_{first+count} stays
+  const int old_size = size_;
+  const int fresh_size = size_ - count + 2;  // count - 1 neighbours go, one comes
+  int at;                                    // where w goes
+  resize(std::max(fresh_size, old_size));
+  size_ = fresh_size;
+  if (after > before || after == 0) {
+    const int end = after == 0 ? old_size : after;
+    move_entries(end, before + 2, old_size - end);
+    at = before + 1;
+  } else {  // the run wraps around: what stays is after .. before
+    move_entries(after, 0, before - after + 1);
+    at = before - after + 1;
+  }
+  const std::size_t k = index(at);
+  ux_[k] = wx_;
+  uy_[k] = wy_;
+  place_[k] = w_;
+  handle_[k] = w;
+  clip_[k] = 0;
+  set_corner(at == 0 ? size_ - 1 : at - 1);
+  set_corner(at);
+}
+
+bool VoronoiCell::may_cut(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
+                          const std::uint32_t* handles, int m, const Point<2>& p) {
+  const double wx = p[0] - v.p[0];
+  const double wy = p[1] - v.p[1];
+  const double w2 = wx * wx + wy * wy;
+  const auto neighbour = [&](int i) -> Point<2> {
+    const std::uint32_t h = handles[i];
+    const Point<2> place = h >= kVirtual ? clip_place(v.p, radius, h & 0xff) : pool[h].p;
+    return {place[0] - v.p[0], place[1] - v.p[1]};
+  };
+  Point<2> a = neighbour(m - 1);
+  for (int i = 0; i < m; ++i) {
+    const Point<2> b = neighbour(i);
+    const Corner q = circumcentre(a[0], a[1], b[0], b[1]);
+    const double value = 2 * (wx * q.x + wy * q.y) - w2;
+    if (value >= 0 || !(value * value > q.tolerance2 * w2)) return true;
+    a = b;
+  }
+  return false;
+}
+
+}  // namespace mesher::detail

@@ -1,0 +1,253 @@
+// The input points in a tree of their own, and for each the deepest level at which it is crowded.
+//
+// A cell of level k is crowded for the point p in it if the block of 3^D cells of level k around it
+// holds another point. K(p) is the deepest such level, -1 if there is none. Crowding is monotone
+// [L 4.1.1]: p is crowded at every level up to K(p). So BuildQT asks one question a point: K(p).
+//
+// The tree splits a cell while it holds two points; a node is one 32-bit word (empty, one point, or
+// a block of children). A walk from the root that keeps the 3^D nodes around a point finds K(p);
+// the same walk around a point that comes or goes meets, each as a lone point in one of these
+// nodes, exactly the points whose K may change:
+//   if q changes K(f) at level k, f is alone in its cell of level k (else its companion crowds it
+//   at k with or without q), hence a one-point node of the block around q.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/grid.hpp"
+#include "index/vertex.hpp"
+
+namespace mesher::detail {
+
+template <int D>
+class FeatureTree {
+ public:
+  FeatureTree(const MeshBox<D>& box, const VertexPool<D>& vertices)
+      : box_(box), vertices_(vertices) {
+    blocks_.push_back({});  // handle 0 is "empty"
+  }
+
+  /// The point that stands in the way of `p`: one in the same finest cell; null if there is none.
+  [[nodiscard]] const Vertex<D>* obstacle(const Point<D>& p) const;
+
+  /// Adds a point and updates K of all points. Calls changed(f) for each other point whose K
+  /// changed. Requires: obstacle(v.p) == nullptr. Cost: O(log L/s).
+  template <class Changed>
+  void insert(Vertex<D>& v, Changed&& changed);
+
+  /// Takes a point out and updates K likewise.
+  template <class Changed>
+  void erase(Vertex<D>& v, Changed&& changed);
+
+  /// K(p) from the tree. Cost: O(K(p)).
+  [[nodiscard]] int crowded_level(const Vertex<D>& v) const;
+
+  /// Adds a point without updating K: for many at once, each then asked for its crowded_level().
+  void insert_only(Vertex<D>& v);
+
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return blocks_.capacity() * sizeof(Block) + free_.capacity() * sizeof(std::uint32_t);
+  }
+
+ private:
+  using Node = std::uint32_t;  // 0 empty; kPoint | vertex; block index
+  static constexpr Node kPoint = 0x80000000u;
+  static constexpr int kChildren = 1 << D;
+  static constexpr int kBlock3 = D == 2 ? 9 : 27;
+  using Block = std::array<Node, kChildren>;
+  using Around = std::array<Node, kBlock3>;
+
+  [[nodiscard]] Fixed<D> fixed_of(Node point) const {
+    return box_.fixed(vertices_[point & ~kPoint].p);
+  }
+  [[nodiscard]] bool inside(Node point, const std::array<std::int64_t, D>& cell, int level) const;
+  [[nodiscard]] Around down(const Around& around, const Fixed<D>& f, int level) const;
+  [[nodiscard]] Around start() const {
+    Around a{};
+    a[kBlock3 / 2] = root_;
+    return a;
+  }
+  template <class Visit>
+  void visit_lonely(const Fixed<D>& f, VertexHandle self, Visit&& visit) const;
+  Node new_block();
+
+  const MeshBox<D>& box_;
+  const VertexPool<D>& vertices_;
+  std::vector<Block> blocks_;
+  std::vector<std::uint32_t> free_;
+  Node root_ = 0;
+  std::size_t size_ = 0;
+};
+
+template <int D>
+bool FeatureTree<D>::inside(Node point, const std::array<std::int64_t, D>& cell, int level) const {
+  const Fixed<D> f = fixed_of(point);
+  for (int i = 0; i < D; ++i) {
+    if (static_cast<std::int64_t>(f[i] >> (kLevels - level)) != cell[i]) return false;
+  }
+  return true;
+}
+
+// From the block of level `level` around f to that of the next level.
+template <int D>
+typename FeatureTree<D>::Around FeatureTree<D>::down(const Around& around, const Fixed<D>& f,
+                                                     int level) const {
+  Around next{};
+  for (int n = 0; n < kBlock3; ++n) {
+    std::array<std::int64_t, D> cell;
+    int parent = 0;
+    int child = 0;
+    for (int i = 0, power = 1, rest = n; i < D; ++i, power *= 3, rest /= 3) {
+      const auto own = static_cast<std::int64_t>(f[i] >> (kLevels - 1 - level));
+      cell[i] = own + rest % 3 - 1;
+      parent += static_cast<int>((cell[i] >> 1) - (own >> 1) + 1) * power;
+      child |= static_cast<int>(cell[i] & 1) << i;
+    }
+    const Node above = around[parent];
+    if (above == 0) continue;
+    if ((above & kPoint) != 0) {
+      if (inside(above, cell, level + 1)) next[n] = above;
+    } else {
+      next[n] = blocks_[above][child];
+    }
+  }
+  return next;
+}
+
+template <int D>
+int FeatureTree<D>::crowded_level(const Vertex<D>& v) const {
+  const Fixed<D> f = box_.fixed(v.p);
+  Around around = start();
+  for (int level = 0;; ++level) {
+    bool alone = around[kBlock3 / 2] == (kPoint | v.self);
+    for (int n = 0; alone && n < kBlock3; ++n) alone = n == kBlock3 / 2 || around[n] == 0;
+    if (alone) return level - 1;
+    if (level == kLevels)
+      return kLevels - 1;  // neighbours in the finest cells: cannot be told apart
+    around = down(around, f, level);
+  }
+}
+
+// Calls visit(f, level) for the lone points in the blocks around f, coarse to fine.
+template <int D>
+template <class Visit>
+void FeatureTree<D>::visit_lonely(const Fixed<D>& f, VertexHandle self, Visit&& visit) const {
+  Around around = start();
+  for (int level = 0; level <= kLevels; ++level) {
+    bool others = false;
+    for (const Node n : around) {
+      if (n == 0 || n == (kPoint | self)) continue;
+      others = true;
+      if ((n & kPoint) != 0) visit(n & ~kPoint, std::min(level, kLevels - 1));
+    }
+    if (!others || level == kLevels) return;
+    around = down(around, f, level);
+  }
+}
+
+template <int D>
+const Vertex<D>* FeatureTree<D>::obstacle(const Point<D>& p) const {
+  const Fixed<D> f = box_.fixed(p);
+  Node node = root_;
+  for (int level = 0; node != 0 && (node & kPoint) == 0; ++level) {
+    node = blocks_[node][MeshBox<D>::child_of(f, level)];
+  }
+  if (node == 0) return nullptr;
+  return fixed_of(node) == f ? &vertices_[node & ~kPoint] : nullptr;
+}
+
+template <int D>
+typename FeatureTree<D>::Node FeatureTree<D>::new_block() {
+  if (free_.empty()) {
+    blocks_.push_back({});
+    free_.reserve(blocks_.capacity());
+    return static_cast<Node>(blocks_.size() - 1);
+  }
+  const Node b = free_.back();
+  free_.pop_back();
+  blocks_[b] = {};
+  return b;
+}
+
+template <int D>
+void FeatureTree<D>::insert_only(Vertex<D>& v) {
+  const Fixed<D> f = box_.fixed(v.p);
+  Node block = 0;  // where the link to the current node is stored; 0: in root_
+  int child = 0;
+  const auto link = [&]() -> Node& { return block == 0 ? root_ : blocks_[block][child]; };
+  int level = 0;
+  while (link() != 0) {
+    if ((link() & kPoint) != 0) {
+      const Node other = link();
+      const Node fresh = new_block();
+      blocks_[fresh][MeshBox<D>::child_of(fixed_of(other), level)] = other;
+      link() = fresh;
+    }
+    block = link();
+    child = MeshBox<D>::child_of(f, level++);
+  }
+  link() = kPoint | v.self;
+  ++size_;
+}
+
+template <int D>
+template <class Changed>
+void FeatureTree<D>::insert(Vertex<D>& v, Changed&& changed) {
+  insert_only(v);
+  v.level = static_cast<std::int16_t>(crowded_level(v));
+  visit_lonely(box_.fixed(v.p), v.self, [&](VertexHandle h, int level) {
+    Vertex<D>& f = vertices_[h];
+    if (f.level >= level) return;
+    f.level = static_cast<std::int16_t>(level);
+    changed(f);
+  });
+}
+
+template <int D>
+template <class Changed>
+void FeatureTree<D>::erase(Vertex<D>& v, Changed&& changed) {
+  const Fixed<D> f = box_.fixed(v.p);
+  std::vector<VertexHandle> affected;
+  visit_lonely(f, v.self, [&](VertexHandle h, int level) {
+    if (vertices_[h].level == level) affected.push_back(h);
+  });
+  std::array<Node, kLevels + 1> path{};
+  int depth = 0;
+  Node node = root_;
+  for (; (node & kPoint) == 0; ++depth) {
+    path[depth] = node;
+    node = blocks_[node][MeshBox<D>::child_of(f, depth)];
+  }
+  Node rest = 0;  // what the parent's link becomes
+  while (depth > 0) {
+    --depth;
+    Block& block = blocks_[path[depth]];
+    block[MeshBox<D>::child_of(f, depth)] = rest;
+    int children = 0;
+    Node last = 0;
+    for (const Node n : block) {
+      if (n != 0) ++children, last = n;
+    }
+    if (children > 1 || (children == 1 && (last & kPoint) == 0)) {
+      rest = root_;
+      break;
+    }
+    free_.push_back(path[depth]);
+    rest = last;
+  }
+  root_ = rest;
+  --size_;
+  for (const VertexHandle h : affected) {
+    Vertex<D>& other = vertices_[h];
+    const int level = crowded_level(other);
+    if (level == other.level) continue;
+    other.level = static_cast<std::int16_t>(level);
+    changed(other);
+  }
+}
+
+}  // namespace mesher::detail

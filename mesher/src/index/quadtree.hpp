@@ -1,0 +1,488 @@
+// The quadtree as a place to look vertices up.
+//
+// The cells are those that BuildQT marks as split; a leaf lists its vertices. Answers do not depend
+// on the subdivision, only their cost does, so the tree may be between two states while a
+// propagation is under way: a cell has children while it, or a cell inside it, is marked.
+// Each cell also knows a bound on how far the queries centred in it look (`reach`), to find the
+// queries that a new vertex concerns.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "geometry/grid.hpp"
+#include "sac/check.hpp"
+#include "index/vertex.hpp"
+
+namespace mesher::detail {
+
+template <int D>
+class Quadtree {
+ public:
+  using NodeIndex = std::uint32_t;
+  static constexpr int kChildren = 1 << D;
+
+  Quadtree(const MeshBox<D>& box, VertexPool<D>& vertices) : box_(box), vertices_(vertices) {
+    nodes_.resize(1);
+    buckets_.resize(1);
+  }
+
+  /// Marks `cell` as split, with the cells above it given children as needed; returns its node.
+  NodeIndex mark(const Cell<D>& cell);
+  /// Takes the mark back and removes children that no mark needs.
+  void unmark(NodeIndex node);
+
+  /// Puts a vertex into its leaf. Cost: O(depth).
+  void insert(Vertex<D>& v);
+  void erase(Vertex<D>& v);
+  /// The record with exactly these coordinates; null if there is none.
+  [[nodiscard]] Vertex<D>* find(const Point<D>& p) const;
+
+  /// Visits vertices u around `center`, by cells, in shells of doubling radius so that what bounds
+  /// the search is met early: visit(handle, place) for every vertex within radius() of
+  /// the center, a bound that may shrink while visiting (visit says true when it has), and for some
+  /// beyond.
+  /// A cell is only entered if enters(its lower corner relative to the center, its side).
+  template <class Radius, class Enters, class Visit>
+  void visit_around(const Point<D>& center, Radius&& radius, Enters&& enters, Visit&& visit) const;
+
+  /// Calls visit(v) for every vertex v with |v - p| <= v.reach (in units of the box's side), and
+  /// tightens the cells' bounds.
+  template <class Visit>
+  void visit_reaching(const Point<D>& p, Visit&& visit) {
+    reach_below(0, box_.lo, box_.side, p, visit);
+  }
+  /// A query centred at `v` looks as far as v.reach: raises the bounds of the cells around it.
+  void raise_reach(const Vertex<D>& v);
+
+  /// Throws InvariantError if a cell underestimates the reach of its vertices.
+  void check_reach() const { check_reach_below(0, 0); }
+
+  /// Calls visit(cell) for every leaf.
+  template <class Visit>
+  void for_each_leaf(Visit&& visit) const;
+
+  /// How far a cell's computed sides may be off.
+  [[nodiscard]] double margin() const noexcept { return margin_; }
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return nodes_.capacity() * sizeof(Node) + buckets_.capacity() * sizeof(Bucket);
+  }
+
+ private:
+  struct Node {
+    NodeIndex child = 0;  // first of kChildren; 0: a leaf
+    NodeIndex parent_and_mark = 0;
+    std::uint32_t head = 0;  // first bucket of a leaf
+    float reach = 0;
+
+    [[nodiscard]] NodeIndex parent() const noexcept { return parent_and_mark & 0x7fffffffu; }
+    [[nodiscard]] bool marked() const noexcept { return parent_and_mark >> 31 != 0; }
+  };
+  // The first shell's radius, in sides of the center's leaf.
+  static constexpr double kFirstShell = 2;
+
+  struct Step {
+    NodeIndex node;
+    Point<D> rel;  // lower corner of the cell, relative to the center
+    double side;
+  };
+
+  [[nodiscard]] NodeIndex leaf_of(const Fixed<D>& f, int* level = nullptr) const {
+    NodeIndex n = 0;
+    int depth = 0;
+    for (; nodes_[n].child != 0; ++depth) n = nodes_[n].child + MeshBox<D>::child_of(f, depth);
+    if (level != nullptr) *level = depth;
+    return n;
+  }
+  void give_children(NodeIndex n, int level);
+  void take_children(NodeIndex n);
+  static double distance2(const Point<D>& rel, double side) {
+    double d2 = 0;
+    for (int i = 0; i < D; ++i) {
+      const double d = std::max(std::max(rel[i], -(rel[i] + side)), 0.0);
+      d2 += d * d;
+    }
+    return d2;
+  }
+  static double farthest2(const Point<D>& rel, double side) {
+    double d2 = 0;
+    for (int i = 0; i < D; ++i) {
+      const double d = std::max(-rel[i], rel[i] + side);
+      d2 += d * d;
+    }
+    return d2;
+  }
+  // Where a search stands: the path of cells down to the center's leaf, and the shell.
+  struct Search {
+    std::array<Step, kLevels + 1> path;
+    int depth = 0;
+    double inner = -1;  // cells wholly nearer than this were visited before
+    double outer = 0;   // cells beyond this wait for the next shell
+  };
+  static bool in_shell(const Step& s, const Search& search) {
+    return distance2(s.rel, s.side) <= search.outer * search.outer &&
+           (search.inner <= 0 || farthest2(s.rel, s.side) >= search.inner * search.inner);
+  }
+  void find_path(const Point<D>& center, Search& search) const;
+  template <class Enters, class Visit>
+  void visit_shell(const Search& search, Enters&& enters, Visit&& visit) const;
+  template <class Enters, class Visit>
+  void descend(const Step& from, const Search& search, Enters&& enters, Visit&& visit) const;
+  // The vertices of a leaf, with their coordinates: a search that is not interested in a vertex
+  // does not touch its record. Two cache lines in the plane.
+  struct Bucket {
+    std::uint32_t next = 0;  // further bucket of the same leaf; 0: none
+    std::uint32_t count = 0;
+    std::array<VertexHandle, 6> handle;
+    std::array<Point<D>, 6> place;
+  };
+  using BucketIndex = std::uint32_t;
+
+  template <class Visit>
+  void visit_leaf(NodeIndex n, Visit&& visit) const {
+    for (BucketIndex b = nodes_[n].head; b != 0; b = buckets_[b].next) {
+      const Bucket& bucket = buckets_[b];
+      for (std::uint32_t i = 0; i < bucket.count; ++i) visit(bucket.handle[i], bucket.place[i]);
+    }
+  }
+  void put(NodeIndex leaf, VertexHandle h, const Point<D>& p);
+  [[nodiscard]] BucketIndex new_bucket(BucketIndex next);
+  template <class Visit>
+  float reach_below(NodeIndex n, const Point<D>& lo, double side, const Point<D>& p, Visit& visit);
+  template <class Visit>
+  void leaves_below(NodeIndex n, const Cell<D>& cell, Visit& visit) const;
+  float check_reach_below(NodeIndex n, int level) const;
+
+  const MeshBox<D>& box_;
+  VertexPool<D>& vertices_;
+  std::vector<Node> nodes_;
+  std::vector<NodeIndex> free_;
+  std::vector<Bucket> buckets_;
+  std::vector<BucketIndex> free_buckets_;
+  // Cells are computed to within a few units in the last place of the largest coordinate.
+  double margin_ = largest(box_) * 0x1p-50;
+
+  static double largest(const MeshBox<D>& box) {
+    double m = box.side;
+    for (int i = 0; i < D; ++i) m = std::max({m, std::abs(box.lo[i]), std::abs(box.hi(i))});
+    return m;
+  }
+};
+
+template <int D>
+void Quadtree<D>::give_children(NodeIndex n, int level) {
+  NodeIndex first;
+  if (free_.empty()) {
+    first = static_cast<NodeIndex>(nodes_.size());
+    nodes_.resize(nodes_.size() + kChildren);
+    free_.reserve(nodes_.capacity() / kChildren + 1);  // so that taking back cannot fail
+  } else {
+    first = free_.back();
+    free_.pop_back();
+  }
+  for (int i = 0; i < kChildren; ++i) {
+    nodes_[first + static_cast<NodeIndex>(i)] =
+        Node{.parent_and_mark = n, .reach = nodes_[n].reach};
+  }
+  nodes_[n].child = first;
+  for (BucketIndex b = std::exchange(nodes_[n].head, 0); b != 0;) {
+    const Bucket bucket = buckets_[b];
+    free_buckets_.push_back(b);
+    for (std::uint32_t i = 0; i < bucket.count; ++i) {
+      const int c = MeshBox<D>::child_of(box_.fixed(bucket.place[i]), level);
+      put(first + static_cast<NodeIndex>(c), bucket.handle[i], bucket.place[i]);
+    }
+    b = bucket.next;
+  }
+}
+
+template <int D>
+typename Quadtree<D>::BucketIndex Quadtree<D>::new_bucket(BucketIndex next) {
+  BucketIndex b;
+  if (free_buckets_.empty()) {
+    b = static_cast<BucketIndex>(buckets_.size());
+    buckets_.emplace_back();
+    free_buckets_.reserve(buckets_.capacity());  // so that giving back cannot fail
+  } else {
+    b = free_buckets_.back();
+    free_buckets_.pop_back();
+  }
+  buckets_[b].next = next;
+  buckets_[b].count = 0;
+  return b;
+}
+
+// Only the first bucket of a leaf may have room.
+template <int D>
+void Quadtree<D>::put(NodeIndex leaf, VertexHandle h, const Point<D>& p) {
+  const BucketIndex head = nodes_[leaf].head;
+  if (head == 0 || buckets_[head].count == buckets_[head].handle.size()) {
+    nodes_[leaf].head = new_bucket(head);
+  }
+  Bucket& bucket = buckets_[nodes_[leaf].head];
+  bucket.handle[bucket.count] = h;
+  bucket.place[bucket.count++] = p;
+}
+
+template <int D>
+void Quadtree<D>::take_children(NodeIndex n) {
+  const NodeIndex first = std::exchange(nodes_[n].child, 0);
+  for (int i = 0; i < kChildren; ++i) {
+    const NodeIndex c = first + static_cast<NodeIndex>(i);
+    for (BucketIndex b = std::exchange(nodes_[c].head, 0); b != 0;) {
+      const Bucket bucket = buckets_[b];
+      free_buckets_.push_back(b);
+      for (std::uint32_t k = 0; k < bucket.count; ++k) put(n, bucket.handle[k], bucket.place[k]);
+      b = bucket.next;
+    }
+  }
+  free_.push_back(first);
+}
+
+template <int D>
+typename Quadtree<D>::NodeIndex Quadtree<D>::mark(const Cell<D>& cell) {
+  NodeIndex n = 0;
+  for (int level = 0;; ++level) {
+    if (nodes_[n].child == 0) give_children(n, level);
+    if (level == cell.level) break;
+    n = nodes_[n].child + static_cast<NodeIndex>(MeshBox<D>::child_of(cell.corner, level));
+  }
+  nodes_[n].parent_and_mark |= 0x80000000u;
+  return n;
+}
+
+template <int D>
+void Quadtree<D>::unmark(NodeIndex n) {
+  nodes_[n].parent_and_mark &= 0x7fffffffu;
+  while (!nodes_[n].marked() && nodes_[n].child != 0) {
+    for (int i = 0; i < kChildren; ++i) {
+      if (nodes_[nodes_[n].child + static_cast<NodeIndex>(i)].child != 0) return;
+    }
+    take_children(n);
+    n = nodes_[n].parent();
+  }
+}
+
+template <int D>
+void Quadtree<D>::insert(Vertex<D>& v) {
+  put(leaf_of(box_.fixed(v.p)), v.self, v.p);
+}
+
+// The last vertex of the first bucket takes the place of the one that goes.
+template <int D>
+void Quadtree<D>::erase(Vertex<D>& v) {
+  Node& leaf = nodes_[leaf_of(box_.fixed(v.p))];
+  Bucket& first = buckets_[leaf.head];
+  for (BucketIndex b = leaf.head; b != 0; b = buckets_[b].next) {
+    Bucket& bucket = buckets_[b];
+    for (std::uint32_t i = 0; i < bucket.count; ++i) {
+      if (bucket.handle[i] != v.self) continue;
+      bucket.handle[i] = first.handle[first.count - 1];
+      bucket.place[i] = first.place[first.count - 1];
+      if (--first.count == 0) {
+        free_buckets_.push_back(leaf.head);
+        leaf.head = first.next;
+      }
+      return;
+    }
+  }
+}
+
+template <int D>
+Vertex<D>* Quadtree<D>::find(const Point<D>& p) const {
+  Vertex<D>* found = nullptr;
+  visit_leaf(leaf_of(box_.fixed(p)), [&](VertexHandle h, const Point<D>& place) {
+    if (place == p) found = &vertices_[h];
+  });
+  return found;
+}
+
+// Depth first, nearest child first, within the shell.
+template <int D>
+template <class Enters, class Visit>
+void Quadtree<D>::descend(const Step& from, const Search& search, Enters&& enters,
+                          Visit&& visit) const {
+  std::array<Step, (kLevels + 1) * (kChildren - 1) + 1> stack;
+  std::size_t top = 0;
+  stack[top++] = from;
+  while (top > 0) {
+    const Step s = stack[--top];
+    if (!enters(s.rel, s.side)) continue;
+    const NodeIndex child = nodes_[s.node].child;
+    if (child == 0) {
+      visit_leaf(s.node, visit);
+      continue;
+    }
+    const double half = s.side / 2;
+    // Per axis and half of the cell: squared distance to the near and to the far side.
+    std::array<std::array<double, 2>, D> near2;
+    std::array<std::array<double, 2>, D> far2;
+    int nearest = 0;
+    for (int i = 0; i < D; ++i) {
+      const double low = s.rel[i];
+      const double middle = low + half;
+      const double high = middle + half;
+      const auto square = [](double x) { return x * x; };
+      near2[i] = {square(std::max(std::max(low, -middle), 0.0)),
+                  square(std::max(std::max(middle, -high), 0.0))};
+      far2[i] = {square(std::max(-low, middle)), square(std::max(-middle, high))};
+      nearest |= (middle <= 0 ? 1 : 0) << i;
+    }
+    for (int k = kChildren - 1; k >= 0; --k) {
+      const int c = nearest ^ k;
+      double n2 = 0;
+      double f2 = 0;
+      for (int i = 0; i < D; ++i) n2 += near2[i][c >> i & 1], f2 += far2[i][c >> i & 1];
+      if (n2 > search.outer * search.outer) continue;
+      if (search.inner > 0 && f2 < search.inner * search.inner) continue;
+      Step& t = stack[top++];
+      t.node = child + static_cast<NodeIndex>(c);
+      t.side = half;
+      for (int i = 0; i < D; ++i) t.rel[i] = s.rel[i] + ((c >> i & 1) != 0 ? half : 0);
+    }
+  }
+}
+
+template <int D>
+void Quadtree<D>::find_path(const Point<D>& center, Search& search) const {
+  const Fixed<D> f = box_.fixed(center);
+  Step s{0, {}, box_.side};
+  for (int i = 0; i < D; ++i) s.rel[i] = box_.lo[i] - center[i];
+  for (;; ++search.depth) {
+    search.path[static_cast<std::size_t>(search.depth)] = s;
+    const NodeIndex child = nodes_[s.node].child;
+    if (child == 0) return;
+    const int c = MeshBox<D>::child_of(f, search.depth);
+    s.node = child + static_cast<NodeIndex>(c);
+    s.side /= 2;
+    for (int i = 0; i < D; ++i) s.rel[i] += (c >> i & 1) != 0 ? s.side : 0;
+  }
+}
+
+// From the center's leaf up to the first cell that holds the whole shell, visiting siblings.
+template <int D>
+template <class Enters, class Visit>
+void Quadtree<D>::visit_shell(const Search& search, Enters&& enters, Visit&& visit) const {
+  descend(search.path[static_cast<std::size_t>(search.depth)], search, enters, visit);
+  for (int depth = search.depth; depth > 0; --depth) {
+    const Step& own = search.path[static_cast<std::size_t>(depth)];
+    double inside = own.side;  // distance from the center to the cell's boundary
+    for (int i = 0; i < D; ++i) inside = std::min({inside, -own.rel[i], own.rel[i] + own.side});
+    if (inside >= search.outer) return;
+    const Step& up = search.path[static_cast<std::size_t>(depth - 1)];
+    const NodeIndex first = nodes_[up.node].child;
+    const int c = static_cast<int>(own.node - first);
+    for (int k = 1; k < kChildren; ++k) {
+      const int other = c ^ k;
+      Step t{first + static_cast<NodeIndex>(other), up.rel, own.side};
+      for (int i = 0; i < D; ++i) t.rel[i] += (other >> i & 1) != 0 ? own.side : 0;
+      if (in_shell(t, search)) descend(t, search, enters, visit);
+    }
+  }
+}
+
+template <int D>
+template <class Radius, class Enters, class Visit>
+void Quadtree<D>::visit_around(const Point<D>& center, Radius&& radius, Enters&& enters,
+                               Visit&& visit) const {
+  Search search;
+  find_path(center, search);
+  double bound = radius() + margin_;
+  double shell = kFirstShell * search.path[static_cast<std::size_t>(search.depth)].side;
+  for (;; shell *= 2) {
+    search.outer = std::min(shell, bound);
+    visit_shell(search, enters, [&](VertexHandle h, const Point<D>& p) {
+      if (!visit(h, p)) return;
+      bound = radius() + margin_;
+      search.outer = std::min(search.outer, bound);
+    });
+    if (search.outer >= bound) return;
+    search.inner = search.outer - margin_;
+  }
+}
+
+template <int D>
+void Quadtree<D>::raise_reach(const Vertex<D>& v) {
+  NodeIndex n = leaf_of(box_.fixed(v.p));
+  while (nodes_[n].reach < v.reach) {
+    nodes_[n].reach = v.reach;
+    if (n == 0) return;
+    n = nodes_[n].parent();
+  }
+}
+
+template <int D>
+template <class Visit>
+float Quadtree<D>::reach_below(NodeIndex n, const Point<D>& lo, double side, const Point<D>& p,
+                               Visit& visit) {
+  Point<D> rel;
+  for (int i = 0; i < D; ++i) rel[i] = lo[i] - p[i];
+  const double bound = nodes_[n].reach * box_.side + margin_;
+  if (distance2(rel, side) > bound * bound) return nodes_[n].reach;
+  float reach = 0;
+  if (nodes_[n].child == 0) {
+    visit_leaf(n, [&](VertexHandle h, const Point<D>& place) {
+      Vertex<D>& v = vertices_[h];
+      double d2 = 0;
+      for (int i = 0; i < D; ++i) d2 += (place[i] - p[i]) * (place[i] - p[i]);
+      const double own = v.reach * box_.side;
+      if (d2 <= own * own) visit(v);
+      reach = std::max(reach, v.reach);
+    });
+  } else {
+    for (int c = 0; c < kChildren; ++c) {
+      Point<D> corner = lo;
+      for (int i = 0; i < D; ++i) corner[i] += (c >> i & 1) != 0 ? side / 2 : 0;
+      reach = std::max(reach, reach_below(nodes_[n].child + static_cast<NodeIndex>(c), corner,
+                                          side / 2, p, visit));
+    }
+  }
+  return nodes_[n].reach = reach;
+}
+
+template <int D>
+float Quadtree<D>::check_reach_below(NodeIndex n, int level) const {
+  float reach = 0;
+  bool below = false;
+  visit_leaf(n, [&](VertexHandle h, const Point<D>& p) {
+    SAC_INVARIANT(vertices_[h].p == p);
+    reach = std::max(reach, vertices_[h].reach);
+  });
+  if (nodes_[n].child != 0) {
+    SAC_INVARIANT(nodes_[n].head == 0);
+    for (int c = 0; c < kChildren; ++c) {
+      const NodeIndex child = nodes_[n].child + static_cast<NodeIndex>(c);
+      SAC_INVARIANT(nodes_[child].parent() == n);
+      below = below || nodes_[child].child != 0;
+      reach = std::max(reach, check_reach_below(child, level + 1));
+    }
+  }
+  SAC_INVARIANT(nodes_[n].reach >= reach);
+  SAC_INVARIANT(nodes_[n].child == 0 || nodes_[n].marked() || below);
+  return reach;
+}
+
+template <int D>
+template <class Visit>
+void Quadtree<D>::for_each_leaf(Visit&& visit) const {
+  leaves_below(0, Cell<D>{}, visit);
+}
+
+template <int D>
+template <class Visit>
+void Quadtree<D>::leaves_below(NodeIndex n, const Cell<D>& cell, Visit& visit) const {
+  if (nodes_[n].child == 0) return visit(cell);
+  for (int c = 0; c < kChildren; ++c) {
+    Cell<D> inner{cell.corner, cell.level + 1};
+    for (int i = 0; i < D; ++i) {
+      inner.corner[i] |= static_cast<std::uint64_t>(c >> i & 1) << (kLevels - inner.level);
+    }
+    leaves_below(nodes_[n].child + static_cast<NodeIndex>(c), inner, visit);
+  }
+}
+
+}  // namespace mesher::detail

@@ -1,0 +1,90 @@
+// Reads input points of any known format and refuses repeated ids and points.
+#include "io/read_points.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <optional>
+
+#include "io/read_node.hpp"
+#include "io/text.hpp"
+
+namespace mesher {
+namespace {
+
+// Two rows of a file with equal keys; the later one is the first in the file to repeat an earlier.
+struct Repeat {
+  std::size_t earlier;
+  std::size_t later;
+};
+
+// Nothing where all keys differ. Cost: O(n log n), O(n) where keys ascend.
+template <class Key>
+std::optional<Repeat> first_repeat(const std::vector<Key>& keys) {
+  if (std::adjacent_find(keys.begin(), keys.end(), std::greater_equal<>()) == keys.end()) {
+    return {};
+  }
+  std::vector<std::size_t> order(keys.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return keys[a] < keys[b] || (keys[a] == keys[b] && a < b);
+  });
+  std::optional<Repeat> first;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const Repeat repeat{order[i - 1], order[i]};
+    if (keys[repeat.earlier] != keys[repeat.later]) continue;
+    if (!first || repeat.later < first->later) first = repeat;
+  }
+  return first;
+}
+
+std::string id_text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
+
+template <int D>
+PointFile<D> read_any(const std::string& path) {
+  const std::string extension = text::extension(path);
+  if (extension == ".node") return read_node<D>(path, CoordinateRule::input).rows;
+  if (extension == ".xyz") return read_xyz<D>(path);
+  if (extension == ".csv") return read_csv<D>(path);
+  throw Error(ErrorCode::unknown_format,
+              "points are read from .node, .xyz and .csv, not " + text::quoted(extension), {path});
+}
+
+}  // namespace
+
+template <int D>
+void require_distinct_ids(const PointFile<D>& rows) {
+  const auto repeat = first_repeat(rows.ids);
+  if (!repeat) return;
+  throw Error(ErrorCode::repeated_id,
+              "id " + id_text(rows.ids[repeat->later]) + " is given twice, first on line " +
+                  std::to_string(rows.lines[repeat->earlier]),
+              rows.place(repeat->later));
+}
+
+template <int D>
+void require_distinct_points(const PointFile<D>& rows) {
+  const auto repeat = first_repeat(rows.points);
+  if (!repeat) return;
+  throw Error(ErrorCode::duplicate_point,
+              "point " + id_text(rows.ids[repeat->later]) + " lies on point " +
+                  id_text(rows.ids[repeat->earlier]) + " of line " +
+                  std::to_string(rows.lines[repeat->earlier]) + ", both at " +
+                  text::to_text<D>(rows.points[repeat->later]),
+              rows.place(repeat->later));
+}
+
+template <int D>
+PointFile<D> read_points(const std::string& path) {
+  PointFile<D> rows = read_any<D>(path);
+  require_distinct_ids(rows);
+  require_distinct_points(rows);
+  return rows;
+}
+
+template void require_distinct_ids<2>(const PointFile<2>&);
+template void require_distinct_points<2>(const PointFile<2>&);
+template PointFile<2> read_points<2>(const std::string&);
+template PointFile<3> read_points<3>(const std::string&);
+
+}  // namespace mesher

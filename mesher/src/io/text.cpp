@@ -1,0 +1,191 @@
+// Lines, fields and checked numbers of text files.
+#include "io/text.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+namespace mesher::text {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\v\f";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+std::string_view trim(std::string_view text) {
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return text.substr(text.size());
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::string_view without_comment(std::string_view text) { return text.substr(0, text.find('#')); }
+
+Error cannot_read(const std::string& path) {
+  return {ErrorCode::cannot_read, std::string("cannot be read: ") + std::strerror(errno), {path}};
+}
+
+// "+5" is 5, but "+-5" is not a number.
+std::string_view without_plus(std::string_view text) {
+  const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+';
+  return plus ? text.substr(1) : text;
+}
+
+// "1e-9999" may come back as 0 without complaint.
+bool has_nonzero_digit(std::string_view text) {
+  const auto mantissa = text.substr(0, text.find_first_of("eE"));
+  return mantissa.find_first_of("123456789") != std::string_view::npos;
+}
+
+}  // namespace
+
+std::string read_file(const std::string& path) {
+  errno = 0;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                             &std::fclose);
+  if (!file) throw cannot_read(path);
+  std::string content;
+  std::vector<char> chunk(1 << 16);
+  while (const auto n = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
+    content.append(chunk.data(), n);
+  }
+  if (std::ferror(file.get())) throw cannot_read(path);
+  return content;
+}
+
+std::string extension(const std::string& path) {
+  std::string ext = std::filesystem::path(path).extension().string();
+  std::transform(ext.begin(), ext.end(), ext.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return ext;
+}
+
+std::string with_extension(const std::string& path, const std::string& extension) {
+  return std::filesystem::path(path).replace_extension(extension).string();
+}
+
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string out = "'";
+  for (const char c : text.substr(0, kLongest)) out += c >= ' ' && c <= '~' ? c : '?';
+  return out + (text.size() > kLongest ? "...'" : "'");
+}
+
+std::string to_text(double value) {
+  char digits[32];  // the longest shortest form has 24 characters
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  return {digits, end};
+}
+
+bool is_coordinate(double value) noexcept {
+  const double size = std::abs(value);
+  return value == 0 || (size >= 0x1p-100 && size <= 0x1p100);
+}
+
+void Line::split_blanks(long number, std::string_view text) {
+  number_ = number;
+  text_ = without_comment(text);
+  fields_.clear();
+  for (auto at = text_.find_first_not_of(kBlanks); at != std::string_view::npos;) {
+    const auto end = std::min(text_.find_first_of(kBlanks, at), text_.size());
+    fields_.push_back(text_.substr(at, end - at));
+    at = text_.find_first_not_of(kBlanks, end);
+  }
+}
+
+void Line::split_separated(long number, std::string_view text, char separator) {
+  number_ = number;
+  text_ = text;
+  fields_.clear();
+  bool in_quotes = false;
+  for (std::size_t at = 0, begin = 0; at <= text.size(); ++at) {
+    if (at < text.size() && text[at] == '"') in_quotes = !in_quotes;
+    if (at < text.size() && (in_quotes || text[at] != separator)) continue;
+    auto field = trim(text.substr(begin, at - begin));
+    if (field.size() >= 2 && field.front() == '"' && field.back() == '"') {
+      field = trim(field.substr(1, field.size() - 2));
+    }
+    fields_.push_back(field);
+    begin = at + 1;
+  }
+}
+
+std::string_view Line::trimmed() const { return trim(text_); }
+
+Place Line::place(std::size_t i) const {
+  const char* at = text_.data();
+  if (i < fields_.size())
+    at = fields_[i].data();
+  else if (!fields_.empty())
+    at = fields_.back().data() + fields_.back().size();
+  return {file_, number_, at - text_.data() + 1};
+}
+
+double Line::finite(std::size_t i) const {
+  const auto field = without_plus(fields_[i]);
+  double value = 0;
+  const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (status == std::errc::invalid_argument || end != field.data() + field.size()) {
+    throw error(ErrorCode::bad_number, quoted(fields_[i]) + " is not a number", i);
+  }
+  if (status == std::errc::result_out_of_range || (value == 0 && has_nonzero_digit(field))) {
+    throw error(ErrorCode::magnitude, quoted(fields_[i]) + " is beyond the range of a double", i);
+  }
+  if (!std::isfinite(value)) {
+    throw error(ErrorCode::not_finite, quoted(fields_[i]) + " is not a finite number", i);
+  }
+  return value;
+}
+
+double Line::coordinate(std::size_t i) const {
+  const double value = finite(i);
+  if (is_coordinate(value)) return value + 0.0;
+  throw error(ErrorCode::magnitude,
+              "coordinate " + quoted(fields_[i]) + " is neither 0 nor of magnitude 2^-100 to 2^100",
+              i);
+}
+
+std::int64_t Line::integer(std::size_t i) const {
+  const auto field = without_plus(fields_[i]);
+  std::int64_t value = 0;
+  const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (status == std::errc{} && end == field.data() + field.size()) return value;
+  throw error(ErrorCode::bad_number, quoted(fields_[i]) + " is not an integer of 64 bits", i);
+}
+
+Lines::Lines(std::string_view text) : rest_(text) {
+  if (rest_.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
+    rest_.remove_prefix(kByteOrderMark.size());
+  }
+}
+
+bool Lines::next() {
+  if (rest_.empty()) return false;
+  const auto end = std::min(rest_.find('\n'), rest_.size());
+  line_ = rest_.substr(0, end);
+  if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
+  rest_.remove_prefix(std::min(end + 1, rest_.size()));
+  ++number_;
+  return true;
+}
+
+bool Lines::at_end() const {
+  Lines ahead = *this;
+  while (ahead.next()) {
+    if (!trim(without_comment(ahead.text())).empty()) return false;
+  }
+  return true;
+}
+
+bool FieldLines::next() {
+  while (lines_.next()) {
+    line_.split_blanks(lines_.number(), lines_.text());
+    if (line_.size() > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace mesher::text

@@ -1,0 +1,61 @@
+// ChooseSteiners [Fig 4.7, 4.10]: the Steiner points, bucket by bucket.
+//
+// The work queue is an agenda keyed (length bucket, ComputeNN before Complete, colour, place). What
+// a vertex is found to need, and where the new vertices go, is the InsertionRule's.
+#pragma once
+
+#include <algorithm>
+
+#include "program/world.hpp"
+
+namespace mesher::detail {
+
+struct Complete {
+  static constexpr std::string_view kName = "complete";
+  template <class S>
+  void operator()(S& s, VertexRef<2> v, int b) const;
+};
+inline constexpr Complete complete{};
+
+struct ComputeNN {
+  static constexpr std::string_view kName = "compute_nn";
+  template <class S>
+  void operator()(S& s, VertexRef<2> v, int b) const;
+};
+inline constexpr ComputeNN compute_nn{};
+
+/// When an event on a vertex at `f` runs, in bucket b.
+[[nodiscard]] inline sac::Key nearest_key(const Fixed<2>& f, int b) {
+  return {.bucket = b, .phase = 0, .order = morton<2>(f)};
+}
+template <class S>
+[[nodiscard]] sac::Key complete_key(const World<S>& w, const Fixed<2>& f, int b) {
+  return {.bucket = b, .phase = 1, .colour = w.rule.colour(f, b), .order = morton<2>(f)};
+}
+
+// if w is a ComputeNN event on v: compute the exact nearest neighbour u to v; add Complete(v) with
+// key |uv|
+template <class S>
+void ComputeNN::operator()(S& s, VertexRef<2> v, int b) const {
+  auto& w = s.template environment<World<S>>();
+  const double nearest2 = w.vertices.nearest2(s, v);
+  w.post_complete(s, v, std::max(b, w.rule.bucket(nearest2)));
+}
+
+// else if w is a Complete event on v: while there is a gap ball b = B(x, r) to fill: add x to the
+// vertices; add Complete(x), with key |xv|
+template <class S>
+void Complete::operator()(S& s, VertexRef<2> v, int b) const {
+  auto& w = s.template environment<World<S>>();
+  VoronoiCell& gaps = w.vertices.voronoi_cell(s, v, w.rule.clip_radius(b));
+  while (const auto point = w.rule.next_point(gaps, b)) {
+    const VertexRef<2> x = w.vertices.insert(s, point->p);
+    if (!point->farther || !gaps.cuts(x->p)) w.fail_useless(*v, *x);
+    gaps.cut(x->self);
+    w.post_complete(s, x, std::max(b + 1, w.rule.bucket(point->nearest2)));
+    w.post_star(s, x);
+  }
+  if (const auto later = w.rule.next_bucket(gaps, b)) w.post_complete(s, v, *later);
+}
+
+}  // namespace mesher::detail

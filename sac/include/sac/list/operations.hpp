@@ -1,0 +1,190 @@
+// Operations on lists, for traced functions: for_each, map, filter, reverse.
+//
+//   auto images = sac::map<image>(s, sac::filter<is_kept>(s, list));
+//
+// f and p are functions without state, of (value), (scope, value) or (scope, id, value). They may
+// read and write modifiables and make child calls; not tail calls. What an operation gives is
+// complete when it returns, and is up to date after every propagation.
+//
+// Cost, in calls. From scratch: one an element; map by an f that takes a scope: two. An edit makes
+// the call before its place run again, and that of the element new or go; a new value does both:
+//   for_each, map, reverse   2 executed at most, 1 created, 1 discarded
+//   map in a scope           3 executed at most, 2 created, 2 discarded
+//   filter                   as map, and one created and discarded for each element passed over
+//                            behind a kept one that comes or goes: O(1) expected if a constant part
+//                            is kept
+// When a modifiable changes that f reads through its scope, the calls that have read it run again.
+//
+// Labels. The calls of an operation are named by it, its functions, and the nodes of its list: `map
+// image`. The same operation on the same list twice makes calls of equal labels; use the result of
+// the first.
+#pragma once
+
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "sac/list/list.hpp"
+
+namespace sac {
+
+namespace detail {
+
+// --- for_each --------------------------------------------------------------------------------
+
+template <auto f>
+struct ForEach {
+  static constexpr std::string_view kName = kOperationName<"for_each", f>;
+  template <class S, class T>
+  void operator()(S& s, const ListNode<T, S>* at) const {
+    const auto* const next = s.read(at->next);
+    if (at->holds()) apply<f>(s, *at);
+    if (next != nullptr) s.template tail<ForEach{}>(next);
+  }
+};
+
+// --- map -------------------------------------------------------------------------------------
+
+// The image of a node, keyed by it, and those behind. Its value is a function of the key: once is
+// enough.
+template <auto f>
+struct Map {
+  static constexpr std::string_view kName = kOperationName<"map", f>;
+  template <class S, class T, class U>
+  void operator()(S& s, ListNode<U, S>& self, const ListNode<T, S>* in) const {
+    if (in->holds() && !self.holds()) self.hold(in->id(), f(in->value()));
+    const auto* const next = s.read(in->next);
+    s.write(self.next,
+            next == nullptr ? nullptr : &s.template tail_make<ListNode<U, S>, Map{}>(next));
+  }
+};
+
+// Where f takes a scope, the image of an element may change while its node does not: a node of the
+// result is keyed by what it holds, and linked by another call.
+template <auto f>
+struct Image {
+  static constexpr std::string_view kName = kOperationName<"image", f>;
+  template <class S, class T, class U>
+  void operator()(S&, ListNode<U, S>& self, const ListNode<T, S>* in, const U& value) const {
+    self.hold(in->id(), value);
+  }
+};
+
+template <auto f>
+struct MapBehind {
+  static constexpr std::string_view kName = kOperationName<"map_behind", f>;
+  template <class S, class T, class U>
+  void operator()(S& s, const ListNode<T, S>* in, ListNode<U, S>* before) const {
+    const auto* const next = s.read(in->next);
+    if (next == nullptr) return s.write(before->next, nullptr);
+    U value = apply<f>(s, *next);
+    auto& image = s.template make<ListNode<U, S>, Image<f>{}>(next, std::move(value));
+    s.write(before->next, &image);
+    s.template tail<MapBehind{}>(next, &image);
+  }
+};
+
+template <auto f>
+struct MapInScope {
+  static constexpr std::string_view kName = kOperationName<"map", f>;
+  template <class S, class T, class U>
+  void operator()(S& s, ListNode<U, S>& self, const ListNode<T, S>* header) const {
+    s.template tail<MapBehind<f>{}>(header, &self);
+  }
+};
+
+// --- filter ----------------------------------------------------------------------------------
+
+template <auto p>
+struct FilterBehind;
+
+// The copy of a node that is kept, and those behind.
+template <auto p>
+struct Filter {
+  static constexpr std::string_view kName = kOperationName<"filter", p>;
+  template <class S, class T>
+  void operator()(S& s, ListNode<T, S>& self, const ListNode<T, S>* in) const {
+    if (in->holds() && !self.holds()) self.hold(in->id(), in->value());
+    FilterBehind<p>{}(s, &self, in);
+  }
+};
+
+// Links `kept` to the copy of the first node behind `at` that is kept.
+template <auto p>
+struct FilterBehind {
+  static constexpr std::string_view kName = kOperationName<"filter_behind", p>;
+  template <class S, class T>
+  void operator()(S& s, ListNode<T, S>* kept, const ListNode<T, S>* at) const {
+    const auto* const next = s.read(at->next);
+    if (next == nullptr) {
+      s.write(kept->next, nullptr);
+    } else if (apply<p>(s, *next)) {
+      s.write(kept->next, &s.template tail_make<ListNode<T, S>, Filter<p>{}>(next));
+    } else {
+      s.template tail<FilterBehind{}>(kept, next);
+    }
+  }
+};
+
+// --- reverse ---------------------------------------------------------------------------------
+
+// The copy of a node; the caller links it to the node before, and the last one is the first of
+// `header`.
+struct ReverseNode {
+  static constexpr std::string_view kName = "reverse_node";
+  template <class S, class T>
+  void operator()(S& s, ListNode<T, S>& self, const ListNode<T, S>* in,
+                  ListNode<T, S>* header) const {
+    if (!self.holds()) self.hold(in->id(), in->value());
+    const auto* const next = s.read(in->next);
+    if (next == nullptr) return s.write(header->next, &self);
+    auto& before = s.template tail_make<ListNode<T, S>, ReverseNode{}>(next, header);
+    s.write(before.next, &self);
+  }
+};
+
+struct Reverse {
+  static constexpr std::string_view kName = "reverse";
+  template <class S, class T>
+  void operator()(S& s, ListNode<T, S>& self, const ListNode<T, S>* list) const {
+    const auto* const first = s.read(list->next);
+    if (first == nullptr) return s.write(self.next, nullptr);
+    auto& last = s.template tail_make<ListNode<T, S>, ReverseNode{}>(first, &self);
+    s.write(last.next, nullptr);
+  }
+};
+
+}  // namespace detail
+
+/// Calls f for every element, in order, each in a traced call of its own.
+template <auto f, class S, class T>
+void for_each(S& s, List<T, S> list) {
+  s.template call<detail::ForEach<f>{}>(list.header());
+}
+
+/// The list of f of every element. If f takes a scope, what it returns must be hashable, as an
+/// argument. An f of the value alone is called once for an element.
+template <auto f, class S, class T>
+[[nodiscard]] auto map(S& s, List<T, S> list) {
+  using U = std::decay_t<decltype(detail::apply<f>(s, *list.header()))>;
+  using Node = ListNode<U, S>;
+  if constexpr (detail::kOfValueAlone<f, T>) {
+    return List<U, S>(s.template make<Node, detail::Map<f>{}>(list.header()));
+  } else {
+    return List<U, S>(s.template make<Node, detail::MapInScope<f>{}>(list.header()));
+  }
+}
+
+/// The list of those elements for which p holds.
+template <auto p, class S, class T>
+[[nodiscard]] List<T, S> filter(S& s, List<T, S> list) {
+  return List<T, S>(s.template make<ListNode<T, S>, detail::Filter<p>{}>(list.header()));
+}
+
+/// The list backwards.
+template <class S, class T>
+[[nodiscard]] List<T, S> reverse(S& s, List<T, S> list) {
+  return List<T, S>(s.template make<ListNode<T, S>, detail::Reverse{}>(list.header()));
+}
+
+}  // namespace sac

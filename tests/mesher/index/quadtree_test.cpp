@@ -1,0 +1,168 @@
+// The quadtree that the program builds is the naive one's, whatever edits led to it.
+#include "index/quadtree.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "edit_sequence.hpp"
+#include "naive_quadtree.hpp"
+#include "traced_world.hpp"
+
+namespace {
+
+using mesher::Point;
+using mesher::SplitMix64;
+using mesher::detail::kLevels;
+using mesher::detail::MeshBox;
+using mesher::detail::VertexHandle;
+using support::Cell;
+
+std::set<Cell> leaves_of(support::TracedWorld& world) {
+  std::set<Cell> all;
+  world.world().vertices.tree().for_each_leaf([&](const Cell& c) { all.insert(c); });
+  return all;
+}
+
+// Cells that touch, corners included, differ by one level at most.
+bool graded(const std::set<Cell>& leaves) {
+  const auto size = [](const Cell& c) { return std::uint64_t{1} << (kLevels - c.level); };
+  for (const Cell& a : leaves) {
+    for (const Cell& b : leaves) {
+      if (a.level <= b.level + 1) continue;
+      bool touch = true;
+      for (std::size_t i = 0; i < 2; ++i) {
+        touch =
+            touch && a.corner[i] <= b.corner[i] + size(b) && b.corner[i] <= a.corner[i] + size(a);
+      }
+      if (touch) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "after every edit the quadtree is the naive one of the points, and graded 2:1 [Fig 4.3, 4.4]") {
+  for (const support::Family family : support::kFamilies) {
+    const auto sequence = random_sequence(family, {}, 30, 60, 19);
+    INFO(name(family) << ", seed 19");
+    support::TracedWorld world(sequence.options);
+    support::PointSet points;
+    for (const auto& step : sequence.steps) {
+      for (const auto& edit : step) perform(edit, world, points);
+      world.update();
+      std::vector<support::Fixed> places;
+      for (const auto& [id, p] : points) places.push_back(world.box().fixed(p));
+      const std::set<Cell> leaves = leaves_of(world);
+      REQUIRE(leaves == support::NaiveQuadtree(places).leaves());
+      REQUIRE(graded(leaves));
+      world.world().vertices.check_invariants();
+    }
+  }
+}
+
+TEST_CASE("a search meets every vertex within its radius, in trees of any depth") {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    INFO("seed " << seed);
+    SplitMix64 random(seed);
+    // Far from the origin coordinates are coarse against the smallest cells.
+    const double far = seed % 3 == 0 ? 0x1p20 : seed % 3 == 1 ? -0x1p33 : 0;
+    const MeshBox<2> box{.lo = {far - 1.5, far - 1.5}, .side = 4};
+    mesher::detail::VertexPool<2> pool;
+    mesher::detail::Quadtree<2> tree(box, pool);
+    std::vector<mesher::detail::Vertex<2>*> all;
+    const auto coordinate = [&] {
+      const double cell = std::ldexp(static_cast<double>(random.below(65)) / 16, 0);  // on borders
+      const double x = random.below(3) == 0 ? cell
+                       : random.below(2) == 0
+                           ? 4 * random.unit()
+                           : 1 + std::ldexp(random.unit(), -static_cast<int>(random.below(40)));
+      return std::clamp(box.lo[0] + x, box.lo[0], box.lo[0] + 4);
+    };
+    for (int i = 0; i < 200; ++i) {
+      const Point<2> p{coordinate(), coordinate()};
+      if (tree.find(p) != nullptr) continue;
+      auto& v = pool.create(p);
+      tree.insert(v);
+      REQUIRE(tree.find(p) == &v);
+      all.push_back(&v);
+      if (random.below(2) == 0) {
+        const auto& q = all[random.below(all.size())]->p;
+        tree.mark(MeshBox<2>::cell(box.fixed(q), static_cast<int>(random.below(45))));
+      }
+    }
+    for (int i = 0; i < 100; ++i) {
+      const auto* center = all[random.below(all.size())];
+      const auto* other = all[random.below(all.size())];
+      const auto distance = [&](const Point<2>& p) {
+        return std::sqrt((p[0] - center->p[0]) * (p[0] - center->p[0]) +
+                         (p[1] - center->p[1]) * (p[1] - center->p[1]));
+      };
+      const double radius = distance(other->p);  // a vertex just on the border of the search
+      std::set<VertexHandle> met;
+      tree.visit_around(
+          center->p, [&] { return radius; }, [](const Point<2>&, double) { return true; },
+          [&](VertexHandle h, const Point<2>&) {
+            met.insert(h);
+            return false;
+          });
+      for (const auto* v : all) {
+        if (distance(v->p) <= radius) REQUIRE(met.contains(v->self));
+      }
+    }
+    for (auto* v : all) {
+      v->reach = static_cast<float>(random.unit() / 4);
+      tree.raise_reach(*v);
+    }
+    tree.check_reach();
+    for (int i = 0; i < 100; ++i) {
+      const Point<2> p{coordinate(), coordinate()};
+      std::set<VertexHandle> met;
+      tree.visit_reaching(p, [&](auto& v) { met.insert(v.self); });
+      for (const auto* v : all) {
+        const double x = v->p[0] - p[0], y = v->p[1] - p[1];
+        const double reach = v->reach * 4.0;
+        REQUIRE(met.contains(v->self) == (x * x + y * y <= reach * reach));
+      }
+      auto& v = *all[random.below(all.size())];
+      v.reach = 0;
+      tree.check_reach();
+    }
+  }
+}
+
+TEST_CASE("marks taken back leave one cell, and vertices are found all the while") {
+  const MeshBox<2> box{.lo = {-1.5, -1.5}, .side = 4};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    INFO("seed " << seed);
+    SplitMix64 random(seed);
+    mesher::detail::VertexPool<2> pool;
+    mesher::detail::Quadtree<2> tree(box, pool);
+    std::vector<mesher::detail::Vertex<2>*> all;
+    for (int i = 0; i < 100; ++i) {
+      all.push_back(&pool.create({random.unit(), random.unit() * random.unit()}));
+      tree.insert(*all.back());
+    }
+    std::map<Cell, mesher::detail::Quadtree<2>::NodeIndex> marked;
+    for (int i = 0; i < 300; ++i) {
+      const auto& p = all[random.below(all.size())]->p;
+      const Cell c = MeshBox<2>::cell(box.fixed(p), static_cast<int>(random.below(12)));
+      if (const auto it = marked.find(c); it != marked.end()) {
+        tree.unmark(it->second);
+        marked.erase(it);
+      } else {
+        marked[c] = tree.mark(c);
+      }
+      for (const auto* v : all) REQUIRE(tree.find(v->p) == v);
+      tree.check_reach();
+    }
+    for (const auto& [cell, node] : marked) tree.unmark(node);
+    int leaves = 0;
+    tree.for_each_leaf([&](const Cell&) { ++leaves; });
+    CHECK(leaves == 1);
+    for (auto* v : all) tree.erase(*v);
+    for (const auto* v : all) REQUIRE(tree.find(v->p) == nullptr);
+  }
+}
