@@ -91,7 +91,8 @@ void ModStructure::fail_unwritten(const Call& reader, Handle head) const {
   } else if (at(head)->written) {
     later = at(head);
   }
-  if (later == nullptr) throw UsageError(text + ", which nobody has written");
+  const bool is_later = later != nullptr && engine_.precedes(reader, writer(*later));
+  if (!is_later) throw UsageError(text + ", which nobody has written");
   throw UsageError(text + ", which is written only by the later call " +
                    Engine::describe(writer(*later)));
 }
