@@ -9,6 +9,7 @@
 #include "sac/agenda.hpp"
 #include "sac/mod.hpp"
 #include "sac/scope.hpp"
+#include "weights.hpp"
 
 namespace sac {
 

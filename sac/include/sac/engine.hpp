@@ -49,6 +49,7 @@ template <class T, class Same = std::equal_to<>>
 class Cell;
 class Agenda;
 class ModStructure;
+class Weights;
 
 /// The work of one run or propagation, with that of the edits before it.
 struct Counts {
@@ -59,6 +60,7 @@ struct Counts {
   std::uint64_t edges_made = 0;     ///< reads, writes, posts, ... recorded
   std::uint64_t edges_removed = 0;  ///< reads, writes, posts, ... taken back
   std::uint64_t confirmed = 0;      ///< calls not run: they would read what they have read
+  std::uint64_t weight = 0;         ///< what bodies said by Scope::weigh, if weights are recorded
 };
 
 /// What the detectors saw; both empty for a program that is concise and monotone.
@@ -182,6 +184,13 @@ class Engine {
   /// Watches for calls that break conciseness or monotonicity; costs a table look-up a call.
   void set_audit(bool on) noexcept { audit_ = on; }
   [[nodiscard]] const AuditReport& audit() const noexcept { return report_; }
+
+  /// From now on the trace holds what calls say by Scope::weigh: 16 bytes each time. To be asked for
+  /// before the first run: calls that are there have no weight until they run again.
+  void record_weights();
+  [[nodiscard]] bool records_weights() const noexcept { return weights_ != nullptr; }
+  /// What `call` has said by Scope::weigh, in all. Cost: O(its edges).
+  [[nodiscard]] std::uint64_t weight_of(const Call& call) const noexcept;
 
   [[nodiscard]] std::uint64_t live_calls() const noexcept { return live_calls_; }
   [[nodiscard]] std::uint64_t live_edges() const noexcept { return live_edges_; }
@@ -422,6 +431,7 @@ class Engine {
   PropagationQueue queue_;
   std::vector<Structure*> structures_;
   std::unique_ptr<ModStructure> mods_;
+  std::unique_ptr<Weights> weights_;  // null: not recorded
   std::vector<std::unique_ptr<Agenda>> agendas_;
   Registry<Function> functions_;
   Registry<OutsideType> outside_types_;

@@ -304,6 +304,12 @@ class Scope {
   template <class T, class Same>
   void write(const Cell<T, Same>& cell, std::type_identity_t<T> value);
 
+  /// Says that the running call does `n` steps, elements of a chunk that it looks at, say: what a
+  /// count of calls does not show. A branch, unless weights are recorded (Engine::record_weights).
+  void weigh(std::uint64_t n) {
+    if (engine_.weights_ != nullptr) [[unlikely]] record_weight(n);
+  }
+
   /// Makes a child call, or reuses an equal one ahead in the interval that runs again. If F returns
   /// something, so does call(): by reference, good while the caller runs. The caller depends on it.
   template <auto F, class... Args>
@@ -368,6 +374,7 @@ class Scope {
   template <auto F, class FrameType>
   friend void detail::execute_with_result(Scope& scope, Call& call);
   void result_changed(Handle caller) noexcept { engine_.result_changed(caller); }
+  void record_weight(std::uint64_t n);
 
   // The public operations, with arguments converted to what they are kept as.
   template <auto F, class... P, class... Args>
