@@ -82,7 +82,7 @@ TEMPLATE_LIST_TEST_CASE("no call of an example is heavy in an update, however la
 }
 
 TEMPLATE_LIST_TEST_CASE("the same for many edits", "[.soak]", Examples) {
-  check_weights<TestType>(100'000, 300);
+  check_weights<TestType>(20'000, 300);
 }
 
 TEST_CASE("By weight, a call that one trace alone has counts as much as it weighs") {
