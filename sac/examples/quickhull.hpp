@@ -10,9 +10,10 @@
 // ends. So the hull has corners only, and depends on the set of points alone.
 //
 // From scratch O(n) where a filter drops a constant part of the points, O(n h) at worst for h
-// corners. An inserted or deleted point that is no corner costs one chunk of each filter that it
-// passes, and O(log n) where it was farthest of a group. Source: [Aca05], there without
-// chunks.
+// corners. An inserted or deleted point that is no corner costs one call of each filter that meets
+// it, which looks at the chunks that are joined there, and O(log n) where it was farthest of a
+// group. Where nearly all points are dropped, as in a square, lists of marks are left; one without
+// a farthest point is the end. Source: [Aca05], there without chunks.
 #pragma once
 
 #include <cstdint>
@@ -155,7 +156,8 @@ void CutPoints::operator()(S& s, AllPoints<S>& self, const PointNode<S>* first) 
 
 // --- The hull --------------------------------------------------------------------------------
 
-/// The points of `from`, and of the chunks behind it, that lie to the left of the line from a to b.
+/// The points of `from`, and of the chunks behind it, that lie to the left of the line from a to b;
+/// a filter in the sense of chunk.hpp.
 struct KeepOutside {
   static constexpr std::string_view kName = "keep_outside";
   template <class S, class C>
