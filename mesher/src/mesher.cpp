@@ -22,7 +22,8 @@ using Triangle = std::array<VertexHandle, 3>;
 std::string text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
 CallCounts call_counts(const sac::Counts& c) {
-  return {c.executed, c.reused, c.created, c.discarded, c.edges_made + c.edges_removed};
+  return {c.executed, c.reused, c.created, c.discarded, c.edges_made + c.edges_removed,
+          c.weight};
 }
 
 }  // namespace
@@ -34,6 +35,7 @@ struct Mesher<2>::Impl {
         box(detail::mesh_box(o)),
         engine(std::make_unique<sac::Engine>()),
         world(std::make_unique<detail::World<sac::Scope>>(options, box, *engine)) {
+    if (o.record_weights) engine->record_weights();
     predicates::self_test();
   }
   ~Impl() {

@@ -3,6 +3,10 @@
 //   examples_bench [APP|all [N...]]     default: all, lists at 10^4, 10^5, 10^6, sorts and hulls
 //                                       at 10^4, 10^5
 //
+// Hulls are of points in a disc, where many are corners, and of points in a square, where few are
+// and the benchmarks of CEAL are (..._square). Sorts take chunks of 16 elements in the mean to a
+// call, where those of CEAL take one.
+//
 // One JSON line per figure. Each application runs in a process of its own:
 //   from_scratch      ms of processor time, as all of the runs; the first run on an engine, median
 //                     of 3
@@ -16,8 +20,10 @@
 //   update_in_order   the same for one element after the other
 //   work              calls executed, created and discarded in an update, means; and their sum's
 //                     median and 99th percentile
-//   trace             bytes, calls and edges per element; resident bytes of the process, inputs
-//                     included, per element
+//   weight            steps that bodies make inside (Scope::weigh) in an update, mean and most; in
+//                     updates of their own
+//   trace             per element: bytes of trace and result, the same with the input, calls and
+//                     edges; resident bytes of the process, inputs included
 //   batch             us; that many values of an array changed, and a propagation
 #include <sys/wait.h>
 
@@ -74,14 +80,17 @@ std::vector<Element> random_elements(std::size_t n) {
   return elements;
 }
 
-// Uniform in a disc of radius 2^20 around (x, 0).
-std::vector<Point> random_points(std::size_t n, int x, std::uint32_t first_id) {
+enum class Shape { disc, square };
+
+// Uniform in a disc of radius 2^20 around (x, 0), or in the square around it.
+std::vector<Point> random_points(Shape shape, std::size_t n, int x, std::uint32_t first_id) {
   bench::Random random;
   const auto coordinate = [&] { return static_cast<int>(random.below(1 << 21)) - (1 << 20); };
   std::vector<Point> points;
   while (points.size() < n) {
     const Point p{coordinate(), coordinate(), static_cast<std::uint32_t>(points.size())};
-    if (squared_distance(p, Point{}) > std::int64_t{1} << 40) continue;
+    const bool outside = squared_distance(p, Point{}) > std::int64_t{1} << 40;
+    if (shape == Shape::disc && outside) continue;
     points.push_back({p.x + x, p.y, p.id + first_id});
   }
   return points;
@@ -136,10 +145,13 @@ struct ListApp : ElementApp {
   template <class S>
   using Result = const Node<S>*;
 };
+template <Shape shape>
 struct PointApp {
   using Item = Point;
   static constexpr int kLists = 1;
-  static std::vector<std::vector<Point>> inputs(std::size_t n) { return {random_points(n, 0, 1)}; }
+  static std::vector<std::vector<Point>> inputs(std::size_t n) {
+    return {random_points(shape, n, 0, 1)};
+  }
 };
 
 struct MapApp : ListApp {
@@ -184,16 +196,19 @@ struct MergesortApp : ListApp {
     return plain_lists::mergesort(nodes, in)->element.value;
   }
 };
-struct QuickhullApp : PointApp {
+template <Shape shape>
+struct QuickhullApp : PointApp<shape> {
   template <class S>
   using Result = Hull<S>;
   static constexpr auto program = quickhull;
 };
-struct DiameterApp : PointApp {
+template <Shape shape>
+struct DiameterApp : PointApp<shape> {
   template <class S>
   using Result = std::int64_t;
   static constexpr auto program = diameter;
 };
+template <Shape shape>
 struct DistanceApp {
   using Item = Point;
   template <class S>
@@ -201,7 +216,8 @@ struct DistanceApp {
   static constexpr int kLists = 2;
   static constexpr auto program = distance;
   static std::vector<std::vector<Point>> inputs(std::size_t n) {
-    return {random_points(n / 2, 0, 1), random_points(n - n / 2, 1 << 22, 1u << 30)};
+    return {random_points(shape, n / 2, 0, 1),
+            random_points(shape, n - n / 2, 1 << 22, 1u << 30)};
   }
 };
 
@@ -238,7 +254,7 @@ double plain_ms(const Report& report, const char* figure) {
 
 struct Updates {
   std::vector<double> microseconds, work;
-  double executed = 0, created = 0, discarded = 0, edges = 0;
+  double executed = 0, created = 0, discarded = 0, edges = 0, weight = 0, most_weight = 0;
 
   template <class Edit>
   void add(sac::Engine& engine, Edit&& edit) {
@@ -253,6 +269,8 @@ struct Updates {
     created += real(counts.created);
     discarded += real(counts.discarded);
     edges += real(counts.edges_made + counts.edges_removed);
+    weight += real(counts.weight);
+    most_weight = std::max(most_weight, real(counts.weight));
     work.push_back(real(counts.executed + counts.created + counts.discarded));
   }
   void print_times(const Report& report, const char* figure, double cpu_nanoseconds) const {
@@ -271,34 +289,49 @@ struct Updates {
   }
 };
 
+template <class World>
+void take_out_and_put_back(Updates& updates, World& world, std::size_t list, std::size_t i) {
+  sac::Engine& engine = *world.host;
+  const auto& nodes = world.lists[list];
+  const typename World::N* const taken = nodes[i + 1];
+  const typename World::N* const behind = engine.get(taken->next);
+  updates.add(engine, [&] { engine.set(nodes[i]->next, behind); });
+  updates.add(engine, [&] { engine.set(nodes[i]->next, taken); });
+}
+
+template <class World>
+void update_at_random(Updates& updates, World& world) {
+  bench::Random random;
+  for (int k = 0; k < 5000; ++k) {
+    const std::size_t list = random.below(world.lists.size());
+    take_out_and_put_back(updates, world, list, random.below(world.lists[list].size() - 1));
+  }
+}
+
 // At random places; then at places one behind the other, where what an update touches is in cache.
 template <class App>
 void bench_updates(const Report& report, World<App, sac::Engine>& world) {
-  using N = typename World<App, sac::Engine>::N;
-  sac::Engine& engine = *world.host;
-  bench::Random random;
-  const auto take_out_and_put_back = [&](Updates& updates, const auto& nodes, std::size_t i) {
-    const N* const taken = nodes[i + 1];
-    const N* const behind = engine.get(taken->next);
-    updates.add(engine, [&] { engine.set(nodes[i]->next, behind); });
-    updates.add(engine, [&] { engine.set(nodes[i]->next, taken); });
-  };
   Updates updates, in_order;
-  const double total = cpu_nanoseconds([&] {
-    for (int k = 0; k < 5000; ++k) {
-      const auto& nodes = world.lists[random.below(world.lists.size())];
-      take_out_and_put_back(updates, nodes, random.below(nodes.size() - 1));
-    }
-  });
+  const double total = cpu_nanoseconds([&] { update_at_random(updates, world); });
   updates.print(report, total);
   const double total_in_order = cpu_nanoseconds([&] {
-    const auto& nodes = world.lists[0];
-    const std::size_t middle = nodes.size() / 2;
-    for (std::size_t i = middle; i < std::min(middle + 5000, nodes.size() - 1); ++i) {
-      take_out_and_put_back(in_order, nodes, i);
+    const std::size_t size = world.lists[0].size(), middle = size / 2;
+    for (std::size_t i = middle; i < std::min(middle + 5000, size - 1); ++i) {
+      take_out_and_put_back(in_order, world, 0, i);
     }
   });
   in_order.print_times(report, "update_in_order", total_in_order);
+}
+
+template <class App>
+void count_weights(const Report& report) {
+  World<App, sac::Engine> world(report.n);
+  world.host->record_weights();
+  world.run();
+  Updates updates;
+  update_at_random(updates, world);
+  report("weight", "\"mean\":%.1f,\"most\":%.0f",
+         updates.weight / static_cast<double>(updates.work.size()), updates.most_weight);
 }
 
 template <class App>
@@ -311,8 +344,11 @@ double traced_ms(const Report& report) {
     const auto bytes = static_cast<double>(engine.bytes());
     times.push_back(cpu_nanoseconds([&] { world.run(); }) / 1e6);
     if (round > 0) continue;
-    report("trace", "\"bytes\":%.1f,\"calls\":%.3f,\"edges\":%.3f,\"resident_bytes\":%.1f",
+    report("trace",
+           "\"bytes\":%.1f,\"bytes_with_input\":%.1f,\"calls\":%.3f,\"edges\":%.3f,"
+           "\"resident_bytes\":%.1f",
            report.per_element(static_cast<double>(engine.bytes()) - bytes),
+           report.per_element(static_cast<double>(engine.bytes())),
            report.per_element(static_cast<double>(engine.live_calls())),
            report.per_element(static_cast<double>(engine.live_edges())),
            report.per_element(bench::resident_bytes() - resident));
@@ -325,6 +361,7 @@ double traced_ms(const Report& report) {
 template <class App>
 void bench_app(const Report& report) {
   const double traced = traced_ms<App>(report);
+  count_weights<App>(report);
   report("over_static", "\"ratio\":%.2f", traced / static_ms<App>(report));
   if constexpr (std::is_same_v<typename App::Item, Element>) {
     const double arena = plain_ms<App, plain_lists::ArenaNodes>(report, "plain_arena");
@@ -421,9 +458,12 @@ const Application kApplications[] = {
     {"list_sum", 1000000, &bench_app<SumApp>},
     {"quicksort", 100000, &bench_app<QuicksortApp>},
     {"mergesort", 100000, &bench_app<MergesortApp>},
-    {"quickhull", 100000, &bench_app<QuickhullApp>},
-    {"diameter", 100000, &bench_app<DiameterApp>},
-    {"distance", 100000, &bench_app<DistanceApp>},
+    {"quickhull", 100000, &bench_app<QuickhullApp<Shape::disc>>},
+    {"diameter", 100000, &bench_app<DiameterApp<Shape::disc>>},
+    {"distance", 100000, &bench_app<DistanceApp<Shape::disc>>},
+    {"quickhull_square", 100000, &bench_app<QuickhullApp<Shape::square>>},
+    {"diameter_square", 100000, &bench_app<DiameterApp<Shape::square>>},
+    {"distance_square", 100000, &bench_app<DistanceApp<Shape::square>>},
 };
 
 }  // namespace

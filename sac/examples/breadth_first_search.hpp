@@ -69,7 +69,9 @@ void Visit::operator()(S& s, int v, int level) const {
   auto& graph = s.template environment<Graph<S>>();
   if (s.read(graph.hops[v]) <= level) return;
   s.write(graph.hops[v], level);
-  for (const int w : s.read(graph.edges[v])) post_visit(s, w, level + 1);
+  const std::vector<int>& edges = s.read(graph.edges[v]);
+  s.weigh(edges.size());
+  for (const int w : edges) post_visit(s, w, level + 1);
 }
 
 struct Begin {

@@ -37,7 +37,8 @@ struct Chunk {
       sac::label_arguments(sink, std::tie(s.elements, s.next));
     }
   };
-  T boundary;  // a header's is T{}
+  T boundary;     // a header's is T{}
+  int marks = 0;  // filters that have passed the boundary on as a mark; 0: it is an element
   typename S::template CellType<State> state;
 };
 
@@ -47,9 +48,11 @@ template <class S, class T, class Take>
 const Node<S, T>* read_to_boundary(S& s, const Node<S, T>* first, Take&& take) {
   if (first->element.id != 0) take(first->element);
   const Node<S, T>* node = s.read(first->next);
-  for (; node != nullptr && !is_boundary(node->element.id); node = s.read(node->next)) {
+  std::uint64_t taken = 1;
+  for (; node != nullptr && !is_boundary(node->element.id); node = s.read(node->next), ++taken) {
     take(node->element);
   }
+  s.weigh(taken);
   return node;
 }
 
@@ -70,6 +73,37 @@ void CutIntoChunks::operator()(S& s, Chunk<S, T>& self, const Node<S, T>* first)
   s.write(self.state, std::move(state));
 }
 
+// --- Filters ---------------------------------------------------------------------------------
+//
+// A filter drops elements, and boundaries with them; a chunk whose boundary is dropped is joined to
+// the one before. But a filter that drops nearly all would join nearly all, and one call would read
+// them at each edit. So some boundaries go on as *marks* that hold no element: one in 16, by a coin
+// of its own in each filter, so that marks get fewer from filter to filter; and the next, where
+// kMostJoined chunks have been joined. A call reads as many chunks at most.
+
+inline constexpr int kMarkBits = 4;
+inline constexpr int kMostJoined = 2 << kMarkBits;
+
+/// What becomes of a chunk's boundary in a filter; C: Chunk, or a type like it.
+template <class C>
+[[nodiscard]] int marks_behind_filter(const C& chunk, bool keeps_boundary) noexcept {
+  return chunk.marks == 0 && keeps_boundary ? 0 : chunk.marks + 1;
+}
+
+/// Says, for one chunk after the other, whether a filter joins it to those before.
+class Joins {
+ public:
+  template <class C>
+  bool operator()(const C& chunk, bool keeps_boundary) {
+    const auto marks = static_cast<std::uint64_t>(marks_behind_filter(chunk, keeps_boundary));
+    if (marks == 0 || ++joined_ == kMostJoined) return false;
+    return sac::mix(marks << 32 | chunk.boundary.id) >> (64 - kMarkBits) != 0;
+  }
+
+ private:
+  int joined_ = 0;
+};
+
 /// The node for `e` in the result of a program. A program that does not meet elements in the order
 /// of its result gives the part in which it met this one as `part`: a label then is not in another
 /// part, at another time, when a part is divided elsewhere.
@@ -88,6 +122,7 @@ Node<S, T>* link_behind(S& s, Node<S, T>* last, const std::vector<T>& elements, 
     s.write(last->next, &node);
     last = &node;
   }
+  s.weigh(elements.size());
   return last;
 }
 

@@ -61,9 +61,11 @@ struct Join {
   template <class S>
   void operator()(S& s, int v, int w) const {
     auto& parents = s.template environment<Components<S>>().parents;
-    const auto parent_of = [&](int u) { return s.read(parents[u]); };
+    std::uint64_t steps = 0;
+    const auto parent_of = [&](int u) { return ++steps, s.read(parents[u]); };
     int low = root_of(v, parent_of);
     int high = root_of(w, parent_of);
+    s.weigh(steps);
     if (low == high) return;
     if (lot_of_vertex(low) > lot_of_vertex(high)) std::swap(low, high);
     s.write(parents[low], high);

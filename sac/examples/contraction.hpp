@@ -79,11 +79,13 @@ template <class S, class Member>
 void Contract<Op>::operator()(S& s, Group<S, Op>& self, const Member* first) const {
   self.height = height(*first) - 1;
   auto [value, next] = read_group<Op>(s, first);
-  while (next != nullptr && height(*next) == 0) {
+  std::uint64_t members = 1;
+  for (; next != nullptr && height(*next) == 0; ++members) {
     const auto member = read_group<Op>(s, next);
     value = Op::join(value, member.value);
     next = member.next;
   }
+  s.weigh(members);
   using G = Group<S, Op>;
   const G* behind = next == nullptr ? nullptr : &s.template tail_make<G, contract<Op>>(next);
   s.write(self.state, {value, behind});

@@ -97,6 +97,7 @@ void merge_into(S& s, SortedChunk<S>& self, const SortedChunk<S>* a, const Sorte
   const auto from_a = shared(in_a.elements), from_b = shared(in_b.elements);
   typename SortedChunk<S>::State state;
   state.elements.resize(from_a.size() + from_b.size());
+  s.weigh(state.elements.size());
   std::merge(from_a.begin(), from_a.end(), from_b.begin(), from_b.end(), state.elements.begin());
   if (behind != nullptr) {
     auto& next = s.template tail_make<SortedChunk<S>, merged_chunk>(behind->boundary, added);
@@ -166,6 +167,7 @@ void SortGroup::operator()(S& s, Sorted<S>& self, const Node<S>* first) const {
     next = s.read(next->next);
   } while (next != nullptr && heads(next->element.id) < kGroupBits);
   std::sort(elements.begin(), elements.end());
+  s.weigh(elements.size());
   const SortedChunk<S>& chunks = make_chunks(s, first, elements);
   s.write(
       self.state,
@@ -184,11 +186,13 @@ template <class S>
 void MergeGroup::operator()(S& s, Sorted<S>& self, const Sorted<S>* first) const {
   self.height = first->height - 1;
   auto [chunks, next] = s.read(first->state);
-  while (next != nullptr && next->height == 0) {
+  std::uint64_t members = 1;
+  for (; next != nullptr && next->height == 0; ++members) {
     const auto member = s.read(next->state);
     chunks = &s.template make<SortedChunk<S>, merge>(chunks, member.chunks, next);
     next = member.next;
   }
+  s.weigh(members);
   s.write(
       self.state,
       {chunks, next == nullptr ? nullptr : &s.template tail_make<Sorted<S>, merge_group>(next)});

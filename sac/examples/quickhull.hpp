@@ -10,11 +10,13 @@
 // ends. So the hull has corners only, and depends on the set of points alone.
 //
 // From scratch O(n) where a filter drops a constant part of the points, O(n h) at worst for h
-// corners. An inserted or deleted point that is no corner costs one chunk of each filter that it
-// passes, and O(log n) where it was farthest of a group. Source: [Aca05], there without
-// chunks.
+// corners. An inserted or deleted point that is no corner costs one call of each filter that meets
+// it, which looks at the chunks that are joined there, and O(log n) where it was farthest of a
+// group. Where nearly all points are dropped, as in a square, lists of marks are left; one without
+// a farthest point is the end. Source: [Aca05], there without chunks.
 #pragma once
 
+#include <cstdint>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -99,6 +101,7 @@ struct PointChunk {
     }
   };
   Point boundary;
+  int marks = 0;  // as in Chunk
   typename S::template CellType<State> state;
   typename S::template CellType<Folded> folded;
 };
@@ -153,7 +156,8 @@ void CutPoints::operator()(S& s, AllPoints<S>& self, const PointNode<S>* first) 
 
 // --- The hull --------------------------------------------------------------------------------
 
-/// The points of `from`, and of the chunks behind it, that lie to the left of the line from a to b.
+/// The points of `from`, and of the chunks behind it, that lie to the left of the line from a to b;
+/// a filter in the sense of chunk.hpp.
 struct KeepOutside {
   static constexpr std::string_view kName = "keep_outside";
   template <class S, class C>
@@ -164,29 +168,41 @@ inline constexpr KeepOutside keep_outside{};
 template <class S, class C>
 void KeepOutside::operator()(S& s, Outside<S>& self, const C* from, Point a, Point b) const {
   self.boundary = from->boundary;
+  self.marks = marks_behind_filter(*from, left_of(a, b, from->boundary) > 0);
   PointCollector<S, Farthest> kept;
   const C* chunk = from;
-  do {  // chunks whose boundary is dropped are joined to the one before
+  std::uint64_t seen = 0;
+  Joins joins;
+  do {
     const auto& state = s.read(chunk->state);
     for (const Point& p : state.points) {
       if (const std::int64_t d = left_of(a, b, p); d > 0) kept.add(p, {d, p});
     }
+    seen += state.points.size() + 1;
     chunk = state.next;
-  } while (chunk != nullptr && left_of(a, b, chunk->boundary) <= 0);
+  } while (chunk != nullptr && joins(*chunk, left_of(a, b, chunk->boundary) > 0));
+  s.weigh(seen);
   if (chunk != nullptr)
     kept.state.next = &s.template tail_make<Outside<S>, keep_outside>(chunk, a, b);
   kept.write_to(s, self);
 }
 
-/// Appends the corners between a and b of the hull of few points outside of ab.
-inline void hull_of_few(const std::vector<Point>& points, Point a, Point b,
-                        std::vector<Point>& corners) {
+/// Appends the corners between a and b of the hull of few points. Returns how many points it has
+/// looked at, again and again.
+inline std::uint64_t hull_of_few(const std::vector<Point>& points, Point a, Point b,
+                                 std::vector<Point>& corners) {
   Farthest::Value farthest;
-  for (const Point& p : points) farthest = Farthest::join(farthest, {left_of(a, b, p), p});
-  if (farthest.distance <= 0) return;
-  hull_of_few(points, a, farthest.point, corners);
+  std::vector<Point> outside;
+  for (const Point& p : points) {
+    const std::int64_t d = left_of(a, b, p);
+    if (d <= 0) continue;
+    outside.push_back(p);
+    farthest = Farthest::join(farthest, {d, p});
+  }
+  if (outside.empty()) return points.size();
+  std::uint64_t looked = points.size() + hull_of_few(outside, a, farthest.point, corners);
   corners.push_back(farthest.point);
-  hull_of_few(points, farthest.point, b, corners);
+  return looked + hull_of_few(outside, farthest.point, b, corners);
 }
 
 /// Links the corners of the hull of `points`, which lie outside of ab, between a and b.
@@ -213,7 +229,7 @@ void HullPart::operator()(S& s, const Outside<S>* points, PointNode<S>* a,
   const auto& state = s.read(points->state);
   if (state.next == nullptr) {
     std::vector<Point> corners;
-    hull_of_few(state.points, a->element, b->element, corners);
+    s.weigh(hull_of_few(state.points, a->element, b->element, corners));
     return s.write(link_behind(s, a, corners, points)->next, b);
   }
   const auto farthest = s.template cell<Farthest::Value>(points);
@@ -226,6 +242,7 @@ void HullCorner::operator()(S& s, const Outside<S>* points,
                             typename S::template ModType<Farthest::Value> farthest, PointNode<S>* a,
                             const PointNode<S>* b) const {
   const Point p = s.read(farthest).point;
+  if (p.id == 0) return s.write(a->next, b);  // a list of marks alone
   const Outside<S>& left = s.template make<Outside<S>, keep_outside>(points, a->element, p);
   const Outside<S>& right = s.template make<Outside<S>, keep_outside>(points, p, b->element);
   PointNode<S>& corner = node_of(s, p, points);

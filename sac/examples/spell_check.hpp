@@ -99,7 +99,9 @@ Nearest Search::operator()(S& s, int begin, int end) const {
   auto& dictionary = s.template environment<Dictionary<S>>();
   const std::string& entry = s.read(dictionary.entries[begin]);
   if (entry.empty()) return nearest;
-  nearest[0] = {edit_distance(s.read(dictionary.word), entry), begin};
+  const std::string& word = s.read(dictionary.word);
+  s.weigh(word.size() * entry.size());
+  nearest[0] = {edit_distance(word, entry), begin};
   return nearest;
 }
 

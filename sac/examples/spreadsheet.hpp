@@ -108,8 +108,11 @@ struct Evaluate {
   template <class S>
   void operator()(S& s, int cell, int /* level */) const {
     auto& sheet = s.template environment<Sheet<S>>();
-    const auto read = [&](int c) -> const Value& { return s.read(sheet.values[c]); };
-    s.write(sheet.values[cell], value_of(s.read(sheet.texts[cell]), sheet.rows, read));
+    const std::string& text = s.read(sheet.texts[cell]);
+    std::uint64_t steps = text.size();
+    const auto read = [&](int c) -> const Value& { return ++steps, s.read(sheet.values[c]); };
+    s.write(sheet.values[cell], value_of(text, sheet.rows, read));
+    s.weigh(steps);
   }
 };
 struct Place {
@@ -123,12 +126,16 @@ inline constexpr Place place{};
 template <class S>
 void Place::operator()(S& s, int cell, int level) const {
   auto& sheet = s.template environment<Sheet<S>>();
-  for (const int c : s.read(sheet.refers_to[cell])) {
+  const std::vector<int>& refers_to = s.read(sheet.refers_to[cell]);
+  s.weigh(refers_to.size());
+  for (const int c : refers_to) {
     if (s.read(sheet.levels[c]) >= level) return;
   }
   s.write(sheet.levels[cell], level);
   sheet.queue->template post<evaluate>(s, key_of(level, 1, cell), cell, level);
-  for (const int user : s.read(sheet.used_by[cell])) {
+  const std::vector<int>& used_by = s.read(sheet.used_by[cell]);
+  s.weigh(used_by.size());
+  for (const int user : used_by) {
     sheet.queue->template post<place>(s, key_of(level + 1, 0, user), user, level + 1);
   }
 }

@@ -60,6 +60,7 @@ void Chunk::operator()(S& s, Item<S>& self, const Item<S>* first) const {
   Content<S> last = s.read(first->content);
   std::uint64_t sum = sac::mix(last.hash);
   bool falling = false;
+  std::uint64_t items = 1;
   const Item<S>* next = last.next;
   while (next != nullptr) {
     const Content<S> item = s.read(next->content);
@@ -68,7 +69,9 @@ void Chunk::operator()(S& s, Item<S>& self, const Item<S>* first) const {
     sum = sac::mix(sum + item.hash);
     last = item;
     next = item.next;
+    ++items;
   }
+  s.weigh(items);
   const Item<S>* behind = next == nullptr ? nullptr : &s.template tail_make<Item<S>, chunk>(next);
   s.write(self.content, {sum, behind});
 }

@@ -58,6 +58,8 @@ TEMPLATE_LIST_TEST_CASE("table of distance and work", "[.table]", apps::All) {
   std::uint64_t work = 0;
   std::uint64_t confirmed = 0;
   std::uint64_t distance = 0;
+  std::vector<std::uint64_t> weights;
+  std::uint64_t heaviest = 0;
   traces::StabilityOptions options;
   options.fresh = false;
   for (const auto& row : traces::stability(subject, 300, options)) {
@@ -66,17 +68,22 @@ TEMPLATE_LIST_TEST_CASE("table of distance and work", "[.table]", apps::All) {
     work += row.work();
     confirmed += row.counts.confirmed;
     distance += row.distance;
+    weights.push_back(row.weight_distance);
+    heaviest = std::max(heaviest, row.heaviest);
   }
   const double all = static_cast<double>(std::max<std::uint64_t>(distance, 1));
   std::sort(distances.begin(), distances.end());
   std::sort(ratios.begin(), ratios.end());
+  std::sort(weights.begin(), weights.end());
   std::printf(
       "{\"example\":\"%s\",\"n\":1000,\"edits\":300,\"distance_median\":%d,"
       "\"distance_max\":%d,\"ratio_median\":%.2f,\"ratio_max\":%.2f,\"ratio_mean\":%.2f,"
-      "\"confirmed_mean\":%.2f}\n",
+      "\"confirmed_mean\":%.2f,\"weight_distance_median\":%d,\"weight_distance_max\":%d,"
+      "\"heaviest\":%d}\n",
       TestType::kName, static_cast<int>(distances[150]), static_cast<int>(distances[299]),
       ratios[150], ratios[299], static_cast<double>(work) / all,
-      static_cast<double>(confirmed) / all);
+      static_cast<double>(confirmed) / all, static_cast<int>(weights[150]),
+      static_cast<int>(weights[299]), static_cast<int>(heaviest));
 }
 
 }  // namespace

@@ -85,6 +85,8 @@ for example in array-map list-map list-filter list-reverse list-sum list-minimum
   "$traces" distance ex4.trace ex5.trace --json >distance.json
   holds "$(value unnamed_a) == 0 && $(value common) > 0"
 done
+expect 0 ' calls' example quicksort --edges --n 40 -o out/none.trace
+expect 0 '  weighs ' show out/none.trace
 expect 0 ' calls' example quicksort --edges --n 0 -o out/none.trace
 expect 0 'all ' stability --example quicksort --n 40 --edits 5
 rm out/none.trace
@@ -131,7 +133,13 @@ for pair in 'after.trace fresh.trace' 'before.trace edges.trace'; do
   holds "$(value distance) == 0 && $(value common) == $(value calls_a) && $(value common) > 1000"
 done
 expect 0 ' locate' distance before.trace after.trace
-expect 0 'distance     common    calls_a    calls_b   function' distance before.trace after.trace
+expect 0 'calls_b   distance          a          b   heaviest   function' \
+  distance before.trace after.trace
+# Not recorded by `mesher trace`: each call weighs 1.
+"$traces" distance before.trace after.trace --json >distance.json
+holds "$(value weight_distance) == $(value distance) && $(value heaviest) == 1"
+"$traces" distance ex4.trace ex5.trace --json >distance.json
+holds "$(value weight_distance) > 0 && $(value weight_a) > 0 && $(value weight_b) > 0"
 
 echo "== audit"
 expect 0 '' audit before.trace
@@ -156,8 +164,16 @@ expect 0 'ratio' stability --n 50 --n 60 --edits 5 --kind grid --rule voronoi-as
 checks=$((checks + 1))
 row='^\{"n":[0-9]+,"m":[0-9]+,"lg_L_s":[0-9.]+,"lg_L_d":[0-9.]+,"distance":[0-9]+,'
 row+='"executed":[0-9]+,"created":[0-9]+,"discarded":[0-9]+,"work":[0-9]+,"ratio":[0-9.]+,'
+row+='"weight_distance":[0-9]+,"weight_work":[0-9]+,"weight_ratio":[0-9.]+,"heaviest":[0-9]+,'
 row+='"drift":0\}$'
 [[ $(grep -Ec -- "$row" rows.jsonl) == 6 ]] || fail "rows.jsonl: $(head -1 rows.jsonl)"
+for row in $(cat rows.jsonl); do  # a mesh's searches are weighed, and none is heavy in an update
+  checks=$((checks + 2))
+  [[ $row =~ \"distance\":([0-9]+).*\"weight_distance\":([0-9]+) ]]
+  ((BASH_REMATCH[2] > 5 * BASH_REMATCH[1])) || fail "hardly any weights: $row"
+  [[ $row =~ \"heaviest\":([0-9]+) ]]
+  ((BASH_REMATCH[1] < 2000)) || fail "a heavy call: $row"
+done
 refuse 2 'error[bad_option]' stability --n 1
 refuse 2 'error[bad_option]' stability --kind circle
 refuse 2 'error[bad_option]' stability --rho 1

@@ -17,8 +17,9 @@ const std::vector<CallRecord> kCalls = {
     {1, 1, {~0ull, 0x8000000000000000u}, false, "@12, \"a b\""},
     {2, 1, {3, 4}, true, ""},
     {1, 0, {0, 0}, true, std::string("\0\n\xff", 3), true},
-    {2, 0, {5, 6}, false, "tail", true, {{{7, 8}, "reads 5"}, {{}, "writes\n\"6\""}}},
+    {2, 0, {5, 6}, false, "tail", true, {{{7, 8}, "reads 5"}, {{}, "writes\n\"6\""}}, 300},
     {0, 1, {9, 9}, true, "X", false, {{{1, 1}, ""}}},
+    {1, 0, {7, 8}, false, "", false, {}, ~0ull},
 };
 
 void write_calls(const std::string& path) {
@@ -57,6 +58,7 @@ TEST_CASE("A trace file reads back as it was written") {
     CHECK(call->named == expected.named);
     CHECK(call->arguments == expected.arguments);
     CHECK(call->tail == expected.tail);
+    CHECK(call->weight == expected.weight);
     REQUIRE(call->edges.size() == expected.edges.size());
     for (std::size_t i = 0; i < call->edges.size(); ++i) {
       CHECK(call->edges[i].hash == expected.edges[i].hash);
@@ -99,7 +101,7 @@ TEST_CASE("A file with any byte changed is an error") {
 
 TEST_CASE("Counts in a file are refused, never believed") {
   ScratchFolder folder;
-  const std::string header = "\x89traces\n\x03\x0f",
+  const std::string header = "\x89traces\n\x04\x0f",
                     name =
                         "F\x01"
                         "f",
@@ -110,11 +112,12 @@ TEST_CASE("Counts in a file are refused, never believed") {
   };
   CHECK(code("F" + huge) == "corrupt");                                     // length of a name
   CHECK(code("F\xff" + huge + huge) == "corrupt");                          // no number
-  CHECK(code(name + "C\x04") == "corrupt");                                 // flags
+  CHECK(code(name + "C\x08") == "corrupt");                                 // flags
   CHECK(code(name + "C" + zero + huge) == "corrupt");                       // depth
   CHECK(code(name + "C" + zero + "\x01") == "corrupt");                     // no parent
   CHECK(code(name + "C" + zero + zero + "\x01") == "corrupt");              // no such function
   CHECK(code(name + "C" + zero + zero + zero + hash + huge) == "corrupt");  // length of text
+  CHECK(code(name + "C\x04" + zero + zero + hash + zero + huge + "\x02") == "corrupt");  // weight
   CHECK(code(name + "X" + hash + zero) == "corrupt");                       // an edge of no call
   CHECK(code("E\x05") == "corrupt");                                        // number of calls
   CHECK(code("?") == "corrupt");

@@ -17,6 +17,7 @@ inline constexpr char kEnd = 'E';
 // Flags of a call.
 inline constexpr unsigned kUnnamed = 1;
 inline constexpr unsigned kTail = 2;
+inline constexpr unsigned kWeighs = 4;
 
 // Files are read and written in blocks of so many bytes.
 inline constexpr std::size_t kBlock = std::size_t{1} << 16;

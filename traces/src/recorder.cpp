@@ -279,6 +279,7 @@ Recording Recorder::record(const std::string& path, Edges edges) const {
     record.named = labeller.named();
     function.print(visit.call, printed.start(6));
     record.arguments = printed.text();
+    record.weight = engine_.weight_of(visit.call);
     if (edges == Edges::yes) {
       print_edges(engine_, visit.call, labeller, printed, record.edges);
     }
@@ -297,8 +298,8 @@ Trace Recorder::trace() const {
   trace.calls.reserve(engine_.live_calls());
   walk_calls(engine_, [&](const Visit& visit) {
     if (visit.new_function) trace.functions.emplace_back(visit.call.function().name);
-    trace.calls.push_back(
-        {labeller.hash(visit.call, visit.number), visit.function, visit.depth, visit.tail});
+    trace.add({labeller.hash(visit.call, visit.number), visit.function, visit.depth, visit.tail},
+              engine_.weight_of(visit.call));
     trace.unnamed += labeller.named() ? 0 : 1;
   });
   return trace;

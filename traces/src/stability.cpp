@@ -34,7 +34,10 @@ std::vector<StabilityRow> stability(Subject& subject, std::uint64_t edits,
       row.drift = distance(after, fresh).all.distance();
       after = std::move(fresh);
     }
-    row.distance = distance(before, after).all.distance();
+    const CallCounts apart = distance(before, after).all;
+    row.distance = apart.distance();
+    row.weight_distance = apart.weight_distance;
+    row.heaviest = apart.heaviest;
     before = std::move(after);
     if (options.each) options.each(row);
     rows.push_back(std::move(row));

@@ -39,6 +39,12 @@ std::vector<std::uint32_t> by_label(const Trace& trace) {
   return order;
 }
 
+void Trace::add(const Call& call, std::uint64_t said) {
+  if (said != 0) weights.resize(calls.size());
+  calls.push_back(call);
+  if (said != 0 || !weights.empty()) weights.push_back(said);
+}
+
 Trace load_trace(const std::string& path) {
   TraceReader reader(path);
   Trace trace;
@@ -48,7 +54,7 @@ Trace load_trace(const std::string& path) {
   const auto bytes = std::filesystem::file_size(path, unknown);
   if (!unknown) trace.calls.reserve(bytes / kLeastBytes);
   while (const CallRecord* call = reader.next()) {
-    trace.calls.push_back({call->hash, call->function, call->depth, call->tail});
+    trace.add({call->hash, call->function, call->depth, call->tail}, call->weight);
     if (!call->named) ++trace.unnamed;
   }
   trace.functions = reader.functions();

@@ -72,6 +72,7 @@ struct TraceReader::Input {
 };
 
 namespace {
+constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint64_t kLargest = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint64_t kDeepest = kLargest >> 1;  // Trace::Call::depth
 }  // namespace
@@ -118,7 +119,8 @@ const CallRecord* TraceReader::next() {
 
 void TraceReader::read_call() {
   const auto flags = static_cast<unsigned char>(in_->byte());
-  if ((flags & ~(format::kUnnamed | format::kTail)) != 0) in_->fail("corrupt", "unknown flags");
+  constexpr unsigned kKnown = format::kUnnamed | format::kTail | format::kWeighs;
+  if ((flags & ~kKnown) != 0) in_->fail("corrupt", "unknown flags");
   call_.named = (flags & format::kUnnamed) == 0;
   call_.tail = (flags & format::kTail) != 0;
   call_.depth = static_cast<std::uint32_t>(in_->number(kDeepest));
@@ -127,6 +129,7 @@ void TraceReader::read_call() {
   if (call_.function >= functions_.size()) in_->fail("corrupt", "a call of an unknown function");
   call_.hash = in_->hash();
   in_->text(call_.arguments);
+  call_.weight = (flags & format::kWeighs) != 0 ? in_->number(kAny) : 0;
   depth_ = call_.depth;
   if (++calls_ > kLargest) in_->fail("corrupt", "more calls than an engine can hold");
 }
@@ -141,7 +144,7 @@ void TraceReader::read_edges() {
 }
 
 void TraceReader::read_end() {
-  if (in_->number(std::numeric_limits<std::uint64_t>::max()) != calls_) {
+  if (in_->number(kAny) != calls_) {
     in_->fail("corrupt", "the number of calls is another");
   }
   const std::uint64_t expected = in_->checksum.value();

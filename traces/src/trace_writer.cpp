@@ -89,12 +89,14 @@ void TraceWriter::add_call(const CallRecord& call) {
   SAC_EXPECTS(call.function < functions_);
   SAC_EXPECTS(call.depth <= depth_ + 1);
   out_->byte(format::kCall);
-  out_->byte(
-      static_cast<char>((call.named ? 0 : format::kUnnamed) | (call.tail ? format::kTail : 0)));
+  out_->byte(static_cast<char>((call.named ? 0 : format::kUnnamed) |
+                               (call.tail ? format::kTail : 0) |
+                               (call.weight != 0 ? format::kWeighs : 0)));
   out_->number(call.depth);
   out_->number(call.function);
   out_->hash(call.hash);
   out_->text(call.arguments);
+  if (call.weight != 0) out_->number(call.weight);
   for (const EdgeRecord& edge : call.edges) {
     out_->byte(format::kEdge);
     out_->hash(edge.hash);

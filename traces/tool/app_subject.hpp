@@ -43,7 +43,8 @@ class AppSubject final : public RecordedSubject {
     sac::Engine engine;
     typename App::template World<sac::Engine> world;
 
-    explicit Run(const typename App::Input& input) : world(engine, input) {}
+    explicit Run(const typename App::Input& input)
+        : world((engine.record_weights(), engine), input) {}
     [[nodiscard]] traces::Trace trace() const {
       traces::Recorder recorder(engine);
       world.name(recorder);

@@ -1,6 +1,7 @@
 // traces distance: how far two runs are apart.
 #include "traces/distance.hpp"
 
+#include <iomanip>
 #include <iostream>
 #include <memory>
 
@@ -19,20 +20,26 @@ Json to_json(const traces::CallCounts& counts) {
   return {{"distance", counts.distance()},
           {"common", counts.common},
           {"calls_a", counts.calls_a},
-          {"calls_b", counts.calls_b}};
+          {"calls_b", counts.calls_b},
+          {"weight_distance", counts.weight_distance},
+          {"weight_a", counts.weight_a},
+          {"weight_b", counts.weight_b},
+          {"heaviest", counts.heaviest}};
 }
 
 void print_row(const traces::CallCounts& counts, const std::string& name) {
-  const std::string cells[] = {std::to_string(counts.distance()), std::to_string(counts.common),
-                               std::to_string(counts.calls_a), std::to_string(counts.calls_b)};
-  for (const std::string& cell : cells) {
-    std::cout << std::string(cell.size() < 10 ? 10 - cell.size() : 0, ' ') << cell << ' ';
+  for (const std::uint64_t count :
+       {counts.distance(), counts.common, counts.calls_a, counts.calls_b, counts.weight_distance,
+        counts.weight_a, counts.weight_b, counts.heaviest}) {
+    std::cout << std::setw(10) << count << ' ';
   }
   std::cout << ' ' << name << '\n';
 }
 
 void print_distance(const traces::Distance& d) {
-  std::cout << "  distance     common    calls_a    calls_b   function\n";
+  std::cout << "                        calls                           weight of the calls\n"
+               "  distance     common    calls_a    calls_b   distance          a          b   "
+               "heaviest   function\n";
   for (const auto& [name, counts] : d.by_function) print_row(counts, name);
   print_row(d.all, "all");
 }
@@ -60,6 +67,10 @@ void add_distance(CLI::App& app) {
   sub->add_option("A", args->a, "A trace file")->required();
   sub->add_option("B", args->b, "Another trace file")->required();
   sub->add_flag("--json", args->json, "One JSON object instead of a table");
+  sub->footer(
+      "A call weighs 1 and what it has said that it did inside, if that was recorded. By weight,\n"
+      "the distance is what the calls weigh that only one of the traces has; heaviest is one of\n"
+      "them.");
   sub->callback([args] { distance(*args); });
 }
 

@@ -124,6 +124,7 @@ MeshSubject::Edit MeshSubject::edit() {
   result.work.reused = calls.reused;
   result.work.created = calls.created;
   result.work.discarded = calls.discarded;
+  result.work.weight = calls.weight;
   const auto& larger = inserts ? points_ : before;
   double d2 = HUGE_VAL;
   for (const Point<2>& p : larger) {

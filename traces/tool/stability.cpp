@@ -44,6 +44,10 @@ Json to_json(const traces::StabilityRow& row) {
   object["discarded"] = row.counts.discarded;
   object["work"] = row.work();
   object["ratio"] = row.ratio();
+  object["weight_distance"] = row.weight_distance;
+  object["weight_work"] = row.weight_work();
+  object["weight_ratio"] = row.weight_ratio();
+  object["heaviest"] = row.heaviest;
   object["drift"] = row.drift;
   return object;
 }
@@ -66,7 +70,8 @@ void print_row(const traces::StabilityRow& row, bool first) {
   if (first) {
     std::vector<std::string> names;
     for (const traces::Figure& figure : row.figures) names.push_back(figure.name);
-    names.insert(names.end(), {"distance", "executed", "created", "discarded", "work", "ratio"});
+    names.insert(names.end(), {"distance", "executed", "created", "discarded", "work", "ratio",
+                               "w.dist", "w.work", "w.ratio", "heaviest"});
     print_line(names);
   }
   std::vector<std::string> cells;
@@ -76,6 +81,10 @@ void print_row(const traces::StabilityRow& row, bool first) {
     cells.push_back(std::to_string(count));
   }
   cells.push_back(short_number(row.ratio()));
+  cells.push_back(std::to_string(row.weight_distance));
+  cells.push_back(std::to_string(row.weight_work()));
+  cells.push_back(short_number(row.weight_ratio()));
+  cells.push_back(std::to_string(row.heaviest));
   print_line(cells);
 }
 
@@ -94,14 +103,20 @@ void print_summary_line(const std::string& name, const std::vector<traces::Stabi
   std::vector<std::string> cells{name, std::to_string(rows.size())};
   add_cells(cells, rows, [](const auto& row) { return row.distance; });
   add_cells(cells, rows, [](const auto& row) { return row.ratio(); });
+  add_cells(cells, rows, [](const auto& row) { return row.weight_distance; });
+  add_cells(cells, rows, [](const auto& row) { return row.weight_ratio(); });
+  add_cells(cells, rows, [](const auto& row) { return row.heaviest; });
   print_line(cells);
 }
+
+constexpr const char* kSummary =
+    "median and largest of: distance; ratio; distance by weight; ratio by weight; heaviest\n";
 
 // Distance and ratio, of meshes by lg(L/d), and in all.
 void print_summary(const std::vector<traces::StabilityRow>& rows, bool of_meshes) {
   if (rows.empty()) return;
   if (!of_meshes) {
-    std::cout << "Edits; distance, median and largest; ratio, median and largest\n";
+    std::cout << "Edits; " << kSummary;
     return print_summary_line("all", rows);
   }
   constexpr int kBand = 4;
@@ -109,7 +124,7 @@ void print_summary(const std::vector<traces::StabilityRow>& rows, bool of_meshes
   for (const traces::StabilityRow& row : rows) {
     bands[static_cast<int>(std::floor(row.figures.back().value / kBand))].push_back(row);
   }
-  std::cout << "By lg(L/d): edits; distance, median and largest; ratio, median and largest\n";
+  std::cout << "By lg(L/d): edits; " << kSummary;
   for (const auto& [band, those] : bands) {
     print_summary_line(std::to_string(band * kBand) + "-" + std::to_string((band + 1) * kBand),
                        those);
@@ -120,6 +135,7 @@ void print_summary(const std::vector<traces::StabilityRow>& rows, bool of_meshes
 mesher::Options<2> options_of(const Arguments& args, const std::vector<mesher::Point<2>>& points) {
   mesher::Options<2> options;
   options.rho = args.rho;
+  options.record_weights = true;
   options.rule =
       args.rule == "radius-edge" ? mesher::Rule::radius_edge : mesher::Rule::voronoi_aspect;
   options.domain = mesher::snapped_domain<2>(points);
@@ -194,7 +210,9 @@ void add_stability(CLI::App& app, int& exit_code) {
       "lg(L/s),\n"
       "lg(L/d), the distance of the traces, and the work of the propagation. L is the domain's\n"
       "side, s the least distance of two points, d that from the edited point to its nearest.\n"
-      "Of an example it says distance and work.\n"
+      "Of an example it says distance and work. By weight (w.dist, w.work, w.ratio) a call counts 1\n"
+      "and what it has said that it does inside; heaviest is the weight of one that comes or goes,\n"
+      "the greatest.\n"
       "Exit code 1 if a propagated trace is not that of a run from scratch.\n"
       "Examples:\n"
       "  traces stability --n 1000 --n 10000 --edits 100\n"

@@ -42,6 +42,7 @@ struct Options {
   Box<D> domain{};      ///< where input points may lie; must not be empty
   double rho = 1.4142;  ///< bound of circumradius over shortest edge; > 1.01
   Rule rule = Rule::radius_edge;
+  bool record_weights = false;  ///< keeps what calls do inside, for those who study the trace
 };
 
 /// A triangulation of the meshing box.

@@ -39,6 +39,7 @@ struct CallCounts {
   std::uint64_t created = 0;
   std::uint64_t discarded = 0;
   std::uint64_t edges = 0;      ///< edges (reads, writes, posts) made or removed
+  std::uint64_t weight = 0;     ///< steps inside of calls; 0 unless Options::record_weights
 };
 
 /// The exact difference between the mesh before and after an update.

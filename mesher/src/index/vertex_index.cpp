@@ -152,6 +152,7 @@ VoronoiCell& Index::star(sac::Scope& s, VertexRef<2> v) {
 
 // Records the observation `codes_`; one that says the same as last time is kept as it is.
 void Index::record(sac::Scope& s, std::uint8_t kind, Vertex<2>& v, float reach, float radius) {
+  s.weigh(visited_);
   const auto count = static_cast<std::uint32_t>(codes_.size());
   // The same ring may start elsewhere: the order in which vertices were met decides that.
   if (kind != kNearest) {

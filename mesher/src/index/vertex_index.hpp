@@ -74,11 +74,14 @@ class VertexSearch {
   template <class Seen>
   VoronoiCell& cut_around(const Vertex<2>& v, double radius, Seen&& seen) {
     cell_.reset(v, radius);
+    visited_ = 0;
     const auto reach = [&] { return 2 * std::sqrt(cell_.reach2()); };
     const auto enters = [&](const Point<2>& corner, double side) {
+      ++visited_;
       return cell_.enters(corner, side, tree_.margin());
     };
     tree_.visit_around(v.p, reach, enters, [&](VertexHandle u, const Point<2>& p) {
+      ++visited_;
       if (u == v.self || !cell_.in_reach(distance2(p, v.p)) || !cell_.cuts(p) || !seen(u)) {
         return false;
       }
@@ -93,11 +96,13 @@ class VertexSearch {
     double distance2;
   };
   template <class Seen>
-  Nearest nearest_around(const Vertex<2>& v, Seen&& seen) const {
+  Nearest nearest_around(const Vertex<2>& v, Seen&& seen) {
     Nearest best{0, 4 * box_.side * box_.side};
     const auto reach = [&] { return std::sqrt(best.distance2); };
-    const auto enters = [](const Point<2>&, double) { return true; };
+    const auto enters = [&](const Point<2>&, double) { return ++visited_, true; };
+    visited_ = 0;
     tree_.visit_around(v.p, reach, enters, [&](VertexHandle u, const Point<2>& p) {
+      ++visited_;
       const double d2 = distance2(p, v.p);
       if (u == v.self || d2 > best.distance2 || !seen(u)) return false;
       if (d2 == best.distance2 && best.handle != 0 && pool_[best.handle].p < p) return false;
@@ -119,6 +124,7 @@ class VertexSearch {
   VertexPool<2> pool_;
   Quadtree<2> tree_;
   VoronoiCell cell_;
+  std::uint64_t visited_ = 0;  // cells and vertices that the last search has looked at
 };
 
 template <>

@@ -49,6 +49,7 @@ template <class T, class Same = std::equal_to<>>
 class Cell;
 class Agenda;
 class ModStructure;
+class Weights;
 
 /// Memory of an engine in bytes. `live` is in use; `held` is what the engine has taken from the
 /// system, freed blocks that wait to be used again included.
@@ -159,6 +160,13 @@ class Engine {
   /// Watches for calls that break conciseness or monotonicity; costs a table look-up a call.
   void set_audit(bool on) noexcept { core_.audit_ = on; }
   [[nodiscard]] const AuditReport& audit() const noexcept { return core_.report_; }
+
+  /// From now on the trace holds what calls say by Scope::weigh: 16 bytes each time. To be asked for
+  /// before the first run: calls that are there have no weight until they run again.
+  void record_weights();
+  [[nodiscard]] bool records_weights() const noexcept { return weights_ != nullptr; }
+  /// What `call` has said by Scope::weigh, in all. Cost: O(its edges).
+  [[nodiscard]] std::uint64_t weight_of(const Call& call) const noexcept;
 
   [[nodiscard]] std::uint64_t live_calls() const noexcept { return core_.live_calls(); }
   [[nodiscard]] std::uint64_t live_edges() const noexcept { return core_.live_edges(); }
@@ -282,6 +290,7 @@ class Engine {
 
   [[nodiscard]] Core& core() noexcept { return core_; }
   [[nodiscard]] ModStructure& mods() noexcept { return *mods_; }
+  void add_weight(Scope& s, std::uint64_t n);
 
  private:
   // An object of the outside in memory: head, object.
@@ -312,6 +321,7 @@ class Engine {
 
   Core core_;
   std::unique_ptr<ModStructure> mods_;
+  std::unique_ptr<Weights> weights_;  // null: not recorded
   std::vector<std::unique_ptr<Agenda>> agendas_;
   Registry<OutsideType> outside_types_;
   std::vector<Handle> outside_;  // objects of the outside, by their heads

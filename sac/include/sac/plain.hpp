@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <new>
@@ -87,6 +88,8 @@ class PlainScope {
   void write(const PlainCell<T, Same>& cell, std::type_identity_t<T> value) {
     write(PlainMod<T, Same>(cell), std::move(value));
   }
+
+  void weigh(std::uint64_t) noexcept {}
 
   template <auto F, class... Args>
   std::invoke_result_t<decltype(F), PlainScope&, Args...> call(Args... args) {

@@ -51,6 +51,12 @@ class Scope {
   template <class T, class Same>
   void write(const Cell<T, Same>& cell, std::type_identity_t<T> value);
 
+  /// Says that the running call does `n` steps, elements of a chunk that it looks at, say: what a
+  /// count of calls does not show. A branch, unless weights are recorded (Engine::record_weights).
+  void weigh(std::uint64_t n) {
+    if (core_.engine().records_weights()) [[unlikely]] record_weight(n);
+  }
+
   /// Makes a child call, or reuses an equal one ahead in the interval that runs again. If F returns
   /// something, so does call(): by reference, good while the caller runs. The caller depends on it.
   template <auto F, class... Args>
@@ -125,6 +131,7 @@ class Scope {
   }
 
  private:
+  void record_weight(std::uint64_t n);
   template <auto F, class... P, class... Args>
   decltype(auto) call_as(detail::Types<P...>, Args&&... args) {
     using What = detail::Called<F, P...>;

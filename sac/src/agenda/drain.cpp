@@ -114,7 +114,8 @@ void Agenda::begin_drain(Scope& s) {
   if (!engine_.appending()) set_later_posts_aside(s.self());
 }
 
-// A post counts for a drain if it comes before. Who posts later, in a trace of last time, will be
+// A post counts for a drain if it comes before. One of a running call's of last time does not count
+// until that repeats it. Who posts later, in a trace of last time, will be
 // discarded, or must be refused: it runs again. So does who encloses the drain and has posted behind
 // some of its children: perhaps behind this one.
 void Agenda::set_later_posts_aside(const Call& drain) {
@@ -125,8 +126,9 @@ void Agenda::set_later_posts_aside(const Call& drain) {
         h = post.next_post;
         if (post.poster == 0) continue;
         Call& poster = *core_.at<Call>(post.poster);
-        if (poster.running()) continue;
-        if (engine_.precedes(drain, poster)) {
+        if (poster.running()) {
+          if (!unrepeated(poster, post)) continue;
+        } else if (engine_.precedes(drain, poster)) {
           engine_.invalidate(poster);
         } else if (post.behind && engine_.encloses(poster, drain)) {
           engine_.run_again(poster);

@@ -46,7 +46,9 @@ class Subject {
 
 struct StabilityRow {
   std::vector<Figure> figures;
-  std::uint64_t distance = 0;  ///< D: before and after the edit
+  std::uint64_t distance = 0;         ///< D: before and after the edit
+  std::uint64_t weight_distance = 0;  ///< D by weight (traces/distance.hpp)
+  std::uint64_t heaviest = 0;         ///< weight of a call of only one of the two, the greatest
   sac::Counts counts;          ///< of the propagation
   std::uint64_t drift = 0;  ///< of the propagated trace and a fresh one: 0 if the engine is right
 
@@ -54,9 +56,17 @@ struct StabilityRow {
   [[nodiscard]] std::uint64_t work() const noexcept {
     return counts.created + counts.discarded + counts.executed;
   }
+  /// W by weight: W, and what the bodies that ran said they did inside.
+  [[nodiscard]] std::uint64_t weight_work() const noexcept { return work() + counts.weight; }
   /// W / D; where nothing changed, W.
-  [[nodiscard]] double ratio() const noexcept {
-    return static_cast<double>(work()) / static_cast<double>(distance == 0 ? 1 : distance);
+  [[nodiscard]] double ratio() const noexcept { return quotient(work(), distance); }
+  [[nodiscard]] double weight_ratio() const noexcept {
+    return quotient(weight_work(), weight_distance);
+  }
+
+ private:
+  [[nodiscard]] static double quotient(std::uint64_t w, std::uint64_t d) noexcept {
+    return static_cast<double>(w) / static_cast<double>(d == 0 ? 1 : d);
   }
 };
 

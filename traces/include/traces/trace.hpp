@@ -18,8 +18,16 @@ struct Trace {
     std::uint32_t tail : 1 = 0;    // continues its parent: see CallRecord
   };
   std::vector<Call> calls;             // in pre-order
+  std::vector<std::uint64_t> weights;  // what calls said by Scope::weigh; empty: nothing
   std::vector<std::string> functions;  // names by index; two functions may have one name
   std::uint64_t unnamed = 0;           // calls whose hash is good within their run only
+
+  /// The weight of the call with this number: 1 for itself, and what it said it did inside.
+  [[nodiscard]] std::uint64_t weight_of(std::uint32_t call) const noexcept {
+    return weights.empty() ? 1 : 1 + weights[call];
+  }
+  /// Adds a call and what it said; memory for that is taken once a call has said something.
+  void add(const Call& call, std::uint64_t said);
 };
 
 /// Throws: FileError.

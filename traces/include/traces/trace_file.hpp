@@ -1,13 +1,14 @@
 // The trace file: the calls of one run in pre-order, written and read as a stream.
 //
-// Version 3. Integers are unsigned LEB128 (7 bits a byte, lowest first) unless a size is given;
+// Version 4. Integers are unsigned LEB128 (7 bits a byte, lowest first) unless a size is given;
 // fixed sizes are little-endian; a text is its length and its bytes.
 //
 //   header    "\x89traces\n"  version  parts    8 bytes, 1 byte, 1 byte
 //   function  'F'  name                        its index is the number of functions before it
-//   call      'C'  flags  depth  function index  hash  arguments
+//   call      'C'  flags  depth  function index  hash  arguments  [weight]
 //             flags, 1 byte: bit 0: the label contains an object without a name (recorder.hpp), so
-//             the hash is good within this run only; bit 1: a tail call. The hash is 16 bytes, high
+//             the hash is good within this run only; bit 1: a tail call; bit 2: a weight follows,
+//             what the call said by sac::Scope::weigh; else it is 0. The hash is 16 bytes, high
 //             half first
 //   edge      'X'  hash  what it is
 //             of the call before, in the order of execution, if edges were asked for: what the call
@@ -37,7 +38,7 @@
 
 namespace traces {
 
-inline constexpr std::uint8_t kVersion = 3;
+inline constexpr std::uint8_t kVersion = 4;
 inline constexpr std::uint8_t kParts = 15;  // function, arguments, values read, results of children
 /// Longer texts are cut by the writer and refused by the reader.
 inline constexpr std::size_t kLongestText = 4096;
@@ -70,6 +71,7 @@ struct CallRecord {
   std::string arguments;               // as printed
   bool tail = false;                   // a tail call: runs after its parent, as its last child
   std::vector<EdgeRecord> edges = {};  // none unless they were asked for
+  std::uint64_t weight = 0;            // what it said by sac::Scope::weigh, if that was recorded
 };
 
 /// Where a writer writes until it has finished.

@@ -43,6 +43,7 @@ struct Counts {
   std::uint64_t edges_made = 0;     ///< reads, writes, posts, ... recorded
   std::uint64_t edges_removed = 0;  ///< reads, writes, posts, ... taken back
   std::uint64_t confirmed = 0;      ///< calls not run: they would read what they have read
+  std::uint64_t weight = 0;         ///< what bodies said by Scope::weigh, if weights are recorded
 };
 
 /// What the detectors saw; both empty for a program that is concise and monotone.
@@ -128,6 +129,7 @@ class Core {
     }
   }
   void result_changed(Handle caller) noexcept;
+  void add_weight(std::uint64_t n) noexcept { counts_.weight += n; }
   [[nodiscard]] void* environment() const {
     if (environment_ == nullptr) [[unlikely]] fail_no_environment();
     return environment_;
