@@ -165,6 +165,27 @@ Case random_case(std::uint64_t seed, unsigned features) {
   return c;
 }
 
+namespace {
+
+// All is about few inputs, cells and keys, and inputs come first, so that ops meet.
+void make_narrow(Random& random, Case& c) {
+  for (auto& ops : c.program.nodes) {
+    for (Op& op : ops) {
+      const bool of_nodes = op.kind == Op::call || op.kind == Op::post || op.kind == Op::tail ||
+                            op.kind == Op::post_side || op.kind == Op::post_early ||
+                            op.kind == Op::catch_call || op.kind == Op::drain_call;
+      if (!of_nodes) op.target %= 2;
+    }
+    std::stable_partition(ops.begin(), ops.end(),
+                          [](const Op& op) { return op.kind == Op::read_input; });
+  }
+  for (Step& step : c.steps) {
+    if (step.kind == Step::set) step.a = random(4) == 0 ? step.a : step.a % 2;
+  }
+}
+
+}  // namespace
+
 Case focused_case(std::uint64_t seed, unsigned features) {
   Random random(seed ^ 0xf0c05);
   Case c;
@@ -178,10 +199,12 @@ Case focused_case(std::uint64_t seed, unsigned features) {
                                  Op::ask,        Op::call,       Op::call,      Op::tail,
                                  Op::post,       Op::write_maybe};
   for (int n = 0; n < c.program.size(); ++n) {
+    if (n < 3) c.program.sprinkle(random, n, Op::read_input);
+    if (n < 3) c.program.sprinkle(random, n, random(4) == 0 ? Op::tail : Op::call);
     for (int i = 1 + random(3); i > 0; --i) {
       c.program.sprinkle(random, n, kPlain[random(static_cast<int>(std::size(kPlain)))]);
     }
-    for (int i = kinds.empty() ? 0 : random(3); i > 0; --i) {
+    for (int i = kinds.empty() ? 0 : random(n < 3 ? 4 : 3); i > 0; --i) {
       c.program.sprinkle(random, n, kinds[static_cast<std::size_t>(
                                         random(static_cast<int>(kinds.size())))]);
     }
@@ -189,6 +212,7 @@ Case focused_case(std::uint64_t seed, unsigned features) {
   c.fragile = random(8) == 0;
   c.audit = random(8) == 0;
   add_steps(random, c, 10, random(4) == 0);
+  if (random(2) == 0) make_narrow(random, c);
   make_valid(c, features);
   return c;
 }

@@ -171,6 +171,10 @@ inline bool is_caught(const std::string& message) {
   return message.find("has caught") != std::string::npos;
 }
 
+/// Whether every execution of a node in a propagation must be one of a run from scratch as well:
+/// a program is not to see what no run from scratch shows, not even for a while.
+inline constexpr bool kWatchExecutions = false;
+
 /// One case being run. V: the type of values.
 template <class V>
 class Session {
@@ -247,6 +251,7 @@ class Session {
   void start() {
     const std::uint64_t edges = t_.engine.live_edges();
     for (int i = 0; i < kStarts; ++i) {
+      t_.world.executions.clear();
       const Scratch scratch = from_scratch(now_);
       const std::string refusal =
           refusal_of([&] { t_.engine.template run<random_root<V>>(); });
@@ -313,6 +318,7 @@ class Session {
     std::string other;
     Outcome outcome = Outcome::failed;
     refusal_.clear();
+    t_.world.executions.clear();
     arm();
     try {
       act();
@@ -439,6 +445,13 @@ class Session {
     state_ = t_.state();
     if (scratch.verdict.sure && t_.world.values(t_.engine) != scratch.verdict.values) {
       wrong("values are not those of a plain run");
+    }
+    for (const auto& seen : t_.world.executions) {
+      if (!kWatchExecutions) break;
+      if (scratch.fresh->world.executions.contains(seen)) continue;
+      std::string text = "a node was shown what no run from scratch shows: ";
+      for (const int number : seen) text += std::to_string(number) + ' ';
+      wrong(text);
     }
     const std::string expected = scratch.fresh->state();
     if (state_ != expected) wrong(state_ + "\nfrom scratch:\n" + expected);

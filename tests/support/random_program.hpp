@@ -14,6 +14,8 @@
 #include <cstdint>
 #include <limits>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "random_world.hpp"
 
@@ -259,7 +261,9 @@ void Node<V>::operator()(S& s, int id, V argument) const {
   w.burn();
   int sum = int(argument);
   int passed = 0;
+  std::vector<int> seen{id, sum};
   for (const Op& op : w.program->nodes[index(id)]) {
+    seen.push_back(sum);
     if (sum % op.modulus >= op.threshold) continue;
     const int other = id + 1 + op.target;  // a node behind this one
     switch (op.kind) {
@@ -449,6 +453,8 @@ void Node<V>::operator()(S& s, int id, V argument) const {
         break;
     }
   }
+  seen.push_back(sum);
+  w.executions.insert(std::move(seen));
   w.burn();
 }
 

@@ -109,6 +109,7 @@ struct RandomWorld {
   std::unique_ptr<examples::Claims<int, S>> claims;
   std::vector<std::unique_ptr<Counter<S>>> counters;
   Judge judge;  // of a plain run
+  std::set<std::vector<int>> executions;  // what nodes that have run to their end have seen
   int fuse = -1;  // calls left until one throws; -1: none does
   int calls_left = std::numeric_limits<int>::max();  // until it is too long
 
