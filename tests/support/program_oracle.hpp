@@ -157,12 +157,18 @@ class Tally final : public sac::Observer {
   sac::Counts seen_;
 };
 
-/// The part of a message that is the same in every engine: without the numbers of handles, and
-/// without what it says of the rest of the trace, which a run from scratch does not have yet.
+/// The part of a message that is the same in every engine: without the numbers of handles, without
+/// what it says of the rest of the trace, which a run from scratch does not have yet, and of callers,
+/// which do not run in a propagation.
 inline std::string essence(const std::string& message) {
-  std::string text = message.substr(0, message.find("; of the first drain"));
-  text = text.substr(0, text.find(", which is written only by the later call"));
-  return without_handles(text.substr(0, text.find(", which nobody has written")));
+  if (message.find("its own child") != std::string::npos) return "after its own child";
+  std::string text = message;
+  if (text.find("is drained twice") != std::string::npos) text.erase(0, text.find("agenda '"));
+  for (const char* rest : {"; of the first drain", ", which is written only by the later call",
+                           ", which nobody has written"}) {
+    text = text.substr(0, text.find(rest));
+  }
+  return without_handles(text);
 }
 
 /// Whether `message` is a caller's that has caught what a call threw. In a propagation the call may
@@ -372,9 +378,10 @@ class Session {
   }
 
   // What was refused must be refused from scratch, with the same words; a key that changed under
-  // its label is known only to a propagation.
+  // its label is known only to a propagation, and may be caught.
   void require_refusal(const Scratch& scratch) const {
-    const bool key_changed = refusal_.find(kKeyChanged) != std::string::npos;
+    const bool key_changed = refusal_.find(kKeyChanged) != std::string::npos ||
+                             (is_caught(refusal_) && case_.program.has(Op::keyed));
     if (scratch.refusal.empty() && key_changed) return;
     if (scratch.refusal.empty()) wrong("refused, but not from scratch: " + refusal_);
     if (!key_changed && !is_caught(scratch.refusal)) require_equal(refusal_, scratch.refusal);

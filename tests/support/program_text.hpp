@@ -202,6 +202,12 @@ struct RandomProgram {
     }
   }
 
+  [[nodiscard]] bool has(Op::Kind kind) const {
+    return std::any_of(nodes.begin(), nodes.end(), [&](const auto& ops) {
+      return std::any_of(ops.begin(), ops.end(), [&](const Op& op) { return op.kind == kind; });
+    });
+  }
+
   /// Leaves out what belongs to other features.
   void keep_features(unsigned features) {
     for (auto& ops : nodes) {
