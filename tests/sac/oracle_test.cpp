@@ -39,8 +39,7 @@ TEST_CASE(
   check_seeds(random_case, kFeatures, 0, 400);
 }
 
-TEST_CASE(
-    "small programs in which features are dense equal a run from scratch, or are refused as it is") {
+TEST_CASE("small programs dense in features equal a run from scratch, or are refused as it is") {
   for (const unsigned features : sets_of_features()) check_seeds(focused_case, features, 0, 150);
 }
 

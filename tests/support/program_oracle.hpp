@@ -158,8 +158,8 @@ class Tally final : public sac::Observer {
 };
 
 /// The part of a message that is the same in every engine: without the numbers of handles, without
-/// what it says of the rest of the trace, which a run from scratch does not have yet, and of callers,
-/// which do not run in a propagation.
+/// what it says of the rest of the trace, which a run from scratch does not have yet, and without
+/// callers, which need not run in a propagation.
 inline std::string essence(const std::string& message) {
   if (message.find("its own child") != std::string::npos) return "after its own child";
   std::string text = message;

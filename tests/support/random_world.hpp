@@ -1,5 +1,5 @@
-// What a random program works on: inputs, cells, a list, agendas and structures, on sac::Scope or on
-// sac::PlainScope.
+// What a random program works on: inputs, cells, a list, agendas and structures, on sac::Scope or
+// on sac::PlainScope.
 #pragma once
 
 #include <cstddef>
