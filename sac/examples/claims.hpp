@@ -31,11 +31,11 @@ class Claims final : public sac::Structure {
   bool claim(sac::Scope& s, const Key& key);
 
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
+  void hide(sac::Call& call, sac::Edge& edge, sac::Handle end) noexcept override;
   void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
   void print(const sac::Call& call, const sac::Edge& edge, std::ostream& out) const override;
 
-  /// Throws: InvariantError.
-  void check_invariants() const;
+  void check_invariants() const override;
 
  private:
   struct Claim;
@@ -51,7 +51,9 @@ class Claims final : public sac::Structure {
   static constexpr std::uint8_t kClaim = 0;
 
   Claim& enter(sac::Scope& s, const Key& key);
+  void require_before_children(const Claim& claim) const;
   void tell(const std::vector<Claim*>& claims) noexcept;
+  [[nodiscard]] bool is_first(const Claim& claim) const;
   [[nodiscard]] sac::Call& call_of(const Claim& claim) const { return engine_.call(claim.call); }
 
   sac::Engine& engine_;
@@ -63,8 +65,10 @@ template <class Key, class S>
 bool Claims<Key, S>::claim(sac::Scope& s, const Key& key) {
   const auto same = [&](const Claim& c) { return c.entered && c.key->first == key; };
   Claim* claim = s.recall<Claim>(id_, kClaim, same);
-  if (claim == nullptr) claim = &enter(s, key);
-  claim->first = claim->key->second.front() == claim;
+  if (claim == nullptr) claim = &s.guarded([&]() -> Claim& { return enter(s, key); });
+  s.guarded([&] { require_before_children(*claim); });
+  claim->first = is_first(*claim);
+  tell(claim->key->second);
   return claim->first;
 }
 
@@ -72,18 +76,14 @@ bool Claims<Key, S>::claim(sac::Scope& s, const Key& key) {
 // that has nothing to take back.
 template <class Key, class S>
 auto Claims<Key, S>::enter(sac::Scope& s, const Key& key) -> Claim& {
-  sac::Call& self = s.self();
   Claim& claim = s.effect<Claim>(id_, kClaim);
-  claim.call = engine_.handle_of(self);
+  claim.call = engine_.handle_of(s.self());
   claim.entered = false;
   const auto at = claimants_.try_emplace(key).first;
   auto& claims = at->second;
   const auto place = std::upper_bound(
       claims.begin(), claims.end(), &claim,
       [&](const Claim* a, const Claim* b) { return engine_.precedes(call_of(*a), call_of(*b)); });
-  if (engine_.appending() && place != claims.end()) {
-    throw sac::UsageError(engine_.describe(self) + " claims what its own child has claimed");
-  }
   try {
     claims.insert(place, &claim);
   } catch (...) {
@@ -91,17 +91,47 @@ auto Claims<Key, S>::enter(sac::Scope& s, const Key& key) -> Claim& {
     throw;
   }
   claim.key = at;
-  claim.first = claims.front() == &claim;
   claim.entered = true;
-  tell(claims);
+  // A call around this one has claimed the key behind children of its own: behind this one?
+  for (const Claim* c : claims) {
+    sac::Call& other = call_of(*c);
+    if (c->behind && !other.running() && engine_.encloses(other, s.self())) engine_.run_again(other);
+  }
   return claim;
 }
 
-// A claim came or went: only the first two can have been told what is no longer so.
+// What a call does is at the place of the call: before what its children do.
+template <class Key, class S>
+void Claims<Key, S>::require_before_children(const Claim& claim) const {
+  const auto& claims = claim.key->second;
+  const auto next = std::upper_bound(
+      claims.begin(), claims.end(), &claim,
+      [&](const Claim* a, const Claim* b) { return engine_.precedes(call_of(*a), call_of(*b)); });
+  if (next == claims.end() || engine_.lies_ahead(call_of(**next))) return;
+  throw sac::UsageError(engine_.describe(call_of(claim)) + " claims what its own child " +
+                        engine_.describe(call_of(**next)) + " has claimed");
+}
+
+// What a running call has claimed last time, and not again, is not there.
+template <class Key, class S>
+bool Claims<Key, S>::is_first(const Claim& claim) const {
+  for (const Claim* c : claim.key->second) {
+    if (c == &claim) return true;
+    if (!sac::unrepeated(call_of(*c), *c)) return false;
+  }
+  return false;
+}
+
+// A claim came or went: of those that are there, only the first two can have been told what is no
+// longer so.
 template <class Key, class S>
 void Claims<Key, S>::tell(const std::vector<Claim*>& claims) noexcept {
-  for (std::size_t i = 0; i < claims.size() && i < 2; ++i) {
-    if (claims[i]->first != (i == 0)) engine_.invalidate(call_of(*claims[i]));
+  int there = 0;
+  for (std::size_t i = 0; i < claims.size() && there < 2; ++i) {
+    sac::Call& call = call_of(*claims[i]);
+    if (sac::unrepeated(call, *claims[i])) continue;
+    if (claims[i]->first != (there == 0)) engine_.invalidate(call);
+    ++there;
   }
 }
 
@@ -113,6 +143,20 @@ void Claims<Key, S>::retract(sac::Call&, sac::Edge& edge) noexcept {
   claims.erase(std::find(claims.begin(), claims.end(), &claim));
   tell(claims);
   if (claims.empty()) claimants_.erase(claim.key);
+}
+
+// The next claim behind it may be the first now, for a child.
+template <class Key, class S>
+void Claims<Key, S>::hide(sac::Call& call, sac::Edge& edge, sac::Handle end) noexcept {
+  auto& claim = static_cast<Claim&>(edge);
+  if (!claim.entered) return;
+  const auto& claims = claim.key->second;
+  const auto next = std::find_if(
+      std::find(claims.begin(), claims.end(), &claim), claims.end(),
+      [&](const Claim* c) { return !sac::unrepeated(call_of(*c), *c); });
+  if (next != claims.end() && engine_.lies_between(call, call_of(**next), end)) {
+    engine_.invalidate(call_of(**next));
+  }
 }
 
 template <class Key, class S>

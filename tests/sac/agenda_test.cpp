@@ -346,7 +346,7 @@ TEST_CASE("a first run that throws in a drain keeps the posts from outside for t
   e.check_invariants();
   CHECK(e.live_calls() == 3);
   CHECK(e.live_edges() == 0);
-  CHECK(p.agenda->pending_calls() == 3);
+  CHECK(p.agenda->waiting_calls() == 3);
   e.set(p.input, 0);
   e.propagate();
   e.run<drain_all>();
@@ -432,13 +432,13 @@ TEST_CASE("a post that fails leaves no call behind, even where nothing is draine
       CHECK(count == 5);  // two calls and two posts
       break;
     } catch (const std::bad_alloc&) {
-      CHECK(agenda.pending_calls() == 0);
+      CHECK(agenda.waiting_calls() == 0);
       CHECK(e.live_calls() == 1);
       e.check_invariants();
     }
   }
   e.arena().fail_after(0);
-  CHECK(agenda.pending_calls() == 2);
+  CHECK(agenda.waiting_calls() == 2);
 }
 
 // --- Random

@@ -1,4 +1,4 @@
-// The engine's containers: arena, memo table, propagation queue, ordered calls; names of labels.
+// The engine's containers: arena, memo table, propagation queue; names of labels.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
@@ -153,11 +153,17 @@ TEST_CASE("the n-th allocation of an arena fails once, and a limit holds") {
 
 void check_memo_table(const std::function<std::uint32_t(std::uint32_t)>& hash_of, bool soon) {
   Calls calls;
-  sac::MemoTable memo(calls.arena);
+  sac::MemoTable memo(calls.arena, calls.timeline);
   std::vector<Handle> all;
+  const auto erase = [&](std::size_t i) {
+    const std::uint32_t hash = hash_of(static_cast<std::uint32_t>(i));
+    memo.leaves(all[i], hash);
+    memo.erase(all[i], hash);
+  };
   const auto found = [&](std::size_t i) {
-    return memo.find(hash_of(static_cast<std::uint32_t>(i)),
-                     [&](Handle other, const sac::Call&) { return other == all[i]; }) == all[i];
+    const auto is_it = [&](const sac::Call& c) { return calls.arena.handle_of(&c) == all[i]; };
+    return memo.find_between(hash_of(static_cast<std::uint32_t>(i)), calls.timeline.front(), 0,
+                             is_it) == all[i];
   };
   for (std::uint32_t i = 0; i < 5000; ++i) {
     all.push_back(calls.make(calls.timeline.back()));
@@ -166,7 +172,7 @@ void check_memo_table(const std::function<std::uint32_t(std::uint32_t)>& hash_of
     if (i % 100 == 99) REQUIRE(found(i - 3));
     if (i % 100 == 50) {
       memo.settle();
-      memo.erase(all[i], hash_of(i));
+      erase(i);
       REQUIRE_FALSE(memo.contains(all[i], hash_of(i)));
       memo.insert(all[i], hash_of(i));
     }
@@ -174,7 +180,7 @@ void check_memo_table(const std::function<std::uint32_t(std::uint32_t)>& hash_of
   memo.check_invariants();
   memo.settle();
   memo.check_invariants();
-  for (std::uint32_t i = 0; i < all.size(); i += 2) memo.erase(all[i], hash_of(i));
+  for (std::uint32_t i = 0; i < all.size(); i += 2) erase(i);
   memo.check_invariants();
   memo.shrink();
   memo.check_invariants();
@@ -187,7 +193,7 @@ void check_memo_table(const std::function<std::uint32_t(std::uint32_t)>& hash_of
 
 TEST_CASE("what waits for its place in the memo table is found in the order in which it came") {
   Calls calls;
-  sac::MemoTable memo(calls.arena);
+  sac::MemoTable memo(calls.arena, calls.timeline);
   std::vector<Handle> all;
   const auto hash_of = [](std::size_t i) { return static_cast<std::uint32_t>(sac::mix(i / 3)); };
   for (std::size_t i = 0; i < 3000; ++i) {
@@ -212,8 +218,8 @@ TEST_CASE("what waits for its place in the memo table is found in the order in w
     for (std::size_t k = i; k < i + 3; ++k) {
       if (k % 5 != 0) expected.push_back(all[k]);
     }
-    const Handle last = memo.find(hash_of(i), [&](Handle h, const sac::Call&) {
-      found.push_back(h);
+    const Handle last = memo.find(hash_of(i), [&](const sac::Call& c) {
+      found.push_back(calls.arena.handle_of(&c));
       return false;
     });
     REQUIRE(last == 0);
@@ -243,52 +249,6 @@ TEST_CASE("the memo table finds every call by its hash, through growth and erasu
     check_memo_table(close, soon);
     check_memo_table(all_alike, soon);
   }
-}
-
-TEST_CASE("ordered calls are those of a std::set, with ties decided by the calls") {
-  sac::OrderedCalls calls;
-  using Entry = sac::OrderedCalls::Entry;
-  const auto before = [](Handle a, Handle b) { return a < b; };
-  std::set<std::pair<std::uint64_t, Handle>> oracle;
-  Random random;
-  for (Handle h = 1; h <= 300; ++h) {  // a first run appends
-    calls.append({h / 7, h});
-    oracle.insert({h / 7, h});
-  }
-  for (int step = 0; step < 20000; ++step) {
-    const auto h = static_cast<Handle>(1 + random(step % 4000 < 2000 ? 3000 : 40));
-    const Entry entry{h / 7, h};
-    if (oracle.insert({entry.order, h}).second) {
-      const auto it = oracle.find({entry.order, h});
-      const Handle expected = it == oracle.begin() ? 0 : std::prev(it)->second;
-      REQUIRE(calls.predecessor(entry, before) == expected);
-      calls.insert(entry, before);
-    } else {
-      calls.erase(entry, before);
-      oracle.erase({entry.order, h});
-    }
-    REQUIRE(calls.size() == oracle.size());
-    REQUIRE(calls.empty() == oracle.empty());
-    if (!oracle.empty()) {
-      REQUIRE(calls.first() == oracle.begin()->second);
-      REQUIRE(calls.last() == oracle.rbegin()->second);
-    }
-    if (step % 500 != 0) continue;
-    std::vector<Handle> now, expected;
-    calls.for_each([&](const Entry& e) { now.push_back(e.call); });
-    for (const auto& e : oracle) expected.push_back(e.second);
-    REQUIRE(now == expected);
-  }
-}
-
-TEST_CASE("entries can be appended to a last leaf that insertions have filled") {
-  sac::OrderedCalls calls;
-  const auto before = [](Handle a, Handle b) { return a < b; };
-  for (Handle h = 1; h <= 112; ++h) calls.append({2 * h, h});
-  for (Handle h = 1; h <= 16; ++h) calls.insert({2 * h + 1, 1000 + h}, before);
-  calls.append({1000, 2000});
-  CHECK(calls.size() == 129);
-  CHECK(calls.last() == 2000);
 }
 
 void some_function(sac::Scope&, int) {}

@@ -96,7 +96,7 @@ void Index::appeared(const Vertex<2>& v, const sac::Call* before) {
       const double reach = unpacked(q.reach);
       if (d2 > reach * reach) continue;
       sac::Call& call = engine_.call(q.call);
-      if (call.has(sac::Call::kInvalid) || !engine_.precedes(birth, call)) continue;
+      if (call.invalid() || !engine_.precedes(birth, call)) continue;
       if (before != nullptr && engine_.precedes(*before, call)) continue;
       if (q.kind == kNearest ||
           VoronoiCell::may_cut(pool_, center, unpacked(q.radius), q.codes(),
@@ -297,7 +297,7 @@ void Index::check_invariants() const {
     int stars = 0;
     for (sac::Handle h = v.queries; h != 0; h = query(h).next_query) {
       SAC_INVARIANT(query(h).center == v.self);
-      SAC_INVARIANT(!engine_.call(query(h).call).has(sac::Call::kDead));
+      SAC_INVARIANT(!engine_.call(query(h).call).dead());
       reach = std::max(reach, query(h).reach);
       stars += query(h).kind == kStar;
     }

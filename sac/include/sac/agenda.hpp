@@ -11,12 +11,14 @@
 //     the propagation queue and is discarded when its turn comes, unless posted again before.
 // (2) In a first run calls get their time stamps as they run; a call posted during propagation gets
 //     its place between its neighbours at once.
-// (3) Posting a call that would run before its poster is an error that names both. A child of a
-//     posted call posts as that call does.
-// (4) Cost of a post: O(1) expected in a first run and when repeated; O(log) of the calls of the
-//     same bucket otherwise.
-// (5) An agenda is drained by one call. When that call leaves the trace, what is still posted waits
-//     for another drain.
+// (3) Posting a call whose turn is over when it is posted is an error that names both: one that
+//     comes before the posted call that runs, or any behind the drain.
+// (4) The key is a function of the label: another one for the same call is an error. So is an
+//     argument that does not equal itself, as a NaN: it has no place in an order.
+// (5) Cost of a post: O(1) expected in a first run and when repeated; O(log) of the calls of the
+//     agenda otherwise.
+// (6) An agenda is drained by one call. When that call leaves the trace, or an earlier one drains
+//     the agenda instead, what is still posted waits for the new drain.
 #pragma once
 
 #include <compare>
@@ -24,12 +26,11 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "sac/engine.hpp"
-#include "sac/internal/ordered_calls.hpp"
+#include "sac/internal/sorted_index.hpp"
 #include "sac/scope.hpp"
 
 namespace sac {
@@ -46,6 +47,11 @@ struct Key {
     SAC_EXPECTS(bucket >= -32768 && bucket <= 32767 && phase < 16 && colour < 4096);
     return static_cast<std::uint32_t>(bucket + 32768) << 16 | phase << 12 | colour;
   }
+  /// The key of this rank and order.
+  [[nodiscard]] static Key of(std::uint32_t rank, std::uint64_t order) noexcept {
+    return {static_cast<int>(rank >> 16) - 32768, rank >> 12 & 15, rank & 4095, order};
+  }
+  friend bool operator==(const Key&, const Key&) = default;
 };
 
 /// The bucket of a length [§1.5]: equal for lengths within a factor of two, read off the exponent
@@ -54,76 +60,60 @@ struct Key {
 
 namespace detail {
 
-// Where a posted call stands, and how many posts ask for it; behind the head of the call.
-struct Slot {
-  std::uint64_t order = 0;
-  std::uint32_t rank = 0;
-  std::uint32_t agenda_and_posts = 0;  // agenda's number in the low 8 bits
-
-  static constexpr std::uint32_t kOnePost = 256;
-  static constexpr std::uint32_t kMostPosts = 0xffffffu;
-
-  [[nodiscard]] std::uint8_t agenda() const noexcept {
-    return static_cast<std::uint8_t>(agenda_and_posts);
-  }
-  [[nodiscard]] std::uint32_t posts() const noexcept { return agenda_and_posts / kOnePost; }
-};
-static_assert(sizeof(Slot) == 16);
-
-template <class... Args>
-using PostedFrame = Frame<Slot, Nothing, Args...>;
-
-struct PostEdge : Edge {
-  Handle target;
-};
-
 template <class T>
 concept Ordered = std::three_way_comparable<T> || requires(const T& a, const T& b) {
   { a < b } -> std::convertible_to<bool>;
 };
 
+// A posted call F(scope, args...), and its frame.
 template <auto F, class... Args>
-constexpr Function describe_posted() {
+struct Posted {
   static_assert((Ordered<Args> && ...),
                 "an argument of a posted call needs <=> or <: calls of one key run in the order of "
                 "their arguments");
-  static_assert(std::is_void_v<std::invoke_result_t<decltype(F), Scope&, const Args&...>>,
-                "a posted call has nobody to return to");
-  using Type = PostedFrame<Args...>;
-  Function f = describe_frame<Type, &function_name<F>>();
-  f.identity = identity<F, std::tuple<Args...>>();
-  f.posted = true;
-  f.execute = &execute_frame<F, Type>;
-  f.compare = &compare_args<Type>;
-  return f;
-}
-template <auto F, class... Args>
-inline constexpr Function kPosted = describe_posted<F, Args...>();
+  static_assert(std::is_void_v<ResultOf<F, Args...>>, "a posted call has nobody to return to");
+  static constexpr auto name = &function_name<F>;
+  using FrameType = Frame<Slot, Nothing, Args...>;
+  static constexpr Function function = [] {
+    Function f = describe_frame<FrameType, name>();
+    f.identity = identity<F, std::tuple<Args...>>();
+    f.posted = true;
+    f.execute = &Called<F, Args...>::template execute_in<FrameType>;
+    f.compare = [](const Call& a, const Call& b) {
+      return compare_arguments(FrameType::of(a).args, FrameType::of(b).args);
+    };
+    return f;
+  }();
+};
 
 }  // namespace detail
 
-class Agenda final : public Structure {
+class Agenda final : public WorkQueue {
  public:
   /// Use Engine::make_agenda.
   Agenda(Engine& engine, std::string name);
+  ~Agenda() override { engine_.remove_structure(id_); }
 
-  /// Asks for the call f(scope, args...) at `key`, on behalf of the running call. `key` must be a
-  /// function of the label. Throws: UsageError if that is in the past.
+  /// Asks for the call f(scope, args...) at `key`, on behalf of the running call. Throws: UsageError
+  /// as (3) and (4) say.
   template <auto F, class... Args>
   void post(Scope& s, const Key& key, Args... args) {
-    post_labelled<F>(s, key, label_as<F>(std::move(args)...));
+    core_.guarded([&] {
+      const auto label = label_as<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
+      post_call(s, key, label.asked());
+    });
   }
 
   /// Asks for a call on behalf of the outside: an input, as Engine::set is.
   template <auto F, class... Args>
   void post_from_outside(const Key& key, Args... args) {
     engine_.begin_edit("post_from_outside");
-    const auto label = label_as<F>(std::move(args)...);
-    engine_.on_rollback([this, label] { drop_labelled<F>(label); });
+    const auto label = label_as<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
+    const Handle post = outside_post(key, label.asked());
     try {
-      add_labelled<F>(key, label);
+      engine_.on_rollback([this, label] { drop_outside(require_posted(label.asked())); });
     } catch (...) {
-      engine_.rollback_.pop_back();
+      drop_outside(post);
       throw;
     }
   }
@@ -131,10 +121,10 @@ class Agenda final : public Structure {
   template <auto F, class... Args>
   void retract_from_outside(Args... args) {
     engine_.begin_edit("retract_from_outside");
-    const auto label = label_as<F>(std::move(args)...);
-    Call& call = require_labelled<F>(label);
-    engine_.on_rollback([this, key = key_of(call), label] { add_labelled<F>(key, label); });
-    drop_post(call);
+    const auto label = label_as<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
+    const Handle post = require_posted(label.asked());
+    engine_.on_rollback([this, key = key_of(post), label] { outside_post(key, label.asked()); });
+    drop_outside(post);
   }
 
   /// Runs what was posted, in order, as children of the running call. Once per agenda.
@@ -144,98 +134,107 @@ class Agenda final : public Structure {
   /// The same for the agenda that was made as the same one of another engine.
   [[nodiscard]] std::uint64_t number() const noexcept { return id_; }
   [[nodiscard]] std::size_t bytes() const noexcept;
-  [[nodiscard]] std::uint64_t pending_calls() const noexcept { return pending_calls_; }
-  void check_invariants() const;
+  /// Calls that are posted and have no place in the trace.
+  [[nodiscard]] std::uint64_t waiting_calls() const noexcept { return waiting_calls_; }
+  /// Throws: UsageError if a call drains the agenda, or something is posted on it.
+  void require_unused() const;
 
   void retract(Call& call, Edge& edge) noexcept override;
+  void hide(Call& call, Edge& edge, Handle end) noexcept override;
+  void left(Call& call, bool asked_for) noexcept override;
+  void finished() noexcept override { drop_unposted(); }
+  void check_invariants() const override;
 
  private:
-  friend class Engine;
-  using Entry = OrderedCalls::Entry;
-  using Construct = void (*)(void*, const void*);
-
-  static detail::Slot& slot(Call& call) noexcept {
-    return *reinterpret_cast<detail::Slot*>(&call + 1);
-  }
-  static const detail::Slot& slot(const Call& call) noexcept {
-    return *reinterpret_cast<const detail::Slot*>(&call + 1);
-  }
-  static Key key_of(const Call& call) noexcept;
-  void shrink() noexcept;
-  static void forget(Engine& engine, Call& call) noexcept;
-  static void detach(Engine& engine, Call& call) noexcept;
-
-  // Outside edits and their inverses go by label: a call discarded in a propagation that fails is
-  // another one after the roll-back.
-  template <auto F, class... Args>
-  static auto label_as(Args... args) {
-    return detail::make_label<&function_name<F>>(detail::parameters<F, false, Args...>(),
-                                                 std::move(args)...);
-  }
-  template <auto F, class... Args>
-  void post_labelled(Scope& s, const Key& key, const detail::Label<Args...>& label) {
-    post_call(s, detail::kPosted<F, Args...>, key, label.hash, &label,
-              detail::constructor_of<detail::PostedFrame<Args...>>());
-  }
-  template <auto F, class... Args>
-  Call& require_labelled(const detail::Label<Args...>& label) const {
-    return require_posted(detail::kPosted<F, Args...>, label.hash, &label);
-  }
-  template <auto F, class... Args>
-  void add_labelled(const Key& key, const detail::Label<Args...>& label) {
-    outside_post(detail::kPosted<F, Args...>, key, label.hash, &label,
-                 detail::constructor_of<detail::PostedFrame<Args...>>());
-  }
-  template <auto F, class... Args>
-  void drop_labelled(const detail::Label<Args...>& label) {
-    const auto& function = detail::kPosted<F, Args...>;
-    if (const Handle h = find(function, label.hash, &label); h != 0) drop_post(engine_.call(h));
-  }
-
-  void post_call(Scope& s, const Function& function, const Key& key, std::uint32_t hash,
-                 const void* args, Construct construct);
-  void outside_post(const Function& function, const Key& key, std::uint32_t hash, const void* args,
-                    Construct construct);
-  [[nodiscard]] Call& require_posted(const Function& function, std::uint32_t hash,
-                                     const void* args) const;
-  [[nodiscard]] Handle find(const Function& function, std::uint32_t hash, const void* args) const;
-  Handle create(const Function& function, const Key& key, std::uint32_t hash, const void* args,
-                Construct construct);
-  [[nodiscard]] bool in_future(const Call& poster, const Call& posted) const;
-  void require_future(const Call& poster, const Call& posted) const;
-  void add_pending(Handle call);
-  void drop_pending(Handle call) noexcept;
-  void drop_unposted() noexcept;
-  void chain(Call& call) noexcept;
-  void adopt_detached();
-  void place(Handle call);
-  [[nodiscard]] Handle predecessor(const Call& call) const;
-  void add_post(Call& call) noexcept;
-  void require_room(const Call& call) const;
-  void drop_post(Call& call, const Call* poster = nullptr) noexcept;
-  [[nodiscard]] bool before(const Call& a, const Call& b) const;
-
-  [[noreturn]] void fail_drained_twice(const Call& caller) const;
-  void begin_drain(Scope& s);
-  void run_pending(Scope& s);
-  void run_class(std::uint32_t rank);
-  void run_one(const Entry& entry, OrderedCalls& done);
+  enum class State : std::uint8_t {
+    open,      // what is posted waits
+    draining,  // drain_call_ runs what is posted
+    drained    // what is posted gets its place among what drain_call_ has run
+  };
+  struct Entry {
+    std::uint64_t order = 0;
+    std::uint32_t rank = 0;
+    Handle call = 0;
+  };
+  using Index = SortedIndex<Entry>;
+  // Posts of a call that count are chained; one that does not, for now, is its own predecessor.
+  struct PostEdge : Edge {
+    Handle target;
+    Handle poster;  // 0: the outside, whose posts are in no call's list
+    Handle next_post;
+    Handle previous_post;
+  };
+  static_assert(sizeof(PostEdge) == 24);
   struct Drain;
   static constexpr std::uint8_t kPost = 0;
   static constexpr std::uint8_t kDrain = 1;
 
+  // Outside edits and their inverses go by label: a call discarded in a propagation that fails is
+  // another one after the roll-back.
+  template <auto F, class... P, class... Args>
+  static auto label_as(detail::Types<P...>, Args&&... args) {
+    auto label = detail::make_label<detail::Posted<F, P...>>(std::forward<Args>(args)...);
+    if (!detail::reflexive(label.args)) fail_irreflexive(label.asked().function);
+    return label;
+  }
+  [[noreturn]] static void fail_irreflexive(const Function& function);
+
+  // post.cpp
+  void post_call(Scope& s, const Key& key, const Asked& asked);
+  Handle create(const Key& key, const Asked& asked);
+  void add_waiting(Handle call);
+  Handle outside_post(const Key& key, const Asked& asked);
+  void drop_outside(Handle post) noexcept;
+  [[nodiscard]] Handle require_posted(const Asked& asked) const;
+  [[nodiscard]] Key key_of(Handle post) const noexcept;
+  void require_key(const Call& call, const Key& key) const;
+  [[nodiscard]] bool in_future(const Call& posted) const;
+  void require_future(const Call& poster, const Call& posted) const;
+  [[nodiscard]] PostEdge& post_at(Handle h) const noexcept { return *core_.at<PostEdge>(h); }
+  [[nodiscard]] bool counts(const PostEdge& post) const noexcept {
+    return post.previous_post != engine_.arena().handle_of(&post);
+  }
+  void add_post(PostEdge& post, Handle target) noexcept;
+  void drop_post(PostEdge& post) noexcept;
+  void drop_waiting(Handle call) noexcept;
+  void drop_unposted() noexcept;
+
+  // drain.cpp
+  [[nodiscard]] bool before(const Call& a, const Call& b) const;
+  [[nodiscard]] auto order() const noexcept {
+    return [this](const Entry& a, const Entry& b) {
+      if (a.rank != b.rank) return a.rank < b.rank;
+      if (a.order != b.order) return a.order < b.order;
+      return a.call != b.call && before(*core_.at<Call>(a.call), *core_.at<Call>(b.call));
+    };
+  }
+  [[nodiscard]] Entry entry_of(const Call& call) const noexcept {
+    return {Slot::of(call).order, Slot::of(call).rank, engine_.handle_of(call)};
+  }
+  [[nodiscard]] Handle stamp_before(const Call& call) const;
+  void place(Handle call);
+  void take_from_index(const Call& call) noexcept;
+  void chain(Call& call) noexcept;
+  void adopt_chained();
+  void set_later_posts_aside(const Call& drain);
+  [[noreturn]] void fail_drained_twice(const Call& caller) const;
+  void begin_drain(Scope& s);
+  void run_waiting(Scope& s);
+  void run_class(std::uint32_t rank);
+  void run_one(const Entry& entry);
+
   Engine& engine_;
+  Core& core_;
   std::string name_;
   std::uint8_t id_;
-  std::map<std::uint32_t, std::vector<Entry>> pending_;
-  std::map<std::uint32_t, OrderedCalls> classes_;
-  std::uint64_t pending_calls_ = 0;
-  bool unposted_ = false;  // a pending call lost a post
-  Handle detached_ = 0;  // pending calls of a drain that is gone, chained by Call::edges
+  State state_ = State::open;
+  bool unposted_ = false;  // a waiting call lost a post
+  std::map<std::uint32_t, std::vector<Entry>> waiting_;  // by rank
+  Handle chained_ = 0;  // calls that wait, too: since their drain has gone
+  Index placed_;        // what drain_call_ has run, or is to run
+  std::uint64_t waiting_calls_ = 0;
   Handle drain_call_ = 0;
   Handle running_ = 0;  // the posted call that the drain runs
-  bool draining_ = false;
-  bool drained_ = false;
 };
 
 }  // namespace sac

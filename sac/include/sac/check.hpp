@@ -28,6 +28,13 @@ class InvariantError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
+/// Whether this build was made with SAC_CHECKS.
+#ifdef SAC_CHECKS
+inline constexpr bool kChecked = true;
+#else
+inline constexpr bool kChecked = false;
+#endif
+
 namespace detail {
 [[noreturn]] void fail_expects(const char* expression, const char* file, int line);
 [[noreturn]] void fail_invariant(const char* expression, const char* file, int line);

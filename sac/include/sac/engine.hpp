@@ -1,6 +1,6 @@
 // The engine: runs programs, keeps their traces, and brings the traces up to date.
 //
-// Three primitives carry everything changeable (DESIGN: mods, agendas, users' own types):
+// Three primitives carry everything changeable (mods, agendas, users' own types; structure.hpp):
 //   observe     the running call depends on something      Scope::observe
 //   effect      the running call did something             Scope::effect
 //   invalidate  a call's observation may have changed      Engine::invalidate
@@ -12,17 +12,22 @@
 //     interval, subtrees included, without running them; what it passes over is discarded. What
 //     is invalid in a reused subtree runs before its new parent goes on. (A tail call that ends
 //     the interval is reused by a tail call only: its end stamp is the interval's.)
-// (4) If client code throws in propagate(), the edits of the batch are undone and propagated; if
-//     that fails too, the engine refuses all further work.
+// (4) What a first run refuses, a propagation refuses. If client code throws in propagate(), the
+//     edits of the batch are undone and propagated, and every value is what it was; if that fails
+//     too, the engine refuses all further work.
 // (5) Memory of discarded calls is freed when the propagation ends, not before.
 //
-// An engine is used by one thread at a time; engines share nothing.
+// An engine is used by one thread at a time; engines share nothing. The outside's operations are
+// refused while it runs: a traced function reads and writes through its scope.
+//
+// Limits: 32 GiB of calls and edges; 255 structures, agendas included; 65535 functions and types of
+// values. An engine takes 32 GiB of address space, which a process has for
+// some 4000 of them; where that is limited (ulimit -v), it makes do with less, down to 64 MiB.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <tuple>
@@ -30,16 +35,11 @@
 #include <utility>
 #include <vector>
 
-#include "sac/internal/arena.hpp"
 #include "sac/check.hpp"
-#include "sac/label.hpp"
-#include "sac/internal/memo_table.hpp"
-#include "sac/observer.hpp"
+#include "sac/internal/core.hpp"
 #include "sac/internal/parameters.hpp"
-#include "sac/internal/propagation_queue.hpp"
-#include "sac/internal/registry.hpp"
-#include "sac/internal/timeline.hpp"
-#include "sac/trace.hpp"
+#include "sac/label.hpp"
+#include "sac/structure.hpp"
 
 namespace sac {
 
@@ -49,25 +49,6 @@ template <class T, class Same = std::equal_to<>>
 class Cell;
 class Agenda;
 class ModStructure;
-
-/// The work of one run or propagation, with that of the edits before it.
-struct Counts {
-  std::uint64_t executed = 0;       ///< bodies run
-  std::uint64_t reused = 0;         ///< calls asked for again and kept without running
-  std::uint64_t created = 0;        ///< calls that are new in the trace
-  std::uint64_t discarded = 0;      ///< calls that left the trace
-  std::uint64_t edges_made = 0;     ///< reads, writes, posts, ... recorded
-  std::uint64_t edges_removed = 0;  ///< reads, writes, posts, ... taken back
-  std::uint64_t confirmed = 0;      ///< calls not run: they would read what they have read
-};
-
-/// What the detectors saw; both empty for a program that is concise and monotone.
-struct AuditReport {
-  std::uint64_t duplicates = 0;  ///< pairs of live calls with equal labels [Def 1.4.2]
-  std::uint64_t reordered = 0;   ///< calls discarded and made anew in one propagation [Def 1.4.3]
-  std::string first_duplicate;   ///< label of the first pair
-  std::string first_reordered;   ///< label of the first such call
-};
 
 /// Memory of an engine in bytes. `live` is in use; `held` is what the engine has taken from the
 /// system, freed blocks that wait to be used again included.
@@ -95,12 +76,6 @@ struct FunctionProfile {
   std::uint64_t bytes = 0;
   std::uint64_t edges = 0;
   std::uint64_t edge_bytes = 0;
-};
-
-/// What a progress callback is told, at a call that is about to run.
-struct Progress {
-  std::uint64_t executed = 0;  // bodies run so far
-  std::uint64_t queued = 0;    // calls known to wait
 };
 
 class Engine {
@@ -145,7 +120,7 @@ class Engine {
   /// What messages shall call a modifiable.
   template <class T, class Same>
   void name(Mod<T, Same> mod, std::string name) {
-    names_[mod.head()] = std::move(name);
+    core_.names_[mod.head()] = std::move(name);
   }
 
   /// Runs f(scope, args...) at the end of the trace. Edits made before can no longer be undone.
@@ -160,10 +135,12 @@ class Engine {
 
   /// A new work queue, owned by the engine.
   [[nodiscard]] Agenda& make_agenda(std::string name);
+  /// Ends a work queue. Throws: UsageError if a call drains it or something is posted on it.
+  void release(Agenda& agenda);
 
   /// An object that the program's calls reach through Scope::environment: the same for the life of
   /// the trace, and not itself a dependence (what in it changes must be a mod or a structure).
-  void set_environment(void* environment) noexcept { environment_ = environment; }
+  void set_environment(void* environment) noexcept { core_.environment_ = environment; }
 
   /// Calls `report` before the first of every `every` calls that run; if it returns false, the run
   /// or propagation ends with Cancelled, and the engine is as before it. Null: nobody is told.
@@ -171,21 +148,21 @@ class Engine {
   void set_progress(std::function<bool(const Progress&)> report, std::uint64_t every = 1024);
 
   /// Tells `observer` of all that happens; null: nobody. See EventLog.
-  void set_observer(Observer* observer) noexcept { observer_ = observer; }
-  [[nodiscard]] Observer* observer() const noexcept { return observer_; }
+  void set_observer(Observer* observer) noexcept { core_.observer_ = observer; }
+  [[nodiscard]] Observer* observer() const noexcept { return core_.observer_; }
 
   /// How much native stack calls inside of calls may take, in bytes, counted from run() or
   /// propagate(); beyond, UsageError. At first 3/4 of the process's limit (RLIMIT_STACK; 2 MiB if
   /// it has none): to be set for threads that have less, and if the client's own frames need more.
-  void set_stack_limit(std::size_t bytes) noexcept { stack_limit_ = bytes; }
+  void set_stack_limit(std::size_t bytes) noexcept { core_.stack_limit_ = bytes; }
 
   /// Watches for calls that break conciseness or monotonicity; costs a table look-up a call.
-  void set_audit(bool on) noexcept { audit_ = on; }
-  [[nodiscard]] const AuditReport& audit() const noexcept { return report_; }
+  void set_audit(bool on) noexcept { core_.audit_ = on; }
+  [[nodiscard]] const AuditReport& audit() const noexcept { return core_.report_; }
 
-  [[nodiscard]] std::uint64_t live_calls() const noexcept { return live_calls_; }
-  [[nodiscard]] std::uint64_t live_edges() const noexcept { return live_edges_; }
-  /// Memory that the trace uses: memory().live().
+  [[nodiscard]] std::uint64_t live_calls() const noexcept { return core_.live_calls(); }
+  [[nodiscard]] std::uint64_t live_edges() const noexcept { return core_.live_edges(); }
+  /// Memory that the trace uses: memory().live(). Cost: O(modifiables with several writers).
   [[nodiscard]] std::size_t bytes() const noexcept { return memory().live(); }
   [[nodiscard]] Memory memory() const noexcept;
   /// Calls and bytes by function, the largest first. Cost: O(trace).
@@ -195,28 +172,39 @@ class Engine {
   void shrink();
   /// From now on the trace may hold so many bytes of calls and edges; beyond, std::bad_alloc.
   /// Edits are undone without a limit.
-  void set_memory_limit(std::size_t bytes) noexcept { arena_.set_limit(bytes); }
-  [[nodiscard]] bool idle() const noexcept { return mode_ == Mode::idle; }
+  void set_memory_limit(std::size_t bytes) noexcept { arena().set_limit(bytes); }
+  [[nodiscard]] bool idle() const noexcept { return core_.idle(); }
 
-  /// Calls visit(call, depth) for every live call in pre-order.
+  /// Calls visit(call, depth) for every call that has a place, in pre-order.
   template <class Visit>
-  void walk(Visit&& visit) const;
+  void walk(Visit&& visit) const {
+    core_.walk(std::forward<Visit>(visit));
+  }
 
   /// `name(arguments)`.
   [[nodiscard]] static std::string describe(const Call& call);
   /// What messages call a modifiable: `modifiable 'price' (@7)`.
   [[nodiscard]] std::string describe_mod(Handle head) const;
 
-  /// Throws: InvariantError. Cost: O(trace).
+  /// Checks the trace, and every structure. Throws: InvariantError. Cost: O(trace).
   void check_invariants() const;
 
   // --- For structures ----------------------------------------------------------------------
+  //
+  // This and Scope are all that modifiables and agendas use, and all that a type of one's own needs
+  // (docs/traceable_types.md).
 
-  /// Gives a structure the number that its edges carry. The structure outlives the trace.
-  std::uint8_t add_structure(Structure& structure);
+  /// Gives a structure the number that its edges carry. The structure outlives the trace, or until
+  /// remove_structure(). Throws: UsageError beyond 255.
+  std::uint8_t add_structure(Structure& structure) { return core_.add_structure(structure); }
+  /// Requires: no call has an edge of the structure.
+  void remove_structure(std::uint8_t number) noexcept { core_.remove_structure(number); }
 
   /// Before an outside edit: refuses if the engine runs or is broken. `what` names it.
-  void begin_edit(const char* what = "edit");
+  void begin_edit(const char* what = "edit") const {
+    core_.require_usable();
+    core_.require_idle(what);
+  }
   /// How to take the edit back if the next propagation fails. Cleared when it succeeds.
   void on_rollback(std::function<void()> undo) { rollback_.push_back(std::move(undo)); }
   /// Makes the edits of body(): all of them, or none if it throws.
@@ -228,44 +216,74 @@ class Engine {
 
   /// The call's observation may have changed: it will run again. `seen` tells observers which: the
   /// edge that says what it saw.
-  void invalidate(Call& call, const Edge* seen = nullptr) noexcept {
-    ask_again(call, Call::kInvalid, seen, 0);
+  void invalidate(Call& call, const Edge* seen = nullptr) noexcept { core_.invalidate(call, seen); }
+  /// It will run again if, when its turn comes, Structure::unchanged says no of one of its edges.
+  /// `source` tells observers which modifiable it is about; 0: none.
+  void doubt(Call& call, Handle source = 0) noexcept { core_.doubt(call, source); }
+  /// `ancestor` of the running call has settled, and did something behind children of its own (see
+  /// Edge::behind) that the running call, had it been there, should have seen or not. It runs again,
+  /// so that this is refused or not as in a first run. Throws: std::bad_alloc.
+  void run_again(Call& ancestor) { core_.run_again(ancestor); }
+  [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
+    return core_.precedes(a, b);
   }
-  /// A modifiable that the call has read may have another value: it will run again if that is so
-  /// when its turn comes. `source` tells observers which; 0: not known.
-  void doubt(Call& call, Handle source = 0) noexcept {
-    ask_again(call, Call::kDoubtful, nullptr, source);
+  /// Whether `call` lies behind `from` and before the time stamp `end` (0: the end of the trace).
+  [[nodiscard]] bool lies_between(const Call& from, const Call& call, Handle end) const noexcept {
+    return core_.lies_between(from, call, end);
   }
-  [[nodiscard]] bool precedes(const Call& a, const Call& b) const noexcept {
-    return timeline_.precedes(a, b);
+  /// Whether `call` lies in the interval of `ancestor`.
+  [[nodiscard]] bool encloses(const Call& ancestor, const Call& call) const noexcept {
+    return ancestor.end != 0 && lies_between(ancestor, call, ancestor.end);
   }
-  [[nodiscard]] Call& call(Handle handle) const noexcept { return *arena_.at<Call>(handle); }
+  /// Whether `call` is still to come: it lies behind all that the running call has done.
+  [[nodiscard]] bool lies_ahead(const Call& call) const noexcept { return core_.lies_ahead(call); }
+  /// Whether the running call has had children in this execution.
+  [[nodiscard]] bool has_had_children() const noexcept { return core_.has_had_children(); }
+  [[nodiscard]] Call& call(Handle handle) const noexcept { return *core_.at<Call>(handle); }
   [[nodiscard]] Handle handle_of(const Call& call) const noexcept {
-    return arena_.handle_of(&call);
+    return arena().handle_of(&call);
   }
   /// True while a first run appends to the trace: every call there is precedes the running one.
-  [[nodiscard]] bool appending() const noexcept { return mode_ == Mode::running; }
+  [[nodiscard]] bool appending() const noexcept { return core_.appending(); }
+  /// True while a propagation that failed is taken back.
+  [[nodiscard]] bool undoing() const noexcept { return core_.undoing(); }
+  /// True if no call waits to run again.
+  [[nodiscard]] bool settled() const noexcept { return core_.settled(); }
+  /// Tells an observer, if there is one, what has happened, by the running call.
+  void note(Event::Kind kind, const Call* call = nullptr, Handle source = 0) noexcept {
+    core_.note(kind, call, source);
+  }
+  /// Where to keep what a propagation replaces and recomputing would not bring back; null: there
+  /// is no need.
+  [[nodiscard]] Originals* originals() noexcept {
+    return idle() || appending() ? nullptr : &core_.originals();
+  }
   /// The structure that `edge` belongs to.
   [[nodiscard]] const Structure& structure_of(const Edge& edge) const noexcept {
-    return *structures_[edge.structure];
+    return core_.structure(edge.structure);
   }
   /// Calls visit(edge) for what `call` did and saw, in its order.
   template <class Visit>
   void for_each_edge(const Call& call, Visit&& visit) const {
-    for (Handle e = call.edges; e != 0; e = at<Edge>(e)->next) {
-      visit(static_cast<const Edge&>(*at<Edge>(e)));
+    for (Handle e = call.edges; e != 0; e = core_.at<Edge>(e)->next) {
+      visit(static_cast<const Edge&>(*core_.at<Edge>(e)));
     }
   }
-  [[nodiscard]] Arena& arena() noexcept { return arena_; }
-  [[nodiscard]] const Arena& arena() const noexcept { return arena_; }
+  /// Whether a call that has a place lies at `h`, where anything may lie.
+  [[nodiscard]] bool is_live_call(Handle h) const noexcept { return core_.is_live_call(h); }
+  [[nodiscard]] Arena& arena() noexcept { return core_.arena(); }
+  [[nodiscard]] const Arena& arena() const noexcept { return core_.arena(); }
+  /// The call whose body runs; null: none.
+  [[nodiscard]] const Call* running_call() const noexcept { return core_.running_call(); }
+  /// `what`, after the running call if there is one: the beginning of a message.
+  [[nodiscard]] std::string context(const char* what) const { return core_.context(what); }
+
+  // --- Internal: for the library's own headers -----------------------------------------------
+
+  [[nodiscard]] Core& core() noexcept { return core_; }
+  [[nodiscard]] ModStructure& mods() noexcept { return *mods_; }
 
  private:
-  friend class Scope;
-  friend class Agenda;
-  friend class ModStructure;
-
-  enum class Mode : std::uint8_t { idle, running, propagating, undoing };
-
   // An object of the outside in memory: head, object.
   struct OutsideHead {
     std::uint32_t position;  // in outside_
@@ -279,176 +297,26 @@ class Engine {
   template <class T>
   static constexpr OutsideType kOutsideType{sizeof(OutsideHead) + sizeof(T),
                                             [](void* object) { static_cast<T*>(object)->~T(); }};
-  using Construct = void (*)(void*, const void*);
-
-  // One execution on the native stack: a call and the tail calls that continue it.
-  struct Activation {
-    Call* call = nullptr;
-    Handle old_edges = 0;  // what the call did last time and has not repeated yet
-    Handle last_edge = 0;
-    Handle limit = 0;  // end of the interval in which calls may be reused; 0: end of the trace
-    Handle end = 0;    // end stamp, once there are children
-    bool end_linked = false;
-    bool tail_reused = false;
-    bool hidden = false;  // what it has not repeated is hidden from its children
-    Handle tail = 0;
-    Handle failed_child = 0;  // whose exception passes through the call's body
-    Activation* outer = nullptr;
-  };
-
-  template <class T>
-  [[nodiscard]] T* at(Handle h) const noexcept {
-    return arena_.at<T>(h);
+  [[nodiscard]] OutsideHead* outside_head(Handle h) const noexcept {
+    return core_.at<OutsideHead>(h);
   }
-  [[nodiscard]] bool lies_ahead(const Call& c) const noexcept {
-    return timeline_.precedes(*at<TimeNode>(now_), c);
-  }
-  [[nodiscard]] Handle end_of(Handle call) const noexcept {
-    const Handle end = at<Call>(call)->end;
-    return end != 0 ? end : call;
-  }
-  // An end stamp has no place until its call closes.
-  [[nodiscard]] bool linked(Handle stamp) const noexcept { return at<TimeNode>(stamp)->prev != 0; }
-  void enqueue(Call& call) noexcept { queue_.push(handle_of(call)); }
-  void ask_again(Call& call, std::uint16_t why, const Edge* seen, Handle source) noexcept {
-    call.set(why);
-    if (call.has(Call::kRunning | Call::kPending | Call::kDead)) return;
-    if (observer_ != nullptr) [[unlikely]] {
-      observer_->on({.kind = Event::Kind::invalidated,
-                     .call = &call,
-                     .source = source,
-                     .seen = seen,
-                     .by = running_call()});
-    }
-    if (call.queue == 0) enqueue(call);
-  }
-  // Whether a call that is in the trace lies at `h`, where anything may lie.
-  [[nodiscard]] bool is_live_call(Handle h) const noexcept;
-  [[nodiscard]] const Call* running_call() const noexcept {
-    return current_ != nullptr ? current_->call : nullptr;
-  }
-  void note(Event::Kind kind, const Call* call = nullptr, Handle source = 0) noexcept {
-    observer_->on({.kind = kind, .call = call, .source = source, .by = running_call()});
-  }
-  // Requires: an exception is being handled.
-  void note_failure(Event::Kind kind, const Call* call = nullptr) noexcept;
-
-  // Calls find their function by its number through the arena's header.
-  [[nodiscard]] std::uint16_t number_of(const Function& function) {
-    const std::uint16_t number = functions_.number(function);
-    arena_.header().functions = functions_.data();
-    return number;
-  }
-  void enter(Mode mode);
-  void undo_edits_behind(std::size_t edits);
-  void report_progress();
-  [[nodiscard]] bool unposted(const Call& call) const noexcept;
-  void result_changed(Handle caller) noexcept;
   [[nodiscard]] Handle new_outside(const OutsideType& type);
   void release_outside(void* object, const char* kind);
-  void forget_names(Handle from, std::size_t bytes) noexcept;
-  void require_unwritten(Handle head) const;
   void require_released_unused() const;
   void free_released() noexcept;
-  void require_idle(const char* what) const;
+  void undo_edits_behind(std::size_t edits);
+  void roll_back() noexcept;
+  Counts run_root(const Asked& asked);
   template <auto F, class... P, class... Args>
   Counts run_as(detail::Types<P...>, Args&&... args);
-  void require_no_tail(const Activation& caller, const Function& function) const;
-  void require_stack(const Activation& caller, const Function& function) const;
-  void require_own(const void* object, const char* what) const {
-    if (!arena_.contains(object)) [[unlikely]] fail_foreign(what);
-  }
-  [[noreturn]] void fail_foreign(const char* what) const;
-  void depend_on_result(Handle child) noexcept;
-  [[nodiscard]] Activation& running() const {
-    if (current_ != nullptr) [[likely]] return *current_;
-    fail_not_running();
-  }
-  [[noreturn]] void fail_not_running() const;
-  [[noreturn]] void fail_no_environment() const;
-  void require_usable() const;
-  Counts run_root(const Function& function, std::uint32_t hash, const void* args,
-                  Construct construct);
-  [[nodiscard]] bool next_is_up_to(Handle call, Handle end) const noexcept;
-  void run_from_queue(Handle call);
-  [[nodiscard]] bool reads_the_same(Call& call);
-  bool settle_link(Activation& a, Handle link);
-  bool set_dying_aside(Handle call) noexcept;
-  void take_dying_back() noexcept;
-  void propagate_within(Handle call);
-  void roll_back();
-  void finish() noexcept;
-  void purge() noexcept;
-  void check_audit();
 
-  Handle new_call(const Function& function, std::uint32_t hash, const void* args,
-                  Construct construct);
-  void free_call(Handle call) noexcept;
-  void drop_call(Handle call) noexcept;
-  void insert_call(Handle call);
-  Handle find_reusable(const Function& function, std::uint32_t hash, const void* args, bool tail);
-  void suspect(Handle fresh, std::uint32_t hash, const void* args);
-  Handle call_child(const Function& function, std::uint32_t hash, const void* args,
-                    Construct construct);
-  Handle call_tail(const Function& function, std::uint32_t hash, const void* args,
-                   Construct construct);
-  [[noreturn]] void fail_caught(const Activation& caller) const;
-  void hide_unconfirmed(Activation& a) noexcept;
-  // Takes back what the running calls did last time for which `which(edge)`, and have not repeated.
-  template <class Which>
-  void retract_unrepeated(Which&& which) noexcept;
-  void need_end(Activation& a);
-  void settle_child(Handle child);
-  void execute(Handle call, Handle limit);
-  void run_body(Activation& a, Handle call);
-  void settle(Activation& a) noexcept;
-  void close(Activation& a);
-  void link_end(Activation& a);
-  void abandon(Activation& a) noexcept;
-  void discard_between(Handle from, Handle to) noexcept;
-  void discard(Handle call) noexcept;
-  void discard_subtree(Handle call) noexcept;
-
-  Edge& attach(std::uint8_t structure, std::uint8_t kind, std::size_t bytes);
-  void free_edge(Edge& edge) noexcept;
-  void retract_all(Call& call, Handle edges) noexcept;
-  // Moves the first edge of last time that `matches` into this execution's list.
-  template <class Matches>
-  Edge* recall(Matches&& matches);
-
-  Arena arena_;
-  Timeline timeline_;
-  MemoTable memo_;
-  PropagationQueue queue_;
-  std::vector<Structure*> structures_;
+  Core core_;
   std::unique_ptr<ModStructure> mods_;
   std::vector<std::unique_ptr<Agenda>> agendas_;
-  Registry<Function> functions_;
   Registry<OutsideType> outside_types_;
   std::vector<Handle> outside_;  // objects of the outside, by their heads
   std::vector<Handle> released_;  // those to be freed when the edits are final
-  std::map<Handle, std::string> names_;
-  std::function<bool(const Progress&)> progress_;
-  std::uint64_t progress_every_ = 0;
-  std::uint64_t progress_at_ = ~std::uint64_t{0};  // number of bodies run at the next report
-  Observer* observer_ = nullptr;
   std::vector<std::function<void()>> rollback_;
-  std::vector<Handle> aside_;  // calls that nobody posts any more and that may not go yet
-  std::vector<Handle> graveyard_;
-  std::size_t most_leaving_ = 0;  // so much of the two above has been in use
-  std::vector<std::pair<Handle, Handle>> suspects_;
-  void* environment_ = nullptr;
-  Activation* current_ = nullptr;
-  std::size_t stack_limit_;
-  std::uintptr_t stack_end_ = 0;  // no call is made when the native stack has grown down to here
-  Handle now_ = 0;  // the last time stamp that is settled or running
-  Mode mode_ = Mode::idle;
-  bool audit_ = false;
-  bool broken_ = false;
-  Counts counts_;
-  AuditReport report_;
-  std::uint64_t live_calls_ = 0;
-  std::uint64_t live_edges_ = 0;
 };
 
 template <class Body>
@@ -460,52 +328,6 @@ void Engine::edit_together(Body&& body) {
   } catch (...) {
     undo_edits_behind(before);
     throw;
-  }
-}
-
-template <class Matches>
-Edge* Engine::recall(Matches&& matches) {
-  Activation& a = running();
-  for (Handle* link = &a.old_edges; *link != 0; link = &at<Edge>(*link)->next) {
-    Edge& edge = *at<Edge>(*link);
-    if (!matches(edge)) continue;
-    const Handle handle = *link;
-    *link = edge.next;
-    edge.next = 0;
-    (a.last_edge != 0 ? at<Edge>(a.last_edge)->next : a.call->edges) = handle;
-    a.last_edge = handle;
-    return &edge;
-  }
-  return nullptr;
-}
-
-template <class Visit>
-void Engine::walk(Visit&& visit) const {
-  std::vector<Handle> open;  // end stamps of the intervals around the current call
-  for (Handle h = at<TimeNode>(timeline_.front())->next; h != 0; h = at<TimeNode>(h)->next) {
-    if (at<TimeNode>(h)->marked()) {
-      while (!open.empty() && open.back() == h) open.pop_back();
-      continue;
-    }
-    const Call& c = *at<Call>(h);
-    visit(c, open.size());
-    if (c.end != 0) open.push_back(c.end);
-  }
-}
-
-template <class Which>
-void Engine::retract_unrepeated(Which&& which) noexcept {
-  for (Activation* a = current_; a != nullptr; a = a->outer) {
-    for (Handle* link = &a->old_edges; *link != 0;) {
-      Edge& edge = *at<Edge>(*link);
-      if (!which(edge)) {
-        link = &edge.next;
-        continue;
-      }
-      *link = edge.next;
-      structures_[edge.structure]->retract(*a->call, edge);
-      free_edge(edge);
-    }
   }
 }
 

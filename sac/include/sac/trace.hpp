@@ -5,7 +5,7 @@
 // by tail share the end stamp of the call that they continue.
 //
 // Everything a call did or saw is an edge in its list, in the order of execution. An edge belongs
-// to a `Structure`, which knows how to take it back; the engine only keeps the lists.
+// to a `Structure` (structure.hpp), which knows how to take it back; the engine keeps the lists.
 //
 // A call in memory is its head, 32 bytes, then what its function asks for and others do not pay
 // for: the slot of a posted call, the result, the arguments, the keyed object, the hash if client
@@ -19,16 +19,16 @@
 #include <string_view>
 
 #include "sac/internal/arena.hpp"
-#include "sac/label.hpp"
 #include "sac/internal/timeline.hpp"
+#include "sac/label.hpp"
 
 namespace sac {
 
-class Engine;
 class Scope;
 struct Call;
 
 /// What the engine knows of a traced function; one constant object per function and signature.
+/// `arguments` is the tuple that a call keeps.
 struct Function {
   std::string_view name;            // for people; others may have it, too
   std::string_view identity = {};   // all that the compiler says of it; empty unless posted
@@ -39,6 +39,7 @@ struct Function {
   void (*execute)(Scope&, Call&) = nullptr;  // null: a keyed object without a body
   void (*destroy)(Call&) = nullptr;          // null where nothing needs destroying
   bool (*equal)(const Call&, const void* arguments) = nullptr;
+  const void* (*arguments)(const Call&) = nullptr;
   std::strong_ordering (*compare)(const Call&, const Call&) = nullptr;  // null unless posted
   std::uint32_t (*hash)(const Call&) noexcept = nullptr;
   void (*print)(const Call&, std::ostream&) = nullptr;     // the arguments, for people
@@ -52,25 +53,40 @@ struct Function {
   return a.name != b.name ? a.name <=> b.name : a.identity <=> b.identity;
 }
 
+/// Where a call is in its life (docs/propagate.md has the diagram).
+enum class Life : std::uint8_t {
+  waiting,  // has no place yet: it waits on an agenda, or it is a tail call to be run
+  placed,   // in the trace
+  running,  // in the trace, and its body runs
+  dead      // has left the trace; freed when the propagation ends
+};
+
+/// Whether a placed call must run again.
+enum class Validity : std::uint8_t {
+  valid,
+  doubtful,  // runs again if it would see something else
+  invalid    // runs again
+};
+
 /// A node of the trace.
 struct Call : TimeNode {
   std::uint16_t function_number = 0;
-  std::uint16_t state = 0;  // flags
-  Handle end = 0;           // end stamp; 0: a leaf
-  Handle edges = 0;         // what it did and saw, oldest first
+  Life life : 2 = Life::placed;
+  Validity validity : 2 = Validity::valid;
+  std::uint8_t round : 1 = 0;  // changes with each execution; edges of another are of last time
+  bool posted : 1 = false;     // runs from an agenda; a Slot lies behind the head
+  std::uint8_t work_queue = 0;  // of a posted call: the number of its agenda as a structure
+  Handle end = 0;              // end stamp; 0: a leaf
+  union {
+    Handle edges = 0;     // what it did and saw, oldest first
+    Handle next_waiting;  // of a posted call that waits for another drain
+  };
   std::uint32_t queue = 0;  // 1 + position in the propagation queue; 0: not there
 
-  static constexpr std::uint16_t kInvalid = 1;   // must run again
-  static constexpr std::uint16_t kDead = 2;      // discarded, not yet freed
-  static constexpr std::uint16_t kRunning = 4;
-  static constexpr std::uint16_t kPending = 8;   // has no place yet: on an agenda, or a tail call
-  static constexpr std::uint16_t kPosted = 16;   // runs from an agenda
-  static constexpr std::uint16_t kAside = 32;    // waits beside the queue
-  static constexpr std::uint16_t kDoubtful = 64;  // must run again if it would read other values
-
-  [[nodiscard]] bool has(std::uint16_t flag) const noexcept { return (state & flag) != 0; }
-  void set(std::uint16_t flag) noexcept { state = static_cast<std::uint16_t>(state | flag); }
-  void clear(std::uint16_t flag) noexcept { state = static_cast<std::uint16_t>(state & ~flag); }
+  [[nodiscard]] bool running() const noexcept { return life == Life::running; }
+  [[nodiscard]] bool waiting() const noexcept { return life == Life::waiting; }
+  [[nodiscard]] bool dead() const noexcept { return life == Life::dead; }
+  [[nodiscard]] bool invalid() const noexcept { return validity == Validity::invalid; }
   /// Requires: the call lies in its engine's arena.
   [[nodiscard]] const Function& function() const noexcept {
     return *Arena::header_of(this).functions[function_number];
@@ -78,35 +94,41 @@ struct Call : TimeNode {
 };
 static_assert(sizeof(Call) == 32 && alignof(Call) == 4);
 
+/// Behind the head of a posted call: where it stands on its agenda, and who asks for it.
+struct Slot {
+  std::uint64_t order = 0;
+  std::uint32_t rank = 0;
+  Handle posts = 0;  // the posts that count, chained; 0: it is dying
+  /// Requires: the call is posted.
+  [[nodiscard]] static Slot& of(Call& call) noexcept { return *reinterpret_cast<Slot*>(&call + 1); }
+  [[nodiscard]] static const Slot& of(const Call& call) noexcept {
+    return *reinterpret_cast<const Slot*>(&call + 1);
+  }
+};
+static_assert(sizeof(Slot) == 16);
+
 /// Behind the head of a call whose function returns something.
 struct ResultHead {
   Handle caller = 0;  // who depends on the result
+  [[nodiscard]] static ResultHead& of(Call& call) noexcept {
+    return *reinterpret_cast<ResultHead*>(&call + 1);
+  }
 };
 
 /// The head of every edge; structures derive their own edges from it.
 struct Edge {
   Handle next = 0;  // next edge of the same call
   std::uint8_t structure = 0;
-  std::uint8_t kind = 0;       // the structure's own
+  std::uint8_t kind : 6 = 0;    // the structure's own
+  std::uint8_t behind : 1 = 0;  // the call had had children when it was made or repeated
+  std::uint8_t round : 1 = 0;   // the call's when it was made or repeated
   std::uint16_t granules = 0;  // its size
 };
 static_assert(sizeof(Edge) == 8);
 
-/// A traceable data type: anything that calls observe or act on.
-///
-/// An implementation keeps the history it needs ordered by trace time (Engine::precedes) and calls
-/// Engine::invalidate for exactly the calls whose observation may have changed.
-class Structure {
- public:
-  virtual ~Structure() = default;
-  /// Takes `edge` back: an observation is forgotten; an effect is reverted, and the observations
-  /// it reached later in time are invalidated. Must not throw.
-  virtual void retract(Call& call, Edge& edge) noexcept = 0;
-  /// Names what an observation saw, equally in every run (label.hpp): a part of the call's label
-  /// [Def 1.4.1]. An effect has nothing to say.
-  virtual void label(const Call&, const Edge&, LabelSink&) const {}
-  /// Prints what an edge saw or did, for people; nothing by default.
-  virtual void print(const Call&, const Edge&, std::ostream&) const {}
-};
+/// Whether `call` runs, did `edge` last time, and has not repeated it yet.
+[[nodiscard]] inline bool unrepeated(const Call& call, const Edge& edge) noexcept {
+  return call.running() && edge.round != call.round;
+}
 
 }  // namespace sac

@@ -36,9 +36,11 @@ class Arena {
   struct Header {
     const Function* const* functions = nullptr;  // by number
     bool ending = false;                         // the engine is being destroyed
+    std::uint32_t stamps = 0;                    // given by next_stamp()
   };
 
-  /// Reserves the address range. Throws: std::bad_alloc.
+  /// Reserves the address range, or where that is limited a smaller one. Throws: std::bad_alloc if
+  /// there is none of 64 MiB.
   Arena();
   ~Arena();
   Arena(const Arena&) = delete;
@@ -105,6 +107,18 @@ class Arena {
                                 handle * kGranule);
   }
 
+  /// A number for an object that lies in some arena: no other object has it while 10^6 are numbered,
+  /// nor one of another arena.
+  [[nodiscard]] static std::uint32_t next_stamp(const void* object) noexcept {
+    std::uint32_t& stamps = header_of(object).stamps;
+    stamps = stamps % kMostStamps + 1;
+    return number_of(object) * (kMostStamps + 1) + stamps;
+  }
+  /// Whether next_stamp() of an object in the arena that `object` lies in may have given `stamp`.
+  [[nodiscard]] static bool is_stamp_of(std::uint32_t stamp, const void* object) noexcept {
+    return stamp / (kMostStamps + 1) == number_of(object);
+  }
+
   /// Memory of live blocks.
   [[nodiscard]] std::size_t bytes_used() const noexcept { return used_ * kGranule; }
   /// Memory taken from the system: live blocks, and freed ones that wait to be used again.
@@ -133,17 +147,25 @@ class Arena {
     std::size_t granules;
   };
 
+  // Of 2^47 bytes of addresses, 12 bits say which range of kReserve it is.
+  static constexpr std::uint32_t kMostStamps = (std::uint32_t{1} << 20) - 1;
+  [[nodiscard]] static std::uint32_t number_of(const void* object) noexcept {
+    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(object) / kReserve & 0xfff);
+  }
+
   static std::size_t granules_for(std::size_t bytes) noexcept {
     return (bytes + kGranule - 1) / kGranule;
   }
   Handle allocate_slowly(std::size_t granules);
   void release_large(Handle handle, std::size_t granules) noexcept;
+  void reserve();
   void commit(std::size_t bytes);
   [[noreturn]] void fail();
   [[nodiscard]] std::vector<Run> free_blocks() const;
   void keep_free(Run run) noexcept;
 
   std::byte* base_ = nullptr;
+  std::size_t reserved_ = 0;
   std::size_t next_;       // first granule never handed out
   std::size_t used_ = 0;   // granules of live blocks
   std::size_t spare_ = 0;  // granules in spare runs

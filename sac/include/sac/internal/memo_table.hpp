@@ -10,21 +10,27 @@
 //
 // Calls discarded in the propagation under way stay findable until it ends, so that a program which
 // asks for them again (not monotone) can be told.
+//
+// Where many calls have one hash (a program that is not concise), those that have a place leave the
+// array for a crowd, which is kept in trace order: the one to reuse is the first that lies ahead.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "sac/internal/huge_pages.hpp"
+#include "sac/internal/sorted_index.hpp"
+#include "sac/internal/timeline.hpp"
 #include "sac/trace.hpp"
 
 namespace sac {
 
 class MemoTable {
  public:
-  explicit MemoTable(Arena& arena)
-      : arena_(arena), entries_(kFirst + kFirst / 2), places_(kFirst) {}
+  MemoTable(Arena& arena, const Timeline& timeline)
+      : arena_(arena), timeline_(timeline), entries_(kFirst + kFirst / 2), places_(kFirst) {}
 
   /// Throws: std::bad_alloc, and then changes nothing. Cost: O(1) expected.
   void insert(Handle call, std::uint32_t hash) {
@@ -32,6 +38,11 @@ class MemoTable {
     put({hash, call});
     ++size_;
   }
+  /// A call of the table has got its place; is about to lose it. Needed only if has_crowds(), and
+  /// not for posted calls. placed() throws std::bad_alloc, and then changes nothing.
+  void placed(Handle call, std::uint32_t hash);
+  void leaves(Handle call, std::uint32_t hash) noexcept;
+  [[nodiscard]] bool has_crowds() const noexcept { return !crowds_.empty(); }
 
   /// As insert(), but into the table by settle() or the next search. Throws: std::bad_alloc, and
   /// then changes nothing.
@@ -47,16 +58,37 @@ class MemoTable {
   /// Does nothing if the call is not there, under this hash. Requires: it does not wait.
   void erase(Handle call, std::uint32_t hash) noexcept;
 
-  /// Calls `visit(handle, call)` for every call of this hash until it returns true; the handle it
-  /// stopped at, or 0.
-  template <class Visit>
-  [[nodiscard]] Handle find(std::uint32_t hash, Visit&& visit) {
+  /// A call of this hash that `fits(call)`; 0 if there is none. Of a crowd only the first is asked.
+  template <class Fits>
+  [[nodiscard]] Handle find(std::uint32_t hash, Fits&& fits) {
     if (!waiting_.empty()) settle();
     for (std::size_t i = place(hash);; ++i) {
       const Entry& e = entries_[i];
-      if (e.call == 0 || e.hash > hash) return 0;
-      if (e.hash == hash && visit(e.call, *arena_.at<Call>(e.call))) return e.call;
+      if (e.call == 0 || e.hash > hash) break;
+      if (e.hash == hash && fits(*at(e.call))) return e.call;
     }
+    if (const Crowd* crowd = crowd_of(hash); crowd != nullptr && fits(*at(crowd->first()))) {
+      return crowd->first();
+    }
+    return 0;
+  }
+  /// One that `fits(call)` and lies between the time stamps `from` and `to`; 0: the end.
+  template <class Fits>
+  [[nodiscard]] Handle find_between(std::uint32_t hash, Handle from, Handle to, Fits&& fits) {
+    const auto lies_before = [&](Handle h) { return to == 0 || timeline_.precedes(*at(h), *at(to)); };
+    const Handle found = find(hash, [&](const Call& c) {
+      return fits(c) && timeline_.precedes(*at(from), c) &&
+             lies_before(arena_.handle_of(&c));
+    });
+    if (found != 0) return found;
+    const Crowd* crowd = crowd_of(hash);
+    while (crowd != nullptr) {
+      const Handle* ahead = crowd->place_of(from, order()).behind;
+      if (ahead == nullptr || !lies_before(*ahead)) break;
+      if (fits(*at(*ahead))) return *ahead;
+      from = *ahead;
+    }
+    return 0;
   }
 
   /// Whether the call is there, under this hash.
@@ -65,10 +97,11 @@ class MemoTable {
   /// Calls `visit(call)` for every call of the table.
   template <class Visit>
   void for_each(Visit&& visit) const {
-    for (const Entry& e : waiting_) visit(*arena_.at<Call>(e.call));
+    for (const Entry& e : waiting_) visit(*at(e.call));
     for (const Entry& e : entries_) {
-      if (e.call != 0) visit(*arena_.at<Call>(e.call));
+      if (e.call != 0) visit(*at(e.call));
     }
+    for (const auto& [hash, crowd] : crowds_) crowd.for_each([&](Handle h) { visit(*at(h)); });
   }
 
   /// Gives memory back that fewer calls do not need. Throws: std::bad_alloc, and then changes
@@ -76,9 +109,7 @@ class MemoTable {
   void shrink();
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  [[nodiscard]] std::size_t bytes() const noexcept {
-    return (entries_.capacity() + waiting_.capacity()) * sizeof(Entry);
-  }
+  [[nodiscard]] std::size_t bytes() const noexcept;
 
   void check_invariants() const;
 
@@ -89,6 +120,21 @@ class MemoTable {
   };
   static constexpr std::size_t kFirst = 512;
   static constexpr std::size_t kAhead = 16;  // more misses at once than a core can have
+  static constexpr std::size_t kCrowd = 32;  // so many calls of one hash are searched one by one
+  using Crowd = SortedIndex<Handle>;         // never empty
+
+  [[nodiscard]] Call* at(Handle h) const noexcept { return arena_.at<Call>(h); }
+  [[nodiscard]] auto order() const noexcept {
+    return [this](Handle a, Handle b) { return timeline_.precedes(*at(a), *at(b)); };
+  }
+  [[nodiscard]] const Crowd* crowd_of(std::uint32_t hash) const {
+    if (crowds_.empty()) [[likely]] return nullptr;
+    const auto it = crowds_.find(hash);
+    return it != crowds_.end() ? &it->second : nullptr;
+  }
+  [[nodiscard]] bool belongs_in_crowd(const Call& call) const noexcept {
+    return !call.posted && (call.life == Life::placed || call.life == Life::running);
+  }
 
   [[nodiscard]] std::size_t place(std::uint32_t hash) const noexcept {
     return static_cast<std::size_t>(std::uint64_t{hash} * places_ >> 32);
@@ -101,14 +147,19 @@ class MemoTable {
     __builtin_prefetch(&entries_[place(entry.hash)], 1);
   }
   void put(Entry entry);
+  void put_in_array(Entry entry);
+  void make_crowd(std::uint32_t hash);
+  void take_out(std::size_t i) noexcept;
   void resize(std::size_t places);
 
   Arena& arena_;
+  const Timeline& timeline_;
   using Entries = std::vector<Entry, HugePages<Entry>>;
   Entries entries_;  // the places, and room for those pushed behind the last
   Entries waiting_;
+  std::unordered_map<std::uint32_t, Crowd> crowds_;  // by hash
   std::size_t places_;
-  std::size_t size_ = 0;  // with those that wait
+  std::size_t size_ = 0;  // with those that wait, and the crowds
 };
 
 }  // namespace sac

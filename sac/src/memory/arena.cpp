@@ -28,31 +28,58 @@ void advise_huge_pages(void* block, std::size_t bytes) noexcept {
   madvise(block, bytes, MADV_HUGEPAGE);
 }
 
-Arena::Arena() : next_(kHeaderGranules) {
+// `bytes` of addresses that begin at a multiple of Arena::kReserve; null if there are none.
+static void* reserve_aligned(std::size_t bytes) {
   constexpr int kFlags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
-  void* range = mmap(nullptr, 2 * kReserve, PROT_NONE, kFlags, -1, 0);
-  if (range == MAP_FAILED) throw std::bad_alloc();
-  auto* start = static_cast<std::byte*>(range);
-  const std::size_t before = -reinterpret_cast<std::uintptr_t>(start) & (kReserve - 1);
-  base_ = start + before;
-  if (before != 0) munmap(start, before);
-  munmap(base_ + kReserve, kReserve - before);
+  constexpr std::uintptr_t kMost = std::uintptr_t{1} << 47;
+  // Where the system would put it: aligned places are tried from there downwards, then upwards.
+  void* const anywhere = mmap(nullptr, bytes, PROT_NONE, kFlags, -1, 0);
+  if (anywhere == MAP_FAILED) return nullptr;
+  munmap(anywhere, bytes);
+  const std::uintptr_t start = reinterpret_cast<std::uintptr_t>(anywhere) / Arena::kReserve;
+  const auto at = [&](std::uintptr_t number) -> void* {
+    void* const place = reinterpret_cast<void*>(number * Arena::kReserve);
+    void* const got = mmap(place, bytes, PROT_NONE, kFlags | MAP_FIXED_NOREPLACE, -1, 0);
+    if (got == place) return got;
+    if (got != MAP_FAILED) munmap(got, bytes);
+    return nullptr;
+  };
+  for (std::uintptr_t n = start; n > 0; --n) {
+    if (void* got = at(n)) return got;
+  }
+  for (std::uintptr_t n = start + 1; n < kMost / Arena::kReserve; ++n) {
+    if (void* got = at(n)) return got;
+  }
+  return nullptr;
+}
+
+Arena::Arena() : next_(kHeaderGranules) {
+  reserve();
   try {
     commit(kPage);
   } catch (...) {
-    munmap(base_, kReserve);
+    munmap(base_, reserved_);
     throw;
   }
   ::new (static_cast<void*>(base_)) Header;
 }
 
-Arena::~Arena() { munmap(base_, kReserve); }
+void Arena::reserve() {
+  constexpr std::size_t kLeast = std::size_t{64} << 20;
+  for (reserved_ = kReserve; reserved_ >= kLeast; reserved_ /= 2) {
+    base_ = static_cast<std::byte*>(reserve_aligned(reserved_));
+    if (base_ != nullptr) return;
+  }
+  throw std::bad_alloc();
+}
+
+Arena::~Arena() { munmap(base_, reserved_); }
 
 void Arena::commit(std::size_t bytes) {
-  if (bytes > limit_) throw std::bad_alloc();
+  if (bytes > std::min(limit_, reserved_)) throw std::bad_alloc();
   if (bytes <= committed_) return;
   const std::size_t wanted = std::max(bytes, committed_ + committed_ / 16);
-  const std::size_t target = std::min(kReserve, (wanted + kStep - 1) / kStep * kStep);
+  const std::size_t target = std::min(reserved_, (wanted + kStep - 1) / kStep * kStep);
   if (mprotect(base_ + committed_, target - committed_, PROT_READ | PROT_WRITE) != 0) {
     throw std::bad_alloc();
   }

@@ -119,7 +119,7 @@ void PropagationQueue::sift_down(std::size_t position) noexcept {
 void PropagationQueue::check_invariants() const {
   for (std::size_t i = 0; i < heap_.size(); ++i) {
     SAC_INVARIANT(at(heap_[i])->queue == i + 1);
-    SAC_INVARIANT(!at(heap_[i])->has(Call::kDead));
+    SAC_INVARIANT(!at(heap_[i])->dead());
     SAC_INVARIANT(i == 0 || !before(heap_[i], heap_[(i - 1) / 2]));
   }
   SAC_INVARIANT(run_.empty() ? run_begin_ == 0 : run_[run_begin_] != 0 && run_.back() != 0);
@@ -128,7 +128,7 @@ void PropagationQueue::check_invariants() const {
   for (std::size_t i = run_begin_; i < run_.size(); ++i) {
     if (run_[i] == 0) continue;
     SAC_INVARIANT(at(run_[i])->queue == (kInRun | (i + 1)));
-    SAC_INVARIANT(!at(run_[i])->has(Call::kDead));
+    SAC_INVARIANT(!at(run_[i])->dead());
     SAC_INVARIANT(previous == 0 || before(previous, run_[i]));
     previous = run_[i];
     ++in_run;

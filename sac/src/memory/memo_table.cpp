@@ -7,10 +7,26 @@
 
 namespace sac {
 
-// Pushes larger hashes one place on. The last entry stays free, to end every search.
 void MemoTable::put(Entry entry) {
+  if (!crowds_.empty() && belongs_in_crowd(*at(entry.call))) [[unlikely]] {
+    if (const auto it = crowds_.find(entry.hash); it != crowds_.end()) {
+      return it->second.insert(entry.call, order());
+    }
+  }
+  put_in_array(entry);
+}
+
+// Pushes larger hashes one place on. The last entry stays free, to end every search.
+void MemoTable::put_in_array(Entry entry) {
   std::size_t i = place(entry.hash);
-  while (entries_[i].call != 0 && entries_[i].hash <= entry.hash) ++i;
+  std::size_t equal = 0;
+  for (; entries_[i].call != 0 && entries_[i].hash <= entry.hash; ++i) {
+    equal += entries_[i].hash == entry.hash;
+  }
+  if (equal >= kCrowd && !crowds_.contains(entry.hash)) [[unlikely]] {
+    make_crowd(entry.hash);
+    if (crowds_.contains(entry.hash)) return put(entry);
+  }
   std::size_t free = i;
   while (entries_[free].call != 0) ++free;
   if (free + 1 >= entries_.size()) {
@@ -20,6 +36,47 @@ void MemoTable::put(Entry entry) {
                      entries_.begin() + static_cast<std::ptrdiff_t>(free),
                      entries_.begin() + static_cast<std::ptrdiff_t>(free + 1));
   entries_[i] = entry;
+}
+
+// The entries of this hash that have a place leave the array.
+void MemoTable::make_crowd(std::uint32_t hash) {
+  Crowd crowd;
+  const auto for_each = [&](auto&& visit) {
+    for (std::size_t i = place(hash); entries_[i].call != 0 && entries_[i].hash <= hash;) {
+      const bool leaves = entries_[i].hash == hash && belongs_in_crowd(*at(entries_[i].call));
+      if (!leaves || visit(i)) ++i;
+    }
+  };
+  for_each([&](std::size_t i) {
+    crowd.insert(entries_[i].call, order());
+    return true;
+  });
+  if (crowd.empty()) return;
+  crowds_.emplace(hash, std::move(crowd));
+  for_each([&](std::size_t i) {
+    take_out(i);
+    return false;
+  });
+}
+
+void MemoTable::placed(Handle call, std::uint32_t hash) {
+  const auto crowd = crowds_.find(hash);
+  if (crowd == crowds_.end()) return;
+  for (std::size_t i = place(hash); entries_[i].call != 0 && entries_[i].hash <= hash; ++i) {
+    if (entries_[i].call != call) continue;
+    crowd->second.insert(call, order());
+    return take_out(i);
+  }
+}
+
+void MemoTable::leaves(Handle call, std::uint32_t hash) noexcept {
+  const auto crowd = crowds_.find(hash);
+  if (crowd == crowds_.end()) return;
+  const Handle* found = crowd->second.place_of(call, order()).before;
+  if (found == nullptr || *found != call) return;
+  crowd->second.erase(call, order());
+  --size_;
+  if (crowd->second.empty()) crowds_.erase(crowd);
 }
 
 // In the order in which they came: of calls with equal labels the first is found first.
@@ -50,6 +107,10 @@ void MemoTable::erase(Handle call, std::uint32_t hash) noexcept {
     if (entries_[i].call == 0 || entries_[i].hash > hash) return;
   }
   --size_;
+  take_out(i);
+}
+
+void MemoTable::take_out(std::size_t i) noexcept {
   for (; entries_[i + 1].call != 0 && place(entries_[i + 1].hash) <= i; ++i) {
     entries_[i] = entries_[i + 1];
   }
@@ -63,7 +124,16 @@ bool MemoTable::contains(Handle call, std::uint32_t hash) const noexcept {
   for (std::size_t i = place(hash); entries_[i].call != 0 && entries_[i].hash <= hash; ++i) {
     if (entries_[i].call == call) return entries_[i].hash == hash;
   }
-  return false;
+  const Crowd* crowd = crowd_of(hash);
+  if (crowd == nullptr) return false;
+  const Handle* found = crowd->place_of(call, order()).before;
+  return found != nullptr && *found == call;
+}
+
+std::size_t MemoTable::bytes() const noexcept {
+  std::size_t total = (entries_.capacity() + waiting_.capacity()) * sizeof(Entry);
+  for (const auto& [hash, crowd] : crowds_) total += 64 + crowd.bytes();
+  return total;
 }
 
 // Entries come in the order of their hashes, and are put down in it.
@@ -98,6 +168,15 @@ void MemoTable::check_invariants() const {
     SAC_INVARIANT(place(e.hash) == i || entries_[i - 1].call != 0);
     last = e.hash;
     ++count;
+  }
+  for (const auto& [hash, crowd] : crowds_) {
+    SAC_INVARIANT(!crowd.empty());
+    Handle previous = 0;
+    crowd.for_each([&](Handle h) {
+      SAC_INVARIANT(previous == 0 || order()(previous, h));
+      previous = h;
+      ++count;
+    });
   }
   SAC_INVARIANT(count == size_ && entries_.back().call == 0);
 }

@@ -1,0 +1,424 @@
+// The core: executes calls, keeps their trace, reuses and discards, and propagates.
+//
+// What lies around it, and through which of its members:
+//   Engine      the client's side: modes, counts, roll-back, introspection
+//   Scope       what a running call asks for: call_child, call_tail, recall, attach, guarded
+//   structures  Engine's public part "For structures": precedes, invalidate, doubt, ...
+//   Agenda      calls that are made before they run: "For work queues" below
+//
+// The loop is short: a call that must run again is popped from the queue (earliest first), its body
+// is run, children that it asks for again are reused, what it did not repeat is taken back, and
+// children that it did not ask for are discarded. docs/propagate.md walks through one propagation.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sac/check.hpp"
+#include "sac/internal/arena.hpp"
+#include "sac/internal/memo_table.hpp"
+#include "sac/internal/originals.hpp"
+#include "sac/internal/propagation_queue.hpp"
+#include "sac/internal/registry.hpp"
+#include "sac/internal/timeline.hpp"
+#include "sac/observer.hpp"
+#include "sac/structure.hpp"
+
+namespace sac {
+
+class Engine;
+
+/// The work of one run or propagation, with that of the edits before it.
+struct Counts {
+  std::uint64_t executed = 0;       ///< bodies run
+  std::uint64_t reused = 0;         ///< calls asked for again and kept without running
+  std::uint64_t created = 0;        ///< calls that are new in the trace
+  std::uint64_t discarded = 0;      ///< calls that left the trace
+  std::uint64_t edges_made = 0;     ///< reads, writes, posts, ... recorded
+  std::uint64_t edges_removed = 0;  ///< reads, writes, posts, ... taken back
+  std::uint64_t confirmed = 0;      ///< calls not run: they would read what they have read
+};
+
+/// What the detectors saw; both empty for a program that is concise and monotone.
+struct AuditReport {
+  std::uint64_t duplicates = 0;  ///< pairs of live calls with equal labels [Def 1.4.2]
+  std::uint64_t reordered = 0;   ///< calls discarded and made anew in one propagation [Def 1.4.3]
+  std::string first_duplicate;   ///< label of the first pair
+  std::string first_reordered;   ///< label of the first such call
+};
+
+/// What a progress callback is told, at a call that is about to run.
+struct Progress {
+  std::uint64_t executed = 0;  // bodies run so far
+  std::uint64_t queued = 0;    // calls known to wait
+};
+
+/// A call that is asked for. `arguments` is the tuple to be kept, good while it is asked for.
+struct Asked {
+  const Function& function;
+  const void* arguments;
+  std::uint32_t hash;
+  void (*construct)(void* memory, const void* arguments, std::uint32_t hash);
+};
+
+class Core {
+ public:
+  enum class Mode : std::uint8_t { idle, running, propagating, undoing };
+
+  explicit Core(Engine& engine);
+  Core(const Core&) = delete;
+  Core& operator=(const Core&) = delete;
+
+  // --- Around a run (Engine) -----------------------------------------------------------------
+
+  [[nodiscard]] bool idle() const noexcept { return mode_ == Mode::idle; }
+  /// True while a first run appends to the trace: every call there is precedes the running one.
+  [[nodiscard]] bool appending() const noexcept { return mode_ == Mode::running; }
+  [[nodiscard]] bool undoing() const noexcept { return mode_ == Mode::undoing; }
+  /// Throws: UsageError if the engine is broken, or runs.
+  void require_usable() const;
+  void require_idle(const char* what) const;
+  void enter(Mode mode);
+  /// Makes the call at the end of the trace, and runs it. Throws: what the program throws.
+  void run_root(const Asked& asked);
+  /// Takes back what a run that failed has made.
+  void forget_run(Handle before) noexcept;
+  [[nodiscard]] Handle last_stamp() const noexcept { return timeline_.back(); }
+  /// Runs what is invalid. Throws: what the program throws.
+  void propagate() { propagate_within(0); }
+  /// An exception has ended the propagation: what runs is no more; edits may be undone.
+  void begin_undoing() noexcept;
+  void set_broken() noexcept { broken_ = true; }
+  [[nodiscard]] bool broken() const noexcept { return broken_; }
+  /// Ends a run or propagation, failed or not. Returns its counts.
+  Counts finish() noexcept;
+  void check_audit();
+  void purge() noexcept;
+
+  // --- For the running call (Scope) ----------------------------------------------------------
+
+  [[nodiscard]] Engine& engine() noexcept { return engine_; }
+  /// Throws: UsageError if no call runs.
+  [[nodiscard]] Call& self() const { return *running().call; }
+  /// Makes a child of the running call, or reuses one that is ahead of it in its interval.
+  Handle call_child(const Asked& asked);
+  /// The same for what continues the running call, when that has ended.
+  Handle call_tail(const Asked& asked);
+  /// Gives the running call a new edge. Throws: std::bad_alloc.
+  Edge& attach(std::uint8_t structure, std::uint8_t kind, std::size_t bytes);
+  /// Moves the first edge of last time that `matches` into this execution. The search goes on where
+  /// the last one ended, and ends after `most` edges.
+  template <class Matches>
+  Edge* recall(Matches&& matches, std::size_t most = ~std::size_t{0});
+  /// Runs body(). An exception fails the running call, even if that goes on to catch it: it would
+  /// not depend on what has failed.
+  template <class Body>
+  decltype(auto) guarded(Body&& body) {
+    try {
+      return body();
+    } catch (...) {
+      if (current_ != nullptr) current_->failed = true;
+      throw;
+    }
+  }
+  void result_changed(Handle caller) noexcept;
+  [[nodiscard]] void* environment() const {
+    if (environment_ == nullptr) [[unlikely]] fail_no_environment();
+    return environment_;
+  }
+  void require_own(const void* object, const char* what) const {
+    if (!arena_.contains(object)) [[unlikely]] fail_foreign(what);
+  }
+  [[noreturn]] void fail_foreign(const char* what) const;
+  /// `what`, after the running call if there is one.
+  [[nodiscard]] std::string context(const char* what) const;
+
+  // --- For structures ------------------------------------------------------------------------
+
+  std::uint8_t add_structure(Structure& structure);
+  void remove_structure(std::uint8_t number) noexcept { structures_[number] = nullptr; }
+  void invalidate(Call& call, const Edge* seen) noexcept {
+    ask_again(call, Validity::invalid, seen, 0);
+  }
+  void doubt(Call& call, Handle source) noexcept {
+    ask_again(call, Validity::doubtful, nullptr, source);
+  }
+  /// `call` encloses the running one and has settled. It did something behind children of its own
+  /// that a new child of these may have been meant to see, or not: it runs again, and says so.
+  /// Throws: std::bad_alloc.
+  void run_again(Call& call);
+  [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
+    return timeline_.precedes(a, b);
+  }
+  /// Whether what the running call does now comes before `call`, which is not running.
+  [[nodiscard]] bool lies_ahead(const Call& call) const noexcept {
+    return timeline_.precedes(*at<TimeNode>(now_), call);
+  }
+  /// Whether the running call has had children in this execution.
+  [[nodiscard]] bool has_had_children() const noexcept {
+    return now_ != arena_.handle_of(current_->call);
+  }
+  template <class T>
+  [[nodiscard]] T* at(Handle h) const noexcept {
+    return arena_.at<T>(h);
+  }
+  [[nodiscard]] Arena& arena() noexcept { return arena_; }
+  [[nodiscard]] const Arena& arena() const noexcept { return arena_; }
+  [[nodiscard]] Structure& structure(std::uint8_t number) const noexcept {
+    return *structures_[number];
+  }
+  [[nodiscard]] const Call* running_call() const noexcept {
+    return current_ != nullptr ? current_->call : nullptr;
+  }
+  /// The innermost call around `call`, for messages; `call` itself if there is none.
+  /// Cost: O(calls between).
+  [[nodiscard]] const Call& parent_of(const Call& call) const noexcept;
+  /// Tells an observer, if there is one, what has happened, by the running call.
+  void note(Event::Kind kind, const Call* call = nullptr, Handle source = 0) noexcept {
+    if (observer_ == nullptr) [[likely]] return;
+    observer_->on({.kind = kind, .call = call, .source = source, .by = running_call()});
+  }
+  [[nodiscard]] Originals& originals() noexcept { return originals_; }
+
+  // --- For work queues -----------------------------------------------------------------------
+  //
+  // A posted call is made (Life::waiting), gets its place or is run at once, and is discarded when
+  // its turn comes and nobody asks for it (Slot::posts). Call::work_queue says whose it is.
+
+  /// The call of this label on the work queue; 0 if there is none.
+  [[nodiscard]] Handle find_posted(const Asked& asked, std::uint8_t queue);
+  /// A call that waits. Throws: std::bad_alloc, and what copying arguments throws.
+  Handle new_call(const Asked& asked);
+  /// Gives a call that waits its place, right behind time stamp `after`, or now if that is not in
+  /// the list yet, and puts it on the propagation queue.
+  void place(Handle call, Handle after);
+  /// Gives a call that waits its place, now, and runs it as a child of the running call.
+  void place_now(Handle call);
+  void run_placed(Handle call);
+  /// A call that waits leaves for good.
+  void drop_call(Handle call) noexcept;
+  /// A call that lost its place waits on.
+  void set_waiting(Call& call) noexcept;
+  void discard_subtree(Handle call) noexcept;
+  /// A placed call that nobody posts any more goes when its turn comes.
+  void enqueue(Call& call) noexcept {
+    if (call.queue == 0) queue_.push(arena_.handle_of(&call));
+  }
+  /// The running call will have children: it has an end.
+  void need_end() { need_end(running()); }
+  [[nodiscard]] Handle end_of(Handle call) const noexcept {
+    const Handle end = at<Call>(call)->end;
+    return end != 0 ? end : call;
+  }
+  /// Whether a call put right behind time stamp `stamp` would lie ahead. (The end stamp of a
+  /// running call may have no place yet.)
+  [[nodiscard]] bool is_ahead(Handle stamp) const noexcept {
+    return stamp == now_ || !linked(stamp) ||
+           timeline_.precedes(*at<TimeNode>(now_), *at<TimeNode>(stamp));
+  }
+  /// Whether `call` lies behind time stamp `from` and before `end` (0: the end of the trace).
+  [[nodiscard]] bool lies_between(const TimeNode& from, const Call& call, Handle end) const noexcept {
+    return timeline_.precedes(from, call) && (end == 0 || timeline_.precedes(call, *at<TimeNode>(end)));
+  }
+  [[nodiscard]] std::uint16_t number_of(const Function& function) {
+    const std::uint16_t number = functions_.number(function);
+    arena_.header().functions = functions_.data();
+    return number;
+  }
+
+  // --- What there is -------------------------------------------------------------------------
+
+  struct Sizes {
+    std::size_t time_stamps, memo_table, queue;
+  };
+  [[nodiscard]] Sizes sizes() const noexcept;
+  [[nodiscard]] std::uint64_t live_calls() const noexcept { return live_calls_; }
+  [[nodiscard]] std::uint64_t live_edges() const noexcept { return live_edges_; }
+  [[nodiscard]] bool settled() const noexcept { return queue_.empty(); }
+  [[nodiscard]] Registry<Function>& functions() noexcept { return functions_; }
+  [[nodiscard]] const Registry<Function>& functions() const noexcept { return functions_; }
+  /// Whether a call that is in the trace lies at `h`, where anything may lie.
+  [[nodiscard]] bool is_live_call(Handle h) const noexcept;
+  /// Calls visit(call, depth) for every placed call in pre-order.
+  template <class Visit>
+  void walk(Visit&& visit) const;
+  /// Calls visit(call) for every call.
+  template <class Visit>
+  void for_each_call(Visit&& visit) const {
+    memo_.for_each(visit);
+  }
+  template <class Visit>
+  void for_each_structure(Visit&& visit) const {
+    for (Structure* s : structures_) {
+      if (s != nullptr) visit(*s);
+    }
+  }
+  void shrink();
+  void check_invariants(std::uint64_t waiting) const;
+
+  // Settings of the engine.
+  std::function<bool(const Progress&)> progress_;
+  std::uint64_t progress_every_ = 0;
+  Observer* observer_ = nullptr;
+  void* environment_ = nullptr;
+  std::size_t stack_limit_;
+  bool audit_ = false;
+  AuditReport report_;
+  std::map<Handle, std::string> names_;
+  void forget_names(Handle from, std::size_t bytes) noexcept;
+
+ private:
+  enum class Tail : std::uint8_t { none, fresh, reused };
+
+  // One execution on the native stack: a call and the tail calls that continue it.
+  struct Activation {
+    Call* call = nullptr;
+    Handle old_edges = 0;  // what the call did last time and has not repeated yet
+    Handle cursor = 0;     // the old edge behind which the next one is looked for; 0: the first
+    Handle last_edge = 0;
+    Handle limit = 0;  // end of the interval in which calls may be reused; 0: end of the trace
+    Handle end = 0;    // end stamp, once there are children
+    Handle tail = 0;
+    Handle failed_child = 0;  // whose exception passes through the call's body
+    Tail tail_state = Tail::none;
+    bool end_linked = false;
+    bool hidden = false;  // what it has not repeated is hidden from its children
+    bool failed = false;  // something that it asked for has thrown
+    Activation* outer = nullptr;
+    Activation* outer_linked = nullptr;  // the next outside whose end had a place when this began
+  };
+
+  [[nodiscard]] Activation& running() const {
+    if (current_ != nullptr) [[likely]] return *current_;
+    fail_not_running();
+  }
+  [[noreturn]] void fail_not_running() const;
+  [[noreturn]] void fail_no_environment() const;
+  // An end stamp has no place until its call closes.
+  [[nodiscard]] bool linked(Handle stamp) const noexcept { return at<TimeNode>(stamp)->prev != 0; }
+  void ask_again(Call& call, Validity validity, const Edge* seen, Handle source) noexcept;
+  void note_failure(Event::Kind kind, const Call* call = nullptr) noexcept;
+
+  // execute.cpp
+  void execute(Handle call, Handle limit);
+  void run_body(Activation& a, Handle call);
+  [[noreturn]] void fail_caught(const Activation& a) const;
+  void require_children_unmoved(const Activation& a);
+  void settle(Activation& a) noexcept;
+  bool settle_link(Activation& a, Handle link);
+  void rerun_link(Activation& a, Handle link);
+  void close(Activation& a);
+  void link_end(Activation& a);
+  void abandon(Activation& a) noexcept;
+  void need_end(Activation& a);
+  void report_progress();
+
+  // propagate.cpp
+  void propagate_within(Handle call);
+  [[nodiscard]] bool next_is_up_to(Handle call, Handle end) const noexcept;
+  [[nodiscard]] static bool unposted(const Call& call) noexcept {
+    return call.posted && Slot::of(call).posts == 0;
+  }
+  void run_from_queue(Handle call);
+  void take_deferred(Handle call) noexcept;
+  [[nodiscard]] bool unchanged(Call& call);
+  void settle_child(Handle child);
+
+  // interval.cpp
+  [[nodiscard]] Handle find_reusable(const Asked& asked, bool tail);
+  void reuse(Handle child) noexcept;
+  void hide_unrepeated(Activation& a) noexcept;
+  void require_no_tail(const Activation& caller, const Function& function) const;
+  void require_stack(const Activation& caller, const Function& function) const;
+  void insert_call(Handle call);
+  void give_place(Handle call, Handle after);
+  void suspect(Handle fresh, const Asked& asked);
+  void free_call(Handle call) noexcept;
+  void unlink_ends_between(Handle from, Handle to) noexcept;
+  void discard_between(Handle from, Handle to) noexcept;
+  void discard(Handle call) noexcept;
+  void free_edge(Edge& edge) noexcept;
+  void retract_all(Call& call, Handle edges) noexcept;
+  void append_edge(Activation& a, Handle edge) noexcept {
+    at<Edge>(edge)->round = a.call->round;
+    at<Edge>(edge)->behind = has_had_children();
+    (a.last_edge != 0 ? at<Edge>(a.last_edge)->next : a.call->edges) = edge;
+    a.last_edge = edge;
+  }
+
+  Engine& engine_;
+  Arena arena_;
+  Timeline timeline_;
+  MemoTable memo_;
+  PropagationQueue queue_;
+  Registry<Function> functions_;
+  std::vector<Structure*> structures_;
+  Originals originals_;
+  std::vector<Handle> deferred_;  // invalid, and before the running call: not in the queue yet
+  std::vector<Handle> graveyard_;
+  std::size_t most_leaving_ = 0;  // so much of it has been in use
+  std::vector<std::pair<Handle, Handle>> suspects_;
+  Activation* current_ = nullptr;
+  std::uintptr_t stack_end_ = 0;  // no call is made when the native stack has grown down to here
+  Handle now_ = 0;  // the last time stamp that is settled or running
+  Mode mode_ = Mode::idle;
+  bool broken_ = false;
+  std::uint64_t progress_at_ = ~std::uint64_t{0};  // number of bodies run at the next report
+  Counts counts_;
+  std::uint64_t live_calls_ = 0;
+  std::uint64_t live_edges_ = 0;
+};
+
+/// A structure with calls of its own: what the core tells it of them.
+class WorkQueue : public Structure {
+ public:
+  /// `call` has left the trace. If it is still asked for, it waits: the queue keeps it.
+  virtual void left(Call& call, bool asked_for) noexcept = 0;
+};
+
+template <class Matches>
+Edge* Core::recall(Matches&& matches, std::size_t most) {
+  Activation& a = running();
+  if (a.old_edges == 0) return nullptr;
+  const auto search = [&](Handle previous, Handle end) -> Edge* {
+    Handle* link = previous != 0 ? &at<Edge>(previous)->next : &a.old_edges;
+    for (; *link != end && *link != 0 && most > 0; previous = *link, link = &at<Edge>(*link)->next) {
+      Edge& edge = *at<Edge>(*link);
+      --most;
+      if (!matches(edge)) continue;
+      const Handle handle = *link;
+      *link = edge.next;
+      edge.next = 0;
+      append_edge(a, handle);
+      a.cursor = previous;
+      return &edge;
+    }
+    return nullptr;
+  };
+  const Handle start = a.cursor;
+  if (Edge* found = search(start, 0)) return found;
+  // From the first one, up to and with the one where the search began.
+  return start != 0 ? search(0, at<Edge>(start)->next) : nullptr;
+}
+
+template <class Visit>
+void Core::walk(Visit&& visit) const {
+  std::vector<Handle> open;  // end stamps of the intervals around the current call
+  for (Handle h = at<TimeNode>(timeline_.front())->next; h != 0; h = at<TimeNode>(h)->next) {
+    if (at<TimeNode>(h)->marked()) {
+      while (!open.empty() && open.back() == h) open.pop_back();
+      continue;
+    }
+    const Call& c = *at<Call>(h);
+    visit(c, open.size());
+    if (c.end != 0) open.push_back(c.end);
+  }
+}
+
+}  // namespace sac

@@ -1,0 +1,393 @@
+// The untyped half of modifiables: versions, readers, and who must run again.
+//
+// The version of the only writer lies in place, where the modifiable's handle points, and a read
+// checks one number more than a plain load would. With more writers a `History` keeps the versions
+// in order: O(log) a read or write. Each version lists its readers; a write that appears between
+// two others takes over the readers behind it. Where it had to pass many others to find them, the
+// readers of that version are kept in order from then on.
+//
+// A value that is replaced stays for those who have seen it, as a past version, until it is their
+// turn: they are in doubt, and run again only if they would read another one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <new>
+#include <ostream>
+#include <type_traits>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "sac/engine.hpp"
+#include "sac/internal/sorted_index.hpp"
+#include "sac/scope.hpp"
+
+namespace sac {
+namespace detail {
+
+// With SAC_CHECKS, what a handle knows of its modifiable beside its place: the engine's number and
+// one of its own. 0: not known.
+template <bool kKept>
+class BasicStamp {
+ public:
+  [[nodiscard]] std::uint32_t get() const noexcept { return value_; }
+  // Volatile: what is set at the end of an object's life is seen by those who have kept its handle.
+  void set(std::uint32_t value) noexcept { value_ = value; }
+
+ private:
+  volatile std::uint32_t value_ = 0;
+};
+template <>
+class BasicStamp<false> {
+ public:
+  [[nodiscard]] static std::uint32_t get() noexcept { return 0; }
+  static void set(std::uint32_t) noexcept {}
+};
+using Stamp = BasicStamp<kChecked>;
+
+// One value over a stretch of the trace: 16 bytes (20 with SAC_CHECKS), value behind it.
+struct Version {
+  Handle writer = 0;   // the call that wrote it; 0: the outside
+  Handle readers = 0;  // chain of ReadEdges
+  union {
+    std::uint32_t history = 0;  // in place: number of the History; 0: this is the only version
+    Handle modifiable;          // apart
+  };
+  std::uint16_t type = 0;
+  bool written : 1 = false;
+  bool outside : 1 = false;       // an input
+  bool apart : 1 = false;         // not where the modifiable's handle points
+  bool past : 1 = false;          // apart, and gone: kept for those who have seen it
+  bool ordered : 1 = false;       // its readers are in reader_orders_ as well
+  std::uint8_t round : 1 = 0;     // the writer's when it wrote or repeated it
+  bool behind : 1 = false;        // its writer had had children
+  bool read_behind : 1 = false;   // so had one of its readers
+  [[no_unique_address]] Stamp stamp;
+
+  /// The stamp of a version that lies in place, given on first use.
+  [[nodiscard]] Stamp stamp_in_arena() noexcept {
+    if (kChecked && stamp.get() == 0) stamp.set(Arena::next_stamp(this));
+    return stamp;
+  }
+};
+static_assert(kChecked || sizeof(Version) == 16);
+
+template <class T>
+struct TypedVersion : Version {
+  static_assert(alignof(T) <= 8, "values in the arena are aligned to 8 bytes");
+  static_assert(std::is_nothrow_move_constructible_v<T> && std::is_nothrow_move_assignable_v<T>,
+                "a value that may throw when it is moved would be lost: hold it by a pointer");
+  alignas(T) std::byte storage[sizeof(T)];
+  T& value() noexcept { return *std::launder(reinterpret_cast<T*>(storage)); }
+  const T& value() const noexcept { return *std::launder(reinterpret_cast<const T*>(storage)); }
+  void give(T&& value) noexcept {
+    ::new (static_cast<void*>(storage)) T(std::move(value));
+    written = true;
+  }
+  /// The modifiable's memory is about to be freed. Nobody may read it any more; what its readers
+  /// saw is gone.
+  void end() noexcept;
+};
+
+// The versions of a modifiable that more than one call writes, in trace order.
+struct History {
+  Handle head = 0;
+  SortedIndex<Handle> versions;
+};
+
+struct ReadEdge : Edge {
+  Handle version;  // what it saw; 0: that is gone, and the call is invalid
+  Handle call;
+  Handle prev;  // previous reader; 0: first
+  Handle next_reader;
+};
+static_assert(sizeof(ReadEdge) == 24);
+
+struct WriteEdge : Edge {
+  Handle head;  // the modifiable
+  Handle version;
+};
+static_assert(sizeof(WriteEdge) == 16);
+
+// What can be done with a version without knowing the type of its value.
+struct ValueType {
+  bool (*same)(const Version&, const Version&);
+  void (*destroy)(Version&);
+  void (*move)(Version& from, Version& to);  // leaves `from` without a value
+  void (*print)(const Version&, std::ostream&);
+  void (*label)(const Version&, LabelSink&);
+  // Null if what is the same is equal: else what is replaced is kept for a roll-back.
+  void (*keep)(Originals&, const Call& writer, Handle head, const Version&) noexcept;
+  std::uint32_t bytes;
+};
+
+template <class T>
+const T& value_of(const Version& v) noexcept {
+  return static_cast<const TypedVersion<T>&>(v).value();
+}
+
+template <class T, class Same>
+inline constexpr ValueType kValueType{
+    [](const Version& a, const Version& b) { return same<Same>(value_of<T>(a), value_of<T>(b)); },
+    [](Version& v) { static_cast<TypedVersion<T>&>(v).value().~T(); },
+    [](Version& from, Version& to) {
+      T& value = static_cast<TypedVersion<T>&>(from).value();
+      ::new (static_cast<void*>(static_cast<TypedVersion<T>&>(to).storage)) T(std::move(value));
+      value.~T();
+    },
+    [](const Version& v, std::ostream& out) { print_argument(out, value_of<T>(v), &v); },
+    [](const Version& v, LabelSink& sink) { name_argument(sink, value_of<T>(v)); },
+    kKeepsOriginals<T, Same>
+        ? [](Originals& originals, const Call& writer, Handle head, const Version& v) noexcept {
+            if constexpr (kKeepsOriginals<T, Same>) originals.keep(writer, head, value_of<T>(v));
+          }
+        : static_cast<void (*)(Originals&, const Call&, Handle, const Version&) noexcept>(nullptr),
+    sizeof(TypedVersion<T>)};
+
+}  // namespace detail
+
+class ModStructure final : public Structure {
+ public:
+  static constexpr std::uint8_t kRead = 0;
+  static constexpr std::uint8_t kWrite = 1;
+
+  explicit ModStructure(Engine& engine) : engine_(engine), id_(engine.add_structure(*this)) {}
+
+  // --- For calls
+
+  /// The version that the running call sees, with the read recorded.
+  detail::Version& observe(Scope& scope, Handle head);
+  /// Writes `value` as the running call.
+  template <class T, class Same>
+  void write(Scope& scope, Handle head, T value);
+
+  // --- For the outside
+
+  /// Throws: UsageError, with SAC_CHECKS, if the handle is not of this engine or its modifiable is
+  /// gone; in any build if it is null.
+  void require_live(Handle head, detail::Stamp stamp, const char* what) const {
+    if (kChecked) check_live(head, stamp, what);
+    if (head == 0) [[unlikely]] fail_null(what);
+  }
+  [[nodiscard]] detail::Version* version(Handle head) const noexcept { return at(head); }
+  [[nodiscard]] bool is_input(Handle head) const noexcept { return at(head)->outside; }
+  template <class T>
+  [[nodiscard]] const T& value(Handle head) const noexcept {
+    return detail::value_of<T>(*at(head));
+  }
+  /// Throws: UsageError if the program has written it.
+  void require_unwritten(Handle head) const;
+  template <class T>
+  void make_input(Handle head, std::uint16_t type, T value) noexcept {
+    auto& version = static_cast<detail::TypedVersion<T>&>(*at(head));
+    version.type = type;
+    version.outside = true;
+    version.give(std::move(value));
+  }
+  void unmake_input(Handle head) noexcept;
+  template <class T>
+  void change_input(Handle head, T value) noexcept {
+    auto& version = static_cast<detail::TypedVersion<T>&>(*at(head));
+    replace(head, version, 0);
+    version.give(std::move(value));
+  }
+  /// The last version. Throws: UsageError if nothing is written.
+  [[nodiscard]] detail::Version& last(Handle head) const;
+  /// The number of a type of values. Throws: std::bad_alloc.
+  [[nodiscard]] std::uint16_t number(const detail::ValueType& type) { return types_.number(type); }
+
+  /// A call that reads or writes a modifiable in the `bytes` from `from`, and which.
+  struct Use {
+    const Call* call = nullptr;  // null: none does
+    Handle head = 0;
+    bool writes = false;
+  };
+  [[nodiscard]] Use use_within(Handle from, std::size_t bytes) const noexcept;
+
+  [[nodiscard]] std::size_t bytes() const noexcept;
+  /// Forgets what can be found anew. Throws: std::bad_alloc, and then loses nothing else.
+  void shrink();
+  /// Destroys the values that `call` wrote, and the past ones that it has seen: the engine ends.
+  void destroy_values(const Call& call) noexcept;
+
+  // --- As a structure
+
+  void retract(Call& call, Edge& edge) noexcept override;
+  void hide(Call& call, Edge& edge, Handle end) noexcept override;
+  [[nodiscard]] bool unchanged(Call& call, Edge& edge) override;
+  void label(const Call& call, const Edge& edge, LabelSink& sink) const override;
+  void print(const Call& call, const Edge& edge, std::ostream& out) const override;
+  /// Versions are in trace order, and every reader is at the version that it sees.
+  void check_invariants() const override;
+
+ private:
+  using Version = detail::Version;
+  using ReadEdge = detail::ReadEdge;
+
+  [[nodiscard]] Version* at(Handle h) const noexcept { return engine_.arena().at<Version>(h); }
+  [[nodiscard]] ReadEdge* reader(Handle h) const noexcept {
+    return engine_.arena().at<ReadEdge>(h);
+  }
+  [[nodiscard]] Handle handle_of(const Version& version) const noexcept {
+    return engine_.arena().handle_of(&version);
+  }
+  [[nodiscard]] const Call& writer(const Version& version) const noexcept {
+    return engine_.call(version.writer);
+  }
+  // Orders versions by their writers; handle 0 stands for `probe`.
+  [[nodiscard]] auto order(const Call* probe = nullptr) const noexcept {
+    return [this, probe](Handle a, Handle b) {
+      const Call& x = a != 0 ? writer(*at(a)) : *probe;
+      const Call& y = b != 0 ? writer(*at(b)) : *probe;
+      return engine_.precedes(x, y);
+    };
+  }
+  // Orders readers by their calls; handle 0 stands for `probe`.
+  [[nodiscard]] auto reader_order(const Call* probe = nullptr) const noexcept {
+    return [this, probe](Handle a, Handle b) {
+      const Call& x = a != 0 ? engine_.call(reader(a)->call) : *probe;
+      const Call& y = b != 0 ? engine_.call(reader(b)->call) : *probe;
+      return &x == &y ? a != 0 && b != 0 && a < b : engine_.precedes(x, y);
+    };
+  }
+  [[nodiscard]] detail::History& history(std::uint32_t number) noexcept {
+    return histories_[number];
+  }
+  [[nodiscard]] const detail::History& history(std::uint32_t number) const noexcept {
+    return histories_[number];
+  }
+  [[nodiscard]] Handle head_of(const Version& version) const noexcept {
+    return version.apart ? version.modifiable : handle_of(version);
+  }
+  // Whether a running call wrote `version` last time and has not yet repeated it.
+  [[nodiscard]] bool hidden(const Version& version) const noexcept {
+    const Call& w = writer(version);
+    return w.running() && version.round != w.round;
+  }
+  void check_live(Handle head, detail::Stamp stamp, const char* what) const;
+  [[noreturn]] void fail_null(const char* what) const;
+
+  // read.cpp
+  [[nodiscard]] Version* seen_by(const Call& call, Handle head) const;
+  [[nodiscard]] Version* visible_to(const Call& call, const Version& seen) const;
+  void require_ahead(const Call& reader, Handle head, Handle next) const;
+  [[noreturn]] void fail_unwritten(const Call& reader, Handle head) const;
+
+  // write.cpp
+  Version* own_version(Scope& scope, Handle head);
+  [[nodiscard]] Version* before(Scope& scope, Handle head) const;
+  [[nodiscard]] Version* predecessor(Handle head, const Version& version) const noexcept;
+  Version& new_version(Scope& scope, Handle head, const detail::ValueType& type);
+  void replace(Handle head, Version& version, Handle except) noexcept;
+  void appeared(Scope& scope, Handle head, Version& version, Version* previous,
+                bool same) noexcept;
+  void require_unread(Scope& scope, Handle head, const Version* version);
+  void rerun_readers_around(const Call& writer, const Version& previous);
+  [[nodiscard]] std::uint32_t new_history(Handle head);
+  void drop_history(Handle head) noexcept;
+  void leave_past(Handle head, Version& version, Handle except) noexcept;
+  void forget_version(Handle head, Version& version) noexcept;
+  void free_past(Version& version) noexcept;
+
+  // readers.cpp
+  void link_reader(ReadEdge& edge, Version& version) noexcept;
+  void unlink_reader(ReadEdge& edge) noexcept;
+  void move_reader(ReadEdge& edge, Version& to) noexcept;
+  void doubt_readers(Handle head, const Version& version, const Call& behind, Handle end) noexcept;
+  void orphan(ReadEdge& edge) noexcept;
+  // Visits the readers of `version` behind `call`, and before time stamp `end` unless that is 0, in
+  // any order, until `visit` returns false; it may unlink the one that it is given. Cost: O(log) a
+  // reader visited; the first time that many others are passed, O(log) for each of these.
+  template <class Visit>
+  void for_each_reader_behind(const Version& version, const Call& call, Handle end, Visit&& visit);
+  void order_readers(const Version& version) noexcept;
+  void forget_order(Version& version) noexcept;
+
+  [[nodiscard]] Use use_of(Handle head) const noexcept;
+  void check_version(Handle v, Handle previous, Handle next) const;
+  void check_modifiable(Handle head) const;
+
+  Engine& engine_;
+  std::uint8_t id_;
+  Registry<detail::ValueType> types_;
+  std::vector<detail::History> histories_;  // by number; the first is not used
+  std::vector<std::uint32_t> free_histories_;
+  std::unordered_map<Handle, SortedIndex<Handle>> reader_orders_;  // by version
+};
+
+template <class T, class Same>
+void ModStructure::write(Scope& scope, Handle head, T value) {
+  using Typed = detail::TypedVersion<T>;
+  bool restored = false;
+  if constexpr (detail::kKeepsOriginals<T, Same>) {
+    const T* original = engine_.undoing() ? engine_.originals()->template find<T>(scope.self(), head)
+                                          : nullptr;
+    restored = original != nullptr && detail::same<Same>(*original, value);
+    if (restored) value = *original;
+  }
+  if (auto* own = static_cast<Typed*>(own_version(scope, head))) {
+    if (!restored && detail::same<Same>(own->value(), value)) return;
+    require_unread(scope, head, own);
+    replace(head, *own, engine_.handle_of(scope.self()));
+    return own->give(std::move(value));
+  }
+  auto* previous = static_cast<Typed*>(before(scope, head));
+  const bool same = previous != nullptr && detail::same<Same>(previous->value(), value);
+  require_unread(scope, head, previous);
+  if (previous != nullptr && previous->read_behind) rerun_readers_around(scope.self(), *previous);
+  auto& version = static_cast<Typed&>(
+      new_version(scope, head, detail::kValueType<T, Same>));  // the last that may fail
+  version.give(std::move(value));
+  appeared(scope, head, version, previous, same);
+}
+
+template <class Visit>
+void ModStructure::for_each_reader_behind(const Version& version, const Call& call, Handle end,
+                                          Visit&& visit) {
+  const auto is_before_end = [&](const ReadEdge& edge) {
+    return end == 0 ||
+           engine_.precedes(engine_.call(edge.call), *engine_.arena().at<TimeNode>(end));
+  };
+  if (version.ordered) {
+    const auto& readers = reader_orders_.find(handle_of(version))->second;
+    const auto value = [](const Handle* h) { return h != nullptr ? *h : 0; };
+    Handle r = value(readers.place_of(0, reader_order(&call)).behind);
+    while (r != 0) {
+      const Handle next = value(readers.place_of(r, reader_order()).behind);
+      if (!is_before_end(*reader(r)) || !visit(*reader(r))) return;
+      r = next;
+    }
+    return;
+  }
+  constexpr std::size_t kMany = 64;
+  std::size_t passed = 0;
+  std::size_t visited = 0;
+  for (Handle r = version.readers; r != 0;) {
+    ReadEdge& edge = *reader(r);
+    r = edge.next_reader;
+    if (!engine_.precedes(call, engine_.call(edge.call)) || !is_before_end(edge)) {
+      ++passed;
+      continue;
+    }
+    ++visited;
+    if (!visit(edge)) return;
+  }
+  if (passed > kMany && passed / 8 > visited && !engine_.appending()) order_readers(version);
+}
+
+template <class T>
+void detail::TypedVersion<T>::end() noexcept {
+  if (readers != 0 && !Arena::header_of(this).ending) {
+    for (Handle r = readers; r != 0;) {
+      auto& edge = *Arena::in_arena_of<ReadEdge>(this, r);
+      r = edge.next_reader;
+      edge.version = 0;
+    }
+  }
+  if (written) value().~T();
+  stamp.set(0);
+}
+
+}  // namespace sac

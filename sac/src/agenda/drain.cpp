@@ -1,0 +1,223 @@
+// Placing posted calls, and draining.
+#include <algorithm>
+
+#include "sac/agenda.hpp"
+
+namespace sac {
+
+bool Agenda::before(const Call& a, const Call& b) const {
+  const Slot& x = Slot::of(a);
+  const Slot& y = Slot::of(b);
+  if (x.rank != y.rank) return x.rank < y.rank;
+  if (x.order != y.order) return x.order < y.order;
+  if (a.function_number != b.function_number) {
+    const std::strong_ordering order = order_by_name(a.function(), b.function());
+    return order != 0 ? order < 0 : a.function_number < b.function_number;
+  }
+  return a.function().compare(a, b) < 0;
+}
+
+// --- Placing ---------------------------------------------------------------------------------
+
+// The time stamp behind which a call that waits has its place: the end of the one before it.
+Handle Agenda::stamp_before(const Call& call) const {
+  const Entry* neighbour = placed_.predecessor(entry_of(call), order());
+  return neighbour != nullptr ? core_.end_of(neighbour->call) : drain_call_;
+}
+
+// Puts a call posted during propagation between its neighbours. All that a neighbour which still
+// runs has done so far lies before now; what it will do comes between now and the new call.
+void Agenda::place(Handle call) {
+  const Call& c = *core_.at<Call>(call);
+  const Handle after = stamp_before(c);
+  placed_.insert(entry_of(c), order());
+  try {
+    core_.place(call, after);
+  } catch (...) {
+    placed_.erase_if([&](const Entry& entry) { return entry.call == call; });
+    throw;
+  }
+  --waiting_calls_;
+}
+
+void Agenda::take_from_index(const Call& call) noexcept {
+  try {
+    placed_.erase(entry_of(call), order());
+  } catch (...) {  // client code failed
+    placed_.erase_if([&](const Entry& entry) { return entry.call == engine_.handle_of(call); });
+  }
+}
+
+// A call whose drain is gone waits for another one.
+void Agenda::left(Call& call, bool asked_for) noexcept {
+  take_from_index(call);
+  if (!asked_for) return;
+  core_.set_waiting(call);
+  ++waiting_calls_;
+  chain(call);
+}
+
+void Agenda::chain(Call& call) noexcept {
+  call.next_waiting = std::exchange(chained_, engine_.handle_of(call));
+}
+
+void Agenda::adopt_chained() {
+  while (chained_ != 0) {
+    add_waiting(chained_);
+    chained_ = std::exchange(core_.at<Call>(chained_)->next_waiting, 0);
+  }
+}
+
+// --- Draining --------------------------------------------------------------------------------
+
+struct Agenda::Drain {
+  void operator()(Scope& s, Agenda* agenda) const { agenda->run_waiting(s); }
+  static constexpr std::string_view kName = "drain";
+};
+
+void Agenda::drain(Scope& s) {
+  static constexpr Drain kDrain{};
+  core_.guarded([&] {
+    if (state_ == State::draining) fail_drained_twice(s.self());
+    s.call<kDrain>(this);
+  });
+}
+
+void Agenda::fail_drained_twice(const Call& caller) const {
+  std::string text = Engine::describe(caller) + ": agenda '" + name_ + "' is drained twice";
+  if (state_ == State::draining && running_ != 0) {
+    text += "; of the first drain " + Engine::describe(*core_.at<Call>(running_)) + " is running";
+  }
+  throw UsageError(text);
+}
+
+// What an earlier drain ran waits again: that drain failed, if only at its end; or it is gone and
+// left its calls ahead; or it lies ahead, and is refused if it is still asked for.
+void Agenda::begin_drain(Scope& s) {
+  const Handle self = engine_.handle_of(s.self());
+  if (drain_call_ != 0 && drain_call_ != self) {
+    Call& other = *core_.at<Call>(drain_call_);
+    if (state_ != State::open && !engine_.lies_ahead(other)) {
+      fail_drained_twice(core_.parent_of(s.self()));
+    }
+    engine_.invalidate(other);
+  }
+  state_ = State::open;
+  drain_call_ = self;
+  running_ = 0;
+  if (s.recall<Edge>(id_, kDrain, [](const Edge&) { return true; }) == nullptr) {
+    s.effect<Edge>(id_, kDrain);
+  }
+  core_.need_end();
+  while (!placed_.empty()) core_.discard_subtree(placed_.first().call);
+  adopt_chained();
+  if (!engine_.appending()) set_later_posts_aside(s.self());
+}
+
+// A post counts for a drain if it comes before. Who posts later, in a trace of last time, will be
+// discarded, or must be refused: it runs again. So does who encloses the drain and has posted behind
+// some of its children: perhaps behind this one.
+void Agenda::set_later_posts_aside(const Call& drain) {
+  for (const auto& [rank, entries] : waiting_) {
+    for (const Entry& entry : entries) {
+      for (Handle h = Slot::of(*core_.at<Call>(entry.call)).posts; h != 0;) {
+        PostEdge& post = post_at(h);
+        h = post.next_post;
+        if (post.poster == 0) continue;
+        Call& poster = *core_.at<Call>(post.poster);
+        if (poster.running()) continue;
+        if (engine_.precedes(drain, poster)) {
+          engine_.invalidate(poster);
+        } else if (post.behind && engine_.encloses(poster, drain)) {
+          engine_.run_again(poster);
+        } else {
+          continue;
+        }
+        drop_post(post);
+      }
+    }
+  }
+}
+
+void Agenda::run_waiting(Scope& s) {
+  begin_drain(s);
+  state_ = State::draining;
+  try {
+    while (!waiting_.empty()) run_class(waiting_.begin()->first);
+  } catch (...) {
+    state_ = State::open;
+    throw;
+  }
+  state_ = State::drained;
+}
+
+// Runs one (bucket, phase, colour): what was posted before in order, merged with what its own
+// calls post into it. Comparing calls may throw in the middle of sorting, so a copy is sorted.
+void Agenda::run_class(std::uint32_t rank) {
+  const auto earlier = order();
+  std::vector<Entry> batch = waiting_[rank];
+  std::sort(batch.begin(), batch.end(), earlier);
+  std::vector<Entry>& posted = waiting_[rank];
+  posted.clear();
+  Index late;
+  std::size_t i = 0;
+  std::size_t taken = 0;  // of what the running call posted
+  Entry next;
+  try {
+    while (i < batch.size() || !late.empty()) {
+      const bool from_late = i == batch.size() || (!late.empty() && earlier(late.first(), batch[i]));
+      next = from_late ? late.pop_first() : batch[i++];
+      taken = 0;
+      run_one(next);
+      next = {};
+      for (; taken < posted.size(); ++taken) late.insert(posted[taken], earlier);
+      posted.clear();
+    }
+  } catch (...) {  // what has not run waits for the drain to run again
+    posted.erase(posted.begin(), posted.begin() + static_cast<std::ptrdiff_t>(taken));
+    const auto keep = [&](const Entry& entry) { chain(*core_.at<Call>(entry.call)); };
+    if (next.call != 0 && core_.at<Call>(next.call)->waiting()) keep(next);
+    std::for_each(batch.begin() + static_cast<std::ptrdiff_t>(i), batch.end(), keep);
+    late.for_each(keep);
+    throw;
+  }
+  waiting_.erase(rank);
+}
+
+void Agenda::run_one(const Entry& entry) {
+  if (Slot::of(*core_.at<Call>(entry.call)).posts == 0) {  // posted, then taken back
+    return drop_waiting(entry.call);
+  }
+  placed_.append(entry);
+  try {
+    core_.place_now(entry.call);
+  } catch (...) {
+    placed_.erase_if([&](const Entry& other) { return other.call == entry.call; });
+    throw;
+  }
+  --waiting_calls_;
+  running_ = entry.call;
+  core_.run_placed(entry.call);
+}
+
+// --- Bookkeeping -----------------------------------------------------------------------------
+
+std::size_t Agenda::bytes() const noexcept {
+  std::size_t total = placed_.bytes();
+  for (const auto& [rank, entries] : waiting_) total += entries.capacity() * sizeof(Entry) + 64;
+  return total;
+}
+
+void Agenda::check_invariants() const {
+  const Call* previous = nullptr;
+  placed_.for_each([&](const Entry& entry) {
+    const Call& c = *core_.at<Call>(entry.call);
+    SAC_INVARIANT(c.life == Life::placed);
+    SAC_INVARIANT(Slot::of(c).posts != 0 || c.queue != 0);  // or it is dying
+    SAC_INVARIANT(Slot::of(c).rank == entry.rank && Slot::of(c).order == entry.order);
+    SAC_INVARIANT(previous == nullptr || (before(*previous, c) && engine_.precedes(*previous, c)));
+    previous = &c;
+  });
+}
+
+}  // namespace sac

@@ -1,0 +1,230 @@
+// Posting, and taking posts back.
+#include <cmath>
+
+#include "sac/agenda.hpp"
+
+namespace sac {
+
+int exponent_bucket(double length) { return std::ilogb(length); }
+
+Agenda::Agenda(Engine& engine, std::string name)
+    : engine_(engine), core_(engine.core()), name_(std::move(name)),
+      id_(engine.add_structure(*this)) {}
+
+void Agenda::fail_irreflexive(const Function& function) {
+  throw UsageError("an argument of " + std::string(function.name) +
+                   " does not equal itself (a NaN?): a posted call with it has no place in the order");
+}
+
+void Agenda::post_call(Scope& s, const Key& key, const Asked& asked) {
+  const Call& poster = s.self();
+  const std::uint16_t number = core_.number_of(asked.function);
+  const auto repeats = [&](const PostEdge& edge) {
+    const Call& c = *core_.at<Call>(edge.target);
+    return c.function_number == number && asked.function.equal(c, asked.arguments);
+  };
+  // Not found among so many, it is made anew: the old one goes with the others.
+  constexpr std::size_t kMost = 64;
+  PostEdge* edge = s.recall<PostEdge>(id_, kPost, repeats, kMost);
+  const bool known = edge != nullptr && !core_.at<Call>(edge->target)->dead();
+  Handle h = known ? edge->target : core_.find_posted(asked, id_);
+  const bool fresh = h == 0;
+  if (fresh) h = create(key, asked);
+  Call& posted = *core_.at<Call>(h);
+  try {
+    require_key(posted, key);
+    require_future(poster, posted);
+    if (fresh) state_ == State::drained ? place(h) : add_waiting(h);
+  } catch (...) {
+    if (fresh) drop_waiting(h);
+    throw;
+  }
+  if (known && counts(*edge)) return;
+  if (edge == nullptr) {
+    try {
+      edge = &s.effect<PostEdge>(id_, kPost);
+      edge->poster = engine_.handle_of(poster);
+    } catch (...) {
+      unposted_ = true;  // a call that waits and that nobody posts leaves at the end
+      throw;
+    }
+  }
+  add_post(*edge, h);
+}
+
+Handle Agenda::create(const Key& key, const Asked& asked) {
+  const std::uint32_t rank = key.rank();
+  const Handle h = core_.new_call(asked);
+  Slot::of(*core_.at<Call>(h)) = {.order = key.order, .rank = rank};
+  core_.at<Call>(h)->work_queue = id_;
+  ++waiting_calls_;
+  return h;
+}
+
+void Agenda::add_waiting(Handle call) {
+  const Entry entry = entry_of(*core_.at<Call>(call));
+  waiting_[entry.rank].push_back(entry);
+}
+
+// --- What is refused -------------------------------------------------------------------------
+
+void Agenda::require_key(const Call& call, const Key& key) const {
+  const Slot& slot = Slot::of(call);
+  if (slot.rank == key.rank() && slot.order == key.order) return;
+  throw UsageError("agenda '" + name_ + "': " + Engine::describe(call) +
+                   " is posted at two keys: a key must be a function of the call's function and "
+                   "arguments");
+}
+
+// Whether the turn of `posted` is still to come.
+bool Agenda::in_future(const Call& posted) const {
+  switch (state_) {
+    case State::open: return true;
+    case State::draining: return running_ != 0 && before(*core_.at<Call>(running_), posted);
+    case State::drained: break;
+  }
+  if (core_.lies_ahead(*core_.at<Call>(drain_call_))) return true;
+  return posted.waiting() ? core_.is_ahead(stamp_before(posted)) : core_.lies_ahead(posted);
+}
+
+void Agenda::require_future(const Call& poster, const Call& posted) const {
+  if (in_future(posted)) return;
+  throw UsageError("posting into the past: " + Engine::describe(poster) + " posts " +
+                   Engine::describe(posted) + " on agenda '" + name_ + "'");
+}
+
+void Agenda::require_unused() const {
+  if (waiting_calls_ == 0 && placed_.empty() && drain_call_ == 0) return;
+  throw UsageError("release: agenda '" + name_ + "' is in use: calls are posted on it, or one drains it");
+}
+
+// --- The outside -----------------------------------------------------------------------------
+
+// Returns the post, which is in no call's list.
+Handle Agenda::outside_post(const Key& key, const Asked& asked) {
+  Handle h = core_.find_posted(asked, id_);
+  if (h != 0) require_key(*core_.at<Call>(h), key);
+  const Handle post = engine_.arena().allocate(sizeof(PostEdge));
+  ::new (core_.at<void>(post)) PostEdge();
+  try {
+    const bool fresh = h == 0;
+    if (fresh) h = create(key, asked);
+    try {
+      if (fresh) state_ == State::drained ? place(h) : add_waiting(h);
+    } catch (...) {
+      drop_waiting(h);
+      if (engine_.idle()) core_.purge();
+      throw;
+    }
+  } catch (...) {
+    engine_.arena().release(post, sizeof(PostEdge));
+    throw;
+  }
+  add_post(post_at(post), h);
+  return post;
+}
+
+void Agenda::drop_outside(Handle post) noexcept {
+  drop_post(post_at(post));
+  engine_.arena().release(post, sizeof(PostEdge));
+}
+
+// One of the outside's posts of the call.
+Handle Agenda::require_posted(const Asked& asked) const {
+  const Handle h = core_.find_posted(asked, id_);
+  Handle post = h != 0 ? Slot::of(*core_.at<Call>(h)).posts : 0;
+  while (post != 0 && post_at(post).poster != 0) post = post_at(post).next_post;
+  if (post != 0) return post;
+  throw UsageError("retract_from_outside: no call " + std::string(asked.function.name) +
+                   " with these arguments is posted on agenda '" + name_ + "'");
+}
+
+Key Agenda::key_of(Handle post) const noexcept {
+  const Slot& slot = Slot::of(*core_.at<Call>(post_at(post).target));
+  return Key::of(slot.rank, slot.order);
+}
+
+// --- Taking back -----------------------------------------------------------------------------
+
+// A post counts from now on.
+void Agenda::add_post(PostEdge& post, Handle target) noexcept {
+  Call& call = *core_.at<Call>(target);
+  engine_.note(Event::Kind::posted, &call);
+  Handle& first = Slot::of(call).posts;
+  const Handle self = engine_.arena().handle_of(&post);
+  post.target = target;
+  post.previous_post = 0;
+  post.next_post = first;
+  if (first != 0) post_at(first).previous_post = self;
+  first = self;
+}
+
+// A post counts no longer, for now or for good. Requires: it counts.
+void Agenda::drop_post(PostEdge& post) noexcept {
+  Call& call = *core_.at<Call>(post.target);
+  if (engine_.observer() != nullptr) [[unlikely]] {
+    const Call* poster = post.poster != 0 ? core_.at<Call>(post.poster) : nullptr;
+    engine_.observer()->on({.kind = Event::Kind::unposted, .call = &call, .by = poster});
+  }
+  if (post.next_post != 0) post_at(post.next_post).previous_post = post.previous_post;
+  (post.previous_post != 0 ? post_at(post.previous_post).next_post : Slot::of(call).posts) =
+      post.next_post;
+  post.previous_post = engine_.arena().handle_of(&post);
+  if (call.waiting()) {
+    unposted_ = true;
+  } else if (Slot::of(call).posts == 0 && !call.dead()) {
+    core_.enqueue(call);
+  }
+}
+
+void Agenda::retract(Call& call, Edge& edge) noexcept {
+  if (edge.kind == kPost) {
+    auto& post = static_cast<PostEdge&>(edge);
+    if (counts(post)) drop_post(post);
+  } else if (drain_call_ == engine_.handle_of(call)) {  // else another one has taken its place
+    state_ = State::open;
+    drain_call_ = 0;
+  }
+}
+
+// The children of `call` may drain the agenda, or have done so: what it has not repeated does not
+// count for them.
+void Agenda::hide(Call& call, Edge& edge, Handle end) noexcept {
+  if (edge.kind != kPost) return;
+  auto& post = static_cast<PostEdge&>(edge);
+  const Call& posted = *core_.at<Call>(post.target);
+  if (counts(post) && (posted.waiting() || engine_.lies_between(call, posted, end))) {
+    drop_post(post);
+  }
+}
+
+// Requires: the call is in no list.
+void Agenda::drop_waiting(Handle call) noexcept {
+  --waiting_calls_;
+  engine_.note(Event::Kind::dying, core_.at<Call>(call));
+  core_.drop_call(call);
+}
+
+// Waiting calls that nobody posts leave.
+void Agenda::drop_unposted() noexcept {
+  if (!std::exchange(unposted_, false)) return;
+  const auto drop = [&](Handle h) {
+    const bool unposted = Slot::of(*core_.at<Call>(h)).posts == 0;
+    if (unposted) drop_waiting(h);
+    return unposted;
+  };
+  for (auto& [rank, entries] : waiting_) {
+    std::erase_if(entries, [&](const Entry& entry) { return drop(entry.call); });
+  }
+  std::erase_if(waiting_, [](const auto& entry) { return entry.second.empty(); });
+  for (Handle* link = &chained_; *link != 0;) {
+    Call& c = *core_.at<Call>(*link);
+    if (drop(*link)) {
+      *link = std::exchange(c.next_waiting, 0);
+    } else {
+      link = &c.next_waiting;
+    }
+  }
+}
+
+}  // namespace sac

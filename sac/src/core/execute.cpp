@@ -1,0 +1,191 @@
+// Executing a call: its body, its tail calls, settling, and the end of its interval.
+#include <exception>
+
+#include "sac/internal/core.hpp"
+#include "sac/engine.hpp"
+#include "sac/scope.hpp"
+
+namespace sac {
+
+void Core::execute(Handle call, Handle limit) {
+  Activation a;
+  a.outer = current_;
+  a.outer_linked =
+      current_ == nullptr || current_->end_linked ? current_ : current_->outer_linked;
+  a.limit = limit;
+  a.end = at<Call>(call)->end;
+  a.end_linked = a.end != 0;
+  current_ = &a;
+  try {
+    run_body(a, call);
+    for (Handle link = call; settle_link(a, link);) {
+      link = std::exchange(a.tail, 0);
+      a.tail_state = Tail::none;
+      insert_call(link);
+      at<Call>(link)->end = a.end;
+      run_body(a, link);
+    }
+    close(a);
+  } catch (...) {
+    abandon(a);
+    throw;
+  }
+  current_ = a.outer;
+}
+
+void Core::run_body(Activation& a, Handle call) {
+  Call& c = *at<Call>(call);
+  a.call = &c;
+  a.old_edges = std::exchange(c.edges, 0);
+  a.cursor = a.last_edge = a.failed_child = 0;
+  a.hidden = a.failed = false;
+  c.round ^= 1;
+  c.validity = Validity::valid;
+  c.life = Life::running;
+  if (counts_.executed >= progress_at_) [[unlikely]] report_progress();
+  ++counts_.executed;
+  note(Event::Kind::executed, &c);
+  Scope scope(*this);
+  c.function().execute(scope, c);
+  if (a.failed) [[unlikely]] fail_caught(a);
+  require_children_unmoved(a);
+  settle(a);
+}
+
+// What has failed must run again: nobody may go on as if it had not.
+void Core::fail_caught(const Activation& a) const {
+  const std::string whose = a.failed_child != 0
+                                ? "what " + Engine::describe(*at<Call>(a.failed_child)) + " threw"
+                                : "what something that it asked of the engine threw";
+  throw UsageError(Engine::describe(*a.call) + " has caught " + whose +
+                   ": exceptions of calls must pass");
+}
+
+// What a call does comes before its children. If it is done behind one that has run and should have
+// seen it, a run from scratch and an update would differ.
+void Core::require_children_unmoved(const Activation& a) {
+  const Handle call = arena_.handle_of(a.call);
+  while (!queue_.empty() && next_is_up_to(call, now_)) {
+    Call& child = *at<Call>(queue_.pop());
+    SAC_ENSURES(!unposted(child));
+    if (child.invalid() || !unchanged(child)) {
+      invalidate(child, nullptr);
+      throw UsageError(Engine::describe(*a.call) + " has done something behind its own child " +
+                       Engine::describe(child) +
+                       ", which should have seen it: what a call does comes before its children");
+    }
+    child.validity = Validity::valid;
+  }
+}
+
+// The call has said all it has to say: what it did not repeat is taken back. It has not seen that
+// in this execution, so it is not invalidated by it.
+void Core::settle(Activation& a) noexcept {
+  a.cursor = 0;
+  retract_all(*a.call, std::exchange(a.old_edges, 0));
+  a.call->life = Life::placed;
+  a.call->validity = Validity::valid;
+}
+
+// Whether a new tail call follows `link`, which has just run: then what `link` took back when it
+// settled, and its children may have seen, is brought up to date before. If a result changes by
+// that, the link runs again.
+bool Core::settle_link(Activation& a, Handle link) {
+  while (a.tail_state == Tail::fresh) {
+    if (appending()) return true;
+    const Handle reached = now_;
+    take_deferred(link);
+    if (queue_.empty() || !next_is_up_to(link, reached)) return true;
+    const Handle h = queue_.pop();
+    if (h == link) {
+      rerun_link(a, link);
+      continue;
+    }
+    try {
+      run_from_queue(h);
+    } catch (...) {
+      now_ = h == reached ? end_of(h) : reached;
+      throw;
+    }
+    now_ = h == reached ? end_of(h) : reached;
+  }
+  return false;
+}
+
+void Core::rerun_link(Activation& a, Handle link) {
+  a.tail_state = Tail::none;
+  drop_call(std::exchange(a.tail, 0));
+  if (!a.end_linked) link_end(a);  // what it does not repeat lies before
+  now_ = link;
+  run_body(a, link);
+}
+
+// Ends the interval: a reused tail ends it, what was not reused is discarded.
+void Core::close(Activation& a) {
+  if (a.tail_state == Tail::reused) {
+    discard_between(now_, a.tail);
+    reuse(std::exchange(a.tail, 0));
+  }
+  if (a.end == 0 || now_ == a.end) return;  // a reused tail may share the end
+  if (a.end_linked) {
+    discard_between(now_, a.end);
+  } else {
+    link_end(a);
+  }
+  now_ = a.end;
+}
+
+void Core::link_end(Activation& a) {
+  timeline_.insert_after(now_, a.end);
+  a.end_linked = true;
+}
+
+// Client code threw: the call stays, as one that must run again.
+void Core::abandon(Activation& a) noexcept {
+  note_failure(Event::Kind::failed, a.call);
+  if (a.tail_state == Tail::fresh) drop_call(std::exchange(a.tail, 0));
+  settle(a);
+  if (a.end != 0 && !a.end_linked) {
+    // Cannot fail in the middle of a group with room; a failure leaves the call a leaf.
+    try {
+      link_end(a);
+      now_ = a.end;
+    } catch (...) {
+      broken_ = true;
+    }
+  }
+  invalidate(*a.call, nullptr);
+  if (a.outer != nullptr) a.outer->failed_child = arena_.handle_of(a.call);
+  current_ = a.outer;
+}
+
+// A call gets its end stamp with its first child. It is linked when the call closes, because the
+// calls that it may still reuse lie between.
+void Core::need_end(Activation& a) {
+  if (a.end == 0) {
+    a.end = arena_.allocate(sizeof(TimeNode));
+    ::new (at<void>(a.end)) TimeNode;
+    at<TimeNode>(a.end)->mark();
+  }
+  a.call->end = a.end;
+}
+
+void Core::report_progress() {
+  progress_at_ += progress_every_;
+  if (!progress_({.executed = counts_.executed, .queued = queue_.size()})) throw Cancelled();
+}
+
+void Core::note_failure(Event::Kind kind, const Call* call) noexcept {
+  if (observer_ == nullptr) return;
+  Event event{.kind = kind, .call = call, .by = running_call()};
+  try {
+    throw;
+  } catch (const std::exception& error) {
+    event.message = error.what();
+    observer_->on(event);
+  } catch (...) {
+    observer_->on(event);
+  }
+}
+
+}  // namespace sac

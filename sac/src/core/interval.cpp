@@ -1,0 +1,303 @@
+// The interval of a running call: which calls it reuses, which it makes, which it discards.
+#include "sac/engine.hpp"
+#include "sac/internal/core.hpp"
+
+namespace sac {
+
+// --- Asking for calls ------------------------------------------------------------------------
+
+Handle Core::call_child(const Asked& asked) {
+  Activation& caller = running();
+  if (caller.failed) [[unlikely]] fail_caught(caller);
+  require_no_tail(caller, asked.function);
+  require_stack(caller, asked.function);
+  hide_unrepeated(caller);
+  need_end(caller);
+  Handle child = find_reusable(asked, false);
+  const bool fresh = child == 0;
+  if (fresh) {
+    child = new_call(asked);
+    insert_call(child);
+  } else {
+    discard_between(now_, child);
+    reuse(child);
+  }
+  // The last call that asked for it depends on its result.
+  if (asked.function.has_result) ResultHead::of(*at<Call>(child)).caller = arena_.handle_of(caller.call);
+  if (fresh) {
+    if (asked.function.execute == nullptr) return child;
+    execute(child, caller.limit);
+  }
+  settle_child(child);
+  SAC_ENSURES(at<Call>(child)->validity == Validity::valid);
+  return child;
+}
+
+Handle Core::call_tail(const Asked& asked) {
+  Activation& caller = running();
+  if (caller.failed) [[unlikely]] fail_caught(caller);
+  require_no_tail(caller, asked.function);
+  need_end(caller);
+  caller.tail = find_reusable(asked, true);
+  caller.tail_state = Tail::reused;
+  if (caller.tail == 0) {
+    caller.tail = new_call(asked);
+    caller.tail_state = Tail::fresh;
+  }
+  return caller.tail;
+}
+
+// A call whose end stamp is the limit itself can only be the tail of the call that ends there:
+// as anything else it would leave no room before that end. Calls are mostly repeated in order: the
+// next one is looked at first, which spares a look into the memo table.
+Handle Core::find_reusable(const Asked& asked, bool tail) {
+  const Handle limit = current_->limit;
+  const Handle next = at<TimeNode>(now_)->next;
+  if (next == limit) return 0;  // nothing ahead: a first run
+  const bool may_share_end = tail && current_->end == limit;
+  const std::uint16_t number = number_of(asked.function);
+  const auto fits = [&](const Call& c) {
+    return c.function_number == number && c.life == Life::placed && !c.posted &&
+           (c.end == 0 || c.end != limit || may_share_end) &&
+           asked.function.equal(c, asked.arguments);
+  };
+  if (!at<TimeNode>(next)->marked() && fits(*at<Call>(next))) return next;
+  return memo_.find_between(asked.hash, now_, limit, fits);
+}
+
+void Core::reuse(Handle child) noexcept {
+  now_ = end_of(child);
+  ++counts_.reused;
+  note(Event::Kind::reused, at<Call>(child));
+}
+
+// What a running call has not repeated before its first child is not there for its children, nor
+// for theirs, even if they are reused: what in the interval has seen it must ask again. A tail call
+// runs when its caller has settled.
+void Core::hide_unrepeated(Activation& a) noexcept {
+  if (a.old_edges == 0 || a.hidden) return;
+  a.hidden = true;
+  for (Handle e = a.old_edges; e != 0; e = at<Edge>(e)->next) {
+    Edge& edge = *at<Edge>(e);
+    structures_[edge.structure]->hide(*a.call, edge, a.limit);
+  }
+}
+
+void Core::require_no_tail(const Activation& caller, const Function& function) const {
+  if (caller.tail == 0) return;
+  throw UsageError(Engine::describe(*caller.call) + " calls " + std::string(function.name) +
+                   " behind its tail call " + Engine::describe(*at<Call>(caller.tail)) +
+                   ", which must be the last");
+}
+
+void Core::require_stack(const Activation& caller, const Function& function) const {
+  if (reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) >= stack_end_) [[likely]] return;
+  throw UsageError(Engine::describe(*caller.call) + " calls " + std::string(function.name) +
+                   " too deep: calls inside of calls have taken " + std::to_string(stack_limit_) +
+                   " bytes of the native stack; use tail calls, or divide");
+}
+
+// --- Making calls ----------------------------------------------------------------------------
+
+// A new call waits for its place.
+Handle Core::new_call(const Asked& asked) {
+  const Function& function = asked.function;
+  queue_.reserve(live_calls_ + 1);  // so that invalidating and discarding cannot fail
+  if (graveyard_.capacity() < live_calls_ + graveyard_.size() + 1) {
+    graveyard_.reserve(2 * (live_calls_ + graveyard_.size()) + 64);
+  }
+  const std::uint16_t number = number_of(function);
+  const Handle h = arena_.allocate(function.frame_bytes);
+  Call& c = *::new (at<void>(h)) Call;
+  c.function_number = number;
+  c.life = Life::waiting;
+  c.validity = function.execute != nullptr ? Validity::invalid : Validity::valid;
+  c.posted = function.posted;
+  try {
+    asked.construct(&c, asked.arguments, asked.hash);
+  } catch (...) {
+    arena_.release(h, function.frame_bytes);
+    throw;
+  }
+  try {
+    if (audit_) suspect(h, asked);
+    appending() ? memo_.insert_soon(h, asked.hash) : memo_.insert(h, asked.hash);
+  } catch (...) {
+    if (function.destroy != nullptr) function.destroy(c);
+    arena_.release(h, function.frame_bytes);
+    throw;
+  }
+  ++live_calls_;
+  ++counts_.created;
+  note(Event::Kind::created, &c);
+  return h;
+}
+
+void Core::suspect(Handle fresh, const Asked& asked) {
+  const Call& f = *at<Call>(fresh);
+  const Handle other = memo_.find(asked.hash, [&](const Call& c) {
+    return c.function_number == f.function_number && asked.function.equal(c, asked.arguments);
+  });
+  if (other != 0) suspects_.emplace_back(fresh, other);
+}
+
+// Throws: std::bad_alloc, and then changes nothing.
+void Core::give_place(Handle call, Handle after) {
+  timeline_.insert_after(after, call);
+  Call& c = *at<Call>(call);
+  try {
+    if (memo_.has_crowds() && !c.posted) memo_.placed(call, c.function().hash(c));
+  } catch (...) {
+    timeline_.erase(call);
+    throw;
+  }
+  c.life = Life::placed;
+}
+
+// A new call of the running one gets its place: now.
+void Core::insert_call(Handle call) {
+  try {
+    give_place(call, now_);
+  } catch (...) {
+    drop_call(call);
+    throw;
+  }
+  now_ = call;
+}
+
+// --- Posted calls ----------------------------------------------------------------------------
+
+Handle Core::find_posted(const Asked& asked, std::uint8_t queue) {
+  const std::uint16_t number = number_of(asked.function);
+  return memo_.find(asked.hash, [&](const Call& c) {
+    return c.function_number == number && !c.dead() && c.work_queue == queue &&
+           asked.function.equal(c, asked.arguments);
+  });
+}
+
+void Core::place(Handle call, Handle after) {
+  give_place(call, linked(after) ? after : now_);
+  enqueue(*at<Call>(call));
+}
+
+void Core::place_now(Handle call) {
+  give_place(call, now_);
+  now_ = call;
+}
+
+void Core::run_placed(Handle call) {
+  execute(call, running().limit);
+  settle_child(call);
+}
+
+// --- Discarding ------------------------------------------------------------------------------
+
+// A call that got no place, or lost it, leaves for good.
+void Core::drop_call(Handle call) noexcept {
+  Call& c = *at<Call>(call);
+  if (!c.dead()) note(Event::Kind::discarded, &c);
+  c.life = Life::dead;
+  graveyard_.push_back(call);
+  --live_calls_;
+}
+
+void Core::set_waiting(Call& call) noexcept {
+  call.life = Life::waiting;
+  call.validity = Validity::invalid;
+  call.end = 0;
+}
+
+void Core::free_call(Handle call) noexcept {
+  Call& c = *at<Call>(call);
+  const Function& function = c.function();
+  memo_.erase(call, function.hash(c));
+  if (function.destroy != nullptr) function.destroy(c);
+  if (function.object_offset != 0 && !names_.empty()) forget_names(call, function.frame_bytes);
+  arena_.release(call, function.frame_bytes);
+}
+
+// What a running call reuses may lie behind its own end, and that of calls around it: these ends
+// are to be put behind what is done instead.
+void Core::unlink_ends_between(Handle from, Handle to) noexcept {
+  for (Activation* a = current_; a != nullptr && to != 0; a = a->outer_linked) {
+    if (!a->end_linked || !precedes(*at<TimeNode>(from), *at<TimeNode>(a->end))) continue;
+    if (!precedes(*at<TimeNode>(a->end), *at<TimeNode>(to))) return;
+    timeline_.erase(a->end);
+    at<TimeNode>(a->end)->prev = 0;
+    a->end_linked = false;
+  }
+}
+
+void Core::discard_between(Handle from, Handle to) noexcept {
+  unlink_ends_between(from, to);
+  for (Handle h = at<TimeNode>(from)->next; h != to;) {
+    const Handle next = at<TimeNode>(h)->next;
+    if (at<TimeNode>(h)->marked()) {
+      timeline_.erase(h);
+      arena_.release(h, sizeof(TimeNode));
+    } else {
+      discard(h);
+    }
+    h = next;
+  }
+}
+
+// A posted call that is still asked for goes back to its queue: only what ran it has left.
+void Core::discard(Handle call) noexcept {
+  Call& c = *at<Call>(call);
+  const bool asked_for = c.posted && Slot::of(c).posts != 0;
+  note(asked_for ? Event::Kind::detached : Event::Kind::discarded, &c);
+  c.life = asked_for ? Life::waiting : Life::dead;
+  if (c.queue != 0) queue_.erase(c);
+  retract_all(c, std::exchange(c.edges, 0));
+  if (memo_.has_crowds() && !c.posted) memo_.leaves(call, c.function().hash(c));
+  timeline_.erase(call);
+  if (c.posted) {
+    static_cast<WorkQueue&>(*structures_[c.work_queue]).left(c, asked_for);
+    if (asked_for) return;
+  }
+  drop_call(call);
+  ++counts_.discarded;
+}
+
+void Core::discard_subtree(Handle call) noexcept {
+  if (const Handle end = at<Call>(call)->end; end != 0) {
+    discard_between(call, end);
+    timeline_.erase(end);
+    arena_.release(end, sizeof(TimeNode));
+  }
+  discard(call);
+}
+
+// --- Edges -----------------------------------------------------------------------------------
+
+Edge& Core::attach(std::uint8_t structure, std::uint8_t kind, std::size_t bytes) {
+  Activation& a = running();
+  const Handle h = arena_.allocate(bytes);
+  Edge& edge = *at<Edge>(h);
+  edge.next = 0;
+  edge.structure = structure;
+  edge.kind = static_cast<std::uint8_t>(kind & 0x3f);
+  edge.granules = static_cast<std::uint16_t>((bytes + Arena::kGranule - 1) / Arena::kGranule);
+  append_edge(a, h);
+  ++live_edges_;
+  ++counts_.edges_made;
+  return edge;
+}
+
+void Core::free_edge(Edge& edge) noexcept {
+  --live_edges_;
+  ++counts_.edges_removed;
+  arena_.release(arena_.handle_of(&edge), edge.granules * Arena::kGranule);
+}
+
+void Core::retract_all(Call& call, Handle edges) noexcept {
+  while (edges != 0) {
+    Edge& edge = *at<Edge>(edges);
+    edges = edge.next;
+    structures_[edge.structure]->retract(call, edge);
+    free_edge(edge);
+  }
+}
+
+}  // namespace sac

@@ -1,0 +1,208 @@
+// Modes of the core: entering, finishing, undoing; audit, sizes, invariants.
+#include "sac/internal/core.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+
+#include "sac/engine.hpp"
+
+namespace sac {
+
+namespace {
+
+// A quarter is left for what the client has on the stack already, and for the last call's own.
+std::size_t default_stack_limit() {
+  constexpr rlim_t kUnknown = rlim_t{2} << 20;
+  rlimit limit{};
+  const bool known = getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  return static_cast<std::size_t>((known ? limit.rlim_cur : kUnknown) / 4 * 3);
+}
+
+}  // namespace
+
+Core::Core(Engine& engine)
+    : stack_limit_(default_stack_limit()), engine_(engine), timeline_(arena_),
+      memo_(arena_, timeline_), queue_(arena_, timeline_), now_(timeline_.front()) {}
+
+std::uint8_t Core::add_structure(Structure& structure) {
+  auto free = std::find(structures_.begin(), structures_.end(), nullptr);
+  if (free == structures_.end()) {
+    if (structures_.size() == 0xff) {
+      throw UsageError("an engine has room for 255 structures, agendas included");
+    }
+    free = structures_.insert(free, nullptr);
+  }
+  *free = &structure;
+  return static_cast<std::uint8_t>(free - structures_.begin());
+}
+
+// --- Entering --------------------------------------------------------------------------------
+
+void Core::require_usable() const {
+  if (broken_) throw UsageError("the engine is broken: a roll-back failed earlier");
+}
+
+void Core::require_idle(const char* what) const {
+  if (idle()) return;
+  std::string text = std::string(what) + ": the engine is running";
+  if (current_ != nullptr && current_->call != nullptr) {
+    text += ' ' + Engine::describe(*current_->call);
+  }
+  throw UsageError(text);
+}
+
+std::string Core::context(const char* what) const {
+  return current_ != nullptr ? Engine::describe(*current_->call) + ": " + what : what;
+}
+
+void Core::fail_not_running() const {
+  throw UsageError("a scope is used while no traced function runs: it was kept for too long");
+}
+
+void Core::fail_no_environment() const {
+  throw UsageError(context("there is no environment: Engine::set_environment gives one"));
+}
+
+void Core::fail_foreign(const char* what) const {
+  throw UsageError(context((std::string(what) + " is not in memory of this engine").c_str()));
+}
+
+void Core::enter(Mode mode) {
+  require_usable();
+  require_idle(mode == Mode::running ? "run" : "propagate");
+  mode_ = mode;
+  const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
+  stack_end_ = here > stack_limit_ ? here - stack_limit_ : 0;
+  note(mode == Mode::running ? Event::Kind::run_started : Event::Kind::propagation_started);
+  progress_at_ = progress_ ? counts_.executed : ~std::uint64_t{0};
+}
+
+void Core::run_root(const Asked& asked) {
+  now_ = timeline_.back();
+  const Handle root = new_call(asked);
+  insert_call(root);
+  execute(root, 0);
+}
+
+// --- Leaving ---------------------------------------------------------------------------------
+
+void Core::forget_run(Handle before) noexcept {
+  current_ = nullptr;
+  note_failure(Event::Kind::roll_back_started);
+  discard_between(before, 0);
+  memo_.forget_waiting();  // only what this run made waits
+}
+
+void Core::begin_undoing() noexcept {
+  current_ = nullptr;
+  suspects_.clear();
+  mode_ = Mode::undoing;
+  take_deferred(0);
+  note_failure(Event::Kind::roll_back_started);
+  progress_at_ = ~std::uint64_t{0};
+}
+
+Counts Core::finish() noexcept {
+  const Counts done = std::exchange(counts_, {});
+  current_ = nullptr;
+  for_each_structure([](Structure& s) { s.finished(); });
+  note(Event::Kind::finished);
+  originals_.clear();
+  purge();
+  suspects_.clear();
+  deferred_.clear();
+  mode_ = Mode::idle;
+  return done;
+}
+
+void Core::purge() noexcept {
+  most_leaving_ = std::max(most_leaving_, graveyard_.size());
+  for (const Handle h : graveyard_) free_call(h);
+  graveyard_.clear();
+}
+
+// The handles will be those of other modifiables.
+void Core::forget_names(Handle from, std::size_t bytes) noexcept {
+  const auto first = names_.lower_bound(from);
+  auto last = first;
+  while (last != names_.end() && (last->first - from) * Arena::kGranule < bytes) ++last;
+  names_.erase(first, last);
+}
+
+// A pair of equal labels counts if both are alive at the end; a discarded call that was made again
+// counts at once.
+void Core::check_audit() {
+  if (appending()) memo_.settle();
+  for (const auto& [fresh, other] : suspects_) {
+    const Call& f = *at<Call>(fresh);
+    if (f.dead()) continue;
+    if (at<Call>(other)->dead()) {
+      if (report_.reordered++ == 0) report_.first_reordered = Engine::describe(f);
+    } else {
+      if (report_.duplicates++ == 0) report_.first_duplicate = Engine::describe(f);
+    }
+  }
+}
+
+// --- What there is ---------------------------------------------------------------------------
+
+Core::Sizes Core::sizes() const noexcept {
+  return {timeline_.bytes(), memo_.bytes(), queue_.bytes() + most_leaving_ * sizeof(Handle)};
+}
+
+// What is linked from both of its sides is in the list: what has left has no links.
+bool Core::is_live_call(Handle h) const noexcept {
+  const auto is_stamp = [&](Handle s) { return arena_.contains(s, sizeof(TimeNode)); };
+  if (!arena_.contains(h, sizeof(Call))) return false;
+  const TimeNode& node = *at<TimeNode>(h);
+  return !node.marked() && is_stamp(node.prev) && at<TimeNode>(node.prev)->next == h &&
+         (is_stamp(node.next) ? at<TimeNode>(node.next)->prev == h : h == timeline_.back());
+}
+
+const Call& Core::parent_of(const Call& call) const noexcept {
+  for (Handle h = call.prev; h != timeline_.front(); h = at<TimeNode>(h)->prev) {
+    const Call& c = *at<Call>(h);
+    if (c.marked()) continue;
+    const bool open = c.end != 0 && (!linked(c.end) || precedes(call, *at<TimeNode>(c.end)));
+    if (open) return c;
+  }
+  return call;
+}
+
+void Core::shrink() {
+  arena_.shrink();
+  memo_.shrink();
+  timeline_.shrink();
+  queue_.shrink(live_calls_);
+  std::vector<Handle> graveyard;
+  graveyard.reserve(live_calls_);
+  graveyard_.swap(graveyard);
+  most_leaving_ = graveyard_.capacity();  // taken from memory used before
+}
+
+void Core::check_invariants(std::uint64_t waiting) const {
+  SAC_INVARIANT(idle() && current_ == nullptr && graveyard_.empty());
+  arena_.check_invariants();
+  timeline_.check_invariants();
+  memo_.check_invariants();
+  queue_.check_invariants();
+  std::uint64_t calls = waiting;
+  std::uint64_t edges = 0;
+  walk([&](const Call& c, std::size_t) {
+    ++calls;
+    SAC_INVARIANT(c.life == Life::placed);
+    SAC_INVARIANT(c.validity == Validity::valid || c.queue != 0);
+    SAC_INVARIANT(c.end == 0 || precedes(c, *at<TimeNode>(c.end)));
+    SAC_INVARIANT(memo_.contains(arena_.handle_of(&c), c.function().hash(c)));
+    for (Handle e = c.edges; e != 0; e = at<Edge>(e)->next) {
+      ++edges;
+      SAC_INVARIANT(at<Edge>(e)->structure < structures_.size());
+      SAC_INVARIANT(at<Edge>(e)->round == c.round);
+    }
+  });
+  SAC_INVARIANT(calls == live_calls_ && edges == live_edges_);
+  SAC_INVARIANT(memo_.size() == live_calls_);
+}
+
+}  // namespace sac

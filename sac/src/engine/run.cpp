@@ -1,0 +1,131 @@
+// Runs, propagations, and taking them back.
+#include "sac/engine.hpp"
+
+#include "sac/agenda.hpp"
+#include "sac/mod.hpp"
+
+namespace sac {
+
+namespace {
+
+// Lifts the arena's limit while it lives.
+class Unlimited {
+ public:
+  explicit Unlimited(Arena& arena) noexcept : arena_(arena), limit_(arena.limit()) {
+    arena_.set_limit(Arena::kReserve);
+  }
+  ~Unlimited() { arena_.set_limit(limit_); }
+  Unlimited(const Unlimited&) = delete;
+  Unlimited& operator=(const Unlimited&) = delete;
+
+ private:
+  Arena& arena_;
+  std::size_t limit_;
+};
+
+}  // namespace
+
+Engine::Engine() : core_(*this), mods_(std::make_unique<ModStructure>(*this)) {}
+
+// Nothing is retracted: only what needs destroying is visited. Values go before the cells that
+// hold them.
+Engine::~Engine() {
+  arena().header().ending = true;
+  walk([&](const Call& c, std::size_t) { mods_->destroy_values(c); });
+  core_.for_each_call([](Call& c) {
+    if (c.function().destroy != nullptr) c.function().destroy(c);
+  });
+  for (const Handle h : outside_) {
+    outside_types_[outside_head(h)->type].destroy(outside_head(h) + 1);
+  }
+}
+
+Agenda& Engine::make_agenda(std::string name) {
+  begin_edit("make_agenda");
+  agendas_.push_back(nullptr);
+  try {
+    agendas_.back() = std::make_unique<Agenda>(*this, std::move(name));
+  } catch (...) {
+    agendas_.pop_back();
+    throw;
+  }
+  return *agendas_.back();
+}
+
+void Engine::release(Agenda& agenda) {
+  begin_edit("release");
+  agenda.require_unused();
+  std::erase_if(agendas_, [&](const auto& other) { return other.get() == &agenda; });
+}
+
+// --- Edits -----------------------------------------------------------------------------------
+
+void Engine::undo_edits() {
+  begin_edit("undo_edits");
+  undo_edits_behind(0);
+}
+
+// Undoes the newest edits, until so many are left. Undoing may fail only where the client's part in
+// it does.
+void Engine::undo_edits_behind(std::size_t edits) {
+  try {
+    const Unlimited unlimited(arena());
+    for (; rollback_.size() > edits; rollback_.pop_back()) rollback_.back()();
+  } catch (...) {
+    core_.set_broken();
+    throw;
+  }
+}
+
+// --- Running and propagating -----------------------------------------------------------------
+
+Counts Engine::run_root(const Asked& asked) {
+  begin_edit("run");
+  if (!rollback_.empty() && !core_.settled()) throw UsageError("run: propagate the edits first");
+  require_released_unused();
+  core_.enter(Core::Mode::running);
+  rollback_.clear();
+  const Handle before = core_.last_stamp();
+  try {
+    core_.run_root(asked);
+    require_released_unused();
+    core_.check_audit();
+  } catch (...) {
+    core_.forget_run(before);
+    core_.finish();
+    throw;
+  }
+  free_released();
+  return core_.finish();
+}
+
+Counts Engine::propagate() {
+  core_.enter(Core::Mode::propagating);
+  try {
+    core_.propagate();
+    require_released_unused();
+    core_.check_audit();
+  } catch (...) {
+    roll_back();
+    throw;
+  }
+  rollback_.clear();
+  free_released();
+  return core_.finish();
+}
+
+void Engine::roll_back() noexcept {
+  core_.begin_undoing();
+  if (core_.originals().lost()) core_.set_broken();
+  try {
+    const Unlimited unlimited(arena());
+    for (auto undo = rollback_.rbegin(); undo != rollback_.rend(); ++undo) (*undo)();
+    if (!core_.broken()) core_.propagate();
+  } catch (...) {
+    core_.set_broken();
+  }
+  rollback_.clear();
+  core_.finish();
+}
+
+}  // namespace sac

@@ -1,0 +1,278 @@
+// Versions that come, change and go.
+#include "sac/internal/mod_structure.hpp"
+
+namespace sac {
+
+using detail::History;
+using detail::WriteEdge;
+
+void ModStructure::require_unwritten(Handle head) const {
+  const Version& version = *at(head);
+  if (!version.written && version.history == 0) return;
+  throw UsageError("set: " + engine_.describe_mod(head) + " is written by the program, in " +
+                   Engine::describe(writer(last(head))));
+}
+
+void ModStructure::unmake_input(Handle head) noexcept {
+  Version& version = *at(head);
+  types_[version.type].destroy(version);
+  version.written = version.outside = false;
+}
+
+// --- Writing ---------------------------------------------------------------------------------
+
+// The running call's own version: last time's, repeated; null if it has none.
+detail::Version* ModStructure::own_version(Scope& scope, Handle head) {
+  const Call& call = scope.self();
+  Version* own = at(head);
+  if (own->outside) {
+    throw UsageError(Engine::describe(call) + " writes " + engine_.describe_mod(head) +
+                     ", which is an input");
+  }
+  if (own->history != 0) {
+    const Handle* last = history(own->history).versions.place_of(0, order(&call)).before;
+    own = last != nullptr ? at(*last) : nullptr;
+  }
+  if (own == nullptr || !own->written || &writer(*own) != &call) return nullptr;
+  if (own->round == call.round) return own;
+  const Handle version = handle_of(*own);
+  const auto same = [&](const WriteEdge& edge) { return edge.version == version; };
+  own->behind = scope.recall<WriteEdge>(id_, kWrite, same)->behind;
+  own->round = call.round;
+  // Children that have run meanwhile did not see it.
+  if (engine_.has_had_children()) require_unread(scope, head, predecessor(head, *own));
+  return own;
+}
+
+// A version for the running call, without a value yet: to be given one at once. The edge comes
+// first: if anything fails behind it, it has no version to take back.
+detail::Version& ModStructure::new_version(Scope& scope, Handle head, const detail::ValueType& type) {
+  const std::uint16_t type_number = number(type);
+  const Call& self = scope.self();
+  auto& edge = scope.effect<WriteEdge>(id_, kWrite);
+  edge.head = head;
+  edge.version = 0;
+  Version& first = *at(head);
+  if (!first.written && first.history == 0) {
+    first.writer = engine_.handle_of(self);
+    first.type = type_number;
+    first.round = self.round;
+    first.behind = edge.behind;
+    first.read_behind = false;
+    edge.version = head;
+    return first;
+  }
+  Handle fresh = head;
+  if (first.written) {
+    fresh = engine_.arena().allocate(type.bytes);
+    ::new (static_cast<void*>(at(fresh))) Version();
+    at(fresh)->apart = true;
+    at(fresh)->modifiable = head;
+  }
+  at(fresh)->writer = engine_.handle_of(self);
+  at(fresh)->type = type_number;
+  at(fresh)->round = self.round;
+  at(fresh)->behind = edge.behind;
+  at(fresh)->read_behind = false;
+  try {
+    if (first.history == 0) first.history = new_history(head);
+    history(first.history).versions.insert(fresh, order());
+  } catch (...) {
+    if (fresh != head) engine_.arena().release(fresh, type.bytes);
+    if (first.history != 0) drop_history(head);
+    throw;
+  }
+  edge.version = fresh;
+  return *at(fresh);
+}
+
+std::uint32_t ModStructure::new_history(Handle head) {
+  if (histories_.empty()) histories_.emplace_back();
+  if (free_histories_.empty()) {
+    if (free_histories_.capacity() <= histories_.size()) {  // so that drop_history cannot fail
+      free_histories_.reserve(2 * histories_.size() + 8);
+    }
+    histories_.emplace_back();
+    free_histories_.push_back(static_cast<std::uint32_t>(histories_.size() - 1));
+  }
+  const std::uint32_t number = free_histories_.back();
+  History& fresh = history(number);
+  if (at(head)->written) fresh.versions.insert(head, order());  // in place: it cannot fail
+  fresh.head = head;
+  free_histories_.pop_back();
+  return number;
+}
+
+// A version in place needs no order; nor does none.
+void ModStructure::drop_history(Handle head) noexcept {
+  const std::uint32_t number = at(head)->history;
+  const auto& versions = history(number).versions;
+  if (versions.size() > 1 || (versions.size() == 1 && versions.first() != head)) return;
+  at(head)->history = 0;
+  histories_[number] = History();
+  free_histories_.push_back(number);
+}
+
+// The last version before the running call, which has none; null if there is none.
+detail::Version* ModStructure::before(Scope& scope, Handle head) const {
+  const Call& self = scope.self();
+  Version* version = at(head);
+  if (version->history == 0) {
+    return version->written && engine_.precedes(writer(*version), self) ? version : nullptr;
+  }
+  const Handle* last = history(version->history).versions.place_of(0, order(&self)).before;
+  return last != nullptr ? at(*last) : nullptr;
+}
+
+detail::Version* ModStructure::predecessor(Handle head, const Version& version) const noexcept {
+  const std::uint32_t h = at(head)->history;
+  if (h == 0) return nullptr;
+  const Handle* found = history(h).versions.predecessor(handle_of(version), order());
+  return found != nullptr ? at(*found) : nullptr;
+}
+
+// Throws: UsageError if the running call's own children have read `version`, or what is before it if
+// it is hidden: then it may not change.
+void ModStructure::require_unread(Scope& scope, Handle head, const Version* version) {
+  if (version == nullptr || !engine_.has_had_children()) return;
+  const Call& self = scope.self();
+  const Call* child = nullptr;
+  for_each_reader_behind(*version, self, 0, [&](ReadEdge& edge) {
+    const Call& call = engine_.call(edge.call);
+    if (!engine_.lies_ahead(call)) child = &call;
+    return child == nullptr && !version->ordered;  // in order, the first decides
+  });
+  if (child == nullptr) {
+    if (hidden(*version)) require_unread(scope, head, predecessor(head, *version));
+    return;
+  }
+  throw UsageError(Engine::describe(self) + " writes " + engine_.describe_mod(head) +
+                   " after its own child " + Engine::describe(*child) + " has read it");
+}
+
+// `writer` gives a new value behind `previous`, which calls around it have read behind children of
+// their own: behind this one?
+void ModStructure::rerun_readers_around(const Call& writer, const Version& previous) {
+  if (engine_.appending()) return;
+  for (Handle r = previous.readers; r != 0; r = reader(r)->next_reader) {
+    Call& call = engine_.call(reader(r)->call);
+    if (reader(r)->behind && !call.running() && engine_.encloses(call, writer)) {
+      engine_.run_again(call);
+    }
+  }
+}
+
+// Takes the value of `version` out, to be given another at once; its readers are in doubt, but for
+// the call `except`, which replaces it.
+void ModStructure::replace(Handle head, Version& version, Handle except) noexcept {
+  version.outside ? engine_.note(Event::Kind::edited, nullptr, head)
+                  : engine_.note(Event::Kind::changed, &writer(version), head);
+  leave_past(head, version, except);
+}
+
+// A new version has its value: takes over the readers of `previous` that are behind it if its value
+// is the same; else they are in doubt.
+void ModStructure::appeared(Scope& scope, Handle head, Version& version, Version* previous,
+                            bool same) noexcept {
+  const Call& self = scope.self();
+  if (!same) engine_.note(Event::Kind::changed, &self, head);
+  if (previous == nullptr) return;
+  if (same) {
+    for_each_reader_behind(*previous, self, 0, [&](ReadEdge& edge) {
+      move_reader(edge, version);
+      return true;
+    });
+  } else {
+    doubt_readers(head, *previous, self, 0);
+  }
+  // Children of a running call read past what that call has not repeated.
+  for (Version* v = previous; v != nullptr && hidden(*v);) {
+    v = predecessor(head, *v);
+    if (v != nullptr) doubt_readers(head, *v, self, 0);
+  }
+}
+
+// --- Taking back -----------------------------------------------------------------------------
+
+// Takes the value out of `version`. Those who have seen it are in doubt, and keep it until it is
+// their turn; if there is no memory for that, they run again in any case.
+void ModStructure::leave_past(Handle head, Version& version, Handle except) noexcept {
+  const detail::ValueType& type = types_[version.type];
+  if (type.keep != nullptr && engine_.originals() != nullptr && !version.outside) {
+    type.keep(*engine_.originals(), writer(version), head, version);
+  }
+  Version* past = nullptr;
+  forget_order(version);
+  for (Handle r = version.readers; r != 0;) {
+    ReadEdge& edge = *reader(r);
+    r = edge.next_reader;
+    if (edge.call == except) continue;
+    if (past == nullptr) {
+      try {
+        past = at(engine_.arena().allocate(type.bytes));
+        ::new (static_cast<void*>(past)) Version();
+        past->type = version.type;
+        past->apart = past->past = true;
+        past->modifiable = head;
+      } catch (...) {
+        orphan(edge);
+        continue;
+      }
+    }
+    move_reader(edge, *past);
+    engine_.doubt(engine_.call(edge.call), head);
+  }
+  if (past != nullptr) {
+    type.move(version, *past);
+    past->written = true;
+  } else {
+    type.destroy(version);
+  }
+  version.written = false;
+}
+
+void ModStructure::free_past(Version& version) noexcept {
+  const detail::ValueType& type = types_[version.type];
+  if (version.written) type.destroy(version);
+  engine_.arena().release(handle_of(version), type.bytes);
+}
+
+void ModStructure::forget_version(Handle head, Version& version) noexcept {
+  if (const std::uint32_t h = at(head)->history; h != 0) {
+    history(h).versions.erase(handle_of(version), order());
+    drop_history(head);
+  }
+  version.writer = 0;
+  if (handle_of(version) == head) return;
+  engine_.arena().release(handle_of(version), types_[version.type].bytes);
+}
+
+void ModStructure::retract(Call& call, Edge& edge) noexcept {
+  if (edge.kind == kRead) return unlink_reader(static_cast<ReadEdge&>(edge));
+  const auto& write = static_cast<const WriteEdge&>(edge);
+  if (write.version == 0) return;
+  Version& version = *at(write.version);
+  Version* previous = predecessor(write.head, version);
+  bool same = false;
+  if (previous != nullptr && !hidden(*previous)) {  // else its readers must ask anew
+    try {
+      same = types_[version.type].same(*previous, version);
+    } catch (...) {  // client code that fails here makes the readers run again
+    }
+  }
+  if (!same) engine_.note(Event::Kind::reverted, &call, write.head);
+  if (same) {
+    forget_order(version);
+    while (version.readers != 0) move_reader(*reader(version.readers), *previous);
+  }
+  leave_past(write.head, version, 0);
+  forget_version(write.head, version);
+}
+
+void ModStructure::hide(Call& call, Edge& edge, Handle end) noexcept {
+  if (edge.kind != kWrite) return;
+  const auto& write = static_cast<const WriteEdge&>(edge);
+  if (write.version != 0) doubt_readers(write.head, *at(write.version), call, end);
+}
+
+}  // namespace sac
