@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <ostream>
+#include <utility>
 #include <vector>
 
 #include "sac/sac.hpp"
@@ -30,9 +30,7 @@ class Counter final : public sac::Structure {
       entry = &s.effect<Entry>(id_, kAdd);
       start(s, *entry, key, amount);
     }
-    if (!fresh && !entry->hidden) return;
-    entry->hidden = false;
-    tell(*entry, nullptr);
+    if (std::exchange(entry->hidden, false) || fresh) tell(*entry, 0);
   }
 
   [[nodiscard]] int total(sac::Scope& s, int key) {
@@ -50,15 +48,14 @@ class Counter final : public sac::Structure {
     auto& entry = static_cast<Entry&>(edge);
     if (!entry.entered) return;
     std::erase(of(entry), &entry);
-    if (entry.kind == kAdd && !entry.hidden) tell(entry, nullptr);
+    if (entry.kind == kAdd) tell(entry, 0);
   }
 
-  /// Children of the running call up to `upto` do not see what it has not repeated.
-  void hide(sac::Call&, sac::Edge& edge, const sac::Call* upto) noexcept {
+  void hide(sac::Call&, sac::Edge& edge, sac::Handle end) noexcept override {
     auto& entry = static_cast<Entry&>(edge);
     if (entry.kind != kAdd || !entry.entered || entry.hidden) return;
     entry.hidden = true;
-    tell(entry, upto);
+    tell(entry, end);
   }
 
   void label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const override {
@@ -67,8 +64,7 @@ class Counter final : public sac::Structure {
     }
   }
 
-  /// Throws: InvariantError.
-  void check_invariants() const {
+  void check_invariants() const override {
     for (const auto& entries : {&adds_, &totals_}) {
       for (const auto& [key, list] : *entries) {
         for (const Entry* entry : list) {
@@ -85,7 +81,7 @@ class Counter final : public sac::Structure {
     int key;
     int amount;    // added, or seen
     bool entered;  // false: memory ran out before it was in the list
-    bool hidden;   // from children of the call that did it last time
+    bool hidden;   // those behind it have been told that it is not there
   };
   using Entries = std::map<int, std::vector<Entry*>>;
   static constexpr std::uint8_t kAdd = 0;
@@ -125,21 +121,19 @@ class Counter final : public sac::Structure {
     const auto it = adds_.find(total.key);
     if (it == adds_.end()) return sum;
     for (const Entry* add : it->second) {
-      if (!add->hidden && engine_.precedes(call_of(*add), call_of(total))) sum += add->amount;
+      if (sac::unrepeated(call_of(*add), *add)) continue;
+      if (engine_.precedes(call_of(*add), call_of(total))) sum += add->amount;
     }
     return sum;
   }
 
-  // Those that have seen it, up to `upto`, are to run again.
-  void tell(const Entry& add, const sac::Call* upto) noexcept {
+  // Those that have seen it, up to `end`, are to run again.
+  void tell(const Entry& add, sac::Handle end) noexcept {
     const auto it = totals_.find(add.key);
     if (it == totals_.end()) return;
     for (const Entry* total : it->second) {
-      const sac::Call& call = call_of(*total);
-      if (!engine_.precedes(call_of(add), call)) continue;
-      if (upto == nullptr || engine_.precedes(call, *upto)) {
-        engine_.invalidate(engine_.call(total->call));
-      }
+      sac::Call& call = engine_.call(total->call);
+      if (engine_.lies_between(call_of(add), call, end)) engine_.invalidate(call);
     }
   }
 
