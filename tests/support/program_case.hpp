@@ -16,7 +16,7 @@ struct Step {
   enum Kind : std::uint8_t {
     // edits,
     set,     // input a gets b
-    post,    // node a
+    post,    // node a, on an agenda that b chooses
     retract,
     insert,  // an element of weight b at a of the list
     remove,  // element a; it is released
@@ -49,8 +49,10 @@ struct Case {
   std::vector<Step> steps;
 };
 
-/// Propagations with edits before them, some of which fail.
-[[nodiscard]] Case random_case(std::uint64_t seed);
+/// Propagations with edits before them, some of which fail. Some of the features are in it, thinly.
+[[nodiscard]] Case random_case(std::uint64_t seed, unsigned features = kFeatures);
+/// A small program in which the features are dense, and few edits.
+[[nodiscard]] Case focused_case(std::uint64_t seed, unsigned features);
 
 /// Any bytes are a case; decode(encode(c)) does what c does.
 [[nodiscard]] Case decode(std::span<const std::uint8_t> bytes);

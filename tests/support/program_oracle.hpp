@@ -4,10 +4,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cctype>
 #include <functional>
 #include <iterator>
+#include <memory>
 #include <new>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -36,6 +37,10 @@ struct Traced {
   void edit(const Step& step, Outside& outside);
 
   /// What can be seen: values, calls in order, number of edges.
+  void check_invariants() const {
+    engine.check_invariants();
+    world.check_invariants();
+  }
   [[nodiscard]] std::string state() const {
     std::ostringstream out;
     for (const int v : world.values(engine)) out << v << ' ';
@@ -56,21 +61,20 @@ void Traced<V>::edit(const Step& step, Outside& outside) {
   const auto size = outside.items.size();
   const auto at = static_cast<std::ptrdiff_t>(size > 0 ? a % size : 0);
   const auto first_posted = RandomProgram::kLeastNodes - 1;
-  const int posted =
-      first_posted + step.a % (static_cast<int>(world.program->nodes.size()) - first_posted);
+  const int posted = first_posted + step.a % (world.program->size() - first_posted) +
+                     16 * (step.b % (RandomProgram::kSides + 1));
   switch (step.kind) {
     case Step::set:
       engine.set(world.inputs[a % outside.inputs.size()], V(step.b % 8));
       outside.inputs[a % outside.inputs.size()] = step.b % 8;
       return;
     case Step::post:
-      world.post(posted);
+      world.post_from_outside(posted);
       outside.posts.insert(posted);
       return;
     case Step::retract:
       if (const auto it = outside.posts.find(posted); it != outside.posts.end()) {
-        world.agenda_of(posted).template retract_from_outside<node<V>>(
-            posted, V(world.kPostedArgument));
+        world.retract_from_outside(posted);
         outside.posts.erase(it);
       }
       return;
@@ -97,15 +101,41 @@ void Traced<V>::edit(const Step& step, Outside& outside) {
   }
 }
 
-/// What a plain run leaves. Throws: TooLong if that takes more than `calls`.
-inline std::vector<int> plain_values(const RandomProgram& program, const Outside& outside,
-                                     int calls) {
+/// What a plain run says.
+struct Verdict {
+  bool sure = true;     // false: it cannot say
+  bool refused = false;  // a traced run must fail
+  std::vector<int> values;  // what the program leaves, if it need not
+};
+
+/// Throws: TooLong if the run takes more than `calls`.
+inline Verdict plain_verdict(const RandomProgram& program, const Outside& outside, int calls) {
   RandomWorld<sac::PlainScope> world;
   sac::PlainScope scope;
   world.calls_left = calls;
-  world.start(scope, program, outside);
-  world.run(scope, outside);
-  return world.values(scope);
+  bool threw = false;
+  try {
+    world.start(scope, program, outside);
+    world.run(scope, outside);
+  } catch (const sac::UsageError&) {
+    threw = true;
+  } catch (const Refusal&) {
+    threw = true;
+  }
+  Verdict verdict{world.judge.sure(), threw || world.judge.refused(), {}};
+  if (verdict.sure && !verdict.refused) verdict.values = world.values(scope);
+  return verdict;
+}
+
+/// A message without the numbers of handles, which are not the same in every engine.
+inline std::string without_handles(const std::string& message) {
+  std::string text;
+  for (std::size_t i = 0; i < message.size(); ++i) {
+    text += message[i];
+    if (message[i] != '@') continue;
+    while (i + 1 < message.size() && std::isdigit(static_cast<unsigned char>(message[i + 1]))) ++i;
+  }
+  return text;
 }
 
 /// Counts events; they must be as many as the engine says.
@@ -127,17 +157,39 @@ class Tally final : public sac::Observer {
   sac::Counts seen_;
 };
 
+/// The part of a message that is the same in every engine: without the numbers of handles, without
+/// what it says of the rest of the trace, which a run from scratch does not have yet, and without
+/// callers, which need not run in a propagation.
+inline std::string essence(const std::string& message) {
+  if (message.find("its own child") != std::string::npos) return "after its own child";
+  std::string text = message;
+  if (text.find("is drained twice") != std::string::npos) text.erase(0, text.find("agenda '"));
+  for (const char* rest : {"; of the first drain", ", which is written only by the later call",
+                           ", which nobody has written"}) {
+    text = text.substr(0, text.find(rest));
+  }
+  return without_handles(text);
+}
+
+/// Whether `message` is a caller's that has caught what a call threw. In a propagation the call may
+/// run alone: then its own exception leaves.
+inline bool is_caught(const std::string& message) {
+  return message.find("has caught") != std::string::npos;
+}
+
+/// Whether every execution of a node in a propagation must be one of a run from scratch as well:
+/// a program is not to see what no run from scratch shows, not even for a while.
+inline constexpr bool kWatchExecutions = false;
+
 /// One case being run. V: the type of values.
 template <class V>
 class Session {
  public:
-  explicit Session(const Case& c)
-      : case_(c), first_(plain_values(c.program, now_, kMostCalls)), t_(c.program, now_) {
+  explicit Session(const Case& c) : case_(c), t_(c.program, now_) {
     t_.engine.set_audit(c.audit);
     if (c.observe) t_.engine.set_observer(&tally_);
-    t_.run(now_);
-    tally_.clear();
-    commit(first_);
+    t_.engine.template run<list_root<V>>();
+    start();
   }
 
   /// Throws: std::logic_error that says what is wrong; TooLong.
@@ -151,6 +203,7 @@ class Session {
  private:
   static constexpr int kMostCalls = 600;  // of a run from scratch
   static constexpr std::size_t kMostRuns = 6;
+  static constexpr int kStarts = 8;  // inputs that are tried until a program accepts
 
   // What shall fail.
   struct Failures {
@@ -162,16 +215,71 @@ class Session {
     bool starve = false;
     int armed = 0;  // how many of these
   };
+  enum class Outcome { done, failed, refused };
+
+  // What runs from scratch say: a plain one, and one in a new engine.
+  struct Scratch {
+    std::unique_ptr<Traced<V>> fresh;  // none if it refuses
+    std::string refusal;
+    Verdict verdict;
+  };
 
   [[noreturn]] static void wrong(const std::string& what) { throw std::logic_error(what); }
+
+  Scratch from_scratch(const Outside& outside) const {
+    Scratch scratch;
+    scratch.verdict = plain_verdict(case_.program, outside, kMostCalls);
+    scratch.fresh = std::make_unique<Traced<V>>(case_.program, outside);
+    scratch.fresh->world.calls_left = 8 * kMostCalls;
+    scratch.refusal = refusal_of([&] { scratch.fresh->run(outside); });
+    const bool refused = !scratch.refusal.empty();
+    if (scratch.verdict.sure && refused != scratch.verdict.refused) {
+      wrong(refused ? "a first run must not refuse: " + scratch.refusal
+                    : "a first run accepts what it must refuse");
+    }
+    if (refused) scratch.fresh.reset();
+    return scratch;
+  }
+
+  // What `act` says in refusing a program; empty if it does not.
+  static std::string refusal_of(const std::function<void()>& act) {
+    try {
+      act();
+    } catch (const Refusal& error) {
+      return error.what();
+    } catch (const sac::UsageError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  // A first run that is refused leaves nothing; with other inputs it may go well.
+  void start() {
+    const std::uint64_t edges = t_.engine.live_edges();
+    for (int i = 0; i < kStarts; ++i) {
+      t_.world.executions.clear();
+      const Scratch scratch = from_scratch(now_);
+      const std::string refusal =
+          refusal_of([&] { t_.engine.template run<random_root<V>>(); });
+      tally_.clear();
+      require_equal(refusal, scratch.refusal);
+      wanted_ = now_;
+      if (refusal.empty()) return commit(scratch);
+      t_.engine.check_invariants();
+      if (t_.engine.live_edges() != edges) wrong("a run that was refused leaves something");
+      t_.edit({Step::set, i, now_.inputs[static_cast<std::size_t>(i % 4)] + 1 + i / 4}, now_);
+      t_.engine.propagate();
+    }
+    over_ = true;
+  }
 
   void take(const Step& step) {
     switch (step.kind) {
       case Step::propagate: return flush();
       case Step::undo: return undo();
-      case Step::run: return run_late(step.a % 16);
+      case Step::run: return run_late(step.a % 32);
       case Step::shrink:
-        if (fails([&] { t_.engine.shrink(); })) t_.engine.check_invariants();
+        if (attempt([&] { t_.engine.shrink(); }) != Outcome::done) t_.check_invariants();
         return;
       case Step::fuse: failures_.fuse = step.a; break;
       case Step::client: failures_.client = count_of(step); break;
@@ -181,7 +289,7 @@ class Session {
       case Step::starve: failures_.starve = true; break;
       default:
         edited_ = true;
-        if (fails([&] { t_.edit(step, wanted_); })) recover();
+        if (attempt([&] { t_.edit(step, wanted_); }) != Outcome::done) recover();
         return;
     }
     ++failures_.armed;
@@ -211,32 +319,46 @@ class Session {
     failures_.fuse = std::exchange(t_.world.fuse, -1);
   }
 
-  // Whether `act` fails, with what is armed.
-  bool fails(const std::function<void()>& act) {
+  // How `act` ends, with what is armed; refusal_ says why if it is refused.
+  Outcome attempt(const std::function<void()>& act) {
     std::string other;
-    bool failed = true;
+    Outcome outcome = Outcome::failed;
+    refusal_.clear();
+    t_.world.executions.clear();
     arm();
     try {
       act();
-      failed = false;
+      outcome = Outcome::done;
     } catch (const Failure&) {
     } catch (const ClientFailure&) {
     } catch (const sac::Cancelled&) {
     } catch (const std::bad_alloc&) {
+    } catch (const Refusal& error) {
+      stop_failing();
+      refusal_ = error.what();
+    } catch (const sac::UsageError& error) {
+      stop_failing();
+      refusal_ = error.what();
     } catch (const std::exception& error) {
-      memory_is_out = false;
-      allocation_fuse.left = 0;
+      stop_failing();
       other = error.what();
     }
     disarm();
     if (!other.empty()) wrong(other);
-    if (failed && failures_.armed == 0) wrong("a failure that nobody asked for");
-    return failed;
+    if (!refusal_.empty()) return Outcome::refused;
+    if (outcome == Outcome::failed && failures_.armed == 0) wrong("a failure nobody asked for");
+    return outcome;
+  }
+  static void stop_failing() {
+    memory_is_out = false;
+    allocation_fuse.left = 0;
+    Fragile::fuse.left = 0;
   }
 
   // After a failure: the edits are taken back, or have been. More than one may break the engine.
   void recover() {
-    const bool may_break = failures_.starve || failures_.armed > 1;
+    const int failures = failures_.armed + (refusal_.empty() ? 0 : 1);
+    const bool may_break = failures_.starve || failures > 1;
     failures_ = {};
     t_.engine.arena().fail_after(0);
     try {
@@ -248,26 +370,47 @@ class Session {
     }
     t_.engine.propagate();
     tally_.clear();
-    t_.engine.check_invariants();
+    t_.check_invariants();
     wanted_ = now_;
     t_.world.items = items_;
     edited_ = false;
     if (t_.state() != state_) wrong("after a failure:\n" + t_.state() + "\nbefore:\n" + state_);
   }
 
+  // What was refused must be refused from scratch, with the same words; a key that changed under
+  // its label is known only to a propagation, and may be caught. (A message is cut short if memory
+  // runs out in making it.)
+  void require_refusal(const Scratch& scratch) const {
+    const bool key_changed = refusal_.find(kKeyChanged) != std::string::npos ||
+                             (is_caught(refusal_) && case_.program.has(Op::keyed));
+    if (scratch.refusal.empty() && key_changed) return;
+    if (scratch.refusal.empty()) wrong("refused, but not from scratch: " + refusal_);
+    const bool same_words = failures_.armed == 0 && !key_changed && !is_caught(scratch.refusal);
+    if (same_words) require_equal(refusal_, scratch.refusal);
+  }
+  static void require_equal(const std::string& refusal, const std::string& scratch) {
+    if (essence(refusal) == essence(scratch)) return;
+    const auto words = [](const std::string& text) { return text.empty() ? "nothing" : text; };
+    wrong("refused with: " + words(refusal) + "\nfrom scratch: " + words(scratch));
+  }
+
   void flush() {
-    const std::vector<int> plain = plain_values(case_.program, wanted_, kMostCalls);
+    const Scratch scratch = from_scratch(wanted_);
     sac::Counts counts;
-    if (fails([&] { counts = t_.engine.propagate(); })) return recover();
+    switch (attempt([&] { counts = t_.engine.propagate(); })) {
+      case Outcome::refused: require_refusal(scratch); [[fallthrough]];
+      case Outcome::failed: return recover();
+      case Outcome::done: break;
+    }
     if (case_.observe && !tally_.agrees(counts)) wrong("events are not what was counted");
     tally_.clear();
     failures_ = {};
     t_.engine.arena().fail_after(0);
-    commit(plain);
+    commit(scratch);
   }
 
   void undo() {
-    if (fails([&] { t_.engine.undo_edits(); })) return require_broken();
+    if (attempt([&] { t_.engine.undo_edits(); }) != Outcome::done) return require_broken();
     wanted_ = now_;
     t_.world.items = items_;
     edited_ = false;
@@ -290,40 +433,55 @@ class Session {
     if (over_) return;
     Outside more = wanted_;
     more.late.push_back(n);
-    const std::vector<int> plain = plain_values(case_.program, more, kMostCalls);
-    if (fails([&] { t_.engine.template run<late<V>>(n); })) return recover();
+    const Scratch scratch = from_scratch(more);
+    switch (attempt([&] { t_.engine.template run<late<V>>(n); })) {
+      case Outcome::refused: require_refusal(scratch); [[fallthrough]];
+      case Outcome::failed: return recover();
+      case Outcome::done: break;
+    }
     failures_ = {};
     t_.engine.arena().fail_after(0);
     t_.engine.propagate();  // what an undone edit has left
     tally_.clear();
     wanted_ = more;
-    commit(plain);
+    commit(scratch);
   }
 
   // The engine has `wanted_`, and must be as if made with it.
-  void commit(const std::vector<int>& plain) {
-    t_.engine.check_invariants();
+  void commit(const Scratch& scratch) {
+    if (!scratch.fresh) wrong("accepted, but not from scratch: " + scratch.refusal);
+    t_.check_invariants();
     state_ = t_.state();
-    Traced<V> fresh(case_.program, wanted_);
-    fresh.run(wanted_);
-    if (t_.world.values(t_.engine) != plain) wrong("values are not those of a plain run");
-    if (state_ != fresh.state()) wrong(state_ + "\nfrom scratch:\n" + fresh.state());
+    if (scratch.verdict.sure && t_.world.values(t_.engine) != scratch.verdict.values) {
+      wrong("values are not those of a plain run");
+    }
+    for (const auto& seen : t_.world.executions) {
+      if (!kWatchExecutions) break;
+      if (scratch.fresh->world.executions.contains(seen)) continue;
+      std::string text = "a node was shown what no run from scratch shows: ";
+      for (const int number : seen) text += std::to_string(number) + ' ';
+      wrong(text);
+    }
+    const std::string expected = scratch.fresh->state();
+    if (state_ != expected) wrong(state_ + "\nfrom scratch:\n" + expected);
     now_ = wanted_;
     items_ = t_.world.items;
     edited_ = false;
   }
 
+  static constexpr const char* kKeyChanged = "is posted at two keys";
+
   const Case& case_;
   Outside now_;     // what was propagated last
   Outside wanted_;  // with the edits since then
-  std::vector<int> first_;
   Tally tally_;
   Traced<V> t_;
   std::vector<Item<sac::Scope, V>*> items_;  // the world's, at `now_`
   std::string state_;
+  std::string refusal_;
   Failures failures_;
   bool edited_ = false;
-  bool over_ = false;  // the engine is broken, as it may be
+  bool over_ = false;  // the engine is broken, as it may be, or no program
 };
 
 /// What is wrong with the engine in this case; empty if nothing.

@@ -1,11 +1,11 @@
 // Programs for the engine that are data: the same text runs on sac::Scope and sac::PlainScope.
 //
-// A program is a table of nodes. A node, called with its number and a small argument, reads inputs,
-// cells and lists, writes cells (several nodes and calls write one cell: imperative), asks for
-// results, allocates, calls and posts nodes of higher number, and goes on with a tail call. What it
-// does depends on what it read. Reads and writes come before calls: a call's effects are at the
-// place of the call. (A result that was asked for changes what the call does next, not what it
-// wrote.)
+// A program is a table of nodes (program_text.hpp). A node, called with its number and a small
+// argument, reads inputs, cells and lists, writes cells (several nodes and calls write one cell:
+// imperative), asks and tells structures, asks for results, allocates, calls and posts nodes of
+// higher number, drains agendas, fails, and goes on with a tail call. What it does depends on what
+// it read. Reads and writes come before calls: a call's effects are at the place of the call. (A
+// result that was asked for changes what the call does next, not what it wrote.)
 //
 // Around the nodes: a list of the outside is mapped before them; they are drained from two agendas,
 // one after the other, each unless an input says no; more runs may follow at the end.
@@ -13,244 +13,13 @@
 
 #include <cstdint>
 #include <limits>
-#include <set>
-#include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "random.hpp"
-#include "sac/sac.hpp"
+#include "random_world.hpp"
 
 namespace support {
-
-/// Thrown by a program whose fuse has burnt down.
-struct Failure : std::runtime_error {
-  Failure() : std::runtime_error("the fuse of a random program") {}
-};
-/// Thrown by a program that makes too many calls.
-struct TooLong : std::runtime_error {
-  TooLong() : std::runtime_error("a random program makes too many calls") {}
-};
-
-struct Op {
-  enum Kind : std::uint8_t {
-    // what a node does first,
-    read_input, read_cell, read_coarse, read_link, read_list,
-    write_cell, rewrite_cell, write_coarse,
-    // allocates and writes,
-    link,
-    // calls,
-    ask, call, pass, box, post, stripe, relink,
-    // and does last
-    tail, tail_box
-  };
-  static constexpr int kKinds = tail_box + 1;
-
-  Kind kind;
-  int target;     // input, cell, node ..., below targets()
-  int modulus;    // happens if (what was read) % modulus < threshold
-  int threshold;
-
-  /// Ops of a node come in the order of their phases; there is one of the last phase at most.
-  [[nodiscard]] int phase() const { return kind < link ? 0 : kind < ask ? 1 : kind < tail ? 2 : 3; }
-};
-
-struct RandomProgram {
-  static constexpr int kInputs = 4;
-  static constexpr int kCells = 5;
-  static constexpr int kCoarse = 2;  // cells that tell halves only
-  static constexpr int kLinks = 2;   // cells that hold pointers to boxes
-  static constexpr int kLeastNodes = 4;
-  static constexpr int kMostNodes = 14;
-
-  std::vector<std::vector<Op>> nodes;
-
-  /// Number of targets of an op of node `node`.
-  [[nodiscard]] int targets(Op::Kind kind, int node) const {
-    switch (kind) {
-      case Op::read_input: return kInputs;
-      case Op::read_coarse:
-      case Op::write_coarse: return kCoarse;
-      case Op::read_link:
-      case Op::link:
-      case Op::relink: return kLinks;
-      case Op::read_list: return 4;       // so many elements
-      case Op::stripe: return 12 * kCells;  // length and cell
-      case Op::call:
-      case Op::post:
-      case Op::tail: return static_cast<int>(nodes.size()) - 1 - node;  // nodes behind this one
-      default: return kCells;
-    }
-  }
-
-  explicit RandomProgram(int node_count) : nodes(static_cast<std::size_t>(node_count)) {}
-
-  RandomProgram(std::uint64_t seed, int node_count) : RandomProgram(node_count) {
-    for (int n = 0; n < node_count; ++n) {
-      Random random(seed * 1000 + static_cast<std::uint64_t>(n));
-      const auto some = [&](int most, Op::Kind kind) {
-        const int to = targets(kind, n);
-        for (int i = to > 0 ? random(most + 1) : 0; i > 0; --i) {
-          nodes[static_cast<std::size_t>(n)].push_back(
-              {kind, random(to), 2 + random(3), 1 + random(2)});
-        }
-      };
-      some(2, Op::read_input);
-      some(2, Op::read_cell);
-      some(2, Op::write_cell);
-      some(1, Op::rewrite_cell);
-      if (random(2) == 0) {
-        for (const auto kind : {Op::read_coarse, Op::read_link, Op::read_list, Op::write_coarse}) {
-          some(1, kind);
-        }
-      }
-      if (random(3) == 0) some(2, Op::link);
-      some(1, Op::ask);
-      some(2, Op::call);
-      some(1, Op::pass);
-      some(1, Op::box);
-      some(2, Op::post);
-      some(1, Op::call);
-      if (random(4) == 0) some(1, Op::stripe);
-      if (random(4) == 0) some(1, Op::relink);
-      some(1, random(2) == 0 ? Op::tail : Op::tail_box);
-    }
-  }
-};
-
-/// What the outside gives to a program.
-struct Outside {
-  std::vector<int> inputs = std::vector<int>(RandomProgram::kInputs, 1);
-  std::multiset<int> posts;  // nodes, with argument 9
-  std::vector<int> items{1, 2, 3};  // weights in the list
-  std::vector<int> late;     // runs at the end
-};
-
-/// Two numbers are the same if their halves are: what is read of it may be that only.
-struct SameHalf {
-  template <class V>
-  bool operator()(const V& a, const V& b) const {
-    return int(a) / 2 == int(b) / 2;
-  }
-};
-
-// An object that holds something of a cell, behind a modifiable of its own.
-template <class S, class V>
-struct Box {
-  typename S::template CellType<V> content;
-};
-// Elements of the outside's list, and of the list that it is mapped to.
-template <class S, class V>
-struct Item {
-  typename S::template CellType<V> weight;
-  typename S::template CellType<const Item*> next;
-};
-template <class S, class V>
-struct Image {
-  typename S::template CellType<V> weight;
-  typename S::template CellType<const Image*> next;
-};
-
-template <class V>
-struct ListRoot;
-template <class V>
-struct Root;
-template <class V>
-struct Late;
-template <class V>
-struct Node;
-template <class V>
-inline constexpr ListRoot<V> list_root{};
-template <class V>
-inline constexpr Root<V> random_root{};
-template <class V>
-inline constexpr Late<V> late{};
-template <class V>
-inline constexpr Node<V> node{};
-
-inline sac::Key node_key(int id, int argument) {
-  return {.bucket = id / 2,
-          .colour = static_cast<unsigned>(id % 2),
-          .order = static_cast<std::uint64_t>(argument / 2)};
-}
-
-/// V: the type of values and arguments, made from an int and converted to one.
-template <class S, class V = int>
-struct RandomWorld {
-  template <class T, class Same = std::equal_to<>>
-  using Mod = typename S::template ModType<T, Same>;
-  static constexpr int kPostedArgument = 9;
-
-  const RandomProgram* program = nullptr;
-  std::vector<Mod<V>> inputs;
-  std::vector<Mod<V>> cells;
-  std::vector<Mod<V, SameHalf>> coarse;
-  std::vector<Mod<const Box<S, V>*>> links;
-  std::vector<Item<S, V>*> items;  // the outside's list, in order
-  Mod<const Item<S, V>*> head;
-  Mod<const Image<S, V>*> list;
-  std::vector<typename S::AgendaType*> agendas;
-  int fuse = -1;  // calls left until one throws; -1: none does
-  int calls_left = std::numeric_limits<int>::max();  // until it is too long
-
-  void burn() {
-    if (fuse >= 0 && fuse-- == 0) throw Failure();
-    if (--calls_left == 0) throw TooLong();
-  }
-  /// The agenda on which a node is posted: late nodes on the second.
-  [[nodiscard]] typename S::AgendaType& agenda_of(int id) const { return *agendas[id >= 8]; }
-
-  /// Where the list points to its i-th element.
-  [[nodiscard]] Mod<const Item<S, V>*> link_to(std::size_t i) const {
-    return i == 0 ? head : Mod<const Item<S, V>*>(items[i - 1]->next);
-  }
-  void insert_item(auto& host, std::size_t i, int weight) {
-    Item<S, V>& item = host.template make<Item<S, V>>();
-    host.set(item.weight, V(weight));
-    host.set(item.next, host.get(link_to(i)));
-    host.set(link_to(i), &item);
-    items.insert(items.begin() + static_cast<std::ptrdiff_t>(i), &item);
-  }
-  void post(int id) {
-    agenda_of(id).template post_from_outside<node<V>>(node_key(id, kPostedArgument), id,
-                                                      V(kPostedArgument));
-  }
-
-  void start(auto& host, const RandomProgram& text, const Outside& outside) {
-    program = &text;
-    host.set_environment(this);
-    for (const int v : outside.inputs) inputs.push_back(host.template input<V>(V(v)));
-    for (int i = 0; i < text.kCells; ++i) cells.push_back(host.template cell<V>());
-    for (int i = 0; i < text.kCoarse; ++i) coarse.push_back(host.template cell<V, SameHalf>());
-    for (int i = 0; i < text.kLinks; ++i) {
-      links.push_back(host.template cell<const Box<S, V>*>());
-    }
-    agendas = {&host.make_agenda("early nodes"), &host.make_agenda("late nodes")};
-    head = host.template input<const Item<S, V>*>(nullptr);
-    list = host.template cell<const Image<S, V>*>();
-    for (const int weight : outside.items) insert_item(host, items.size(), weight);
-    for (const int id : outside.posts) post(id);
-  }
-  void run(auto& host, const Outside& outside) {
-    host.template run<list_root<V>>();
-    host.template run<random_root<V>>();
-    for (const int n : outside.late) host.template run<late<V>>(n);
-  }
-  /// All that the program leaves.
-  std::vector<int> values(auto& host) const {
-    std::vector<int> all;
-    for (const auto& c : cells) all.push_back(int(host.get(c)));
-    for (const auto& c : coarse) all.push_back(int(host.get(c)) / 2);
-    for (const auto& c : links) {
-      const Box<S, V>* box = host.get(c);
-      all.push_back(box != nullptr ? int(host.get(box->content)) : -1);
-    }
-    for (const Image<S, V>* i = host.get(list); i != nullptr; i = host.get(i->next)) {
-      all.push_back(int(host.get(i->weight)));
-    }
-    return all;
-  }
-};
 
 // Maps the list of the outside: every image is made by a tail call.
 template <class V>
@@ -365,11 +134,122 @@ void Stripe<V>::operator()(S& s, int length, int cell) const {
   if (length > 0) s.template tail<stripe<V>>(length - 1, cell);
 }
 
+// Writes a cell from a side agenda.
+template <class V>
+struct Mark {
+  static constexpr std::string_view kName = "mark";
+  static sac::Key key(int cell, int value) {
+    return {.bucket = cell, .phase = kMarkLabel, .order = static_cast<std::uint64_t>(value)};
+  }
+  template <class S>
+  void operator()(S& s, int agenda, int cell, V value) const {
+    auto& w = s.template environment<RandomWorld<S, V>>();
+    w.started(agenda, {kMarkLabel, cell, int(value)});
+    s.write(w.cells[static_cast<std::size_t>(cell)], value);
+  }
+};
+template <class V>
+inline constexpr Mark<V> mark{};
+
+// Writes a cell from a side agenda, at a key that the poster chooses.
+template <class V>
+struct Keyed {
+  static constexpr std::string_view kName = "keyed";
+  template <class S>
+  void operator()(S& s, int agenda, int cell) const {
+    auto& w = s.template environment<RandomWorld<S, V>>();
+    w.started(agenda, {kKeyedLabel, cell, 0});
+    const auto to = w.cells[static_cast<std::size_t>(cell / 2)];
+    s.write(to, V((2 * int(s.read(to)) + cell) % 7));
+  }
+};
+template <class V>
+inline constexpr Keyed<V> keyed{};
+
+// Writes a cell from a side agenda; its argument may not equal itself.
+template <class V>
+struct Real {
+  static constexpr std::string_view kName = "real";
+  template <class S>
+  void operator()(S& s, int agenda, double value, int cell) const {
+    auto& w = s.template environment<RandomWorld<S, V>>();
+    const int whole = value > 0 ? static_cast<int>(value) : 0;
+    w.started(agenda, {kRealLabel, whole, cell});
+    s.write(w.cells[static_cast<std::size_t>(cell)], V(whole));
+  }
+};
+template <class V>
+inline constexpr Real<V> real{};
+
+// Drains an agenda: 0: itself, 1: in a call of its own, 2: after posting on it.
+template <class V>
+struct DrainCall {
+  static constexpr std::string_view kName = "drain call";
+  template <class S>
+  void operator()(S& s, int agenda, int how) const;
+};
+template <class V>
+inline constexpr DrainCall<V> drain_call{};
+
+template <class V>
+template <class S>
+void DrainCall<V>::operator()(S& s, int agenda, int how) const {
+  auto& w = s.template environment<RandomWorld<S, V>>();
+  w.burn();
+  const std::size_t side = w.side(agenda);
+  if (how == 1) return s.template call<drain_call<V>>(agenda, 0);
+  if (how == 2) {
+    w.template post<mark<V>>(s, side, {kMarkLabel, 0, 3}, Mark<V>::key(0, 3), 0, V(3));
+  }
+  w.drain(s, side);
+}
+
+// Drains an agenda, and returns what a cell holds then.
+template <class V>
+struct DrainAsk {
+  static constexpr std::string_view kName = "drain and ask";
+  template <class S>
+  V operator()(S& s, int agenda, int cell) const {
+    s.template environment<RandomWorld<S, V>>().burn();
+    s.template call<drain_call<V>>(agenda, 0);
+    return V(int(s.template call<ask<V>>(V(0), cell)));
+  }
+};
+template <class V>
+inline constexpr DrainAsk<V> drain_ask{};
+
+// What a node does. A posted node does the same as one that is called.
 template <class V>
 struct Node {
   static constexpr std::string_view kName = "node";
   template <class S>
   void operator()(S& s, int id, V argument) const;
+
+ private:
+  // A number that is none, now and then.
+  template <class S>
+  static void post_real(S& s, RandomWorld<S, V>& w, int target, int sum) {
+    const int cell = target / w.program->kSides;
+    const double value = sum % 4 == 0 ? std::numeric_limits<double>::quiet_NaN() : sum % 4;
+    if constexpr (!S::kTraced) {
+      if (sum % 4 == 0) w.judge.refuse();
+    }
+    w.template post<real<V>>(s, w.side(target % w.program->kSides), {kRealLabel, sum % 4, cell},
+                             {.phase = kRealLabel}, value, cell);
+  }
+};
+template <class V>
+inline constexpr Node<V> node{};
+
+template <class V>
+struct Posted {
+  static constexpr std::string_view kName = "posted node";
+  template <class S>
+  void operator()(S& s, int agenda, int id, V argument) const {
+    auto& w = s.template environment<RandomWorld<S, V>>();
+    w.started(agenda, {kNodeLabel, id, int(argument)});
+    node<V>(s, id, argument);
+  }
 };
 
 template <class V>
@@ -381,7 +261,9 @@ void Node<V>::operator()(S& s, int id, V argument) const {
   w.burn();
   int sum = int(argument);
   int passed = 0;
+  std::vector<int> seen{id, sum};
   for (const Op& op : w.program->nodes[index(id)]) {
+    seen.push_back(sum);
     if (sum % op.modulus >= op.threshold) continue;
     const int other = id + 1 + op.target;  // a node behind this one
     switch (op.kind) {
@@ -437,7 +319,7 @@ void Node<V>::operator()(S& s, int id, V argument) const {
         break;
       }
       case Op::post:
-        w.agenda_of(other).template post<node<V>>(s, node_key(other, sum % 3), other, V(sum % 3));
+        w.post_node(s, w.agenda_of(other), other, sum % 3);
         break;
       case Op::stripe:
         s.template call<stripe<V>>(op.target / w.program->kCells, op.target % w.program->kCells);
@@ -451,8 +333,128 @@ void Node<V>::operator()(S& s, int id, V argument) const {
       case Op::tail_box:
         s.template tail_make<Box<S, V>, fill<V>>(id, argument, op.target);
         break;
+      case Op::read_maybe:
+        sum += int(w.read_maybe(s, op.target));
+        break;
+      case Op::catch_maybe:
+        try {
+          sum += int(w.read_maybe(s, op.target));
+        } catch (const sac::UsageError&) {
+          ++sum;
+        }
+        break;
+      case Op::write_maybe:
+        s.write(w.maybes[index(op.target)], V((sum + id) % 5));
+        break;
+      case Op::write_input:
+        w.write_input(s, op.target, V(sum % 5));
+        break;
+      case Op::catch_write:
+        try {
+          w.write_input(s, op.target, V(sum % 5));
+        } catch (const sac::UsageError&) {
+          ++sum;
+        }
+        break;
+      case Op::claim:
+        sum += w.claims->claim(s, op.target) ? 1 : 0;
+        break;
+      case Op::count:
+        w.counters[index(op.target / w.program->kKeys)]->add(s, op.target % w.program->kKeys,
+                                                             1 + sum % 2);
+        break;
+      case Op::total:
+        sum += w.counters[index(op.target / w.program->kKeys)]->total(s,
+                                                                      op.target % w.program->kKeys);
+        break;
+      case Op::mark: {
+        const int to = op.target / w.program->kSides;
+        w.template post<mark<V>>(s, w.side(op.target % w.program->kSides),
+                                 {kMarkLabel, to, sum % 2}, Mark<V>::key(to, sum % 2), to,
+                                 V(sum % 2));
+        break;
+      }
+      case Op::post_side:
+        w.post_node(s, w.side(op.target % w.program->kSides),
+                    id + 1 + op.target / w.program->kSides, sum % 3);
+        break;
+      case Op::post_early:
+        w.post_node(s, 0, other, sum % 3);
+        break;
+      case Op::drain:
+        w.drain(s, w.side(op.target));
+        break;
+      case Op::drain_call: {
+        const int which = op.target % w.program->kSides;
+        const int how = op.target / w.program->kSides;
+        if (how == 3) {
+          sum += int(s.template call<drain_ask<V>>(which, 0));
+        } else {
+          s.template call<drain_call<V>>(which, how);
+        }
+        break;
+      }
+      case Op::tail_drain:
+        s.template tail<drain_call<V>>(op.target, 0);
+        break;
+      case Op::keyed: {
+        const int to = op.target / w.program->kSides;
+        w.template post<keyed<V>>(s, w.side(op.target % w.program->kSides), {kKeyedLabel, to, 0},
+                                  {.bucket = sum % 3, .phase = kKeyedLabel,
+                                   .order = static_cast<std::uint64_t>(to)},
+                                  to);
+        break;
+      }
+      case Op::real:
+        post_real(s, w, op.target, sum);
+        break;
+      case Op::catch_real:
+        try {
+          post_real(s, w, op.target, sum);
+        } catch (const sac::UsageError&) {
+          ++sum;
+        }
+        break;
+      case Op::fail:
+        throw Refusal();
+      case Op::catch_own:
+        try {
+          throw Refusal();
+        } catch (const Refusal&) {
+          ++sum;
+        }
+        break;
+      case Op::catch_call:
+        try {
+          s.template call<node<V>>(other, V(sum % 3));
+        } catch (const Refusal&) {
+          w.caught();
+        } catch (const sac::UsageError&) {
+          w.caught();
+        }
+        break;
+      case Op::misuse:
+        w.misuse(s, op.target);
+        break;
+      case Op::catch_misuse:
+        try {
+          w.misuse(s, op.target);
+        } catch (const sac::UsageError&) {
+          ++sum;
+        }
+        break;
+      case Op::late_read:
+        w.judge.be_unsure();
+        sum += int(s.read(cell(op.target)));
+        break;
+      case Op::late_write:
+        w.judge.be_unsure();
+        s.write(cell(op.target), V((sum + id) % 5));
+        break;
     }
   }
+  seen.push_back(sum);
+  w.executions.insert(std::move(seen));
   w.burn();
 }
 
@@ -470,13 +472,13 @@ struct Root {
     for (const auto& c : w.links) s.write(c, nullptr);
     for (int n = 0; n < 3; ++n) s.template call<node<V>>(n, V((v + n) % 2));
     if (v % 4 == 1) s.template call<node<V>>(3, V(7));
-    if (v % 8 != 7) w.agendas[0]->drain(s);
+    if (v % 8 != 7) w.drain(s, 0);
     s.template call<pass<V>>(w.cells[0], 1 + v % 2);
-    if (v % 8 != 6) w.agendas[1]->drain(s);
+    if (v % 8 != 6) w.drain(s, 1);
   }
 };
 
-// A run at the end.
+// A run at the end; from 16 on, it posts on a side agenda, drains it, or does both.
 template <class V>
 struct Late {
   static constexpr std::string_view kName = "late";
@@ -491,6 +493,12 @@ struct Late {
     const int weight = first != nullptr ? int(s.read(first->weight)) : 0;
     s.write(cell(n + 1), V((int(s.read(cell(n))) + weight) % 7));
     s.template call<stripe<V>>(n % 8, n % w.program->kCells);
+    if (n < 16) return;
+    const std::size_t side = w.side(n % 2);
+    if (n / 2 % 4 != 0) {
+      w.template post<mark<V>>(s, side, {kMarkLabel, 1, 2}, Mark<V>::key(1, 2), 1, V(2));
+    }
+    if (n / 2 % 4 != 1) w.drain(s, side);
   }
 };
 
