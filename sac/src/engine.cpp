@@ -338,12 +338,13 @@ Counts Engine::run_root(const Function& function, std::uint32_t hash, const void
   return done;
 }
 
-Counts Engine::propagate() {
+Counts Engine::propagate(const std::function<void()>& last) {
   enter(Mode::propagating);
   try {
     propagate_within(0);
     require_released_unused();
     check_audit();
+    if (last) last();
   } catch (...) {
     roll_back();
     throw;
