@@ -2,6 +2,7 @@
 #include "facade/state.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "facade/meter.hpp"
 #include "mesh/canonical.hpp"
@@ -175,21 +176,22 @@ void State::make(const std::vector<Announced::Edit>& edits, Ids& arrived,
 
 Change<2> State::propagate(const std::vector<Announced::Edit>& edits, const RunControl& control) {
   const auto meter = [&](const sac::Progress& p) {
-    return report(control, {Phase::update, p.executed, p.executed + p.queued});
+    return detail::report(control, {Phase::update, p.executed, p.executed + p.queued});
   };
   Change<2> change;
   Ids arrived;
   std::vector<Touched> touched;
   touched.reserve(2 * edits.size());
+  const std::function<void()> report = [&] {  // what needs memory, while all can be undone
+    make_room(arrived);
+    report_vertices(change);
+    report_kinds(touched, change);
+    report_stars(change);
+  };
   try {
     const Watch watch(*engine_, control, meter);
     make(edits, arrived, touched);
-    change.calls = call_counts(engine_->propagate([&] {
-      make_room(arrived);
-      report_vertices(change);
-      report_kinds(touched, change);
-      report_stars(change);
-    }));
+    change.calls = call_counts(engine_->propagate(report));
   } catch (...) {
     vertices().commit();
     throw;

@@ -66,10 +66,7 @@ struct VertexRef {
 template <int D>
 class VertexPool {
  public:
-  VertexPool() {
-    free_.reserve(kChunk);
-    chunks_.push_back(std::make_unique<Vertex<D>[]>(kChunk));
-  }
+  VertexPool() { chunks_.push_back(std::make_unique<Vertex<D>[]>(kChunk)); }
 
   [[nodiscard]] Vertex<D>& operator[](VertexHandle h) const noexcept {
     return chunks_[h / kChunk][h % kChunk];
@@ -77,10 +74,7 @@ class VertexPool {
   [[nodiscard]] Vertex<D>& create(const Point<D>& p) {
     VertexHandle h;
     if (free_.empty()) {
-      if (next_ % kChunk == 0) {
-        free_.reserve((chunks_.size() + 1) * kChunk);  // so that release() cannot fail
-        chunks_.push_back(std::make_unique<Vertex<D>[]>(kChunk));
-      }
+      if (next_ % kChunk == 0) chunks_.push_back(std::make_unique<Vertex<D>[]>(kChunk));
       h = next_++;
     } else {
       h = free_.back();
@@ -91,7 +85,7 @@ class VertexPool {
     v.self = h;
     return v;
   }
-  void release(Vertex<D>& v) noexcept {
+  void release(Vertex<D>& v) {
     const VertexHandle h = v.self;
     v = Vertex<D>{};
     free_.push_back(h);
