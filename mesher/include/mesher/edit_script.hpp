@@ -110,7 +110,7 @@ Update<2> apply(std::vector<Edit> edits, Target& target) {
     return {std::move(edits), std::move(change), now() - start};
   } catch (const Error& error) {
     target.discard_edits();
-    if (error.place().line > 0 || edits.empty()) throw;
+    if (error.place().line > 0 || error.code() == ErrorCode::cancelled || edits.empty()) throw;
     throw error.at(place_to_blame(edits, error));
   } catch (...) {
     target.discard_edits();
