@@ -58,8 +58,8 @@ int main(int argc, char** argv) {
     mesher::predicates::self_test();
     return run(argc, argv);
   } catch (const mesher::Error& error) {
-    if (error.code() == mesher::ErrorCode::cancelled) return fail(ExitCode::cancelled, tool::kStopped);
-    return fail(mesher::exit_code(error.code()), error.what());
+    const bool stopped = error.code() == mesher::ErrorCode::cancelled;
+    return fail(mesher::exit_code(error.code()), stopped ? tool::kStopped : error.what());
   } catch (const std::bad_alloc&) {
     return fail(ExitCode::limit, "error[too_many]: out of memory");
   } catch (const std::exception& error) {

@@ -30,8 +30,10 @@ const char* name(mesher::Phase phase) {
 std::string text(const mesher::Progress& p) {
   const std::string what = name(p.phase);
   if (p.of == 0) return what + ": " + std::to_string(p.done) + " calls";
-  if (p.phase != mesher::Phase::update) return what + ": " + std::to_string(100 * p.done / p.of) + "%";
-  return what + ": " + std::to_string(p.done) + " of " + std::to_string(p.of) + " calls";
+  if (p.phase == mesher::Phase::update) {
+    return what + ": " + std::to_string(p.done) + " of " + std::to_string(p.of) + " calls";
+  }
+  return what + ": " + std::to_string(100 * p.done / p.of) + "%";
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ struct Progress {
 /// How to watch a run or an update, and how to stop it.
 struct RunControl {
   /// Called every kCallsBetween calls (some thousand times a second); false stops. What it throws
-  /// stops as well, and leaves update().
+  /// stops as well, and leaves update(). It must not use the mesher.
   std::function<bool(const Progress&)> progress{};
   /// A request to stop, from any thread.
   std::stop_token stop{};
@@ -112,16 +112,16 @@ class Mesher {
 
   /// Announces a point that is not there; the mesh follows at the next update().
   /// Its place must be free: no point that is announced to be there may share its finest cell.
-  /// Throws: Error (repeated_id, duplicate_point, too_close, outside_domain, not_finite, magnitude).
-  /// Cost: O(log n).
+  /// Throws: Error (repeated_id, duplicate_point, too_close, outside_domain, not_finite,
+  /// magnitude). Cost: O(log n).
   void insert(FeatureId id, const Point<D>& point);
   /// All of ids[i] at points[i], or none. Requires: ids.size() == points.size().
   void insert(const std::vector<FeatureId>& ids, const std::vector<Point<D>>& points);
   /// Announces that a point goes. Throws: Error(unknown_id). Cost: O(1).
   void remove(FeatureId id);
-  /// Announces that a point moves; remove() and then insert() of one id is a move too. Its new place
-  /// need not be free yet: where points have moved, update() judges the places that all of them end
-  /// at, so that points swap places and moves chain in any order.
+  /// Announces that a point moves; remove() and then insert() of one id is a move too. Its new
+  /// place need not be free yet: where points have moved, update() judges the places that all of
+  /// them end at, so that points swap places and moves chain in any order.
   /// Throws: Error (unknown_id, outside_domain, not_finite, magnitude). Cost: O(1).
   void move(FeatureId id, const Point<D>& point);
 

@@ -45,10 +45,10 @@ namespace detail {
 /// u: a rounded operation is the exact one times 1+e with |e| <= u. Under the range above nothing
 /// underflows or overflows: a coordinate is an integer multiple of 2^-212 (52 bits below 2^-160) of
 /// magnitude <= 2^101. Multiples stay multiples under rounding, so a nonzero difference is between
-/// 2^-212 and 2^102, and a product of four between 2^-848 and 2^408; sums of those stay under 2^412,
-/// their error bounds above 2^-900: all normal. Only insphere has products of five, its last ones,
-/// which may be as small as 2^-1060: see kUnderflow. So the filters work at every scale, and nobody
-/// need move or scale coordinates first.
+/// 2^-212 and 2^102, and a product of four between 2^-848 and 2^408; sums of those stay under
+/// 2^412, their error bounds above 2^-900: all normal. Only insphere has products of five, its last
+/// ones, which may be as small as 2^-1060: see kUnderflow. So the filters work at every scale, and
+/// nobody need move or scale coordinates first.
 inline constexpr double kUnitRoundoff = 0x1p-53;
 
 /// Both filters compute X, a sum of n monomials, as det = fl(X~), where X~ is exact but for the

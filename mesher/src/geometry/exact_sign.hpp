@@ -30,9 +30,9 @@ template <std::size_t W, std::size_t D, std::size_t N>
 using Differences = std::array<FixedInt<W>, D*(N - 1)>;
 
 /// The differences d must satisfy |d| < 2^(64 W - 2) =: B.
-/// In the plane: |x0 y1 - y0 x1| < 2 B^2 = 2^(128 W - 3). Minors and lifts of incircle have the same
-/// bound, and the sum of three of their products is below 12 B^4 < 2^(256 W - 4). Both fit the sign
-/// bit of 2W and 4W limbs.
+/// In the plane: |x0 y1 - y0 x1| < 2 B^2 = 2^(128 W - 3). Minors and lifts of incircle have the
+/// same bound, and the sum of three of their products is below 12 B^4 < 2^(256 W - 4). Both fit the
+/// sign bit of 2W and 4W limbs.
 /// In space: the sum of three products of a minor and a difference is below 6 B^3 < 2^(192 W - 3),
 /// a lift below 3 B^2, the sum of four of their products below 72 B^5 < 2^(320 W - 3): 3W, 2W, 5W.
 template <std::size_t W>

@@ -35,8 +35,8 @@ int incircle_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c, cons
                           [](const auto& differences) { return incircle_sign(differences); });
 }
 
-/// The cofactor of the height of the greatest point in the determinant with rows px, py, h(p), 1; it
-/// is not 0 (see incircle_perturbed).
+/// The cofactor of the height of the greatest point in the determinant with rows px, py, h(p), 1;
+/// it is not 0 (see incircle_perturbed).
 int cocircular_tie(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d) {
   const Point<2>& ab = std::max(a, b);
   const Point<2>& cd = std::max(c, d);

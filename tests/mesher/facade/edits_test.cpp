@@ -182,7 +182,9 @@ TEST_CASE("random batches of moves within a few places give the mesh of a fresh 
     for (int step = 0; step < 30; ++step) {
       std::vector<std::size_t> order(places.size());
       std::iota(order.begin(), order.end(), std::size_t{0});
-      for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+      for (std::size_t i = order.size(); i > 1; --i) {
+        std::swap(order[i - 1], order[random.below(i)]);
+      }
       PointSet points;  // ids 0..7, each there or not, at different places
       for (std::int64_t id = 0; id < 8; ++id) {
         if (random.below(4) != 0) points[id] = places[order[static_cast<std::size_t>(id)]];

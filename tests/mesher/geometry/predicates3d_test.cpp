@@ -141,8 +141,8 @@ Five nearly_cospherical(Random& random) {
   const P centre{far * uniform(random, -1, 1), far * uniform(random, -1, 1), far};
   return five_of([&] {
     const double angle = uniform(random, 0, 6.283185307179586), z = uniform(random, -1, 1);
-    const double x = std::sqrt(1 - z * z) * std::cos(angle), y = std::sqrt(1 - z * z) * std::sin(angle);
-    const std::array unit{x, y, z};
+    const double flat = std::sqrt(1 - z * z);
+    const std::array unit{flat * std::cos(angle), flat * std::sin(angle), z};
     P p;
     for (std::size_t i = 0; i < 3; ++i) {
       p[i] = moved_by_ulps(centre[i] + r * unit[i], integer(random, -2, 2));
@@ -188,7 +188,7 @@ Five box_corners(Random& random) {
   std::array<std::array<double, 2>, 3> sides;
   for (auto& side : sides) side = {any_magnitude(random, -99, 99), any_magnitude(random, -99, 99)};
   Five q = five_of([&] {
-    const auto end = [&](std::size_t i) { return sides[i][static_cast<std::size_t>(integer(random, 0, 1))]; };
+    const auto end = [&](std::size_t i) { return sides[i][random() % 2]; };
     return P{end(0), end(1), end(2)};
   });
   double& moved = q[static_cast<std::size_t>(integer(random, 0, 4))]
