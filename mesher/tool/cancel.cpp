@@ -17,11 +17,18 @@ std::vector<std::string>& doomed() {
   return *paths;
 }
 
+volatile std::sig_atomic_t polite = 0;     // interrupts are noted
+volatile std::sig_atomic_t was_asked = 0;  // one was
+
 // Calls only what is safe in a signal handler.
 void stop(int) {
+  if (polite != 0 && was_asked == 0) {
+    was_asked = 1;
+    return;
+  }
   for (const auto& path : doomed()) ::unlink(path.c_str());
-  constexpr char kMessage[] = "error[cancelled]: stopped by a signal, nothing was written\n";
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
+  [[maybe_unused]] auto written = ::write(STDERR_FILENO, kStopped, sizeof kStopped - 1);
+  written = ::write(STDERR_FILENO, "\n", 1);
   ::_exit(static_cast<int>(mesher::ExitCode::cancelled));
 }
 
@@ -39,6 +46,7 @@ void catch_interrupts() {
   struct sigaction action {};
   action.sa_handler = stop;
   action.sa_mask = interrupts();
+  action.sa_flags = SA_RESTART;  // what is being written when it returns is written on
   for (const int signal : kSignals) {
     struct sigaction before {};
     sigaction(signal, nullptr, &before);
@@ -50,6 +58,15 @@ void set_doomed(std::vector<std::string> paths) {
   const HoldInterrupts hold;
   doomed() = std::move(paths);
 }
+
+bool interrupted() noexcept { return was_asked != 0; }
+
+void require_uninterrupted() {
+  if (interrupted()) throw mesher::Error(mesher::ErrorCode::cancelled, kStopped);
+}
+
+StopPolitely::StopPolitely() { polite = 1; }
+StopPolitely::~StopPolitely() { polite = 0; }
 
 HoldInterrupts::HoldInterrupts() {
   const sigset_t set = interrupts();

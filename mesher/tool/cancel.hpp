@@ -1,4 +1,6 @@
-// Stopping by signal: the process ends with exit code 5 and leaves no temporary file.
+// Stopping by signal: the process ends with exit code 5 and leaves no temporary file. A run that is
+// watched is asked to stop and unwinds; in all other work, and the second time, the process ends
+// there and then.
 //
 // What a signal does is a matter of the process, so this is the tool's one piece of global state.
 #pragma once
@@ -9,12 +11,29 @@
 
 namespace tool {
 
+/// What is said of a command that was stopped.
+inline constexpr char kStopped[] = "error[cancelled]: stopped by a signal, nothing was written";
+
 /// From now on an interrupt, a termination or a hang-up removes the doomed files and exits with
 /// code 5. A signal that the parent process had ignored stays ignored.
 void catch_interrupts();
 
 /// Sets the files that an interrupt removes; they replace those of the last call.
 void set_doomed(std::vector<std::string> paths);
+
+/// While it lives, a first interrupt does no more than make interrupted() true.
+class StopPolitely {
+ public:
+  StopPolitely();
+  ~StopPolitely();
+  StopPolitely(const StopPolitely&) = delete;
+  StopPolitely& operator=(const StopPolitely&) = delete;
+};
+
+/// Whether an interrupt has come while it was only to be noted.
+[[nodiscard]] bool interrupted() noexcept;
+/// Throws: Error(cancelled) if so.
+void require_uninterrupted();
 
 /// While it lives, interrupts wait.
 class HoldInterrupts {

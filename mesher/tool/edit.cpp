@@ -3,6 +3,7 @@
 
 #include "arguments.hpp"
 #include "commands.hpp"
+#include "figures.hpp"
 #include "first_run.hpp"
 #include "mesher/edit_script.hpp"
 #include "mesher/mesher.hpp"
@@ -17,19 +18,20 @@ struct EditArguments : MeshArguments {
   std::string script;
 };
 
-// Runs the script on `target`; the seconds of each update. `stats` may be null.
+// Runs the script on `target`; the seconds of each update.
 template <class Target>
-std::vector<double> apply_script(const EditArguments& args, Target& target, mesher::TextFile* stats,
+std::vector<double> apply_script(const EditArguments& args, Target& target, Figures& figures,
                                  Progress& progress) {
   mesher::EditScript script(args.script);
   std::vector<double> seconds;
   const auto record = [&](const mesher::Update<2>& update) {
     seconds.push_back(update.seconds);
-    if (stats) *stats << json_of(update).dump() << '\n';
-    progress.tick(std::to_string(seconds.size()) + " updates ...");
+    if (figures.wanted()) figures << json_of(update).dump() << "\n";
+    progress.set_task("after " + std::to_string(seconds.size()) + " updates, ");
   };
+  Watched watched(target, progress);
   try {
-    mesher::apply(script, target, record);
+    mesher::apply(script, watched, record);
   } catch (const mesher::Error& error) {
     throw with_domain_hint(error);
   }
@@ -41,17 +43,17 @@ void run_edit_on(Target target, const EditArguments& args, const mesher::PointFi
   Outputs outputs;
   outputs.protect(args.script);
   open_outputs(args, outputs);
-  mesher::TextFile* stats = args.stats.empty() ? nullptr : &outputs.open(args.stats);
+  Figures figures(args.stats, outputs);
   Progress progress(args.quiet);
-  announce_run(input.points.size(), progress);
-  const Run run = first_run(input, target).run;
-  if (stats) *stats << json_of(run).dump() << '\n';
-  const std::vector<double> seconds = apply_script(args, target, stats, progress);
+  const Run run = first_run(input, target, progress).run;
+  if (figures.wanted()) figures << json_of(run).dump() << "\n";
+  const std::vector<double> seconds = apply_script(args, target, figures, progress);
   outputs.write(target.mesh());
   const auto targets = outputs.targets();
-  outputs.commit();
   progress.erase();
-  if (args.quiet) return;
+  figures.print();
+  outputs.commit();
+  if (args.quiet || figures.printed()) return;
   print_run(args.input, input.points.size(), run);
   print_updates(seconds);
   print_outputs(targets);
@@ -80,7 +82,8 @@ void add_edit(CLI::App& app) {
           "The mesh is the same bytes as a fresh one of the edited points in the same\n"
           "domain, which by default is that of INPUT. With --static each update meshes\n"
           "from scratch.\n"
-          "--stats: a JSON object for the first run, then one a line for each update.\n") +
+          "--stats: a JSON object for the first run, then one a line for each update; - for\n"
+          "standard output.\n") +
       kQualityHelp +
       "\nExamples:\n"
       "  mesher edit points.node --script edits.txt -o after.node --stats updates.jsonl\n"

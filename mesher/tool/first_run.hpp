@@ -6,6 +6,7 @@
 #include "mesher/check.hpp"
 #include "mesher/edit_script.hpp"
 #include "mesher/io.hpp"
+#include "progress.hpp"
 #include "report.hpp"
 
 namespace tool {
@@ -14,12 +15,6 @@ struct Result {
   mesher::Mesh<2> mesh;
   Run run;
 };
-
-/// Tells people who wait what for, if it is worth it.
-inline void announce_run(std::size_t points, Progress& progress) {
-  constexpr std::size_t kManyPoints = 50'000;  // more take about a second
-  if (points >= kManyPoints) progress.show("meshing " + std::to_string(points) + " points ...");
-}
 
 /// Throws the error that the first refused point makes, said of its line; else `error`, said of the
 /// file.
@@ -37,26 +32,27 @@ template <class Target>
 }
 
 /// Gives `target` the points and updates it.
-/// Throws: Error, said of the line of the point to blame or of the file.
+/// Throws: Error, said of the line of the point to blame or of the file; Error(cancelled).
 template <class Target>
-void insert_all(const mesher::PointFile<2>& input, Target& target) {
+void insert_all(const mesher::PointFile<2>& input, Target& target, Progress& progress) {
   try {
     target.insert(input.ids, input.points);
   } catch (const mesher::Error& error) {
     throw_with_place(input, target, error);
   }
   try {
-    target.update();
+    Watched(target, progress).update();
   } catch (const mesher::Error& error) {
+    if (error.code() == mesher::ErrorCode::cancelled) throw;
     throw error.at({input.file});
   }
 }
 
 /// Runs `target`, a mesher without points, on the input. Throws: Error, as insert_all.
 template <class Target>
-Result first_run(const mesher::PointFile<2>& input, Target& target) {
+Result first_run(const mesher::PointFile<2>& input, Target& target, Progress& progress) {
   const double start = mesher::now();
-  insert_all(input, target);
+  insert_all(input, target, progress);
   Result result{target.mesh(), {}};
   result.run.seconds_total = mesher::now() - start;
   result.run.stats = target.stats();

@@ -52,12 +52,14 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   tool::catch_interrupts();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file grown too large is then an error of the write
+  std::signal(SIGXFSZ, SIG_IGN);  // a file grown too large is then an error of the write,
+  std::signal(SIGPIPE, SIG_IGN);  // and so is a pipe that nobody reads
   try {
     mesher::predicates::self_test();
     return run(argc, argv);
   } catch (const mesher::Error& error) {
-    return fail(mesher::exit_code(error.code()), error.what());
+    const bool stopped = error.code() == mesher::ErrorCode::cancelled;
+    return fail(mesher::exit_code(error.code()), stopped ? tool::kStopped : error.what());
   } catch (const std::bad_alloc&) {
     return fail(ExitCode::limit, "error[too_many]: out of memory");
   } catch (const std::exception& error) {

@@ -3,6 +3,7 @@
 
 #include "arguments.hpp"
 #include "commands.hpp"
+#include "figures.hpp"
 #include "first_run.hpp"
 #include "mesher/mesher.hpp"
 #include "outputs.hpp"
@@ -11,12 +12,16 @@
 namespace tool {
 namespace {
 
-Result mesh_without_engine(const mesher::PointFile<2>& input, const mesher::Options<2>& options) {
+Result mesh_without_engine(const mesher::PointFile<2>& input, const mesher::Options<2>& options,
+                           Progress& progress) {
   Result result;
   const double start = mesher::now();
   try {
-    result.mesh = mesher::mesh_statically<2>(input.points, options, input.ids, &result.run.stats);
+    const StopPolitely stop;
+    result.mesh = mesher::mesh_statically<2>(input.points, options, input.ids, &result.run.stats,
+                                             progress.control());
   } catch (const mesher::Error& error) {
+    if (error.code() == mesher::ErrorCode::cancelled) throw;
     throw error.at({input.file});
   }
   result.run.seconds_total = mesher::now() - start;
@@ -24,9 +29,10 @@ Result mesh_without_engine(const mesher::PointFile<2>& input, const mesher::Opti
   return result;
 }
 
-Result mesh_with_engine(const mesher::PointFile<2>& input, const mesher::Options<2>& options) {
+Result mesh_with_engine(const mesher::PointFile<2>& input, const mesher::Options<2>& options,
+                        Progress& progress) {
   mesher::Mesher<2> mesher(options);
-  return first_run(input, mesher);
+  return first_run(input, mesher, progress);
 }
 
 void run_mesh(const MeshArguments& args) {
@@ -35,17 +41,17 @@ void run_mesh(const MeshArguments& args) {
   require_inside(input, options.domain);
   Outputs outputs;
   open_outputs(args, outputs);
-  mesher::TextFile* stats = args.stats.empty() ? nullptr : &outputs.open(args.stats);
+  Figures figures(args.stats, outputs);
   Progress progress(args.quiet);
-  announce_run(input.points.size(), progress);
-  const Result result =
-      args.is_static ? mesh_without_engine(input, options) : mesh_with_engine(input, options);
-  if (stats) *stats << json_of(result.run).dump(2) << '\n';
+  const Result result = args.is_static ? mesh_without_engine(input, options, progress)
+                                       : mesh_with_engine(input, options, progress);
+  if (figures.wanted()) figures << json_of(result.run).dump(2) << "\n";
   outputs.write(result.mesh);
   const auto targets = outputs.targets();
-  outputs.commit();
   progress.erase();
-  if (args.quiet) return;
+  figures.print();
+  outputs.commit();
+  if (args.quiet || figures.printed()) return;
   print_run(args.input, input.points.size(), result.run);
   print_outputs(targets);
 }
@@ -60,7 +66,7 @@ void add_mesh(CLI::App& app) {
       std::string("The mesh is a function of the points, the domain, --rho and --rule alone: its\n"
                   "files are the same bytes each time, with --static or without. Files appear\n"
                   "when all is done, or not at all.\n"
-                  "--stats: one JSON object.\n") +
+                  "--stats: one JSON object; - for standard output.\n") +
       kQualityHelp +
       "\nExamples:\n"
       "  mesher mesh points.node -o mesh.node -o mesh.svg --stats mesh.json\n"

@@ -21,11 +21,13 @@ void Outputs::open_mesh(const std::string& path) {
 }
 
 void Outputs::write(const mesher::Mesh<2>& mesh) {
+  require_uninterrupted();
   for (const auto& writer : writers_) writer(mesh);
 }
 
 void Outputs::commit() {
   const HoldInterrupts hold;
+  require_uninterrupted();
   files_.commit();
   set_doomed({});
 }

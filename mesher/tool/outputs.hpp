@@ -23,9 +23,9 @@ class Outputs {
   /// Opens a mesh output, by extension. Throws: Error (unknown_format, cannot_write, bad_option).
   void open_mesh(const std::string& path);
 
-  /// Writes `mesh` to all mesh outputs. Throws: Error(cannot_write).
+  /// Writes `mesh` to all mesh outputs. Throws: Error (cannot_write, cancelled).
   void write(const mesher::Mesh<2>& mesh);
-  /// Makes all files appear. Throws: Error(cannot_write), and then none has.
+  /// Makes all files appear. Throws: Error (cannot_write, cancelled), and then none has.
   void commit();
 
   /// The files' names, in the order of opening; none after `commit`.

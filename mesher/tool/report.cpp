@@ -2,7 +2,6 @@
 #include "report.hpp"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +9,6 @@
 
 namespace tool {
 namespace {
-
-constexpr double kPatience = 1;  // seconds before and between lines of progress
 
 std::uint64_t peak_rss_bytes() {
   constexpr std::uint64_t kBytesPerUnit = 1024;  // Linux counts in kB
@@ -96,25 +93,6 @@ void print_outputs(const std::vector<std::string>& paths) {
   std::string all;
   for (const auto& path : paths) all += (all.empty() ? "" : ", ") + path;
   if (!all.empty()) print_row("written", all);
-}
-
-Progress::Progress(bool quiet)
-    : enabled_(!quiet && isatty(STDERR_FILENO) != 0), last_(mesher::now()) {}
-
-void Progress::erase() {
-  if (shown_) std::fputs("\r\033[K", stderr);
-  shown_ = false;
-}
-
-void Progress::show(const std::string& text) {
-  if (!enabled_) return;
-  std::fprintf(stderr, "\r\033[K%s", text.c_str());
-  shown_ = true;
-  last_ = mesher::now();
-}
-
-void Progress::tick(const std::string& text) {
-  if (enabled_ && mesher::now() - last_ >= kPatience) show(text);
 }
 
 }  // namespace tool

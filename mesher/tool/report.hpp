@@ -37,26 +37,4 @@ void print_updates(std::vector<double> seconds);
 /// Prints the names of the files written.
 void print_outputs(const std::vector<std::string>& paths);
 
-/// A line on standard error that says what is going on, for people who wait: only on a terminal,
-/// and only after a second. It is erased at the end.
-class Progress {
- public:
-  explicit Progress(bool quiet);
-  ~Progress() { erase(); }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-
-  /// Shows `text` now. For work that is known to be long.
-  void show(const std::string& text);
-  /// Shows `text` if the last line is old enough. Cost: a look at the clock.
-  void tick(const std::string& text);
-  /// Makes room for other output.
-  void erase();
-
- private:
-  bool enabled_;
-  bool shown_ = false;
-  double last_;
-};
-
 }  // namespace tool

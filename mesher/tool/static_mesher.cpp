@@ -39,11 +39,25 @@ std::vector<T> difference(const std::vector<T>& all, const std::vector<T>& witho
   return rest;
 }
 
+// Vertices of both that have another kind now.
+std::vector<mesher::KindChange<2>> kinds_changed(const Mesh<2>& before, const Mesh<2>& after) {
+  std::vector<mesher::KindChange<2>> changes;
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < after.vertices.size(); ++k) {
+    while (i < before.vertices.size() && before.vertices[i] < after.vertices[k]) ++i;
+    if (i == before.vertices.size() || before.vertices[i] != after.vertices[k]) continue;
+    if (before.kinds[i] == after.kinds[k]) continue;
+    changes.push_back({after.vertices[k], before.kinds[i], after.kinds[k]});
+  }
+  return changes;
+}
+
 mesher::Change<2> change_between(const Mesh<2>& before, const Mesh<2>& after) {
   const auto old_triangles = triangles_of(before), new_triangles = triangles_of(after);
   mesher::Change<2> change;
   change.vertices_added = difference(after.vertices, before.vertices);
   change.vertices_removed = difference(before.vertices, after.vertices);
+  change.kinds_changed = kinds_changed(before, after);
   change.simplices_added = difference(new_triangles, old_triangles);
   change.simplices_removed = difference(old_triangles, new_triangles);
   return change;
@@ -53,27 +67,36 @@ mesher::Change<2> change_between(const Mesh<2>& before, const Mesh<2>& after) {
 
 void StaticMesher::require_known(FeatureId id) const {
   if (edited_.points.contains(id)) return;
-  throw Error(ErrorCode::unknown_id, "there is no point " + id_text(id));
+  throw Error(ErrorCode::unknown_id, "there is no point " + id_text(id), {}, {id});
+}
+
+void StaticMesher::require_inside(FeatureId id, const Point<2>& p) const {
+  const auto& box = options_.domain;
+  if (p[0] >= box.lo[0] && p[0] <= box.hi[0] && p[1] >= box.lo[1] && p[1] <= box.hi[1]) return;
+  throw Error(ErrorCode::outside_domain, "point " + id_text(id) + " is outside the domain", {},
+              {id});
 }
 
 void StaticMesher::require_free(FeatureId id, const Point<2>& p) const {
-  const auto& box = options_.domain;
-  if (p[0] < box.lo[0] || p[0] > box.hi[0] || p[1] < box.lo[1] || p[1] > box.hi[1]) {
-    throw Error(ErrorCode::outside_domain, "point " + id_text(id) + " is outside the domain");
-  }
   const auto other = edited_.ids.find(p);
-  if (other == edited_.ids.end() || other->second == id) return;
+  if (other == edited_.ids.end()) return;
   throw Error(ErrorCode::duplicate_point,
-              "point " + id_text(id) + " would lie on point " + id_text(other->second));
+              "point " + id_text(id) + " would lie on point " + id_text(other->second), {},
+              {id, other->second});
+}
+
+void StaticMesher::put(FeatureId id, const Point<2>& point) {
+  edited_.points.emplace(id, point);
+  edited_.ids.emplace(point, id);
 }
 
 void StaticMesher::insert(FeatureId id, const Point<2>& point) {
   if (edited_.points.contains(id)) {
-    throw Error(ErrorCode::repeated_id, "there is a point " + id_text(id) + " already");
+    throw Error(ErrorCode::repeated_id, "there is a point " + id_text(id) + " already", {}, {id});
   }
-  require_free(id, point);
-  edited_.points.emplace(id, point);
-  edited_.ids.emplace(point, id);
+  require_inside(id, point);
+  if (!current_.points.contains(id)) require_free(id, point);
+  put(id, point);
 }
 
 void StaticMesher::insert(const std::vector<FeatureId>& ids, const std::vector<Point<2>>& points) {
@@ -89,18 +112,19 @@ void StaticMesher::insert(const std::vector<FeatureId>& ids, const std::vector<P
 void StaticMesher::remove(FeatureId id) {
   require_known(id);
   const auto row = edited_.points.find(id);
-  edited_.ids.erase(row->second);
+  const auto [first, last] = edited_.ids.equal_range(row->second);
+  edited_.ids.erase(std::find_if(first, last, [&](const auto& e) { return e.second == id; }));
   edited_.points.erase(row);
 }
 
 void StaticMesher::move(FeatureId id, const Point<2>& point) {
   require_known(id);
-  require_free(id, point);
+  require_inside(id, point);
   remove(id);
-  insert(id, point);
+  put(id, point);
 }
 
-mesher::Change<2> StaticMesher::update() {
+mesher::Change<2> StaticMesher::update(const mesher::RunControl& control) {
   std::vector<FeatureId> ids;
   std::vector<Point<2>> points;
   for (const auto& [id, point] : edited_.points) {
@@ -108,7 +132,7 @@ mesher::Change<2> StaticMesher::update() {
     points.push_back(point);
   }
   mesher::MeshStats stats;
-  Mesh<2> after = mesher::mesh_statically<2>(points, options_, ids, &stats);
+  Mesh<2> after = mesher::mesh_statically<2>(points, options_, ids, &stats, control);
   mesher::Change<2> change = change_between(mesh_, after);
   current_ = edited_;
   mesh_ = std::move(after);

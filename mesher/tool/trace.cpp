@@ -31,9 +31,10 @@ void require_writable(const TraceArguments& args) {
 void follow_script(const TraceArguments& args, mesher::Mesher<2>& mesher, Progress& progress) {
   mesher::EditScript script(args.script);
   std::size_t updates = 0;
+  Watched watched(mesher, progress);
   try {
-    mesher::apply(script, mesher, [&](const mesher::Update<2>&) {
-      progress.tick(std::to_string(++updates) + " updates ...");
+    mesher::apply(script, watched, [&](const mesher::Update<2>&) {
+      progress.set_task("after " + std::to_string(++updates) + " updates, ");
     });
   } catch (const mesher::Error& error) {
     throw with_domain_hint(error);
@@ -42,6 +43,7 @@ void follow_script(const TraceArguments& args, mesher::Mesher<2>& mesher, Progre
 
 traces::Recording record(const mesher::Mesher<2>& mesher, const std::string& path,
                          traces::Edges edges) {
+  require_uninterrupted();
   set_doomed({traces::temporary_of(path)});
   try {
     const traces::Recording recording = traces::Recorder(mesher.engine()).record(path, edges);
@@ -59,9 +61,8 @@ void run_trace(const TraceArguments& args) {
   require_inside(input, options.domain);
   require_writable(args);
   Progress progress(args.quiet);
-  announce_run(input.points.size(), progress);
   mesher::Mesher<2> mesher(options);
-  insert_all(input, mesher);
+  insert_all(input, mesher, progress);
   if (!args.script.empty()) follow_script(args, mesher, progress);
   const traces::Recording recording =
       record(mesher, args.trace, args.edges ? traces::Edges::yes : traces::Edges::no);

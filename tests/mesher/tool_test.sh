@@ -65,6 +65,14 @@ expect 0 '' mesh empty.node -o empty.mesh.node --stats empty.json
 expect 0 '' check empty.mesh.node
 has empty.json '"min_angle_deg": null'
 
+"$tool" mesh uniform.node -o piped.node --stats - >piped.json 2>said.txt || fail "--stats -"
+[[ ! -e - && ! -s said.txt ]] || fail "--stats - writes more than standard output"
+same uniform.mesh.node piped.node
+python3 -m json.tool piped.json >/dev/null || fail "--stats -: $(head -c 300 piped.json)"
+"$tool" mesh uniform.node -o out/x.vtu --stats - >/dev/full 2>said.txt
+has said.txt 'error\[cannot_write\]: standard output'
+[[ -z $(ls -A out) ]] || fail "--stats - to a full disk leaves: $(ls -A out)"
+
 echo "== formats and order of input give the same bytes"
 tail -n +2 uniform.node | sed 's/^[0-9]* //' >uniform.xyz
 (echo 'name,Y,X' && awk '{ print "p," $2 "," $1 }' uniform.xyz) >uniform.csv
@@ -145,6 +153,32 @@ for engine in '' --static; do
   has "after$engine.jsonl" '^\{"edit":"-point 3","seconds":[0-9.e-]+,"calls":\{"executed":[0-9]+,"reused":[0-9]+,"created":[0-9]+,"discarded":[0-9]+\},"vertices":\{"added":[0-9]+,"removed":[1-9][0-9]*\},"simplices":\{"added":[0-9]+,"removed":[0-9]+\}\}$'
   has "after$engine.jsonl" '^\{"edit":"\+point 1001 0\.125 0\.875; -point 1000; move 5 \.9 \.1"'
 done
+"$tool" edit uniform.node "${domain[@]}" --script edits.txt --stats - >piped.jsonl || fail "--stats -"
+[[ $(wc -l <piped.jsonl) == 5 ]] || fail "--stats - of edit: $(head -c 300 piped.jsonl)"
+cat >swap.txt <<'END'
+begin
+move 4 0.25 0.75
+move 5 .9 .1
+commit
+begin
+move 4 .9 .1
++point 2000 0.25 0.75
+move 5 0.25 0.5
+commit
+begin
+move 4 0.25 0.75
+-point 2000
+move 5 0.9 0.1
+commit
+-point 3
++point 1001 0.125 0.875
+END
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  expect 0 'updates' edit uniform.node "${domain[@]}" --script swap.txt $engine -o swapped.node
+  same after.node swapped.node
+  same after.ele swapped.ele
+done
 counts() { sed 's/.*"vertices":{/{/' "$1" | tail -n +2; }
 counts after.jsonl >engine.counts
 counts after--static.jsonl >static.counts
@@ -173,6 +207,7 @@ bad_edit 3 '2:1: error[unknown_id]' 'move 999 .1 .1'
 bad_edit 3 '2:1: error[repeated_id]' '+point 1000 .1 .1'
 bad_edit 1 '2:1: error[duplicate_point]' '+point 1002 .5 .4999'
 bad_edit 1 '3:2: error[duplicate_point]' 'begin\n move 7 .5 .4999\ncommit'
+bad_edit 1 '3:2: error[duplicate_point]' 'begin\n move 7 .5 .4999\n+point 9999 .5 .25\ncommit'
 bad_edit 1 '2:1: error[outside_domain]' '+point 1002 7 7'
 bad_edit 3 '2:1: error[unbalanced_commit]' 'commit'
 bad_edit 3 '2:1: error[unbalanced_commit]' 'begin'
@@ -213,6 +248,33 @@ for signal in INT TERM; do
   has said.txt '^5$'
   [[ $(ls -lA --full-time out) == "$before" ]] || fail "SIG$signal left: $(ls -A out)"
 done
+
+for i in $(seq 100000); do echo "move $((i % 200 + 1)) 0.5 0.$((100000 + i))"; done >long.txt
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  timeout --preserve-status -s INT 1 \
+    "$tool" edit uniform.node "${domain[@]}" --script long.txt $engine -o out/x.vtu >said.txt 2>&1
+  echo $? >>said.txt
+  has said.txt '^error\[cancelled\]'
+  has said.txt '^5$'
+  [[ $(ls -lA --full-time out) == "$before" ]] || fail "SIGINT in updates left: $(ls -A out)"
+done
+
+echo "== long runs say how far they are, to people"
+# on_terminal COMMAND...: for 3.5 seconds
+on_terminal() {
+  timeout -s INT 3.5 script -qefc "$(printf '%q ' "$@")" /dev/null </dev/null
+}
+if command -v script >/dev/null; then
+  on_terminal "$tool" mesh large.node --rho 1.1 >said.txt 2>&1
+  has said.txt '[1-3] of 3\): [0-9]'
+  on_terminal "$tool" mesh large.node --rho 1.1 --quiet >said.txt 2>&1
+  if grep -q 'of 3)' said.txt; then fail "--quiet shows progress"; fi
+  on_terminal "$tool" mesh uniform.node >said.txt 2>&1
+  if grep -q 'of 3)' said.txt; then fail "a short run shows progress"; fi
+fi
+timeout -s INT 3.5 "$tool" mesh large.node --rho 1.1 >said.txt 2>&1
+if grep -q 'of 3)' said.txt; then fail "progress in a file"; fi
 
 echo "== the cities of the world"
 expect 0 '7343 points' mesh "$data/places.node" -o cities.node

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -346,11 +347,43 @@ void check_counts(const mesher::Change<2>& change, const Mesher<2>& m, const Mes
           "stats: too few calls");
 }
 
+// The vertices that are there before and after, with another kind.
+std::vector<mesher::KindChange<2>> kind_changes(const Mesh<2>& before, const Mesh<2>& after) {
+  std::vector<mesher::KindChange<2>> changes;
+  for (std::size_t i = 0; i < after.vertices.size(); ++i) {
+    const Point<2>& p = after.vertices[i];
+    const auto it = std::lower_bound(before.vertices.begin(), before.vertices.end(), p);
+    if (it == before.vertices.end() || *it != p) continue;
+    const VertexKind kind = before.kinds[static_cast<std::size_t>(it - before.vertices.begin())];
+    if (kind != after.kinds[i]) changes.push_back({p, kind, after.kinds[i]});
+  }
+  return changes;
+}
+
+// Announces a step; where points have moved too near to others the step is taken back.
+std::optional<mesher::Change<2>> update(const Step& step, Mesher<2>& m, PointSet& points) {
+  const PointSet before = points;
+  for (const Edit& edit : step) perform(edit, m, points);
+  require(m.size() == points.size(), "another number of points is announced");
+  try {
+    return m.update();
+  } catch (const mesher::Error& error) {
+    if (error.code() != ErrorCode::too_close || error.ids().size() != 2) throw;
+    points = before;
+    return std::nullopt;
+  }
+}
+
 void check_step(const Step& step, Mesher<2>& m, PointSet& points, Parts& parts,
                 const Sequence& sequence, const Checks& checks, std::size_t number) {
-  for (const Edit& edit : step) perform(edit, m, points);
-  const auto change = m.update();
+  const Mesh<2> before = m.mesh();
+  const auto made = update(step, m, points);
   const Mesh<2> mesh = m.mesh();
+  if (!made) return require(mesh == before, "a step that was refused changes the mesh");
+  const auto& change = *made;
+  if (number > 0) {
+    require(change.kinds_changed == kind_changes(before, mesh), "the change of kinds is another");
+  }
   compare(mesh, static_mesh(points, sequence.options), "a static run");
   apply_difference(change.vertices_added, change.vertices_removed, parts.vertices);
   apply_difference(change.simplices_added, change.simplices_removed, parts.simplices);

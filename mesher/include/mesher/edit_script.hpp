@@ -7,6 +7,8 @@
 //   begin                the edits up to `commit` are one update;
 //   commit               outside, each edit is an update of its own
 //
+// A block is judged by where its points end: it may take a place before it frees it.
+//
 // Example:
 //   mesher::EditScript script("edits.txt");
 //   mesher::apply(script, m, [](const mesher::Update<2>& u) { ... u.change ... });
@@ -89,19 +91,27 @@ void announce(const Edit& edit, Target& target) {
 /// Seconds of wall-clock time since some fixed moment.
 [[nodiscard]] double now();
 
+/// The order in which a batch is announced: edits of points that are there before those of points
+/// that the batch inserts, so that places are free before they are taken; else as they stand.
+[[nodiscard]] std::vector<Edit> announcing_order(std::vector<Edit> edits);
+
+/// Where the edit stands that an error of update() is about: the last one of the feature to blame,
+/// else the last one. Requires: edits not empty.
+[[nodiscard]] Place place_to_blame(const std::vector<Edit>& edits, const Error& error);
+
 /// Makes one batch one update of `target`.
 /// Throws: Error, with the place of the edit to blame; `target` is then as before the batch.
 template <class Target>
 Update<2> apply(std::vector<Edit> edits, Target& target) {
   const double start = now();
   try {
-    for (const Edit& edit : edits) announce(edit, target);
+    for (const Edit& edit : announcing_order(edits)) announce(edit, target);
     Change<2> change = target.update();
     return {std::move(edits), std::move(change), now() - start};
   } catch (const Error& error) {
     target.discard_edits();
-    if (error.place().line > 0 || edits.empty()) throw;
-    throw error.at(edits.back().place);
+    if (error.place().line > 0 || error.code() == ErrorCode::cancelled || edits.empty()) throw;
+    throw error.at(place_to_blame(edits, error));
   } catch (...) {
     target.discard_edits();
     throw;

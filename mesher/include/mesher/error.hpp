@@ -8,6 +8,9 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "mesher/mesh.hpp"
 
 namespace mesher {
 
@@ -55,19 +58,24 @@ struct Place {
 /// Bad data. `what()` reads `FILE:LINE:COL: error[code]: message` (the place only where known).
 class Error : public std::runtime_error {
  public:
-  Error(ErrorCode code, std::string message, Place place = {});
+  Error(ErrorCode code, std::string message, Place place = {}, std::vector<FeatureId> ids = {});
 
   [[nodiscard]] ErrorCode code() const noexcept { return code_; }
   [[nodiscard]] const std::string& message() const noexcept { return message_; }
   [[nodiscard]] const Place& place() const noexcept { return place_; }
+  /// The features that it is about, where known; the one to blame first.
+  [[nodiscard]] const std::vector<FeatureId>& ids() const noexcept { return ids_; }
 
   /// The same error, said of a place in a file.
-  [[nodiscard]] Error at(Place place) const { return Error(code_, message_, std::move(place)); }
+  [[nodiscard]] Error at(Place place) const {
+    return Error(code_, message_, std::move(place), ids_);
+  }
 
  private:
   ErrorCode code_;
   std::string message_;
   Place place_;
+  std::vector<FeatureId> ids_;
 };
 
 }  // namespace mesher

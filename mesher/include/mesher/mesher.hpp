@@ -14,13 +14,16 @@
 //   (3) no triangle with a vertex off the boundary grid has circumradius / shortest edge > rho;
 //   (4) the mesh is a function of the set of input points and the options alone: not of the order
 //       of edits, the ids, or the machine;
-//   (5) an edit that throws changes nothing.
+//   (5) what throws, for whatever reason, leaves the mesh of the last update.
+// Between updates edits are only announced: mesh() is the mesh of the last update().
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <stop_token>
 #include <vector>
 
 #include "mesher/error.hpp"
@@ -42,6 +45,16 @@ struct CallCounts {
   std::uint64_t weight = 0;     ///< steps inside of calls; 0 unless Options::record_weights
 };
 
+/// A vertex that an update has kept, and that is now another kind: an input point came to a place
+/// where there was a Steiner vertex, or left one where the mesh needs a vertex all the same.
+template <int D>
+struct KindChange {
+  Point<D> vertex{};
+  VertexKind before{};
+  VertexKind after{};
+  friend bool operator==(const KindChange&, const KindChange&) = default;
+};
+
 /// The exact difference between the mesh before and after an update.
 /// Vertices in lexicographic order; each simplex by its corners, smallest first, positively
 /// oriented.
@@ -49,9 +62,31 @@ template <int D>
 struct Change {
   std::vector<Point<D>> vertices_added;
   std::vector<Point<D>> vertices_removed;
+  std::vector<KindChange<D>> kinds_changed;
   std::vector<std::array<Point<D>, D + 1>> simplices_added;
   std::vector<std::array<Point<D>, D + 1>> simplices_removed;
   CallCounts calls;
+};
+
+/// What a run is at: the three parts of a first or static run, in this order, or an update.
+enum class Phase : std::uint8_t { quadtree, steiner, triangulate, update };
+
+/// How far a run is, in calls of traced functions.
+struct Progress {
+  Phase phase = Phase::quadtree;
+  std::uint64_t done = 0;  ///< calls of this phase that have run
+  std::uint64_t of = 0;    ///< as many are known to be needed, which may grow; 0: not known
+};
+
+/// How to watch a run or an update, and how to stop it.
+struct RunControl {
+  /// Called every kCallsBetween calls (some thousand times a second); false stops. What it throws
+  /// stops as well, and leaves update(). It must not use the mesher.
+  std::function<bool(const Progress&)> progress{};
+  /// A request to stop, from any thread.
+  std::stop_token stop{};
+
+  static constexpr std::uint64_t kCallsBetween = 256;
 };
 
 /// How large a mesh and its trace are; times of the first run.
@@ -76,37 +111,50 @@ class Mesher {
   Mesher& operator=(Mesher&&) noexcept;
   ~Mesher();
 
-  /// Announces an edit; the mesh follows at the next update().
-  /// Throws: Error (repeated_id, unknown_id, duplicate_point, outside_domain, not_finite,
-  /// magnitude, too_close) and then changes nothing. Cost: O(log n).
+  /// Announces a point that is not there; the mesh follows at the next update().
+  /// Its place must be free: no point that is announced to be there may share its finest cell.
+  /// Throws: Error (repeated_id, duplicate_point, too_close, outside_domain, not_finite,
+  /// magnitude). Cost: O(log n).
   void insert(FeatureId id, const Point<D>& point);
-  /// All of ids[i] at points[i], or none: faster than one by one for large inputs.
+  /// All of ids[i] at points[i], or none. Requires: ids.size() == points.size().
   void insert(const std::vector<FeatureId>& ids, const std::vector<Point<D>>& points);
+  /// Announces that a point goes. Throws: Error(unknown_id). Cost: O(1).
   void remove(FeatureId id);
+  /// Announces that a point moves; remove() and then insert() of one id is a move too. Its new
+  /// place need not be free yet: where points have moved, update() judges the places that all of
+  /// them end at, so that points swap places and moves chain in any order.
+  /// Throws: Error (unknown_id, outside_domain, not_finite, magnitude). Cost: O(1).
   void move(FeatureId id, const Point<D>& point);
 
-  /// Takes back every edit announced since the last update().
-  void discard_edits();
+  /// Takes back every edit announced since the last update(). Cost: O(edits).
+  void discard_edits() noexcept;
 
-  /// Brings the mesh up to date with the edits announced since the last call, as one batch.
-  /// Throws: whatever stopped it (Error(too_close), std::bad_alloc); mesh and features are then as
-  /// before those edits. Cost: O(log L/s) per edited point [Theorem 4.3.8].
-  Change<D> update();
+  /// Brings the mesh up to date with the edits announced since the last call, as one batch, or
+  /// leaves the mesh as it was.
+  /// Throws: Error(cancelled) if `control` has stopped it: the edits stay announced, for another
+  /// update() or discard_edits(). Error (duplicate_point, too_close: points that have moved onto
+  /// others, or places too near to each other for the vertices that they need), std::bad_alloc, or
+  /// what control.progress throws: the edits are taken back as well.
+  /// Cost: O(log L/s) calls per edited point [Theorem 4.3.8], the first time per vertex; stopped or
+  /// failed, as much again to take back what was done.
+  Change<D> update(const RunControl& control = {});
 
-  /// The mesh in canonical form. Cost: O(m log m).
+  /// The mesh of the last update() in canonical form, whatever has been announced since; empty
+  /// before the first. Cost: O(m log m).
   [[nodiscard]] Mesh<D> mesh() const;
 
-  [[nodiscard]] std::size_t size() const;  ///< number of input points
+  /// Number of input points that are announced to be there.
+  [[nodiscard]] std::size_t size() const;
+  /// Whether the point is announced to be there.
   [[nodiscard]] bool contains(FeatureId id) const;
+  /// Of the last update(); times of the first. Cost: O(1).
   [[nodiscard]] MeshStats stats() const;
   [[nodiscard]] const Options<D>& options() const;
 
-  /// The engine, for those who look at its trace. It may be another after discard_edits() or an
-  /// update() that throws.
+  /// The engine, for those who look at its trace. The first update() puts another in its place.
   [[nodiscard]] const sac::Engine& engine() const;
 
-  /// Requires: no edit announced since the last update(). Throws std::logic_error naming the broken
-  /// invariant. Cost: O(trace).
+  /// Throws std::logic_error naming the broken invariant. Cost: O(trace).
   void check_invariants() const;
 
  private:
@@ -115,11 +163,14 @@ class Mesher {
 };
 
 /// The same algorithms without the engine: the mesh that Mesher would have after inserting
-/// `points`, bit for bit. `points`: n x D; ids are only used in errors (empty: 1..n).
+/// `points`, bit for bit. `points`: n x D; `ids`: as many, only used in errors (empty: 1..n).
+/// Requires: ids.empty() || ids.size() == points.size().
+/// Throws: Error (bad_option, cancelled, and as Mesher::insert and update), std::bad_alloc, what
+/// control.progress throws.
 template <int D>
 [[nodiscard]] Mesh<D> mesh_statically(const std::vector<Point<D>>& points,
                                       const Options<D>& options,
                                       const std::vector<FeatureId>& ids = {},
-                                      MeshStats* stats = nullptr);
+                                      MeshStats* stats = nullptr, const RunControl& control = {});
 
 }  // namespace mesher

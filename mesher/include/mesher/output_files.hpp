@@ -1,9 +1,9 @@
 // Output files that appear whole, together, at the end, or not at all.
 //
 // Each file is written under a temporary name in its own directory. `commit` closes all of them,
-// looks at every error a disk can report, and only then renames them to their targets. Whatever
-// ends before that (an exception, too little space) removes the temporaries and leaves the
-// targets as they were.
+// looks at every error a disk can report, and only then renames them to their targets, each of
+// which is kept under another name until the last has its own. Whatever fails before that removes
+// the temporaries and leaves the targets as they were.
 #pragma once
 
 #include <concepts>
@@ -63,7 +63,7 @@ class OutputFiles {
   void protect(const std::string& path) { protected_.push_back(path); }
 
   /// Closes all files and renames them to their targets.
-  /// Throws: Error(cannot_write), and then leaves none of them.
+  /// Throws: Error(cannot_write), and then the targets are as before.
   void commit();
 
   /// Where the files are until they are committed.
@@ -76,8 +76,12 @@ class OutputFiles {
     std::string target;     // as given
     std::string resolved;   // behind symbolic links
     std::string temporary;  // in the directory of `resolved`
+    std::string kept;       // there as well: what had the target's name, if anything had
     std::unique_ptr<TextFile> file;
   };
+  static void keep(Entry& entry);
+  static void replace(Entry& entry);
+  static void restore(Entry& entry) noexcept;
   void require_free(const Entry& entry) const;
 
   std::vector<Entry> entries_;

@@ -1,8 +1,8 @@
 // Signed integers of a fixed number of 64-bit limbs, and doubles turned into them without rounding.
 //
 // Just what a determinant needs: difference, sum, product, sign. Two's complement, lowest limb
-// first. A sum wraps; a product has twice the limbs and is always exact. Callers prove that their
-// sums fit.
+// first. A sum wraps; a product has the limbs of both factors and is always exact. Callers prove
+// that their sums fit.
 #pragma once
 
 #include <algorithm>
@@ -48,25 +48,25 @@ template <std::size_t W>
   return difference;
 }
 
-/// Subtracts `a` 2^(64 W) from `product`, if `when`.
-template <std::size_t W>
-inline void subtract_high(FixedInt<2 * W>& product, const FixedInt<W>& a, bool when) noexcept {
+/// Subtracts `a` 2^(64 V) from `product`, if `when`.
+template <std::size_t V, std::size_t W>
+inline void subtract_high(FixedInt<V + W>& product, const FixedInt<W>& a, bool when) noexcept {
   const std::uint64_t mask = when ? ~std::uint64_t{0} : 0;
   std::uint64_t borrow = 0;
   for (std::size_t i = 0; i < W; ++i) {
-    const Wide t = static_cast<Wide>(product.limb[W + i]) - (a.limb[i] & mask) - borrow;
-    product.limb[W + i] = static_cast<std::uint64_t>(t);
+    const Wide t = static_cast<Wide>(product.limb[V + i]) - (a.limb[i] & mask) - borrow;
+    product.limb[V + i] = static_cast<std::uint64_t>(t);
     borrow = static_cast<std::uint64_t>(t >> 64) & 1;
   }
 }
 
 /// The exact product: the schoolbook one of the limbs as unsigned numbers, where a negative factor
-/// counts 2^(64 W) too much, which is then taken back.
-template <std::size_t W>
-[[nodiscard]] inline FixedInt<2 * W> operator*(const FixedInt<W>& a,
+/// counts 2^(64 limbs) too much, which is then taken back.
+template <std::size_t V, std::size_t W>
+[[nodiscard]] inline FixedInt<V + W> operator*(const FixedInt<V>& a,
                                                const FixedInt<W>& b) noexcept {
-  FixedInt<2 * W> product;
-  for (std::size_t i = 0; i < W; ++i) {
+  FixedInt<V + W> product;
+  for (std::size_t i = 0; i < V; ++i) {
     Wide carry = 0;
     for (std::size_t j = 0; j < W; ++j) {
       carry += static_cast<Wide>(a.limb[i]) * b.limb[j] + product.limb[i + j];
@@ -75,8 +75,8 @@ template <std::size_t W>
     }
     product.limb[i + W] = static_cast<std::uint64_t>(carry);
   }
-  subtract_high(product, b, a.negative());
-  subtract_high(product, a, b.negative());
+  subtract_high<V>(product, b, a.negative());
+  subtract_high<W>(product, a, b.negative());
   return product;
 }
 

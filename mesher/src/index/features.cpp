@@ -39,14 +39,19 @@ void TracedFeatures::take(Vertex<2>& v) {
   tree_.erase(v, [&](Vertex<2>& f) { changed(f); });
 }
 
+// How to undo is noted first, and does nothing where the edit has failed.
 void TracedFeatures::insert(Vertex<2>& v) {
+  engine_.on_rollback([this, &v] {
+    if (tree_.obstacle(v.p) == &v) take(v);
+  });
   put(v);
-  engine_.on_rollback([this, &v] { take(v); });
 }
 
 void TracedFeatures::erase(Vertex<2>& v) {
+  engine_.on_rollback([this, &v] {
+    if (tree_.obstacle(v.p) != &v) put(v);
+  });
   take(v);
-  engine_.on_rollback([this, &v] { put(v); });
 }
 
 }  // namespace mesher::detail

@@ -226,6 +226,7 @@ void Index::retract_birth(BirthEdge& birth) {
   const sac::Handle old_birth = v.birth;
   choose_birth(v);
   if (v.birth == old_birth) return;
+  if (engine_.appending()) return;  // a first run fails: all that came later goes as well
   vanished(v, engine_.call(old_birth), v.alive ? &engine_.call(v.birth) : nullptr);
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <map>
 
 #include "io/text.hpp"
 
@@ -105,6 +106,23 @@ std::vector<Edit> EditScript::read_block() {
     edits.push_back(parse(line));
   }
   throw Error(ErrorCode::unbalanced_commit, "begin without commit", begin);
+}
+
+std::vector<Edit> announcing_order(std::vector<Edit> edits) {
+  std::map<FeatureId, bool> comes;  // by the first edit of a point
+  for (const Edit& edit : edits) comes.emplace(edit.id, edit.kind == Edit::Kind::insert);
+  std::stable_partition(edits.begin(), edits.end(),
+                        [&](const Edit& edit) { return !comes.at(edit.id); });
+  return edits;
+}
+
+Place place_to_blame(const std::vector<Edit>& edits, const Error& error) {
+  for (const FeatureId id : error.ids()) {
+    const auto is_of = [&](const Edit& edit) { return edit.id == id; };
+    const auto last = std::find_if(edits.rbegin(), edits.rend(), is_of);
+    if (last != edits.rend()) return last->place;
+  }
+  return edits.back().place;
 }
 
 template <int D>

@@ -2,6 +2,7 @@
 #include "mesher/output_files.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -23,13 +24,29 @@ Error cannot_write(const std::string& path, int error) {
       ErrorCode::cannot_write, std::string("cannot be written: ") + std::strerror(error), {path}};
 }
 
+Error not_a_file(const std::string& path) {
+  return {ErrorCode::cannot_write, "cannot be written: not a regular file", {path}};
+}
+
+// Names in the directory of `target`, one after the other.
+class Names {
+ public:
+  Names(const std::string& target, std::string ending)
+      : stem_((fs::path(target).parent_path() / (".mesher-" + std::to_string(::getpid()) + "-"))
+                  .string()),
+        ending_(std::move(ending)) {}
+  std::string next() { return stem_ + std::to_string(number_++) + ending_; }
+
+ private:
+  std::string stem_, ending_;
+  int number_ = 0;
+};
+
 // A name in the directory of `target` that nobody has, created at once so that nobody takes it and
 // so that a directory one may not write to is found before the work begins.
 std::string create_temporary(const std::string& target, const std::string& shown_as) {
-  const std::string stem =
-      (fs::path(target).parent_path() / (".mesher-" + std::to_string(::getpid()) + "-")).string();
-  for (int i = 0;; ++i) {
-    const std::string path = stem + std::to_string(i) + ".part";
+  for (Names names(target, ".part");;) {
+    const std::string path = names.next();
     const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor >= 0) {
       ::close(descriptor);
@@ -46,7 +63,7 @@ std::string resolve(const std::string& target) {
   if (error) throw cannot_write(target, error.value());
   if (fs::is_directory(path, error)) throw cannot_write(target, EISDIR);
   if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
-    throw Error(ErrorCode::cannot_write, "cannot be written: not a regular file", {target});
+    throw not_a_file(target);
   }
   if (fs::exists(path, error) && ::access(path.c_str(), W_OK) != 0) {
     throw cannot_write(target, errno);
@@ -116,7 +133,7 @@ void OutputFiles::require_free(const Entry& entry) const {
 }
 
 TextFile& OutputFiles::open(const std::string& target) {
-  Entry entry{target, resolve(target), {}, nullptr};
+  Entry entry{target, resolve(target), {}, {}, nullptr};
   require_free(entry);
   entries_.reserve(entries_.size() + 1);  // nothing may throw once there is a temporary
   entry.temporary = create_temporary(entry.resolved, target);
@@ -130,14 +147,54 @@ TextFile& OutputFiles::open(const std::string& target) {
   return *entries_.back().file;
 }
 
+// Gives what has the target's name another one: a second one where the file system has links, so
+// that the target is there all the time.
+void OutputFiles::keep(Entry& entry) {
+  struct stat there {};
+  if (::lstat(entry.resolved.c_str(), &there) != 0) return;  // then renaming tells
+  if (!S_ISREG(there.st_mode)) throw not_a_file(entry.target);
+  for (Names names(entry.resolved, ".kept");;) {
+    std::string name = names.next();
+    if (::link(entry.resolved.c_str(), name.c_str()) != 0) {
+      if (errno == EEXIST) continue;
+      if (::lstat(name.c_str(), &there) == 0) continue;
+      if (std::rename(entry.resolved.c_str(), name.c_str()) != 0) {
+        throw cannot_write(entry.target, errno);
+      }
+    }
+    entry.kept = std::move(name);
+    return;
+  }
+}
+
+void OutputFiles::replace(Entry& entry) {
+  keep(entry);
+  if (std::rename(entry.temporary.c_str(), entry.resolved.c_str()) == 0) return;
+  const int error = errno;
+  if (!entry.kept.empty()) restore(entry);
+  throw cannot_write(entry.target, error);
+}
+
+// Renaming one name of a file to another of it does nothing: the name that is left over goes.
+void OutputFiles::restore(Entry& entry) noexcept {
+  if (entry.kept.empty()) {
+    ::unlink(entry.resolved.c_str());
+  } else if (std::rename(entry.kept.c_str(), entry.resolved.c_str()) == 0) {
+    ::unlink(entry.kept.c_str());
+  }
+}
+
 void OutputFiles::commit() {
   for (auto& entry : entries_) entry.file->close();
-  for (std::size_t done = 0; done < entries_.size(); ++done) {
-    Entry& entry = entries_[done];
-    if (std::rename(entry.temporary.c_str(), entry.resolved.c_str()) == 0) continue;
-    const int error = errno;
-    for (std::size_t i = 0; i < done; ++i) ::unlink(entries_[i].resolved.c_str());
-    throw cannot_write(entry.target, error);
+  std::size_t done = 0;
+  try {
+    for (; done < entries_.size(); ++done) replace(entries_[done]);
+  } catch (...) {
+    while (done-- > 0) restore(entries_[done]);
+    throw;
+  }
+  for (const auto& entry : entries_) {
+    if (!entry.kept.empty()) ::unlink(entry.kept.c_str());
   }
   entries_.clear();
 }

@@ -75,11 +75,12 @@ std::string_view code_name(ErrorCode code) noexcept { return row(code).name; }
 
 ExitCode exit_code(ErrorCode code) noexcept { return row(code).exit; }
 
-Error::Error(ErrorCode code, std::string message, Place place)
+Error::Error(ErrorCode code, std::string message, Place place, std::vector<FeatureId> ids)
     : std::runtime_error(place_text(place) + "error[" + std::string(code_name(code)) +
                          "]: " + message),
       code_(code),
       message_(std::move(message)),
-      place_(std::move(place)) {}
+      place_(std::move(place)),
+      ids_(std::move(ids)) {}
 
 }  // namespace mesher

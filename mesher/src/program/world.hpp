@@ -7,6 +7,8 @@
 
 #include <array>
 #include <chrono>
+#include <cstdint>
+#include <functional>
 #include <type_traits>
 #include <vector>
 
@@ -71,9 +73,16 @@ class Features<sac::Scope> : public sac::Structure {
   std::uint8_t id_;
 };
 
-/// The triangles of a static run, as they are output.
+/// The triangles of a static run, as they are output, and who watches it.
 struct PlainOutput {
   std::vector<std::array<VertexHandle, 3>> triangles;
+  std::uint64_t calls = 0;  // those that say so by tick()
+  std::uint64_t next_report = ~std::uint64_t{0};
+  std::function<void(PlainOutput&)> report;  // sets the next report; may throw
+
+  void tick() {
+    if (++calls >= next_report) report(*this);
+  }
 };
 struct TracedOutput {};  // the stars' observations are the output
 

@@ -26,6 +26,7 @@ void World<S>::add_boundary() {
 // add a ComputeNN(p) event, with key |c| / 2; c is the cell of `leaf_level` around p
 template <class S>
 void World<S>::post_nearest(S& s, VertexRef<2> v, int leaf_level) {
+  if constexpr (!S::kTraced) plain.tick();
   const double half = box.cell_side(leaf_level) / 2;
   const int b = rule.bucket(half * half);
   steiner.template post<compute_nn>(s, nearest_key(box.fixed(v->p), b), v, b);
@@ -33,6 +34,7 @@ void World<S>::post_nearest(S& s, VertexRef<2> v, int leaf_level) {
 
 template <class S>
 void World<S>::post_complete(S& s, VertexRef<2> v, int b) {
+  if constexpr (!S::kTraced) plain.tick();
   steiner.template post<complete>(s, complete_key(*this, box.fixed(v->p), b), v, b);
 }
 
@@ -44,6 +46,7 @@ void World<S>::post_star(S& s, VertexRef<2> v) {
 template <class S>
 void World<S>::output(S&, VertexRef<2> v, const VoronoiCell& cell) {
   if constexpr (!S::kTraced) {
+    plain.tick();
     for_each_own_triangle(
         *v, cell.size(), [&](int i) { return cell.code(i); },
         [&](int i) -> const Point<2>& { return cell.place(i); },

@@ -132,7 +132,10 @@ class Engine {
   /// Brings the trace up to date with the edits since the last call.
   /// Throws: what the program throws, and Cancelled, with the edits undone.
   /// Cost: calls run again, plus O(log) of the queue for each.
-  Counts propagate();
+  Counts propagate() { return propagate(nullptr); }
+  /// The same; when all is up to date, and while it can still be undone, last() looks at the result.
+  /// If it throws, the edits are undone as if the program had thrown.
+  Counts propagate(const std::function<void()>& last);
 
   /// A new work queue, owned by the engine.
   [[nodiscard]] Agenda& make_agenda(std::string name);

@@ -130,7 +130,7 @@ void Engine::set(const Cell<T, Same>& cell, std::type_identity_t<T> value) {
 
 template <class T, class Same>
 const T& Engine::get(Mod<T, Same> mod) const {
-  core_.require_idle("get");
+  core_.require_settled("get");
   mods_->require_live(mod.head(), mod.stamp(), "get");
   return static_cast<detail::TypedVersion<T>&>(mods_->last(mod.head())).value();
 }

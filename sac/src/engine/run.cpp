@@ -100,12 +100,13 @@ Counts Engine::run_root(const Asked& asked) {
   return core_.finish();
 }
 
-Counts Engine::propagate() {
+Counts Engine::propagate(const std::function<void()>& last) {
   core_.enter(Core::Mode::propagating);
   try {
     core_.propagate();
     require_released_unused();
     core_.check_audit();
+    if (last) last();
   } catch (...) {
     roll_back();
     throw;

@@ -57,7 +57,27 @@ void require_ring_operations(Random& random) {
   REQUIRE(sign(a) == value(a).sign());
 }
 
+template <std::size_t V, std::size_t W>
+void require_product(Random& random) {
+  const auto a = awkward<V>(random);
+  const auto b = awkward<W>(random);
+  REQUIRE(value(a * b) == value(a) * value(b));
+  REQUIRE(value(b * a) == value(a) * value(b));
+}
+
 }  // namespace
+
+TEST_CASE("integers of unequal widths multiply as integers do", "[fixed_int]") {
+  INFO("seed " << kSeed);
+  Random random(kSeed);
+  for (int i = 0; i < 4000; ++i) {
+    CAPTURE(i);
+    require_product<1, 2>(random);
+    require_product<2, 3>(random);
+    require_product<4, 8>(random);
+    require_product<8, 12>(random);
+  }
+}
 
 TEST_CASE("fixed-width integers add, subtract and multiply as integers do", "[fixed_int]") {
   INFO("seed " << kSeed);

@@ -143,6 +143,32 @@ TEST_CASE("an update that fails is said of the last edit of its batch") {
   CHECK(table.points.empty());
 }
 
+TEST_CASE("a block may take a place before it frees it") {
+  const ScratchFolder folder;
+  mesher::Mesher<2> m({.domain = {{0, 0}, {1, 1}}});
+  mesher::EditScript script(
+      folder.write("edits.txt",
+                   "begin\n+point 1 .25 .5\n+point 2 .5 .25\ncommit\n"
+                   "begin\n+point 3 .25 .5\nmove 2 .25 .75\n+point 4 .5 .25\n-point 1\ncommit\n"));
+  std::vector<std::string> texts;
+  mesher::apply(script, m, [&](const auto& u) { texts.push_back(u.text()); });
+  CHECK(texts.size() == 2);
+  CHECK(texts[1] == "+point 3 .25 .5; move 2 .25 .75; +point 4 .5 .25; -point 1");
+  CHECK(m.mesh() == mesher::mesh_statically<2>({{.25, .5}, {.25, .75}, {.5, .25}}, m.options()));
+}
+
+TEST_CASE("an update that fails because of a point is said of that point's last edit") {
+  const ScratchFolder folder;
+  mesher::Mesher<2> m({.domain = {{0, 0}, {1, 1}}});
+  mesher::EditScript script(folder.write(
+      "edits.txt",
+      "begin\n+point 1 .25 .5\n+point 2 .5 .25\ncommit\n"
+      "begin\nmove 2 .1 .1\n  move 2 .25 .5\n+point 3 .75 .75\ncommit\n"));
+  CHECK(failure_of([&] { mesher::apply(script, m, [](const auto&) {}); }) ==
+        "duplicate_point@7:3");
+  CHECK(m.size() == 2);
+}
+
 TEST_CASE("a script that is not there, or is a folder, cannot be read") {
   const ScratchFolder folder;
   CHECK(failure_of([&] { mesher::EditScript script(folder.path("none.txt")); }) ==

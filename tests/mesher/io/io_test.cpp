@@ -318,6 +318,26 @@ TEST_CASE("outputs appear on commit and not before, and a dropped output leaves 
   CHECK(folder.count() == 2);
 }
 
+TEST_CASE("an output that cannot be renamed leaves all targets as they were, and nothing else") {
+  const ScratchFolder folder;
+  folder.write("old.txt", "old");
+  folder.write("other.txt", "other");
+  {
+    mesher::OutputFiles files;
+    files.open(folder.path("old.txt")) << "newer";
+    files.open(folder.path("new.txt")) << "new";
+    files.open(folder.path("other.txt")) << "newer";
+    files.open(folder.path("folder")) << "x";
+    std::filesystem::create_directory(folder.path("folder"));  // after it was found to be free
+    folder.write("folder/within.txt", "within");
+    CHECK(failure_of([&] { files.commit(); }) == "cannot_write@0:0");
+    CHECK(folder.read("old.txt") == "old");
+    CHECK(folder.read("other.txt") == "other");
+    CHECK(folder.read("folder/within.txt") == "within");
+  }
+  CHECK(folder.count() == 3);
+}
+
 TEST_CASE("outputs that cannot work are refused before anything is written") {
   const ScratchFolder folder;
   folder.write("in.txt", "input");

@@ -61,7 +61,12 @@ TEST_CASE("an edit that is refused names ids and values and changes nothing") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   const auto insert = [&](Point<2> p) { return refused(m, [&] { m.insert(FeatureId{7}, p); }); };
-  const auto move = [&](Point<2> p) { return refused(m, [&] { m.move(FeatureId{2}, p); }); };
+  const auto move = [&](Point<2> p) {  // whether a place is free when all have moved, update() says
+    return refused(m, [&] {
+      m.move(FeatureId{2}, p);
+      m.update();
+    });
+  };
 
   CHECK(insert({0.25, 0.5}) == "duplicate_point: point 7 (0.25, 0.5) lies on point 1");
   CHECK(move({0.25, 0.5}) == "duplicate_point: point 2 (0.25, 0.5) lies on point 1");

@@ -85,6 +85,10 @@ class Core {
   /// Throws: UsageError if the engine is broken, or runs.
   void require_usable() const;
   void require_idle(const char* what) const;
+  /// Throws: UsageError unless what is in the trace is up to date.
+  void require_settled(const char* what) const {
+    if (current_ != nullptr || !(idle() || queue_.empty())) require_idle(what);
+  }
   void enter(Mode mode);
   /// Makes the call at the end of the trace, and runs it. Throws: what the program throws.
   void run_root(const Asked& asked);

@@ -1,0 +1,109 @@
+// What the predicates in space cost: random points, points on a grid's plane or cube, nearly
+// degenerate ones, and the widest that there are. One JSON line per figure.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <vector>
+
+#include "mesher/predicates.hpp"
+
+namespace {
+
+using mesher::Point;
+using Random = std::mt19937_64;
+using Five = std::array<Point<3>, 5>;
+
+double uniform(Random& random, double lo, double hi) {
+  return std::uniform_real_distribution<double>(lo, hi)(random);
+}
+
+template <class Coordinate>
+Five five_of(Coordinate coordinate) {
+  Five five;
+  for (Point<3>& p : five) p = {coordinate(0), coordinate(1), coordinate(2)};
+  return five;
+}
+
+Five random_five(Random& random) {
+  return five_of([&](int) { return uniform(random, 0, 1); });
+}
+
+/// Corners of a cube of a grid, the first four of one face.
+Five grid_cube(Random& random) {
+  Point<3> at;
+  for (double& x : at) x = 0x1p-10 * static_cast<double>(random() % 1024);
+  const auto corner = [&](int i, int j, int k) {
+    return Point<3>{at[0] + i * 0x1p-10, at[1] + j * 0x1p-10, at[2] + k * 0x1p-10};
+  };
+  return {corner(0, 0, 0), corner(1, 0, 0), corner(1, 1, 0), corner(0, 1, 0), corner(1, 0, 1)};
+}
+
+Five near_plane(Random& random) {
+  Five five = random_five(random);
+  for (Point<3>& p : five) p[2] = 0.3 * p[0] + 0.7 * p[1];
+  return five;
+}
+
+Five near_sphere(Random& random) {
+  Five five;
+  for (Point<3>& p : five) {
+    const double z = uniform(random, -1, 1), angle = uniform(random, 0, 6.283185307179586);
+    const double r = std::sqrt(1 - z * z);
+    p = {0.5 + 0.3 * r * std::cos(angle), 0.5 + 0.3 * r * std::sin(angle), 0.5 + 0.3 * z};
+  }
+  return five;
+}
+
+/// Corners of a box between 2^-100 and 2^100.
+Five widest(Random& random) {
+  const double x = 0x1p-100 * uniform(random, 1, 2), y = 0x1p99 * uniform(random, 1, 2);
+  return {Point<3>{x, x, x}, {y, x, x}, {y, y, x}, {x, y, x}, {x, x, y}};
+}
+
+/// Prints the nanoseconds per call: the median of 9 passes over 1024 fives.
+template <class Call>
+void report(const char* name, Five (*make)(Random&), Call call) {
+  using Clock = std::chrono::steady_clock;
+  constexpr int kRepeats = 20;
+  Random random(1);
+  std::vector<Five> fives(1024);
+  for (Five& five : fives) five = make(random);
+  std::array<double, 9> passes{};
+  for (double& ns : passes) {
+    const auto start = Clock::now();
+    int sum = 0;
+    for (int r = 0; r < kRepeats; ++r) {
+      for (const Five& five : fives) sum += call(five);
+    }
+    const std::chrono::duration<double, std::nano> time = Clock::now() - start;
+    [[maybe_unused]] volatile int used = sum;
+    ns = time.count() / (kRepeats * static_cast<double>(fives.size()));
+  }
+  std::nth_element(passes.begin(), passes.begin() + 4, passes.end());
+  std::printf("{\"name\": \"predicates3d/%s\", \"ns_per_call\": %.1f}\n", name, passes[4]);
+}
+
+int orient(const Five& q) { return mesher::predicates::orient3d(q[0], q[1], q[2], q[3]); }
+int insphere(const Five& q) {
+  return mesher::predicates::insphere(q[0], q[1], q[2], q[3], q[4]);
+}
+int perturbed(const Five& q) {
+  return mesher::predicates::insphere_perturbed(q[0], q[1], q[2], q[3], q[4]);
+}
+
+}  // namespace
+
+int main() {
+  report("orient3d/random", random_five, orient);
+  report("orient3d/grid", grid_cube, orient);
+  report("orient3d/near_degenerate", near_plane, orient);
+  report("orient3d/widest", widest, orient);
+  report("insphere/random", random_five, insphere);
+  report("insphere/grid", grid_cube, insphere);
+  report("insphere/near_degenerate", near_sphere, insphere);
+  report("insphere/widest", widest, insphere);
+  report("insphere_perturbed/grid", grid_cube, perturbed);
+}

@@ -1,0 +1,58 @@
+// The edits announced since the last update: for each point, where it was and where it shall be.
+//
+// Only the difference is kept: a point that goes and comes back to its place is not in it. So a
+// batch has no order, and is judged by where its points end.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "geometry/grid.hpp"
+#include "mesher/mesh.hpp"
+
+namespace mesher::detail {
+
+class Announced {
+ public:
+  using Place = std::optional<Point<2>>;  // nothing: the point is not there
+  struct Edit {
+    FeatureId id{};
+    Place was, to;
+  };
+
+  explicit Announced(const MeshBox<2>& box) : box_(box) {}
+
+  /// The edit of `id`; null if it stays where it was. Valid until the next change.
+  [[nodiscard]] const Edit* find(FeatureId id) const;
+
+  /// `id`, which the last update left at `was`, shall be at `to`. Throws: bad_alloc, and then has
+  /// changed nothing; never to take the last change of `id` back. Cost: O(1).
+  void set(FeatureId id, const Place& was, const Place& to);
+
+  /// A point other than `id` that shall be in the finest cell around `p`, with its place.
+  [[nodiscard]] const Edit* arrival_near(const Point<2>& p, FeatureId id) const;
+
+  /// All edits in Morton order of where the points shall be, those of points that go first.
+  [[nodiscard]] std::vector<Edit> sorted() const;
+
+  /// Points that come, less those that go.
+  [[nodiscard]] std::ptrdiff_t growth() const noexcept { return growth_; }
+  void clear() noexcept;
+
+ private:
+  struct CellHash {
+    std::size_t operator()(const Fixed<2>& cell) const noexcept {
+      return sac::mix(sac::mix(cell[0]) + cell[1]);
+    }
+  };
+  void erase_arrival(const Point<2>& p, FeatureId id) noexcept;
+
+  const MeshBox<2>& box_;
+  std::unordered_map<FeatureId, Edit> edits_;
+  std::unordered_multimap<Fixed<2>, FeatureId, CellHash> arrivals_;  // by the cell of `to`
+  std::ptrdiff_t growth_ = 0;
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,202 @@
+// The facade: announced edits on one side, the state that updates work on at the other.
+#include "mesher/mesher.hpp"
+
+#include <string>
+
+#include "facade/announced.hpp"
+#include "facade/meter.hpp"
+#include "facade/state.hpp"
+#include "input.hpp"
+#include "mesher/predicates.hpp"
+
+namespace mesher {
+
+namespace {
+
+std::string text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
+
+}  // namespace
+
+template <>
+struct Mesher<2>::Impl {
+  explicit Impl(const Options<2>& o)
+      : options(o), state(std::make_unique<detail::State>(o)), box(state->box()), announced(box) {
+    predicates::self_test();
+  }
+
+  [[nodiscard]] detail::Announced::Place place(FeatureId id) const;
+  void require_known(FeatureId id) const;
+  void require_free(FeatureId id, const Point<2>& p) const;
+  void require_apart(const std::vector<detail::Announced::Edit>& edits) const;
+  void insert(FeatureId id, const Point<2>& p);
+  void discard_edits() noexcept;
+  Change<2> run(const RunControl& control);
+  Change<2> update(const RunControl& control);
+
+  Options<2> options;
+  std::unique_ptr<detail::State> state;  // of the last update
+  detail::MeshBox<2> box;
+  detail::Announced announced;
+  bool moved = false;  // a place was taken that was not looked at
+};
+
+// --- Edits -----------------------------------------------------------------------------------
+
+detail::Announced::Place Mesher<2>::Impl::place(FeatureId id) const {
+  const auto* edit = announced.find(id);
+  return edit != nullptr ? edit->to : state->place(id);
+}
+
+void Mesher<2>::Impl::require_known(FeatureId id) const {
+  if (place(id)) return;
+  throw Error(ErrorCode::unknown_id, "point " + text(id) + " is not there", {}, {id});
+}
+
+void Mesher<2>::Impl::require_free(FeatureId id, const Point<2>& p) const {
+  if (const auto* other = announced.arrival_near(p, id)) {
+    detail::fail_too_near(p, id, *other->to, other->id);
+  }
+  const auto there = state->obstacle(p);
+  if (!there || there->id == id || announced.find(there->id) != nullptr) return;
+  detail::fail_too_near(p, id, there->p, there->id);
+}
+
+// The announced places, as they are when all edits are made.
+void Mesher<2>::Impl::require_apart(const std::vector<detail::Announced::Edit>& edits) const {
+  for (const auto& edit : edits) {
+    if (edit.to) require_free(edit.id, *edit.to);
+  }
+}
+
+void Mesher<2>::Impl::insert(FeatureId id, const Point<2>& p) {
+  if (place(id)) {
+    throw Error(ErrorCode::repeated_id, "point " + text(id) + " is there already", {}, {id});
+  }
+  detail::check_point(p, options.domain, id);
+  const auto was = state->place(id);
+  if (!was) require_free(id, p);
+  moved |= was.has_value();
+  announced.set(id, was, Point<2>{p[0] + 0.0, p[1] + 0.0});  // zero has no sign
+}
+
+void Mesher<2>::Impl::discard_edits() noexcept {
+  announced.clear();
+  moved = false;
+}
+
+// --- Updates ---------------------------------------------------------------------------------
+
+Change<2> Mesher<2>::Impl::run(const RunControl& control) {
+  auto edits = announced.sorted();
+  if (moved) require_apart(edits);
+  if (state->ran()) return state->propagate(edits, control);
+  auto fresh = std::make_unique<detail::State>(options);
+  Change<2> change = fresh->first_run(std::move(edits), control);
+  state = std::move(fresh);
+  return change;
+}
+
+Change<2> Mesher<2>::Impl::update(const RunControl& control) {
+  detail::require_unstopped(control);
+  try {
+    Change<2> change = run(control);
+    discard_edits();
+    return change;
+  } catch (const sac::Cancelled&) {
+    detail::fail_cancelled();
+  } catch (...) {
+    discard_edits();
+    throw;
+  }
+}
+
+// --- The facade ------------------------------------------------------------------------------
+
+template <int D>
+Mesher<D>::Mesher(const Options<D>& options) : impl_(std::make_unique<Impl>(options)) {}
+template <int D>
+Mesher<D>::Mesher(Mesher&&) noexcept = default;
+template <int D>
+Mesher<D>& Mesher<D>::operator=(Mesher&&) noexcept = default;
+template <int D>
+Mesher<D>::~Mesher() = default;
+
+template <int D>
+void Mesher<D>::insert(FeatureId id, const Point<D>& point) {
+  impl_->insert(id, point);
+}
+
+template <int D>
+void Mesher<D>::insert(const std::vector<FeatureId>& ids, const std::vector<Point<D>>& points) {
+  SAC_EXPECTS(ids.size() == points.size());
+  std::size_t done = 0;
+  try {
+    for (; done < ids.size(); ++done) impl_->insert(ids[done], points[done]);
+  } catch (...) {
+    while (done-- > 0) impl_->announced.set(ids[done], impl_->state->place(ids[done]), {});
+    throw;
+  }
+}
+
+template <int D>
+void Mesher<D>::remove(FeatureId id) {
+  impl_->require_known(id);
+  impl_->announced.set(id, impl_->state->place(id), {});
+}
+
+template <int D>
+void Mesher<D>::move(FeatureId id, const Point<D>& point) {
+  impl_->require_known(id);
+  detail::check_point(point, impl_->options.domain, id);
+  impl_->moved = true;
+  impl_->announced.set(id, impl_->state->place(id), Point<D>{point[0] + 0.0, point[1] + 0.0});
+}
+
+template <int D>
+void Mesher<D>::discard_edits() noexcept {
+  impl_->discard_edits();
+}
+
+template <int D>
+Change<D> Mesher<D>::update(const RunControl& control) {
+  return impl_->update(control);
+}
+
+template <int D>
+Mesh<D> Mesher<D>::mesh() const {
+  return impl_->state->ran() ? impl_->state->mesh() : Mesh<D>();
+}
+
+template <int D>
+std::size_t Mesher<D>::size() const {
+  return impl_->state->size() + static_cast<std::size_t>(impl_->announced.growth());
+}
+
+template <int D>
+bool Mesher<D>::contains(FeatureId id) const {
+  return impl_->place(id).has_value();
+}
+
+template <int D>
+MeshStats Mesher<D>::stats() const {
+  return impl_->state->stats();
+}
+
+template <int D>
+const Options<D>& Mesher<D>::options() const {
+  return impl_->options;
+}
+
+template <int D>
+const sac::Engine& Mesher<D>::engine() const {
+  return impl_->state->engine();
+}
+
+template <int D>
+void Mesher<D>::check_invariants() const {
+  if (impl_->state->ran()) impl_->state->check_invariants();
+}
+
+template class Mesher<2>;
+
+}  // namespace mesher

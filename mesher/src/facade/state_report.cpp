@@ -1,0 +1,108 @@
+// Reading the mesh out of the program's world, and what an update has changed in it.
+#include <algorithm>
+#include <iterator>
+
+#include "facade/state.hpp"
+#include "mesh/canonical.hpp"
+#include "program/world_impl.hpp"
+
+namespace mesher::detail {
+
+std::array<Point<2>, 3> State::corners(const Triangle& t) const {
+  return smallest_first(std::array{pool()[t[0]].p, pool()[t[1]].p, pool()[t[2]].p});
+}
+
+std::vector<VertexHandle> State::live_vertices() const {
+  std::vector<VertexHandle> all;
+  pool().for_each([&](const Vertex<2>& v) {
+    if (v.alive) all.push_back(v.self);
+  });
+  return all;
+}
+
+std::vector<State::Triangle> State::triangles() const {
+  std::vector<Triangle> all;
+  pool().for_each([&](const Vertex<2>& v) {
+    const auto ring = vertices().ring(v);
+    for_each_own_triangle(pool(), v, ring.handles, ring.size,
+                          [&](const Triangle& t) { all.push_back(t); });
+  });
+  return all;
+}
+
+Mesh<2> State::mesh() const { return canonical(pool(), live_vertices(), triangles()); }
+
+MeshStats State::stats() const {
+  MeshStats s = stats_;
+  s.calls = engine_->live_calls();
+  s.edges = engine_->live_edges();
+  s.trace_bytes = engine_->bytes() + pool().bytes() + vertices().tree().bytes() +
+                  world_->features.tree().bytes();
+  return s;
+}
+
+void State::report_vertices(Change<2>& change) const {
+  for (const VertexHandle h : vertices().log().touched) {
+    const Vertex<2>& v = pool()[h];
+    if (v.alive && !v.committed) change.vertices_added.push_back(v.p);
+    if (!v.alive && v.committed) change.vertices_removed.push_back(v.p);
+  }
+  std::sort(change.vertices_added.begin(), change.vertices_added.end());
+  std::sort(change.vertices_removed.begin(), change.vertices_removed.end());
+}
+
+// Of a place that one point leaves and another takes, the first entry says what it was.
+void State::report_kinds(const std::vector<Touched>& touched, Change<2>& change) const {
+  std::vector<Touched> first = touched;
+  const auto by_handle = [](const auto& a, const auto& b) { return a.handle < b.handle; };
+  const auto same = [](const auto& a, const auto& b) { return a.handle == b.handle; };
+  std::stable_sort(first.begin(), first.end(), by_handle);
+  first.erase(std::unique(first.begin(), first.end(), same), first.end());
+  for (const Touched& t : first) {
+    const Vertex<2>& v = pool()[t.handle];
+    if (!t.committed || !v.alive || v.kind() == t.kind) continue;
+    change.kinds_changed.push_back({v.p, t.kind, v.kind()});
+  }
+  std::sort(change.kinds_changed.begin(), change.kinds_changed.end(),
+            [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
+}
+
+// Triangles of stars that went or came, without those that did both.
+void State::report_stars(Change<2>& change) const {
+  const auto own = [&](const auto& records) {
+    std::vector<Triangle> all;
+    for (const auto& r : records) {
+      for_each_own_triangle(pool(), pool()[r.center], r.ring.data(),
+                            static_cast<int>(r.ring.size()),
+                            [&](const Triangle& t) { all.push_back(smallest_first(t)); });
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const std::vector<Triangle> gone = own(vertices().log().stars_gone);
+  const std::vector<Triangle> come = own(vertices().log().stars_come);
+  const auto report = [&](const auto& these, const auto& those, auto& out) {
+    std::vector<Triangle> rest;
+    std::set_difference(these.begin(), these.end(), those.begin(), those.end(),
+                        std::back_inserter(rest));
+    for (const Triangle& t : rest) out.push_back(corners(t));
+    std::sort(out.begin(), out.end());
+  };
+  report(come, gone, change.simplices_added);
+  report(gone, come, change.simplices_removed);
+}
+
+void State::check_invariants() const {
+  engine_->check_invariants();
+  vertices().check_invariants();
+  SAC_INVARIANT(world_->features.tree().size() == ids_.size());
+  for (const auto& [id, h] : ids_) {
+    const Vertex<2>& v = pool()[h];
+    SAC_INVARIANT(v.alive && v.input && names_[h] == id);
+    SAC_INVARIANT(v.level == world_->features.tree().crowded_level(v));
+  }
+  SAC_INVARIANT(stats_.vertices == live_vertices().size());
+  SAC_INVARIANT(stats_.simplices == triangles().size());
+}
+
+}  // namespace mesher::detail

@@ -1,0 +1,65 @@
+// The exact side of the predicates in space.
+#include <algorithm>
+#include <utility>
+
+#include "geometry/exact_sign.hpp"
+#include "mesher/predicates.hpp"
+
+namespace mesher::predicates::detail {
+
+namespace {
+
+/// The determinant of three rows x, y, z.
+template <std::size_t W>
+FixedInt<3 * W> minor(const FixedInt<W>* a, const FixedInt<W>* b, const FixedInt<W>* c) {
+  return minor(b[0], b[1], c[0], c[1]) * a[2] + minor(c[0], c[1], a[0], a[1]) * b[2] +
+         minor(a[0], a[1], b[0], b[1]) * c[2];
+}
+
+template <std::size_t W>
+int orient3d_sign(const std::array<FixedInt<W>, 9>& d) {
+  return -sign(minor(&d[0], &d[3], &d[6]));
+}
+
+template <std::size_t W>
+int insphere_sign(const std::array<FixedInt<W>, 12>& d) {
+  const FixedInt<W>*a = &d[0], *b = &d[3], *c = &d[6], *e = &d[9];
+  const auto lift = [](const FixedInt<W>* p) { return p[0] * p[0] + p[1] * p[1] + p[2] * p[2]; };
+  const FixedInt<5 * W> even = lift(e) * minor(a, b, c) + lift(b) * minor(c, e, a);
+  return -sign(even - (lift(c) * minor(e, a, b) + lift(a) * minor(b, c, e)));
+}
+
+}  // namespace
+
+int orient3d_exact(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d) {
+  return exact_sign<3, 4>(
+      {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2], d[0], d[1], d[2]},
+      [](const auto& differences) { return orient3d_sign(differences); });
+}
+
+int insphere_exact(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d,
+                   const Point<3>& e) {
+  return exact_sign<3, 5>({a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2], d[0], d[1], d[2],
+                           e[0], e[1], e[2]},
+                          [](const auto& differences) { return insphere_sign(differences); });
+}
+
+/// The first cofactor of a height that is not 0, the greatest point's first. The cofactor of e is
+/// minus the orientation of abcd; two points that are swapped flip the sign, so that of another
+/// point is the orientation with e in its place.
+int cospherical_tie(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d,
+                    const Point<3>& e) {
+  const std::array<const Point<3>*, 5> points{&a, &b, &c, &d, &e};
+  std::array<std::size_t, 5> order{0, 1, 2, 3, 4};
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t i, std::size_t k) { return *points[i] > *points[k]; });
+  for (const std::size_t i : order) {
+    auto rest = points;
+    std::swap(rest[i], rest[4]);
+    const int orientation = orient3d(*rest[0], *rest[1], *rest[2], *rest[3]);
+    if (orientation != 0) return i == 4 ? -orientation : orientation;
+  }
+  return 0;  // all in one plane
+}
+
+}  // namespace mesher::predicates::detail

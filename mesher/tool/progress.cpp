@@ -1,0 +1,65 @@
+// The line of progress.
+#include "progress.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "mesher/edit_script.hpp"
+
+namespace tool {
+namespace {
+
+constexpr double kPatience = 2;     // seconds before the first line
+constexpr double kInterval = 0.25;  // and between lines
+
+const char* name(mesher::Phase phase) {
+  switch (phase) {
+    case mesher::Phase::quadtree:
+      return "quadtree (1 of 3)";
+    case mesher::Phase::steiner:
+      return "Steiner points (2 of 3)";
+    case mesher::Phase::triangulate:
+      return "triangles (3 of 3)";
+    case mesher::Phase::update:
+      return "update";
+  }
+  return "";
+}
+
+std::string text(const mesher::Progress& p) {
+  const std::string what = name(p.phase);
+  if (p.of == 0) return what + ": " + std::to_string(p.done) + " calls";
+  if (p.phase == mesher::Phase::update) {
+    return what + ": " + std::to_string(p.done) + " of " + std::to_string(p.of) + " calls";
+  }
+  return what + ": " + std::to_string(100 * p.done / p.of) + "%";
+}
+
+}  // namespace
+
+Progress::Progress(bool quiet)
+    : enabled_(!quiet && isatty(STDERR_FILENO) != 0), next_(mesher::now() + kPatience) {}
+
+mesher::RunControl Progress::control() {
+  return {.progress =
+              [this](const mesher::Progress& progress) {
+                tick(progress);
+                return !interrupted();
+              },
+          .stop = {}};
+}
+
+void Progress::tick(const mesher::Progress& progress) {
+  if (!enabled_ || mesher::now() < next_) return;
+  std::fprintf(stderr, "\r\033[K%s%s", task_.c_str(), text(progress).c_str());
+  shown_ = true;
+  next_ = mesher::now() + kInterval;
+}
+
+void Progress::erase() {
+  if (shown_) std::fputs("\r\033[K", stderr);
+  shown_ = false;
+}
+
+}  // namespace tool

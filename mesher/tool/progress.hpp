@@ -1,0 +1,56 @@
+// A line on standard error that says how far a command is, for people who wait: only on a terminal,
+// and only once it has taken two seconds. It is erased at the end.
+#pragma once
+
+#include <string>
+
+#include "cancel.hpp"
+#include "mesher/mesher.hpp"
+
+namespace tool {
+
+class Progress {
+ public:
+  explicit Progress(bool quiet);
+  ~Progress() { erase(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// For runs and updates: shows how far they are, and stops them when the user interrupts.
+  [[nodiscard]] mesher::RunControl control();
+
+  /// What the runs are part of, in front of how far they are: "update 7, " say.
+  void set_task(std::string task) { task_ = std::move(task); }
+  /// Makes room for other output.
+  void erase();
+
+ private:
+  void tick(const mesher::Progress& progress);
+
+  bool enabled_;
+  bool shown_ = false;
+  double next_;  // when to show a line
+  std::string task_;
+};
+
+/// A mesher whose updates are watched; the rest of its interface as it is.
+template <class Target>
+class Watched {
+ public:
+  Watched(Target& target, Progress& progress) : target_(target), progress_(progress) {}
+
+  void insert(mesher::FeatureId id, const mesher::Point<2>& p) { target_.insert(id, p); }
+  void remove(mesher::FeatureId id) { target_.remove(id); }
+  void move(mesher::FeatureId id, const mesher::Point<2>& p) { target_.move(id, p); }
+  void discard_edits() { target_.discard_edits(); }
+  mesher::Change<2> update() {
+    const StopPolitely stop;
+    return target_.update(progress_.control());
+  }
+
+ private:
+  Target& target_;
+  Progress& progress_;
+};
+
+}  // namespace tool
