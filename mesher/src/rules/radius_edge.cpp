@@ -59,22 +59,19 @@ void RadiusEdge::for_each_poor(const VoronoiCell& cell, Visit&& visit) const {
   }
 }
 
-// On the bisector of p q, to the left.
+// On the bisector of p q, to the left. Whichever corner of a triangle asks, p -> q is the same: its
+// triangle is on the left. So it is the same point, to the last bit.
 Point<2> RadiusEdge::place(const Poor& poor) const {
-  // The same edge gives the same point whichever way it is met.
-  const bool flip = poor.q < poor.p;
-  const Point<2>& p = flip ? poor.q : poor.p;
-  const Point<2>& q = flip ? poor.p : poor.q;
-  const double h = flip ? -height_ : height_;
-  const double dx = q[0] - p[0];
-  const double dy = q[1] - p[1];
+  const Point<2>& p = poor.p;
+  const double dx = poor.q[0] - p[0];
+  const double dy = poor.q[1] - p[1];
   const Point<2> middle{p[0] + dx / 2, p[1] + dy / 2};
   if (poor.circumcentre.has_value()) {
     const Point<2>& c = *poor.circumcentre;
     const double height = (c[1] - middle[1]) * dx - (c[0] - middle[0]) * dy;
-    if (std::abs(height) < height_ * poor.edge2) return c;
+    if (height < height_ * poor.edge2) return c;
   }
-  return {middle[0] - h * dy, middle[1] + h * dx};
+  return {middle[0] - height_ * dy, middle[1] + height_ * dx};
 }
 
 std::optional<InsertionRule::NewPoint> RadiusEdge::next_point(const VoronoiCell& cell,
