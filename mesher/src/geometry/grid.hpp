@@ -70,9 +70,12 @@ struct MeshBox {
   template <class Visit>
   void for_each_boundary_point(Visit&& visit) const;
 
-  /// No two neighbouring planes of the grid are farther apart.
+  /// Between which neighbouring planes of the grid are apart.
   [[nodiscard]] double longest_boundary_step() const {
     return side * (1.0 / boundary_steps + 1.0 / kBoundaryUnits);
+  }
+  [[nodiscard]] double shortest_boundary_step() const {
+    return side * (1.0 / boundary_steps - 1.0 / kBoundaryUnits);
   }
 
   [[nodiscard]] Fixed<D> fixed(const Point<D>& p) const {

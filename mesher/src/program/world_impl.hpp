@@ -9,11 +9,11 @@
 
 namespace mesher::detail {
 
-// The points of the boundary grid, with their events asked for from the outside. They are completed
-// with the vertices whose nearest neighbours are as far as theirs, a step away.
+// The points of the boundary grid, with their events asked for from the outside: Complete with the
+// vertices whose nearest neighbours are as far as theirs, a step away.
 template <class S>
 void World<S>::add_boundary() {
-  const double step = box.longest_boundary_step();
+  const double step = box.shortest_boundary_step();
   const int b = buckets().bucket(step * step);
   box.for_each_boundary_point([&](const Point<2>& p) {
     const VertexRef<2> v = vertices.add_boundary(p);

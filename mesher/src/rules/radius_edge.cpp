@@ -90,13 +90,16 @@ std::optional<InsertionRule::NewPoint> RadiusEdge::next_point(const VoronoiCell&
   return new_point(cell, point, shortest2);
 }
 
+// A neighbour that the clip hides may be nearer than the visible ones beside it, but not nearer than
+// twice the clip (paper map (f)).
 std::optional<int> RadiusEdge::next_bucket(const VoronoiCell& cell, int b) const {
+  const double hidden = 2 * buckets().clip_radius(b);
   std::optional<int> next;
   bool alone = true;
   for (int i = 0; i < cell.size(); ++i) alone = alone && !cell.real(i);
   if (alone) next = b + 1;
   for_each_poor(cell, [&](const Poor& poor) {
-    const int later = std::max(b + 1, buckets().bucket(poor.edge2));
+    const int later = std::max(b + 1, buckets().bucket(std::min(poor.edge2, hidden * hidden)));
     if (!next.has_value() || later < *next) next = later;
   });
   if (next.has_value() && *next >= buckets().count()) return std::nullopt;

@@ -43,6 +43,7 @@ struct Farthest {
   double read = 0;
   double inserted = 0;
   double input = 0;  // from a new vertex to the input points, in distances to its nearest neighbour
+  int early = 0;     // vertices whose nearest neighbour is in a bucket that is over, or under way
 };
 
 // A rule that is watched.
@@ -64,6 +65,7 @@ class Watched final : public InsertionRule {
       farthest_.inserted =
           std::max(farthest_.inserted, distance(point->p, cell.center().p) / clip);
       note_input(point->p, std::sqrt(point->nearest2));
+      farthest_.early += buckets().bucket(point->nearest2 * (1 + 1e-9)) <= b;
     }
     return point;
   }
@@ -232,6 +234,7 @@ TEST_CASE("Complete reads and inserts no farther away than promised, and stays n
         CHECK(f.read <= kReads * (1 + 1e-6));
         CHECK(f.inserted <= promise.inserts * (1 + 1e-6));
         CHECK(f.input <= promise.input * (1 + 1e-6));
+        if (rule == Rule::radius_edge) CHECK(f.early == 0);
         most = std::max(most, f.inserted);
       }
     }
