@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "mesher/mesh.hpp"
+#include "sac/check.hpp"
 #include "sac/label.hpp"
 
 namespace mesher::detail {
@@ -129,6 +130,7 @@ void MeshBox<D>::for_each_boundary_point(Visit&& visit) const {
 template <int D>
 template <class Visit>
 void MeshBox<D>::for_each_parent_around(const Cell<D>& c, Visit&& visit) {
+  SAC_EXPECTS(c.level > 0);
   constexpr std::uint64_t kEnd = std::uint64_t{1} << kLevels;
   const Cell<D> parent = cell(c.corner, c.level - 1);
   const std::uint64_t size = std::uint64_t{1} << (kLevels - parent.level);

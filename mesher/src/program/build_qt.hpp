@@ -57,8 +57,8 @@ void Locate::operator()(S& s, VertexRef<2> p) const {
   w.post_star(s, p);
 }
 
-// split c into 2^d smaller cells; for every neighbour c' of c (c itself to begin with): if c' has to
-// be made by splitting a larger cell, enqueue that
+// split c into 2^d smaller cells; for every neighbour c' of c (c itself to begin with): if c' has
+// to be made by splitting a larger cell, enqueue that
 template <class S>
 void Split::operator()(S& s, Cell<2> c) const {
   auto& w = s.template environment<World<S>>();

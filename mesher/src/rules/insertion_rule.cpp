@@ -32,8 +32,10 @@ Policy policy_of() {
 
 Policy policy(Rule rule) {
   switch (rule) {
-    case Rule::radius_edge: return policy_of<RadiusEdge>();
-    case Rule::voronoi_aspect: return policy_of<VoronoiAspect>();
+    case Rule::radius_edge:
+      return policy_of<RadiusEdge>();
+    case Rule::voronoi_aspect:
+      return policy_of<VoronoiAspect>();
   }
   throw Error(ErrorCode::bad_option, "there is no such rule");
 }

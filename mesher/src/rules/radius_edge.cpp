@@ -90,8 +90,8 @@ std::optional<InsertionRule::NewPoint> RadiusEdge::next_point(const VoronoiCell&
   return new_point(cell, point, shortest2);
 }
 
-// A neighbour that the clip hides may be nearer than the visible ones beside it, but not nearer than
-// twice the clip (paper map (f)).
+// A neighbour that the clip hides may be nearer than the visible ones beside it, but not nearer
+// than twice the clip (paper map (f)).
 std::optional<int> RadiusEdge::next_bucket(const VoronoiCell& cell, int b) const {
   const double hidden = 2 * buckets().clip_radius(b);
   std::optional<int> next;

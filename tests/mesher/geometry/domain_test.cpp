@@ -170,6 +170,11 @@ TEST_CASE("triangles with all corners on the boundary are as good as the others"
   }
 }
 
+TEST_CASE("a rule that is not there is refused") {
+  CHECK(refusal({.domain = {{0, 0}, {1, 1}}, .rule = static_cast<Rule>(7)}) ==
+        ErrorCode::bad_option);
+}
+
 TEST_CASE("a domain whose box is beyond the predicates' range is refused, one within is meshed") {
   const auto around = [](double x) { return Options<2>{.domain = {{-x, -x}, {x, x}}}; };
   CHECK(refusal(around(1.2e30)) == ErrorCode::bad_option);

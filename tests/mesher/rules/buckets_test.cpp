@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "mesher/generate.hpp"
-#include "rules/insertion_rule.hpp"
 #include "program/world.hpp"
+#include "rules/insertion_rule.hpp"
 
 namespace {
 
@@ -56,7 +56,8 @@ TEST_CASE("buckets grow with length, by one for a factor of rho; clips grow with
   }
 }
 
-TEST_CASE("squares are as large as independence asks for, at every scale, and no larger [Fig 4.9]") {
+TEST_CASE(
+    "squares are as large as independence asks for, at every scale, and no larger [Fig 4.9]") {
   for (const double rho : kBounds) {
     for (const Rule rule : kRules) {
       const MeshBox<2> box = mesh_box(options(rho, rule));

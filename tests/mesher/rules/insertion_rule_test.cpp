@@ -62,8 +62,7 @@ class Watched final : public InsertionRule {
     const double clip = buckets().clip_radius(b);
     farthest_.read = std::max(farthest_.read, 2 * std::sqrt(cell.reach2()) / clip);
     if (point.has_value()) {
-      farthest_.inserted =
-          std::max(farthest_.inserted, distance(point->p, cell.center().p) / clip);
+      farthest_.inserted = std::max(farthest_.inserted, distance(point->p, cell.center().p) / clip);
       note_input(point->p, std::sqrt(point->nearest2));
       farthest_.early += buckets().bucket(point->nearest2 * (1 + 1e-9)) <= b;
     }
@@ -209,7 +208,8 @@ TEST_CASE("an off-centre may be nearly two circumradii of the clip away, and no 
     const double far = 0.999 * kReads * clip;
     for (const double side : {0.0, -0.001 * clip, 0.001 * clip}) {
       const double along = side == 0 ? 0 : far;
-      const Point<2> p{v[0] + along * out[0] - side * out[1], v[1] + along * out[1] + side * out[0]};
+      const Point<2> p{v[0] + along * out[0] - side * out[1],
+                       v[1] + along * out[1] + side * out[0]};
       search.tree().insert(search.pool().create(p));
     }
     auto& cell = search.cut_around(search.pool()[1], clip, [](VertexHandle) { return true; });
@@ -268,9 +268,9 @@ TEST_CASE("an off-centre has the same bits whichever corner of its triangle asks
     }
     std::vector<Point<2>> asked;
     for (int corner = 0; corner < 3; ++corner) {
-      auto& cell = search.cut_around(*all[static_cast<std::size_t>(corner)],
-                                     rule->buckets().clip_radius(b),
-                                     [](VertexHandle) { return true; });
+      auto& cell =
+          search.cut_around(*all[static_cast<std::size_t>(corner)], rule->buckets().clip_radius(b),
+                            [](VertexHandle) { return true; });
       const auto point = rule->next_point(cell, b);
       REQUIRE(point.has_value());
       asked.push_back(point->p);
