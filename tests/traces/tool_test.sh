@@ -158,6 +158,10 @@ row='^\{"n":[0-9]+,"m":[0-9]+,"lg_L_s":[0-9.]+,"lg_L_d":[0-9.]+,"distance":[0-9]
 row+='"executed":[0-9]+,"created":[0-9]+,"discarded":[0-9]+,"work":[0-9]+,"ratio":[0-9.]+,'
 row+='"drift":0\}$'
 [[ $(grep -Ec -- "$row" rows.jsonl) == 6 ]] || fail "rows.jsonl: $(head -1 rows.jsonl)"
+# Edits at every scale, beyond 2^-32 of the domain too.
+"$traces" stability --n 20 --edits 60 --trust --json >deep.jsonl
+checks=$((checks + 1))
+grep -Eq '"lg_L_d":(3[3-9]|4[0-9])' deep.jsonl || fail "no edit is nearer than 2^-33 to a point"
 refuse 2 'error[bad_option]' stability --n 1
 refuse 2 'error[bad_option]' stability --kind circle
 refuse 2 'error[bad_option]' stability --rho 1
