@@ -10,8 +10,8 @@
 //       and lies on the box's boundary; the areas add up to the box's area exactly;
 //   (4) it is Delaunay: no vertex opposite an edge lies inside the circle on its other side;
 //   (5) every point of --input is a vertex with the same coordinates (the sign of 0 aside);
-//   (6) no triangle with a vertex inside the box has circumradius > R times its shortest edge
-//       (R the double nearest to what is written; no bound without --rho).
+//   (6) no triangle has circumradius > R times its shortest edge (R the double nearest to what is
+//       written; no bound without --rho).
 //
 // Prints `ok MESH.node: ...`, or a line for each of the first failures of every kind and then
 // `FAILED MESH.node: ...`. Exit code: 0 all good, 1 some mesh is not, 2 cannot be judged.
@@ -117,11 +117,6 @@ class Judge {
     }
   }
 
-  bool on_box(std::size_t v) const {
-    const Site& s = nodes_.sites[v];
-    return s.x == lo_.x || s.x == hi_.x || s.y == lo_.y || s.y == hi_.y;
-  }
-
   /// Both ends on one side of the box.
   bool on_box(std::size_t u, std::size_t v) const {
     const Site& a = nodes_.sites[u];
@@ -150,7 +145,7 @@ class Judge {
       const auto& [a, b, c] = elements_.triangles[t];
       if (CGAL::orientation(points_[a], points_[b], points_[c]) != CGAL::LEFT_TURN)
         fail("orientation", triangle_name(t));
-      else if (!(on_box(a) && on_box(b) && on_box(c)))
+      else
         check_quality(t);
     }
   }

@@ -75,6 +75,11 @@ sed 's/^5 0.5/5 0.50000000000000011/' square.node >moved.node
 printf '4 3 0\n1 1 2 5\n2 1 5 6\n3 2 3 5\n4 3 4 5\n' >square.ele
 printf '4 3 0\n1 1 2 6\n2 2 5 6\n3 2 3 5\n4 3 4 5\n' >moved.ele
 expect 0 '^ok' square.node square.ele
+
+# All corners of its triangles are on the box: they count, too. Squared radius-edge ratio 1.25.
+expect 0 '^ok' square.node square.ele --rho 1.12
+expect 1 'radius-edge: triangle 1' square.node square.ele --rho 1.11
+
 expect 0 '^ok' square.node moved.ele
 expect 0 '^ok' moved.node moved.ele
 expect 1 'delaunay: vertex' moved.node square.ele

@@ -174,6 +174,10 @@ for row in $(cat rows.jsonl); do  # a mesh's searches are weighed, and none is h
   [[ $row =~ \"heaviest\":([0-9]+) ]]
   ((BASH_REMATCH[1] < 2000)) || fail "a heavy call: $row"
 done
+# Edits at every scale, beyond 2^-32 of the domain too.
+"$traces" stability --n 20 --edits 60 --trust --json >deep.jsonl
+checks=$((checks + 1))
+grep -Eq '"lg_L_d":(3[3-9]|4[0-9])' deep.jsonl || fail "no edit is nearer than 2^-33 to a point"
 refuse 2 'error[bad_option]' stability --n 1
 refuse 2 'error[bad_option]' stability --kind circle
 refuse 2 'error[bad_option]' stability --rho 1

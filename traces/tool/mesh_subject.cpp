@@ -33,6 +33,11 @@ double least_distance2(std::vector<Point<2>> points) {
   return least;
 }
 
+// Points are put next to others at distances from 2^-3 down to 2^-43 of the domain's side: with
+// doubles near 1 there are still 10 bits for where the vertices between them are.
+constexpr int kFirstScale = 3;
+constexpr std::uint64_t kScales = 40;
+
 std::vector<FeatureId> first_ids(std::size_t count) {
   std::vector<FeatureId> ids;
   for (std::size_t i = 1; i <= count; ++i) ids.push_back(FeatureId{static_cast<std::int64_t>(i)});
@@ -79,7 +84,7 @@ Point<2> MeshSubject::somewhere() {
     return p;
   }
   const Point<2> near = points_[random_.below(points_.size())];
-  const double reach = std::ldexp(side(), -3 - static_cast<int>(random_.below(28)));
+  const double reach = std::ldexp(side(), -kFirstScale - static_cast<int>(random_.below(kScales)));
   for (int i = 0; i < 2; ++i) {
     const double offset = reach * (0.5 + random_.unit() / 5);  // their length: 0.7 to 1 of reach
     p[i] = std::clamp(near[i] + (random_.below(2) == 0 ? offset : -offset), lo[i], hi[i]);

@@ -14,7 +14,7 @@ namespace tool {
 
 /// Every edit inserts or removes one point, evenly often. Half of the insertions are anywhere in
 /// the domain; the other half next to a point, at a distance that is as likely to lie between 2^-k
-/// and 2^-k-1 of the domain's side for each k from 3 to 30, so that the spread varies.
+/// and 2^-k-1 of the domain's side for each k from 3 to 42, so that the spread varies.
 ///
 /// Figures, of the larger of the inputs before and after the edit:
 ///   n        points

@@ -10,9 +10,8 @@
 //   (6) euler: vertices - edges + triangles = 1. With (1) to (5) the triangles tile the box;
 //   (7) delaunay: no edge has the opposite corner of one triangle inside the other's circumcircle;
 //   (8) input, if asked: every input point is a vertex, bit for bit;
-//   (9) quality, if asked: no triangle with a corner off the bounding box's sides has a
-//   circumradius
-//       above rho times its shortest edge (by more than a rounding, 10^-9 of it).
+//   (9) quality, if asked: no triangle has a circumradius above rho times its shortest edge (by
+//       more than a rounding, 10^-9 of it).
 #pragma once
 
 #include <optional>
@@ -24,9 +23,9 @@
 
 namespace mesher {
 
-/// The worst triangles of a mesh, over those with at least one vertex off the boundary grid.
+/// The worst triangles of a mesh.
 struct Quality {
-  double min_angle_deg = 0;    ///< NaN if there is no such triangle
+  double min_angle_deg = 0;    ///< NaN if there are no triangles
   double max_radius_edge = 0;  ///< circumradius over shortest edge; NaN likewise
 };
 

@@ -11,7 +11,7 @@
 // Guarantees, after every update():
 //   (1) every input point is a vertex, bit for bit;
 //   (2) the triangulation is Delaunay, ties decided by coordinates alone;
-//   (3) no triangle with a vertex off the boundary grid has circumradius / shortest edge > rho;
+//   (3) no triangle has circumradius / shortest edge > rho;
 //   (4) the mesh is a function of the set of input points and the options alone: not of the order
 //       of edits, the ids, or the machine;
 //   (5) what throws, for whatever reason, leaves the mesh of the last update.

@@ -1,4 +1,5 @@
 // The meshing box around the domain [§4.4].
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -10,17 +11,28 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::bad_option, what); }
 
-void check(const Options<2>& options) {
+template <int D>
+void check(const Options<D>& options) {
   if (!(options.rho > 1.01) || !(options.rho <= 100)) {
     refuse("rho is " + std::to_string(options.rho) + ", it must be above 1.01 and at most 100");
   }
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < D; ++i) {
     const double lo = options.domain.lo[i];
     const double hi = options.domain.hi[i];
     if (!std::isfinite(lo) || !std::isfinite(hi) || !(lo <= hi)) {
       refuse("the domain is empty or not finite");
     }
     if (std::max(std::abs(lo), std::abs(hi)) > 0x1p100) refuse("the domain exceeds 2^100");
+  }
+}
+
+// All vertices are in the box: its coordinates must be in the predicates' range.
+template <int D>
+void check(const MeshBox<D>& box) {
+  for (int i = 0; i < D; ++i) {
+    if (std::max(std::abs(box.lo[i]), std::abs(box.hi(i))) > 0x1p101) {
+      refuse("the box around the domain exceeds 2^101");
+    }
   }
 }
 
@@ -31,36 +43,62 @@ double power_of_two_from(double x) {
   return std::ldexp(1.0, mantissa == 0.5 ? exponent - 1 : exponent);
 }
 
-// Steps along a side so that no vertex ever encroaches the boundary [L 4.4.1]:
-//   l <= (1 - 2 sqrt(d-1) / steps (sqrt(2) / (rho - 1) + 1)) L,   d = 2,
-// with l/L at most 1/4, and 1/32 more for the box being moved to a grid.
-int boundary_steps(double rho) {
-  const double least = 2 * (std::sqrt(2.0) / (rho - 1) + 1) / (1 - 0.25 - 0.03125);
-  int steps = 4;
-  while (steps < least) steps *= 2;
-  return steps;
+template <int D>
+double longest_side(const Box<D>& domain) {
+  double longest = 0;
+  for (int i = 0; i < D; ++i) longest = std::max(longest, domain.hi[i] - domain.lo[i]);
+  return longest;
+}
+
+// The distance from the domain to the nearest side of the box.
+template <int D>
+double distance_to_sides(const Box<D>& domain, const MeshBox<D>& box) {
+  double nearest = box.side;
+  for (int i = 0; i < D; ++i) {
+    nearest = std::min({nearest, domain.lo[i] - box.lo[i], box.hi(i) - domain.hi[i]});
+  }
+  return nearest;
+}
+
+// The fewest steps along a side such that no vertex ever encroaches it [L 4.4.1]. In the ball of a
+// grid element, radius r = sqrt(d - 1) step / 2, a vertex x has NN(x) <= sqrt(2) r, so an input
+// point within C NN(x) (paper map (i)): it must be farther from the side than r (1 + sqrt(2) C).
+template <int D>
+int boundary_steps(const Box<D>& domain, MeshBox<D> box, double c) {
+  const double room = distance_to_sides(domain, box);
+  const auto encroached = [&] {
+    const double r = std::sqrt(D - 1.0) * box.longest_boundary_step() / 2;
+    return r * (1 + std::sqrt(2.0) * c) >= room;
+  };
+  for (box.boundary_steps = 1; encroached();) ++box.boundary_steps;
+  return box.boundary_steps;
 }
 
 }  // namespace
 
-MeshBox<2> mesh_box(const Options<2>& options) {
+template <int D>
+MeshBox<D> mesh_box(const Options<D>& options) {
   check(options);
-  const Box<2>& d = options.domain;
-  const double longest = std::max(d.hi[0] - d.lo[0], d.hi[1] - d.lo[1]);
+  const Box<D>& domain = options.domain;
+  const double longest = longest_side(domain);
   if (!(longest >= 0x1p-100)) refuse("the domain is smaller than 2^-100");
-  MeshBox<2> box;
+  MeshBox<D> box;
   box.side = 4 * power_of_two_from(longest);
-  box.boundary_steps = boundary_steps(options.rho);
-  const double grid = box.side / 64;
-  for (int i = 0; i < 2; ++i) {
-    const double middle = d.lo[i] + (d.hi[i] - d.lo[i]) / 2;
+  const double grid = box.side / 1024;
+  for (int i = 0; i < D; ++i) {
+    const double middle = domain.lo[i] + (domain.hi[i] - domain.lo[i]) / 2;
     const double steps = std::floor((middle - box.side / 2) / grid);
-    if (std::abs(steps) > 0x1p40) {
+    if (std::abs(steps) > 0x1p44) {
       refuse("the domain is too far from the origin for its size");
     }
     box.lo[i] = steps * grid;
   }
+  check(box);
+  box.boundary_steps = boundary_steps(domain, box, promise(options.rule, options.rho).input);
   return box;
 }
+
+template MeshBox<2> mesh_box<2>(const Options<2>&);
+template MeshBox<3> mesh_box<3>(const Options<3>&);
 
 }  // namespace mesher::detail

@@ -5,11 +5,13 @@
 // cell of a point. A cell of level k holds the points that agree in their first k bits.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 
 #include "mesher/mesh.hpp"
+#include "sac/check.hpp"
 #include "sac/label.hpp"
 
 namespace mesher::detail {
@@ -47,10 +49,35 @@ template <int D>
 struct MeshBox {
   Point<D> lo{};
   double side = 1;
-  int boundary_steps = 16;  // grid steps along a side [L 4.4.1]
+  int boundary_steps = 16;  // of the grid on its sides [L 4.4.1]; see boundary_place
 
   [[nodiscard]] double hi(int axis) const { return lo[axis] + side; }
   [[nodiscard]] double cell_side(int level) const { return std::ldexp(side, -level); }
+  [[nodiscard]] bool contains(const Point<D>& p) const {
+    for (int i = 0; i < D; ++i) {
+      if (p[i] < lo[i] || p[i] > hi(i)) return false;
+    }
+    return true;
+  }
+
+  /// The coordinate of the boundary grid's i-th plane across `axis`, 0 <= i <= boundary_steps:
+  /// equally spaced but for rounding to multiples of side / kBoundaryUnits, which makes it exact.
+  static constexpr int kBoundaryUnits = 4096;
+  [[nodiscard]] double boundary_place(int axis, int i) const {
+    const int unit = (2 * i * kBoundaryUnits + boundary_steps) / (2 * boundary_steps);
+    return lo[axis] + unit * (side / kBoundaryUnits);
+  }
+  /// Calls visit(point) for each point of the boundary grid.
+  template <class Visit>
+  void for_each_boundary_point(Visit&& visit) const;
+
+  /// Between which neighbouring planes of the grid are apart.
+  [[nodiscard]] double longest_boundary_step() const {
+    return side * (1.0 / boundary_steps + 1.0 / kBoundaryUnits);
+  }
+  [[nodiscard]] double shortest_boundary_step() const {
+    return side * (1.0 / boundary_steps - 1.0 / kBoundaryUnits);
+  }
 
   [[nodiscard]] Fixed<D> fixed(const Point<D>& p) const {
     constexpr double kSteps = static_cast<double>(std::uint64_t{1} << kLevels);
@@ -76,7 +103,49 @@ struct MeshBox {
     for (int i = 0; i < D; ++i) c.corner[i] = f[i] >> (kLevels - level) << (kLevels - level);
     return c;
   }
+
+  /// Calls visit(cell) for each cell of twice c's side that holds a neighbour of c of c's own side
+  /// (corners touch, too): the parent of c first. Requires: c.level > 0.
+  template <class Visit>
+  static void for_each_parent_around(const Cell<D>& c, Visit&& visit);
 };
+
+template <int D>
+template <class Visit>
+void MeshBox<D>::for_each_boundary_point(Visit&& visit) const {
+  std::array<int, D> at{};
+  for (int axis = 0; axis < D;) {
+    const bool on_boundary =
+        std::any_of(at.begin(), at.end(), [&](int i) { return i == 0 || i == boundary_steps; });
+    Point<D> p;
+    for (int i = 0; i < D; ++i) p[i] = boundary_place(i, at[i]);
+    if (on_boundary) visit(p);
+    for (axis = 0; axis < D && at[axis] == boundary_steps; ++axis) at[axis] = 0;
+    if (axis < D) ++at[axis];
+  }
+}
+
+// Along each axis the neighbours of c lie in c's parent and, on c's side of it, in the next cell of
+// the parent's size.
+template <int D>
+template <class Visit>
+void MeshBox<D>::for_each_parent_around(const Cell<D>& c, Visit&& visit) {
+  SAC_EXPECTS(c.level > 0);
+  constexpr std::uint64_t kEnd = std::uint64_t{1} << kLevels;
+  const Cell<D> parent = cell(c.corner, c.level - 1);
+  const std::uint64_t size = std::uint64_t{1} << (kLevels - parent.level);
+  for (int beside = 0; beside < 1 << D; ++beside) {
+    Cell<D> larger = parent;
+    bool inside = true;
+    for (int i = 0; i < D; ++i) {
+      if ((beside >> i & 1) == 0) continue;
+      const bool upper = c.corner[i] != parent.corner[i];
+      inside = inside && (upper ? parent.corner[i] + size < kEnd : parent.corner[i] != 0);
+      larger.corner[i] = upper ? parent.corner[i] + size : parent.corner[i] - size;
+    }
+    if (inside) visit(larger);
+  }
+}
 
 /// The first 64/D bits of each coordinate, interleaved: Morton order, a canonical order of places.
 template <int D>
@@ -92,6 +161,19 @@ template <>
     return (x | x << 1) & 0x5555555555555555u;
   };
   return spread(f[0] >> (kLevels - 32)) | spread(f[1] >> (kLevels - 32)) << 1;
+}
+
+template <>
+[[nodiscard]] inline std::uint64_t morton<3>(const Fixed<3>& f) {
+  const auto spread = [](std::uint64_t x) {
+    x = (x | x << 32) & 0x001f00000000ffffu;
+    x = (x | x << 16) & 0x001f0000ff0000ffu;
+    x = (x | x << 8) & 0x100f00f00f00f00fu;
+    x = (x | x << 4) & 0x10c30c30c30c30c3u;
+    return (x | x << 2) & 0x1249249249249249u;
+  };
+  return spread(f[0] >> (kLevels - 21)) | spread(f[1] >> (kLevels - 21)) << 1 |
+         spread(f[2] >> (kLevels - 21)) << 2;
 }
 
 }  // namespace mesher::detail

@@ -171,7 +171,6 @@ class Checker {
     double worst = 0;
     for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
       const auto& t = mesh_.simplices[i];
-      if (std::all_of(t.begin(), t.end(), [&](auto v) { return on_box(at(v)); })) continue;
       const double ratio = radius_edge(at(t[0]), at(t[1]), at(t[2]));
       worst = std::max(worst, ratio);
       if (ratio <= *options_.rho * (1 + kRounding)) continue;
@@ -207,9 +206,6 @@ class Checker {
            (both_at(0, box_.hi[0]) && from[1] < to[1]) ||
            (both_at(1, box_.hi[1]) && from[0] > to[0]) ||
            (both_at(0, box_.lo[0]) && from[1] > to[1]);
-  }
-  [[nodiscard]] bool on_box(const Point<2>& p) const {
-    return p[0] == box_.lo[0] || p[0] == box_.hi[0] || p[1] == box_.lo[1] || p[1] == box_.hi[1];
   }
 
   [[nodiscard]] const Point<2>& at(std::size_t v) const { return mesh_.vertices[v]; }

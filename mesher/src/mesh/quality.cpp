@@ -43,8 +43,6 @@ double radius_edge(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
 Quality quality(const Mesh<2>& mesh) {
   Quality worst{std::numeric_limits<double>::infinity(), -1};
   for (const auto& t : mesh.simplices) {
-    const auto on_boundary = [&](auto v) { return mesh.kinds[v] == VertexKind::boundary; };
-    if (std::all_of(t.begin(), t.end(), on_boundary)) continue;
     const Sides s = sides_of(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
     worst.min_angle_deg = std::min(worst.min_angle_deg, min_angle_deg(s));
     worst.max_radius_edge = std::max(worst.max_radius_edge, radius_edge(s));

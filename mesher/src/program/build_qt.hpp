@@ -6,8 +6,8 @@
 //   is lines 10-13 and 20-24 of Fig 4.4 for all cells on p's path. An answer that does not change
 //   re-executes nothing.
 // - Crowding is then a function of the input alone, so the shadows of Fig 4.4 need not be run
-//   between crowded splits: split(c) runs deepest first and asks for the larger neighbours. Equal
-//   posts merge, which does what the reason tags did.
+//   between crowded splits: split(c) runs deepest first and asks for the cells that c and its
+//   neighbours are parts of. Equal posts merge, which does what the reason tags did.
 #pragma once
 
 #include "program/world.hpp"
@@ -57,28 +57,16 @@ void Locate::operator()(S& s, VertexRef<2> p) const {
   w.post_star(s, p);
 }
 
-// split c into 2^d smaller cells; for every neighbour c' of c: if c' is ill-graded, enqueue c'
+// split c into 2^d smaller cells; for every neighbour c' of c (c itself to begin with): if c' has
+// to be made by splitting a larger cell, enqueue that
 template <class S>
 void Split::operator()(S& s, Cell<2> c) const {
   auto& w = s.template environment<World<S>>();
   w.vertices.split(s, c);
   if (c.level == 0) return;
-  // The neighbours of c of its own size are children of its parent and of three of the parent's
-  // neighbours, those on c's side.
-  const std::uint64_t size = std::uint64_t{1} << (kLevels - c.level);
-  const std::uint64_t all = std::uint64_t{1} << kLevels;
-  const Cell<2> parent = MeshBox<2>::cell(c.corner, c.level - 1);
-  for (unsigned n = 0; n < 4; ++n) {
-    Cell<2> larger = parent;
-    bool inside = true;
-    for (unsigned i = 0; i < 2; ++i) {
-      if ((n >> i & 1) == 0) continue;
-      const bool upper = (c.corner[i] & size) != 0;
-      inside = inside && (upper ? larger.corner[i] + 2 * size < all : larger.corner[i] != 0);
-      larger.corner[i] += upper ? 2 * size : -2 * size;
-    }
-    if (inside) w.quadtree.template post<split>(s, split_key(larger), larger);
-  }
+  MeshBox<2>::for_each_parent_around(c, [&](const Cell<2>& larger) {
+    w.quadtree.template post<split>(s, split_key(larger), larger);
+  });
 }
 
 }  // namespace mesher::detail

@@ -30,7 +30,7 @@ inline constexpr ComputeNN compute_nn{};
 }
 template <class S>
 [[nodiscard]] sac::Key complete_key(const World<S>& w, const Fixed<2>& f, int b) {
-  return {.bucket = b, .phase = 1, .colour = w.rule.colour(f, b), .order = morton<2>(f)};
+  return {.bucket = b, .phase = 1, .colour = w.buckets().colour(f, b), .order = morton<2>(f)};
 }
 
 // if w is a ComputeNN event on v: compute the exact nearest neighbour u to v; add Complete(v) with
@@ -39,7 +39,7 @@ template <class S>
 void ComputeNN::operator()(S& s, VertexRef<2> v, int b) const {
   auto& w = s.template environment<World<S>>();
   const double nearest2 = w.vertices.nearest2(s, v);
-  w.post_complete(s, v, std::max(b, w.rule.bucket(nearest2)));
+  w.post_complete(s, v, std::max(b, w.buckets().bucket(nearest2)));
 }
 
 // else if w is a Complete event on v: while there is a gap ball b = B(x, r) to fill: add x to the
@@ -47,15 +47,15 @@ void ComputeNN::operator()(S& s, VertexRef<2> v, int b) const {
 template <class S>
 void Complete::operator()(S& s, VertexRef<2> v, int b) const {
   auto& w = s.template environment<World<S>>();
-  VoronoiCell& gaps = w.vertices.voronoi_cell(s, v, w.rule.clip_radius(b));
-  while (const auto point = w.rule.next_point(gaps, b)) {
+  VoronoiCell& gaps = w.vertices.voronoi_cell(s, v, w.buckets().clip_radius(b));
+  while (const auto point = w.rule->next_point(gaps, b)) {
     const VertexRef<2> x = w.vertices.insert(s, point->p);
     if (!point->farther || !gaps.cuts(x->p)) w.fail_useless(*v, *x);
     gaps.cut(x->self);
-    w.post_complete(s, x, std::max(b + 1, w.rule.bucket(point->nearest2)));
+    w.post_complete(s, x, std::max(b + 1, w.buckets().bucket(point->nearest2)));
     w.post_star(s, x);
   }
-  if (const auto later = w.rule.next_bucket(gaps, b)) w.post_complete(s, v, *later);
+  if (const auto later = w.rule->next_bucket(gaps, b)) w.post_complete(s, v, *later);
 }
 
 }  // namespace mesher::detail

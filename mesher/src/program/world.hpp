@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <type_traits>
 #include <vector>
 
@@ -91,7 +92,7 @@ struct World {
   using Agenda = typename S::AgendaType;
 
   MeshBox<2> box;
-  InsertionRule rule;
+  std::unique_ptr<const InsertionRule> rule;
   VertexIndex<S> vertices;
   Features<S> features;
   Agenda& quadtree;
@@ -103,7 +104,7 @@ struct World {
   template <class Host>
   World(const Options<2>& options, const MeshBox<2>& mesh_box, Host& host)
       : box(mesh_box),
-        rule(options, box),
+        rule(insertion_rule(options, box)),
         vertices(make_vertices(box, host)),
         features(box, vertices.pool(), host),
         quadtree(host.make_agenda("quadtree")),
@@ -113,6 +114,7 @@ struct World {
     add_boundary();
   }
 
+  [[nodiscard]] const Buckets<2>& buckets() const noexcept { return rule->buckets(); }
   void post_nearest(S& s, VertexRef<2> v, int leaf_level);
   void post_complete(S& s, VertexRef<2> v, int b);
   void post_star(S& s, VertexRef<2> v);
@@ -131,7 +133,8 @@ struct World {
 
 /// The box of a mesh: four times the domain's longest side (rounded up to a power of two), with the
 /// boundary grid that [L 4.4.1] asks for. Throws: Error(bad_option).
-[[nodiscard]] MeshBox<2> mesh_box(const Options<2>& options);
+template <int D>
+[[nodiscard]] MeshBox<D> mesh_box(const Options<D>& options);
 
 struct Refine {
   static constexpr std::string_view kName = "refine";

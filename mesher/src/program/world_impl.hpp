@@ -9,18 +9,18 @@
 
 namespace mesher::detail {
 
-// The points of the boundary grid, with their stars asked for from the outside.
+// The points of the boundary grid, with their events asked for from the outside: Complete with the
+// vertices whose nearest neighbours are as far as theirs, a step away.
 template <class S>
 void World<S>::add_boundary() {
-  const int n = box.boundary_steps;
-  const auto add = [&](int i, int j) {
-    const double step = box.side / n;  // a power of two: exact
-    const VertexRef<2> v = vertices.add_boundary({box.lo[0] + i * step, box.lo[1] + j * step});
-    stars.template post_from_outside<star>(star_key(box.fixed(v->p)), v);
-  };
-  for (int i = 0; i <= n; ++i) {
-    for (int j = 0; j <= n; j += i == 0 || i == n ? 1 : n) add(i, j);
-  }
+  const double step = box.shortest_boundary_step();
+  const int b = buckets().bucket(step * step);
+  box.for_each_boundary_point([&](const Point<2>& p) {
+    const VertexRef<2> v = vertices.add_boundary(p);
+    const Fixed<2> f = box.fixed(p);
+    steiner.template post_from_outside<complete>(complete_key(*this, f, b), v, b);
+    stars.template post_from_outside<star>(star_key(f), v);
+  });
 }
 
 // add a ComputeNN(p) event, with key |c| / 2; c is the cell of `leaf_level` around p
@@ -28,7 +28,7 @@ template <class S>
 void World<S>::post_nearest(S& s, VertexRef<2> v, int leaf_level) {
   if constexpr (!S::kTraced) plain.tick();
   const double half = box.cell_side(leaf_level) / 2;
-  const int b = rule.bucket(half * half);
+  const int b = buckets().bucket(half * half);
   steiner.template post<compute_nn>(s, nearest_key(box.fixed(v->p), b), v, b);
 }
 

@@ -113,23 +113,25 @@ TEST_CASE("an input point that is no vertex, to the last bit, is found") {
   CHECK(broken(square(), {.input = &input}) == "input");
 }
 
-TEST_CASE("a triangle above rho is found, but not if all its corners are on the hull") {
+TEST_CASE("a triangle above rho is found, be its corners on the hull or not") {
   Mesh<2> mesh = square();
   CHECK(broken(mesh, {.rho = 1.2}) == "");
   CHECK(broken(mesh, {.rho = 1.02}) == "quality");
   mesh.vertices = {{0, 0}, {0, 1}, {64, 0}, {64, 1}};
   mesh.kinds.assign(4, VertexKind::boundary);
   mesh.simplices = {{0, 2, 1}, {1, 2, 3}};
-  CHECK(broken(mesh, {.rho = 1.02}) == "");
+  CHECK(broken(mesh, {.rho = 33}) == "");
+  CHECK(broken(mesh, {.rho = 31}) == "quality");
 }
 
-TEST_CASE("the worst triangles are over those with a vertex off the boundary grid") {
+TEST_CASE("the worst triangles are over all triangles") {
   const auto quality = mesher::quality(square());
   CHECK(quality.min_angle_deg == Approx(std::atan(0.5) * 180 / 3.14159265358979323846));
   CHECK(quality.max_radius_edge == Approx(2.5 / std::sqrt(5)));
   Mesh<2> outside = square();
   outside.kinds[2] = VertexKind::boundary;
-  CHECK(std::isnan(mesher::quality(outside).min_angle_deg));
+  CHECK(mesher::quality(outside).min_angle_deg == quality.min_angle_deg);
+  CHECK(std::isnan(mesher::quality({}).min_angle_deg));
   CHECK(mesher::radius_edge({0, 0}, {1, 0}, {0, 1}) == Approx(std::sqrt(0.5)));
 }
 

@@ -1,0 +1,109 @@
+// Poor triangles and their off-centres.
+#include "rules/radius_edge.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "rules/plane.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+// The off-centre aims a little lower than the bound, so that rounding it does not make it poor.
+constexpr double kAim = 1 - 0x1p-16;
+
+// The height at which the apex over an edge of length 1 gives a circumradius of rho.
+double offcentre_height(double rho) {
+  const double aim = rho * kAim;
+  return aim + std::sqrt(aim * aim - 0.25);
+}
+
+}  // namespace
+
+// gamma: from an end of an edge to its off-centre.
+// inserts: x is in a ball around a corner, through v, which reads no farther (paper map (f)).
+// input: paper map (i).
+Promise RadiusEdge::promise_for(double rho) {
+  const double height = offcentre_height(rho);
+  return {.gamma = std::sqrt(height * height + 0.25), .inserts = kReads, .input = rho / (rho - 1)};
+}
+
+RadiusEdge::RadiusEdge(const Options<2>& options, const MeshBox<2>& box)
+    : InsertionRule(options, box, promise_for(options.rho)),
+      height_(offcentre_height(options.rho)) {}
+
+// Calls visit(poor) for the shortest edge of every poor triangle of v's star, and for every visible
+// edge beside a hidden corner.
+template <class Visit>
+void RadiusEdge::for_each_poor(const VoronoiCell& cell, Visit&& visit) const {
+  const Point<2>& v = cell.center().p;
+  for (int i = 0; i < cell.size(); ++i) {
+    const int j = cell.next(i);
+    if (!cell.real(i) && !cell.real(j)) continue;
+    const double to_i = squared(cell.neighbour(i));
+    const double to_j = squared(cell.neighbour(j));
+    if (!cell.real(i) || !cell.real(j)) {
+      if (!is_centre(cell, i)) continue;
+      visit(cell.real(i) ? Poor{to_i, v, cell.place(i), std::nullopt}
+                         : Poor{to_j, cell.place(j), v, std::nullopt});
+      continue;
+    }
+    const double across = squared_distance(cell.place(i), cell.place(j));
+    const double shortest = std::min({to_i, to_j, across});
+    if (!exceeds(cell.corner2(i), shortest)) continue;
+    Poor poor{shortest, v, cell.place(i), plus(v, cell.corner(i))};
+    if (shortest != to_i) poor.p = cell.place(j), poor.q = v;
+    if (shortest != to_i && shortest != to_j) poor.p = cell.place(i), poor.q = cell.place(j);
+    visit(poor);
+  }
+}
+
+// On the bisector of p q, to the left. Whichever corner of a triangle asks, p -> q is the same: its
+// triangle is on the left. So it is the same point, to the last bit.
+Point<2> RadiusEdge::place(const Poor& poor) const {
+  const Point<2>& p = poor.p;
+  const double dx = poor.q[0] - p[0];
+  const double dy = poor.q[1] - p[1];
+  const Point<2> middle{p[0] + dx / 2, p[1] + dy / 2};
+  if (poor.circumcentre.has_value()) {
+    const Point<2>& c = *poor.circumcentre;
+    const double height = (c[1] - middle[1]) * dx - (c[0] - middle[0]) * dy;
+    if (height < height_ * poor.edge2) return c;
+  }
+  return {middle[0] - height_ * dy, middle[1] + height_ * dx};
+}
+
+std::optional<InsertionRule::NewPoint> RadiusEdge::next_point(const VoronoiCell& cell,
+                                                              int b) const {
+  double shortest2 = std::numeric_limits<double>::infinity();
+  Point<2> point{};
+  for_each_poor(cell, [&](const Poor& poor) {
+    if (buckets().bucket(poor.edge2) > b || poor.edge2 > shortest2) return;
+    const Point<2> x = place(poor);
+    // Shortest edge first; ties by the place of the new vertex.
+    if (poor.edge2 == shortest2 && point < x) return;
+    shortest2 = poor.edge2;
+    point = x;
+  });
+  if (std::isinf(shortest2)) return std::nullopt;
+  return new_point(cell, point, shortest2);
+}
+
+// A neighbour that the clip hides may be nearer than the visible ones beside it, but not nearer
+// than twice the clip (paper map (f)).
+std::optional<int> RadiusEdge::next_bucket(const VoronoiCell& cell, int b) const {
+  const double hidden = 2 * buckets().clip_radius(b);
+  std::optional<int> next;
+  bool alone = true;
+  for (int i = 0; i < cell.size(); ++i) alone = alone && !cell.real(i);
+  if (alone) next = b + 1;
+  for_each_poor(cell, [&](const Poor& poor) {
+    const int later = std::max(b + 1, buckets().bucket(std::min(poor.edge2, hidden * hidden)));
+    if (!next.has_value() || later < *next) next = later;
+  });
+  if (next.has_value() && *next >= buckets().count()) return std::nullopt;
+  return next;
+}
+
+}  // namespace mesher::detail

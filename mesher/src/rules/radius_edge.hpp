@@ -1,0 +1,39 @@
+// The rule radius_edge: an off-centre [Ungor 2004] for every poor triangle.
+//
+// A corner q_i of v's cell between u_i and u_{i+1} is a triangle; it is poor if its circumradius
+// exceeds rho times its shortest edge. A corner hidden by the clip stands for a triangle on each
+// visible edge beside it, of larger circumradius than any bound of the bucket. The new vertex lies
+// on the bisector of the shortest edge, as high as a circumradius of rho times that edge allows, or
+// at the circumcentre if that is lower. Poor triangles go shortest edge first.
+#pragma once
+
+#include <optional>
+
+#include "rules/insertion_rule.hpp"
+
+namespace mesher::detail {
+
+class RadiusEdge final : public InsertionRule {
+ public:
+  RadiusEdge(const Options<2>& options, const MeshBox<2>& box);
+
+  [[nodiscard]] static Promise promise_for(double rho);
+  [[nodiscard]] std::optional<NewPoint> next_point(const VoronoiCell& cell, int b) const override;
+  [[nodiscard]] std::optional<int> next_bucket(const VoronoiCell& cell, int b) const override;
+
+ private:
+  // An edge p -> q of a poor triangle on its left.
+  struct Poor {
+    double edge2 = 0;
+    Point<2> p;
+    Point<2> q;
+    std::optional<Point<2>> circumcentre;
+  };
+  template <class Visit>
+  void for_each_poor(const VoronoiCell& cell, Visit&& visit) const;
+  [[nodiscard]] Point<2> place(const Poor& poor) const;
+
+  double height_;  // of the off-centre, in units of the edge
+};
+
+}  // namespace mesher::detail

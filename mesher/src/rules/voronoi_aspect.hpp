@@ -1,0 +1,24 @@
+// The rule voronoi_aspect [Def 4.2.3], the paper's: while a corner is beyond rho NN(v), insert the
+// farthest.
+//
+// A corner between neighbours nearer to each other than NN(v) is measured by their distance: they
+// are incomplete by it, and may have had their event.
+#pragma once
+
+#include "rules/insertion_rule.hpp"
+
+namespace mesher::detail {
+
+class VoronoiAspect final : public InsertionRule {
+ public:
+  VoronoiAspect(const Options<2>& options, const MeshBox<2>& box);
+
+  [[nodiscard]] static Promise promise_for(double rho);
+  [[nodiscard]] std::optional<NewPoint> next_point(const VoronoiCell& cell, int b) const override;
+  /// One event a vertex is enough.
+  [[nodiscard]] std::optional<int> next_bucket(const VoronoiCell&, int) const override {
+    return std::nullopt;
+  }
+};
+
+}  // namespace mesher::detail
