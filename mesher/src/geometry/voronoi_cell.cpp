@@ -55,7 +55,7 @@ void VoronoiCell::resize(int n) {
   size_ = n;
   if (ux_.size() >= index(n)) return;
   const std::size_t room = 2 * index(n);
-  for (auto* column : {&ux_, &uy_, &qx_, &qy_, &q2_, &tolerance2_}) {
+  for (auto* column : {&ux_, &uy_, &qx_, &qy_, &q2_, &tolerance2_, &ball2_}) {
     column->resize(room);
   }
   place_.resize(room);
@@ -73,8 +73,66 @@ void VoronoiCell::reset(const Vertex<2>& v, double radius) {
     handle_[i] = 0;
     clip_[i] = static_cast<std::uint8_t>(i);
   }
-  for (int i = 0; i < kClips; ++i) set_corner(i);
+  for (int i = 0; i < kClips; ++i) {
+    set_corner(i);
+    ball2_[index(i)] = q2_[index(i)];
+  }
   update_reach();
+}
+
+// The next neighbour of a cell under restoration. Whether the corner before it is open is kept in
+// that corner's place until close_ring.
+void VoronoiCell::append(const VertexPool<2>& pool, double radius, Code code, bool after_gap) {
+  const std::size_t i = index(size_);
+  resize(size_ + 1);
+  const bool is_virtual = code >= kVirtual;
+  place_[i] = is_virtual ? clip_place(v_->p, radius, code & 0xff) : pool[code].p;
+  ux_[i] = place_[i][0] - v_->p[0];
+  uy_[i] = place_[i][1] - v_->p[1];
+  handle_[i] = is_virtual ? 0 : code;
+  clip_[i] = static_cast<std::uint8_t>(is_virtual ? code & 0xff : 0);
+  ball2_[i] = -1;
+  if (i > 0 && after_gap) ball2_[i - 1] = 0;
+  if (i == 0) starts_after_gap_ = after_gap;
+}
+
+// Former neighbours stay neighbours, in the same order, when others go; what is left to do are the
+// corners. They are one polygon if each two successive neighbours turn clearly to the left.
+bool VoronoiCell::close_ring(bool after_gap) {
+  if (size_ < 3) return false;
+  if (after_gap || starts_after_gap_) ball2_[index(size_ - 1)] = 0;
+  for (int i = 0; i < size_; ++i) {
+    const std::size_t a = index(i);
+    const std::size_t b = index(next(i));
+    const double cross = ux_[a] * uy_[b] - uy_[a] * ux_[b];
+    const double lengths2 = (ux_[a] * ux_[a] + uy_[a] * uy_[a]) * (ux_[b] * ux_[b] + uy_[b] * uy_[b]);
+    const bool open = ball2_[a] == 0;
+    if (open && !(cross > 0 && cross * cross > 0x1p-20 * lengths2)) return false;
+    set_corner(i);
+    ball2_[a] = open ? q2_[a] : -1;
+  }
+  update_reach();
+  return true;
+}
+
+// Virtual neighbours that others had hidden come back where these went. They are 2 radius away: no
+// corner nearer than that is theirs.
+void VoronoiCell::cut_by_clip(double radius) {
+  if (open2_ < radius * radius * (1 - 0x1p-20)) return;
+  for (std::size_t i = 0; i < kClips; ++i) {
+    if (!find_cut(clip_place(v_->p, radius, i))) continue;
+    if (replaces_ < 0) cut(kVirtual | static_cast<Code>(i));
+  }
+}
+
+double VoronoiCell::reach2_inside(const Point<2>& outward) const noexcept {
+  double most = 0;
+  for (int i = 0; i < size_; ++i) {
+    const Point<2> q = corner(i);
+    const bool beyond = q[0] * outward[0] > 0 || q[1] * outward[1] > 0;
+    if (!beyond || (real(i) && real(next(i)))) most = std::max(most, corner2(i));
+  }
+  return most * (1 + 0x1p-30);
 }
 
 void VoronoiCell::set_corner(int i) {
@@ -89,12 +147,15 @@ void VoronoiCell::set_corner(int i) {
 
 void VoronoiCell::update_reach() {
   reach2_ = 0;
+  open2_ = 0;
   double tolerance2 = 0;
   for (std::size_t i = 0; i < index(size_); ++i) {
     reach2_ = std::max(reach2_, q2_[i]);
+    open2_ = std::max(open2_, ball2_[i]);
     tolerance2 = std::max(tolerance2, tolerance2_[i]);
   }
   reach2_ *= 1 + 0x1p-30;  // so that rounding never leaves out a vertex that cuts
+  open2_ *= 1 + 0x1p-30;
   error_ = std::sqrt(tolerance2 * reach2_) * 1.01;  // half of 2 w.q's error, for any w in reach
 }
 
@@ -155,7 +216,7 @@ bool VoronoiCell::find_cut(const Point<2>& w) {
   return true;
 }
 
-void VoronoiCell::cut(VertexHandle w) {
+void VoronoiCell::cut(Code w) {
   if (replaces_ >= 0) {
     handle_[index(replaces_)] = w;
     return;
@@ -174,6 +235,7 @@ void VoronoiCell::move_entries(int from, int to, int n) {
     qy_[b] = qy_[a];
     q2_[b] = q2_[a];
     tolerance2_[b] = tolerance2_[a];
+    ball2_[b] = ball2_[a];
     place_[b] = place_[a];
     handle_[b] = handle_[a];
     clip_[b] = clip_[a];
@@ -186,10 +248,13 @@ void VoronoiCell::move_entries(int from, int to, int n) {
 }
 
 // Corners first .. first + count - 1 go, and with them the neighbours between; w comes instead.
-void VoronoiCell::insert_neighbour(int first, int count, VertexHandle w) {
+void VoronoiCell::insert_neighbour(int first, int count, Code w) {
   const int before = first;                   // u_first stays
   const int after = (first + count) % size_;  // u_{first+count} stays
   const int old_size = size_;
+  const auto open = [&](int i) { return ball2_[index(i % old_size)] >= 0; };
+  const bool left_open = open(first + old_size - 1) || open(first);
+  const bool right_open = open(first + count - 1) || open(first + count);
   const int fresh_size = size_ - count + 2;  // count - 1 neighbours go, one comes
   int at;                                    // where w goes
   resize(std::max(fresh_size, old_size));
@@ -206,14 +271,17 @@ void VoronoiCell::insert_neighbour(int first, int count, VertexHandle w) {
   ux_[k] = wx_;
   uy_[k] = wy_;
   place_[k] = w_;
-  handle_[k] = w;
-  clip_[k] = 0;
-  set_corner(at == 0 ? size_ - 1 : at - 1);
+  handle_[k] = w >= kVirtual ? 0 : w;
+  clip_[k] = static_cast<std::uint8_t>(w >= kVirtual ? w & 0xff : 0);
+  const int left = at == 0 ? size_ - 1 : at - 1;
+  set_corner(left);
   set_corner(at);
+  ball2_[index(left)] = left_open ? q2_[index(left)] : -1;
+  ball2_[k] = right_open ? q2_[k] : -1;
 }
 
 bool VoronoiCell::may_cut(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
-                          const std::uint32_t* handles, int m, const Point<2>& p) {
+                          const Code* handles, int m, const Point<2>& p) {
   const double wx = p[0] - v.p[0];
   const double wy = p[1] - v.p[1];
   const double w2 = wx * wx + wy * wy;

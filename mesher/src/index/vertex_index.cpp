@@ -86,22 +86,51 @@ void Index::choose_birth(Vertex<2>& v) {
 
 // Observations later than v's birth (and not later than `before`, who could see v already) that
 // have a gap ball around v.
+double Index::concern(const VoronoiCell& cell) const {
+  const Vertex<2>& v = cell.center();
+  if (!v.boundary) return 2 * std::sqrt(cell.reach2());
+  Point<2> outward;
+  for (int i = 0; i < 2; ++i) {
+    outward[i] = v.p[i] == box_.lo[i] ? -1 : v.p[i] == box_.hi(i) ? 1 : 0;
+  }
+  return 2 * std::sqrt(cell.reach2_inside(outward));
+}
+
+template <class Seen>
+VoronoiCell& Index::cell_around(sac::Scope& s, std::uint8_t kind, const Vertex<2>& v, double radius,
+                                Seen&& seen) {
+  const sac::Handle self = engine_.handle_of(s.self());
+  for (sac::Handle h = v.queries; h != 0; h = query(h).next_query) {
+    const QueryEdge& q = query(h);
+    if (q.kind != kind || q.call != self || q.radius != packed(radius)) continue;
+    if (!cell_.restore(pool_, v, radius, q.codes(), static_cast<int>(q.count), seen)) break;
+    for (std::uint32_t n = q.news; n != 0; n = news_[n].next) {
+      const VertexHandle w = news_[n].vertex;
+      if (seen(w) && cell_.cuts(pool_[w].p)) cell_.cut(w);
+    }
+    return cell_.open2() > 0 ? fill_open(v, seen) : cell_;
+  }
+  return cut_around(v, radius, seen);
+}
+
 void Index::appeared(const Vertex<2>& v, const sac::Call* before) {
   const sac::Call& birth = engine_.call(v.birth);
   tree_.visit_reaching(v.p, [&](Vertex<2>& center) {
     if (center.self == v.self) return;
     const double d2 = distance2(center.p, v.p);
     for (sac::Handle h = center.queries; h != 0; h = query(h).next_query) {
-      const QueryEdge& q = query(h);
+      QueryEdge& q = query(h);
       const double reach = unpacked(q.reach);
       if (d2 > reach * reach) continue;
       sac::Call& call = engine_.call(q.call);
-      if (call.has(sac::Call::kInvalid) || !engine_.precedes(birth, call)) continue;
+      if (!engine_.precedes(birth, call)) continue;
       if (before != nullptr && engine_.precedes(*before, call)) continue;
-      if (q.kind == kNearest ||
+      if (call.has(sac::Call::kInvalid) || q.kind == kNearest ||
           VoronoiCell::may_cut(pool_, center, unpacked(q.radius), q.codes(),
                                static_cast<int>(q.count), v.p)) {
-        engine_.invalidate(call, &q);
+        news_.push_back({v.self, q.news});
+        q.news = static_cast<std::uint32_t>(news_.size() - 1);
+        if (!call.has(sac::Call::kInvalid)) engine_.invalidate(call, &q);
       }
     }
   });
@@ -110,10 +139,13 @@ void Index::appeared(const Vertex<2>& v, const sac::Call* before) {
 // Observations later than `from` (and not later than `before`, who see v still) bounded by v.
 void Index::vanished(const Vertex<2>& v, const sac::Call& from, const sac::Call* before) {
   tree_.visit_reaching(v.p, [&](Vertex<2>& center) {
+    const double d2 = distance2(center.p, v.p);
     for (sac::Handle h = center.queries; h != 0; h = query(h).next_query) {
       const QueryEdge& q = query(h);
+      const double reach = unpacked(q.reach);
+      if (d2 > reach * reach) continue;
       const std::uint32_t* end = q.codes() + q.count;
-      if (std::find(q.codes(), end, v.self) == end) continue;
+        if (std::find(q.codes(), end, v.self) == end) continue;
       sac::Call& call = engine_.call(q.call);
       if (!engine_.precedes(from, call)) continue;
       if (before != nullptr && engine_.precedes(*before, call)) continue;
@@ -126,11 +158,11 @@ void Index::vanished(const Vertex<2>& v, const sac::Call& from, const sac::Call*
 
 VoronoiCell& Index::voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius) {
   const sac::Call& self = s.self();
-  VoronoiCell& cell =
-      cut_around(*v, radius, [&](VertexHandle u) { return born_before(pool_[u], self); });
+  VoronoiCell& cell = cell_around(
+      s, kCell, *v, radius, [&](VertexHandle u) { return born_before(pool_[u], self); });
   codes_.clear();
   for (int i = 0; i < cell.size(); ++i) codes_.push_back(cell.code(i));
-  record(s, kCell, *v, packed(2 * std::sqrt(cell.reach2())), packed(radius));
+  record(s, kCell, *v, packed(concern(cell)), packed(radius));
   return cell;
 }
 
@@ -143,10 +175,10 @@ double Index::nearest2(sac::Scope& s, VertexRef<2> v) {
 }
 
 VoronoiCell& Index::star(sac::Scope& s, VertexRef<2> v) {
-  VoronoiCell& cell = cut_around(*v, whole(), [&](VertexHandle u) { return pool_[u].alive; });
+  VoronoiCell& cell = cell_around(s, kStar, *v, whole(), [&](VertexHandle u) { return pool_[u].alive; });
   codes_.clear();
   for (int i = 0; i < cell.size(); ++i) codes_.push_back(cell.code(i));
-  record(s, kStar, *v, packed(2 * std::sqrt(cell.reach2())), packed(whole()));
+  record(s, kStar, *v, packed(concern(cell)), packed(whole()));
   return cell;
 }
 
@@ -161,9 +193,13 @@ void Index::record(sac::Scope& s, std::uint8_t kind, Vertex<2>& v, float reach, 
     return q.center == v.self && q.reach == reach && q.radius == radius && q.count == count &&
            std::equal(codes_.begin(), codes_.end(), q.codes());
   };
-  if (s.recall<QueryEdge>(id_, kind, same) != nullptr) return;
+  if (auto* q = s.recall<QueryEdge>(id_, kind, same)) {
+    q->news = 0;
+    return;
+  }
   auto& q = s.observe<QueryEdge>(id_, kind, count * sizeof(std::uint32_t));
   q.center = v.self;
+  q.news = 0;
   q.call = engine_.handle_of(s.self());
   q.reach = reach;
   q.radius = radius;
@@ -286,6 +322,7 @@ void Index::commit() {
     pool_.release(v);
   }
   log_ = {};
+  news_.resize(1);
 }
 
 void Index::check_invariants() const {

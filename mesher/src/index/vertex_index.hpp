@@ -74,7 +74,11 @@ class VertexSearch {
   template <class Seen>
   VoronoiCell& cut_around(const Vertex<2>& v, double radius, Seen&& seen) {
     cell_.reset(v, radius);
-    const auto reach = [&] { return 2 * std::sqrt(cell_.reach2()); };
+    return fill_open(v, seen);
+  }
+  template <class Seen>
+  VoronoiCell& fill_open(const Vertex<2>& v, Seen&& seen) {
+    const auto reach = [&] { return 2 * std::sqrt(cell_.open2()); };
     const auto enters = [&](const Point<2>& corner, double side) {
       return cell_.enters(corner, side, tree_.margin());
     };
@@ -207,6 +211,7 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
     sac::Handle call;
     sac::Handle next_query;
     float reach;     // no farther vertex concerns it
+    std::uint32_t news;
     float radius;    // the clip
     std::uint32_t count;
 
@@ -241,6 +246,15 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   sac::Engine& engine_;
   std::uint8_t id_;
   bool logging_ = false;
+  struct News {
+    VertexHandle vertex;
+    std::uint32_t next;
+  };
+  std::vector<News> news_{1};
+  template <class Seen>
+  VoronoiCell& cell_around(sac::Scope& s, std::uint8_t kind, const Vertex<2>& v, double radius,
+                           Seen&& seen);
+  double concern(const VoronoiCell& cell) const;
   std::vector<std::uint32_t> codes_;  // neighbours of the observation being recorded
   Log log_;
 };
