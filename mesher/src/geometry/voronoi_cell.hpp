@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mesher/mesh.hpp"
@@ -37,19 +38,30 @@ class VoronoiCell {
 
   /// A neighbour as it is written down: a handle, or a virtual one.
   using Code = std::uint32_t;
-  /// The cell of v among those of its m former neighbours, counterclockwise, for which left(handle)
-  /// (virtual ones are). Returns false if they do not surround v: the cell is then the clip.
+  /// The cell of v among those of its former neighbours, counterclockwise, for which left(code).
+  /// `repair`: they are all of v's neighbours that are left, so corners between those that were
+  /// next to each other are closed; else all are open. Returns false if they do not surround v: the
+  /// cell is then the clip. Requires: radius > 0; virtual ones that are left are of this radius.
   template <class Left>
   [[nodiscard]] bool restore(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
-                             const Code* codes, int m, Left&& left);
+                             std::span<const Code> codes, Left&& left, bool repair);
 
   /// Whether w might cut an open corner, by distance: |w - v|^2 <= 4 |q|^2.
   [[nodiscard]] bool in_reach(double distance2) const noexcept { return distance2 <= 4 * open2_; }
 
   /// Whether w is nearer than v to some corner; of a virtual neighbour's place: whether it takes
   /// it.
-  [[nodiscard]] bool cuts(const Point<2>& w) { return find_cut(w); }
-  /// Cuts the cell by the vertex w. Requires: the last call was cuts(its place), and it said true.
+  [[nodiscard]] bool cuts(const Point<2>& w) {
+    aim(w);
+    return !is_clear(largest_projection()) && find_cut();
+  }
+  /// The same for a w that is known not to take closed corners only.
+  [[nodiscard]] bool cuts_open(const Point<2>& w) {
+    aim(w);
+    return !is_clear(largest_open_projection()) && find_cut();
+  }
+  /// Cuts the cell by the vertex w. Requires: the last call was cuts(its place) or cuts_open, and it
+  /// said true.
   void cut(Code w);
 
   /// Whether the gap ball of an open corner reaches into the square [corner, corner + side]^2, relative to v, widened
@@ -77,9 +89,12 @@ class VoronoiCell {
   [[nodiscard]] const Vertex<2>& center() const noexcept { return *v_; }
 
   /// Whether a vertex at `p` would cut the cell of v with these neighbours, erring towards yes.
-  /// `handles`: m neighbours counterclockwise, virtual ones coded by clip_code.
+  /// `codes`: all its neighbours, counterclockwise.
   [[nodiscard]] static bool may_cut(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
-                                    const Code* handles, int m, const Point<2>& p);
+                                    std::span<const Code> codes, const Point<2>& p);
+
+  /// Throws InvariantError unless the corners are those of the neighbours and surround v.
+  void check_invariants() const;
 
   /// How a virtual neighbour is written where a handle is stored.
   static constexpr Code kVirtual = 0xffffff00u;
@@ -89,11 +104,16 @@ class VoronoiCell {
 
  private:
   static std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
+  void aim(const Point<2>& w) noexcept;
+  [[nodiscard]] bool is_clear(double projection) const noexcept {
+    return projection < (wx_ * wx_ + wy_ * wy_) / 2 - error_;
+  }
   [[nodiscard]] double largest_projection() const noexcept;
-  void append(const VertexPool<2>& pool, double radius, Code code, bool after_gap);
-  [[nodiscard]] bool close_ring(bool after_gap);
+  [[nodiscard]] double largest_open_projection() const noexcept;
+  void append(const VertexPool<2>& pool, double radius, Code code, bool open_before);
+  [[nodiscard]] bool close_ring();
   void cut_by_clip(double radius);
-  bool find_cut(const Point<2>& w);
+  bool find_cut();
   bool exactly_nearer(int i, const Point<2>& w);
   void set_corner(int i);
   void move_entries(int from, int to, int n);
@@ -112,10 +132,11 @@ class VoronoiCell {
   double wy_ = 0;
   int run_first_ = 0;
   int run_count_ = 0;
-  bool starts_after_gap_ = false;
   int replaces_ = -1;  // a virtual neighbour at the candidate's very place
   std::vector<double> ux_, uy_, qx_, qy_, q2_, tolerance2_;
-  std::vector<double> ball2_;  // q2_ of an open corner, -1 of a closed one
+  std::vector<std::uint8_t> is_open_;
+  std::vector<std::uint16_t> open_;  // the open corners
+  int open_count_ = 0;
   std::vector<Point<2>> place_;
   std::vector<VertexHandle> handle_;
   std::vector<std::uint8_t> clip_;
@@ -129,27 +150,28 @@ inline bool VoronoiCell::enters(const Point<2>& corner, double side, double marg
   if (x0 <= 0 && y0 <= 0 && x1 >= 0 && y1 >= 0) return true;  // v itself
   const double* qx = qx_.data();
   const double* qy = qy_.data();
-  const double* ball2 = ball2_.data();
-  for (int i = 0; i < size_; ++i) {
+  const double* q2 = q2_.data();
+  for (int k = 0; k < open_count_; ++k) {
+    const std::size_t i = open_[index(k)];
     const double dx = std::max(std::max(x0 - qx[i], qx[i] - x1), 0.0);
     const double dy = std::max(std::max(y0 - qy[i], qy[i] - y1), 0.0);
-    if (dx * dx + dy * dy <= ball2[i] * (1 + 0x1p-30)) return true;
+    if (dx * dx + dy * dy <= q2[i] * (1 + 0x1p-30)) return true;
   }
   return false;
 }
 
 template <class Left>
 bool VoronoiCell::restore(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
-                          const Code* codes, int m, Left&& left) {
+                          std::span<const Code> codes, Left&& left, bool repair) {
   v_ = &v;
   size_ = 0;
-  bool gap = false;
-  for (int i = 0; i < m; ++i) {
-    const bool stays = codes[i] >= kVirtual || left(codes[i]);
-    if (stays) append(pool, radius, codes[i], gap);
+  bool gap = !codes.empty() && !left(codes.back());
+  for (const Code code : codes) {
+    const bool stays = left(code);
+    if (stays) append(pool, radius, code, gap || !repair);
     gap = !stays;
   }
-  if (!close_ring(gap)) {
+  if (!close_ring()) {
     reset(v, radius);
     return false;
   }

@@ -185,8 +185,8 @@ TEST_CASE("a new vertex that cuts is in reach, in an entered square, and may_cut
     for (const auto* w : scene.others) scene.cut_by(cell, *w);
     std::vector<std::uint32_t> codes;
     for (int k = 0; k < cell.size(); ++k) codes.push_back(cell.code(k));
-    const bool may = VoronoiCell::may_cut(scene.pool, *scene.v, scene.radius, codes.data(),
-                                          cell.size(), fresh->p);
+    const bool may =
+        VoronoiCell::may_cut(scene.pool, *scene.v, scene.radius, codes, fresh->p);
     const double x = fresh->p[0] - scene.v->p[0], y = fresh->p[1] - scene.v->p[1];
     const double side = std::ldexp(scene.radius, -static_cast<int>(random.below(20)));
     const Point<2> corner{x - side * random.unit(), y - side * random.unit()};

@@ -105,8 +105,9 @@ TEST_CASE("a new point's nearest vertex is rho lengths away, and what the rule s
       nearest2 = std::min(nearest2, d * d);
     }
     const int b = rule.bucket(nearest2);
-    auto& cell = search.cut_around(*all[0], rule.clip_radius(b), [](VertexHandle) { return true; });
-    const auto point = rule.next_point(cell, b);
+    const auto cell =
+        search.cut_around(*all[0], rule.clip_radius(b), [](VertexHandle) { return true; });
+    const auto point = rule.next_point(*cell, b);
     if (!point.has_value()) continue;
     ++found;
     double shortest = 16, to_nearest = 16;
