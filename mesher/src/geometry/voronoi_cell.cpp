@@ -160,6 +160,25 @@ void VoronoiCell::update_reach() {
   error_ = std::sqrt(tolerance2 * reach2_) * 1.01;  // half of 2 w.q's error, for any w in reach
 }
 
+bool VoronoiCell::surrounded() const noexcept {
+  for (int k = 0; k < open_count_; ++k) {
+    const int i = open_[index(k)];
+    if (!real(i) || !real(next(i))) return false;
+  }
+  return true;
+}
+
+VoronoiCell::Extent VoronoiCell::open_extent() const noexcept {
+  Extent box{{0, 0}, {0, 0}};
+  for (int k = 0; k < open_count_; ++k) {
+    const std::size_t i = open_[index(k)];
+    const double r = std::sqrt(q2_[i]) * (1 + 0x1p-30);
+    box.lo = {std::min(box.lo[0], qx_[i] - r), std::min(box.lo[1], qy_[i] - r)};
+    box.hi = {std::max(box.hi[0], qx_[i] + r), std::max(box.hi[1], qy_[i] + r)};
+  }
+  return box;
+}
+
 bool VoronoiCell::exactly_nearer(int i, const Point<2>& w) {
   const int j = next(i);
   for (const int k : {i, j}) {
@@ -312,6 +331,8 @@ bool VoronoiCell::may_cut(const VertexPool<2>& pool, const Vertex<2>& v, double 
     const double error = 0x1p-50 * (std::abs(x) + std::abs(y));
     return {x - y >= -error, x - y <= error};
   };
+  // Clearly between two directions it is between no others.
+  const auto clear = [](const Side& side) { return side.left != side.right; };
   Point<2> a = neighbour(codes.back());
   Side beside_a = side_of(a);
   for (const Code code : codes) {
@@ -321,6 +342,7 @@ bool VoronoiCell::may_cut(const VertexPool<2>& pool, const Vertex<2>& v, double 
       const Corner q = circumcentre(a[0], a[1], b[0], b[1]);
       const double value = 2 * (w[0] * q.x + w[1] * q.y) - w2;
       if (value >= 0 || !(value * value > q.tolerance2 * w2)) return true;
+      if (clear(beside_a) && clear(beside_b)) return false;
     }
     a = b;
     beside_a = beside_b;

@@ -83,7 +83,14 @@ class VoronoiCell {
   [[nodiscard]] double reach2() const noexcept { return reach2_; }
   /// The same over the open corners; 0: there is none.
   [[nodiscard]] double open2() const noexcept { return open2_; }
-  /// The same over the corners that are next to a real neighbour on both sides, or on the inner
+  /// Whether no open corner is next to a virtual neighbour.
+  [[nodiscard]] bool surrounded() const noexcept;
+  struct Extent {
+    Point<2> lo, hi;
+  };
+  /// A box around the gap balls of the open corners, relative to v.
+  [[nodiscard]] Extent open_extent() const noexcept;
+  /// max |q_i|^2 over the corners that are next to a real neighbour on both sides, or on the inner
   /// side of the lines through v with these outer normals (entries -1, 0, 1; 0: no line).
   [[nodiscard]] double reach2_inside(const Point<2>& outward) const noexcept;
   [[nodiscard]] const Vertex<2>& center() const noexcept { return *v_; }

@@ -10,6 +10,7 @@
 // again. Then it must know which vertices came since: those are noted with it, its *arrivals*.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -77,13 +78,19 @@ class Observers {
   /// visit must not throw. Cost: O(depth of the tree) and what it visits.
   template <class Visit>
   void for_each_reaching(const Point<2>& p, double side, Visit&& visit) noexcept {
+    // Memory is asked for the observations of several centres before the first is looked at.
+    std::array<Met, 32> met;
+    std::size_t count = 0;
+    const auto look = [&] {
+      for (std::size_t i = 0; i < count; ++i) visit_at(met[i], side, visit);
+      count = 0;
+    };
     tree_.visit_reaching(p, [&](Vertex<2>& center, double distance2) {
-      for (sac::Handle h = center.queries; h != 0; h = at(h).next) {
-        Observation& o = at(h);
-        const double reach = double{o.reach} * side;
-        if (distance2 <= reach * reach) visit(center, o);
-      }
+      if (count == met.size()) look();
+      __builtin_prefetch(engine_.arena().at<Observation>(center.queries));
+      met[count++] = {&center, distance2};
     });
+    look();
   }
 
   /// What it saw: codes counterclockwise, or one.
@@ -109,6 +116,19 @@ class Observers {
   void check_invariants(const Vertex<2>& v) const;
 
  private:
+  struct Met {
+    Vertex<2>* center;
+    double distance2;
+  };
+  template <class Visit>
+  void visit_at(const Met& met, double side, Visit& visit) noexcept {
+    for (sac::Handle h = met.center->queries; h != 0; h = at(h).next) {
+      Observation& o = at(h);
+      const double reach = double{o.reach} * side;
+      if (met.distance2 <= reach * reach) visit(*met.center, o);
+    }
+  }
+
   struct Arrival {
     VertexHandle vertex = 0;
     std::uint32_t next = 0;

@@ -9,16 +9,46 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <new>
 #include <utility>
 #include <vector>
 
 #include "geometry/grid.hpp"
 #include "sac/check.hpp"
+#include "sac/internal/huge_pages.hpp"
 #include "index/vertex.hpp"
 
 namespace mesher::detail {
+
+/// Memory from the start of a cache line: what is aligned in it lies in as few lines as it can. Large
+/// blocks are on huge pages, since searches read them at random places.
+template <class T>
+struct LineAllocator {
+  using value_type = T;
+  static constexpr std::size_t kHuge = std::size_t{2} << 20;
+
+  LineAllocator() = default;
+  template <class U>
+  explicit LineAllocator(const LineAllocator<U>&) noexcept {}
+  [[nodiscard]] T* allocate(std::size_t n) {
+    const std::size_t bytes = n * sizeof(T);
+    void* const block = ::operator new(bytes, alignment(bytes));
+    if (bytes >= 2 * kHuge) sac::advise_huge_pages(block, bytes);
+    return static_cast<T*>(block);
+  }
+  void deallocate(T* block, std::size_t n) noexcept {
+    ::operator delete(block, alignment(n * sizeof(T)));
+  }
+  friend bool operator==(const LineAllocator&, const LineAllocator&) { return true; }
+
+ private:
+  static std::align_val_t alignment(std::size_t bytes) noexcept {
+    return std::align_val_t(bytes >= 2 * kHuge ? kHuge : 64);
+  }
+};
 
 template <int D>
 class Quadtree {
@@ -27,7 +57,7 @@ class Quadtree {
   static constexpr int kChildren = 1 << D;
 
   Quadtree(const MeshBox<D>& box, VertexPool<D>& vertices) : box_(box), vertices_(vertices) {
-    nodes_.resize(1);
+    nodes_.resize(kChildren);  // the root; its siblings only keep the blocks of children aligned
     buckets_.resize(1);
   }
 
@@ -51,6 +81,13 @@ class Quadtree {
   /// A cell is only entered if enters(its lower corner relative to the center, its side).
   template <class Radius, class Enters, class Visit>
   void visit_around(const Point<D>& center, Radius&& radius, Enters&& enters, Visit&& visit) const;
+
+  /// Visits vertices as visit_around does, in the leaves that meet the box [lo, hi] relative to the
+  /// center: for searches that know where to look. visit(handle, place) for every vertex in a leaf
+  /// that is entered; what it returns does not matter.
+  template <class Enters, class Visit>
+  void visit_box(const Point<D>& center, const Point<D>& lo, const Point<D>& hi, Enters&& enters,
+                 Visit&& visit) const;
 
   /// Calls visit(v, |v - p|^2) for every vertex v with |v - p| <= v.reach (in units of the box's
   /// side), and tightens the cells' bounds. visit must not throw.
@@ -106,6 +143,14 @@ class Quadtree {
   void reserve_splits(std::size_t splits);
   void give_children(NodeIndex n, int level) noexcept;
   void take_children(NodeIndex n) noexcept;
+  // For each axis the children in the lower half, a bit each.
+  static constexpr std::array<unsigned, D> kLower = [] {
+    std::array<unsigned, D> lower{};
+    for (int c = 0; c < kChildren; ++c) {
+      for (int i = 0; i < D; ++i) lower[static_cast<std::size_t>(i)] |= (c >> i & 1) == 0 ? 1u << c : 0;
+    }
+    return lower;
+  }();
   static double distance2(const Point<D>& rel, double side) {
     double d2 = 0;
     for (int i = 0; i < D; ++i) {
@@ -140,7 +185,7 @@ class Quadtree {
   void descend(const Step& from, const Search& search, Enters&& enters, Visit&& visit) const;
   // The vertices of a leaf, with their coordinates: a search that is not interested in a vertex
   // does not touch its record. Two cache lines in the plane.
-  struct Bucket {
+  struct alignas(64) Bucket {
     std::uint32_t next = 0;  // further bucket of the same leaf; 0: none
     std::uint32_t count = 0;
     std::array<VertexHandle, 6> handle;
@@ -148,6 +193,15 @@ class Quadtree {
   };
   using BucketIndex = std::uint32_t;
 
+  // Asks memory for what is below a node that will be visited soon.
+  void expect(NodeIndex n) const noexcept {
+    if (nodes_[n].child != 0) {
+      __builtin_prefetch(&nodes_[nodes_[n].child]);
+    } else {
+      const auto* bucket = reinterpret_cast<const std::byte*>(&buckets_[nodes_[n].head]);
+      for (std::size_t at = 0; at < sizeof(Bucket); at += 64) __builtin_prefetch(bucket + at);
+    }
+  }
   template <class Visit>
   void visit_leaf(NodeIndex n, Visit&& visit) const {
     for (BucketIndex b = nodes_[n].head; b != 0; b = buckets_[b].next) {
@@ -188,9 +242,9 @@ class Quadtree {
 
   const MeshBox<D>& box_;
   VertexPool<D>& vertices_;
-  std::vector<Node> nodes_;
+  std::vector<Node, LineAllocator<Node>> nodes_;
   std::vector<NodeIndex> free_;
-  std::vector<Bucket> buckets_;
+  std::vector<Bucket, LineAllocator<Bucket>> buckets_;
   std::vector<BucketIndex> free_buckets_;
   // Cells are computed to within a few units in the last place of the largest coordinate.
   double margin_ = largest(box_) * 0x1p-50;
@@ -457,6 +511,39 @@ void Quadtree<D>::visit_around(const Point<D>& center, Radius&& radius, Enters&&
   }
 }
 
+// Down to the last cell that holds the whole box, then depth first.
+template <int D>
+template <class Enters, class Visit>
+void Quadtree<D>::visit_box(const Point<D>& center, const Point<D>& lo, const Point<D>& hi,
+                            Enters&& enters, Visit&& visit) const {
+  std::array<Step, (kLevels + 1) * (kChildren - 1) + 1> stack;
+  std::size_t top = 0;
+  stack[top++] = {0, {}, box_.side};
+  for (int i = 0; i < D; ++i) stack[0].rel[i] = box_.lo[i] - center[i];
+  while (top > 0) {
+    const Step s = stack[--top];
+    const NodeIndex child = nodes_[s.node].child;
+    if (child == 0) {
+      if (enters(s.rel, s.side)) visit_leaf(s.node, visit);
+      continue;
+    }
+    const double half = s.side / 2;
+    unsigned meets = (1u << kChildren) - 1;  // a bit for each child
+    for (int i = 0; i < D; ++i) {
+      const double middle = s.rel[i] + half;
+      if (hi[i] < middle - margin_) meets &= kLower[static_cast<std::size_t>(i)];
+      if (lo[i] > middle + margin_) meets &= ~kLower[static_cast<std::size_t>(i)];
+    }
+    for (; meets != 0; meets &= meets - 1) {
+      const int c = std::countr_zero(meets);
+      Step& t = stack[top++];
+      t = {child + static_cast<NodeIndex>(c), s.rel, half};
+      for (int i = 0; i < D; ++i) t.rel[i] += (c >> i & 1) != 0 ? half : 0;
+      expect(t.node);
+    }
+  }
+}
+
 template <int D>
 void Quadtree<D>::raise_reach(const Vertex<D>& v) noexcept {
   NodeIndex n = leaf_of(box_.fixed(v.p));
@@ -478,17 +565,24 @@ float Quadtree<D>::reach_below(NodeIndex n, const Point<D>& rel, double side, co
   const double half = side / 2;
   const Halves near2 = near_halves(rel, half);
   float reach = 0;
+  unsigned entered = 0;  // a bit for each child
   for (int c = 0; c < kChildren; ++c) {
     const NodeIndex k = child + static_cast<NodeIndex>(c);
     double d2 = 0;
     for (int i = 0; i < D; ++i) d2 += near2[i][c >> i & 1];
-    float below = nodes_[k].reach;
-    const double bound = below * box_.side + margin_;
+    const double bound = nodes_[k].reach * box_.side + margin_;
     if (d2 <= bound * bound) {
-      Point<D> corner = rel;
-      for (int i = 0; i < D; ++i) corner[i] += (c >> i & 1) != 0 ? half : 0;
-      below = reach_below(k, corner, half, p, visit);
+      entered |= 1u << c;
+      expect(k);
+    } else {
+      reach = std::max(reach, nodes_[k].reach);
     }
+  }
+  for (; entered != 0; entered &= entered - 1) {
+    const int c = std::countr_zero(entered);
+    Point<D> corner = rel;
+    for (int i = 0; i < D; ++i) corner[i] += (c >> i & 1) != 0 ? half : 0;
+    const float below = reach_below(child + static_cast<NodeIndex>(c), corner, half, p, visit);
     reach = std::max(reach, below);
   }
   return nodes_[n].reach = reach;
@@ -498,6 +592,7 @@ template <int D>
 template <class Visit>
 float Quadtree<D>::reach_in_leaf(NodeIndex n, const Point<D>& p, Visit& visit) noexcept {
   float reach = 0;
+  visit_leaf(n, [&](VertexHandle h, const Point<D>&) { __builtin_prefetch(&vertices_[h]); });
   visit_leaf(n, [&](VertexHandle h, const Point<D>& place) {
     Vertex<D>& v = vertices_[h];
     double d2 = 0;
@@ -512,7 +607,7 @@ float Quadtree<D>::reach_in_leaf(NodeIndex n, const Point<D>& p, Visit& visit) n
 template <int D>
 void Quadtree<D>::check_invariants() const {
   check_below(0, Cell<D>{});
-  SAC_INVARIANT(free_.capacity() >= nodes_.size() / kChildren);
+  SAC_INVARIANT(free_.capacity() >= nodes_.size() / kChildren - 1);
   SAC_INVARIANT(free_buckets_.capacity() >= buckets_.size() - 1);
 }
 

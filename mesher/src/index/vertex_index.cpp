@@ -43,16 +43,19 @@ void Index::retract_birth(BirthEdge& birth) noexcept {
   if (window.has_value()) vanished(v, *window);
 }
 
-// Observations in the window that have a gap ball around v, or are nearer to it than to others.
+// Observations in the window that have a gap ball around v, or are nearer to it than to others. Few
+// have: times, which lie elsewhere in memory, are looked at last.
 void Index::appeared(const Vertex<2>& v, const sac::Window& window) noexcept {
   observers_.for_each_reaching(v.p, box_.side, [&](const Vertex<2>& center, Observation& o) {
-    sac::Call& call = engine_.call(o.call);
-    if (center.self == v.self || !window.contains(engine_, call)) return;
+    if (center.self == v.self) return;
     if (o.kind != kNearest) {
-      const float radius = o.kind == kCell ? static_cast<const CellSeen&>(o).radius : packed(whole());
-      if (!VoronoiCell::may_cut(pool_, center, unpacked(radius), observers_.seen(o), v.p)) return;
-      observers_.note_arrival(o, v.self);
+      const double radius =
+          o.kind == kStar ? whole() : unpacked(static_cast<const CellSeen&>(o).radius);
+      if (!VoronoiCell::may_cut(pool_, center, radius, observers_.seen(o), v.p)) return;
     }
+    sac::Call& call = engine_.call(o.call);
+    if (!window.contains(engine_, call)) return;
+    if (o.kind != kNearest) observers_.note_arrival(o, v.self);
     engine_.invalidate(call, &o);
   });
 }
@@ -78,7 +81,7 @@ CellLoan Index::look(const Vertex<2>& v, double radius, const Observation* last,
   }
   const auto surrounds = [](const Observation& o) { return o.kind != kNearest; };
   if (const Observation* other = observers_.find_at(v, surrounds)) {
-    return cell_from_seeds(v, radius, observers_.seen(*other), seen);
+    return cell_from_ring(v, radius, observers_.seen(*other), seen);
   }
   return cut_around(v, radius, seen);
 }

@@ -76,14 +76,14 @@ class VertexSearch {
     return cell;
   }
 
-  /// The same, starting from vertices that may be seen: `seeds`, counterclockwise around v, virtual
-  /// neighbours of whatever clip among them.
+  /// The same, starting from vertices that may be seen: all or most of v's neighbours at another
+  /// time, `seeds`, counterclockwise, virtual neighbours of whatever clip among them.
   template <class Seen>
-  CellLoan cell_from_seeds(const Vertex<2>& v, double radius, Codes seeds, Seen&& seen) {
+  CellLoan cell_from_ring(const Vertex<2>& v, double radius, Codes seeds, Seen&& seen) {
     CellLoan cell = cells_.borrow();
     const auto left = [&](VoronoiCell::Code u) { return u < VoronoiCell::kVirtual && seen(u); };
     if (!cell->restore(pool_, v, radius, seeds, left, false)) cut_by_seeds(*cell, seeds, left);
-    search(*cell, seen);
+    finish(*cell, seen);
     return cell;
   }
 
@@ -102,7 +102,7 @@ class VertexSearch {
     } else {
       cut_by_seeds(*cell, last, left);
     }
-    if (cell->open2() > 0) search(*cell, seen);
+    finish(*cell, seen);
     return cell;
   }
 
@@ -145,21 +145,38 @@ class VertexSearch {
   Quadtree<2> tree_;
 
  private:
-  // Cuts the cell by what is seen in the gap balls of its open corners.
+  // Cuts the cell by what is seen in the gap balls of its open corners, nearest leaves first.
   template <class Seen>
   void search(VoronoiCell& cell, Seen&& seen) const {
-    const Vertex<2>& v = cell.center();
     const auto reach = [&] { return 2 * std::sqrt(cell.open2()); };
-    const auto enters = [&](const Point<2>& corner, double side) {
-      return cell.enters(corner, side, tree_.margin());
+    tree_.visit_around(cell.center().p, reach, entered(cell), cutting(cell, seen));
+  }
+  // The same for a cell that is not much larger than it will be.
+  template <class Seen>
+  void search_open(VoronoiCell& cell, Seen&& seen) const {
+    const auto [lo, hi] = cell.open_extent();
+    tree_.visit_box(cell.center().p, lo, hi, entered(cell), cutting(cell, seen));
+  }
+  template <class Seen>
+  void finish(VoronoiCell& cell, Seen&& seen) const {
+    if (cell.open2() == 0) return;
+    cell.surrounded() ? search_open(cell, seen) : search(cell, seen);
+  }
+  [[nodiscard]] auto entered(const VoronoiCell& cell) const {
+    return [&cell, margin = tree_.margin()](const Point<2>& corner, double side) {
+      return cell.enters(corner, side, margin);
     };
-    tree_.visit_around(v.p, reach, enters, [&](VertexHandle u, const Point<2>& p) {
-      if (u == v.self || !cell.in_reach(distance2(p, v.p)) || !cell.cuts_open(p) || !seen(u)) {
+  }
+  template <class Seen>
+  [[nodiscard]] auto cutting(VoronoiCell& cell, Seen& seen) const {
+    return [&cell, &seen, v = cell.center().self, center = cell.center().p](VertexHandle u,
+                                                                           const Point<2>& p) {
+      if (u == v || !cell.in_reach(distance2(p, center)) || !cell.cuts_open(p) || !seen(u)) {
         return false;
       }
       cell.cut(u);
       return true;
-    });
+    };
   }
 
   template <class Left>
