@@ -89,7 +89,7 @@ class Mesher {
 
   /// Brings the mesh up to date with the edits announced since the last call, as one batch.
   /// Throws: whatever stopped it (Error(too_close), std::bad_alloc); mesh and features are then as
-  /// before those edits. Cost: O(log L/s) per edited point [Theorem 4.3.8].
+  /// before those edits. Cost: O(log L/s) calls per edited point [Theorem 4.3.8], each O(log L/s).
   Change<D> update();
 
   /// The mesh in canonical form. Cost: O(m log m).
