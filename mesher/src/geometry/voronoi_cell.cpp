@@ -160,12 +160,16 @@ void VoronoiCell::update_reach() {
   error_ = std::sqrt(tolerance2 * reach2_) * 1.01;  // half of 2 w.q's error, for any w in reach
 }
 
-bool VoronoiCell::surrounded() const noexcept {
+bool VoronoiCell::is_compact() const noexcept {
   for (int k = 0; k < open_count_; ++k) {
     const int i = open_[index(k)];
     if (!real(i) || !real(next(i))) return false;
   }
-  return true;
+  double farthest2 = 0;
+  for (std::size_t i = 0; i < index(size_); ++i) {
+    farthest2 = std::max(farthest2, ux_[i] * ux_[i] + uy_[i] * uy_[i]);
+  }
+  return open2_ <= farthest2;
 }
 
 VoronoiCell::Extent VoronoiCell::open_extent() const noexcept {

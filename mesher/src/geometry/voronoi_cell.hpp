@@ -83,8 +83,9 @@ class VoronoiCell {
   [[nodiscard]] double reach2() const noexcept { return reach2_; }
   /// The same over the open corners; 0: there is none.
   [[nodiscard]] double open2() const noexcept { return open2_; }
-  /// Whether no open corner is next to a virtual neighbour.
-  [[nodiscard]] bool surrounded() const noexcept;
+  /// Whether no open corner is next to a virtual neighbour, nor farther than the neighbours: then the
+  /// cell is not much larger than it will be.
+  [[nodiscard]] bool is_compact() const noexcept;
   struct Extent {
     Point<2> lo, hi;
   };

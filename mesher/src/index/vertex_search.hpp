@@ -151,7 +151,7 @@ class VertexSearch {
     const auto reach = [&] { return 2 * std::sqrt(cell.open2()); };
     tree_.visit_around(cell.center().p, reach, entered(cell), cutting(cell, seen));
   }
-  // The same for a cell that is not much larger than it will be.
+  // The same for a compact cell, all at once.
   template <class Seen>
   void search_open(VoronoiCell& cell, Seen&& seen) const {
     const auto [lo, hi] = cell.open_extent();
@@ -160,7 +160,7 @@ class VertexSearch {
   template <class Seen>
   void finish(VoronoiCell& cell, Seen&& seen) const {
     if (cell.open2() == 0) return;
-    cell.surrounded() ? search_open(cell, seen) : search(cell, seen);
+    cell.is_compact() ? search_open(cell, seen) : search(cell, seen);
   }
   [[nodiscard]] auto entered(const VoronoiCell& cell) const {
     return [&cell, margin = tree_.margin()](const Point<2>& corner, double side) {
