@@ -63,7 +63,8 @@ struct Sample {
   void print(const char* figure, std::size_t n, double rho) {
     const auto k = static_cast<double>(microseconds.size());
     std::printf(
-        "{\"bench\":\"mesher\",\"figure\":\"%s\",\"n\":%zu,\"rho\":%g,\"updates\":%zu,\"median_us\":%.1f,"
+        "{\"bench\":\"mesher\",\"figure\":\"%s\",\"n\":%zu,\"rho\":%g,\"updates\":%zu,\"median_"
+        "us\":%.1f,"
         "\"p99_us\":%.1f,\"calls_executed\":%.1f,\"edges\":%.1f,\"vertices\":%.2f,"
         "\"triangles\":%.2f}\n",
         figure, n, rho, microseconds.size(), quantile(0.5), quantile(0.99), executed / k, edges / k,

@@ -150,7 +150,8 @@ TEST_CASE("an earlier producer gives a thing to those before the old one only, a
   CHECK(row.answers() == std::vector{false, true, true, true, true, true});
 }
 
-TEST_CASE("after random edits everybody has the answer of a run from scratch, and no one ran more") {
+TEST_CASE(
+    "after random edits everybody has the answer of a run from scratch, and no one ran more") {
   constexpr std::size_t kPairs = 24;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     INFO("seed " << seed);

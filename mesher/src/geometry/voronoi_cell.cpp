@@ -96,8 +96,8 @@ void VoronoiCell::append(const VertexPool<2>& pool, double radius, Code code, bo
   is_open_[i] = open_before;  // moved to the corner's place by close_ring
 }
 
-// Neighbours stay neighbours, in the same order, when others go: what is left to do are the corners.
-// They bound one polygon if successive neighbours turn clearly to the left.
+// Neighbours stay neighbours, in the same order, when others go: what is left to do are the
+// corners. They bound one polygon if successive neighbours turn clearly to the left.
 bool VoronoiCell::close_ring() {
   if (size_ < 3) return false;
   std::rotate(is_open_.begin(), is_open_.begin() + 1, is_open_.begin() + size_);

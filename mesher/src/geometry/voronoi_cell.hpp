@@ -24,8 +24,8 @@
 #include <span>
 #include <vector>
 
-#include "mesher/mesh.hpp"
 #include "index/vertex.hpp"
+#include "mesher/mesh.hpp"
 
 namespace mesher::detail {
 
@@ -60,12 +60,12 @@ class VoronoiCell {
     aim(w);
     return !is_clear(largest_open_projection()) && find_cut();
   }
-  /// Cuts the cell by the vertex w. Requires: the last call was cuts(its place) or cuts_open, and it
-  /// said true.
+  /// Cuts the cell by the vertex w. Requires: the last call was cuts(its place) or cuts_open, and
+  /// it said true.
   void cut(Code w);
 
-  /// Whether the gap ball of an open corner reaches into the square [corner, corner + side]^2, relative to v, widened
-  /// by `margin` [L 4.3.3].
+  /// Whether the gap ball of an open corner reaches into the square [corner, corner + side]^2,
+  /// relative to v, widened by `margin` [L 4.3.3].
   [[nodiscard]] bool enters(const Point<2>& corner, double side, double margin) const noexcept;
 
   [[nodiscard]] int size() const noexcept { return size_; }
@@ -83,8 +83,8 @@ class VoronoiCell {
   [[nodiscard]] double reach2() const noexcept { return reach2_; }
   /// The same over the open corners; 0: there is none.
   [[nodiscard]] double open2() const noexcept { return open2_; }
-  /// Whether no open corner is next to a virtual neighbour, nor farther than the neighbours: then the
-  /// cell is not much larger than it will be.
+  /// Whether no open corner is next to a virtual neighbour, nor farther than the neighbours: then
+  /// the cell is not much larger than it will be.
   [[nodiscard]] bool is_compact() const noexcept;
   struct Extent {
     Point<2> lo, hi;

@@ -52,8 +52,8 @@ class FeatureTree {
   /// Adds a point without updating K: for many at once, each then asked for its crowded_level().
   void insert_only(Vertex<D>& v);
 
-  /// Throws InvariantError if a point lies in the wrong cell, a block holds fewer than two points, or
-  /// blocks are lost. Cost: O(size of the tree).
+  /// Throws InvariantError if a point lies in the wrong cell, a block holds fewer than two points,
+  /// or blocks are lost. Cost: O(size of the tree).
   void check_invariants() const;
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }

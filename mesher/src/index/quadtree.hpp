@@ -17,14 +17,14 @@
 #include <vector>
 
 #include "geometry/grid.hpp"
+#include "index/vertex.hpp"
 #include "sac/check.hpp"
 #include "sac/internal/huge_pages.hpp"
-#include "index/vertex.hpp"
 
 namespace mesher::detail {
 
-/// Memory from the start of a cache line: what is aligned in it lies in as few lines as it can. Large
-/// blocks are on huge pages, since searches read them at random places.
+/// Memory from the start of a cache line: what is aligned in it lies in as few lines as it can.
+/// Large blocks are on huge pages, since searches read them at random places.
 template <class T>
 struct LineAllocator {
   using value_type = T;
@@ -147,7 +147,8 @@ class Quadtree {
   static constexpr std::array<unsigned, D> kLower = [] {
     std::array<unsigned, D> lower{};
     for (int c = 0; c < kChildren; ++c) {
-      for (int i = 0; i < D; ++i) lower[static_cast<std::size_t>(i)] |= (c >> i & 1) == 0 ? 1u << c : 0;
+      for (int i = 0; i < D; ++i)
+        lower[static_cast<std::size_t>(i)] |= (c >> i & 1) == 0 ? 1u << c : 0;
     }
     return lower;
   }();

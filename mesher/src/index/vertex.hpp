@@ -25,13 +25,13 @@ using VertexHandle = std::uint32_t;  // 0: none
 template <int D>
 struct Vertex {
   Point<D> p{};
-  VertexHandle self = 0;        // in a free record: the next free one
-  sac::Presence presence;       // the calls that insert it; the outside is not among them
-  sac::Handle queries = 0;      // observations centred at it
-  float reach = 0;              // no query of it looks farther; in units of the box's side
-  sac::Handle locator = 0;      // the call that observes `level`
+  VertexHandle self = 0;          // in a free record: the next free one
+  sac::Presence presence;         // the calls that insert it; the outside is not among them
+  sac::Handle queries = 0;        // observations centred at it
+  float reach = 0;                // no query of it looks farther; in units of the box's side
+  sac::Handle locator = 0;        // the call that observes `level`
   VertexHandle next_changed = 0;  // in the list of what has changed since the last update
-  std::int16_t level = -1;      // input points: deepest crowded level
+  std::int16_t level = -1;        // input points: deepest crowded level
   bool alive : 1 = false;
   bool boundary : 1 = false;
   bool input : 1 = false;

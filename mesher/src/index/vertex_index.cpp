@@ -316,7 +316,8 @@ void Index::check_observation(const Vertex<2>& v, const Observation& o) const {
     SAC_INVARIANT(nearest_around(v, seen).handle == observers_.seen(o)[0]);
     return;
   }
-  const double radius = o.kind == kStar ? whole() : unpacked(static_cast<const CellSeen&>(o).radius);
+  const double radius =
+      o.kind == kStar ? whole() : unpacked(static_cast<const CellSeen&>(o).radius);
   const CellLoan cell = cut_around(v, radius, seen);
   cell->check_invariants();
   const auto codes = observers_.seen(o);

@@ -87,9 +87,9 @@ class VertexSearch {
     return cell;
   }
 
-  /// The same, from the cell for another set of vertices: v's neighbours `last`, with the same clip.
-  /// for_each_arrival(visit) calls visit(u) for all vertices that are new in the set and cut that
-  /// cell, and perhaps for others.
+  /// The same, from the cell for another set of vertices: v's neighbours `last`, with the same
+  /// clip. for_each_arrival(visit) calls visit(u) for all vertices that are new in the set and cut
+  /// that cell, and perhaps for others.
   template <class ForEachArrival, class Seen>
   CellLoan repaired_cell(const Vertex<2>& v, double radius, Codes last,
                          ForEachArrival&& for_each_arrival, Seen&& seen) {
@@ -106,11 +106,11 @@ class VertexSearch {
     return cell;
   }
 
-  /// The distance up to which a vertex that comes may cut the cell. A corner of the cell of a vertex
-  /// v on a side of the box, beyond that side, is never cut. Proof: the grid is there from the
-  /// start, so the corner's projection q on the side is at most half an edge from v; a vertex nearer
-  /// to the corner than v, being in the box, is nearer to q, too, hence in the diametral ball of an
-  /// edge of the grid. No vertex ever is [L 4.4.1].
+  /// The distance up to which a vertex that comes may cut the cell. A corner of the cell of a
+  /// vertex v on a side of the box, beyond that side, is never cut. Proof: the grid is there from
+  /// the start, so the corner's projection q on the side is at most half an edge from v; a vertex
+  /// nearer to the corner than v, being in the box, is nearer to q, too, hence in the diametral
+  /// ball of an edge of the grid. No vertex ever is [L 4.4.1].
   [[nodiscard]] double concern(const VoronoiCell& cell) const noexcept;
 
   struct Nearest {
@@ -170,7 +170,7 @@ class VertexSearch {
   template <class Seen>
   [[nodiscard]] auto cutting(VoronoiCell& cell, Seen& seen) const {
     return [&cell, &seen, v = cell.center().self, center = cell.center().p](VertexHandle u,
-                                                                           const Point<2>& p) {
+                                                                            const Point<2>& p) {
       if (u == v || !cell.in_reach(distance2(p, center)) || !cell.cuts_open(p) || !seen(u)) {
         return false;
       }

@@ -185,8 +185,7 @@ TEST_CASE("a new vertex that cuts is in reach, in an entered square, and may_cut
     for (const auto* w : scene.others) scene.cut_by(cell, *w);
     std::vector<std::uint32_t> codes;
     for (int k = 0; k < cell.size(); ++k) codes.push_back(cell.code(k));
-    const bool may =
-        VoronoiCell::may_cut(scene.pool, *scene.v, scene.radius, codes, fresh->p);
+    const bool may = VoronoiCell::may_cut(scene.pool, *scene.v, scene.radius, codes, fresh->p);
     const double x = fresh->p[0] - scene.v->p[0], y = fresh->p[1] - scene.v->p[1];
     const double side = std::ldexp(scene.radius, -static_cast<int>(random.below(20)));
     const Point<2> corner{x - side * random.unit(), y - side * random.unit()};
@@ -242,9 +241,8 @@ TEST_CASE("a cell restored after some vertices went and some came is that of bru
     for (const auto* w : scene.others) scene.cut_by(cell, *w);
     const Ring before = ring_of(cell);
     std::map<std::uint32_t, bool> gone;
-    std::erase_if(scene.others, [&](const auto* w) {
-      return gone[w->self] = random.below(6) == 0;
-    });
+    std::erase_if(scene.others,
+                  [&](const auto* w) { return gone[w->self] = random.below(6) == 0; });
     const bool worked = cell.restore(
         scene.pool, *scene.v, scene.radius, before,
         [&](std::uint32_t code) { return !gone.contains(code) || !gone[code]; }, true);
