@@ -1,8 +1,9 @@
 // The mesher against itself: static run, first run with the engine, updates.
 //
-//   mesher_bench [N]...      default: 10000 100000 (1000000 takes a minute and 2 GB)
+//   mesher_bench [N[:RHO]]...   default: 10000 100000 10000:1.1 (1000000 takes a minute and 2 GB)
 //
-// Points uniform in the unit square, rho = 1.4142, rule radius_edge. One JSON line per figure:
+// Points uniform in the unit square, rho = 1.4142 if not given, rule radius_edge. One JSON line per
+// figure:
 //   static        vertices, seconds of the phases, of canonical output, and in all
 //   first_run     the same with the engine, its ratio to static, bytes of trace per output vertex
 //   insert/remove median and p99 of single updates in microseconds, and per update: calls
@@ -59,13 +60,14 @@ struct Sample {
     std::sort(microseconds.begin(), microseconds.end());
     return microseconds[static_cast<std::size_t>(q * static_cast<double>(microseconds.size() - 1))];
   }
-  void print(const char* figure, std::size_t n) {
+  void print(const char* figure, std::size_t n, double rho) {
     const auto k = static_cast<double>(microseconds.size());
     std::printf(
-        "{\"bench\":\"mesher\",\"figure\":\"%s\",\"n\":%zu,\"updates\":%zu,\"median_us\":%.1f,"
+        "{\"bench\":\"mesher\",\"figure\":\"%s\",\"n\":%zu,\"rho\":%g,\"updates\":%zu,\"median_"
+        "us\":%.1f,"
         "\"p99_us\":%.1f,\"calls_executed\":%.1f,\"edges\":%.1f,\"vertices\":%.2f,"
         "\"triangles\":%.2f}\n",
-        figure, n, microseconds.size(), quantile(0.5), quantile(0.99), executed / k, edges / k,
+        figure, n, rho, microseconds.size(), quantile(0.5), quantile(0.99), executed / k, edges / k,
         vertices / k, triangles / k);
   }
 };
@@ -96,9 +98,9 @@ void print_first_run(const mesher::MeshStats& s, std::size_t n, double static_se
       static_cast<double>(s.trace_bytes) / static_cast<double>(s.vertices));
 }
 
-void bench(std::size_t n) {
+void bench(std::size_t n, double rho = 1.4142) {
   Random random{n};
-  mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}};
+  mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}, .rho = rho};
   std::vector<Point<2>> points(n);
   std::vector<FeatureId> ids(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -126,8 +128,8 @@ void bench(std::size_t n) {
     remove.add(seconds_since(start), change);
     ids[k % n] = id;
   }
-  insert.print("insert", n);
-  remove.print("remove", n);
+  insert.print("insert", n, rho);
+  remove.print("remove", n, rho);
 }
 
 }  // namespace
@@ -136,6 +138,11 @@ int main(int argc, char** argv) {
   if (argc == 1) {
     bench(10000);
     bench(100000);
+    bench(10000, 1.1);
   }
-  for (int i = 1; i < argc; ++i) bench(std::strtoull(argv[i], nullptr, 10));
+  for (int i = 1; i < argc; ++i) {
+    char* rest = nullptr;
+    const std::size_t n = std::strtoull(argv[i], &rest, 10);
+    bench(n, *rest == ':' ? std::strtod(rest + 1, nullptr) : 1.4142);
+  }
 }

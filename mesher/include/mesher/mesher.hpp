@@ -135,8 +135,8 @@ class Mesher {
   /// update() or discard_edits(). Error (duplicate_point, too_close: points that have moved onto
   /// others, or places too near to each other for the vertices that they need), std::bad_alloc, or
   /// what control.progress throws: the edits are taken back as well.
-  /// Cost: O(log L/s) calls per edited point [Theorem 4.3.8], the first time per vertex; stopped or
-  /// failed, as much again to take back what was done.
+  /// Cost: O(log L/s) calls per edited point [Theorem 4.3.8], each O(log L/s), the first time per
+  /// vertex; stopped or failed, as much again to take back what was done.
   Change<D> update(const RunControl& control = {});
 
   /// The mesh of the last update() in canonical form, whatever has been announced since; empty

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "mesher/predicates.hpp"
+#include "sac/check.hpp"
 
 namespace mesher::detail {
 
@@ -51,19 +53,22 @@ Corner circumcentre(double ax, double ay, double bx, double by) {
 
 }  // namespace
 
+// The column that grows last says how much room there is: memory may run out on the way.
 void VoronoiCell::resize(int n) {
-  size_ = n;
-  if (ux_.size() >= index(n)) return;
-  const std::size_t room = 2 * index(n);
-  for (auto* column : {&ux_, &uy_, &qx_, &qy_, &q2_, &tolerance2_}) {
-    column->resize(room);
+  if (open_.size() < index(n)) {
+    const std::size_t room = 2 * index(n);
+    for (auto* column : {&ux_, &uy_, &qx_, &qy_, &q2_, &tolerance2_}) column->resize(room);
+    place_.resize(room);
+    handle_.resize(room);
+    clip_.resize(room);
+    is_open_.resize(room);
+    open_.resize(room);
   }
-  place_.resize(room);
-  handle_.resize(room);
-  clip_.resize(room);
+  size_ = n;
 }
 
 void VoronoiCell::reset(const Vertex<2>& v, double radius) {
+  SAC_EXPECTS(radius > 0);
   v_ = &v;
   resize(kClips);
   for (std::size_t i = 0; i < kClips; ++i) {
@@ -72,9 +77,60 @@ void VoronoiCell::reset(const Vertex<2>& v, double radius) {
     uy_[i] = place_[i][1] - v.p[1];
     handle_[i] = 0;
     clip_[i] = static_cast<std::uint8_t>(i);
+    is_open_[i] = 1;
   }
   for (int i = 0; i < kClips; ++i) set_corner(i);
   update_reach();
+}
+
+// The next neighbour of a cell under restoration; the corner before it may be open.
+void VoronoiCell::append(const VertexPool<2>& pool, double radius, Code code, bool open_before) {
+  const std::size_t i = index(size_);
+  resize(size_ + 1);
+  const bool is_virtual = code >= kVirtual;
+  place_[i] = is_virtual ? clip_place(v_->p, radius, code & 0xff) : pool[code].p;
+  ux_[i] = place_[i][0] - v_->p[0];
+  uy_[i] = place_[i][1] - v_->p[1];
+  handle_[i] = is_virtual ? 0 : code;
+  clip_[i] = static_cast<std::uint8_t>(is_virtual ? code & 0xff : 0);
+  is_open_[i] = open_before;  // moved to the corner's place by close_ring
+}
+
+// Neighbours stay neighbours, in the same order, when others go: what is left to do are the
+// corners. They bound one polygon if successive neighbours turn clearly to the left.
+bool VoronoiCell::close_ring() {
+  if (size_ < 3) return false;
+  std::rotate(is_open_.begin(), is_open_.begin() + 1, is_open_.begin() + size_);
+  for (int i = 0; i < size_; ++i) {
+    const std::size_t a = index(i);
+    const std::size_t b = index(next(i));
+    const double cross = ux_[a] * uy_[b] - uy_[a] * ux_[b];
+    const double a2 = ux_[a] * ux_[a] + uy_[a] * uy_[a];
+    const double b2 = ux_[b] * ux_[b] + uy_[b] * uy_[b];
+    if (is_open_[a] != 0 && !(cross > 0 && cross * cross > 0x1p-20 * a2 * b2)) return false;
+    set_corner(i);
+  }
+  update_reach();
+  return true;
+}
+
+// Virtual neighbours that others had hidden come back where these went. They are 2 radius away: no
+// corner nearer than that is theirs.
+void VoronoiCell::cut_by_clip(double radius) {
+  if (open2_ < radius * radius * (1 - 0x1p-20)) return;
+  for (std::size_t i = 0; i < kClips; ++i) {
+    if (cuts(clip_place(v_->p, radius, i)) && replaces_ < 0) cut(kVirtual | static_cast<Code>(i));
+  }
+}
+
+double VoronoiCell::reach2_inside(const Point<2>& outward) const noexcept {
+  double most = 0;
+  for (int i = 0; i < size_; ++i) {
+    const Point<2> q = corner(i);
+    const bool beyond = q[0] * outward[0] > 0 || q[1] * outward[1] > 0;
+    if (!beyond || (real(i) && real(next(i)))) most = std::max(most, corner2(i));
+  }
+  return most * (1 + 0x1p-30);
 }
 
 void VoronoiCell::set_corner(int i) {
@@ -89,13 +145,42 @@ void VoronoiCell::set_corner(int i) {
 
 void VoronoiCell::update_reach() {
   reach2_ = 0;
+  open2_ = 0;
+  open_count_ = 0;
   double tolerance2 = 0;
   for (std::size_t i = 0; i < index(size_); ++i) {
     reach2_ = std::max(reach2_, q2_[i]);
     tolerance2 = std::max(tolerance2, tolerance2_[i]);
+    if (is_open_[i] == 0) continue;
+    open2_ = std::max(open2_, q2_[i]);
+    open_[index(open_count_++)] = static_cast<std::uint16_t>(i);
   }
   reach2_ *= 1 + 0x1p-30;  // so that rounding never leaves out a vertex that cuts
+  open2_ *= 1 + 0x1p-30;
   error_ = std::sqrt(tolerance2 * reach2_) * 1.01;  // half of 2 w.q's error, for any w in reach
+}
+
+bool VoronoiCell::is_compact() const noexcept {
+  for (int k = 0; k < open_count_; ++k) {
+    const int i = open_[index(k)];
+    if (!real(i) || !real(next(i))) return false;
+  }
+  double farthest2 = 0;
+  for (std::size_t i = 0; i < index(size_); ++i) {
+    farthest2 = std::max(farthest2, ux_[i] * ux_[i] + uy_[i] * uy_[i]);
+  }
+  return open2_ <= farthest2;
+}
+
+VoronoiCell::Extent VoronoiCell::open_extent() const noexcept {
+  Extent box{{0, 0}, {0, 0}};
+  for (int k = 0; k < open_count_; ++k) {
+    const std::size_t i = open_[index(k)];
+    const double r = std::sqrt(q2_[i]) * (1 + 0x1p-30);
+    box.lo = {std::min(box.lo[0], qx_[i] - r), std::min(box.lo[1], qy_[i] - r)};
+    box.hi = {std::max(box.hi[0], qx_[i] + r), std::max(box.hi[1], qy_[i] + r)};
+  }
+  return box;
 }
 
 bool VoronoiCell::exactly_nearer(int i, const Point<2>& w) {
@@ -107,6 +192,14 @@ bool VoronoiCell::exactly_nearer(int i, const Point<2>& w) {
     }
   }
   return predicates::incircle_perturbed(v_->p, place(i), place(j), w) > 0;
+}
+
+void VoronoiCell::aim(const Point<2>& w) noexcept {
+  w_ = w;
+  wx_ = w[0] - v_->p[0];
+  wy_ = w[1] - v_->p[1];
+  replaces_ = -1;
+  run_count_ = 0;
 }
 
 // max w.q over the corners.
@@ -124,15 +217,19 @@ double VoronoiCell::largest_projection() const noexcept {
   return std::max(a, b);
 }
 
+double VoronoiCell::largest_open_projection() const noexcept {
+  double most = -std::numeric_limits<double>::infinity();
+  for (int k = 0; k < open_count_; ++k) {
+    const std::size_t i = open_[index(k)];
+    most = std::max(most, wx_ * qx_[i] + wy_ * qy_[i]);
+  }
+  return most;
+}
+
 // Finds the run of corners that w takes; by convexity there is one run.
-bool VoronoiCell::find_cut(const Point<2>& w) {
-  w_ = w;
-  wx_ = w[0] - v_->p[0];
-  wy_ = w[1] - v_->p[1];
-  replaces_ = -1;
-  run_count_ = 0;
+bool VoronoiCell::find_cut() {
+  const Point<2> w = w_;
   const double w2 = wx_ * wx_ + wy_ * wy_;
-  if (largest_projection() < w2 / 2 - error_) return false;  // most vertices end here
   const auto nearer = [&](int i) {
     const double value = 2 * (wx_ * qx_[index(i)] + wy_ * qy_[index(i)]) - w2;
     if (value * value > tolerance2_[index(i)] * w2) return value > 0;
@@ -155,7 +252,7 @@ bool VoronoiCell::find_cut(const Point<2>& w) {
   return true;
 }
 
-void VoronoiCell::cut(VertexHandle w) {
+void VoronoiCell::cut(Code w) {
   if (replaces_ >= 0) {
     handle_[index(replaces_)] = w;
     return;
@@ -174,6 +271,7 @@ void VoronoiCell::move_entries(int from, int to, int n) {
     qy_[b] = qy_[a];
     q2_[b] = q2_[a];
     tolerance2_[b] = tolerance2_[a];
+    is_open_[b] = is_open_[a];
     place_[b] = place_[a];
     handle_[b] = handle_[a];
     clip_[b] = clip_[a];
@@ -186,10 +284,13 @@ void VoronoiCell::move_entries(int from, int to, int n) {
 }
 
 // Corners first .. first + count - 1 go, and with them the neighbours between; w comes instead.
-void VoronoiCell::insert_neighbour(int first, int count, VertexHandle w) {
+void VoronoiCell::insert_neighbour(int first, int count, Code w) {
   const int before = first;                   // u_first stays
   const int after = (first + count) % size_;  // u_{first+count} stays
   const int old_size = size_;
+  const auto open = [&](int i) { return is_open_[index(i % old_size)] != 0; };
+  const bool left_open = open(first + old_size - 1) || open(first);
+  const bool right_open = open(first + count - 1) || open(first + count);
   const int fresh_size = size_ - count + 2;  // count - 1 neighbours go, one comes
   int at;                                    // where w goes
   resize(std::max(fresh_size, old_size));
@@ -206,31 +307,69 @@ void VoronoiCell::insert_neighbour(int first, int count, VertexHandle w) {
   ux_[k] = wx_;
   uy_[k] = wy_;
   place_[k] = w_;
-  handle_[k] = w;
-  clip_[k] = 0;
-  set_corner(at == 0 ? size_ - 1 : at - 1);
+  handle_[k] = w >= kVirtual ? 0 : w;
+  clip_[k] = static_cast<std::uint8_t>(w >= kVirtual ? w & 0xff : 0);
+  const int left = at == 0 ? size_ - 1 : at - 1;
+  set_corner(left);
   set_corner(at);
+  is_open_[index(left)] = left_open;
+  is_open_[k] = right_open;
 }
 
+// Of all corners, the one between a and b reaches farthest in the direction of w if w lies in the
+// angle from a to b, the normals of the sides that meet there: if that is not nearer to w, none is.
 bool VoronoiCell::may_cut(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
-                          const std::uint32_t* handles, int m, const Point<2>& p) {
-  const double wx = p[0] - v.p[0];
-  const double wy = p[1] - v.p[1];
-  const double w2 = wx * wx + wy * wy;
-  const auto neighbour = [&](int i) -> Point<2> {
-    const std::uint32_t h = handles[i];
-    const Point<2> place = h >= kVirtual ? clip_place(v.p, radius, h & 0xff) : pool[h].p;
+                          std::span<const Code> codes, const Point<2>& p) {
+  const Point<2> w{p[0] - v.p[0], p[1] - v.p[1]};
+  const double w2 = w[0] * w[0] + w[1] * w[1];
+  const auto neighbour = [&](Code code) -> Point<2> {
+    const Point<2> place = code >= kVirtual ? clip_place(v.p, radius, code & 0xff) : pool[code].p;
     return {place[0] - v.p[0], place[1] - v.p[1]};
   };
-  Point<2> a = neighbour(m - 1);
-  for (int i = 0; i < m; ++i) {
-    const Point<2> b = neighbour(i);
-    const Corner q = circumcentre(a[0], a[1], b[0], b[1]);
-    const double value = 2 * (wx * q.x + wy * q.y) - w2;
-    if (value >= 0 || !(value * value > q.tolerance2 * w2)) return true;
+  struct Side {
+    bool left, right;  // whether w may be to the left, or to the right, of the direction
+  };
+  const auto side_of = [&](const Point<2>& a) -> Side {
+    const double x = a[0] * w[1];
+    const double y = a[1] * w[0];
+    const double error = 0x1p-50 * (std::abs(x) + std::abs(y));
+    return {x - y >= -error, x - y <= error};
+  };
+  // Clearly between two directions it is between no others.
+  const auto clear = [](const Side& side) { return side.left != side.right; };
+  Point<2> a = neighbour(codes.back());
+  Side beside_a = side_of(a);
+  for (const Code code : codes) {
+    const Point<2> b = neighbour(code);
+    const Side beside_b = side_of(b);
+    if (beside_a.left && beside_b.right) {
+      const Corner q = circumcentre(a[0], a[1], b[0], b[1]);
+      const double value = 2 * (w[0] * q.x + w[1] * q.y) - w2;
+      if (value >= 0 || !(value * value > q.tolerance2 * w2)) return true;
+      if (clear(beside_a) && clear(beside_b)) return false;
+    }
     a = b;
+    beside_a = beside_b;
   }
   return false;
+}
+
+void VoronoiCell::check_invariants() const {
+  SAC_INVARIANT(size_ >= 3);
+  int open = 0;
+  for (int i = 0; i < size_; ++i) {
+    const std::size_t a = index(i);
+    const std::size_t b = index(next(i));
+    SAC_INVARIANT(place_[a] != v_->p && place_[a] != place_[b]);
+    SAC_INVARIANT(ux_[a] == place_[a][0] - v_->p[0] && uy_[a] == place_[a][1] - v_->p[1]);
+    SAC_INVARIANT(predicates::orient2d(v_->p, place_[a], place_[b]) > 0);
+    const Corner q = circumcentre(ux_[a], uy_[a], ux_[b], uy_[b]);
+    SAC_INVARIANT(q.x == qx_[a] && q.y == qy_[a] && q.length2 == q2_[a]);
+    SAC_INVARIANT(q2_[a] <= reach2_ && (is_open_[a] == 0 || q2_[a] <= open2_));
+    SAC_INVARIANT(real(i) || clip_[a] < kClips);
+    open += is_open_[a] != 0;
+  }
+  SAC_INVARIANT(open == open_count_);
 }
 
 }  // namespace mesher::detail

@@ -10,14 +10,22 @@
 // sign of incircle(v, u_i, u_{i+1}, w): computed from q_i with an error bound, exactly (ties by
 // coordinates) where that does not decide. So the result depends on the set of vertices alone, not
 // on the order of cuts.
+//
+// Repair. A cell that is known for one set of vertices is brought to another: restore() takes the
+// neighbours that are left, cut() the vertices that are new, and what went leaves *open* corners,
+// whose gap balls must be searched for those who come instead. A corner between two neighbours that
+// were next to each other before is closed: its gap ball is empty but for the new vertices. So is
+// one that a cut makes on the edge between two closed corners, since its ball is in the union of
+// theirs. A cell that starts from the clip has open corners only.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "mesher/mesh.hpp"
 #include "index/vertex.hpp"
+#include "mesher/mesh.hpp"
 
 namespace mesher::detail {
 
@@ -28,17 +36,36 @@ class VoronoiCell {
   /// The clip alone: the cell of a vertex that is by itself. Requires: radius > 0.
   void reset(const Vertex<2>& v, double radius);
 
-  /// Whether w might cut, by distance: |w - v|^2 < 4 max |q|^2.
-  [[nodiscard]] bool in_reach(double distance2) const noexcept { return distance2 <= 4 * reach2_; }
+  /// A neighbour as it is written down: a handle, or a virtual one.
+  using Code = std::uint32_t;
+  /// The cell of v among those of its former neighbours, counterclockwise, for which left(code).
+  /// `repair`: they are all of v's neighbours that are left, so corners between those that were
+  /// next to each other are closed; else all are open. Returns false if they do not surround v: the
+  /// cell is then the clip. Requires: radius > 0; virtual ones that are left are of this radius.
+  template <class Left>
+  [[nodiscard]] bool restore(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
+                             std::span<const Code> codes, Left&& left, bool repair);
+
+  /// Whether w might cut an open corner, by distance: |w - v|^2 <= 4 |q|^2.
+  [[nodiscard]] bool in_reach(double distance2) const noexcept { return distance2 <= 4 * open2_; }
 
   /// Whether w is nearer than v to some corner; of a virtual neighbour's place: whether it takes
   /// it.
-  [[nodiscard]] bool cuts(const Point<2>& w) { return find_cut(w); }
-  /// Cuts the cell by the vertex w. Requires: the last call was cuts(its place), and it said true.
-  void cut(VertexHandle w);
+  [[nodiscard]] bool cuts(const Point<2>& w) {
+    aim(w);
+    return !is_clear(largest_projection()) && find_cut();
+  }
+  /// The same for a w that is known not to take closed corners only.
+  [[nodiscard]] bool cuts_open(const Point<2>& w) {
+    aim(w);
+    return !is_clear(largest_open_projection()) && find_cut();
+  }
+  /// Cuts the cell by the vertex w. Requires: the last call was cuts(its place) or cuts_open, and
+  /// it said true.
+  void cut(Code w);
 
-  /// Whether a gap ball reaches into the square [corner, corner + side]^2, relative to v, widened
-  /// by `margin` [L 4.3.3].
+  /// Whether the gap ball of an open corner reaches into the square [corner, corner + side]^2,
+  /// relative to v, widened by `margin` [L 4.3.3].
   [[nodiscard]] bool enters(const Point<2>& corner, double side, double margin) const noexcept;
 
   [[nodiscard]] int size() const noexcept { return size_; }
@@ -54,33 +81,58 @@ class VoronoiCell {
   [[nodiscard]] int next(int i) const noexcept { return i + 1 == size_ ? 0 : i + 1; }
   /// max |q_i|^2.
   [[nodiscard]] double reach2() const noexcept { return reach2_; }
+  /// The same over the open corners; 0: there is none.
+  [[nodiscard]] double open2() const noexcept { return open2_; }
+  /// Whether no open corner is next to a virtual neighbour, nor farther than the neighbours: then
+  /// the cell is not much larger than it will be.
+  [[nodiscard]] bool is_compact() const noexcept;
+  struct Extent {
+    Point<2> lo, hi;
+  };
+  /// A box around the gap balls of the open corners, relative to v.
+  [[nodiscard]] Extent open_extent() const noexcept;
+  /// max |q_i|^2 over the corners that are next to a real neighbour on both sides, or on the inner
+  /// side of the lines through v with these outer normals (entries -1, 0, 1; 0: no line).
+  [[nodiscard]] double reach2_inside(const Point<2>& outward) const noexcept;
   [[nodiscard]] const Vertex<2>& center() const noexcept { return *v_; }
 
   /// Whether a vertex at `p` would cut the cell of v with these neighbours, erring towards yes.
-  /// `handles`: m neighbours counterclockwise, virtual ones coded by clip_code.
+  /// `codes`: all its neighbours, counterclockwise.
   [[nodiscard]] static bool may_cut(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
-                                    const std::uint32_t* handles, int m, const Point<2>& p);
+                                    std::span<const Code> codes, const Point<2>& p);
+
+  /// Throws InvariantError unless the corners are those of the neighbours and surround v.
+  void check_invariants() const;
 
   /// How a virtual neighbour is written where a handle is stored.
-  static constexpr std::uint32_t kVirtual = 0xffffff00u;
-  [[nodiscard]] std::uint32_t code(int i) const noexcept {
-    return real(i) ? handle(i) : kVirtual | static_cast<std::uint32_t>(clip_[index(i)]);
+  static constexpr Code kVirtual = 0xffffff00u;
+  [[nodiscard]] Code code(int i) const noexcept {
+    return real(i) ? handle(i) : kVirtual | static_cast<Code>(clip_[index(i)]);
   }
 
  private:
   static std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
+  void aim(const Point<2>& w) noexcept;
+  [[nodiscard]] bool is_clear(double projection) const noexcept {
+    return projection < (wx_ * wx_ + wy_ * wy_) / 2 - error_;
+  }
   [[nodiscard]] double largest_projection() const noexcept;
-  bool find_cut(const Point<2>& w);
+  [[nodiscard]] double largest_open_projection() const noexcept;
+  void append(const VertexPool<2>& pool, double radius, Code code, bool open_before);
+  [[nodiscard]] bool close_ring();
+  void cut_by_clip(double radius);
+  bool find_cut();
   bool exactly_nearer(int i, const Point<2>& w);
   void set_corner(int i);
   void move_entries(int from, int to, int n);
-  void insert_neighbour(int first, int count, VertexHandle w);
+  void insert_neighbour(int first, int count, Code w);
   void resize(int n);
   void update_reach();
 
   const Vertex<2>* v_ = nullptr;
   int size_ = 0;
   double reach2_ = 0;
+  double open2_ = 0;
   double error_ = 0;
   // Of the candidate under test: its place relative to v, and the run of corners it takes.
   Point<2> w_{};
@@ -90,6 +142,9 @@ class VoronoiCell {
   int run_count_ = 0;
   int replaces_ = -1;  // a virtual neighbour at the candidate's very place
   std::vector<double> ux_, uy_, qx_, qy_, q2_, tolerance2_;
+  std::vector<std::uint8_t> is_open_;
+  std::vector<std::uint16_t> open_;  // the open corners
+  int open_count_ = 0;
   std::vector<Point<2>> place_;
   std::vector<VertexHandle> handle_;
   std::vector<std::uint8_t> clip_;
@@ -104,12 +159,32 @@ inline bool VoronoiCell::enters(const Point<2>& corner, double side, double marg
   const double* qx = qx_.data();
   const double* qy = qy_.data();
   const double* q2 = q2_.data();
-  for (int i = 0; i < size_; ++i) {
+  for (int k = 0; k < open_count_; ++k) {
+    const std::size_t i = open_[index(k)];
     const double dx = std::max(std::max(x0 - qx[i], qx[i] - x1), 0.0);
     const double dy = std::max(std::max(y0 - qy[i], qy[i] - y1), 0.0);
     if (dx * dx + dy * dy <= q2[i] * (1 + 0x1p-30)) return true;
   }
   return false;
+}
+
+template <class Left>
+bool VoronoiCell::restore(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
+                          std::span<const Code> codes, Left&& left, bool repair) {
+  v_ = &v;
+  size_ = 0;
+  bool gap = !codes.empty() && !left(codes.back());
+  for (const Code code : codes) {
+    const bool stays = left(code);
+    if (stays) append(pool, radius, code, gap || !repair);
+    gap = !stays;
+  }
+  if (!close_ring()) {
+    reset(v, radius);
+    return false;
+  }
+  cut_by_clip(radius);
+  return true;
 }
 
 }  // namespace mesher::detail

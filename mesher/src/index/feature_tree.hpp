@@ -15,10 +15,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/grid.hpp"
 #include "index/vertex.hpp"
+#include "sac/check.hpp"
 
 namespace mesher::detail {
 
@@ -34,19 +36,25 @@ class FeatureTree {
   [[nodiscard]] const Vertex<D>* obstacle(const Point<D>& p) const;
 
   /// Adds a point and updates K of all points. Calls changed(f) for each other point whose K
-  /// changed. Requires: obstacle(v.p) == nullptr. Cost: O(log L/s).
+  /// changed. Requires: obstacle(v.p) == nullptr. Throws: std::bad_alloc, and then changes nothing.
+  /// Cost: O(log L/s).
   template <class Changed>
   void insert(Vertex<D>& v, Changed&& changed);
 
-  /// Takes a point out and updates K likewise.
+  /// Takes a point out and updates K likewise. Requires: it is in. Cost: O(log L/s), and as much
+  /// again for each point whose K changes.
   template <class Changed>
-  void erase(Vertex<D>& v, Changed&& changed);
+  void erase(Vertex<D>& v, Changed&& changed) noexcept;
 
   /// K(p) from the tree. Cost: O(K(p)).
   [[nodiscard]] int crowded_level(const Vertex<D>& v) const;
 
   /// Adds a point without updating K: for many at once, each then asked for its crowded_level().
   void insert_only(Vertex<D>& v);
+
+  /// Throws InvariantError if a point lies in the wrong cell, a block holds fewer than two points,
+  /// or blocks are lost. Cost: O(size of the tree).
+  void check_invariants() const;
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   [[nodiscard]] std::size_t bytes() const noexcept {
@@ -73,7 +81,12 @@ class FeatureTree {
   }
   template <class Visit>
   void visit_lonely(const Fixed<D>& f, VertexHandle self, Visit&& visit) const;
-  Node new_block();
+  void reserve_blocks(std::size_t more);
+  Node new_block() noexcept;
+  struct Below {
+    std::size_t points = 0, blocks = 0;
+  };
+  [[nodiscard]] Below check_below(Node node, const Cell<D>& cell) const;
 
   const MeshBox<D>& box_;
   const VertexPool<D>& vertices_;
@@ -160,11 +173,19 @@ const Vertex<D>* FeatureTree<D>::obstacle(const Point<D>& p) const {
   return fixed_of(node) == f ? &vertices_[node & ~kPoint] : nullptr;
 }
 
+// Room for so many blocks, and for all blocks to be freed: memory cannot run out on the way.
 template <int D>
-typename FeatureTree<D>::Node FeatureTree<D>::new_block() {
+void FeatureTree<D>::reserve_blocks(std::size_t more) {
+  const std::size_t blocks = blocks_.size() + more;
+  if (blocks > blocks_.capacity()) blocks_.reserve(std::max(blocks, 2 * blocks_.capacity()));
+  free_.reserve(blocks_.capacity());
+}
+
+// Requires: reserve_blocks.
+template <int D>
+typename FeatureTree<D>::Node FeatureTree<D>::new_block() noexcept {
   if (free_.empty()) {
     blocks_.push_back({});
-    free_.reserve(blocks_.capacity());
     return static_cast<Node>(blocks_.size() - 1);
   }
   const Node b = free_.back();
@@ -175,6 +196,8 @@ typename FeatureTree<D>::Node FeatureTree<D>::new_block() {
 
 template <int D>
 void FeatureTree<D>::insert_only(Vertex<D>& v) {
+  SAC_EXPECTS(obstacle(v.p) == nullptr);
+  reserve_blocks(kLevels);
   const Fixed<D> f = box_.fixed(v.p);
   Node block = 0;  // where the link to the current node is stored; 0: in root_
   int child = 0;
@@ -209,11 +232,12 @@ void FeatureTree<D>::insert(Vertex<D>& v, Changed&& changed) {
 
 template <int D>
 template <class Changed>
-void FeatureTree<D>::erase(Vertex<D>& v, Changed&& changed) {
+void FeatureTree<D>::erase(Vertex<D>& v, Changed&& changed) noexcept {
   const Fixed<D> f = box_.fixed(v.p);
-  std::vector<VertexHandle> affected;
+  std::array<VertexHandle, std::size_t{kBlock3} * (kLevels + 1)> affected;
+  std::size_t count = 0;
   visit_lonely(f, v.self, [&](VertexHandle h, int level) {
-    if (vertices_[h].level == level) affected.push_back(h);
+    if (vertices_[h].level == level) affected[count++] = h;
   });
   std::array<Node, kLevels + 1> path{};
   int depth = 0;
@@ -241,13 +265,42 @@ void FeatureTree<D>::erase(Vertex<D>& v, Changed&& changed) {
   }
   root_ = rest;
   --size_;
-  for (const VertexHandle h : affected) {
+  for (const VertexHandle h : std::span(affected).first(count)) {
     Vertex<D>& other = vertices_[h];
     const int level = crowded_level(other);
     if (level == other.level) continue;
     other.level = static_cast<std::int16_t>(level);
     changed(other);
   }
+}
+
+template <int D>
+void FeatureTree<D>::check_invariants() const {
+  const Below all = check_below(root_, Cell<D>{});
+  SAC_INVARIANT(all.points == size_);
+  SAC_INVARIANT(all.blocks + free_.size() + 1 == blocks_.size());
+  SAC_INVARIANT(free_.capacity() >= blocks_.size() - 1);
+}
+
+template <int D>
+typename FeatureTree<D>::Below FeatureTree<D>::check_below(Node node, const Cell<D>& cell) const {
+  if (node == 0) return {};
+  if ((node & kPoint) != 0) {
+    SAC_INVARIANT(vertices_[node & ~kPoint].self == (node & ~kPoint));
+    SAC_INVARIANT(MeshBox<D>::cell(fixed_of(node), cell.level) == cell);
+    return {1, 0};
+  }
+  Below below{0, 1};
+  for (int c = 0; c < kChildren; ++c) {
+    Cell<D> inner{cell.corner, cell.level + 1};
+    for (int i = 0; i < D; ++i) {
+      inner.corner[i] |= static_cast<std::uint64_t>(c >> i & 1) << (kLevels - inner.level);
+    }
+    const Below there = check_below(blocks_[node][c], inner);
+    below = {below.points + there.points, below.blocks + there.blocks};
+  }
+  SAC_INVARIANT(below.points >= 2);
+  return below;
 }
 
 }  // namespace mesher::detail

@@ -9,16 +9,46 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <new>
 #include <utility>
 #include <vector>
 
 #include "geometry/grid.hpp"
-#include "sac/check.hpp"
 #include "index/vertex.hpp"
+#include "sac/check.hpp"
+#include "sac/internal/huge_pages.hpp"
 
 namespace mesher::detail {
+
+/// Memory from the start of a cache line: what is aligned in it lies in as few lines as it can.
+/// Large blocks are on huge pages, since searches read them at random places.
+template <class T>
+struct LineAllocator {
+  using value_type = T;
+  static constexpr std::size_t kHuge = std::size_t{2} << 20;
+
+  LineAllocator() = default;
+  template <class U>
+  explicit LineAllocator(const LineAllocator<U>&) noexcept {}
+  [[nodiscard]] T* allocate(std::size_t n) {
+    const std::size_t bytes = n * sizeof(T);
+    void* const block = ::operator new(bytes, alignment(bytes));
+    if (bytes >= 2 * kHuge) sac::advise_huge_pages(block, bytes);
+    return static_cast<T*>(block);
+  }
+  void deallocate(T* block, std::size_t n) noexcept {
+    ::operator delete(block, alignment(n * sizeof(T)));
+  }
+  friend bool operator==(const LineAllocator&, const LineAllocator&) { return true; }
+
+ private:
+  static std::align_val_t alignment(std::size_t bytes) noexcept {
+    return std::align_val_t(bytes >= 2 * kHuge ? kHuge : 64);
+  }
+};
 
 template <int D>
 class Quadtree {
@@ -27,18 +57,20 @@ class Quadtree {
   static constexpr int kChildren = 1 << D;
 
   Quadtree(const MeshBox<D>& box, VertexPool<D>& vertices) : box_(box), vertices_(vertices) {
-    nodes_.resize(1);
+    nodes_.resize(kChildren);  // the root; its siblings only keep the blocks of children aligned
     buckets_.resize(1);
   }
 
   /// Marks `cell` as split, with the cells above it given children as needed; returns its node.
+  /// Requires: 0 <= cell.level < kLevels. Throws: std::bad_alloc, and then changes nothing.
   NodeIndex mark(const Cell<D>& cell);
-  /// Takes the mark back and removes children that no mark needs.
-  void unmark(NodeIndex node);
+  /// Takes the mark back and removes children that no mark needs. Requires: mark gave `node`.
+  void unmark(NodeIndex node) noexcept;
 
-  /// Puts a vertex into its leaf. Cost: O(depth).
+  /// Puts a vertex into its leaf. Throws: std::bad_alloc, and then changes nothing. Cost: O(depth).
   void insert(Vertex<D>& v);
-  void erase(Vertex<D>& v);
+  /// Requires: insert(v) before.
+  void erase(Vertex<D>& v) noexcept;
   /// The record with exactly these coordinates; null if there is none.
   [[nodiscard]] Vertex<D>* find(const Point<D>& p) const;
 
@@ -50,17 +82,27 @@ class Quadtree {
   template <class Radius, class Enters, class Visit>
   void visit_around(const Point<D>& center, Radius&& radius, Enters&& enters, Visit&& visit) const;
 
-  /// Calls visit(v) for every vertex v with |v - p| <= v.reach (in units of the box's side), and
-  /// tightens the cells' bounds.
+  /// Visits vertices as visit_around does, in the leaves that meet the box [lo, hi] relative to the
+  /// center: for searches that know where to look. visit(handle, place) for every vertex in a leaf
+  /// that is entered; what it returns does not matter.
+  template <class Enters, class Visit>
+  void visit_box(const Point<D>& center, const Point<D>& lo, const Point<D>& hi, Enters&& enters,
+                 Visit&& visit) const;
+
+  /// Calls visit(v, |v - p|^2) for every vertex v with |v - p| <= v.reach (in units of the box's
+  /// side), and tightens the cells' bounds. visit must not throw.
   template <class Visit>
-  void visit_reaching(const Point<D>& p, Visit&& visit) {
-    reach_below(0, box_.lo, box_.side, p, visit);
+  void visit_reaching(const Point<D>& p, Visit&& visit) noexcept {
+    Point<D> rel;
+    for (int i = 0; i < D; ++i) rel[i] = box_.lo[i] - p[i];
+    reach_below(0, rel, box_.side, p, visit);
   }
   /// A query centred at `v` looks as far as v.reach: raises the bounds of the cells around it.
-  void raise_reach(const Vertex<D>& v);
+  void raise_reach(const Vertex<D>& v) noexcept;
 
-  /// Throws InvariantError if a cell underestimates the reach of its vertices.
-  void check_reach() const { check_reach_below(0, 0); }
+  /// Throws InvariantError if a cell without a mark in it has children, a vertex lies in the wrong
+  /// leaf, or a cell underestimates the reach of its vertices.
+  void check_invariants() const;
 
   /// Calls visit(cell) for every leaf.
   template <class Visit>
@@ -98,8 +140,18 @@ class Quadtree {
     if (level != nullptr) *level = depth;
     return n;
   }
-  void give_children(NodeIndex n, int level);
-  void take_children(NodeIndex n);
+  void reserve_splits(std::size_t splits);
+  void give_children(NodeIndex n, int level) noexcept;
+  void take_children(NodeIndex n) noexcept;
+  // For each axis the children in the lower half, a bit each.
+  static constexpr std::array<unsigned, D> kLower = [] {
+    std::array<unsigned, D> lower{};
+    for (int c = 0; c < kChildren; ++c) {
+      for (int i = 0; i < D; ++i)
+        lower[static_cast<std::size_t>(i)] |= (c >> i & 1) == 0 ? 1u << c : 0;
+    }
+    return lower;
+  }();
   static double distance2(const Point<D>& rel, double side) {
     double d2 = 0;
     for (int i = 0; i < D; ++i) {
@@ -134,7 +186,7 @@ class Quadtree {
   void descend(const Step& from, const Search& search, Enters&& enters, Visit&& visit) const;
   // The vertices of a leaf, with their coordinates: a search that is not interested in a vertex
   // does not touch its record. Two cache lines in the plane.
-  struct Bucket {
+  struct alignas(64) Bucket {
     std::uint32_t next = 0;  // further bucket of the same leaf; 0: none
     std::uint32_t count = 0;
     std::array<VertexHandle, 6> handle;
@@ -142,6 +194,15 @@ class Quadtree {
   };
   using BucketIndex = std::uint32_t;
 
+  // Asks memory for what is below a node that will be visited soon.
+  void expect(NodeIndex n) const noexcept {
+    if (nodes_[n].child != 0) {
+      __builtin_prefetch(&nodes_[nodes_[n].child]);
+    } else {
+      const auto* bucket = reinterpret_cast<const std::byte*>(&buckets_[nodes_[n].head]);
+      for (std::size_t at = 0; at < sizeof(Bucket); at += 64) __builtin_prefetch(bucket + at);
+    }
+  }
   template <class Visit>
   void visit_leaf(NodeIndex n, Visit&& visit) const {
     for (BucketIndex b = nodes_[n].head; b != 0; b = buckets_[b].next) {
@@ -149,19 +210,42 @@ class Quadtree {
       for (std::uint32_t i = 0; i < bucket.count; ++i) visit(bucket.handle[i], bucket.place[i]);
     }
   }
-  void put(NodeIndex leaf, VertexHandle h, const Point<D>& p);
-  [[nodiscard]] BucketIndex new_bucket(BucketIndex next);
+  void reserve_buckets(std::size_t more);
+  void put(NodeIndex leaf, VertexHandle h, const Point<D>& p) noexcept;
+  [[nodiscard]] BucketIndex new_bucket(BucketIndex next) noexcept;
+  // Squared distances along each axis from the origin to the near and the far half of a cell.
+  using Halves = std::array<std::array<double, 2>, D>;
+  static Halves near_halves(const Point<D>& rel, double half) {
+    const auto square = [](double x) { return x * x; };
+    Halves near2;
+    for (int i = 0; i < D; ++i) {
+      const double middle = rel[i] + half;
+      near2[i] = {square(std::max(std::max(rel[i], -middle), 0.0)),
+                  square(std::max(std::max(middle, -(middle + half)), 0.0))};
+    }
+    return near2;
+  }
   template <class Visit>
-  float reach_below(NodeIndex n, const Point<D>& lo, double side, const Point<D>& p, Visit& visit);
+  float reach_below(NodeIndex n, const Point<D>& rel, double side, const Point<D>& p,
+                    Visit& visit) noexcept;
+  template <class Visit>
+  float reach_in_leaf(NodeIndex n, const Point<D>& p, Visit& visit) noexcept;
+  static Cell<D> child_cell(const Cell<D>& cell, int c) {
+    Cell<D> inner{cell.corner, cell.level + 1};
+    for (int i = 0; i < D; ++i) {
+      inner.corner[i] |= static_cast<std::uint64_t>(c >> i & 1) << (kLevels - inner.level);
+    }
+    return inner;
+  }
   template <class Visit>
   void leaves_below(NodeIndex n, const Cell<D>& cell, Visit& visit) const;
-  float check_reach_below(NodeIndex n, int level) const;
+  float check_below(NodeIndex n, const Cell<D>& cell) const;
 
   const MeshBox<D>& box_;
   VertexPool<D>& vertices_;
-  std::vector<Node> nodes_;
+  std::vector<Node, LineAllocator<Node>> nodes_;
   std::vector<NodeIndex> free_;
-  std::vector<Bucket> buckets_;
+  std::vector<Bucket, LineAllocator<Bucket>> buckets_;
   std::vector<BucketIndex> free_buckets_;
   // Cells are computed to within a few units in the last place of the largest coordinate.
   double margin_ = largest(box_) * 0x1p-50;
@@ -173,13 +257,30 @@ class Quadtree {
   }
 };
 
+// Room for so many splits of cells: memory cannot run out on the way.
 template <int D>
-void Quadtree<D>::give_children(NodeIndex n, int level) {
+void Quadtree<D>::reserve_splits(std::size_t splits) {
+  const std::size_t nodes = nodes_.size() + splits * kChildren;
+  if (nodes > nodes_.capacity()) nodes_.reserve(std::max(nodes, 2 * nodes_.capacity()));
+  free_.reserve(nodes_.capacity() / kChildren + 1);  // so that taking back cannot fail
+  // Each child may leave one bucket half empty.
+  reserve_buckets(splits * kChildren);
+}
+
+template <int D>
+void Quadtree<D>::reserve_buckets(std::size_t more) {
+  const std::size_t buckets = buckets_.size() + more;
+  if (buckets > buckets_.capacity()) buckets_.reserve(std::max(buckets, 2 * buckets_.capacity()));
+  free_buckets_.reserve(buckets_.capacity());  // so that giving back cannot fail
+}
+
+// Requires: reserve_splits.
+template <int D>
+void Quadtree<D>::give_children(NodeIndex n, int level) noexcept {
   NodeIndex first;
   if (free_.empty()) {
     first = static_cast<NodeIndex>(nodes_.size());
     nodes_.resize(nodes_.size() + kChildren);
-    free_.reserve(nodes_.capacity() / kChildren + 1);  // so that taking back cannot fail
   } else {
     first = free_.back();
     free_.pop_back();
@@ -200,13 +301,13 @@ void Quadtree<D>::give_children(NodeIndex n, int level) {
   }
 }
 
+// Requires: a free bucket, or reserve_buckets.
 template <int D>
-typename Quadtree<D>::BucketIndex Quadtree<D>::new_bucket(BucketIndex next) {
+typename Quadtree<D>::BucketIndex Quadtree<D>::new_bucket(BucketIndex next) noexcept {
   BucketIndex b;
   if (free_buckets_.empty()) {
     b = static_cast<BucketIndex>(buckets_.size());
     buckets_.emplace_back();
-    free_buckets_.reserve(buckets_.capacity());  // so that giving back cannot fail
   } else {
     b = free_buckets_.back();
     free_buckets_.pop_back();
@@ -218,7 +319,7 @@ typename Quadtree<D>::BucketIndex Quadtree<D>::new_bucket(BucketIndex next) {
 
 // Only the first bucket of a leaf may have room.
 template <int D>
-void Quadtree<D>::put(NodeIndex leaf, VertexHandle h, const Point<D>& p) {
+void Quadtree<D>::put(NodeIndex leaf, VertexHandle h, const Point<D>& p) noexcept {
   const BucketIndex head = nodes_[leaf].head;
   if (head == 0 || buckets_[head].count == buckets_[head].handle.size()) {
     nodes_[leaf].head = new_bucket(head);
@@ -228,8 +329,9 @@ void Quadtree<D>::put(NodeIndex leaf, VertexHandle h, const Point<D>& p) {
   bucket.place[bucket.count++] = p;
 }
 
+// The children's vertices fit into no more buckets than they had.
 template <int D>
-void Quadtree<D>::take_children(NodeIndex n) {
+void Quadtree<D>::take_children(NodeIndex n) noexcept {
   const NodeIndex first = std::exchange(nodes_[n].child, 0);
   for (int i = 0; i < kChildren; ++i) {
     const NodeIndex c = first + static_cast<NodeIndex>(i);
@@ -245,6 +347,10 @@ void Quadtree<D>::take_children(NodeIndex n) {
 
 template <int D>
 typename Quadtree<D>::NodeIndex Quadtree<D>::mark(const Cell<D>& cell) {
+  SAC_EXPECTS(cell.level >= 0 && cell.level < kLevels);
+  int depth = 0;
+  static_cast<void>(leaf_of(cell.corner, &depth));
+  if (depth <= cell.level) reserve_splits(static_cast<std::size_t>(cell.level - depth + 1));
   NodeIndex n = 0;
   for (int level = 0;; ++level) {
     if (nodes_[n].child == 0) give_children(n, level);
@@ -256,7 +362,7 @@ typename Quadtree<D>::NodeIndex Quadtree<D>::mark(const Cell<D>& cell) {
 }
 
 template <int D>
-void Quadtree<D>::unmark(NodeIndex n) {
+void Quadtree<D>::unmark(NodeIndex n) noexcept {
   nodes_[n].parent_and_mark &= 0x7fffffffu;
   while (!nodes_[n].marked() && nodes_[n].child != 0) {
     for (int i = 0; i < kChildren; ++i) {
@@ -269,12 +375,13 @@ void Quadtree<D>::unmark(NodeIndex n) {
 
 template <int D>
 void Quadtree<D>::insert(Vertex<D>& v) {
+  reserve_buckets(1);
   put(leaf_of(box_.fixed(v.p)), v.self, v.p);
 }
 
 // The last vertex of the first bucket takes the place of the one that goes.
 template <int D>
-void Quadtree<D>::erase(Vertex<D>& v) {
+void Quadtree<D>::erase(Vertex<D>& v) noexcept {
   Node& leaf = nodes_[leaf_of(box_.fixed(v.p))];
   Bucket& first = buckets_[leaf.head];
   for (BucketIndex b = leaf.head; b != 0; b = buckets_[b].next) {
@@ -405,8 +512,41 @@ void Quadtree<D>::visit_around(const Point<D>& center, Radius&& radius, Enters&&
   }
 }
 
+// Down to the last cell that holds the whole box, then depth first.
 template <int D>
-void Quadtree<D>::raise_reach(const Vertex<D>& v) {
+template <class Enters, class Visit>
+void Quadtree<D>::visit_box(const Point<D>& center, const Point<D>& lo, const Point<D>& hi,
+                            Enters&& enters, Visit&& visit) const {
+  std::array<Step, (kLevels + 1) * (kChildren - 1) + 1> stack;
+  std::size_t top = 0;
+  stack[top++] = {0, {}, box_.side};
+  for (int i = 0; i < D; ++i) stack[0].rel[i] = box_.lo[i] - center[i];
+  while (top > 0) {
+    const Step s = stack[--top];
+    const NodeIndex child = nodes_[s.node].child;
+    if (child == 0) {
+      if (enters(s.rel, s.side)) visit_leaf(s.node, visit);
+      continue;
+    }
+    const double half = s.side / 2;
+    unsigned meets = (1u << kChildren) - 1;  // a bit for each child
+    for (int i = 0; i < D; ++i) {
+      const double middle = s.rel[i] + half;
+      if (hi[i] < middle - margin_) meets &= kLower[static_cast<std::size_t>(i)];
+      if (lo[i] > middle + margin_) meets &= ~kLower[static_cast<std::size_t>(i)];
+    }
+    for (; meets != 0; meets &= meets - 1) {
+      const int c = std::countr_zero(meets);
+      Step& t = stack[top++];
+      t = {child + static_cast<NodeIndex>(c), s.rel, half};
+      for (int i = 0; i < D; ++i) t.rel[i] += (c >> i & 1) != 0 ? half : 0;
+      expect(t.node);
+    }
+  }
+}
+
+template <int D>
+void Quadtree<D>::raise_reach(const Vertex<D>& v) noexcept {
   NodeIndex n = leaf_of(box_.fixed(v.p));
   while (nodes_[n].reach < v.reach) {
     nodes_[n].reach = v.reach;
@@ -415,41 +555,70 @@ void Quadtree<D>::raise_reach(const Vertex<D>& v) {
   }
 }
 
+// `rel`: the cell's lower corner relative to p. Children are only entered if p is within reach of
+// what is centred in them.
 template <int D>
 template <class Visit>
-float Quadtree<D>::reach_below(NodeIndex n, const Point<D>& lo, double side, const Point<D>& p,
-                               Visit& visit) {
-  Point<D> rel;
-  for (int i = 0; i < D; ++i) rel[i] = lo[i] - p[i];
-  const double bound = nodes_[n].reach * box_.side + margin_;
-  if (distance2(rel, side) > bound * bound) return nodes_[n].reach;
+float Quadtree<D>::reach_below(NodeIndex n, const Point<D>& rel, double side, const Point<D>& p,
+                               Visit& visit) noexcept {
+  const NodeIndex child = nodes_[n].child;
+  if (child == 0) return nodes_[n].reach = reach_in_leaf(n, p, visit);
+  const double half = side / 2;
+  const Halves near2 = near_halves(rel, half);
   float reach = 0;
-  if (nodes_[n].child == 0) {
-    visit_leaf(n, [&](VertexHandle h, const Point<D>& place) {
-      Vertex<D>& v = vertices_[h];
-      double d2 = 0;
-      for (int i = 0; i < D; ++i) d2 += (place[i] - p[i]) * (place[i] - p[i]);
-      const double own = v.reach * box_.side;
-      if (d2 <= own * own) visit(v);
-      reach = std::max(reach, v.reach);
-    });
-  } else {
-    for (int c = 0; c < kChildren; ++c) {
-      Point<D> corner = lo;
-      for (int i = 0; i < D; ++i) corner[i] += (c >> i & 1) != 0 ? side / 2 : 0;
-      reach = std::max(reach, reach_below(nodes_[n].child + static_cast<NodeIndex>(c), corner,
-                                          side / 2, p, visit));
+  unsigned entered = 0;  // a bit for each child
+  for (int c = 0; c < kChildren; ++c) {
+    const NodeIndex k = child + static_cast<NodeIndex>(c);
+    double d2 = 0;
+    for (int i = 0; i < D; ++i) d2 += near2[i][c >> i & 1];
+    const double bound = nodes_[k].reach * box_.side + margin_;
+    if (d2 <= bound * bound) {
+      entered |= 1u << c;
+      expect(k);
+    } else {
+      reach = std::max(reach, nodes_[k].reach);
     }
+  }
+  for (; entered != 0; entered &= entered - 1) {
+    const int c = std::countr_zero(entered);
+    Point<D> corner = rel;
+    for (int i = 0; i < D; ++i) corner[i] += (c >> i & 1) != 0 ? half : 0;
+    const float below = reach_below(child + static_cast<NodeIndex>(c), corner, half, p, visit);
+    reach = std::max(reach, below);
   }
   return nodes_[n].reach = reach;
 }
 
 template <int D>
-float Quadtree<D>::check_reach_below(NodeIndex n, int level) const {
+template <class Visit>
+float Quadtree<D>::reach_in_leaf(NodeIndex n, const Point<D>& p, Visit& visit) noexcept {
+  float reach = 0;
+  visit_leaf(n, [&](VertexHandle h, const Point<D>&) { __builtin_prefetch(&vertices_[h]); });
+  visit_leaf(n, [&](VertexHandle h, const Point<D>& place) {
+    Vertex<D>& v = vertices_[h];
+    double d2 = 0;
+    for (int i = 0; i < D; ++i) d2 += (place[i] - p[i]) * (place[i] - p[i]);
+    const double own = v.reach * box_.side;
+    if (d2 <= own * own) visit(v, d2);
+    reach = std::max(reach, v.reach);
+  });
+  return reach;
+}
+
+template <int D>
+void Quadtree<D>::check_invariants() const {
+  check_below(0, Cell<D>{});
+  SAC_INVARIANT(free_.capacity() >= nodes_.size() / kChildren - 1);
+  SAC_INVARIANT(free_buckets_.capacity() >= buckets_.size() - 1);
+}
+
+template <int D>
+float Quadtree<D>::check_below(NodeIndex n, const Cell<D>& cell) const {
   float reach = 0;
   bool below = false;
   visit_leaf(n, [&](VertexHandle h, const Point<D>& p) {
-    SAC_INVARIANT(vertices_[h].p == p);
+    SAC_INVARIANT(vertices_[h].self == h && vertices_[h].p == p);
+    SAC_INVARIANT(MeshBox<D>::cell(box_.fixed(p), cell.level) == cell);
     reach = std::max(reach, vertices_[h].reach);
   });
   if (nodes_[n].child != 0) {
@@ -458,11 +627,12 @@ float Quadtree<D>::check_reach_below(NodeIndex n, int level) const {
       const NodeIndex child = nodes_[n].child + static_cast<NodeIndex>(c);
       SAC_INVARIANT(nodes_[child].parent() == n);
       below = below || nodes_[child].child != 0;
-      reach = std::max(reach, check_reach_below(child, level + 1));
+      reach = std::max(reach, check_below(child, child_cell(cell, c)));
     }
   }
   SAC_INVARIANT(nodes_[n].reach >= reach);
   SAC_INVARIANT(nodes_[n].child == 0 || nodes_[n].marked() || below);
+  SAC_INVARIANT(nodes_[n].child != 0 || !nodes_[n].marked());
   return reach;
 }
 
@@ -477,11 +647,7 @@ template <class Visit>
 void Quadtree<D>::leaves_below(NodeIndex n, const Cell<D>& cell, Visit& visit) const {
   if (nodes_[n].child == 0) return visit(cell);
   for (int c = 0; c < kChildren; ++c) {
-    Cell<D> inner{cell.corner, cell.level + 1};
-    for (int i = 0; i < D; ++i) {
-      inner.corner[i] |= static_cast<std::uint64_t>(c >> i & 1) << (kLevels - inner.level);
-    }
-    leaves_below(nodes_[n].child + static_cast<NodeIndex>(c), inner, visit);
+    leaves_below(nodes_[n].child + static_cast<NodeIndex>(c), child_cell(cell, c), visit);
   }
 }
 

@@ -2,35 +2,10 @@
 #include "index/vertex_index.hpp"
 
 #include <algorithm>
-#include <limits>
-
-#include "input.hpp"
 
 namespace mesher::detail {
 
 using Index = VertexIndex<sac::Scope>;
-
-// The least float that is not below x: a bound stays a bound.
-float VertexSearch::packed(double x) const noexcept {
-  x /= box_.side;
-  const auto f = static_cast<float>(x);
-  return double{f} >= x ? f : std::nextafter(f, std::numeric_limits<float>::infinity());
-}
-
-void VertexSearch::fail_coincident(const Point<2>& p) {
-  throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
-                                        place_text(p) +
-                                        ": a new vertex would coincide with another");
-}
-
-// --- Time ------------------------------------------------------------------------------------
-
-bool Index::born_before(const Vertex<2>& u, const sac::Call& call) const {
-  if (!u.alive) return false;
-  if (u.birth == 0 || engine_.appending()) return true;
-  const sac::Call& birth = engine_.call(u.birth);
-  return &birth != &call && engine_.precedes(birth, call);
-}
 
 // --- Births ----------------------------------------------------------------------------------
 
@@ -39,12 +14,7 @@ VertexRef<2> Index::insert(sac::Scope& s, const Point<2>& p) {
   if (const auto* edge = s.recall<BirthEdge>(id_, kBirth, same)) return {&pool_[edge->vertex]};
   Vertex<2>* v = tree_.find(p);
   if (v != nullptr && born_before(*v, s.self())) fail_coincident(p);
-  if (v == nullptr) {
-    v = &pool_.create(p);
-    tree_.insert(*v);
-    log_.touched.push_back(v->self);
-    v->touched = true;
-  }
+  if (v == nullptr) v = &add(p);
   produce(s, *v);
   return {v};
 }
@@ -54,188 +24,206 @@ void Index::insert(sac::Scope& s, VertexRef<2> v) {
   if (s.recall<BirthEdge>(id_, kBirth, same) == nullptr) produce(s, *v);
 }
 
-void Index::touch(Vertex<2>& v) {
-  if (v.touched) return;
-  log_.touched.push_back(v.self);
-  v.touched = true;
-}
-
+// A record that fails to be produced is in the log, and freed at the end of the update.
 void Index::produce(sac::Scope& s, Vertex<2>& v) {
   touch(v);
+  observers_.expect_arrivals();
   auto& edge = s.effect<BirthEdge>(id_, kBirth);
   edge.vertex = v.self;
-  edge.call = engine_.handle_of(s.self());
-  edge.next_producer = v.producers;
-  v.producers = engine_.arena().handle_of(&edge);
-  const bool was_alive = v.alive;
-  const sac::Handle old_birth = v.birth;
-  choose_birth(v);
-  if (engine_.appending()) return;  // no observation is later
-  if (!was_alive) return appeared(v, nullptr);
-  if (v.birth != old_birth) appeared(v, &engine_.call(old_birth));
+  const auto window = presences_.produced(v.presence, edge, s.self());
+  v.alive = true;
+  if (window.has_value()) appeared(v, *window);
 }
 
-void Index::choose_birth(Vertex<2>& v) {
-  v.alive = v.producers != 0;
-  v.birth = 0;
-  for (sac::Handle h = v.producers; h != 0; h = producer(h).next_producer) {
-    const sac::Handle call = producer(h).call;
-    if (v.birth == 0 || engine_.precedes(engine_.call(call), engine_.call(v.birth))) v.birth = call;
-  }
+void Index::retract_birth(BirthEdge& birth) noexcept {
+  Vertex<2>& v = pool_[birth.vertex];
+  touch(v);
+  const auto window = presences_.retracted(v.presence, birth);
+  v.alive = v.presence.there();
+  if (window.has_value()) vanished(v, *window);
 }
 
-// Observations later than v's birth (and not later than `before`, who could see v already) that
-// have a gap ball around v.
-void Index::appeared(const Vertex<2>& v, const sac::Call* before) {
-  const sac::Call& birth = engine_.call(v.birth);
-  tree_.visit_reaching(v.p, [&](Vertex<2>& center) {
+// Observations in the window that have a gap ball around v, or are nearer to it than to others. Few
+// have: times, which lie elsewhere in memory, are looked at last.
+void Index::appeared(const Vertex<2>& v, const sac::Window& window) noexcept {
+  observers_.for_each_reaching(v.p, box_.side, [&](const Vertex<2>& center, Observation& o) {
     if (center.self == v.self) return;
-    const double d2 = distance2(center.p, v.p);
-    for (sac::Handle h = center.queries; h != 0; h = query(h).next_query) {
-      const QueryEdge& q = query(h);
-      const double reach = unpacked(q.reach);
-      if (d2 > reach * reach) continue;
-      sac::Call& call = engine_.call(q.call);
-      if (call.invalid() || !engine_.precedes(birth, call)) continue;
-      if (before != nullptr && engine_.precedes(*before, call)) continue;
-      if (q.kind == kNearest ||
-          VoronoiCell::may_cut(pool_, center, unpacked(q.radius), q.codes(),
-                               static_cast<int>(q.count), v.p)) {
-        engine_.invalidate(call, &q);
-      }
+    if (o.kind != kNearest) {
+      const double radius =
+          o.kind == kStar ? whole() : unpacked(static_cast<const CellSeen&>(o).radius);
+      if (!VoronoiCell::may_cut(pool_, center, radius, observers_.seen(o), v.p)) return;
     }
+    sac::Call& call = engine_.call(o.call);
+    if (!window.contains(engine_, call)) return;
+    if (o.kind != kNearest) observers_.note_arrival(o, v.self);
+    engine_.invalidate(call, &o);
   });
 }
 
-// Observations later than `from` (and not later than `before`, who see v still) bounded by v.
-void Index::vanished(const Vertex<2>& v, const sac::Call& from, const sac::Call* before) {
-  tree_.visit_reaching(v.p, [&](Vertex<2>& center) {
-    for (sac::Handle h = center.queries; h != 0; h = query(h).next_query) {
-      const QueryEdge& q = query(h);
-      const std::uint32_t* end = q.codes() + q.count;
-      if (std::find(q.codes(), end, v.self) == end) continue;
-      sac::Call& call = engine_.call(q.call);
-      if (!engine_.precedes(from, call)) continue;
-      if (before != nullptr && engine_.precedes(*before, call)) continue;
-      engine_.invalidate(call, &q);
-    }
+// Observations in the window that v bounds.
+void Index::vanished(const Vertex<2>& v, const sac::Window& window) noexcept {
+  observers_.for_each_reaching(v.p, box_.side, [&](const Vertex<2>&, const Observation& o) {
+    const auto seen = observers_.seen(o);
+    if (std::find(seen.begin(), seen.end(), v.self) == seen.end()) return;
+    sac::Call& call = engine_.call(o.call);
+    if (window.contains(engine_, call)) engine_.invalidate(call, &o);
   });
 }
 
 // --- Observations ----------------------------------------------------------------------------
 
-VoronoiCell& Index::voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius) {
+// `last`: what the running call saw last time, if it asked the same.
+template <class Seen>
+CellLoan Index::look(const Vertex<2>& v, double radius, const Observation* last, Seen&& seen) {
+  if (last != nullptr && observers_.knows_arrivals(*last)) {
+    const auto arrivals = [&](auto&& visit) { observers_.for_each_arrival(*last, visit); };
+    return repaired_cell(v, radius, observers_.seen(*last), arrivals, seen);
+  }
+  const auto surrounds = [](const Observation& o) { return o.kind != kNearest; };
+  if (const Observation* other = observers_.find_at(v, surrounds)) {
+    return cell_from_ring(v, radius, observers_.seen(*other), seen);
+  }
+  return cut_around(v, radius, seen);
+}
+
+CellLoan Index::voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius) {
   const sac::Call& self = s.self();
-  VoronoiCell& cell =
-      cut_around(*v, radius, [&](VertexHandle u) { return born_before(pool_[u], self); });
-  codes_.clear();
-  for (int i = 0; i < cell.size(); ++i) codes_.push_back(cell.code(i));
-  record(s, kCell, *v, packed(2 * std::sqrt(cell.reach2())), packed(radius));
+  const sac::Handle caller = engine_.handle_of(self);
+  const float clip = packed(radius);
+  SAC_EXPECTS(unpacked(clip) == radius);
+  const Observation* last = observers_.find_at(*v, [&](const Observation& o) {
+    return o.kind == kCell && o.call == caller && static_cast<const CellSeen&>(o).radius == clip;
+  });
+  CellLoan cell =
+      look(*v, radius, last, [&](VertexHandle u) { return born_before(pool_[u], self); });
+  s.weigh(take_visited() + observers_.take_visited());
+  take_codes(*cell);
+  record_cell(s, *v, packed(concern(*cell)), clip);
   return cell;
 }
 
 double Index::nearest2(sac::Scope& s, VertexRef<2> v) {
   const sac::Call& self = s.self();
   const Nearest n = nearest_around(*v, [&](VertexHandle u) { return born_before(pool_[u], self); });
-  codes_.assign(1, n.handle);
-  record(s, kNearest, *v, packed(std::sqrt(n.distance2) * (1 + 0x1p-40)), 0);
+  s.weigh(take_visited() + observers_.take_visited());
+  record_nearest(s, *v, packed(std::sqrt(n.distance2) * (1 + 0x1p-40)), n.handle);
   return n.distance2;
 }
 
-VoronoiCell& Index::star(sac::Scope& s, VertexRef<2> v) {
-  VoronoiCell& cell = cut_around(*v, whole(), [&](VertexHandle u) { return pool_[u].alive; });
-  codes_.clear();
-  for (int i = 0; i < cell.size(); ++i) codes_.push_back(cell.code(i));
-  record(s, kStar, *v, packed(2 * std::sqrt(cell.reach2())), packed(whole()));
+CellLoan Index::star(sac::Scope& s, VertexRef<2> v) {
+  const sac::Handle caller = engine_.handle_of(s.self());
+  const Observation* last = observers_.find_at(
+      *v, [&](const Observation& o) { return o.kind == kStar && o.call == caller; });
+  CellLoan cell = look(*v, whole(), last, [&](VertexHandle u) { return pool_[u].alive; });
+  s.weigh(take_visited() + observers_.take_visited());
+  take_codes(*cell);
+  record_star(s, *v, packed(concern(*cell)));
   return cell;
 }
 
-// Records the observation `codes_`; one that says the same as last time is kept as it is.
-void Index::record(sac::Scope& s, std::uint8_t kind, Vertex<2>& v, float reach, float radius) {
-  s.weigh(visited_);
-  const auto count = static_cast<std::uint32_t>(codes_.size());
-  // The same ring may start elsewhere: the order in which vertices were met decides that.
-  if (kind != kNearest) {
-    std::rotate(codes_.begin(), std::min_element(codes_.begin(), codes_.end()), codes_.end());
-  }
-  const auto same = [&](const QueryEdge& q) {
-    return q.center == v.self && q.reach == reach && q.radius == radius && q.count == count &&
-           std::equal(codes_.begin(), codes_.end(), q.codes());
+// The same ring may start elsewhere: the order in which vertices were met decides that.
+void Index::take_codes(const VoronoiCell& cell) {
+  codes_.clear();
+  for (int i = 0; i < cell.size(); ++i) codes_.push_back(cell.code(i));
+  std::rotate(codes_.begin(), std::min_element(codes_.begin(), codes_.end()), codes_.end());
+}
+
+// --- Records ---------------------------------------------------------------------------------
+//
+// An observation that says the same as last time is kept as it is.
+
+void Index::fill(sac::Scope& s, Observation& o, Vertex<2>& v, float reach) noexcept {
+  o.center = v.self;
+  o.call = engine_.handle_of(s.self());
+  o.reach = reach;
+  observers_.link(o);
+}
+
+void Index::record_cell(sac::Scope& s, Vertex<2>& v, float reach, float radius) {
+  const auto same = [&](const CellSeen& o) {
+    return o.center == v.self && o.reach == reach && o.radius == radius &&
+           std::equal(codes_.begin(), codes_.end(), o.codes(), o.codes() + o.count);
   };
-  if (s.recall<QueryEdge>(id_, kind, same) != nullptr) return;
-  auto& q = s.observe<QueryEdge>(id_, kind, count * sizeof(std::uint32_t));
-  q.center = v.self;
-  q.call = engine_.handle_of(s.self());
-  q.reach = reach;
-  q.radius = radius;
-  q.count = count;
-  std::copy(codes_.begin(), codes_.end(), q.codes());
-  q.next_query = v.queries;
-  v.queries = engine_.arena().handle_of(&q);
-  if (reach > v.reach) {
-    v.reach = reach;
-    tree_.raise_reach(v);
+  if (auto* o = s.recall<CellSeen>(id_, kCell, same)) {
+    o->arrivals = 0;
+    return;
   }
-  if (kind == kStar && logging_) log_.stars_come.push_back(star_record(q));
+  auto& o = s.observe<CellSeen>(id_, kCell, codes_.size() * sizeof(std::uint32_t));
+  o.radius = radius;
+  o.count = static_cast<std::uint32_t>(codes_.size());
+  std::copy(codes_.begin(), codes_.end(), o.codes());
+  fill(s, o, v, reach);
 }
 
-Index::StarRecord Index::star_record(const QueryEdge& q) const {
-  return {q.center, {q.codes(), q.codes() + q.count}};
+void Index::record_nearest(sac::Scope& s, Vertex<2>& v, float reach, VertexHandle nearest) {
+  const auto same = [&](const NearestSeen& o) {
+    return o.center == v.self && o.reach == reach && o.nearest == nearest;
+  };
+  if (s.recall<NearestSeen>(id_, kNearest, same) != nullptr) return;
+  auto& o = s.observe<NearestSeen>(id_, kNearest);
+  o.nearest = nearest;
+  fill(s, o, v, reach);
 }
 
-void Index::unlink(QueryEdge& q) {
-  Vertex<2>& v = pool_[q.center];
-  const sac::Handle self = engine_.arena().handle_of(&q);
-  sac::Handle* link = &v.queries;
-  while (*link != self) link = &query(*link).next_query;
-  *link = q.next_query;
-  if (q.reach < v.reach) return;
-  v.reach = 0;
-  for (sac::Handle h = v.queries; h != 0; h = query(h).next_query) {
-    v.reach = std::max(v.reach, query(h).reach);
+void Index::record_star(sac::Scope& s, Vertex<2>& v, float reach) {
+  const auto same = [&](const StarSeen& o) {
+    const auto seen = observers_.seen(o);
+    return o.center == v.self && o.reach == reach &&
+           std::equal(codes_.begin(), codes_.end(), seen.begin(), seen.end());
+  };
+  if (auto* o = s.recall<StarSeen>(id_, kStar, same)) {
+    o->arrivals = 0;
+    return;
   }
+  const sac::Handle ring = new_ring(v.self);
+  try {
+    auto& o = s.observe<StarSeen>(id_, kStar);
+    o.ring = ring;
+    fill(s, o, v, reach);
+  } catch (...) {
+    engine_.arena().release(ring, Ring::bytes(codes_.size()));
+    throw;
+  }
+  log_.star_came(v, ring);
+}
+
+sac::Handle Index::new_ring(VertexHandle center) {
+  const sac::Handle handle = engine_.arena().allocate(Ring::bytes(codes_.size()));
+  Ring& ring = *engine_.arena().at<Ring>(handle);
+  ring = {center, 0, static_cast<std::uint32_t>(codes_.size()), true};
+  std::copy(codes_.begin(), codes_.end(), ring.codes());
+  return handle;
+}
+
+void Index::forget(Observation& o) noexcept {
+  observers_.unlink(o);
+  if (o.kind == kStar) log_.star_went(pool_[o.center], static_cast<StarSeen&>(o).ring);
 }
 
 void Index::split(sac::Scope& s, const Cell<2>& cell) {
-  if (s.recall<SplitEdge>(id_, kSplit, [](const SplitEdge&) { return true; }) != nullptr) return;
+  const auto done = [](const SplitEdge& edge) { return edge.node != SplitEdge::kNone; };
+  if (s.recall<SplitEdge>(id_, kSplit, done) != nullptr) return;
   auto& edge = s.effect<SplitEdge>(id_, kSplit);
+  edge.node = SplitEdge::kNone;  // nothing to take back, should marking fail
   edge.node = tree_.mark(cell);
 }
 
 // --- Taking back -----------------------------------------------------------------------------
 
-void Index::retract(sac::Call& call, sac::Edge& edge) noexcept {
-  (void)call;
-  switch (edge.kind) {
-    case kBirth: return retract_birth(static_cast<BirthEdge&>(edge));
-    case kSplit: return tree_.unmark(static_cast<SplitEdge&>(edge).node);
-    case kStar:
-      if (logging_) log_.stars_gone.push_back(star_record(static_cast<QueryEdge&>(edge)));
-      [[fallthrough]];
-    default: return unlink(static_cast<QueryEdge&>(edge));
-  }
-}
-
-void Index::retract_birth(BirthEdge& birth) {
-  Vertex<2>& v = pool_[birth.vertex];
-  touch(v);
-  const sac::Handle self = engine_.arena().handle_of(&birth);
-  sac::Handle* link = &v.producers;
-  while (*link != self) link = &producer(*link).next_producer;
-  *link = birth.next_producer;
-  const sac::Handle old_birth = v.birth;
-  choose_birth(v);
-  if (v.birth == old_birth) return;
-  if (engine_.appending()) return;  // a first run fails: all that came later goes as well
-  vanished(v, engine_.call(old_birth), v.alive ? &engine_.call(v.birth) : nullptr);
+void Index::retract(sac::Call&, sac::Edge& edge) noexcept {
+  if (edge.kind == kBirth) return retract_birth(static_cast<BirthEdge&>(edge));
+  if (edge.kind != kSplit) return forget(static_cast<Observation&>(edge));
+  const auto node = static_cast<SplitEdge&>(edge).node;
+  if (node != SplitEdge::kNone) tree_.unmark(node);
 }
 
 // --- For people and for traces ---------------------------------------------------------------
 
 // The neighbours from the smallest on: virtual ones by number, the others by place. In which order
 // vertices were made does not matter then.
-std::vector<std::uint32_t> Index::canonical_codes(const QueryEdge& q) const {
-  std::vector<std::uint32_t> codes(q.codes(), q.codes() + q.count);
+std::vector<std::uint32_t> Index::canonical_codes(const Observation& o) const {
+  const auto seen = observers_.seen(o);
+  std::vector<std::uint32_t> codes(seen.begin(), seen.end());
   const auto before = [&](std::uint32_t a, std::uint32_t b) {
     if (a >= VoronoiCell::kVirtual || b >= VoronoiCell::kVirtual) return a < b;
     return pool_[a].p < pool_[b].p;
@@ -246,7 +234,7 @@ std::vector<std::uint32_t> Index::canonical_codes(const QueryEdge& q) const {
 
 void Index::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
   if (edge.kind == kBirth || edge.kind == kSplit) return;
-  const auto codes = canonical_codes(static_cast<const QueryEdge&>(edge));
+  const auto codes = canonical_codes(static_cast<const Observation&>(edge));
   sink.number(codes.size());
   for (const std::uint32_t code : codes) {
     if (code == 0 || code >= VoronoiCell::kVirtual) {
@@ -262,7 +250,7 @@ void Index::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) co
     out << "inserts " << VertexRef<2>{&pool_[static_cast<const BirthEdge&>(edge).vertex]};
   } else if (edge.kind != kSplit) {
     out << (edge.kind == kNearest ? "nearest" : "neighbours");
-    for (const std::uint32_t code : canonical_codes(static_cast<const QueryEdge&>(edge))) {
+    for (const std::uint32_t code : canonical_codes(static_cast<const Observation&>(edge))) {
       if (code != 0 && code < VoronoiCell::kVirtual) out << ' ' << VertexRef<2>{&pool_[code]};
     }
   }
@@ -270,42 +258,79 @@ void Index::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) co
 
 // --- Between updates -------------------------------------------------------------------------
 
-Index::Ring Index::ring(const Vertex<2>& v) const {
-  for (sac::Handle h = v.queries; h != 0; h = query(h).next_query) {
-    const QueryEdge& q = query(h);
-    if (q.kind == kStar) return {q.codes(), static_cast<int>(q.count)};
-  }
-  return {};
+Ring* Index::find_ring(const Vertex<2>& v) const noexcept {
+  const auto* star = static_cast<const StarSeen*>(
+      observers_.find_at(v, [](const Observation& o) { return o.kind == kStar; }));
+  return star == nullptr ? nullptr : engine_.arena().at<Ring>(star->ring);
 }
 
-void Index::commit() {
-  for (const VertexHandle h : log_.touched) {
-    Vertex<2>& v = pool_[h];
-    v.touched = false;
+Index::RingView Index::ring(const Vertex<2>& v) const {
+  const Ring* ring = find_ring(v);
+  if (ring == nullptr) return {};
+  return {ring->span().data(), static_cast<int>(ring->count)};
+}
+
+Index::Log Index::log() const {
+  Log log{log_.touched(), log_.stars_gone(), {}};
+  for (const VertexHandle h : log.touched) {
+    const Ring* now = pool_[h].star_changed ? find_ring(pool_[h]) : nullptr;
+    if (now != nullptr && now->fresh) log.stars_come.push_back({h, now->span()});
+  }
+  return log;
+}
+
+void Index::commit() noexcept {
+  log_.clear([&](Vertex<2>& v) {
     v.committed = v.alive;
-    if (v.alive || v.input) continue;
+    if (Ring* ring = find_ring(v)) ring->fresh = false;
+    if (v.alive || v.input) return;
     tree_.erase(v);
     pool_.release(v);
-  }
-  log_ = {};
+  });
+  observers_.forget_arrivals();
 }
 
 void Index::check_invariants() const {
+  SAC_INVARIANT(log_.empty());
+  pool_.check_invariants();
+  tree_.check_invariants();
   pool_.for_each([&](const Vertex<2>& v) {
     SAC_INVARIANT(tree_.find(v.p) == &v);
-    SAC_INVARIANT(v.alive == (v.boundary || v.producers != 0));
-    SAC_INVARIANT(v.alive && v.committed == !v.boundary);
-    float reach = 0;
+    SAC_INVARIANT(v.alive && v.committed && (v.boundary || v.presence.there()));
+    presences_.check_invariants(v.presence);
+    observers_.check_invariants(v);
     int stars = 0;
-    for (sac::Handle h = v.queries; h != 0; h = query(h).next_query) {
-      SAC_INVARIANT(query(h).center == v.self);
-      SAC_INVARIANT(!engine_.call(query(h).call).dead());
-      reach = std::max(reach, query(h).reach);
-      stars += query(h).kind == kStar;
-    }
-    SAC_INVARIANT(v.reach == reach && stars == 1);
+    observers_.find_at(v, [&](const Observation& o) {
+      stars += o.kind == kStar && !find_ring(v)->fresh;
+      check_observation(v, o);
+      return false;
+    });
+    SAC_INVARIANT(stars == 1);
   });
-  tree_.check_reach();
+}
+
+// It is what a search from nothing finds.
+void Index::check_observation(const Vertex<2>& v, const Observation& o) const {
+  const sac::Call& call = engine_.call(o.call);
+  const auto seen = [&](VertexHandle u) {
+    return o.kind == kStar ? pool_[u].alive : born_before(pool_[u], call);
+  };
+  if (o.kind == kNearest) {
+    SAC_INVARIANT(nearest_around(v, seen).handle == observers_.seen(o)[0]);
+    return;
+  }
+  const double radius =
+      o.kind == kStar ? whole() : unpacked(static_cast<const CellSeen&>(o).radius);
+  const CellLoan cell = cut_around(v, radius, seen);
+  cell->check_invariants();
+  const auto codes = observers_.seen(o);
+  SAC_INVARIANT(codes.size() == static_cast<std::size_t>(cell->size()));
+  int first = 0;
+  while (first < cell->size() && cell->code(first) != codes[0]) ++first;
+  for (int i = 0; i < cell->size(); ++i) {
+    SAC_INVARIANT(cell->code((first + i) % cell->size()) == codes[static_cast<std::size_t>(i)]);
+  }
+  SAC_INVARIANT(o.reach == packed(concern(*cell)));
 }
 
 }  // namespace mesher::detail

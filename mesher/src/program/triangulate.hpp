@@ -13,7 +13,7 @@ struct Star {
   template <class S>
   void operator()(S& s, VertexRef<2> v) const {
     auto& w = s.template environment<World<S>>();
-    w.output(s, v, w.vertices.star(s, v));
+    w.output(s, v, *w.vertices.star(s, v));
   }
 };
 inline constexpr Star star{};

@@ -9,5 +9,6 @@
 #include "sac/list/sort.hpp"
 #include "sac/mod.hpp"
 #include "sac/plain.hpp"
+#include "sac/presence.hpp"
 #include "sac/scope.hpp"
 #include "sac/list/sequence.hpp"

@@ -185,8 +185,7 @@ TEST_CASE("a new vertex that cuts is in reach, in an entered square, and may_cut
     for (const auto* w : scene.others) scene.cut_by(cell, *w);
     std::vector<std::uint32_t> codes;
     for (int k = 0; k < cell.size(); ++k) codes.push_back(cell.code(k));
-    const bool may = VoronoiCell::may_cut(scene.pool, *scene.v, scene.radius, codes.data(),
-                                          cell.size(), fresh->p);
+    const bool may = VoronoiCell::may_cut(scene.pool, *scene.v, scene.radius, codes, fresh->p);
     const double x = fresh->p[0] - scene.v->p[0], y = fresh->p[1] - scene.v->p[1];
     const double side = std::ldexp(scene.radius, -static_cast<int>(random.below(20)));
     const Point<2> corner{x - side * random.unit(), y - side * random.unit()};
@@ -222,4 +221,49 @@ TEST_CASE("far from the origin, and across thirty powers of two, signs stay exac
     for (const auto* w : scene.others) scene.cut_by(cell, *w);
     REQUIRE(ring_of(cell) == expected);
   }
+}
+
+TEST_CASE("a cell restored after some vertices went and some came is that of brute force [B5]") {
+  SplitMix64 random(43);
+  INFO("seed 43");
+  VoronoiCell cell;
+  int restored = 0;
+  int closed = 0;
+  for (int i = 0; i < 4000; ++i) {
+    INFO("scene " << i);
+    Scene scene = make_scene(random, static_cast<Kind>(i % static_cast<int>(Kind::kinds)));
+    std::vector<Vertex<2>*> arrivals;
+    for (std::size_t k = random.below(3); k > 0 && scene.others.size() > 1; --k) {
+      arrivals.push_back(scene.others.back());
+      scene.others.pop_back();
+    }
+    cell.reset(*scene.v, scene.radius);
+    for (const auto* w : scene.others) scene.cut_by(cell, *w);
+    const Ring before = ring_of(cell);
+    std::map<std::uint32_t, bool> gone;
+    std::erase_if(scene.others,
+                  [&](const auto* w) { return gone[w->self] = random.below(6) == 0; });
+    const bool worked = cell.restore(
+        scene.pool, *scene.v, scene.radius, before,
+        [&](std::uint32_t code) { return !gone.contains(code) || !gone[code]; }, true);
+    if (!worked) continue;
+    ++restored;
+    cell.check_invariants();
+    for (const auto* w : arrivals) scene.cut_by(cell, *w);
+    for (int k = 0; k < cell.size(); ++k) closed += cell.corner2(k) > cell.open2();
+    // Who takes what is left can be found in the gap balls of open corners.
+    for (const auto* w : scene.others) {
+      const double x = w->p[0] - scene.v->p[0], y = w->p[1] - scene.v->p[1];
+      if (!cell.cuts(w->p)) continue;
+      REQUIRE(cell.cuts_open(w->p));
+      CHECK(cell.in_reach(x * x + y * y));
+      CHECK(cell.enters({x, y}, 0, 0x1p-40 * scene.radius));
+      cell.cut(w->self);
+    }
+    for (auto* w : arrivals) scene.others.push_back(w);
+    REQUIRE(ring_of(cell) == brute_force(scene.v->p, scene.sites()));
+    cell.check_invariants();
+  }
+  CHECK(restored > 1500);
+  CHECK(closed > 5000);
 }

@@ -116,11 +116,11 @@ TEST_CASE("a search meets every vertex within its radius, in trees of any depth"
       v->reach = static_cast<float>(random.unit() / 4);
       tree.raise_reach(*v);
     }
-    tree.check_reach();
+    tree.check_invariants();
     for (int i = 0; i < 100; ++i) {
       const Point<2> p{coordinate(), coordinate()};
       std::set<VertexHandle> met;
-      tree.visit_reaching(p, [&](auto& v) { met.insert(v.self); });
+      tree.visit_reaching(p, [&](auto& v, double) { met.insert(v.self); });
       for (const auto* v : all) {
         const double x = v->p[0] - p[0], y = v->p[1] - p[1];
         const double reach = v->reach * 4.0;
@@ -128,7 +128,7 @@ TEST_CASE("a search meets every vertex within its radius, in trees of any depth"
       }
       auto& v = *all[random.below(all.size())];
       v.reach = 0;
-      tree.check_reach();
+      tree.check_invariants();
     }
   }
 }
@@ -156,7 +156,7 @@ TEST_CASE("marks taken back leave one cell, and vertices are found all the while
         marked[c] = tree.mark(c);
       }
       for (const auto* v : all) REQUIRE(tree.find(v->p) == v);
-      tree.check_reach();
+      tree.check_invariants();
     }
     for (const auto& [cell, node] : marked) tree.unmark(node);
     int leaves = 0;

@@ -1,4 +1,4 @@
-// Records of vertices that are input points at times and Steiner vertices at others.
+// Records, and what is asked about them.
 #include <catch2/catch.hpp>
 
 #include "edit_sequence.hpp"
@@ -38,4 +38,44 @@ TEST_CASE("a Steiner vertex that was an input point forgets the call that locate
     world.world().vertices.check_invariants();
   }
   CHECK(looked > 5);
+}
+
+TEST_CASE("a vertex of the boundary grid reaches no farther than the triangles around it") {
+  const mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}};
+  support::TracedWorld world(options);
+  SECTION("without a point") {}
+  SECTION("with points") {
+    std::int64_t id = 1;
+    for (const auto& p : mesher::generate_points<2>(mesher::PointKind::uniform, 40, 3)) {
+      world.insert(mesher::FeatureId{id++}, p);
+    }
+    world.update();
+  }
+  int looked = 0;
+  world.world().vertices.pool().for_each([&](const auto& v) {
+    if (!v.boundary) return;
+    ++looked;
+    CHECK(v.reach > 0);
+    CHECK(v.reach <= 1.5);  // in sides of the box: twice a circumradius, at most its diagonal
+  });
+  CHECK(looked > 4);
+}
+
+TEST_CASE("two cells can be looked at together") {
+  struct Search : mesher::detail::VertexSearch {
+    using VertexSearch::cut_around;
+    using VertexSearch::VertexSearch;
+  };
+  const mesher::detail::MeshBox<2> box{.lo = {-1.5, -1.5}, .side = 4};
+  Search search(box);
+  auto& a = search.add_input({0.25, 0.5}, true);
+  auto& b = search.add_input({0.5, 0.5}, true);
+  const auto all = [](mesher::detail::VertexHandle) { return true; };
+  const auto first = search.cut_around(a, 1, all);
+  const auto second = search.cut_around(b, 1, all);
+  CHECK(&*first != &*second);
+  CHECK(&first->center() == &a);
+  CHECK(&second->center() == &b);
+  first->check_invariants();
+  second->check_invariants();
 }

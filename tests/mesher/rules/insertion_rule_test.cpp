@@ -146,9 +146,9 @@ TEST_CASE("a new point's nearest vertex is rho lengths away, and what the rule s
       nearest2 = std::min(nearest2, d * d);
     }
     const int b = rule->buckets().bucket(nearest2);
-    auto& cell = search.cut_around(*all[0], rule->buckets().clip_radius(b),
+    const auto cell = search.cut_around(*all[0], rule->buckets().clip_radius(b),
                                    [](VertexHandle) { return true; });
-    const auto point = rule->next_point(cell, b);
+    const auto point = rule->next_point(*cell, b);
     if (!point.has_value()) continue;
     ++found;
     double shortest = 16, to_nearest = 16;
@@ -212,8 +212,8 @@ TEST_CASE("an off-centre may be nearly two circumradii of the clip away, and no 
                        v[1] + along * out[1] + side * out[0]};
       search.tree().insert(search.pool().create(p));
     }
-    auto& cell = search.cut_around(search.pool()[1], clip, [](VertexHandle) { return true; });
-    const auto point = rule->next_point(cell, b);
+    const auto cell = search.cut_around(search.pool()[1], clip, [](VertexHandle) { return true; });
+    const auto point = rule->next_point(*cell, b);
     REQUIRE(point.has_value());
     CHECK(distance(point->p, v) > 2.1 * clip);
     CHECK(distance(point->p, v) <= rule->promise().inserts * clip);
@@ -268,10 +268,10 @@ TEST_CASE("an off-centre has the same bits whichever corner of its triangle asks
     }
     std::vector<Point<2>> asked;
     for (int corner = 0; corner < 3; ++corner) {
-      auto& cell =
+      const auto cell =
           search.cut_around(*all[static_cast<std::size_t>(corner)], rule->buckets().clip_radius(b),
                             [](VertexHandle) { return true; });
-      const auto point = rule->next_point(cell, b);
+      const auto point = rule->next_point(*cell, b);
       REQUIRE(point.has_value());
       asked.push_back(point->p);
     }

@@ -1,0 +1,116 @@
+// What has changed since the last update: vertices, and stars.
+//
+// Everything is linked through records that are there already, so that taking back, which must not
+// fail, can note what it takes. A star that goes hands its ring over; one ring a vertex is kept,
+// the star's at the end of the last update.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "index/vertex.hpp"
+#include "sac/internal/arena.hpp"
+
+namespace mesher::detail {
+
+/// The neighbours in a star, counterclockwise; a block of the engine's arena.
+struct Ring {
+  VertexHandle center;
+  sac::Handle next;  // in a list of rings
+  std::uint32_t count;
+  bool fresh;  // made since the last update
+
+  [[nodiscard]] static std::size_t bytes(std::size_t count) noexcept {
+    return sizeof(Ring) + count * sizeof(std::uint32_t);
+  }
+  [[nodiscard]] std::uint32_t* codes() noexcept {
+    return reinterpret_cast<std::uint32_t*>(this + 1);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> span() const noexcept {
+    return {reinterpret_cast<const std::uint32_t*>(this + 1), count};
+  }
+};
+
+class ChangeLog {
+ public:
+  /// A star as the vertex and its neighbours.
+  struct Star {
+    VertexHandle center;
+    std::span<const std::uint32_t> ring;
+  };
+
+  ChangeLog(VertexPool<2>& pool, sac::Arena& arena) noexcept : pool_(pool), arena_(arena) {}
+
+  /// The vertex may have come, gone, or become another kind.
+  void touch(Vertex<2>& v) noexcept {
+    if (v.changed) return;
+    v.changed = true;
+    v.next_changed = std::exchange(first_, v.self);
+  }
+  /// v's star has gone; its ring is the log's from now on.
+  void star_went(Vertex<2>& v, sac::Handle ring) noexcept {
+    if (!keeps_stars_ || arena_.at<Ring>(ring)->fresh) return release(ring);
+    mark_star(v);
+    arena_.at<Ring>(ring)->next = std::exchange(gone_, ring);
+  }
+  /// v has a star that it had not, with this ring.
+  void star_came(Vertex<2>& v, sac::Handle ring) noexcept {
+    arena_.at<Ring>(ring)->fresh = keeps_stars_;
+    if (keeps_stars_) mark_star(v);
+  }
+  /// Whether stars are noted: a first run need not.
+  void keep_stars(bool on) noexcept { keeps_stars_ = on; }
+
+  /// Vertices that may have come, gone, or become another kind; and those with another star.
+  [[nodiscard]] std::vector<VertexHandle> touched() const {
+    std::vector<VertexHandle> all;
+    for (VertexHandle h = first_; h != 0; h = pool_[h].next_changed) all.push_back(h);
+    return all;
+  }
+  /// The stars of the last update that are no more.
+  [[nodiscard]] std::vector<Star> stars_gone() const {
+    std::vector<Star> all;
+    for (sac::Handle h = gone_; h != 0; h = arena_.at<Ring>(h)->next) {
+      all.push_back({arena_.at<Ring>(h)->center, arena_.at<Ring>(h)->span()});
+    }
+    return all;
+  }
+
+  /// Forgets everything; calls visit(vertex) for each that was listed, which may release it.
+  /// Cost: O(what is listed).
+  template <class Visit>
+  void clear(Visit&& visit) noexcept {
+    for (VertexHandle h = std::exchange(first_, 0); h != 0;) {
+      Vertex<2>& v = pool_[h];
+      h = std::exchange(v.next_changed, 0);
+      v.changed = v.star_changed = false;
+      visit(v);
+    }
+    for (sac::Handle h = std::exchange(gone_, 0); h != 0;) {
+      const sac::Handle next = arena_.at<Ring>(h)->next;
+      release(h);
+      h = next;
+    }
+  }
+  [[nodiscard]] bool empty() const noexcept { return first_ == 0 && gone_ == 0; }
+
+ private:
+  void mark_star(Vertex<2>& v) noexcept {
+    touch(v);
+    v.star_changed = true;
+  }
+  void release(sac::Handle ring) noexcept {
+    arena_.release(ring, Ring::bytes(arena_.at<Ring>(ring)->count));
+  }
+
+  VertexPool<2>& pool_;
+  sac::Arena& arena_;
+  VertexHandle first_ = 0;
+  sac::Handle gone_ = 0;
+  bool keeps_stars_ = false;
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,65 @@
+// Lists of observations, and of what came since.
+#include "index/observers.hpp"
+
+#include <algorithm>
+
+namespace mesher::detail {
+
+void Observers::link(Observation& o) noexcept {
+  Vertex<2>& v = pool_[o.center];
+  o.arrivals = 0;
+  o.next = v.queries;
+  v.queries = engine_.arena().handle_of(&o);
+  if (o.reach <= v.reach) return;
+  v.reach = o.reach;
+  tree_.raise_reach(v);
+}
+
+void Observers::unlink(Observation& o) noexcept {
+  Vertex<2>& v = pool_[o.center];
+  const sac::Handle self = engine_.arena().handle_of(&o);
+  sac::Handle* link = &v.queries;
+  while (*link != self) link = &at(*link).next;
+  *link = o.next;
+  if (o.reach < v.reach) return;
+  v.reach = 0;
+  for (sac::Handle h = v.queries; h != 0; h = at(h).next) v.reach = std::max(v.reach, at(h).reach);
+}
+
+std::span<const std::uint32_t> Observers::seen(const Observation& o) const noexcept {
+  if (o.kind == kNearest) return {&static_cast<const NearestSeen&>(o).nearest, 1};
+  if (o.kind == kStar) {
+    return engine_.arena().at<Ring>(static_cast<const StarSeen&>(o).ring)->span();
+  }
+  const auto& cell = static_cast<const CellSeen&>(o);
+  return {cell.codes(), cell.count};
+}
+
+void Observers::expect_arrivals() {
+  if (arrivals_.capacity() - arrivals_.size() >= kRoom) return;
+  arrivals_.reserve(2 * arrivals_.capacity() + kRoom);
+}
+
+void Observers::note_arrival(Observation& o, VertexHandle w) noexcept {
+  if (o.arrivals == kUnknown) return;
+  if (arrivals_.size() == arrivals_.capacity()) {
+    o.arrivals = kUnknown;
+    return;
+  }
+  arrivals_.push_back({w, o.arrivals});
+  o.arrivals = static_cast<std::uint32_t>(arrivals_.size() - 1);
+}
+
+void Observers::check_invariants(const Vertex<2>& v) const {
+  SAC_INVARIANT(arrivals_.size() == 1);
+  float reach = 0;
+  for (sac::Handle h = v.queries; h != 0; h = at(h).next) {
+    const Observation& o = at(h);
+    SAC_INVARIANT(o.center == v.self && o.arrivals == 0);
+    SAC_INVARIANT(!engine_.call(o.call).dead());
+    reach = std::max(reach, o.reach);
+  }
+  SAC_INVARIANT(v.reach == reach);
+}
+
+}  // namespace mesher::detail

@@ -1,0 +1,154 @@
+// Who has looked where: the observations of vertices, found by place and reach.
+//
+// An observation is centred at a vertex and says how far a vertex may be that concerns it: its
+// reach. A vertex keeps a list of those centred at it and their largest reach; the quadtree keeps
+// the largest reach below each cell. So those that a place concerns are found from the root down.
+// (This is not a structure of its own in `sac`: the cells with their bounds are those in which
+// vertices are looked up, and a second tree of the same cells would cost as much memory again.)
+//
+// An observation that says who v's neighbours were is also where its call starts from when it runs
+// again. Then it must know which vertices came since: those are noted with it, its *arrivals*.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "geometry/voronoi_cell.hpp"
+#include "index/change_log.hpp"
+#include "index/quadtree.hpp"
+#include "sac/engine.hpp"
+
+namespace mesher::detail {
+
+struct Observation : sac::Edge {
+  VertexHandle center;
+  sac::Handle call;
+  sac::Handle next;        // centred at the same vertex
+  float reach;             // no farther vertex concerns it; in units of the box's side
+  std::uint32_t arrivals;  // a list
+};
+
+/// The nearest vertex.
+struct NearestSeen : Observation {
+  std::uint32_t nearest;  // 0: none
+};
+/// The neighbours in a clipped cell; their codes lie behind it.
+struct CellSeen : Observation {
+  float radius;  // the clip, in units of the box's side
+  std::uint32_t count;
+
+  [[nodiscard]] std::uint32_t* codes() noexcept {
+    return reinterpret_cast<std::uint32_t*>(this + 1);
+  }
+  [[nodiscard]] const std::uint32_t* codes() const noexcept {
+    return reinterpret_cast<const std::uint32_t*>(this + 1);
+  }
+};
+/// The neighbours in a star.
+struct StarSeen : Observation {
+  sac::Handle ring;
+};
+
+class Observers {
+ public:
+  static constexpr std::uint8_t kNearest = 2;
+  static constexpr std::uint8_t kCell = 1;
+  static constexpr std::uint8_t kStar = 3;
+  static constexpr std::uint32_t kUnknown = 0xffffffffu;
+
+  Observers(sac::Engine& engine, VertexPool<2>& pool, Quadtree<2>& tree)
+      : engine_(engine), pool_(pool), tree_(tree) {}
+
+  /// Lists an observation whose centre, call and reach are set.
+  void link(Observation& o) noexcept;
+  void unlink(Observation& o) noexcept;
+
+  /// Calls visit(observation) for those centred at v, the newest first, until one returns true.
+  /// Returns that one, or null.
+  template <class Visit>
+  Observation* find_at(const Vertex<2>& v, Visit&& visit) const {
+    for (sac::Handle h = v.queries; h != 0; h = at(h).next) {
+      if (visit(static_cast<const Observation&>(at(h)))) return &at(h);
+    }
+    return nullptr;
+  }
+  /// Calls visit(centre, observation) for those that a vertex at p may concern, by its distance.
+  /// visit must not throw. Cost: O(depth of the tree) and what it visits.
+  template <class Visit>
+  void for_each_reaching(const Point<2>& p, double side, Visit&& visit) noexcept {
+    // Memory is asked for the observations of several centres before the first is looked at.
+    std::array<Met, 32> met;
+    std::size_t count = 0;
+    const auto look = [&] {
+      for (std::size_t i = 0; i < count; ++i) visit_at(met[i], side, visit);
+      count = 0;
+    };
+    tree_.visit_reaching(p, [&](Vertex<2>& center, double distance2) {
+      ++visited_;
+      if (count == met.size()) look();
+      __builtin_prefetch(engine_.arena().at<Observation>(center.queries));
+      met[count++] = {&center, distance2};
+    });
+    look();
+  }
+
+  /// Centres that for_each_reaching() has met since this was asked last.
+  [[nodiscard]] std::uint64_t take_visited() noexcept { return std::exchange(visited_, 0); }
+
+  /// What it saw: codes counterclockwise, or one.
+  [[nodiscard]] std::span<const std::uint32_t> seen(const Observation& o) const noexcept;
+
+  /// Makes room for arrivals, which are then noted without fail. Throws: std::bad_alloc.
+  void expect_arrivals();
+  /// w has come since `o` was made. (Without room it is noted that something has.)
+  void note_arrival(Observation& o, VertexHandle w) noexcept;
+  /// Whether all that came since is noted.
+  [[nodiscard]] bool knows_arrivals(const Observation& o) const noexcept {
+    return o.arrivals != kUnknown;
+  }
+  /// Calls visit(handle) for what came. Requires: knows_arrivals(o).
+  template <class Visit>
+  void for_each_arrival(const Observation& o, Visit&& visit) const {
+    for (std::uint32_t i = o.arrivals; i != 0; i = arrivals_[i].next) visit(arrivals_[i].vertex);
+  }
+  /// At the end of an update, when no observation has arrivals.
+  void forget_arrivals() noexcept { arrivals_.resize(1); }
+
+  /// Throws InvariantError unless v's list is in order, between updates.
+  void check_invariants(const Vertex<2>& v) const;
+
+ private:
+  struct Met {
+    Vertex<2>* center;
+    double distance2;
+  };
+  template <class Visit>
+  void visit_at(const Met& met, double side, Visit& visit) noexcept {
+    for (sac::Handle h = met.center->queries; h != 0; h = at(h).next) {
+      Observation& o = at(h);
+      const double reach = double{o.reach} * side;
+      if (met.distance2 <= reach * reach) visit(*met.center, o);
+    }
+  }
+
+  struct Arrival {
+    VertexHandle vertex = 0;
+    std::uint32_t next = 0;
+  };
+  static constexpr std::size_t kRoom = 256;
+
+  [[nodiscard]] Observation& at(sac::Handle h) const noexcept {
+    return *engine_.arena().at<Observation>(h);
+  }
+
+  sac::Engine& engine_;
+  VertexPool<2>& pool_;
+  Quadtree<2>& tree_;
+  std::vector<Arrival> arrivals_{1};  // the first stands for the end of a list
+  std::uint64_t visited_ = 0;
+};
+
+}  // namespace mesher::detail

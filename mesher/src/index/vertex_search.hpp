@@ -1,0 +1,200 @@
+// Looking vertices up: what the index answers, without a history.
+//
+// A cell is searched from its centre's leaf outwards, into the leaves that a gap ball can still
+// enter [L 4.3.3]. It need not start from nothing:
+//   repair   from what the same question was answered last time, and the vertices that have come
+//            since: only where a neighbour went are there gap balls to be searched;
+//   seeds    from vertices likely to be neighbours: a small cell from the start.
+// Either way the cell is that of the set of vertices that are seen, and of nothing else.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "geometry/voronoi_cell.hpp"
+#include "index/cell_pool.hpp"
+#include "index/quadtree.hpp"
+#include "index/vertex.hpp"
+
+namespace mesher::detail {
+
+class VertexSearch {
+ public:
+  explicit VertexSearch(const MeshBox<2>& box) : box_(box), tree_(box, pool_) {}
+  VertexSearch(const VertexSearch&) = delete;
+  VertexSearch& operator=(const VertexSearch&) = delete;
+
+  [[nodiscard]] VertexPool<2>& pool() noexcept { return pool_; }
+  [[nodiscard]] const VertexPool<2>& pool() const noexcept { return pool_; }
+  [[nodiscard]] Quadtree<2>& tree() noexcept { return tree_; }
+  [[nodiscard]] const Quadtree<2>& tree() const noexcept { return tree_; }
+  [[nodiscard]] const MeshBox<2>& box() const noexcept { return box_; }
+  /// Lengths are kept as floats in units of the box's side, a power of two. `x` must be >= 0.
+  [[nodiscard]] float packed(double x) const noexcept;
+  [[nodiscard]] double unpacked(float x) const noexcept { return double{x} * box_.side; }
+
+  /// Clip radius at which no corner of a star is hidden: circumcentres lie in the box.
+  [[nodiscard]] double whole() const noexcept { return 2 * box_.side; }
+
+  /// The record of an input point, not alive yet. `first`: no vertex but the boundary's and inputs
+  /// at other places is there. Throws: std::bad_alloc, and then changes nothing.
+  Vertex<2>& add_input(const Point<2>& p, bool first) {
+    Vertex<2>* v = first ? nullptr : tree_.find(p);
+    if (v == nullptr) v = &add(p);
+    v->input = true;
+    return *v;
+  }
+
+  /// A vertex of the boundary grid: there from the start, for good.
+  VertexRef<2> add_boundary(const Point<2>& p) {
+    Vertex<2>& v = add(p);
+    v.alive = v.boundary = v.committed = true;
+    return {&v};
+  }
+
+ protected:
+  using Codes = std::span<const VoronoiCell::Code>;
+
+  Vertex<2>& add(const Point<2>& p) {
+    Vertex<2>& v = pool_.create(p);
+    try {
+      tree_.insert(v);
+    } catch (...) {
+      pool_.release(v);
+      throw;
+    }
+    return v;
+  }
+
+  /// The cell of v among all vertices u for which seen(u); u is a handle.
+  template <class Seen>
+  CellLoan cut_around(const Vertex<2>& v, double radius, Seen&& seen) const {
+    CellLoan cell = cells_.borrow();
+    cell->reset(v, radius);
+    search(*cell, seen);
+    return cell;
+  }
+
+  /// The same, starting from vertices that may be seen: all or most of v's neighbours at another
+  /// time, `seeds`, counterclockwise, virtual neighbours of whatever clip among them.
+  template <class Seen>
+  CellLoan cell_from_ring(const Vertex<2>& v, double radius, Codes seeds, Seen&& seen) {
+    CellLoan cell = cells_.borrow();
+    const auto left = [&](VoronoiCell::Code u) { return u < VoronoiCell::kVirtual && seen(u); };
+    if (!cell->restore(pool_, v, radius, seeds, left, false)) cut_by_seeds(*cell, seeds, left);
+    finish(*cell, seen);
+    return cell;
+  }
+
+  /// The same, from the cell for another set of vertices: v's neighbours `last`, with the same
+  /// clip. for_each_arrival(visit) calls visit(u) for all vertices that are new in the set and cut
+  /// that cell, and perhaps for others.
+  template <class ForEachArrival, class Seen>
+  CellLoan repaired_cell(const Vertex<2>& v, double radius, Codes last,
+                         ForEachArrival&& for_each_arrival, Seen&& seen) {
+    CellLoan cell = cells_.borrow();
+    const auto left = [&](VoronoiCell::Code u) { return u >= VoronoiCell::kVirtual || seen(u); };
+    if (cell->restore(pool_, v, radius, last, left, true)) {
+      for_each_arrival([&](VertexHandle u) {
+        if (cell->cuts(pool_[u].p) && seen(u)) cell->cut(u);
+      });
+    } else {
+      cut_by_seeds(*cell, last, left);
+    }
+    finish(*cell, seen);
+    return cell;
+  }
+
+  /// The distance up to which a vertex that comes may cut the cell. A corner of the cell of a
+  /// vertex v on a side of the box, beyond that side, is never cut. Proof: the grid is there from
+  /// the start, so the corner's projection q on the side is at most half an edge from v; a vertex
+  /// nearer to the corner than v, being in the box, is nearer to q, too, hence in the diametral
+  /// ball of an edge of the grid. No vertex ever is [L 4.4.1].
+  [[nodiscard]] double concern(const VoronoiCell& cell) const noexcept;
+
+  struct Nearest {
+    VertexHandle handle;
+    double distance2;
+  };
+  template <class Seen>
+  Nearest nearest_around(const Vertex<2>& v, Seen&& seen) const {
+    Nearest best{0, 4 * box_.side * box_.side};
+    const auto reach = [&] { return std::sqrt(best.distance2); };
+    const auto enters = [&](const Point<2>&, double) { return ++visited_, true; };
+    tree_.visit_around(v.p, reach, enters, [&](VertexHandle u, const Point<2>& p) {
+      ++visited_;
+      const double d2 = distance2(p, v.p);
+      if (u == v.self || d2 > best.distance2 || !seen(u)) return false;
+      if (d2 == best.distance2 && best.handle != 0 && pool_[best.handle].p < p) return false;
+      best = {u, d2};
+      return true;
+    });
+    return best;
+  }
+
+  /// Cells and vertices that searches have looked at since this was asked last.
+  [[nodiscard]] std::uint64_t take_visited() noexcept { return std::exchange(visited_, 0); }
+
+  static double distance2(const Point<2>& u, const Point<2>& v) {
+    const double x = u[0] - v[0];
+    const double y = u[1] - v[1];
+    return x * x + y * y;
+  }
+
+  [[noreturn]] static void fail_coincident(const Point<2>& p);
+
+  const MeshBox<2>& box_;
+  VertexPool<2> pool_;
+  Quadtree<2> tree_;
+
+ private:
+  // Cuts the cell by what is seen in the gap balls of its open corners, nearest leaves first.
+  template <class Seen>
+  void search(VoronoiCell& cell, Seen&& seen) const {
+    const auto reach = [&] { return 2 * std::sqrt(cell.open2()); };
+    tree_.visit_around(cell.center().p, reach, entered(cell), cutting(cell, seen));
+  }
+  // The same for a compact cell, all at once.
+  template <class Seen>
+  void search_open(VoronoiCell& cell, Seen&& seen) const {
+    const auto [lo, hi] = cell.open_extent();
+    tree_.visit_box(cell.center().p, lo, hi, entered(cell), cutting(cell, seen));
+  }
+  template <class Seen>
+  void finish(VoronoiCell& cell, Seen&& seen) const {
+    if (cell.open2() == 0) return;
+    cell.is_compact() ? search_open(cell, seen) : search(cell, seen);
+  }
+  [[nodiscard]] auto entered(const VoronoiCell& cell) const {
+    return [&, margin = tree_.margin()](const Point<2>& corner, double side) {
+      ++visited_;
+      return cell.enters(corner, side, margin);
+    };
+  }
+  template <class Seen>
+  [[nodiscard]] auto cutting(VoronoiCell& cell, Seen& seen) const {
+    return [&, v = cell.center().self, center = cell.center().p](VertexHandle u,
+                                                                 const Point<2>& p) {
+      ++visited_;
+      if (u == v || !cell.in_reach(distance2(p, center)) || !cell.cuts_open(p) || !seen(u)) {
+        return false;
+      }
+      cell.cut(u);
+      return true;
+    };
+  }
+
+  template <class Left>
+  void cut_by_seeds(VoronoiCell& cell, Codes seeds, Left&& left) const {
+    for (const VoronoiCell::Code u : seeds) {
+      if (u < VoronoiCell::kVirtual && left(u) && cell.cuts(pool_[u].p)) cell.cut(u);
+    }
+  }
+
+  mutable CellPool cells_;
+  mutable std::uint64_t visited_ = 0;
+};
+
+}  // namespace mesher::detail
