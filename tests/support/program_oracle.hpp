@@ -179,7 +179,7 @@ inline bool is_caught(const std::string& message) {
 
 /// Whether every execution of a node in a propagation must be one of a run from scratch as well:
 /// a program is not to see what no run from scratch shows, not even for a while.
-inline constexpr bool kWatchExecutions = false;
+inline constexpr bool kWatchExecutions = true;
 
 /// One case being run. V: the type of values.
 template <class V>

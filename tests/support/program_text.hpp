@@ -29,7 +29,7 @@ struct Feature {
 };
 
 /// What programs from seeds and from bytes have.
-inline constexpr unsigned kFeatures = Feature::kAll & ~(Feature::outside | Feature::behind);
+inline constexpr unsigned kFeatures = Feature::kAll;
 
 struct Op {
   enum Kind : std::uint8_t {

@@ -46,8 +46,9 @@ void Core::require_usable() const {
 void Core::require_idle(const char* what) const {
   if (idle()) return;
   std::string text = std::string(what) + ": the engine is running";
-  if (current_ != nullptr && current_->call != nullptr) {
+  if (current_ != nullptr) {
     text += ' ' + Engine::describe(*current_->call);
+    current_->failed = true;  // even if it goes on to catch this
   }
   throw UsageError(text);
 }

@@ -37,10 +37,10 @@ detail::Version* ModStructure::own_version(Scope& scope, Handle head) {
   if (own->round == call.round) return own;
   const Handle version = handle_of(*own);
   const auto same = [&](const WriteEdge& edge) { return edge.version == version; };
+  // Children that have run meanwhile did not see it. If that is refused, it has not been repeated.
+  if (engine_.has_had_children()) require_unread(scope, head, predecessor(head, *own));
   own->behind = scope.recall<WriteEdge>(id_, kWrite, same)->behind;
   own->round = call.round;
-  // Children that have run meanwhile did not see it.
-  if (engine_.has_had_children()) require_unread(scope, head, predecessor(head, *own));
   return own;
 }
 
