@@ -233,8 +233,8 @@ class Engine {
   void doubt(Call& call, Handle source = 0) noexcept { core_.doubt(call, source); }
   /// `ancestor` of the running call has settled, and did something behind children of its own (see
   /// Edge::behind) that the running call, had it been there, should have seen or not. It runs again,
-  /// so that this is refused or not as in a first run. Throws: std::bad_alloc.
-  void run_again(Call& ancestor) { core_.run_again(ancestor); }
+  /// so that this is refused or not as in a first run.
+  void run_again(Call& ancestor) noexcept { core_.run_again(ancestor); }
   [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
     return core_.precedes(a, b);
   }
@@ -244,7 +244,7 @@ class Engine {
   }
   /// Whether `call` lies in the interval of `ancestor`.
   [[nodiscard]] bool encloses(const Call& ancestor, const Call& call) const noexcept {
-    return ancestor.end != 0 && lies_between(ancestor, call, ancestor.end);
+    return core_.encloses(ancestor, call);
   }
   /// Whether `call` is still to come: it lies behind all that the running call has done.
   [[nodiscard]] bool lies_ahead(const Call& call) const noexcept { return core_.lies_ahead(call); }

@@ -103,6 +103,7 @@ void Core::require_stack(const Activation& caller, const Function& function) con
 Handle Core::new_call(const Asked& asked) {
   const Function& function = asked.function;
   queue_.reserve(live_calls_ + 1);  // so that invalidating and discarding cannot fail
+  if (deferred_.capacity() <= live_calls_) deferred_.reserve(2 * live_calls_ + 64);
   if (graveyard_.capacity() < live_calls_ + graveyard_.size() + 1) {
     graveyard_.reserve(2 * (live_calls_ + graveyard_.size()) + 64);
   }

@@ -35,7 +35,8 @@ void Core::propagate_within(Handle call) {
 
 // The queue is used by the running call for what lies in its interval: what is before must not
 // stand in its way.
-void Core::run_again(Call& call) {
+void Core::run_again(Call& call) noexcept {
+  if (call.invalid()) return;
   deferred_.push_back(arena_.handle_of(&call));
   call.validity = Validity::invalid;
 }
@@ -96,7 +97,7 @@ bool Core::unchanged(Call& call) {
 // Runs what is invalid in a child that was reused, or in what the child reused: whatever precedes
 // the running call is settled.
 void Core::settle_child(Handle child) {
-  if (appending() || queue_.empty()) return;
+  if (appending() || (queue_.empty() && deferred_.empty())) return;
   try {
     propagate_within(child);
   } catch (...) {

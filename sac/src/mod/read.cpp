@@ -40,15 +40,11 @@ detail::Version& ModStructure::observe(Scope& scope, Handle head) {
     if (edge->behind) version->read_behind = true;
     return *version;
   }
-  // Written by a call around this one, behind children of its own: behind this one?
-  if (version->behind && !engine_.appending()) {
-    Call& w = engine_.call(version->writer);
-    if (!w.running() && engine_.encloses(w, call)) engine_.run_again(w);
-  }
   if (edge == nullptr) {
     edge = &scope.observe<ReadEdge>(id_, kRead);
     edge->call = engine_.handle_of(call);
     link_reader(*edge, *version);
+    rerun_writer_around(*edge, *version);
   } else {
     move_reader(*edge, *version);
   }

@@ -35,8 +35,20 @@ void ModStructure::unlink_reader(ReadEdge& edge) noexcept {
 }
 
 void ModStructure::move_reader(ReadEdge& edge, Version& to) noexcept {
+  const Handle writer = edge.version != 0 ? at(edge.version)->writer : 0;
   unlink_reader(edge);
   link_reader(edge, to);
+  if (to.writer != writer) rerun_writer_around(edge, to);
+}
+
+// `version` is news to the reader. Has a call around the reader written it, behind children of its
+// own: behind the reader?
+void ModStructure::rerun_writer_around(const ReadEdge& edge, const Version& version) noexcept {
+  if (!version.behind || engine_.appending()) return;
+  Call& writer = engine_.call(version.writer);
+  if (!writer.running() && engine_.encloses(writer, engine_.call(edge.call))) {
+    engine_.run_again(writer);
+  }
 }
 
 void ModStructure::order_readers(const Version& version) noexcept {

@@ -214,6 +214,7 @@ void ModStructure::leave_past(Handle head, Version& version, Handle except) noex
         past->type = version.type;
         past->apart = past->past = true;
         past->modifiable = head;
+        past->writer = version.writer;
       } catch (...) {
         orphan(edge);
         continue;

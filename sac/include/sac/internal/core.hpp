@@ -157,8 +157,7 @@ class Core {
   }
   /// `call` encloses the running one and has settled. It did something behind children of its own
   /// that a new child of these may have been meant to see, or not: it runs again, and says so.
-  /// Throws: std::bad_alloc.
-  void run_again(Call& call);
+  void run_again(Call& call) noexcept;
   [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
     return timeline_.precedes(a, b);
   }
@@ -227,6 +226,11 @@ class Core {
   [[nodiscard]] bool is_ahead(Handle stamp) const noexcept {
     return stamp == now_ || !linked(stamp) ||
            timeline_.precedes(*at<TimeNode>(now_), *at<TimeNode>(stamp));
+  }
+  /// Whether `call` lies in the interval of `ancestor`, which may be open.
+  [[nodiscard]] bool encloses(const Call& ancestor, const Call& call) const noexcept {
+    return ancestor.end != 0 && timeline_.precedes(ancestor, call) &&
+           (!linked(ancestor.end) || timeline_.precedes(call, *at<TimeNode>(ancestor.end)));
   }
   /// Whether `call` lies behind time stamp `from` and before `end` (0: the end of the trace).
   [[nodiscard]] bool lies_between(const TimeNode& from, const Call& call, Handle end) const noexcept {

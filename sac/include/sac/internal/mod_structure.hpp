@@ -284,6 +284,7 @@ class ModStructure final : public Structure {
   void appeared(Scope& scope, Handle head, Version& version, Version* previous,
                 bool same) noexcept;
   void require_unread(Scope& scope, Handle head, const Version* version);
+  void rerun_writer_around(const ReadEdge& edge, const Version& version) noexcept;
   void rerun_readers_around(const Call& writer, const Version& previous);
   [[nodiscard]] std::uint32_t new_history(Handle head);
   void drop_history(Handle head) noexcept;
