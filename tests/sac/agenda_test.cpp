@@ -89,12 +89,6 @@ TEST_CASE("a key out of range is an error") {
   CHECK((Key{.bucket = -1, .phase = 15, .colour = 4095}.rank()) < Key{}.rank());
 }
 
-TEST_CASE("the bucket of a length is equal within a factor of two") {
-  CHECK(sac::exponent_bucket(1.0) == sac::exponent_bucket(1.99));
-  CHECK(sac::exponent_bucket(2.0) == 1);
-  CHECK(sac::exponent_bucket(0.25) == -2);
-}
-
 TEST_CASE("equal posts merge into one call, which lives while one of them does") {
   Fixture f({1, 2, 1, 3, 2});
   f.p.children = {{1, {7}}, {2, {7}}};

@@ -54,10 +54,6 @@ struct Key {
   friend bool operator==(const Key&, const Key&) = default;
 };
 
-/// The bucket of a length [§1.5]: equal for lengths within a factor of two, read off the exponent
-/// of the double. Requires: length > 0.
-[[nodiscard]] int exponent_bucket(double length);
-
 namespace detail {
 
 template <class T>

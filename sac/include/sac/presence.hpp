@@ -1,6 +1,6 @@
 // A presence: a thing is there while some call produces it, from its earliest producer on.
 //
-// For structures whose effects say "this is there": vertices of a mesh, members of a set. Several
+// For structures whose effects say "this is there": members of a set, nodes of a graph. Several
 // calls may produce one thing; a call sees it if one before it does. So all that counts is the
 // earliest producer, the *birth*, and when it changes only the calls between the old birth and the
 // new one see something else: the Window.

@@ -1,4 +1,4 @@
-// The whole engine: include this.
+// The engine: include this, and event_log.hpp to ask why a call ran.
 #pragma once
 
 #include "sac/agenda.hpp"

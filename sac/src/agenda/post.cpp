@@ -1,11 +1,7 @@
 // Posting, and taking posts back.
-#include <cmath>
-
 #include "sac/agenda.hpp"
 
 namespace sac {
-
-int exponent_bucket(double length) { return std::ilogb(length); }
 
 Agenda::Agenda(Engine& engine, std::string name)
     : engine_(engine), core_(engine.core()), name_(std::move(name)),
