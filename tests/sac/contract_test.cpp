@@ -311,17 +311,6 @@ TEST_CASE("what a child newly does before its parent is refused if the parent co
   CHECK(change<WithM<4, 3>{}>(0, 1).starts_with("refused: posting into the past: behind() posts"));
 }
 
-void two_children(Scope& s) {
-  auto& w = world(s);
-  s.call<leaf>(0);
-  s.write(w.m, 4);
-  s.call<drain_if>(2);
-  if (s.read(w.in) != 0) {
-    s.call<copy_m>();
-  } else {
-    s.write(w.out, 0);
-  }
-}
 void copy_if(Scope& s) {
   auto& w = world(s);
   s.write(w.out, s.read(w.in) != 0 ? s.read(w.m) : 0);

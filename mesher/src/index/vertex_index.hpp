@@ -104,7 +104,7 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
 
   /// Requires: between updates. Throws InvariantError; among others if an observation is not what a
   /// search from nothing finds. Cost: O(observations) searches.
-  void check_invariants() const;
+  void check_invariants() const override;
 
  private:
   static constexpr std::uint8_t kBirth = 0;

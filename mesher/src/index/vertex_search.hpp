@@ -150,6 +150,12 @@ class VertexSearch {
   Quadtree<2> tree_;
 
  private:
+  [[nodiscard]] auto entered(const VoronoiCell& cell) const {
+    return [&, margin = tree_.margin()](const Point<2>& corner, double side) {
+      ++visited_;
+      return cell.enters(corner, side, margin);
+    };
+  }
   // Cuts the cell by what is seen in the gap balls of its open corners, nearest leaves first.
   template <class Seen>
   void search(VoronoiCell& cell, Seen&& seen) const {
@@ -166,12 +172,6 @@ class VertexSearch {
   void finish(VoronoiCell& cell, Seen&& seen) const {
     if (cell.open2() == 0) return;
     cell.is_compact() ? search_open(cell, seen) : search(cell, seen);
-  }
-  [[nodiscard]] auto entered(const VoronoiCell& cell) const {
-    return [&, margin = tree_.margin()](const Point<2>& corner, double side) {
-      ++visited_;
-      return cell.enters(corner, side, margin);
-    };
   }
   template <class Seen>
   [[nodiscard]] auto cutting(VoronoiCell& cell, Seen& seen) const {
