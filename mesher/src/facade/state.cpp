@@ -110,7 +110,7 @@ Change<2> State::whole(const Mesh<2>& mesh) const {
 Change<2> State::first_run(std::vector<Announced::Edit> edits, const RunControl& control) {
   ids_.reserve(edits.size());
   for (const auto& edit : edits) add_first(edit);
-  edits = {};  // the run needs the memory
+  edits = std::vector<Announced::Edit>();  // the run needs the memory
   post_all();
   RunMeter<sac::Scope> phases(*world_, control, ids_.size());
   const auto meter = [&](const sac::Progress& p) { return phases(p.executed); };
