@@ -67,10 +67,10 @@ std::vector<Announced::Edit> Announced::sorted() const {
   return all;
 }
 
-// Tables that were large once are given back.
+// Tables that were large once are given back: to clear them again takes time in their size.
 void Announced::clear() noexcept {
-  edits_ = {};
-  arrivals_ = {};
+  edits_ = decltype(edits_)();  // not {}, an empty list, for which a table keeps its size
+  arrivals_ = decltype(arrivals_)();
   growth_ = 0;
 }
 

@@ -39,7 +39,12 @@ class Announced {
 
   /// Points that come, less those that go.
   [[nodiscard]] std::ptrdiff_t growth() const noexcept { return growth_; }
+  /// Forgets all edits, and gives their memory back.
   void clear() noexcept;
+  /// How many buckets the tables have: what it takes to clear them.
+  [[nodiscard]] std::size_t buckets() const noexcept {
+    return edits_.bucket_count() + arrivals_.bucket_count();
+  }
 
  private:
   struct CellHash {

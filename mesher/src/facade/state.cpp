@@ -110,7 +110,7 @@ Change<2> State::whole(const Mesh<2>& mesh) const {
 Change<2> State::first_run(std::vector<Announced::Edit> edits, const RunControl& control) {
   ids_.reserve(edits.size());
   for (const auto& edit : edits) add_first(edit);
-  edits = {};  // the run needs the memory
+  edits = std::vector<Announced::Edit>();  // the run needs the memory
   post_all();
   RunMeter<sac::Scope> phases(*world_, control, ids_.size());
   const auto meter = [&](const sac::Progress& p) { return phases(p.executed); };
@@ -132,15 +132,7 @@ Change<2> State::first_run(std::vector<Announced::Edit> edits, const RunControl&
 Vertex<2>& State::claim(const Point<2>& p) {
   Vertex<2>& v = vertices().add_input(p, false);
   v.input = false;
-  try {
-    vertices().touch(v);
-  } catch (...) {
-    if (!v.alive) {
-      vertices().tree().erase(v);
-      vertices().pool().release(v);
-    }
-    throw;
-  }
+  vertices().touch(v);
   return v;
 }
 
@@ -167,14 +159,20 @@ void State::take(Vertex<2>& v, std::vector<Touched>& touched) {
 
 void State::make(const std::vector<Announced::Edit>& edits, Ids& arrived,
                  std::vector<Touched>& touched) {
-  engine_->edit_together([&] {
+  const auto all = [&] {
     for (const auto& edit : edits) {
       if (edit.was) take(pool()[ids_.at(edit.id)], touched);
     }
     for (const auto& edit : edits) {
       if (edit.to) arrived.emplace(edit.id, add(*edit.to, touched).self);
     }
-  });
+  };
+  try {
+    engine_->edit_together(all);
+  } catch (...) {
+    vertices().give_up();
+    throw;
+  }
 }
 
 Change<2> State::propagate(const std::vector<Announced::Edit>& edits, const RunControl& control) {
@@ -191,9 +189,9 @@ Change<2> State::propagate(const std::vector<Announced::Edit>& edits, const RunC
     report_kinds(touched, change);
     report_stars(change);
   };
+  make(edits, arrived, touched);
   try {
     const Watch watch(*engine_, control, meter);
-    make(edits, arrived, touched);
     change.calls = call_counts(engine_->propagate(report));
   } catch (...) {
     vertices().commit();

@@ -95,7 +95,6 @@ class ChangeLog {
       h = next;
     }
   }
-  [[nodiscard]] bool empty() const noexcept { return first_ == 0 && gone_ == 0; }
 
  private:
   void mark_star(Vertex<2>& v) noexcept {

@@ -290,23 +290,34 @@ void Index::commit() noexcept {
   observers_.forget_arrivals();
 }
 
+void Index::give_up() noexcept {
+  log_.clear([&](Vertex<2>& v) {
+    if (!v.alive) touch(v);
+  });
+}
+
 void Index::check_invariants() const {
-  SAC_INVARIANT(log_.empty());
   pool_.check_invariants();
   tree_.check_invariants();
-  pool_.for_each([&](const Vertex<2>& v) {
-    SAC_INVARIANT(tree_.find(v.p) == &v);
-    SAC_INVARIANT(v.alive && v.committed && (v.boundary || v.presence.there()));
-    presences_.check_invariants(v.presence);
-    observers_.check_invariants(v);
-    int stars = 0;
-    observers_.find_at(v, [&](const Observation& o) {
-      stars += o.kind == kStar && !find_ring(v)->fresh;
-      check_observation(v, o);
-      return false;
-    });
-    SAC_INVARIANT(stars == 1);
+  SAC_INVARIANT(log_.stars_gone().empty());
+  for (const VertexHandle h : log_.touched()) SAC_INVARIANT(!pool_[h].alive);
+  pool_.for_each([&](const Vertex<2>& v) { check_vertex(v); });
+}
+
+// What is not alive is listed to be freed.
+void Index::check_vertex(const Vertex<2>& v) const {
+  SAC_INVARIANT(tree_.find(v.p) == &v);
+  SAC_INVARIANT(v.alive == v.committed && v.alive != v.changed && (v.alive || !v.input));
+  SAC_INVARIANT(v.alive == (v.boundary || v.presence.there()));
+  presences_.check_invariants(v.presence);
+  observers_.check_invariants(v);
+  int stars = 0;
+  observers_.find_at(v, [&](const Observation& o) {
+    stars += o.kind == kStar && !find_ring(v)->fresh;
+    check_observation(v, o);
+    return false;
   });
+  SAC_INVARIANT(stars == (v.alive ? 1 : 0));
 }
 
 // It is what a search from nothing finds.

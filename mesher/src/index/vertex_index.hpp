@@ -98,6 +98,9 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   void set_logging(bool on) noexcept { log_.keep_stars(on); }
   /// Ends an update: frees the records of vertices that nobody produces.
   void commit() noexcept;
+  /// Ends an update whose edits were taken back before they were propagated. The engine still holds
+  /// calls about records that were made for it: these stay until the next commit().
+  void give_up() noexcept;
 
   /// Called by what makes a record an input point, or no longer.
   void touch(Vertex<2>& v) noexcept { log_.touch(v); }
@@ -141,6 +144,7 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   void forget(Observation& o) noexcept;
 
   [[nodiscard]] std::vector<std::uint32_t> canonical_codes(const Observation& o) const;
+  void check_vertex(const Vertex<2>& v) const;
   void check_observation(const Vertex<2>& v, const Observation& o) const;
 
   sac::Engine& engine_;

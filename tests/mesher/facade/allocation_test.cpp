@@ -121,6 +121,16 @@ TEST_CASE("a first update that finds no memory leaves an empty mesh") {
 
 namespace {
 
+// Edits that have nothing to do with those that failed, and back.
+void update_otherwise(Some& s) {
+  s.m.insert(FeatureId{500}, {0.77, 0.11});
+  s.m.update();
+  s.m.check_invariants();
+  s.m.remove(FeatureId{500});
+  s.m.update();
+  REQUIRE(s.m.mesh() == s.before);
+}
+
 // announce(s) and an update, with every allocation of the update failing in turn.
 template <class Announce>
 std::uint64_t sweep_update(Announce announce, const mesher::RunControl& control) {
@@ -134,6 +144,7 @@ std::uint64_t sweep_update(Announce announce, const mesher::RunControl& control)
     if (outcome == Outcome::failed) {
       REQUIRE(s.m.mesh() == s.before);
       REQUIRE(s.m.size() == 60);
+      update_otherwise(s);
       announce(s);
       s.m.update();
       s.m.check_invariants();
@@ -155,10 +166,9 @@ TEST_CASE("an update that finds no memory for its edits leaves the mesh, and wor
   CHECK(sweep_update(announce, {.progress = end_failures, .stop = {}}) > 20);
 }
 
-TEST_CASE("an update that finds no memory leaves the mesh of the last one, and works the next time",
-          "[.][every_allocation]") {
+TEST_CASE("an update that finds no memory leaves the mesh of the last one, and works the next time") {
   const auto announce = [](Some& s) { s.announce(); };
-  CHECK(sweep_update(announce, {}) > 500);
+  CHECK(sweep_update(announce, {}) > 200);
 }
 
 TEST_CASE("a static run that finds no memory says so") {
