@@ -13,7 +13,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "geometry/voronoi_cell.hpp"
@@ -87,16 +86,12 @@ class Observers {
       count = 0;
     };
     tree_.visit_reaching(p, [&](Vertex<2>& center, double distance2) {
-      ++visited_;
       if (count == met.size()) look();
       __builtin_prefetch(engine_.arena().at<Observation>(center.queries));
       met[count++] = {&center, distance2};
     });
     look();
   }
-
-  /// Centres that for_each_reaching() has met since this was asked last.
-  [[nodiscard]] std::uint64_t take_visited() noexcept { return std::exchange(visited_, 0); }
 
   /// What it saw: codes counterclockwise, or one.
   [[nodiscard]] std::span<const std::uint32_t> seen(const Observation& o) const noexcept;
@@ -148,7 +143,6 @@ class Observers {
   VertexPool<2>& pool_;
   Quadtree<2>& tree_;
   std::vector<Arrival> arrivals_{1};  // the first stands for the end of a list
-  std::uint64_t visited_ = 0;
 };
 
 }  // namespace mesher::detail

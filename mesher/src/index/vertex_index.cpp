@@ -96,7 +96,7 @@ CellLoan Index::voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius) {
   });
   CellLoan cell =
       look(*v, radius, last, [&](VertexHandle u) { return born_before(pool_[u], self); });
-  s.weigh(take_visited() + observers_.take_visited());
+  s.weigh(take_visited());
   take_codes(*cell);
   record_cell(s, *v, packed(concern(*cell)), clip);
   return cell;
@@ -105,7 +105,7 @@ CellLoan Index::voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius) {
 double Index::nearest2(sac::Scope& s, VertexRef<2> v) {
   const sac::Call& self = s.self();
   const Nearest n = nearest_around(*v, [&](VertexHandle u) { return born_before(pool_[u], self); });
-  s.weigh(take_visited() + observers_.take_visited());
+  s.weigh(take_visited());
   record_nearest(s, *v, packed(std::sqrt(n.distance2) * (1 + 0x1p-40)), n.handle);
   return n.distance2;
 }
@@ -115,7 +115,7 @@ CellLoan Index::star(sac::Scope& s, VertexRef<2> v) {
   const Observation* last = observers_.find_at(
       *v, [&](const Observation& o) { return o.kind == kStar && o.call == caller; });
   CellLoan cell = look(*v, whole(), last, [&](VertexHandle u) { return pool_[u].alive; });
-  s.weigh(take_visited() + observers_.take_visited());
+  s.weigh(take_visited());
   take_codes(*cell);
   record_star(s, *v, packed(concern(*cell)));
   return cell;

@@ -124,9 +124,13 @@ class MemoTable {
   using Crowd = SortedIndex<Handle>;         // never empty
 
   [[nodiscard]] Call* at(Handle h) const noexcept { return arena_.at<Call>(h); }
-  [[nodiscard]] auto order() const noexcept {
-    return [this](Handle a, Handle b) { return timeline_.precedes(*at(a), *at(b)); };
-  }
+  struct Order {
+    const MemoTable& table;
+    bool operator()(Handle a, Handle b) const noexcept {
+      return table.timeline_.precedes(*table.at(a), *table.at(b));
+    }
+  };
+  [[nodiscard]] Order order() const noexcept { return {*this}; }
   [[nodiscard]] const Crowd* crowd_of(std::uint32_t hash) const {
     if (crowds_.empty()) [[likely]] return nullptr;
     const auto it = crowds_.find(hash);
