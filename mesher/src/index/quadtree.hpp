@@ -6,7 +6,8 @@
 // Each cell also knows a bound on how far the queries centred in it look (`reach`), to find the
 // queries that a new vertex concerns.
 //
-// Here is what it offers and consists of; what it does is in quadtree_cells, _search, _reach, _check.
+// Here is what it offers and consists of; what it does is in quadtree_cells, _search, _reach,
+// _check.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Which vertices' queries reach a place: bounds in the cells, raised with a query and tightened with
-// every visit.
+// Which vertices' queries reach a place: bounds in the cells, raised with a query and tightened
+// with every visit.
 #pragma once
 
 #include <algorithm>

@@ -13,13 +13,13 @@
 #include <type_traits>
 #include <vector>
 
-#include "index/feature_tree.hpp"
 #include "geometry/grid.hpp"
-#include "rules/insertion_rule.hpp"
-#include "mesher/mesher.hpp"
-#include "sac/sac.hpp"
+#include "index/feature_tree.hpp"
 #include "index/subdivision.hpp"
 #include "index/vertex_index.hpp"
+#include "mesher/mesher.hpp"
+#include "rules/insertion_rule.hpp"
+#include "sac/sac.hpp"
 
 namespace mesher::detail {
 
