@@ -13,8 +13,7 @@ namespace mesher::detail {
 namespace {
 
 CallCounts call_counts(const sac::Counts& c) {
-  return {c.executed, c.reused, c.created, c.discarded, c.edges_made + c.edges_removed,
-          c.weight};
+  return {c.executed, c.reused, c.created, c.discarded, c.edges_made + c.edges_removed, c.weight};
 }
 
 // While it lives the engine reports to the meter.

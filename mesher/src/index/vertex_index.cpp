@@ -200,21 +200,11 @@ void Index::forget(Observation& o) noexcept {
   if (o.kind == kStar) log_.star_went(pool_[o.center], static_cast<StarSeen&>(o).ring);
 }
 
-void Index::split(sac::Scope& s, const Cell<2>& cell) {
-  const auto done = [](const SplitEdge& edge) { return edge.node != SplitEdge::kNone; };
-  if (s.recall<SplitEdge>(id_, kSplit, done) != nullptr) return;
-  auto& edge = s.effect<SplitEdge>(id_, kSplit);
-  edge.node = SplitEdge::kNone;  // nothing to take back, should marking fail
-  edge.node = tree_.mark(cell);
-}
-
 // --- Taking back -----------------------------------------------------------------------------
 
 void Index::retract(sac::Call&, sac::Edge& edge) noexcept {
   if (edge.kind == kBirth) return retract_birth(static_cast<BirthEdge&>(edge));
-  if (edge.kind != kSplit) return forget(static_cast<Observation&>(edge));
-  const auto node = static_cast<SplitEdge&>(edge).node;
-  if (node != SplitEdge::kNone) tree_.unmark(node);
+  forget(static_cast<Observation&>(edge));
 }
 
 // --- For people and for traces ---------------------------------------------------------------
@@ -233,7 +223,7 @@ std::vector<std::uint32_t> Index::canonical_codes(const Observation& o) const {
 }
 
 void Index::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
-  if (edge.kind == kBirth || edge.kind == kSplit) return;
+  if (edge.kind == kBirth) return;
   const auto codes = canonical_codes(static_cast<const Observation&>(edge));
   sink.number(codes.size());
   for (const std::uint32_t code : codes) {
@@ -248,7 +238,7 @@ void Index::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink)
 void Index::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
   if (edge.kind == kBirth) {
     out << "inserts " << VertexRef<2>{&pool_[static_cast<const BirthEdge&>(edge).vertex]};
-  } else if (edge.kind != kSplit) {
+  } else {
     out << (edge.kind == kNearest ? "nearest" : "neighbours");
     for (const std::uint32_t code : canonical_codes(static_cast<const Observation&>(edge))) {
       if (code != 0 && code < VoronoiCell::kVirtual) out << ' ' << VertexRef<2>{&pool_[code]};

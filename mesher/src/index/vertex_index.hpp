@@ -6,7 +6,6 @@
 //                          before the running call
 //   nearest2(s, v)         squared distance to v's nearest neighbour        (observation)
 //   star(s, v)             v's Delaunay star among all vertices             (observation)
-//   split(s, cell)         marks a quadtree cell as split                   (effect)
 //
 // A vertex that comes or goes invalidates exactly the later observations that it concerns: one that
 // comes, those with a gap ball around it; one that goes, those whose cell it bounds.
@@ -53,7 +52,6 @@ class VertexIndex<sac::PlainScope> : public VertexSearch {
     return nearest_around(*v, [](VertexHandle) { return true; }).distance2;
   }
   CellLoan star(sac::PlainScope& s, VertexRef<2> v) { return voronoi_cell(s, v, whole()); }
-  void split(sac::PlainScope&, const Cell<2>& cell) { tree_.mark(cell); }
 };
 
 template <>
@@ -72,7 +70,6 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   CellLoan voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius);
   double nearest2(sac::Scope& s, VertexRef<2> v);
   CellLoan star(sac::Scope& s, VertexRef<2> v);
-  void split(sac::Scope& s, const Cell<2>& cell);
 
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
   void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
@@ -114,14 +111,9 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   static constexpr std::uint8_t kCell = Observers::kCell;
   static constexpr std::uint8_t kNearest = Observers::kNearest;
   static constexpr std::uint8_t kStar = Observers::kStar;
-  static constexpr std::uint8_t kSplit = 4;
 
   struct BirthEdge : sac::ProducerEdge {
     VertexHandle vertex;
-  };
-  struct SplitEdge : sac::Edge {
-    static constexpr Quadtree<2>::NodeIndex kNone = ~Quadtree<2>::NodeIndex{0};
-    Quadtree<2>::NodeIndex node;
   };
 
   [[nodiscard]] bool born_before(const Vertex<2>& u, const sac::Call& call) const noexcept {

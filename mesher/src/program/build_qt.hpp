@@ -62,7 +62,7 @@ void Locate::operator()(S& s, VertexRef<2> p) const {
 template <class S>
 void Split::operator()(S& s, Cell<2> c) const {
   auto& w = s.template environment<World<S>>();
-  w.vertices.split(s, c);
+  w.subdivision.split(s, c);
   if (c.level == 0) return;
   MeshBox<2>::for_each_parent_around(c, [&](const Cell<2>& larger) {
     w.quadtree.template post<split>(s, split_key(larger), larger);

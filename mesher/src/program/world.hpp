@@ -13,12 +13,13 @@
 #include <type_traits>
 #include <vector>
 
-#include "index/feature_tree.hpp"
 #include "geometry/grid.hpp"
-#include "rules/insertion_rule.hpp"
-#include "mesher/mesher.hpp"
-#include "sac/sac.hpp"
+#include "index/feature_tree.hpp"
+#include "index/subdivision.hpp"
 #include "index/vertex_index.hpp"
+#include "mesher/mesher.hpp"
+#include "rules/insertion_rule.hpp"
+#include "sac/sac.hpp"
 
 namespace mesher::detail {
 
@@ -94,6 +95,7 @@ struct World {
   MeshBox<2> box;
   std::unique_ptr<const InsertionRule> rule;
   VertexIndex<S> vertices;
+  Subdivision<S> subdivision;
   Features<S> features;
   Agenda& quadtree;
   Agenda& steiner;
@@ -106,6 +108,7 @@ struct World {
       : box(mesh_box),
         rule(insertion_rule(options, box)),
         vertices(make_vertices(box, host)),
+        subdivision(vertices.tree(), host),
         features(box, vertices.pool(), host),
         quadtree(host.make_agenda("quadtree")),
         steiner(host.make_agenda("steiner")),

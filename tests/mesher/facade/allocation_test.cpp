@@ -166,7 +166,8 @@ TEST_CASE("an update that finds no memory for its edits leaves the mesh, and wor
   CHECK(sweep_update(announce, {.progress = end_failures, .stop = {}}) > 20);
 }
 
-TEST_CASE("an update that finds no memory leaves the mesh of the last one, and works the next time") {
+TEST_CASE(
+    "an update that finds no memory leaves the mesh of the last one, and works the next time") {
   const auto announce = [](Some& s) { s.announce(); };
   CHECK(sweep_update(announce, {}) > 200);
 }

@@ -1,0 +1,21 @@
+// Marks are recalled where the same call splits again, and taken back with it.
+#include "index/subdivision.hpp"
+
+namespace mesher::detail {
+
+using TracedSubdivision = Subdivision<sac::Scope>;
+
+void TracedSubdivision::split(sac::Scope& s, const Cell<2>& cell) {
+  const auto done = [](const SplitEdge& edge) { return edge.node != SplitEdge::kNone; };
+  if (s.recall<SplitEdge>(id_, kSplit, done) != nullptr) return;
+  auto& edge = s.effect<SplitEdge>(id_, kSplit);
+  edge.node = SplitEdge::kNone;  // nothing to take back, should marking fail
+  edge.node = tree_.mark(cell);
+}
+
+void TracedSubdivision::retract(sac::Call&, sac::Edge& edge) noexcept {
+  const auto node = static_cast<SplitEdge&>(edge).node;
+  if (node != SplitEdge::kNone) tree_.unmark(node);
+}
+
+}  // namespace mesher::detail
