@@ -39,7 +39,7 @@ class Thing : public sac::Structure {
     asking_.erase(std::find(asking_.begin(), asking_.end(), static_cast<Asking&>(edge).call));
   }
   [[nodiscard]] const sac::Presence& presence() const { return presence_; }
-  void check_invariants() const { presences_.check_invariants(presence_); }
+  void check_invariants() const override { presences_.check_invariants(presence_); }
 
  private:
   static constexpr std::uint8_t kProducing = 0;
