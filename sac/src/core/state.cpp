@@ -72,6 +72,7 @@ void Core::fail_foreign(const char* what) const {
 void Core::enter(Mode mode) {
   require_usable();
   require_idle(mode == Mode::running ? "run" : "propagate");
+  deferred_.reserve(live_calls_);  // so that run_again() cannot fail
   mode_ = mode;
   const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
   stack_end_ = here > stack_limit_ ? here - stack_limit_ : 0;
@@ -176,6 +177,7 @@ void Core::shrink() {
   memo_.shrink();
   timeline_.shrink();
   queue_.shrink(live_calls_);
+  std::vector<Handle>().swap(deferred_);
   std::vector<Handle> graveyard;
   graveyard.reserve(live_calls_);
   graveyard_.swap(graveyard);
