@@ -48,7 +48,7 @@ void Core::run_body(Activation& a, Handle call) {
   Scope scope(*this);
   c.function().execute(scope, c);
   if (a.failed) [[unlikely]] fail_caught(a);
-  require_children_unmoved(a);
+  if (!queue_.empty()) require_children_unmoved(a);
   settle(a);
 }
 

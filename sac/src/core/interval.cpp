@@ -28,7 +28,7 @@ Handle Core::call_child(const Asked& asked) {
     if (asked.function.execute == nullptr) return child;
     execute(child, caller.limit);
   }
-  settle_child(child);
+  if (!appending()) settle_child(child);
   SAC_ENSURES(at<Call>(child)->validity == Validity::valid);
   return child;
 }
@@ -188,7 +188,7 @@ void Core::place_now(Handle call) {
 
 void Core::run_placed(Handle call) {
   execute(call, running().limit);
-  settle_child(call);
+  if (!appending()) settle_child(call);
 }
 
 // --- Discarding ------------------------------------------------------------------------------

@@ -97,7 +97,7 @@ bool Core::unchanged(Call& call) {
 // Runs what is invalid in a child that was reused, or in what the child reused: whatever precedes
 // the running call is settled.
 void Core::settle_child(Handle child) {
-  if (appending() || (queue_.empty() && deferred_.empty())) return;
+  if (queue_.empty() && deferred_.empty()) return;
   try {
     propagate_within(child);
   } catch (...) {
