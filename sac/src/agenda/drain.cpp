@@ -102,12 +102,13 @@ void Agenda::begin_drain(Scope& s) {
     }
     engine_.invalidate(other);
   }
-  state_ = State::open;
-  drain_call_ = self;
-  running_ = 0;
+  // The edge comes first: a drain without it would not be taken back.
   if (s.recall<Edge>(id_, kDrain, [](const Edge&) { return true; }) == nullptr) {
     s.effect<Edge>(id_, kDrain);
   }
+  state_ = State::open;
+  drain_call_ = self;
+  running_ = 0;
   core_.need_end();
   while (!placed_.empty()) core_.discard_subtree(placed_.first().call);
   adopt_chained();
