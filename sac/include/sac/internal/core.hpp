@@ -167,9 +167,12 @@ class Core {
   void doubt(Call& call, Handle source) noexcept {
     ask_again(call, Validity::doubtful, nullptr, source);
   }
-  /// `call` encloses the running one and has settled. It did something behind children of its own
-  /// that a new child of these may have been meant to see, or not: it runs again, and says so.
-  void run_again(Call& call) noexcept;
+  /// `outer` did something behind children of its own, which `inner` is told of, or should have been
+  /// told of, as a first run would say: if it has settled and encloses `inner`, it runs again, and
+  /// says so. Returns whether.
+  bool rerun_if_around(Call& outer, const Call& inner) noexcept {
+    return !appending() && !outer.running() && encloses(outer, inner) && defer(outer);
+  }
   [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
     return timeline_.precedes(a, b);
   }
@@ -236,11 +239,6 @@ class Core {
   [[nodiscard]] bool is_ahead(Handle stamp) const noexcept {
     return stamp == now_ || !linked(stamp) ||
            timeline_.precedes(*at<TimeNode>(now_), *at<TimeNode>(stamp));
-  }
-  /// Whether `call` lies in the interval of `ancestor`, which may be open.
-  [[nodiscard]] bool encloses(const Call& ancestor, const Call& call) const noexcept {
-    return ancestor.end != 0 && timeline_.precedes(ancestor, call) &&
-           (!linked(ancestor.end) || timeline_.precedes(call, *at<TimeNode>(ancestor.end)));
   }
   /// Whether `call` lies behind time stamp `from` and before `end` (0: the end of the trace).
   [[nodiscard]] bool lies_between(const TimeNode& from, const Call& call, Handle end) const noexcept {
@@ -325,6 +323,11 @@ class Core {
   [[noreturn]] void fail_no_environment() const;
   // An end stamp has no place until its call closes.
   [[nodiscard]] bool linked(Handle stamp) const noexcept { return at<TimeNode>(stamp)->prev != 0; }
+  // Whether `call` lies in the interval of `ancestor`, which may be open.
+  [[nodiscard]] bool encloses(const Call& ancestor, const Call& call) const noexcept {
+    return ancestor.end != 0 && timeline_.precedes(ancestor, call) &&
+           (!linked(ancestor.end) || timeline_.precedes(call, *at<TimeNode>(ancestor.end)));
+  }
   void ask_again(Call& call, Validity validity, const Edge* seen, Handle source) noexcept;
   void note_failure(Event::Kind kind, const Call* call = nullptr) noexcept;
 
@@ -349,6 +352,7 @@ class Core {
     return call.posted && Slot::of(call).posts == 0;
   }
   void run_from_queue(Handle call);
+  bool defer(Call& call) noexcept;
   void take_deferred(Handle call) noexcept;
   [[nodiscard]] bool unchanged(Call& call);
   void settle_child(Handle child);
