@@ -53,7 +53,7 @@ detail::Version& ModStructure::new_version(Scope& scope, Handle head, const deta
   edge.head = head;
   edge.version = 0;
   Version& first = *at(head);
-  if (!first.written && first.history == 0) {
+  if (is_untouched(first)) {
     first.writer = engine_.handle_of(self);
     first.type = type_number;
     first.round = self.round;
@@ -169,21 +169,18 @@ void ModStructure::replace(Handle head, Version& version, Handle except) noexcep
 
 // A new version has its value: takes over the readers of `previous` that are behind it if its value
 // is the same; else they are in doubt.
-void ModStructure::appeared(Scope& scope, Handle head, Version& version, Version* previous,
+void ModStructure::appeared(const Call& self, Handle head, Version& version, Version& previous,
                             bool same) noexcept {
-  const Call& self = scope.self();
-  if (!same) engine_.note(Event::Kind::changed, &self, head);
-  if (previous == nullptr) return;
   if (same) {
-    for_each_reader_behind(*previous, self, 0, [&](ReadEdge& edge) {
+    for_each_reader_behind(previous, self, 0, [&](ReadEdge& edge) {
       move_reader(edge, version);
       return true;
     });
   } else {
-    doubt_readers(head, *previous, self, 0);
+    doubt_readers(head, previous, self, 0);
   }
   // Children of a running call read past what that call has not repeated.
-  for (Version* v = previous; v != nullptr && hidden(*v);) {
+  for (Version* v = &previous; v != nullptr && hidden(*v);) {
     v = predecessor(head, *v);
     if (v != nullptr) doubt_readers(head, *v, self, 0);
   }
