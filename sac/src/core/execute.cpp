@@ -10,8 +10,6 @@ namespace sac {
 void Core::execute(Handle call, Handle limit) {
   Activation a;
   a.outer = current_;
-  a.outer_linked =
-      current_ == nullptr || current_->end_linked ? current_ : current_->outer_linked;
   a.limit = limit;
   a.end = at<Call>(call)->end;
   a.end_linked = a.end != 0;
@@ -112,10 +110,15 @@ bool Core::settle_link(Activation& a, Handle link) {
   return false;
 }
 
+// Nothing that it could reuse lies behind its end. A link that is new in the trace had nothing to
+// take back, and what it has done behind its children was refused, so that it does not come here.
+// Else its call came from the queue: its interval goes up to its end, or, if it was a leaf, up to
+// the next stamp.
 void Core::rerun_link(Activation& a, Handle link) {
   a.tail_state = Tail::none;
   drop_call(std::exchange(a.tail, 0));
   if (!a.end_linked) link_end(a);  // what it does not repeat lies before
+  SAC_ENSURES(a.end == a.limit || at<TimeNode>(a.end)->next == a.limit);
   now_ = link;
   run_body(a, link);
 }
