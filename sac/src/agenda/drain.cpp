@@ -131,9 +131,7 @@ void Agenda::set_later_posts_aside(const Call& drain) {
           if (!unrepeated(poster, post)) continue;
         } else if (engine_.precedes(drain, poster)) {
           engine_.invalidate(poster);
-        } else if (post.behind && engine_.encloses(poster, drain)) {
-          engine_.run_again(poster);
-        } else {
+        } else if (!post.behind || !engine_.rerun_if_around(poster, drain)) {
           continue;
         }
         drop_post(post);

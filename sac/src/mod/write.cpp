@@ -141,10 +141,7 @@ void ModStructure::require_unread(Scope& scope, Handle head, const Version* vers
 void ModStructure::rerun_readers_around(const Call& writer, const Version& previous) {
   if (engine_.appending()) return;
   for (Handle r = previous.readers; r != 0; r = reader(r)->next_reader) {
-    Call& call = engine_.call(reader(r)->call);
-    if (reader(r)->behind && !call.running() && engine_.encloses(call, writer)) {
-      engine_.run_again(call);
-    }
+    if (reader(r)->behind) engine_.rerun_if_around(engine_.call(reader(r)->call), writer);
   }
 }
 
