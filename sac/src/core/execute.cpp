@@ -10,8 +10,6 @@ namespace sac {
 void Core::execute(Handle call, Handle limit) {
   const Handle end = at<Call>(call)->end;
   Activation a{.limit = limit, .end = end, .end_linked = end != 0, .outer = current_};
-  a.outer_linked =
-      current_ == nullptr || current_->end_linked ? current_ : current_->outer_linked;
   current_ = &a;
   try {
     for (Handle link = call; link != 0;) {
@@ -82,6 +80,11 @@ void Core::settle(Activation& a) noexcept {
 // The new tail call that follows `link`, with its place. What `link` took back when it settled, and
 // its children may have seen, is brought up to date before. If a result changes by that, it is the
 // link itself that runs again.
+//
+// Then nothing that it could reuse lies behind its end. A link that is new in the trace had nothing
+// to take back, and what it has done behind its children was refused, so that it does not run again.
+// Else its call came from the queue: its interval goes up to its end, or, if it was a leaf, up to
+// the next stamp.
 Handle Core::next_link(Activation& a, Handle link) {
   const bool again = !appending() && settle_link(link);
   const Handle next = std::exchange(a.tail, 0);
@@ -89,6 +92,7 @@ Handle Core::next_link(Activation& a, Handle link) {
   if (again) {
     drop_call(next);
     if (!a.end_linked) link_end(a);  // what it does not repeat lies before
+    SAC_ENSURES(a.end == a.limit || at<TimeNode>(a.end)->next == a.limit);
     return now_ = link;
   }
   insert_call(next);

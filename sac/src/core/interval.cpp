@@ -220,20 +220,7 @@ void Core::free_call(Handle call) noexcept {
   arena_.release(call, function.frame_bytes);
 }
 
-// What a running call reuses may lie behind its own end, and that of calls around it: these ends
-// are to be put behind what is done instead.
-void Core::unlink_ends_between(Handle from, Handle to) noexcept {
-  for (Activation* a = current_; a != nullptr && to != 0; a = a->outer_linked) {
-    if (!a->end_linked || !precedes(*at<TimeNode>(from), *at<TimeNode>(a->end))) continue;
-    if (!precedes(*at<TimeNode>(a->end), *at<TimeNode>(to))) return;
-    timeline_.erase(a->end);
-    at<TimeNode>(a->end)->prev = 0;
-    a->end_linked = false;
-  }
-}
-
 void Core::discard_between(Handle from, Handle to) noexcept {
-  unlink_ends_between(from, to);
   for (Handle h = at<TimeNode>(from)->next; h != to;) {
     const Handle next = at<TimeNode>(h)->next;
     if (at<TimeNode>(h)->marked()) {

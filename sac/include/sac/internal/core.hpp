@@ -312,7 +312,6 @@ class Core {
     bool hidden = false;  // what it has not repeated is hidden from its children
     bool failed = false;  // something that it asked for has thrown
     Activation* outer = nullptr;
-    Activation* outer_linked = nullptr;  // the next outside whose end had a place when this began
   };
 
   [[nodiscard]] Activation& running() const {
@@ -371,7 +370,6 @@ class Core {
   void give_place(Handle call, Handle after);
   void suspect(Handle fresh, const Asked& asked);
   void free_call(Handle call) noexcept;
-  void unlink_ends_between(Handle from, Handle to) noexcept;
   void discard_between(Handle from, Handle to) noexcept;
   void discard(Handle call) noexcept;
   void retract_all(Call& call, Handle edges) noexcept;
