@@ -35,7 +35,9 @@ detail::Version* ModStructure::own_version(Scope& scope, Handle head) {
   const Handle version = handle_of(*own);
   const auto same = [&](const WriteEdge& edge) { return edge.version == version; };
   // Children that have run meanwhile did not see it. If that is refused, it has not been repeated.
-  if (engine_.has_had_children()) require_unread(scope, head, predecessor(head, *own));
+  if (engine_.has_had_children() && at(head)->history != 0) {
+    require_unread(scope, head, predecessor(head, *own));
+  }
   own->behind = scope.recall<WriteEdge>(id_, kWrite, same)->behind;
   own->round = call.round;
   return own;
