@@ -14,9 +14,13 @@ void ModStructure::link_reader(ReadEdge& edge, Version& version) noexcept {
   edge.next_reader = version.readers;
   if (version.readers != 0) reader(version.readers)->prev = self;
   version.readers = self;
-  if (!version.ordered) [[likely]] return;
+  if (version.ordered) [[unlikely]] put_in_order(edge, version);
+}
+
+void ModStructure::put_in_order(const ReadEdge& edge, Version& version) noexcept {
   try {
-    reader_orders_.find(edge.version)->second.insert(self, reader_order());
+    auto& readers = reader_orders_.find(edge.version)->second;
+    readers.insert(engine_.arena().handle_of(&edge), reader_order());
   } catch (const std::bad_alloc&) {
     forget_order(version);
   }
@@ -39,16 +43,6 @@ void ModStructure::move_reader(ReadEdge& edge, Version& to) noexcept {
   unlink_reader(edge);
   link_reader(edge, to);
   if (to.writer != writer) rerun_writer_around(edge, to);
-}
-
-// `version` is news to the reader. Has a call around the reader written it, behind children of its
-// own: behind the reader?
-void ModStructure::rerun_writer_around(const ReadEdge& edge, const Version& version) noexcept {
-  if (!version.behind || engine_.appending()) return;
-  Call& writer = engine_.call(version.writer);
-  if (!writer.running() && engine_.encloses(writer, engine_.call(edge.call))) {
-    engine_.run_again(writer);
-  }
 }
 
 void ModStructure::order_readers(const Version& version) noexcept {

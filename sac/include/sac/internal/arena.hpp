@@ -58,6 +58,7 @@ class Arena {
     }
     if (granules < kSmall && spares_.empty() && (next_ + granules) * kGranule <= usable_) {
       const auto fresh = static_cast<Handle>(next_);
+      __builtin_prefetch(at<void>(fresh + kFetchAhead), 1);
       next_ += granules;
       used_ += granules;
       return fresh;
@@ -141,6 +142,9 @@ class Arena {
 
  private:
   static constexpr std::size_t kSmall = 129;  // size classes of up to 128 granules: 1 KiB
+  // Memory never used before is written first, and what is only written the processor does not fetch
+  // by itself: a few cache lines ahead of what is handed out.
+  static constexpr Handle kFetchAhead = 512 / kGranule;
 
   struct Run {  // of free granules
     Handle first;

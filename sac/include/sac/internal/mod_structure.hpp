@@ -261,6 +261,27 @@ class ModStructure final : public Structure {
   [[nodiscard]] Handle head_of(const Version& version) const noexcept {
     return version.apart ? version.modifiable : handle_of(version);
   }
+  // Whether it has no value: no call has written it, and it is no input.
+  [[nodiscard]] static bool is_untouched(const Version& first) noexcept {
+    return !first.written && first.history == 0;
+  }
+  // Null: there is none.
+  struct Around {
+    Version* before;  // the last of earlier calls and of the call itself
+    Version* behind;  // the first of later calls
+  };
+  [[nodiscard]] Around versions_around(const Call& call, Handle head) const noexcept {
+    Version* const first = at(head);
+    if (first->history == 0) [[likely]] {
+      if (!first->written) return {nullptr, nullptr};
+      const Call& w = writer(*first);
+      if (&w == &call || engine_.precedes(w, call)) return {first, nullptr};
+      return {nullptr, first};
+    }
+    const auto place = history(first->history).versions.place_of(0, order(&call));
+    return {place.before != nullptr ? at(*place.before) : nullptr,
+            place.behind != nullptr ? at(*place.behind) : nullptr};
+  }
   // Whether a running call wrote `version` last time and has not yet repeated it.
   [[nodiscard]] bool hidden(const Version& version) const noexcept {
     const Call& w = writer(version);
@@ -272,19 +293,25 @@ class ModStructure final : public Structure {
   // read.cpp
   [[nodiscard]] Version* seen_by(const Call& call, Handle head) const;
   [[nodiscard]] Version* visible_to(const Call& call, const Version& seen) const;
-  void require_ahead(const Call& reader, Handle head, Handle next) const;
+  void require_ahead(const Call& reader, Handle head, const Version& next) const;
   [[noreturn]] void fail_unwritten(const Call& reader, Handle head) const;
 
   // write.cpp
   Version* own_version(Scope& scope, Handle head);
-  [[nodiscard]] Version* before(Scope& scope, Handle head) const;
   [[nodiscard]] Version* predecessor(Handle head, const Version& version) const noexcept;
   Version& new_version(Scope& scope, Handle head, const detail::ValueType& type);
+  Version& new_apart(Handle head, const detail::ValueType& type);
+  void enter_history(Handle head, Version& version, const detail::ValueType& type);
   void replace(Handle head, Version& version, Handle except) noexcept;
-  void appeared(Scope& scope, Handle head, Version& version, Version* previous,
+  void appeared(const Call& self, Handle head, Version& version, Version& previous,
                 bool same) noexcept;
   void require_unread(Scope& scope, Handle head, const Version* version);
-  void rerun_writer_around(const ReadEdge& edge, const Version& version) noexcept;
+  // `version` is news to the reader. Has a call around the reader written it, behind children of its
+  // own: behind the reader?
+  void rerun_writer_around(const ReadEdge& edge, const Version& version) noexcept {
+    if (!version.behind) [[likely]] return;
+    engine_.rerun_if_around(engine_.call(version.writer), engine_.call(edge.call));
+  }
   void rerun_readers_around(const Call& writer, const Version& previous);
   [[nodiscard]] std::uint32_t new_history(Handle head);
   void drop_history(Handle head) noexcept;
@@ -294,6 +321,7 @@ class ModStructure final : public Structure {
 
   // readers.cpp
   void link_reader(ReadEdge& edge, Version& version) noexcept;
+  void put_in_order(const ReadEdge& edge, Version& version) noexcept;
   void unlink_reader(ReadEdge& edge) noexcept;
   void move_reader(ReadEdge& edge, Version& to) noexcept;
   void doubt_readers(Handle head, const Version& version, const Call& behind, Handle end) noexcept;
@@ -328,20 +356,25 @@ void ModStructure::write(Scope& scope, Handle head, T value) {
     restored = original != nullptr && detail::same<Same>(*original, value);
     if (restored) value = *original;
   }
-  if (auto* own = static_cast<Typed*>(own_version(scope, head))) {
-    if (!restored && detail::same<Same>(own->value(), value)) return;
-    require_unread(scope, head, own);
-    replace(head, *own, engine_.handle_of(scope.self()));
-    return own->give(std::move(value));
+  Typed* previous = nullptr;
+  bool same = false;
+  if (!is_untouched(*at(head))) {
+    if (auto* own = static_cast<Typed*>(own_version(scope, head))) {
+      if (!restored && detail::same<Same>(own->value(), value)) return;
+      require_unread(scope, head, own);
+      replace(head, *own, engine_.handle_of(scope.self()));
+      return own->give(std::move(value));
+    }
+    previous = static_cast<Typed*>(versions_around(scope.self(), head).before);
+    same = previous != nullptr && detail::same<Same>(previous->value(), value);
+    require_unread(scope, head, previous);
+    if (previous != nullptr && previous->read_behind) rerun_readers_around(scope.self(), *previous);
   }
-  auto* previous = static_cast<Typed*>(before(scope, head));
-  const bool same = previous != nullptr && detail::same<Same>(previous->value(), value);
-  require_unread(scope, head, previous);
-  if (previous != nullptr && previous->read_behind) rerun_readers_around(scope.self(), *previous);
   auto& version = static_cast<Typed&>(
       new_version(scope, head, detail::kValueType<T, Same>));  // the last that may fail
   version.give(std::move(value));
-  appeared(scope, head, version, previous, same);
+  if (!same) engine_.note(Event::Kind::changed, &scope.self(), head);
+  if (previous != nullptr) appeared(scope.self(), head, version, *previous, same);
 }
 
 template <class Visit>
