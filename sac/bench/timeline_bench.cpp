@@ -18,8 +18,6 @@
 //   compare_random      random pairs of N appended nodes
 //   compare_random_2n   random pairs of the 2 N nodes of `random`
 //   erase_random        all of the 2 N nodes of `random`, in random order
-//   erase_range         the N appended nodes, in ranges of 1000 that are walked
-//   erase_counted       the same ranges for who has walked them already
 //   bytes_...           bytes per node, its share of the groups' memory included
 //
 // Where the time goes. While all it touches is in the first-level cache an insertion is some 40
@@ -48,7 +46,6 @@ using sac::TimeNode;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kBurst = 100;
-constexpr std::size_t kRange = 1000;
 
 volatile std::uint64_t sink;
 
@@ -222,18 +219,6 @@ void bench_compare_and_erase(Report& report, std::size_t n) {
     sink = count;
   });
   report.time("compare_random", n, [&] { sink = compare(a, picks); });
-  report.time("erase_range", n, [&] {
-    for (std::size_t i = 0; i + kRange < n; i += kRange) {
-      a.timeline.erase_between(a.node(i), a.node(i + kRange));
-    }
-  });
-  List b(n);
-  b.append(n);
-  report.time("erase_counted", n, [&] {
-    for (std::size_t i = 0; i + kRange < n; i += kRange) {
-      b.timeline.erase_between(b.node(i), b.node(i + kRange), kRange - 1);
-    }
-  });
 }
 
 }  // namespace

@@ -94,8 +94,7 @@ auto Claims<Key, S>::enter(sac::Scope& s, const Key& key) -> Claim& {
   claim.entered = true;
   // A call around this one has claimed the key behind children of its own: behind this one?
   for (const Claim* c : claims) {
-    sac::Call& other = call_of(*c);
-    if (c->behind && !other.running() && engine_.encloses(other, s.self())) engine_.run_again(other);
+    if (c->behind) engine_.rerun_if_around(call_of(*c), s.self());
   }
   return claim;
 }

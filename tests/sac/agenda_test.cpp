@@ -1,6 +1,7 @@
 // Agendas: order, merging, life of posted calls, placing, posting into the past, roll-back.
 #include <catch2/catch.hpp>
 #include <map>
+#include <memory>
 #include <new>
 #include <set>
 #include <stdexcept>
@@ -621,6 +622,68 @@ TEST_CASE("functions of one name are apart in the order of an agenda") {
       REQUIRE(e.get(c.odd[k]) == values[k] / 2);
     }
   }
+}
+
+TEST_CASE("a call whose post from outside is undone leaves with the next propagation") {
+  for (const bool drained : {false, true}) {
+    Engine e;
+    Program p;
+    p.agenda = &e.make_agenda("main");
+    e.set_environment(&p);
+    if (drained) e.run<drain_all>();
+    const auto calls = e.live_calls();
+    p.agenda->post_from_outside<visit>(key_of(5), 5);
+    p.agenda->post_from_outside<visit>(key_of(7), 7);
+    e.undo_edits();
+    CHECK(p.agenda->waiting_calls() == (drained ? 0 : 2));
+    CHECK_THROWS_WITH(e.release(*p.agenda), Contains("is in use"));
+    CHECK(e.propagate().executed == 0);
+    CHECK(p.agenda->waiting_calls() == 0);
+    CHECK(e.live_calls() == calls);
+    e.check_invariants();
+    if (!drained) e.release(*p.agenda);
+  }
+}
+
+// --- Arguments of any type on a plain agenda ----------------------------------------------------
+
+struct Saying {
+  static constexpr std::string_view kName = "saying";
+  template <class S>
+  void operator()(S& s, const std::string& word, const std::shared_ptr<int>& end) const {
+    auto& out = *s.template environment<std::pair<std::string*, sac::PlainAgenda*>>().first;
+    auto& agenda = *s.template environment<std::pair<std::string*, sac::PlainAgenda*>>().second;
+    if (word == "throw") throw std::runtime_error("thrown");
+    out += word + ' ';
+    if (word.size() < 3) agenda.template post<Saying{}>(s, {}, word + word, end);
+  }
+};
+
+TEST_CASE("a plain agenda takes arguments of any type, merges equal ones, and destroys them") {
+  const auto end = std::make_shared<int>(0);
+  const std::string long_word = "a word that is too long to be kept in place";
+  std::string said;
+  for (const bool fails : {false, true}) {
+    said.clear();
+    sac::PlainScope s;
+    auto& agenda = s.make_agenda("sayings");
+    auto environment = std::make_pair(&said, &agenda);
+    s.set_environment(&environment);
+    for (const char* word : {"b", "aa", "b", "c"}) {
+      agenda.post_from_outside<Saying{}>({}, word, end);
+    }
+    agenda.post_from_outside<Saying{}>({.bucket = 1}, long_word, end);
+    agenda.post_from_outside<Saying{}>({}, "aa", end);
+    if (fails) agenda.post_from_outside<Saying{}>({}, "throw", end);
+    CHECK(end.use_count() == (fails ? 8 : 7));
+    if (fails) {
+      CHECK_THROWS_AS(agenda.drain(s), std::runtime_error);
+    } else {
+      agenda.drain(s);
+    }
+    CHECK(said == "aa aaaa b bb bbbb c cc cccc " + (fails ? "" : long_word + ' '));
+  }
+  CHECK(end.use_count() == 1);
 }
 
 }  // namespace

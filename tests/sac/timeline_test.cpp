@@ -56,13 +56,12 @@ struct Fixture {
     places.pop_back();
   }
   /// Takes out the `count` nodes behind `from`, or as many as there are.
-  void erase_range(std::list<Handle>::iterator from, std::size_t count, bool counted) {
+  void erase_range(std::list<Handle>::iterator from, std::size_t count) {
     auto to = std::next(from);
-    for (std::size_t left = count; left > 0 && to != oracle.end(); --left) ++to;
-    const Handle end = to == oracle.end() ? 0 : *to;
-    const auto length = static_cast<std::size_t>(std::distance(std::next(from), to));
-    counted ? timeline.erase_between(*from, end, length) : timeline.erase_between(*from, end);
-    for (auto it = std::next(from); it != to; ++it) arena.release(*it, sizeof(TimeNode));
+    for (; count > 0 && to != oracle.end(); --count, ++to) {
+      timeline.erase(*to);
+      arena.release(*to, sizeof(TimeNode));
+    }
     oracle.erase(std::next(from), to);
     places.clear();
     for (auto it = oracle.begin(); it != oracle.end(); ++it) places.push_back(it);
@@ -240,12 +239,12 @@ TEST_CASE("insertions, bursts and erasures of all kinds keep the order of std::l
         }
         break;
       case 5:  // a subtree of the trace that is replaced by one of another size
-        f.erase_range(f.places[spot], f.random(2000), f.random(2) == 0);
+        f.erase_range(f.places[spot], f.random(2000));
         f.insert(f.random(f.places.size()));
         f.insert_after_latest(static_cast<int>(f.random(2000)));
         break;
       case 6:
-        f.erase_range(f.places[spot], f.random(f.places.size()), f.random(2) == 0);
+        f.erase_range(f.places[spot], f.random(f.places.size()));
         break;
       case 7:
         if (f.random(4) == 0) f.timeline.shrink();
@@ -269,16 +268,15 @@ TEST_CASE("many random insertions from an empty list on keep the order") {
   CHECK(f.timeline.bytes() < f.timeline.size());
 }
 
-TEST_CASE("erase_between takes out what lies strictly between, or all that follows") {
-  const bool counted = GENERATE(false, true);
+TEST_CASE("what lies in a row is taken out, in the middle or up to the end") {
   Fixture f;
   f.insert_at_random(3000);
   f.insert_after_latest(5000);
-  f.erase_range(std::next(f.oracle.begin(), 100), 1900, counted);
+  f.erase_range(std::next(f.oracle.begin(), 100), 1900);
   f.check();
-  f.erase_range(std::next(f.oracle.begin(), 1000), 0, counted);
+  f.erase_range(std::next(f.oracle.begin(), 1000), 0);
   f.check();
-  f.erase_range(std::next(f.oracle.begin(), 100), f.oracle.size(), counted);
+  f.erase_range(std::next(f.oracle.begin(), 100), f.oracle.size());
   f.check();
   CHECK(f.timeline.size() == 101);
   f.insert_after_latest(5000);
@@ -290,7 +288,7 @@ TEST_CASE("groups that are no more are used again") {
   f.insert_after_latest(20000);
   const std::size_t bytes = f.timeline.bytes();
   for (int round = 0; round < 20; ++round) {
-    f.erase_range(std::next(f.oracle.begin(), 3000), 15000, round % 2 == 0);
+    f.erase_range(std::next(f.oracle.begin(), 3000), 15000);
     while (f.places.size() > 2000) f.erase(f.places.size() - 1);
     f.insert_after_latest(18000);
   }
@@ -303,7 +301,7 @@ TEST_CASE("shrink gives the memory of dropped groups back and keeps order and ma
   f.insert_at_random(30000);
   f.insert_after_latest(100000);
   const std::size_t bytes = f.timeline.bytes();
-  f.erase_range(std::next(f.oracle.begin(), 2000), f.oracle.size(), true);
+  f.erase_range(std::next(f.oracle.begin(), 2000), f.oracle.size());
   CHECK(f.timeline.bytes() == bytes);
   f.timeline.shrink();
   CHECK(f.timeline.bytes() < 100);

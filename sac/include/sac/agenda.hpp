@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "sac/engine.hpp"
+#include "sac/internal/due_calls.hpp"
 #include "sac/internal/sorted_index.hpp"
 #include "sac/scope.hpp"
 
@@ -216,8 +217,7 @@ class Agenda final : public WorkQueue {
   [[noreturn]] void fail_drained_twice(const Call& caller) const;
   void begin_drain(Scope& s);
   void run_waiting(Scope& s);
-  void run_class(std::uint32_t rank);
-  void run_one(const Entry& entry);
+  void run_first();
 
   Engine& engine_;
   Core& core_;
@@ -226,7 +226,8 @@ class Agenda final : public WorkQueue {
   State state_ = State::open;
   bool unposted_ = false;  // a waiting call lost a post
   std::map<std::uint32_t, std::vector<Entry>> waiting_;  // by rank
-  Handle chained_ = 0;  // calls that wait, too: since their drain has gone
+  DueCalls<Entry> due_;  // calls that wait, too: of the class that the drain runs
+  Handle chained_ = 0;   // and these: since their drain has gone
   Index placed_;        // what drain_call_ has run, or is to run
   std::uint64_t waiting_calls_ = 0;
   Handle drain_call_ = 0;

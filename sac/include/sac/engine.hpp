@@ -231,20 +231,16 @@ class Engine {
   /// It will run again if, when its turn comes, Structure::unchanged says no of one of its edges.
   /// `source` tells observers which modifiable it is about; 0: none.
   void doubt(Call& call, Handle source = 0) noexcept { core_.doubt(call, source); }
-  /// `ancestor` of the running call has settled, and did something behind children of its own (see
-  /// Edge::behind) that the running call, had it been there, should have seen or not. It runs again,
-  /// so that this is refused or not as in a first run.
-  void run_again(Call& ancestor) noexcept { core_.run_again(ancestor); }
+  /// `outer` did something behind children of its own (Edge::behind) that `inner`, which is new to
+  /// it, should have seen or not: if it has settled and `inner` lies in its interval, it runs again,
+  /// so that this is refused or not as in a first run. Returns whether.
+  bool rerun_if_around(Call& outer, const Call& inner) noexcept { return core_.rerun_if_around(outer, inner); }
   [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
     return core_.precedes(a, b);
   }
   /// Whether `call` lies behind `from` and before the time stamp `end` (0: the end of the trace).
   [[nodiscard]] bool lies_between(const Call& from, const Call& call, Handle end) const noexcept {
     return core_.lies_between(from, call, end);
-  }
-  /// Whether `call` lies in the interval of `ancestor`.
-  [[nodiscard]] bool encloses(const Call& ancestor, const Call& call) const noexcept {
-    return core_.encloses(ancestor, call);
   }
   /// Whether `call` is still to come: it lies behind all that the running call has done.
   [[nodiscard]] bool lies_ahead(const Call& call) const noexcept { return core_.lies_ahead(call); }

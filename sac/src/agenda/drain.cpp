@@ -131,9 +131,7 @@ void Agenda::set_later_posts_aside(const Call& drain) {
           if (!unrepeated(poster, post)) continue;
         } else if (engine_.precedes(drain, poster)) {
           engine_.invalidate(poster);
-        } else if (post.behind && engine_.encloses(poster, drain)) {
-          engine_.run_again(poster);
-        } else {
+        } else if (!post.behind || !engine_.rerun_if_around(poster, drain)) {
           continue;
         }
         drop_post(post);
@@ -146,58 +144,35 @@ void Agenda::run_waiting(Scope& s) {
   begin_drain(s);
   state_ = State::draining;
   try {
-    while (!waiting_.empty()) run_class(waiting_.begin()->first);
-  } catch (...) {
+    while (!waiting_.empty()) {
+      due_.begin(waiting_.begin()->second, order());
+      waiting_.erase(waiting_.begin());
+      while (!due_.empty()) run_first();
+    }
+  } catch (...) {  // what has not run waits for the drain to run again
+    due_.for_each([&](const Entry& entry) { chain(*core_.at<Call>(entry.call)); });
+    due_.clear();
     state_ = State::open;
     throw;
   }
   state_ = State::drained;
 }
 
-// Runs one (bucket, phase, colour): what was posted before in order, merged with what its own
-// calls post into it. Comparing calls may throw in the middle of sorting, so a copy is sorted.
-void Agenda::run_class(std::uint32_t rank) {
-  const auto earlier = order();
-  std::vector<Entry> batch = waiting_[rank];
-  std::sort(batch.begin(), batch.end(), earlier);
-  std::vector<Entry>& posted = waiting_[rank];
-  posted.clear();
-  Index late;
-  std::size_t i = 0;
-  std::size_t taken = 0;  // of what the running call posted
-  Entry next;
-  try {
-    while (i < batch.size() || !late.empty()) {
-      const bool from_late = i == batch.size() || (!late.empty() && earlier(late.first(), batch[i]));
-      next = from_late ? late.pop_first() : batch[i++];
-      taken = 0;
-      run_one(next);
-      next = {};
-      for (; taken < posted.size(); ++taken) late.insert(posted[taken], earlier);
-      posted.clear();
+void Agenda::run_first() {
+  const Entry& first = due_.first(order());
+  const Entry entry = first;
+  const bool posted = Slot::of(*core_.at<Call>(entry.call)).posts != 0;
+  if (posted) {
+    placed_.append(entry);
+    try {
+      core_.place_now(entry.call);
+    } catch (...) {
+      placed_.erase_if([&](const Entry& other) { return other.call == entry.call; });
+      throw;
     }
-  } catch (...) {  // what has not run waits for the drain to run again
-    posted.erase(posted.begin(), posted.begin() + static_cast<std::ptrdiff_t>(taken));
-    const auto keep = [&](const Entry& entry) { chain(*core_.at<Call>(entry.call)); };
-    if (next.call != 0 && core_.at<Call>(next.call)->waiting()) keep(next);
-    std::for_each(batch.begin() + static_cast<std::ptrdiff_t>(i), batch.end(), keep);
-    late.for_each(keep);
-    throw;
   }
-  waiting_.erase(rank);
-}
-
-void Agenda::run_one(const Entry& entry) {
-  if (Slot::of(*core_.at<Call>(entry.call)).posts == 0) {  // posted, then taken back
-    return drop_waiting(entry.call);
-  }
-  placed_.append(entry);
-  try {
-    core_.place_now(entry.call);
-  } catch (...) {
-    placed_.erase_if([&](const Entry& other) { return other.call == entry.call; });
-    throw;
-  }
+  due_.drop(first);
+  if (!posted) return drop_waiting(entry.call);  // posted, then taken back
   --waiting_calls_;
   running_ = entry.call;
   core_.run_placed(entry.call);

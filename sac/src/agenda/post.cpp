@@ -59,6 +59,9 @@ Handle Agenda::create(const Key& key, const Asked& asked) {
 
 void Agenda::add_waiting(Handle call) {
   const Entry entry = entry_of(*core_.at<Call>(call));
+  if (state_ == State::draining && entry.rank == Slot::of(*core_.at<Call>(running_)).rank) {
+    return due_.add(entry, order());
+  }
   waiting_[entry.rank].push_back(entry);
 }
 

@@ -8,24 +8,15 @@
 namespace sac {
 
 void Core::execute(Handle call, Handle limit) {
-  Activation a;
-  a.outer = current_;
-  a.outer_linked =
-      current_ == nullptr || current_->end_linked ? current_ : current_->outer_linked;
-  a.limit = limit;
-  a.end = at<Call>(call)->end;
-  a.end_linked = a.end != 0;
+  const Handle end = at<Call>(call)->end;
+  Activation a{.limit = limit, .end = end, .end_linked = end != 0, .outer = current_};
   current_ = &a;
   try {
-    run_body(a, call);
-    for (Handle link = call; settle_link(a, link);) {
-      link = std::exchange(a.tail, 0);
-      a.tail_state = Tail::none;
-      insert_call(link);
-      at<Call>(link)->end = a.end;
+    for (Handle link = call; link != 0;) {
       run_body(a, link);
+      link = a.tail_state == Tail::fresh ? next_link(a, link) : 0;
     }
-    close(a);
+    if (a.end != 0) close(a);
   } catch (...) {
     abandon(a);
     throw;
@@ -36,6 +27,7 @@ void Core::execute(Handle call, Handle limit) {
 void Core::run_body(Activation& a, Handle call) {
   Call& c = *at<Call>(call);
   a.call = &c;
+  a.self = call;
   a.old_edges = std::exchange(c.edges, 0);
   a.cursor = a.last_edge = a.failed_child = 0;
   a.hidden = a.failed = false;
@@ -64,8 +56,7 @@ void Core::fail_caught(const Activation& a) const {
 // What a call does comes before its children. If it is done behind one that has run and should have
 // seen it, a run from scratch and an update would differ.
 void Core::require_children_unmoved(const Activation& a) {
-  const Handle call = arena_.handle_of(a.call);
-  while (!queue_.empty() && next_is_up_to(call, now_)) {
+  while (!queue_.empty() && next_is_up_to(a.self, now_)) {
     Call& child = *at<Call>(queue_.pop());
     SAC_ENSURES(!unposted(child));
     if (child.invalid() || !unchanged(child)) {
@@ -81,43 +72,52 @@ void Core::require_children_unmoved(const Activation& a) {
 // The call has said all it has to say: what it did not repeat is taken back. It has not seen that
 // in this execution, so it is not invalidated by it.
 void Core::settle(Activation& a) noexcept {
-  a.cursor = 0;
-  retract_all(*a.call, std::exchange(a.old_edges, 0));
+  if (a.old_edges != 0) retract_all(*a.call, std::exchange(a.old_edges, 0));
   a.call->life = Life::placed;
   a.call->validity = Validity::valid;
 }
 
-// Whether a new tail call follows `link`, which has just run: then what `link` took back when it
-// settled, and its children may have seen, is brought up to date before. If a result changes by
-// that, the link runs again.
-bool Core::settle_link(Activation& a, Handle link) {
-  while (a.tail_state == Tail::fresh) {
-    if (appending()) return true;
+// The new tail call that follows `link`, with its place. What `link` took back when it settled, and
+// its children may have seen, is brought up to date before. If a result changes by that, it is the
+// link itself that runs again.
+//
+// Then nothing that it could reuse lies behind its end. A link that is new in the trace had nothing
+// to take back, and what it has done behind its children was refused, so that it does not run again.
+// Else its call came from the queue: its interval goes up to its end, or, if it was a leaf, up to
+// the next stamp.
+Handle Core::next_link(Activation& a, Handle link) {
+  const bool again = !appending() && settle_link(link);
+  const Handle next = std::exchange(a.tail, 0);
+  a.tail_state = Tail::none;
+  if (again) {
+    drop_call(next);
+    if (!a.end_linked) link_end(a);  // what it does not repeat lies before
+    SAC_ENSURES(a.end == a.limit || at<TimeNode>(a.end)->next == a.limit);
+    return now_ = link;
+  }
+  insert_call(next);
+  at<Call>(next)->end = a.end;
+  return next;
+}
+
+// Runs what is invalid from `link`, which has just run, up to now. Returns whether it is the link
+// itself that must run.
+bool Core::settle_link(Handle link) {
+  while (true) {
     const Handle reached = now_;
     take_deferred(link);
-    if (queue_.empty() || !next_is_up_to(link, reached)) return true;
+    if (queue_.empty() || !next_is_up_to(link, reached)) return false;
     const Handle h = queue_.pop();
-    if (h == link) {
-      rerun_link(a, link);
-      continue;
-    }
+    if (h == link) return true;
+    const auto go_back = [&] { now_ = h == reached ? end_of(h) : reached; };
     try {
       run_from_queue(h);
     } catch (...) {
-      now_ = h == reached ? end_of(h) : reached;
+      go_back();
       throw;
     }
-    now_ = h == reached ? end_of(h) : reached;
+    go_back();
   }
-  return false;
-}
-
-void Core::rerun_link(Activation& a, Handle link) {
-  a.tail_state = Tail::none;
-  drop_call(std::exchange(a.tail, 0));
-  if (!a.end_linked) link_end(a);  // what it does not repeat lies before
-  now_ = link;
-  run_body(a, link);
 }
 
 // Ends the interval: a reused tail ends it, what was not reused is discarded.
@@ -126,7 +126,7 @@ void Core::close(Activation& a) {
     discard_between(now_, a.tail);
     reuse(std::exchange(a.tail, 0));
   }
-  if (a.end == 0 || now_ == a.end) return;  // a reused tail may share the end
+  if (now_ == a.end) return;  // a reused tail may share the end
   if (a.end_linked) {
     discard_between(now_, a.end);
   } else {
@@ -155,7 +155,7 @@ void Core::abandon(Activation& a) noexcept {
     }
   }
   invalidate(*a.call, nullptr);
-  if (a.outer != nullptr) a.outer->failed_child = arena_.handle_of(a.call);
+  if (a.outer != nullptr) a.outer->failed_child = a.self;
   current_ = a.outer;
 }
 

@@ -8,10 +8,11 @@ namespace sac {
 
 Handle Core::call_child(const Asked& asked) {
   Activation& caller = running();
-  if (caller.failed) [[unlikely]] fail_caught(caller);
-  require_no_tail(caller, asked.function);
-  require_stack(caller, asked.function);
-  hide_unrepeated(caller);
+  const auto stack = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
+  if (caller.failed || caller.tail != 0 || stack < stack_end_) [[unlikely]] {
+    fail_call(caller, asked.function);
+  }
+  if (caller.old_edges != 0 && !caller.hidden) hide_unrepeated(caller);
   need_end(caller);
   Handle child = find_reusable(asked, false);
   const bool fresh = child == 0;
@@ -23,7 +24,7 @@ Handle Core::call_child(const Asked& asked) {
     reuse(child);
   }
   // The last call that asked for it depends on its result.
-  if (asked.function.has_result) ResultHead::of(*at<Call>(child)).caller = arena_.handle_of(caller.call);
+  if (asked.function.has_result) ResultHead::of(*at<Call>(child)).caller = caller.self;
   if (fresh) {
     if (asked.function.execute == nullptr) return child;
     execute(child, caller.limit);
@@ -35,8 +36,7 @@ Handle Core::call_child(const Asked& asked) {
 
 Handle Core::call_tail(const Asked& asked) {
   Activation& caller = running();
-  if (caller.failed) [[unlikely]] fail_caught(caller);
-  require_no_tail(caller, asked.function);
+  if (caller.failed || caller.tail != 0) [[unlikely]] fail_call(caller, asked.function);
   need_end(caller);
   caller.tail = find_reusable(asked, true);
   caller.tail_state = Tail::reused;
@@ -50,10 +50,9 @@ Handle Core::call_tail(const Asked& asked) {
 // A call whose end stamp is the limit itself can only be the tail of the call that ends there:
 // as anything else it would leave no room before that end. Calls are mostly repeated in order: the
 // next one is looked at first, which spares a look into the memo table.
-Handle Core::find_reusable(const Asked& asked, bool tail) {
+Handle Core::find_ahead(const Asked& asked, bool tail) {
   const Handle limit = current_->limit;
   const Handle next = at<TimeNode>(now_)->next;
-  if (next == limit) return 0;  // nothing ahead: a first run
   const bool may_share_end = tail && current_->end == limit;
   const std::uint16_t number = number_of(asked.function);
   const auto fits = [&](const Call& c) {
@@ -75,7 +74,6 @@ void Core::reuse(Handle child) noexcept {
 // for theirs, even if they are reused: what in the interval has seen it must ask again. A tail call
 // runs when its caller has settled.
 void Core::hide_unrepeated(Activation& a) noexcept {
-  if (a.old_edges == 0 || a.hidden) return;
   a.hidden = true;
   for (Handle e = a.old_edges; e != 0; e = at<Edge>(e)->next) {
     Edge& edge = *at<Edge>(e);
@@ -83,29 +81,34 @@ void Core::hide_unrepeated(Activation& a) noexcept {
   }
 }
 
-void Core::require_no_tail(const Activation& caller, const Function& function) const {
-  if (caller.tail == 0) return;
-  throw UsageError(Engine::describe(*caller.call) + " calls " + std::string(function.name) +
-                   " behind its tail call " + Engine::describe(*at<Call>(caller.tail)) +
-                   ", which must be the last");
-}
-
-void Core::require_stack(const Activation& caller, const Function& function) const {
-  if (reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) >= stack_end_) [[likely]] return;
-  throw UsageError(Engine::describe(*caller.call) + " calls " + std::string(function.name) +
-                   " too deep: calls inside of calls have taken " + std::to_string(stack_limit_) +
+void Core::fail_call(const Activation& caller, const Function& function) const {
+  if (caller.failed) fail_caught(caller);
+  const std::string calls = Engine::describe(*caller.call) + " calls " + std::string(function.name);
+  if (caller.tail != 0) {
+    throw UsageError(calls + " behind its tail call " + Engine::describe(*at<Call>(caller.tail)) +
+                     ", which must be the last");
+  }
+  throw UsageError(calls + " too deep: calls inside of calls have taken " +
+                   std::to_string(stack_limit_) +
                    " bytes of the native stack; use tail calls, or divide");
 }
 
 // --- Making calls ----------------------------------------------------------------------------
 
+// Room for so many calls, those that leave included, so that invalidating and discarding cannot
+// fail.
+void Core::make_room(std::size_t calls) {
+  queue_.reserve(calls);
+  deferred_.reserve(calls);
+  graveyard_.reserve(calls);
+  room_ = calls;
+}
+
 // A new call waits for its place.
 Handle Core::new_call(const Asked& asked) {
   const Function& function = asked.function;
-  queue_.reserve(live_calls_ + 1);  // so that invalidating and discarding cannot fail
-  if (deferred_.capacity() <= live_calls_) deferred_.reserve(2 * live_calls_ + 64);
-  if (graveyard_.capacity() < live_calls_ + graveyard_.size() + 1) {
-    graveyard_.reserve(2 * (live_calls_ + graveyard_.size()) + 64);
+  if (const std::size_t calls = live_calls_ + graveyard_.size(); calls >= room_) [[unlikely]] {
+    make_room(calls + calls / 2 + 64);
   }
   const std::uint16_t number = number_of(function);
   const Handle h = arena_.allocate(function.frame_bytes);
@@ -217,20 +220,7 @@ void Core::free_call(Handle call) noexcept {
   arena_.release(call, function.frame_bytes);
 }
 
-// What a running call reuses may lie behind its own end, and that of calls around it: these ends
-// are to be put behind what is done instead.
-void Core::unlink_ends_between(Handle from, Handle to) noexcept {
-  for (Activation* a = current_; a != nullptr && to != 0; a = a->outer_linked) {
-    if (!a->end_linked || !precedes(*at<TimeNode>(from), *at<TimeNode>(a->end))) continue;
-    if (!precedes(*at<TimeNode>(a->end), *at<TimeNode>(to))) return;
-    timeline_.erase(a->end);
-    at<TimeNode>(a->end)->prev = 0;
-    a->end_linked = false;
-  }
-}
-
 void Core::discard_between(Handle from, Handle to) noexcept {
-  unlink_ends_between(from, to);
   for (Handle h = at<TimeNode>(from)->next; h != to;) {
     const Handle next = at<TimeNode>(h)->next;
     if (at<TimeNode>(h)->marked()) {
@@ -272,32 +262,13 @@ void Core::discard_subtree(Handle call) noexcept {
 
 // --- Edges -----------------------------------------------------------------------------------
 
-Edge& Core::attach(std::uint8_t structure, std::uint8_t kind, std::size_t bytes) {
-  Activation& a = running();
-  const Handle h = arena_.allocate(bytes);
-  Edge& edge = *at<Edge>(h);
-  edge.next = 0;
-  edge.structure = structure;
-  edge.kind = static_cast<std::uint8_t>(kind & 0x3f);
-  edge.granules = static_cast<std::uint16_t>((bytes + Arena::kGranule - 1) / Arena::kGranule);
-  append_edge(a, h);
-  ++live_edges_;
-  ++counts_.edges_made;
-  return edge;
-}
-
-void Core::free_edge(Edge& edge) noexcept {
-  --live_edges_;
-  ++counts_.edges_removed;
-  arena_.release(arena_.handle_of(&edge), edge.granules * Arena::kGranule);
-}
-
 void Core::retract_all(Call& call, Handle edges) noexcept {
   while (edges != 0) {
     Edge& edge = *at<Edge>(edges);
     edges = edge.next;
     structures_[edge.structure]->retract(call, edge);
-    free_edge(edge);
+    ++counts_.edges_removed;
+    arena_.release(arena_.handle_of(&edge), edge.granules * Arena::kGranule);
   }
 }
 

@@ -35,10 +35,10 @@ void Core::propagate_within(Handle call) {
 
 // The queue is used by the running call for what lies in its interval: what is before must not
 // stand in its way.
-void Core::run_again(Call& call) noexcept {
-  if (call.invalid()) return;
-  deferred_.push_back(arena_.handle_of(&call));
+bool Core::defer(Call& call) noexcept {
+  if (!call.invalid()) deferred_.push_back(arena_.handle_of(&call));
   call.validity = Validity::invalid;
+  return true;
 }
 
 // Puts into the queue what waits and lies in `call`'s interval; 0: everywhere.

@@ -72,7 +72,7 @@ void Core::fail_foreign(const char* what) const {
 void Core::enter(Mode mode) {
   require_usable();
   require_idle(mode == Mode::running ? "run" : "propagate");
-  deferred_.reserve(live_calls_);  // so that run_again() cannot fail
+  if (room_ < live_calls_) make_room(live_calls_);
   mode_ = mode;
   const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
   stack_end_ = here > stack_limit_ ? here - stack_limit_ : 0;
@@ -107,6 +107,7 @@ void Core::begin_undoing() noexcept {
 }
 
 Counts Core::finish() noexcept {
+  edges_before_ = live_edges();
   const Counts done = std::exchange(counts_, {});
   current_ = nullptr;
   for_each_structure([](Structure& s) { s.finished(); });
@@ -183,6 +184,7 @@ void Core::shrink() {
   graveyard.reserve(live_calls_);
   graveyard_.swap(graveyard);
   most_leaving_ = graveyard_.capacity();  // taken from memory used before
+  room_ = 0;
 }
 
 void Core::check_invariants(std::uint64_t waiting) const {
@@ -205,7 +207,7 @@ void Core::check_invariants(std::uint64_t waiting) const {
       SAC_INVARIANT(at<Edge>(e)->round == c.round);
     }
   });
-  SAC_INVARIANT(calls == live_calls_ && edges == live_edges_);
+  SAC_INVARIANT(calls == live_calls_ && edges == live_edges());
   SAC_INVARIANT(memo_.size() == live_calls_);
 }
 

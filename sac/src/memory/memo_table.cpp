@@ -62,18 +62,15 @@ void MemoTable::make_crowd(std::uint32_t hash) {
 void MemoTable::placed(Handle call, std::uint32_t hash) {
   const auto crowd = crowds_.find(hash);
   if (crowd == crowds_.end()) return;
-  for (std::size_t i = place(hash); entries_[i].call != 0 && entries_[i].hash <= hash; ++i) {
-    if (entries_[i].call != call) continue;
-    crowd->second.insert(call, order());
-    return take_out(i);
-  }
+  const std::size_t i = index_of(call, hash);
+  if (i == kNowhere) return;
+  crowd->second.insert(call, order());
+  take_out(i);
 }
 
 void MemoTable::leaves(Handle call, std::uint32_t hash) noexcept {
   const auto crowd = crowds_.find(hash);
-  if (crowd == crowds_.end()) return;
-  const Handle* found = crowd->second.place_of(call, order()).before;
-  if (found == nullptr || *found != call) return;
+  if (crowd == crowds_.end() || !holds(crowd->second, call)) return;
   crowd->second.erase(call, order());
   --size_;
   if (crowd->second.empty()) crowds_.erase(crowd);
@@ -102,12 +99,23 @@ void MemoTable::forget_waiting() noexcept {
 }
 
 void MemoTable::erase(Handle call, std::uint32_t hash) noexcept {
-  std::size_t i = place(hash);
-  for (; entries_[i].call != call; ++i) {
-    if (entries_[i].call == 0 || entries_[i].hash > hash) return;
-  }
+  const std::size_t i = index_of(call, hash);
+  if (i == kNowhere) return;
   --size_;
   take_out(i);
+}
+
+std::size_t MemoTable::index_of(Handle call, std::uint32_t hash) const noexcept {
+  std::size_t i = place(hash);
+  for (; entries_[i].call != call; ++i) {
+    if (entries_[i].call == 0 || entries_[i].hash > hash) return kNowhere;
+  }
+  return i;
+}
+
+bool MemoTable::holds(const Crowd& crowd, Handle call) const noexcept {
+  const Handle* found = crowd.place_of(call, order()).before;
+  return found != nullptr && *found == call;
 }
 
 void MemoTable::take_out(std::size_t i) noexcept {
@@ -121,13 +129,9 @@ bool MemoTable::contains(Handle call, std::uint32_t hash) const noexcept {
   for (const Entry& e : waiting_) {
     if (e.call == call) return e.hash == hash;
   }
-  for (std::size_t i = place(hash); entries_[i].call != 0 && entries_[i].hash <= hash; ++i) {
-    if (entries_[i].call == call) return entries_[i].hash == hash;
-  }
+  if (const std::size_t i = index_of(call, hash); i != kNowhere) return entries_[i].hash == hash;
   const Crowd* crowd = crowd_of(hash);
-  if (crowd == nullptr) return false;
-  const Handle* found = crowd->place_of(call, order()).before;
-  return found != nullptr && *found == call;
+  return crowd != nullptr && holds(*crowd, call);
 }
 
 std::size_t MemoTable::bytes() const noexcept {

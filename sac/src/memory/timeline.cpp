@@ -46,28 +46,6 @@ void Timeline::erase(Handle node) noexcept {
   free_group(group);
 }
 
-void Timeline::erase_between(Handle from, Handle to) noexcept {
-  std::size_t count = 0;
-  for (Handle node = at(from)->next; node != to; node = at(node)->next) ++count;
-  erase_between(from, to, count);
-}
-
-void Timeline::erase_between(Handle from, Handle to, std::size_t count) noexcept {
-  const std::uint32_t first = at(from)->group();
-  const std::uint32_t last = to != 0 ? at(to)->group() : kNone;
-  if (first != last) {
-    for (std::uint32_t group = groups_[first].next; group != last;) {
-      const std::uint32_t next = groups_[group].next;
-      free_group(group);
-      group = next;
-    }
-    join_groups(first, last);
-  }
-  at(from)->next = to;
-  (to != 0 ? at(to)->prev : back_) = from;
-  size_ -= count;
-}
-
 // Nodes of one group on both sides of a gap, walked from there in step.
 struct Timeline::Surroundings {
   Handle first = 0;

@@ -53,17 +53,9 @@ detail::Version& ModStructure::observe(Scope& scope, Handle head) {
 // The last version before `call`, or its own; null if there is none. What a running call wrote last
 // time and has not repeated is not there for it, nor for the children that it makes.
 detail::Version* ModStructure::seen_by(const Call& call, Handle head) const {
-  Version* version = at(head);
-  if (version->history == 0) {
-    if (!version->written) return nullptr;
-    const Call& w = writer(*version);
-    if (&w == &call || engine_.precedes(w, call)) return hidden(*version) ? nullptr : version;
-    require_ahead(call, head, head);
-    return nullptr;
-  }
-  const auto place = history(version->history).versions.place_of(0, order(&call));
-  if (place.behind != nullptr) require_ahead(call, head, *place.behind);
-  return shown(head, place.before != nullptr ? at(*place.before) : nullptr);
+  const Around around = versions_around(call, head);
+  if (around.behind != nullptr) require_ahead(call, head, *around.behind);
+  return shown(head, around.before);
 }
 
 // `version`, or, if that is hidden, the last one before it that is not; null if there is none.
@@ -94,8 +86,8 @@ void ModStructure::keep_skip(Handle head, const Version& version) noexcept {
 
 // The effects of own children lie later in time than their parent: it cannot read them. `next` is
 // the first version behind it.
-void ModStructure::require_ahead(const Call& reader, Handle head, Handle next) const {
-  const Call& other = writer(*at(next));
+void ModStructure::require_ahead(const Call& reader, Handle head, const Version& next) const {
+  const Call& other = writer(next);
   if (engine_.lies_ahead(other)) return;
   throw UsageError(Engine::describe(reader) + " reads " + engine_.describe_mod(head) +
                    " after its own child " + Engine::describe(other) + " has written it");
@@ -103,17 +95,12 @@ void ModStructure::require_ahead(const Call& reader, Handle head, Handle next) c
 
 void ModStructure::fail_unwritten(const Call& reader, Handle head) const {
   std::string text = Engine::describe(reader) + " reads " + engine_.describe_mod(head);
-  if (head == 0) throw UsageError(text);
-  const Version* later = nullptr;
-  if (const std::uint32_t h = at(head)->history; h != 0) {
-    if (!history(h).versions.empty()) later = at(history(h).versions.first());
-  } else if (at(head)->written) {
-    later = at(head);
+  const Around around = versions_around(reader, head);
+  if (around.before != nullptr || around.behind == nullptr) {
+    throw UsageError(text + ", which nobody has written");
   }
-  const bool is_later = later != nullptr && engine_.precedes(reader, writer(*later));
-  if (!is_later) throw UsageError(text + ", which nobody has written");
   throw UsageError(text + ", which is written only by the later call " +
-                   Engine::describe(writer(*later)));
+                   Engine::describe(writer(*around.behind)));
 }
 
 detail::Version& ModStructure::last(Handle head) const {

@@ -44,11 +44,7 @@ void ModStructure::move_reader(ReadEdge& edge, Version& to) noexcept {
 // `version` is news to the reader. Has a call around the reader written it, behind children of its
 // own: behind the reader?
 void ModStructure::rerun_writer_around(const ReadEdge& edge, const Version& version) noexcept {
-  if (!version.behind || engine_.appending()) return;
-  Call& writer = engine_.call(version.writer);
-  if (!writer.running() && engine_.encloses(writer, engine_.call(edge.call))) {
-    engine_.run_again(writer);
-  }
+  if (version.behind) engine_.rerun_if_around(engine_.call(version.writer), engine_.call(edge.call));
 }
 
 void ModStructure::order_readers(const Version& version) noexcept {

@@ -29,11 +29,8 @@ detail::Version* ModStructure::own_version(Scope& scope, Handle head) {
     throw UsageError(Engine::describe(call) + " writes " + engine_.describe_mod(head) +
                      ", which is an input");
   }
-  if (own->history != 0) {
-    const Handle* last = history(own->history).versions.place_of(0, order(&call)).before;
-    own = last != nullptr ? at(*last) : nullptr;
-  }
-  if (own == nullptr || !own->written || &writer(*own) != &call) return nullptr;
+  own = versions_around(call, head).before;
+  if (own == nullptr || &writer(*own) != &call) return nullptr;
   if (own->round == call.round) return own;
   // Children that have run meanwhile did not see it. If that is refused, it has not been repeated.
   if (engine_.has_had_children()) require_unread(scope, head, predecessor(head, *own));
@@ -68,37 +65,37 @@ detail::Version& ModStructure::new_version(Scope& scope, Handle head, const deta
   edge.head = head;
   edge.version = 0;
   Version& first = *at(head);
-  if (!first.written && first.history == 0) {
-    first.writer = engine_.handle_of(self);
-    first.type = type_number;
-    first.round = self.round;
-    first.behind = edge.behind;
-    first.read_behind = false;
-    edge.version = head;
-    return first;
-  }
-  Handle fresh = head;
-  if (first.written) {
-    fresh = engine_.arena().allocate(type.bytes);
-    ::new (static_cast<void*>(at(fresh))) Version();
-    at(fresh)->apart = true;
-    at(fresh)->modifiable = head;
-  }
-  at(fresh)->writer = engine_.handle_of(self);
-  at(fresh)->type = type_number;
-  at(fresh)->round = self.round;
-  at(fresh)->behind = edge.behind;
-  at(fresh)->read_behind = false;
+  const bool is_only = !first.written && first.history == 0;
+  Version& fresh = first.written ? new_apart(head, type) : first;
+  fresh.writer = engine_.handle_of(self);
+  fresh.type = type_number;
+  fresh.round = self.round;
+  fresh.behind = edge.behind;
+  fresh.read_behind = false;
+  if (!is_only) enter_history(head, fresh, type);
+  edge.version = handle_of(fresh);
+  return fresh;
+}
+
+// Memory for a version that lies apart.
+detail::Version& ModStructure::new_apart(Handle head, const detail::ValueType& type) {
+  auto& apart = *::new (engine_.arena().at<void>(engine_.arena().allocate(type.bytes))) Version();
+  apart.apart = true;
+  apart.modifiable = head;
+  return apart;
+}
+
+// If that fails, a version that lies apart is freed.
+void ModStructure::enter_history(Handle head, Version& version, const detail::ValueType& type) {
+  Version& first = *at(head);
   try {
     if (first.history == 0) first.history = new_history(head);
-    history(first.history).versions.insert(fresh, order());
+    history(first.history).versions.insert(handle_of(version), order());
   } catch (...) {
-    if (fresh != head) engine_.arena().release(fresh, type.bytes);
+    if (version.apart) engine_.arena().release(handle_of(version), type.bytes);
     if (first.history != 0) drop_history(head);
     throw;
   }
-  edge.version = fresh;
-  return *at(fresh);
 }
 
 std::uint32_t ModStructure::new_history(Handle head) {
@@ -126,17 +123,6 @@ void ModStructure::drop_history(Handle head) noexcept {
   at(head)->history = 0;
   histories_[number] = History();
   free_histories_.push_back(number);
-}
-
-// The last version before the running call, which has none; null if there is none.
-detail::Version* ModStructure::before(Scope& scope, Handle head) const {
-  const Call& self = scope.self();
-  Version* version = at(head);
-  if (version->history == 0) {
-    return version->written && engine_.precedes(writer(*version), self) ? version : nullptr;
-  }
-  const Handle* last = history(version->history).versions.place_of(0, order(&self)).before;
-  return last != nullptr ? at(*last) : nullptr;
 }
 
 detail::Version* ModStructure::predecessor(Handle head, const Version& version) const noexcept {
@@ -170,10 +156,7 @@ void ModStructure::require_unread(Scope& scope, Handle head, const Version* vers
 void ModStructure::rerun_readers_around(const Call& writer, const Version& previous) {
   if (engine_.appending()) return;
   for (Handle r = previous.readers; r != 0; r = reader(r)->next_reader) {
-    Call& call = engine_.call(reader(r)->call);
-    if (reader(r)->behind && !call.running() && engine_.encloses(call, writer)) {
-      engine_.run_again(call);
-    }
+    if (reader(r)->behind) engine_.rerun_if_around(engine_.call(reader(r)->call), writer);
   }
 }
 
@@ -223,11 +206,9 @@ void ModStructure::leave_past(Handle head, Version& version, Handle except) noex
     if (edge.call == except) continue;
     if (past == nullptr) {
       try {
-        past = at(engine_.arena().allocate(type.bytes));
-        ::new (static_cast<void*>(past)) Version();
+        past = &new_apart(head, type);
+        past->past = true;
         past->type = version.type;
-        past->apart = past->past = true;
-        past->modifiable = head;
         past->writer = version.writer;
       } catch (...) {
         orphan(edge);

@@ -116,7 +116,19 @@ class Core {
   /// The same for what continues the running call, when that has ended.
   Handle call_tail(const Asked& asked);
   /// Gives the running call a new edge. Throws: std::bad_alloc.
-  Edge& attach(std::uint8_t structure, std::uint8_t kind, std::size_t bytes);
+  Edge& attach(std::uint8_t structure, std::uint8_t kind, std::size_t bytes) {
+    Activation& a = running();
+    const Handle h = arena_.allocate(bytes);
+    Edge& edge = *at<Edge>(h);
+    edge = {.structure = structure,
+            .kind = static_cast<std::uint8_t>(kind & 0x3f),
+            .behind = now_ != a.self,
+            .round = a.call->round,
+            .granules = static_cast<std::uint16_t>((bytes + Arena::kGranule - 1) / Arena::kGranule)};
+    append_edge(a, h);
+    ++counts_.edges_made;
+    return edge;
+  }
   /// Moves the first edge of last time that `matches` into this execution. The search goes on where
   /// the last one ended, and ends after `most` edges.
   template <class Matches>
@@ -155,9 +167,12 @@ class Core {
   void doubt(Call& call, Handle source) noexcept {
     ask_again(call, Validity::doubtful, nullptr, source);
   }
-  /// `call` encloses the running one and has settled. It did something behind children of its own
-  /// that a new child of these may have been meant to see, or not: it runs again, and says so.
-  void run_again(Call& call) noexcept;
+  /// `outer` did something behind children of its own, which `inner` is told of, or should have been
+  /// told of, as a first run would say: if it has settled and encloses `inner`, it runs again, and
+  /// says so. Returns whether.
+  bool rerun_if_around(Call& outer, const Call& inner) noexcept {
+    return !appending() && !outer.running() && encloses(outer, inner) && defer(outer);
+  }
   [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
     return timeline_.precedes(a, b);
   }
@@ -166,9 +181,7 @@ class Core {
     return timeline_.precedes(*at<TimeNode>(now_), call);
   }
   /// Whether the running call has had children in this execution.
-  [[nodiscard]] bool has_had_children() const noexcept {
-    return now_ != arena_.handle_of(current_->call);
-  }
+  [[nodiscard]] bool has_had_children() const noexcept { return now_ != current_->self; }
   template <class T>
   [[nodiscard]] T* at(Handle h) const noexcept {
     return arena_.at<T>(h);
@@ -227,11 +240,6 @@ class Core {
     return stamp == now_ || !linked(stamp) ||
            timeline_.precedes(*at<TimeNode>(now_), *at<TimeNode>(stamp));
   }
-  /// Whether `call` lies in the interval of `ancestor`, which may be open.
-  [[nodiscard]] bool encloses(const Call& ancestor, const Call& call) const noexcept {
-    return ancestor.end != 0 && timeline_.precedes(ancestor, call) &&
-           (!linked(ancestor.end) || timeline_.precedes(call, *at<TimeNode>(ancestor.end)));
-  }
   /// Whether `call` lies behind time stamp `from` and before `end` (0: the end of the trace).
   [[nodiscard]] bool lies_between(const TimeNode& from, const Call& call, Handle end) const noexcept {
     return timeline_.precedes(from, call) && (end == 0 || timeline_.precedes(call, *at<TimeNode>(end)));
@@ -249,7 +257,9 @@ class Core {
   };
   [[nodiscard]] Sizes sizes() const noexcept;
   [[nodiscard]] std::uint64_t live_calls() const noexcept { return live_calls_; }
-  [[nodiscard]] std::uint64_t live_edges() const noexcept { return live_edges_; }
+  [[nodiscard]] std::uint64_t live_edges() const noexcept {
+    return edges_before_ + counts_.edges_made - counts_.edges_removed;
+  }
   [[nodiscard]] bool settled() const noexcept { return queue_.empty(); }
   [[nodiscard]] Registry<Function>& functions() noexcept { return functions_; }
   [[nodiscard]] const Registry<Function>& functions() const noexcept { return functions_; }
@@ -289,6 +299,7 @@ class Core {
   // One execution on the native stack: a call and the tail calls that continue it.
   struct Activation {
     Call* call = nullptr;
+    Handle self = 0;       // that call
     Handle old_edges = 0;  // what the call did last time and has not repeated yet
     Handle cursor = 0;     // the old edge behind which the next one is looked for; 0: the first
     Handle last_edge = 0;
@@ -301,7 +312,6 @@ class Core {
     bool hidden = false;  // what it has not repeated is hidden from its children
     bool failed = false;  // something that it asked for has thrown
     Activation* outer = nullptr;
-    Activation* outer_linked = nullptr;  // the next outside whose end had a place when this began
   };
 
   [[nodiscard]] Activation& running() const {
@@ -312,6 +322,11 @@ class Core {
   [[noreturn]] void fail_no_environment() const;
   // An end stamp has no place until its call closes.
   [[nodiscard]] bool linked(Handle stamp) const noexcept { return at<TimeNode>(stamp)->prev != 0; }
+  // Whether `call` lies in the interval of `ancestor`, which may be open.
+  [[nodiscard]] bool encloses(const Call& ancestor, const Call& call) const noexcept {
+    return ancestor.end != 0 && timeline_.precedes(ancestor, call) &&
+           (!linked(ancestor.end) || timeline_.precedes(call, *at<TimeNode>(ancestor.end)));
+  }
   void ask_again(Call& call, Validity validity, const Edge* seen, Handle source) noexcept;
   void note_failure(Event::Kind kind, const Call* call = nullptr) noexcept;
 
@@ -321,8 +336,8 @@ class Core {
   [[noreturn]] void fail_caught(const Activation& a) const;
   void require_children_unmoved(const Activation& a);
   void settle(Activation& a) noexcept;
-  bool settle_link(Activation& a, Handle link);
-  void rerun_link(Activation& a, Handle link);
+  [[nodiscard]] Handle next_link(Activation& a, Handle link);
+  [[nodiscard]] bool settle_link(Handle link);
   void close(Activation& a);
   void link_end(Activation& a);
   void abandon(Activation& a) noexcept;
@@ -336,28 +351,29 @@ class Core {
     return call.posted && Slot::of(call).posts == 0;
   }
   void run_from_queue(Handle call);
+  bool defer(Call& call) noexcept;
   void take_deferred(Handle call) noexcept;
   [[nodiscard]] bool unchanged(Call& call);
   void settle_child(Handle child);
 
   // interval.cpp
-  [[nodiscard]] Handle find_reusable(const Asked& asked, bool tail);
+  // A call to be reused; 0 if there is none, nor anything ahead: a first run.
+  [[nodiscard]] Handle find_reusable(const Asked& asked, bool tail) {
+    return at<TimeNode>(now_)->next != current_->limit ? find_ahead(asked, tail) : 0;
+  }
+  [[nodiscard]] Handle find_ahead(const Asked& asked, bool tail);
   void reuse(Handle child) noexcept;
   void hide_unrepeated(Activation& a) noexcept;
-  void require_no_tail(const Activation& caller, const Function& function) const;
-  void require_stack(const Activation& caller, const Function& function) const;
+  [[noreturn]] void fail_call(const Activation& caller, const Function& function) const;
   void insert_call(Handle call);
+  void make_room(std::size_t calls);
   void give_place(Handle call, Handle after);
   void suspect(Handle fresh, const Asked& asked);
   void free_call(Handle call) noexcept;
-  void unlink_ends_between(Handle from, Handle to) noexcept;
   void discard_between(Handle from, Handle to) noexcept;
   void discard(Handle call) noexcept;
-  void free_edge(Edge& edge) noexcept;
   void retract_all(Call& call, Handle edges) noexcept;
   void append_edge(Activation& a, Handle edge) noexcept {
-    at<Edge>(edge)->round = a.call->round;
-    at<Edge>(edge)->behind = has_had_children();
     (a.last_edge != 0 ? at<Edge>(a.last_edge)->next : a.call->edges) = edge;
     a.last_edge = edge;
   }
@@ -373,6 +389,7 @@ class Core {
   std::vector<Handle> deferred_;  // invalid, and before the running call: not in the queue yet
   std::vector<Handle> graveyard_;
   std::size_t most_leaving_ = 0;  // so much of it has been in use
+  std::size_t room_ = 0;          // for so many calls there is room in all three
   std::vector<std::pair<Handle, Handle>> suspects_;
   Activation* current_ = nullptr;
   std::uintptr_t stack_end_ = 0;  // no call is made when the native stack has grown down to here
@@ -382,7 +399,7 @@ class Core {
   std::uint64_t progress_at_ = ~std::uint64_t{0};  // number of bodies run at the next report
   Counts counts_;
   std::uint64_t live_calls_ = 0;
-  std::uint64_t live_edges_ = 0;
+  std::uint64_t edges_before_ = 0;  // the live ones when the counts were last set to nothing
 };
 
 /// A structure with calls of its own: what the core tells it of them.
@@ -405,6 +422,8 @@ Edge* Core::recall(Matches&& matches, std::size_t most) {
       const Handle handle = *link;
       *link = edge.next;
       edge.next = 0;
+      edge.round = a.call->round;
+      edge.behind = now_ != a.self;
       append_edge(a, handle);
       a.cursor = previous;
       return &edge;

@@ -150,6 +150,9 @@ class MemoTable {
   void fetch(const Entry& entry) const noexcept {
     __builtin_prefetch(&entries_[place(entry.hash)], 1);
   }
+  static constexpr std::size_t kNowhere = ~std::size_t{0};
+  [[nodiscard]] std::size_t index_of(Handle call, std::uint32_t hash) const noexcept;
+  [[nodiscard]] bool holds(const Crowd& crowd, Handle call) const noexcept;
   void put(Entry entry);
   void put_in_array(Entry entry);
   void make_crowd(std::uint32_t hash);

@@ -263,6 +263,23 @@ class ModStructure final : public Structure {
   [[nodiscard]] Handle head_of(const Version& version) const noexcept {
     return version.apart ? version.modifiable : handle_of(version);
   }
+  // Null: there is none.
+  struct Around {
+    Version* before;  // the last of earlier calls and of the call itself
+    Version* behind;  // the first of later calls
+  };
+  [[nodiscard]] Around versions_around(const Call& call, Handle head) const noexcept {
+    Version* const first = at(head);
+    if (first->history == 0) [[likely]] {
+      if (!first->written) return {nullptr, nullptr};
+      const Call& w = writer(*first);
+      if (&w == &call || engine_.precedes(w, call)) return {first, nullptr};
+      return {nullptr, first};
+    }
+    const auto place = history(first->history).versions.place_of(0, order(&call));
+    return {place.before != nullptr ? at(*place.before) : nullptr,
+            place.behind != nullptr ? at(*place.behind) : nullptr};
+  }
   // Whether a running call wrote `version` last time and has not yet repeated it.
   [[nodiscard]] bool hidden(const Version& version) const noexcept {
     const Call& w = writer(version);
@@ -276,16 +293,17 @@ class ModStructure final : public Structure {
   [[nodiscard]] Version* visible_to(const Call& call, const Version& seen) const;
   [[nodiscard]] Version* shown(Handle head, Version* version) const noexcept;
   void keep_skip(Handle head, const Version& version) noexcept;
-  void require_ahead(const Call& reader, Handle head, Handle next) const;
+  void require_ahead(const Call& reader, Handle head, const Version& next) const;
   [[noreturn]] void fail_unwritten(const Call& reader, Handle head) const;
 
   // write.cpp
   Version* own_version(Scope& scope, Handle head);
   detail::WriteEdge& repeat(Scope& scope, Handle head, Handle version);
   [[nodiscard]] bool has_passed_on(const detail::WriteEdge& edge) const noexcept;
-  [[nodiscard]] Version* before(Scope& scope, Handle head) const;
   [[nodiscard]] Version* predecessor(Handle head, const Version& version) const noexcept;
   Version& new_version(Scope& scope, Handle head, const detail::ValueType& type);
+  Version& new_apart(Handle head, const detail::ValueType& type);
+  void enter_history(Handle head, Version& version, const detail::ValueType& type);
   void replace(Handle head, Version& version, Handle except) noexcept;
   void appeared(Scope& scope, Handle head, Version& version, Version* previous,
                 bool same) noexcept;
@@ -341,7 +359,7 @@ void ModStructure::write(Scope& scope, Handle head, T value) {
     replace(head, *own, engine_.handle_of(scope.self()));
     return own->give(std::move(value));
   }
-  auto* previous = static_cast<Typed*>(before(scope, head));
+  auto* previous = static_cast<Typed*>(versions_around(scope.self(), head).before);
   const bool same = previous != nullptr && detail::same<Same>(previous->value(), value);
   require_unread(scope, head, previous);
   if (previous != nullptr && previous->read_behind) rerun_readers_around(scope.self(), *previous);

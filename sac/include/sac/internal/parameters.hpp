@@ -30,30 +30,20 @@ template <class F>
 struct Declared {
   using type = void;
 };
-template <class R, class... P>
-struct Declared<R (*)(Scope&, P...)> {
+template <class R, class... P, bool kNoexcept>
+struct Declared<R (*)(Scope&, P...) noexcept(kNoexcept)> {
   using type = Types<P...>;
 };
-template <class R, class... P>
-struct Declared<R (*)(Scope&, P...) noexcept> {
-  using type = Types<P...>;
-};
-template <class R, class C, class... P>
-struct Declared<R (C::*)(Scope&, P...) const> {
-  using type = Types<P...>;
-};
-template <class R, class C, class... P>
-struct Declared<R (C::*)(Scope&, P...) const noexcept> {
+template <class R, class C, class... P, bool kNoexcept>
+struct Declared<R (C::*)(Scope&, P...) const noexcept(kNoexcept)> {
   using type = Types<P...>;
 };
 
 // Member functions that may change their object.
 template <class F>
 inline constexpr bool kChangesItself = false;
-template <class R, class C, class... P>
-inline constexpr bool kChangesItself<R (C::*)(P...)> = true;
-template <class R, class C, class... P>
-inline constexpr bool kChangesItself<R (C::*)(P...) noexcept> = true;
+template <class R, class C, class... P, bool kNoexcept>
+inline constexpr bool kChangesItself<R (C::*)(P...) noexcept(kNoexcept)> = true;
 
 template <class F>
 constexpr auto declared() {

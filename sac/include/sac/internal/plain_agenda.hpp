@@ -1,17 +1,20 @@
 // The work queue of plain runs: posts in memory, one block of records a class.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <new>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "sac/agenda.hpp"
 #include "sac/check.hpp"
+#include "sac/internal/due_calls.hpp"
 
 namespace sac {
 
@@ -26,93 +29,89 @@ class PlainAgenda {
 
   template <auto F, class... Args>
   void post(PlainScope&, const Key& key, Args... args) {
-    add<F>(key, std::tuple<Args...>(std::move(args)...));
+    add<F, detail::Kept<Args>...>(key, std::move(args)...);
   }
   template <auto F, class... Args>
   void post_from_outside(const Key& key, Args... args) {
-    add<F>(key, std::tuple<Args...>(std::move(args)...));
+    add<F, detail::Kept<Args>...>(key, std::move(args)...);
   }
   void drain(PlainScope& s);
 
  private:
+  // A call that waits; its arguments lie behind.
+  struct Record;
+  // What there is to do with it: described as a traced function is, for the order.
+  struct Kind : Function {
+    void (*run)(PlainScope&, const Record&);
+    std::strong_ordering (*order)(const Record&, const Record&);
+    void (*destroy_arguments)(Record&);
+  };
   struct Record {
-    const Function* function;
+    const Kind* kind;
+  };
+  struct Destroy {
+    void operator()(Record* record) const { record->kind->destroy_arguments(*record); }
+  };
+  template <class Arguments>
+  struct TypedRecord : Record {
+    Arguments args;
   };
   struct Entry {
     std::uint64_t order;
     Record* record;
   };
-  template <class Tuple>
-  struct TypedRecord : Record {
-    Tuple args;
-  };
   // The posts of one (bucket, phase, colour), with the memory they lie in.
   struct Class {
-    std::vector<Entry> records;
+    std::vector<Entry> posts;
     std::vector<std::unique_ptr<std::byte[]>> blocks;
-    std::size_t used = kBlock;
+    std::size_t used = kBlock;  // of the last one
+    std::vector<std::unique_ptr<Record, Destroy>> owners;  // of arguments that need destroying
+
+    void* allocate(std::size_t bytes);
   };
   static constexpr std::size_t kBlock = 16384;
 
-  // The operations of a record go by the same descriptor as those of a call.
-  struct Operations : Function {
-    void (*run)(PlainScope&, const Record&);
-    bool (*same)(const Record&, const Record&);
-    std::strong_ordering (*order)(const Record&, const Record&);
-  };
+  template <class Arguments>
+  static Arguments& arguments_of(Record& r) {
+    return static_cast<TypedRecord<Arguments>&>(r).args;
+  }
+  template <class Arguments>
+  static const Arguments& arguments_of(const Record& r) {
+    return static_cast<const TypedRecord<Arguments>&>(r).args;
+  }
+  template <auto F, class Arguments>
+  static constexpr Kind kKind{
+      {.name = function_name<F>(), .identity = identity<F, Arguments>(), .posted = true},
+      [](PlainScope& s, const Record& r) {
+        std::apply([&](const auto&... a) { F(s, a...); }, arguments_of<Arguments>(r));
+      },
+      [](const Record& a, const Record& b) {
+        return detail::compare_arguments(arguments_of<Arguments>(a), arguments_of<Arguments>(b));
+      },
+      [](Record& r) { std::destroy_at(&arguments_of<Arguments>(r)); }};
 
-  template <auto F, class Tuple>
-  static void run_record(PlainScope& s, const Record& r) {
-    std::apply([&](const auto&... a) { F(s, a...); },
-               static_cast<const TypedRecord<Tuple>&>(r).args);
-  }
-  template <class Tuple>
-  static bool same_record(const Record& a, const Record& b) {
-    return static_cast<const TypedRecord<Tuple>&>(a).args ==
-           static_cast<const TypedRecord<Tuple>&>(b).args;
-  }
-  template <class Tuple>
-  static std::strong_ordering order_record(const Record& a, const Record& b) {
-    const auto order = static_cast<const TypedRecord<Tuple>&>(a).args <=>
-                       static_cast<const TypedRecord<Tuple>&>(b).args;
-    return order < 0 ? std::strong_ordering::less
-                     : order > 0 ? std::strong_ordering::greater : std::strong_ordering::equal;
-  }
-  template <auto F, class Tuple>
-  static constexpr Operations kOperations{
-      {.name = function_name<F>(), .identity = identity<F, Tuple>(), .frame_bytes = 0,
-       .posted = true, .execute = nullptr, .destroy = nullptr, .equal = nullptr, .compare = nullptr,
-       .hash = nullptr, .print = nullptr},
-      &run_record<F, Tuple>, &same_record<Tuple>, &order_record<Tuple>};
+  static std::strong_ordering order(const Entry& a, const Entry& b);
+  static bool before(const Entry& a, const Entry& b) { return order(a, b) < 0; }
 
-  static const Operations& operations(const Record& r) {
-    return static_cast<const Operations&>(*r.function);
+  template <auto F, class... Kept, class... Args>
+  void add(const Key& key, Args&&... args) {
+    using Arguments = std::tuple<Kept...>;
+    using Typed = TypedRecord<Arguments>;
+    static_assert(sizeof(Typed) <= kBlock && alignof(Typed) <= alignof(std::max_align_t));
+    constexpr bool kOwned = !std::is_trivially_destructible_v<Arguments>;
+    Class& posted = class_of(key.rank());
+    void* const memory = posted.allocate(sizeof(Typed));
+    if constexpr (kOwned) posted.owners.emplace_back();
+    auto* const record =
+        ::new (memory) Typed{{&kKind<F, Arguments>}, Arguments(std::forward<Args>(args)...)};
+    if constexpr (kOwned) posted.owners.back().reset(record);
+    posted.posts.push_back({key.order, record});
   }
-  static bool before(const Entry& a, const Entry& b) {
-    return a.order != b.order ? a.order < b.order : before_in_tie(*a.record, *b.record);
-  }
-  static bool before_in_tie(const Record& a, const Record& b);
-  static bool same(const Entry& a, const Entry& b);
-
-  template <auto F, class Tuple>
-  void add(const Key& key, Tuple&& args) {
-    using Typed = TypedRecord<std::decay_t<Tuple>>;
-    static_assert(std::is_trivially_destructible_v<Typed>, "agenda arguments must be trivial");
-    static_assert(sizeof(Typed) <= kBlock);
-    const std::uint32_t rank = key.rank();
+  Class& class_of(std::uint32_t rank) {
     if (running_ && rank < rank_) throw UsageError("posting into the past");
-    Class& c = cached_ != nullptr && cached_rank_ == rank ? *cached_ : classes_[rank];
-    cached_ = &c;
+    if (cached_ == nullptr || cached_rank_ != rank) cached_ = &classes_[rank];
     cached_rank_ = rank;
-    constexpr std::size_t bytes = (sizeof(Typed) + 15) / 16 * 16;
-    if (c.used + bytes > kBlock) {
-      c.blocks.push_back(std::make_unique<std::byte[]>(kBlock));
-      c.used = 0;
-    }
-    void* memory = c.blocks.back().get() + c.used;
-    c.used += bytes;
-    c.records.push_back({key.order, ::new (memory) Typed{{&kOperations<F, std::decay_t<Tuple>>},
-                                                          std::forward<Tuple>(args)}});
+    return *cached_;
   }
 
   void run_class(PlainScope& s, Class& c);

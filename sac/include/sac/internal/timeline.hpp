@@ -71,14 +71,6 @@ class Timeline {
   /// Takes `node` out, and clears its links. Requires: node != front(). Cost: O(1).
   void erase(Handle node) noexcept;
 
-  /// Takes out all nodes strictly between `from` and `to`; to == 0 is the end of the list.
-  /// Cost: a walk over these nodes, without writing.
-  void erase_between(Handle from, Handle to) noexcept;
-
-  /// The same for who has counted them. Cost: O(groups that lie wholly between), no walk.
-  /// Requires: `count` nodes lie strictly between `from` and `to`.
-  void erase_between(Handle from, Handle to, std::size_t count) noexcept;
-
   [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
     const std::uint32_t ga = a.group();
     const std::uint32_t gb = b.group();
