@@ -3,8 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <span>
 #include <sstream>
+#include <string>
+#include <unordered_set>
 #include <utility>
+#include <vector>
 
 namespace sac {
 
@@ -150,16 +155,58 @@ std::size_t EventLog::last_before(std::size_t end, Matches&& matches) const {
   return kNone;
 }
 
-// When `call` last ran or was discarded.
-std::size_t EventLog::last_deed(CallId call, std::size_t end) const {
-  if (call == 0) return kNone;
-  return last_before(end, [&](const Entry& e) { return e.call == call && is_deed(e.kind); });
-}
+// Where the events of each call are, and the changes of each modifiable.
+class EventLog::Index {
+ public:
+  explicit Index(const EventLog& log)
+      : log_(log), of_call_(log.calls_.size()), changes_(log.texts_.size()) {
+    for (std::size_t i = 0; i < log.size(); ++i) {
+      const Entry& e = log.entries_[i];
+      of_call_[e.call].push_back(i);
+      if (is_change(e.kind)) changes_[e.what].push_back(i);
+      if (is_phase(e.kind)) phases_.push_back(i);
+    }
+  }
+  // The last event of `call` before event `end` that matches(event).
+  template <class Matches>
+  [[nodiscard]] std::size_t last_of(CallId call, std::size_t end, Matches&& matches) const {
+    const auto& events = of_call_[call];
+    auto it = std::lower_bound(events.begin(), events.end(), end);
+    while (it != events.begin()) {
+      if (matches(log_.entries_[*--it])) return *it;
+    }
+    return kNone;
+  }
+  // When `call` last ran or was discarded.
+  [[nodiscard]] std::size_t last_deed(CallId call, std::size_t end) const {
+    if (call == 0) return kNone;
+    return last_of(call, end, [](const Entry& e) { return is_deed(e.kind); });
+  }
+  // The events of `call` from event `begin` to before event `end`.
+  [[nodiscard]] std::span<const std::size_t> between(CallId call, std::size_t begin,
+                                                     std::size_t end) const {
+    const auto& events = of_call_[call];
+    return {std::lower_bound(events.begin(), events.end(), begin),
+            std::lower_bound(events.begin(), events.end(), end)};
+  }
+  // The last change before event `end` of what is called so.
+  [[nodiscard]] std::size_t last_change(TextId what, std::size_t end) const {
+    return what != 0 ? last(changes_[what], end) : kNone;
+  }
+  // The start of the run, propagation or roll-back that event i is in; an end if it is in none.
+  [[nodiscard]] std::size_t phase_of(std::size_t i) const { return last(phases_, i); }
 
-// The start of the run, propagation or roll-back that event i is in; an end if it is in none.
-std::size_t EventLog::phase_of(std::size_t i) const {
-  return last_before(i, [](const Entry& e) { return is_phase(e.kind); });
-}
+ private:
+  [[nodiscard]] static std::size_t last(const std::vector<std::size_t>& events, std::size_t end) {
+    const auto it = std::lower_bound(events.begin(), events.end(), end);
+    return it != events.begin() ? *std::prev(it) : kNone;
+  }
+
+  const EventLog& log_;
+  std::vector<std::vector<std::size_t>> of_call_;
+  std::vector<std::vector<std::size_t>> changes_;
+  std::vector<std::size_t> phases_;
+};
 
 // What threw, for what happens in a roll-back. Exceptions pass through calls from the inside out;
 // what a call has caught said something else, mostly.
@@ -228,18 +275,19 @@ std::string EventLog::explain(const Call& call) const {
 }
 
 std::string EventLog::explain_last(CallId call) const {
-  const std::size_t deed = last_before(size(), [&](const Entry& e) {
-    return e.call == call && (is_deed(e.kind) || e.kind == Kind::confirmed ||
-                              e.kind == Kind::reused || e.kind == Kind::created);
+  const Index index(*this);
+  const std::size_t deed = index.last_of(call, size(), [](const Entry& e) {
+    return is_deed(e.kind) || e.kind == Kind::confirmed || e.kind == Kind::reused ||
+           e.kind == Kind::created;
   });
   if (deed == kNone) return label(call) + " has not run since the log began.\n";
-  return explain_deed(deed);
+  return explain_deed(index, deed);
 }
 
-std::string EventLog::explain_deed(std::size_t deed) const {
+std::string EventLog::explain_deed(const Index& index, std::size_t deed) const {
   std::vector<std::string> lines{label(entries_[deed].call) + ' '};
   while (deed != kNone) {
-    const Reason reason = reason_of(deed);
+    const Reason reason = reason_of(index, deed);
     lines.back() += reason.text;
     if (reason.who != 0) {
       std::string next = "  " + reason.lead + label(reason.who);
@@ -260,39 +308,38 @@ std::string EventLog::explain_deed(std::size_t deed) const {
   return text;
 }
 
-EventLog::Reason EventLog::reason_of(std::size_t deed) const {
+EventLog::Reason EventLog::reason_of(const Index& index, std::size_t deed) const {
   const Entry& e = entries_[deed];
   switch (e.kind) {
     case Kind::executed:
-      return why_executed(deed);
+      return why_executed(index, deed);
     case Kind::created:
-      return why_created(deed);
+      return why_created(index, deed);
     case Kind::confirmed:
       return {"did not run again: it would have read what it has read"};
     case Kind::reused:
-      return {"was kept", "asked for again by ", e.by, last_deed(e.by, deed)};
+      return {"was kept", "asked for again by ", e.by, index.last_deed(e.by, deed)};
     default:
-      return why_discarded(deed);
+      return why_discarded(index, deed);
   }
 }
 
 // All that has happened to the call since it ran before, or found that it need not.
-EventLog::Reason EventLog::why_executed(std::size_t deed) const {
+EventLog::Reason EventLog::why_executed(const Index& index, std::size_t deed) const {
   const CallId call = entries_[deed].call;
-  const std::size_t before = last_before(deed, [&](const Entry& e) {
-    return e.call == call && (e.kind == Kind::executed || e.kind == Kind::confirmed);
+  const std::size_t before = index.last_of(call, deed, [](const Entry& e) {
+    return e.kind == Kind::executed || e.kind == Kind::confirmed;
   });
   Reason reason;
   std::vector<std::string> causes;
-  for (std::size_t i = before == kNone ? 0 : before + 1; i < deed; ++i) {
-    if (is(i, call, Kind::created)) return why_created(i);
+  std::unordered_set<std::string> known;
+  for (const std::size_t i : index.between(call, before == kNone ? 0 : before + 1, deed)) {
+    if (is(i, call, Kind::created)) return why_created(index, i);
     if (is(i, call, Kind::detached)) return {"ran again because the drain that ran it is gone"};
     if (!is(i, call, Kind::invalidated)) continue;
-    Reason cause = why_invalidated(i);
+    Reason cause = why_invalidated(index, i);
     if (causes.empty()) reason = cause;
-    if (std::find(causes.begin(), causes.end(), cause.text) == causes.end()) {
-      causes.push_back(std::move(cause.text));
-    }
+    if (known.insert(cause.text).second) causes.push_back(std::move(cause.text));
   }
   if (causes.empty()) return {"ran; why, was before the log began"};
   reason.text = "ran again because ";
@@ -306,43 +353,41 @@ EventLog::Reason EventLog::why_executed(std::size_t deed) const {
   return reason;
 }
 
-EventLog::Reason EventLog::why_created(std::size_t created) const {
+EventLog::Reason EventLog::why_created(const Index& index, std::size_t created) const {
   const Entry& e = entries_[created];
   bool posted = false;
   for (std::size_t i = created + 1; i < size() && !posted && !is_deed(entries_[i].kind); ++i) {
     posted = is(i, e.call, Kind::posted);
   }
   if (e.by == 0) return {posted ? "is new: posted from outside" : "is new: run from outside"};
-  return {"is new", posted ? "posted by " : "asked for by ", e.by, last_deed(e.by, created)};
+  return {"is new", posted ? "posted by " : "asked for by ", e.by, index.last_deed(e.by, created)};
 }
 
-EventLog::Reason EventLog::why_invalidated(std::size_t invalidated) const {
+EventLog::Reason EventLog::why_invalidated(const Index& index, std::size_t invalidated) const {
   const Entry& e = entries_[invalidated];
   const std::size_t previous = invalidated > 0 ? invalidated - 1 : 0;
   if (is(previous, e.call, Kind::failed)) return {"it had failed"};
   if (is(previous, e.call, Kind::returned)) {
     const CallId by = entries_[previous].by;
-    return {"the result of " + label(by) + " changed", "", by, last_deed(by, invalidated)};
+    return {"the result of " + label(by) + " changed", "", by, index.last_deed(by, invalidated)};
   }
   const std::string text = e.what != 0 ? texts_[e.what] : "what it saw";
-  const std::size_t change = e.what == 0 ? kNone : last_before(invalidated, [&](const Entry& c) {
-    return c.what == e.what && is_change(c.kind);
-  });
+  const std::size_t change = index.last_change(e.what, invalidated);
   if (change == kNone) {
-    return {text + " changed", "because of ", e.by, last_deed(e.by, invalidated)};
+    return {text + " changed", "because of ", e.by, index.last_deed(e.by, invalidated)};
   }
   const Entry& c = entries_[change];
   if (c.kind == Kind::edited) {
-    const std::size_t phase = phase_of(change);
+    const std::size_t phase = index.phase_of(change);
     const bool back = phase != kNone && entries_[phase].kind == Kind::roll_back_started;
     return {text +
             (back ? " was set back when " + failure_before(change) : " was set from outside")};
   }
   return {text + " changed", c.kind == Kind::changed ? "written by " : "no longer written by ",
-          c.call, last_deed(c.call, change)};
+          c.call, index.last_deed(c.call, change)};
 }
 
-EventLog::Reason EventLog::why_discarded(std::size_t deed) const {
+EventLog::Reason EventLog::why_discarded(const Index& index, std::size_t deed) const {
   const Entry& e = entries_[deed];
   const std::size_t dying = last_before(deed, [](const Entry& d) { return d.kind == Kind::dying; });
   const CallId dead = dying != kNone ? entries_[dying].call : 0;
@@ -355,10 +400,10 @@ EventLog::Reason EventLog::why_discarded(std::size_t deed) const {
     const std::string text = e.call == dead
                                  ? ": nobody posts it any more"
                                  : " with " + label(dead) + ", which nobody posts any more";
-    return {"was discarded" + text, "last posted by ", poster, last_deed(poster, dying)};
+    return {"was discarded" + text, "last posted by ", poster, index.last_deed(poster, dying)};
   }
   if (e.by == 0) return {"was discarded because " + failure_before(deed)};
-  return {"was discarded", "not asked for again by ", e.by, last_deed(e.by, deed)};
+  return {"was discarded", "not asked for again by ", e.by, index.last_deed(e.by, deed)};
 }
 
 }  // namespace sac

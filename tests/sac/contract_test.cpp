@@ -471,6 +471,59 @@ TEST_CASE("a roll-back restores the very values, whatever a Same takes for the s
   CHECK(values() == std::vector{1.5, 1.5, 1.5, 1.5});
 }
 
+struct Rooms {
+  Engine e;
+  Mod<double> first = e.input(0.9);
+  Mod<double> second = e.input(1.5);
+  Mod<bool> fails = e.input(false);
+  Mod<double> now = e.cell<double>();
+  Rough rough = e.cell<double, Near>();
+  Mod<double> seen_first = e.cell<double>();
+  Mod<double> seen_second = e.cell<double>();
+};
+void enter(Scope& s, Mod<double> from) { s.write(s.environment<Rooms>().now, s.read(from)); }
+void roughen(Scope& s) {
+  auto& rooms = s.environment<Rooms>();
+  s.write(rooms.rough, s.read(rooms.now));
+}
+void see(Scope& s, Mod<double> out) { s.write(out, s.read(s.environment<Rooms>().rough)); }
+void fail_when(Scope& s, Mod<bool> fails) {
+  if (s.read(fails)) throw std::runtime_error("as it is told");
+}
+// Makes two calls `roughen` of one label, which write one modifiable.
+template <bool kMadeAnew>
+void roughen_twice(Scope& s) {
+  auto& rooms = s.environment<Rooms>();
+  const bool roughens = !kMadeAnew || !s.read(rooms.fails);
+  s.call<enter>(rooms.first);
+  if (roughens) s.call<roughen>();
+  if (roughens) s.call<see>(rooms.seen_first);
+  s.call<enter>(rooms.second);
+  if (roughens) s.call<roughen>();
+  if (roughens) s.call<see>(rooms.seen_second);
+  s.call<fail_when>(rooms.fails);
+}
+
+template <bool kMadeAnew>
+void check_each_gets_its_own() {
+  Rooms rooms;
+  rooms.e.set_environment(&rooms);
+  rooms.e.run<roughen_twice<kMadeAnew>>();
+  rooms.e.set(rooms.first, 5.9);
+  rooms.e.set(rooms.second, 7.5);
+  rooms.e.set(rooms.fails, true);
+  CHECK_THROWS_WITH(rooms.e.propagate(), "as it is told");
+  CHECK(rooms.e.get(rooms.seen_first) == 0.9);
+  CHECK(rooms.e.get(rooms.seen_second) == 1.5);
+  CHECK(rooms.e.get(rooms.rough) == 1.5);
+  rooms.e.check_invariants();
+}
+
+TEST_CASE("a roll-back gives each of two calls of one label its own value") {
+  check_each_gets_its_own<false>();
+  check_each_gets_its_own<true>();
+}
+
 // --- Agendas come and go -------------------------------------------------------------------------
 
 TEST_CASE("agendas are released, and as many as are alive have room") {
@@ -510,6 +563,46 @@ TEST_CASE("calls with equal labels are found by their place") {
     f.run<fibonacci_of>(m, result);
     CHECK(e.get(out) == f.get(result));
     CHECK(e.live_calls() == f.live_calls());
+  }
+}
+
+// Calls inside of calls: each writes one modifiable or, if told so, reads it.
+struct Nested {
+  explicit Nested(int calls) : depth(calls), seen(static_cast<std::size_t>(calls), -1) {
+    e.set_environment(this);
+  }
+  Engine e;
+  int depth;
+  Mod<int> reads = e.input(0);  // 0: all write; 1: only the first; 2: and every third
+  Mod<int> m = e.cell<int>();
+  std::vector<int> seen;
+};
+void write_or_read(Scope& s, int level) {
+  auto& n = s.environment<Nested>();
+  const int reads = s.read(n.reads);
+  if (reads == 0 || level == 0 || (reads == 2 && level % 3 == 0)) {
+    s.write(n.m, level);
+  } else {
+    n.seen[static_cast<std::size_t>(level)] = s.read(n.m);
+  }
+  if (level + 1 < n.depth) s.call<write_or_read>(level + 1);
+}
+
+TEST_CASE("a read passes what calls around it wrote last time, however many these are") {
+  for (const int depth : {2, 3, 50, 6000}) {  // of 6000 each would pass half of the others
+    Nested n(depth);
+    n.e.run<write_or_read>(0);
+    for (const int reads : {1, 2, 0, 2, 1, 0, 1, 2}) {
+      n.e.set(n.reads, reads);
+      n.e.propagate();
+      n.e.check_invariants();
+      Nested fresh(depth);
+      fresh.e.set(fresh.reads, reads);
+      fresh.e.run<write_or_read>(0);
+      CHECK(n.e.get(n.m) == fresh.e.get(fresh.m));
+      if (reads != 0) CHECK(n.seen[static_cast<std::size_t>(depth - 1)] == fresh.seen[static_cast<std::size_t>(depth - 1)]);
+      CHECK(n.e.live_edges() == fresh.e.live_edges());
+    }
   }
 }
 

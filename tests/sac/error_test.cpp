@@ -286,6 +286,42 @@ TEST_CASE("calls inside of calls that would overflow the native stack") {
   CHECK(e.live_calls() == 1001);
 }
 
+struct Shaft {
+  Engine e;
+  std::vector<Mod<bool>> goes_on;
+  Mod<int> light = e.input(0);
+};
+void dig_on(Scope& s, int level) {
+  auto& shaft = s.environment<Shaft>();
+  static_cast<void>(s.read(shaft.light));
+  if (s.read(shaft.goes_on[static_cast<std::size_t>(level)])) s.call<dig_on>(level + 1);
+}
+
+TEST_CASE("calls that updates have nested deeper than one run could are left by a roll-back") {
+  Shaft shaft;
+  Engine& e = shaft.e;
+  e.set_environment(&shaft);
+  e.set_stack_limit(std::size_t{1} << 18);
+  for (int i = 0; i < 5000; ++i) shaft.goes_on.push_back(e.input(false));
+  e.run<dig_on>(0);
+  for (std::size_t i = 0; i + 1 < shaft.goes_on.size(); ++i) {
+    e.set(shaft.goes_on[i], true);
+    if (i % 100 == 99) e.propagate();
+  }
+  e.propagate();
+  CHECK(e.live_calls() == shaft.goes_on.size());
+  for (int light = 1; light < 4; ++light) {
+    e.set(shaft.light, light);  // all run again, each inside of the one before
+    CHECK_THAT(error_of([&] { e.propagate(); }), Catch::Contains(" calls dig_on too deep"));
+    CHECK(e.get(shaft.light) == 0);
+    CHECK(e.live_calls() == shaft.goes_on.size());
+    e.check_invariants();
+  }
+  e.set(shaft.goes_on[10], false);
+  e.propagate();
+  CHECK(e.live_calls() == 11);
+}
+
 // How deep calls go in a stack of so many bytes.
 std::uint64_t depth_in(std::size_t bytes) {
   Engine e;

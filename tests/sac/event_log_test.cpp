@@ -271,6 +271,23 @@ TEST_CASE("the middle of a long explanation is left out") {
 
 // --- Results -----------------------------------------------------------------------------------
 
+TEST_CASE("an explanation through many calls reads the log a few times, not once for each call") {
+  constexpr int kCalls = 100'000;
+  Engine e;
+  std::vector<Mod<int>> mods{e.input(0)};
+  for (int i = 0; i < kCalls; ++i) {
+    mods.push_back(e.cell<int>());
+    e.run<copy>('a', mods[mods.size() - 2], mods.back());
+  }
+  EventLog log(e);
+  e.set(mods.front(), 1);
+  e.propagate();
+  const std::string text = log.explain("copy");
+  CHECK_THAT(text, Catch::Contains("  (" + std::to_string(kCalls - 12) + " more)\n") ||
+                       Catch::Contains("  (" + std::to_string(kCalls - 11) + " more)\n"));
+  CHECK_THAT(text, Catch::Contains(" was set from outside.\n"));
+}
+
 int half(Scope& s, Mod<int> in) { return s.read(in) / 2; }
 void quarter(Scope& s, Mod<int> in, Mod<int> out) { s.write(out, s.call<half>(in) / 2); }
 

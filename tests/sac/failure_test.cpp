@@ -198,4 +198,28 @@ TEST_CASE("if the undoing of edits fails, the engine is broken and says so") {
   CHECK(count > 2);
 }
 
+void copy(sac::Scope& s, sac::Mod<int> from, sac::Mod<int> to) { s.write(to, s.read(from)); }
+
+TEST_CASE("a propagation that finds no memory to begin with undoes the edits") {
+  sac::Engine e;
+  const auto in = e.input(1), out = e.cell<int>();
+  e.run<copy>(in, out);
+  for (int i = 0; i < 3; ++i) {
+    e.shrink();
+    e.set(in, 2);
+    allocation_fuse.left = 1;
+    bool failed = false;
+    try {
+      e.propagate();
+    } catch (const std::bad_alloc&) {
+      failed = true;
+    }
+    allocation_fuse.left = 0;
+    CHECK(failed);
+    CHECK(e.get(in) == 1);
+    e.propagate();
+    CHECK(e.get(out) == 1);
+  }
+}
+
 }  // namespace

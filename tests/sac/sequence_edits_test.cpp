@@ -1,5 +1,6 @@
 // Sequences: ids, what an edit costs, what is undone when something fails, what is freed.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -467,6 +468,29 @@ TEST_CASE("what a sequence erased is destroyed when that is final, and memory st
     CHECK(e.memory().held() == held);
     CHECK(Fragile::living <= 100);
   }
+}
+
+void add_up(sac::Scope& s, sac::List<double> list, sac::Mod<double> out) {
+  s.write(out, sac::fetch(s, sac::reduce<std::plus<>{}>(s, list, -0.0)));
+}
+
+TEST_CASE("an element that differs in the sign of zero is another one") {
+  sac::Engine e;
+  sac::Sequence<double> numbers(e, {0.0});
+  const auto sum = e.cell<double>();
+  e.run<add_up>(numbers.list(), sum);
+  CHECK_FALSE(std::signbit(e.get(sum)));
+  numbers.erase(numbers.first());
+  numbers.push_back(-0.0);
+  e.propagate();
+  CHECK(std::signbit(e.get(sum)));
+  numbers.set(numbers.first(), 0.0);
+  CHECK_FALSE(std::signbit(numbers.at(numbers.first())));
+  e.propagate();
+  CHECK_FALSE(std::signbit(e.get(sum)));
+  numbers.set(numbers.first(), -0.0);
+  e.propagate();
+  CHECK(std::signbit(e.get(sum)));
 }
 
 }  // namespace

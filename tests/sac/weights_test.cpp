@@ -106,3 +106,31 @@ TEST_CASE("Printed edges say what a call weighs") {
   CHECK(text.str().find("weighs 7; ") != std::string::npos);
   CHECK(text.str().find("weighs 1; ") != std::string::npos);
 }
+
+// Weighs before it reads if `first`, else behind.
+struct Inputs {
+  sac::Engine engine;
+  sac::Mod<bool> first = engine.input(false);
+  std::vector<sac::Mod<int>> all;
+};
+void weigh_first_or_last(sac::Scope& s) {
+  auto& inputs = s.environment<Inputs>();
+  const bool first = s.read(inputs.first);
+  if (first) s.weigh(3);
+  for (const auto input : inputs.all) static_cast<void>(s.read(input));
+  if (!first) s.weigh(3);
+}
+
+TEST_CASE("A weight of last time is not looked for behind all that the call has done") {
+  Inputs inputs;
+  inputs.engine.set_environment(&inputs);
+  inputs.engine.record_weights();
+  for (int i = 0; i < 100; ++i) inputs.all.push_back(inputs.engine.input(i));
+  inputs.engine.run<weigh_first_or_last>();
+  inputs.engine.set(inputs.first, true);
+  const sac::Counts work = inputs.engine.propagate();
+  CHECK(work.weight == 3);
+  CHECK(work.edges_made == 1);
+  CHECK(work.edges_removed == 1);
+  inputs.engine.check_invariants();
+}

@@ -194,7 +194,11 @@ class Agenda final : public WorkQueue {
   void add_post(PostEdge& post, Handle target) noexcept;
   void drop_post(PostEdge& post) noexcept;
   void drop_waiting(Handle call) noexcept;
+  void lost_posts(const Call& call) noexcept;
   void drop_unposted() noexcept;
+  bool take_from_class(const Call& call) noexcept;
+  void drop_unposted_of_all() noexcept;
+  void drop_chained_unposted() noexcept;
 
   // drain.cpp
   [[nodiscard]] bool before(const Call& a, const Call& b) const;
@@ -224,7 +228,8 @@ class Agenda final : public WorkQueue {
   std::string name_;
   std::uint8_t id_;
   State state_ = State::open;
-  bool unposted_ = false;  // a waiting call lost a post
+  std::vector<Handle> unposted_;  // calls that waited when they lost a post; some more than once
+  bool unposted_unknown_ = false;  // and others: memory was short
   std::map<std::uint32_t, std::vector<Entry>> waiting_;  // by rank
   DueCalls<Entry> due_;  // calls that wait, too: of the class that the drain runs
   Handle chained_ = 0;   // and these: since their drain has gone

@@ -158,6 +158,7 @@ class Engine {
   /// How much native stack calls inside of calls may take, in bytes, counted from run() or
   /// propagate(); beyond, UsageError. At first 3/4 of the process's limit (RLIMIT_STACK; 2 MiB if
   /// it has none): to be set for threads that have less, and if the client's own frames need more.
+  /// A roll-back may take an eighth more.
   void set_stack_limit(std::size_t bytes) noexcept { core_.stack_limit_ = bytes; }
 
   /// Watches for calls that break conciseness or monotonicity; costs a table look-up a call.

@@ -93,17 +93,18 @@ class EventLog final : public Observer {
   }
   template <class Matches>
   [[nodiscard]] std::size_t last_before(std::size_t end, Matches&& matches) const;
-  [[nodiscard]] std::size_t last_deed(CallId call, std::size_t end) const;
-  [[nodiscard]] std::size_t phase_of(std::size_t i) const;
   [[nodiscard]] std::string failure_before(std::size_t i) const;
 
+  // An explanation goes from cause to cause: what happened to one call, and to one modifiable, is
+  // looked up, so that all steps together do not read the log more than a few times.
+  class Index;
   [[nodiscard]] std::string explain_last(CallId call) const;
-  [[nodiscard]] std::string explain_deed(std::size_t deed) const;
-  [[nodiscard]] Reason reason_of(std::size_t deed) const;
-  [[nodiscard]] Reason why_executed(std::size_t deed) const;
-  [[nodiscard]] Reason why_created(std::size_t created) const;
-  [[nodiscard]] Reason why_invalidated(std::size_t invalidated) const;
-  [[nodiscard]] Reason why_discarded(std::size_t deed) const;
+  [[nodiscard]] std::string explain_deed(const Index& index, std::size_t deed) const;
+  [[nodiscard]] Reason reason_of(const Index& index, std::size_t deed) const;
+  [[nodiscard]] Reason why_executed(const Index& index, std::size_t deed) const;
+  [[nodiscard]] Reason why_created(const Index& index, std::size_t created) const;
+  [[nodiscard]] Reason why_invalidated(const Index& index, std::size_t invalidated) const;
+  [[nodiscard]] Reason why_discarded(const Index& index, std::size_t deed) const;
 
   Engine& engine_;
   std::vector<Entry> entries_;

@@ -99,7 +99,7 @@ class Scope {
   /// Repeats something of last time: moves the first edge E of `structure` for which
   /// `matches(const E&)` into this execution and returns it; null if there is none. The search goes
   /// on where the last one ended: what is repeated in order is found at once. It looks at `most`
-  /// edges.
+  /// edges: without that bound, a call that repeats n things in another order takes O(n^2).
   template <class E, class Matches>
   E* recall(std::uint8_t structure, std::uint8_t kind, Matches&& matches,
             std::size_t most = ~std::size_t{0}) {

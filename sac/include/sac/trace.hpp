@@ -80,6 +80,7 @@ struct Call : TimeNode {
   union {
     Handle edges = 0;     // what it did and saw, oldest first
     Handle next_waiting;  // of a posted call that waits for another drain
+    std::uint32_t place_in_class;  // of one that waits for the first
   };
   std::uint32_t queue = 0;  // 1 + position in the propagation queue; 0: not there
 

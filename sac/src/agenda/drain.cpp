@@ -63,8 +63,9 @@ void Agenda::chain(Call& call) noexcept {
 
 void Agenda::adopt_chained() {
   while (chained_ != 0) {
+    const Handle next = core_.at<Call>(chained_)->next_waiting;
     add_waiting(chained_);
-    chained_ = std::exchange(core_.at<Call>(chained_)->next_waiting, 0);
+    chained_ = next;
   }
 }
 
@@ -146,6 +147,7 @@ void Agenda::run_waiting(Scope& s) {
   try {
     while (!waiting_.empty()) {
       due_.begin(waiting_.begin()->second, order());
+      due_.for_each([&](const Entry& entry) { core_.at<Call>(entry.call)->edges = 0; });
       waiting_.erase(waiting_.begin());
       while (!due_.empty()) run_first();
     }
@@ -181,7 +183,7 @@ void Agenda::run_first() {
 // --- Bookkeeping -----------------------------------------------------------------------------
 
 std::size_t Agenda::bytes() const noexcept {
-  std::size_t total = placed_.bytes();
+  std::size_t total = placed_.bytes() + unposted_.capacity() * sizeof(Handle);
   for (const auto& [rank, entries] : waiting_) total += entries.capacity() * sizeof(Entry) + 64;
   return total;
 }

@@ -41,7 +41,7 @@ void Agenda::post_call(Scope& s, const Key& key, const Asked& asked) {
       edge = &s.effect<PostEdge>(id_, kPost);
       edge->poster = engine_.handle_of(poster);
     } catch (...) {
-      unposted_ = true;  // a call that waits and that nobody posts leaves at the end
+      lost_posts(posted);  // a call that waits and that nobody posts leaves at the end
       throw;
     }
   }
@@ -62,7 +62,9 @@ void Agenda::add_waiting(Handle call) {
   if (state_ == State::draining && entry.rank == Slot::of(*core_.at<Call>(running_)).rank) {
     return due_.add(entry, order());
   }
-  waiting_[entry.rank].push_back(entry);
+  std::vector<Entry>& entries = waiting_[entry.rank];
+  entries.push_back(entry);
+  core_.at<Call>(call)->place_in_class = static_cast<std::uint32_t>(entries.size() - 1);
 }
 
 // --- What is refused -------------------------------------------------------------------------
@@ -170,7 +172,7 @@ void Agenda::drop_post(PostEdge& post) noexcept {
       post.next_post;
   post.previous_post = engine_.arena().handle_of(&post);
   if (call.waiting()) {
-    unposted_ = true;
+    lost_posts(call);
   } else if (Slot::of(call).posts == 0 && !call.dead()) {
     core_.enqueue(call);
   }
@@ -204,25 +206,70 @@ void Agenda::drop_waiting(Handle call) noexcept {
   core_.drop_call(call);
 }
 
+// `call`, which waits, has lost a post: perhaps nobody posts it any more.
+void Agenda::lost_posts(const Call& call) noexcept {
+  try {
+    unposted_.push_back(engine_.handle_of(call));
+  } catch (const std::bad_alloc&) {
+    unposted_unknown_ = true;
+  }
+}
+
 // Waiting calls that nobody posts leave.
 void Agenda::drop_unposted() noexcept {
-  if (!std::exchange(unposted_, false)) return;
-  const auto drop = [&](Handle h) {
-    const bool unposted = Slot::of(*core_.at<Call>(h)).posts == 0;
-    if (unposted) drop_waiting(h);
-    return unposted;
-  };
-  for (auto& [rank, entries] : waiting_) {
-    std::erase_if(entries, [&](const Entry& entry) { return drop(entry.call); });
-  }
-  std::erase_if(waiting_, [](const auto& entry) { return entry.second.empty(); });
-  for (Handle* link = &chained_; *link != 0;) {
-    Call& c = *core_.at<Call>(*link);
-    if (drop(*link)) {
-      *link = std::exchange(c.next_waiting, 0);
+  bool any_chained = unposted_unknown_;
+  if (std::exchange(unposted_unknown_, false)) drop_unposted_of_all();
+  for (const Handle h : unposted_) {
+    const Call& call = *core_.at<Call>(h);
+    if (!call.waiting() || Slot::of(call).posts != 0) continue;
+    if (take_from_class(call)) {
+      drop_waiting(h);
     } else {
-      link = &c.next_waiting;
+      any_chained = true;
     }
+  }
+  unposted_.clear();
+  if (any_chained) drop_chained_unposted();
+}
+
+// Takes a call that waits out of its class. Returns false if it is chained instead.
+bool Agenda::take_from_class(const Call& call) noexcept {
+  const auto found = waiting_.find(Slot::of(call).rank);
+  if (found == waiting_.end()) return false;
+  std::vector<Entry>& entries = found->second;
+  const std::uint32_t i = call.place_in_class;
+  if (i >= entries.size() || entries[i].call != engine_.handle_of(call)) return false;
+  entries[i] = entries.back();
+  core_.at<Call>(entries[i].call)->place_in_class = i;
+  entries.pop_back();
+  if (entries.empty()) waiting_.erase(found);
+  return true;
+}
+
+void Agenda::drop_unposted_of_all() noexcept {
+  for (auto next = waiting_.begin(); next != waiting_.end();) {
+    const auto& entries = (next++)->second;
+    for (std::size_t i = entries.size(); i > 0; --i) {
+      const Handle h = entries[i - 1].call;
+      if (Slot::of(*core_.at<Call>(h)).posts != 0) continue;
+      const bool is_last = entries.size() == 1;
+      take_from_class(*core_.at<Call>(h));
+      drop_waiting(h);
+      if (is_last) break;  // the class is gone
+    }
+  }
+}
+
+void Agenda::drop_chained_unposted() noexcept {
+  for (Handle* link = &chained_; *link != 0;) {
+    const Handle h = *link;
+    Call& c = *core_.at<Call>(h);
+    if (Slot::of(c).posts != 0) {
+      link = &c.next_waiting;
+      continue;
+    }
+    *link = std::exchange(c.next_waiting, 0);
+    drop_waiting(h);
   }
 }
 

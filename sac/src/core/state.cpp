@@ -103,6 +103,7 @@ void Core::begin_undoing() noexcept {
   take_deferred(0);
   note_failure(Event::Kind::roll_back_started);
   progress_at_ = ~std::uint64_t{0};
+  stack_end_ -= std::min(stack_end_, stack_limit_ / 8);  // to come as deep as what failed, and on
 }
 
 Counts Core::finish() noexcept {

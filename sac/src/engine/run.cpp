@@ -101,7 +101,13 @@ Counts Engine::run_root(const Asked& asked) {
 }
 
 Counts Engine::propagate(const std::function<void()>& last) {
-  core_.enter(Core::Mode::propagating);
+  begin_edit("propagate");
+  try {
+    core_.enter(Core::Mode::propagating);
+  } catch (...) {  // no memory to begin with
+    undo_edits_behind(0);
+    throw;
+  }
   try {
     core_.propagate();
     require_released_unused();

@@ -16,7 +16,7 @@ class Weights final : public Structure {
   explicit Weights(Engine& engine) : id_(engine.add_structure(*this)) {}
 
   void add(Scope& s, std::uint64_t n) {
-    Weight* weight = s.recall<Weight>(id_, 0, [](const Weight&) { return true; });
+    Weight* weight = s.recall<Weight>(id_, 0, [](const Weight&) { return true; }, kMostRecalled);
     if (weight == nullptr) weight = &s.effect<Weight>(id_, 0);
     weight->steps = n;
   }
@@ -34,6 +34,8 @@ class Weights final : public Structure {
   struct Weight : Edge {
     std::uint64_t steps;
   };
+
+  static constexpr std::size_t kMostRecalled = 64;  // edges of last time that are looked at
 
   std::uint8_t id_;
 };

@@ -34,8 +34,7 @@ detail::Version& ModStructure::observe(Scope& scope, Handle head) {
     return edge.version == seen || (edge.version != 0 && head_of(*at(edge.version)) == head);
   };
   // Not found among so many, it is made anew: the old one goes with the others.
-  constexpr std::size_t kMost = 64;
-  ReadEdge* edge = scope.recall<ReadEdge>(id_, kRead, of_this, kMost);
+  ReadEdge* edge = scope.recall<ReadEdge>(id_, kRead, of_this, kMostRecalled);
   if (edge != nullptr && edge->version == seen) {
     if (edge->behind) version->read_behind = true;
     return *version;
@@ -56,9 +55,33 @@ detail::Version& ModStructure::observe(Scope& scope, Handle head) {
 detail::Version* ModStructure::seen_by(const Call& call, Handle head) const {
   const Around around = versions_around(call, head);
   if (around.behind != nullptr) require_ahead(call, head, *around.behind);
-  Version* seen = around.before;
-  while (seen != nullptr && hidden(*seen)) seen = predecessor(head, *seen);
-  return seen;
+  return shown(head, around.before);
+}
+
+// `version`, or, if that is hidden, the last one before it that is not; null if there is none.
+detail::Version* ModStructure::shown(Handle head, Version* version) const noexcept {
+  while (version != nullptr && hidden(*version)) {
+    const auto skip = skips_.find(handle_of(*version));
+    if (skip == skips_.end()) {
+      version = predecessor(head, *version);
+    } else {
+      version = skip->second != 0 ? at(skip->second) : nullptr;
+    }
+  }
+  return version;
+}
+
+// `version` is hidden, and so is the one before: calls inside of calls have each written the
+// modifiable. What is shown instead of it is the same until it is repeated or taken back, for
+// nothing happens before the running call.
+void ModStructure::keep_skip(Handle head, const Version& version) noexcept {
+  Version* const previous = predecessor(head, version);
+  if (previous == nullptr || !hidden(*previous)) return;
+  try {
+    const Version* const instead = shown(head, previous);
+    skips_.insert_or_assign(handle_of(version), instead != nullptr ? handle_of(*instead) : 0);
+  } catch (const std::bad_alloc&) {  // then it is looked for each time
+  }
 }
 
 // The effects of own children lie later in time than their parent: it cannot read them. `next` is
@@ -98,8 +121,7 @@ detail::Version* ModStructure::visible_to(const Call& call, const Version& seen)
   if (at(head)->outside) return at(head);
   Version* now = seen_by(call, head);
   if (now != nullptr && &writer(*now) == &call) now = predecessor(head, *now);
-  while (now != nullptr && hidden(*now)) now = predecessor(head, *now);
-  return now;
+  return shown(head, now);
 }
 
 // The reader goes with the version that it would see now.

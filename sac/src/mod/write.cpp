@@ -32,15 +32,30 @@ detail::Version* ModStructure::own_version(Scope& scope, Handle head) {
   own = versions_around(call, head).before;
   if (own == nullptr || &writer(*own) != &call) return nullptr;
   if (own->round == call.round) return own;
-  const Handle version = handle_of(*own);
-  const auto same = [&](const WriteEdge& edge) { return edge.version == version; };
   // Children that have run meanwhile did not see it. If that is refused, it has not been repeated.
   if (engine_.has_had_children() && at(head)->history != 0) {
     require_unread(scope, head, predecessor(head, *own));
   }
-  own->behind = scope.recall<WriteEdge>(id_, kWrite, same)->behind;
+  own->behind = repeat(scope, head, handle_of(*own)).behind;
   own->round = call.round;
+  if (!skips_.empty()) skips_.erase(handle_of(*own));
   return own;
+}
+
+// The edge of last time, or, if it is not found among so many, a new one: the version is that one's
+// from now on, and the old edge goes with the others (has_passed_on).
+WriteEdge& ModStructure::repeat(Scope& scope, Handle head, Handle version) {
+  const auto same = [&](const WriteEdge& edge) { return edge.version == version; };
+  if (WriteEdge* edge = scope.recall<WriteEdge>(id_, kWrite, same, kMostRecalled)) return *edge;
+  auto& edge = scope.effect<WriteEdge>(id_, kWrite);
+  edge.head = head;
+  edge.version = version;
+  return edge;
+}
+
+// Whether the version is another edge's: that of this execution. Requires: there is a version.
+bool ModStructure::has_passed_on(const WriteEdge& edge) const noexcept {
+  return at(edge.version)->round != edge.round;
 }
 
 // A version for the running call, without a value yet: to be given one at once. The edge comes
@@ -131,7 +146,7 @@ void ModStructure::require_unread(Scope& scope, Handle head, const Version* vers
     return child == nullptr && !version->ordered;  // in order, the first decides
   });
   if (child == nullptr) {
-    if (hidden(*version)) require_unread(scope, head, predecessor(head, *version));
+    if (hidden(*version)) require_unread(scope, head, shown(head, at(handle_of(*version))));
     return;
   }
   throw UsageError(Engine::describe(self) + " writes " + engine_.describe_mod(head) +
@@ -168,10 +183,9 @@ void ModStructure::appeared(const Call& self, Handle head, Version& version, Ver
     doubt_readers(head, previous, self, 0);
   }
   // Children of a running call read past what that call has not repeated.
-  for (Version* v = &previous; v != nullptr && hidden(*v);) {
-    v = predecessor(head, *v);
-    if (v != nullptr) doubt_readers(head, *v, self, 0);
-  }
+  if (!hidden(previous)) return;
+  const Version* const seen = shown(head, &previous);
+  if (seen != nullptr) doubt_readers(head, *seen, self, 0);
 }
 
 // --- Taking back -----------------------------------------------------------------------------
@@ -231,8 +245,9 @@ void ModStructure::forget_version(Handle head, Version& version) noexcept {
 void ModStructure::retract(Call& call, Edge& edge) noexcept {
   if (edge.kind == kRead) return unlink_reader(static_cast<ReadEdge&>(edge));
   const auto& write = static_cast<const WriteEdge&>(edge);
-  if (write.version == 0) return;
+  if (write.version == 0 || has_passed_on(write)) return;
   Version& version = *at(write.version);
+  if (!skips_.empty()) skips_.erase(write.version);
   Version* previous = predecessor(write.head, version);
   bool same = false;
   if (previous != nullptr && !hidden(*previous)) {  // else its readers must ask anew
@@ -253,7 +268,9 @@ void ModStructure::retract(Call& call, Edge& edge) noexcept {
 void ModStructure::hide(Call& call, Edge& edge, Handle end) noexcept {
   if (edge.kind != kWrite) return;
   const auto& write = static_cast<const WriteEdge&>(edge);
-  if (write.version != 0) doubt_readers(write.head, *at(write.version), call, end);
+  if (write.version == 0 || has_passed_on(write)) return;
+  keep_skip(write.head, *at(write.version));
+  doubt_readers(write.head, *at(write.version), call, end);
 }
 
 }  // namespace sac

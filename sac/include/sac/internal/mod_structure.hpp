@@ -216,6 +216,7 @@ class ModStructure final : public Structure {
 
   void retract(Call& call, Edge& edge) noexcept override;
   void hide(Call& call, Edge& edge, Handle end) noexcept override;
+  void finished() noexcept override { skips_.clear(); }
   [[nodiscard]] bool unchanged(Call& call, Edge& edge) override;
   void label(const Call& call, const Edge& edge, LabelSink& sink) const override;
   void print(const Call& call, const Edge& edge, std::ostream& out) const override;
@@ -225,6 +226,7 @@ class ModStructure final : public Structure {
  private:
   using Version = detail::Version;
   using ReadEdge = detail::ReadEdge;
+  static constexpr std::size_t kMostRecalled = 64;  // edges of last time that are looked at
 
   [[nodiscard]] Version* at(Handle h) const noexcept { return engine_.arena().at<Version>(h); }
   [[nodiscard]] ReadEdge* reader(Handle h) const noexcept {
@@ -293,11 +295,15 @@ class ModStructure final : public Structure {
   // read.cpp
   [[nodiscard]] Version* seen_by(const Call& call, Handle head) const;
   [[nodiscard]] Version* visible_to(const Call& call, const Version& seen) const;
+  [[nodiscard]] Version* shown(Handle head, Version* version) const noexcept;
+  void keep_skip(Handle head, const Version& version) noexcept;
   void require_ahead(const Call& reader, Handle head, const Version& next) const;
   [[noreturn]] void fail_unwritten(const Call& reader, Handle head) const;
 
   // write.cpp
   Version* own_version(Scope& scope, Handle head);
+  detail::WriteEdge& repeat(Scope& scope, Handle head, Handle version);
+  [[nodiscard]] bool has_passed_on(const detail::WriteEdge& edge) const noexcept;
   [[nodiscard]] Version* predecessor(Handle head, const Version& version) const noexcept;
   Version& new_version(Scope& scope, Handle head, const detail::ValueType& type);
   Version& new_apart(Handle head, const detail::ValueType& type);
@@ -344,6 +350,7 @@ class ModStructure final : public Structure {
   std::vector<detail::History> histories_;  // by number; the first is not used
   std::vector<std::uint32_t> free_histories_;
   std::unordered_map<Handle, SortedIndex<Handle>> reader_orders_;  // by version
+  std::unordered_map<Handle, Handle> skips_;  // hidden version: the last before it that is not
 };
 
 template <class T, class Same>

@@ -26,15 +26,15 @@ class Originals {
     try {
       if (find_item(call, place) != nullptr) return;
       items_.emplace(key(call, place),
-                     Item{&call, std::make_shared<std::decay_t<T>>(std::forward<T>(value))});
+                     Item{&call, ++count_, std::make_shared<std::decay_t<T>>(std::forward<T>(value))});
     } catch (...) {
       lost_ = true;
     }
   }
-  /// What a call of this label had written to `place`; null if not known.
-  /// Throws: what comparing arguments throws.
+  /// What `call`, or one that has been discarded and that it replaces, had written to `place`; null
+  /// if not known. Throws: what comparing arguments throws.
   template <class T>
-  [[nodiscard]] const T* find(const Call& call, Handle place) const {
+  [[nodiscard]] const T* find(const Call& call, Handle place) {
     const Item* item = find_item(call, place);
     return item != nullptr ? static_cast<const T*>(item->value.get()) : nullptr;
   }
@@ -43,31 +43,39 @@ class Originals {
   void clear() noexcept {
     items_.clear();
     lost_ = false;
+    count_ = 0;
   }
 
  private:
   struct Item {
     const Call* call;  // it may be dead, but is not freed before the propagation has ended
+    std::uint64_t number;  // in the order in which they were kept
     std::shared_ptr<void> value;
   };
   static std::uint64_t key(const Call& call, Handle place) {
     return std::uint64_t{call.function().hash(call)} << 32 | place;
   }
-  // A call that was discarded may have been made anew: labels are compared.
-  [[nodiscard]] const Item* find_item(const Call& call, Handle place) const {
-    const Function& function = call.function();
+  // The call's own; else that of a discarded call of this label, which it replaces from now on. Of
+  // several the first: what was discarded in some order is mostly made anew in that order.
+  [[nodiscard]] Item* find_item(const Call& call, Handle place) {
     const auto [first, last] = items_.equal_range(key(call, place));
+    Item* replaced = nullptr;
     for (auto it = first; it != last; ++it) {
-      const Call& other = *it->second.call;
-      if (other.function_number == call.function_number &&
-          function.equal(other, function.arguments(call))) {
-        return &it->second;
-      }
+      Item& item = it->second;
+      if (item.call == &call) return &item;
+      const bool earlier = replaced == nullptr || item.number < replaced->number;
+      if (item.call->dead() && earlier && equal(*item.call, call)) replaced = &item;
     }
-    return nullptr;
+    if (replaced != nullptr) replaced->call = &call;
+    return replaced;
+  }
+  static bool equal(const Call& a, const Call& b) {
+    const Function& function = a.function();
+    return a.function_number == b.function_number && function.equal(a, function.arguments(b));
   }
 
   std::unordered_multimap<std::uint64_t, Item> items_;  // searched only, never walked
+  std::uint64_t count_ = 0;
   bool lost_ = false;
 };
 

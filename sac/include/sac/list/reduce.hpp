@@ -25,6 +25,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "sac/internal/same.hpp"
 #include "sac/list/list.hpp"
 
 namespace sac {
@@ -41,7 +42,10 @@ struct Group {
   struct State {
     std::optional<typename Rule::Value> value;  // none: the group of the header, which stands alone
     const Group* next = nullptr;
-    friend bool operator==(const State&, const State&) = default;
+    friend bool operator==(const State& a, const State& b) {
+      return a.next == b.next && a.value.has_value() == b.value.has_value() &&
+             (!a.value.has_value() || identical(*a.value, *b.value));
+    }
     friend void label_bytes(LabelSink& sink, const State& s) {
       label_arguments(sink, std::tuple(s.value.has_value(), s.next));
       if (s.value) label_arguments(sink, std::tie(*s.value));

@@ -34,6 +34,7 @@
 #include <vector>
 
 #include "sac/check.hpp"
+#include "sac/internal/same.hpp"
 #include "sac/list/list.hpp"
 
 namespace sac {
@@ -140,11 +141,11 @@ class Sequence {
     return insert_new(entry(place), std::move(value));
   }
   void erase(ElementId id) { erase_entry(entry(id)); }
-  /// Gives the element another value; an equal one changes nothing.
+  /// Gives the element another value; one that is the same changes nothing (mod.hpp says what is).
   void set(ElementId id, T value) {
     Entry& old = entry(id);
     if constexpr (std::equality_comparable<T>) {
-      if (old.value() == value) return;
+      if (detail::identical(old.value(), value)) return;
     }
     together([&] {
       erase_entry(old);
