@@ -48,6 +48,9 @@ accepted 'void f(sac::Scope& s, Equal a, sac::Mod<Equal> m) { s.write(m, a); }' 
   'e.run<f>(Equal{1}, e.cell<Equal>());'
 accepted 'void f(sac::Scope&, Ordered) {}' 'agenda.post_from_outside<f>({}, Ordered{1});'
 accepted '' 'e.set(e.cell<Bare, AnySame>(), Bare{1});'
+accepted 'void f(sac::Scope& s, sac::Mod<std::unique_ptr<int>> m) { s.write(m, nullptr); }' \
+  'e.run<f>(e.cell<std::unique_ptr<int>>()); static_cast<void>(e.input(std::make_unique<int>(1)));'
+refused 'set keeps a copy of the old value' '' 'e.set(e.input(std::make_unique<int>(1)), nullptr);'
 accepted 'struct F { void operator()(sac::Scope&, int) const {} };' 'e.run<F{}>(1);'
 accepted 'void f(sac::Scope&, const std::string&) {}' 'e.run<f>("text");'
 

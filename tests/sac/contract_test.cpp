@@ -600,7 +600,7 @@ TEST_CASE("a read passes what calls around it wrote last time, however many thes
       fresh.e.set(fresh.reads, reads);
       fresh.e.run<write_or_read>(0);
       CHECK(n.e.get(n.m) == fresh.e.get(fresh.m));
-      if (reads != 0) CHECK(n.seen[static_cast<std::size_t>(depth - 1)] == fresh.seen[static_cast<std::size_t>(depth - 1)]);
+      if (reads != 0) CHECK(n.seen.back() == fresh.seen.back());
       CHECK(n.e.live_edges() == fresh.e.live_edges());
     }
   }

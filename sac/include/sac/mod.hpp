@@ -108,6 +108,9 @@ Mod<T, Same> Engine::input(T value) {
 
 template <class T, class Same>
 void Engine::set(Mod<T, Same> mod, std::type_identity_t<T> value) {
+  static_assert(std::is_copy_constructible_v<T>,
+                "set keeps a copy of the old value, to take the edit back: a value that only moves is "
+                "written by calls; hold it by a shared pointer");
   begin_edit("set");
   mods_->require_live(mod.head(), mod.stamp(), "set");
   if (!mods_->is_input(mod.head())) {

@@ -25,8 +25,8 @@ class Originals {
   void keep(const Call& call, Handle place, T&& value) noexcept {
     try {
       if (find_item(call, place) != nullptr) return;
-      items_.emplace(key(call, place),
-                     Item{&call, ++count_, std::make_shared<std::decay_t<T>>(std::forward<T>(value))});
+      auto kept = std::make_shared<std::decay_t<T>>(std::forward<T>(value));
+      items_.emplace(key(call, place), Item{&call, ++count_, std::move(kept)});
     } catch (...) {
       lost_ = true;
     }
