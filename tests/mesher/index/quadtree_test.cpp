@@ -178,3 +178,42 @@ TEST_CASE("marks taken back leave one cell, and vertices are found all the while
     for (const auto* v : all) REQUIRE(tree.find(v->p) == nullptr);
   }
 }
+
+TEST_CASE(
+    "a split cell keeps its vertices itself while they are few, and a search meets them once") {
+  const MeshBox<2> box{.lo = {-1.5, -1.5}, .side = 4};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    INFO("seed " << seed);
+    SplitMix64 random(seed);
+    mesher::detail::VertexPool<2> pool;
+    Quadtree tree(box, pool);
+    const auto place = [&] {  // some on top of each other but for the finest cells
+      const double scale = std::ldexp(1, -static_cast<int>(random.below(3) * 12));
+      return Point<2>{scale * random.unit(), scale * random.unit()};
+    };
+    for (int i = 0; i < 20; ++i) {
+      tree.mark(MeshBox<2>::cell(box.fixed(place()), static_cast<int>(random.below(30))));
+    }
+    std::vector<mesher::detail::Vertex<2>*> all;
+    for (int i = 0; i < 400; ++i) {
+      if (all.empty() || random.below(i < 200 ? 4 : 2) != 0) {
+        all.push_back(&pool.create(place()));
+        tree.insert(*all.back());
+        all.back()->reach = static_cast<float>(random.unit());
+        tree.raise_reach(*all.back());
+      } else {
+        std::swap(all[random.below(all.size())], all.back());
+        tree.erase(*all.back());
+        pool.release(*all.back());
+        all.pop_back();
+      }
+      tree.check_invariants();  // which cells are open, and that bounds are bounds
+      std::size_t met = 0;
+      Quadtree::Looked looked;
+      tree.visit_box(
+          {0, 0}, {{-4, -4}, {4, 4}}, looked, [](const Point<2>&, double) { return true; },
+          [&](const auto&, const auto&, std::uint32_t count) { met += count; });
+      REQUIRE(met == all.size());
+    }
+  }
+}
