@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "facade/meter.hpp"
 #include "mesh/canonical.hpp"
@@ -184,9 +185,10 @@ Change<2> State::propagate(const std::vector<Announced::Edit>& edits, const RunC
   touched.reserve(2 * edits.size());
   const std::function<void()> report = [&] {  // what needs memory, while all can be undone
     make_room(arrived);
-    report_vertices(change);
+    Log log = vertices().log();
+    report_vertices(log, change);
     report_kinds(touched, change);
-    report_stars(change);
+    report_stars(std::move(log), change);
   };
   make(edits, arrived, touched);
   try {

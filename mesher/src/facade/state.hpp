@@ -51,6 +51,7 @@ class State {
 
  private:
   using Triangle = std::array<VertexHandle, 3>;
+  using Log = VertexIndex<sac::Scope>::Log;
   using Ids = std::unordered_map<FeatureId, VertexHandle>;
   // A vertex whose input point comes or goes, as the last update left it.
   struct Touched {
@@ -71,9 +72,10 @@ class State {
   [[nodiscard]] std::vector<VertexHandle> live_vertices() const;
   [[nodiscard]] Change<2> whole(const Mesh<2>& mesh) const;
   [[nodiscard]] std::array<Point<2>, 3> corners(const Triangle& t) const;
-  void report_vertices(Change<2>& change) const;
+  void report_vertices(const Log& log, Change<2>& change) const;
   void report_kinds(const std::vector<Touched>& touched, Change<2>& change) const;
-  void report_stars(Change<2>& change) const;
+  void own_triangles(const ChangeLog::Star& star, std::vector<Triangle>& all) const;
+  void report_stars(Log log, Change<2>& change) const;
 
   auto& vertices() noexcept { return world_->vertices; }
   const auto& vertices() const noexcept { return world_->vertices; }

@@ -41,8 +41,8 @@ MeshStats State::stats() const {
   return s;
 }
 
-void State::report_vertices(Change<2>& change) const {
-  for (const VertexHandle h : vertices().log().touched) {
+void State::report_vertices(const Log& log, Change<2>& change) const {
+  for (const VertexHandle h : log.touched) {
     const Vertex<2>& v = pool()[h];
     if (v.alive && !v.committed) change.vertices_added.push_back(v.p);
     if (!v.alive && v.committed) change.vertices_removed.push_back(v.p);
@@ -67,29 +67,41 @@ void State::report_kinds(const std::vector<Touched>& touched, Change<2>& change)
             [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
 }
 
-// Triangles of stars that went or came, without those that did both.
-void State::report_stars(Change<2>& change) const {
-  const auto own = [&](const auto& records) {
-    std::vector<Triangle> all;
-    for (const auto& r : records) {
-      for_each_own_triangle(pool(), pool()[r.center], r.ring.data(),
-                            static_cast<int>(r.ring.size()),
-                            [&](const Triangle& t) { all.push_back(smallest_first(t)); });
-    }
-    std::sort(all.begin(), all.end());
-    return all;
-  };
-  const std::vector<Triangle> gone = own(vertices().log().stars_gone);
-  const std::vector<Triangle> come = own(vertices().log().stars_come);
+// The triangles that v outputs in its star of these neighbours, in the order of corners.
+void State::own_triangles(const ChangeLog::Star& star, std::vector<Triangle>& all) const {
+  all.clear();
+  for_each_own_triangle(pool(), pool()[star.center], star.ring.data(),
+                        static_cast<int>(star.ring.size()),
+                        [&](const Triangle& t) { all.push_back(t); });
+}
+
+// Triangles of stars that went or came, without those that did both: these are output by the same
+// vertex, so stars are compared with that of the same vertex only.
+void State::report_stars(Log log, Change<2>& change) const {
+  const auto by_center = [](const auto& a, const auto& b) { return a.center < b.center; };
+  std::sort(log.stars_gone.begin(), log.stars_gone.end(), by_center);
+  std::sort(log.stars_come.begin(), log.stars_come.end(), by_center);
+  std::vector<Triangle> gone;
+  std::vector<Triangle> come;
   const auto report = [&](const auto& these, const auto& those, auto& out) {
-    std::vector<Triangle> rest;
-    std::set_difference(these.begin(), these.end(), those.begin(), those.end(),
-                        std::back_inserter(rest));
-    for (const Triangle& t : rest) out.push_back(corners(t));
-    std::sort(out.begin(), out.end());
+    for (const Triangle& t : these) {
+      if (std::find(those.begin(), those.end(), t) == those.end()) out.push_back(corners(t));
+    }
   };
-  report(come, gone, change.simplices_added);
-  report(gone, come, change.simplices_removed);
+  auto old = log.stars_gone.begin();
+  auto now = log.stars_come.begin();
+  while (old != log.stars_gone.end() || now != log.stars_come.end()) {
+    const bool went =
+        now == log.stars_come.end() || (old != log.stars_gone.end() && old->center <= now->center);
+    const bool came =
+        old == log.stars_gone.end() || (now != log.stars_come.end() && now->center <= old->center);
+    went ? own_triangles(*old++, gone) : gone.clear();
+    came ? own_triangles(*now++, come) : come.clear();
+    report(come, gone, change.simplices_added);
+    report(gone, come, change.simplices_removed);
+  }
+  std::sort(change.simplices_added.begin(), change.simplices_added.end());
+  std::sort(change.simplices_removed.begin(), change.simplices_removed.end());
 }
 
 void State::check_invariants() const {

@@ -172,8 +172,8 @@ bool VoronoiCell::is_compact() const noexcept {
   return open2_ <= farthest2;
 }
 
-VoronoiCell::Extent VoronoiCell::open_extent() const noexcept {
-  Extent box{{0, 0}, {0, 0}};
+Box<2> VoronoiCell::open_extent() const noexcept {
+  Box<2> box{{0, 0}, {0, 0}};
   for (int k = 0; k < open_count_; ++k) {
     const std::size_t i = open_[index(k)];
     const double r = std::sqrt(q2_[i]) * (1 + 0x1p-30);

@@ -69,6 +69,8 @@ class VoronoiCell {
   [[nodiscard]] bool enters(const Point<2>& corner, double side, double margin) const noexcept;
 
   [[nodiscard]] int size() const noexcept { return size_; }
+  /// Whether u is a neighbour.
+  [[nodiscard]] bool has(VertexHandle u) const noexcept;
   [[nodiscard]] bool real(int i) const noexcept { return handle_[index(i)] != 0; }
   [[nodiscard]] VertexHandle handle(int i) const noexcept { return handle_[index(i)]; }
   /// Neighbour u_i relative to v.
@@ -86,11 +88,8 @@ class VoronoiCell {
   /// Whether no open corner is next to a virtual neighbour, nor farther than the neighbours: then
   /// the cell is not much larger than it will be.
   [[nodiscard]] bool is_compact() const noexcept;
-  struct Extent {
-    Point<2> lo, hi;
-  };
   /// A box around the gap balls of the open corners, relative to v.
-  [[nodiscard]] Extent open_extent() const noexcept;
+  [[nodiscard]] Box<2> open_extent() const noexcept;
   /// max |q_i|^2 over the corners that are next to a real neighbour on both sides, or on the inner
   /// side of the lines through v with these outer normals (entries -1, 0, 1; 0: no line).
   [[nodiscard]] double reach2_inside(const Point<2>& outward) const noexcept;
@@ -159,13 +158,21 @@ inline bool VoronoiCell::enters(const Point<2>& corner, double side, double marg
   const double* qx = qx_.data();
   const double* qy = qy_.data();
   const double* q2 = q2_.data();
+  bool enters = false;  // corners are few: no early end, which could not be predicted
   for (int k = 0; k < open_count_; ++k) {
     const std::size_t i = open_[index(k)];
     const double dx = std::max(std::max(x0 - qx[i], qx[i] - x1), 0.0);
     const double dy = std::max(std::max(y0 - qy[i], qy[i] - y1), 0.0);
-    if (dx * dx + dy * dy <= q2[i] * (1 + 0x1p-30)) return true;
+    enters |= dx * dx + dy * dy <= q2[i] * (1 + 0x1p-30);
   }
-  return false;
+  return enters;
+}
+
+inline bool VoronoiCell::has(VertexHandle u) const noexcept {
+  const VertexHandle* handles = handle_.data();
+  bool has = false;
+  for (int i = 0; i < size_; ++i) has |= handles[i] == u;
+  return has;
 }
 
 template <class Left>

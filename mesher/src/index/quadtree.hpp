@@ -1,10 +1,13 @@
 // The quadtree as a place to look vertices up.
 //
-// The cells are those that BuildQT marks as split; a leaf lists its vertices. Answers do not depend
-// on the subdivision, only their cost does, so the tree may be between two states while a
-// propagation is under way: a cell has children while it, or a cell inside it, is marked.
-// Each cell also knows a bound on how far the queries centred in it look (`reach`), to find the
-// queries that a new vertex concerns.
+// The cells are those that BuildQT marks as split: a cell has children while it, or a cell inside
+// it, is marked. Answers do not depend on the subdivision, only their cost does, so the tree may be
+// between two states while a propagation is under way.
+// A cell with children is *open* while more than kFull vertices lie in it: these are in its
+// children. Else it is *closed*: it keeps them itself, and who looks up goes no deeper. So the
+// cells that a search meets hold a handful of vertices, however deep BuildQT splits. Each cell also
+// knows a bound on how far the queries centred in it look (`reach`), and so does each entry of a
+// bucket, to find the queries that a new vertex concerns.
 //
 // Here is what it offers and consists of; what it does is in quadtree_cells, _search, _reach,
 // _check.
@@ -14,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "geometry/grid.hpp"
@@ -27,7 +31,17 @@ template <int D>
 class Quadtree {
  public:
   using NodeIndex = std::uint32_t;
+  static constexpr std::size_t kSlots = 5;
+  using Handles = std::array<VertexHandle, kSlots>;
+  using Places = std::array<Point<D>, kSlots>;
   static constexpr int kChildren = 1 << D;
+
+  template <class Array>
+  static constexpr Array filled(const typename Array::value_type& x) noexcept {
+    Array all{};
+    all.fill(x);
+    return all;
+  }
 
   Quadtree(const MeshBox<D>& box, VertexPool<D>& vertices) : box_(box), vertices_(vertices) {
     nodes_.resize(kChildren);  // the root; its siblings only keep the blocks of children aligned
@@ -47,20 +61,31 @@ class Quadtree {
   /// The record with exactly these coordinates; null if there is none.
   [[nodiscard]] Vertex<D>* find(const Point<D>& p) const;
 
-  /// Visits vertices u around `center`, by cells, in shells of doubling radius so that what bounds
-  /// the search is met early: visit(handle, place) for every vertex within radius() of
-  /// the center, a bound that may shrink while visiting (visit says true when it has), and for some
-  /// beyond.
-  /// A cell is only entered if enters(its lower corner relative to the center, its side).
-  template <class Radius, class Enters, class Visit>
-  void visit_around(const Point<D>& center, Radius&& radius, Enters&& enters, Visit&& visit) const;
-
-  /// Visits vertices as visit_around does, in the leaves that meet the box [lo, hi] relative to the
-  /// center: for searches that know where to look. visit(handle, place) for every vertex in a leaf
-  /// that is entered; what it returns does not matter.
+  /// Where a search has looked: nowhere, to begin with.
+  class Looked {
+    friend class Quadtree;
+    Fixed<D> lo = filled<Fixed<D>>(~std::uint64_t{0});
+    Fixed<D> hi{};
+    [[nodiscard]] bool meets(const Fixed<D>& corner, std::uint64_t size) const noexcept {
+      bool meets = true;
+      for (int i = 0; i < D; ++i) meets = meets && corner[i] <= hi[i] && lo[i] < corner[i] + size;
+      return meets;
+    }
+  };
+  /// Visits vertices in a box, relative to `center`, by cells: visit(handles, places, count) for
+  /// buckets of so many entries, in which every vertex in the box is and some beyond, but for those
+  /// in cells where the search has looked before. The entries behind the count are 0, and nowhere
+  /// near. `looked`: that was inside the box; now it is the box. A cell is only entered if
+  /// enters(its lower corner relative to the center, its side).
   template <class Enters, class Visit>
-  void visit_box(const Point<D>& center, const Point<D>& lo, const Point<D>& hi, Enters&& enters,
+  void visit_box(const Point<D>& center, const Box<D>& box, Looked& looked, Enters&& enters,
                  Visit&& visit) const;
+  /// The side of the cell that vertices at p are in.
+  [[nodiscard]] double side_at(const Point<D>& p) const {
+    int level = 0;
+    static_cast<void>(leaf_of(box_.fixed(p), &level));
+    return unit_ * static_cast<double>(std::uint64_t{1} << (kLevels - level));
+  }
 
   /// Calls visit(v, |v - p|^2) for every vertex v with |v - p| <= v.reach (in units of the box's
   /// side), and tightens the cells' bounds. visit must not throw.
@@ -68,7 +93,12 @@ class Quadtree {
   void visit_reaching(const Point<D>& p, Visit&& visit) noexcept {
     Point<D> rel;
     for (int i = 0; i < D; ++i) rel[i] = box_.lo[i] - p[i];
-    reach_below(0, rel, box_.side, p, visit);
+    const auto visit_within = [&](Vertex<D>& v, const Point<D>& place) {
+      const double d2 = distance2(place, p);
+      const double own = v.reach * box_.side;
+      if (d2 <= own * own) visit(v, d2);
+    };
+    reach_below(0, rel, box_.side, p, visit_within);
   }
   /// A query centred at `v` looks as far as v.reach: raises the bounds of the cells around it.
   void raise_reach(const Vertex<D>& v) noexcept;
@@ -89,33 +119,49 @@ class Quadtree {
 
  private:
   struct Node {
-    NodeIndex child = 0;  // first of kChildren; 0: a leaf
+    NodeIndex child_and_closed = 0;  // first of kChildren, 0: none
     NodeIndex parent_and_mark = 0;
-    std::uint32_t head = 0;  // first bucket of a leaf
+    std::uint32_t head = 0;  // first bucket
     float reach = 0;
 
+    [[nodiscard]] NodeIndex child() const noexcept { return child_and_closed & 0x7fffffffu; }
+    [[nodiscard]] bool closed() const noexcept { return child_and_closed >> 31 != 0; }
+    /// First child of an open cell; 0: the vertices are here.
+    [[nodiscard]] NodeIndex open() const noexcept { return closed() ? 0 : child_and_closed; }
+    void close() noexcept { child_and_closed |= 0x80000000u; }
     [[nodiscard]] NodeIndex parent() const noexcept { return parent_and_mark & 0x7fffffffu; }
     [[nodiscard]] bool marked() const noexcept { return parent_and_mark >> 31 != 0; }
   };
-  // The first shell's radius, in sides of the center's leaf.
-  static constexpr double kFirstShell = 2;
-
   struct Step {
     NodeIndex node;
-    Point<D> rel;  // lower corner of the cell, relative to the center
-    double side;
+    int level;
+    Fixed<D> corner;
   };
-
+  [[nodiscard]] Step cell_around(const Fixed<D>& lo, const Fixed<D>& hi) const;
+  // The cell that holds the vertices at f, and its level.
   [[nodiscard]] NodeIndex leaf_of(const Fixed<D>& f, int* level = nullptr) const {
     NodeIndex n = 0;
     int depth = 0;
-    for (; nodes_[n].child != 0; ++depth) n = nodes_[n].child + MeshBox<D>::child_of(f, depth);
+    for (; nodes_[n].open() != 0; ++depth) n = nodes_[n].open() + MeshBox<D>::child_of(f, depth);
     if (level != nullptr) *level = depth;
     return n;
   }
+  [[nodiscard]] int subdivided(const Fixed<D>& f) const;
+  static double distance2(const Point<D>& a, const Point<D>& b) noexcept {
+    double d2 = 0;
+    for (int i = 0; i < D; ++i) d2 += (a[i] - b[i]) * (a[i] - b[i]);
+    return d2;
+  }
+  template <class T>
+  static void make_room(std::vector<T, LineAllocator<T>>& records, std::size_t more);
   void reserve_splits(std::size_t splits);
   void give_children(NodeIndex n, int level) noexcept;
   void take_children(NodeIndex n) noexcept;
+  void spread(NodeIndex n, int level) noexcept;
+  void gather(NodeIndex n) noexcept;
+  [[nodiscard]] bool can_close(NodeIndex n) const noexcept;
+  // More vertices than this are looked at in the children, if there are any.
+  static constexpr std::size_t kFull = 8;
   // For each axis the children in the lower half, a bit each.
   static constexpr std::array<unsigned, D> kLower = [] {
     std::array<unsigned, D> lower{};
@@ -125,66 +171,54 @@ class Quadtree {
     }
     return lower;
   }();
-  static double distance2(const Point<D>& rel, double side) {
-    double d2 = 0;
-    for (int i = 0; i < D; ++i) {
-      const double d = std::max(std::max(rel[i], -(rel[i] + side)), 0.0);
-      d2 += d * d;
-    }
-    return d2;
-  }
-  static double farthest2(const Point<D>& rel, double side) {
-    double d2 = 0;
-    for (int i = 0; i < D; ++i) {
-      const double d = std::max(-rel[i], rel[i] + side);
-      d2 += d * d;
-    }
-    return d2;
-  }
-  // Where a search stands: the path of cells down to the center's leaf, and the shell.
-  struct Search {
-    std::array<Step, kLevels + 1> path;
-    int depth = 0;
-    double inner = -1;  // cells wholly nearer than this were visited before
-    double outer = 0;   // cells beyond this wait for the next shell
-  };
-  static bool in_shell(const Step& s, const Search& search) {
-    return distance2(s.rel, s.side) <= search.outer * search.outer &&
-           (search.inner <= 0 || farthest2(s.rel, s.side) >= search.inner * search.inner);
-  }
-  void find_path(const Point<D>& center, Search& search) const;
-  template <class Enters, class Visit>
-  void visit_shell(const Search& search, Enters&& enters, Visit&& visit) const;
-  template <class Enters, class Visit>
-  void descend(const Step& from, const Search& search, Enters&& enters, Visit&& visit) const;
   // The vertices of a leaf, with their coordinates: a search that is not interested in a vertex
-  // does not touch its record. Two cache lines in the plane.
+  // does not touch its record. Two cache lines in the plane. Who reads all entries, used or not,
+  // needs no branches, which could not be predicted.
+  static constexpr double kNowhere = std::numeric_limits<double>::infinity();
   struct alignas(64) Bucket {
     std::uint32_t next = 0;  // further bucket of the same leaf; 0: none
     std::uint32_t count = 0;
-    std::array<VertexHandle, 6> handle;
-    std::array<Point<D>, 6> place;
+    Handles handle{};
+    std::array<float, kSlots> reach = filled<std::array<float, kSlots>>(-1.0f);  // a bound
+    Places place = filled<Places>(filled<Point<D>>(kNowhere));
+
+    void clear(std::uint32_t i) noexcept {
+      handle[i] = 0;
+      reach[i] = -1;
+      place[i] = filled<Point<D>>(kNowhere);
+    }
   };
   using BucketIndex = std::uint32_t;
 
   // Asks memory for what is below a node that will be visited soon.
   void expect(NodeIndex n) const noexcept {
-    if (nodes_[n].child != 0) {
-      __builtin_prefetch(&nodes_[nodes_[n].child]);
+    if (nodes_[n].open() != 0) {
+      __builtin_prefetch(&nodes_[nodes_[n].open()]);
     } else {
-      const auto* bucket = reinterpret_cast<const std::byte*>(&buckets_[nodes_[n].head]);
-      for (std::size_t at = 0; at < sizeof(Bucket); at += 64) __builtin_prefetch(bucket + at);
+      expect_bucket(nodes_[n].head);
     }
+  }
+  void expect_bucket(BucketIndex b) const noexcept {
+    const auto* bucket = reinterpret_cast<const std::byte*>(&buckets_[b]);
+    for (std::size_t at = 0; at < sizeof(Bucket); at += 64) __builtin_prefetch(bucket + at);
   }
   template <class Visit>
   void visit_leaf(NodeIndex n, Visit&& visit) const {
     for (BucketIndex b = nodes_[n].head; b != 0; b = buckets_[b].next) {
       const Bucket& bucket = buckets_[b];
+      expect_bucket(bucket.next);
       for (std::uint32_t i = 0; i < bucket.count; ++i) visit(bucket.handle[i], bucket.place[i]);
     }
   }
   void reserve_buckets(std::size_t more);
-  void put(NodeIndex leaf, VertexHandle h, const Point<D>& p) noexcept;
+  void put(NodeIndex leaf, const Bucket& from, std::uint32_t i) noexcept;
+  // The entry of h in the leaf. Requires: it is there.
+  struct Entry {
+    BucketIndex bucket;
+    std::uint32_t i;
+  };
+  [[nodiscard]] Entry entry(NodeIndex leaf, VertexHandle h) const noexcept;
+  [[nodiscard]] std::size_t held(NodeIndex n) const noexcept;
   [[nodiscard]] BucketIndex new_bucket(BucketIndex next) noexcept;
   // Squared distances along each axis from the origin to the near and the far half of a cell.
   using Halves = std::array<std::array<double, 2>, D>;
@@ -199,7 +233,7 @@ class Quadtree {
     return near2;
   }
   template <class Visit>
-  float reach_below(NodeIndex n, const Point<D>& rel, double side, const Point<D>& p,
+  float reach_below(NodeIndex n, Point<D> rel, double side, const Point<D>& p,
                     Visit& visit) noexcept;
   template <class Visit>
   float reach_in_leaf(NodeIndex n, const Point<D>& p, Visit& visit) noexcept;
@@ -212,7 +246,11 @@ class Quadtree {
   }
   template <class Visit>
   void leaves_below(NodeIndex n, const Cell<D>& cell, Visit& visit) const;
-  float check_below(NodeIndex n, const Cell<D>& cell) const;
+  struct Below {
+    float reach = 0;
+    std::size_t vertices = 0;
+  };
+  Below check_below(NodeIndex n, const Cell<D>& cell, bool visible) const;
 
   const MeshBox<D>& box_;
   VertexPool<D>& vertices_;
@@ -222,6 +260,7 @@ class Quadtree {
   std::vector<BucketIndex> free_buckets_;
   // Cells are computed to within a few units in the last place of the largest coordinate.
   double margin_ = largest(box_) * 0x1p-50;
+  double unit_ = box_.cell_side(kLevels);
 
   static double largest(const MeshBox<D>& box) {
     double m = box.side;

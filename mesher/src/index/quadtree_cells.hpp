@@ -9,11 +9,19 @@
 
 namespace mesher::detail {
 
+// By a quarter, once it is large: what is not used is memory that a trace takes.
+template <int D>
+template <class T>
+void Quadtree<D>::make_room(std::vector<T, LineAllocator<T>>& records, std::size_t more) {
+  const std::size_t size = records.size() + more;
+  const std::size_t room = records.capacity();
+  if (size > room) records.reserve(std::max(size, room < 4096 ? 2 * room : room + room / 4));
+}
+
 // Room for so many splits of cells: memory cannot run out on the way.
 template <int D>
 void Quadtree<D>::reserve_splits(std::size_t splits) {
-  const std::size_t nodes = nodes_.size() + splits * kChildren;
-  if (nodes > nodes_.capacity()) nodes_.reserve(std::max(nodes, 2 * nodes_.capacity()));
+  make_room(nodes_, splits * kChildren);
   free_.reserve(nodes_.capacity() / kChildren + 1);  // so that taking back cannot fail
   // Each child may leave one bucket half empty.
   reserve_buckets(splits * kChildren);
@@ -21,8 +29,7 @@ void Quadtree<D>::reserve_splits(std::size_t splits) {
 
 template <int D>
 void Quadtree<D>::reserve_buckets(std::size_t more) {
-  const std::size_t buckets = buckets_.size() + more;
-  if (buckets > buckets_.capacity()) buckets_.reserve(std::max(buckets, 2 * buckets_.capacity()));
+  make_room(buckets_, more);
   free_buckets_.reserve(buckets_.capacity());  // so that giving back cannot fail
 }
 
@@ -38,18 +45,32 @@ void Quadtree<D>::give_children(NodeIndex n, int level) noexcept {
     free_.pop_back();
   }
   for (int i = 0; i < kChildren; ++i) {
-    nodes_[first + static_cast<NodeIndex>(i)] =
-        Node{.parent_and_mark = n, .reach = nodes_[n].reach};
+    nodes_[first + static_cast<NodeIndex>(i)] = Node{.parent_and_mark = n};
   }
-  nodes_[n].child = first;
+  nodes_[n].child_and_closed = first;
+  held(n) > kFull ? spread(n, level) : nodes_[n].close();
+}
+
+// Opens a cell: its vertices move into the children.
+template <int D>
+void Quadtree<D>::spread(NodeIndex n, int level) noexcept {
+  const NodeIndex first = nodes_[n].child();
+  nodes_[n].child_and_closed = first;
+  for (int i = 0; i < kChildren; ++i) {
+    nodes_[first + static_cast<NodeIndex>(i)].reach = nodes_[n].reach;
+  }
   for (BucketIndex b = std::exchange(nodes_[n].head, 0); b != 0;) {
     const Bucket bucket = buckets_[b];
     free_buckets_.push_back(b);
     for (std::uint32_t i = 0; i < bucket.count; ++i) {
       const int c = MeshBox<D>::child_of(box_.fixed(bucket.place[i]), level);
-      put(first + static_cast<NodeIndex>(c), bucket.handle[i], bucket.place[i]);
+      put(first + static_cast<NodeIndex>(c), bucket, i);
     }
     b = bucket.next;
+  }
+  for (int i = 0; i < kChildren; ++i) {
+    const NodeIndex c = first + static_cast<NodeIndex>(i);
+    if (nodes_[c].child() != 0 && held(c) > kFull) spread(c, level + 1);
   }
 }
 
@@ -64,50 +85,84 @@ typename Quadtree<D>::BucketIndex Quadtree<D>::new_bucket(BucketIndex next) noex
     b = free_buckets_.back();
     free_buckets_.pop_back();
   }
-  buckets_[b].next = next;
-  buckets_[b].count = 0;
+  buckets_[b] = Bucket{.next = next};
   return b;
 }
 
 // Only the first bucket of a leaf may have room.
 template <int D>
-void Quadtree<D>::put(NodeIndex leaf, VertexHandle h, const Point<D>& p) noexcept {
+void Quadtree<D>::put(NodeIndex leaf, const Bucket& from, std::uint32_t i) noexcept {
   const BucketIndex head = nodes_[leaf].head;
-  if (head == 0 || buckets_[head].count == buckets_[head].handle.size()) {
-    nodes_[leaf].head = new_bucket(head);
-  }
+  if (head == 0 || buckets_[head].count == kSlots) nodes_[leaf].head = new_bucket(head);
   Bucket& bucket = buckets_[nodes_[leaf].head];
-  bucket.handle[bucket.count] = h;
-  bucket.place[bucket.count++] = p;
+  bucket.handle[bucket.count] = from.handle[i];
+  bucket.reach[bucket.count] = from.reach[i];
+  bucket.place[bucket.count++] = from.place[i];
 }
 
-// The children's vertices fit into no more buckets than they had.
+// The vertices of the children, which have none below them, fit into no more buckets than they had.
 template <int D>
-void Quadtree<D>::take_children(NodeIndex n) noexcept {
-  const NodeIndex first = std::exchange(nodes_[n].child, 0);
+void Quadtree<D>::gather(NodeIndex n) noexcept {
   for (int i = 0; i < kChildren; ++i) {
-    const NodeIndex c = first + static_cast<NodeIndex>(i);
+    const NodeIndex c = nodes_[n].child() + static_cast<NodeIndex>(i);
     for (BucketIndex b = std::exchange(nodes_[c].head, 0); b != 0;) {
       const Bucket bucket = buckets_[b];
       free_buckets_.push_back(b);
-      for (std::uint32_t k = 0; k < bucket.count; ++k) put(n, bucket.handle[k], bucket.place[k]);
+      for (std::uint32_t k = 0; k < bucket.count; ++k) put(n, bucket, k);
       b = bucket.next;
     }
   }
-  free_.push_back(first);
+}
+
+// The vertices that the cell itself holds.
+template <int D>
+std::size_t Quadtree<D>::held(NodeIndex n) const noexcept {
+  if (nodes_[n].head == 0) return 0;
+  const Bucket& first = buckets_[nodes_[n].head];
+  std::size_t vertices = first.count;
+  for (BucketIndex b = first.next; b != 0; b = buckets_[b].next) vertices += kSlots;
+  return vertices;
+}
+
+// Whether the vertices of an open cell are few enough for it to hold them.
+template <int D>
+bool Quadtree<D>::can_close(NodeIndex n) const noexcept {
+  std::size_t vertices = 0;
+  for (int i = 0; i < kChildren; ++i) {
+    const NodeIndex c = nodes_[n].open() + static_cast<NodeIndex>(i);
+    if (nodes_[c].open() != 0) return false;
+    vertices += held(c);
+  }
+  return vertices <= kFull;
+}
+
+template <int D>
+void Quadtree<D>::take_children(NodeIndex n) noexcept {
+  gather(n);
+  free_.push_back(nodes_[n].child());
+  nodes_[n].child_and_closed = 0;
+}
+
+// How deep cells are subdivided around f.
+template <int D>
+int Quadtree<D>::subdivided(const Fixed<D>& f) const {
+  int depth = 0;
+  for (NodeIndex n = 0; nodes_[n].child() != 0; ++depth) {
+    n = nodes_[n].child() + static_cast<NodeIndex>(MeshBox<D>::child_of(f, depth));
+  }
+  return depth;
 }
 
 template <int D>
 typename Quadtree<D>::NodeIndex Quadtree<D>::mark(const Cell<D>& cell) {
   SAC_EXPECTS(cell.level >= 0 && cell.level < kLevels);
-  int depth = 0;
-  static_cast<void>(leaf_of(cell.corner, &depth));
+  const int depth = subdivided(cell.corner);
   if (depth <= cell.level) reserve_splits(static_cast<std::size_t>(cell.level - depth + 1));
   NodeIndex n = 0;
   for (int level = 0;; ++level) {
-    if (nodes_[n].child == 0) give_children(n, level);
+    if (nodes_[n].child() == 0) give_children(n, level);
     if (level == cell.level) break;
-    n = nodes_[n].child + static_cast<NodeIndex>(MeshBox<D>::child_of(cell.corner, level));
+    n = nodes_[n].child() + static_cast<NodeIndex>(MeshBox<D>::child_of(cell.corner, level));
   }
   nodes_[n].parent_and_mark |= 0x80000000u;
   return n;
@@ -116,38 +171,60 @@ typename Quadtree<D>::NodeIndex Quadtree<D>::mark(const Cell<D>& cell) {
 template <int D>
 void Quadtree<D>::unmark(NodeIndex n) noexcept {
   nodes_[n].parent_and_mark &= 0x7fffffffu;
-  while (!nodes_[n].marked() && nodes_[n].child != 0) {
+  while (!nodes_[n].marked() && nodes_[n].child() != 0) {
     for (int i = 0; i < kChildren; ++i) {
-      if (nodes_[nodes_[n].child + static_cast<NodeIndex>(i)].child != 0) return;
+      if (nodes_[nodes_[n].child() + static_cast<NodeIndex>(i)].child() != 0) return;
     }
     take_children(n);
     n = nodes_[n].parent();
   }
 }
 
+// Should cells open, there is at most a bucket for each vertex.
 template <int D>
 void Quadtree<D>::insert(Vertex<D>& v) {
-  reserve_buckets(1);
-  put(leaf_of(box_.fixed(v.p)), v.self, v.p);
+  reserve_buckets(kFull + 2);
+  int level = 0;
+  const NodeIndex n = leaf_of(box_.fixed(v.p), &level);
+  Bucket one;
+  one.handle[0] = v.self;
+  one.reach[0] = v.reach;
+  one.place[0] = v.p;
+  put(n, one, 0);
+  if (nodes_[n].closed() && held(n) > kFull) spread(n, level);
 }
 
-// The last vertex of the first bucket takes the place of the one that goes.
+template <int D>
+typename Quadtree<D>::Entry Quadtree<D>::entry(NodeIndex leaf, VertexHandle h) const noexcept {
+  for (BucketIndex b = nodes_[leaf].head;; b = buckets_[b].next) {
+    for (std::uint32_t i = 0; i < buckets_[b].count; ++i) {
+      if (buckets_[b].handle[i] == h) return {b, i};
+    }
+  }
+}
+
+// The last vertex of the first bucket takes the place of the one that goes. Then cells above close
+// that have few enough.
 template <int D>
 void Quadtree<D>::erase(Vertex<D>& v) noexcept {
-  Node& leaf = nodes_[leaf_of(box_.fixed(v.p))];
-  Bucket& first = buckets_[leaf.head];
-  for (BucketIndex b = leaf.head; b != 0; b = buckets_[b].next) {
-    Bucket& bucket = buckets_[b];
-    for (std::uint32_t i = 0; i < bucket.count; ++i) {
-      if (bucket.handle[i] != v.self) continue;
-      bucket.handle[i] = first.handle[first.count - 1];
-      bucket.place[i] = first.place[first.count - 1];
-      if (--first.count == 0) {
-        free_buckets_.push_back(leaf.head);
-        leaf.head = first.next;
-      }
-      return;
-    }
+  NodeIndex n = leaf_of(box_.fixed(v.p));
+  const Entry gone = entry(n, v.self);
+  const BucketIndex head = nodes_[n].head;
+  Bucket& first = buckets_[head];
+  Bucket& bucket = buckets_[gone.bucket];
+  --first.count;
+  bucket.handle[gone.i] = first.handle[first.count];
+  bucket.reach[gone.i] = first.reach[first.count];
+  bucket.place[gone.i] = first.place[first.count];
+  first.clear(first.count);
+  if (first.count == 0) {
+    free_buckets_.push_back(head);
+    nodes_[n].head = first.next;
+  }
+  while (n != 0 && can_close(nodes_[n].parent())) {
+    n = nodes_[n].parent();
+    gather(n);
+    nodes_[n].close();
   }
 }
 

@@ -9,33 +9,49 @@ namespace mesher::detail {
 
 template <int D>
 void Quadtree<D>::check_invariants() const {
-  check_below(0, Cell<D>{});
+  check_below(0, Cell<D>{}, true);
   SAC_INVARIANT(free_.capacity() >= nodes_.size() / kChildren - 1);
   SAC_INVARIANT(free_buckets_.capacity() >= buckets_.size() - 1);
 }
 
+// `visible`: all cells above are open.
 template <int D>
-float Quadtree<D>::check_below(NodeIndex n, const Cell<D>& cell) const {
-  float reach = 0;
-  bool below = false;
-  visit_leaf(n, [&](VertexHandle h, const Point<D>& p) {
-    SAC_INVARIANT(vertices_[h].self == h && vertices_[h].p == p);
-    SAC_INVARIANT(MeshBox<D>::cell(box_.fixed(p), cell.level) == cell);
-    reach = std::max(reach, vertices_[h].reach);
-  });
-  if (nodes_[n].child != 0) {
-    SAC_INVARIANT(nodes_[n].head == 0);
-    for (int c = 0; c < kChildren; ++c) {
-      const NodeIndex child = nodes_[n].child + static_cast<NodeIndex>(c);
-      SAC_INVARIANT(nodes_[child].parent() == n);
-      below = below || nodes_[child].child != 0;
-      reach = std::max(reach, check_below(child, child_cell(cell, c)));
+typename Quadtree<D>::Below Quadtree<D>::check_below(NodeIndex n, const Cell<D>& cell,
+                                                     bool visible) const {
+  const Node& node = nodes_[n];
+  Below sum;
+  for (BucketIndex b = node.head; b != 0; b = buckets_[b].next) {
+    const Bucket& bucket = buckets_[b];
+    for (std::uint32_t i = bucket.count; i < kSlots; ++i) {
+      SAC_INVARIANT(bucket.handle[i] == 0 && bucket.reach[i] < 0);
+      SAC_INVARIANT(bucket.place[i] == filled<Point<D>>(kNowhere));
+    }
+    SAC_INVARIANT(bucket.count > 0 && (b == node.head || bucket.count == kSlots));
+    for (std::uint32_t i = 0; i < bucket.count; ++i) {
+      const Vertex<D>& v = vertices_[bucket.handle[i]];
+      SAC_INVARIANT(v.self == bucket.handle[i] && v.p == bucket.place[i]);
+      SAC_INVARIANT(v.reach <= bucket.reach[i]);
+      SAC_INVARIANT(MeshBox<D>::cell(box_.fixed(v.p), cell.level) == cell);
+      sum = {std::max(sum.reach, bucket.reach[i]), sum.vertices + 1};
     }
   }
-  SAC_INVARIANT(nodes_[n].reach >= reach);
-  SAC_INVARIANT(nodes_[n].child == 0 || nodes_[n].marked() || below);
-  SAC_INVARIANT(nodes_[n].child != 0 || !nodes_[n].marked());
-  return reach;
+  SAC_INVARIANT(visible || node.head == 0);
+  SAC_INVARIANT(node.child() != 0 || (!node.closed() && !node.marked()));
+  if (node.child() != 0) {
+    SAC_INVARIANT(node.closed() ? held(n) <= kFull : node.head == 0);
+    bool below = false;
+    for (int c = 0; c < kChildren; ++c) {
+      const NodeIndex child = node.child() + static_cast<NodeIndex>(c);
+      SAC_INVARIANT(nodes_[child].parent() == n);
+      below = below || nodes_[child].child() != 0;
+      const Below b = check_below(child, child_cell(cell, c), visible && !node.closed());
+      sum = {std::max(sum.reach, b.reach), sum.vertices + b.vertices};
+    }
+    SAC_INVARIANT(node.marked() || below);
+    SAC_INVARIANT(node.closed() || sum.vertices > kFull || !visible);
+  }
+  SAC_INVARIANT(!visible || node.reach >= sum.reach);
+  return sum;
 }
 
 template <int D>
@@ -47,9 +63,9 @@ void Quadtree<D>::for_each_leaf(Visit&& visit) const {
 template <int D>
 template <class Visit>
 void Quadtree<D>::leaves_below(NodeIndex n, const Cell<D>& cell, Visit& visit) const {
-  if (nodes_[n].child == 0) return visit(cell);
+  if (nodes_[n].child() == 0) return visit(cell);
   for (int c = 0; c < kChildren; ++c) {
-    leaves_below(nodes_[n].child + static_cast<NodeIndex>(c), child_cell(cell, c), visit);
+    leaves_below(nodes_[n].child() + static_cast<NodeIndex>(c), child_cell(cell, c), visit);
   }
 }
 

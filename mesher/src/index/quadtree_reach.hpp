@@ -12,6 +12,9 @@ namespace mesher::detail {
 template <int D>
 void Quadtree<D>::raise_reach(const Vertex<D>& v) noexcept {
   NodeIndex n = leaf_of(box_.fixed(v.p));
+  const Entry at = entry(n, v.self);
+  float& own = buckets_[at.bucket].reach[at.i];
+  own = std::max(own, v.reach);
   while (nodes_[n].reach < v.reach) {
     nodes_[n].reach = v.reach;
     if (n == 0) return;
@@ -23,9 +26,9 @@ void Quadtree<D>::raise_reach(const Vertex<D>& v) noexcept {
 // what is centred in them.
 template <int D>
 template <class Visit>
-float Quadtree<D>::reach_below(NodeIndex n, const Point<D>& rel, double side, const Point<D>& p,
+float Quadtree<D>::reach_below(NodeIndex n, Point<D> rel, double side, const Point<D>& p,
                                Visit& visit) noexcept {
-  const NodeIndex child = nodes_[n].child;
+  const NodeIndex child = nodes_[n].open();
   if (child == 0) return nodes_[n].reach = reach_in_leaf(n, p, visit);
   const double half = side / 2;
   const Halves near2 = near_halves(rel, half);
@@ -36,12 +39,12 @@ float Quadtree<D>::reach_below(NodeIndex n, const Point<D>& rel, double side, co
     double d2 = 0;
     for (int i = 0; i < D; ++i) d2 += near2[i][c >> i & 1];
     const double bound = nodes_[k].reach * box_.side + margin_;
-    if (d2 <= bound * bound) {
-      entered |= 1u << c;
-      expect(k);
-    } else {
-      reach = std::max(reach, nodes_[k].reach);
-    }
+    const bool enter = d2 <= bound * bound;
+    entered |= static_cast<unsigned>(enter) << c;
+    reach = std::max(reach, enter ? 0 : nodes_[k].reach);
+  }
+  for (unsigned rest = entered; rest != 0; rest &= rest - 1) {
+    expect(child + static_cast<NodeIndex>(std::countr_zero(rest)));
   }
   for (; entered != 0; entered &= entered - 1) {
     const int c = std::countr_zero(entered);
@@ -57,15 +60,25 @@ template <int D>
 template <class Visit>
 float Quadtree<D>::reach_in_leaf(NodeIndex n, const Point<D>& p, Visit& visit) noexcept {
   float reach = 0;
-  visit_leaf(n, [&](VertexHandle h, const Point<D>&) { __builtin_prefetch(&vertices_[h]); });
-  visit_leaf(n, [&](VertexHandle h, const Point<D>& place) {
-    Vertex<D>& v = vertices_[h];
-    double d2 = 0;
-    for (int i = 0; i < D; ++i) d2 += (place[i] - p[i]) * (place[i] - p[i]);
-    const double own = v.reach * box_.side;
-    if (d2 <= own * own) visit(v, d2);
-    reach = std::max(reach, v.reach);
-  });
+  for (BucketIndex b = nodes_[n].head; b != 0; b = buckets_[b].next) {
+    Bucket& bucket = buckets_[b];
+    expect_bucket(bucket.next);
+    unsigned near = 0;  // a bit for each entry
+    for (std::uint32_t i = 0; i < kSlots; ++i) {
+      double d2 = 0;
+      for (int k = 0; k < D; ++k) {
+        d2 += (bucket.place[i][k] - p[k]) * (bucket.place[i][k] - p[k]);
+      }
+      const double bound = bucket.reach[i] * box_.side;
+      near |= static_cast<unsigned>(d2 <= bound * bound) << i;
+    }
+    for (; near != 0; near &= near - 1) {
+      const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
+      bucket.reach[i] = vertices_[bucket.handle[i]].reach;
+      visit(vertices_[bucket.handle[i]], bucket.place[i]);
+    }
+    for (const float r : bucket.reach) reach = std::max(reach, r);
+  }
   return reach;
 }
 

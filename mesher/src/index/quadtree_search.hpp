@@ -1,4 +1,4 @@
-// Searches in the quadtree: around a center in shells of doubling radius, and in a box.
+// Searches in the quadtree, in boxes.
 #pragma once
 
 #include <algorithm>
@@ -9,141 +9,70 @@
 
 namespace mesher::detail {
 
-// Depth first, nearest child first, within the shell.
+// The last cell that holds both places, or the one that holds its vertices.
+template <int D>
+typename Quadtree<D>::Step Quadtree<D>::cell_around(const Fixed<D>& lo, const Fixed<D>& hi) const {
+  std::uint64_t differ = 1;
+  for (int i = 0; i < D; ++i) differ |= lo[i] ^ hi[i];
+  const int common = std::countl_zero(differ) - (64 - kLevels);  // levels at which they agree
+  NodeIndex n = 0;
+  int level = 0;
+  for (; level < common && nodes_[n].open() != 0; ++level) {
+    n = nodes_[n].open() + static_cast<NodeIndex>(MeshBox<D>::child_of(lo, level));
+  }
+  return {n, level, MeshBox<D>::cell(lo, level).corner};
+}
+
+// Depth first. Where vertices lie is rounded to their finest cells as the box is, so that no margin
+// is needed for what is in it; but the box itself is rounded, when it is moved to the center.
 template <int D>
 template <class Enters, class Visit>
-void Quadtree<D>::descend(const Step& from, const Search& search, Enters&& enters,
-                          Visit&& visit) const {
-  std::array<Step, (kLevels + 1) * (kChildren - 1) + 1> stack;
-  std::size_t top = 0;
-  stack[top++] = from;
-  while (top > 0) {
-    const Step s = stack[--top];
-    if (!enters(s.rel, s.side)) continue;
-    const NodeIndex child = nodes_[s.node].child;
-    if (child == 0) {
-      visit_leaf(s.node, visit);
-      continue;
-    }
-    const double half = s.side / 2;
-    // Per axis and half of the cell: squared distance to the near and to the far side.
-    std::array<std::array<double, 2>, D> near2;
-    std::array<std::array<double, 2>, D> far2;
-    int nearest = 0;
-    for (int i = 0; i < D; ++i) {
-      const double low = s.rel[i];
-      const double middle = low + half;
-      const double high = middle + half;
-      const auto square = [](double x) { return x * x; };
-      near2[i] = {square(std::max(std::max(low, -middle), 0.0)),
-                  square(std::max(std::max(middle, -high), 0.0))};
-      far2[i] = {square(std::max(-low, middle)), square(std::max(-middle, high))};
-      nearest |= (middle <= 0 ? 1 : 0) << i;
-    }
-    for (int k = kChildren - 1; k >= 0; --k) {
-      const int c = nearest ^ k;
-      double n2 = 0;
-      double f2 = 0;
-      for (int i = 0; i < D; ++i) n2 += near2[i][c >> i & 1], f2 += far2[i][c >> i & 1];
-      if (n2 > search.outer * search.outer) continue;
-      if (search.inner > 0 && f2 < search.inner * search.inner) continue;
-      Step& t = stack[top++];
-      t.node = child + static_cast<NodeIndex>(c);
-      t.side = half;
-      for (int i = 0; i < D; ++i) t.rel[i] = s.rel[i] + ((c >> i & 1) != 0 ? half : 0);
-    }
-  }
-}
-
-template <int D>
-void Quadtree<D>::find_path(const Point<D>& center, Search& search) const {
-  const Fixed<D> f = box_.fixed(center);
-  Step s{0, {}, box_.side};
-  for (int i = 0; i < D; ++i) s.rel[i] = box_.lo[i] - center[i];
-  for (;; ++search.depth) {
-    search.path[static_cast<std::size_t>(search.depth)] = s;
-    const NodeIndex child = nodes_[s.node].child;
-    if (child == 0) return;
-    const int c = MeshBox<D>::child_of(f, search.depth);
-    s.node = child + static_cast<NodeIndex>(c);
-    s.side /= 2;
-    for (int i = 0; i < D; ++i) s.rel[i] += (c >> i & 1) != 0 ? s.side : 0;
-  }
-}
-
-// From the center's leaf up to the first cell that holds the whole shell, visiting siblings.
-template <int D>
-template <class Enters, class Visit>
-void Quadtree<D>::visit_shell(const Search& search, Enters&& enters, Visit&& visit) const {
-  descend(search.path[static_cast<std::size_t>(search.depth)], search, enters, visit);
-  for (int depth = search.depth; depth > 0; --depth) {
-    const Step& own = search.path[static_cast<std::size_t>(depth)];
-    double inside = own.side;  // distance from the center to the cell's boundary
-    for (int i = 0; i < D; ++i) inside = std::min({inside, -own.rel[i], own.rel[i] + own.side});
-    if (inside >= search.outer) return;
-    const Step& up = search.path[static_cast<std::size_t>(depth - 1)];
-    const NodeIndex first = nodes_[up.node].child;
-    const int c = static_cast<int>(own.node - first);
-    for (int k = 1; k < kChildren; ++k) {
-      const int other = c ^ k;
-      Step t{first + static_cast<NodeIndex>(other), up.rel, own.side};
-      for (int i = 0; i < D; ++i) t.rel[i] += (other >> i & 1) != 0 ? own.side : 0;
-      if (in_shell(t, search)) descend(t, search, enters, visit);
-    }
-  }
-}
-
-template <int D>
-template <class Radius, class Enters, class Visit>
-void Quadtree<D>::visit_around(const Point<D>& center, Radius&& radius, Enters&& enters,
-                               Visit&& visit) const {
-  Search search;
-  find_path(center, search);
-  double bound = radius() + margin_;
-  double shell = kFirstShell * search.path[static_cast<std::size_t>(search.depth)].side;
-  for (;; shell *= 2) {
-    search.outer = std::min(shell, bound);
-    visit_shell(search, enters, [&](VertexHandle h, const Point<D>& p) {
-      if (!visit(h, p)) return;
-      bound = radius() + margin_;
-      search.outer = std::min(search.outer, bound);
-    });
-    if (search.outer >= bound) return;
-    search.inner = search.outer - margin_;
-  }
-}
-
-// Down to the last cell that holds the whole box, then depth first.
-template <int D>
-template <class Enters, class Visit>
-void Quadtree<D>::visit_box(const Point<D>& center, const Point<D>& lo, const Point<D>& hi,
+void Quadtree<D>::visit_box(const Point<D>& center, const Box<D>& box, Looked& looked,
                             Enters&& enters, Visit&& visit) const {
+  Point<D> low;
+  Point<D> high;
+  for (int i = 0; i < D; ++i) {
+    low[i] = center[i] + box.lo[i] - margin_;
+    high[i] = center[i] + box.hi[i] + margin_;
+  }
+  const Fixed<D> lo = box_.fixed(low);
+  const Fixed<D> hi = box_.fixed(high);
   std::array<Step, (kLevels + 1) * (kChildren - 1) + 1> stack;
   std::size_t top = 0;
-  stack[top++] = {0, {}, box_.side};
-  for (int i = 0; i < D; ++i) stack[0].rel[i] = box_.lo[i] - center[i];
+  stack[top++] = cell_around(lo, hi);
   while (top > 0) {
     const Step s = stack[--top];
-    const NodeIndex child = nodes_[s.node].child;
+    const NodeIndex child = nodes_[s.node].open();
+    const std::uint64_t size = std::uint64_t{1} << (kLevels - s.level);
     if (child == 0) {
-      if (enters(s.rel, s.side)) visit_leaf(s.node, visit);
+      if (nodes_[s.node].head == 0 || looked.meets(s.corner, size)) continue;
+      Point<D> rel;
+      for (int i = 0; i < D; ++i) {
+        rel[i] = box_.lo[i] + static_cast<double>(s.corner[i]) * unit_ - center[i];
+      }
+      if (!enters(rel, static_cast<double>(size) * unit_)) continue;
+      for (BucketIndex b = nodes_[s.node].head; b != 0; b = buckets_[b].next) {
+        visit(buckets_[b].handle, buckets_[b].place, buckets_[b].count);
+      }
       continue;
     }
-    const double half = s.side / 2;
+    const std::uint64_t half = size / 2;
     unsigned meets = (1u << kChildren) - 1;  // a bit for each child
     for (int i = 0; i < D; ++i) {
-      const double middle = s.rel[i] + half;
-      if (hi[i] < middle - margin_) meets &= kLower[static_cast<std::size_t>(i)];
-      if (lo[i] > middle + margin_) meets &= ~kLower[static_cast<std::size_t>(i)];
+      const std::uint64_t middle = s.corner[i] + half;
+      if (hi[i] < middle) meets &= kLower[static_cast<std::size_t>(i)];
+      if (lo[i] >= middle) meets &= ~kLower[static_cast<std::size_t>(i)];
     }
     for (; meets != 0; meets &= meets - 1) {
       const int c = std::countr_zero(meets);
       Step& t = stack[top++];
-      t = {child + static_cast<NodeIndex>(c), s.rel, half};
-      for (int i = 0; i < D; ++i) t.rel[i] += (c >> i & 1) != 0 ? half : 0;
+      t = {child + static_cast<NodeIndex>(c), s.level + 1, s.corner};
+      for (int i = 0; i < D; ++i) t.corner[i] += (c >> i & 1) != 0 ? half : 0;
       expect(t.node);
     }
   }
+  looked.lo = lo;
+  looked.hi = hi;
 }
 
 }  // namespace mesher::detail

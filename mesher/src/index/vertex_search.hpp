@@ -1,17 +1,19 @@
 // Looking vertices up: what the index answers, without a history.
 //
-// A cell is searched from its centre's leaf outwards, into the leaves that a gap ball can still
-// enter [L 4.3.3]. It need not start from nothing:
+// A cell is searched near its centre first, in the leaves that a gap ball can still enter
+// [L 4.3.3]. It need not start from nothing:
 //   repair   from what the same question was answered last time, and the vertices that have come
 //            since: only where a neighbour went are there gap balls to be searched;
 //   seeds    from vertices likely to be neighbours: a small cell from the start.
 // Either way the cell is that of the set of vertices that are seen, and of nothing else.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "geometry/voronoi_cell.hpp"
 #include "index/cell_pool.hpp"
@@ -55,6 +57,7 @@ class VertexSearch {
   }
 
  protected:
+  using Tree = Quadtree<2>;
   using Codes = std::span<const VoronoiCell::Code>;
 
   Vertex<2>& add(const Point<2>& p) {
@@ -73,7 +76,7 @@ class VertexSearch {
   CellLoan cut_around(const Vertex<2>& v, double radius, Seen&& seen) const {
     CellLoan cell = cells_.borrow();
     cell->reset(v, radius);
-    search(*cell, seen);
+    finish(*cell, seen);
     return cell;
   }
 
@@ -121,17 +124,24 @@ class VertexSearch {
   template <class Seen>
   Nearest nearest_around(const Vertex<2>& v, Seen&& seen) const {
     Nearest best{0, 4 * box_.side * box_.side};
-    const auto reach = [&] { return std::sqrt(best.distance2); };
     const auto enters = [&](const Point<2>&, double) { return ++visited_, true; };
-    tree_.visit_around(v.p, reach, enters, [&](VertexHandle u, const Point<2>& p) {
-      ++visited_;
+    const auto look = [&](VertexHandle u, const Point<2>& p) {
       const double d2 = distance2(p, v.p);
-      if (u == v.self || d2 > best.distance2 || !seen(u)) return false;
-      if (d2 == best.distance2 && best.handle != 0 && pool_[best.handle].p < p) return false;
+      if (u == v.self || d2 > best.distance2 || !seen(u)) return;
+      if (d2 == best.distance2 && best.handle != 0 && pool_[best.handle].p < p) return;
       best = {u, d2};
-      return true;
-    });
-    return best;
+    };
+    const auto visit = [&](const Tree::Handles& handles, const Tree::Places& places,
+                           std::uint32_t count) {
+      visited_ += count;
+      for (std::uint32_t i = 0; i < count; ++i) look(handles[i], places[i]);
+    };
+    Tree::Looked looked;
+    for (double within = tree_.side_at(v.p) / 2;; within *= 2) {
+      const double r = std::min(within, std::sqrt(best.distance2));
+      tree_.visit_box(v.p, {{-r, -r}, {r, r}}, looked, enters, visit);
+      if (best.distance2 <= within * within || r < within) return best;
+    }
   }
 
   /// Cells and vertices that searches have looked at since this was asked last.
@@ -150,40 +160,82 @@ class VertexSearch {
   Quadtree<2> tree_;
 
  private:
+  struct Met {
+    double distance2;
+    VertexHandle vertex;
+    Point<2> place;
+  };
   [[nodiscard]] auto entered(const VoronoiCell& cell) const {
     return [&, margin = tree_.margin()](const Point<2>& corner, double side) {
       ++visited_;
       return cell.enters(corner, side, margin);
     };
   }
-  // Cuts the cell by what is seen in the gap balls of its open corners, nearest leaves first.
-  template <class Seen>
-  void search(VoronoiCell& cell, Seen&& seen) const {
-    const auto reach = [&] { return 2 * std::sqrt(cell.open2()); };
-    tree_.visit_around(cell.center().p, reach, entered(cell), cutting(cell, seen));
-  }
-  // The same for a compact cell, all at once.
-  template <class Seen>
-  void search_open(VoronoiCell& cell, Seen&& seen) const {
-    const auto [lo, hi] = cell.open_extent();
-    tree_.visit_box(cell.center().p, lo, hi, entered(cell), cutting(cell, seen));
-  }
+  // Cuts the cell by what is seen in the gap balls of its open corners. Where it is not known how
+  // large the cell will be, near vertices come first, the nearest of them first.
   template <class Seen>
   void finish(VoronoiCell& cell, Seen&& seen) const {
-    if (cell.open2() == 0) return;
-    cell.is_compact() ? search_open(cell, seen) : search(cell, seen);
+    const Point<2>& center = cell.center().p;
+    Tree::Looked looked;
+    for (double within = 0; cell.open2() > 0; within *= 2) {
+      const Box<2> gaps = cell.open_extent();
+      const bool all = cell.is_compact();
+      if (!all && within == 0) within = tree_.side_at(center) / 2;
+      meet(cell, all ? gaps : clipped(gaps, within), looked);
+      all ? cut_by_met(cell, seen) : cut_nearest_first(cell, seen);
+      if (all || clipped(gaps, within) == gaps) return;
+    }
+  }
+
+  // Notes who is in reach in the leaves that a gap ball enters. Whether a vertex is in reach cannot
+  // be predicted: all are written down, and those that are not are written over.
+  void meet(const VoronoiCell& cell, const Box<2>& box, Tree::Looked& looked) const {
+    std::size_t count = 0;
+    const auto note = [&, v = cell.center().self, center = cell.center().p,
+                       reach2 = 4 * cell.open2()](const Tree::Handles& handles,
+                                                  const Tree::Places& places, std::uint32_t used) {
+      visited_ += used;
+      if (met_.size() < count + Tree::kSlots) met_.resize(2 * met_.size() + Tree::kSlots);
+      Met* const met = met_.data();
+      for (std::size_t i = 0; i < Tree::kSlots; ++i) {
+        const double d2 = distance2(places[i], center);
+        met[count] = {d2, handles[i], places[i]};
+        count += static_cast<std::size_t>((d2 <= reach2) & (handles[i] != v));
+      }
+    };
+    tree_.visit_box(cell.center().p, box, looked, entered(cell), note);
+    met_count_ = count;
   }
   template <class Seen>
-  [[nodiscard]] auto cutting(VoronoiCell& cell, Seen& seen) const {
-    return [&, v = cell.center().self, center = cell.center().p](VertexHandle u,
-                                                                 const Point<2>& p) {
-      ++visited_;
-      if (u == v || !cell.in_reach(distance2(p, center)) || !cell.cuts_open(p) || !seen(u)) {
-        return false;
+  void cut_by(VoronoiCell& cell, const Met& met, Seen& seen) const {
+    if (!cell.has(met.vertex) && cell.cuts_open(met.place) && seen(met.vertex)) {
+      cell.cut(met.vertex);
+    }
+  }
+  template <class Seen>
+  void cut_by_met(VoronoiCell& cell, Seen& seen) const {
+    for (std::size_t i = 0; i < met_count_; ++i) {
+      if (cell.in_reach(met_[i].distance2)) cut_by(cell, met_[i], seen);
+    }
+  }
+  template <class Seen>
+  void cut_nearest_first(VoronoiCell& cell, Seen& seen) const {
+    for (; met_count_ > 0; --met_count_) {
+      std::size_t nearest = 0;
+      double d2 = met_[0].distance2;
+      for (std::size_t i = 1; i < met_count_; ++i) {
+        nearest = met_[i].distance2 < d2 ? i : nearest;
+        d2 = std::min(d2, met_[i].distance2);
       }
-      cell.cut(u);
-      return true;
-    };
+      if (!cell.in_reach(d2)) return;
+      cut_by(cell, met_[nearest], seen);
+      met_[nearest] = met_[met_count_ - 1];
+    }
+  }
+  [[nodiscard]] static Box<2> clipped(Box<2> box, double within) {
+    for (double& x : box.lo) x = std::max(x, -within);
+    for (double& x : box.hi) x = std::min(x, within);
+    return box;
   }
 
   template <class Left>
@@ -194,6 +246,9 @@ class VertexSearch {
   }
 
   mutable CellPool cells_;
+  // Whom a search has met; what lies behind the count is room.
+  mutable std::vector<Met> met_;
+  mutable std::size_t met_count_ = 0;
   mutable std::uint64_t visited_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 
 #include "edit_sequence.hpp"
 #include "naive_quadtree.hpp"
@@ -17,6 +18,7 @@ using mesher::detail::kLevels;
 using mesher::detail::MeshBox;
 using mesher::detail::VertexHandle;
 using support::Cell;
+using Quadtree = mesher::detail::Quadtree<2>;
 
 std::set<Cell> leaves_of(support::TracedWorld& world) {
   std::set<Cell> all;
@@ -71,7 +73,7 @@ TEST_CASE("a search meets every vertex within its radius, in trees of any depth"
     const double far = seed % 3 == 0 ? 0x1p20 : seed % 3 == 1 ? -0x1p33 : 0;
     const MeshBox<2> box{.lo = {far - 1.5, far - 1.5}, .side = 4};
     mesher::detail::VertexPool<2> pool;
-    mesher::detail::Quadtree<2> tree(box, pool);
+    Quadtree tree(box, pool);
     std::vector<mesher::detail::Vertex<2>*> all;
     const auto coordinate = [&] {
       const double cell = std::ldexp(static_cast<double>(random.below(65)) / 16, 0);  // on borders
@@ -101,14 +103,24 @@ TEST_CASE("a search meets every vertex within its radius, in trees of any depth"
                          (p[1] - center->p[1]) * (p[1] - center->p[1]));
       };
       const double radius = distance(other->p);  // a vertex just on the border of the search
-      std::set<VertexHandle> met;
-      tree.visit_around(
-          center->p, [&] { return radius; }, [](const Point<2>&, double) { return true; },
-          [&](VertexHandle h, const Point<2>&) {
-            met.insert(h);
-            return false;
-          });
+      std::multiset<VertexHandle> met;
+      Quadtree::Looked looked;
+      for (const double r : {radius / 7, radius / 3, radius}) {  // what was met is not met again
+        tree.visit_box(
+            center->p, {{-r, -r}, {r, r}}, looked, [](const Point<2>&, double) { return true; },
+            [&](const auto& handles, const auto& places, std::uint32_t count) {
+              for (std::size_t k = 0; k < handles.size(); ++k) {
+                if (k < count) {
+                  met.insert(handles[k]);
+                  REQUIRE(pool[handles[k]].p == places[k]);
+                } else {
+                  REQUIRE((handles[k] == 0 && std::isinf(places[k][0])));
+                }
+              }
+            });
+      }
       for (const auto* v : all) {
+        REQUIRE(met.count(v->self) <= 1);
         if (distance(v->p) <= radius) REQUIRE(met.contains(v->self));
       }
     }
@@ -139,13 +151,13 @@ TEST_CASE("marks taken back leave one cell, and vertices are found all the while
     INFO("seed " << seed);
     SplitMix64 random(seed);
     mesher::detail::VertexPool<2> pool;
-    mesher::detail::Quadtree<2> tree(box, pool);
+    Quadtree tree(box, pool);
     std::vector<mesher::detail::Vertex<2>*> all;
     for (int i = 0; i < 100; ++i) {
       all.push_back(&pool.create({random.unit(), random.unit() * random.unit()}));
       tree.insert(*all.back());
     }
-    std::map<Cell, mesher::detail::Quadtree<2>::NodeIndex> marked;
+    std::map<Cell, Quadtree::NodeIndex> marked;
     for (int i = 0; i < 300; ++i) {
       const auto& p = all[random.below(all.size())]->p;
       const Cell c = MeshBox<2>::cell(box.fixed(p), static_cast<int>(random.below(12)));
@@ -164,5 +176,44 @@ TEST_CASE("marks taken back leave one cell, and vertices are found all the while
     CHECK(leaves == 1);
     for (auto* v : all) tree.erase(*v);
     for (const auto* v : all) REQUIRE(tree.find(v->p) == nullptr);
+  }
+}
+
+TEST_CASE(
+    "a split cell keeps its vertices itself while they are few, and a search meets them once") {
+  const MeshBox<2> box{.lo = {-1.5, -1.5}, .side = 4};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    INFO("seed " << seed);
+    SplitMix64 random(seed);
+    mesher::detail::VertexPool<2> pool;
+    Quadtree tree(box, pool);
+    const auto place = [&] {  // some on top of each other but for the finest cells
+      const double scale = std::ldexp(1, -static_cast<int>(random.below(3) * 12));
+      return Point<2>{scale * random.unit(), scale * random.unit()};
+    };
+    for (int i = 0; i < 20; ++i) {
+      tree.mark(MeshBox<2>::cell(box.fixed(place()), static_cast<int>(random.below(30))));
+    }
+    std::vector<mesher::detail::Vertex<2>*> all;
+    for (int i = 0; i < 400; ++i) {
+      if (all.empty() || random.below(i < 200 ? 4 : 2) != 0) {
+        all.push_back(&pool.create(place()));
+        tree.insert(*all.back());
+        all.back()->reach = static_cast<float>(random.unit());
+        tree.raise_reach(*all.back());
+      } else {
+        std::swap(all[random.below(all.size())], all.back());
+        tree.erase(*all.back());
+        pool.release(*all.back());
+        all.pop_back();
+      }
+      tree.check_invariants();  // which cells are open, and that bounds are bounds
+      std::size_t met = 0;
+      Quadtree::Looked looked;
+      tree.visit_box(
+          {0, 0}, {{-4, -4}, {4, 4}}, looked, [](const Point<2>&, double) { return true; },
+          [&](const auto&, const auto&, std::uint32_t count) { met += count; });
+      REQUIRE(met == all.size());
+    }
   }
 }
