@@ -178,6 +178,8 @@ class Agenda final : public WorkQueue {
 
   // post.cpp
   void post_call(Scope& s, const Key& key, const Asked& asked);
+  [[nodiscard]] Handle find_posted(const Key& key, const Asked& asked);
+  [[nodiscard]] static bool has_key(const Call& call, const Key& key);
   Handle create(const Key& key, const Asked& asked);
   void add_waiting(Handle call);
   Handle outside_post(const Key& key, const Asked& asked);

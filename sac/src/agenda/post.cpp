@@ -17,13 +17,14 @@ void Agenda::post_call(Scope& s, const Key& key, const Asked& asked) {
   const std::uint16_t number = core_.number_of(asked.function);
   const auto repeats = [&](const PostEdge& edge) {
     const Call& c = *core_.at<Call>(edge.target);
-    return c.function_number == number && asked.function.equal(c, asked.arguments);
+    return c.function_number == number && asked.function.equal(c, asked.arguments) &&
+           (!core_.undoing() || has_key(c, key));
   };
   // Not found among so many, it is made anew: the old one goes with the others.
   constexpr std::size_t kMost = 64;
   PostEdge* edge = s.recall<PostEdge>(id_, kPost, repeats, kMost);
   const bool known = edge != nullptr && !core_.at<Call>(edge->target)->dead();
-  Handle h = known ? edge->target : core_.find_posted(asked, id_);
+  Handle h = known ? edge->target : find_posted(key, asked);
   const bool fresh = h == 0;
   if (fresh) h = create(key, asked);
   Call& posted = *core_.at<Call>(h);
@@ -48,6 +49,19 @@ void Agenda::post_call(Scope& s, const Key& key, const Asked& asked) {
   add_post(*edge, h);
 }
 
+// The call of this label; in a roll-back only if it has this key: what the failed propagation has
+// posted at another one is there until those who posted it are gone.
+Handle Agenda::find_posted(const Key& key, const Asked& asked) {
+  return core_.find_posted(asked, [&](const Call& c) {
+    return c.work_queue == id_ && (!core_.undoing() || has_key(c, key));
+  });
+}
+
+bool Agenda::has_key(const Call& call, const Key& key) {
+  const Slot& slot = Slot::of(call);
+  return slot.rank == key.rank() && slot.order == key.order;
+}
+
 Handle Agenda::create(const Key& key, const Asked& asked) {
   const std::uint32_t rank = key.rank();
   const Handle h = core_.new_call(asked);
@@ -70,8 +84,7 @@ void Agenda::add_waiting(Handle call) {
 // --- What is refused -------------------------------------------------------------------------
 
 void Agenda::require_key(const Call& call, const Key& key) const {
-  const Slot& slot = Slot::of(call);
-  if (slot.rank == key.rank() && slot.order == key.order) return;
+  if (has_key(call, key)) return;
   throw UsageError("agenda '" + name_ + "': " + Engine::describe(call) +
                    " is posted at two keys: a key must be a function of the call's function and "
                    "arguments");
@@ -103,7 +116,7 @@ void Agenda::require_unused() const {
 
 // Returns the post, which is in no call's list.
 Handle Agenda::outside_post(const Key& key, const Asked& asked) {
-  Handle h = core_.find_posted(asked, id_);
+  Handle h = find_posted(key, asked);
   if (h != 0) require_key(*core_.at<Call>(h), key);
   const Handle post = engine_.arena().allocate(sizeof(PostEdge));
   ::new (core_.at<void>(post)) PostEdge();
@@ -132,7 +145,8 @@ void Agenda::drop_outside(Handle post) noexcept {
 
 // One of the outside's posts of the call.
 Handle Agenda::require_posted(const Asked& asked) const {
-  const Handle h = core_.find_posted(asked, id_);
+  const Handle h =
+      core_.find_posted(asked, [&](const Call& c) { return c.work_queue == id_; });
   Handle post = h != 0 ? Slot::of(*core_.at<Call>(h)).posts : 0;
   while (post != 0 && post_at(post).poster != 0) post = post_at(post).next_post;
   if (post != 0) return post;

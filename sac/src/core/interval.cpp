@@ -171,14 +171,6 @@ void Core::insert_call(Handle call) {
 
 // --- Posted calls ----------------------------------------------------------------------------
 
-Handle Core::find_posted(const Asked& asked, std::uint8_t queue) {
-  const std::uint16_t number = number_of(asked.function);
-  return memo_.find(asked.hash, [&](const Call& c) {
-    return c.function_number == number && !c.dead() && c.work_queue == queue &&
-           asked.function.equal(c, asked.arguments);
-  });
-}
-
 void Core::place(Handle call, Handle after) {
   give_place(call, linked(after) ? after : now_);
   enqueue(*at<Call>(call));

@@ -209,8 +209,15 @@ class Core {
   // A posted call is made (Life::waiting), gets its place or is run at once, and is discarded when
   // its turn comes and nobody asks for it (Slot::posts). Call::work_queue says whose it is.
 
-  /// The call of this label on the work queue; 0 if there is none.
-  [[nodiscard]] Handle find_posted(const Asked& asked, std::uint8_t queue);
+  /// The call of this label that `fits(call)`; 0 if there is none.
+  template <class Fits>
+  [[nodiscard]] Handle find_posted(const Asked& asked, Fits&& fits) {
+    const std::uint16_t number = number_of(asked.function);
+    return memo_.find(asked.hash, [&](const Call& c) {
+      return c.function_number == number && !c.dead() && fits(c) &&
+             asked.function.equal(c, asked.arguments);
+    });
+  }
   /// A call that waits. Throws: std::bad_alloc, and what copying arguments throws.
   Handle new_call(const Asked& asked);
   /// Gives a call that waits its place, right behind time stamp `after`, or now if that is not in
