@@ -23,7 +23,8 @@ namespace {
 
 class PolyReader {
  public:
-  PolyReader(const std::string& path, std::string_view content) : lines_(path, content) {
+  PolyReader(const std::string& path, std::string_view content, PointsBeside beside)
+      : lines_(path, content), beside_(beside) {
     out_.file = out_.point_file = path;
   }
 
@@ -41,8 +42,9 @@ class PolyReader {
     const text::Line& line = next_header("points");
     const NodeHeader header = read_node_header(line, 2);
     read_rows(lines_, header, out_);
-    const std::string beside = text::with_extension(out_.file, ".node");
-    if (header.count == 0 && std::filesystem::exists(beside)) read_points_beside(beside);
+    if (header.count > 0 || beside_ == PointsBeside::ignore) return;
+    const std::string path = text::with_extension(out_.file, ".node");
+    if (std::filesystem::exists(path)) read_points_beside(path);
   }
 
   void read_points_beside(const std::string& path) {
@@ -158,14 +160,15 @@ class PolyReader {
 
   PslgFile out_;
   text::FieldLines lines_;
+  PointsBeside beside_;
   NoteCounter notes_;
 };
 
 }  // namespace
 
-PslgFile read_poly(const std::string& path) {
+PslgFile read_poly(const std::string& path, PointsBeside beside) {
   const std::string content = text::read_file(path);
-  return PolyReader(path, content).read();
+  return PolyReader(path, content, beside).read();
 }
 
 }  // namespace mesher

@@ -93,7 +93,7 @@ PslgFile read_points_alone(const std::string& path) {
 
 PslgFile read_any(const std::string& path) {
   const std::string extension = text::extension(path);
-  if (extension == ".poly") return read_poly(path);
+  if (extension == ".poly") return read_poly(path, PointsBeside::read);
   if (extension == ".geojson" || extension == ".json") return read_geojson(path);
   if (extension == ".obj") return read_obj_lines(path);
   if (extension == ".vtu") return read_vtu_lines(path);

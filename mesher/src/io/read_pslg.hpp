@@ -11,8 +11,11 @@
 
 namespace mesher {
 
+/// What becomes of a `.node` file beside a `.poly` file without points.
+enum class PointsBeside : std::uint8_t { read, ignore };
+
 /// Throws: Error as read_pslg, but ids and ends are not looked at.
-[[nodiscard]] PslgFile read_poly(const std::string& path);
+[[nodiscard]] PslgFile read_poly(const std::string& path, PointsBeside beside);
 /// Throws: Error as read_pslg; ids and ends are right by the way they come about.
 [[nodiscard]] PslgFile read_geojson(const std::string& path);
 [[nodiscard]] PslgFile read_obj_lines(const std::string& path);

@@ -123,8 +123,8 @@ class TriangleFiles {
 
   // A .poly file with points of its own is an input, not a part of this mesh.
   void read_segments(const std::string& path) {
-    const PslgFile poly = read_poly(path);
-    if (poly.point_file == path && !poly.pslg.points.empty()) {
+    const PslgFile poly = read_poly(path, PointsBeside::ignore);
+    if (!poly.pslg.points.empty()) {
       notes_.add("a .poly file with points of its own is no part of the mesh", {path});
       return;
     }

@@ -22,9 +22,6 @@ class Base64 {
     ready_.erase(0, count);
     return taken;
   }
-  // Skips what padding leaves of a run.
-  void end_run() { ready_.clear(); }
-  [[nodiscard]] bool padded() const { return padded_; }
 
  private:
   void decode() {
@@ -42,7 +39,6 @@ class Base64 {
       bits |= static_cast<std::uint32_t>(value);
       ++kept;
     }
-    padded_ = kept < 4;
     for (int i = 0; i < kept - 1; ++i) ready_ += static_cast<char>(bits >> (16 - 8 * i) & 0xff);
   }
 
@@ -57,7 +53,6 @@ class Base64 {
   const text::Source& source_;
   std::string_view rest_;
   std::string ready_;
-  bool padded_ = false;
 };
 
 std::string read_raw(const text::Source& source, std::string_view text, std::size_t header,
@@ -88,7 +83,6 @@ std::string read_block(const text::Source& source, std::string_view text, bool r
   if (raw) return read_raw(source, text, header, encoding.big_endian);
   Base64 bytes(source, text);
   const std::uint64_t size = read_bits(bytes.take(header).data(), header, encoding.big_endian);
-  if (bytes.padded()) bytes.end_run();
   return bytes.take(size);
 }
 
