@@ -112,10 +112,12 @@ enum class MeshFiles : std::uint8_t {
 /// - `.vtu` and `.vtk` (VTK, ParaView): ASCII, z = 0, cells are the triangles, then the edges of
 ///   MeshFeatures as lines; point data kind, origin, marker; cell data region, marker, line, and
 ///   has_line (1 where the line is known);
-/// - `.msh` (Gmsh 4.1): ASCII, z = 0; each region and each marker of edges that is not 0 is a
-///   physical group, named `region V` or `marker M`, with that number if all are positive integers,
-///   else numbered upward from 1;
-/// - `.mesh` (Medit): dimension 2; references are markers, and regions by the same rule (0 stays 0);
+/// - `.msh` (Gmsh 4.1): ASCII, z = 0; each region and each marker of edges is a physical group,
+///   named `region V` or `marker M`. Its number is that value if all are integers from 1 to
+///   2^31 - 2, else they are numbered upward from 1; 0 is numbered last, and is no group if no
+///   other value is there;
+/// - `.mesh` (Medit): dimension 3, z = 0; references are regions, and markers of vertices and edges,
+///   as such numbers; 0 stays 0;
 /// - `.off` (Geomview): z = 0, triangles alone; `.obj` (Wavefront): z = 0, and the edges as lines;
 /// - `.svg`: a picture, see svg.hpp; its coordinates are rounded.
 ///

@@ -1,7 +1,8 @@
 // Writes `.msh` files (Gmsh, version 4.1, ASCII), nodes and elements numbered from 1, z = 0.
 //
 // Gmsh keeps elements in entities, and names groups of entities. Here each region is a surface, and
-// each marker of edges a curve; the nodes, in their order, are all of the first surface.
+// each marker of edges a curve; the nodes, in their order, are all of the first surface. If there is
+// a group, every entity is in one: readers take a file without groups, or all of it in groups.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -32,6 +33,10 @@ class MshWriter {
       : mesh_(mesh), features_(features), file_(file) {
     collect_triangles();
     collect_edges();
+    if (has_groups()) {
+      group_rest(curves_, "marker 0");
+      group_rest(surfaces_, "region 0");
+    }
   }
 
   void write() {
@@ -44,7 +49,7 @@ class MshWriter {
 
  private:
   void collect_triangles() {
-    const GroupNumbers numbers(features_.regions);
+    const GroupNumbers<double> numbers(features_.regions);
     std::map<double, std::vector<std::vector<std::uint32_t>>> by_region;
     for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
       const auto& t = mesh_.simplices[i];
@@ -61,13 +66,29 @@ class MshWriter {
   void collect_edges() {
     std::map<std::int64_t, std::vector<std::vector<std::uint32_t>>> by_marker;
     for (const MeshEdge& e : features_.edges) by_marker[e.marker].push_back({e.low, e.high});
-    const bool as_they_are = by_marker.empty() || (by_marker.begin()->first >= 0 &&
-                                                   by_marker.rbegin()->first <= INT32_MAX);
-    std::int32_t next = 0;
+    std::vector<std::int64_t> markers;
+    for (const auto& [marker, edges] : by_marker) markers.push_back(marker);
+    const GroupNumbers<std::int64_t> numbers(markers);
     for (auto& [marker, edges] : by_marker) {
       const std::string name = marker == 0 ? "" : "marker " + std::to_string(marker);
-      if (marker != 0) next = as_they_are ? static_cast<std::int32_t>(marker) : next + 1;
-      add_entity({kCurve, kLine, name, next, {}, std::move(edges)});
+      add_entity({kCurve, kLine, name, numbers.of(marker), {}, std::move(edges)});
+    }
+  }
+
+  [[nodiscard]] bool has_groups() const {
+    std::size_t groups = 0;
+    for_each_entity([&](const Entity& e, std::size_t) { groups += e.group.empty() ? 0 : 1; });
+    return groups > 0;
+  }
+
+  // What has no group yet gets the number above all others.
+  static void group_rest(std::vector<Entity>& entities, const char* name) {
+    std::int32_t highest = 0;
+    for (const Entity& e : entities) highest = std::max(highest, e.number);
+    for (Entity& e : entities) {
+      if (!e.group.empty()) continue;
+      e.group = name;
+      e.number = highest + 1;
     }
   }
 
