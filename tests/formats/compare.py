@@ -118,7 +118,8 @@ def compare_medit(check, mesh, truth):
 
 
 def compare_triangles(check, mesh, truth):
-    check.cells("triangles", [t for t, _ in rows(mesh, "triangle")], [t for t, _ in truth.triangles])
+    check.cells("triangles", [t for t, _ in rows(mesh, "triangle")],
+                [t for t, _ in truth.triangles])
 
 
 BY_MESHIO = {".vtu": compare_vtk, ".vtk": compare_vtk, ".msh": compare_msh, ".mesh": compare_medit,

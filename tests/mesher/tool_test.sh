@@ -273,7 +273,7 @@ END
 printf '4 2 0 0\n0 0 0\n1 1 0\n2 1 1\n3 0 1\n' >square.1.node
 printf '2 3 1\n0 0 1 2 7\n1 0 2 3 7\n' >square.1.ele
 expect 0 'segments    ok      4 segments' check square.1.node --input square.poly
-expect 0 'note        square.poly:14: a region with one value' check square.1.node \
+expect 0 'note        square.poly:13: a region with one value' check square.1.node \
   --input square.poly
 printf '2 3 1\n0 0 1 2 8\n1 0 2 3 8\n' >square.1.ele
 refuse 1 'regions' check square.1.node --input square.poly

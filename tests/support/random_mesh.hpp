@@ -17,7 +17,8 @@ struct MeshValues {
   bool any_marker = true;  ///< else small positive integers
 };
 
-/// A valid mesh of (n+1)^2 vertices; its edges are of the mesh, no array is all 0. Requires: n >= 1.
+/// A valid mesh of (n+1)^2 vertices; its edges are of the mesh, no array is all 0. Requires: n
+/// >= 1.
 [[nodiscard]] inline mesher::MeshData random_mesh(std::uint32_t n, mesher::SplitMix64& random,
                                                   MeshValues values = {}) {
   using mesher::FeatureId;

@@ -11,9 +11,9 @@
 //   (6) euler: vertices - edges + triangles = 1. With (1) to (5) the triangles tile the box;
 //   or else
 //   (5') overlap: no two triangles overlap. The edges with one triangle, each with its triangle on
-//       the left, wind round every place once or not at all, and meet at vertices alone. With (1) to
-//       (4) this is exact: as many triangles cover a place as those edges wind round it;
-//   (6') boundary, if asked: the edges with one triangle are on lines or on the bounding box's sides;
+//       the left, wind round every place once or not at all, and meet at vertices alone. With (1)
+//       to (4) this is exact: as many triangles cover a place as those edges wind round it;
+//   (6') boundary, if asked: the edges with one triangle are on lines or sides of the bounding box;
 //   (7) delaunay: no edge has the opposite corner of one triangle inside the other's circumcircle;
 //       edges on lines are left to conforming, if there are lines;
 //   (8) input, if asked: every input point is a vertex, bit for bit, or, unless the mesh is to fill

@@ -116,8 +116,8 @@ enum class MeshFiles : std::uint8_t {
 ///   named `region V` or `marker M`. Its number is that value if all are integers from 1 to
 ///   2^31 - 2, else they are numbered upward from 1; 0 is numbered last, and is no group if no
 ///   other value is there;
-/// - `.mesh` (Medit): dimension 3, z = 0; references are regions, and markers of vertices and edges,
-///   as such numbers; 0 stays 0;
+/// - `.mesh` (Medit): dimension 3, z = 0; references are regions, and markers of vertices and of
+///   edges, as such numbers; 0 stays 0;
 /// - `.off` (Geomview): z = 0, triangles alone; `.obj` (Wavefront): z = 0, and the edges as lines;
 /// - `.svg`: a picture, see svg.hpp; its coordinates are rounded.
 ///

@@ -16,9 +16,9 @@ namespace mesher {
 
 /// An edge of a mesh that lies on a line of the input, or on the boundary; low < high.
 struct MeshEdge {
-  std::uint32_t low = 0, high = 0;   ///< vertices
-  std::optional<FeatureId> line{};   ///< the segment or polyline; nothing if none or not known
-  std::int64_t marker = 0;           ///< of the line, or of the boundary
+  std::uint32_t low = 0, high = 0;  ///< vertices
+  std::optional<FeatureId> line{};  ///< the segment or polyline; nothing if none or not known
+  std::int64_t marker = 0;          ///< of the line, or of the boundary
   friend bool operator==(const MeshEdge&, const MeshEdge&) = default;
 };
 

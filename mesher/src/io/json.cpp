@@ -75,9 +75,9 @@ class Builder {
     const auto at = std::min(std::max<std::size_t>(position, 1) - 1, source_.content().size());
     const std::string said = error.what();
     const auto reason = said.find("syntax error");
-    fail(reason == std::string::npos ? "a number beyond the range of a double"
-                                     : said.substr(reason),
-         source_.content().substr(at));
+    fail(
+        reason == std::string::npos ? "a number beyond the range of a double" : said.substr(reason),
+        source_.content().substr(at));
   }
 
   JsonValue take() { return std::move(root_.values.front()); }
@@ -154,8 +154,8 @@ JsonValue read_json(const text::Source& source) {
   std::size_t read = 0;
   Builder builder(source, &read);
   const char* const begin = source.content().data();
-  nlohmann::json::sax_parse(Watched(begin, &read),
-                            Watched(begin + source.content().size(), &read), &builder);
+  nlohmann::json::sax_parse(Watched(begin, &read), Watched(begin + source.content().size(), &read),
+                            &builder);
   return builder.take();
 }
 

@@ -15,9 +15,9 @@ namespace mesher {
 struct JsonValue {
   enum class Kind : std::uint8_t { null, boolean, number, string, array, object };
   Kind kind = Kind::null;
-  std::string_view at;            ///< its first character; of a number all; of a string the last quote
-  std::string name;               ///< in an object: the member's name
-  std::string text;               ///< of a string
+  std::string_view at;  ///< its first character; of a number all; of a string the last quote
+  std::string name;     ///< in an object: the member's name
+  std::string text;     ///< of a string
   std::vector<JsonValue> values;  ///< of an array or object
 
   /// The member of this name, or nullptr. Requires: an object.

@@ -1,4 +1,5 @@
-// Notes on what a file holds that is not used: one for each kind of thing, with how many there were.
+// Notes on what a file holds that is not used: one for each kind of thing, with how many there
+// were.
 #pragma once
 
 #include <algorithm>

@@ -16,8 +16,8 @@
 namespace mesher {
 namespace {
 
-constexpr std::string_view kNoted[] = {"vt",     "vn",     "vp", "g",  "o", "s",
-                                       "usemtl", "mtllib", "mg", "lod"};
+constexpr std::string_view kNoted[] = {"vt", "vn",     "vp",     "g",  "o",
+                                       "s",  "usemtl", "mtllib", "mg", "lod"};
 
 class ObjReader {
  public:
@@ -46,9 +46,7 @@ class ObjReader {
       throw line.error(ErrorCode::wrong_count, "a vertex is 'v x y [z]'", line.size());
     }
     const bool input = rule_ == CoordinateRule::input;
-    const auto number = [&](std::size_t i) {
-      return input ? line.coordinate(i) : line.finite(i);
-    };
+    const auto number = [&](std::size_t i) { return input ? line.coordinate(i) : line.finite(i); };
     require_plane(line, line.size() > 3 ? line.finite(3) : 0);
     for (std::size_t i = 4; i < line.size(); ++i) (void)line.finite(i);
     if (line.size() > 4) notes_.add("a weight or colour is not used", line.place(4));
@@ -60,20 +58,20 @@ class ObjReader {
   void require_plane(const text::Line& line, double z) {
     if (!z_) z_ = z;
     if (z == *z_) return;
-    throw line.error(ErrorCode::bad_dimension,
-                     "z is not the same everywhere: " + text::to_text(z) + ", at first " +
-                         text::to_text(*z_),
-                     3);
+    throw line.error(
+        ErrorCode::bad_dimension,
+        "z is not the same everywhere: " + text::to_text(z) + ", at first " + text::to_text(*z_),
+        3);
   }
 
   void read_element(const text::Line& line) {
     const char kind = line[0].front();
     const std::size_t least = kind == 'p' ? 1 : kind == 'l' ? 2 : 3;
     if (line.size() < 1 + least) {
-      throw line.error(ErrorCode::wrong_count,
-                       "'" + std::string(1, kind) + "' names " + std::to_string(least) +
-                           " vertices or more",
-                       line.size());
+      throw line.error(
+          ErrorCode::wrong_count,
+          "'" + std::string(1, kind) + "' names " + std::to_string(least) + " vertices or more",
+          line.size());
     }
     ObjFile::Element element{kind, {}, line.position(0)};
     for (std::size_t i = 1; i < line.size(); ++i) element.vertices.push_back(vertex_at(line, i));

@@ -1,4 +1,5 @@
-// The statements of an `.obj` file (Wavefront) in the plane, for the readers of lines and of meshes.
+// The statements of an `.obj` file (Wavefront) in the plane, for the readers of lines and of
+// meshes.
 #pragma once
 
 #include <cstdint>

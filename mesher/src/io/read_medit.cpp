@@ -14,14 +14,15 @@ namespace mesher {
 namespace {
 
 // Lists that say more of vertices, edges or triangles than we keep; numbers a row.
-constexpr std::pair<std::string_view, int> kNoted[] = {
-    {"Corners", 1},       {"RequiredVertices", 1}, {"Ridges", 1},  {"RequiredEdges", 1},
-    {"RequiredTriangles", 1}};
+constexpr std::pair<std::string_view, int> kNoted[] = {{"Corners", 1},
+                                                       {"RequiredVertices", 1},
+                                                       {"Ridges", 1},
+                                                       {"RequiredEdges", 1},
+                                                       {"RequiredTriangles", 1}};
 
 class MeditReader {
  public:
-  explicit MeditReader(const text::Source& source)
-      : source_(source), fields_(source.content()) {}
+  explicit MeditReader(const text::Source& source) : source_(source), fields_(source.content()) {}
 
   MeshData read() {
     if (const auto word = next(); word != "MeshVersionFormatted") {
@@ -129,9 +130,10 @@ class MeditReader {
     for (auto left = take_count(word); left > 0; --left) {
       const std::uint32_t a = take_vertex(word), b = take_vertex(word), c = take_vertex(word);
       if (a == b || b == c || c == a) {
-        throw source_.error(ErrorCode::bad_mesh, "triangle " +
-                                std::to_string(mesh_.simplices.size() + 1) +
-                                " has the same corner twice", word);
+        throw source_.error(
+            ErrorCode::bad_mesh,
+            "triangle " + std::to_string(mesh_.simplices.size() + 1) + " has the same corner twice",
+            word);
       }
       mesh_.simplices.push_back({a, b, c});
       mesh_.features.regions.push_back(static_cast<double>(take_integer(word)));

@@ -145,10 +145,10 @@ class PolyReader {
 
   static void require_header(const text::Line& line, std::size_t most) {
     if (line.size() <= most) return;
-    throw line.error(ErrorCode::bad_header,
-                     std::to_string(line.size()) + " numbers, expected " + std::to_string(most) +
-                         " at most",
-                     most);
+    throw line.error(
+        ErrorCode::bad_header,
+        std::to_string(line.size()) + " numbers, expected " + std::to_string(most) + " at most",
+        most);
   }
 
   static void require_fields(const text::Line& line, std::size_t least, std::size_t most) {

@@ -53,8 +53,7 @@ void require_distinct_ids(const PslgFile& f) {
   require_distinct(named("point", f.pslg.points, [&](auto i) { return f.place_of_point(i); }));
   require_distinct(named("hole", f.pslg.holes, [&](auto i) { return f.place_of_hole(i); }));
   require_distinct(named("region", f.pslg.regions, [&](auto i) { return f.place_of_region(i); }));
-  Named lines =
-      named("segment", f.pslg.segments, [&](auto i) { return f.place_of_segment(i); });
+  Named lines = named("segment", f.pslg.segments, [&](auto i) { return f.place_of_segment(i); });
   const Named more =
       named("polyline", f.pslg.polylines, [&](auto i) { return f.place_of_polyline(i); });
   lines.ids.insert(lines.ids.end(), more.ids.begin(), more.ids.end());
@@ -150,8 +149,8 @@ void PslgBuilder::add_hole(const Point<2>& seed, FilePosition position) {
   out_.holes.push_back(position);
 }
 
-void PslgBuilder::add_region(const Point<2>& seed, double attribute,
-                             std::optional<double> max_area, FilePosition position) {
+void PslgBuilder::add_region(const Point<2>& seed, double attribute, std::optional<double> max_area,
+                             FilePosition position) {
   const FeatureId id{static_cast<std::int64_t>(out_.pslg.regions.size()) + 1};
   out_.pslg.regions.push_back({id, seed, attribute, max_area});
   out_.regions.push_back(position);

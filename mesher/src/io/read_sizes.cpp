@@ -23,10 +23,9 @@ Rows read_node_sizes(const std::string& path) {
   if (!lines.next()) throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
   const NodeHeader header = read_node_header(lines.line(), 2);
   if (header.attributes != 1) {
-    throw lines.line().error(ErrorCode::bad_header,
-                             std::to_string(header.attributes) +
-                                 " attributes, expected one: the size at each place",
-                             2);
+    throw lines.line().error(
+        ErrorCode::bad_header,
+        std::to_string(header.attributes) + " attributes, expected one: the size at each place", 2);
   }
   Rows rows{{path, {}, {}, {}}, {}};
   while (std::cmp_less(rows.sizes.size(), header.count)) {
@@ -59,8 +58,8 @@ Rows read_any(const std::string& path) {
 }
 
 void require_positive(const Rows& rows) {
-  const auto bad = std::find_if(rows.sizes.begin(), rows.sizes.end(),
-                                [](double h) { return h <= 0; });
+  const auto bad =
+      std::find_if(rows.sizes.begin(), rows.sizes.end(), [](double h) { return h <= 0; });
   if (bad == rows.sizes.end()) return;
   throw Error(ErrorCode::bad_number, "a size of " + text::to_text(*bad) + ": sizes are above 0",
               rows.places.place(static_cast<std::size_t>(bad - rows.sizes.begin())));

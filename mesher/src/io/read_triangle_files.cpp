@@ -32,10 +32,10 @@ class IdTable {
   [[nodiscard]] std::uint32_t at(FeatureId id, const char* what, const Place& place) const {
     const auto row = std::lower_bound(rows_.begin(), rows_.end(), std::pair(id, std::size_t{0}));
     if (row != rows_.end() && row->first == id) return static_cast<std::uint32_t>(row->second);
-    throw Error(ErrorCode::bad_mesh,
-                std::string("no ") + what + " has the id " +
-                    std::to_string(static_cast<std::int64_t>(id)),
-                place, {id});
+    throw Error(
+        ErrorCode::bad_mesh,
+        std::string("no ") + what + " has the id " + std::to_string(static_cast<std::int64_t>(id)),
+        place, {id});
   }
   // Field i of `line` as a vertex.
   [[nodiscard]] std::uint32_t vertex(const text::Line& line, std::size_t i) const {
@@ -144,10 +144,10 @@ class TriangleFiles {
     if (!lines.next()) throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
     const std::int64_t count = read_count(lines.line(), 0);
     if (std::cmp_not_equal(count, mesh_.simplices.size())) {
-      throw lines.line().error(ErrorCode::wrong_count,
-                               std::to_string(count) + " triangles, expected " +
-                                   std::to_string(mesh_.simplices.size()),
-                               0);
+      throw lines.line().error(
+          ErrorCode::wrong_count,
+          std::to_string(count) + " triangles, expected " + std::to_string(mesh_.simplices.size()),
+          0);
     }
     const auto expected = neighbours(mesh_);
     for (std::size_t done = 0; std::cmp_less(done, count); ++done) {

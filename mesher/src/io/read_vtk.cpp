@@ -16,9 +16,9 @@
 namespace mesher {
 namespace {
 
-constexpr std::string_view kIntegers[] = {
-    "bit", "unsigned_char", "char", "unsigned_short", "short", "unsigned_int",
-    "int", "unsigned_long", "long", "vtktypeint64", "vtkidtype"};
+constexpr std::string_view kIntegers[] = {"bit",   "unsigned_char", "char",     "unsigned_short",
+                                          "short", "unsigned_int",  "int",      "unsigned_long",
+                                          "long",  "vtktypeint64",  "vtkidtype"};
 constexpr std::string_view kReals[] = {"float", "double"};
 
 class VtkReader {
@@ -60,7 +60,8 @@ class VtkReader {
     }
     fields_ = text::Fields(rest);
     const std::string_view format = take("ASCII");
-    if (format == "BINARY") fail(ErrorCode::unsupported, "a binary file: write it as ASCII", format);
+    if (format == "BINARY")
+      fail(ErrorCode::unsupported, "a binary file: write it as ASCII", format);
     if (format != "ASCII") fail(ErrorCode::bad_header, "expected ASCII", format);
     expect("DATASET");
     const std::string_view set = take("a data set");
@@ -171,8 +172,8 @@ class VtkReader {
   void begin_data(std::vector<VtkArray>& into, std::size_t expected) {
     const std::string_view word = take("the number of values");
     if (std::cmp_not_equal(source_.integer(word), expected)) {
-      fail(ErrorCode::wrong_count, "data of " + std::string(word) + ", expected " +
-                                       std::to_string(expected), word);
+      fail(ErrorCode::wrong_count,
+           "data of " + std::string(word) + ", expected " + std::to_string(expected), word);
     }
     data_ = &into;
     items_ = expected;
@@ -191,8 +192,8 @@ class VtkReader {
       const std::size_t count = take_count("the number of values");
       array.is_integral = take_is_integral();
       if (array.components == 0 || (data_ != nullptr && count != items_)) {
-        fail(ErrorCode::wrong_count, "an array of " + std::to_string(array.components) + " x " +
-                                         std::to_string(count), at);
+        fail(ErrorCode::wrong_count,
+             "an array of " + std::to_string(array.components) + " x " + std::to_string(count), at);
       }
       for (std::size_t k = 0; k < count; ++k) read_numbers(array, array.components);
       if (data_ != nullptr) data_->push_back(std::move(array));
@@ -226,8 +227,8 @@ class VtkReader {
     grid_.notes.add("METADATA is not used", source_.place(word));
     const auto begin = static_cast<std::size_t>(word.data() - source_.content().data());
     const auto end = source_.content().find("\n\n", begin);
-    fields_ = text::Fields(end == std::string_view::npos ? source_.end()
-                                                         : source_.content().substr(end));
+    fields_ =
+        text::Fields(end == std::string_view::npos ? source_.end() : source_.content().substr(end));
   }
 
   const text::Source& source_;

@@ -67,7 +67,8 @@ class GridMesh {
     }
     throw Error(ErrorCode::unsupported,
                 "cell " + std::to_string(i) + " has the type " +
-                    std::to_string(grid_.types.integers[i]) + ": triangles (5) and lines (3, 4) "
+                    std::to_string(grid_.types.integers[i]) +
+                    ": triangles (5) and lines (3, 4) "
                     "make a mesh",
                 grid_.types.place);
   }
@@ -80,9 +81,8 @@ class GridMesh {
     }
     mesh_.simplices.push_back({v[0], v[1], v[2]});
     if (regions_ == nullptr) return;
-    mesh_.features.regions.push_back(regions_->is_integral
-                                         ? static_cast<double>(regions_->integers[i])
-                                         : regions_->reals[i]);
+    mesh_.features.regions.push_back(
+        regions_->is_integral ? static_cast<double>(regions_->integers[i]) : regions_->reals[i]);
   }
 
   void add_line(std::size_t i, const std::vector<std::uint32_t>& v) {

@@ -22,11 +22,11 @@ struct NumberType {
   std::size_t bytes;
   bool is_integral, is_signed;
 };
-constexpr NumberType kTypes[] = {
-    {"Float64", 8, false, true}, {"Float32", 4, false, true}, {"Int64", 8, true, true},
-    {"UInt64", 8, true, false},  {"Int32", 4, true, true},    {"UInt32", 4, true, false},
-    {"Int16", 2, true, true},    {"UInt16", 2, true, false},  {"Int8", 1, true, true},
-    {"UInt8", 1, true, false}};
+constexpr NumberType kTypes[] = {{"Float64", 8, false, true}, {"Float32", 4, false, true},
+                                 {"Int64", 8, true, true},    {"UInt64", 8, true, false},
+                                 {"Int32", 4, true, true},    {"UInt32", 4, true, false},
+                                 {"Int16", 2, true, true},    {"UInt16", 2, true, false},
+                                 {"Int8", 1, true, true},     {"UInt8", 1, true, false}};
 
 class VtuReader {
  public:
@@ -204,8 +204,9 @@ class VtuReader {
   void decode(const std::string& bytes, const NumberType& type, const XmlElement& element,
               VtkArray& array) const {
     if (bytes.size() % type.bytes != 0) {
-      fail(ErrorCode::wrong_count, std::to_string(bytes.size()) + " bytes of numbers of " +
-                                       std::to_string(type.bytes), element);
+      fail(ErrorCode::wrong_count,
+           std::to_string(bytes.size()) + " bytes of numbers of " + std::to_string(type.bytes),
+           element);
     }
     for (std::size_t i = 0; i < bytes.size(); i += type.bytes) {
       const std::uint64_t bits = read_bits(bytes.data() + i, type.bytes, encoding_.big_endian);
@@ -227,9 +228,8 @@ class VtuReader {
 
   double real_of(std::uint64_t bits, const NumberType& type, std::size_t number,
                  const XmlElement& element) const {
-    const double value = type.bytes == 8
-                             ? std::bit_cast<double>(bits)
-                             : std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+    const double value = type.bytes == 8 ? std::bit_cast<double>(bits)
+                                         : std::bit_cast<float>(static_cast<std::uint32_t>(bits));
     if (std::isfinite(value)) return value;
     fail(ErrorCode::not_finite, "number " + std::to_string(number) + " is not finite", element);
   }

@@ -38,10 +38,10 @@ void add_cell(const VtkGrid& grid, std::size_t i, std::int64_t marker,
   std::vector<FeatureId> points;
   for (const std::uint32_t v : grid.cell(i)) points.push_back(ids[v]);
   if (points.size() < 2 || (type == VtkCell::line && points.size() > 2)) {
-    throw Error(ErrorCode::bad_mesh,
-                "cell " + std::to_string(i) + " is a line of " + std::to_string(points.size()) +
-                    " points",
-                place);
+    throw Error(
+        ErrorCode::bad_mesh,
+        "cell " + std::to_string(i) + " is a line of " + std::to_string(points.size()) + " points",
+        place);
   }
   build.add_line(std::move(points), marker, {place.line, place.column});
 }

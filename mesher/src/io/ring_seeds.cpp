@@ -37,8 +37,7 @@ bool is_inside(const Ring& ring, const Point<2>& p) {
 
 bool answers(const SeedQuestion& question, const Point<2>& p) {
   const auto holds = [&](const Ring* ring) { return is_inside(*ring, p); };
-  return holds(question.outer) &&
-         std::none_of(question.inner.begin(), question.inner.end(), holds);
+  return holds(question.outer) && std::none_of(question.inner.begin(), question.inner.end(), holds);
 }
 
 // Half-way in the widest gap between the heights of the outer ring's corners.

@@ -23,7 +23,6 @@ struct SeedQuestion {
 /// among them. The answer depends on the places alone.
 /// Cost: O((lines + questions) log questions + crossings of the horizontal lines).
 [[nodiscard]] std::vector<std::optional<Point<2>>> find_seeds(
-    const std::vector<SeedQuestion>& questions,
-    const std::vector<std::array<Point<2>, 2>>& lines);
+    const std::vector<SeedQuestion>& questions, const std::vector<std::array<Point<2>, 2>>& lines);
 
 }  // namespace mesher

@@ -24,9 +24,8 @@ void require_offsets(const VtkGrid& grid) {
     const std::int64_t end = grid.offsets.integers[i];
     if (end < before || end > static_cast<std::int64_t>(grid.connectivity.size())) {
       throw Error(ErrorCode::bad_mesh,
-                  "cell " + std::to_string(i) + " ends at " + std::to_string(end) +
-                      ", expected " + std::to_string(before) + " to " +
-                      std::to_string(grid.connectivity.size()),
+                  "cell " + std::to_string(i) + " ends at " + std::to_string(end) + ", expected " +
+                      std::to_string(before) + " to " + std::to_string(grid.connectivity.size()),
                   grid.offsets.place);
     }
     before = end;
@@ -60,8 +59,8 @@ void require_plane(const VtkGrid& grid) {
 }
 
 const VtkArray* find_any(const std::vector<VtkArray>& arrays, std::string_view name) {
-  const auto found = std::find_if(arrays.begin(), arrays.end(),
-                                  [&](const VtkArray& a) { return a.name == name; });
+  const auto found =
+      std::find_if(arrays.begin(), arrays.end(), [&](const VtkArray& a) { return a.name == name; });
   return found == arrays.end() || found->components != 1 ? nullptr : &*found;
 }
 
@@ -76,8 +75,7 @@ const VtkArray* VtkGrid::find(const std::vector<VtkArray>& arrays, std::string_v
   return find_any(arrays, name);
 }
 
-const VtkArray* VtkGrid::find_integers(const std::vector<VtkArray>& arrays,
-                                       std::string_view name) {
+const VtkArray* VtkGrid::find_integers(const std::vector<VtkArray>& arrays, std::string_view name) {
   const VtkArray* const found = find_any(arrays, name);
   return found != nullptr && found->is_integral ? found : nullptr;
 }

@@ -15,7 +15,11 @@ namespace mesher {
 
 /// Cell types of VTK's vtkCellType.h.
 enum class VtkCell : std::uint8_t {
-  vertex = 1, poly_vertex = 2, line = 3, poly_line = 4, triangle = 5
+  vertex = 1,
+  poly_vertex = 2,
+  line = 3,
+  poly_line = 4,
+  triangle = 5
 };
 
 /// Numbers under a name; all integers, or all doubles.
@@ -32,7 +36,7 @@ struct VtkArray {
 
 struct VtkGrid {
   std::string file;
-  VtkArray points;  ///< 3 components, reals
+  VtkArray points;                        ///< 3 components, reals
   VtkArray connectivity, offsets, types;  ///< integers; an offset is a cell's end
   std::vector<VtkArray> point_data, cell_data;
   NoteCounter notes;

@@ -24,7 +24,8 @@ void write_off(const Mesh<2>& mesh, TextFile& file);
 void write_obj(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file);
 
 /// Numbers for formats whose groups are positive integers below 2^31 - 1: 0 stays 0; other values
-/// stay if all are such integers, else they are numbered upward from 1. Value: double or an integer.
+/// stay if all are such integers, else they are numbered upward from 1. Value is double or an
+/// integer.
 template <class Value>
 class GroupNumbers {
  public:

@@ -1,8 +1,8 @@
 // Writes `.msh` files (Gmsh, version 4.1, ASCII), nodes and elements numbered from 1, z = 0.
 //
 // Gmsh keeps elements in entities, and names groups of entities. Here each region is a surface, and
-// each marker of edges a curve; the nodes, in their order, are all of the first surface. If there is
-// a group, every entity is in one: readers take a file without groups, or all of it in groups.
+// each marker of edges a curve; the nodes, in their order, are all of the first surface. If there
+// is a group, every entity is in one: readers take a file without groups, or all of it in groups.
 #include <algorithm>
 #include <map>
 #include <string>

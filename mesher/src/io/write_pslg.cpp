@@ -9,9 +9,7 @@
 namespace mesher {
 namespace {
 
-TextFile& operator<<(TextFile& file, FeatureId id) {
-  return file << static_cast<std::int64_t>(id);
-}
+TextFile& operator<<(TextFile& file, FeatureId id) { return file << static_cast<std::int64_t>(id); }
 
 TextFile& operator<<(TextFile& file, const Point<2>& p) { return file << p[0] << ' ' << p[1]; }
 
@@ -60,8 +58,7 @@ Pslg without_polylines(Pslg pslg) {
   for (const auto& p : pslg.polylines) last = std::max(last, static_cast<std::int64_t>(p.id));
   for (const Pslg::Polyline& line : std::exchange(pslg.polylines, {})) {
     for (std::size_t i = 1; i < line.points.size(); ++i) {
-      pslg.segments.push_back(
-          {FeatureId{++last}, line.points[i - 1], line.points[i], line.marker});
+      pslg.segments.push_back({FeatureId{++last}, line.points[i - 1], line.points[i], line.marker});
     }
   }
   return pslg;

@@ -34,7 +34,9 @@ class XmlReader {
     rest_.remove_prefix(token.size());
     return true;
   }
-  void skip_space() { rest_.remove_prefix(std::min(rest_.find_first_not_of(kSpace), rest_.size())); }
+  void skip_space() {
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(kSpace), rest_.size()));
+  }
   void expect(std::string_view token, const std::string& what) {
     if (!skip(token)) fail(what);
   }

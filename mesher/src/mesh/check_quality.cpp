@@ -97,8 +97,9 @@ Verdict check_quality(const CheckedMesh& mesh, double rho, const std::vector<Lin
     }
     worst = std::max(worst, ratio);
   }
-  const std::string rest = excused == 0 ? "" : ", but " + std::to_string(excused) +
-                                                   " triangles at small angles of the input";
+  const std::string rest =
+      excused == 0 ? ""
+                   : ", but " + std::to_string(excused) + " triangles at small angles of the input";
   return Verdict::good("radius-edge at most " + text::to_text(worst) + rest);
 }
 

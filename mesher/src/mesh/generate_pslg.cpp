@@ -68,12 +68,11 @@ class Plane {
     const auto is_end = [&](Number i) { return i == p_number || i == q_number; };
     const auto [lo, hi] = box(p, q);
     return !any_point(lo, hi, [&](Number i) {
-             return !is_end(i) && squared_distance(points_[i], p, q) < squared(kApart);
-           }) &&
-           !any_piece(lo, hi, [&](const Piece& s) {
-             return is_end(s.a) || is_end(s.b) ? overlaps(s, p, p_number, q)
-                                               : crosses(points_[s.a], points_[s.b], p, q);
-           });
+      return !is_end(i) && squared_distance(points_[i], p, q) < squared(kApart);
+    }) && !any_piece(lo, hi, [&](const Piece& s) {
+      return is_end(s.a) || is_end(s.b) ? overlaps(s, p, p_number, q)
+                                        : crosses(points_[s.a], points_[s.b], p, q);
+    });
   }
 
   Number add(const Point<2>& p) {
@@ -141,12 +140,13 @@ class Plane {
   // Whether the segments ab and pq, which share no end, have a point in common. Exact.
   static bool crosses(const Point<2>& a, const Point<2>& b, const Point<2>& p, const Point<2>& q) {
     const int at_p = orient2d(a, b, p), at_q = orient2d(a, b, q);
-    if (at_p == 0 && at_q == 0) return std::max(std::min(a, b), std::min(p, q)) <=
-                                       std::min(std::max(a, b), std::max(p, q));
+    if (at_p == 0 && at_q == 0)
+      return std::max(std::min(a, b), std::min(p, q)) <= std::min(std::max(a, b), std::max(p, q));
     return at_p * at_q <= 0 && orient2d(p, q, a) * orient2d(p, q, b) <= 0;
   }
 
-  // Whether s, which shares an end with pq, has more of it. The other end of s is tested as a point.
+  // Whether s, which shares an end with pq, has more of it. The other end of s is tested as a
+  // point.
   [[nodiscard]] bool overlaps(const Piece& s, const Point<2>& p, Number p_number,
                               const Point<2>& q) const {
     const bool at_p = s.a == p_number || s.b == p_number;

@@ -53,9 +53,8 @@ std::string vtu(const std::string& points, const std::string& cells, const std::
 }
 
 std::string array(const std::string& type, const std::string& name, const std::string& values) {
-  return "<DataArray type=\"" + type + "\" Name=\"" + name +
-         "\" NumberOfComponents=\"" + (name == "Points" ? "3" : "1") + "\" format=\"ascii\">\n" +
-         values + "\n</DataArray>\n";
+  return "<DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+         (name == "Points" ? "3" : "1") + "\" format=\"ascii\">\n" + values + "\n</DataArray>\n";
 }
 
 const std::string kPoints = array("Float64", "Points", "0 0 0 1 0 0 0 1 0");
@@ -69,7 +68,8 @@ TEST_CASE("random meshes with features read back equal from .node, .vtu and .vtk
   const std::uint64_t seed = GENERATE(1, 2, 3, 4);
   mesher::SplitMix64 random(seed);
   for (int round = 0; round < 15; ++round) {
-    const MeshData mesh = support::random_mesh(1 + static_cast<std::uint32_t>(random.below(6)), random);
+    const MeshData mesh =
+        support::random_mesh(1 + static_cast<std::uint32_t>(random.below(6)), random);
     for (const std::string name : {"m.node", "m.vtu", "m.vtk"}) {
       INFO("seed " << seed << ", round " << round << ", " << name);
       const MeshData copy = back(folder, mesh, name);
@@ -147,8 +147,7 @@ TEST_CASE("coordinates of every magnitude read back bit for bit from all formats
   }
   mesh.features.origins.clear();
   mesh.features.markers.clear();
-  for (const std::string name :
-       {"m.node", "m.vtu", "m.vtk", "m.msh", "m.mesh", "m.off", "m.obj"}) {
+  for (const std::string name : {"m.node", "m.vtu", "m.vtk", "m.msh", "m.mesh", "m.off", "m.obj"}) {
     INFO(name);
     CHECK(same_bits(back(folder, mesh, name).vertices, mesh.vertices));
   }
@@ -156,8 +155,7 @@ TEST_CASE("coordinates of every magnitude read back bit for bit from all formats
 
 TEST_CASE("an empty mesh is written and read in every format") {
   const ScratchFolder folder;
-  for (const std::string name :
-       {"m.node", "m.vtu", "m.vtk", "m.msh", "m.mesh", "m.off", "m.obj"}) {
+  for (const std::string name : {"m.node", "m.vtu", "m.vtk", "m.msh", "m.mesh", "m.off", "m.obj"}) {
     INFO(name);
     const MeshData copy = back(folder, MeshData(), name);
     CHECK(copy == mesher::Mesh<2>());
@@ -185,9 +183,8 @@ TEST_CASE("neighbours are across from the corners, and their file must agree") {
   mesh.simplices = {{0, 1, 2}, {1, 3, 2}};
   mesh.features.regions = {1, 2};
   CHECK(mesher::neighbours(mesh) ==
-        std::vector<std::array<std::uint32_t, 3>>{
-            {1, mesher::kNoTriangle, mesher::kNoTriangle},
-            {mesher::kNoTriangle, 0, mesher::kNoTriangle}});
+        std::vector<std::array<std::uint32_t, 3>>{{1, mesher::kNoTriangle, mesher::kNoTriangle},
+                                                  {mesher::kNoTriangle, 0, mesher::kNoTriangle}});
   mesher::write_mesh(mesh, folder.path("m.node"));
   CHECK(folder.read("m.neigh") == "2 3\n1 2 -1 -1\n2 -1 1 -1\n");
   folder.write("m.neigh", "2 3\n1 2 -1 -1\n2 -1 -1 1\n");
@@ -215,8 +212,7 @@ TEST_CASE("files of Triangle are read: 0-based, attributes, markers, segments, s
 TEST_CASE("binary data of .vtu are read: base64 and raw, inline and appended, either byte order") {
   // Values of the test mesh as meshio and VTK write them: a size, then the bytes.
   const auto encode = [](const std::string& bytes) {
-    const char* const digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const char* const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
       std::uint32_t bits = 0;
@@ -248,21 +244,23 @@ TEST_CASE("binary data of .vtu are read: base64 and raw, inline and appended, ei
   const auto ends = block(std::uint16_t{3});
   const auto types = block(std::int8_t{5});
   const auto regions = block(1.5F);
-  const std::string head = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" "
-                                       "byte_order=\"") +
+  const std::string head = std::string(
+                               "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" "
+                               "byte_order=\"") +
                            (big_endian ? "BigEndian" : "LittleEndian") + "\" header_type=\"" +
                            (wide ? "UInt64" : "UInt32") + "\">\n<UnstructuredGrid>\n" +
                            "<Piece NumberOfPoints=\"3\" NumberOfCells=\"1\">\n";
   enum class Form { inline_together, inline_apart, appended_base64, appended_raw };
-  for (const Form form : {Form::inline_together, Form::inline_apart, Form::appended_base64,
-                          Form::appended_raw}) {
+  for (const Form form :
+       {Form::inline_together, Form::inline_apart, Form::appended_base64, Form::appended_raw}) {
     std::string appended;
     const auto data = [&](const char* type, const char* name, const auto& content) {
       const std::string array = std::string("<DataArray type=\"") + type + "\" Name=\"" + name +
                                 "\" NumberOfComponents=\"" +
                                 (std::string(name) == "Points" ? "3" : "1") + "\" format=\"";
       if (form == Form::inline_together) {
-        return array + "binary\">\n  " + encode(content.first + content.second) + "\n</DataArray>\n";
+        return array + "binary\">\n  " + encode(content.first + content.second) +
+               "\n</DataArray>\n";
       }
       if (form == Form::inline_apart) {
         return array + "binary\">" + encode(content.first) + encode(content.second) +
@@ -338,8 +336,8 @@ TEST_CASE("what is no mesh is refused with the code and the place of the mistake
   const std::string offsets =
       vtu(kPoints, array("Int32", "connectivity", "0 1 2") + array("Int8", "offsets", "4") +
                        array("UInt8", "types", "5"));
-  const std::string kind = vtu(kPoints, kCells,
-                               "<PointData>\n" + array("Int8", "kind", "0 9 0") + "</PointData>\n");
+  const std::string kind =
+      vtu(kPoints, kCells, "<PointData>\n" + array("Int8", "kind", "0 9 0") + "</PointData>\n");
   const std::string msh = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
   struct Case {
     std::string name, content, failure;
@@ -364,14 +362,17 @@ TEST_CASE("what is no mesh is refused with the code and the place of the mistake
       {"m.vtk", "", "bad_header@1:1"},
       {"m.vtk", "# vtk DataFile Version 3.0\nt\nBINARY\n", "unsupported@3:1"},
       {"m.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n", "unsupported@4:9"},
-      {"m.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 2 "
-                "double\n0 0 0 1 0\n",
+      {"m.vtk",
+       "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 2 "
+       "double\n0 0 0 1 0\n",
        "truncated@7:1"},
-      {"m.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 "
-                "double\n0 0 0\nCELLS 1 4\n3 0 0 0\nCELL_TYPES 1\n5\n",
+      {"m.vtk",
+       "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 "
+       "double\n0 0 0\nCELLS 1 4\n3 0 0 0\nCELL_TYPES 1\n5\n",
        "bad_mesh@7:1"},
-      {"m.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 "
-                "double\n0 0 0\nCELLS 1 3\n3 0 0 0\n",
+      {"m.vtk",
+       "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 "
+       "double\n0 0 0\nCELLS 1 3\n3 0 0 0\n",
        "wrong_count@7:1"},
       {"m.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nVECTORS v\n",
        "unsupported@5:1"},
@@ -385,8 +386,7 @@ TEST_CASE("what is no mesh is refused with the code and the place of the mistake
       {"m.msh", msh + "$Nodes\n1 2 1 2\n2 1 0 2\n1\n2\n0 0 0\n1 0 9\n$EndNodes\n",
        "bad_dimension@10:5"},
       {"m.msh", msh + "$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n", "bad_mesh@7:3"},
-      {"m.msh", msh + "$Elements\n1 1 1 1\n2 1 3 1\n1 1 2 3 4\n$EndElements\n",
-       "unsupported@6:5"},
+      {"m.msh", msh + "$Elements\n1 1 1 1\n2 1 3 1\n1 1 2 3 4\n$EndElements\n", "unsupported@6:5"},
       {"m.msh", msh + "nodes\n", "bad_syntax@4:1"},
       {"m.mesh", "", "bad_header@1:1"},
       {"m.mesh", "MeshVersionFormatted 2\nVertices\n1\n", "bad_header@2:1"},
@@ -444,4 +444,63 @@ TEST_CASE("a picture shows regions in their colours and edges on lines above the
   CHECK(at("fill=\"#fde3cf\"") < at("stroke=\"#3b5b7c\""));
   CHECK(at("stroke=\"#3b5b7c\"") < at("stroke=\"#14283c\""));
   CHECK(std::count(text.begin(), text.end(), 'L') == 2 * 2 + 5 + 1);
+}
+
+TEST_CASE("files with random mistakes are read or refused with a place, never anything else") {
+  const ScratchFolder folder;
+  const std::uint64_t seed = GENERATE(1, 2, 3);
+  mesher::SplitMix64 random(seed);
+  const MeshData mesh = support::random_mesh(2, random);
+  const std::string shape =
+      "{\"type\": \"Polygon\", \"coordinates\": "
+      "[[[0,0],[9,0],[9,9],[0,0]],[[2,1],[4,1],[4,2],[2,1]]]}";
+  folder.write("shape.geojson", shape);
+  folder.write("shape.poly",
+               "3 2 1 1\n1 0 0 1 1\n2 1 0 2 2\n3 0 1 3 3\n2 1\n1 1 2 4\n2 2 3 5\n1\n"
+               "1 4 4\n1\n1 3 3 1 0.5\n");
+  std::vector<std::string> names{"shape.geojson", "shape.poly"};
+  for (const char* extension : {".node", ".vtu", ".vtk", ".msh", ".mesh", ".off", ".obj"}) {
+    mesher::write_mesh(mesh, folder.path(std::string("mesh") + extension));
+    names.push_back(std::string("mesh") + extension);
+  }
+  for (const char* beside : {"mesh.ele", "mesh.edge", "mesh.poly", "mesh.neigh"}) {
+    names.push_back(beside);
+  }
+  const std::string pieces[] = {"-1", "0", "7", "1e400", "nan", "99999999999", "#",  "\n", " ",
+                                "x",  "<", ">", "]",     "{",   "\"",          "\0", "$",  "/"};
+  for (const std::string& name : names) {
+    const std::string good = folder.read(name);
+    for (int round = 0; round < 300; ++round) {
+      std::string bad = good;
+      for (auto changes = 1 + random.below(3); changes > 0; --changes) {
+        const std::size_t at = random.below(bad.size() + 1);
+        const std::size_t length = random.below(2) == 0 ? 0 : random.below(6);
+        const std::string& piece = pieces[random.below(std::size(pieces))];
+        switch (random.below(3)) {
+          case 0:
+            bad.resize(at);
+            break;
+          case 1:
+            bad.replace(at, std::min(length, bad.size() - at), piece);
+            break;
+          default:
+            bad.erase(at, length);
+        }
+      }
+      folder.write(name, bad);
+      INFO("seed " << seed << ", " << name << ":\n" << bad);
+      try {
+        if (name.substr(0, 5) == "shape") {
+          (void)mesher::read_pslg(folder.path(name));
+        } else {
+          const bool is_part = name == "mesh.edge" || name == "mesh.poly" || name == "mesh.neigh";
+          (void)mesher::read_mesh(folder.path(is_part ? "mesh.node" : name));
+        }
+      } catch (const mesher::Error& error) {
+        CHECK(error.place().file.substr(0, 1) == "/");
+        CHECK(mesher::exit_code(error.code()) == mesher::ExitCode::format);
+      }
+    }
+    folder.write(name, good);
+  }
 }

@@ -112,10 +112,9 @@ TEST_CASE("a .poly file is read with markers, attributes, holes, regions, commen
                          "1 3 3 -2.5 -1\n"
                          "2 3 1 4\n");
   const Pslg& pslg = file.pslg;
-  CHECK(pslg.points == std::vector<Pslg::Vertex>{{id(0), {0, 0}, 7},
-                                                 {id(-1), {4, 0}, 8},
-                                                 {id(2), {4, 4}, -9},
-                                                 {id(3), {0, 4}, 0}});
+  CHECK(pslg.points ==
+        std::vector<Pslg::Vertex>{
+            {id(0), {0, 0}, 7}, {id(-1), {4, 0}, 8}, {id(2), {4, 4}, -9}, {id(3), {0, 4}, 0}});
   CHECK_FALSE(std::signbit(pslg.points[3].at[0]));
   CHECK(pslg.attributes_per_point == 1);
   CHECK(pslg.attributes == std::vector<double>{0.5, 1.5, 2.5, 3.5});
@@ -138,8 +137,7 @@ TEST_CASE("a .poly file without points takes those of the .node file beside it")
   const ScratchFolder folder;
   folder.write("a.node", "2 2 0 1\n7 1 2 3\n8 4 5 6\n");
   const auto file = mesher::read_pslg(folder.write("a.poly", "0 2 0 1\n1 0\n1 7 8\n0\n"));
-  CHECK(file.pslg.points ==
-        std::vector<Pslg::Vertex>{{id(7), {1, 2}, 3}, {id(8), {4, 5}, 6}});
+  CHECK(file.pslg.points == std::vector<Pslg::Vertex>{{id(7), {1, 2}, 3}, {id(8), {4, 5}, 6}});
   CHECK(file.place_of_point(1).file == folder.path("a.node"));
   CHECK(file.place_of_segment(0).file == folder.path("a.poly"));
   folder.write("a.node", "2 2 0 1\n7 1 2 3\n8 4 x 6\n");
@@ -292,7 +290,8 @@ TEST_CASE("every geometry of GeoJSON is read, single, as a feature or in a colle
   CHECK(points(read("a.geojson", geometry("MultiPoint", "[[1, 2], [3, 4], [1, 2]]"))) == 2);
   CHECK(read("a.geojson", line).pslg.polylines ==
         std::vector<Pslg::Polyline>{{id(1), ids({1, 2, 3}), 0}});
-  const auto lines = read("a.geojson", geometry("MultiLineString", "[[[0,0],[1,1]],[[1,1],[2,0]]]"));
+  const auto lines =
+      read("a.geojson", geometry("MultiLineString", "[[[0,0],[1,1]],[[1,1],[2,0]]]"));
   CHECK(lines.pslg.segments ==
         std::vector<Pslg::Segment>{{id(1), id(1), id(2), 0}, {id(2), id(2), id(3), 0}});
   const auto both = read("a.geojson", "{\"type\": \"GeometryCollection\", \"geometries\": [" +
@@ -300,16 +299,17 @@ TEST_CASE("every geometry of GeoJSON is read, single, as a feature or in a colle
   CHECK(points(both) == 3);
   CHECK(both.pslg.polylines.front().points == ids({2, 1, 3}));
   const std::string feature =
-      "{\"type\": \"Feature\", \"properties\": {\"marker\": 5, \"name\": \"pier\"}, \"geometry\": " +
+      "{\"type\": \"Feature\", \"properties\": {\"marker\": 5, \"name\": \"pier\"}, "
+      "\"geometry\": " +
       line + "}";
   const auto marked = read("a.geojson", feature);
   CHECK(marked.pslg.polylines.front().marker == 5);
   CHECK(marked.pslg.points.front().marker == 5);
   CHECK(notes_of(marked) == std::vector<std::string>{"the property 'name' is not used"});
-  const auto all = read("a.geojson",
-                        "{\"type\": \"FeatureCollection\", \"bbox\": [0, 0, 1, 1], \"features\": [" +
-                            feature + ",\n" + feature +
-                            ",\n{\"type\": \"Feature\", \"properties\": null, \"geometry\": null}]}");
+  const auto all = read(
+      "a.geojson", "{\"type\": \"FeatureCollection\", \"bbox\": [0, 0, 1, 1], \"features\": [" +
+                       feature + ",\n" + feature +
+                       ",\n{\"type\": \"Feature\", \"properties\": null, \"geometry\": null}]}");
   CHECK(points(all) == 3);
   CHECK(all.pslg.polylines.size() == 2);
   CHECK(all.place_of_polyline(1).line == 2);
@@ -368,8 +368,8 @@ TEST_CASE("seeds lie inside their ring, and no line cuts them off from it") {
       return text + "]";
     };
     const std::string between = is_hole ? ", " : "], [";
-    const auto file =
-        read("a.geojson", geometry("MultiPolygon", "[[" + ring(outer) + between + ring(inner) + "]]"));
+    const auto file = read(
+        "a.geojson", geometry("MultiPolygon", "[[" + ring(outer) + between + ring(inner) + "]]"));
     INFO("round " << round);
     REQUIRE(file.pslg.regions.size() + file.pslg.holes.size() == 2);
     const auto inside = [](const std::vector<Point<2>>& places, const Point<2>& p) {
@@ -413,11 +413,9 @@ TEST_CASE("bad GeoJSON is refused with the code and the place of the mistake") {
       {"a.json", "{\"type\": \"Feature\", \"properties\": {}}", "bad_syntax@1:1"},
       {"a.json", "{\"type\": \"FeatureCollection\", \"features\": [{\"type\": \"Point\"}]}",
        "bad_syntax@1:44"},
-      {"a.json",
-       "{\"type\": \"Feature\", \"geometry\": null, \"properties\": {\"marker\": 1.5}}",
+      {"a.json", "{\"type\": \"Feature\", \"geometry\": null, \"properties\": {\"marker\": 1.5}}",
        "bad_number@1:64"},
-      {"a.json",
-       "{\"type\": \"Feature\", \"geometry\": null, \"properties\": {\"max_area\": 0}}",
+      {"a.json", "{\"type\": \"Feature\", \"geometry\": null, \"properties\": {\"max_area\": 0}}",
        "bad_syntax@1:66"},
   }));
   INFO(refused.content);
@@ -441,8 +439,9 @@ TEST_CASE("a background of sizes is read from .node and .csv") {
   CHECK(node.samples == expected);
   CHECK(node.positions[1].line == 3);
   CHECK(mesher::read_sizes(folder.write("a.csv", "0,0,.5\n1,2,.25\n")).samples == expected);
-  CHECK(mesher::read_sizes(folder.write("b.csv", "h;name;lat;lon\n.5;a;0;0\n.25;b;2;1\n"))
-            .samples == expected);
+  CHECK(
+      mesher::read_sizes(folder.write("b.csv", "h;name;lat;lon\n.5;a;0;0\n.25;b;2;1\n")).samples ==
+      expected);
 }
 
 TEST_CASE("a bad background of sizes is refused with the code and the place of the mistake") {

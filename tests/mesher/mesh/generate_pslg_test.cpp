@@ -77,7 +77,8 @@ TEST_CASE("no family has lines that meet but at ends they share, or points on li
   require_clean(pslg);
   CHECK(pslg == mesher::generate_pslg(family));
   CHECK(lines_of(pslg).size() >= n * 9 / 10);
-  for (const auto& p : pslg.points) CHECK((p.at[0] > 0 && p.at[0] < 1 && p.at[1] > 0 && p.at[1] < 1));
+  for (const auto& p : pslg.points)
+    CHECK((p.at[0] > 0 && p.at[0] < 1 && p.at[1] > 0 && p.at[1] < 1));
 }
 
 TEST_CASE("the families have the lines that they are named for") {
