@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""Writes meshes with write_meshes and compares what meshio and gmsh read with what they are.
+"""Writes meshes with mesh_files and compares what meshio and gmsh read with what they are; has both
+write them again, and compares what mesh_files reads.
 
-    compare.py WRITE_MESHES [FOLDER]
+    compare.py MESH_FILES [FOLDER]
 
-Points must be equal bit for bit, cells, regions and markers equal. Exit code 77: neither meshio nor
+Points must be equal bit for bit (but for what gmsh writes, with 14 digits), cells, regions and
+markers equal. Exit code 77: neither meshio nor
 gmsh is installed; 1: a difference.
 """
 import os
@@ -44,8 +46,12 @@ class Truth:
                 and all(0 <= m < 2**31 - 1 for _, m in self.edges))
 
 
-def bits(value):
-    return struct.unpack("<Q", struct.pack("<d", value))[0]
+def bits(number):
+    return struct.unpack("<Q", struct.pack("<d", number))[0]
+
+
+def value(its_bits):
+    return struct.unpack("<d", struct.pack("<Q", its_bits))[0]
 
 
 class Comparison:
@@ -57,7 +63,7 @@ class Comparison:
             return
         self.failures += 1
         print(f"{self.name}: {what} differ", file=sys.stderr)
-        for a, b in zip(found, expected):
+        for a, b in zip(found, expected) if isinstance(found, list) else ():
             if a != b:
                 print(f"  {a}, expected {b}", file=sys.stderr)
                 break
@@ -160,13 +166,72 @@ def judge_by_gmsh(path, truth, extension):
     return check.failures
 
 
+# How meshio writes: a name, an extension, the format's name and its options.
+MESHIO_WRITES = [("zlib", ".vtu", "vtu", {"compression": "zlib"}),
+                 ("plain", ".vtu", "vtu", {"compression": None}),
+                 ("ascii42", ".vtk", "vtk42", {"binary": False}),
+                 ("ascii51", ".vtk", "vtk51", {"binary": False}),
+                 ("medit", ".mesh", "medit", {"float_fmt": ".17g"})]
+GMSH_WRITES = (".msh", ".mesh", ".vtk")
+
+
+def nearly_equal(points, expected):
+    """Whether all coordinates are, to 13 digits of the largest."""
+    values = [[value(x) for p in of for x in p] for of in (points, expected)]
+    largest = max(map(abs, values[1]), default=0)
+    return len(values[0]) == len(values[1]) and all(
+        abs(a - b) <= 1e-13 * largest for a, b in zip(*values))
+
+
+def judge_our_reading(program, path, truth, exact=True):
+    """What mesh_files says of a file must be the points and cells of `truth`."""
+    check = Comparison(f"mesh_files {path}")
+    subprocess.run([program, "dump", path, path + ".truth"], check=True)
+    ours = Truth(path + ".truth")
+    if exact:
+        check.equal("points", ours.points, truth.points)
+    else:
+        check.equal("points nearly equal", nearly_equal(ours.points, truth.points), True)
+    check.cells("triangles", [t for t, _ in ours.triangles], [t for t, _ in truth.triangles],
+                ordered=False)
+    check.cells("edges", [e for e, _ in ours.edges], [e for e, _ in truth.edges], ordered=False)
+    return check.failures
+
+
+def judge_files_of_meshio(program, stem, truth):
+    failures = 0
+    mesh = meshio.read(stem + ".vtu")
+    mesh.cell_data = {}
+    mesh.point_data = {}
+    for name, extension, form, options in MESHIO_WRITES:
+        path = f"{stem}.meshio_{name}{extension}"
+        meshio.write(path, mesh, form, **options)
+        failures += judge_our_reading(program, path, truth)
+    return failures
+
+
+def judge_files_of_gmsh(program, stem, truth):
+    failures = 0
+    for extension in GMSH_WRITES:
+        path = f"{stem}.gmsh{extension}"
+        gmsh.initialize()
+        gmsh.option.setNumber("General.Verbosity", 0)
+        gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
+        gmsh.option.setNumber("Mesh.SaveAll", 1)
+        gmsh.open(stem + ".msh")
+        gmsh.write(path)
+        gmsh.finalize()
+        failures += judge_our_reading(program, path, truth, exact=False)
+    return failures
+
+
 def main():
     if meshio is None and gmsh is None:
         print("neither meshio nor gmsh is installed")
         return 77
     folder = sys.argv[2] if len(sys.argv) > 2 else tempfile.mkdtemp()
     os.makedirs(folder, exist_ok=True)
-    subprocess.run([sys.argv[1], folder], check=True)
+    subprocess.run([sys.argv[1], "write", folder], check=True)
     failures = judged = 0
     for name in sorted(n[:-6] for n in os.listdir(folder) if n.endswith(".truth")):
         stem = os.path.join(folder, name)
@@ -177,6 +242,12 @@ def main():
         for extension in BY_GMSH if gmsh else ():
             failures += judge_by_gmsh(stem + extension, truth, extension)
             judged += 1
+        if meshio:
+            failures += judge_files_of_meshio(sys.argv[1], stem, truth)
+            judged += len(MESHIO_WRITES)
+        if gmsh:
+            failures += judge_files_of_gmsh(sys.argv[1], stem, truth)
+            judged += len(GMSH_WRITES)
     print(f"{judged} files judged, {failures} differences")
     return 1 if failures else 0
 

@@ -69,9 +69,12 @@ class VtuReader {
     if (root_.name != "VTKFile" || value_of(root_, "type", "") != "UnstructuredGrid") {
       fail(ErrorCode::bad_header, "expected a VTKFile of the type UnstructuredGrid", root_);
     }
-    if (root_.find("compressor") != nullptr) {
-      fail(ErrorCode::unsupported, "compressed data: write them without compression", root_);
+    const std::string_view compressor = value_of(root_, "compressor", "");
+    if (!compressor.empty() && compressor != "vtkZLibDataCompressor") {
+      fail(ErrorCode::unsupported, "data of the " + text::quoted(compressor) + ": use zlib or none",
+           root_);
     }
+    encoding_.compressed = !compressor.empty();
     encoding_.big_endian = value_of(root_, "byte_order", "LittleEndian") == "BigEndian";
     encoding_.wide_headers = value_of(root_, "header_type", "UInt32") == "UInt64";
   }

@@ -1,7 +1,11 @@
-// base64 (RFC 4648) and sizes of blocks.
+// base64 (RFC 4648), sizes of blocks, and compressed pieces.
 #include "io/vtu_data.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "io/inflate.hpp"
 
 namespace mesher {
 namespace {
@@ -55,16 +59,59 @@ class Base64 {
   std::string ready_;
 };
 
-std::string read_raw(const text::Source& source, std::string_view text, std::size_t header,
-                     bool big_endian) {
-  const auto fail = [&] {
-    throw source.error(ErrorCode::truncated, "the data end too early", text);
-  };
-  if (text.size() < header) fail();
-  const std::uint64_t size = read_bits(text.data(), header, big_endian);
-  if (text.size() - header < size) fail();
-  return std::string(text.substr(header, size));
-}
+// Bytes of a text as they are.
+class RawBytes {
+ public:
+  RawBytes(const text::Source& source, std::string_view text) : source_(source), rest_(text) {}
+
+  std::string take(std::uint64_t count) {
+    if (rest_.size() < count) {
+      throw source_.error(ErrorCode::truncated, "the data end too early", rest_);
+    }
+    std::string taken(rest_.substr(0, count));
+    rest_.remove_prefix(count);
+    return taken;
+  }
+
+ private:
+  const text::Source& source_;
+  std::string_view rest_;
+};
+
+// A block from where its bytes come from; `at` is its place.
+template <class Bytes>
+class Block {
+ public:
+  Block(Bytes bytes, const VtuEncoding& encoding, const text::Source& source, std::string_view at)
+      : bytes_(std::move(bytes)), encoding_(encoding), source_(source), at_(at) {}
+
+  std::string read() { return encoding_.compressed ? read_pieces() : bytes_.take(take_size()); }
+
+ private:
+  std::uint64_t take_size() {
+    const std::size_t size = encoding_.wide_headers ? 8 : 4;
+    return read_bits(bytes_.take(size).data(), size, encoding_.big_endian);
+  }
+
+  std::string read_pieces() {
+    const std::uint64_t pieces = take_size(), size = take_size(), last = take_size();
+    std::vector<std::uint64_t> compressed;
+    for (std::uint64_t i = 0; i < pieces; ++i) compressed.push_back(take_size());
+    std::string all;
+    for (std::uint64_t i = 0; i < pieces; ++i) {
+      const bool is_last = i + 1 == pieces && last > 0;
+      const auto piece = inflate(bytes_.take(compressed[i]), is_last ? last : size);
+      if (!piece) throw source_.error(ErrorCode::bad_syntax, "damaged compressed data", at_);
+      all += *piece;
+    }
+    return all;
+  }
+
+  Bytes bytes_;
+  VtuEncoding encoding_;
+  const text::Source& source_;
+  std::string_view at_;
+};
 
 }  // namespace
 
@@ -79,11 +126,8 @@ std::uint64_t read_bits(const char* bytes, std::size_t size, bool big_endian) {
 
 std::string read_block(const text::Source& source, std::string_view text, bool raw,
                        const VtuEncoding& encoding) {
-  const std::size_t header = encoding.wide_headers ? 8 : 4;
-  if (raw) return read_raw(source, text, header, encoding.big_endian);
-  Base64 bytes(source, text);
-  const std::uint64_t size = read_bits(bytes.take(header).data(), header, encoding.big_endian);
-  return bytes.take(size);
+  if (raw) return Block(RawBytes(source, text), encoding, source, text).read();
+  return Block(Base64(source, text), encoding, source, text).read();
 }
 
 }  // namespace mesher

@@ -1,10 +1,12 @@
-// Writes meshes in every format for others to read, and what they are for a comparison.
+// Writes meshes in every format for others to read, and what they are for a comparison; says what
+// a file of others is to us.
 //
-//   write_meshes FOLDER
+//   mesh_files write FOLDER
+//   mesh_files dump FILE TRUTH
 //
 // For each mesh NAME: NAME.node (.ele, ...), .vtu, .vtk, .msh, .mesh, .off, .obj, and NAME.truth:
 // lines `v BITS BITS` (a vertex, its doubles' bits in hexadecimal), `t A B C REGION` (a triangle),
-// `e A B MARKER` (an edge on a line), numbered from 0.
+// `e A B MARKER` (an edge on a line), numbered from 0. `dump` writes the like of FILE to TRUTH.
 #include <bit>
 #include <cstdio>
 #include <fstream>
@@ -51,20 +53,29 @@ MeshData mesh_of_points() {
       mesher::mesh_statically<2>(points, {.domain = mesher::snapped_domain<2>(points)}));
 }
 
+void write_all(const std::string& folder) {
+  mesher::SplitMix64 random(1);
+  write(mesh_of_points(), folder + "points");
+  const support::MeshValues small{.any_region = false, .any_marker = false};
+  for (int i = 0; i < 5; ++i) {
+    const auto size = 1 + static_cast<std::uint32_t>(random.below(12));
+    write(support::random_mesh(size, random, small), folder + "features" + std::to_string(i));
+  }
+  write(support::random_mesh(9, random), folder + "any_values");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) return 2;
-  const std::string folder = std::string(argv[1]) + "/";
-  mesher::SplitMix64 random(1);
+  const std::string command = argc > 1 ? argv[1] : "";
   try {
-    write(mesh_of_points(), folder + "points");
-    const support::MeshValues small{.any_region = false, .any_marker = false};
-    for (int i = 0; i < 5; ++i) {
-      const auto size = 1 + static_cast<std::uint32_t>(random.below(12));
-      write(support::random_mesh(size, random, small), folder + "features" + std::to_string(i));
+    if (command == "write" && argc == 3) {
+      write_all(std::string(argv[2]) + "/");
+    } else if (command == "dump" && argc == 4) {
+      write_truth(mesher::read_mesh(argv[2]), argv[3]);
+    } else {
+      return 2;
     }
-    write(support::random_mesh(9, random), folder + "any_values");
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 1;
