@@ -19,7 +19,8 @@ constexpr int kLongest = 3;            // lines of length 2^3 and more have the 
 constexpr int kShortest = -6;          // those below 2^-6 the least
 constexpr double kLineShare = 0x1p-3;  // a line's width over its length
 constexpr double kDotShare = 0.625;    // a dot's width over the shortest edge at it
-constexpr double kThick = 2;           // an edge on a line over another edge, in width
+constexpr double kThick = 2;           // an edge on a line over another edge, in width,
+constexpr double kLeastOnLine = 0.75;  // and at least so wide: a line stays in sight
 
 // Of regions, in the order of their attributes; then again from the first.
 constexpr const char* kRegionColours[] = {"#dbe9f6", "#fde3cf", "#ddf0dc", "#f6dce6",
@@ -141,15 +142,17 @@ void begin_path(double width, const char* style, Canvas& canvas, TextFile& file)
   file << "\" d=\"";
 }
 
+// Edges as wide as width_of(exponent of their length).
+template <class WidthOf>
 void draw_edges(const Mesh<2>& mesh, const std::vector<Edge>& edges, const char* style,
-                double thickness, Canvas& canvas, TextFile& file) {
+                WidthOf width_of, Canvas& canvas, TextFile& file) {
   ByLength<Edge> shown;
   for (const auto& [a, b] : edges) {
     const Point<2>&p = mesh.vertices[a], &q = mesh.vertices[b];
     if (canvas.shows(p, q)) shown[length_class(canvas.distance(p, q))].push_back({a, b});
   }
   for (const auto& [exponent, lines] : shown) {
-    begin_path(std::ldexp(thickness * kLineShare, exponent), style, canvas, file);
+    begin_path(width_of(exponent), style, canvas, file);
     for (const auto& [a, b] : lines) {
       file << 'M';
       canvas.point(mesh.vertices[a]);
@@ -221,10 +224,15 @@ void write_svg(const Mesh<2>& mesh, const MeshFeatures& features, const SvgView&
   draw_regions(mesh, features.regions, canvas, file);
   fill_triangles(view.coloured, "#ffb347", canvas, file);
   const auto edges = edges_of(mesh);
-  draw_edges(mesh, edges, "stroke=\"#3b5b7c\"", 1, canvas, file);
+  const auto width = [](int exponent) { return std::ldexp(kLineShare, exponent); };
+  const auto width_on_line = [](int exponent) {
+    return std::max(std::ldexp(kThick * kLineShare, exponent), kLeastOnLine);
+  };
+  draw_edges(mesh, edges, "stroke=\"#3b5b7c\"", width, canvas, file);
   std::vector<Edge> on_lines;
   for (const MeshEdge& e : features.edges) on_lines.emplace_back(e.low, e.high);
-  draw_edges(mesh, on_lines, "stroke=\"#14283c\" stroke-linecap=\"round\"", kThick, canvas, file);
+  draw_edges(mesh, on_lines, "stroke=\"#14283c\" stroke-linecap=\"round\"", width_on_line, canvas,
+             file);
   draw_input(mesh, edges, canvas, file);
   file << "</svg>\n";
 }
