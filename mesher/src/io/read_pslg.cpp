@@ -12,8 +12,6 @@ namespace {
 
 std::string id_text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
-using Positions = std::vector<FilePosition>;
-
 // Ids with the places of what they name, to be checked.
 struct Named {
   const char* what;  // "segment"

@@ -39,7 +39,6 @@ class PslgBuilder {
   /// Notes that something is not used.
   void note(const std::string& what, const Place& place) { notes_.add(what, place); }
 
-  [[nodiscard]] const Pslg& pslg() const { return out_.pslg; }
   [[nodiscard]] PslgFile finish();
 
  private:
