@@ -120,8 +120,8 @@ struct PslgFile {
 /// - `.obj` (Wavefront): `v x y [z]`, `l i j ...` (1 is the first point, -1 the last so far), `p`.
 ///   z must be the same everywhere. Names, groups and materials are noted; faces are refused.
 /// - `.vtu` (VTK): vertices, lines and polylines of an unstructured grid in one piece: ASCII,
-///   base64 or raw data, inline or appended, plain or by zlib. z must be the same everywhere. Integer
-///   arrays `marker` are used, others noted; other cells are refused.
+///   base64 or raw data, inline or appended, plain or by zlib. z must be the same everywhere.
+///   Integer arrays `marker` are used, others noted; other cells are refused.
 /// - `.node`, `.xyz`, `.csv`: points alone.
 ///
 /// Throws: Error (cannot_read, unknown_format, bad_header, bad_dimension, bad_number, not_finite,
