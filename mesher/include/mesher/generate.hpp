@@ -82,8 +82,8 @@ struct PslgFamily {
 };
 
 /// Points and lines in the square (0,1)^2: no lines cross, overlap, or touch but at ends they
-/// share, and no point is on a line, by exact tests. Where there is no room, there are fewer than n.
-/// Ids are 1, 2, ... Requires: 0 < angle, and angle * n <= 360 for fan, angle <= 360 for bundle.
+/// share, and no point is on a line, by exact tests. Where there is no room, there are fewer than
+/// n. Ids are 1, 2, ... Requires: 0 < angle, and angle * n <= 360 for fan, angle <= 360 for bundle.
 /// Cost: O(n) for lines of similar length.
 [[nodiscard]] Pslg generate_pslg(const PslgFamily& family);
 
