@@ -65,7 +65,8 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
   add_program_options(command, args);
   command
       .add_option("-o", args.outputs,
-                  "A mesh: .node (with .ele), .vtu, .off or .svg; may be repeated")
+                  "A mesh: .node (with .ele), .vtu, .vtk, .msh, .mesh, .off, .obj or .svg; may be\n"
+                  "repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
   command.add_flag("--static", args.is_static, "Without the engine; the mesh is the same");

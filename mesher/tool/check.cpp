@@ -8,6 +8,7 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "mesher/io.hpp"
+#include "mesher/pslg.hpp"
 
 namespace tool {
 namespace {
@@ -16,6 +17,9 @@ struct CheckArguments {
   std::string mesh;
   std::string input;
   std::string rho;
+  std::string boundary = "auto";
+  std::string max_area;
+  bool constrained = false;
 };
 
 void print_findings(const std::vector<mesher::Finding>& findings) {
@@ -26,16 +30,50 @@ void print_findings(const std::vector<mesher::Finding>& findings) {
   std::fflush(stdout);  // before an error on the other stream
 }
 
+void print_notes(const std::vector<mesher::Note>& notes) {
+  for (const auto& note : notes) {
+    const std::string line = note.place.line > 0 ? ":" + std::to_string(note.place.line) : "";
+    std::printf("  %-12s%s%s: %s\n", "note", note.place.file.c_str(), line.c_str(),
+                note.text.c_str());
+  }
+}
+
+bool has_lines(const mesher::Pslg& graph) {
+  return !graph.segments.empty() || !graph.polylines.empty();
+}
+
+// What the boundary must be: as asked for, else lines if there are any.
+mesher::BoundaryRule boundary_rule(const CheckArguments& args, const mesher::MeshData& mesh,
+                                   const mesher::Pslg& graph) {
+  if (args.boundary == "box") return mesher::BoundaryRule::box;
+  if (args.boundary == "lines") return mesher::BoundaryRule::lines;
+  if (args.boundary == "any") return mesher::BoundaryRule::any;
+  const bool lines = !mesh.features.edges.empty() || has_lines(graph);
+  return lines ? mesher::BoundaryRule::lines : mesher::BoundaryRule::box;
+}
+
+double option_area(const std::string& text) {
+  const double area = option_number("--max-area", text);
+  if (area > 0) return area;
+  throw mesher::Error(mesher::ErrorCode::bad_option, "--max-area " + text + ": must be above 0");
+}
+
 void run_check(const CheckArguments& args) {
-  const mesher::Mesh<2> mesh = mesher::read_mesh(args.mesh);
+  const mesher::MeshData mesh = mesher::read_mesh(args.mesh);
+  mesher::PslgFile graph;
+  if (!args.input.empty()) graph = mesher::read_pslg(args.input);
   mesher::CheckOptions options;
+  options.features = &mesh.features;
+  if (!args.input.empty()) options.graph = &graph;
   if (!args.rho.empty()) options.rho = option_rho(args.rho);
-  std::optional<mesher::PointFile<2>> input;
-  if (!args.input.empty()) input = mesher::read_points<2>(args.input);
-  if (input) options.input = &*input;
+  if (!args.max_area.empty()) options.max_area = option_area(args.max_area);
+  options.boundary = boundary_rule(args, mesh, graph.pslg);
+  options.constrained = args.constrained;
   const auto findings = mesher::check_mesh(mesh, options);
   std::printf("%s: %zu vertices, %zu triangles\n", args.mesh.c_str(), mesh.vertices.size(),
               mesh.simplices.size());
+  print_notes(mesh.notes);
+  print_notes(graph.notes);
   print_findings(findings);
   for (const auto& finding : findings) {
     if (finding.holds) continue;
@@ -49,18 +87,35 @@ void run_check(const CheckArguments& args) {
 void add_check(CLI::App& app) {
   const auto args = std::make_shared<CheckArguments>();
   CLI::App* check = app.add_subcommand("check", "Verifies a mesh, whoever made it.");
-  check->add_option("MESH", args->mesh, "A mesh: .node with .ele beside it, or .off")->required();
-  check->add_option("--input", args->input, "Points that must be vertices, bit for bit");
+  check
+      ->add_option("MESH", args->mesh,
+                   "A mesh: .node with .ele beside it, .vtu, .vtk, .msh, .mesh, .off or .obj")
+      ->required();
+  check->add_option("--input", args->input,
+                    "Points that must be vertices, bit for bit, and lines that must be unions of\n"
+                    "edges: .poly, .geojson, .obj, .vtu, .node, .xyz or .csv");
   check->add_option("--rho", args->rho, "Bound of circumradius over shortest edge");
+  check->add_option("--max-area", args->max_area, "Bound of the area of triangles");
+  check
+      ->add_option("--boundary", args->boundary,
+                   "What bounds the mesh: box, lines (or the box), any; auto: lines if there are "
+                   "any,\n"
+                   "else box")
+      ->check(CLI::IsMember({"auto", "box", "lines", "any"}))
+      ->capture_default_str();
+  check->add_flag("--constrained", args->constrained,
+                  "Edges on lines need not be Delaunay: a constrained triangulation will do");
   check->footer(
-      "Checks that the triangles tile a box without coinciding vertices, that the triangulation "
-      "is\n"
-      "Delaunay (by exact arithmetic), that each point of --input is a vertex, and that no\n"
-      "triangle with a vertex off the box's sides has a radius-edge ratio above --rho.\n"
-      "Exit code 0 if all that holds, 1 if not.\n"
+      "Checks that the triangles do not overlap and fill a box, or what lines enclose; that the\n"
+      "triangulation is Delaunay (by exact arithmetic), first off lines, then on them\n"
+      "(conforming); that each point of --input is a vertex and each line a union of edges;\n"
+      "that regions end at lines and are those of their seeds; and that no triangle has a\n"
+      "radius-edge ratio above --rho, but at small angles of the input.\n"
+      "It says what fails first, and where. Exit code 0 if all that holds, 1 if not.\n"
       "Examples:\n"
       "  mesher check mesh.node --input points.node --rho 1.4142\n"
-      "  mesher check mesh.off");
+      "  mesher check lake.1.node --input lake.poly --rho 1.4142 --max-area 0.01\n"
+      "  mesher check plate.msh --constrained");
   check->callback([args] { run_check(*args); });
 }
 

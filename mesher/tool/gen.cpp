@@ -1,15 +1,22 @@
-// mesher gen: families of points.
+// mesher gen: families of points, and of points and lines.
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "arguments.hpp"
 #include "commands.hpp"
 #include "mesher/generate.hpp"
+#include "mesher/pslg.hpp"
 #include "outputs.hpp"
 
 namespace tool {
 namespace {
+
+using mesher::Error;
+using mesher::ErrorCode;
 
 constexpr std::uint64_t kMostPoints = 1'000'000'000;  // some 40 GB of file
 
@@ -18,23 +25,62 @@ struct GenArguments {
   std::uint64_t n = 0;
   int dimension = 2;
   std::uint64_t seed = 1;
+  std::string angle;
   std::string output;
 };
 
+std::vector<std::string> kinds() {
+  std::vector<std::string> all{"uniform", "gaussian",    "clusters",
+                               "grid",    "line-circle", "spiral"};
+  all.insert(all.end(), mesher::pslg_kind_names().begin(), mesher::pslg_kind_names().end());
+  return all;
+}
+
 template <int D>
-void write_family(const GenArguments& args, mesher::TextFile& file) {
+void write_points(const GenArguments& args, mesher::TextFile& file) {
   const auto kind = mesher::point_kind(args.kind).value();
   mesher::write_points<D>(mesher::generate_points<D>(kind, args.n, args.seed), file);
 }
 
-void run_gen(const GenArguments& args) {
-  if (std::filesystem::path(args.output).extension() != ".node") {
-    throw mesher::Error(mesher::ErrorCode::unknown_format, "points are written to .node",
-                        {args.output});
+mesher::PslgFamily family_of(const GenArguments& args) {
+  mesher::PslgFamily family{mesher::pslg_kind(args.kind).value(), args.n, args.seed, {}};
+  if (args.angle.empty()) return family;
+  const bool is_fan = family.kind == mesher::PslgKind::fan;
+  if (!is_fan && family.kind != mesher::PslgKind::bundle) {
+    throw Error(ErrorCode::bad_option, "--angle is for fan and bundle");
   }
+  const double angle = option_number("--angle", args.angle);
+  const double all = is_fan ? angle * static_cast<double>(args.n) : angle;
+  if (angle <= 0 || all > 360) {
+    throw Error(ErrorCode::bad_option,
+                "--angle " + args.angle + ": must be above 0, and 360 degrees in all at most");
+  }
+  family.angle = angle;
+  return family;
+}
+
+void require_extension(const GenArguments& args, std::vector<std::string> allowed,
+                       const std::string& what) {
+  const std::string extension = std::filesystem::path(args.output).extension().string();
+  if (std::find(allowed.begin(), allowed.end(), extension) != allowed.end()) return;
+  throw Error(ErrorCode::unknown_format, what, {args.output});
+}
+
+void run_gen(const GenArguments& args) {
   Outputs outputs;
-  mesher::TextFile& file = outputs.open(args.output);
-  args.dimension == 2 ? write_family<2>(args, file) : write_family<3>(args, file);
+  if (mesher::point_kind(args.kind)) {
+    require_extension(args, {".node"}, "points are written to .node");
+    if (!args.angle.empty()) throw Error(ErrorCode::bad_option, "--angle is for fan and bundle");
+    mesher::TextFile& file = outputs.open(args.output);
+    args.dimension == 2 ? write_points<2>(args, file) : write_points<3>(args, file);
+  } else {
+    require_extension(args, {".poly", ".obj"}, "points and lines are written to .poly and .obj");
+    if (args.dimension != 2) throw Error(ErrorCode::bad_option, "--dim: lines are in the plane");
+    const mesher::Pslg pslg = mesher::generate_pslg(family_of(args));
+    mesher::TextFile& file = outputs.open(args.output);
+    const bool is_poly = std::filesystem::path(args.output).extension() == ".poly";
+    is_poly ? mesher::write_poly(pslg, file) : mesher::write_obj(pslg, file);
+  }
   outputs.commit();
 }
 
@@ -42,25 +88,36 @@ void run_gen(const GenArguments& args) {
 
 void add_gen(CLI::App& app) {
   const auto args = std::make_shared<GenArguments>();
-  CLI::App* gen = app.add_subcommand("gen", "Writes a family of points to a .node file.");
-  gen->add_option("KIND", args->kind, "uniform, gaussian, clusters, grid, line-circle or spiral")
+  CLI::App* gen = app.add_subcommand("gen", "Writes a family of points, or of points and lines.");
+  gen->add_option("KIND", args->kind,
+                  "Points: uniform, gaussian, clusters, grid, line-circle, spiral. Lines: "
+                  "segments,\n"
+                  "lengths, polylines, trees, corridors, zigzag, fan, bundle")
       ->required()
-      ->check(CLI::IsMember({"uniform", "gaussian", "clusters", "grid", "line-circle", "spiral"}));
-  gen->add_option("--n", args->n, "How many points")
+      ->check(CLI::IsMember(kinds()));
+  gen->add_option("--n", args->n, "How many points; of lines, how many segments")
       ->required()
       ->check(CLI::Range(std::uint64_t{0}, kMostPoints));
   gen->add_option("--dim", args->dimension, "The dimension, 2 or 3")
       ->check(CLI::IsMember({2, 3}))
       ->capture_default_str();
-  gen->add_option("--seed", args->seed, "Other random points for another seed")
+  gen->add_option("--seed", args->seed, "Other random ones for another seed")
       ->capture_default_str();
-  gen->add_option("-o", args->output, "The .node file")->required()->type_name("FILE.node");
+  gen->add_option("--angle", args->angle,
+                  "Degrees: of fan, between neighbours; of bundle, in all")
+      ->type_name("DEGREES");
+  gen->add_option("-o", args->output, "A .node file; of lines, a .poly or .obj file")
+      ->required()
+      ->type_name("FILE");
   gen->footer(
-      "The points are distinct and the same on every machine. grid, line-circle and spiral have\n"
-      "no randomness.\n"
+      "The points are distinct and the same on every machine. Lines do not cross and meet at ends\n"
+      "alone; where there is no room, there are fewer. grid, line-circle, spiral and fan have no\n"
+      "randomness.\n"
       "Examples:\n"
       "  mesher gen gaussian --n 100000 --seed 7 -o g.node\n"
-      "  mesher gen line-circle --n 2000 --dim 3 -o lc.node");
+      "  mesher gen line-circle --n 2000 --dim 3 -o lc.node\n"
+      "  mesher gen trees --n 10000 -o trees.poly\n"
+      "  mesher gen fan --n 2 --angle 0.01 -o wedge.poly");
   gen->callback([args] { run_gen(*args); });
 }
 

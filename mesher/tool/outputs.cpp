@@ -14,15 +14,15 @@ mesher::TextFile& Outputs::open(const std::string& path) {
   return file;
 }
 
-void Outputs::open_mesh(const std::string& path) {
+void Outputs::open_mesh(const std::string& path, mesher::MeshFiles content) {
   const HoldInterrupts hold;
-  writers_.push_back(mesher::open_mesh(files_, path));
+  writers_.push_back(mesher::open_mesh(files_, path, content));
   set_doomed(files_.temporaries());
 }
 
-void Outputs::write(const mesher::Mesh<2>& mesh) {
+void Outputs::write(const mesher::Mesh<2>& mesh, const mesher::MeshFeatures& features) {
   require_uninterrupted();
-  for (const auto& writer : writers_) writer(mesh);
+  for (const auto& writer : writers_) writer(mesh, features);
 }
 
 void Outputs::commit() {

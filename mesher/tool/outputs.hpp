@@ -21,10 +21,10 @@ class Outputs {
   /// Opens a file. Throws: Error (cannot_write, bad_option).
   mesher::TextFile& open(const std::string& path);
   /// Opens a mesh output, by extension. Throws: Error (unknown_format, cannot_write, bad_option).
-  void open_mesh(const std::string& path);
+  void open_mesh(const std::string& path, mesher::MeshFiles content = mesher::MeshFiles::plain);
 
   /// Writes `mesh` to all mesh outputs. Throws: Error (cannot_write, cancelled).
-  void write(const mesher::Mesh<2>& mesh);
+  void write(const mesher::Mesh<2>& mesh, const mesher::MeshFeatures& features = {});
   /// Makes all files appear. Throws: Error (cannot_write, cancelled), and then none has.
   void commit();
 

@@ -31,6 +31,20 @@ refuse 2 'error[bad_option]' gen circle --n 5 -o out/x.node
 refuse 2 'error[bad_option]' gen uniform --n -5 -o out/x.node
 refuse 2 'error[bad_option]' gen uniform --n 5 --dim 4 -o out/x.node
 refuse 2 'out/x.xyz: error[unknown_format]' gen uniform --n 5 -o out/x.xyz
+for kind in segments lengths polylines trees corridors zigzag fan bundle; do
+  expect 0 '' gen "$kind" --n 60 --seed 3 -o "$kind.poly"
+  expect 0 '' gen "$kind" --n 60 --seed 3 -o "$kind.obj"
+  has "$kind.poly" '^[0-9]+ 2 0 0$'
+  has "$kind.obj" '^l 1 2'
+done
+expect 0 '' gen fan --n 2 --angle 0.01 -o wedge.poly
+has wedge.poly '^2 0$'
+refuse 2 'out/x.node: error[unknown_format]' gen trees --n 5 -o out/x.node
+refuse 2 '--angle' gen trees --n 5 --angle 5 -o out/x.poly
+refuse 2 '--angle' gen uniform --n 5 --angle 5 -o out/x.node
+refuse 2 '--angle' gen fan --n 5 --angle 100 -o out/x.poly
+refuse 2 '--angle' gen fan --n 5 --angle 0 -o out/x.poly
+refuse 2 '--dim' gen fan --n 5 --dim 3 -o out/x.poly
 
 echo "== help"
 for command in '' gen mesh edit check; do
@@ -45,9 +59,11 @@ refuse 2 'error[bad_option]' mesh uniform.node --colour red
 echo "== mesh and check"
 for kind in uniform gaussian clusters grid line-circle spiral; do
   expect 0 'vertices' mesh "$kind.node" -o "$kind.mesh.node" -o "$kind.off" -o "$kind.vtu" \
-    -o "$kind.svg" --stats "$kind.json"
-  expect 0 'delaunay' check "$kind.mesh.node" --input "$kind.node" --rho 1.4142
-  expect 0 'delaunay' check "$kind.off" --input "$kind.node" --rho 1.4142
+    -o "$kind.vtk" -o "$kind.msh" -o "$kind.mesh" -o "$kind.mesh.obj" -o "$kind.svg" \
+    --stats "$kind.json"
+  for format in mesh.node mesh.ele off vtu vtk msh mesh mesh.obj; do
+    expect 0 'delaunay' check "$kind.$format" --input "$kind.node" --rho 1.4142
+  done
   expect 0 '' mesh "$kind.node" --static --quiet -o "$kind.static.node" -o "$kind.static.vtu"
   same "$kind.mesh.node" "$kind.static.node"
   same "$kind.mesh.ele" "$kind.static.ele"
@@ -226,7 +242,43 @@ awk 'NR == 1 { print $1 - 1, 3, 0; next } NR != 9' uniform.mesh.ele >holed.ele
 refuse 1 'error[bad_quality]' check holed.node
 refuse 1 'input' check uniform.mesh.node --input spiral.node
 refuse 1 'quality' check uniform.mesh.node --rho 1.02
-refuse 2 'error[unknown_format]' check uniform.vtu
+refuse 2 'error[unknown_format]' check uniform.svg
+refuse 1 'area' check uniform.msh --max-area 1e-9
+refuse 2 '--max-area' check uniform.msh --max-area 0
+refuse 2 'error[bad_option]' check uniform.msh --boundary round
+cat >crossing.poly <<'END'
+2 2 0 0
+1 0.1 0.1
+2 0.9 0.8
+1 0
+1 1 2
+0
+END
+refuse 1 'error[bad_quality]: segments: line 1' check uniform.vtu --input crossing.poly
+cat >square.poly <<'END'
+4 2 0 0
+0 0 0
+1 1 0
+2 1 1
+3 0 1
+4 0
+0 0 1
+1 1 2
+2 2 3
+3 3 0
+0
+1
+0 0.5 0.25 7
+END
+printf '4 2 0 0\n0 0 0\n1 1 0\n2 1 1\n3 0 1\n' >square.1.node
+printf '2 3 1\n0 0 1 2 7\n1 0 2 3 7\n' >square.1.ele
+expect 0 'segments    ok      4 segments' check square.1.node --input square.poly
+expect 0 'note        square.poly:13: a region with one value' check square.1.node \
+  --input square.poly
+printf '2 3 1\n0 0 1 2 8\n1 0 2 3 8\n' >square.1.ele
+refuse 1 'regions' check square.1.node --input square.poly
+printf '1 3 1\n0 0 1 2 7\n' >square.1.ele
+refuse 1 'vertex 4 at (0, 1) is in no triangle' check square.1.node --input square.poly
 
 echo "== failing disk and interrupts leave nothing behind"
 cp uniform.mesh.node out/kept.node

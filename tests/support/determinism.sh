@@ -10,6 +10,7 @@ mkdir -p "$1"
 scratch=$(cd "$1" && pwd)
 jobs=${JOBS:-$(nproc)}
 kinds=(uniform gaussian clusters grid line-circle spiral)
+line_kinds=(segments lengths polylines trees corridors zigzag fan bundle)
 points=400
 
 # A hundred edits of points 1..n near the middle of the first ones: added, moved, removed.
@@ -42,11 +43,15 @@ write_files() {  # TOOLS FOLDER
   write_edits >edits.txt
   for kind in "${kinds[@]}"; do
     "$tool" gen "$kind" --n $points --seed 3 -o "$kind.node"
-    "$tool" mesh "$kind.node" --quiet -o "$kind.out.node" -o "$kind.vtu" -o "$kind.svg"
+    "$tool" mesh "$kind.node" --quiet -o "$kind.out.node" -o "$kind.vtu" -o "$kind.svg" \
+      -o "$kind.vtk" -o "$kind.msh" -o "$kind.mesh" -o "$kind.out.obj"
     "$tool" mesh "$kind.node" --quiet --static -o "$kind.static.node"
     "$tool" mesh "$kind.node" --quiet --rule voronoi-aspect -o "$kind.aspect.node"
     cmp "$kind.out.node" "$kind.static.node"
     cmp "$kind.out.ele" "$kind.static.ele"
+  done
+  for kind in "${line_kinds[@]}"; do
+    "$tool" gen "$kind" --n $points --seed 3 -o "$kind.poly"
   done
   "$tool" edit uniform.node --script edits.txt --quiet -o edited.node
   "$tool" mesh "$source_folder/tests/data/places.node" --quiet -o places.node

@@ -6,20 +6,40 @@
 //   (2) vertices: no two coincide, and each is a corner of a triangle;
 //   (3) orientation: every triangle's corners go round counterclockwise;
 //   (4) edges: each borders one triangle, or two on opposite sides;
+//   then, if the mesh is to fill a box,
 //   (5) hull: the edges with one triangle go round the bounding box once;
 //   (6) euler: vertices - edges + triangles = 1. With (1) to (5) the triangles tile the box;
+//   or else
+//   (5') overlap: no two triangles overlap. The edges with one triangle, each with its triangle on
+//       the left, wind round every place once or not at all, and meet at vertices alone. With (1)
+//       to (4) this is exact: as many triangles cover a place as those edges wind round it;
+//   (6') boundary, if asked: the edges with one triangle are on lines or sides of the bounding box;
 //   (7) delaunay: no edge has the opposite corner of one triangle inside the other's circumcircle;
-//   (8) input, if asked: every input point is a vertex, bit for bit;
+//       edges on lines are left to conforming, if there are lines;
+//   (8) input, if asked: every input point is a vertex, bit for bit, or, unless the mesh is to fill
+//       a box, in no triangle;
 //   (9) quality, if asked: no triangle has a circumradius above rho times its shortest edge (by
-//       more than a rounding, 10^-9 of it).
+//       more than a rounding, 10^-9 of it), those of small input angles aside;
+//   and for meshes with lines
+//   (a) lines: every edge of MeshFeatures is an edge of a triangle;
+//   (b) segments: every segment, and every piece of a polyline, is a union of edges: a path from
+//       end to end, each vertex of which is on it but for rounding (2^-48 of the largest
+//       coordinate), those of MeshFeatures that name the line first. Unless the mesh is to fill a
+//       box, one whose end is no vertex may have its middle in no triangle instead;
+//   (c) conforming: (7) of the edges on lines;
+//   (d) regions: triangles on both sides of an edge that is on no line have the same region; where
+//       seeds are given, that of one of the seeds inside; no triangle holds the seed of a hole;
+//   (e) area, if asked: no triangle is larger than a limit.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "mesher/io.hpp"
-#include "mesher/mesh.hpp"
+#include "mesher/mesh_data.hpp"
+#include "mesher/pslg.hpp"
 
 namespace mesher {
 
@@ -42,10 +62,22 @@ struct Finding {
   std::string detail;  ///< the first violation, or what was looked at
 };
 
+/// What the edges with one triangle must be.
+enum class BoundaryRule : std::uint8_t {
+  box,    ///< the sides of the bounding box
+  lines,  ///< edges on lines, or sides of the bounding box
+  any,    ///< any polygons
+};
+
 /// What to hold a mesh against.
 struct CheckOptions {
   const PointFile<2>* input = nullptr;  ///< checks (8) where given
   std::optional<double> rho{};          ///< checks (9) where given
+  BoundaryRule boundary = BoundaryRule::box;
+  const PslgFile* graph = nullptr;         ///< checks (8), (b) and the seeds of (d) where given
+  const MeshFeatures* features = nullptr;  ///< checks (a), (d), and says which edges are on lines
+  bool constrained = false;                ///< (c) is not asked for
+  std::optional<double> max_area{};        ///< checks (e) where given
 };
 
 /// The properties in order; the list ends early where a property fails that the next ones need.

@@ -1,4 +1,4 @@
-// Families of points for tests and benchmarks, the same on every machine.
+// Families of points, and of points and lines, for tests and benchmarks, the same on every machine.
 //
 // Everything is computed by + - * / and square roots of doubles, which IEEE 754 rounds in one way:
 // no distribution of the standard library, no logarithm or cosine of the C library.
@@ -7,10 +7,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "mesher/mesh.hpp"
+#include "mesher/pslg.hpp"
 
 namespace mesher {
 
@@ -52,5 +54,37 @@ enum class PointKind : std::uint8_t {
 template <int D>
 [[nodiscard]] std::vector<Point<D>> generate_points(PointKind kind, std::size_t n,
                                                     std::uint64_t seed);
+
+/// A family of points and lines. n: how many segments are asked for.
+enum class PslgKind : std::uint8_t {
+  segments,   ///< n segments of length h/5 to h, h = 1 / sqrt(2 n), and as many points
+  lengths,    ///< n segments of lengths that differ by far: 0.3 h u^(-3/4), u uniform
+  polylines,  ///< polylines of 3 to 12 pieces that turn by up to 75 degrees
+  trees,      ///< n/2 segments, and as many at their ends and those of others, at any angle
+  corridors,  ///< n lines from side to side, nearly parallel, some very near to the next
+  zigzag,     ///< a polyline of n pieces, up and down
+  fan,        ///< n segments of one length from one point, `angle` from one to the next
+  bundle,     ///< n segments of lengths 0.3 to 0.8 from one point, within `angle`
+};
+
+/// The word of the tool's command line; nothing for other names.
+[[nodiscard]] std::optional<PslgKind> pslg_kind(std::string_view name);
+/// All such words, in the order of PslgKind.
+[[nodiscard]] const std::vector<std::string>& pslg_kind_names();
+
+/// What to generate.
+struct PslgFamily {
+  PslgKind kind = PslgKind::segments;
+  std::size_t n = 0;
+  std::uint64_t seed = 1;
+  /// Degrees; of fan and bundle. Default: fan 360 / n, bundle 0.05.
+  std::optional<double> angle{};
+};
+
+/// Points and lines in the square (0,1)^2: no lines cross, overlap, or touch but at ends they
+/// share, and no point is on a line, by exact tests. Where there is no room, there are fewer than
+/// n. Ids are 1, 2, ... Requires: 0 < angle, and angle * n <= 360 for fan, angle <= 360 for bundle.
+/// Cost: O(n) for lines of similar length.
+[[nodiscard]] Pslg generate_pslg(const PslgFamily& family);
 
 }  // namespace mesher

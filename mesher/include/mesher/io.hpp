@@ -5,12 +5,14 @@
 //   ... mesh input.points ...
 //   mesher::write_mesh(mesh, "cities.vtu");
 //
+// Graphs of points and lines are read and written by pslg.hpp.
+//
 // Guarantees:
 //   (1) what is not exactly as described here is an Error with file, line and column, and nothing
 //       half-read is returned;
 //   (2) no memory is set aside on the word of a header;
 //   (3) what is written is a function of the mesh alone, byte for byte;
-//   (4) coordinates in .node, .off and .vtu read back bit for bit;
+//   (4) coordinates read back bit for bit, from all formats but .svg;
 //   (5) an output file appears whole, at the end, or not at all (output_files.hpp).
 //
 // Text is ASCII or UTF-8; lines end in LF or CRLF and the last may lack its end; '#' starts a
@@ -18,12 +20,15 @@
 // infinity, nothing behind it. An input coordinate is 0 or of magnitude 2^-100 to 2^100.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesher/error.hpp"
 #include "mesher/mesh.hpp"
+#include "mesher/mesh_data.hpp"
 #include "mesher/output_files.hpp"
 
 namespace mesher {
@@ -56,30 +61,75 @@ struct PointFile {
 template <int D>
 [[nodiscard]] PointFile<D> read_points(const std::string& path);
 
-/// Reads a triangulation: a `.node` or `.ele` file (with the other beside it), or `.off`.
-/// Vertices and triangles keep the order of the file; a triangle keeps its corners' order. Kinds
-/// are known only from a `.node` file as `write_mesh` writes it; else all are steiner.
-/// Throws: Error as read_points, and bad_mesh for a triangle whose corners are not three different
-/// vertices of the file; duplicate points are not looked for.
-[[nodiscard]] Mesh<2> read_mesh(const std::string& path);
+/// Reads a triangulation with what its format knows of features, by the extension of `path`:
+///
+/// - `.node` or `.ele` (Triangle), the other beside it. If they are there, `.edge` (its edges with
+///   a marker or line), `.poly` without points of its own (its segments) and `.neigh` (which must
+///   agree with the triangles) are read too;
+/// - `.vtu` (VTK) as in pslg.hpp, and `.vtk` (legacy, ASCII): the cells are triangles and lines;
+/// - `.msh` (Gmsh, ASCII, version 4.1): physical groups are regions and markers;
+/// - `.mesh` (Medit, ASCII): references are markers and regions;
+/// - `.off` (Geomview) and `.obj` (Wavefront): triangles; of .obj also lines.
+///
+/// Vertices and triangles keep the order of the file; a triangle keeps its corners' order. An array
+/// of MeshFeatures whose values are all 0 is empty. Where the third coordinate is not 0 it must be
+/// the same everywhere (.off: 0). Kinds and origins are known from files that `write_mesh` wrote as
+/// .node, .vtu or .vtk, else all vertices are steiner. What is not used is in `notes`.
+///
+/// Throws: Error as read_points and read_pslg, and bad_mesh for a triangle whose corners are not
+/// three different vertices of the file, and for an edge given twice; coordinates are any finite
+/// doubles, duplicate points are not looked for. Cost: O(m log m).
+[[nodiscard]] MeshData read_mesh(const std::string& path);
 
 /// Writes a mesh into files that are already open.
-using MeshWriter = std::function<void(const Mesh<2>&)>;
+class MeshWriter {
+ public:
+  using Write = std::function<void(const Mesh<2>&, const MeshFeatures&)>;
+  explicit MeshWriter(Write write) : write_(std::move(write)) {}
+  /// Throws: Error(cannot_write).
+  void operator()(const Mesh<2>& mesh, const MeshFeatures& features = {}) const {
+    write_(mesh, features);
+  }
+
+ private:
+  Write write_;
+};
+
+/// Which files a `.node` output has.
+enum class MeshFiles : std::uint8_t {
+  plain,     ///< .node and .ele
+  features,  ///< .edge, .poly and .neigh as well
+};
 
 /// Opens the files of one mesh output among `files`, by the extension of `path`:
 ///
-/// - `.node`, and `.ele` beside it (Triangle): numbered from 1, one attribute (1 for an input
-///   point, 0 otherwise), one boundary marker (1 on the boundary grid, 0 otherwise);
-/// - `.vtu` (VTK, ParaView): ASCII, z = 0, the vertices' kind as point data;
-/// - `.off` (Geomview): z = 0;
+/// - `.node`, and `.ele` beside it (Triangle): numbered from 1. Vertices without origins and
+///   markers have one attribute (1 for an input point, 0 otherwise) and one marker (1 on the
+///   boundary grid, 0 otherwise); else two attributes, kind and origin, and their marker. A
+///   triangle's attribute is its region. With MeshFiles::features: `.edge` (all edges; behind the
+///   marker the id of the line, where known), `.poly` (no points; the edges of MeshFeatures as
+///   segments) and `.neigh` (-1 where there is none);
+/// - `.vtu` and `.vtk` (VTK, ParaView): ASCII, z = 0, cells are the triangles, then the edges of
+///   MeshFeatures as lines; point data kind, origin, marker; cell data region, marker, line, and
+///   has_line (1 where the line is known);
+/// - `.msh` (Gmsh 4.1): ASCII, z = 0; each region and each marker of edges is a physical group,
+///   named `region V` or `marker M`. Its number is that value if all are integers from 1 to
+///   2^31 - 2, else they are numbered upward from 1; 0 is numbered last, and is no group if no
+///   other value is there;
+/// - `.mesh` (Medit): dimension 3, z = 0; references are regions, and markers of vertices and of
+///   edges, as such numbers; 0 stays 0;
+/// - `.off` (Geomview): z = 0, triangles alone; `.obj` (Wavefront): z = 0, and the edges as lines;
 /// - `.svg`: a picture, see svg.hpp; its coordinates are rounded.
 ///
 /// `files` must outlive the writer. Throws: Error (unknown_format, cannot_write, bad_option).
-[[nodiscard]] MeshWriter open_mesh(OutputFiles& files, const std::string& path);
+[[nodiscard]] MeshWriter open_mesh(OutputFiles& files, const std::string& path,
+                                   MeshFiles content = MeshFiles::plain);
 
-/// Writes a mesh to `path` (and beside it) as open_mesh describes, whole or not at all.
+/// Writes a mesh to `path` (and beside it) as open_mesh describes, whole or not at all; the files
+/// of a `.node` output are `features` if there are any.
 /// Throws: Error (unknown_format, cannot_write).
 void write_mesh(const Mesh<2>& mesh, const std::string& path);
+void write_mesh(const MeshData& mesh, const std::string& path);
 
 /// Writes points as a `.node` file, numbered from 1, without attributes or markers.
 /// `points`: n x D. Throws: Error(cannot_write).

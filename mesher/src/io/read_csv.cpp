@@ -44,23 +44,35 @@ std::size_t find_column(const text::Line& header, std::string_view name) {
   return found;
 }
 
+// Columns that belong together, by name.
+template <int D>
+using Names = std::array<std::string_view, D>;
+
+const std::vector<Names<2>> kPlane{{"x", "y"}, {"lon", "lat"}, {"longitude", "latitude"}};
+const std::vector<Names<3>> kSpace{{"x", "y", "z"}};
+const std::vector<Names<3>> kSizes{
+    {"x", "y", "h"}, {"lon", "lat", "h"}, {"longitude", "latitude", "h"}};
+
+template <int D>
+std::string text_of(const std::vector<Names<D>>& sets) {
+  std::string text;
+  for (const auto& names : sets) {
+    text += text.empty() ? "" : " or ";
+    for (const auto& name : names) text += (name == names[0] ? "" : ",") + std::string(name);
+  }
+  return text;
+}
+
 // The columns of the first set of names that the header has in full.
 template <int D>
-Columns<D> named_columns(const text::Line& header) {
-  using Names = std::array<std::string_view, D>;
-  std::vector<Names> sets;
-  if constexpr (D == 2) sets = {{"x", "y"}, {"lon", "lat"}, {"longitude", "latitude"}};
-  if constexpr (D == 3) sets = {{"x", "y", "z"}};
-  for (const Names& names : sets) {
+Columns<D> named_columns(const text::Line& header, const std::vector<Names<D>>& sets) {
+  for (const Names<D>& names : sets) {
     Columns<D> columns;
     std::transform(names.begin(), names.end(), columns.begin(),
                    [&](std::string_view name) { return find_column(header, name); });
     if (std::find(columns.begin(), columns.end(), kMissing) == columns.end()) return columns;
   }
-  throw header.error(
-      ErrorCode::bad_header,
-      D == 2 ? "no columns named x,y or lon,lat or longitude,latitude" : "no columns named x,y,z",
-      0);
+  throw header.error(ErrorCode::bad_header, "no columns named " + text_of<D>(sets), 0);
 }
 
 bool is_number(const text::Line& line, std::size_t i) {
@@ -109,10 +121,9 @@ Point<D> read_point(const text::Line& line, const Columns<D>& columns) {
   return point;
 }
 
-}  // namespace
-
+// Columns of the first of `sets` that the file names in full, or its D columns if it names none.
 template <int D>
-PointFile<D> read_csv(const std::string& path) {
+PointFile<D> read_columns(const std::string& path, const std::vector<Names<D>>& sets) {
   const std::string content = text::read_file(path);
   PointFile<D> rows{path, {}, {}, {}};
   text::Line line(path);
@@ -125,7 +136,7 @@ PointFile<D> read_csv(const std::string& path) {
     if (is_blank_or_comment(line)) continue;
     if (!columns) {
       const bool named = is_header(line);
-      columns = named ? named_columns<D>(line) : unnamed_columns<D>(line);
+      columns = named ? named_columns<D>(line, sets) : unnamed_columns<D>(line);
       width = named ? line.size() : D;
       if (named) continue;
     }
@@ -135,7 +146,18 @@ PointFile<D> read_csv(const std::string& path) {
   return rows;
 }
 
-template PointFile<2> read_csv<2>(const std::string&);
-template PointFile<3> read_csv<3>(const std::string&);
+}  // namespace
+
+template <>
+PointFile<2> read_csv<2>(const std::string& path) {
+  return read_columns<2>(path, kPlane);
+}
+
+template <>
+PointFile<3> read_csv<3>(const std::string& path) {
+  return read_columns<3>(path, kSpace);
+}
+
+PointFile<3> read_csv_sizes(const std::string& path) { return read_columns<3>(path, kSizes); }
 
 }  // namespace mesher

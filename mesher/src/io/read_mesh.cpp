@@ -1,165 +1,74 @@
-// Reads triangulations: `.node` with `.ele` beside it (Triangle), and `.off` (Geomview).
-//
-//   .ele:  count [corners [attributes]]        .off:  OFF
-//          id corner corner corner ...                vertices faces edges
-//                                                     x y z
-//                                                     3 corner corner corner     (from 0)
-#include <algorithm>
-#include <cstdint>
-#include <utility>
+// Reads meshes of any known format; sorts their edges and drops arrays that say nothing.
+#include "io/read_mesh.hpp"
 
-#include "mesher/io.hpp"
-#include "io/read_node.hpp"
-#include "io/text.hpp"
+#include <algorithm>
+#include <utility>
 
 namespace mesher {
 namespace {
 
-using Corners = Mesh<2>::Simplex;
+using Read = MeshData (*)(const std::string&);
 
-// Finds the position of a vertex by its id.
-class VertexTable {
- public:
-  explicit VertexTable(const std::vector<FeatureId>& ids) {
-    for (std::size_t i = 0; i < ids.size(); ++i) rows_.emplace_back(ids[i], i);
-    std::sort(rows_.begin(), rows_.end());
+constexpr std::pair<std::string_view, Read> kReaders[] = {
+    {".node", read_triangle_files}, {".ele", read_triangle_files}, {".vtu", read_vtu_mesh},
+    {".vtk", read_vtk_mesh},        {".msh", read_msh},            {".mesh", read_medit},
+    {".off", read_off},             {".obj", read_obj_mesh}};
+
+Read reader_of(const std::string& path) {
+  const std::string extension = text::extension(path);
+  for (const auto& [known, read] : kReaders) {
+    if (extension == known) return read;
   }
-  // Field i of `line` as a vertex. Throws: Error(bad_mesh) if there is none of that id.
-  [[nodiscard]] std::uint32_t at(const text::Line& line, std::size_t i) const {
-    const FeatureId id{line.integer(i)};
-    const auto row = std::lower_bound(rows_.begin(), rows_.end(), std::pair(id, std::size_t{0}));
-    if (row != rows_.end() && row->first == id) return static_cast<std::uint32_t>(row->second);
-    throw line.error(ErrorCode::bad_mesh, "no vertex has the id " + std::string(line[i]), i);
-  }
-
- private:
-  std::vector<std::pair<FeatureId, std::size_t>> rows_;
-};
-
-// Requires: fields first .. first+2 of `line` exist.
-template <class IndexOf>
-Corners read_corners(const text::Line& line, std::size_t first, IndexOf index_of) {
-  const Corners t{index_of(first), index_of(first + 1), index_of(first + 2)};
-  if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) return t;
-  throw line.error(ErrorCode::bad_mesh, "a triangle with the same corner twice", first);
-}
-
-[[noreturn]] void fail_ended(const text::FieldLines& lines, std::size_t done, std::int64_t count,
-                             const std::string& what) {
-  throw lines.line().error(
-      ErrorCode::truncated,
-      "the file ends after " + std::to_string(done) + " of " + std::to_string(count) + " " + what,
-      lines.line().size());
-}
-
-// The next line, which must be there, with at least `fields` fields.
-const text::Line& next_row(text::FieldLines& lines, std::size_t fields, std::size_t done,
-                           std::int64_t count, const std::string& what) {
-  if (!lines.next()) fail_ended(lines, done, count, what);
-  const text::Line& line = lines.line();
-  if (line.size() >= fields) return line;
-  if (lines.at_end()) fail_ended(lines, done, count, what);
-  throw line.error(ErrorCode::wrong_count,
-                   std::to_string(line.size()) + " fields, expected " + std::to_string(fields),
-                   line.size());
-}
-
-void require_end(text::FieldLines& lines, const std::string& what) {
-  if (!lines.next()) return;
-  throw lines.line().error(ErrorCode::wrong_count, "more " + what + " than the header says", 0);
-}
-
-std::int64_t read_count(const text::Line& line, std::size_t i) {
-  const std::int64_t count = line.integer(i);
-  if (count >= 0) return count;
-  throw line.error(ErrorCode::bad_header, "a count of " + std::to_string(count), i);
-}
-
-// Vertices are numbered by 32 bits.
-void require_indexable(std::size_t vertices, const std::string& path) {
-  if (vertices <= UINT32_MAX) return;
-  throw Error(ErrorCode::too_many, std::to_string(vertices) + " vertices, 2^32 - 1 at most",
+  throw Error(ErrorCode::unknown_format,
+              "meshes are read from .node, .ele, .vtu, .vtk, .msh, .mesh, .off and .obj, not " +
+                  text::quoted(extension),
               {path});
 }
 
-std::vector<Corners> read_ele(const std::string& path, const VertexTable& vertices) {
-  const std::string content = text::read_file(path);
-  text::FieldLines lines(path, content);
-  if (!lines.next()) throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
-  const std::int64_t count = read_count(lines.line(), 0);
-  if (lines.line().size() > 1 && lines.line().integer(1) != 3) {
-    throw lines.line().error(ErrorCode::bad_dimension, "expected triangles: 3 corners each", 1);
-  }
-  std::vector<Corners> triangles;
-  while (std::cmp_less(triangles.size(), count)) {
-    const text::Line& line = next_row(lines, 4, triangles.size(), count, "triangles");
-    (void)line.integer(0);
-    triangles.push_back(read_corners(line, 1, [&](std::size_t i) { return vertices.at(line, i); }));
-  }
-  require_end(lines, "triangles");
-  return triangles;
+// Throws: Error(bad_mesh) for an edge that is given twice.
+void sort_edges(std::vector<MeshEdge>& edges, const std::string& path) {
+  const auto key = [](const MeshEdge& e) { return std::pair(e.low, e.high); };
+  std::sort(edges.begin(), edges.end(),
+            [&](const MeshEdge& a, const MeshEdge& b) { return key(a) < key(b); });
+  const auto twice =
+      std::adjacent_find(edges.begin(), edges.end(),
+                         [&](const MeshEdge& a, const MeshEdge& b) { return key(a) == key(b); });
+  if (twice == edges.end()) return;
+  throw Error(ErrorCode::bad_mesh,
+              "the edge of vertices " + std::to_string(twice->low + std::size_t{1}) + " and " +
+                  std::to_string(twice->high + std::size_t{1}) + " (counted from 1) is given twice",
+              {path});
 }
 
-Mesh<2> read_node_and_ele(const std::string& path) {
-  NodeFile<2> nodes = read_node<2>(text::with_extension(path, ".node"), CoordinateRule::finite);
-  require_distinct_ids(nodes.rows);
-  require_indexable(nodes.rows.points.size(), path);
-  Mesh<2> mesh{std::move(nodes.rows.points), std::move(nodes.kinds), {}};
-  mesh.simplices = read_ele(text::with_extension(path, ".ele"), VertexTable(nodes.rows.ids));
-  return mesh;
-}
-
-Point<2> read_off_vertex(const text::Line& line) {
-  if (line.finite(2) == 0) return {line.finite(0), line.finite(1)};
-  throw line.error(ErrorCode::bad_dimension, "a vertex in space, expected the plane (z = 0)", 2);
-}
-
-Corners read_off_face(const text::Line& line, std::size_t vertices) {
-  if (line.integer(0) != 3) {
-    throw line.error(ErrorCode::bad_mesh, "a face of " + std::string(line[0]) + " corners", 0);
-  }
-  return read_corners(line, 1, [&](std::size_t i) {
-    const std::int64_t index = line.integer(i);
-    if (index >= 0 && std::cmp_less(index, vertices)) return static_cast<std::uint32_t>(index);
-    throw line.error(ErrorCode::bad_mesh,
-                     "no vertex " + std::string(line[i]) + ": there are " +
-                         std::to_string(vertices) + ", from 0",
-                     i);
-  });
-}
-
-Mesh<2> read_off(const std::string& path) {
-  const std::string content = text::read_file(path);
-  text::FieldLines lines(path, content);
-  if (!lines.next()) throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
-  if (lines.line()[0] != "OFF" || lines.line().size() != 1) {
-    throw lines.line().error(ErrorCode::bad_header, "the first line must be 'OFF'", 0);
-  }
-  const text::Line& counts = next_row(lines, 2, 0, 1, "lines of counts");
-  const std::int64_t vertices = read_count(counts, 0), faces = read_count(counts, 1);
-  Mesh<2> mesh;
-  while (std::cmp_less(mesh.vertices.size(), vertices)) {
-    mesh.vertices.push_back(
-        read_off_vertex(next_row(lines, 3, mesh.vertices.size(), vertices, "vertices")));
-  }
-  require_indexable(mesh.vertices.size(), path);
-  mesh.kinds.assign(mesh.vertices.size(), VertexKind::steiner);
-  while (std::cmp_less(mesh.simplices.size(), faces)) {
-    const text::Line& line = next_row(lines, 4, mesh.simplices.size(), faces, "faces");
-    mesh.simplices.push_back(read_off_face(line, mesh.vertices.size()));
-  }
-  require_end(lines, "faces");
-  return mesh;
+template <class T>
+void clear_if_zero(std::vector<T>& values) {
+  if (std::all_of(values.begin(), values.end(), [](T v) { return v == T{}; })) values.clear();
 }
 
 }  // namespace
 
-Mesh<2> read_mesh(const std::string& path) {
-  const std::string extension = text::extension(path);
-  if (extension == ".node" || extension == ".ele") return read_node_and_ele(path);
-  if (extension == ".off") return read_off(path);
-  throw Error(ErrorCode::unknown_format,
-              "meshes are read from .node, .ele and .off, not " + text::quoted(extension), {path});
+MeshData read_mesh(const std::string& path) {
+  MeshData mesh = reader_of(path)(path);
+  sort_edges(mesh.features.edges, path);
+  clear_if_zero(mesh.features.origins);
+  clear_if_zero(mesh.features.markers);
+  clear_if_zero(mesh.features.regions);
+  return mesh;
+}
+
+void detail::fail_no_vertex(std::int64_t value, std::size_t count, std::int64_t first,
+                            const Place& place) {
+  throw Error(ErrorCode::bad_mesh,
+              "no vertex " + std::to_string(value) + ": there are " + std::to_string(count) +
+                  ", from " + std::to_string(first),
+              place);
+}
+
+void detail::fail_other_height(double z, double first, const Place& place) {
+  throw Error(ErrorCode::bad_dimension,
+              "z is not the same everywhere: " + text::to_text(z) + ", at first " +
+                  text::to_text(first),
+              place);
 }
 
 }  // namespace mesher

@@ -14,18 +14,6 @@
 namespace mesher {
 namespace {
 
-struct NodeHeader {
-  std::int64_t count = 0;
-  std::int64_t dimension = 2;
-  std::int64_t attributes = 0;
-  std::int64_t markers = 0;
-
-  // Fields of a row: the id, the coordinates, and the rest. Requires: all parts in range.
-  [[nodiscard]] std::size_t fields() const {
-    return static_cast<std::size_t>(1 + dimension + attributes + markers);
-  }
-};
-
 // A header's number. Throws: Error(bad_header) beyond lowest..highest.
 std::int64_t header_number(const text::Line& line, std::size_t i, const char* what,
                            std::int64_t highest) {
@@ -37,7 +25,73 @@ std::int64_t header_number(const text::Line& line, std::size_t i, const char* wh
                    i);
 }
 
-NodeHeader read_header(const text::Line& line, int dimension) {
+// What a mesh file says of its vertices beside their places, row by row.
+class VertexColumns {
+ public:
+  explicit VertexColumns(const NodeHeader& header)
+      : has_markers_(header.markers == 1),
+        attributes_(static_cast<std::size_t>(header.attributes)),
+        ours_(has_markers_ && (attributes_ == 1 || attributes_ == 2)) {}
+
+  void add(const text::Line& line) {
+    if (has_markers_) markers_.push_back(line.integer(line.size() - 1));
+    if (attributes_ > 0 && first_.file.empty()) first_ = line.place(3);
+    if (ours_ && attributes_ == 1) kinds_.push_back(kind_of_plain(line));
+    if (ours_ && attributes_ == 2) ours_ = add_kind_and_origin(line);
+  }
+
+  // A marker of a plain file that only says "boundary grid" is told by the kind.
+  template <int D>
+  void give(NodeFile<D>& nodes) {
+    const std::size_t n = nodes.rows.ids.size();
+    if (ours_) {
+      nodes.kinds = std::move(kinds_);
+      nodes.origins = std::move(origins_);
+    } else {
+      nodes.kinds.assign(n, VertexKind::steiner);
+      if (attributes_ > 0 && n > 0) nodes.notes.push_back({"attributes are not used", first_});
+    }
+    if (!ours_ || attributes_ == 2 || !markers_say_kind(nodes.kinds)) {
+      nodes.markers = std::move(markers_);
+    }
+  }
+
+ private:
+  static VertexKind kind_of_plain(const text::Line& line) {
+    if (line[line.size() - 2] == "1") return VertexKind::input;
+    return line[line.size() - 1] == "1" ? VertexKind::boundary : VertexKind::steiner;
+  }
+
+  // Whether the two attributes can be a kind and an id.
+  bool add_kind_and_origin(const text::Line& line) {
+    const std::string_view kind = line[line.size() - 3];
+    const std::string_view origin = line[line.size() - 2];
+    if (kind.size() != 1 || kind[0] < '0' || kind[0] > '3') return false;
+    if (origin.find_first_not_of("-0123456789") != std::string_view::npos) return false;
+    kinds_.push_back(static_cast<VertexKind>(kind[0] - '0'));
+    origins_.push_back(FeatureId{line.integer(line.size() - 2)});
+    return true;
+  }
+
+  [[nodiscard]] bool markers_say_kind(const std::vector<VertexKind>& kinds) const {
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      if (markers_[i] != (kinds[i] == VertexKind::boundary ? 1 : 0)) return false;
+    }
+    return true;
+  }
+
+  bool has_markers_;
+  std::size_t attributes_;
+  bool ours_;  // as far as the rows have shown
+  std::vector<VertexKind> kinds_;
+  std::vector<FeatureId> origins_;
+  std::vector<std::int64_t> markers_;
+  Place first_;
+};
+
+}  // namespace
+
+NodeHeader read_node_header(const text::Line& line, int dimension) {
   constexpr std::int64_t kMostAttributes = 1 << 20;  // a row of more would be megabytes long
   NodeHeader header;
   if (line.size() > 4) {
@@ -58,7 +112,7 @@ NodeHeader read_header(const text::Line& line, int dimension) {
 }
 
 // A row that is too short is the file's end where nothing follows, and a mistake elsewhere.
-void require_fields(const text::FieldLines& lines, const NodeHeader& header) {
+void require_node_fields(const text::FieldLines& lines, const NodeHeader& header) {
   const text::Line& line = lines.line();
   if (line.size() == header.fields()) return;
   const bool cut = line.size() < header.fields() && lines.at_end();
@@ -72,29 +126,12 @@ void require_fields(const text::FieldLines& lines, const NodeHeader& header) {
 }
 
 template <int D>
-Point<D> read_point(const text::Line& line, CoordinateRule rule) {
-  Point<D> point;
-  for (int i = 0; i < D; ++i) {
-    point[i] = rule == CoordinateRule::input ? line.coordinate(i + 1) : line.finite(i + 1);
-  }
-  return point;
-}
-
-// Requires: a row with one attribute and a marker, as write_mesh writes it.
-VertexKind read_kind(const text::Line& line) {
-  if (line[line.size() - 2] == "1") return VertexKind::input;
-  return line[line.size() - 1] == "1" ? VertexKind::boundary : VertexKind::steiner;
-}
-
-}  // namespace
-
-template <int D>
 NodeFile<D> read_node(const std::string& path, CoordinateRule rule) {
   const std::string content = text::read_file(path);
   text::FieldLines lines(path, content);
   if (!lines.next()) throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
-  const NodeHeader header = read_header(lines.line(), D);
-  const bool has_kinds = header.attributes == 1 && header.markers == 1;
+  const NodeHeader header = read_node_header(lines.line(), D);
+  VertexColumns columns(header);
   NodeFile<D> nodes;
   nodes.rows.file = path;
   while (lines.next()) {
@@ -104,11 +141,11 @@ NodeFile<D> read_node(const std::string& path, CoordinateRule rule) {
                        "more points than the " + std::to_string(header.count) + " of the header",
                        0);
     }
-    require_fields(lines, header);
+    require_node_fields(lines, header);
     nodes.rows.ids.push_back(FeatureId{line.integer(0)});
-    nodes.rows.points.push_back(read_point<D>(line, rule));
+    nodes.rows.points.push_back(read_node_point<D>(line, rule));
     nodes.rows.lines.push_back(line.number());
-    nodes.kinds.push_back(has_kinds ? read_kind(line) : VertexKind::steiner);
+    if (rule == CoordinateRule::finite) columns.add(line);
   }
   if (std::cmp_less(nodes.rows.ids.size(), header.count)) {
     throw lines.line().error(ErrorCode::truncated,
@@ -116,6 +153,7 @@ NodeFile<D> read_node(const std::string& path, CoordinateRule rule) {
                                  " of " + std::to_string(header.count) + " points",
                              lines.line().size());
   }
+  if (rule == CoordinateRule::finite) columns.give(nodes);
   return nodes;
 }
 

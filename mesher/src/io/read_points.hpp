@@ -13,6 +13,9 @@ template <int D>
 template <int D>
 [[nodiscard]] PointFile<D> read_csv(const std::string& path);
 
+/// The columns x, y, h of a background of sizes. Throws: Error likewise.
+[[nodiscard]] PointFile<3> read_csv_sizes(const std::string& path);
+
 /// Adds a point of a format without ids: the next of 1..n.
 template <int D>
 void add_row(PointFile<D>& rows, const Point<D>& point, long line) {

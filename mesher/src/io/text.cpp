@@ -14,6 +14,7 @@ namespace mesher::text {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\v\f";
+constexpr std::string_view kSpace = " \t\v\f\r\n";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string_view trim(std::string_view text) {
@@ -38,6 +39,49 @@ std::string_view without_plus(std::string_view text) {
 bool has_nonzero_digit(std::string_view text) {
   const auto mantissa = text.substr(0, text.find_first_of("eE"));
   return mantissa.find_first_of("123456789") != std::string_view::npos;
+}
+
+// The numbers of fields; `fail(code, message)` makes the error that is thrown.
+template <class Fail>
+double parse_finite(std::string_view text, Fail fail) {
+  const auto field = without_plus(text);
+  double value = 0;
+  const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (status == std::errc::invalid_argument || end != field.data() + field.size()) {
+    throw fail(ErrorCode::bad_number, quoted(text) + " is not a number");
+  }
+  if (status == std::errc::result_out_of_range || (value == 0 && has_nonzero_digit(field))) {
+    throw fail(ErrorCode::magnitude, quoted(text) + " is beyond the range of a double");
+  }
+  if (!std::isfinite(value)) {
+    throw fail(ErrorCode::not_finite, quoted(text) + " is not a finite number");
+  }
+  return value;
+}
+
+template <class Fail>
+double parse_coordinate(std::string_view text, Fail fail) {
+  const double value = parse_finite(text, fail);
+  if (is_coordinate(value)) return value + 0.0;
+  throw fail(ErrorCode::magnitude,
+             "coordinate " + quoted(text) + " is neither 0 nor of magnitude 2^-100 to 2^100");
+}
+
+template <class Fail>
+std::int64_t parse_integer(std::string_view text, Fail fail) {
+  const auto field = without_plus(text);
+  std::int64_t value = 0;
+  const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (status == std::errc{} && end == field.data() + field.size()) return value;
+  throw fail(ErrorCode::bad_number, quoted(text) + " is not an integer of 64 bits");
+}
+
+// Makes errors of a place that `where.error` understands.
+template <class Where, class At>
+auto failing_at(const Where& where, At at) {
+  return [&where, at](ErrorCode code, const std::string& message) {
+    return where.error(code, message, at);
+  };
 }
 
 }  // namespace
@@ -115,45 +159,59 @@ void Line::split_separated(long number, std::string_view text, char separator) {
 
 std::string_view Line::trimmed() const { return trim(text_); }
 
-Place Line::place(std::size_t i) const {
+FilePosition Line::position(std::size_t i) const {
   const char* at = text_.data();
   if (i < fields_.size())
     at = fields_[i].data();
   else if (!fields_.empty())
     at = fields_.back().data() + fields_.back().size();
-  return {file_, number_, at - text_.data() + 1};
+  return {number_, at - text_.data() + 1};
 }
 
 double Line::finite(std::size_t i) const {
-  const auto field = without_plus(fields_[i]);
-  double value = 0;
-  const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (status == std::errc::invalid_argument || end != field.data() + field.size()) {
-    throw error(ErrorCode::bad_number, quoted(fields_[i]) + " is not a number", i);
-  }
-  if (status == std::errc::result_out_of_range || (value == 0 && has_nonzero_digit(field))) {
-    throw error(ErrorCode::magnitude, quoted(fields_[i]) + " is beyond the range of a double", i);
-  }
-  if (!std::isfinite(value)) {
-    throw error(ErrorCode::not_finite, quoted(fields_[i]) + " is not a finite number", i);
-  }
-  return value;
+  return parse_finite(fields_[i], failing_at(*this, i));
 }
 
 double Line::coordinate(std::size_t i) const {
-  const double value = finite(i);
-  if (is_coordinate(value)) return value + 0.0;
-  throw error(ErrorCode::magnitude,
-              "coordinate " + quoted(fields_[i]) + " is neither 0 nor of magnitude 2^-100 to 2^100",
-              i);
+  return parse_coordinate(fields_[i], failing_at(*this, i));
 }
 
-std::int64_t Line::integer(std::size_t i) const {
-  const auto field = without_plus(fields_[i]);
-  std::int64_t value = 0;
-  const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (status == std::errc{} && end == field.data() + field.size()) return value;
-  throw error(ErrorCode::bad_number, quoted(fields_[i]) + " is not an integer of 64 bits", i);
+std::int64_t Line::integer_before(std::size_t i, std::size_t size) const {
+  return parse_integer(fields_[i].substr(0, size), failing_at(*this, i));
+}
+
+Source::Source(const std::string& path) : file_(path), content_(read_file(path)) {}
+
+FilePosition Source::position(std::string_view at) const {
+  if (line_starts_.empty()) {
+    line_starts_.push_back(0);
+    for (std::size_t i = 0; i < content_.size(); ++i) {
+      if (content_[i] == '\n') line_starts_.push_back(i + 1);
+    }
+  }
+  const auto offset = static_cast<std::size_t>(at.data() - content_.data());
+  const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
+  return {after - line_starts_.begin(), static_cast<long>(offset - *(after - 1)) + 1};
+}
+
+double Source::finite(std::string_view field) const {
+  return parse_finite(field, failing_at(*this, field));
+}
+
+double Source::coordinate(std::string_view field) const {
+  return parse_coordinate(field, failing_at(*this, field));
+}
+
+std::int64_t Source::integer(std::string_view field) const {
+  return parse_integer(field, failing_at(*this, field));
+}
+
+std::string_view Fields::next() {
+  const auto begin = std::min(rest_.find_first_not_of(kSpace), rest_.size());
+  const auto end = std::min(rest_.find_first_of(kSpace, begin), rest_.size());
+  const auto field = rest_.substr(begin, end - begin);
+  rest_.remove_prefix(end);
+  return field;
 }
 
 Lines::Lines(std::string_view text) : rest_(text) {

@@ -1,8 +1,9 @@
 // Reading text files: lines, fields with their columns, and numbers that are checked.
 //
-// Every reader walks a file line by line with `Line`, which knows its place; so each error carries
-// file, line and column without the reader's help. Numbers are parsed by std::from_chars (no
-// locale); a leading '+' is accepted.
+// Most readers walk a file line by line with `Line`, which knows its place; so each error carries
+// file, line and column without the reader's help. Formats that do not go by lines are read from a
+// `Source`, which finds the place of any part of its text. Numbers are parsed by std::from_chars
+// (no locale); a leading '+' is accepted.
 #pragma once
 
 #include <cstdint>
@@ -57,8 +58,12 @@ class Line {
   /// The line without comment and outer blanks.
   [[nodiscard]] std::string_view trimmed() const;
 
-  /// The place of field i, or just behind the last field.
-  [[nodiscard]] Place place(std::size_t i) const;
+  /// Where field i begins, or the end of the last field.
+  [[nodiscard]] FilePosition position(std::size_t i) const;
+  [[nodiscard]] Place place(std::size_t i) const {
+    const FilePosition found = position(i);
+    return {file_, found.line, found.column};
+  }
   [[nodiscard]] Error error(ErrorCode code, const std::string& message, std::size_t i) const {
     return {code, message, place(i)};
   }
@@ -68,7 +73,9 @@ class Line {
   /// Field i as an input coordinate; -0 becomes 0. Throws: as finite, or Error(magnitude).
   [[nodiscard]] double coordinate(std::size_t i) const;
   /// Field i as an integer. Throws: Error(bad_number).
-  [[nodiscard]] std::int64_t integer(std::size_t i) const;
+  [[nodiscard]] std::int64_t integer(std::size_t i) const { return integer_before(i, SIZE_MAX); }
+  /// The first `size` characters of field i, or all of it, as an integer. Throws: likewise.
+  [[nodiscard]] std::int64_t integer_before(std::size_t i, std::size_t size) const;
 
  private:
   std::string file_;
@@ -106,6 +113,51 @@ class FieldLines {
  private:
   Lines lines_;
   Line line_;
+};
+
+/// The whole text of a file, for readers to whom line ends are blanks. What is passed as `at` or
+/// `field` is a part of the content.
+class Source {
+ public:
+  /// Throws: Error(cannot_read).
+  explicit Source(const std::string& path);
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+
+  [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] std::string_view content() const { return content_; }
+  [[nodiscard]] std::string_view end() const { return content().substr(content_.size()); }
+
+  /// Where a part of the content begins. Cost: O(log n); O(n) the first time.
+  [[nodiscard]] FilePosition position(std::string_view at) const;
+  [[nodiscard]] Place place(std::string_view at) const {
+    const FilePosition found = position(at);
+    return {file_, found.line, found.column};
+  }
+  [[nodiscard]] Error error(ErrorCode code, const std::string& message, std::string_view at) const {
+    return {code, message, place(at)};
+  }
+
+  /// As the functions of Line. Throws: Error likewise.
+  [[nodiscard]] double finite(std::string_view field) const;
+  [[nodiscard]] double coordinate(std::string_view field) const;
+  [[nodiscard]] std::int64_t integer(std::string_view field) const;
+
+ private:
+  std::string file_;
+  std::string content_;
+  mutable std::vector<std::size_t> line_starts_;  // offsets; found when first asked for
+};
+
+/// The fields of a text, wherever its lines end.
+class Fields {
+ public:
+  explicit Fields(std::string_view text) : rest_(text) {}
+  /// The next field; empty, at the end of the text, if there is none.
+  std::string_view next();
+
+ private:
+  std::string_view rest_;
 };
 
 }  // namespace mesher::text

@@ -1,38 +1,79 @@
 // Mesh outputs by extension.
 #include "io/write_mesh.hpp"
 
+#include <utility>
+
 #include "mesher/io.hpp"
 #include "mesher/svg.hpp"
 #include "io/text.hpp"
 
 namespace mesher {
+namespace {
 
-MeshWriter open_mesh(OutputFiles& files, const std::string& path) {
+using Write = void (*)(const Mesh<2>&, const MeshFeatures&, TextFile&);
+
+constexpr std::pair<std::string_view, Write> kSingleFiles[] = {
+    {".vtu", write_vtu},
+    {".vtk", write_vtk},
+    {".msh", write_msh},
+    {".mesh", write_medit},
+    {".off", [](const Mesh<2>& mesh, const MeshFeatures&, TextFile& file) {
+       write_off(mesh, file);
+     }},
+    {".obj", write_obj},
+    {".svg", [](const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file) {
+       write_svg(mesh, features, svg_view(mesh), file);
+     }}};
+
+MeshWriter open_node(OutputFiles& files, const std::string& path, MeshFiles content) {
+  TextFile& node = files.open(path);
+  TextFile& ele = files.open(text::with_extension(path, ".ele"));
+  const auto write = [&node, &ele](const Mesh<2>& mesh, const MeshFeatures& features) {
+    write_node(mesh, features, node);
+    write_ele(mesh, features, ele);
+  };
+  if (content == MeshFiles::plain) return MeshWriter(write);
+  TextFile& edge = files.open(text::with_extension(path, ".edge"));
+  TextFile& poly = files.open(text::with_extension(path, ".poly"));
+  TextFile& neigh = files.open(text::with_extension(path, ".neigh"));
+  return MeshWriter([write, &edge, &poly, &neigh](const Mesh<2>& mesh,
+                                                  const MeshFeatures& features) {
+    write(mesh, features);
+    write_edge(mesh, features, edge);
+    write_poly(features, poly);
+    write_neigh(mesh, neigh);
+  });
+}
+
+}  // namespace
+
+MeshWriter open_mesh(OutputFiles& files, const std::string& path, MeshFiles content) {
   const std::string extension = text::extension(path);
-  if (extension == ".node") {
-    TextFile& node = files.open(path);
-    TextFile& ele = files.open(text::with_extension(path, ".ele"));
-    return [&node, &ele](const Mesh<2>& mesh) {
-      write_node(mesh, node);
-      write_ele(mesh, ele);
-    };
+  if (extension == ".node") return open_node(files, path, content);
+  for (const auto& [known, write] : kSingleFiles) {
+    if (extension != known) continue;
+    TextFile& file = files.open(path);
+    return MeshWriter([write = write, &file](const Mesh<2>& mesh, const MeshFeatures& features) {
+      write(mesh, features, file);
+    });
   }
-  const bool known = extension == ".vtu" || extension == ".off" || extension == ".svg";
-  if (!known) {
-    throw Error(ErrorCode::unknown_format,
-                "meshes are written to .node (with .ele), .vtu, .off and .svg, not " +
-                    text::quoted(extension),
-                {path});
-  }
-  TextFile& file = files.open(path);
-  if (extension == ".vtu") return [&file](const Mesh<2>& mesh) { write_vtu(mesh, file); };
-  if (extension == ".off") return [&file](const Mesh<2>& mesh) { write_off(mesh, file); };
-  return [&file](const Mesh<2>& mesh) { write_svg(mesh, svg_view(mesh), file); };
+  throw Error(ErrorCode::unknown_format,
+              "meshes are written to .node (with .ele), .vtu, .vtk, .msh, .mesh, .off, .obj and "
+              ".svg, not " +
+                  text::quoted(extension),
+              {path});
 }
 
 void write_mesh(const Mesh<2>& mesh, const std::string& path) {
   OutputFiles files;
   open_mesh(files, path)(mesh);
+  files.commit();
+}
+
+void write_mesh(const MeshData& mesh, const std::string& path) {
+  OutputFiles files;
+  const bool plain = mesh.features.empty();
+  open_mesh(files, path, plain ? MeshFiles::plain : MeshFiles::features)(mesh, mesh.features);
   files.commit();
 }
 

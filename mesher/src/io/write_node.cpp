@@ -1,24 +1,86 @@
-// Writes `.node` and `.ele` files (Triangle), numbered from 1.
+// Writes `.node`, `.ele`, `.edge`, `.poly` and `.neigh` files (Triangle), numbered from 1.
+#include <algorithm>
+
 #include "mesher/io.hpp"
 #include "io/write_mesh.hpp"
 
 namespace mesher {
+namespace {
 
-void write_node(const Mesh<2>& mesh, TextFile& file) {
-  file << mesh.vertices.size() << " 2 1 1\n";
+constexpr std::size_t kFirst = 1;
+
+// Kind, origin and marker: what read_mesh gives back.
+void write_vertex_features(const Mesh<2>& mesh, const MeshFeatures& features, std::size_t i,
+                           TextFile& file) {
+  const bool has_origins = !features.origins.empty(), has_markers = !features.markers.empty();
+  file << ' ' << static_cast<int>(mesh.kinds[i]);
+  file << ' ' << (has_origins ? static_cast<std::int64_t>(features.origins[i]) : 0);
+  file << ' ' << (has_markers ? features.markers[i] : 0) << '\n';
+}
+
+void write_kind(VertexKind kind, TextFile& file) {
+  file << (kind == VertexKind::input ? " 1" : " 0");
+  file << (kind == VertexKind::boundary ? " 1\n" : " 0\n");
+}
+
+}  // namespace
+
+void write_node(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file) {
+  const bool plain = features.origins.empty() && features.markers.empty();
+  file << mesh.vertices.size() << (plain ? " 2 1 1\n" : " 2 2 1\n");
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const auto& [x, y] = mesh.vertices[i];
-    file << i + 1 << ' ' << x << ' ' << y;
-    file << (mesh.kinds[i] == VertexKind::input ? " 1" : " 0");
-    file << (mesh.kinds[i] == VertexKind::boundary ? " 1\n" : " 0\n");
+    file << i + kFirst << ' ' << x << ' ' << y;
+    plain ? write_kind(mesh.kinds[i], file) : write_vertex_features(mesh, features, i, file);
   }
 }
 
-void write_ele(const Mesh<2>& mesh, TextFile& file) {
-  file << mesh.simplices.size() << " 3 0\n";
+void write_ele(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file) {
+  const bool has_regions = !features.regions.empty();
+  file << mesh.simplices.size() << (has_regions ? " 3 1\n" : " 3 0\n");
   for (std::size_t i = 0; i < mesh.simplices.size(); ++i) {
-    file << i + 1;
-    for (const auto corner : mesh.simplices[i]) file << ' ' << corner + std::size_t{1};
+    file << i + kFirst;
+    for (const auto corner : mesh.simplices[i]) file << ' ' << corner + kFirst;
+    if (has_regions) file << ' ' << features.regions[i];
+    file << '\n';
+  }
+}
+
+void write_edge(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file) {
+  const auto all = edges(mesh);
+  auto known = features.edges.begin();
+  file << all.size() << " 1\n";
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto [low, high] = all[i];
+    file << i + kFirst << ' ' << low + kFirst << ' ' << high + kFirst;
+    const auto is_before = [&](const MeshEdge& e) {
+      return e.low < low || (e.low == low && e.high < high);
+    };
+    while (known != features.edges.end() && is_before(*known)) ++known;
+    const bool found = known != features.edges.end() && known->low == low && known->high == high;
+    file << ' ' << (found ? known->marker : 0);
+    if (found && known->line) file << ' ' << static_cast<std::int64_t>(*known->line);
+    file << '\n';
+  }
+}
+
+void write_poly(const MeshFeatures& features, TextFile& file) {
+  file << "0 2 0 1\n" << features.edges.size() << " 1\n";
+  std::size_t number = kFirst;
+  for (const MeshEdge& e : features.edges) {
+    file << number++ << ' ' << e.low + kFirst << ' ' << e.high + kFirst << ' ' << e.marker << '\n';
+  }
+  file << "0\n";
+}
+
+void write_neigh(const Mesh<2>& mesh, TextFile& file) {
+  const auto all = neighbours(mesh);
+  file << all.size() << " 3\n";
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    file << i + kFirst;
+    for (const auto t : all[i]) {
+      file << ' ' << (t == kNoTriangle ? -1 : static_cast<std::int64_t>(t + kFirst));
+    }
     file << '\n';
   }
 }
@@ -27,7 +89,7 @@ template <int D>
 void write_points(const std::vector<Point<D>>& points, TextFile& file) {
   file << points.size() << ' ' << D << " 0 0\n";
   for (std::size_t i = 0; i < points.size(); ++i) {
-    file << i + 1;
+    file << i + kFirst;
     for (const double x : points[i]) file << ' ' << x;
     file << '\n';
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -18,6 +19,12 @@ constexpr int kLongest = 3;            // lines of length 2^3 and more have the 
 constexpr int kShortest = -6;          // those below 2^-6 the least
 constexpr double kLineShare = 0x1p-3;  // a line's width over its length
 constexpr double kDotShare = 0.625;    // a dot's width over the shortest edge at it
+constexpr double kThick = 2;           // an edge on a line over another edge, in width,
+constexpr double kLeastOnLine = 0.75;  // and at least so wide: a line stays in sight
+
+// Of regions, in the order of their attributes; then again from the first.
+constexpr const char* kRegionColours[] = {"#dbe9f6", "#fde3cf", "#ddf0dc", "#f6dce6",
+                                          "#ebe3f5", "#fdf6cf", "#d9f0ee", "#ece6df"};
 
 void grow(Box<2>& box, const Point<2>& p) {
   for (int i = 0; i < 2; ++i) {
@@ -42,9 +49,11 @@ class Canvas {
   Canvas(const Box<2>& window, TextFile& file)
       : window_(window), scale_(kLongerSide / longer_side(window)), file_(file) {}
 
-  [[nodiscard]] bool shows(const Point<2>& a, const Point<2>& b) const {
+  [[nodiscard]] bool shows(const Point<2>& a, const Point<2>& b) const { return shows(a, b, b); }
+  [[nodiscard]] bool shows(const Point<2>& a, const Point<2>& b, const Point<2>& c) const {
     Box<2> box{a, a};
     grow(box, b);
+    grow(box, c);
     return overlaps(box, window_);
   }
   [[nodiscard]] double width() const { return scale_ * (window_.hi[0] - window_.lo[0]); }
@@ -96,10 +105,11 @@ std::vector<Edge> edges_of(const Mesh<2>& mesh) {
   return edges;
 }
 
-void draw_triangles(const SvgView& view, Canvas& canvas, TextFile& file) {
-  if (view.coloured.empty()) return;
-  file << "<path fill=\"#ffb347\" d=\"";
-  for (const auto& [a, b, c] : view.coloured) {
+void fill_triangles(const std::vector<std::array<Point<2>, 3>>& triangles, const char* colour,
+                    Canvas& canvas, TextFile& file) {
+  if (triangles.empty()) return;
+  file << "<path fill=\"" << colour << "\" d=\"";
+  for (const auto& [a, b, c] : triangles) {
     file << 'M';
     canvas.point(a);
     file << 'L';
@@ -111,21 +121,38 @@ void draw_triangles(const SvgView& view, Canvas& canvas, TextFile& file) {
   file << "\"/>\n";
 }
 
+void draw_regions(const Mesh<2>& mesh, const std::vector<double>& regions, Canvas& canvas,
+                  TextFile& file) {
+  std::map<double, std::vector<std::array<Point<2>, 3>>> shown;
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const auto& [a, b, c] = mesh.simplices[i];
+    const Point<2>&p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
+    auto& triangles = shown[regions[i]];
+    if (canvas.shows(p, q, r)) triangles.push_back({p, q, r});
+  }
+  std::size_t colour = 0;
+  for (const auto& [region, triangles] : shown) {
+    fill_triangles(triangles, kRegionColours[colour++ % std::size(kRegionColours)], canvas, file);
+  }
+}
+
 void begin_path(double width, const char* style, Canvas& canvas, TextFile& file) {
   file << "<path fill=\"none\" " << style << " stroke-width=\"";
   canvas.number(width);
   file << "\" d=\"";
 }
 
-void draw_edges(const Mesh<2>& mesh, const std::vector<Edge>& edges, Canvas& canvas,
-                TextFile& file) {
+// Edges as wide as width_of(exponent of their length).
+template <class WidthOf>
+void draw_edges(const Mesh<2>& mesh, const std::vector<Edge>& edges, const char* style,
+                WidthOf width_of, Canvas& canvas, TextFile& file) {
   ByLength<Edge> shown;
   for (const auto& [a, b] : edges) {
     const Point<2>&p = mesh.vertices[a], &q = mesh.vertices[b];
     if (canvas.shows(p, q)) shown[length_class(canvas.distance(p, q))].push_back({a, b});
   }
   for (const auto& [exponent, lines] : shown) {
-    begin_path(std::ldexp(kLineShare, exponent), "stroke=\"#3b5b7c\"", canvas, file);
+    begin_path(width_of(exponent), style, canvas, file);
     for (const auto& [a, b] : lines) {
       file << 'M';
       canvas.point(mesh.vertices[a]);
@@ -183,15 +210,29 @@ SvgView svg_view(const Mesh<2>& mesh) {
 }
 
 void write_svg(const Mesh<2>& mesh, const SvgView& view, TextFile& file) {
+  write_svg(mesh, MeshFeatures(), view, file);
+}
+
+void write_svg(const Mesh<2>& mesh, const MeshFeatures& features, const SvgView& view,
+               TextFile& file) {
   Canvas canvas(view.window, file);
   file << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 ";
   canvas.number(canvas.width());
   file << ' ';
   canvas.number(canvas.height());
   file << "\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
-  draw_triangles(view, canvas, file);
+  draw_regions(mesh, features.regions, canvas, file);
+  fill_triangles(view.coloured, "#ffb347", canvas, file);
   const auto edges = edges_of(mesh);
-  draw_edges(mesh, edges, canvas, file);
+  const auto width = [](int exponent) { return std::ldexp(kLineShare, exponent); };
+  const auto width_on_line = [](int exponent) {
+    return std::max(std::ldexp(kThick * kLineShare, exponent), kLeastOnLine);
+  };
+  draw_edges(mesh, edges, "stroke=\"#3b5b7c\"", width, canvas, file);
+  std::vector<Edge> on_lines;
+  for (const MeshEdge& e : features.edges) on_lines.emplace_back(e.low, e.high);
+  draw_edges(mesh, on_lines, "stroke=\"#14283c\" stroke-linecap=\"round\"", width_on_line, canvas,
+             file);
   draw_input(mesh, edges, canvas, file);
   file << "</svg>\n";
 }

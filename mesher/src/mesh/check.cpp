@@ -1,4 +1,4 @@
-// Verifies a triangulation of a box from its vertices and triangles alone; see check.hpp.
+// Verifies a triangulation from its vertices and triangles, and the input it is of; see check.hpp.
 #include "mesher/check.hpp"
 
 #include <algorithm>
@@ -9,50 +9,53 @@
 
 #include "mesher/predicates.hpp"
 #include "io/text.hpp"
+#include "mesh/checked_mesh.hpp"
 
 namespace mesher {
 namespace {
 
-// A directed edge of a triangle, and the triangle's corner opposite to it.
-struct HalfEdge {
-  std::uint32_t from, to, opposite;
-  std::size_t triangle;
-
-  [[nodiscard]] std::uint32_t low() const { return std::min(from, to); }
-  [[nodiscard]] std::uint32_t high() const { return std::max(from, to); }
-  [[nodiscard]] bool same_edge(const HalfEdge& other) const {
-    return low() == other.low() && high() == other.high();
-  }
-};
+using detail::HalfEdge;
+using detail::Verdict;
 
 class Checker {
  public:
-  Checker(const Mesh<2>& mesh, const CheckOptions& options) : mesh_(mesh), options_(options) {}
+  Checker(const Mesh<2>& mesh, const CheckOptions& options)
+      : mesh_(mesh), options_(options), checked_(mesh) {}
 
   std::vector<Finding> run() {
-    const bool tiles =
+    const bool is_mesh =
         check("coordinates", &Checker::coordinates) && check("vertices", &Checker::vertices) &&
-        check("orientation", &Checker::orientation) && check("edges", &Checker::edges) &&
-        check("hull", &Checker::hull) && check("euler", &Checker::euler);
+        check("orientation", &Checker::orientation) && check("edges", &Checker::edges);
+    if (is_mesh) collect_lines();
+    const bool tiles = is_mesh && (options_.boundary == BoundaryRule::box ? tiles_box()
+                                                                          : tiles_domain());
     if (tiles) check("delaunay", &Checker::delaunay);
-    if (options_.input) check("input", &Checker::input);
+    if (tiles && has_lines() && !options_.constrained) check("conforming", &Checker::conforming);
+    if (options_.input != nullptr || options_.graph != nullptr) check("input", &Checker::input);
+    if (tiles && has_lines()) check("regions", &Checker::regions);
     if (tiles && options_.rho) check("quality", &Checker::quality);
+    if (tiles && options_.max_area) check("area", &Checker::area);
     return std::move(findings_);
   }
 
  private:
-  // What a property's check says: nothing wrong and what was looked at, or the first violation.
-  struct Verdict {
-    bool holds;
-    std::string detail;
-  };
-  static Verdict good(std::string detail) { return {true, std::move(detail)}; }
-  static Verdict bad(std::string detail) { return {false, std::move(detail)}; }
+  static Verdict good(std::string detail) { return Verdict::good(std::move(detail)); }
+  static Verdict bad(std::string detail) { return Verdict::bad(std::move(detail)); }
 
   bool check(const char* property, Verdict (Checker::*verify)()) {
-    Verdict verdict = (this->*verify)();
+    return add(property, (this->*verify)());
+  }
+  bool add(const char* property, Verdict verdict) {
     findings_.push_back({property, verdict.holds, std::move(verdict.detail)});
     return verdict.holds;
+  }
+
+  bool tiles_box() { return check("hull", &Checker::hull) && check("euler", &Checker::euler); }
+
+  bool tiles_domain() {
+    if (!add("overlap", detail::check_overlap(checked_))) return false;
+    if (options_.boundary == BoundaryRule::lines) check("boundary", &Checker::boundary);
+    return true;
   }
 
   // What the predicates can judge.
@@ -64,7 +67,7 @@ class Checker {
     for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
       const auto& p = mesh_.vertices[v];
       if (in_range(p[0]) && in_range(p[1])) continue;
-      return bad(vertex(v) + " is beyond the magnitudes 2^-160 to 2^101");
+      return bad(checked_.vertex(v) + " is beyond the magnitudes 2^-160 to 2^101");
     }
     return good(std::to_string(mesh_.vertices.size()) + " vertices");
   }
@@ -75,7 +78,8 @@ class Checker {
     std::sort(order.begin(), order.end(), [&](auto a, auto b) { return at(a) < at(b); });
     for (std::size_t i = 1; i < order.size(); ++i) {
       if (at(order[i - 1]) != at(order[i])) continue;
-      return bad(vertex(order[i - 1]) + " and " + vertex(order[i]) + " coincide");
+      return bad(checked_.vertex(order[i - 1]) + " and " + checked_.vertex(order[i]) +
+                 " coincide");
     }
     std::vector<bool> used(mesh_.vertices.size());
     for (const auto& t : mesh_.simplices) {
@@ -83,54 +87,82 @@ class Checker {
     }
     const auto unused = std::find(used.begin(), used.end(), false);
     if (unused == used.end()) return good("all distinct, all used");
-    return bad(vertex(unused - used.begin()) + " is in no triangle");
+    return bad(checked_.vertex(unused - used.begin()) + " is in no triangle");
   }
 
   Verdict orientation() {
     for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
       const auto& t = mesh_.simplices[i];
       if (predicates::orient2d(at(t[0]), at(t[1]), at(t[2])) > 0) continue;
-      return bad(triangle(i) + " is not counterclockwise");
+      return bad(checked_.triangle(i) + " is not counterclockwise");
     }
     return good(std::to_string(mesh_.simplices.size()) + " triangles counterclockwise");
   }
 
-  // Afterwards the half-edges of one edge are neighbours in half_edges_.
   Verdict edges() {
-    collect_half_edges();
-    for (std::size_t i = 0; i < half_edges_.size(); i += partners(i)) {
+    const auto& half_edges = checked_.half_edges();
+    for (std::size_t i = 0; i < half_edges.size(); i += checked_.partners(i)) {
       ++edges_;
-      if (partners(i) == 1) border_.push_back(half_edges_[i]);
-      if (partners(i) > 2) return bad(edge(half_edges_[i]) + " borders more than two triangles");
-      if (partners(i) == 2 && half_edges_[i].from == half_edges_[i + 1].from) {
-        return bad(edge(half_edges_[i]) + " has both its triangles on one side");
+      if (checked_.partners(i) > 2) {
+        return bad(checked_.edge(half_edges[i]) + " borders more than two triangles");
+      }
+      if (checked_.partners(i) == 2 && half_edges[i].from == half_edges[i + 1].from) {
+        return bad(checked_.edge(half_edges[i]) + " has both its triangles on one side");
       }
     }
+    border_ = checked_.border();
     return good(std::to_string(edges_) + " edges, " + std::to_string(border_.size()) +
                 " on the hull");
+  }
+
+  // Which edges are on lines: as the file says, and as the input's lines are found in it.
+  void collect_lines() {
+    if (options_.features != nullptr && !options_.features->edges.empty()) {
+      check("lines", &Checker::lines);
+      for (const MeshEdge& e : options_.features->edges) on_lines_.emplace_back(e.low, e.high);
+    }
+    if (options_.graph != nullptr) {
+      auto [verdict, paths] = detail::check_segments(checked_, options_);
+      if (!paths.empty()) add("segments", std::move(verdict));
+      paths_ = std::move(paths);
+    }
+    for (const auto& path : paths_) {
+      for (std::size_t i = 1; i < path.vertices.size(); ++i) {
+        on_lines_.push_back(std::minmax(path.vertices[i - 1], path.vertices[i]));
+      }
+    }
+    std::sort(on_lines_.begin(), on_lines_.end());
+  }
+
+  [[nodiscard]] bool has_lines() const {
+    return !on_lines_.empty() ||
+           (options_.features != nullptr && !options_.features->regions.empty());
+  }
+
+  Verdict lines() {
+    for (const MeshEdge& e : options_.features->edges) {
+      if (checked_.has_edge(e.low, e.high)) continue;
+      return bad(checked_.edge(e.low, e.high) + " is listed, but is no edge of a triangle");
+    }
+    return good(std::to_string(options_.features->edges.size()) + " edges on lines");
   }
 
   // Border edges that go counterclockwise along the box's sides, one leaving each of their
   // vertices, close to walks around the box; without coinciding vertices there is one walk.
   Verdict hull() {
     if (border_.empty()) return bad("no triangles");
-    box_ = Box<2>{at(border_.front().from), at(border_.front().from)};
-    for (const auto& p : mesh_.vertices) {
-      for (int i = 0; i < 2; ++i) {
-        box_.lo[i] = std::min(box_.lo[i], p[i]);
-        box_.hi[i] = std::max(box_.hi[i], p[i]);
-      }
-    }
+    const Box<2> box = checked_.bounding_box();
     for (const auto& e : border_) {
-      if (!along_box(at(e.from), at(e.to))) return bad(edge(e) + " is not along a side of the box");
+      if (along_box(box, at(e.from), at(e.to))) continue;
+      return bad(checked_.edge(e) + " is not along a side of the box");
     }
     std::sort(border_.begin(), border_.end(),
               [](const HalfEdge& a, const HalfEdge& b) { return a.from < b.from; });
     for (std::size_t i = 1; i < border_.size(); ++i) {
       if (border_[i - 1].from != border_[i].from) continue;
-      return bad("two edges of the hull leave " + vertex(border_[i].from));
+      return bad("two edges of the hull leave " + checked_.vertex(border_[i].from));
     }
-    return good("the box " + text::to_text<2>(box_.lo) + " to " + text::to_text<2>(box_.hi));
+    return good("the box " + text::to_text<2>(box.lo) + " to " + text::to_text<2>(box.hi));
   }
 
   Verdict euler() {
@@ -142,92 +174,117 @@ class Checker {
     return sum == 1 ? good(detail) : bad(detail + ", expected 1");
   }
 
-  Verdict delaunay() {
-    for (std::size_t i = 0; i < half_edges_.size(); i += partners(i)) {
-      if (partners(i) != 2) continue;
-      const HalfEdge& e = half_edges_[i];
-      const auto other = half_edges_[i + 1].opposite;
-      if (predicates::incircle(at(e.from), at(e.to), at(e.opposite), at(other)) <= 0) continue;
-      return bad(vertex(other) + " is inside the circumcircle of " + triangle(e.triangle));
+  Verdict boundary() {
+    const Box<2> box = checked_.bounding_box();
+    for (const auto& e : border_) {
+      if (detail::contains(on_lines_, e) || along_box(box, at(e.from), at(e.to))) continue;
+      return bad(checked_.edge(e) + " has one triangle, but is on no line and no side of the box");
     }
-    return good(std::to_string(edges_ - static_cast<long long>(border_.size())) + " inner edges");
+    return good(std::to_string(border_.size()) + " edges of the boundary on lines");
+  }
+
+  Verdict delaunay() {
+    return locally_delaunay([&](const HalfEdge& e) { return !detail::contains(on_lines_, e); });
+  }
+  Verdict conforming() {
+    return locally_delaunay([&](const HalfEdge& e) { return detail::contains(on_lines_, e); });
+  }
+
+  template <class IsMeant>
+  Verdict locally_delaunay(IsMeant is_meant) const {
+    const auto& half_edges = checked_.half_edges();
+    long long inner = 0;
+    for (std::size_t i = 0; i < half_edges.size(); i += checked_.partners(i)) {
+      if (checked_.partners(i) != 2 || !is_meant(half_edges[i])) continue;
+      ++inner;
+      const HalfEdge& e = half_edges[i];
+      const auto other = half_edges[i + 1].opposite;
+      if (predicates::incircle(at(e.from), at(e.to), at(e.opposite), at(other)) <= 0) continue;
+      return bad(checked_.vertex(other) + " is inside the circumcircle of " +
+                 checked_.triangle(e.triangle) + " across " + checked_.edge(e));
+    }
+    return good(std::to_string(inner) + " inner edges");
+  }
+
+  struct InputPoint {
+    Point<2> at;
+    FeatureId id;
+    long line;
+  };
+  [[nodiscard]] std::vector<InputPoint> input_points() const {
+    std::vector<InputPoint> all;
+    if (const PointFile<2>* const file = options_.input) {
+      for (std::size_t i = 0; i < file->points.size(); ++i) {
+        all.push_back({file->points[i], file->ids[i], file->lines[i]});
+      }
+    }
+    if (const PslgFile* const graph = options_.graph) {
+      for (std::size_t i = 0; i < graph->pslg.points.size(); ++i) {
+        const auto& point = graph->pslg.points[i];
+        all.push_back({point.at, point.id, graph->points[i].line});
+      }
+    }
+    return all;
   }
 
   Verdict input() {
     std::vector<Point<2>> sorted = mesh_.vertices;
     std::sort(sorted.begin(), sorted.end());
-    const PointFile<2>& file = *options_.input;
-    for (std::size_t i = 0; i < file.points.size(); ++i) {
-      if (std::binary_search(sorted.begin(), sorted.end(), file.points[i])) continue;
-      return bad("input point " + std::to_string(static_cast<std::int64_t>(file.ids[i])) + " at " +
-                 text::to_text<2>(file.points[i]) + " (line " + std::to_string(file.lines[i]) +
+    const auto points = input_points();
+    std::size_t outside = 0;
+    for (const InputPoint& point : points) {
+      if (std::binary_search(sorted.begin(), sorted.end(), point.at)) continue;
+      if (options_.boundary != BoundaryRule::box && !checked_.triangle_at(point.at)) {
+        ++outside;
+        continue;
+      }
+      return bad("input point " + std::to_string(static_cast<std::int64_t>(point.id)) + " at " +
+                 text::to_text<2>(point.at) + " (line " + std::to_string(point.line) +
                  ") is no vertex");
     }
-    return good(std::to_string(file.points.size()) + " points are vertices");
+    return good(std::to_string(points.size() - outside) + " points are vertices" +
+                (outside > 0 ? ", " + std::to_string(outside) + " are outside" : ""));
   }
 
-  Verdict quality() {
-    constexpr double kRounding = 1e-9;  // far above the error of radius_edge, far below any use
-    double worst = 0;
-    for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
-      const auto& t = mesh_.simplices[i];
-      const double ratio = radius_edge(at(t[0]), at(t[1]), at(t[2]));
-      worst = std::max(worst, ratio);
-      if (ratio <= *options_.rho * (1 + kRounding)) continue;
-      return bad(triangle(i) + " has radius-edge " + text::to_text(ratio) + ", above rho " +
-                 text::to_text(*options_.rho));
-    }
-    return good("radius-edge at most " + text::to_text(worst));
-  }
+  Verdict regions() { return detail::check_regions(checked_, on_lines_, options_); }
+  Verdict quality() { return detail::check_quality(checked_, *options_.rho, paths_); }
 
-  void collect_half_edges() {
-    half_edges_.reserve(3 * mesh_.simplices.size());
+  Verdict area() {
+    constexpr double kRounding = 1e-9;  // of areas, as of radius-edge ratios
+    double largest = 0;
     for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
       const auto& [a, b, c] = mesh_.simplices[i];
-      half_edges_.insert(half_edges_.end(), {{a, b, c, i}, {b, c, a, i}, {c, a, b, i}});
+      const Point<2>&p = at(a), &q = at(b), &r = at(c);
+      const double area =
+          ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
+      largest = std::max(largest, area);
+      if (area <= *options_.max_area * (1 + kRounding)) continue;
+      return bad(checked_.triangle(i) + " has the area " + text::to_text(area) + ", above " +
+                 text::to_text(*options_.max_area));
     }
-    std::sort(half_edges_.begin(), half_edges_.end(), [](const HalfEdge& a, const HalfEdge& b) {
-      return std::pair(a.low(), a.high()) < std::pair(b.low(), b.high());
-    });
+    return good("areas at most " + text::to_text(largest));
   }
 
-  // How many half-edges from i on are of i's edge.
-  [[nodiscard]] std::size_t partners(std::size_t i) const {
-    std::size_t end = i + 1;
-    while (end < half_edges_.size() && half_edges_[i].same_edge(half_edges_[end])) ++end;
-    return end - i;
-  }
-
-  [[nodiscard]] bool along_box(const Point<2>& from, const Point<2>& to) const {
+  [[nodiscard]] static bool along_box(const Box<2>& box, const Point<2>& from,
+                                      const Point<2>& to) {
     const auto both_at = [&](int axis, double value) {
       return from[axis] == value && to[axis] == value;
     };
-    return (both_at(1, box_.lo[1]) && from[0] < to[0]) ||
-           (both_at(0, box_.hi[0]) && from[1] < to[1]) ||
-           (both_at(1, box_.hi[1]) && from[0] > to[0]) ||
-           (both_at(0, box_.lo[0]) && from[1] > to[1]);
+    return (both_at(1, box.lo[1]) && from[0] < to[0]) ||
+           (both_at(0, box.hi[0]) && from[1] < to[1]) ||
+           (both_at(1, box.hi[1]) && from[0] > to[0]) || (both_at(0, box.lo[0]) && from[1] > to[1]);
   }
 
-  [[nodiscard]] const Point<2>& at(std::size_t v) const { return mesh_.vertices[v]; }
-  [[nodiscard]] std::string vertex(std::size_t v) const {
-    return "vertex " + std::to_string(v + 1) + " at " + text::to_text<2>(at(v));
-  }
-  [[nodiscard]] std::string edge(const HalfEdge& e) const {
-    return "the edge from " + vertex(e.from) + " to " + vertex(e.to);
-  }
-  [[nodiscard]] std::string triangle(std::size_t i) const {
-    const auto& [a, b, c] = mesh_.simplices[i];
-    return "triangle " + std::to_string(i + 1) + " with the vertices " + std::to_string(a + 1) +
-           ", " + std::to_string(b + 1) + ", " + std::to_string(c + 1);
-  }
+  [[nodiscard]] const Point<2>& at(std::size_t v) const { return checked_.at(v); }
 
   const Mesh<2>& mesh_;
   const CheckOptions& options_;
+  detail::CheckedMesh checked_;
   std::vector<Finding> findings_;
-  std::vector<HalfEdge> half_edges_;  // by edge
-  std::vector<HalfEdge> border_;      // of edges with one triangle
+  std::vector<HalfEdge> border_;  // of edges with one triangle
+  detail::LineEdges on_lines_;
+  std::vector<detail::LinePath> paths_;  // of the input's lines
   long long edges_ = 0;
-  Box<2> box_;
 };
 
 }  // namespace

@@ -8,11 +8,11 @@
 #include <unordered_set>
 
 #include "io/text.hpp"
+#include "mesh/on_circle.hpp"
 
 namespace mesher {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
 constexpr double kLn2 = 0.6931471805599453;
 
 // ln x for x in (0, 1]: with x = m 2^e, ln m = 2 artanh s, s = (m-1)/(m+1), |s| <= 1/3; the first
@@ -24,30 +24,6 @@ double natural_log(double x) {
   double power = s, sum = 0;
   for (int k = 1; k < 40; k += 2, power *= s * s) sum += power / k;
   return 2 * sum + exponent * kLn2;
-}
-
-// cos and sin of x in [0, pi/4] by their series; the first term left out is below 2^-60.
-Point<2> cos_sin(double x) {
-  double term = 1, cosine = 0, sine = 0;
-  for (int k = 1; k < 18; k += 2) {
-    cosine += term;
-    term *= x / k;
-    sine += term;
-    term *= -x / (k + 1);
-  }
-  return {cosine, sine};
-}
-
-// The point of the unit circle after `turns` >= 0 turns from (1, 0).
-Point<2> on_circle(double turns) {
-  const double whole = std::floor(4 * turns);
-  const double part = turns - whole / 4;  // within [0, 1/4)
-  Point<2> p = cos_sin(2 * kPi * std::min(part, 0.25 - part));
-  if (part > 0.125) p = {p[1], p[0]};
-  for (int quarter = static_cast<int>(std::fmod(whole, 4)); quarter > 0; --quarter) {
-    p = {-p[1] + 0.0, p[0]};
-  }
-  return p;
 }
 
 // A normal deviate by Marsaglia's polar method (SIAM Review 6, 1964).

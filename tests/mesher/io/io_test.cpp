@@ -289,7 +289,8 @@ TEST_CASE("bad meshes are refused with the code and the place of the mistake") {
       {"m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "bad_mesh@6:7"},
       {"m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4 0 1 2 2\n", "bad_mesh@6:1"},
       {"m.off", "OFF\n0 0 0\n0 0 0\n", "wrong_count@3:1"},
-      {"m.vtu", "", "unknown_format@0:0"},
+      {"m.vtu", "", "truncated@1:1"},
+      {"m.stl", "", "unknown_format@0:0"},
   }));
   INFO(refused.name << ": " << refused.content);
   const ScratchFolder folder;

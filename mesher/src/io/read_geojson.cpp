@@ -1,0 +1,260 @@
+// Reads GeoJSON (RFC 7946): lines and points of any geometry, regions and holes of polygons.
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "io/json.hpp"
+#include "io/read_pslg.hpp"
+#include "io/ring_seeds.hpp"
+#include "io/text.hpp"
+
+namespace mesher {
+namespace {
+
+using Kind = JsonValue::Kind;
+
+// What the properties of a feature say of its parts.
+struct Properties {
+  std::int64_t marker = 0;
+  std::optional<double> attribute;
+  std::optional<double> max_area;
+};
+
+class GeoJsonReader {
+ public:
+  explicit GeoJsonReader(const text::Source& source) : source_(source), build_(source.file()) {}
+
+  PslgFile read() {
+    read_object(read_json(source_), Properties());
+    add_seeds();
+    return build_.finish();
+  }
+
+ private:
+  // A polygon whose seeds are to be found; the first ring is the outer one.
+  struct Polygon {
+    std::vector<Ring> rings;
+    std::vector<FilePosition> positions;
+    Properties properties;
+  };
+
+  [[noreturn]] void fail(const std::string& what, const JsonValue& at) const {
+    throw source_.error(ErrorCode::bad_syntax, what, at.at);
+  }
+
+  void require(const JsonValue& value, Kind kind, const char* what) const {
+    if (value.kind != kind) fail(std::string("expected ") + what, value);
+  }
+
+  const JsonValue& member(const JsonValue& object, std::string_view name, Kind kind,
+                          const char* what) const {
+    const JsonValue* const value = object.find(name);
+    if (value == nullptr) fail("no member " + text::quoted(name), object);
+    require(*value, kind, what);
+    return *value;
+  }
+
+  void note_members(const JsonValue& object, std::initializer_list<std::string_view> used,
+                    const std::string& what) {
+    for (const JsonValue& value : object.values) {
+      if (std::find(used.begin(), used.end(), value.name) != used.end()) continue;
+      build_.note("the " + what + " " + text::quoted(value.name) + " is not used",
+                  source_.place(value.at));
+    }
+  }
+
+  void read_object(const JsonValue& object, const Properties& properties) {
+    require(object, Kind::object, "a GeoJSON object");
+    const JsonValue& type = member(object, "type", Kind::string, "the name of a type");
+    if (type.text == "FeatureCollection") {
+      note_members(object, {"type", "features"}, "member");
+      const JsonValue& features = member(object, "features", Kind::array, "an array of features");
+      for (const JsonValue& feature : features.values) read_feature(feature);
+    } else if (type.text == "Feature") {
+      read_feature(object);
+    } else {
+      read_geometry(object, properties);
+    }
+  }
+
+  void read_feature(const JsonValue& feature) {
+    require(feature, Kind::object, "a feature");
+    if (member(feature, "type", Kind::string, "'Feature'").text != "Feature") {
+      fail("expected a feature, of the type 'Feature'", feature);
+    }
+    note_members(feature, {"type", "geometry", "properties"}, "member");
+    const Properties properties = read_properties(feature.find("properties"));
+    const JsonValue* const geometry = feature.find("geometry");
+    if (geometry == nullptr) fail("no member 'geometry'", feature);
+    if (geometry->kind == Kind::null) {
+      build_.note("a feature without geometry", source_.place(feature.at));
+    } else {
+      read_geometry(*geometry, properties);
+    }
+  }
+
+  Properties read_properties(const JsonValue* object) {
+    Properties properties;
+    if (object == nullptr || object->kind == Kind::null) return properties;
+    require(*object, Kind::object, "an object of properties");
+    note_members(*object, {"marker", "attribute", "max_area"}, "property");
+    if (const auto* marker = number_in(*object, "marker")) {
+      properties.marker = source_.integer(marker->at);
+    }
+    if (const auto* attribute = number_in(*object, "attribute")) {
+      properties.attribute = source_.finite(attribute->at);
+    }
+    if (const auto* area = number_in(*object, "max_area")) {
+      properties.max_area = source_.finite(area->at);
+      if (*properties.max_area <= 0) fail("a limit of area is above 0", *area);
+    }
+    return properties;
+  }
+
+  // The property, or nothing where it is absent or null.
+  const JsonValue* number_in(const JsonValue& object, std::string_view name) const {
+    const JsonValue* const value = object.find(name);
+    if (value == nullptr || value->kind == Kind::null) return nullptr;
+    require(*value, Kind::number, "a number");
+    return value;
+  }
+
+  void read_geometry(const JsonValue& geometry, const Properties& properties) {
+    require(geometry, Kind::object, "a geometry");
+    const std::string& type = member(geometry, "type", Kind::string, "a type").text;
+    if (type == "GeometryCollection") {
+      note_members(geometry, {"type", "geometries"}, "member");
+      for (const auto& part :
+           member(geometry, "geometries", Kind::array, "an array of geometries").values) {
+        read_geometry(part, properties);
+      }
+      return;
+    }
+    const auto read = reader_of(type);
+    if (read.one == nullptr) fail("no geometry is called " + text::quoted(type), geometry);
+    note_members(geometry, {"type", "coordinates"}, "member");
+    const auto& coordinates = member(geometry, "coordinates", Kind::array, "coordinates");
+    if (coordinates.values.empty()) {
+      build_.note("a geometry without coordinates", source_.place(geometry.at));
+    } else if (read.many) {
+      for (const JsonValue& part : coordinates.values) (this->*read.one)(part, properties);
+    } else {
+      (this->*read.one)(coordinates, properties);
+    }
+  }
+
+  struct Reader {
+    void (GeoJsonReader::*one)(const JsonValue&, const Properties&);
+    bool many;
+  };
+  static Reader reader_of(std::string_view type) {
+    const bool many = type.substr(0, 5) == "Multi";
+    const std::string_view single = many ? type.substr(5) : type;
+    if (single == "Point") return {&GeoJsonReader::read_point, many};
+    if (single == "LineString") return {&GeoJsonReader::read_line, many};
+    if (single == "Polygon") return {&GeoJsonReader::read_polygon, many};
+    return {nullptr, false};
+  }
+
+  void read_point(const JsonValue& position, const Properties& properties) {
+    build_.point_at(position_of(position), properties.marker, source_.position(position.at));
+  }
+
+  void read_line(const JsonValue& line, const Properties& properties) {
+    require(line, Kind::array, "an array of positions");
+    if (line.values.size() < 2) fail("a line has two positions or more", line);
+    add_line(line, properties);
+  }
+
+  void read_polygon(const JsonValue& polygon, const Properties& properties) {
+    require(polygon, Kind::array, "an array of rings");
+    if (polygon.values.empty()) fail("a polygon has a ring", polygon);
+    Polygon added{{}, {}, properties};
+    for (const JsonValue& ring : polygon.values) {
+      require(ring, Kind::array, "a ring of positions");
+      if (ring.values.size() < 4) fail("a ring has four positions or more", ring);
+      added.rings.push_back(add_line(ring, properties));
+      added.positions.push_back(source_.position(ring.at));
+      if (added.rings.back().front() == added.rings.back().back()) continue;
+      fail("a ring ends where it begins", ring);
+    }
+    polygons_.push_back(std::move(added));
+  }
+
+  Ring add_line(const JsonValue& line, const Properties& properties) {
+    Ring places;
+    std::vector<FeatureId> points;
+    for (const JsonValue& position : line.values) {
+      places.push_back(position_of(position));
+      points.push_back(
+          build_.point_at(places.back(), properties.marker, source_.position(position.at)));
+      if (places.size() > 1) lines_.push_back({places[places.size() - 2], places.back()});
+    }
+    build_.add_line(std::move(points), properties.marker, source_.position(line.at));
+    return places;
+  }
+
+  Point<2> position_of(const JsonValue& position) {
+    require(position, Kind::array, "a position: [x, y]");
+    if (position.values.size() < 2) fail("a position has two numbers or more", position);
+    for (const JsonValue& number : position.values) require(number, Kind::number, "a number");
+    if (position.values.size() > 2) {
+      build_.note("an altitude is not used", source_.place(position.values[2].at));
+    }
+    return {source_.coordinate(position.values[0].at), source_.coordinate(position.values[1].at)};
+  }
+
+  // For each polygon its region, then its holes.
+  std::vector<SeedQuestion> seed_questions() const {
+    std::vector<SeedQuestion> questions;
+    for (const Polygon& polygon : polygons_) {
+      SeedQuestion region{&polygon.rings.front(), {}};
+      for (std::size_t i = 1; i < polygon.rings.size(); ++i) {
+        region.inner.push_back(&polygon.rings[i]);
+      }
+      questions.push_back(std::move(region));
+      for (std::size_t i = 1; i < polygon.rings.size(); ++i) {
+        questions.push_back({&polygon.rings[i], {}});
+      }
+    }
+    return questions;
+  }
+
+  void add_seeds() {
+    const auto seeds = find_seeds(seed_questions(), lines_);
+    auto seed = seeds.begin();
+    double number = 0;
+    for (const Polygon& polygon : polygons_) {
+      add_region(polygon, *seed++, ++number);
+      for (std::size_t i = 1; i < polygon.rings.size(); ++i, ++seed) {
+        *seed ? build_.add_hole(**seed, polygon.positions[i])
+              : note_thin("a hole", polygon.positions[i]);
+      }
+    }
+  }
+
+  void add_region(const Polygon& polygon, const std::optional<Point<2>>& seed, double number) {
+    if (!seed) return note_thin("a polygon", polygon.positions[0]);
+    build_.add_region(*seed, polygon.properties.attribute.value_or(number),
+                      polygon.properties.max_area, polygon.positions[0]);
+  }
+
+  void note_thin(const std::string& what, FilePosition position) {
+    build_.note(what + " too thin to have a place inside: only its lines are used",
+                {source_.file(), position.line, position.column});
+  }
+
+  const text::Source& source_;
+  PslgBuilder build_;
+  std::vector<Polygon> polygons_;
+  std::vector<std::array<Point<2>, 2>> lines_;
+};
+
+}  // namespace
+
+PslgFile read_geojson(const std::string& path) {
+  const text::Source source(path);
+  return GeoJsonReader(source).read();
+}
+
+}  // namespace mesher

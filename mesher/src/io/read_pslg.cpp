@@ -1,0 +1,162 @@
+// Reads graphs of any known format and refuses repeated ids and ends that are no points.
+#include "io/read_pslg.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "io/read_node.hpp"
+#include "io/text.hpp"
+
+namespace mesher {
+namespace {
+
+std::string id_text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
+
+// Ids with the places of what they name, to be checked.
+struct Named {
+  const char* what;  // "segment"
+  std::vector<FeatureId> ids;
+  std::vector<Place> places;
+};
+
+template <class Part, class PlaceOf>
+Named named(const char* what, const std::vector<Part>& parts, PlaceOf place_of) {
+  Named all{what, {}, {}};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    all.ids.push_back(parts[i].id);
+    all.places.push_back(place_of(i));
+  }
+  return all;
+}
+
+// Throws: Error(repeated_id) for the first part whose id an earlier one has. Cost: O(n log n).
+void require_distinct(const Named& all) {
+  std::vector<std::pair<FeatureId, std::size_t>> order;
+  for (std::size_t i = 0; i < all.ids.size(); ++i) order.emplace_back(all.ids[i], i);
+  std::sort(order.begin(), order.end());
+  std::size_t earlier = 0, later = all.ids.size();
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    if (order[k - 1].first != order[k].first || order[k].second >= later) continue;
+    earlier = order[k - 1].second;
+    later = order[k].second;
+  }
+  if (later == all.ids.size()) return;
+  throw Error(ErrorCode::repeated_id,
+              std::string(all.what) + " " + id_text(all.ids[later]) +
+                  " is given twice, first on line " + std::to_string(all.places[earlier].line),
+              all.places[later], {all.ids[later]});
+}
+
+void require_distinct_ids(const PslgFile& f) {
+  require_distinct(named("point", f.pslg.points, [&](auto i) { return f.place_of_point(i); }));
+  require_distinct(named("hole", f.pslg.holes, [&](auto i) { return f.place_of_hole(i); }));
+  require_distinct(named("region", f.pslg.regions, [&](auto i) { return f.place_of_region(i); }));
+  Named lines = named("segment", f.pslg.segments, [&](auto i) { return f.place_of_segment(i); });
+  const Named more =
+      named("polyline", f.pslg.polylines, [&](auto i) { return f.place_of_polyline(i); });
+  lines.ids.insert(lines.ids.end(), more.ids.begin(), more.ids.end());
+  lines.places.insert(lines.places.end(), more.places.begin(), more.places.end());
+  require_distinct(lines);
+}
+
+// Throws: Error(unknown_id) for the first segment with an end that is no point.
+void require_known_ends(const PslgFile& f) {
+  std::vector<FeatureId> ids;
+  for (const auto& point : f.pslg.points) ids.push_back(point.id);
+  std::sort(ids.begin(), ids.end());
+  for (std::size_t i = 0; i < f.pslg.segments.size(); ++i) {
+    const Pslg::Segment& s = f.pslg.segments[i];
+    for (const FeatureId end : {s.from, s.to}) {
+      if (std::binary_search(ids.begin(), ids.end(), end)) continue;
+      throw Error(ErrorCode::unknown_id,
+                  "segment " + id_text(s.id) + " ends at point " + id_text(end) +
+                      ", which is not there; there are " + std::to_string(ids.size()) +
+                      " points in " + f.point_file,
+                  f.place_of_segment(i), {s.id, end});
+    }
+  }
+}
+
+PslgFile read_points_alone(const std::string& path) {
+  const PointFile<2> rows = read_points<2>(path);
+  PslgFile out;
+  out.file = out.point_file = path;
+  for (std::size_t i = 0; i < rows.points.size(); ++i) {
+    out.pslg.points.push_back({rows.ids[i], rows.points[i], 0});
+    out.points.push_back({rows.lines[i], 1});
+  }
+  return out;
+}
+
+PslgFile read_any(const std::string& path) {
+  const std::string extension = text::extension(path);
+  if (extension == ".poly") return read_poly(path, PointsBeside::read);
+  if (extension == ".geojson" || extension == ".json") return read_geojson(path);
+  if (extension == ".obj") return read_obj_lines(path);
+  if (extension == ".vtu") return read_vtu_lines(path);
+  if (extension == ".node" || extension == ".xyz" || extension == ".csv") {
+    return read_points_alone(path);
+  }
+  throw Error(ErrorCode::unknown_format,
+              "points and lines are read from .poly, .geojson, .json, .obj, .vtu, .node, .xyz and "
+              ".csv, not " +
+                  text::quoted(extension),
+              {path});
+}
+
+}  // namespace
+
+PslgFile read_pslg(const std::string& path) {
+  PslgFile file = read_any(path);
+  require_distinct_ids(file);
+  require_known_ends(file);
+  return file;
+}
+
+FeatureId PslgBuilder::add_point(const Point<2>& at, std::int64_t marker, FilePosition position) {
+  const FeatureId id{static_cast<std::int64_t>(out_.pslg.points.size()) + 1};
+  out_.pslg.points.push_back({id, at, marker});
+  out_.points.push_back(position);
+  return id;
+}
+
+FeatureId PslgBuilder::point_at(const Point<2>& at, std::int64_t marker, FilePosition position) {
+  const auto [found, is_new] = at_.try_emplace(at, out_.pslg.points.size());
+  if (is_new) return add_point(at, marker, position);
+  Pslg::Vertex& point = out_.pslg.points[found->second];
+  if (point.marker == 0) point.marker = marker;
+  return point.id;
+}
+
+FeatureId PslgBuilder::add_line(std::vector<FeatureId> points, std::int64_t marker,
+                                FilePosition position) {
+  const FeatureId id{++lines_};
+  if (points.size() == 2) {
+    out_.pslg.segments.push_back({id, points[0], points[1], marker});
+    out_.segments.push_back(position);
+  } else {
+    out_.pslg.polylines.push_back({id, std::move(points), marker});
+    out_.polylines.push_back(position);
+  }
+  return id;
+}
+
+void PslgBuilder::add_hole(const Point<2>& seed, FilePosition position) {
+  const FeatureId id{static_cast<std::int64_t>(out_.pslg.holes.size()) + 1};
+  out_.pslg.holes.push_back({id, seed});
+  out_.holes.push_back(position);
+}
+
+void PslgBuilder::add_region(const Point<2>& seed, double attribute, std::optional<double> max_area,
+                             FilePosition position) {
+  const FeatureId id{static_cast<std::int64_t>(out_.pslg.regions.size()) + 1};
+  out_.pslg.regions.push_back({id, seed, attribute, max_area});
+  out_.regions.push_back(position);
+}
+
+PslgFile PslgBuilder::finish() {
+  out_.notes = notes_.notes();
+  return std::move(out_);
+}
+
+}  // namespace mesher

@@ -1,0 +1,183 @@
+// Reads the files of a mesh that Triangle would write: `.node` and `.ele`, and, where they are,
+// `.edge`, `.poly` and `.neigh`.
+//
+//   .ele:   count [corners [attributes]]     id corner corner corner [attributes...]
+//   .edge:  count [markers]                  id vertex vertex [marker [line]]
+//   .neigh: count 3                          id triangle triangle triangle    (-1: none)
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "io/note_counter.hpp"
+#include "io/read_mesh.hpp"
+#include "io/read_node.hpp"
+#include "io/read_pslg.hpp"
+#include "io/rows.hpp"
+#include "io/text.hpp"
+
+namespace mesher {
+namespace {
+
+// Finds the position of a vertex or triangle by its id.
+class IdTable {
+ public:
+  IdTable() = default;
+  explicit IdTable(const std::vector<FeatureId>& ids) {
+    for (std::size_t i = 0; i < ids.size(); ++i) rows_.emplace_back(ids[i], i);
+    std::sort(rows_.begin(), rows_.end());
+  }
+  // Throws: Error(bad_mesh) if there is none of that id.
+  [[nodiscard]] std::uint32_t at(FeatureId id, const char* what, const Place& place) const {
+    const auto row = std::lower_bound(rows_.begin(), rows_.end(), std::pair(id, std::size_t{0}));
+    if (row != rows_.end() && row->first == id) return static_cast<std::uint32_t>(row->second);
+    throw Error(
+        ErrorCode::bad_mesh,
+        std::string("no ") + what + " has the id " + std::to_string(static_cast<std::int64_t>(id)),
+        place, {id});
+  }
+  // Field i of `line` as a vertex.
+  [[nodiscard]] std::uint32_t vertex(const text::Line& line, std::size_t i) const {
+    return at(FeatureId{line.integer(i)}, "vertex", line.place(i));
+  }
+
+ private:
+  std::vector<std::pair<FeatureId, std::size_t>> rows_;
+};
+
+class TriangleFiles {
+ public:
+  explicit TriangleFiles(const std::string& path) : path_(path) {}
+
+  MeshData read() {
+    read_vertices(beside(".node"));
+    read_triangles(beside(".ele"));
+    if (std::filesystem::exists(beside(".edge"))) read_edges(beside(".edge"));
+    if (std::filesystem::exists(beside(".poly"))) read_segments(beside(".poly"));
+    if (std::filesystem::exists(beside(".neigh"))) check_neighbours(beside(".neigh"));
+    for (const auto& [ends, edge] : edges_) mesh_.features.edges.push_back(edge);
+    mesh_.notes = notes_.notes();
+    return std::move(mesh_);
+  }
+
+ private:
+  [[nodiscard]] std::string beside(const char* extension) const {
+    return text::with_extension(path_, extension);
+  }
+
+  void read_vertices(const std::string& path) {
+    NodeFile<2> nodes = read_node<2>(path, CoordinateRule::finite);
+    require_distinct_ids(nodes.rows);
+    require_indexable(nodes.rows.points.size(), path_);
+    vertices_ = IdTable(nodes.rows.ids);
+    mesh_.vertices = std::move(nodes.rows.points);
+    mesh_.kinds = std::move(nodes.kinds);
+    mesh_.features.origins = std::move(nodes.origins);
+    mesh_.features.markers = std::move(nodes.markers);
+    for (const Note& note : nodes.notes) notes_.add(note.text, note.place);
+  }
+
+  void read_triangles(const std::string& path) {
+    const std::string content = text::read_file(path);
+    text::FieldLines lines(path, content);
+    if (!lines.next()) throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
+    const std::int64_t count = read_count(lines.line(), 0);
+    if (lines.line().size() > 1 && lines.line().integer(1) != 3) {
+      throw lines.line().error(ErrorCode::bad_dimension, "expected triangles: 3 corners each", 1);
+    }
+    const std::int64_t attributes = lines.line().size() > 2 ? read_count(lines.line(), 2) : 0;
+    if (attributes > 1) notes_.add("attributes but the first are not used", lines.line().place(2));
+    std::vector<FeatureId> ids;
+    const std::size_t fields = attributes > 0 ? 5 : 4;
+    while (std::cmp_less(ids.size(), count)) {
+      const text::Line& line = next_row(lines, fields, ids.size(), count, "triangles");
+      ids.push_back(FeatureId{line.integer(0)});
+      mesh_.simplices.push_back(
+          read_corners(line, 1, [&](std::size_t i) { return vertices_.vertex(line, i); }));
+      if (attributes > 0) mesh_.features.regions.push_back(line.finite(4));
+    }
+    require_end(lines, "triangles");
+    triangles_ = IdTable(ids);
+  }
+
+  // Edges with neither marker nor line are not worth a word.
+  void read_edges(const std::string& path) {
+    const std::string content = text::read_file(path);
+    text::FieldLines lines(path, content);
+    if (!lines.next()) throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
+    const std::int64_t count = read_count(lines.line(), 0);
+    for (std::size_t done = 0; std::cmp_less(done, count); ++done) {
+      const text::Line& line = next_row(lines, 3, done, count, "edges");
+      MeshEdge edge = edge_of(vertices_.vertex(line, 1), vertices_.vertex(line, 2),
+                              [&] { return line.place(1); });
+      if (line.size() > 3) edge.marker = line.integer(3);
+      if (line.size() > 4) edge.line = FeatureId{line.integer(4)};
+      if (edge.marker == 0 && !edge.line) continue;
+      if (!edges_.try_emplace({edge.low, edge.high}, edge).second) {
+        throw line.error(ErrorCode::bad_mesh, "an edge that is given twice", 1);
+      }
+    }
+    require_end(lines, "edges");
+  }
+
+  // A .poly file with points of its own is an input, not a part of this mesh.
+  void read_segments(const std::string& path) {
+    const PslgFile poly = read_poly(path, PointsBeside::ignore);
+    if (!poly.pslg.points.empty()) {
+      notes_.add("a .poly file with points of its own is no part of the mesh", {path});
+      return;
+    }
+    for (std::size_t i = 0; i < poly.pslg.segments.size(); ++i) {
+      const Pslg::Segment& s = poly.pslg.segments[i];
+      const Place place = poly.place_of_segment(i);
+      MeshEdge edge = edge_of(vertices_.at(s.from, "vertex", place),
+                              vertices_.at(s.to, "vertex", place), [&] { return place; });
+      edge.marker = s.marker;
+      edges_.try_emplace({edge.low, edge.high}, edge);
+    }
+  }
+
+  void check_neighbours(const std::string& path) const {
+    const std::string content = text::read_file(path);
+    text::FieldLines lines(path, content);
+    if (!lines.next()) throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
+    const std::int64_t count = read_count(lines.line(), 0);
+    if (std::cmp_not_equal(count, mesh_.simplices.size())) {
+      throw lines.line().error(
+          ErrorCode::wrong_count,
+          std::to_string(count) + " triangles, expected " + std::to_string(mesh_.simplices.size()),
+          0);
+    }
+    const auto expected = neighbours(mesh_);
+    for (std::size_t done = 0; std::cmp_less(done, count); ++done) {
+      const text::Line& line = next_row(lines, 4, done, count, "triangles");
+      const auto t = triangles_.at(FeatureId{line.integer(0)}, "triangle", line.place(0));
+      for (std::size_t i = 0; i < 3; ++i) require_neighbour(line, i + 1, expected[t][i]);
+    }
+    require_end(lines, "triangles");
+  }
+
+  void require_neighbour(const text::Line& line, std::size_t i, std::uint32_t expected) const {
+    const std::int64_t id = line.integer(i);
+    const bool none = id == -1;
+    const auto t = none ? kNoTriangle : triangles_.at(FeatureId{id}, "triangle", line.place(i));
+    if (t == expected) return;
+    throw line.error(ErrorCode::bad_mesh,
+                     "triangle " + std::string(line[0]) + " does not have the neighbour " +
+                         std::string(line[i]) + " across from corner " + std::to_string(i),
+                     i);
+  }
+
+  std::string path_;
+  MeshData mesh_;
+  IdTable vertices_, triangles_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, MeshEdge> edges_;
+  NoteCounter notes_;
+};
+
+}  // namespace
+
+MeshData read_triangle_files(const std::string& path) { return TriangleFiles(path).read(); }
+
+}  // namespace mesher

@@ -1,0 +1,115 @@
+// The meshes of VTK's grids.
+#include "io/read_mesh.hpp"
+#include "io/vtk_grid.hpp"
+
+namespace mesher {
+namespace {
+
+class GridMesh {
+ public:
+  explicit GridMesh(VtkGrid grid) : grid_(std::move(grid)) {}
+
+  MeshData read() {
+    read_points();
+    find_cell_data();
+    for (std::size_t i = 0; i < grid_.cell_count(); ++i) read_cell(i);
+    note_unused(grid_.point_data, {kinds_, origins_, markers_}, grid_.notes);
+    note_unused(grid_.cell_data, {regions_, cell_markers_, lines_, has_line_}, grid_.notes);
+    mesh_.notes = grid_.notes.notes();
+    return std::move(mesh_);
+  }
+
+ private:
+  void read_points() {
+    const auto& values = grid_.points.reals;
+    for (std::size_t i = 0; i < values.size(); i += 3) {
+      mesh_.vertices.push_back({values[i], values[i + 1]});
+    }
+    mesh_.kinds.assign(mesh_.vertices.size(), VertexKind::steiner);
+    kinds_ = VtkGrid::find_integers(grid_.point_data, "kind");
+    for (std::size_t i = 0; kinds_ != nullptr && i < mesh_.kinds.size(); ++i) {
+      mesh_.kinds[i] = kind_of(kinds_->integers[i]);
+    }
+    origins_ = VtkGrid::find_integers(grid_.point_data, "origin");
+    if (origins_ != nullptr) {
+      for (const auto id : origins_->integers) mesh_.features.origins.push_back(FeatureId{id});
+    }
+    markers_ = VtkGrid::find_integers(grid_.point_data, "marker");
+    if (markers_ != nullptr) mesh_.features.markers = markers_->integers;
+  }
+
+  [[nodiscard]] VertexKind kind_of(std::int64_t value) const {
+    if (value >= 0 && value <= static_cast<int>(VertexKind::segment)) {
+      return static_cast<VertexKind>(value);
+    }
+    throw Error(ErrorCode::bad_mesh, "no kind of vertex is " + std::to_string(value),
+                kinds_->place);
+  }
+
+  void find_cell_data() {
+    regions_ = VtkGrid::find(grid_.cell_data, "region");
+    cell_markers_ = VtkGrid::find_integers(grid_.cell_data, "marker");
+    lines_ = VtkGrid::find_integers(grid_.cell_data, "line");
+    has_line_ = VtkGrid::find_integers(grid_.cell_data, "has_line");
+  }
+
+  void read_cell(std::size_t i) {
+    const auto vertices = grid_.cell(i);
+    switch (grid_.type(i)) {
+      case VtkCell::triangle:
+        return add_triangle(i, vertices);
+      case VtkCell::line:
+      case VtkCell::poly_line:
+        return add_line(i, vertices);
+      case VtkCell::vertex:
+      case VtkCell::poly_vertex:
+        return grid_.notes.add("cells that are vertices are not used", grid_.types.place);
+    }
+    throw Error(ErrorCode::unsupported,
+                "cell " + std::to_string(i) + " has the type " +
+                    std::to_string(grid_.types.integers[i]) +
+                    ": triangles (5) and lines (3, 4) "
+                    "make a mesh",
+                grid_.types.place);
+  }
+
+  void add_triangle(std::size_t i, const std::vector<std::uint32_t>& v) {
+    if (v.size() != 3 || v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
+      throw Error(ErrorCode::bad_mesh,
+                  "cell " + std::to_string(i) + " is a triangle without three different corners",
+                  grid_.connectivity.place);
+    }
+    mesh_.simplices.push_back({v[0], v[1], v[2]});
+    if (regions_ == nullptr) return;
+    mesh_.features.regions.push_back(
+        regions_->is_integral ? static_cast<double>(regions_->integers[i]) : regions_->reals[i]);
+  }
+
+  void add_line(std::size_t i, const std::vector<std::uint32_t>& v) {
+    if (v.size() < 2) {
+      throw Error(ErrorCode::bad_mesh, "cell " + std::to_string(i) + " is a line of one point",
+                  grid_.connectivity.place);
+    }
+    for (std::size_t k = 1; k < v.size(); ++k) {
+      MeshEdge edge = edge_of(v[k - 1], v[k], [&] { return grid_.connectivity.place; });
+      if (cell_markers_ != nullptr) edge.marker = cell_markers_->integers[i];
+      const bool has_line = has_line_ == nullptr || has_line_->integers[i] != 0;
+      if (lines_ != nullptr && has_line) edge.line = FeatureId{lines_->integers[i]};
+      mesh_.features.edges.push_back(edge);
+    }
+  }
+
+  VtkGrid grid_;
+  MeshData mesh_;
+  const VtkArray *kinds_ = nullptr, *origins_ = nullptr, *markers_ = nullptr;
+  const VtkArray *regions_ = nullptr, *cell_markers_ = nullptr, *lines_ = nullptr,
+                 *has_line_ = nullptr;
+};
+
+}  // namespace
+
+MeshData read_vtu_mesh(const std::string& path) { return GridMesh(read_vtu(path)).read(); }
+
+MeshData read_vtk_mesh(const std::string& path) { return GridMesh(read_vtk(path)).read(); }
+
+}  // namespace mesher

@@ -1,0 +1,25 @@
+// Tables of a file that goes by lines: a count, then as many rows.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "io/text.hpp"
+
+namespace mesher {
+
+/// Field i as a count. Throws: Error (bad_number, bad_header).
+[[nodiscard]] std::int64_t read_count(const text::Line& line, std::size_t i);
+
+/// The next line, which must be there with at least `fields` fields: row `done` of `count` of what
+/// is called `what`. Throws: Error (truncated, wrong_count).
+const text::Line& next_row(text::FieldLines& lines, std::size_t fields, std::size_t done,
+                           std::int64_t count, const std::string& what);
+
+/// Throws: Error(wrong_count) if another line follows.
+void require_end(text::FieldLines& lines, const std::string& what);
+
+/// Throws: Error(too_many): vertices are numbered by 32 bits.
+void require_indexable(std::size_t vertices, const std::string& path);
+
+}  // namespace mesher

@@ -1,0 +1,84 @@
+// Writes meshes in every format for others to read, and what they are for a comparison; says what
+// a file of others is to us.
+//
+//   mesh_files write FOLDER
+//   mesh_files dump FILE TRUTH
+//
+// For each mesh NAME: NAME.node (.ele, ...), .vtu, .vtk, .msh, .mesh, .off, .obj, and NAME.truth:
+// lines `v BITS BITS` (a vertex, its doubles' bits in hexadecimal), `t A B C REGION` (a triangle),
+// `e A B MARKER` (an edge on a line), numbered from 0. `dump` writes the like of FILE to TRUTH.
+#include <bit>
+#include <cstdio>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <string>
+
+#include "mesher/io.hpp"
+#include "mesher/mesher.hpp"
+#include "random_mesh.hpp"
+
+namespace {
+
+using mesher::MeshData;
+
+void write_truth(const MeshData& mesh, const std::string& path) {
+  std::ofstream file(path);
+  file << std::hex << std::setfill('0');
+  for (const auto& [x, y] : mesh.vertices) {
+    file << "v " << std::setw(16) << std::bit_cast<std::uint64_t>(x) << ' ' << std::setw(16)
+         << std::bit_cast<std::uint64_t>(y) << '\n';
+  }
+  file << std::dec << std::setprecision(17);
+  for (std::size_t i = 0; i < mesh.simplices.size(); ++i) {
+    const auto& [a, b, c] = mesh.simplices[i];
+    const double region = mesh.features.regions.empty() ? 0 : mesh.features.regions[i];
+    file << "t " << a << ' ' << b << ' ' << c << ' ' << region << '\n';
+  }
+  for (const auto& e : mesh.features.edges) {
+    file << "e " << e.low << ' ' << e.high << ' ' << e.marker << '\n';
+  }
+}
+
+void write(const MeshData& mesh, const std::string& stem) {
+  write_truth(mesh, stem + ".truth");
+  for (const char* extension : {".node", ".vtu", ".vtk", ".msh", ".mesh", ".off", ".obj"}) {
+    mesher::write_mesh(mesh, stem + extension);
+  }
+}
+
+MeshData mesh_of_points() {
+  const auto points = mesher::generate_points<2>(mesher::PointKind::clusters, 500, 1);
+  return MeshData(
+      mesher::mesh_statically<2>(points, {.domain = mesher::snapped_domain<2>(points)}));
+}
+
+void write_all(const std::string& folder) {
+  mesher::SplitMix64 random(1);
+  write(mesh_of_points(), folder + "points");
+  const support::MeshValues small{.any_region = false, .any_marker = false};
+  for (int i = 0; i < 5; ++i) {
+    const auto size = 1 + static_cast<std::uint32_t>(random.below(12));
+    write(support::random_mesh(size, random, small), folder + "features" + std::to_string(i));
+  }
+  write(support::random_mesh(9, random), folder + "any_values");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string command = argc > 1 ? argv[1] : "";
+  try {
+    if (command == "write" && argc == 3) {
+      write_all(std::string(argv[2]) + "/");
+    } else if (command == "dump" && argc == 4) {
+      write_truth(mesher::read_mesh(argv[2]), argv[3]);
+    } else {
+      return 2;
+    }
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}
