@@ -111,7 +111,7 @@ bool Core::settle_link(Handle link) {
     if (h == link) return true;
     const auto go_back = [&] { now_ = h == reached ? end_of(h) : reached; };
     try {
-      run_from_queue(h);
+      run_from_queue(h, link);
     } catch (...) {
       go_back();
       throw;
@@ -172,7 +172,9 @@ void Core::need_end(Activation& a) {
 
 void Core::report_progress() {
   progress_at_ += progress_every_;
+  stopped_ = true;  // unless it returns true
   if (!progress_({.executed = counts_.executed, .queued = queue_.size()})) throw Cancelled();
+  stopped_ = false;
 }
 
 void Core::note_failure(Event::Kind kind, const Call* call) noexcept {

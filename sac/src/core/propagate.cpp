@@ -1,4 +1,7 @@
 // The queue: which call runs next, and whether it must.
+#include <algorithm>
+#include <new>
+
 #include "sac/engine.hpp"
 #include "sac/internal/core.hpp"
 
@@ -29,7 +32,7 @@ void Core::propagate_within(Handle call) {
   while (true) {
     take_deferred(call);
     if (queue_.empty() || (call != 0 && !next_is_up_to(call, end_of(call)))) return;
-    run_from_queue(queue_.pop());
+    run_from_queue(queue_.pop(), call);
   }
 }
 
@@ -62,8 +65,30 @@ bool Core::next_is_up_to(Handle call, Handle end) const noexcept {
                                     !precedes(*at<TimeNode>(end), first));
 }
 
-void Core::run_from_queue(Handle call) {
-  Call& c = *at<Call>(call);
+// What fails may have been asked for too early: a call around it, which has acted behind some of its
+// children, waits to run again, and refuses what it did behind this one.
+void Core::run_from_queue(Handle call, Handle within) {
+  try {
+    run_from_queue(*at<Call>(call));
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (...) {
+    if (stopped_ || !around_waits(call, within)) throw;
+  }
+}
+
+// Whether a call around `call`, in the interval of `within`, waits to run again; 0: anywhere.
+bool Core::around_waits(Handle call, Handle within) const noexcept {
+  return std::any_of(deferred_.begin(), deferred_.end(), [&](Handle h) {
+    const Call& outer = *at<Call>(h);
+    return outer.life == Life::placed && encloses(outer, *at<Call>(call)) &&
+           (within == 0 || h == within ||
+            lies_between(*at<TimeNode>(within), outer, end_of(within)));
+  });
+}
+
+void Core::run_from_queue(Call& c) {
+  const Handle call = arena_.handle_of(&c);
   if (unposted(c)) {
     note(Event::Kind::dying, &c);
     return discard_subtree(call);

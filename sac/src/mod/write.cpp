@@ -31,7 +31,10 @@ detail::Version* ModStructure::own_version(Scope& scope, Handle head) {
   }
   own = versions_around(call, head).before;
   if (own == nullptr || &writer(*own) != &call) return nullptr;
-  if (own->round == call.round) return own;
+  if (own->round == call.round) {
+    if (engine_.has_had_children()) own->behind = true;
+    return own;
+  }
   // Children that have run meanwhile did not see it. If that is refused, it has not been repeated.
   if (engine_.has_had_children() && at(head)->history != 0) {
     require_unread(scope, head, predecessor(head, *own));

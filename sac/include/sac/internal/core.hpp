@@ -357,7 +357,9 @@ class Core {
   [[nodiscard]] static bool unposted(const Call& call) noexcept {
     return call.posted && Slot::of(call).posts == 0;
   }
-  void run_from_queue(Handle call);
+  void run_from_queue(Handle call, Handle within);
+  void run_from_queue(Call& call);
+  [[nodiscard]] bool around_waits(Handle call, Handle within) const noexcept;
   bool defer(Call& call) noexcept;
   void take_deferred(Handle call) noexcept;
   [[nodiscard]] bool unchanged(Call& call);
@@ -403,6 +405,7 @@ class Core {
   Handle now_ = 0;  // the last time stamp that is settled or running
   Mode mode_ = Mode::idle;
   bool broken_ = false;
+  bool stopped_ = false;  // the progress function has said so, or failed
   std::uint64_t progress_at_ = ~std::uint64_t{0};  // number of bodies run at the next report
   Counts counts_;
   std::uint64_t live_calls_ = 0;
