@@ -20,7 +20,7 @@ enum class ErrorCode : std::uint8_t {
   outside_domain,     ///< a point outside the meshing domain
   not_finite,         ///< NaN or infinity
   magnitude,          ///< a coordinate that is neither 0 nor within 2^-100 .. 2^100
-  unknown_id,         ///< an edit of a point that is not there
+  unknown_id,         ///< an id of a point that is not there
   repeated_id,        ///< an id given twice
   wrong_count,        ///< a header that disagrees with what follows
   truncated,          ///< the file ends too early
@@ -29,6 +29,8 @@ enum class ErrorCode : std::uint8_t {
   bad_edit,           ///< an edit that cannot be parsed
   unbalanced_commit,  ///< begin without commit, or the reverse
   bad_dimension,      ///< the dimension is not the one asked for
+  bad_syntax,         ///< a text that its format does not allow
+  unsupported,        ///< what a format allows and we do not read
   bad_mesh,           ///< a mesh file that is not a mesh (index out of range, ...)
   bad_quality,        ///< `check`: a mesh that does not keep its promise
   unknown_format,     ///< an extension that no reader or writer knows
@@ -38,6 +40,7 @@ enum class ErrorCode : std::uint8_t {
   too_close,          ///< two points nearer than the domain's resolution
   too_many,           ///< more vertices or memory than a run can hold
   cancelled,          ///< stopped by the user
+  bad_seed,           ///< a hole's or region's seed that has no region of its own
 };
 
 /// What a process exits with.
@@ -53,6 +56,18 @@ struct Place {
   std::string file;
   long line = 0;
   long column = 0;
+};
+
+/// Line and column in a file, from 1; 0 means "not known".
+struct FilePosition {
+  long line = 0;
+  long column = 0;
+};
+
+/// Something in a file that was understood and is not used.
+struct Note {
+  std::string text;
+  Place place;  ///< the first such thing
 };
 
 /// Bad data. `what()` reads `FILE:LINE:COL: error[code]: message` (the place only where known).

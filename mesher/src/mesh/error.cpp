@@ -43,6 +43,10 @@ CodeRow row(ErrorCode code) noexcept {
       return {"unbalanced_commit", ExitCode::format};
     case ErrorCode::bad_dimension:
       return {"bad_dimension", ExitCode::format};
+    case ErrorCode::bad_syntax:
+      return {"bad_syntax", ExitCode::format};
+    case ErrorCode::unsupported:
+      return {"unsupported", ExitCode::format};
     case ErrorCode::bad_mesh:
       return {"bad_mesh", ExitCode::format};
     case ErrorCode::unknown_format:
@@ -57,6 +61,8 @@ CodeRow row(ErrorCode code) noexcept {
       return {"too_many", ExitCode::limit};
     case ErrorCode::cancelled:
       return {"cancelled", ExitCode::cancelled};
+    case ErrorCode::bad_seed:
+      return {"bad_seed", ExitCode::geometry};
   }
   return {"unknown", ExitCode::bug};
 }

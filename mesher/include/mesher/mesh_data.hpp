@@ -1,0 +1,60 @@
+// A mesh together with what its features give it: origins, markers, regions, edges on lines.
+//
+// This is what writers take and what `read_mesh` returns. Which format keeps what is in io.hpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "mesher/error.hpp"
+#include "mesher/mesh.hpp"
+
+namespace mesher {
+
+/// An edge of a mesh that lies on a line of the input, or on the boundary; low < high.
+struct MeshEdge {
+  std::uint32_t low = 0, high = 0;   ///< vertices
+  std::optional<FeatureId> line{};   ///< the segment or polyline; nothing if none or not known
+  std::int64_t marker = 0;           ///< of the line, or of the boundary
+  friend bool operator==(const MeshEdge&, const MeshEdge&) = default;
+};
+
+/// What is known of a mesh beside its triangles; an array that is empty says nothing.
+struct MeshFeatures {
+  /// One per vertex: the id of the input point (kind `input`) or line (kind `segment`) that it is
+  /// or lies on; 0 for other kinds.
+  std::vector<FeatureId> origins;
+  std::vector<std::int64_t> markers;  ///< one per vertex; 0: none
+  std::vector<double> regions;        ///< one per triangle: its region's attribute, finite
+  std::vector<MeshEdge> edges;        ///< ascending by (low, high), none twice
+
+  [[nodiscard]] bool empty() const {
+    return origins.empty() && markers.empty() && regions.empty() && edges.empty();
+  }
+  friend bool operator==(const MeshFeatures&, const MeshFeatures&) = default;
+};
+
+/// A mesh of a file or for one.
+struct MeshData : Mesh<2> {
+  MeshFeatures features;
+  std::vector<Note> notes;  ///< what the file holds that is not used
+
+  MeshData() = default;
+  explicit MeshData(Mesh<2> mesh, MeshFeatures of = {})
+      : Mesh<2>(std::move(mesh)), features(std::move(of)) {}
+};
+
+/// A neighbour that is not there.
+inline constexpr std::uint32_t kNoTriangle = UINT32_MAX;
+
+/// For each triangle the triangle across from each of its corners, or kNoTriangle.
+/// Requires: no edge borders more than two triangles. Cost: O(m log m).
+[[nodiscard]] std::vector<std::array<std::uint32_t, 3>> neighbours(const Mesh<2>& mesh);
+
+/// The edges of all triangles, (low, high) ascending. Cost: O(m log m).
+[[nodiscard]] std::vector<std::array<std::uint32_t, 2>> edges(const Mesh<2>& mesh);
+
+}  // namespace mesher
