@@ -68,7 +68,8 @@ class WalledGrid {
     for (std::uint32_t v = 0; v < vertex(n_, n_) + 1; ++v) m.vertices.push_back(place(v));
     m.kinds.assign(m.vertices.size(), mesher::VertexKind::steiner);
     m.simplices = triangles();
-    for (auto& t : m.simplices) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    for (auto& t : m.simplices)
+      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     std::sort(m.simplices.begin(), m.simplices.end());
     return m;
   }

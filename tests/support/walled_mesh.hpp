@@ -205,7 +205,26 @@ class WalledMesh {
     REQUIRE(seen == now);
     REQUIRE(difference.enclosed_before == encloses(labels_));
     REQUIRE(difference.encloses == encloses(now));
+    for (const auto extent : {mesher::Extent::enclosed, mesher::Extent::box}) {
+      check_kept(difference, extent, now);
+    }
     labels_ = now;
+  }
+  void check_kept(const mesher::detail::RegionsDifference& difference, mesher::Extent extent,
+                  const Labels& now) const {
+    std::set<Places3> seen = kept(labels_, extent);
+    const auto change = kept_difference(*regions_, difference, extent);
+    for (const auto& t : change.removed) REQUIRE(seen.erase(places(t)) == 1);
+    for (const auto& t : change.added) REQUIRE(seen.insert(places(t)).second);
+    REQUIRE(seen == kept(now, extent));
+  }
+  static std::set<Places3> kept(const Labels& labels, mesher::Extent extent) {
+    std::set<Places3> all;
+    const bool whole = extent == mesher::Extent::box || !encloses(labels);
+    for (const auto& [t, label] : labels) {
+      if (whole || label.zone == mesher::Zone::inside) all.insert(t);
+    }
+    return all;
   }
   static bool encloses(const Labels& labels) {
     return std::any_of(labels.begin(), labels.end(), [](const auto& entry) {

@@ -27,7 +27,8 @@ class Sides {
  public:
   explicit Sides(const std::vector<Corners>& triangles) {
     std::uint32_t vertices = 0;
-    for (const Corners& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
+    for (const Corners& t : triangles)
+      vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
     count(triangles, vertices);
     place(triangles);
     for (std::uint32_t v = 0; v < vertices; ++v) {

@@ -12,9 +12,9 @@
 namespace mesher::detail {
 
 struct Component {
-  std::uint32_t size = 0;   // triangles
-  std::uint32_t exits = 0;  // edges at the boundary of the triangulation that are no walls
-  Slot any = kNone;         // one of the triangles; in a free record: the next free one
+  std::uint32_t size = 0;      // triangles
+  std::uint32_t exits = 0;     // edges at the boundary of the triangulation that are no walls
+  Slot any = kNone;            // one of the triangles; in a free record: the next free one
   std::uint32_t seed = kNone;  // the first of those in it
   RegionLabel label{};
 };

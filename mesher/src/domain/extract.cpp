@@ -112,8 +112,8 @@ class Extractor {
   }
 
   void copy_attributes() {
-    const bool any = std::any_of(
-        domain_.regions.begin(), domain_.regions.end(), [&](const Region& region) {
+    const bool any =
+        std::any_of(domain_.regions.begin(), domain_.regions.end(), [&](const Region& region) {
           return domain_.keeps(region) && region.label.seed && region.label.zone != Zone::hole;
         });
     if (!any) return;

@@ -101,9 +101,8 @@ void Parting::run() {
     for (const std::uint32_t g : active) {
       if (met_.find(g) == g && !groups_[g].exhausted()) step(g);
     }
-    std::erase_if(active, [&](std::uint32_t g) {
-      return met_.find(g) != g || groups_[g].exhausted();
-    });
+    std::erase_if(active,
+                  [&](std::uint32_t g) { return met_.find(g) != g || groups_[g].exhausted(); });
   }
   for (std::uint32_t g = 0; g < groups_.size(); ++g) {
     if (met_.find(g) == g && groups_[g].exhausted()) finished_.push_back(g);

@@ -11,7 +11,7 @@ namespace mesher::detail {
 /// Plain records by number. What edit() and add() have done since the last keep() is undone by
 /// take_back().
 template <class T>
-  requires std::is_trivially_copyable_v<T>
+requires std::is_trivially_copyable_v<T>
 class Journal {
  public:
   [[nodiscard]] const T& operator[](std::uint32_t i) const noexcept { return records_[i]; }
@@ -41,7 +41,7 @@ class Journal {
   void keep() noexcept {
     kept_ = size();
     log_.clear();
-    if (log_.capacity() > kLogKept) log_ = {};
+    if (log_.capacity() > kLogKept) std::vector<std::pair<std::uint32_t, T>>().swap(log_);
   }
   void take_back() noexcept {
     while (!log_.empty()) {

@@ -112,9 +112,8 @@ Slot Regions::locate(const Point<2>& p) const {
 std::uint32_t Regions::component_at(const Point<2>& p, Slot s) const {
   const Tile& tile = tiles_[s];
   const Holding held = *holding(corners_of(s), p);
-  const bool on_wall =
-      (held.where == Holding::Where::edge && tile.is_wall(held.index)) ||
-      (held.where == Holding::Where::vertex && has_wall(tile.corners[held.index]));
+  const bool on_wall = (held.where == Holding::Where::edge && tile.is_wall(held.index)) ||
+                       (held.where == Holding::Where::vertex && has_wall(tile.corners[held.index]));
   return on_wall ? kNone : tile.component;
 }
 
@@ -179,11 +178,11 @@ std::vector<NamedRegion> Regions::regions() const {
   for (Named& named : all) {
     NamedRegion& region = regions.emplace_back(named.region);
     Corners& c = region.smallest;
-    std::rotate(c.begin(),
-                std::min_element(c.begin(), c.end(), [&](std::uint32_t a, std::uint32_t b) {
-                  return places_(a) < places_(b);
-                }),
-                c.end());
+    std::rotate(
+        c.begin(),
+        std::min_element(c.begin(), c.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return places_(a) < places_(b); }),
+        c.end());
     region.label = label(c);
     const auto counts = counting_seed(region.label);
     if (!counts || counts->kind == SeedKind::hole) continue;

@@ -60,6 +60,11 @@ struct RegionsDifference {
   std::uint64_t visited = 0;           // triangles looked at beyond the change itself
 };
 
+/// The exact difference of what is kept; triangles as in RegionsDifference.
+struct KeptDifference {
+  std::vector<Corners> removed, added;
+};
+
 /// A region by name.
 struct NamedRegion {
   RegionLabel label;
@@ -129,5 +134,10 @@ class Regions {
   Journal<std::uint32_t> closed_;  // one: how many regions are closed
   Marks marks_;
 };
+
+/// What the update that gave `difference`, the last one, did to the part that is kept.
+/// Cost: O(difference); where the input begins or ceases to enclose anything, O(m log m).
+[[nodiscard]] KeptDifference kept_difference(const Regions& regions,
+                                             const RegionsDifference& difference, Extent extent);
 
 }  // namespace mesher::detail

@@ -117,8 +117,8 @@ class Regions::Update {
     arrived_.resize(touched_.size());
   }
   [[nodiscard]] std::size_t index_of(std::uint32_t component) const {
-    return static_cast<std::size_t>(
-        std::lower_bound(touched_.begin(), touched_.end(), component) - touched_.begin());
+    return static_cast<std::size_t>(std::lower_bound(touched_.begin(), touched_.end(), component) -
+                                    touched_.begin());
   }
   [[nodiscard]] const RegionLabel& before(std::uint32_t component) const {
     return r_.components_[component].label;
@@ -150,15 +150,24 @@ class Regions::Update {
     difference_.relabelled.push_back({smallest_first(r_.tiles_[s].corners), was, is});
   }
 
+  // Those that arrived have been reported.
+  void mark_arrived() {
+    if (arrived_mark_ != 0) return;
+    arrived_mark_ = r_.marks_.fresh(r_.tiles_.slots(), 2);
+    for (const Slot s : seams_.added) r_.marks_[s] = arrived_mark_;
+    for (const auto& moved : regrouped_.moved) r_.marks_[moved.slot] = arrived_mark_;
+  }
+
   // A region has another label: so have its triangles that were in it before.
   void report_old(std::size_t k) {
-    const std::uint32_t arrived = r_.marks_.fresh(r_.tiles_.slots(), 2), seen = arrived + 1;
-    for (const Slot s : seams_.added) r_.marks_[s] = arrived;
-    for (const auto& moved : regrouped_.moved) r_.marks_[moved.slot] = arrived;
+    mark_arrived();
+    const std::uint32_t seen = arrived_mark_ + 1;
     std::vector<Slot> reached;
     const auto take = [&](Slot s) {
       if (s == kNone || r_.marks_[s] == seen) return;
-      if (r_.marks_[s] != arrived) report_relabelled(s, before(touched_[k]), labels_[k]);
+      if (r_.marks_[s] != arrived_mark_) {
+        report_relabelled(s, before(touched_[k]), labels_[k]);
+      }
       r_.marks_[s] = seen;
       reached.push_back(s);
     };
@@ -204,6 +213,7 @@ class Regions::Update {
   std::vector<std::uint32_t> touched_;    // components; ascending from label() on
   std::vector<RegionLabel> labels_;       // what these are now
   std::vector<std::uint32_t> arrived_;    // triangles that were not in them before
+  std::uint32_t arrived_mark_ = 0;        // theirs, once they are marked
   RegionsDifference difference_;
 };
 

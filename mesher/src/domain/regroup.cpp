@@ -99,24 +99,22 @@ class Regroup {
     }
   }
 
-  // What is left of each component is a fragment too.
+  // What is left of each component is a fragment too. Listed ones and members are both in the order
+  // of components.
   void add_rests() {
     const auto members = clusters_.members();
+    const std::size_t listed = fragments_.size();
+    std::size_t f = 0;
     for (std::size_t i = 0; i < members.size();) {
       const std::uint32_t component = members[i].component;
+      std::uint32_t size = components_[component].size;
+      for (; f < listed && fragments_[f].component <= component; ++f) size -= fragments_[f].size;
       const auto rest = static_cast<std::uint32_t>(fragments_.size());
-      fragments_.push_back({component, rest_size(component), false, {}});
+      fragments_.push_back({component, size, false, {}});
       for (; i < members.size() && members[i].component == component; ++i) {
         if (fragment_of_[i] == kNone) fragment_of_[i] = rest;
       }
     }
-  }
-  [[nodiscard]] std::uint32_t rest_size(std::uint32_t component) const {
-    std::uint32_t size = components_[component].size;
-    for (const Fragment& f : fragments_) {
-      if (f.component == component) size -= f.size;
-    }
-    return size;
   }
 
   [[nodiscard]] std::size_t index_of(const Member& m) const {

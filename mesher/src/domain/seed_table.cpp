@@ -42,8 +42,7 @@ std::uint32_t SeedTable::add(const Seed& seed) {
 
 void SeedTable::remove(std::uint32_t i) {
   Names& names = edit_names();
-  names.erase(
-      std::lower_bound(names.begin(), names.end(), records_[i].seed.name, name_before));
+  names.erase(std::lower_bound(names.begin(), names.end(), records_[i].seed.name, name_before));
   Record empty;
   empty.next_held = free_[0];
   records_.edit(i) = empty;

@@ -13,8 +13,7 @@ namespace {
 Edge sorted(const Edge& e) { return {std::min(e[0], e[1]), std::max(e[0], e[1])}; }
 
 Edge ends_of(const Corners& t, int edge) {
-  return sorted({t[next_corner(edge)],
-                 t[previous_corner(edge)]});
+  return sorted({t[next_corner(edge)], t[previous_corner(edge)]});
 }
 
 // The edges of `a` that are not in `b`, ascending.
@@ -126,8 +125,8 @@ class Tiles::Changer {
  public:
   explicit Changer(Tiles& tiles) : t_(tiles) {}
 
-  Seams run(std::span<const Corners> out, std::span<const Corners> in,
-            std::span<const Edge> lost, std::span<const Edge> gained) {
+  Seams run(std::span<const Corners> out, std::span<const Corners> in, std::span<const Edge> lost,
+            std::span<const Edge> gained) {
     find_all(out);
     find_cuts();
     take_out();
@@ -141,9 +140,7 @@ class Tiles::Changer {
   }
 
  private:
-  [[nodiscard]] bool goes(Slot s) const {
-    return std::binary_search(out_.begin(), out_.end(), s);
-  }
+  [[nodiscard]] bool goes(Slot s) const { return std::binary_search(out_.begin(), out_.end(), s); }
   [[nodiscard]] std::uint32_t index_of(Slot s) const {
     return static_cast<std::uint32_t>(std::lower_bound(out_.begin(), out_.end(), s) - out_.begin());
   }
@@ -313,11 +310,11 @@ class Tiles::Changer {
 
   Tiles& t_;
   Seams seams_;
-  std::vector<Slot> out_;       // ascending, as seams_.removed
+  std::vector<Slot> out_;  // ascending, as seams_.removed
   std::uint32_t cuts_ = 0;
-  std::vector<Side> sides_;     // to be sewn
-  std::vector<Edge> loose_;     // walls with no survivor beside them, ascending
-  std::vector<Edge> placed_;    // those of them that are edges again
+  std::vector<Side> sides_;   // to be sewn
+  std::vector<Edge> loose_;   // walls with no survivor beside them, ascending
+  std::vector<Edge> placed_;  // those of them that are edges again
 };
 
 Seams Tiles::change(std::span<const Corners> out, std::span<const Corners> in,

@@ -18,10 +18,10 @@ using Slot = std::uint32_t;
 inline constexpr std::uint32_t kNone = UINT32_MAX;
 
 struct Tile {
-  Corners corners{kNone, kNone, kNone};          // all kNone: the slot is free
+  Corners corners{kNone, kNone, kNone};                 // all kNone: the slot is free
   std::array<Slot, 3> neighbours{kNone, kNone, kNone};  // across from each corner; free: [0] next
   std::uint32_t component = kNone;
-  std::uint32_t walls : 3 = 0;  // bit i: edge i
+  std::uint32_t walls : 3 = 0;        // bit i: edge i
   std::uint32_t seed : 29 = kNoSeed;  // the first of those held here
 
   static constexpr std::uint32_t kNoSeed = (1u << 29) - 1;
@@ -63,11 +63,11 @@ struct Seams {
     Slot survivor;
     friend auto operator<=>(const Bond&, const Bond&) = default;
   };
-  std::vector<Tile> removed;    // as they were
-  std::vector<Slot> added;      // in the order given
-  std::vector<Slot> frontier;   // survivors beside a change, ascending, each once
-  std::vector<Bond> bonds;      // ascending
-  std::vector<Edge> toggled;    // edges whose wall came or went
+  std::vector<Tile> removed;   // as they were
+  std::vector<Slot> added;     // in the order given
+  std::vector<Slot> frontier;  // survivors beside a change, ascending, each once
+  std::vector<Bond> bonds;     // ascending
+  std::vector<Edge> toggled;   // edges whose wall came or went
   struct Exits {
     Slot survivor;
     int more;

@@ -133,9 +133,9 @@ TEST_CASE("a seed on an edge or a vertex is in the region around it, and on a wa
 TEST_CASE("seeds that have no region of their own are named, and change nothing") {
   const WalledGrid grid(8);
   const auto walls = grid.rectangle(2, 2, 6, 6);
-  const Domain domain = domain_of(
-      grid, walls,
-      {hole(1, 0.5, 0.25), hole(2, 20, 20), region(3, 1, 1), region(8, 3, 3, 8), region(5, 4, 4, 5)});
+  const Domain domain = domain_of(grid, walls,
+                                  {hole(1, 0.5, 0.25), hole(2, 20, 20), region(3, 1, 1),
+                                   region(8, 3, 3, 8), region(5, 4, 4, 5)});
   CHECK(words(domain) ==
         Words{"the seed of hole 1 at (0.5, 0.25) is outside of what the segments enclose",
               "the seed of hole 2 at (20, 20) is outside of what the segments enclose",
@@ -144,8 +144,9 @@ TEST_CASE("seeds that have no region of their own are named, and change nothing"
   CHECK(domain.regions[1].attribute == 5);
   CHECK(kept(domain) == 32);
   const Domain holed = domain_of(grid, walls, {region(1, 3, 3), hole(7, 4, 4), hole(9, 5, 5)});
-  CHECK(words(holed) == Words{"the seed of hole 9 at (5, 5) is in one region with hole 7, which counts",
-                              "the seed of region 1 at (3, 3) is in one region with hole 7, which counts"});
+  CHECK(words(holed) ==
+        Words{"the seed of hole 9 at (5, 5) is in one region with hole 7, which counts",
+              "the seed of region 1 at (3, 3) is in one region with hole 7, which counts"});
   CHECK(kept(holed) == 0);
   const mesher::Error error = error_of(holed.faults[0]);
   CHECK(error.code() == mesher::ErrorCode::bad_seed);
@@ -277,7 +278,9 @@ MeshData disc_in_box() {
     }
   }
   std::sort(whole.features.edges.begin(), whole.features.edges.end(),
-            [](const auto& a, const auto& b) { return std::pair(a.low, a.high) < std::pair(b.low, b.high); });
+            [](const auto& a, const auto& b) {
+              return std::pair(a.low, a.high) < std::pair(b.low, b.high);
+            });
   return whole;
 }
 
@@ -342,9 +345,11 @@ TEST_CASE("all that is kept of a box is the box, with its boundary marked") {
   const MeshData all = extract(whole, domain).mesh;
   CHECK(static_cast<const Mesh<2>&>(all) == static_cast<const Mesh<2>&>(whole));
   std::size_t marked = 0;
-  for (const MeshEdge& e : all.features.edges) marked += !e.line && e.marker == mesher::kBoundaryMarker;
+  for (const MeshEdge& e : all.features.edges)
+    marked += !e.line && e.marker == mesher::kBoundaryMarker;
   std::size_t hull = 0;
-  for (const auto& three : domain.neighbours) hull += std::count(three.begin(), three.end(), mesher::kNoTriangle);
+  for (const auto& three : domain.neighbours)
+    hull += std::count(three.begin(), three.end(), mesher::kNoTriangle);
   CHECK(marked == hull);
   CHECK(all.features.edges.size() == hull + whole.features.edges.size());
 }

@@ -1,11 +1,10 @@
 // The regions of a mesh at one time: adjacency, flood, seeds.
-#include "mesher/domain.hpp"
-
 #include <algorithm>
 
 #include "domain/adjacency.hpp"
 #include "domain/labels.hpp"
 #include "domain/locate.hpp"
+#include "mesher/domain.hpp"
 
 namespace mesher {
 namespace {
@@ -147,9 +146,8 @@ class Finder {
 
   [[nodiscard]] bool is_on_wall(std::size_t seed) const {
     bool found = false;
-    for_each_side_at(seed, [&](std::uint32_t t, int edge) {
-      found = found || adjacency_.is_wall(t, edge);
-    });
+    for_each_side_at(
+        seed, [&](std::uint32_t t, int edge) { found = found || adjacency_.is_wall(t, edge); });
     return found;
   }
 
@@ -158,8 +156,7 @@ class Finder {
     std::optional<FeatureId> least;
     for_each_side_at(seed, [&](std::uint32_t t, int edge) {
       const auto& c = mesh_.simplices[t];
-      const auto ends =
-          std::minmax(c[detail::next_corner(edge)], c[detail::previous_corner(edge)]);
+      const auto ends = std::minmax(c[detail::next_corner(edge)], c[detail::previous_corner(edge)]);
       for (const MeshEdge& wall : walls_) {
         if (!wall.line || std::pair(wall.low, wall.high) != std::pair(ends.first, ends.second)) {
           continue;
