@@ -18,7 +18,7 @@
 #include <set>
 #include <vector>
 
-#include "../src/domain/regions.hpp"
+#include "domain/regions.hpp"
 #include "mesher/domain.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"
@@ -173,8 +173,8 @@ void run(std::size_t n) {
   walls.insert(walls.end(), room.begin(), room.end());
   whole.features.edges = mesh_edges(walls);
   const std::vector<mesher::Seed> seeds{
-      {{mesher::SeedKind::region, FeatureId{1}}, {0.501, 0.502}, 1, {}},
-      {{mesher::SeedKind::region, FeatureId{2}}, {0.7, 0.6}, 2, {}}};
+      {{mesher::SeedKind::region, FeatureId{2}}, {0.501, 0.502}, 1, {}},
+      {{mesher::SeedKind::region, FeatureId{1}}, {0.7, 0.6}, 2, {}}};
   std::unique_ptr<Regions> regions;
   const double seconds = seconds_of([&] {
     regions = std::make_unique<Regions>(whole.simplices, walls, seeds,
