@@ -59,8 +59,8 @@ struct SeedName {
 struct Seed {
   SeedName name;
   Point<2> at{};                   ///< finite; 0 or of magnitude 2^-100 to 2^100
-  double attribute = 0;            ///< of a region
-  std::optional<double> max_area;  ///< of a region's triangles, input units squared
+  double attribute = 0;            ///< of a region; finite
+  std::optional<double> max_area;  ///< of a region's triangles, input units squared, > 0
   friend bool operator==(const Seed&, const Seed&) = default;
 };
 
@@ -119,8 +119,9 @@ struct Domain {
 };
 
 /// Finds the regions. `walls`: edges of the mesh, in any order.
-/// Requires: corners go round counterclockwise; no edge borders more than two triangles; seeds'
-/// names are distinct. Throws: Error(bad_mesh) for a wall that is no edge of the mesh.
+/// Requires: corners go round counterclockwise; no edge borders more than two triangles.
+/// Throws: Error: bad_mesh for a wall that is no edge of the mesh; repeated_id for two seeds of one
+/// name; not_finite, magnitude, bad_number for a seed that is not as described.
 /// Cost: O(m log d) for vertices of degree d, and for each seed O(triangles above and below it).
 [[nodiscard]] Domain find_domain(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls,
                                  const std::vector<Seed>& seeds, Extent extent);

@@ -53,8 +53,7 @@ struct DomainChange {
 
 class DomainFollower {
  public:
-  /// `walls`: edges of the mesh. Throws: Error (bad_mesh for a wall that is none, repeated_id for
-  /// seeds of one name). Cost: as find_domain.
+  /// `walls`: edges of the mesh. Throws: Error as find_domain. Cost: as find_domain.
   DomainFollower(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls,
                  const std::vector<Seed>& seeds, Extent extent);
   DomainFollower(DomainFollower&&) noexcept;
@@ -62,7 +61,8 @@ class DomainFollower {
   ~DomainFollower();
 
   /// Requires: `change` is that of the mesh followed; afterwards all walls are edges of it.
-  /// Throws: sac::UsageError if not, Error (unknown_id, repeated_id) of seeds, std::bad_alloc.
+  /// Throws: sac::UsageError if not, Error (unknown_id, and as find_domain) of seeds,
+  /// std::bad_alloc.
   DomainChange update(const Change<2>& change, const DomainEdits& edits = {});
 
   /// Requires: a triangle of the mesh, from any corner. Cost: O(1) for vertices of bounded degree.

@@ -183,6 +183,7 @@ class Finder {
 
 Domain find_domain(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls,
                    const std::vector<Seed>& seeds, Extent extent) {
+  detail::check_seeds(seeds);
   return Finder(mesh, walls, seeds).run(extent);
 }
 

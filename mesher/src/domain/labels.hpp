@@ -1,12 +1,18 @@
-// Which seed of a region counts, what that makes of the region, and which seeds are at fault.
+// What seeds may be; which seed of a region counts, what that makes of the region, and which seeds
+// are at fault.
 #pragma once
 
 #include <optional>
-#include <span>
+#include <vector>
 
 #include "mesher/domain.hpp"
 
 namespace mesher::detail {
+
+/// Throws: Error (not_finite, magnitude, bad_number for a limit that is not > 0).
+void check_seed(const Seed& seed);
+/// The same of each. Throws also: Error(repeated_id) for two of one name. Cost: O(s log s).
+void check_seeds(const std::vector<Seed>& seeds);
 
 /// The seeds of one region that count, as they are met in any order.
 class Counting {

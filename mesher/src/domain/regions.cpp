@@ -51,14 +51,12 @@ void Regions::flood_all(const std::vector<Corners>& triangles) {
 }
 
 void Regions::place_all(const std::vector<Seed>& seeds) {
+  check_seeds(seeds);
   std::vector<Point<2>> places;
   for (const Seed& seed : seeds) places.push_back(seed.at);
   const auto holders = first_holding(
       places, tiles_.slots(), [&](Slot s) { return corners_of(s); }, kNone);
   for (std::size_t k = 0; k < seeds.size(); ++k) {
-    if (seeds_.find(seeds[k].name) != kNone) {
-      throw Error(ErrorCode::repeated_id, "two seeds of one name", {}, {seeds[k].name.id});
-    }
     const std::uint32_t i = seeds_.add(seeds[k]);
     if (holders[k] == kNone) continue;
     seeds_.hold(tiles_, i, holders[k]);

@@ -80,14 +80,15 @@ class Regions {
   /// Where a vertex is; asked of vertices of triangles that are there.
   using Places = std::function<Point<2>(std::uint32_t)>;
 
-  /// Throws: Error (bad_mesh for a wall that is no edge, repeated_id for seeds of one name).
+  /// Throws: Error as find_domain.
   /// Cost: O(m), and as find_domain for the seeds.
   Regions(const std::vector<Corners>& triangles, const std::vector<Edge>& walls,
           const std::vector<Seed>& seeds, Places places);
 
   /// Requires: triangles and walls that go are there, those that come are not; what comes covers
   /// what goes; every wall is an edge afterwards.
-  /// Throws: sac::UsageError if not, Error (unknown_id, repeated_id) of seeds, std::bad_alloc.
+  /// Throws: sac::UsageError if not, Error (unknown_id, and as find_domain) of seeds,
+  /// std::bad_alloc.
   RegionsDifference update(const RegionsChange& change);
   /// Takes the last update back, or does nothing if that has been done. Cost: O(that update).
   void roll_back() noexcept;

@@ -1,6 +1,7 @@
 // One update of regions: triangles and walls, then components, then seeds, then labels.
 #include <algorithm>
 
+#include "domain/labels.hpp"
 #include "domain/locate.hpp"
 #include "domain/regions.hpp"
 #include "mesh/canonical.hpp"
@@ -76,6 +77,7 @@ class Regions::Update {
 
   void add_seeds(const std::vector<Seed>& seeds) {
     for (const Seed& seed : seeds) {
+      check_seed(seed);
       if (r_.seeds_.find(seed.name) != kNone) {
         throw Error(ErrorCode::repeated_id, "seed is there already", {}, {seed.name.id});
       }

@@ -1,4 +1,8 @@
-// Faults of seeds in words.
+// Faults of seeds in words, and seeds that are none.
+#include <algorithm>
+#include <cmath>
+
+#include "domain/labels.hpp"
 #include "io/text.hpp"
 #include "mesher/domain.hpp"
 
@@ -37,4 +41,38 @@ Error error_of(const SeedFault& fault) {
   return {ErrorCode::bad_seed, describe(fault), {}, std::move(ids)};
 }
 
+namespace detail {
+
+void check_seed(const Seed& seed) {
+  const auto refuse = [&](ErrorCode code, const std::string& what) {
+    throw Error(code, "the seed of " + words(seed.name) + " " + what, {}, {seed.name.id});
+  };
+  for (const double x : seed.at) {
+    if (!std::isfinite(x)) refuse(ErrorCode::not_finite, "has a coordinate that is not finite");
+    if (!text::is_coordinate(x)) {
+      refuse(ErrorCode::magnitude, "at " + text::to_text<2>(seed.at) +
+                                       " has a coordinate beyond the magnitudes 2^-100 to 2^100");
+    }
+  }
+  if (!std::isfinite(seed.attribute)) {
+    refuse(ErrorCode::not_finite, "has an attribute that is not finite");
+  }
+  if (seed.max_area && !(*seed.max_area > 0)) {
+    refuse(ErrorCode::bad_number, "has an area limit that is not positive");
+  }
+}
+
+void check_seeds(const std::vector<Seed>& seeds) {
+  std::vector<SeedName> names;
+  for (const Seed& seed : seeds) {
+    check_seed(seed);
+    names.push_back(seed.name);
+  }
+  std::sort(names.begin(), names.end());
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  if (twice == names.end()) return;
+  throw Error(ErrorCode::repeated_id, words(*twice) + " has two seeds", {}, {twice->id});
+}
+
+}  // namespace detail
 }  // namespace mesher

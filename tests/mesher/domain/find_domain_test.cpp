@@ -1,6 +1,8 @@
 // Regions of a mesh at one time, and the part of it that is kept.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <queue>
 
@@ -9,6 +11,7 @@
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/predicates.hpp"
+#include "scratch_file.hpp"
 #include "walled_grid.hpp"
 
 namespace {
@@ -164,6 +167,33 @@ TEST_CASE("a wall that is no edge of the mesh is refused") {
   const WalledGrid grid(4);
   CHECK_THROWS_AS(domain_of(grid, {{0, 12}}), mesher::Error);
   CHECK_THROWS_AS(domain_of(grid, {{24, 25}}), mesher::Error);
+}
+
+TEST_CASE("an empty mesh has no regions") {
+  const Domain domain = find_domain({}, {}, {hole(1, 0, 0)}, Extent::enclosed);
+  CHECK(domain.regions.empty());
+  CHECK(words(domain) ==
+        Words{"the seed of hole 1 at (0, 0) is outside of what the segments enclose"});
+  CHECK(extract({}, domain).mesh.simplices.empty());
+}
+
+TEST_CASE("seeds that are none are refused by name") {
+  const WalledGrid grid(4);
+  const auto refused = [&](const std::vector<Seed>& seeds) {
+    const mesher::Error error = support::error_of([&] { domain_of(grid, {}, seeds); });
+    CHECK(error.ids() == std::vector{FeatureId{6}});
+    return error.code();
+  };
+  using mesher::ErrorCode;
+  const double inf = std::numeric_limits<double>::infinity();
+  CHECK(refused({hole(6, std::nan(""), 1)}) == ErrorCode::not_finite);
+  CHECK(refused({hole(6, 1, inf)}) == ErrorCode::not_finite);
+  CHECK(refused({hole(6, 1e300, 1)}) == ErrorCode::magnitude);
+  CHECK(refused({region(6, 1, 1, inf)}) == ErrorCode::not_finite);
+  CHECK(refused({region(6, 1, 1), hole(6, 2, 2), region(6, 3, 3)}) == ErrorCode::repeated_id);
+  Seed empty = region(6, 1, 1);
+  empty.max_area = 0;
+  CHECK(refused({empty}) == ErrorCode::bad_number);
 }
 
 namespace {

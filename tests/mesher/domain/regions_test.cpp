@@ -388,4 +388,5 @@ TEST_CASE("a change that does not fit is refused, and changes nothing") {
   refused([&](auto& c) { c.triangles_out.push_back(grid.square(2, 2, true)[0]); });
   refused([&](auto& c) { c.seeds_out.push_back({SeedKind::hole, FeatureId{2}}); });
   refused([&](auto& c) { c.seeds_in.push_back(hole(1, 3, 3)); });
+  refused([&](auto& c) { c.seeds_in.push_back(hole(4, 1e300, 3)); });
 }
