@@ -152,9 +152,10 @@ struct Extract {
 };
 
 /// What `domain` keeps of `whole`, with vertices and triangles in the order of the whole: canonical
-/// if that is. Vertices without a triangle go. Edges are those of sided_edges with a kept side;
-/// boundary vertices without a marker get kBoundaryMarker; attributes of regions are filled in if
-/// there is a region seed. `domain`: found with whole.features.edges. Cost: O(m + w log w).
+/// if that is. Vertices without a triangle go. Edges are those of sided_edges with a kept side. As
+/// Triangle does, a vertex without a marker gets that of a segment that it is on (the least), else
+/// kBoundaryMarker on the boundary. Attributes of regions are filled in if there is a region seed.
+/// `domain`: found with whole.features.edges. Cost: O(m + w log w).
 [[nodiscard]] Extract extract(const MeshData& whole, const Domain& domain);
 
 }  // namespace mesher

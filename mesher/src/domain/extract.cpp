@@ -123,6 +123,7 @@ class Extractor {
   }
 
   void copy_edges() {
+    mark_lines();
     auto& features = part_.mesh.features;
     for (const SidedEdge& edge : sided_edges(whole_, whole_.features.edges, domain_)) {
       if (edge.left == kNoRegion && edge.right == kNoRegion) continue;
@@ -134,6 +135,22 @@ class Extractor {
       for (const std::uint32_t v : {kept.low, kept.high}) {
         if (features.markers[v] == 0) features.markers[v] = kBoundaryMarker;
       }
+    }
+  }
+
+  // Vertices without a marker get the least of the segments that they are on.
+  void mark_lines() {
+    auto& markers = part_.mesh.features.markers;
+    std::vector<std::int64_t> least(markers.size(), 0);
+    for (const MeshEdge& edge : whole_.features.edges) {
+      if (edge.marker == 0) continue;
+      for (const std::uint32_t v : {new_vertex_[edge.low], new_vertex_[edge.high]}) {
+        if (v == kAbsent) continue;
+        if (least[v] == 0 || edge.marker < least[v]) least[v] = edge.marker;
+      }
+    }
+    for (std::size_t v = 0; v < markers.size(); ++v) {
+      if (markers[v] == 0) markers[v] = least[v];
     }
   }
 

@@ -365,7 +365,17 @@ TEST_CASE("what is kept is a canonical mesh with the edges, markers and neighbou
     CHECK(sides.at({e.low, e.high}) == 1);
     CHECK(e.line == FeatureId{77});
     CHECK(e.marker == (part.vertices[e.low] % 2 == 0 ? 5 : mesher::kBoundaryMarker));
-    CHECK(mesh.features.markers[e.low] == mesher::kBoundaryMarker);
+  }
+  std::vector<std::int64_t> least(whole.vertices.size(), 1000);
+  for (const MeshEdge& e : whole.features.edges) {
+    for (const auto v : {e.low, e.high}) {
+      if (e.marker != 0) least[v] = std::min(least[v], e.marker);
+      if (e.marker == 0 && least[v] == 1000) least[v] = 999;  // on the boundary, at least
+    }
+  }
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const std::int64_t l = least[part.vertices[v]];
+    CHECK(mesh.features.markers[v] == (l == 1000 ? 0 : l == 999 ? mesher::kBoundaryMarker : l));
   }
 }
 
