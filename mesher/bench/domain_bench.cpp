@@ -1,6 +1,6 @@
 // Regions of a mesh: found at once, and followed through changes.
 //
-//   domain_bench [N]...   default: 10000 100000
+//   domain_bench [N]...   default: 10000 100000; N: 1000 or more
 //
 // The mesh of N points, uniform in the unit square; two rings of walls along mesh edges: a lake of
 // radius 0.4, and a room of radius 0.02 in it that has a door. One JSON line per figure:
@@ -191,5 +191,5 @@ int main(int count, char** arguments) {
   std::vector<std::size_t> sizes;
   for (int i = 1; i < count; ++i) sizes.push_back(std::strtoul(arguments[i], nullptr, 10));
   if (sizes.empty()) sizes = {10000, 100000};
-  for (const std::size_t n : sizes) run(n);
+  for (const std::size_t n : sizes) run(std::max<std::size_t>(n, 1000));
 }
