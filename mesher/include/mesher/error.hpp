@@ -40,6 +40,7 @@ enum class ErrorCode : std::uint8_t {
   too_close,          ///< two points nearer than the domain's resolution
   too_many,           ///< more vertices or memory than a run can hold
   cancelled,          ///< stopped by the user
+  bad_seed,           ///< a hole's or region's seed that has no region of its own
 };
 
 /// What a process exits with.

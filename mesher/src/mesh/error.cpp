@@ -61,6 +61,8 @@ CodeRow row(ErrorCode code) noexcept {
       return {"too_many", ExitCode::limit};
     case ErrorCode::cancelled:
       return {"cancelled", ExitCode::cancelled};
+    case ErrorCode::bad_seed:
+      return {"bad_seed", ExitCode::geometry};
   }
   return {"unknown", ExitCode::bug};
 }

@@ -1,0 +1,35 @@
+// Who is next to whom in a set of triangles, and which of their edges are walls.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace mesher::detail {
+
+using Corners = std::array<std::uint32_t, 3>;  // counterclockwise
+using Edge = std::array<std::uint32_t, 2>;
+
+[[nodiscard]] constexpr int next_corner(int i) noexcept { return i == 2 ? 0 : i + 1; }
+[[nodiscard]] constexpr int previous_corner(int i) noexcept { return i == 0 ? 2 : i - 1; }
+
+/// Edge i of a triangle is across from its corner i.
+struct Adjacency {
+  std::vector<std::array<std::uint32_t, 3>> neighbours;  // kNoTriangle at the boundary
+  std::vector<std::uint8_t> walls;                       // bit i: edge i is a wall
+
+  [[nodiscard]] bool is_wall(std::uint32_t t, int i) const { return (walls[t] >> i & 1) != 0; }
+  /// The triangle that a flood reaches across edge i; kNoTriangle if it does not.
+  [[nodiscard]] std::uint32_t open_neighbour(std::uint32_t t, int i) const;
+};
+
+/// Requires: no edge borders more than two triangles. Throws: Error(bad_mesh) for a wall that is no
+/// edge. Cost: O(m log d) for vertices of degree d.
+[[nodiscard]] Adjacency adjacency(const std::vector<Corners>& triangles,
+                                  const std::vector<Edge>& walls);
+
+/// The number of each triangle's region, counted in the order of their smallest triangles.
+/// Cost: O(m).
+[[nodiscard]] std::vector<std::uint32_t> flood(const Adjacency& adjacency);
+
+}  // namespace mesher::detail

@@ -1,0 +1,79 @@
+// The seeds of a triangulation that is changed: where each is, and which are in a region.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "domain/components.hpp"
+
+namespace mesher::detail {
+
+/// Seeds by number; each is in the list of the triangle that holds it and in that of its region.
+class SeedTable {
+ public:
+  struct Record {
+    Seed seed{};
+    Slot slot = kNone;                // that holds it; kNone: not in the triangulation
+    std::uint32_t component = kNone;  // kNone on a wall, too
+    std::uint32_t next_held = kNone, next_inside = kNone;  // in a free record: the next free one
+  };
+
+  SeedTable() { free_.add(kNone); }
+
+  [[nodiscard]] const Record& operator[](std::uint32_t i) const noexcept { return records_[i]; }
+  /// kNone if there is no such seed.
+  [[nodiscard]] std::uint32_t find(const SeedName& name) const noexcept;
+  [[nodiscard]] std::size_t size() const noexcept { return names_.size(); }
+  /// Calls visit(number) for every seed, ascending by name.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (const auto& [name, i] : names_) visit(i);
+  }
+  /// Calls visit(number) for the seeds that a triangle holds.
+  template <class Visit>
+  void for_each_held(const Tile& tile, Visit&& visit) const {
+    if (tile.seed == Tile::kNoSeed) return;
+    for (std::uint32_t i = tile.seed; i != kNone;) {
+      const std::uint32_t next = records_[i].next_held;
+      visit(i);
+      i = next;
+    }
+  }
+  template <class Visit>
+  void for_each_inside(const Component& component, Visit&& visit) const {
+    for (std::uint32_t i = component.seed; i != kNone; i = records_[i].next_inside) visit(i);
+  }
+
+  /// Requires: no such seed. Cost: O(seeds).
+  std::uint32_t add(const Seed& seed);
+  /// Requires: it is held nowhere and in no region. Cost: O(seeds).
+  void remove(std::uint32_t i);
+
+  /// Requires: it is held nowhere. Cost: O(1).
+  void hold(Tiles& tiles, std::uint32_t i, Slot slot);
+  /// Cost: O(seeds held there).
+  void let_go(Tiles& tiles, std::uint32_t i);
+  /// The triangle that held it is no more, and neither is its list.
+  void drop(std::uint32_t i);
+  /// kNone: leaves the region that it is in. Cost: O(seeds in its region).
+  void enter(Components& components, std::uint32_t i, std::uint32_t component);
+
+  void keep() noexcept;
+  void take_back() noexcept;
+  void check_invariants(const Tiles& tiles, const Components& components) const;
+
+ private:
+  using Names = std::vector<std::pair<SeedName, std::uint32_t>>;  // ascending
+
+  // The names, to be changed. Throws: std::bad_alloc.
+  Names& edit_names();
+
+  Journal<Record> records_;
+  Journal<std::uint32_t> free_;  // one
+  Names names_;
+  std::optional<Names> kept_names_;  // those of the last keep(), if others than names_
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,325 @@
+// Changes of a triangulation: what goes is cut out, what comes is sewn in along the rim.
+#include "domain/tiles.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "domain/union_find.hpp"
+#include "sac/check.hpp"
+
+namespace mesher::detail {
+namespace {
+
+Edge sorted(const Edge& e) { return {std::min(e[0], e[1]), std::max(e[0], e[1])}; }
+
+Edge ends_of(const Corners& t, int edge) {
+  return sorted({t[next_corner(edge)], t[previous_corner(edge)]});
+}
+
+// The edges of `a` that are not in `b`, ascending.
+std::vector<Edge> difference(std::span<const Edge> a, std::span<const Edge> b) {
+  const auto ascending = [](std::span<const Edge> edges) {
+    std::vector<Edge> all;
+    for (const Edge& e : edges) all.push_back(sorted(e));
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const auto left = ascending(a), right = ascending(b);
+  std::vector<Edge> only;
+  std::set_difference(left.begin(), left.end(), right.begin(), right.end(),
+                      std::back_inserter(only));
+  SAC_EXPECTS(std::adjacent_find(only.begin(), only.end()) == only.end());
+  return only;
+}
+
+template <class T>
+void make_set(std::vector<T>& items) {
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
+}  // namespace
+
+// --- Reading ---------------------------------------------------------------------------------
+
+Tiles::Tiles(const std::vector<Corners>& triangles, const std::vector<Edge>& walls) {
+  const Adjacency all = adjacency(triangles, walls);
+  tiles_.reserve(triangles.size());
+  std::uint32_t vertices = 0;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    Tile tile;
+    tile.corners = triangles[t];
+    tile.neighbours = all.neighbours[t];
+    tile.walls = all.walls[t] & 7u;
+    tiles_.add(tile);
+    for (const std::uint32_t v : tile.corners) vertices = std::max(vertices, v + 1);
+  }
+  at_vertex_.reserve(vertices);
+  for (std::uint32_t v = 0; v < vertices; ++v) at_vertex_.add(kNone);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    for (const std::uint32_t v : triangles[t]) at_vertex_.edit(v) = t;
+  }
+  heads_.add({kNone, static_cast<std::uint32_t>(triangles.size())});
+}
+
+TileEdge Tiles::left_of(std::uint32_t u, std::uint32_t v) const {
+  TileEdge found;
+  for_each_around(u, [&](Slot s) {
+    const int i = tiles_[s].corner_of(u);
+    if (tiles_[s].corners[next_corner(i)] != v) return true;
+    found = {s, previous_corner(i)};
+    return false;
+  });
+  return found;
+}
+
+Slot Tiles::find(const Corners& t) const {
+  const TileEdge side = left_of(t[0], t[1]);
+  if (side.slot == kNone || tiles_[side.slot].corners[side.edge] != t[2]) return kNone;
+  return side.slot;
+}
+
+void Tiles::keep() noexcept {
+  tiles_.keep();
+  at_vertex_.keep();
+  heads_.keep();
+}
+
+void Tiles::take_back() noexcept {
+  tiles_.take_back();
+  at_vertex_.take_back();
+  heads_.take_back();
+}
+
+void Tiles::check_invariants() const {
+  std::uint32_t live = 0, free = 0;
+  for (Slot s = 0; s < slots(); ++s) {
+    const Tile& t = tiles_[s];
+    if (t.is_free()) continue;
+    ++live;
+    for (int i = 0; i < 3; ++i) {
+      SAC_INVARIANT(at_vertex(t.corners[i]) != kNone);
+      const Slot n = t.neighbours[i];
+      if (n == kNone) continue;
+      const Tile& other = tiles_[n];
+      const int back = other.edge_to(s);
+      SAC_INVARIANT(!other.is_free() && other.neighbours[back] == s);
+      SAC_INVARIANT(ends_of(other.corners, back) == ends_of(t.corners, i));
+      SAC_INVARIANT(other.is_wall(back) == t.is_wall(i));
+    }
+  }
+  for (Slot s = heads_[0].free; s != kNone; s = tiles_[s].neighbours[0]) {
+    SAC_INVARIANT(tiles_[s].is_free());
+    ++free;
+  }
+  SAC_INVARIANT(live == heads_[0].live && live + free == slots());
+  for (std::uint32_t v = 0; v < at_vertex_.size(); ++v) {
+    const Slot s = at_vertex_[v];
+    SAC_INVARIANT(s == kNone || tiles_[s].corners[tiles_[s].corner_of(v)] == v);
+  }
+}
+
+// --- Changing --------------------------------------------------------------------------------
+
+class Tiles::Changer {
+ public:
+  explicit Changer(Tiles& tiles) : t_(tiles) {}
+
+  Seams run(std::span<const Corners> out, std::span<const Corners> in, std::span<const Edge> lost,
+            std::span<const Edge> gained) {
+    find_all(out);
+    find_cuts();
+    take_out();
+    put_in(in);
+    sew();
+    open(difference(lost, gained));
+    close(difference(gained, lost));
+    make_set(seams_.frontier);
+    make_set(seams_.bonds);
+    return std::move(seams_);
+  }
+
+ private:
+  [[nodiscard]] bool goes(Slot s) const { return std::binary_search(out_.begin(), out_.end(), s); }
+  [[nodiscard]] std::uint32_t index_of(Slot s) const {
+    return static_cast<std::uint32_t>(std::lower_bound(out_.begin(), out_.end(), s) - out_.begin());
+  }
+
+  void find_all(std::span<const Corners> out) {
+    for (const Corners& corners : out) {
+      out_.push_back(t_.find(corners));
+      SAC_EXPECTS(out_.back() != kNone);
+    }
+    std::sort(out_.begin(), out_.end());
+    SAC_EXPECTS(std::adjacent_find(out_.begin(), out_.end()) == out_.end());
+    for (const Slot s : out_) seams_.removed.push_back(t_[s]);
+    cuts_ = static_cast<std::uint32_t>(out_.size());
+  }
+
+  // Survivors around connected triangles that go have one cut; walls between those are kept apart.
+  void find_cuts() {
+    UnionFind sets(out_.size());
+    for (std::uint32_t k = 0; k < out_.size(); ++k) {
+      for (int i = 0; i < 3; ++i) {
+        const Slot n = seams_.removed[k].open_neighbour(i);
+        if (n != kNone && goes(n)) sets.unite(k, index_of(n));
+      }
+    }
+    for (std::uint32_t k = 0; k < out_.size(); ++k) {
+      for (int i = 0; i < 3; ++i) add_rim(k, i, sets.find(k));
+    }
+    make_set(loose_);
+  }
+
+  void add_rim(std::uint32_t k, int i, std::uint32_t cut) {
+    const Tile& tile = seams_.removed[k];
+    const Slot n = tile.neighbours[i];
+    const bool wall = tile.is_wall(i);
+    if (n == kNone || goes(n)) {
+      if (wall) loose_.push_back(ends_of(tile.corners, i));
+      return;
+    }
+    seams_.frontier.push_back(n);
+    sides_.push_back({ends_of(tile.corners, i), n, t_[n].edge_to(out_[k]), true});
+    if (!wall) seams_.bonds.push_back({cut, n});
+  }
+
+  void take_out() {
+    Heads heads = t_.heads_[0];
+    for (std::size_t k = out_.size(); k-- > 0;) {
+      const Slot s = out_[k];
+      for (const std::uint32_t v : seams_.removed[k].corners) {
+        if (t_.at_vertex_[v] == s) t_.at_vertex_.edit(v) = kNone;
+      }
+      Tile empty;
+      empty.neighbours[0] = heads.free;
+      t_.tiles_.edit(s) = empty;
+      heads.free = s;
+    }
+    heads.live -= static_cast<std::uint32_t>(out_.size());
+    t_.heads_.edit(0) = heads;
+  }
+
+  void put_in(std::span<const Corners> in) {
+    Heads heads = t_.heads_[0];
+    for (const Corners& corners : in) {
+      Tile tile;
+      tile.corners = corners;
+      Slot s = heads.free;
+      if (s == kNone) {
+        s = t_.tiles_.add(tile);
+      } else {
+        heads.free = t_.tiles_[s].neighbours[0];
+        t_.tiles_.edit(s) = tile;
+      }
+      seams_.added.push_back(s);
+      for (const std::uint32_t v : corners) remember(v, s);
+      for (int i = 0; i < 3; ++i) sides_.push_back({ends_of(corners, i), s, i, false});
+    }
+    heads.live += static_cast<std::uint32_t>(in.size());
+    t_.heads_.edit(0) = heads;
+  }
+
+  void remember(std::uint32_t v, Slot s) {
+    while (t_.at_vertex_.size() <= v) t_.at_vertex_.add(kNone);
+    if (t_.at_vertex_[v] == kNone) t_.at_vertex_.edit(v) = s;
+  }
+
+  // Sides with equal ends belong together. A survivor's side knows whether it is a wall; that of
+  // two which both came is a wall if it was one of `loose_`.
+  void sew() {
+    std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
+      return std::pair(a.ends, a.slot) < std::pair(b.ends, b.slot);
+    });
+    for (std::size_t i = 0; i < sides_.size();) {
+      const bool pair = i + 1 < sides_.size() && sides_[i].ends == sides_[i + 1].ends;
+      if (pair) {
+        join(sides_[i], sides_[i + 1]);
+      } else {
+        leave_at_boundary(sides_[i]);
+      }
+      i += pair ? 2 : 1;
+    }
+  }
+
+  void join(const Side& a, const Side& b) {
+    SAC_EXPECTS(!(a.survivor && b.survivor));
+    SAC_EXPECTS(start_of(a) != start_of(b));  // on opposite sides
+    bool wall = !a.survivor && !b.survivor && was_loose(a.ends);
+    for (const Side& s : {a, b}) wall = wall || (s.survivor && t_[s.slot].is_wall(s.edge));
+    const Slot slots[2] = {a.slot, b.slot};
+    for (const Side& s : {a, b}) {
+      Tile& tile = t_.tiles_.edit(s.slot);
+      tile.neighbours[s.edge] = slots[s.slot == slots[0] ? 1 : 0];
+      tile.walls |= wall ? 1u << s.edge & 7u : 0u;
+    }
+  }
+
+  void leave_at_boundary(const Side& s) {
+    SAC_EXPECTS(!s.survivor);
+    if (was_loose(s.ends)) t_.tiles_.edit(s.slot).walls |= 1u << s.edge & 7u;
+  }
+
+  [[nodiscard]] std::uint32_t start_of(const Side& s) const {
+    return t_[s.slot].corners[next_corner(s.edge)];
+  }
+  bool was_loose(const Edge& ends) {
+    const auto it = std::lower_bound(loose_.begin(), loose_.end(), ends);
+    if (it == loose_.end() || *it != ends) return false;
+    placed_.push_back(ends);
+    return true;
+  }
+
+  void open(const std::vector<Edge>& lost) {
+    make_set(placed_);
+    std::vector<Edge> vanished;
+    std::set_difference(loose_.begin(), loose_.end(), placed_.begin(), placed_.end(),
+                        std::back_inserter(vanished));
+    for (const Edge& e : lost) {
+      seams_.toggled.push_back(e);
+      if (std::binary_search(vanished.begin(), vanished.end(), e)) continue;
+      toggle(e, false);
+    }
+    SAC_EXPECTS(std::includes(lost.begin(), lost.end(), vanished.begin(), vanished.end()));
+  }
+  void close(const std::vector<Edge>& gained) {
+    for (const Edge& e : gained) {
+      seams_.toggled.push_back(e);
+      toggle(e, true);
+    }
+  }
+
+  void toggle(const Edge& e, bool wall) {
+    TileEdge side = t_.left_of(e[0], e[1]);
+    if (side.slot == kNone) side = t_.left_of(e[1], e[0]);
+    SAC_EXPECTS(side.slot != kNone && t_[side.slot].is_wall(side.edge) != wall);
+    const Slot other = t_[side.slot].neighbours[side.edge];
+    const std::uint32_t cut = cuts_++;
+    flip(side, wall, other == kNone, cut);
+    if (other != kNone) flip({other, t_[other].edge_to(side.slot)}, wall, false, cut);
+  }
+
+  void flip(const TileEdge& side, bool wall, bool boundary, std::uint32_t cut) {
+    t_.tiles_.edit(side.slot).walls ^= 1u << side.edge & 7u;
+    if (came(side.slot)) return;
+    seams_.frontier.push_back(side.slot);
+    if (boundary) seams_.exits.push_back({side.slot, wall ? -1 : 1});
+    if (wall) seams_.bonds.push_back({cut, side.slot});
+  }
+  [[nodiscard]] bool came(Slot s) const { return t_[s].component == kNone; }
+
+  Tiles& t_;
+  Seams seams_;
+  std::vector<Slot> out_;  // ascending, as seams_.removed
+  std::uint32_t cuts_ = 0;
+  std::vector<Side> sides_;   // to be sewn
+  std::vector<Edge> loose_;   // walls with no survivor beside them, ascending
+  std::vector<Edge> placed_;  // those of them that are edges again
+};
+
+Seams Tiles::change(std::span<const Corners> out, std::span<const Corners> in,
+                    std::span<const Edge> lost, std::span<const Edge> gained) {
+  return Changer(*this).run(out, in, lost, gained);
+}
+
+}  // namespace mesher::detail
