@@ -34,7 +34,12 @@ enum class Rule : std::uint8_t {
 };
 
 /// Where a vertex comes from.
-enum class VertexKind : std::uint8_t { steiner = 0, boundary = 1, input = 2 };
+enum class VertexKind : std::uint8_t {
+  steiner = 0,
+  boundary = 1,  ///< on the boundary grid
+  input = 2,
+  segment = 3,  ///< between the ends of a line of the input
+};
 
 /// What to mesh, and how well.
 template <int D>

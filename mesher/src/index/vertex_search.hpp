@@ -17,6 +17,7 @@
 #include "index/cell_pool.hpp"
 #include "index/quadtree.hpp"
 #include "index/vertex.hpp"
+#include "segments/roles.hpp"
 
 namespace mesher::detail {
 
@@ -34,6 +35,12 @@ class VertexSearch {
   /// Lengths are kept as floats in units of the box's side, a power of two. `x` must be >= 0.
   [[nodiscard]] float packed(double x) const noexcept;
   [[nodiscard]] double unpacked(float x) const noexcept { return double{x} * box_.side; }
+
+  /// The place on a segment that v stands for, if it does.
+  [[nodiscard]] Role role(const Vertex<2>& v) const noexcept {
+    return v.on_segment ? roles_[v.self] : Role();
+  }
+  [[nodiscard]] const Roles& roles() const noexcept { return roles_; }
 
   /// Clip radius at which no corner of a star is hidden: circumcentres lie in the box.
   [[nodiscard]] double whole() const noexcept { return 2 * box_.side; }
@@ -143,11 +150,18 @@ class VertexSearch {
     return x * x + y * y;
   }
 
+  // Requires: roles_.reserve(v.self), unless the role is none.
+  void set_role(Vertex<2>& v, const Role& role) noexcept {
+    v.on_segment = role.on != 0;
+    if (v.on_segment) roles_.set(v.self, role);
+  }
+
   [[noreturn]] static void fail_coincident(const Point<2>& p);
 
   const MeshBox<2>& box_;
   VertexPool<2> pool_;
   Quadtree<2> tree_;
+  Roles roles_;
 
  private:
   [[nodiscard]] auto entered(const VoronoiCell& cell) const {

@@ -105,4 +105,16 @@ class SegmentPool {
   std::size_t size_ = 0;
 };
 
+/// Where a place on a segment is: measured from the nearer end; an end is where it is, bit for bit.
+[[nodiscard]] inline Point<2> place_of(const VertexPool<2>& pool, const Segment& s,
+                                       const Label& label) {
+  const double from_a = label.from(false, s.length);
+  const double from_b = label.from(true, s.length);
+  const bool near_a = from_a <= from_b;
+  const Point<2>& o = pool[near_a ? s.a : s.b].p;
+  const Point<2>& e = pool[near_a ? s.b : s.a].p;
+  const double t = (near_a ? from_a : from_b) / s.length;
+  return {o[0] + t * (e[0] - o[0]), o[1] + t * (e[1] - o[1])};
+}
+
 }  // namespace mesher::detail
