@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "geometry/grid.hpp"
-#include "index/feature_tree.hpp"
+#include "index/features.hpp"
 #include "index/subdivision.hpp"
 #include "index/vertex_index.hpp"
 #include "mesher/mesher.hpp"
@@ -22,58 +22,6 @@
 #include "sac/sac.hpp"
 
 namespace mesher::detail {
-
-/// The input points: for each, the deepest level at which it is crowded.
-template <class S>
-class Features;
-
-template <>
-class Features<sac::PlainScope> {
- public:
-  Features(const MeshBox<2>& box, const VertexPool<2>& pool, sac::PlainScope&) : tree_(box, pool) {}
-
-  [[nodiscard]] FeatureTree<2>& tree() noexcept { return tree_; }
-  int level(sac::PlainScope&, const Vertex<2>& v) { return v.level; }
-
- private:
-  FeatureTree<2> tree_;
-};
-
-/// As a traceable data type: a level has one observer, the call that locates the point. Edits come
-/// from the outside, before all calls, so an observation is only invalidated by a changed level.
-template <>
-class Features<sac::Scope> : public sac::Structure {
- public:
-  Features(const MeshBox<2>& box, VertexPool<2>& pool, sac::Engine& engine)
-      : engine_(engine), pool_(pool), tree_(box, pool), id_(engine.add_structure(*this)) {}
-
-  [[nodiscard]] FeatureTree<2>& tree() noexcept { return tree_; }
-  [[nodiscard]] const FeatureTree<2>& tree() const noexcept { return tree_; }
-
-  /// The deepest level at which v is crowded, -1 if at none; observed by the running call.
-  int level(sac::Scope& s, Vertex<2>& v);
-
-  /// An outside edit, with its inverse noted for a roll-back.
-  void insert(Vertex<2>& v);
-  void erase(Vertex<2>& v);
-
-  void retract(sac::Call& call, sac::Edge& edge) noexcept override;
-  void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
-  void print(const sac::Call& call, const sac::Edge& edge, std::ostream& out) const override;
-
- private:
-  struct LevelEdge : sac::Edge {
-    VertexHandle vertex;
-  };
-  void put(Vertex<2>& v);
-  void take(Vertex<2>& v);
-  void changed(Vertex<2>& v);
-
-  sac::Engine& engine_;
-  VertexPool<2>& pool_;
-  FeatureTree<2> tree_;
-  std::uint8_t id_;
-};
 
 /// The triangles of a static run, as they are output, and who watches it.
 struct PlainOutput {
