@@ -47,10 +47,10 @@ class VertexSearch {
   template <class Visit>
   void for_each_in_ball(const Point<2>& a, const Point<2>& b, Visit&& visit) const noexcept {
     const Point<2> middle{a[0] + (b[0] - a[0]) / 2, a[1] + (b[1] - a[1]) / 2};
-    const double r = std::hypot(b[0] - a[0], b[1] - a[1]) / 2;
+    const double r = std::hypot(b[0] - a[0], b[1] - a[1]) / 2 + tree_.margin();
     const auto enters = [](const Point<2>&, double) { return true; };
     tree_.visit_box(middle, {-r, -r}, {r, r}, enters, [&](VertexHandle h, const Point<2>& p) {
-      if (distance2(p, middle) <= r * r * (1 + 0x1p-30)) visit(pool_[h]);
+      if (distance2(p, middle) <= r * r * (1 + 0x1p-40)) visit(pool_[h]);
     });
   }
 
