@@ -42,6 +42,18 @@ class VertexSearch {
   }
   [[nodiscard]] const Roles& roles() const noexcept { return roles_; }
 
+  /// Calls visit(vertex) for the records of vertices in the ball with diameter ab, and for others
+  /// nearby; visit must not throw.
+  template <class Visit>
+  void for_each_in_ball(const Point<2>& a, const Point<2>& b, Visit&& visit) const noexcept {
+    const Point<2> middle{a[0] + (b[0] - a[0]) / 2, a[1] + (b[1] - a[1]) / 2};
+    const double r = std::hypot(b[0] - a[0], b[1] - a[1]) / 2 + tree_.margin();
+    const auto enters = [](const Point<2>&, double) { return true; };
+    tree_.visit_box(middle, {-r, -r}, {r, r}, enters, [&](VertexHandle h, const Point<2>& p) {
+      if (distance2(p, middle) <= r * r * (1 + 0x1p-40)) visit(pool_[h]);
+    });
+  }
+
   /// Clip radius at which no corner of a star is hidden: circumcentres lie in the box.
   [[nodiscard]] double whole() const noexcept { return 2 * box_.side; }
 
