@@ -6,6 +6,7 @@
 // that is not crowded is a leaf: an edge of the mesh, until it is cut.
 #pragma once
 
+#include "program/build_qt.hpp"
 #include "program/world.hpp"
 
 namespace mesher::detail {
@@ -18,8 +19,13 @@ struct SplitSegment {
 inline constexpr SplitSegment split_segment{};
 
 /// When split_segment(piece) runs: longest first. A half is at most two thirds of a piece, and thus
-/// in a later bucket; there are two an octave.
-[[nodiscard]] sac::Key split_segment_key(const MeshBox<2>& box, const PieceRef& piece);
+/// in a later bucket: there are two an octave, [1/2, sqrt(1/2)) and [sqrt(1/2), 1) times a power of 2.
+[[nodiscard]] inline sac::Key split_segment_key(const MeshBox<2>& box, const PieceRef& piece) {
+  constexpr double kRootHalf = 0.70710678118654752;
+  int exponent = 0;
+  const bool upper = std::frexp(piece.length(), &exponent) >= kRootHalf;
+  return {.bucket = -(2 * exponent + (upper ? 1 : 0)), .order = morton<2>(box.fixed(piece.lo()))};
+}
 
 // if sigma is crowded: split it where the shells say, enqueue both halves, and the new vertex for
 // BuildQT; else it is a leaf
@@ -27,13 +33,12 @@ template <class S>
 void SplitSegment::operator()(S& s, PieceRef piece) const {
   auto& w = s.template environment<World<S>>();
   if (!w.segments.crowded(s, piece)) return w.leaves.begin(s, piece.piece);
-  const PieceSplit split = w.segments.place(s, piece);
-  const VertexRef<2> y = w.insert_on_segment(s, piece, split.at);
+  const Halves halves = w.segments.halves(s, piece);
+  const VertexRef<2> y = w.vertices.insert(s, halves.place, halves.role);
   w.features.insert(s, y);
   w.quadtree.template post<locate>(s, locate_key(w.box.fixed(y->p)), y);
-  for (const PieceRef& half : halves(piece, split)) {
-    w.splits.template post<split_segment>(s, split_segment_key(w.box, half), half);
-  }
+  w.post_split(s, halves.lower);
+  w.post_split(s, halves.upper);
 }
 
 }  // namespace mesher::detail

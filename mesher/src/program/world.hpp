@@ -1,7 +1,7 @@
 // What the mesher's calls share: the box, the rule, the features, the vertices, the work queues.
 //
 // The program (S is sac::Scope, or sac::PlainScope for a static run):
-//   refine = BuildQT; ChooseSteiners; Triangulate
+//   refine = SplitSegments; BuildQT; ChooseSteiners; Triangulate
 // Each part drains its agenda; a part posts on its own agenda and on those of later parts.
 #pragma once
 
@@ -20,6 +20,8 @@
 #include "mesher/mesher.hpp"
 #include "rules/insertion_rule.hpp"
 #include "sac/sac.hpp"
+#include "segments/input_segments.hpp"
+#include "segments/leaves.hpp"
 
 namespace mesher::detail {
 
@@ -45,6 +47,9 @@ struct World {
   VertexIndex<S> vertices;
   Subdivision<S> subdivision;
   Features<S> features;
+  InputSegments<S> segments;
+  Leaves<S> leaves;
+  Agenda& splits;
   Agenda& quadtree;
   Agenda& steiner;
   Agenda& stars;
@@ -58,6 +63,9 @@ struct World {
         vertices(make_vertices(box, host)),
         subdivision(vertices.tree(), host),
         features(box, vertices.pool(), host),
+        segments(box, vertices.pool(), features, host),
+        leaves(vertices, segments.pool(), host),
+        splits(host.make_agenda("segments")),
         quadtree(host.make_agenda("quadtree")),
         steiner(host.make_agenda("steiner")),
         stars(host.make_agenda("stars")) {
@@ -66,6 +74,7 @@ struct World {
   }
 
   [[nodiscard]] const Buckets<2>& buckets() const noexcept { return rule->buckets(); }
+  void post_split(S& s, const PieceRef& piece);
   void post_nearest(S& s, VertexRef<2> v, int leaf_level);
   void post_complete(S& s, VertexRef<2> v, int b);
   void post_star(S& s, VertexRef<2> v);
@@ -94,6 +103,7 @@ struct Refine {
     auto& w = s.template environment<World<S>>();
     const auto now = [] { return std::chrono::steady_clock::now(); };
     w.marks[0] = now();
+    w.splits.drain(s);
     w.quadtree.drain(s);
     w.marks[1] = now();
     w.steiner.drain(s);

@@ -1,14 +1,34 @@
 // The input's segments, and what calls ask about them; outside edits.
 //
 //   crowded(s, piece)   whether a piece has to be split before anything is refined  (observation)
-//   place(s, piece)     where it is split                                           (observation)
+//   halves(s, piece)    what it is split into, and where                            (observation)
 #pragma once
 
 #include "segments/crowding.hpp"
+#include "segments/roles.hpp"
 #include "segments/segment_store.hpp"
 #include "segments/shells.hpp"
 
 namespace mesher::detail {
+
+/// All of a segment.
+[[nodiscard]] inline PieceRef whole(const Segment& s) {
+  return {&s, {Label::start(), Label::end(), s.self, PieceKind::whole}};
+}
+
+/// What a split makes: a vertex and two pieces.
+struct Halves {
+  Point<2> place;
+  Role role;
+  PieceRef lower, upper;
+};
+[[nodiscard]] inline Halves halves(const PieceRef& whole, const PieceSplit& split) {
+  const auto& [segment, piece] = whole;
+  return {place_of(*segment, split.at),
+          {split.at, piece.segment},
+          {segment, {piece.lo, split.at, piece.segment, split.lo}},
+          {segment, {split.at, piece.hi, piece.segment, split.hi}}};
+}
 
 template <class S>
 class InputSegments;
@@ -29,9 +49,10 @@ class InputSegments<sac::PlainScope> {
   [[nodiscard]] bool crowded(sac::PlainScope& s, const PieceRef& piece) {
     return crowding_.crowded(s, piece);
   }
-  [[nodiscard]] PieceSplit place(sac::PlainScope& s, const PieceRef& piece) {
-    return shells_.place(s, piece);
+  [[nodiscard]] Halves halves(sac::PlainScope& s, const PieceRef& piece) {
+    return detail::halves(piece, shells_.place(s, piece));
   }
+  [[nodiscard]] PieceRef ref(const Piece& piece) const { return {&pool()[piece.segment], piece}; }
 
   /// Requires: a and b are different input points, and there is no such segment.
   [[nodiscard]] PieceRef insert(VertexHandle a, VertexHandle b);
@@ -61,9 +82,10 @@ class InputSegments<sac::Scope> final : public PointListener {
   [[nodiscard]] bool crowded(sac::Scope& s, const PieceRef& piece) {
     return crowding_.crowded(s, piece);
   }
-  [[nodiscard]] PieceSplit place(sac::Scope& s, const PieceRef& piece) {
-    return shells_.place(s, piece);
+  [[nodiscard]] Halves halves(sac::Scope& s, const PieceRef& piece) {
+    return detail::halves(piece, shells_.place(s, piece));
   }
+  [[nodiscard]] PieceRef ref(const Piece& piece) const { return {&pool()[piece.segment], piece}; }
 
   /// Outside edits, with their inverses noted for a roll-back. Returns the whole segment.
   /// Requires: a and b are different input points, and there is no such segment (to insert), or
@@ -92,10 +114,5 @@ class InputSegments<sac::Scope> final : public PointListener {
   Crowding<sac::Scope> crowding_;
   Shells<sac::Scope> shells_;
 };
-
-/// All of a segment.
-[[nodiscard]] inline PieceRef whole(const Segment& s) {
-  return {&s, {Label::start(), Label::end(), s.self, PieceKind::whole}};
-}
 
 }  // namespace mesher::detail
