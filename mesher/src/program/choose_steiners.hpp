@@ -48,14 +48,14 @@ template <class S>
 void Complete::operator()(S& s, VertexRef<2> v, int b) const {
   auto& w = s.template environment<World<S>>();
   const CellLoan gaps = w.vertices.voronoi_cell(s, v, w.buckets().clip_radius(b));
-  while (const auto point = w.rule->next_point(*gaps, b)) {
+  while (const auto point = w.rule->next_point(*gaps, b, nullptr)) {
     const VertexRef<2> x = w.vertices.insert(s, point->p);
     if (!point->farther || !gaps->cuts(x->p)) w.fail_useless(*v, *x);
     gaps->cut(x->self);
     w.post_complete(s, x, std::max(b + 1, w.buckets().bucket(point->nearest2)));
     w.post_star(s, x);
   }
-  if (const auto later = w.rule->next_bucket(*gaps, b)) w.post_complete(s, v, *later);
+  if (const auto later = w.rule->next_bucket(*gaps, b, nullptr)) w.post_complete(s, v, *later);
 }
 
 }  // namespace mesher::detail
