@@ -20,6 +20,9 @@
 #include "mesher/mesher.hpp"
 #include "rules/insertion_rule.hpp"
 #include "sac/sac.hpp"
+#include "segments/exempt.hpp"
+#include "segments/leaves.hpp"
+#include "segments/stand_in.hpp"
 
 namespace mesher::detail {
 
@@ -97,6 +100,8 @@ struct World {
   VertexIndex<S> vertices;
   Subdivision<S> subdivision;
   Features<S> features;
+  StandIn stand_in;
+  Leaves<S> leaves;
   Agenda& quadtree;
   Agenda& steiner;
   Agenda& stars;
@@ -110,6 +115,8 @@ struct World {
         vertices(make_vertices(box, host)),
         subdivision(vertices.tree(), host),
         features(box, vertices.pool(), host),
+        stand_in(vertices.pool()),
+        leaves(vertices, stand_in.segments, host),
         quadtree(host.make_agenda("quadtree")),
         steiner(host.make_agenda("steiner")),
         stars(host.make_agenda("stars")) {
@@ -119,9 +126,28 @@ struct World {
 
   [[nodiscard]] const Buckets<2>& buckets() const noexcept { return rule->buckets(); }
   void post_nearest(S& s, VertexRef<2> v, int leaf_level);
+  void post_nearest_in(S& s, VertexRef<2> v, int b);
   void post_complete(S& s, VertexRef<2> v, int b);
+  /// Whether there are any.
+  bool post_cuts(S& s, const std::vector<LeafRef>& leaves, int b);
   void post_star(S& s, VertexRef<2> v);
   void output(S& s, VertexRef<2> v, const VoronoiCell& star);
+  /// Whether a poor triangle on the left of p -> q stays.
+  [[nodiscard]] bool is_exempt(const Vertex<2>& p, const Vertex<2>& q) const {
+    return detail::is_exempt(vertices, stand_in.segments, p, q, [&](VertexHandle v, auto&& visit) {
+      stand_in.for_each_at(v, visit);
+    });
+  }
+  struct Halves {
+    Point<2> place;
+    Role role;
+    Piece lower, upper;
+  };
+  Halves halves(S&, const Piece& piece) {
+    const PieceSplit at = stand_in.place(piece);
+    const Segment& seg = stand_in.segments[piece.segment];
+    return {place_of(seg, at.at), {at.at, piece.segment}, {piece.lo, at.at, piece.segment, at.lo}, {at.at, piece.hi, piece.segment, at.hi}};
+  }
   [[noreturn]] void fail_useless(const Vertex<2>& v, const Vertex<2>& x) const;
 
  private:
