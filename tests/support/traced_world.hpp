@@ -32,7 +32,7 @@ class TracedWorld {
   ~TracedWorld() { engine_.reset(); }  // before what its calls refer to
 
   void insert(mesher::FeatureId id, const mesher::Point<2>& p) {
-    if (const Vertex* other = world_->features.tree().obstacle(p)) {
+    if (const Vertex* other = world_->features.point_at(p)) {
       mesher::detail::fail_too_near(p, id, other->p, {});
     }
     Vertex& v = world_->vertices.add_input(p, false);
@@ -51,7 +51,7 @@ class TracedWorld {
     world_->quadtree.retract_from_outside<mesher::detail::locate>(Ref{&v});
   }
   void move(mesher::FeatureId id, const mesher::Point<2>& p) {
-    const Vertex* other = world_->features.tree().obstacle(p);
+    const Vertex* other = world_->features.point_at(p);
     if (other != nullptr && other != inputs_.at(id)) {
       mesher::detail::fail_too_near(p, id, other->p, {});
     }

@@ -54,7 +54,7 @@ Announced::Place State::place(FeatureId id) const {
 }
 
 std::optional<State::Named> State::obstacle(const Point<2>& p) const {
-  const Vertex<2>* v = world_->features.tree().obstacle(p);
+  const Vertex<2>* v = world_->features.point_at(p);
   return v == nullptr ? std::optional<Named>() : Named{names_[v->self], v->p};
 }
 
@@ -80,7 +80,7 @@ void State::rename(const std::vector<Announced::Edit>& edits, Ids& arrived) noex
 
 void State::add_first(const Announced::Edit& edit) {
   Vertex<2>& v = vertices().add_input(*edit.to, true);
-  features().tree().insert_only(v);
+  features().insert_first(v);
   ids_.emplace(edit.id, v.self);
   names_.resize(v.self + std::size_t{1});
   names_[v.self] = edit.id;
@@ -90,7 +90,7 @@ void State::post_all() {
   pool().for_each([&](Vertex<2>& v) {
     if (!v.input) return;
     vertices().touch(v);
-    v.level = static_cast<std::int16_t>(features().tree().crowded_level(v));
+    features().level_first(v);
     world_->quadtree.post_from_outside<locate>(locate_key(box_.fixed(v.p)), VertexRef<2>{&v});
   });
 }

@@ -37,7 +37,7 @@ MeshStats State::stats() const {
   s.calls = engine_->live_calls();
   s.edges = engine_->live_edges();
   s.trace_bytes = engine_->bytes() + pool().bytes() + vertices().tree().bytes() +
-                  world_->features.tree().bytes();
+                  world_->features.bytes();
   return s;
 }
 
@@ -95,11 +95,9 @@ void State::report_stars(Change<2>& change) const {
 void State::check_invariants() const {
   engine_->check_invariants();
   vertices().check_invariants();
-  SAC_INVARIANT(world_->features.tree().size() == ids_.size());
   for (const auto& [id, h] : ids_) {
     const Vertex<2>& v = pool()[h];
-    SAC_INVARIANT(v.alive && v.input && names_[h] == id);
-    SAC_INVARIANT(v.level == world_->features.tree().crowded_level(v));
+    SAC_INVARIANT(v.alive && v.input && v.feature && names_[h] == id);
   }
   SAC_INVARIANT(stats_.vertices == live_vertices().size());
   SAC_INVARIANT(stats_.simplices == triangles().size());

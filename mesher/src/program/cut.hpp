@@ -24,11 +24,11 @@ inline constexpr Cut cut{};
 template <class S>
 void Cut::operator()(S& s, LeafRef leaf, int b) const {
   auto& w = s.template environment<World<S>>();
-  const auto halves = w.halves(s, leaf->piece);
+  const Halves halves = w.segments.halves(s, w.segments.ref(leaf->piece));
   w.leaves.end(s, leaf);
   const VertexRef<2> y = w.vertices.insert(s, halves.place, halves.role);
-  w.leaves.begin(s, halves.lower);
-  w.leaves.begin(s, halves.upper);
+  w.leaves.begin(s, halves.lower.piece);
+  w.leaves.begin(s, halves.upper.piece);
   w.post_nearest_in(s, y, b + 1);
   w.post_star(s, y);
 }

@@ -5,6 +5,7 @@
 #include "program/choose_steiners.hpp"
 #include "program/cut.hpp"
 #include "input.hpp"
+#include "program/split_segments.hpp"
 #include "program/triangulate.hpp"
 #include "program/world.hpp"
 
@@ -22,6 +23,12 @@ void World<S>::add_boundary() {
     steiner.template post_from_outside<complete>(complete_key(*this, f, b), v, b);
     stars.template post_from_outside<star>(star_key(f), v);
   });
+}
+
+template <class S>
+void World<S>::post_split(S& s, const PieceRef& piece) {
+  if constexpr (!S::kTraced) plain.tick();
+  splits.template post<split_segment>(s, split_segment_key(box, piece), piece);
 }
 
 // add a ComputeNN(p) event, with key |c| / 2; c is the cell of `leaf_level` around p

@@ -153,7 +153,7 @@ class ReachTree {
   }
   // The level of the smallest cell that holds both.
   [[nodiscard]] static int common_level(const Fixed<2>& a, const Fixed<2>& b) noexcept {
-    return kLevels - std::bit_width((a[0] ^ b[0]) | (a[1] ^ b[1]));
+    return kLevels - static_cast<int>(std::bit_width((a[0] ^ b[0]) | (a[1] ^ b[1])));
   }
   [[nodiscard]] static bool is_list(Link link) noexcept { return (link & kList) != 0; }
   [[nodiscard]] static bool holds(const Node& n, const Fixed<2>& f) noexcept {

@@ -110,9 +110,12 @@ class SegmentPool {
     }
   }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return chunks_.size() * kChunk * sizeof(Segment);
+  }
 
  private:
-  static constexpr SegmentHandle kChunk = 1024;
+  static constexpr SegmentHandle kChunk = 256;
 
   SegmentHandle fresh() {
     if (next_ % kChunk == 0) chunks_.push_back(std::make_unique<Segment[]>(kChunk));
