@@ -64,7 +64,7 @@ struct World {
         vertices(make_vertices(box, host)),
         subdivision(vertices.tree(), host),
         features(box, vertices.pool(), host),
-        segments(box, vertices.pool(), features, host),
+        segments(box, vertices, features, host),
         leaves(vertices, segments.pool(), host),
         splits(host.make_agenda("segments")),
         quadtree(host.make_agenda("quadtree")),
