@@ -41,6 +41,13 @@ enum class VertexKind : std::uint8_t {
   segment = 3,  ///< between the ends of a line of the input
 };
 
+/// A line of the input between two of its points. Several may share an id: a polyline.
+struct Segment {
+  FeatureId id{};
+  FeatureId from{}, to{};  ///< points
+  friend bool operator==(const Segment&, const Segment&) = default;
+};
+
 /// What to mesh, and how well.
 template <int D>
 struct Options {
@@ -56,9 +63,16 @@ struct Options {
 template <int D>
 struct Mesh {
   using Simplex = std::array<std::uint32_t, D + 1>;
+  /// An edge on a line of the input; low < high.
+  struct Edge {
+    std::uint32_t low = 0, high = 0;
+    FeatureId line{};
+    friend auto operator<=>(const Edge&, const Edge&) = default;
+  };
   std::vector<Point<D>> vertices;
   std::vector<VertexKind> kinds;  ///< one per vertex
   std::vector<Simplex> simplices;
+  std::vector<Edge> edges;  ///< those on lines, in lexicographic order
   friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 

@@ -87,13 +87,11 @@ void Index::take_role(Vertex<2>& v, const Role& now, const sac::Call& producer) 
   if (engine_.appending()) return;
   const sac::Window later{&producer, nullptr};
   if (v.locator != 0) run_again(v.locator, later, nullptr);
-  observers_.for_each_reaching(v.p, box_.side, [&](const Vertex<2>& center, Observation& o) {
-    if (o.kind != kCell) return;
-    const auto seen = observers_.seen(o);
-    const bool concerns =
-        center.self == v.self || std::find(seen.begin(), seen.end(), v.self) != seen.end();
-    if (concerns) run_again(o.call, later, &o);
-  });
+  for_each_cell_with(v, [&](const Observation& o) { run_again(o.call, later, &o); });
+}
+
+void Index::legs_changed(const Vertex<2>& v) noexcept {
+  for_each_cell_with(v, [&](const Observation& o) { engine_.invalidate(engine_.call(o.call), &o); });
 }
 
 void Index::retract_birth(BirthEdge& birth) noexcept {

@@ -26,6 +26,7 @@
 // only the vertices.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -121,6 +122,9 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
     });
   }
 
+  /// Called by what changes the set of segments at an input point: who sees v sees them, too.
+  void legs_changed(const Vertex<2>& v) noexcept;
+
   /// Called by what makes a record an input point, or no longer.
   void touch(Vertex<2>& v) noexcept { log_.touch(v); }
 
@@ -158,6 +162,16 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   void vanished(const Vertex<2>& v, const sac::Window& window) noexcept;
   void retract_birth(BirthEdge& birth) noexcept;
 
+  // The cells of v, and those that v bounds.
+  template <class Visit>
+  void for_each_cell_with(const Vertex<2>& v, Visit&& visit) noexcept {
+    observers_.for_each_reaching(v.p, box_.side, [&](const Vertex<2>& center, Observation& o) {
+      if (o.kind != kCell) return;
+      const auto seen = observers_.seen(o);
+      const bool bounds = std::find(seen.begin(), seen.end(), v.self) != seen.end();
+      if (bounds || center.self == v.self) visit(o);
+    });
+  }
   template <class Seen>
   CellLoan look(const Vertex<2>& v, double radius, const Observation* last, Seen&& seen);
   void take_codes(const VoronoiCell& cell);

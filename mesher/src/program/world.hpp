@@ -20,6 +20,7 @@
 #include "mesher/mesher.hpp"
 #include "rules/insertion_rule.hpp"
 #include "sac/sac.hpp"
+#include "segments/exempt.hpp"
 #include "segments/input_segments.hpp"
 #include "segments/leaves.hpp"
 
@@ -63,7 +64,7 @@ struct World {
         vertices(make_vertices(box, host)),
         subdivision(vertices.tree(), host),
         features(box, vertices.pool(), host),
-        segments(box, vertices.pool(), features, host),
+        segments(box, vertices, features, host),
         leaves(vertices, segments.pool(), host),
         splits(host.make_agenda("segments")),
         quadtree(host.make_agenda("quadtree")),
@@ -76,9 +77,16 @@ struct World {
   [[nodiscard]] const Buckets<2>& buckets() const noexcept { return rule->buckets(); }
   void post_split(S& s, const PieceRef& piece);
   void post_nearest(S& s, VertexRef<2> v, int leaf_level);
+  void post_nearest_in(S& s, VertexRef<2> v, int b);
   void post_complete(S& s, VertexRef<2> v, int b);
+  /// Whether there are any.
+  bool post_cuts(S& s, const std::vector<LeafRef>& leaves, int b);
   void post_star(S& s, VertexRef<2> v);
   void output(S& s, VertexRef<2> v, const VoronoiCell& star);
+  /// Whether a poor triangle on the left of p -> q, its shortest edge, stays.
+  [[nodiscard]] bool is_exempt(const Vertex<2>& p, const Vertex<2>& q) const {
+    return detail::is_exempt(vertices, segments.store(), p, q);
+  }
   [[noreturn]] void fail_useless(const Vertex<2>& v, const Vertex<2>& x) const;
 
  private:

@@ -15,12 +15,18 @@ void Traced::put(Segment& s) {
   store_.put(s);
   crowding_.segment_came(s);
   shells_.segment_changed(s);
+  legs_changed(s);
 }
 
 void Traced::take(Segment& s) noexcept {
   store_.take(s);
   crowding_.segment_went(s);
   shells_.segment_changed(s);
+  legs_changed(s);
+}
+
+void Traced::legs_changed(const Segment& s) noexcept {
+  for (const VertexHandle end : {s.a, s.b}) vertices_.legs_changed(vertices_.pool()[end]);
 }
 
 // How to undo is noted first, and does nothing where the edit has failed.

@@ -4,6 +4,7 @@
 //   halves(s, piece)    what it is split into, and where                            (observation)
 #pragma once
 
+#include "index/vertex_index.hpp"
 #include "segments/crowding.hpp"
 #include "segments/roles.hpp"
 #include "segments/segment_store.hpp"
@@ -36,11 +37,11 @@ class InputSegments;
 template <>
 class InputSegments<sac::PlainScope> {
  public:
-  InputSegments(const MeshBox<2>& box, const VertexPool<2>& pool,
+  InputSegments(const MeshBox<2>& box, const VertexIndex<sac::PlainScope>& vertices,
                 Features<sac::PlainScope>& points, sac::PlainScope& s)
-      : store_(box, pool),
+      : store_(box, vertices.pool()),
         crowding_(box, store_, points, s),
-        shells_(box, pool, store_, points, s) {}
+        shells_(box, vertices.pool(), store_, points, s) {}
 
   [[nodiscard]] const SegmentPool& pool() const noexcept { return store_.pool(); }
   [[nodiscard]] SegmentStore& store() noexcept { return store_; }
@@ -66,12 +67,13 @@ class InputSegments<sac::PlainScope> {
 template <>
 class InputSegments<sac::Scope> final : public PointListener {
  public:
-  InputSegments(const MeshBox<2>& box, const VertexPool<2>& pool, Features<sac::Scope>& points,
-                sac::Engine& engine)
+  InputSegments(const MeshBox<2>& box, VertexIndex<sac::Scope>& vertices,
+                Features<sac::Scope>& points, sac::Engine& engine)
       : engine_(engine),
-        store_(box, pool),
+        vertices_(vertices),
+        store_(box, vertices.pool()),
         crowding_(box, store_, points, engine),
-        shells_(box, pool, store_, points, engine) {
+        shells_(box, vertices.pool(), store_, points, engine) {
     points.set_listener(this);
   }
 
@@ -108,8 +110,10 @@ class InputSegments<sac::Scope> final : public PointListener {
  private:
   void put(Segment& s);
   void take(Segment& s) noexcept;
+  void legs_changed(const Segment& s) noexcept;
 
   sac::Engine& engine_;
+  VertexIndex<sac::Scope>& vertices_;
   SegmentStore store_;
   Crowding<sac::Scope> crowding_;
   Shells<sac::Scope> shells_;

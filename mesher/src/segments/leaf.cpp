@@ -25,8 +25,8 @@ Leaf& LeafRecords::create(const Piece& piece) {
   Leaf& leaf = (*this)[h] = Leaf{};
   const Segment& s = segments_[piece.segment];
   leaf.piece = piece;
-  leaf.lo = place_of(vertices_, s, piece.lo);
-  leaf.hi = place_of(vertices_, s, piece.hi);
+  leaf.lo = place_of(s, piece.lo);
+  leaf.hi = place_of(s, piece.hi);
   leaf.self = h;
   return leaf;
 }

@@ -66,8 +66,8 @@ struct LeafRef {
 /// The records, found by piece and by what their balls hold.
 class LeafRecords {
  public:
-  LeafRecords(const MeshBox<2>& box, const VertexPool<2>& vertices, const SegmentPool& segments)
-      : vertices_(vertices), segments_(segments), tree_(box) {}
+  LeafRecords(const MeshBox<2>& box, const SegmentPool& segments)
+      : segments_(segments), tree_(box) {}
 
   [[nodiscard]] Leaf& operator[](LeafHandle h) const noexcept {
     return (*chunks_[h / kChunk])[h % kChunk];
@@ -108,7 +108,6 @@ class LeafRecords {
   Leaf& create(const Piece& piece);
   LeafHandle fresh();
 
-  const VertexPool<2>& vertices_;
   const SegmentPool& segments_;
   std::vector<std::unique_ptr<Chunk>> chunks_;
   std::unordered_map<Piece, LeafHandle, PieceHash> by_piece_;

@@ -37,7 +37,7 @@ template <>
 class Leaves<sac::PlainScope> {
  public:
   Leaves(VertexIndex<sac::PlainScope>& vertices, const SegmentPool& segments, sac::PlainScope&)
-      : vertices_(vertices), records_(vertices.box(), vertices.pool(), segments) {}
+      : vertices_(vertices), records_(vertices.box(), segments) {}
 
   /// Whether there has been a leaf.
   [[nodiscard]] bool any() const noexcept { return records_.size() != 0; }
@@ -70,7 +70,7 @@ class Leaves<sac::Scope> : public sac::Structure {
       : engine_(engine),
         presences_(engine),
         vertices_(vertices),
-        records_(vertices.box(), vertices.pool(), segments),
+        records_(vertices.box(), segments),
         asks_(vertices.box()),
         id_(engine.add_structure(*this)) {}
 

@@ -138,9 +138,6 @@ class SegmentPool {
   const double t = (near_a ? from_a : from_b) / s.length;
   return {o[0] + t * (e[0] - o[0]), o[1] + t * (e[1] - o[1])};
 }
-[[nodiscard]] inline Point<2> place_of(const VertexPool<2>&, const Segment& s, const Label& label) {
-  return place_of(s, label);
-}
 
 /// A piece as an argument of traced functions: equal by value, ordered by coordinates.
 struct PieceRef {
