@@ -49,6 +49,11 @@ void TracedCrowding::went(const Feature& f, const Point<2>& p, const Point<2>& q
   });
 }
 
+void TracedCrowding::segment_came(const Segment& t) noexcept { came(t, t.place_a, t.place_b); }
+void TracedCrowding::segment_went(const Segment& t) noexcept { went(t, t.place_a, t.place_b); }
+void TracedCrowding::point_came(const Vertex<2>& v) noexcept { came(v, v.p, v.p); }
+void TracedCrowding::point_went(const Vertex<2>& v) noexcept { went(v, v.p, v.p); }
+
 void TracedCrowding::retract(sac::Call&, sac::Edge& edge) noexcept {
   auto& e = static_cast<CrowdedEdge&>(edge);
   if (e.listed) tree_.erase(CrowdedZone(e.piece).middle(), engine_.arena().handle_of(&e));

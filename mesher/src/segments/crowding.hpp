@@ -125,10 +125,10 @@ class Crowding<sac::Scope> : public sac::Structure {
 
   /// Outside edits: what has come is there already, what has gone is no longer.
   /// Cost: O(log L/s), and that of a look for each piece whose witness has gone.
-  void segment_came(const Segment& t) noexcept { came(t, t.place_a, t.place_b); }
-  void segment_went(const Segment& t) noexcept { went(t, t.place_a, t.place_b); }
-  void point_came(const Vertex<2>& v) noexcept { came(v, v.p, v.p); }
-  void point_went(const Vertex<2>& v) noexcept { went(v, v.p, v.p); }
+  void segment_came(const Segment& t) noexcept;
+  void segment_went(const Segment& t) noexcept;
+  void point_came(const Vertex<2>& v) noexcept;
+  void point_went(const Vertex<2>& v) noexcept;
 
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
   [[nodiscard]] bool unchanged(sac::Call& call, sac::Edge& edge) override;

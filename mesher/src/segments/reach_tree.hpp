@@ -61,7 +61,7 @@ class ReachTree {
   explicit ReachTree(const MeshBox<2>& box)
       : box_(box), unit_(box.cell_side(kLevels)), nodes_(1), entries_(1) {}
 
-  /// Adds an item; others may have its place. Requires: reach >= 0, finite.
+  /// Adds an item; others may have its place, and it may have others. Requires: reach >= 0, finite.
   /// Throws: std::bad_alloc, and then changes nothing. Cost: O(depth), at most kLevels.
   void insert(const Point<2>& place, double reach, const Item& item);
 
@@ -180,7 +180,7 @@ class ReachTree {
   void push_front(Link& list, Link entry) noexcept;
   void split(const Slot& s, int level) noexcept;
   void put_above(const Slot& s, int level, const Fixed<2>& f, Link entry) noexcept;
-  void unlink(Link& list, const Item& item) noexcept;
+  void unlink(Link& list, const Point<2>& place, const Item& item) noexcept;
   [[nodiscard]] Link shrunk(Link node) noexcept;
 
   template <class Enter, class Take, class Visit>
@@ -392,11 +392,12 @@ void ReachTree<Item>::free_node(Link node) noexcept {
 }
 
 template <class Item>
-void ReachTree<Item>::unlink(Link& list, const Item& item) noexcept {
+void ReachTree<Item>::unlink(Link& list, const Point<2>& place, const Item& item) noexcept {
   const std::uint32_t left = count_of(list) - 1;
   Link before = 0;
   Link e = list & ~kList;
-  while (!(entries_[e].item == item)) before = std::exchange(e, entries_[e].next);
+  const auto is_it = [&] { return entries_[e].item == item && entries_[e].place == place; };
+  while (!is_it()) before = std::exchange(e, entries_[e].next);
   const Link next = entries_[e].next;
   if (before != 0) {
     entries_[before].next = next;
@@ -434,7 +435,7 @@ typename ReachTree<Item>::Link ReachTree<Item>::shrunk(Link node) noexcept {
 template <class Item>
 void ReachTree<Item>::erase(const Point<2>& place, const Item& item) noexcept {
   const Path path = descend(box_.fixed(place));
-  unlink(at(path.last()), item);
+  unlink(at(path.last()), place, item);
   for (int i = path.depth; i >= 0; --i) {
     Link& link = at(path.slots[i]);
     if (i < path.depth) link = shrunk(link);

@@ -119,6 +119,17 @@ TEST_CASE("searches visit every disc that meets them, once, and others only for 
   }
 }
 
+TEST_CASE("an item that is there twice is taken from the place that is named") {
+  ReachTree<int> tree(kBox);
+  tree.insert({0.5, 0.5}, 0.25, 1);
+  tree.insert({0.500001, 0.5}, 0.125, 1);
+  tree.erase({0.5, 0.5}, 1);
+  tree.check_invariants();
+  CHECK_FALSE(tree.visit_at({0.25, 0.5}, [](int) { return true; }));
+  tree.erase({0.500001, 0.5}, 1);
+  CHECK(tree.size() == 0);
+}
+
 TEST_CASE("a search ends with the first item that its visitor accepts") {
   ReachTree<int> tree(kBox);
   for (int i = 0; i < 50; ++i) tree.insert({0.01 * i, 0.5}, 1, i);
