@@ -8,6 +8,7 @@
 
 #include "input.hpp"
 #include "mesher/mesher.hpp"
+#include "mesh/canonical.hpp"
 #include "sac/sac.hpp"
 #include "program/world_impl.hpp"
 
@@ -59,11 +60,30 @@ class TracedWorld {
     remove(id);
     insert(id, p);
   }
-  sac::Counts update() {
-    const sac::Counts counts = engine_->propagate();
-    world_->vertices.commit();
-    return counts;
+  /// Between two points that are there.
+  void insert_segment(mesher::FeatureId id, mesher::FeatureId a, mesher::FeatureId b) {
+    const auto all = world_->segments.insert(inputs_.at(a)->self, inputs_.at(b)->self);
+    lines_[all.piece.segment] = id;
+    world_->splits.post_from_outside<mesher::detail::split_segment>(
+        mesher::detail::split_segment_key(box_, all), all);
   }
+  void remove_segment(mesher::FeatureId a, mesher::FeatureId b) {
+    const auto all = world_->segments.erase(inputs_.at(a)->self, inputs_.at(b)->self);
+    world_->splits.retract_from_outside<mesher::detail::split_segment>(all);
+  }
+  /// Brings the trace up to date. What it throws leaves the last state.
+  sac::Counts update() {
+    try {
+      const sac::Counts counts = engine_->propagate();
+      commit();
+      return counts;
+    } catch (...) {
+      commit();
+      throw;
+    }
+  }
+  /// The mesh in canonical form. Requires: no announced edits.
+  [[nodiscard]] mesher::Mesh<2> mesh() const;
 
   [[nodiscard]] World& world() noexcept { return *world_; }
   [[nodiscard]] const sac::Engine& engine() const noexcept { return *engine_; }
@@ -71,11 +91,38 @@ class TracedWorld {
   [[nodiscard]] const std::map<mesher::FeatureId, Vertex*>& inputs() const { return inputs_; }
 
  private:
+  void commit() {
+    world_->leaves.commit();
+    world_->segments.commit();
+    world_->vertices.commit();
+  }
+
   mesher::detail::MeshBox<2> box_;
   mesher::Options<2> options_;
   std::unique_ptr<sac::Engine> engine_ = std::make_unique<sac::Engine>();
   std::unique_ptr<World> world_;
   std::map<mesher::FeatureId, Vertex*> inputs_;
+  std::map<mesher::detail::SegmentHandle, mesher::FeatureId> lines_;
 };
+
+inline mesher::Mesh<2> TracedWorld::mesh() const {
+  const auto& vertices = world_->vertices;
+  const auto& pool = vertices.pool();
+  std::vector<mesher::detail::VertexHandle> live;
+  std::vector<std::array<mesher::detail::VertexHandle, 3>> triangles;
+  pool.for_each([&](const Vertex& v) {
+    if (!v.alive) return;
+    live.push_back(v.self);
+    const auto ring = vertices.ring(v);
+    mesher::detail::for_each_own_triangle(pool, v, ring.handles, ring.size,
+                                          [&](const auto& t) { triangles.push_back(t); });
+  });
+  std::vector<mesher::detail::LineEdge> edges;
+  world_->leaves.for_each([&](const mesher::detail::Leaf& leaf) {
+    edges.push_back({vertices.tree().find(leaf.lo)->self, vertices.tree().find(leaf.hi)->self,
+                     lines_.at(leaf.piece.segment)});
+  });
+  return mesher::detail::canonical(pool, live, triangles, edges);
+}
 
 }  // namespace support
