@@ -75,7 +75,6 @@ std::vector<detail::LineEdge> line_edges(const World& world, const Lines& lines)
 void post_all(World& world) {
   world.vertices.pool().for_each([&](detail::Vertex<2>& v) {
     if (!v.input) return;
-    v.level = static_cast<std::int16_t>(world.features.tree().crowded_level(v));
     world.quadtree.post_from_outside<detail::locate>(detail::locate_key(world.box.fixed(v.p)),
                                                      detail::VertexRef<2>{&v});
   });

@@ -90,7 +90,6 @@ void State::post_all() {
   pool().for_each([&](Vertex<2>& v) {
     if (!v.input) return;
     vertices().touch(v);
-    features().level_first(v);
     world_->quadtree.post_from_outside<locate>(locate_key(box_.fixed(v.p)), VertexRef<2>{&v});
   });
 }

@@ -18,7 +18,7 @@ namespace {
 
 void Features<sac::PlainScope>::insert(sac::PlainScope&, VertexRef<2> v) {
   if (const Vertex<2>* other = tree_.obstacle(v->p)) fail_too_close(v->p, other->p);
-  tree_.insert(*v, [](const Vertex<2>&) {});
+  tree_.insert_only(*v);
 }
 
 using TracedFeatures = Features<sac::Scope>;
@@ -32,6 +32,7 @@ int TracedFeatures::level(sac::Scope& s, Vertex<2>& v) {
   }
   v.locator = engine_.handle_of(s.self());
   if (const Vertex<2>* other = companion(v)) fail_too_close(v.p, other->p);
+  if (engine_.appending()) v.level = static_cast<std::int16_t>(tree_.crowded_level(v));
   return v.level;
 }
 
@@ -61,6 +62,7 @@ void TracedFeatures::put(Vertex<2>& v) {
     hidden_.emplace(box_.fixed(v.p), v.self);
     return cell_changed(v.p);
   }
+  if (engine_.appending()) return tree_.insert_only(v);  // levels come with level()
   tree_.insert(v, [&](Vertex<2>& f) { changed(f); });
   changed(v);
 }

@@ -23,7 +23,7 @@ class Features<sac::PlainScope> {
   Features(const MeshBox<2>& box, const VertexPool<2>& pool, sac::PlainScope&) : tree_(box, pool) {}
 
   [[nodiscard]] FeatureTree<2>& tree() noexcept { return tree_; }
-  int level(sac::PlainScope&, const Vertex<2>& v) { return v.level; }
+  int level(sac::PlainScope&, const Vertex<2>& v) { return tree_.crowded_level(v); }
   /// A vertex at which a segment is split. Throws: Error(too_close).
   void insert(sac::PlainScope&, VertexRef<2> v);
 
@@ -76,13 +76,10 @@ class Features<sac::Scope> : public sac::Structure {
   template <class Visit>
   bool visit_points_in(const Box<2>& area, Visit&& visit) const;
 
-  /// A point of the first run, before level_first() of any. Requires: point_at(v.p) == nullptr.
+  /// A point of the first run. Requires: point_at(v.p) == nullptr.
   void insert_first(Vertex<2>& v) {
     tree_.insert_only(v);
     v.feature = true;
-  }
-  void level_first(Vertex<2>& v) const {
-    v.level = static_cast<std::int16_t>(tree_.crowded_level(v));
   }
   /// An outside edit, with its inverse noted for a roll-back.
   void insert(Vertex<2>& v);

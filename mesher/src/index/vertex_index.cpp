@@ -18,20 +18,34 @@ VertexRef<2> Index::insert(sac::Scope& s, const Point<2>& p) {
 }
 
 VertexRef<2> Index::insert(sac::Scope& s, const Point<2>& p, const Role& role) {
+  if (const auto* edge = recall_on_segment(s, p, role)) return {&pool_[edge->vertex]};
+  Vertex<2>& v = record_at(s, p);
+  produce_on_segment(s, v, role);
+  return {&v};
+}
+
+VertexRef<2> Index::insert_early(sac::Scope& s, const Point<2>& p, const Role& role) {
+  if (!engine_.appending()) return insert(s, p, role);
+  Vertex<2>& v = add(p);
+  produce_on_segment(s, v, role);
+  return {&v};
+}
+
+const Index::BirthOnSegmentEdge* Index::recall_on_segment(sac::Scope& s, const Point<2>& p,
+                                                          const Role& role) {
   const auto same = [&](const BirthOnSegmentEdge& edge) {
     return edge.role == role && pool_[edge.vertex].p == p;
   };
-  if (const auto* edge = s.recall<BirthOnSegmentEdge>(id_, kBirthOnSegment, same)) {
-    return {&pool_[edge->vertex]};
-  }
-  Vertex<2>& v = record_at(s, p);
+  return s.recall<BirthOnSegmentEdge>(id_, kBirthOnSegment, same);
+}
+
+void Index::produce_on_segment(sac::Scope& s, Vertex<2>& v, const Role& role) {
   touch(v);
   roles_.reserve(v.self);
   observers_.expect_arrivals();
   auto& edge = s.effect<BirthOnSegmentEdge>(id_, kBirthOnSegment);
   edge.role = role;
   produced(s, v, edge, role);
-  return {&v};
 }
 
 // Throws: Error if a vertex is at p already.

@@ -2,6 +2,7 @@
 //
 //   insert(s, p)           the running call produces a vertex               (effect)
 //   insert(s, p, role)     the same, of a place on a segment                (effect)
+//   insert_early(...)      the same, before vertices are located            (effect)
 //   insert(s, v)           the running call produces the record v, unless   (effect)
 //                          an earlier one has given it a role
 //   voronoi_cell(s, v, R)  v's gap balls up to R, among the vertices born   (observation)
@@ -51,11 +52,12 @@ class VertexIndex<sac::PlainScope> : public VertexSearch {
     v.alive = true;
     return {&v};
   }
-  VertexRef<2> insert(sac::PlainScope& s, const Point<2>& p, const Role& role) {
-    const VertexRef<2> v = insert(s, p);
-    roles_.reserve(v->self);
-    set_role(*v, role);
-    return v;
+  VertexRef<2> insert(sac::PlainScope&, const Point<2>& p, const Role& role) {
+    if (tree_.find(p) != nullptr) fail_coincident(p);
+    return insert_new(p, role);
+  }
+  VertexRef<2> insert_early(sac::PlainScope&, const Point<2>& p, const Role& role) {
+    return insert_new(p, role);
   }
   void insert(sac::PlainScope&, VertexRef<2> v) { v->alive = true; }
   CellLoan voronoi_cell(sac::PlainScope&, VertexRef<2> v, double radius) {
@@ -65,6 +67,15 @@ class VertexIndex<sac::PlainScope> : public VertexSearch {
     return nearest_around(*v, [](VertexHandle) { return true; }).distance2;
   }
   CellLoan star(sac::PlainScope& s, VertexRef<2> v) { return voronoi_cell(s, v, whole()); }
+
+ private:
+  VertexRef<2> insert_new(const Point<2>& p, const Role& role) {
+    Vertex<2>& v = add(p);
+    v.alive = true;
+    roles_.reserve(v.self);
+    set_role(v, role);
+    return {&v};
+  }
 };
 
 template <>
@@ -80,6 +91,9 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
 
   VertexRef<2> insert(sac::Scope& s, const Point<2>& p);
   VertexRef<2> insert(sac::Scope& s, const Point<2>& p, const Role& role);
+  /// In a first run without a look for a vertex at p: the quadtree is one leaf then. Features are
+  /// asked for two in one place.
+  VertexRef<2> insert_early(sac::Scope& s, const Point<2>& p, const Role& role);
   void insert(sac::Scope& s, VertexRef<2> v);
   CellLoan voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius);
   double nearest2(sac::Scope& s, VertexRef<2> v);
@@ -153,6 +167,8 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
     return u.boundary || presences_.seen_by(u.presence, call);
   }
   [[nodiscard]] Vertex<2>& record_at(sac::Scope& s, const Point<2>& p);
+  const BirthOnSegmentEdge* recall_on_segment(sac::Scope& s, const Point<2>& p, const Role& role);
+  void produce_on_segment(sac::Scope& s, Vertex<2>& v, const Role& role);
   void produce(sac::Scope& s, Vertex<2>& v);
   void produced(sac::Scope& s, Vertex<2>& v, BirthEdge& edge, const Role& role) noexcept;
   [[nodiscard]] Role role_from(const sac::Call& producer, const Vertex<2>& v) const noexcept;

@@ -34,7 +34,7 @@ void SplitSegment::operator()(S& s, PieceRef piece) const {
   auto& w = s.template environment<World<S>>();
   if (!w.segments.crowded(s, piece)) return w.leaves.begin(s, piece.piece);
   const Halves halves = w.segments.halves(s, piece);
-  const VertexRef<2> y = w.vertices.insert(s, halves.place, halves.role);
+  const VertexRef<2> y = w.vertices.insert_early(s, halves.place, halves.role);
   w.features.insert(s, y);
   w.quadtree.template post<locate>(s, locate_key(w.box.fixed(y->p)), y);
   w.post_split(s, halves.lower);

@@ -97,7 +97,6 @@ Farthest farthest(const std::vector<Point<2>>& points, const Options<2>& o) {
   for (const auto& p : points) features.insert_only(world.vertices.add_input(p, true));
   world.vertices.pool().for_each([&](mesher::detail::Vertex<2>& v) {
     if (!v.input) return;
-    v.level = static_cast<std::int16_t>(features.crowded_level(v));
     world.quadtree.post_from_outside<mesher::detail::locate>(
         mesher::detail::locate_key(box.fixed(v.p)), VertexRef<2>{&v});
   });
