@@ -55,9 +55,17 @@ struct KindChange {
   friend bool operator==(const KindChange&, const KindChange&) = default;
 };
 
+/// An edge of the mesh on a line of the input; low < high in lexicographic order.
+template <int D>
+struct LineEdge {
+  Point<D> low{}, high{};
+  FeatureId line{};
+  friend auto operator<=>(const LineEdge&, const LineEdge&) = default;
+};
+
 /// The exact difference between the mesh before and after an update.
-/// Vertices in lexicographic order; each simplex by its corners, smallest first, positively
-/// oriented.
+/// Vertices and edges in lexicographic order; each simplex by its corners, smallest first,
+/// positively oriented.
 template <int D>
 struct Change {
   std::vector<Point<D>> vertices_added;
@@ -65,6 +73,8 @@ struct Change {
   std::vector<KindChange<D>> kinds_changed;
   std::vector<std::array<Point<D>, D + 1>> simplices_added;
   std::vector<std::array<Point<D>, D + 1>> simplices_removed;
+  std::vector<LineEdge<D>> edges_added;    ///< on lines
+  std::vector<LineEdge<D>> edges_removed;
   CallCounts calls;
 };
 

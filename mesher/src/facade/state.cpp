@@ -102,6 +102,9 @@ Change<2> State::whole(const Mesh<2>& mesh) const {
     change.simplices_added.push_back(
         {mesh.vertices[s[0]], mesh.vertices[s[1]], mesh.vertices[s[2]]});
   }
+  for (const auto& e : mesh.edges) {
+    change.edges_added.push_back({mesh.vertices[e.low], mesh.vertices[e.high], e.line});
+  }
   return change;
 }
 
@@ -114,7 +117,7 @@ Change<2> State::first_run(std::vector<Announced::Edit> edits, const RunControl&
   const auto meter = [&](const sac::Progress& p) { return phases(p.executed); };
   const Watch watch(*engine_, control, meter);
   const CallCounts calls = call_counts(engine_->run<refine>());
-  vertices().commit();
+  commit();
   vertices().set_logging(true);
   ran_ = true;
   const Mesh<2> all = mesh();
@@ -126,6 +129,13 @@ Change<2> State::first_run(std::vector<Announced::Edit> edits, const RunControl&
 
 // --- Updates ---------------------------------------------------------------------------------
 
+// Leaves' records refer to those of segments, and these to those of vertices.
+void State::commit() noexcept {
+  world_->leaves.commit();
+  world_->segments.commit();
+  vertices().commit();
+}
+
 // The record of an input point to be, listed so that commit() frees it if nothing comes of it.
 Vertex<2>& State::claim(const Point<2>& p) {
   Vertex<2>& v = vertices().add_input(p, false);
@@ -134,10 +144,9 @@ Vertex<2>& State::claim(const Point<2>& p) {
   return v;
 }
 
-Vertex<2>& State::add(const Point<2>& p, std::vector<Touched>& touched) {
+Vertex<2>& State::add(const Point<2>& p) {
   engine_->begin_edit();
   Vertex<2>& v = claim(p);
-  touched.push_back({v.self, v.committed, v.kind()});
   engine_->on_rollback([&v] { v.input = false; });
   v.input = true;
   features().insert(v);
@@ -145,24 +154,22 @@ Vertex<2>& State::add(const Point<2>& p, std::vector<Touched>& touched) {
   return v;
 }
 
-void State::take(Vertex<2>& v, std::vector<Touched>& touched) {
+void State::take(Vertex<2>& v) {
   engine_->begin_edit();
   vertices().touch(v);
-  touched.push_back({v.self, v.committed, v.kind()});
   engine_->on_rollback([&v] { v.input = true; });
   v.input = false;
   features().erase(v);
   world_->quadtree.retract_from_outside<locate>(VertexRef<2>{&v});
 }
 
-void State::make(const std::vector<Announced::Edit>& edits, Ids& arrived,
-                 std::vector<Touched>& touched) {
+void State::make(const std::vector<Announced::Edit>& edits, Ids& arrived) {
   const auto all = [&] {
     for (const auto& edit : edits) {
-      if (edit.was) take(pool()[ids_.at(edit.id)], touched);
+      if (edit.was) take(pool()[ids_.at(edit.id)]);
     }
     for (const auto& edit : edits) {
-      if (edit.to) arrived.emplace(edit.id, add(*edit.to, touched).self);
+      if (edit.to) arrived.emplace(edit.id, add(*edit.to).self);
     }
   };
   try {
@@ -179,24 +186,22 @@ Change<2> State::propagate(const std::vector<Announced::Edit>& edits, const RunC
   };
   Change<2> change;
   Ids arrived;
-  std::vector<Touched> touched;
-  touched.reserve(2 * edits.size());
   const std::function<void()> report = [&] {  // what needs memory, while all can be undone
     make_room(arrived);
     report_vertices(change);
-    report_kinds(touched, change);
     report_stars(change);
+    report_edges(change);
   };
-  make(edits, arrived, touched);
+  make(edits, arrived);
   try {
     const Watch watch(*engine_, control, meter);
     change.calls = call_counts(engine_->propagate(report));
   } catch (...) {
-    vertices().commit();
+    commit();
     throw;
   }
   rename(edits, arrived);
-  vertices().commit();
+  commit();
   stats_.vertices += change.vertices_added.size() - change.vertices_removed.size();
   stats_.simplices += change.simplices_added.size() - change.simplices_removed.size();
   return change;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "facade/announced.hpp"
+#include "mesh/canonical.hpp"
 #include "mesher/mesher.hpp"
 #include "program/world.hpp"
 
@@ -52,27 +53,22 @@ class State {
  private:
   using Triangle = std::array<VertexHandle, 3>;
   using Ids = std::unordered_map<FeatureId, VertexHandle>;
-  // A vertex whose input point comes or goes, as the last update left it.
-  struct Touched {
-    VertexHandle handle;
-    bool committed;
-    VertexKind kind;
-  };
-
   void add_first(const Announced::Edit& edit);
   void post_all();
-  void make(const std::vector<Announced::Edit>& edits, Ids& arrived, std::vector<Touched>& touched);
+  void make(const std::vector<Announced::Edit>& edits, Ids& arrived);
   Vertex<2>& claim(const Point<2>& p);
-  Vertex<2>& add(const Point<2>& p, std::vector<Touched>& touched);
-  void take(Vertex<2>& v, std::vector<Touched>& touched);
+  Vertex<2>& add(const Point<2>& p);
+  void take(Vertex<2>& v);
+  void commit() noexcept;
   void make_room(const Ids& arrived);
   void rename(const std::vector<Announced::Edit>& edits, Ids& arrived) noexcept;
   [[nodiscard]] std::vector<Triangle> triangles() const;
   [[nodiscard]] std::vector<VertexHandle> live_vertices() const;
+  [[nodiscard]] std::vector<detail::LineEdge> line_edges() const;
   [[nodiscard]] Change<2> whole(const Mesh<2>& mesh) const;
   [[nodiscard]] std::array<Point<2>, 3> corners(const Triangle& t) const;
   void report_vertices(Change<2>& change) const;
-  void report_kinds(const std::vector<Touched>& touched, Change<2>& change) const;
+  void report_edges(Change<2>& change) const;
   void report_stars(Change<2>& change) const;
 
   auto& vertices() noexcept { return world_->vertices; }
@@ -85,6 +81,7 @@ class State {
   std::unique_ptr<World<sac::Scope>> world_;
   Ids ids_;
   std::vector<FeatureId> names_;  // by handle, of the vertices that are input points
+  std::vector<FeatureId> lines_;  // by handle, of the segments
   bool ran_ = false;
   MeshStats stats_;
 };

@@ -352,6 +352,7 @@ Index::Log Index::log() const {
 void Index::commit() noexcept {
   log_.clear([&](Vertex<2>& v) {
     v.committed = v.alive;
+    v.committed_kind = v.kind();
     if (Ring* ring = find_ring(v)) ring->fresh = false;
     if (v.alive || v.input) return;
     tree_.erase(v);

@@ -28,6 +28,7 @@ struct Leaf {
   LeafHandle next_changed = 0;
   sac::Presence begun, ended;  // the calls that make it a leaf, and those that cut it
   bool changed = false;        // listed by next_changed
+  bool committed = false;      // a leaf at the end of the last update
 
   [[nodiscard]] Point<2> middle() const noexcept {
     return {lo[0] + (hi[0] - lo[0]) / 2, lo[1] + (hi[1] - lo[1]) / 2};

@@ -178,6 +178,7 @@ void TracedLeaves::commit() noexcept {
     Leaf& leaf = records_[h];
     h = std::exchange(leaf.next_changed, 0);
     leaf.changed = false;
+    leaf.committed = is_leaf(leaf);
     if (!leaf.begun.there() && !leaf.ended.there()) records_.release(leaf);
   }
 }
@@ -189,7 +190,7 @@ void TracedLeaves::check_invariants() const {
   records_.for_each([&](const Leaf& leaf) {
     presences_.check_invariants(leaf.begun);
     presences_.check_invariants(leaf.ended);
-    SAC_INVARIANT(leaf.begun.there());
+    SAC_INVARIANT(leaf.begun.there() && leaf.committed == is_leaf(leaf));
   });
   check_births();
   asks_.visit_all([&](sac::Handle h) {
