@@ -9,9 +9,9 @@ namespace mesher::detail {
 namespace {
 
 [[noreturn]] void fail_too_close(const Point<2>& p, const Point<2>& q) {
-  throw Error(ErrorCode::too_close,
-              "features are too close to each other: they need vertices at " + place_text(p) +
-                  " and " + place_text(q) + ", which share a cell of 2^-50 of the meshing box's side");
+  throw Error(ErrorCode::too_close, "features are too close to each other: they need vertices at " +
+                                        place_text(p) + " and " + place_text(q) +
+                                        ", which share a cell of 2^-50 of the meshing box's side");
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // The features' points: input points, and the vertices at which long segments are split. For each
 // point, the deepest level at which it is crowded; and the input points near a place.
 //
-// What is not to be in one finest cell may be there for a while, as an update goes on: a point comes
-// beside a vertex that its coming will take away. One of them stands for all; whoever asks for the
-// level of one when they should be apart is told that they are too close.
+// What is not to be in one finest cell may be there for a while, as an update goes on: a point
+// comes beside a vertex that its coming will take away. One of them stands for all; whoever asks
+// for the level of one when they should be apart is told that they are too close.
 #pragma once
 
 #include <cstdint>
@@ -120,7 +120,7 @@ class Features<sac::Scope> : public sac::Structure {
   const MeshBox<2>& box_;
   VertexPool<2>& pool_;
   FeatureTree<2> tree_;
-  std::unordered_map<VertexHandle, std::uint32_t> splits_;  // by how many calls
+  std::unordered_map<VertexHandle, std::uint32_t> splits_;            // by how many calls
   std::unordered_multimap<Fixed<2>, VertexHandle, CellHash> hidden_;  // behind one in the tree
   PointListener* listener_ = nullptr;
   std::uint8_t id_;

@@ -1,9 +1,9 @@
 // SplitSegments [Fig 5.5, 6.4; rules A2]: segments are split before anything is refined, until no
 // feature crowds a piece.
 //
-// Departure: what crowds a piece is a function of the input alone (segments/crowding.hpp), so a call
-// on a piece depends on no other, and its order is only that a piece comes before its halves. A piece
-// that is not crowded is a leaf: an edge of the mesh, until it is cut.
+// Departure: what crowds a piece is a function of the input alone (segments/crowding.hpp), so a
+// call on a piece depends on no other, and its order is only that a piece comes before its halves.
+// A piece that is not crowded is a leaf: an edge of the mesh, until it is cut.
 #pragma once
 
 #include "program/build_qt.hpp"
@@ -19,7 +19,8 @@ struct SplitSegment {
 inline constexpr SplitSegment split_segment{};
 
 /// When split_segment(piece) runs: longest first. A half is at most two thirds of a piece, and thus
-/// in a later bucket: there are two an octave, [1/2, sqrt(1/2)) and [sqrt(1/2), 1) times a power of 2.
+/// in a later bucket: there are two an octave, [1/2, sqrt(1/2)) and [sqrt(1/2), 1) times a power
+/// of 2.
 [[nodiscard]] inline sac::Key split_segment_key(const MeshBox<2>& box, const PieceRef& piece) {
   constexpr double kRootHalf = 0.70710678118654752;
   int exponent = 0;

@@ -9,8 +9,8 @@
 //
 //   crowded(s, piece)   (observation)
 //
-// An observation keeps a witness, one of the features that crowd the piece. So an edit that brings a
-// feature changes the answers of the pieces nearby that had none, one that takes a feature those
+// An observation keeps a witness, one of the features that crowd the piece. So an edit that brings
+// a feature changes the answers of the pieces nearby that had none, one that takes a feature those
 // whose witness it was and that have no other; and only a changed answer runs a call again.
 #pragma once
 
@@ -29,11 +29,13 @@ class CrowdedZone {
     lo_ = piece.lo(), hi_ = piece.hi();
     middle_ = {(lo_[0] + hi_[0]) / 2, (lo_[1] + hi_[1]) / 2};
     const double x = hi_[0] - lo_[0], y = hi_[1] - lo_[1];
-    length_ = std::sqrt(x * x + y * y);
+    length2_ = x * x + y * y;
   }
   [[nodiscard]] const Point<2>& middle() const noexcept { return middle_; }
   /// The zone lies within this around the middle: half the length and an eighth, and some rounding.
-  [[nodiscard]] double reach() const noexcept { return 0.625 * length_ * (1 + 0x1p-30); }
+  [[nodiscard]] double reach() const noexcept {
+    return 0.625 * std::sqrt(length2_) * (1 + 0x1p-30);
+  }
   [[nodiscard]] Box<2> box() const noexcept {
     const double r = reach();
     return {{middle_[0] - r, middle_[1] - r}, {middle_[0] + r, middle_[1] + r}};
@@ -41,15 +43,14 @@ class CrowdedZone {
 
   [[nodiscard]] bool has(const Segment& t) const {
     if (t.has_end(segment_.a) || t.has_end(segment_.b)) return false;
-    return distance2(middle_, t.place_a, t.place_b) < length_ * length_ / 4 ||
-           distance2(lo_, hi_, t.place_a, t.place_b) < length_ * length_ / 64;
+    return distance2(middle_, t.place_a, t.place_b) < length2_ / 4 ||
+           distance2(lo_, hi_, t.place_a, t.place_b) < length2_ / 64;
   }
   [[nodiscard]] bool has(const Vertex<2>& v) const {
     if (segment_.has_end(v.self)) return false;
-    const double from_right_angle = (v.p[0] - lo_[0]) * (v.p[0] - hi_[0]) +
-                                    (v.p[1] - lo_[1]) * (v.p[1] - hi_[1]);
-    return from_right_angle <= kSurplus * length_ * length_ ||
-           distance2(v.p, lo_, hi_) < length_ * length_ / 64;
+    const double from_right_angle =
+        (v.p[0] - lo_[0]) * (v.p[0] - hi_[0]) + (v.p[1] - lo_[1]) * (v.p[1] - hi_[1]);
+    return from_right_angle <= kSurplus * length2_ || distance2(v.p, lo_, hi_) < length2_ / 64;
   }
 
  private:
@@ -59,7 +60,7 @@ class CrowdedZone {
 
   const Segment& segment_;
   Point<2> lo_, hi_, middle_;
-  double length_;
+  double length2_;
 };
 
 /// A feature: an input point, a segment, or nothing.

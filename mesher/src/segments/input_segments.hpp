@@ -104,8 +104,12 @@ class InputSegments<sac::Scope> final : public PointListener {
   [[nodiscard]] std::size_t bytes() const noexcept {
     return store_.bytes() + crowding_.bytes() + shells_.bytes();
   }
-  /// Crowding and shells are structures of the engine, which checks them.
-  void check_invariants() const { store_.check_invariants(); }
+  /// Requires: between updates. Throws InvariantError.
+  void check_invariants() const {
+    store_.check_invariants();
+    crowding_.check_invariants();
+    shells_.check_invariants();
+  }
 
  private:
   void put(Segment& s);

@@ -66,7 +66,7 @@ class SegmentStore {
   using TileHandle = std::uint32_t;  // 0: none
   struct Tile {
     SegmentHandle segment = 0;
-    TileHandle next = 0;  // of the same segment; in a free one: the next free one
+    TileHandle next = 0;    // of the same segment; in a free one: the next free one
     double lo = 0, hi = 1;  // fractions of the segment
   };
   using Ends = std::uint64_t;

@@ -175,8 +175,7 @@ void TracedShells::check_invariants() const {
     SAC_INVARIANT(reach == apex_reach(segments_, points_, pool_[v]));
   });
   const auto zone_at = [&](const Segment& s, VertexHandle end) {
-    return zone(segments_, s, end,
-                [&] { return apex_reach(segments_, points_, pool_[end]); });
+    return zone(segments_, s, end, [&] { return apex_reach(segments_, points_, pool_[end]); });
   };
   segments_.pool().for_each([&](const Segment& s) {
     for (sac::Handle h = s.place_observers; h != 0; h = at(h).next) {

@@ -8,11 +8,13 @@
 // How far from an end b the distances from b matter is the zone Z(b), the largest over the other
 // segments t at b of
 //     min(|s|, |t|)      if the angle there is under 20 degrees,
-//     min(R(b), |t|)     if it is under 60; R(b) is the distance of the nearest feature not at b, at
+//     min(R(b), |t|)     if it is under 60; R(b) is the distance of the nearest feature not at b,
+//     at
 //                        most the length of the shortest segment at b,
 //     0                  else.
-// The origin is a, unless only b's zone reaches the middle; if both do, the middle is where each half
-// begins to have its own. The last piece of length <= Z at the other end is measured from there.
+// The origin is a, unless only b's zone reaches the middle; if both do, the middle is where each
+// half begins to have its own. The last piece of length <= Z at the other end is measured from
+// there.
 //
 //   place(s, piece)   (observation of the zones, where they matter)
 #pragma once
