@@ -4,10 +4,13 @@
 // closed one that has it as diameter; the ends are not in it.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <ostream>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -38,7 +41,8 @@ struct Leaf {
   }
 };
 
-/// An argument of traced functions: equal by identity, ordered by coordinates.
+/// An argument of traced functions: equal by identity, ordered by coordinates; two pieces between the
+/// same places, of which an update may know both, by how the places are labelled.
 struct LeafRef {
   Leaf* leaf = nullptr;
 
@@ -49,7 +53,11 @@ struct LeafRef {
     const auto by_lo = a.leaf->lo <=> b.leaf->lo;
     if (by_lo != 0) return by_lo;
     const auto by_hi = a.leaf->hi <=> b.leaf->hi;
-    return by_hi != 0 ? by_hi : a.leaf->piece.kind <=> b.leaf->piece.kind;
+    if (by_hi != 0) return by_hi;
+    const auto labels = [](const Piece& p) {
+      return std::tuple(p.lo.distance, p.lo.from_b, p.hi.distance, p.hi.from_b, p.kind);
+    };
+    return labels(a.leaf->piece) <=> labels(b.leaf->piece);
   }
   friend std::uint64_t hash_value(const LeafRef& r) noexcept { return r.leaf->self; }
   friend std::ostream& operator<<(std::ostream& out, const LeafRef& r) {
@@ -59,6 +67,10 @@ struct LeafRef {
   friend void label_bytes(sac::LabelSink& sink, const LeafRef& r) {
     for (const Point<2>& p : {r.leaf->lo, r.leaf->hi}) {
       for (const double x : p) sink.number(std::bit_cast<std::uint64_t>(x));
+    }
+    for (const Label& l : {r.leaf->piece.lo, r.leaf->piece.hi}) {
+      sink.number(std::bit_cast<std::uint64_t>(l.distance));
+      sink.number(l.from_b ? 1 : 0);
     }
     sink.number(static_cast<std::uint64_t>(r.leaf->piece.kind));
   }
