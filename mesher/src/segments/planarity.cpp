@@ -72,6 +72,29 @@ Point<2> crossing(const Segment& s, const Segment& t) {
   return {s.place_a[0] + at * ux, s.place_a[1] + at * uy};
 }
 
+Error too_close_to_segment(const PieceRef& piece, Witness witness, const Names* names,
+                           const VertexPool<2>& points, const SegmentPool& segments) {
+  std::vector<FeatureId> ids;
+  std::string segment = "a segment";
+  std::string other = "another";
+  if (names != nullptr) {
+    ids.push_back(names->line(piece.piece.segment));
+    segment = "segment " + text(ids[0]);
+  }
+  if (witness.point() != 0) {
+    if (names != nullptr) ids.push_back(names->point(witness.point()));
+    other = "point " + (names != nullptr ? text(ids.back()) + " " : std::string()) +
+            place_text(points[witness.point()].p);
+  } else if (names != nullptr && witness.segment() != 0) {
+    ids.push_back(names->line(segments[witness.segment()].self));
+    other = "segment " + text(ids.back());
+  }
+  return Error(ErrorCode::too_close,
+               segment + " is too close to " + other + " near " + place_text(piece.lo()) +
+                   " for double precision",
+               {}, std::move(ids));
+}
+
 void fail(const Conflict& c, const Names& names) {
   const FeatureId line = names.line(c.segment->self);
   if (c.kind == Conflict::Kind::point_on_segment) {

@@ -5,6 +5,7 @@
 
 #include "index/features.hpp"
 #include "mesher/error.hpp"
+#include "segments/crowding.hpp"
 #include "segments/segment_store.hpp"
 
 namespace mesher::detail {
@@ -39,6 +40,11 @@ template <class S>
 /// Throws: Error (overlapping_segments, point_on_segment, crossing_segments) with the ids of both and
 /// the place.
 [[noreturn]] void fail(const Conflict& conflict, const Names& names);
+
+/// A segment and a feature that are too close to each other, near a piece that the feature crowds.
+[[nodiscard]] Error too_close_to_segment(const PieceRef& piece, Witness witness,
+                                         const Names* names, const VertexPool<2>& points,
+                                         const SegmentPool& segments);
 
 /// Where the lines ab and cd, which cross, do so; rounded.
 [[nodiscard]] Point<2> crossing(const Segment& s, const Segment& t);
