@@ -100,11 +100,7 @@ void Mesher<2>::Impl::insert_line(FeatureId id, const detail::LinePoints& points
     throw Error(ErrorCode::repeated_id, "line " + text(id) + " is there already", {}, {id});
   }
   const auto same = std::adjacent_find(points.begin(), points.end());
-  if (same != points.end()) {
-    throw Error(ErrorCode::zero_length,
-                "segment " + text(id) + " goes from point " + text(*same) + " to itself", {},
-                {id, *same});
-  }
+  if (same != points.end()) detail::fail_zero_length(id, *same);
   announced_lines.set(id, state->line(id), points);
 }
 

@@ -22,13 +22,6 @@ void for_each_part(const LinePoints& points, Visit&& visit) {
               {point, line});
 }
 
-[[noreturn]] void fail_repeated(FeatureId line, FeatureId other, const Segment& s) {
-  throw Error(ErrorCode::repeated_segment,
-              "segment " + text(line) + " is segment " + text(other) + " again, from " +
-                  place_text(s.place_a) + " to " + place_text(s.place_b),
-              {}, {line, other});
-}
-
 }  // namespace
 
 const LinePoints& State::line(FeatureId id) const {
@@ -59,10 +52,8 @@ VertexHandle State::end_of(FeatureId id, const Ids& arrived) const {
 
 void State::add_part(const Part& part, const Ids& arrived) {
   const auto end = [&](FeatureId id) {
-    if (const VertexHandle v = end_of(id, arrived)) return v;
-    throw Error(ErrorCode::unknown_id,
-                "point " + text(id) + ", an end of segment " + text(part.line) + ", is not there",
-                {}, {id, part.line});
+    const VertexHandle v = end_of(id, arrived);
+    return v != 0 ? v : fail_no_end(id, part.line);
   };
   const VertexHandle a = end(part.from);
   const VertexHandle b = end(part.to);

@@ -72,6 +72,25 @@ Point<2> crossing(const Segment& s, const Segment& t) {
   return {s.place_a[0] + at * ux, s.place_a[1] + at * uy};
 }
 
+void fail_repeated(FeatureId line, FeatureId other, const Segment& s) {
+  throw Error(ErrorCode::repeated_segment,
+              "segment " + text(line) + " is segment " + text(other) + " again, from " +
+                  place_text(s.place_a) + " to " + place_text(s.place_b),
+              {}, {line, other});
+}
+
+void fail_zero_length(FeatureId line, FeatureId point) {
+  throw Error(ErrorCode::zero_length,
+              "segment " + text(line) + " goes from point " + text(point) + " to itself", {},
+              {line, point});
+}
+
+VertexHandle fail_no_end(FeatureId point, FeatureId line) {
+  throw Error(ErrorCode::unknown_id,
+              "point " + text(point) + ", an end of segment " + text(line) + ", is not there", {},
+              {point, line});
+}
+
 Error too_close_to_segment(const PieceRef& piece, Witness witness, const Names* names,
                            const VertexPool<2>& points, const SegmentPool& segments) {
   std::vector<FeatureId> ids;
@@ -99,10 +118,10 @@ void fail(const Conflict& c, const Names& names) {
   const FeatureId line = names.line(c.segment->self);
   if (c.kind == Conflict::Kind::point_on_segment) {
     const FeatureId point = names.point(c.point->self);
-    throw Error(ErrorCode::point_on_segment,
-                "point " + text(point) + " " + place_text(c.point->p) + " lies on segment " +
-                    text(line),
-                {}, {point, line});
+    throw Error(
+        ErrorCode::point_on_segment,
+        "point " + text(point) + " " + place_text(c.point->p) + " lies on segment " + text(line),
+        {}, {point, line});
   }
   const FeatureId other = names.line(c.other->self);
   if (c.kind == Conflict::Kind::crossing) {

@@ -37,14 +37,18 @@ template <class S>
 /// The same for an input point.
 [[nodiscard]] std::optional<Conflict> conflict_of(const Vertex<2>& v, SegmentStore& segments);
 
-/// Throws: Error (overlapping_segments, point_on_segment, crossing_segments) with the ids of both and
-/// the place.
+/// Throws: Error (overlapping_segments, point_on_segment, crossing_segments) with the ids of both
+/// and the place.
 [[noreturn]] void fail(const Conflict& conflict, const Names& names);
 
+/// Throws: Error, as the name says, with the ids of both.
+[[noreturn]] void fail_repeated(FeatureId line, FeatureId other, const Segment& s);
+[[noreturn]] void fail_zero_length(FeatureId line, FeatureId point);
+[[noreturn]] VertexHandle fail_no_end(FeatureId point, FeatureId line);  // unknown_id
+
 /// A segment and a feature that are too close to each other, near a piece that the feature crowds.
-[[nodiscard]] Error too_close_to_segment(const PieceRef& piece, Witness witness,
-                                         const Names* names, const VertexPool<2>& points,
-                                         const SegmentPool& segments);
+[[nodiscard]] Error too_close_to_segment(const PieceRef& piece, Witness witness, const Names* names,
+                                         const VertexPool<2>& points, const SegmentPool& segments);
 
 /// Where the lines ab and cd, which cross, do so; rounded.
 [[nodiscard]] Point<2> crossing(const Segment& s, const Segment& t);
