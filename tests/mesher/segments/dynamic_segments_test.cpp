@@ -19,7 +19,8 @@ constexpr std::uint64_t kMostCalls = 20000;
 // Lets a world follow a random graph; what is wrong first, "" if nothing is.
 class Follower {
  public:
-  Follower(PslgEditor::Family family, std::uint64_t seed) : editor_(family, seed) {}
+  Follower(PslgEditor::Family family, std::uint64_t seed)
+      : family_(family), editor_(family, seed) {}
 
   // `edits` edits as one update; those of a graph that needs too large a mesh are not made.
   std::string step(int edits) {
@@ -36,6 +37,7 @@ class Follower {
     recorded.replay(world_);
     world_.update();
     if (!(world_.mesh() == expected)) return "not the mesh of a run from scratch";
+    if (family_ == PslgEditor::Family::steiner) editor_.look_at(expected);
     world_.engine().check_invariants();
     world_.world().vertices.check_invariants();
     world_.world().segments.check_invariants();
@@ -58,6 +60,7 @@ class Follower {
   }
 
   mesher::Options<2> options_ = PslgEditor::options();
+  PslgEditor::Family family_;
   PslgEditor editor_;
   TracedWorld world_{options_};
   Pslg pslg_;
@@ -78,7 +81,8 @@ std::string follow(PslgEditor::Family family, std::uint64_t seed, int steps) {
 constexpr PslgEditor::Family kFamilies[] = {PslgEditor::Family::uniform,
                                             PslgEditor::Family::lattice,
                                             PslgEditor::Family::beside, PslgEditor::Family::fan,
-                                            PslgEditor::Family::wedge};
+                                            PslgEditor::Family::wedge,
+                                            PslgEditor::Family::steiner};
 
 }  // namespace
 
