@@ -136,6 +136,18 @@ class Mesher {
   /// Throws: Error (unknown_id, outside_domain, not_finite, magnitude). Cost: O(1).
   void move(FeatureId id, const Point<D>& point);
 
+  /// Announces a segment between two points that shall be there; the next update() judges it, as
+  /// part of all that is announced then. Lines, segments and polylines, have ids of their own.
+  /// Throws: Error (repeated_id; zero_length: from one point to itself; bad_option unless
+  /// options().rule is radius_edge). Cost: O(1).
+  void insert_segment(FeatureId id, FeatureId from, FeatureId to);
+  /// Announces segments from point to point under one id. `points`: two or more; the first may be
+  /// the last again. Throws: likewise, and Error(bad_option) for fewer. Cost: O(points).
+  void insert_polyline(FeatureId id, const std::vector<FeatureId>& points);
+  /// Announces that a line goes, with all its segments. Throws: Error(unknown_id).
+  void remove_segment(FeatureId id);
+  void remove_polyline(FeatureId id) { remove_segment(id); }
+
   /// Takes back every edit announced since the last update(). Cost: O(edits).
   void discard_edits() noexcept;
 
@@ -143,7 +155,9 @@ class Mesher {
   /// leaves the mesh as it was.
   /// Throws: Error(cancelled) if `control` has stopped it: the edits stay announced, for another
   /// update() or discard_edits(). Error (duplicate_point, too_close: points that have moved onto
-  /// others, or places too near to each other for the vertices that they need), std::bad_alloc, or
+  /// others, or places too near to each other for the vertices that they need; crossing_segments,
+  /// point_on_segment, overlapping_segments, repeated_segment; point_in_use: an end of a segment is
+  /// removed; unknown_id: a segment's end is not there), std::bad_alloc, or
   /// what control.progress throws: the edits are taken back as well.
   /// Cost: O(log L/s) calls per edited point [Theorem 4.3.8], each O(log L/s), the first time per
   /// vertex; stopped or failed, as much again to take back what was done.
@@ -155,6 +169,8 @@ class Mesher {
 
   /// Number of input points that are announced to be there.
   [[nodiscard]] std::size_t size() const;
+  /// Whether the line is announced to be there.
+  [[nodiscard]] bool contains_line(FeatureId id) const;
   /// Whether the point is announced to be there.
   [[nodiscard]] bool contains(FeatureId id) const;
   /// Of the last update(); times of the first. Cost: O(1).

@@ -39,6 +39,7 @@ State::State(const Options<2>& options)
     : box_(mesh_box(options)),
       engine_(std::make_unique<sac::Engine>()),
       world_(std::make_unique<World<sac::Scope>>(options, box_, *engine_)) {
+  world_->names = this;
   if (options.record_weights) engine_->record_weights();
 }
 
@@ -108,10 +109,21 @@ Change<2> State::whole(const Mesh<2>& mesh) const {
   return change;
 }
 
-Change<2> State::first_run(std::vector<Announced::Edit> edits, const RunControl& control) {
-  ids_.reserve(edits.size());
-  for (const auto& edit : edits) add_first(edit);
-  edits = std::vector<Announced::Edit>();  // the run needs the memory
+void State::add_all_first(const Edits& edits) {
+  ids_.reserve(edits.points.size());
+  for (const auto& edit : edits.points) add_first(edit);
+  if (edits.lines.empty()) return;
+  for (const Part& part : take_lines({{}, edits.lines})) add_part(part, {});
+  require_planar({});
+  Lines lines;
+  make_room_for_lines(edits.lines, lines);
+  rename_lines(edits.lines, lines);
+  forget_news();
+}
+
+Change<2> State::first_run(Edits edits, const RunControl& control) {
+  add_all_first(edits);
+  edits = Edits();  // the run needs the memory
   post_all();
   RunMeter<sac::Scope> phases(*world_, control, ids_.size());
   const auto meter = [&](const sac::Progress& p) { return phases(p.executed); };
@@ -163,31 +175,50 @@ void State::take(Vertex<2>& v) {
   world_->quadtree.retract_from_outside<locate>(VertexRef<2>{&v});
 }
 
-void State::make(const std::vector<Announced::Edit>& edits, Ids& arrived) {
+// `named`: what comes is asked for its name before the update is done.
+void State::make_points(const std::vector<Announced::Edit>& edits, bool named, Ids& arrived) {
+  for (const auto& edit : edits) {
+    if (edit.was) take(pool()[ids_.at(edit.id)]);
+  }
+  for (const auto& edit : edits) {
+    if (!edit.to) continue;
+    const VertexHandle v = add(*edit.to).self;
+    arrived.emplace(edit.id, v);
+    if (named) new_names_[v] = edit.id;
+  }
+}
+
+bool State::has_lines() const noexcept {
+  return segments().store().live() != 0 || !new_segments_.empty();
+}
+
+void State::make(const Edits& edits, Ids& arrived) {
   const auto all = [&] {
-    for (const auto& edit : edits) {
-      if (edit.was) take(pool()[ids_.at(edit.id)]);
-    }
-    for (const auto& edit : edits) {
-      if (edit.to) arrived.emplace(edit.id, add(*edit.to).self);
-    }
+    const std::vector<Part> parts = take_lines(edits);
+    require_unused(edits.points);
+    make_points(edits.points, has_lines() || !parts.empty(), arrived);
+    for (const Part& part : parts) add_part(part, arrived);
+    if (has_lines()) require_planar(arrived);
   };
   try {
     engine_->edit_together(all);
   } catch (...) {
     vertices().give_up();
+    forget_news();
     throw;
   }
 }
 
-Change<2> State::propagate(const std::vector<Announced::Edit>& edits, const RunControl& control) {
+Change<2> State::propagate(const Edits& edits, const RunControl& control) {
   const auto meter = [&](const sac::Progress& p) {
     return detail::report(control, {Phase::update, p.executed, p.executed + p.queued});
   };
   Change<2> change;
   Ids arrived;
+  Lines lines;
   const std::function<void()> report = [&] {  // what needs memory, while all can be undone
     make_room(arrived);
+    make_room_for_lines(edits.lines, lines);
     report_vertices(change);
     report_stars(change);
     report_edges(change);
@@ -198,9 +229,12 @@ Change<2> State::propagate(const std::vector<Announced::Edit>& edits, const RunC
     change.calls = call_counts(engine_->propagate(report));
   } catch (...) {
     commit();
+    forget_news();
     throw;
   }
-  rename(edits, arrived);
+  rename(edits.points, arrived);
+  rename_lines(edits.lines, lines);
+  forget_news();
   commit();
   stats_.vertices += change.vertices_added.size() - change.vertices_removed.size();
   stats_.simplices += change.simplices_added.size() - change.simplices_removed.size();

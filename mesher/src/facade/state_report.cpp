@@ -92,6 +92,23 @@ void State::report_stars(Change<2>& change) const {
   report(gone, come, change.simplices_removed);
 }
 
+// Leaves that stay, of segments that are now of another line. That is so rare that all leaves are
+// looked at then.
+void State::report_renamed(std::vector<mesher::LineEdge<2>>& gone,
+                           std::vector<mesher::LineEdge<2>>& come) const {
+  const auto is_renamed = [&](SegmentHandle s) {
+    return taken_.find(s) != taken_.end() && lines_[s] != line(s);
+  };
+  const bool any = std::any_of(new_segments_.begin(), new_segments_.end(), is_renamed);
+  if (!any) return;
+  world_->leaves.for_each([&](const Leaf& leaf) {
+    if (!leaf.committed || !is_renamed(leaf.piece.segment)) return;
+    const auto& [low, high] = std::minmax(leaf.lo, leaf.hi);
+    gone.push_back({low, high, lines_[leaf.piece.segment]});
+    come.push_back({low, high, line(leaf.piece.segment)});
+  });
+}
+
 // Leaves that ended or began, without those of which another piece is in the same place.
 void State::report_edges(Change<2>& change) const {
   std::vector<mesher::LineEdge<2>> gone;
@@ -100,8 +117,10 @@ void State::report_edges(Change<2>& change) const {
     const bool now = world_->leaves.is_leaf(leaf);
     if (now == leaf.committed) return;
     const auto& [low, high] = std::minmax(leaf.lo, leaf.hi);
-    (now ? come : gone).push_back({low, high, lines_[leaf.piece.segment]});
+    const SegmentHandle s = leaf.piece.segment;
+    (now ? come : gone).push_back({low, high, now ? line(s) : lines_[s]});
   });
+  report_renamed(gone, come);
   std::sort(gone.begin(), gone.end());
   std::sort(come.begin(), come.end());
   std::set_difference(come.begin(), come.end(), gone.begin(), gone.end(),

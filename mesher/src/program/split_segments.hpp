@@ -11,6 +11,10 @@
 
 namespace mesher::detail {
 
+/// A crowded piece is not split if it is shorter than this times the box's side: its ends are still
+/// some finest cells apart.
+inline constexpr double kShortestPiece = 0x1p-44;
+
 struct SplitSegment {
   static constexpr std::string_view kName = "split_segment";
   template <class S>
@@ -34,6 +38,7 @@ template <class S>
 void SplitSegment::operator()(S& s, PieceRef piece) const {
   auto& w = s.template environment<World<S>>();
   if (!w.segments.crowded(s, piece)) return w.leaves.begin(s, piece.piece);
+  if (piece.length() < w.box.side * kShortestPiece) w.fail_too_short(piece);
   const Halves halves = w.segments.halves(s, piece);
   const VertexRef<2> y = w.vertices.insert_early(s, halves.place, halves.role);
   w.features.insert(s, y);

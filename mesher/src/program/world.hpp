@@ -23,6 +23,7 @@
 #include "segments/exempt.hpp"
 #include "segments/input_segments.hpp"
 #include "segments/leaves.hpp"
+#include "segments/planarity.hpp"
 
 namespace mesher::detail {
 
@@ -54,6 +55,7 @@ struct World {
   Agenda& quadtree;
   Agenda& steiner;
   Agenda& stars;
+  const Names* names = nullptr;  // for messages; null: features have none
   std::conditional_t<S::kTraced, TracedOutput, PlainOutput> plain;
   std::array<std::chrono::steady_clock::time_point, 4> marks{};
 
@@ -87,6 +89,8 @@ struct World {
   [[nodiscard]] bool is_exempt(const Vertex<2>& p, const Vertex<2>& q) const {
     return detail::is_exempt(vertices, segments.store(), p, q);
   }
+  /// Throws: Error(too_close), with the ids of the piece's segment and of what crowds it.
+  [[noreturn]] void fail_too_short(const PieceRef& piece);
   [[noreturn]] void fail_useless(const Vertex<2>& v, const Vertex<2>& x) const;
 
  private:

@@ -77,6 +77,12 @@ void World<S>::output(S&, VertexRef<2> v, const VoronoiCell& cell) {
 }
 
 template <class S>
+void World<S>::fail_too_short(const PieceRef& piece) {
+  throw too_close_to_segment(piece, segments.witness(piece), names, vertices.pool(),
+                             segments.pool());
+}
+
+template <class S>
 void World<S>::fail_useless(const Vertex<2>& v, const Vertex<2>& x) const {
   throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
                                         place_text(v.p) + ": rounding moved a new vertex to " +

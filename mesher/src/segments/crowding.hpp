@@ -72,6 +72,11 @@ class Witness {
   [[nodiscard]] explicit operator bool() const noexcept { return code_ != 0; }
   friend bool operator==(const Witness&, const Witness&) = default;
 
+  [[nodiscard]] SegmentHandle segment() const noexcept {
+    return (code_ & kSegment) != 0 ? code_ & ~kSegment : 0;
+  }
+  [[nodiscard]] VertexHandle point() const noexcept { return (code_ & kSegment) != 0 ? 0 : code_; }
+
  private:
   static constexpr std::uint32_t kSegment = 0x80000000u;
   std::uint32_t code_ = 0;
@@ -103,7 +108,11 @@ class Crowding<sac::PlainScope> {
       : segments_(segments), points_(points) {}
 
   [[nodiscard]] bool crowded(sac::PlainScope&, const PieceRef& piece) {
-    return static_cast<bool>(find_witness(CrowdedZone(piece), segments_, points_));
+    return static_cast<bool>(witness(piece));
+  }
+  /// Some feature that crowds the piece.
+  [[nodiscard]] Witness witness(const PieceRef& piece) {
+    return find_witness(CrowdedZone(piece), segments_, points_);
   }
 
  private:
@@ -123,6 +132,10 @@ class Crowding<sac::Scope> : public sac::Structure {
         id_(engine.add_structure(*this)) {}
 
   [[nodiscard]] bool crowded(sac::Scope& s, const PieceRef& piece);
+  /// Some feature that crowds the piece.
+  [[nodiscard]] Witness witness(const PieceRef& piece) {
+    return find_witness(CrowdedZone(piece), segments_, points_);
+  }
 
   /// Outside edits: what has come is there already, what has gone is no longer.
   /// Cost: O(log L/s), and that of a look for each piece whose witness has gone.

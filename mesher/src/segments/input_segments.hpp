@@ -50,6 +50,7 @@ class InputSegments<sac::PlainScope> {
   [[nodiscard]] bool crowded(sac::PlainScope& s, const PieceRef& piece) {
     return crowding_.crowded(s, piece);
   }
+  [[nodiscard]] Witness witness(const PieceRef& piece) { return crowding_.witness(piece); }
   [[nodiscard]] Halves halves(sac::PlainScope& s, const PieceRef& piece) {
     return detail::halves(piece, shells_.place(s, piece));
   }
@@ -84,6 +85,7 @@ class InputSegments<sac::Scope> final : public PointListener {
   [[nodiscard]] bool crowded(sac::Scope& s, const PieceRef& piece) {
     return crowding_.crowded(s, piece);
   }
+  [[nodiscard]] Witness witness(const PieceRef& piece) { return crowding_.witness(piece); }
   [[nodiscard]] Halves halves(sac::Scope& s, const PieceRef& piece) {
     return detail::halves(piece, shells_.place(s, piece));
   }
