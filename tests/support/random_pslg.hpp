@@ -80,15 +80,27 @@ class PslgEditor {
     lattice,  ///< points on an integer lattice, segments along its lines
     beside,   ///< points at 10^-1 to 10^-7 from segments
     fan,      ///< many segments at few points, at any angle
+    wedge,    ///< segments of equal length at one point, at small angles
+    steiner,  ///< segments with their middles on vertices of the mesh of the moment
   };
 
   PslgEditor(Family family, std::uint64_t seed) : family_(family), random_(seed) {}
 
   static mesher::Options<2> options() { return {.domain = {{0, 0}, {16, 16}}}; }
 
+  /// The mesh of the moment, for Family::steiner.
+  void look_at(const mesher::Mesh<2>& mesh) {
+    free_.clear();
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+      const bool free = mesh.kinds[i] == mesher::VertexKind::steiner;
+      if (free && in_domain(mesh.vertices[i])) free_.push_back(mesh.vertices[i]);
+    }
+  }
   /// One random edit, if it is valid.
   template <class Target>
   void edit(Pslg& pslg, const mesher::detail::MeshBox<2>& box, Target& target) {
+    if (family_ == Family::wedge && below(4) == 0) return add_leg(pslg, box, target);
+    if (!free_.empty() && below(3) == 0) return add_across(pslg, box, target);
     switch (below(10)) {
       case 0:
       case 1:
@@ -106,12 +118,43 @@ class PslgEditor {
   template <class Target>
   void add_point(Pslg& pslg, const mesher::detail::MeshBox<2>& box, Target& target) {
     const mesher::Point<2> p = place(pslg);
-    for (const double x : p) {
-      if (!(x >= 0 && x <= 16)) return;
-    }
-    if (!pslg.accepts(p, box)) return;
+    if (!in_domain(p) || !pslg.accepts(p, box)) return;
     target.insert(mesher::FeatureId{next_}, p);
     pslg.points[next_++] = p;
+  }
+  /// A segment that is halved, if it is split, at a free vertex of the mesh.
+  template <class Target>
+  void add_across(Pslg& pslg, const mesher::detail::MeshBox<2>& box, Target& target) {
+    const mesher::Point<2> middle = free_[below(free_.size())];
+    const double angle = 7 * unit();
+    const double length = std::pow(4, -3 * unit());
+    const mesher::Point<2> half{length * std::cos(angle), length * std::sin(angle)};
+    const mesher::Point<2> a{middle[0] - half[0], middle[1] - half[1]};
+    const mesher::Point<2> b{middle[0] + half[0], middle[1] + half[1]};
+    const std::int64_t id = next_;
+    for (const auto& p : {a, b}) {
+      if (!in_domain(p) || !pslg.accepts(p, box)) return;
+      target.insert(mesher::FeatureId{next_}, p);
+      pslg.points[next_++] = p;
+    }
+    add_segment({id, id + 1}, pslg, target);
+  }
+  /// A segment turned about its end, with its other end.
+  template <class Target>
+  void add_leg(Pslg& pslg, const mesher::detail::MeshBox<2>& box, Target& target) {
+    if (pslg.segments.empty()) return add_segment(pslg, target);
+    auto [apex, end] = some_segment(pslg);
+    if (below(2) == 0) std::swap(apex, end);
+    const auto& o = pslg.points.at(apex);
+    const mesher::Point<2> leg{pslg.points.at(end)[0] - o[0], pslg.points.at(end)[1] - o[1]};
+    const double angle = 0.35 * unit();
+    const double c = std::cos(angle), d = std::sin(angle);
+    const mesher::Point<2> p{o[0] + c * leg[0] - d * leg[1], o[1] + d * leg[0] + c * leg[1]};
+    if (!in_domain(p) || !pslg.accepts(p, box)) return;
+    const std::int64_t id = next_;
+    target.insert(mesher::FeatureId{next_}, p);
+    pslg.points[next_++] = p;
+    add_segment({apex, id}, pslg, target);
   }
   template <class Target>
   void remove_point(Pslg& pslg, Target& target) {
@@ -129,6 +172,10 @@ class PslgEditor {
     if (family_ == Family::fan && !pslg.segments.empty() && below(2) == 0) {
       ends.first = some_segment(pslg).first;
     }
+    add_segment(ends, pslg, target);
+  }
+  template <class Target>
+  void add_segment(Pslg::Ends ends, Pslg& pslg, Target& target) {
     if (ends.first > ends.second) std::swap(ends.first, ends.second);
     if (!pslg.accepts(ends)) return;
     target.insert_segment(mesher::FeatureId{next_}, mesher::FeatureId{ends.first},
@@ -145,6 +192,9 @@ class PslgEditor {
 
  private:
   std::uint64_t below(std::uint64_t n) { return random_() % n; }
+  static bool in_domain(const mesher::Point<2>& p) {
+    return p[0] >= 0 && p[0] <= 16 && p[1] >= 0 && p[1] <= 16;
+  }
   double unit() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
 
   mesher::Point<2> place(const Pslg& pslg) {
@@ -185,6 +235,7 @@ class PslgEditor {
 
   Family family_;
   std::mt19937_64 random_;
+  std::vector<mesher::Point<2>> free_;  // vertices
   std::int64_t next_ = 1;
 };
 

@@ -20,13 +20,17 @@ class TracedWorld {
   using Vertex = mesher::detail::Vertex<2>;
   using Ref = mesher::detail::VertexRef<2>;
 
-  explicit TracedWorld(const mesher::Options<2>& options)
+  /// `empty`: runs on no input at once; else run() is the first run.
+  explicit TracedWorld(const mesher::Options<2>& options, bool empty = true)
       : box_(mesher::detail::mesh_box(options)),
         options_(options),
         world_(std::make_unique<World>(options, box_, *engine_)) {
-    engine_->set_audit(true);
+    engine_->set_audit(empty);
+    if (empty) run();
+  }
+  void run() {
     engine_->run<mesher::detail::refine>();
-    world_->vertices.commit();
+    commit();
   }
   TracedWorld(const TracedWorld&) = delete;
   TracedWorld& operator=(const TracedWorld&) = delete;

@@ -19,7 +19,8 @@ constexpr std::uint64_t kMostCalls = 20000;
 // Lets a world follow a random graph; what is wrong first, "" if nothing is.
 class Follower {
  public:
-  Follower(PslgEditor::Family family, std::uint64_t seed) : editor_(family, seed) {}
+  Follower(PslgEditor::Family family, std::uint64_t seed)
+      : family_(family), editor_(family, seed) {}
 
   // `edits` edits as one update; those of a graph that needs too large a mesh are not made.
   std::string step(int edits) {
@@ -36,6 +37,7 @@ class Follower {
     recorded.replay(world_);
     world_.update();
     if (!(world_.mesh() == expected)) return "not the mesh of a run from scratch";
+    if (family_ == PslgEditor::Family::steiner) editor_.look_at(expected);
     world_.engine().check_invariants();
     world_.world().vertices.check_invariants();
     world_.world().segments.check_invariants();
@@ -58,6 +60,7 @@ class Follower {
   }
 
   mesher::Options<2> options_ = PslgEditor::options();
+  PslgEditor::Family family_;
   PslgEditor editor_;
   TracedWorld world_{options_};
   Pslg pslg_;
@@ -77,7 +80,9 @@ std::string follow(PslgEditor::Family family, std::uint64_t seed, int steps) {
 
 constexpr PslgEditor::Family kFamilies[] = {PslgEditor::Family::uniform,
                                             PslgEditor::Family::lattice,
-                                            PslgEditor::Family::beside, PslgEditor::Family::fan};
+                                            PslgEditor::Family::beside, PslgEditor::Family::fan,
+                                            PslgEditor::Family::wedge,
+                                            PslgEditor::Family::steiner};
 
 }  // namespace
 
@@ -88,6 +93,38 @@ TEST_CASE("After every edit of points and segments the mesh is that of a run fro
       INFO("family " << static_cast<int>(family) << " seed " << seed);
       REQUIRE(follow(family, seed, 60) == "");
     }
+  }
+}
+
+TEST_CASE("A triangle between two equal legs stays as long as both are there") {
+  const mesher::Options<2> options = PslgEditor::options();
+  TracedWorld world(options);
+  Pslg pslg;
+  const auto id = [](int i) { return mesher::FeatureId{i}; };
+  const double angle = 0.25;  // not so small that the legs are split beforehand
+  pslg.points = {{1, {4, 4}}, {2, {9, 4}}, {3, {4 + 5 * std::cos(angle), 4 + 5 * std::sin(angle)}}};
+  for (const auto& [i, p] : pslg.points) world.insert(mesher::FeatureId{i}, p);
+  const auto update = [&] {
+    world.update();
+    REQUIRE(world.mesh() == static_mesh(pslg, options));
+    const mesher::Mesh<2> mesh = world.mesh();
+    const PslgJudge judge(mesh, pslg);
+    REQUIRE(judge.fault(options.rho) == "");
+    return judge.forced();
+  };
+  CHECK(update() == 0);
+  for (int round = 0; round < 2; ++round) {
+    world.insert_segment(id(4), id(1), id(2));
+    pslg.segments[{1, 2}] = 4;
+    CHECK(update() == 0);
+    world.insert_segment(id(5), id(1), id(3));
+    pslg.segments[{1, 3}] = 5;
+    CHECK(update() == 1);
+    world.remove_segment(id(1), id(2));
+    pslg.segments.erase({1, 2});
+    CHECK(update() == 0);
+    world.remove_segment(id(1), id(3));
+    pslg.segments.erase({1, 3});
   }
 }
 
