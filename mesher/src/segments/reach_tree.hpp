@@ -37,7 +37,7 @@ class FromSegment {
     const double dx = x[0] - p_[0], dy = x[1] - p_[1];
     const double t = length2_ > 0 ? (dx * along_[0] + dy * along_[1]) / length2_ : 0;
     const double at = std::clamp(t, 0.0, 1.0);
-    return std::hypot(dx - at * along_[0], dy - at * along_[1]);
+    return length(dx - at * along_[0], dy - at * along_[1]);
   }
   /// At most the distance of the square [lo, lo + side]^2.
   [[nodiscard]] double distance(const Point<2>& lo, double side) const noexcept {
@@ -45,10 +45,12 @@ class FromSegment {
       return distance(Point<2>{lo[0] + side / 2, lo[1] + side / 2}) - 0.7072 * side;
     }
     const auto beyond = [&](int i) { return std::max({lo[i] - p_[i], p_[i] - lo[i] - side, 0.0}); };
-    return std::hypot(beyond(0), beyond(1));
+    return length(beyond(0), beyond(1));
   }
 
  private:
+  static double length(double x, double y) noexcept { return std::sqrt(x * x + y * y); }
+
   Point<2> p_, along_;
   double length2_;
 };

@@ -35,30 +35,20 @@ Segment& SegmentStore::record(VertexHandle a, VertexHandle b) {
   return s;
 }
 
-// The list at an end is there, though empty, before anything is put into it.
+// The lists at the ends are there, though empty, before anything is put into them.
 void SegmentStore::put(Segment& s) {
   SAC_EXPECTS(!s.alive);
-  at_.reserve(at_.size() + 2);
   const TileHandle tile = new_tile(Tile{.segment = s.self});
   try {
+    for (const VertexHandle end : {s.a, s.b}) at_.try_emplace(end, 0);
     tree_.insert(middle(tiles_[tile]), reach(tiles_[tile]), tile);
-    try {
-      const auto [at_a, is_new] = at_.try_emplace(s.a, 0);
-      try {
-        const auto at_b = at_.try_emplace(s.b, 0).first;
-        s.next_at_a = std::exchange(at_.find(s.a)->second, s.self);
-        s.next_at_b = std::exchange(at_b->second, s.self);
-      } catch (...) {
-        if (is_new) at_.erase(at_a);
-        throw;
-      }
-    } catch (...) {
-      tree_.erase(middle(tiles_[tile]), tile);
-      throw;
-    }
   } catch (...) {
+    for (const VertexHandle end : {s.a, s.b}) drop_if_empty(end);
     free_tile(tile);
     throw;
+  }
+  for (const VertexHandle end : {s.a, s.b}) {
+    link_at(s, end) = std::exchange(at_.find(end)->second, s.self);
   }
   touch(s);
   s.tile = tile;
@@ -66,12 +56,17 @@ void SegmentStore::put(Segment& s) {
   ++live_;
 }
 
+void SegmentStore::drop_if_empty(VertexHandle end) noexcept {
+  const auto it = at_.find(end);
+  if (it != at_.end() && it->second == 0) at_.erase(it);
+}
+
 void SegmentStore::leave(Segment& s, VertexHandle end) noexcept {
   const auto it = at_.find(end);
   SegmentHandle* link = &it->second;
   while (*link != s.self) link = &link_at(pool_[*link], end);
   *link = std::exchange(link_at(s, end), 0);
-  if (it->second == 0) at_.erase(it);
+  drop_if_empty(end);
 }
 
 void SegmentStore::take(Segment& s) noexcept {

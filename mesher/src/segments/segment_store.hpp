@@ -84,6 +84,7 @@ class SegmentStore {
   }
   void touch(Segment& s) noexcept;
   void leave(Segment& s, VertexHandle end) noexcept;
+  void drop_if_empty(VertexHandle end) noexcept;
   [[nodiscard]] Point<2> at(const Segment& s, double fraction) const noexcept;
   [[nodiscard]] Point<2> middle(const Tile& t) const noexcept {
     return at(pool_[t.segment], t.lo + (t.hi - t.lo) / 2);
