@@ -141,6 +141,9 @@ Mesh<2> run(const std::vector<Point<2>>& points, const std::vector<Segment>& seg
   post_all(world);
   watch(world, control, points.size());
   scope.run<detail::refine>();
+  if (world.vertices.pool().size() > world.most_vertices) {
+    throw detail::too_many_vertices(world.vertices, world.names, world.most_vertices);
+  }
   std::vector<VertexHandle> vertices;
   world.vertices.pool().for_each([&](detail::Vertex<2>& v) { vertices.push_back(v.self); });
   Mesh<2> mesh = detail::canonical(world.vertices.pool(), std::move(vertices),

@@ -7,6 +7,7 @@
 #include "facade/meter.hpp"
 #include "mesh/canonical.hpp"
 #include "program/world_impl.hpp"
+#include "segments/vertex_budget.hpp"
 
 namespace mesher::detail {
 
@@ -130,6 +131,7 @@ Change<2> State::first_run(Edits edits, const RunControl& control) {
   const Watch watch(*engine_, control, meter);
   const CallCounts calls = call_counts(engine_->run<refine>());
   commit();
+  require_room(pool().size());
   vertices().set_logging(true);
   ran_ = true;
   const Mesh<2> all = mesh();
@@ -209,6 +211,12 @@ void State::make(const Edits& edits, Ids& arrived) {
   }
 }
 
+void State::require_room(std::size_t now) const {
+  if (now > world_->most_vertices) {
+    throw too_many_vertices(vertices(), world_->names, world_->most_vertices);
+  }
+}
+
 Change<2> State::propagate(const Edits& edits, const RunControl& control) {
   const auto meter = [&](const sac::Progress& p) {
     return detail::report(control, {Phase::update, p.executed, p.executed + p.queued});
@@ -222,8 +230,11 @@ Change<2> State::propagate(const Edits& edits, const RunControl& control) {
     report_vertices(change);
     report_stars(change);
     report_edges(change);
+    require_room(stats_.vertices + change.vertices_added.size() - change.vertices_removed.size());
   };
   make(edits, arrived);
+  // While it is under way, there may be vertices that come as well as those that go.
+  world_->most_records = std::max(world_->most_vertices, pool().size() + world_->most_vertices);
   try {
     const Watch watch(*engine_, control, meter);
     change.calls = call_counts(engine_->propagate(report));

@@ -100,6 +100,7 @@ class State final : private Names {
   [[nodiscard]] std::array<Point<2>, 3> corners(const Triangle& t) const;
   void report_vertices(Change<2>& change) const;
   void report_edges(Change<2>& change) const;
+  void require_room(std::size_t vertices) const;
   void report_renamed(std::vector<mesher::LineEdge<2>>& gone,
                       std::vector<mesher::LineEdge<2>>& come) const;
   void report_stars(Change<2>& change) const;

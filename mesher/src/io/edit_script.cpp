@@ -163,9 +163,15 @@ std::vector<Edit> announcing_order(std::vector<Edit> edits) {
   return ordered;
 }
 
+// A line may have the id of a point: where the error is one of lines, theirs are meant.
 Place place_to_blame(const std::vector<Edit>& edits, const Error& error) {
+  const bool of_lines = error.code() == ErrorCode::crossing_segments ||
+                        error.code() == ErrorCode::overlapping_segments ||
+                        error.code() == ErrorCode::repeated_segment;
   for (const FeatureId id : error.ids()) {
-    const auto is_of = [&](const Edit& edit) { return edit.id == id; };
+    const auto is_of = [&](const Edit& edit) {
+      return edit.id == id && (!of_lines || is_of_line(edit));
+    };
     const auto last = std::find_if(edits.rbegin(), edits.rend(), is_of);
     if (last != edits.rend()) return last->place;
   }

@@ -60,6 +60,7 @@ void Complete::operator()(S& s, VertexRef<2> v, int b) const {
     }
     const VertexRef<2> x = w.vertices.insert(s, point->p);
     if (!point->farther || !gaps->cuts(x->p)) w.fail_useless(*v, *x);
+    w.require_room(s);
     gaps->cut(x->self);
     w.post_complete(s, x, std::max(b + 1, w.buckets().bucket(point->nearest2)));
     w.post_star(s, x);

@@ -4,6 +4,7 @@
 // one bucket do not meet through segments.
 #pragma once
 
+#include "program/split_segments.hpp"
 #include "program/world.hpp"
 
 namespace mesher::detail {
@@ -24,9 +25,12 @@ inline constexpr Cut cut{};
 template <class S>
 void Cut::operator()(S& s, LeafRef leaf, int b) const {
   auto& w = s.template environment<World<S>>();
-  const Halves halves = w.segments.halves(s, w.segments.ref(leaf->piece));
+  const PieceRef piece = w.segments.ref(leaf->piece);
+  if (piece.length() < w.box.side * kShortestPiece) w.fail_too_short(piece);
+  const Halves halves = w.segments.halves(s, piece);
   w.leaves.end(s, leaf);
   const VertexRef<2> y = w.vertices.insert(s, halves.place, halves.role);
+  w.require_room(s);
   w.leaves.begin(s, halves.lower.piece);
   w.leaves.begin(s, halves.upper.piece);
   w.post_nearest_in(s, y, b + 1);

@@ -41,6 +41,7 @@ void SplitSegment::operator()(S& s, PieceRef piece) const {
   if (piece.length() < w.box.side * kShortestPiece) w.fail_too_short(piece);
   const Halves halves = w.segments.halves(s, piece);
   const VertexRef<2> y = w.vertices.insert_early(s, halves.place, halves.role);
+  w.require_room(s);
   w.features.insert(s, y);
   w.quadtree.template post<locate>(s, locate_key(w.box.fixed(y->p)), y);
   w.post_split(s, halves.lower);

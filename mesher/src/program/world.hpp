@@ -55,6 +55,8 @@ struct World {
   Agenda& quadtree;
   Agenda& steiner;
   Agenda& stars;
+  std::size_t most_vertices;
+  std::size_t most_records;  // while an update is under way, of vertices that come and that go
   const Names* names = nullptr;  // for messages; null: features have none
   std::conditional_t<S::kTraced, TracedOutput, PlainOutput> plain;
   std::array<std::chrono::steady_clock::time_point, 4> marks{};
@@ -71,7 +73,9 @@ struct World {
         splits(host.make_agenda("segments")),
         quadtree(host.make_agenda("quadtree")),
         steiner(host.make_agenda("steiner")),
-        stars(host.make_agenda("stars")) {
+        stars(host.make_agenda("stars")),
+        most_vertices(options.max_vertices != 0 ? options.max_vertices : ~std::size_t{0}),
+        most_records(most_vertices) {
     host.set_environment(this);
     add_boundary();
   }
@@ -90,6 +94,11 @@ struct World {
     return detail::is_exempt(vertices, segments.store(), p, q);
   }
   /// Throws: Error(too_close), with the ids of the piece's segment and of what crowds it.
+  /// Throws: Error(too_many) if there are more vertices than there may be.
+  void require_room(S& s) const {
+    if (vertices.pool().size() > most_records) fail_too_many(s);
+  }
+  void fail_too_many(S& s) const;
   [[noreturn]] void fail_too_short(const PieceRef& piece);
   [[noreturn]] void fail_useless(const Vertex<2>& v, const Vertex<2>& x) const;
 

@@ -8,6 +8,7 @@
 #include "program/split_segments.hpp"
 #include "program/triangulate.hpp"
 #include "program/world.hpp"
+#include "segments/vertex_budget.hpp"
 
 namespace mesher::detail {
 
@@ -80,6 +81,15 @@ template <class S>
 void World<S>::fail_too_short(const PieceRef& piece) {
   throw too_close_to_segment(piece, segments.witness(piece), names, vertices.pool(),
                              segments.pool());
+}
+
+// Edits that are undone have had room.
+template <class S>
+void World<S>::fail_too_many(S& s) const {
+  if constexpr (S::kTraced) {
+    if (s.engine().undoing()) return;
+  }
+  throw too_many_vertices(vertices, names, most_vertices);
 }
 
 template <class S>
