@@ -161,6 +161,40 @@ TEST_CASE("a segment that gets another id keeps its edges, which are said to be 
   CHECK(change.edges_removed[0].line == id(1));
 }
 
+TEST_CASE("points come to where segments have vertices, or into their finest cells, as those go") {
+  for (const double beside : {0.0, 4e-16}) {
+    Mesher<2> m(kOptions);
+    m.insert({id(1), id(2), id(3)}, {{1, 1}, {8, 4}, {4, 2.6}});
+    m.insert_segment(id(1), id(1), id(2));
+    m.update();
+    std::vector<Point<2>> on_segment;
+    const Mesh<2> mesh = m.mesh();
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+      if (mesh.kinds[i] == mesher::VertexKind::segment) on_segment.push_back(mesh.vertices[i]);
+    }
+    REQUIRE(on_segment.size() > 3);
+    m.remove_segment(id(1));
+    Pslg pslg;
+    pslg.points = {{1, {1, 1}}, {2, {8, 4}}, {3, {4, 2.6}}};
+    for (std::size_t i = 0; i < on_segment.size(); ++i) {
+      const auto name = static_cast<std::int64_t>(10 + i);
+      const Point<2> p{on_segment[i][0] * (1 + beside), on_segment[i][1]};
+      m.insert(id(name), p);
+      pslg.points[name] = p;
+    }
+    m.update();
+    m.check_invariants();
+    CHECK(m.mesh() == support::static_mesh(pslg, kOptions));
+    for (std::size_t i = 0; i < on_segment.size(); ++i) {
+      m.remove(id(static_cast<std::int64_t>(10 + i)));
+    }
+    m.insert_segment(id(1), id(1), id(2));
+    m.update();
+    m.check_invariants();
+    CHECK(m.mesh() == mesh);
+  }
+}
+
 TEST_CASE("segments that do not make a planar graph are refused with both ids and the place") {
   struct Bad {
     std::function<void(Mesher<2>&)> edit;
