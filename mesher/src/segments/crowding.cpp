@@ -80,17 +80,13 @@ void TracedCrowding::check_invariants() const {
     bool crowded = false;
     bool witnessed = false;
     const auto look = [&](const auto& feature) {
-      if (!zone.has(feature)) return;
+      if (!zone.has(feature)) return false;
       crowded = true;
       witnessed = witnessed || e.witness == Witness(feature);
-    };
-    segments_.pool().for_each([&](const Segment& t) {
-      if (t.alive) look(t);
-    });
-    points_.visit_points_in(zone.box(), [&](const Vertex<2>& v) {
-      look(v);
       return false;
-    });
+    };
+    segments_.visit_near(zone.middle(), zone.middle(), zone.reach(), look);
+    points_.visit_points_in(zone.box(), look);
     SAC_INVARIANT(e.piece.segment->alive && !engine_.call(e.call).dead());
     SAC_INVARIANT(e.seen == crowded && static_cast<bool>(e.witness) == witnessed);
   });

@@ -150,7 +150,8 @@ class Crowding<sac::Scope> : public sac::Structure {
   void print(const sac::Call& call, const sac::Edge& edge, std::ostream& out) const override;
 
   [[nodiscard]] std::size_t bytes() const noexcept { return tree_.bytes(); }
-  /// Throws InvariantError; among others if an answer is not what a look at the input finds.
+  /// Throws InvariantError; among others if an answer is not what a look at the input finds, or a
+  /// witness is none. Cost: O(observations) looks.
   void check_invariants() const override;
 
  private:
