@@ -40,8 +40,8 @@ class PslgJudge {
   }
 
   /// What is wrong first, "" if nothing is: input points and no others are of that kind; each
-  /// segment is a chain of edges from end to end; every such edge has an empty closed diametral ball;
-  /// triangles keep the bound but where a small angle of the input forces them not to.
+  /// segment is a chain of edges from end to end; every such edge has an empty closed diametral
+  /// ball; triangles keep the bound but where a small angle of the input forces them not to.
   [[nodiscard]] std::string fault(double rho) const {
     std::string what = wrong_kinds();
     if (what.empty()) what = wrong_lines();
@@ -121,9 +121,10 @@ class PslgJudge {
     forced_ = 0;
     for (const auto& t : mesh_.simplices) {
       std::array<double, 3> opposite;
-      for (std::size_t i = 0; i < 3; ++i) opposite[i] = apart(at(t[(i + 1) % 3]), at(t[(i + 2) % 3]));
-      const auto i = static_cast<std::size_t>(
-          std::min_element(opposite.begin(), opposite.end()) - opposite.begin());
+      for (std::size_t i = 0; i < 3; ++i)
+        opposite[i] = apart(at(t[(i + 1) % 3]), at(t[(i + 2) % 3]));
+      const auto i = static_cast<std::size_t>(std::min_element(opposite.begin(), opposite.end()) -
+                                              opposite.begin());
       const P &r = at(t[i]), &p = at(t[(i + 1) % 3]), &q = at(t[(i + 2) % 3]);
       const double area2 = (p[0] - r[0]) * (q[1] - r[1]) - (p[1] - r[1]) * (q[0] - r[0]);
       const double radius = opposite[0] * opposite[1] * opposite[2] / (2 * area2);

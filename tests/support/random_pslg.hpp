@@ -34,12 +34,14 @@ struct Pslg {
     }
     return false;
   }
-  [[nodiscard]] bool accepts(const mesher::Point<2>& p, const mesher::detail::MeshBox<2>& box) const {
+  [[nodiscard]] bool accepts(const mesher::Point<2>& p,
+                             const mesher::detail::MeshBox<2>& box) const {
     for (const auto& [id, q] : points) {
       if (box.fixed(p) == box.fixed(q)) return false;
     }
     for (const auto& [ends, line] : segments) {
-      if (mesher::detail::on_segment(p, points.at(ends.first), points.at(ends.second))) return false;
+      if (mesher::detail::on_segment(p, points.at(ends.first), points.at(ends.second)))
+        return false;
     }
     return true;
   }
@@ -262,7 +264,8 @@ class Recorded {
   std::vector<std::function<void(TracedWorld&)>> edits_;
 };
 
-/// The mesh of a run from scratch. Throws: also Error(cancelled), if it takes more than `most` calls.
+/// The mesh of a run from scratch. Throws: also Error(cancelled), if it takes more than `most`
+/// calls.
 [[nodiscard]] inline mesher::Mesh<2> static_mesh(const Pslg& pslg,
                                                  const mesher::Options<2>& options,
                                                  std::uint64_t most = ~std::uint64_t{0}) {
@@ -274,8 +277,8 @@ class Recorded {
     ids.push_back(mesher::FeatureId{id});
   }
   for (const auto& [ends, id] : pslg.segments) {
-    segments.push_back({mesher::FeatureId{id}, mesher::FeatureId{ends.first},
-                        mesher::FeatureId{ends.second}});
+    segments.push_back(
+        {mesher::FeatureId{id}, mesher::FeatureId{ends.first}, mesher::FeatureId{ends.second}});
   }
   mesher::RunControl control;
   control.progress = [most](const mesher::Progress& p) { return p.done < most; };

@@ -12,8 +12,9 @@
 //   begin                the edits up to `commit` are one update;
 //   commit               outside, each edit is an update of its own
 //
-// Points have ids of their own, and so have lines: segments and polylines. A block is judged by where
-// its points end: it may take a place before it frees it, and remove a point before its segments.
+// Points have ids of their own, and so have lines: segments and polylines. A block is judged by
+// where its points end: it may take a place before it frees it, and remove a point before its
+// segments.
 //
 // Example:
 //   mesher::EditScript script("edits.txt");
@@ -46,9 +47,9 @@ struct Edit {
   };
   Kind kind = Kind::insert;
   FeatureId id{};
-  Point<2> point{};                ///< of insert and move
+  Point<2> point{};                 ///< of insert and move
   std::vector<FeatureId> points{};  ///< of a new segment or polyline
-  std::string text;  ///< the line without comment and outer blanks
+  std::string text;                 ///< the line without comment and outer blanks
   Place place;
 };
 
@@ -128,9 +129,9 @@ void announce(const Edit& edit, Target& target) {
 /// Seconds of wall-clock time since some fixed moment.
 [[nodiscard]] double now();
 
-/// The order in which a batch is announced: lines that go; points, those that are there before those
-/// that the batch inserts, so that places are free before they are taken; lines that come. Else as
-/// they stand.
+/// The order in which a batch is announced: lines that go; points, those that are there before
+/// those that the batch inserts, so that places are free before they are taken; lines that come.
+/// Else as they stand.
 [[nodiscard]] std::vector<Edit> announcing_order(std::vector<Edit> edits);
 
 /// Where the edit stands that an error of update() is about: the last one of the feature to blame,

@@ -200,7 +200,8 @@ template <int D>
                                       MeshStats* stats = nullptr, const RunControl& control = {});
 
 /// The same with segments between the points, named by their ids: every segment is a union of edges
-/// of the mesh. Throws also: Error(bad_option) unless options.rule is radius_edge; Error(unknown_id).
+/// of the mesh. Throws also: Error(bad_option) unless options.rule is radius_edge;
+/// Error(unknown_id).
 [[nodiscard]] Mesh<2> mesh_statically(const std::vector<Point<2>>& points,
                                       const std::vector<Segment>& segments,
                                       const Options<2>& options,

@@ -21,7 +21,8 @@ namespace mesher::detail {
   return angle_sign_exact(a, x, b);
 }
 
-/// Whether x is in the closed ball on ab: its centre in their middle, a and b on its circle [Thales].
+/// Whether x is in the closed ball on ab: its centre in their middle, a and b on its circle
+/// [Thales].
 [[nodiscard]] inline bool in_diametral_ball(const Point<2>& x, const Point<2>& a,
                                             const Point<2>& b) {
   return angle_sign(a, x, b) <= 0;

@@ -106,7 +106,8 @@ void Index::take_role(Vertex<2>& v, const Role& now, const sac::Call& producer) 
 
 void Index::legs_changed(const Vertex<2>& v) noexcept {
   if (!v.alive) return;  // nobody has seen it
-  for_each_cell_with(v, [&](const Observation& o) { engine_.invalidate(engine_.call(o.call), &o); });
+  for_each_cell_with(v,
+                     [&](const Observation& o) { engine_.invalidate(engine_.call(o.call), &o); });
 }
 
 void Index::retract_birth(BirthEdge& birth) noexcept {

@@ -70,6 +70,7 @@ class VertexSearch {
   VertexRef<2> add_boundary(const Point<2>& p) {
     Vertex<2>& v = add(p);
     v.alive = v.boundary = v.committed = true;
+    v.committed_kind = VertexKind::boundary;
     return {&v};
   }
 

@@ -42,9 +42,7 @@ const Form& form_of(const text::Line& line) {
                    0);
 }
 
-bool takes_place(Edit::Kind kind) {
-  return kind == Edit::Kind::insert || kind == Edit::Kind::move;
-}
+bool takes_place(Edit::Kind kind) { return kind == Edit::Kind::insert || kind == Edit::Kind::move; }
 
 bool is_of_line(const Edit& edit) {
   return edit.kind != Edit::Kind::remove && !takes_place(edit.kind);
@@ -54,8 +52,8 @@ bool inserts(const Edit& edit) {
          edit.kind == Edit::Kind::insert_polyline;
 }
 
-// When edits of a batch are announced, by rank: 0 of lines that go, 1 of points that are there, 2 of
-// points that come, 3 of lines that come.
+// When edits of a batch are announced, by rank: 0 of lines that go, 1 of points that are there, 2
+// of points that come, 3 of lines that come.
 std::vector<int> ranks(const std::vector<Edit>& edits) {
   std::map<FeatureId, bool> points;  // whether they come: by the first edit of each
   std::map<FeatureId, bool> lines;   // whether they have come so far
@@ -80,8 +78,8 @@ Edit parse(const text::Line& line) {
         std::to_string(line.size()) + " fields, expected '" + std::string(form.usage) + "'",
         std::min(line.size(), form.fields));
   }
-  Edit edit{form.kind, FeatureId{line.integer(1)}, {}, {}, std::string(line.trimmed()),
-            line.place(0)};
+  Edit edit{form.kind, FeatureId{line.integer(1)},  {},
+            {},        std::string(line.trimmed()), line.place(0)};
   if (takes_place(form.kind)) {
     edit.point = {line.coordinate(2), line.coordinate(3)};
   } else {

@@ -1,7 +1,7 @@
 // Cut [Fig 5.2, 6.2]: a leaf that is in the way is split where the shells say.
 //
-// All who need a leaf cut in bucket b post the same call, which runs at the bucket's end: so calls of
-// one bucket do not meet through segments.
+// All who need a leaf cut in bucket b post the same call, which runs at the bucket's end: so calls
+// of one bucket do not meet through segments.
 #pragma once
 
 #include "program/split_segments.hpp"

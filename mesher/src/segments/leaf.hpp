@@ -41,8 +41,8 @@ struct Leaf {
   }
 };
 
-/// An argument of traced functions: equal by identity, ordered by coordinates; two pieces between the
-/// same places, of which an update may know both, by how the places are labelled.
+/// An argument of traced functions: equal by identity, ordered by coordinates; two pieces between
+/// the same places, of which an update may know both, by how the places are labelled.
 struct LeafRef {
   Leaf* leaf = nullptr;
 
@@ -85,7 +85,8 @@ class LeafRecords {
   [[nodiscard]] Leaf& operator[](LeafHandle h) const noexcept {
     return (*chunks_[h / kChunk])[h % kChunk];
   }
-  /// The record of a piece, made if there is none. Throws: std::bad_alloc, and then changes nothing.
+  /// The record of a piece, made if there is none. Throws: std::bad_alloc, and then changes
+  /// nothing.
   Leaf& record(const Piece& piece);
   /// Requires: nobody refers to the record any more.
   void release(Leaf& leaf) noexcept;

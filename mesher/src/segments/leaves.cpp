@@ -68,8 +68,7 @@ void TracedLeaves::retract(sac::Call&, sac::Edge& edge) noexcept {
   auto& produced = static_cast<LeafEdge&>(edge);
   Leaf& leaf = records_[produced.leaf];
   touch(leaf);
-  const auto window =
-      presences_.retracted(edge.kind == kBegin ? leaf.begun : leaf.ended, produced);
+  const auto window = presences_.retracted(edge.kind == kBegin ? leaf.begun : leaf.ended, produced);
   if (window.has_value()) changed(leaf, edge.kind, *window);
 }
 

@@ -1,6 +1,7 @@
 // What vertices on segments are: which place of which segment [rules, identity of vertices].
 //
-// Few vertices have a role, so roles lie beside the vertices' records, and only where there are any.
+// Few vertices have a role, so roles lie beside the vertices' records, and only where there are
+// any.
 #pragma once
 
 #include <array>
@@ -32,9 +33,7 @@ class Roles {
     if (chunks_[chunk] == nullptr) chunks_[chunk] = std::make_unique<Chunk>();
   }
   /// Requires: reserve(h).
-  void set(VertexHandle h, const Role& role) noexcept {
-    (*chunks_[h / kChunk])[h % kChunk] = role;
-  }
+  void set(VertexHandle h, const Role& role) noexcept { (*chunks_[h / kChunk])[h % kChunk] = role; }
   [[nodiscard]] std::size_t bytes() const noexcept;
 
  private:

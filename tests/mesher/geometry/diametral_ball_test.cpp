@@ -27,7 +27,9 @@ TEST_CASE("The sign of an angle's cosine is exact, nearly and just at right angl
   for (int i = 0; i < 20000; ++i) {
     const bool lattice = i % 2 == 0;
     const double scale = std::ldexp(1.0, static_cast<int>(random() % 60) - 30);
-    const auto number = [&] { return lattice ? static_cast<double>(random() % 9) : unit() * scale; };
+    const auto number = [&] {
+      return lattice ? static_cast<double>(random() % 9) : unit() * scale;
+    };
     const P a{number(), number()}, b{number(), number()};
     P x{number(), number()};
     if (i % 4 == 1) {  // on the circle but for rounding

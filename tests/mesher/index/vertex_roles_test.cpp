@@ -68,7 +68,8 @@ void all(sac::Scope& s) {
 
 }  // namespace
 
-TEST_CASE("A vertex that gets another role, earlier or later, is seen with it by those who saw it") {
+TEST_CASE(
+    "A vertex that gets another role, earlier or later, is seen with it by those who saw it") {
   auto program = std::make_unique<Program>();
   program->engine.run<all>();
   program->index.commit();

@@ -78,16 +78,15 @@ std::string follow(PslgEditor::Family family, std::uint64_t seed, int steps) {
   return "";
 }
 
-constexpr PslgEditor::Family kFamilies[] = {PslgEditor::Family::uniform,
-                                            PslgEditor::Family::lattice,
-                                            PslgEditor::Family::beside, PslgEditor::Family::fan,
-                                            PslgEditor::Family::wedge,
-                                            PslgEditor::Family::steiner};
+constexpr PslgEditor::Family kFamilies[] = {
+    PslgEditor::Family::uniform, PslgEditor::Family::lattice, PslgEditor::Family::beside,
+    PslgEditor::Family::fan,     PslgEditor::Family::wedge,   PslgEditor::Family::steiner};
 
 }  // namespace
 
-TEST_CASE("After every edit of points and segments the mesh is that of a run from scratch, conforms "
-          "and keeps its bound") {
+TEST_CASE(
+    "After every edit of points and segments the mesh is that of a run from scratch, conforms "
+    "and keeps its bound") {
   for (const PslgEditor::Family family : kFamilies) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       INFO("family " << static_cast<int>(family) << " seed " << seed);

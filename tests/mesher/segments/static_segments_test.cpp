@@ -39,10 +39,12 @@ Pslg wedge(double degrees, double ratio) {
   const double turn = 0.3;
   const double angle = degrees * 3.14159265358979323846 / 180;
   const auto at = [&](double x, double y) {
-    return Point<2>{std::cos(turn) * x - std::sin(turn) * y, std::sin(turn) * x + std::cos(turn) * y};
+    return Point<2>{std::cos(turn) * x - std::sin(turn) * y,
+                    std::sin(turn) * x + std::cos(turn) * y};
   };
   Pslg pslg;
-  pslg.points = {{1, at(0, 0)}, {2, at(1, 0)}, {3, at(ratio * std::cos(angle), ratio * std::sin(angle))}};
+  pslg.points = {
+      {1, at(0, 0)}, {2, at(1, 0)}, {3, at(ratio * std::cos(angle), ratio * std::sin(angle))}};
   pslg.segments = {{{1, 2}, 4}, {{1, 3}, 5}};
   return pslg;
 }
@@ -99,8 +101,8 @@ TEST_CASE("Wedges need as many vertices as the model says") {
     mesher::Options<2> options;
     options.domain = mesher::snapped_domain<2>(points);
     const mesher::Mesh<2> mesh = static_mesh(pslg, options);
-    const auto boundary = std::count(mesh.kinds.begin(), mesh.kinds.end(),
-                                     mesher::VertexKind::boundary);
+    const auto boundary =
+        std::count(mesh.kinds.begin(), mesh.kinds.end(), mesher::VertexKind::boundary);
     INFO(row.degrees << " degrees, legs 1 : " << row.ratio);
     CHECK(PslgJudge(mesh, pslg).fault(options.rho) == "");
     CHECK(static_cast<double>(mesh.vertices.size()) - static_cast<double>(boundary) <=

@@ -28,7 +28,8 @@ std::vector<FeatureId> named_by(Run&& run) {
 
 }  // namespace
 
-TEST_CASE("A bundle that needs more vertices than there may be is refused by name, and the mesh stays") {
+TEST_CASE(
+    "A bundle that needs more vertices than there may be is refused by name, and the mesh stays") {
   const mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}, .max_vertices = 3000};
   mesher::Mesher<2> m(options);
   m.insert({id(1), id(2), id(3), id(4)}, {{0.1, 0.5}, {0.9, 0.5}, {0.1, 0.50001}, {0.9, 0.50002}});
