@@ -8,6 +8,7 @@
 
 #include "input.hpp"
 #include "mesher/mesher.hpp"
+#include "mesh/canonical.hpp"
 #include "sac/sac.hpp"
 #include "program/world_impl.hpp"
 
@@ -19,20 +20,24 @@ class TracedWorld {
   using Vertex = mesher::detail::Vertex<2>;
   using Ref = mesher::detail::VertexRef<2>;
 
-  explicit TracedWorld(const mesher::Options<2>& options)
+  /// `empty`: runs on no input at once; else run() is the first run.
+  explicit TracedWorld(const mesher::Options<2>& options, bool empty = true)
       : box_(mesher::detail::mesh_box(options)),
         options_(options),
         world_(std::make_unique<World>(options, box_, *engine_)) {
-    engine_->set_audit(true);
+    engine_->set_audit(empty);
+    if (empty) run();
+  }
+  void run() {
     engine_->run<mesher::detail::refine>();
-    world_->vertices.commit();
+    commit();
   }
   TracedWorld(const TracedWorld&) = delete;
   TracedWorld& operator=(const TracedWorld&) = delete;
   ~TracedWorld() { engine_.reset(); }  // before what its calls refer to
 
   void insert(mesher::FeatureId id, const mesher::Point<2>& p) {
-    if (const Vertex* other = world_->features.tree().obstacle(p)) {
+    if (const Vertex* other = world_->features.point_at(p)) {
       mesher::detail::fail_too_near(p, id, other->p, {});
     }
     Vertex& v = world_->vertices.add_input(p, false);
@@ -51,7 +56,7 @@ class TracedWorld {
     world_->quadtree.retract_from_outside<mesher::detail::locate>(Ref{&v});
   }
   void move(mesher::FeatureId id, const mesher::Point<2>& p) {
-    const Vertex* other = world_->features.tree().obstacle(p);
+    const Vertex* other = world_->features.point_at(p);
     if (other != nullptr && other != inputs_.at(id)) {
       mesher::detail::fail_too_near(p, id, other->p, {});
     }
@@ -59,11 +64,30 @@ class TracedWorld {
     remove(id);
     insert(id, p);
   }
-  sac::Counts update() {
-    const sac::Counts counts = engine_->propagate();
-    world_->vertices.commit();
-    return counts;
+  /// Between two points that are there.
+  void insert_segment(mesher::FeatureId id, mesher::FeatureId a, mesher::FeatureId b) {
+    const auto all = world_->segments.insert(inputs_.at(a)->self, inputs_.at(b)->self);
+    lines_[all.piece.segment] = id;
+    world_->splits.post_from_outside<mesher::detail::split_segment>(
+        mesher::detail::split_segment_key(box_, all), all);
   }
+  void remove_segment(mesher::FeatureId a, mesher::FeatureId b) {
+    const auto all = world_->segments.erase(inputs_.at(a)->self, inputs_.at(b)->self);
+    world_->splits.retract_from_outside<mesher::detail::split_segment>(all);
+  }
+  /// Brings the trace up to date. What it throws leaves the last state.
+  sac::Counts update() {
+    try {
+      const sac::Counts counts = engine_->propagate();
+      commit();
+      return counts;
+    } catch (...) {
+      commit();
+      throw;
+    }
+  }
+  /// The mesh in canonical form. Requires: no announced edits.
+  [[nodiscard]] mesher::Mesh<2> mesh() const;
 
   [[nodiscard]] World& world() noexcept { return *world_; }
   [[nodiscard]] const sac::Engine& engine() const noexcept { return *engine_; }
@@ -71,11 +95,38 @@ class TracedWorld {
   [[nodiscard]] const std::map<mesher::FeatureId, Vertex*>& inputs() const { return inputs_; }
 
  private:
+  void commit() {
+    world_->leaves.commit();
+    world_->segments.commit();
+    world_->vertices.commit();
+  }
+
   mesher::detail::MeshBox<2> box_;
   mesher::Options<2> options_;
   std::unique_ptr<sac::Engine> engine_ = std::make_unique<sac::Engine>();
   std::unique_ptr<World> world_;
   std::map<mesher::FeatureId, Vertex*> inputs_;
+  std::map<mesher::detail::SegmentHandle, mesher::FeatureId> lines_;
 };
+
+inline mesher::Mesh<2> TracedWorld::mesh() const {
+  const auto& vertices = world_->vertices;
+  const auto& pool = vertices.pool();
+  std::vector<mesher::detail::VertexHandle> live;
+  std::vector<std::array<mesher::detail::VertexHandle, 3>> triangles;
+  pool.for_each([&](const Vertex& v) {
+    if (!v.alive) return;
+    live.push_back(v.self);
+    const auto ring = vertices.ring(v);
+    mesher::detail::for_each_own_triangle(pool, v, ring.handles, ring.size,
+                                          [&](const auto& t) { triangles.push_back(t); });
+  });
+  std::vector<mesher::detail::LineEdge> edges;
+  world_->leaves.for_each([&](const mesher::detail::Leaf& leaf) {
+    edges.push_back({vertices.tree().find(leaf.lo)->self, vertices.tree().find(leaf.hi)->self,
+                     lines_.at(leaf.piece.segment)});
+  });
+  return mesher::detail::canonical(pool, live, triangles, edges);
+}
 
 }  // namespace support

@@ -1,13 +1,20 @@
-// Scripts of edits: a file of lines that change the input points of a mesh.
+// Scripts of edits: a file of lines that change the input of a mesh.
 //
 //   # comment
 //   +point ID x y        a new point
 //   -point ID            a point less
 //   move ID x y          a point somewhere else
+//   +segment ID A B      a new segment between two points
+//   -segment ID          a segment less
+//   +polyline ID P...    new segments from point to point, under one id; closed if the last point
+//                        is the first
+//   -polyline ID         all of them less
 //   begin                the edits up to `commit` are one update;
 //   commit               outside, each edit is an update of its own
 //
-// A block is judged by where its points end: it may take a place before it frees it.
+// Points have ids of their own, and so have lines: segments and polylines. A block is judged by
+// where its points end: it may take a place before it frees it, and remove a point before its
+// segments.
 //
 // Example:
 //   mesher::EditScript script("edits.txt");
@@ -27,13 +34,22 @@
 
 namespace mesher {
 
-/// One edit of one point.
+/// One edit of one point or line.
 struct Edit {
-  enum class Kind : std::uint8_t { insert, remove, move };
+  enum class Kind : std::uint8_t {
+    insert,
+    remove,
+    move,
+    insert_segment,
+    remove_segment,
+    insert_polyline,
+    remove_polyline,
+  };
   Kind kind = Kind::insert;
   FeatureId id{};
-  Point<2> point{};  ///< of insert and move
-  std::string text;  ///< the line without comment and outer blanks
+  Point<2> point{};                 ///< of insert and move
+  std::vector<FeatureId> points{};  ///< of a new segment or polyline
+  std::string text;                 ///< the line without comment and outer blanks
   Place place;
 };
 
@@ -70,8 +86,28 @@ struct Update {
   [[nodiscard]] std::string text() const;
 };
 
-/// Announces `edit` to a mesher, or to anything with its insert, remove and move.
-/// Throws: Error as those, said of the edit's place.
+/// Announces `edit` of a line to a mesher, or to anything with its functions for lines.
+/// Throws: Error as those; Error(bad_edit) if the target has points only.
+template <class Target>
+void announce_line(const Edit& edit, Target& target) {
+  if constexpr (requires { target.remove_segment(edit.id); }) {
+    switch (edit.kind) {
+      case Edit::Kind::insert_segment:
+        return target.insert_segment(edit.id, edit.points[0], edit.points[1]);
+      case Edit::Kind::remove_segment:
+        return target.remove_segment(edit.id);
+      case Edit::Kind::insert_polyline:
+        return target.insert_polyline(edit.id, edit.points);
+      default:
+        return target.remove_polyline(edit.id);
+    }
+  } else {
+    throw Error(ErrorCode::bad_edit, "only points can be edited here");
+  }
+}
+
+/// Announces `edit` to a mesher, or to anything with its insert, remove and move, and perhaps its
+/// functions for lines. Throws: Error as those, said of the edit's place.
 template <class Target>
 void announce(const Edit& edit, Target& target) {
   try {
@@ -82,6 +118,8 @@ void announce(const Edit& edit, Target& target) {
         return target.remove(edit.id);
       case Edit::Kind::move:
         return target.move(edit.id, edit.point);
+      default:
+        return announce_line(edit, target);
     }
   } catch (const Error& error) {
     throw error.at(edit.place);
@@ -91,8 +129,9 @@ void announce(const Edit& edit, Target& target) {
 /// Seconds of wall-clock time since some fixed moment.
 [[nodiscard]] double now();
 
-/// The order in which a batch is announced: edits of points that are there before those of points
-/// that the batch inserts, so that places are free before they are taken; else as they stand.
+/// The order in which a batch is announced: lines that go; points, those that are there before
+/// those that the batch inserts, so that places are free before they are taken; lines that come.
+/// Else as they stand.
 [[nodiscard]] std::vector<Edit> announcing_order(std::vector<Edit> edits);
 
 /// Where the edit stands that an error of update() is about: the last one of the feature to blame,

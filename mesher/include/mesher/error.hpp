@@ -20,7 +20,7 @@ enum class ErrorCode : std::uint8_t {
   outside_domain,     ///< a point outside the meshing domain
   not_finite,         ///< NaN or infinity
   magnitude,          ///< a coordinate that is neither 0 nor within 2^-100 .. 2^100
-  unknown_id,         ///< an id of a point that is not there
+  unknown_id,         ///< an id of a point or line that is not there
   repeated_id,        ///< an id given twice
   wrong_count,        ///< a header that disagrees with what follows
   truncated,          ///< the file ends too early
@@ -37,7 +37,13 @@ enum class ErrorCode : std::uint8_t {
   cannot_read,        ///< the file cannot be opened or read
   cannot_write,       ///< the file cannot be written
   bad_option,         ///< an option whose value makes no sense
-  too_close,          ///< two points nearer than the domain's resolution
+  too_close,          ///< features nearer than the domain's resolution
+  crossing_segments,  ///< two segments with a point in common that is no end of both
+  point_on_segment,   ///< an input point between the ends of a segment
+  overlapping_segments,  ///< two segments with more than a point in common
+  zero_length,        ///< a segment from a point to itself
+  repeated_segment,   ///< two segments between the same points
+  point_in_use,       ///< the removal of a point that is an end of a segment
   too_many,           ///< more vertices or memory than a run can hold
   cancelled,          ///< stopped by the user
   bad_seed,           ///< a hole's or region's seed that has no region of its own

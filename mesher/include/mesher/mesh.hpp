@@ -41,12 +41,20 @@ enum class VertexKind : std::uint8_t {
   segment = 3,  ///< between the ends of a line of the input
 };
 
+/// A line of the input between two of its points. Several may share an id: a polyline.
+struct Segment {
+  FeatureId id{};
+  FeatureId from{}, to{};  ///< points
+  friend bool operator==(const Segment&, const Segment&) = default;
+};
+
 /// What to mesh, and how well.
 template <int D>
 struct Options {
   Box<D> domain{};      ///< where input points may lie; must not be empty
   double rho = 1.4142;  ///< bound of circumradius over shortest edge; > 1.01
   Rule rule = Rule::radius_edge;
+  std::size_t max_vertices = 0;  ///< more are refused with Error(too_many); 0: no limit
   bool record_weights = false;  ///< keeps what calls do inside, for those who study the trace
 };
 
@@ -56,9 +64,16 @@ struct Options {
 template <int D>
 struct Mesh {
   using Simplex = std::array<std::uint32_t, D + 1>;
+  /// An edge on a line of the input; low < high.
+  struct Edge {
+    std::uint32_t low = 0, high = 0;
+    FeatureId line{};
+    friend auto operator<=>(const Edge&, const Edge&) = default;
+  };
   std::vector<Point<D>> vertices;
   std::vector<VertexKind> kinds;  ///< one per vertex
   std::vector<Simplex> simplices;
+  std::vector<Edge> edges;  ///< those on lines, in lexicographic order
   friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 

@@ -55,9 +55,17 @@ struct KindChange {
   friend bool operator==(const KindChange&, const KindChange&) = default;
 };
 
+/// An edge of the mesh on a line of the input; low < high in lexicographic order.
+template <int D>
+struct LineEdge {
+  Point<D> low{}, high{};
+  FeatureId line{};
+  friend auto operator<=>(const LineEdge&, const LineEdge&) = default;
+};
+
 /// The exact difference between the mesh before and after an update.
-/// Vertices in lexicographic order; each simplex by its corners, smallest first, positively
-/// oriented.
+/// Vertices and edges in lexicographic order; each simplex by its corners, smallest first,
+/// positively oriented.
 template <int D>
 struct Change {
   std::vector<Point<D>> vertices_added;
@@ -65,6 +73,8 @@ struct Change {
   std::vector<KindChange<D>> kinds_changed;
   std::vector<std::array<Point<D>, D + 1>> simplices_added;
   std::vector<std::array<Point<D>, D + 1>> simplices_removed;
+  std::vector<LineEdge<D>> edges_added;    ///< on lines
+  std::vector<LineEdge<D>> edges_removed;
   CallCounts calls;
 };
 
@@ -126,6 +136,18 @@ class Mesher {
   /// Throws: Error (unknown_id, outside_domain, not_finite, magnitude). Cost: O(1).
   void move(FeatureId id, const Point<D>& point);
 
+  /// Announces a segment between two points that shall be there; the next update() judges it, as
+  /// part of all that is announced then. Lines, segments and polylines, have ids of their own.
+  /// Throws: Error (repeated_id; zero_length: from one point to itself; bad_option unless
+  /// options().rule is radius_edge). Cost: O(1).
+  void insert_segment(FeatureId id, FeatureId from, FeatureId to);
+  /// Announces segments from point to point under one id. `points`: two or more; the first may be
+  /// the last again. Throws: likewise, and Error(bad_option) for fewer. Cost: O(points).
+  void insert_polyline(FeatureId id, const std::vector<FeatureId>& points);
+  /// Announces that a line goes, with all its segments. Throws: Error(unknown_id).
+  void remove_segment(FeatureId id);
+  void remove_polyline(FeatureId id) { remove_segment(id); }
+
   /// Takes back every edit announced since the last update(). Cost: O(edits).
   void discard_edits() noexcept;
 
@@ -133,7 +155,9 @@ class Mesher {
   /// leaves the mesh as it was.
   /// Throws: Error(cancelled) if `control` has stopped it: the edits stay announced, for another
   /// update() or discard_edits(). Error (duplicate_point, too_close: points that have moved onto
-  /// others, or places too near to each other for the vertices that they need), std::bad_alloc, or
+  /// others, or places too near to each other for the vertices that they need; crossing_segments,
+  /// point_on_segment, overlapping_segments, repeated_segment; point_in_use: an end of a segment is
+  /// removed; unknown_id: a segment's end is not there), std::bad_alloc, or
   /// what control.progress throws: the edits are taken back as well.
   /// Cost: O(log L/s) calls per edited point [Theorem 4.3.8], each O(log L/s), the first time per
   /// vertex; stopped or failed, as much again to take back what was done.
@@ -145,6 +169,8 @@ class Mesher {
 
   /// Number of input points that are announced to be there.
   [[nodiscard]] std::size_t size() const;
+  /// Whether the line is announced to be there.
+  [[nodiscard]] bool contains_line(FeatureId id) const;
   /// Whether the point is announced to be there.
   [[nodiscard]] bool contains(FeatureId id) const;
   /// Of the last update(); times of the first. Cost: O(1).
@@ -170,6 +196,15 @@ class Mesher {
 template <int D>
 [[nodiscard]] Mesh<D> mesh_statically(const std::vector<Point<D>>& points,
                                       const Options<D>& options,
+                                      const std::vector<FeatureId>& ids = {},
+                                      MeshStats* stats = nullptr, const RunControl& control = {});
+
+/// The same with segments between the points, named by their ids: every segment is a union of edges
+/// of the mesh. Throws also: Error(bad_option) unless options.rule is radius_edge;
+/// Error(unknown_id).
+[[nodiscard]] Mesh<2> mesh_statically(const std::vector<Point<2>>& points,
+                                      const std::vector<Segment>& segments,
+                                      const Options<2>& options,
                                       const std::vector<FeatureId>& ids = {},
                                       MeshStats* stats = nullptr, const RunControl& control = {});
 

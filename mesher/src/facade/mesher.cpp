@@ -1,6 +1,7 @@
 // The facade: announced edits on one side, the state that updates work on at the other.
 #include "mesher/mesher.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "facade/announced.hpp"
@@ -29,6 +30,9 @@ struct Mesher<2>::Impl {
   void require_free(FeatureId id, const Point<2>& p) const;
   void require_apart(const std::vector<detail::Announced::Edit>& edits) const;
   void insert(FeatureId id, const Point<2>& p);
+  [[nodiscard]] const detail::LinePoints& line(FeatureId id) const;
+  void insert_line(FeatureId id, const detail::LinePoints& points);
+  void remove_line(FeatureId id);
   void discard_edits() noexcept;
   Change<2> run(const RunControl& control);
   Change<2> update(const RunControl& control);
@@ -37,6 +41,7 @@ struct Mesher<2>::Impl {
   std::unique_ptr<detail::State> state;  // of the last update
   detail::MeshBox<2> box;
   detail::Announced announced;
+  detail::AnnouncedLines announced_lines;
   bool moved = false;  // a place was taken that was not looked at
 };
 
@@ -79,7 +84,35 @@ void Mesher<2>::Impl::insert(FeatureId id, const Point<2>& p) {
   announced.set(id, was, Point<2>{p[0] + 0.0, p[1] + 0.0});  // zero has no sign
 }
 
+const detail::LinePoints& Mesher<2>::Impl::line(FeatureId id) const {
+  const auto* edit = announced_lines.find(id);
+  return edit != nullptr ? edit->to : state->line(id);
+}
+
+void Mesher<2>::Impl::insert_line(FeatureId id, const detail::LinePoints& points) {
+  if (options.rule != Rule::radius_edge) {
+    throw Error(ErrorCode::bad_option, "segments need the rule radius_edge", {}, {id});
+  }
+  if (points.size() < 2) {
+    throw Error(ErrorCode::bad_option, "line " + text(id) + " has fewer than two points", {}, {id});
+  }
+  if (!line(id).empty()) {
+    throw Error(ErrorCode::repeated_id, "line " + text(id) + " is there already", {}, {id});
+  }
+  const auto same = std::adjacent_find(points.begin(), points.end());
+  if (same != points.end()) detail::fail_zero_length(id, *same);
+  announced_lines.set(id, state->line(id), points);
+}
+
+void Mesher<2>::Impl::remove_line(FeatureId id) {
+  if (line(id).empty()) {
+    throw Error(ErrorCode::unknown_id, "line " + text(id) + " is not there", {}, {id});
+  }
+  announced_lines.set(id, state->line(id), {});
+}
+
 void Mesher<2>::Impl::discard_edits() noexcept {
+  announced_lines.clear();
   announced.clear();
   moved = false;
 }
@@ -87,8 +120,8 @@ void Mesher<2>::Impl::discard_edits() noexcept {
 // --- Updates ---------------------------------------------------------------------------------
 
 Change<2> Mesher<2>::Impl::run(const RunControl& control) {
-  auto edits = announced.sorted();
-  if (moved) require_apart(edits);
+  detail::Edits edits{announced.sorted(), announced_lines.sorted()};
+  if (moved) require_apart(edits.points);
   if (state->ran()) return state->propagate(edits, control);
   auto fresh = std::make_unique<detail::State>(options);
   Change<2> change = fresh->first_run(std::move(edits), control);
@@ -150,6 +183,26 @@ void Mesher<D>::move(FeatureId id, const Point<D>& point) {
   detail::check_point(point, impl_->options.domain, id);
   impl_->moved = true;
   impl_->announced.set(id, impl_->state->place(id), Point<D>{point[0] + 0.0, point[1] + 0.0});
+}
+
+template <int D>
+void Mesher<D>::insert_segment(FeatureId id, FeatureId from, FeatureId to) {
+  impl_->insert_line(id, {from, to});
+}
+
+template <int D>
+void Mesher<D>::insert_polyline(FeatureId id, const std::vector<FeatureId>& points) {
+  impl_->insert_line(id, points);
+}
+
+template <int D>
+void Mesher<D>::remove_segment(FeatureId id) {
+  impl_->remove_line(id);
+}
+
+template <int D>
+bool Mesher<D>::contains_line(FeatureId id) const {
+  return !impl_->line(id).empty();
 }
 
 template <int D>

@@ -8,6 +8,7 @@
 #include "facade/meter.hpp"
 #include "mesh/canonical.hpp"
 #include "program/world_impl.hpp"
+#include "segments/vertex_budget.hpp"
 
 namespace mesher::detail {
 
@@ -40,6 +41,7 @@ State::State(const Options<2>& options)
     : box_(mesh_box(options)),
       engine_(std::make_unique<sac::Engine>()),
       world_(std::make_unique<World<sac::Scope>>(options, box_, *engine_)) {
+  world_->names = this;
   if (options.record_weights) engine_->record_weights();
 }
 
@@ -55,7 +57,7 @@ Announced::Place State::place(FeatureId id) const {
 }
 
 std::optional<State::Named> State::obstacle(const Point<2>& p) const {
-  const Vertex<2>* v = world_->features.tree().obstacle(p);
+  const Vertex<2>* v = world_->features.point_at(p);
   return v == nullptr ? std::optional<Named>() : Named{names_[v->self], v->p};
 }
 
@@ -81,7 +83,7 @@ void State::rename(const std::vector<Announced::Edit>& edits, Ids& arrived) noex
 
 void State::add_first(const Announced::Edit& edit) {
   Vertex<2>& v = vertices().add_input(*edit.to, true);
-  features().tree().insert_only(v);
+  features().insert_first(v);
   ids_.emplace(edit.id, v.self);
   names_.resize(v.self + std::size_t{1});
   names_[v.self] = edit.id;
@@ -91,7 +93,6 @@ void State::post_all() {
   pool().for_each([&](Vertex<2>& v) {
     if (!v.input) return;
     vertices().touch(v);
-    v.level = static_cast<std::int16_t>(features().tree().crowded_level(v));
     world_->quadtree.post_from_outside<locate>(locate_key(box_.fixed(v.p)), VertexRef<2>{&v});
   });
 }
@@ -104,19 +105,34 @@ Change<2> State::whole(const Mesh<2>& mesh) const {
     change.simplices_added.push_back(
         {mesh.vertices[s[0]], mesh.vertices[s[1]], mesh.vertices[s[2]]});
   }
+  for (const auto& e : mesh.edges) {
+    change.edges_added.push_back({mesh.vertices[e.low], mesh.vertices[e.high], e.line});
+  }
   return change;
 }
 
-Change<2> State::first_run(std::vector<Announced::Edit> edits, const RunControl& control) {
-  ids_.reserve(edits.size());
-  for (const auto& edit : edits) add_first(edit);
-  edits = std::vector<Announced::Edit>();  // the run needs the memory
+void State::add_all_first(const Edits& edits) {
+  ids_.reserve(edits.points.size());
+  for (const auto& edit : edits.points) add_first(edit);
+  if (edits.lines.empty()) return;
+  for (const Part& part : take_lines({{}, edits.lines})) add_part(part, {});
+  require_planar({});
+  Lines lines;
+  make_room_for_lines(edits.lines, lines);
+  rename_lines(edits.lines, lines);
+  forget_news();
+}
+
+Change<2> State::first_run(Edits edits, const RunControl& control) {
+  add_all_first(edits);
+  edits = Edits();  // the run needs the memory
   post_all();
   RunMeter<sac::Scope> phases(*world_, control, ids_.size());
   const auto meter = [&](const sac::Progress& p) { return phases(p.executed); };
   const Watch watch(*engine_, control, meter);
   const CallCounts calls = call_counts(engine_->run<refine>());
-  vertices().commit();
+  commit();
+  require_room(pool().size());
   vertices().set_logging(true);
   ran_ = true;
   const Mesh<2> all = mesh();
@@ -128,6 +144,13 @@ Change<2> State::first_run(std::vector<Announced::Edit> edits, const RunControl&
 
 // --- Updates ---------------------------------------------------------------------------------
 
+// Leaves' records refer to those of segments, and these to those of vertices.
+void State::commit() noexcept {
+  world_->leaves.commit();
+  world_->segments.commit();
+  vertices().commit();
+}
+
 // The record of an input point to be, listed so that commit() frees it if nothing comes of it.
 Vertex<2>& State::claim(const Point<2>& p) {
   Vertex<2>& v = vertices().add_input(p, false);
@@ -136,10 +159,9 @@ Vertex<2>& State::claim(const Point<2>& p) {
   return v;
 }
 
-Vertex<2>& State::add(const Point<2>& p, std::vector<Touched>& touched) {
+Vertex<2>& State::add(const Point<2>& p) {
   engine_->begin_edit();
   Vertex<2>& v = claim(p);
-  touched.push_back({v.self, v.committed, v.kind()});
   engine_->on_rollback([&v] { v.input = false; });
   v.input = true;
   features().insert(v);
@@ -147,59 +169,86 @@ Vertex<2>& State::add(const Point<2>& p, std::vector<Touched>& touched) {
   return v;
 }
 
-void State::take(Vertex<2>& v, std::vector<Touched>& touched) {
+void State::take(Vertex<2>& v) {
   engine_->begin_edit();
   vertices().touch(v);
-  touched.push_back({v.self, v.committed, v.kind()});
   engine_->on_rollback([&v] { v.input = true; });
   v.input = false;
   features().erase(v);
   world_->quadtree.retract_from_outside<locate>(VertexRef<2>{&v});
 }
 
-void State::make(const std::vector<Announced::Edit>& edits, Ids& arrived,
-                 std::vector<Touched>& touched) {
+// `named`: what comes is asked for its name before the update is done.
+void State::make_points(const std::vector<Announced::Edit>& edits, bool named, Ids& arrived) {
+  for (const auto& edit : edits) {
+    if (edit.was) take(pool()[ids_.at(edit.id)]);
+  }
+  for (const auto& edit : edits) {
+    if (!edit.to) continue;
+    const VertexHandle v = add(*edit.to).self;
+    arrived.emplace(edit.id, v);
+    if (named) new_names_[v] = edit.id;
+  }
+}
+
+bool State::has_lines() const noexcept {
+  return segments().store().live() != 0 || !new_segments_.empty();
+}
+
+void State::make(const Edits& edits, Ids& arrived) {
   const auto all = [&] {
-    for (const auto& edit : edits) {
-      if (edit.was) take(pool()[ids_.at(edit.id)], touched);
-    }
-    for (const auto& edit : edits) {
-      if (edit.to) arrived.emplace(edit.id, add(*edit.to, touched).self);
-    }
+    const std::vector<Part> parts = take_lines(edits);
+    require_unused(edits.points);
+    make_points(edits.points, has_lines() || !parts.empty(), arrived);
+    for (const Part& part : parts) add_part(part, arrived);
+    if (has_lines()) require_planar(arrived);
   };
   try {
     engine_->edit_together(all);
   } catch (...) {
     vertices().give_up();
+    forget_news();
     throw;
   }
 }
 
-Change<2> State::propagate(const std::vector<Announced::Edit>& edits, const RunControl& control) {
+void State::require_room(std::size_t now) const {
+  if (now > world_->most_vertices) {
+    throw too_many_vertices(vertices(), world_->names, world_->most_vertices);
+  }
+}
+
+Change<2> State::propagate(const Edits& edits, const RunControl& control) {
   const auto meter = [&](const sac::Progress& p) {
     return detail::report(control, {Phase::update, p.executed, p.executed + p.queued});
   };
   Change<2> change;
   Ids arrived;
-  std::vector<Touched> touched;
-  touched.reserve(2 * edits.size());
+  Lines lines;
   const std::function<void()> report = [&] {  // what needs memory, while all can be undone
     make_room(arrived);
+    make_room_for_lines(edits.lines, lines);
     Log log = vertices().log();
     report_vertices(log, change);
-    report_kinds(touched, change);
     report_stars(std::move(log), change);
+    report_edges(change);
+    require_room(stats_.vertices + change.vertices_added.size() - change.vertices_removed.size());
   };
-  make(edits, arrived, touched);
+  make(edits, arrived);
+  // While it is under way, there may be vertices that come as well as those that go.
+  world_->most_records = std::max(world_->most_vertices, pool().size() + world_->most_vertices);
   try {
     const Watch watch(*engine_, control, meter);
     change.calls = call_counts(engine_->propagate(report));
   } catch (...) {
-    vertices().commit();
+    commit();
+    forget_news();
     throw;
   }
-  rename(edits, arrived);
-  vertices().commit();
+  rename(edits.points, arrived);
+  rename_lines(edits.lines, lines);
+  forget_news();
+  commit();
   stats_.vertices += change.vertices_added.size() - change.vertices_removed.size();
   stats_.simplices += change.simplices_added.size() - change.simplices_removed.size();
   return change;

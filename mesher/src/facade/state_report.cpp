@@ -3,7 +3,6 @@
 #include <iterator>
 
 #include "facade/state.hpp"
-#include "mesh/canonical.hpp"
 #include "program/world_impl.hpp"
 
 namespace mesher::detail {
@@ -30,14 +29,26 @@ std::vector<State::Triangle> State::triangles() const {
   return all;
 }
 
-Mesh<2> State::mesh() const { return canonical(pool(), live_vertices(), triangles()); }
+std::vector<detail::LineEdge> State::line_edges() const {
+  std::vector<detail::LineEdge> all;
+  const auto& tree = vertices().tree();
+  world_->leaves.for_each([&](const Leaf& leaf) {
+    all.push_back({tree.find(leaf.lo)->self, tree.find(leaf.hi)->self, lines_[leaf.piece.segment]});
+  });
+  return all;
+}
+
+Mesh<2> State::mesh() const {
+  return canonical(pool(), live_vertices(), triangles(), line_edges());
+}
 
 MeshStats State::stats() const {
   MeshStats s = stats_;
   s.calls = engine_->live_calls();
   s.edges = engine_->live_edges();
   s.trace_bytes = engine_->bytes() + pool().bytes() + vertices().tree().bytes() +
-                  world_->features.tree().bytes();
+                  world_->segments.bytes() + world_->leaves.bytes() + vertices().roles().bytes() +
+                  world_->features.bytes();
   return s;
 }
 
@@ -46,23 +57,12 @@ void State::report_vertices(const Log& log, Change<2>& change) const {
     const Vertex<2>& v = pool()[h];
     if (v.alive && !v.committed) change.vertices_added.push_back(v.p);
     if (!v.alive && v.committed) change.vertices_removed.push_back(v.p);
+    if (v.alive && v.committed && v.kind() != v.committed_kind) {
+      change.kinds_changed.push_back({v.p, v.committed_kind, v.kind()});
+    }
   }
   std::sort(change.vertices_added.begin(), change.vertices_added.end());
   std::sort(change.vertices_removed.begin(), change.vertices_removed.end());
-}
-
-// Of a place that one point leaves and another takes, the first entry says what it was.
-void State::report_kinds(const std::vector<Touched>& touched, Change<2>& change) const {
-  std::vector<Touched> first = touched;
-  const auto by_handle = [](const auto& a, const auto& b) { return a.handle < b.handle; };
-  const auto same = [](const auto& a, const auto& b) { return a.handle == b.handle; };
-  std::stable_sort(first.begin(), first.end(), by_handle);
-  first.erase(std::unique(first.begin(), first.end(), same), first.end());
-  for (const Touched& t : first) {
-    const Vertex<2>& v = pool()[t.handle];
-    if (!t.committed || !v.alive || v.kind() == t.kind) continue;
-    change.kinds_changed.push_back({v.p, t.kind, v.kind()});
-  }
   std::sort(change.kinds_changed.begin(), change.kinds_changed.end(),
             [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
 }
@@ -104,14 +104,49 @@ void State::report_stars(Log log, Change<2>& change) const {
   std::sort(change.simplices_removed.begin(), change.simplices_removed.end());
 }
 
+// Leaves that stay, of segments that are now of another line. That is so rare that all leaves are
+// looked at then.
+void State::report_renamed(std::vector<mesher::LineEdge<2>>& gone,
+                           std::vector<mesher::LineEdge<2>>& come) const {
+  const auto is_renamed = [&](SegmentHandle s) {
+    return taken_.find(s) != taken_.end() && lines_[s] != line(s);
+  };
+  const bool any = std::any_of(new_segments_.begin(), new_segments_.end(), is_renamed);
+  if (!any) return;
+  world_->leaves.for_each([&](const Leaf& leaf) {
+    if (!leaf.committed || !is_renamed(leaf.piece.segment)) return;
+    const auto& [low, high] = std::minmax(leaf.lo, leaf.hi);
+    gone.push_back({low, high, lines_[leaf.piece.segment]});
+    come.push_back({low, high, line(leaf.piece.segment)});
+  });
+}
+
+// Leaves that ended or began, without those of which another piece is in the same place.
+void State::report_edges(Change<2>& change) const {
+  std::vector<mesher::LineEdge<2>> gone;
+  std::vector<mesher::LineEdge<2>> come;
+  world_->leaves.for_each_changed([&](const Leaf& leaf) {
+    const bool now = world_->leaves.is_leaf(leaf);
+    if (now == leaf.committed) return;
+    const auto& [low, high] = std::minmax(leaf.lo, leaf.hi);
+    const SegmentHandle s = leaf.piece.segment;
+    (now ? come : gone).push_back({low, high, now ? line(s) : lines_[s]});
+  });
+  report_renamed(gone, come);
+  std::sort(gone.begin(), gone.end());
+  std::sort(come.begin(), come.end());
+  std::set_difference(come.begin(), come.end(), gone.begin(), gone.end(),
+                      std::back_inserter(change.edges_added));
+  std::set_difference(gone.begin(), gone.end(), come.begin(), come.end(),
+                      std::back_inserter(change.edges_removed));
+}
+
 void State::check_invariants() const {
   engine_->check_invariants();
   vertices().check_invariants();
-  SAC_INVARIANT(world_->features.tree().size() == ids_.size());
   for (const auto& [id, h] : ids_) {
     const Vertex<2>& v = pool()[h];
-    SAC_INVARIANT(v.alive && v.input && names_[h] == id);
-    SAC_INVARIANT(v.level == world_->features.tree().crowded_level(v));
+    SAC_INVARIANT(v.alive && v.input && v.feature && names_[h] == id);
   }
   SAC_INVARIANT(stats_.vertices == live_vertices().size());
   SAC_INVARIANT(stats_.simplices == triangles().size());

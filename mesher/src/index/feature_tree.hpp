@@ -52,6 +52,14 @@ class FeatureTree {
   /// Adds a point without updating K: for many at once, each then asked for its crowded_level().
   void insert_only(Vertex<D>& v);
 
+  /// Calls visit(vertex) for the points in the closed box, until it returns true; returns whether
+  /// it did. Points just outside may be visited, too. Cost: O(size of the tree in the box).
+  template <class Visit>
+  bool visit_in(const Box<D>& area, Visit&& visit) const;
+
+  /// Puts w in the place of v, whose finest cell it shares. K of both is left as it is.
+  void replace(const Vertex<D>& v, const Vertex<D>& w) noexcept;
+
   /// Throws InvariantError if a point lies in the wrong cell, a block holds fewer than two points,
   /// or blocks are lost. Cost: O(size of the tree).
   void check_invariants() const;
@@ -171,6 +179,50 @@ const Vertex<D>* FeatureTree<D>::obstacle(const Point<D>& p) const {
   }
   if (node == 0) return nullptr;
   return fixed_of(node) == f ? &vertices_[node & ~kPoint] : nullptr;
+}
+
+template <int D>
+template <class Visit>
+bool FeatureTree<D>::visit_in(const Box<D>& area, Visit&& visit) const {
+  const Fixed<D> lo = box_.fixed(area.lo), hi = box_.fixed(area.hi);
+  struct Open {
+    Node node;
+    Cell<D> cell;
+  };
+  std::array<Open, (kChildren - 1) * kLevels + 2> stack;
+  std::size_t open = 0;
+  stack[open++] = {root_, Cell<D>{}};
+  const auto beside = [&](const Fixed<D>& corner, std::uint64_t last) {
+    for (int i = 0; i < D; ++i) {
+      if (corner[i] > hi[i] || corner[i] + last < lo[i]) return true;
+    }
+    return false;
+  };
+  while (open > 0) {
+    const Open at = stack[--open];
+    if (at.node == 0) continue;
+    if ((at.node & kPoint) != 0) {
+      if (!beside(fixed_of(at.node), 0) && visit(vertices_[at.node & ~kPoint])) return true;
+      continue;
+    }
+    for (int c = 0; c < kChildren; ++c) {
+      Cell<D> inner{at.cell.corner, at.cell.level + 1};
+      const std::uint64_t side = std::uint64_t{1} << (kLevels - inner.level);
+      for (int i = 0; i < D; ++i) inner.corner[i] |= (c >> i & 1) != 0 ? side : 0;
+      if (!beside(inner.corner, side - 1)) stack[open++] = {blocks_[at.node][c], inner};
+    }
+  }
+  return false;
+}
+
+template <int D>
+void FeatureTree<D>::replace(const Vertex<D>& v, const Vertex<D>& w) noexcept {
+  const Fixed<D> f = box_.fixed(v.p);
+  Node* link = &root_;
+  for (int level = 0; (*link & kPoint) == 0; ++level) {
+    link = &blocks_[*link][MeshBox<D>::child_of(f, level)];
+  }
+  *link = kPoint | w.self;
 }
 
 // Room for so many blocks, and for all blocks to be freed: memory cannot run out on the way.

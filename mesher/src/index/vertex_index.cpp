@@ -12,14 +12,51 @@ using Index = VertexIndex<sac::Scope>;
 VertexRef<2> Index::insert(sac::Scope& s, const Point<2>& p) {
   const auto same = [&](const BirthEdge& edge) { return pool_[edge.vertex].p == p; };
   if (const auto* edge = s.recall<BirthEdge>(id_, kBirth, same)) return {&pool_[edge->vertex]};
+  Vertex<2>& v = record_at(s, p);
+  produce(s, v);
+  return {&v};
+}
+
+VertexRef<2> Index::insert(sac::Scope& s, const Point<2>& p, const Role& role) {
+  if (const auto* edge = recall_on_segment(s, p, role)) return {&pool_[edge->vertex]};
+  Vertex<2>& v = record_at(s, p);
+  produce_on_segment(s, v, role);
+  return {&v};
+}
+
+VertexRef<2> Index::insert_early(sac::Scope& s, const Point<2>& p, const Role& role) {
+  if (!engine_.appending()) return insert(s, p, role);
+  Vertex<2>& v = add(p);
+  produce_on_segment(s, v, role);
+  return {&v};
+}
+
+const Index::BirthOnSegmentEdge* Index::recall_on_segment(sac::Scope& s, const Point<2>& p,
+                                                          const Role& role) {
+  const auto same = [&](const BirthOnSegmentEdge& edge) {
+    return edge.role == role && pool_[edge.vertex].p == p;
+  };
+  return s.recall<BirthOnSegmentEdge>(id_, kBirthOnSegment, same);
+}
+
+void Index::produce_on_segment(sac::Scope& s, Vertex<2>& v, const Role& role) {
+  touch(v);
+  roles_.reserve(v.self);
+  observers_.expect_arrivals();
+  auto& edge = s.effect<BirthOnSegmentEdge>(id_, kBirthOnSegment);
+  edge.role = role;
+  produced(s, v, edge, role);
+}
+
+// Throws: Error if a vertex is at p already.
+Vertex<2>& Index::record_at(sac::Scope& s, const Point<2>& p) {
   Vertex<2>* v = tree_.find(p);
   if (v != nullptr && born_before(*v, s.self())) fail_coincident(p);
-  if (v == nullptr) v = &add(p);
-  produce(s, *v);
-  return {v};
+  return v == nullptr ? add(p) : *v;
 }
 
 void Index::insert(sac::Scope& s, VertexRef<2> v) {
+  if (v->on_segment && presences_.seen_by(v->presence, s.self())) return;
   const auto same = [&](const BirthEdge& edge) { return edge.vertex == v->self; };
   if (s.recall<BirthEdge>(id_, kBirth, same) == nullptr) produce(s, *v);
 }
@@ -28,19 +65,64 @@ void Index::insert(sac::Scope& s, VertexRef<2> v) {
 void Index::produce(sac::Scope& s, Vertex<2>& v) {
   touch(v);
   observers_.expect_arrivals();
-  auto& edge = s.effect<BirthEdge>(id_, kBirth);
+  produced(s, v, s.effect<BirthEdge>(id_, kBirth), Role());
+}
+
+void Index::produced(sac::Scope& s, Vertex<2>& v, BirthEdge& edge, const Role& role) noexcept {
   edge.vertex = v.self;
   const auto window = presences_.produced(v.presence, edge, s.self());
   v.alive = true;
+  if (v.presence.birth() == engine_.handle_of(s.self())) take_role(v, role, s.self());
   if (window.has_value()) appeared(v, *window);
+}
+
+// What `producer`, of v, says that v is.
+Role Index::role_from(const sac::Call& producer, const Vertex<2>& v) const noexcept {
+  Role role;
+  engine_.for_each_edge(producer, [&](const sac::Edge& edge) {
+    if (edge.structure != id_ || edge.kind != kBirthOnSegment) return;
+    const auto& birth = static_cast<const BirthOnSegmentEdge&>(edge);
+    if (birth.vertex == v.self) role = birth.role;
+  });
+  return role;
+}
+
+void Index::run_again(sac::Handle h, const sac::Window& window, const sac::Edge* seen) noexcept {
+  sac::Call& call = engine_.call(h);
+  if (window.contains(engine_, call)) engine_.invalidate(call, seen);
+}
+
+// v's earliest producer gives it a role. Those later that took it for what it was run again; who
+// has come to see v by this producer does so in any case.
+void Index::take_role(Vertex<2>& v, const Role& now, const sac::Call& producer) noexcept {
+  if (!v.on_segment && now.on == 0) return;
+  if (role(v) == now) return;
+  set_role(v, now);
+  if (engine_.appending()) return;
+  const sac::Window later{&producer, nullptr};
+  if (v.locator != 0) run_again(v.locator, later, nullptr);
+  for_each_cell_with(v, [&](const Observation& o) { run_again(o.call, later, &o); });
+}
+
+void Index::legs_changed(const Vertex<2>& v) noexcept {
+  if (!v.alive) return;  // nobody has seen it
+  for_each_cell_with(v,
+                     [&](const Observation& o) { engine_.invalidate(engine_.call(o.call), &o); });
 }
 
 void Index::retract_birth(BirthEdge& birth) noexcept {
   Vertex<2>& v = pool_[birth.vertex];
   touch(v);
+  const sac::Handle earliest = v.presence.birth();
   const auto window = presences_.retracted(v.presence, birth);
   v.alive = v.presence.there();
-  if (window.has_value()) vanished(v, *window);
+  if (v.alive && v.presence.birth() != earliest) {
+    const sac::Call& next = engine_.call(v.presence.birth());
+    take_role(v, role_from(next, v), next);
+  }
+  if (!window.has_value()) return;
+  if (birth.kind == kBirthOnSegment && v.locator != 0) run_again(v.locator, *window, nullptr);
+  vanished(v, *window);
 }
 
 // Observations in the window that have a gap ball around v, or are nearer to it than to others. Few
@@ -203,7 +285,7 @@ void Index::forget(Observation& o) noexcept {
 // --- Taking back -----------------------------------------------------------------------------
 
 void Index::retract(sac::Call&, sac::Edge& edge) noexcept {
-  if (edge.kind == kBirth) return retract_birth(static_cast<BirthEdge&>(edge));
+  if (is_birth(edge)) return retract_birth(static_cast<BirthEdge&>(edge));
   forget(static_cast<Observation&>(edge));
 }
 
@@ -223,7 +305,7 @@ std::vector<std::uint32_t> Index::canonical_codes(const Observation& o) const {
 }
 
 void Index::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
-  if (edge.kind == kBirth) return;
+  if (is_birth(edge)) return;
   const auto codes = canonical_codes(static_cast<const Observation&>(edge));
   sink.number(codes.size());
   for (const std::uint32_t code : codes) {
@@ -236,7 +318,7 @@ void Index::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink)
 }
 
 void Index::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
-  if (edge.kind == kBirth) {
+  if (is_birth(edge)) {
     out << "inserts " << VertexRef<2>{&pool_[static_cast<const BirthEdge&>(edge).vertex]};
   } else {
     out << (edge.kind == kNearest ? "nearest" : "neighbours");
@@ -272,6 +354,7 @@ Index::Log Index::log() const {
 void Index::commit() noexcept {
   log_.clear([&](Vertex<2>& v) {
     v.committed = v.alive;
+    v.committed_kind = v.kind();
     if (Ring* ring = find_ring(v)) ring->fresh = false;
     if (v.alive || v.input) return;
     tree_.erase(v);
@@ -300,6 +383,9 @@ void Index::check_vertex(const Vertex<2>& v) const {
   SAC_INVARIANT(v.alive == v.committed && v.alive != v.changed && (v.alive || !v.input));
   SAC_INVARIANT(v.alive == (v.boundary || v.presence.there()));
   presences_.check_invariants(v.presence);
+  if (v.presence.there()) {
+    SAC_INVARIANT(role(v) == role_from(engine_.call(v.presence.birth()), v));
+  }
   observers_.check_invariants(v);
   int stars = 0;
   observers_.find_at(v, [&](const Observation& o) {

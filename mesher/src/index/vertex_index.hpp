@@ -1,7 +1,10 @@
 // The vertices of the mesh in progress, as a traceable data type over the quadtree.
 //
 //   insert(s, p)           the running call produces a vertex               (effect)
-//   insert(s, v)           the running call produces the record v           (effect)
+//   insert(s, p, role)     the same, of a place on a segment                (effect)
+//   insert_early(...)      the same, before vertices are located            (effect)
+//   insert(s, v)           the running call produces the record v, unless   (effect)
+//                          an earlier one has given it a role
 //   voronoi_cell(s, v, R)  v's gap balls up to R, among the vertices born   (observation)
 //                          before the running call
 //   nearest2(s, v)         squared distance to v's nearest neighbour        (observation)
@@ -9,6 +12,10 @@
 //
 // A vertex that comes or goes invalidates exactly the later observations that it concerns: one that
 // comes, those with a gap ball around it; one that goes, those whose cell it bounds.
+//
+// A vertex on a segment has a role, that of its earliest producer. Who sees a vertex sees its role,
+// without a further observation: if it changes, the calls that have v's cell, or v beside a cell,
+// run again.
 //
 // The parts: births are presences (sac/presence.hpp); who has looked where is in Observers; cells
 // and neighbours are searched by VertexSearch; what an update has changed is in ChangeLog.
@@ -20,6 +27,7 @@
 // only the vertices.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -44,6 +52,13 @@ class VertexIndex<sac::PlainScope> : public VertexSearch {
     v.alive = true;
     return {&v};
   }
+  VertexRef<2> insert(sac::PlainScope&, const Point<2>& p, const Role& role) {
+    if (tree_.find(p) != nullptr) fail_coincident(p);
+    return insert_new(p, role);
+  }
+  VertexRef<2> insert_early(sac::PlainScope&, const Point<2>& p, const Role& role) {
+    return insert_new(p, role);
+  }
   void insert(sac::PlainScope&, VertexRef<2> v) { v->alive = true; }
   CellLoan voronoi_cell(sac::PlainScope&, VertexRef<2> v, double radius) {
     return cut_around(*v, radius, [](VertexHandle) { return true; });
@@ -52,6 +67,15 @@ class VertexIndex<sac::PlainScope> : public VertexSearch {
     return nearest_around(*v, [](VertexHandle) { return true; }).distance2;
   }
   CellLoan star(sac::PlainScope& s, VertexRef<2> v) { return voronoi_cell(s, v, whole()); }
+
+ private:
+  VertexRef<2> insert_new(const Point<2>& p, const Role& role) {
+    Vertex<2>& v = add(p);
+    v.alive = true;
+    roles_.reserve(v.self);
+    set_role(v, role);
+    return {&v};
+  }
 };
 
 template <>
@@ -66,6 +90,10 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
         id_(engine.add_structure(*this)) {}
 
   VertexRef<2> insert(sac::Scope& s, const Point<2>& p);
+  VertexRef<2> insert(sac::Scope& s, const Point<2>& p, const Role& role);
+  /// In a first run without a look for a vertex at p: the quadtree is one leaf then. Features are
+  /// asked for two in one place.
+  VertexRef<2> insert_early(sac::Scope& s, const Point<2>& p, const Role& role);
   void insert(sac::Scope& s, VertexRef<2> v);
   CellLoan voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius);
   double nearest2(sac::Scope& s, VertexRef<2> v);
@@ -99,6 +127,18 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   /// calls about records that were made for it: these stay until the next commit().
   void give_up() noexcept;
 
+  /// Calls visit(call, edge) for the calls that have looked at v's cell, as Complete does.
+  template <class Visit>
+  void for_each_cell_seen(const Vertex<2>& v, Visit&& visit) const {
+    observers_.find_at(v, [&](const Observation& o) {
+      if (o.kind == kCell) visit(engine_.call(o.call), static_cast<const sac::Edge&>(o));
+      return false;
+    });
+  }
+
+  /// Called by what changes the set of segments at an input point: who sees v sees them, too.
+  void legs_changed(const Vertex<2>& v) noexcept;
+
   /// Called by what makes a record an input point, or no longer.
   void touch(Vertex<2>& v) noexcept { log_.touch(v); }
 
@@ -111,19 +151,43 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   static constexpr std::uint8_t kCell = Observers::kCell;
   static constexpr std::uint8_t kNearest = Observers::kNearest;
   static constexpr std::uint8_t kStar = Observers::kStar;
+  static constexpr std::uint8_t kBirthOnSegment = 4;
 
   struct BirthEdge : sac::ProducerEdge {
     VertexHandle vertex;
   };
+  struct BirthOnSegmentEdge : BirthEdge {
+    Role role;
+  };
+  static bool is_birth(const sac::Edge& edge) noexcept {
+    return edge.kind == kBirth || edge.kind == kBirthOnSegment;
+  }
 
   [[nodiscard]] bool born_before(const Vertex<2>& u, const sac::Call& call) const noexcept {
     return u.boundary || presences_.seen_by(u.presence, call);
   }
+  [[nodiscard]] Vertex<2>& record_at(sac::Scope& s, const Point<2>& p);
+  const BirthOnSegmentEdge* recall_on_segment(sac::Scope& s, const Point<2>& p, const Role& role);
+  void produce_on_segment(sac::Scope& s, Vertex<2>& v, const Role& role);
   void produce(sac::Scope& s, Vertex<2>& v);
+  void produced(sac::Scope& s, Vertex<2>& v, BirthEdge& edge, const Role& role) noexcept;
+  [[nodiscard]] Role role_from(const sac::Call& producer, const Vertex<2>& v) const noexcept;
+  void run_again(sac::Handle call, const sac::Window& window, const sac::Edge* seen) noexcept;
+  void take_role(Vertex<2>& v, const Role& role, const sac::Call& producer) noexcept;
   void appeared(const Vertex<2>& v, const sac::Window& window) noexcept;
   void vanished(const Vertex<2>& v, const sac::Window& window) noexcept;
   void retract_birth(BirthEdge& birth) noexcept;
 
+  // The cells of v, and those that v bounds.
+  template <class Visit>
+  void for_each_cell_with(const Vertex<2>& v, Visit&& visit) noexcept {
+    observers_.for_each_reaching(v.p, box_.side, [&](const Vertex<2>& center, Observation& o) {
+      if (o.kind != kCell) return;
+      const auto seen = observers_.seen(o);
+      const bool bounds = std::find(seen.begin(), seen.end(), v.self) != seen.end();
+      if (bounds || center.self == v.self) visit(o);
+    });
+  }
   template <class Seen>
   CellLoan look(const Vertex<2>& v, double radius, const Observation* last, Seen&& seen);
   void take_codes(const VoronoiCell& cell);

@@ -19,6 +19,7 @@
 #include "index/cell_pool.hpp"
 #include "index/quadtree.hpp"
 #include "index/vertex.hpp"
+#include "segments/roles.hpp"
 
 namespace mesher::detail {
 
@@ -37,6 +38,29 @@ class VertexSearch {
   [[nodiscard]] float packed(double x) const noexcept;
   [[nodiscard]] double unpacked(float x) const noexcept { return double{x} * box_.side; }
 
+  /// The place on a segment that v stands for, if it does.
+  [[nodiscard]] Role role(const Vertex<2>& v) const noexcept {
+    return v.on_segment ? roles_[v.self] : Role();
+  }
+  [[nodiscard]] const Roles& roles() const noexcept { return roles_; }
+
+  /// Calls visit(vertex) for the records of vertices in the ball with diameter ab, and for others
+  /// nearby; visit must not throw.
+  template <class Visit>
+  void for_each_in_ball(const Point<2>& a, const Point<2>& b, Visit&& visit) const noexcept {
+    const Point<2> middle{a[0] + (b[0] - a[0]) / 2, a[1] + (b[1] - a[1]) / 2};
+    const double r = std::hypot(b[0] - a[0], b[1] - a[1]) / 2 + tree_.margin();
+    const auto enters = [](const Point<2>&, double) { return true; };
+    Quadtree<2>::Looked looked;
+    tree_.visit_box(middle, {{-r, -r}, {r, r}}, looked, enters,
+                    [&](const auto& handles, const auto& places, std::uint32_t count) {
+                      for (std::uint32_t i = 0; i < count; ++i) {
+                        if (distance2(places[i], middle) > r * r * (1 + 0x1p-40)) continue;
+                        visit(pool_[handles[i]]);
+                      }
+                    });
+  }
+
   /// Clip radius at which no corner of a star is hidden: circumcentres lie in the box.
   [[nodiscard]] double whole() const noexcept { return 2 * box_.side; }
 
@@ -53,6 +77,7 @@ class VertexSearch {
   VertexRef<2> add_boundary(const Point<2>& p) {
     Vertex<2>& v = add(p);
     v.alive = v.boundary = v.committed = true;
+    v.committed_kind = VertexKind::boundary;
     return {&v};
   }
 
@@ -153,11 +178,18 @@ class VertexSearch {
     return x * x + y * y;
   }
 
+  // Requires: roles_.reserve(v.self), unless the role is none.
+  void set_role(Vertex<2>& v, const Role& role) noexcept {
+    v.on_segment = role.on != 0;
+    if (v.on_segment) roles_.set(v.self, role);
+  }
+
   [[noreturn]] static void fail_coincident(const Point<2>& p);
 
   const MeshBox<2>& box_;
   VertexPool<2> pool_;
   Quadtree<2> tree_;
+  Roles roles_;
 
  private:
   struct Met {

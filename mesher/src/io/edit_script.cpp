@@ -18,12 +18,17 @@ struct Form {
   Edit::Kind kind;
   std::size_t fields;
   std::string_view usage;
+  bool open = false;  // there may be more fields
 };
 
 constexpr Form kForms[] = {
     {"+point", Edit::Kind::insert, 4, "+point ID x y"},
     {"-point", Edit::Kind::remove, 2, "-point ID"},
     {"move", Edit::Kind::move, 4, "move ID x y"},
+    {"+segment", Edit::Kind::insert_segment, 4, "+segment ID A B"},
+    {"-segment", Edit::Kind::remove_segment, 2, "-segment ID"},
+    {"+polyline", Edit::Kind::insert_polyline, 4, "+polyline ID P P...", true},
+    {"-polyline", Edit::Kind::remove_polyline, 2, "-polyline ID"},
 };
 
 const Form& form_of(const text::Line& line) {
@@ -32,20 +37,56 @@ const Form& form_of(const text::Line& line) {
   }
   throw line.error(ErrorCode::bad_edit,
                    "no edit is called " + text::quoted(line[0]) +
-                       "; there are +point, -point, move, begin and commit",
+                       "; there are +point, -point, move, +segment, -segment, +polyline, "
+                       "-polyline, begin and commit",
                    0);
+}
+
+bool takes_place(Edit::Kind kind) { return kind == Edit::Kind::insert || kind == Edit::Kind::move; }
+
+bool is_of_line(const Edit& edit) {
+  return edit.kind != Edit::Kind::remove && !takes_place(edit.kind);
+}
+bool inserts(const Edit& edit) {
+  return edit.kind == Edit::Kind::insert || edit.kind == Edit::Kind::insert_segment ||
+         edit.kind == Edit::Kind::insert_polyline;
+}
+
+// When edits of a batch are announced, by rank: 0 of lines that go, 1 of points that are there, 2
+// of points that come, 3 of lines that come.
+std::vector<int> ranks(const std::vector<Edit>& edits) {
+  std::map<FeatureId, bool> points;  // whether they come: by the first edit of each
+  std::map<FeatureId, bool> lines;   // whether they have come so far
+  std::vector<int> all;
+  for (const Edit& edit : edits) {
+    if (is_of_line(edit)) {
+      bool& came = lines[edit.id];
+      came = came || inserts(edit);
+      all.push_back(came ? 3 : 0);
+    } else {
+      all.push_back(points.emplace(edit.id, inserts(edit)).first->second ? 2 : 1);
+    }
+  }
+  return all;
 }
 
 Edit parse(const text::Line& line) {
   const Form& form = form_of(line);
-  if (line.size() != form.fields) {
+  if (form.open ? line.size() < form.fields : line.size() != form.fields) {
     throw line.error(
         ErrorCode::bad_edit,
         std::to_string(line.size()) + " fields, expected '" + std::string(form.usage) + "'",
         std::min(line.size(), form.fields));
   }
-  Edit edit{form.kind, FeatureId{line.integer(1)}, {}, std::string(line.trimmed()), line.place(0)};
-  if (form.fields == 4) edit.point = {line.coordinate(2), line.coordinate(3)};
+  Edit edit{form.kind, FeatureId{line.integer(1)},  {},
+            {},        std::string(line.trimmed()), line.place(0)};
+  if (takes_place(form.kind)) {
+    edit.point = {line.coordinate(2), line.coordinate(3)};
+  } else {
+    for (std::size_t i = 2; i < line.size(); ++i) {
+      edit.points.push_back(FeatureId{line.integer(i)});
+    }
+  }
   return edit;
 }
 
@@ -109,16 +150,26 @@ std::vector<Edit> EditScript::read_block() {
 }
 
 std::vector<Edit> announcing_order(std::vector<Edit> edits) {
-  std::map<FeatureId, bool> comes;  // by the first edit of a point
-  for (const Edit& edit : edits) comes.emplace(edit.id, edit.kind == Edit::Kind::insert);
-  std::stable_partition(edits.begin(), edits.end(),
-                        [&](const Edit& edit) { return !comes.at(edit.id); });
-  return edits;
+  const std::vector<int> rank = ranks(edits);
+  std::vector<Edit> ordered;
+  ordered.reserve(edits.size());
+  for (int r = 0; r < 4; ++r) {
+    for (std::size_t i = 0; i < edits.size(); ++i) {
+      if (rank[i] == r) ordered.push_back(std::move(edits[i]));
+    }
+  }
+  return ordered;
 }
 
+// A line may have the id of a point: where the error is one of lines, theirs are meant.
 Place place_to_blame(const std::vector<Edit>& edits, const Error& error) {
+  const bool of_lines = error.code() == ErrorCode::crossing_segments ||
+                        error.code() == ErrorCode::overlapping_segments ||
+                        error.code() == ErrorCode::repeated_segment;
   for (const FeatureId id : error.ids()) {
-    const auto is_of = [&](const Edit& edit) { return edit.id == id; };
+    const auto is_of = [&](const Edit& edit) {
+      return edit.id == id && (!of_lines || is_of_line(edit));
+    };
     const auto last = std::find_if(edits.rbegin(), edits.rend(), is_of);
     if (last != edits.rend()) return last->place;
   }

@@ -31,7 +31,8 @@ std::vector<Simplex> sorted_by_corner(const std::vector<std::array<VertexHandle,
 }  // namespace
 
 Mesh<2> canonical(const VertexPool<2>& pool, std::vector<VertexHandle> vertices,
-                  const std::vector<std::array<VertexHandle, 3>>& triangles) {
+                  const std::vector<std::array<VertexHandle, 3>>& triangles,
+                  const std::vector<LineEdge>& edges) {
   struct Placed {
     Point<2> p;
     VertexHandle handle;
@@ -52,6 +53,12 @@ Mesh<2> canonical(const VertexPool<2>& pool, std::vector<VertexHandle> vertices,
     mesh.kinds.push_back(pool[v.handle].kind());
   }
   mesh.simplices = sorted_by_corner(triangles, index, placed.size());
+  mesh.edges.reserve(edges.size());
+  for (const LineEdge& e : edges) {
+    const auto [low, high] = std::minmax(index[e.from], index[e.to]);
+    mesh.edges.push_back({low, high, e.line});
+  }
+  std::sort(mesh.edges.begin(), mesh.edges.end());
   return mesh;
 }
 

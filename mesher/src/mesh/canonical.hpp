@@ -11,9 +11,16 @@
 
 namespace mesher::detail {
 
-/// `vertices` in any order; `triangles` by handles, counterclockwise. Cost: O(m log m).
+/// An edge on a line of the input, by handles.
+struct LineEdge {
+  VertexHandle from, to;
+  FeatureId line;
+};
+
+/// `vertices` and `edges` in any order; `triangles` by handles, counterclockwise. Cost: O(m log m).
 [[nodiscard]] Mesh<2> canonical(const VertexPool<2>& pool, std::vector<VertexHandle> vertices,
-                                const std::vector<std::array<VertexHandle, 3>>& triangles);
+                                const std::vector<std::array<VertexHandle, 3>>& triangles,
+                                const std::vector<LineEdge>& edges = {});
 
 /// Rotates a triangle so that the smallest corner comes first.
 template <class T>

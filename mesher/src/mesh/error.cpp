@@ -19,6 +19,18 @@ CodeRow row(ErrorCode code) noexcept {
       return {"outside_domain", ExitCode::geometry};
     case ErrorCode::too_close:
       return {"too_close", ExitCode::geometry};
+    case ErrorCode::crossing_segments:
+      return {"crossing_segments", ExitCode::geometry};
+    case ErrorCode::point_on_segment:
+      return {"point_on_segment", ExitCode::geometry};
+    case ErrorCode::overlapping_segments:
+      return {"overlapping_segments", ExitCode::geometry};
+    case ErrorCode::zero_length:
+      return {"zero_length", ExitCode::geometry};
+    case ErrorCode::repeated_segment:
+      return {"repeated_segment", ExitCode::geometry};
+    case ErrorCode::point_in_use:
+      return {"point_in_use", ExitCode::geometry};
     case ErrorCode::bad_quality:
       return {"bad_quality", ExitCode::geometry};
     case ErrorCode::not_finite:

@@ -1,11 +1,12 @@
-// ChooseSteiners [Fig 4.7, 4.10]: the Steiner points, bucket by bucket.
+// ChooseSteiners [Fig 4.7, 4.10, 5.6]: the Steiner points, bucket by bucket.
 //
-// The work queue is an agenda keyed (length bucket, ComputeNN before Complete, colour, place). What
-// a vertex is found to need, and where the new vertices go, is the InsertionRule's.
+// The work queue is an agenda keyed (length bucket, ComputeNN before Complete before Cut, colour,
+// place). What a vertex is found to need, and where the new vertices go, is the InsertionRule's.
 #pragma once
 
 #include <algorithm>
 
+#include "program/staying.hpp"
 #include "program/world.hpp"
 
 namespace mesher::detail {
@@ -42,20 +43,32 @@ void ComputeNN::operator()(S& s, VertexRef<2> v, int b) const {
   w.post_complete(s, v, std::max(b, w.buckets().bucket(nearest2)));
 }
 
-// else if w is a Complete event on v: while there is a gap ball b = B(x, r) to fill: add x to the
-// vertices; add Complete(x), with key |xv|
+// else if w is a Complete event on v: if v encroaches leaves, cut them [5.2b]. While there is a gap
+// ball b = B(x, r) to fill: if x is in the balls of leaves, cut them instead [5.2c]; else add x to
+// the vertices; add Complete(x), with key |xv|
 template <class S>
 void Complete::operator()(S& s, VertexRef<2> v, int b) const {
   auto& w = s.template environment<World<S>>();
   const CellLoan gaps = w.vertices.voronoi_cell(s, v, w.buckets().clip_radius(b));
-  while (const auto point = w.rule->next_point(*gaps, b)) {
+  Staying stays(w);
+  bool cuts = v->on_segment && w.post_cuts(s, w.leaves.around(s, v), b);
+  while (const auto point = w.rule->next_point(*gaps, b, stays.filter())) {
+    if (w.leaves.any() && w.post_cuts(s, w.leaves.around(s, point->p), b)) {
+      stays.leave(*gaps, point->from, point->to);
+      cuts = true;
+      continue;
+    }
     const VertexRef<2> x = w.vertices.insert(s, point->p);
     if (!point->farther || !gaps->cuts(x->p)) w.fail_useless(*v, *x);
+    w.require_room(s);
     gaps->cut(x->self);
     w.post_complete(s, x, std::max(b + 1, w.buckets().bucket(point->nearest2)));
     w.post_star(s, x);
   }
-  if (const auto later = w.rule->next_bucket(*gaps, b)) w.post_complete(s, v, *later);
+  if (cuts) return w.post_complete(s, v, b + 1);
+  if (const auto later = w.rule->next_bucket(*gaps, b, stays.filter())) {
+    w.post_complete(s, v, *later);
+  }
 }
 
 }  // namespace mesher::detail

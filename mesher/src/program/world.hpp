@@ -1,7 +1,7 @@
 // What the mesher's calls share: the box, the rule, the features, the vertices, the work queues.
 //
 // The program (S is sac::Scope, or sac::PlainScope for a static run):
-//   refine = BuildQT; ChooseSteiners; Triangulate
+//   refine = SplitSegments; BuildQT; ChooseSteiners; Triangulate
 // Each part drains its agenda; a part posts on its own agenda and on those of later parts.
 #pragma once
 
@@ -14,66 +14,18 @@
 #include <vector>
 
 #include "geometry/grid.hpp"
-#include "index/feature_tree.hpp"
+#include "index/features.hpp"
 #include "index/subdivision.hpp"
 #include "index/vertex_index.hpp"
 #include "mesher/mesher.hpp"
 #include "rules/insertion_rule.hpp"
 #include "sac/sac.hpp"
+#include "segments/exempt.hpp"
+#include "segments/input_segments.hpp"
+#include "segments/leaves.hpp"
+#include "segments/planarity.hpp"
 
 namespace mesher::detail {
-
-/// The input points: for each, the deepest level at which it is crowded.
-template <class S>
-class Features;
-
-template <>
-class Features<sac::PlainScope> {
- public:
-  Features(const MeshBox<2>& box, const VertexPool<2>& pool, sac::PlainScope&) : tree_(box, pool) {}
-
-  [[nodiscard]] FeatureTree<2>& tree() noexcept { return tree_; }
-  int level(sac::PlainScope&, const Vertex<2>& v) { return v.level; }
-
- private:
-  FeatureTree<2> tree_;
-};
-
-/// As a traceable data type: a level has one observer, the call that locates the point. Edits come
-/// from the outside, before all calls, so an observation is only invalidated by a changed level.
-template <>
-class Features<sac::Scope> : public sac::Structure {
- public:
-  Features(const MeshBox<2>& box, VertexPool<2>& pool, sac::Engine& engine)
-      : engine_(engine), pool_(pool), tree_(box, pool), id_(engine.add_structure(*this)) {}
-
-  [[nodiscard]] FeatureTree<2>& tree() noexcept { return tree_; }
-  [[nodiscard]] const FeatureTree<2>& tree() const noexcept { return tree_; }
-
-  /// The deepest level at which v is crowded, -1 if at none; observed by the running call.
-  int level(sac::Scope& s, Vertex<2>& v);
-
-  /// An outside edit, with its inverse noted for a roll-back.
-  void insert(Vertex<2>& v);
-  void erase(Vertex<2>& v);
-
-  void retract(sac::Call& call, sac::Edge& edge) noexcept override;
-  void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
-  void print(const sac::Call& call, const sac::Edge& edge, std::ostream& out) const override;
-
- private:
-  struct LevelEdge : sac::Edge {
-    VertexHandle vertex;
-  };
-  void put(Vertex<2>& v);
-  void take(Vertex<2>& v);
-  void changed(Vertex<2>& v);
-
-  sac::Engine& engine_;
-  VertexPool<2>& pool_;
-  FeatureTree<2> tree_;
-  std::uint8_t id_;
-};
 
 /// The triangles of a static run, as they are output, and who watches it.
 struct PlainOutput {
@@ -97,9 +49,15 @@ struct World {
   VertexIndex<S> vertices;
   Subdivision<S> subdivision;
   Features<S> features;
+  InputSegments<S> segments;
+  Leaves<S> leaves;
+  Agenda& splits;
   Agenda& quadtree;
   Agenda& steiner;
   Agenda& stars;
+  std::size_t most_vertices;
+  std::size_t most_records;  // while an update is under way, of vertices that come and that go
+  const Names* names = nullptr;  // for messages; null: features have none
   std::conditional_t<S::kTraced, TracedOutput, PlainOutput> plain;
   std::array<std::chrono::steady_clock::time_point, 4> marks{};
 
@@ -110,18 +68,38 @@ struct World {
         vertices(make_vertices(box, host)),
         subdivision(vertices.tree(), host),
         features(box, vertices.pool(), host),
+        segments(box, vertices, features, host),
+        leaves(vertices, segments.pool(), host),
+        splits(host.make_agenda("segments")),
         quadtree(host.make_agenda("quadtree")),
         steiner(host.make_agenda("steiner")),
-        stars(host.make_agenda("stars")) {
+        stars(host.make_agenda("stars")),
+        most_vertices(options.max_vertices != 0 ? options.max_vertices : ~std::size_t{0}),
+        most_records(most_vertices) {
     host.set_environment(this);
     add_boundary();
   }
 
   [[nodiscard]] const Buckets<2>& buckets() const noexcept { return rule->buckets(); }
+  void post_split(S& s, const PieceRef& piece);
   void post_nearest(S& s, VertexRef<2> v, int leaf_level);
+  void post_nearest_in(S& s, VertexRef<2> v, int b);
   void post_complete(S& s, VertexRef<2> v, int b);
+  /// Whether there are any.
+  bool post_cuts(S& s, const std::vector<LeafRef>& leaves, int b);
   void post_star(S& s, VertexRef<2> v);
   void output(S& s, VertexRef<2> v, const VoronoiCell& star);
+  /// Whether a poor triangle on the left of p -> q, its shortest edge, stays.
+  [[nodiscard]] bool is_exempt(const Vertex<2>& p, const Vertex<2>& q) const {
+    return detail::is_exempt(vertices, segments.store(), p, q);
+  }
+  /// Throws: Error(too_close), with the ids of the piece's segment and of what crowds it.
+  /// Throws: Error(too_many) if there are more vertices than there may be.
+  void require_room(S& s) const {
+    if (vertices.pool().size() > most_records) fail_too_many(s);
+  }
+  void fail_too_many(S& s) const;
+  [[noreturn]] void fail_too_short(const PieceRef& piece);
   [[noreturn]] void fail_useless(const Vertex<2>& v, const Vertex<2>& x) const;
 
  private:
@@ -146,6 +124,7 @@ struct Refine {
     auto& w = s.template environment<World<S>>();
     const auto now = [] { return std::chrono::steady_clock::now(); };
     w.marks[0] = now();
+    w.splits.drain(s);
     w.quadtree.drain(s);
     w.marks[1] = now();
     w.steiner.drain(s);

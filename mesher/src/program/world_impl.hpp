@@ -3,9 +3,12 @@
 
 #include "program/build_qt.hpp"
 #include "program/choose_steiners.hpp"
+#include "program/cut.hpp"
 #include "input.hpp"
+#include "program/split_segments.hpp"
 #include "program/triangulate.hpp"
 #include "program/world.hpp"
+#include "segments/vertex_budget.hpp"
 
 namespace mesher::detail {
 
@@ -23,12 +26,22 @@ void World<S>::add_boundary() {
   });
 }
 
+template <class S>
+void World<S>::post_split(S& s, const PieceRef& piece) {
+  if constexpr (!S::kTraced) plain.tick();
+  splits.template post<split_segment>(s, split_segment_key(box, piece), piece);
+}
+
 // add a ComputeNN(p) event, with key |c| / 2; c is the cell of `leaf_level` around p
 template <class S>
 void World<S>::post_nearest(S& s, VertexRef<2> v, int leaf_level) {
-  if constexpr (!S::kTraced) plain.tick();
   const double half = box.cell_side(leaf_level) / 2;
-  const int b = buckets().bucket(half * half);
+  post_nearest_in(s, v, buckets().bucket(half * half));
+}
+
+template <class S>
+void World<S>::post_nearest_in(S& s, VertexRef<2> v, int b) {
+  if constexpr (!S::kTraced) plain.tick();
   steiner.template post<compute_nn>(s, nearest_key(box.fixed(v->p), b), v, b);
 }
 
@@ -36,6 +49,14 @@ template <class S>
 void World<S>::post_complete(S& s, VertexRef<2> v, int b) {
   if constexpr (!S::kTraced) plain.tick();
   steiner.template post<complete>(s, complete_key(*this, box.fixed(v->p), b), v, b);
+}
+
+template <class S>
+bool World<S>::post_cuts(S& s, const std::vector<LeafRef>& found, int b) {
+  for (const LeafRef leaf : found) {
+    steiner.template post<cut>(s, cut_key(box.fixed(leaf->middle()), b), leaf, b);
+  }
+  return !found.empty();
 }
 
 template <class S>
@@ -54,6 +75,21 @@ void World<S>::output(S&, VertexRef<2> v, const VoronoiCell& cell) {
   } else {
     (void)v, (void)cell;
   }
+}
+
+template <class S>
+void World<S>::fail_too_short(const PieceRef& piece) {
+  throw too_close_to_segment(piece, segments.witness(piece), names, vertices.pool(),
+                             segments.pool());
+}
+
+// Edits that are undone have had room.
+template <class S>
+void World<S>::fail_too_many(S& s) const {
+  if constexpr (S::kTraced) {
+    if (s.engine().undoing()) return;
+  }
+  throw too_many_vertices(vertices, names, most_vertices);
 }
 
 template <class S>

@@ -16,6 +16,15 @@
 
 namespace mesher::detail {
 
+/// Which poor triangles a rule leaves as they are, named by their edges: p -> q of the cell's
+/// neighbours (kCentre: v itself), the triangle on its left.
+class EdgeFilter {
+ public:
+  static constexpr int kCentre = -1;
+  virtual ~EdgeFilter() = default;
+  [[nodiscard]] virtual bool skips(const VoronoiCell& cell, int p, int q) const = 0;
+};
+
 class InsertionRule {
  public:
   InsertionRule(const Options<2>& options, const MeshBox<2>& box, const Promise& promise);
@@ -25,12 +34,15 @@ class InsertionRule {
     Point<2> p;
     double nearest2;  // squared distance to the vertices of the gap ball around it
     bool farther;     // clearly more than the length that asked for it, in spite of rounding
+    int from = 0;     // the poor triangle's edge, as EdgeFilter names it
+    int to = 0;
   };
-  /// A point to insert now, in bucket b; none if v is complete up to b.
-  [[nodiscard]] virtual std::optional<NewPoint> next_point(const VoronoiCell& cell,
-                                                           int b) const = 0;
+  /// A point to insert now, in bucket b; none if v is complete up to b. `filter`: null skips none.
+  [[nodiscard]] virtual std::optional<NewPoint> next_point(const VoronoiCell& cell, int b,
+                                                           const EdgeFilter* filter) const = 0;
   /// The bucket in which v must be looked at again, later than b; none if v's star is good.
-  [[nodiscard]] virtual std::optional<int> next_bucket(const VoronoiCell& cell, int b) const = 0;
+  [[nodiscard]] virtual std::optional<int> next_bucket(const VoronoiCell& cell, int b,
+                                                       const EdgeFilter* filter) const = 0;
 
   [[nodiscard]] const Buckets<2>& buckets() const noexcept { return buckets_; }
   [[nodiscard]] const Promise& promise() const noexcept { return promise_; }

@@ -37,6 +37,7 @@ RadiusEdge::RadiusEdge(const Options<2>& options, const MeshBox<2>& box)
 // edge beside a hidden corner.
 template <class Visit>
 void RadiusEdge::for_each_poor(const VoronoiCell& cell, Visit&& visit) const {
+  constexpr int kCentre = EdgeFilter::kCentre;
   const Point<2>& v = cell.center().p;
   for (int i = 0; i < cell.size(); ++i) {
     const int j = cell.next(i);
@@ -45,16 +46,18 @@ void RadiusEdge::for_each_poor(const VoronoiCell& cell, Visit&& visit) const {
     const double to_j = squared(cell.neighbour(j));
     if (!cell.real(i) || !cell.real(j)) {
       if (!is_centre(cell, i)) continue;
-      visit(cell.real(i) ? Poor{to_i, v, cell.place(i), std::nullopt}
-                         : Poor{to_j, cell.place(j), v, std::nullopt});
+      visit(cell.real(i) ? Poor{to_i, v, cell.place(i), std::nullopt, kCentre, i}
+                         : Poor{to_j, cell.place(j), v, std::nullopt, j, kCentre});
       continue;
     }
     const double across = squared_distance(cell.place(i), cell.place(j));
     const double shortest = std::min({to_i, to_j, across});
     if (!exceeds(cell.corner2(i), shortest)) continue;
-    Poor poor{shortest, v, cell.place(i), plus(v, cell.corner(i))};
-    if (shortest != to_i) poor.p = cell.place(j), poor.q = v;
-    if (shortest != to_i && shortest != to_j) poor.p = cell.place(i), poor.q = cell.place(j);
+    Poor poor{shortest, v, cell.place(i), plus(v, cell.corner(i)), kCentre, i};
+    if (shortest != to_i) poor.p = cell.place(j), poor.q = v, poor.from = j, poor.to = kCentre;
+    if (shortest != to_i && shortest != to_j) {
+      poor.p = cell.place(i), poor.q = cell.place(j), poor.from = i, poor.to = j;
+    }
     visit(poor);
   }
 }
@@ -74,32 +77,43 @@ Point<2> RadiusEdge::place(const Poor& poor) const {
   return {middle[0] - height_ * dy, middle[1] + height_ * dx};
 }
 
-std::optional<InsertionRule::NewPoint> RadiusEdge::next_point(const VoronoiCell& cell,
-                                                              int b) const {
+std::optional<InsertionRule::NewPoint> RadiusEdge::next_point(const VoronoiCell& cell, int b,
+                                                              const EdgeFilter* filter) const {
   double shortest2 = std::numeric_limits<double>::infinity();
   Point<2> point{};
+  int from = 0;
+  int to = 0;
   for_each_poor(cell, [&](const Poor& poor) {
     if (buckets().bucket(poor.edge2) > b || poor.edge2 > shortest2) return;
     const Point<2> x = place(poor);
     // Shortest edge first; ties by the place of the new vertex.
     if (poor.edge2 == shortest2 && point < x) return;
+    if (filter != nullptr && filter->skips(cell, poor.from, poor.to)) return;
     shortest2 = poor.edge2;
     point = x;
+    from = poor.from, to = poor.to;
   });
   if (std::isinf(shortest2)) return std::nullopt;
-  return new_point(cell, point, shortest2);
+  NewPoint found = new_point(cell, point, shortest2);
+  found.from = from, found.to = to;
+  return found;
 }
 
 // A neighbour that the clip hides may be nearer than the visible ones beside it, but not nearer
-// than twice the clip (paper map (f)).
-std::optional<int> RadiusEdge::next_bucket(const VoronoiCell& cell, int b) const {
+// than twice the clip (paper map (f)). Behind an edge that is skipped there may be other triangles
+// of v, with edges of v beyond the clip.
+std::optional<int> RadiusEdge::next_bucket(const VoronoiCell& cell, int b,
+                                           const EdgeFilter* filter) const {
   const double hidden = 2 * buckets().clip_radius(b);
   std::optional<int> next;
   bool alone = true;
   for (int i = 0; i < cell.size(); ++i) alone = alone && !cell.real(i);
   if (alone) next = b + 1;
   for_each_poor(cell, [&](const Poor& poor) {
-    const int later = std::max(b + 1, buckets().bucket(std::min(poor.edge2, hidden * hidden)));
+    const bool skipped = filter != nullptr && filter->skips(cell, poor.from, poor.to);
+    if (skipped && poor.circumcentre.has_value()) return;
+    const double length2 = skipped ? hidden * hidden : std::min(poor.edge2, hidden * hidden);
+    const int later = std::max(b + 1, buckets().bucket(length2));
     if (!next.has_value() || later < *next) next = later;
   });
   if (next.has_value() && *next >= buckets().count()) return std::nullopt;

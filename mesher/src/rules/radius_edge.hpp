@@ -18,8 +18,10 @@ class RadiusEdge final : public InsertionRule {
   RadiusEdge(const Options<2>& options, const MeshBox<2>& box);
 
   [[nodiscard]] static Promise promise_for(double rho);
-  [[nodiscard]] std::optional<NewPoint> next_point(const VoronoiCell& cell, int b) const override;
-  [[nodiscard]] std::optional<int> next_bucket(const VoronoiCell& cell, int b) const override;
+  [[nodiscard]] std::optional<NewPoint> next_point(const VoronoiCell& cell, int b,
+                                                   const EdgeFilter* filter) const override;
+  [[nodiscard]] std::optional<int> next_bucket(const VoronoiCell& cell, int b,
+                                               const EdgeFilter* filter) const override;
 
  private:
   // An edge p -> q of a poor triangle on its left.
@@ -28,6 +30,8 @@ class RadiusEdge final : public InsertionRule {
     Point<2> p;
     Point<2> q;
     std::optional<Point<2>> circumcentre;
+    int from = EdgeFilter::kCentre;  // p and q as the filter names them
+    int to = EdgeFilter::kCentre;
   };
   template <class Visit>
   void for_each_poor(const VoronoiCell& cell, Visit&& visit) const;

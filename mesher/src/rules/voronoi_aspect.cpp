@@ -15,8 +15,8 @@ Promise VoronoiAspect::promise_for(double rho) {
 VoronoiAspect::VoronoiAspect(const Options<2>& options, const MeshBox<2>& box)
     : InsertionRule(options, box, promise_for(options.rho)) {}
 
-std::optional<InsertionRule::NewPoint> VoronoiAspect::next_point(const VoronoiCell& cell,
-                                                                 int) const {
+std::optional<InsertionRule::NewPoint> VoronoiAspect::next_point(const VoronoiCell& cell, int,
+                                                                 const EdgeFilter*) const {
   double nearest2 = std::numeric_limits<double>::infinity();
   for (int i = 0; i < cell.size(); ++i) {
     if (cell.real(i)) nearest2 = std::min(nearest2, squared(cell.neighbour(i)));

@@ -2,7 +2,8 @@
 // farthest.
 //
 // A corner between neighbours nearer to each other than NN(v) is measured by their distance: they
-// are incomplete by it, and may have had their event.
+// are incomplete by it, and may have had their event. It is a rule for points alone: it knows no
+// triangle that may stay poor.
 #pragma once
 
 #include "rules/insertion_rule.hpp"
@@ -14,9 +15,11 @@ class VoronoiAspect final : public InsertionRule {
   VoronoiAspect(const Options<2>& options, const MeshBox<2>& box);
 
   [[nodiscard]] static Promise promise_for(double rho);
-  [[nodiscard]] std::optional<NewPoint> next_point(const VoronoiCell& cell, int b) const override;
+  [[nodiscard]] std::optional<NewPoint> next_point(const VoronoiCell& cell, int b,
+                                                   const EdgeFilter* filter) const override;
   /// One event a vertex is enough.
-  [[nodiscard]] std::optional<int> next_bucket(const VoronoiCell&, int) const override {
+  [[nodiscard]] std::optional<int> next_bucket(const VoronoiCell&, int,
+                                               const EdgeFilter*) const override {
     return std::nullopt;
   }
 };

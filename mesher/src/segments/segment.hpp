@@ -5,10 +5,13 @@
 // A segment's record is found by its two ends, so calls about it are recognised again.
 #pragma once
 
+#include <bit>
+#include <cmath>
 #include <compare>
 #include <cstdint>
 #include <memory>
 #include <ostream>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -22,9 +25,19 @@ using SegmentHandle = std::uint32_t;  // 0: none
 struct Segment {
   VertexHandle a = 0;
   VertexHandle b = 0;
-  SegmentHandle self = 0;  // in a free record: the next free one
-  bool alive = false;      // part of the input that is being meshed
-  double length = 0;       // |ab|, rounded once
+  Point<2> place_a{}, place_b{};
+  double length = 0;               // |ab|, rounded once
+  SegmentHandle self = 0;          // in a free record: the next free one
+  bool alive = false;              // part of the input that is being meshed
+  bool changed = false;            // listed by next_changed
+  SegmentHandle next_changed = 0;  // in the list of what has come or gone since the last update
+  SegmentHandle next_at_a = 0, next_at_b = 0;  // others at its ends
+  std::uint32_t tile = 0;                      // the first of its tiles
+  sac::Handle place_observers = 0;  // edges of calls that observe how its pieces are split
+
+  /// The other end's, of one end.
+  [[nodiscard]] VertexHandle other(VertexHandle end) const noexcept { return end == a ? b : a; }
+  [[nodiscard]] bool has_end(VertexHandle v) const noexcept { return v == a || v == b; }
 };
 
 /// A place on a segment: `distance` from a, or from b.
@@ -68,10 +81,17 @@ class SegmentPool {
     return chunks_[h / kChunk][h % kChunk];
   }
   /// Throws: std::bad_alloc, and then changes nothing.
-  [[nodiscard]] Segment& create(VertexHandle a, VertexHandle b, double length) {
+  /// Requires: a.p < b.p.
+  [[nodiscard]] Segment& create(const Vertex<2>& a, const Vertex<2>& b) {
     const SegmentHandle h = free_ != 0 ? free_ : fresh();
     free_ = (*this)[h].self;
-    Segment& s = (*this)[h] = Segment{a, b, h, false, length};
+    const double x = b.p[0] - a.p[0], y = b.p[1] - a.p[1];
+    Segment& s = (*this)[h] = Segment{.a = a.self,
+                                      .b = b.self,
+                                      .place_a = a.p,
+                                      .place_b = b.p,
+                                      .length = std::sqrt(x * x + y * y),
+                                      .self = h};
     ++size_;
     return s;
   }
@@ -90,9 +110,12 @@ class SegmentPool {
     }
   }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return chunks_.size() * kChunk * sizeof(Segment);
+  }
 
  private:
-  static constexpr SegmentHandle kChunk = 1024;
+  static constexpr SegmentHandle kChunk = 256;
 
   SegmentHandle fresh() {
     if (next_ % kChunk == 0) chunks_.push_back(std::make_unique<Segment[]>(kChunk));
@@ -103,6 +126,61 @@ class SegmentPool {
   SegmentHandle free_ = 0;
   SegmentHandle next_ = 1;
   std::size_t size_ = 0;
+};
+
+/// Where a place on a segment is: measured from the nearer end; an end is where it is, bit for bit.
+[[nodiscard]] inline Point<2> place_of(const Segment& s, const Label& label) {
+  const double from_a = label.from(false, s.length);
+  const double from_b = label.from(true, s.length);
+  const bool near_a = from_a <= from_b;
+  const Point<2>& o = near_a ? s.place_a : s.place_b;
+  const Point<2>& e = near_a ? s.place_b : s.place_a;
+  const double t = (near_a ? from_a : from_b) / s.length;
+  return {o[0] + t * (e[0] - o[0]), o[1] + t * (e[1] - o[1])};
+}
+
+/// A piece as an argument of traced functions: equal by value, ordered by coordinates.
+struct PieceRef {
+  const Segment* segment = nullptr;
+  Piece piece;
+
+  [[nodiscard]] Point<2> lo() const { return place_of(*segment, piece.lo); }
+  [[nodiscard]] Point<2> hi() const { return place_of(*segment, piece.hi); }
+  /// Measured along the segment.
+  [[nodiscard]] double length() const noexcept {
+    return piece.hi.from(false, segment->length) - piece.lo.from(false, segment->length);
+  }
+
+  friend bool operator==(const PieceRef& a, const PieceRef& b) { return a.piece == b.piece; }
+  friend std::partial_ordering operator<=>(const PieceRef& x, const PieceRef& y) {
+    if (const auto c = x.segment->place_a <=> y.segment->place_a; c != 0) return c;
+    if (const auto c = x.segment->place_b <=> y.segment->place_b; c != 0) return c;
+    const auto rest = [](const Piece& p) {
+      return std::tuple(p.lo.distance, p.lo.from_b, p.hi.distance, p.hi.from_b, p.kind);
+    };
+    return rest(x.piece) <=> rest(y.piece);
+  }
+  friend std::uint64_t hash_value(const PieceRef& r) noexcept {
+    std::uint64_t h = sac::mix(r.piece.segment + (static_cast<std::uint64_t>(r.piece.kind) << 32));
+    for (const Label& l : {r.piece.lo, r.piece.hi}) {
+      h = sac::mix(h + std::bit_cast<std::uint64_t>(l.distance) + (l.from_b ? 1 : 0));
+    }
+    return h;
+  }
+  friend std::ostream& operator<<(std::ostream& out, const PieceRef& r) {
+    const Point<2> lo = r.lo(), hi = r.hi();
+    return out << '(' << lo[0] << ' ' << lo[1] << ")-(" << hi[0] << ' ' << hi[1] << ')';
+  }
+  friend void label_bytes(sac::LabelSink& sink, const PieceRef& r) {
+    for (const Point<2>& p : {r.segment->place_a, r.segment->place_b}) {
+      for (const double x : p) sink.number(std::bit_cast<std::uint64_t>(x));
+    }
+    for (const Label& l : {r.piece.lo, r.piece.hi}) {
+      sink.number(std::bit_cast<std::uint64_t>(l.distance));
+      sink.number(l.from_b ? 1 : 0);
+    }
+    sink.number(static_cast<std::uint64_t>(r.piece.kind));
+  }
 };
 
 }  // namespace mesher::detail

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -103,7 +104,13 @@ TEST_CASE("an edit carries its id, its point and its place") {
 
 TEST_CASE("a bad line is refused with its place and leaves the edits before it applied") {
   const Refused refused = GENERATE(values<Refused>({
-      {"+segment 1 2\n", "bad_edit@2:1"},
+      {"+segment 1 2\n", "bad_edit@2:13"},
+      {"+segment 1 2 3 4\n", "bad_edit@2:16"},
+      {"+segment 1 2 x\n", "bad_number@2:14"},
+      {"-segment 1 2\n", "bad_edit@2:12"},
+      {"+polyline 1 2\n", "bad_edit@2:14"},
+      {"-polyline\n", "bad_edit@2:10"},
+      {"+segment 1 2 3\n", "bad_edit@2:1"},  // the table has points only
       {"+Point 1 2 3\n", "bad_edit@2:1"},
       {"+point 2 3\n", "bad_edit@2:11"},
       {"+point 2 3 4 5\n", "bad_edit@2:14"},
@@ -141,6 +148,55 @@ TEST_CASE("an update that fails is said of the last edit of its batch") {
   CHECK(failure_of([&] { apply("begin\n+point 1 0 0\n +point 2 1 1\ncommit\n", table); }) ==
         "too_close@3:2");
   CHECK(table.points.empty());
+}
+
+TEST_CASE("lines are edited: points may go before their lines, and come after them, in a block") {
+  const ScratchFolder folder;
+  mesher::Mesher<2> m({.domain = {{0, 0}, {1, 1}}});
+  mesher::EditScript script(folder.write("edits.txt",
+                                         "begin\n"
+                                         "+segment 1 1 2\n"
+                                         "+polyline 2 2 3 4 2\n"
+                                         "+point 1 0.1 0.1\n"
+                                         "+point 2 0.4 0.1\n"
+                                         "+point 3 0.9 0.1\n"
+                                         "+point 4 0.6 0.8\n"
+                                         "commit\n"
+                                         "begin\n"
+                                         "-point 1\n"
+                                         "-segment 1\n"
+                                         "commit\n"
+                                         "-polyline 2\n"));
+  std::vector<std::size_t> lines;
+  mesher::apply(script, m, [&](const mesher::Update<2>& u) {
+    std::set<FeatureId> ids;
+    const auto mesh = m.mesh();
+    for (const auto& e : mesh.edges) ids.insert(e.line);
+    lines.push_back(ids.size());
+    CHECK(u.change.edges_removed.empty() == (lines.size() == 1));
+  });
+  CHECK(lines == std::vector<std::size_t>{2, 1, 0});
+}
+
+TEST_CASE("a line that cannot come is said of its own edit, not of that of a point of its id") {
+  const ScratchFolder folder;
+  mesher::Mesher<2> m({.domain = {{0, 0}, {1, 1}}});
+  mesher::EditScript script(folder.write("edits.txt",
+                                         "begin\n"
+                                         "+point 1 0.1 0.1\n"
+                                         "+point 2 0.9 0.9\n"
+                                         "+point 3 0.1 0.9\n"
+                                         "+point 4 0.9 0.1\n"
+                                         "+segment 1 1 2\n"
+                                         "commit\n"
+                                         "begin\n"
+                                         "+segment 2 3 4\n"
+                                         "+point 5 0.5 0.1\n"
+                                         "move 2 0.9 0.8\n"
+                                         "commit\n"));
+  CHECK(failure_of([&] { mesher::apply(script, m, [](const mesher::Update<2>&) {}); }) ==
+        "crossing_segments@9:1");
+  CHECK(m.mesh().edges.size() > 0);
 }
 
 TEST_CASE("a block may take a place before it frees it") {

@@ -17,6 +17,7 @@ using mesher::Point;
 using mesher::Rule;
 using mesher::SplitMix64;
 using mesher::detail::insertion_rule;
+using mesher::detail::EdgeFilter;
 using mesher::detail::InsertionRule;
 using mesher::detail::kReads;
 using mesher::detail::MeshBox;
@@ -57,8 +58,9 @@ class Watched final : public InsertionRule {
         farthest_(farthest),
         step_(box.side / box.boundary_steps) {}
 
-  std::optional<NewPoint> next_point(const VoronoiCell& cell, int b) const override {
-    const auto point = rule_->next_point(cell, b);
+  std::optional<NewPoint> next_point(const VoronoiCell& cell, int b,
+                                     const EdgeFilter* filter) const override {
+    const auto point = rule_->next_point(cell, b, filter);
     const double clip = buckets().clip_radius(b);
     farthest_.read = std::max(farthest_.read, 2 * std::sqrt(cell.reach2()) / clip);
     if (point.has_value()) {
@@ -68,8 +70,9 @@ class Watched final : public InsertionRule {
     }
     return point;
   }
-  std::optional<int> next_bucket(const VoronoiCell& cell, int b) const override {
-    return rule_->next_bucket(cell, b);
+  std::optional<int> next_bucket(const VoronoiCell& cell, int b,
+                                 const EdgeFilter* filter) const override {
+    return rule_->next_bucket(cell, b, filter);
   }
 
  private:
@@ -97,7 +100,6 @@ Farthest farthest(const std::vector<Point<2>>& points, const Options<2>& o) {
   for (const auto& p : points) features.insert_only(world.vertices.add_input(p, true));
   world.vertices.pool().for_each([&](mesher::detail::Vertex<2>& v) {
     if (!v.input) return;
-    v.level = static_cast<std::int16_t>(features.crowded_level(v));
     world.quadtree.post_from_outside<mesher::detail::locate>(
         mesher::detail::locate_key(box.fixed(v.p)), VertexRef<2>{&v});
   });
@@ -148,7 +150,7 @@ TEST_CASE("a new point's nearest vertex is rho lengths away, and what the rule s
     const int b = rule->buckets().bucket(nearest2);
     const auto cell = search.cut_around(*all[0], rule->buckets().clip_radius(b),
                                    [](VertexHandle) { return true; });
-    const auto point = rule->next_point(*cell, b);
+    const auto point = rule->next_point(*cell, b, nullptr);
     if (!point.has_value()) continue;
     ++found;
     double shortest = 16, to_nearest = 16;
@@ -213,7 +215,7 @@ TEST_CASE("an off-centre may be nearly two circumradii of the clip away, and no 
       search.tree().insert(search.pool().create(p));
     }
     const auto cell = search.cut_around(search.pool()[1], clip, [](VertexHandle) { return true; });
-    const auto point = rule->next_point(*cell, b);
+    const auto point = rule->next_point(*cell, b, nullptr);
     REQUIRE(point.has_value());
     CHECK(distance(point->p, v) > 2.1 * clip);
     CHECK(distance(point->p, v) <= rule->promise().inserts * clip);
@@ -271,7 +273,7 @@ TEST_CASE("an off-centre has the same bits whichever corner of its triangle asks
       const auto cell =
           search.cut_around(*all[static_cast<std::size_t>(corner)], rule->buckets().clip_radius(b),
                             [](VertexHandle) { return true; });
-      const auto point = rule->next_point(*cell, b);
+      const auto point = rule->next_point(*cell, b, nullptr);
       REQUIRE(point.has_value());
       asked.push_back(point->p);
     }

@@ -1,0 +1,51 @@
+// The edits of lines announced since the last update: for each, the points it went along and those
+// it shall.
+//
+// Only the difference is kept, as for points.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "mesher/mesh.hpp"
+
+namespace mesher::detail {
+
+using LinePoints = std::vector<FeatureId>;  // empty: the line is not there
+
+class AnnouncedLines {
+ public:
+  struct Edit {
+    FeatureId id{};
+    LinePoints was, to;
+  };
+
+  /// The edit of `id`; null if it stays as it was. Valid until the next change.
+  [[nodiscard]] const Edit* find(FeatureId id) const {
+    const auto it = edits_.find(id);
+    return it == edits_.end() ? nullptr : &it->second;
+  }
+  /// `id`, which the last update left as `was`, shall be `to`. Throws: bad_alloc, and then changes
+  /// nothing.
+  void set(FeatureId id, const LinePoints& was, LinePoints to) {
+    if (was == to) {
+      edits_.erase(id);
+      return;
+    }
+    edits_.insert_or_assign(id, Edit{id, was, std::move(to)});
+  }
+  /// All edits, by id.
+  [[nodiscard]] std::vector<Edit> sorted() const {
+    std::vector<Edit> all;
+    all.reserve(edits_.size());
+    for (const auto& [id, edit] : edits_) all.push_back(edit);
+    return all;
+  }
+  void clear() noexcept { edits_.clear(); }
+
+ private:
+  std::map<FeatureId, Edit> edits_;
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,150 @@
+// Edits of lines: segments between points that are there, that go, or that come.
+#include <algorithm>
+
+#include "facade/state.hpp"
+#include "input.hpp"
+#include "program/world_impl.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+std::string text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
+
+template <class Visit>
+void for_each_part(const LinePoints& points, Visit&& visit) {
+  for (std::size_t i = 1; i < points.size(); ++i) visit(points[i - 1], points[i]);
+}
+
+[[noreturn]] void fail_in_use(FeatureId point, FeatureId line) {
+  throw Error(ErrorCode::point_in_use,
+              "point " + text(point) + " cannot go: it is an end of segment " + text(line), {},
+              {point, line});
+}
+
+}  // namespace
+
+const LinePoints& State::line(FeatureId id) const {
+  static const LinePoints none;
+  const auto it = line_points_.find(id);
+  return it == line_points_.end() ? none : it->second;
+}
+
+FeatureId State::point(VertexHandle v) const {
+  const auto it = new_names_.find(v);
+  return it == new_names_.end() ? names_[v] : it->second;
+}
+
+FeatureId State::line(SegmentHandle s) const {
+  const auto it = new_lines_.find(s);
+  return it == new_lines_.end() ? lines_[s] : it->second;
+}
+
+// --- Single segments -------------------------------------------------------------------------
+
+// The point with this id when all points have come and gone; 0 if there is none.
+VertexHandle State::end_of(FeatureId id, const Ids& arrived) const {
+  if (const auto it = arrived.find(id); it != arrived.end()) return it->second;
+  const auto it = ids_.find(id);
+  if (it == ids_.end()) return 0;
+  return pool()[it->second].input && point(it->second) == id ? it->second : 0;
+}
+
+void State::add_part(const Part& part, const Ids& arrived) {
+  const auto end = [&](FeatureId id) {
+    const VertexHandle v = end_of(id, arrived);
+    return v != 0 ? v : fail_no_end(id, part.line);
+  };
+  const VertexHandle a = end(part.from);
+  const VertexHandle b = end(part.to);
+  if (const Segment* same = segments().store().find(a, b)) {
+    fail_repeated(part.line, line(same->self), *same);
+  }
+  const PieceRef all = segments().insert(a, b);
+  new_lines_[all.piece.segment] = part.line;
+  new_segments_.push_back(all.piece.segment);
+  world_->splits.post_from_outside<split_segment>(split_segment_key(box_, all), all);
+}
+
+void State::take_part(VertexHandle from, VertexHandle to) {
+  const PieceRef all = segments().erase(from, to);
+  taken_.insert(all.piece.segment);
+  world_->splits.retract_from_outside<split_segment>(all);
+}
+
+// --- All of an update ------------------------------------------------------------------------
+
+// Lines that go, and what stays of the others but has an end that moves. Returns what is to come:
+// all of new lines, and the latter again.
+std::vector<State::Part> State::take_lines(const Edits& edits) {
+  std::vector<Part> parts;
+  for (const auto& edit : edits.lines) {
+    for_each_part(edit.was, [&](FeatureId a, FeatureId b) { take_part(ids_.at(a), ids_.at(b)); });
+    for_each_part(edit.to, [&](FeatureId a, FeatureId b) { parts.push_back({edit.id, a, b}); });
+  }
+  for (const auto& edit : edits.points) {
+    if (!edit.was || !edit.to) continue;
+    const VertexHandle v = ids_.at(edit.id);
+    std::vector<Part> moved;
+    segments().store().visit_at(v, [&](const Segment& s) {
+      moved.push_back({lines_[s.self], names_[s.a], names_[s.b]});
+    });
+    for (const Part& part : moved) take_part(ids_.at(part.from), ids_.at(part.to));
+    parts.insert(parts.end(), moved.begin(), moved.end());
+  }
+  return parts;
+}
+
+// Requires: take_lines.
+void State::require_unused(const std::vector<Announced::Edit>& edits) const {
+  for (const auto& edit : edits) {
+    if (!edit.was || edit.to) continue;
+    std::optional<FeatureId> user;
+    segments().store().visit_at(ids_.at(edit.id), [&](const Segment& s) {
+      if (!user || lines_[s.self] < *user) user = lines_[s.self];
+    });
+    if (user) fail_in_use(edit.id, *user);
+  }
+}
+
+// What has come fits to what is there.
+void State::require_planar(const Ids& arrived) {
+  for (const SegmentHandle h : new_segments_) {
+    const auto conflict = conflict_of(segments().pool()[h], segments().store(), features());
+    if (conflict) fail(*conflict, *this);
+  }
+  std::vector<std::pair<FeatureId, VertexHandle>> points(arrived.begin(), arrived.end());
+  std::sort(points.begin(), points.end());
+  for (const auto& [id, h] : points) {
+    if (const auto conflict = conflict_of(pool()[h], segments().store())) fail(*conflict, *this);
+  }
+}
+
+// --- Names -----------------------------------------------------------------------------------
+
+// So that rename_lines() cannot fail.
+void State::make_room_for_lines(const std::vector<AnnouncedLines::Edit>& edits, Lines& lines) {
+  for (const auto& edit : edits) {
+    if (!edit.to.empty()) lines.emplace(edit.id, edit.to);
+  }
+  line_points_.reserve(line_points_.size() + lines.size());
+  SegmentHandle last = 0;
+  for (const SegmentHandle h : new_segments_) last = std::max(last, h);
+  if (last >= lines_.capacity()) lines_.reserve(2 * std::size_t{last} + 16);
+  if (last >= lines_.size()) lines_.resize(std::size_t{last} + 1);
+}
+
+void State::rename_lines(const std::vector<AnnouncedLines::Edit>& edits, Lines& lines) noexcept {
+  for (const auto& edit : edits) line_points_.erase(edit.id);
+  line_points_.merge(lines);
+  for (const auto& [h, id] : new_lines_) lines_[h] = id;
+}
+
+void State::forget_news() noexcept {
+  new_names_.clear();
+  new_lines_.clear();
+  new_segments_.clear();
+  taken_.clear();
+}
+
+}  // namespace mesher::detail

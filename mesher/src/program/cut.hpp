@@ -1,0 +1,40 @@
+// Cut [Fig 5.2, 6.2]: a leaf that is in the way is split where the shells say.
+//
+// All who need a leaf cut in bucket b post the same call, which runs at the bucket's end: so calls
+// of one bucket do not meet through segments.
+#pragma once
+
+#include "program/split_segments.hpp"
+#include "program/world.hpp"
+
+namespace mesher::detail {
+
+struct Cut {
+  static constexpr std::string_view kName = "cut";
+  template <class S>
+  void operator()(S& s, LeafRef leaf, int b) const;
+};
+inline constexpr Cut cut{};
+
+/// When cut(leaf, b) runs: after the bucket's ComputeNN and Complete.
+[[nodiscard]] inline sac::Key cut_key(const Fixed<2>& middle, int b) {
+  return {.bucket = b, .phase = 2, .order = morton<2>(middle)};
+}
+
+// split the leaf at y; add ComputeNN(y), in the next bucket
+template <class S>
+void Cut::operator()(S& s, LeafRef leaf, int b) const {
+  auto& w = s.template environment<World<S>>();
+  const PieceRef piece = w.segments.ref(leaf->piece);
+  if (piece.length() < w.box.side * kShortestPiece) w.fail_too_short(piece);
+  const Halves halves = w.segments.halves(s, piece);
+  w.leaves.end(s, leaf);
+  const VertexRef<2> y = w.vertices.insert(s, halves.place, halves.role);
+  w.require_room(s);
+  w.leaves.begin(s, halves.lower.piece);
+  w.leaves.begin(s, halves.upper.piece);
+  w.post_nearest_in(s, y, b + 1);
+  w.post_star(s, y);
+}
+
+}  // namespace mesher::detail

@@ -1,0 +1,51 @@
+// SplitSegments [Fig 5.5, 6.4; rules A2]: segments are split before anything is refined, until no
+// feature crowds a piece.
+//
+// Departure: what crowds a piece is a function of the input alone (segments/crowding.hpp), so a
+// call on a piece depends on no other, and its order is only that a piece comes before its halves.
+// A piece that is not crowded is a leaf: an edge of the mesh, until it is cut.
+#pragma once
+
+#include "program/build_qt.hpp"
+#include "program/world.hpp"
+
+namespace mesher::detail {
+
+/// A crowded piece is not split if it is shorter than this times the box's side: its ends are still
+/// some finest cells apart.
+inline constexpr double kShortestPiece = 0x1p-44;
+
+struct SplitSegment {
+  static constexpr std::string_view kName = "split_segment";
+  template <class S>
+  void operator()(S& s, PieceRef piece) const;
+};
+inline constexpr SplitSegment split_segment{};
+
+/// When split_segment(piece) runs: longest first. A half is at most two thirds of a piece, and thus
+/// in a later bucket: there are two an octave, [1/2, sqrt(1/2)) and [sqrt(1/2), 1) times a power
+/// of 2.
+[[nodiscard]] inline sac::Key split_segment_key(const MeshBox<2>& box, const PieceRef& piece) {
+  constexpr double kRootHalf = 0.70710678118654752;
+  int exponent = 0;
+  const bool upper = std::frexp(piece.length(), &exponent) >= kRootHalf;
+  return {.bucket = -(2 * exponent + (upper ? 1 : 0)), .order = morton<2>(box.fixed(piece.lo()))};
+}
+
+// if sigma is crowded: split it where the shells say, enqueue both halves, and the new vertex for
+// BuildQT; else it is a leaf
+template <class S>
+void SplitSegment::operator()(S& s, PieceRef piece) const {
+  auto& w = s.template environment<World<S>>();
+  if (!w.segments.crowded(s, piece)) return w.leaves.begin(s, piece.piece);
+  if (piece.length() < w.box.side * kShortestPiece) w.fail_too_short(piece);
+  const Halves halves = w.segments.halves(s, piece);
+  const VertexRef<2> y = w.vertices.insert_early(s, halves.place, halves.role);
+  w.require_room(s);
+  w.features.insert(s, y);
+  w.quadtree.template post<locate>(s, locate_key(w.box.fixed(y->p)), y);
+  w.post_split(s, halves.lower);
+  w.post_split(s, halves.upper);
+}
+
+}  // namespace mesher::detail

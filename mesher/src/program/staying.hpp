@@ -1,0 +1,46 @@
+// Which poor triangles Complete leaves alone: exempt ones [rules A5.2], and in this call those that
+// have yielded to leaves.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "program/world.hpp"
+#include "segments/exempt.hpp"
+
+namespace mesher::detail {
+
+template <class S>
+class Staying final : public EdgeFilter {
+ public:
+  explicit Staying(const World<S>& world) : world_(world) {}
+
+  /// This, for a rule; null where nothing can stay.
+  [[nodiscard]] const EdgeFilter* filter() const noexcept {
+    return world_.leaves.any() ? this : nullptr;
+  }
+  /// The triangles on both sides of this edge stay for now.
+  void leave(const VoronoiCell& cell, int p, int q) { left_.push_back(edge(cell, p, q)); }
+
+  [[nodiscard]] bool skips(const VoronoiCell& cell, int p, int q) const override {
+    if (std::find(left_.begin(), left_.end(), edge(cell, p, q)) != left_.end()) return true;
+    return world_.is_exempt(vertex(cell, p), vertex(cell, q));
+  }
+
+ private:
+  using Edge = std::array<VertexHandle, 2>;
+
+  [[nodiscard]] const Vertex<2>& vertex(const VoronoiCell& cell, int i) const {
+    return i == kCentre ? cell.center() : world_.vertices.pool()[cell.handle(i)];
+  }
+  [[nodiscard]] Edge edge(const VoronoiCell& cell, int p, int q) const {
+    const auto [first, last] = std::minmax({vertex(cell, p).self, vertex(cell, q).self});
+    return {first, last};
+  }
+
+  const World<S>& world_;
+  std::vector<Edge> left_;
+};
+
+}  // namespace mesher::detail

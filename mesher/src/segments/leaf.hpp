@@ -1,0 +1,133 @@
+// Leaves: pieces of segments that are edges of the mesh for some time, until they are cut.
+//
+// A leaf's record is found by its piece, so calls about it are recognised again. Its ball is the
+// closed one that has it as diameter; the ends are not in it.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <ostream>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "geometry/diametral_ball.hpp"
+#include "sac/sac.hpp"
+#include "segments/reach_tree.hpp"
+#include "segments/segment.hpp"
+
+namespace mesher::detail {
+
+using LeafHandle = std::uint32_t;  // 0: none
+
+struct Leaf {
+  Piece piece;
+  Point<2> lo{}, hi{};  // its ends
+  LeafHandle self = 0;  // in a free record: the next free one
+  LeafHandle next_changed = 0;
+  sac::Presence begun, ended;  // the calls that make it a leaf, and those that cut it
+  bool changed = false;        // listed by next_changed
+  bool committed = false;      // a leaf at the end of the last update
+
+  [[nodiscard]] Point<2> middle() const noexcept {
+    return {lo[0] + (hi[0] - lo[0]) / 2, lo[1] + (hi[1] - lo[1]) / 2};
+  }
+  [[nodiscard]] bool has_in_ball(const Point<2>& x) const {
+    return x != lo && x != hi && in_diametral_ball(x, lo, hi);
+  }
+};
+
+/// An argument of traced functions: equal by identity, ordered by coordinates; two pieces between
+/// the same places, of which an update may know both, by how the places are labelled.
+struct LeafRef {
+  Leaf* leaf = nullptr;
+
+  Leaf& operator*() const noexcept { return *leaf; }
+  Leaf* operator->() const noexcept { return leaf; }
+  friend bool operator==(const LeafRef&, const LeafRef&) = default;
+  friend std::partial_ordering operator<=>(const LeafRef& a, const LeafRef& b) {
+    const auto by_lo = a.leaf->lo <=> b.leaf->lo;
+    if (by_lo != 0) return by_lo;
+    const auto by_hi = a.leaf->hi <=> b.leaf->hi;
+    if (by_hi != 0) return by_hi;
+    const auto labels = [](const Piece& p) {
+      return std::tuple(p.lo.distance, p.lo.from_b, p.hi.distance, p.hi.from_b, p.kind);
+    };
+    return labels(a.leaf->piece) <=> labels(b.leaf->piece);
+  }
+  friend std::uint64_t hash_value(const LeafRef& r) noexcept { return r.leaf->self; }
+  friend std::ostream& operator<<(std::ostream& out, const LeafRef& r) {
+    const auto& [lo, hi] = std::pair(r.leaf->lo, r.leaf->hi);
+    return out << '(' << lo[0] << ' ' << lo[1] << " - " << hi[0] << ' ' << hi[1] << ')';
+  }
+  friend void label_bytes(sac::LabelSink& sink, const LeafRef& r) {
+    for (const Point<2>& p : {r.leaf->lo, r.leaf->hi}) {
+      for (const double x : p) sink.number(std::bit_cast<std::uint64_t>(x));
+    }
+    for (const Label& l : {r.leaf->piece.lo, r.leaf->piece.hi}) {
+      sink.number(std::bit_cast<std::uint64_t>(l.distance));
+      sink.number(l.from_b ? 1 : 0);
+    }
+    sink.number(static_cast<std::uint64_t>(r.leaf->piece.kind));
+  }
+};
+
+/// The records, found by piece and by what their balls hold.
+class LeafRecords {
+ public:
+  LeafRecords(const MeshBox<2>& box, const SegmentPool& segments)
+      : segments_(segments), tree_(box) {}
+
+  [[nodiscard]] Leaf& operator[](LeafHandle h) const noexcept {
+    return (*chunks_[h / kChunk])[h % kChunk];
+  }
+  /// The record of a piece, made if there is none. Throws: std::bad_alloc, and then changes
+  /// nothing.
+  Leaf& record(const Piece& piece);
+  /// Requires: nobody refers to the record any more.
+  void release(Leaf& leaf) noexcept;
+  /// The record is found by its piece alone from now on.
+  void hide(const Leaf& leaf) noexcept { tree_.erase(leaf.middle(), leaf.self); }
+
+  /// Calls visit(leaf) for the records with x in their ball, in no particular order.
+  template <class Visit>
+  void for_each_with(const Point<2>& x, Visit&& visit) const {
+    tree_.visit_at(x, [&](LeafHandle h) {
+      if ((*this)[h].has_in_ball(x)) visit((*this)[h]);
+    });
+  }
+  /// Calls visit(leaf) for every record in use, in the order of handles.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (LeafHandle h = 1; h < next_; ++h) {
+      if ((*this)[h].self == h) visit((*this)[h]);
+    }
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return by_piece_.size(); }
+  [[nodiscard]] std::size_t bytes() const noexcept;
+  /// Throws InvariantError if a record is not found by its piece, or lost.
+  void check_invariants() const;
+
+ private:
+  static constexpr LeafHandle kChunk = 1024;
+  using Chunk = std::array<Leaf, kChunk>;
+  struct PieceHash {
+    std::size_t operator()(const Piece& p) const noexcept;
+  };
+
+  Leaf& create(const Piece& piece);
+  LeafHandle fresh();
+
+  const SegmentPool& segments_;
+  std::vector<std::unique_ptr<Chunk>> chunks_;
+  std::unordered_map<Piece, LeafHandle, PieceHash> by_piece_;
+  ReachTree<LeafHandle> tree_;
+  LeafHandle free_ = 0;
+  LeafHandle next_ = 1;
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,140 @@
+// Exact tests of pairs, and what is said of them.
+#include "segments/planarity.hpp"
+
+#include <string>
+#include <tuple>
+
+#include "geometry/segment_tests.hpp"
+#include "input.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+bool on_one_line(const Segment& s, const Segment& t) {
+  return predicates::orient2d(s.place_a, s.place_b, t.place_a) == 0 &&
+         predicates::orient2d(s.place_a, s.place_b, t.place_b) == 0;
+}
+
+// Of segments on one line: whether they have more than a point in common.
+bool overlap(const Segment& s, const Segment& t) {
+  return std::max(s.place_a, t.place_a) < std::min(s.place_b, t.place_b);
+}
+
+std::string text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
+
+}  // namespace
+
+namespace planarity {
+
+std::optional<Conflict> conflict_with(const Segment& s, const Segment& t) {
+  if (!segments_meet(s.place_a, s.place_b, t.place_a, t.place_b)) return std::nullopt;
+  if (on_one_line(s, t)) {
+    if (!overlap(s, t)) return std::nullopt;
+    return Conflict{Conflict::Kind::overlap, &s, &t, nullptr};
+  }
+  if (s.has_end(t.a) || s.has_end(t.b)) return std::nullopt;
+  return Conflict{Conflict::Kind::crossing, &s, &t, nullptr};
+}
+
+std::optional<Conflict> conflict_with(const Segment& s, const Vertex<2>& v) {
+  if (s.has_end(v.self) || !on_segment(v.p, s.place_a, s.place_b)) return std::nullopt;
+  return Conflict{Conflict::Kind::point_on_segment, &s, nullptr, &v};
+}
+
+void keep_first(std::optional<Conflict>& first, const std::optional<Conflict>& conflict) {
+  if (!conflict.has_value()) return;
+  const auto key = [](const Conflict& c) {
+    const Segment& other = c.other != nullptr ? *c.other : *c.segment;
+    const Point<2>& p = c.point != nullptr ? c.point->p : other.place_a;
+    return std::tuple(c.kind, p, other.place_a, other.place_b);
+  };
+  if (!first.has_value() || key(*conflict) < key(*first)) first = conflict;
+}
+
+}  // namespace planarity
+
+std::optional<Conflict> conflict_of(const Vertex<2>& v, SegmentStore& segments) {
+  std::optional<Conflict> first;
+  segments.visit_near(v.p, v.p, 0, [&](const Segment& s) {
+    planarity::keep_first(first, planarity::conflict_with(s, v));
+    return false;
+  });
+  return first;
+}
+
+Point<2> crossing(const Segment& s, const Segment& t) {
+  const double ux = s.place_b[0] - s.place_a[0], uy = s.place_b[1] - s.place_a[1];
+  const double wx = t.place_b[0] - t.place_a[0], wy = t.place_b[1] - t.place_a[1];
+  const double dx = t.place_a[0] - s.place_a[0], dy = t.place_a[1] - s.place_a[1];
+  const double det = ux * wy - uy * wx;
+  const double at = det != 0 ? std::clamp((dx * wy - dy * wx) / det, 0.0, 1.0) : 0;
+  return {s.place_a[0] + at * ux, s.place_a[1] + at * uy};
+}
+
+void fail_repeated(FeatureId line, FeatureId other, const Segment& s) {
+  throw Error(ErrorCode::repeated_segment,
+              "segment " + text(line) + " is segment " + text(other) + " again, from " +
+                  place_text(s.place_a) + " to " + place_text(s.place_b),
+              {}, {line, other});
+}
+
+void fail_zero_length(FeatureId line, FeatureId point) {
+  throw Error(ErrorCode::zero_length,
+              "segment " + text(line) + " goes from point " + text(point) + " to itself", {},
+              {line, point});
+}
+
+VertexHandle fail_no_end(FeatureId point, FeatureId line) {
+  throw Error(ErrorCode::unknown_id,
+              "point " + text(point) + ", an end of segment " + text(line) + ", is not there", {},
+              {point, line});
+}
+
+Error too_close_to_segment(const PieceRef& piece, Witness witness, const Names* names,
+                           const VertexPool<2>& points, const SegmentPool& segments) {
+  std::vector<FeatureId> ids;
+  std::string segment = "a segment";
+  std::string other = "another";
+  if (names != nullptr) {
+    ids.push_back(names->line(piece.piece.segment));
+    segment = "segment " + text(ids[0]);
+  }
+  if (witness.point() != 0) {
+    if (names != nullptr) ids.push_back(names->point(witness.point()));
+    other = "point " + (names != nullptr ? text(ids.back()) + " " : std::string()) +
+            place_text(points[witness.point()].p);
+  } else if (names != nullptr && witness.segment() != 0) {
+    ids.push_back(names->line(segments[witness.segment()].self));
+    other = "segment " + text(ids.back());
+  }
+  return Error(ErrorCode::too_close,
+               segment + " is too close to " + other + " near " + place_text(piece.lo()) +
+                   " for double precision",
+               {}, std::move(ids));
+}
+
+void fail(const Conflict& c, const Names& names) {
+  const FeatureId line = names.line(c.segment->self);
+  if (c.kind == Conflict::Kind::point_on_segment) {
+    const FeatureId point = names.point(c.point->self);
+    throw Error(
+        ErrorCode::point_on_segment,
+        "point " + text(point) + " " + place_text(c.point->p) + " lies on segment " + text(line),
+        {}, {point, line});
+  }
+  const FeatureId other = names.line(c.other->self);
+  if (c.kind == Conflict::Kind::crossing) {
+    throw Error(ErrorCode::crossing_segments,
+                "segment " + text(line) + " crosses segment " + text(other) + " at " +
+                    place_text(crossing(*c.segment, *c.other)),
+                {}, {line, other});
+  }
+  throw Error(ErrorCode::overlapping_segments,
+              "segment " + text(line) + " overlaps segment " + text(other) + " from " +
+                  place_text(std::max(c.segment->place_a, c.other->place_a)) + " to " +
+                  place_text(std::min(c.segment->place_b, c.other->place_b)),
+              {}, {line, other});
+}
+
+}  // namespace mesher::detail

@@ -1,0 +1,185 @@
+// Records, lists at the ends, and tiles.
+#include "segments/segment_store.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace mesher::detail {
+
+// --- Records ---------------------------------------------------------------------------------
+
+const Segment* SegmentStore::find(VertexHandle a, VertexHandle b) const {
+  const auto it = by_ends_.find(key(a, b));
+  return it != by_ends_.end() && pool_[it->second].alive ? &pool_[it->second] : nullptr;
+}
+
+void SegmentStore::touch(Segment& s) noexcept {
+  if (s.changed) return;
+  s.changed = true;
+  s.next_changed = std::exchange(changed_, s.self);
+}
+
+Segment& SegmentStore::record(VertexHandle a, VertexHandle b) {
+  const auto [it, is_new] = by_ends_.try_emplace(key(a, b), 0);
+  if (is_new) {
+    try {
+      const bool in_order = points_[a].p < points_[b].p;
+      it->second = pool_.create(points_[in_order ? a : b], points_[in_order ? b : a]).self;
+    } catch (...) {
+      by_ends_.erase(it);
+      throw;
+    }
+  }
+  Segment& s = pool_[it->second];
+  touch(s);
+  return s;
+}
+
+// The lists at the ends are there, though empty, before anything is put into them.
+void SegmentStore::put(Segment& s) {
+  SAC_EXPECTS(!s.alive);
+  const TileHandle tile = new_tile(Tile{.segment = s.self});
+  try {
+    for (const VertexHandle end : {s.a, s.b}) at_.try_emplace(end, 0);
+    tree_.insert(middle(tiles_[tile]), reach(tiles_[tile]), tile);
+  } catch (...) {
+    for (const VertexHandle end : {s.a, s.b}) drop_if_empty(end);
+    free_tile(tile);
+    throw;
+  }
+  for (const VertexHandle end : {s.a, s.b}) {
+    link_at(s, end) = std::exchange(at_.find(end)->second, s.self);
+  }
+  touch(s);
+  s.tile = tile;
+  s.alive = true;
+  ++live_;
+}
+
+void SegmentStore::drop_if_empty(VertexHandle end) noexcept {
+  const auto it = at_.find(end);
+  if (it != at_.end() && it->second == 0) at_.erase(it);
+}
+
+void SegmentStore::leave(Segment& s, VertexHandle end) noexcept {
+  const auto it = at_.find(end);
+  SegmentHandle* link = &it->second;
+  while (*link != s.self) link = &link_at(pool_[*link], end);
+  *link = std::exchange(link_at(s, end), 0);
+  drop_if_empty(end);
+}
+
+void SegmentStore::take(Segment& s) noexcept {
+  leave(s, s.a);
+  leave(s, s.b);
+  for (TileHandle t = std::exchange(s.tile, 0); t != 0;) {
+    const TileHandle next = tiles_[t].next;
+    tree_.erase(middle(tiles_[t]), t);
+    free_tile(t);
+    t = next;
+  }
+  touch(s);
+  s.alive = false;
+  --live_;
+}
+
+void SegmentStore::commit() noexcept {
+  for (SegmentHandle h = std::exchange(changed_, 0); h != 0;) {
+    Segment& s = pool_[h];
+    h = std::exchange(s.next_changed, 0);
+    s.changed = false;
+    if (s.alive) continue;
+    by_ends_.erase(key(s.a, s.b));
+    pool_.release(s);
+  }
+}
+
+// --- Tiles -----------------------------------------------------------------------------------
+
+Point<2> SegmentStore::at(const Segment& s, double fraction) const noexcept {
+  const auto& [a, b] = std::pair(s.place_a, s.place_b);
+  return {a[0] + fraction * (b[0] - a[0]), a[1] + fraction * (b[1] - a[1])};
+}
+
+SegmentStore::TileHandle SegmentStore::new_tile(const Tile& tile) {
+  if (free_tiles_ == 0) {
+    tiles_.push_back(tile);
+    return static_cast<TileHandle>(tiles_.size() - 1);
+  }
+  const TileHandle t = free_tiles_;
+  free_tiles_ = tiles_[t].next;
+  tiles_[t] = tile;
+  return t;
+}
+
+void SegmentStore::free_tile(TileHandle t) noexcept {
+  tiles_[t] = Tile{.next = std::exchange(free_tiles_, t)};
+}
+
+// A search of pq that has met the tile's disc, but is far from the tile.
+bool SegmentStore::is_needless(const Tile& t, const Point<2>& p, const Point<2>& q,
+                               double slack) const noexcept {
+  const double long_side = std::max(std::abs(q[0] - p[0]), std::abs(q[1] - p[1]));
+  if (length(t) <= kLong * (long_side + 2 * slack) || length(t) < box_.side * 0x1p-40) return false;
+  const Segment& s = pool_[t.segment];
+  return distance2(at(s, t.lo), at(s, t.hi), p, q) > slack * slack;
+}
+
+// The lower half keeps the tile's handle.
+void SegmentStore::halve(TileHandle t) {
+  const Tile old = tiles_[t];
+  const double cut = old.lo + (old.hi - old.lo) / 2;
+  const Tile lower{old.segment, old.next, old.lo, cut};
+  const TileHandle u = new_tile(Tile{old.segment, old.next, cut, old.hi});
+  try {
+    tree_.insert(middle(tiles_[u]), reach(tiles_[u]), u);
+    try {
+      tree_.insert(middle(lower), reach(lower), t);
+    } catch (...) {
+      tree_.erase(middle(tiles_[u]), u);
+      throw;
+    }
+  } catch (...) {
+    free_tile(u);
+    throw;
+  }
+  tree_.erase(middle(old), t);
+  tiles_[t] = lower;
+  tiles_[t].next = u;
+}
+
+std::size_t SegmentStore::bytes() const noexcept {
+  return pool_.bytes() + tiles_.capacity() * sizeof(Tile) + tree_.bytes() +
+         (by_ends_.size() + at_.size()) * 4 * sizeof(void*) +
+         (by_ends_.bucket_count() + at_.bucket_count()) * sizeof(void*);
+}
+
+void SegmentStore::check_invariants() const {
+  tree_.check_invariants();
+  std::size_t records = 0, live = 0, tiles = 0, ends = 0;
+  pool_.for_each([&](const Segment& s) {
+    ++records;
+    SAC_INVARIANT(by_ends_.at(key(s.a, s.b)) == s.self && s.place_a < s.place_b);
+    SAC_INVARIANT(s.alive || s.changed);
+    if (!s.alive) return;
+    ++live;
+    SAC_INVARIANT(points_[s.a].p == s.place_a && points_[s.b].p == s.place_b);
+    double covered = 0;
+    for (TileHandle t = s.tile; t != 0; t = tiles_[t].next, ++tiles) {
+      SAC_INVARIANT(tiles_[t].segment == s.self);
+      covered += tiles_[t].hi - tiles_[t].lo;
+    }
+    SAC_INVARIANT(covered == 1);
+  });
+  for (const auto& [end, first] : at_) {
+    SAC_INVARIANT(first != 0);
+    visit_at(end, [&](const Segment& s) {
+      SAC_INVARIANT(s.alive && s.has_end(end));
+      ++ends;
+    });
+  }
+  SAC_INVARIANT(records == by_ends_.size() && live == live_ && ends == 2 * live);
+  SAC_INVARIANT(tiles == tree_.size());
+}
+
+}  // namespace mesher::detail

@@ -1,0 +1,44 @@
+// Counting vertices by line.
+#include "segments/vertex_budget.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mesher::detail {
+
+namespace {
+
+// The lines by the number of vertices on them, most first; of equal ones the smallest id first.
+std::vector<std::pair<std::size_t, FeatureId>> lines_by_vertices(const VertexSearch& vertices,
+                                                                 const Names& names) {
+  std::map<FeatureId, std::size_t> counts;
+  vertices.pool().for_each([&](const Vertex<2>& v) {
+    if (v.alive && v.on_segment) ++counts[names.line(vertices.role(v).on)];
+  });
+  std::vector<std::pair<std::size_t, FeatureId>> lines;
+  for (const auto& [id, count] : counts) lines.emplace_back(count, id);
+  std::stable_sort(lines.begin(), lines.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  return lines;
+}
+
+}  // namespace
+
+Error too_many_vertices(const VertexSearch& vertices, const Names* names, std::size_t most) {
+  std::string text = "more than " + std::to_string(most) + " vertices are needed";
+  std::vector<FeatureId> ids;
+  if (names != nullptr) {
+    for (const auto& [count, id] : lines_by_vertices(vertices, *names)) {
+      text += (ids.empty() ? "; on segment " : ", on segment ") +
+              std::to_string(static_cast<std::int64_t>(id)) + " " + std::to_string(count);
+      ids.push_back(id);
+      if (ids.size() == 2) break;
+    }
+  }
+  return Error(ErrorCode::too_many, text, {}, std::move(ids));
+}
+
+}  // namespace mesher::detail

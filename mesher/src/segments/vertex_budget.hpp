@@ -1,0 +1,14 @@
+// What is said when a mesh needs more vertices than it may have: where they are.
+#pragma once
+
+#include "index/vertex_search.hpp"
+#include "mesher/error.hpp"
+#include "segments/planarity.hpp"
+
+namespace mesher::detail {
+
+/// Names the two lines with the most vertices on them, if there are any. Cost: O(vertices).
+[[nodiscard]] Error too_many_vertices(const VertexSearch& vertices, const Names* names,
+                                      std::size_t most);
+
+}  // namespace mesher::detail

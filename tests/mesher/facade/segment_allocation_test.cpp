@@ -1,0 +1,103 @@
+// Out of memory at every allocation, one after the other, of edits of lines and their updates.
+#include <catch2/catch.hpp>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "failing_new.hpp"
+#include "mesher/mesher.hpp"
+
+namespace {
+
+using mesher::FeatureId;
+using mesher::Mesh;
+using mesher::Mesher;
+using mesher::Options;
+using mesher::Point;
+
+const Options<2> kOptions{.domain = {{0, 0}, {16, 16}}};
+
+FeatureId id(std::int64_t i) { return FeatureId{i}; }
+
+// A frame with a wall in it, and points beside the wall.
+struct Walled {
+  Mesher<2> m{kOptions};
+  Mesh<2> before;
+
+  Walled() {
+    m.insert({id(1), id(2), id(3), id(4), id(5), id(6), id(7), id(8)},
+             {{1, 1}, {15, 1}, {15, 15}, {1, 15}, {4, 8}, {12, 8.5}, {8, 8.01}, {8, 12}});
+    m.insert_polyline(id(1), {id(1), id(2), id(3), id(4), id(1)});
+    m.insert_segment(id(2), id(5), id(6));
+    m.update();
+    before = m.mesh();
+  }
+  // A point comes near the frame, one moves with its wall, a wall comes to the frame's corner, and
+  // the frame gets another id.
+  void announce() {
+    m.insert(id(9), {8, 1.0625});
+    m.move(id(6), {12, 9});
+    m.remove(id(7));
+    m.insert_segment(id(3), id(8), id(3));
+    m.remove_polyline(id(1));
+    m.insert_polyline(id(4), {id(1), id(2), id(3), id(4), id(1)});
+  }
+};
+
+// Whether run() throws when its `count`-th allocation fails; `burnt`: whether there were so many.
+template <class Run>
+bool fails(std::uint64_t count, bool& burnt, Run run) {
+  support::allocation_fuse.left = count;
+  bool failed = false;
+  try {
+    run();
+  } catch (const std::bad_alloc&) {
+    failed = true;
+  }
+  burnt = std::exchange(support::allocation_fuse.left, 0) == 0;
+  return failed;
+}
+
+}  // namespace
+
+TEST_CASE("an announced line that finds no memory changes nothing") {
+  Walled w;
+  bool burnt = true;
+  for (std::uint64_t count = 1; burnt; ++count) {
+    const auto insert = [&] { w.m.insert_polyline(id(3), {id(8), id(3)}); };
+    if (fails(count, burnt, insert)) {
+      CHECK_FALSE(w.m.contains_line(id(3)));
+      CHECK(w.m.update().calls.executed == 0);
+    }
+  }
+  w.m.discard_edits();
+  burnt = true;
+  for (std::uint64_t count = 1; burnt; ++count) {
+    if (fails(count, burnt, [&] { w.m.remove_segment(id(2)); })) CHECK(w.m.contains_line(id(2)));
+  }
+  CHECK_FALSE(w.m.contains_line(id(2)));
+}
+
+TEST_CASE("an update of lines in which any one allocation fails leaves the mesh, and works again") {
+  Walled whole;
+  whole.announce();
+  whole.m.update();
+  const Mesh<2> expected = whole.m.mesh();
+  bool burnt = true;
+  std::uint64_t count = 1;
+  for (; burnt; ++count) {
+    CAPTURE(count);
+    Walled w;
+    w.announce();
+    const bool failed = fails(count, burnt, [&] { w.m.update(); });
+    w.m.check_invariants();
+    if (failed) {
+      REQUIRE(w.m.mesh() == w.before);
+      w.announce();
+      w.m.update();
+      w.m.check_invariants();
+    }
+    REQUIRE(w.m.mesh() == expected);
+  }
+  CHECK(count > 100);
+}

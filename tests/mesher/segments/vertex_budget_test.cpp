@@ -1,0 +1,70 @@
+// Meshes that may have so many vertices and no more.
+#include <catch2/catch.hpp>
+#include <set>
+#include <vector>
+
+#include "mesher/mesher.hpp"
+
+namespace {
+
+using mesher::ErrorCode;
+using mesher::FeatureId;
+using mesher::Point;
+
+FeatureId id(int i) { return FeatureId{i}; }
+
+// What `run` throws of too many vertices: the ids that it names.
+template <class Run>
+std::vector<FeatureId> named_by(Run&& run) {
+  try {
+    run();
+  } catch (const mesher::Error& error) {
+    REQUIRE(error.code() == ErrorCode::too_many);
+    return error.ids();
+  }
+  FAIL("not refused");
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "A bundle that needs more vertices than there may be is refused by name, and the mesh stays") {
+  const mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}, .max_vertices = 3000};
+  mesher::Mesher<2> m(options);
+  m.insert({id(1), id(2), id(3), id(4)}, {{0.1, 0.5}, {0.9, 0.5}, {0.1, 0.50001}, {0.9, 0.50002}});
+  m.insert_segment(id(10), id(1), id(2));
+  m.update();
+  const auto before = m.mesh();
+  m.insert_segment(id(11), id(3), id(4));
+  const auto named = named_by([&] { m.update(); });
+  CHECK(std::set<FeatureId>(named.begin(), named.end()) == std::set{id(10), id(11)});
+  CHECK(m.mesh() == before);
+  m.check_invariants();
+  m.insert(id(5), {0.3, 0.3});
+  m.update();
+  CHECK(m.mesh().vertices.size() > before.vertices.size());
+  m.check_invariants();
+}
+
+TEST_CASE("A mesh may have just as many vertices as it needs, and not one less") {
+  const std::vector<Point<2>> points{{0.1, 0.5}, {0.9, 0.52}, {0.4, 0.5}, {0.7, 0.2}};
+  const std::vector<mesher::Segment> segments{{id(1), id(1), id(2)}, {id(2), id(3), id(4)}};
+  mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}};
+  const auto mesh = mesher::mesh_statically(points, segments, options);
+  const auto dynamic = [&] {
+    mesher::Mesher<2> m(options);
+    for (int i = 0; i < 4; ++i) m.insert(id(i + 1), points[static_cast<std::size_t>(i)]);
+    m.insert_segment(id(1), id(1), id(2));
+    m.update();
+    m.insert_segment(id(2), id(3), id(4));
+    m.update();
+    return m.mesh();
+  };
+  options.max_vertices = mesh.vertices.size();
+  CHECK(mesher::mesh_statically(points, segments, options) == mesh);
+  CHECK(dynamic() == mesh);
+  --options.max_vertices;
+  named_by([&] { (void)mesher::mesh_statically(points, segments, options); });
+  named_by([&] { (void)dynamic(); });
+}
