@@ -171,8 +171,9 @@ void SegmentStore::check_invariants() const {
     }
     SAC_INVARIANT(covered == 1);
   });
-  for (const auto& [end, first] : at_) {
-    SAC_INVARIANT(first != 0);
+  for (const auto& entry : at_) {
+    const VertexHandle end = entry.first;
+    SAC_INVARIANT(entry.second != 0);
     visit_at(end, [&](const Segment& s) {
       SAC_INVARIANT(s.alive && s.has_end(end));
       ++ends;
