@@ -88,9 +88,9 @@ TEST_CASE(
     "After every edit of points and segments the mesh is that of a run from scratch, conforms "
     "and keeps its bound") {
   for (const PslgEditor::Family family : kFamilies) {
-    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       INFO("family " << static_cast<int>(family) << " seed " << seed);
-      REQUIRE(follow(family, seed, 60) == "");
+      REQUIRE(follow(family, seed, 45) == "");
     }
   }
 }
