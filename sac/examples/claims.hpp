@@ -51,6 +51,7 @@ class Claims final : public sac::Structure {
   static constexpr std::uint8_t kClaim = 0;
 
   Claim& enter(sac::Scope& s, const Key& key);
+  void put_behind_repeated(const Claim& claim) noexcept;
   void require_before_children(const Claim& claim) const;
   void tell(const std::vector<Claim*>& claims) noexcept;
   [[nodiscard]] bool is_first(const Claim& claim) const;
@@ -66,6 +67,7 @@ bool Claims<Key, S>::claim(sac::Scope& s, const Key& key) {
   const auto same = [&](const Claim& c) { return c.entered && c.key->first == key; };
   Claim* claim = s.recall<Claim>(id_, kClaim, same);
   if (claim == nullptr) claim = &s.guarded([&]() -> Claim& { return enter(s, key); });
+  put_behind_repeated(*claim);
   s.guarded([&] { require_before_children(*claim); });
   claim->first = is_first(*claim);
   tell(claim->key->second);
@@ -97,6 +99,21 @@ auto Claims<Key, S>::enter(sac::Scope& s, const Key& key) -> Claim& {
     if (c->behind) engine_.rerun_if_around(call_of(*c), s.self());
   }
   return claim;
+}
+
+// Of several claims of one call, those of this execution come first, in its order: which of last
+// time's is found again is not.
+template <class Key, class S>
+void Claims<Key, S>::put_behind_repeated(const Claim& claim) noexcept {
+  auto& claims = claim.key->second;
+  const auto self = std::find(claims.begin(), claims.end(), &claim);
+  auto place = self;
+  while (place != claims.begin() && (*std::prev(place))->call == claim.call) --place;
+  const auto comes_before = [&](const Claim* c) {
+    return c->call == claim.call && (c == &claim || !sac::unrepeated(call_of(*c), *c));
+  };
+  while (place != claims.end() && comes_before(*place)) ++place;
+  place > self ? std::rotate(self, self + 1, place) : std::rotate(place, self, self + 1);
 }
 
 // What a call does is at the place of the call: before what its children do.
