@@ -75,6 +75,7 @@ void Core::enter(Mode mode) {
   if (room_ < live_calls_) make_room(live_calls_);
   mode_ = mode;
   stopped_ = false;
+  excused_ = 0;
   const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
   stack_end_ = here > stack_limit_ ? here - stack_limit_ : 0;
   note(mode == Mode::running ? Event::Kind::run_started : Event::Kind::propagation_started);
@@ -102,6 +103,7 @@ void Core::begin_undoing() noexcept {
   suspects_.clear();
   mode_ = Mode::undoing;
   stopped_ = false;
+  excused_ = 0;
   take_deferred(0);
   note_failure(Event::Kind::roll_back_started);
   progress_at_ = ~std::uint64_t{0};

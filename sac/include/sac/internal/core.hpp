@@ -406,6 +406,7 @@ class Core {
   Mode mode_ = Mode::idle;
   bool broken_ = false;
   bool stopped_ = false;  // the progress function has said so, or failed
+  std::uint8_t excused_ = 0;  // failures that may have come too early
   std::uint64_t progress_at_ = ~std::uint64_t{0};  // number of bodies run at the next report
   Counts counts_;
   std::uint64_t live_calls_ = 0;
