@@ -38,6 +38,13 @@ std::vector<double> apply_script(const EditArguments& args, Target& target, Figu
   return seconds;
 }
 
+// The edges on lines, for the writers.
+mesher::MeshFeatures features_of(const mesher::Mesh<2>& mesh) {
+  mesher::MeshFeatures features;
+  for (const auto& e : mesh.edges) features.edges.push_back({e.low, e.high, e.line});
+  return features;
+}
+
 template <class Target>
 void run_edit_on(Target target, const EditArguments& args, const mesher::PointFile<2>& input) {
   Outputs outputs;
@@ -48,7 +55,8 @@ void run_edit_on(Target target, const EditArguments& args, const mesher::PointFi
   const Run run = first_run(input, target, progress).run;
   if (figures.wanted()) figures << json_of(run).dump() << "\n";
   const std::vector<double> seconds = apply_script(args, target, figures, progress);
-  outputs.write(target.mesh());
+  const mesher::Mesh<2> mesh = target.mesh();
+  outputs.write(mesh, features_of(mesh));
   const auto targets = outputs.targets();
   progress.erase();
   figures.print();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cancel.hpp"
 #include "mesher/mesher.hpp"
@@ -33,6 +34,10 @@ class Progress {
   std::string task_;
 };
 
+/// Whether a mesher takes lines, or points only.
+template <class Target>
+concept TakesLines = requires(Target& t, mesher::FeatureId id) { t.remove_segment(id); };
+
 /// A mesher whose updates are watched; the rest of its interface as it is.
 template <class Target>
 class Watched {
@@ -42,6 +47,26 @@ class Watched {
   void insert(mesher::FeatureId id, const mesher::Point<2>& p) { target_.insert(id, p); }
   void remove(mesher::FeatureId id) { target_.remove(id); }
   void move(mesher::FeatureId id, const mesher::Point<2>& p) { target_.move(id, p); }
+  void insert_segment(mesher::FeatureId id, mesher::FeatureId from, mesher::FeatureId to)
+    requires TakesLines<Target>
+  {
+    target_.insert_segment(id, from, to);
+  }
+  void insert_polyline(mesher::FeatureId id, const std::vector<mesher::FeatureId>& points)
+    requires TakesLines<Target>
+  {
+    target_.insert_polyline(id, points);
+  }
+  void remove_segment(mesher::FeatureId id)
+    requires TakesLines<Target>
+  {
+    target_.remove_segment(id);
+  }
+  void remove_polyline(mesher::FeatureId id)
+    requires TakesLines<Target>
+  {
+    target_.remove_polyline(id);
+  }
   void discard_edits() { target_.discard_edits(); }
   mesher::Change<2> update() {
     const StopPolitely stop;

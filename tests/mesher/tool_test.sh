@@ -201,6 +201,19 @@ counts after--static.jsonl >static.counts
 same engine.counts static.counts
 : >nothing.txt
 expect 0 '' edit uniform.node --script nothing.txt -o after.node
+
+echo "== lines by scripts"
+printf '%s\n' '7 2' '1 0.1 0.1' '2 0.9 0.15' '3 0.5 0.9' '4 0.3 0.4' '5 0.7 0.3' '6 0.2 0.8' \
+  '7 0.8 0.8' >corners.node
+printf '%s\n' '+segment 1 1 3' '+polyline 2 3 2 1' '+segment 3 4 5' '-segment 3' >lines.txt
+expect 0 'updates' edit corners.node --script lines.txt -o lines.vtu -o lines.svg
+expect 0 'lines       ok      ' check lines.vtu --input corners.node --rho 1.4142
+has lines.vtu 'Name="line"'
+printf '%s\n' '+segment 1 1 3' '+segment 2 6 5' >crossing.txt
+refuse 1 'crossing.txt:2:1: error[crossing_segments]' edit corners.node --script crossing.txt \
+  -o out/x.vtu
+refuse 3 'lines.txt:1:1: error[bad_edit]: only points' edit corners.node --script lines.txt --static \
+  -o out/x.vtu
 same after.node uniform.mesh.node
 
 echo "== bad edits: FILE:LINE:COL: error[code], nothing written"
