@@ -234,8 +234,8 @@ class Engine {
   void doubt(Call& call, Handle source = 0) noexcept { core_.doubt(call, source); }
   /// `outer` did something behind children of its own (Edge::behind) that `inner`, which is new to
   /// it, should have seen or not: if it has settled and `inner` lies in its interval, it runs again,
-  /// so that this is refused or not as in a first run. Returns whether.
-  bool rerun_if_around(Call& outer, const Call& inner) noexcept { return core_.rerun_if_around(outer, inner); }
+  /// so that this is refused or not as in a first run.
+  void rerun_if_around(Call& outer, const Call& inner) noexcept { core_.rerun_if_around(outer, inner); }
   [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
     return core_.precedes(a, b);
   }

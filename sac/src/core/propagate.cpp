@@ -38,10 +38,9 @@ void Core::propagate_within(Handle call) {
 
 // The queue is used by the running call for what lies in its interval: what is before must not
 // stand in its way.
-bool Core::defer(Call& call) noexcept {
+void Core::defer(Call& call) noexcept {
   if (!call.invalid()) deferred_.push_back(arena_.handle_of(&call));
   call.validity = Validity::invalid;
-  return true;
 }
 
 // Puts into the queue what waits and lies in `call`'s interval; 0: everywhere.

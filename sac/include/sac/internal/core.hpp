@@ -169,9 +169,9 @@ class Core {
   }
   /// `outer` did something behind children of its own, which `inner` is told of, or should have been
   /// told of, as a first run would say: if it has settled and encloses `inner`, it runs again, and
-  /// says so. Returns whether.
-  bool rerun_if_around(Call& outer, const Call& inner) noexcept {
-    return !appending() && !outer.running() && encloses(outer, inner) && defer(outer);
+  /// says so.
+  void rerun_if_around(Call& outer, const Call& inner) noexcept {
+    if (!appending() && !outer.running() && encloses(outer, inner)) defer(outer);
   }
   [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
     return timeline_.precedes(a, b);
@@ -360,7 +360,7 @@ class Core {
   void run_from_queue(Handle call, Handle within);
   void run_from_queue(Call& call);
   [[nodiscard]] bool around_waits(Handle call, Handle within) const noexcept;
-  bool defer(Call& call) noexcept;
+  void defer(Call& call) noexcept;
   void take_deferred(Handle call) noexcept;
   [[nodiscard]] bool unchanged(Call& call);
   void settle_child(Handle child);
