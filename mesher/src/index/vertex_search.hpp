@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/plane.hpp"
 #include "geometry/voronoi_cell.hpp"
 #include "index/cell_pool.hpp"
 #include "index/quadtree.hpp"
@@ -55,7 +56,7 @@ class VertexSearch {
     tree_.visit_box(middle, {{-r, -r}, {r, r}}, looked, enters,
                     [&](const auto& handles, const auto& places, std::uint32_t count) {
                       for (std::uint32_t i = 0; i < count; ++i) {
-                        if (distance2(places[i], middle) > r * r * (1 + 0x1p-40)) continue;
+                        if (squared_distance(places[i], middle) > r * r * (1 + 0x1p-40)) continue;
                         visit(pool_[handles[i]]);
                       }
                     });
@@ -151,7 +152,7 @@ class VertexSearch {
     Nearest best{0, 4 * box_.side * box_.side};
     const auto enters = [&](const Point<2>&, double) { return ++visited_, true; };
     const auto look = [&](VertexHandle u, const Point<2>& p) {
-      const double d2 = distance2(p, v.p);
+      const double d2 = squared_distance(p, v.p);
       if (u == v.self || d2 > best.distance2 || !seen(u)) return;
       if (d2 == best.distance2 && best.handle != 0 && pool_[best.handle].p < p) return;
       best = {u, d2};
@@ -171,12 +172,6 @@ class VertexSearch {
 
   /// Cells and vertices that searches have looked at since this was asked last.
   [[nodiscard]] std::uint64_t take_visited() noexcept { return std::exchange(visited_, 0); }
-
-  static double distance2(const Point<2>& u, const Point<2>& v) {
-    const double x = u[0] - v[0];
-    const double y = u[1] - v[1];
-    return x * x + y * y;
-  }
 
   // Requires: roles_.reserve(v.self), unless the role is none.
   void set_role(Vertex<2>& v, const Role& role) noexcept {
@@ -230,7 +225,7 @@ class VertexSearch {
       if (met_.size() < count + Tree::kSlots) met_.resize(2 * met_.size() + Tree::kSlots);
       Met* const met = met_.data();
       for (std::size_t i = 0; i < Tree::kSlots; ++i) {
-        const double d2 = distance2(places[i], center);
+        const double d2 = squared_distance(places[i], center);
         met[count] = {d2, handles[i], places[i]};
         count += static_cast<std::size_t>((d2 <= reach2) & (handles[i] != v));
       }

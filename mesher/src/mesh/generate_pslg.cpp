@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "geometry/plane.hpp"
+#include "geometry/segment_tests.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/predicates.hpp"
 #include "mesh/on_circle.hpp"
@@ -11,23 +13,13 @@
 namespace mesher {
 namespace {
 
+using detail::distance2;
+using detail::segments_meet;
+using detail::squared_distance;
 using predicates::orient2d;
 
 constexpr double kApart = 0x1p-20;  // least distance of a point to what it is not on
 constexpr int kTriesPerThing = 50;  // before there is no room
-
-double squared(double x) { return x * x; }
-
-double squared_distance(const Point<2>& p, const Point<2>& a, const Point<2>& b) {
-  const double dx = b[0] - a[0], dy = b[1] - a[1];
-  const double along = ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / (squared(dx) + squared(dy));
-  const double t = std::clamp(along, 0.0, 1.0);
-  return squared(p[0] - a[0] - t * dx) + squared(p[1] - a[1] - t * dy);
-}
-
-double squared_distance(const Point<2>& p, const Point<2>& q) {
-  return squared(p[0] - q[0]) + squared(p[1] - q[1]);
-}
 
 // A number of a point; none for a point that is not there yet.
 using Number = std::size_t;
@@ -58,7 +50,7 @@ class Plane {
     const Point<2> lo{p[0] - kApart, p[1] - kApart}, hi{p[0] + kApart, p[1] + kApart};
     return !any_point(lo, hi, [&](Number i) { return is_near(p, points_[i]); }) &&
            !any_piece(lo, hi, [&](const Piece& s) {
-             return squared_distance(p, points_[s.a], points_[s.b]) < squared(kApart);
+             return distance2(p, points_[s.a], points_[s.b]) < kApart * kApart;
            });
   }
 
@@ -68,10 +60,10 @@ class Plane {
     const auto is_end = [&](Number i) { return i == p_number || i == q_number; };
     const auto [lo, hi] = box(p, q);
     return !any_point(lo, hi, [&](Number i) {
-      return !is_end(i) && squared_distance(points_[i], p, q) < squared(kApart);
+      return !is_end(i) && distance2(points_[i], p, q) < kApart * kApart;
     }) && !any_piece(lo, hi, [&](const Piece& s) {
       return is_end(s.a) || is_end(s.b) ? overlaps(s, p, p_number, q)
-                                        : crosses(points_[s.a], points_[s.b], p, q);
+                                        : segments_meet(points_[s.a], points_[s.b], p, q);
     });
   }
 
@@ -134,15 +126,7 @@ class Plane {
   }
 
   static bool is_near(const Point<2>& p, const Point<2>& q) {
-    return squared_distance(p, q) < squared(kApart);
-  }
-
-  // Whether the segments ab and pq, which share no end, have a point in common. Exact.
-  static bool crosses(const Point<2>& a, const Point<2>& b, const Point<2>& p, const Point<2>& q) {
-    const int at_p = orient2d(a, b, p), at_q = orient2d(a, b, q);
-    if (at_p == 0 && at_q == 0)
-      return std::max(std::min(a, b), std::min(p, q)) <= std::min(std::max(a, b), std::max(p, q));
-    return at_p * at_q <= 0 && orient2d(p, q, a) * orient2d(p, q, b) <= 0;
+    return squared_distance(p, q) < kApart * kApart;
   }
 
   // Whether s, which shares an end with pq, has more of it. The other end of s is tested as a

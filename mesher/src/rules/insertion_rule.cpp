@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mesher/error.hpp"
-#include "rules/plane.hpp"
+#include "geometry/plane.hpp"
 #include "rules/radius_edge.hpp"
 #include "rules/voronoi_aspect.hpp"
 

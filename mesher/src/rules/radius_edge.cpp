@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "rules/plane.hpp"
+#include "geometry/plane.hpp"
 
 namespace mesher::detail {
 

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "rules/plane.hpp"
+#include "geometry/plane.hpp"
 
 namespace mesher::detail {
 
