@@ -51,10 +51,10 @@ struct MeshData : Mesh<2> {
 inline constexpr std::uint32_t kNoTriangle = UINT32_MAX;
 
 /// For each triangle the triangle across from each of its corners, or kNoTriangle.
-/// Requires: no edge borders more than two triangles. Cost: O(m log m).
+/// Requires: no edge borders more than two triangles. Cost: O(m log d) for vertices of degree d.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> neighbours(const Mesh<2>& mesh);
 
-/// The edges of all triangles, (low, high) ascending. Cost: O(m log m).
+/// The edges of all triangles, (low, high) ascending. Cost: O(m log d).
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> edges(const Mesh<2>& mesh);
 
 }  // namespace mesher

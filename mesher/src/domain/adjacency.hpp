@@ -5,13 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh/sides.hpp"
+
 namespace mesher::detail {
-
-using Corners = std::array<std::uint32_t, 3>;  // counterclockwise
-using Edge = std::array<std::uint32_t, 2>;
-
-[[nodiscard]] constexpr int next_corner(int i) noexcept { return i == 2 ? 0 : i + 1; }
-[[nodiscard]] constexpr int previous_corner(int i) noexcept { return i == 0 ? 2 : i - 1; }
 
 /// Edge i of a triangle is across from its corner i.
 struct Adjacency {
