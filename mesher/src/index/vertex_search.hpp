@@ -245,9 +245,11 @@ class VertexSearch {
       if (cell.in_reach(met_[i].distance2)) cut_by(cell, met_[i], seen);
     }
   }
+  // The first few: they make the cell about as small as it will be. A cell that reaches out of the
+  // box has met very many, and no order of these would bring more.
   template <class Seen>
   void cut_nearest_first(VoronoiCell& cell, Seen& seen) const {
-    for (; met_count_ > 0; --met_count_) {
+    for (int few = 2 * VoronoiCell::kClips; met_count_ > 0 && few > 0; --met_count_, --few) {
       std::size_t nearest = 0;
       double d2 = met_[0].distance2;
       for (std::size_t i = 1; i < met_count_; ++i) {
@@ -258,6 +260,7 @@ class VertexSearch {
       cut_by(cell, met_[nearest], seen);
       met_[nearest] = met_[met_count_ - 1];
     }
+    cut_by_met(cell, seen);
   }
   [[nodiscard]] static Box<2> clipped(Box<2> box, double within) {
     for (double& x : box.lo) x = std::max(x, -within);
