@@ -53,7 +53,7 @@ void run_edit_on(Target target, const EditArguments& args, Input input) {
   open_outputs(args, input, outputs);
   Figures figures(args.stats, outputs);
   Progress progress(args.quiet);
-  const Run run = first_run(input, target, progress).run;
+  const Run run = first_run(input, option_rho(args.rho), target, progress).run;
   if (figures.wanted()) figures << json_of(run).dump() << "\n";
   const Followed followed = apply_script(args, input, target, figures, progress);
   const mesher::DomainMesh mesh = target.domain_mesh();
@@ -66,6 +66,7 @@ void run_edit_on(Target target, const EditArguments& args, Input input) {
   if (args.quiet || figures.printed()) return;
   print_run(args.input, input.graph(), run);
   print_updates(followed.seconds);
+  print_after(mesh);
   print_outputs(targets);
 }
 

@@ -27,15 +27,15 @@ void insert_all(const Input& input, Target& target, Progress& progress) {
   }
 }
 
-/// Runs `target`, a mesher without input, on the input. Throws: Error, as insert_all.
+/// Runs `target`, a mesher without input for this rho, on the input. Throws: Error, as insert_all.
 template <class Target>
-Result first_run(const Input& input, Target& target, Progress& progress) {
+Result first_run(const Input& input, double rho, Target& target, Progress& progress) {
   const double start = mesher::now();
   insert_all(input, target, progress);
   Result result{target.domain_mesh(), {}};
   result.run.seconds_total = mesher::now() - start;
   result.run.stats = target.stats();
-  measure(result.mesh, result.run);
+  measure(result.mesh, rho, result.run);
   return result;
 }
 

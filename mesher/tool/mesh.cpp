@@ -38,7 +38,7 @@ Result mesh(const MeshArguments& args, const Input& input, const mesher::Options
   result.mesh = mesher::domain_mesh(make(input, options, result.run.stats, progress),
                                     input.graph(), extent(args));
   result.run.seconds_total = mesher::now() - start;
-  measure(result.mesh, result.run);
+  measure(result.mesh, options.rho, result.run);
   return result;
 }
 

@@ -39,12 +39,35 @@ std::string of_all(std::size_t kept, std::size_t all) {
   return std::to_string(kept) + " of " + std::to_string(all) + " in the box";
 }
 
+// The triangles that keep the bound: all, but those that small angles of the input forbid to.
+mesher::Mesh<2> within(double rho, const mesher::Mesh<2>& mesh) {
+  constexpr double kRounding = 1e-9;
+  mesher::Mesh<2> good;
+  good.vertices = mesh.vertices;
+  for (const auto& t : mesh.simplices) {
+    const auto& at = mesh.vertices;
+    const double ratio = mesher::radius_edge(at[t[0]], at[t[1]], at[t[2]]);
+    if (ratio <= rho * (1 + kRounding)) good.simplices.push_back(t);
+  }
+  return good;
+}
+
+std::string smallest_angle(const Run& run) {
+  const std::string all = format("%.2f degrees", run.quality.min_angle_deg);
+  if (run.above_rho == 0) return all;
+  return all + ", " + format("%.2f", run.min_angle_within_rho) + " off " +
+         std::to_string(run.above_rho) + " triangles at small angles of the input";
+}
+
 std::string milliseconds(double seconds) { return format("%.3f ms", seconds * 1000); }
 
 }  // namespace
 
-void measure(const mesher::DomainMesh& mesh, Run& run) {
+void measure(const mesher::DomainMesh& mesh, double rho, Run& run) {
   run.quality = mesher::quality(mesh.kept);
+  const mesher::Mesh<2> good = within(rho, mesh.kept);
+  run.above_rho = mesh.kept.simplices.size() - good.simplices.size();
+  run.min_angle_within_rho = mesher::quality(good).min_angle_deg;
   run.vertices = mesh.kept.vertices.size();
   run.simplices = mesh.kept.simplices.size();
   run.faults = mesh.faults.size();
@@ -63,6 +86,8 @@ Json json_of(const Run& run) {
   json["simplices"] = run.stats.simplices;
   json["min_angle_deg"] = run.quality.min_angle_deg;  // NaN is written as null
   json["max_radius_edge"] = run.quality.max_radius_edge;
+  json["above_rho"] = run.above_rho;
+  json["min_angle_deg_within_rho"] = run.min_angle_within_rho;
   json["kept"] = {
       {"vertices", run.vertices}, {"simplices", run.simplices}, {"points", run.points}};
   json["regions"] = run.regions;
@@ -111,7 +136,7 @@ void print_run(const std::string& input, const mesher::Pslg& graph, const Run& r
   if (run.vertices != run.stats.vertices || run.regions > 1) {
     print_row("regions", std::to_string(run.regions) + ", holes " + std::to_string(run.holes));
   }
-  print_row("smallest angle", format("%.2f degrees", run.quality.min_angle_deg));
+  print_row("smallest angle", smallest_angle(run));
   print_row("largest radius-edge", format("%.4f", run.quality.max_radius_edge));
   print_row("time", format("%.3f s", run.seconds_total));
 }
@@ -132,6 +157,11 @@ void print_updates(std::vector<double> seconds) {
   print_row("  median", milliseconds(quantile(seconds, 0.5)));
   print_row("  99 of 100 below", milliseconds(quantile(seconds, 0.99)));
   print_row("  longest", milliseconds(seconds.back()));
+}
+
+void print_after(const mesher::DomainMesh& mesh) {
+  print_row("after them", std::to_string(mesh.kept.vertices.size()) + " vertices, " +
+                              std::to_string(mesh.kept.simplices.size()) + " triangles");
 }
 
 void print_outputs(const std::vector<std::string>& paths) {

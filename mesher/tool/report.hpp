@@ -19,6 +19,8 @@ using Json = nlohmann::ordered_json;
 struct Run {
   mesher::MeshStats stats;    ///< of the box
   mesher::Quality quality;    ///< of what is kept
+  std::size_t above_rho = 0;       ///< triangles kept, at small angles of the input
+  double min_angle_within_rho = 0;  ///< degrees; of the others
   std::size_t vertices = 0;   ///< kept
   std::size_t simplices = 0;  ///< kept
   std::size_t points = 0;     ///< of the input, kept
@@ -32,7 +34,7 @@ struct Run {
 using DomainStep = mesher::Update<2, mesher::DomainUpdate>;
 
 /// Sizes and quality of what is kept.
-void measure(const mesher::DomainMesh& mesh, Run& run);
+void measure(const mesher::DomainMesh& mesh, double rho, Run& run);
 
 /// Figures of a run, as --stats writes them, with the process's peak memory.
 [[nodiscard]] Json json_of(const Run& run);
@@ -49,6 +51,9 @@ void print_remarks(const Input& input, const std::vector<mesher::SeedFault>& fau
 /// Prints the number of updates with their median, 99th percentile and longest time.
 /// `seconds`: one per update.
 void print_updates(std::vector<double> seconds);
+
+/// Prints how large the mesh is that updates have left.
+void print_after(const mesher::DomainMesh& mesh);
 
 /// Prints the names of the files written.
 void print_outputs(const std::vector<std::string>& paths);
