@@ -73,7 +73,10 @@ bool has_points_alone(const std::string& path) {
 }  // namespace
 
 void add_program_options(CLI::App& command, MeshArguments& args) {
-  command.add_option("INPUT", args.input, "Points and lines: .poly, .geojson, .json, .obj or .vtu; points: .node, .xyz or .csv")
+  command
+      .add_option(
+          "INPUT", args.input,
+          "Points and lines: .poly, .geojson, .json, .obj or .vtu; points: .node, .xyz or .csv")
       ->required();
   command.add_option("--rho", args.rho, "Bound of circumradius over shortest edge, above 1.01")
       ->capture_default_str();
@@ -101,8 +104,7 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
                   "repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
-  command.add_flag("--box", args.box,
-                   "All of the box, not only what lines enclose less the holes");
+  command.add_flag("--box", args.box, "All of the box, not only what lines enclose less the holes");
   command.add_flag("--static", args.is_static, "Without the engine; the mesh is the same");
   command.add_option("--stats", args.stats, "Figures as JSON")->type_name("FILE");
   command.add_flag("--quiet", args.quiet, "Print nothing but errors");
@@ -145,8 +147,8 @@ Error with_domain_hint(const Error& error) {
 void open_outputs(const MeshArguments& args, const Input& input, Outputs& outputs) {
   outputs.protect(args.input);
   outputs.protect(input.file().point_file);
-  const auto content = has_points_alone(args.input) ? mesher::MeshFiles::plain
-                                                    : mesher::MeshFiles::features;
+  const auto content =
+      has_points_alone(args.input) ? mesher::MeshFiles::plain : mesher::MeshFiles::features;
   for (const auto& path : args.outputs) outputs.open_mesh(path, content);
 }
 

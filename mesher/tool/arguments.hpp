@@ -30,7 +30,8 @@ inline constexpr const char* kQualityHelp =
     "Its vertices and simplices are those of the box; kept are those written, and\n"
     "min_angle_deg and max_radius_edge are theirs; null if there is none.";
 
-/// Adds what says which mesh it is: INPUT, --rho, --rule, --domain, --max-vertices. `args` must outlive `command`.
+/// Adds what says which mesh it is: INPUT, --rho, --rule, --domain, --max-vertices. `args` must
+/// outlive `command`.
 void add_program_options(CLI::App& command, MeshArguments& args);
 
 /// Adds these and what is to become of the mesh.
@@ -43,7 +44,8 @@ void add_mesh_options(CLI::App& command, MeshArguments& args);
 [[nodiscard]] double option_rho(const std::string& text);
 
 /// What to mesh: the domain as given, or around the input.
-/// Throws: Error(bad_option); Error(outside_domain) with the line of the first point outside, naming
+/// Throws: Error(bad_option); Error(outside_domain) with the line of the first point outside,
+/// naming
 /// --domain.
 [[nodiscard]] mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input);
 

@@ -6,8 +6,8 @@
 #include "commands.hpp"
 #include "figures.hpp"
 #include "first_run.hpp"
-#include "mesher/edit_script.hpp"
 #include "mesher/domain_mesher.hpp"
+#include "mesher/edit_script.hpp"
 #include "outputs.hpp"
 #include "report.hpp"
 #include "static_mesher.hpp"
@@ -83,7 +83,8 @@ void run_edit(const EditArguments& args) {
 
 void add_edit(CLI::App& app) {
   const auto args = std::make_shared<EditArguments>();
-  CLI::App* edit = app.add_subcommand("edit", "Meshes a file of points and lines, and follows its edits.");
+  CLI::App* edit =
+      app.add_subcommand("edit", "Meshes a file of points and lines, and follows its edits.");
   add_mesh_options(*edit, *args);
   edit->add_option("--script", args->script, "The edits")->required()->type_name("EDITS");
   edit->footer(

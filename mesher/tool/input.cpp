@@ -102,8 +102,8 @@ Error Input::located(const Error& error) const {
     if (blamed.line == 0) {
       blamed = stands;
     } else {
-      others += (others.empty() ? " (" : ", ") + words(kinds[i], error.ids()[i]) + ": " +
-                text(stands);
+      others +=
+          (others.empty() ? " (" : ", ") + words(kinds[i], error.ids()[i]) + ": " + text(stands);
     }
   }
   if (blamed.file.empty()) blamed.file = file_.file;

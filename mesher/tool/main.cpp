@@ -29,7 +29,8 @@ int fail(ExitCode code, const std::string& message) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Quality Delaunay meshes of points and lines in the plane, and their updates.", "mesher"};
+  CLI::App app{"Quality Delaunay meshes of points and lines in the plane, and their updates.",
+               "mesher"};
   app.footer(kHelpFooter);
   app.require_subcommand(1);
   tool::add_gen(app);

@@ -35,8 +35,8 @@ Result mesh(const MeshArguments& args, const Input& input, const mesher::Options
   Result result;
   const double start = mesher::now();
   const auto make = args.is_static ? mesh_without_engine : mesh_with_engine;
-  result.mesh = mesher::domain_mesh(make(input, options, result.run.stats, progress),
-                                    input.graph(), extent(args));
+  result.mesh = mesher::domain_mesh(make(input, options, result.run.stats, progress), input.graph(),
+                                    extent(args));
   result.run.seconds_total = mesher::now() - start;
   measure(result.mesh, options.rho, result.run);
   return result;

@@ -37,7 +37,9 @@ class Progress {
 
 /// Whether a mesher takes holes and regions.
 template <class Target>
-concept TakesSeeds = requires(Target& t, const mesher::SeedName& name) { t.remove_seed(name); };
+concept TakesSeeds = requires(Target& t, const mesher::SeedName& name) {
+  t.remove_seed(name);
+};
 
 /// A mesher whose updates are watched; the rest of its interface as it is.
 template <class Target>
@@ -54,17 +56,11 @@ class Watched {
   void insert_polyline(mesher::FeatureId id, const std::vector<mesher::FeatureId>& points) {
     target_.insert_polyline(id, points);
   }
-  void remove_segment(mesher::FeatureId id) {
-    target_.remove_segment(id);
-  }
-  void insert_seed(const mesher::Seed& seed)
-    requires TakesSeeds<Target>
-  {
+  void remove_segment(mesher::FeatureId id) { target_.remove_segment(id); }
+  void insert_seed(const mesher::Seed& seed) requires TakesSeeds<Target> {
     target_.insert_seed(seed);
   }
-  void remove_seed(const mesher::SeedName& name)
-    requires TakesSeeds<Target>
-  {
+  void remove_seed(const mesher::SeedName& name) requires TakesSeeds<Target> {
     target_.remove_seed(name);
   }
   void discard_edits() { target_.discard_edits(); }

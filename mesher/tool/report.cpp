@@ -72,8 +72,8 @@ void measure(const mesher::DomainMesh& mesh, double rho, Run& run) {
   run.simplices = mesh.kept.simplices.size();
   run.faults = mesh.faults.size();
   const auto& kinds = mesh.kept.kinds;
-  run.points = static_cast<std::size_t>(
-      std::count(kinds.begin(), kinds.end(), mesher::VertexKind::input));
+  run.points =
+      static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), mesher::VertexKind::input));
   for (const auto& region : mesh.regions) {
     if (mesh.keeps_all || region.label.zone == mesher::Zone::inside) ++run.regions;
     if (region.label.zone == mesher::Zone::hole) ++run.holes;
@@ -88,8 +88,7 @@ Json json_of(const Run& run) {
   json["max_radius_edge"] = run.quality.max_radius_edge;
   json["above_rho"] = run.above_rho;
   json["min_angle_deg_within_rho"] = run.min_angle_within_rho;
-  json["kept"] = {
-      {"vertices", run.vertices}, {"simplices", run.simplices}, {"points", run.points}};
+  json["kept"] = {{"vertices", run.vertices}, {"simplices", run.simplices}, {"points", run.points}};
   json["regions"] = run.regions;
   json["holes"] = run.holes;
   json["seed_faults"] = run.faults;

@@ -17,14 +17,14 @@ using Json = nlohmann::ordered_json;
 
 /// The first run of a mesh, or a run from scratch.
 struct Run {
-  mesher::MeshStats stats;    ///< of the box
-  mesher::Quality quality;    ///< of what is kept
-  std::size_t above_rho = 0;       ///< triangles kept, at small angles of the input
+  mesher::MeshStats stats;          ///< of the box
+  mesher::Quality quality;          ///< of what is kept
+  std::size_t above_rho = 0;        ///< triangles kept, at small angles of the input
   double min_angle_within_rho = 0;  ///< degrees; of the others
-  std::size_t vertices = 0;   ///< kept
-  std::size_t simplices = 0;  ///< kept
-  std::size_t points = 0;     ///< of the input, kept
-  std::size_t regions = 0;    ///< kept
+  std::size_t vertices = 0;         ///< kept
+  std::size_t simplices = 0;        ///< kept
+  std::size_t points = 0;           ///< of the input, kept
+  std::size_t regions = 0;          ///< kept
   std::size_t holes = 0;
   std::size_t faults = 0;    ///< seeds without a region of their own
   double seconds_total = 0;  ///< from the first point inserted to the finished mesh

@@ -76,7 +76,8 @@ mesher::Change<2> change_between(const Mesh<2>& before, const Mesh<2>& after) {
 
 mesher::DomainChange change_of_kept(const Mesh<2>& before, const Mesh<2>& after) {
   const auto old_triangles = triangles_of(before), new_triangles = triangles_of(after);
-  return {difference(new_triangles, old_triangles), difference(old_triangles, new_triangles), {}, 0};
+  return {
+      difference(new_triangles, old_triangles), difference(old_triangles, new_triangles), {}, 0};
 }
 
 std::string words(const mesher::SeedName& seed) {

@@ -18,8 +18,8 @@ class StaticMesher {
       : options_(options), extent_(extent) {}
 
   /// As those of DomainMesher, but that points that are too close are left to update().
-  /// Throws: Error (repeated_id, unknown_id, duplicate_point, outside_domain, zero_length), and then
-  /// changes nothing.
+  /// Throws: Error (repeated_id, unknown_id, duplicate_point, outside_domain, zero_length), and
+  /// then changes nothing.
   void insert(mesher::FeatureId id, const mesher::Point<2>& point, std::int64_t marker = 0);
   void remove(mesher::FeatureId id);
   void move(mesher::FeatureId id, const mesher::Point<2>& point);

@@ -57,11 +57,11 @@ struct Edit {
   };
   Kind kind = Kind::insert;
   FeatureId id{};
-  Point<2> point{};                 ///< of insert and move, and of a new seed
-  std::vector<FeatureId> points{};  ///< of a new segment or polyline
-  double attribute = 0;             ///< of a new region
+  Point<2> point{};                  ///< of insert and move, and of a new seed
+  std::vector<FeatureId> points{};   ///< of a new segment or polyline
+  double attribute = 0;              ///< of a new region
   std::optional<double> max_area{};  ///< likewise
-  std::string text;                 ///< the line without comment and outer blanks
+  std::string text;                  ///< the line without comment and outer blanks
   Place place;
 };
 

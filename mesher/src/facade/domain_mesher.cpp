@@ -179,8 +179,8 @@ DomainUpdate DomainMesher::Impl::update(const RunControl& control) {
   DomainUpdate update;
   try {
     prepare();
-    static_cast<Change<2>&>(update) = mesher.update(
-        control, [&](const Change<2>& change) { update.domain = follow(change); });
+    static_cast<Change<2>&>(update) =
+        mesher.update(control, [&](const Change<2>& change) { update.domain = follow(change); });
   } catch (const Error& error) {
     if (error.code() != ErrorCode::cancelled) discard_edits();
     throw;

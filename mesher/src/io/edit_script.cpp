@@ -47,8 +47,8 @@ const Form& form_of(const text::Line& line) {
 }
 
 bool takes_place(Edit::Kind kind) {
-  return kind == Edit::Kind::insert || kind == Edit::Kind::move || kind == Edit::Kind::insert_hole ||
-         kind == Edit::Kind::insert_region;
+  return kind == Edit::Kind::insert || kind == Edit::Kind::move ||
+         kind == Edit::Kind::insert_hole || kind == Edit::Kind::insert_region;
 }
 bool is_of_line(const Edit& edit) { return featured(edit.kind) == Featured::line; }
 bool inserts(const Edit& edit) {

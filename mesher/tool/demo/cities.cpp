@@ -144,8 +144,7 @@ void print_mesh(const Mesh<2>& mesh) {
 
 void show_cities(const std::string& path, const std::string& folder, mesher::OutputFiles& files) {
   const auto file = mesher::read_points<2>(path);
-  if (file.points.empty())
-    throw mesher::Error(mesher::ErrorCode::bad_option, "no points", {path});
+  if (file.points.empty()) throw mesher::Error(mesher::ErrorCode::bad_option, "no points", {path});
   mesher::Options<2> options;
   options.domain = mesher::snapped_domain<2>(file.points);
   World world(file, options);

@@ -1,5 +1,5 @@
-// The Great Lakes: a harbour wall on the shore of Lake Michigan goes out into the lake step by step;
-// in the end it is closed, and the harbour is a region of its own.
+// The Great Lakes: a harbour wall on the shore of Lake Michigan goes out into the lake step by
+// step; in the end it is closed, and the harbour is a region of its own.
 //
 // Each step moves the wall's seven free corners and is one update. At the end the mesh is compared,
 // bit for bit, with one made from scratch.

@@ -1,5 +1,5 @@
-// mesher_demo LAKES POINTS FOLDER: meshes real lakes and points, edits them, and shows what following
-// edits costs beside meshing anew.
+// mesher_demo LAKES POINTS FOLDER: meshes real lakes and points, edits them, and shows what
+// following edits costs beside meshing anew.
 #include <algorithm>
 #include <cstdio>
 #include <exception>

@@ -85,7 +85,8 @@ bool fails(std::uint64_t count, bool& burnt, Run run) {
 
 }  // namespace
 
-TEST_CASE("a hole's part is left out, a region's has its attribute, and a wall that goes joins them") {
+TEST_CASE(
+    "a hole's part is left out, a region's has its attribute, and a wall that goes joins them") {
   Parted p;
   const DomainMesh parted = p.m.domain_mesh();
   REQUIRE(parted.regions.size() == 3);
@@ -126,7 +127,8 @@ TEST_CASE("a mesh of points alone follows its first line, and its first seed") {
   m.check_invariants();
 }
 
-TEST_CASE("seeds are announced: the update before sees nothing of them, and they can be taken back") {
+TEST_CASE(
+    "seeds are announced: the update before sees nothing of them, and they can be taken back") {
   Parted p;
   const Seen before(p.m);
   p.announce();
