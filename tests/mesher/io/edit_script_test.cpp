@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mesher/domain_mesher.hpp"
 #include "scratch_file.hpp"
 
 namespace {
@@ -111,6 +112,16 @@ TEST_CASE("a bad line is refused with its place and leaves the edits before it a
       {"+polyline 1 2\n", "bad_edit@2:14"},
       {"-polyline\n", "bad_edit@2:10"},
       {"+segment 1 2 3\n", "bad_edit@2:1"},  // the table has points only
+      {"+hole 1 2\n", "bad_edit@2:10"},
+      {"+hole 1 2 3 4\n", "bad_edit@2:13"},
+      {"+hole 1 2 nan\n", "not_finite@2:11"},
+      {"-hole\n", "bad_edit@2:6"},
+      {"+region 1 2 3\n", "bad_edit@2:14"},
+      {"+region 1 2 3 4 5 6\n", "bad_edit@2:19"},
+      {"+region 1 2 1e31 4\n", "magnitude@2:13"},
+      {"+region 1 2 3 inf\n", "not_finite@2:15"},
+      {"+region 1 2 3 4 x\n", "bad_number@2:17"},
+      {"+hole 1 2 3\n", "bad_edit@2:1"},  // the table has points only
       {"+Point 1 2 3\n", "bad_edit@2:1"},
       {"+point 2 3\n", "bad_edit@2:11"},
       {"+point 2 3 4 5\n", "bad_edit@2:14"},
@@ -197,6 +208,58 @@ TEST_CASE("a line that cannot come is said of its own edit, not of that of a poi
   CHECK(failure_of([&] { mesher::apply(script, m, [](const mesher::Update<2>&) {}); }) ==
         "crossing_segments@9:1");
   CHECK(m.mesh().edges.size() > 0);
+}
+
+TEST_CASE("an edit of a seed carries its place, attribute and limit; a limit of 0 is none") {
+  const ScratchFolder folder;
+  mesher::EditScript script(folder.write("edits.txt",
+                                         "+region 7 1 -2 0.5 0.25\n"
+                                         "+region 7 1 2 -3\n"
+                                         "+region 7 1 2 3 -1\n"
+                                         "+hole 7 3 4\n"
+                                         "-region 7\n"));
+  const auto next = [&] { return script.next().value().at(0); };
+  const Edit whole = next();
+  CHECK(whole.kind == Edit::Kind::insert_region);
+  CHECK(whole.point == Point<2>{1, -2});
+  CHECK(whole.attribute == 0.5);
+  CHECK(whole.max_area == 0.25);
+  CHECK_FALSE(next().max_area.has_value());
+  CHECK_FALSE(next().max_area.has_value());
+  const Edit hole = next();
+  CHECK(featured(hole.kind) == mesher::Featured::hole);
+  CHECK(hole.point == Point<2>{3, 4});
+  CHECK(featured(next().kind) == mesher::Featured::region);
+}
+
+TEST_CASE("seeds of a block move, whatever comes between; they are never to blame for a line") {
+  const ScratchFolder folder;
+  mesher::DomainMesher m({.domain = {{0, 0}, {1, 1}}});
+  mesher::EditScript script(folder.write("edits.txt",
+                                         "begin\n"
+                                         "+polyline 1 1 2 3 1\n"
+                                         "+hole 1 .5 .5\n"
+                                         "+point 1 0.1 0.1\n"
+                                         "+point 2 0.9 0.1\n"
+                                         "+point 3 0.5 0.9\n"
+                                         "commit\n"
+                                         "begin\n"
+                                         "-hole 1\n"
+                                         "+point 4 .25 .75\n"
+                                         "+hole 1 .5 .25\n"
+                                         "commit\n"
+                                         "begin\n"
+                                         "-point 1\n"
+                                         "+hole 2 .5 .75\n"
+                                         "-hole 1\n"
+                                         "commit\n"));
+  std::vector<mesher::DomainUpdate> updates;
+  CHECK(failure_of([&] {
+          mesher::apply(script, m, [&](const auto& u) { updates.push_back(u.change); });
+        }) == "point_in_use@14:1");
+  REQUIRE(updates.size() == 2);
+  CHECK(m.input().holes == std::vector<mesher::Pslg::Hole>{{FeatureId{1}, {.5, .25}}});
+  CHECK(m.domain_mesh().kept.simplices.empty());
 }
 
 TEST_CASE("a block may take a place before it frees it") {
