@@ -62,14 +62,15 @@ assert run['kept']['points'] == 10 and run['kept']['vertices'] < run['vertices']
 assert run['kept']['simplices'] == int(open('lake.1.ele').readline().split()[0])
 END
 expect 0 'regions               4, holes 1' mesh lake.poly --box -o lake.box.vtu
-sed -n 2,12p lake.poly >beside.node
-expect 0 "" check lake.box.vtu --input beside.node --boundary box --rho 1.4142
+expect 0 'regions     ok' check lake.box.vtu --input lake.poly --boundary box --rho 1.4142
+refuse 1 'holds the seed of hole 1' check lake.box.vtu --input lake.poly --boundary any
 [[ -z $("$tool" mesh lake.poly --quiet -o quiet.vtu 2>&1) ]] || fail "--quiet is not quiet"
 
 echo "== an output never takes an input's name"
 refuse 2 'lake.poly: error[bad_option]' mesh lake.poly -o lake.node
 [[ ! -e lake.node ]] || fail "lake.node is there"
 { echo '0 2 0 0' && tail -n +13 lake.poly; } >beside.poly
+sed -n 2,12p lake.poly >beside.node
 refuse 2 'beside.node: error[bad_option]' mesh beside.poly -o beside.node
 expect 0 'regions               2, holes 1' mesh beside.poly -o beside.1.node
 same beside.1.node lake.1.node
@@ -122,6 +123,7 @@ expect 0 'faults.poly:26: warning: the seed of hole 1 at (5, 8) is on segment 5'
 expect 0 'faults.poly:29: warning: the seed of region 2 at (7, 7) is in one region with region 1' \
   mesh faults.poly --static -o faults.1.vtu --stats faults.json
 has faults.json '"seed_faults": 2'
+expect 0 'regions     ok' check faults.1.vtu --input faults.poly --rho 1.4142
 sed 's/^1 1 1 10 -1/1 99 99 10 -1/' lake.poly >far.poly
 expect 0 'far.poly:28: warning: the seed of region 1 at (99, 99) is outside' mesh far.poly -o far.1.vtu
 sed 's/^1 1 1 10 -1/1 1 1 10/' lake.poly >single.poly
@@ -148,6 +150,9 @@ bad_lake 1 'bad.poly:12:1: error[point_on_segment]: point 10 (8, 4) lies on segm
   's/^10 2 4 0/10 8 4 0/'
 bad_lake 1 'bad.poly:12:1: error[duplicate_point]: point 10 (2, 2) lies on point 7 (point 7: bad.poly:9)' \
   's/^10 2 4 0/10 2 2 0/'
+sed 's/\[3, 3\], \[3, 5\], \[5, 5\], \[5, 3\]/[3, 3], [5, 5], [3, 5], [5, 3]/' island.geojson >bad.geojson
+refuse 1 'bad.geojson:2:' mesh bad.geojson -o out/x.vtu
+expect 1 'error[crossing_segments]: segment 2 crosses itself at (4, 4)' mesh bad.geojson -o out/x.vtu
 bad_lake 1 '(point 7: bad.poly:9)' 's/^10 2 4 0/10 2 2.000000000000001 0/'
 bad_lake 3 'bad.poly:24:1: error[unknown_id]: segment 11' 's/^11 2 5 7/11 2 99 7/'
 refuse 2 'segments need the rule radius_edge' mesh lake.poly --rule voronoi-aspect -o out/x.vtu

@@ -28,7 +28,8 @@
 //       box, one whose end is no vertex may have its middle in no triangle instead;
 //   (c) conforming: (7) of the edges on lines;
 //   (d) regions: triangles on both sides of an edge that is on no line have the same region; where
-//       seeds are given, that of one of the seeds inside; no triangle holds the seed of a hole;
+//       seeds are given, that of one of the seeds inside; no triangle holds the seed of a hole,
+//       unless the mesh is to fill a box. A seed on a line stands for nothing;
 //   (e) area, if asked: no triangle is larger than a limit.
 #pragma once
 

@@ -1,10 +1,13 @@
 // Whether regions end at lines alone, and are those of their seeds.
+#include <algorithm>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "io/text.hpp"
 #include "mesh/checked_mesh.hpp"
+#include "mesher/predicates.hpp"
 
 namespace mesher::detail {
 namespace {
@@ -25,9 +28,24 @@ class Parts {
   std::vector<std::size_t> parent_;
 };
 
-Verdict check_holes(const CheckedMesh& mesh, const Pslg& graph) {
+// The triangle that a seed stands for; nothing if it is outside, or on a line, where it stands for
+// neither side.
+std::optional<std::size_t> triangle_of(const Point<2>& seed, const CheckedMesh& mesh,
+                                       const LineEdges& on_lines) {
+  const auto is_on = [&](const auto& edge) {
+    const Point<2>&a = mesh.at(edge.first), &b = mesh.at(edge.second);
+    const auto [left, right] = std::minmax(a[0], b[0]);
+    const auto [below, above] = std::minmax(a[1], b[1]);
+    return seed[0] >= left && seed[0] <= right && seed[1] >= below && seed[1] <= above &&
+           predicates::orient2d(a, b, seed) == 0;
+  };
+  if (std::any_of(on_lines.begin(), on_lines.end(), is_on)) return std::nullopt;
+  return mesh.triangle_at(seed);
+}
+
+Verdict check_holes(const CheckedMesh& mesh, const LineEdges& on_lines, const Pslg& graph) {
   for (const Pslg::Hole& hole : graph.holes) {
-    const auto triangle = mesh.triangle_at(hole.seed);
+    const auto triangle = triangle_of(hole.seed, mesh, on_lines);
     if (!triangle) continue;
     return Verdict::bad(mesh.triangle(*triangle) + " holds the seed of hole " +
                         std::to_string(static_cast<std::int64_t>(hole.id)) + " at " +
@@ -36,13 +54,13 @@ Verdict check_holes(const CheckedMesh& mesh, const Pslg& graph) {
   return Verdict::good("");
 }
 
-Verdict check_seeds(const CheckedMesh& mesh, const Pslg& graph, const std::vector<double>& regions,
-                    Parts& parts) {
+Verdict check_seeds(const CheckedMesh& mesh, const LineEdges& on_lines, const Pslg& graph,
+                    const std::vector<double>& regions, Parts& parts) {
   std::map<std::size_t, std::set<double>> seeded;
   std::vector<std::pair<const Pslg::Region*, std::size_t>> found;
   for (const Pslg::Region& region : graph.regions) {
-    const auto triangle = mesh.triangle_at(region.seed);
-    if (!triangle) continue;  // outside of what is meshed
+    const auto triangle = triangle_of(region.seed, mesh, on_lines);
+    if (!triangle) continue;
     seeded[parts.find(*triangle)].insert(region.attribute);
     found.emplace_back(&region, *triangle);
   }
@@ -74,10 +92,13 @@ Verdict check_regions(const CheckedMesh& mesh, const LineEdges& on_lines,
                         ", which is on no line");
   }
   if (options.graph != nullptr) {
-    const Verdict holes = check_holes(mesh, options.graph->pslg);
-    if (!holes.holds) return holes;
+    const Pslg& graph = options.graph->pslg;
+    if (options.boundary != BoundaryRule::box) {
+      const Verdict holes = check_holes(mesh, on_lines, graph);
+      if (!holes.holds) return holes;
+    }
     if (known) {
-      const Verdict seeds = check_seeds(mesh, options.graph->pslg, regions, parts);
+      const Verdict seeds = check_seeds(mesh, on_lines, graph, regions, parts);
       if (!seeds.holds) return seeds;
     }
   }

@@ -23,6 +23,11 @@ bool overlap(const Segment& s, const Segment& t) {
 
 std::string text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
+// Pieces of a polyline have one id.
+std::string other_text(FeatureId line, FeatureId other) {
+  return line == other ? "itself" : "segment " + text(other);
+}
+
 }  // namespace
 
 namespace planarity {
@@ -74,7 +79,7 @@ Point<2> crossing(const Segment& s, const Segment& t) {
 
 void fail_repeated(FeatureId line, FeatureId other, const Segment& s) {
   throw Error(ErrorCode::repeated_segment,
-              "segment " + text(line) + " is segment " + text(other) + " again, from " +
+              "segment " + text(line) + " is " + other_text(line, other) + " again, from " +
                   place_text(s.place_a) + " to " + place_text(s.place_b),
               {}, {line, other});
 }
@@ -126,12 +131,12 @@ void fail(const Conflict& c, const Names& names) {
   const FeatureId other = names.line(c.other->self);
   if (c.kind == Conflict::Kind::crossing) {
     throw Error(ErrorCode::crossing_segments,
-                "segment " + text(line) + " crosses segment " + text(other) + " at " +
+                "segment " + text(line) + " crosses " + other_text(line, other) + " at " +
                     place_text(crossing(*c.segment, *c.other)),
                 {}, {line, other});
   }
   throw Error(ErrorCode::overlapping_segments,
-              "segment " + text(line) + " overlaps segment " + text(other) + " from " +
+              "segment " + text(line) + " overlaps " + other_text(line, other) + " from " +
                   place_text(std::max(c.segment->place_a, c.other->place_a)) + " to " +
                   place_text(std::min(c.segment->place_b, c.other->place_b)),
               {}, {line, other});
