@@ -1,0 +1,100 @@
+// The tool as a whole: what `edit` writes of random scripts are the bytes that `mesh` writes of the
+// edited input, with the engine and without.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <map>
+#include <string>
+
+#include "mesher/pslg.hpp"
+#include "random_lake.hpp"
+#include "scratch_file.hpp"
+
+namespace {
+
+using mesher::Edit;
+using support::Lake;
+using support::LakeEditor;
+using support::ScratchFolder;
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, " %.17g", x);
+  return text;
+}
+std::string number(mesher::FeatureId id) {
+  return " " + std::to_string(static_cast<std::int64_t>(id));
+}
+
+std::string line_of(const Edit& edit) {
+  using Kind = Edit::Kind;
+  static const std::map<Kind, std::string> words{{Kind::insert, "+point"},
+                                                 {Kind::remove, "-point"},
+                                                 {Kind::move, "move"},
+                                                 {Kind::insert_segment, "+segment"},
+                                                 {Kind::remove_segment, "-segment"},
+                                                 {Kind::insert_polyline, "+polyline"},
+                                                 {Kind::insert_hole, "+hole"},
+                                                 {Kind::remove_hole, "-hole"},
+                                                 {Kind::insert_region, "+region"},
+                                                 {Kind::remove_region, "-region"}};
+  const std::string& word = words.at(edit.kind);
+  std::string line = word + number(edit.id);
+  for (const auto id : edit.points) line += number(id);
+  const bool placed = word == "+point" || word == "move" || word == "+hole" || word == "+region";
+  if (placed) line += number(edit.point[0]) + number(edit.point[1]);
+  if (word == "+region") line += number(edit.attribute) + number(edit.max_area.value_or(0));
+  return line + "\n";
+}
+
+// Batches that are valid, and what they lead to.
+struct History {
+  std::string script;
+  Lake lake;
+
+  History(std::uint64_t seed, int batches) {
+    LakeEditor editor(seed);
+    const auto box = mesher::detail::mesh_box(LakeEditor::options());
+    for (int i = 0; i < batches; ++i) {
+      Lake next = lake;
+      const auto batch = editor.batch(next);
+      if (!next.is_valid(box)) continue;
+      script += "begin\n";
+      for (const Edit& edit : batch) script += line_of(edit);
+      script += "commit\n";
+      lake = next;
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("edits of any kind by a script leave the files of the edited input, byte for byte") {
+  const std::string tool = test_paths::kMesherTool;
+  if (tool.empty()) return;
+  const auto seed = GENERATE(range<std::uint64_t>(1, 7));
+  const std::string extent = seed % 3 == 0 ? " --box" : "";
+  CAPTURE(seed);
+  const History history(seed, 60);
+  const ScratchFolder folder;
+  folder.write("edits.txt", history.script);
+  folder.write("before.poly", "0 2 0 0\n0\n0\n");
+  write_pslg(history.lake.graph(), folder.path("after.poly"));
+  // Pieces of polylines have other ids in after.poly: formats without ids of lines are compared.
+  const auto run = [&](const std::string& arguments, const std::string& out) {
+    const std::string command = tool + " " + arguments + extent +
+                                " --quiet --domain 0 0 16 16 -o " + folder.path(out + ".msh") +
+                                " -o " + folder.path(out + ".mesh") + " -o " +
+                                folder.path(out + ".off") + " -o " + folder.path(out + ".obj");
+    REQUIRE(std::system(command.c_str()) == 0);
+  };
+  const std::string edits = folder.path("before.poly") + " --script " + folder.path("edits.txt");
+  run("edit " + edits, "engine");
+  run("edit --static " + edits, "static");
+  run("mesh --static " + folder.path("after.poly"), "fresh");
+  for (const std::string format : {".msh", ".mesh", ".off", ".obj"}) {
+    CAPTURE(format);
+    const std::string fresh = folder.read("fresh" + format);
+    CHECK(folder.read("engine" + format) == fresh);
+    CHECK(folder.read("static" + format) == fresh);
+  }
+}
