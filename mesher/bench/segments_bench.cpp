@@ -13,40 +13,18 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
-#include <optional>
+#include <string>
+#include <vector>
 
-#include "mesher/generate.hpp"
-#include "mesher/pslg.hpp"
+#include "input.hpp"
 #include "sample.hpp"
 
 namespace {
 
+using bench::Input;
 using bench::Sample;
 using mesher::FeatureId;
 using mesher::Point;
-
-/// An input, as both meshers take it.
-struct Input {
-  std::string name;
-  std::vector<Point<2>> points;
-  std::vector<FeatureId> ids;
-  std::vector<mesher::Segment> segments;
-  mesher::Options<2> options;
-  double length = 0;  // of what is edited
-
-  Input(std::string called, const mesher::Pslg& given) : name(std::move(called)) {
-    const mesher::Pslg pslg = mesher::without_polylines(given);
-    for (const auto& v : pslg.points) points.push_back(v.at), ids.push_back(v.id);
-    for (const auto& s : pslg.segments) segments.push_back({s.id, s.from, s.to});
-    options.domain = mesher::snapped_domain<2>(points);
-    length = side() / std::sqrt(static_cast<double>(segments.size()));
-  }
-  [[nodiscard]] double side() const {
-    const auto& [lo, hi] = options.domain;
-    return std::max(hi[0] - lo[0], hi[1] - lo[1]);
-  }
-};
 
 double print_static(const Input& in) {
   mesher::MeshStats stats;
@@ -59,14 +37,6 @@ double print_static(const Input& in) {
       "\"segments\":%zu,\"vertices\":%zu,\"run_s\":%.4f,\"total_s\":%.4f}\n",
       in.name.c_str(), in.points.size(), in.segments.size(), stats.vertices, run, seconds);
   return run;
-}
-
-mesher::Mesher<2> first_run(const Input& in) {
-  mesher::Mesher<2> m(in.options);
-  m.insert(in.ids, in.points);
-  for (const auto& s : in.segments) m.insert_segment(s.id, s.from, s.to);
-  m.update();
-  return m;
 }
 
 void print_first_run(const Input& in, const mesher::Mesher<2>& m, double static_seconds) {
@@ -142,7 +112,7 @@ class Editor {
 
 void bench_input(const Input& in, int edits) {
   const double static_seconds = print_static(in);
-  mesher::Mesher<2> m = first_run(in);
+  mesher::Mesher<2> m = bench::first_run(in);
   print_first_run(in, m, static_seconds);
   Editor editor(in, m);
   struct Kind {
@@ -157,10 +127,6 @@ void bench_input(const Input& in, int edits) {
   }
 }
 
-Input generated(const std::string& name, std::size_t n) {
-  return Input(name, mesher::generate_pslg({mesher::PslgKind::segments, n}));
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -171,10 +137,9 @@ int main(int argc, char** argv) {
     char* rest = nullptr;
     const std::size_t n = std::strtoull(input.c_str(), &rest, 10);
     if (rest != input.c_str()) {
-      bench_input(generated(input, n), *rest == ':' ? std::atoi(rest + 1) : kEdits);
+      bench_input(bench::random_segments(n), *rest == ':' ? std::atoi(rest + 1) : kEdits);
     } else {
-      const std::string name = std::filesystem::path(input).stem().string();
-      bench_input(Input(name, mesher::read_pslg(input).pslg), kEdits);
+      bench_input(bench::file_input(input), kEdits);
     }
   }
 }
