@@ -65,6 +65,8 @@ class FeatureTree {
   void check_invariants() const;
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// Blocks and points that visit_in has looked at so far.
+  [[nodiscard]] std::uint64_t looked_at() const noexcept { return looked_at_; }
   [[nodiscard]] std::size_t bytes() const noexcept {
     return blocks_.capacity() * sizeof(Block) + free_.capacity() * sizeof(std::uint32_t);
   }
@@ -102,6 +104,7 @@ class FeatureTree {
   std::vector<std::uint32_t> free_;
   Node root_ = 0;
   std::size_t size_ = 0;
+  mutable std::uint64_t looked_at_ = 0;
 };
 
 template <int D>
@@ -201,6 +204,7 @@ bool FeatureTree<D>::visit_in(const Box<D>& area, Visit&& visit) const {
   while (open > 0) {
     const Open at = stack[--open];
     if (at.node == 0) continue;
+    ++looked_at_;
     if ((at.node & kPoint) != 0) {
       if (!beside(fixed_of(at.node), 0) && visit(vertices_[at.node & ~kPoint])) return true;
       continue;

@@ -26,6 +26,8 @@ class Features<sac::PlainScope> {
   int level(sac::PlainScope&, const Vertex<2>& v) { return tree_.crowded_level(v); }
   /// A vertex at which a segment is split. Throws: Error(too_close).
   void insert(sac::PlainScope&, VertexRef<2> v);
+  /// How much visit_points_in has looked at so far.
+  [[nodiscard]] std::uint64_t looked_at() const noexcept { return tree_.looked_at(); }
 
   /// Calls visit(point) for the input points in the box, and others just outside, until it returns
   /// true; returns whether it did.
@@ -88,6 +90,9 @@ class Features<sac::Scope> : public sac::Structure {
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
   void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
   void print(const sac::Call& call, const sac::Edge& edge, std::ostream& out) const override;
+
+  /// How much visit_points_in has looked at so far.
+  [[nodiscard]] std::uint64_t looked_at() const noexcept { return tree_.looked_at(); }
 
   [[nodiscard]] std::size_t bytes() const noexcept { return tree_.bytes(); }
   void check_invariants() const override;

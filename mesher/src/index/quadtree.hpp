@@ -1,15 +1,14 @@
 // The quadtree as a place to look vertices up.
 //
-// The cells are those that BuildQT marks as split: a cell is *wanted* while it, or a cell inside it,
-// is marked, and has children then. Answers do not depend on the subdivision, only their cost does,
-// so the tree may be between two states while a propagation is under way: marks come only after
-// the points that they are for, and many may come at once. So a cell also has children while more
-// than kMany vertices lie in it.
-// A cell with children is *open* while more than kFull vertices lie in it: these are in its
-// children. Else it is *closed*: it keeps them itself, and who looks up goes no deeper. So the
-// cells that a search meets hold a handful of vertices, however deep BuildQT splits. Each cell also
-// knows a bound on how far the queries centred in it look (`reach`), and so does each entry of a
-// bucket, to find the queries that a new vertex concerns.
+// The cells are those that BuildQT marks as split: a cell is *wanted* while it, or a cell inside
+// it, is marked, and has children then. Answers do not depend on the subdivision, only their cost
+// does, so the tree may be between two states while a propagation is under way: marks come only
+// after the points that they are for, and many may come at once. So a cell also has children while
+// more than kMany vertices lie in it. A cell with children is *open* while more than kFull vertices
+// lie in it: these are in its children. Else it is *closed*: it keeps them itself, and who looks up
+// goes no deeper. So the cells that a search meets hold a handful of vertices, however deep BuildQT
+// splits. Each cell also knows a bound on how far the queries centred in it look (`reach`), and so
+// does each entry of a bucket, to find the queries that a new vertex concerns.
 //
 // Here is what it offers and consists of; what it does is in quadtree_cells, _search, _reach,
 // _check.
@@ -78,10 +77,17 @@ class Quadtree {
   /// buckets of so many entries, in which every vertex in the box is and some beyond, but for those
   /// in cells where the search has looked before. The entries behind the count are 0, and nowhere
   /// near. `looked`: that was inside the box; now it is the box. A cell is only entered if
-  /// enters(its lower corner relative to the center, its side).
+  /// enters(its lower corner relative to the center, its side). Returns true; false, with `looked`
+  /// as it was, if it has come to an early end as there are more than `most` cells and vertices.
   template <class Enters, class Visit>
-  void visit_box(const Point<D>& center, const Box<D>& box, Looked& looked, Enters&& enters,
-                 Visit&& visit) const;
+  bool visit_box(const Point<D>& center, const Box<D>& box, Looked& looked, Enters&& enters,
+                 Visit&& visit, std::uint64_t most = ~std::uint64_t{0}) const;
+  /// Visits buckets as visit_box, from the center outward, but for those of cells where the search
+  /// has looked before: a cell is entered if enters() says so when its turn comes, after the visits
+  /// to what is nearer. `area`: all that enters() is true of, relative to `center`.
+  template <class Enters, class Visit>
+  void visit_outward(const Point<D>& center, const Box<D>& area, const Looked& looked,
+                     Enters&& enters, Visit&& visit) const;
   /// The side of the cell that vertices at p are in.
   [[nodiscard]] double side_at(const Point<D>& p) const {
     int level = 0;
@@ -146,6 +152,8 @@ class Quadtree {
     Fixed<D> corner;
   };
   [[nodiscard]] Step cell_around(const Fixed<D>& lo, const Fixed<D>& hi) const;
+  [[nodiscard]] std::array<Fixed<D>, 2> fixed_box(const Point<D>& center, const Box<D>& box) const;
+  using Stack = std::array<Step, (kLevels + 1) * (kChildren - 1) + 1>;
   // The cell that holds the vertices at f, and its level.
   [[nodiscard]] NodeIndex leaf_of(const Fixed<D>& f, int* level = nullptr) const {
     NodeIndex n = 0;

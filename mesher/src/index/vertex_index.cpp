@@ -70,9 +70,14 @@ void Index::produce(sac::Scope& s, Vertex<2>& v) {
 
 void Index::produced(sac::Scope& s, Vertex<2>& v, BirthEdge& edge, const Role& role) noexcept {
   edge.vertex = v.self;
+  const bool was_there = v.presence.there();
   const auto window = presences_.produced(v.presence, edge, s.self());
   v.alive = true;
-  if (v.presence.birth() == engine_.handle_of(s.self())) take_role(v, role, s.self());
+  if (!was_there) {
+    set_role(v, role);  // nobody has seen it
+  } else if (v.presence.birth() == engine_.handle_of(s.self())) {
+    take_role(v, role, s.self());
+  }
   if (window.has_value()) appeared(v, *window);
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "program/staying.hpp"
 #include "program/world.hpp"
@@ -65,10 +66,9 @@ void Complete::operator()(S& s, VertexRef<2> v, int b) const {
     w.post_complete(s, x, std::max(b + 1, w.buckets().bucket(point->nearest2)));
     w.post_star(s, x);
   }
-  if (cuts) return w.post_complete(s, v, b + 1);
-  if (const auto later = w.rule->next_bucket(*gaps, b, stays.filter())) {
-    w.post_complete(s, v, *later);
-  }
+  const std::optional<int> later = cuts ? b + 1 : w.rule->next_bucket(*gaps, b, stays.filter());
+  s.weigh(stays.looked_at());
+  if (later) w.post_complete(s, v, *later);
 }
 
 }  // namespace mesher::detail

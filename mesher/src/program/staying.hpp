@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "program/world.hpp"
@@ -14,7 +15,8 @@ namespace mesher::detail {
 template <class S>
 class Staying final : public EdgeFilter {
  public:
-  explicit Staying(const World<S>& world) : world_(world) {}
+  explicit Staying(const World<S>& world)
+      : world_(world), before_(world.segments.store().looked_at()) {}
 
   /// This, for a rule; null where nothing can stay.
   [[nodiscard]] const EdgeFilter* filter() const noexcept {
@@ -22,6 +24,11 @@ class Staying final : public EdgeFilter {
   }
   /// The triangles on both sides of this edge stay for now.
   void leave(const VoronoiCell& cell, int p, int q) { left_.push_back(edge(cell, p, q)); }
+
+  /// How many segments at points have been looked at for all this.
+  [[nodiscard]] std::uint64_t looked_at() const noexcept {
+    return world_.segments.store().looked_at() - before_;
+  }
 
   [[nodiscard]] bool skips(const VoronoiCell& cell, int p, int q) const override {
     if (std::find(left_.begin(), left_.end(), edge(cell, p, q)) != left_.end()) return true;
@@ -40,6 +47,7 @@ class Staying final : public EdgeFilter {
   }
 
   const World<S>& world_;
+  const std::uint64_t before_;
   std::vector<Edge> left_;
 };
 

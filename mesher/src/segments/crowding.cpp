@@ -5,13 +5,21 @@ namespace mesher::detail {
 
 using TracedCrowding = Crowding<sac::Scope>;
 
+Witness TracedCrowding::find_weighed(sac::Scope& s, const CrowdedZone& zone) {
+  const auto looked_at = [&] { return segments_.looked_at() + points_.looked_at(); };
+  const std::uint64_t before = looked_at();
+  const Witness witness = find_witness(zone, segments_, points_);
+  s.weigh(looked_at() - before);
+  return witness;
+}
+
 bool TracedCrowding::crowded(sac::Scope& s, const PieceRef& piece) {
   const auto same = [&](const CrowdedEdge& edge) { return edge.piece == piece; };
   if (auto* edge = s.recall<CrowdedEdge>(id_, kCrowded, same)) {
     return edge->seen = static_cast<bool>(edge->witness);
   }
   const CrowdedZone zone(piece);
-  const Witness witness = find_witness(zone, segments_, points_);
+  const Witness witness = find_weighed(s, zone);
   auto& edge = s.observe<CrowdedEdge>(id_, kCrowded);
   edge.call = engine_.handle_of(s.self());
   edge.witness = witness;

@@ -166,6 +166,7 @@ class Crowding<sac::Scope> : public sac::Structure {
   [[nodiscard]] CrowdedEdge& at(sac::Handle h) const noexcept {
     return *engine_.arena().at<CrowdedEdge>(h);
   }
+  [[nodiscard]] Witness find_weighed(sac::Scope& s, const CrowdedZone& zone);
   void turn(CrowdedEdge& edge, Witness witness) noexcept;
   template <class Feature>
   void came(const Feature& f, const Point<2>& p, const Point<2>& q) noexcept;

@@ -40,6 +40,11 @@ bool equally_far(double x, double y) { return std::abs(x - y) <= 1e-9 * (x + y);
 
 }  // namespace
 
+bool has_sharp_neighbour(const SegmentStore& segments, const Segment& s, VertexHandle apex) {
+  return segments.visit_at(
+      apex, [&](const Segment& t) { return t.self != s.self && meet_sharply(s, t, apex); });
+}
+
 bool is_exempt(const VertexSearch& vertices, const SegmentStore& segments, const Vertex<2>& p,
                const Vertex<2>& q) {
   const auto may_be = [](const Vertex<2>& v) { return v.on_segment || v.input; };

@@ -14,6 +14,11 @@
 
 namespace mesher::detail {
 
+/// Whether a live segment at `apex`, an end of s, meets s there at under 60 degrees. If none does,
+/// no triangle stays or not for the sake of s as a leg from that apex. Cost: O(segments at it).
+[[nodiscard]] bool has_sharp_neighbour(const SegmentStore& segments, const Segment& s,
+                                       VertexHandle apex);
+
 /// Whether a poor triangle on the left of p -> q, its shortest edge, stays.
 [[nodiscard]] bool is_exempt(const VertexSearch& vertices, const SegmentStore& segments,
                              const Vertex<2>& p, const Vertex<2>& q);

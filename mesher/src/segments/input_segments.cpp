@@ -1,6 +1,8 @@
 // Edits of the set of segments reach all that observes it.
 #include "segments/input_segments.hpp"
 
+#include "segments/exempt.hpp"
+
 namespace mesher::detail {
 
 PieceRef InputSegments<sac::PlainScope>::insert(VertexHandle a, VertexHandle b) {
@@ -25,8 +27,14 @@ void Traced::take(Segment& s) noexcept {
   legs_changed(s);
 }
 
+// An end matters as the far end of a leg: with another leg beside s, at the other end of s. Where
+// that comes or goes in the same update it is found by one of the two, and then by its own end.
 void Traced::legs_changed(const Segment& s) noexcept {
-  for (const VertexHandle end : {s.a, s.b}) vertices_.legs_changed(vertices_.pool()[end]);
+  for (const VertexHandle end : {s.a, s.b}) {
+    if (has_sharp_neighbour(store_, s, s.other(end))) {
+      vertices_.legs_changed(vertices_.pool()[end]);
+    }
+  }
 }
 
 // How to undo is noted first, and does nothing where the edit has failed.

@@ -107,6 +107,8 @@ class LeafRecords {
       if ((*this)[h].self == h) visit((*this)[h]);
     }
   }
+  /// How much searches have looked at so far.
+  [[nodiscard]] std::uint64_t looked_at() const noexcept { return tree_.looked_at(); }
   [[nodiscard]] std::size_t size() const noexcept { return by_piece_.size(); }
   [[nodiscard]] std::size_t bytes() const noexcept;
   /// Throws InvariantError if a record is not found by its piece, or lost.

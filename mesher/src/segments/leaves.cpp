@@ -119,24 +119,27 @@ void TracedLeaves::tell_asks(const Leaf& leaf, Concerned&& concerned) noexcept {
 
 // --- Observations ----------------------------------------------------------------------------
 
-std::vector<LeafRef> TracedLeaves::answer(const Point<2>& x, SegmentHandle without,
-                                          const sac::Call& call) const {
+std::vector<LeafRef> TracedLeaves::answer(sac::Scope& s, const Point<2>& x,
+                                          SegmentHandle without) const {
+  const sac::Call& call = s.self();
+  const std::uint64_t before = records_.looked_at();
   std::vector<LeafRef> leaves;
   records_.for_each_with(x, [&](Leaf& leaf) {
     if (leaf.piece.segment != without && is_leaf_for(leaf, call)) leaves.push_back({&leaf});
   });
+  s.weigh(records_.looked_at() - before);
   sort(leaves);
   return leaves;
 }
 
 std::vector<LeafRef> TracedLeaves::around(sac::Scope& s, const Point<2>& x) {
-  std::vector<LeafRef> leaves = answer(x, 0, s.self());
+  std::vector<LeafRef> leaves = answer(s, x, 0);
   if (!leaves.empty()) record_ask(s, x, leaves.size());
   return leaves;
 }
 
 std::vector<LeafRef> TracedLeaves::around(sac::Scope& s, VertexRef<2> v) {
-  return answer(v->p, vertices_.role(*v).on, s.self());
+  return answer(s, v->p, vertices_.role(*v).on);
 }
 
 void TracedLeaves::record_ask(sac::Scope& s, const Point<2>& x, std::size_t count) {

@@ -126,8 +126,8 @@ class Leaves<sac::Scope> : public sac::Structure {
   [[nodiscard]] bool is_leaf_for(const Leaf& leaf, const sac::Call& call) const noexcept {
     return presences_.seen_by(leaf.begun, call) && !presences_.seen_by(leaf.ended, call);
   }
-  [[nodiscard]] std::vector<LeafRef> answer(const Point<2>& x, SegmentHandle without,
-                                            const sac::Call& call) const;
+  [[nodiscard]] std::vector<LeafRef> answer(sac::Scope& s, const Point<2>& x,
+                                            SegmentHandle without) const;
   void touch(Leaf& leaf) noexcept;
   void produce(sac::Scope& s, Leaf& leaf, std::uint8_t kind);
   void record_ask(sac::Scope& s, const Point<2>& x, std::size_t count);

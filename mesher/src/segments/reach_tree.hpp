@@ -109,6 +109,8 @@ class ReachTree {
   }
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// Blocks and items that searches have looked at so far.
+  [[nodiscard]] std::uint64_t looked_at() const noexcept { return looked_at_; }
   [[nodiscard]] std::size_t bytes() const noexcept {
     return nodes_.capacity() * sizeof(Node) + entries_.capacity() * sizeof(Entry);
   }
@@ -203,6 +205,7 @@ class ReachTree {
   Link free_nodes_ = 0;
   Link free_entries_ = 0;
   std::size_t size_ = 0;
+  mutable std::uint64_t looked_at_ = 0;
 };
 
 // --- Searches --------------------------------------------------------------------------------
@@ -212,6 +215,7 @@ template <class Take, class Visit>
 bool ReachTree<Item>::visit_list(Link list, Take& take, Visit& visit) const {
   for (Link e = list & ~kList; e != 0; e = entries_[e].next) {
     const Entry& entry = entries_[e];
+    ++looked_at_;
     if (!take(entry.place, double{entry.reach})) continue;
     if constexpr (std::is_void_v<decltype(visit(entry.item))>) {
       visit(entry.item);
@@ -237,6 +241,7 @@ bool ReachTree<Item>::visit_where(Enter&& enter, Take&& take, Visit&& visit) con
     }
     if (link == 0) continue;
     const Node& n = nodes_[link];
+    ++looked_at_;
     const double side = unit_ * static_cast<double>(std::uint64_t{1} << (kLevels - 1 - n.level));
     for (int c = 0; c < 4; ++c) {
       if (n.child[c] == 0) continue;

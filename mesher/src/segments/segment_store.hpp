@@ -55,6 +55,9 @@ class SegmentStore {
   template <class Visit>
   bool visit_near(const Point<2>& p, const Point<2>& q, double slack, Visit&& visit) noexcept;
 
+  /// How much searches, and visits to the segments at a point, have looked at so far.
+  [[nodiscard]] std::uint64_t looked_at() const noexcept { return tree_.looked_at() + met_; }
+
   /// Frees the records of segments that are not live.
   void commit() noexcept;
 
@@ -112,6 +115,7 @@ class SegmentStore {
   TileHandle free_tiles_ = 0;
   SegmentHandle changed_ = 0;
   std::size_t live_ = 0;
+  mutable std::uint64_t met_ = 0;  // at points
 };
 
 template <class Visit>
@@ -120,6 +124,7 @@ bool SegmentStore::visit_at(VertexHandle end, Visit&& visit) const {
   if (it == at_.end()) return false;
   for (SegmentHandle h = it->second; h != 0;) {
     Segment& s = pool_[h];
+    ++met_;
     h = link_at(s, end);
     if constexpr (std::is_void_v<decltype(visit(s))>) {
       visit(s);

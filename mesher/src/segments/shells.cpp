@@ -103,7 +103,10 @@ PieceSplit TracedShells::answer(const PieceRef& piece) {
 }
 
 PieceSplit TracedShells::place(sac::Scope& s, const PieceRef& piece) {
+  const auto looked_at = [&] { return segments_.looked_at() + points_.looked_at(); };
+  const std::uint64_t before = looked_at();
   const PieceSplit now = s.guarded([&] { return answer(piece); });
+  s.weigh(looked_at() - before);
   if (!looks_at_zones(piece.piece.kind)) return now;
   const auto same = [&](const PlaceEdge& edge) { return edge.piece == piece; };
   if (auto* edge = s.recall<PlaceEdge>(id_, kPlace, same)) return edge->seen = now;
