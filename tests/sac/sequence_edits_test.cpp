@@ -366,7 +366,7 @@ TEST_CASE("an edit of a sequence that fails anywhere changes nothing") {
       }
     }
   }
-  CHECK(failures > 1000);
+  CHECK(failures > 500);
 }
 
 TEST_CASE("a propagation that fails anywhere takes the edits of the sequence back") {
@@ -395,7 +395,7 @@ TEST_CASE("a propagation that fails anywhere takes the edits of the sequence bac
       }
     }
   }
-  CHECK(failures > 1000);
+  CHECK(failures > 500);
   CHECK(Fragile::living == 0);
 }
 

@@ -72,6 +72,9 @@ float Quadtree<D>::reach_in_leaf(NodeIndex n, const Point<D>& p, Visit& visit) n
       const double bound = bucket.reach[i] * box_.side;
       near |= static_cast<unsigned>(d2 <= bound * bound) << i;
     }
+    for (unsigned rest = near; rest != 0; rest &= rest - 1) {
+      __builtin_prefetch(&vertices_[bucket.handle[std::countr_zero(rest)]].reach);
+    }
     for (; near != 0; near &= near - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
       bucket.reach[i] = vertices_[bucket.handle[i]].reach;

@@ -38,6 +38,7 @@
 #include "sac/check.hpp"
 #include "sac/internal/core.hpp"
 #include "sac/internal/parameters.hpp"
+#include "sac/internal/undo.hpp"
 #include "sac/label.hpp"
 #include "sac/structure.hpp"
 
@@ -218,7 +219,8 @@ class Engine {
     core_.require_idle(what);
   }
   /// How to take the edit back if the next propagation fails. Cleared when it succeeds.
-  void on_rollback(std::function<void()> undo) { rollback_.push_back(std::move(undo)); }
+  /// `undo`: to be called without arguments. Throws: std::bad_alloc.
+  void on_rollback(auto undo) { rollback_.emplace_back(std::move(undo)); }
   /// Makes the edits of body(): all of them, or none if it throws.
   template <class Body>
   void edit_together(Body&& body);
@@ -326,7 +328,7 @@ class Engine {
   Registry<OutsideType> outside_types_;
   std::vector<Handle> outside_;  // objects of the outside, by their heads
   std::vector<Handle> released_;  // those to be freed when the edits are final
-  std::vector<std::function<void()>> rollback_;
+  std::vector<detail::Undo> rollback_;
 };
 
 template <class Body>

@@ -116,12 +116,14 @@ void Engine::set(Mod<T, Same> mod, std::type_identity_t<T> value) {
   if (!mods_->is_input(mod.head())) {
     mods_->require_unwritten(mod.head());
     const std::uint16_t type = mods_->number(detail::kValueType<T, Same>);
-    on_rollback([this, mod] { mods_->unmake_input(mod.head()); });
+    on_rollback([this, head = mod.head()] { mods_->unmake_input(head); });
     return mods_->make_input(mod.head(), type, std::move(value));
   }
   const T& old = mods_->template value<T>(mod.head());
   if (detail::same<Same>(old, value)) return;
-  on_rollback([this, mod, old]() mutable { mods_->change_input(mod.head(), std::move(old)); });
+  on_rollback([this, head = mod.head(), old]() mutable {
+    mods_->change_input(head, std::move(old));
+  });
   mods_->change_input(mod.head(), std::move(value));
 }
 

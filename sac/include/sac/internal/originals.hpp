@@ -41,7 +41,7 @@ class Originals {
   /// Whether something could not be kept.
   [[nodiscard]] bool lost() const noexcept { return lost_; }
   void clear() noexcept {
-    items_.clear();
+    if (!items_.empty()) items_.clear();
     lost_ = false;
     count_ = 0;
   }

@@ -201,7 +201,6 @@ class Sequence {
       body();
     }
   }
-  // Requires: `undo` fits into a std::function without memory of its own.
   void on_rollback([[maybe_unused]] auto undo) {
     if constexpr (S::kTraced) host_.on_rollback(undo);
   }
