@@ -54,6 +54,7 @@ struct Options {
   Box<D> domain{};      ///< where input points may lie; must not be empty
   double rho = 1.4142;  ///< bound of circumradius over shortest edge; > 1.01
   Rule rule = Rule::radius_edge;
+  double max_area = 0;  ///< of a triangle with its centroid in the domain; 0: no limit
   std::size_t max_vertices = 0;  ///< more are refused with Error(too_many); 0: no limit
   bool record_weights = false;  ///< keeps what calls do inside, for those who study the trace
 };
