@@ -1,4 +1,4 @@
-// The lattice of a limit.
+// Pitches and candidates.
 #include "sizes/limits.hpp"
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <string>
 
 #include "geometry/plane.hpp"
+#include "input.hpp"
 #include "io/text.hpp"
 #include "mesher/error.hpp"
 
@@ -15,24 +16,26 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::bad_option, what); }
 
-// x rounded down to so many bits.
+[[noreturn]] void fail_too_small(double spacing, double coordinates) {
+  refuse("a spacing of " + text::to_text(spacing) +
+         " is too small for double precision at coordinates up to " + text::to_text(coordinates));
+}
+
 double rounded_down(double x, int bits) {
   int exponent = 0;
   const double mantissa = std::frexp(x, &exponent);
   return std::ldexp(std::floor(std::ldexp(mantissa, bits)), exponent - bits);
 }
 
-// The pitch of the lattice for a spacing: of kBits bits, or of so many that a point's numerator,
-// up to 2^3 times the pitch's times the coordinate in pitches (Lattice::place), has 53.
-double pitch_for(double spacing, double coordinates) {
-  constexpr int kBits = 12, kFewest = 6, kDouble = 53;
-  const int bits = std::min(kBits, kDouble - 4 - std::ilogb(coordinates / spacing));
-  if (bits < kFewest) {
-    refuse("a spacing of " + text::to_text(spacing) +
-           " is too small for double precision at coordinates of " + text::to_text(coordinates));
-  }
-  return rounded_down(spacing, bits);
+// How many bits a pitch of about `spacing` has, 12 at most. The numerator of a lattice point
+// (Lattice::place) is up to 2^3 times that of the pitch times the coordinate in pitches: 53 bits.
+int bits_of_pitch(double spacing, double coordinates) {
+  return std::min(12, 53 - 4 - std::ilogb(coordinates / spacing));
 }
+constexpr int kFewestBits = 6;
+
+// Areas are computed to within 2^-45.
+constexpr double kFits = 1 - 0x1p-40;
 
 double largest_coordinate(const Box<2>& domain) {
   double most = 0;
@@ -42,40 +45,138 @@ double largest_coordinate(const Box<2>& domain) {
   return most;
 }
 
+// Of an equilateral triangle.
+double area_of_size(double h) { return 0.43301270189221932 * h * h; }
+
 }  // namespace
 
-Limits::Limits(const Options<2>& options, const MeshBox<2>& box) : domain_(options.domain) {
-  if (options.max_area == 0) return;
-  if (!(options.max_area > 0)) refuse("max_area must be above 0");
+Limits::Limits(const Options<2>& options, const MeshBox<2>& box)
+    : domain_(options.domain), coordinates_(largest_coordinate(options.domain)),
+      sizes_(options.sizes) {
+  if (options.max_area == 0 && sizes_ == nullptr) return;
+  if (!(options.max_area >= 0)) refuse("max_area must be above 0");
   if (options.rule != Rule::radius_edge) refuse("limits of size need the rule radius_edge");
-  const double spacing = std::sqrt(options.max_area / Lattice::kArea);
-  if (!(spacing < box.side)) return;  // every triangle fits
-  area_ = options.max_area;
-  pitch_ = pitch_for(spacing, largest_coordinate(domain_));
+  if (options.max_area != 0) area_ = options.max_area;
+  const double widest = std::min(spacing(area_), box.side);
+  if (sizes_ != nullptr) add_bands(widest);
+  if (spacing(area_) < box.side) {
+    if (bits_of_pitch(widest, coordinates_) < kFewestBits) fail_too_small(widest, coordinates_);
+    add_pitch(widest);
+  } else if (sizes_ != nullptr) {
+    pitches_.push_back({box.side, kNone});
+  }
+}
+
+void Limits::add_pitch(double spacing) {
+  pitches_.push_back({spacing, rounded_down(spacing, bits_of_pitch(spacing, coordinates_))});
+}
+
+// Those below `end`, from the smallest that is not too small.
+void Limits::add_bands(double end) {
+  constexpr std::array<double, 4> kQuarters{1, 1.189207115002721, 1.4142135623730951,
+                                            1.681792830507429};
+  int exponent = std::ilogb(coordinates_) - (53 - 4 - kFewestBits);
+  for (;; ++exponent) {
+    for (const double quarter : kQuarters) {
+      const double spacing = std::ldexp(quarter, exponent);
+      if (spacing >= end) return;
+      if (bits_of_pitch(spacing, coordinates_) >= kFewestBits) add_pitch(spacing);
+    }
+  }
+}
+
+double Limits::area(const Point<2>& p) const {
+  if (!contains(p)) return kNone;
+  if (sizes_ == nullptr) return area_;
+  const double h = sizes_->at(p);
+  if (!(h > 0)) refuse("the size at " + place_text(p) + " is not above 0");
+  return std::min(area_, area_of_size(h));
+}
+
+double Limits::pitch_for(double spacing) const {
+  if (spacing < pitches_.front().spacing) fail_too_small(spacing, coordinates_);
+  const auto above = std::upper_bound(pitches_.begin(), pitches_.end(), spacing,
+                                      [](double x, const Pitch& p) { return x < p.spacing; });
+  return (above - 1)->pitch;
+}
+
+SizeRange Limits::pitches_in(const Box<2>& box) const {
+  const Box<2> inside{{std::max(box.lo[0], domain_.lo[0]), std::max(box.lo[1], domain_.lo[1])},
+                      {std::min(box.hi[0], domain_.hi[0]), std::min(box.hi[1], domain_.hi[1])}};
+  if (inside.lo[0] > inside.hi[0] || inside.lo[1] > inside.hi[1]) return {kNone, kNone};
+  if (sizes_ == nullptr) return {pitches_.back().pitch, pitches_.back().pitch};
+  const SizeRange sizes = sizes_->range(inside);
+  const auto pitch = [&](double h) {
+    return pitch_for(spacing(std::min(area_, area_of_size(h))));
+  };
+  return {pitch(sizes.least), pitch(std::max(sizes.least, sizes.most))};
 }
 
 // The lattice is kept out of the balls of leaves [rules A7.1]: the gap must not be larger than what
 // a lattice's triangle leaves.
 bool Limits::is_long(const Point<2>& a, const Point<2>& b) const {
   constexpr double kLongest = 1.4;
+  if (!any()) return false;
   const Point<2> middle{a[0] + (b[0] - a[0]) / 2, a[1] + (b[1] - a[1]) / 2};
   const double least = std::min({area(a), area(b), area(middle)});
   return squared_distance(a, b) > kLongest * kLongest * (least / Lattice::kArea);
 }
 
+template <class Visit>
+bool Limits::visit_pitches(const SizeRange& range, Visit&& visit) const {
+  for (const Pitch& p : pitches_) {
+    if (p.pitch >= range.least && p.pitch <= range.most && p.pitch < kNone && visit(p.pitch)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool Limits::is_candidate(const Lattice& lattice, const LatticePoint& q) const {
+  const Point<2> p = lattice.place(q);
+  const double own = lattice.pitch();
+  if (pitch(p) != own) return false;
+  if (sizes_ == nullptr) return true;
+  const double clear = own / 2;
+  const Box<2> near{{p[0] - clear, p[1] - clear}, {p[0] + clear, p[1] + clear}};
+  const SizeRange smaller{pitches_in(near).least, std::nextafter(own, 0)};
+  return !visit_pitches(smaller, [&](double pitch) {
+    const Lattice other(pitch);
+    return other.visit_in(near, [&](const LatticePoint& n) {
+      return squared_distance(other.place(n), p) < clear * clear && is_candidate(other, n);
+    });
+  });
+}
+
+bool Limits::fits(const Lattice& lattice, const std::array<LatticePoint, 3>& t) const {
+  const Point<2> middle =
+      centroid({lattice.place(t[0]), lattice.place(t[1]), lattice.place(t[2])});
+  return Lattice::kArea * lattice.pitch() * lattice.pitch() <= area(middle) * kFits;
+}
+
 bool Limits::is_amid(const Lattice& lattice, const LatticePoint& q) const {
   const auto around = Lattice::around(q);
-  return std::all_of(around.begin(), around.end(),
-                     [&](const LatticePoint& n) { return is_candidate(lattice, n); });
+  for (const LatticePoint& n : around) {
+    if (!is_candidate(lattice, n)) return false;
+  }
+  if (sizes_ == nullptr) return true;
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    if (!fits(lattice, {q, around[i], around[(i + 1) % around.size()]})) return false;
+  }
+  return true;
 }
 
 std::vector<Limits::Candidate> Limits::candidates(const MeshBox<2>& box, const Cell<2>& c) const {
   std::vector<Candidate> found;
-  const Lattice lattice(pitch_);
-  lattice.visit_in(box.box_of(c), [&](const LatticePoint& q) {
-    const Point<2> p = lattice.place(q);
-    const bool here = box.contains(p) && MeshBox<2>::cell(box.fixed(p), c.level) == c;
-    if (here && is_candidate(lattice, q)) found.push_back({p, pitch_, is_amid(lattice, q)});
+  const Box<2> area = box.box_of(c);
+  visit_pitches(pitches_in(area), [&](double pitch) {
+    const Lattice lattice(pitch);
+    lattice.visit_in(area, [&](const LatticePoint& q) {
+      const Point<2> p = lattice.place(q);
+      const bool here = box.contains(p) && MeshBox<2>::cell(box.fixed(p), c.level) == c;
+      if (here && is_candidate(lattice, q)) found.push_back({p, pitch, is_amid(lattice, q)});
+      return false;
+    });
     return false;
   });
   return found;

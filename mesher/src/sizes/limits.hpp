@@ -4,12 +4,21 @@
 // asks for a *spacing* of sqrt(A / 0.4375), that of the lattice whose triangles have this area. The
 // vertices come from a lattice first: were too large a triangle but one more reason to insert, the
 // mesh would be one advancing front, and an edit would move all of it.
+//
+// The pitch of the lattice at a place is the spacing there: that of max_area, where this is what
+// limits; elsewhere that of its *band*, [2^(k/4), 2^((k+1)/4)), so that lattices of some extent
+// result. A point of a lattice is a *candidate* if its pitch is that of the lattice, and no
+// candidate of a smaller pitch is within half of it.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "geometry/grid.hpp"
+#include "mesher/sizes.hpp"
 #include "sizes/lattice.hpp"
 
 namespace mesher::detail {
@@ -22,19 +31,16 @@ class Limits {
   Limits(const Options<2>& options, const MeshBox<2>& box);
 
   /// Whether there is a limit somewhere.
-  [[nodiscard]] bool any() const noexcept { return area_ < kNone; }
+  [[nodiscard]] bool any() const noexcept { return !pitches_.empty(); }
   /// The largest area of a triangle with its centroid at p; kNone: any.
-  [[nodiscard]] double area(const Point<2>& p) const noexcept {
-    return contains(p) ? area_ : kNone;
+  /// Throws: Error(bad_option) for a size that is not above 0.
+  [[nodiscard]] double area(const Point<2>& p) const;
+  /// The pitch of the lattice at p; kNone: no lattice. Throws: also if it is too small.
+  [[nodiscard]] double pitch(const Point<2>& p) const {
+    return any() ? pitch_for(spacing(area(p))) : kNone;
   }
-  /// The pitch of the lattice at p; kNone: no lattice.
-  [[nodiscard]] double pitch(const Point<2>& p) const noexcept {
-    return contains(p) ? pitch_ : kNone;
-  }
-  /// None is shorter in the box.
-  [[nodiscard]] double least_pitch(const Box<2>& box) const noexcept {
-    return meets(box) ? pitch_ : kNone;
-  }
+  /// None in the box is shorter.
+  [[nodiscard]] double least_pitch(const Box<2>& box) const { return pitches_in(box).least; }
   /// Whether a piece of a segment is so long that the lattice would leave a gap beside it.
   [[nodiscard]] bool is_long(const Point<2>& a, const Point<2>& b) const;
 
@@ -42,28 +48,36 @@ class Limits {
   struct Candidate {
     Point<2> place{};
     double pitch = 0;
-    bool amid = false;  // the six around it on the lattice are candidates, too
+    bool amid = false;  // the six around it on the lattice are candidates, and its triangles fit
   };
-  /// Those in a cell, by rows. Cost: O(their number).
+  /// Those in a cell, by pitch and rows.
   [[nodiscard]] std::vector<Candidate> candidates(const MeshBox<2>& box, const Cell<2>& c) const;
 
  private:
+  // From a spacing on; kNone: no lattice.
+  struct Pitch {
+    double spacing, pitch;
+  };
+  static double spacing(double area) noexcept { return std::sqrt(area / Lattice::kArea); }
   [[nodiscard]] bool contains(const Point<2>& p) const noexcept {
     return p[0] >= domain_.lo[0] && p[0] <= domain_.hi[0] && p[1] >= domain_.lo[1] &&
            p[1] <= domain_.hi[1];
   }
-  [[nodiscard]] bool meets(const Box<2>& box) const noexcept {
-    return box.lo[0] <= domain_.hi[0] && box.hi[0] >= domain_.lo[0] &&
-           box.lo[1] <= domain_.hi[1] && box.hi[1] >= domain_.lo[1];
-  }
-  [[nodiscard]] bool is_candidate(const Lattice& lattice, const LatticePoint& q) const {
-    return pitch(lattice.place(q)) == lattice.pitch();
-  }
+  void add_bands(double end);
+  void add_pitch(double spacing);
+  [[nodiscard]] double pitch_for(double spacing) const;
+  [[nodiscard]] SizeRange pitches_in(const Box<2>& box) const;
+  template <class Visit>
+  bool visit_pitches(const SizeRange& range, Visit&& visit) const;
+  [[nodiscard]] bool is_candidate(const Lattice& lattice, const LatticePoint& q) const;
   [[nodiscard]] bool is_amid(const Lattice& lattice, const LatticePoint& q) const;
+  [[nodiscard]] bool fits(const Lattice& lattice, const std::array<LatticePoint, 3>& t) const;
 
   Box<2> domain_;
+  double coordinates_;  // none in the domain is larger
   double area_ = kNone;
-  double pitch_ = kNone;
+  std::shared_ptr<const SizeField<2>> sizes_;  // null: area_ everywhere
+  std::vector<Pitch> pitches_;                 // ascending; the last is kNone; empty: no limits
 };
 
 }  // namespace mesher::detail
