@@ -13,6 +13,7 @@
 #include "geometry/diametral_ball.hpp"
 #include "geometry/plane.hpp"
 #include "mesher/predicates.hpp"
+#include "mesher/sizes.hpp"
 #include "random_pslg.hpp"
 
 namespace support {
@@ -120,16 +121,19 @@ class PslgJudge {
     return "";
   }
 
+  // The largest area of a triangle with its centroid at p.
+  static double limit(const mesher::Options<2>& options, const P& p) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (p[i] < options.domain.lo[i] || p[i] > options.domain.hi[i]) return 1e300;
+    }
+    const double h = options.sizes == nullptr ? 1e150 : options.sizes->at(p);
+    return std::min(options.max_area == 0 ? 1e300 : options.max_area, std::sqrt(3.0) / 4 * h * h);
+  }
   [[nodiscard]] std::string large(const mesher::Options<2>& options) const {
-    if (options.max_area == 0) return "";
     for (const auto& t : mesh_.simplices) {
       const P &p = at(t[0]), &q = at(t[1]), &r = at(t[2]);
-      const P middle = mesher::detail::centroid({p, q, r});
-      const auto within = [&](std::size_t i) {
-        return middle[i] >= options.domain.lo[i] && middle[i] <= options.domain.hi[i];
-      };
       const double area = ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
-      if (within(0) && within(1) && area > options.max_area) {
+      if (area > limit(options, mesher::detail::centroid({p, q, r}))) {
         return "large: " + text(p) + text(q) + text(r);
       }
     }

@@ -8,9 +8,9 @@
 //       [](const mesher::Point<2>& p) { return 0.01 + 0.1 * std::hypot(p[0], p[1]); },
 //       0.1, 0.01);
 //
-// The mesh is a function of the sizes at places alone; bounds only tell where to look for small
-// ones. Who breaks a bound gets no triangle that is too large, but a mesh that is not as even, and
-// moves more under edits.
+// The mesh is a function of the field, of its sizes and of its bounds: near bounds make an even mesh.
+// A field that breaks its own bounds gets no triangle that is too large, but a mesh that is less
+// even and moves more under edits.
 #pragma once
 
 #include <functional>
@@ -22,6 +22,12 @@
 #include "mesher/pslg.hpp"
 
 namespace mesher {
+
+/// The area of an equilateral triangle with edges of length 1.
+inline constexpr double kAreaOfSize = 0.43301270189221932;
+
+/// The size that allows triangles of this area.
+[[nodiscard]] double size_of_area(double area);
 
 /// Sizes between two bounds.
 struct SizeRange {
@@ -38,6 +44,8 @@ class SizeField {
   [[nodiscard]] virtual double at(const Point<D>& p) const = 0;
   /// Bounds of the sizes in a box; 0 < least. Near each other for a small box.
   [[nodiscard]] virtual SizeRange range(const Box<D>& box) const = 0;
+  /// All finite sizes, if they are few: each then gets the lattice that suits it. Else nothing.
+  [[nodiscard]] virtual std::vector<double> plateaus() const { return {}; }
 };
 
 /// A function whose values at p and q differ by at most `slope` |pq|.
@@ -62,5 +70,17 @@ class SlopedSizes final : public SizeField<2> {
 /// Cost: O(n log n); of a look at a place, O(log n).
 [[nodiscard]] std::shared_ptr<const SizeField<2>> sampled_sizes(
     const std::vector<SizeSample>& samples);
+
+struct Domain;
+
+/// What the regions of a mesh ask for: in one with a limit that, elsewhere none. Null if no region
+/// has one. `mesh`: of the lines that enclose the regions, without limits, say; `domain`: found in
+/// it. The field stays what it is when lines move later. Cost: O(n log n).
+[[nodiscard]] std::shared_ptr<const SizeField<2>> region_sizes(const Mesh<2>& mesh,
+                                                               const Domain& domain);
+
+/// The least of several at each place; null stands for no limit.
+[[nodiscard]] std::shared_ptr<const SizeField<2>> least_sizes(
+    std::vector<std::shared_ptr<const SizeField<2>>> fields);
 
 }  // namespace mesher

@@ -21,8 +21,10 @@ struct LatticePoint {
 
 class Lattice {
  public:
-  static constexpr double kRow = 0.875;         // between rows, in pitches
-  static constexpr double kArea = kRow / 2;     // of a triangle, in squared pitches
+  static constexpr double kRow = 0.875;      // between rows, in pitches
+  static constexpr double kArea = kRow / 2;  // of a triangle, in squared pitches
+  /// Of a triangle, in pitches: (1/4 + kRow^2) / (4 kArea), rounded up.
+  static constexpr double kCircumradius = 0.581;
 
   explicit Lattice(double pitch) : pitch_(pitch) {}
 

@@ -21,6 +21,10 @@ namespace {
          " is too small for double precision at coordinates up to " + text::to_text(coordinates));
 }
 
+Box<2> around(const Point<2>& p, double r) {
+  return {{p[0] - r, p[1] - r}, {p[0] + r, p[1] + r}};
+}
+
 double rounded_down(double x, int bits) {
   int exponent = 0;
   const double mantissa = std::frexp(x, &exponent);
@@ -45,8 +49,7 @@ double largest_coordinate(const Box<2>& domain) {
   return most;
 }
 
-// Of an equilateral triangle.
-double area_of_size(double h) { return 0.43301270189221932 * h * h; }
+double area_of_size(double h) { return kAreaOfSize * h * h; }
 
 }  // namespace
 
@@ -62,6 +65,7 @@ Limits::Limits(const Options<2>& options, const MeshBox<2>& box)
   if (spacing(area_) < box.side) {
     if (bits_of_pitch(widest, coordinates_) < kFewestBits) fail_too_small(widest, coordinates_);
     add_pitch(widest);
+    pitches_.push_back({kNone, kNone});
   } else if (sizes_ != nullptr) {
     pitches_.push_back({box.side, kNone});
   }
@@ -71,8 +75,16 @@ void Limits::add_pitch(double spacing) {
   pitches_.push_back({spacing, rounded_down(spacing, bits_of_pitch(spacing, coordinates_))});
 }
 
-// Those below `end`, from the smallest that is not too small.
+// Those below `end`, from the smallest that is not too small; of a field with plateaus, theirs.
 void Limits::add_bands(double end) {
+  std::vector<double> plateaus = sizes_->plateaus();
+  std::sort(plateaus.begin(), plateaus.end());
+  for (const double h : plateaus) {
+    const double plateau = spacing(area_of_size(h));
+    if (bits_of_pitch(plateau, coordinates_) < kFewestBits) fail_too_small(plateau, coordinates_);
+    if (plateau < end) add_pitch(plateau);
+  }
+  if (!plateaus.empty()) return;
   constexpr std::array<double, 4> kQuarters{1, 1.189207115002721, 1.4142135623730951,
                                             1.681792830507429};
   int exponent = std::ilogb(coordinates_) - (53 - 4 - kFewestBits);
@@ -100,26 +112,34 @@ double Limits::pitch_for(double spacing) const {
   return (above - 1)->pitch;
 }
 
-SizeRange Limits::pitches_in(const Box<2>& box) const {
+// Of those in the domain; kNone if none are.
+SizeRange Limits::spacings_in(const Box<2>& box) const {
   const Box<2> inside{{std::max(box.lo[0], domain_.lo[0]), std::max(box.lo[1], domain_.lo[1])},
                       {std::min(box.hi[0], domain_.hi[0]), std::min(box.hi[1], domain_.hi[1])}};
   if (inside.lo[0] > inside.hi[0] || inside.lo[1] > inside.hi[1]) return {kNone, kNone};
-  if (sizes_ == nullptr) return {pitches_.back().pitch, pitches_.back().pitch};
+  if (sizes_ == nullptr) return {spacing(area_), spacing(area_)};
   const SizeRange sizes = sizes_->range(inside);
-  const auto pitch = [&](double h) {
-    return pitch_for(spacing(std::min(area_, area_of_size(h))));
-  };
-  return {pitch(sizes.least), pitch(std::max(sizes.least, sizes.most))};
+  const auto of = [&](double h) { return spacing(std::min(area_, area_of_size(h))); };
+  const SizeRange found{of(sizes.least), of(std::max(sizes.least, sizes.most))};
+  if (!(found.least >= pitches_.front().spacing)) fail_too_small(found.least, coordinates_);
+  return found;
+}
+
+SizeRange Limits::pitches_in(const Box<2>& box) const {
+  if (!any()) return {kNone, kNone};
+  const SizeRange spacings = spacings_in(box);
+  return {pitch_for(spacings.least), pitch_for(spacings.most)};
 }
 
 // The lattice is kept out of the balls of leaves [rules A7.1]: the gap must not be larger than what
-// a lattice's triangle leaves.
+// a lattice's triangle leaves. The spacing is the least in the ball, not only on the piece: so the
+// lattice's points that a leaf blocks have its ends near by.
 bool Limits::is_long(const Point<2>& a, const Point<2>& b) const {
   constexpr double kLongest = 1.4;
   if (!any()) return false;
+  const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
   const Point<2> middle{a[0] + (b[0] - a[0]) / 2, a[1] + (b[1] - a[1]) / 2};
-  const double least = std::min({area(a), area(b), area(middle)});
-  return squared_distance(a, b) > kLongest * kLongest * (least / Lattice::kArea);
+  return length > kLongest * spacings_in(around(middle, length / 2)).least;
 }
 
 template <class Visit>
@@ -138,7 +158,7 @@ bool Limits::is_candidate(const Lattice& lattice, const LatticePoint& q) const {
   if (pitch(p) != own) return false;
   if (sizes_ == nullptr) return true;
   const double clear = own / 2;
-  const Box<2> near{{p[0] - clear, p[1] - clear}, {p[0] + clear, p[1] + clear}};
+  const Box<2> near = around(p, clear);
   const SizeRange smaller{pitches_in(near).least, std::nextafter(own, 0)};
   return !visit_pitches(smaller, [&](double pitch) {
     const Lattice other(pitch);
@@ -154,16 +174,37 @@ bool Limits::fits(const Lattice& lattice, const std::array<LatticePoint, 3>& t) 
   return Lattice::kArea * lattice.pitch() * lattice.pitch() <= area(middle) * kFits;
 }
 
+// Whether a candidate of another lattice is in the circumcircle of a triangle at q: as near to one of
+// its corners as the circumradius.
+bool Limits::is_between(const Lattice& lattice, const LatticePoint& q) const {
+  const double own = lattice.pitch(), radius = Lattice::kCircumradius * own;
+  const Point<2> p = lattice.place(q);
+  const auto near_corner = [&](const Point<2>& x) {
+    const auto six = Lattice::around(q);
+    return squared_distance(p, x) < radius * radius ||
+           std::any_of(six.begin(), six.end(), [&](const LatticePoint& n) {
+             return squared_distance(lattice.place(n), x) < radius * radius;
+           });
+  };
+  const Box<2> near = around(p, 2 * radius);
+  return visit_pitches(pitches_in(near), [&](double pitch) {
+    const Lattice other(pitch);
+    return pitch != own && other.visit_in(near, [&](const LatticePoint& n) {
+      return near_corner(other.place(n)) && is_candidate(other, n);
+    });
+  });
+}
+
 bool Limits::is_amid(const Lattice& lattice, const LatticePoint& q) const {
-  const auto around = Lattice::around(q);
-  for (const LatticePoint& n : around) {
+  const auto six = Lattice::around(q);
+  for (const LatticePoint& n : six) {
     if (!is_candidate(lattice, n)) return false;
   }
   if (sizes_ == nullptr) return true;
-  for (std::size_t i = 0; i < around.size(); ++i) {
-    if (!fits(lattice, {q, around[i], around[(i + 1) % around.size()]})) return false;
+  for (std::size_t i = 0; i < six.size(); ++i) {
+    if (!fits(lattice, {q, six[i], six[(i + 1) % six.size()]})) return false;
   }
-  return true;
+  return !is_between(lattice, q);
 }
 
 std::vector<Limits::Candidate> Limits::candidates(const MeshBox<2>& box, const Cell<2>& c) const {

@@ -48,7 +48,9 @@ class Limits {
   struct Candidate {
     Point<2> place{};
     double pitch = 0;
-    bool amid = false;  // the six around it on the lattice are candidates, and its triangles fit
+    // The six around it on the lattice are candidates, its six triangles have no other candidates in
+    // their circumcircles, and they fit.
+    bool amid = false;
   };
   /// Those in a cell, by pitch and rows.
   [[nodiscard]] std::vector<Candidate> candidates(const MeshBox<2>& box, const Cell<2>& c) const;
@@ -66,11 +68,13 @@ class Limits {
   void add_bands(double end);
   void add_pitch(double spacing);
   [[nodiscard]] double pitch_for(double spacing) const;
+  [[nodiscard]] SizeRange spacings_in(const Box<2>& box) const;
   [[nodiscard]] SizeRange pitches_in(const Box<2>& box) const;
   template <class Visit>
   bool visit_pitches(const SizeRange& range, Visit&& visit) const;
   [[nodiscard]] bool is_candidate(const Lattice& lattice, const LatticePoint& q) const;
   [[nodiscard]] bool is_amid(const Lattice& lattice, const LatticePoint& q) const;
+  [[nodiscard]] bool is_between(const Lattice& lattice, const LatticePoint& q) const;
   [[nodiscard]] bool fits(const Lattice& lattice, const std::array<LatticePoint, 3>& t) const;
 
   Box<2> domain_;

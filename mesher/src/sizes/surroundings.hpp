@@ -25,8 +25,8 @@ enum class Room : std::uint8_t {
 /// A place nearer to a feature than this, in pitches, is not filled.
 inline constexpr double kClear = 0.5;
 /// If no feature is nearer than this, in pitches, a vertex amid the lattice needs nothing: no leaf's
-/// ball has one of the six around it (a leaf is at most 1.4 pitches long, its ends are features),
-/// and no feature is in the circumcircles of its six triangles.
+/// ball has one of the six around it (such a leaf is at most 1.4 spacings long, hence 1.67 pitches,
+/// and its ends are features), and no feature is in the circumcircles of its six triangles.
 inline constexpr double kUndisturbed = 3.2;
 
 using Candidates = std::vector<Limits::Candidate>;
