@@ -79,6 +79,11 @@ struct Domain;
 [[nodiscard]] std::shared_ptr<const SizeField<2>> region_sizes(const Mesh<2>& mesh,
                                                                const Domain& domain);
 
+/// The same for the regions of a graph in the mesh that `options` give it without limits.
+/// Throws: as mesh_statically and find_domain. Cost: that of this mesh.
+[[nodiscard]] std::shared_ptr<const SizeField<2>> region_sizes(const Pslg& graph,
+                                                               Options<2> options);
+
 /// The least of several at each place; null stands for no limit.
 [[nodiscard]] std::shared_ptr<const SizeField<2>> least_sizes(
     std::vector<std::shared_ptr<const SizeField<2>>> fields);

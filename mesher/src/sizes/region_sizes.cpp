@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "mesher/domain.hpp"
+#include "mesher/domain_mesh.hpp"
 #include "mesher/sizes.hpp"
 #include "sizes/facet_sizes.hpp"
 
@@ -51,12 +51,13 @@ std::shared_ptr<const SizeField<2>> least_sizes(
 std::shared_ptr<const SizeField<2>> region_sizes(const Mesh<2>& mesh, const Domain& domain) {
   std::vector<detail::Facet> facets;
   std::vector<double> sizes;
+  const auto limited = [&](const Region& r) { return r.max_area && domain.keeps(r); };
   for (const Region& r : domain.regions) {
-    if (r.max_area) sizes.push_back(size_of_area(*r.max_area));
+    if (limited(r)) sizes.push_back(size_of_area(*r.max_area));
   }
   for (std::size_t t = 0; t < mesh.simplices.size(); ++t) {
     const Region& region = domain.regions[domain.region_of[t]];
-    if (!region.max_area) continue;
+    if (!limited(region)) continue;
     const auto& [a, b, c] = mesh.simplices[t];
     const double h = size_of_area(*region.max_area);
     facets.emplace_back(std::array{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]},
@@ -64,6 +65,16 @@ std::shared_ptr<const SizeField<2>> region_sizes(const Mesh<2>& mesh, const Doma
   }
   if (facets.empty()) return nullptr;
   return std::make_shared<detail::FacetSizes>(std::move(facets), std::move(sizes));
+}
+
+std::shared_ptr<const SizeField<2>> region_sizes(const Pslg& graph, Options<2> options) {
+  const auto has_limit = [](const Pslg::Region& r) { return r.max_area.has_value(); };
+  if (std::none_of(graph.regions.begin(), graph.regions.end(), has_limit)) return nullptr;
+  options.max_area = 0;
+  options.sizes = nullptr;
+  const MeshData whole = with_features(mesh_statically(graph, options), graph);
+  return region_sizes(
+      whole, find_domain(whole, whole.features.edges, seeds_of(graph), Extent::enclosed));
 }
 
 }  // namespace mesher
