@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "mesher/domain_mesh.hpp"
+#include "mesher/sizes.hpp"
 
 namespace tool {
 namespace {
@@ -53,6 +54,22 @@ std::size_t option_count(const std::string& option, const std::string& text) {
   throw Error(ErrorCode::bad_option, option + " '" + text + "': not a whole number above 0");
 }
 
+double option_positive(const std::string& option, const std::string& text) {
+  const double x = option_number(option, text);
+  if (x > 0) return x;
+  throw Error(ErrorCode::bad_option, option + " " + text + ": must be above 0");
+}
+
+void add_limits(const MeshArguments& args, mesher::Options<2>& options) {
+  if (!args.max_area.empty()) options.max_area = option_positive("--max-area", args.max_area);
+  if (!args.max_size.empty()) {
+    const double h = option_positive("--max-size", args.max_size);
+    options.max_area = mesher::kAreaOfSize * h * h;
+  }
+  if (args.sizes.empty()) return;
+  options.sizes = mesher::sampled_sizes(mesher::read_sizes(args.sizes).samples);
+}
+
 void require_inside(const Input& input, const mesher::Box<2>& domain) {
   const auto& points = input.graph().points;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -90,6 +107,20 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
       ->type_name("XMIN YMIN XMAX YMAX")
       ->type_size(4)
       ->expected(1);
+  command
+      .add_option("--max-area", args.max_area,
+                  "No triangle with its centroid in the domain is larger (default: no limit)")
+      ->type_name("A");
+  command
+      .add_option("--max-size", args.max_size,
+                  "The same by the edges H of an equilateral triangle of that area")
+      ->type_name("H")
+      ->excludes("--max-area");
+  command
+      .add_option("--sizes", args.sizes,
+                  "A background of such H: .node with one value a point, or .csv with x,y,h;\n"
+                  "linear between its points")
+      ->type_name("FILE");
   command
       .add_option("--max-vertices", args.max_vertices,
                   "More are an error, which names the lines that need most (default: no limit)")
@@ -132,6 +163,7 @@ mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input) {
       args.rule == "radius-edge" ? mesher::Rule::radius_edge : mesher::Rule::voronoi_aspect;
   options.domain = args.domain.empty() ? mesher::snapped_domain<2>(places_of(input.graph()))
                                        : domain_of(args.domain);
+  add_limits(args, options);
   if (!args.max_vertices.empty()) {
     options.max_vertices = option_count("--max-vertices", args.max_vertices);
   }
@@ -147,6 +179,7 @@ Error with_domain_hint(const Error& error) {
 void open_outputs(const MeshArguments& args, const Input& input, Outputs& outputs) {
   outputs.protect(args.input);
   outputs.protect(input.file().point_file);
+  if (!args.sizes.empty()) outputs.protect(args.sizes);
   const auto content =
       has_points_alone(args.input) ? mesher::MeshFiles::plain : mesher::MeshFiles::features;
   for (const auto& path : args.outputs) outputs.open_mesh(path, content);

@@ -18,7 +18,9 @@ struct MeshArguments {
   std::string rho = "1.4142";
   std::string rule = "radius-edge";
   std::vector<std::string> domain;  // XMIN YMIN XMAX YMAX, or nothing
+  std::string max_area, max_size, sizes;
   std::string max_vertices;
+  bool region_areas = false;
   bool box = false;
   bool is_static = false;
   std::string stats;
@@ -30,8 +32,8 @@ inline constexpr const char* kQualityHelp =
     "Its vertices and simplices are those of the box; kept are those written, and\n"
     "min_angle_deg and max_radius_edge are theirs; null if there is none.";
 
-/// Adds what says which mesh it is: INPUT, --rho, --rule, --domain, --max-vertices. `args` must
-/// outlive `command`.
+/// Adds what says which mesh it is: INPUT, --rho, --rule, --domain, limits of size, --max-vertices.
+/// `args` must outlive `command`.
 void add_program_options(CLI::App& command, MeshArguments& args);
 
 /// Adds these and what is to become of the mesh.
@@ -46,7 +48,7 @@ void add_mesh_options(CLI::App& command, MeshArguments& args);
 /// What to mesh: the domain as given, or around the input.
 /// Throws: Error(bad_option); Error(outside_domain) with the line of the first point outside,
 /// naming
-/// --domain.
+/// --domain; as read_sizes.
 [[nodiscard]] mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input);
 
 /// Which part of the mesh is written.

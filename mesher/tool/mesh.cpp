@@ -6,6 +6,7 @@
 #include "figures.hpp"
 #include "first_run.hpp"
 #include "mesher/mesher.hpp"
+#include "mesher/sizes.hpp"
 #include "outputs.hpp"
 #include "report.hpp"
 
@@ -42,9 +43,21 @@ Result mesh(const MeshArguments& args, const Input& input, const mesher::Options
   return result;
 }
 
+mesher::Options<2> options_with_regions(const MeshArguments& args, const Input& input) {
+  mesher::Options<2> options = mesh_options(args, input);
+  if (!args.region_areas) return options;
+  try {
+    options.sizes =
+        mesher::least_sizes({options.sizes, mesher::region_sizes(input.graph(), options)});
+  } catch (const mesher::Error& error) {
+    throw input.located(error);
+  }
+  return options;
+}
+
 void run_mesh(const MeshArguments& args) {
   const Input input(args.input);
-  const auto options = mesh_options(args, input);
+  const auto options = options_with_regions(args, input);
   Outputs outputs;
   open_outputs(args, input, outputs);
   Figures figures(args.stats, outputs);
@@ -68,6 +81,8 @@ void add_mesh(CLI::App& app) {
   const auto args = std::make_shared<MeshArguments>();
   CLI::App* mesh = app.add_subcommand("mesh", "Meshes a file of points and lines.");
   add_mesh_options(*mesh, *args);
+  mesh->add_flag("--region-areas", args->region_areas,
+                 "In a region of INPUT with a largest area, that is a limit");
   mesh->footer(
       std::string(
           "Every line is a union of edges. Where lines enclose something, what they enclose is\n"
@@ -76,14 +91,18 @@ void add_mesh(CLI::App& app) {
           "warned of.\n"
           "With INPUT of a format that has lines, a .node output has .edge, .poly and .neigh\n"
           "beside .ele.\n"
-          "The mesh is a function of INPUT, the domain, --rho and --rule alone: its files are\n"
-          "the same bytes each time, with --static or without. Files appear when all is done,\n"
-          "or not at all.\n"
+          "The mesh is a function of INPUT, the domain, --rho, --rule and the limits of size\n"
+          "alone: its files are the same bytes each time, with --static or without. Files appear\n"
+          "when all is done, or not at all.\n"
+          "Limits of size hold in the domain, whatever lines enclose, and are filled from a\n"
+          "lattice, so that edits move little. Several together: the smallest counts.\n"
           "--stats: one JSON object; - for standard output.\n") +
       kQualityHelp +
       "\nExamples:\n"
       "  mesher mesh lake.poly -o lake.1.node -o lake.svg\n"
       "  mesher mesh coast.geojson --box --max-vertices 100000 -o coast.vtu\n"
+      "  mesher mesh lake.poly --max-area 1e-4 -o lake.vtu\n"
+      "  mesher mesh lake.poly --sizes depth.csv -o lake.vtu\n"
       "  mesher mesh points.node -o mesh.node -o mesh.svg --stats mesh.json\n"
       "  mesher mesh cities.csv --domain -180 -90 180 90 --rho 2 --static -o cities.vtu");
   mesh->callback([args] { run_mesh(*args); });

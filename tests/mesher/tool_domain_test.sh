@@ -166,6 +166,56 @@ refuse 2 '--max-vertices' mesh lake.poly --max-vertices 1e3 -o out/x.vtu
 expect 0 '' mesh lake.poly --max-vertices 67 -o budget.vtu
 same budget.vtu lake.1.vtu
 
+echo "== limits of size"
+for limit in '--max-area 0.3' '--max-size 0.8'; do
+  for engine in '' --static; do
+    # shellcheck disable=SC2086
+    expect 0 '' mesh lake.poly $limit $engine -o "limited$engine.1.node" -o "limited$engine.vtu"
+  done
+  same limited.vtu limited--static.vtu
+  expect 0 'area        ok' check limited.1.node --input lake.poly --max-area 0.3
+done
+expect 1 'area' check lake.1.node --input lake.poly --max-area 0.3
+printf 'x,y,h\n0,0,0.3\n8,0,0.8\n8,8,2\n0,8,0.8\n' >sizes.csv
+printf '4 2 1 0\n1 0 0 0.3\n2 8 0 0.8\n3 8 8 2\n4 0 8 0.8\n' >sizes.node
+expect 0 '' mesh lake.poly --sizes sizes.csv -o by_csv.1.node
+expect 0 '' mesh lake.poly --sizes sizes.node -o by_node.1.node
+same by_csv.1.node by_node.1.node
+expect 0 'area        ok' check by_csv.1.node --input lake.poly --max-area 1.74
+expect 1 'area' check by_csv.1.node --input lake.poly --max-area 0.2
+# Region 2 alone has a limit: it holds in it, and larger triangles are left in region 1.
+expect 0 '' mesh lake.poly --region-areas -o by_region.1.node -o by_region.vtu
+expect 0 '' mesh lake.poly --region-areas --static -o by_region--static.vtu
+same by_region.vtu by_region--static.vtu
+python3 - <<'END' || fail 'areas by region'
+lines = [l.split() for l in open('by_region.1.node') if not l.startswith('#')][1:]
+at = {row[0]: (float(row[1]), float(row[2])) for row in lines}
+largest = {}
+for row in [l.split() for l in open('by_region.1.ele') if not l.startswith('#')][1:]:
+    (ax, ay), (bx, by), (cx, cy) = (at[v] for v in row[1:4])
+    area = ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2
+    largest[row[4]] = max(largest.get(row[4], 0), area)
+assert largest['20'] <= 0.5 < largest['10'], largest
+END
+printf '+point 20 1 6\nmove 9 5 5\n' >limited.txt
+sed -e 's/^10 2 0 1/11 2 0 1/; s/^9 4 4 0/9 5 5 0/; s/^10 2 4 0/&\n20 1 6 0/' lake.poly >moved.poly
+for limit in '--max-area 0.3' '--sizes sizes.csv'; do
+  # shellcheck disable=SC2086
+  expect 0 '' edit lake.poly --domain 0 0 8 8 --script limited.txt $limit -o limited_edit.vtu
+  # shellcheck disable=SC2086
+  expect 0 '' mesh moved.poly --domain 0 0 8 8 $limit -o limited_mesh.vtu
+  same limited_edit.vtu limited_mesh.vtu
+done
+for bad in 0 -1 x nan 1e-40; do
+  refuse 2 'error[bad_option]' mesh lake.poly --max-area "$bad" -o out/x.vtu
+done
+refuse 2 'max-size' mesh lake.poly --max-size 0 -o out/x.vtu
+refuse 2 'excludes' mesh lake.poly --max-size 1 --max-area 1 -o out/x.vtu
+refuse 2 'radius_edge' mesh lake.poly --max-area 1 --rule voronoi-aspect -o out/x.vtu
+printf 'x,y,h\n0,0,0\n' >zero.csv
+refuse 3 'zero.csv:2' mesh lake.poly --sizes zero.csv -o out/x.vtu
+refuse 2 'sizes.csv' mesh lake.poly --sizes sizes.csv -o sizes.csv
+
 echo "== edits of lines and seeds"
 cat >harbour.txt <<'END'
 +point 20 1 6

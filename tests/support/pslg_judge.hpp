@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "geometry/diametral_ball.hpp"
+#include "geometry/plane.hpp"
 #include "mesher/predicates.hpp"
+#include "mesher/sizes.hpp"
 #include "random_pslg.hpp"
 
 namespace support {
@@ -41,12 +43,14 @@ class PslgJudge {
 
   /// What is wrong first, "" if nothing is: input points and no others are of that kind; each
   /// segment is a chain of edges from end to end; every such edge has an empty closed diametral
-  /// ball; triangles keep the bound but where a small angle of the input forces them not to.
-  [[nodiscard]] std::string fault(double rho) const {
+  /// ball; no triangle is larger than its limit; triangles keep the bound but where a small angle of
+  /// the input forces them not to.
+  [[nodiscard]] std::string fault(const mesher::Options<2>& options) const {
     std::string what = wrong_kinds();
     if (what.empty()) what = wrong_lines();
     if (what.empty()) what = encroached();
-    return what.empty() ? poor(rho) : what;
+    if (what.empty()) what = large(options);
+    return what.empty() ? poor(options.rho) : what;
   }
   /// Triangles that small angles force to be poor, counted by fault().
   [[nodiscard]] std::size_t forced() const noexcept { return forced_; }
@@ -112,6 +116,25 @@ class PslgJudge {
         if (mesher::detail::in_diametral_ball(at(v), at(e.low), at(e.high))) {
           return text(at(v)) + " in the ball of " + text(at(e.low)) + text(at(e.high));
         }
+      }
+    }
+    return "";
+  }
+
+  // The largest area of a triangle with its centroid at p.
+  static double limit(const mesher::Options<2>& options, const P& p) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (p[i] < options.domain.lo[i] || p[i] > options.domain.hi[i]) return 1e300;
+    }
+    const double h = options.sizes == nullptr ? 1e150 : options.sizes->at(p);
+    return std::min(options.max_area == 0 ? 1e300 : options.max_area, std::sqrt(3.0) / 4 * h * h);
+  }
+  [[nodiscard]] std::string large(const mesher::Options<2>& options) const {
+    for (const auto& t : mesh_.simplices) {
+      const P &p = at(t[0]), &q = at(t[1]), &r = at(t[2]);
+      const double area = ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
+      if (area > limit(options, mesher::detail::centroid({p, q, r}))) {
+        return "large: " + text(p) + text(q) + text(r);
       }
     }
     return "";

@@ -84,6 +84,7 @@ class PslgEditor {
     fan,      ///< many segments at few points, at any angle
     wedge,    ///< segments of equal length at one point, at small angles
     steiner,  ///< segments with their middles on vertices of the mesh of the moment
+    filled,   ///< on and about places at which a lattice of pitch 1 fills
   };
 
   PslgEditor(Family family, std::uint64_t seed) : family_(family), random_(seed) {}
@@ -203,6 +204,7 @@ class PslgEditor {
     if (family_ == Family::lattice) {
       return {static_cast<double>(below(17)), static_cast<double>(below(17))};
     }
+    if (family_ == Family::filled) return beside_lattice();
     if (family_ == Family::beside && !pslg.segments.empty() && below(2) == 0) {
       const Pslg::Ends ends = some_segment(pslg);
       const auto& a = pslg.points.at(ends.first);
@@ -213,6 +215,15 @@ class PslgEditor {
               a[1] + t * (b[1] - a[1]) + d * (b[0] - a[0])};
     }
     return {16 * unit(), 16 * unit()};
+  }
+  // At a distance that matters to those who fill, or hardly less or more, or on the spot.
+  mesher::Point<2> beside_lattice() {
+    constexpr double kDistances[] = {0, 0x1p-30, 0.25, 0.5, 1.4, 3.2};
+    const double row = static_cast<double>(below(19));
+    const mesher::Point<2> q{static_cast<double>(below(17)) + std::fmod(row, 2) / 2, 0.875 * row};
+    const double distance = kDistances[below(6)] * (1 + static_cast<double>(below(3)) * 0x1p-40);
+    const double angle = below(2) == 0 ? 0 : 7 * unit();
+    return {q[0] + distance * std::cos(angle), q[1] + distance * std::sin(angle)};
   }
   std::int64_t some_point(const Pslg& pslg) {
     return std::next(pslg.points.begin(), static_cast<std::ptrdiff_t>(below(pslg.points.size())))

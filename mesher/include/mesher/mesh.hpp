@@ -8,6 +8,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace mesher {
@@ -48,12 +49,17 @@ struct Segment {
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
+template <int D>
+class SizeField;
+
 /// What to mesh, and how well.
 template <int D>
 struct Options {
   Box<D> domain{};      ///< where input points may lie; must not be empty
   double rho = 1.4142;  ///< bound of circumradius over shortest edge; > 1.01
   Rule rule = Rule::radius_edge;
+  double max_area = 0;  ///< of a triangle with its centroid in the domain; 0: no limit
+  std::shared_ptr<const SizeField<D>> sizes{};  ///< limits that vary, see sizes.hpp; null: none
   std::size_t max_vertices = 0;  ///< more are refused with Error(too_many); 0: no limit
   bool record_weights = false;  ///< keeps what calls do inside, for those who study the trace
 };

@@ -104,6 +104,28 @@ struct MeshBox {
     return c;
   }
 
+  /// Where a cell lies, but for rounding.
+  [[nodiscard]] Box<D> box_of(const Cell<D>& c) const {
+    Box<D> box;
+    for (int i = 0; i < D; ++i) {
+      box.lo[i] = lo[i] + static_cast<double>(c.corner[i]) * cell_side(kLevels);
+      box.hi[i] = box.lo[i] + cell_side(c.level);
+    }
+    return box;
+  }
+
+  /// Calls visit(cell) for the cells that c consists of, half as wide. Requires: c.level < kLevels.
+  template <class Visit>
+  static void for_each_child(const Cell<D>& c, Visit&& visit) {
+    for (int child = 0; child < 1 << D; ++child) {
+      Cell<D> inner{c.corner, c.level + 1};
+      for (int i = 0; i < D; ++i) {
+        inner.corner[i] |= static_cast<std::uint64_t>(child >> i & 1) << (kLevels - inner.level);
+      }
+      visit(inner);
+    }
+  }
+
   /// Calls visit(cell) for each cell of twice c's side that holds a neighbour of c of c's own side
   /// (corners touch, too): the parent of c first. Requires: c.level > 0.
   template <class Visit>

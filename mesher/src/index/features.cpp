@@ -58,6 +58,11 @@ void TracedFeatures::cell_changed(const Point<2>& p) noexcept {
 }
 
 void TracedFeatures::put(Vertex<2>& v) {
+  put_in_tree(v);
+  if (feature_listener_ != nullptr) feature_listener_->feature_changed(v.p);
+}
+
+void TracedFeatures::put_in_tree(Vertex<2>& v) {
   if (tree_.obstacle(v.p) != nullptr) {
     hidden_.emplace(box_.fixed(v.p), v.self);
     return cell_changed(v.p);
@@ -68,6 +73,11 @@ void TracedFeatures::put(Vertex<2>& v) {
 }
 
 void TracedFeatures::take(Vertex<2>& v) noexcept {
+  take_from_tree(v);
+  if (feature_listener_ != nullptr) feature_listener_->feature_changed(v.p);
+}
+
+void TracedFeatures::take_from_tree(Vertex<2>& v) noexcept {
   const auto [first, last] = hidden_.equal_range(box_.fixed(v.p));
   if (first == last) return tree_.erase(v, [&](Vertex<2>& f) { changed(f); });
   auto gone = first;

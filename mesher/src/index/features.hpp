@@ -35,6 +35,11 @@ class Features<sac::PlainScope> {
   bool visit_points_in(const Box<2>& area, Visit&& visit) const {
     return tree_.visit_in(area, [&](const Vertex<2>& v) { return v.input && visit(v); });
   }
+  /// The same for all features' points.
+  template <class Visit>
+  bool visit_features_in(const Box<2>& area, Visit&& visit) const {
+    return tree_.visit_in(area, visit);
+  }
 
  private:
   FeatureTree<2> tree_;
@@ -48,6 +53,15 @@ class PointListener {
 
  protected:
   ~PointListener() = default;
+};
+
+/// Who wants to know of all features' points that come and go.
+class FeatureListener {
+ public:
+  virtual void feature_changed(const Point<2>& p) noexcept = 0;
+
+ protected:
+  ~FeatureListener() = default;
 };
 
 /// As a traceable data type: a level has one observer, the call that locates the point. Points come
@@ -64,6 +78,7 @@ class Features<sac::Scope> : public sac::Structure {
         id_(engine.add_structure(*this)) {}
 
   void set_listener(PointListener* listener) noexcept { listener_ = listener; }
+  void set_feature_listener(FeatureListener* listener) noexcept { feature_listener_ = listener; }
 
   /// The deepest level at which v is crowded, -1 if at none; observed by the running call.
   /// Throws: Error(too_close) if another is in v's finest cell.
@@ -77,6 +92,9 @@ class Features<sac::Scope> : public sac::Structure {
   /// true; returns whether it did.
   template <class Visit>
   bool visit_points_in(const Box<2>& area, Visit&& visit) const;
+  /// The same for all features' points.
+  template <class Visit>
+  bool visit_features_in(const Box<2>& area, Visit&& visit) const;
 
   /// A point of the first run. Requires: point_at(v.p) == nullptr.
   void insert_first(Vertex<2>& v) {
@@ -117,6 +135,8 @@ class Features<sac::Scope> : public sac::Structure {
   void take_split(Vertex<2>& v) noexcept;
   void put(Vertex<2>& v);
   void take(Vertex<2>& v) noexcept;
+  void put_in_tree(Vertex<2>& v);
+  void take_from_tree(Vertex<2>& v) noexcept;
   void changed(Vertex<2>& v) noexcept;
   void cell_changed(const Point<2>& p) noexcept;
   [[nodiscard]] const Vertex<2>* companion(const Vertex<2>& v) const;
@@ -128,16 +148,22 @@ class Features<sac::Scope> : public sac::Structure {
   std::unordered_map<VertexHandle, std::uint32_t> splits_;            // by how many calls
   std::unordered_multimap<Fixed<2>, VertexHandle, CellHash> hidden_;  // behind one in the tree
   PointListener* listener_ = nullptr;
+  FeatureListener* feature_listener_ = nullptr;
   std::uint8_t id_;
 };
 
 template <class Visit>
-bool Features<sac::Scope>::visit_points_in(const Box<2>& area, Visit&& visit) const {
-  if (tree_.visit_in(area, [&](const Vertex<2>& v) { return v.feature && visit(v); })) return true;
+bool Features<sac::Scope>::visit_features_in(const Box<2>& area, Visit&& visit) const {
+  if (tree_.visit_in(area, visit)) return true;
   for (const auto& [cell, h] : hidden_) {
-    if (pool_[h].feature && visit(pool_[h])) return true;
+    if (visit(pool_[h])) return true;
   }
   return false;
+}
+
+template <class Visit>
+bool Features<sac::Scope>::visit_points_in(const Box<2>& area, Visit&& visit) const {
+  return visit_features_in(area, [&](const Vertex<2>& v) { return v.feature && visit(v); });
 }
 
 }  // namespace mesher::detail

@@ -31,6 +31,13 @@ VertexRef<2> Index::insert_early(sac::Scope& s, const Point<2>& p, const Role& r
   return {&v};
 }
 
+VertexRef<2> Index::insert_early(sac::Scope& s, const Point<2>& p) {
+  if (!engine_.appending()) return insert(s, p);
+  Vertex<2>& v = add(p);
+  produce(s, v);
+  return {&v};
+}
+
 const Index::BirthOnSegmentEdge* Index::recall_on_segment(sac::Scope& s, const Point<2>& p,
                                                           const Role& role) {
   const auto same = [&](const BirthOnSegmentEdge& edge) {

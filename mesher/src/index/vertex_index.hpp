@@ -56,6 +56,7 @@ class VertexIndex<sac::PlainScope> : public VertexSearch {
     if (tree_.find(p) != nullptr) fail_coincident(p);
     return insert_new(p, role);
   }
+  VertexRef<2> insert_early(sac::PlainScope&, const Point<2>& p) { return insert_new(p, Role()); }
   VertexRef<2> insert_early(sac::PlainScope&, const Point<2>& p, const Role& role) {
     return insert_new(p, role);
   }
@@ -72,7 +73,7 @@ class VertexIndex<sac::PlainScope> : public VertexSearch {
   VertexRef<2> insert_new(const Point<2>& p, const Role& role) {
     Vertex<2>& v = add(p);
     v.alive = true;
-    roles_.reserve(v.self);
+    if (role.on != 0) roles_.reserve(v.self);
     set_role(v, role);
     return {&v};
   }
@@ -94,6 +95,8 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   /// In a first run without a look for a vertex at p: the quadtree is one leaf then. Features are
   /// asked for two in one place.
   VertexRef<2> insert_early(sac::Scope& s, const Point<2>& p, const Role& role);
+  /// The same for a place on no segment. Requires: no feature is there.
+  VertexRef<2> insert_early(sac::Scope& s, const Point<2>& p);
   void insert(sac::Scope& s, VertexRef<2> v);
   CellLoan voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius);
   double nearest2(sac::Scope& s, VertexRef<2> v);

@@ -32,12 +32,13 @@ inline constexpr SplitSegment split_segment{};
   return {.bucket = -(2 * exponent + (upper ? 1 : 0)), .order = morton<2>(box.fixed(piece.lo()))};
 }
 
-// if sigma is crowded: split it where the shells say, enqueue both halves, and the new vertex for
+// if sigma is crowded, or long for the lattice beside it: split it where the shells say, enqueue both halves, and the new vertex for
 // BuildQT; else it is a leaf
 template <class S>
 void SplitSegment::operator()(S& s, PieceRef piece) const {
   auto& w = s.template environment<World<S>>();
-  if (!w.segments.crowded(s, piece)) return w.leaves.begin(s, piece.piece);
+  const bool divides = w.limits.is_long(piece.lo(), piece.hi()) || w.segments.crowded(s, piece);
+  if (!divides) return w.leaves.begin(s, piece.piece);
   if (piece.length() < w.box.side * kShortestPiece) w.fail_too_short(piece);
   const Halves halves = w.segments.halves(s, piece);
   const VertexRef<2> y = w.vertices.insert_early(s, halves.place, halves.role);

@@ -31,8 +31,10 @@ class Staying final : public EdgeFilter {
   }
 
   [[nodiscard]] bool skips(const VoronoiCell& cell, int p, int q) const override {
-    if (std::find(left_.begin(), left_.end(), edge(cell, p, q)) != left_.end()) return true;
-    return world_.is_exempt(vertex(cell, p), vertex(cell, q));
+    return skips_large(cell, p, q) || world_.is_exempt(vertex(cell, p), vertex(cell, q));
+  }
+  [[nodiscard]] bool skips_large(const VoronoiCell& cell, int p, int q) const override {
+    return std::find(left_.begin(), left_.end(), edge(cell, p, q)) != left_.end();
   }
 
  private:

@@ -1,7 +1,7 @@
 // What the mesher's calls share: the box, the rule, the features, the vertices, the work queues.
 //
 // The program (S is sac::Scope, or sac::PlainScope for a static run):
-//   refine = SplitSegments; BuildQT; ChooseSteiners; Triangulate
+//   refine = SplitSegments; Fill; BuildQT; ChooseSteiners; Triangulate
 // Each part drains its agenda; a part posts on its own agenda and on those of later parts.
 #pragma once
 
@@ -24,6 +24,7 @@
 #include "segments/input_segments.hpp"
 #include "segments/leaves.hpp"
 #include "segments/planarity.hpp"
+#include "sizes/surroundings.hpp"
 
 namespace mesher::detail {
 
@@ -45,13 +46,16 @@ struct World {
   using Agenda = typename S::AgendaType;
 
   MeshBox<2> box;
+  Limits limits;
   std::unique_ptr<const InsertionRule> rule;
   VertexIndex<S> vertices;
   Subdivision<S> subdivision;
   Features<S> features;
   InputSegments<S> segments;
   Leaves<S> leaves;
+  Surroundings<S> surroundings;
   Agenda& splits;
+  Agenda& fills;
   Agenda& quadtree;
   Agenda& steiner;
   Agenda& stars;
@@ -64,13 +68,16 @@ struct World {
   template <class Host>
   World(const Options<2>& options, const MeshBox<2>& mesh_box, Host& host)
       : box(mesh_box),
-        rule(insertion_rule(options, box)),
+        limits(options, box),
+        rule(insertion_rule(options, box, limits)),
         vertices(make_vertices(box, host)),
         subdivision(vertices.tree(), host),
         features(box, vertices.pool(), host),
         segments(box, vertices, features, host),
         leaves(vertices, segments.pool(), host),
+        surroundings(box, limits, features, host),
         splits(host.make_agenda("segments")),
+        fills(host.make_agenda("fill")),
         quadtree(host.make_agenda("quadtree")),
         steiner(host.make_agenda("steiner")),
         stars(host.make_agenda("stars")),
@@ -78,11 +85,16 @@ struct World {
         most_records(most_vertices) {
     host.set_environment(this);
     add_boundary();
+    if (limits.any()) post_fill();
   }
 
   [[nodiscard]] const Buckets<2>& buckets() const noexcept { return rule->buckets(); }
   void post_split(S& s, const PieceRef& piece);
+  /// fill() of what a cell consists of, which is split, too.
+  void post_parts(S& s, const Cell<2>& c);
   void post_nearest(S& s, VertexRef<2> v, int leaf_level);
+  /// Requires: no vertex is nearer than `distance` when Complete begins.
+  void post_nearest_from(S& s, VertexRef<2> v, double distance);
   void post_nearest_in(S& s, VertexRef<2> v, int b);
   void post_complete(S& s, VertexRef<2> v, int b);
   /// Whether there are any.
@@ -110,6 +122,7 @@ struct World {
     return VertexIndex<sac::PlainScope>(box);
   }
   void add_boundary();
+  void post_fill();
 };
 
 /// The box of a mesh: four times the domain's longest side (rounded up to a power of two), with the
@@ -125,6 +138,7 @@ struct Refine {
     const auto now = [] { return std::chrono::steady_clock::now(); };
     w.marks[0] = now();
     w.splits.drain(s);
+    w.fills.drain(s);
     w.quadtree.drain(s);
     w.marks[1] = now();
     w.steiner.drain(s);

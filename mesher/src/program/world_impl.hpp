@@ -4,6 +4,7 @@
 #include "program/build_qt.hpp"
 #include "program/choose_steiners.hpp"
 #include "program/cut.hpp"
+#include "program/fill.hpp"
 #include "input.hpp"
 #include "program/split_segments.hpp"
 #include "program/triangulate.hpp"
@@ -26,17 +27,37 @@ void World<S>::add_boundary() {
   });
 }
 
+// The box with all in it is asked for from the outside.
+template <class S>
+void World<S>::post_fill() {
+  fills.template post_from_outside<fill>(fill_key({}), Cell<2>{});
+}
+
+template <class S>
+void World<S>::post_parts(S& s, const Cell<2>& c) {
+  quadtree.template post<split>(s, split_key(c), c);
+  MeshBox<2>::for_each_child(c, [&](const Cell<2>& part) {
+    if constexpr (!S::kTraced) plain.tick();
+    fills.template post<fill>(s, fill_key(part), part);
+  });
+}
+
 template <class S>
 void World<S>::post_split(S& s, const PieceRef& piece) {
   if constexpr (!S::kTraced) plain.tick();
   splits.template post<split_segment>(s, split_segment_key(box, piece), piece);
 }
 
-// add a ComputeNN(p) event, with key |c| / 2; c is the cell of `leaf_level` around p
+// add a ComputeNN(p) event, with key |c| / 2; c is the cell of `leaf_level` around p. Where there is
+// a lattice, its points may be nearer
 template <class S>
 void World<S>::post_nearest(S& s, VertexRef<2> v, int leaf_level) {
-  const double half = box.cell_side(leaf_level) / 2;
-  post_nearest_in(s, v, buckets().bucket(half * half));
+  post_nearest_from(s, v, std::min(box.cell_side(leaf_level) / 2, kClear * limits.pitch(v->p)));
+}
+
+template <class S>
+void World<S>::post_nearest_from(S& s, VertexRef<2> v, double distance) {
+  post_nearest_in(s, v, buckets().bucket(distance * distance));
 }
 
 template <class S>

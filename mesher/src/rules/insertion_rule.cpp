@@ -20,13 +20,16 @@ constexpr double kSlack = 1 - 0x1p-40;
 // All that depends on a rule's name.
 struct Policy {
   Promise (*promise)(double rho);
-  std::unique_ptr<const InsertionRule> (*make)(const Options<2>&, const MeshBox<2>&);
+  std::unique_ptr<const InsertionRule> (*make)(const Options<2>&, const MeshBox<2>&,
+                                               const Limits&);
 };
 
 template <class R>
 Policy policy_of() {
-  return {R::promise_for, [](const Options<2>& options, const MeshBox<2>& box) {
-            return std::unique_ptr<const InsertionRule>(std::make_unique<const R>(options, box));
+  return {R::promise_for,
+          [](const Options<2>& options, const MeshBox<2>& box, const Limits& limits) {
+            return std::unique_ptr<const InsertionRule>(
+                std::make_unique<const R>(options, box, limits));
           }};
 }
 
@@ -66,20 +69,20 @@ Point<2> InsertionRule::rounded(const Point<2>& p) const {
 // In exact arithmetic p is at least rho lengths from every vertex. The rounded place must keep half
 // of the growth: lengths that grow by a factor are what ends the refinement.
 InsertionRule::NewPoint InsertionRule::new_point(const VoronoiCell& cell, const Point<2>& p,
-                                                 double length2) const {
+                                                 double length2, double growth2) const {
   NewPoint point{rounded(p), 0, false};
   point.nearest2 = squared_distance(point.p, cell.center().p);
   for (int i = 0; i < cell.size(); ++i) {
     if (!cell.real(i)) continue;
     point.nearest2 = std::min(point.nearest2, squared_distance(point.p, cell.place(i)));
   }
-  point.farther = point.nearest2 > growth2_ * length2;
+  point.farther = point.nearest2 > growth2 * length2;
   return point;
 }
 
 std::unique_ptr<const InsertionRule> insertion_rule(const Options<2>& options,
-                                                    const MeshBox<2>& box) {
-  return policy(options.rule).make(options, box);
+                                                    const MeshBox<2>& box, const Limits& limits) {
+  return policy(options.rule).make(options, box, limits);
 }
 
 Promise promise(Rule rule, double rho) { return policy(rule).promise(rho); }

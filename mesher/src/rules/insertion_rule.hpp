@@ -13,6 +13,7 @@
 
 #include "geometry/voronoi_cell.hpp"
 #include "rules/buckets.hpp"
+#include "sizes/limits.hpp"
 
 namespace mesher::detail {
 
@@ -22,7 +23,10 @@ class EdgeFilter {
  public:
   static constexpr int kCentre = -1;
   virtual ~EdgeFilter() = default;
+  /// Whether it stays although it is poor.
   [[nodiscard]] virtual bool skips(const VoronoiCell& cell, int p, int q) const = 0;
+  /// Whether it stays although it is too large.
+  [[nodiscard]] virtual bool skips_large(const VoronoiCell& cell, int p, int q) const = 0;
 };
 
 class InsertionRule {
@@ -53,8 +57,11 @@ class InsertionRule {
     return radius2 > rho2_ * edge2;
   }
   [[nodiscard]] bool is_centre(const VoronoiCell& cell, int corner) const;
-  [[nodiscard]] NewPoint new_point(const VoronoiCell& cell, const Point<2>& p,
-                                   double length2) const;
+  /// `growth2`: to be farther, p must be from all vertices by more than this times length2.
+  [[nodiscard]] NewPoint new_point(const VoronoiCell& cell, const Point<2>& p, double length2,
+                                   double growth2) const;
+  /// For a point that is farther by a factor of rho, but for rounding.
+  [[nodiscard]] double growth2() const noexcept { return growth2_; }
 
  private:
   [[nodiscard]] Point<2> rounded(const Point<2>& p) const;
@@ -67,9 +74,10 @@ class InsertionRule {
   double tiny_;     // coordinates below are noise around zero
 };
 
-/// The rule that the options name. Throws: Error(bad_option) if there is none.
+/// The rule that the options name; it refers to `limits`. Throws: Error(bad_option) if there is none.
 [[nodiscard]] std::unique_ptr<const InsertionRule> insertion_rule(const Options<2>& options,
-                                                                  const MeshBox<2>& box);
+                                                                  const MeshBox<2>& box,
+                                                                  const Limits& limits);
 /// What the rule of this name promises. Throws: likewise.
 [[nodiscard]] Promise promise(Rule rule, double rho);
 

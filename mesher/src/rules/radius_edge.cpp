@@ -1,6 +1,7 @@
 // Poor triangles and their off-centres.
 #include "rules/radius_edge.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +13,13 @@ namespace {
 
 // The off-centre aims a little lower than the bound, so that rounding it does not make it poor.
 constexpr double kAim = 1 - 0x1p-16;
+
+// Areas are computed to within 2^-45: what passes is not larger in exact arithmetic.
+constexpr double kLargest = 1 - 0x1p-40;
+
+// A circumcentre is as far as the circumradius, but for rounding. What ends the refinement of large
+// triangles is not that lengths grow, but that no length is shorter than one that fits the limit.
+constexpr double kAsFar = 1 - 0x1p-20;
 
 // The height at which the apex over an edge of length 1 gives a circumradius of rho.
 double offcentre_height(double rho) {
@@ -29,12 +37,23 @@ Promise RadiusEdge::promise_for(double rho) {
   return {.gamma = std::sqrt(height * height + 0.25), .inserts = kReads, .input = rho / (rho - 1)};
 }
 
-RadiusEdge::RadiusEdge(const Options<2>& options, const MeshBox<2>& box)
+RadiusEdge::RadiusEdge(const Options<2>& options, const MeshBox<2>& box, const Limits& limits)
     : InsertionRule(options, box, promise_for(options.rho)),
-      height_(offcentre_height(options.rho)) {}
+      height_(offcentre_height(options.rho)),
+      limits_(limits.any() ? &limits : nullptr) {}
 
-// Calls visit(poor) for the shortest edge of every poor triangle of v's star, and for every visible
-// edge beside a hidden corner.
+// Whether the triangle of v and the neighbours i and j is larger than the limit at its centroid,
+// which is computed alike by all three corners.
+bool RadiusEdge::is_large(const VoronoiCell& cell, int i, int j) const {
+  const Point<2>&u = cell.neighbour(i), &w = cell.neighbour(j);
+  const double area = (u[0] * w[1] - u[1] * w[0]) / 2;
+  const Point<2> middle = centroid({cell.center().p, cell.place(i), cell.place(j)});
+  return area > limits_->area(middle) * kLargest;
+}
+
+// Calls visit(poor) for the shortest edge of every poor triangle of v's star, for every visible edge
+// beside a hidden corner, and for the large triangles. One that is poor and large is the former
+// first, since R is longer than its edge.
 template <class Visit>
 void RadiusEdge::for_each_poor(const VoronoiCell& cell, Visit&& visit) const {
   constexpr int kCentre = EdgeFilter::kCentre;
@@ -52,12 +71,17 @@ void RadiusEdge::for_each_poor(const VoronoiCell& cell, Visit&& visit) const {
     }
     const double across = squared_distance(cell.place(i), cell.place(j));
     const double shortest = std::min({to_i, to_j, across});
-    if (!exceeds(cell.corner2(i), shortest)) continue;
+    const bool is_poor = exceeds(cell.corner2(i), shortest);
+    const bool large = limits_ != nullptr && is_large(cell, i, j);
+    if (!is_poor && !large) continue;
     Poor poor{shortest, v, cell.place(i), plus(v, cell.corner(i)), kCentre, i};
     if (shortest != to_i) poor.p = cell.place(j), poor.q = v, poor.from = j, poor.to = kCentre;
     if (shortest != to_i && shortest != to_j) {
       poor.p = cell.place(i), poor.q = cell.place(j), poor.from = i, poor.to = j;
     }
+    if (is_poor) visit(poor);
+    if (!large) continue;
+    poor.length2 = cell.corner2(i), poor.large = true;
     visit(poor);
   }
 }
@@ -72,7 +96,7 @@ Point<2> RadiusEdge::place(const Poor& poor) const {
   if (poor.circumcentre.has_value()) {
     const Point<2>& c = *poor.circumcentre;
     const double height = (c[1] - middle[1]) * dx - (c[0] - middle[0]) * dy;
-    if (height < height_ * poor.edge2) return c;
+    if (poor.large || height < height_ * poor.length2) return c;
   }
   return {middle[0] - height_ * dy, middle[1] + height_ * dx};
 }
@@ -83,18 +107,20 @@ std::optional<InsertionRule::NewPoint> RadiusEdge::next_point(const VoronoiCell&
   Point<2> point{};
   int from = 0;
   int to = 0;
+  bool large = false;
   for_each_poor(cell, [&](const Poor& poor) {
-    if (buckets().bucket(poor.edge2) > b || poor.edge2 > shortest2) return;
+    if (buckets().bucket(poor.length2) > b || poor.length2 > shortest2) return;
     const Point<2> x = place(poor);
     // Shortest edge first; ties by the place of the new vertex.
-    if (poor.edge2 == shortest2 && point < x) return;
-    if (filter != nullptr && filter->skips(cell, poor.from, poor.to)) return;
-    shortest2 = poor.edge2;
+    if (poor.length2 == shortest2 && point < x) return;
+    if (skipped(poor, cell, filter)) return;
+    shortest2 = poor.length2;
     point = x;
     from = poor.from, to = poor.to;
+    large = poor.large;
   });
   if (std::isinf(shortest2)) return std::nullopt;
-  NewPoint found = new_point(cell, point, shortest2);
+  NewPoint found = new_point(cell, point, shortest2, large ? kAsFar : growth2());
   found.from = from, found.to = to;
   return found;
 }
@@ -110,9 +136,9 @@ std::optional<int> RadiusEdge::next_bucket(const VoronoiCell& cell, int b,
   for (int i = 0; i < cell.size(); ++i) alone = alone && !cell.real(i);
   if (alone) next = b + 1;
   for_each_poor(cell, [&](const Poor& poor) {
-    const bool skipped = filter != nullptr && filter->skips(cell, poor.from, poor.to);
-    if (skipped && poor.circumcentre.has_value()) return;
-    const double length2 = skipped ? hidden * hidden : std::min(poor.edge2, hidden * hidden);
+    const bool skips = skipped(poor, cell, filter);
+    if (skips && poor.circumcentre.has_value()) return;
+    const double length2 = skips ? hidden * hidden : std::min(poor.length2, hidden * hidden);
     const int later = std::max(b + 1, buckets().bucket(length2));
     if (!next.has_value() || later < *next) next = later;
   });

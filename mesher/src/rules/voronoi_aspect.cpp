@@ -12,7 +12,7 @@ Promise VoronoiAspect::promise_for(double rho) {
   return {.gamma = 2 * rho, .inserts = kReads / 2, .input = (rho + 1) / (rho - 1)};
 }
 
-VoronoiAspect::VoronoiAspect(const Options<2>& options, const MeshBox<2>& box)
+VoronoiAspect::VoronoiAspect(const Options<2>& options, const MeshBox<2>& box, const Limits&)
     : InsertionRule(options, box, promise_for(options.rho)) {}
 
 std::optional<InsertionRule::NewPoint> VoronoiAspect::next_point(const VoronoiCell& cell, int,
@@ -39,7 +39,7 @@ std::optional<InsertionRule::NewPoint> VoronoiAspect::next_point(const VoronoiCe
     point = x;
   }
   if (farthest2 == 0) return std::nullopt;
-  return new_point(cell, point, length2);
+  return new_point(cell, point, length2, growth2());
 }
 
 }  // namespace mesher::detail

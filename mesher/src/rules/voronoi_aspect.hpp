@@ -12,7 +12,8 @@ namespace mesher::detail {
 
 class VoronoiAspect final : public InsertionRule {
  public:
-  VoronoiAspect(const Options<2>& options, const MeshBox<2>& box);
+  /// `limits`: there are none for this rule.
+  VoronoiAspect(const Options<2>& options, const MeshBox<2>& box, const Limits& limits);
 
   [[nodiscard]] static Promise promise_for(double rho);
   [[nodiscard]] std::optional<NewPoint> next_point(const VoronoiCell& cell, int b,

@@ -12,6 +12,11 @@
 
 namespace {
 
+const mesher::detail::Limits& no_limits() {
+  static const mesher::detail::Limits none({}, {});
+  return none;
+}
+
 using mesher::Options;
 using mesher::Point;
 using mesher::Rule;
@@ -53,7 +58,7 @@ class Watched final : public InsertionRule {
   Watched(const Options<2>& options, const MeshBox<2>& box, const std::vector<Point<2>>& input,
           Farthest& farthest)
       : InsertionRule(options, box, mesher::detail::promise(options.rule, options.rho)),
-        rule_(insertion_rule(options, box)),
+        rule_(insertion_rule(options, box, no_limits())),
         input_(input),
         farthest_(farthest),
         step_(box.side / box.boundary_steps) {}
@@ -132,7 +137,7 @@ TEST_CASE("a new point's nearest vertex is rho lengths away, and what the rule s
     const double rho = 1.05 + 1.5 * random.unit();
     const auto o = options(rho, random.below(2) == 0 ? Rule::radius_edge : Rule::voronoi_aspect);
     const MeshBox<2> box = mesher::detail::mesh_box(o);
-    const auto rule = insertion_rule(o, box);
+    const auto rule = insertion_rule(o, box, no_limits());
     Search search(box);
     std::vector<mesher::detail::Vertex<2>*> all;
     const double scale = std::pow(2.0, -30 * random.unit());
@@ -199,7 +204,7 @@ TEST_CASE("an off-centre may be nearly two circumradii of the clip away, and no 
   for (const double rho : {1.05, 1.4142, 2.0}) {
     const auto o = options(rho, Rule::radius_edge);
     const MeshBox<2> box = mesher::detail::mesh_box(o);
-    const auto rule = insertion_rule(o, box);
+    const auto rule = insertion_rule(o, box, no_limits());
     const int b = rule->buckets().bucket(0x1p-20);
     const double clip = rule->buckets().clip_radius(b);
     // An edge as short as you like, opposite of v on the circle around a corner of the octagon.
@@ -249,7 +254,7 @@ TEST_CASE("an off-centre has the same bits whichever corner of its triangle asks
   INFO("seed 61");
   const auto o = options(1.4142, Rule::radius_edge);
   const MeshBox<2> box = mesher::detail::mesh_box(o);
-  const auto rule = insertion_rule(o, box);
+  const auto rule = insertion_rule(o, box, no_limits());
   const int b = rule->buckets().count() - 1;
   for (int i = 0; i < 2000; ++i) {
     // An edge p q of some length e, a neighbour r that makes a good triangle with it, and, on the

@@ -59,7 +59,7 @@ TEST_CASE("A mesh of random segments conforms, and keeps its bound off small ang
       const Pslg pslg = random_pslg(family, 120, seed);
       const mesher::Options<2> options = PslgEditor::options();
       const mesher::Mesh<2> mesh = static_mesh(pslg, options);
-      REQUIRE(PslgJudge(mesh, pslg).fault(options.rho) == "");
+      REQUIRE(PslgJudge(mesh, pslg).fault(options) == "");
     }
   }
 }
@@ -104,7 +104,7 @@ TEST_CASE("Wedges need as many vertices as the model says") {
     const auto boundary =
         std::count(mesh.kinds.begin(), mesh.kinds.end(), mesher::VertexKind::boundary);
     INFO(row.degrees << " degrees, legs 1 : " << row.ratio);
-    CHECK(PslgJudge(mesh, pslg).fault(options.rho) == "");
+    CHECK(PslgJudge(mesh, pslg).fault(options) == "");
     CHECK(static_cast<double>(mesh.vertices.size()) - static_cast<double>(boundary) <=
           1.03 * row.most);
   }
@@ -116,7 +116,7 @@ TEST_CASE("Every small angle ends the refinement") {
       INFO(degrees << " degrees, legs 1 : " << ratio);
       const Pslg pslg = wedge(degrees, ratio);
       mesher::Options<2> options{.domain = {{-1, -1}, {1, 1}}, .max_vertices = 2000};
-      CHECK(PslgJudge(static_mesh(pslg, options), pslg).fault(options.rho) == "");
+      CHECK(PslgJudge(static_mesh(pslg, options), pslg).fault(options) == "");
     }
   }
 }

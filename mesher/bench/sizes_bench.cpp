@@ -1,0 +1,167 @@
+// Limits of size: how many vertices they take, beside the model's [rules A7], and how many an edit
+// changes.
+//
+//   sizes_bench [FILE.poly A]...   default: the square of the rules; else each file with its largest
+//                                  area A
+//
+// One JSON line per figure:
+//   static           vertices (inside: in the square, where the model counts), seconds
+//   point, segment   an insertion and its removal, inside the square: median and largest number of
+//                    vertices changed, median of calls executed and microseconds
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "../../tests/support/sized_square.hpp"
+#include "mesher/error.hpp"
+#include "mesher/generate.hpp"
+#include "mesher/mesher.hpp"
+#include "mesher/pslg.hpp"
+
+namespace {
+
+using mesher::FeatureId;
+using mesher::Options;
+using mesher::Point;
+using support::SizedSquare;
+using support::SizesInSquare;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct Case {
+  const char* name;
+  Options<2> options;
+  double spacing;  // about
+  int model;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  const auto constant = [&](const char* name, double area, int model) {
+    Options<2> options{.domain = SizedSquare::domain()};
+    options.max_area = area;
+    all.push_back({name, options, SizesInSquare::size(area), model});
+  };
+  const auto varying = [&](const char* name, double area, const SizesInSquare& sizes, int model) {
+    Options<2> options{.domain = SizedSquare::domain()};
+    options.sizes = std::make_shared<SizesInSquare>(sizes);
+    all.push_back({name, options, SizesInSquare::size(area), model});
+  };
+  constant("A = 1e-4", 1e-4, 2732);
+  constant("A = 1e-4 / 4", 1e-4 / 4, 10352);
+  constant("A = 1e-4 / 16", 1e-4 / 16, 40282);
+  varying("linear", 1e-5, SizesInSquare::linear(1e-5, 0.05), 3249);
+  varying("linear, 16 times finer", 1e-5 / 16, SizesInSquare::linear(1e-5 / 16, 0.05 / 4), 46821);
+  varying("step", 1e-5, SizesInSquare::step(1e-5), 4350);
+  varying("step, 16 times finer", 1e-5 / 16, SizesInSquare::step(1e-5 / 16), 66404);
+  return all;
+}
+
+void print_static(const Case& c) {
+  const auto start = Clock::now();
+  const auto mesh =
+      mesh_statically(SizedSquare::points(), SizedSquare::segments(), c.options, {});
+  const double seconds = seconds_since(start);
+  const auto inside =
+      std::count_if(mesh.vertices.begin(), mesh.vertices.end(), SizedSquare::contains);
+  std::printf(
+      "{\"bench\":\"sizes\",\"figure\":\"static\",\"limit\":\"%s\",\"vertices\":%zu,\"inside\":%ld,"
+      "\"model\":%d,\"over_model\":%.4f,\"seconds\":%.4f}\n",
+      c.name, mesh.vertices.size(), static_cast<long>(inside), c.model,
+      static_cast<double>(inside) / c.model, seconds);
+}
+
+struct Edits {
+  std::vector<double> vertices, calls, microseconds;
+
+  static double quantile(std::vector<double> x, double q) {
+    std::sort(x.begin(), x.end());
+    return x[static_cast<std::size_t>(q * static_cast<double>(x.size() - 1))];
+  }
+  void print(const char* figure, const Case& c) const {
+    std::printf(
+        "{\"bench\":\"sizes\",\"figure\":\"%s\",\"limit\":\"%s\",\"updates\":%zu,"
+        "\"vertices_median\":%g,\"vertices_most\":%g,\"calls_median\":%g,\"median_us\":%.1f}\n",
+        figure, c.name, vertices.size(), quantile(vertices, 0.5), quantile(vertices, 1),
+        quantile(calls, 0.5), quantile(microseconds, 0.5));
+  }
+};
+
+void update(mesher::Mesher<2>& m, Edits& edits) {
+  const auto start = Clock::now();
+  const auto change = m.update();
+  edits.microseconds.push_back(1e6 * seconds_since(start));
+  edits.calls.push_back(static_cast<double>(change.calls.executed));
+  edits.vertices.push_back(
+      static_cast<double>(change.vertices_added.size() + change.vertices_removed.size()));
+}
+
+// A point, or a segment three spacings long, at random places; not those that meet the features.
+Edits random_edits(mesher::Mesher<2>& m, double length) {
+  constexpr FeatureId kFrom{1000}, kTo{1001}, kLine{1000};
+  mesher::SplitMix64 random(7);
+  Edits edits;
+  while (edits.vertices.size() < 100) {
+    const Point<2> p{random.unit(), random.unit()};
+    const double angle = 7 * random.unit();
+    const Point<2> q{p[0] + length * std::cos(angle), p[1] + length * std::sin(angle)};
+    if (SizedSquare::beyond(p) > -0.01 || SizedSquare::beyond(q) > -0.01) continue;
+    try {
+      m.insert(kFrom, p);
+      if (length > 0) m.insert(kTo, q), m.insert_segment(kLine, kFrom, kTo);
+      update(m, edits);
+    } catch (const mesher::Error&) {
+      continue;
+    }
+    if (length > 0) m.remove_segment(kLine), m.remove(kTo);
+    m.remove(kFrom);
+    update(m, edits);
+  }
+  return edits;
+}
+
+void print_edits(const Case& c) {
+  mesher::Mesher<2> m(c.options);
+  std::int64_t next = 1;
+  for (const Point<2>& p : SizedSquare::points()) m.insert(FeatureId{next++}, p);
+  for (const auto& s : SizedSquare::segments()) m.insert_segment(s.id, s.from, s.to);
+  m.update();
+  random_edits(m, 0).print("point", c);
+  random_edits(m, 3 * c.spacing).print("segment", c);
+}
+
+void print_file(const char* path, double area) {
+  const mesher::Pslg pslg = mesher::without_polylines(mesher::read_pslg(path).pslg);
+  std::vector<Point<2>> points;
+  std::vector<FeatureId> ids;
+  std::vector<mesher::Segment> segments;
+  for (const auto& v : pslg.points) points.push_back(v.at), ids.push_back(v.id);
+  for (const auto& s : pslg.segments) segments.push_back({s.id, s.from, s.to});
+  Options<2> options{.domain = mesher::snapped_domain<2>(points)};
+  options.max_area = area;
+  const auto start = Clock::now();
+  const auto mesh = mesh_statically(points, segments, options, ids);
+  std::printf(
+      "{\"bench\":\"sizes\",\"figure\":\"static\",\"file\":\"%s\",\"max_area\":%g,\"vertices\":%zu,"
+      "\"seconds\":%.4f}\n",
+      path, area, mesh.vertices.size(), seconds_since(start));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (int i = 1; i + 1 < argc; i += 2) print_file(argv[i], std::strtod(argv[i + 1], nullptr));
+  if (argc > 1) return 0;
+  for (const Case& c : cases()) {
+    print_static(c);
+    print_edits(c);
+  }
+}

@@ -1,0 +1,91 @@
+// How large triangles may be, as a function of place.
+//
+// A size h at p allows a triangle with its centroid at p the area of an equilateral one with edges
+// of length h: sqrt(3) / 4 h^2. Where a size is infinite there is no limit.
+//
+// Example: fine around the origin, and coarser with the distance.
+//   options.sizes = std::make_shared<mesher::SlopedSizes>(
+//       [](const mesher::Point<2>& p) { return 0.01 + 0.1 * std::hypot(p[0], p[1]); },
+//       0.1, 0.01);
+//
+// The mesh is a function of the field, of its sizes and of its bounds: near bounds make an even mesh.
+// A field that breaks its own bounds gets no triangle that is too large, but a mesh that is less
+// even and moves more under edits.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "mesher/mesh.hpp"
+#include "mesher/pslg.hpp"
+
+namespace mesher {
+
+/// The area of an equilateral triangle with edges of length 1.
+inline constexpr double kAreaOfSize = 0.43301270189221932;
+
+/// The size that allows triangles of this area.
+[[nodiscard]] double size_of_area(double area);
+
+/// Sizes between two bounds.
+struct SizeRange {
+  double least = 0;
+  double most = 0;
+};
+
+/// A function of place. It must give the same answers for as long as a mesh refers to it.
+template <int D>
+class SizeField {
+ public:
+  virtual ~SizeField() = default;
+  /// The size at p: > 0, perhaps infinite.
+  [[nodiscard]] virtual double at(const Point<D>& p) const = 0;
+  /// Bounds of the sizes in a box; 0 < least. Near each other for a small box.
+  [[nodiscard]] virtual SizeRange range(const Box<D>& box) const = 0;
+  /// All finite sizes, if they are few: each then gets the lattice that suits it. Else nothing.
+  [[nodiscard]] virtual std::vector<double> plateaus() const { return {}; }
+};
+
+/// A function whose values at p and q differ by at most `slope` |pq|.
+class SlopedSizes final : public SizeField<2> {
+ public:
+  /// Requires: slope >= 0; 0 < least <= size(p) for all p.
+  SlopedSizes(std::function<double(const Point<2>&)> size, double slope, double least)
+      : size_(std::move(size)), slope_(slope), least_(least) {}
+
+  [[nodiscard]] double at(const Point<2>& p) const override { return size_(p); }
+  [[nodiscard]] SizeRange range(const Box<2>& box) const override;
+
+ private:
+  std::function<double(const Point<2>&)> size_;
+  double slope_, least_;
+};
+
+/// What a background says between its samples: linear on the triangles of their Delaunay
+/// triangulation. Around them it goes on to a square four times as wide (and from there as it is on
+/// its side), at whose corners the size is that of the nearest sample.
+/// Throws: Error (bad_option: no samples, or a size that is not above 0; duplicate_point).
+/// Cost: O(n log n); of a look at a place, O(log n).
+[[nodiscard]] std::shared_ptr<const SizeField<2>> sampled_sizes(
+    const std::vector<SizeSample>& samples);
+
+struct Domain;
+
+/// What the regions of a mesh ask for: in one with a limit that, elsewhere none. Null if no region
+/// has one. `mesh`: of the lines that enclose the regions, without limits, say; `domain`: found in
+/// it. The field stays what it is when lines move later. Cost: O(n log n).
+[[nodiscard]] std::shared_ptr<const SizeField<2>> region_sizes(const Mesh<2>& mesh,
+                                                               const Domain& domain);
+
+/// The same for the regions of a graph in the mesh that `options` give it without limits.
+/// Throws: as mesh_statically and find_domain. Cost: that of this mesh.
+[[nodiscard]] std::shared_ptr<const SizeField<2>> region_sizes(const Pslg& graph,
+                                                               Options<2> options);
+
+/// The least of several at each place; null stands for no limit.
+[[nodiscard]] std::shared_ptr<const SizeField<2>> least_sizes(
+    std::vector<std::shared_ptr<const SizeField<2>>> fields);
+
+}  // namespace mesher

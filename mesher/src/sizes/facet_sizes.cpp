@@ -1,0 +1,103 @@
+// Facets in a tree of boxes.
+#include "sizes/facet_sizes.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace mesher::detail {
+
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+bool meet(const Box<2>& a, const Box<2>& b) {
+  return a.lo[0] <= b.hi[0] && b.lo[0] <= a.hi[0] && a.lo[1] <= b.hi[1] && b.lo[1] <= a.hi[1];
+}
+bool is_inside(const Box<2>& a, const Box<2>& b) {
+  return a.lo[0] >= b.lo[0] && a.hi[0] <= b.hi[0] && a.lo[1] >= b.lo[1] && a.hi[1] <= b.hi[1];
+}
+Box<2> joined(const Box<2>& a, const Box<2>& b) {
+  return {{std::min(a.lo[0], b.lo[0]), std::min(a.lo[1], b.lo[1])},
+          {std::max(a.hi[0], b.hi[0]), std::max(a.hi[1], b.hi[1])}};
+}
+void take(SizeRange& all, const SizeRange& r) {
+  all.least = std::min(all.least, r.least);
+  all.most = std::max(all.most, r.most);
+}
+
+}  // namespace
+
+FacetSizes::FacetSizes(std::vector<Facet> facets, std::vector<double> plateaus, bool covering)
+    : facets_(std::move(facets)), plateaus_(std::move(plateaus)), covering_(covering) {
+  nodes_.reserve(2 * facets_.size());
+  if (!facets_.empty()) build(0, facets_.size());
+}
+
+void FacetSizes::build(std::size_t begin, std::size_t end) {
+  constexpr std::size_t kLeaf = 4;
+  const std::size_t me = nodes_.size();
+  Node node{facets_[begin].extent(), {kInfinite, 0}, begin, end};
+  for (std::size_t i = begin; i < end; ++i) {
+    node.box = joined(node.box, facets_[i].extent());
+    take(node.range, {facets_[i].least(), facets_[i].most()});
+  }
+  nodes_.push_back(node);
+  if (end - begin <= kLeaf) return;
+  const std::size_t axis =
+      node.box.hi[0] - node.box.lo[0] < node.box.hi[1] - node.box.lo[1] ? 1 : 0;
+  const std::size_t middle = begin + (end - begin) / 2;
+  const auto at = [&](std::size_t i) { return facets_.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(begin), at(middle), at(end), [axis](const Facet& a, const Facet& b) {
+    return a.middle()[axis] < b.middle()[axis];
+  });
+  build(begin, middle);
+  nodes_[me].right = nodes_.size();
+  build(middle, end);
+}
+
+// Halving keeps the tree's depth below the number of bits of a size.
+template <class Enter, class Visit>
+void FacetSizes::visit(Enter&& enter, Visit&& visit_facet) const {
+  std::array<std::size_t, 65> stack;
+  std::size_t top = 0;
+  if (!nodes_.empty()) stack[top++] = 0;
+  while (top > 0) {
+    const std::size_t me = stack[--top];
+    const Node& n = nodes_[me];
+    if (!enter(n)) continue;
+    if (n.right == 0) {
+      for (std::size_t i = n.begin; i < n.end; ++i) visit_facet(facets_[i]);
+    } else {
+      stack[top++] = n.right;
+      stack[top++] = me + 1;
+    }
+  }
+}
+
+double FacetSizes::at(const Point<2>& p) const {
+  double least = kInfinite;
+  visit([&](const Node& n) { return n.range.least < least && meet(n.box, {p, p}); },
+        [&](const Facet& f) {
+          if (f.least() < least && f.contains(p)) least = std::min(least, f.at(p));
+        });
+  return least;
+}
+
+// What lies beside all facets has no limit.
+SizeRange FacetSizes::range(const Box<2>& box) const {
+  SizeRange all{kInfinite, 0};
+  visit(
+      [&](const Node& n) {
+        const bool known = n.range.least >= all.least && n.range.most <= all.most;
+        if (known || !meet(n.box, box)) return false;
+        if (is_inside(n.box, box)) return take(all, n.range), false;
+        return true;
+      },
+      [&](const Facet& f) {
+        if (f.meets(box)) take(all, f.range(box));
+      });
+  return {all.least, covering_ ? std::max(all.least, all.most) : kInfinite};
+}
+
+}  // namespace mesher::detail

@@ -1,0 +1,98 @@
+// Meshes with a largest area under edits, against runs from scratch.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "mesher/generate.hpp"
+#include "mesher/sizes.hpp"
+#include "pslg_follower.hpp"
+
+namespace {
+
+using support::PslgEditor;
+using support::PslgFollower;
+
+constexpr PslgEditor::Family kFamilies[] = {
+    PslgEditor::Family::uniform, PslgEditor::Family::lattice, PslgEditor::Family::beside,
+    PslgEditor::Family::fan,     PslgEditor::Family::wedge,   PslgEditor::Family::steiner,
+    PslgEditor::Family::filled};
+
+// The pitch of the lattice is 1 for the first; a point of the lattice family is on it now and then.
+constexpr double kAreas[] = {0.4375, 0.2, 3};
+
+// Two sizes, in squares like those of a chessboard; no limit in some.
+class Steps final : public mesher::SizeField<2> {
+ public:
+  [[nodiscard]] double at(const mesher::Point<2>& p) const override {
+    const double x = std::floor(p[0] / 3), y = std::floor(p[1] / 3);
+    if (x == 1 && y == 1) return std::numeric_limits<double>::infinity();
+    return std::fmod(x + y, 2) == 0 ? 0.8 : 4;
+  }
+  [[nodiscard]] mesher::SizeRange range(const mesher::Box<2>& box) const override {
+    mesher::SizeRange all{std::numeric_limits<double>::infinity(), 0};
+    for (double x = std::floor(box.lo[0] / 3); 3 * x <= box.hi[0]; ++x) {
+      for (double y = std::floor(box.lo[1] / 3); 3 * y <= box.hi[1]; ++y) {
+        const double h = at({3 * x + 1, 3 * y + 1});
+        all.least = std::min(all.least, h), all.most = std::max(all.most, h);
+      }
+    }
+    return all;
+  }
+};
+
+std::string follow(PslgEditor::Family family, std::uint64_t seed, double area, int steps) {
+  mesher::Options<2> options = PslgEditor::options();
+  options.max_area = area;
+  return PslgFollower(family, seed, options).follow(steps);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "With a largest area, the mesh after every edit is that of a run from scratch, conforms, keeps "
+    "its bound, and no triangle is larger") {
+  for (const PslgEditor::Family family : kFamilies) {
+    for (const double area : kAreas) {
+      INFO("family " << static_cast<int>(family) << " area " << area);
+      REQUIRE(follow(family, 1, area, 30) == "");
+    }
+  }
+}
+
+TEST_CASE("The same with sizes that vary: by a slope, in steps, by a background") {
+  const auto sloped = [](const mesher::Point<2>& p) {
+    return 0.7 + 0.3 * std::hypot(p[0] - 7, p[1] - 9);
+  };
+  std::vector<mesher::SizeSample> samples;
+  mesher::SplitMix64 random(9);
+  for (int i = 0; i < 30; ++i) {
+    samples.push_back({{16 * random.unit(), 16 * random.unit()}, 0.8 + 3 * random.unit()});
+  }
+  const std::shared_ptr<const mesher::SizeField<2>> fields[] = {
+      std::make_shared<mesher::SlopedSizes>(sloped, 0.3, 0.7), std::make_shared<Steps>(),
+      mesher::sampled_sizes(samples)};
+  for (const PslgEditor::Family family : kFamilies) {
+    for (std::size_t i = 0; i < std::size(fields); ++i) {
+      mesher::Options<2> options = PslgEditor::options();
+      options.sizes = fields[i];
+      if (i == 0) options.max_area = 2;
+      INFO("family " << static_cast<int>(family) << " field " << i);
+      REQUIRE(PslgFollower(family, 2, options).follow(20) == "");
+    }
+  }
+}
+
+TEST_CASE("Long sequences of edits with a largest area follow runs from scratch", "[.soak]") {
+  for (std::uint64_t seed = 1000; seed < 1060; ++seed) {
+    for (const PslgEditor::Family family : kFamilies) {
+      for (const double area : kAreas) {
+        INFO("family " << static_cast<int>(family) << " seed " << seed << " area " << area);
+        REQUIRE(follow(family, seed, area, 150) == "");
+      }
+    }
+  }
+}

@@ -1,0 +1,214 @@
+// Limits of size: how many vertices they take, and that nothing is larger.
+#include "mesher/sizes.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "geometry/plane.hpp"
+#include "mesher/error.hpp"
+#include "mesher/generate.hpp"
+#include "mesher/mesher.hpp"
+#include "sized_square.hpp"
+#include "sizes/sample_triangulation.hpp"
+
+namespace {
+
+using mesher::Mesh;
+using mesher::Mesher;
+using mesher::Options;
+using mesher::Point;
+using mesher::SizeSample;
+using support::SizedSquare;
+using support::SizesInSquare;
+
+Options<2> limited(double max_area) {
+  Options<2> options{.domain = SizedSquare::domain()};
+  options.max_area = max_area;
+  return options;
+}
+Options<2> sized(SizesInSquare sizes) {
+  Options<2> options{.domain = SizedSquare::domain()};
+  options.sizes = std::make_shared<SizesInSquare>(std::move(sizes));
+  return options;
+}
+
+Mesh<2> square(const Options<2>& options) {
+  return mesh_statically(SizedSquare::points(), SizedSquare::segments(), options);
+}
+
+long inside(const Mesh<2>& mesh) {
+  return std::count_if(mesh.vertices.begin(), mesh.vertices.end(), SizedSquare::contains);
+}
+
+// Of triangles with their centroids where there is a limit: area over limit.
+template <class Limit>
+double largest(const Mesh<2>& mesh, Limit&& limit) {
+  double most = 0;
+  for (const auto& t : mesh.simplices) {
+    const Point<2>&p = mesh.vertices[t[0]], &q = mesh.vertices[t[1]], &r = mesh.vertices[t[2]];
+    const double area = ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
+    most = std::max(most, area / limit(mesher::detail::centroid({p, q, r})));
+  }
+  return most;
+}
+double area_of(double h) { return std::sqrt(3.0) / 4 * h * h; }
+
+}  // namespace
+
+TEST_CASE("A largest area takes no more vertices than the model, by 1.03 [rules A7]") {
+  for (const auto& [area, model] :
+       {std::pair(1e-4, 2732), std::pair(1e-4 / 4, 10352), std::pair(1e-4 / 16, 40282)}) {
+    const Mesh<2> mesh = square(limited(area));
+    INFO(area << ": " << inside(mesh) << " vertices, the model " << model);
+    CHECK(static_cast<double>(inside(mesh)) <= 1.03 * model);
+    CHECK(largest(mesh, [&, area = area](const Point<2>& p) {
+            const bool counts = p[0] >= 0 && p[0] <= 1 && p[1] >= 0 && p[1] <= 1;
+            return counts ? area : 1e300;
+          }) <= 1);
+  }
+}
+
+TEST_CASE("Sizes that vary take no more vertices than the model, by 1.03 [rules A7]") {
+  const struct {
+    Options<2> options;
+    int model;
+  } cases[] = {{sized(SizesInSquare::linear(1e-5, 0.05)), 3249},
+               {sized(SizesInSquare::linear(1e-5 / 16, 0.05 / 4)), 46821},
+               {sized(SizesInSquare::step(1e-5)), 4350},
+               {sized(SizesInSquare::step(1e-5 / 16)), 66404}};
+  for (const auto& c : cases) {
+    const Mesh<2> mesh = square(c.options);
+    INFO(inside(mesh) << " vertices, the model " << c.model);
+    CHECK(static_cast<double>(inside(mesh)) <= 1.03 * c.model);
+    CHECK(largest(mesh, [&](const Point<2>& p) { return area_of(c.options.sizes->at(p)); }) <= 1);
+  }
+}
+
+TEST_CASE("Of two limits the smaller one counts") {
+  Options<2> options = sized(SizesInSquare::linear(1e-4, 0.2));
+  options.max_area = 4e-4;
+  const Mesh<2> mesh = square(options);
+  CHECK(largest(mesh, [&](const Point<2>& p) {
+          const bool counts = p[0] >= 0 && p[0] <= 1 && p[1] >= 0 && p[1] <= 1;
+          return counts ? std::min(4e-4, area_of(options.sizes->at(p))) : 1e300;
+        }) <= 1);
+}
+
+TEST_CASE("A limit that every triangle keeps changes nothing") {
+  CHECK(square(limited(1e3)) == square({.domain = SizedSquare::domain()}));
+}
+
+TEST_CASE("A limit that makes no sense is refused") {
+  const auto code = [](const Options<2>& options) {
+    try {
+      static_cast<void>(square(options));
+    } catch (const mesher::Error& error) {
+      return error.code();
+    }
+    return mesher::ErrorCode::cannot_read;
+  };
+  CHECK(code(limited(-1)) == mesher::ErrorCode::bad_option);
+  CHECK(code(limited(std::nan(""))) == mesher::ErrorCode::bad_option);
+  CHECK(code(limited(1e-30)) == mesher::ErrorCode::bad_option);
+  CHECK(code(sized(SizesInSquare([](double) { return -1.0; }))) == mesher::ErrorCode::bad_option);
+  CHECK(code(sized(SizesInSquare([](double) { return 1e-20; }))) == mesher::ErrorCode::bad_option);
+  Options<2> few = limited(1e-9);
+  few.max_vertices = 10000;
+  CHECK(code(few) == mesher::ErrorCode::too_many);
+}
+
+TEST_CASE("A point or a segment changes as few vertices where 16 times as many are filled") {
+  for (const char kind : {'p', 's'}) {
+    for (const double area : {1e-4, 1e-4 / 16}) {
+      Mesher<2> m(limited(area));
+      std::int64_t next = 1;
+      for (const auto& p : SizedSquare::points()) m.insert(mesher::FeatureId{next++}, p);
+      for (const auto& s : SizedSquare::segments()) m.insert_segment(s.id, s.from, s.to);
+      m.update();
+      mesher::SplitMix64 random(5);
+      std::vector<std::size_t> changed;
+      while (changed.size() < 25) {
+        const Point<2> p{random.unit(), random.unit()};
+        const double length = kind == 'p' ? 0 : 3 * SizesInSquare::size(area);
+        const double angle = 7 * random.unit();
+        const Point<2> q{p[0] + length * std::cos(angle), p[1] + length * std::sin(angle)};
+        if (SizedSquare::beyond(p) > -0.05 || SizedSquare::beyond(q) > -0.05) continue;
+        m.insert(mesher::FeatureId{1000}, p);
+        if (kind == 's') m.insert(mesher::FeatureId{1001}, q);
+        if (kind == 's') m.insert_segment(mesher::FeatureId{1000}, mesher::FeatureId{1000}, mesher::FeatureId{1001});
+        try {
+          const auto change = m.update();
+          changed.push_back(change.vertices_added.size() + change.vertices_removed.size());
+        } catch (const mesher::Error&) {
+          continue;  // it meets a segment
+        }
+        m.remove(mesher::FeatureId{1000});
+        if (kind == 's') m.remove(mesher::FeatureId{1001});
+        if (kind == 's') m.remove_segment(mesher::FeatureId{1000});
+        m.update();
+      }
+      std::nth_element(changed.begin(), changed.begin() + 12, changed.end());
+      INFO(kind << " at area " << area << ": " << changed[12]);
+      CHECK(changed[12] <= (kind == 'p' ? 6 : 20));
+    }
+  }
+}
+
+TEST_CASE("A background is linear between its samples, and has their sizes at them") {
+  mesher::SplitMix64 random(3);
+  std::vector<SizeSample> samples;
+  for (int i = 0; i < 300; ++i) {
+    // Some on a lattice: cocircular.
+    const Point<2> p = i % 2 == 0 ? Point<2>{std::floor(30 * random.unit()), std::floor(30 * random.unit())}
+                                  : Point<2>{30 * random.unit(), 30 * random.unit()};
+    const auto same = [&](const SizeSample& s) { return s.at == p; };
+    if (std::any_of(samples.begin(), samples.end(), same)) continue;
+    samples.push_back({p, 1 + p[0] / 10 + p[1] / 5});
+  }
+  const auto field = mesher::sampled_sizes(samples);
+  for (const auto& s : samples) CHECK(field->at(s.at) == Approx(s.h).epsilon(1e-12));
+  for (int i = 0; i < 300; ++i) {
+    const Point<2> p{5 + 20 * random.unit(), 5 + 20 * random.unit()};
+    CHECK(field->at(p) == Approx(1 + p[0] / 10 + p[1] / 5).epsilon(0.05));
+  }
+  std::reverse(samples.begin(), samples.end());
+  const auto again = mesher::sampled_sizes(samples);
+  for (int i = 0; i < 300; ++i) {
+    const Point<2> p{-100 + 200 * random.unit(), -100 + 200 * random.unit()};
+    CHECK(again->at(p) == field->at(p));
+  }
+}
+
+TEST_CASE("The bounds of a background hold, and are near each other in small boxes") {
+  mesher::SplitMix64 random(4);
+  std::vector<SizeSample> samples;
+  for (int i = 0; i < 60; ++i) {
+    samples.push_back({{random.unit(), random.unit()}, std::exp(-5 * random.unit())});
+  }
+  const auto field = mesher::sampled_sizes(samples);
+  for (int i = 0; i < 2000; ++i) {
+    const Point<2> lo{-1 + 3 * random.unit(), -1 + 3 * random.unit()};
+    const double side = std::exp2(-20 * random.unit());
+    const mesher::Box<2> box{lo, {lo[0] + side, lo[1] + side}};
+    const mesher::SizeRange range = field->range(box);
+    CHECK(range.least > 0);
+    for (int k = 0; k < 20; ++k) {
+      const double h = field->at({lo[0] + side * random.unit(), lo[1] + side * random.unit()});
+      CHECK(h >= range.least * (1 - 1e-12));
+      CHECK(h <= range.most * (1 + 1e-12));
+    }
+    if (side < 1e-5) CHECK(range.most - range.least <= 1e-2);
+  }
+}
+
+TEST_CASE("One sample is a constant; none, two at a place, or a bad size is refused") {
+  const auto field = mesher::sampled_sizes({{{3, 4}, 0.5}});
+  CHECK(field->at({3, 4}) == 0.5);
+  CHECK(field->at({1e6, -4}) == 0.5);
+  CHECK_THROWS_AS(mesher::sampled_sizes({}), mesher::Error);
+  CHECK_THROWS_AS(mesher::sampled_sizes({{{3, 4}, 0.5}, {{3, 4}, 0.6}}), mesher::Error);
+  CHECK_THROWS_AS(mesher::sampled_sizes({{{3, 4}, 0}}), mesher::Error);
+}
