@@ -19,7 +19,8 @@ std::string named(const Point<2>& p, FeatureId id) {
 }  // namespace
 
 std::string place_text(const Point<2>& p) {
-  return "(" + text::to_text(p[0]) + ", " + text::to_text(p[1]) + ")";
+  std::string text = "(";
+  return text.append(text::to_text(p[0])).append(", ").append(text::to_text(p[1])).append(")");
 }
 
 void check_point(const Point<2>& p, const Box<2>& domain, FeatureId id) {

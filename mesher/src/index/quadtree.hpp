@@ -1,8 +1,10 @@
 // The quadtree as a place to look vertices up.
 //
-// The cells are those that BuildQT marks as split: a cell has children while it, or a cell inside
-// it, is marked. Answers do not depend on the subdivision, only their cost does, so the tree may be
-// between two states while a propagation is under way.
+// The cells are those that BuildQT marks as split: a cell is *wanted* while it, or a cell inside it,
+// is marked, and has children then. Answers do not depend on the subdivision, only their cost does,
+// so the tree may be between two states while a propagation is under way: marks come only after
+// the points that they are for, and many may come at once. So a cell also has children while more
+// than kMany vertices lie in it.
 // A cell with children is *open* while more than kFull vertices lie in it: these are in its
 // children. Else it is *closed*: it keeps them itself, and who looks up goes no deeper. So the
 // cells that a search meets hold a handful of vertices, however deep BuildQT splits. Each cell also
@@ -51,7 +53,7 @@ class Quadtree {
   /// Marks `cell` as split, with the cells above it given children as needed; returns its node.
   /// Requires: 0 <= cell.level < kLevels. Throws: std::bad_alloc, and then changes nothing.
   NodeIndex mark(const Cell<D>& cell);
-  /// Takes the mark back and removes children that no mark needs. Requires: mark gave `node`.
+  /// Takes the mark back and removes children that nothing needs. Requires: mark gave `node`.
   void unmark(NodeIndex node) noexcept;
 
   /// Puts a vertex into its leaf. Throws: std::bad_alloc, and then changes nothing. Cost: O(depth).
@@ -103,11 +105,11 @@ class Quadtree {
   /// A query centred at `v` looks as far as v.reach: raises the bounds of the cells around it.
   void raise_reach(const Vertex<D>& v) noexcept;
 
-  /// Throws InvariantError if a cell without a mark in it has children, a vertex lies in the wrong
-  /// leaf, or a cell underestimates the reach of its vertices.
+  /// Throws InvariantError if a cell has children without need or none in spite of one, a vertex
+  /// lies in the wrong cell, or a cell underestimates the reach of its vertices.
   void check_invariants() const;
 
-  /// Calls visit(cell) for every leaf.
+  /// Calls visit(cell) for every leaf of BuildQT's subdivision.
   template <class Visit>
   void for_each_leaf(Visit&& visit) const;
 
@@ -118,9 +120,11 @@ class Quadtree {
   }
 
  private:
+  static constexpr std::uint32_t kMarked = 0x80000000u;
+  static constexpr std::uint32_t kWanted = 0x40000000u;
   struct Node {
     NodeIndex child_and_closed = 0;  // first of kChildren, 0: none
-    NodeIndex parent_and_mark = 0;
+    NodeIndex parent_and_marks = 0;
     std::uint32_t head = 0;  // first bucket
     float reach = 0;
 
@@ -129,8 +133,12 @@ class Quadtree {
     /// First child of an open cell; 0: the vertices are here.
     [[nodiscard]] NodeIndex open() const noexcept { return closed() ? 0 : child_and_closed; }
     void close() noexcept { child_and_closed |= 0x80000000u; }
-    [[nodiscard]] NodeIndex parent() const noexcept { return parent_and_mark & 0x7fffffffu; }
-    [[nodiscard]] bool marked() const noexcept { return parent_and_mark >> 31 != 0; }
+    [[nodiscard]] NodeIndex parent() const noexcept { return parent_and_marks & 0x3fffffffu; }
+    [[nodiscard]] bool marked() const noexcept { return (parent_and_marks & kMarked) != 0; }
+    [[nodiscard]] bool wanted() const noexcept { return (parent_and_marks & kWanted) != 0; }
+    void set(std::uint32_t flag, bool on) noexcept {
+      parent_and_marks = on ? parent_and_marks | flag : parent_and_marks & ~flag;
+    }
   };
   struct Step {
     NodeIndex node;
@@ -156,12 +164,17 @@ class Quadtree {
   static void make_room(std::vector<T, LineAllocator<T>>& records, std::size_t more);
   void reserve_splits(std::size_t splits);
   void give_children(NodeIndex n, int level) noexcept;
-  void take_children(NodeIndex n) noexcept;
+  void open_if_full(NodeIndex n, int level) noexcept;
   void spread(NodeIndex n, int level) noexcept;
   void gather(NodeIndex n) noexcept;
-  [[nodiscard]] bool can_close(NodeIndex n) const noexcept;
+  [[nodiscard]] bool shrink(NodeIndex n) noexcept;
+  [[nodiscard]] bool any_child_wanted(NodeIndex n) const noexcept;
+  [[nodiscard]] std::size_t held_below(NodeIndex n) const noexcept;
   // More vertices than this are looked at in the children, if there are any.
   static constexpr std::size_t kFull = 8;
+  // More than this ask for children.
+  static constexpr std::size_t kMany = 32;
+  static_assert(kFull <= kMany);
   // For each axis the children in the lower half, a bit each.
   static constexpr std::array<unsigned, D> kLower = [] {
     std::array<unsigned, D> lower{};

@@ -45,7 +45,7 @@ void Quadtree<D>::give_children(NodeIndex n, int level) noexcept {
     free_.pop_back();
   }
   for (int i = 0; i < kChildren; ++i) {
-    nodes_[first + static_cast<NodeIndex>(i)] = Node{.parent_and_mark = n};
+    nodes_[first + static_cast<NodeIndex>(i)] = Node{.parent_and_marks = n};
   }
   nodes_[n].child_and_closed = first;
   held(n) > kFull ? spread(n, level) : nodes_[n].close();
@@ -68,9 +68,16 @@ void Quadtree<D>::spread(NodeIndex n, int level) noexcept {
     }
     b = bucket.next;
   }
-  for (int i = 0; i < kChildren; ++i) {
-    const NodeIndex c = first + static_cast<NodeIndex>(i);
-    if (nodes_[c].child() != 0 && held(c) > kFull) spread(c, level + 1);
+  for (int i = 0; i < kChildren; ++i) open_if_full(first + static_cast<NodeIndex>(i), level + 1);
+}
+
+// For a cell that keeps its vertices itself. Requires: reserve_splits.
+template <int D>
+void Quadtree<D>::open_if_full(NodeIndex n, int level) noexcept {
+  if (nodes_[n].child() != 0) {
+    if (held(n) > kFull) spread(n, level);
+  } else if (level < kLevels && held(n) > kMany) {
+    give_children(n, level);
   }
 }
 
@@ -124,23 +131,41 @@ std::size_t Quadtree<D>::held(NodeIndex n) const noexcept {
   return vertices;
 }
 
-// Whether the vertices of an open cell are few enough for it to hold them.
+// The vertices of a cell with children, if none of these is open; else more than any limit.
 template <int D>
-bool Quadtree<D>::can_close(NodeIndex n) const noexcept {
+std::size_t Quadtree<D>::held_below(NodeIndex n) const noexcept {
+  if (nodes_[n].closed()) return held(n);
   std::size_t vertices = 0;
   for (int i = 0; i < kChildren; ++i) {
-    const NodeIndex c = nodes_[n].open() + static_cast<NodeIndex>(i);
-    if (nodes_[c].open() != 0) return false;
+    const NodeIndex c = nodes_[n].child() + static_cast<NodeIndex>(i);
+    if (nodes_[c].open() != 0) return kMany + 1;
     vertices += held(c);
   }
-  return vertices <= kFull;
+  return vertices;
+}
+
+// Closes the cell, or takes its children, if its vertices are few enough; returns whether they are.
+// What is not wanted has children for its vertices only, and so has what is in it: where they are
+// few, there is nothing further below.
+template <int D>
+bool Quadtree<D>::shrink(NodeIndex n) noexcept {
+  const bool wanted = nodes_[n].wanted();
+  if (held_below(n) > (wanted ? kFull : kMany)) return false;
+  if (!nodes_[n].closed()) gather(n);
+  nodes_[n].close();
+  if (wanted) return true;
+  free_.push_back(nodes_[n].child());
+  nodes_[n].child_and_closed = 0;
+  return true;
 }
 
 template <int D>
-void Quadtree<D>::take_children(NodeIndex n) noexcept {
-  gather(n);
-  free_.push_back(nodes_[n].child());
-  nodes_[n].child_and_closed = 0;
+bool Quadtree<D>::any_child_wanted(NodeIndex n) const noexcept {
+  bool wanted = false;
+  for (int i = 0; i < kChildren; ++i) {
+    wanted = wanted || nodes_[nodes_[n].child() + static_cast<NodeIndex>(i)].wanted();
+  }
+  return wanted;
 }
 
 // How deep cells are subdivided around f.
@@ -161,29 +186,30 @@ typename Quadtree<D>::NodeIndex Quadtree<D>::mark(const Cell<D>& cell) {
   NodeIndex n = 0;
   for (int level = 0;; ++level) {
     if (nodes_[n].child() == 0) give_children(n, level);
+    nodes_[n].set(kWanted, true);
     if (level == cell.level) break;
     n = nodes_[n].child() + static_cast<NodeIndex>(MeshBox<D>::child_of(cell.corner, level));
   }
-  nodes_[n].parent_and_mark |= 0x80000000u;
+  nodes_[n].set(kMarked, true);
   return n;
 }
 
 template <int D>
 void Quadtree<D>::unmark(NodeIndex n) noexcept {
-  nodes_[n].parent_and_mark &= 0x7fffffffu;
-  while (!nodes_[n].marked() && nodes_[n].child() != 0) {
-    for (int i = 0; i < kChildren; ++i) {
-      if (nodes_[nodes_[n].child() + static_cast<NodeIndex>(i)].child() != 0) return;
-    }
-    take_children(n);
+  nodes_[n].set(kMarked, false);
+  while (nodes_[n].wanted() && !nodes_[n].marked() && !any_child_wanted(n)) {
+    nodes_[n].set(kWanted, false);
+    static_cast<void>(shrink(n));
     n = nodes_[n].parent();
   }
 }
 
-// Should cells open, there is at most a bucket for each vertex.
+// Should cells open, there is at most a bucket for each vertex. A full cell opens into one that is
+// just as full, at worst, and so on.
 template <int D>
 void Quadtree<D>::insert(Vertex<D>& v) {
-  reserve_buckets(kFull + 2);
+  static_assert(kMany + 2 <= kLevels * kChildren);
+  reserve_splits(kLevels);
   int level = 0;
   const NodeIndex n = leaf_of(box_.fixed(v.p), &level);
   Bucket one;
@@ -191,7 +217,7 @@ void Quadtree<D>::insert(Vertex<D>& v) {
   one.reach[0] = v.reach;
   one.place[0] = v.p;
   put(n, one, 0);
-  if (nodes_[n].closed() && held(n) > kFull) spread(n, level);
+  open_if_full(n, level);
 }
 
 template <int D>
@@ -204,7 +230,7 @@ typename Quadtree<D>::Entry Quadtree<D>::entry(NodeIndex leaf, VertexHandle h) c
 }
 
 // The last vertex of the first bucket takes the place of the one that goes. Then cells above close
-// that have few enough.
+// or lose their children that have few enough.
 template <int D>
 void Quadtree<D>::erase(Vertex<D>& v) noexcept {
   NodeIndex n = leaf_of(box_.fixed(v.p));
@@ -221,11 +247,7 @@ void Quadtree<D>::erase(Vertex<D>& v) noexcept {
     free_buckets_.push_back(head);
     nodes_[n].head = first.next;
   }
-  while (n != 0 && can_close(nodes_[n].parent())) {
-    n = nodes_[n].parent();
-    gather(n);
-    nodes_[n].close();
-  }
+  while (n != 0 && shrink(nodes_[n].parent())) n = nodes_[n].parent();
 }
 
 template <int D>

@@ -36,18 +36,19 @@ typename Quadtree<D>::Below Quadtree<D>::check_below(NodeIndex n, const Cell<D>&
     }
   }
   SAC_INVARIANT(visible || node.head == 0);
-  SAC_INVARIANT(node.child() != 0 || (!node.closed() && !node.marked()));
+  SAC_INVARIANT(node.child() != 0 || (!node.closed() && !node.wanted()));
+  SAC_INVARIANT(node.child() != 0 || !visible || cell.level == kLevels || sum.vertices <= kMany);
   if (node.child() != 0) {
     SAC_INVARIANT(node.closed() ? held(n) <= kFull : node.head == 0);
-    bool below = false;
+    bool wanted = node.marked();
     for (int c = 0; c < kChildren; ++c) {
       const NodeIndex child = node.child() + static_cast<NodeIndex>(c);
       SAC_INVARIANT(nodes_[child].parent() == n);
-      below = below || nodes_[child].child() != 0;
+      wanted = wanted || nodes_[child].wanted();
       const Below b = check_below(child, child_cell(cell, c), visible && !node.closed());
       sum = {std::max(sum.reach, b.reach), sum.vertices + b.vertices};
     }
-    SAC_INVARIANT(node.marked() || below);
+    SAC_INVARIANT(node.wanted() == wanted && (wanted || sum.vertices > kMany));
     SAC_INVARIANT(node.closed() || sum.vertices > kFull || !visible);
   }
   SAC_INVARIANT(!visible || node.reach >= sum.reach);
@@ -63,7 +64,7 @@ void Quadtree<D>::for_each_leaf(Visit&& visit) const {
 template <int D>
 template <class Visit>
 void Quadtree<D>::leaves_below(NodeIndex n, const Cell<D>& cell, Visit& visit) const {
-  if (nodes_[n].child() == 0) return visit(cell);
+  if (!nodes_[n].wanted()) return visit(cell);
   for (int c = 0; c < kChildren; ++c) {
     leaves_below(nodes_[n].child() + static_cast<NodeIndex>(c), child_cell(cell, c), visit);
   }

@@ -170,7 +170,7 @@ class VertexSearch {
     }
   }
 
-  /// Cells and vertices that searches have looked at since this was asked last.
+  /// Cells and vertices that searches have looked at since this was asked last, each as often.
   [[nodiscard]] std::uint64_t take_visited() noexcept { return std::exchange(visited_, 0); }
 
   // Requires: roles_.reserve(v.self), unless the role is none.
@@ -250,6 +250,7 @@ class VertexSearch {
   template <class Seen>
   void cut_nearest_first(VoronoiCell& cell, Seen& seen) const {
     for (int few = 2 * VoronoiCell::kClips; met_count_ > 0 && few > 0; --met_count_, --few) {
+      visited_ += met_count_;
       std::size_t nearest = 0;
       double d2 = met_[0].distance2;
       for (std::size_t i = 1; i < met_count_; ++i) {

@@ -217,3 +217,59 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE("a cell that nobody marks has children while many vertices lie in it, and none when few") {
+  const MeshBox<2> box{.lo = {-1.5, -1.5}, .side = 4};
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    INFO("seed " << seed);
+    SplitMix64 random(seed);
+    mesher::detail::VertexPool<2> pool;
+    Quadtree tree(box, pool);
+    const auto place = [&] {  // as deep as cells go
+      const double scale = std::ldexp(1, -static_cast<int>(random.below(5) * 11));
+      return Point<2>{scale * random.unit(), scale * random.unit()};
+    };
+    const auto met_around = [&](const Point<2>& p) {
+      std::size_t met = 0;
+      Quadtree::Looked looked;
+      tree.visit_box(
+          p, {}, looked, [](const Point<2>&, double) { return true; },
+          [&](const auto&, const auto&, std::uint32_t count) { met += count; });
+      return met;
+    };
+    std::vector<mesher::detail::Vertex<2>*> all;
+    std::map<Cell, Quadtree::NodeIndex> marked;
+    for (int i = 0; i < 3000; ++i) {
+      if (all.empty() || random.below(i < 2000 ? 5 : 2) != 0) {
+        const Point<2> p = place();
+        if (tree.find(p) != nullptr) continue;
+        all.push_back(&pool.create(p));
+        tree.insert(*all.back());
+      } else {
+        std::swap(all[random.below(all.size())], all.back());
+        tree.erase(*all.back());
+        pool.release(*all.back());
+        all.pop_back();
+      }
+      if (random.below(20) == 0) {
+        const Cell c = MeshBox<2>::cell(box.fixed(place()), static_cast<int>(random.below(40)));
+        if (const auto it = marked.find(c); it != marked.end()) {
+          tree.unmark(it->second);
+          marked.erase(it);
+        } else {
+          marked[c] = tree.mark(c);
+        }
+      }
+      if (i % 50 == 0) tree.check_invariants();  // which cells have children
+    }
+    for (const auto* v : all) REQUIRE(met_around(v->p) <= 4 * 32);
+    for (const auto& [cell, node] : marked) tree.unmark(node);
+    tree.check_invariants();
+    for (auto* v : all) REQUIRE(tree.find(v->p) == v);
+    for (auto* v : all) tree.erase(*v);
+    tree.check_invariants();
+    int leaves = 0;
+    tree.for_each_leaf([&](const Cell&) { ++leaves; });
+    CHECK(leaves == 1);
+  }
+}

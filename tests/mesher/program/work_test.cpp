@@ -1,0 +1,60 @@
+// What calls look at inside, in runs of growing size: no search is hidden in a constant.
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <vector>
+
+#include "mesher/generate.hpp"
+#include "mesher/mesher.hpp"
+
+namespace {
+
+using mesher::FeatureId;
+using mesher::Mesher;
+using mesher::Options;
+using mesher::Point;
+
+const Options<2> kWeighed{.domain = {{0, 0}, {1, 1}}, .record_weights = true};
+
+struct Work {
+  std::uint64_t calls = 0;
+  std::uint64_t weight = 0;
+};
+
+// Of `n` points that come in one update, after those that are there.
+Work work_of(Mesher<2>& m, std::size_t n, std::uint64_t first_id) {
+  const auto points = mesher::generate_points<2>(mesher::PointKind::uniform, n, 7);
+  for (std::size_t i = 0; i < n; ++i) m.insert(FeatureId{first_id + i}, points[i]);
+  const auto counts = m.update().calls;
+  return {counts.executed, counts.weight};
+}
+
+Work first_run(std::size_t n) {
+  Mesher<2> m(kWeighed);
+  return work_of(m, n, 1);
+}
+
+double per_point(std::uint64_t count, std::size_t n) {
+  return static_cast<double>(count) / static_cast<double>(n);
+}
+
+}  // namespace
+
+TEST_CASE("what a first run looks at grows with its points, and no faster") {
+  const Work small = first_run(2000);
+  const Work large = first_run(32000);
+  CHECK(per_point(large.calls, 32000) < 1.1 * per_point(small.calls, 2000));
+  CHECK(per_point(large.weight, 32000) < 1.2 * per_point(small.weight, 2000));
+}
+
+TEST_CASE("many points that come at once cost about what they cost in a first run") {
+  for (const std::size_t n : {1000, 8000}) {
+    Mesher<2> m(kWeighed);
+    m.insert(FeatureId{1}, {0.5, 0.5});
+    m.update();
+    const Work batch = work_of(m, n, 2);
+    const Work fresh = first_run(n);
+    INFO(n << " points: " << batch.weight << " against " << fresh.weight);
+    CHECK(per_point(batch.calls, n) < 1.5 * per_point(fresh.calls, n));
+    CHECK(per_point(batch.weight, n) < 2.0 * per_point(fresh.weight, n));
+  }
+}
