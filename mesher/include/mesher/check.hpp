@@ -55,6 +55,8 @@ struct Quality {
 
 /// Circumradius over shortest edge of the triangle abc. Requires: a, b, c not collinear.
 [[nodiscard]] double radius_edge(const Point<2>& a, const Point<2>& b, const Point<2>& c);
+/// The smallest angle of the triangle abc.
+[[nodiscard]] double smallest_angle_deg(const Point<2>& a, const Point<2>& b, const Point<2>& c);
 
 /// One property of a mesh as `check_mesh` found it.
 struct Finding {

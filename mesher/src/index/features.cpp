@@ -6,18 +6,14 @@
 
 namespace mesher::detail {
 
-namespace {
-
-[[noreturn]] void fail_too_close(const Point<2>& p, const Point<2>& q) {
+void refuse_close(const Vertex<2>& v, const Vertex<2>& w) {
   throw Error(ErrorCode::too_close, "features are too close to each other: they need vertices at " +
-                                        place_text(p) + " and " + place_text(q) +
+                                        place_text(v.p) + " and " + place_text(w.p) +
                                         ", which share a cell of 2^-50 of the meshing box's side");
 }
 
-}  // namespace
-
 void Features<sac::PlainScope>::insert(sac::PlainScope&, VertexRef<2> v) {
-  if (const Vertex<2>* other = tree_.obstacle(v->p)) fail_too_close(v->p, other->p);
+  if (const Vertex<2>* other = tree_.obstacle(v->p)) refuse_(*v, *other);
   tree_.insert_only(*v);
 }
 
@@ -31,7 +27,7 @@ int TracedFeatures::level(sac::Scope& s, Vertex<2>& v) {
     s.observe<LevelEdge>(id_, kLevel).vertex = v.self;
   }
   v.locator = engine_.handle_of(s.self());
-  if (const Vertex<2>* other = companion(v)) fail_too_close(v.p, other->p);
+  if (const Vertex<2>* other = companion(v)) refuse_(v, *other);
   if (engine_.appending()) v.level = static_cast<std::int16_t>(tree_.crowded_level(v));
   return v.level;
 }

@@ -7,12 +7,19 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <unordered_map>
+#include <utility>
 
 #include "index/feature_tree.hpp"
 #include "sac/sac.hpp"
 
 namespace mesher::detail {
+
+/// Refuses two points of features in one finest cell. Throws: Error(too_close).
+using RefuseClose = std::function<void(const Vertex<2>&, const Vertex<2>&)>;
+/// The same, naming their places.
+[[noreturn]] void refuse_close(const Vertex<2>& v, const Vertex<2>& w);
 
 template <class S>
 class Features;
@@ -21,6 +28,9 @@ template <>
 class Features<sac::PlainScope> {
  public:
   Features(const MeshBox<2>& box, const VertexPool<2>& pool, sac::PlainScope&) : tree_(box, pool) {}
+
+  /// Who says what is too close.
+  void set_refusal(RefuseClose refuse) { refuse_ = std::move(refuse); }
 
   [[nodiscard]] FeatureTree<2>& tree() noexcept { return tree_; }
   int level(sac::PlainScope&, const Vertex<2>& v) { return tree_.crowded_level(v); }
@@ -43,6 +53,7 @@ class Features<sac::PlainScope> {
 
  private:
   FeatureTree<2> tree_;
+  RefuseClose refuse_ = refuse_close;
 };
 
 /// Who wants to know of points that come and go.
@@ -79,6 +90,8 @@ class Features<sac::Scope> : public sac::Structure {
 
   void set_listener(PointListener* listener) noexcept { listener_ = listener; }
   void set_feature_listener(FeatureListener* listener) noexcept { feature_listener_ = listener; }
+  /// Who says what is too close.
+  void set_refusal(RefuseClose refuse) { refuse_ = std::move(refuse); }
 
   /// The deepest level at which v is crowded, -1 if at none; observed by the running call.
   /// Throws: Error(too_close) if another is in v's finest cell.
@@ -149,6 +162,7 @@ class Features<sac::Scope> : public sac::Structure {
   std::unordered_multimap<Fixed<2>, VertexHandle, CellHash> hidden_;  // behind one in the tree
   PointListener* listener_ = nullptr;
   FeatureListener* feature_listener_ = nullptr;
+  RefuseClose refuse_ = refuse_close;
   std::uint8_t id_;
 };
 

@@ -59,21 +59,36 @@ void require_distinct_ids(const PslgFile& f) {
   require_distinct(lines);
 }
 
-// Throws: Error(unknown_id) for the first segment with an end that is no point.
+// Throws: Error(unknown_id) for a line along a point that is none of `sorted`.
+void require_known(const char* what, FeatureId line, const std::vector<FeatureId>& points,
+                   const std::vector<FeatureId>& sorted, const PslgFile& f, const Place& place) {
+  for (const FeatureId id : points) {
+    if (std::binary_search(sorted.begin(), sorted.end(), id)) continue;
+    throw Error(ErrorCode::unknown_id,
+                std::string(what) + " " + id_text(line) + " ends at point " + id_text(id) +
+                    ", which is not there; there are " + std::to_string(sorted.size()) +
+                    " points in " + f.point_file,
+                place, {line, id});
+  }
+}
+
+// Throws: Error(unknown_id) for the first line along what is no point, Error(bad_syntax) for one of
+// fewer than two.
 void require_known_ends(const PslgFile& f) {
   std::vector<FeatureId> ids;
   for (const auto& point : f.pslg.points) ids.push_back(point.id);
   std::sort(ids.begin(), ids.end());
   for (std::size_t i = 0; i < f.pslg.segments.size(); ++i) {
     const Pslg::Segment& s = f.pslg.segments[i];
-    for (const FeatureId end : {s.from, s.to}) {
-      if (std::binary_search(ids.begin(), ids.end(), end)) continue;
-      throw Error(ErrorCode::unknown_id,
-                  "segment " + id_text(s.id) + " ends at point " + id_text(end) +
-                      ", which is not there; there are " + std::to_string(ids.size()) +
-                      " points in " + f.point_file,
-                  f.place_of_segment(i), {s.id, end});
-    }
+    require_known("segment", s.id, {s.from, s.to}, ids, f, f.place_of_segment(i));
+  }
+  for (std::size_t i = 0; i < f.pslg.polylines.size(); ++i) {
+    const Pslg::Polyline& line = f.pslg.polylines[i];
+    require_known("polyline", line.id, line.points, ids, f, f.place_of_polyline(i));
+    if (line.points.size() >= 2) continue;
+    throw Error(ErrorCode::bad_syntax,
+                "polyline " + id_text(line.id) + " has fewer than two points",
+                f.place_of_polyline(i), {line.id});
   }
 }
 
@@ -106,10 +121,14 @@ PslgFile read_any(const std::string& path) {
 
 }  // namespace
 
-PslgFile read_pslg(const std::string& path) {
-  PslgFile file = read_any(path);
+void detail::require_ids(const PslgFile& file) {
   require_distinct_ids(file);
   require_known_ends(file);
+}
+
+PslgFile read_pslg(const std::string& path) {
+  PslgFile file = read_any(path);
+  detail::require_ids(file);
   return file;
 }
 

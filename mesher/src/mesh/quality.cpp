@@ -40,6 +40,10 @@ double radius_edge(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
   return radius_edge(sides_of(a, b, c));
 }
 
+double smallest_angle_deg(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
+  return min_angle_deg(sides_of(a, b, c));
+}
+
 Quality quality(const Mesh<2>& mesh) {
   Quality worst{std::numeric_limits<double>::infinity(), -1};
   for (const auto& t : mesh.simplices) {

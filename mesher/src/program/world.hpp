@@ -60,7 +60,7 @@ struct World {
   Agenda& steiner;
   Agenda& stars;
   std::size_t most_vertices;
-  std::size_t most_records;  // while an update is under way, of vertices that come and that go
+  std::size_t most_records;      // while an update is under way, of vertices that come and that go
   const Names* names = nullptr;  // for messages; null: features have none
   std::conditional_t<S::kTraced, TracedOutput, PlainOutput> plain;
   std::array<std::chrono::steady_clock::time_point, 4> marks{};
@@ -84,6 +84,7 @@ struct World {
         most_vertices(options.max_vertices != 0 ? options.max_vertices : ~std::size_t{0}),
         most_records(most_vertices) {
     host.set_environment(this);
+    features.set_refusal([this](const Vertex<2>& v, const Vertex<2>& x) { fail_too_close(v, x); });
     add_boundary();
     if (limits.any()) post_fill();
   }
@@ -105,13 +106,15 @@ struct World {
   [[nodiscard]] bool is_exempt(const Vertex<2>& p, const Vertex<2>& q) const {
     return detail::is_exempt(vertices, segments.store(), p, q);
   }
-  /// Throws: Error(too_close), with the ids of the piece's segment and of what crowds it.
   /// Throws: Error(too_many) if there are more vertices than there may be.
   void require_room(S& s) const {
     if (vertices.pool().size() > most_records) fail_too_many(s);
   }
   void fail_too_many(S& s) const;
+  /// Throws: Error(too_close), with the ids of the piece's segment and of what crowds it.
   [[noreturn]] void fail_too_short(const PieceRef& piece);
+  /// Throws: Error(too_close), with the ids of the features that v and x are on.
+  [[noreturn]] void fail_too_close(const Vertex<2>& v, const Vertex<2>& x) const;
   [[noreturn]] void fail_useless(const Vertex<2>& v, const Vertex<2>& x) const;
 
  private:

@@ -1,11 +1,11 @@
 // The parts of World that need the program's functions.
 #pragma once
 
+#include "input.hpp"
 #include "program/build_qt.hpp"
 #include "program/choose_steiners.hpp"
 #include "program/cut.hpp"
 #include "program/fill.hpp"
-#include "input.hpp"
 #include "program/split_segments.hpp"
 #include "program/triangulate.hpp"
 #include "program/world.hpp"
@@ -102,6 +102,13 @@ template <class S>
 void World<S>::fail_too_short(const PieceRef& piece) {
   throw too_close_to_segment(piece, segments.witness(piece), names, vertices.pool(),
                              segments.pool());
+}
+
+template <class S>
+void World<S>::fail_too_close(const Vertex<2>& v, const Vertex<2>& x) const {
+  if (names == nullptr) refuse_close(v, x);
+  const bool in_order = v.p < x.p;
+  throw too_close_vertices(in_order ? v : x, in_order ? x : v, *names, vertices.roles());
 }
 
 // Edits that are undone have had room.

@@ -119,6 +119,22 @@ Error too_close_to_segment(const PieceRef& piece, Witness witness, const Names* 
                {}, std::move(ids));
 }
 
+Error too_close_vertices(const Vertex<2>& v, const Vertex<2>& w, const Names& names,
+                         const Roles& roles) {
+  std::vector<FeatureId> ids;
+  const auto feature = [&](const Vertex<2>& x) -> std::string {
+    if (x.input) return "point " + text(ids.emplace_back(names.point(x.self)));
+    if (!x.on_segment) return "a segment";
+    return "segment " + text(ids.emplace_back(names.line(roles[x.self].on)));
+  };
+  const std::string first = feature(v) + " needs a vertex at " + place_text(v.p);
+  const std::string second = feature(w) + " one at " + place_text(w.p);
+  return Error(ErrorCode::too_close,
+               "features are too close to each other: " + first + ", " + second +
+                   "; these share a cell of 2^-50 of the meshing box's side",
+               {}, std::move(ids));
+}
+
 void fail(const Conflict& c, const Names& names) {
   const FeatureId line = names.line(c.segment->self);
   if (c.kind == Conflict::Kind::point_on_segment) {

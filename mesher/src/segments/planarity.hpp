@@ -6,6 +6,7 @@
 #include "index/features.hpp"
 #include "mesher/error.hpp"
 #include "segments/crowding.hpp"
+#include "segments/roles.hpp"
 #include "segments/segment_store.hpp"
 
 namespace mesher::detail {
@@ -49,6 +50,10 @@ template <class S>
 /// A segment and a feature that are too close to each other, near a piece that the feature crowds.
 [[nodiscard]] Error too_close_to_segment(const PieceRef& piece, Witness witness, const Names* names,
                                          const VertexPool<2>& points, const SegmentPool& segments);
+
+/// Features that need vertices too close to each other.
+[[nodiscard]] Error too_close_vertices(const Vertex<2>& v, const Vertex<2>& w, const Names& names,
+                                       const Roles& roles);
 
 /// Where the lines ab and cd, which cross, do so; rounded.
 [[nodiscard]] Point<2> crossing(const Segment& s, const Segment& t);

@@ -348,3 +348,26 @@ TEST_CASE(
   CHECK(r.code == ErrorCode::too_close);
   CHECK(r.ids == std::vector{id(1), id(3)});
 }
+
+TEST_CASE("features whose vertices share a finest cell are refused with the ids of both") {
+  // Two legs at 2^-45, and a point near their apex that asks for vertices on both.
+  const Options<2> options{.domain = {{0, 0}, {1, 1}}};
+  const std::vector<Point<2>> points{{0, 0}, {1, 0.3}, {1, 0.3 + 0x1p-43}, {0, 0x1p-8}};
+  Mesher<2> m(options);
+  m.insert({id(11), id(12), id(13), id(14)}, points);
+  m.insert_segment(id(1), id(11), id(12));
+  m.update();
+  m.insert_segment(id(2), id(11), id(13));
+  const Refused r = refused(m);
+  CHECK(r.code == ErrorCode::too_close);
+  CHECK(r.ids == std::vector{id(2), id(1)});
+  CHECK(r.message.find("segment 2 needs a vertex at (0.0") != std::string::npos);
+  try {
+    (void)mesher::mesh_statically(points, {{id(1), id(11), id(12)}, {id(2), id(11), id(13)}},
+                                  options, {id(11), id(12), id(13), id(14)});
+    FAIL("not refused");
+  } catch (const Error& e) {
+    CHECK(e.code() == r.code);  // of several such places another may be found first
+    CHECK(e.ids() == r.ids);
+  }
+}

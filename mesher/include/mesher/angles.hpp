@@ -1,0 +1,68 @@
+// What small angles of the input do to a mesh, and what is promised for the rest of it.
+//
+// Example:
+//   const mesher::AngleReport report = mesher::angle_report(m.mesh(), m.options());
+//   for (const auto& angle : report.angles) ... angle.at, angle.lines, angle.forced ...
+//
+// Two segments that meet at under 60 degrees force triangles between them that no refinement can
+// make better, since it would ask for ever shorter edges [Miller, Pav, Walkington]. So a triangle
+// stays as it is if its shortest edge joins the two segments at equal distances from their common
+// end (paper map). Everywhere else the bound on angles holds.
+//
+// A report is a function of the mesh alone, so of the input: that of a mesh that has followed edits
+// is that of a fresh one.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "mesher/mesh.hpp"
+
+namespace mesher {
+
+/// Two segments that leave a point at under 60 degrees, no third between them; or between which
+/// triangles stay.
+struct SmallAngle {
+  Point<2> at{};
+  std::array<FeatureId, 2> lines{};  ///< that of the smaller id first; equal within a polyline
+  double degrees = 0;                ///< > 0
+  std::size_t forced = 0;            ///< poor triangles that stay for it
+  double smallest_deg = 0;           ///< the smallest angle of these; that of none is 0
+};
+
+/// A vertex that is nearer to its nearest neighbour than kShrinks times less than the local feature
+/// size at it: the radius of the smallest disc around it that meets two features without a common
+/// point. Neighbours across a small angle, at the same distance from its apex, do not count.
+struct ShrunkVertex {
+  Point<2> at{};
+  double nearest = 0;            ///< to its nearest neighbour that counts
+  double feature_size = 0;       ///< there
+  std::vector<FeatureId> lines;  ///< those in that disc's interior, by id
+  double degrees = 180;          ///< the smallest angle at an end of one of these segments
+};
+
+struct AngleReport {
+  std::vector<SmallAngle> angles;     ///< by place, then by degrees
+  std::size_t forced = 0;             ///< triangles that stay poor
+  double smallest_forced_deg = 0;     ///< of those; of none, 0
+  double smallest_elsewhere_deg = 0;  ///< of all others; of none, 0
+  double promised_deg = 0;  ///< all angles of the others are as large: arcsin(1 / (2 rho))
+  /// The guard: refinement has made lengths shrink more than the rules allow. Empty unless small
+  /// angles act together in a way that they do not foresee.
+  std::vector<ShrunkVertex> shrunk;
+
+  /// What a person should know, a sentence a line: nothing if no angle is small.
+  [[nodiscard]] std::string text() const;
+};
+
+/// What the guard allows. Where no angle is small, vertices have neighbours nearer than the local
+/// feature size by up to 5.1; near the small angles of coasts, by 7.9 (10^5 vertices of each).
+inline constexpr double kShrinks = 10;
+
+/// Requires: a mesh of a Mesher or of mesh_statically with these options. Cost: O(m log m), some
+/// 5 us a vertex; more at ends of very many segments.
+[[nodiscard]] AngleReport angle_report(const Mesh<2>& mesh, const Options<2>& options);
+
+}  // namespace mesher

@@ -1,0 +1,96 @@
+// Repairs a graph that is no planar one: after it, lines meet at common points only.
+//
+// Example:
+//   const mesher::PslgFile read = mesher::read_pslg("roads.poly");
+//   const mesher::Repaired repaired = mesher::repair(read);
+//   for (const auto& note : repaired.notes) std::puts(note.text().c_str());
+//   ... repaired.file.pslg ...
+//
+// What is closer than a tolerance is made to touch: 2^-44 of the side of the meshing box (of a map
+// of the Earth in degrees: 10^-10 of a degree), and at least 16 units in the last place of the
+// largest coordinate. The box is that of Options::domain.
+//
+// Guarantees:
+//   (1) two pieces of lines meet at most in a common end, exactly; none is there twice; a point is
+//       on no piece that it is no end of. Two points are farther apart than half the tolerance, a
+//       point and such a piece than all of it, where that is not less than a unit of rounding. So a
+//       Mesher finds no fault in it, but for angles that are too small for doubles;
+//   (2) points that stay are where they were, bit for bit, with their ids, markers and attributes;
+//   (3) what lines cover, they still do, but for `deviation`, a few tolerances; holes, regions and
+//       sizes stay;
+//   (4) a graph without faults comes back as it is, so repair(repair(x)) is repair(x);
+//   (5) the result depends on places and ids alone, not on the order of the input's elements, but
+//       for the order of what is returned.
+//
+// Rules:
+//   merging      Of points that are as close to each other as twice the tolerance one stays: going
+//                through them in lexicographic order (equal places by id), whoever has one that
+//                stays that close is the nearest such from now on. That takes the marker of those
+//                that go, by id, if it has none.
+//   splitting    A point within the tolerance of a line's piece becomes a point of the line. Where
+//                two pieces cross, both get a point: one that is there within twice the tolerance,
+//                or a new one at the crossing, rounded to doubles. The pieces bend by that much;
+//                so it is done again, until there is nothing to be done.
+//   ids          A line keeps its id and marker for all its pieces; a segment of several pieces
+//                becomes a polyline. New points are numbered on from the highest id of a point, in
+//                the order of places within each round; they have the marker of the line of the
+//                smallest id through them, and attributes that are linear along it.
+//   overlaps     A piece that several lines cover belongs to that of the smallest id. The others
+//                lose it. What such a line has behind a gap becomes a line of its own, with its
+//                marker, numbered on from the highest id of a line.
+//   dropping     Pieces from a point to itself, and lines that have no piece left.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesher/pslg.hpp"
+
+namespace mesher {
+
+enum class RepairKind : std::uint8_t {
+  merged_points,      ///< points: the one that goes, the one that stays
+  zero_length,        ///< lines: of a piece that has no length; points: its end
+  split_at_point,     ///< lines: one that leads through a point now; points: that
+  split_at_crossing,  ///< lines: those that lead through a new point; points: that
+  overlap,            ///< lines: one that has lost some pieces, and whose they are
+  renamed,            ///< lines: one that has a gap, and what its rest is now
+  dropped_line,       ///< lines: one that has no piece left
+};
+
+/// What a repair has done.
+struct RepairNote {
+  RepairKind kind{};
+  std::vector<FeatureId> lines;
+  std::vector<FeatureId> points;
+  Point<2> at{};  ///< where, or where it begins
+  Place place;    ///< of the first line, if there is one, or of the first point
+
+  /// "FILE:LINE:COL: what was done", the place where it is known.
+  [[nodiscard]] std::string text() const;
+};
+
+/// A graph without faults, and how it became so.
+struct Repaired {
+  PslgFile file;  ///< what is new has the position of what it comes from; new points have none
+  std::vector<RepairNote> notes;  ///< by kind, then by ids
+  double tolerance = 0;           ///< input units
+  double deviation = 0;  ///< of the new lines from the old ones, and of these from those: the most
+};
+
+/// Repairs a graph. `domain`: of the Options that it will be meshed with, snapped_domain of its
+/// points by default.
+/// Throws: Error (not_finite, magnitude, outside_domain, repeated_id, unknown_id) for what cannot
+/// be repaired; Error(bad_option) for a domain that cannot be meshed; Error(too_close) if
+/// kRepairRounds rounds do not do.
+/// Cost: O((n + c) log L/s) for n pieces of lines and c crossings, where lines are as long as they
+/// are far apart or lie side by side (10^5 segments that cross 10^5 times: 3 s); more for long lines
+/// in all directions. Many that cross in one place are worst: O(n^1.5 log L/s).
+[[nodiscard]] Repaired repair(const PslgFile& file, const std::optional<Box<2>>& domain = {});
+[[nodiscard]] Repaired repair(const Pslg& pslg, const std::optional<Box<2>>& domain = {});
+
+inline constexpr int kRepairRounds = 32;
+
+}  // namespace mesher

@@ -1,0 +1,155 @@
+// Small angles, the triangles that stay for them, and the angles of the others.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "input.hpp"
+#include "io/text.hpp"
+#include "mesh/mesh_lines.hpp"
+#include "mesh/shrunk_vertices.hpp"
+#include "mesher/angles.hpp"
+#include "mesher/check.hpp"
+
+namespace mesher {
+
+namespace {
+
+using detail::MeshLines;
+
+constexpr double kDegrees = 180 / 3.141592653589793;
+constexpr double kSmall = 60;
+constexpr double kRounding = 1e-9;  // of radius_edge
+
+using Corners = Mesh<2>::Simplex;
+
+class Report {
+ public:
+  Report(const Mesh<2>& mesh, const Options<2>& options)
+      : mesh_(mesh), options_(options), lines_(mesh) {}
+
+  AngleReport make() {
+    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) look_around(v);
+    for (const Corners& t : mesh_.simplices) look_at(t);
+    for (const auto& [key, angle] : angles_) out_.angles.push_back(angle);
+    std::sort(out_.angles.begin(), out_.angles.end(), [](const SmallAngle& a, const SmallAngle& b) {
+      return std::tie(a.at, a.degrees, a.lines) < std::tie(b.at, b.degrees, b.lines);
+    });
+    out_.promised_deg = std::asin(1 / (2 * options_.rho)) * kDegrees;
+    out_.shrunk = detail::shrunk_vertices(mesh_, lines_, kShrinks);
+    return std::move(out_);
+  }
+
+ private:
+  // A small angle, by its apex and its segments.
+  SmallAngle& angle(std::uint32_t s, std::uint32_t t, std::uint32_t apex) {
+    const auto [it, is_new] = angles_.try_emplace({apex, std::min(s, t), std::max(s, t)});
+    if (is_new) {
+      const FeatureId one = lines_.segments()[s].line, other = lines_.segments()[t].line;
+      it->second.at = mesh_.vertices[apex];
+      it->second.lines = {std::min(one, other), std::max(one, other)};
+      it->second.degrees = lines_.degrees(s, t, apex);
+    }
+    return it->second;
+  }
+
+  // Each segment that ends at v, and the next one around.
+  void look_around(std::uint32_t v) {
+    std::vector<std::uint32_t> around = lines_.ending_at(v);
+    if (around.size() < 2) return;
+    const auto direction = [&](std::uint32_t s) {
+      const Point<2> u = lines_.along(s, v);
+      return std::tuple(std::atan2(u[1], u[0]), s);
+    };
+    std::sort(around.begin(), around.end(),
+              [&](auto s, auto t) { return direction(s) < direction(t); });
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      const std::uint32_t s = around[i], t = around[(i + 1) % around.size()];
+      if (lines_.degrees(s, t, v) < kSmall) angle(s, t, v);
+    }
+  }
+
+  // The shortest edge, the triangle on its left; of equals the first.
+  [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> shortest(const Corners& t) const {
+    std::pair best(t[0], t[1]);
+    for (const auto& e : {std::pair(t[1], t[2]), std::pair(t[2], t[0])}) {
+      if (lines_.distance(e.first, e.second) < lines_.distance(best.first, best.second)) best = e;
+    }
+    return best;
+  }
+
+  void look_at(const Corners& t) {
+    const Point<2>&a = mesh_.vertices[t[0]], &b = mesh_.vertices[t[1]], &c = mesh_.vertices[t[2]];
+    const double degrees = smallest_angle_deg(a, b, c);
+    const double ratio = radius_edge(a, b, c);
+    if (ratio > options_.rho * (1 + kRounding)) {
+      const auto [p, q] = shortest(t);
+      const auto wedges = lines_.wedges_across(p, q, false);
+      for (const auto& w : wedges) count(angle(w.s, w.t, w.apex), degrees);
+      if (!wedges.empty()) {
+        keep_smallest(out_.smallest_forced_deg, degrees);
+        ++out_.forced;
+        return;
+      }
+    }
+    keep_smallest(out_.smallest_elsewhere_deg, degrees);
+  }
+  static void count(SmallAngle& angle, double degrees) {
+    ++angle.forced;
+    keep_smallest(angle.smallest_deg, degrees);
+  }
+  static void keep_smallest(double& least, double degrees) {
+    least = least == 0 ? degrees : std::min(least, degrees);
+  }
+
+  const Mesh<2>& mesh_;
+  const Options<2>& options_;
+  MeshLines lines_;
+  std::map<std::array<std::uint32_t, 3>, SmallAngle> angles_;
+  AngleReport out_;
+};
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", x);
+  return text;
+}
+
+std::string id_text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
+
+}  // namespace
+
+AngleReport angle_report(const Mesh<2>& mesh, const Options<2>& options) {
+  return Report(mesh, options).make();
+}
+
+std::string AngleReport::text() const {
+  std::string text;
+  if (!angles.empty()) {
+    const auto smallest = std::min_element(angles.begin(), angles.end(),
+                                           [](auto& a, auto& b) { return a.degrees < b.degrees; });
+    text += std::to_string(angles.size()) + " angles under 60 degrees, the smallest " +
+            number(smallest->degrees) + " at " + detail::place_text(smallest->at) + ", of lines " +
+            id_text(smallest->lines[0]) + " and " + id_text(smallest->lines[1]) + ".\n";
+    text += std::to_string(forced) + " triangles stay for them" +
+            (forced == 0 ? "" : ", with angles from " + number(smallest_forced_deg) + " degrees") +
+            "; all angles of others are at least " + number(promised_deg) + ".\n";
+  }
+  if (shrunk.empty()) return text;
+  const auto worst = std::max_element(shrunk.begin(), shrunk.end(), [](auto& a, auto& b) {
+    return a.feature_size * b.nearest < b.feature_size * a.nearest;
+  });
+  text += "Lengths have shrunk by more than " + number(kShrinks) + " at " +
+          std::to_string(shrunk.size()) + " vertices, most at " + detail::place_text(worst->at) +
+          ": " + number(worst->nearest) + " to the next, where features are " +
+          number(worst->feature_size) + " apart";
+  for (std::size_t i = 0; i < worst->lines.size(); ++i) {
+    text += (i == 0 ? ", of lines " : ", ") + id_text(worst->lines[i]);
+  }
+  text +=
+      worst->degrees < 180 ? ", at an angle of " + number(worst->degrees) + " degrees.\n" : ".\n";
+  return text;
+}
+
+}  // namespace mesher
