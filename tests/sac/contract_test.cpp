@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -229,6 +230,34 @@ TEST_CASE("a posted argument that does not equal itself is refused") {
                     Catch::Contains("does not equal itself"));
   w.e.run<post_number>(1.0);
   w.e.check_invariants();
+}
+
+// Told apart by both numbers, ordered by one.
+struct Half {
+  int ordered = 0;
+  int other = 0;
+  friend bool operator==(const Half&, const Half&) = default;
+  friend auto operator<=>(const Half& a, const Half& b) { return a.ordered <=> b.ordered; }
+  friend std::uint64_t hash_value(const Half& h) { return static_cast<std::uint64_t>(h.ordered); }
+  friend std::ostream& operator<<(std::ostream& out, const Half& h) { return out << h.other; }
+};
+void take_half(Scope& s, Half) { s.read(world(s).in); }
+void post_halves(Scope& s) {
+  auto& w = world(s);
+  for (int i = 0; i <= s.read(w.in); ++i) w.agenda.post<take_half>(s, {}, Half{1, i});
+  w.agenda.drain(s);
+}
+
+TEST_CASE("posted arguments that are neither equal nor ordered are refused, as in an update") {
+  World two(1);
+  CHECK_THROWS_WITH(two.e.run<post_halves>(), Catch::Contains("neither equal nor ordered"));
+  two.e.check_invariants();
+  World one(0);
+  one.e.run<post_halves>();
+  one.e.set(one.in, 1);
+  CHECK_THROWS_WITH(one.e.propagate(), Catch::Contains("neither equal nor ordered"));
+  one.e.check_invariants();
+  CHECK(one.e.get(one.in) == 0);
 }
 
 void inverse(Scope& s, Mod<double> x, Mod<double> out) { s.write(out, 1 / s.read(x)); }

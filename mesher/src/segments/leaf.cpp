@@ -25,6 +25,7 @@ Leaf& LeafRecords::create(const Piece& piece) {
   Leaf& leaf = (*this)[h] = Leaf{};
   const Segment& s = segments_[piece.segment];
   leaf.piece = piece;
+  leaf.segment = &s;
   leaf.lo = place_of(s, piece.lo);
   leaf.hi = place_of(s, piece.hi);
   leaf.self = h;

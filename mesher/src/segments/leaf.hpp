@@ -26,6 +26,7 @@ using LeafHandle = std::uint32_t;  // 0: none
 
 struct Leaf {
   Piece piece;
+  const Segment* segment = nullptr;  // that of the piece
   Point<2> lo{}, hi{};  // its ends
   LeafHandle self = 0;  // in a free record: the next free one
   LeafHandle next_changed = 0;
@@ -41,8 +42,9 @@ struct Leaf {
   }
 };
 
-/// An argument of traced functions: equal by identity, ordered by coordinates; two pieces between
-/// the same places, of which an update may know both, by how the places are labelled.
+/// An argument of traced functions: equal by identity, ordered by coordinates. Of two pieces between
+/// the same places an update may know both: those of a segment that goes and of one that comes, and
+/// those whose places are labelled in two ways.
 struct LeafRef {
   Leaf* leaf = nullptr;
 
@@ -54,6 +56,10 @@ struct LeafRef {
     if (by_lo != 0) return by_lo;
     const auto by_hi = a.leaf->hi <=> b.leaf->hi;
     if (by_hi != 0) return by_hi;
+    const auto by_a = a.leaf->segment->place_a <=> b.leaf->segment->place_a;
+    if (by_a != 0) return by_a;
+    const auto by_b = a.leaf->segment->place_b <=> b.leaf->segment->place_b;
+    if (by_b != 0) return by_b;
     const auto labels = [](const Piece& p) {
       return std::tuple(p.lo.distance, p.lo.from_b, p.hi.distance, p.hi.from_b, p.kind);
     };

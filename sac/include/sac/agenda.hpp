@@ -175,6 +175,7 @@ class Agenda final : public WorkQueue {
     return label;
   }
   [[noreturn]] static void fail_irreflexive(const Function& function);
+  [[noreturn]] static void fail_unordered(const Call& a, const Call& b);
 
   // post.cpp
   void post_call(Scope& s, const Key& key, const Asked& asked);

@@ -119,6 +119,29 @@ TEST_CASE("a point moves with its segments in one update") {
   }
 }
 
+// The old segment and the new one are split alike, and their pieces near the end that stays are cut
+// in one bucket: for a while there are two of each.
+TEST_CASE("a segment whose end moves along it has pieces where the old one had the same") {
+  Mesher<2> m({.domain = {{0, 0}, {16, 16}}});
+  m.insert({id(3), id(5), id(7), id(8), id(9), id(10)},
+           {{10, 16}, {9, 12}, {1, 1}, {9, 1}, {9, 9}, {1, 9}});
+  m.insert_polyline(id(9), {id(5), id(3)});
+  m.insert_polyline(id(10), {id(7), id(8), id(9), id(10), id(7)});
+  m.insert({id(1), id(2), id(4), id(6)},
+           {{6, 8}, {10, 1}, {6, 10}, {0.79287326172441475, 12.699168616720536}});
+  m.update();
+  m.insert_segment(id(11), id(3), id(9));
+  m.insert(id(12), {10.201363279009195, 5.597689505579158});
+  m.move(id(5), {7.975849177866456, 12.117338629285156});
+  m.update();
+  m.move(id(9), {9, 10});
+  m.update();
+  m.check_invariants();
+  m.insert_segment(id(14), id(8), id(12));
+  m.update();
+  m.check_invariants();
+}
+
 TEST_CASE("a polyline comes and goes under one id") {
   Mesher<2> m = square();
   m.update();
