@@ -3,6 +3,8 @@
 //
 // Each step moves the wall's seven free corners and is one update. At the end the mesh is compared,
 // bit for bit, with one made from scratch.
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
@@ -39,7 +41,7 @@ class Harbour {
   explicit Harbour(const mesher::Pslg& graph)
       : lakes_({.domain = mesher::snapped_domain<2>(mesher::places_of(graph))}) {
     mesher::announce(graph, lakes_);
-    for (const Point<2>& lake : kLakes) lakes_.insert_region(FeatureId{++regions_}, lake, regions_);
+    for (const Point<2>& lake : kLakes) add_region(lake);
     for (const auto& p : graph.points) next_point_ = std::max(next_point_, to_integer(p.id) + 1);
     for (const auto& s : graph.segments) next_line_ = std::max(next_line_, to_integer(s.id) + 1);
     lakes_.update();
@@ -64,7 +66,7 @@ class Harbour {
   }
   void close() {
     lakes_.insert_segment(FeatureId{next_line_++}, corners_.back().id, kEnd);
-    lakes_.insert_region(FeatureId{++regions_}, kHarbour, regions_);
+    add_region(kHarbour);
     lakes_.update();
   }
 
@@ -76,6 +78,11 @@ class Harbour {
   }
 
  private:
+  // Its attribute is its number.
+  void add_region(const Point<2>& at) {
+    ++regions_;
+    lakes_.insert_region(FeatureId{regions_}, at, static_cast<double>(regions_));
+  }
   static std::int64_t to_integer(FeatureId id) { return static_cast<std::int64_t>(id); }
 
   mesher::DomainMesher lakes_;
