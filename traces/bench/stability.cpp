@@ -9,10 +9,10 @@
 //            the input (1000 segments, and as many points)
 //   n        N segments and as many points (default: 1000 10000 100000), the edit anywhere
 //   m_f      vertices that stand on the edit, up to some 200, among 10^4 points
-// PATH.svg (default: stability.svg) shows medians as lines and 99th percentiles as ticks; one JSON
-// line per place on the plot goes to standard output, and one per line on it: a fit over lg(L/s)
-// and m_f, and for n the median at the last N over that at 10^4. D is recorded where N is at most
-// 10^5. N = 1000000 takes some minutes and 7 GB.
+// PATH.svg (default: build/stability.svg) shows medians as lines and 99th percentiles as ticks; one
+// JSON line per place on the plot goes to standard output, and one per line on it: a fit over
+// lg(L/s) and m_f, and for n the median at the last N over that at 10^4. D is recorded where N is
+// at most 10^5. N = 1000000 takes some minutes and 7 GB.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -226,7 +226,7 @@ mesher::Pslg scattered(std::size_t n) {
 int main(int argc, char** argv) {
   std::vector<std::size_t> sizes;
   int edits = 20;
-  std::string out = "stability";
+  std::string out = "build/stability";
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::strcmp(argv[i], "--n") == 0) sizes.push_back(std::strtoull(argv[i + 1], nullptr, 10));
     if (std::strcmp(argv[i], "--edits") == 0) edits = std::max(2, std::atoi(argv[i + 1]));
