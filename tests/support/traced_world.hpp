@@ -42,6 +42,10 @@ class TracedWorld {
     }
     Vertex& v = world_->vertices.add_input(p, false);
     world_->vertices.touch(v);
+    engine_->on_rollback([this, id, &v] {
+      v.input = false;
+      inputs_.erase(id);
+    });
     inputs_[id] = &v;
     world_->features.insert(v);
     world_->quadtree.post_from_outside<mesher::detail::locate>(
@@ -51,6 +55,10 @@ class TracedWorld {
     Vertex& v = *inputs_.at(id);
     inputs_.erase(id);
     world_->vertices.touch(v);
+    engine_->on_rollback([this, id, &v] {
+      v.input = true;
+      inputs_[id] = &v;
+    });
     v.input = false;
     world_->features.erase(v);
     world_->quadtree.retract_from_outside<mesher::detail::locate>(Ref{&v});

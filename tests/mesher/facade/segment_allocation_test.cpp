@@ -1,5 +1,6 @@
 // Out of memory at every allocation, one after the other, of edits of lines and their updates.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <new>
 #include <utility>
 #include <vector>
@@ -98,6 +99,60 @@ TEST_CASE("an update of lines in which any one allocation fails leaves the mesh,
       w.m.check_invariants();
     }
     REQUIRE(w.m.mesh() == expected);
+  }
+  CHECK(count > 100);
+}
+
+namespace {
+
+// A hub of twelve legs, one with a point beside it.
+struct Hub {
+  static constexpr int kLegs = 12;
+  Mesher<2> m{kOptions};
+  Mesh<2> before;
+
+  Hub() {
+    m.insert(id(1), {8, 8});
+    for (int i = 0; i < kLegs; ++i) {
+      const double x = 5 - 10.0 * i / (kLegs - 1);
+      m.insert(id(2 + i), {8 + x, i % 2 == 0 ? 13 - std::abs(x) / 4 : 3 + std::abs(x) / 4});
+      m.insert_segment(id(1 + i), id(1), id(2 + i));
+    }
+    m.insert(id(20), {1, 1});
+    m.update();
+    before = m.mesh();
+  }
+  // The hub moves with all its legs, one of these goes, and a polyline comes and ends at another.
+  void announce() {
+    m.move(id(1), {8.25, 8.125});
+    m.remove_segment(id(3));
+    m.insert({id(21), id(22), id(23), id(24)}, {{1, 2}, {1.5, 3}, {1, 4}, {2, 5}});
+    m.insert_polyline(id(30), {id(20), id(21), id(22), id(23), id(24)});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a hub that moves and a polyline that comes survive any one allocation that fails") {
+  Hub whole;
+  whole.announce();
+  whole.m.update();
+  const Mesh<2> expected = whole.m.mesh();
+  bool burnt = true;
+  std::uint64_t count = 1;
+  for (; burnt; ++count) {
+    CAPTURE(count);
+    Hub hub;
+    hub.announce();
+    const bool failed = fails(count, burnt, [&] { hub.m.update(); });
+    hub.m.check_invariants();
+    if (failed) {
+      REQUIRE(hub.m.mesh() == hub.before);
+      hub.announce();
+      hub.m.update();
+      hub.m.check_invariants();
+    }
+    REQUIRE(hub.m.mesh() == expected);
   }
   CHECK(count > 100);
 }

@@ -1,0 +1,259 @@
+// The cost of an edit on a plot: of points, segments and polylines in meshes with segments.
+//
+//   stability [--n N]... [--edits K] [--out PATH]
+//
+// Each edit comes in one update and goes in another. Of both: the distance D of the traces before
+// and after, the work W (calls made, let go and run), W by weight (with what calls look at inside),
+// and microseconds of the process. Against
+//   lg(L/s)  an end of the edit is put at a distance s, from L / 10 to L / 10^12, from a point of
+//            the input (1000 segments, and as many points)
+//   n        N segments and as many points (default: 1000 10000 100000), the edit anywhere
+//   m_f      vertices that stand on the edit, up to some 200, among 10^4 points
+// PATH.svg (default: build/stability.svg) shows medians as lines and 99th percentiles as ticks; one
+// JSON line per place on the plot goes to standard output, and one per line on it: a fit over
+// lg(L/s) and m_f, and for n the median at the last N over that at 10^4. D is recorded where N is
+// at most 10^5. N = 1000000 takes some minutes and 7 GB.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "chart.hpp"
+#include "ground.hpp"
+#include "mesher/generate.hpp"
+
+namespace {
+
+using bench::Cost;
+using bench::Ground;
+using mesher::FeatureId;
+using mesher::Point;
+
+constexpr const char* kKinds[] = {"point", "segment", "polyline"};
+constexpr const char* kColours[] = {"#1b6ca8", "#c0392b", "#2e8b57"};
+constexpr const char* kQuantities[] = {"distance", "work", "weight", "microseconds"};
+
+/// Costs by what they are plotted against.
+using Plot = std::map<double, std::vector<Cost>>;
+
+void add(Plot& plot, double x, const Ground::Costs& costs) {
+  plot[x].push_back(costs.come);
+  plot[x].push_back(costs.go);
+}
+
+/// A line of equal pieces that turn by up to 45 degrees each, from p on.
+std::vector<Point<2>> random_line(Point<2> p, int pieces, double piece,
+                                  mesher::SplitMix64& random) {
+  std::vector<Point<2>> line{p};
+  double at = 4 * random.unit();
+  const auto triangle = [](double t) { return std::abs(t - 4 * std::floor(t / 4) - 2) - 1; };
+  for (int i = 0; i < pieces; ++i, at += random.unit() - 0.5) {
+    p = {p[0] + piece * triangle(at), p[1] + piece * triangle(at + 1)};
+    line.push_back(p);
+  }
+  return line;
+}
+
+/// An edit of a kind (an index of kKinds); h: the length of a segment of the input, at most.
+std::vector<Point<2>> random_edit(int kind, const Point<2>& from, double h,
+                                  mesher::SplitMix64& random) {
+  if (kind == 0) return {from};
+  if (kind == 1) return random_line(from, 1, h * (0.2 + 0.8 * random.unit()), random);
+  return random_line(from, 9, 0.4 * h, random);
+}
+
+double length_of(std::size_t n) { return 1 / std::sqrt(2.0 * static_cast<double>(n)); }
+
+// --- Against lg(L/s) -------------------------------------------------------------------------
+
+Plot over_spread(int kind, Ground& ground, std::size_t n, int edits) {
+  Plot plot;
+  mesher::SplitMix64 random(11);
+  for (int tenth = 1; tenth <= 12; ++tenth) {
+    for (int done = 0, tries = 0; done < edits && tries < 100 * edits; ++tries) {
+      Point<2> p = ground.points()[random.below(ground.points().size())];
+      const double s = std::pow(10, -tenth);
+      for (double& x : p) x += (random.below(2) == 0 ? s : -s) * (0.5 + random.unit() / 5);
+      const auto costs = ground.edit(random_edit(kind, p, length_of(n), random), true);
+      if (!costs) continue;
+      add(plot, std::log2(std::pow(10, tenth)), *costs);
+      ++done;
+    }
+  }
+  return plot;
+}
+
+// --- Against n -------------------------------------------------------------------------------
+
+// Of the larger inputs the distances are fewer.
+void over_size(std::vector<Plot>& plots, std::size_t n, int edits) {
+  Ground ground(mesher::generate_pslg({mesher::PslgKind::segments, n}));
+  const int recorded = n <= 10000 ? edits : n <= 100000 ? std::min(edits, 8) : 0;
+  for (int kind = 0; kind < 3; ++kind) {
+    mesher::SplitMix64 random(17);
+    for (int done = 0; done < 10 * edits;) {
+      const Point<2> p{random.unit(), random.unit()};
+      const auto line = random_edit(kind, p, length_of(n), random);
+      const auto costs = ground.edit(line, done < recorded);
+      if (!costs) continue;
+      add(plots[static_cast<std::size_t>(kind)], static_cast<double>(n), *costs);
+      ++done;
+    }
+  }
+}
+
+// --- Against m_f -----------------------------------------------------------------------------
+
+// Straight, or in pieces of the points' distance; m_f is rounded down to multiples of 20.
+Plot over_length(int kind, Ground& ground, int edits) {
+  Plot plot;
+  mesher::SplitMix64 random(23);
+  for (int done = 0; done < 10 * edits; ++done) {
+    const double length = 0.05 + 0.85 * random.unit();
+    const double x = random.unit() * (1 - length), y = random.unit();
+    std::vector<Point<2>> line{{x, y}};
+    const int pieces = kind == 1 ? 1 : 1 + static_cast<int>(length * 50);
+    for (int i = 1; i <= pieces; ++i) {
+      const double bend = kind == 1 ? 0.01 : (i % 2 == 0 ? 0.002 : -0.002);
+      line.push_back({x + length * i / pieces, y + bend});
+    }
+    const auto costs = ground.edit(line, done < 4 * edits);
+    if (!costs) continue;
+    add(plot, 20 * std::floor(static_cast<double>(costs->on_line) / 20) + 10, *costs);
+  }
+  return plot;
+}
+
+// --- Figures ---------------------------------------------------------------------------------
+
+double quantile(std::vector<double> x, double q) {
+  std::sort(x.begin(), x.end());
+  return x[static_cast<std::size_t>(q * static_cast<double>(x.size() - 1))];
+}
+
+bench::Series series_of(const Plot& plot, int kind, int quantity) {
+  bench::Series series{kKinds[kind], kColours[kind], {}};
+  for (const auto& [x, costs] : plot) {
+    std::vector<double> values;
+    for (const Cost& cost : costs) {
+      if (const auto value = cost.quantity(quantity)) values.push_back(*value);
+    }
+    if (values.size() < 4) continue;
+    series.points.push_back({x, quantile(values, 0.5), quantile(values, 0.99)});
+  }
+  return series;
+}
+
+// Least squares: y = a + b x, and how much of y's variance that explains.
+void print_fit(const char* against, const bench::Series& s, const char* quantity) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  for (const auto& at : s.points) {
+    n += 1, x += at.x, y += at.median;
+    xx += at.x * at.x, xy += at.x * at.median, yy += at.median * at.median;
+  }
+  if (n < 3) return;
+  const double b = (n * xy - x * y) / (n * xx - x * x), a = (y - b * x) / n;
+  const double variance = n * yy - y * y;
+  const double r2 = variance > 0 ? b * b * (n * xx - x * x) / variance : 1;
+  std::printf(
+      "{\"bench\":\"stability\",\"against\":\"%s\",\"kind\":\"%s\",\"quantity\":\"%s\","
+      "\"fit\":[%.4g,%.4g],\"r2\":%.3f}\n",
+      against, s.name.c_str(), quantity, a, b, r2);
+}
+
+void print_growth(const bench::Series& s, const char* quantity) {
+  double at_10000 = 0;
+  for (const auto& at : s.points) at_10000 = at.x == 10000 ? at.median : at_10000;
+  if (at_10000 == 0 || s.points.back().x <= 10000) return;
+  std::printf(
+      "{\"bench\":\"stability\",\"against\":\"n\",\"kind\":\"%s\",\"quantity\":\"%s\","
+      "\"to\":%.0f,\"growth_from_10000\":%.3f}\n",
+      s.name.c_str(), quantity, s.points.back().x, s.points.back().median / at_10000);
+}
+
+void print_places(const char* against, const bench::Series& s, const char* quantity) {
+  for (const auto& at : s.points) {
+    std::printf(
+        "{\"bench\":\"stability\",\"against\":\"%s\",\"kind\":\"%s\",\"quantity\":\"%s\","
+        "\"x\":%.4g,\"median\":%.1f,\"p99\":%.1f}\n",
+        against, s.name.c_str(), quantity, at.x, at.median, at.p99);
+  }
+}
+
+struct Against {
+  const char* name;
+  const char* axis;
+  bool log_x;
+  std::vector<Plot> plots;  // by kind
+};
+
+std::vector<bench::Panel> figures(const std::vector<Against>& all) {
+  std::vector<bench::Panel> panels;
+  for (int quantity = 0; quantity < 4; ++quantity) {
+    for (const Against& against : all) {
+      bench::Panel panel{kQuantities[quantity], against.axis, against.log_x, {}};
+      for (int kind = 0; kind < 3; ++kind) {
+        const auto s = series_of(against.plots[static_cast<std::size_t>(kind)], kind, quantity);
+        if (s.points.empty()) continue;
+        print_places(against.name, s, kQuantities[quantity]);
+        against.log_x ? print_growth(s, kQuantities[quantity])
+                      : print_fit(against.name, s, kQuantities[quantity]);
+        panel.series.push_back(s);
+      }
+      panels.push_back(panel);
+    }
+  }
+  return panels;
+}
+
+mesher::Pslg scattered(std::size_t n) {
+  mesher::Pslg pslg;
+  std::int64_t id = 1;
+  for (const Point<2>& p : mesher::generate_points<2>(mesher::PointKind::uniform, n, 5)) {
+    pslg.points.push_back({FeatureId{id++}, p});
+  }
+  return pslg;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::size_t> sizes;
+  int edits = 20;
+  std::string out = "build/stability";
+  for (int i = 1; i + 1 < argc; i += 2) {
+    if (std::strcmp(argv[i], "--n") == 0) sizes.push_back(std::strtoull(argv[i + 1], nullptr, 10));
+    if (std::strcmp(argv[i], "--edits") == 0) edits = std::max(2, std::atoi(argv[i + 1]));
+    if (std::strcmp(argv[i], "--out") == 0) out = argv[i + 1];
+  }
+  if (sizes.empty()) sizes = {1000, 10000, 100000};
+  Against spread{"lg(L/s)", "lg(L/s)", false, std::vector<Plot>(3)};
+  Against size{"n", "segments, and points", true, std::vector<Plot>(3)};
+  Against length{"m_f", "vertices on the edit", false, std::vector<Plot>(3)};
+  {
+    constexpr std::size_t kSmall = 1000;
+    Ground ground(mesher::generate_pslg({mesher::PslgKind::segments, kSmall}));
+    for (int kind = 0; kind < 3; ++kind) {
+      spread.plots[static_cast<std::size_t>(kind)] = over_spread(kind, ground, kSmall, edits);
+    }
+  }
+  {
+    Ground ground(scattered(10000));
+    for (int kind = 1; kind < 3; ++kind) {
+      length.plots[static_cast<std::size_t>(kind)] = over_length(kind, ground, edits);
+    }
+  }
+  for (const std::size_t n : sizes) over_size(size.plots, n, edits);
+  std::ofstream file(out + ".svg");
+  file << bench::Chart::draw(figures({spread, size, length}), 3);
+  if (!file.flush()) {
+    std::fprintf(stderr, "stability: cannot write %s.svg\n", out.c_str());
+    return 1;
+  }
+}
