@@ -79,7 +79,8 @@ struct Domain;
 [[nodiscard]] std::shared_ptr<const SizeField<2>> region_sizes(const Mesh<2>& mesh,
                                                                const Domain& domain);
 
-/// The same for the regions of a graph in the mesh that `options` give it without limits.
+/// The same for the regions of a graph in the mesh that `options` give it without limits. There is
+/// no limit but in what its lines enclose; there options.max_area is one, too.
 /// Throws: as mesh_statically and find_domain. Cost: that of this mesh.
 [[nodiscard]] std::shared_ptr<const SizeField<2>> region_sizes(const Pslg& graph,
                                                                Options<2> options);
