@@ -82,9 +82,10 @@ void add_mesh(CLI::App& app) {
   const auto args = std::make_shared<MeshArguments>();
   CLI::App* mesh = app.add_subcommand("mesh", "Meshes a file of points and lines.");
   add_mesh_options(*mesh, *args);
-  mesh->add_flag("--region-areas", args->region_areas,
-                 "The largest areas of INPUT's regions are limits; --max-area is one in what lines\n"
-                 "enclose, and not outside");
+  mesh->add_flag(
+      "--region-areas", args->region_areas,
+      "The largest areas of INPUT's regions are limits; --max-area is one in what lines\n"
+      "enclose, and not outside");
   mesh->footer(
       std::string(
           "Every line is a union of edges. Where lines enclose something, what they enclose is\n"

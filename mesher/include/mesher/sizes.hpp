@@ -8,9 +8,9 @@
 //       [](const mesher::Point<2>& p) { return 0.01 + 0.1 * std::hypot(p[0], p[1]); },
 //       0.1, 0.01);
 //
-// The mesh is a function of the field, of its sizes and of its bounds: near bounds make an even mesh.
-// A field that breaks its own bounds gets no triangle that is too large, but a mesh that is less
-// even and moves more under edits.
+// The mesh is a function of the field, of its sizes and of its bounds: near bounds make an even
+// mesh. A field that breaks its own bounds gets no triangle that is too large, but a mesh that is
+// less even and moves more under edits.
 #pragma once
 
 #include <functional>

@@ -1,11 +1,11 @@
 // The parts of World that need the program's functions.
 #pragma once
 
+#include "input.hpp"
 #include "program/build_qt.hpp"
 #include "program/choose_steiners.hpp"
 #include "program/cut.hpp"
 #include "program/fill.hpp"
-#include "input.hpp"
 #include "program/split_segments.hpp"
 #include "program/triangulate.hpp"
 #include "program/world.hpp"
@@ -48,8 +48,8 @@ void World<S>::post_split(S& s, const PieceRef& piece) {
   splits.template post<split_segment>(s, split_segment_key(box, piece), piece);
 }
 
-// add a ComputeNN(p) event, with key |c| / 2; c is the cell of `leaf_level` around p. Where there is
-// a lattice, its points may be nearer
+// add a ComputeNN(p) event, with key |c| / 2; c is the cell of `leaf_level` around p. Where there
+// is a lattice, its points may be nearer
 template <class S>
 void World<S>::post_nearest(S& s, VertexRef<2> v, int leaf_level) {
   post_nearest_from(s, v, std::min(box.cell_side(leaf_level) / 2, kClear * limits.pitch(v->p)));

@@ -74,7 +74,8 @@ std::shared_ptr<const SizeField<2>> sizes_of_kept(const Mesh<2>& mesh, const Dom
 }  // namespace
 
 std::shared_ptr<const SizeField<2>> region_sizes(const Mesh<2>& mesh, const Domain& domain) {
-  return sizes_of_kept(mesh, domain, [](const Region& r) { return r.max_area.value_or(kInfinite); });
+  return sizes_of_kept(mesh, domain,
+                       [](const Region& r) { return r.max_area.value_or(kInfinite); });
 }
 
 std::shared_ptr<const SizeField<2>> region_sizes(const Pslg& graph, Options<2> options) {
@@ -82,8 +83,7 @@ std::shared_ptr<const SizeField<2>> region_sizes(const Pslg& graph, Options<2> o
   options.max_area = 0;
   options.sizes = nullptr;
   const MeshData whole = with_features(mesh_statically(graph, options), graph);
-  const Domain domain =
-      find_domain(whole, whole.features.edges, seeds_of(graph), Extent::enclosed);
+  const Domain domain = find_domain(whole, whole.features.edges, seeds_of(graph), Extent::enclosed);
   return sizes_of_kept(whole, domain, [all](const Region& r) {
     return std::min(all, r.max_area.value_or(kInfinite));
   });

@@ -138,7 +138,9 @@ TEST_CASE("A point or a segment changes as few vertices where 16 times as many a
         if (SizedSquare::beyond(p) > -0.05 || SizedSquare::beyond(q) > -0.05) continue;
         m.insert(mesher::FeatureId{1000}, p);
         if (kind == 's') m.insert(mesher::FeatureId{1001}, q);
-        if (kind == 's') m.insert_segment(mesher::FeatureId{1000}, mesher::FeatureId{1000}, mesher::FeatureId{1001});
+        if (kind == 's')
+          m.insert_segment(mesher::FeatureId{1000}, mesher::FeatureId{1000},
+                           mesher::FeatureId{1001});
         try {
           const auto change = m.update();
           changed.push_back(change.vertices_added.size() + change.vertices_removed.size());
@@ -162,8 +164,9 @@ TEST_CASE("A background is linear between its samples, and has their sizes at th
   std::vector<SizeSample> samples;
   for (int i = 0; i < 300; ++i) {
     // Some on a lattice: cocircular.
-    const Point<2> p = i % 2 == 0 ? Point<2>{std::floor(30 * random.unit()), std::floor(30 * random.unit())}
-                                  : Point<2>{30 * random.unit(), 30 * random.unit()};
+    const Point<2> p =
+        i % 2 == 0 ? Point<2>{std::floor(30 * random.unit()), std::floor(30 * random.unit())}
+                   : Point<2>{30 * random.unit(), 30 * random.unit()};
     const auto same = [&](const SizeSample& s) { return s.at == p; };
     if (std::any_of(samples.begin(), samples.end(), same)) continue;
     samples.push_back({p, 1 + p[0] / 10 + p[1] / 5});
