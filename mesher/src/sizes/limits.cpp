@@ -70,8 +70,10 @@ Limits::Limits(const Options<2>& options, const MeshBox<2>& box)
   }
 }
 
+// Spacings of one pitch have one lattice.
 void Limits::add_pitch(double spacing) {
-  pitches_.push_back({spacing, rounded_down(spacing, bits_of_pitch(spacing, coordinates_))});
+  const double pitch = rounded_down(spacing, bits_of_pitch(spacing, coordinates_));
+  if (pitches_.empty() || pitches_.back().pitch != pitch) pitches_.push_back({spacing, pitch});
 }
 
 // Those below `end`, from the smallest that is not too small; of a field with plateaus, theirs.

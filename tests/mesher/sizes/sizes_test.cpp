@@ -97,6 +97,28 @@ TEST_CASE("Of two limits the smaller one counts") {
         }) <= 1);
 }
 
+TEST_CASE("Plateaus of one size, and of sizes that round to one pitch, have one lattice") {
+  class Halves final : public mesher::SizeField<2> {
+   public:
+    [[nodiscard]] double at(const Point<2>& p) const override {
+      return p[0] < 0.5 ? 0.05 : 0.05 * (1 + 0x1p-40);
+    }
+    [[nodiscard]] mesher::SizeRange range(const mesher::Box<2>&) const override {
+      return {0.05, 0.05 * (1 + 0x1p-40)};
+    }
+    [[nodiscard]] std::vector<double> plateaus() const override {
+      return {0.05, 0.05 * (1 + 0x1p-40), 0.05};
+    }
+  };
+  Options<2> options{.domain = SizedSquare::domain()};
+  options.sizes = std::make_shared<Halves>();
+  const Mesh<2> mesh = square(options);
+  CHECK(largest(mesh, [&](const Point<2>& p) {
+          const bool counts = p[0] >= 0 && p[0] <= 1 && p[1] >= 0 && p[1] <= 1;
+          return counts ? area_of(options.sizes->at(p)) : 1e300;
+        }) <= 1);
+}
+
 TEST_CASE("A limit that every triangle keeps changes nothing") {
   CHECK(square(limited(1e3)) == square({.domain = SizedSquare::domain()}));
 }
