@@ -1,7 +1,8 @@
 // Limits of size: how many vertices they take, beside the model's [rules A7], and how many an edit
 // changes.
 //
-//   sizes_bench [FILE.poly A]...   default: the square of the rules; else each file with its largest
+//   sizes_bench [FILE.poly A]...   default: the square of the rules; else each file with its
+//   largest
 //                                  area A
 //
 // One JSON line per figure:
@@ -67,8 +68,7 @@ std::vector<Case> cases() {
 
 void print_static(const Case& c) {
   const auto start = Clock::now();
-  const auto mesh =
-      mesh_statically(SizedSquare::points(), SizedSquare::segments(), c.options, {});
+  const auto mesh = mesh_statically(SizedSquare::points(), SizedSquare::segments(), c.options, {});
   const double seconds = seconds_since(start);
   const auto inside =
       std::count_if(mesh.vertices.begin(), mesh.vertices.end(), SizedSquare::contains);

@@ -49,6 +49,7 @@ mesher::Options<2> options_with_regions(const MeshArguments& args, const Input& 
   try {
     options.sizes =
         mesher::least_sizes({options.sizes, mesher::region_sizes(input.graph(), options)});
+    options.max_area = 0;
   } catch (const mesher::Error& error) {
     throw input.located(error);
   }
@@ -81,8 +82,10 @@ void add_mesh(CLI::App& app) {
   const auto args = std::make_shared<MeshArguments>();
   CLI::App* mesh = app.add_subcommand("mesh", "Meshes a file of points and lines.");
   add_mesh_options(*mesh, *args);
-  mesh->add_flag("--region-areas", args->region_areas,
-                 "In a region of INPUT with a largest area, that is a limit");
+  mesh->add_flag(
+      "--region-areas", args->region_areas,
+      "The largest areas of INPUT's regions are limits; --max-area is one in what lines\n"
+      "enclose, and not outside");
   mesh->footer(
       std::string(
           "Every line is a union of edges. Where lines enclose something, what they enclose is\n"

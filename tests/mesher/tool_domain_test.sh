@@ -197,6 +197,14 @@ for row in [l.split() for l in open('by_region.1.ele') if not l.startswith('#')]
     largest[row[4]] = max(largest.get(row[4], 0), area)
 assert largest['20'] <= 0.5 < largest['10'], largest
 END
+expect 0 '' mesh lake.poly --region-areas --max-area 0.3 -o inside.1.node --stats inside.json
+expect 0 'area        ok' check inside.1.node --input lake.poly --max-area 0.3
+expect 0 '' mesh lake.poly --max-area 0.3 -o all.vtu --stats all.json
+python3 - <<'END' || fail 'the outside is filled'
+import json
+inside, everywhere = json.load(open('inside.json')), json.load(open('all.json'))
+assert inside['vertices'] < everywhere['vertices'], (inside['vertices'], everywhere['vertices'])
+END
 printf '+point 20 1 6\nmove 9 5 5\n' >limited.txt
 sed -e 's/^10 2 0 1/11 2 0 1/; s/^9 4 4 0/9 5 5 0/; s/^10 2 4 0/&\n20 1 6 0/' lake.poly >moved.poly
 for limit in '--max-area 0.3' '--sizes sizes.csv'; do

@@ -43,8 +43,8 @@ class PslgJudge {
 
   /// What is wrong first, "" if nothing is: input points and no others are of that kind; each
   /// segment is a chain of edges from end to end; every such edge has an empty closed diametral
-  /// ball; no triangle is larger than its limit; triangles keep the bound but where a small angle of
-  /// the input forces them not to.
+  /// ball; no triangle is larger than its limit; triangles keep the bound but where a small angle
+  /// of the input forces them not to.
   [[nodiscard]] std::string fault(const mesher::Options<2>& options) const {
     std::string what = wrong_kinds();
     if (what.empty()) what = wrong_lines();

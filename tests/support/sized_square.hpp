@@ -1,5 +1,5 @@
-// A rotated square with a few features, and sizes in it: what the model of the rules was measured on
-// [rules A7].
+// A rotated square with a few features, and sizes in it: what the model of the rules was measured
+// on [rules A7].
 #pragma once
 
 #include <algorithm>
@@ -24,13 +24,14 @@ struct SizedSquare {
     return std::max(std::abs(c * x + d * y), std::abs(c * y - d * x)) - 0.35;
   }
   static std::vector<mesher::Point<2>> points() {
-    return {{0.26906430113750679, 0.062200156474569113}, {0.93779984352543089, 0.26906430113750673},
-            {0.73093569886249332, 0.93779984352543089},  {0.062200156474569113, 0.73093569886249321},
-            {0.37802519926765099, 0.6986280864961496},   {0.67038874398921378, 0.53008574677820752},
-            {0.70505492028969097, 0.49405442400614941},  {0.27164855006563776, 0.098605212054105273},
-            {0.88489500287564149, 0.39434845256005385},  {0.88255861213437248, 0.44429383551287654},
-            {0.31593498196283587, 0.37466507029719687},  {0.86143354644333858, 0.33678931702048631},
-            {0.81146654759604897, 0.33860563918215164}};
+    return {
+        {0.26906430113750679, 0.062200156474569113}, {0.93779984352543089, 0.26906430113750673},
+        {0.73093569886249332, 0.93779984352543089},  {0.062200156474569113, 0.73093569886249321},
+        {0.37802519926765099, 0.6986280864961496},   {0.67038874398921378, 0.53008574677820752},
+        {0.70505492028969097, 0.49405442400614941},  {0.27164855006563776, 0.098605212054105273},
+        {0.88489500287564149, 0.39434845256005385},  {0.88255861213437248, 0.44429383551287654},
+        {0.31593498196283587, 0.37466507029719687},  {0.86143354644333858, 0.33678931702048631},
+        {0.81146654759604897, 0.33860563918215164}};
   }
   static std::vector<mesher::Segment> segments() {
     std::vector<mesher::Segment> all;
@@ -73,9 +74,7 @@ class SizesInSquare final : public mesher::SizeField<2> {
 
  private:
   static constexpr double kNone = std::numeric_limits<double>::infinity();
-  static double distance(const mesher::Point<2>& p) {
-    return std::hypot(p[0] - 0.43, p[1] - 0.52);
-  }
+  static double distance(const mesher::Point<2>& p) { return std::hypot(p[0] - 0.43, p[1] - 0.52); }
   std::function<double(double)> size_;
 };
 

@@ -8,9 +8,9 @@
 //       [](const mesher::Point<2>& p) { return 0.01 + 0.1 * std::hypot(p[0], p[1]); },
 //       0.1, 0.01);
 //
-// The mesh is a function of the field, of its sizes and of its bounds: near bounds make an even mesh.
-// A field that breaks its own bounds gets no triangle that is too large, but a mesh that is less
-// even and moves more under edits.
+// The mesh is a function of the field, of its sizes and of its bounds: near bounds make an even
+// mesh. A field that breaks its own bounds gets no triangle that is too large, but a mesh that is
+// less even and moves more under edits.
 #pragma once
 
 #include <functional>
@@ -79,7 +79,8 @@ struct Domain;
 [[nodiscard]] std::shared_ptr<const SizeField<2>> region_sizes(const Mesh<2>& mesh,
                                                                const Domain& domain);
 
-/// The same for the regions of a graph in the mesh that `options` give it without limits.
+/// The same for the regions of a graph in the mesh that `options` give it without limits. There is
+/// no limit but in what its lines enclose; there options.max_area is one, too.
 /// Throws: as mesh_statically and find_domain. Cost: that of this mesh.
 [[nodiscard]] std::shared_ptr<const SizeField<2>> region_sizes(const Pslg& graph,
                                                                Options<2> options);

@@ -1,5 +1,5 @@
-// Fill [rules A7.4]: where triangles must not be large, vertices come from a lattice before anything
-// is refined.
+// Fill [rules A7.4]: where triangles must not be large, vertices come from a lattice before
+// anything is refined.
 //
 // Which places are candidates is a function of space. Whether one is taken depends on the features
 // beside it and the leaves around it, on no other candidate: an edit changes what it is near.

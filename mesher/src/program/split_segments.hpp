@@ -32,8 +32,8 @@ inline constexpr SplitSegment split_segment{};
   return {.bucket = -(2 * exponent + (upper ? 1 : 0)), .order = morton<2>(box.fixed(piece.lo()))};
 }
 
-// if sigma is crowded, or long for the lattice beside it: split it where the shells say, enqueue both halves, and the new vertex for
-// BuildQT; else it is a leaf
+// if sigma is crowded, or long for the lattice beside it: split it where the shells say, enqueue
+// both halves, and the new vertex for BuildQT; else it is a leaf
 template <class S>
 void SplitSegment::operator()(S& s, PieceRef piece) const {
   auto& w = s.template environment<World<S>>();

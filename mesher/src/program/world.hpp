@@ -141,7 +141,7 @@ struct Refine {
     const auto now = [] { return std::chrono::steady_clock::now(); };
     w.marks[0] = now();
     w.splits.drain(s);
-    w.fills.drain(s);
+    if (w.limits.any()) w.fills.drain(s);
     w.quadtree.drain(s);
     w.marks[1] = now();
     w.steiner.drain(s);

@@ -48,8 +48,8 @@ void World<S>::post_split(S& s, const PieceRef& piece) {
   splits.template post<split_segment>(s, split_segment_key(box, piece), piece);
 }
 
-// add a ComputeNN(p) event, with key |c| / 2; c is the cell of `leaf_level` around p. Where there is
-// a lattice, its points may be nearer
+// add a ComputeNN(p) event, with key |c| / 2; c is the cell of `leaf_level` around p. Where there
+// is a lattice, its points may be nearer
 template <class S>
 void World<S>::post_nearest(S& s, VertexRef<2> v, int leaf_level) {
   post_nearest_from(s, v, std::min(box.cell_side(leaf_level) / 2, kClear * limits.pitch(v->p)));

@@ -20,8 +20,7 @@ constexpr double kSlack = 1 - 0x1p-40;
 // All that depends on a rule's name.
 struct Policy {
   Promise (*promise)(double rho);
-  std::unique_ptr<const InsertionRule> (*make)(const Options<2>&, const MeshBox<2>&,
-                                               const Limits&);
+  std::unique_ptr<const InsertionRule> (*make)(const Options<2>&, const MeshBox<2>&, const Limits&);
 };
 
 template <class R>

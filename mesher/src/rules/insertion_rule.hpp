@@ -74,7 +74,8 @@ class InsertionRule {
   double tiny_;     // coordinates below are noise around zero
 };
 
-/// The rule that the options name; it refers to `limits`. Throws: Error(bad_option) if there is none.
+/// The rule that the options name; it refers to `limits`. Throws: Error(bad_option) if there is
+/// none.
 [[nodiscard]] std::unique_ptr<const InsertionRule> insertion_rule(const Options<2>& options,
                                                                   const MeshBox<2>& box,
                                                                   const Limits& limits);

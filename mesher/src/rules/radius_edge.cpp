@@ -51,9 +51,9 @@ bool RadiusEdge::is_large(const VoronoiCell& cell, int i, int j) const {
   return area > limits_->area(middle) * kLargest;
 }
 
-// Calls visit(poor) for the shortest edge of every poor triangle of v's star, for every visible edge
-// beside a hidden corner, and for the large triangles. One that is poor and large is the former
-// first, since R is longer than its edge.
+// Calls visit(poor) for the shortest edge of every poor triangle of v's star, for every visible
+// edge beside a hidden corner, and for the large triangles. One that is poor and large is the
+// former first, since R is longer than its edge.
 template <class Visit>
 void RadiusEdge::for_each_poor(const VoronoiCell& cell, Visit&& visit) const {
   constexpr int kCentre = EdgeFilter::kCentre;

@@ -77,10 +77,13 @@ void FacetSizes::visit(Enter&& enter, Visit&& visit_facet) const {
 
 double FacetSizes::at(const Point<2>& p) const {
   double least = kInfinite;
-  visit([&](const Node& n) { return n.range.least < least && meet(n.box, {p, p}); },
-        [&](const Facet& f) {
-          if (f.least() < least && f.contains(p)) least = std::min(least, f.at(p));
-        });
+  visit(
+      [&](const Node& n) {
+        return n.range.least < least && meet(n.box, {p, p});
+      },
+      [&](const Facet& f) {
+        if (f.least() < least && f.contains(p)) least = std::min(least, f.at(p));
+      });
   return least;
 }
 

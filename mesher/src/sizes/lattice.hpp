@@ -1,9 +1,9 @@
 // The lattice that places are filled from where triangles must not be large [rules A7.2].
 //
-// L(t), t its *pitch*: the points (t (i + 1/2 (j odd)), 7/8 t j), from the origin of coordinates. No
-// four of them are on a circle, so their Delaunay triangulation is one, and each triangle has the
-// area 7/16 t^2. A pitch has so few bits that all points near the domain are exact: those of one
-// pitch fit together wherever they are computed.
+// L(t), t its *pitch*: the points (t (i + 1/2 (j odd)), 7/8 t j), from the origin of coordinates.
+// No four of them are on a circle, so their Delaunay triangulation is one, and each triangle has
+// the area 7/16 t^2. A pitch has so few bits that all points near the domain are exact: those of
+// one pitch fit together wherever they are computed.
 #pragma once
 
 #include <algorithm>

@@ -21,9 +21,7 @@ namespace {
          " is too small for double precision at coordinates up to " + text::to_text(coordinates));
 }
 
-Box<2> around(const Point<2>& p, double r) {
-  return {{p[0] - r, p[1] - r}, {p[0] + r, p[1] + r}};
-}
+Box<2> around(const Point<2>& p, double r) { return {{p[0] - r, p[1] - r}, {p[0] + r, p[1] + r}}; }
 
 double rounded_down(double x, int bits) {
   int exponent = 0;
@@ -54,7 +52,8 @@ double area_of_size(double h) { return kAreaOfSize * h * h; }
 }  // namespace
 
 Limits::Limits(const Options<2>& options, const MeshBox<2>& box)
-    : domain_(options.domain), coordinates_(largest_coordinate(options.domain)),
+    : domain_(options.domain),
+      coordinates_(largest_coordinate(options.domain)),
       sizes_(options.sizes) {
   if (options.max_area == 0 && sizes_ == nullptr) return;
   if (!(options.max_area >= 0)) refuse("max_area must be above 0");
@@ -71,8 +70,10 @@ Limits::Limits(const Options<2>& options, const MeshBox<2>& box)
   }
 }
 
+// Spacings of one pitch have one lattice.
 void Limits::add_pitch(double spacing) {
-  pitches_.push_back({spacing, rounded_down(spacing, bits_of_pitch(spacing, coordinates_))});
+  const double pitch = rounded_down(spacing, bits_of_pitch(spacing, coordinates_));
+  if (pitches_.empty() || pitches_.back().pitch != pitch) pitches_.push_back({spacing, pitch});
 }
 
 // Those below `end`, from the smallest that is not too small; of a field with plateaus, theirs.
@@ -169,13 +170,12 @@ bool Limits::is_candidate(const Lattice& lattice, const LatticePoint& q) const {
 }
 
 bool Limits::fits(const Lattice& lattice, const std::array<LatticePoint, 3>& t) const {
-  const Point<2> middle =
-      centroid({lattice.place(t[0]), lattice.place(t[1]), lattice.place(t[2])});
+  const Point<2> middle = centroid({lattice.place(t[0]), lattice.place(t[1]), lattice.place(t[2])});
   return Lattice::kArea * lattice.pitch() * lattice.pitch() <= area(middle) * kFits;
 }
 
-// Whether a candidate of another lattice is in the circumcircle of a triangle at q: as near to one of
-// its corners as the circumradius.
+// Whether a candidate of another lattice is in the circumcircle of a triangle at q: as near to one
+// of its corners as the circumradius.
 bool Limits::is_between(const Lattice& lattice, const LatticePoint& q) const {
   const double own = lattice.pitch(), radius = Lattice::kCircumradius * own;
   const Point<2> p = lattice.place(q);

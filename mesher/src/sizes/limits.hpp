@@ -48,8 +48,8 @@ class Limits {
   struct Candidate {
     Point<2> place{};
     double pitch = 0;
-    // The six around it on the lattice are candidates, its six triangles have no other candidates in
-    // their circumcircles, and they fit.
+    // The six around it on the lattice are candidates, its six triangles have no other candidates
+    // in their circumcircles, and they fit.
     bool amid = false;
   };
   /// Those in a cell, by pitch and rows.

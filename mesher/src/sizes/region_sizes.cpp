@@ -48,33 +48,45 @@ std::shared_ptr<const SizeField<2>> least_sizes(
   return std::make_shared<LeastSizes>(std::move(fields));
 }
 
-std::shared_ptr<const SizeField<2>> region_sizes(const Mesh<2>& mesh, const Domain& domain) {
-  std::vector<detail::Facet> facets;
-  std::vector<double> sizes;
-  const auto limited = [&](const Region& r) { return r.max_area && domain.keeps(r); };
+namespace {
+
+// Of what `domain` keeps; `area_of` says a region's limit, infinite if it has none.
+template <class AreaOf>
+std::shared_ptr<const SizeField<2>> sizes_of_kept(const Mesh<2>& mesh, const Domain& domain,
+                                                  AreaOf&& area_of) {
+  std::vector<double> size, plateaus;  // of the regions; of those with a limit
   for (const Region& r : domain.regions) {
-    if (limited(r)) sizes.push_back(size_of_area(*r.max_area));
+    size.push_back(domain.keeps(r) ? size_of_area(area_of(r)) : kInfinite);
+    if (size.back() < kInfinite) plateaus.push_back(size.back());
   }
+  if (plateaus.empty()) return nullptr;
+  std::vector<detail::Facet> facets;
   for (std::size_t t = 0; t < mesh.simplices.size(); ++t) {
-    const Region& region = domain.regions[domain.region_of[t]];
-    if (!limited(region)) continue;
+    const double h = size[domain.region_of[t]];
     const auto& [a, b, c] = mesh.simplices[t];
-    const double h = size_of_area(*region.max_area);
+    if (h == kInfinite) continue;
     facets.emplace_back(std::array{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]},
                         std::array{h, h, h});
   }
-  if (facets.empty()) return nullptr;
-  return std::make_shared<detail::FacetSizes>(std::move(facets), std::move(sizes));
+  return std::make_shared<detail::FacetSizes>(std::move(facets), std::move(plateaus));
+}
+
+}  // namespace
+
+std::shared_ptr<const SizeField<2>> region_sizes(const Mesh<2>& mesh, const Domain& domain) {
+  return sizes_of_kept(mesh, domain,
+                       [](const Region& r) { return r.max_area.value_or(kInfinite); });
 }
 
 std::shared_ptr<const SizeField<2>> region_sizes(const Pslg& graph, Options<2> options) {
-  const auto has_limit = [](const Pslg::Region& r) { return r.max_area.has_value(); };
-  if (std::none_of(graph.regions.begin(), graph.regions.end(), has_limit)) return nullptr;
+  const double all = options.max_area > 0 ? options.max_area : kInfinite;
   options.max_area = 0;
   options.sizes = nullptr;
   const MeshData whole = with_features(mesh_statically(graph, options), graph);
-  return region_sizes(
-      whole, find_domain(whole, whole.features.edges, seeds_of(graph), Extent::enclosed));
+  const Domain domain = find_domain(whole, whole.features.edges, seeds_of(graph), Extent::enclosed);
+  return sizes_of_kept(whole, domain, [all](const Region& r) {
+    return std::min(all, r.max_area.value_or(kInfinite));
+  });
 }
 
 }  // namespace mesher

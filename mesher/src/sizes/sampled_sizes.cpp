@@ -90,10 +90,8 @@ double nearest_size(const std::vector<SizeSample>& samples, const Point<2>& p) {
 std::shared_ptr<const SizeField<2>> sampled_sizes(const std::vector<SizeSample>& samples) {
   check(samples);
   const Box<2> square = square_around(samples);
-  std::vector<Point<2>> points{square.lo,
-                               {square.hi[0], square.lo[1]},
-                               square.hi,
-                               {square.lo[0], square.hi[1]}};
+  std::vector<Point<2>> points{
+      square.lo, {square.hi[0], square.lo[1]}, square.hi, {square.lo[0], square.hi[1]}};
   std::vector<double> sizes;
   for (const Point<2>& p : points) sizes.push_back(nearest_size(samples, p));
   std::vector<Point<2>> places;

@@ -10,9 +10,7 @@ namespace mesher::detail {
 
 namespace {
 
-Box<2> around(const Point<2>& p, double r) {
-  return {{p[0] - r, p[1] - r}, {p[0] + r, p[1] + r}};
-}
+Box<2> around(const Point<2>& p, double r) { return {{p[0] - r, p[1] - r}, {p[0] + r, p[1] + r}}; }
 
 // Requires: candidates is not empty.
 Box<2> extent_of(const Candidates& candidates) {
@@ -123,8 +121,8 @@ void Traced::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) c
   const auto& ask = static_cast<const AskEdge&>(edge);
   const Candidates candidates = limits_.candidates(box_, ask.cell);
   const std::vector<Room> rooms = rooms_of(candidates, features_);
-  out << candidates.size() << " candidates, "
-      << std::count(rooms.begin(), rooms.end(), Room::none) << " beside features";
+  out << candidates.size() << " candidates, " << std::count(rooms.begin(), rooms.end(), Room::none)
+      << " beside features";
 }
 
 void Traced::check_invariants() const {

@@ -1,5 +1,5 @@
-// How much room features leave to places that may be filled. Features are input points, and vertices
-// at which segments are split.
+// How much room features leave to places that may be filled. Features are input points, and
+// vertices at which segments are split.
 //
 //   rooms(s, c, candidates)   for each candidate in the cell c, see Room   (observation)
 //
@@ -18,15 +18,16 @@ namespace mesher::detail {
 
 /// How near the nearest feature is.
 enum class Room : std::uint8_t {
-  none,   ///< nearer than kClear
+  none,  ///< nearer than kClear
   some,
   ample,  ///< not nearer than kUndisturbed
 };
 /// A place nearer to a feature than this, in pitches, is not filled.
 inline constexpr double kClear = 0.5;
-/// If no feature is nearer than this, in pitches, a vertex amid the lattice needs nothing: no leaf's
-/// ball has one of the six around it (such a leaf is at most 1.4 spacings long, hence 1.67 pitches,
-/// and its ends are features), and no feature is in the circumcircles of its six triangles.
+/// If no feature is nearer than this, in pitches, a vertex amid the lattice needs nothing: no
+/// leaf's ball has one of the six around it (such a leaf is at most 1.4 spacings long, hence 1.67
+/// pitches, and its ends are features), and no feature is in the circumcircles of its six
+/// triangles.
 inline constexpr double kUndisturbed = 3.2;
 
 using Candidates = std::vector<Limits::Candidate>;

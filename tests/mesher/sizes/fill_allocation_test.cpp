@@ -34,9 +34,16 @@ struct Filled {
     m.update();
     before = m.mesh();
   }
+  [[nodiscard]] mesher::Point<2> filled_place() const {
+    for (std::size_t i = 0;; ++i) {
+      const auto& p = before.vertices.at(i);
+      const bool inside = p[0] > 4 && p[0] < 12 && p[1] > 10 && p[1] < 14;
+      if (inside && before.kinds[i] == mesher::VertexKind::steiner) return p;
+    }
+  }
   void announce() {
     m.insert(id(4), {8, 8.5});
-    m.insert(id(5), before.vertices[before.vertices.size() / 2 + 3]);
+    m.insert(id(5), filled_place());
     m.move(id(2), {13, 9.5});
     m.remove(id(3));
   }

@@ -97,6 +97,28 @@ TEST_CASE("Of two limits the smaller one counts") {
         }) <= 1);
 }
 
+TEST_CASE("Plateaus of one size, and of sizes that round to one pitch, have one lattice") {
+  class Halves final : public mesher::SizeField<2> {
+   public:
+    [[nodiscard]] double at(const Point<2>& p) const override {
+      return p[0] < 0.5 ? 0.05 : 0.05 * (1 + 0x1p-40);
+    }
+    [[nodiscard]] mesher::SizeRange range(const mesher::Box<2>&) const override {
+      return {0.05, 0.05 * (1 + 0x1p-40)};
+    }
+    [[nodiscard]] std::vector<double> plateaus() const override {
+      return {0.05, 0.05 * (1 + 0x1p-40), 0.05};
+    }
+  };
+  Options<2> options{.domain = SizedSquare::domain()};
+  options.sizes = std::make_shared<Halves>();
+  const Mesh<2> mesh = square(options);
+  CHECK(largest(mesh, [&](const Point<2>& p) {
+          const bool counts = p[0] >= 0 && p[0] <= 1 && p[1] >= 0 && p[1] <= 1;
+          return counts ? area_of(options.sizes->at(p)) : 1e300;
+        }) <= 1);
+}
+
 TEST_CASE("A limit that every triangle keeps changes nothing") {
   CHECK(square(limited(1e3)) == square({.domain = SizedSquare::domain()}));
 }
@@ -138,7 +160,9 @@ TEST_CASE("A point or a segment changes as few vertices where 16 times as many a
         if (SizedSquare::beyond(p) > -0.05 || SizedSquare::beyond(q) > -0.05) continue;
         m.insert(mesher::FeatureId{1000}, p);
         if (kind == 's') m.insert(mesher::FeatureId{1001}, q);
-        if (kind == 's') m.insert_segment(mesher::FeatureId{1000}, mesher::FeatureId{1000}, mesher::FeatureId{1001});
+        if (kind == 's')
+          m.insert_segment(mesher::FeatureId{1000}, mesher::FeatureId{1000},
+                           mesher::FeatureId{1001});
         try {
           const auto change = m.update();
           changed.push_back(change.vertices_added.size() + change.vertices_removed.size());
@@ -162,8 +186,9 @@ TEST_CASE("A background is linear between its samples, and has their sizes at th
   std::vector<SizeSample> samples;
   for (int i = 0; i < 300; ++i) {
     // Some on a lattice: cocircular.
-    const Point<2> p = i % 2 == 0 ? Point<2>{std::floor(30 * random.unit()), std::floor(30 * random.unit())}
-                                  : Point<2>{30 * random.unit(), 30 * random.unit()};
+    const Point<2> p =
+        i % 2 == 0 ? Point<2>{std::floor(30 * random.unit()), std::floor(30 * random.unit())}
+                   : Point<2>{30 * random.unit(), 30 * random.unit()};
     const auto same = [&](const SizeSample& s) { return s.at == p; };
     if (std::any_of(samples.begin(), samples.end(), same)) continue;
     samples.push_back({p, 1 + p[0] / 10 + p[1] / 5});
