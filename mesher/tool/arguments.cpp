@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "mesher/domain_mesh.hpp"
+
 namespace tool {
 namespace {
 
@@ -43,10 +45,39 @@ mesher::Box<2> domain_of(const std::vector<std::string>& texts) {
                                          ": the first corner must be below and left");
 }
 
+std::size_t option_count(const std::string& option, const std::string& text) {
+  std::size_t count = 0;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, count);
+  if (result.ec == std::errc{} && result.ptr == end && count > 0) return count;
+  throw Error(ErrorCode::bad_option, option + " '" + text + "': not a whole number above 0");
+}
+
+void require_inside(const Input& input, const mesher::Box<2>& domain) {
+  const auto& points = input.graph().points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (contains(domain, points[i].at)) continue;
+    throw Error(ErrorCode::outside_domain,
+                "point " + std::to_string(static_cast<std::int64_t>(points[i].id)) + " at " +
+                    to_text(points[i].at) + " is outside the domain " + to_text(domain.lo) +
+                    " to " + to_text(domain.hi) + kDomainHint,
+                input.file().place_of_point(i));
+  }
+}
+
+bool has_points_alone(const std::string& path) {
+  const std::string extension = mesher::format_of(path);
+  return extension == ".node" || extension == ".xyz" || extension == ".csv";
+}
+
 }  // namespace
 
 void add_program_options(CLI::App& command, MeshArguments& args) {
-  command.add_option("INPUT", args.input, "Points: .node, .xyz or .csv")->required();
+  command
+      .add_option(
+          "INPUT", args.input,
+          "Points and lines: .poly, .geojson, .json, .obj or .vtu; points: .node, .xyz or .csv")
+      ->required();
   command.add_option("--rho", args.rho, "Bound of circumradius over shortest edge, above 1.01")
       ->capture_default_str();
   command.add_option("--rule", args.rule, "Where to insert: radius-edge or voronoi-aspect")
@@ -59,6 +90,10 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
       ->type_name("XMIN YMIN XMAX YMAX")
       ->type_size(4)
       ->expected(1);
+  command
+      .add_option("--max-vertices", args.max_vertices,
+                  "More are an error, which names the lines that need most (default: no limit)")
+      ->type_name("N");
 }
 
 void add_mesh_options(CLI::App& command, MeshArguments& args) {
@@ -69,6 +104,7 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
                   "repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
+  command.add_flag("--box", args.box, "All of the box, not only what lines enclose less the holes");
   command.add_flag("--static", args.is_static, "Without the engine; the mesh is the same");
   command.add_option("--stats", args.stats, "Figures as JSON")->type_name("FILE");
   command.add_flag("--quiet", args.quiet, "Print nothing but errors");
@@ -89,35 +125,31 @@ double option_rho(const std::string& text) {
   throw Error(ErrorCode::bad_option, "--rho " + text + ": must be above " + to_text(kLeastRho));
 }
 
-mesher::Options<2> mesh_options(const MeshArguments& args,
-                                const std::vector<mesher::Point<2>>& points) {
+mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input) {
   mesher::Options<2> options;
   options.rho = option_rho(args.rho);
   options.rule =
       args.rule == "radius-edge" ? mesher::Rule::radius_edge : mesher::Rule::voronoi_aspect;
-  options.domain = args.domain.empty() ? mesher::snapped_domain<2>(points) : domain_of(args.domain);
-  return options;
-}
-
-void require_inside(const mesher::PointFile<2>& input, const mesher::Box<2>& domain) {
-  for (std::size_t i = 0; i < input.points.size(); ++i) {
-    if (contains(domain, input.points[i])) continue;
-    throw Error(ErrorCode::outside_domain,
-                "point " + std::to_string(static_cast<std::int64_t>(input.ids[i])) + " at " +
-                    to_text(input.points[i]) + " is outside the domain " + to_text(domain.lo) +
-                    " to " + to_text(domain.hi) + kDomainHint,
-                input.place(i));
+  options.domain = args.domain.empty() ? mesher::snapped_domain<2>(places_of(input.graph()))
+                                       : domain_of(args.domain);
+  if (!args.max_vertices.empty()) {
+    options.max_vertices = option_count("--max-vertices", args.max_vertices);
   }
+  require_inside(input, options.domain);
+  return options;
 }
 
 Error with_domain_hint(const Error& error) {
   if (error.code() != ErrorCode::outside_domain) return error;
-  return Error(error.code(), error.message() + kDomainHint, error.place());
+  return Error(error.code(), error.message() + kDomainHint, error.place(), error.ids());
 }
 
-void open_outputs(const MeshArguments& args, Outputs& outputs) {
+void open_outputs(const MeshArguments& args, const Input& input, Outputs& outputs) {
   outputs.protect(args.input);
-  for (const auto& path : args.outputs) outputs.open_mesh(path);
+  outputs.protect(input.file().point_file);
+  const auto content =
+      has_points_alone(args.input) ? mesher::MeshFiles::plain : mesher::MeshFiles::features;
+  for (const auto& path : args.outputs) outputs.open_mesh(path, content);
 }
 
 }  // namespace tool

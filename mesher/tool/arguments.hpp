@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "mesher/io.hpp"
+#include "input.hpp"
+#include "mesher/domain.hpp"
 #include "mesher/mesh.hpp"
 #include "outputs.hpp"
 
@@ -17,6 +18,8 @@ struct MeshArguments {
   std::string rho = "1.4142";
   std::string rule = "radius-edge";
   std::vector<std::string> domain;  // XMIN YMIN XMAX YMAX, or nothing
+  std::string max_vertices;
+  bool box = false;
   bool is_static = false;
   std::string stats;
   bool quiet = false;
@@ -24,10 +27,11 @@ struct MeshArguments {
 
 /// What the help says of the quality figures.
 inline constexpr const char* kQualityHelp =
-    "Its min_angle_deg and max_radius_edge are over the triangles with at least one vertex\n"
-    "off the boundary grid; null if there is none.";
+    "Its vertices and simplices are those of the box; kept are those written, and\n"
+    "min_angle_deg and max_radius_edge are theirs; null if there is none.";
 
-/// Adds what says which mesh it is: INPUT, --rho, --rule, --domain. `args` must outlive `command`.
+/// Adds what says which mesh it is: INPUT, --rho, --rule, --domain, --max-vertices. `args` must
+/// outlive `command`.
 void add_program_options(CLI::App& command, MeshArguments& args);
 
 /// Adds these and what is to become of the mesh.
@@ -39,17 +43,22 @@ void add_mesh_options(CLI::App& command, MeshArguments& args);
 /// The value of --rho. Throws: Error(bad_option).
 [[nodiscard]] double option_rho(const std::string& text);
 
-/// What to mesh: the domain as given, or around the input. Throws: Error(bad_option).
-[[nodiscard]] mesher::Options<2> mesh_options(const MeshArguments& args,
-                                              const std::vector<mesher::Point<2>>& points);
+/// What to mesh: the domain as given, or around the input.
+/// Throws: Error(bad_option); Error(outside_domain) with the line of the first point outside,
+/// naming
+/// --domain.
+[[nodiscard]] mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input);
 
-/// Throws: Error(outside_domain) with the line of the first point outside, naming --domain.
-void require_inside(const mesher::PointFile<2>& input, const mesher::Box<2>& domain);
+/// Which part of the mesh is written.
+[[nodiscard]] inline mesher::Extent extent(const MeshArguments& args) {
+  return args.box ? mesher::Extent::box : mesher::Extent::enclosed;
+}
 
 /// The same error with a hint to --domain, if it is one of a point outside.
 [[nodiscard]] mesher::Error with_domain_hint(const mesher::Error& error);
 
-/// Opens the mesh outputs. Throws: Error (unknown_format, cannot_write, bad_option).
-void open_outputs(const MeshArguments& args, Outputs& outputs);
+/// Opens the mesh outputs: those of `.node` with all files, if INPUT is of a format that has lines.
+/// Throws: Error (unknown_format, cannot_write, bad_option).
+void open_outputs(const MeshArguments& args, const Input& input, Outputs& outputs);
 
 }  // namespace tool

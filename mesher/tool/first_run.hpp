@@ -3,60 +3,39 @@
 
 #include <string>
 
-#include "mesher/check.hpp"
-#include "mesher/edit_script.hpp"
-#include "mesher/io.hpp"
+#include "input.hpp"
+#include "mesher/domain_mesh.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 
 namespace tool {
 
 struct Result {
-  mesher::Mesh<2> mesh;
+  mesher::DomainMesh mesh;
   Run run;
 };
 
-/// Throws the error that the first refused point makes, said of its line; else `error`, said of the
-/// file.
+/// Gives `target` the input and updates it.
+/// Throws: Error, said of the line of the feature to blame or of the file; Error(cancelled).
 template <class Target>
-[[noreturn]] void throw_with_place(const mesher::PointFile<2>& input, Target& target,
-                                   const mesher::Error& error) {
-  for (std::size_t i = 0; i < input.points.size(); ++i) {
-    try {
-      target.insert(input.ids[i], input.points[i]);
-    } catch (const mesher::Error& refusal) {
-      throw refusal.at(input.place(i));
-    }
-  }
-  throw error.at({input.file});
-}
-
-/// Gives `target` the points and updates it.
-/// Throws: Error, said of the line of the point to blame or of the file; Error(cancelled).
-template <class Target>
-void insert_all(const mesher::PointFile<2>& input, Target& target, Progress& progress) {
+void insert_all(const Input& input, Target& target, Progress& progress) {
   try {
-    target.insert(input.ids, input.points);
-  } catch (const mesher::Error& error) {
-    throw_with_place(input, target, error);
-  }
-  try {
+    mesher::announce(input.graph(), target);
     Watched(target, progress).update();
   } catch (const mesher::Error& error) {
-    if (error.code() == mesher::ErrorCode::cancelled) throw;
-    throw error.at({input.file});
+    throw input.located(error);
   }
 }
 
-/// Runs `target`, a mesher without points, on the input. Throws: Error, as insert_all.
+/// Runs `target`, a mesher without input for this rho, on the input. Throws: Error, as insert_all.
 template <class Target>
-Result first_run(const mesher::PointFile<2>& input, Target& target, Progress& progress) {
+Result first_run(const Input& input, double rho, Target& target, Progress& progress) {
   const double start = mesher::now();
   insert_all(input, target, progress);
-  Result result{target.mesh(), {}};
+  Result result{target.domain_mesh(), {}};
   result.run.seconds_total = mesher::now() - start;
   result.run.stats = target.stats();
-  result.run.quality = mesher::quality(result.mesh);
+  measure(result.mesh, rho, result.run);
   return result;
 }
 

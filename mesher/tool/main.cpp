@@ -1,4 +1,4 @@
-// mesher: quality meshes of files of points, that follow edits of the points.
+// mesher: quality meshes of files of points and lines, that follow edits.
 #include <csignal>
 #include <exception>
 #include <iostream>
@@ -15,10 +15,10 @@ using mesher::ExitCode;
 
 constexpr const char* kHelpFooter =
     "Examples:\n"
+    "  mesher mesh lake.poly -o lake.1.node -o lake.svg\n"
+    "  mesher edit lake.poly --script wall.txt -o after.1.node --stats updates.jsonl\n"
+    "  mesher check after.1.node --rho 1.4142\n"
     "  mesher gen uniform --n 10000 -o points.node\n"
-    "  mesher mesh points.node -o mesh.node -o mesh.vtu\n"
-    "  mesher edit points.node --script edits.txt -o after.node --stats updates.jsonl\n"
-    "  mesher check after.node --rho 1.4142\n"
     "  mesher trace points.node --script edits.txt -o after.trace\n"
     "'mesher COMMAND --help' says more.\n"
     "Exit codes: 0 ok, 1 geometry, 2 usage, 3 format, 4 limit, 5 cancelled, 70 a bug of ours.";
@@ -29,7 +29,8 @@ int fail(ExitCode code, const std::string& message) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Quality Delaunay meshes of points in the plane, and their updates.", "mesher"};
+  CLI::App app{"Quality Delaunay meshes of points and lines in the plane, and their updates.",
+               "mesher"};
   app.footer(kHelpFooter);
   app.require_subcommand(1);
   tool::add_gen(app);

@@ -1,4 +1,4 @@
-// mesher mesh: a mesh of a file of points.
+// mesher mesh: a mesh of a file of points and lines.
 #include <memory>
 
 #include "arguments.hpp"
@@ -12,47 +12,53 @@
 namespace tool {
 namespace {
 
-Result mesh_without_engine(const mesher::PointFile<2>& input, const mesher::Options<2>& options,
-                           Progress& progress) {
-  Result result;
-  const double start = mesher::now();
+mesher::Mesh<2> mesh_without_engine(const Input& input, const mesher::Options<2>& options,
+                                    mesher::MeshStats& stats, Progress& progress) {
   try {
     const StopPolitely stop;
-    result.mesh = mesher::mesh_statically<2>(input.points, options, input.ids, &result.run.stats,
-                                             progress.control());
+    return mesher::mesh_statically(input.graph(), options, &stats, progress.control());
   } catch (const mesher::Error& error) {
-    if (error.code() == mesher::ErrorCode::cancelled) throw;
-    throw error.at({input.file});
+    throw input.located(error);
   }
+}
+
+mesher::Mesh<2> mesh_with_engine(const Input& input, const mesher::Options<2>& options,
+                                 mesher::MeshStats& stats, Progress& progress) {
+  mesher::Mesher<2> mesher(options);
+  insert_all(input, mesher, progress);
+  stats = mesher.stats();
+  return mesher.mesh();
+}
+
+Result mesh(const MeshArguments& args, const Input& input, const mesher::Options<2>& options,
+            Progress& progress) {
+  Result result;
+  const double start = mesher::now();
+  const auto make = args.is_static ? mesh_without_engine : mesh_with_engine;
+  result.mesh = mesher::domain_mesh(make(input, options, result.run.stats, progress), input.graph(),
+                                    extent(args));
   result.run.seconds_total = mesher::now() - start;
-  result.run.quality = mesher::quality(result.mesh);
+  measure(result.mesh, options.rho, result.run);
   return result;
 }
 
-Result mesh_with_engine(const mesher::PointFile<2>& input, const mesher::Options<2>& options,
-                        Progress& progress) {
-  mesher::Mesher<2> mesher(options);
-  return first_run(input, mesher, progress);
-}
-
 void run_mesh(const MeshArguments& args) {
-  const auto input = mesher::read_points<2>(args.input);
-  const auto options = mesh_options(args, input.points);
-  require_inside(input, options.domain);
+  const Input input(args.input);
+  const auto options = mesh_options(args, input);
   Outputs outputs;
-  open_outputs(args, outputs);
+  open_outputs(args, input, outputs);
   Figures figures(args.stats, outputs);
   Progress progress(args.quiet);
-  const Result result = args.is_static ? mesh_without_engine(input, options, progress)
-                                       : mesh_with_engine(input, options, progress);
+  const Result result = mesh(args, input, options, progress);
   if (figures.wanted()) figures << json_of(result.run).dump(2) << "\n";
   outputs.write(result.mesh);
   const auto targets = outputs.targets();
   progress.erase();
+  if (!args.quiet) print_remarks(input, result.mesh.faults);
   figures.print();
   outputs.commit();
   if (args.quiet || figures.printed()) return;
-  print_run(args.input, input.points.size(), result.run);
+  print_run(args.input, input.graph(), result.run);
   print_outputs(targets);
 }
 
@@ -60,18 +66,26 @@ void run_mesh(const MeshArguments& args) {
 
 void add_mesh(CLI::App& app) {
   const auto args = std::make_shared<MeshArguments>();
-  CLI::App* mesh = app.add_subcommand("mesh", "Meshes a file of points.");
+  CLI::App* mesh = app.add_subcommand("mesh", "Meshes a file of points and lines.");
   add_mesh_options(*mesh, *args);
   mesh->footer(
-      std::string("The mesh is a function of the points, the domain, --rho and --rule alone: its\n"
-                  "files are the same bytes each time, with --static or without. Files appear\n"
-                  "when all is done, or not at all.\n"
-                  "--stats: one JSON object; - for standard output.\n") +
+      std::string(
+          "Every line is a union of edges. Where lines enclose something, what they enclose is\n"
+          "written, less the holes, with the attributes of regions and the markers of points and\n"
+          "lines; else, or with --box, all of the box. A seed without a region of its own is\n"
+          "warned of.\n"
+          "With INPUT of a format that has lines, a .node output has .edge, .poly and .neigh\n"
+          "beside .ele.\n"
+          "The mesh is a function of INPUT, the domain, --rho and --rule alone: its files are\n"
+          "the same bytes each time, with --static or without. Files appear when all is done,\n"
+          "or not at all.\n"
+          "--stats: one JSON object; - for standard output.\n") +
       kQualityHelp +
       "\nExamples:\n"
+      "  mesher mesh lake.poly -o lake.1.node -o lake.svg\n"
+      "  mesher mesh coast.geojson --box --max-vertices 100000 -o coast.vtu\n"
       "  mesher mesh points.node -o mesh.node -o mesh.svg --stats mesh.json\n"
-      "  mesher mesh cities.csv --domain -180 -90 180 90 -o cities.vtu\n"
-      "  mesher mesh points.xyz --rho 2 --static -o mesh.off");
+      "  mesher mesh cities.csv --domain -180 -90 180 90 --rho 2 --static -o cities.vtu");
   mesh->callback([args] { run_mesh(*args); });
 }
 

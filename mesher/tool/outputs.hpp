@@ -2,9 +2,11 @@
 // and removed by an interrupt as by an error.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
+#include "mesher/domain_mesh.hpp"
 #include "mesher/io.hpp"
 
 namespace tool {
@@ -23,8 +25,10 @@ class Outputs {
   /// Opens a mesh output, by extension. Throws: Error (unknown_format, cannot_write, bad_option).
   void open_mesh(const std::string& path, mesher::MeshFiles content = mesher::MeshFiles::plain);
 
-  /// Writes `mesh` to all mesh outputs. Throws: Error (cannot_write, cancelled).
-  void write(const mesher::Mesh<2>& mesh, const mesher::MeshFeatures& features = {});
+  /// Writes what is kept to all mesh outputs; `coloured`: triangles that pictures show as changed.
+  /// Throws: Error (cannot_write, cancelled).
+  using Triangles = std::vector<std::array<mesher::Point<2>, 3>>;
+  void write(const mesher::DomainMesh& mesh, const Triangles& coloured = {});
   /// Makes all files appear. Throws: Error (cannot_write, cancelled), and then none has.
   void commit();
 
@@ -32,8 +36,11 @@ class Outputs {
   [[nodiscard]] std::vector<std::string> targets() const { return files_.targets(); }
 
  private:
+  void draw(const mesher::DomainMesh& mesh, const Triangles& coloured);
+
   mesher::OutputFiles files_;
   std::vector<mesher::MeshWriter> writers_;
+  std::vector<mesher::TextFile*> pictures_;
 };
 
 }  // namespace tool

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cancel.hpp"
+#include "mesher/domain.hpp"
 #include "mesher/mesher.hpp"
 
 namespace tool {
@@ -34,9 +35,11 @@ class Progress {
   std::string task_;
 };
 
-/// Whether a mesher takes lines, or points only.
+/// Whether a mesher takes holes and regions.
 template <class Target>
-concept TakesLines = requires(Target& t, mesher::FeatureId id) { t.remove_segment(id); };
+concept TakesSeeds = requires(Target& t, const mesher::SeedName& name) {
+  t.remove_seed(name);
+};
 
 /// A mesher whose updates are watched; the rest of its interface as it is.
 template <class Target>
@@ -47,28 +50,21 @@ class Watched {
   void insert(mesher::FeatureId id, const mesher::Point<2>& p) { target_.insert(id, p); }
   void remove(mesher::FeatureId id) { target_.remove(id); }
   void move(mesher::FeatureId id, const mesher::Point<2>& p) { target_.move(id, p); }
-  void insert_segment(mesher::FeatureId id, mesher::FeatureId from, mesher::FeatureId to)
-    requires TakesLines<Target>
-  {
+  void insert_segment(mesher::FeatureId id, mesher::FeatureId from, mesher::FeatureId to) {
     target_.insert_segment(id, from, to);
   }
-  void insert_polyline(mesher::FeatureId id, const std::vector<mesher::FeatureId>& points)
-    requires TakesLines<Target>
-  {
+  void insert_polyline(mesher::FeatureId id, const std::vector<mesher::FeatureId>& points) {
     target_.insert_polyline(id, points);
   }
-  void remove_segment(mesher::FeatureId id)
-    requires TakesLines<Target>
-  {
-    target_.remove_segment(id);
+  void remove_segment(mesher::FeatureId id) { target_.remove_segment(id); }
+  void insert_seed(const mesher::Seed& seed) requires TakesSeeds<Target> {
+    target_.insert_seed(seed);
   }
-  void remove_polyline(mesher::FeatureId id)
-    requires TakesLines<Target>
-  {
-    target_.remove_polyline(id);
+  void remove_seed(const mesher::SeedName& name) requires TakesSeeds<Target> {
+    target_.remove_seed(name);
   }
   void discard_edits() { target_.discard_edits(); }
-  mesher::Change<2> update() {
+  auto update() {
     const StopPolitely stop;
     return target_.update(progress_.control());
   }

@@ -34,9 +34,51 @@ std::string format(const char* form, double value) {
   return text;
 }
 
+std::string of_all(std::size_t kept, std::size_t all) {
+  if (kept == all) return std::to_string(all);
+  return std::to_string(kept) + " of " + std::to_string(all) + " in the box";
+}
+
+// The triangles that keep the bound: all, but those that small angles of the input forbid to.
+mesher::Mesh<2> within(double rho, const mesher::Mesh<2>& mesh) {
+  constexpr double kRounding = 1e-9;
+  mesher::Mesh<2> good;
+  good.vertices = mesh.vertices;
+  for (const auto& t : mesh.simplices) {
+    const auto& at = mesh.vertices;
+    const double ratio = mesher::radius_edge(at[t[0]], at[t[1]], at[t[2]]);
+    if (ratio <= rho * (1 + kRounding)) good.simplices.push_back(t);
+  }
+  return good;
+}
+
+std::string smallest_angle(const Run& run) {
+  const std::string all = format("%.2f degrees", run.quality.min_angle_deg);
+  if (run.above_rho == 0) return all;
+  return all + ", " + format("%.2f", run.min_angle_within_rho) + " off " +
+         std::to_string(run.above_rho) + " triangles at small angles of the input";
+}
+
 std::string milliseconds(double seconds) { return format("%.3f ms", seconds * 1000); }
 
 }  // namespace
+
+void measure(const mesher::DomainMesh& mesh, double rho, Run& run) {
+  run.quality = mesher::quality(mesh.kept);
+  const mesher::Mesh<2> good = within(rho, mesh.kept);
+  run.above_rho = mesh.kept.simplices.size() - good.simplices.size();
+  run.min_angle_within_rho = mesher::quality(good).min_angle_deg;
+  run.vertices = mesh.kept.vertices.size();
+  run.simplices = mesh.kept.simplices.size();
+  run.faults = mesh.faults.size();
+  const auto& kinds = mesh.kept.kinds;
+  run.points =
+      static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), mesher::VertexKind::input));
+  for (const auto& region : mesh.regions) {
+    if (mesh.keeps_all || region.label.zone == mesher::Zone::inside) ++run.regions;
+    if (region.label.zone == mesher::Zone::hole) ++run.holes;
+  }
+}
 
 Json json_of(const Run& run) {
   Json json;
@@ -44,6 +86,12 @@ Json json_of(const Run& run) {
   json["simplices"] = run.stats.simplices;
   json["min_angle_deg"] = run.quality.min_angle_deg;  // NaN is written as null
   json["max_radius_edge"] = run.quality.max_radius_edge;
+  json["above_rho"] = run.above_rho;
+  json["min_angle_deg_within_rho"] = run.min_angle_within_rho;
+  json["kept"] = {{"vertices", run.vertices}, {"simplices", run.simplices}, {"points", run.points}};
+  json["regions"] = run.regions;
+  json["holes"] = run.holes;
+  json["seed_faults"] = run.faults;
   json["seconds"] = {{"quadtree", run.stats.seconds_quadtree},
                      {"steiner", run.stats.seconds_steiner},
                      {"triangulate", run.stats.seconds_triangulate},
@@ -55,8 +103,8 @@ Json json_of(const Run& run) {
   return json;
 }
 
-Json json_of(const mesher::Update<2>& update) {
-  const mesher::Change<2>& change = update.change;
+Json json_of(const DomainStep& update) {
+  const mesher::DomainUpdate& change = update.change;
   Json json;
   json["edit"] = update.text();
   json["seconds"] = update.seconds;
@@ -68,16 +116,37 @@ Json json_of(const mesher::Update<2>& update) {
                       {"removed", change.vertices_removed.size()}};
   json["simplices"] = {{"added", change.simplices_added.size()},
                        {"removed", change.simplices_removed.size()}};
+  json["kept"] = {{"added", change.domain.kept_added.size()},
+                  {"removed", change.domain.kept_removed.size()}};
   return json;
 }
 
-void print_run(const std::string& input, std::size_t points, const Run& run) {
-  std::printf("%s: %zu points\n", input.c_str(), points);
-  print_row("vertices", std::to_string(run.stats.vertices));
-  print_row("triangles", std::to_string(run.stats.simplices));
-  print_row("smallest angle", format("%.2f degrees", run.quality.min_angle_deg));
+void print_run(const std::string& input, const mesher::Pslg& graph, const Run& run) {
+  std::printf("%s: %zu points", input.c_str(), graph.points.size());
+  const std::size_t lines = graph.segments.size() + graph.polylines.size();
+  if (lines > 0) std::printf(", %zu lines", lines);
+  std::printf("\n");
+  print_row("vertices", of_all(run.vertices, run.stats.vertices));
+  print_row("triangles", of_all(run.simplices, run.stats.simplices));
+  if (run.points < graph.points.size()) {
+    print_row("points left out",
+              std::to_string(graph.points.size() - run.points) + "; --box keeps all");
+  }
+  if (run.vertices != run.stats.vertices || run.regions > 1) {
+    print_row("regions", std::to_string(run.regions) + ", holes " + std::to_string(run.holes));
+  }
+  print_row("smallest angle", smallest_angle(run));
   print_row("largest radius-edge", format("%.4f", run.quality.max_radius_edge));
   print_row("time", format("%.3f s", run.seconds_total));
+}
+
+void print_remarks(const Input& input, const std::vector<mesher::SeedFault>& faults) {
+  for (const auto& note : input.file().notes) {
+    const std::string line = note.place.line > 0 ? ":" + std::to_string(note.place.line) : "";
+    std::fprintf(stderr, "%s%s: note: %s\n", note.place.file.c_str(), line.c_str(),
+                 note.text.c_str());
+  }
+  for (const auto& fault : faults) std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
 }
 
 void print_updates(std::vector<double> seconds) {
@@ -87,6 +156,11 @@ void print_updates(std::vector<double> seconds) {
   print_row("  median", milliseconds(quantile(seconds, 0.5)));
   print_row("  99 of 100 below", milliseconds(quantile(seconds, 0.99)));
   print_row("  longest", milliseconds(seconds.back()));
+}
+
+void print_after(const mesher::DomainMesh& mesh) {
+  print_row("after them", std::to_string(mesh.kept.vertices.size()) + " vertices, " +
+                              std::to_string(mesh.kept.simplices.size()) + " triangles");
 }
 
 void print_outputs(const std::vector<std::string>& paths) {

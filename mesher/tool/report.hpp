@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "input.hpp"
 #include "mesher/check.hpp"
+#include "mesher/domain_mesher.hpp"
 #include "mesher/edit_script.hpp"
-#include "mesher/mesher.hpp"
 
 namespace tool {
 
@@ -16,23 +17,43 @@ using Json = nlohmann::ordered_json;
 
 /// The first run of a mesh, or a run from scratch.
 struct Run {
-  mesher::MeshStats stats;
-  mesher::Quality quality;
+  mesher::MeshStats stats;          ///< of the box
+  mesher::Quality quality;          ///< of what is kept
+  std::size_t above_rho = 0;        ///< triangles kept, at small angles of the input
+  double min_angle_within_rho = 0;  ///< degrees; of the others
+  std::size_t vertices = 0;         ///< kept
+  std::size_t simplices = 0;        ///< kept
+  std::size_t points = 0;           ///< of the input, kept
+  std::size_t regions = 0;          ///< kept
+  std::size_t holes = 0;
+  std::size_t faults = 0;    ///< seeds without a region of their own
   double seconds_total = 0;  ///< from the first point inserted to the finished mesh
 };
+
+/// An update of a script by a mesher that knows of domains.
+using DomainStep = mesher::Update<2, mesher::DomainUpdate>;
+
+/// Sizes and quality of what is kept.
+void measure(const mesher::DomainMesh& mesh, double rho, Run& run);
 
 /// Figures of a run, as --stats writes them, with the process's peak memory.
 [[nodiscard]] Json json_of(const Run& run);
 
 /// Figures of an update, as --stats of `edit` writes them.
-[[nodiscard]] Json json_of(const mesher::Update<2>& update);
+[[nodiscard]] Json json_of(const DomainStep& update);
 
 /// Prints size, quality and time of a run on standard output.
-void print_run(const std::string& input, std::size_t points, const Run& run);
+void print_run(const std::string& input, const mesher::Pslg& graph, const Run& run);
+
+/// Prints on standard error what of the input is not used, and which seeds have no region.
+void print_remarks(const Input& input, const std::vector<mesher::SeedFault>& faults);
 
 /// Prints the number of updates with their median, 99th percentile and longest time.
 /// `seconds`: one per update.
 void print_updates(std::vector<double> seconds);
+
+/// Prints how large the mesh is that updates have left.
+void print_after(const mesher::DomainMesh& mesh);
 
 /// Prints the names of the files written.
 void print_outputs(const std::vector<std::string>& paths);

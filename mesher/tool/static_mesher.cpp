@@ -52,6 +52,14 @@ std::vector<mesher::KindChange<2>> kinds_changed(const Mesh<2>& before, const Me
   return changes;
 }
 
+std::vector<mesher::LineEdge<2>> edges_of(const Mesh<2>& mesh) {
+  std::vector<mesher::LineEdge<2>> edges;
+  for (const auto& e : mesh.edges) {
+    edges.push_back({mesh.vertices[e.low], mesh.vertices[e.high], e.line});
+  }
+  return edges;
+}
+
 mesher::Change<2> change_between(const Mesh<2>& before, const Mesh<2>& after) {
   const auto old_triangles = triangles_of(before), new_triangles = triangles_of(after);
   mesher::Change<2> change;
@@ -60,7 +68,20 @@ mesher::Change<2> change_between(const Mesh<2>& before, const Mesh<2>& after) {
   change.kinds_changed = kinds_changed(before, after);
   change.simplices_added = difference(new_triangles, old_triangles);
   change.simplices_removed = difference(old_triangles, new_triangles);
+  const auto old_edges = edges_of(before), new_edges = edges_of(after);
+  change.edges_added = difference(new_edges, old_edges);
+  change.edges_removed = difference(old_edges, new_edges);
   return change;
+}
+
+mesher::DomainChange change_of_kept(const Mesh<2>& before, const Mesh<2>& after) {
+  const auto old_triangles = triangles_of(before), new_triangles = triangles_of(after);
+  return {
+      difference(new_triangles, old_triangles), difference(old_triangles, new_triangles), {}, 0};
+}
+
+std::string words(const mesher::SeedName& seed) {
+  return (seed.kind == mesher::SeedKind::hole ? "hole " : "region ") + id_text(seed.id);
 }
 
 }  // namespace
@@ -85,34 +106,26 @@ void StaticMesher::require_free(FeatureId id, const Point<2>& p) const {
               {id, other->second});
 }
 
-void StaticMesher::put(FeatureId id, const Point<2>& point) {
-  edited_.points.emplace(id, point);
-  edited_.ids.emplace(point, id);
+// --- Points ----------------------------------------------------------------------------------
+
+void StaticMesher::put(FeatureId id, const Vertex& vertex) {
+  edited_.points.emplace(id, vertex);
+  edited_.ids.emplace(vertex.at, id);
 }
 
-void StaticMesher::insert(FeatureId id, const Point<2>& point) {
+void StaticMesher::insert(FeatureId id, const Point<2>& point, std::int64_t marker) {
   if (edited_.points.contains(id)) {
     throw Error(ErrorCode::repeated_id, "there is a point " + id_text(id) + " already", {}, {id});
   }
   require_inside(id, point);
   if (!current_.points.contains(id)) require_free(id, point);
-  put(id, point);
-}
-
-void StaticMesher::insert(const std::vector<FeatureId>& ids, const std::vector<Point<2>>& points) {
-  const Features before = edited_;
-  try {
-    for (std::size_t i = 0; i < ids.size(); ++i) insert(ids[i], points[i]);
-  } catch (...) {
-    edited_ = before;
-    throw;
-  }
+  put(id, {point, marker});
 }
 
 void StaticMesher::remove(FeatureId id) {
   require_known(id);
   const auto row = edited_.points.find(id);
-  const auto [first, last] = edited_.ids.equal_range(row->second);
+  const auto [first, last] = edited_.ids.equal_range(row->second.at);
   edited_.ids.erase(std::find_if(first, last, [&](const auto& e) { return e.second == id; }));
   edited_.points.erase(row);
 }
@@ -120,24 +133,89 @@ void StaticMesher::remove(FeatureId id) {
 void StaticMesher::move(FeatureId id, const Point<2>& point) {
   require_known(id);
   require_inside(id, point);
+  const std::int64_t marker = edited_.points.at(id).marker;
   remove(id);
-  put(id, point);
+  put(id, {point, marker});
 }
 
-mesher::Change<2> StaticMesher::update(const mesher::RunControl& control) {
-  std::vector<FeatureId> ids;
-  std::vector<Point<2>> points;
-  for (const auto& [id, point] : edited_.points) {
-    ids.push_back(id);
-    points.push_back(point);
+// --- Lines and seeds -------------------------------------------------------------------------
+
+void StaticMesher::insert_polyline(FeatureId id, const std::vector<FeatureId>& points,
+                                   std::int64_t marker) {
+  if (edited_.lines.contains(id)) {
+    throw Error(ErrorCode::repeated_id, "there is a line " + id_text(id) + " already", {}, {id});
   }
+  const auto same = std::adjacent_find(points.begin(), points.end());
+  if (same != points.end()) {
+    throw Error(ErrorCode::zero_length,
+                "segment " + id_text(id) + " goes from point " + id_text(*same) + " to itself", {},
+                {id, *same});
+  }
+  edited_.lines.emplace(id, Line{points, marker});
+}
+
+void StaticMesher::remove_segment(FeatureId id) {
+  if (edited_.lines.erase(id) > 0) return;
+  throw Error(ErrorCode::unknown_id, "there is no line " + id_text(id), {}, {id});
+}
+
+void StaticMesher::insert_seed(const mesher::Seed& seed) {
+  if (edited_.seeds.emplace(seed.name, seed).second) return;
+  throw Error(ErrorCode::repeated_id, "there is a " + words(seed.name) + " already", {},
+              {seed.name.id});
+}
+
+void StaticMesher::remove_seed(const mesher::SeedName& name) {
+  if (edited_.seeds.erase(name) > 0) return;
+  throw Error(ErrorCode::unknown_id, "there is no " + words(name), {}, {name.id});
+}
+
+// Ends of lines that were there before.
+void StaticMesher::require_unused() const {
+  for (const auto& [id, line] : edited_.lines) {
+    for (const FeatureId end : line.points) {
+      if (edited_.points.contains(end) || !current_.points.contains(end)) continue;
+      throw Error(ErrorCode::point_in_use,
+                  "point " + id_text(end) + " cannot go: it is an end of segment " + id_text(id),
+                  {}, {end, id});
+    }
+  }
+}
+
+// --- Updates ---------------------------------------------------------------------------------
+
+mesher::Pslg StaticMesher::graph() const {
+  mesher::Pslg graph;
+  for (const auto& [id, vertex] : edited_.points) {
+    graph.points.push_back({id, vertex.at, vertex.marker});
+  }
+  for (const auto& [id, line] : edited_.lines) {
+    graph.polylines.push_back({id, line.points, line.marker});
+  }
+  for (const auto& [name, seed] : edited_.seeds) {
+    if (name.kind == mesher::SeedKind::hole) {
+      graph.holes.push_back({name.id, seed.at});
+    } else {
+      graph.regions.push_back({name.id, seed.at, seed.attribute, seed.max_area});
+    }
+  }
+  return graph;
+}
+
+mesher::DomainUpdate StaticMesher::update(const mesher::RunControl& control) {
+  require_unused();
+  const mesher::Pslg input = graph();
   mesher::MeshStats stats;
-  Mesh<2> after = mesher::mesh_statically<2>(points, options_, ids, &stats, control);
-  mesher::Change<2> change = change_between(mesh_, after);
+  Mesh<2> after = mesher::mesh_statically(input, options_, &stats, control);
+  mesher::DomainMesh domain = mesher::domain_mesh(after, input, extent_);
+  mesher::DomainUpdate update;
+  static_cast<mesher::Change<2>&>(update) = change_between(mesh_, after);
+  update.domain = change_of_kept(domain_.kept, domain.kept);
   current_ = edited_;
   mesh_ = std::move(after);
+  domain_ = std::move(domain);
   stats_ = stats;
-  return change;
+  return update;
 }
 
 }  // namespace tool

@@ -1,6 +1,7 @@
-// mesher trace: what the mesher's engine did for a file of points, for the tool `traces`.
+// mesher trace: what the mesher's engine did for a file of points and lines, for the tool `traces`.
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "arguments.hpp"
 #include "cancel.hpp"
@@ -28,16 +29,19 @@ void require_writable(const TraceArguments& args) {
   files.open(args.trace);
 }
 
-void follow_script(const TraceArguments& args, mesher::Mesher<2>& mesher, Progress& progress) {
+void follow_script(const TraceArguments& args, Input& input, mesher::Mesher<2>& mesher,
+                   Progress& progress) {
   mesher::EditScript script(args.script);
   std::size_t updates = 0;
   Watched watched(mesher, progress);
   try {
-    mesher::apply(script, watched, [&](const mesher::Update<2>&) {
+    while (auto edits = script.next()) {
+      input.follow(*edits);
+      mesher::apply(std::move(*edits), watched);
       progress.set_task("after " + std::to_string(++updates) + " updates, ");
-    });
+    }
   } catch (const mesher::Error& error) {
-    throw with_domain_hint(error);
+    throw with_domain_hint(input.located(error));
   }
 }
 
@@ -56,14 +60,13 @@ traces::Recording record(const mesher::Mesher<2>& mesher, const std::string& pat
 }
 
 void run_trace(const TraceArguments& args) {
-  const auto input = mesher::read_points<2>(args.input);
-  const auto options = mesh_options(args, input.points);
-  require_inside(input, options.domain);
+  Input input(args.input);
+  const auto options = mesh_options(args, input);
   require_writable(args);
   Progress progress(args.quiet);
   mesher::Mesher<2> mesher(options);
   insert_all(input, mesher, progress);
-  if (!args.script.empty()) follow_script(args, mesher, progress);
+  if (!args.script.empty()) follow_script(args, input, mesher, progress);
   const traces::Recording recording =
       record(mesher, args.trace, args.edges ? traces::Edges::yes : traces::Edges::no);
   progress.erase();
@@ -87,7 +90,7 @@ void add_trace(CLI::App& app) {
   trace->footer(
       "The tool 'traces' compares, audits and draws recordings. With --script the trace is the "
       "one\n"
-      "that the updates leave: the same as that of a fresh mesh of the edited points in the same\n"
+      "that the updates leave: the same as that of a fresh mesh of the edited input in the same\n"
       "domain, which by default is that of INPUT.\n"
       "Examples:\n"
       "  mesher trace points.node -o before.trace\n"

@@ -3,6 +3,7 @@
 #
 #   tool_test.sh TOOL DATA_FOLDER [SCRATCH_FOLDER]
 set -u
+here=$(realpath "$(dirname "${BASH_SOURCE[0]}")")
 tool=$(realpath "$1")
 data=$(realpath "$2")
 scratch=${3:-$(mktemp -d)}
@@ -10,7 +11,7 @@ mkdir -p "$scratch"
 scratch=$(mktemp -d "$scratch/tool_test.XXXXXX")
 trap 'rm -rf "$scratch"' EXIT
 # shellcheck source=../support/tool_checks.sh
-source "$(dirname "${BASH_SOURCE[0]}")/../support/tool_checks.sh"
+source "$here/../support/tool_checks.sh"
 cd "$scratch" || exit 1
 
 expect() { expect_of "$tool" "$@"; }
@@ -101,7 +102,8 @@ done
 
 echo "== bad options and outputs"
 refuse 2 'none.node: error[cannot_read]' mesh none.node -o out/x.vtu
-refuse 2 'uniform.poly: error[unknown_format]' mesh uniform.poly -o out/x.vtu
+refuse 2 'uniform.stl: error[unknown_format]' mesh uniform.stl -o out/x.vtu
+refuse 2 'none.poly: error[cannot_read]' mesh none.poly -o out/x.vtu
 refuse 2 'out/x.stl: error[unknown_format]' mesh uniform.node -o out/x.off -o out/x.stl
 refuse 2 'error[cannot_write]' mesh uniform.node -o out/x.vtu -o none/x.vtu
 refuse 2 'error[cannot_write]' mesh uniform.node -o out/x.vtu --stats none/x.json
@@ -166,7 +168,7 @@ for engine in '' --static; do
   expect 0 '' check after.node --input edited.node --rho 1.4142
   [[ $(wc -l <"after$engine.jsonl") == 5 ]] || fail "after$engine.jsonl has not 5 lines"
   has "after$engine.jsonl" '^\{"vertices":[0-9]+,"simplices":[0-9]+,"min_angle_deg":'
-  has "after$engine.jsonl" '^\{"edit":"-point 3","seconds":[0-9.e-]+,"calls":\{"executed":[0-9]+,"reused":[0-9]+,"created":[0-9]+,"discarded":[0-9]+\},"vertices":\{"added":[0-9]+,"removed":[1-9][0-9]*\},"simplices":\{"added":[0-9]+,"removed":[0-9]+\}\}$'
+  has "after$engine.jsonl" '^\{"edit":"-point 3","seconds":[0-9.e-]+,"calls":\{"executed":[0-9]+,"reused":[0-9]+,"created":[0-9]+,"discarded":[0-9]+\},"vertices":\{"added":[0-9]+,"removed":[1-9][0-9]*\},"simplices":\{"added":[0-9]+,"removed":[0-9]+\},"kept":\{"added":[0-9]+,"removed":[0-9]+\}\}$'
   has "after$engine.jsonl" '^\{"edit":"\+point 1001 0\.125 0\.875; -point 1000; move 5 \.9 \.1"'
 done
 "$tool" edit uniform.node "${domain[@]}" --script edits.txt --stats - >piped.jsonl || fail "--stats -"
@@ -206,14 +208,20 @@ echo "== lines by scripts"
 printf '%s\n' '7 2' '1 0.1 0.1' '2 0.9 0.15' '3 0.5 0.9' '4 0.3 0.4' '5 0.7 0.3' '6 0.2 0.8' \
   '7 0.8 0.8' >corners.node
 printf '%s\n' '+segment 1 1 3' '+polyline 2 3 2 1' '+segment 3 4 5' '-segment 3' >lines.txt
-expect 0 'updates' edit corners.node --script lines.txt -o lines.vtu -o lines.svg
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  expect 0 'updates' edit corners.node --script lines.txt $engine -o "lines$engine.vtu" -o lines.svg
+done
+same lines.vtu lines--static.vtu
 expect 0 'lines       ok      ' check lines.vtu --input corners.node --rho 1.4142
 has lines.vtu 'Name="line"'
 printf '%s\n' '+segment 1 1 3' '+segment 2 6 5' >crossing.txt
-refuse 1 'crossing.txt:2:1: error[crossing_segments]' edit corners.node --script crossing.txt \
-  -o out/x.vtu
-refuse 3 'lines.txt:1:1: error[bad_edit]: only points' edit corners.node --script lines.txt --static \
-  -o out/x.vtu
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  refuse 1 'crossing.txt:2:1: error[crossing_segments]' edit corners.node --script crossing.txt \
+    $engine -o out/x.vtu
+done
+expect 1 '(segment 1: crossing.txt:1)' edit corners.node --script crossing.txt -o out/x.vtu
 same after.node uniform.mesh.node
 
 echo "== bad edits: FILE:LINE:COL: error[code], nothing written"
@@ -245,6 +253,25 @@ refuse 1 '--domain' edit uniform.node --script bad.txt -o out/x.node
 refuse 2 'none.txt: error[cannot_read]' edit uniform.node --script none.txt -o out/x.node
 refuse 2 'error[bad_option]' edit uniform.node -o out/x.node
 refuse 2 'edits.off: error[bad_option]' edit uniform.node --script edits.off -o edits.off
+
+bad_edit 3 '2:1: error[unknown_id]' '-hole 5'
+bad_edit 3 '2:1: error[unknown_id]' '-region 5'
+bad_edit 3 '3:1: error[repeated_id]' '+hole 5 .5 .5\n+hole 5 .5 .5'
+bad_edit 3 '2:11: error[bad_edit]' '+hole 5 .5'
+bad_edit 3 '2:15: error[bad_edit]' '+hole 5 .5 .5 1'
+bad_edit 3 '2:16: error[bad_edit]' '+region 5 .5 .5'
+bad_edit 3 '2:21: error[bad_edit]' '+region 5 .5 .5 1 2 3'
+bad_edit 3 '2:17: error[bad_number]' '+region 5 .5 .5 x'
+bad_edit 3 '2:17: error[not_finite]' '+region 5 .5 .5 inf'
+bad_edit 3 '2:1: error[unknown_id]' '-segment 5'
+bad_edit 3 '3:1: error[repeated_id]' '+segment 5 1 2\n+polyline 5 3 4'
+bad_edit 1 '2:1: error[zero_length]' '+segment 5 1 1'
+bad_edit 3 '2:1: error[unknown_id]' '+segment 5 1 999'
+bad_edit 1 '3:1: error[point_in_use]' '+segment 5 1 2\n-point 2'
+bad_edit 1 '3:1: error[repeated_segment]' '+segment 5 1 2\n+polyline 6 2 1'
+
+# shellcheck source=tool_domain_test.sh
+source "$here/tool_domain_test.sh"
 
 echo "== check speaks"
 sed '2s/ [0-9]* \([0-9]*\)$/ \1 \1/' uniform.mesh.ele >bent.ele

@@ -9,12 +9,17 @@
 //   +polyline ID P...    new segments from point to point, under one id; closed if the last point
 //                        is the first
 //   -polyline ID         all of them less
+//   +hole ID x y         what the lines enclose around the place is no part of the domain
+//   -hole ID             a hole less
+//   +region ID x y ATTRIBUTE [MAX_AREA]
+//                        what the lines enclose around the place has this attribute and limit
+//   -region ID           a region less
 //   begin                the edits up to `commit` are one update;
 //   commit               outside, each edit is an update of its own
 //
-// Points have ids of their own, and so have lines: segments and polylines. A block is judged by
-// where its points end: it may take a place before it frees it, and remove a point before its
-// segments.
+// Points have ids of their own, and so have lines (segments and polylines), holes, and regions. A
+// block is judged by where its points end: it may take a place before it frees it, and remove a
+// point before its segments.
 //
 // Example:
 //   mesher::EditScript script("edits.txt");
@@ -28,13 +33,14 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/domain.hpp"
 #include "mesher/error.hpp"
 #include "mesher/mesh.hpp"
 #include "mesher/mesher.hpp"
 
 namespace mesher {
 
-/// One edit of one point or line.
+/// One edit of one point, line or seed.
 struct Edit {
   enum class Kind : std::uint8_t {
     insert,
@@ -44,14 +50,26 @@ struct Edit {
     remove_segment,
     insert_polyline,
     remove_polyline,
+    insert_hole,
+    remove_hole,
+    insert_region,
+    remove_region,
   };
   Kind kind = Kind::insert;
   FeatureId id{};
-  Point<2> point{};                 ///< of insert and move
-  std::vector<FeatureId> points{};  ///< of a new segment or polyline
-  std::string text;                 ///< the line without comment and outer blanks
+  Point<2> point{};                  ///< of insert and move, and of a new seed
+  std::vector<FeatureId> points{};   ///< of a new segment or polyline
+  double attribute = 0;              ///< of a new region
+  std::optional<double> max_area{};  ///< likewise
+  std::string text;                  ///< the line without comment and outer blanks
   Place place;
 };
+
+/// What has ids of its own.
+enum class Featured : std::uint8_t { point, line, hole, region };
+
+/// What an edit is of.
+[[nodiscard]] Featured featured(Edit::Kind kind);
 
 /// Reads a script a batch at a time; a batch is one update.
 class EditScript {
@@ -75,15 +93,17 @@ class EditScript {
   long number_ = 0;
 };
 
-/// What one update of a script did.
-template <int D>
+/// The edits' lines, with "; " between them.
+[[nodiscard]] std::string text_of(const std::vector<Edit>& edits);
+
+/// What one update of a script did. `Made`: what the target's update() returns.
+template <int D, class Made = Change<D>>
 struct Update {
   std::vector<Edit> edits;
-  Change<D> change;
+  Made change;
   double seconds = 0;  ///< of wall-clock time: the edits and the update
 
-  /// The edits' lines, with "; " between them.
-  [[nodiscard]] std::string text() const;
+  [[nodiscard]] std::string text() const { return text_of(edits); }
 };
 
 /// Announces `edit` of a line to a mesher, or to anything with its functions for lines.
@@ -94,32 +114,45 @@ void announce_line(const Edit& edit, Target& target) {
     switch (edit.kind) {
       case Edit::Kind::insert_segment:
         return target.insert_segment(edit.id, edit.points[0], edit.points[1]);
-      case Edit::Kind::remove_segment:
-        return target.remove_segment(edit.id);
       case Edit::Kind::insert_polyline:
         return target.insert_polyline(edit.id, edit.points);
       default:
-        return target.remove_polyline(edit.id);
+        return target.remove_segment(edit.id);
     }
   } else {
     throw Error(ErrorCode::bad_edit, "only points can be edited here");
   }
 }
 
+/// The same of a seed and a DomainMesher, or anything with its functions for seeds.
+template <class Target>
+void announce_seed(const Edit& edit, Target& target) {
+  if constexpr (requires { target.insert_seed(Seed()); }) {
+    const SeedKind kind = featured(edit.kind) == Featured::hole ? SeedKind::hole : SeedKind::region;
+    const SeedName name{kind, edit.id};
+    if (edit.kind == Edit::Kind::remove_hole || edit.kind == Edit::Kind::remove_region) {
+      return target.remove_seed(name);
+    }
+    target.insert_seed({name, edit.point, edit.attribute, edit.max_area});
+  } else {
+    throw Error(ErrorCode::bad_edit, "holes and regions cannot be edited here");
+  }
+}
+
 /// Announces `edit` to a mesher, or to anything with its insert, remove and move, and perhaps its
-/// functions for lines. Throws: Error as those, said of the edit's place.
+/// functions for lines and seeds. Throws: Error as those, said of the edit's place.
 template <class Target>
 void announce(const Edit& edit, Target& target) {
   try {
+    if (featured(edit.kind) == Featured::line) return announce_line(edit, target);
+    if (featured(edit.kind) != Featured::point) return announce_seed(edit, target);
     switch (edit.kind) {
       case Edit::Kind::insert:
         return target.insert(edit.id, edit.point);
       case Edit::Kind::remove:
         return target.remove(edit.id);
-      case Edit::Kind::move:
-        return target.move(edit.id, edit.point);
       default:
-        return announce_line(edit, target);
+        return target.move(edit.id, edit.point);
     }
   } catch (const Error& error) {
     throw error.at(edit.place);
@@ -130,8 +163,8 @@ void announce(const Edit& edit, Target& target) {
 [[nodiscard]] double now();
 
 /// The order in which a batch is announced: lines that go; points, those that are there before
-/// those that the batch inserts, so that places are free before they are taken; lines that come.
-/// Else as they stand.
+/// those that the batch inserts, so that places are free before they are taken; lines that come;
+/// seeds. Else as they stand.
 [[nodiscard]] std::vector<Edit> announcing_order(std::vector<Edit> edits);
 
 /// Where the edit stands that an error of update() is about: the last one of the feature to blame,
@@ -141,12 +174,13 @@ void announce(const Edit& edit, Target& target) {
 /// Makes one batch one update of `target`.
 /// Throws: Error, with the place of the edit to blame; `target` is then as before the batch.
 template <class Target>
-Update<2> apply(std::vector<Edit> edits, Target& target) {
+auto apply(std::vector<Edit> edits, Target& target) {
+  using Made = decltype(target.update());
   const double start = now();
   try {
     for (const Edit& edit : announcing_order(edits)) announce(edit, target);
-    Change<2> change = target.update();
-    return {std::move(edits), std::move(change), now() - start};
+    Made change = target.update();
+    return Update<2, Made>{std::move(edits), std::move(change), now() - start};
   } catch (const Error& error) {
     target.discard_edits();
     if (error.place().line > 0 || error.code() == ErrorCode::cancelled || edits.empty()) throw;

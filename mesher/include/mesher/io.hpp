@@ -126,6 +126,9 @@ enum class MeshFiles : std::uint8_t {
 [[nodiscard]] MeshWriter open_mesh(OutputFiles& files, const std::string& path,
                                    MeshFiles content = MeshFiles::plain);
 
+/// The extension of a path in small letters, ".vtu": what formats go by.
+[[nodiscard]] std::string format_of(const std::string& path);
+
 /// Writes a mesh to `path` (and beside it) as open_mesh describes, whole or not at all; the files
 /// of a `.node` output are `features` if there are any.
 /// Throws: Error (unknown_format, cannot_write).

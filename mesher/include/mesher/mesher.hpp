@@ -99,6 +99,21 @@ struct RunControl {
   static constexpr std::uint64_t kCallsBetween = 256;
 };
 
+/// A point of the input.
+template <int D>
+struct InputPoint {
+  FeatureId id{};
+  Point<D> at{};
+  friend bool operator==(const InputPoint&, const InputPoint&) = default;
+};
+
+/// A line of the input: segments from point to point.
+struct InputLine {
+  FeatureId id{};
+  std::vector<FeatureId> points;  ///< two or more
+  friend bool operator==(const InputLine&, const InputLine&) = default;
+};
+
 /// How large a mesh and its trace are; times of the first run.
 struct MeshStats {
   std::size_t vertices = 0;
@@ -162,10 +177,18 @@ class Mesher {
   /// Cost: O(log L/s) calls per edited point [Theorem 4.3.8], each O(log L/s), the first time per
   /// vertex; stopped or failed, as much again to take back what was done.
   Change<D> update(const RunControl& control = {});
+  /// The same, with a last word on the change before it is final: what `accept` throws leaves
+  /// update(), and the mesh stays as it was. It must not use the mesher.
+  using Accept = std::function<void(const Change<D>&)>;
+  Change<D> update(const RunControl& control, const Accept& accept);
 
   /// The mesh of the last update() in canonical form, whatever has been announced since; empty
   /// before the first. Cost: O(m log m).
   [[nodiscard]] Mesh<D> mesh() const;
+
+  /// The points and lines of the last update(), ascending by id. Cost: O(n log n).
+  [[nodiscard]] std::vector<InputPoint<D>> points() const;
+  [[nodiscard]] std::vector<InputLine> lines() const;
 
   /// Number of input points that are announced to be there.
   [[nodiscard]] std::size_t size() const;

@@ -34,8 +34,8 @@ struct Mesher<2>::Impl {
   void insert_line(FeatureId id, const detail::LinePoints& points);
   void remove_line(FeatureId id);
   void discard_edits() noexcept;
-  Change<2> run(const RunControl& control);
-  Change<2> update(const RunControl& control);
+  Change<2> run(const RunControl& control, const Accept& accept);
+  Change<2> update(const RunControl& control, const Accept& accept);
 
   Options<2> options;
   std::unique_ptr<detail::State> state;  // of the last update
@@ -119,20 +119,20 @@ void Mesher<2>::Impl::discard_edits() noexcept {
 
 // --- Updates ---------------------------------------------------------------------------------
 
-Change<2> Mesher<2>::Impl::run(const RunControl& control) {
+Change<2> Mesher<2>::Impl::run(const RunControl& control, const Accept& accept) {
   detail::Edits edits{announced.sorted(), announced_lines.sorted()};
   if (moved) require_apart(edits.points);
-  if (state->ran()) return state->propagate(edits, control);
+  if (state->ran()) return state->propagate(edits, control, accept);
   auto fresh = std::make_unique<detail::State>(options);
-  Change<2> change = fresh->first_run(std::move(edits), control);
+  Change<2> change = fresh->first_run(std::move(edits), control, accept);
   state = std::move(fresh);
   return change;
 }
 
-Change<2> Mesher<2>::Impl::update(const RunControl& control) {
+Change<2> Mesher<2>::Impl::update(const RunControl& control, const Accept& accept) {
   detail::require_unstopped(control);
   try {
-    Change<2> change = run(control);
+    Change<2> change = run(control, accept);
     discard_edits();
     return change;
   } catch (const sac::Cancelled&) {
@@ -212,12 +212,27 @@ void Mesher<D>::discard_edits() noexcept {
 
 template <int D>
 Change<D> Mesher<D>::update(const RunControl& control) {
-  return impl_->update(control);
+  return impl_->update(control, {});
+}
+
+template <int D>
+Change<D> Mesher<D>::update(const RunControl& control, const Accept& accept) {
+  return impl_->update(control, accept);
 }
 
 template <int D>
 Mesh<D> Mesher<D>::mesh() const {
   return impl_->state->ran() ? impl_->state->mesh() : Mesh<D>();
+}
+
+template <int D>
+std::vector<InputPoint<D>> Mesher<D>::points() const {
+  return impl_->state->points();
+}
+
+template <int D>
+std::vector<InputLine> Mesher<D>::lines() const {
+  return impl_->state->lines();
 }
 
 template <int D>

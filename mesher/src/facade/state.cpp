@@ -123,7 +123,7 @@ void State::add_all_first(const Edits& edits) {
   forget_news();
 }
 
-Change<2> State::first_run(Edits edits, const RunControl& control) {
+Change<2> State::first_run(Edits edits, const RunControl& control, const Accept& accept) {
   add_all_first(edits);
   edits = Edits();  // the run needs the memory
   post_all();
@@ -139,6 +139,7 @@ Change<2> State::first_run(Edits edits, const RunControl& control) {
   stats_ = timed_stats(*world_, all);
   Change<2> change = whole(all);
   change.calls = calls;
+  if (accept) accept(change);
   return change;
 }
 
@@ -218,7 +219,7 @@ void State::require_room(std::size_t now) const {
   }
 }
 
-Change<2> State::propagate(const Edits& edits, const RunControl& control) {
+Change<2> State::propagate(const Edits& edits, const RunControl& control, const Accept& accept) {
   const auto meter = [&](const sac::Progress& p) {
     return detail::report(control, {Phase::update, p.executed, p.executed + p.queued});
   };
@@ -233,6 +234,7 @@ Change<2> State::propagate(const Edits& edits, const RunControl& control) {
     report_stars(std::move(log), change);
     report_edges(change);
     require_room(stats_.vertices + change.vertices_added.size() - change.vertices_removed.size());
+    if (accept) accept(change);
   };
   make(edits, arrived);
   // While it is under way, there may be vertices that come as well as those that go.

@@ -29,6 +29,8 @@ struct Edits {
 
 class State final : private Names {
  public:
+  using Accept = Mesher<2>::Accept;
+
   /// Throws: Error(bad_option).
   explicit State(const Options<2>& options);
   State(const State&) = delete;
@@ -36,10 +38,11 @@ class State final : private Names {
   ~State();
 
   /// Inserts the points and lines and runs the program. Requires: no run yet; edits insert.
-  Change<2> first_run(Edits edits, const RunControl& control);
+  Change<2> first_run(Edits edits, const RunControl& control, const Accept& accept);
 
   /// Makes the edits, those of what goes first, and propagates them. Requires: a run.
-  Change<2> propagate(const Edits& edits, const RunControl& control);
+  /// `accept`: asked when all can still be undone.
+  Change<2> propagate(const Edits& edits, const RunControl& control, const Accept& accept);
 
   [[nodiscard]] bool ran() const noexcept { return ran_; }
   [[nodiscard]] Mesh<2> mesh() const;
@@ -58,6 +61,9 @@ class State final : private Names {
   [[nodiscard]] std::optional<Named> obstacle(const Point<2>& p) const;
   /// The points that a line goes along; empty if it is not there.
   [[nodiscard]] const LinePoints& line(FeatureId id) const;
+  /// Ascending by id.
+  [[nodiscard]] std::vector<InputPoint<2>> points() const;
+  [[nodiscard]] std::vector<InputLine> lines() const;
 
   void check_invariants() const;
 

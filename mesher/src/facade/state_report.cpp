@@ -38,6 +38,22 @@ std::vector<detail::LineEdge> State::line_edges() const {
   return all;
 }
 
+std::vector<InputPoint<2>> State::points() const {
+  std::vector<InputPoint<2>> all;
+  all.reserve(ids_.size());
+  for (const auto& [id, h] : ids_) all.push_back({id, pool()[h].p});
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return all;
+}
+
+std::vector<InputLine> State::lines() const {
+  std::vector<InputLine> all;
+  all.reserve(line_points_.size());
+  for (const auto& [id, points] : line_points_) all.push_back({id, points});
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return all;
+}
+
 Mesh<2> State::mesh() const {
   return canonical(pool(), live_vertices(), triangles(), line_edges());
 }

@@ -18,7 +18,7 @@ struct Form {
   Edit::Kind kind;
   std::size_t fields;
   std::string_view usage;
-  bool open = false;  // there may be more fields
+  std::size_t most = fields;
 };
 
 constexpr Form kForms[] = {
@@ -27,8 +27,12 @@ constexpr Form kForms[] = {
     {"move", Edit::Kind::move, 4, "move ID x y"},
     {"+segment", Edit::Kind::insert_segment, 4, "+segment ID A B"},
     {"-segment", Edit::Kind::remove_segment, 2, "-segment ID"},
-    {"+polyline", Edit::Kind::insert_polyline, 4, "+polyline ID P P...", true},
+    {"+polyline", Edit::Kind::insert_polyline, 4, "+polyline ID P P...", SIZE_MAX},
     {"-polyline", Edit::Kind::remove_polyline, 2, "-polyline ID"},
+    {"+hole", Edit::Kind::insert_hole, 4, "+hole ID x y"},
+    {"-hole", Edit::Kind::remove_hole, 2, "-hole ID"},
+    {"+region", Edit::Kind::insert_region, 5, "+region ID x y ATTRIBUTE [MAX_AREA]", 6},
+    {"-region", Edit::Kind::remove_region, 2, "-region ID"},
 };
 
 const Form& form_of(const text::Line& line) {
@@ -38,22 +42,22 @@ const Form& form_of(const text::Line& line) {
   throw line.error(ErrorCode::bad_edit,
                    "no edit is called " + text::quoted(line[0]) +
                        "; there are +point, -point, move, +segment, -segment, +polyline, "
-                       "-polyline, begin and commit",
+                       "-polyline, +hole, -hole, +region, -region, begin and commit",
                    0);
 }
 
-bool takes_place(Edit::Kind kind) { return kind == Edit::Kind::insert || kind == Edit::Kind::move; }
-
-bool is_of_line(const Edit& edit) {
-  return edit.kind != Edit::Kind::remove && !takes_place(edit.kind);
+bool takes_place(Edit::Kind kind) {
+  return kind == Edit::Kind::insert || kind == Edit::Kind::move ||
+         kind == Edit::Kind::insert_hole || kind == Edit::Kind::insert_region;
 }
+bool is_of_line(const Edit& edit) { return featured(edit.kind) == Featured::line; }
 bool inserts(const Edit& edit) {
   return edit.kind == Edit::Kind::insert || edit.kind == Edit::Kind::insert_segment ||
          edit.kind == Edit::Kind::insert_polyline;
 }
 
 // When edits of a batch are announced, by rank: 0 of lines that go, 1 of points that are there, 2
-// of points that come, 3 of lines that come.
+// of points that come, 3 of lines that come, 4 of seeds.
 std::vector<int> ranks(const std::vector<Edit>& edits) {
   std::map<FeatureId, bool> points;  // whether they come: by the first edit of each
   std::map<FeatureId, bool> lines;   // whether they have come so far
@@ -63,6 +67,8 @@ std::vector<int> ranks(const std::vector<Edit>& edits) {
       bool& came = lines[edit.id];
       came = came || inserts(edit);
       all.push_back(came ? 3 : 0);
+    } else if (featured(edit.kind) != Featured::point) {
+      all.push_back(4);
     } else {
       all.push_back(points.emplace(edit.id, inserts(edit)).first->second ? 2 : 1);
     }
@@ -70,18 +76,35 @@ std::vector<int> ranks(const std::vector<Edit>& edits) {
   return all;
 }
 
+void require_fields(const text::Line& line, const Form& form) {
+  if (line.size() >= form.fields && line.size() <= form.most) return;
+  throw line.error(
+      ErrorCode::bad_edit,
+      std::to_string(line.size()) + " fields, expected '" + std::string(form.usage) + "'",
+      std::min(line.size(), form.most));
+}
+
+// The limit of a region, where it is given: as in a .poly file, none if it is not above 0.
+std::optional<double> max_area_of(const text::Line& line) {
+  if (line.size() < 6) return std::nullopt;
+  const double area = line.finite(5);
+  return area > 0 ? std::optional(area) : std::nullopt;
+}
+
 Edit parse(const text::Line& line) {
   const Form& form = form_of(line);
-  if (form.open ? line.size() < form.fields : line.size() != form.fields) {
-    throw line.error(
-        ErrorCode::bad_edit,
-        std::to_string(line.size()) + " fields, expected '" + std::string(form.usage) + "'",
-        std::min(line.size(), form.fields));
-  }
-  Edit edit{form.kind, FeatureId{line.integer(1)},  {},
-            {},        std::string(line.trimmed()), line.place(0)};
+  require_fields(line, form);
+  Edit edit;
+  edit.kind = form.kind;
+  edit.id = FeatureId{line.integer(1)};
+  edit.text = line.trimmed();
+  edit.place = line.place(0);
   if (takes_place(form.kind)) {
     edit.point = {line.coordinate(2), line.coordinate(3)};
+    if (form.kind == Edit::Kind::insert_region) {
+      edit.attribute = line.finite(4);
+      edit.max_area = max_area_of(line);
+    }
   } else {
     for (std::size_t i = 2; i < line.size(); ++i) {
       edit.points.push_back(FeatureId{line.integer(i)});
@@ -103,6 +126,23 @@ bool is_word(const text::Line& line, std::string_view word) {
 }
 
 }  // namespace
+
+Featured featured(Edit::Kind kind) {
+  switch (kind) {
+    case Edit::Kind::insert:
+    case Edit::Kind::remove:
+    case Edit::Kind::move:
+      return Featured::point;
+    case Edit::Kind::insert_hole:
+    case Edit::Kind::remove_hole:
+      return Featured::hole;
+    case Edit::Kind::insert_region:
+    case Edit::Kind::remove_region:
+      return Featured::region;
+    default:
+      return Featured::line;
+  }
+}
 
 EditScript::EditScript(const std::string& path) : path_(path) {
   std::error_code error;
@@ -153,7 +193,7 @@ std::vector<Edit> announcing_order(std::vector<Edit> edits) {
   const std::vector<int> rank = ranks(edits);
   std::vector<Edit> ordered;
   ordered.reserve(edits.size());
-  for (int r = 0; r < 4; ++r) {
+  for (int r = 0; r < 5; ++r) {
     for (std::size_t i = 0; i < edits.size(); ++i) {
       if (rank[i] == r) ordered.push_back(std::move(edits[i]));
     }
@@ -161,14 +201,16 @@ std::vector<Edit> announcing_order(std::vector<Edit> edits) {
   return ordered;
 }
 
-// A line may have the id of a point: where the error is one of lines, theirs are meant.
+// A line may have the id of a point: where the error is one of lines, theirs are meant. Seeds are
+// never to blame.
 Place place_to_blame(const std::vector<Edit>& edits, const Error& error) {
   const bool of_lines = error.code() == ErrorCode::crossing_segments ||
                         error.code() == ErrorCode::overlapping_segments ||
                         error.code() == ErrorCode::repeated_segment;
   for (const FeatureId id : error.ids()) {
     const auto is_of = [&](const Edit& edit) {
-      return edit.id == id && (!of_lines || is_of_line(edit));
+      const Featured of = featured(edit.kind);
+      return edit.id == id && (of == Featured::line || (of == Featured::point && !of_lines));
     };
     const auto last = std::find_if(edits.rbegin(), edits.rend(), is_of);
     if (last != edits.rend()) return last->place;
@@ -176,14 +218,11 @@ Place place_to_blame(const std::vector<Edit>& edits, const Error& error) {
   return edits.back().place;
 }
 
-template <int D>
-std::string Update<D>::text() const {
+std::string text_of(const std::vector<Edit>& edits) {
   std::string all;
   for (const Edit& edit : edits) all += (all.empty() ? "" : "; ") + edit.text;
   return all;
 }
-
-template struct Update<2>;
 
 double now() {
   const auto since_start = std::chrono::steady_clock::now().time_since_epoch();

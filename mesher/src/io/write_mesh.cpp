@@ -64,6 +64,8 @@ MeshWriter open_mesh(OutputFiles& files, const std::string& path, MeshFiles cont
               {path});
 }
 
+std::string format_of(const std::string& path) { return text::extension(path); }
+
 void write_mesh(const Mesh<2>& mesh, const std::string& path) {
   OutputFiles files;
   open_mesh(files, path)(mesh);

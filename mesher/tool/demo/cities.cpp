@@ -1,17 +1,13 @@
-// mesher_demo POINTS FOLDER: meshes real points, edits them, and shows what following edits costs
-// beside meshing anew.
-//
-// The edits are the same each time: remove a point, put it back, add a point, move a point, each
-// one update. At the end the mesh is compared, bit for bit, with one made from scratch.
+// The cities of the world: points are removed, put back, added and moved, each one update. At the
+// end the mesh is compared, bit for bit, with one made from scratch.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
-#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "demo.hpp"
 #include "mesher/check.hpp"
 #include "mesher/edit_script.hpp"
 #include "mesher/generate.hpp"
@@ -19,13 +15,14 @@
 #include "mesher/mesher.hpp"
 #include "mesher/svg.hpp"
 
+namespace demo {
 namespace {
 
 using mesher::FeatureId;
 using mesher::Mesh;
 using mesher::Point;
 
-constexpr int kUpdates = 2000;
+constexpr int kUpdates = 1000;
 constexpr std::uint64_t kSeed = 2026;
 
 /// The points that are in the mesh, and the edits that change both.
@@ -113,18 +110,6 @@ class World {
   Point<2> removed_{};
 };
 
-// The median of five runs.
-double seconds_from_scratch(const World& world) {
-  std::vector<double> seconds;
-  for (int i = 0; i < 5; ++i) {
-    const double start = mesher::now();
-    (void)world.mesh_from_scratch();
-    seconds.push_back(mesher::now() - start);
-  }
-  std::sort(seconds.begin(), seconds.end());
-  return seconds[2];
-}
-
 // The triangles that came or went, with as much again around them.
 mesher::SvgView view_of(const mesher::Change<2>& change) {
   mesher::SvgView view{{change.vertices_added.front(), change.vertices_added.front()}, {}};
@@ -149,66 +134,36 @@ void draw(mesher::OutputFiles& files, const std::string& path, const Mesh<2>& me
   mesher::write_svg(mesh, view, files.open(path));
 }
 
-void print_table(const Mesh<2>& mesh, double scratch, std::vector<double> seconds) {
-  std::sort(seconds.begin(), seconds.end());
-  const double median = seconds[seconds.size() / 2], p99 = seconds[seconds.size() * 99 / 100];
-  const auto quality = mesher::quality(mesh);
+void print_mesh(const Mesh<2>& mesh) {
   std::printf("  vertices                  %10zu\n", mesh.vertices.size());
   std::printf("  triangles                 %10zu\n", mesh.simplices.size());
-  std::printf("  smallest angle            %10.2f degrees\n", quality.min_angle_deg);
-  std::printf("  from scratch              %10.3f ms\n", scratch * 1e3);
-  std::printf("  update, median            %10.3f ms  (%zu updates)\n", median * 1e3,
-              seconds.size());
-  std::printf("  update, 99 of 100 below   %10.3f ms\n", p99 * 1e3);
-  std::printf("  speed-up, median          %10.1f times\n", scratch / median);
+  std::printf("  smallest angle            %10.2f degrees\n", mesher::quality(mesh).min_angle_deg);
 }
 
-void run(const std::string& input_path, const std::string& folder) {
-  const auto file = mesher::read_points<2>(input_path);
-  if (file.points.empty())
-    throw mesher::Error(mesher::ErrorCode::bad_option, "no points", {input_path});
+}  // namespace
+
+void show_cities(const std::string& path, const std::string& folder, mesher::OutputFiles& files) {
+  const auto file = mesher::read_points<2>(path);
+  if (file.points.empty()) throw mesher::Error(mesher::ErrorCode::bad_option, "no points", {path});
   mesher::Options<2> options;
   options.domain = mesher::snapped_domain<2>(file.points);
   World world(file, options);
   const Mesh<2> first = world.mesh();
-  std::printf("%s: %zu points\n", input_path.c_str(), file.points.size());
-  const double scratch = seconds_from_scratch(world);
+  std::printf("%s: %zu points\n", path.c_str(), file.points.size());
+  print_mesh(first);
+  const double scratch = seconds_of([&] { (void)world.mesh_from_scratch(); });
   std::vector<double> seconds;
   for (int i = 0; i < kUpdates; ++i) seconds.push_back(world.edit(i));
-  print_table(first, scratch, seconds);
+  print_seconds(scratch, std::move(seconds));
 
   const Mesh<2> before = world.mesh();
   const mesher::Change<2> change = world.add_between_neighbours();
   const Mesh<2> after = world.mesh();
   if (after != world.mesh_from_scratch()) throw std::logic_error("the mesh differs from scratch");
   std::printf("  after all updates the mesh is that from scratch, bit for bit\n");
-
-  mesher::OutputFiles files;
-  mesher::open_mesh(files, folder + "/cities.vtu")(first);
   mesher::open_mesh(files, folder + "/cities.svg")(first);
-  draw(files, folder + "/edit_before.svg", before, view_of(change), change.simplices_removed);
-  draw(files, folder + "/edit_after.svg", after, view_of(change), change.simplices_added);
-  std::printf("Written, the last two a new point with the triangles that it replaces and makes:\n");
-  for (const auto& path : files.targets()) std::printf("  %s\n", path.c_str());
-  files.commit();
+  draw(files, folder + "/city_before.svg", before, view_of(change), change.simplices_removed);
+  draw(files, folder + "/city_after.svg", after, view_of(change), change.simplices_added);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "usage: mesher_demo POINTS FOLDER\n");
-    return static_cast<int>(mesher::ExitCode::usage);
-  }
-  try {
-    std::filesystem::create_directories(argv[2]);
-    run(argv[1], argv[2]);
-    return 0;
-  } catch (const mesher::Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return static_cast<int>(mesher::exit_code(error.code()));
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "error[bug]: %s\n", error.what());
-    return static_cast<int>(mesher::ExitCode::bug);
-  }
-}
+}  // namespace demo

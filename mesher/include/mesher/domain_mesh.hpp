@@ -1,0 +1,68 @@
+// From a graph to the mesh of what it encloses.
+//
+// Example:
+//   const PslgFile lake = read_pslg("lake.poly");
+//   const Options<2> options{.domain = snapped_domain<2>(places_of(lake.pslg))};
+//   const DomainMesh mesh =
+//       domain_mesh(mesh_statically(lake.pslg, options), lake.pslg, Extent::enclosed);
+//   write_mesh(mesh.kept, "lake.vtu");
+//
+// DomainMesher does the same for graphs that are edited.
+#pragma once
+
+#include <vector>
+
+#include "mesher/domain.hpp"
+#include "mesher/mesh_data.hpp"
+#include "mesher/mesher.hpp"
+#include "mesher/pslg.hpp"
+
+namespace mesher {
+
+/// The part of a mesh that is wanted, and what was found of regions.
+struct DomainMesh {
+  MeshData kept;                  ///< as `extract` gives it; without features if the graph is bare
+  std::vector<Region> regions;    ///< of the whole mesh, as find_domain gives them
+  std::vector<SeedFault> faults;  ///< likewise
+  bool keeps_all = true;
+};
+
+/// Whether there are no lines, seeds and markers: then meshes are meshes of points alone.
+[[nodiscard]] bool is_bare(const Pslg& graph);
+
+[[nodiscard]] std::vector<Point<2>> places_of(const Pslg& graph);
+/// Segments with their ids, then the pieces of polylines with theirs.
+[[nodiscard]] std::vector<Segment> segments_of(const Pslg& graph);
+/// Holes, then regions.
+[[nodiscard]] std::vector<Seed> seeds_of(const Pslg& graph);
+
+/// The mesh of a graph's points and lines in the box. Throws: as mesh_statically of these.
+[[nodiscard]] Mesh<2> mesh_statically(const Pslg& graph, const Options<2>& options,
+                                      MeshStats* stats = nullptr, const RunControl& control = {});
+
+/// A mesh of `graph` with origins, edges on lines, and the markers of the graph's points and lines.
+/// Requires: `mesh` is that of its points and lines. Cost: O(m + n log n).
+[[nodiscard]] MeshData with_features(Mesh<2> mesh, const Pslg& graph);
+
+/// Finds the domain in a mesh of `graph`, and takes it out. Requires: as with_features.
+/// Throws: Error as find_domain. Cost: as with_features, find_domain and extract.
+[[nodiscard]] DomainMesh domain_mesh(Mesh<2> mesh, const Pslg& graph, Extent extent);
+
+/// Announces all of `graph` to a DomainMesher, or to a Mesher<2>, which takes no seeds and markers.
+/// Throws: Error as their functions do; what came before stays announced.
+template <class Target>
+void announce(const Pslg& graph, Target& target) {
+  constexpr bool kTakesSeeds = requires { target.insert_seed(Seed()); };
+  if constexpr (kTakesSeeds) {
+    for (const auto& p : graph.points) target.insert(p.id, p.at, p.marker);
+    for (const auto& s : graph.segments) target.insert_segment(s.id, s.from, s.to, s.marker);
+    for (const auto& l : graph.polylines) target.insert_polyline(l.id, l.points, l.marker);
+    for (const Seed& seed : seeds_of(graph)) target.insert_seed(seed);
+  } else {
+    for (const auto& p : graph.points) target.insert(p.id, p.at);
+    for (const auto& s : graph.segments) target.insert_segment(s.id, s.from, s.to);
+    for (const auto& l : graph.polylines) target.insert_polyline(l.id, l.points);
+  }
+}
+
+}  // namespace mesher

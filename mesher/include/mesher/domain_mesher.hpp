@@ -1,0 +1,107 @@
+// A quality mesh and the domain in it, both following points, lines and seeds.
+//
+// Example:
+//   DomainMesher lake(options);
+//   announce(read_pslg("lake.poly").pslg, lake);
+//   lake.update();                                     // first run
+//   lake.move(FeatureId{17}, {0.25, 0.5});
+//   lake.insert_hole(FeatureId{2}, {0.3, 0.7});
+//   const DomainUpdate change = lake.update();         // work near the edits
+//   ... change.domain.kept_added, change.domain.kept_removed ...
+//   write_mesh(lake.domain_mesh().kept, "lake.vtu");
+//
+// Words as in domain.hpp. Guarantees, after every update():
+//   (1) the mesh is that of a Mesher<2> with these points and lines; the domain is that of
+//       find_domain in it;
+//   (2) both are functions of the input and the options alone;
+//   (3) what throws, for whatever reason, leaves mesh, domain, seeds and markers as they were:
+//       points, lines and seeds of a batch come together or not at all.
+// Cost of an update: that of Mesher<2>, and that of DomainFollower for its change: that of a region
+// where walls join or part regions, or where a seed gives one another label. The first line or seed
+// that comes to a mesh of points alone costs all its triangles, once.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "mesher/domain_follower.hpp"
+#include "mesher/domain_mesh.hpp"
+#include "mesher/mesher.hpp"
+
+namespace mesher {
+
+/// What an update did to the mesh, and to the domain.
+struct DomainUpdate : Change<2> {
+  DomainChange domain;
+};
+
+class DomainMesher {
+ public:
+  /// Throws: as Mesher<2>.
+  explicit DomainMesher(const Options<2>& options, Extent extent = Extent::enclosed);
+  DomainMesher(DomainMesher&&) noexcept;
+  DomainMesher& operator=(DomainMesher&&) noexcept;
+  ~DomainMesher();
+
+  /// Points and lines are announced as to a Mesher<2>, with its errors. `marker`: what vertices and
+  /// edges get in domain_mesh(); a point keeps it when it moves.
+  void insert(FeatureId id, const Point<2>& point, std::int64_t marker = 0);
+  void remove(FeatureId id);
+  void move(FeatureId id, const Point<2>& point);
+  void insert_segment(FeatureId id, FeatureId from, FeatureId to, std::int64_t marker = 0);
+  void insert_polyline(FeatureId id, const std::vector<FeatureId>& points, std::int64_t marker = 0);
+  void remove_segment(FeatureId id);
+  void remove_polyline(FeatureId id) { remove_segment(id); }
+
+  /// Announces a seed that shall be there. It may be anywhere: one without a region of its own is
+  /// one of faults(). A seed that is removed and inserted in one batch moves.
+  /// Throws: Error (repeated_id, and as find_domain). Cost: O(log s).
+  void insert_seed(const Seed& seed);
+  void insert_hole(FeatureId id, const Point<2>& at);
+  void insert_region(FeatureId id, const Point<2>& at, double attribute,
+                     std::optional<double> max_area = {});
+  /// Announces that a seed goes. Throws: Error(unknown_id). Cost: O(log s).
+  void remove_seed(const SeedName& name);
+  void remove_hole(FeatureId id) { remove_seed({SeedKind::hole, id}); }
+  void remove_region(FeatureId id) { remove_seed({SeedKind::region, id}); }
+
+  /// Takes back every edit announced since the last update().
+  void discard_edits() noexcept;
+
+  /// As Mesher<2>::update, of all that is announced. `domain` of the first: from nothing.
+  DomainUpdate update(const RunControl& control = {});
+
+  /// The mesh of the last update() in the box, without features. Cost: O(m log m).
+  [[nodiscard]] Mesh<2> mesh() const;
+  /// The part that is wanted, with features: mesher::domain_mesh of mesh() and input().
+  [[nodiscard]] DomainMesh domain_mesh() const;
+  /// The graph of the last update(), ascending by id; a line of two points is a segment.
+  /// Cost: O(n log n).
+  [[nodiscard]] Pslg input() const;
+
+  /// Requires: a triangle of the mesh, from any corner. Cost: O(1) for vertices of bounded degree.
+  [[nodiscard]] RegionLabel label(const DomainChange::Corners& triangle) const;
+  [[nodiscard]] bool keeps(const DomainChange::Corners& triangle) const;
+  /// Of the last update(); without the segments' ids. Cost: O(seeds).
+  [[nodiscard]] std::vector<SeedFault> faults() const;
+
+  /// Whether it is announced to be there.
+  [[nodiscard]] bool contains(FeatureId id) const;
+  [[nodiscard]] bool contains_line(FeatureId id) const;
+  [[nodiscard]] bool contains_seed(const SeedName& name) const;
+
+  [[nodiscard]] MeshStats stats() const;
+  [[nodiscard]] const Options<2>& options() const;
+  [[nodiscard]] Extent extent() const;
+
+  /// Throws std::logic_error naming the broken invariant. Cost: O(trace + m log m).
+  void check_invariants() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace mesher

@@ -1,0 +1,53 @@
+// What a DomainMesher is made of: a mesher, a follower of its domain, and what both do not know of
+// the input. The follower has its say on a change while the mesher can still take it back.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "facade/edited_table.hpp"
+#include "mesher/domain_mesher.hpp"
+
+namespace mesher::detail {
+
+class DomainState {
+ public:
+  using Markers = EditedTable<FeatureId, std::int64_t>;
+
+  DomainState(const Options<2>& options, Extent extent) : mesher_(options), extent_(extent) {}
+
+  void insert(FeatureId id, const Point<2>& point, std::int64_t marker);
+  void remove(FeatureId id);
+  void move(FeatureId id, const Point<2>& point) { mesher_.move(id, point); }
+  void insert_line(FeatureId id, const std::vector<FeatureId>& points, std::int64_t marker);
+  void remove_line(FeatureId id);
+  void insert_seed(const Seed& seed);
+  void remove_seed(const SeedName& name);
+  void discard_edits() noexcept;
+  DomainUpdate update(const RunControl& control);
+
+  [[nodiscard]] Pslg input() const;
+  [[nodiscard]] bool contains_seed(const SeedName& name) const {
+    return seeds_.find(name) != nullptr;
+  }
+  [[nodiscard]] const Mesher<2>& mesher() const noexcept { return mesher_; }
+  [[nodiscard]] Extent extent() const noexcept { return extent_; }
+  /// Nobody as long as there are points alone.
+  [[nodiscard]] const std::optional<DomainFollower>& follower() const noexcept { return follower_; }
+
+ private:
+  void prepare();
+  void commit() noexcept;
+  [[nodiscard]] DomainChange begin(const Change<2>& change);
+  [[nodiscard]] DomainChange follow(const Change<2>& change);
+
+  Mesher<2> mesher_;
+  Extent extent_;
+  Markers point_markers_, line_markers_;
+  EditedTable<SeedName, Seed> seeds_;
+  std::optional<DomainFollower> follower_;  // from the first line or seed on
+  bool needs_follower_ = false;             // there are edits to follow
+  bool ran_ = false;
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,120 @@
+// Places of features, for errors.
+#include "input.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+namespace tool {
+namespace {
+
+using mesher::Error;
+using mesher::ErrorCode;
+using mesher::Featured;
+using mesher::FeatureId;
+using mesher::Place;
+
+template <class Part>
+std::size_t find(const std::vector<Part>& parts, FeatureId id) {
+  std::size_t i = 0;
+  while (i < parts.size() && parts[i].id != id) ++i;
+  return i;
+}
+
+// What the ids of an error are of. One of features that are too close begins with the first.
+std::vector<Featured> kinds_of(const Error& error) {
+  const Featured p = Featured::point, l = Featured::line;
+  switch (error.code()) {
+    case ErrorCode::crossing_segments:
+    case ErrorCode::overlapping_segments:
+    case ErrorCode::repeated_segment:
+    case ErrorCode::too_many:
+      return {l, l};
+    case ErrorCode::point_on_segment:
+    case ErrorCode::point_in_use:
+      return {p, l};
+    case ErrorCode::unknown_id:  // of a line's end, or of something that has a place
+      return error.ids().size() == 2 ? std::vector{p, l} : std::vector<Featured>();
+    case ErrorCode::bad_option:
+      return {l};
+    case ErrorCode::duplicate_point:
+    case ErrorCode::outside_domain:
+      return {p, p};
+    case ErrorCode::zero_length:
+      return {l, p};
+    case ErrorCode::too_close:
+      if (!error.message().starts_with("segment ")) return {p, p};
+      return {l, error.message().find("too close to point") != std::string::npos ? p : l};
+    default:
+      return {};
+  }
+}
+
+std::string words(Featured kind, FeatureId id) {
+  return (kind == Featured::point ? "point " : "segment ") +
+         std::to_string(static_cast<std::int64_t>(id));
+}
+
+std::string text(const Place& place) {
+  return place.line > 0 ? place.file + ":" + std::to_string(place.line) : place.file;
+}
+
+bool same_line(const Place& a, const Place& b) { return a.file == b.file && a.line == b.line; }
+
+}  // namespace
+
+void Input::follow(const std::vector<mesher::Edit>& edits) {
+  for (const auto& edit : edits) {
+    edited_.insert_or_assign({mesher::featured(edit.kind), edit.id}, edit.place);
+  }
+}
+
+Place Input::place(Featured kind, FeatureId id) const {
+  const auto edited = edited_.find({kind, id});
+  if (edited != edited_.end()) return edited->second;
+  const auto& graph = file_.pslg;
+  const auto at = [&](const auto& parts, auto place_of) {
+    const std::size_t i = find(parts, id);
+    return i < parts.size() ? (file_.*place_of)(i) : Place{file_.file};
+  };
+  switch (kind) {
+    case Featured::point:
+      return at(graph.points, &mesher::PslgFile::place_of_point);
+    case Featured::hole:
+      return at(graph.holes, &mesher::PslgFile::place_of_hole);
+    case Featured::region:
+      return at(graph.regions, &mesher::PslgFile::place_of_region);
+    case Featured::line:
+      break;
+  }
+  const Place segment = at(graph.segments, &mesher::PslgFile::place_of_segment);
+  return segment.line > 0 ? segment : at(graph.polylines, &mesher::PslgFile::place_of_polyline);
+}
+
+Error Input::located(const Error& error) const {
+  if (error.code() == ErrorCode::cancelled) return error;
+  const std::vector<Featured> kinds = kinds_of(error);
+  Place blamed = error.place();
+  std::string others;
+  for (std::size_t i = 0; i < std::min(kinds.size(), error.ids().size()); ++i) {
+    const Place stands = place(kinds[i], error.ids()[i]);
+    if (stands.line == 0 || same_line(stands, blamed)) continue;
+    if (blamed.line == 0) {
+      blamed = stands;
+    } else {
+      others +=
+          (others.empty() ? " (" : ", ") + words(kinds[i], error.ids()[i]) + ": " + text(stands);
+    }
+  }
+  if (blamed.file.empty()) blamed.file = file_.file;
+  if (!others.empty()) others += ")";
+  return Error(error.code(), error.message() + others, blamed, error.ids());
+}
+
+std::string Input::warning(const mesher::SeedFault& fault) const {
+  const bool hole = fault.seed.kind == mesher::SeedKind::hole;
+  const Place stands = place(hole ? Featured::hole : Featured::region, fault.seed.id);
+  return text(stands) + ": warning: " + describe(fault);
+}
+
+}  // namespace tool

@@ -1,0 +1,41 @@
+// What is meshed, and where each part of it stands: in INPUT, or in the script that brought it.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mesher/domain.hpp"
+#include "mesher/edit_script.hpp"
+#include "mesher/pslg.hpp"
+
+namespace tool {
+
+class Input {
+ public:
+  /// Throws: Error, as read_pslg.
+  explicit Input(const std::string& path) : file_(mesher::read_pslg(path)) {}
+
+  [[nodiscard]] const std::string& path() const noexcept { return file_.file; }
+  [[nodiscard]] const mesher::Pslg& graph() const noexcept { return file_.pslg; }
+  [[nodiscard]] const mesher::PslgFile& file() const noexcept { return file_; }
+
+  /// From now on, what `edits` bring stands where they do.
+  void follow(const std::vector<mesher::Edit>& edits);
+
+  /// Where a feature stands; without a line if it is not there. Cost: O(n), for errors.
+  [[nodiscard]] mesher::Place place(mesher::Featured kind, mesher::FeatureId id) const;
+
+  /// The error with the place of the feature to blame, unless it has a line already, and those of
+  /// the others in its message. What is said of nothing that stands somewhere is said of the file.
+  [[nodiscard]] mesher::Error located(const mesher::Error& error) const;
+
+  /// `PLACE: warning: WHAT` for a seed that has no region of its own.
+  [[nodiscard]] std::string warning(const mesher::SeedFault& fault) const;
+
+ private:
+  mesher::PslgFile file_;
+  std::map<std::pair<mesher::Featured, mesher::FeatureId>, mesher::Place> edited_;
+};
+
+}  // namespace tool

@@ -1,0 +1,265 @@
+# Lines, holes and regions as a user of the tool meets them; sourced by tool_test.sh.
+# shellcheck shell=bash disable=SC2154
+
+echo "== a lake with an island, a wall and two regions"
+cat >lake.poly <<'END'
+# points: id x y marker
+10 2 0 1
+1 0 0 5
+2 6 0 5
+3 8 0 0
+4 8 8 0
+5 6 8 0
+6 0 8 0
+7 2 2 0
+8 4 2 0
+9 4 4 0
+10 2 4 0
+11 1
+1 1 2 3
+2 2 3 3
+3 3 4 0
+4 4 5 0
+5 5 6 0
+6 6 1 0
+7 7 8 0
+8 8 9 0
+9 9 10 0
+10 10 7 0
+11 2 5 7
+1
+1 3 3
+2
+1 1 1 10 -1
+2 7 7 20 0.5
+END
+formats=(node ele edge poly neigh vtu vtk msh mesh off obj svg)
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  expect 0 'regions               2, holes 1' mesh lake.poly $engine -o "lake$engine.1.node" \
+    -o "lake$engine.1.vtu" -o "lake$engine.1.vtk" -o "lake$engine.1.msh" -o "lake$engine.1.mesh" \
+    -o "lake$engine.1.off" -o "lake$engine.1.obj" -o "lake$engine.1.svg" --stats "lake$engine.json"
+done
+for format in "${formats[@]}"; do same "lake.1.$format" "lake--static.1.$format"; done
+for format in node vtu vtk msh mesh obj; do
+  expect 0 'segments    ok' check "lake.1.$format" --input lake.poly --rho 1.4142
+done
+has lake.1.ele '^[0-9]+ [0-9]+ [0-9]+ [0-9]+ 10$'
+has lake.1.ele '^[0-9]+ [0-9]+ [0-9]+ [0-9]+ 20$'
+has lake.1.edge '^[0-9]+ [0-9]+ [0-9]+ 7 11$'
+has lake.1.edge '^[0-9]+ [0-9]+ [0-9]+ 1 3$'
+has lake.1.node '^[0-9]+ 6 0 2 2 5$'
+has lake.1.node '^[0-9]+ 8 8 2 4 1$'
+has lake.1.msh '"region 20"'
+has lake.1.msh '"marker 7"'
+has lake.1.svg '#fde3cf'
+python3 - <<'END' || fail "lake.json: $(cat lake.json)"
+import json
+run = json.load(open('lake.json'))
+assert run['above_rho'] == 0 and run['min_angle_deg_within_rho'] == run['min_angle_deg']
+assert run['regions'] == 2 and run['holes'] == 1 and run['seed_faults'] == 0
+assert run['kept']['points'] == 10 and run['kept']['vertices'] < run['vertices']
+assert run['kept']['simplices'] == int(open('lake.1.ele').readline().split()[0])
+END
+expect 0 'regions               4, holes 1' mesh lake.poly --box -o lake.box.vtu
+sed -n 2,12p lake.poly >beside.node
+expect 0 "" check lake.box.vtu --input beside.node --boundary box --rho 1.4142
+[[ -z $("$tool" mesh lake.poly --quiet -o quiet.vtu 2>&1) ]] || fail "--quiet is not quiet"
+
+echo "== an output never takes an input's name"
+refuse 2 'lake.poly: error[bad_option]' mesh lake.poly -o lake.node
+[[ ! -e lake.node ]] || fail "lake.node is there"
+{ echo '0 2 0 0' && tail -n +13 lake.poly; } >beside.poly
+refuse 2 'beside.node: error[bad_option]' mesh beside.poly -o beside.node
+expect 0 'regions               2, holes 1' mesh beside.poly -o beside.1.node
+same beside.1.node lake.1.node
+
+echo "== every format with lines gives the same mesh"
+cat >ring.poly <<'END'
+4 2 0 0
+1 0 0
+2 1 0
+3 1 1
+4 0 1
+4 0
+1 1 2
+2 2 3
+3 3 4
+4 4 1
+0
+END
+printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nl 1 2\nl 2 3\nl 3 4\nl 4 1\n' >ring.obj
+cat >ring.geojson <<'END'
+{"type": "MultiLineString", "coordinates":
+  [[[0, 0], [1, 0]], [[1, 0], [1, 1]], [[1, 1], [0, 1]], [[0, 1], [0, 0]]]}
+END
+cp ring.geojson ring.json
+expect 0 '4 points, 4 lines' mesh ring.poly -o ring.1.vtu
+for input in ring.obj ring.geojson ring.json; do
+  expect 0 '4 points, 4 lines' mesh "$input" -o other.vtu
+  same ring.1.vtu other.vtu
+done
+cat >island.geojson <<'END'
+{"type": "Feature", "properties": {"attribute": 3}, "geometry": {"type": "Polygon", "coordinates":
+  [[[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]], [[3, 3], [3, 5], [5, 5], [5, 3], [3, 3]]]}}
+END
+expect 0 'regions               1, holes 1' mesh island.geojson -o island.1.node
+has island.1.ele ' 3$'
+expect 0 'regions     ok' check island.1.node --input island.geojson --rho 1.4142
+
+echo "== what encloses nothing is meshed in the box"
+sed '/^4 4 1$/d; s/^4 0$/3 0/' ring.poly >open.poly
+expect 0 'vertices              ' mesh open.poly -o open.1.vtu
+expect 0 '' mesh open.poly --box -o open.box.vtu
+same open.1.vtu open.box.vtu
+sed 's/^4 2 0 0/5 2 0 0/; s/^4 0 1$/4 0 1\n5 3 3/' ring.poly >stray.poly
+expect 0 'points left out       1; --box keeps all' mesh stray.poly -o stray.1.vtu
+
+echo "== seeds without a region are warned of"
+sed 's/^1 3 3$/1 5 8/; s/^1 1 1 10 -1/1 7 6 10 -1/' lake.poly >faults.poly
+expect 0 'faults.poly:26: warning: the seed of hole 1 at (5, 8) is on segment 5' mesh faults.poly \
+  -o faults.1.vtu
+expect 0 'faults.poly:29: warning: the seed of region 2 at (7, 7) is in one region with region 1' \
+  mesh faults.poly --static -o faults.1.vtu --stats faults.json
+has faults.json '"seed_faults": 2'
+sed 's/^1 1 1 10 -1/1 99 99 10 -1/' lake.poly >far.poly
+expect 0 'far.poly:28: warning: the seed of region 1 at (99, 99) is outside' mesh far.poly -o far.1.vtu
+sed 's/^1 1 1 10 -1/1 1 1 10/' lake.poly >single.poly
+expect 0 'single.poly:28: note: a region with one value' mesh single.poly -o single.1.vtu
+
+echo "== bad geometry: both features with their lines"
+# bad_lake CODE TEXT SED_SCRIPT
+bad_lake() {
+  sed "$3" lake.poly >bad.poly
+  for engine in '' --static; do
+    # shellcheck disable=SC2086
+    refuse "$1" "$2" mesh bad.poly $engine -o out/x.vtu --stats out/x.json
+  done
+}
+bad_lake 1 'bad.poly:21:1: error[crossing_segments]: segment 8 crosses segment 11 at (4, 2.6666666666666665) (segment 11: bad.poly:24)' \
+  's/^11 2 5 7/11 2 6 7/; s/^3 3 4 0/3 3 5 0/'
+bad_lake 1 'bad.poly:24:1: error[repeated_segment]: segment 11 is segment 1 again, from (0, 0) to (6, 0) (segment 1: bad.poly:14)' \
+  's/^11 2 5 7/11 1 2 7/'
+bad_lake 1 'bad.poly:14:1: error[overlapping_segments]: segment 1 overlaps segment 11 from (0, 0) to (6, 0) (segment 11: bad.poly:24)' \
+  's/^11 2 5 7/11 1 3 7/'
+bad_lake 1 'bad.poly:24:1: error[zero_length]: segment 11 goes from point 2 to itself (point 2: bad.poly:4)' \
+  's/^11 2 5 7/11 2 2 7/'
+bad_lake 1 'bad.poly:12:1: error[point_on_segment]: point 10 (8, 4) lies on segment 3 (segment 3: bad.poly:16)' \
+  's/^10 2 4 0/10 8 4 0/'
+bad_lake 1 'bad.poly:12:1: error[duplicate_point]: point 10 (2, 2) lies on point 7 (point 7: bad.poly:9)' \
+  's/^10 2 4 0/10 2 2 0/'
+bad_lake 1 '(point 7: bad.poly:9)' 's/^10 2 4 0/10 2 2.000000000000001 0/'
+bad_lake 3 'bad.poly:24:1: error[unknown_id]: segment 11' 's/^11 2 5 7/11 2 99 7/'
+refuse 2 'segments need the rule radius_edge' mesh lake.poly --rule voronoi-aspect -o out/x.vtu
+
+echo "== --max-vertices"
+refuse 4 'error[too_many]: more than 60 vertices' mesh lake.poly --max-vertices 60 -o out/x.vtu
+refuse 4 'lake.poly:14:1: error[too_many]' mesh lake.poly --max-vertices 60 --static -o out/x.vtu
+refuse 2 '--max-vertices' mesh lake.poly --max-vertices 0 -o out/x.vtu
+refuse 2 '--max-vertices' mesh lake.poly --max-vertices -5 -o out/x.vtu
+refuse 2 '--max-vertices' mesh lake.poly --max-vertices 1e3 -o out/x.vtu
+expect 0 '' mesh lake.poly --max-vertices 67 -o budget.vtu
+same budget.vtu lake.1.vtu
+
+echo "== edits of lines and seeds"
+cat >harbour.txt <<'END'
++point 20 1 6
++point 21 5 6
+begin                  # a pier, and what it parts
++segment 30 20 21
+move 9 5 5
+commit
+-segment 11
+-region 2
+begin
+-hole 1
++hole 1 3 2.5
++hole 2 1 1
++region 3 3 3 -2.5 0.25
+commit
+-hole 2
++polyline 31 3 20 6
+move 21 5 6.5
+END
+cat >harbour.poly <<'END'
+12 2 0 1
+1 0 0 5
+2 6 0 5
+3 8 0 0
+4 8 8 0
+5 6 8 0
+6 0 8 0
+7 2 2 0
+8 4 2 0
+9 5 5 0
+10 2 4 0
+20 1 6 0
+21 5 6.5 0
+13 1
+1 1 2 3
+2 2 3 3
+3 3 4 0
+4 4 5 0
+5 5 6 0
+6 6 1 0
+7 7 8 0
+8 8 9 0
+9 9 10 0
+10 10 7 0
+30 20 21 0
+31 3 7 0
+32 20 6 0
+1
+1 3 2.5
+2
+1 1 1 10
+3 3 3 -2.5 0.25
+END
+sed -i 's/^+polyline 31 3 20 6$/+segment 31 3 7\n+segment 32 20 6/' harbour.txt
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  expect 0 'updates' edit lake.poly --script harbour.txt $engine -o "harbour$engine.1.node" \
+    -o "harbour$engine.1.msh" -o "harbour$engine.1.vtu" -o "harbour$engine.1.svg" \
+    --stats "harbour$engine.jsonl"
+done
+expect 0 '' mesh harbour.poly --domain 0 0 8 8 --static -o fresh.1.node -o fresh.1.msh -o fresh.1.vtu
+for format in node ele edge poly neigh msh vtu; do
+  same "harbour.1.$format" "fresh.1.$format"
+  same "harbour--static.1.$format" "fresh.1.$format"
+done
+same harbour.1.svg harbour--static.1.svg
+has harbour.1.svg '#ffb347'
+counts harbour.jsonl >engine.counts
+counts harbour--static.jsonl >static.counts
+same engine.counts static.counts
+has harbour.jsonl '"edit":"-hole 2","seconds":[0-9.e-]+,"calls":\{"executed":0,.*"kept":\{"added":[1-9][0-9]*,"removed":0\}\}$'
+expect 0 'harbour.txt:13: warning: the seed of region 3 at (3, 3) is in one region with hole 1' \
+  edit lake.poly --script harbour.txt -o x.vtu
+expect 0 'calls' trace lake.poly --script <(grep -v 'hole\|region' harbour.txt) -o lake.trace
+refuse 3 'error[bad_edit]: holes and regions' trace lake.poly --script harbour.txt -o out/x.trace
+
+echo "== what a bad edit of a lake says"
+lake_edit() {
+  printf '%b\n' "$3" >bad.txt
+  for engine in '' --static; do
+    # shellcheck disable=SC2086
+    refuse "$1" "$2" edit lake.poly --script bad.txt $engine -o out/x.vtu --stats out/x.jsonl
+  done
+}
+across='+point 30 7 1\n+point 31 5 1\n+segment 40 30 31'
+lake_edit 1 'bad.txt:3:1: error[crossing_segments]: segment ' "$across"
+lake_edit 1 '(segment 11: lake.poly:24)' "$across"
+lake_edit 1 'bad.txt:1:1: error[point_on_segment]: point 30 (6, 5) lies on segment 11 (segment 11: lake.poly:24)' \
+  '+point 30 6 5'
+lake_edit 1 'bad.txt:1:1: error[point_in_use]: point 2 cannot go' '-point 2'
+lake_edit 1 'bad.txt:1:1: error[duplicate_point]' '+point 30 2 2'
+lake_edit 3 'bad.txt:1:1: error[repeated_id]' '+hole 1 5 5'
+lake_edit 3 'bad.txt:1:1: error[repeated_id]' '+region 2 5 5 0'
+lake_edit 3 'bad.txt:3:1: error[unknown_id]' 'begin\n-hole 1\n-hole 1\ncommit'
+
+echo "== the Great Lakes"
+if [[ -e $data/great_lakes.poly ]]; then
+  expect 0 ', 20.7' mesh "$data/great_lakes.poly" -o great_lakes.1.node
+  expect 0 'segments    ok      4535' check great_lakes.1.node --input "$data/great_lakes.poly" \
+    --rho 1.4142
+fi
