@@ -19,6 +19,7 @@ struct MeshArguments {
   std::string rule = "radius-edge";
   std::vector<std::string> domain;  // XMIN YMIN XMAX YMAX, or nothing
   std::string max_vertices;
+  bool repair = false;
   bool box = false;
   bool is_static = false;
   std::string stats;
@@ -42,6 +43,10 @@ void add_mesh_options(CLI::App& command, MeshArguments& args);
 
 /// The value of --rho. Throws: Error(bad_option).
 [[nodiscard]] double option_rho(const std::string& text);
+
+/// The input as it is to be meshed: repaired, if that is asked for.
+/// Throws: Error, as read_pslg and mesher::repair.
+[[nodiscard]] Input read_input(const MeshArguments& args);
 
 /// What to mesh: the domain as given, or around the input.
 /// Throws: Error(bad_option); Error(outside_domain) with the line of the first point outside,
