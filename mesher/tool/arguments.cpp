@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "mesher/domain_mesh.hpp"
 #include "mesher/sizes.hpp"
@@ -135,6 +136,9 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
                   "repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
+  command.add_flag("--repair", args.repair,
+                   "Lines that cross or touch get a common point there, points in one place are\n"
+                   "one, what lines share is that of the smallest id; each is reported");
   command.add_flag("--box", args.box, "All of the box, not only what lines enclose less the holes");
   command.add_flag("--static", args.is_static, "Without the engine; the mesh is the same");
   command.add_option("--stats", args.stats, "Figures as JSON")->type_name("FILE");
@@ -154,6 +158,19 @@ double option_rho(const std::string& text) {
   const double rho = option_number("--rho", text);
   if (rho > kLeastRho) return rho;
   throw Error(ErrorCode::bad_option, "--rho " + text + ": must be above " + to_text(kLeastRho));
+}
+
+Input read_input(const MeshArguments& args) {
+  Input input(args.input);
+  if (!args.repair) return input;
+  std::optional<mesher::Box<2>> domain;
+  if (!args.domain.empty()) domain = domain_of(args.domain);
+  try {
+    input.repair(domain);
+  } catch (const Error& error) {
+    throw with_domain_hint(error);
+  }
+  return input;
 }
 
 mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input) {

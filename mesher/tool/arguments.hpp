@@ -21,6 +21,7 @@ struct MeshArguments {
   std::string max_area, max_size, sizes;
   std::string max_vertices;
   bool region_areas = false;
+  bool repair = false;
   bool box = false;
   bool is_static = false;
   std::string stats;
@@ -44,6 +45,10 @@ void add_mesh_options(CLI::App& command, MeshArguments& args);
 
 /// The value of --rho. Throws: Error(bad_option).
 [[nodiscard]] double option_rho(const std::string& text);
+
+/// The input as it is to be meshed: repaired, if that is asked for.
+/// Throws: Error, as read_pslg and mesher::repair.
+[[nodiscard]] Input read_input(const MeshArguments& args);
 
 /// What to mesh: the domain as given, or around the input.
 /// Throws: Error(bad_option); Error(outside_domain) with the line of the first point outside,

@@ -71,7 +71,7 @@ void run_edit_on(Target target, const EditArguments& args, Input input) {
 }
 
 void run_edit(const EditArguments& args) {
-  Input input(args.input);
+  Input input = read_input(args);
   const auto options = mesh_options(args, input);
   if (args.is_static) {
     return run_edit_on(StaticMesher(options, extent(args)), args, std::move(input));

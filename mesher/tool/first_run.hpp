@@ -13,6 +13,7 @@ namespace tool {
 struct Result {
   mesher::DomainMesh mesh;
   Run run;
+  std::string angles;  // what small angles of the input do to the mesh
 };
 
 /// Gives `target` the input and updates it.
@@ -32,7 +33,7 @@ template <class Target>
 Result first_run(const Input& input, double rho, Target& target, Progress& progress) {
   const double start = mesher::now();
   insert_all(input, target, progress);
-  Result result{target.domain_mesh(), {}};
+  Result result{target.domain_mesh(), {}, {}};
   result.run.seconds_total = mesher::now() - start;
   result.run.stats = target.stats();
   measure(result.mesh, rho, result.run);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string_view>
 #include <utility>
 
 namespace tool {
@@ -19,6 +20,17 @@ std::size_t find(const std::vector<Part>& parts, FeatureId id) {
   std::size_t i = 0;
   while (i < parts.size() && parts[i].id != id) ++i;
   return i;
+}
+
+// Of the features that need vertices, as the message names them.
+std::vector<Featured> kinds_named(const std::string& message) {
+  std::vector<Featured> kinds;
+  for (auto at = message.find(": "); at != std::string::npos; at = message.find("), ", at + 1)) {
+    const std::string_view said = std::string_view(message).substr(message.find(' ', at) + 1);
+    if (said.starts_with("point ")) kinds.push_back(Featured::point);
+    if (said.starts_with("segment ")) kinds.push_back(Featured::line);
+  }
+  return kinds;
 }
 
 // What the ids of an error are of. One of features that are too close begins with the first.
@@ -43,6 +55,7 @@ std::vector<Featured> kinds_of(const Error& error) {
     case ErrorCode::zero_length:
       return {l, p};
     case ErrorCode::too_close:
+      if (error.message().starts_with("features ")) return kinds_named(error.message());
       if (!error.message().starts_with("segment ")) return {p, p};
       return {l, error.message().find("too close to point") != std::string::npos ? p : l};
     default:
@@ -62,6 +75,12 @@ std::string text(const Place& place) {
 bool same_line(const Place& a, const Place& b) { return a.file == b.file && a.line == b.line; }
 
 }  // namespace
+
+void Input::repair(const std::optional<mesher::Box<2>>& domain) {
+  mesher::Repaired repaired = mesher::repair(file_, domain);
+  file_ = std::move(repaired.file);
+  repairs_ = std::move(repaired.notes);
+}
 
 void Input::follow(const std::vector<mesher::Edit>& edits) {
   for (const auto& edit : edits) {

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mesher/domain.hpp"
 #include "mesher/edit_script.hpp"
 #include "mesher/pslg.hpp"
+#include "mesher/repair.hpp"
 
 namespace tool {
 
@@ -19,6 +21,11 @@ class Input {
   [[nodiscard]] const std::string& path() const noexcept { return file_.file; }
   [[nodiscard]] const mesher::Pslg& graph() const noexcept { return file_.pslg; }
   [[nodiscard]] const mesher::PslgFile& file() const noexcept { return file_; }
+
+  /// Lines that cross, touch or overlap become a graph that can be meshed; repairs() says how.
+  /// Throws: Error, as mesher::repair.
+  void repair(const std::optional<mesher::Box<2>>& domain);
+  [[nodiscard]] const std::vector<mesher::RepairNote>& repairs() const noexcept { return repairs_; }
 
   /// From now on, what `edits` bring stands where they do.
   void follow(const std::vector<mesher::Edit>& edits);
@@ -35,6 +42,7 @@ class Input {
 
  private:
   mesher::PslgFile file_;
+  std::vector<mesher::RepairNote> repairs_;
   std::map<std::pair<mesher::Featured, mesher::FeatureId>, mesher::Place> edited_;
 };
 

@@ -1,10 +1,12 @@
 // mesher mesh: a mesh of a file of points and lines.
 #include <memory>
+#include <utility>
 
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "figures.hpp"
 #include "first_run.hpp"
+#include "mesher/angles.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/sizes.hpp"
 #include "outputs.hpp"
@@ -36,9 +38,12 @@ Result mesh(const MeshArguments& args, const Input& input, const mesher::Options
   Result result;
   const double start = mesher::now();
   const auto make = args.is_static ? mesh_without_engine : mesh_with_engine;
-  result.mesh = mesher::domain_mesh(make(input, options, result.run.stats, progress), input.graph(),
-                                    extent(args));
-  result.run.seconds_total = mesher::now() - start;
+  mesher::Mesh<2> all = make(input, options, result.run.stats, progress);
+  const double meshed = mesher::now();
+  if (!args.quiet && !all.edges.empty()) result.angles = mesher::angle_report(all, options).text();
+  const double looked_at = mesher::now();
+  result.mesh = mesher::domain_mesh(std::move(all), input.graph(), extent(args));
+  result.run.seconds_total = mesher::now() - start - (looked_at - meshed);
   measure(result.mesh, options.rho, result.run);
   return result;
 }
@@ -57,7 +62,7 @@ mesher::Options<2> options_with_regions(const MeshArguments& args, const Input& 
 }
 
 void run_mesh(const MeshArguments& args) {
-  const Input input(args.input);
+  const Input input = read_input(args);
   const auto options = options_with_regions(args, input);
   Outputs outputs;
   open_outputs(args, input, outputs);
@@ -73,6 +78,7 @@ void run_mesh(const MeshArguments& args) {
   outputs.commit();
   if (args.quiet || figures.printed()) return;
   print_run(args.input, input.graph(), result.run);
+  print_angles(result.angles);
   print_outputs(targets);
 }
 

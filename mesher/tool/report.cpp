@@ -146,7 +146,18 @@ void print_remarks(const Input& input, const std::vector<mesher::SeedFault>& fau
     std::fprintf(stderr, "%s%s: note: %s\n", note.place.file.c_str(), line.c_str(),
                  note.text.c_str());
   }
+  for (const auto& note : input.repairs()) {
+    std::fprintf(stderr, "%s\n", note.text("repair: ").c_str());
+  }
   for (const auto& fault : faults) std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
+}
+
+void print_angles(const std::string& text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at);
+    std::printf("  %s\n", text.substr(at, end - at).c_str());
+    at = end + 1;
+  }
 }
 
 void print_updates(std::vector<double> seconds) {

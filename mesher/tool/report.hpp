@@ -48,6 +48,9 @@ void print_run(const std::string& input, const mesher::Pslg& graph, const Run& r
 /// Prints on standard error what of the input is not used, and which seeds have no region.
 void print_remarks(const Input& input, const std::vector<mesher::SeedFault>& faults);
 
+/// Prints lines of text, indented.
+void print_angles(const std::string& text);
+
 /// Prints the number of updates with their median, 99th percentile and longest time.
 /// `seconds`: one per update.
 void print_updates(std::vector<double> seconds);

@@ -171,8 +171,11 @@ MESHIO_WRITES = [("zlib", ".vtu", "vtu", {"compression": "zlib"}),
                  ("plain", ".vtu", "vtu", {"compression": None}),
                  ("ascii42", ".vtk", "vtk42", {"binary": False}),
                  ("ascii51", ".vtk", "vtk51", {"binary": False}),
+                 ("binary42", ".vtk", "vtk42", {"binary": True}),
+                 ("binary51", ".vtk", "vtk51", {"binary": True}),
                  ("medit", ".mesh", "medit", {"float_fmt": ".17g"})]
-GMSH_WRITES = (".msh", ".mesh", ".vtk")
+# How gmsh writes: binary or not, an extension.
+GMSH_WRITES = ((0, ".msh"), (0, ".mesh"), (0, ".vtk"), (1, ".msh"), (1, ".vtk"))
 
 
 def nearly_equal(points, expected):
@@ -212,16 +215,17 @@ def judge_files_of_meshio(program, stem, truth):
 
 def judge_files_of_gmsh(program, stem, truth):
     failures = 0
-    for extension in GMSH_WRITES:
-        path = f"{stem}.gmsh{extension}"
+    for binary, extension in GMSH_WRITES:
+        path = f"{stem}.gmsh{binary}{extension}"
         gmsh.initialize()
         gmsh.option.setNumber("General.Verbosity", 0)
         gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
         gmsh.option.setNumber("Mesh.SaveAll", 1)
+        gmsh.option.setNumber("Mesh.Binary", binary)
         gmsh.open(stem + ".msh")
         gmsh.write(path)
         gmsh.finalize()
-        failures += judge_our_reading(program, path, truth, exact=False)
+        failures += judge_our_reading(program, path, truth, exact=bool(binary))
     return failures
 
 

@@ -272,6 +272,8 @@ bad_edit 1 '3:1: error[repeated_segment]' '+segment 5 1 2\n+polyline 6 2 1'
 
 # shellcheck source=tool_domain_test.sh
 source "$here/tool_domain_test.sh"
+# shellcheck source=tool_repair_test.sh
+source "$here/tool_repair_test.sh"
 
 echo "== check speaks"
 sed '2s/ [0-9]* \([0-9]*\)$/ \1 \1/' uniform.mesh.ele >bent.ele

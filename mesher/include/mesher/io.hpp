@@ -66,8 +66,9 @@ template <int D>
 /// - `.node` or `.ele` (Triangle), the other beside it. If they are there, `.edge` (its edges with
 ///   a marker or line), `.poly` without points of its own (its segments) and `.neigh` (which must
 ///   agree with the triangles) are read too;
-/// - `.vtu` (VTK) as in pslg.hpp, and `.vtk` (legacy, ASCII): the cells are triangles and lines;
-/// - `.msh` (Gmsh, ASCII, version 4.1): physical groups are regions and markers;
+/// - `.vtu` (VTK) as in pslg.hpp, and `.vtk` (legacy, ASCII or binary): the cells are triangles and
+///   lines;
+/// - `.msh` (Gmsh, version 4.1, ASCII or binary): physical groups are regions and markers;
 /// - `.mesh` (Medit, ASCII): references are markers and regions;
 /// - `.off` (Geomview) and `.obj` (Wavefront): triangles; of .obj also lines.
 ///

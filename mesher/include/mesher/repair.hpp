@@ -68,8 +68,8 @@ struct RepairNote {
   Point<2> at{};  ///< where, or where it begins
   Place place;    ///< of the first line, if there is one, or of the first point
 
-  /// "FILE:LINE:COL: what was done", the place where it is known.
-  [[nodiscard]] std::string text() const;
+  /// "FILE:LINE:COL: what was done", the place where it is known; `prefix` stands before the deed.
+  [[nodiscard]] std::string text(const std::string& prefix = {}) const;
 };
 
 /// A graph without faults, and how it became so.
@@ -86,8 +86,8 @@ struct Repaired {
 /// be repaired; Error(bad_option) for a domain that cannot be meshed; Error(too_close) if
 /// kRepairRounds rounds do not do.
 /// Cost: O((n + c) log L/s) for n pieces of lines and c crossings, where lines are as long as they
-/// are far apart or lie side by side (10^5 segments that cross 10^5 times: 3 s); more for long lines
-/// in all directions. Many that cross in one place are worst: O(n^1.5 log L/s).
+/// are far apart or lie side by side (10^5 segments that cross 10^5 times: 3 s); more for long
+/// lines in all directions. Many that cross in one place are worst: O(n^1.5 log L/s).
 [[nodiscard]] Repaired repair(const PslgFile& file, const std::optional<Box<2>>& domain = {});
 [[nodiscard]] Repaired repair(const Pslg& pslg, const std::optional<Box<2>>& domain = {});
 

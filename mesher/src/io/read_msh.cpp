@@ -1,13 +1,18 @@
-// Reads `.msh` files (Gmsh, version 4.1, ASCII).
+// Reads `.msh` files (Gmsh, version 4.1).
 //
 //   $MeshFormat      4.1 0 8
 //   $PhysicalNames   n   dimension number "name"
 //   $Entities        points curves surfaces volumes, then each with its groups
 //   $Nodes           blocks nodes least most   dimension tag parametric n, tags, places
 //   $Elements        blocks elements least most   dimension tag type n, tag and nodes
+//
+// In a binary file names are text; elsewhere integers have 4 bytes, but counts, and the tags of
+// nodes and elements, 8. A 1 in $MeshFormat shows the order of bytes.
 #include <map>
+#include <set>
 #include <utility>
 
+#include "io/binary.hpp"
 #include "io/note_counter.hpp"
 #include "io/read_mesh.hpp"
 #include "io/rows.hpp"
@@ -23,12 +28,17 @@ using Key = std::pair<std::int64_t, std::int64_t>;  // dimension and number
 
 class MshReader {
  public:
-  explicit MshReader(const text::Source& source) : source_(source), fields_(source.content()) {}
+  explicit MshReader(const text::Source& source)
+      : source_(source), fields_(source.content()), bytes_(source, fields_) {}
 
   MeshData read() {
     expect("$MeshFormat");
     read_format();
     for (auto word = fields_.next(); !word.empty(); word = fields_.next()) read_section(word);
+    for (const char* section : {"$Nodes", "$Elements"}) {
+      if (seen_.contains(section)) continue;
+      throw source_.error(ErrorCode::truncated, std::string("no ") + section, source_.end());
+    }
     mesh_.kinds.assign(mesh_.vertices.size(), VertexKind::steiner);
     mesh_.notes = notes_.notes();
     return std::move(mesh_);
@@ -45,16 +55,34 @@ class MshReader {
     if (found == word) return;
     throw source_.error(ErrorCode::bad_syntax, "expected " + std::string(word), found);
   }
-  std::int64_t integer() { return source_.integer(take()); }
-  std::int64_t count() {
+  // A number, and where it is: nowhere in a binary file.
+  struct Number {
+    std::int64_t value;
+    std::string_view at;
+
+    [[nodiscard]] std::string text() const { return std::to_string(value); }
+  };
+  Number number(std::size_t bytes) {
+    if (binary_) return {bytes_.integer(bytes), {}};
     const std::string_view field = take();
-    const std::int64_t value = source_.integer(field);
-    if (value >= 0) return value;
-    throw source_.error(ErrorCode::bad_header, "a count of " + std::string(field), field);
+    return {source_.integer(field), field};
   }
-  double real() { return source_.finite(take()); }
-  void skip_reals(int n) {
-    for (int i = 0; i < n; ++i) (void)real();
+  Number tag() { return number(8); }  // of nodes and elements
+  std::int64_t integer() { return number(4).value; }
+  std::int64_t count() {
+    const Number n = number(8);
+    if (n.value < 0) throw error(ErrorCode::bad_header, "a count of " + n.text(), n);
+    return n.value;
+  }
+  double real() { return binary_ ? bytes_.real(8) : source_.finite(take()); }
+  void skip_reals(std::int64_t n) {
+    for (; n > 0; --n) (void)real();
+  }
+  [[nodiscard]] Place place(const Number& n) const {
+    return binary_ ? Place{source_.file()} : source_.place(n.at);
+  }
+  [[nodiscard]] Error error(ErrorCode code, const std::string& what, const Number& n) const {
+    return binary_ ? bytes_.error(code, what) : source_.error(code, what, n.at);
   }
 
   void read_format() {
@@ -63,15 +91,31 @@ class MshReader {
       throw source_.error(ErrorCode::unsupported,
                           "version " + std::string(version) + ": save as version 4.1", version);
     }
-    const std::string_view binary = take();
-    if (binary != "0") {
-      throw source_.error(ErrorCode::unsupported, "a binary file: save as ASCII", binary);
+    const std::string_view kind = take();
+    binary_ = kind == "1";
+    if (!binary_ && kind != "0") {
+      throw source_.error(ErrorCode::bad_header, "expected 0 (ASCII) or 1 (binary)", kind);
     }
-    (void)integer();
+    const std::string_view size = take();
+    if (source_.integer(size) != 8 && binary_) {
+      throw source_.error(ErrorCode::unsupported, "counts of other than 8 bytes", size);
+    }
+    if (binary_) read_byte_order();
     expect("$EndMeshFormat");
   }
 
+  void read_byte_order() {
+    bytes_.begin();
+    const std::uint64_t one = bytes_.bits(4);
+    if (one != 1 && one != 0x01000000) {
+      throw bytes_.error(ErrorCode::bad_header, "no order of bytes makes a 1");
+    }
+    bytes_.set_big_endian(one != 1);
+  }
+
   void read_section(std::string_view word) {
+    const bool has_numbers = word == "$Entities" || word == "$Nodes" || word == "$Elements";
+    if (binary_ && has_numbers) bytes_.begin();
     if (word == "$PhysicalNames") {
       read_names();
     } else if (word == "$Entities") {
@@ -84,19 +128,25 @@ class MshReader {
       return skip_section(word);
     }
     expect("$End" + std::string(word.substr(1)));
+    seen_.insert(word);
   }
 
   void skip_section(std::string_view word) {
     if (word[0] != '$') throw source_.error(ErrorCode::bad_syntax, "expected a section", word);
     notes_.add("the section " + text::quoted(word) + " is not used", source_.place(word));
     const std::string end = "$End" + std::string(word.substr(1));
-    while (take() != end) continue;
+    const auto at = fields_.rest().find(end);
+    if (at == std::string_view::npos) {
+      throw source_.error(ErrorCode::truncated, "the file ends before " + end, source_.end());
+    }
+    fields_ = text::Fields(fields_.rest().substr(at + end.size()));
   }
 
   // Names have blanks: the part between quotes.
   void read_names() {
-    for (auto left = count(); left > 0; --left) {
-      const std::int64_t dimension = integer(), number = integer();
+    std::int64_t left = text_integer();
+    for (; left > 0; --left) {
+      const std::int64_t dimension = text_integer(), number = text_integer();
       const std::string_view first = take();
       const auto begin = static_cast<std::size_t>(first.data() - source_.content().data()) + 1;
       const auto end = source_.content().find('"', begin);
@@ -107,6 +157,7 @@ class MshReader {
       fields_ = text::Fields(source_.content().substr(end + 1));
     }
   }
+  std::int64_t text_integer() { return source_.integer(take()); }
 
   void read_entities() {
     const std::int64_t points = count(), curves = count(), surfaces = count(), volumes = count();
@@ -123,12 +174,11 @@ class MshReader {
   void read_entity(std::int64_t dimension) {
     const std::int64_t tag = integer();
     skip_reals(6);
-    const std::string_view at = take();
-    const std::int64_t groups = source_.integer(at);
-    if (groups > 1) {
-      notes_.add("groups of an entity but the first are not used", source_.place(at));
+    const Number groups = number(8);
+    if (groups.value > 1) {
+      notes_.add("groups of an entity but the first are not used", place(groups));
     }
-    for (std::int64_t i = 0; i < groups; ++i) {
+    for (std::int64_t i = 0; i < groups.value; ++i) {
       const std::int64_t number = integer();
       if (i == 0) group_of_[{dimension, tag}] = number;
     }
@@ -137,42 +187,43 @@ class MshReader {
 
   void read_nodes() {
     const std::int64_t blocks = count(), nodes = count();
-    (void)integer(), (void)integer();
+    (void)tag(), (void)tag();
     for (std::int64_t i = 0; i < blocks; ++i) {
       const std::int64_t dimension = integer();
       (void)integer();
       const bool parametric = integer() != 0;
       const std::int64_t in_block = count();
-      std::vector<std::string_view> tags;
-      for (std::int64_t k = 0; k < in_block; ++k) tags.push_back(take());
-      for (const std::string_view tag : tags) {
+      std::vector<Number> tags;
+      for (std::int64_t k = 0; k < in_block; ++k) tags.push_back(tag());
+      for (const Number& tag : tags) {
         add_node(tag);
-        if (parametric) skip_reals(static_cast<int>(dimension));
+        if (parametric) skip_reals(dimension);
       }
     }
     require_indexable(mesh_.vertices.size(), source_.file());
     require_count("nodes", nodes, mesh_.vertices.size());
   }
 
-  void add_node(std::string_view tag) {
+  void add_node(const Number& tag) {
     const double x = real(), y = real();
-    const std::string_view z = take();
-    height_.require(source_.finite(z), [&] { return source_.place(z); });
+    const std::string_view at = fields_.rest();
+    const double z = real();
+    height_.require(z,
+                    [&] { return binary_ ? place(tag) : source_.place(text::Fields(at).next()); });
     const auto index = static_cast<std::uint32_t>(mesh_.vertices.size());
-    if (!node_.try_emplace(source_.integer(tag), index).second) {
-      throw source_.error(ErrorCode::repeated_id, "node " + std::string(tag) + " is given twice",
-                          tag);
+    if (!node_.try_emplace(tag.value, index).second) {
+      throw error(ErrorCode::repeated_id, "node " + tag.text() + " is given twice", tag);
     }
     mesh_.vertices.push_back({x, y});
   }
 
   void read_elements() {
     const std::int64_t blocks = count(), elements = count();
-    (void)integer(), (void)integer();
+    (void)tag(), (void)tag();
     std::size_t done = 0;
     for (std::int64_t i = 0; i < blocks; ++i) {
       const std::int64_t dimension = integer(), tag = integer();
-      const std::string_view type = take();
+      const Number type = number(4);
       const std::int64_t in_block = count();
       done += static_cast<std::size_t>(in_block);
       read_block(type, {dimension, tag}, in_block);
@@ -180,29 +231,28 @@ class MshReader {
     require_count("elements", elements, done);
   }
 
-  void read_block(std::string_view type, const Key& entity, std::int64_t elements) {
-    switch (source_.integer(type)) {
+  void read_block(const Number& type, const Key& entity, std::int64_t elements) {
+    switch (type.value) {
       case kPoint:
-        notes_.add("elements that are points are not used", source_.place(type));
-        for (; elements > 0; --elements) (void)integer(), (void)node();
+        notes_.add("elements that are points are not used", place(type));
+        for (; elements > 0; --elements) (void)tag(), (void)node();
         return;
       case kLine:
         return read_lines(marker_of(entity), elements);
       case kTriangle:
         return read_triangles(region_of(entity), elements);
     }
-    throw source_.error(ErrorCode::unsupported,
-                        "elements of the type " + std::string(type) +
-                            ": points (15), lines (1) and triangles (2) make a mesh",
-                        type);
+    throw error(ErrorCode::unsupported,
+                "elements of the type " + type.text() +
+                    ": points (15), lines (1) and triangles (2) make a mesh",
+                type);
   }
 
   void read_lines(std::int64_t marker, std::int64_t elements) {
     for (; elements > 0; --elements) {
-      const std::string_view number = take();
-      (void)source_.integer(number);
+      const Number number = tag();
       const std::uint32_t a = node(), b = node();
-      MeshEdge edge = edge_of(a, b, [&] { return source_.place(number); });
+      MeshEdge edge = edge_of(a, b, [&] { return place(number); });
       edge.marker = marker;
       mesh_.features.edges.push_back(edge);
     }
@@ -210,24 +260,22 @@ class MshReader {
 
   void read_triangles(double region, std::int64_t elements) {
     for (; elements > 0; --elements) {
-      const std::string_view number = take();
-      (void)source_.integer(number);
+      const Number number = tag();
       const Mesh<2>::Simplex t{node(), node(), node()};
       if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
-        throw source_.error(ErrorCode::bad_mesh,
-                            "triangle " + std::string(number) + " has the same corner twice",
-                            number);
+        throw error(ErrorCode::bad_mesh, "triangle " + number.text() + " has the same corner twice",
+                    number);
       }
       mesh_.simplices.push_back(t);
       mesh_.features.regions.push_back(region);
     }
   }
 
-  std::uint32_t node() { return node_at(take()); }
-  std::uint32_t node_at(std::string_view field) const {
-    const auto found = node_.find(source_.integer(field));
+  std::uint32_t node() {
+    const Number n = tag();
+    const auto found = node_.find(n.value);
     if (found != node_.end()) return found->second;
-    throw source_.error(ErrorCode::bad_mesh, "there is no node " + std::string(field), field);
+    throw error(ErrorCode::bad_mesh, "there is no node " + n.text(), n);
   }
 
   // What the name says behind its first word, as write_mesh writes it, or nothing.
@@ -262,12 +310,15 @@ class MshReader {
 
   const text::Source& source_;
   text::Fields fields_;
+  BinaryCursor bytes_;
+  bool binary_ = false;
   MeshData mesh_;
   NoteCounter notes_;
   PlaneHeight height_;
   std::map<std::int64_t, std::uint32_t> node_;  // by tag
   std::map<Key, std::int64_t> group_of_;        // of an entity
   std::map<Key, std::string_view> names_;       // of groups
+  std::set<std::string_view> seen_;             // sections
 };
 
 }  // namespace

@@ -1,8 +1,9 @@
-// Reads unstructured grids of `.vtk` files (VTK's legacy format, ASCII, versions 1 to 5).
+// Reads unstructured grids of `.vtk` files (VTK's legacy format, versions 1 to 5).
 //
 //   # vtk DataFile Version v
 //   title
-//   ASCII
+//   ASCII                    or BINARY: numbers are bytes then, the highest first, from the line
+//                            on that follows the last word before them
 //   DATASET UNSTRUCTURED_GRID
 //   POINTS n type            x y z ...
 //   CELLS n size             k v ... v     or, from version 5 on, OFFSETS type, CONNECTIVITY type
@@ -10,20 +11,35 @@
 //   POINT_DATA n, CELL_DATA n: SCALARS name type [components] LOOKUP_TABLE name, FIELD name arrays
 #include <utility>
 
+#include "io/binary.hpp"
 #include "io/text.hpp"
 #include "io/vtk_grid.hpp"
 
 namespace mesher {
 namespace {
 
-constexpr std::string_view kIntegers[] = {"bit",   "unsigned_char", "char",     "unsigned_short",
-                                          "short", "unsigned_int",  "int",      "unsigned_long",
-                                          "long",  "vtktypeint64",  "vtkidtype"};
-constexpr std::string_view kReals[] = {"float", "double"};
+struct NumberType {
+  std::string_view name;
+  bool is_integral;
+  bool is_signed;
+  std::size_t bytes;  // 0: not in binary files
+};
+
+// VTK writes its vtkIdType as int.
+constexpr NumberType kTypes[] = {{"bit", true, false, 0},      {"unsigned_char", true, false, 1},
+                                 {"char", true, true, 1},      {"unsigned_short", true, false, 2},
+                                 {"short", true, true, 2},     {"unsigned_int", true, false, 4},
+                                 {"int", true, true, 4},       {"unsigned_long", true, false, 8},
+                                 {"long", true, true, 8},      {"vtktypeint64", true, true, 8},
+                                 {"vtkidtype", true, true, 4}, {"vtkIdType", true, true, 4},
+                                 {"float", false, true, 4},    {"double", false, true, 8}};
+constexpr NumberType kInt = {"int", true, true, 4};  // of cells where no type is said
 
 class VtkReader {
  public:
-  explicit VtkReader(const text::Source& source) : source_(source), fields_({}) {
+  explicit VtkReader(const text::Source& source)
+      : source_(source), fields_({}), bytes_(source, fields_) {
+    bytes_.set_big_endian(true);
     grid_.file = source.file();
   }
 
@@ -32,6 +48,7 @@ class VtkReader {
     for (auto word = fields_.next(); !word.empty(); word = fields_.next()) read_section(word);
     grid_.points.name = "POINTS";
     if (!has_points_) fail(ErrorCode::truncated, "no POINTS", source_.end());
+    if (!has_cells_) fail(ErrorCode::truncated, "no CELLS", source_.end());
     if (grid_.offsets.size() != grid_.types.size()) {
       fail(ErrorCode::wrong_count,
            std::to_string(grid_.offsets.size()) + " cells with " +
@@ -60,9 +77,10 @@ class VtkReader {
     }
     fields_ = text::Fields(rest);
     const std::string_view format = take("ASCII");
-    if (format == "BINARY")
-      fail(ErrorCode::unsupported, "a binary file: write it as ASCII", format);
-    if (format != "ASCII") fail(ErrorCode::bad_header, "expected ASCII", format);
+    binary_ = format == "BINARY";
+    if (!binary_ && format != "ASCII") {
+      fail(ErrorCode::bad_header, "expected ASCII or BINARY", format);
+    }
     expect("DATASET");
     const std::string_view set = take("a data set");
     if (set == "UNSTRUCTURED_GRID") return;
@@ -97,36 +115,48 @@ class VtkReader {
     if (count < 0) fail(ErrorCode::bad_header, "a count of " + std::string(field), field);
     return static_cast<std::size_t>(count);
   }
-  bool take_is_integral() {
+  NumberType take_type() {
     const std::string_view type = take("a type of numbers");
-    for (const auto known : kIntegers) {
-      if (type == known) return true;
-    }
-    for (const auto known : kReals) {
-      if (type == known) return false;
+    for (const NumberType& known : kTypes) {
+      if (type == known.name && (!binary_ || known.bytes > 0)) return known;
     }
     fail(ErrorCode::unsupported, "numbers of the type " + text::quoted(type), type);
   }
-  void read_numbers(VtkArray& array, std::size_t count) {
+  // Numbers follow.
+  void begin_numbers() {
+    if (binary_) bytes_.begin();
+  }
+  void read_numbers(VtkArray& array, std::size_t count, const NumberType& type) {
+    if (binary_) bytes_.require(count, type.bytes);
     for (std::size_t i = 0; i < count; ++i) {
-      const std::string_view field = take("all of its numbers");
       if (array.is_integral) {
-        array.integers.push_back(source_.integer(field));
+        array.integers.push_back(take_integer(type));
       } else {
-        array.reals.push_back(source_.finite(field));
+        array.reals.push_back(take_real(type));
       }
     }
+  }
+  std::int64_t take_integer(const NumberType& type) {
+    if (!binary_) return source_.integer(take("all of its numbers"));
+    return type.is_signed ? bytes_.integer(type.bytes) : bytes_.natural(type.bytes);
+  }
+  // Where reals are asked for, a file may have integers.
+  double take_real(const NumberType& type) {
+    if (!binary_) return source_.finite(take("all of its numbers"));
+    return type.is_integral ? static_cast<double>(take_integer(type)) : bytes_.real(type.bytes);
   }
 
   void read_points(std::string_view word) {
     has_points_ = true;
     const std::size_t count = take_count("the number of points");
-    (void)take_is_integral();
+    const NumberType type = take_type();
     grid_.points = VtkArray{"POINTS", 3, false, {}, {}, source_.place(word)};
-    for (std::size_t i = 0; i < count; ++i) read_numbers(grid_.points, 3);
+    begin_numbers();
+    for (std::size_t i = 0; i < count; ++i) read_numbers(grid_.points, 3, type);
   }
 
   void read_cells(std::string_view word) {
+    has_cells_ = true;
     grid_.connectivity = integers("connectivity", word);
     grid_.offsets = integers("offsets", word);
     const std::size_t first = take_count("the number of cells");
@@ -134,35 +164,48 @@ class VtkReader {
     text::Fields ahead = fields_;
     if (ahead.next() == "OFFSETS") return read_offsets(first, second);
     std::size_t left = second;
+    begin_numbers();
     for (std::size_t i = 0; i < first; ++i) {
-      const std::size_t corners = take_count("all cells");
+      const std::size_t corners = binary_ ? take_corners() : take_count("all cells");
       if (left < corners + 1 || corners > left) {
         fail(ErrorCode::wrong_count, "cells have more numbers than CELLS says", word);
       }
       left -= corners + 1;
-      read_numbers(grid_.connectivity, corners);
+      read_numbers(grid_.connectivity, corners, kInt);
       grid_.offsets.integers.push_back(static_cast<std::int64_t>(grid_.connectivity.size()));
     }
     if (left > 0) fail(ErrorCode::wrong_count, "cells have fewer numbers than CELLS says", word);
   }
 
+  std::size_t take_corners() {
+    const std::int64_t corners = bytes_.integer(kInt.bytes);
+    if (corners >= 0) return static_cast<std::size_t>(corners);
+    throw bytes_.error(ErrorCode::bad_header, "a count of " + std::to_string(corners));
+  }
+
   // Version 5: offsets begin with 0.
   void read_offsets(std::size_t offsets, std::size_t size) {
     const std::string_view word = take("OFFSETS");
-    (void)take_is_integral();
-    read_numbers(grid_.offsets, offsets);
+    read_integers(grid_.offsets, offsets, word);
     if (offsets == 0 || grid_.offsets.integers.front() != 0) {
       fail(ErrorCode::bad_mesh, "the first offset is not 0", word);
     }
     grid_.offsets.integers.erase(grid_.offsets.integers.begin());
     expect("CONNECTIVITY");
-    (void)take_is_integral();
-    read_numbers(grid_.connectivity, size);
+    read_integers(grid_.connectivity, size, word);
+  }
+  void read_integers(VtkArray& array, std::size_t count, std::string_view word) {
+    const NumberType type = take_type();
+    if (!type.is_integral) fail(ErrorCode::bad_mesh, "cells of numbers that are no integers", word);
+    begin_numbers();
+    read_numbers(array, count, type);
   }
 
   void read_types(std::string_view word) {
     grid_.types = integers("types", word);
-    read_numbers(grid_.types, take_count("the number of types"));
+    const std::size_t count = take_count("the number of types");
+    begin_numbers();
+    read_numbers(grid_.types, count, kInt);
   }
 
   VtkArray integers(const char* name, std::string_view at) const {
@@ -190,12 +233,14 @@ class VtkReader {
       array.place = source_.place(at);
       array.components = take_count("the number of components");
       const std::size_t count = take_count("the number of values");
-      array.is_integral = take_is_integral();
+      const NumberType type = take_type();
+      array.is_integral = type.is_integral;
       if (array.components == 0 || (data_ != nullptr && count != items_)) {
         fail(ErrorCode::wrong_count,
              "an array of " + std::to_string(array.components) + " x " + std::to_string(count), at);
       }
-      for (std::size_t k = 0; k < count; ++k) read_numbers(array, array.components);
+      begin_numbers();
+      for (std::size_t k = 0; k < count; ++k) read_numbers(array, array.components, type);
       if (data_ != nullptr) data_->push_back(std::move(array));
     }
     if (data_ == nullptr) grid_.notes.add("fields of the file are not used", source_.place(name));
@@ -206,7 +251,8 @@ class VtkReader {
     const std::string_view at = take("a name");
     array.name = at;
     array.place = source_.place(at);
-    array.is_integral = take_is_integral();
+    const NumberType type = take_type();
+    array.is_integral = type.is_integral;
     std::string_view next = take("LOOKUP_TABLE");
     if (next != "LOOKUP_TABLE") {
       array.components = static_cast<std::size_t>(source_.integer(next));
@@ -218,7 +264,8 @@ class VtkReader {
     if (const auto table = take("a table"); table != "default") {
       fail(ErrorCode::unsupported, "the lookup table " + text::quoted(table), table);
     }
-    for (std::size_t i = 0; i < items_; ++i) read_numbers(array, array.components);
+    begin_numbers();
+    for (std::size_t i = 0; i < items_; ++i) read_numbers(array, array.components, type);
     data_->push_back(std::move(array));
   }
 
@@ -233,8 +280,10 @@ class VtkReader {
 
   const text::Source& source_;
   text::Fields fields_;
+  BinaryCursor bytes_;
+  bool binary_ = false;
   VtkGrid grid_;
-  bool has_points_ = false;
+  bool has_points_ = false, has_cells_ = false;
   std::vector<VtkArray>* data_ = nullptr;  // where arrays go
   std::size_t items_ = 0;                  // how many values they have
 };

@@ -155,6 +155,8 @@ class Fields {
   explicit Fields(std::string_view text) : rest_(text) {}
   /// The next field; empty, at the end of the text, if there is none.
   std::string_view next();
+  /// What follows the last field, for readers of binary data between fields.
+  [[nodiscard]] std::string_view rest() const { return rest_; }
 
  private:
   std::string_view rest_;

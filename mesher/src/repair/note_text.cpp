@@ -54,12 +54,12 @@ std::string deed(const RepairNote& n) {
 
 }  // namespace
 
-std::string RepairNote::text() const {
+std::string RepairNote::text(const std::string& prefix) const {
   std::string text = place.file;
   for (const long part : {place.line, place.column}) {
     if (!text.empty() && part > 0) text += ':' + std::to_string(part);
   }
-  return (text.empty() ? text : text + ": ") + deed(*this);
+  return (text.empty() ? text : text + ": ") + prefix + deed(*this);
 }
 
 }  // namespace mesher

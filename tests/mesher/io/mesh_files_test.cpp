@@ -360,7 +360,7 @@ TEST_CASE("what is no mesh is refused with the code and the place of the mistake
       {"m.vtu", offsets, "bad_mesh@13:2"},
       {"m.vtu", kind, "bad_mesh@5:2"},
       {"m.vtk", "", "bad_header@1:1"},
-      {"m.vtk", "# vtk DataFile Version 3.0\nt\nBINARY\n", "unsupported@3:1"},
+      {"m.vtk", "# vtk DataFile Version 3.0\nt\nBINARX\n", "bad_header@3:1"},
       {"m.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n", "unsupported@4:9"},
       {"m.vtk",
        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 2 "
@@ -378,7 +378,7 @@ TEST_CASE("what is no mesh is refused with the code and the place of the mistake
        "unsupported@5:1"},
       {"m.msh", "", "truncated@1:1"},
       {"m.msh", "$MeshFormat\n2.2 0 8\n", "unsupported@2:1"},
-      {"m.msh", "$MeshFormat\n4.1 1 8\n", "unsupported@2:5"},
+      {"m.msh", "$MeshFormat\n4.1 2 8\n", "bad_header@2:5"},
       {"m.msh", msh + "$Nodes\n1 2 1 2\n2 1 0 2\n1\n1\n0 0 0\n1 0 0\n$EndNodes\n",
        "repeated_id@8:1"},
       {"m.msh", msh + "$Nodes\n1 3 1 2\n2 1 0 2\n1\n2\n0 0 0\n1 0 0\n$EndNodes\n",
