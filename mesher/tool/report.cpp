@@ -142,7 +142,8 @@ void print_run(const std::string& input, const mesher::Pslg& graph, const Run& r
 
 void print_remarks(const Input& input, const std::vector<mesher::SeedFault>& faults) {
   for (const auto& note : input.file().notes) {
-    const std::string line = note.place.line > 0 ? ":" + std::to_string(note.place.line) : "";
+    std::string line;
+    if (note.place.line > 0) line.append(":").append(std::to_string(note.place.line));
     std::fprintf(stderr, "%s%s: note: %s\n", note.place.file.c_str(), line.c_str(),
                  note.text.c_str());
   }

@@ -71,7 +71,7 @@ struct History {
 TEST_CASE("edits of any kind by a script leave the files of the edited input, byte for byte") {
   const std::string tool = test_paths::kMesherTool;
   if (tool.empty()) return;
-  const auto seed = GENERATE(range<std::uint64_t>(1, 7));
+  const auto seed = GENERATE(range<std::uint64_t>(1, 7), value<std::uint64_t>(54));
   const std::string extent = seed % 3 == 0 ? " --box" : "";
   CAPTURE(seed);
   const History history(seed, 60);

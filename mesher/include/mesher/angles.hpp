@@ -34,7 +34,8 @@ struct SmallAngle {
 
 /// A vertex that is nearer to its nearest neighbour than kShrinks times less than the local feature
 /// size at it: the radius of the smallest disc around it that meets two features without a common
-/// point. Neighbours across a small angle, at the same distance from its apex, do not count.
+/// point, or the spacing that limits of size ask for. Neighbours across a small angle, at the same
+/// distance from its apex, do not count.
 struct ShrunkVertex {
   Point<2> at{};
   double nearest = 0;            ///< to its nearest neighbour that counts

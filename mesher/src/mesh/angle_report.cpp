@@ -11,6 +11,8 @@
 #include "mesh/shrunk_vertices.hpp"
 #include "mesher/angles.hpp"
 #include "mesher/check.hpp"
+#include "program/world.hpp"
+#include "sizes/limits.hpp"
 
 namespace mesher {
 
@@ -38,10 +40,23 @@ class Report {
     });
     out_.promised_deg = std::asin(1 / (2 * options_.rho)) * kDegrees;
     out_.shrunk = detail::shrunk_vertices(mesh_, lines_, kShrinks);
+    forget_wanted();
     return std::move(out_);
   }
 
  private:
+  // Short lengths that limits of size ask for are no fault.
+  void forget_wanted() {
+    const detail::Limits limits(options_, detail::mesh_box(options_));
+    if (!limits.any()) return;
+    std::erase_if(out_.shrunk, [&](const ShrunkVertex& v) {
+      Point<2> p = v.at;
+      for (int i = 0; i < 2; ++i) p[i] = std::clamp(p[i], options_.domain.lo[i], options_.domain.hi[i]);
+      const double wanted = limits.pitch(p) + std::hypot(p[0] - v.at[0], p[1] - v.at[1]);
+      return wanted <= kShrinks * v.nearest;
+    });
+  }
+
   // A small angle, by its apex and its segments.
   SmallAngle& angle(std::uint32_t s, std::uint32_t t, std::uint32_t apex) {
     const auto [it, is_new] = angles_.try_emplace({apex, std::min(s, t), std::max(s, t)});

@@ -125,6 +125,6 @@ TEST_CASE("after every batch mesh and domain are those from scratch, and the cha
   follow(GENERATE(range<std::uint64_t>(1, 13)), 100);
 }
 
-TEST_CASE("the same over long histories", "[soak]") {
+TEST_CASE("the same over long histories", "[.soak]") {
   follow(GENERATE(range<std::uint64_t>(1000, 1200)), 400);
 }

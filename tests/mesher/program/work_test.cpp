@@ -21,9 +21,9 @@ struct Work {
 };
 
 // Of `n` points that come in one update, after those that are there.
-Work work_of(Mesher<2>& m, std::size_t n, std::uint64_t first_id) {
+Work work_of(Mesher<2>& m, std::size_t n, std::int64_t first_id) {
   const auto points = mesher::generate_points<2>(mesher::PointKind::uniform, n, 7);
-  for (std::size_t i = 0; i < n; ++i) m.insert(FeatureId{first_id + i}, points[i]);
+  for (const auto& p : points) m.insert(FeatureId{first_id++}, p);
   const auto counts = m.update().calls;
   return {counts.executed, counts.weight};
 }
