@@ -268,11 +268,10 @@ class VertexSearch {
       if (cell.in_reach(met_[i].distance2)) cut_by(cell, met_[i], seen);
     }
   }
-  // The first few: they make the cell about as small as it will be. A cell that reaches out of the
-  // box has met very many, and no order of these would bring more.
+  // Who is met is bounded, so that looking for the nearest each time is.
   template <class Seen>
   void cut_nearest_first(VoronoiCell& cell, Seen& seen) const {
-    for (int few = 2 * VoronoiCell::kClips; met_count_ > 0 && few > 0; --met_count_, --few) {
+    for (; met_count_ > 0; --met_count_) {
       visited_ += met_count_;
       std::size_t nearest = 0;
       double d2 = met_[0].distance2;
@@ -284,7 +283,6 @@ class VertexSearch {
       cut_by(cell, met_[nearest], seen);
       met_[nearest] = met_[met_count_ - 1];
     }
-    cut_by_met(cell, seen);
   }
   [[nodiscard]] static Box<2> clipped(Box<2> box, double within) {
     for (double& x : box.lo) x = std::max(x, -within);
