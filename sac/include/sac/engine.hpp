@@ -317,6 +317,7 @@ class Engine {
   void free_released() noexcept;
   void undo_edits_behind(std::size_t edits);
   void roll_back() noexcept;
+  void forget_edits() noexcept;
   Counts run_root(const Asked& asked);
   template <auto F, class... P, class... Args>
   Counts run_as(detail::Types<P...>, Args&&... args);

@@ -85,7 +85,7 @@ Counts Engine::run_root(const Asked& asked) {
   if (!rollback_.empty() && !core_.settled()) throw UsageError("run: propagate the edits first");
   require_released_unused();
   core_.enter(Core::Mode::running);
-  rollback_.clear();
+  forget_edits();
   const Handle before = core_.last_stamp();
   try {
     core_.run_root(asked);
@@ -117,7 +117,7 @@ Counts Engine::propagate(const std::function<void()>& last) {
     roll_back();
     throw;
   }
-  rollback_.clear();
+  forget_edits();
   free_released();
   return core_.finish();
 }
@@ -132,8 +132,15 @@ void Engine::roll_back() noexcept {
   } catch (...) {
     core_.set_broken();
   }
-  rollback_.clear();
+  forget_edits();
   core_.finish();
+}
+
+// They can no longer be taken back. Of very many, as before a first run, the memory goes, too.
+void Engine::forget_edits() noexcept {
+  constexpr std::size_t kKept = 1024;
+  rollback_.clear();
+  if (rollback_.capacity() > kKept) std::vector<detail::Undo>().swap(rollback_);
 }
 
 }  // namespace sac
