@@ -51,7 +51,8 @@ void write_edge(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& fil
   auto known = features.edges.begin();
   file << all.size() << " 1\n";
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto [low, high] = all[i];
+    const std::uint32_t low = all[i][0];
+    const std::uint32_t high = all[i][1];
     file << i + kFirst << ' ' << low + kFirst << ' ' << high + kFirst;
     const auto is_before = [&](const MeshEdge& e) {
       return e.low < low || (e.low == low && e.high < high);
