@@ -1,6 +1,8 @@
 // What a failed check says.
 #include "sac/check.hpp"
 
+#include "sac/internal/same.hpp"
+
 namespace sac::detail {
 
 namespace {
@@ -17,6 +19,12 @@ void fail_expects(const char* expression, const char* file, int line) {
 
 void fail_invariant(const char* expression, const char* file, int line) {
   throw InvariantError(describe("broken invariant", expression, file, line));
+}
+
+void fail_unordered(std::string_view function) {
+  throw UsageError("two calls of " + std::string(function) +
+                   " are posted at one key, and their arguments are neither equal nor ordered: <=> "
+                   "must tell apart what == tells apart");
 }
 
 }  // namespace sac::detail

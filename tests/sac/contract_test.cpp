@@ -242,6 +242,7 @@ struct Half {
   friend std::ostream& operator<<(std::ostream& out, const Half& h) { return out << h.other; }
 };
 void take_half(Scope& s, Half) { s.read(world(s).in); }
+constexpr auto take_half_plainly = [](sac::PlainScope&, Half) {};
 void post_halves(Scope& s) {
   auto& w = world(s);
   for (int i = 0; i <= s.read(w.in); ++i) w.agenda.post<take_half>(s, {}, Half{1, i});
@@ -258,6 +259,10 @@ TEST_CASE("posted arguments that are neither equal nor ordered are refused, as i
   CHECK_THROWS_WITH(one.e.propagate(), Catch::Contains("neither equal nor ordered"));
   one.e.check_invariants();
   CHECK(one.e.get(one.in) == 0);
+  sac::PlainScope plain;
+  sac::PlainAgenda& agenda = plain.make_agenda("halves");
+  for (int i = 0; i < 2; ++i) agenda.post<take_half_plainly>(plain, {}, Half{1, i});
+  CHECK_THROWS_WITH(agenda.drain(plain), Catch::Contains("neither equal nor ordered"));
 }
 
 void inverse(Scope& s, Mod<double> x, Mod<double> out) { s.write(out, 1 / s.read(x)); }

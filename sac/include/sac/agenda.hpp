@@ -77,7 +77,7 @@ struct Posted {
     f.posted = true;
     f.execute = &Called<F, Args...>::template execute_in<FrameType>;
     f.compare = [](const Call& a, const Call& b) {
-      return compare_arguments(FrameType::of(a).args, FrameType::of(b).args);
+      return compare_arguments(name(), FrameType::of(a).args, FrameType::of(b).args);
     };
     return f;
   }();
@@ -175,7 +175,6 @@ class Agenda final : public WorkQueue {
     return label;
   }
   [[noreturn]] static void fail_irreflexive(const Function& function);
-  [[noreturn]] static void fail_unordered(const Call& a, const Call& b);
 
   // post.cpp
   void post_call(Scope& s, const Key& key, const Asked& asked);

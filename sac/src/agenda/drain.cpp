@@ -14,16 +14,7 @@ bool Agenda::before(const Call& a, const Call& b) const {
     const std::strong_ordering order = order_by_name(a.function(), b.function());
     return order != 0 ? order < 0 : a.function_number < b.function_number;
   }
-  const std::strong_ordering order = a.function().compare(a, b);
-  if (order == 0 && &a != &b) fail_unordered(a, b);
-  return order < 0;
-}
-
-// Calls of one label are one call: these differ by ==, and not by <=>.
-void Agenda::fail_unordered(const Call& a, const Call& b) {
-  throw UsageError(Engine::describe(a) + " and " + Engine::describe(b) +
-                   " are posted at one key, and their arguments are neither equal nor ordered: <=> "
-                   "must tell apart what == tells apart");
+  return a.function().compare(a, b) < 0;
 }
 
 // --- Placing ---------------------------------------------------------------------------------

@@ -86,7 +86,8 @@ class PlainAgenda {
         std::apply([&](const auto&... a) { F(s, a...); }, arguments_of<Arguments>(r));
       },
       [](const Record& a, const Record& b) {
-        return detail::compare_arguments(arguments_of<Arguments>(a), arguments_of<Arguments>(b));
+        return detail::compare_arguments(a.kind->name, arguments_of<Arguments>(a),
+                                         arguments_of<Arguments>(b));
       },
       [](Record& r) { std::destroy_at(&arguments_of<Arguments>(r)); }};
 

@@ -6,6 +6,7 @@
 #include <concepts>
 #include <cstdint>
 #include <functional>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -37,7 +38,6 @@ bool reflexive(const std::tuple<T...>& args) {
   return std::apply([](const auto&... a) { return (static_cast<bool>(a == a) && ...); }, args);
 }
 
-/// An order of arguments in which two are equal only if they are identical.
 template <class T>
 std::strong_ordering compare_argument(const T& a, const T& b) {
   if constexpr (std::is_floating_point_v<T>) {
@@ -51,12 +51,18 @@ std::strong_ordering compare_argument(const T& a, const T& b) {
                  : b < a ? std::strong_ordering::greater : std::strong_ordering::equal;
   }
 }
+[[noreturn]] void fail_unordered(std::string_view function);
+
+/// An order of the function's arguments in which two are equal only if they are identical.
+/// Throws: UsageError where the client's <=> does not tell apart what == does.
 template <class... T>
-std::strong_ordering compare_arguments(const std::tuple<T...>& a, const std::tuple<T...>& b) {
+std::strong_ordering compare_arguments(std::string_view function, const std::tuple<T...>& a,
+                                       const std::tuple<T...>& b) {
   std::strong_ordering order = std::strong_ordering::equal;
   [&]<std::size_t... i>(std::index_sequence<i...>) {
     (void)((order = compare_argument(std::get<i>(a), std::get<i>(b)), order == 0) && ...);
   }(std::index_sequence_for<T...>());
+  if (order == 0 && !identical(a, b)) fail_unordered(function);
   return order;
 }
 
