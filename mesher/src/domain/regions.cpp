@@ -143,12 +143,13 @@ std::vector<SeedFault> Regions::faults(Extent extent) const {
   const bool keeps_all = extent == Extent::box || !encloses();
   std::vector<SeedFault> all;
   seeds_.for_each([&](std::uint32_t i) {
-    const auto& [seed, slot, component, held, inside] = seeds_[i];
-    if (slot == kNone) {
+    const SeedTable::Record& record = seeds_[i];
+    const Seed& seed = record.seed;
+    if (record.slot == kNone) {
       all.push_back({SeedFault::Kind::outside, seed.name, seed.at, {}, {}});
-    } else if (component == kNone) {
+    } else if (record.component == kNone) {
       all.push_back({SeedFault::Kind::on_segment, seed.name, seed.at, {}, {}});
-    } else if (const auto fault = fault_in(seed, components_[component].label, keeps_all)) {
+    } else if (const auto fault = fault_in(seed, components_[record.component].label, keeps_all)) {
       all.push_back(*fault);
     }
   });

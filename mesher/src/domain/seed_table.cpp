@@ -76,23 +76,26 @@ void SeedTable::drop(std::uint32_t i) {
   record.slot = record.next_held = kNone;
 }
 
-void SeedTable::enter(Components& components, std::uint32_t i, std::uint32_t component) {
-  const std::uint32_t from = records_[i].component;
-  if (from == component) return;
-  if (from != kNone) {
-    const std::uint32_t next = records_[i].next_inside;
-    std::uint32_t before = components[from].seed;
-    if (before == i) {
-      components.edit(from).seed = next;
-    } else {
-      while (records_[before].next_inside != i) before = records_[before].next_inside;
-      records_.edit(before).next_inside = next;
-    }
+void SeedTable::leave(Components& components, const Record& record) {
+  const std::uint32_t next = record.next_inside, previous = record.previous_inside;
+  if (next != kNone) records_.edit(next).previous_inside = previous;
+  if (previous != kNone) {
+    records_.edit(previous).next_inside = next;
+  } else {
+    components.edit(record.component).seed = next;
   }
+}
+
+void SeedTable::enter(Components& components, std::uint32_t i, std::uint32_t component) {
+  if (records_[i].component == component) return;
+  if (records_[i].component != kNone) leave(components, records_[i]);
+  const std::uint32_t first = component == kNone ? kNone : components[component].seed;
+  if (first != kNone) records_.edit(first).previous_inside = i;
+  if (component != kNone) components.edit(component).seed = i;
   Record& record = records_.edit(i);
   record.component = component;
-  record.next_inside = component == kNone ? kNone : components[component].seed;
-  if (component != kNone) components.edit(component).seed = i;
+  record.next_inside = first;
+  record.previous_inside = kNone;
 }
 
 void SeedTable::keep() noexcept {
@@ -122,8 +125,10 @@ void SeedTable::check_invariants(const Tiles& tiles, const Components& component
     });
   }
   for (std::uint32_t c = 0; c < components.size(); ++c) {
+    std::uint32_t previous = kNone;
     for_each_inside(components[c], [&](std::uint32_t i) {
-      SAC_INVARIANT(records_[i].component == c);
+      SAC_INVARIANT(records_[i].component == c && records_[i].previous_inside == previous);
+      previous = i;
       ++inside;
     });
   }

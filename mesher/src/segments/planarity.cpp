@@ -135,17 +135,35 @@ Error too_close_vertices(const Vertex<2>& v, const Vertex<2>& w, const Names& na
                {}, std::move(ids));
 }
 
+namespace {
+
+[[noreturn]] void fail_on_segment(FeatureId point, const Point<2>& p, FeatureId line) {
+  throw Error(ErrorCode::point_on_segment,
+              "point " + text(point) + " " + place_text(p) + " lies on segment " + text(line), {},
+              {point, line});
+}
+
+// An end of s on t is named as a point on a segment, whichever of the two is looked at first.
+void fail_if_end_is_on(const Segment& s, const Segment& t, const Names& names) {
+  const auto test = [&](VertexHandle end, const Point<2>& p) {
+    if (!on_segment(p, t.place_a, t.place_b)) return;
+    fail_on_segment(names.point(end), p, names.line(t.self));
+  };
+  test(s.a, s.place_a);
+  test(s.b, s.place_b);
+}
+
+}  // namespace
+
 void fail(const Conflict& c, const Names& names) {
   const FeatureId line = names.line(c.segment->self);
   if (c.kind == Conflict::Kind::point_on_segment) {
-    const FeatureId point = names.point(c.point->self);
-    throw Error(
-        ErrorCode::point_on_segment,
-        "point " + text(point) + " " + place_text(c.point->p) + " lies on segment " + text(line),
-        {}, {point, line});
+    fail_on_segment(names.point(c.point->self), c.point->p, line);
   }
   const FeatureId other = names.line(c.other->self);
   if (c.kind == Conflict::Kind::crossing) {
+    fail_if_end_is_on(*c.segment, *c.other, names);
+    fail_if_end_is_on(*c.other, *c.segment, names);
     throw Error(ErrorCode::crossing_segments,
                 "segment " + text(line) + " crosses " + other_text(line, other) + " at " +
                     place_text(crossing(*c.segment, *c.other)),

@@ -3,6 +3,7 @@
 #include "domain/regions.hpp"
 
 #include <catch2/catch.hpp>
+#include <ctime>
 #include <memory>
 #include <tuple>
 
@@ -220,6 +221,33 @@ TEST_CASE("joining and parting cost the smaller region, whichever was there firs
       regions.check_invariants();
     }
   }
+}
+
+TEST_CASE("seeds that come to another region together cost no more than when they came first") {
+  const WalledGrid grid(6);
+  const auto rooms = grid.rectangle(1, 1, 5, 5);
+  const auto door = grid.line(2, 1, 2, 5);
+  std::vector<Seed> seeds;
+  for (int i = 0; i < 40000; ++i) seeds.push_back(region(i, 1.5 + 1e-6 * i, 1.75));
+  std::vector<Edge> walls = rooms;
+  WalledGrid::append(walls, door);
+  const auto seconds = [](auto&& what) {
+    const std::clock_t start = std::clock();
+    what();
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  };
+  std::unique_ptr<Regions> regions;
+  const double first =
+      seconds([&] { regions = std::make_unique<Regions>(regions_of(grid, walls, seeds)); });
+  const double then = seconds([&] {
+    for (int i = 0; i < 4; ++i) {
+      regions->update(walls_out(door));
+      regions->update(walls_in(door));
+    }
+  });
+  INFO("first " << first << " s, then " << then << " s");
+  CHECK(then < 10 * first + 0.2);
+  regions->check_invariants();
 }
 
 TEST_CASE("a wall that moves through a lake costs what it sweeps, not the lake") {

@@ -244,6 +244,22 @@ TEST_CASE("segments that do not make a planar graph are refused with both ids an
        ErrorCode::point_on_segment,
        {id(8), id(10)},
        "(3, 1)"},
+      // Whichever of the segments comes later.
+      {[](auto& m) {
+         m.insert({id(8), id(9)}, {{3, 1}, {4, 2}});
+         m.insert_segment(id(12), id(9), id(8));
+       },
+       ErrorCode::point_on_segment,
+       {id(8), id(10)},
+       "(3, 1)"},
+      {[](auto& m) {
+         m.remove_segment(id(10));
+         m.insert({id(8), id(9), id(20), id(21)}, {{3, 0.5}, {3, 1.5}, {4, 1}, {3, 1}});
+         m.insert_segment(id(12), id(20), id(21)), m.insert_segment(id(14), id(8), id(9));
+       },
+       ErrorCode::point_on_segment,
+       {id(21), id(14)},
+       "(3, 1)"},
       {[](auto& m) {
          m.move(id(5), {2, 1});
        },
