@@ -22,6 +22,7 @@
 #include "mesher/domain.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"
+#include "sample.hpp"
 
 namespace {
 
@@ -52,17 +53,14 @@ struct Sample {
     triangles += difference.removed.size() + difference.added.size();
     visited += difference.visited;
   }
-  double quantile(double q) {
-    std::sort(microseconds.begin(), microseconds.end());
-    return microseconds[static_cast<std::size_t>(q * static_cast<double>(microseconds.size() - 1))];
-  }
-  void print(const char* figure, std::size_t n) {
+  void print(const char* figure, std::size_t n) const {
     const auto k = static_cast<double>(microseconds.size());
     std::printf(
         "{\"bench\":\"domain\",\"figure\":\"%s\",\"n\":%zu,\"updates\":%zu,\"median_us\":%.2f,"
         "\"p99_us\":%.2f,\"triangles\":%.1f,\"visited\":%.1f}\n",
-        figure, n, microseconds.size(), quantile(0.5), quantile(0.99),
-        static_cast<double>(triangles) / k, static_cast<double>(visited) / k);
+        figure, n, microseconds.size(), bench::quantile(microseconds, 0.5),
+        bench::quantile(microseconds, 0.99), static_cast<double>(triangles) / k,
+        static_cast<double>(visited) / k);
   }
 };
 

@@ -9,7 +9,6 @@
 //   insert/remove median and p99 of single updates in microseconds, and per update: calls
 //                 executed, edges touched, vertices and triangles changed
 // Run cgal_reference in the same session for what CGAL takes.
-#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "mesher/mesher.hpp"
+#include "sample.hpp"
 
 namespace {
 
@@ -56,19 +56,15 @@ struct Sample {
     triangles +=
         static_cast<double>(change.simplices_added.size() + change.simplices_removed.size());
   }
-  double quantile(double q) {
-    std::sort(microseconds.begin(), microseconds.end());
-    return microseconds[static_cast<std::size_t>(q * static_cast<double>(microseconds.size() - 1))];
-  }
-  void print(const char* figure, std::size_t n, double rho) {
+  void print(const char* figure, std::size_t n, double rho) const {
     const auto k = static_cast<double>(microseconds.size());
     std::printf(
         "{\"bench\":\"mesher\",\"figure\":\"%s\",\"n\":%zu,\"rho\":%g,\"updates\":%zu,\"median_"
         "us\":%.1f,"
         "\"p99_us\":%.1f,\"calls_executed\":%.1f,\"edges\":%.1f,\"vertices\":%.2f,"
         "\"triangles\":%.2f}\n",
-        figure, n, rho, microseconds.size(), quantile(0.5), quantile(0.99), executed / k, edges / k,
-        vertices / k, triangles / k);
+        figure, n, rho, microseconds.size(), bench::quantile(microseconds, 0.5),
+        bench::quantile(microseconds, 0.99), executed / k, edges / k, vertices / k, triangles / k);
   }
 };
 
@@ -98,7 +94,7 @@ void print_first_run(const mesher::MeshStats& s, std::size_t n, double static_se
       static_cast<double>(s.trace_bytes) / static_cast<double>(s.vertices));
 }
 
-void bench(std::size_t n, double rho = 1.4142) {
+void bench_points(std::size_t n, double rho = 1.4142) {
   Random random{n};
   mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}, .rho = rho};
   std::vector<Point<2>> points(n);
@@ -136,13 +132,13 @@ void bench(std::size_t n, double rho = 1.4142) {
 
 int main(int argc, char** argv) {
   if (argc == 1) {
-    bench(10000);
-    bench(100000);
-    bench(10000, 1.1);
+    bench_points(10000);
+    bench_points(100000);
+    bench_points(10000, 1.1);
   }
   for (int i = 1; i < argc; ++i) {
     char* rest = nullptr;
     const std::size_t n = std::strtoull(argv[i], &rest, 10);
-    bench(n, *rest == ':' ? std::strtod(rest + 1, nullptr) : 1.4142);
+    bench_points(n, *rest == ':' ? std::strtod(rest + 1, nullptr) : 1.4142);
   }
 }

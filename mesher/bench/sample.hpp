@@ -20,6 +20,12 @@ double seconds_of(Run&& run) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
+/// The value that is above a share q of all. Requires: there are some.
+inline double quantile(std::vector<double> all, double q) {
+  std::sort(all.begin(), all.end());
+  return all[static_cast<std::size_t>(q * static_cast<double>(all.size() - 1))];
+}
+
 /// Updates of one kind.
 class Sample {
  public:
@@ -38,11 +44,6 @@ class Sample {
     for (const double x : microseconds_) sum += x;
     return 1e-6 * sum;
   }
-  [[nodiscard]] double quantile(double q) const {
-    std::vector<double> sorted = microseconds_;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
-  }
   /// A line of JSON; `more`: further members, with a comma in front.
   void print(const char* bench, const std::string& input, const std::string& figure,
              const std::string& more = {}) const {
@@ -50,8 +51,8 @@ class Sample {
     std::printf(
         "{\"bench\":\"%s\",\"input\":\"%s\",\"figure\":\"%s\",\"updates\":%zu,"
         "\"median_us\":%.1f,\"p99_us\":%.1f,\"calls_executed\":%.1f,\"vertices\":%.2f%s}\n",
-        bench, input.c_str(), figure.c_str(), size(), quantile(0.5), quantile(0.99), executed_ / k,
-        vertices_ / k, more.c_str());
+        bench, input.c_str(), figure.c_str(), size(), quantile(microseconds_, 0.5),
+        quantile(microseconds_, 0.99), executed_ / k, vertices_ / k, more.c_str());
     std::fflush(stdout);
   }
 

@@ -10,13 +10,13 @@
 //                   ran, and the vertices that came and went. A segment comes and goes with its
 //                   ends, a polyline of ten points with these, each in one update; places are even
 //                   in the domain, lengths those between the segments of the input.
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "input.hpp"
+#include "random_line.hpp"
 #include "sample.hpp"
 
 namespace {
@@ -71,17 +71,11 @@ class Editor {
     for (int i = 0; i < 2; ++i) p[i] = lo[i] + (hi[i] - lo[i]) * random_.unit();
     return p;
   }
-  // Turns by up to 45 degrees at each point: (x, y) moves by (dx, dy) on a diamond of this length.
   std::vector<Point<2>> line(int points) {
-    std::vector<Point<2>> all{somewhere()};
-    double at = 4 * random_.unit();
+    const Point<2> from = somewhere();
+    const double at = 4 * random_.unit();
     const double length = in_.length * (points == 2 ? 0.2 + 0.8 * random_.unit() : 0.4);
-    for (int i = 1; i < points; ++i, at += random_.unit() - 0.5) {
-      const auto triangle = [](double t) { return std::abs(t - 4 * std::floor(t / 4) - 2) - 1; };
-      const Point<2>& p = all.back();
-      all.push_back({p[0] + length * triangle(at), p[1] + length * triangle(at + 1)});
-    }
-    return all;
+    return bench::random_line(from, at, points - 1, length, random_);
   }
   // Where the mesher refuses it (it crosses something, or leaves the domain), another is tried.
   std::vector<FeatureId> insert(int points, Sample& come) {

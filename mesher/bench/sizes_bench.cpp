@@ -2,8 +2,7 @@
 // changes.
 //
 //   sizes_bench [FILE.poly A]...   default: the square of the rules; else each file with its
-//   largest
-//                                  area A
+//                                  largest area A
 //
 // One JSON line per figure:
 //   static           vertices (inside: in the square, where the model counts), seconds
@@ -19,13 +18,14 @@
 #include <vector>
 
 #include "../../tests/support/sized_square.hpp"
+#include "input.hpp"
 #include "mesher/error.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"
-#include "mesher/pslg.hpp"
 
 namespace {
 
+using bench::quantile;
 using mesher::FeatureId;
 using mesher::Options;
 using mesher::Point;
@@ -82,10 +82,6 @@ void print_static(const Case& c) {
 struct Edits {
   std::vector<double> vertices, calls, microseconds;
 
-  static double quantile(std::vector<double> x, double q) {
-    std::sort(x.begin(), x.end());
-    return x[static_cast<std::size_t>(q * static_cast<double>(x.size() - 1))];
-  }
   void print(const char* figure, const Case& c) const {
     std::printf(
         "{\"bench\":\"sizes\",\"figure\":\"%s\",\"limit\":\"%s\",\"updates\":%zu,"
@@ -139,16 +135,10 @@ void print_edits(const Case& c) {
 }
 
 void print_file(const char* path, double area) {
-  const mesher::Pslg pslg = mesher::without_polylines(mesher::read_pslg(path).pslg);
-  std::vector<Point<2>> points;
-  std::vector<FeatureId> ids;
-  std::vector<mesher::Segment> segments;
-  for (const auto& v : pslg.points) points.push_back(v.at), ids.push_back(v.id);
-  for (const auto& s : pslg.segments) segments.push_back({s.id, s.from, s.to});
-  Options<2> options{.domain = mesher::snapped_domain<2>(points)};
-  options.max_area = area;
+  bench::Input in = bench::file_input(path);
+  in.options.max_area = area;
   const auto start = Clock::now();
-  const auto mesh = mesh_statically(points, segments, options, ids);
+  const auto mesh = mesh_statically(in.points, in.segments, in.options, in.ids);
   std::printf(
       "{\"bench\":\"sizes\",\"figure\":\"static\",\"file\":\"%s\",\"max_area\":%g,\"vertices\":%zu,"
       "\"seconds\":%.4f}\n",

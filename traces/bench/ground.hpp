@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <ctime>
 #include <optional>
 #include <vector>
 
+#include "../../mesher/bench/sample.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/pslg.hpp"
 #include "traces/distance.hpp"
@@ -83,9 +83,8 @@ class Ground {
   }
   [[nodiscard]] traces::Trace trace() const { return traces::Recorder(mesher_.engine()).trace(); }
   mesher::Change<2> update(Cost& cost) {
-    const std::clock_t start = std::clock();
-    auto change = mesher_.update();
-    cost.microseconds = 1e6 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    mesher::Change<2> change;
+    cost.microseconds = 1e6 * seconds_of([&] { change = mesher_.update(); });
     const auto& calls = change.calls;
     cost.work = static_cast<double>(calls.created + calls.discarded + calls.executed);
     cost.weight = cost.work + static_cast<double>(calls.weight);

@@ -24,6 +24,8 @@
 #include <string>
 #include <vector>
 
+#include "../../mesher/bench/random_line.hpp"
+#include "../../mesher/bench/sample.hpp"
 #include "chart.hpp"
 #include "ground.hpp"
 #include "mesher/generate.hpp"
@@ -47,25 +49,13 @@ void add(Plot& plot, double x, const Ground::Costs& costs) {
   plot[x].push_back(costs.go);
 }
 
-/// A line of equal pieces that turn by up to 45 degrees each, from p on.
-std::vector<Point<2>> random_line(Point<2> p, int pieces, double piece,
-                                  mesher::SplitMix64& random) {
-  std::vector<Point<2>> line{p};
-  double at = 4 * random.unit();
-  const auto triangle = [](double t) { return std::abs(t - 4 * std::floor(t / 4) - 2) - 1; };
-  for (int i = 0; i < pieces; ++i, at += random.unit() - 0.5) {
-    p = {p[0] + piece * triangle(at), p[1] + piece * triangle(at + 1)};
-    line.push_back(p);
-  }
-  return line;
-}
-
 /// An edit of a kind (an index of kKinds); h: the length of a segment of the input, at most.
 std::vector<Point<2>> random_edit(int kind, const Point<2>& from, double h,
                                   mesher::SplitMix64& random) {
   if (kind == 0) return {from};
-  if (kind == 1) return random_line(from, 1, h * (0.2 + 0.8 * random.unit()), random);
-  return random_line(from, 9, 0.4 * h, random);
+  const double piece = kind == 1 ? h * (0.2 + 0.8 * random.unit()) : 0.4 * h;
+  const double at = 4 * random.unit();
+  return bench::random_line(from, at, kind == 1 ? 1 : 9, piece, random);
 }
 
 double length_of(std::size_t n) { return 1 / std::sqrt(2.0 * static_cast<double>(n)); }
@@ -132,11 +122,6 @@ Plot over_length(int kind, Ground& ground, int edits) {
 
 // --- Figures ---------------------------------------------------------------------------------
 
-double quantile(std::vector<double> x, double q) {
-  std::sort(x.begin(), x.end());
-  return x[static_cast<std::size_t>(q * static_cast<double>(x.size() - 1))];
-}
-
 bench::Series series_of(const Plot& plot, int kind, int quantity) {
   bench::Series series{kKinds[kind], kColours[kind], {}};
   for (const auto& [x, costs] : plot) {
@@ -145,7 +130,7 @@ bench::Series series_of(const Plot& plot, int kind, int quantity) {
       if (const auto value = cost.quantity(quantity)) values.push_back(*value);
     }
     if (values.size() < 4) continue;
-    series.points.push_back({x, quantile(values, 0.5), quantile(values, 0.99)});
+    series.points.push_back({x, bench::quantile(values, 0.5), bench::quantile(values, 0.99)});
   }
   return series;
 }

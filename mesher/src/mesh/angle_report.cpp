@@ -51,7 +51,8 @@ class Report {
     if (!limits.any()) return;
     std::erase_if(out_.shrunk, [&](const ShrunkVertex& v) {
       Point<2> p = v.at;
-      for (int i = 0; i < 2; ++i) p[i] = std::clamp(p[i], options_.domain.lo[i], options_.domain.hi[i]);
+      for (int i = 0; i < 2; ++i)
+        p[i] = std::clamp(p[i], options_.domain.lo[i], options_.domain.hi[i]);
       const double wanted = limits.pitch(p) + std::hypot(p[0] - v.at[0], p[1] - v.at[1]);
       return wanted <= kShrinks * v.nearest;
     });

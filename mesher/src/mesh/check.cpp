@@ -7,9 +7,9 @@
 #include <numeric>
 #include <utility>
 
-#include "mesher/predicates.hpp"
 #include "io/text.hpp"
 #include "mesh/checked_mesh.hpp"
+#include "mesher/predicates.hpp"
 
 namespace mesher {
 namespace {
@@ -27,8 +27,8 @@ class Checker {
         check("coordinates", &Checker::coordinates) && check("vertices", &Checker::vertices) &&
         check("orientation", &Checker::orientation) && check("edges", &Checker::edges);
     if (is_mesh) collect_lines();
-    const bool tiles = is_mesh && (options_.boundary == BoundaryRule::box ? tiles_box()
-                                                                          : tiles_domain());
+    const bool tiles =
+        is_mesh && (options_.boundary == BoundaryRule::box ? tiles_box() : tiles_domain());
     if (tiles) check("delaunay", &Checker::delaunay);
     if (tiles && has_lines() && !options_.constrained) check("conforming", &Checker::conforming);
     if (options_.input != nullptr || options_.graph != nullptr) check("input", &Checker::input);
@@ -78,8 +78,7 @@ class Checker {
     std::sort(order.begin(), order.end(), [&](auto a, auto b) { return at(a) < at(b); });
     for (std::size_t i = 1; i < order.size(); ++i) {
       if (at(order[i - 1]) != at(order[i])) continue;
-      return bad(checked_.vertex(order[i - 1]) + " and " + checked_.vertex(order[i]) +
-                 " coincide");
+      return bad(checked_.vertex(order[i - 1]) + " and " + checked_.vertex(order[i]) + " coincide");
     }
     std::vector<bool> used(mesh_.vertices.size());
     for (const auto& t : mesh_.simplices) {
@@ -255,8 +254,7 @@ class Checker {
     for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
       const auto& [a, b, c] = mesh_.simplices[i];
       const Point<2>&p = at(a), &q = at(b), &r = at(c);
-      const double area =
-          ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
+      const double area = ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
       largest = std::max(largest, area);
       if (area <= *options_.max_area * (1 + kRounding)) continue;
       return bad(checked_.triangle(i) + " has the area " + text::to_text(area) + ", above " +
@@ -265,8 +263,7 @@ class Checker {
     return good("areas at most " + text::to_text(largest));
   }
 
-  [[nodiscard]] static bool along_box(const Box<2>& box, const Point<2>& from,
-                                      const Point<2>& to) {
+  [[nodiscard]] static bool along_box(const Box<2>& box, const Point<2>& from, const Point<2>& to) {
     const auto both_at = [&](int axis, double value) {
       return from[axis] == value && to[axis] == value;
     };

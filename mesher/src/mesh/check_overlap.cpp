@@ -7,8 +7,8 @@
 // (Shamos, Hoey 1976), so that a first crossing or touching is found before the order is wrong.
 #include <set>
 
-#include "mesher/predicates.hpp"
 #include "mesh/checked_mesh.hpp"
+#include "mesher/predicates.hpp"
 
 namespace mesher::detail {
 namespace {

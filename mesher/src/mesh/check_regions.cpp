@@ -1,32 +1,16 @@
 // Whether regions end at lines alone, and are those of their seeds.
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 
+#include "domain/union_find.hpp"
 #include "io/text.hpp"
 #include "mesh/checked_mesh.hpp"
 #include "mesher/predicates.hpp"
 
 namespace mesher::detail {
 namespace {
-
-// Triangles that hang together across edges on no line.
-class Parts {
- public:
-  explicit Parts(std::size_t n) : parent_(n) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 // The triangle that a seed stands for; nothing if it is outside, or on a line, where it stands for
 // neither side.
@@ -55,14 +39,15 @@ Verdict check_holes(const CheckedMesh& mesh, const LineEdges& on_lines, const Ps
 }
 
 Verdict check_seeds(const CheckedMesh& mesh, const LineEdges& on_lines, const Pslg& graph,
-                    const std::vector<double>& regions, Parts& parts) {
-  std::map<std::size_t, std::set<double>> seeded;
-  std::vector<std::pair<const Pslg::Region*, std::size_t>> found;
+                    const std::vector<double>& regions, UnionFind& parts) {
+  std::map<std::uint32_t, std::set<double>> seeded;
+  std::vector<std::pair<const Pslg::Region*, std::uint32_t>> found;
   for (const Pslg::Region& region : graph.regions) {
-    const auto triangle = triangle_of(region.seed, mesh, on_lines);
-    if (!triangle) continue;
-    seeded[parts.find(*triangle)].insert(region.attribute);
-    found.emplace_back(&region, *triangle);
+    const auto seeded_triangle = triangle_of(region.seed, mesh, on_lines);
+    if (!seeded_triangle) continue;
+    const auto triangle = static_cast<std::uint32_t>(*seeded_triangle);
+    seeded[parts.find(triangle)].insert(region.attribute);
+    found.emplace_back(&region, triangle);
   }
   for (const auto& [region, triangle] : found) {
     if (seeded[parts.find(triangle)].count(regions[triangle]) > 0) continue;
@@ -80,12 +65,12 @@ Verdict check_regions(const CheckedMesh& mesh, const LineEdges& on_lines,
   const std::size_t n = mesh.mesh().simplices.size();
   const bool known = options.features != nullptr && !options.features->regions.empty();
   const std::vector<double> regions = known ? options.features->regions : std::vector<double>(n);
-  Parts parts(n);
+  UnionFind parts(n);  // triangles that hang together across edges on no line
   const auto& half_edges = mesh.half_edges();
   for (std::size_t i = 0; i < half_edges.size(); i += mesh.partners(i)) {
     if (mesh.partners(i) != 2 || contains(on_lines, half_edges[i])) continue;
     const std::size_t a = half_edges[i].triangle, b = half_edges[i + 1].triangle;
-    parts.join(a, b);
+    parts.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
     if (regions[a] == regions[b]) continue;
     return Verdict::bad("the regions " + text::to_text(regions[a]) + " and " +
                         text::to_text(regions[b]) + " meet at " + mesh.edge(half_edges[i]) +

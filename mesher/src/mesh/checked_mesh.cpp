@@ -1,8 +1,9 @@
 // Half-edges by edge, and names of parts.
 #include "mesh/checked_mesh.hpp"
 
-#include "mesher/predicates.hpp"
+#include "geometry/box.hpp"
 #include "io/text.hpp"
+#include "mesher/predicates.hpp"
 
 namespace mesher::detail {
 
@@ -39,15 +40,7 @@ std::vector<HalfEdge> CheckedMesh::border() const {
 }
 
 Box<2> CheckedMesh::bounding_box() const {
-  if (mesh_.vertices.empty()) return {};
-  Box<2> box{at(0), at(0)};
-  for (const auto& p : mesh_.vertices) {
-    for (int i = 0; i < 2; ++i) {
-      box.lo[i] = std::min(box.lo[i], p[i]);
-      box.hi[i] = std::max(box.hi[i], p[i]);
-    }
-  }
-  return box;
+  return detail::bounding_box<2>(mesh_.vertices);
 }
 
 std::optional<std::size_t> CheckedMesh::triangle_at(const Point<2>& p) const {

@@ -6,9 +6,9 @@
 
 #include "geometry/plane.hpp"
 #include "geometry/segment_tests.hpp"
+#include "mesh/on_circle.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/predicates.hpp"
-#include "mesh/on_circle.hpp"
 
 namespace mesher {
 namespace {

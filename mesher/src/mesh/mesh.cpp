@@ -8,22 +8,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/box.hpp"
+
 namespace mesher {
 namespace {
 
 double power_of_two(int exponent) { return std::ldexp(1.0, exponent); }
-
-template <int D>
-Box<D> bounding_box(const std::vector<Point<D>>& points) {
-  Box<D> box{points.front(), points.front()};
-  for (const auto& p : points) {
-    for (int i = 0; i < D; ++i) {
-      box.lo[i] = std::min(box.lo[i], p[i]);
-      box.hi[i] = std::max(box.hi[i], p[i]);
-    }
-  }
-  return box;
-}
 
 // In (side/8, side/4] for the longest side, a power of two. Where all points are one, the largest
 // coordinate stands for the side. Never below the spacing of doubles at the largest coordinate:
@@ -47,7 +37,7 @@ Box<D> snapped_domain(const std::vector<Point<D>>& points) {
   Box<D> box;
   box.hi.fill(1.0);
   if (points.empty()) return box;
-  box = bounding_box<D>(points);
+  box = detail::bounding_box<D>(points);
   const double step = grid_step<D>(box);
   for (int i = 0; i < D; ++i) {
     box.lo[i] = std::floor(box.lo[i] / step) * step + 0.0;  // + 0.0: no negative zero

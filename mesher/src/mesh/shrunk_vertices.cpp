@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/box.hpp"
 #include "geometry/segment_tests.hpp"
 #include "segments/reach_tree.hpp"
 
@@ -20,13 +21,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kPoint = 0x80000000u;  // a feature: a segment, or this and a vertex
 
 MeshBox<2> box_of(const Mesh<2>& mesh) {
-  Box<2> all{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
-  for (const Point<2>& p : mesh.vertices) {
-    for (int i = 0; i < 2; ++i) {
-      all.lo[i] = std::min(all.lo[i], p[i]);
-      all.hi[i] = std::max(all.hi[i], p[i]);
-    }
-  }
+  const Box<2> all = bounding_box<2>(mesh.vertices);
   return {all.lo, std::max(all.hi[0] - all.lo[0], all.hi[1] - all.lo[1])};
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "geometry/box.hpp"
 #include "input.hpp"
 #include "mesher/repair.hpp"
 #include "repair/box_search.hpp"
@@ -50,8 +51,7 @@ std::vector<Crossing> crossings(const Drawing& drawing, const News& news) {
     if (!drawing.cross(x, y)) return false;
     const Point<2> at = crossing_place(drawing.place(x.a), drawing.place(x.b), drawing.place(y.a),
                                        drawing.place(y.b));
-    const bool inside =
-        at[0] >= box.lo[0] && at[0] <= box.hi[0] && at[1] >= box.lo[1] && at[1] <= box.hi[1];
+    const bool inside = contains(box, at);
     if (inside) found.push_back({at, r, t});
     return inside;
   });

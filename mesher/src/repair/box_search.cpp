@@ -4,18 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/box.hpp"
+
 namespace mesher::detail {
 
 BoxSearch::Content BoxSearch::all(bool with_spots) const {
   Content c;
   const auto& places = drawing_.places();
-  c.box = {places.front(), places.front()};
-  for (const Point<2>& p : places) {
-    for (int i = 0; i < 2; ++i) {
-      c.box.lo[i] = std::min(c.box.lo[i], p[i]);
-      c.box.hi[i] = std::max(c.box.hi[i], p[i]);
-    }
-  }
+  c.box = bounding_box<2>(places);
   for (std::uint32_t r = 0; r < drawing_.rods().size(); ++r) {
     if (drawing_.rods()[r].whole()) c.rods.push_back({r, 0, 1});
   }

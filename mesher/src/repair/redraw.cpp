@@ -1,31 +1,28 @@
-// Lines along rods, by id; a rod belongs to the first that leads along it.
+// The points and lines that come out, and what has been done.
 #include "repair/redraw.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <set>
 #include <tuple>
-#include <unordered_map>
+
+#include "repair/redrawing.hpp"
 
 namespace mesher::detail {
 
 namespace {
 
-constexpr std::uint32_t kNobody = ~std::uint32_t{0};
+// Throws: Error(too_many).
+FeatureId next_id(std::int64_t& last) {
+  if (last == std::numeric_limits<std::int64_t>::max()) {
+    throw Error(ErrorCode::too_many, "no id is left for what a repair makes");
+  }
+  return FeatureId{++last};
+}
 
-struct Line {
-  FeatureId id{};
-  std::int64_t marker = 0;
-  std::vector<FeatureId> points;
-  FilePosition position;
-  bool segment = false;
-  std::vector<std::vector<Spot>> runs;  // along rods of its own, gaps between them
-  bool ring = false;
-};
+}  // namespace
 
 // The lines of a file, segments first.
-std::vector<Line> lines_of(const PslgFile& f) {
+std::vector<Redrawing::Line> Redrawing::lines_of(const PslgFile& f) {
   std::vector<Line> lines;
   for (std::size_t i = 0; i < f.pslg.segments.size(); ++i) {
     const Pslg::Segment& s = f.pslg.segments[i];
@@ -39,91 +36,29 @@ std::vector<Line> lines_of(const PslgFile& f) {
   return lines;
 }
 
-// Throws: Error(too_many).
-FeatureId next_id(std::int64_t& last) {
-  if (last == std::numeric_limits<std::int64_t>::max()) {
-    throw Error(ErrorCode::too_many, "no id is left for what a repair makes");
-  }
-  return FeatureId{++last};
+Redrawing::Redrawing(const PslgFile& file, const Drawing& drawing, const std::vector<Spot>& spots,
+                     const std::vector<std::size_t>& keepers)
+    : file_(file),
+      drawing_(drawing),
+      spots_(spots),
+      keepers_(keepers),
+      lines_(lines_of(file)),
+      owners_(drawing.rods().size(), kNobody),
+      news_(drawing.places().size() - keepers.size()) {
+  for (std::size_t i = 0; i < spots.size(); ++i) by_id_.emplace(file.pslg.points[i].id, i);
 }
 
-class Redrawing {
- public:
-  Redrawing(const PslgFile& file, const Drawing& drawing, const std::vector<Spot>& spots,
-            const std::vector<std::size_t>& keepers)
-      : file_(file),
-        drawing_(drawing),
-        spots_(spots),
-        keepers_(keepers),
-        lines_(lines_of(file)),
-        owners_(drawing.rods().size(), kNobody),
-        news_(drawing.places().size() - keepers.size()) {
-    for (std::size_t i = 0; i < spots.size(); ++i) by_id_.emplace(file.pslg.points[i].id, i);
-  }
-
-  Repaired redraw() {
-    merge_points();
-    draw_lines();
-    add_new_points();
-    for (const Line& line : lines_) keep(line);
-    for (const std::uint32_t l : order_) rename_rest(lines_[l]);
-    copy_rest();
-    sort_notes();
-    out_.tolerance = drawing_.tolerance();
-    return std::move(out_);
-  }
-
- private:
-  // A point that was not there: the lines through it, and what the first of these makes it.
-  struct NewPoint {
-    FeatureId id{};
-    std::int64_t marker = 0;
-    std::vector<double> attributes;
-    Place place;
-    std::set<FeatureId> lines;
-  };
-
-  [[nodiscard]] bool is_new(Spot s) const { return s >= keepers_.size(); }
-  [[nodiscard]] NewPoint& news(Spot s) { return news_[s - keepers_.size()]; }
-  [[nodiscard]] FeatureId id(Spot s) {
-    return is_new(s) ? news(s).id : file_.pslg.points[keepers_[s]].id;
-  }
-  [[nodiscard]] Place place(const Line& line) const {
-    return {file_.file, line.position.line, line.position.column};
-  }
-  void note(RepairKind kind, std::vector<FeatureId> lines, std::vector<FeatureId> points, Spot at,
-            Place place) {
-    out_.notes.push_back(
-        {kind, std::move(lines), std::move(points), drawing_.place(at), std::move(place)});
-  }
-
-  void merge_points();
-  void draw_lines();
-  void draw(std::uint32_t line);
-  void draw_piece(std::uint32_t line, std::size_t from, std::size_t to);
-  void lead_through(const Line& line, std::size_t from, std::size_t to, Spot s);
-  void step(std::uint32_t line, Spot from, Spot to, bool& is_open);
-  void close_ring(Line& line);
-  void add_new_points();
-  void keep(const Line& line);
-  void rename_rest(const Line& line);
-  void add(FeatureId id, const Line& line, const std::vector<Spot>& run, bool as_segment);
-  void copy_rest();
-  void sort_notes();
-
-  const PslgFile& file_;
-  const Drawing& drawing_;
-  const std::vector<Spot>& spots_;
-  const std::vector<std::size_t>& keepers_;
-  std::unordered_map<FeatureId, std::size_t> by_id_;
-  std::vector<Line> lines_;
-  std::vector<std::uint32_t> order_;                        // lines by id
-  std::vector<std::uint32_t> owners_;                       // of rods
-  std::set<std::pair<std::uint32_t, std::uint32_t>> lost_;  // of this line, to that
-  std::vector<NewPoint> news_;
-  std::int64_t last_line_ = 0;
-  Repaired out_;
-};
+Repaired Redrawing::redraw() {
+  merge_points();
+  draw_lines();
+  add_new_points();
+  for (const Line& line : lines_) keep(line);
+  for (const std::uint32_t l : order_) rename_rest(lines_[l]);
+  copy_rest();
+  sort_notes();
+  out_.tolerance = drawing_.tolerance();
+  return std::move(out_);
+}
 
 // --- Points ----------------------------------------------------------------------------------
 
@@ -174,91 +109,6 @@ void Redrawing::add_new_points() {
 }
 
 // --- Lines -----------------------------------------------------------------------------------
-
-// A line leads through a point that it did not, between two of its points.
-void Redrawing::lead_through(const Line& line, std::size_t from, std::size_t to, Spot s) {
-  if (!is_new(s)) {
-    note(RepairKind::split_at_point, {line.id}, {id(s)}, s, place(line));
-    return;
-  }
-  NewPoint& point = news(s);
-  if (point.lines.empty()) {
-    const Point<2>&a = file_.pslg.points[from].at, &b = file_.pslg.points[to].at;
-    const Point<2>& p = drawing_.place(s);
-    const double x = b[0] - a[0], y = b[1] - a[1];
-    const double along = ((p[0] - a[0]) * x + (p[1] - a[1]) * y) / (x * x + y * y);
-    const double t = std::clamp(along, 0.0, 1.0);
-    point.marker = line.marker;
-    point.place = place(line);
-    const std::size_t n = file_.pslg.attributes_per_point;
-    for (std::size_t k = 0; k < n; ++k) {
-      const double u = file_.pslg.attributes[from * n + k], w = file_.pslg.attributes[to * n + k];
-      point.attributes.push_back(u * (1 - t) + w * t);
-    }
-  }
-  point.lines.insert(line.id);
-}
-
-void Redrawing::step(std::uint32_t l, Spot from, Spot to, bool& is_open) {
-  Line& line = lines_[l];
-  std::uint32_t& owner = owners_[drawing_.find(from, to)];
-  if (owner == kNobody) {
-    owner = l;
-    if (!is_open) line.runs.push_back({from});
-    line.runs.back().push_back(to);
-    is_open = true;
-    return;
-  }
-  is_open = false;
-  if (!lost_.emplace(l, owner).second) return;
-  note(RepairKind::overlap, {line.id, lines_[owner].id}, {}, from, place(line));
-}
-
-void Redrawing::draw(std::uint32_t l) {
-  bool is_open = false;
-  bool first_is_own = true;
-  bool any = false;
-  Line& line = lines_[l];
-  for (std::size_t k = 1; k < line.points.size(); ++k) {
-    const std::size_t from = by_id_.at(line.points[k - 1]), to = by_id_.at(line.points[k]);
-    Spot s = spots_[from];
-    if (s == spots_[to]) {
-      note(RepairKind::zero_length, {line.id}, {id(s)}, s, place(line));
-      continue;
-    }
-    const Point<2>&a = file_.pslg.points[from].at, &b = file_.pslg.points[to].at;
-    drawing_.walk(drawing_.find(s, spots_[to]), s, [&](Spot t) {
-      if (t != spots_[to]) lead_through(line, from, to, t);
-      out_.deviation = std::max(out_.deviation, distance2(drawing_.place(t), a, b));
-      step(l, s, t, is_open);
-      if (!any) first_is_own = is_open;
-      any = true;
-      s = t;
-    });
-  }
-  if (line.ring && is_open && first_is_own && line.runs.size() > 1) close_ring(line);
-}
-
-// The run behind the last gap goes on as the first.
-void Redrawing::close_ring(Line& line) {
-  auto& first = line.runs.front();
-  auto& last = line.runs.back();
-  last.insert(last.end(), first.begin() + 1, first.end());
-  first = std::move(last);
-  line.runs.pop_back();
-}
-
-void Redrawing::draw_lines() {
-  for (std::uint32_t l = 0; l < lines_.size(); ++l) order_.push_back(l);
-  std::sort(order_.begin(), order_.end(),
-            [&](std::uint32_t l, std::uint32_t m) { return lines_[l].id < lines_[m].id; });
-  for (const std::uint32_t l : order_) draw(l);
-  for (const auto& [id, i] : by_id_) {  // of points, what merging has moved
-    const Point<2>& p = drawing_.place(spots_[i]);
-    out_.deviation = std::max(out_.deviation, distance2(file_.pslg.points[i].at, p, p));
-  }
-  out_.deviation = std::sqrt(out_.deviation);
-}
 
 void Redrawing::add(FeatureId line_id, const Line& line, const std::vector<Spot>& run,
                     bool as_segment) {
@@ -312,8 +162,6 @@ void Redrawing::sort_notes() {
     return std::tie(a.kind, a.lines, a.points, a.at) < std::tie(b.kind, b.lines, b.points, b.at);
   });
 }
-
-}  // namespace
 
 Repaired redraw(const PslgFile& file, const Drawing& drawing, const std::vector<Spot>& spots,
                 const std::vector<std::size_t>& keepers) {

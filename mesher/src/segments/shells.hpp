@@ -22,6 +22,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "geometry/box.hpp"
 #include "index/features.hpp"
 #include "segments/segment_store.hpp"
 
@@ -198,8 +199,7 @@ double apex_reach(SegmentStore& segments, const Features<S>& points, const Verte
     }
     return false;
   });
-  const Box<2> around{{end.p[0] - reach, end.p[1] - reach}, {end.p[0] + reach, end.p[1] + reach}};
-  points.visit_points_in(around, [&](const Vertex<2>& v) {
+  points.visit_points_in(around(end.p, reach), [&](const Vertex<2>& v) {
     if (v.self != end.self) nearest2 = std::min(nearest2, distance2(end.p, v.p, v.p));
     return false;
   });

@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include "geometry/box.hpp"
 #include "geometry/plane.hpp"
 #include "mesher/predicates.hpp"
 #include "mesher/sizes.hpp"
@@ -57,16 +58,7 @@ class Facet {
     }
     return true;
   }
-  [[nodiscard]] Box<2> extent() const {
-    Box<2> box{at_[0], at_[0]};
-    for (const Point<2>& p : at_) {
-      for (std::size_t i = 0; i < 2; ++i) {
-        box.lo[i] = std::min(box.lo[i], p[i]);
-        box.hi[i] = std::max(box.hi[i], p[i]);
-      }
-    }
-    return box;
-  }
+  [[nodiscard]] Box<2> extent() const { return bounding_box<2>(at_); }
   [[nodiscard]] Point<2> middle() const { return centroid(at_); }
 
  private:

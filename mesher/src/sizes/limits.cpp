@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "geometry/box.hpp"
 #include "geometry/plane.hpp"
 #include "input.hpp"
 #include "io/text.hpp"
@@ -20,8 +21,6 @@ namespace {
   refuse("a spacing of " + text::to_text(spacing) +
          " is too small for double precision at coordinates up to " + text::to_text(coordinates));
 }
-
-Box<2> around(const Point<2>& p, double r) { return {{p[0] - r, p[1] - r}, {p[0] + r, p[1] + r}}; }
 
 double rounded_down(double x, int bits) {
   int exponent = 0;
@@ -99,7 +98,7 @@ void Limits::add_bands(double end) {
 }
 
 double Limits::area(const Point<2>& p) const {
-  if (!contains(p)) return kNone;
+  if (!contains(domain_, p)) return kNone;
   if (sizes_ == nullptr) return area_;
   const double h = sizes_->at(p);
   if (!(h > 0)) refuse("the size at " + place_text(p) + " is not above 0");

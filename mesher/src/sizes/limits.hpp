@@ -61,10 +61,6 @@ class Limits {
     double spacing, pitch;
   };
   static double spacing(double area) noexcept { return std::sqrt(area / Lattice::kArea); }
-  [[nodiscard]] bool contains(const Point<2>& p) const noexcept {
-    return p[0] >= domain_.lo[0] && p[0] <= domain_.hi[0] && p[1] >= domain_.lo[1] &&
-           p[1] <= domain_.hi[1];
-  }
   void add_bands(double end);
   void add_pitch(double spacing);
   [[nodiscard]] double pitch_for(double spacing) const;

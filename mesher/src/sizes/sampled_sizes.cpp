@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/box.hpp"
 #include "geometry/grid.hpp"
 #include "geometry/plane.hpp"
 #include "input.hpp"
@@ -58,12 +59,9 @@ void check(const std::vector<SizeSample>& samples) {
 // Four times as wide as what the samples lie in; its side is a power of two.
 Box<2> square_around(const std::vector<SizeSample>& samples) {
   Box<2> box{samples.front().at, samples.front().at};
+  for (const SizeSample& s : samples) detail::grow(box, s.at);
   double largest = 0x1p-90, extent = 0;
   for (std::size_t i = 0; i < 2; ++i) {
-    for (const SizeSample& s : samples) {
-      box.lo[i] = std::min(box.lo[i], s.at[i]);
-      box.hi[i] = std::max(box.hi[i], s.at[i]);
-    }
     largest = std::max({largest, std::abs(box.lo[i]), std::abs(box.hi[i])});
     extent = std::max(extent, box.hi[i] - box.lo[i]);
   }

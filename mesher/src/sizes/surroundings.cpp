@@ -4,23 +4,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/box.hpp"
 #include "geometry/plane.hpp"
 
 namespace mesher::detail {
 
 namespace {
 
-Box<2> around(const Point<2>& p, double r) { return {{p[0] - r, p[1] - r}, {p[0] + r, p[1] + r}}; }
-
 // Requires: candidates is not empty.
 Box<2> extent_of(const Candidates& candidates) {
   Box<2> all{candidates.front().place, candidates.front().place};
   for (const auto& q : candidates) {
     const Box<2> one = around(q.place, kUndisturbed * q.pitch);
-    for (int i = 0; i < 2; ++i) {
-      all.lo[i] = std::min(all.lo[i], one.lo[i]);
-      all.hi[i] = std::max(all.hi[i], one.hi[i]);
-    }
+    grow(all, one.lo);
+    grow(all, one.hi);
   }
   return all;
 }
@@ -56,9 +53,6 @@ Point<2> middle(const Box<2>& box) {
 }
 double reach(const Box<2>& box) {
   return std::hypot(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1]) / 2 * (1 + 0x1p-40);
-}
-bool contains(const Box<2>& box, const Point<2>& p) {
-  return p[0] >= box.lo[0] && p[0] <= box.hi[0] && p[1] >= box.lo[1] && p[1] <= box.hi[1];
 }
 
 }  // namespace

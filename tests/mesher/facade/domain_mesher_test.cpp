@@ -2,9 +2,7 @@
 #include "mesher/domain_mesher.hpp"
 
 #include <catch2/catch.hpp>
-#include <new>
 #include <stop_token>
-#include <utility>
 
 #include "failing_new.hpp"
 #include "scratch_file.hpp"
@@ -21,6 +19,7 @@ using mesher::Pslg;
 using mesher::SeedKind;
 using mesher::Zone;
 using support::failure_of;
+using support::fails;
 
 const mesher::Options<2> kOptions{.domain = {{0, 0}, {16, 16}}};
 
@@ -68,20 +67,6 @@ struct Seen {
 };
 
 std::size_t triangles(const DomainMesher& m) { return m.domain_mesh().kept.simplices.size(); }
-
-// Whether run() throws when its `count`-th allocation fails; `burnt`: whether there were so many.
-template <class Run>
-bool fails(std::uint64_t count, bool& burnt, Run run) {
-  support::allocation_fuse.left = count;
-  bool failed = false;
-  try {
-    run();
-  } catch (const std::bad_alloc&) {
-    failed = true;
-  }
-  burnt = std::exchange(support::allocation_fuse.left, 0) == 0;
-  return failed;
-}
 
 }  // namespace
 

@@ -1,11 +1,10 @@
 // Out of memory at every allocation, one after the other, of edits of lines and their updates.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <new>
-#include <utility>
 #include <vector>
 
 #include "failing_new.hpp"
+#include "failing_update.hpp"
 #include "mesher/mesher.hpp"
 
 namespace {
@@ -15,6 +14,7 @@ using mesher::Mesh;
 using mesher::Mesher;
 using mesher::Options;
 using mesher::Point;
+using support::fails;
 
 const Options<2> kOptions{.domain = {{0, 0}, {16, 16}}};
 
@@ -45,20 +45,6 @@ struct Walled {
   }
 };
 
-// Whether run() throws when its `count`-th allocation fails; `burnt`: whether there were so many.
-template <class Run>
-bool fails(std::uint64_t count, bool& burnt, Run run) {
-  support::allocation_fuse.left = count;
-  bool failed = false;
-  try {
-    run();
-  } catch (const std::bad_alloc&) {
-    failed = true;
-  }
-  burnt = std::exchange(support::allocation_fuse.left, 0) == 0;
-  return failed;
-}
-
 }  // namespace
 
 TEST_CASE("an announced line that finds no memory changes nothing") {
@@ -80,27 +66,7 @@ TEST_CASE("an announced line that finds no memory changes nothing") {
 }
 
 TEST_CASE("an update of lines in which any one allocation fails leaves the mesh, and works again") {
-  Walled whole;
-  whole.announce();
-  whole.m.update();
-  const Mesh<2> expected = whole.m.mesh();
-  bool burnt = true;
-  std::uint64_t count = 1;
-  for (; burnt; ++count) {
-    CAPTURE(count);
-    Walled w;
-    w.announce();
-    const bool failed = fails(count, burnt, [&] { w.m.update(); });
-    w.m.check_invariants();
-    if (failed) {
-      REQUIRE(w.m.mesh() == w.before);
-      w.announce();
-      w.m.update();
-      w.m.check_invariants();
-    }
-    REQUIRE(w.m.mesh() == expected);
-  }
-  CHECK(count > 100);
+  support::check_failing_updates<Walled>();
 }
 
 namespace {
@@ -134,25 +100,5 @@ struct Hub {
 }  // namespace
 
 TEST_CASE("a hub that moves and a polyline that comes survive any one allocation that fails") {
-  Hub whole;
-  whole.announce();
-  whole.m.update();
-  const Mesh<2> expected = whole.m.mesh();
-  bool burnt = true;
-  std::uint64_t count = 1;
-  for (; burnt; ++count) {
-    CAPTURE(count);
-    Hub hub;
-    hub.announce();
-    const bool failed = fails(count, burnt, [&] { hub.m.update(); });
-    hub.m.check_invariants();
-    if (failed) {
-      REQUIRE(hub.m.mesh() == hub.before);
-      hub.announce();
-      hub.m.update();
-      hub.m.check_invariants();
-    }
-    REQUIRE(hub.m.mesh() == expected);
-  }
-  CHECK(count > 100);
+  support::check_failing_updates<Hub>();
 }

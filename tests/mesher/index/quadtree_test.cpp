@@ -218,7 +218,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a cell that nobody marks has children while many vertices lie in it, and none when few") {
+TEST_CASE(
+    "a cell that nobody marks has children while many vertices lie in it, and none when few") {
   const MeshBox<2> box{.lo = {-1.5, -1.5}, .side = 4};
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     INFO("seed " << seed);

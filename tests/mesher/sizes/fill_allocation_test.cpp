@@ -1,10 +1,8 @@
 // Out of memory at every allocation, one after the other, of an update of a mesh with a largest
 // area.
 #include <catch2/catch.hpp>
-#include <new>
-#include <utility>
 
-#include "failing_new.hpp"
+#include "failing_update.hpp"
 #include "mesher/mesher.hpp"
 
 namespace {
@@ -52,33 +50,5 @@ struct Filled {
 }  // namespace
 
 TEST_CASE("an update of a filled mesh in which any one allocation fails leaves it, works again") {
-  Filled whole;
-  whole.announce();
-  whole.m.update();
-  const Mesh<2> expected = whole.m.mesh();
-  REQUIRE_FALSE(expected == whole.before);
-  bool burnt = true;
-  std::uint64_t count = 1;
-  for (; burnt; ++count) {
-    CAPTURE(count);
-    Filled f;
-    f.announce();
-    bool failed = false;
-    support::allocation_fuse.left = count;
-    try {
-      f.m.update();
-    } catch (const std::bad_alloc&) {
-      failed = true;
-    }
-    burnt = std::exchange(support::allocation_fuse.left, 0) == 0;
-    f.m.check_invariants();
-    if (failed) {
-      REQUIRE(f.m.mesh() == f.before);
-      f.announce();
-      f.m.update();
-      f.m.check_invariants();
-    }
-    REQUIRE(f.m.mesh() == expected);
-  }
-  CHECK(count > 100);
+  support::check_failing_updates<Filled>();
 }

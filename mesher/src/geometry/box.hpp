@@ -1,0 +1,38 @@
+// Boxes: around places, and what lies in them.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <type_traits>
+
+#include "mesher/mesh.hpp"
+
+namespace mesher::detail {
+
+/// What is within r of p along each axis.
+[[nodiscard]] inline Box<2> around(const Point<2>& p, double r) {
+  return {{p[0] - r, p[1] - r}, {p[0] + r, p[1] + r}};
+}
+/// The sides belong to a box.
+[[nodiscard]] inline bool contains(const Box<2>& box, const Point<2>& p) {
+  return p[0] >= box.lo[0] && p[0] <= box.hi[0] && p[1] >= box.lo[1] && p[1] <= box.hi[1];
+}
+/// Widens a box to hold p.
+template <int D>
+void grow(Box<D>& box, const std::type_identity_t<Point<D>>& p) {
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    box.lo[i] = std::min(box.lo[i], p[i]);
+    box.hi[i] = std::max(box.hi[i], p[i]);
+  }
+}
+/// The least box that holds all points; Box() if there are none.
+template <int D>
+[[nodiscard]] Box<D> bounding_box(std::span<const Point<D>> points) {
+  if (points.empty()) return {};
+  Box<D> box{points.front(), points.front()};
+  for (const Point<D>& p : points) grow(box, p);
+  return box;
+}
+
+}  // namespace mesher::detail
