@@ -142,10 +142,7 @@ void print_run(const std::string& input, const mesher::Pslg& graph, const Run& r
 
 void print_remarks(const Input& input, const std::vector<mesher::SeedFault>& faults) {
   for (const auto& note : input.file().notes) {
-    std::string line;
-    if (note.place.line > 0) line.append(":").append(std::to_string(note.place.line));
-    std::fprintf(stderr, "%s%s: note: %s\n", note.place.file.c_str(), line.c_str(),
-                 note.text.c_str());
+    std::fprintf(stderr, "%s: note: %s\n", text_of(note.place).c_str(), note.text.c_str());
   }
   for (const auto& note : input.repairs()) {
     std::fprintf(stderr, "%s\n", note.text("repair: ").c_str());
