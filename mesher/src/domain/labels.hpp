@@ -1,5 +1,5 @@
-// What seeds may be; which seed of a region counts, what that makes of the region, what is kept, and
-// which seeds are at fault.
+// What seeds may be; which seed of a region counts, what that makes of the region, what is kept,
+// and which seeds are at fault.
 #pragma once
 
 #include <optional>
