@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <new>
+#include <utility>
 
 namespace support {
 
@@ -13,5 +15,19 @@ struct Fuse {
 
 extern Fuse allocation_fuse;  ///< burns with every operator new
 extern bool memory_is_out;    ///< while true, operator new fails
+
+/// Whether run() throws when its `count`-th allocation fails; `burnt`: whether there were so many.
+template <class Run>
+bool fails(std::uint64_t count, bool& burnt, Run run) {
+  allocation_fuse.left = count;
+  bool failed = false;
+  try {
+    run();
+  } catch (const std::bad_alloc&) {
+    failed = true;
+  }
+  burnt = std::exchange(allocation_fuse.left, 0) == 0;
+  return failed;
+}
 
 }  // namespace support

@@ -3,8 +3,6 @@
 // Each step is tried with the first allocation failing, then the second, ..., until it needs no
 // more. After a failure the mesh is the last update's and the mesher works on.
 #include <catch2/catch.hpp>
-#include <new>
-#include <utility>
 #include <vector>
 
 #include "failing_new.hpp"
@@ -26,15 +24,8 @@ enum class Outcome { enough_memory, done_without, failed };
 // What becomes of run() when its `count`-th allocation fails. Some algorithms do without.
 template <class Run>
 Outcome with_failure(std::uint64_t count, Run run) {
-  support::allocation_fuse.left = count;
-  bool failed = false;
-  try {
-    run();
-  } catch (const std::bad_alloc&) {
-    failed = true;
-  }
-  const bool burnt = std::exchange(support::allocation_fuse.left, 0) == 0;
-  if (failed) return Outcome::failed;
+  bool burnt = false;
+  if (support::fails(count, burnt, run)) return Outcome::failed;
   return burnt ? Outcome::done_without : Outcome::enough_memory;
 }
 

@@ -2,9 +2,7 @@
 #include "mesher/domain_mesher.hpp"
 
 #include <catch2/catch.hpp>
-#include <new>
 #include <stop_token>
-#include <utility>
 
 #include "failing_new.hpp"
 #include "scratch_file.hpp"
@@ -68,20 +66,6 @@ struct Seen {
 };
 
 std::size_t triangles(const DomainMesher& m) { return m.domain_mesh().kept.simplices.size(); }
-
-// Whether run() throws when its `count`-th allocation fails; `burnt`: whether there were so many.
-template <class Run>
-bool fails(std::uint64_t count, bool& burnt, Run run) {
-  support::allocation_fuse.left = count;
-  bool failed = false;
-  try {
-    run();
-  } catch (const std::bad_alloc&) {
-    failed = true;
-  }
-  burnt = std::exchange(support::allocation_fuse.left, 0) == 0;
-  return failed;
-}
 
 }  // namespace
 
@@ -230,7 +214,7 @@ TEST_CASE("an update in which any one allocation fails leaves mesh and domain, a
     CAPTURE(count);
     Parted p;
     p.announce();
-    const bool failed = fails(count, burnt, [&] { p.m.update(); });
+    const bool failed = support::fails(count, burnt, [&] { p.m.update(); });
     if (count % 16 == 0) p.m.check_invariants();
     if (failed) {
       REQUIRE(Seen(p.m) == before);
@@ -250,7 +234,7 @@ TEST_CASE("an announcement that finds no memory announces nothing") {
     bool burnt = true;
     for (std::uint64_t count = 1; burnt; ++count) {
       Parted p;
-      const bool failed = fails(count, burnt, [&] {
+      const bool failed = support::fails(count, burnt, [&] {
         if (kind == 0) p.m.insert(id(9), {10, 3}, 6);
         if (kind == 1) p.m.insert_segment(id(3), id(7), id(6), 8);
         if (kind == 2) p.m.remove(id(7));

@@ -1,8 +1,6 @@
 // Out of memory at every allocation, one after the other, of edits of lines and their updates.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <new>
-#include <utility>
 #include <vector>
 
 #include "failing_new.hpp"
@@ -45,20 +43,6 @@ struct Walled {
   }
 };
 
-// Whether run() throws when its `count`-th allocation fails; `burnt`: whether there were so many.
-template <class Run>
-bool fails(std::uint64_t count, bool& burnt, Run run) {
-  support::allocation_fuse.left = count;
-  bool failed = false;
-  try {
-    run();
-  } catch (const std::bad_alloc&) {
-    failed = true;
-  }
-  burnt = std::exchange(support::allocation_fuse.left, 0) == 0;
-  return failed;
-}
-
 }  // namespace
 
 TEST_CASE("an announced line that finds no memory changes nothing") {
@@ -66,7 +50,7 @@ TEST_CASE("an announced line that finds no memory changes nothing") {
   bool burnt = true;
   for (std::uint64_t count = 1; burnt; ++count) {
     const auto insert = [&] { w.m.insert_polyline(id(3), {id(8), id(3)}); };
-    if (fails(count, burnt, insert)) {
+    if (support::fails(count, burnt, insert)) {
       CHECK_FALSE(w.m.contains_line(id(3)));
       CHECK(w.m.update().calls.executed == 0);
     }
@@ -74,7 +58,9 @@ TEST_CASE("an announced line that finds no memory changes nothing") {
   w.m.discard_edits();
   burnt = true;
   for (std::uint64_t count = 1; burnt; ++count) {
-    if (fails(count, burnt, [&] { w.m.remove_segment(id(2)); })) CHECK(w.m.contains_line(id(2)));
+    if (support::fails(count, burnt, [&] { w.m.remove_segment(id(2)); })) {
+      CHECK(w.m.contains_line(id(2)));
+    }
   }
   CHECK_FALSE(w.m.contains_line(id(2)));
 }
@@ -90,7 +76,7 @@ TEST_CASE("an update of lines in which any one allocation fails leaves the mesh,
     CAPTURE(count);
     Walled w;
     w.announce();
-    const bool failed = fails(count, burnt, [&] { w.m.update(); });
+    const bool failed = support::fails(count, burnt, [&] { w.m.update(); });
     w.m.check_invariants();
     if (failed) {
       REQUIRE(w.m.mesh() == w.before);
@@ -144,7 +130,7 @@ TEST_CASE("a hub that moves and a polyline that comes survive any one allocation
     CAPTURE(count);
     Hub hub;
     hub.announce();
-    const bool failed = fails(count, burnt, [&] { hub.m.update(); });
+    const bool failed = support::fails(count, burnt, [&] { hub.m.update(); });
     hub.m.check_invariants();
     if (failed) {
       REQUIRE(hub.m.mesh() == hub.before);

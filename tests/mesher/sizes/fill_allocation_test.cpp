@@ -1,8 +1,6 @@
 // Out of memory at every allocation, one after the other, of an update of a mesh with a largest
 // area.
 #include <catch2/catch.hpp>
-#include <new>
-#include <utility>
 
 #include "failing_new.hpp"
 #include "mesher/mesher.hpp"
@@ -63,14 +61,7 @@ TEST_CASE("an update of a filled mesh in which any one allocation fails leaves i
     CAPTURE(count);
     Filled f;
     f.announce();
-    bool failed = false;
-    support::allocation_fuse.left = count;
-    try {
-      f.m.update();
-    } catch (const std::bad_alloc&) {
-      failed = true;
-    }
-    burnt = std::exchange(support::allocation_fuse.left, 0) == 0;
+    const bool failed = support::fails(count, burnt, [&] { f.m.update(); });
     f.m.check_invariants();
     if (failed) {
       REQUIRE(f.m.mesh() == f.before);
