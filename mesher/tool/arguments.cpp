@@ -55,12 +55,6 @@ std::size_t option_count(const std::string& option, const std::string& text) {
   throw Error(ErrorCode::bad_option, option + " '" + text + "': not a whole number above 0");
 }
 
-double option_positive(const std::string& option, const std::string& text) {
-  const double x = option_number(option, text);
-  if (x > 0) return x;
-  throw Error(ErrorCode::bad_option, option + " " + text + ": must be above 0");
-}
-
 void add_limits(const MeshArguments& args, mesher::Options<2>& options) {
   if (!args.max_area.empty()) options.max_area = option_positive("--max-area", args.max_area);
   if (!args.max_size.empty()) {
@@ -152,6 +146,12 @@ double option_number(const std::string& option, const std::string& text) {
   const auto result = std::from_chars(text.data() + (plus ? 1 : 0), end, value);
   if (result.ec == std::errc{} && result.ptr == end && std::isfinite(value)) return value + 0.0;
   throw Error(ErrorCode::bad_option, option + " '" + text + "': not a finite number");
+}
+
+double option_positive(const std::string& option, const std::string& text) {
+  const double x = option_number(option, text);
+  if (x > 0) return x;
+  throw Error(ErrorCode::bad_option, option + " " + text + ": must be above 0");
 }
 
 double option_rho(const std::string& text) {

@@ -43,6 +43,9 @@ void add_mesh_options(CLI::App& command, MeshArguments& args);
 /// A number from the command line. Throws: Error(bad_option) naming `option`.
 [[nodiscard]] double option_number(const std::string& option, const std::string& text);
 
+/// The same, above 0. Throws: likewise.
+[[nodiscard]] double option_positive(const std::string& option, const std::string& text);
+
 /// The value of --rho. Throws: Error(bad_option).
 [[nodiscard]] double option_rho(const std::string& text);
 
@@ -51,8 +54,7 @@ void add_mesh_options(CLI::App& command, MeshArguments& args);
 [[nodiscard]] Input read_input(const MeshArguments& args);
 
 /// What to mesh: the domain as given, or around the input.
-/// Throws: Error(bad_option); Error(outside_domain) with the line of the first point outside,
-/// naming
+/// Throws: Error(bad_option); Error(outside_domain) with the line of the first point outside, naming
 /// --domain; as read_sizes.
 [[nodiscard]] mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input);
 

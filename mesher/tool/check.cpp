@@ -32,9 +32,7 @@ void print_findings(const std::vector<mesher::Finding>& findings) {
 
 void print_notes(const std::vector<mesher::Note>& notes) {
   for (const auto& note : notes) {
-    const std::string line = note.place.line > 0 ? ":" + std::to_string(note.place.line) : "";
-    std::printf("  %-12s%s%s: %s\n", "note", note.place.file.c_str(), line.c_str(),
-                note.text.c_str());
+    std::printf("  %-12s%s: %s\n", "note", text_of(note.place).c_str(), note.text.c_str());
   }
 }
 
@@ -52,12 +50,6 @@ mesher::BoundaryRule boundary_rule(const CheckArguments& args, const mesher::Mes
   return lines ? mesher::BoundaryRule::lines : mesher::BoundaryRule::box;
 }
 
-double option_area(const std::string& text) {
-  const double area = option_number("--max-area", text);
-  if (area > 0) return area;
-  throw mesher::Error(mesher::ErrorCode::bad_option, "--max-area " + text + ": must be above 0");
-}
-
 void run_check(const CheckArguments& args) {
   const mesher::MeshData mesh = mesher::read_mesh(args.mesh);
   mesher::PslgFile graph;
@@ -66,7 +58,7 @@ void run_check(const CheckArguments& args) {
   options.features = &mesh.features;
   if (!args.input.empty()) options.graph = &graph;
   if (!args.rho.empty()) options.rho = option_rho(args.rho);
-  if (!args.max_area.empty()) options.max_area = option_area(args.max_area);
+  if (!args.max_area.empty()) options.max_area = option_positive("--max-area", args.max_area);
   options.boundary = boundary_rule(args, mesh, graph.pslg);
   options.constrained = args.constrained;
   const auto findings = mesher::check_mesh(mesh, options);

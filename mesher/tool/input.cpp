@@ -68,13 +68,13 @@ std::string words(Featured kind, FeatureId id) {
          std::to_string(static_cast<std::int64_t>(id));
 }
 
-std::string text(const Place& place) {
-  return place.line > 0 ? place.file + ":" + std::to_string(place.line) : place.file;
-}
-
 bool same_line(const Place& a, const Place& b) { return a.file == b.file && a.line == b.line; }
 
 }  // namespace
+
+std::string text_of(const Place& place) {
+  return place.line > 0 ? place.file + ":" + std::to_string(place.line) : place.file;
+}
 
 void Input::repair(const std::optional<mesher::Box<2>>& domain) {
   mesher::Repaired repaired = mesher::repair(file_, domain);
@@ -122,7 +122,7 @@ Error Input::located(const Error& error) const {
       blamed = stands;
     } else {
       others +=
-          (others.empty() ? " (" : ", ") + words(kinds[i], error.ids()[i]) + ": " + text(stands);
+          (others.empty() ? " (" : ", ") + words(kinds[i], error.ids()[i]) + ": " + text_of(stands);
     }
   }
   if (blamed.file.empty()) blamed.file = file_.file;
@@ -133,7 +133,7 @@ Error Input::located(const Error& error) const {
 std::string Input::warning(const mesher::SeedFault& fault) const {
   const bool hole = fault.seed.kind == mesher::SeedKind::hole;
   const Place stands = place(hole ? Featured::hole : Featured::region, fault.seed.id);
-  return text(stands) + ": warning: " + describe(fault);
+  return text_of(stands) + ": warning: " + describe(fault);
 }
 
 }  // namespace tool

@@ -13,6 +13,9 @@
 
 namespace tool {
 
+/// FILE:LINE, or FILE where the line is not known.
+[[nodiscard]] std::string text_of(const mesher::Place& place);
+
 class Input {
  public:
   /// Throws: Error, as read_pslg.

@@ -15,6 +15,12 @@
 namespace tool {
 namespace {
 
+struct Result {
+  mesher::DomainMesh mesh;
+  Run run;
+  std::string angles;  // what small angles of the input do to the mesh
+};
+
 mesher::Mesh<2> mesh_without_engine(const Input& input, const mesher::Options<2>& options,
                                     mesher::MeshStats& stats, Progress& progress) {
   try {
@@ -48,9 +54,7 @@ Result mesh(const MeshArguments& args, const Input& input, const mesher::Options
   return result;
 }
 
-mesher::Options<2> options_with_regions(const MeshArguments& args, const Input& input) {
-  mesher::Options<2> options = mesh_options(args, input);
-  if (!args.region_areas) return options;
+void limit_regions(const Input& input, mesher::Options<2>& options) {
   try {
     options.sizes =
         mesher::least_sizes({options.sizes, mesher::region_sizes(input.graph(), options)});
@@ -58,15 +62,15 @@ mesher::Options<2> options_with_regions(const MeshArguments& args, const Input& 
   } catch (const mesher::Error& error) {
     throw input.located(error);
   }
-  return options;
 }
 
 void run_mesh(const MeshArguments& args) {
   const Input input = read_input(args);
-  const auto options = options_with_regions(args, input);
+  auto options = mesh_options(args, input);
   Outputs outputs;
   open_outputs(args, input, outputs);
   Figures figures(args.stats, outputs);
+  if (args.region_areas) limit_regions(input, options);
   Progress progress(args.quiet);
   const Result result = mesh(args, input, options, progress);
   if (figures.wanted()) figures << json_of(result.run).dump(2) << "\n";

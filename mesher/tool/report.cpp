@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace tool {
 namespace {
@@ -39,17 +40,20 @@ std::string of_all(std::size_t kept, std::size_t all) {
   return std::to_string(kept) + " of " + std::to_string(all) + " in the box";
 }
 
-// The triangles that keep the bound: all, but those that small angles of the input forbid to.
-mesher::Mesh<2> within(double rho, const mesher::Mesh<2>& mesh) {
+// Which triangles keep the bound: all, but those that small angles of the input forbid to.
+void measure_bound(double rho, const mesher::Mesh<2>& mesh, Run& run) {
   constexpr double kRounding = 1e-9;
-  mesher::Mesh<2> good;
-  good.vertices = mesh.vertices;
+  double smallest = std::numeric_limits<double>::infinity();
   for (const auto& t : mesh.simplices) {
-    const auto& at = mesh.vertices;
-    const double ratio = mesher::radius_edge(at[t[0]], at[t[1]], at[t[2]]);
-    if (ratio <= rho * (1 + kRounding)) good.simplices.push_back(t);
+    const auto &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    if (mesher::radius_edge(a, b, c) <= rho * (1 + kRounding)) {
+      smallest = std::min(smallest, mesher::smallest_angle_deg(a, b, c));
+    } else {
+      ++run.above_rho;
+    }
   }
-  return good;
+  const bool none = run.above_rho == mesh.simplices.size();
+  run.min_angle_within_rho = none ? std::numeric_limits<double>::quiet_NaN() : smallest;
 }
 
 std::string smallest_angle(const Run& run) {
@@ -65,9 +69,7 @@ std::string milliseconds(double seconds) { return format("%.3f ms", seconds * 10
 
 void measure(const mesher::DomainMesh& mesh, double rho, Run& run) {
   run.quality = mesher::quality(mesh.kept);
-  const mesher::Mesh<2> good = within(rho, mesh.kept);
-  run.above_rho = mesh.kept.simplices.size() - good.simplices.size();
-  run.min_angle_within_rho = mesher::quality(good).min_angle_deg;
+  measure_bound(rho, mesh.kept, run);
   run.vertices = mesh.kept.vertices.size();
   run.simplices = mesh.kept.simplices.size();
   run.faults = mesh.faults.size();
@@ -142,10 +144,7 @@ void print_run(const std::string& input, const mesher::Pslg& graph, const Run& r
 
 void print_remarks(const Input& input, const std::vector<mesher::SeedFault>& faults) {
   for (const auto& note : input.file().notes) {
-    std::string line;
-    if (note.place.line > 0) line.append(":").append(std::to_string(note.place.line));
-    std::fprintf(stderr, "%s%s: note: %s\n", note.place.file.c_str(), line.c_str(),
-                 note.text.c_str());
+    std::fprintf(stderr, "%s: note: %s\n", text_of(note.place).c_str(), note.text.c_str());
   }
   for (const auto& note : input.repairs()) {
     std::fprintf(stderr, "%s\n", note.text("repair: ").c_str());

@@ -45,7 +45,8 @@ void measure(const mesher::DomainMesh& mesh, double rho, Run& run);
 /// Prints size, quality and time of a run on standard output.
 void print_run(const std::string& input, const mesher::Pslg& graph, const Run& run);
 
-/// Prints on standard error what of the input is not used, and which seeds have no region.
+/// Prints on standard error what of the input is not used or was repaired, and which seeds have no
+/// region of their own.
 void print_remarks(const Input& input, const std::vector<mesher::SeedFault>& faults);
 
 /// Prints lines of text, indented.

@@ -80,10 +80,6 @@ mesher::DomainChange change_of_kept(const Mesh<2>& before, const Mesh<2>& after)
       difference(new_triangles, old_triangles), difference(old_triangles, new_triangles), {}, 0};
 }
 
-std::string words(const mesher::SeedName& seed) {
-  return (seed.kind == mesher::SeedKind::hole ? "hole " : "region ") + id_text(seed.id);
-}
-
 }  // namespace
 
 void StaticMesher::require_known(FeatureId id) const {
@@ -161,13 +157,13 @@ void StaticMesher::remove_segment(FeatureId id) {
 
 void StaticMesher::insert_seed(const mesher::Seed& seed) {
   if (edited_.seeds.emplace(seed.name, seed).second) return;
-  throw Error(ErrorCode::repeated_id, "there is a " + words(seed.name) + " already", {},
+  throw Error(ErrorCode::repeated_id, "there is a " + text_of(seed.name) + " already", {},
               {seed.name.id});
 }
 
 void StaticMesher::remove_seed(const mesher::SeedName& name) {
   if (edited_.seeds.erase(name) > 0) return;
-  throw Error(ErrorCode::unknown_id, "there is no " + words(name), {}, {name.id});
+  throw Error(ErrorCode::unknown_id, "there is no " + text_of(name), {}, {name.id});
 }
 
 // Ends of lines that were there before.
@@ -192,13 +188,7 @@ mesher::Pslg StaticMesher::graph() const {
   for (const auto& [id, line] : edited_.lines) {
     graph.polylines.push_back({id, line.points, line.marker});
   }
-  for (const auto& [name, seed] : edited_.seeds) {
-    if (name.kind == mesher::SeedKind::hole) {
-      graph.holes.push_back({name.id, seed.at});
-    } else {
-      graph.regions.push_back({name.id, seed.at, seed.attribute, seed.max_area});
-    }
-  }
+  for (const auto& [name, seed] : edited_.seeds) mesher::add_seed(graph, seed);
   return graph;
 }
 

@@ -55,6 +55,9 @@ struct SeedName {
   friend auto operator<=>(const SeedName&, const SeedName&) = default;
 };
 
+/// "hole 3", "region 3".
+[[nodiscard]] std::string text_of(const SeedName& seed);
+
 /// A place that stands for the region around it.
 struct Seed {
   SeedName name;

@@ -35,6 +35,8 @@ struct DomainMesh {
 [[nodiscard]] std::vector<Segment> segments_of(const Pslg& graph);
 /// Holes, then regions.
 [[nodiscard]] std::vector<Seed> seeds_of(const Pslg& graph);
+/// Adds a hole or region, so that seeds_of has it.
+void add_seed(Pslg& graph, const Seed& seed);
 
 /// The mesh of a graph's points and lines in the box. Throws: as mesh_statically of these.
 [[nodiscard]] Mesh<2> mesh_statically(const Pslg& graph, const Options<2>& options,

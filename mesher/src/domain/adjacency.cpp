@@ -15,6 +15,13 @@ std::uint32_t Adjacency::open_neighbour(std::uint32_t t, int i) const {
   return is_wall(t, i) ? kNoTriangle : neighbours[t][i];
 }
 
+std::vector<Edge> ends_of(const std::vector<MeshEdge>& walls) {
+  std::vector<Edge> ends;
+  ends.reserve(walls.size());
+  for (const MeshEdge& wall : walls) ends.push_back({wall.low, wall.high});
+  return ends;
+}
+
 Adjacency adjacency(const std::vector<Corners>& triangles, const std::vector<Edge>& walls) {
   const Sides sides(triangles);
   Joined next = joined(sides);

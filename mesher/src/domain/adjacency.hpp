@@ -19,6 +19,9 @@ struct Adjacency {
   [[nodiscard]] std::uint32_t open_neighbour(std::uint32_t t, int i) const;
 };
 
+/// The ends of walls.
+[[nodiscard]] std::vector<Edge> ends_of(const std::vector<MeshEdge>& walls);
+
 /// Requires: no edge borders more than two triangles. Throws: Error(bad_mesh) for a wall that is no
 /// edge. Cost: O(m log d) for vertices of degree d.
 [[nodiscard]] Adjacency adjacency(const std::vector<Corners>& triangles,

@@ -78,19 +78,13 @@ class Numbering {
   std::vector<std::uint32_t> free_;
 };
 
-std::vector<Edge> ends_of(const std::vector<MeshEdge>& walls) {
-  std::vector<Edge> ends;
-  for (const MeshEdge& wall : walls) ends.push_back({wall.low, wall.high});
-  return ends;
-}
-
 }  // namespace
 
 struct DomainFollower::Impl {
   Impl(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls, const std::vector<Seed>& seeds,
        Extent wanted)
       : numbers(mesh.vertices),
-        regions(mesh.simplices, ends_of(walls), seeds,
+        regions(mesh.simplices, detail::ends_of(walls), seeds,
                 [this](std::uint32_t v) { return numbers.place(v); }),
         extent(wanted) {}
 

@@ -78,6 +78,14 @@ std::vector<Seed> seeds_of(const Pslg& graph) {
   return seeds;
 }
 
+void add_seed(Pslg& graph, const Seed& seed) {
+  if (seed.name.kind == SeedKind::hole) {
+    graph.holes.push_back({seed.name.id, seed.at});
+  } else {
+    graph.regions.push_back({seed.name.id, seed.at, seed.attribute, seed.max_area});
+  }
+}
+
 Mesh<2> mesh_statically(const Pslg& graph, const Options<2>& options, MeshStats* stats,
                         const RunControl& control) {
   std::vector<FeatureId> ids;

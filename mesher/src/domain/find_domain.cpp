@@ -12,13 +12,6 @@ namespace {
 using detail::Adjacency;
 using detail::Holding;
 
-std::vector<detail::Edge> ends_of(const std::vector<MeshEdge>& walls) {
-  std::vector<detail::Edge> ends;
-  ends.reserve(walls.size());
-  for (const MeshEdge& wall : walls) ends.push_back({wall.low, wall.high});
-  return ends;
-}
-
 // Calls visit(triangle, corner) for all triangles around a vertex, given one of them.
 template <class Visit>
 void for_each_around(const Adjacency& adjacency, const Mesh<2>& mesh, std::uint32_t vertex,
@@ -48,14 +41,14 @@ class Finder {
       : mesh_(mesh),
         walls_(walls),
         seeds_(seeds),
-        adjacency_(detail::adjacency(mesh.simplices, ends_of(walls))) {}
+        adjacency_(detail::adjacency(mesh.simplices, detail::ends_of(walls))) {}
 
   Domain run(Extent extent) {
     domain_.region_of = detail::flood(adjacency_);
     count_triangles();
     place_seeds();
     label();
-    domain_.keeps_all = extent == Extent::box || !encloses_;
+    domain_.keeps_all = detail::keeps_all(extent, encloses_);
     find_faults();
     domain_.neighbours = std::move(adjacency_.neighbours);
     return std::move(domain_);

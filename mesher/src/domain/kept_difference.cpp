@@ -1,15 +1,12 @@
 // What a difference of labels means for the triangles that are kept.
 #include <algorithm>
 
+#include "domain/labels.hpp"
 #include "domain/regions.hpp"
 #include "mesh/canonical.hpp"
 
 namespace mesher::detail {
 namespace {
-
-bool keeps(const RegionLabel& label, Extent extent, bool encloses) {
-  return extent == Extent::box || !encloses || label.zone == Zone::inside;
-}
 
 class Comparison {
  public:
@@ -34,10 +31,10 @@ class Comparison {
 
  private:
   [[nodiscard]] bool was_kept(const RegionLabel& label) const {
-    return keeps(label, extent_, difference_.enclosed_before);
+    return keeps(label, keeps_all(extent_, difference_.enclosed_before));
   }
   [[nodiscard]] bool is_kept(const RegionLabel& label) const {
-    return keeps(label, extent_, difference_.encloses);
+    return keeps(label, keeps_all(extent_, difference_.encloses));
   }
   void compare(const Corners& t, const RegionLabel& before, const RegionLabel& after) {
     if (was_kept(before) == is_kept(after)) return;

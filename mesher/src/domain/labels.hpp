@@ -1,5 +1,5 @@
-// What seeds may be; which seed of a region counts, what that makes of the region, and which seeds
-// are at fault.
+// What seeds may be; which seed of a region counts, what that makes of the region, what is kept,
+// and which seeds are at fault.
 #pragma once
 
 #include <optional>
@@ -30,6 +30,14 @@ class Counting {
  private:
   std::optional<FeatureId> hole_, region_;
 };
+
+/// Whether all is kept, where anything is enclosed or not.
+[[nodiscard]] inline bool keeps_all(Extent extent, bool encloses) {
+  return extent == Extent::box || !encloses;
+}
+[[nodiscard]] inline bool keeps(const RegionLabel& label, bool all) {
+  return all || label.zone == Zone::inside;
+}
 
 /// The seed that a label is of.
 [[nodiscard]] inline std::optional<SeedName> counting_seed(const RegionLabel& label) {

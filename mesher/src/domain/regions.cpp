@@ -139,8 +139,12 @@ RegionLabel Regions::label(const Corners& triangle) const {
   return components_[tiles_[side.slot].component].label;
 }
 
+bool Regions::keeps(const RegionLabel& label, Extent extent) const noexcept {
+  return detail::keeps(label, keeps_all(extent, encloses()));
+}
+
 std::vector<SeedFault> Regions::faults(Extent extent) const {
-  const bool keeps_all = extent == Extent::box || !encloses();
+  const bool all_kept = keeps_all(extent, encloses());
   std::vector<SeedFault> all;
   seeds_.for_each([&](std::uint32_t i) {
     const SeedTable::Record& record = seeds_[i];
@@ -149,7 +153,7 @@ std::vector<SeedFault> Regions::faults(Extent extent) const {
       all.push_back({SeedFault::Kind::outside, seed.name, seed.at, {}, {}});
     } else if (record.component == kNone) {
       all.push_back({SeedFault::Kind::on_segment, seed.name, seed.at, {}, {}});
-    } else if (const auto fault = fault_in(seed, components_[record.component].label, keeps_all)) {
+    } else if (const auto fault = fault_in(seed, components_[record.component].label, all_kept)) {
       all.push_back(*fault);
     }
   });

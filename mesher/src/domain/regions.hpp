@@ -96,9 +96,7 @@ class Regions {
   /// Requires: the triangle is there. Cost: O(degree).
   [[nodiscard]] RegionLabel label(const Corners& triangle) const;
   [[nodiscard]] bool encloses() const noexcept { return closed_[0] > 0; }
-  [[nodiscard]] bool keeps(const RegionLabel& label, Extent extent) const noexcept {
-    return extent == Extent::box || !encloses() || label.zone == Zone::inside;
-  }
+  [[nodiscard]] bool keeps(const RegionLabel& label, Extent extent) const noexcept;
   /// As find_domain's, but without the segments' ids. Cost: O(seeds).
   [[nodiscard]] std::vector<SeedFault> faults(Extent extent) const;
   /// Ascending by their smallest triangles. Cost: O(m).

@@ -3,6 +3,7 @@
 
 #include "domain/labels.hpp"
 #include "domain/locate.hpp"
+#include "domain/make_set.hpp"
 #include "domain/regions.hpp"
 #include "mesh/canonical.hpp"
 #include "sac/check.hpp"
@@ -113,8 +114,7 @@ class Regions::Update {
   // --- Labels --------------------------------------------------------------------------------
 
   void label() {
-    std::sort(touched_.begin(), touched_.end());
-    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+    make_set(touched_);
     for (const std::uint32_t c : touched_) labels_.push_back(r_.label_of(r_.components_[c]));
     arrived_.resize(touched_.size());
   }

@@ -2,14 +2,10 @@
 
 #include <algorithm>
 
+#include "domain/make_set.hpp"
+
 namespace mesher::detail {
 namespace {
-
-template <class T>
-void make_set(std::vector<T>& items) {
-  std::sort(items.begin(), items.end());
-  items.erase(std::unique(items.begin(), items.end()), items.end());
-}
 
 class Regroup {
  public:

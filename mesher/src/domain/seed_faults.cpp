@@ -9,11 +9,6 @@
 namespace mesher {
 namespace {
 
-std::string words(const SeedName& seed) {
-  return (seed.kind == SeedKind::hole ? "hole " : "region ") +
-         std::to_string(static_cast<std::int64_t>(seed.id));
-}
-
 std::string reason(const SeedFault& fault) {
   switch (fault.kind) {
     case SeedFault::Kind::outside:
@@ -22,15 +17,20 @@ std::string reason(const SeedFault& fault) {
       if (!fault.line) return "is on a segment";
       return "is on segment " + std::to_string(static_cast<std::int64_t>(*fault.line));
     case SeedFault::Kind::shared:
-      return "is in one region with " + words(*fault.other) + ", which counts";
+      return "is in one region with " + text_of(*fault.other) + ", which counts";
   }
   return {};
 }
 
 }  // namespace
 
+std::string text_of(const SeedName& seed) {
+  return (seed.kind == SeedKind::hole ? "hole " : "region ") +
+         std::to_string(static_cast<std::int64_t>(seed.id));
+}
+
 std::string describe(const SeedFault& fault) {
-  return "the seed of " + words(fault.seed) + " at " + text::to_text<2>(fault.at) + " " +
+  return "the seed of " + text_of(fault.seed) + " at " + text::to_text<2>(fault.at) + " " +
          reason(fault);
 }
 
@@ -45,7 +45,7 @@ namespace detail {
 
 void check_seed(const Seed& seed) {
   const auto refuse = [&](ErrorCode code, const std::string& what) {
-    throw Error(code, "the seed of " + words(seed.name) + " " + what, {}, {seed.name.id});
+    throw Error(code, "the seed of " + text_of(seed.name) + " " + what, {}, {seed.name.id});
   };
   for (const double x : seed.at) {
     if (!std::isfinite(x)) refuse(ErrorCode::not_finite, "has a coordinate that is not finite");
@@ -71,7 +71,7 @@ void check_seeds(const std::vector<Seed>& seeds) {
   std::sort(names.begin(), names.end());
   const auto twice = std::adjacent_find(names.begin(), names.end());
   if (twice == names.end()) return;
-  throw Error(ErrorCode::repeated_id, words(*twice) + " has two seeds", {}, {twice->id});
+  throw Error(ErrorCode::repeated_id, text_of(*twice) + " has two seeds", {}, {twice->id});
 }
 
 }  // namespace detail

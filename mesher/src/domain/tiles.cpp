@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "domain/make_set.hpp"
 #include "domain/union_find.hpp"
 #include "sac/check.hpp"
 
@@ -30,12 +31,6 @@ std::vector<Edge> difference(std::span<const Edge> a, std::span<const Edge> b) {
                       std::back_inserter(only));
   SAC_EXPECTS(std::adjacent_find(only.begin(), only.end()) == only.end());
   return only;
-}
-
-template <class T>
-void make_set(std::vector<T>& items) {
-  std::sort(items.begin(), items.end());
-  items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
 }  // namespace

@@ -12,11 +12,6 @@ namespace {
 
 using Markers = DomainState::Markers;
 
-std::string words(const SeedName& seed) {
-  return (seed.kind == SeedKind::hole ? "hole " : "region ") +
-         std::to_string(static_cast<std::int64_t>(seed.id));
-}
-
 // Sets a marker, 0 for none, and makes the edit; or does neither.
 template <class Make>
 void mark(Markers& markers, FeatureId id, std::int64_t marker, Make make) {
@@ -93,7 +88,8 @@ void DomainState::remove_line(FeatureId id) {
 void DomainState::insert_seed(const Seed& seed) {
   check_seed(seed);
   if (seeds_.find(seed.name) != nullptr) {
-    throw Error(ErrorCode::repeated_id, words(seed.name) + " is there already", {}, {seed.name.id});
+    throw Error(ErrorCode::repeated_id, text_of(seed.name) + " is there already", {},
+                {seed.name.id});
   }
   seeds_.set(seed.name, seed);
   needs_follower_ = true;
@@ -101,7 +97,7 @@ void DomainState::insert_seed(const Seed& seed) {
 
 void DomainState::remove_seed(const SeedName& name) {
   if (seeds_.find(name) == nullptr) {
-    throw Error(ErrorCode::unknown_id, words(name) + " is not there", {}, {name.id});
+    throw Error(ErrorCode::unknown_id, text_of(name) + " is not there", {}, {name.id});
   }
   seeds_.set(name, std::nullopt);
 }
@@ -190,13 +186,7 @@ Pslg DomainState::input() const {
       graph.polylines.push_back({line.id, std::move(line.points), marker});
     }
   }
-  for (const auto& [name, seed] : seeds_.committed()) {
-    if (name.kind == SeedKind::hole) {
-      graph.holes.push_back({name.id, seed.at});
-    } else {
-      graph.regions.push_back({name.id, seed.at, seed.attribute, seed.max_area});
-    }
-  }
+  for (const auto& [name, seed] : seeds_.committed()) add_seed(graph, seed);
   return graph;
 }
 

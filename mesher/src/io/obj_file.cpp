@@ -6,10 +6,10 @@
 #include "io/obj_file.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "io/note_counter.hpp"
+#include "io/read_mesh.hpp"
 #include "io/rows.hpp"
 #include "io/text.hpp"
 
@@ -47,21 +47,12 @@ class ObjReader {
     }
     const bool input = rule_ == CoordinateRule::input;
     const auto number = [&](std::size_t i) { return input ? line.coordinate(i) : line.finite(i); };
-    require_plane(line, line.size() > 3 ? line.finite(3) : 0);
+    height_.require(line.size() > 3 ? line.finite(3) : 0, [&] { return line.place(3); });
     for (std::size_t i = 4; i < line.size(); ++i) (void)line.finite(i);
     if (line.size() > 4) notes_.add("a weight or colour is not used", line.place(4));
     out_.vertices.push_back({number(1), number(2)});
     out_.positions.push_back(line.position(0));
     require_indexable(out_.vertices.size(), line.place(0).file);
-  }
-
-  void require_plane(const text::Line& line, double z) {
-    if (!z_) z_ = z;
-    if (z == *z_) return;
-    throw line.error(
-        ErrorCode::bad_dimension,
-        "z is not the same everywhere: " + text::to_text(z) + ", at first " + text::to_text(*z_),
-        3);
   }
 
   void read_element(const text::Line& line) {
@@ -97,7 +88,7 @@ class ObjReader {
   text::FieldLines lines_;
   CoordinateRule rule_;
   NoteCounter notes_;
-  std::optional<double> z_;
+  PlaneHeight height_;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "io/rows.hpp"
 #include "io/text.hpp"
 
 namespace mesher {
@@ -129,8 +130,7 @@ template <int D>
 NodeFile<D> read_node(const std::string& path, CoordinateRule rule) {
   const std::string content = text::read_file(path);
   text::FieldLines lines(path, content);
-  if (!lines.next()) throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
-  const NodeHeader header = read_node_header(lines.line(), D);
+  const NodeHeader header = read_node_header(header_row(lines, path), D);
   VertexColumns columns(header);
   NodeFile<D> nodes;
   nodes.rows.file = path;

@@ -32,9 +32,9 @@ Mesh<2>::Simplex read_face(const text::Line& line, std::size_t vertices) {
 MeshData read_off(const std::string& path) {
   const std::string content = text::read_file(path);
   text::FieldLines lines(path, content);
-  if (!lines.next()) throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
-  if (lines.line()[0] != "OFF" || lines.line().size() != 1) {
-    throw lines.line().error(ErrorCode::bad_header, "the first line must be 'OFF'", 0);
+  const text::Line& first = header_row(lines, path);
+  if (first[0] != "OFF" || first.size() != 1) {
+    throw first.error(ErrorCode::bad_header, "the first line must be 'OFF'", 0);
   }
   const text::Line& counts = next_row(lines, 2, 0, 1, "lines of counts");
   const std::int64_t vertices = read_count(counts, 0), faces = read_count(counts, 1);

@@ -39,8 +39,7 @@ class PolyReader {
 
  private:
   void read_points() {
-    const text::Line& line = next_header("points");
-    const NodeHeader header = read_node_header(line, 2);
+    const NodeHeader header = read_node_header(header_row(lines_, out_.file), 2);
     read_rows(lines_, header, out_);
     if (header.count > 0 || beside_ == PointsBeside::ignore) return;
     const std::string path = text::with_extension(out_.file, ".node");
@@ -50,9 +49,9 @@ class PolyReader {
   void read_points_beside(const std::string& path) {
     const std::string content = text::read_file(path);
     text::FieldLines lines(path, content);
-    if (!lines.next()) throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
+    const NodeHeader header = read_node_header(header_row(lines, path), 2);
     out_.point_file = path;
-    read_rows(lines, read_node_header(lines.line(), 2), out_);
+    read_rows(lines, header, out_);
     require_end(lines, "points");
   }
 
@@ -136,9 +135,6 @@ class PolyReader {
 
   const text::Line& next_header(const std::string& what) {
     if (lines_.next()) return lines_.line();
-    if (lines_.line().number() == 0) {
-      throw Error(ErrorCode::truncated, "no header: the file is empty", {out_.file});
-    }
     throw lines_.line().error(ErrorCode::truncated, "the file ends before the number of " + what,
                               lines_.line().size());
   }

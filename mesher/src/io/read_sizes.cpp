@@ -20,8 +20,7 @@ struct Rows {
 Rows read_node_sizes(const std::string& path) {
   const std::string content = text::read_file(path);
   text::FieldLines lines(path, content);
-  if (!lines.next()) throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
-  const NodeHeader header = read_node_header(lines.line(), 2);
+  const NodeHeader header = read_node_header(header_row(lines, path), 2);
   if (header.attributes != 1) {
     throw lines.line().error(
         ErrorCode::bad_header,

@@ -81,13 +81,13 @@ class TriangleFiles {
   void read_triangles(const std::string& path) {
     const std::string content = text::read_file(path);
     text::FieldLines lines(path, content);
-    if (!lines.next()) throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
-    const std::int64_t count = read_count(lines.line(), 0);
-    if (lines.line().size() > 1 && lines.line().integer(1) != 3) {
-      throw lines.line().error(ErrorCode::bad_dimension, "expected triangles: 3 corners each", 1);
+    const text::Line& header = header_row(lines, path);
+    const std::int64_t count = read_count(header, 0);
+    if (header.size() > 1 && header.integer(1) != 3) {
+      throw header.error(ErrorCode::bad_dimension, "expected triangles: 3 corners each", 1);
     }
-    const std::int64_t attributes = lines.line().size() > 2 ? read_count(lines.line(), 2) : 0;
-    if (attributes > 1) notes_.add("attributes but the first are not used", lines.line().place(2));
+    const std::int64_t attributes = header.size() > 2 ? read_count(header, 2) : 0;
+    if (attributes > 1) notes_.add("attributes but the first are not used", header.place(2));
     std::vector<FeatureId> ids;
     const std::size_t fields = attributes > 0 ? 5 : 4;
     while (std::cmp_less(ids.size(), count)) {
@@ -105,8 +105,7 @@ class TriangleFiles {
   void read_edges(const std::string& path) {
     const std::string content = text::read_file(path);
     text::FieldLines lines(path, content);
-    if (!lines.next()) throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
-    const std::int64_t count = read_count(lines.line(), 0);
+    const std::int64_t count = read_count(header_row(lines, path), 0);
     for (std::size_t done = 0; std::cmp_less(done, count); ++done) {
       const text::Line& line = next_row(lines, 3, done, count, "edges");
       MeshEdge edge = edge_of(vertices_.vertex(line, 1), vertices_.vertex(line, 2),
@@ -141,8 +140,7 @@ class TriangleFiles {
   void check_neighbours(const std::string& path) const {
     const std::string content = text::read_file(path);
     text::FieldLines lines(path, content);
-    if (!lines.next()) throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
-    const std::int64_t count = read_count(lines.line(), 0);
+    const std::int64_t count = read_count(header_row(lines, path), 0);
     if (std::cmp_not_equal(count, mesh_.simplices.size())) {
       throw lines.line().error(
           ErrorCode::wrong_count,

@@ -20,6 +20,11 @@ std::int64_t read_count(const text::Line& line, std::size_t i) {
   throw line.error(ErrorCode::bad_header, "a count of " + std::to_string(count), i);
 }
 
+const text::Line& header_row(text::FieldLines& lines, const std::string& path) {
+  if (lines.next()) return lines.line();
+  throw Error(ErrorCode::truncated, "no header: the file is empty", {path});
+}
+
 const text::Line& next_row(text::FieldLines& lines, std::size_t fields, std::size_t done,
                            std::int64_t count, const std::string& what) {
   if (!lines.next()) fail_ended(lines, done, count, what);

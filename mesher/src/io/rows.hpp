@@ -1,4 +1,4 @@
-// Tables of a file that goes by lines: a count, then as many rows.
+// Tables of a file that goes by lines: a header with a count, then as many rows.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,9 @@ namespace mesher {
 
 /// Field i as a count. Throws: Error (bad_number, bad_header).
 [[nodiscard]] std::int64_t read_count(const text::Line& line, std::size_t i);
+
+/// The first line. Throws: Error(truncated) of the file `path` if there is none.
+const text::Line& header_row(text::FieldLines& lines, const std::string& path);
 
 /// The next line, which must be there with at least `fields` fields: row `done` of `count` of what
 /// is called `what`. Throws: Error (truncated, wrong_count).

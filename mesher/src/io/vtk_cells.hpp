@@ -5,10 +5,12 @@
 #include <vector>
 
 #include "mesher/mesh_data.hpp"
+#include "io/vtk_grid.hpp"
 
 namespace mesher {
 
-inline constexpr int kVtkLine = 3, kVtkTriangle = 5;  // of VTK's vtkCellType.h
+inline constexpr int kVtkLine = static_cast<int>(VtkCell::line);
+inline constexpr int kVtkTriangle = static_cast<int>(VtkCell::triangle);
 
 /// Ids or kinds as integers.
 template <class T>

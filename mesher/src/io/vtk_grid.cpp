@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "io/read_mesh.hpp"
 #include "io/rows.hpp"
 #include "io/text.hpp"
 
@@ -39,11 +40,7 @@ void require_offsets(const VtkGrid& grid) {
 
 void require_indices(const VtkGrid& grid) {
   for (const std::int64_t v : grid.connectivity.integers) {
-    if (v >= 0 && v < static_cast<std::int64_t>(grid.point_count())) continue;
-    throw Error(ErrorCode::bad_mesh,
-                "no vertex " + std::to_string(v) + ": there are " +
-                    std::to_string(grid.point_count()) + ", from 0",
-                grid.connectivity.place);
+    (void)vertex_index(v, grid.point_count(), 0, [&] { return grid.connectivity.place; });
   }
 }
 
@@ -58,12 +55,6 @@ void require_plane(const VtkGrid& grid) {
   }
 }
 
-const VtkArray* find_any(const std::vector<VtkArray>& arrays, std::string_view name) {
-  const auto found =
-      std::find_if(arrays.begin(), arrays.end(), [&](const VtkArray& a) { return a.name == name; });
-  return found == arrays.end() || found->components != 1 ? nullptr : &*found;
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> VtkGrid::cell(std::size_t i) const {
@@ -72,11 +63,13 @@ std::vector<std::uint32_t> VtkGrid::cell(std::size_t i) const {
 }
 
 const VtkArray* VtkGrid::find(const std::vector<VtkArray>& arrays, std::string_view name) {
-  return find_any(arrays, name);
+  const auto found =
+      std::find_if(arrays.begin(), arrays.end(), [&](const VtkArray& a) { return a.name == name; });
+  return found == arrays.end() || found->components != 1 ? nullptr : &*found;
 }
 
 const VtkArray* VtkGrid::find_integers(const std::vector<VtkArray>& arrays, std::string_view name) {
-  const VtkArray* const found = find_any(arrays, name);
+  const VtkArray* const found = find(arrays, name);
   return found != nullptr && found->is_integral ? found : nullptr;
 }
 

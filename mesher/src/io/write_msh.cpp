@@ -33,7 +33,7 @@ class MshWriter {
       : mesh_(mesh), features_(features), file_(file) {
     collect_triangles();
     collect_edges();
-    if (has_groups()) {
+    if (groups() > 0) {
       group_rest(curves_, "marker 0");
       group_rest(surfaces_, "region 0");
     }
@@ -75,10 +75,10 @@ class MshWriter {
     }
   }
 
-  [[nodiscard]] bool has_groups() const {
-    std::size_t groups = 0;
-    for_each_entity([&](const Entity& e, std::size_t) { groups += e.group.empty() ? 0 : 1; });
-    return groups > 0;
+  [[nodiscard]] std::size_t groups() const {
+    std::size_t count = 0;
+    for_each_entity([&](const Entity& e, std::size_t) { count += e.group.empty() ? 0 : 1; });
+    return count;
   }
 
   // What has no group yet gets the number above all others.
@@ -117,10 +117,8 @@ class MshWriter {
   }
 
   void write_names() {
-    std::size_t count = 0;
-    for_each_entity([&](const Entity& e, std::size_t) { count += e.group.empty() ? 0 : 1; });
-    if (count == 0) return;
-    file_ << "$PhysicalNames\n" << count << '\n';
+    if (groups() == 0) return;
+    file_ << "$PhysicalNames\n" << groups() << '\n';
     for_each_entity([&](const Entity& e, std::size_t) {
       if (e.group.empty()) return;
       file_ << e.dimension << ' ' << e.number << " \"" << e.group << "\"\n";

@@ -41,7 +41,7 @@ bool overlaps(const Box<2>& a, const Box<2>& b) {
   return a.lo[0] <= b.hi[0] && b.lo[0] <= a.hi[0] && a.lo[1] <= b.hi[1] && b.lo[1] <= a.hi[1];
 }
 
-using Edge = std::pair<std::uint32_t, std::uint32_t>;
+using Edge = std::array<std::uint32_t, 2>;
 
 // Maps the window onto the picture and writes rounded coordinates.
 class Canvas {
@@ -92,17 +92,6 @@ using ByLength = std::map<int, std::vector<T>>;
 
 int length_class(double length) {
   return length > 0 ? std::clamp(std::ilogb(length), kShortest, kLongest) : kShortest;
-}
-
-std::vector<Edge> edges_of(const Mesh<2>& mesh) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * mesh.simplices.size());
-  for (const auto& t : mesh.simplices) {
-    for (int i = 0; i < 3; ++i) edges.push_back(std::minmax({t[i], t[(i + 1) % 3]}));
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
 }
 
 void fill_triangles(const std::vector<std::array<Point<2>, 3>>& triangles, const char* colour,
@@ -223,17 +212,17 @@ void write_svg(const Mesh<2>& mesh, const MeshFeatures& features, const SvgView&
   file << "\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
   draw_regions(mesh, features.regions, canvas, file);
   fill_triangles(view.coloured, "#ffb347", canvas, file);
-  const auto edges = edges_of(mesh);
+  const auto all = edges(mesh);
   const auto width = [](int exponent) { return std::ldexp(kLineShare, exponent); };
   const auto width_on_line = [](int exponent) {
     return std::max(std::ldexp(kThick * kLineShare, exponent), kLeastOnLine);
   };
-  draw_edges(mesh, edges, "stroke=\"#3b5b7c\"", width, canvas, file);
+  draw_edges(mesh, all, "stroke=\"#3b5b7c\"", width, canvas, file);
   std::vector<Edge> on_lines;
-  for (const MeshEdge& e : features.edges) on_lines.emplace_back(e.low, e.high);
+  for (const MeshEdge& e : features.edges) on_lines.push_back({e.low, e.high});
   draw_edges(mesh, on_lines, "stroke=\"#14283c\" stroke-linecap=\"round\"", width_on_line, canvas,
              file);
-  draw_input(mesh, edges, canvas, file);
+  draw_input(mesh, all, canvas, file);
   file << "</svg>\n";
 }
 

@@ -215,7 +215,7 @@ TEST_CASE("an update in which any one allocation fails leaves mesh and domain, a
     CAPTURE(count);
     Parted p;
     p.announce();
-    const bool failed = fails(count, burnt, [&] { p.m.update(); });
+    const bool failed = support::fails(count, burnt, [&] { p.m.update(); });
     if (count % 16 == 0) p.m.check_invariants();
     if (failed) {
       REQUIRE(Seen(p.m) == before);
@@ -235,7 +235,7 @@ TEST_CASE("an announcement that finds no memory announces nothing") {
     bool burnt = true;
     for (std::uint64_t count = 1; burnt; ++count) {
       Parted p;
-      const bool failed = fails(count, burnt, [&] {
+      const bool failed = support::fails(count, burnt, [&] {
         if (kind == 0) p.m.insert(id(9), {10, 3}, 6);
         if (kind == 1) p.m.insert_segment(id(3), id(7), id(6), 8);
         if (kind == 2) p.m.remove(id(7));
