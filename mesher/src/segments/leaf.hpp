@@ -11,12 +11,12 @@
 #include <memory>
 #include <ostream>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "geometry/diametral_ball.hpp"
 #include "sac/sac.hpp"
+#include "segments/handle_table.hpp"
 #include "segments/reach_tree.hpp"
 #include "segments/segment.hpp"
 
@@ -61,7 +61,7 @@ struct LeafRef {
     const auto by_b = a.leaf->segment->place_b <=> b.leaf->segment->place_b;
     if (by_b != 0) return by_b;
     const auto labels = [](const Piece& p) {
-      return std::tuple(p.lo.distance, p.lo.from_b, p.hi.distance, p.hi.from_b, p.kind);
+      return std::tuple(p.lo, p.hi, p.kind);
     };
     return labels(a.leaf->piece) <=> labels(b.leaf->piece);
   }
@@ -75,8 +75,7 @@ struct LeafRef {
       for (const double x : p) sink.number(std::bit_cast<std::uint64_t>(x));
     }
     for (const Label& l : {r.leaf->piece.lo, r.leaf->piece.hi}) {
-      sink.number(std::bit_cast<std::uint64_t>(l.distance));
-      sink.number(l.from_b ? 1 : 0);
+      sink.number(l.bits());
     }
     sink.number(static_cast<std::uint64_t>(r.leaf->piece.kind));
   }
@@ -86,7 +85,9 @@ struct LeafRef {
 class LeafRecords {
  public:
   LeafRecords(const MeshBox<2>& box, const SegmentPool& segments)
-      : segments_(segments), tree_(box) {}
+      : segments_(segments), by_piece_(*this), tree_(box) {}
+  LeafRecords(const LeafRecords&) = delete;
+  LeafRecords& operator=(const LeafRecords&) = delete;
 
   [[nodiscard]] Leaf& operator[](LeafHandle h) const noexcept {
     return (*chunks_[h / kChunk])[h % kChunk];
@@ -123,16 +124,18 @@ class LeafRecords {
  private:
   static constexpr LeafHandle kChunk = 1024;
   using Chunk = std::array<Leaf, kChunk>;
-  struct PieceHash {
-    std::size_t operator()(const Piece& p) const noexcept;
-  };
+
+  friend class HandleTable<LeafRecords>;
+  using Key = Piece;
+  [[nodiscard]] const Piece& key(LeafHandle h) const noexcept { return (*this)[h].piece; }
+  [[nodiscard]] static std::size_t hash(const Piece& p) noexcept { return hash_value(p); }
 
   Leaf& create(const Piece& piece);
   LeafHandle fresh();
 
   const SegmentPool& segments_;
   std::vector<std::unique_ptr<Chunk>> chunks_;
-  std::unordered_map<Piece, LeafHandle, PieceHash> by_piece_;
+  HandleTable<LeafRecords> by_piece_;
   ReachTree<LeafHandle> tree_;
   LeafHandle free_ = 0;
   LeafHandle next_ = 1;

@@ -163,14 +163,13 @@ void TracedShells::segment_changed(const Segment& t) noexcept {
 
 void TracedShells::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
   const PieceSplit& seen = static_cast<const PlaceEdge&>(edge).seen;
-  sink.number(std::bit_cast<std::uint64_t>(seen.at.distance));
-  sink.number(static_cast<std::uint64_t>(seen.at.from_b) |
-              static_cast<std::uint64_t>(seen.lo) << 1 | static_cast<std::uint64_t>(seen.hi) << 4);
+  sink.number(seen.at.bits());
+  sink.number(static_cast<std::uint64_t>(seen.lo) | static_cast<std::uint64_t>(seen.hi) << 3);
 }
 
 void TracedShells::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
   const Label& at = static_cast<const PlaceEdge&>(edge).seen.at;
-  out << "split at " << at.distance << (at.from_b ? " from b" : " from a");
+  out << "split at " << at.distance() << (at.from_b() ? " from b" : " from a");
 }
 
 void TracedShells::check_invariants() const {
