@@ -19,7 +19,8 @@
 //   (8) input, if asked: every input point is a vertex, bit for bit, or, unless the mesh is to fill
 //       a box, in no triangle;
 //   (9) quality, if asked: no triangle has a circumradius above rho times its shortest edge (by
-//       more than a rounding, 10^-9 of it), those of small input angles aside;
+//       more than a rounding, 10^-9 of it), those of small angles between lines aside: lines of the
+//       input, if it is given, else of MeshFeatures;
 //   and for meshes with lines
 //   (a) lines: every edge of MeshFeatures is an edge of a triangle;
 //   (b) segments: every segment, and every piece of a polyline, is a union of edges: a path from

@@ -269,6 +269,20 @@ TEST_CASE("a poor triangle is excused at a small angle of the input, and nowhere
   CHECK(broken(mesh, options) == "");
 }
 
+// Two lines of two edges each, as a polyline of one id, at 0.1 radians.
+TEST_CASE("without an input small angles are those of the mesh's own lines") {
+  MeshData mesh = mesh_of({{0, 0}, {1, -0.05}, {1, 0.05}, {2, -0.1}, {2, 0.1}},
+                          {{0, 1, 2}, {1, 3, 4}, {1, 4, 2}});
+  CheckOptions options{.rho = 2, .boundary = BoundaryRule::any, .features = &mesh.features};
+  const FeatureId line{7};
+  mesh.features.edges = {{0, 1, line, 0}, {0, 2, line, 0}, {1, 3, line, 0}, {2, 4, line, 0}};
+  CHECK(broken(mesh, options) == "");
+  for (auto& e : mesh.features.edges) e.line.reset();  // not known
+  CHECK(broken(mesh, options) == "");
+  mesh.features.edges = {{0, 1, line, 0}, {1, 3, line, 0}, {2, 4, line, 0}};
+  CHECK(broken(mesh, options) == "quality");
+}
+
 TEST_CASE("a triangle above the limit of area is found") {
   const MeshData mesh = plate(true);
   CHECK(broken(mesh, {.boundary = BoundaryRule::any, .max_area = 0.5}) == "");
