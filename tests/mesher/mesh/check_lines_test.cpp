@@ -203,6 +203,21 @@ TEST_CASE("a segment is a union of edges, its vertices on it but for rounding") 
   CHECK(broken(mesh, options) == "segments");
 }
 
+TEST_CASE("an edge that names a line is on it") {
+  const auto graph = square_in_square();
+  MeshData mesh = plate(true);
+  const CheckOptions options{
+      .boundary = BoundaryRule::lines, .graph = &graph, .features = &mesh.features};
+  mesh.features.edges = {{0, 1, FeatureId{10}, 0}, {1, 2, {}, 0}, {2, 3, FeatureId{10}, 0}};
+  CHECK(trouble(mesh, options) == "");
+  mesh.features.edges[2].line = FeatureId{11};
+  CHECK(trouble(mesh, options) ==
+        "segments: the edge from vertex 3 at (2, 0) to vertex 4 at "
+        "(3, 0) is not on line 11, which it names");
+  mesh.features.edges[2].line = FeatureId{99};
+  CHECK(broken(mesh, options) == "segments");
+}
+
 TEST_CASE("lines and points outside of what is meshed are told, those inside must be there") {
   auto graph = square_in_square();
   const auto add = [&](std::int64_t id, Point<2> at) {
