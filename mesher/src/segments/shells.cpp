@@ -62,10 +62,11 @@ namespace {
 
 template <class S>
 PieceSplit place_now(const PieceRef& piece, const VertexPool<2>& pool, SegmentStore& segments,
-                     const Features<S>& points, ApexReaches& reaches) {
+                     const Features<S>& points, ApexReaches& reaches, LegFans& fans) {
   if (!looks_at_zones(piece.piece.kind)) return split_place(piece, {});
   const auto zone_at = [&](VertexHandle end) {
-    return zone(segments, *piece.segment, end, [&] {
+    const LongestBeside others = fans.longest_beside(segments, *piece.segment, end);
+    return zone(*piece.segment, others, [&] {
       return reaches.of(pool[end], [&] { return apex_reach(segments, points, pool[end]); });
     });
   };
@@ -91,7 +92,7 @@ void ApexReaches::forget(const Vertex<2>& v) noexcept {
 }
 
 PieceSplit Shells<sac::PlainScope>::place(sac::PlainScope&, const PieceRef& piece) {
-  return place_now(piece, pool_, segments_, points_, reaches_);
+  return place_now(piece, pool_, segments_, points_, reaches_, fans_);
 }
 
 // --- Observations ----------------------------------------------------------------------------
@@ -99,7 +100,7 @@ PieceSplit Shells<sac::PlainScope>::place(sac::PlainScope&, const PieceRef& piec
 using TracedShells = Shells<sac::Scope>;
 
 PieceSplit TracedShells::answer(const PieceRef& piece) {
-  return place_now(piece, pool_, segments_, points_, reaches_);
+  return place_now(piece, pool_, segments_, points_, reaches_, fans_);
 }
 
 PieceSplit TracedShells::place(sac::Scope& s, const PieceRef& piece) {
@@ -156,7 +157,10 @@ void TracedShells::feature_changed(const Point<2>& p, const Point<2>& q) noexcep
 // Beside those that t is near to: its ends have other segments now.
 void TracedShells::segment_changed(const Segment& t) noexcept {
   feature_changed(t.place_a, t.place_b);
-  for (const VertexHandle end : {t.a, t.b}) doubt_at(end);
+  for (const VertexHandle end : {t.a, t.b}) {
+    fans_.forget(end);
+    doubt_at(end);
+  }
 }
 
 // --- For people and for traces ---------------------------------------------------------------
@@ -177,7 +181,8 @@ void TracedShells::check_invariants() const {
     SAC_INVARIANT(reach == apex_reach(segments_, points_, pool_[v]));
   });
   const auto zone_at = [&](const Segment& s, VertexHandle end) {
-    return zone(segments_, s, end, [&] { return apex_reach(segments_, points_, pool_[end]); });
+    return zone(s, longest_beside(segments_, s, end),
+                [&] { return apex_reach(segments_, points_, pool_[end]); });
   };
   segments_.pool().for_each([&](const Segment& s) {
     for (sac::Handle h = s.place_observers; h != 0; h = at(h).next) {
