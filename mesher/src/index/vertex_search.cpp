@@ -25,7 +25,8 @@ double VertexSearch::concern(const VoronoiCell& cell) const noexcept {
   return 2 * std::sqrt(cell.reach2_inside(outward));
 }
 
-void VertexSearch::fail_coincident(const Point<2>& p) {
+void VertexSearch::fail_coincident(const Point<2>& p) const {
+  if (refuse_) refuse_(p);
   throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
                                         place_text(p) +
                                         ": a new vertex would coincide with another");
