@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "facade/angle_finder.hpp"
 #include "facade/meter.hpp"
 #include "mesh/canonical.hpp"
 #include "program/world_impl.hpp"
@@ -38,7 +39,8 @@ class Watch {
 }  // namespace
 
 State::State(const Options<2>& options)
-    : box_(mesh_box(options)),
+    : rho_(options.rho),
+      box_(mesh_box(options)),
       engine_(std::make_unique<sac::Engine>()),
       world_(std::make_unique<World<sac::Scope>>(options, box_, *engine_)) {
   world_->names = this;
@@ -139,6 +141,7 @@ Change<2> State::first_run(Edits edits, const RunControl& control, const Accept&
   const Mesh<2> all = mesh();
   stats_ = timed_stats(*world_, all);
   Change<2> change = whole(all);
+  change.angles = AngleFinder(*world_, rho_).news(triangles());
   change.calls = calls;
   if (accept) accept(change);
   return change;

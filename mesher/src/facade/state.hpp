@@ -123,6 +123,7 @@ class State final : private Names {
   auto& segments() noexcept { return world_->segments; }
   const auto& segments() const noexcept { return world_->segments; }
 
+  double rho_;
   MeshBox<2> box_;
   std::unique_ptr<sac::Engine> engine_;
   std::unique_ptr<World<sac::Scope>> world_;

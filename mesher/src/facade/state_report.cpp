@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "facade/angle_finder.hpp"
 #include "facade/state.hpp"
 #include "program/world_impl.hpp"
 #include "segments/lost_edge.hpp"
@@ -100,9 +101,10 @@ void State::report_stars(Log log, Change<2>& change) const {
   std::sort(log.stars_come.begin(), log.stars_come.end(), by_center);
   std::vector<Triangle> gone;
   std::vector<Triangle> come;
-  const auto report = [&](const auto& these, const auto& those, auto& out) {
+  std::vector<Triangle> all_come;
+  const auto report = [&](const auto& these, const auto& those, auto&& out) {
     for (const Triangle& t : these) {
-      if (std::find(those.begin(), those.end(), t) == those.end()) out.push_back(corners(t));
+      if (std::find(those.begin(), those.end(), t) == those.end()) out(t);
     }
   };
   auto old = log.stars_gone.begin();
@@ -114,9 +116,13 @@ void State::report_stars(Log log, Change<2>& change) const {
         old == log.stars_gone.end() || (now != log.stars_come.end() && now->center <= old->center);
     went ? own_triangles(*old++, gone) : gone.clear();
     came ? own_triangles(*now++, come) : come.clear();
-    report(come, gone, change.simplices_added);
-    report(gone, come, change.simplices_removed);
+    report(come, gone, [&](const Triangle& t) {
+      change.simplices_added.push_back(corners(t));
+      all_come.push_back(t);
+    });
+    report(gone, come, [&](const Triangle& t) { change.simplices_removed.push_back(corners(t)); });
   }
+  change.angles = AngleFinder(*world_, rho_).news(all_come);
   std::sort(change.simplices_added.begin(), change.simplices_added.end());
   std::sort(change.simplices_removed.begin(), change.simplices_removed.end());
 }
