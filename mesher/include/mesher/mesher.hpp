@@ -26,6 +26,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "mesher/angles.hpp"
 #include "mesher/error.hpp"
 #include "mesher/mesh.hpp"
 
@@ -75,6 +76,7 @@ struct Change {
   std::vector<std::array<Point<D>, D + 1>> simplices_removed;
   std::vector<LineEdge<D>> edges_added;  ///< on lines
   std::vector<LineEdge<D>> edges_removed;
+  AngleNews angles;  ///< what small angles of the input did to what has come
   CallCounts calls;
 };
 

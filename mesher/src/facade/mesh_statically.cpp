@@ -1,5 +1,6 @@
 // The static run: the program without the engine.
 #include <algorithm>
+#include <map>
 #include <string>
 #include <unordered_map>
 
@@ -8,6 +9,7 @@
 #include "mesh/canonical.hpp"
 #include "mesher/predicates.hpp"
 #include "program/world_impl.hpp"
+#include "segments/lost_edge.hpp"
 
 namespace mesher {
 
@@ -45,7 +47,6 @@ class InputNames final : public detail::Names {
   InputNames(const std::vector<VertexHandle>& handles, const std::vector<FeatureId>& ids,
              std::size_t segments)
       : lines_(segments + 1) {
-    if (segments == 0) return;  // nobody will ask
     for (std::size_t i = 0; i < handles.size(); ++i) {
       if (handles[i] >= points_.size()) points_.resize(std::size_t{handles[i]} + 1);
       points_[handles[i]] = id_of(i, ids);
@@ -105,6 +106,24 @@ std::vector<detail::LineEdge> line_edges(const World& world, const InputNames& n
   return edges;
 }
 
+// Of the leaves' edges, those that no triangle has are lost.
+void require_edges(const World& world) {
+  std::map<std::array<VertexHandle, 2>, const detail::Leaf*> leaves;
+  const auto key = [](VertexHandle v, VertexHandle w) {
+    return std::array{std::min(v, w), std::max(v, w)};
+  };
+  const auto& tree = world.vertices.tree();
+  world.leaves.for_each([&](const detail::Leaf& leaf) {
+    leaves[key(tree.find(leaf.lo)->self, tree.find(leaf.hi)->self)] = &leaf;
+  });
+  for (const auto& t : world.plain.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) leaves.erase(key(t[i], t[(i + 1) % 3]));
+  }
+  detail::LostEdge lost;
+  for (const auto& [ends, leaf] : leaves) lost.look(*leaf, false);
+  lost.require_none(world.vertices, world.segments.pool(), world.names);
+}
+
 void post_all(World& world) {
   world.vertices.pool().for_each([&](detail::Vertex<2>& v) {
     if (!v.input) return;
@@ -144,6 +163,7 @@ Mesh<2> run(const std::vector<Point<2>>& points, const std::vector<Segment>& seg
   if (world.vertices.pool().size() > world.most_vertices) {
     throw detail::too_many_vertices(world.vertices, world.names, world.most_vertices);
   }
+  if (world.leaves.may_lose()) require_edges(world);
   std::vector<VertexHandle> vertices;
   world.vertices.pool().for_each([&](detail::Vertex<2>& v) { vertices.push_back(v.self); });
   Mesh<2> mesh = detail::canonical(world.vertices.pool(), std::move(vertices),

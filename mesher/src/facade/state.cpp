@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "facade/angle_finder.hpp"
 #include "facade/meter.hpp"
 #include "mesh/canonical.hpp"
 #include "program/world_impl.hpp"
@@ -38,7 +39,8 @@ class Watch {
 }  // namespace
 
 State::State(const Options<2>& options)
-    : box_(mesh_box(options)),
+    : rho_(options.rho),
+      box_(mesh_box(options)),
       engine_(std::make_unique<sac::Engine>()),
       world_(std::make_unique<World<sac::Scope>>(options, box_, *engine_)) {
   world_->names = this;
@@ -133,11 +135,13 @@ Change<2> State::first_run(Edits edits, const RunControl& control, const Accept&
   const CallCounts calls = call_counts(engine_->run<refine>());
   commit();
   require_room(pool().size());
+  if (world_->leaves.may_lose()) require_edges();
   vertices().set_logging(true);
   ran_ = true;
   const Mesh<2> all = mesh();
   stats_ = timed_stats(*world_, all);
   Change<2> change = whole(all);
+  change.angles = AngleFinder(*world_, rho_).news(triangles());
   change.calls = calls;
   if (accept) accept(change);
   return change;
@@ -179,8 +183,7 @@ void State::take(Vertex<2>& v) {
   world_->quadtree.retract_from_outside<locate>(VertexRef<2>{&v});
 }
 
-// `named`: what comes is asked for its name before the update is done.
-void State::make_points(const std::vector<Announced::Edit>& edits, bool named, Ids& arrived) {
+void State::make_points(const std::vector<Announced::Edit>& edits, Ids& arrived) {
   for (const auto& edit : edits) {
     if (edit.was) take(pool()[ids_.at(edit.id)]);
   }
@@ -188,7 +191,7 @@ void State::make_points(const std::vector<Announced::Edit>& edits, bool named, I
     if (!edit.to) continue;
     const VertexHandle v = add(*edit.to).self;
     arrived.emplace(edit.id, v);
-    if (named) new_names_[v] = edit.id;
+    new_names_[v] = edit.id;
   }
 }
 
@@ -200,7 +203,7 @@ void State::make(const Edits& edits, Ids& arrived) {
   const auto all = [&] {
     const std::vector<Part> parts = take_lines(edits);
     require_unused(edits.points);
-    make_points(edits.points, has_lines() || !parts.empty(), arrived);
+    make_points(edits.points, arrived);
     for (const Part& part : parts) add_part(part, arrived);
     if (has_lines()) require_planar(arrived);
   };
@@ -230,6 +233,7 @@ Change<2> State::propagate(const Edits& edits, const RunControl& control, const 
     make_room(arrived);
     make_room_for_lines(edits.lines, lines);
     Log log = vertices().log();
+    if (world_->leaves.may_lose()) require_edges(log);
     report_vertices(log, change);
     report_stars(std::move(log), change);
     report_edges(change);

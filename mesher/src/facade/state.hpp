@@ -82,7 +82,7 @@ class State final : private Names {
   void make(const Edits& edits, Ids& arrived);
   void add_all_first(const Edits& edits);
   [[nodiscard]] bool has_lines() const noexcept;
-  void make_points(const std::vector<Announced::Edit>& edits, bool named, Ids& arrived);
+  void make_points(const std::vector<Announced::Edit>& edits, Ids& arrived);
   [[nodiscard]] std::vector<Part> take_lines(const Edits& edits);
   void add_part(const Part& part, const Ids& arrived);
   void take_part(VertexHandle from, VertexHandle to);
@@ -108,6 +108,9 @@ class State final : private Names {
   void report_vertices(const Log& log, Change<2>& change) const;
   void own_triangles(const ChangeLog::Star& star, std::vector<Triangle>& all) const;
   void report_edges(Change<2>& change) const;
+  [[nodiscard]] bool is_edge(const Leaf& leaf) const;
+  void require_edges() const;
+  void require_edges(const Log& log) const;
   void require_room(std::size_t vertices) const;
   void report_renamed(std::vector<mesher::LineEdge<2>>& gone,
                       std::vector<mesher::LineEdge<2>>& come) const;
@@ -120,6 +123,7 @@ class State final : private Names {
   auto& segments() noexcept { return world_->segments; }
   const auto& segments() const noexcept { return world_->segments; }
 
+  double rho_;
   MeshBox<2> box_;
   std::unique_ptr<sac::Engine> engine_;
   std::unique_ptr<World<sac::Scope>> world_;

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <iterator>
 
+#include "facade/angle_finder.hpp"
 #include "facade/state.hpp"
 #include "program/world_impl.hpp"
+#include "segments/lost_edge.hpp"
 
 namespace mesher::detail {
 
@@ -99,9 +101,10 @@ void State::report_stars(Log log, Change<2>& change) const {
   std::sort(log.stars_come.begin(), log.stars_come.end(), by_center);
   std::vector<Triangle> gone;
   std::vector<Triangle> come;
-  const auto report = [&](const auto& these, const auto& those, auto& out) {
+  std::vector<Triangle> all_come;
+  const auto report = [&](const auto& these, const auto& those, auto&& out) {
     for (const Triangle& t : these) {
-      if (std::find(those.begin(), those.end(), t) == those.end()) out.push_back(corners(t));
+      if (std::find(those.begin(), those.end(), t) == those.end()) out(t);
     }
   };
   auto old = log.stars_gone.begin();
@@ -113,9 +116,13 @@ void State::report_stars(Log log, Change<2>& change) const {
         old == log.stars_gone.end() || (now != log.stars_come.end() && now->center <= old->center);
     went ? own_triangles(*old++, gone) : gone.clear();
     came ? own_triangles(*now++, come) : come.clear();
-    report(come, gone, change.simplices_added);
-    report(gone, come, change.simplices_removed);
+    report(come, gone, [&](const Triangle& t) {
+      change.simplices_added.push_back(corners(t));
+      all_come.push_back(t);
+    });
+    report(gone, come, [&](const Triangle& t) { change.simplices_removed.push_back(corners(t)); });
   }
+  change.angles = AngleFinder(*world_, rho_).news(all_come);
   std::sort(change.simplices_added.begin(), change.simplices_added.end());
   std::sort(change.simplices_removed.begin(), change.simplices_removed.end());
 }
@@ -155,6 +162,33 @@ void State::report_edges(Change<2>& change) const {
                       std::back_inserter(change.edges_added));
   std::set_difference(gone.begin(), gone.end(), come.begin(), come.end(),
                       std::back_inserter(change.edges_removed));
+}
+
+bool State::is_edge(const Leaf& leaf) const {
+  const auto& tree = vertices().tree();
+  const auto ring = vertices().ring(*tree.find(leaf.lo));
+  const VertexHandle other = tree.find(leaf.hi)->self;
+  return std::find(ring.handles, ring.handles + ring.size, other) != ring.handles + ring.size;
+}
+
+void State::require_edges() const {
+  LostEdge lost;
+  world_->leaves.for_each([&](const Leaf& leaf) { lost.look(leaf, is_edge(leaf)); });
+  lost.require_none(vertices(), segments().pool(), this);
+}
+
+// Of leaves that have come, and those at vertices with another star.
+void State::require_edges(const Log& log) const {
+  LostEdge lost;
+  const auto look = [&](const Leaf& leaf) { lost.look(leaf, is_edge(leaf)); };
+  world_->leaves.for_each_changed([&](const Leaf& leaf) {
+    if (world_->leaves.is_leaf(leaf)) look(leaf);
+  });
+  for (const auto& star : log.stars_come) {
+    const Vertex<2>& v = pool()[star.center];
+    if (v.input || v.on_segment) world_->leaves.for_each_ending_at(v.p, look);
+  }
+  lost.require_none(vertices(), segments().pool(), this);
 }
 
 void State::check_invariants() const {

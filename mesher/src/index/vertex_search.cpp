@@ -27,7 +27,8 @@ Reach<2> VertexSearch::concern(const VoronoiCell& cell) const noexcept {
   return Reach<2>(extent);
 }
 
-void VertexSearch::fail_coincident(const Point<2>& p) {
+void VertexSearch::fail_coincident(const Point<2>& p) const {
+  if (refuse_) refuse_(p);
   throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
                                         place_text(p) +
                                         ": a new vertex would coincide with another");

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -38,6 +39,10 @@ class VertexSearch {
   /// Lengths are kept as floats in units of the box's side, a power of two. `x` must be >= 0.
   [[nodiscard]] float packed(double x) const noexcept;
   [[nodiscard]] double unpacked(float x) const noexcept { return double{x} * box_.side; }
+
+  /// Who refuses a vertex where there is one: throws.
+  using RefuseCoincident = std::function<void(const Point<2>&)>;
+  void set_refusal(RefuseCoincident refuse) { refuse_ = std::move(refuse); }
 
   /// The place on a segment that v stands for, if it does.
   [[nodiscard]] Role role(const Vertex<2>& v) const noexcept {
@@ -179,12 +184,13 @@ class VertexSearch {
     if (v.on_segment) roles_.set(v.self, role);
   }
 
-  [[noreturn]] static void fail_coincident(const Point<2>& p);
+  [[noreturn]] void fail_coincident(const Point<2>& p) const;
 
   const MeshBox<2>& box_;
   VertexPool<2> pool_;
   Quadtree<2> tree_;
   Roles roles_;
+  RefuseCoincident refuse_;
 
  private:
   // Cells and vertices in a box. Measured (updates of great_lakes): 64 or 96 is a tenth better than

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -85,6 +86,8 @@ struct World {
         most_records(most_vertices) {
     host.set_environment(this);
     features.set_refusal([this](const Vertex<2>& v, const Vertex<2>& x) { fail_too_close(v, x); });
+    vertices.set_refusal(
+        [this](const Point<2>& p) { fail_near(p, 0, "a new vertex would coincide with another"); });
     add_boundary();
     if (limits.any()) post_fill();
   }
@@ -115,7 +118,9 @@ struct World {
   [[noreturn]] void fail_too_short(const PieceRef& piece);
   /// Throws: Error(too_close), with the ids of the features that v and x are on.
   [[noreturn]] void fail_too_close(const Vertex<2>& v, const Vertex<2>& x) const;
-  [[noreturn]] void fail_useless(const Vertex<2>& v, const Vertex<2>& x) const;
+  [[noreturn]] void fail_useless(const Vertex<2>& v, const Vertex<2>& x);
+  /// Throws: Error(too_close), with the ids of the features nearest to p, within `radius` or not.
+  [[noreturn]] void fail_near(const Point<2>& p, double radius, const std::string& why);
 
  private:
   static auto make_vertices(const MeshBox<2>& box, sac::Engine& engine) {

@@ -6,6 +6,24 @@
 
 namespace mesher::detail {
 
+// Distances from the other end are differences of rounded lengths. Labels that differ do so by far
+// more: a piece is at least 2^-44 of the box long, and labels in it are round numbers.
+bool Leaf::ends_as_far(const Segment& own, const Label& label) const noexcept {
+  const double rounding = 0x1p-50 * (own.length + segment->length);
+  const auto as_far = [&](bool own_b, bool other_b) {
+    const double distance = label.from(own_b, own.length);
+    const auto is_equal = [&](const Label& end) {
+      return std::abs(end.from(other_b, segment->length) - distance) <= rounding;
+    };
+    return is_equal(piece.lo) || is_equal(piece.hi);
+  };
+  for (const bool own_b : {false, true}) {
+    const VertexHandle apex = own_b ? own.b : own.a;
+    if (segment->has_end(apex) && as_far(own_b, segment->b == apex)) return true;
+  }
+  return false;
+}
+
 LeafHandle LeafRecords::fresh() {
   if (next_ / kChunk >= chunks_.size()) chunks_.push_back(std::make_unique<Chunk>());
   return next_++;

@@ -18,7 +18,7 @@
 #include "sac/sac.hpp"
 #include "segments/handle_table.hpp"
 #include "segments/reach_tree.hpp"
-#include "segments/segment.hpp"
+#include "segments/roles.hpp"
 
 namespace mesher::detail {
 
@@ -27,8 +27,8 @@ using LeafHandle = std::uint32_t;  // 0: none
 struct Leaf {
   Piece piece;
   const Segment* segment = nullptr;  // that of the piece
-  Point<2> lo{}, hi{};  // its ends
-  LeafHandle self = 0;  // in a free record: the next free one
+  Point<2> lo{}, hi{};               // its ends
+  LeafHandle self = 0;               // in a free record: the next free one
   LeafHandle next_changed = 0;
   sac::Presence begun, ended;  // the calls that make it a leaf, and those that cut it
   bool changed = false;        // listed by next_changed
@@ -40,11 +40,31 @@ struct Leaf {
   [[nodiscard]] bool has_in_ball(const Point<2>& x) const {
     return x != lo && x != hi && in_diametral_ball(x, lo, hi);
   }
+  /// Whether an end of it and a place on `own`, another segment, are equally far from a common end
+  /// of the two: corners of an isosceles triangle, whose base is at an acute angle to the leaf or,
+  /// at the leaf's end, at an obtuse one. So that place is outside of the ball. In rounded
+  /// coordinates the angle may be right.
+  [[nodiscard]] bool ends_as_far(const Segment& own, const Label& label) const noexcept;
 };
 
-/// An argument of traced functions: equal by identity, ordered by coordinates. Of two pieces between
-/// the same places an update may know both: those of a segment that goes and of one that comes, and
-/// those whose places are labelled in two ways.
+/// By coordinates. Of two pieces between the same places an update may know both: those of a
+/// segment that goes and of one that comes, and those whose places are labelled in two ways.
+[[nodiscard]] inline std::partial_ordering order(const Leaf& a, const Leaf& b) {
+  const auto by_lo = a.lo <=> b.lo;
+  if (by_lo != 0) return by_lo;
+  const auto by_hi = a.hi <=> b.hi;
+  if (by_hi != 0) return by_hi;
+  const auto by_a = a.segment->place_a <=> b.segment->place_a;
+  if (by_a != 0) return by_a;
+  const auto by_b = a.segment->place_b <=> b.segment->place_b;
+  if (by_b != 0) return by_b;
+  const auto labels = [](const Piece& p) {
+    return std::tuple(p.lo, p.hi, p.kind);
+  };
+  return labels(a.piece) <=> labels(b.piece);
+}
+
+/// An argument of traced functions: equal by identity, ordered as said.
 struct LeafRef {
   Leaf* leaf = nullptr;
 
@@ -52,18 +72,7 @@ struct LeafRef {
   Leaf* operator->() const noexcept { return leaf; }
   friend bool operator==(const LeafRef&, const LeafRef&) = default;
   friend std::partial_ordering operator<=>(const LeafRef& a, const LeafRef& b) {
-    const auto by_lo = a.leaf->lo <=> b.leaf->lo;
-    if (by_lo != 0) return by_lo;
-    const auto by_hi = a.leaf->hi <=> b.leaf->hi;
-    if (by_hi != 0) return by_hi;
-    const auto by_a = a.leaf->segment->place_a <=> b.leaf->segment->place_a;
-    if (by_a != 0) return by_a;
-    const auto by_b = a.leaf->segment->place_b <=> b.leaf->segment->place_b;
-    if (by_b != 0) return by_b;
-    const auto labels = [](const Piece& p) {
-      return std::tuple(p.lo, p.hi, p.kind);
-    };
-    return labels(a.leaf->piece) <=> labels(b.leaf->piece);
+    return order(*a.leaf, *b.leaf);
   }
   friend std::uint64_t hash_value(const LeafRef& r) noexcept { return r.leaf->self; }
   friend std::ostream& operator<<(std::ostream& out, const LeafRef& r) {
@@ -100,11 +109,28 @@ class LeafRecords {
   /// The record is found by its piece alone from now on.
   void hide(const Leaf& leaf) noexcept { tree_.erase(leaf.middle(), leaf.self); }
 
-  /// Calls visit(leaf) for the records with x in their ball, in no particular order.
+  /// Whether the leaf has in its ball a place, or (unless the role is none) a vertex on another
+  /// segment. By labels where coordinates may not tell.
+  [[nodiscard]] bool has_in_ball(const Leaf& leaf, const Point<2>& x, const Role& role) const {
+    if (role.on == leaf.piece.segment || !leaf.has_in_ball(x)) return false;
+    if (role.on == 0 || !leaf.ends_as_far(segments_[role.on], role.label)) return true;
+    overrules_ = true;
+    return false;
+  }
+  /// Whether a label has ever overruled coordinates.
+  [[nodiscard]] bool overrules() const noexcept { return overrules_; }
+  /// Calls visit(leaf) for those of which that is true, in no particular order.
   template <class Visit>
-  void for_each_with(const Point<2>& x, Visit&& visit) const {
+  void for_each_with(const Point<2>& x, const Role& role, Visit&& visit) const {
     tree_.visit_at(x, [&](LeafHandle h) {
-      if ((*this)[h].has_in_ball(x)) visit((*this)[h]);
+      if (has_in_ball((*this)[h], x, role)) visit((*this)[h]);
+    });
+  }
+  /// Calls visit(leaf) for the records with an end at p, in no particular order.
+  template <class Visit>
+  void for_each_ending_at(const Point<2>& p, Visit&& visit) const {
+    tree_.visit_at(p, [&](LeafHandle h) {
+      if ((*this)[h].lo == p || (*this)[h].hi == p) visit((*this)[h]);
     });
   }
   /// Calls visit(leaf) for every record in use, in the order of handles.
@@ -137,6 +163,7 @@ class LeafRecords {
   std::vector<std::unique_ptr<Chunk>> chunks_;
   HandleTable<LeafRecords> by_piece_;
   ReachTree<LeafHandle> tree_;
+  mutable bool overrules_ = false;
   LeafHandle free_ = 0;
   LeafHandle next_ = 1;
 };
