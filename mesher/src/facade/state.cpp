@@ -210,9 +210,20 @@ void State::make(const Edits& edits, Ids& arrived) {
   try {
     engine_->edit_together(all);
   } catch (...) {
-    vertices().give_up();
+    settle();
     forget_news();
     throw;
+  }
+}
+
+// Edits have been taken back: a propagation of nothing frees the calls that were made for them.
+// Without the memory for that they stay until the next one.
+void State::settle() noexcept {
+  try {
+    engine_->propagate();
+    commit();
+  } catch (...) {
+    vertices().give_up();
   }
 }
 
