@@ -5,6 +5,7 @@
 #include <string>
 
 #include "facade/announced.hpp"
+#include "facade/busy.hpp"
 #include "facade/meter.hpp"
 #include "facade/state.hpp"
 #include "input.hpp"
@@ -42,6 +43,7 @@ struct Mesher<2>::Impl {
   detail::MeshBox<2> box;
   detail::Announced announced;
   detail::AnnouncedLines announced_lines;
+  detail::Busy busy;
   bool moved = false;  // a place was taken that was not looked at
 };
 
@@ -74,6 +76,7 @@ void Mesher<2>::Impl::require_apart(const std::vector<detail::Announced::Edit>& 
 }
 
 void Mesher<2>::Impl::insert(FeatureId id, const Point<2>& p) {
+  busy.require_idle();
   if (place(id)) {
     throw Error(ErrorCode::repeated_id, "point " + text(id) + " is there already", {}, {id});
   }
@@ -90,6 +93,7 @@ const detail::LinePoints& Mesher<2>::Impl::line(FeatureId id) const {
 }
 
 void Mesher<2>::Impl::insert_line(FeatureId id, const detail::LinePoints& points) {
+  busy.require_idle();
   if (options.rule != Rule::radius_edge) {
     throw Error(ErrorCode::bad_option, "segments need the rule radius_edge", {}, {id});
   }
@@ -105,6 +109,7 @@ void Mesher<2>::Impl::insert_line(FeatureId id, const detail::LinePoints& points
 }
 
 void Mesher<2>::Impl::remove_line(FeatureId id) {
+  busy.require_idle();
   if (line(id).empty()) {
     throw Error(ErrorCode::unknown_id, "line " + text(id) + " is not there", {}, {id});
   }
@@ -130,6 +135,7 @@ Change<2> Mesher<2>::Impl::run(const RunControl& control, const Accept& accept) 
 }
 
 Change<2> Mesher<2>::Impl::update(const RunControl& control, const Accept& accept) {
+  const detail::Busy::Run running(busy);
   detail::require_unstopped(control);
   try {
     Change<2> change = run(control, accept);
@@ -173,12 +179,14 @@ void Mesher<D>::insert(const std::vector<FeatureId>& ids, const std::vector<Poin
 
 template <int D>
 void Mesher<D>::remove(FeatureId id) {
+  impl_->busy.require_idle();
   impl_->require_known(id);
   impl_->announced.set(id, impl_->state->place(id), {});
 }
 
 template <int D>
 void Mesher<D>::move(FeatureId id, const Point<D>& point) {
+  impl_->busy.require_idle();
   impl_->require_known(id);
   detail::check_point(point, impl_->options.domain, id);
   impl_->moved = true;
@@ -207,7 +215,7 @@ bool Mesher<D>::contains_line(FeatureId id) const {
 
 template <int D>
 void Mesher<D>::discard_edits() noexcept {
-  impl_->discard_edits();
+  if (impl_->busy.is_idle()) impl_->discard_edits();
 }
 
 template <int D>
@@ -222,16 +230,19 @@ Change<D> Mesher<D>::update(const RunControl& control, const Accept& accept) {
 
 template <int D>
 Mesh<D> Mesher<D>::mesh() const {
+  impl_->busy.require_idle();
   return impl_->state->ran() ? impl_->state->mesh() : Mesh<D>();
 }
 
 template <int D>
 std::vector<InputPoint<D>> Mesher<D>::points() const {
+  impl_->busy.require_idle();
   return impl_->state->points();
 }
 
 template <int D>
 std::vector<InputLine> Mesher<D>::lines() const {
+  impl_->busy.require_idle();
   return impl_->state->lines();
 }
 

@@ -10,8 +10,8 @@ void Observers::link(Observation& o) noexcept {
   o.arrivals = 0;
   o.next = v.queries;
   v.queries = engine_.arena().handle_of(&o);
-  if (o.reach <= v.reach) return;
-  v.reach = o.reach;
+  if (v.reach.covers(o.reach)) return;
+  v.reach.include(o.reach);
   tree_.raise_reach(v);
 }
 
@@ -21,9 +21,8 @@ void Observers::unlink(Observation& o) noexcept {
   sac::Handle* link = &v.queries;
   while (*link != self) link = &at(*link).next;
   *link = o.next;
-  if (o.reach < v.reach) return;
-  v.reach = 0;
-  for (sac::Handle h = v.queries; h != 0; h = at(h).next) v.reach = std::max(v.reach, at(h).reach);
+  v.reach = {};
+  for (sac::Handle h = v.queries; h != 0; h = at(h).next) v.reach.include(at(h).reach);
 }
 
 std::span<const std::uint32_t> Observers::seen(const Observation& o) const noexcept {
@@ -52,12 +51,12 @@ void Observers::note_arrival(Observation& o, VertexHandle w) noexcept {
 
 void Observers::check_invariants(const Vertex<2>& v) const {
   SAC_INVARIANT(arrivals_.size() == 1);
-  float reach = 0;
+  Reach<2> reach;
   for (sac::Handle h = v.queries; h != 0; h = at(h).next) {
     const Observation& o = at(h);
     SAC_INVARIANT(o.center == v.self && o.arrivals == 0);
     SAC_INVARIANT(!engine_.call(o.call).dead());
-    reach = std::max(reach, o.reach);
+    reach.include(o.reach);
   }
   SAC_INVARIANT(v.reach == reach);
 }

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "index/reach.hpp"
 #include "mesher/mesh.hpp"
 #include "sac/check.hpp"
 #include "sac/label.hpp"
@@ -28,7 +29,7 @@ struct Vertex {
   VertexHandle self = 0;          // in a free record: the next free one
   sac::Presence presence;         // the calls that insert it; the outside is not among them
   sac::Handle queries = 0;        // observations centred at it
-  float reach = 0;                // no query of it looks farther; in units of the box's side
+  Reach<D> reach;                 // no query of it looks beyond
   sac::Handle locator = 0;        // the call that observes `level`
   VertexHandle next_changed = 0;  // in the list of what has changed since the last update
   std::int16_t level = -1;        // input points: deepest crowded level

@@ -137,16 +137,24 @@ void Index::retract_birth(BirthEdge& birth) noexcept {
   vanished(v, *window);
 }
 
+// Whether v is in a gap ball, erring towards yes, or as near as the nearest is.
+bool Index::concerns(const Vertex<2>& v, const Vertex<2>& center,
+                     const Observation& o) const noexcept {
+  const auto seen = observers_.seen(o);
+  if (o.kind == kNearest) {
+    return seen[0] == 0 ||
+           squared_distance(v.p, center.p) <= squared_distance(pool_[seen[0]].p, center.p);
+  }
+  const double radius =
+      o.kind == kStar ? whole() : unpacked(static_cast<const CellSeen&>(o).radius);
+  return VoronoiCell::may_cut(pool_, center, radius, seen, v.p);
+}
+
 // Observations in the window that have a gap ball around v, or are nearer to it than to others. Few
 // have: times, which lie elsewhere in memory, are looked at last.
 void Index::appeared(const Vertex<2>& v, const sac::Window& window) noexcept {
-  observers_.for_each_reaching(v.p, box_.side, [&](const Vertex<2>& center, Observation& o) {
-    if (center.self == v.self) return;
-    if (o.kind != kNearest) {
-      const double radius =
-          o.kind == kStar ? whole() : unpacked(static_cast<const CellSeen&>(o).radius);
-      if (!VoronoiCell::may_cut(pool_, center, radius, observers_.seen(o), v.p)) return;
-    }
+  observers_.for_each_reaching(v.p, [&](const Vertex<2>& center, Observation& o) {
+    if (center.self == v.self || !concerns(v, center, o)) return;
     sac::Call& call = engine_.call(o.call);
     if (!window.contains(engine_, call)) return;
     if (o.kind != kNearest) observers_.note_arrival(o, v.self);
@@ -156,7 +164,7 @@ void Index::appeared(const Vertex<2>& v, const sac::Window& window) noexcept {
 
 // Observations in the window that v bounds.
 void Index::vanished(const Vertex<2>& v, const sac::Window& window) noexcept {
-  observers_.for_each_reaching(v.p, box_.side, [&](const Vertex<2>&, const Observation& o) {
+  observers_.for_each_reaching(v.p, [&](const Vertex<2>&, const Observation& o) {
     const auto seen = observers_.seen(o);
     if (std::find(seen.begin(), seen.end(), v.self) == seen.end()) return;
     sac::Call& call = engine_.call(o.call);
@@ -192,7 +200,7 @@ CellLoan Index::voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius) {
       look(*v, radius, last, [&](VertexHandle u) { return born_before(pool_[u], self); });
   s.weigh(take_visited());
   take_codes(*cell);
-  record_cell(s, *v, packed(concern(*cell)), clip);
+  record_cell(s, *v, concern(*cell), clip);
   return cell;
 }
 
@@ -200,7 +208,7 @@ double Index::nearest2(sac::Scope& s, VertexRef<2> v) {
   const sac::Call& self = s.self();
   const Nearest n = nearest_around(*v, [&](VertexHandle u) { return born_before(pool_[u], self); });
   s.weigh(take_visited());
-  record_nearest(s, *v, packed(std::sqrt(n.distance2) * (1 + 0x1p-40)), n.handle);
+  record_nearest(s, *v, Reach<2>::around(std::sqrt(n.distance2) * (1 + 0x1p-40) / box_.side), n.handle);
   return n.distance2;
 }
 
@@ -211,7 +219,7 @@ CellLoan Index::star(sac::Scope& s, VertexRef<2> v) {
   CellLoan cell = look(*v, whole(), last, [&](VertexHandle u) { return pool_[u].alive; });
   s.weigh(take_visited());
   take_codes(*cell);
-  record_star(s, *v, packed(concern(*cell)));
+  record_star(s, *v, concern(*cell));
   return cell;
 }
 
@@ -226,14 +234,14 @@ void Index::take_codes(const VoronoiCell& cell) {
 //
 // An observation that says the same as last time is kept as it is.
 
-void Index::fill(sac::Scope& s, Observation& o, Vertex<2>& v, float reach) noexcept {
+void Index::fill(sac::Scope& s, Observation& o, Vertex<2>& v, Reach<2> reach) noexcept {
   o.center = v.self;
   o.call = engine_.handle_of(s.self());
   o.reach = reach;
   observers_.link(o);
 }
 
-void Index::record_cell(sac::Scope& s, Vertex<2>& v, float reach, float radius) {
+void Index::record_cell(sac::Scope& s, Vertex<2>& v, Reach<2> reach, float radius) {
   const auto same = [&](const CellSeen& o) {
     return o.center == v.self && o.reach == reach && o.radius == radius &&
            std::equal(codes_.begin(), codes_.end(), o.codes(), o.codes() + o.count);
@@ -249,7 +257,7 @@ void Index::record_cell(sac::Scope& s, Vertex<2>& v, float reach, float radius) 
   fill(s, o, v, reach);
 }
 
-void Index::record_nearest(sac::Scope& s, Vertex<2>& v, float reach, VertexHandle nearest) {
+void Index::record_nearest(sac::Scope& s, Vertex<2>& v, Reach<2> reach, VertexHandle nearest) {
   const auto same = [&](const NearestSeen& o) {
     return o.center == v.self && o.reach == reach && o.nearest == nearest;
   };
@@ -259,7 +267,7 @@ void Index::record_nearest(sac::Scope& s, Vertex<2>& v, float reach, VertexHandl
   fill(s, o, v, reach);
 }
 
-void Index::record_star(sac::Scope& s, Vertex<2>& v, float reach) {
+void Index::record_star(sac::Scope& s, Vertex<2>& v, Reach<2> reach) {
   const auto same = [&](const StarSeen& o) {
     const auto seen = observers_.seen(o);
     return o.center == v.self && o.reach == reach &&
@@ -429,7 +437,7 @@ void Index::check_observation(const Vertex<2>& v, const Observation& o) const {
   for (int i = 0; i < cell->size(); ++i) {
     SAC_INVARIANT(cell->code((first + i) % cell->size()) == codes[static_cast<std::size_t>(i)]);
   }
-  SAC_INVARIANT(o.reach == packed(concern(*cell)));
+  SAC_INVARIANT(o.reach == concern(*cell));
 }
 
 }  // namespace mesher::detail

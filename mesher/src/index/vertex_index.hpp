@@ -177,6 +177,8 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   [[nodiscard]] Role role_from(const sac::Call& producer, const Vertex<2>& v) const noexcept;
   void run_again(sac::Handle call, const sac::Window& window, const sac::Edge* seen) noexcept;
   void take_role(Vertex<2>& v, const Role& role, const sac::Call& producer) noexcept;
+  [[nodiscard]] bool concerns(const Vertex<2>& v, const Vertex<2>& center,
+                              const Observation& o) const noexcept;
   void appeared(const Vertex<2>& v, const sac::Window& window) noexcept;
   void vanished(const Vertex<2>& v, const sac::Window& window) noexcept;
   void retract_birth(BirthEdge& birth) noexcept;
@@ -184,7 +186,7 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   // The cells of v, and those that v bounds.
   template <class Visit>
   void for_each_cell_with(const Vertex<2>& v, Visit&& visit) noexcept {
-    observers_.for_each_reaching(v.p, box_.side, [&](const Vertex<2>& center, Observation& o) {
+    observers_.for_each_reaching(v.p, [&](const Vertex<2>& center, Observation& o) {
       if (o.kind != kCell) return;
       const auto seen = observers_.seen(o);
       const bool bounds = std::find(seen.begin(), seen.end(), v.self) != seen.end();
@@ -194,10 +196,10 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   template <class Seen>
   CellLoan look(const Vertex<2>& v, double radius, const Observation* last, Seen&& seen);
   void take_codes(const VoronoiCell& cell);
-  void fill(sac::Scope& s, Observation& o, Vertex<2>& v, float reach) noexcept;
-  void record_cell(sac::Scope& s, Vertex<2>& v, float reach, float radius);
-  void record_nearest(sac::Scope& s, Vertex<2>& v, float reach, VertexHandle nearest);
-  void record_star(sac::Scope& s, Vertex<2>& v, float reach);
+  void fill(sac::Scope& s, Observation& o, Vertex<2>& v, Reach<2> reach) noexcept;
+  void record_cell(sac::Scope& s, Vertex<2>& v, Reach<2> reach, float radius);
+  void record_nearest(sac::Scope& s, Vertex<2>& v, Reach<2> reach, VertexHandle nearest);
+  void record_star(sac::Scope& s, Vertex<2>& v, Reach<2> reach);
   [[nodiscard]] Ring* find_ring(const Vertex<2>& v) const noexcept;
   [[nodiscard]] sac::Handle new_ring(VertexHandle center);
   void forget(Observation& o) noexcept;

@@ -15,14 +15,16 @@ float VertexSearch::packed(double x) const noexcept {
   return double{f} >= x ? f : std::nextafter(f, std::numeric_limits<float>::infinity());
 }
 
-double VertexSearch::concern(const VoronoiCell& cell) const noexcept {
+Reach<2> VertexSearch::concern(const VoronoiCell& cell) const noexcept {
   const Vertex<2>& v = cell.center();
-  if (!v.boundary) return 2 * std::sqrt(cell.reach2());
-  Point<2> outward;
-  for (int i = 0; i < 2; ++i) {
+  Point<2> outward{0, 0};
+  for (int i = 0; v.boundary && i < 2; ++i) {
     outward[i] = v.p[i] == box_.lo[i] ? -1 : v.p[i] == box_.hi(i) ? 1 : 0;
   }
-  return 2 * std::sqrt(cell.reach2_inside(outward));
+  Box<2> extent = cell.extent_inside(outward);
+  for (double& x : extent.lo) x /= box_.side;
+  for (double& x : extent.hi) x /= box_.side;
+  return Reach<2>(extent);
 }
 
 void VertexSearch::fail_coincident(const Point<2>& p) const {

@@ -141,12 +141,12 @@ class VertexSearch {
     return cell;
   }
 
-  /// The distance up to which a vertex that comes may cut the cell. A corner of the cell of a
+  /// Where a vertex that comes may cut the cell, or one may be that bounds it: around its gap balls. A corner of the cell of a
   /// vertex v on a side of the box, beyond that side, is never cut. Proof: the grid is there from
   /// the start, so the corner's projection q on the side is at most half an edge from v; a vertex
   /// nearer to the corner than v, being in the box, is nearer to q, too, hence in the diametral
   /// ball of an edge of the grid. No vertex ever is [L 4.4.1].
-  [[nodiscard]] double concern(const VoronoiCell& cell) const noexcept;
+  [[nodiscard]] Reach<2> concern(const VoronoiCell& cell) const noexcept;
 
   struct Nearest {
     VertexHandle handle;

@@ -11,12 +11,12 @@
 #include <memory>
 #include <ostream>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "geometry/diametral_ball.hpp"
 #include "sac/sac.hpp"
+#include "segments/handle_table.hpp"
 #include "segments/reach_tree.hpp"
 #include "segments/roles.hpp"
 
@@ -59,7 +59,7 @@ struct Leaf {
   const auto by_b = a.segment->place_b <=> b.segment->place_b;
   if (by_b != 0) return by_b;
   const auto labels = [](const Piece& p) {
-    return std::tuple(p.lo.distance, p.lo.from_b, p.hi.distance, p.hi.from_b, p.kind);
+    return std::tuple(p.lo, p.hi, p.kind);
   };
   return labels(a.piece) <=> labels(b.piece);
 }
@@ -84,8 +84,7 @@ struct LeafRef {
       for (const double x : p) sink.number(std::bit_cast<std::uint64_t>(x));
     }
     for (const Label& l : {r.leaf->piece.lo, r.leaf->piece.hi}) {
-      sink.number(std::bit_cast<std::uint64_t>(l.distance));
-      sink.number(l.from_b ? 1 : 0);
+      sink.number(l.bits());
     }
     sink.number(static_cast<std::uint64_t>(r.leaf->piece.kind));
   }
@@ -95,7 +94,9 @@ struct LeafRef {
 class LeafRecords {
  public:
   LeafRecords(const MeshBox<2>& box, const SegmentPool& segments)
-      : segments_(segments), tree_(box) {}
+      : segments_(segments), by_piece_(*this), tree_(box) {}
+  LeafRecords(const LeafRecords&) = delete;
+  LeafRecords& operator=(const LeafRecords&) = delete;
 
   [[nodiscard]] Leaf& operator[](LeafHandle h) const noexcept {
     return (*chunks_[h / kChunk])[h % kChunk];
@@ -149,16 +150,18 @@ class LeafRecords {
  private:
   static constexpr LeafHandle kChunk = 1024;
   using Chunk = std::array<Leaf, kChunk>;
-  struct PieceHash {
-    std::size_t operator()(const Piece& p) const noexcept;
-  };
+
+  friend class HandleTable<LeafRecords>;
+  using Key = Piece;
+  [[nodiscard]] const Piece& key(LeafHandle h) const noexcept { return (*this)[h].piece; }
+  [[nodiscard]] static std::size_t hash(const Piece& p) noexcept { return hash_value(p); }
 
   Leaf& create(const Piece& piece);
   LeafHandle fresh();
 
   const SegmentPool& segments_;
   std::vector<std::unique_ptr<Chunk>> chunks_;
-  std::unordered_map<Piece, LeafHandle, PieceHash> by_piece_;
+  HandleTable<LeafRecords> by_piece_;
   ReachTree<LeafHandle> tree_;
   mutable bool overrules_ = false;
   LeafHandle free_ = 0;

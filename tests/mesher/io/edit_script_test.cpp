@@ -340,3 +340,10 @@ TEST_CASE("Scripts give markers to points and lines, which the mesh then has") {
   CHECK(refused("-segment 1 marker 5\n") == "bad_edit@1:12");
   CHECK(refused("move 1 2 3 marker 5\n") == "bad_edit@1:12");
 }
+
+TEST_CASE("a script may begin with a byte order mark") {
+  Table table;
+  CHECK(apply("\xEF\xBB\xBF+point 1 2 3\r\n-point 1\r\n", table).size() == 2);
+  CHECK(apply("\xEF\xBB\xBF", table).empty());
+  CHECK(apply("\xEF\xBB\xBF# nothing\n\n", table).empty());
+}
