@@ -329,19 +329,19 @@ lake_edit 3 'bad.txt:3:1: error[unknown_id]' 'begin\n-hole 1\n-hole 1\ncommit'
 
 echo "== small angles, and markers by scripts"
 printf '3 2 0 1\n1 0 0 0\n2 8 0 4\n3 8 0.01 0\n1 0\n1 1 2\n0\n' >wedge.poly
-printf '+segment 7 1 3 marker 5\n+point 8 2 4 marker 6\n-segment 7\n' >leg.txt
+printf '+segment 7 1 3 marker 5\n+point 8 2 1 marker 6\n-segment 7\n' >leg.txt
 for engine in '' --static; do
   # shellcheck disable=SC2086
   expect 0 'updates' edit wedge.poly --script leg.txt $engine -o "wedge$engine.1.node" \
     --stats "wedge$engine.jsonl"
   has "wedge$engine.jsonl" '"small_angles":\[\{"at":\[0.0,0.0\],"lines":\[1,7\],"degrees":0.071.*,"forced":[1-9]'
-  has "wedge$engine.jsonl" '^\{"edit":"-segment 7".*"small_angles":\[\],"shrunk":\[\]'
+  has "wedge$engine.jsonl" '^\{"edit":"-segment 7".*"simplices":\{[^}]*\},"kept":'
   # shellcheck disable=SC2086
   expect 0 '1 angles under 60 degrees' edit wedge.poly --script <(head -n 2 leg.txt) $engine \
     -o "marked$engine.1.node"
   has "marked$engine.1.node" '^[0-9]+ 8 0 2 2 4$'
   has "marked$engine.1.node" '^[0-9]+ 8 0.01 2 3 5$'
-  has "marked$engine.1.node" '^[0-9]+ 2 4 2 8 6$'
+  has "marked$engine.1.node" '^[0-9]+ 2 1 2 8 6$'
   has "marked$engine.1.edge" '^[0-9]+ [0-9]+ [0-9]+ 5 7$'
 done
 counts wedge.jsonl >engine.counts

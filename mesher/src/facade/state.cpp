@@ -141,7 +141,7 @@ Change<2> State::first_run(Edits edits, const RunControl& control, const Accept&
   const Mesh<2> all = mesh();
   stats_ = timed_stats(*world_, all);
   Change<2> change = whole(all);
-  change.angles = AngleFinder(*world_, rho_).news(triangles());
+  if (has_lines()) change.angles = AngleFinder(*world_, rho_).news(triangles());
   change.calls = calls;
   if (accept) accept(change);
   return change;
