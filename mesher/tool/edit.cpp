@@ -99,6 +99,8 @@ void add_edit(CLI::App& app) {
           "  +hole ID x y           -hole ID       what lines enclose there is left out\n"
           "  +region ID x y ATTRIBUTE [MAX_AREA]\n"
           "                         -region ID     what lines enclose there has this attribute\n"
+          "+point, +segment and +polyline may end with 'marker M', which a boundary's vertices\n"
+          "and edges have in what is written.\n"
           "Each is an update of its own, but those between 'begin' and 'commit' are one. '#'\n"
           "starts a comment. Ids are those of INPUT (1, 2, ... for formats without).\n"
           "What is written is the same bytes as by 'mesh' of the edited input in the same\n"

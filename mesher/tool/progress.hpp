@@ -47,15 +47,24 @@ class Watched {
  public:
   Watched(Target& target, Progress& progress) : target_(target), progress_(progress) {}
 
-  void insert(mesher::FeatureId id, const mesher::Point<2>& p) { target_.insert(id, p); }
+  // With a marker, if the mesher takes one.
+  void insert(mesher::FeatureId id, const mesher::Point<2>& p, auto... marker) requires
+      requires(Target& t) {
+    t.insert(id, p, marker...);
+  }
+  { target_.insert(id, p, marker...); }
   void remove(mesher::FeatureId id) { target_.remove(id); }
   void move(mesher::FeatureId id, const mesher::Point<2>& p) { target_.move(id, p); }
-  void insert_segment(mesher::FeatureId id, mesher::FeatureId from, mesher::FeatureId to) {
-    target_.insert_segment(id, from, to);
+  void insert_segment(mesher::FeatureId id, mesher::FeatureId from, mesher::FeatureId to,
+                      auto... marker) requires requires(Target& t) {
+    t.insert_segment(id, from, to, marker...);
   }
-  void insert_polyline(mesher::FeatureId id, const std::vector<mesher::FeatureId>& points) {
-    target_.insert_polyline(id, points);
+  { target_.insert_segment(id, from, to, marker...); }
+  void insert_polyline(mesher::FeatureId id, const std::vector<mesher::FeatureId>& points,
+                       auto... marker) requires requires(Target& t) {
+    t.insert_polyline(id, points, marker...);
   }
+  { target_.insert_polyline(id, points, marker...); }
   void remove_segment(mesher::FeatureId id) { target_.remove_segment(id); }
   void insert_seed(const mesher::Seed& seed) requires TakesSeeds<Target> {
     target_.insert_seed(seed);

@@ -147,10 +147,11 @@ Json json_of(const DomainStep& update) {
                       {"removed", change.vertices_removed.size()}};
   json["simplices"] = {{"added", change.simplices_added.size()},
                        {"removed", change.simplices_removed.size()}};
+  const auto& [forced, shrunk] = change.angles;
+  if (!forced.empty()) json["small_angles"] = json_of(forced);
+  if (!shrunk.empty()) json["shrunk"] = json_of(shrunk);
   json["kept"] = {{"added", change.domain.kept_added.size()},
                   {"removed", change.domain.kept_removed.size()}};
-  json["small_angles"] = json_of(change.angles.forced);
-  json["shrunk"] = json_of(change.angles.shrunk);
   return json;
 }
 

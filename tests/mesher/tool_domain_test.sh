@@ -327,6 +327,34 @@ lake_edit 3 'bad.txt:1:1: error[repeated_id]' '+hole 1 5 5'
 lake_edit 3 'bad.txt:1:1: error[repeated_id]' '+region 2 5 5 0'
 lake_edit 3 'bad.txt:3:1: error[unknown_id]' 'begin\n-hole 1\n-hole 1\ncommit'
 
+echo "== small angles, and markers by scripts"
+printf '3 2 0 1\n1 0 0 0\n2 8 0 4\n3 8 0.01 0\n1 0\n1 1 2\n0\n' >wedge.poly
+printf '+segment 7 1 3 marker 5\n+point 8 2 1 marker 6\n-segment 7\n' >leg.txt
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  expect 0 'updates' edit wedge.poly --script leg.txt $engine -o "wedge$engine.1.node" \
+    --stats "wedge$engine.jsonl"
+  has "wedge$engine.jsonl" '"small_angles":\[\{"at":\[0.0,0.0\],"lines":\[1,7\],"degrees":0.071.*,"forced":[1-9]'
+  has "wedge$engine.jsonl" '^\{"edit":"-segment 7".*"simplices":\{[^}]*\},"kept":'
+  # shellcheck disable=SC2086
+  expect 0 '1 angles under 60 degrees' edit wedge.poly --script <(head -n 2 leg.txt) $engine \
+    -o "marked$engine.1.node"
+  has "marked$engine.1.node" '^[0-9]+ 8 0 2 2 4$'
+  has "marked$engine.1.node" '^[0-9]+ 8 0.01 2 3 5$'
+  has "marked$engine.1.node" '^[0-9]+ 2 1 2 8 6$'
+  has "marked$engine.1.edge" '^[0-9]+ [0-9]+ [0-9]+ 5 7$'
+done
+counts wedge.jsonl >engine.counts
+counts wedge--static.jsonl >static.counts
+same engine.counts static.counts
+same wedge.1.node wedge--static.1.node
+same marked.1.node marked--static.1.node
+expect 0 '' mesh wedge.poly --quiet -o wedge.2.node --stats wedge.json
+has wedge.json '"small_angles": 0'
+printf '4 2 0 0\n1 0 0\n2 0.8 0.6\n3 0.7439999994 0.5580000008\n4 0.6879999988 0.5160000016\n3 0\n1 1 2\n2 1 3\n3 1 4\n0\n' >fan.poly
+refuse 1 'fan.poly:8:1: error[too_close]: segment 2, segment 1' mesh fan.poly -o out/x.vtu
+refuse 1 'segment 1: fan.poly:7' mesh fan.poly --static -o out/x.vtu
+
 echo "== the Great Lakes"
 if [[ -e $data/great_lakes.poly ]]; then
   expect 0 ', 20.7' mesh "$data/great_lakes.poly" -o great_lakes.1.node -o great_lakes.msh

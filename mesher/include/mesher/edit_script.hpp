@@ -9,6 +9,7 @@
 //   +polyline ID P...    new segments from point to point, under one id; closed if the last point
 //                        is the first
 //   -polyline ID         all of them less
+//                        +point, +segment and +polyline may end with `marker M`, an integer
 //   +hole ID x y         what the lines enclose around the place is no part of the domain
 //   -hole ID             a hole less
 //   +region ID x y ATTRIBUTE [MAX_AREA]
@@ -59,6 +60,7 @@ struct Edit {
   FeatureId id{};
   Point<2> point{};                  ///< of insert and move, and of a new seed
   std::vector<FeatureId> points{};   ///< of a new segment or polyline
+  std::int64_t marker = 0;           ///< of a new point or line; 0: none
   double attribute = 0;              ///< of a new region
   std::optional<double> max_area{};  ///< likewise
   std::string text;                  ///< the line without comment and outer blanks
@@ -106,16 +108,25 @@ struct Update {
   [[nodiscard]] std::string text() const { return text_of(edits); }
 };
 
-/// Announces `edit` of a line to a mesher, or to anything with its functions for lines.
+/// Announces `edit` of a line to a mesher, or to anything with its functions for lines, which may
+/// take a marker.
 /// Throws: Error as those; Error(bad_edit) if the target has points only.
 template <class Target>
 void announce_line(const Edit& edit, Target& target) {
   if constexpr (requires { target.remove_segment(edit.id); }) {
     switch (edit.kind) {
       case Edit::Kind::insert_segment:
-        return target.insert_segment(edit.id, edit.points[0], edit.points[1]);
+        if constexpr (requires { target.insert_segment(edit.id, edit.id, edit.id, edit.marker); }) {
+          return target.insert_segment(edit.id, edit.points[0], edit.points[1], edit.marker);
+        } else {
+          return target.insert_segment(edit.id, edit.points[0], edit.points[1]);
+        }
       case Edit::Kind::insert_polyline:
-        return target.insert_polyline(edit.id, edit.points);
+        if constexpr (requires { target.insert_polyline(edit.id, edit.points, edit.marker); }) {
+          return target.insert_polyline(edit.id, edit.points, edit.marker);
+        } else {
+          return target.insert_polyline(edit.id, edit.points);
+        }
       default:
         return target.remove_segment(edit.id);
     }
@@ -148,7 +159,11 @@ void announce(const Edit& edit, Target& target) {
     if (featured(edit.kind) != Featured::point) return announce_seed(edit, target);
     switch (edit.kind) {
       case Edit::Kind::insert:
-        return target.insert(edit.id, edit.point);
+        if constexpr (requires { target.insert(edit.id, edit.point, edit.marker); }) {
+          return target.insert(edit.id, edit.point, edit.marker);
+        } else {
+          return target.insert(edit.id, edit.point);
+        }
       case Edit::Kind::remove:
         return target.remove(edit.id);
       default:

@@ -49,7 +49,7 @@ struct PointFile {
 ///
 /// - `.node` (Triangle, TetGen): a line `count [dimension [attributes [markers]]]` (defaults 2 0 0;
 ///   markers 0 or 1), then a line `id x y [z] attributes... [marker]` for each point. Ids are any
-///   distinct integers. Attributes and markers are counted, not read.
+///   distinct integers. Attributes and markers are checked, not kept (read_pslg keeps markers).
 /// - `.xyz`: a line `x y` or `x y z` for each point; in the plane z must be 0. Ids are 1..n.
 /// - `.csv`: fields between commas, semicolons or tabs (whichever the first line holds, in this
 ///   order); a field may stand in double quotes. The first line may name the columns: `x,y[,z]`, or

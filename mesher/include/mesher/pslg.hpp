@@ -122,7 +122,7 @@ struct PslgFile {
 /// - `.vtu` (VTK): vertices, lines and polylines of an unstructured grid in one piece: ASCII,
 ///   base64 or raw data, inline or appended, plain or by zlib. z must be the same everywhere.
 ///   Integer arrays `marker` are used, others noted; other cells are refused.
-/// - `.node`, `.xyz`, `.csv`: points alone.
+/// - `.node`, `.xyz`, `.csv`: points alone, of `.node` with their markers.
 ///
 /// Throws: Error (cannot_read, unknown_format, bad_header, bad_dimension, bad_number, not_finite,
 /// magnitude, wrong_count, truncated, repeated_id, unknown_id, bad_syntax, unsupported).

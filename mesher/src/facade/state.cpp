@@ -141,7 +141,7 @@ Change<2> State::first_run(Edits edits, const RunControl& control, const Accept&
   const Mesh<2> all = mesh();
   stats_ = timed_stats(*world_, all);
   Change<2> change = whole(all);
-  change.angles = AngleFinder(*world_, rho_).news(triangles());
+  if (has_lines()) change.angles = AngleFinder(*world_, rho_).news(triangles());
   change.calls = calls;
   if (accept) accept(change);
   return change;
@@ -210,9 +210,20 @@ void State::make(const Edits& edits, Ids& arrived) {
   try {
     engine_->edit_together(all);
   } catch (...) {
-    vertices().give_up();
+    settle();
     forget_news();
     throw;
+  }
+}
+
+// Edits have been taken back: a propagation of nothing frees the calls that were made for them.
+// Without the memory for that they stay until the next one.
+void State::settle() noexcept {
+  try {
+    engine_->propagate();
+    commit();
+  } catch (...) {
+    vertices().give_up();
   }
 }
 

@@ -98,6 +98,7 @@ class State final : private Names {
   Vertex<2>& add(const Point<2>& p);
   void take(Vertex<2>& v);
   void commit() noexcept;
+  void settle() noexcept;
   void make_room(const Ids& arrived);
   void rename(const std::vector<Announced::Edit>& edits, Ids& arrived) noexcept;
   [[nodiscard]] std::vector<Triangle> triangles() const;

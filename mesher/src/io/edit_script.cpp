@@ -22,12 +22,12 @@ struct Form {
 };
 
 constexpr Form kForms[] = {
-    {"+point", Edit::Kind::insert, 4, "+point ID x y"},
+    {"+point", Edit::Kind::insert, 4, "+point ID x y [marker M]"},
     {"-point", Edit::Kind::remove, 2, "-point ID"},
     {"move", Edit::Kind::move, 4, "move ID x y"},
-    {"+segment", Edit::Kind::insert_segment, 4, "+segment ID A B"},
+    {"+segment", Edit::Kind::insert_segment, 4, "+segment ID A B [marker M]"},
     {"-segment", Edit::Kind::remove_segment, 2, "-segment ID"},
-    {"+polyline", Edit::Kind::insert_polyline, 4, "+polyline ID P P...", SIZE_MAX},
+    {"+polyline", Edit::Kind::insert_polyline, 4, "+polyline ID P P... [marker M]", SIZE_MAX},
     {"-polyline", Edit::Kind::remove_polyline, 2, "-polyline ID"},
     {"+hole", Edit::Kind::insert_hole, 4, "+hole ID x y"},
     {"-hole", Edit::Kind::remove_hole, 2, "-hole ID"},
@@ -76,8 +76,16 @@ std::vector<int> ranks(const std::vector<Edit>& edits) {
   return all;
 }
 
-void require_fields(const text::Line& line, const Form& form) {
-  if (line.size() >= form.fields && line.size() <= form.most) return;
+// Whether the line ends with 'marker M', as edits of what has markers may.
+bool has_marker(const text::Line& line, const Form& form) {
+  const auto k = form.kind;
+  const bool may = k == Edit::Kind::insert || k == Edit::Kind::insert_segment ||
+                   k == Edit::Kind::insert_polyline;
+  return may && line.size() >= form.fields + 2 && line[line.size() - 2] == "marker";
+}
+
+void require_fields(const text::Line& line, std::size_t size, const Form& form) {
+  if (size >= form.fields && size <= form.most) return;
   throw line.error(
       ErrorCode::bad_edit,
       std::to_string(line.size()) + " fields, expected '" + std::string(form.usage) + "'",
@@ -93,12 +101,15 @@ std::optional<double> max_area_of(const text::Line& line) {
 
 Edit parse(const text::Line& line) {
   const Form& form = form_of(line);
-  require_fields(line, form);
+  const bool marked = has_marker(line, form);
+  const std::size_t size = line.size() - (marked ? 2 : 0);
+  require_fields(line, size, form);
   Edit edit;
   edit.kind = form.kind;
   edit.id = FeatureId{line.integer(1)};
   edit.text = line.trimmed();
   edit.place = line.place(0);
+  if (marked) edit.marker = line.integer(line.size() - 1);
   if (takes_place(form.kind)) {
     edit.point = {line.coordinate(2), line.coordinate(3)};
     if (form.kind == Edit::Kind::insert_region) {
@@ -106,7 +117,7 @@ Edit parse(const text::Line& line) {
       edit.max_area = max_area_of(line);
     }
   } else {
-    for (std::size_t i = 2; i < line.size(); ++i) {
+    for (std::size_t i = 2; i < size; ++i) {
       edit.points.push_back(FeatureId{line.integer(i)});
     }
   }

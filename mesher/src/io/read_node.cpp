@@ -145,7 +145,11 @@ NodeFile<D> read_node(const std::string& path, CoordinateRule rule) {
     nodes.rows.ids.push_back(FeatureId{line.integer(0)});
     nodes.rows.points.push_back(read_node_point<D>(line, rule));
     nodes.rows.lines.push_back(line.number());
-    if (rule == CoordinateRule::finite) columns.add(line);
+    if (rule == CoordinateRule::finite) {
+      columns.add(line);
+    } else if (header.markers == 1) {
+      nodes.markers.push_back(line.integer(line.size() - 1));
+    }
   }
   if (std::cmp_less(nodes.rows.ids.size(), header.count)) {
     throw lines.line().error(ErrorCode::truncated,

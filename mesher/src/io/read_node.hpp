@@ -49,11 +49,13 @@ struct NodeFile {
   PointFile<D> rows;              ///< ids and points may repeat
   std::vector<VertexKind> kinds;      ///< from a file as write_mesh writes it, else all steiner
   std::vector<FeatureId> origins;     ///< from such a file, else empty
-  std::vector<std::int64_t> markers;  ///< one per row, if the file has them and they say more
+  /// One per row, if the file has them; for CoordinateRule::finite if they say more.
+  std::vector<std::int64_t> markers;
   std::vector<Note> notes;
 };
 
-/// What the rows say beside places is read for CoordinateRule::finite, else only counted.
+/// What the rows say beside places and markers is read for CoordinateRule::finite, else only
+/// counted.
 /// Throws: Error as read_points, but repeated ids and duplicate points are not looked for.
 template <int D>
 [[nodiscard]] NodeFile<D> read_node(const std::string& path, CoordinateRule rule);

@@ -93,15 +93,23 @@ void require_known_ends(const PslgFile& f) {
   }
 }
 
-PslgFile read_points_alone(const std::string& path) {
-  const PointFile<2> rows = read_points<2>(path);
+// `markers`: one for each row, or none.
+PslgFile points_alone(const std::string& path, const PointFile<2>& rows,
+                      const std::vector<std::int64_t>& markers) {
   PslgFile out;
   out.file = out.point_file = path;
   for (std::size_t i = 0; i < rows.points.size(); ++i) {
-    out.pslg.points.push_back({rows.ids[i], rows.points[i], 0});
+    out.pslg.points.push_back({rows.ids[i], rows.points[i], markers.empty() ? 0 : markers[i]});
     out.points.push_back({rows.lines[i], 1});
   }
   return out;
+}
+
+PslgFile read_node_points(const std::string& path) {
+  const NodeFile<2> nodes = read_node<2>(path, CoordinateRule::input);
+  require_distinct_ids(nodes.rows);
+  require_distinct_points(nodes.rows);
+  return points_alone(path, nodes.rows, nodes.markers);
 }
 
 PslgFile read_any(const std::string& path) {
@@ -110,8 +118,9 @@ PslgFile read_any(const std::string& path) {
   if (extension == ".geojson" || extension == ".json") return read_geojson(path);
   if (extension == ".obj") return read_obj_lines(path);
   if (extension == ".vtu") return read_vtu_lines(path);
-  if (extension == ".node" || extension == ".xyz" || extension == ".csv") {
-    return read_points_alone(path);
+  if (extension == ".node") return read_node_points(path);
+  if (extension == ".xyz" || extension == ".csv") {
+    return points_alone(path, read_points<2>(path), {});
   }
   throw Error(ErrorCode::unknown_format,
               "points and lines are read from .poly, .geojson, .json, .obj, .vtu, .node, .xyz and "

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/box.hpp"
+#include "repair/crossing_place.hpp"
 
 namespace mesher::detail {
 
@@ -124,6 +125,62 @@ std::size_t BoxSearch::gather_spokes(std::vector<Part>& rods) const {
   std::stable_partition(rods.begin(), rods.end(),
                         [&](const Part& part) { return drawing_.rods()[part.rod].has(hub); });
   return most;
+}
+
+// The square of the sine of their angle.
+double BoxSearch::sine2(std::uint32_t r, std::uint32_t t) const {
+  const auto along = [&](std::uint32_t rod) {
+    const Point<2>& a = drawing_.place(drawing_.rods()[rod].a);
+    const Point<2>& b = drawing_.place(drawing_.rods()[rod].b);
+    return Point<2>{b[0] - a[0], b[1] - a[1]};
+  };
+  const Point<2> u = along(r), w = along(t);
+  const double cross = u[0] * w[1] - u[1] * w[0];
+  return cross * cross / ((u[0] * u[0] + u[1] * u[1]) * (w[0] * w[0] + w[1] * w[1]));
+}
+
+// Of the knot's two rods, the one at the larger angle.
+std::uint32_t BoxSearch::partner(const Knot& knot, std::uint32_t rod) const {
+  return knot.rods[sine2(knot.rods[0], rod) >= sine2(knot.rods[1], rod) ? 0 : 1];
+}
+
+bool BoxSearch::is_in(const Knot& knot, std::uint32_t rod) const {
+  const Rod& r = drawing_.rods()[rod];
+  const double most = drawing_.tolerance() / 4;
+  return distance2(knot.at, drawing_.place(r.a), drawing_.place(r.b)) <= most * most &&
+         drawing_.cross(r, drawing_.rods()[partner(knot, rod)]);
+}
+
+// Where a rod crosses some other, if most of some pass there.
+std::optional<BoxSearch::Knot> BoxSearch::knot_of(const std::vector<Part>& rods,
+                                                  std::uint32_t rod) const {
+  constexpr std::size_t kSamples = 8;
+  const Rod& r = drawing_.rods()[rod];
+  const auto place = [&](Spot s) { return drawing_.place(s); };
+  const auto sample = [&](std::size_t i) { return rods[i * (rods.size() - 1) / kSamples].rod; };
+  for (std::size_t i = 0; i <= kSamples; i += 2) {
+    const Rod& t = drawing_.rods()[sample(i)];
+    if (sine2(rod, sample(i)) < 0x1p-16 || !drawing_.cross(r, t)) continue;
+    const Knot knot{crossing_place(place(r.a), place(r.b), place(t.a), place(t.b)),
+                    {rod, sample(i)}};
+    std::size_t count = 0;
+    for (std::size_t k = 0; k <= kSamples; ++k) count += is_in(knot, sample(k));
+    if (2 * count > kSamples) return knot;
+  }
+  return std::nullopt;
+}
+
+std::optional<BoxSearch::Knot> BoxSearch::find_knot(const std::vector<Part>& rods) const {
+  for (const std::size_t i : {rods.size() / 2, rods.size() / 4, 3 * rods.size() / 4}) {
+    if (const auto knot = knot_of(rods, rods[i].rod)) return knot;
+  }
+  return std::nullopt;
+}
+
+std::size_t BoxSearch::gather(const Knot& knot, std::vector<Part>& rods) const {
+  const auto rest = std::stable_partition(rods.begin(), rods.end(),
+                                          [&](const Part& part) { return is_in(knot, part.rod); });
+  return static_cast<std::size_t>(rest - rods.begin());
 }
 
 }  // namespace mesher::detail

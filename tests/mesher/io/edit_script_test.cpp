@@ -294,6 +294,53 @@ TEST_CASE("a script that is not there, or is a folder, cannot be read") {
   CHECK(failure_of([&] { mesher::EditScript script(folder.path("")); }) == "cannot_read@0:0");
 }
 
+TEST_CASE("Scripts give markers to points and lines, which the mesh then has") {
+  const ScratchFolder folder;
+  mesher::EditScript script(folder.write("edits.txt",
+                                         "begin\n"
+                                         "+point 1 1 1 marker 7\n+point 2 9 1\n+point 3 9 9\n"
+                                         "+point 4 1 9\n"
+                                         "+segment 1 1 2 marker -3\n"
+                                         "+polyline 2 2 3 4 1 marker 11\n"
+                                         "commit\n"
+                                         "-segment 1\n"
+                                         "+segment 1 2 1\n"));
+  mesher::DomainMesher m({.domain = {{0, 0}, {10, 10}}});
+  const auto markers = [&] {
+    const mesher::MeshData kept = m.domain_mesh().kept;
+    std::map<Point<2>, std::int64_t> of;
+    for (std::size_t v = 0; v < kept.vertices.size(); ++v) {
+      of[kept.vertices[v]] = kept.features.markers[v];
+    }
+    std::map<std::int64_t, std::set<std::int64_t>> of_lines;
+    for (const auto& e : kept.features.edges) {
+      if (e.line) of_lines[static_cast<std::int64_t>(*e.line)].insert(e.marker);
+    }
+    return std::pair(of, of_lines);
+  };
+  mesher::apply(*script.next(), m);
+  const auto [points, lines] = markers();
+  CHECK(points.at({1, 1}) == 7);
+  CHECK(points.at({9, 1}) == -3);  // it has none of its own: that of a line, the least
+  CHECK(points.at({9, 9}) == 11);
+  CHECK(lines.at(1) == std::set<std::int64_t>{-3});
+  CHECK(lines.at(2) == std::set<std::int64_t>{11});
+  mesher::apply(*script.next(), m);
+  mesher::apply(*script.next(), m);
+  const auto [again, unmarked] = markers();
+  CHECK(again.at({1, 1}) == 7);
+  CHECK(again.at({9, 1}) == 11);
+  CHECK(unmarked.at(1) == std::set<std::int64_t>{1});  // what is on the boundary and has none
+  const auto refused = [&](const std::string& text) {
+    mesher::EditScript one(folder.write("bad.txt", text));
+    return failure_of([&] { (void)one.next(); });
+  };
+  CHECK(refused("+segment 1 2 3 marker 0.5\n") == "bad_number@1:23");
+  CHECK(refused("+segment 1 2 marker 5\n") == "bad_edit@1:21");
+  CHECK(refused("-segment 1 marker 5\n") == "bad_edit@1:12");
+  CHECK(refused("move 1 2 3 marker 5\n") == "bad_edit@1:12");
+}
+
 TEST_CASE("a script may begin with a byte order mark") {
   Table table;
   CHECK(apply("\xEF\xBB\xBF+point 1 2 3\r\n-point 1\r\n", table).size() == 2);

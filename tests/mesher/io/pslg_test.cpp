@@ -6,8 +6,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <map>
 
+#include "mesher/domain_mesh.hpp"
 #include "mesher/generate.hpp"
+#include "mesher/io.hpp"
 #include "mesher/predicates.hpp"
 #include "scratch_file.hpp"
 
@@ -143,6 +146,36 @@ TEST_CASE("a .poly file without points takes those of the .node file beside it")
   folder.write("a.node", "2 2 0 1\n7 1 2 3\n8 4 x 6\n");
   CHECK(error_of([&] { (void)mesher::read_pslg(folder.path("a.poly")); }).place().file ==
         folder.path("a.node"));
+}
+
+TEST_CASE("markers of a .node file's points are read, and written at the vertices that they are") {
+  const ScratchFolder folder;
+  const auto file =
+      mesher::read_pslg(folder.write("a.node",
+                                     "4 2 1 1\n1 0.25 0.25 9 5\n2 0.75 0.25 9 0\n3 0.5 0.75 9 -7\n"
+                                     "4 0.5 0.25 9 12\n"));
+  const Pslg& g = file.pslg;
+  CHECK(g.points == std::vector<Pslg::Vertex>{{id(1), {0.25, 0.25}, 5},
+                                              {id(2), {0.75, 0.25}, 0},
+                                              {id(3), {0.5, 0.75}, -7},
+                                              {id(4), {0.5, 0.25}, 12}});
+  CHECK(file.place_of_point(2).line == 4);
+  const mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}};
+  const auto mesh = domain_mesh(mesh_statically(g, options), g, mesher::Extent::box).kept;
+  mesher::write_mesh(mesh, folder.path("b.node"));
+  const auto again = mesher::read_mesh(folder.path("b.node"));
+  REQUIRE(again.vertices == mesh.vertices);
+  std::map<Point<2>, std::int64_t> markers;
+  for (std::size_t v = 0; v < again.vertices.size(); ++v) {
+    if (again.kinds[v] == mesher::VertexKind::input) {
+      markers[again.vertices[v]] = again.features.markers[v];
+    }
+  }
+  REQUIRE(markers.size() == g.points.size());
+  for (const auto& p : g.points) CHECK(markers.at(p.at) == p.marker);
+  CHECK(support::failure_of([&] {
+          (void)mesher::read_pslg(folder.write("c.node", "1 2 0 1\n1 0.5 0.5 x\n"));
+        }) == "bad_number@2:11");
 }
 
 TEST_CASE("a bad .poly file is refused with the code and the place of the mistake") {

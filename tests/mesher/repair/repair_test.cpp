@@ -10,6 +10,7 @@
 
 #include "geometry/segment_tests.hpp"
 #include "mesher/mesher.hpp"
+#include "repair/box_search.hpp"
 
 namespace {
 
@@ -281,6 +282,57 @@ TEST_CASE("long lines at tiny angles and bundles through one place end") {
     }
     require_repaired(g, repair(g));
   }
+}
+
+TEST_CASE("hubs through which many lines lead, and other lines, become planar in any order") {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    INFO("seed " << seed);
+    Nasty nasty(seed);
+    const double spread = std::pow(10, -5 * nasty.unit() * static_cast<double>(seed % 2));
+    const std::int64_t hubs = 1 + nasty.below(3);
+    std::vector<Point<2>> at;
+    for (std::int64_t i = 0; i < hubs; ++i) at.push_back({nasty.unit(), nasty.unit()});
+    Pslg g;
+    for (std::int64_t i = 0; i < 70; ++i) {
+      const Point<2>& hub = at[static_cast<std::size_t>(i % hubs)];
+      const double angle = 3.14 * spread * nasty.unit();
+      const double x = std::cos(angle), y = std::sin(angle), r = nasty.unit(), q = nasty.unit();
+      Point<2> a{hub[0] + r * x, hub[1] + r * y}, b{hub[0] - q * x, hub[1] - q * y};
+      if (i % 9 == 8) a = {nasty.unit(), nasty.unit()}, b = {nasty.unit(), nasty.unit()};
+      g.points.push_back({id(2 * i), a, 0});
+      g.points.push_back({id(2 * i + 1), b, 0});
+      g.segments.push_back({id(i), id(2 * i), id(2 * i + 1), 0});
+    }
+    const Repaired repaired = repair(g);
+    require_repaired(g, repaired);
+    nasty.shuffle(g);
+    REQUIRE(sorted(repair(g).file.pslg) == sorted(repaired.file.pslg));
+  }
+}
+
+TEST_CASE("of lines through one place each is looked at a few times, and one point is made") {
+  const std::int64_t n = 2000;
+  Pslg g;
+  mesher::detail::Drawing drawing({-4, -4}, 0x1p-41);
+  for (std::int64_t i = 0; i < n; ++i) {
+    const double angle = 3.141592653589793 * (static_cast<double>(i) + 0.5) / n;
+    const double x = std::cos(angle), y = std::sin(angle);
+    g.points.push_back({id(2 * i), {0.3 + x, 0.2 + y}, 0});
+    g.points.push_back({id(2 * i + 1), {0.3 - x, 0.2 - y}, 0});
+    g.segments.push_back({id(i), id(2 * i), id(2 * i + 1), 0});
+    const auto a = drawing.add_spot({0.3 + x, 0.2 + y}), b = drawing.add_spot({0.3 - x, 0.2 - y});
+    drawing.rod(a, b);
+  }
+  std::int64_t looks = 0;
+  mesher::detail::BoxSearch(drawing).rods_and_rods({}, [&](auto, auto, const auto&) {
+    ++looks;
+    return true;
+  });
+  CHECK(looks <= 8 * n);
+  const Repaired repaired = repair(g);
+  CHECK(repaired.file.pslg.points.size() == 2 * n + 1);
+  CHECK(repaired.notes.size() == 1);
+  CHECK(repaired.deviation <= repaired.tolerance);
 }
 
 TEST_CASE("a crossing gets a point, and both lines keep id and marker") {
