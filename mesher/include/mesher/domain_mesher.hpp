@@ -67,6 +67,10 @@ class DomainMesher {
   void remove_hole(FeatureId id) { remove_seed({SeedKind::hole, id}); }
   void remove_region(FeatureId id) { remove_seed({SeedKind::region, id}); }
 
+  /// Announces limits of size, as to a Mesher<2>.
+  void limit(const SizeLimits<2>& limits);
+  void limit(const Box<2>& box, const SizeLimits<2>& limits);
+
   /// Takes back every edit announced since the last update().
   void discard_edits() noexcept;
 

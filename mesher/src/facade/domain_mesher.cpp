@@ -40,6 +40,11 @@ void DomainMesher::insert_region(FeatureId id, const Point<2>& at, double attrib
 }
 void DomainMesher::remove_seed(const SeedName& name) { impl_->remove_seed(name); }
 
+void DomainMesher::limit(const SizeLimits<2>& limits) { impl_->limit(limits); }
+void DomainMesher::limit(const Box<2>& box, const SizeLimits<2>& limits) {
+  impl_->limit(box, limits);
+}
+
 void DomainMesher::discard_edits() noexcept { impl_->discard_edits(); }
 DomainUpdate DomainMesher::update(const RunControl& control) { return impl_->update(control); }
 

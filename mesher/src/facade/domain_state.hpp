@@ -23,6 +23,8 @@ class DomainState {
   void remove_line(FeatureId id);
   void insert_seed(const Seed& seed);
   void remove_seed(const SeedName& name);
+  void limit(const SizeLimits<2>& limits) { mesher_.limit(limits); }
+  void limit(const Box<2>& box, const SizeLimits<2>& limits) { mesher_.limit(box, limits); }
   void discard_edits() noexcept;
   DomainUpdate update(const RunControl& control);
 

@@ -108,6 +108,12 @@ class Quadtree {
     };
     reach_below(0, rel, box_.side, p, visit_within);
   }
+  /// Calls visit(v) for every vertex v that has a place of the box within v.reach. visit must not
+  /// throw.
+  template <class Visit>
+  void visit_reaching(const Box<D>& area, Visit&& visit) const noexcept {
+    reach_box_below(0, box_.lo, box_.side, area, visit);
+  }
   /// A query centred at `v` looks as far as v.reach: raises the bounds of the cells around it.
   void raise_reach(const Vertex<D>& v) noexcept;
 
@@ -253,6 +259,9 @@ class Quadtree {
     }
     return near2;
   }
+  template <class Visit>
+  void reach_box_below(NodeIndex n, const Point<D>& lo, double side, const Box<D>& area,
+                       Visit& visit) const noexcept;
   template <class Visit>
   float reach_below(NodeIndex n, Point<D> rel, double side, const Point<D>& p,
                     Visit& visit) noexcept;

@@ -85,4 +85,37 @@ float Quadtree<D>::reach_in_leaf(NodeIndex n, const Point<D>& p, Visit& visit) n
   return reach;
 }
 
+// `lo`: the cell's lower corner.
+template <int D>
+template <class Visit>
+void Quadtree<D>::reach_box_below(NodeIndex n, const Point<D>& lo, double side, const Box<D>& area,
+                                  Visit& visit) const noexcept {
+  const auto distance2 = [&](const Point<D>& corner, double width) {
+    double d2 = 0;
+    for (int i = 0; i < D; ++i) {
+      const double d = std::max({area.lo[i] - corner[i] - width, corner[i] - area.hi[i], 0.0});
+      d2 += d * d;
+    }
+    return d2;
+  };
+  const double bound = nodes_[n].reach * box_.side + margin_;
+  if (distance2(lo, side) > bound * bound) return;
+  const NodeIndex child = nodes_[n].open();
+  if (child == 0) {
+    for (BucketIndex b = nodes_[n].head; b != 0; b = buckets_[b].next) {
+      for (const VertexHandle h : buckets_[b].handle) {
+        if (h == 0) continue;
+        const double own = vertices_[h].reach * box_.side;
+        if (distance2(vertices_[h].p, 0) <= own * own) visit(vertices_[h]);
+      }
+    }
+    return;
+  }
+  for (int c = 0; c < kChildren; ++c) {
+    Point<D> corner = lo;
+    for (int i = 0; i < D; ++i) corner[i] += (c >> i & 1) != 0 ? side / 2 : 0;
+    reach_box_below(child + static_cast<NodeIndex>(c), corner, side / 2, area, visit);
+  }
+}
+
 }  // namespace mesher::detail

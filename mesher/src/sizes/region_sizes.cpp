@@ -1,4 +1,4 @@
-// Fields from the regions of a mesh, and the least of several.
+// Fields from the regions of a mesh, the least of several, and limits of options.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,6 +6,7 @@
 
 #include "mesher/domain_mesh.hpp"
 #include "mesher/sizes.hpp"
+#include "sizes/all_limits.hpp"
 #include "sizes/facet_sizes.hpp"
 
 namespace mesher {
@@ -38,6 +39,15 @@ class LeastSizes final : public SizeField<2> {
 };
 
 }  // namespace
+
+void set_limits(Options<2>& options, const SizeLimits<2>& limits) {
+  detail::AllLimits{limits, {}}.apply_to(options);
+}
+void set_limits(Options<2>& options, const Box<2>& box, const SizeLimits<2>& limits) {
+  auto all = detail::AllLimits::of(options);
+  all.set_within(box, limits);
+  std::move(all).apply_to(options);
+}
 
 double size_of_area(double area) { return std::sqrt(area / kAreaOfSize); }
 
