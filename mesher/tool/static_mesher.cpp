@@ -196,12 +196,13 @@ mesher::DomainUpdate StaticMesher::update(const mesher::RunControl& control) {
   require_unused();
   const mesher::Pslg input = graph();
   mesher::MeshStats stats;
-  Mesh<2> after = mesher::mesh_statically(input, options_, &stats, control);
+  Mesh<2> after = mesher::mesh_statically(input, edited_options_, &stats, control);
   mesher::DomainMesh domain = mesher::domain_mesh(after, input, extent_);
   mesher::DomainUpdate update;
   static_cast<mesher::Change<2>&>(update) = change_between(mesh_, after);
   update.domain = change_of_kept(domain_.kept, domain.kept);
   current_ = edited_;
+  options_ = edited_options_;
   mesh_ = std::move(after);
   domain_ = std::move(domain);
   stats_ = stats;

@@ -1,5 +1,5 @@
-// Random batches of points, lines, moves and seeds: mesh and domain are those from scratch, the
-// change is exact, and a batch that fails leaves all as it was.
+// Random batches of points, lines, moves, seeds and limits: mesh and domain are those from scratch,
+// the change is exact, and a batch that fails leaves all as it was.
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -69,6 +69,8 @@ class Follower {
   void check() {
     const mesher::Pslg graph = lake_.graph();
     REQUIRE(m_.input() == graph);
+    REQUIRE(m_.options().max_area == lake_.options.max_area);
+    REQUIRE(m_.options().box_limits == lake_.options.box_limits);
     const Mesh<2> mesh = mesher::mesh_statically(graph, m_.options());
     const DomainMesh scratch = mesher::domain_mesh(mesh, graph, extent_);
     if (!whole_.empty()) REQUIRE(m_.mesh() == mesh);
