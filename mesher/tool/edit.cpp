@@ -74,9 +74,11 @@ void run_edit(const EditArguments& args) {
   Input input = read_input(args);
   const auto options = mesh_options(args, input);
   if (args.is_static) {
-    return run_edit_on(StaticMesher(options, extent(args)), args, std::move(input));
+    return run_edit_on(StaticMesher(options, extent(args), region_areas(args)), args,
+                       std::move(input));
   }
-  run_edit_on(mesher::DomainMesher(options, extent(args)), args, std::move(input));
+  run_edit_on(mesher::DomainMesher(options, extent(args), region_areas(args)), args,
+              std::move(input));
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ namespace tool {
 
 class StaticMesher {
  public:
-  StaticMesher(const mesher::Options<2>& options, mesher::Extent extent)
-      : options_(options), edited_options_(options), extent_(extent) {}
+  StaticMesher(const mesher::Options<2>& options, mesher::Extent extent, mesher::RegionAreas areas)
+      : options_(options), edited_options_(options), extent_(extent), areas_(areas) {}
 
   /// As those of DomainMesher, but that points that are too close are left to update().
   /// Throws: Error (repeated_id, unknown_id, duplicate_point, outside_domain, zero_length), and
@@ -69,11 +69,13 @@ class StaticMesher {
   void require_free(mesher::FeatureId id, const mesher::Point<2>& point) const;
   void require_known(mesher::FeatureId id) const;
   void require_unused() const;
+  [[nodiscard]] bool needs_regions() const;
   void put(mesher::FeatureId id, const Vertex& vertex);
   [[nodiscard]] mesher::Pslg graph() const;
 
   mesher::Options<2> options_, edited_options_;  // they differ in the limits of size
   mesher::Extent extent_;
+  mesher::RegionAreas areas_;
   Features current_, edited_;
   mesher::Mesh<2> mesh_;
   mesher::DomainMesh domain_;

@@ -93,7 +93,8 @@ TEST_CASE("edits of any kind by a script leave the files of the edited input, by
   const std::string tool = test_paths::kMesherTool;
   if (tool.empty()) return;
   const auto seed = GENERATE(range<std::uint64_t>(1, 7), value<std::uint64_t>(54));
-  const std::string extent = seed % 3 == 0 ? " --box" : "";
+  const std::string extent =
+      std::string(seed % 3 == 0 ? " --box" : "") + (seed % 2 == 0 ? " --region-areas" : "");
   CAPTURE(seed);
   const History history(seed, 60);
   const ScratchFolder folder;

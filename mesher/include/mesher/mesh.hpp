@@ -68,6 +68,9 @@ struct BoxLimits {
   friend bool operator==(const BoxLimits&, const BoxLimits&) = default;
 };
 
+/// Where limits of size count, and those of regions: see region_limits in domain_mesh.hpp.
+class RegionLimits;
+
 /// What to mesh, and how well.
 template <int D>
 struct Options {
@@ -77,6 +80,7 @@ struct Options {
   double max_area = 0;  ///< of a triangle with its centroid in the domain; 0: no limit
   std::shared_ptr<const SizeField<D>> sizes{};  ///< limits that vary, see sizes.hpp; null: none
   std::vector<BoxLimits<D>> box_limits{};  ///< instead of these; the last box with a place counts
+  std::shared_ptr<const RegionLimits> region_limits{};  ///< null: limits count everywhere
   std::size_t max_vertices = 0;  ///< more are refused with Error(too_many); 0: no limit
   bool record_weights = false;  ///< keeps what calls do inside, for those who study the trace
 };

@@ -35,6 +35,10 @@ class Engine;
 
 namespace mesher {
 
+namespace detail {
+class DomainState;
+}
+
 /// Work done by one run or update, counted in calls of traced functions.
 struct CallCounts {
   std::uint64_t executed = 0;   ///< calls whose body ran (new ones included)
@@ -217,6 +221,12 @@ class Mesher {
   void check_invariants() const;
 
  private:
+  friend class detail::DomainState;  // which keeps the limits of regions up to date
+  void announce_to(Mesher& other) const;
+  void limit_regions(std::shared_ptr<const RegionLimits> regions,
+                     const std::vector<Box<D>>& where);
+  [[nodiscard]] bool has_limits() const;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

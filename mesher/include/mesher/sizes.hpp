@@ -74,20 +74,6 @@ class SlopedSizes final : public SizeField<2> {
 [[nodiscard]] std::shared_ptr<const SizeField<2>> sampled_sizes(
     const std::vector<SizeSample>& samples);
 
-struct Domain;
-
-/// What the regions of a mesh ask for: in one with a limit that, elsewhere none. Null if no region
-/// has one. `mesh`: of the lines that enclose the regions, without limits, say; `domain`: found in
-/// it. The field stays what it is when lines move later. Cost: O(n log n).
-[[nodiscard]] std::shared_ptr<const SizeField<2>> region_sizes(const Mesh<2>& mesh,
-                                                               const Domain& domain);
-
-/// The same for the regions of a graph in the mesh that `options` give it without limits. There is
-/// no limit but in what its lines enclose; there options.max_area is one, too.
-/// Throws: as mesh_statically and find_domain. Cost: that of this mesh.
-[[nodiscard]] std::shared_ptr<const SizeField<2>> region_sizes(const Pslg& graph,
-                                                               Options<2> options);
-
 /// What Mesher::limit makes of options: these limits everywhere, or in a box.
 void set_limits(Options<2>& options, const SizeLimits<2>& limits);
 void set_limits(Options<2>& options, const Box<2>& box, const SizeLimits<2>& limits);

@@ -24,9 +24,10 @@ class AnnouncedLimits {
   }
   /// They shall be `to`, which differ in `where` from those announced before.
   /// Throws: bad_alloc, and then changes nothing.
-  void set(AllLimits to, const Box<2>& where, const Options<2>& now) {
+  void set(AllLimits to, const std::vector<Box<2>>& where, const Options<2>& now) {
     if (to == AllLimits::of(now)) return clear();
-    where_.push_back(where);
+    where_.reserve(where_.size() + where.size());
+    where_.insert(where_.end(), where.begin(), where.end());
     to_ = std::move(to);
   }
   /// Nothing if they stay.

@@ -9,8 +9,8 @@ struct DomainMesher::Impl : detail::DomainState {
   using DomainState::DomainState;
 };
 
-DomainMesher::DomainMesher(const Options<2>& options, Extent extent)
-    : impl_(std::make_unique<Impl>(options, extent)) {}
+DomainMesher::DomainMesher(const Options<2>& options, Extent extent, RegionAreas areas)
+    : impl_(std::make_unique<Impl>(options, extent, areas)) {}
 DomainMesher::DomainMesher(DomainMesher&&) noexcept = default;
 DomainMesher& DomainMesher::operator=(DomainMesher&&) noexcept = default;
 DomainMesher::~DomainMesher() = default;
@@ -75,6 +75,7 @@ Extent DomainMesher::extent() const { return impl_->extent(); }
 void DomainMesher::check_invariants() const {
   impl_->mesher().check_invariants();
   if (impl_->follower()) impl_->follower()->check_invariants();
+  if (impl_->unlimited()) impl_->unlimited()->check_invariants();
 }
 
 }  // namespace mesher

@@ -2,10 +2,12 @@
 // the input. The follower has its say on a change while the mesher can still take it back.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "facade/edited_table.hpp"
+#include "facade/unlimited_mesh.hpp"
 #include "mesher/domain_mesher.hpp"
 
 namespace mesher::detail {
@@ -14,7 +16,8 @@ class DomainState {
  public:
   using Markers = EditedTable<FeatureId, std::int64_t>;
 
-  DomainState(const Options<2>& options, Extent extent) : mesher_(options), extent_(extent) {}
+  DomainState(const Options<2>& options, Extent extent, RegionAreas areas)
+      : mesher_(options), extent_(extent), areas_(areas) {}
 
   void insert(FeatureId id, const Point<2>& point, std::int64_t marker);
   void remove(FeatureId id);
@@ -37,18 +40,26 @@ class DomainState {
   /// Nobody as long as there are points alone.
   [[nodiscard]] const std::optional<DomainFollower>& follower() const noexcept { return follower_; }
 
+  /// Nobody as long as it does not matter to limits of size what lines enclose.
+  [[nodiscard]] const UnlimitedMesh* unlimited() const noexcept { return unlimited_.get(); }
+
  private:
   void prepare();
   void commit() noexcept;
+  [[nodiscard]] bool needs_unlimited() const;
+  void make_unlimited(const RunControl& control);
+  [[nodiscard]] DomainUpdate run(const RunControl& control);
   [[nodiscard]] DomainChange begin(const Change<2>& change);
   [[nodiscard]] DomainChange follow(const Change<2>& change);
 
   Mesher<2> mesher_;
   Extent extent_;
+  RegionAreas areas_;
   Markers point_markers_, line_markers_;
   EditedTable<SeedName, Seed> seeds_;
-  std::optional<DomainFollower> follower_;  // from the first line or seed on
-  bool needs_follower_ = false;             // there are edits to follow
+  std::optional<DomainFollower> follower_;    // from the first line or seed on
+  std::unique_ptr<UnlimitedMesh> unlimited_;  // from the first limits on that it matters to
+  bool needs_follower_ = false;               // there are edits to follow
   bool ran_ = false;
 };
 

@@ -34,7 +34,7 @@ struct Mesher<2>::Impl {
   void insert_line(FeatureId id, const detail::LinePoints& points);
   void remove_line(FeatureId id);
   [[nodiscard]] detail::AllLimits limits() const { return announced_limits.as_announced(options); }
-  void limit(detail::AllLimits limits, const Box<2>& where);
+  void limit(detail::AllLimits limits, const std::vector<Box<2>>& where);
   void discard_edits() noexcept;
   Change<2> run(const RunControl& control, const Accept& accept);
   Change<2> update(const RunControl& control, const Accept& accept);
@@ -115,7 +115,7 @@ void Mesher<2>::Impl::remove_line(FeatureId id) {
 }
 
 // Limits that make no sense are refused at once.
-void Mesher<2>::Impl::limit(detail::AllLimits limits, const Box<2>& where) {
+void Mesher<2>::Impl::limit(detail::AllLimits limits, const std::vector<Box<2>>& where) {
   Options<2> all = options;
   detail::AllLimits(limits).apply_to(all);
   static_cast<void>(detail::Limits(all, box));
@@ -215,14 +215,45 @@ void Mesher<D>::remove_segment(FeatureId id) {
 
 template <int D>
 void Mesher<D>::limit(const SizeLimits<D>& limits) {
-  impl_->limit({limits, {}}, impl_->options.domain);
+  impl_->limit({limits, {}, impl_->limits().regions}, {impl_->options.domain});
 }
 
 template <int D>
 void Mesher<D>::limit(const Box<D>& box, const SizeLimits<D>& limits) {
   detail::AllLimits all = impl_->limits();
   all.set_within(box, limits);
-  impl_->limit(std::move(all), box);
+  impl_->limit(std::move(all), {box});
+}
+
+template <int D>
+void Mesher<D>::limit_regions(std::shared_ptr<const RegionLimits> regions,
+                              const std::vector<Box<D>>& where) {
+  detail::AllLimits all = impl_->limits();
+  all.regions = std::move(regions);
+  impl_->limit(std::move(all), where);
+}
+
+template <int D>
+bool Mesher<D>::has_limits() const {
+  return impl_->limits().any();
+}
+
+// In the other: lines go first, and points before others come to their places.
+template <int D>
+void Mesher<D>::announce_to(Mesher& other) const {
+  const auto lines = impl_->announced_lines.sorted();
+  for (const auto& edit : lines) {
+    if (!edit.was.empty()) other.remove_segment(edit.id);
+  }
+  for (const auto& edit : impl_->announced.sorted()) {  // those that go are the first
+    if (edit.was) edit.to ? other.move(edit.id, *edit.to) : other.remove(edit.id);
+  }
+  for (const auto& edit : impl_->announced.sorted()) {
+    if (!edit.was) other.insert(edit.id, *edit.to);
+  }
+  for (const auto& edit : lines) {
+    if (!edit.to.empty()) other.insert_polyline(edit.id, edit.to);
+  }
 }
 
 template <int D>

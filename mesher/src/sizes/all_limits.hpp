@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -13,15 +14,23 @@ namespace mesher::detail {
 struct AllLimits {
   SizeLimits<2> everywhere;
   std::vector<BoxLimits<2>> boxes;
+  std::shared_ptr<const RegionLimits> regions{};
   friend bool operator==(const AllLimits&, const AllLimits&) = default;
 
   [[nodiscard]] static AllLimits of(const Options<2>& options) {
-    return {{options.max_area, options.sizes}, options.box_limits};
+    return {{options.max_area, options.sizes}, options.box_limits, options.region_limits};
   }
   void apply_to(Options<2>& options) && noexcept {
     options.max_area = everywhere.max_area;
     options.sizes = std::move(everywhere.sizes);
     options.box_limits = std::move(boxes);
+    options.region_limits = std::move(regions);
+  }
+  /// Whether something is limited, but for regions.
+  [[nodiscard]] bool any() const {
+    const SizeLimits<2> none;
+    return everywhere != none ||
+           std::any_of(boxes.begin(), boxes.end(), [&](const auto& b) { return b.limits != none; });
   }
   /// What limits a box, if it is one thing: null if there are several.
   [[nodiscard]] const SizeLimits<2>* within(const Box<2>& box) const {

@@ -9,6 +9,7 @@
 #include "input.hpp"
 #include "io/text.hpp"
 #include "mesher/error.hpp"
+#include "sizes/region_limits.hpp"
 
 namespace mesher::detail {
 
@@ -47,12 +48,19 @@ double area_of_size(double h) { return kAreaOfSize * h * h; }
 }  // namespace
 
 Limits::Limits(const Options<2>& options, const MeshBox<2>& box)
-    : domain_(options.domain), coordinates_(largest_coordinate(options.domain)), widest_(box.side) {
+    : domain_(options.domain),
+      coordinates_(largest_coordinate(options.domain)),
+      widest_(box.side),
+      regions_(options.region_limits) {
   parts_.reserve(options.box_limits.size() + 1);
   add_part(domain_, {options.max_area, options.sizes});
   for (const BoxLimits<2>& part : options.box_limits) add_part(part.box, part.limits);
-  const auto is_none = [](const Part& p) { return p.area == kNone && p.sizes == nullptr; };
-  if (options.rule != Rule::radius_edge && !std::all_of(parts_.begin(), parts_.end(), is_none)) {
+  if (regions_ != nullptr) {
+    for (const double area : regions_->areas()) add_plateau(spacing(area));
+  }
+  const auto limits = [](const Part& p) { return p.area != kNone || p.sizes != nullptr; };
+  const bool asked = any_ || std::any_of(parts_.begin(), parts_.end(), limits);
+  if (asked && options.rule != Rule::radius_edge) {
     refuse("limits of size need the rule radius_edge");
   }
   std::sort(plateaus_.begin(), plateaus_.end());
@@ -100,6 +108,15 @@ void Limits::add_bands() {
 
 Limits::Look Limits::look(const Point<2>& p) const {
   if (!contains(domain_, p)) return {kNone, kNone};
+  if (regions_ == nullptr) return asked_at(p);
+  const RegionLimits::Limit there = regions_->at(p);
+  if (!there.counts) return {kNone, kNone};
+  const Look asked = asked_at(p);
+  return there.area < asked.area ? Look{there.area, 0, true} : asked;
+}
+
+// Where limits count.
+Limits::Look Limits::asked_at(const Point<2>& p) const {
   std::size_t i = parts_.size() - 1;
   while (i > 0 && !contains(parts_[i].box, p)) --i;
   return look(parts_[i], p);
@@ -152,10 +169,21 @@ Limits::Spread Limits::spread(const Part& part, const Box<2>& box) const {
   return found.least == widest ? Spread{widest, widest, true} : found;
 }
 
-// Of places in the domain. What lies behind a part that has all of the box is hidden.
+// Of places in the domain.
 Limits::Spread Limits::spacings_in(const Box<2>& box) const {
   const Box<2> inside = common(box, domain_);
   if (is_empty(inside)) return {kNone, kNone, true};
+  if (regions_ == nullptr) return asked_in(inside);
+  const RegionLimits::Range there = regions_->range(inside);
+  if (!there.some) return {kNone, kNone, true};
+  const Spread asked = asked_in(inside);
+  const double least = spacing(there.least), most = spacing(there.most);
+  return {std::min(asked.least, least), there.all ? std::min(asked.most, most) : kNone,
+          asked.even || most <= asked.least};
+}
+
+// What lies behind a part that has all of the box is hidden.
+Limits::Spread Limits::asked_in(const Box<2>& inside) const {
   std::size_t i = parts_.size() - 1;
   while (i > 0 && !contains(parts_[i].box, inside)) --i;
   Spread all = spread(parts_[i], inside);

@@ -7,6 +7,8 @@
 // few bits, where the limit is constant (max_area, or a plateau of the sizes); elsewhere that of
 // its *band*, [2^(k/4), 2^((k+1)/4)), so that lattices of some extent result.
 //
+// Where regions are given, limits count in some, and these may have areas of their own.
+//
 // All that is said of a place, or of a box, depends on the limits there alone: limits that change
 // elsewhere do not matter.
 #pragma once
@@ -34,7 +36,7 @@ class Limits {
   [[nodiscard]] bool any() const noexcept { return any_; }
   /// Whether there is one constant in all of the domain.
   [[nodiscard]] bool uniform() const noexcept {
-    return parts_.size() == 1 && parts_.front().sizes == nullptr;
+    return parts_.size() == 1 && parts_.front().sizes == nullptr && regions_ == nullptr;
   }
   /// The largest area of a triangle with its centroid at p; kNone: any.
   /// Throws: Error(bad_option) for a size that is not above 0.
@@ -92,8 +94,10 @@ class Limits {
   [[nodiscard]] double band_pitch(double spacing) const;
   [[nodiscard]] double pitch_for(const Look& look) const;
   [[nodiscard]] Look look(const Point<2>& p) const;
+  [[nodiscard]] Look asked_at(const Point<2>& p) const;
   [[nodiscard]] Look look(const Part& part, const Point<2>& p) const;
   [[nodiscard]] Spread spread(const Part& part, const Box<2>& box) const;
+  [[nodiscard]] Spread asked_in(const Box<2>& inside) const;
   [[nodiscard]] Spread spacings_in(const Box<2>& box) const;
   void require_not_small(double spacing) const;
 
@@ -101,9 +105,10 @@ class Limits {
   double coordinates_;  // none in the domain is larger
   double widest_;       // spacings from this on have no lattice
   bool any_ = false;
-  std::vector<Part> parts_;       // the first has all of the domain
-  std::vector<double> plateaus_;  // pitches, ascending
-  std::vector<Band> bands_;       // ascending; empty if all is constant
+  std::vector<Part> parts_;                      // the first has all of the domain
+  std::shared_ptr<const RegionLimits> regions_;  // null: all of this counts everywhere
+  std::vector<double> plateaus_;                 // pitches, ascending
+  std::vector<Band> bands_;                      // ascending; empty if all is constant
 };
 
 template <class Visit>
