@@ -6,6 +6,9 @@
 //
 // One JSON line per figure:
 //   static           vertices (inside: in the square, where the model counts), seconds
+//   disc             edits of the limit in a disc, half as wide spacings and back: vertices that
+//   were or
+//                    are in it, and how many change for each of them; calls and microseconds
 //   point, segment   an insertion and its removal, inside the square: median and largest number of
 //                    vertices changed, median of calls executed and microseconds
 #include <algorithm>
@@ -124,6 +127,65 @@ Edits random_edits(mesher::Mesher<2>& m, double length) {
   return edits;
 }
 
+// Half the size in a disc. What is around it is as it was.
+class Disc final : public mesher::SizeField<2> {
+ public:
+  Disc(const Point<2>& middle, double radius, double h) : at_(middle), radius_(radius), h_(h) {}
+
+  [[nodiscard]] bool contains(const Point<2>& p) const {
+    return std::hypot(p[0] - at_[0], p[1] - at_[1]) < radius_;
+  }
+  [[nodiscard]] mesher::Box<2> box() const {
+    return {{at_[0] - radius_, at_[1] - radius_}, {at_[0] + radius_, at_[1] + radius_}};
+  }
+  [[nodiscard]] double at(const Point<2>& p) const override { return contains(p) ? h_ / 2 : h_; }
+  [[nodiscard]] mesher::SizeRange range(const mesher::Box<2>& box) const override {
+    const Point<2> nearest{std::clamp(at_[0], box.lo[0], box.hi[0]),
+                           std::clamp(at_[1], box.lo[1], box.hi[1])};
+    const bool all = contains(box.lo) && contains(box.hi) && contains({box.lo[0], box.hi[1]}) &&
+                     contains({box.hi[0], box.lo[1]});
+    return {contains(nearest) ? h_ / 2 : h_, all ? h_ / 2 : h_, true};
+  }
+  [[nodiscard]] std::vector<double> plateaus() const override { return {h_ / 2, h_}; }
+
+ private:
+  Point<2> at_;
+  double radius_, h_;
+};
+
+void print_discs(const Case& c, mesher::Mesher<2>& m, double radius) {
+  mesher::SplitMix64 random(11);
+  Edits edits;
+  std::vector<double> inside;
+  while (edits.vertices.size() < 20) {
+    const Point<2> p{random.unit(), random.unit()};
+    if (SizedSquare::beyond(p) > -radius) continue;
+    const auto disc = std::make_shared<Disc>(p, radius, mesher::size_of_area(c.options.max_area));
+    const auto count = [&] {
+      const auto mesh = m.mesh();
+      return static_cast<double>(
+          std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
+                        [&](const Point<2>& v) { return disc->contains(v); }));
+    };
+    const double before = count();
+    m.limit(disc->box(), {.max_area = 0, .sizes = disc});
+    update(m, edits);
+    inside.push_back(before + count());
+    m.limit(disc->box(), {.max_area = c.options.max_area});
+    update(m, edits);
+    inside.push_back(inside.back());
+  }
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < inside.size(); ++i) ratios.push_back(edits.vertices[i] / inside[i]);
+  std::printf(
+      "{\"bench\":\"sizes\",\"figure\":\"disc\",\"limit\":\"%s\",\"radius\":%g,\"updates\":%zu,"
+      "\"in_disc_median\":%g,\"changed_over_in_disc_median\":%.3f,\"changed_over_in_disc_most\":%."
+      "3f,"
+      "\"calls_median\":%g,\"median_us\":%.1f}\n",
+      c.name, radius, inside.size(), quantile(inside, 0.5), quantile(ratios, 0.5),
+      quantile(ratios, 1), quantile(edits.calls, 0.5), quantile(edits.microseconds, 0.5));
+}
+
 void print_edits(const Case& c) {
   mesher::Mesher<2> m(c.options);
   std::int64_t next = 1;
@@ -132,6 +194,8 @@ void print_edits(const Case& c) {
   m.update();
   random_edits(m, 0).print("point", c);
   random_edits(m, 3 * c.spacing).print("segment", c);
+  if (c.options.max_area == 0) return;
+  for (const double spacings : {3.0, 10.0}) print_discs(c, m, spacings * c.spacing);
 }
 
 void print_file(const char* path, double area) {

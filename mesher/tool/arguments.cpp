@@ -103,8 +103,10 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
       ->expected(4)
       ->allow_extra_args(false);
   command
-      .add_option("--max-area", args.max_area,
-                  "No triangle with its centroid in the domain is larger (default: no limit)")
+      .add_option(
+          "--max-area", args.max_area,
+          "No triangle with its centroid in the domain is larger, of those that are wanted\n"
+          "(default: no limit)")
       ->type_name("A");
   command
       .add_option("--max-size", args.max_size,
@@ -133,6 +135,8 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
   command.add_flag("--repair", args.repair,
                    "Lines that cross or touch get a common point there, points in one place are\n"
                    "one, what lines share is that of the smallest id; each is reported");
+  command.add_flag("--region-areas", args.region_areas,
+                   "The largest areas of regions are limits of size");
   command.add_flag("--box", args.box, "All of the box, not only what lines enclose less the holes");
   command.add_flag("--static", args.is_static, "Without the engine; the mesh is the same");
   command.add_option("--stats", args.stats, "Figures as JSON")->type_name("FILE");

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "input.hpp"
-#include "mesher/domain.hpp"
+#include "mesher/domain_mesh.hpp"
 #include "mesher/mesh.hpp"
 #include "outputs.hpp"
 
@@ -54,13 +54,18 @@ void add_mesh_options(CLI::App& command, MeshArguments& args);
 [[nodiscard]] Input read_input(const MeshArguments& args);
 
 /// What to mesh: the domain as given, or around the input.
-/// Throws: Error(bad_option); Error(outside_domain) with the line of the first point outside, naming
+/// Throws: Error(bad_option); Error(outside_domain) with the line of the first point outside,
+/// naming
 /// --domain; as read_sizes.
 [[nodiscard]] mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input);
 
 /// Which part of the mesh is written.
 [[nodiscard]] inline mesher::Extent extent(const MeshArguments& args) {
   return args.box ? mesher::Extent::box : mesher::Extent::enclosed;
+}
+
+[[nodiscard]] inline mesher::RegionAreas region_areas(const MeshArguments& args) {
+  return args.region_areas ? mesher::RegionAreas::limits : mesher::RegionAreas::ignored;
 }
 
 /// The same error with a hint to --domain, if it is one of a point outside.

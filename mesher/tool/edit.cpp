@@ -77,9 +77,11 @@ void run_edit(const EditArguments& args) {
   Input input = read_input(args);
   const auto options = mesh_options(args, input);
   if (args.is_static) {
-    return run_edit_on(StaticMesher(options, extent(args)), options, args, std::move(input));
+    return run_edit_on(StaticMesher(options, extent(args), region_areas(args)), options, args,
+                       std::move(input));
   }
-  run_edit_on(mesher::DomainMesher(options, extent(args)), options, args, std::move(input));
+  run_edit_on(mesher::DomainMesher(options, extent(args), region_areas(args)), options, args,
+              std::move(input));
 }
 
 }  // namespace
@@ -99,6 +101,10 @@ void add_edit(CLI::App& app) {
           "  +hole ID x y           -hole ID       what lines enclose there is left out\n"
           "  +region ID x y ATTRIBUTE [MAX_AREA]\n"
           "                         -region ID     what lines enclose there has this attribute\n"
+          "  limit area A           no triangle is larger; or 'size H', its edges; 'sizes FILE', "
+          "a\n"
+          "                         background of H beside EDITS; 'none'\n"
+          "  limit ... in XMIN YMIN XMAX YMAX   in this box; elsewhere limits stay\n"
           "+point, +segment and +polyline may end with 'marker M', which a boundary's vertices\n"
           "and edges have in what is written.\n"
           "Each is an update of its own, but those between 'begin' and 'commit' are one. '#'\n"

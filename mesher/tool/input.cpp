@@ -113,6 +113,7 @@ Place Input::place(Featured kind, FeatureId id) const {
     case Featured::region:
       return at(graph.regions, &mesher::PslgFile::place_of_region);
     case Featured::line:
+    case Featured::nothing:
       break;
   }
   const Place segment = at(graph.segments, &mesher::PslgFile::place_of_segment);

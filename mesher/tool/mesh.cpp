@@ -55,11 +55,14 @@ Result mesh(const MeshArguments& args, const Input& input, const mesher::Options
   return result;
 }
 
-void limit_regions(const Input& input, mesher::Options<2>& options) {
+// Limits count in what is wanted.
+void limit_regions(const MeshArguments& args, const Input& input, mesher::Options<2>& options) {
+  const bool limited = options.max_area != 0 || options.sizes != nullptr;
+  const bool enclosing = !args.box && !segments_of(input.graph()).empty();
+  if (!args.region_areas && !(limited && enclosing)) return;
   try {
-    options.sizes =
-        mesher::least_sizes({options.sizes, mesher::region_sizes(input.graph(), options)});
-    options.max_area = 0;
+    options.region_limits =
+        mesher::region_limits(input.graph(), options, extent(args), region_areas(args));
   } catch (const mesher::Error& error) {
     throw input.located(error);
   }
@@ -71,7 +74,7 @@ void run_mesh(const MeshArguments& args) {
   Outputs outputs;
   open_outputs(args, input, outputs);
   Figures figures(args.stats, outputs);
-  if (args.region_areas) limit_regions(input, options);
+  limit_regions(args, input, options);
   Progress progress(args.quiet);
   const Result result = mesh(args, input, options, progress);
   if (figures.wanted()) figures << json_of(result.run).dump(2) << "\n";
@@ -93,10 +96,6 @@ void add_mesh(CLI::App& app) {
   const auto args = std::make_shared<MeshArguments>();
   CLI::App* mesh = app.add_subcommand("mesh", "Meshes a file of points and lines.");
   add_mesh_options(*mesh, *args);
-  mesh->add_flag(
-      "--region-areas", args->region_areas,
-      "The largest areas of INPUT's regions are limits; --max-area is one in what lines\n"
-      "enclose, and not outside");
   mesh->footer(
       std::string(
           "Every line is a union of edges. Where lines enclose something, what they enclose is\n"
@@ -108,8 +107,8 @@ void add_mesh(CLI::App& app) {
           "The mesh is a function of INPUT, the domain, --rho, --rule and the limits of size\n"
           "alone: its files are the same bytes each time, with --static or without. Files appear\n"
           "when all is done, or not at all.\n"
-          "Limits of size hold in the domain, whatever lines enclose, and are filled from a\n"
-          "lattice, so that edits move little. Several together: the smallest counts.\n"
+          "Limits of size hold in what is written, less what is beyond the domain, and are filled\n"
+          "from a lattice, so that edits move little. Several together: the smallest counts.\n"
           "--stats: one JSON object; - for standard output.\n") +
       kQualityHelp +
       "\nExamples:\n"

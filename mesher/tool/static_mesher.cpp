@@ -192,17 +192,28 @@ mesher::Pslg StaticMesher::graph() const {
   return graph;
 }
 
+// Whether it matters to limits of size what lines enclose.
+bool StaticMesher::needs_regions() const {
+  if (areas_ == mesher::RegionAreas::limits) return true;
+  const auto& o = edited_options_;
+  const bool limited = o.max_area != 0 || o.sizes != nullptr || !o.box_limits.empty();
+  return extent_ == mesher::Extent::enclosed && limited;
+}
+
 mesher::DomainUpdate StaticMesher::update(const mesher::RunControl& control) {
   require_unused();
   const mesher::Pslg input = graph();
+  mesher::Options<2> options = edited_options_;
+  if (needs_regions()) options.region_limits = region_limits(input, options, extent_, areas_);
   mesher::MeshStats stats;
-  Mesh<2> after = mesher::mesh_statically(input, options_, &stats, control);
+  Mesh<2> after = mesher::mesh_statically(input, options, &stats, control);
   mesher::DomainMesh domain = mesher::domain_mesh(after, input, extent_);
   mesher::DomainUpdate update;
   static_cast<mesher::Change<2>&>(update) = change_between(mesh_, after);
   update.angles = mesher::angle_news(after, options_, update.simplices_added);
   update.domain = change_of_kept(domain_.kept, domain.kept);
   current_ = edited_;
+  options_ = edited_options_;
   mesh_ = std::move(after);
   domain_ = std::move(domain);
   stats_ = stats;

@@ -9,13 +9,14 @@
 #include <vector>
 
 #include "mesher/domain_mesher.hpp"
+#include "mesher/sizes.hpp"
 
 namespace tool {
 
 class StaticMesher {
  public:
-  StaticMesher(const mesher::Options<2>& options, mesher::Extent extent)
-      : options_(options), extent_(extent) {}
+  StaticMesher(const mesher::Options<2>& options, mesher::Extent extent, mesher::RegionAreas areas)
+      : options_(options), edited_options_(options), extent_(extent), areas_(areas) {}
 
   /// As those of DomainMesher, but that points that are too close are left to update().
   /// Throws: Error (repeated_id, unknown_id, duplicate_point, outside_domain, zero_length), and
@@ -32,7 +33,14 @@ class StaticMesher {
   void remove_segment(mesher::FeatureId id);
   void insert_seed(const mesher::Seed& seed);
   void remove_seed(const mesher::SeedName& name);
-  void discard_edits() { edited_ = current_; }
+  void limit(const mesher::SizeLimits<2>& limits) { set_limits(edited_options_, limits); }
+  void limit(const mesher::Box<2>& box, const mesher::SizeLimits<2>& limits) {
+    set_limits(edited_options_, box, limits);
+  }
+  void discard_edits() {
+    edited_ = current_;
+    edited_options_ = options_;
+  }
 
   /// As that of DomainMesher, but that edits that fail stay announced, and that `relabelled` is not
   /// found. Cost: a mesh from scratch; counts of calls are 0.
@@ -62,11 +70,13 @@ class StaticMesher {
   void require_free(mesher::FeatureId id, const mesher::Point<2>& point) const;
   void require_known(mesher::FeatureId id) const;
   void require_unused() const;
+  [[nodiscard]] bool needs_regions() const;
   void put(mesher::FeatureId id, const Vertex& vertex);
   [[nodiscard]] mesher::Pslg graph() const;
 
-  mesher::Options<2> options_;
+  mesher::Options<2> options_, edited_options_;  // they differ in the limits of size
   mesher::Extent extent_;
+  mesher::RegionAreas areas_;
   Features current_, edited_;
   mesher::Mesh<2> mesh_;
   mesher::DomainMesh domain_;

@@ -205,7 +205,7 @@ for limit in '' --region-areas; do
 done
 expect 0 '' mesh lake.poly --region-areas --max-area 0.3 -o inside.1.node --stats inside.json
 expect 0 'area        ok' check inside.1.node --input lake.poly --max-area 0.3
-expect 0 '' mesh lake.poly --max-area 0.3 -o all.vtu --stats all.json
+expect 0 '' mesh lake.poly --max-area 0.3 --box -o all.vtu --stats all.json
 python3 - <<'END' || fail 'the outside is filled'
 import json
 inside, everywhere = json.load(open('inside.json')), json.load(open('all.json'))
@@ -213,7 +213,7 @@ assert inside['vertices'] < everywhere['vertices'], (inside['vertices'], everywh
 END
 printf '+point 20 1 6\nmove 9 5 5\n' >limited.txt
 sed -e 's/^10 2 0 1/11 2 0 1/; s/^9 4 4 0/9 5 5 0/; s/^10 2 4 0/&\n20 1 6 0/' lake.poly >moved.poly
-for limit in '--max-area 0.3' '--sizes sizes.csv'; do
+for limit in '--max-area 0.3' '--max-area 0.3 --box' '--sizes sizes.csv' --region-areas; do
   # shellcheck disable=SC2086
   expect 0 '' edit lake.poly --domain 0 0 8 8 --script limited.txt $limit -o limited_edit.vtu
   # shellcheck disable=SC2086

@@ -25,8 +25,17 @@ std::string number(mesher::FeatureId id) {
   return " " + std::to_string(static_cast<std::int64_t>(id));
 }
 
+std::string limit_line(const Edit& edit) {
+  const double area = edit.limits.max_area;
+  std::string line = area == 0 ? "limit none" : "limit area" + number(area);
+  if (!edit.box) return line + "\n";
+  const auto& [lo, hi] = *edit.box;
+  return line + " in" + number(lo[0]) + number(lo[1]) + number(hi[0]) + number(hi[1]) + "\n";
+}
+
 std::string line_of(const Edit& edit) {
   using Kind = Edit::Kind;
+  if (edit.kind == Kind::limit) return limit_line(edit);
   static const std::map<Kind, std::string> words{{Kind::insert, "+point"},
                                                  {Kind::remove, "-point"},
                                                  {Kind::move, "move"},
@@ -44,6 +53,18 @@ std::string line_of(const Edit& edit) {
   if (placed) line += number(edit.point[0]) + number(edit.point[1]);
   if (word == "+region") line += number(edit.attribute) + number(edit.max_area.value_or(0));
   return line + "\n";
+}
+
+Edit everywhere(const mesher::Options<2>& options) {
+  Edit edit;
+  edit.limits = {options.max_area, options.sizes};
+  return edit;
+}
+Edit within(const mesher::BoxLimits<2>& limits) {
+  Edit edit;
+  edit.limits = limits.limits;
+  edit.box = limits.box;
+  return edit;
 }
 
 // Batches that are valid, and what they lead to.
@@ -72,7 +93,8 @@ TEST_CASE("edits of any kind by a script leave the files of the edited input, by
   const std::string tool = test_paths::kMesherTool;
   if (tool.empty()) return;
   const auto seed = GENERATE(range<std::uint64_t>(1, 7), value<std::uint64_t>(54));
-  const std::string extent = seed % 3 == 0 ? " --box" : "";
+  const std::string extent =
+      std::string(seed % 3 == 0 ? " --box" : "") + (seed % 2 == 0 ? " --region-areas" : "");
   CAPTURE(seed);
   const History history(seed, 60);
   const ScratchFolder folder;
@@ -90,7 +112,12 @@ TEST_CASE("edits of any kind by a script leave the files of the edited input, by
   const std::string edits = folder.path("before.poly") + " --script " + folder.path("edits.txt");
   run("edit " + edits, "engine");
   run("edit --static " + edits, "static");
-  run("mesh --static " + folder.path("after.poly"), "fresh");
+  // No option says limits in boxes: a script says those that are left.
+  std::string limits = limit_line(everywhere(history.lake.options));
+  for (const auto& box : history.lake.options.box_limits) limits += limit_line(within(box));
+  folder.write("limits.txt", limits);
+  run("edit --static " + folder.path("after.poly") + " --script " + folder.path("limits.txt"),
+      "fresh");
   for (const std::string format : {".msh", ".mesh", ".off", ".obj"}) {
     CAPTURE(format);
     const std::string fresh = folder.read("fresh" + format);

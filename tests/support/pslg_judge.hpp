@@ -151,8 +151,12 @@ class PslgJudge {
     for (std::size_t i = 0; i < 2; ++i) {
       if (p[i] < options.domain.lo[i] || p[i] > options.domain.hi[i]) return 1e300;
     }
-    const double h = options.sizes == nullptr ? 1e150 : options.sizes->at(p);
-    return std::min(options.max_area == 0 ? 1e300 : options.max_area, std::sqrt(3.0) / 4 * h * h);
+    mesher::SizeLimits<2> there{options.max_area, options.sizes};
+    for (const auto& part : options.box_limits) {
+      if (mesher::detail::contains(part.box, p)) there = part.limits;
+    }
+    const double h = there.sizes == nullptr ? 1e150 : there.sizes->at(p);
+    return std::min(there.max_area == 0 ? 1e300 : there.max_area, std::sqrt(3.0) / 4 * h * h);
   }
   [[nodiscard]] std::string large(const mesher::Options<2>& options) const {
     for (const auto& t : mesh_.simplices) {

@@ -11,6 +11,7 @@
 
 #include "mesher/domain_mesh.hpp"
 #include "mesher/edit_script.hpp"
+#include "mesher/sizes.hpp"
 #include "random_pslg.hpp"
 
 namespace support {
@@ -20,6 +21,7 @@ struct Lake {
   std::map<std::int64_t, mesher::Point<2>> points;
   std::map<std::int64_t, std::vector<std::int64_t>> lines;
   std::map<mesher::SeedName, mesher::Seed> seeds;
+  mesher::Options<2> options{.domain = {{0, 0}, {16, 16}}};  // the limits of size
 
   /// As DomainMesher::input().
   [[nodiscard]] mesher::Pslg graph() const {
@@ -67,7 +69,7 @@ class LakeEditor {
  public:
   explicit LakeEditor(std::uint64_t seed) : random_(seed) {}
 
-  static mesher::Options<2> options() { return {.domain = {{0, 0}, {16, 16}}}; }
+  static mesher::Options<2> options() { return Lake().options; }
 
   /// Edits that turn `lake` into what it is afterwards, valid or not.
   std::vector<mesher::Edit> batch(Lake& lake) {
@@ -83,7 +85,9 @@ class LakeEditor {
   using Id = std::int64_t;
 
   void edit(Lake& lake) {
-    switch (below(12)) {
+    switch (below(13)) {
+      case 12:
+        return edit_limits(lake);
       case 0:
         return add_point(lake, place());
       case 1:
@@ -180,6 +184,16 @@ class LakeEditor {
     lake.seeds.erase(name);
     const bool hole = name.kind == mesher::SeedKind::hole;
     push(hole ? Kind::remove_hole : Kind::remove_region, static_cast<Id>(name.id));
+  }
+
+  // Coarse, that meshes from scratch take no time.
+  void edit_limits(Lake& lake) {
+    auto& edit = push(Kind::limit, 0);
+    if (below(3) != 0) edit.limits.max_area = below(2) == 0 ? 0.4375 : 4;
+    if (below(4) == 0) return set_limits(lake.options, edit.limits);
+    const mesher::Point<2> lo = place();
+    edit.box = {lo, {lo[0] + static_cast<double>(below(5)), lo[1] + 5 * unit()}};
+    set_limits(lake.options, *edit.box, edit.limits);
   }
 
   mesher::Edit& push(Kind kind, Id id) {

@@ -83,6 +83,10 @@ class TracedWorld {
     const auto all = world_->segments.erase(inputs_.at(a)->self, inputs_.at(b)->self);
     world_->splits.retract_from_outside<mesher::detail::split_segment>(all);
   }
+  /// `options` but for the limits of size are those of the world.
+  void limit(const mesher::Options<2>& options, const std::vector<mesher::Box<2>>& where) {
+    world_->edit_limits(options, where, *engine_);
+  }
   /// Brings the trace up to date. What it throws leaves the last state.
   sac::Counts update() {
     try {

@@ -21,6 +21,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -64,6 +65,11 @@ class DomainFollower {
   /// Throws: sac::UsageError if not, Error (unknown_id, and as find_domain) of seeds,
   /// std::bad_alloc.
   DomainChange update(const Change<2>& change, const DomainEdits& edits = {});
+
+  /// The same, with a last word on it: what `accept` throws leaves all as it was. It may ask for
+  /// labels.
+  using Accept = std::function<void(const DomainChange&)>;
+  DomainChange update(const Change<2>& change, const DomainEdits& edits, const Accept& accept);
 
   /// Requires: a triangle of the mesh, from any corner. Cost: O(1) for vertices of bounded degree.
   [[nodiscard]] RegionLabel label(const DomainChange::Corners& triangle) const;

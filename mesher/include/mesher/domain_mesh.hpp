@@ -50,6 +50,17 @@ void add_seed(Pslg& graph, const Seed& seed);
 /// Throws: Error as find_domain. Cost: as with_features, find_domain and extract.
 [[nodiscard]] DomainMesh domain_mesh(Mesh<2> mesh, const Pslg& graph, Extent extent);
 
+/// Whether the largest areas of regions are limits of size.
+enum class RegionAreas : std::uint8_t { ignored, limits };
+
+/// For Options::region_limits: limits of size count in the part of the domain that is wanted, and
+/// the largest areas of regions there, if that is asked for. They are found in the mesh that
+/// `options` give the graph without limits: lines are unions of its edges, as of all others'.
+/// Throws: as mesh_statically and find_domain. Cost: that of this mesh.
+[[nodiscard]] std::shared_ptr<const RegionLimits> region_limits(
+    const Pslg& graph, const Options<2>& options, Extent extent,
+    RegionAreas areas = RegionAreas::ignored);
+
 /// Announces all of `graph` to a DomainMesher, or to a Mesher<2>, which takes no seeds and markers.
 /// Throws: Error as their functions do; what came before stays announced.
 template <class Target>

@@ -11,14 +11,21 @@
 //   write_mesh(lake.domain_mesh().kept, "lake.vtu");
 //
 // Words as in domain.hpp. Guarantees, after every update():
-//   (1) the mesh is that of a Mesher<2> with these points and lines; the domain is that of
-//       find_domain in it;
+//   (1) the mesh is that of a Mesher<2> with these points and lines, and with limits of size by
+//       region_limits; the domain is that of find_domain in it;
 //   (2) both are functions of the input and the options alone;
 //   (3) what throws, for whatever reason, leaves mesh, domain, seeds and markers as they were:
 //       points, lines and seeds of a batch come together or not at all.
 // Cost of an update: that of Mesher<2>, and that of DomainFollower for its change: that of a region
 // where walls join or part regions, or where a seed gives one another label. The first line or seed
 // that comes to a mesh of points alone costs all its triangles, once.
+//
+// Limits of size count in what is wanted alone: where lines enclose something, in what they
+// enclose. So where there are limits, a second mesh, without, follows the input to tell what that
+// is; an update costs that of both, and where a region becomes or ceases to be wanted, or gets
+// another largest area, the vertices in it; where lines at which limits begin or end are edited,
+// the vertices in the triangles of the second mesh that this changes. A seed that changes nothing
+// but its area costs a look at all triangles of the second mesh.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +47,8 @@ struct DomainUpdate : Change<2> {
 class DomainMesher {
  public:
   /// Throws: as Mesher<2>.
-  explicit DomainMesher(const Options<2>& options, Extent extent = Extent::enclosed);
+  explicit DomainMesher(const Options<2>& options, Extent extent = Extent::enclosed,
+                        RegionAreas areas = RegionAreas::ignored);
   DomainMesher(DomainMesher&&) noexcept;
   DomainMesher& operator=(DomainMesher&&) noexcept;
   ~DomainMesher();
@@ -66,6 +74,10 @@ class DomainMesher {
   void remove_seed(const SeedName& name);
   void remove_hole(FeatureId id) { remove_seed({SeedKind::hole, id}); }
   void remove_region(FeatureId id) { remove_seed({SeedKind::region, id}); }
+
+  /// Announces limits of size, as to a Mesher<2>; they count in what is wanted.
+  void limit(const SizeLimits<2>& limits);
+  void limit(const Box<2>& box, const SizeLimits<2>& limits);
 
   /// Takes back every edit announced since the last update().
   void discard_edits() noexcept;

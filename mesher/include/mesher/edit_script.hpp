@@ -15,6 +15,12 @@
 //   +region ID x y ATTRIBUTE [MAX_AREA]
 //                        what the lines enclose around the place has this attribute and limit
 //   -region ID           a region less
+//   limit area A         no triangle with its centroid in the domain is larger
+//   limit size H         the same by the edges H of an equilateral triangle of that area
+//   limit sizes FILE     a background of such H (read_sizes); FILE stands beside the script
+//   limit none           triangles may be of any size
+//   limit ... in XMIN YMIN XMAX YMAX
+//                        the same in this box; elsewhere limits stay
 //   begin                the edits up to `commit` are one update;
 //   commit               outside, each edit is an update of its own
 //
@@ -41,7 +47,7 @@
 
 namespace mesher {
 
-/// One edit of one point, line or seed.
+/// One edit of one point, line or seed, or of limits.
 struct Edit {
   enum class Kind : std::uint8_t {
     insert,
@@ -55,6 +61,7 @@ struct Edit {
     remove_hole,
     insert_region,
     remove_region,
+    limit,
   };
   Kind kind = Kind::insert;
   FeatureId id{};
@@ -63,12 +70,14 @@ struct Edit {
   std::int64_t marker = 0;           ///< of a new point or line; 0: none
   double attribute = 0;              ///< of a new region
   std::optional<double> max_area{};  ///< likewise
+  SizeLimits<2> limits{};            ///< of limit
+  std::optional<Box<2>> box{};       ///< likewise; nothing: everywhere
   std::string text;                  ///< the line without comment and outer blanks
   Place place;
 };
 
-/// What has ids of its own.
-enum class Featured : std::uint8_t { point, line, hole, region };
+/// What has ids of its own; limits have none.
+enum class Featured : std::uint8_t { point, line, hole, region, nothing };
 
 /// What an edit is of.
 [[nodiscard]] Featured featured(Edit::Kind kind);
@@ -150,11 +159,22 @@ void announce_seed(const Edit& edit, Target& target) {
   }
 }
 
+/// The same of limits of size.
+template <class Target>
+void announce_limit(const Edit& edit, Target& target) {
+  if constexpr (requires { target.limit(edit.limits); }) {
+    return edit.box ? target.limit(*edit.box, edit.limits) : target.limit(edit.limits);
+  } else {
+    throw Error(ErrorCode::bad_edit, "limits cannot be edited here");
+  }
+}
+
 /// Announces `edit` to a mesher, or to anything with its insert, remove and move, and perhaps its
-/// functions for lines and seeds. Throws: Error as those, said of the edit's place.
+/// functions for lines, seeds and limits. Throws: Error as those, said of the edit's place.
 template <class Target>
 void announce(const Edit& edit, Target& target) {
   try {
+    if (edit.kind == Edit::Kind::limit) return announce_limit(edit, target);
     if (featured(edit.kind) == Featured::line) return announce_line(edit, target);
     if (featured(edit.kind) != Featured::point) return announce_seed(edit, target);
     switch (edit.kind) {
@@ -179,7 +199,7 @@ void announce(const Edit& edit, Target& target) {
 
 /// The order in which a batch is announced: lines that go; points, those that are there before
 /// those that the batch inserts, so that places are free before they are taken; lines that come;
-/// seeds. Else as they stand.
+/// seeds and limits. Else as they stand.
 [[nodiscard]] std::vector<Edit> announcing_order(std::vector<Edit> edits);
 
 /// Where the edit stands that an error of update() is about: the last one of the feature to blame,

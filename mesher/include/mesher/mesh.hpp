@@ -52,6 +52,25 @@ struct Segment {
 template <int D>
 class SizeField;
 
+/// Limits of size.
+template <int D>
+struct SizeLimits {
+  double max_area = 0;  ///< of a triangle with its centroid where this holds; 0: no limit
+  std::shared_ptr<const SizeField<D>> sizes{};  ///< limits that vary, see sizes.hpp; null: none
+  friend bool operator==(const SizeLimits&, const SizeLimits&) = default;
+};
+
+/// Limits of size in a closed box.
+template <int D>
+struct BoxLimits {
+  Box<D> box{};
+  SizeLimits<D> limits{};
+  friend bool operator==(const BoxLimits&, const BoxLimits&) = default;
+};
+
+/// Where limits of size count, and those of regions: see region_limits in domain_mesh.hpp.
+class RegionLimits;
+
 /// What to mesh, and how well.
 template <int D>
 struct Options {
@@ -60,6 +79,8 @@ struct Options {
   Rule rule = Rule::radius_edge;
   double max_area = 0;  ///< of a triangle with its centroid in the domain; 0: no limit
   std::shared_ptr<const SizeField<D>> sizes{};  ///< limits that vary, see sizes.hpp; null: none
+  std::vector<BoxLimits<D>> box_limits{};  ///< instead of these; the last box with a place counts
+  std::shared_ptr<const RegionLimits> region_limits{};  ///< null: limits count everywhere
   std::size_t max_vertices = 0;  ///< more are refused with Error(too_many); 0: no limit
   bool record_weights = false;  ///< keeps what calls do inside, for those who study the trace
 };

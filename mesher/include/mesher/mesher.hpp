@@ -36,6 +36,10 @@ class Engine;
 
 namespace mesher {
 
+namespace detail {
+class DomainState;
+}
+
 /// Work done by one run or update, counted in calls of traced functions.
 struct CallCounts {
   std::uint64_t executed = 0;  ///< calls whose body ran (new ones included)
@@ -166,6 +170,14 @@ class Mesher {
   void remove_segment(FeatureId id);
   void remove_polyline(FeatureId id) { remove_segment(id); }
 
+  /// Announces limits of size in place of all that there were; none by default.
+  /// Throws: Error(bad_option), as a mesher with these limits. Cost: O(1).
+  void limit(const SizeLimits<D>& limits);
+  /// The same in a closed box; elsewhere they stay, and are not looked at. options().box_limits say
+  /// so afterwards: a box is forgotten where later ones have all of it, or it says what holds
+  /// behind it. Cost: O(boxes); as much for each look at the limits in an update.
+  void limit(const Box<D>& box, const SizeLimits<D>& limits);
+
   /// Takes back every edit announced since the last update(); nothing while an update runs.
   /// Cost: O(edits).
   void discard_edits() noexcept;
@@ -179,7 +191,8 @@ class Mesher {
   /// removed; unknown_id: a segment's end is not there), std::bad_alloc, or
   /// what control.progress throws: the edits are taken back as well.
   /// Cost: O(log L/s) calls per edited point [Theorem 4.3.8], each O(log L/s), the first time per
-  /// vertex; stopped or failed, as much again to take back what was done.
+  /// vertex; where limits of size are edited, per vertex that was or is there; stopped or failed,
+  /// as much again to take back what was done.
   Change<D> update(const RunControl& control = {});
   /// The same, with a last word on the change before it is final: what `accept` throws leaves
   /// update(), and the mesh stays as it was. It must not use the mesher.
@@ -202,6 +215,7 @@ class Mesher {
   [[nodiscard]] bool contains(FeatureId id) const;
   /// Of the last update(); times of the first. Cost: O(1).
   [[nodiscard]] MeshStats stats() const;
+  /// With the limits of size of the last update().
   [[nodiscard]] const Options<D>& options() const;
 
   /// The engine, for those who look at its trace. The first update() puts another in its place.
@@ -211,6 +225,12 @@ class Mesher {
   void check_invariants() const;
 
  private:
+  friend class detail::DomainState;  // which keeps the limits of regions up to date
+  void announce_to(Mesher& other) const;
+  void limit_regions(std::shared_ptr<const RegionLimits> regions,
+                     const std::vector<Box<D>>& where);
+  [[nodiscard]] bool has_limits() const;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -33,6 +33,7 @@ inline constexpr double kAreaOfSize = 0.43301270189221932;
 struct SizeRange {
   double least = 0;
   double most = 0;
+  bool even = false;  ///< all finite ones are known to be plateaus, see below
 };
 
 /// A function of place. It must give the same answers for as long as a mesh refers to it.
@@ -44,8 +45,10 @@ class SizeField {
   [[nodiscard]] virtual double at(const Point<D>& p) const = 0;
   /// Bounds of the sizes in a box; 0 < least. Near each other for a small box.
   [[nodiscard]] virtual SizeRange range(const Box<D>& box) const = 0;
-  /// All finite sizes, if they are few: each then gets the lattice that suits it. Else nothing.
+  /// Sizes that hold in parts of some extent: each gets the lattice that suits it.
   [[nodiscard]] virtual std::vector<double> plateaus() const { return {}; }
+  /// Whether the size at p is one of them. Asked only if there are any.
+  [[nodiscard]] virtual bool is_plateau(const Point<D>&) const { return true; }
 };
 
 /// A function whose values at p and q differ by at most `slope` |pq|.
@@ -71,19 +74,9 @@ class SlopedSizes final : public SizeField<2> {
 [[nodiscard]] std::shared_ptr<const SizeField<2>> sampled_sizes(
     const std::vector<SizeSample>& samples);
 
-struct Domain;
-
-/// What the regions of a mesh ask for: in one with a limit that, elsewhere none. Null if no region
-/// has one. `mesh`: of the lines that enclose the regions, without limits, say; `domain`: found in
-/// it. The field stays what it is when lines move later. Cost: O(n log n).
-[[nodiscard]] std::shared_ptr<const SizeField<2>> region_sizes(const Mesh<2>& mesh,
-                                                               const Domain& domain);
-
-/// The same for the regions of a graph in the mesh that `options` give it without limits. There is
-/// no limit but in what its lines enclose; there options.max_area is one, too.
-/// Throws: as mesh_statically and find_domain. Cost: that of this mesh.
-[[nodiscard]] std::shared_ptr<const SizeField<2>> region_sizes(const Pslg& graph,
-                                                               Options<2> options);
+/// What Mesher::limit makes of options: these limits everywhere, or in a box.
+void set_limits(Options<2>& options, const SizeLimits<2>& limits);
+void set_limits(Options<2>& options, const Box<2>& box, const SizeLimits<2>& limits);
 
 /// The least of several at each place; null stands for no limit.
 [[nodiscard]] std::shared_ptr<const SizeField<2>> least_sizes(

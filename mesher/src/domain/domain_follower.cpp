@@ -123,12 +123,14 @@ struct DomainFollower::Impl {
     return change;
   }
 
-  DomainChange update(const Change<2>& change, const DomainEdits& edits) {
+  DomainChange update(const Change<2>& change, const DomainEdits& edits, const Accept& accept) {
     const auto difference = regions.update(
         {number(change.simplices_removed), number(change.simplices_added), number(edits.walls_out),
          number(edits.walls_in), edits.seeds_out, edits.seeds_in});
     try {
-      return report(difference);
+      DomainChange domain = report(difference);
+      if (accept) accept(domain);
+      return domain;
     } catch (...) {
       regions.roll_back();
       throw;
@@ -148,10 +150,15 @@ DomainFollower& DomainFollower::operator=(DomainFollower&&) noexcept = default;
 DomainFollower::~DomainFollower() = default;
 
 DomainChange DomainFollower::update(const Change<2>& change, const DomainEdits& edits) {
+  return update(change, edits, {});
+}
+
+DomainChange DomainFollower::update(const Change<2>& change, const DomainEdits& edits,
+                                    const Accept& accept) {
   Numbering& numbers = impl_->numbers;
   numbers.add(change.vertices_added, change.vertices_removed.size());
   try {
-    DomainChange result = impl_->update(change, edits);
+    DomainChange result = impl_->update(change, edits, accept);
     numbers.forget(change.vertices_removed);
     return result;
   } catch (...) {

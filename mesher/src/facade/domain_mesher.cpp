@@ -9,8 +9,8 @@ struct DomainMesher::Impl : detail::DomainState {
   using DomainState::DomainState;
 };
 
-DomainMesher::DomainMesher(const Options<2>& options, Extent extent)
-    : impl_(std::make_unique<Impl>(options, extent)) {}
+DomainMesher::DomainMesher(const Options<2>& options, Extent extent, RegionAreas areas)
+    : impl_(std::make_unique<Impl>(options, extent, areas)) {}
 DomainMesher::DomainMesher(DomainMesher&&) noexcept = default;
 DomainMesher& DomainMesher::operator=(DomainMesher&&) noexcept = default;
 DomainMesher::~DomainMesher() = default;
@@ -39,6 +39,11 @@ void DomainMesher::insert_region(FeatureId id, const Point<2>& at, double attrib
   impl_->insert_seed({{SeedKind::region, id}, at, attribute, max_area});
 }
 void DomainMesher::remove_seed(const SeedName& name) { impl_->remove_seed(name); }
+
+void DomainMesher::limit(const SizeLimits<2>& limits) { impl_->limit(limits); }
+void DomainMesher::limit(const Box<2>& box, const SizeLimits<2>& limits) {
+  impl_->limit(box, limits);
+}
 
 void DomainMesher::discard_edits() noexcept {
   if (impl_->is_idle()) impl_->discard_edits();
@@ -72,6 +77,7 @@ Extent DomainMesher::extent() const { return impl_->extent(); }
 void DomainMesher::check_invariants() const {
   impl_->mesher().check_invariants();
   if (impl_->follower()) impl_->follower()->check_invariants();
+  if (impl_->unlimited()) impl_->unlimited()->check_invariants();
 }
 
 }  // namespace mesher

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "domain/labels.hpp"
+#include "facade/followed.hpp"
 
 namespace mesher::detail {
 namespace {
@@ -29,38 +30,6 @@ void mark(Markers& markers, FeatureId id, std::int64_t marker, Make make) {
 std::int64_t marker_of(const Markers& markers, FeatureId id) {
   const auto it = markers.committed().find(id);
   return it == markers.committed().end() ? 0 : it->second;
-}
-
-std::uint32_t index_of(const std::vector<Point<2>>& sorted, const Point<2>& p) {
-  return static_cast<std::uint32_t>(std::lower_bound(sorted.begin(), sorted.end(), p) -
-                                    sorted.begin());
-}
-
-// The mesh that a first run brings.
-Mesh<2> mesh_of(const Change<2>& change) {
-  Mesh<2> mesh;
-  mesh.vertices = change.vertices_added;
-  mesh.simplices.reserve(change.simplices_added.size());
-  for (const auto& [a, b, c] : change.simplices_added) {
-    const auto& all = mesh.vertices;
-    mesh.simplices.push_back({index_of(all, a), index_of(all, b), index_of(all, c)});
-  }
-  return mesh;
-}
-
-std::vector<MeshEdge> walls_of(const Change<2>& change) {
-  std::vector<MeshEdge> walls;
-  for (const auto& e : change.edges_added) {
-    const auto& all = change.vertices_added;
-    walls.push_back({index_of(all, e.low), index_of(all, e.high), e.line, 0});
-  }
-  return walls;
-}
-
-std::vector<DomainEdits::Wall> ends_of(const std::vector<LineEdge<2>>& edges) {
-  std::vector<DomainEdits::Wall> walls;
-  for (const auto& e : edges) walls.push_back({e.low, e.high});
-  return walls;
 }
 
 }  // namespace
@@ -148,14 +117,47 @@ DomainChange DomainState::begin(const Change<2>& change) {
 DomainChange DomainState::follow(const Change<2>& change) {
   if (!follower_ && needs_follower_) return begin(change);
   if (!follower_) return {change.simplices_added, change.simplices_removed, {}, 0};
-  DomainEdits edits;
-  edits.walls_out = ends_of(change.edges_removed);
-  edits.walls_in = ends_of(change.edges_added);
-  seeds_.for_each_edit([&](const SeedName& name, const Seed* was, const Seed* is) {
-    if (was != nullptr) edits.seeds_out.push_back(name);
-    if (is != nullptr) edits.seeds_in.push_back(*is);
+  return follower_->update(change, domain_edits(change, seeds_));
+}
+
+// Whether it matters what lines enclose.
+bool DomainState::needs_unlimited() const {
+  if (!follower_ && !needs_follower_) return false;  // no line, no seed
+  if (extent_ == Extent::enclosed && mesher_.has_limits()) return true;
+  if (areas_ == RegionAreas::ignored) return false;
+  const std::vector<Seed> seeds = all_of(seeds_);
+  return std::any_of(seeds.begin(), seeds.end(),
+                     [](const Seed& seed) { return seed.max_area.has_value(); });
+}
+
+// It begins with what the last update left.
+void DomainState::make_unlimited(const RunControl& control) {
+  auto made = std::make_unique<UnlimitedMesh>(mesher_.options(), extent_, areas_);
+  if (ran_) {
+    UnlimitedMesh::Seeds seeds;
+    for (const auto& [name, seed] : seeds_.committed()) seeds.set(name, seed);
+    announce(input(), made->mesher());
+    made->update(seeds, control, [](const auto&, const auto&) {});
+  }
+  unlimited_ = std::move(made);
+}
+
+DomainUpdate DomainState::run(const RunControl& control) {
+  DomainUpdate update;
+  const auto run_limited = [&] {
+    static_cast<Change<2>&>(update) =
+        mesher_.update(control, [&](const Change<2>& change) { update.domain = follow(change); });
+  };
+  if (!unlimited_ && needs_unlimited()) make_unlimited(control);
+  if (!unlimited_) return run_limited(), update;
+  unlimited_->mesher().discard_edits();
+  mesher_.announce_to(unlimited_->mesher());
+  unlimited_->update(seeds_, control, [&](const auto& limits, const auto& where) {
+    const bool first = mesher_.options().region_limits == nullptr;
+    mesher_.limit_regions(limits, first ? std::vector{mesher_.options().domain} : where);
+    run_limited();
   });
-  return follower_->update(change, edits);
+  return update;
 }
 
 DomainUpdate DomainState::update(const RunControl& control) {
@@ -163,8 +165,7 @@ DomainUpdate DomainState::update(const RunControl& control) {
   DomainUpdate update;
   try {
     prepare();
-    static_cast<Change<2>&>(update) =
-        mesher_.update(control, [&](const Change<2>& change) { update.domain = follow(change); });
+    update = run(control);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::cancelled) discard_edits();
     throw;

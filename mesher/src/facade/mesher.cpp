@@ -34,15 +34,18 @@ struct Mesher<2>::Impl {
   [[nodiscard]] const detail::LinePoints& line(FeatureId id) const;
   void insert_line(FeatureId id, const detail::LinePoints& points);
   void remove_line(FeatureId id);
+  [[nodiscard]] detail::AllLimits limits() const { return announced_limits.as_announced(options); }
+  void limit(detail::AllLimits limits, const std::vector<Box<2>>& where);
   void discard_edits() noexcept;
   Change<2> run(const RunControl& control, const Accept& accept);
   Change<2> update(const RunControl& control, const Accept& accept);
 
-  Options<2> options;
+  Options<2> options;                    // with the limits of the last update
   std::unique_ptr<detail::State> state;  // of the last update
   detail::MeshBox<2> box;
   detail::Announced announced;
   detail::AnnouncedLines announced_lines;
+  detail::AnnouncedLimits announced_limits;
   detail::Busy busy;
   bool moved = false;  // a place was taken that was not looked at
 };
@@ -116,7 +119,17 @@ void Mesher<2>::Impl::remove_line(FeatureId id) {
   announced_lines.set(id, state->line(id), {});
 }
 
+// Limits that make no sense are refused at once.
+void Mesher<2>::Impl::limit(detail::AllLimits limits, const std::vector<Box<2>>& where) {
+  busy.require_idle();
+  Options<2> all = options;
+  detail::AllLimits(limits).apply_to(all);
+  static_cast<void>(detail::Limits(all, box));
+  announced_limits.set(std::move(limits), where, options);
+}
+
 void Mesher<2>::Impl::discard_edits() noexcept {
+  announced_limits.clear();
   announced_lines.clear();
   announced.clear();
   moved = false;
@@ -125,10 +138,10 @@ void Mesher<2>::Impl::discard_edits() noexcept {
 // --- Updates ---------------------------------------------------------------------------------
 
 Change<2> Mesher<2>::Impl::run(const RunControl& control, const Accept& accept) {
-  detail::Edits edits{announced.sorted(), announced_lines.sorted()};
+  detail::Edits edits{announced.sorted(), announced_lines.sorted(), announced_limits.edit(options)};
   if (moved) require_apart(edits.points);
   if (state->ran()) return state->propagate(edits, control, accept);
-  auto fresh = std::make_unique<detail::State>(options);
+  auto fresh = std::make_unique<detail::State>(announced_limits.applied_to(options));
   Change<2> change = fresh->first_run(std::move(edits), control, accept);
   state = std::move(fresh);
   return change;
@@ -139,6 +152,7 @@ Change<2> Mesher<2>::Impl::update(const RunControl& control, const Accept& accep
   detail::require_unstopped(control);
   try {
     Change<2> change = run(control, accept);
+    announced_limits.commit(options);
     discard_edits();
     return change;
   } catch (const sac::Cancelled&) {
@@ -206,6 +220,49 @@ void Mesher<D>::insert_polyline(FeatureId id, const std::vector<FeatureId>& poin
 template <int D>
 void Mesher<D>::remove_segment(FeatureId id) {
   impl_->remove_line(id);
+}
+
+template <int D>
+void Mesher<D>::limit(const SizeLimits<D>& limits) {
+  impl_->limit({limits, {}, impl_->limits().regions}, {impl_->options.domain});
+}
+
+template <int D>
+void Mesher<D>::limit(const Box<D>& box, const SizeLimits<D>& limits) {
+  detail::AllLimits all = impl_->limits();
+  all.set_within(box, limits);
+  impl_->limit(std::move(all), {box});
+}
+
+template <int D>
+void Mesher<D>::limit_regions(std::shared_ptr<const RegionLimits> regions,
+                              const std::vector<Box<D>>& where) {
+  detail::AllLimits all = impl_->limits();
+  all.regions = std::move(regions);
+  impl_->limit(std::move(all), where);
+}
+
+template <int D>
+bool Mesher<D>::has_limits() const {
+  return impl_->limits().any();
+}
+
+// In the other: lines go first, and points before others come to their places.
+template <int D>
+void Mesher<D>::announce_to(Mesher& other) const {
+  const auto lines = impl_->announced_lines.sorted();
+  for (const auto& edit : lines) {
+    if (!edit.was.empty()) other.remove_segment(edit.id);
+  }
+  for (const auto& edit : impl_->announced.sorted()) {  // those that go are the first
+    if (edit.was) edit.to ? other.move(edit.id, *edit.to) : other.remove(edit.id);
+  }
+  for (const auto& edit : impl_->announced.sorted()) {
+    if (!edit.was) other.insert(edit.id, *edit.to);
+  }
+  for (const auto& edit : lines) {
+    if (!edit.to.empty()) other.insert_polyline(edit.id, edit.to);
+  }
 }
 
 template <int D>

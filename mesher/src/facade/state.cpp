@@ -201,6 +201,7 @@ bool State::has_lines() const noexcept {
 
 void State::make(const Edits& edits, Ids& arrived) {
   const auto all = [&] {
+    if (edits.limits) world_->edit_limits(edits.limits->options, edits.limits->where, *engine_);
     const std::vector<Part> parts = take_lines(edits);
     require_unused(edits.points);
     make_points(edits.points, arrived);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "facade/announced.hpp"
+#include "facade/announced_limits.hpp"
 #include "facade/announced_lines.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/mesher.hpp"
@@ -25,6 +26,7 @@ namespace mesher::detail {
 struct Edits {
   std::vector<Announced::Edit> points;
   std::vector<AnnouncedLines::Edit> lines;
+  std::optional<LimitsEdit> limits{};
 };
 
 class State final : private Names {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <type_traits>
@@ -17,6 +18,25 @@ namespace mesher::detail {
 /// The sides belong to a box.
 [[nodiscard]] inline bool contains(const Box<2>& box, const Point<2>& p) {
   return p[0] >= box.lo[0] && p[0] <= box.hi[0] && p[1] >= box.lo[1] && p[1] <= box.hi[1];
+}
+/// What lies in both; may be empty.
+[[nodiscard]] inline Box<2> common(const Box<2>& a, const Box<2>& b) {
+  return {{std::max(a.lo[0], b.lo[0]), std::max(a.lo[1], b.lo[1])},
+          {std::min(a.hi[0], b.hi[0]), std::min(a.hi[1], b.hi[1])}};
+}
+[[nodiscard]] inline bool is_empty(const Box<2>& box) {
+  return box.lo[0] > box.hi[0] || box.lo[1] > box.hi[1];
+}
+/// Whether all of `inner` is in `box`.
+[[nodiscard]] inline bool contains(const Box<2>& box, const Box<2>& inner) {
+  return contains(box, inner.lo) && contains(box, inner.hi);
+}
+[[nodiscard]] inline Point<2> middle_of(const Box<2>& box) {
+  return {box.lo[0] + (box.hi[0] - box.lo[0]) / 2, box.lo[1] + (box.hi[1] - box.lo[1]) / 2};
+}
+/// All of the box is within this of its middle.
+[[nodiscard]] inline double reach_of(const Box<2>& box) {
+  return std::hypot(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1]) / 2 * (1 + 0x1p-40);
 }
 /// Widens a box to hold p.
 template <int D>

@@ -145,6 +145,13 @@ void TracedFeatures::erase(Vertex<2>& v) {
   take_point(v);
 }
 
+void TracedFeatures::limits_changed(const Box<2>& where) noexcept {
+  visit_features_in(where, [&](const Vertex<2>& v) {
+    changed(pool_[v.self]);
+    return false;
+  });
+}
+
 void TracedFeatures::insert(sac::Scope& s, VertexRef<2> v) {
   const auto same = [&](const SplitEdge& edge) { return edge.vertex == v->self; };
   if (s.recall<SplitEdge>(id_, kSplit, same) != nullptr) return;

@@ -118,6 +118,9 @@ class Features<sac::Scope> : public sac::Structure {
   void insert(Vertex<2>& v);
   void erase(Vertex<2>& v);
 
+  /// Called by who edits the limits of size in `where`: who locates a feature asks about them.
+  void limits_changed(const Box<2>& where) noexcept;
+
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
   void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
   void print(const sac::Call& call, const sac::Edge& edge, std::ostream& out) const override;

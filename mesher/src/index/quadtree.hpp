@@ -102,6 +102,12 @@ class Quadtree {
   void visit_reaching(const Point<D>& p, Visit&& visit) noexcept {
     reach_below(0, offset(box_.lo, p), 1, p, visit);
   }
+  /// Calls visit(v) for every vertex v that has a place of the box in its reach. visit must not
+  /// throw.
+  template <class Visit>
+  void visit_reaching(const Box<D>& area, Visit&& visit) const noexcept {
+    reach_box_below(0, {offset(box_.lo, area.lo), offset(box_.lo, area.hi)}, 1, area, visit);
+  }
   /// A query centred at `v` looks as far as v.reach: so do the cells around it.
   void raise_reach(const Vertex<D>& v) noexcept;
 
@@ -240,6 +246,9 @@ class Quadtree {
   }
   [[nodiscard]] Point<D> within_cell(const Point<D>& p, int level) const noexcept;
   [[nodiscard]] Area<D> area_around(const Point<D>& p, Reach<D> reach, int level) const noexcept;
+  template <class Visit>
+  void reach_box_below(NodeIndex n, const Box<D>& u, double across, const Box<D>& area,
+                       Visit& visit) const noexcept;
   template <class Visit>
   void reach_below(NodeIndex n, const Point<D>& u, double across, const Point<D>& p,
                    Visit& visit) noexcept;

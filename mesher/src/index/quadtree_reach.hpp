@@ -112,4 +112,28 @@ void Quadtree<D>::reach_in_leaf(NodeIndex n, const Point<D>& u, double across, c
   nodes_[n].area = area;
 }
 
+// `u`: the area relative to the cell, in units of its side.
+template <int D>
+template <class Visit>
+void Quadtree<D>::reach_box_below(NodeIndex n, const Box<D>& u, double across, const Box<D>& area,
+                                  Visit& visit) const noexcept {
+  if (!nodes_[n].area.meets(u, margin_ * inverse_side_ * across)) return;
+  const NodeIndex child = nodes_[n].open();
+  if (child == 0) {
+    visit_leaf(n, [&](VertexHandle h, const Point<D>& place) {
+      const Box<D> around{offset(place, area.lo), offset(place, area.hi)};
+      if (vertices_[h].reach.meets(around)) visit(vertices_[h]);
+    });
+    return;
+  }
+  for (int c = 0; c < kChildren; ++c) {
+    Box<D> inner;
+    for (int i = 0; i < D; ++i) {
+      inner.lo[i] = 2 * u.lo[i] - (c >> i & 1);
+      inner.hi[i] = 2 * u.hi[i] - (c >> i & 1);
+    }
+    reach_box_below(child + static_cast<NodeIndex>(c), inner, 2 * across, area, visit);
+  }
+}
+
 }  // namespace mesher::detail

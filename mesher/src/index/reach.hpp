@@ -61,6 +61,13 @@ class Reach {
     for (int i = 0; i < D; ++i) contains = contains & (d[i] >= b.lo[i]) & (d[i] <= b.hi[i]);
     return contains;
   }
+  /// The same of some place of a box.
+  [[nodiscard]] bool meets(const Box<D>& d) const noexcept {
+    const Box<D> b = box();
+    bool meets = true;
+    for (int i = 0; i < D; ++i) meets = meets & (d.hi[i] >= b.lo[i]) & (d.lo[i] <= b.hi[i]);
+    return meets;
+  }
   [[nodiscard]] bool covers(const Reach& other) const noexcept {
     const Box<D> b = other.box();
     return contains(b.lo) && contains(b.hi);
@@ -149,6 +156,14 @@ class Area {
       contains = contains & (-u[i] <= below_[i] + slack) & (u[i] <= above_[i] + slack);
     }
     return contains;
+  }
+  /// The same of some place of a box.
+  [[nodiscard]] bool meets(const Box<D>& u, double slack) const noexcept {
+    bool meets = true;
+    for (int i = 0; i < D; ++i) {
+      meets = meets & (-u.hi[i] <= below_[i] + slack) & (u.lo[i] <= above_[i] + slack);
+    }
+    return meets;
   }
 
  private:

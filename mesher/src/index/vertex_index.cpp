@@ -122,6 +122,15 @@ void Index::legs_changed(const Vertex<2>& v) noexcept {
                      [&](const Observation& o) { engine_.invalidate(engine_.call(o.call), &o); });
 }
 
+void Index::limits_changed(const Box<2>& where) noexcept {
+  tree_.visit_reaching(where, [&](const Vertex<2>& center) {
+    observers_.find_at(center, [&](const Observation& o) {
+      if (o.kind == kCell) engine_.invalidate(engine_.call(o.call), &o);
+      return false;
+    });
+  });
+}
+
 void Index::retract_birth(BirthEdge& birth) noexcept {
   Vertex<2>& v = pool_[birth.vertex];
   touch(v);

@@ -142,6 +142,10 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   /// Called by what changes the set of segments at an input point: who sees v sees them, too.
   void legs_changed(const Vertex<2>& v) noexcept;
 
+  /// Called by who edits the limits of size in `where`: who has looked at a cell has asked about
+  /// the triangles of its star.
+  void limits_changed(const Box<2>& where) noexcept;
+
   /// Called by what makes a record an input point, or no longer.
   void touch(Vertex<2>& v) noexcept { log_.touch(v); }
 

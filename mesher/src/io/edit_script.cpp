@@ -2,6 +2,7 @@
 #include "mesher/edit_script.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -9,6 +10,7 @@
 #include <map>
 
 #include "io/text.hpp"
+#include "mesher/sizes.hpp"
 
 namespace mesher {
 namespace {
@@ -20,6 +22,9 @@ struct Form {
   std::string_view usage;
   std::size_t most = fields;
 };
+
+constexpr std::string_view kLimitUsage =
+    "limit area A|size H|sizes FILE|none [in XMIN YMIN XMAX YMAX]";
 
 constexpr Form kForms[] = {
     {"+point", Edit::Kind::insert, 4, "+point ID x y [marker M]"},
@@ -33,6 +38,7 @@ constexpr Form kForms[] = {
     {"-hole", Edit::Kind::remove_hole, 2, "-hole ID"},
     {"+region", Edit::Kind::insert_region, 5, "+region ID x y ATTRIBUTE [MAX_AREA]", 6},
     {"-region", Edit::Kind::remove_region, 2, "-region ID"},
+    {"limit", Edit::Kind::limit, 2, kLimitUsage, 8},
 };
 
 const Form& form_of(const text::Line& line) {
@@ -42,7 +48,7 @@ const Form& form_of(const text::Line& line) {
   throw line.error(ErrorCode::bad_edit,
                    "no edit is called " + text::quoted(line[0]) +
                        "; there are +point, -point, move, +segment, -segment, +polyline, "
-                       "-polyline, +hole, -hole, +region, -region, begin and commit",
+                       "-polyline, +hole, -hole, +region, -region, limit, begin and commit",
                    0);
 }
 
@@ -57,7 +63,7 @@ bool inserts(const Edit& edit) {
 }
 
 // When edits of a batch are announced, by rank: 0 of lines that go, 1 of points that are there, 2
-// of points that come, 3 of lines that come, 4 of seeds.
+// of points that come, 3 of lines that come, 4 of seeds and limits.
 std::vector<int> ranks(const std::vector<Edit>& edits) {
   std::map<FeatureId, bool> points;  // whether they come: by the first edit of each
   std::map<FeatureId, bool> lines;   // whether they have come so far
@@ -99,6 +105,47 @@ std::optional<double> max_area_of(const text::Line& line) {
   return area > 0 ? std::optional(area) : std::nullopt;
 }
 
+double positive(const text::Line& line, std::size_t i) {
+  const double x = line.finite(i);
+  if (x > 0) return x;
+  throw line.error(ErrorCode::bad_number, text::quoted(line[i]) + ": must be above 0", i);
+}
+
+// How many fields say what the limit is, 'limit' included.
+std::size_t limit_fields(const text::Line& line) { return line[1] == "none" ? 2 : 3; }
+
+SizeLimits<2> limits_of(const text::Line& line) {
+  const std::string_view kind = line[1];
+  if (kind == "none") return {};
+  if (kind == "area") return {.max_area = positive(line, 2)};
+  if (kind == "size") {
+    const double h = positive(line, 2);
+    return {.max_area = kAreaOfSize * h * h};
+  }
+  const auto folder = std::filesystem::path(line.place(0).file).parent_path();
+  return {.sizes = sampled_sizes(read_sizes((folder / std::string(line[2])).string()).samples)};
+}
+
+Box<2> limit_box(const text::Line& line, std::size_t first) {
+  const Box<2> box{{line.coordinate(first), line.coordinate(first + 1)},
+                   {line.coordinate(first + 2), line.coordinate(first + 3)}};
+  if (box.lo[0] <= box.hi[0] && box.lo[1] <= box.hi[1]) return box;
+  throw line.error(ErrorCode::bad_edit, "the first corner of a box must be below and left", first);
+}
+
+void parse_limit(const text::Line& line, Edit& edit) {
+  constexpr std::array<std::string_view, 4> kKinds{"area", "size", "sizes", "none"};
+  const auto refuse = [&](std::size_t i) {
+    throw line.error(ErrorCode::bad_edit, "expected '" + std::string(kLimitUsage) + "'", i);
+  };
+  if (std::find(kKinds.begin(), kKinds.end(), line[1]) == kKinds.end()) refuse(1);
+  const std::size_t said = limit_fields(line);
+  if (line.size() != said && line.size() != said + 5) refuse(std::min(line.size(), said + 5));
+  if (line.size() > said && line[said] != "in") refuse(said);
+  edit.limits = limits_of(line);
+  if (line.size() > said) edit.box = limit_box(line, said + 1);
+}
+
 Edit parse(const text::Line& line) {
   const Form& form = form_of(line);
   const bool marked = has_marker(line, form);
@@ -106,10 +153,11 @@ Edit parse(const text::Line& line) {
   require_fields(line, size, form);
   Edit edit;
   edit.kind = form.kind;
-  edit.id = FeatureId{line.integer(1)};
   edit.text = line.trimmed();
   edit.place = line.place(0);
   if (marked) edit.marker = line.integer(line.size() - 1);
+  if (form.kind == Edit::Kind::limit) return parse_limit(line, edit), edit;
+  edit.id = FeatureId{line.integer(1)};
   if (takes_place(form.kind)) {
     edit.point = {line.coordinate(2), line.coordinate(3)};
     if (form.kind == Edit::Kind::insert_region) {
@@ -156,6 +204,8 @@ Featured featured(Edit::Kind kind) {
     case Edit::Kind::insert_region:
     case Edit::Kind::remove_region:
       return Featured::region;
+    case Edit::Kind::limit:
+      return Featured::nothing;
     default:
       return Featured::line;
   }
@@ -219,7 +269,7 @@ std::vector<Edit> announcing_order(std::vector<Edit> edits) {
 }
 
 // A line may have the id of a point: where the error is one of lines, theirs are meant. Seeds are
-// never to blame.
+// never to blame, limits only where no feature is.
 Place place_to_blame(const std::vector<Edit>& edits, const Error& error) {
   const bool of_lines = error.code() == ErrorCode::crossing_segments ||
                         error.code() == ErrorCode::overlapping_segments ||

@@ -21,18 +21,13 @@ inline constexpr Fill fill{};
 /// that few calls wait.
 [[nodiscard]] inline sac::Key fill_key(const Cell<2>& c) { return {.order = morton<2>(c.corner)}; }
 
-/// A cell not wider than this, in pitches, is filled by one call.
-inline constexpr double kFilledAtOnce = 4;
-
 // if c is large: split it, enqueue its parts. Else for each candidate q in c: if no feature is near
 // and no leaf's ball has q, add q to the vertices; enqueue it, unless its triangles will do
 template <class S>
 void Fill::operator()(S& s, Cell<2> c) const {
   auto& w = s.template environment<World<S>>();
-  const double least = w.limits.least_pitch(w.box.box_of(c));
-  if (least == Limits::kNone) return;
-  if (w.box.cell_side(c.level) > kFilledAtOnce * least) return w.post_parts(s, c);
-  const Candidates candidates = w.limits.candidates(w.box, c);
+  const auto [parts, candidates, looked_at] = w.plans.plan(s, c);
+  if (parts) return w.post_parts(s, c);
   const std::vector<Room> rooms = w.surroundings.rooms(s, c, candidates);
   s.weigh(candidates.size());
   for (std::size_t i = 0; i < candidates.size(); ++i) {

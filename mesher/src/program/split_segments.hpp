@@ -37,7 +37,8 @@ inline constexpr SplitSegment split_segment{};
 template <class S>
 void SplitSegment::operator()(S& s, PieceRef piece) const {
   auto& w = s.template environment<World<S>>();
-  const bool divides = w.limits.is_long(piece.lo(), piece.hi()) || w.segments.crowded(s, piece);
+  const bool crowded = w.segments.crowded(s, piece);  // first: who asks is found by this
+  const bool divides = crowded || w.limits.is_long(piece.lo(), piece.hi());
   if (!divides) return w.leaves.begin(s, piece.piece);
   if (piece.length() < w.box.side * kShortestPiece) w.fail_too_short(piece);
   const Halves halves = w.segments.halves(s, piece);

@@ -25,6 +25,7 @@
 #include "segments/input_segments.hpp"
 #include "segments/leaves.hpp"
 #include "segments/planarity.hpp"
+#include "sizes/fill_plans.hpp"
 #include "sizes/surroundings.hpp"
 
 namespace mesher::detail {
@@ -54,6 +55,7 @@ struct World {
   Features<S> features;
   InputSegments<S> segments;
   Leaves<S> leaves;
+  FillPlans<S> plans;
   Surroundings<S> surroundings;
   Agenda& splits;
   Agenda& fills;
@@ -76,6 +78,7 @@ struct World {
         features(box, vertices.pool(), host),
         segments(box, vertices, features, host),
         leaves(vertices, segments.pool(), host),
+        plans(box, limits, host),
         surroundings(box, limits, features, host),
         splits(host.make_agenda("segments")),
         fills(host.make_agenda("fill")),
@@ -91,8 +94,16 @@ struct World {
     add_boundary();
     if (limits.any()) post_fill();
   }
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
 
   [[nodiscard]] const Buckets<2>& buckets() const noexcept { return rule->buckets(); }
+  /// Sets the limits that the options say, from outside, with how to take it back. `where` they
+  /// differ: calls that may have asked there run again. Throws: Error(bad_option), bad_alloc.
+  void edit_limits(const Options<2>& options, const std::vector<Box<2>>& where,
+                   sac::Engine& engine);
+  /// fill() of the box, asked for from the outside if there are limits.
+  void post_fill();
   void post_split(S& s, const PieceRef& piece);
   /// fill() of what a cell consists of, which is split, too.
   void post_parts(S& s, const Cell<2>& c);
@@ -130,7 +141,8 @@ struct World {
     return VertexIndex<sac::PlainScope>(box);
   }
   void add_boundary();
-  void post_fill();
+  void exchange(Limits& other, const std::vector<Box<2>>& where) noexcept;
+  void limits_changed(const Box<2>& where) noexcept;
 };
 
 /// The box of a mesh: four times the domain's longest side (rounded up to a power of two), with the
@@ -146,7 +158,7 @@ struct Refine {
     const auto now = [] { return std::chrono::steady_clock::now(); };
     w.marks[0] = now();
     w.splits.drain(s);
-    if (w.limits.any()) w.fills.drain(s);
+    w.fills.drain(s);
     w.quadtree.drain(s);
     w.marks[1] = now();
     w.steiner.drain(s);

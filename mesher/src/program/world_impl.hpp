@@ -28,10 +28,37 @@ void World<S>::add_boundary() {
   });
 }
 
-// The box with all in it is asked for from the outside.
 template <class S>
 void World<S>::post_fill() {
   fills.template post_from_outside<fill>(fill_key({}), Cell<2>{});
+}
+
+template <class S>
+void World<S>::edit_limits(const Options<2>& options, const std::vector<Box<2>>& where,
+                           sac::Engine& engine) {
+  engine.begin_edit();
+  const auto other = std::make_shared<Limits>(options, box);
+  const auto exchange_them = [this, other, where] { exchange(*other, where); };
+  engine.on_rollback(exchange_them);
+  exchange_them();
+  if (limits.any() == other->any()) return;
+  if (limits.any()) return post_fill();
+  fills.template retract_from_outside<fill>(Cell<2>{});
+}
+
+template <class S>
+void World<S>::exchange(Limits& other, const std::vector<Box<2>>& where) noexcept {
+  std::swap(limits, other);
+  for (const Box<2>& box : where) limits_changed(box);
+}
+
+// Who splits a piece of a segment, fills a cell, locates a feature, or completes a vertex.
+template <class S>
+void World<S>::limits_changed(const Box<2>& where) noexcept {
+  segments.limits_changed(where);
+  plans.limits_changed(where);
+  features.limits_changed(where);
+  vertices.limits_changed(where);
 }
 
 template <class S>

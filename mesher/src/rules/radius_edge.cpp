@@ -40,7 +40,7 @@ Promise RadiusEdge::promise_for(double rho) {
 RadiusEdge::RadiusEdge(const Options<2>& options, const MeshBox<2>& box, const Limits& limits)
     : InsertionRule(options, box, promise_for(options.rho)),
       height_(offcentre_height(options.rho)),
-      limits_(limits.any() ? &limits : nullptr) {}
+      limits_(&limits) {}
 
 // Whether the triangle of v and the neighbours i and j is larger than the limit at its centroid,
 // which is computed alike by all three corners.
@@ -58,6 +58,7 @@ template <class Visit>
 void RadiusEdge::for_each_poor(const VoronoiCell& cell, Visit&& visit) const {
   constexpr int kCentre = EdgeFilter::kCentre;
   const Point<2>& v = cell.center().p;
+  const bool limited = limits_->any();
   for (int i = 0; i < cell.size(); ++i) {
     const int j = cell.next(i);
     if (!cell.real(i) && !cell.real(j)) continue;
@@ -72,7 +73,7 @@ void RadiusEdge::for_each_poor(const VoronoiCell& cell, Visit&& visit) const {
     const double across = squared_distance(cell.place(i), cell.place(j));
     const double shortest = std::min({to_i, to_j, across});
     const bool is_poor = exceeds(cell.corner2(i), shortest);
-    const bool large = limits_ != nullptr && is_large(cell, i, j);
+    const bool large = limited && is_large(cell, i, j);
     if (!is_poor && !large) continue;
     Poor poor{shortest, v, cell.place(i), plus(v, cell.corner(i)), kCentre, i};
     if (shortest != to_i) poor.p = cell.place(j), poor.q = v, poor.from = j, poor.to = kCentre;

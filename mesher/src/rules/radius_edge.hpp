@@ -48,8 +48,8 @@ class RadiusEdge final : public InsertionRule {
   void for_each_poor(const VoronoiCell& cell, Visit&& visit) const;
   [[nodiscard]] Point<2> place(const Poor& poor) const;
 
-  double height_;         // of the off-centre, in units of the edge
-  const Limits* limits_;  // null: there are none
+  double height_;  // of the off-centre, in units of the edge
+  const Limits* limits_;
 };
 
 }  // namespace mesher::detail

@@ -62,6 +62,11 @@ void TracedCrowding::segment_went(const Segment& t) noexcept { went(t, t.place_a
 void TracedCrowding::point_came(const Vertex<2>& v) noexcept { came(v, v.p, v.p); }
 void TracedCrowding::point_went(const Vertex<2>& v) noexcept { went(v, v.p, v.p); }
 
+// The zone reaches farther than the ball.
+void TracedCrowding::limits_changed(const Box<2>& where) noexcept {
+  tree_.visit_beside(where, [&](sac::Handle h) { engine_.invalidate(engine_.call(at(h).call)); });
+}
+
 void TracedCrowding::retract(sac::Call&, sac::Edge& edge) noexcept {
   auto& e = static_cast<CrowdedEdge&>(edge);
   if (e.listed) tree_.erase(CrowdedZone(e.piece).middle(), engine_.arena().handle_of(&e));

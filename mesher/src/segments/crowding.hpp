@@ -143,6 +143,9 @@ class Crowding<sac::Scope> : public sac::Structure {
   void segment_went(const Segment& t) noexcept;
   void point_came(const Vertex<2>& v) noexcept;
   void point_went(const Vertex<2>& v) noexcept;
+  /// Called by who edits the limits of size in `where`: who asks whether a piece is crowded asks
+  /// about the limits in the box around its ball, too.
+  void limits_changed(const Box<2>& where) noexcept;
 
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
   [[nodiscard]] bool unchanged(sac::Call& call, sac::Edge& edge) override;

@@ -99,6 +99,7 @@ class InputSegments<sac::Scope> final : public PointListener {
 
   void point_came(const Vertex<2>& v) noexcept override;
   void point_went(const Vertex<2>& v) noexcept override;
+  void limits_changed(const Box<2>& where) noexcept { crowding_.limits_changed(where); }
 
   /// Ends an update: frees the records of segments that have gone.
   void commit() noexcept { store_.commit(); }

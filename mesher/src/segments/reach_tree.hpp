@@ -101,6 +101,17 @@ class ReachTree {
         },
         [&](const Point<2>& x, double) { return !beside(x, 0, 0) && !beside(x, 0, 1); }, visit);
   }
+  /// The same for the items whose boxes around their discs meet the box.
+  template <class Visit>
+  bool visit_beside(const Box<2>& box, Visit&& visit) const {
+    const auto meets = [&](const Point<2>& lo, double side, double reach) {
+      const double r = reach + margin();
+      return lo[0] - r <= box.hi[0] && box.lo[0] <= lo[0] + side + r && lo[1] - r <= box.hi[1] &&
+             box.lo[1] <= lo[1] + side + r;
+    };
+    return visit_where(
+        meets, [&](const Point<2>& x, double reach) { return meets(x, 0, reach); }, visit);
+  }
   /// Visits all items.
   template <class Visit>
   bool visit_all(Visit&& visit) const {

@@ -17,6 +17,7 @@ class Facet {
   Facet(const std::array<Point<2>, 3>& at, const std::array<double, 3>& size)
       : at_(at), size_(size) {}
 
+  [[nodiscard]] const std::array<Point<2>, 3>& corners() const noexcept { return at_; }
   [[nodiscard]] bool contains(const Point<2>& p) const {
     for (std::size_t i = 0; i < 3; ++i) {
       if (predicates::orient2d(at_[i], at_[(i + 1) % 3], p) < 0) return false;
@@ -52,9 +53,16 @@ class Facet {
   [[nodiscard]] bool meets(const Box<2>& box) const {
     for (std::size_t i = 0; i < 3; ++i) {
       const Point<2>&a = at_[i], &b = at_[(i + 1) % 3];
-      // The corner that is farthest to the left of ab.
-      const Point<2> left{a[1] < b[1] ? box.lo[0] : box.hi[0], a[0] < b[0] ? box.hi[1] : box.lo[1]};
-      if (doubled(a, b, left) < 0) return false;
+      if (doubled(a, b, farthest_left(a, b, box)) < 0) return false;
+    }
+    return true;
+  }
+  /// Whether the closed triangle and the closed box have a place in common.
+  [[nodiscard]] bool touches(const Box<2>& box) const {
+    if (is_empty(common(extent(), box))) return false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point<2>&a = at_[i], &b = at_[(i + 1) % 3];
+      if (predicates::orient2d(a, b, farthest_left(a, b, box)) < 0) return false;
     }
     return true;
   }
@@ -62,6 +70,10 @@ class Facet {
   [[nodiscard]] Point<2> middle() const { return centroid(at_); }
 
  private:
+  // The corner that is farthest to the left of ab.
+  static Point<2> farthest_left(const Point<2>& a, const Point<2>& b, const Box<2>& box) {
+    return {a[1] < b[1] ? box.lo[0] : box.hi[0], a[0] < b[0] ? box.hi[1] : box.lo[1]};
+  }
   // Twice the area.
   static double doubled(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);

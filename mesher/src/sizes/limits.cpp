@@ -1,4 +1,4 @@
-// Pitches and candidates.
+// What limits say of places and boxes.
 #include "sizes/limits.hpp"
 
 #include <algorithm>
@@ -6,10 +6,10 @@
 #include <string>
 
 #include "geometry/box.hpp"
-#include "geometry/plane.hpp"
 #include "input.hpp"
 #include "io/text.hpp"
 #include "mesher/error.hpp"
+#include "sizes/region_limits.hpp"
 
 namespace mesher::detail {
 
@@ -35,9 +35,6 @@ int bits_of_pitch(double spacing, double coordinates) {
 }
 constexpr int kFewestBits = 6;
 
-// Areas are computed to within 2^-45.
-constexpr double kFits = 1 - 0x1p-40;
-
 double largest_coordinate(const Box<2>& domain) {
   double most = 0;
   for (int i = 0; i < 2; ++i) {
@@ -53,82 +50,159 @@ double area_of_size(double h) { return kAreaOfSize * h * h; }
 Limits::Limits(const Options<2>& options, const MeshBox<2>& box)
     : domain_(options.domain),
       coordinates_(largest_coordinate(options.domain)),
-      sizes_(options.sizes) {
-  if (options.max_area == 0 && sizes_ == nullptr) return;
-  if (!(options.max_area >= 0)) refuse("max_area must be above 0");
-  if (options.rule != Rule::radius_edge) refuse("limits of size need the rule radius_edge");
-  if (options.max_area != 0) area_ = options.max_area;
-  const double widest = std::min(spacing(area_), box.side);
-  if (sizes_ != nullptr) add_bands(widest);
-  if (spacing(area_) < box.side) {
-    if (bits_of_pitch(widest, coordinates_) < kFewestBits) fail_too_small(widest, coordinates_);
-    add_pitch(widest);
-    pitches_.push_back({kNone, kNone});
-  } else if (sizes_ != nullptr) {
-    pitches_.push_back({box.side, kNone});
+      widest_(box.side),
+      regions_(options.region_limits) {
+  parts_.reserve(options.box_limits.size() + 1);
+  add_part(domain_, {options.max_area, options.sizes});
+  for (const BoxLimits<2>& part : options.box_limits) add_part(part.box, part.limits);
+  if (regions_ != nullptr) {
+    for (const double area : regions_->areas()) add_plateau(spacing(area));
+  }
+  const auto limits = [](const Part& p) { return p.area != kNone || p.sizes != nullptr; };
+  const bool asked = any_ || std::any_of(parts_.begin(), parts_.end(), limits);
+  if (asked && options.rule != Rule::radius_edge) {
+    refuse("limits of size need the rule radius_edge");
+  }
+  std::sort(plateaus_.begin(), plateaus_.end());
+  plateaus_.erase(std::unique(plateaus_.begin(), plateaus_.end()), plateaus_.end());
+}
+
+void Limits::add_part(const Box<2>& box, const SizeLimits<2>& limits) {
+  if (!(box.lo[0] <= box.hi[0] && box.lo[1] <= box.hi[1])) refuse("a box of limits is empty");
+  if (!(limits.max_area >= 0)) refuse("max_area must be above 0");
+  const double area = limits.max_area != 0 ? limits.max_area : kNone;
+  parts_.push_back({box, area, add_plateau(spacing(area)), limits.sizes});
+  if (limits.sizes == nullptr) return;
+  any_ = true;
+  if (bands_.empty()) add_bands();
+  for (const double h : limits.sizes->plateaus()) {
+    parts_.back().has_plateaus = true;
+    add_plateau(spacing(area_of_size(h)));
   }
 }
 
-// Spacings of one pitch have one lattice.
-void Limits::add_pitch(double spacing) {
-  const double pitch = rounded_down(spacing, bits_of_pitch(spacing, coordinates_));
-  if (pitches_.empty() || pitches_.back().pitch != pitch) pitches_.push_back({spacing, pitch});
+// Returns its pitch.
+double Limits::add_plateau(double spacing) {
+  if (spacing >= widest_) return kNone;
+  any_ = true;
+  plateaus_.push_back(even_pitch(spacing));
+  return plateaus_.back();
 }
 
-// Those below `end`, from the smallest that is not too small; of a field with plateaus, theirs.
-void Limits::add_bands(double end) {
-  std::vector<double> plateaus = sizes_->plateaus();
-  std::sort(plateaus.begin(), plateaus.end());
-  for (const double h : plateaus) {
-    const double plateau = spacing(area_of_size(h));
-    if (bits_of_pitch(plateau, coordinates_) < kFewestBits) fail_too_small(plateau, coordinates_);
-    if (plateau < end) add_pitch(plateau);
-  }
-  if (!plateaus.empty()) return;
+// From the smallest that is not too small.
+void Limits::add_bands() {
   constexpr std::array<double, 4> kQuarters{1, 1.189207115002721, 1.4142135623730951,
                                             1.681792830507429};
   int exponent = std::ilogb(coordinates_) - (53 - 4 - kFewestBits);
   for (;; ++exponent) {
     for (const double quarter : kQuarters) {
       const double spacing = std::ldexp(quarter, exponent);
-      if (spacing >= end) return;
-      if (bits_of_pitch(spacing, coordinates_) >= kFewestBits) add_pitch(spacing);
+      if (spacing >= widest_) return;
+      const int bits = bits_of_pitch(spacing, coordinates_);
+      if (bits >= kFewestBits) bands_.push_back({spacing, rounded_down(spacing, bits)});
     }
   }
 }
 
-double Limits::area(const Point<2>& p) const {
-  if (!contains(domain_, p)) return kNone;
-  if (sizes_ == nullptr) return area_;
-  const double h = sizes_->at(p);
-  if (!(h > 0)) refuse("the size at " + place_text(p) + " is not above 0");
-  return std::min(area_, area_of_size(h));
+// --- Places ----------------------------------------------------------------------------------
+
+Limits::Look Limits::look(const Point<2>& p) const {
+  if (!contains(domain_, p)) return {kNone, kNone};
+  if (regions_ == nullptr) return asked_at(p);
+  const RegionLimits::Limit there = regions_->at(p);
+  if (!there.counts) return {kNone, kNone};
+  const Look asked = asked_at(p);
+  return there.area < asked.area ? Look{there.area, 0, true} : asked;
 }
 
-double Limits::pitch_for(double spacing) const {
-  if (spacing < pitches_.front().spacing) fail_too_small(spacing, coordinates_);
-  const auto above = std::upper_bound(pitches_.begin(), pitches_.end(), spacing,
-                                      [](double x, const Pitch& p) { return x < p.spacing; });
+// Where limits count.
+Limits::Look Limits::asked_at(const Point<2>& p) const {
+  std::size_t i = parts_.size() - 1;
+  while (i > 0 && !contains(parts_[i].box, p)) --i;
+  return look(parts_[i], p);
+}
+
+Limits::Look Limits::look(const Part& part, const Point<2>& p) const {
+  if (part.sizes == nullptr) return {part.area, part.pitch};
+  const double h = part.sizes->at(p);
+  if (!(h > 0)) refuse("the size at " + place_text(p) + " is not above 0");
+  const double area = area_of_size(h);
+  if (part.area <= area) return {part.area, part.pitch};
+  return {area, 0, part.has_plateaus && part.sizes->is_plateau(p)};
+}
+
+double Limits::pitch_for(const Look& look) const {
+  if (look.pitch != 0) return look.pitch;
+  const double s = spacing(look.area);
+  if (s >= widest_) return kNone;
+  return look.even ? even_pitch(s) : band_pitch(s);
+}
+
+// Requires: a finite spacing.
+void Limits::require_not_small(double spacing) const {
+  if (spacing > 0 && bits_of_pitch(spacing, coordinates_) >= kFewestBits) return;
+  fail_too_small(spacing, coordinates_);
+}
+
+double Limits::even_pitch(double spacing) const {
+  require_not_small(spacing);
+  return rounded_down(spacing, bits_of_pitch(spacing, coordinates_));
+}
+
+double Limits::band_pitch(double spacing) const {
+  if (spacing < bands_.front().spacing) fail_too_small(spacing, coordinates_);
+  const auto above = std::upper_bound(bands_.begin(), bands_.end(), spacing,
+                                      [](double x, const Band& b) { return x < b.spacing; });
   return (above - 1)->pitch;
 }
 
-// Of those in the domain; kNone if none are.
-SizeRange Limits::spacings_in(const Box<2>& box) const {
-  const Box<2> inside{{std::max(box.lo[0], domain_.lo[0]), std::max(box.lo[1], domain_.lo[1])},
-                      {std::min(box.hi[0], domain_.hi[0]), std::min(box.hi[1], domain_.hi[1])}};
-  if (inside.lo[0] > inside.hi[0] || inside.lo[1] > inside.hi[1]) return {kNone, kNone};
-  if (sizes_ == nullptr) return {spacing(area_), spacing(area_)};
-  const SizeRange sizes = sizes_->range(inside);
-  const auto of = [&](double h) { return spacing(std::min(area_, area_of_size(h))); };
-  const SizeRange found{of(sizes.least), of(std::max(sizes.least, sizes.most))};
-  if (!(found.least >= pitches_.front().spacing)) fail_too_small(found.least, coordinates_);
-  return found;
+// --- Boxes -----------------------------------------------------------------------------------
+
+Limits::Spread Limits::spread(const Part& part, const Box<2>& box) const {
+  const double widest = spacing(part.area);
+  if (part.sizes == nullptr) return {widest, widest, true};
+  const SizeRange sizes = part.sizes->range(box);
+  const auto of = [&](double h) { return spacing(std::min(part.area, area_of_size(h))); };
+  const Spread found{of(sizes.least), of(std::max(sizes.least, sizes.most)),
+                     sizes.even && part.has_plateaus};
+  if (!(found.least >= widest_)) require_not_small(found.least);
+  return found.least == widest ? Spread{widest, widest, true} : found;
 }
 
-SizeRange Limits::pitches_in(const Box<2>& box) const {
-  if (!any()) return {kNone, kNone};
-  const SizeRange spacings = spacings_in(box);
-  return {pitch_for(spacings.least), pitch_for(spacings.most)};
+// Of places in the domain.
+Limits::Spread Limits::spacings_in(const Box<2>& box) const {
+  const Box<2> inside = common(box, domain_);
+  if (is_empty(inside)) return {kNone, kNone, true};
+  if (regions_ == nullptr) return asked_in(inside);
+  const RegionLimits::Range there = regions_->range(inside);
+  if (!there.some) return {kNone, kNone, true};
+  const Spread asked = asked_in(inside);
+  const double least = spacing(there.least), most = spacing(there.most);
+  return {std::min(asked.least, least), there.all ? std::min(asked.most, most) : kNone,
+          asked.even || most <= asked.least};
+}
+
+// What lies behind a part that has all of the box is hidden.
+Limits::Spread Limits::asked_in(const Box<2>& inside) const {
+  std::size_t i = parts_.size() - 1;
+  while (i > 0 && !contains(parts_[i].box, inside)) --i;
+  Spread all = spread(parts_[i], inside);
+  while (++i < parts_.size()) {
+    const Box<2> there = common(inside, parts_[i].box);
+    if (is_empty(there)) continue;
+    const Spread more = spread(parts_[i], there);
+    all = {std::min(all.least, more.least), std::max(all.most, more.most), all.even && more.even};
+  }
+  return all;
+}
+
+Limits::Pitches Limits::pitches_in(const Box<2>& box) const {
+  if (!any()) return {};
+  const Spread spacings = spacings_in(box);
+  if (spacings.least >= widest_) return {};
+  if (uniform()) return {parts_.front().pitch, parts_.front().pitch, true};
+  const double least = spacings.even ? even_pitch(spacings.least) : band_pitch(spacings.least);
+  return {least, spacings.most, spacings.even};
 }
 
 // The lattice is kept out of the balls of leaves [rules A7.1]: the gap must not be larger than what
@@ -140,86 +214,6 @@ bool Limits::is_long(const Point<2>& a, const Point<2>& b) const {
   const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
   const Point<2> middle{a[0] + (b[0] - a[0]) / 2, a[1] + (b[1] - a[1]) / 2};
   return length > kLongest * spacings_in(around(middle, length / 2)).least;
-}
-
-template <class Visit>
-bool Limits::visit_pitches(const SizeRange& range, Visit&& visit) const {
-  for (const Pitch& p : pitches_) {
-    if (p.pitch >= range.least && p.pitch <= range.most && p.pitch < kNone && visit(p.pitch)) {
-      return true;
-    }
-  }
-  return false;
-}
-
-bool Limits::is_candidate(const Lattice& lattice, const LatticePoint& q) const {
-  const Point<2> p = lattice.place(q);
-  const double own = lattice.pitch();
-  if (pitch(p) != own) return false;
-  if (sizes_ == nullptr) return true;
-  const double clear = own / 2;
-  const Box<2> near = around(p, clear);
-  const SizeRange smaller{pitches_in(near).least, std::nextafter(own, 0)};
-  return !visit_pitches(smaller, [&](double pitch) {
-    const Lattice other(pitch);
-    return other.visit_in(near, [&](const LatticePoint& n) {
-      return squared_distance(other.place(n), p) < clear * clear && is_candidate(other, n);
-    });
-  });
-}
-
-bool Limits::fits(const Lattice& lattice, const std::array<LatticePoint, 3>& t) const {
-  const Point<2> middle = centroid({lattice.place(t[0]), lattice.place(t[1]), lattice.place(t[2])});
-  return Lattice::kArea * lattice.pitch() * lattice.pitch() <= area(middle) * kFits;
-}
-
-// Whether a candidate of another lattice is in the circumcircle of a triangle at q: as near to one
-// of its corners as the circumradius.
-bool Limits::is_between(const Lattice& lattice, const LatticePoint& q) const {
-  const double own = lattice.pitch(), radius = Lattice::kCircumradius * own;
-  const Point<2> p = lattice.place(q);
-  const auto near_corner = [&](const Point<2>& x) {
-    const auto six = Lattice::around(q);
-    return squared_distance(p, x) < radius * radius ||
-           std::any_of(six.begin(), six.end(), [&](const LatticePoint& n) {
-             return squared_distance(lattice.place(n), x) < radius * radius;
-           });
-  };
-  const Box<2> near = around(p, 2 * radius);
-  return visit_pitches(pitches_in(near), [&](double pitch) {
-    const Lattice other(pitch);
-    return pitch != own && other.visit_in(near, [&](const LatticePoint& n) {
-      return near_corner(other.place(n)) && is_candidate(other, n);
-    });
-  });
-}
-
-bool Limits::is_amid(const Lattice& lattice, const LatticePoint& q) const {
-  const auto six = Lattice::around(q);
-  for (const LatticePoint& n : six) {
-    if (!is_candidate(lattice, n)) return false;
-  }
-  if (sizes_ == nullptr) return true;
-  for (std::size_t i = 0; i < six.size(); ++i) {
-    if (!fits(lattice, {q, six[i], six[(i + 1) % six.size()]})) return false;
-  }
-  return !is_between(lattice, q);
-}
-
-std::vector<Limits::Candidate> Limits::candidates(const MeshBox<2>& box, const Cell<2>& c) const {
-  std::vector<Candidate> found;
-  const Box<2> area = box.box_of(c);
-  visit_pitches(pitches_in(area), [&](double pitch) {
-    const Lattice lattice(pitch);
-    lattice.visit_in(area, [&](const LatticePoint& q) {
-      const Point<2> p = lattice.place(q);
-      const bool here = box.contains(p) && MeshBox<2>::cell(box.fixed(p), c.level) == c;
-      if (here && is_candidate(lattice, q)) found.push_back({p, pitch, is_amid(lattice, q)});
-      return false;
-    });
-    return false;
-  });
-  return found;
 }
 
 }  // namespace mesher::detail

@@ -1,19 +1,21 @@
-// How large triangles may be, and which places are filled for that [rules A7]: functions of space.
+// How large triangles may be, and the lattices that suit that [rules A7]: functions of space.
 //
 // A triangle whose centroid is in the domain has at most the area of the limit there. A limit of A
-// asks for a *spacing* of sqrt(A / 0.4375), that of the lattice whose triangles have this area. The
-// vertices come from a lattice first: were too large a triangle but one more reason to insert, the
-// mesh would be one advancing front, and an edit would move all of it.
+// asks for a *spacing* of sqrt(A / 0.4375), that of the lattice whose triangles have this area.
 //
-// The pitch of the lattice at a place is the spacing there: that of max_area, where this is what
-// limits; elsewhere that of its *band*, [2^(k/4), 2^((k+1)/4)), so that lattices of some extent
-// result. A point of a lattice is a *candidate* if its pitch is that of the lattice, and no
-// candidate of a smaller pitch is within half of it.
+// The *pitch* at a place is that of the lattice that fills it: the spacing there, rounded down to a
+// few bits, where the limit is constant (max_area, or a plateau of the sizes); elsewhere that of
+// its *band*, [2^(k/4), 2^((k+1)/4)), so that lattices of some extent result.
+//
+// Where regions are given, limits count in some, and these may have areas of their own.
+//
+// All that is said of a place, or of a box, depends on the limits there alone: limits that change
+// elsewhere do not matter.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -32,57 +34,100 @@ class Limits {
   Limits(const Options<2>& options, const MeshBox<2>& box);
 
   /// Whether there is a limit somewhere.
-  [[nodiscard]] bool any() const noexcept { return !pitches_.empty(); }
+  [[nodiscard]] bool any() const noexcept { return any_; }
+  /// Whether there is one constant in all of the domain.
+  [[nodiscard]] bool uniform() const noexcept {
+    return parts_.size() == 1 && parts_.front().sizes == nullptr && regions_ == nullptr;
+  }
   /// The largest area of a triangle with its centroid at p; kNone: any.
   /// Throws: Error(bad_option) for a size that is not above 0.
-  [[nodiscard]] double area(const Point<2>& p) const;
+  [[nodiscard]] double area(const Point<2>& p) const { return look(p).area; }
   /// The pitch of the lattice at p; kNone: no lattice. Throws: also if it is too small.
-  [[nodiscard]] double pitch(const Point<2>& p) const {
-    return any() ? pitch_for(spacing(area(p))) : kNone;
+  [[nodiscard]] double pitch(const Point<2>& p) const { return any() ? pitch_for(look(p)) : kNone; }
+  /// The same where the limit is a constant or a plateau; elsewhere 0.
+  [[nodiscard]] double constant_pitch(const Point<2>& p) const {
+    const Look there = look(p);
+    return there.even ? pitch_for(there) : 0;
   }
   [[nodiscard]] Point<2> nearest_in_domain(const Point<2>& p) const noexcept {
     return {std::clamp(p[0], domain_.lo[0], domain_.hi[0]),
             std::clamp(p[1], domain_.lo[1], domain_.hi[1])};
   }
-  /// None in the box is shorter.
-  [[nodiscard]] double least_pitch(const Box<2>& box) const { return pitches_in(box).least; }
   /// Whether a piece of a segment is so long that the lattice would leave a gap beside it.
   [[nodiscard]] bool is_long(const Point<2>& a, const Point<2>& b) const;
 
-  /// A place that may be filled.
-  struct Candidate {
-    Point<2> place{};
-    double pitch = 0;
-    // The six around it on the lattice are candidates, its six triangles have no other candidates
-    // in their circumcircles, and they fit.
-    bool amid = false;
+  /// What lies in a box: no pitch is below `least`, none above `most`; kNone: no lattice.
+  struct Pitches {
+    double least = kNone, most = kNone;
+    bool even = true;  // the limits are constants and plateaus
   };
-  /// Those in a cell, by pitch and rows.
-  [[nodiscard]] std::vector<Candidate> candidates(const MeshBox<2>& box, const Cell<2>& c) const;
+  [[nodiscard]] Pitches pitches_in(const Box<2>& box) const;
+  /// Calls visit(pitch) for what there may be, ascending, until it returns true; returns whether it
+  /// did.
+  template <class Visit>
+  bool visit_pitches(const Pitches& range, Visit&& visit) const;
 
  private:
-  // From a spacing on; kNone: no lattice.
-  struct Pitch {
+  // From a spacing on.
+  struct Band {
     double spacing, pitch;
   };
+  // The last part that has a place says what holds there.
+  struct Part {
+    Box<2> box;
+    double area;                                // kNone: no limit
+    double pitch;                               // that this asks for
+    std::shared_ptr<const SizeField<2>> sizes;  // null: area everywhere
+    bool has_plateaus = false;
+  };
+  struct Look {
+    double area;
+    double pitch;  // of a constant; 0: of sizes that vary
+    bool even = true;
+  };
+  // Of spacings.
+  struct Spread {
+    double least = kNone, most = 0;
+    bool even = true;
+  };
+
   static double spacing(double area) noexcept { return std::sqrt(area / Lattice::kArea); }
-  void add_bands(double end);
-  void add_pitch(double spacing);
-  [[nodiscard]] double pitch_for(double spacing) const;
-  [[nodiscard]] SizeRange spacings_in(const Box<2>& box) const;
-  [[nodiscard]] SizeRange pitches_in(const Box<2>& box) const;
-  template <class Visit>
-  bool visit_pitches(const SizeRange& range, Visit&& visit) const;
-  [[nodiscard]] bool is_candidate(const Lattice& lattice, const LatticePoint& q) const;
-  [[nodiscard]] bool is_amid(const Lattice& lattice, const LatticePoint& q) const;
-  [[nodiscard]] bool is_between(const Lattice& lattice, const LatticePoint& q) const;
-  [[nodiscard]] bool fits(const Lattice& lattice, const std::array<LatticePoint, 3>& t) const;
+  void add_part(const Box<2>& box, const SizeLimits<2>& limits);
+  double add_plateau(double spacing);
+  void add_bands();
+  [[nodiscard]] double even_pitch(double spacing) const;
+  [[nodiscard]] double band_pitch(double spacing) const;
+  [[nodiscard]] double pitch_for(const Look& look) const;
+  [[nodiscard]] Look look(const Point<2>& p) const;
+  [[nodiscard]] Look asked_at(const Point<2>& p) const;
+  [[nodiscard]] Look look(const Part& part, const Point<2>& p) const;
+  [[nodiscard]] Spread spread(const Part& part, const Box<2>& box) const;
+  [[nodiscard]] Spread asked_in(const Box<2>& inside) const;
+  [[nodiscard]] Spread spacings_in(const Box<2>& box) const;
+  void require_not_small(double spacing) const;
 
   Box<2> domain_;
   double coordinates_;  // none in the domain is larger
-  double area_ = kNone;
-  std::shared_ptr<const SizeField<2>> sizes_;  // null: area_ everywhere
-  std::vector<Pitch> pitches_;                 // ascending; the last is kNone; empty: no limits
+  double widest_;       // spacings from this on have no lattice
+  bool any_ = false;
+  std::vector<Part> parts_;                      // the first has all of the domain
+  std::shared_ptr<const RegionLimits> regions_;  // null: all of this counts everywhere
+  std::vector<double> plateaus_;                 // pitches, ascending
+  std::vector<Band> bands_;                      // ascending; empty if all is constant
 };
+
+template <class Visit>
+bool Limits::visit_pitches(const Pitches& range, Visit&& visit) const {
+  std::size_t i = 0, j = range.even ? bands_.size() : 0;
+  while (i < plateaus_.size() || j < bands_.size()) {
+    const bool of_band =
+        i == plateaus_.size() || (j < bands_.size() && bands_[j].pitch < plateaus_[i]);
+    const double pitch = of_band ? bands_[j++].pitch : plateaus_[i++];
+    if (!of_band && j < bands_.size() && bands_[j].pitch == pitch) ++j;
+    if (pitch > range.most) return false;
+    if (pitch >= range.least && visit(pitch)) return true;
+  }
+  return false;
+}
 
 }  // namespace mesher::detail

@@ -2,7 +2,6 @@
 #include "sizes/surroundings.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "geometry/box.hpp"
 #include "geometry/plane.hpp"
@@ -48,13 +47,6 @@ std::uint64_t digest(const std::vector<Room>& rooms) {
   return all;
 }
 
-Point<2> middle(const Box<2>& box) {
-  return {box.lo[0] + (box.hi[0] - box.lo[0]) / 2, box.lo[1] + (box.hi[1] - box.lo[1]) / 2};
-}
-double reach(const Box<2>& box) {
-  return std::hypot(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1]) / 2 * (1 + 0x1p-40);
-}
-
 }  // namespace
 
 std::vector<Room> Surroundings<sac::PlainScope>::rooms(sac::PlainScope&, const Cell<2>&,
@@ -67,19 +59,20 @@ using Traced = Surroundings<sac::Scope>;
 std::vector<Room> Traced::rooms(sac::Scope& s, const Cell<2>& c, const Candidates& candidates) {
   std::vector<Room> rooms = rooms_of(candidates, features_);
   if (candidates.empty()) return rooms;
-  const auto same = [&](const AskEdge& ask) { return ask.cell == c; };
+  const Box<2> extent = extent_of(candidates);
+  const auto same = [&](const AskEdge& ask) { return ask.cell == c && ask.extent == extent; };
   if (auto* ask = s.recall<AskEdge>(id_, kAsk, same)) {
     ask->answer = digest(rooms);
     return rooms;
   }
   auto& ask = s.observe<AskEdge>(id_, kAsk);
   ask.cell = c;
-  ask.extent = extent_of(candidates);
+  ask.extent = extent;
   ask.answer = digest(rooms);
   ask.call = engine_.handle_of(s.self());
   ask.listed = false;  // nothing to take back, should listing fail
   s.guarded([&] {
-    asks_.insert(middle(ask.extent), reach(ask.extent), engine_.arena().handle_of(&ask));
+    asks_.insert(middle_of(ask.extent), reach_of(ask.extent), engine_.arena().handle_of(&ask));
   });
   ask.listed = true;
   return rooms;
@@ -95,11 +88,11 @@ void Traced::feature_changed(const Point<2>& p) noexcept {
 
 void Traced::retract(sac::Call&, sac::Edge& edge) noexcept {
   const auto& ask = static_cast<const AskEdge&>(edge);
-  if (ask.listed) asks_.erase(middle(ask.extent), engine_.arena().handle_of(&ask));
+  if (ask.listed) asks_.erase(middle_of(ask.extent), engine_.arena().handle_of(&ask));
 }
 
 std::uint64_t Traced::answer_now(const AskEdge& ask) const {
-  return digest(rooms_of(limits_.candidates(box_, ask.cell), features_));
+  return digest(rooms_of(plan_of(limits_, box_, ask.cell).candidates, features_));
 }
 
 bool Traced::unchanged(sac::Call&, sac::Edge& edge) {
@@ -113,7 +106,7 @@ void Traced::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink
 
 void Traced::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
   const auto& ask = static_cast<const AskEdge&>(edge);
-  const Candidates candidates = limits_.candidates(box_, ask.cell);
+  const Candidates candidates = plan_of(limits_, box_, ask.cell).candidates;
   const std::vector<Room> rooms = rooms_of(candidates, features_);
   out << candidates.size() << " candidates, " << std::count(rooms.begin(), rooms.end(), Room::none)
       << " beside features";

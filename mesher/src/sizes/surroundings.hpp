@@ -12,7 +12,7 @@
 
 #include "index/features.hpp"
 #include "segments/reach_tree.hpp"
-#include "sizes/limits.hpp"
+#include "sizes/candidates.hpp"
 
 namespace mesher::detail {
 
@@ -29,8 +29,6 @@ inline constexpr double kClear = 0.5;
 /// pitches, and its ends are features), and no feature is in the circumcircles of its six
 /// triangles.
 inline constexpr double kUndisturbed = 3.2;
-
-using Candidates = std::vector<Limits::Candidate>;
 
 template <class S>
 class Surroundings;

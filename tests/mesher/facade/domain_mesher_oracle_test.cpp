@@ -1,5 +1,5 @@
-// Random batches of points, lines, moves and seeds: mesh and domain are those from scratch, the
-// change is exact, and a batch that fails leaves all as it was.
+// Random batches of points, lines, moves, seeds and limits: mesh and domain are those from scratch,
+// the change is exact, and a batch that fails leaves all as it was.
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -14,6 +14,7 @@ using mesher::DomainMesher;
 using mesher::Extent;
 using mesher::Mesh;
 using mesher::Point;
+using mesher::RegionAreas;
 using support::Lake;
 using support::LakeEditor;
 using Triangles = std::set<std::array<Point<2>, 3>>;
@@ -43,7 +44,8 @@ void apply(const std::vector<std::array<Point<2>, 3>>& added,
 
 class Follower {
  public:
-  explicit Follower(Extent extent) : m_(LakeEditor::options(), extent), extent_(extent) {}
+  Follower(Extent extent, RegionAreas areas)
+      : m_(LakeEditor::options(), extent, areas), extent_(extent), areas_(areas) {}
 
   // Makes the batch, which leads to `lake`; or finds that it fails, if it must.
   void make(std::vector<mesher::Edit> batch, const Lake& lake, bool valid) {
@@ -69,7 +71,11 @@ class Follower {
   void check() {
     const mesher::Pslg graph = lake_.graph();
     REQUIRE(m_.input() == graph);
-    const Mesh<2> mesh = mesher::mesh_statically(graph, m_.options());
+    REQUIRE(m_.options().max_area == lake_.options.max_area);
+    REQUIRE(m_.options().box_limits == lake_.options.box_limits);
+    mesher::Options<2> options = lake_.options;
+    options.region_limits = mesher::region_limits(graph, options, extent_, areas_);
+    const Mesh<2> mesh = mesher::mesh_statically(graph, options);
     const DomainMesh scratch = mesher::domain_mesh(mesh, graph, extent_);
     if (!whole_.empty()) REQUIRE(m_.mesh() == mesh);
     if (whole_.empty()) return;
@@ -96,6 +102,7 @@ class Follower {
 
   DomainMesher m_;
   Extent extent_;
+  RegionAreas areas_;
   Lake lake_;
   Triangles whole_, kept_;
 };
@@ -103,9 +110,10 @@ class Follower {
 // A random history; every fourth wants all of the box.
 void follow(std::uint64_t seed, int steps) {
   const Extent extent = seed % 4 == 0 ? Extent::box : Extent::enclosed;
+  const RegionAreas areas = seed % 3 == 0 ? RegionAreas::ignored : RegionAreas::limits;
   CAPTURE(seed);
   LakeEditor editor(seed);
-  Follower follower(extent);
+  Follower follower(extent, areas);
   const auto box = mesher::detail::mesh_box(LakeEditor::options());
   for (int step = 0; step < steps; ++step) {
     CAPTURE(step);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesher/domain_mesher.hpp"
+#include "mesher/sizes.hpp"
 #include "scratch_file.hpp"
 
 namespace {
@@ -122,6 +123,20 @@ TEST_CASE("a bad line is refused with its place and leaves the edits before it a
       {"+region 1 2 3 inf\n", "not_finite@2:15"},
       {"+region 1 2 3 4 x\n", "bad_number@2:17"},
       {"+hole 1 2 3\n", "bad_edit@2:1"},  // the table has points only
+      {"limit\n", "bad_edit@2:6"},
+      {"limit areas 1\n", "bad_edit@2:7"},
+      {"limit area\n", "bad_edit@2:11"},
+      {"limit area 0\n", "bad_number@2:12"},
+      {"limit size -1\n", "bad_number@2:12"},
+      {"limit size nan\n", "not_finite@2:12"},
+      {"limit area 1 2\n", "bad_edit@2:15"},
+      {"limit none 1\n", "bad_edit@2:13"},
+      {"limit area 1 in 0 0 1\n", "bad_edit@2:22"},
+      {"limit area 1 at 0 0 1 1\n", "bad_edit@2:14"},
+      {"limit none in 0 2 1 1\n", "bad_edit@2:15"},
+      {"limit none in 0 x 1 1\n", "bad_number@2:17"},
+      {"limit none in 0 0 1 1 1\n", "bad_edit@2:23"},
+      {"limit none\n", "bad_edit@2:1"},  // the table has points only
       {"+Point 1 2 3\n", "bad_edit@2:1"},
       {"+point 2 3\n", "bad_edit@2:11"},
       {"+point 2 3 4 5\n", "bad_edit@2:14"},
@@ -230,6 +245,31 @@ TEST_CASE("an edit of a seed carries its place, attribute and limit; a limit of 
   CHECK(featured(hole.kind) == mesher::Featured::hole);
   CHECK(hole.point == Point<2>{3, 4});
   CHECK(featured(next().kind) == mesher::Featured::region);
+}
+
+TEST_CASE("an edit of limits carries what they are and where") {
+  const ScratchFolder folder;
+  folder.write("h.csv", "x,y,h\n0,0,0.5\n1,0,0.5\n0,1,0.25\n");
+  mesher::EditScript script(folder.write("edits.txt",
+                                         "limit area 0.5\n"
+                                         "limit size 2 in 0 -1 4 5\n"
+                                         "limit sizes h.csv in 0 0 1 1\n"
+                                         "limit none\n"
+                                         "limit sizes absent.csv\n"));
+  const auto next = [&] { return script.next().value().at(0); };
+  const Edit everywhere = next();
+  CHECK(everywhere.kind == Edit::Kind::limit);
+  CHECK(everywhere.limits == mesher::SizeLimits<2>{.max_area = 0.5});
+  CHECK_FALSE(everywhere.box.has_value());
+  const Edit inside = next();
+  CHECK(inside.limits.max_area == Approx(std::sqrt(3.0)));
+  CHECK(inside.box == mesher::Box<2>{{0, -1}, {4, 5}});
+  const Edit background = next();
+  CHECK(background.limits.max_area == 0);
+  REQUIRE(background.limits.sizes != nullptr);
+  CHECK(background.limits.sizes->at({0, 1}) == 0.25);
+  CHECK(next().limits == mesher::SizeLimits<2>());
+  CHECK(failure_of([&] { static_cast<void>(next()); }).starts_with("cannot_read"));
 }
 
 TEST_CASE("seeds of a block move, whatever comes between; they are never to blame for a line") {

@@ -47,7 +47,61 @@ struct Filled {
   }
 };
 
+// From no limit to one, with a box that has another.
+struct Limited {
+  Mesher<2> m{Options<2>{.domain = {{0, 0}, {16, 16}}}};
+  Mesh<2> before;
+
+  Limited() {
+    m.insert({id(1), id(2), id(3)}, {{2, 8}, {13, 8.5}, {8, 3}});
+    m.insert_segment(id(1), id(1), id(2));
+    m.update();
+    before = m.mesh();
+  }
+  void announce() {
+    m.limit({.max_area = 6});
+    m.limit({{6, 6}, {9, 10}}, {.max_area = 1});
+    m.insert(id(4), {8, 8.5});
+    m.remove(id(3));
+  }
+};
+
+// Back to no limit.
+struct Unlimited : Limited {
+  Unlimited() {
+    Limited::announce();
+    m.update();
+    before = m.mesh();
+  }
+  void announce() {
+    m.limit(mesher::SizeLimits<2>());
+    m.move(id(2), {13, 9.5});
+  }
+};
+
+// A change in a box alone.
+struct Boxed : Limited {
+  Boxed() {
+    Limited::announce();
+    m.update();
+    before = m.mesh();
+  }
+  void announce() { m.limit({{5, 8}, {8, 11}}, {.max_area = 0.5}); }
+};
+
 }  // namespace
+
+TEST_CASE("an update in which limits come and any one allocation fails leaves all, works again") {
+  support::check_failing_updates<Limited>();
+}
+
+TEST_CASE("an update in which limits go and any one allocation fails leaves all, works again") {
+  support::check_failing_updates<Unlimited>();
+}
+
+TEST_CASE("an update with limits in a box in which any one allocation fails leaves all") {
+  support::check_failing_updates<Boxed>();
+}
 
 TEST_CASE("an update of a filled mesh in which any one allocation fails leaves it, works again") {
   support::check_failing_updates<Filled>();

@@ -24,26 +24,6 @@ constexpr PslgEditor::Family kFamilies[] = {
 // The pitch of the lattice is 1 for the first; a point of the lattice family is on it now and then.
 constexpr double kAreas[] = {0.4375, 0.2, 3};
 
-// Two sizes, in squares like those of a chessboard; no limit in some.
-class Steps final : public mesher::SizeField<2> {
- public:
-  [[nodiscard]] double at(const mesher::Point<2>& p) const override {
-    const double x = std::floor(p[0] / 3), y = std::floor(p[1] / 3);
-    if (x == 1 && y == 1) return std::numeric_limits<double>::infinity();
-    return std::fmod(x + y, 2) == 0 ? 0.8 : 4;
-  }
-  [[nodiscard]] mesher::SizeRange range(const mesher::Box<2>& box) const override {
-    mesher::SizeRange all{std::numeric_limits<double>::infinity(), 0};
-    for (double x = std::floor(box.lo[0] / 3); 3 * x <= box.hi[0]; ++x) {
-      for (double y = std::floor(box.lo[1] / 3); 3 * y <= box.hi[1]; ++y) {
-        const double h = at({3 * x + 1, 3 * y + 1});
-        all.least = std::min(all.least, h), all.most = std::max(all.most, h);
-      }
-    }
-    return all;
-  }
-};
-
 std::string follow(PslgEditor::Family family, std::uint64_t seed, double area, int steps) {
   mesher::Options<2> options = PslgEditor::options();
   options.max_area = area;
@@ -73,8 +53,8 @@ TEST_CASE("The same with sizes that vary: by a slope, in steps, by a background"
     samples.push_back({{16 * random.unit(), 16 * random.unit()}, 0.8 + 3 * random.unit()});
   }
   const std::shared_ptr<const mesher::SizeField<2>> fields[] = {
-      std::make_shared<mesher::SlopedSizes>(sloped, 0.3, 0.7), std::make_shared<Steps>(),
-      mesher::sampled_sizes(samples)};
+      std::make_shared<mesher::SlopedSizes>(sloped, 0.3, 0.7),
+      std::make_shared<support::Chessboard>(), mesher::sampled_sizes(samples)};
   for (const PslgEditor::Family family : kFamilies) {
     for (std::size_t i = 0; i < std::size(fields); ++i) {
       mesher::Options<2> options = PslgEditor::options();
@@ -82,6 +62,30 @@ TEST_CASE("The same with sizes that vary: by a slope, in steps, by a background"
       if (i == 0) options.max_area = 2;
       INFO("family " << static_cast<int>(family) << " field " << i);
       REQUIRE(PslgFollower(family, 2, options).follow(20) == "");
+    }
+  }
+}
+
+TEST_CASE(
+    "Limits are edited, too, everywhere and in boxes: after every update the mesh and the trace "
+    "are those of a run from scratch") {
+  for (const PslgEditor::Family family : kFamilies) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      INFO("family " << static_cast<int>(family) << " seed " << seed);
+      PslgFollower follower(family, seed);
+      follower.edit_limits(seed);
+      REQUIRE(follower.follow(25) == "");
+    }
+  }
+}
+
+TEST_CASE("Long sequences of edits with edited limits follow runs from scratch", "[.soak]") {
+  for (std::uint64_t seed = 1000; seed < 1060; ++seed) {
+    for (const PslgEditor::Family family : kFamilies) {
+      INFO("family " << static_cast<int>(family) << " seed " << seed);
+      PslgFollower follower(family, seed);
+      follower.edit_limits(seed);
+      REQUIRE(follower.follow(150) == "");
     }
   }
 }
