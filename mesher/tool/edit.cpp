@@ -48,8 +48,7 @@ Followed apply_script(const EditArguments& args, Input& input, Target& target, F
 }
 
 template <class Target>
-void run_edit_on(Target target, const mesher::Options<2>& options, const EditArguments& args,
-                 Input input) {
+void run_edit_on(Target target, const EditArguments& args, Input input) {
   Outputs outputs;
   outputs.protect(args.script);
   open_outputs(args, input, outputs);
@@ -69,7 +68,7 @@ void run_edit_on(Target target, const mesher::Options<2>& options, const EditArg
   print_run(args.input, input.graph(), run);
   print_updates(followed.seconds);
   print_after(mesh);
-  print_angles(mesher::angle_report(target.mesh(), options));
+  print_angles(mesher::angle_report(target.mesh(), target.options()));
   print_outputs(targets);
 }
 
@@ -77,10 +76,10 @@ void run_edit(const EditArguments& args) {
   Input input = read_input(args);
   const auto options = mesh_options(args, input);
   if (args.is_static) {
-    return run_edit_on(StaticMesher(options, extent(args), region_areas(args)), options, args,
+    return run_edit_on(StaticMesher(options, extent(args), region_areas(args)), args,
                        std::move(input));
   }
-  run_edit_on(mesher::DomainMesher(options, extent(args), region_areas(args)), options, args,
+  run_edit_on(mesher::DomainMesher(options, extent(args), region_areas(args)), args,
               std::move(input));
 }
 

@@ -48,6 +48,7 @@ class StaticMesher {
 
   [[nodiscard]] const mesher::Mesh<2>& mesh() const { return mesh_; }
   [[nodiscard]] const mesher::DomainMesh& domain_mesh() const { return domain_; }
+  [[nodiscard]] const mesher::Options<2>& options() const { return options_; }
   [[nodiscard]] const mesher::MeshStats& stats() const { return stats_; }
 
  private:
