@@ -149,7 +149,10 @@ DomainUpdate DomainState::run(const RunControl& control) {
         mesher_.update(control, [&](const Change<2>& change) { update.domain = follow(change); });
   };
   if (!unlimited_ && needs_unlimited()) make_unlimited(control);
-  if (!unlimited_) return run_limited(), update;
+  if (!unlimited_) {
+    run_limited();
+    return update;
+  }
   unlimited_->mesher().discard_edits();
   mesher_.announce_to(unlimited_->mesher());
   unlimited_->update(seeds_, control, [&](const auto& limits, const auto& where) {

@@ -97,22 +97,20 @@ RegionLimits::Limit RegionLimits::erase(const Corners& triangle) {
 
 // --- Reading ---------------------------------------------------------------------------------
 
-// enter(box, node): of all that is in a cell.
+// enter(box, node): of all that is in a cell; lo, side: of the cell.
 template <class Enter, class Visit>
-void RegionLimits::visit(const Link& link, const Cell<2>& cell, Enter& enter,
+void RegionLimits::visit(const Node& node, const Point<2>& lo, double side, Enter& enter,
                          Visit& visit_entry) const {
-  if (link == nullptr) return;
-  const double around = 0.26 * box_.cell_side(cell.level);  // with some rounding
-  Box<2> box = box_.box_of(cell);
-  for (std::size_t i = 0; i < 2; ++i) box.lo[i] -= around, box.hi[i] += around;
-  if (!enter(box, *link)) return;
-  for (const Entry& e : link->entries) visit_entry(e);
+  const double around = 0.26 * side;  // with some rounding
+  const Box<2> box{{lo[0] - around, lo[1] - around},
+                   {lo[0] + side + around, lo[1] + side + around}};
+  if (!enter(box, node)) return;
+  for (const Entry& e : node.entries) visit_entry(e);
   for (std::size_t c = 0; c < 4; ++c) {
-    Cell<2> inner{cell.corner, cell.level + 1};
-    for (std::size_t i = 0; i < 2; ++i) {
-      inner.corner[i] |= static_cast<std::uint64_t>(c >> i & 1) << (detail::kLevels - inner.level);
-    }
-    visit(link->child[c], inner, enter, visit_entry);
+    if (node.child[c] == nullptr) continue;
+    const Point<2> inner{lo[0] + ((c & 1) != 0 ? side / 2 : 0),
+                         lo[1] + ((c & 2) != 0 ? side / 2 : 0)};
+    visit(*node.child[c], inner, side / 2, enter, visit_entry);
   }
 }
 
@@ -126,7 +124,7 @@ RegionLimits::Limit RegionLimits::at(const Point<2>& p) const {
     found.counts = true;
     found.area = std::min(found.area, e.limit.area);
   };
-  visit(root_, {}, enter, look);
+  if (root_ != nullptr) visit(*root_, box_.lo, box_.side, enter, look);
   return found;
 }
 
@@ -145,7 +143,7 @@ RegionLimits::Range RegionLimits::range(const Box<2>& box) const {
   const auto look = [&](const Entry& e) {
     if (e.facet.touches(box)) take(all, e.limit);
   };
-  visit(root_, {}, enter, look);
+  if (root_ != nullptr) visit(*root_, box_.lo, box_.side, enter, look);
   return all;
 }
 

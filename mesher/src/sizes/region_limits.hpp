@@ -88,7 +88,8 @@ class RegionLimits {
   template <class Edit>
   static void edit_at(Link& link, const detail::Cell<2>& cell, int level, Edit& edit);
   template <class Enter, class Visit>
-  void visit(const Link& link, const detail::Cell<2>& cell, Enter& enter, Visit& visit_entry) const;
+  void visit(const Node& node, const Point<2>& lo, double side, Enter& enter,
+             Visit& visit_entry) const;
   template <class Visit>
   static void for_each_below(const Node& node, Visit& visit) {
     for (const Entry& e : node.entries) visit(e.facet.corners(), e.limit);
