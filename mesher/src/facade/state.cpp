@@ -130,7 +130,7 @@ Change<2> State::first_run(Edits edits, const RunControl& control, const Accept&
   RunMeter<sac::Scope> phases(*world_, control, ids_.size());
   const auto meter = [&](const sac::Progress& p) { return phases(p.executed); };
   const Watch watch(*engine_, control, meter);
-  const CallCounts calls = call_counts(engine_->run<refine>());
+  const CallCounts calls = call_counts(engine_->run<refine<2>>());
   commit();
   require_room(pool().size());
   vertices().set_logging(true);

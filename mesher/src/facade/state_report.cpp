@@ -22,9 +22,8 @@ std::vector<VertexHandle> State::live_vertices() const {
 std::vector<State::Triangle> State::triangles() const {
   std::vector<Triangle> all;
   pool().for_each([&](const Vertex<2>& v) {
-    const auto ring = vertices().ring(v);
-    for_each_own_triangle(pool(), v, ring.handles, ring.size,
-                          [&](const Triangle& t) { all.push_back(t); });
+    for_each_own_simplex(pool(), v, vertices().ring(v),
+                         [&](const Triangle& t) { all.push_back(t); });
   });
   return all;
 }
@@ -86,9 +85,8 @@ void State::report_vertices(const Log& log, Change<2>& change) const {
 // The triangles that v outputs in its star of these neighbours, in the order of corners.
 void State::own_triangles(const ChangeLog::Star& star, std::vector<Triangle>& all) const {
   all.clear();
-  for_each_own_triangle(pool(), pool()[star.center], star.ring.data(),
-                        static_cast<int>(star.ring.size()),
-                        [&](const Triangle& t) { all.push_back(t); });
+  for_each_own_simplex(pool(), pool()[star.center], star.ring,
+                       [&](const Triangle& t) { all.push_back(t); });
 }
 
 // Triangles of stars that went or came, without those that did both: these are output by the same

@@ -99,6 +99,13 @@ class VoronoiCell3 {
   /// Writes the cell down, as LinkRecord reads it.
   void write(std::vector<Code>& record) const;
 
+  /// Calls visit(a, b, c) for the neighbours around each corner of a cell that was written down.
+  template <class Visit>
+  static void for_each_link_simplex(std::span<const Code> record, Visit&& visit) {
+    const LinkRecord link(record);
+    for (std::size_t t = 0; t < link.triangles(); ++t) visit(link.codes(t));
+  }
+
   /// Whether a vertex at `p` would cut the cell of v that was written down, erring towards yes.
   [[nodiscard]] static bool may_cut(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
                                     std::span<const Code> record, const Point<3>& p);

@@ -29,6 +29,9 @@
 namespace mesher::detail {
 
 template <int D>
+struct NearestFirst;
+
+template <int D>
 class Quadtree {
  public:
   using NodeIndex = std::uint32_t;
@@ -88,6 +91,12 @@ class Quadtree {
   template <class Enters, class Visit>
   void visit_outward(const Point<D>& center, const Box<D>& area, const Looked& looked,
                      Enters&& enters, Visit&& visit) const;
+  /// Calls visit(handle, place, |place - center|^2) for vertices in order of distance, as long as
+  /// this is at most limit2(), which may become less. A cell that holds vertices is only entered if
+  /// enters(its lower corner relative to the center, its side) when its turn comes.
+  template <class Limit, class Enters, class Visit>
+  void visit_nearest_first(const Point<D>& center, NearestFirst<D>& queue, Limit&& limit2,
+                           Enters&& enters, Visit&& visit) const;
   /// The side of the cell that vertices at p are in.
   [[nodiscard]] double side_at(const Point<D>& p) const {
     int level = 0;
@@ -163,6 +172,9 @@ class Quadtree {
     return n;
   }
   [[nodiscard]] int subdivided(const Fixed<D>& f) const;
+  void find_way(const Point<D>& center, NearestFirst<D>& queue) const;
+  [[nodiscard]] double beyond2(const Point<D>& rel, double side) const noexcept;
+  [[nodiscard]] double within2(const Point<D>& rel, double side) const noexcept;
   static double distance2(const Point<D>& a, const Point<D>& b) noexcept {
     double d2 = 0;
     for (int i = 0; i < D; ++i) d2 += (a[i] - b[i]) * (a[i] - b[i]);
@@ -294,5 +306,6 @@ class Quadtree {
 
 #include "index/quadtree_cells.hpp"   // IWYU pragma: export
 #include "index/quadtree_check.hpp"   // IWYU pragma: export
+#include "index/quadtree_nearest.hpp"  // IWYU pragma: export
 #include "index/quadtree_reach.hpp"   // IWYU pragma: export
 #include "index/quadtree_search.hpp"  // IWYU pragma: export

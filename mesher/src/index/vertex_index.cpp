@@ -5,7 +5,7 @@
 
 namespace mesher::detail {
 
-using Index = VertexIndex<sac::Scope>;
+using Index = VertexIndex<sac::Scope, 2>;
 
 // --- Births ----------------------------------------------------------------------------------
 
@@ -168,7 +168,7 @@ void Index::vanished(const Vertex<2>& v, const sac::Window& window) noexcept {
 
 // `last`: what the running call saw last time, if it asked the same.
 template <class Seen>
-CellLoan Index::look(const Vertex<2>& v, double radius, const Observation* last, Seen&& seen) {
+CellLoan<2> Index::look(const Vertex<2>& v, double radius, const Observation* last, Seen&& seen) {
   if (last != nullptr && observers_.knows_arrivals(*last)) {
     const auto arrivals = [&](auto&& visit) { observers_.for_each_arrival(*last, visit); };
     return repaired_cell(v, radius, observers_.seen(*last), arrivals, seen);
@@ -180,7 +180,7 @@ CellLoan Index::look(const Vertex<2>& v, double radius, const Observation* last,
   return cut_around(v, radius, seen);
 }
 
-CellLoan Index::voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius) {
+CellLoan<2> Index::voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius) {
   const sac::Call& self = s.self();
   const sac::Handle caller = engine_.handle_of(self);
   const float clip = packed(radius);
@@ -188,7 +188,7 @@ CellLoan Index::voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius) {
   const Observation* last = observers_.find_at(*v, [&](const Observation& o) {
     return o.kind == kCell && o.call == caller && static_cast<const CellSeen&>(o).radius == clip;
   });
-  CellLoan cell =
+  CellLoan<2> cell =
       look(*v, radius, last, [&](VertexHandle u) { return born_before(pool_[u], self); });
   s.weigh(take_visited());
   take_codes(*cell);
@@ -204,11 +204,11 @@ double Index::nearest2(sac::Scope& s, VertexRef<2> v) {
   return n.distance2;
 }
 
-CellLoan Index::star(sac::Scope& s, VertexRef<2> v) {
+CellLoan<2> Index::star(sac::Scope& s, VertexRef<2> v) {
   const sac::Handle caller = engine_.handle_of(s.self());
   const Observation* last = observers_.find_at(
       *v, [&](const Observation& o) { return o.kind == kStar && o.call == caller; });
-  CellLoan cell = look(*v, whole(), last, [&](VertexHandle u) { return pool_[u].alive; });
+  CellLoan<2> cell = look(*v, whole(), last, [&](VertexHandle u) { return pool_[u].alive; });
   s.weigh(take_visited());
   take_codes(*cell);
   record_star(s, *v, packed(concern(*cell)));
@@ -348,10 +348,9 @@ Ring* Index::find_ring(const Vertex<2>& v) const noexcept {
   return star == nullptr ? nullptr : engine_.arena().at<Ring>(star->ring);
 }
 
-Index::RingView Index::ring(const Vertex<2>& v) const {
+std::span<const std::uint32_t> Index::ring(const Vertex<2>& v) const {
   const Ring* ring = find_ring(v);
-  if (ring == nullptr) return {};
-  return {ring->span().data(), static_cast<int>(ring->count)};
+  return ring == nullptr ? std::span<const std::uint32_t>() : ring->span();
 }
 
 Index::Log Index::log() const {
@@ -420,7 +419,7 @@ void Index::check_observation(const Vertex<2>& v, const Observation& o) const {
   }
   const double radius =
       o.kind == kStar ? whole() : unpacked(static_cast<const CellSeen&>(o).radius);
-  const CellLoan cell = cut_around(v, radius, seen);
+  const CellLoan<2> cell = cut_around(v, radius, seen);
   cell->check_invariants();
   const auto codes = observers_.seen(o);
   SAC_INVARIANT(codes.size() == static_cast<std::size_t>(cell->size()));

@@ -38,52 +38,54 @@
 
 namespace mesher::detail {
 
-template <class S>
+template <class S, int D = 2>
 class VertexIndex;
 
-template <>
-class VertexIndex<sac::PlainScope> : public VertexSearch {
- public:
-  using VertexSearch::VertexSearch;
+template <int D>
+class VertexIndex<sac::PlainScope, D> : public VertexSearch<D> {
+  using Base = VertexSearch<D>;
 
-  VertexRef<2> insert(sac::PlainScope&, const Point<2>& p) {
-    if (tree_.find(p) != nullptr) fail_coincident(p);
-    Vertex<2>& v = add(p);
+ public:
+  using Base::Base;
+
+  VertexRef<D> insert(sac::PlainScope&, const Point<D>& p) {
+    if (Base::tree_.find(p) != nullptr) Base::fail_coincident(p);
+    Vertex<D>& v = Base::add(p);
     v.alive = true;
     return {&v};
   }
-  VertexRef<2> insert(sac::PlainScope&, const Point<2>& p, const Role& role) {
-    if (tree_.find(p) != nullptr) fail_coincident(p);
+  VertexRef<D> insert(sac::PlainScope&, const Point<D>& p, const Role& role) {
+    if (Base::tree_.find(p) != nullptr) Base::fail_coincident(p);
     return insert_new(p, role);
   }
-  VertexRef<2> insert_early(sac::PlainScope&, const Point<2>& p) { return insert_new(p, Role()); }
-  VertexRef<2> insert_early(sac::PlainScope&, const Point<2>& p, const Role& role) {
+  VertexRef<D> insert_early(sac::PlainScope&, const Point<D>& p) { return insert_new(p, Role()); }
+  VertexRef<D> insert_early(sac::PlainScope&, const Point<D>& p, const Role& role) {
     return insert_new(p, role);
   }
-  void insert(sac::PlainScope&, VertexRef<2> v) { v->alive = true; }
-  CellLoan voronoi_cell(sac::PlainScope&, VertexRef<2> v, double radius) {
-    return cut_around(*v, radius, [](VertexHandle) { return true; });
+  void insert(sac::PlainScope&, VertexRef<D> v) { v->alive = true; }
+  CellLoan<D> voronoi_cell(sac::PlainScope&, VertexRef<D> v, double radius) {
+    return Base::cut_around(*v, radius, [](VertexHandle) { return true; });
   }
-  double nearest2(sac::PlainScope&, VertexRef<2> v) {
-    return nearest_around(*v, [](VertexHandle) { return true; }).distance2;
+  double nearest2(sac::PlainScope&, VertexRef<D> v) {
+    return Base::nearest_around(*v, [](VertexHandle) { return true; }).distance2;
   }
-  CellLoan star(sac::PlainScope& s, VertexRef<2> v) { return voronoi_cell(s, v, whole()); }
+  CellLoan<D> star(sac::PlainScope& s, VertexRef<D> v) { return voronoi_cell(s, v, Base::whole()); }
 
  private:
-  VertexRef<2> insert_new(const Point<2>& p, const Role& role) {
-    Vertex<2>& v = add(p);
+  VertexRef<D> insert_new(const Point<D>& p, const Role& role) {
+    Vertex<D>& v = Base::add(p);
     v.alive = true;
-    if (role.on != 0) roles_.reserve(v.self);
-    set_role(v, role);
+    if (role.on != 0) Base::roles_.reserve(v.self);
+    Base::set_role(v, role);
     return {&v};
   }
 };
 
 template <>
-class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
+class VertexIndex<sac::Scope, 2> : public VertexSearch<2>, public sac::Structure {
  public:
   VertexIndex(const MeshBox<2>& box, sac::Engine& engine)
-      : VertexSearch(box),
+      : VertexSearch<2>(box),
         engine_(engine),
         presences_(engine),
         observers_(engine, pool_, tree_),
@@ -98,20 +100,16 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   /// The same for a place on no segment. Requires: no feature is there.
   VertexRef<2> insert_early(sac::Scope& s, const Point<2>& p);
   void insert(sac::Scope& s, VertexRef<2> v);
-  CellLoan voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius);
+  CellLoan<2> voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius);
   double nearest2(sac::Scope& s, VertexRef<2> v);
-  CellLoan star(sac::Scope& s, VertexRef<2> v);
+  CellLoan<2> star(sac::Scope& s, VertexRef<2> v);
 
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
   void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
   void print(const sac::Call& call, const sac::Edge& edge, std::ostream& out) const override;
 
   /// The neighbours in v's star, counterclockwise, as recorded by the call that computed it.
-  struct RingView {
-    const std::uint32_t* handles = nullptr;
-    int size = 0;
-  };
-  [[nodiscard]] RingView ring(const Vertex<2>& v) const;
+  [[nodiscard]] std::span<const std::uint32_t> ring(const Vertex<2>& v) const;
 
   /// Since the last commit: vertices that may have come or gone, and stars that went and came, each
   /// as the vertex and its neighbours.
@@ -192,7 +190,7 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
     });
   }
   template <class Seen>
-  CellLoan look(const Vertex<2>& v, double radius, const Observation* last, Seen&& seen);
+  CellLoan<2> look(const Vertex<2>& v, double radius, const Observation* last, Seen&& seen);
   void take_codes(const VoronoiCell& cell);
   void fill(sac::Scope& s, Observation& o, Vertex<2>& v, float reach) noexcept;
   void record_cell(sac::Scope& s, Vertex<2>& v, float reach, float radius);

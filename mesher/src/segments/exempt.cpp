@@ -12,7 +12,7 @@ namespace {
 // Calls visit(leg, apex, distance): v is on `leg`, at this distance from its end `apex`; as the far
 // end of the leg if v is an input point.
 template <class Visit>
-void for_each_leg(const VertexSearch& vertices, const SegmentStore& segments, const Vertex<2>& v,
+void for_each_leg(const VertexSearch<2>& vertices, const SegmentStore& segments, const Vertex<2>& v,
                   Visit&& visit) {
   if (v.on_segment) {
     const Role role = vertices.role(v);
@@ -45,7 +45,7 @@ bool has_sharp_neighbour(const SegmentStore& segments, const Segment& s, VertexH
       apex, [&](const Segment& t) { return t.self != s.self && meet_sharply(s, t, apex); });
 }
 
-bool is_exempt(const VertexSearch& vertices, const SegmentStore& segments, const Vertex<2>& p,
+bool is_exempt(const VertexSearch<2>& vertices, const SegmentStore& segments, const Vertex<2>& p,
                const Vertex<2>& q) {
   const auto may_be = [](const Vertex<2>& v) { return v.on_segment || v.input; };
   if (!may_be(p) || !may_be(q)) return false;

@@ -20,7 +20,7 @@ namespace mesher::detail {
                                        VertexHandle apex);
 
 /// Whether a poor triangle on the left of p -> q, its shortest edge, stays.
-[[nodiscard]] bool is_exempt(const VertexSearch& vertices, const SegmentStore& segments,
+[[nodiscard]] bool is_exempt(const VertexSearch<2>& vertices, const SegmentStore& segments,
                              const Vertex<2>& p, const Vertex<2>& q);
 
 }  // namespace mesher::detail
