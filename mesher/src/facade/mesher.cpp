@@ -16,48 +16,63 @@ namespace {
 
 std::string text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
+// Zero has no sign.
+template <std::size_t N>
+std::array<double, N> unsigned_zero(std::array<double, N> p) {
+  for (double& x : p) x += 0.0;
+  return p;
+}
+
 }  // namespace
 
-template <>
-struct Mesher<2>::Impl {
-  explicit Impl(const Options<2>& o)
-      : options(o), state(std::make_unique<detail::State>(o)), box(state->box()), announced(box) {
+template <int D>
+struct Mesher<D>::Impl {
+  using Announced = detail::Announced<D>;
+  using State = std::conditional_t<D == 2, detail::State, detail::PointState<D>>;
+
+  explicit Impl(const Options<D>& o)
+      : options(o), state(std::make_unique<State>(o)), box(state->box()), announced(box) {
     predicates::self_test();
   }
 
-  [[nodiscard]] detail::Announced::Place place(FeatureId id) const;
+  [[nodiscard]] typename Announced::Place place(FeatureId id) const;
   void require_known(FeatureId id) const;
-  void require_free(FeatureId id, const Point<2>& p) const;
-  void require_apart(const std::vector<detail::Announced::Edit>& edits) const;
-  void insert(FeatureId id, const Point<2>& p);
+  void require_free(FeatureId id, const Point<D>& p) const;
+  void require_apart(const std::vector<typename Announced::Edit>& edits) const;
+  void insert(FeatureId id, const Point<D>& p);
   [[nodiscard]] const detail::LinePoints& line(FeatureId id) const;
   void insert_line(FeatureId id, const detail::LinePoints& points);
   void remove_line(FeatureId id);
   void discard_edits() noexcept;
-  Change<2> run(const RunControl& control, const Accept& accept);
-  Change<2> update(const RunControl& control, const Accept& accept);
+  Change<D> first_run(State& fresh, const RunControl& control, const Accept& accept);
+  Change<D> propagate(const RunControl& control, const Accept& accept);
+  Change<D> run(const RunControl& control, const Accept& accept);
+  Change<D> update(const RunControl& control, const Accept& accept);
 
-  Options<2> options;
-  std::unique_ptr<detail::State> state;  // of the last update
-  detail::MeshBox<2> box;
-  detail::Announced announced;
+  Options<D> options;
+  std::unique_ptr<State> state;  // of the last update
+  detail::MeshBox<D> box;
+  Announced announced;
   detail::AnnouncedLines announced_lines;
   bool moved = false;  // a place was taken that was not looked at
 };
 
 // --- Edits -----------------------------------------------------------------------------------
 
-detail::Announced::Place Mesher<2>::Impl::place(FeatureId id) const {
+template <int D>
+auto Mesher<D>::Impl::place(FeatureId id) const -> typename Announced::Place {
   const auto* edit = announced.find(id);
   return edit != nullptr ? edit->to : state->place(id);
 }
 
-void Mesher<2>::Impl::require_known(FeatureId id) const {
+template <int D>
+void Mesher<D>::Impl::require_known(FeatureId id) const {
   if (place(id)) return;
   throw Error(ErrorCode::unknown_id, "point " + text(id) + " is not there", {}, {id});
 }
 
-void Mesher<2>::Impl::require_free(FeatureId id, const Point<2>& p) const {
+template <int D>
+void Mesher<D>::Impl::require_free(FeatureId id, const Point<D>& p) const {
   if (const auto* other = announced.arrival_near(p, id)) {
     detail::fail_too_near(p, id, *other->to, other->id);
   }
@@ -67,13 +82,15 @@ void Mesher<2>::Impl::require_free(FeatureId id, const Point<2>& p) const {
 }
 
 // The announced places, as they are when all edits are made.
-void Mesher<2>::Impl::require_apart(const std::vector<detail::Announced::Edit>& edits) const {
+template <int D>
+void Mesher<D>::Impl::require_apart(const std::vector<typename Announced::Edit>& edits) const {
   for (const auto& edit : edits) {
     if (edit.to) require_free(edit.id, *edit.to);
   }
 }
 
-void Mesher<2>::Impl::insert(FeatureId id, const Point<2>& p) {
+template <int D>
+void Mesher<D>::Impl::insert(FeatureId id, const Point<D>& p) {
   if (place(id)) {
     throw Error(ErrorCode::repeated_id, "point " + text(id) + " is there already", {}, {id});
   }
@@ -81,14 +98,18 @@ void Mesher<2>::Impl::insert(FeatureId id, const Point<2>& p) {
   const auto was = state->place(id);
   if (!was) require_free(id, p);
   moved |= was.has_value();
-  announced.set(id, was, Point<2>{p[0] + 0.0, p[1] + 0.0});  // zero has no sign
+  announced.set(id, was, unsigned_zero(p));
 }
 
+// --- Lines: in the plane ---------------------------------------------------------------------
+
+template <>
 const detail::LinePoints& Mesher<2>::Impl::line(FeatureId id) const {
   const auto* edit = announced_lines.find(id);
   return edit != nullptr ? edit->to : state->line(id);
 }
 
+template <>
 void Mesher<2>::Impl::insert_line(FeatureId id, const detail::LinePoints& points) {
   if (options.rule != Rule::radius_edge) {
     throw Error(ErrorCode::bad_option, "segments need the rule radius_edge", {}, {id});
@@ -104,6 +125,7 @@ void Mesher<2>::Impl::insert_line(FeatureId id, const detail::LinePoints& points
   announced_lines.set(id, state->line(id), points);
 }
 
+template <>
 void Mesher<2>::Impl::remove_line(FeatureId id) {
   if (line(id).empty()) {
     throw Error(ErrorCode::unknown_id, "line " + text(id) + " is not there", {}, {id});
@@ -111,7 +133,24 @@ void Mesher<2>::Impl::remove_line(FeatureId id) {
   announced_lines.set(id, state->line(id), {});
 }
 
-void Mesher<2>::Impl::discard_edits() noexcept {
+template <int D>
+const detail::LinePoints& Mesher<D>::Impl::line(FeatureId) const {
+  static const detail::LinePoints none;
+  return none;
+}
+
+template <int D>
+void Mesher<D>::Impl::insert_line(FeatureId id, const detail::LinePoints&) {
+  throw Error(ErrorCode::bad_option, "segments are for the plane", {}, {id});
+}
+
+template <int D>
+void Mesher<D>::Impl::remove_line(FeatureId id) {
+  throw Error(ErrorCode::unknown_id, "line " + text(id) + " is not there", {}, {id});
+}
+
+template <int D>
+void Mesher<D>::Impl::discard_edits() noexcept {
   announced_lines.clear();
   announced.clear();
   moved = false;
@@ -119,20 +158,40 @@ void Mesher<2>::Impl::discard_edits() noexcept {
 
 // --- Updates ---------------------------------------------------------------------------------
 
-Change<2> Mesher<2>::Impl::run(const RunControl& control, const Accept& accept) {
-  detail::Edits edits{announced.sorted(), announced_lines.sorted()};
-  if (moved) require_apart(edits.points);
-  if (state->ran()) return state->propagate(edits, control, accept);
-  auto fresh = std::make_unique<detail::State>(options);
-  Change<2> change = fresh->first_run(std::move(edits), control, accept);
+template <>
+Change<2> Mesher<2>::Impl::first_run(State& fresh, const RunControl& control,
+                                     const Accept& accept) {
+  return fresh.first_run(announced.sorted(), announced_lines.sorted(), control, accept);
+}
+template <>
+Change<2> Mesher<2>::Impl::propagate(const RunControl& control, const Accept& accept) {
+  return state->propagate(announced.sorted(), announced_lines.sorted(), control, accept);
+}
+template <int D>
+Change<D> Mesher<D>::Impl::first_run(State& fresh, const RunControl& control,
+                                     const Accept& accept) {
+  return fresh.first_run(announced.sorted(), control, accept);
+}
+template <int D>
+Change<D> Mesher<D>::Impl::propagate(const RunControl& control, const Accept& accept) {
+  return state->propagate(announced.sorted(), control, accept);
+}
+
+template <int D>
+Change<D> Mesher<D>::Impl::run(const RunControl& control, const Accept& accept) {
+  if (moved) require_apart(announced.sorted());
+  if (state->ran()) return propagate(control, accept);
+  auto fresh = std::make_unique<State>(options);
+  Change<D> change = first_run(*fresh, control, accept);
   state = std::move(fresh);
   return change;
 }
 
-Change<2> Mesher<2>::Impl::update(const RunControl& control, const Accept& accept) {
+template <int D>
+Change<D> Mesher<D>::Impl::update(const RunControl& control, const Accept& accept) {
   detail::require_unstopped(control);
   try {
-    Change<2> change = run(control, accept);
+    Change<D> change = run(control, accept);
     discard_edits();
     return change;
   } catch (const sac::Cancelled&) {
@@ -182,7 +241,7 @@ void Mesher<D>::move(FeatureId id, const Point<D>& point) {
   impl_->require_known(id);
   detail::check_point(point, impl_->options.domain, id);
   impl_->moved = true;
-  impl_->announced.set(id, impl_->state->place(id), Point<D>{point[0] + 0.0, point[1] + 0.0});
+  impl_->announced.set(id, impl_->state->place(id), unsigned_zero(point));
 }
 
 template <int D>
@@ -230,9 +289,13 @@ std::vector<InputPoint<D>> Mesher<D>::points() const {
   return impl_->state->points();
 }
 
+template <>
+std::vector<InputLine> Mesher<2>::lines() const {
+  return impl_->state->lines();
+}
 template <int D>
 std::vector<InputLine> Mesher<D>::lines() const {
-  return impl_->state->lines();
+  return {};
 }
 
 template <int D>
@@ -266,5 +329,6 @@ void Mesher<D>::check_invariants() const {
 }
 
 template class Mesher<2>;
+template class Mesher<3>;
 
 }  // namespace mesher

@@ -104,6 +104,17 @@ class VoronoiCell {
   [[nodiscard]] static bool may_cut(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
                                     std::span<const Code> codes, const Point<2>& p);
 
+  /// Writes the cell down: its neighbours, counterclockwise from the least code on.
+  void write(std::vector<Code>& codes) const;
+  /// The neighbours of a cell that was written down.
+  [[nodiscard]] static std::span<const Code> neighbours(std::span<const Code> codes) noexcept {
+    return codes;
+  }
+  /// Neighbours as they were written down, but from the least on in the order `before`.
+  template <class Before>
+  static void put_in_order(std::vector<Code>& codes, Before&& before) {
+    std::rotate(codes.begin(), std::min_element(codes.begin(), codes.end(), before), codes.end());
+  }
   /// Calls visit(u_i, u_{i+1}) for the neighbours around each corner of a cell that was written
   /// down by its neighbours, counterclockwise.
   template <class Visit>

@@ -99,6 +99,15 @@ class VoronoiCell3 {
   /// Writes the cell down, as LinkRecord reads it.
   void write(std::vector<Code>& record) const;
 
+  /// The neighbours of a cell that was written down, ascending.
+  [[nodiscard]] static std::span<const Code> neighbours(std::span<const Code> record) noexcept {
+    return LinkRecord(record).neighbours();
+  }
+  /// Neighbours as they were written down, but in the order `before`.
+  template <class Before>
+  static void put_in_order(std::vector<Code>& codes, Before&& before) {
+    std::sort(codes.begin(), codes.end(), before);
+  }
   /// Calls visit(a, b, c) for the neighbours around each corner of a cell that was written down.
   template <class Visit>
   static void for_each_link_simplex(std::span<const Code> record, Visit&& visit) {

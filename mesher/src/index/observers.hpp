@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/voronoi_cell.hpp"
+#include "geometry/cell_of.hpp"
 #include "index/change_log.hpp"
 #include "index/quadtree.hpp"
 #include "sac/engine.hpp"
@@ -34,7 +34,7 @@ struct Observation : sac::Edge {
 struct NearestSeen : Observation {
   std::uint32_t nearest;  // 0: none
 };
-/// The neighbours in a clipped cell; their codes lie behind it.
+/// A clipped cell; as it was written down lies behind it.
 struct CellSeen : Observation {
   float radius;  // the clip, in units of the box's side
   std::uint32_t count;
@@ -46,11 +46,12 @@ struct CellSeen : Observation {
     return reinterpret_cast<const std::uint32_t*>(this + 1);
   }
 };
-/// The neighbours in a star.
+/// A star.
 struct StarSeen : Observation {
   sac::Handle ring;
 };
 
+template <int D>
 class Observers {
  public:
   static constexpr std::uint8_t kNearest = 2;
@@ -58,7 +59,7 @@ class Observers {
   static constexpr std::uint8_t kStar = 3;
   static constexpr std::uint32_t kUnknown = 0xffffffffu;
 
-  Observers(sac::Engine& engine, VertexPool<2>& pool, Quadtree<2>& tree)
+  Observers(sac::Engine& engine, VertexPool<D>& pool, Quadtree<D>& tree)
       : engine_(engine), pool_(pool), tree_(tree) {}
 
   /// Lists an observation whose centre, call and reach are set.
@@ -68,7 +69,7 @@ class Observers {
   /// Calls visit(observation) for those centred at v, the newest first, until one returns true.
   /// Returns that one, or null.
   template <class Visit>
-  Observation* find_at(const Vertex<2>& v, Visit&& visit) const {
+  Observation* find_at(const Vertex<D>& v, Visit&& visit) const {
     for (sac::Handle h = v.queries; h != 0; h = at(h).next) {
       if (visit(static_cast<const Observation&>(at(h)))) return &at(h);
     }
@@ -77,7 +78,7 @@ class Observers {
   /// Calls visit(centre, observation) for those that a vertex at p may concern, by its distance.
   /// visit must not throw. Cost: O(depth of the tree) and what it visits.
   template <class Visit>
-  void for_each_reaching(const Point<2>& p, double side, Visit&& visit) noexcept {
+  void for_each_reaching(const Point<D>& p, double side, Visit&& visit) noexcept {
     // Memory is asked for the observations of several centres before the first is looked at.
     std::array<Met, 32> met;
     std::size_t count = 0;
@@ -85,7 +86,7 @@ class Observers {
       for (std::size_t i = 0; i < count; ++i) visit_at(met[i], side, visit);
       count = 0;
     };
-    tree_.visit_reaching(p, [&](Vertex<2>& center, double distance2) {
+    tree_.visit_reaching(p, [&](Vertex<D>& center, double distance2) {
       if (count == met.size()) look();
       __builtin_prefetch(engine_.arena().at<Observation>(center.queries));
       met[count++] = {&center, distance2};
@@ -93,8 +94,12 @@ class Observers {
     look();
   }
 
-  /// What it saw: codes counterclockwise, or one.
+  /// What it saw: a cell as it was written down, or the nearest vertex.
   [[nodiscard]] std::span<const std::uint32_t> seen(const Observation& o) const noexcept;
+  /// The vertices that it saw, and virtual neighbours.
+  [[nodiscard]] std::span<const std::uint32_t> neighbours(const Observation& o) const noexcept {
+    return o.kind == kNearest ? seen(o) : CellOf<D>::neighbours(seen(o));
+  }
 
   /// Makes room for arrivals, which are then noted without fail. Throws: std::bad_alloc.
   void expect_arrivals();
@@ -113,11 +118,11 @@ class Observers {
   void forget_arrivals() noexcept { arrivals_.resize(1); }
 
   /// Throws InvariantError unless v's list is in order, between updates.
-  void check_invariants(const Vertex<2>& v) const;
+  void check_invariants(const Vertex<D>& v) const;
 
  private:
   struct Met {
-    Vertex<2>* center;
+    Vertex<D>* center;
     double distance2;
   };
   template <class Visit>
@@ -140,8 +145,8 @@ class Observers {
   }
 
   sac::Engine& engine_;
-  VertexPool<2>& pool_;
-  Quadtree<2>& tree_;
+  VertexPool<D>& pool_;
+  Quadtree<D>& tree_;
   std::vector<Arrival> arrivals_{1};  // the first stands for the end of a list
 };
 
