@@ -100,8 +100,8 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
                   "Where points may lie (default: the box of INPUT, moved outward to a\n"
                   "power-of-two grid)")
       ->type_name("XMIN YMIN XMAX YMAX")
-      ->type_size(4)
-      ->expected(1);
+      ->expected(4)
+      ->allow_extra_args(false);
   command
       .add_option("--max-area", args.max_area,
                   "No triangle with its centroid in the domain is larger (default: no limit)")

@@ -102,7 +102,7 @@ void add_check(CLI::App& app) {
       "triangulation is Delaunay (by exact arithmetic), first off lines, then on them\n"
       "(conforming); that each point of --input is a vertex and each line a union of edges;\n"
       "that regions end at lines and are those of their seeds; and that no triangle has a\n"
-      "radius-edge ratio above --rho, but at small angles of the input.\n"
+      "radius-edge ratio above --rho, but at small angles between lines: of --input, or MESH.\n"
       "It says what fails first, and where. Exit code 0 if all that holds, 1 if not.\n"
       "Examples:\n"
       "  mesher check mesh.node --input points.node --rho 1.4142\n"

@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "figures.hpp"
 #include "first_run.hpp"
+#include "mesher/angles.hpp"
 #include "mesher/domain_mesher.hpp"
 #include "mesher/edit_script.hpp"
 #include "outputs.hpp"
@@ -47,7 +48,8 @@ Followed apply_script(const EditArguments& args, Input& input, Target& target, F
 }
 
 template <class Target>
-void run_edit_on(Target target, const EditArguments& args, Input input) {
+void run_edit_on(Target target, const mesher::Options<2>& options, const EditArguments& args,
+                 Input input) {
   Outputs outputs;
   outputs.protect(args.script);
   open_outputs(args, input, outputs);
@@ -67,6 +69,7 @@ void run_edit_on(Target target, const EditArguments& args, Input input) {
   print_run(args.input, input.graph(), run);
   print_updates(followed.seconds);
   print_after(mesh);
+  print_angles(mesher::angle_report(target.mesh(), options));
   print_outputs(targets);
 }
 
@@ -74,9 +77,9 @@ void run_edit(const EditArguments& args) {
   Input input = read_input(args);
   const auto options = mesh_options(args, input);
   if (args.is_static) {
-    return run_edit_on(StaticMesher(options, extent(args)), args, std::move(input));
+    return run_edit_on(StaticMesher(options, extent(args)), options, args, std::move(input));
   }
-  run_edit_on(mesher::DomainMesher(options, extent(args)), args, std::move(input));
+  run_edit_on(mesher::DomainMesher(options, extent(args)), options, args, std::move(input));
 }
 
 }  // namespace

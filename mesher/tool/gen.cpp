@@ -1,5 +1,6 @@
 // mesher gen: families of points, and of points and lines.
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -24,26 +25,33 @@ struct GenArguments {
   std::string kind;
   std::uint64_t n = 0;
   int dimension = 2;
-  std::uint64_t seed = 1;
+  std::string seed = "1";
   std::string angle;
   std::string output;
 };
 
 std::vector<std::string> kinds() {
-  std::vector<std::string> all{"uniform", "gaussian",    "clusters",
-                               "grid",    "line-circle", "spiral"};
+  std::vector<std::string> all{"uniform", "gaussian", "clusters", "grid", "line-circle", "spiral"};
   all.insert(all.end(), mesher::pslg_kind_names().begin(), mesher::pslg_kind_names().end());
   return all;
+}
+
+std::uint64_t seed_of(const GenArguments& args) {
+  std::uint64_t seed = 0;
+  const char* const end = args.seed.data() + args.seed.size();
+  const auto [rest, status] = std::from_chars(args.seed.data(), end, seed);
+  if (status == std::errc{} && rest == end) return seed;
+  throw Error(ErrorCode::bad_option, "--seed '" + args.seed + "': not a whole number below 2^64");
 }
 
 template <int D>
 void write_points(const GenArguments& args, mesher::TextFile& file) {
   const auto kind = mesher::point_kind(args.kind).value();
-  mesher::write_points<D>(mesher::generate_points<D>(kind, args.n, args.seed), file);
+  mesher::write_points<D>(mesher::generate_points<D>(kind, args.n, seed_of(args)), file);
 }
 
 mesher::PslgFamily family_of(const GenArguments& args) {
-  mesher::PslgFamily family{mesher::pslg_kind(args.kind).value(), args.n, args.seed, {}};
+  mesher::PslgFamily family{mesher::pslg_kind(args.kind).value(), args.n, seed_of(args), {}};
   if (args.angle.empty()) return family;
   const bool is_fan = family.kind == mesher::PslgKind::fan;
   if (!is_fan && family.kind != mesher::PslgKind::bundle) {
@@ -102,9 +110,9 @@ void add_gen(CLI::App& app) {
       ->check(CLI::IsMember({2, 3}))
       ->capture_default_str();
   gen->add_option("--seed", args->seed, "Other random ones for another seed")
+      ->type_name("UINT")
       ->capture_default_str();
-  gen->add_option("--angle", args->angle,
-                  "Degrees: of fan, between neighbours; of bundle, in all")
+  gen->add_option("--angle", args->angle, "Degrees: of fan, between neighbours; of bundle, in all")
       ->type_name("DEGREES");
   gen->add_option("-o", args->output, "A .node file; of lines, a .poly or .obj file")
       ->required()

@@ -2,6 +2,7 @@
 #include "input.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <string_view>
 #include <utility>
@@ -22,18 +23,28 @@ std::size_t find(const std::vector<Part>& parts, FeatureId id) {
   return i;
 }
 
-// Of the features that need vertices, as the message names them.
-std::vector<Featured> kinds_named(const std::string& message) {
+// Of features that are too close to each other, which the message names in the order of the ids.
+std::vector<Featured> kinds_named(const Error& error) {
   std::vector<Featured> kinds;
-  for (auto at = message.find(": "); at != std::string::npos; at = message.find("), ", at + 1)) {
-    const std::string_view said = std::string_view(message).substr(message.find(' ', at) + 1);
-    if (said.starts_with("point ")) kinds.push_back(Featured::point);
-    if (said.starts_with("segment ")) kinds.push_back(Featured::line);
+  std::size_t at = 0;
+  const std::string message = error.message() + ' ';
+  for (const FeatureId id : error.ids()) {
+    const std::string number = ' ' + std::to_string(static_cast<std::int64_t>(id));
+    const auto after = [&](const std::string& word) {
+      std::size_t found = message.find(word + number, at);
+      while (found != std::string::npos &&
+             std::isdigit(static_cast<unsigned char>(message[found + word.size() + number.size()])))
+        found = message.find(word + number, found + 1);
+      return found;
+    };
+    const std::size_t point = after("point"), line = after("segment");
+    kinds.push_back(point < line ? Featured::point : Featured::line);
+    at = std::min({point, line, message.size()});
   }
   return kinds;
 }
 
-// What the ids of an error are of. One of features that are too close begins with the first.
+// What the ids of an error are of.
 std::vector<Featured> kinds_of(const Error& error) {
   const Featured p = Featured::point, l = Featured::line;
   switch (error.code()) {
@@ -55,9 +66,7 @@ std::vector<Featured> kinds_of(const Error& error) {
     case ErrorCode::zero_length:
       return {l, p};
     case ErrorCode::too_close:
-      if (error.message().starts_with("features ")) return kinds_named(error.message());
-      if (!error.message().starts_with("segment ")) return {p, p};
-      return {l, error.message().find("too close to point") != std::string::npos ? p : l};
+      return kinds_named(error);
     default:
       return {};
   }

@@ -18,7 +18,6 @@ namespace {
 struct Result {
   mesher::DomainMesh mesh;
   Run run;
-  std::string angles;  // what small angles of the input do to the mesh
 };
 
 mesher::Mesh<2> mesh_without_engine(const Input& input, const mesher::Options<2>& options,
@@ -46,7 +45,9 @@ Result mesh(const MeshArguments& args, const Input& input, const mesher::Options
   const auto make = args.is_static ? mesh_without_engine : mesh_with_engine;
   mesher::Mesh<2> all = make(input, options, result.run.stats, progress);
   const double meshed = mesher::now();
-  if (!args.quiet && !all.edges.empty()) result.angles = mesher::angle_report(all, options).text();
+  if (!all.edges.empty() && (!args.quiet || !args.stats.empty())) {
+    result.run.angles = mesher::angle_report(all, options);
+  }
   const double looked_at = mesher::now();
   result.mesh = mesher::domain_mesh(std::move(all), input.graph(), extent(args));
   result.run.seconds_total = mesher::now() - start - (looked_at - meshed);
@@ -82,7 +83,7 @@ void run_mesh(const MeshArguments& args) {
   outputs.commit();
   if (args.quiet || figures.printed()) return;
   print_run(args.input, input.graph(), result.run);
-  print_angles(result.angles);
+  if (result.run.angles) print_angles(*result.run.angles);
   print_outputs(targets);
 }
 

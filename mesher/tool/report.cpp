@@ -63,6 +63,30 @@ std::string smallest_angle(const Run& run) {
          std::to_string(run.above_rho) + " triangles at small angles of the input";
 }
 
+Json json_of(const std::vector<mesher::SmallAngle>& angles) {
+  Json all = Json::array();
+  for (const auto& angle : angles) {
+    all.push_back({{"at", angle.at},
+                   {"lines", angle.lines},
+                   {"degrees", angle.degrees},
+                   {"forced", angle.forced},
+                   {"smallest_deg", angle.smallest_deg}});
+  }
+  return all;
+}
+
+Json json_of(const std::vector<mesher::ShrunkVertex>& vertices) {
+  Json all = Json::array();
+  for (const auto& v : vertices) {
+    all.push_back({{"at", v.at},
+                   {"nearest", v.nearest},
+                   {"feature_size", v.feature_size},
+                   {"lines", v.lines},
+                   {"degrees", v.degrees}});
+  }
+  return all;
+}
+
 std::string milliseconds(double seconds) { return format("%.3f ms", seconds * 1000); }
 
 }  // namespace
@@ -90,6 +114,11 @@ Json json_of(const Run& run) {
   json["max_radius_edge"] = run.quality.max_radius_edge;
   json["above_rho"] = run.above_rho;
   json["min_angle_deg_within_rho"] = run.min_angle_within_rho;
+  if (run.angles) {
+    json["small_angles"] = run.angles->angles.size();
+    json["forced"] = run.angles->forced;
+    json["shrunk"] = run.angles->shrunk.size();
+  }
   json["kept"] = {{"vertices", run.vertices}, {"simplices", run.simplices}, {"points", run.points}};
   json["regions"] = run.regions;
   json["holes"] = run.holes;
@@ -120,6 +149,8 @@ Json json_of(const DomainStep& update) {
                        {"removed", change.simplices_removed.size()}};
   json["kept"] = {{"added", change.domain.kept_added.size()},
                   {"removed", change.domain.kept_removed.size()}};
+  json["small_angles"] = json_of(change.angles.forced);
+  json["shrunk"] = json_of(change.angles.shrunk);
   return json;
 }
 
@@ -152,7 +183,8 @@ void print_remarks(const Input& input, const std::vector<mesher::SeedFault>& fau
   for (const auto& fault : faults) std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
 }
 
-void print_angles(const std::string& text) {
+void print_angles(const mesher::AngleReport& report) {
+  const std::string text = report.text();
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = text.find('\n', at);
     std::printf("  %s\n", text.substr(at, end - at).c_str());

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "input.hpp"
+#include "mesher/angles.hpp"
 #include "mesher/check.hpp"
 #include "mesher/domain_mesher.hpp"
 #include "mesher/edit_script.hpp"
@@ -27,6 +29,7 @@ struct Run {
   std::size_t regions = 0;          ///< kept
   std::size_t holes = 0;
   std::size_t faults = 0;    ///< seeds without a region of their own
+  std::optional<mesher::AngleReport> angles;  ///< of the box, if it was asked for
   double seconds_total = 0;  ///< from the first point inserted to the finished mesh
 };
 
@@ -49,8 +52,8 @@ void print_run(const std::string& input, const mesher::Pslg& graph, const Run& r
 /// region of their own.
 void print_remarks(const Input& input, const std::vector<mesher::SeedFault>& faults);
 
-/// Prints lines of text, indented.
-void print_angles(const std::string& text);
+/// Prints what small angles do to a mesh.
+void print_angles(const mesher::AngleReport& report);
 
 /// Prints the number of updates with their median, 99th percentile and longest time.
 /// `seconds`: one per update.

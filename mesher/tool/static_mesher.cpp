@@ -200,6 +200,7 @@ mesher::DomainUpdate StaticMesher::update(const mesher::RunControl& control) {
   mesher::DomainMesh domain = mesher::domain_mesh(after, input, extent_);
   mesher::DomainUpdate update;
   static_cast<mesher::Change<2>&>(update) = change_between(mesh_, after);
+  update.angles = mesher::angle_news(after, options_, update.simplices_added);
   update.domain = change_of_kept(domain_.kept, domain.kept);
   current_ = edited_;
   mesh_ = std::move(after);

@@ -38,6 +38,7 @@ class StaticMesher {
   /// found. Cost: a mesh from scratch; counts of calls are 0.
   mesher::DomainUpdate update(const mesher::RunControl& control = {});
 
+  [[nodiscard]] const mesher::Mesh<2>& mesh() const { return mesh_; }
   [[nodiscard]] const mesher::DomainMesh& domain_mesh() const { return domain_; }
   [[nodiscard]] const mesher::MeshStats& stats() const { return stats_; }
 

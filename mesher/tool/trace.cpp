@@ -22,9 +22,11 @@ struct TraceArguments : MeshArguments {
 };
 
 // Throws: Error (cannot_write, bad_option) if the trace could not be written at the end.
-void require_writable(const TraceArguments& args) {
+void require_writable(const TraceArguments& args, const Input& input) {
   mesher::OutputFiles files;
   files.protect(args.input);
+  files.protect(input.file().point_file);
+  if (!args.sizes.empty()) files.protect(args.sizes);
   if (!args.script.empty()) files.protect(args.script);
   files.open(args.trace);
 }
@@ -62,7 +64,7 @@ traces::Recording record(const mesher::Mesher<2>& mesher, const std::string& pat
 void run_trace(const TraceArguments& args) {
   Input input(args.input);
   const auto options = mesh_options(args, input);
-  require_writable(args);
+  require_writable(args, input);
   Progress progress(args.quiet);
   mesher::Mesher<2> mesher(options);
   insert_all(input, mesher, progress);

@@ -305,6 +305,7 @@ has harbour.jsonl '"edit":"-hole 2","seconds":[0-9.e-]+,"calls":\{"executed":0,.
 expect 0 'harbour.txt:13: warning: the seed of region 3 at (3, 3) is in one region with hole 1' \
   edit lake.poly --script harbour.txt -o x.vtu
 expect 0 'calls' trace lake.poly --script <(grep -v 'hole\|region' harbour.txt) -o lake.trace
+refuse 2 'sizes.csv: error[bad_option]' trace lake.poly --sizes sizes.csv -o sizes.csv
 refuse 3 'error[bad_edit]: holes and regions' trace lake.poly --script harbour.txt -o out/x.trace
 
 echo "== what a bad edit of a lake says"
@@ -328,7 +329,9 @@ lake_edit 3 'bad.txt:3:1: error[unknown_id]' 'begin\n-hole 1\n-hole 1\ncommit'
 
 echo "== the Great Lakes"
 if [[ -e $data/great_lakes.poly ]]; then
-  expect 0 ', 20.7' mesh "$data/great_lakes.poly" -o great_lakes.1.node
+  expect 0 ', 20.7' mesh "$data/great_lakes.poly" -o great_lakes.1.node -o great_lakes.msh
   expect 0 'segments    ok      4535' check great_lakes.1.node --input "$data/great_lakes.poly" \
     --rho 1.4142
+  expect 0 'at small angles' check great_lakes.1.node --rho 1.4142
+  expect 0 'at small angles' check great_lakes.msh --rho 1.4142
 fi

@@ -117,7 +117,13 @@ refuse 2 '--domain' mesh uniform.node --domain 0 0 1 inf -o out/x.vtu
 refuse 2 '--domain' mesh uniform.node --domain 0 0 1 0 -o out/x.vtu
 refuse 2 '--domain' mesh uniform.node --domain 0 0 1 1e40 -o out/x.vtu
 refuse 2 'error[bad_option]' mesh uniform.node --domain 0 0 1 -o out/x.vtu
+refuse 2 'At least 4' mesh uniform.node --domain 0 0 1 -o out/x.vtu
 expect 0 '' mesh uniform.node --domain -.5 -1e0 +2 2 -o wide.node
+expect 0 '' mesh --domain -.5 -1e0 +2 2 uniform.node -o wide_first.node
+same wide.node wide_first.node
+for seed in -1 1.5 18446744073709551616 ''; do
+  refuse 2 '--seed' gen uniform --n 5 --seed "$seed" -o out/x.node
+done
 
 echo "== bad points: FILE:LINE:COL: error[code]"
 points() { printf '%b' "$1" >bad.node; }

@@ -43,8 +43,8 @@ class PslgJudge {
 
   /// What is wrong first, "" if nothing is: input points and no others are of that kind; each
   /// segment is a chain of edges from end to end; every such edge has an empty closed diametral
-  /// ball; no triangle is larger than its limit; triangles keep the bound but where a small angle
-  /// of the input forces them not to.
+  /// ball, but for rounding at tiny angles; no triangle is larger than its limit; triangles keep
+  /// the bound but where a small angle of the input forces them not to.
   [[nodiscard]] std::string fault(const mesher::Options<2>& options) const {
     std::string what = wrong_kinds();
     if (what.empty()) what = wrong_lines();
@@ -113,12 +113,37 @@ class PslgJudge {
       const auto it = across_.find({e.low, e.high});
       if (it == across_.end()) return "no edge of the mesh: " + text(at(e.low)) + text(at(e.high));
       for (const std::uint32_t v : it->second) {
-        if (mesher::detail::in_diametral_ball(at(v), at(e.low), at(e.high))) {
+        if (mesher::detail::in_diametral_ball(at(v), at(e.low), at(e.high)) &&
+            !is_beside_by_rounding(v, {e.low, e.high})) {
           return text(at(v)) + " in the ball of " + text(at(e.low)) + text(at(e.high));
         }
       }
     }
     return "";
+  }
+
+  // At equal distances from a common apex a vertex is outside of the ball, at an angle so small
+  // that rounded coordinates may say that it is right.
+  [[nodiscard]] bool is_beside_by_rounding(std::uint32_t v, const Edge& e) const {
+    const P &x = at(v), &a = at(e[0]), &b = at(e[1]);
+    const double dot = (a[0] - x[0]) * (b[0] - x[0]) + (a[1] - x[1]) * (b[1] - x[1]);
+    if (dot < -0x1p-50 * apart(a, b)) return false;
+    return std::any_of(e.begin(), e.end(), [&](std::uint32_t w) { return are_level(v, w, 1e-15); });
+  }
+  // Whether both are equally far from a common end of segments that they are on.
+  [[nodiscard]] bool are_level(std::uint32_t v, std::uint32_t w, double tolerance) const {
+    if (!on_.contains(v) || !on_.contains(w)) return false;
+    for (const Pslg::Ends& s : on_.at(v)) {
+      for (const Pslg::Ends& t : on_.at(w)) {
+        for (const std::int64_t o : {s.first, s.second}) {
+          if (s == t || (o != t.first && o != t.second)) continue;
+          const P& apex = pslg_.points.at(o);
+          const double from_v = apart(apex, at(v)), from_w = apart(apex, at(w));
+          if (std::abs(from_v - from_w) <= tolerance) return true;
+        }
+      }
+    }
+    return false;
   }
 
   // The largest area of a triangle with its centroid at p.

@@ -9,6 +9,8 @@
 // stays as it is if its shortest edge joins the two segments at equal distances from their common
 // end (paper map). Everywhere else the bound on angles holds.
 //
+// A Change (mesher.hpp) has the news of its update, at the cost of what has changed.
+//
 // A report is a function of the mesh alone, so of the input: that of a mesh that has followed edits
 // is that of a fresh one.
 #pragma once
@@ -30,6 +32,7 @@ struct SmallAngle {
   double degrees = 0;                ///< > 0
   std::size_t forced = 0;            ///< poor triangles that stay for it
   double smallest_deg = 0;           ///< the smallest angle of these; that of none is 0
+  friend bool operator==(const SmallAngle&, const SmallAngle&) = default;
 };
 
 /// A vertex that is nearer to its nearest neighbour than kShrinks times less than the local feature
@@ -42,6 +45,17 @@ struct ShrunkVertex {
   double feature_size = 0;       ///< there
   std::vector<FeatureId> lines;  ///< those in that disc's interior, by id
   double degrees = 180;          ///< the smallest angle at an end of one of these segments
+  friend bool operator==(const ShrunkVertex&, const ShrunkVertex&) = default;
+};
+
+/// What an update of a mesh with lines did at small angles.
+struct AngleNews {
+  /// Those for which new triangles stay poor, by place, then by degrees: `forced` and
+  /// `smallest_deg` are of the new triangles alone.
+  std::vector<SmallAngle> forced;
+  /// The guard, of corners of new triangles; in lexicographic order.
+  std::vector<ShrunkVertex> shrunk;
+  friend bool operator==(const AngleNews&, const AngleNews&) = default;
 };
 
 struct AngleReport {
@@ -65,5 +79,10 @@ inline constexpr double kShrinks = 10;
 /// Requires: a mesh of a Mesher or of mesh_statically with these options. Cost: O(m log m), some
 /// 5 us a vertex; more at ends of very many segments.
 [[nodiscard]] AngleReport angle_report(const Mesh<2>& mesh, const Options<2>& options);
+
+/// What the Change of an update says that brought these triangles (in order) of the mesh; here from
+/// the whole mesh. Requires: likewise.
+[[nodiscard]] AngleNews angle_news(const Mesh<2>& mesh, const Options<2>& options,
+                                   const std::vector<std::array<Point<2>, 3>>& triangles);
 
 }  // namespace mesher

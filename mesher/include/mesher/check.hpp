@@ -19,12 +19,14 @@
 //   (8) input, if asked: every input point is a vertex, bit for bit, or, unless the mesh is to fill
 //       a box, in no triangle;
 //   (9) quality, if asked: no triangle has a circumradius above rho times its shortest edge (by
-//       more than a rounding, 10^-9 of it), those of small input angles aside;
+//       more than a rounding, 10^-9 of it), those of small angles between lines aside: lines of the
+//       input, if it is given, else of MeshFeatures;
 //   and for meshes with lines
 //   (a) lines: every edge of MeshFeatures is an edge of a triangle;
 //   (b) segments: every segment, and every piece of a polyline, is a union of edges: a path from
 //       end to end, each vertex of which is on it but for rounding (2^-48 of the largest
-//       coordinate), those of MeshFeatures that name the line first. Unless the mesh is to fill a
+//       coordinate), those of MeshFeatures that name the line first; and an edge that names a line
+//       is on it. Unless the mesh is to fill a
 //       box, one whose end is no vertex may have its middle in no triangle instead;
 //   (c) conforming: (7) of the edges on lines;
 //   (d) regions: triangles on both sides of an edge that is on no line have the same region; where

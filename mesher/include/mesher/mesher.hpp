@@ -26,6 +26,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "mesher/angles.hpp"
 #include "mesher/error.hpp"
 #include "mesher/mesh.hpp"
 
@@ -37,12 +38,12 @@ namespace mesher {
 
 /// Work done by one run or update, counted in calls of traced functions.
 struct CallCounts {
-  std::uint64_t executed = 0;   ///< calls whose body ran (new ones included)
-  std::uint64_t reused = 0;     ///< calls that were asked for again and kept
+  std::uint64_t executed = 0;  ///< calls whose body ran (new ones included)
+  std::uint64_t reused = 0;    ///< calls that were asked for again and kept
   std::uint64_t created = 0;
   std::uint64_t discarded = 0;
-  std::uint64_t edges = 0;      ///< edges (reads, writes, posts) made or removed
-  std::uint64_t weight = 0;     ///< steps inside of calls; 0 unless Options::record_weights
+  std::uint64_t edges = 0;   ///< edges (reads, writes, posts) made or removed
+  std::uint64_t weight = 0;  ///< steps inside of calls; 0 unless Options::record_weights
 };
 
 /// A vertex that an update has kept, and that is now another kind: an input point came to a place
@@ -73,8 +74,9 @@ struct Change {
   std::vector<KindChange<D>> kinds_changed;
   std::vector<std::array<Point<D>, D + 1>> simplices_added;
   std::vector<std::array<Point<D>, D + 1>> simplices_removed;
-  std::vector<LineEdge<D>> edges_added;    ///< on lines
+  std::vector<LineEdge<D>> edges_added;  ///< on lines
   std::vector<LineEdge<D>> edges_removed;
+  AngleNews angles;  ///< what small angles of the input did to what has come
   CallCounts calls;
 };
 
@@ -91,7 +93,8 @@ struct Progress {
 /// How to watch a run or an update, and how to stop it.
 struct RunControl {
   /// Called every kCallsBetween calls (some thousand times a second); false stops. What it throws
-  /// stops as well, and leaves update(). It must not use the mesher.
+  /// stops as well, and leaves update(). It must not use the mesher, which refuses edits, another
+  /// update and to show its mesh by sac::UsageError.
   std::function<bool(const Progress&)> progress{};
   /// A request to stop, from any thread.
   std::stop_token stop{};
@@ -163,7 +166,8 @@ class Mesher {
   void remove_segment(FeatureId id);
   void remove_polyline(FeatureId id) { remove_segment(id); }
 
-  /// Takes back every edit announced since the last update(). Cost: O(edits).
+  /// Takes back every edit announced since the last update(); nothing while an update runs.
+  /// Cost: O(edits).
   void discard_edits() noexcept;
 
   /// Brings the mesh up to date with the edits announced since the last call, as one batch, or

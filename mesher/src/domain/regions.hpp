@@ -18,7 +18,7 @@
 //     parts. A wall that might part a region, and does not because there is a way around, costs the
 //     search for that way, at most the triangles of the region;
 //   - a region's label changes: and its triangles, all of which are reported;
-//   - a seed comes: and a walk through the triangulation. Seeds are edited: and all their number.
+//   - a seed comes: and a walk through the triangulation. One comes or goes: and O(log) of all.
 #pragma once
 
 #include <cstdint>

@@ -1,26 +1,15 @@
 #include "domain/seed_table.hpp"
 
-#include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include "sac/check.hpp"
 
 namespace mesher::detail {
-namespace {
-
-bool name_before(const std::pair<SeedName, std::uint32_t>& entry, const SeedName& name) {
-  return entry.first < name;
-}
-
-}  // namespace
 
 std::uint32_t SeedTable::find(const SeedName& name) const noexcept {
-  const auto it = std::lower_bound(names_.begin(), names_.end(), name, name_before);
-  return it != names_.end() && it->first == name ? it->second : kNone;
-}
-
-SeedTable::Names& SeedTable::edit_names() {
-  if (!kept_names_) kept_names_ = names_;
-  return names_;
+  const auto it = names_.find(name);
+  return it != names_.end() ? it->second : kNone;
 }
 
 std::uint32_t SeedTable::add(const Seed& seed) {
@@ -34,15 +23,15 @@ std::uint32_t SeedTable::add(const Seed& seed) {
     free_.edit(0) = records_[i].next_held;
     records_.edit(i) = record;
   }
-  Names& names = edit_names();
-  names.insert(std::lower_bound(names.begin(), names.end(), seed.name, name_before),
-               {seed.name, i});
+  name_edits_.push_back({seed.name});
+  names_.emplace(seed.name, i);
   return i;
 }
 
 void SeedTable::remove(std::uint32_t i) {
-  Names& names = edit_names();
-  names.erase(std::lower_bound(names.begin(), names.end(), records_[i].seed.name, name_before));
+  const SeedName name = records_[i].seed.name;
+  name_edits_.push_back({name});
+  name_edits_.back().removed = names_.extract(name);
   Record empty;
   empty.next_held = free_[0];
   records_.edit(i) = empty;
@@ -51,29 +40,30 @@ void SeedTable::remove(std::uint32_t i) {
 
 void SeedTable::hold(Tiles& tiles, std::uint32_t i, Slot slot) {
   Tile& tile = tiles.edit(slot);
+  const std::uint32_t first = tile.seed == Tile::kNoSeed ? kNone : std::uint32_t{tile.seed};
+  if (first != kNone) records_.edit(first).previous_held = i;
+  tile.seed = i & Tile::kNoSeed;
   Record& record = records_.edit(i);
   record.slot = slot;
-  record.next_held = tile.seed == Tile::kNoSeed ? kNone : std::uint32_t{tile.seed};
-  tile.seed = i & Tile::kNoSeed;
+  record.next_held = first;
 }
 
 void SeedTable::let_go(Tiles& tiles, std::uint32_t i) {
-  const Slot slot = records_[i].slot;
+  const auto [next, previous, slot] =
+      std::tuple(records_[i].next_held, records_[i].previous_held, records_[i].slot);
   if (slot == kNone) return;
-  const std::uint32_t next = records_[i].next_held;
-  if (tiles[slot].seed == i) {
-    tiles.edit(slot).seed = next == kNone ? Tile::kNoSeed : next & Tile::kNoSeed;
+  if (next != kNone) records_.edit(next).previous_held = previous;
+  if (previous != kNone) {
+    records_.edit(previous).next_held = next;
   } else {
-    std::uint32_t before = tiles[slot].seed;
-    while (records_[before].next_held != i) before = records_[before].next_held;
-    records_.edit(before).next_held = next;
+    tiles.edit(slot).seed = next == kNone ? Tile::kNoSeed : next & Tile::kNoSeed;
   }
   drop(i);
 }
 
 void SeedTable::drop(std::uint32_t i) {
   Record& record = records_.edit(i);
-  record.slot = record.next_held = kNone;
+  record.slot = record.next_held = record.previous_held = kNone;
 }
 
 void SeedTable::leave(Components& components, const Record& record) {
@@ -101,14 +91,20 @@ void SeedTable::enter(Components& components, std::uint32_t i, std::uint32_t com
 void SeedTable::keep() noexcept {
   records_.keep();
   free_.keep();
-  kept_names_.reset();
+  name_edits_ = decltype(name_edits_)();  // not {}, for which a vector keeps its size
 }
 
 void SeedTable::take_back() noexcept {
   records_.take_back();
   free_.take_back();
-  if (kept_names_) names_ = std::move(*kept_names_);
-  kept_names_.reset();
+  for (; !name_edits_.empty(); name_edits_.pop_back()) {
+    NameEdit& edit = name_edits_.back();
+    if (edit.removed.empty()) {
+      names_.erase(edit.name);
+    } else {
+      names_.insert(std::move(edit.removed));
+    }
+  }
 }
 
 void SeedTable::check_invariants(const Tiles& tiles, const Components& components) const {
@@ -119,8 +115,11 @@ void SeedTable::check_invariants(const Tiles& tiles, const Components& component
     placed_inside += records_[i].component != kNone;
   }
   for (Slot s = 0; s < tiles.slots(); ++s) {
+    std::uint32_t previous = kNone;
     for_each_held(tiles[s], [&](std::uint32_t i) {
       SAC_INVARIANT(records_[i].slot == s && !tiles[s].is_free());
+      SAC_INVARIANT(records_[i].previous_held == previous);
+      previous = i;
       ++held;
     });
   }

@@ -2,8 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <utility>
+#include <map>
 #include <vector>
 
 #include "domain/components.hpp"
@@ -17,7 +16,8 @@ class SeedTable {
     Seed seed{};
     Slot slot = kNone;                // that holds it; kNone: not in the triangulation
     std::uint32_t component = kNone;  // kNone on a wall, too
-    std::uint32_t next_held = kNone;  // in a free record: the next free one
+    // In the list of the triangle; next_held of a free record: the next free one.
+    std::uint32_t next_held = kNone, previous_held = kNone;
     std::uint32_t next_inside = kNone, previous_inside = kNone;  // in the region's list
   };
 
@@ -47,14 +47,14 @@ class SeedTable {
     for (std::uint32_t i = component.seed; i != kNone; i = records_[i].next_inside) visit(i);
   }
 
-  /// Requires: no such seed. Cost: O(seeds).
+  /// Requires: no such seed. Cost: O(log seeds).
   std::uint32_t add(const Seed& seed);
-  /// Requires: it is held nowhere and in no region. Cost: O(seeds).
+  /// Requires: it is held nowhere and in no region. Cost: O(log seeds).
   void remove(std::uint32_t i);
 
   /// Requires: it is held nowhere. Cost: O(1).
   void hold(Tiles& tiles, std::uint32_t i, Slot slot);
-  /// Cost: O(seeds held there).
+  /// Cost: O(1): many seeds may be in one triangle, and go.
   void let_go(Tiles& tiles, std::uint32_t i);
   /// The triangle that held it is no more, and neither is its list.
   void drop(std::uint32_t i);
@@ -66,17 +66,18 @@ class SeedTable {
   void check_invariants(const Tiles& tiles, const Components& components) const;
 
  private:
-  using Names = std::vector<std::pair<SeedName, std::uint32_t>>;  // ascending
+  using Names = std::map<SeedName, std::uint32_t>;
+  struct NameEdit {
+    SeedName name;
+    Names::node_type removed{};  // empty: the name was added
+  };
 
   // Takes it out of the list of its region. Cost: O(1).
   void leave(Components& components, const Record& record);
-  // The names, to be changed. Throws: std::bad_alloc.
-  Names& edit_names();
-
   Journal<Record> records_;
   Journal<std::uint32_t> free_;  // one
   Names names_;
-  std::optional<Names> kept_names_;  // those of the last keep(), if others than names_
+  std::vector<NameEdit> name_edits_;  // since the last keep()
 };
 
 }  // namespace mesher::detail

@@ -40,7 +40,9 @@ void DomainMesher::insert_region(FeatureId id, const Point<2>& at, double attrib
 }
 void DomainMesher::remove_seed(const SeedName& name) { impl_->remove_seed(name); }
 
-void DomainMesher::discard_edits() noexcept { impl_->discard_edits(); }
+void DomainMesher::discard_edits() noexcept {
+  if (impl_->is_idle()) impl_->discard_edits();
+}
 DomainUpdate DomainMesher::update(const RunControl& control) { return impl_->update(control); }
 
 Mesh<2> DomainMesher::mesh() const { return impl_->mesher().mesh(); }

@@ -86,6 +86,7 @@ void DomainState::remove_line(FeatureId id) {
 }
 
 void DomainState::insert_seed(const Seed& seed) {
+  busy_.require_idle();
   check_seed(seed);
   if (seeds_.find(seed.name) != nullptr) {
     throw Error(ErrorCode::repeated_id, text_of(seed.name) + " is there already", {},
@@ -96,6 +97,7 @@ void DomainState::insert_seed(const Seed& seed) {
 }
 
 void DomainState::remove_seed(const SeedName& name) {
+  busy_.require_idle();
   if (seeds_.find(name) == nullptr) {
     throw Error(ErrorCode::unknown_id, text_of(name) + " is not there", {}, {name.id});
   }
@@ -157,6 +159,7 @@ DomainChange DomainState::follow(const Change<2>& change) {
 }
 
 DomainUpdate DomainState::update(const RunControl& control) {
+  const Busy::Run running(busy_);
   DomainUpdate update;
   try {
     prepare();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "facade/busy.hpp"
 #include "facade/edited_table.hpp"
 #include "mesher/domain_mesher.hpp"
 
@@ -24,6 +25,7 @@ class DomainState {
   void insert_seed(const Seed& seed);
   void remove_seed(const SeedName& name);
   void discard_edits() noexcept;
+  [[nodiscard]] bool is_idle() const noexcept { return busy_.is_idle(); }
   DomainUpdate update(const RunControl& control);
 
   [[nodiscard]] Pslg input() const;
@@ -46,7 +48,8 @@ class DomainState {
   Markers point_markers_, line_markers_;
   EditedTable<SeedName, Seed> seeds_;
   std::optional<DomainFollower> follower_;  // from the first line or seed on
-  bool needs_follower_ = false;             // there are edits to follow
+  Busy busy_;
+  bool needs_follower_ = false;  // there are edits to follow
   bool ran_ = false;
 };
 

@@ -1,5 +1,6 @@
 // The static run: the program without the engine.
 #include <algorithm>
+#include <map>
 #include <string>
 #include <unordered_map>
 
@@ -8,6 +9,7 @@
 #include "mesh/canonical.hpp"
 #include "mesher/predicates.hpp"
 #include "program/world_impl.hpp"
+#include "segments/lost_edge.hpp"
 
 namespace mesher {
 
@@ -47,7 +49,6 @@ class InputNames final : public detail::Names {
   InputNames(const std::vector<VertexHandle>& handles, const std::vector<FeatureId>& ids,
              std::size_t segments)
       : lines_(segments + 1) {
-    if (segments == 0) return;  // nobody will ask
     for (std::size_t i = 0; i < handles.size(); ++i) {
       if (handles[i] >= points_.size()) points_.resize(std::size_t{handles[i]} + 1);
       points_[handles[i]] = id_of(i, ids);
@@ -107,6 +108,24 @@ std::vector<detail::LineEdge> line_edges(const World<2>& world, const InputNames
   return edges;
 }
 
+// Of the leaves' edges, those that no triangle has are lost.
+void require_edges(const World<2>& world) {
+  std::map<std::array<VertexHandle, 2>, const detail::Leaf*> leaves;
+  const auto key = [](VertexHandle v, VertexHandle w) {
+    return std::array{std::min(v, w), std::max(v, w)};
+  };
+  const auto& tree = world.vertices.tree();
+  world.leaves.for_each([&](const detail::Leaf& leaf) {
+    leaves[key(tree.find(leaf.lo)->self, tree.find(leaf.hi)->self)] = &leaf;
+  });
+  for (const auto& t : world.plain.simplices) {
+    for (std::size_t i = 0; i < 3; ++i) leaves.erase(key(t[i], t[(i + 1) % 3]));
+  }
+  detail::LostEdge lost;
+  for (const auto& [ends, leaf] : leaves) lost.look(*leaf, false);
+  lost.require_none(world.vertices, world.segments.pool(), world.names);
+}
+
 template <int D>
 void post_all(World<D>& world) {
   world.vertices.pool().for_each([&](detail::Vertex<D>& v) {
@@ -132,14 +151,18 @@ template <int D>
 class StaticRun {
  public:
   StaticRun(const std::vector<Point<D>>& points, const Options<D>& options,
-            const std::vector<FeatureId>& ids, const RunControl& control)
+            const std::vector<FeatureId>& ids, const RunControl& control, std::size_t segments)
       : control_(control),
         box_((begin(points, ids, control), detail::mesh_box(options))),
         world_(options, box_, scope_),
-        handles_(add_points<D>(points, options, ids, world_)) {}
+        handles_(add_points<D>(points, options, ids, world_)),
+        names_(handles_, ids, segments) {
+    world_.names = &names_;
+  }
 
   [[nodiscard]] World<D>& world() noexcept { return world_; }
   [[nodiscard]] const std::vector<VertexHandle>& handles() const noexcept { return handles_; }
+  [[nodiscard]] InputNames& names() noexcept { return names_; }
 
   void refine() {
     post_all(world_);
@@ -171,6 +194,7 @@ class StaticRun {
   sac::PlainScope scope_;
   World<D> world_;
   std::vector<VertexHandle> handles_;
+  InputNames names_;
 };
 
 }  // namespace
@@ -179,7 +203,7 @@ template <int D>
 Mesh<D> mesh_statically(const std::vector<Point<D>>& points, const Options<D>& options,
                         const std::vector<FeatureId>& ids, MeshStats* stats,
                         const RunControl& control) {
-  StaticRun<D> run(points, options, ids, control);
+  StaticRun<D> run(points, options, ids, control, 0);
   run.refine();
   return run.mesh({}, stats);
 }
@@ -195,15 +219,15 @@ Mesh<2> mesh_statically(const std::vector<Point<2>>& points, const std::vector<S
   if (options.rule != Rule::radius_edge) {
     throw Error(ErrorCode::bad_option, "segments need the rule radius_edge");
   }
-  StaticRun<2> run(points, options, ids, control);
-  InputNames names(run.handles(), ids, segments.size());
-  run.world().names = &names;
+  StaticRun<2> run(points, options, ids, control, segments.size());
   if (!segments.empty()) {
-    require_planar(run.world(), add_segments(segments, ids, run.handles(), run.world(), names),
-                   names);
+    require_planar(run.world(),
+                   add_segments(segments, ids, run.handles(), run.world(), run.names()),
+                   run.names());
   }
   run.refine();
-  return run.mesh(line_edges(run.world(), names), stats);
+  if (run.world().leaves.may_lose()) require_edges(run.world());
+  return run.mesh(line_edges(run.world(), run.names()), stats);
 }
 
 }  // namespace mesher

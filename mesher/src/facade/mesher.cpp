@@ -5,6 +5,7 @@
 #include <string>
 
 #include "facade/announced.hpp"
+#include "facade/busy.hpp"
 #include "facade/meter.hpp"
 #include "facade/state.hpp"
 #include "input.hpp"
@@ -54,6 +55,7 @@ struct Mesher<D>::Impl {
   detail::MeshBox<D> box;
   Announced announced;
   detail::AnnouncedLines announced_lines;
+  detail::Busy busy;
   bool moved = false;  // a place was taken that was not looked at
 };
 
@@ -91,6 +93,7 @@ void Mesher<D>::Impl::require_apart(const std::vector<typename Announced::Edit>&
 
 template <int D>
 void Mesher<D>::Impl::insert(FeatureId id, const Point<D>& p) {
+  busy.require_idle();
   if (place(id)) {
     throw Error(ErrorCode::repeated_id, "point " + text(id) + " is there already", {}, {id});
   }
@@ -111,6 +114,7 @@ const detail::LinePoints& Mesher<2>::Impl::line(FeatureId id) const {
 
 template <>
 void Mesher<2>::Impl::insert_line(FeatureId id, const detail::LinePoints& points) {
+  busy.require_idle();
   if (options.rule != Rule::radius_edge) {
     throw Error(ErrorCode::bad_option, "segments need the rule radius_edge", {}, {id});
   }
@@ -127,6 +131,7 @@ void Mesher<2>::Impl::insert_line(FeatureId id, const detail::LinePoints& points
 
 template <>
 void Mesher<2>::Impl::remove_line(FeatureId id) {
+  busy.require_idle();
   if (line(id).empty()) {
     throw Error(ErrorCode::unknown_id, "line " + text(id) + " is not there", {}, {id});
   }
@@ -141,11 +146,13 @@ const detail::LinePoints& Mesher<D>::Impl::line(FeatureId) const {
 
 template <int D>
 void Mesher<D>::Impl::insert_line(FeatureId id, const detail::LinePoints&) {
+  busy.require_idle();
   throw Error(ErrorCode::bad_option, "segments are for the plane", {}, {id});
 }
 
 template <int D>
 void Mesher<D>::Impl::remove_line(FeatureId id) {
+  busy.require_idle();
   throw Error(ErrorCode::unknown_id, "line " + text(id) + " is not there", {}, {id});
 }
 
@@ -189,6 +196,7 @@ Change<D> Mesher<D>::Impl::run(const RunControl& control, const Accept& accept) 
 
 template <int D>
 Change<D> Mesher<D>::Impl::update(const RunControl& control, const Accept& accept) {
+  const detail::Busy::Run running(busy);
   detail::require_unstopped(control);
   try {
     Change<D> change = run(control, accept);
@@ -232,12 +240,14 @@ void Mesher<D>::insert(const std::vector<FeatureId>& ids, const std::vector<Poin
 
 template <int D>
 void Mesher<D>::remove(FeatureId id) {
+  impl_->busy.require_idle();
   impl_->require_known(id);
   impl_->announced.set(id, impl_->state->place(id), {});
 }
 
 template <int D>
 void Mesher<D>::move(FeatureId id, const Point<D>& point) {
+  impl_->busy.require_idle();
   impl_->require_known(id);
   detail::check_point(point, impl_->options.domain, id);
   impl_->moved = true;
@@ -266,7 +276,7 @@ bool Mesher<D>::contains_line(FeatureId id) const {
 
 template <int D>
 void Mesher<D>::discard_edits() noexcept {
-  impl_->discard_edits();
+  if (impl_->busy.is_idle()) impl_->discard_edits();
 }
 
 template <int D>
@@ -281,20 +291,24 @@ Change<D> Mesher<D>::update(const RunControl& control, const Accept& accept) {
 
 template <int D>
 Mesh<D> Mesher<D>::mesh() const {
+  impl_->busy.require_idle();
   return impl_->state->ran() ? impl_->state->mesh() : Mesh<D>();
 }
 
 template <int D>
 std::vector<InputPoint<D>> Mesher<D>::points() const {
+  impl_->busy.require_idle();
   return impl_->state->points();
 }
 
 template <>
 std::vector<InputLine> Mesher<2>::lines() const {
+  impl_->busy.require_idle();
   return impl_->state->lines();
 }
 template <int D>
 std::vector<InputLine> Mesher<D>::lines() const {
+  impl_->busy.require_idle();
   return {};
 }
 

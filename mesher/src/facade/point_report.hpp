@@ -85,17 +85,18 @@ void PointState<D>::own_simplices(const typename ChangeLog<D>::Star& star,
 }
 
 // Simplices of stars that went or came, without those that did both: these are output by the same
-// vertex, so stars are compared with that of the same vertex only.
+// vertex, so stars are compared with that of the same vertex only. Returns those that came.
 template <int D>
-void PointState<D>::report_stars(Log log, Change<D>& change) const {
+auto PointState<D>::report_stars(Log log, Change<D>& change) const -> std::vector<Simplex> {
   const auto by_center = [](const auto& a, const auto& b) { return a.center < b.center; };
   std::sort(log.stars_gone.begin(), log.stars_gone.end(), by_center);
   std::sort(log.stars_come.begin(), log.stars_come.end(), by_center);
   std::vector<Simplex> gone;
   std::vector<Simplex> come;
-  const auto report = [&](const auto& these, const auto& those, auto& out) {
+  std::vector<Simplex> all_come;
+  const auto report = [&](const auto& these, const auto& those, auto&& out) {
     for (const Simplex& t : these) {
-      if (std::find(those.begin(), those.end(), t) == those.end()) out.push_back(corners(t));
+      if (std::find(those.begin(), those.end(), t) == those.end()) out(t);
     }
   };
   auto old = log.stars_gone.begin();
@@ -107,11 +108,15 @@ void PointState<D>::report_stars(Log log, Change<D>& change) const {
         old == log.stars_gone.end() || (now != log.stars_come.end() && now->center <= old->center);
     went ? own_simplices(*old++, gone) : gone.clear();
     came ? own_simplices(*now++, come) : come.clear();
-    report(come, gone, change.simplices_added);
-    report(gone, come, change.simplices_removed);
+    report(come, gone, [&](const Simplex& t) {
+      change.simplices_added.push_back(corners(t));
+      all_come.push_back(t);
+    });
+    report(gone, come, [&](const Simplex& t) { change.simplices_removed.push_back(corners(t)); });
   }
   std::sort(change.simplices_added.begin(), change.simplices_added.end());
   std::sort(change.simplices_removed.begin(), change.simplices_removed.end());
+  return all_come;
 }
 
 template <int D>

@@ -133,11 +133,13 @@ Change<D> PointState<D>::first_run(PointEdits edits, const RunControl& control,
   const CallCounts calls = call_counts(engine_->template run<refine<D>>());
   commit();
   require_room(pool().size());
+  require_others();
   vertices().set_logging(true);
   ran_ = true;
   const Mesh<D> all = mesh();
   stats_ = timed_stats(*world_, all);
   Change<D> change = whole(all);
+  find_angles(simplices(), change);
   change.calls = calls;
   if (accept) accept(change);
   return change;
@@ -225,8 +227,9 @@ Change<D> PointState<D>::propagate(const PointEdits& edits, const RunControl& co
     make_room(arrived);
     make_room_for_others();
     Log log = vertices().log();
+    require_others(log);
     report_vertices(log, change);
-    report_stars(std::move(log), change);
+    find_angles(report_stars(std::move(log), change), change);
     report_others(change);
     require_room(stats_.vertices + change.vertices_added.size() - change.vertices_removed.size());
     if (accept) accept(change);

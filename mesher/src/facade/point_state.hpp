@@ -72,7 +72,13 @@ class PointState {
   virtual void point_comes(VertexHandle, FeatureId) {}
   /// So that rename_others() cannot fail.
   virtual void make_room_for_others() {}
+  /// Throws: Error if what is there is not what the input asks for, after a first run; after an
+  /// update.
+  virtual void require_others() const {}
+  virtual void require_others(const Log&) const {}
   virtual void report_others(Change<D>&) const {}
+  /// `come`: simplices of the mesh that were not there before.
+  virtual void find_angles(const std::vector<Simplex>&, Change<D>&) const {}
   virtual void rename_others() noexcept {}
   virtual void forget_news() noexcept {}
   virtual void commit_others() noexcept {}
@@ -109,7 +115,7 @@ class PointState {
   [[nodiscard]] std::array<Point<D>, D + 1> corners(const Simplex& s) const;
   void report_vertices(const Log& log, Change<D>& change) const;
   void own_simplices(const typename ChangeLog<D>::Star& star, std::vector<Simplex>& all) const;
-  void report_stars(Log log, Change<D>& change) const;
+  std::vector<Simplex> report_stars(Log log, Change<D>& change) const;
 
   bool ran_ = false;
   MeshStats stats_;

@@ -17,7 +17,9 @@ class State final : public PointState<2>, private Names {
   using LineEdits = std::vector<AnnouncedLines::Edit>;  // by id
 
   /// Throws: Error(bad_option).
-  explicit State(const Options<2>& options) : PointState(options) { world_->names = this; }
+  explicit State(const Options<2>& options) : PointState(options), rho_(options.rho) {
+    world_->names = this;
+  }
 
   Change<2> first_run(PointEdits points, LineEdits lines, const RunControl& control,
                       const Accept& accept) {
@@ -45,11 +47,12 @@ class State final : public PointState<2>, private Names {
 
   void add_others_first() override;
   void make_edits(const PointEdits& edits, Ids& arrived) override;
-  void point_comes(VertexHandle v, FeatureId id) override {
-    if (names_points_) new_names_[v] = id;
-  }
+  void point_comes(VertexHandle v, FeatureId id) override { new_names_[v] = id; }
   void make_room_for_others() override;
+  void require_others() const override;
+  void require_others(const Log& log) const override;
   void report_others(Change<2>& change) const override;
+  void find_angles(const std::vector<Simplex>& come, Change<2>& change) const override;
   void rename_others() noexcept override;
   void forget_news() noexcept override;
   void commit_others() noexcept override;
@@ -65,17 +68,18 @@ class State final : public PointState<2>, private Names {
   [[nodiscard]] FeatureId point(VertexHandle v) const override;
   [[nodiscard]] FeatureId line(SegmentHandle s) const override;
   [[nodiscard]] VertexHandle end_of(FeatureId id, const Ids& arrived) const;
+  [[nodiscard]] bool is_edge(const Leaf& leaf) const;
   void report_renamed(std::vector<mesher::LineEdge<2>>& gone,
                       std::vector<mesher::LineEdge<2>>& come) const;
 
   auto& segments() noexcept { return world_->segments; }
   const auto& segments() const noexcept { return world_->segments; }
 
+  double rho_;
   std::vector<FeatureId> lines_;  // by handle, of the segments
   Lines line_points_;
   // What an update brings, until it is done.
   LineEdits line_edits_;
-  bool names_points_ = false;  // points that come are asked for their names before it is done
   std::unordered_map<VertexHandle, FeatureId> new_names_;
   std::unordered_map<SegmentHandle, FeatureId> new_lines_;
   std::vector<SegmentHandle> new_segments_;

@@ -90,7 +90,6 @@ bool State::has_lines() const noexcept {
 void State::make_edits(const PointEdits& edits, Ids& arrived) {
   const std::vector<Part> parts = take_lines(edits);
   require_unused(edits);
-  names_points_ = has_lines() || !parts.empty();
   make_points(edits, arrived);
   for (const Part& part : parts) add_part(part, arrived);
   if (has_lines()) require_planar(arrived);
@@ -172,7 +171,6 @@ void State::rename_others() noexcept {
 
 void State::forget_news() noexcept {
   line_edits_ = LineEdits();
-  names_points_ = false;
   new_names_.clear();
   new_lines_.clear();
   new_segments_.clear();

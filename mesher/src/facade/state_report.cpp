@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <iterator>
 
+#include "facade/angle_finder.hpp"
 #include "facade/state.hpp"
 #include "program/world_impl.hpp"
+#include "segments/lost_edge.hpp"
 
 namespace mesher::detail {
 
@@ -59,6 +61,39 @@ void State::report_others(Change<2>& change) const {
                       std::back_inserter(change.edges_added));
   std::set_difference(gone.begin(), gone.end(), come.begin(), come.end(),
                       std::back_inserter(change.edges_removed));
+}
+
+bool State::is_edge(const Leaf& leaf) const {
+  const auto& tree = vertices().tree();
+  const auto ring = vertices().ring(*tree.find(leaf.lo));
+  const VertexHandle other = tree.find(leaf.hi)->self;
+  return std::find(ring.begin(), ring.end(), other) != ring.end();
+}
+
+void State::require_others() const {
+  if (!world_->leaves.may_lose()) return;
+  LostEdge lost;
+  world_->leaves.for_each([&](const Leaf& leaf) { lost.look(leaf, is_edge(leaf)); });
+  lost.require_none(vertices(), segments().pool(), this);
+}
+
+// Of leaves that have come, and those at vertices with another star.
+void State::require_others(const Log& log) const {
+  if (!world_->leaves.may_lose()) return;
+  LostEdge lost;
+  const auto look = [&](const Leaf& leaf) { lost.look(leaf, is_edge(leaf)); };
+  world_->leaves.for_each_changed([&](const Leaf& leaf) {
+    if (world_->leaves.is_leaf(leaf)) look(leaf);
+  });
+  for (const auto& star : log.stars_come) {
+    const Vertex<2>& v = pool()[star.center];
+    if (v.input || v.on_segment) world_->leaves.for_each_ending_at(v.p, look);
+  }
+  lost.require_none(vertices(), segments().pool(), this);
+}
+
+void State::find_angles(const std::vector<Simplex>& come, Change<2>& change) const {
+  change.angles = AngleFinder(*world_, rho_).news(come);
 }
 
 }  // namespace mesher::detail

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "io/text.hpp"
 #include "program/world.hpp"
 
 namespace mesher::detail {
@@ -14,7 +15,7 @@ namespace {
 template <int D>
 void check(const Options<D>& options) {
   if (!(options.rho > 1.01) || !(options.rho <= 100)) {
-    refuse("rho is " + std::to_string(options.rho) + ", it must be above 1.01 and at most 100");
+    refuse("rho is " + text::to_text(options.rho) + ", it must be above 1.01 and at most 100");
   }
   for (int i = 0; i < D; ++i) {
     const double lo = options.domain.lo[i];

@@ -123,14 +123,14 @@ void VoronoiCell::cut_by_clip(double radius) {
   }
 }
 
-double VoronoiCell::reach2_inside(const Point<2>& outward) const noexcept {
-  double most = 0;
+Box<2> VoronoiCell::extent_inside(const Point<2>& outward) const noexcept {
+  Box<2> extent{{0, 0}, {0, 0}};
   for (int i = 0; i < size_; ++i) {
     const Point<2> q = corner(i);
     const bool beyond = q[0] * outward[0] > 0 || q[1] * outward[1] > 0;
-    if (!beyond || (real(i) && real(next(i)))) most = std::max(most, corner2(i));
+    if (!beyond || (real(i) && real(next(i)))) add_gap_ball(index(i), extent);
   }
-  return most * (1 + 0x1p-30);
+  return extent;
 }
 
 void VoronoiCell::set_corner(int i) {
@@ -172,15 +172,18 @@ bool VoronoiCell::is_compact() const noexcept {
   return open2_ <= farthest2;
 }
 
+// Where the corner is known badly, as between neighbours in nearly one direction, the ball is larger
+// by more than the corner's error.
+void VoronoiCell::add_gap_ball(std::size_t i, Box<2>& extent) const noexcept {
+  const double r = std::sqrt(q2_[i]) * (1 + 0x1p-30) + std::sqrt(tolerance2_[i]);
+  extent.lo = {std::min(extent.lo[0], qx_[i] - r), std::min(extent.lo[1], qy_[i] - r)};
+  extent.hi = {std::max(extent.hi[0], qx_[i] + r), std::max(extent.hi[1], qy_[i] + r)};
+}
+
 Box<2> VoronoiCell::open_extent() const noexcept {
-  Box<2> box{{0, 0}, {0, 0}};
-  for (int k = 0; k < open_count_; ++k) {
-    const std::size_t i = open_[index(k)];
-    const double r = std::sqrt(q2_[i]) * (1 + 0x1p-30);
-    box.lo = {std::min(box.lo[0], qx_[i] - r), std::min(box.lo[1], qy_[i] - r)};
-    box.hi = {std::max(box.hi[0], qx_[i] + r), std::max(box.hi[1], qy_[i] + r)};
-  }
-  return box;
+  Box<2> extent{{0, 0}, {0, 0}};
+  for (int k = 0; k < open_count_; ++k) add_gap_ball(open_[index(k)], extent);
+  return extent;
 }
 
 bool VoronoiCell::exactly_nearer(int i, const Point<2>& w) {

@@ -94,15 +94,17 @@ class VoronoiCell {
   [[nodiscard]] bool is_compact() const noexcept;
   /// A box around the gap balls of the open corners, relative to v.
   [[nodiscard]] Box<2> open_extent() const noexcept;
-  /// max |q_i|^2 over the corners that are next to a real neighbour on both sides, or on the inner
-  /// side of the lines through v with these outer normals (entries -1, 0, 1; 0: no line).
-  [[nodiscard]] double reach2_inside(const Point<2>& outward) const noexcept;
+  /// The same of the corners that are next to a real neighbour on both sides, or on the inner side
+  /// of the lines through v with these outer normals (entries -1, 0, 1; 0: no line).
+  [[nodiscard]] Box<2> extent_inside(const Point<2>& outward) const noexcept;
   [[nodiscard]] const Vertex<2>& center() const noexcept { return *v_; }
 
   /// Whether a vertex at `p` would cut the cell of v with these neighbours, erring towards yes.
   /// `codes`: all its neighbours, counterclockwise.
   [[nodiscard]] static bool may_cut(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
                                     std::span<const Code> codes, const Point<2>& p);
+  /// Whether that takes less than a look at memory.
+  static constexpr bool kMayCutIsCheap = true;
 
   /// Writes the cell down: its neighbours, counterclockwise from the least code on.
   void write(std::vector<Code>& codes) const;
@@ -151,6 +153,7 @@ class VoronoiCell {
   void insert_neighbour(int first, int count, Code w);
   void resize(int n);
   void update_reach();
+  void add_gap_ball(std::size_t i, Box<2>& extent) const noexcept;
 
   const Vertex<2>* v_ = nullptr;
   int size_ = 0;

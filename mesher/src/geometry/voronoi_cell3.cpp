@@ -317,31 +317,31 @@ void VoronoiCell3::update_reach() {
   error_ = std::sqrt(tolerance2 * reach2_) * 1.01;  // half of 2 w.q's error, for any w in reach
 }
 
-Box<3> VoronoiCell3::open_extent() const noexcept {
-  Box<3> box;
-  for (int k = 0; k < open_count_; ++k) {
-    const int t = open_[index(k)];
-    const double r = std::sqrt(corner2(t)) * (1 + 0x1p-30);
-    const Point<3> q = corner(t);
-    for (std::size_t i = 0; i < 3; ++i) {
-      box.lo[i] = std::min(box.lo[i], q[i] - r);
-      box.hi[i] = std::max(box.hi[i], q[i] + r);
-    }
+void VoronoiCell3::add_gap_ball(int t, Box<3>& extent) const noexcept {
+  const double r = std::sqrt(corner2(t)) * (1 + 0x1p-30) + std::sqrt(tolerance2_[index(t)]);
+  const Point<3> q = corner(t);
+  for (std::size_t i = 0; i < 3; ++i) {
+    extent.lo[i] = std::min(extent.lo[i], q[i] - r);
+    extent.hi[i] = std::max(extent.hi[i], q[i] + r);
   }
-  return box;
 }
 
-double VoronoiCell3::reach2_inside(const Point<3>& outward) const noexcept {
-  double most = 0;
+Box<3> VoronoiCell3::open_extent() const noexcept {
+  Box<3> extent;
+  for (int k = 0; k < open_count_; ++k) add_gap_ball(open_[index(k)], extent);
+  return extent;
+}
+
+Box<3> VoronoiCell3::extent_inside(const Point<3>& outward) const noexcept {
+  Box<3> extent;
   for (int t = 0; t < corners_; ++t) {
     const Point<3> q = corner(t);
     bool beyond = false;
     for (std::size_t i = 0; i < 3; ++i) beyond = beyond || q[i] * outward[i] > 0;
-    const auto& end = ends(t);
-    const bool all_real = real(end[0]) && real(end[1]) && real(end[2]);
-    if (!beyond || all_real) most = std::max(most, corner2(t));
+    const auto& [a, b, c] = ends(t);
+    if (!beyond || (real(a) && real(b) && real(c))) add_gap_ball(t, extent);
   }
-  return most * (1 + 0x1p-30);
+  return extent;
 }
 
 void VoronoiCell3::write(std::vector<Code>& record) const {
@@ -365,27 +365,38 @@ void VoronoiCell3::write(std::vector<Code>& record) const {
 }
 
 // Of all corners, that of (a, b, c) reaches farthest in the direction of w if w lies in the cone of
-// a, b and c, the normals of the sides that meet there: if that is not nearer to w, none is.
+// a, b and c, the normals of the sides that meet there: if that is not nearer to w, none is. On
+// which side of the plane of 0, a, b w lies says (w x a).b, computed to within 2^-48 |w||a||b|.
 bool VoronoiCell3::may_cut(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
-                           std::span<const Code> record, const Point<3>& p) {
+                           std::span<const Code> record, const Point<3>& p) noexcept {
+  constexpr std::size_t kMost = 96;  // neighbours; nearly no cell has more
   const LinkRecord link(record);
+  if (link.size() > kMost) return true;
   const Point<3> w = minus(p, v.p);
   const double w2 = squared(w);
+  std::array<Point<3>, kMost> u, across;
+  std::array<double, kMost> u2;
+  for (std::size_t i = 0; i < link.size(); ++i) {
+    u[i] = minus(place_of(pool, v.p, radius, link.neighbours()[i]), v.p);
+    across[i] = cross(w, u[i]);
+    u2[i] = squared(u[i]);
+  }
   for (std::size_t t = 0; t < link.triangles(); ++t) {
-    const auto codes = link.codes(t);
-    std::array<Point<3>, 3> end;
-    for (std::size_t k = 0; k < 3; ++k) end[k] = place_of(pool, v.p, radius, codes[k]);
+    const LinkRecord::Triangle end = link.triangle(t);
     bool inside = true;  // of the cone, perhaps
     bool clear = true;   // and not on its rim
     for (std::size_t k = 0; k < 3 && inside; ++k) {
-      const Point<3> a = minus(end[k], v.p), b = minus(end[(k + 1) % 3], v.p);
-      const double side = dot(w, cross(a, b));
-      const double error2 = 0x1p-96 * w2 * squared(a) * squared(b);
+      const std::size_t a = end[k], b = end[(k + 1) % 3];
+      const double side = dot(across[a], u[b]);
+      const double error2 = 0x1p-96 * w2 * u2[a] * u2[b];
       inside = side >= 0 || side * side <= error2;
       clear = clear && side * side > error2;
     }
     if (!inside) continue;
-    const Circumcentre c = circumcentre(v.p, end[0], end[1], end[2]);
+    const auto place = [&](std::size_t k) {
+      return place_of(pool, v.p, radius, link.neighbours()[end[k]]);
+    };
+    const Circumcentre c = circumcentre(v.p, place(0), place(1), place(2));
     const double value = 2 * dot(w, c.q) - w2;
     if (value >= 0 || !(value * value > c.tolerance2 * w2)) return true;
     if (clear) return false;

@@ -91,9 +91,9 @@ class VoronoiCell3 {
   [[nodiscard]] double open2() const noexcept { return open2_; }
   /// A box around the gap balls of the open corners, relative to v.
   [[nodiscard]] Box<3> open_extent() const noexcept;
-  /// max |q|^2 over the corners between three real neighbours, or on the inner side of the planes
+  /// The same of the corners between three real neighbours, or on the inner side of the planes
   /// through v with these outer normals (entries -1, 0, 1; 0: no plane).
-  [[nodiscard]] double reach2_inside(const Point<3>& outward) const noexcept;
+  [[nodiscard]] Box<3> extent_inside(const Point<3>& outward) const noexcept;
   [[nodiscard]] const Vertex<3>& center() const noexcept { return *v_; }
 
   /// Writes the cell down, as LinkRecord reads it.
@@ -117,7 +117,9 @@ class VoronoiCell3 {
 
   /// Whether a vertex at `p` would cut the cell of v that was written down, erring towards yes.
   [[nodiscard]] static bool may_cut(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
-                                    std::span<const Code> record, const Point<3>& p);
+                                    std::span<const Code> record, const Point<3>& p) noexcept;
+  /// Whether that takes less than a look at memory.
+  static constexpr bool kMayCutIsCheap = false;
 
   /// Throws InvariantError unless the triangles are a sphere around v, and the corners theirs.
   void check_invariants() const;
@@ -159,6 +161,7 @@ class VoronoiCell3 {
   void join_rim(int to);
   void fill_hole(int t);
   void update_reach();
+  void add_gap_ball(int t, Box<3>& extent) const noexcept;
 
   const Vertex<3>* v_ = nullptr;
   double reach2_ = 0;

@@ -11,8 +11,8 @@ void Observers<D>::link(Observation& o) noexcept {
   o.arrivals = 0;
   o.next = v.queries;
   v.queries = engine_.arena().handle_of(&o);
-  if (o.reach <= v.reach) return;
-  v.reach = o.reach;
+  if (v.reach.covers(o.reach)) return;
+  v.reach.include(o.reach);
   tree_.raise_reach(v);
 }
 
@@ -23,9 +23,8 @@ void Observers<D>::unlink(Observation& o) noexcept {
   sac::Handle* link = &v.queries;
   while (*link != self) link = &at(*link).next;
   *link = o.next;
-  if (o.reach < v.reach) return;
-  v.reach = 0;
-  for (sac::Handle h = v.queries; h != 0; h = at(h).next) v.reach = std::max(v.reach, at(h).reach);
+  v.reach = {};
+  for (sac::Handle h = v.queries; h != 0; h = at(h).next) v.reach.include(at(h).reach);
 }
 
 template <int D>
@@ -58,12 +57,12 @@ void Observers<D>::note_arrival(Observation& o, VertexHandle w) noexcept {
 template <int D>
 void Observers<D>::check_invariants(const Vertex<D>& v) const {
   SAC_INVARIANT(arrivals_.size() == 1);
-  float reach = 0;
+  Reach<D> reach;
   for (sac::Handle h = v.queries; h != 0; h = at(h).next) {
     const Observation& o = at(h);
     SAC_INVARIANT(o.center == v.self && o.arrivals == 0);
     SAC_INVARIANT(!engine_.call(o.call).dead());
-    reach = std::max(reach, o.reach);
+    reach.include(o.reach);
   }
   SAC_INVARIANT(v.reach == reach);
 }

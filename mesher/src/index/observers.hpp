@@ -1,8 +1,8 @@
 // Who has looked where: the observations of vertices, found by place and reach.
 //
-// An observation is centred at a vertex and says how far a vertex may be that concerns it: its
-// reach. A vertex keeps a list of those centred at it and their largest reach; the quadtree keeps
-// the largest reach below each cell. So those that a place concerns are found from the root down.
+// An observation is centred at a vertex and says where a vertex may be that concerns it: its reach,
+// a box. A vertex keeps a list of those centred at it and a box around theirs; the quadtree keeps
+// one around those below each cell. So those that a place concerns are found from the root down.
 // (This is not a structure of its own in `sac`: the cells with their bounds are those in which
 // vertices are looked up, and a second tree of the same cells would cost as much memory again.)
 //
@@ -22,20 +22,23 @@
 
 namespace mesher::detail {
 
+template <int D>
 struct Observation : sac::Edge {
   VertexHandle center;
   sac::Handle call;
   sac::Handle next;        // centred at the same vertex
-  float reach;             // no farther vertex concerns it; in units of the box's side
+  Reach<D> reach;          // no vertex beyond concerns it
   std::uint32_t arrivals;  // a list
 };
 
 /// The nearest vertex.
-struct NearestSeen : Observation {
+template <int D>
+struct NearestSeen : Observation<D> {
   std::uint32_t nearest;  // 0: none
 };
 /// A clipped cell; as it was written down lies behind it.
-struct CellSeen : Observation {
+template <int D>
+struct CellSeen : Observation<D> {
   float radius;  // the clip, in units of the box's side
   std::uint32_t count;
 
@@ -47,13 +50,19 @@ struct CellSeen : Observation {
   }
 };
 /// A star.
-struct StarSeen : Observation {
+template <int D>
+struct StarSeen : Observation<D> {
   sac::Handle ring;
 };
 
 template <int D>
 class Observers {
  public:
+  using Observation = detail::Observation<D>;
+  using NearestSeen = detail::NearestSeen<D>;
+  using CellSeen = detail::CellSeen<D>;
+  using StarSeen = detail::StarSeen<D>;
+
   static constexpr std::uint8_t kNearest = 2;
   static constexpr std::uint8_t kCell = 1;
   static constexpr std::uint8_t kStar = 3;
@@ -75,21 +84,21 @@ class Observers {
     }
     return nullptr;
   }
-  /// Calls visit(centre, observation) for those that a vertex at p may concern, by its distance.
+  /// Calls visit(centre, observation) for those that a vertex at p may concern: it is in reach.
   /// visit must not throw. Cost: O(depth of the tree) and what it visits.
   template <class Visit>
-  void for_each_reaching(const Point<D>& p, double side, Visit&& visit) noexcept {
+  void for_each_reaching(const Point<D>& p, Visit&& visit) noexcept {
     // Memory is asked for the observations of several centres before the first is looked at.
     std::array<Met, 32> met;
     std::size_t count = 0;
     const auto look = [&] {
-      for (std::size_t i = 0; i < count; ++i) visit_at(met[i], side, visit);
+      for (std::size_t i = 0; i < count; ++i) visit_at(met[i], visit);
       count = 0;
     };
-    tree_.visit_reaching(p, [&](Vertex<D>& center, double distance2) {
+    tree_.visit_reaching(p, [&](Vertex<D>& center, const Point<D>& offset) {
       if (count == met.size()) look();
-      __builtin_prefetch(engine_.arena().at<Observation>(center.queries));
-      met[count++] = {&center, distance2};
+      __builtin_prefetch(engine_.arena().template at<Observation>(center.queries));
+      met[count++] = {&center, offset};
     });
     look();
   }
@@ -123,14 +132,12 @@ class Observers {
  private:
   struct Met {
     Vertex<D>* center;
-    double distance2;
+    Point<D> offset;  // of the place
   };
   template <class Visit>
-  void visit_at(const Met& met, double side, Visit& visit) noexcept {
+  void visit_at(const Met& met, Visit& visit) noexcept {
     for (sac::Handle h = met.center->queries; h != 0; h = at(h).next) {
-      Observation& o = at(h);
-      const double reach = double{o.reach} * side;
-      if (met.distance2 <= reach * reach) visit(*met.center, o);
+      if (at(h).reach.contains(met.offset)) visit(*met.center, at(h));
     }
   }
 
@@ -141,7 +148,7 @@ class Observers {
   static constexpr std::size_t kRoom = 256;
 
   [[nodiscard]] Observation& at(sac::Handle h) const noexcept {
-    return *engine_.arena().at<Observation>(h);
+    return *engine_.arena().template at<Observation>(h);
   }
 
   sac::Engine& engine_;

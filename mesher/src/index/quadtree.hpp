@@ -7,8 +7,8 @@
 // more than kMany vertices lie in it. A cell with children is *open* while more than kFull vertices
 // lie in it: these are in its children. Else it is *closed*: it keeps them itself, and who looks up
 // goes no deeper. So the cells that a search meets hold a handful of vertices, however deep BuildQT
-// splits. Each cell also knows a bound on how far the queries centred in it look (`reach`), and so
-// does each entry of a bucket, to find the queries that a new vertex concerns.
+// splits. Each cell also knows the area in which the queries centred in it look, and each entry of
+// a bucket a bound on how far its own do, to find the queries that a new vertex concerns.
 //
 // Here is what it offers and consists of; what it does is in quadtree_cells, _search, _reach,
 // _check.
@@ -23,6 +23,7 @@
 
 #include "geometry/grid.hpp"
 #include "index/line_allocator.hpp"
+#include "index/reach.hpp"
 #include "index/vertex.hpp"
 #include "sac/check.hpp"
 
@@ -92,7 +93,7 @@ class Quadtree {
   void visit_outward(const Point<D>& center, const Box<D>& area, const Looked& looked,
                      Enters&& enters, Visit&& visit) const;
   /// Calls visit(handle, place, |place - center|^2) for vertices in order of distance, as long as
-  /// this is at most limit2(), which may become less. A cell that holds vertices is only entered if
+  /// this is at most limit2(), which may become less. A cell is only entered if
   /// enters(its lower corner relative to the center, its side) when its turn comes.
   template <class Limit, class Enters, class Visit>
   void visit_nearest_first(const Point<D>& center, NearestFirst<D>& queue, Limit&& limit2,
@@ -104,20 +105,13 @@ class Quadtree {
     return unit_ * static_cast<double>(std::uint64_t{1} << (kLevels - level));
   }
 
-  /// Calls visit(v, |v - p|^2) for every vertex v with |v - p| <= v.reach (in units of the box's
-  /// side), and tightens the cells' bounds. visit must not throw.
+  /// Calls visit(v, p - v.p) for every vertex v with p in its reach, all in units of the box's
+  /// side, and tightens the cells' areas. visit must not throw.
   template <class Visit>
   void visit_reaching(const Point<D>& p, Visit&& visit) noexcept {
-    Point<D> rel;
-    for (int i = 0; i < D; ++i) rel[i] = box_.lo[i] - p[i];
-    const auto visit_within = [&](Vertex<D>& v, const Point<D>& place) {
-      const double d2 = distance2(place, p);
-      const double own = v.reach * box_.side;
-      if (d2 <= own * own) visit(v, d2);
-    };
-    reach_below(0, rel, box_.side, p, visit_within);
+    reach_below(0, offset(box_.lo, p), 1, p, visit);
   }
-  /// A query centred at `v` looks as far as v.reach: raises the bounds of the cells around it.
+  /// A query centred at `v` looks as far as v.reach: so do the cells around it.
   void raise_reach(const Vertex<D>& v) noexcept;
 
   /// Throws InvariantError if a cell has children without need or none in spite of one, a vertex
@@ -137,11 +131,11 @@ class Quadtree {
  private:
   static constexpr std::uint32_t kMarked = 0x80000000u;
   static constexpr std::uint32_t kWanted = 0x40000000u;
-  struct Node {
+  struct alignas(32) Node {
     NodeIndex child_and_closed = 0;  // first of kChildren, 0: none
     NodeIndex parent_and_marks = 0;
     std::uint32_t head = 0;  // first bucket
-    float reach = 0;
+    Area<D> area = {};
 
     [[nodiscard]] NodeIndex child() const noexcept { return child_and_closed & 0x7fffffffu; }
     [[nodiscard]] bool closed() const noexcept { return child_and_closed >> 31 != 0; }
@@ -180,6 +174,11 @@ class Quadtree {
     for (int i = 0; i < D; ++i) d2 += (a[i] - b[i]) * (a[i] - b[i]);
     return d2;
   }
+  [[nodiscard]] Point<D> offset(const Point<D>& from, const Point<D>& to) const noexcept {
+    Point<D> d;
+    for (int i = 0; i < D; ++i) d[i] = (to[i] - from[i]) * inverse_side_;
+    return d;
+  }
   template <class T>
   static void make_room(std::vector<T, LineAllocator<T>>& records, std::size_t more);
   void reserve_splits(std::size_t splits);
@@ -212,12 +211,12 @@ class Quadtree {
     std::uint32_t next = 0;  // further bucket of the same leaf; 0: none
     std::uint32_t count = 0;
     Handles handle{};
-    std::array<float, kSlots> reach = filled<std::array<float, kSlots>>(-1.0f);  // a bound
+    std::array<Reach<D>, kSlots> reach{};  // a bound
     Places place = filled<Places>(filled<Point<D>>(kNowhere));
 
     void clear(std::uint32_t i) noexcept {
       handle[i] = 0;
-      reach[i] = -1;
+      reach[i] = {};
       place[i] = filled<Point<D>>(kNowhere);
     }
   };
@@ -253,23 +252,17 @@ class Quadtree {
   [[nodiscard]] Entry entry(NodeIndex leaf, VertexHandle h) const noexcept;
   [[nodiscard]] std::size_t held(NodeIndex n) const noexcept;
   [[nodiscard]] BucketIndex new_bucket(BucketIndex next) noexcept;
-  // Squared distances along each axis from the origin to the near and the far half of a cell.
-  using Halves = std::array<std::array<double, 2>, D>;
-  static Halves near_halves(const Point<D>& rel, double half) {
-    const auto square = [](double x) { return x * x; };
-    Halves near2;
-    for (int i = 0; i < D; ++i) {
-      const double middle = rel[i] + half;
-      near2[i] = {square(std::max(std::max(rel[i], -middle), 0.0)),
-                  square(std::max(std::max(middle, -(middle + half)), 0.0))};
-    }
-    return near2;
+  [[nodiscard]] static double cells_across(int level) noexcept {
+    return static_cast<double>(std::uint64_t{1} << level);
   }
+  [[nodiscard]] Point<D> within_cell(const Point<D>& p, int level) const noexcept;
+  [[nodiscard]] Area<D> area_around(const Point<D>& p, Reach<D> reach, int level) const noexcept;
   template <class Visit>
-  float reach_below(NodeIndex n, Point<D> rel, double side, const Point<D>& p,
-                    Visit& visit) noexcept;
+  void reach_below(NodeIndex n, const Point<D>& u, double across, const Point<D>& p,
+                   Visit& visit) noexcept;
   template <class Visit>
-  float reach_in_leaf(NodeIndex n, const Point<D>& p, Visit& visit) noexcept;
+  void reach_in_leaf(NodeIndex n, const Point<D>& u, double across, const Point<D>& p,
+                     Visit& visit) noexcept;
   static Cell<D> child_cell(const Cell<D>& cell, int c) {
     Cell<D> inner{cell.corner, cell.level + 1};
     for (int i = 0; i < D; ++i) {
@@ -279,11 +272,30 @@ class Quadtree {
   }
   template <class Visit>
   void leaves_below(NodeIndex n, const Cell<D>& cell, Visit& visit) const;
+  // What is in a cell: how many vertices, and, if any looks somewhere, where, in the box's sides.
   struct Below {
-    float reach = 0;
     std::size_t vertices = 0;
+    bool looks = false;
+    Point<D> lo = filled<Point<D>>(kNowhere), hi = filled<Point<D>>(-kNowhere);
+
+    void add(const Point<D>& at, const Reach<D>& reach) {
+      ++vertices;
+      if (reach == Reach<D>()) return;
+      Below one{0, true, reach.box().lo, reach.box().hi};
+      for (int i = 0; i < D; ++i) one.lo[i] += at[i], one.hi[i] += at[i];
+      add(one);
+    }
+    void add(const Below& other) {
+      vertices += other.vertices;
+      looks = looks || other.looks;
+      for (int i = 0; i < D; ++i) {
+        lo[i] = std::min(lo[i], other.lo[i]);
+        hi[i] = std::max(hi[i], other.hi[i]);
+      }
+    }
   };
   Below check_below(NodeIndex n, const Cell<D>& cell, bool visible) const;
+  void check_area(const Area<D>& area, const Cell<D>& cell, const Below& below) const;
 
   const MeshBox<D>& box_;
   VertexPool<D>& vertices_;
@@ -294,6 +306,7 @@ class Quadtree {
   // Cells are computed to within a few units in the last place of the largest coordinate.
   double margin_ = largest(box_) * 0x1p-50;
   double unit_ = box_.cell_side(kLevels);
+  double inverse_side_ = 1 / box_.side;
 
   static double largest(const MeshBox<D>& box) {
     double m = box.side;
@@ -304,8 +317,8 @@ class Quadtree {
 
 }  // namespace mesher::detail
 
-#include "index/quadtree_cells.hpp"   // IWYU pragma: export
-#include "index/quadtree_check.hpp"   // IWYU pragma: export
+#include "index/quadtree_cells.hpp"    // IWYU pragma: export
+#include "index/quadtree_check.hpp"    // IWYU pragma: export
 #include "index/quadtree_nearest.hpp"  // IWYU pragma: export
-#include "index/quadtree_reach.hpp"   // IWYU pragma: export
-#include "index/quadtree_search.hpp"  // IWYU pragma: export
+#include "index/quadtree_reach.hpp"    // IWYU pragma: export
+#include "index/quadtree_search.hpp"   // IWYU pragma: export

@@ -56,15 +56,16 @@ template <int D>
 void Quadtree<D>::spread(NodeIndex n, int level) noexcept {
   const NodeIndex first = nodes_[n].child();
   nodes_[n].child_and_closed = first;
-  for (int i = 0; i < kChildren; ++i) {
-    nodes_[first + static_cast<NodeIndex>(i)].reach = nodes_[n].reach;
-  }
+  for (int i = 0; i < kChildren; ++i) nodes_[first + static_cast<NodeIndex>(i)].area = {};
   for (BucketIndex b = std::exchange(nodes_[n].head, 0); b != 0;) {
     const Bucket bucket = buckets_[b];
     free_buckets_.push_back(b);
     for (std::uint32_t i = 0; i < bucket.count; ++i) {
-      const int c = MeshBox<D>::child_of(box_.fixed(bucket.place[i]), level);
-      put(first + static_cast<NodeIndex>(c), bucket, i);
+      const Point<D>& p = bucket.place[i];
+      const NodeIndex c =
+          first + static_cast<NodeIndex>(MeshBox<D>::child_of(box_.fixed(p), level));
+      nodes_[c].area.include(area_around(p, bucket.reach[i], level + 1));
+      put(c, bucket, i);
     }
     b = bucket.next;
   }

@@ -125,9 +125,11 @@ void Quadtree<D>::visit_nearest_first(const Point<D>& center, NearestFirst<D>& q
     } else if (item.kind == Kind::above) {
       add_children(queue.way[item.id - 1], queue.way[item.id].id);
       add_above(item.id - 1);
+    } else if (!enters(item.at, item.side)) {
+      continue;
     } else if (nodes_[item.id].open() != 0) {
       add_children(item, 0);
-    } else if (enters(item.at, item.side)) {
+    } else {
       visit_leaf(item.id, [&](VertexHandle h, const Point<D>& place) {
         const double d2 = distance2(place, center);
         if (d2 <= limit2()) queue.add(d2, {place, 0, h, Kind::vertex});

@@ -1,5 +1,5 @@
-// Which vertices' queries reach a place: bounds in the cells, raised with a query and tightened
-// with every visit.
+// Which vertices' queries reach a place: each cell knows the area in which those below it look. It
+// grows with a query and is tightened with every visit.
 #pragma once
 
 #include <algorithm>
@@ -9,80 +9,107 @@
 
 namespace mesher::detail {
 
+// Where p lies in its cell of `level`, in units of the cell's side.
+template <int D>
+Point<D> Quadtree<D>::within_cell(const Point<D>& p, int level) const noexcept {
+  const Fixed<D> f = box_.fixed(p);
+  Point<D> u;
+  for (int i = 0; i < D; ++i) {
+    u[i] = (p[i] - box_.lo[i]) / box_.side * cells_across(level) -
+           static_cast<double>(f[i] >> (kLevels - level));
+  }
+  return u;
+}
+
+template <int D>
+Area<D> Quadtree<D>::area_around(const Point<D>& p, Reach<D> reach, int level) const noexcept {
+  return {within_cell(p, level), reach.box(), cells_across(level)};
+}
+
 template <int D>
 void Quadtree<D>::raise_reach(const Vertex<D>& v) noexcept {
-  NodeIndex n = leaf_of(box_.fixed(v.p));
+  const Fixed<D> f = box_.fixed(v.p);
+  int level = 0;
+  NodeIndex n = leaf_of(f, &level);
   const Entry at = entry(n, v.self);
-  float& own = buckets_[at.bucket].reach[at.i];
-  own = std::max(own, v.reach);
-  while (nodes_[n].reach < v.reach) {
-    nodes_[n].reach = v.reach;
+  buckets_[at.bucket].reach[at.i] = v.reach;
+  Area<D> area = area_around(v.p, v.reach, level);
+  while (!nodes_[n].area.covers(area)) {
+    nodes_[n].area.include(area);
     if (n == 0) return;
     n = nodes_[n].parent();
+    area = area.in_parent(MeshBox<D>::child_of(f, --level));
   }
 }
 
-// `rel`: the cell's lower corner relative to p. Children are only entered if p is within reach of
-// what is centred in them.
+// `u`: p relative to the cell, in units of its side; `across`: as many of it are as long as the
+// box's side.
 template <int D>
 template <class Visit>
-float Quadtree<D>::reach_below(NodeIndex n, Point<D> rel, double side, const Point<D>& p,
-                               Visit& visit) noexcept {
+void Quadtree<D>::reach_below(NodeIndex n, const Point<D>& u, double across, const Point<D>& p,
+                              Visit& visit) noexcept {
   const NodeIndex child = nodes_[n].open();
-  if (child == 0) return nodes_[n].reach = reach_in_leaf(n, p, visit);
-  const double half = side / 2;
-  const Halves near2 = near_halves(rel, half);
-  float reach = 0;
+  if (child == 0) return reach_in_leaf(n, u, across, p, visit);
+  const auto u_in = [&](int c) {
+    Point<D> inner;
+    for (int i = 0; i < D; ++i) inner[i] = 2 * u[i] - (c >> i & 1);
+    return inner;
+  };
+  const double slack = margin_ * inverse_side_ * 2 * across;
   unsigned entered = 0;  // a bit for each child
   for (int c = 0; c < kChildren; ++c) {
-    const NodeIndex k = child + static_cast<NodeIndex>(c);
-    double d2 = 0;
-    for (int i = 0; i < D; ++i) d2 += near2[i][c >> i & 1];
-    const double bound = nodes_[k].reach * box_.side + margin_;
-    const bool enter = d2 <= bound * bound;
+    const bool enter = nodes_[child + static_cast<NodeIndex>(c)].area.contains(u_in(c), slack);
     entered |= static_cast<unsigned>(enter) << c;
-    reach = std::max(reach, enter ? 0 : nodes_[k].reach);
   }
   for (unsigned rest = entered; rest != 0; rest &= rest - 1) {
     expect(child + static_cast<NodeIndex>(std::countr_zero(rest)));
   }
   for (; entered != 0; entered &= entered - 1) {
     const int c = std::countr_zero(entered);
-    Point<D> corner = rel;
-    for (int i = 0; i < D; ++i) corner[i] += (c >> i & 1) != 0 ? half : 0;
-    const float below = reach_below(child + static_cast<NodeIndex>(c), corner, half, p, visit);
-    reach = std::max(reach, below);
+    reach_below(child + static_cast<NodeIndex>(c), u_in(c), 2 * across, p, visit);
   }
-  return nodes_[n].reach = reach;
+  Area<D> area;
+  for (int c = 0; c < kChildren; ++c) {
+    area.include(nodes_[child + static_cast<NodeIndex>(c)].area.in_parent(c));
+  }
+  nodes_[n].area = area;
 }
 
 template <int D>
 template <class Visit>
-float Quadtree<D>::reach_in_leaf(NodeIndex n, const Point<D>& p, Visit& visit) noexcept {
-  float reach = 0;
+void Quadtree<D>::reach_in_leaf(NodeIndex n, const Point<D>& u, double across, const Point<D>& p,
+                                Visit& visit) noexcept {
+  bool tightened = false;
   for (BucketIndex b = nodes_[n].head; b != 0; b = buckets_[b].next) {
     Bucket& bucket = buckets_[b];
     expect_bucket(bucket.next);
     unsigned near = 0;  // a bit for each entry
     for (std::uint32_t i = 0; i < kSlots; ++i) {
-      double d2 = 0;
-      for (int k = 0; k < D; ++k) {
-        d2 += (bucket.place[i][k] - p[k]) * (bucket.place[i][k] - p[k]);
-      }
-      const double bound = bucket.reach[i] * box_.side;
-      near |= static_cast<unsigned>(d2 <= bound * bound) << i;
-    }
-    for (unsigned rest = near; rest != 0; rest &= rest - 1) {
-      __builtin_prefetch(&vertices_[bucket.handle[std::countr_zero(rest)]].reach);
+      const double most = bucket.reach[i].most() * box_.side;
+      bool within = true;
+      for (int k = 0; k < D; ++k) within &= std::abs(p[k] - bucket.place[i][k]) <= most;
+      near |= static_cast<unsigned>(within) << i;
     }
     for (; near != 0; near &= near - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
-      bucket.reach[i] = vertices_[bucket.handle[i]].reach;
-      visit(vertices_[bucket.handle[i]], bucket.place[i]);
+      const Point<D> d = offset(bucket.place[i], p);
+      if (!bucket.reach[i].contains(d)) continue;
+      Vertex<D>& v = vertices_[bucket.handle[i]];
+      tightened |= bucket.reach[i] != v.reach;
+      bucket.reach[i] = v.reach;
+      if (v.reach.contains(d)) visit(v, d);
     }
-    for (const float r : bucket.reach) reach = std::max(reach, r);
   }
-  return reach;
+  if (!tightened) return;
+  Area<D> area;
+  for (BucketIndex b = nodes_[n].head; b != 0; b = buckets_[b].next) {
+    for (std::uint32_t i = 0; i < buckets_[b].count; ++i) {
+      Point<D> place = offset(p, buckets_[b].place[i]);
+      for (int k = 0; k < D; ++k) place[k] = u[k] + place[k] * across;
+      area.include({place, buckets_[b].reach[i].box(), across});
+    }
+  }
+  nodes_[n].area = area;
 }
 
 }  // namespace mesher::detail

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "index/reach.hpp"
 #include "mesher/mesh.hpp"
 #include "sac/check.hpp"
 #include "sac/label.hpp"
@@ -28,16 +29,16 @@ struct Vertex {
   VertexHandle self = 0;          // in a free record: the next free one
   sac::Presence presence;         // the calls that insert it; the outside is not among them
   sac::Handle queries = 0;        // observations centred at it
-  float reach = 0;                // no query of it looks farther; in units of the box's side
+  Reach<D> reach;                 // no query of it looks beyond
   sac::Handle locator = 0;        // the call that observes `level`
   VertexHandle next_changed = 0;  // in the list of what has changed since the last update
   std::int16_t level = -1;        // input points: deepest crowded level
   bool alive : 1 = false;
   bool boundary : 1 = false;
   bool input : 1 = false;
-  bool committed : 1 = false;     // part of the mesh at the end of the last update,
+  bool committed : 1 = false;  // part of the mesh at the end of the last update,
   VertexKind committed_kind : 2 = VertexKind::steiner;  // as this
-  bool changed : 1 = false;       // listed by next_changed
+  bool changed : 1 = false;                             // listed by next_changed
   bool star_changed : 1 = false;  // its star is not the one of the last update
   bool on_segment : 1 = false;    // stands for a place on a segment: VertexSearch::role
   bool feature : 1 = false;       // among the features as an input point

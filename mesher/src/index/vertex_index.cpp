@@ -156,28 +156,39 @@ void VertexIndex<sac::Scope, D>::retract_birth(BirthEdge& birth) noexcept {
   vanished(v, *window);
 }
 
+// Whether v is in a gap ball, erring towards yes, or as near as the nearest is.
+template <int D>
+bool VertexIndex<sac::Scope, D>::concerns(const Vertex<D>& v, const Vertex<D>& center,
+                                          const Observation& o) const noexcept {
+  const auto seen = observers_.seen(o);
+  if (o.kind == kNearest) {
+    return seen[0] == 0 ||
+           squared_distance(v.p, center.p) <= squared_distance(pool_[seen[0]].p, center.p);
+  }
+  const double radius =
+      o.kind == kStar ? whole() : unpacked(static_cast<const CellSeen&>(o).radius);
+  return Cell::may_cut(pool_, center, radius, seen, v.p);
+}
+
 // Observations in the window that have a gap ball around v, or are nearer to it than to others. Few
-// have: times, which lie elsewhere in memory, are looked at last.
+// have: times, which lie elsewhere in memory, are looked at last, unless gap balls take longer.
 template <int D>
 void VertexIndex<sac::Scope, D>::appeared(const Vertex<D>& v, const sac::Window& window) noexcept {
-  observers_.for_each_reaching(v.p, box_.side, [&](const Vertex<D>& center, Observation& o) {
+  observers_.for_each_reaching(v.p, [&](const Vertex<D>& center, Observation& o) {
+    const auto is_later = [&] { return window.contains(engine_, engine_.call(o.call)); };
     if (center.self == v.self) return;
-    if (o.kind != kNearest) {
-      const double radius =
-          o.kind == kStar ? whole() : unpacked(static_cast<const CellSeen&>(o).radius);
-      if (!Cell::may_cut(pool_, center, radius, observers_.seen(o), v.p)) return;
-    }
-    sac::Call& call = engine_.call(o.call);
-    if (!window.contains(engine_, call)) return;
+    if (!Cell::kMayCutIsCheap && !is_later()) return;
+    if (!concerns(v, center, o)) return;
+    if (Cell::kMayCutIsCheap && !is_later()) return;
     if (o.kind != kNearest) observers_.note_arrival(o, v.self);
-    engine_.invalidate(call, &o);
+    engine_.invalidate(engine_.call(o.call), &o);
   });
 }
 
 // Observations in the window that v bounds.
 template <int D>
 void VertexIndex<sac::Scope, D>::vanished(const Vertex<D>& v, const sac::Window& window) noexcept {
-  observers_.for_each_reaching(v.p, box_.side, [&](const Vertex<D>&, const Observation& o) {
+  observers_.for_each_reaching(v.p, [&](const Vertex<D>&, const Observation& o) {
     const auto seen = observers_.neighbours(o);
     if (std::find(seen.begin(), seen.end(), v.self) == seen.end()) return;
     sac::Call& call = engine_.call(o.call);
@@ -216,7 +227,7 @@ CellLoan<D> VertexIndex<sac::Scope, D>::voronoi_cell(sac::Scope& s, VertexRef<D>
       look(*v, radius, last, [&](VertexHandle u) { return born_before(pool_[u], self); });
   s.weigh(take_visited());
   cell->write(codes_);
-  record_cell(s, *v, packed(concern(*cell)), clip);
+  record_cell(s, *v, concern(*cell), clip);
   return cell;
 }
 
@@ -225,7 +236,8 @@ double VertexIndex<sac::Scope, D>::nearest2(sac::Scope& s, VertexRef<D> v) {
   const sac::Call& self = s.self();
   const auto n = nearest_around(*v, [&](VertexHandle u) { return born_before(pool_[u], self); });
   s.weigh(take_visited());
-  record_nearest(s, *v, packed(std::sqrt(n.distance2) * (1 + 0x1p-40)), n.handle);
+  record_nearest(s, *v, Reach<D>::around(std::sqrt(n.distance2) * (1 + 0x1p-40) / box_.side),
+                 n.handle);
   return n.distance2;
 }
 
@@ -237,7 +249,7 @@ CellLoan<D> VertexIndex<sac::Scope, D>::star(sac::Scope& s, VertexRef<D> v) {
   CellLoan<D> cell = look(*v, whole(), last, [&](VertexHandle u) { return pool_[u].alive; });
   s.weigh(take_visited());
   cell->write(codes_);
-  record_star(s, *v, packed(concern(*cell)));
+  record_star(s, *v, concern(*cell));
   return cell;
 }
 
@@ -247,7 +259,7 @@ CellLoan<D> VertexIndex<sac::Scope, D>::star(sac::Scope& s, VertexRef<D> v) {
 
 template <int D>
 void VertexIndex<sac::Scope, D>::fill(sac::Scope& s, Observation& o, Vertex<D>& v,
-                                      float reach) noexcept {
+                                      Reach<D> reach) noexcept {
   o.center = v.self;
   o.call = engine_.handle_of(s.self());
   o.reach = reach;
@@ -255,7 +267,7 @@ void VertexIndex<sac::Scope, D>::fill(sac::Scope& s, Observation& o, Vertex<D>& 
 }
 
 template <int D>
-void VertexIndex<sac::Scope, D>::record_cell(sac::Scope& s, Vertex<D>& v, float reach,
+void VertexIndex<sac::Scope, D>::record_cell(sac::Scope& s, Vertex<D>& v, Reach<D> reach,
                                              float radius) {
   const auto same = [&](const CellSeen& o) {
     return o.center == v.self && o.reach == reach && o.radius == radius &&
@@ -273,7 +285,7 @@ void VertexIndex<sac::Scope, D>::record_cell(sac::Scope& s, Vertex<D>& v, float 
 }
 
 template <int D>
-void VertexIndex<sac::Scope, D>::record_nearest(sac::Scope& s, Vertex<D>& v, float reach,
+void VertexIndex<sac::Scope, D>::record_nearest(sac::Scope& s, Vertex<D>& v, Reach<D> reach,
                                                 VertexHandle nearest) {
   const auto same = [&](const NearestSeen& o) {
     return o.center == v.self && o.reach == reach && o.nearest == nearest;
@@ -285,7 +297,7 @@ void VertexIndex<sac::Scope, D>::record_nearest(sac::Scope& s, Vertex<D>& v, flo
 }
 
 template <int D>
-void VertexIndex<sac::Scope, D>::record_star(sac::Scope& s, Vertex<D>& v, float reach) {
+void VertexIndex<sac::Scope, D>::record_star(sac::Scope& s, Vertex<D>& v, Reach<D> reach) {
   const auto same = [&](const StarSeen& o) {
     const auto seen = observers_.seen(o);
     return o.center == v.self && o.reach == reach &&
@@ -467,7 +479,7 @@ void VertexIndex<sac::Scope, D>::check_observation(const Vertex<D>& v, const Obs
   cell->write(record);
   const auto last = observers_.seen(o);
   SAC_INVARIANT(std::equal(record.begin(), record.end(), last.begin(), last.end()));
-  SAC_INVARIANT(o.reach == packed(concern(*cell)));
+  SAC_INVARIANT(o.reach == concern(*cell));
 }
 
 template class VertexIndex<sac::Scope, 2>;

@@ -85,6 +85,10 @@ template <int D>
 class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure {
   using Base = VertexSearch<D>;
   using typename Base::Cell;
+  using Observation = detail::Observation<D>;
+  using NearestSeen = detail::NearestSeen<D>;
+  using CellSeen = detail::CellSeen<D>;
+  using StarSeen = detail::StarSeen<D>;
 
  public:
   using Base::role;
@@ -194,6 +198,8 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   [[nodiscard]] Role role_from(const sac::Call& producer, const Vertex<D>& v) const noexcept;
   void run_again(sac::Handle call, const sac::Window& window, const sac::Edge* seen) noexcept;
   void take_role(Vertex<D>& v, const Role& role, const sac::Call& producer) noexcept;
+  [[nodiscard]] bool concerns(const Vertex<D>& v, const Vertex<D>& center,
+                              const Observation& o) const noexcept;
   void appeared(const Vertex<D>& v, const sac::Window& window) noexcept;
   void vanished(const Vertex<D>& v, const sac::Window& window) noexcept;
   void retract_birth(BirthEdge& birth) noexcept;
@@ -201,7 +207,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   // The cells of v, and those that v bounds.
   template <class Visit>
   void for_each_cell_with(const Vertex<D>& v, Visit&& visit) noexcept {
-    observers_.for_each_reaching(v.p, box_.side, [&](const Vertex<D>& center, Observation& o) {
+    observers_.for_each_reaching(v.p, [&](const Vertex<D>& center, Observation& o) {
       if (o.kind != kCell) return;
       const auto seen = observers_.neighbours(o);
       const bool bounds = std::find(seen.begin(), seen.end(), v.self) != seen.end();
@@ -210,10 +216,10 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   }
   template <class Seen>
   CellLoan<D> look(const Vertex<D>& v, double radius, const Observation* last, Seen&& seen);
-  void fill(sac::Scope& s, Observation& o, Vertex<D>& v, float reach) noexcept;
-  void record_cell(sac::Scope& s, Vertex<D>& v, float reach, float radius);
-  void record_nearest(sac::Scope& s, Vertex<D>& v, float reach, VertexHandle nearest);
-  void record_star(sac::Scope& s, Vertex<D>& v, float reach);
+  void fill(sac::Scope& s, Observation& o, Vertex<D>& v, Reach<D> reach) noexcept;
+  void record_cell(sac::Scope& s, Vertex<D>& v, Reach<D> reach, float radius);
+  void record_nearest(sac::Scope& s, Vertex<D>& v, Reach<D> reach, VertexHandle nearest);
+  void record_star(sac::Scope& s, Vertex<D>& v, Reach<D> reach);
   [[nodiscard]] Ring* find_ring(const Vertex<D>& v) const noexcept;
   [[nodiscard]] sac::Handle new_ring(VertexHandle center);
   void forget(Observation& o) noexcept;

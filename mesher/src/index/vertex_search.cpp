@@ -17,18 +17,21 @@ float VertexSearch<D>::packed(double x) const noexcept {
 }
 
 template <int D>
-double VertexSearch<D>::concern(const Cell& cell) const noexcept {
+Reach<D> VertexSearch<D>::concern(const Cell& cell) const noexcept {
   const Vertex<D>& v = cell.center();
-  if (!v.boundary) return 2 * std::sqrt(cell.reach2());
-  Point<D> outward;
-  for (int i = 0; i < D; ++i) {
+  Point<D> outward{};
+  for (int i = 0; v.boundary && i < D; ++i) {
     outward[i] = v.p[i] == box_.lo[i] ? -1 : v.p[i] == box_.hi(i) ? 1 : 0;
   }
-  return 2 * std::sqrt(cell.reach2_inside(outward));
+  Box<D> extent = cell.extent_inside(outward);
+  for (double& x : extent.lo) x /= box_.side;
+  for (double& x : extent.hi) x /= box_.side;
+  return Reach<D>(extent);
 }
 
 template <int D>
-void VertexSearch<D>::fail_coincident(const Point<D>& p) {
+void VertexSearch<D>::fail_coincident(const Point<D>& p) const {
+  if (refuse_) refuse_(p);
   throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
                                         place_text(p) +
                                         ": a new vertex would coincide with another");

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -38,6 +39,10 @@ class VertexSearch {
   /// Lengths are kept as floats in units of the box's side, a power of two. `x` must be >= 0.
   [[nodiscard]] float packed(double x) const noexcept;
   [[nodiscard]] double unpacked(float x) const noexcept { return double{x} * box_.side; }
+
+  /// Who refuses a vertex where there is one: throws.
+  using RefuseCoincident = std::function<void(const Point<D>&)>;
+  void set_refusal(RefuseCoincident refuse) { refuse_ = std::move(refuse); }
 
   /// The place on a segment that v stands for, if it does.
   [[nodiscard]] Role role(const Vertex<D>& v) const noexcept {
@@ -138,12 +143,12 @@ class VertexSearch {
     return cell;
   }
 
-  /// The distance up to which a vertex that comes may cut the cell. A corner of the cell of a
-  /// vertex v on a side of the box, beyond that side, is never cut. Proof: the grid is there from
-  /// the start, so the corner's projection q on the side is at most half an edge from v; a vertex
-  /// nearer to the corner than v, being in the box, is nearer to q, too, hence in the diametral
-  /// ball of an edge of the grid. No vertex ever is [L 4.4.1].
-  [[nodiscard]] double concern(const Cell& cell) const noexcept;
+  /// Where a vertex that comes may cut the cell, or one may be that bounds it: around its gap
+  /// balls. A corner of the cell of a vertex v on a side of the box, beyond that side, is never
+  /// cut. Proof: the grid is there from the start, so the corner's projection q on the side is at
+  /// most half an edge from v; a vertex nearer to the corner than v, being in the box, is nearer to
+  /// q, too, hence in the diametral ball of an edge of the grid. No vertex ever is [L 4.4.1].
+  [[nodiscard]] Reach<D> concern(const Cell& cell) const noexcept;
 
   struct Nearest {
     VertexHandle handle;
@@ -181,12 +186,13 @@ class VertexSearch {
     if (v.on_segment) roles_.set(v.self, role);
   }
 
-  [[noreturn]] static void fail_coincident(const Point<D>& p);
+  [[noreturn]] void fail_coincident(const Point<D>& p) const;
 
   const MeshBox<D>& box_;
   VertexPool<D> pool_;
   Quadtree<D> tree_;
   Roles roles_;
+  RefuseCoincident refuse_;
 
  private:
   // Cells and vertices in a box. Measured (updates of great_lakes): 64 or 96 is a tenth better than

@@ -119,6 +119,12 @@ text::Line split(const std::string& path, long number, std::string_view text) {
   return line;
 }
 
+// The first line of a file, which may begin with a byte order mark: Lines passes over it.
+std::string without_mark(const std::string& first) {
+  text::Lines lines(first);
+  return lines.next() ? std::string(lines.text()) : std::string();
+}
+
 bool is_word(const text::Line& line, std::string_view word) {
   if (line[0] != word) return false;
   if (line.size() == 1) return true;
@@ -156,7 +162,7 @@ EditScript::EditScript(const std::string& path) : path_(path) {
 // Goes to the next line that holds anything.
 bool EditScript::read_line() {
   while (std::getline(stream_, text_)) {
-    ++number_;
+    if (++number_ == 1) text_ = without_mark(text_);
     if (!text_.empty() && text_.back() == '\r') text_.pop_back();
     if (split(path_, number_, text_).size() > 0) return true;
   }

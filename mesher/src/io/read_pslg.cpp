@@ -62,12 +62,13 @@ void require_distinct_ids(const PslgFile& f) {
 // Throws: Error(unknown_id) for a line along a point that is none of `sorted`.
 void require_known(const char* what, FeatureId line, const std::vector<FeatureId>& points,
                    const std::vector<FeatureId>& sorted, const PslgFile& f, const Place& place) {
+  const bool alone = sorted.empty() && f.point_file == f.file;
   for (const FeatureId id : points) {
     if (std::binary_search(sorted.begin(), sorted.end(), id)) continue;
     throw Error(ErrorCode::unknown_id,
                 std::string(what) + " " + id_text(line) + " ends at point " + id_text(id) +
                     ", which is not there; there are " + std::to_string(sorted.size()) +
-                    " points in " + f.point_file,
+                    " points in " + f.point_file + (alone ? ", and no .node file beside it" : ""),
                 place, {line, id});
   }
 }

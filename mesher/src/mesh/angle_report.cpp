@@ -7,6 +7,7 @@
 
 #include "input.hpp"
 #include "io/text.hpp"
+#include "mesh/forced.hpp"
 #include "mesh/mesh_lines.hpp"
 #include "mesh/shrunk_vertices.hpp"
 #include "mesher/angles.hpp"
@@ -22,7 +23,6 @@ using detail::MeshLines;
 
 constexpr double kDegrees = 180 / 3.141592653589793;
 constexpr double kSmall = 60;
-constexpr double kRounding = 1e-9;  // of radius_edge
 
 using Corners = Mesh<2>::Simplex;
 
@@ -34,28 +34,38 @@ class Report {
   AngleReport make() {
     for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) look_around(v);
     for (const Corners& t : mesh_.simplices) look_at(t);
-    for (const auto& [key, angle] : angles_) out_.angles.push_back(angle);
-    std::sort(out_.angles.begin(), out_.angles.end(), [](const SmallAngle& a, const SmallAngle& b) {
-      return std::tie(a.at, a.degrees, a.lines) < std::tie(b.at, b.degrees, b.lines);
-    });
+    out_.angles = angles();
     out_.promised_deg = std::asin(1 / (2 * options_.rho)) * kDegrees;
-    out_.shrunk = detail::shrunk_vertices(mesh_, lines_, kShrinks);
-    forget_wanted();
+    out_.shrunk = shrunk();
     return std::move(out_);
+  }
+  // Of the triangles at these indices, and of their corners.
+  AngleNews make_news(const std::vector<std::size_t>& triangles) {
+    std::vector<Point<2>> corners;
+    for (const std::size_t i : triangles) {
+      look_at(mesh_.simplices[i]);
+      for (const auto v : mesh_.simplices[i]) corners.push_back(mesh_.vertices[v]);
+    }
+    std::sort(corners.begin(), corners.end());
+    AngleNews news{angles(), shrunk()};
+    std::erase_if(news.shrunk, [&](const ShrunkVertex& v) {
+      return !std::binary_search(corners.begin(), corners.end(), v.at);
+    });
+    return news;
   }
 
  private:
-  // Short lengths that limits of size ask for are no fault.
-  void forget_wanted() {
+  [[nodiscard]] std::vector<SmallAngle> angles() const {
+    std::vector<SmallAngle> all;
+    for (const auto& [key, angle] : angles_) all.push_back(angle);
+    std::sort(all.begin(), all.end(), detail::is_before);
+    return all;
+  }
+  [[nodiscard]] std::vector<ShrunkVertex> shrunk() const {
+    std::vector<ShrunkVertex> all = detail::shrunk_vertices(mesh_, lines_, kShrinks);
     const detail::Limits limits(options_, detail::mesh_box(options_));
-    if (!limits.any()) return;
-    std::erase_if(out_.shrunk, [&](const ShrunkVertex& v) {
-      Point<2> p = v.at;
-      for (int i = 0; i < 2; ++i)
-        p[i] = std::clamp(p[i], options_.domain.lo[i], options_.domain.hi[i]);
-      const double wanted = limits.pitch(p) + std::hypot(p[0] - v.at[0], p[1] - v.at[1]);
-      return wanted <= kShrinks * v.nearest;
-    });
+    std::erase_if(all, [&](const auto& v) { return detail::is_wanted(v, limits); });
+    return all;
   }
 
   // A small angle, by its apex and its segments.
@@ -86,37 +96,22 @@ class Report {
     }
   }
 
-  // The shortest edge, the triangle on its left; of equals the first.
-  [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> shortest(const Corners& t) const {
-    std::pair best(t[0], t[1]);
-    for (const auto& e : {std::pair(t[1], t[2]), std::pair(t[2], t[0])}) {
-      if (lines_.distance(e.first, e.second) < lines_.distance(best.first, best.second)) best = e;
-    }
-    return best;
-  }
-
   void look_at(const Corners& t) {
     const Point<2>&a = mesh_.vertices[t[0]], &b = mesh_.vertices[t[1]], &c = mesh_.vertices[t[2]];
     const double degrees = smallest_angle_deg(a, b, c);
     const double ratio = radius_edge(a, b, c);
-    if (ratio > options_.rho * (1 + kRounding)) {
-      const auto [p, q] = shortest(t);
+    if (ratio > options_.rho * (1 + detail::kPoorRounding)) {
+      const auto place = [&](std::uint32_t v) { return mesh_.vertices[v]; };
+      const auto [p, q] = detail::shortest_edge(t, place);
       const auto wedges = lines_.wedges_across(p, q, false);
-      for (const auto& w : wedges) count(angle(w.s, w.t, w.apex), degrees);
+      for (const auto& w : wedges) detail::count(angle(w.s, w.t, w.apex), degrees);
       if (!wedges.empty()) {
-        keep_smallest(out_.smallest_forced_deg, degrees);
+        detail::keep_smallest(out_.smallest_forced_deg, degrees);
         ++out_.forced;
         return;
       }
     }
-    keep_smallest(out_.smallest_elsewhere_deg, degrees);
-  }
-  static void count(SmallAngle& angle, double degrees) {
-    ++angle.forced;
-    keep_smallest(angle.smallest_deg, degrees);
-  }
-  static void keep_smallest(double& least, double degrees) {
-    least = least == 0 ? degrees : std::min(least, degrees);
+    detail::keep_smallest(out_.smallest_elsewhere_deg, degrees);
   }
 
   const Mesh<2>& mesh_;
@@ -135,6 +130,18 @@ std::string number(double x) {
 std::string id_text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
 }  // namespace
+
+AngleNews angle_news(const Mesh<2>& mesh, const Options<2>& options,
+                     const std::vector<std::array<Point<2>, 3>>& triangles) {
+  if (mesh.edges.empty()) return {};
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < mesh.simplices.size(); ++i) {
+    const auto& [a, b, c] = mesh.simplices[i];
+    const std::array corners{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
+    if (std::binary_search(triangles.begin(), triangles.end(), corners)) indices.push_back(i);
+  }
+  return Report(mesh, options).make_news(indices);
+}
 
 AngleReport angle_report(const Mesh<2>& mesh, const Options<2>& options) {
   return Report(mesh, options).make();

@@ -246,7 +246,13 @@ class Checker {
   }
 
   Verdict regions() { return detail::check_regions(checked_, on_lines_, options_); }
-  Verdict quality() { return detail::check_quality(checked_, *options_.rho, paths_); }
+  // Small angles are those between the input's lines, or, without an input, between the mesh's own.
+  Verdict quality() {
+    if (options_.graph == nullptr && options_.features != nullptr) {
+      paths_ = detail::drawn_paths(checked_, options_.features->edges);
+    }
+    return detail::check_quality(checked_, *options_.rho, paths_);
+  }
 
   Verdict area() {
     constexpr double kRounding = 1e-9;  // of areas, as of radius-edge ratios

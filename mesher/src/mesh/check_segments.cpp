@@ -1,7 +1,9 @@
 // Whether the lines of the input are unions of edges: a walk from end to end of each.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include "io/text.hpp"
 #include "mesh/checked_mesh.hpp"
@@ -114,6 +116,28 @@ std::vector<LinePath> pieces_of(const Pslg& graph) {
   return pieces;
 }
 
+// Each edge that names a line is on it.
+Verdict check_names(const CheckedMesh& mesh, const MeshFeatures& features,
+                    const std::vector<LinePath>& paths) {
+  using Named = std::tuple<std::uint32_t, std::uint32_t, FeatureId>;
+  std::vector<Named> on;
+  for (const LinePath& path : paths) {
+    for (std::size_t i = 1; i < path.vertices.size(); ++i) {
+      const auto [low, high] = std::minmax(path.vertices[i - 1], path.vertices[i]);
+      on.emplace_back(low, high, path.line);
+    }
+  }
+  std::sort(on.begin(), on.end());
+  for (const MeshEdge& e : features.edges) {
+    if (!e.line || std::binary_search(on.begin(), on.end(), Named(e.low, e.high, *e.line))) {
+      continue;
+    }
+    return Verdict::bad(mesh.edge(e.low, e.high) + " is not on line " +
+                        std::to_string(static_cast<std::int64_t>(*e.line)) + ", which it names");
+  }
+  return Verdict::good("");
+}
+
 }  // namespace
 
 PathsVerdict check_segments(const CheckedMesh& mesh, const CheckOptions& options) {
@@ -132,6 +156,9 @@ PathsVerdict check_segments(const CheckedMesh& mesh, const CheckOptions& options
     all.verdict = Verdict::bad("line " + std::to_string(static_cast<std::int64_t>(path.line)) +
                                " from " + text::to_text<2>(path.from) + " to " +
                                text::to_text<2>(path.to) + ": " + *trouble);
+  }
+  if (all.verdict.holds && !all.paths.empty() && options.features != nullptr) {
+    all.verdict = check_names(mesh, *options.features, all.paths);
   }
   if (all.verdict.holds) {
     all.verdict.detail = std::to_string(all.paths.size() - outside) + " segments are unions of " +

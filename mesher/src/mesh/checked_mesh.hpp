@@ -85,6 +85,11 @@ struct PathsVerdict {
 /// Lines may lie outside of what is meshed, unless the mesh fills a box.
 [[nodiscard]] PathsVerdict check_segments(const CheckedMesh& mesh, const CheckOptions& options);
 
+/// The lines that a mesh itself tells of: its edges on lines, ascending, joined where two of one
+/// line go straight on. Several segments in a row may be one path.
+[[nodiscard]] std::vector<LinePath> drawn_paths(const CheckedMesh& mesh,
+                                                const std::vector<MeshEdge>& edges);
+
 /// (d)
 [[nodiscard]] Verdict check_regions(const CheckedMesh& mesh, const LineEdges& on_lines,
                                     const CheckOptions& options);

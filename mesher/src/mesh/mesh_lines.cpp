@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "geometry/segment_tests.hpp"
+#include "mesh/forced.hpp"
 
 namespace mesher::detail {
 
 namespace {
 
-constexpr double kPi = 3.141592653589793;
 constexpr double kSmall = 60;    // degrees
 constexpr double kEqual = 1e-9;  // distances that differ by no more are of equal labels
 
@@ -67,8 +67,7 @@ Point<2> MeshLines::along(std::uint32_t s, std::uint32_t apex) const {
 }
 
 double MeshLines::degrees(std::uint32_t s, std::uint32_t t, std::uint32_t apex) const {
-  const Point<2> u = along(s, apex), w = along(t, apex);
-  return std::atan2(std::abs(u[0] * w[1] - u[1] * w[0]), u[0] * w[0] + u[1] * w[1]) * 180 / kPi;
+  return degrees_between(along(s, apex), along(t, apex));
 }
 
 std::vector<MeshLines::Wedge> MeshLines::wedges_across(std::uint32_t p, std::uint32_t q,

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -94,7 +95,6 @@ struct PointWorld {
     if (vertices.pool().size() > most_records) fail_too_many(s);
   }
   void fail_too_many(S& s) const;
-  [[noreturn]] void fail_useless(const Vertex<D>& v, const Vertex<D>& x) const;
 
  private:
   static auto make_vertices(const MeshBox<D>& box, sac::Engine& engine) {
@@ -113,6 +113,7 @@ struct World : PointWorld<S, D> {
       : PointWorld<S, D>(options, mesh_box, host) {
     host.set_environment(this);
   }
+  [[noreturn]] void fail_useless(const Vertex<D>& v, const Vertex<D>& x) const;
 };
 
 template <class S>
@@ -141,6 +142,8 @@ struct World<S, 2> : PointWorld<S, 2> {
         fills(host.make_agenda("fill")) {
     host.set_environment(this);
     features.set_refusal([this](const Vertex<2>& v, const Vertex<2>& x) { fail_too_close(v, x); });
+    vertices.set_refusal(
+        [this](const Point<2>& p) { fail_near(p, 0, "a new vertex would coincide with another"); });
     if (limits.any()) post_fill();
   }
 
@@ -157,6 +160,9 @@ struct World<S, 2> : PointWorld<S, 2> {
   [[noreturn]] void fail_too_short(const PieceRef& piece);
   /// Throws: Error(too_close), with the ids of the features that v and x are on.
   [[noreturn]] void fail_too_close(const Vertex<2>& v, const Vertex<2>& x) const;
+  [[noreturn]] void fail_useless(const Vertex<2>& v, const Vertex<2>& x);
+  /// Throws: Error(too_close), with the ids of the features nearest to p, within `radius` or not.
+  [[noreturn]] void fail_near(const Point<2>& p, double radius, const std::string& why);
 
  private:
   void post_fill();

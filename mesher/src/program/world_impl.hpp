@@ -9,6 +9,7 @@
 #include "program/split_segments.hpp"
 #include "program/triangulate.hpp"
 #include "program/world.hpp"
+#include "segments/near_features.hpp"
 #include "segments/vertex_budget.hpp"
 
 namespace mesher::detail {
@@ -97,8 +98,9 @@ void PointWorld<S, D>::output(S&, VertexRef<D> v, const CellOf<D>& cell) {
 
 template <class S>
 void World<S, 2>::fail_too_short(const PieceRef& piece) {
-  throw too_close_to_segment(piece, segments.witness(piece), names, vertices.pool(),
-                             segments.pool());
+  const Witness witness = segments.witness(piece);
+  if (!witness) fail_near(piece.lo(), piece.length(), "segments are split ever shorter");
+  throw too_close_to_segment(piece, witness, names, vertices.pool(), segments.pool());
 }
 
 template <class S>
@@ -118,10 +120,27 @@ void PointWorld<S, D>::fail_too_many(S& s) const {
 }
 
 template <class S, int D>
-void PointWorld<S, D>::fail_useless(const Vertex<D>& v, const Vertex<D>& x) const {
+void World<S, D>::fail_useless(const Vertex<D>& v, const Vertex<D>& x) const {
   throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
                                         place_text(v.p) + ": rounding moved a new vertex to " +
                                         place_text(x.p));
+}
+
+template <class S>
+void World<S, 2>::fail_useless(const Vertex<2>& v, const Vertex<2>& x) {
+  fail_near(v.p, std::sqrt(squared_distance(v.p, x.p)),
+            "rounding moved a new vertex to " + place_text(x.p));
+}
+
+template <class S>
+void World<S, 2>::fail_near(const Point<2>& p, double radius, const std::string& why) {
+  const double least = box.side * 0x1p-52;
+  NamedFeatures near =
+      named_near(p, std::max(radius, least), 2 * box.side, segments.store(), features, names);
+  throw Error(ErrorCode::too_close,
+              near.text + " are too close to each other for double precision near " +
+                  place_text(p) + ": " + why,
+              {}, std::move(near.ids));
 }
 
 }  // namespace mesher::detail

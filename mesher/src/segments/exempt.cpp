@@ -45,20 +45,45 @@ bool has_sharp_neighbour(const SegmentStore& segments, const Segment& s, VertexH
       apex, [&](const Segment& t) { return t.self != s.self && meet_sharply(s, t, apex); });
 }
 
-bool is_exempt(const VertexSearch<2>& vertices, const SegmentStore& segments, const Vertex<2>& p,
-               const Vertex<2>& q) {
+namespace {
+
+// Calls visit(s, t, apex) for segments s and t that meet sharply at `apex`, p on s and q on t
+// equally far from it.
+template <class Visit>
+void for_each_wedge(const VertexSearch<2>& vertices, const SegmentStore& segments,
+                    const Vertex<2>& p, const Vertex<2>& q, Visit&& visit) {
   const auto may_be = [](const Vertex<2>& v) { return v.on_segment || v.input; };
-  if (!may_be(p) || !may_be(q)) return false;
-  const bool both_inside = p.on_segment && q.on_segment;
-  bool exempt = false;
+  if (!may_be(p) || !may_be(q)) return;
   for_each_leg(vertices, segments, p, [&](const Segment& s, VertexHandle apex, double from_p) {
     for_each_leg(vertices, segments, q, [&](const Segment& t, VertexHandle other, double from_q) {
-      if (exempt || other != apex || s.self == t.self || !equally_far(from_p, from_q)) return;
-      exempt = meet_sharply(s, t, apex) &&
-               (both_inside || predicates::orient2d(p.p, q.p, vertices.pool()[apex].p) > 0);
+      if (other != apex || s.self == t.self || !equally_far(from_p, from_q)) return;
+      if (meet_sharply(s, t, apex)) visit(s, t, apex);
     });
   });
+}
+
+}  // namespace
+
+bool is_exempt(const VertexSearch<2>& vertices, const SegmentStore& segments, const Vertex<2>& p,
+               const Vertex<2>& q) {
+  const bool both_inside = p.on_segment && q.on_segment;
+  bool exempt = false;
+  for_each_wedge(vertices, segments, p, q, [&](const Segment&, const Segment&, VertexHandle apex) {
+    exempt = exempt || both_inside || predicates::orient2d(p.p, q.p, vertices.pool()[apex].p) > 0;
+  });
   return exempt;
+}
+
+std::vector<Wedge> wedges_across(const VertexSearch<2>& vertices, const SegmentStore& segments,
+                                 const Vertex<2>& p, const Vertex<2>& q, bool any_side) {
+  const bool both_inside = p.on_segment && q.on_segment;
+  std::vector<Wedge> found;
+  for_each_wedge(vertices, segments, p, q,
+                 [&](const Segment& s, const Segment& t, VertexHandle apex) {
+                   const bool left = predicates::orient2d(p.p, q.p, vertices.pool()[apex].p) > 0;
+                   if (any_side || both_inside || left) found.push_back({s.self, t.self, apex});
+                 });
+  return found;
 }
 
 }  // namespace mesher::detail

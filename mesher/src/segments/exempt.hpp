@@ -9,6 +9,8 @@
 // who sees a vertex sees these (vertex_index.hpp).
 #pragma once
 
+#include <vector>
+
 #include "index/vertex_search.hpp"
 #include "segments/segment_store.hpp"
 
@@ -22,5 +24,15 @@ namespace mesher::detail {
 /// Whether a poor triangle on the left of p -> q, its shortest edge, stays.
 [[nodiscard]] bool is_exempt(const VertexSearch<2>& vertices, const SegmentStore& segments,
                              const Vertex<2>& p, const Vertex<2>& q);
+
+/// Two segments with a common end.
+struct Wedge {
+  SegmentHandle s, t;
+  VertexHandle apex;
+};
+/// Those for the sake of which it stays; `any_side`: or a triangle on the right of p -> q.
+[[nodiscard]] std::vector<Wedge> wedges_across(const VertexSearch<2>& vertices,
+                                               const SegmentStore& segments, const Vertex<2>& p,
+                                               const Vertex<2>& q, bool any_side);
 
 }  // namespace mesher::detail

@@ -6,12 +6,22 @@
 
 namespace mesher::detail {
 
-std::size_t LeafRecords::PieceHash::operator()(const Piece& p) const noexcept {
-  std::uint64_t h = sac::mix(p.segment + (static_cast<std::uint64_t>(p.kind) << 32));
-  for (const Label& l : {p.lo, p.hi}) {
-    h = sac::mix(h + std::bit_cast<std::uint64_t>(l.distance) + (l.from_b ? 1 : 0));
+// Distances from the other end are differences of rounded lengths. Labels that differ do so by far
+// more: a piece is at least 2^-44 of the box long, and labels in it are round numbers.
+bool Leaf::ends_as_far(const Segment& own, const Label& label) const noexcept {
+  const double rounding = 0x1p-50 * (own.length + segment->length);
+  const auto as_far = [&](bool own_b, bool other_b) {
+    const double distance = label.from(own_b, own.length);
+    const auto is_equal = [&](const Label& end) {
+      return std::abs(end.from(other_b, segment->length) - distance) <= rounding;
+    };
+    return is_equal(piece.lo) || is_equal(piece.hi);
+  };
+  for (const bool own_b : {false, true}) {
+    const VertexHandle apex = own_b ? own.b : own.a;
+    if (segment->has_end(apex) && as_far(own_b, segment->b == apex)) return true;
   }
-  return h;
+  return false;
 }
 
 LeafHandle LeafRecords::fresh() {
@@ -34,34 +44,34 @@ Leaf& LeafRecords::create(const Piece& piece) {
 
 // A rounded radius may be too small by its last bits; the tree's margin covers that.
 Leaf& LeafRecords::record(const Piece& piece) {
-  const auto [it, is_new] = by_piece_.try_emplace(piece, 0);
-  if (!is_new) return (*this)[it->second];
-  Leaf* leaf = nullptr;
+  if (const LeafHandle h = by_piece_.find(piece)) return (*this)[h];
+  Leaf& leaf = create(piece);
+  const double radius = std::hypot(leaf.hi[0] - leaf.lo[0], leaf.hi[1] - leaf.lo[1]) / 2;
   try {
-    leaf = &create(piece);
-    const double radius = std::hypot(leaf->hi[0] - leaf->lo[0], leaf->hi[1] - leaf->lo[1]) / 2;
-    tree_.insert(leaf->middle(), radius, leaf->self);
+    by_piece_.insert(leaf.self);
+    try {
+      tree_.insert(leaf.middle(), radius, leaf.self);
+    } catch (...) {
+      by_piece_.erase(leaf.self);
+      throw;
+    }
   } catch (...) {
-    by_piece_.erase(it);
-    if (leaf != nullptr) leaf->self = std::exchange(free_, leaf->self);
+    leaf.self = std::exchange(free_, leaf.self);
     throw;
   }
-  it->second = leaf->self;
-  return *leaf;
+  return leaf;
 }
 
 void LeafRecords::release(Leaf& leaf) noexcept {
   const LeafHandle h = leaf.self;
   hide(leaf);
-  by_piece_.erase(leaf.piece);
+  by_piece_.erase(h);
   leaf = Leaf{};
   leaf.self = std::exchange(free_, h);
 }
 
 std::size_t LeafRecords::bytes() const noexcept {
-  return chunks_.size() * sizeof(Chunk) + tree_.bytes() +
-         by_piece_.size() * (sizeof(Piece) + 3 * sizeof(void*)) +
-         by_piece_.bucket_count() * sizeof(void*);
+  return chunks_.size() * sizeof(Chunk) + tree_.bytes() + by_piece_.bytes();
 }
 
 void LeafRecords::check_invariants() const {
@@ -69,7 +79,7 @@ void LeafRecords::check_invariants() const {
   std::size_t used = 0;
   for_each([&](const Leaf& leaf) {
     ++used;
-    SAC_INVARIANT(by_piece_.at(leaf.piece) == leaf.self);
+    SAC_INVARIANT(by_piece_.find(leaf.piece) == leaf.self);
   });
   SAC_INVARIANT(used == by_piece_.size());
   std::size_t free = 0;

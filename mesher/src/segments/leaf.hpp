@@ -11,14 +11,14 @@
 #include <memory>
 #include <ostream>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "geometry/diametral_ball.hpp"
 #include "sac/sac.hpp"
+#include "segments/handle_table.hpp"
 #include "segments/reach_tree.hpp"
-#include "segments/segment.hpp"
+#include "segments/roles.hpp"
 
 namespace mesher::detail {
 
@@ -27,8 +27,8 @@ using LeafHandle = std::uint32_t;  // 0: none
 struct Leaf {
   Piece piece;
   const Segment* segment = nullptr;  // that of the piece
-  Point<2> lo{}, hi{};  // its ends
-  LeafHandle self = 0;  // in a free record: the next free one
+  Point<2> lo{}, hi{};               // its ends
+  LeafHandle self = 0;               // in a free record: the next free one
   LeafHandle next_changed = 0;
   sac::Presence begun, ended;  // the calls that make it a leaf, and those that cut it
   bool changed = false;        // listed by next_changed
@@ -40,11 +40,31 @@ struct Leaf {
   [[nodiscard]] bool has_in_ball(const Point<2>& x) const {
     return x != lo && x != hi && in_diametral_ball(x, lo, hi);
   }
+  /// Whether an end of it and a place on `own`, another segment, are equally far from a common end
+  /// of the two: corners of an isosceles triangle, whose base is at an acute angle to the leaf or,
+  /// at the leaf's end, at an obtuse one. So that place is outside of the ball. In rounded
+  /// coordinates the angle may be right.
+  [[nodiscard]] bool ends_as_far(const Segment& own, const Label& label) const noexcept;
 };
 
-/// An argument of traced functions: equal by identity, ordered by coordinates. Of two pieces between
-/// the same places an update may know both: those of a segment that goes and of one that comes, and
-/// those whose places are labelled in two ways.
+/// By coordinates. Of two pieces between the same places an update may know both: those of a
+/// segment that goes and of one that comes, and those whose places are labelled in two ways.
+[[nodiscard]] inline std::partial_ordering order(const Leaf& a, const Leaf& b) {
+  const auto by_lo = a.lo <=> b.lo;
+  if (by_lo != 0) return by_lo;
+  const auto by_hi = a.hi <=> b.hi;
+  if (by_hi != 0) return by_hi;
+  const auto by_a = a.segment->place_a <=> b.segment->place_a;
+  if (by_a != 0) return by_a;
+  const auto by_b = a.segment->place_b <=> b.segment->place_b;
+  if (by_b != 0) return by_b;
+  const auto labels = [](const Piece& p) {
+    return std::tuple(p.lo, p.hi, p.kind);
+  };
+  return labels(a.piece) <=> labels(b.piece);
+}
+
+/// An argument of traced functions: equal by identity, ordered as said.
 struct LeafRef {
   Leaf* leaf = nullptr;
 
@@ -52,18 +72,7 @@ struct LeafRef {
   Leaf* operator->() const noexcept { return leaf; }
   friend bool operator==(const LeafRef&, const LeafRef&) = default;
   friend std::partial_ordering operator<=>(const LeafRef& a, const LeafRef& b) {
-    const auto by_lo = a.leaf->lo <=> b.leaf->lo;
-    if (by_lo != 0) return by_lo;
-    const auto by_hi = a.leaf->hi <=> b.leaf->hi;
-    if (by_hi != 0) return by_hi;
-    const auto by_a = a.leaf->segment->place_a <=> b.leaf->segment->place_a;
-    if (by_a != 0) return by_a;
-    const auto by_b = a.leaf->segment->place_b <=> b.leaf->segment->place_b;
-    if (by_b != 0) return by_b;
-    const auto labels = [](const Piece& p) {
-      return std::tuple(p.lo.distance, p.lo.from_b, p.hi.distance, p.hi.from_b, p.kind);
-    };
-    return labels(a.leaf->piece) <=> labels(b.leaf->piece);
+    return order(*a.leaf, *b.leaf);
   }
   friend std::uint64_t hash_value(const LeafRef& r) noexcept { return r.leaf->self; }
   friend std::ostream& operator<<(std::ostream& out, const LeafRef& r) {
@@ -75,8 +84,7 @@ struct LeafRef {
       for (const double x : p) sink.number(std::bit_cast<std::uint64_t>(x));
     }
     for (const Label& l : {r.leaf->piece.lo, r.leaf->piece.hi}) {
-      sink.number(std::bit_cast<std::uint64_t>(l.distance));
-      sink.number(l.from_b ? 1 : 0);
+      sink.number(l.bits());
     }
     sink.number(static_cast<std::uint64_t>(r.leaf->piece.kind));
   }
@@ -86,7 +94,9 @@ struct LeafRef {
 class LeafRecords {
  public:
   LeafRecords(const MeshBox<2>& box, const SegmentPool& segments)
-      : segments_(segments), tree_(box) {}
+      : segments_(segments), by_piece_(*this), tree_(box) {}
+  LeafRecords(const LeafRecords&) = delete;
+  LeafRecords& operator=(const LeafRecords&) = delete;
 
   [[nodiscard]] Leaf& operator[](LeafHandle h) const noexcept {
     return (*chunks_[h / kChunk])[h % kChunk];
@@ -99,11 +109,28 @@ class LeafRecords {
   /// The record is found by its piece alone from now on.
   void hide(const Leaf& leaf) noexcept { tree_.erase(leaf.middle(), leaf.self); }
 
-  /// Calls visit(leaf) for the records with x in their ball, in no particular order.
+  /// Whether the leaf has in its ball a place, or (unless the role is none) a vertex on another
+  /// segment. By labels where coordinates may not tell.
+  [[nodiscard]] bool has_in_ball(const Leaf& leaf, const Point<2>& x, const Role& role) const {
+    if (role.on == leaf.piece.segment || !leaf.has_in_ball(x)) return false;
+    if (role.on == 0 || !leaf.ends_as_far(segments_[role.on], role.label)) return true;
+    overrules_ = true;
+    return false;
+  }
+  /// Whether a label has ever overruled coordinates.
+  [[nodiscard]] bool overrules() const noexcept { return overrules_; }
+  /// Calls visit(leaf) for those of which that is true, in no particular order.
   template <class Visit>
-  void for_each_with(const Point<2>& x, Visit&& visit) const {
+  void for_each_with(const Point<2>& x, const Role& role, Visit&& visit) const {
     tree_.visit_at(x, [&](LeafHandle h) {
-      if ((*this)[h].has_in_ball(x)) visit((*this)[h]);
+      if (has_in_ball((*this)[h], x, role)) visit((*this)[h]);
+    });
+  }
+  /// Calls visit(leaf) for the records with an end at p, in no particular order.
+  template <class Visit>
+  void for_each_ending_at(const Point<2>& p, Visit&& visit) const {
+    tree_.visit_at(p, [&](LeafHandle h) {
+      if ((*this)[h].lo == p || (*this)[h].hi == p) visit((*this)[h]);
     });
   }
   /// Calls visit(leaf) for every record in use, in the order of handles.
@@ -123,17 +150,20 @@ class LeafRecords {
  private:
   static constexpr LeafHandle kChunk = 1024;
   using Chunk = std::array<Leaf, kChunk>;
-  struct PieceHash {
-    std::size_t operator()(const Piece& p) const noexcept;
-  };
+
+  friend class HandleTable<LeafRecords>;
+  using Key = Piece;
+  [[nodiscard]] const Piece& key(LeafHandle h) const noexcept { return (*this)[h].piece; }
+  [[nodiscard]] static std::size_t hash(const Piece& p) noexcept { return hash_value(p); }
 
   Leaf& create(const Piece& piece);
   LeafHandle fresh();
 
   const SegmentPool& segments_;
   std::vector<std::unique_ptr<Chunk>> chunks_;
-  std::unordered_map<Piece, LeafHandle, PieceHash> by_piece_;
+  HandleTable<LeafRecords> by_piece_;
   ReachTree<LeafHandle> tree_;
+  mutable bool overrules_ = false;
   LeafHandle free_ = 0;
   LeafHandle next_ = 1;
 };

@@ -15,18 +15,19 @@ void sort(std::vector<LeafRef>& leaves) { std::sort(leaves.begin(), leaves.end()
 
 using PlainLeaves = Leaves<sac::PlainScope>;
 
-std::vector<LeafRef> PlainLeaves::around(sac::PlainScope&, const Point<2>& x) {
+std::vector<LeafRef> PlainLeaves::around(const Point<2>& x, const Role& role) const {
   std::vector<LeafRef> leaves;
-  records_.for_each_with(x, [&](Leaf& leaf) { leaves.push_back({&leaf}); });
+  records_.for_each_with(x, role, [&](Leaf& leaf) { leaves.push_back({&leaf}); });
   sort(leaves);
   return leaves;
 }
 
-std::vector<LeafRef> PlainLeaves::around(sac::PlainScope& s, VertexRef<2> v) {
-  const SegmentHandle own = vertices_.role(*v).on;
-  std::vector<LeafRef> leaves = around(s, v->p);
-  std::erase_if(leaves, [&](const LeafRef& leaf) { return leaf->piece.segment == own; });
-  return leaves;
+std::vector<LeafRef> PlainLeaves::around(sac::PlainScope&, const Point<2>& x) {
+  return around(x, Role());
+}
+
+std::vector<LeafRef> PlainLeaves::around(sac::PlainScope&, VertexRef<2> v) {
+  return around(v->p, vertices_.role(*v));
 }
 
 // --- Effects ---------------------------------------------------------------------------------
@@ -95,7 +96,7 @@ void TracedLeaves::tell_vertices(const Leaf& leaf, Concerned&& concerned) noexce
     if (v.boundary || v.input || !leaf.has_in_ball(v.p)) return;
     if (!v.on_segment) {
       if (v.presence.there()) tell(engine_.call(v.presence.birth()), nullptr);
-    } else if (vertices_.role(v).on != leaf.piece.segment) {
+    } else if (records_.has_in_ball(leaf, v.p, vertices_.role(v))) {
       vertices_.for_each_cell_seen(v, [&](sac::Call& c, const sac::Edge& e) { tell(c, &e); });
     }
   });
@@ -120,12 +121,12 @@ void TracedLeaves::tell_asks(const Leaf& leaf, Concerned&& concerned) noexcept {
 // --- Observations ----------------------------------------------------------------------------
 
 std::vector<LeafRef> TracedLeaves::answer(sac::Scope& s, const Point<2>& x,
-                                          SegmentHandle without) const {
+                                          const Role& role) const {
   const sac::Call& call = s.self();
   const std::uint64_t before = records_.looked_at();
   std::vector<LeafRef> leaves;
-  records_.for_each_with(x, [&](Leaf& leaf) {
-    if (leaf.piece.segment != without && is_leaf_for(leaf, call)) leaves.push_back({&leaf});
+  records_.for_each_with(x, role, [&](Leaf& leaf) {
+    if (is_leaf_for(leaf, call)) leaves.push_back({&leaf});
   });
   s.weigh(records_.looked_at() - before);
   sort(leaves);
@@ -133,13 +134,13 @@ std::vector<LeafRef> TracedLeaves::answer(sac::Scope& s, const Point<2>& x,
 }
 
 std::vector<LeafRef> TracedLeaves::around(sac::Scope& s, const Point<2>& x) {
-  std::vector<LeafRef> leaves = answer(s, x, 0);
+  std::vector<LeafRef> leaves = answer(s, x, Role());
   if (!leaves.empty()) record_ask(s, x, leaves.size());
   return leaves;
 }
 
 std::vector<LeafRef> TracedLeaves::around(sac::Scope& s, VertexRef<2> v) {
-  return answer(s, v->p, vertices_.role(*v).on);
+  return answer(s, v->p, vertices_.role(*v));
 }
 
 void TracedLeaves::record_ask(sac::Scope& s, const Point<2>& x, std::size_t count) {

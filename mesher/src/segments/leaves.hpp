@@ -41,6 +41,8 @@ class Leaves<sac::PlainScope> {
 
   /// Whether there has been a leaf.
   [[nodiscard]] bool any() const noexcept { return records_.size() != 0; }
+  /// Whether a leaf may be no edge of the mesh (lost_edge.hpp).
+  [[nodiscard]] bool may_lose() const noexcept { return records_.overrules(); }
 
   void begin(sac::PlainScope&, const Piece& piece) { records_.record(piece); }
   void end(sac::PlainScope&, LeafRef leaf) {
@@ -59,6 +61,8 @@ class Leaves<sac::PlainScope> {
   }
 
  private:
+  [[nodiscard]] std::vector<LeafRef> around(const Point<2>& x, const Role& role) const;
+
   VertexIndex<sac::PlainScope>& vertices_;
   LeafRecords records_;  // of those that were cut: marked as changed
 };
@@ -75,6 +79,8 @@ class Leaves<sac::Scope> : public sac::Structure {
         id_(engine.add_structure(*this)) {}
 
   [[nodiscard]] bool any() const noexcept { return records_.size() != 0; }
+  /// Whether a leaf may be no edge of the mesh (lost_edge.hpp).
+  [[nodiscard]] bool may_lose() const noexcept { return records_.overrules(); }
 
   void begin(sac::Scope& s, const Piece& piece);
   void end(sac::Scope& s, LeafRef leaf);
@@ -94,6 +100,13 @@ class Leaves<sac::Scope> : public sac::Structure {
   }
   [[nodiscard]] static bool is_leaf(const Leaf& leaf) noexcept {
     return leaf.begun.there() && !leaf.ended.there();
+  }
+  /// Calls visit(leaf) for every leaf at the end of the trace with an end at p.
+  template <class Visit>
+  void for_each_ending_at(const Point<2>& p, Visit&& visit) const {
+    records_.for_each_ending_at(p, [&](const Leaf& leaf) {
+      if (is_leaf(leaf)) visit(leaf);
+    });
   }
   /// Calls visit(leaf) for the records that have changed since the last commit.
   template <class Visit>
@@ -127,7 +140,7 @@ class Leaves<sac::Scope> : public sac::Structure {
     return presences_.seen_by(leaf.begun, call) && !presences_.seen_by(leaf.ended, call);
   }
   [[nodiscard]] std::vector<LeafRef> answer(sac::Scope& s, const Point<2>& x,
-                                            SegmentHandle without) const;
+                                            const Role& role) const;
   void touch(Leaf& leaf) noexcept;
   void produce(sac::Scope& s, Leaf& leaf, std::uint8_t kind);
   void record_ask(sac::Scope& s, const Point<2>& x, std::size_t count);

@@ -40,18 +40,34 @@ struct Segment {
   [[nodiscard]] bool has_end(VertexHandle v) const noexcept { return v == a || v == b; }
 };
 
-/// A place on a segment: `distance` from a, or from b.
-struct Label {
-  double distance = 0;
-  bool from_b = false;
-
+/// A place on a segment: a distance >= 0 from a, or from b. The sign bit says from which.
+class Label {
+ public:
+  Label() = default;
+  Label(double distance, bool from_b) noexcept
+      : bits_(std::bit_cast<std::uint64_t>(distance) | std::uint64_t{from_b} << 63) {}
   [[nodiscard]] static Label start() noexcept { return {0, false}; }
   [[nodiscard]] static Label end() noexcept { return {0, true}; }
+
+  [[nodiscard]] double distance() const noexcept {
+    return std::bit_cast<double>(bits_ << 1 >> 1);
+  }
+  [[nodiscard]] bool from_b() const noexcept { return bits_ >> 63 != 0; }
   /// The distance from a (or b) on a segment of this length.
   [[nodiscard]] double from(bool end_b, double length) const noexcept {
-    return from_b == end_b ? distance : length - distance;
+    return from_b() == end_b ? distance() : length - distance();
   }
+  /// All that it is.
+  [[nodiscard]] std::uint64_t bits() const noexcept { return bits_; }
+
   friend bool operator==(const Label&, const Label&) = default;
+  /// By distances, from a before from b. (Numbers >= 0 are ordered as their bits are.)
+  friend std::strong_ordering operator<=>(const Label& x, const Label& y) noexcept {
+    return std::rotl(x.bits_, 1) <=> std::rotl(y.bits_, 1);
+  }
+
+ private:
+  std::uint64_t bits_ = 0;
 };
 
 /// How a piece is split [rules A1]: where its distances are measured from, and what its halves are.
@@ -70,6 +86,11 @@ struct Piece {
   SegmentHandle segment = 0;
   PieceKind kind = PieceKind::whole;
   friend bool operator==(const Piece&, const Piece&) = default;
+  friend std::uint64_t hash_value(const Piece& p) noexcept {
+    std::uint64_t h = sac::mix(p.segment + (static_cast<std::uint64_t>(p.kind) << 32));
+    for (const Label& l : {p.lo, p.hi}) h = sac::mix(h + l.bits());
+    return h;
+  }
 };
 
 /// Records at fixed addresses, addressed by handles; freed ones are used again.
@@ -156,17 +177,11 @@ struct PieceRef {
     if (const auto c = x.segment->place_a <=> y.segment->place_a; c != 0) return c;
     if (const auto c = x.segment->place_b <=> y.segment->place_b; c != 0) return c;
     const auto rest = [](const Piece& p) {
-      return std::tuple(p.lo.distance, p.lo.from_b, p.hi.distance, p.hi.from_b, p.kind);
+      return std::tuple(p.lo, p.hi, p.kind);
     };
     return rest(x.piece) <=> rest(y.piece);
   }
-  friend std::uint64_t hash_value(const PieceRef& r) noexcept {
-    std::uint64_t h = sac::mix(r.piece.segment + (static_cast<std::uint64_t>(r.piece.kind) << 32));
-    for (const Label& l : {r.piece.lo, r.piece.hi}) {
-      h = sac::mix(h + std::bit_cast<std::uint64_t>(l.distance) + (l.from_b ? 1 : 0));
-    }
-    return h;
-  }
+  friend std::uint64_t hash_value(const PieceRef& r) noexcept { return hash_value(r.piece); }
   friend std::ostream& operator<<(std::ostream& out, const PieceRef& r) {
     const Point<2> lo = r.lo(), hi = r.hi();
     return out << '(' << lo[0] << ' ' << lo[1] << ")-(" << hi[0] << ' ' << hi[1] << ')';
@@ -176,8 +191,7 @@ struct PieceRef {
       for (const double x : p) sink.number(std::bit_cast<std::uint64_t>(x));
     }
     for (const Label& l : {r.piece.lo, r.piece.hi}) {
-      sink.number(std::bit_cast<std::uint64_t>(l.distance));
-      sink.number(l.from_b ? 1 : 0);
+      sink.number(l.bits());
     }
     sink.number(static_cast<std::uint64_t>(r.piece.kind));
   }

@@ -9,8 +9,8 @@ namespace mesher::detail {
 // --- Records ---------------------------------------------------------------------------------
 
 const Segment* SegmentStore::find(VertexHandle a, VertexHandle b) const {
-  const auto it = by_ends_.find(key(a, b));
-  return it != by_ends_.end() && pool_[it->second].alive ? &pool_[it->second] : nullptr;
+  const SegmentHandle h = by_ends_.find(ends(a, b));
+  return h != 0 && pool_[h].alive ? &pool_[h] : nullptr;
 }
 
 void SegmentStore::touch(Segment& s) noexcept {
@@ -20,19 +20,20 @@ void SegmentStore::touch(Segment& s) noexcept {
 }
 
 Segment& SegmentStore::record(VertexHandle a, VertexHandle b) {
-  const auto [it, is_new] = by_ends_.try_emplace(key(a, b), 0);
-  if (is_new) {
+  SegmentHandle h = by_ends_.find(ends(a, b));
+  if (h == 0) {
+    const bool in_order = points_[a].p < points_[b].p;
+    Segment& fresh = pool_.create(points_[in_order ? a : b], points_[in_order ? b : a]);
+    h = fresh.self;
     try {
-      const bool in_order = points_[a].p < points_[b].p;
-      it->second = pool_.create(points_[in_order ? a : b], points_[in_order ? b : a]).self;
+      by_ends_.insert(h);
     } catch (...) {
-      by_ends_.erase(it);
+      pool_.release(fresh);
       throw;
     }
   }
-  Segment& s = pool_[it->second];
-  touch(s);
-  return s;
+  touch(pool_[h]);
+  return pool_[h];
 }
 
 // The lists at the ends are there, though empty, before anything is put into them.
@@ -48,7 +49,7 @@ void SegmentStore::put(Segment& s) {
     throw;
   }
   for (const VertexHandle end : {s.a, s.b}) {
-    link_at(s, end) = std::exchange(at_.find(end)->second, s.self);
+    link_at(s, end) = std::exchange(at_.find(end).value(), s.self);
   }
   touch(s);
   s.tile = tile;
@@ -63,7 +64,7 @@ void SegmentStore::drop_if_empty(VertexHandle end) noexcept {
 
 void SegmentStore::leave(Segment& s, VertexHandle end) noexcept {
   const auto it = at_.find(end);
-  SegmentHandle* link = &it->second;
+  SegmentHandle* link = &it.value();
   while (*link != s.self) link = &link_at(pool_[*link], end);
   *link = std::exchange(link_at(s, end), 0);
   drop_if_empty(end);
@@ -89,7 +90,7 @@ void SegmentStore::commit() noexcept {
     h = std::exchange(s.next_changed, 0);
     s.changed = false;
     if (s.alive) continue;
-    by_ends_.erase(key(s.a, s.b));
+    by_ends_.erase(s.self);
     pool_.release(s);
   }
 }
@@ -150,8 +151,7 @@ void SegmentStore::halve(TileHandle t) {
 
 std::size_t SegmentStore::bytes() const noexcept {
   return pool_.bytes() + tiles_.capacity() * sizeof(Tile) + tree_.bytes() +
-         (by_ends_.size() + at_.size()) * 4 * sizeof(void*) +
-         (by_ends_.bucket_count() + at_.bucket_count()) * sizeof(void*);
+         by_ends_.bytes() + at_.bucket_count() * 3 * sizeof(VertexHandle);
 }
 
 void SegmentStore::check_invariants() const {
@@ -159,7 +159,7 @@ void SegmentStore::check_invariants() const {
   std::size_t records = 0, live = 0, tiles = 0, ends = 0;
   pool_.for_each([&](const Segment& s) {
     ++records;
-    SAC_INVARIANT(by_ends_.at(key(s.a, s.b)) == s.self && s.place_a < s.place_b);
+    SAC_INVARIANT(by_ends_.find(key(s.self)) == s.self && s.place_a < s.place_b);
     SAC_INVARIANT(s.alive || s.changed);
     if (!s.alive) return;
     ++live;

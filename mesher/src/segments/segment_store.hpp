@@ -7,15 +7,17 @@
 // the tiling.
 #pragma once
 
+#include <tsl/robin_map.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <new>
 #include <type_traits>
-#include <unordered_map>
 #include <vector>
 
 #include "geometry/segment_tests.hpp"
+#include "segments/handle_table.hpp"
 #include "segments/reach_tree.hpp"
 #include "segments/segment.hpp"
 
@@ -24,7 +26,9 @@ namespace mesher::detail {
 class SegmentStore {
  public:
   SegmentStore(const MeshBox<2>& box, const VertexPool<2>& points)
-      : box_(box), points_(points), tiles_(1), tree_(box) {}
+      : box_(box), points_(points), by_ends_(*this), tiles_(1), tree_(box) {}
+  SegmentStore(const SegmentStore&) = delete;
+  SegmentStore& operator=(const SegmentStore&) = delete;
 
   [[nodiscard]] const SegmentPool& pool() const noexcept { return pool_; }
   [[nodiscard]] Segment& operator[](SegmentHandle h) const noexcept { return pool_[h]; }
@@ -72,13 +76,20 @@ class SegmentStore {
     TileHandle next = 0;    // of the same segment; in a free one: the next free one
     double lo = 0, hi = 1;  // fractions of the segment
   };
-  using Ends = std::uint64_t;
-  struct EndsHash {
-    std::size_t operator()(Ends e) const noexcept { return sac::mix(e); }
+  struct Ends {
+    VertexHandle least, most;
+    friend bool operator==(const Ends&, const Ends&) = default;
   };
-  static Ends key(VertexHandle a, VertexHandle b) noexcept {
-    return Ends{std::min(a, b)} << 32 | std::max(a, b);
+  static Ends ends(VertexHandle a, VertexHandle b) noexcept {
+    return {std::min(a, b), std::max(a, b)};
   }
+  friend class HandleTable<SegmentStore>;
+  using Key = Ends;
+  [[nodiscard]] Ends key(SegmentHandle h) const noexcept { return ends(pool_[h].a, pool_[h].b); }
+  [[nodiscard]] static std::size_t hash(const Ends& e) noexcept {
+    return sac::mix(std::uint64_t{e.least} << 32 | e.most);
+  }
+
   // A tile is halved if it is longer than this times what a search looks at.
   static constexpr double kLong = 2;
 
@@ -108,8 +119,8 @@ class SegmentStore {
   const MeshBox<2>& box_;
   const VertexPool<2>& points_;
   SegmentPool pool_;
-  std::unordered_map<Ends, SegmentHandle, EndsHash> by_ends_;
-  std::unordered_map<VertexHandle, SegmentHandle> at_;  // the first of those at a point
+  HandleTable<SegmentStore> by_ends_;
+  tsl::robin_map<VertexHandle, SegmentHandle> at_;  // the first of those at a point
   std::vector<Tile> tiles_;
   ReachTree<TileHandle> tree_;
   TileHandle free_tiles_ = 0;

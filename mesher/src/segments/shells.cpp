@@ -62,10 +62,11 @@ namespace {
 
 template <class S>
 PieceSplit place_now(const PieceRef& piece, const VertexPool<2>& pool, SegmentStore& segments,
-                     const Features<S>& points, ApexReaches& reaches) {
+                     const Features<S>& points, ApexReaches& reaches, LegFans& fans) {
   if (!looks_at_zones(piece.piece.kind)) return split_place(piece, {});
   const auto zone_at = [&](VertexHandle end) {
-    return zone(segments, *piece.segment, end, [&] {
+    const LongestBeside others = fans.longest_beside(segments, *piece.segment, end);
+    return zone(*piece.segment, others, [&] {
       return reaches.of(pool[end], [&] { return apex_reach(segments, points, pool[end]); });
     });
   };
@@ -91,7 +92,7 @@ void ApexReaches::forget(const Vertex<2>& v) noexcept {
 }
 
 PieceSplit Shells<sac::PlainScope>::place(sac::PlainScope&, const PieceRef& piece) {
-  return place_now(piece, pool_, segments_, points_, reaches_);
+  return place_now(piece, pool_, segments_, points_, reaches_, fans_);
 }
 
 // --- Observations ----------------------------------------------------------------------------
@@ -99,7 +100,7 @@ PieceSplit Shells<sac::PlainScope>::place(sac::PlainScope&, const PieceRef& piec
 using TracedShells = Shells<sac::Scope>;
 
 PieceSplit TracedShells::answer(const PieceRef& piece) {
-  return place_now(piece, pool_, segments_, points_, reaches_);
+  return place_now(piece, pool_, segments_, points_, reaches_, fans_);
 }
 
 PieceSplit TracedShells::place(sac::Scope& s, const PieceRef& piece) {
@@ -156,21 +157,23 @@ void TracedShells::feature_changed(const Point<2>& p, const Point<2>& q) noexcep
 // Beside those that t is near to: its ends have other segments now.
 void TracedShells::segment_changed(const Segment& t) noexcept {
   feature_changed(t.place_a, t.place_b);
-  for (const VertexHandle end : {t.a, t.b}) doubt_at(end);
+  for (const VertexHandle end : {t.a, t.b}) {
+    fans_.forget(end);
+    doubt_at(end);
+  }
 }
 
 // --- For people and for traces ---------------------------------------------------------------
 
 void TracedShells::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
   const PieceSplit& seen = static_cast<const PlaceEdge&>(edge).seen;
-  sink.number(std::bit_cast<std::uint64_t>(seen.at.distance));
-  sink.number(static_cast<std::uint64_t>(seen.at.from_b) |
-              static_cast<std::uint64_t>(seen.lo) << 1 | static_cast<std::uint64_t>(seen.hi) << 4);
+  sink.number(seen.at.bits());
+  sink.number(static_cast<std::uint64_t>(seen.lo) | static_cast<std::uint64_t>(seen.hi) << 3);
 }
 
 void TracedShells::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
   const Label& at = static_cast<const PlaceEdge&>(edge).seen.at;
-  out << "split at " << at.distance << (at.from_b ? " from b" : " from a");
+  out << "split at " << at.distance() << (at.from_b() ? " from b" : " from a");
 }
 
 void TracedShells::check_invariants() const {
@@ -178,7 +181,8 @@ void TracedShells::check_invariants() const {
     SAC_INVARIANT(reach == apex_reach(segments_, points_, pool_[v]));
   });
   const auto zone_at = [&](const Segment& s, VertexHandle end) {
-    return zone(segments_, s, end, [&] { return apex_reach(segments_, points_, pool_[end]); });
+    return zone(s, longest_beside(segments_, s, end),
+                [&] { return apex_reach(segments_, points_, pool_[end]); });
   };
   segments_.pool().for_each([&](const Segment& s) {
     for (sac::Handle h = s.place_observers; h != 0; h = at(h).next) {

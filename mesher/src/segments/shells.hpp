@@ -24,6 +24,7 @@
 
 #include "geometry/box.hpp"
 #include "index/features.hpp"
+#include "segments/leg_fan.hpp"
 #include "segments/segment_store.hpp"
 
 namespace mesher::detail {
@@ -46,10 +47,12 @@ struct Zones {
   return kind != PieceKind::from_a && kind != PieceKind::from_b;
 }
 
-/// The zone of s at its end, where R is reach().
+/// The zone of s at an end, where R is reach().
 template <class Reach>
-[[nodiscard]] double zone(const SegmentStore& segments, const Segment& s, VertexHandle end,
-                          Reach&& reach);
+[[nodiscard]] double zone(const Segment& s, const LongestBeside& others, Reach&& reach) {
+  const double near = std::min(s.length, others.within_20);
+  return others.within_60 > 0 ? std::max(near, std::min(reach(), others.within_60)) : near;
+}
 
 /// R(end).
 template <class S>
@@ -97,6 +100,7 @@ class Shells<sac::PlainScope> {
   SegmentStore& segments_;
   const Features<sac::PlainScope>& points_;
   ApexReaches reaches_;
+  LegFans fans_;
 };
 
 template <>
@@ -122,7 +126,7 @@ class Shells<sac::Scope> : public sac::Structure {
   void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
   void print(const sac::Call& call, const sac::Edge& edge, std::ostream& out) const override;
 
-  [[nodiscard]] std::size_t bytes() const noexcept { return reaches_.bytes(); }
+  [[nodiscard]] std::size_t bytes() const noexcept { return reaches_.bytes() + fans_.bytes(); }
   /// Throws InvariantError; among others if an answer is not what the zones of now give.
   void check_invariants() const override;
 
@@ -147,6 +151,7 @@ class Shells<sac::Scope> : public sac::Structure {
   SegmentStore& segments_;
   const Features<sac::Scope>& points_;
   ApexReaches reaches_;
+  LegFans fans_;
   std::uint8_t id_;
 };
 
@@ -163,29 +168,6 @@ double ApexReaches::of(const Vertex<2>& v, Compute&& compute) {
     throw;
   }
   return reach;
-}
-
-template <class Reach>
-double zone(const SegmentStore& segments, const Segment& s, VertexHandle end, Reach&& reach) {
-  constexpr double kTan20 = 0.36397023426620236;
-  constexpr double kTan60 = 1.7320508075688772;
-  const auto along = [&](const Segment& t) {
-    const Point<2>& o = t.a == end ? t.place_a : t.place_b;
-    const Point<2>& e = t.a == end ? t.place_b : t.place_a;
-    return Point<2>{e[0] - o[0], e[1] - o[1]};
-  };
-  const Point<2> u = along(s);
-  double largest = 0;
-  segments.visit_at(end, [&](const Segment& t) {
-    if (t.self == s.self) return;
-    const Point<2> w = along(t);
-    if (is_narrower(u, w, kTan20)) {
-      largest = std::max(largest, std::min(s.length, t.length));
-    } else if (is_narrower(u, w, kTan60)) {
-      largest = std::max(largest, std::min(reach(), t.length));
-    }
-  });
-  return largest;
 }
 
 template <class S>

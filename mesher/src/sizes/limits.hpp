@@ -11,6 +11,7 @@
 // candidate of a smaller pitch is within half of it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -38,6 +39,10 @@ class Limits {
   /// The pitch of the lattice at p; kNone: no lattice. Throws: also if it is too small.
   [[nodiscard]] double pitch(const Point<2>& p) const {
     return any() ? pitch_for(spacing(area(p))) : kNone;
+  }
+  [[nodiscard]] Point<2> nearest_in_domain(const Point<2>& p) const noexcept {
+    return {std::clamp(p[0], domain_.lo[0], domain_.hi[0]),
+            std::clamp(p[1], domain_.lo[1], domain_.hi[1])};
   }
   /// None in the box is shorter.
   [[nodiscard]] double least_pitch(const Box<2>& box) const { return pitches_in(box).least; }

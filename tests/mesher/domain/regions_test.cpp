@@ -250,6 +250,33 @@ TEST_CASE("seeds that come to another region together cost no more than when the
   regions->check_invariants();
 }
 
+TEST_CASE("seeds that go together cost no more than when they came, and come back if taken back") {
+  const WalledGrid grid(6);
+  std::vector<Seed> seeds;  // in one triangle
+  RegionsChange all_out;
+  for (int i = 0; i < 40000; ++i) {
+    seeds.push_back(region(i, 1.5 + 1e-6 * i, 1.75));
+    all_out.seeds_out.push_back(seeds.back().name);
+  }
+  const auto seconds = [](auto&& what) {
+    const std::clock_t start = std::clock();
+    what();
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  };
+  std::unique_ptr<Regions> regions;
+  const double first = seconds([&] {
+    regions = std::make_unique<Regions>(regions_of(grid, grid.rectangle(1, 1, 5, 5), seeds));
+  });
+  const auto before = regions->faults(Extent::enclosed);
+  const double then = seconds([&] { regions->update(all_out); });
+  INFO("first " << first << " s, then " << then << " s");
+  CHECK(then < 10 * first + 0.2);
+  CHECK(regions->faults(Extent::enclosed).empty());
+  regions->roll_back();
+  regions->check_invariants();
+  CHECK(regions->faults(Extent::enclosed) == before);
+}
+
 TEST_CASE("a wall that moves through a lake costs what it sweeps, not the lake") {
   const int n = 60;
   const WalledGrid grid(n);

@@ -5,6 +5,7 @@
 #include <stop_token>
 
 #include "failing_new.hpp"
+#include "sac/check.hpp"
 #include "scratch_file.hpp"
 
 namespace {
@@ -18,8 +19,8 @@ using mesher::Point;
 using mesher::Pslg;
 using mesher::SeedKind;
 using mesher::Zone;
-using support::failure_of;
 using support::fails;
+using support::failure_of;
 
 const mesher::Options<2> kOptions{.domain = {{0, 0}, {16, 16}}};
 
@@ -271,4 +272,31 @@ TEST_CASE("the last word on a change: what it throws leaves the mesh as it was")
   CHECK(m.points().size() == 1);
   CHECK(m.lines().empty());
   CHECK(m.update().simplices_added.empty());
+}
+
+TEST_CASE("a callback that uses a mesher with its domain is refused, and nothing is lost") {
+  Parted parted, twin;
+  for (int i = 0; i < 400; ++i) {  // enough for the callback to be asked
+    const Point<2> p{2.5 + 0.0131 * i, 2.5 + 11 * ((i * 37) % 400) / 400.0};
+    if (p == Point<2>{5, 5.5} || p[0] >= 7.9) continue;
+    for (Parted* each : {&parted, &twin}) each->m.insert(id(1000 + i), p, 11);
+  }
+  for (Parted* each : {&parted, &twin}) each->announce();
+  int refused = 0;
+  const auto progress = [&](const mesher::Progress&) {
+    CHECK_THROWS_AS(parted.m.update(), sac::UsageError);
+    CHECK_THROWS_AS(parted.m.insert(id(9999), {3, 3}, 5), sac::UsageError);
+    CHECK_THROWS_AS(parted.m.insert_hole(id(77), {3, 3}), sac::UsageError);
+    CHECK_THROWS_AS(parted.m.remove_hole(id(2)), sac::UsageError);
+    parted.m.discard_edits();  // does nothing
+    ++refused;
+    return true;
+  };
+  parted.m.update({.progress = progress, .stop = {}});
+  REQUIRE(refused > 0);
+  twin.m.update();
+  CHECK(parted.m.input() == twin.m.input());
+  CHECK(parted.m.mesh() == twin.m.mesh());
+  CHECK_FALSE(parted.m.contains(id(9999)));
+  parted.m.check_invariants();
 }

@@ -8,6 +8,7 @@
 
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"
+#include "sac/check.hpp"
 #include "scratch_file.hpp"
 
 namespace {
@@ -183,4 +184,43 @@ TEST_CASE("what the callback throws leaves update(), and the edits are taken bac
   CHECK(m.mesh() == before);
   CHECK(m.update(control).calls.executed == 0);
   m.check_invariants();
+}
+
+TEST_CASE("a callback that uses the mesher is refused, and the update goes on") {
+  const auto points = some_points(400);
+  Mesher<2> m(kUnit), twin(kUnit);
+  for (Mesher<2>* each : {&m, &twin}) {
+    announce(*each, points);
+    each->update();
+    shake(*each, points, 100);
+  }
+  int refused = 0;
+  const auto refuses = [&](auto&& use) {
+    try {
+      use();
+      FAIL("not refused");
+    } catch (const sac::UsageError&) {
+      ++refused;
+    }
+  };
+  const auto use_all = [&] {
+    refuses([&] { m.update(); });
+    refuses([&] { m.insert(FeatureId{1000}, {0.5, 0.5}); });
+    refuses([&] { m.move(FeatureId{1}, {0.5, 0.5}); });
+    refuses([&] { m.remove(FeatureId{1}); });
+    refuses([&] { m.insert_segment(FeatureId{1}, FeatureId{1}, FeatureId{2}); });
+    refuses([&] { m.remove_segment(FeatureId{1}); });
+    refuses([&] { static_cast<void>(m.mesh()); });
+    refuses([&] { static_cast<void>(m.points()); });
+    m.discard_edits();  // does nothing
+    return true;
+  };
+  m.update({.progress = [&](const Progress&) { return use_all(); }, .stop = {}},
+           [&](const mesher::Change<2>&) { use_all(); });
+  CHECK(refused >= 2 * 8);
+  twin.update();
+  CHECK(m.mesh() == twin.mesh());
+  m.check_invariants();
+  m.insert(FeatureId{1000}, {0.5, 0.5});
+  m.update();
 }

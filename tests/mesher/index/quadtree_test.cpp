@@ -20,6 +20,11 @@ using mesher::detail::VertexHandle;
 using support::Cell;
 using Quadtree = mesher::detail::Quadtree<2>;
 
+mesher::detail::Reach<2> random_reach(SplitMix64& random, double most) {
+  return mesher::detail::Reach<2>({{-most * random.unit(), -most * random.unit()},
+                                   {most * random.unit(), most * random.unit()}});
+}
+
 std::set<Cell> leaves_of(support::TracedWorld& world) {
   std::set<Cell> all;
   world.world().vertices.tree().for_each_leaf([&](const Cell& c) { all.insert(c); });
@@ -125,21 +130,25 @@ TEST_CASE("a search meets every vertex within its radius, in trees of any depth"
       }
     }
     for (auto* v : all) {
-      v->reach = static_cast<float>(random.unit() / 4);
+      v->reach = random_reach(random, 0.25);
       tree.raise_reach(*v);
     }
     tree.check_invariants();
     for (int i = 0; i < 100; ++i) {
       const Point<2> p{coordinate(), coordinate()};
       std::set<VertexHandle> met;
-      tree.visit_reaching(p, [&](auto& v, double) { met.insert(v.self); });
+      tree.visit_reaching(p, [&](auto& v, const auto& d) {
+        REQUIRE((d == Point<2>{(p[0] - v.p[0]) / 4, (p[1] - v.p[1]) / 4}));
+        met.insert(v.self);
+      });
       for (const auto* v : all) {
-        const double x = v->p[0] - p[0], y = v->p[1] - p[1];
-        const double reach = v->reach * 4.0;
-        REQUIRE(met.contains(v->self) == (x * x + y * y <= reach * reach));
+        const auto reach = v->reach.box();
+        const double x = (p[0] - v->p[0]) / 4, y = (p[1] - v->p[1]) / 4;
+        REQUIRE(met.contains(v->self) == (x >= reach.lo[0] && x <= reach.hi[0] &&
+                                          y >= reach.lo[1] && y <= reach.hi[1]));
       }
       auto& v = *all[random.below(all.size())];
-      v.reach = 0;
+      v.reach = {};
       tree.check_invariants();
     }
   }
@@ -199,7 +208,7 @@ TEST_CASE(
       if (all.empty() || random.below(i < 200 ? 4 : 2) != 0) {
         all.push_back(&pool.create(place()));
         tree.insert(*all.back());
-        all.back()->reach = static_cast<float>(random.unit());
+        all.back()->reach = random_reach(random, 1);
         tree.raise_reach(*all.back());
       } else {
         std::swap(all[random.below(all.size())], all.back());

@@ -279,12 +279,11 @@ TEST_CASE("a block may take a place before it frees it") {
 TEST_CASE("an update that fails because of a point is said of that point's last edit") {
   const ScratchFolder folder;
   mesher::Mesher<2> m({.domain = {{0, 0}, {1, 1}}});
-  mesher::EditScript script(folder.write(
-      "edits.txt",
-      "begin\n+point 1 .25 .5\n+point 2 .5 .25\ncommit\n"
-      "begin\nmove 2 .1 .1\n  move 2 .25 .5\n+point 3 .75 .75\ncommit\n"));
-  CHECK(failure_of([&] { mesher::apply(script, m, [](const auto&) {}); }) ==
-        "duplicate_point@7:3");
+  mesher::EditScript script(
+      folder.write("edits.txt",
+                   "begin\n+point 1 .25 .5\n+point 2 .5 .25\ncommit\n"
+                   "begin\nmove 2 .1 .1\n  move 2 .25 .5\n+point 3 .75 .75\ncommit\n"));
+  CHECK(failure_of([&] { mesher::apply(script, m, [](const auto&) {}); }) == "duplicate_point@7:3");
   CHECK(m.size() == 2);
 }
 
@@ -293,4 +292,11 @@ TEST_CASE("a script that is not there, or is a folder, cannot be read") {
   CHECK(failure_of([&] { mesher::EditScript script(folder.path("none.txt")); }) ==
         "cannot_read@0:0");
   CHECK(failure_of([&] { mesher::EditScript script(folder.path("")); }) == "cannot_read@0:0");
+}
+
+TEST_CASE("a script may begin with a byte order mark") {
+  Table table;
+  CHECK(apply("\xEF\xBB\xBF+point 1 2 3\r\n-point 1\r\n", table).size() == 2);
+  CHECK(apply("\xEF\xBB\xBF", table).empty());
+  CHECK(apply("\xEF\xBB\xBF# nothing\n\n", table).empty());
 }

@@ -191,6 +191,10 @@ TEST_CASE("an end that is no point is an error with the ids of the segment and t
                             ":5:1: error[unknown_id]: segment 7 ends at point 3, which is not "
                             "there; there are 2 points in " +
                             path);
+  const auto alone = folder.write("b.poly", "0 2 0 0\n1 0\n7 1 3\n0\n");
+  const auto no_points = error_of([&] { (void)mesher::read_pslg(alone); });
+  CHECK(no_points.message().ends_with("there are 0 points in " + alone +
+                                      ", and no .node file beside it"));
 }
 
 TEST_CASE("random graphs written as .poly read back equal, to the last bit") {

@@ -203,6 +203,21 @@ TEST_CASE("a segment is a union of edges, its vertices on it but for rounding") 
   CHECK(broken(mesh, options) == "segments");
 }
 
+TEST_CASE("an edge that names a line is on it") {
+  const auto graph = square_in_square();
+  MeshData mesh = plate(true);
+  const CheckOptions options{
+      .boundary = BoundaryRule::lines, .graph = &graph, .features = &mesh.features};
+  mesh.features.edges = {{0, 1, FeatureId{10}, 0}, {1, 2, {}, 0}, {2, 3, FeatureId{10}, 0}};
+  CHECK(trouble(mesh, options) == "");
+  mesh.features.edges[2].line = FeatureId{11};
+  CHECK(trouble(mesh, options) ==
+        "segments: the edge from vertex 3 at (2, 0) to vertex 4 at "
+        "(3, 0) is not on line 11, which it names");
+  mesh.features.edges[2].line = FeatureId{99};
+  CHECK(broken(mesh, options) == "segments");
+}
+
 TEST_CASE("lines and points outside of what is meshed are told, those inside must be there") {
   auto graph = square_in_square();
   const auto add = [&](std::int64_t id, Point<2> at) {
@@ -267,6 +282,20 @@ TEST_CASE("a poor triangle is excused at a small angle of the input, and nowhere
   CHECK(broken(mesh, options) == "quality");
   graph.pslg.segments.push_back({FeatureId{2}, FeatureId{0}, FeatureId{2}, 0});
   CHECK(broken(mesh, options) == "");
+}
+
+// Two lines of two edges each, as a polyline of one id, at 0.1 radians.
+TEST_CASE("without an input small angles are those of the mesh's own lines") {
+  MeshData mesh = mesh_of({{0, 0}, {1, -0.05}, {1, 0.05}, {2, -0.1}, {2, 0.1}},
+                          {{0, 1, 2}, {1, 3, 4}, {1, 4, 2}});
+  CheckOptions options{.rho = 2, .boundary = BoundaryRule::any, .features = &mesh.features};
+  const FeatureId line{7};
+  mesh.features.edges = {{0, 1, line, 0}, {0, 2, line, 0}, {1, 3, line, 0}, {2, 4, line, 0}};
+  CHECK(broken(mesh, options) == "");
+  for (auto& e : mesh.features.edges) e.line.reset();  // not known
+  CHECK(broken(mesh, options) == "");
+  mesh.features.edges = {{0, 1, line, 0}, {1, 3, line, 0}, {2, 4, line, 0}};
+  CHECK(broken(mesh, options) == "quality");
 }
 
 TEST_CASE("a triangle above the limit of area is found") {

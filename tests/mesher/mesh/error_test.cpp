@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 
 #include "edit_sequence.hpp"
@@ -181,6 +182,32 @@ TEST_CASE("an update that fails leaves mesh and points as before its edits") {
   CHECK(m.mesh() == mesher::mesh_statically<2>(
                         {kA, {kFar + 0.75, kFar + 0.25}, {kFar + 0.5, kFar + 0.875}}, kFarAway));
   m.check_invariants();
+}
+
+TEST_CASE("where doubles do not suffice the features around are named, points and lines") {
+  const auto ids = [](const Error& error) {
+    CHECK(error.code() == ErrorCode::too_close);
+    return std::set<FeatureId>(error.ids().begin(), error.ids().end());
+  };
+  Mesher<2> m = with(kFarAway, {kA, {kFar + 0.25, kFar}, {kFar + 0.75, kFar + 0.25}});
+  m.insert(FeatureId{4}, kBesideA);
+  CHECK(ids(error_of([&] { m.update(); })) == std::set{FeatureId{1}, FeatureId{4}});
+  CHECK(ids(error_of([&] {
+          (void)mesher::mesh_statically<2>({{kFar, kFar}, kBesideA, kA}, kFarAway,
+                                           {FeatureId{7}, FeatureId{8}, FeatureId{9}});
+        })) == std::set{FeatureId{8}, FeatureId{9}});
+  Options<2> options = kFarAway;
+  options.rho = 1.05;
+  for (int step = 0; step < 5; ++step) {
+    const Point<2> beside{kA[0] + step * kStep, kA[1] + (1 + step) * kStep};
+    const Error error = error_of([&] {
+      (void)mesher::mesh_statically({{kFar, kFar + 0.5}, {kFar + 1, kFar + 0.5}, beside},
+                                    {{FeatureId{5}, FeatureId{1}, FeatureId{2}}}, options);
+    });
+    CHECK(ids(error) == std::set{FeatureId{3}, FeatureId{5}});
+    CHECK(error.message().find("segment 5") != std::string::npos);
+    CHECK(error.message().find("point 3") != std::string::npos);
+  }
 }
 
 TEST_CASE("a first update that fails leaves a mesher without points") {
