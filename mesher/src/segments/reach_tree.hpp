@@ -270,11 +270,11 @@ typename ReachTree<Item>::Path ReachTree<Item>::descend(const Fixed<2>& f) const
 
 // --- Insertion -------------------------------------------------------------------------------
 
-// Vectors double as they grow; what is reserved here is all that an insertion takes.
+// Vectors grow by half; what is reserved here is all that an insertion takes.
 template <class Item>
 void ReachTree<Item>::make_room() {
   const auto grow = [](auto& v, Link free) {
-    if (free == 0 && v.size() == v.capacity()) v.reserve(2 * v.size());
+    if (free == 0 && v.size() == v.capacity()) v.reserve(v.size() + v.size() / 2 + 1);
   };
   grow(nodes_, free_nodes_);
   grow(entries_, free_entries_);
