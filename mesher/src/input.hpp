@@ -1,6 +1,7 @@
-// Checking input points at the boundary, and putting them into spatial order.
+// Checking input points at the boundary, and putting them into spatial order. N is the dimension.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -10,18 +11,23 @@
 
 namespace mesher::detail {
 
-/// "(x, y)", digits that read back to the same doubles.
-[[nodiscard]] std::string place_text(const Point<2>& p);
+/// "(x, y)", "(x, y, z)", digits that read back to the same doubles.
+template <std::size_t N>
+[[nodiscard]] std::string place_text(const std::array<double, N>& p);
 
 /// Throws: Error (not_finite, magnitude, outside_domain).
-void check_point(const Point<2>& p, const Box<2>& domain, FeatureId id);
+template <std::size_t N>
+void check_point(const std::array<double, N>& p, const Box<static_cast<int>(N)>& domain,
+                 FeatureId id);
 
 /// Throws: Error(duplicate_point) for equal points, else Error(too_close).
-[[noreturn]] void fail_too_near(const Point<2>& p, FeatureId id, const Point<2>& other,
-                                FeatureId other_id);
+template <std::size_t N>
+[[noreturn]] void fail_too_near(const std::array<double, N>& p, FeatureId id,
+                                const std::array<double, N>& other, FeatureId other_id);
 
 /// The indices of `points` in Morton order, equal places in the order given.
-[[nodiscard]] std::vector<std::size_t> morton_order(const std::vector<Point<2>>& points,
-                                                    const MeshBox<2>& box);
+template <std::size_t N>
+[[nodiscard]] std::vector<std::size_t> morton_order(
+    const std::vector<std::array<double, N>>& points, const MeshBox<static_cast<int>(N)>& box);
 
 }  // namespace mesher::detail

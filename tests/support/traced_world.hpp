@@ -29,7 +29,7 @@ class TracedWorld {
     if (empty) run();
   }
   void run() {
-    engine_->run<mesher::detail::refine>();
+    engine_->run<mesher::detail::refine<2>>();
     commit();
   }
   TracedWorld(const TracedWorld&) = delete;
@@ -129,9 +129,8 @@ inline mesher::Mesh<2> TracedWorld::mesh() const {
   pool.for_each([&](const Vertex& v) {
     if (!v.alive) return;
     live.push_back(v.self);
-    const auto ring = vertices.ring(v);
-    mesher::detail::for_each_own_triangle(pool, v, ring.handles, ring.size,
-                                          [&](const auto& t) { triangles.push_back(t); });
+    mesher::detail::for_each_own_simplex(pool, v, vertices.ring(v),
+                                         [&](const auto& t) { triangles.push_back(t); });
   });
   std::vector<mesher::detail::LineEdge> edges;
   world_->leaves.for_each([&](const mesher::detail::Leaf& leaf) {

@@ -68,6 +68,14 @@ struct BoxLimits {
   friend bool operator==(const BoxLimits&, const BoxLimits&) = default;
 };
 
+/// The last box with a place counts. (A class of its own: g++ 12 fails on a vector in Options where
+/// these are the default of a member.)
+template <int D>
+struct AllBoxLimits : std::vector<BoxLimits<D>> {
+  using std::vector<BoxLimits<D>>::vector;
+  AllBoxLimits() noexcept {}
+};
+
 /// Where limits of size count, and those of regions: see region_limits in domain_mesh.hpp.
 class RegionLimits;
 
@@ -75,11 +83,11 @@ class RegionLimits;
 template <int D>
 struct Options {
   Box<D> domain{};      ///< where input points may lie; must not be empty
-  double rho = 1.4142;  ///< bound of circumradius over shortest edge; > 1.01
+  double rho = D == 2 ? 1.4142 : 2;  ///< bound of circumradius over shortest edge; > 1.01
   Rule rule = Rule::radius_edge;
   double max_area = 0;  ///< of a triangle with its centroid in the domain; 0: no limit
   std::shared_ptr<const SizeField<D>> sizes{};  ///< limits that vary, see sizes.hpp; null: none
-  std::vector<BoxLimits<D>> box_limits{};  ///< instead of these; the last box with a place counts
+  AllBoxLimits<D> box_limits{};  ///< instead of these; the last box with a place counts
   std::shared_ptr<const RegionLimits> region_limits{};  ///< null: limits count everywhere
   std::size_t max_vertices = 0;  ///< more are refused with Error(too_many); 0: no limit
   bool record_weights = false;  ///< keeps what calls do inside, for those who study the trace

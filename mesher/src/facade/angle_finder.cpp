@@ -130,11 +130,10 @@ std::vector<SmallAngle> AngleFinder::forced(const std::vector<Triangle>& come) c
 // To the nearest neighbour that counts.
 double AngleFinder::nearest(const Vertex<2>& v) const {
   const auto& pool = world_.vertices.pool();
-  const auto ring = world_.vertices.ring(v);
   double nearest2 = kInfinity;
-  for (int i = 0; i < ring.size; ++i) {
-    if (ring.handles[i] >= VoronoiCell::kVirtual) continue;
-    const Vertex<2>& w = pool[ring.handles[i]];
+  for (const std::uint32_t u : world_.vertices.ring(v)) {
+    if (u >= VoronoiCell::kVirtual) continue;
+    const Vertex<2>& w = pool[u];
     const double far2 = distance2(v.p, w.p, w.p);
     if (far2 >= nearest2) continue;
     const auto& store = world_.segments.store();
@@ -154,9 +153,8 @@ bool AngleFinder::is_near_two(const Vertex<2>& v, double r) const {
     if (on != 0 && !world_.segments.pool()[on].has_end(w.self)) return true;
     return std::exchange(first, w.self) != 0;
   };
-  const auto ring = world_.vertices.ring(v);
-  for (int i = 0; i < ring.size; ++i) {
-    if (ring.handles[i] < VoronoiCell::kVirtual && is_second(pool[ring.handles[i]])) return true;
+  for (const std::uint32_t u : world_.vertices.ring(v)) {
+    if (u < VoronoiCell::kVirtual && is_second(pool[u])) return true;
   }
   return world_.features.visit_points_in(around(v.p, r), is_second);
 }

@@ -6,19 +6,22 @@
 
 namespace mesher::detail {
 
-const Announced::Edit* Announced::find(FeatureId id) const {
+template <int D>
+auto Announced<D>::find(FeatureId id) const -> const Edit* {
   const auto it = edits_.find(id);
   return it == edits_.end() || it->second.to == it->second.was ? nullptr : &it->second;
 }
 
-void Announced::erase_arrival(const Point<2>& p, FeatureId id) noexcept {
+template <int D>
+void Announced<D>::erase_arrival(const Point<D>& p, FeatureId id) noexcept {
   const auto [first, last] = arrivals_.equal_range(box_.fixed(p));
   arrivals_.erase(std::find_if(first, last, [&](const auto& entry) { return entry.second == id; }));
 }
 
 // What may throw comes first; the old place leaves last. Where a point is back at its old place the
 // entry stays, so that setting it back to what it was needs no memory.
-void Announced::set(FeatureId id, const Place& was, const Place& to) {
+template <int D>
+void Announced<D>::set(FeatureId id, const Place& was, const Place& to) {
   const auto [it, fresh] = edits_.try_emplace(id, Edit{id, was, was});
   Edit& edit = it->second;
   const bool arrives = to && to != was;
@@ -34,7 +37,8 @@ void Announced::set(FeatureId id, const Place& was, const Place& to) {
   if (!to && !was) edits_.erase(it);
 }
 
-const Announced::Edit* Announced::arrival_near(const Point<2>& p, FeatureId id) const {
+template <int D>
+auto Announced<D>::arrival_near(const Point<D>& p, FeatureId id) const -> const Edit* {
   const Edit* nearest = nullptr;  // the least id, whatever the order in the table
   const auto [first, last] = arrivals_.equal_range(box_.fixed(p));
   for (auto it = first; it != last; ++it) {
@@ -44,7 +48,8 @@ const Announced::Edit* Announced::arrival_near(const Point<2>& p, FeatureId id) 
   return nearest;
 }
 
-std::vector<Announced::Edit> Announced::sorted() const {
+template <int D>
+auto Announced<D>::sorted() const -> std::vector<Edit> {
   struct Placed {
     std::uint64_t order;
     const Edit* edit;
@@ -53,7 +58,7 @@ std::vector<Announced::Edit> Announced::sorted() const {
   placed.reserve(edits_.size());
   for (const auto& [id, edit] : edits_) {
     if (edit.to == edit.was) continue;
-    placed.push_back({edit.to ? morton<2>(box_.fixed(*edit.to)) : 0, &edit});
+    placed.push_back({edit.to ? morton<D>(box_.fixed(*edit.to)) : 0, &edit});
   }
   std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
     const auto key = [](const Placed& x) {
@@ -68,10 +73,14 @@ std::vector<Announced::Edit> Announced::sorted() const {
 }
 
 // Tables that were large once are given back: to clear them again takes time in their size.
-void Announced::clear() noexcept {
+template <int D>
+void Announced<D>::clear() noexcept {
   edits_ = decltype(edits_)();  // not {}, an empty list, for which a table keeps its size
   arrivals_ = decltype(arrivals_)();
   growth_ = 0;
 }
+
+template class Announced<2>;
+template class Announced<3>;
 
 }  // namespace mesher::detail

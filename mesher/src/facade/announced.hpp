@@ -14,15 +14,16 @@
 
 namespace mesher::detail {
 
+template <int D>
 class Announced {
  public:
-  using Place = std::optional<Point<2>>;  // nothing: the point is not there
+  using Place = std::optional<Point<D>>;  // nothing: the point is not there
   struct Edit {
     FeatureId id{};
     Place was, to;
   };
 
-  explicit Announced(const MeshBox<2>& box) : box_(box) {}
+  explicit Announced(const MeshBox<D>& box) : box_(box) {}
 
   /// The edit of `id`; null if it stays where it was. Valid until the next change.
   [[nodiscard]] const Edit* find(FeatureId id) const;
@@ -32,7 +33,7 @@ class Announced {
   void set(FeatureId id, const Place& was, const Place& to);
 
   /// A point other than `id` that shall be in the finest cell around `p`, with its place.
-  [[nodiscard]] const Edit* arrival_near(const Point<2>& p, FeatureId id) const;
+  [[nodiscard]] const Edit* arrival_near(const Point<D>& p, FeatureId id) const;
 
   /// All edits in Morton order of where the points shall be, those of points that go first.
   [[nodiscard]] std::vector<Edit> sorted() const;
@@ -48,15 +49,17 @@ class Announced {
 
  private:
   struct CellHash {
-    std::size_t operator()(const Fixed<2>& cell) const noexcept {
-      return sac::mix(sac::mix(cell[0]) + cell[1]);
+    std::size_t operator()(const Fixed<D>& cell) const noexcept {
+      std::uint64_t h = 0;
+      for (const std::uint64_t x : cell) h = sac::mix(h) + x;
+      return sac::mix(h);
     }
   };
-  void erase_arrival(const Point<2>& p, FeatureId id) noexcept;
+  void erase_arrival(const Point<D>& p, FeatureId id) noexcept;
 
-  const MeshBox<2>& box_;
+  const MeshBox<D>& box_;
   std::unordered_map<FeatureId, Edit> edits_;
-  std::unordered_multimap<Fixed<2>, FeatureId, CellHash> arrivals_;  // by the cell of `to`
+  std::unordered_multimap<Fixed<D>, FeatureId, CellHash> arrivals_;  // by the cell of `to`
   std::ptrdiff_t growth_ = 0;
 };
 

@@ -15,7 +15,8 @@ namespace mesher {
 
 namespace {
 
-using World = detail::World<sac::PlainScope>;
+template <int D>
+using World = detail::World<sac::PlainScope, D>;
 using detail::VertexHandle;
 
 FeatureId id_of(std::size_t i, const std::vector<FeatureId>& ids) {
@@ -23,8 +24,9 @@ FeatureId id_of(std::size_t i, const std::vector<FeatureId>& ids) {
 }
 
 // The handles of the points, in their order.
-std::vector<VertexHandle> add_points(const std::vector<Point<2>>& points, const Options<2>& options,
-                                     const std::vector<FeatureId>& ids, World& world) {
+template <int D>
+std::vector<VertexHandle> add_points(const std::vector<Point<D>>& points, const Options<D>& options,
+                                     const std::vector<FeatureId>& ids, World<D>& world) {
   auto& features = world.features.tree();
   std::vector<VertexHandle> handles(points.size());
   for (const std::size_t i : detail::morton_order(points, world.box)) {
@@ -64,7 +66,7 @@ class InputNames final : public detail::Names {
 std::vector<detail::SegmentHandle> add_segments(const std::vector<Segment>& segments,
                                                 const std::vector<FeatureId>& ids,
                                                 const std::vector<VertexHandle>& handles,
-                                                World& world, InputNames& names) {
+                                                World<2>& world, InputNames& names) {
   std::unordered_map<FeatureId, VertexHandle> by_id;
   for (std::size_t i = 0; i < handles.size(); ++i) by_id.emplace(id_of(i, ids), handles[i]);
   std::vector<detail::SegmentHandle> added;
@@ -87,7 +89,7 @@ std::vector<detail::SegmentHandle> add_segments(const std::vector<Segment>& segm
   return added;
 }
 
-void require_planar(World& world, const std::vector<detail::SegmentHandle>& added,
+void require_planar(World<2>& world, const std::vector<detail::SegmentHandle>& added,
                     const InputNames& names) {
   auto& store = world.segments.store();
   for (const detail::SegmentHandle h : added) {
@@ -96,7 +98,7 @@ void require_planar(World& world, const std::vector<detail::SegmentHandle>& adde
   }
 }
 
-std::vector<detail::LineEdge> line_edges(const World& world, const InputNames& names) {
+std::vector<detail::LineEdge> line_edges(const World<2>& world, const InputNames& names) {
   std::vector<detail::LineEdge> edges;
   const auto& tree = world.vertices.tree();
   world.leaves.for_each([&](const detail::Leaf& leaf) {
@@ -107,7 +109,7 @@ std::vector<detail::LineEdge> line_edges(const World& world, const InputNames& n
 }
 
 // Of the leaves' edges, those that no triangle has are lost.
-void require_edges(const World& world) {
+void require_edges(const World<2>& world) {
   std::map<std::array<VertexHandle, 2>, const detail::Leaf*> leaves;
   const auto key = [](VertexHandle v, VertexHandle w) {
     return std::array{std::min(v, w), std::max(v, w)};
@@ -116,7 +118,7 @@ void require_edges(const World& world) {
   world.leaves.for_each([&](const detail::Leaf& leaf) {
     leaves[key(tree.find(leaf.lo)->self, tree.find(leaf.hi)->self)] = &leaf;
   });
-  for (const auto& t : world.plain.triangles) {
+  for (const auto& t : world.plain.simplices) {
     for (std::size_t i = 0; i < 3; ++i) leaves.erase(key(t[i], t[(i + 1) % 3]));
   }
   detail::LostEdge lost;
@@ -124,53 +126,76 @@ void require_edges(const World& world) {
   lost.require_none(world.vertices, world.segments.pool(), world.names);
 }
 
-void post_all(World& world) {
-  world.vertices.pool().for_each([&](detail::Vertex<2>& v) {
+template <int D>
+void post_all(World<D>& world) {
+  world.vertices.pool().for_each([&](detail::Vertex<D>& v) {
     if (!v.input) return;
-    world.quadtree.post_from_outside<detail::locate>(detail::locate_key(world.box.fixed(v.p)),
-                                                     detail::VertexRef<2>{&v});
+    world.quadtree.template post_from_outside<detail::locate>(
+        detail::locate_key(world.box.fixed(v.p)), detail::VertexRef<D>{&v});
   });
 }
 
-void watch(World& world, const RunControl& control, std::size_t points) {
+template <int D>
+void watch(World<D>& world, const RunControl& control, std::size_t points) {
   if (!detail::watches(control)) return;
-  detail::RunMeter<sac::PlainScope> meter(world, control, points);
+  detail::RunMeter<sac::PlainScope, D> meter(world, control, points);
   world.plain.next_report = 1;
-  world.plain.report = [meter](detail::PlainOutput& plain) mutable {
+  world.plain.report = [meter](detail::PlainOutput<D>& plain) mutable {
     if (!meter(plain.calls)) detail::fail_cancelled();
     plain.next_report = plain.calls + RunControl::kCallsBetween;
   };
 }
 
-Mesh<2> run(const std::vector<Point<2>>& points, const std::vector<Segment>& segments,
-            const Options<2>& options, const std::vector<FeatureId>& ids, MeshStats* stats,
-            const RunControl& control) {
-  SAC_EXPECTS(ids.empty() || ids.size() == points.size());
-  predicates::self_test();
-  detail::require_unstopped(control);
-  const detail::MeshBox<2> box = detail::mesh_box(options);
-  sac::PlainScope scope;
-  World world(options, box, scope);
-  const std::vector<VertexHandle> handles = add_points(points, options, ids, world);
-  InputNames names(handles, ids, segments.size());
-  world.names = &names;
-  if (!segments.empty()) {
-    require_planar(world, add_segments(segments, ids, handles, world, names), names);
+// One static run.
+template <int D>
+class StaticRun {
+ public:
+  StaticRun(const std::vector<Point<D>>& points, const Options<D>& options,
+            const std::vector<FeatureId>& ids, const RunControl& control, std::size_t segments)
+      : control_(control),
+        box_((begin(points, ids, control), detail::mesh_box(options))),
+        world_(options, box_, scope_),
+        handles_(add_points<D>(points, options, ids, world_)),
+        names_(handles_, ids, segments) {
+    world_.names = &names_;
   }
-  post_all(world);
-  watch(world, control, points.size());
-  scope.run<detail::refine>();
-  if (world.vertices.pool().size() > world.most_vertices) {
-    throw detail::too_many_vertices(world.vertices, world.names, world.most_vertices);
+
+  [[nodiscard]] World<D>& world() noexcept { return world_; }
+  [[nodiscard]] const std::vector<VertexHandle>& handles() const noexcept { return handles_; }
+  [[nodiscard]] InputNames& names() noexcept { return names_; }
+
+  void refine() {
+    post_all(world_);
+    watch(world_, control_, handles_.size());
+    scope_.template run<detail::refine<D>>();
+    if (world_.vertices.pool().size() > world_.most_vertices) {
+      throw detail::too_many_vertices(world_.vertices, world_.names, world_.most_vertices);
+    }
   }
-  if (world.leaves.may_lose()) require_edges(world);
-  std::vector<VertexHandle> vertices;
-  world.vertices.pool().for_each([&](detail::Vertex<2>& v) { vertices.push_back(v.self); });
-  Mesh<2> mesh = detail::canonical(world.vertices.pool(), std::move(vertices),
-                                   world.plain.triangles, line_edges(world, names));
-  if (stats != nullptr) *stats = detail::timed_stats(world, mesh);
-  return mesh;
-}
+  [[nodiscard]] Mesh<D> mesh(const std::vector<detail::LineEdge>& edges, MeshStats* stats) {
+    std::vector<VertexHandle> vertices;
+    world_.vertices.pool().for_each([&](detail::Vertex<D>& v) { vertices.push_back(v.self); });
+    Mesh<D> mesh = detail::canonical(world_.vertices.pool(), std::move(vertices),
+                                     world_.plain.simplices, edges);
+    if (stats != nullptr) *stats = detail::timed_stats(world_, mesh);
+    return mesh;
+  }
+
+ private:
+  static void begin(const std::vector<Point<D>>& points, const std::vector<FeatureId>& ids,
+                    const RunControl& control) {
+    SAC_EXPECTS(ids.empty() || ids.size() == points.size());
+    predicates::self_test();
+    detail::require_unstopped(control);
+  }
+
+  const RunControl& control_;
+  detail::MeshBox<D> box_;
+  sac::PlainScope scope_;
+  World<D> world_;
+  std::vector<VertexHandle> handles_;
+  InputNames names_;
+};
 
 }  // namespace
 
@@ -178,11 +203,14 @@ template <int D>
 Mesh<D> mesh_statically(const std::vector<Point<D>>& points, const Options<D>& options,
                         const std::vector<FeatureId>& ids, MeshStats* stats,
                         const RunControl& control) {
-  static_assert(D == 2);
-  return run(points, {}, options, ids, stats, control);
+  StaticRun<D> run(points, options, ids, control, 0);
+  run.refine();
+  return run.mesh({}, stats);
 }
 
 template Mesh<2> mesh_statically<2>(const std::vector<Point<2>>&, const Options<2>&,
+                                    const std::vector<FeatureId>&, MeshStats*, const RunControl&);
+template Mesh<3> mesh_statically<3>(const std::vector<Point<3>>&, const Options<3>&,
                                     const std::vector<FeatureId>&, MeshStats*, const RunControl&);
 
 Mesh<2> mesh_statically(const std::vector<Point<2>>& points, const std::vector<Segment>& segments,
@@ -191,7 +219,15 @@ Mesh<2> mesh_statically(const std::vector<Point<2>>& points, const std::vector<S
   if (options.rule != Rule::radius_edge) {
     throw Error(ErrorCode::bad_option, "segments need the rule radius_edge");
   }
-  return run(points, segments, options, ids, stats, control);
+  StaticRun<2> run(points, options, ids, control, segments.size());
+  if (!segments.empty()) {
+    require_planar(run.world(),
+                   add_segments(segments, ids, run.handles(), run.world(), run.names()),
+                   run.names());
+  }
+  run.refine();
+  if (run.world().leaves.may_lose()) require_edges(run.world());
+  return run.mesh(line_edges(run.world(), run.names()), stats);
 }
 
 }  // namespace mesher

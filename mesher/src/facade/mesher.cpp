@@ -5,6 +5,7 @@
 #include <string>
 
 #include "facade/announced.hpp"
+#include "facade/announced_limits.hpp"
 #include "facade/busy.hpp"
 #include "facade/meter.hpp"
 #include "facade/state.hpp"
@@ -17,33 +18,46 @@ namespace {
 
 std::string text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
+// Zero has no sign.
+template <std::size_t N>
+std::array<double, N> unsigned_zero(std::array<double, N> p) {
+  for (double& x : p) x += 0.0;
+  return p;
+}
+
 }  // namespace
 
-template <>
-struct Mesher<2>::Impl {
-  explicit Impl(const Options<2>& o)
-      : options(o), state(std::make_unique<detail::State>(o)), box(state->box()), announced(box) {
+template <int D>
+struct Mesher<D>::Impl {
+  using Announced = detail::Announced<D>;
+  using State = std::conditional_t<D == 2, detail::State, detail::PointState<D>>;
+
+  explicit Impl(const Options<D>& o)
+      : options(o), state(std::make_unique<State>(o)), box(state->box()), announced(box) {
     predicates::self_test();
   }
 
-  [[nodiscard]] detail::Announced::Place place(FeatureId id) const;
+  [[nodiscard]] typename Announced::Place place(FeatureId id) const;
   void require_known(FeatureId id) const;
-  void require_free(FeatureId id, const Point<2>& p) const;
-  void require_apart(const std::vector<detail::Announced::Edit>& edits) const;
-  void insert(FeatureId id, const Point<2>& p);
+  void require_free(FeatureId id, const Point<D>& p) const;
+  void require_apart(const std::vector<typename Announced::Edit>& edits) const;
+  void insert(FeatureId id, const Point<D>& p);
   [[nodiscard]] const detail::LinePoints& line(FeatureId id) const;
   void insert_line(FeatureId id, const detail::LinePoints& points);
   void remove_line(FeatureId id);
-  [[nodiscard]] detail::AllLimits limits() const { return announced_limits.as_announced(options); }
   void limit(detail::AllLimits limits, const std::vector<Box<2>>& where);
+  [[nodiscard]] Options<D> announced_options() const;
+  void commit_limits() noexcept;
   void discard_edits() noexcept;
-  Change<2> run(const RunControl& control, const Accept& accept);
-  Change<2> update(const RunControl& control, const Accept& accept);
+  Change<D> first_run(State& fresh, const RunControl& control, const Accept& accept);
+  Change<D> propagate(const RunControl& control, const Accept& accept);
+  Change<D> run(const RunControl& control, const Accept& accept);
+  Change<D> update(const RunControl& control, const Accept& accept);
 
-  Options<2> options;                    // with the limits of the last update
-  std::unique_ptr<detail::State> state;  // of the last update
-  detail::MeshBox<2> box;
-  detail::Announced announced;
+  Options<D> options;            // with the limits of the last update
+  std::unique_ptr<State> state;  // of the last update
+  detail::MeshBox<D> box;
+  Announced announced;
   detail::AnnouncedLines announced_lines;
   detail::AnnouncedLimits announced_limits;
   detail::Busy busy;
@@ -52,17 +66,20 @@ struct Mesher<2>::Impl {
 
 // --- Edits -----------------------------------------------------------------------------------
 
-detail::Announced::Place Mesher<2>::Impl::place(FeatureId id) const {
+template <int D>
+auto Mesher<D>::Impl::place(FeatureId id) const -> typename Announced::Place {
   const auto* edit = announced.find(id);
   return edit != nullptr ? edit->to : state->place(id);
 }
 
-void Mesher<2>::Impl::require_known(FeatureId id) const {
+template <int D>
+void Mesher<D>::Impl::require_known(FeatureId id) const {
   if (place(id)) return;
   throw Error(ErrorCode::unknown_id, "point " + text(id) + " is not there", {}, {id});
 }
 
-void Mesher<2>::Impl::require_free(FeatureId id, const Point<2>& p) const {
+template <int D>
+void Mesher<D>::Impl::require_free(FeatureId id, const Point<D>& p) const {
   if (const auto* other = announced.arrival_near(p, id)) {
     detail::fail_too_near(p, id, *other->to, other->id);
   }
@@ -72,13 +89,15 @@ void Mesher<2>::Impl::require_free(FeatureId id, const Point<2>& p) const {
 }
 
 // The announced places, as they are when all edits are made.
-void Mesher<2>::Impl::require_apart(const std::vector<detail::Announced::Edit>& edits) const {
+template <int D>
+void Mesher<D>::Impl::require_apart(const std::vector<typename Announced::Edit>& edits) const {
   for (const auto& edit : edits) {
     if (edit.to) require_free(edit.id, *edit.to);
   }
 }
 
-void Mesher<2>::Impl::insert(FeatureId id, const Point<2>& p) {
+template <int D>
+void Mesher<D>::Impl::insert(FeatureId id, const Point<D>& p) {
   busy.require_idle();
   if (place(id)) {
     throw Error(ErrorCode::repeated_id, "point " + text(id) + " is there already", {}, {id});
@@ -87,14 +106,18 @@ void Mesher<2>::Impl::insert(FeatureId id, const Point<2>& p) {
   const auto was = state->place(id);
   if (!was) require_free(id, p);
   moved |= was.has_value();
-  announced.set(id, was, Point<2>{p[0] + 0.0, p[1] + 0.0});  // zero has no sign
+  announced.set(id, was, unsigned_zero(p));
 }
 
+// --- Lines: in the plane ---------------------------------------------------------------------
+
+template <>
 const detail::LinePoints& Mesher<2>::Impl::line(FeatureId id) const {
   const auto* edit = announced_lines.find(id);
   return edit != nullptr ? edit->to : state->line(id);
 }
 
+template <>
 void Mesher<2>::Impl::insert_line(FeatureId id, const detail::LinePoints& points) {
   busy.require_idle();
   if (options.rule != Rule::radius_edge) {
@@ -111,6 +134,7 @@ void Mesher<2>::Impl::insert_line(FeatureId id, const detail::LinePoints& points
   announced_lines.set(id, state->line(id), points);
 }
 
+template <>
 void Mesher<2>::Impl::remove_line(FeatureId id) {
   busy.require_idle();
   if (line(id).empty()) {
@@ -119,7 +143,10 @@ void Mesher<2>::Impl::remove_line(FeatureId id) {
   announced_lines.set(id, state->line(id), {});
 }
 
+// --- Limits: in the plane --------------------------------------------------------------------
+
 // Limits that make no sense are refused at once.
+template <>
 void Mesher<2>::Impl::limit(detail::AllLimits limits, const std::vector<Box<2>>& where) {
   busy.require_idle();
   Options<2> all = options;
@@ -128,7 +155,44 @@ void Mesher<2>::Impl::limit(detail::AllLimits limits, const std::vector<Box<2>>&
   announced_limits.set(std::move(limits), where, options);
 }
 
-void Mesher<2>::Impl::discard_edits() noexcept {
+template <>
+Options<2> Mesher<2>::Impl::announced_options() const {
+  return announced_limits.applied_to(options);
+}
+template <int D>
+Options<D> Mesher<D>::Impl::announced_options() const {
+  return options;
+}
+
+template <>
+void Mesher<2>::Impl::commit_limits() noexcept {
+  announced_limits.commit(options);
+}
+template <int D>
+void Mesher<D>::Impl::commit_limits() noexcept {}
+
+// --- Beyond the plane ------------------------------------------------------------------------
+
+template <int D>
+const detail::LinePoints& Mesher<D>::Impl::line(FeatureId) const {
+  static const detail::LinePoints none;
+  return none;
+}
+
+template <int D>
+void Mesher<D>::Impl::insert_line(FeatureId id, const detail::LinePoints&) {
+  busy.require_idle();
+  throw Error(ErrorCode::bad_option, "segments are for the plane", {}, {id});
+}
+
+template <int D>
+void Mesher<D>::Impl::remove_line(FeatureId id) {
+  busy.require_idle();
+  throw Error(ErrorCode::unknown_id, "line " + text(id) + " is not there", {}, {id});
+}
+
+template <int D>
+void Mesher<D>::Impl::discard_edits() noexcept {
   announced_limits.clear();
   announced_lines.clear();
   announced.clear();
@@ -137,22 +201,43 @@ void Mesher<2>::Impl::discard_edits() noexcept {
 
 // --- Updates ---------------------------------------------------------------------------------
 
-Change<2> Mesher<2>::Impl::run(const RunControl& control, const Accept& accept) {
-  detail::Edits edits{announced.sorted(), announced_lines.sorted(), announced_limits.edit(options)};
-  if (moved) require_apart(edits.points);
-  if (state->ran()) return state->propagate(edits, control, accept);
-  auto fresh = std::make_unique<detail::State>(announced_limits.applied_to(options));
-  Change<2> change = fresh->first_run(std::move(edits), control, accept);
+template <>
+Change<2> Mesher<2>::Impl::first_run(State& fresh, const RunControl& control,
+                                     const Accept& accept) {
+  return fresh.first_run(announced.sorted(), announced_lines.sorted(), control, accept);
+}
+template <>
+Change<2> Mesher<2>::Impl::propagate(const RunControl& control, const Accept& accept) {
+  return state->propagate(announced.sorted(), announced_lines.sorted(),
+                          announced_limits.edit(options), control, accept);
+}
+template <int D>
+Change<D> Mesher<D>::Impl::first_run(State& fresh, const RunControl& control,
+                                     const Accept& accept) {
+  return fresh.first_run(announced.sorted(), control, accept);
+}
+template <int D>
+Change<D> Mesher<D>::Impl::propagate(const RunControl& control, const Accept& accept) {
+  return state->propagate(announced.sorted(), control, accept);
+}
+
+template <int D>
+Change<D> Mesher<D>::Impl::run(const RunControl& control, const Accept& accept) {
+  if (moved) require_apart(announced.sorted());
+  if (state->ran()) return propagate(control, accept);
+  auto fresh = std::make_unique<State>(announced_options());
+  Change<D> change = first_run(*fresh, control, accept);
   state = std::move(fresh);
   return change;
 }
 
-Change<2> Mesher<2>::Impl::update(const RunControl& control, const Accept& accept) {
+template <int D>
+Change<D> Mesher<D>::Impl::update(const RunControl& control, const Accept& accept) {
   const detail::Busy::Run running(busy);
   detail::require_unstopped(control);
   try {
-    Change<2> change = run(control, accept);
-    announced_limits.commit(options);
+    Change<D> change = run(control, accept);
+    commit_limits();
     discard_edits();
     return change;
   } catch (const sac::Cancelled&) {
@@ -204,7 +289,7 @@ void Mesher<D>::move(FeatureId id, const Point<D>& point) {
   impl_->require_known(id);
   detail::check_point(point, impl_->options.domain, id);
   impl_->moved = true;
-  impl_->announced.set(id, impl_->state->place(id), Point<D>{point[0] + 0.0, point[1] + 0.0});
+  impl_->announced.set(id, impl_->state->place(id), unsigned_zero(point));
 }
 
 template <int D>
@@ -222,29 +307,44 @@ void Mesher<D>::remove_segment(FeatureId id) {
   impl_->remove_line(id);
 }
 
-template <int D>
-void Mesher<D>::limit(const SizeLimits<D>& limits) {
-  impl_->limit({limits, {}, impl_->limits().regions}, {impl_->options.domain});
+template <>
+void Mesher<2>::limit(const SizeLimits<2>& limits) {
+  const auto all = impl_->announced_limits.as_announced(impl_->options);
+  impl_->limit({limits, {}, all.regions}, {impl_->options.domain});
 }
-
-template <int D>
-void Mesher<D>::limit(const Box<D>& box, const SizeLimits<D>& limits) {
-  detail::AllLimits all = impl_->limits();
+template <>
+void Mesher<2>::limit(const Box<2>& box, const SizeLimits<2>& limits) {
+  auto all = impl_->announced_limits.as_announced(impl_->options);
   all.set_within(box, limits);
   impl_->limit(std::move(all), {box});
 }
-
-template <int D>
-void Mesher<D>::limit_regions(std::shared_ptr<const RegionLimits> regions,
-                              const std::vector<Box<D>>& where) {
-  detail::AllLimits all = impl_->limits();
+template <>
+void Mesher<2>::limit_regions(std::shared_ptr<const RegionLimits> regions,
+                              const std::vector<Box<2>>& where) {
+  auto all = impl_->announced_limits.as_announced(impl_->options);
   all.regions = std::move(regions);
   impl_->limit(std::move(all), where);
 }
+template <>
+bool Mesher<2>::has_limits() const {
+  return impl_->announced_limits.as_announced(impl_->options).any();
+}
 
 template <int D>
+void Mesher<D>::limit(const SizeLimits<D>&) {
+  detail::fail_limits_in_space();
+}
+template <int D>
+void Mesher<D>::limit(const Box<D>&, const SizeLimits<D>&) {
+  detail::fail_limits_in_space();
+}
+template <int D>
+void Mesher<D>::limit_regions(std::shared_ptr<const RegionLimits>, const std::vector<Box<D>>&) {
+  detail::fail_limits_in_space();
+}
+template <int D>
 bool Mesher<D>::has_limits() const {
-  return impl_->limits().any();
+  return false;
 }
 
 // In the other: lines go first, and points before others come to their places.
@@ -297,10 +397,15 @@ std::vector<InputPoint<D>> Mesher<D>::points() const {
   return impl_->state->points();
 }
 
+template <>
+std::vector<InputLine> Mesher<2>::lines() const {
+  impl_->busy.require_idle();
+  return impl_->state->lines();
+}
 template <int D>
 std::vector<InputLine> Mesher<D>::lines() const {
   impl_->busy.require_idle();
-  return impl_->state->lines();
+  return {};
 }
 
 template <int D>
@@ -334,5 +439,6 @@ void Mesher<D>::check_invariants() const {
 }
 
 template class Mesher<2>;
+template class Mesher<3>;
 
 }  // namespace mesher

@@ -28,11 +28,11 @@ inline void require_unstopped(const RunControl& control) {
 }
 
 /// The phases of a first or static run.
-template <class S>
+template <class S, int D = 2>
 class RunMeter {
  public:
   /// `points`: how many there are to locate.
-  RunMeter(const World<S>& world, const RunControl& control, std::size_t points)
+  RunMeter(const World<S, D>& world, const RunControl& control, std::size_t points)
       : world_(world), control_(control), progress_{.of = points} {}
 
   /// `calls` have run in all; false if the run shall stop.
@@ -53,10 +53,10 @@ class RunMeter {
     calls_before_ = calls;
     progress_.of = 0;
     if (progress_.phase != Phase::triangulate) return;
-    world_.vertices.pool().for_each([&](const Vertex<2>&) { ++progress_.of; });  // a star each
+    world_.vertices.pool().for_each([&](const Vertex<D>&) { ++progress_.of; });  // a star each
   }
 
-  const World<S>& world_;
+  const World<S, D>& world_;
   const RunControl& control_;
   Progress progress_;
   std::uint64_t calls_before_ = 0;

@@ -74,15 +74,45 @@ void State::take_part(VertexHandle from, VertexHandle to) {
 
 // --- All of an update ------------------------------------------------------------------------
 
+void State::add_others_first() {
+  if (line_edits_.empty()) return;
+  for (const Part& part : take_lines({})) add_part(part, {});
+  require_planar({});
+  make_room_for_others();
+  rename_others();
+  forget_news();
+}
+
+bool State::has_lines() const noexcept {
+  return segments().store().live() != 0 || !new_segments_.empty();
+}
+
+void State::make_edits(const PointEdits& edits, Ids& arrived) {
+  if (limits_edit_) world_->edit_limits(limits_edit_->options, limits_edit_->where, *engine_);
+  const std::vector<Part> parts = take_lines(edits);
+  require_unused(edits);
+  make_points(edits, arrived);
+  for (const Part& part : parts) add_part(part, arrived);
+  if (has_lines()) require_planar(arrived);
+}
+
+// Leaves' records refer to those of segments, and these to those of vertices.
+void State::commit_others() noexcept {
+  world_->leaves.commit();
+  world_->segments.commit();
+}
+
+std::size_t State::other_bytes() const { return world_->segments.bytes() + world_->leaves.bytes(); }
+
 // Lines that go, and what stays of the others but has an end that moves. Returns what is to come:
 // all of new lines, and the latter again.
-std::vector<State::Part> State::take_lines(const Edits& edits) {
+std::vector<State::Part> State::take_lines(const PointEdits& points) {
   std::vector<Part> parts;
-  for (const auto& edit : edits.lines) {
+  for (const auto& edit : line_edits_) {
     for_each_part(edit.was, [&](FeatureId a, FeatureId b) { take_part(ids_.at(a), ids_.at(b)); });
     for_each_part(edit.to, [&](FeatureId a, FeatureId b) { parts.push_back({edit.id, a, b}); });
   }
-  for (const auto& edit : edits.points) {
+  for (const auto& edit : points) {
     if (!edit.was || !edit.to) continue;
     const VertexHandle v = ids_.at(edit.id);
     std::vector<Part> moved;
@@ -96,7 +126,7 @@ std::vector<State::Part> State::take_lines(const Edits& edits) {
 }
 
 // Requires: take_lines.
-void State::require_unused(const std::vector<Announced::Edit>& edits) const {
+void State::require_unused(const PointEdits& edits) const {
   for (const auto& edit : edits) {
     if (!edit.was || edit.to) continue;
     std::optional<FeatureId> user;
@@ -122,28 +152,31 @@ void State::require_planar(const Ids& arrived) {
 
 // --- Names -----------------------------------------------------------------------------------
 
-// So that rename_lines() cannot fail.
-void State::make_room_for_lines(const std::vector<AnnouncedLines::Edit>& edits, Lines& lines) {
-  for (const auto& edit : edits) {
-    if (!edit.to.empty()) lines.emplace(edit.id, edit.to);
+// So that rename_others() cannot fail.
+void State::make_room_for_others() {
+  for (const auto& edit : line_edits_) {
+    if (!edit.to.empty()) new_line_points_.emplace(edit.id, edit.to);
   }
-  line_points_.reserve(line_points_.size() + lines.size());
+  line_points_.reserve(line_points_.size() + new_line_points_.size());
   SegmentHandle last = 0;
   for (const SegmentHandle h : new_segments_) last = std::max(last, h);
   if (last >= lines_.capacity()) lines_.reserve(2 * std::size_t{last} + 16);
   if (last >= lines_.size()) lines_.resize(std::size_t{last} + 1);
 }
 
-void State::rename_lines(const std::vector<AnnouncedLines::Edit>& edits, Lines& lines) noexcept {
-  for (const auto& edit : edits) line_points_.erase(edit.id);
-  line_points_.merge(lines);
+void State::rename_others() noexcept {
+  for (const auto& edit : line_edits_) line_points_.erase(edit.id);
+  line_points_.merge(new_line_points_);
   for (const auto& [h, id] : new_lines_) lines_[h] = id;
 }
 
 void State::forget_news() noexcept {
+  line_edits_ = LineEdits();
+  limits_edit_.reset();
   new_names_.clear();
   new_lines_.clear();
   new_segments_.clear();
+  new_line_points_.clear();
   taken_.clear();
 }
 

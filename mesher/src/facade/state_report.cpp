@@ -1,4 +1,4 @@
-// Reading the mesh out of the program's world, and what an update has changed in it.
+// Lines of the mesh, and what an update has changed of them.
 #include <algorithm>
 #include <iterator>
 
@@ -9,28 +9,6 @@
 
 namespace mesher::detail {
 
-std::array<Point<2>, 3> State::corners(const Triangle& t) const {
-  return smallest_first(std::array{pool()[t[0]].p, pool()[t[1]].p, pool()[t[2]].p});
-}
-
-std::vector<VertexHandle> State::live_vertices() const {
-  std::vector<VertexHandle> all;
-  pool().for_each([&](const Vertex<2>& v) {
-    if (v.alive) all.push_back(v.self);
-  });
-  return all;
-}
-
-std::vector<State::Triangle> State::triangles() const {
-  std::vector<Triangle> all;
-  pool().for_each([&](const Vertex<2>& v) {
-    const auto ring = vertices().ring(v);
-    for_each_own_triangle(pool(), v, ring.handles, ring.size,
-                          [&](const Triangle& t) { all.push_back(t); });
-  });
-  return all;
-}
-
 std::vector<detail::LineEdge> State::line_edges() const {
   std::vector<detail::LineEdge> all;
   const auto& tree = vertices().tree();
@@ -40,91 +18,12 @@ std::vector<detail::LineEdge> State::line_edges() const {
   return all;
 }
 
-std::vector<InputPoint<2>> State::points() const {
-  std::vector<InputPoint<2>> all;
-  all.reserve(ids_.size());
-  for (const auto& [id, h] : ids_) all.push_back({id, pool()[h].p});
-  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-  return all;
-}
-
 std::vector<InputLine> State::lines() const {
   std::vector<InputLine> all;
   all.reserve(line_points_.size());
   for (const auto& [id, points] : line_points_) all.push_back({id, points});
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return all;
-}
-
-Mesh<2> State::mesh() const {
-  return canonical(pool(), live_vertices(), triangles(), line_edges());
-}
-
-MeshStats State::stats() const {
-  MeshStats s = stats_;
-  s.calls = engine_->live_calls();
-  s.edges = engine_->live_edges();
-  s.trace_bytes = engine_->bytes() + pool().bytes() + vertices().tree().bytes() +
-                  world_->segments.bytes() + world_->leaves.bytes() + vertices().roles().bytes() +
-                  world_->features.bytes();
-  return s;
-}
-
-void State::report_vertices(const Log& log, Change<2>& change) const {
-  for (const VertexHandle h : log.touched) {
-    const Vertex<2>& v = pool()[h];
-    if (v.alive && !v.committed) change.vertices_added.push_back(v.p);
-    if (!v.alive && v.committed) change.vertices_removed.push_back(v.p);
-    if (v.alive && v.committed && v.kind() != v.committed_kind) {
-      change.kinds_changed.push_back({v.p, v.committed_kind, v.kind()});
-    }
-  }
-  std::sort(change.vertices_added.begin(), change.vertices_added.end());
-  std::sort(change.vertices_removed.begin(), change.vertices_removed.end());
-  std::sort(change.kinds_changed.begin(), change.kinds_changed.end(),
-            [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
-}
-
-// The triangles that v outputs in its star of these neighbours, in the order of corners.
-void State::own_triangles(const ChangeLog::Star& star, std::vector<Triangle>& all) const {
-  all.clear();
-  for_each_own_triangle(pool(), pool()[star.center], star.ring.data(),
-                        static_cast<int>(star.ring.size()),
-                        [&](const Triangle& t) { all.push_back(t); });
-}
-
-// Triangles of stars that went or came, without those that did both: these are output by the same
-// vertex, so stars are compared with that of the same vertex only.
-void State::report_stars(Log log, Change<2>& change) const {
-  const auto by_center = [](const auto& a, const auto& b) { return a.center < b.center; };
-  std::sort(log.stars_gone.begin(), log.stars_gone.end(), by_center);
-  std::sort(log.stars_come.begin(), log.stars_come.end(), by_center);
-  std::vector<Triangle> gone;
-  std::vector<Triangle> come;
-  std::vector<Triangle> all_come;
-  const auto report = [&](const auto& these, const auto& those, auto&& out) {
-    for (const Triangle& t : these) {
-      if (std::find(those.begin(), those.end(), t) == those.end()) out(t);
-    }
-  };
-  auto old = log.stars_gone.begin();
-  auto now = log.stars_come.begin();
-  while (old != log.stars_gone.end() || now != log.stars_come.end()) {
-    const bool went =
-        now == log.stars_come.end() || (old != log.stars_gone.end() && old->center <= now->center);
-    const bool came =
-        old == log.stars_gone.end() || (now != log.stars_come.end() && now->center <= old->center);
-    went ? own_triangles(*old++, gone) : gone.clear();
-    came ? own_triangles(*now++, come) : come.clear();
-    report(come, gone, [&](const Triangle& t) {
-      change.simplices_added.push_back(corners(t));
-      all_come.push_back(t);
-    });
-    report(gone, come, [&](const Triangle& t) { change.simplices_removed.push_back(corners(t)); });
-  }
-  change.angles = AngleFinder(*world_, rho_).news(all_come);
-  std::sort(change.simplices_added.begin(), change.simplices_added.end());
-  std::sort(change.simplices_removed.begin(), change.simplices_removed.end());
 }
 
 // Leaves that stay, of segments that are now of another line. That is so rare that all leaves are
@@ -145,7 +44,7 @@ void State::report_renamed(std::vector<mesher::LineEdge<2>>& gone,
 }
 
 // Leaves that ended or began, without those of which another piece is in the same place.
-void State::report_edges(Change<2>& change) const {
+void State::report_others(Change<2>& change) const {
   std::vector<mesher::LineEdge<2>> gone;
   std::vector<mesher::LineEdge<2>> come;
   world_->leaves.for_each_changed([&](const Leaf& leaf) {
@@ -168,17 +67,19 @@ bool State::is_edge(const Leaf& leaf) const {
   const auto& tree = vertices().tree();
   const auto ring = vertices().ring(*tree.find(leaf.lo));
   const VertexHandle other = tree.find(leaf.hi)->self;
-  return std::find(ring.handles, ring.handles + ring.size, other) != ring.handles + ring.size;
+  return std::find(ring.begin(), ring.end(), other) != ring.end();
 }
 
-void State::require_edges() const {
+void State::require_others() const {
+  if (!world_->leaves.may_lose()) return;
   LostEdge lost;
   world_->leaves.for_each([&](const Leaf& leaf) { lost.look(leaf, is_edge(leaf)); });
   lost.require_none(vertices(), segments().pool(), this);
 }
 
 // Of leaves that have come, and those at vertices with another star.
-void State::require_edges(const Log& log) const {
+void State::require_others(const Log& log) const {
+  if (!world_->leaves.may_lose()) return;
   LostEdge lost;
   const auto look = [&](const Leaf& leaf) { lost.look(leaf, is_edge(leaf)); };
   world_->leaves.for_each_changed([&](const Leaf& leaf) {
@@ -191,15 +92,8 @@ void State::require_edges(const Log& log) const {
   lost.require_none(vertices(), segments().pool(), this);
 }
 
-void State::check_invariants() const {
-  engine_->check_invariants();
-  vertices().check_invariants();
-  for (const auto& [id, h] : ids_) {
-    const Vertex<2>& v = pool()[h];
-    SAC_INVARIANT(v.alive && v.input && v.feature && names_[h] == id);
-  }
-  SAC_INVARIANT(stats_.vertices == live_vertices().size());
-  SAC_INVARIANT(stats_.simplices == triangles().size());
+void State::find_angles(const std::vector<Simplex>& come, Change<2>& change) const {
+  change.angles = AngleFinder(*world_, rho_).news(come);
 }
 
 }  // namespace mesher::detail

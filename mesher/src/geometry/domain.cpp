@@ -95,7 +95,7 @@ MeshBox<D> mesh_box(const Options<D>& options) {
     box.lo[i] = steps * grid;
   }
   check(box);
-  box.boundary_steps = boundary_steps(domain, box, promise(options.rule, options.rho).input);
+  box.boundary_steps = boundary_steps(domain, box, promise<D>(options.rule, options.rho).input);
   return box;
 }
 

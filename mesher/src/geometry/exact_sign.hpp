@@ -52,34 +52,35 @@ FixedInt<2 * W> minor(const FixedInt<W>& x0, const FixedInt<W>& y0, const FixedI
 /// v = fl(a - d) [Knuth, TAOCP 2, 4.2.2 Theorem B], which is 0 + 0 here.
 inline bool is_exact_difference(double a, double b, double d) { return a - d == b && d + b == a; }
 
-template <std::size_t W, std::size_t D, std::size_t N, class SignOf>
-int sign_from_coordinates(const Coordinates<D, N>& p, int low, SignOf sign_of) {
+template <std::size_t W, std::size_t D, std::size_t N, class F>
+auto from_coordinates(const Coordinates<D, N>& p, int low, F f) {
   std::array<FixedInt<W>, D> last;
   for (std::size_t i = 0; i < D; ++i) last[i] = to_fixed<W>(p[D * (N - 1) + i], low);
   Differences<W, D, N> d;
   for (std::size_t i = 0; i < d.size(); ++i) d[i] = to_fixed<W>(p[i], low) - last[i % D];
-  return sign_of(d);
+  return f(d, low);
 }
 
 /// Out of line, so that the short way below stays short.
-template <std::size_t D, std::size_t N, class SignOf>
-[[gnu::noinline]] int sign_from_coordinates(const Coordinates<D, N>& p, SignOf sign_of) {
+template <std::size_t D, std::size_t N, class F>
+[[gnu::noinline]] auto from_coordinates(const Coordinates<D, N>& p, F f) {
   const BitRange range(p);
   if (range.width() <= kCoordinateBits<1>) {
-    return sign_from_coordinates<1, D, N>(p, range.low, sign_of);
+    return from_coordinates<1, D, N>(p, range.low, f);
   }
   if (range.width() <= kCoordinateBits<2>) {
-    return sign_from_coordinates<2, D, N>(p, range.low, sign_of);
+    return from_coordinates<2, D, N>(p, range.low, f);
   }
   if (range.width() <= kCoordinateBits<4>) {
-    return sign_from_coordinates<4, D, N>(p, range.low, sign_of);
+    return from_coordinates<4, D, N>(p, range.low, f);
   }
   throw std::domain_error("predicate of coordinates out of the range 2^-100 to 2^100");
 }
 
-/// sign_of(differences) for integers just wide enough; they are an array of FixedInt<1>, 2 or 4.
-template <std::size_t D, std::size_t N, class SignOf>
-int exact_sign(const Coordinates<D, N>& p, SignOf sign_of) {
+/// f(differences, low) for integers just wide enough, in units of 2^low; they are an array of
+/// FixedInt<1>, 2 or 4.
+template <std::size_t D, std::size_t N, class F>
+auto with_integers(const Coordinates<D, N>& p, F f) {
   std::array<double, D*(N - 1)> d;
   bool exact = true;
   for (std::size_t i = 0; i < d.size(); ++i) {
@@ -87,12 +88,18 @@ int exact_sign(const Coordinates<D, N>& p, SignOf sign_of) {
     d[i] = p[i] - last;
     exact &= is_exact_difference(p[i], last, d[i]);
   }
-  if (!exact) return sign_from_coordinates<D, N>(p, sign_of);
+  if (!exact) return from_coordinates<D, N>(p, f);
   const BitRange range(d);
-  if (range.width() > kDifferenceBits<1>) return sign_from_coordinates<D, N>(p, sign_of);
+  if (range.width() > kDifferenceBits<1>) return from_coordinates<D, N>(p, f);
   Differences<1, D, N> integers;
   for (std::size_t i = 0; i < d.size(); ++i) integers[i] = to_fixed<1>(d[i], range.low);
-  return sign_of(integers);
+  return f(integers, range.low);
+}
+
+/// sign_of(differences): a determinant's sign does not depend on the unit.
+template <std::size_t D, std::size_t N, class SignOf>
+int exact_sign(const Coordinates<D, N>& p, SignOf sign_of) {
+  return with_integers<D, N>(p, [&](const auto& d, int) { return sign_of(d); });
 }
 
 }  // namespace mesher::predicates::detail

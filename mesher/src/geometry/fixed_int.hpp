@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -86,6 +87,19 @@ template <std::size_t W>
   std::uint64_t any = 0;
   for (const std::uint64_t limb : a.limb) any |= limb;
   return any != 0 ? 1 : 0;
+}
+
+/// The number itself, but for at most 1 + 2^-10 roundings. Requires: below 2^1023.
+template <std::size_t W>
+[[nodiscard]] inline double to_double(const FixedInt<W>& a) noexcept {
+  if (a.negative()) return -to_double(FixedInt<W>{} - a);
+  std::size_t top = W;
+  while (top > 0 && a.limb[top - 1] == 0) --top;
+  if (top == 0) return 0;
+  const auto limb = [&](std::size_t i) { return i < top ? a.limb[top - 1 - i] : 0; };
+  const int shift = std::countl_zero(limb(0));
+  const std::uint64_t leading = shift == 0 ? limb(0) : limb(0) << shift | limb(1) >> (64 - shift);
+  return std::ldexp(static_cast<double>(leading), static_cast<int>(64 * (top - 1)) - shift);
 }
 
 /// A normal double as fraction * 2^exponent, fraction a 53-bit integer.

@@ -319,6 +319,13 @@ void VoronoiCell::insert_neighbour(int first, int count, Code w) {
   is_open_[k] = right_open;
 }
 
+// The same ring may start elsewhere: the order in which vertices were met decides that.
+void VoronoiCell::write(std::vector<Code>& codes) const {
+  codes.clear();
+  for (int i = 0; i < size_; ++i) codes.push_back(code(i));
+  std::rotate(codes.begin(), std::min_element(codes.begin(), codes.end()), codes.end());
+}
+
 // Of all corners, the one between a and b reaches farthest in the direction of w if w lies in the
 // angle from a to b, the normals of the sides that meet there: if that is not nearer to w, none is.
 bool VoronoiCell::may_cut(const VertexPool<2>& pool, const Vertex<2>& v, double radius,

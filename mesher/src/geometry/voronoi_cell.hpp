@@ -20,6 +20,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -81,6 +82,9 @@ class VoronoiCell {
   [[nodiscard]] Point<2> corner(int i) const noexcept { return {qx_[index(i)], qy_[index(i)]}; }
   [[nodiscard]] double corner2(int i) const noexcept { return q2_[index(i)]; }
   [[nodiscard]] int next(int i) const noexcept { return i + 1 == size_ ? 0 : i + 1; }
+  /// Corners have the numbers of neighbours; around q_i are these.
+  [[nodiscard]] int corners() const noexcept { return size_; }
+  [[nodiscard]] std::array<int, 2> ends(int i) const noexcept { return {i, next(i)}; }
   /// max |q_i|^2.
   [[nodiscard]] double reach2() const noexcept { return reach2_; }
   /// The same over the open corners; 0: there is none.
@@ -99,6 +103,28 @@ class VoronoiCell {
   /// `codes`: all its neighbours, counterclockwise.
   [[nodiscard]] static bool may_cut(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
                                     std::span<const Code> codes, const Point<2>& p);
+  /// Whether that takes less than a look at memory.
+  static constexpr bool kMayCutIsCheap = true;
+
+  /// Writes the cell down: its neighbours, counterclockwise from the least code on.
+  void write(std::vector<Code>& codes) const;
+  /// The neighbours of a cell that was written down.
+  [[nodiscard]] static std::span<const Code> neighbours(std::span<const Code> codes) noexcept {
+    return codes;
+  }
+  /// Neighbours as they were written down, but from the least on in the order `before`.
+  template <class Before>
+  static void put_in_order(std::vector<Code>& codes, Before&& before) {
+    std::rotate(codes.begin(), std::min_element(codes.begin(), codes.end(), before), codes.end());
+  }
+  /// Calls visit(u_i, u_{i+1}) for the neighbours around each corner of a cell that was written
+  /// down by its neighbours, counterclockwise.
+  template <class Visit>
+  static void for_each_link_simplex(std::span<const Code> codes, Visit&& visit) {
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      visit(std::array<Code, 2>{codes[i], codes[i + 1 == codes.size() ? 0 : i + 1]});
+    }
+  }
 
   /// Throws InvariantError unless the corners are those of the neighbours and surround v.
   void check_invariants() const;

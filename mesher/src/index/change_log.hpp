@@ -16,7 +16,7 @@
 
 namespace mesher::detail {
 
-/// The neighbours in a star, counterclockwise; a block of the engine's arena.
+/// A star as its cell was written down; a block of the engine's arena.
 struct Ring {
   VertexHandle center;
   sac::Handle next;  // in a list of rings
@@ -34,30 +34,31 @@ struct Ring {
   }
 };
 
+template <int D>
 class ChangeLog {
  public:
-  /// A star as the vertex and its neighbours.
+  /// The vertex, and its star as its cell was written down.
   struct Star {
     VertexHandle center;
     std::span<const std::uint32_t> ring;
   };
 
-  ChangeLog(VertexPool<2>& pool, sac::Arena& arena) noexcept : pool_(pool), arena_(arena) {}
+  ChangeLog(VertexPool<D>& pool, sac::Arena& arena) noexcept : pool_(pool), arena_(arena) {}
 
   /// The vertex may have come, gone, or become another kind.
-  void touch(Vertex<2>& v) noexcept {
+  void touch(Vertex<D>& v) noexcept {
     if (v.changed) return;
     v.changed = true;
     v.next_changed = std::exchange(first_, v.self);
   }
   /// v's star has gone; its ring is the log's from now on.
-  void star_went(Vertex<2>& v, sac::Handle ring) noexcept {
+  void star_went(Vertex<D>& v, sac::Handle ring) noexcept {
     if (!keeps_stars_ || arena_.at<Ring>(ring)->fresh) return release(ring);
     mark_star(v);
     arena_.at<Ring>(ring)->next = std::exchange(gone_, ring);
   }
   /// v has a star that it had not, with this ring.
-  void star_came(Vertex<2>& v, sac::Handle ring) noexcept {
+  void star_came(Vertex<D>& v, sac::Handle ring) noexcept {
     arena_.at<Ring>(ring)->fresh = keeps_stars_;
     if (keeps_stars_) mark_star(v);
   }
@@ -84,7 +85,7 @@ class ChangeLog {
   template <class Visit>
   void clear(Visit&& visit) noexcept {
     for (VertexHandle h = std::exchange(first_, 0); h != 0;) {
-      Vertex<2>& v = pool_[h];
+      Vertex<D>& v = pool_[h];
       h = std::exchange(v.next_changed, 0);
       v.changed = v.star_changed = false;
       visit(v);
@@ -97,7 +98,7 @@ class ChangeLog {
   }
 
  private:
-  void mark_star(Vertex<2>& v) noexcept {
+  void mark_star(Vertex<D>& v) noexcept {
     touch(v);
     v.star_changed = true;
   }
@@ -105,7 +106,7 @@ class ChangeLog {
     arena_.release(ring, Ring::bytes(arena_.at<Ring>(ring)->count));
   }
 
-  VertexPool<2>& pool_;
+  VertexPool<D>& pool_;
   sac::Arena& arena_;
   VertexHandle first_ = 0;
   sac::Handle gone_ = 0;

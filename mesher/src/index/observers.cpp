@@ -5,8 +5,9 @@
 
 namespace mesher::detail {
 
-void Observers::link(Observation& o) noexcept {
-  Vertex<2>& v = pool_[o.center];
+template <int D>
+void Observers<D>::link(Observation& o) noexcept {
+  Vertex<D>& v = pool_[o.center];
   o.arrivals = 0;
   o.next = v.queries;
   v.queries = engine_.arena().handle_of(&o);
@@ -15,8 +16,9 @@ void Observers::link(Observation& o) noexcept {
   tree_.raise_reach(v);
 }
 
-void Observers::unlink(Observation& o) noexcept {
-  Vertex<2>& v = pool_[o.center];
+template <int D>
+void Observers<D>::unlink(Observation& o) noexcept {
+  Vertex<D>& v = pool_[o.center];
   const sac::Handle self = engine_.arena().handle_of(&o);
   sac::Handle* link = &v.queries;
   while (*link != self) link = &at(*link).next;
@@ -25,7 +27,8 @@ void Observers::unlink(Observation& o) noexcept {
   for (sac::Handle h = v.queries; h != 0; h = at(h).next) v.reach.include(at(h).reach);
 }
 
-std::span<const std::uint32_t> Observers::seen(const Observation& o) const noexcept {
+template <int D>
+std::span<const std::uint32_t> Observers<D>::seen(const Observation& o) const noexcept {
   if (o.kind == kNearest) return {&static_cast<const NearestSeen&>(o).nearest, 1};
   if (o.kind == kStar) {
     return engine_.arena().at<Ring>(static_cast<const StarSeen&>(o).ring)->span();
@@ -34,12 +37,14 @@ std::span<const std::uint32_t> Observers::seen(const Observation& o) const noexc
   return {cell.codes(), cell.count};
 }
 
-void Observers::expect_arrivals() {
+template <int D>
+void Observers<D>::expect_arrivals() {
   if (arrivals_.capacity() - arrivals_.size() >= kRoom) return;
   arrivals_.reserve(2 * arrivals_.capacity() + kRoom);
 }
 
-void Observers::note_arrival(Observation& o, VertexHandle w) noexcept {
+template <int D>
+void Observers<D>::note_arrival(Observation& o, VertexHandle w) noexcept {
   if (o.arrivals == kUnknown) return;
   if (arrivals_.size() == arrivals_.capacity()) {
     o.arrivals = kUnknown;
@@ -49,9 +54,10 @@ void Observers::note_arrival(Observation& o, VertexHandle w) noexcept {
   o.arrivals = static_cast<std::uint32_t>(arrivals_.size() - 1);
 }
 
-void Observers::check_invariants(const Vertex<2>& v) const {
+template <int D>
+void Observers<D>::check_invariants(const Vertex<D>& v) const {
   SAC_INVARIANT(arrivals_.size() == 1);
-  Reach<2> reach;
+  Reach<D> reach;
   for (sac::Handle h = v.queries; h != 0; h = at(h).next) {
     const Observation& o = at(h);
     SAC_INVARIANT(o.center == v.self && o.arrivals == 0);
@@ -60,5 +66,8 @@ void Observers::check_invariants(const Vertex<2>& v) const {
   }
   SAC_INVARIANT(v.reach == reach);
 }
+
+template class Observers<2>;
+template class Observers<3>;
 
 }  // namespace mesher::detail

@@ -15,27 +15,30 @@
 #include <span>
 #include <vector>
 
-#include "geometry/voronoi_cell.hpp"
+#include "geometry/cell_of.hpp"
 #include "index/change_log.hpp"
 #include "index/quadtree.hpp"
 #include "sac/engine.hpp"
 
 namespace mesher::detail {
 
+template <int D>
 struct Observation : sac::Edge {
   VertexHandle center;
   sac::Handle call;
   sac::Handle next;        // centred at the same vertex
-  Reach<2> reach;          // no vertex beyond concerns it
+  Reach<D> reach;          // no vertex beyond concerns it
   std::uint32_t arrivals;  // a list
 };
 
 /// The nearest vertex.
-struct NearestSeen : Observation {
+template <int D>
+struct NearestSeen : Observation<D> {
   std::uint32_t nearest;  // 0: none
 };
-/// The neighbours in a clipped cell; their codes lie behind it.
-struct CellSeen : Observation {
+/// A clipped cell; as it was written down lies behind it.
+template <int D>
+struct CellSeen : Observation<D> {
   float radius;  // the clip, in units of the box's side
   std::uint32_t count;
 
@@ -46,19 +49,26 @@ struct CellSeen : Observation {
     return reinterpret_cast<const std::uint32_t*>(this + 1);
   }
 };
-/// The neighbours in a star.
-struct StarSeen : Observation {
+/// A star.
+template <int D>
+struct StarSeen : Observation<D> {
   sac::Handle ring;
 };
 
+template <int D>
 class Observers {
  public:
+  using Observation = detail::Observation<D>;
+  using NearestSeen = detail::NearestSeen<D>;
+  using CellSeen = detail::CellSeen<D>;
+  using StarSeen = detail::StarSeen<D>;
+
   static constexpr std::uint8_t kNearest = 2;
   static constexpr std::uint8_t kCell = 1;
   static constexpr std::uint8_t kStar = 3;
   static constexpr std::uint32_t kUnknown = 0xffffffffu;
 
-  Observers(sac::Engine& engine, VertexPool<2>& pool, Quadtree<2>& tree)
+  Observers(sac::Engine& engine, VertexPool<D>& pool, Quadtree<D>& tree)
       : engine_(engine), pool_(pool), tree_(tree) {}
 
   /// Lists an observation whose centre, call and reach are set.
@@ -68,7 +78,7 @@ class Observers {
   /// Calls visit(observation) for those centred at v, the newest first, until one returns true.
   /// Returns that one, or null.
   template <class Visit>
-  Observation* find_at(const Vertex<2>& v, Visit&& visit) const {
+  Observation* find_at(const Vertex<D>& v, Visit&& visit) const {
     for (sac::Handle h = v.queries; h != 0; h = at(h).next) {
       if (visit(static_cast<const Observation&>(at(h)))) return &at(h);
     }
@@ -77,7 +87,7 @@ class Observers {
   /// Calls visit(centre, observation) for those that a vertex at p may concern: it is in reach.
   /// visit must not throw. Cost: O(depth of the tree) and what it visits.
   template <class Visit>
-  void for_each_reaching(const Point<2>& p, Visit&& visit) noexcept {
+  void for_each_reaching(const Point<D>& p, Visit&& visit) noexcept {
     // Memory is asked for the observations of several centres before the first is looked at.
     std::array<Met, 32> met;
     std::size_t count = 0;
@@ -85,16 +95,20 @@ class Observers {
       for (std::size_t i = 0; i < count; ++i) visit_at(met[i], visit);
       count = 0;
     };
-    tree_.visit_reaching(p, [&](Vertex<2>& center, const Point<2>& offset) {
+    tree_.visit_reaching(p, [&](Vertex<D>& center, const Point<D>& offset) {
       if (count == met.size()) look();
-      __builtin_prefetch(engine_.arena().at<Observation>(center.queries));
+      __builtin_prefetch(engine_.arena().template at<Observation>(center.queries));
       met[count++] = {&center, offset};
     });
     look();
   }
 
-  /// What it saw: codes counterclockwise, or one.
+  /// What it saw: a cell as it was written down, or the nearest vertex.
   [[nodiscard]] std::span<const std::uint32_t> seen(const Observation& o) const noexcept;
+  /// The vertices that it saw, and virtual neighbours.
+  [[nodiscard]] std::span<const std::uint32_t> neighbours(const Observation& o) const noexcept {
+    return o.kind == kNearest ? seen(o) : CellOf<D>::neighbours(seen(o));
+  }
 
   /// Makes room for arrivals, which are then noted without fail. Throws: std::bad_alloc.
   void expect_arrivals();
@@ -113,12 +127,12 @@ class Observers {
   void forget_arrivals() noexcept { arrivals_.resize(1); }
 
   /// Throws InvariantError unless v's list is in order, between updates.
-  void check_invariants(const Vertex<2>& v) const;
+  void check_invariants(const Vertex<D>& v) const;
 
  private:
   struct Met {
-    Vertex<2>* center;
-    Point<2> offset;  // of the place
+    Vertex<D>* center;
+    Point<D> offset;  // of the place
   };
   template <class Visit>
   void visit_at(const Met& met, Visit& visit) noexcept {
@@ -134,12 +148,12 @@ class Observers {
   static constexpr std::size_t kRoom = 256;
 
   [[nodiscard]] Observation& at(sac::Handle h) const noexcept {
-    return *engine_.arena().at<Observation>(h);
+    return *engine_.arena().template at<Observation>(h);
   }
 
   sac::Engine& engine_;
-  VertexPool<2>& pool_;
-  Quadtree<2>& tree_;
+  VertexPool<D>& pool_;
+  Quadtree<D>& tree_;
   std::vector<Arrival> arrivals_{1};  // the first stands for the end of a list
 };
 

@@ -7,8 +7,8 @@
 // more than kMany vertices lie in it. A cell with children is *open* while more than kFull vertices
 // lie in it: these are in its children. Else it is *closed*: it keeps them itself, and who looks up
 // goes no deeper. So the cells that a search meets hold a handful of vertices, however deep BuildQT
-// splits. Each cell also knows the area in which the queries centred in it look, and each entry of a
-// bucket a bound on how far its own do, to find the queries that a new vertex concerns.
+// splits. Each cell also knows the area in which the queries centred in it look, and each entry of
+// a bucket a bound on how far its own do, to find the queries that a new vertex concerns.
 //
 // Here is what it offers and consists of; what it does is in quadtree_cells, _search, _reach,
 // _check.
@@ -28,6 +28,9 @@
 #include "sac/check.hpp"
 
 namespace mesher::detail {
+
+template <int D>
+struct NearestFirst;
 
 template <int D>
 class Quadtree {
@@ -89,6 +92,12 @@ class Quadtree {
   template <class Enters, class Visit>
   void visit_outward(const Point<D>& center, const Box<D>& area, const Looked& looked,
                      Enters&& enters, Visit&& visit) const;
+  /// Calls visit(handle, place, |place - center|^2) for vertices in order of distance, as long as
+  /// this is at most limit2(), which may become less. A cell is only entered if
+  /// enters(its lower corner relative to the center, its side) when its turn comes.
+  template <class Limit, class Enters, class Visit>
+  void visit_nearest_first(const Point<D>& center, NearestFirst<D>& queue, Limit&& limit2,
+                           Enters&& enters, Visit&& visit) const;
   /// The side of the cell that vertices at p are in.
   [[nodiscard]] double side_at(const Point<D>& p) const {
     int level = 0;
@@ -96,8 +105,8 @@ class Quadtree {
     return unit_ * static_cast<double>(std::uint64_t{1} << (kLevels - level));
   }
 
-  /// Calls visit(v, p - v.p) for every vertex v with p in its reach, all in units of the box's side,
-  /// and tightens the cells' areas. visit must not throw.
+  /// Calls visit(v, p - v.p) for every vertex v with p in its reach, all in units of the box's
+  /// side, and tightens the cells' areas. visit must not throw.
   template <class Visit>
   void visit_reaching(const Point<D>& p, Visit&& visit) noexcept {
     reach_below(0, offset(box_.lo, p), 1, p, visit);
@@ -163,6 +172,14 @@ class Quadtree {
     return n;
   }
   [[nodiscard]] int subdivided(const Fixed<D>& f) const;
+  void find_way(const Point<D>& center, NearestFirst<D>& queue) const;
+  [[nodiscard]] double beyond2(const Point<D>& rel, double side) const noexcept;
+  [[nodiscard]] double within2(const Point<D>& rel, double side) const noexcept;
+  static double distance2(const Point<D>& a, const Point<D>& b) noexcept {
+    double d2 = 0;
+    for (int i = 0; i < D; ++i) d2 += (a[i] - b[i]) * (a[i] - b[i]);
+    return d2;
+  }
   [[nodiscard]] Point<D> offset(const Point<D>& from, const Point<D>& to) const noexcept {
     Point<D> d;
     for (int i = 0; i < D; ++i) d[i] = (to[i] - from[i]) * inverse_side_;
@@ -309,7 +326,8 @@ class Quadtree {
 
 }  // namespace mesher::detail
 
-#include "index/quadtree_cells.hpp"   // IWYU pragma: export
-#include "index/quadtree_check.hpp"   // IWYU pragma: export
-#include "index/quadtree_reach.hpp"   // IWYU pragma: export
-#include "index/quadtree_search.hpp"  // IWYU pragma: export
+#include "index/quadtree_cells.hpp"    // IWYU pragma: export
+#include "index/quadtree_check.hpp"    // IWYU pragma: export
+#include "index/quadtree_nearest.hpp"  // IWYU pragma: export
+#include "index/quadtree_reach.hpp"    // IWYU pragma: export
+#include "index/quadtree_search.hpp"   // IWYU pragma: export

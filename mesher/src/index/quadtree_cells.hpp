@@ -62,7 +62,8 @@ void Quadtree<D>::spread(NodeIndex n, int level) noexcept {
     free_buckets_.push_back(b);
     for (std::uint32_t i = 0; i < bucket.count; ++i) {
       const Point<D>& p = bucket.place[i];
-      const NodeIndex c = first + static_cast<NodeIndex>(MeshBox<D>::child_of(box_.fixed(p), level));
+      const NodeIndex c =
+          first + static_cast<NodeIndex>(MeshBox<D>::child_of(box_.fixed(p), level));
       nodes_[c].area.include(area_around(p, bucket.reach[i], level + 1));
       put(c, bucket, i);
     }

@@ -3,10 +3,10 @@
 // Both are boxes, rounded outward. A vertex has a Reach, four bytes: a power of two as the unit, in
 // sides of the mesh's box, and the sides of its box in units. Coarser units are multiples of finer
 // ones, so the box around several reaches does not depend on the order in which they come. A box
-// fits the gap balls of a cell far better than a ball: of the queries within the farthest gap ball's
-// diameter of a place one in three has the place in its box, and seven of ten of these have a gap
-// ball around it. A cell has an Area: a box relative to the cell, in units of the cell's side, so
-// that floats do at any depth.
+// fits the gap balls of a cell far better than a ball: of the queries within the farthest gap
+// ball's diameter of a place one in three has the place in its box, and seven of ten of these have
+// a gap ball around it. A cell has an Area: a box relative to the cell, in units of the cell's
+// side, so that floats do at any depth.
 #pragma once
 
 #include <algorithm>

@@ -3,9 +3,8 @@
 
 namespace mesher::detail {
 
-using TracedSubdivision = Subdivision<sac::Scope>;
-
-void TracedSubdivision::split(sac::Scope& s, const Cell<2>& cell) {
+template <int D>
+void Subdivision<sac::Scope, D>::split(sac::Scope& s, const Cell<D>& cell) {
   const auto done = [](const SplitEdge& edge) { return edge.node != SplitEdge::kNone; };
   if (s.recall<SplitEdge>(id_, kSplit, done) != nullptr) return;
   auto& edge = s.effect<SplitEdge>(id_, kSplit);
@@ -13,9 +12,13 @@ void TracedSubdivision::split(sac::Scope& s, const Cell<2>& cell) {
   edge.node = tree_.mark(cell);
 }
 
-void TracedSubdivision::retract(sac::Call&, sac::Edge& edge) noexcept {
+template <int D>
+void Subdivision<sac::Scope, D>::retract(sac::Call&, sac::Edge& edge) noexcept {
   const auto node = static_cast<SplitEdge&>(edge).node;
   if (node != SplitEdge::kNone) tree_.unmark(node);
 }
+
+template class Subdivision<sac::Scope, 2>;
+template class Subdivision<sac::Scope, 3>;
 
 }  // namespace mesher::detail

@@ -10,40 +10,41 @@
 
 namespace mesher::detail {
 
-template <class S>
+template <class S, int D = 2>
 class Subdivision;
 
-template <>
-class Subdivision<sac::PlainScope> {
+template <int D>
+class Subdivision<sac::PlainScope, D> {
  public:
-  Subdivision(Quadtree<2>& tree, sac::PlainScope&) : tree_(tree) {}
+  Subdivision(Quadtree<D>& tree, sac::PlainScope&) : tree_(tree) {}
 
   /// Requires: 0 <= cell.level < kLevels. Throws: std::bad_alloc.
-  void split(sac::PlainScope&, const Cell<2>& cell) { tree_.mark(cell); }
+  void split(sac::PlainScope&, const Cell<D>& cell) { tree_.mark(cell); }
 
  private:
-  Quadtree<2>& tree_;
+  Quadtree<D>& tree_;
 };
 
-template <>
-class Subdivision<sac::Scope> : public sac::Structure {
+template <int D>
+class Subdivision<sac::Scope, D> : public sac::Structure {
  public:
-  Subdivision(Quadtree<2>& tree, sac::Engine& engine)
+  Subdivision(Quadtree<D>& tree, sac::Engine& engine)
       : tree_(tree), id_(engine.add_structure(*this)) {}
 
   /// Requires: 0 <= cell.level < kLevels. Throws: std::bad_alloc.
-  void split(sac::Scope& s, const Cell<2>& cell);
+  void split(sac::Scope& s, const Cell<D>& cell);
 
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
 
  private:
   static constexpr std::uint8_t kSplit = 0;
+  using NodeIndex = typename Quadtree<D>::NodeIndex;
   struct SplitEdge : sac::Edge {
-    static constexpr Quadtree<2>::NodeIndex kNone = ~Quadtree<2>::NodeIndex{0};
-    Quadtree<2>::NodeIndex node;
+    static constexpr NodeIndex kNone = ~NodeIndex{0};
+    NodeIndex node;
   };
 
-  Quadtree<2>& tree_;
+  Quadtree<D>& tree_;
   std::uint8_t id_;
 };
 

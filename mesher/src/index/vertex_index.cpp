@@ -5,48 +5,54 @@
 
 namespace mesher::detail {
 
-using Index = VertexIndex<sac::Scope>;
-
 // --- Births ----------------------------------------------------------------------------------
 
-VertexRef<2> Index::insert(sac::Scope& s, const Point<2>& p) {
+template <int D>
+VertexRef<D> VertexIndex<sac::Scope, D>::insert(sac::Scope& s, const Point<D>& p) {
   const auto same = [&](const BirthEdge& edge) { return pool_[edge.vertex].p == p; };
   if (const auto* edge = s.recall<BirthEdge>(id_, kBirth, same)) return {&pool_[edge->vertex]};
-  Vertex<2>& v = record_at(s, p);
+  Vertex<D>& v = record_at(s, p);
   produce(s, v);
   return {&v};
 }
 
-VertexRef<2> Index::insert(sac::Scope& s, const Point<2>& p, const Role& role) {
+template <int D>
+VertexRef<D> VertexIndex<sac::Scope, D>::insert(sac::Scope& s, const Point<D>& p,
+                                                const Role& role) {
   if (const auto* edge = recall_on_segment(s, p, role)) return {&pool_[edge->vertex]};
-  Vertex<2>& v = record_at(s, p);
+  Vertex<D>& v = record_at(s, p);
   produce_on_segment(s, v, role);
   return {&v};
 }
 
-VertexRef<2> Index::insert_early(sac::Scope& s, const Point<2>& p, const Role& role) {
+template <int D>
+VertexRef<D> VertexIndex<sac::Scope, D>::insert_early(sac::Scope& s, const Point<D>& p,
+                                                      const Role& role) {
   if (!engine_.appending()) return insert(s, p, role);
-  Vertex<2>& v = add(p);
+  Vertex<D>& v = add(p);
   produce_on_segment(s, v, role);
   return {&v};
 }
 
-VertexRef<2> Index::insert_early(sac::Scope& s, const Point<2>& p) {
+template <int D>
+VertexRef<D> VertexIndex<sac::Scope, D>::insert_early(sac::Scope& s, const Point<D>& p) {
   if (!engine_.appending()) return insert(s, p);
-  Vertex<2>& v = add(p);
+  Vertex<D>& v = add(p);
   produce(s, v);
   return {&v};
 }
 
-const Index::BirthOnSegmentEdge* Index::recall_on_segment(sac::Scope& s, const Point<2>& p,
-                                                          const Role& role) {
+template <int D>
+auto VertexIndex<sac::Scope, D>::recall_on_segment(sac::Scope& s, const Point<D>& p,
+                                                   const Role& role) -> const BirthOnSegmentEdge* {
   const auto same = [&](const BirthOnSegmentEdge& edge) {
     return edge.role == role && pool_[edge.vertex].p == p;
   };
   return s.recall<BirthOnSegmentEdge>(id_, kBirthOnSegment, same);
 }
 
-void Index::produce_on_segment(sac::Scope& s, Vertex<2>& v, const Role& role) {
+template <int D>
+void VertexIndex<sac::Scope, D>::produce_on_segment(sac::Scope& s, Vertex<D>& v, const Role& role) {
   touch(v);
   roles_.reserve(v.self);
   observers_.expect_arrivals();
@@ -56,26 +62,31 @@ void Index::produce_on_segment(sac::Scope& s, Vertex<2>& v, const Role& role) {
 }
 
 // Throws: Error if a vertex is at p already.
-Vertex<2>& Index::record_at(sac::Scope& s, const Point<2>& p) {
-  Vertex<2>* v = tree_.find(p);
+template <int D>
+Vertex<D>& VertexIndex<sac::Scope, D>::record_at(sac::Scope& s, const Point<D>& p) {
+  Vertex<D>* v = tree_.find(p);
   if (v != nullptr && born_before(*v, s.self())) fail_coincident(p);
   return v == nullptr ? add(p) : *v;
 }
 
-void Index::insert(sac::Scope& s, VertexRef<2> v) {
+template <int D>
+void VertexIndex<sac::Scope, D>::insert(sac::Scope& s, VertexRef<D> v) {
   if (v->on_segment && presences_.seen_by(v->presence, s.self())) return;
   const auto same = [&](const BirthEdge& edge) { return edge.vertex == v->self; };
   if (s.recall<BirthEdge>(id_, kBirth, same) == nullptr) produce(s, *v);
 }
 
 // A record that fails to be produced is in the log, and freed at the end of the update.
-void Index::produce(sac::Scope& s, Vertex<2>& v) {
+template <int D>
+void VertexIndex<sac::Scope, D>::produce(sac::Scope& s, Vertex<D>& v) {
   touch(v);
   observers_.expect_arrivals();
   produced(s, v, s.effect<BirthEdge>(id_, kBirth), Role());
 }
 
-void Index::produced(sac::Scope& s, Vertex<2>& v, BirthEdge& edge, const Role& role) noexcept {
+template <int D>
+void VertexIndex<sac::Scope, D>::produced(sac::Scope& s, Vertex<D>& v, BirthEdge& edge,
+                                          const Role& role) noexcept {
   edge.vertex = v.self;
   const bool was_there = v.presence.there();
   const auto window = presences_.produced(v.presence, edge, s.self());
@@ -89,7 +100,9 @@ void Index::produced(sac::Scope& s, Vertex<2>& v, BirthEdge& edge, const Role& r
 }
 
 // What `producer`, of v, says that v is.
-Role Index::role_from(const sac::Call& producer, const Vertex<2>& v) const noexcept {
+template <int D>
+Role VertexIndex<sac::Scope, D>::role_from(const sac::Call& producer,
+                                           const Vertex<D>& v) const noexcept {
   Role role;
   engine_.for_each_edge(producer, [&](const sac::Edge& edge) {
     if (edge.structure != id_ || edge.kind != kBirthOnSegment) return;
@@ -99,14 +112,18 @@ Role Index::role_from(const sac::Call& producer, const Vertex<2>& v) const noexc
   return role;
 }
 
-void Index::run_again(sac::Handle h, const sac::Window& window, const sac::Edge* seen) noexcept {
+template <int D>
+void VertexIndex<sac::Scope, D>::run_again(sac::Handle h, const sac::Window& window,
+                                           const sac::Edge* seen) noexcept {
   sac::Call& call = engine_.call(h);
   if (window.contains(engine_, call)) engine_.invalidate(call, seen);
 }
 
 // v's earliest producer gives it a role. Those later that took it for what it was run again; who
 // has come to see v by this producer does so in any case.
-void Index::take_role(Vertex<2>& v, const Role& now, const sac::Call& producer) noexcept {
+template <int D>
+void VertexIndex<sac::Scope, D>::take_role(Vertex<D>& v, const Role& now,
+                                           const sac::Call& producer) noexcept {
   if (!v.on_segment && now.on == 0) return;
   if (role(v) == now) return;
   set_role(v, now);
@@ -116,14 +133,16 @@ void Index::take_role(Vertex<2>& v, const Role& now, const sac::Call& producer) 
   for_each_cell_with(v, [&](const Observation& o) { run_again(o.call, later, &o); });
 }
 
-void Index::legs_changed(const Vertex<2>& v) noexcept {
+template <int D>
+void VertexIndex<sac::Scope, D>::legs_changed(const Vertex<D>& v) noexcept {
   if (!v.alive) return;  // nobody has seen it
   for_each_cell_with(v,
                      [&](const Observation& o) { engine_.invalidate(engine_.call(o.call), &o); });
 }
 
-void Index::limits_changed(const Box<2>& where) noexcept {
-  tree_.visit_reaching(where, [&](const Vertex<2>& center) {
+template <int D>
+void VertexIndex<sac::Scope, D>::limits_changed(const Box<D>& where) noexcept {
+  tree_.visit_reaching(where, [&](const Vertex<D>& center) {
     observers_.find_at(center, [&](const Observation& o) {
       if (o.kind == kCell) engine_.invalidate(engine_.call(o.call), &o);
       return false;
@@ -131,8 +150,9 @@ void Index::limits_changed(const Box<2>& where) noexcept {
   });
 }
 
-void Index::retract_birth(BirthEdge& birth) noexcept {
-  Vertex<2>& v = pool_[birth.vertex];
+template <int D>
+void VertexIndex<sac::Scope, D>::retract_birth(BirthEdge& birth) noexcept {
+  Vertex<D>& v = pool_[birth.vertex];
   touch(v);
   const sac::Handle earliest = v.presence.birth();
   const auto window = presences_.retracted(v.presence, birth);
@@ -147,8 +167,9 @@ void Index::retract_birth(BirthEdge& birth) noexcept {
 }
 
 // Whether v is in a gap ball, erring towards yes, or as near as the nearest is.
-bool Index::concerns(const Vertex<2>& v, const Vertex<2>& center,
-                     const Observation& o) const noexcept {
+template <int D>
+bool VertexIndex<sac::Scope, D>::concerns(const Vertex<D>& v, const Vertex<D>& center,
+                                          const Observation& o) const noexcept {
   const auto seen = observers_.seen(o);
   if (o.kind == kNearest) {
     return seen[0] == 0 ||
@@ -156,25 +177,29 @@ bool Index::concerns(const Vertex<2>& v, const Vertex<2>& center,
   }
   const double radius =
       o.kind == kStar ? whole() : unpacked(static_cast<const CellSeen&>(o).radius);
-  return VoronoiCell::may_cut(pool_, center, radius, seen, v.p);
+  return Cell::may_cut(pool_, center, radius, seen, v.p);
 }
 
 // Observations in the window that have a gap ball around v, or are nearer to it than to others. Few
-// have: times, which lie elsewhere in memory, are looked at last.
-void Index::appeared(const Vertex<2>& v, const sac::Window& window) noexcept {
-  observers_.for_each_reaching(v.p, [&](const Vertex<2>& center, Observation& o) {
-    if (center.self == v.self || !concerns(v, center, o)) return;
-    sac::Call& call = engine_.call(o.call);
-    if (!window.contains(engine_, call)) return;
+// have: times, which lie elsewhere in memory, are looked at last, unless gap balls take longer.
+template <int D>
+void VertexIndex<sac::Scope, D>::appeared(const Vertex<D>& v, const sac::Window& window) noexcept {
+  observers_.for_each_reaching(v.p, [&](const Vertex<D>& center, Observation& o) {
+    const auto is_later = [&] { return window.contains(engine_, engine_.call(o.call)); };
+    if (center.self == v.self) return;
+    if (!Cell::kMayCutIsCheap && !is_later()) return;
+    if (!concerns(v, center, o)) return;
+    if (Cell::kMayCutIsCheap && !is_later()) return;
     if (o.kind != kNearest) observers_.note_arrival(o, v.self);
-    engine_.invalidate(call, &o);
+    engine_.invalidate(engine_.call(o.call), &o);
   });
 }
 
 // Observations in the window that v bounds.
-void Index::vanished(const Vertex<2>& v, const sac::Window& window) noexcept {
-  observers_.for_each_reaching(v.p, [&](const Vertex<2>&, const Observation& o) {
-    const auto seen = observers_.seen(o);
+template <int D>
+void VertexIndex<sac::Scope, D>::vanished(const Vertex<D>& v, const sac::Window& window) noexcept {
+  observers_.for_each_reaching(v.p, [&](const Vertex<D>&, const Observation& o) {
+    const auto seen = observers_.neighbours(o);
     if (std::find(seen.begin(), seen.end(), v.self) == seen.end()) return;
     sac::Call& call = engine_.call(o.call);
     if (window.contains(engine_, call)) engine_.invalidate(call, &o);
@@ -184,20 +209,23 @@ void Index::vanished(const Vertex<2>& v, const sac::Window& window) noexcept {
 // --- Observations ----------------------------------------------------------------------------
 
 // `last`: what the running call saw last time, if it asked the same.
+template <int D>
 template <class Seen>
-CellLoan Index::look(const Vertex<2>& v, double radius, const Observation* last, Seen&& seen) {
+CellLoan<D> VertexIndex<sac::Scope, D>::look(const Vertex<D>& v, double radius,
+                                             const Observation* last, Seen&& seen) {
   if (last != nullptr && observers_.knows_arrivals(*last)) {
     const auto arrivals = [&](auto&& visit) { observers_.for_each_arrival(*last, visit); };
-    return repaired_cell(v, radius, observers_.seen(*last), arrivals, seen);
+    return Base::repaired_cell(v, radius, observers_.seen(*last), arrivals, seen);
   }
   const auto surrounds = [](const Observation& o) { return o.kind != kNearest; };
   if (const Observation* other = observers_.find_at(v, surrounds)) {
-    return cell_from_ring(v, radius, observers_.seen(*other), seen);
+    return Base::cell_from_ring(v, radius, observers_.seen(*other), seen);
   }
   return cut_around(v, radius, seen);
 }
 
-CellLoan Index::voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius) {
+template <int D>
+CellLoan<D> VertexIndex<sac::Scope, D>::voronoi_cell(sac::Scope& s, VertexRef<D> v, double radius) {
   const sac::Call& self = s.self();
   const sac::Handle caller = engine_.handle_of(self);
   const float clip = packed(radius);
@@ -205,52 +233,52 @@ CellLoan Index::voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius) {
   const Observation* last = observers_.find_at(*v, [&](const Observation& o) {
     return o.kind == kCell && o.call == caller && static_cast<const CellSeen&>(o).radius == clip;
   });
-  CellLoan cell =
+  CellLoan<D> cell =
       look(*v, radius, last, [&](VertexHandle u) { return born_before(pool_[u], self); });
   s.weigh(take_visited());
-  take_codes(*cell);
+  cell->write(codes_);
   record_cell(s, *v, concern(*cell), clip);
   return cell;
 }
 
-double Index::nearest2(sac::Scope& s, VertexRef<2> v) {
+template <int D>
+double VertexIndex<sac::Scope, D>::nearest2(sac::Scope& s, VertexRef<D> v) {
   const sac::Call& self = s.self();
-  const Nearest n = nearest_around(*v, [&](VertexHandle u) { return born_before(pool_[u], self); });
+  const auto n = nearest_around(*v, [&](VertexHandle u) { return born_before(pool_[u], self); });
   s.weigh(take_visited());
-  record_nearest(s, *v, Reach<2>::around(std::sqrt(n.distance2) * (1 + 0x1p-40) / box_.side), n.handle);
+  record_nearest(s, *v, Reach<D>::around(std::sqrt(n.distance2) * (1 + 0x1p-40) / box_.side),
+                 n.handle);
   return n.distance2;
 }
 
-CellLoan Index::star(sac::Scope& s, VertexRef<2> v) {
+template <int D>
+CellLoan<D> VertexIndex<sac::Scope, D>::star(sac::Scope& s, VertexRef<D> v) {
   const sac::Handle caller = engine_.handle_of(s.self());
   const Observation* last = observers_.find_at(
       *v, [&](const Observation& o) { return o.kind == kStar && o.call == caller; });
-  CellLoan cell = look(*v, whole(), last, [&](VertexHandle u) { return pool_[u].alive; });
+  CellLoan<D> cell = look(*v, whole(), last, [&](VertexHandle u) { return pool_[u].alive; });
   s.weigh(take_visited());
-  take_codes(*cell);
+  cell->write(codes_);
   record_star(s, *v, concern(*cell));
   return cell;
-}
-
-// The same ring may start elsewhere: the order in which vertices were met decides that.
-void Index::take_codes(const VoronoiCell& cell) {
-  codes_.clear();
-  for (int i = 0; i < cell.size(); ++i) codes_.push_back(cell.code(i));
-  std::rotate(codes_.begin(), std::min_element(codes_.begin(), codes_.end()), codes_.end());
 }
 
 // --- Records ---------------------------------------------------------------------------------
 //
 // An observation that says the same as last time is kept as it is.
 
-void Index::fill(sac::Scope& s, Observation& o, Vertex<2>& v, Reach<2> reach) noexcept {
+template <int D>
+void VertexIndex<sac::Scope, D>::fill(sac::Scope& s, Observation& o, Vertex<D>& v,
+                                      Reach<D> reach) noexcept {
   o.center = v.self;
   o.call = engine_.handle_of(s.self());
   o.reach = reach;
   observers_.link(o);
 }
 
-void Index::record_cell(sac::Scope& s, Vertex<2>& v, Reach<2> reach, float radius) {
+template <int D>
+void VertexIndex<sac::Scope, D>::record_cell(sac::Scope& s, Vertex<D>& v, Reach<D> reach,
+                                             float radius) {
   const auto same = [&](const CellSeen& o) {
     return o.center == v.self && o.reach == reach && o.radius == radius &&
            std::equal(codes_.begin(), codes_.end(), o.codes(), o.codes() + o.count);
@@ -266,7 +294,9 @@ void Index::record_cell(sac::Scope& s, Vertex<2>& v, Reach<2> reach, float radiu
   fill(s, o, v, reach);
 }
 
-void Index::record_nearest(sac::Scope& s, Vertex<2>& v, Reach<2> reach, VertexHandle nearest) {
+template <int D>
+void VertexIndex<sac::Scope, D>::record_nearest(sac::Scope& s, Vertex<D>& v, Reach<D> reach,
+                                                VertexHandle nearest) {
   const auto same = [&](const NearestSeen& o) {
     return o.center == v.self && o.reach == reach && o.nearest == nearest;
   };
@@ -276,7 +306,8 @@ void Index::record_nearest(sac::Scope& s, Vertex<2>& v, Reach<2> reach, VertexHa
   fill(s, o, v, reach);
 }
 
-void Index::record_star(sac::Scope& s, Vertex<2>& v, Reach<2> reach) {
+template <int D>
+void VertexIndex<sac::Scope, D>::record_star(sac::Scope& s, Vertex<D>& v, Reach<D> reach) {
   const auto same = [&](const StarSeen& o) {
     const auto seen = observers_.seen(o);
     return o.center == v.self && o.reach == reach &&
@@ -298,7 +329,8 @@ void Index::record_star(sac::Scope& s, Vertex<2>& v, Reach<2> reach) {
   log_.star_came(v, ring);
 }
 
-sac::Handle Index::new_ring(VertexHandle center) {
+template <int D>
+sac::Handle VertexIndex<sac::Scope, D>::new_ring(VertexHandle center) {
   const sac::Handle handle = engine_.arena().allocate(Ring::bytes(codes_.size()));
   Ring& ring = *engine_.arena().at<Ring>(handle);
   ring = {center, 0, static_cast<std::uint32_t>(codes_.size()), true};
@@ -306,72 +338,81 @@ sac::Handle Index::new_ring(VertexHandle center) {
   return handle;
 }
 
-void Index::forget(Observation& o) noexcept {
+template <int D>
+void VertexIndex<sac::Scope, D>::forget(Observation& o) noexcept {
   observers_.unlink(o);
   if (o.kind == kStar) log_.star_went(pool_[o.center], static_cast<StarSeen&>(o).ring);
 }
 
 // --- Taking back -----------------------------------------------------------------------------
 
-void Index::retract(sac::Call&, sac::Edge& edge) noexcept {
+template <int D>
+void VertexIndex<sac::Scope, D>::retract(sac::Call&, sac::Edge& edge) noexcept {
   if (is_birth(edge)) return retract_birth(static_cast<BirthEdge&>(edge));
   forget(static_cast<Observation&>(edge));
 }
 
 // --- For people and for traces ---------------------------------------------------------------
 
-// The neighbours from the smallest on: virtual ones by number, the others by place. In which order
+// The neighbours in a canonical order: virtual ones by number, the others by place. In which order
 // vertices were made does not matter then.
-std::vector<std::uint32_t> Index::canonical_codes(const Observation& o) const {
-  const auto seen = observers_.seen(o);
+template <int D>
+std::vector<std::uint32_t> VertexIndex<sac::Scope, D>::canonical_codes(const Observation& o) const {
+  const auto seen = observers_.neighbours(o);
   std::vector<std::uint32_t> codes(seen.begin(), seen.end());
   const auto before = [&](std::uint32_t a, std::uint32_t b) {
-    if (a >= VoronoiCell::kVirtual || b >= VoronoiCell::kVirtual) return a < b;
+    if (a >= Cell::kVirtual || b >= Cell::kVirtual) return a < b;
     return pool_[a].p < pool_[b].p;
   };
-  std::rotate(codes.begin(), std::min_element(codes.begin(), codes.end(), before), codes.end());
+  if (o.kind != kNearest) Cell::put_in_order(codes, before);
   return codes;
 }
 
-void Index::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
+template <int D>
+void VertexIndex<sac::Scope, D>::label(const sac::Call&, const sac::Edge& edge,
+                                       sac::LabelSink& sink) const {
   if (is_birth(edge)) return;
   const auto codes = canonical_codes(static_cast<const Observation&>(edge));
   sink.number(codes.size());
   for (const std::uint32_t code : codes) {
-    if (code == 0 || code >= VoronoiCell::kVirtual) {
+    if (code == 0 || code >= Cell::kVirtual) {
       sink.number(code);
     } else {
-      label_bytes(sink, VertexRef<2>{&pool_[code]});
+      label_bytes(sink, VertexRef<D>{&pool_[code]});
     }
   }
 }
 
-void Index::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
+template <int D>
+void VertexIndex<sac::Scope, D>::print(const sac::Call&, const sac::Edge& edge,
+                                       std::ostream& out) const {
   if (is_birth(edge)) {
-    out << "inserts " << VertexRef<2>{&pool_[static_cast<const BirthEdge&>(edge).vertex]};
+    out << "inserts " << VertexRef<D>{&pool_[static_cast<const BirthEdge&>(edge).vertex]};
   } else {
     out << (edge.kind == kNearest ? "nearest" : "neighbours");
     for (const std::uint32_t code : canonical_codes(static_cast<const Observation&>(edge))) {
-      if (code != 0 && code < VoronoiCell::kVirtual) out << ' ' << VertexRef<2>{&pool_[code]};
+      if (code != 0 && code < Cell::kVirtual) out << ' ' << VertexRef<D>{&pool_[code]};
     }
   }
 }
 
 // --- Between updates -------------------------------------------------------------------------
 
-Ring* Index::find_ring(const Vertex<2>& v) const noexcept {
+template <int D>
+Ring* VertexIndex<sac::Scope, D>::find_ring(const Vertex<D>& v) const noexcept {
   const auto* star = static_cast<const StarSeen*>(
       observers_.find_at(v, [](const Observation& o) { return o.kind == kStar; }));
   return star == nullptr ? nullptr : engine_.arena().at<Ring>(star->ring);
 }
 
-Index::RingView Index::ring(const Vertex<2>& v) const {
+template <int D>
+std::span<const std::uint32_t> VertexIndex<sac::Scope, D>::ring(const Vertex<D>& v) const {
   const Ring* ring = find_ring(v);
-  if (ring == nullptr) return {};
-  return {ring->span().data(), static_cast<int>(ring->count)};
+  return ring == nullptr ? std::span<const std::uint32_t>() : ring->span();
 }
 
-Index::Log Index::log() const {
+template <int D>
+auto VertexIndex<sac::Scope, D>::log() const -> Log {
   Log log{log_.touched(), log_.stars_gone(), {}};
   for (const VertexHandle h : log.touched) {
     const Ring* now = pool_[h].star_changed ? find_ring(pool_[h]) : nullptr;
@@ -380,8 +421,9 @@ Index::Log Index::log() const {
   return log;
 }
 
-void Index::commit() noexcept {
-  log_.clear([&](Vertex<2>& v) {
+template <int D>
+void VertexIndex<sac::Scope, D>::commit() noexcept {
+  log_.clear([&](Vertex<D>& v) {
     v.committed = v.alive;
     v.committed_kind = v.kind();
     if (Ring* ring = find_ring(v)) ring->fresh = false;
@@ -392,22 +434,25 @@ void Index::commit() noexcept {
   observers_.forget_arrivals();
 }
 
-void Index::give_up() noexcept {
-  log_.clear([&](Vertex<2>& v) {
+template <int D>
+void VertexIndex<sac::Scope, D>::give_up() noexcept {
+  log_.clear([&](Vertex<D>& v) {
     if (!v.alive) touch(v);
   });
 }
 
-void Index::check_invariants() const {
+template <int D>
+void VertexIndex<sac::Scope, D>::check_invariants() const {
   pool_.check_invariants();
   tree_.check_invariants();
   SAC_INVARIANT(log_.stars_gone().empty());
   for (const VertexHandle h : log_.touched()) SAC_INVARIANT(!pool_[h].alive);
-  pool_.for_each([&](const Vertex<2>& v) { check_vertex(v); });
+  pool_.for_each([&](const Vertex<D>& v) { check_vertex(v); });
 }
 
 // What is not alive is listed to be freed.
-void Index::check_vertex(const Vertex<2>& v) const {
+template <int D>
+void VertexIndex<sac::Scope, D>::check_vertex(const Vertex<D>& v) const {
   SAC_INVARIANT(tree_.find(v.p) == &v);
   SAC_INVARIANT(v.alive == v.committed && v.alive != v.changed && (v.alive || !v.input));
   SAC_INVARIANT(v.alive == (v.boundary || v.presence.there()));
@@ -426,7 +471,8 @@ void Index::check_vertex(const Vertex<2>& v) const {
 }
 
 // It is what a search from nothing finds.
-void Index::check_observation(const Vertex<2>& v, const Observation& o) const {
+template <int D>
+void VertexIndex<sac::Scope, D>::check_observation(const Vertex<D>& v, const Observation& o) const {
   const sac::Call& call = engine_.call(o.call);
   const auto seen = [&](VertexHandle u) {
     return o.kind == kStar ? pool_[u].alive : born_before(pool_[u], call);
@@ -437,16 +483,16 @@ void Index::check_observation(const Vertex<2>& v, const Observation& o) const {
   }
   const double radius =
       o.kind == kStar ? whole() : unpacked(static_cast<const CellSeen&>(o).radius);
-  const CellLoan cell = cut_around(v, radius, seen);
+  const CellLoan<D> cell = cut_around(v, radius, seen);
   cell->check_invariants();
-  const auto codes = observers_.seen(o);
-  SAC_INVARIANT(codes.size() == static_cast<std::size_t>(cell->size()));
-  int first = 0;
-  while (first < cell->size() && cell->code(first) != codes[0]) ++first;
-  for (int i = 0; i < cell->size(); ++i) {
-    SAC_INVARIANT(cell->code((first + i) % cell->size()) == codes[static_cast<std::size_t>(i)]);
-  }
+  std::vector<std::uint32_t> record;
+  cell->write(record);
+  const auto last = observers_.seen(o);
+  SAC_INVARIANT(std::equal(record.begin(), record.end(), last.begin(), last.end()));
   SAC_INVARIANT(o.reach == concern(*cell));
 }
+
+template class VertexIndex<sac::Scope, 2>;
+template class VertexIndex<sac::Scope, 3>;
 
 }  // namespace mesher::detail

@@ -38,87 +38,93 @@
 
 namespace mesher::detail {
 
-template <class S>
+template <class S, int D = 2>
 class VertexIndex;
 
-template <>
-class VertexIndex<sac::PlainScope> : public VertexSearch {
- public:
-  using VertexSearch::VertexSearch;
+template <int D>
+class VertexIndex<sac::PlainScope, D> : public VertexSearch<D> {
+  using Base = VertexSearch<D>;
 
-  VertexRef<2> insert(sac::PlainScope&, const Point<2>& p) {
-    if (tree_.find(p) != nullptr) fail_coincident(p);
-    Vertex<2>& v = add(p);
+ public:
+  using Base::Base;
+
+  VertexRef<D> insert(sac::PlainScope&, const Point<D>& p) {
+    if (Base::tree_.find(p) != nullptr) Base::fail_coincident(p);
+    Vertex<D>& v = Base::add(p);
     v.alive = true;
     return {&v};
   }
-  VertexRef<2> insert(sac::PlainScope&, const Point<2>& p, const Role& role) {
-    if (tree_.find(p) != nullptr) fail_coincident(p);
+  VertexRef<D> insert(sac::PlainScope&, const Point<D>& p, const Role& role) {
+    if (Base::tree_.find(p) != nullptr) Base::fail_coincident(p);
     return insert_new(p, role);
   }
-  VertexRef<2> insert_early(sac::PlainScope&, const Point<2>& p) { return insert_new(p, Role()); }
-  VertexRef<2> insert_early(sac::PlainScope&, const Point<2>& p, const Role& role) {
+  VertexRef<D> insert_early(sac::PlainScope&, const Point<D>& p) { return insert_new(p, Role()); }
+  VertexRef<D> insert_early(sac::PlainScope&, const Point<D>& p, const Role& role) {
     return insert_new(p, role);
   }
-  void insert(sac::PlainScope&, VertexRef<2> v) { v->alive = true; }
-  CellLoan voronoi_cell(sac::PlainScope&, VertexRef<2> v, double radius) {
-    return cut_around(*v, radius, [](VertexHandle) { return true; });
+  void insert(sac::PlainScope&, VertexRef<D> v) { v->alive = true; }
+  CellLoan<D> voronoi_cell(sac::PlainScope&, VertexRef<D> v, double radius) {
+    return Base::cut_around(*v, radius, [](VertexHandle) { return true; });
   }
-  double nearest2(sac::PlainScope&, VertexRef<2> v) {
-    return nearest_around(*v, [](VertexHandle) { return true; }).distance2;
+  double nearest2(sac::PlainScope&, VertexRef<D> v) {
+    return Base::nearest_around(*v, [](VertexHandle) { return true; }).distance2;
   }
-  CellLoan star(sac::PlainScope& s, VertexRef<2> v) { return voronoi_cell(s, v, whole()); }
+  CellLoan<D> star(sac::PlainScope& s, VertexRef<D> v) { return voronoi_cell(s, v, Base::whole()); }
 
  private:
-  VertexRef<2> insert_new(const Point<2>& p, const Role& role) {
-    Vertex<2>& v = add(p);
+  VertexRef<D> insert_new(const Point<D>& p, const Role& role) {
+    Vertex<D>& v = Base::add(p);
     v.alive = true;
-    if (role.on != 0) roles_.reserve(v.self);
-    set_role(v, role);
+    if (role.on != 0) Base::roles_.reserve(v.self);
+    Base::set_role(v, role);
     return {&v};
   }
 };
 
-template <>
-class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
+template <int D>
+class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure {
+  using Base = VertexSearch<D>;
+  using typename Base::Cell;
+  using Observation = detail::Observation<D>;
+  using NearestSeen = detail::NearestSeen<D>;
+  using CellSeen = detail::CellSeen<D>;
+  using StarSeen = detail::StarSeen<D>;
+
  public:
-  VertexIndex(const MeshBox<2>& box, sac::Engine& engine)
-      : VertexSearch(box),
+  using Base::role;
+
+  VertexIndex(const MeshBox<D>& box, sac::Engine& engine)
+      : VertexSearch<D>(box),
         engine_(engine),
         presences_(engine),
         observers_(engine, pool_, tree_),
         log_(pool_, engine.arena()),
         id_(engine.add_structure(*this)) {}
 
-  VertexRef<2> insert(sac::Scope& s, const Point<2>& p);
-  VertexRef<2> insert(sac::Scope& s, const Point<2>& p, const Role& role);
+  VertexRef<D> insert(sac::Scope& s, const Point<D>& p);
+  VertexRef<D> insert(sac::Scope& s, const Point<D>& p, const Role& role);
   /// In a first run without a look for a vertex at p: the quadtree is one leaf then. Features are
   /// asked for two in one place.
-  VertexRef<2> insert_early(sac::Scope& s, const Point<2>& p, const Role& role);
+  VertexRef<D> insert_early(sac::Scope& s, const Point<D>& p, const Role& role);
   /// The same for a place on no segment. Requires: no feature is there.
-  VertexRef<2> insert_early(sac::Scope& s, const Point<2>& p);
-  void insert(sac::Scope& s, VertexRef<2> v);
-  CellLoan voronoi_cell(sac::Scope& s, VertexRef<2> v, double radius);
-  double nearest2(sac::Scope& s, VertexRef<2> v);
-  CellLoan star(sac::Scope& s, VertexRef<2> v);
+  VertexRef<D> insert_early(sac::Scope& s, const Point<D>& p);
+  void insert(sac::Scope& s, VertexRef<D> v);
+  CellLoan<D> voronoi_cell(sac::Scope& s, VertexRef<D> v, double radius);
+  double nearest2(sac::Scope& s, VertexRef<D> v);
+  CellLoan<D> star(sac::Scope& s, VertexRef<D> v);
 
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
   void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
   void print(const sac::Call& call, const sac::Edge& edge, std::ostream& out) const override;
 
-  /// The neighbours in v's star, counterclockwise, as recorded by the call that computed it.
-  struct RingView {
-    const std::uint32_t* handles = nullptr;
-    int size = 0;
-  };
-  [[nodiscard]] RingView ring(const Vertex<2>& v) const;
+  /// v's star, as its cell was written down by the call that computed it.
+  [[nodiscard]] std::span<const std::uint32_t> ring(const Vertex<D>& v) const;
 
-  /// Since the last commit: vertices that may have come or gone, and stars that went and came, each
-  /// as the vertex and its neighbours.
+  /// Since the last commit: vertices that may have come or gone, and stars that went and came.
   struct Log {
     std::vector<VertexHandle> touched;
-    std::vector<ChangeLog::Star> stars_gone;
-    std::vector<ChangeLog::Star> stars_come;
+    std::vector<typename ChangeLog<D>::Star> stars_gone;
+    std::vector<typename ChangeLog<D>::Star> stars_come;
   };
   /// Cost: O(what has changed). Throws: std::bad_alloc.
   [[nodiscard]] Log log() const;
@@ -132,7 +138,7 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
 
   /// Calls visit(call, edge) for the calls that have looked at v's cell, as Complete does.
   template <class Visit>
-  void for_each_cell_seen(const Vertex<2>& v, Visit&& visit) const {
+  void for_each_cell_seen(const Vertex<D>& v, Visit&& visit) const {
     observers_.find_at(v, [&](const Observation& o) {
       if (o.kind == kCell) visit(engine_.call(o.call), static_cast<const sac::Edge&>(o));
       return false;
@@ -140,24 +146,39 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
   }
 
   /// Called by what changes the set of segments at an input point: who sees v sees them, too.
-  void legs_changed(const Vertex<2>& v) noexcept;
+  void legs_changed(const Vertex<D>& v) noexcept;
 
   /// Called by who edits the limits of size in `where`: who has looked at a cell has asked about
   /// the triangles of its star.
-  void limits_changed(const Box<2>& where) noexcept;
+  void limits_changed(const Box<D>& where) noexcept;
 
   /// Called by what makes a record an input point, or no longer.
-  void touch(Vertex<2>& v) noexcept { log_.touch(v); }
+  void touch(Vertex<D>& v) noexcept { log_.touch(v); }
 
   /// Requires: between updates. Throws InvariantError; among others if an observation is not what a
   /// search from nothing finds. Cost: O(observations) searches.
   void check_invariants() const override;
 
  private:
+  using Base::add;
+  using Base::box_;
+  using Base::concern;
+  using Base::cut_around;
+  using Base::fail_coincident;
+  using Base::nearest_around;
+  using Base::packed;
+  using Base::pool_;
+  using Base::roles_;
+  using Base::set_role;
+  using Base::take_visited;
+  using Base::tree_;
+  using Base::unpacked;
+  using Base::whole;
+
   static constexpr std::uint8_t kBirth = 0;
-  static constexpr std::uint8_t kCell = Observers::kCell;
-  static constexpr std::uint8_t kNearest = Observers::kNearest;
-  static constexpr std::uint8_t kStar = Observers::kStar;
+  static constexpr std::uint8_t kCell = Observers<D>::kCell;
+  static constexpr std::uint8_t kNearest = Observers<D>::kNearest;
+  static constexpr std::uint8_t kStar = Observers<D>::kStar;
   static constexpr std::uint8_t kBirthOnSegment = 4;
 
   struct BirthEdge : sac::ProducerEdge {
@@ -170,54 +191,53 @@ class VertexIndex<sac::Scope> : public VertexSearch, public sac::Structure {
     return edge.kind == kBirth || edge.kind == kBirthOnSegment;
   }
 
-  [[nodiscard]] bool born_before(const Vertex<2>& u, const sac::Call& call) const noexcept {
+  [[nodiscard]] bool born_before(const Vertex<D>& u, const sac::Call& call) const noexcept {
     return u.boundary || presences_.seen_by(u.presence, call);
   }
-  [[nodiscard]] Vertex<2>& record_at(sac::Scope& s, const Point<2>& p);
-  const BirthOnSegmentEdge* recall_on_segment(sac::Scope& s, const Point<2>& p, const Role& role);
-  void produce_on_segment(sac::Scope& s, Vertex<2>& v, const Role& role);
-  void produce(sac::Scope& s, Vertex<2>& v);
-  void produced(sac::Scope& s, Vertex<2>& v, BirthEdge& edge, const Role& role) noexcept;
-  [[nodiscard]] Role role_from(const sac::Call& producer, const Vertex<2>& v) const noexcept;
+  [[nodiscard]] Vertex<D>& record_at(sac::Scope& s, const Point<D>& p);
+  const BirthOnSegmentEdge* recall_on_segment(sac::Scope& s, const Point<D>& p, const Role& role);
+  void produce_on_segment(sac::Scope& s, Vertex<D>& v, const Role& role);
+  void produce(sac::Scope& s, Vertex<D>& v);
+  void produced(sac::Scope& s, Vertex<D>& v, BirthEdge& edge, const Role& role) noexcept;
+  [[nodiscard]] Role role_from(const sac::Call& producer, const Vertex<D>& v) const noexcept;
   void run_again(sac::Handle call, const sac::Window& window, const sac::Edge* seen) noexcept;
-  void take_role(Vertex<2>& v, const Role& role, const sac::Call& producer) noexcept;
-  [[nodiscard]] bool concerns(const Vertex<2>& v, const Vertex<2>& center,
+  void take_role(Vertex<D>& v, const Role& role, const sac::Call& producer) noexcept;
+  [[nodiscard]] bool concerns(const Vertex<D>& v, const Vertex<D>& center,
                               const Observation& o) const noexcept;
-  void appeared(const Vertex<2>& v, const sac::Window& window) noexcept;
-  void vanished(const Vertex<2>& v, const sac::Window& window) noexcept;
+  void appeared(const Vertex<D>& v, const sac::Window& window) noexcept;
+  void vanished(const Vertex<D>& v, const sac::Window& window) noexcept;
   void retract_birth(BirthEdge& birth) noexcept;
 
   // The cells of v, and those that v bounds.
   template <class Visit>
-  void for_each_cell_with(const Vertex<2>& v, Visit&& visit) noexcept {
-    observers_.for_each_reaching(v.p, [&](const Vertex<2>& center, Observation& o) {
+  void for_each_cell_with(const Vertex<D>& v, Visit&& visit) noexcept {
+    observers_.for_each_reaching(v.p, [&](const Vertex<D>& center, Observation& o) {
       if (o.kind != kCell) return;
-      const auto seen = observers_.seen(o);
+      const auto seen = observers_.neighbours(o);
       const bool bounds = std::find(seen.begin(), seen.end(), v.self) != seen.end();
       if (bounds || center.self == v.self) visit(o);
     });
   }
   template <class Seen>
-  CellLoan look(const Vertex<2>& v, double radius, const Observation* last, Seen&& seen);
-  void take_codes(const VoronoiCell& cell);
-  void fill(sac::Scope& s, Observation& o, Vertex<2>& v, Reach<2> reach) noexcept;
-  void record_cell(sac::Scope& s, Vertex<2>& v, Reach<2> reach, float radius);
-  void record_nearest(sac::Scope& s, Vertex<2>& v, Reach<2> reach, VertexHandle nearest);
-  void record_star(sac::Scope& s, Vertex<2>& v, Reach<2> reach);
-  [[nodiscard]] Ring* find_ring(const Vertex<2>& v) const noexcept;
+  CellLoan<D> look(const Vertex<D>& v, double radius, const Observation* last, Seen&& seen);
+  void fill(sac::Scope& s, Observation& o, Vertex<D>& v, Reach<D> reach) noexcept;
+  void record_cell(sac::Scope& s, Vertex<D>& v, Reach<D> reach, float radius);
+  void record_nearest(sac::Scope& s, Vertex<D>& v, Reach<D> reach, VertexHandle nearest);
+  void record_star(sac::Scope& s, Vertex<D>& v, Reach<D> reach);
+  [[nodiscard]] Ring* find_ring(const Vertex<D>& v) const noexcept;
   [[nodiscard]] sac::Handle new_ring(VertexHandle center);
   void forget(Observation& o) noexcept;
 
   [[nodiscard]] std::vector<std::uint32_t> canonical_codes(const Observation& o) const;
-  void check_vertex(const Vertex<2>& v) const;
-  void check_observation(const Vertex<2>& v, const Observation& o) const;
+  void check_vertex(const Vertex<D>& v) const;
+  void check_observation(const Vertex<D>& v, const Observation& o) const;
 
   sac::Engine& engine_;
   sac::Presences presences_;
-  Observers observers_;
-  ChangeLog log_;
+  Observers<D> observers_;
+  ChangeLog<D> log_;
   std::uint8_t id_;
-  std::vector<std::uint32_t> codes_;  // neighbours of the observation being recorded
+  std::vector<std::uint32_t> codes_;  // the cell being recorded, written down
 };
 
 }  // namespace mesher::detail

@@ -9,29 +9,35 @@
 namespace mesher::detail {
 
 // The least float that is not below x: a bound stays a bound.
-float VertexSearch::packed(double x) const noexcept {
+template <int D>
+float VertexSearch<D>::packed(double x) const noexcept {
   x /= box_.side;
   const auto f = static_cast<float>(x);
   return double{f} >= x ? f : std::nextafter(f, std::numeric_limits<float>::infinity());
 }
 
-Reach<2> VertexSearch::concern(const VoronoiCell& cell) const noexcept {
-  const Vertex<2>& v = cell.center();
-  Point<2> outward{0, 0};
-  for (int i = 0; v.boundary && i < 2; ++i) {
+template <int D>
+Reach<D> VertexSearch<D>::concern(const Cell& cell) const noexcept {
+  const Vertex<D>& v = cell.center();
+  Point<D> outward{};
+  for (int i = 0; v.boundary && i < D; ++i) {
     outward[i] = v.p[i] == box_.lo[i] ? -1 : v.p[i] == box_.hi(i) ? 1 : 0;
   }
-  Box<2> extent = cell.extent_inside(outward);
+  Box<D> extent = cell.extent_inside(outward);
   for (double& x : extent.lo) x /= box_.side;
   for (double& x : extent.hi) x /= box_.side;
-  return Reach<2>(extent);
+  return Reach<D>(extent);
 }
 
-void VertexSearch::fail_coincident(const Point<2>& p) const {
+template <int D>
+void VertexSearch<D>::fail_coincident(const Point<D>& p) const {
   if (refuse_) refuse_(p);
   throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
                                         place_text(p) +
                                         ": a new vertex would coincide with another");
 }
+
+template class VertexSearch<2>;
+template class VertexSearch<3>;
 
 }  // namespace mesher::detail

@@ -10,14 +10,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "geometry/plane.hpp"
-#include "geometry/voronoi_cell.hpp"
+#include "geometry/cell_of.hpp"
 #include "index/cell_pool.hpp"
 #include "index/quadtree.hpp"
 #include "index/vertex.hpp"
@@ -25,27 +24,28 @@
 
 namespace mesher::detail {
 
+template <int D = 2>
 class VertexSearch {
  public:
-  explicit VertexSearch(const MeshBox<2>& box) : box_(box), tree_(box, pool_) {}
+  explicit VertexSearch(const MeshBox<D>& box) : box_(box), tree_(box, pool_) {}
   VertexSearch(const VertexSearch&) = delete;
   VertexSearch& operator=(const VertexSearch&) = delete;
 
-  [[nodiscard]] VertexPool<2>& pool() noexcept { return pool_; }
-  [[nodiscard]] const VertexPool<2>& pool() const noexcept { return pool_; }
-  [[nodiscard]] Quadtree<2>& tree() noexcept { return tree_; }
-  [[nodiscard]] const Quadtree<2>& tree() const noexcept { return tree_; }
-  [[nodiscard]] const MeshBox<2>& box() const noexcept { return box_; }
+  [[nodiscard]] VertexPool<D>& pool() noexcept { return pool_; }
+  [[nodiscard]] const VertexPool<D>& pool() const noexcept { return pool_; }
+  [[nodiscard]] Quadtree<D>& tree() noexcept { return tree_; }
+  [[nodiscard]] const Quadtree<D>& tree() const noexcept { return tree_; }
+  [[nodiscard]] const MeshBox<D>& box() const noexcept { return box_; }
   /// Lengths are kept as floats in units of the box's side, a power of two. `x` must be >= 0.
   [[nodiscard]] float packed(double x) const noexcept;
   [[nodiscard]] double unpacked(float x) const noexcept { return double{x} * box_.side; }
 
   /// Who refuses a vertex where there is one: throws.
-  using RefuseCoincident = std::function<void(const Point<2>&)>;
+  using RefuseCoincident = std::function<void(const Point<D>&)>;
   void set_refusal(RefuseCoincident refuse) { refuse_ = std::move(refuse); }
 
   /// The place on a segment that v stands for, if it does.
-  [[nodiscard]] Role role(const Vertex<2>& v) const noexcept {
+  [[nodiscard]] Role role(const Vertex<D>& v) const noexcept {
     return v.on_segment ? roles_[v.self] : Role();
   }
   [[nodiscard]] const Roles& roles() const noexcept { return roles_; }
@@ -53,11 +53,12 @@ class VertexSearch {
   /// Calls visit(vertex) for the records of vertices in the ball with diameter ab, and for others
   /// nearby; visit must not throw.
   template <class Visit>
-  void for_each_in_ball(const Point<2>& a, const Point<2>& b, Visit&& visit) const noexcept {
-    const Point<2> middle{a[0] + (b[0] - a[0]) / 2, a[1] + (b[1] - a[1]) / 2};
+  requires(D == 2) void for_each_in_ball(const Point<D>& a, const Point<D>& b,
+                                         Visit&& visit) const noexcept {
+    const Point<D> middle{a[0] + (b[0] - a[0]) / 2, a[1] + (b[1] - a[1]) / 2};
     const double r = std::hypot(b[0] - a[0], b[1] - a[1]) / 2 + tree_.margin();
-    const auto enters = [](const Point<2>&, double) { return true; };
-    Quadtree<2>::Looked looked;
+    const auto enters = [](const Point<D>&, double) { return true; };
+    typename Quadtree<D>::Looked looked;
     tree_.visit_box(middle, {{-r, -r}, {r, r}}, looked, enters,
                     [&](const auto& handles, const auto& places, std::uint32_t count) {
                       for (std::uint32_t i = 0; i < count; ++i) {
@@ -72,27 +73,28 @@ class VertexSearch {
 
   /// The record of an input point, not alive yet. `first`: no vertex but the boundary's and inputs
   /// at other places is there. Throws: std::bad_alloc, and then changes nothing.
-  Vertex<2>& add_input(const Point<2>& p, bool first) {
-    Vertex<2>* v = first ? nullptr : tree_.find(p);
+  Vertex<D>& add_input(const Point<D>& p, bool first) {
+    Vertex<D>* v = first ? nullptr : tree_.find(p);
     if (v == nullptr) v = &add(p);
     v->input = true;
     return *v;
   }
 
   /// A vertex of the boundary grid: there from the start, for good.
-  VertexRef<2> add_boundary(const Point<2>& p) {
-    Vertex<2>& v = add(p);
+  VertexRef<D> add_boundary(const Point<D>& p) {
+    Vertex<D>& v = add(p);
     v.alive = v.boundary = v.committed = true;
     v.committed_kind = VertexKind::boundary;
     return {&v};
   }
 
  protected:
-  using Tree = Quadtree<2>;
-  using Codes = std::span<const VoronoiCell::Code>;
+  using Cell = CellOf<D>;
+  using Tree = Quadtree<D>;
+  using Codes = std::span<const typename Cell::Code>;
 
-  Vertex<2>& add(const Point<2>& p) {
-    Vertex<2>& v = pool_.create(p);
+  Vertex<D>& add(const Point<D>& p) {
+    Vertex<D>& v = pool_.create(p);
     try {
       tree_.insert(v);
     } catch (...) {
@@ -104,8 +106,8 @@ class VertexSearch {
 
   /// The cell of v among all vertices u for which seen(u); u is a handle.
   template <class Seen>
-  CellLoan cut_around(const Vertex<2>& v, double radius, Seen&& seen) const {
-    CellLoan cell = cells_.borrow();
+  CellLoan<D> cut_around(const Vertex<D>& v, double radius, Seen&& seen) const {
+    CellLoan<D> cell = cells_.borrow();
     cell->reset(v, radius);
     finish(*cell, seen);
     return cell;
@@ -114,9 +116,9 @@ class VertexSearch {
   /// The same, starting from vertices that may be seen: all or most of v's neighbours at another
   /// time, `seeds`, counterclockwise, virtual neighbours of whatever clip among them.
   template <class Seen>
-  CellLoan cell_from_ring(const Vertex<2>& v, double radius, Codes seeds, Seen&& seen) {
-    CellLoan cell = cells_.borrow();
-    const auto left = [&](VoronoiCell::Code u) { return u < VoronoiCell::kVirtual && seen(u); };
+  CellLoan<D> cell_from_ring(const Vertex<D>& v, double radius, Codes seeds, Seen&& seen) {
+    CellLoan<D> cell = cells_.borrow();
+    const auto left = [&](typename Cell::Code u) { return u < Cell::kVirtual && seen(u); };
     if (!cell->restore(pool_, v, radius, seeds, left, false)) cut_by_seeds(*cell, seeds, left);
     finish(*cell, seen);
     return cell;
@@ -126,10 +128,10 @@ class VertexSearch {
   /// clip. for_each_arrival(visit) calls visit(u) for all vertices that are new in the set and cut
   /// that cell, and perhaps for others.
   template <class ForEachArrival, class Seen>
-  CellLoan repaired_cell(const Vertex<2>& v, double radius, Codes last,
-                         ForEachArrival&& for_each_arrival, Seen&& seen) {
-    CellLoan cell = cells_.borrow();
-    const auto left = [&](VoronoiCell::Code u) { return u >= VoronoiCell::kVirtual || seen(u); };
+  CellLoan<D> repaired_cell(const Vertex<D>& v, double radius, Codes last,
+                            ForEachArrival&& for_each_arrival, Seen&& seen) {
+    CellLoan<D> cell = cells_.borrow();
+    const auto left = [&](typename Cell::Code u) { return u >= Cell::kVirtual || seen(u); };
     if (cell->restore(pool_, v, radius, last, left, true)) {
       for_each_arrival([&](VertexHandle u) {
         if (cell->cuts(pool_[u].p) && seen(u)) cell->cut(u);
@@ -141,36 +143,36 @@ class VertexSearch {
     return cell;
   }
 
-  /// Where a vertex that comes may cut the cell, or one may be that bounds it: around its gap balls. A corner of the cell of a
-  /// vertex v on a side of the box, beyond that side, is never cut. Proof: the grid is there from
-  /// the start, so the corner's projection q on the side is at most half an edge from v; a vertex
-  /// nearer to the corner than v, being in the box, is nearer to q, too, hence in the diametral
-  /// ball of an edge of the grid. No vertex ever is [L 4.4.1].
-  [[nodiscard]] Reach<2> concern(const VoronoiCell& cell) const noexcept;
+  /// Where a vertex that comes may cut the cell, or one may be that bounds it: around its gap
+  /// balls. A corner of the cell of a vertex v on a side of the box, beyond that side, is never
+  /// cut. Proof: the grid is there from the start, so the corner's projection q on the side is at
+  /// most half an edge from v; a vertex nearer to the corner than v, being in the box, is nearer to
+  /// q, too, hence in the diametral ball of an edge of the grid. No vertex ever is [L 4.4.1].
+  [[nodiscard]] Reach<D> concern(const Cell& cell) const noexcept;
 
   struct Nearest {
     VertexHandle handle;
     double distance2;
   };
   template <class Seen>
-  Nearest nearest_around(const Vertex<2>& v, Seen&& seen) const {
+  Nearest nearest_around(const Vertex<D>& v, Seen&& seen) const {
     Nearest best{0, 4 * box_.side * box_.side};
-    const auto enters = [&](const Point<2>&, double) { return ++visited_, true; };
-    const auto look = [&](VertexHandle u, const Point<2>& p) {
+    const auto enters = [&](const Point<D>&, double) { return ++visited_, true; };
+    const auto look = [&](VertexHandle u, const Point<D>& p) {
       const double d2 = squared_distance(p, v.p);
       if (u == v.self || d2 > best.distance2 || !seen(u)) return;
       if (d2 == best.distance2 && best.handle != 0 && pool_[best.handle].p < p) return;
       best = {u, d2};
     };
-    const auto visit = [&](const Tree::Handles& handles, const Tree::Places& places,
-                           std::uint32_t count) {
+    const auto visit = [&](const typename Tree::Handles& handles,
+                           const typename Tree::Places& places, std::uint32_t count) {
       visited_ += count;
       for (std::uint32_t i = 0; i < count; ++i) look(handles[i], places[i]);
     };
-    Tree::Looked looked;
+    typename Tree::Looked looked;
     for (double within = tree_.side_at(v.p) / 2;; within *= 2) {
       const double r = std::min(within, std::sqrt(best.distance2));
-      tree_.visit_box(v.p, {{-r, -r}, {r, r}}, looked, enters, visit);
+      tree_.visit_box(v.p, cube(r), looked, enters, visit);
       if (best.distance2 <= within * within || r < within) return best;
     }
   }
@@ -179,16 +181,16 @@ class VertexSearch {
   [[nodiscard]] std::uint64_t take_visited() noexcept { return std::exchange(visited_, 0); }
 
   // Requires: roles_.reserve(v.self), unless the role is none.
-  void set_role(Vertex<2>& v, const Role& role) noexcept {
+  void set_role(Vertex<D>& v, const Role& role) noexcept {
     v.on_segment = role.on != 0;
     if (v.on_segment) roles_.set(v.self, role);
   }
 
-  [[noreturn]] void fail_coincident(const Point<2>& p) const;
+  [[noreturn]] void fail_coincident(const Point<D>& p) const;
 
-  const MeshBox<2>& box_;
-  VertexPool<2> pool_;
-  Quadtree<2> tree_;
+  const MeshBox<D>& box_;
+  VertexPool<D> pool_;
+  Quadtree<D> tree_;
   Roles roles_;
   RefuseCoincident refuse_;
 
@@ -199,10 +201,10 @@ class VertexSearch {
   struct Met {
     double distance2;
     VertexHandle vertex;
-    Point<2> place;
+    Point<D> place;
   };
-  [[nodiscard]] auto entered(const VoronoiCell& cell) const {
-    return [&, margin = tree_.margin()](const Point<2>& corner, double side) {
+  [[nodiscard]] auto entered(const Cell& cell) const {
+    return [&, margin = tree_.margin()](const Point<D>& corner, double side) {
       ++visited_;
       return cell.enters(corner, side, margin);
     };
@@ -211,11 +213,11 @@ class VertexSearch {
   // large the cell will be, near vertices come first, the nearest of them first. Where a box holds
   // very many, as next to far finer parts of the mesh, most are behind the first few of them.
   template <class Seen>
-  void finish(VoronoiCell& cell, Seen&& seen) const {
-    const Point<2>& center = cell.center().p;
-    Tree::Looked looked;
+  requires(D == 2) void finish(Cell& cell, Seen&& seen) const {
+    const Point<D>& center = cell.center().p;
+    typename Tree::Looked looked;
     for (double within = 0; cell.open2() > 0; within *= 2) {
-      const Box<2> gaps = cell.open_extent();
+      const Box<D> gaps = cell.open_extent();
       const bool all = cell.is_compact();
       if (!all && within == 0) within = tree_.side_at(center) / 2;
       const bool has_met_all = meet(cell, all ? gaps : clipped(gaps, within), looked);
@@ -224,12 +226,25 @@ class VertexSearch {
       if (all || clipped(gaps, within) == gaps) return;
     }
   }
+  // In space, where shells meet far fine regions with a thousand temporary neighbours, strictly
+  // nearest first [rules B3].
+  template <class Seen>
+  requires(D > 2) void finish(Cell& cell, Seen&& seen) const {
+    if (cell.open2() == 0) return;
+    const Vertex<D>& v = cell.center();
+    tree_.visit_nearest_first(
+        v.p, queue_, [&] { return 4 * cell.open2(); }, entered(cell),
+        [&](VertexHandle u, const Point<D>& place, double d2) {
+          ++visited_;
+          if (u != v.self) cut_by(cell, {d2, u, place}, seen);
+        });
+  }
   // The same, leaf by leaf.
   template <class Seen>
-  void finish_outward(VoronoiCell& cell, const Tree::Looked& looked, Seen& seen) const {
-    const Vertex<2>& v = cell.center();
-    const auto cut_all = [&](const Tree::Handles& handles, const Tree::Places& places,
-                             std::uint32_t used) {
+  void finish_outward(Cell& cell, const typename Tree::Looked& looked, Seen& seen) const {
+    const Vertex<D>& v = cell.center();
+    const auto cut_all = [&](const typename Tree::Handles& handles,
+                             const typename Tree::Places& places, std::uint32_t used) {
       visited_ += used;
       for (std::uint32_t i = 0; i < used; ++i) {
         const double d2 = squared_distance(places[i], v.p);
@@ -243,11 +258,12 @@ class VertexSearch {
   // Notes who is in reach in the leaves that a gap ball enters, and returns true; false if they are
   // too many to be looked at. Whether a vertex is in reach cannot be predicted: all are written
   // down, and those that are not are written over.
-  bool meet(const VoronoiCell& cell, const Box<2>& box, Tree::Looked& looked) const {
+  bool meet(const Cell& cell, const Box<D>& box, typename Tree::Looked& looked) const {
     std::size_t count = 0;
     const auto note = [&, v = cell.center().self, center = cell.center().p,
-                       reach2 = 4 * cell.open2()](const Tree::Handles& handles,
-                                                  const Tree::Places& places, std::uint32_t used) {
+                       reach2 = 4 * cell.open2()](const typename Tree::Handles& handles,
+                                                  const typename Tree::Places& places,
+                                                  std::uint32_t used) {
       visited_ += used;
       if (met_.size() < count + Tree::kSlots) met_.resize(2 * met_.size() + Tree::kSlots);
       Met* const met = met_.data();
@@ -257,26 +273,26 @@ class VertexSearch {
         count += static_cast<std::size_t>((d2 <= reach2) & (handles[i] != v));
       }
     };
-    const Point<2>& center = cell.center().p;
+    const Point<D>& center = cell.center().p;
     const bool all = tree_.visit_box(center, box, looked, entered(cell), note, kMostMet);
     met_count_ = count;
     return all;
   }
   template <class Seen>
-  void cut_by(VoronoiCell& cell, const Met& met, Seen& seen) const {
+  void cut_by(Cell& cell, const Met& met, Seen& seen) const {
     if (!cell.has(met.vertex) && cell.cuts_open(met.place) && seen(met.vertex)) {
       cell.cut(met.vertex);
     }
   }
   template <class Seen>
-  void cut_by_met(VoronoiCell& cell, Seen& seen) const {
+  void cut_by_met(Cell& cell, Seen& seen) const {
     for (std::size_t i = 0; i < met_count_; ++i) {
       if (cell.in_reach(met_[i].distance2)) cut_by(cell, met_[i], seen);
     }
   }
   // Who is met is bounded, so that looking for the nearest each time is.
   template <class Seen>
-  void cut_nearest_first(VoronoiCell& cell, Seen& seen) const {
+  void cut_nearest_first(Cell& cell, Seen& seen) const {
     for (; met_count_ > 0; --met_count_) {
       visited_ += met_count_;
       std::size_t nearest = 0;
@@ -290,23 +306,30 @@ class VertexSearch {
       met_[nearest] = met_[met_count_ - 1];
     }
   }
-  [[nodiscard]] static Box<2> clipped(Box<2> box, double within) {
+  [[nodiscard]] static Box<D> cube(double r) {
+    Box<D> box;
+    box.lo.fill(-r);
+    box.hi.fill(r);
+    return box;
+  }
+  [[nodiscard]] static Box<D> clipped(Box<D> box, double within) {
     for (double& x : box.lo) x = std::max(x, -within);
     for (double& x : box.hi) x = std::min(x, within);
     return box;
   }
 
   template <class Left>
-  void cut_by_seeds(VoronoiCell& cell, Codes seeds, Left&& left) const {
-    for (const VoronoiCell::Code u : seeds) {
-      if (u < VoronoiCell::kVirtual && left(u) && cell.cuts(pool_[u].p)) cell.cut(u);
+  void cut_by_seeds(Cell& cell, Codes seeds, Left&& left) const {
+    for (const typename Cell::Code u : seeds) {
+      if (u < Cell::kVirtual && left(u) && cell.cuts(pool_[u].p)) cell.cut(u);
     }
   }
 
-  mutable CellPool cells_;
+  mutable CellPool<D> cells_;
   // Whom a search has met; what lies behind the count is room.
   mutable std::vector<Met> met_;
   mutable std::size_t met_count_ = 0;
+  mutable NearestFirst<D> queue_;
   mutable std::uint64_t visited_ = 0;
 };
 

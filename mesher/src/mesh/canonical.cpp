@@ -1,25 +1,25 @@
-// Sorting vertices and triangles.
+// Sorting vertices and simplices.
 #include "mesh/canonical.hpp"
 
 namespace mesher::detail {
 
 namespace {
 
-using Simplex = Mesh<2>::Simplex;
-
-// The triangles in lexicographic order: counted by their first corner, then each corner's few.
-std::vector<Simplex> sorted_by_corner(const std::vector<std::array<VertexHandle, 3>>& triangles,
-                                      const std::vector<std::uint32_t>& index,
-                                      std::size_t corners) {
+// The simplices in lexicographic order: counted by their first corner, then each corner's few.
+template <std::size_t N>
+auto sorted_by_corner(const std::vector<std::array<VertexHandle, N>>& simplices,
+                      const std::vector<std::uint32_t>& index, std::size_t corners) {
+  using Simplex = std::array<std::uint32_t, N>;
   std::vector<Simplex> renamed;
-  renamed.reserve(triangles.size());
+  renamed.reserve(simplices.size());
   std::vector<std::uint32_t> start(corners + 1, 0);
-  for (const auto& t : triangles) {
-    renamed.push_back(smallest_first(Simplex{index[t[0]], index[t[1]], index[t[2]]}));
+  for (Simplex t : simplices) {
+    for (std::uint32_t& corner : t) corner = index[corner];
+    renamed.push_back(smallest_first(t));
     ++start[renamed.back()[0] + 1];
   }
   for (std::size_t i = 1; i <= corners; ++i) start[i] += start[i - 1];
-  std::vector<Simplex> sorted(triangles.size());
+  std::vector<Simplex> sorted(simplices.size());
   std::vector<std::uint32_t> next = start;
   for (const Simplex& t : renamed) sorted[next[t[0]]++] = t;
   for (std::size_t i = 0; i < corners; ++i) {
@@ -30,11 +30,12 @@ std::vector<Simplex> sorted_by_corner(const std::vector<std::array<VertexHandle,
 
 }  // namespace
 
-Mesh<2> canonical(const VertexPool<2>& pool, std::vector<VertexHandle> vertices,
-                  const std::vector<std::array<VertexHandle, 3>>& triangles,
-                  const std::vector<LineEdge>& edges) {
+template <std::size_t N>
+Mesh<N - 1> canonical(const VertexPool<N - 1>& pool, std::vector<VertexHandle> vertices,
+                      const std::vector<std::array<VertexHandle, N>>& simplices,
+                      const std::vector<LineEdge>& edges) {
   struct Placed {
-    Point<2> p;
+    Point<N - 1> p;
     VertexHandle handle;
   };
   std::vector<Placed> placed;
@@ -42,7 +43,7 @@ Mesh<2> canonical(const VertexPool<2>& pool, std::vector<VertexHandle> vertices,
   for (const VertexHandle h : vertices) placed.push_back({pool[h].p, h});
   std::sort(placed.begin(), placed.end(),
             [](const Placed& a, const Placed& b) { return a.p < b.p; });
-  Mesh<2> mesh;
+  Mesh<N - 1> mesh;
   mesh.vertices.reserve(placed.size());
   mesh.kinds.reserve(placed.size());
   std::vector<std::uint32_t> index(
@@ -52,7 +53,7 @@ Mesh<2> canonical(const VertexPool<2>& pool, std::vector<VertexHandle> vertices,
     mesh.vertices.push_back(v.p);
     mesh.kinds.push_back(pool[v.handle].kind());
   }
-  mesh.simplices = sorted_by_corner(triangles, index, placed.size());
+  mesh.simplices = sorted_by_corner(simplices, index, placed.size());
   mesh.edges.reserve(edges.size());
   for (const LineEdge& e : edges) {
     const auto [low, high] = std::minmax(index[e.from], index[e.to]);
@@ -61,5 +62,12 @@ Mesh<2> canonical(const VertexPool<2>& pool, std::vector<VertexHandle> vertices,
   std::sort(mesh.edges.begin(), mesh.edges.end());
   return mesh;
 }
+
+template Mesh<2> canonical(const VertexPool<2>&, std::vector<VertexHandle>,
+                           const std::vector<std::array<VertexHandle, 3>>&,
+                           const std::vector<LineEdge>&);
+template Mesh<3> canonical(const VertexPool<3>&, std::vector<VertexHandle>,
+                           const std::vector<std::array<VertexHandle, 4>>&,
+                           const std::vector<LineEdge>&);
 
 }  // namespace mesher::detail

@@ -1,13 +1,14 @@
-// The canonical form of a mesh: a function of its set of vertices and triangles.
+// The canonical form of a mesh: a function of its set of vertices and simplices.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <utility>
 #include <vector>
 
-#include "mesher/mesher.hpp"
 #include "index/vertex.hpp"
+#include "mesher/mesher.hpp"
 
 namespace mesher::detail {
 
@@ -17,10 +18,13 @@ struct LineEdge {
   FeatureId line;
 };
 
-/// `vertices` and `edges` in any order; `triangles` by handles, counterclockwise. Cost: O(m log m).
-[[nodiscard]] Mesh<2> canonical(const VertexPool<2>& pool, std::vector<VertexHandle> vertices,
-                                const std::vector<std::array<VertexHandle, 3>>& triangles,
-                                const std::vector<LineEdge>& edges = {});
+/// `vertices` and `edges` in any order; `simplices` by handles, positively oriented.
+/// Cost: O(m log m).
+template <std::size_t N>
+[[nodiscard]] Mesh<N - 1> canonical(const VertexPool<N - 1>& pool,
+                                    std::vector<VertexHandle> vertices,
+                                    const std::vector<std::array<VertexHandle, N>>& simplices,
+                                    const std::vector<LineEdge>& edges = {});
 
 /// Rotates a triangle so that the smallest corner comes first.
 template <class T>
@@ -28,9 +32,20 @@ template <class T>
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
 }
+/// The same of a tetrahedron, without turning it inside out: then the smallest of the others.
+template <class T>
+[[nodiscard]] std::array<T, 4> smallest_first(std::array<T, 4> t) {
+  const auto least = std::min_element(t.begin(), t.end());
+  if (least != t.begin()) {
+    std::swap(t[0], *least);
+    std::swap(t[2], t[3]);  // turns it back, whichever was swapped
+  }
+  std::rotate(t.begin() + 1, std::min_element(t.begin() + 1, t.end()), t.end());
+  return t;
+}
 
-template <class W>
-[[nodiscard]] MeshStats timed_stats(const W& world, const Mesh<2>& mesh) {
+template <class W, int D>
+[[nodiscard]] MeshStats timed_stats(const W& world, const Mesh<D>& mesh) {
   const auto seconds = [&](std::size_t i) {
     return std::chrono::duration<double>(world.marks[i + 1] - world.marks[i]).count();
   };

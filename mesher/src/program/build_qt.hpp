@@ -22,35 +22,37 @@ inline constexpr int kCoarser = 4;
 
 struct Split {
   static constexpr std::string_view kName = "split";
-  template <class S>
-  void operator()(S& s, Cell<2> c) const;
+  template <class S, int D>
+  void operator()(S& s, Cell<D> c) const;
 };
 inline constexpr Split split{};
 
 struct Locate {
   static constexpr std::string_view kName = "locate";
-  template <class S>
-  void operator()(S& s, VertexRef<2> p) const;
+  template <class S, int D>
+  void operator()(S& s, VertexRef<D> p) const;
 };
 inline constexpr Locate locate{};
 
 /// When locate(p) runs: first of all.
-[[nodiscard]] inline sac::Key locate_key(const Fixed<2>& f) {
-  return {.bucket = -kLevels - 1, .order = morton<2>(f)};
+template <std::size_t N>
+[[nodiscard]] sac::Key locate_key(const std::array<std::uint64_t, N>& f) {
+  return {.bucket = -kLevels - 1, .order = morton<N>(f)};
 }
-[[nodiscard]] inline sac::Key split_key(const Cell<2>& c) {
-  return {.bucket = -c.level, .order = morton<2>(c.corner)};
+template <int D>
+[[nodiscard]] sac::Key split_key(const Cell<D>& c) {
+  return {.bucket = -c.level, .order = morton<D>(c.corner)};
 }
 
 // for each point p: find the cells that it crowds, largest first; enqueue the last
-template <class S>
-void Locate::operator()(S& s, VertexRef<2> p) const {
-  auto& w = s.template environment<World<S>>();
-  const Fixed<2> f = w.box.fixed(p->p);
+template <class S, int D>
+void Locate::operator()(S& s, VertexRef<D> p) const {
+  auto& w = s.template environment<World<S, D>>();
+  const Fixed<D> f = w.box.fixed(p->p);
   const int level = w.features.level(s, *p);
   w.vertices.insert(s, p);
   if (level >= kCoarser) {
-    const Cell<2> c = MeshBox<2>::cell(f, level - kCoarser);
+    const Cell<D> c = MeshBox<D>::cell(f, level - kCoarser);
     w.quadtree.template post<split>(s, split_key(c), c);
   }
   w.post_nearest(s, p, level + 1);
@@ -59,12 +61,12 @@ void Locate::operator()(S& s, VertexRef<2> p) const {
 
 // split c into 2^d smaller cells; for every neighbour c' of c (c itself to begin with): if c' has
 // to be made by splitting a larger cell, enqueue that
-template <class S>
-void Split::operator()(S& s, Cell<2> c) const {
-  auto& w = s.template environment<World<S>>();
+template <class S, int D>
+void Split::operator()(S& s, Cell<D> c) const {
+  auto& w = s.template environment<World<S, D>>();
   w.subdivision.split(s, c);
   if (c.level == 0) return;
-  MeshBox<2>::for_each_parent_around(c, [&](const Cell<2>& larger) {
+  MeshBox<D>::for_each_parent_around(c, [&](const Cell<D>& larger) {
     w.quadtree.template post<split>(s, split_key(larger), larger);
   });
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "program/lines.hpp"
 #include "program/staying.hpp"
 #include "program/world.hpp"
 
@@ -14,32 +15,34 @@ namespace mesher::detail {
 
 struct Complete {
   static constexpr std::string_view kName = "complete";
-  template <class S>
-  void operator()(S& s, VertexRef<2> v, int b) const;
+  template <class S, int D>
+  void operator()(S& s, VertexRef<D> v, int b) const;
 };
 inline constexpr Complete complete{};
 
 struct ComputeNN {
   static constexpr std::string_view kName = "compute_nn";
-  template <class S>
-  void operator()(S& s, VertexRef<2> v, int b) const;
+  template <class S, int D>
+  void operator()(S& s, VertexRef<D> v, int b) const;
 };
 inline constexpr ComputeNN compute_nn{};
 
 /// When an event on a vertex at `f` runs, in bucket b.
-[[nodiscard]] inline sac::Key nearest_key(const Fixed<2>& f, int b) {
-  return {.bucket = b, .phase = 0, .order = morton<2>(f)};
+template <std::size_t N>
+[[nodiscard]] sac::Key nearest_key(const std::array<std::uint64_t, N>& f, int b) {
+  return {.bucket = b, .phase = 0, .order = morton<N>(f)};
 }
-template <class S>
-[[nodiscard]] sac::Key complete_key(const World<S>& w, const Fixed<2>& f, int b) {
-  return {.bucket = b, .phase = 1, .colour = w.buckets().colour(f, b), .order = morton<2>(f)};
+template <int D>
+[[nodiscard]] sac::Key complete_key(const Buckets<D>& buckets,
+                                    const std::type_identity_t<Fixed<D>>& f, int b) {
+  return {.bucket = b, .phase = 1, .colour = buckets.colour(f, b), .order = morton<D>(f)};
 }
 
 // if w is a ComputeNN event on v: compute the exact nearest neighbour u to v; add Complete(v) with
 // key |uv|
-template <class S>
-void ComputeNN::operator()(S& s, VertexRef<2> v, int b) const {
-  auto& w = s.template environment<World<S>>();
+template <class S, int D>
+void ComputeNN::operator()(S& s, VertexRef<D> v, int b) const {
+  auto& w = s.template environment<World<S, D>>();
   const double nearest2 = w.vertices.nearest2(s, v);
   w.post_complete(s, v, std::max(b, w.buckets().bucket(nearest2)));
 }
@@ -47,19 +50,19 @@ void ComputeNN::operator()(S& s, VertexRef<2> v, int b) const {
 // else if w is a Complete event on v: if v encroaches leaves, cut them [5.2b]. While there is a gap
 // ball b = B(x, r) to fill: if x is in the balls of leaves, cut them instead [5.2c]; else add x to
 // the vertices; add Complete(x), with key |xv|
-template <class S>
-void Complete::operator()(S& s, VertexRef<2> v, int b) const {
-  auto& w = s.template environment<World<S>>();
-  const CellLoan gaps = w.vertices.voronoi_cell(s, v, w.buckets().clip_radius(b));
-  Staying stays(w);
-  bool cuts = v->on_segment && w.post_cuts(s, w.leaves.around(s, v), b);
+template <class S, int D>
+void Complete::operator()(S& s, VertexRef<D> v, int b) const {
+  auto& w = s.template environment<World<S, D>>();
+  const CellLoan<D> gaps = w.vertices.voronoi_cell(s, v, w.buckets().clip_radius(b));
+  Staying<S, D> stays(w);
+  bool cuts = disencroach(s, w, v, b);
   while (const auto point = w.rule->next_point(*gaps, b, stays.filter())) {
-    if (w.leaves.any() && w.post_cuts(s, w.leaves.around(s, point->p), b)) {
+    if (yields(s, w, point->p, b)) {
       stays.leave(*gaps, point->from, point->to);
       cuts = true;
       continue;
     }
-    const VertexRef<2> x = w.vertices.insert(s, point->p);
+    const VertexRef<D> x = w.vertices.insert(s, point->p);
     if (!point->farther || !gaps->cuts(x->p)) w.fail_useless(*v, *x);
     w.require_room(s);
     gaps->cut(x->self);

@@ -12,14 +12,24 @@
 
 namespace mesher::detail {
 
+/// Where there are no segments no simplex stays.
+template <class S, int D>
+class Staying {
+ public:
+  explicit Staying(const World<S, D>&) {}
+  [[nodiscard]] const EdgeFilter<D>* filter() const noexcept { return nullptr; }
+  void leave(const CellOf<D>&, int, int) {}
+  [[nodiscard]] std::uint64_t looked_at() const noexcept { return 0; }
+};
+
 template <class S>
-class Staying final : public EdgeFilter {
+class Staying<S, 2> final : public EdgeFilter<2> {
  public:
   explicit Staying(const World<S>& world)
       : world_(world), before_(world.segments.store().looked_at()) {}
 
   /// This, for a rule; null where nothing can stay.
-  [[nodiscard]] const EdgeFilter* filter() const noexcept {
+  [[nodiscard]] const EdgeFilter<2>* filter() const noexcept {
     return world_.leaves.any() ? this : nullptr;
   }
   /// The triangles on both sides of this edge stay for now.

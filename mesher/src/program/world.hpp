@@ -1,8 +1,12 @@
 // What the mesher's calls share: the box, the rule, the features, the vertices, the work queues.
 //
-// The program (S is sac::Scope, or sac::PlainScope for a static run):
+// The program (S is sac::Scope, or sac::PlainScope for a static run; D is the dimension):
 //   refine = SplitSegments; Fill; BuildQT; ChooseSteiners; Triangulate
 // Each part drains its agenda; a part posts on its own agenda and on those of later parts.
+//
+// PointWorld is what points need. World is that with what else there is in a dimension: in the
+// plane segments and limits of size, so far in no other. What the program asks of those is answered
+// in program/lines.hpp.
 #pragma once
 
 #include <array>
@@ -30,9 +34,10 @@
 
 namespace mesher::detail {
 
-/// The triangles of a static run, as they are output, and who watches it.
+/// The simplices of a static run, as they are output, and who watches it.
+template <int D>
 struct PlainOutput {
-  std::vector<std::array<VertexHandle, 3>> triangles;
+  std::vector<std::array<VertexHandle, D + 1>> simplices;
   std::uint64_t calls = 0;  // those that say so by tick()
   std::uint64_t next_report = ~std::uint64_t{0};
   std::function<void(PlainOutput&)> report;  // sets the next report; may throw
@@ -43,61 +48,110 @@ struct PlainOutput {
 };
 struct TracedOutput {};  // the stars' observations are the output
 
-template <class S>
-struct World {
+template <class S, int D>
+struct PointWorld {
   using Agenda = typename S::AgendaType;
 
-  MeshBox<2> box;
-  Limits limits;
-  std::unique_ptr<const InsertionRule> rule;
-  VertexIndex<S> vertices;
-  Subdivision<S> subdivision;
-  Features<S> features;
-  InputSegments<S> segments;
-  Leaves<S> leaves;
-  FillPlans<S> plans;
-  Surroundings<S> surroundings;
-  Agenda& splits;
-  Agenda& fills;
+  MeshBox<D> box;
+  LimitsOf<D> limits;
+  std::unique_ptr<const InsertionRule<D>> rule;
+  VertexIndex<S, D> vertices;
+  Subdivision<S, D> subdivision;
+  Features<S, D> features;
   Agenda& quadtree;
   Agenda& steiner;
   Agenda& stars;
   std::size_t most_vertices;
   std::size_t most_records;      // while an update is under way, of vertices that come and that go
   const Names* names = nullptr;  // for messages; null: features have none
-  std::conditional_t<S::kTraced, TracedOutput, PlainOutput> plain;
+  std::conditional_t<S::kTraced, TracedOutput, PlainOutput<D>> plain;
   std::array<std::chrono::steady_clock::time_point, 4> marks{};
 
   template <class Host>
-  World(const Options<2>& options, const MeshBox<2>& mesh_box, Host& host)
+  PointWorld(const Options<D>& options, const MeshBox<D>& mesh_box, Host& host)
       : box(mesh_box),
         limits(options, box),
-        rule(insertion_rule(options, box, limits)),
+        rule(insertion_rule<D>(options, box, limits)),
         vertices(make_vertices(box, host)),
         subdivision(vertices.tree(), host),
         features(box, vertices.pool(), host),
-        segments(box, vertices, features, host),
-        leaves(vertices, segments.pool(), host),
-        plans(box, limits, host),
-        surroundings(box, limits, features, host),
-        splits(host.make_agenda("segments")),
-        fills(host.make_agenda("fill")),
         quadtree(host.make_agenda("quadtree")),
         steiner(host.make_agenda("steiner")),
         stars(host.make_agenda("stars")),
         most_vertices(options.max_vertices != 0 ? options.max_vertices : ~std::size_t{0}),
         most_records(most_vertices) {
+    add_boundary();
+  }
+  PointWorld(const PointWorld&) = delete;
+  PointWorld& operator=(const PointWorld&) = delete;
+
+  [[nodiscard]] const Buckets<D>& buckets() const noexcept { return rule->buckets(); }
+  void post_nearest(S& s, VertexRef<D> v, int leaf_level);
+  /// Requires: no vertex is nearer than `distance` when Complete begins.
+  void post_nearest_from(S& s, VertexRef<D> v, double distance);
+  void post_nearest_in(S& s, VertexRef<D> v, int b);
+  void post_complete(S& s, VertexRef<D> v, int b);
+  void post_star(S& s, VertexRef<D> v);
+  void output(S& s, VertexRef<D> v, const CellOf<D>& star);
+  /// Throws: Error(too_many) if there are more vertices than there may be.
+  void require_room(S& s) const {
+    if (vertices.pool().size() > most_records) fail_too_many(s);
+  }
+  void fail_too_many(S& s) const;
+
+ private:
+  static auto make_vertices(const MeshBox<D>& box, sac::Engine& engine) {
+    return VertexIndex<sac::Scope, D>(box, engine);
+  }
+  static auto make_vertices(const MeshBox<D>& box, sac::PlainScope&) {
+    return VertexIndex<sac::PlainScope, D>(box);
+  }
+  void add_boundary();
+};
+
+template <class S, int D = 2>
+struct World : PointWorld<S, D> {
+  template <class Host>
+  World(const Options<D>& options, const MeshBox<D>& mesh_box, Host& host)
+      : PointWorld<S, D>(options, mesh_box, host) {
+    host.set_environment(this);
+  }
+  [[noreturn]] void fail_useless(const Vertex<D>& v, const Vertex<D>& x) const;
+};
+
+template <class S>
+struct World<S, 2> : PointWorld<S, 2> {
+  using Base = PointWorld<S, 2>;
+  using Base::box;
+  using Base::features;
+  using Base::limits;
+  using Base::names;
+  using Base::vertices;
+  using typename Base::Agenda;
+
+  InputSegments<S> segments;
+  Leaves<S> leaves;
+  FillPlans<S> plans;
+  Surroundings<S> surroundings;
+  Agenda& splits;
+  Agenda& fills;
+
+  template <class Host>
+  World(const Options<2>& options, const MeshBox<2>& mesh_box, Host& host)
+      : Base(options, mesh_box, host),
+        segments(box, vertices, features, host),
+        leaves(vertices, segments.pool(), host),
+        plans(box, limits, host),
+        surroundings(box, limits, features, host),
+        splits(host.make_agenda("segments")),
+        fills(host.make_agenda("fill")) {
     host.set_environment(this);
     features.set_refusal([this](const Vertex<2>& v, const Vertex<2>& x) { fail_too_close(v, x); });
     vertices.set_refusal(
         [this](const Point<2>& p) { fail_near(p, 0, "a new vertex would coincide with another"); });
-    add_boundary();
     if (limits.any()) post_fill();
   }
-  World(const World&) = delete;
-  World& operator=(const World&) = delete;
 
-  [[nodiscard]] const Buckets<2>& buckets() const noexcept { return rule->buckets(); }
   /// Sets the limits that the options say, from outside, with how to take it back. `where` they
   /// differ: calls that may have asked there run again. Throws: Error(bad_option), bad_alloc.
   void edit_limits(const Options<2>& options, const std::vector<Box<2>>& where,
@@ -107,24 +161,12 @@ struct World {
   void post_split(S& s, const PieceRef& piece);
   /// fill() of what a cell consists of, which is split, too.
   void post_parts(S& s, const Cell<2>& c);
-  void post_nearest(S& s, VertexRef<2> v, int leaf_level);
-  /// Requires: no vertex is nearer than `distance` when Complete begins.
-  void post_nearest_from(S& s, VertexRef<2> v, double distance);
-  void post_nearest_in(S& s, VertexRef<2> v, int b);
-  void post_complete(S& s, VertexRef<2> v, int b);
   /// Whether there are any.
   bool post_cuts(S& s, const std::vector<LeafRef>& leaves, int b);
-  void post_star(S& s, VertexRef<2> v);
-  void output(S& s, VertexRef<2> v, const VoronoiCell& star);
   /// Whether a poor triangle on the left of p -> q, its shortest edge, stays.
   [[nodiscard]] bool is_exempt(const Vertex<2>& p, const Vertex<2>& q) const {
     return detail::is_exempt(vertices, segments.store(), p, q);
   }
-  /// Throws: Error(too_many) if there are more vertices than there may be.
-  void require_room(S& s) const {
-    if (vertices.pool().size() > most_records) fail_too_many(s);
-  }
-  void fail_too_many(S& s) const;
   /// Throws: Error(too_close), with the ids of the piece's segment and of what crowds it.
   [[noreturn]] void fail_too_short(const PieceRef& piece);
   /// Throws: Error(too_close), with the ids of the features that v and x are on.
@@ -134,13 +176,6 @@ struct World {
   [[noreturn]] void fail_near(const Point<2>& p, double radius, const std::string& why);
 
  private:
-  static auto make_vertices(const MeshBox<2>& box, sac::Engine& engine) {
-    return VertexIndex<sac::Scope>(box, engine);
-  }
-  static auto make_vertices(const MeshBox<2>& box, sac::PlainScope&) {
-    return VertexIndex<sac::PlainScope>(box);
-  }
-  void add_boundary();
   void exchange(Limits& other, const std::vector<Box<2>>& where) noexcept;
   void limits_changed(const Box<2>& where) noexcept;
 };
@@ -150,15 +185,24 @@ struct World {
 template <int D>
 [[nodiscard]] MeshBox<D> mesh_box(const Options<D>& options);
 
+/// Splits segments and fills what must not be large.
+template <class S>
+void drain_lines(S& s, World<S, 2>& w) {
+  w.splits.drain(s);
+  w.fills.drain(s);
+}
+template <class S, int D>
+void drain_lines(S&, World<S, D>&) {}
+
+template <int D>
 struct Refine {
   static constexpr std::string_view kName = "refine";
   template <class S>
   void operator()(S& s) const {
-    auto& w = s.template environment<World<S>>();
+    auto& w = s.template environment<World<S, D>>();
     const auto now = [] { return std::chrono::steady_clock::now(); };
     w.marks[0] = now();
-    w.splits.drain(s);
-    w.fills.drain(s);
+    drain_lines(s, w);
     w.quadtree.drain(s);
     w.marks[1] = now();
     w.steiner.drain(s);
@@ -167,6 +211,7 @@ struct Refine {
     w.marks[3] = now();
   }
 };
-inline constexpr Refine refine{};
+template <int D>
+inline constexpr Refine<D> refine{};
 
 }  // namespace mesher::detail

@@ -16,25 +16,25 @@ namespace mesher::detail {
 
 // The points of the boundary grid, with their events asked for from the outside: Complete with the
 // vertices whose nearest neighbours are as far as theirs, a step away.
-template <class S>
-void World<S>::add_boundary() {
+template <class S, int D>
+void PointWorld<S, D>::add_boundary() {
   const double step = box.shortest_boundary_step();
   const int b = buckets().bucket(step * step);
-  box.for_each_boundary_point([&](const Point<2>& p) {
-    const VertexRef<2> v = vertices.add_boundary(p);
-    const Fixed<2> f = box.fixed(p);
-    steiner.template post_from_outside<complete>(complete_key(*this, f, b), v, b);
+  box.for_each_boundary_point([&](const Point<D>& p) {
+    const VertexRef<D> v = vertices.add_boundary(p);
+    const Fixed<D> f = box.fixed(p);
+    steiner.template post_from_outside<complete>(complete_key(buckets(), f, b), v, b);
     stars.template post_from_outside<star>(star_key(f), v);
   });
 }
 
 template <class S>
-void World<S>::post_fill() {
+void World<S, 2>::post_fill() {
   fills.template post_from_outside<fill>(fill_key({}), Cell<2>{});
 }
 
 template <class S>
-void World<S>::edit_limits(const Options<2>& options, const std::vector<Box<2>>& where,
+void World<S, 2>::edit_limits(const Options<2>& options, const std::vector<Box<2>>& where,
                            sac::Engine& engine) {
   engine.begin_edit();
   const auto other = std::make_shared<Limits>(options, box);
@@ -47,14 +47,14 @@ void World<S>::edit_limits(const Options<2>& options, const std::vector<Box<2>>&
 }
 
 template <class S>
-void World<S>::exchange(Limits& other, const std::vector<Box<2>>& where) noexcept {
+void World<S, 2>::exchange(Limits& other, const std::vector<Box<2>>& where) noexcept {
   std::swap(limits, other);
   for (const Box<2>& box : where) limits_changed(box);
 }
 
 // Who splits a piece of a segment, fills a cell, locates a feature, or completes a vertex.
 template <class S>
-void World<S>::limits_changed(const Box<2>& where) noexcept {
+void World<S, 2>::limits_changed(const Box<2>& where) noexcept {
   segments.limits_changed(where);
   plans.limits_changed(where);
   features.limits_changed(where);
@@ -62,101 +62,105 @@ void World<S>::limits_changed(const Box<2>& where) noexcept {
 }
 
 template <class S>
-void World<S>::post_parts(S& s, const Cell<2>& c) {
-  quadtree.template post<split>(s, split_key(c), c);
+void World<S, 2>::post_parts(S& s, const Cell<2>& c) {
+  this->quadtree.template post<split>(s, split_key(c), c);
   MeshBox<2>::for_each_child(c, [&](const Cell<2>& part) {
-    if constexpr (!S::kTraced) plain.tick();
+    if constexpr (!S::kTraced) this->plain.tick();
     fills.template post<fill>(s, fill_key(part), part);
   });
 }
 
 template <class S>
-void World<S>::post_split(S& s, const PieceRef& piece) {
-  if constexpr (!S::kTraced) plain.tick();
+void World<S, 2>::post_split(S& s, const PieceRef& piece) {
+  if constexpr (!S::kTraced) this->plain.tick();
   splits.template post<split_segment>(s, split_segment_key(box, piece), piece);
 }
 
 // add a ComputeNN(p) event, with key |c| / 2; c is the cell of `leaf_level` around p. Where there
 // is a lattice, its points may be nearer
-template <class S>
-void World<S>::post_nearest(S& s, VertexRef<2> v, int leaf_level) {
+template <class S, int D>
+void PointWorld<S, D>::post_nearest(S& s, VertexRef<D> v, int leaf_level) {
   post_nearest_from(s, v, std::min(box.cell_side(leaf_level) / 2, kClear * limits.pitch(v->p)));
 }
 
-template <class S>
-void World<S>::post_nearest_from(S& s, VertexRef<2> v, double distance) {
+template <class S, int D>
+void PointWorld<S, D>::post_nearest_from(S& s, VertexRef<D> v, double distance) {
   post_nearest_in(s, v, buckets().bucket(distance * distance));
 }
 
-template <class S>
-void World<S>::post_nearest_in(S& s, VertexRef<2> v, int b) {
+template <class S, int D>
+void PointWorld<S, D>::post_nearest_in(S& s, VertexRef<D> v, int b) {
   if constexpr (!S::kTraced) plain.tick();
   steiner.template post<compute_nn>(s, nearest_key(box.fixed(v->p), b), v, b);
 }
 
-template <class S>
-void World<S>::post_complete(S& s, VertexRef<2> v, int b) {
+template <class S, int D>
+void PointWorld<S, D>::post_complete(S& s, VertexRef<D> v, int b) {
   if constexpr (!S::kTraced) plain.tick();
-  steiner.template post<complete>(s, complete_key(*this, box.fixed(v->p), b), v, b);
+  steiner.template post<complete>(s, complete_key(buckets(), box.fixed(v->p), b), v, b);
 }
 
 template <class S>
-bool World<S>::post_cuts(S& s, const std::vector<LeafRef>& found, int b) {
+bool World<S, 2>::post_cuts(S& s, const std::vector<LeafRef>& found, int b) {
   for (const LeafRef leaf : found) {
-    steiner.template post<cut>(s, cut_key(box.fixed(leaf->middle()), b), leaf, b);
+    this->steiner.template post<cut>(s, cut_key(box.fixed(leaf->middle()), b), leaf, b);
   }
   return !found.empty();
 }
 
-template <class S>
-void World<S>::post_star(S& s, VertexRef<2> v) {
+template <class S, int D>
+void PointWorld<S, D>::post_star(S& s, VertexRef<D> v) {
   stars.template post<star>(s, star_key(box.fixed(v->p)), v);
 }
 
-template <class S>
-void World<S>::output(S&, VertexRef<2> v, const VoronoiCell& cell) {
+template <class S, int D>
+void PointWorld<S, D>::output(S&, VertexRef<D> v, const CellOf<D>& cell) {
   if constexpr (!S::kTraced) {
     plain.tick();
-    for_each_own_triangle(
-        *v, cell.size(), [&](int i) { return cell.code(i); },
-        [&](int i) -> const Point<2>& { return cell.place(i); },
-        [&](const auto& t) { plain.triangles.push_back(t); });
+    for_each_own_simplex(*v, cell, [&](const auto& t) { plain.simplices.push_back(t); });
   } else {
     (void)v, (void)cell;
   }
 }
 
 template <class S>
-void World<S>::fail_too_short(const PieceRef& piece) {
+void World<S, 2>::fail_too_short(const PieceRef& piece) {
   const Witness witness = segments.witness(piece);
   if (!witness) fail_near(piece.lo(), piece.length(), "segments are split ever shorter");
   throw too_close_to_segment(piece, witness, names, vertices.pool(), segments.pool());
 }
 
 template <class S>
-void World<S>::fail_too_close(const Vertex<2>& v, const Vertex<2>& x) const {
+void World<S, 2>::fail_too_close(const Vertex<2>& v, const Vertex<2>& x) const {
   if (names == nullptr) refuse_close(v, x);
   const bool in_order = v.p < x.p;
   throw too_close_vertices(in_order ? v : x, in_order ? x : v, *names, vertices.roles());
 }
 
 // Edits that are undone have had room.
-template <class S>
-void World<S>::fail_too_many(S& s) const {
+template <class S, int D>
+void PointWorld<S, D>::fail_too_many(S& s) const {
   if constexpr (S::kTraced) {
     if (s.engine().undoing()) return;
   }
   throw too_many_vertices(vertices, names, most_vertices);
 }
 
+template <class S, int D>
+void World<S, D>::fail_useless(const Vertex<D>& v, const Vertex<D>& x) const {
+  throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
+                                        place_text(v.p) + ": rounding moved a new vertex to " +
+                                        place_text(x.p));
+}
+
 template <class S>
-void World<S>::fail_useless(const Vertex<2>& v, const Vertex<2>& x) {
+void World<S, 2>::fail_useless(const Vertex<2>& v, const Vertex<2>& x) {
   fail_near(v.p, std::sqrt(squared_distance(v.p, x.p)),
             "rounding moved a new vertex to " + place_text(x.p));
 }
 
 template <class S>
-void World<S>::fail_near(const Point<2>& p, double radius, const std::string& why) {
+void World<S, 2>::fail_near(const Point<2>& p, double radius, const std::string& why) {
   const double least = box.side * 0x1p-52;
   NamedFeatures near =
       named_near(p, std::max(radius, least), 2 * box.side, segments.store(), features, names);

@@ -36,7 +36,7 @@ Buckets<D>::Buckets(double rho, const Promise& promise, const MeshBox<D>& box)
     start2_.push_back(start * start);
     const double clip = std::min(promise.gamma * rho * start * (1 + 0x1p-20), 2 * box.side);
     clip_.push_back(representable(clip, box.side));
-    square_.push_back(square_side((kReads + promise.inserts) * clip_.back(), unit_));
+    square_.push_back(square_side((kReads<D> + promise.inserts) * clip_.back(), unit_));
   }
 }
 

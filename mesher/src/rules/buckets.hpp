@@ -51,8 +51,11 @@ class Buckets {
 };
 
 /// Complete reads no vertex farther away than this, in clips. A cell is cut from the clip, an
-/// octagon around the circle of its radius; a vertex concerns it only if it is in the ball around a
-/// corner, through v: within two circumradii of the octagon.
-inline constexpr double kReads = 2 * 1.0823922002923939687994464;  // 2 / cos(pi / 8)
+/// octagon around the circle of its radius, in space a cube around the sphere; a vertex concerns it
+/// only if it is in the ball around a corner, through v: within two circumradii of the clip.
+template <int D>
+inline constexpr double kReads = 2 * 1.7320508075688773;  // 2 sqrt(3)
+template <>
+inline constexpr double kReads<2> = 2 * 1.0823922002923939687994464;  // 2 / cos(pi / 8)
 
 }  // namespace mesher::detail

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "mesher/error.hpp"
-#include "geometry/plane.hpp"
 #include "rules/radius_edge.hpp"
 #include "rules/voronoi_aspect.hpp"
 
@@ -18,34 +17,38 @@ namespace {
 constexpr double kSlack = 1 - 0x1p-40;
 
 // All that depends on a rule's name.
+template <int D>
 struct Policy {
   Promise (*promise)(double rho);
-  std::unique_ptr<const InsertionRule> (*make)(const Options<2>&, const MeshBox<2>&, const Limits&);
+  std::unique_ptr<const InsertionRule<D>> (*make)(const Options<D>&, const MeshBox<D>&,
+                                                  const LimitsOf<D>&);
 };
 
-template <class R>
-Policy policy_of() {
+template <int D, class R>
+Policy<D> policy_of() {
   return {R::promise_for,
-          [](const Options<2>& options, const MeshBox<2>& box, const Limits& limits) {
-            return std::unique_ptr<const InsertionRule>(
+          [](const Options<D>& options, const MeshBox<D>& box, const LimitsOf<D>& limits) {
+            return std::unique_ptr<const InsertionRule<D>>(
                 std::make_unique<const R>(options, box, limits));
           }};
 }
 
-Policy policy(Rule rule) {
+template <int D>
+Policy<D> policy(Rule rule) {
   switch (rule) {
     case Rule::radius_edge:
-      return policy_of<RadiusEdge>();
+      return policy_of<D, RadiusEdge<D>>();
     case Rule::voronoi_aspect:
-      return policy_of<VoronoiAspect>();
+      return policy_of<D, VoronoiAspect<D>>();
   }
   throw Error(ErrorCode::bad_option, "there is no such rule");
 }
 
 }  // namespace
 
-InsertionRule::InsertionRule(const Options<2>& options, const MeshBox<2>& box,
-                             const Promise& promise)
+template <int D>
+InsertionRule<D>::InsertionRule(const Options<D>& options, const MeshBox<D>& box,
+                                const Promise& promise)
     : promise_(promise),
       buckets_(options.rho, promise, box),
       box_(box),
@@ -55,20 +58,24 @@ InsertionRule::InsertionRule(const Options<2>& options, const MeshBox<2>& box,
 
 // Gap balls have radii of a step of the boundary grid there, so their centres are not near a side:
 // rounding does not matter (paper map (i)).
-bool InsertionRule::is_centre(const VoronoiCell& cell, int corner) const {
+template <int D>
+bool InsertionRule<D>::is_centre(const CellOf<D>& cell, int corner) const {
   return box_.contains(plus(cell.center().p, cell.corner(corner)));
 }
 
 // Sums that cancel near an axis leave noise in the last places; a vertex beside such a one has
 // noise in places as far down again. Zero is as near, and keeps coordinates within a range of bits.
-Point<2> InsertionRule::rounded(const Point<2>& p) const {
-  return {std::abs(p[0]) < tiny_ ? 0 : p[0], std::abs(p[1]) < tiny_ ? 0 : p[1]};
+template <int D>
+Point<D> InsertionRule<D>::rounded(Point<D> p) const {
+  for (double& x : p) x = std::abs(x) < tiny_ ? 0 : x;
+  return p;
 }
 
 // In exact arithmetic p is at least rho lengths from every vertex. The rounded place must keep half
 // of the growth: lengths that grow by a factor are what ends the refinement.
-InsertionRule::NewPoint InsertionRule::new_point(const VoronoiCell& cell, const Point<2>& p,
-                                                 double length2, double growth2) const {
+template <int D>
+auto InsertionRule<D>::new_point(const CellOf<D>& cell, const Point<D>& p, double length2,
+                                 double growth2) const -> NewPoint {
   NewPoint point{rounded(p), 0, false};
   point.nearest2 = squared_distance(point.p, cell.center().p);
   for (int i = 0; i < cell.size(); ++i) {
@@ -79,11 +86,27 @@ InsertionRule::NewPoint InsertionRule::new_point(const VoronoiCell& cell, const 
   return point;
 }
 
-std::unique_ptr<const InsertionRule> insertion_rule(const Options<2>& options,
-                                                    const MeshBox<2>& box, const Limits& limits) {
-  return policy(options.rule).make(options, box, limits);
+template <int D>
+std::unique_ptr<const InsertionRule<D>> insertion_rule(const Options<D>& options,
+                                                       const MeshBox<D>& box,
+                                                       const LimitsOf<D>& limits) {
+  return policy<D>(options.rule).make(options, box, limits);
 }
 
-Promise promise(Rule rule, double rho) { return policy(rule).promise(rho); }
+template <int D>
+Promise promise(Rule rule, double rho) {
+  return policy<D>(rule).promise(rho);
+}
+
+template class InsertionRule<2>;
+template class InsertionRule<3>;
+template std::unique_ptr<const InsertionRule<2>> insertion_rule<2>(const Options<2>&,
+                                                                   const MeshBox<2>&,
+                                                                   const Limits&);
+template std::unique_ptr<const InsertionRule<3>> insertion_rule<3>(const Options<3>&,
+                                                                   const MeshBox<3>&,
+                                                                   const NoLimits<3>&);
+template Promise promise<2>(Rule, double);
+template Promise promise<3>(Rule, double);
 
 }  // namespace mesher::detail

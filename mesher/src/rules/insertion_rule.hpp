@@ -11,44 +11,46 @@
 #include <memory>
 #include <optional>
 
-#include "geometry/voronoi_cell.hpp"
+#include "geometry/cell_of.hpp"
 #include "rules/buckets.hpp"
-#include "sizes/limits.hpp"
+#include "sizes/limits_of.hpp"
 
 namespace mesher::detail {
 
 /// Which poor triangles a rule leaves as they are, named by their edges: p -> q of the cell's
 /// neighbours (kCentre: v itself), the triangle on its left.
+template <int D>
 class EdgeFilter {
  public:
   static constexpr int kCentre = -1;
   virtual ~EdgeFilter() = default;
   /// Whether it stays although it is poor.
-  [[nodiscard]] virtual bool skips(const VoronoiCell& cell, int p, int q) const = 0;
+  [[nodiscard]] virtual bool skips(const CellOf<D>& cell, int p, int q) const = 0;
   /// Whether it stays although it is too large.
-  [[nodiscard]] virtual bool skips_large(const VoronoiCell& cell, int p, int q) const = 0;
+  [[nodiscard]] virtual bool skips_large(const CellOf<D>& cell, int p, int q) const = 0;
 };
 
+template <int D>
 class InsertionRule {
  public:
-  InsertionRule(const Options<2>& options, const MeshBox<2>& box, const Promise& promise);
+  InsertionRule(const Options<D>& options, const MeshBox<D>& box, const Promise& promise);
   virtual ~InsertionRule() = default;
 
   struct NewPoint {
-    Point<2> p;
+    Point<D> p;
     double nearest2;  // squared distance to the vertices of the gap ball around it
     bool farther;     // clearly more than the length that asked for it, in spite of rounding
     int from = 0;     // the poor triangle's edge, as EdgeFilter names it
     int to = 0;
   };
   /// A point to insert now, in bucket b; none if v is complete up to b. `filter`: null skips none.
-  [[nodiscard]] virtual std::optional<NewPoint> next_point(const VoronoiCell& cell, int b,
-                                                           const EdgeFilter* filter) const = 0;
+  [[nodiscard]] virtual std::optional<NewPoint> next_point(const CellOf<D>& cell, int b,
+                                                           const EdgeFilter<D>* filter) const = 0;
   /// The bucket in which v must be looked at again, later than b; none if v's star is good.
-  [[nodiscard]] virtual std::optional<int> next_bucket(const VoronoiCell& cell, int b,
-                                                       const EdgeFilter* filter) const = 0;
+  [[nodiscard]] virtual std::optional<int> next_bucket(const CellOf<D>& cell, int b,
+                                                       const EdgeFilter<D>* filter) const = 0;
 
-  [[nodiscard]] const Buckets<2>& buckets() const noexcept { return buckets_; }
+  [[nodiscard]] const Buckets<D>& buckets() const noexcept { return buckets_; }
   [[nodiscard]] const Promise& promise() const noexcept { return promise_; }
 
  protected:
@@ -56,19 +58,19 @@ class InsertionRule {
   [[nodiscard]] bool exceeds(double radius2, double edge2) const noexcept {
     return radius2 > rho2_ * edge2;
   }
-  [[nodiscard]] bool is_centre(const VoronoiCell& cell, int corner) const;
+  [[nodiscard]] bool is_centre(const CellOf<D>& cell, int corner) const;
   /// `growth2`: to be farther, p must be from all vertices by more than this times length2.
-  [[nodiscard]] NewPoint new_point(const VoronoiCell& cell, const Point<2>& p, double length2,
+  [[nodiscard]] NewPoint new_point(const CellOf<D>& cell, const Point<D>& p, double length2,
                                    double growth2) const;
   /// For a point that is farther by a factor of rho, but for rounding.
   [[nodiscard]] double growth2() const noexcept { return growth2_; }
 
  private:
-  [[nodiscard]] Point<2> rounded(const Point<2>& p) const;
+  [[nodiscard]] Point<D> rounded(Point<D> p) const;
 
   Promise promise_;
-  Buckets<2> buckets_;
-  MeshBox<2> box_;
+  Buckets<D> buckets_;
+  MeshBox<D> box_;
   double rho2_;
   double growth2_;  // a new vertex is farther from all than this times its squared length
   double tiny_;     // coordinates below are noise around zero
@@ -76,10 +78,12 @@ class InsertionRule {
 
 /// The rule that the options name; it refers to `limits`. Throws: Error(bad_option) if there is
 /// none.
-[[nodiscard]] std::unique_ptr<const InsertionRule> insertion_rule(const Options<2>& options,
-                                                                  const MeshBox<2>& box,
-                                                                  const Limits& limits);
+template <int D>
+[[nodiscard]] std::unique_ptr<const InsertionRule<D>> insertion_rule(const Options<D>& options,
+                                                                     const MeshBox<D>& box,
+                                                                     const LimitsOf<D>& limits);
 /// What the rule of this name promises. Throws: likewise.
+template <int D>
 [[nodiscard]] Promise promise(Rule rule, double rho);
 
 }  // namespace mesher::detail

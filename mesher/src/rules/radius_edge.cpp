@@ -1,11 +1,10 @@
-// Poor triangles and their off-centres.
+// Poor simplices and their off-centres.
 #include "rules/radius_edge.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "geometry/plane.hpp"
+#include <tuple>
 
 namespace mesher::detail {
 
@@ -32,19 +31,26 @@ double offcentre_height(double rho) {
 // gamma: from an end of an edge to its off-centre.
 // inserts: x is in a ball around a corner, through v, which reads no farther (paper map (f)).
 // input: paper map (i).
-Promise RadiusEdge::promise_for(double rho) {
+template <int D>
+Promise RadiusEdge<D>::promise_for(double rho) {
   const double height = offcentre_height(rho);
-  return {.gamma = std::sqrt(height * height + 0.25), .inserts = kReads, .input = rho / (rho - 1)};
+  return {
+      .gamma = std::sqrt(height * height + 0.25), .inserts = kReads<D>, .input = rho / (rho - 1)};
 }
 
-RadiusEdge::RadiusEdge(const Options<2>& options, const MeshBox<2>& box, const Limits& limits)
-    : InsertionRule(options, box, promise_for(options.rho)),
+template <int D>
+RadiusEdge<D>::RadiusEdge(const Options<D>& options, const MeshBox<D>& box,
+                          const LimitsOf<D>& limits)
+    : Base(options, box, promise_for(options.rho)),
       height_(offcentre_height(options.rho)),
       limits_(&limits) {}
 
+// --- In the plane ----------------------------------------------------------------------------
+
 // Whether the triangle of v and the neighbours i and j is larger than the limit at its centroid,
 // which is computed alike by all three corners.
-bool RadiusEdge::is_large(const VoronoiCell& cell, int i, int j) const {
+template <>
+bool RadiusEdge<2>::is_large(const VoronoiCell& cell, int i, int j) const {
   const Point<2>&u = cell.neighbour(i), &w = cell.neighbour(j);
   const double area = (u[0] * w[1] - u[1] * w[0]) / 2;
   const Point<2> middle = centroid({cell.center().p, cell.place(i), cell.place(j)});
@@ -54,9 +60,10 @@ bool RadiusEdge::is_large(const VoronoiCell& cell, int i, int j) const {
 // Calls visit(poor) for the shortest edge of every poor triangle of v's star, for every visible
 // edge beside a hidden corner, and for the large triangles. One that is poor and large is the
 // former first, since R is longer than its edge.
+template <>
 template <class Visit>
-void RadiusEdge::for_each_poor(const VoronoiCell& cell, Visit&& visit) const {
-  constexpr int kCentre = EdgeFilter::kCentre;
+inline void RadiusEdge<2>::for_each_poor(const VoronoiCell& cell, Visit&& visit) const {
+  constexpr int kCentre = EdgeFilter<2>::kCentre;
   const Point<2>& v = cell.center().p;
   const bool limited = limits_->any();
   for (int i = 0; i < cell.size(); ++i) {
@@ -66,8 +73,8 @@ void RadiusEdge::for_each_poor(const VoronoiCell& cell, Visit&& visit) const {
     const double to_j = squared(cell.neighbour(j));
     if (!cell.real(i) || !cell.real(j)) {
       if (!is_centre(cell, i)) continue;
-      visit(cell.real(i) ? Poor{to_i, v, cell.place(i), std::nullopt, kCentre, i}
-                         : Poor{to_j, cell.place(j), v, std::nullopt, j, kCentre});
+      visit(cell.real(i) ? Poor{to_i, v, cell.place(i), {}, true, kCentre, i}
+                         : Poor{to_j, cell.place(j), v, {}, true, j, kCentre});
       continue;
     }
     const double across = squared_distance(cell.place(i), cell.place(j));
@@ -75,7 +82,7 @@ void RadiusEdge::for_each_poor(const VoronoiCell& cell, Visit&& visit) const {
     const bool is_poor = exceeds(cell.corner2(i), shortest);
     const bool large = limited && is_large(cell, i, j);
     if (!is_poor && !large) continue;
-    Poor poor{shortest, v, cell.place(i), plus(v, cell.corner(i)), kCentre, i};
+    Poor poor{shortest, v, cell.place(i), plus(v, cell.corner(i)), false, kCentre, i};
     if (shortest != to_i) poor.p = cell.place(j), poor.q = v, poor.from = j, poor.to = kCentre;
     if (shortest != to_i && shortest != to_j) {
       poor.p = cell.place(i), poor.q = cell.place(j), poor.from = i, poor.to = j;
@@ -89,29 +96,92 @@ void RadiusEdge::for_each_poor(const VoronoiCell& cell, Visit&& visit) const {
 
 // On the bisector of p q, to the left. Whichever corner of a triangle asks, p -> q is the same: its
 // triangle is on the left. So it is the same point, to the last bit.
-Point<2> RadiusEdge::place(const Poor& poor) const {
+template <>
+Point<2> RadiusEdge<2>::place(const Poor& poor) const {
   const Point<2>& p = poor.p;
   const double dx = poor.q[0] - p[0];
   const double dy = poor.q[1] - p[1];
   const Point<2> middle{p[0] + dx / 2, p[1] + dy / 2};
-  if (poor.circumcentre.has_value()) {
-    const Point<2>& c = *poor.circumcentre;
+  if (!poor.hidden) {
+    const Point<2>& c = poor.corner;
     const double height = (c[1] - middle[1]) * dx - (c[0] - middle[0]) * dy;
     if (poor.large || height < height_ * poor.length2) return c;
   }
   return {middle[0] - height_ * dy, middle[1] + height_ * dx};
 }
 
-std::optional<InsertionRule::NewPoint> RadiusEdge::next_point(const VoronoiCell& cell, int b,
-                                                              const EdgeFilter* filter) const {
+// --- In space [rules B4] ---------------------------------------------------------------------
+
+// The shortest edge between v and the real neighbours around corner t; ties by places, so that all
+// corners of a simplex name the same. Requires: one is real.
+template <int D>
+auto RadiusEdge<D>::shortest_edge(const CellOf<D>& cell, int t) const -> Poor {
+  const Point<D>& v = cell.center().p;
+  Poor best{std::numeric_limits<double>::infinity(), v, v, plus(v, cell.corner(t))};
+  const auto look = [&](const Point<D>& a, const Point<D>& b, int from, int to) {
+    const double length2 = squared_distance(a, b);
+    if (length2 > best.length2) return;
+    const auto& [low, high] = std::minmax(a, b);
+    if (length2 == best.length2 && std::tie(best.p, best.q) < std::tie(low, high)) return;
+    best.length2 = length2, best.p = low, best.q = high, best.from = from, best.to = to;
+  };
+  const auto& ends = cell.ends(t);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (!cell.real(ends[i])) {
+      best.hidden = true;
+      continue;
+    }
+    look(v, cell.place(ends[i]), EdgeFilter<D>::kCentre, ends[i]);
+    for (std::size_t j = i + 1; j < ends.size(); ++j) {
+      if (!cell.real(ends[j])) continue;
+      look(cell.place(ends[i]), cell.place(ends[j]), ends[i], ends[j]);
+    }
+  }
+  return best;
+}
+
+// Calls visit(poor) for the shortest edge of every poor simplex of v's star, and for the shortest
+// visible one beside every hidden corner.
+template <int D>
+template <class Visit>
+void RadiusEdge<D>::for_each_poor(const CellOf<D>& cell, Visit&& visit) const {
+  for (int t = 0; t < cell.corners(); ++t) {
+    const Poor poor = shortest_edge(cell, t);
+    if (std::isinf(poor.length2)) continue;  // no neighbour is visible
+    if (poor.hidden ? Base::is_centre(cell, t) : Base::exceeds(cell.corner2(t), poor.length2)) {
+      visit(poor);
+    }
+  }
+}
+
+// On the line from the middle of p q to the circumcentre.
+template <int D>
+Point<D> RadiusEdge<D>::place(const Poor& poor) const {
+  Point<D> middle, up;
+  for (std::size_t i = 0; i < D; ++i) {
+    middle[i] = poor.p[i] + (poor.q[i] - poor.p[i]) / 2;
+    up[i] = poor.corner[i] - middle[i];
+  }
+  const double highest = height_ * std::sqrt(poor.length2);
+  const double height = std::sqrt(squared(up));
+  if (!poor.hidden && height <= highest) return poor.corner;
+  for (std::size_t i = 0; i < D; ++i) middle[i] += highest / height * up[i];
+  return middle;
+}
+
+// --- Everywhere ------------------------------------------------------------------------------
+
+template <int D>
+auto RadiusEdge<D>::next_point(const CellOf<D>& cell, int b, const EdgeFilter<D>* filter) const
+    -> std::optional<NewPoint> {
   double shortest2 = std::numeric_limits<double>::infinity();
-  Point<2> point{};
+  Point<D> point{};
   int from = 0;
   int to = 0;
   bool large = false;
   for_each_poor(cell, [&](const Poor& poor) {
-    if (buckets().bucket(poor.length2) > b || poor.length2 > shortest2) return;
-    const Point<2> x = place(poor);
+    if (Base::buckets().bucket(poor.length2) > b || poor.length2 > shortest2) return;
+    const Point<D> x = place(poor);
     // Shortest edge first; ties by the place of the new vertex.
     if (poor.length2 == shortest2 && point < x) return;
     if (skipped(poor, cell, filter)) return;
@@ -121,7 +191,7 @@ std::optional<InsertionRule::NewPoint> RadiusEdge::next_point(const VoronoiCell&
     large = poor.large;
   });
   if (std::isinf(shortest2)) return std::nullopt;
-  NewPoint found = new_point(cell, point, shortest2, large ? kAsFar : growth2());
+  NewPoint found = Base::new_point(cell, point, shortest2, large ? kAsFar : Base::growth2());
   found.from = from, found.to = to;
   return found;
 }
@@ -129,22 +199,26 @@ std::optional<InsertionRule::NewPoint> RadiusEdge::next_point(const VoronoiCell&
 // A neighbour that the clip hides may be nearer than the visible ones beside it, but not nearer
 // than twice the clip (paper map (f)). Behind an edge that is skipped there may be other triangles
 // of v, with edges of v beyond the clip.
-std::optional<int> RadiusEdge::next_bucket(const VoronoiCell& cell, int b,
-                                           const EdgeFilter* filter) const {
-  const double hidden = 2 * buckets().clip_radius(b);
+template <int D>
+std::optional<int> RadiusEdge<D>::next_bucket(const CellOf<D>& cell, int b,
+                                              const EdgeFilter<D>* filter) const {
+  const double hidden = 2 * Base::buckets().clip_radius(b);
   std::optional<int> next;
   bool alone = true;
   for (int i = 0; i < cell.size(); ++i) alone = alone && !cell.real(i);
   if (alone) next = b + 1;
   for_each_poor(cell, [&](const Poor& poor) {
     const bool skips = skipped(poor, cell, filter);
-    if (skips && poor.circumcentre.has_value()) return;
+    if (skips && !poor.hidden) return;
     const double length2 = skips ? hidden * hidden : std::min(poor.length2, hidden * hidden);
-    const int later = std::max(b + 1, buckets().bucket(length2));
+    const int later = std::max(b + 1, Base::buckets().bucket(length2));
     if (!next.has_value() || later < *next) next = later;
   });
-  if (next.has_value() && *next >= buckets().count()) return std::nullopt;
+  if (next.has_value() && *next >= Base::buckets().count()) return std::nullopt;
   return next;
 }
+
+template class RadiusEdge<2>;
+template class RadiusEdge<3>;
 
 }  // namespace mesher::detail

@@ -1,10 +1,12 @@
-// The rule radius_edge: an off-centre [Ungor 2004] for every poor triangle.
+// The rule radius_edge: an off-centre [Ungor 2004] for every poor simplex.
 //
-// A corner q_i of v's cell between u_i and u_{i+1} is a triangle; it is poor if its circumradius
-// exceeds rho times its shortest edge. A corner hidden by the clip stands for a triangle on each
-// visible edge beside it, of larger circumradius than any bound of the bucket. The new vertex lies
-// on the bisector of the shortest edge, as high as a circumradius of rho times that edge allows, or
-// at the circumcentre if that is lower. Poor triangles go shortest edge first.
+// A corner of v's cell is a simplex of v and the neighbours around it; it is poor if its
+// circumradius exceeds rho times its shortest edge. A corner hidden by the clip stands for one of
+// larger circumradius than any bound of the bucket: in the plane for a triangle on each visible
+// edge beside it, in space for a tetrahedron on the shortest visible edge. The new vertex lies on
+// the line from the middle of the shortest edge to the circumcentre, as high as a circumradius of
+// rho times that edge allows, or at the circumcentre if that is lower. Poor simplices go shortest
+// edge first.
 //
 // A triangle that is too large where it is counts as one of length R, its circumradius, and is
 // filled at its circumcentre [rules A7.5].
@@ -16,40 +18,47 @@
 
 namespace mesher::detail {
 
-class RadiusEdge final : public InsertionRule {
+template <int D>
+class RadiusEdge final : public InsertionRule<D> {
+  using Base = InsertionRule<D>;
+
  public:
+  using typename Base::NewPoint;
+
   /// Refers to `limits`.
-  RadiusEdge(const Options<2>& options, const MeshBox<2>& box, const Limits& limits);
+  RadiusEdge(const Options<D>& options, const MeshBox<D>& box, const LimitsOf<D>& limits);
 
   [[nodiscard]] static Promise promise_for(double rho);
-  [[nodiscard]] std::optional<NewPoint> next_point(const VoronoiCell& cell, int b,
-                                                   const EdgeFilter* filter) const override;
-  [[nodiscard]] std::optional<int> next_bucket(const VoronoiCell& cell, int b,
-                                               const EdgeFilter* filter) const override;
+  [[nodiscard]] std::optional<NewPoint> next_point(const CellOf<D>& cell, int b,
+                                                   const EdgeFilter<D>* filter) const override;
+  [[nodiscard]] std::optional<int> next_bucket(const CellOf<D>& cell, int b,
+                                               const EdgeFilter<D>* filter) const override;
 
  private:
-  // An edge p -> q of a poor triangle on its left; or of a large one.
+  // The edge p q of a poor simplex, in the plane on the left of p -> q; or of a large one.
   struct Poor {
     double length2 = 0;  // the edge's; of a large one: its circumradius'
-    Point<2> p;
-    Point<2> q;
-    std::optional<Point<2>> circumcentre;
-    int from = EdgeFilter::kCentre;  // p and q as the filter names them
-    int to = EdgeFilter::kCentre;
+    Point<D> p;
+    Point<D> q;
+    Point<D> corner;                    // the circumcentre, unless it is hidden
+    bool hidden = false;                // behind the clip
+    int from = EdgeFilter<D>::kCentre;  // p and q as the filter names them
+    int to = EdgeFilter<D>::kCentre;
     bool large = false;
   };
-  static bool skipped(const Poor& poor, const VoronoiCell& cell, const EdgeFilter* filter) {
+  static bool skipped(const Poor& poor, const CellOf<D>& cell, const EdgeFilter<D>* filter) {
     if (filter == nullptr) return false;
     return poor.large ? filter->skips_large(cell, poor.from, poor.to)
                       : filter->skips(cell, poor.from, poor.to);
   }
-  [[nodiscard]] bool is_large(const VoronoiCell& cell, int i, int j) const;
+  [[nodiscard]] bool is_large(const CellOf<D>& cell, int i, int j) const;
+  [[nodiscard]] Poor shortest_edge(const CellOf<D>& cell, int t) const;
   template <class Visit>
-  void for_each_poor(const VoronoiCell& cell, Visit&& visit) const;
-  [[nodiscard]] Point<2> place(const Poor& poor) const;
+  void for_each_poor(const CellOf<D>& cell, Visit&& visit) const;
+  [[nodiscard]] Point<D> place(const Poor& poor) const;
 
-  double height_;  // of the off-centre, in units of the edge
-  const Limits* limits_;
+  double height_;              // of the off-centre, in units of the edge
+  const LimitsOf<D>* limits_;  // null: there are none
 };
 
 }  // namespace mesher::detail

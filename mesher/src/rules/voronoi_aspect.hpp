@@ -10,17 +10,22 @@
 
 namespace mesher::detail {
 
-class VoronoiAspect final : public InsertionRule {
+template <int D>
+class VoronoiAspect final : public InsertionRule<D> {
+  using Base = InsertionRule<D>;
+
  public:
+  using typename Base::NewPoint;
+
   /// `limits`: there are none for this rule.
-  VoronoiAspect(const Options<2>& options, const MeshBox<2>& box, const Limits& limits);
+  VoronoiAspect(const Options<D>& options, const MeshBox<D>& box, const LimitsOf<D>& limits);
 
   [[nodiscard]] static Promise promise_for(double rho);
-  [[nodiscard]] std::optional<NewPoint> next_point(const VoronoiCell& cell, int b,
-                                                   const EdgeFilter* filter) const override;
+  [[nodiscard]] std::optional<NewPoint> next_point(const CellOf<D>& cell, int b,
+                                                   const EdgeFilter<D>* filter) const override;
   /// One event a vertex is enough.
-  [[nodiscard]] std::optional<int> next_bucket(const VoronoiCell&, int,
-                                               const EdgeFilter*) const override {
+  [[nodiscard]] std::optional<int> next_bucket(const CellOf<D>&, int,
+                                               const EdgeFilter<D>*) const override {
     return std::nullopt;
   }
 };

@@ -12,7 +12,7 @@ namespace {
 // Calls visit(leg, apex, distance): v is on `leg`, at this distance from its end `apex`; as the far
 // end of the leg if v is an input point.
 template <class Visit>
-void for_each_leg(const VertexSearch& vertices, const SegmentStore& segments, const Vertex<2>& v,
+void for_each_leg(const VertexSearch<2>& vertices, const SegmentStore& segments, const Vertex<2>& v,
                   Visit&& visit) {
   if (v.on_segment) {
     const Role role = vertices.role(v);
@@ -50,8 +50,8 @@ namespace {
 // Calls visit(s, t, apex) for segments s and t that meet sharply at `apex`, p on s and q on t
 // equally far from it.
 template <class Visit>
-void for_each_wedge(const VertexSearch& vertices, const SegmentStore& segments, const Vertex<2>& p,
-                    const Vertex<2>& q, Visit&& visit) {
+void for_each_wedge(const VertexSearch<2>& vertices, const SegmentStore& segments,
+                    const Vertex<2>& p, const Vertex<2>& q, Visit&& visit) {
   const auto may_be = [](const Vertex<2>& v) { return v.on_segment || v.input; };
   if (!may_be(p) || !may_be(q)) return;
   for_each_leg(vertices, segments, p, [&](const Segment& s, VertexHandle apex, double from_p) {
@@ -64,7 +64,7 @@ void for_each_wedge(const VertexSearch& vertices, const SegmentStore& segments, 
 
 }  // namespace
 
-bool is_exempt(const VertexSearch& vertices, const SegmentStore& segments, const Vertex<2>& p,
+bool is_exempt(const VertexSearch<2>& vertices, const SegmentStore& segments, const Vertex<2>& p,
                const Vertex<2>& q) {
   const bool both_inside = p.on_segment && q.on_segment;
   bool exempt = false;
@@ -74,7 +74,7 @@ bool is_exempt(const VertexSearch& vertices, const SegmentStore& segments, const
   return exempt;
 }
 
-std::vector<Wedge> wedges_across(const VertexSearch& vertices, const SegmentStore& segments,
+std::vector<Wedge> wedges_across(const VertexSearch<2>& vertices, const SegmentStore& segments,
                                  const Vertex<2>& p, const Vertex<2>& q, bool any_side) {
   const bool both_inside = p.on_segment && q.on_segment;
   std::vector<Wedge> found;

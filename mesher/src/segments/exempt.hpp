@@ -22,7 +22,7 @@ namespace mesher::detail {
                                        VertexHandle apex);
 
 /// Whether a poor triangle on the left of p -> q, its shortest edge, stays.
-[[nodiscard]] bool is_exempt(const VertexSearch& vertices, const SegmentStore& segments,
+[[nodiscard]] bool is_exempt(const VertexSearch<2>& vertices, const SegmentStore& segments,
                              const Vertex<2>& p, const Vertex<2>& q);
 
 /// Two segments with a common end.
@@ -31,7 +31,7 @@ struct Wedge {
   VertexHandle apex;
 };
 /// Those for the sake of which it stays; `any_side`: or a triangle on the right of p -> q.
-[[nodiscard]] std::vector<Wedge> wedges_across(const VertexSearch& vertices,
+[[nodiscard]] std::vector<Wedge> wedges_across(const VertexSearch<2>& vertices,
                                                const SegmentStore& segments, const Vertex<2>& p,
                                                const Vertex<2>& q, bool any_side);
 

@@ -66,7 +66,7 @@ class InputSegments<sac::PlainScope> {
 };
 
 template <>
-class InputSegments<sac::Scope> final : public PointListener {
+class InputSegments<sac::Scope> final : public PointListener<2> {
  public:
   InputSegments(const MeshBox<2>& box, VertexIndex<sac::Scope>& vertices,
                 Features<sac::Scope>& points, sac::Engine& engine)

@@ -13,7 +13,7 @@ namespace mesher::detail {
 namespace {
 
 // The segments with vertices in the leaf's ball, its own left out.
-std::set<SegmentHandle> segments_in_ball(const Leaf& leaf, const VertexSearch& vertices) {
+std::set<SegmentHandle> segments_in_ball(const Leaf& leaf, const VertexSearch<2>& vertices) {
   std::set<SegmentHandle> all;
   vertices.for_each_in_ball(leaf.lo, leaf.hi, [&](const Vertex<2>& v) {
     if (!v.alive || !v.on_segment || !leaf.has_in_ball(v.p)) return;
@@ -51,7 +51,7 @@ std::string list(const std::vector<FeatureId>& ids) {
 
 }  // namespace
 
-void LostEdge::require_none(const VertexSearch& vertices, const SegmentPool& segments,
+void LostEdge::require_none(const VertexSearch<2>& vertices, const SegmentPool& segments,
                             const Names* names) const {
   if (first_ == nullptr) return;
   const std::set<SegmentHandle> others = segments_in_ball(*first_, vertices);

@@ -22,7 +22,7 @@ class LostEdge {
   }
   /// Throws: Error(too_close) if there is one, with the ids of its line and of those with vertices
   /// in its ball. `names`: null if features have none.
-  void require_none(const VertexSearch& vertices, const SegmentPool& segments,
+  void require_none(const VertexSearch<2>& vertices, const SegmentPool& segments,
                     const Names* names) const;
 
  private:

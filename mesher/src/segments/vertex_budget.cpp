@@ -12,7 +12,7 @@ namespace mesher::detail {
 namespace {
 
 // The lines by the number of vertices on them, most first; of equal ones the smallest id first.
-std::vector<std::pair<std::size_t, FeatureId>> lines_by_vertices(const VertexSearch& vertices,
+std::vector<std::pair<std::size_t, FeatureId>> lines_by_vertices(const VertexSearch<2>& vertices,
                                                                  const Names& names) {
   std::map<FeatureId, std::size_t> counts;
   vertices.pool().for_each([&](const Vertex<2>& v) {
@@ -27,7 +27,7 @@ std::vector<std::pair<std::size_t, FeatureId>> lines_by_vertices(const VertexSea
 
 }  // namespace
 
-Error too_many_vertices(const VertexSearch& vertices, const Names* names, std::size_t most) {
+Error too_many_vertices(const VertexSearch<2>& vertices, const Names* names, std::size_t most) {
   std::string text = "more than " + std::to_string(most) + " vertices are needed";
   std::vector<FeatureId> ids;
   if (names != nullptr) {

@@ -13,7 +13,7 @@ namespace mesher::detail {
 
 struct AllLimits {
   SizeLimits<2> everywhere;
-  std::vector<BoxLimits<2>> boxes;
+  AllBoxLimits<2> boxes;
   std::shared_ptr<const RegionLimits> regions{};
   friend bool operator==(const AllLimits&, const AllLimits&) = default;
 

@@ -48,7 +48,7 @@ class Surroundings<sac::PlainScope> {
 };
 
 template <>
-class Surroundings<sac::Scope> final : public sac::Structure, public FeatureListener {
+class Surroundings<sac::Scope> final : public sac::Structure, public FeatureListener<2> {
  public:
   Surroundings(const MeshBox<2>& box, const Limits& limits, Features<sac::Scope>& features,
                sac::Engine& engine)

@@ -9,7 +9,7 @@ using mesher::FeatureId;
 
 TEST_CASE("after a large batch was announced and forgotten, forgetting costs what it did before") {
   const mesher::detail::MeshBox<2> box{.lo = {0, 0}, .side = 4};
-  mesher::detail::Announced announced(box);
+  mesher::detail::Announced<2> announced(box);
   const std::size_t none = announced.buckets();
   std::int64_t id = 0;
   for (const auto& p : mesher::generate_points<2>(mesher::PointKind::uniform, 1000, 3)) {

@@ -405,6 +405,29 @@ TEST_CASE("where the greatest point is the tip of a pyramid the next point decid
   }
 }
 
+TEST_CASE("points of a rounded grid have the signs of rational arithmetic", "[predicates]") {
+  Random random(kSeed);
+  INFO("seed " << kSeed);
+  // Two or three values an axis: corners of boxes, and what is nearly that.
+  int ties = 0, flat = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const std::uint64_t values = 2 + random() % 2;
+    Five q;
+    for (P& p : q) {
+      for (double& x : p) x = static_cast<double>(random() % values + 3) / 49;
+    }
+    if (std::set<P>(q.begin(), q.end()).size() < q.size()) continue;
+    const int volume = exact_orient3d(q[0], q[1], q[2], q[3]);
+    const int sign = exact_insphere(q);
+    CHECK(detail::orient3d_exact(q[0], q[1], q[2], q[3]) == volume);
+    CHECK(detail::insphere_exact(q[0], q[1], q[2], q[3], q[4]) == sign);
+    ties += sign == 0;
+    flat += volume == 0;
+  }
+  CHECK(ties > 100);
+  CHECK(flat > 100);
+}
+
 TEST_CASE("coordinates in space too far apart for the exact integers are refused", "[predicates]") {
   const P a{0x1p-200, 0x1p-200, 0}, b{1, 1, 1}, c{0x1p100, 0x1p100, 1}, d{0, 0, 1};
   REQUIRE_THROWS_AS(detail::orient3d_exact(a, b, c, d), std::domain_error);

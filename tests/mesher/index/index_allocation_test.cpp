@@ -28,11 +28,8 @@ Stars stars_of(TracedWorld& world) {
   const auto& vertices = world.world().vertices;
   vertices.pool().for_each([&](const auto& v) {
     std::vector<Point<2>> star;
-    const auto ring = vertices.ring(v);
-    for (int i = 0; i < ring.size; ++i) {
-      if (ring.handles[i] < mesher::detail::VoronoiCell::kVirtual) {
-        star.push_back(vertices.pool()[ring.handles[i]].p);
-      }
+    for (const std::uint32_t code : vertices.ring(v)) {
+      if (code < mesher::detail::VoronoiCell::kVirtual) star.push_back(vertices.pool()[code].p);
     }
     std::rotate(star.begin(), std::min_element(star.begin(), star.end()), star.end());
     star.insert(star.begin(), v.p);

@@ -64,7 +64,7 @@ TEST_CASE("a vertex of the boundary grid reaches no farther than the triangles a
 }
 
 TEST_CASE("two cells can be looked at together") {
-  struct Search : mesher::detail::VertexSearch {
+  struct Search : mesher::detail::VertexSearch<2> {
     using VertexSearch::cut_around;
     using VertexSearch::VertexSearch;
   };

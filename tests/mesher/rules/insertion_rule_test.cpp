@@ -22,9 +22,9 @@ using mesher::Point;
 using mesher::Rule;
 using mesher::SplitMix64;
 using mesher::detail::insertion_rule;
-using mesher::detail::EdgeFilter;
-using mesher::detail::InsertionRule;
-using mesher::detail::kReads;
+using EdgeFilter = mesher::detail::EdgeFilter<2>;
+using InsertionRule = mesher::detail::InsertionRule<2>;
+constexpr double kReads = mesher::detail::kReads<2>;
 using mesher::detail::MeshBox;
 using mesher::detail::VertexHandle;
 using mesher::detail::VertexRef;
@@ -35,7 +35,7 @@ Options<2> options(double rho, Rule rule) {
   return {.domain = {{0, 0}, {1, 1}}, .rho = rho, .rule = rule};
 }
 
-struct Search : mesher::detail::VertexSearch {
+struct Search : mesher::detail::VertexSearch<2> {
   using VertexSearch::cut_around;
   using VertexSearch::VertexSearch;
 };
@@ -57,8 +57,8 @@ class Watched final : public InsertionRule {
  public:
   Watched(const Options<2>& options, const MeshBox<2>& box, const std::vector<Point<2>>& input,
           Farthest& farthest)
-      : InsertionRule(options, box, mesher::detail::promise(options.rule, options.rho)),
-        rule_(insertion_rule(options, box, no_limits())),
+      : InsertionRule(options, box, mesher::detail::promise<2>(options.rule, options.rho)),
+        rule_(insertion_rule<2>(options, box, no_limits())),
         input_(input),
         farthest_(farthest),
         step_(box.side / box.boundary_steps) {}
@@ -108,7 +108,7 @@ Farthest farthest(const std::vector<Point<2>>& points, const Options<2>& o) {
     world.quadtree.post_from_outside<mesher::detail::locate>(
         mesher::detail::locate_key(box.fixed(v.p)), VertexRef<2>{&v});
   });
-  scope.run<mesher::detail::refine>();
+  scope.run<mesher::detail::refine<2>>();
   return found;
 }
 
@@ -234,7 +234,7 @@ TEST_CASE("Complete reads and inserts no farther away than promised, and stays n
     double most = 0;
     for (const double rho : {1.05, 1.1, 1.2, 1.4142, 2.0, 4.0, 20.0}) {
       const auto o = options(rho, rule);
-      const auto promise = mesher::detail::promise(rule, rho);
+      const auto promise = mesher::detail::promise<2>(rule, rho);
       for (const int n : {1, 30, 150, 600}) {
         INFO("rule " << static_cast<int>(rule) << ", rho " << rho << ", n " << n);
         const Farthest f = farthest(spread_points(random, n), o);

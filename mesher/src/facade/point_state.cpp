@@ -1,15 +1,13 @@
 // The first run, and updates: edits made in the engine, propagated, and committed or taken back.
-#include "facade/state.hpp"
+#include "facade/point_state.hpp"
 
 #include <algorithm>
 #include <functional>
 #include <utility>
 
-#include "facade/angle_finder.hpp"
 #include "facade/meter.hpp"
-#include "mesh/canonical.hpp"
+#include "facade/point_report.hpp"
 #include "program/world_impl.hpp"
-#include "segments/vertex_budget.hpp"
 
 namespace mesher::detail {
 
@@ -38,33 +36,36 @@ class Watch {
 
 }  // namespace
 
-State::State(const Options<2>& options)
-    : rho_(options.rho),
-      box_(mesh_box(options)),
+template <int D>
+PointState<D>::PointState(const Options<D>& options)
+    : box_(mesh_box(options)),
       engine_(std::make_unique<sac::Engine>()),
-      world_(std::make_unique<World<sac::Scope>>(options, box_, *engine_)) {
-  world_->names = this;
+      world_(std::make_unique<World<sac::Scope, D>>(options, box_, *engine_)) {
   if (options.record_weights) engine_->record_weights();
 }
 
-State::~State() {
+template <int D>
+PointState<D>::~PointState() {
   engine_.reset();  // before what its calls refer to
 }
 
 // --- Points ----------------------------------------------------------------------------------
 
-Announced::Place State::place(FeatureId id) const {
+template <int D>
+auto PointState<D>::place(FeatureId id) const -> typename Announced<D>::Place {
   const auto it = ids_.find(id);
-  return it == ids_.end() ? Announced::Place() : pool()[it->second].p;
+  return it == ids_.end() ? typename Announced<D>::Place() : pool()[it->second].p;
 }
 
-std::optional<State::Named> State::obstacle(const Point<2>& p) const {
-  const Vertex<2>* v = world_->features.point_at(p);
+template <int D>
+auto PointState<D>::obstacle(const Point<D>& p) const -> std::optional<Named> {
+  const Vertex<D>* v = world_->features.point_at(p);
   return v == nullptr ? std::optional<Named>() : Named{names_[v->self], v->p};
 }
 
 // So that rename() cannot fail.
-void State::make_room(const Ids& arrived) {
+template <int D>
+void PointState<D>::make_room(const Ids& arrived) {
   const std::size_t most = ids_.size() + arrived.size();
   if (most > ids_.max_load_factor() * static_cast<float>(ids_.bucket_count())) {
     ids_.reserve(2 * most + 16);
@@ -75,7 +76,8 @@ void State::make_room(const Ids& arrived) {
   if (last >= names_.size()) names_.resize(std::size_t{last} + 1);
 }
 
-void State::rename(const std::vector<Announced::Edit>& edits, Ids& arrived) noexcept {
+template <int D>
+void PointState<D>::rename(const PointEdits& edits, Ids& arrived) noexcept {
   for (const auto& edit : edits) ids_.erase(edit.id);
   for (const auto& [id, handle] : arrived) names_[handle] = id;
   ids_.merge(arrived);
@@ -83,29 +85,33 @@ void State::rename(const std::vector<Announced::Edit>& edits, Ids& arrived) noex
 
 // --- The first run ---------------------------------------------------------------------------
 
-void State::add_first(const Announced::Edit& edit) {
-  Vertex<2>& v = vertices().add_input(*edit.to, true);
+template <int D>
+void PointState<D>::add_first(const typename Announced<D>::Edit& edit) {
+  Vertex<D>& v = vertices().add_input(*edit.to, true);
   features().insert_first(v);
   ids_.emplace(edit.id, v.self);
   names_.resize(v.self + std::size_t{1});
   names_[v.self] = edit.id;
 }
 
-void State::post_all() {
-  pool().for_each([&](Vertex<2>& v) {
+template <int D>
+void PointState<D>::post_all() {
+  pool().for_each([&](Vertex<D>& v) {
     if (!v.input) return;
     vertices().touch(v);
-    world_->quadtree.post_from_outside<locate>(locate_key(box_.fixed(v.p)), VertexRef<2>{&v});
+    world_->quadtree.template post_from_outside<locate>(locate_key(box_.fixed(v.p)),
+                                                        VertexRef<D>{&v});
   });
 }
 
-Change<2> State::whole(const Mesh<2>& mesh) const {
-  Change<2> change;
+template <int D>
+Change<D> PointState<D>::whole(const Mesh<D>& mesh) const {
+  Change<D> change;
   change.vertices_added = mesh.vertices;
   change.simplices_added.reserve(mesh.simplices.size());
   for (const auto& s : mesh.simplices) {
-    change.simplices_added.push_back(
-        {mesh.vertices[s[0]], mesh.vertices[s[1]], mesh.vertices[s[2]]});
+    auto& corners = change.simplices_added.emplace_back();
+    for (std::size_t k = 0; k < s.size(); ++k) corners[k] = mesh.vertices[s[k]];
   }
   for (const auto& e : mesh.edges) {
     change.edges_added.push_back({mesh.vertices[e.low], mesh.vertices[e.high], e.line});
@@ -113,35 +119,27 @@ Change<2> State::whole(const Mesh<2>& mesh) const {
   return change;
 }
 
-void State::add_all_first(const Edits& edits) {
-  ids_.reserve(edits.points.size());
-  for (const auto& edit : edits.points) add_first(edit);
-  if (edits.lines.empty()) return;
-  for (const Part& part : take_lines({{}, edits.lines})) add_part(part, {});
-  require_planar({});
-  Lines lines;
-  make_room_for_lines(edits.lines, lines);
-  rename_lines(edits.lines, lines);
-  forget_news();
-}
-
-Change<2> State::first_run(Edits edits, const RunControl& control, const Accept& accept) {
-  add_all_first(edits);
-  edits = Edits();  // the run needs the memory
+template <int D>
+Change<D> PointState<D>::first_run(PointEdits edits, const RunControl& control,
+                                   const Accept& accept) {
+  ids_.reserve(edits.size());
+  for (const auto& edit : edits) add_first(edit);
+  edits = PointEdits();  // the run needs the memory
+  add_others_first();
   post_all();
-  RunMeter<sac::Scope> phases(*world_, control, ids_.size());
+  RunMeter<sac::Scope, D> phases(*world_, control, ids_.size());
   const auto meter = [&](const sac::Progress& p) { return phases(p.executed); };
   const Watch watch(*engine_, control, meter);
-  const CallCounts calls = call_counts(engine_->run<refine>());
+  const CallCounts calls = call_counts(engine_->template run<refine<D>>());
   commit();
   require_room(pool().size());
-  if (world_->leaves.may_lose()) require_edges();
+  require_others();
   vertices().set_logging(true);
   ran_ = true;
-  const Mesh<2> all = mesh();
+  const Mesh<D> all = mesh();
   stats_ = timed_stats(*world_, all);
-  Change<2> change = whole(all);
-  if (has_lines()) change.angles = AngleFinder(*world_, rho_).news(triangles());
+  Change<D> change = whole(all);
+  find_angles(simplices(), change);
   change.calls = calls;
   if (accept) accept(change);
   return change;
@@ -149,41 +147,44 @@ Change<2> State::first_run(Edits edits, const RunControl& control, const Accept&
 
 // --- Updates ---------------------------------------------------------------------------------
 
-// Leaves' records refer to those of segments, and these to those of vertices.
-void State::commit() noexcept {
-  world_->leaves.commit();
-  world_->segments.commit();
+template <int D>
+void PointState<D>::commit() noexcept {
+  commit_others();  // which refer to vertices
   vertices().commit();
 }
 
 // The record of an input point to be, listed so that commit() frees it if nothing comes of it.
-Vertex<2>& State::claim(const Point<2>& p) {
-  Vertex<2>& v = vertices().add_input(p, false);
+template <int D>
+Vertex<D>& PointState<D>::claim(const Point<D>& p) {
+  Vertex<D>& v = vertices().add_input(p, false);
   v.input = false;
   vertices().touch(v);
   return v;
 }
 
-Vertex<2>& State::add(const Point<2>& p) {
+template <int D>
+Vertex<D>& PointState<D>::add(const Point<D>& p) {
   engine_->begin_edit();
-  Vertex<2>& v = claim(p);
+  Vertex<D>& v = claim(p);
   engine_->on_rollback([&v] { v.input = false; });
   v.input = true;
   features().insert(v);
-  world_->quadtree.post_from_outside<locate>(locate_key(box_.fixed(p)), VertexRef<2>{&v});
+  world_->quadtree.template post_from_outside<locate>(locate_key(box_.fixed(p)), VertexRef<D>{&v});
   return v;
 }
 
-void State::take(Vertex<2>& v) {
+template <int D>
+void PointState<D>::take(Vertex<D>& v) {
   engine_->begin_edit();
   vertices().touch(v);
   engine_->on_rollback([&v] { v.input = true; });
   v.input = false;
   features().erase(v);
-  world_->quadtree.retract_from_outside<locate>(VertexRef<2>{&v});
+  world_->quadtree.template retract_from_outside<locate>(VertexRef<D>{&v});
 }
 
-void State::make_points(const std::vector<Announced::Edit>& edits, Ids& arrived) {
+template <int D>
+void PointState<D>::make_points(const PointEdits& edits, Ids& arrived) {
   for (const auto& edit : edits) {
     if (edit.was) take(pool()[ids_.at(edit.id)]);
   }
@@ -191,23 +192,13 @@ void State::make_points(const std::vector<Announced::Edit>& edits, Ids& arrived)
     if (!edit.to) continue;
     const VertexHandle v = add(*edit.to).self;
     arrived.emplace(edit.id, v);
-    new_names_[v] = edit.id;
+    point_comes(v, edit.id);
   }
 }
 
-bool State::has_lines() const noexcept {
-  return segments().store().live() != 0 || !new_segments_.empty();
-}
-
-void State::make(const Edits& edits, Ids& arrived) {
-  const auto all = [&] {
-    if (edits.limits) world_->edit_limits(edits.limits->options, edits.limits->where, *engine_);
-    const std::vector<Part> parts = take_lines(edits);
-    require_unused(edits.points);
-    make_points(edits.points, arrived);
-    for (const Part& part : parts) add_part(part, arrived);
-    if (has_lines()) require_planar(arrived);
-  };
+template <int D>
+void PointState<D>::make(const PointEdits& edits, Ids& arrived) {
+  const auto all = [&] { make_edits(edits, arrived); };
   try {
     engine_->edit_together(all);
   } catch (...) {
@@ -219,7 +210,8 @@ void State::make(const Edits& edits, Ids& arrived) {
 
 // Edits have been taken back: a propagation of nothing frees the calls that were made for them.
 // Without the memory for that they stay until the next one.
-void State::settle() noexcept {
+template <int D>
+void PointState<D>::settle() noexcept {
   try {
     engine_->propagate();
     commit();
@@ -228,27 +220,29 @@ void State::settle() noexcept {
   }
 }
 
-void State::require_room(std::size_t now) const {
+template <int D>
+void PointState<D>::require_room(std::size_t now) const {
   if (now > world_->most_vertices) {
     throw too_many_vertices(vertices(), world_->names, world_->most_vertices);
   }
 }
 
-Change<2> State::propagate(const Edits& edits, const RunControl& control, const Accept& accept) {
+template <int D>
+Change<D> PointState<D>::propagate(const PointEdits& edits, const RunControl& control,
+                                   const Accept& accept) {
   const auto meter = [&](const sac::Progress& p) {
     return detail::report(control, {Phase::update, p.executed, p.executed + p.queued});
   };
-  Change<2> change;
+  Change<D> change;
   Ids arrived;
-  Lines lines;
   const std::function<void()> report = [&] {  // what needs memory, while all can be undone
     make_room(arrived);
-    make_room_for_lines(edits.lines, lines);
+    make_room_for_others();
     Log log = vertices().log();
-    if (world_->leaves.may_lose()) require_edges(log);
+    require_others(log);
     report_vertices(log, change);
-    report_stars(std::move(log), change);
-    report_edges(change);
+    find_angles(report_stars(std::move(log), change), change);
+    report_others(change);
     require_room(stats_.vertices + change.vertices_added.size() - change.vertices_removed.size());
     if (accept) accept(change);
   };
@@ -263,13 +257,16 @@ Change<2> State::propagate(const Edits& edits, const RunControl& control, const 
     forget_news();
     throw;
   }
-  rename(edits.points, arrived);
-  rename_lines(edits.lines, lines);
+  rename(edits, arrived);
+  rename_others();
   forget_news();
   commit();
   stats_.vertices += change.vertices_added.size() - change.vertices_removed.size();
   stats_.simplices += change.simplices_added.size() - change.simplices_removed.size();
   return change;
 }
+
+template class PointState<2>;
+template class PointState<3>;
 
 }  // namespace mesher::detail

@@ -1,0 +1,241 @@
+// The Voronoi cell of a vertex v in space, clipped, and with it v's gap balls and Delaunay star
+// [Def 4.2.1], as its dual [rules B1].
+//
+// The clip is six virtual vertices at distance 2R around v, as VoronoiCell's in the plane, whose
+// text says what the cell, its corners, cuts, ties and repair are. Here the neighbours u of v are
+// the vertices of a triangulated sphere, v's link: a triangle (a, b, c), with v, is a Delaunay
+// tetrahedron, whose circumcentre is a corner of the cell.
+//
+// cut(w) takes the corners nearer to w than to v. They are connected, and so are the others (the
+// cell is a convex polyhedron, cut by a plane): their triangles make a disc, whose rim is joined to
+// w instead. Each triangle knows those across its edges.
+//
+// Neighbours and triangles have numbers, which change with cuts: what they say, as sets, depends on
+// the set of vertices alone. A neighbour's number may be unused.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/link_record.hpp"
+#include "index/vertex.hpp"
+#include "mesher/mesh.hpp"
+
+namespace mesher::detail {
+
+class VoronoiCell3 {
+ public:
+  static constexpr int kClips = 6;
+  using Code = LinkRecord::Code;
+  static constexpr Code kVirtual = LinkRecord::kVirtual;
+
+  /// The clip alone: the cell of a vertex that is by itself. Requires: radius > 0.
+  void reset(const Vertex<3>& v, double radius);
+
+  /// The cell of v among those of its former neighbours for which left(code). `repair`: they are
+  /// all of v's neighbours that are left, so triangles that were there before are closed; else all
+  /// are open. `radius`: of the clip, and of that of the record if virtual ones are left.
+  template <class Left>
+  bool restore(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
+               std::span<const Code> record, Left&& left, bool repair);
+
+  /// Whether w might cut an open corner, by distance: |w - v|^2 <= 4 |q|^2.
+  [[nodiscard]] bool in_reach(double distance2) const noexcept { return distance2 <= 4 * open2_; }
+  /// Whether w is nearer than v to some corner; of a virtual neighbour's place: whether it takes
+  /// it.
+  [[nodiscard]] bool cuts(const Point<3>& w) {
+    aim(w);
+    return !is_clear(largest_projection()) && find_cut();
+  }
+  /// The same for a w that is known not to take closed corners only.
+  [[nodiscard]] bool cuts_open(const Point<3>& w) {
+    aim(w);
+    return !is_clear(largest_open_projection()) && find_cut();
+  }
+  /// Cuts the cell by the vertex w. Requires: the last call was cuts(its place) or cuts_open, and
+  /// it said true.
+  void cut(Code w);
+
+  /// Whether the gap ball of an open corner reaches into the cube [corner, corner + side]^3,
+  /// relative to v, widened by `margin` [L 4.3.3].
+  [[nodiscard]] bool enters(const Point<3>& corner, double side, double margin) const noexcept;
+
+  /// Neighbours have numbers below this; some are unused.
+  [[nodiscard]] int size() const noexcept { return neighbours_; }
+  [[nodiscard]] bool used(int i) const noexcept { return uses_[index(i)] != 0; }
+  [[nodiscard]] bool real(int i) const noexcept { return code_[index(i)] < kVirtual; }
+  [[nodiscard]] VertexHandle handle(int i) const noexcept { return real(i) ? code(i) : 0; }
+  [[nodiscard]] Code code(int i) const noexcept { return code_[index(i)]; }
+  /// A neighbour relative to v.
+  [[nodiscard]] const Point<3>& neighbour(int i) const noexcept { return u_[index(i)]; }
+  /// A neighbour where it is.
+  [[nodiscard]] const Point<3>& place(int i) const noexcept { return place_[index(i)]; }
+  /// Whether u is a neighbour.
+  [[nodiscard]] bool has(VertexHandle u) const noexcept;
+
+  /// The triangles, and so the corners, are numbered 0 .. corners() - 1.
+  [[nodiscard]] int corners() const noexcept { return corners_; }
+  /// The neighbours around a corner: orient3d(v, a, b, c) > 0.
+  [[nodiscard]] const std::array<int, 3>& ends(int t) const noexcept { return face_[index(t)].end; }
+  /// A corner, relative to v.
+  [[nodiscard]] Point<3> corner(int t) const noexcept {
+    return {qx_[index(t)], qy_[index(t)], qz_[index(t)]};
+  }
+  [[nodiscard]] double corner2(int t) const noexcept { return q2_[index(t)]; }
+  /// max |q|^2.
+  [[nodiscard]] double reach2() const noexcept { return reach2_; }
+  /// The same over the open corners; 0: there is none.
+  [[nodiscard]] double open2() const noexcept { return open2_; }
+  /// A box around the gap balls of the open corners, relative to v.
+  [[nodiscard]] Box<3> open_extent() const noexcept;
+  /// The same of the corners between three real neighbours, or on the inner side of the planes
+  /// through v with these outer normals (entries -1, 0, 1; 0: no plane).
+  [[nodiscard]] Box<3> extent_inside(const Point<3>& outward) const noexcept;
+  [[nodiscard]] const Vertex<3>& center() const noexcept { return *v_; }
+
+  /// Writes the cell down, as LinkRecord reads it.
+  void write(std::vector<Code>& record) const;
+
+  /// The neighbours of a cell that was written down, ascending.
+  [[nodiscard]] static std::span<const Code> neighbours(std::span<const Code> record) noexcept {
+    return LinkRecord(record).neighbours();
+  }
+  /// Neighbours as they were written down, but in the order `before`.
+  template <class Before>
+  static void put_in_order(std::vector<Code>& codes, Before&& before) {
+    std::sort(codes.begin(), codes.end(), before);
+  }
+  /// Calls visit(a, b, c) for the neighbours around each corner of a cell that was written down.
+  template <class Visit>
+  static void for_each_link_simplex(std::span<const Code> record, Visit&& visit) {
+    const LinkRecord link(record);
+    for (std::size_t t = 0; t < link.triangles(); ++t) visit(link.codes(t));
+  }
+
+  /// Whether a vertex at `p` would cut the cell of v that was written down, erring towards yes.
+  [[nodiscard]] static bool may_cut(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
+                                    std::span<const Code> record, const Point<3>& p) noexcept;
+  /// Whether that takes less than a look at memory.
+  static constexpr bool kMayCutIsCheap = false;
+
+  /// Throws InvariantError unless the triangles are a sphere around v, and the corners theirs.
+  void check_invariants() const;
+
+ private:
+  struct Face {
+    std::array<int, 3> end;     // neighbours
+    std::array<int, 3> across;  // the triangle that does not have end[k]
+  };
+  // An edge of the disc that a cut takes, and the triangle that stays beyond it.
+  struct Rim {
+    int from, to;
+    int beyond;
+    bool open;
+  };
+
+  static std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
+  static Point<3> clip_place(const Point<3>& v, double radius, std::size_t i);
+  static Point<3> place_of(const VertexPool<3>& pool, const Point<3>& v, double radius, Code code) {
+    return code >= kVirtual ? clip_place(v, radius, code & 0xff) : pool[code].p;
+  }
+  void clear(const Vertex<3>& v) noexcept;
+  [[nodiscard]] int new_neighbour(Code code, const Point<3>& place);
+  [[nodiscard]] int new_face();
+  void set_face(int t, const Face& face, bool open);
+  void load(const VertexPool<3>& pool, double radius, const LinkRecord& record, bool open);
+  void cut_by_clip(double radius);
+  void close_known(const LinkRecord& record);
+  void aim(const Point<3>& w) noexcept;
+  [[nodiscard]] bool is_clear(double projection) const noexcept {
+    return projection < w2_ / 2 - error_;
+  }
+  [[nodiscard]] double largest_projection() const noexcept;
+  [[nodiscard]] double largest_open_projection() const noexcept;
+  bool find_cut();
+  bool exactly_nearer(int t);
+  void find_rim();
+  void release_ends();
+  void join_rim(int to);
+  void fill_hole(int t);
+  void update_reach();
+  void add_gap_ball(int t, Box<3>& extent) const noexcept;
+
+  const Vertex<3>* v_ = nullptr;
+  double reach2_ = 0;
+  double open2_ = 0;
+  double error_ = 0;
+  // Of the candidate under test: its place, relative to v too, and the corners it takes.
+  Point<3> w_{};
+  Point<3> aim_{};
+  double w2_ = 0;
+  std::vector<int> taken_;
+  std::vector<std::uint8_t> is_taken_;
+  int replaces_ = -1;  // a virtual neighbour at the candidate's very place
+  std::vector<Rim> rim_;
+  std::vector<int> rim_at_;  // by neighbour: the edge of the rim that starts there
+
+  int neighbours_ = 0;
+  std::vector<Point<3>> u_, place_;
+  std::vector<Code> code_;  // kUnused of an unused number
+  std::vector<int> uses_;   // in triangles
+  std::vector<int> unused_;
+  int corners_ = 0;
+  std::vector<double> qx_, qy_, qz_, q2_, tolerance2_;
+  std::vector<Face> face_;
+  std::vector<std::uint8_t> is_open_;
+  std::vector<int> open_;  // the open corners
+  int open_count_ = 0;
+
+  static constexpr Code kUnused = 0xffffffffu;
+};
+
+inline bool VoronoiCell3::enters(const Point<3>& corner, double side,
+                                 double margin) const noexcept {
+  Point<3> lo, hi;
+  bool holds_v = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    lo[i] = corner[i] - margin;
+    hi[i] = corner[i] + side + margin;
+    holds_v &= lo[i] <= 0 && hi[i] >= 0;
+  }
+  if (holds_v) return true;
+  bool enters = false;  // no early end, which could not be predicted
+  for (int k = 0; k < open_count_; ++k) {
+    const std::size_t t = index(open_[index(k)]);
+    const double dx = std::max(std::max(lo[0] - qx_[t], qx_[t] - hi[0]), 0.0);
+    const double dy = std::max(std::max(lo[1] - qy_[t], qy_[t] - hi[1]), 0.0);
+    const double dz = std::max(std::max(lo[2] - qz_[t], qz_[t] - hi[2]), 0.0);
+    enters |= dx * dx + dy * dy + dz * dz <= q2_[t] * (1 + 0x1p-30);
+  }
+  return enters;
+}
+
+inline bool VoronoiCell3::has(VertexHandle u) const noexcept {
+  bool has = false;
+  for (int i = 0; i < neighbours_; ++i) has |= code_[index(i)] == u;
+  return has;
+}
+
+template <class Left>
+bool VoronoiCell3::restore(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
+                           std::span<const Code> record, Left&& left, bool repair) {
+  const LinkRecord link(record);
+  const auto codes = link.neighbours();
+  if (std::all_of(codes.begin(), codes.end(), left)) {
+    clear(v);
+    load(pool, radius, link, !repair);
+    if (!repair) cut_by_clip(radius);
+    return true;
+  }
+  reset(v, radius);
+  for (const Code code : codes) {
+    if (code < kVirtual && left(code) && cuts(pool[code].p)) cut(code);
+  }
+  if (repair) close_known(link);
+  return true;
+}
+
+}  // namespace mesher::detail

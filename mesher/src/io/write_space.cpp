@@ -1,0 +1,201 @@
+// The formats of meshes of tetrahedra: those of the plane's writers, with a third coordinate.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/text.hpp"
+#include "mesh/canonical.hpp"
+#include "mesher/space_files.hpp"
+
+namespace mesher {
+
+namespace {
+
+using Face = std::array<std::uint32_t, 3>;
+
+constexpr std::size_t kFirst = 1;  // of what is numbered in TetGen's, Gmsh's and Medit's files
+constexpr int kVtkTetrahedron = 10;
+
+// As seen from outside, counterclockwise. Corners abcd are positively oriented: abc is
+// counterclockwise seen from d, which is inside.
+std::array<Face, 4> faces_of(const Mesh<3>::Simplex& s) {
+  const auto [a, b, c, d] = s;
+  return {Face{a, c, b}, Face{a, b, d}, Face{b, c, d}, Face{a, d, c}};
+}
+
+void write_place(const Point<3>& p, TextFile& file) { file << p[0] << ' ' << p[1] << ' ' << p[2]; }
+
+template <class Corners>
+void write_numbered(const Corners& corners, TextFile& file) {
+  for (const std::uint32_t corner : corners) file << ' ' << corner + kFirst;
+}
+
+void write_node(const Mesh<3>& mesh, TextFile& file) {
+  file << mesh.vertices.size() << " 3 1 1\n";
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    file << i + kFirst << ' ';
+    write_place(mesh.vertices[i], file);
+    file << (mesh.kinds[i] == VertexKind::input ? " 1" : " 0");
+    file << (mesh.kinds[i] == VertexKind::boundary ? " 1\n" : " 0\n");
+  }
+}
+
+void write_ele(const Mesh<3>& mesh, TextFile& file) {
+  file << mesh.simplices.size() << " 4 0\n";
+  for (std::size_t i = 0; i < mesh.simplices.size(); ++i) {
+    file << i + kFirst;
+    write_numbered(mesh.simplices[i], file);
+    file << '\n';
+  }
+}
+
+void write_face(const Mesh<3>& mesh, TextFile& file) {
+  const auto faces = boundary_faces(mesh);
+  file << faces.size() << " 1\n";
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    file << i + kFirst;
+    write_numbered(faces[i], file);
+    file << " 1\n";
+  }
+}
+
+void write_vtu(const Mesh<3>& mesh, TextFile& file) {
+  file << "<?xml version=\"1.0\"?>\n"
+          "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+          "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\""
+       << mesh.vertices.size() << "\" NumberOfCells=\"" << mesh.simplices.size() << "\">\n"
+       << "<PointData Scalars=\"kind\">\n"
+          "<DataArray type=\"UInt8\" Name=\"kind\" format=\"ascii\">\n";
+  for (const VertexKind kind : mesh.kinds) file << static_cast<int>(kind) << '\n';
+  file << "</DataArray>\n</PointData>\n<Points>\n<DataArray type=\"Float64\" Name=\"Points\" "
+          "NumberOfComponents=\"3\" format=\"ascii\">\n";
+  for (const Point<3>& p : mesh.vertices) {
+    write_place(p, file);
+    file << '\n';
+  }
+  file << "</DataArray>\n</Points>\n<Cells>\n"
+          "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
+  for (const auto& [a, b, c, d] : mesh.simplices) {
+    file << a << ' ' << b << ' ' << c << ' ' << d << '\n';
+  }
+  file << "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
+  for (std::size_t i = 1; i <= mesh.simplices.size(); ++i) file << 4 * i << '\n';
+  file << "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n";
+  for (std::size_t i = 0; i < mesh.simplices.size(); ++i) file << kVtkTetrahedron << '\n';
+  file << "</DataArray>\n</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+
+void write_vtk(const Mesh<3>& mesh, TextFile& file) {
+  file << "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS "
+       << mesh.vertices.size() << " double\n";
+  for (const Point<3>& p : mesh.vertices) {
+    write_place(p, file);
+    file << '\n';
+  }
+  const std::size_t cells = mesh.simplices.size();
+  file << "CELLS " << cells << ' ' << 5 * cells << '\n';
+  for (const auto& [a, b, c, d] : mesh.simplices) {
+    file << "4 " << a << ' ' << b << ' ' << c << ' ' << d << '\n';
+  }
+  file << "CELL_TYPES " << cells << '\n';
+  for (std::size_t i = 0; i < cells; ++i) file << kVtkTetrahedron << '\n';
+  file << "POINT_DATA " << mesh.vertices.size() << "\nFIELD FieldData 1\nkind 1 "
+       << mesh.vertices.size() << " unsigned_char\n";
+  for (const VertexKind kind : mesh.kinds) file << static_cast<int>(kind) << '\n';
+}
+
+// One entity, the volume 1, that all nodes and elements are of.
+void write_msh(const Mesh<3>& mesh, TextFile& file) {
+  constexpr int kVolume = 3, kTetrahedron = 4;  // the entity's dimension, the elements' type
+  Box<3> box;
+  if (!mesh.vertices.empty()) box = {mesh.vertices.front(), mesh.vertices.front()};
+  for (const Point<3>& p : mesh.vertices) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      box.lo[i] = std::min(box.lo[i], p[i]);
+      box.hi[i] = std::max(box.hi[i], p[i]);
+    }
+  }
+  file << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 ";
+  write_place(box.lo, file);
+  file << ' ';
+  write_place(box.hi, file);
+  const std::size_t nodes = mesh.vertices.size(), elements = mesh.simplices.size();
+  file << " 0 0\n$EndEntities\n$Nodes\n1 " << nodes << " 1 " << nodes << '\n'
+       << kVolume << " 1 0 " << nodes << '\n';
+  for (std::size_t i = 0; i < nodes; ++i) file << i + kFirst << '\n';
+  for (const Point<3>& p : mesh.vertices) {
+    write_place(p, file);
+    file << '\n';
+  }
+  file << "$EndNodes\n$Elements\n1 " << elements << " 1 " << elements << '\n'
+       << kVolume << " 1 " << kTetrahedron << ' ' << elements << '\n';
+  for (std::size_t i = 0; i < elements; ++i) {
+    file << i + kFirst;
+    write_numbered(mesh.simplices[i], file);
+    file << '\n';
+  }
+  file << "$EndElements\n";
+}
+
+void write_medit(const Mesh<3>& mesh, TextFile& file) {
+  file << "MeshVersionFormatted 2\n\nDimension 3\n\nVertices\n" << mesh.vertices.size() << '\n';
+  for (const Point<3>& p : mesh.vertices) {
+    write_place(p, file);
+    file << " 0\n";
+  }
+  file << "\nTetrahedra\n" << mesh.simplices.size() << '\n';
+  for (const auto& simplex : mesh.simplices) {
+    for (const std::uint32_t corner : simplex) file << corner + kFirst << ' ';
+    file << "0\n";
+  }
+  file << "\nEnd\n";
+}
+
+using Write = void (*)(const Mesh<3>&, TextFile&);
+constexpr std::pair<std::string_view, Write> kSingleFiles[] = {
+    {".vtu", write_vtu}, {".vtk", write_vtk}, {".msh", write_msh}, {".mesh", write_medit}};
+
+}  // namespace
+
+std::vector<Face> boundary_faces(const Mesh<3>& mesh) {
+  std::map<Face, Face> open;  // sorted corners: the face
+  for (const auto& simplex : mesh.simplices) {
+    for (const Face& face : faces_of(simplex)) {
+      Face key = face;
+      std::sort(key.begin(), key.end());
+      const auto [twin, is_new] = open.emplace(key, face);
+      if (!is_new) open.erase(twin);
+    }
+  }
+  std::vector<Face> faces;
+  for (const auto& [key, face] : open) faces.push_back(detail::smallest_first(face));
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+void write_mesh(const Mesh<3>& mesh, const std::string& path) {
+  OutputFiles files;
+  const std::string extension = text::extension(path);
+  if (extension == ".node") {
+    write_node(mesh, files.open(path));
+    write_ele(mesh, files.open(text::with_extension(path, ".ele")));
+    write_face(mesh, files.open(text::with_extension(path, ".face")));
+    return files.commit();
+  }
+  for (const auto& [known, write] : kSingleFiles) {
+    if (extension != known) continue;
+    write(mesh, files.open(path));
+    return files.commit();
+  }
+  throw Error(ErrorCode::unknown_format,
+              "meshes of tetrahedra are written to .node (with .ele and .face), .vtu, .vtk, .msh "
+              "and .mesh, not " +
+                  text::quoted(extension),
+              {path});
+}
+
+}  // namespace mesher

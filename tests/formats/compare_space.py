@@ -1,0 +1,104 @@
+#!/usr/bin/python3
+"""Writes meshes of tetrahedra with space_files and compares what meshio and gmsh read with what
+they are.
+
+    compare_space.py SPACE_FILES
+
+Points must be equal bit for bit and cells equal, with positive volumes; faces must bound a mesh.
+Exit code 77: neither meshio nor gmsh is installed; 1: a difference.
+"""
+import glob
+import struct
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+
+try:
+    import meshio
+except ImportError:
+    meshio = None
+try:
+    import gmsh
+except ImportError:
+    gmsh = None
+
+
+def bits(number):
+    return struct.unpack("<Q", struct.pack("<d", number))[0]
+
+
+def read_truth(path):
+    points, cells = [], []
+    with open(path) as lines:
+        for line in lines:
+            kind, *fields = line.split()
+            (points if kind == "v" else cells).append(tuple(map(int, fields)))
+    return points, cells
+
+
+def by_meshio(path):
+    mesh = meshio.read(path)
+    cells = [tuple(map(int, c)) for b in mesh.cells if b.type == "tetra" for c in b.data]
+    return [tuple(map(bits, p)) for p in mesh.points], cells
+
+
+def by_gmsh(path):
+    gmsh.initialize()
+    gmsh.option.setNumber("General.Verbosity", 0)
+    gmsh.open(path)
+    tags, places, _ = gmsh.model.mesh.getNodes()
+    order = sorted(range(len(tags)), key=lambda i: tags[i])
+    number = {int(tags[i]): k for k, i in enumerate(order)}
+    points = [tuple(bits(x) for x in places[3 * i:3 * i + 3]) for i in order]
+    _, _, nodes = gmsh.model.mesh.getElements(3)
+    corners = [number[int(v)] for block in nodes for v in block]
+    gmsh.finalize()
+    return points, [tuple(corners[i:i + 4]) for i in range(0, len(corners), 4)]
+
+
+def by_hand(stem):
+    """.node, .ele and .face, as TetGen describes them."""
+    def rows(extension):
+        with open(stem + extension) as lines:
+            return [line.split() for line in lines]
+    nodes, elements, faces = rows(".node"), rows(".ele"), rows(".face")
+    points = [tuple(bits(float(x)) for x in row[1:4]) for row in nodes[1:]]
+    cells = [tuple(int(v) - 1 for v in row[1:5]) for row in elements[1:]]
+    sides = Counter(v for a, b, c in ([int(v) - 1 for v in row[1:4]] for row in faces[1:])
+                    for v in ((a, b), (b, c), (c, a)))
+    closed = all(sides[b, a] == n == 1 for (a, b), n in sides.items())
+    counts = (int(nodes[0][0]), int(elements[0][0]), int(faces[0][0]))
+    if not closed or counts != (len(points), len(cells), len(faces) - 1):
+        print(f"{stem}: the faces are no closed surface, or counts differ", file=sys.stderr)
+        return [], []
+    return points, cells
+
+
+def differs(what, found, expected, ordered=True):
+    same = found[0] == expected[0] and (found[1] == expected[1] if ordered else
+                                        Counter(found[1]) == Counter(expected[1]))
+    if not same:
+        print(f"{what}: points or cells differ", file=sys.stderr)
+    return not same
+
+
+def main():
+    if meshio is None and gmsh is None:
+        return 77
+    failures = 0
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([sys.argv[1], folder], check=True)
+        stems = [path[:-6] for path in sorted(glob.glob(folder + "/*.truth"))]
+        for stem in stems:
+            truth = read_truth(stem + ".truth")
+            failures += differs(stem + ".node", by_hand(stem), truth)
+            for extension in (".vtu", ".vtk", ".msh", ".mesh") if meshio else ():
+                failures += differs(f"meshio {extension}", by_meshio(stem + extension), truth)
+            for extension in (".vtk", ".msh", ".mesh") if gmsh else ():
+                failures += differs(f"gmsh {extension}", by_gmsh(stem + extension), truth, False)
+    return 1 if failures or not stems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,66 @@
+// Writing meshes of tetrahedra: the faces of their boundary, and what is refused.
+// (What the files hold is compared by readers of others: tests/formats/compare_space.py.)
+#include "mesher/space_files.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <map>
+
+#include "mesher/mesher.hpp"
+#include "mesher/predicates.hpp"
+#include "scratch_file.hpp"
+#include "space_points.hpp"
+
+namespace {
+
+using mesher::Mesh;
+using mesher::Point;
+
+Mesh<3> some_mesh() {
+  const auto points = support::space_points(support::SpaceFamily::uniform, 20, 3);
+  return mesher::mesh_statically<3>(points, {.domain = mesher::snapped_domain<3>(points)});
+}
+
+}  // namespace
+
+TEST_CASE("the boundary's faces are those on the box's sides, seen from outside, in one surface") {
+  const Mesh<3> mesh = some_mesh();
+  const auto faces = mesher::boundary_faces(mesh);
+  const auto input = std::find(mesh.kinds.begin(), mesh.kinds.end(), mesher::VertexKind::input);
+  const Point<3>& middle = mesh.vertices[static_cast<std::size_t>(input - mesh.kinds.begin())];
+  std::map<std::array<std::uint32_t, 2>, int> sides;
+  for (const auto& f : faces) {
+    CHECK(f[0] == *std::min_element(f.begin(), f.end()));
+    // Counterclockwise seen from outside: clockwise seen from a vertex inside.
+    CHECK(mesher::predicates::orient3d(mesh.vertices[f[0]], mesh.vertices[f[1]],
+                                       mesh.vertices[f[2]], middle) < 0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      CHECK(mesh.kinds[f[k]] == mesher::VertexKind::boundary);
+      ++sides[{f[k], f[(k + 1) % 3]}];
+    }
+  }
+  for (const auto& [side, count] : sides) CHECK((count == 1 && sides.count({side[1], side[0]})));
+  CHECK(std::is_sorted(faces.begin(), faces.end()));
+  const auto on_boundary =
+      std::count(mesh.kinds.begin(), mesh.kinds.end(), mesher::VertexKind::boundary);
+  CHECK(static_cast<long>(faces.size()) == 2 * on_boundary - 4);  // a sphere
+  CHECK(mesher::boundary_faces({}).empty());
+}
+
+TEST_CASE("a mesh of tetrahedra is refused for formats of the plane, and nothing is written") {
+  const support::ScratchFolder folder;
+  for (const char* name : {"mesh.svg", "mesh.off", "mesh"}) {
+    INFO(name);
+    try {
+      mesher::write_mesh(some_mesh(), folder.path(name));
+      FAIL("written");
+    } catch (const mesher::Error& e) {
+      CHECK(e.code() == mesher::ErrorCode::unknown_format);
+    }
+    CHECK_FALSE(std::filesystem::exists(folder.path(name)));
+  }
+  std::filesystem::create_directories(folder.path("mesh.ele"));  // in the way of the second file
+  CHECK_THROWS_AS(mesher::write_mesh(some_mesh(), folder.path("mesh.node")), mesher::Error);
+  CHECK_FALSE(std::filesystem::exists(folder.path("mesh.node")));
+}
