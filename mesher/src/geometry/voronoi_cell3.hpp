@@ -18,9 +18,11 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geometry/link_record.hpp"
+#include "geometry/space.hpp"
 #include "index/vertex.hpp"
 #include "mesher/mesh.hpp"
 
@@ -146,6 +148,8 @@ class VoronoiCell3 {
   [[nodiscard]] int new_face();
   void set_face(int t, const Face& face, bool open);
   void load(const VertexPool<3>& pool, double radius, const LinkRecord& record, bool open);
+  template <class Left>
+  void cut_by_nearest(const VertexPool<3>& pool, std::span<const Code> codes, Left&& left);
   void cut_by_clip(double radius);
   void close_known(const LinkRecord& record);
   void aim(const Point<3>& w) noexcept;
@@ -175,6 +179,7 @@ class VoronoiCell3 {
   std::vector<std::uint8_t> is_taken_;
   int replaces_ = -1;  // a virtual neighbour at the candidate's very place
   std::vector<Rim> rim_;
+  std::vector<std::pair<double, Code>> by_distance_;
   std::vector<int> rim_at_;  // by neighbour: the edge of the rim that starts there
 
   int neighbours_ = 0;
@@ -219,6 +224,21 @@ inline bool VoronoiCell3::has(VertexHandle u) const noexcept {
   return has;
 }
 
+// The nearest first: then few cut what the next ones take away again.
+template <class Left>
+void VoronoiCell3::cut_by_nearest(const VertexPool<3>& pool, std::span<const Code> codes,
+                                  Left&& left) {
+  by_distance_.clear();
+  for (const Code code : codes) {
+    if (code >= kVirtual || !left(code)) continue;
+    by_distance_.emplace_back(squared_distance(pool[code].p, v_->p), code);
+  }
+  std::sort(by_distance_.begin(), by_distance_.end());
+  for (const auto& [distance2, code] : by_distance_) {
+    if (cuts(pool[code].p)) cut(code);
+  }
+}
+
 template <class Left>
 bool VoronoiCell3::restore(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
                            std::span<const Code> record, Left&& left, bool repair) {
@@ -231,9 +251,7 @@ bool VoronoiCell3::restore(const VertexPool<3>& pool, const Vertex<3>& v, double
     return true;
   }
   reset(v, radius);
-  for (const Code code : codes) {
-    if (code < kVirtual && left(code) && cuts(pool[code].p)) cut(code);
-  }
+  cut_by_nearest(pool, codes, left);
   if (repair) close_known(link);
   return true;
 }

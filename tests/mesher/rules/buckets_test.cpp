@@ -16,10 +16,10 @@ using mesher::Rule;
 using mesher::SplitMix64;
 using mesher::detail::Buckets;
 using mesher::detail::kLevels;
-using mesher::detail::kReads;
+constexpr double kReads = mesher::detail::kReads<2>;
 using mesher::detail::mesh_box;
 using mesher::detail::MeshBox;
-using mesher::detail::promise;
+constexpr auto promise = mesher::detail::promise<2>;
 
 constexpr Rule kRules[] = {Rule::radius_edge, Rule::voronoi_aspect};
 constexpr double kBounds[] = {1.05, 1.4142, 2.0, 10.0};
