@@ -204,7 +204,8 @@ class PslgJudge {
           const P u{(at(p)[0] - apex[0]) / from_p, (at(p)[1] - apex[1]) / from_p};
           const P w{(at(q)[0] - apex[0]) / from_q, (at(q)[1] - apex[1]) / from_q};
           if (u[0] * w[0] + u[1] * w[1] <= 0.5 - 1e-9) continue;
-          if (std::abs(from_p - from_q) > 1e-8 * (from_p + from_q)) continue;
+          // Of coordinates up to 16; they are rounded.
+          if (std::abs(from_p - from_q) > 1e-8 * (from_p + from_q) + 0x1p-46) continue;
           if (inside || mesher::predicates::orient2d(at(p), at(q), apex) > 0) return true;
         }
       }

@@ -7,6 +7,7 @@
 
 #include "io/text.hpp"
 #include "mesh/checked_mesh.hpp"
+#include "mesh/distance_rounding.hpp"
 
 namespace mesher::detail {
 namespace {
@@ -47,7 +48,8 @@ class SmallAngles {
         if (o != t_near || mesh_.at(p) == o || mesh_.at(q) == o) continue;
         const double to_p = distance(o, mesh_.at(p)), to_q = distance(o, mesh_.at(q));
         const bool far = mesh_.at(p) == s_far || mesh_.at(q) == t_far;
-        if (!far && std::abs(to_p - to_q) > kEqual * std::max(to_p, to_q)) continue;
+        const double tolerance = kEqual * std::max(to_p, to_q) + distance_rounding(o);
+        if (!far && std::abs(to_p - to_q) > tolerance) continue;
         if (is_small(o, s_far, t_far)) return true;
       }
     }

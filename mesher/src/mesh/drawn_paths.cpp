@@ -2,11 +2,12 @@
 #include <cmath>
 
 #include "mesh/checked_mesh.hpp"
+#include "mesh/distance_rounding.hpp"
 
 namespace mesher::detail {
 namespace {
 
-constexpr double kStraight = 1e-6;  // sine of what may be rounding, where edges are short
+constexpr double kStraight = 1e-6;  // sine of what may be rounding in a file
 
 class Drawing {
  public:
@@ -39,7 +40,9 @@ class Drawing {
     const Point<2>&o = mesh_.at(v), &p = mesh_.at(other(at_[v][0], v)),
           &q = mesh_.at(other(at_[v][1], v));
     const double ux = p[0] - o[0], uy = p[1] - o[1], wx = q[0] - o[0], wy = q[1] - o[1];
-    return std::abs(ux * wy - uy * wx) <= -kStraight * (ux * wx + uy * wy);
+    const double dot = ux * wx + uy * wy;
+    const double rounding = distance_rounding(o) * (std::hypot(ux, uy) + std::hypot(wx, wy));
+    return dot < 0 && std::abs(ux * wy - uy * wx) <= rounding - kStraight * dot;
   }
 
   LinePath follow(std::uint32_t from, std::size_t e) {

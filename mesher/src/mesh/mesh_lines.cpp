@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "geometry/segment_tests.hpp"
+#include "mesh/distance_rounding.hpp"
 #include "mesh/forced.hpp"
 
 namespace mesher::detail {
@@ -76,7 +77,8 @@ std::vector<MeshLines::Wedge> MeshLines::wedges_across(std::uint32_t p, std::uin
   const bool both_inside = through_[p] != kNone && through_[q] != kNone;
   for_each_leg(p, [&](std::uint32_t s, std::uint32_t apex, double from_p) {
     for_each_leg(q, [&](std::uint32_t t, std::uint32_t other, double from_q) {
-      if (s == t || apex != other || std::abs(from_p - from_q) > kEqual * (from_p + from_q)) return;
+      const double tolerance = kEqual * (from_p + from_q) + distance_rounding(mesh_.vertices[apex]);
+      if (s == t || apex != other || std::abs(from_p - from_q) > tolerance) return;
       const double angle = degrees(s, t, apex);
       if (angle >= kSmall) return;
       const bool left =

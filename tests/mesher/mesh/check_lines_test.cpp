@@ -2,8 +2,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "mesher/angles.hpp"
 #include "mesher/check.hpp"
 #include "mesher/generate.hpp"
+#include "mesher/mesher.hpp"
 #include "mesher/predicates.hpp"
 
 namespace {
@@ -302,4 +304,24 @@ TEST_CASE("a triangle above the limit of area is found") {
   const MeshData mesh = plate(true);
   CHECK(broken(mesh, {.boundary = BoundaryRule::any, .max_area = 0.5}) == "");
   CHECK(broken(mesh, {.boundary = BoundaryRule::any, .max_area = 0.49}) == "area");
+}
+
+// Distances from the apex are equal but for the rounding of coordinates, which is much there.
+TEST_CASE("triangles at a small angle are excused however near to its apex they are") {
+  for (const double e : {1e-9, 1e-11, 1e-12}) {
+    INFO("features " << e << " apart");
+    const mesher::Options<2> options{.domain = {{0, 0}, {16, 16}}};
+    const std::vector<Point<2>> points{{9, 8.75}, {12.2, 8.75}, {11, 7.875}, {9 - e, 8.75 + e / 3}};
+    const std::vector<mesher::Segment> legs{{FeatureId{1}, FeatureId{1}, FeatureId{2}},
+                                            {FeatureId{2}, FeatureId{1}, FeatureId{3}}};
+    const auto mesh = mesher::mesh_statically(points, legs, options);
+    const auto report = mesher::angle_report(mesh, options);
+    CHECK(report.forced > 20);
+    CHECK(report.smallest_elsewhere_deg >= report.promised_deg - 1e-3);
+    MeshData data = mesh_of(mesh.vertices, mesh.simplices);
+    for (const auto& edge : mesh.edges) {
+      data.features.edges.push_back({edge.low, edge.high, edge.line, 0});
+    }
+    CHECK(trouble(data, {.rho = options.rho, .features = &data.features}) == "");
+  }
 }
