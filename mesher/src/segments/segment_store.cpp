@@ -104,6 +104,7 @@ Point<2> SegmentStore::at(const Segment& s, double fraction) const noexcept {
 
 SegmentStore::TileHandle SegmentStore::new_tile(const Tile& tile) {
   if (free_tiles_ == 0) {
+    if (tiles_.size() == tiles_.capacity()) tiles_.reserve(tiles_.size() + tiles_.size() / 2 + 1);
     tiles_.push_back(tile);
     return static_cast<TileHandle>(tiles_.size() - 1);
   }
