@@ -622,8 +622,15 @@ void write_or_read(Scope& s, int level) {
   if (level + 1 < n.depth) s.call<write_or_read>(level + 1);
 }
 
+// With the address sanitizer a call takes more of the stack.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr int kDeep = 3000;
+#else
+constexpr int kDeep = 6000;
+#endif
+
 TEST_CASE("a read passes what calls around it wrote last time, however many these are") {
-  for (const int depth : {2, 3, 50, 6000}) {  // of 6000 each would pass half of the others
+  for (const int depth : {2, 3, 50, kDeep}) {  // of kDeep each would pass half of the others
     Nested n(depth);
     n.e.run<write_or_read>(0);
     for (const int reads : {1, 2, 0, 2, 1, 0, 1, 2}) {
