@@ -160,7 +160,8 @@ void print_discs(const Case& c, mesher::Mesher<2>& m, double radius) {
   while (edits.vertices.size() < 20) {
     const Point<2> p{random.unit(), random.unit()};
     if (SizedSquare::beyond(p) > -radius) continue;
-    const auto disc = std::make_shared<Disc>(p, radius, mesher::size_of_area(c.options.max_area));
+    const double size = std::sqrt(c.options.max_area / mesher::kAreaOfSize);
+    const auto disc = std::make_shared<Disc>(p, radius, size);
     const auto count = [&] {
       const auto mesh = m.mesh();
       return static_cast<double>(

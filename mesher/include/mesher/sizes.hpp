@@ -26,9 +26,6 @@ namespace mesher {
 /// The area of an equilateral triangle with edges of length 1.
 inline constexpr double kAreaOfSize = 0.43301270189221932;
 
-/// The size that allows triangles of this area.
-[[nodiscard]] double size_of_area(double area);
-
 /// Sizes between two bounds.
 struct SizeRange {
   double least = 0;
@@ -77,9 +74,5 @@ class SlopedSizes final : public SizeField<2> {
 /// What Mesher::limit makes of options: these limits everywhere, or in a box.
 void set_limits(Options<2>& options, const SizeLimits<2>& limits);
 void set_limits(Options<2>& options, const Box<2>& box, const SizeLimits<2>& limits);
-
-/// The least of several at each place; null stands for no limit.
-[[nodiscard]] std::shared_ptr<const SizeField<2>> least_sizes(
-    std::vector<std::shared_ptr<const SizeField<2>>> fields);
 
 }  // namespace mesher

@@ -2,6 +2,7 @@
 #include "sizes/facet_sizes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -28,8 +29,7 @@ void take(SizeRange& all, const SizeRange& r) {
 
 }  // namespace
 
-FacetSizes::FacetSizes(std::vector<Facet> facets, std::vector<double> plateaus, bool covering)
-    : facets_(std::move(facets)), plateaus_(std::move(plateaus)), covering_(covering) {
+FacetSizes::FacetSizes(std::vector<Facet> facets) : facets_(std::move(facets)) {
   nodes_.reserve(2 * facets_.size());
   if (!facets_.empty()) build(0, facets_.size());
 }
@@ -87,7 +87,6 @@ double FacetSizes::at(const Point<2>& p) const {
   return least;
 }
 
-// What lies beside all facets has no limit.
 SizeRange FacetSizes::range(const Box<2>& box) const {
   SizeRange all{kInfinite, 0};
   visit(
@@ -100,7 +99,7 @@ SizeRange FacetSizes::range(const Box<2>& box) const {
       [&](const Facet& f) {
         if (f.meets(box)) take(all, f.range(box));
       });
-  return {all.least, covering_ ? std::max(all.least, all.most) : kInfinite};
+  return {all.least, std::max(all.least, all.most)};
 }
 
 }  // namespace mesher::detail
