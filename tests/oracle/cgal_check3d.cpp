@@ -1,40 +1,37 @@
 // Judges a quality mesh of tetrahedra with exact arithmetic; shares no code with the mesher.
 //
 //   cgal_check3d MESH.node MESH.ele [--input FILE.node] [--rho R]
+//   cgal_check3d --batch FILE     each line of FILE (or of stdin: '-') holds such arguments
 //
 // A mesh is good when
 //   (1) no two vertices coincide, and every vertex is a corner of a tetrahedron;
 //   (2) every tetrahedron is positively oriented;
 //   (3) the tetrahedra tile the box of the vertices: a face has one on each side, or one and lies
-//   on
-//       the box's boundary; the volumes add up to the box's exactly;
+//       on the box's boundary; the volumes add up to the box's exactly;
 //   (4) it is Delaunay: no vertex opposite a face lies inside the sphere on its other side. Where
-//   it
-//       lies on that sphere, the greatest of the five in lexicographic order counts as outside of
-//       the sphere of the others (if those are in one plane, the next greatest, and so on);
+//       it lies on that sphere, the greatest of the five in lexicographic order counts as outside
+//       of the sphere of the others (if those are in one plane, the next greatest, and so on);
 //   (5) every point of --input is a vertex with the same coordinates (the sign of 0 aside);
 //   (6) no tetrahedron has circumradius > R times its shortest edge (R the double nearest to what
 //       is written; no bound without --rho).
 //
 // Prints `ok MESH.node: ...`, or a line for each of the first failures of every kind and then
-// `FAILED MESH.node: ...`. Exit code: 0 good, 1 not, 2 cannot be judged.
+// `FAILED MESH.node: ...`. Exit code: 0 all good, 1 some mesh is not, 2 cannot be judged.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Interval_nt.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iomanip>
-#include <iostream>
 #include <map>
-#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "judge_main.hpp"
 #include "node_file.hpp"
 
 namespace {
@@ -43,15 +40,9 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Exact = CGAL::Exact_rational;
 using Interval = CGAL::Interval_nt<>;
+using oracle::Job;
 using Place = std::array<double, 3>;
 using Corners = std::array<std::size_t, 4>;
-
-constexpr int kShownFailures = 5;  // of each kind
-
-struct Job {
-  std::string nodes, elements, input;  // input: empty if none
-  std::optional<double> rho;
-};
 
 struct Places {
   std::vector<long> ids;
@@ -124,8 +115,9 @@ class Judge {
       check_volume();
       if (!job_.input.empty()) check_input();
     }
-    report();
-    return failures_.empty();
+    failures_.report(std::to_string(points_.size()) + " vertices, " +
+                     std::to_string(tetrahedra_.size()) + " tetrahedra");
+    return failures_.none();
   }
 
  private:
@@ -135,10 +127,7 @@ class Judge {
     bool even;  // corners in the order of the sorted face, seen from the opposite corner
   };
 
-  void fail(const std::string& kind, const std::string& what) {
-    if (++failures_[kind] <= kShownFailures)
-      std::cout << job_.nodes << ": " << kind << ": " << what << '\n';
-  }
+  void fail(const std::string& kind, const std::string& what) { failures_.add(kind, what); }
   std::string name(std::size_t v) const {
     std::ostringstream out;
     const Place& p = nodes_.at[v];
@@ -310,50 +299,16 @@ class Judge {
     }
   }
 
-  void report() const {
-    std::cout << (failures_.empty() ? "ok " : "FAILED ") << job_.nodes << ": ";
-    if (failures_.empty())
-      std::cout << points_.size() << " vertices, " << tetrahedra_.size() << " tetrahedra";
-    for (const auto& [kind, count] : failures_) std::cout << kind << ' ' << count << ' ';
-    std::cout << std::endl;
-  }
-
   Job job_;
   Places nodes_;
   std::vector<Corners> tetrahedra_;
   std::vector<Point> points_;
   Place lo_, hi_;
-  std::map<std::string, long> failures_;
+  oracle::Failures failures_{job_.nodes};
 };
-
-Job parse_job(const std::vector<std::string>& words) {
-  Job job;
-  std::vector<std::string> files;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] != "--input" && words[i] != "--rho") {
-      files.push_back(words[i]);
-      continue;
-    }
-    if (i + 1 == words.size()) throw std::runtime_error(words[i] + " needs a value");
-    words[i] == "--input" ? void(job.input = words[i + 1])
-                          : void(job.rho = std::stod(words[i + 1]));
-    ++i;
-  }
-  if (files.size() != 2)
-    throw std::runtime_error(
-        "usage: cgal_check3d MESH.node MESH.ele [--input FILE.node] [--rho R]");
-  job.nodes = files[0];
-  job.elements = files[1];
-  return job;
-}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return Judge(parse_job({argv + 1, argv + argc})).verdict() ? 0 : 1;
-  } catch (const std::exception& error) {
-    std::cerr << "cgal_check3d: " << error.what() << '\n';
-    return 2;
-  }
+  return oracle::judge_main<Judge>("cgal_check3d", {argv + 1, argv + argc});
 }
