@@ -47,12 +47,12 @@ class Judge {
   explicit Judge(const Job& job)
       : job_(job),
         nodes_(oracle::read_node(job.nodes)),
-        elements_(oracle::read_ele(job.elements, nodes_)) {
+        elements_(oracle::read_ele<3>(job.elements, nodes_.ids)) {
     for (const Site& s : nodes_.sites) points_.emplace_back(s.x, s.y);
   }
 
   bool verdict() {
-    if (points_.empty() || elements_.triangles.empty()) {
+    if (points_.empty() || elements_.items.empty()) {
       fail("empty", "no vertices or no triangles");
     } else {
       find_box();
@@ -90,7 +90,7 @@ class Judge {
   }
 
   std::string triangle_name(std::size_t t) const {
-    const Triangle& c = elements_.triangles[t];
+    const Triangle& c = elements_.items[t];
     return "triangle " + std::to_string(elements_.ids[t]) + " of vertices " +
            std::to_string(nodes_.ids[c[0]]) + ' ' + std::to_string(nodes_.ids[c[1]]) + ' ' +
            std::to_string(nodes_.ids[c[2]]);
@@ -120,7 +120,7 @@ class Judge {
       if (!is_new) fail("coincident", name(v) + " and " + name(other->second));
     }
     std::vector<bool> used(nodes_.sites.size());
-    for (const Triangle& corners : elements_.triangles)
+    for (const Triangle& corners : elements_.items)
       for (const std::size_t v : corners) used[v] = true;
     for (std::size_t v = 0; v < used.size(); ++v)
       if (!used[v]) fail("unused", name(v) + " is in no triangle");
@@ -128,8 +128,8 @@ class Judge {
 
   // (2), (6)
   void check_triangles() {
-    for (std::size_t t = 0; t < elements_.triangles.size(); ++t) {
-      const auto& [a, b, c] = elements_.triangles[t];
+    for (std::size_t t = 0; t < elements_.items.size(); ++t) {
+      const auto& [a, b, c] = elements_.items[t];
       if (CGAL::orientation(points_[a], points_[b], points_[c]) != CGAL::LEFT_TURN)
         fail("orientation", triangle_name(t));
       else
@@ -151,7 +151,7 @@ class Judge {
   std::pair<std::array<Number, 3>, Number> measure(std::size_t t) const {
     std::array<Number, 3> x, y, squares;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Site& s = nodes_.sites[elements_.triangles[t][k]];
+      const Site& s = nodes_.sites[elements_.items[t][k]];
       x[k] = Number(s.x);
       y[k] = Number(s.y);
     }
@@ -192,9 +192,9 @@ class Judge {
   // (3), (4)
   void check_edges() {
     std::unordered_map<DirectedEdge, Side, EdgeHash> sides;
-    sides.reserve(3 * elements_.triangles.size());
-    for (std::size_t t = 0; t < elements_.triangles.size(); ++t) {
-      const Triangle& c = elements_.triangles[t];
+    sides.reserve(3 * elements_.items.size());
+    for (std::size_t t = 0; t < elements_.items.size(); ++t) {
+      const Triangle& c = elements_.items[t];
       for (std::size_t k = 0; k < 3; ++k) {
         const DirectedEdge edge{c[k], c[(k + 1) % 3]};
         if (!sides.insert({edge, {t, c[(k + 2) % 3]}}).second)
@@ -212,7 +212,7 @@ class Judge {
   }
 
   void check_delaunay(const Side& side, const Side& twin) {
-    const auto& [a, b, c] = elements_.triangles[side.triangle];
+    const auto& [a, b, c] = elements_.items[side.triangle];
     if (CGAL::side_of_oriented_circle(points_[a], points_[b], points_[c], points_[twin.opposite]) ==
         CGAL::ON_POSITIVE_SIDE)
       fail("delaunay", name(twin.opposite) + " in the circle of " + triangle_name(side.triangle));
@@ -221,7 +221,7 @@ class Judge {
   // (3)
   void check_area() {
     Exact twice = 0;
-    for (const auto& [a, b, c] : elements_.triangles) {
+    for (const auto& [a, b, c] : elements_.items) {
       const Exact ax = nodes_.sites[a].x, ay = nodes_.sites[a].y;
       twice += (nodes_.sites[b].x - ax) * (nodes_.sites[c].y - ay) -
                (nodes_.sites[c].x - ax) * (nodes_.sites[b].y - ay);
@@ -249,14 +249,14 @@ class Judge {
 
   std::string description() const {
     std::ostringstream out;
-    out << nodes_.sites.size() << " vertices, " << elements_.triangles.size()
+    out << nodes_.sites.size() << " vertices, " << elements_.items.size()
         << " triangles, radius-edge at most " << std::setprecision(6) << worst_ratio_;
     return out.str();
   }
 
   Job job_;
   oracle::NodeFile nodes_;
-  oracle::EleFile elements_;
+  oracle::EleFile<3> elements_;
   std::vector<Kernel::Point_2> points_;
   Site lo_, hi_;
   double worst_ratio_ = 0;  // for people; nothing is decided by it

@@ -28,7 +28,6 @@
 #include <set>
 #include <sstream>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "judge_main.hpp"
@@ -43,45 +42,6 @@ using Interval = CGAL::Interval_nt<>;
 using oracle::Job;
 using Place = std::array<double, 3>;
 using Corners = std::array<std::size_t, 4>;
-
-struct Places {
-  std::vector<long> ids;
-  std::vector<Place> at;
-};
-
-Places read_places(const std::string& path) {
-  oracle::TokenLines lines(path);
-  const auto header = lines.next(2);
-  if (lines.parse<int>(header[1]) != 3) lines.fail("not in space");
-  Places file;
-  for (auto count = lines.parse<std::size_t>(header[0]); count > 0; --count) {
-    const auto tokens = lines.next(4);
-    file.ids.push_back(lines.parse<long>(tokens[0]));
-    file.at.push_back({lines.parse<double>(tokens[1]), lines.parse<double>(tokens[2]),
-                       lines.parse<double>(tokens[3])});
-  }
-  return file;
-}
-
-std::vector<Corners> read_tetrahedra(const std::string& path, const Places& nodes) {
-  std::unordered_map<long, std::size_t> position;
-  for (std::size_t i = 0; i < nodes.ids.size(); ++i) position[nodes.ids[i]] = i;
-  oracle::TokenLines lines(path);
-  const auto header = lines.next(2);
-  if (lines.parse<int>(header[1]) != 4) lines.fail("not tetrahedra");
-  std::vector<Corners> all;
-  for (auto count = lines.parse<std::size_t>(header[0]); count > 0; --count) {
-    const auto tokens = lines.next(5);
-    Corners corners{};
-    for (std::size_t k = 0; k < 4; ++k) {
-      const auto found = position.find(lines.parse<long>(tokens[k + 1]));
-      if (found == position.end()) lines.fail("unknown vertex " + tokens[k + 1]);
-      corners[k] = found->second;
-    }
-    all.push_back(corners);
-  }
-  return all;
-}
 
 template <class Number>
 using Vector = std::array<Number, 3>;
@@ -99,9 +59,9 @@ class Judge {
  public:
   explicit Judge(const Job& job)
       : job_(job),
-        nodes_(read_places(job.nodes)),
-        tetrahedra_(read_tetrahedra(job.elements, nodes_)) {
-    for (const Place& p : nodes_.at) points_.emplace_back(p[0], p[1], p[2]);
+        nodes_(oracle::read_places<3>(job.nodes)),
+        tetrahedra_(oracle::read_ele<4>(job.elements, nodes_.ids).items) {
+    for (const Place& p : nodes_.items) points_.emplace_back(p[0], p[1], p[2]);
   }
 
   bool verdict() {
@@ -130,7 +90,7 @@ class Judge {
   void fail(const std::string& kind, const std::string& what) { failures_.add(kind, what); }
   std::string name(std::size_t v) const {
     std::ostringstream out;
-    const Place& p = nodes_.at[v];
+    const Place& p = nodes_.items[v];
     out << "vertex " << nodes_.ids[v] << std::setprecision(17) << " (" << p[0] << ", " << p[1]
         << ", " << p[2] << ')';
     return out.str();
@@ -142,8 +102,8 @@ class Judge {
   }
 
   void find_box() {
-    lo_ = hi_ = nodes_.at[0];
-    for (const Place& p : nodes_.at) {
+    lo_ = hi_ = nodes_.items[0];
+    for (const Place& p : nodes_.items) {
       for (std::size_t i = 0; i < 3; ++i) {
         lo_[i] = std::min(lo_[i], p[i]);
         hi_[i] = std::max(hi_[i], p[i]);
@@ -152,9 +112,9 @@ class Judge {
   }
   bool on_box(const Face& face) const {
     for (std::size_t i = 0; i < 3; ++i) {
-      const double x = nodes_.at[face[0]][i];
+      const double x = nodes_.items[face[0]][i];
       if (x != lo_[i] && x != hi_[i]) continue;
-      if (nodes_.at[face[1]][i] == x && nodes_.at[face[2]][i] == x) return true;
+      if (nodes_.items[face[1]][i] == x && nodes_.items[face[2]][i] == x) return true;
     }
     return false;
   }
@@ -162,11 +122,11 @@ class Judge {
   // (1)
   void check_vertices() {
     std::map<Place, std::size_t> seen;
-    for (std::size_t v = 0; v < nodes_.at.size(); ++v) {
-      const auto [other, is_new] = seen.insert({nodes_.at[v], v});
+    for (std::size_t v = 0; v < nodes_.items.size(); ++v) {
+      const auto [other, is_new] = seen.insert({nodes_.items[v], v});
       if (!is_new) fail("coincident", name(v) + " and " + name(other->second));
     }
-    std::vector<bool> used(nodes_.at.size());
+    std::vector<bool> used(nodes_.items.size());
     for (const Corners& corners : tetrahedra_)
       for (const std::size_t v : corners) used[v] = true;
     for (std::size_t v = 0; v < used.size(); ++v)
@@ -194,7 +154,7 @@ class Judge {
   bool within_bound_in(std::size_t t) const {
     std::array<Vector<Number>, 4> p;
     for (std::size_t k = 0; k < 4; ++k) {
-      for (std::size_t i = 0; i < 3; ++i) p[k][i] = Number(nodes_.at[tetrahedra_[t][k]][i]);
+      for (std::size_t i = 0; i < 3; ++i) p[k][i] = Number(nodes_.items[tetrahedra_[t][k]][i]);
     }
     const auto minus = [](const Vector<Number>& x, const Vector<Number>& y) {
       return Vector<Number>{x[0] - y[0], x[1] - y[1], x[2] - y[2]};
@@ -260,7 +220,7 @@ class Judge {
     five[4] = e;
     std::array<std::size_t, 5> order{0, 1, 2, 3, 4};
     std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
-      return nodes_.at[five[i]] > nodes_.at[five[j]];
+      return nodes_.items[five[i]] > nodes_.items[five[j]];
     });
     for (const std::size_t i : order) {
       if (i == 4) return false;  // e itself is lifted the most: outside
@@ -280,7 +240,7 @@ class Judge {
       std::array<Vector<Exact>, 3> d;
       for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t i = 0; i < 3; ++i)
-          d[k][i] = Exact(nodes_.at[corners[k + 1]][i]) - Exact(nodes_.at[corners[0]][i]);
+          d[k][i] = Exact(nodes_.items[corners[k + 1]][i]) - Exact(nodes_.items[corners[0]][i]);
       }
       six += dot(d[0], cross(d[1], d[2]));
     }
@@ -291,16 +251,16 @@ class Judge {
 
   // (5)
   void check_input() {
-    const std::set<Place> vertices(nodes_.at.begin(), nodes_.at.end());
-    const Places input = read_places(job_.input);
-    for (std::size_t i = 0; i < input.at.size(); ++i) {
-      if (!vertices.count(input.at[i]))
+    const std::set<Place> vertices(nodes_.items.begin(), nodes_.items.end());
+    const auto input = oracle::read_places<3>(job_.input);
+    for (std::size_t i = 0; i < input.items.size(); ++i) {
+      if (!vertices.count(input.items[i]))
         fail("input", "point " + std::to_string(input.ids[i]) + " is no vertex");
     }
   }
 
   Job job_;
-  Places nodes_;
+  oracle::Numbered<Place> nodes_;
   std::vector<Corners> tetrahedra_;
   std::vector<Point> points_;
   Place lo_, hi_;
