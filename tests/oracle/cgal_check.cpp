@@ -22,11 +22,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <iomanip>
-#include <iostream>
 #include <map>
-#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
@@ -34,6 +31,7 @@
 #include <utility>
 #include <vector>
 
+#include "judge_main.hpp"
 #include "node_file.hpp"
 
 namespace {
@@ -41,28 +39,20 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Exact = CGAL::Exact_rational;
 using Interval = CGAL::Interval_nt<>;
+using oracle::Job;
 using oracle::Site;
-
-constexpr int kShownFailures = 5;  // of each kind
-
-struct Job {
-  std::string nodes;
-  std::string elements;
-  std::string input;  // empty: none
-  std::optional<double> rho;
-};
 
 class Judge {
  public:
   explicit Judge(const Job& job)
       : job_(job),
         nodes_(oracle::read_node(job.nodes)),
-        elements_(oracle::read_ele(job.elements, nodes_)) {
+        elements_(oracle::read_ele<3>(job.elements, nodes_.ids)) {
     for (const Site& s : nodes_.sites) points_.emplace_back(s.x, s.y);
   }
 
   bool verdict() {
-    if (points_.empty() || elements_.triangles.empty()) {
+    if (points_.empty() || elements_.items.empty()) {
       fail("empty", "no vertices or no triangles");
     } else {
       find_box();
@@ -72,8 +62,8 @@ class Judge {
       check_area();
       if (!job_.input.empty()) check_input();
     }
-    report();
-    return failures_.empty();
+    failures_.report(description());
+    return failures_.none();
   }
 
  private:
@@ -89,10 +79,7 @@ class Judge {
     }
   };
 
-  void fail(const std::string& kind, const std::string& what) {
-    if (++failures_[kind] <= kShownFailures)
-      std::cout << job_.nodes << ": " << kind << ": " << what << '\n';
-  }
+  void fail(const std::string& kind, const std::string& what) { failures_.add(kind, what); }
 
   std::string name(std::size_t vertex) const {
     std::ostringstream out;
@@ -103,7 +90,7 @@ class Judge {
   }
 
   std::string triangle_name(std::size_t t) const {
-    const Triangle& c = elements_.triangles[t];
+    const Triangle& c = elements_.items[t];
     return "triangle " + std::to_string(elements_.ids[t]) + " of vertices " +
            std::to_string(nodes_.ids[c[0]]) + ' ' + std::to_string(nodes_.ids[c[1]]) + ' ' +
            std::to_string(nodes_.ids[c[2]]);
@@ -133,7 +120,7 @@ class Judge {
       if (!is_new) fail("coincident", name(v) + " and " + name(other->second));
     }
     std::vector<bool> used(nodes_.sites.size());
-    for (const Triangle& corners : elements_.triangles)
+    for (const Triangle& corners : elements_.items)
       for (const std::size_t v : corners) used[v] = true;
     for (std::size_t v = 0; v < used.size(); ++v)
       if (!used[v]) fail("unused", name(v) + " is in no triangle");
@@ -141,8 +128,8 @@ class Judge {
 
   // (2), (6)
   void check_triangles() {
-    for (std::size_t t = 0; t < elements_.triangles.size(); ++t) {
-      const auto& [a, b, c] = elements_.triangles[t];
+    for (std::size_t t = 0; t < elements_.items.size(); ++t) {
+      const auto& [a, b, c] = elements_.items[t];
       if (CGAL::orientation(points_[a], points_[b], points_[c]) != CGAL::LEFT_TURN)
         fail("orientation", triangle_name(t));
       else
@@ -164,7 +151,7 @@ class Judge {
   std::pair<std::array<Number, 3>, Number> measure(std::size_t t) const {
     std::array<Number, 3> x, y, squares;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Site& s = nodes_.sites[elements_.triangles[t][k]];
+      const Site& s = nodes_.sites[elements_.items[t][k]];
       x[k] = Number(s.x);
       y[k] = Number(s.y);
     }
@@ -205,9 +192,9 @@ class Judge {
   // (3), (4)
   void check_edges() {
     std::unordered_map<DirectedEdge, Side, EdgeHash> sides;
-    sides.reserve(3 * elements_.triangles.size());
-    for (std::size_t t = 0; t < elements_.triangles.size(); ++t) {
-      const Triangle& c = elements_.triangles[t];
+    sides.reserve(3 * elements_.items.size());
+    for (std::size_t t = 0; t < elements_.items.size(); ++t) {
+      const Triangle& c = elements_.items[t];
       for (std::size_t k = 0; k < 3; ++k) {
         const DirectedEdge edge{c[k], c[(k + 1) % 3]};
         if (!sides.insert({edge, {t, c[(k + 2) % 3]}}).second)
@@ -225,16 +212,16 @@ class Judge {
   }
 
   void check_delaunay(const Side& side, const Side& twin) {
-    const auto& [a, b, c] = elements_.triangles[side.triangle];
-    if (CGAL::side_of_oriented_circle(points_[a], points_[b], points_[c],
-                                      points_[twin.opposite]) == CGAL::ON_POSITIVE_SIDE)
+    const auto& [a, b, c] = elements_.items[side.triangle];
+    if (CGAL::side_of_oriented_circle(points_[a], points_[b], points_[c], points_[twin.opposite]) ==
+        CGAL::ON_POSITIVE_SIDE)
       fail("delaunay", name(twin.opposite) + " in the circle of " + triangle_name(side.triangle));
   }
 
   // (3)
   void check_area() {
     Exact twice = 0;
-    for (const auto& [a, b, c] : elements_.triangles) {
+    for (const auto& [a, b, c] : elements_.items) {
       const Exact ax = nodes_.sites[a].x, ay = nodes_.sites[a].y;
       twice += (nodes_.sites[b].x - ax) * (nodes_.sites[c].y - ay) -
                (nodes_.sites[c].x - ax) * (nodes_.sites[b].y - ay);
@@ -260,81 +247,24 @@ class Judge {
     }
   }
 
-  void report() const {
-    if (failures_.empty()) {
-      std::cout << "ok " << job_.nodes << ": " << nodes_.sites.size() << " vertices, "
-                << elements_.triangles.size() << " triangles, radius-edge at most "
-                << std::setprecision(6) << worst_ratio_ << std::endl;
-      return;
-    }
-    std::cout << "FAILED " << job_.nodes << ':';
-    for (const auto& [kind, count] : failures_) std::cout << ' ' << kind << ' ' << count;
-    std::cout << std::endl;
+  std::string description() const {
+    std::ostringstream out;
+    out << nodes_.sites.size() << " vertices, " << elements_.items.size()
+        << " triangles, radius-edge at most " << std::setprecision(6) << worst_ratio_;
+    return out.str();
   }
 
   Job job_;
   oracle::NodeFile nodes_;
-  oracle::EleFile elements_;
+  oracle::EleFile<3> elements_;
   std::vector<Kernel::Point_2> points_;
   Site lo_, hi_;
   double worst_ratio_ = 0;  // for people; nothing is decided by it
-  std::map<std::string, long> failures_;
+  oracle::Failures failures_{job_.nodes};
 };
-
-Job parse_job(const std::vector<std::string>& words) {
-  Job job;
-  std::vector<std::string> files;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] != "--input" && words[i] != "--rho") {
-      files.push_back(words[i]);
-      continue;
-    }
-    if (i + 1 == words.size()) throw std::runtime_error(words[i] + " needs a value");
-    if (words[i] == "--input")
-      job.input = words[i + 1];
-    else
-      job.rho = std::stod(words[i + 1]);
-    ++i;
-  }
-  if (files.size() != 2)
-    throw std::runtime_error(
-        "usage: cgal_check MESH.node MESH.ele [--input FILE.node] [--rho R] | --batch FILE");
-  job.nodes = files[0];
-  job.elements = files[1];
-  return job;
-}
-
-bool judge_batch(std::istream& lines) {
-  long judged = 0;
-  long failed = 0;
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream in(line.substr(0, line.find('#')));
-    std::vector<std::string> words;
-    for (std::string word; in >> word;) words.push_back(word);
-    if (words.empty()) continue;
-    ++judged;
-    failed += !Judge(parse_job(words)).verdict();
-  }
-  if (judged == 0) throw std::runtime_error("a batch of no meshes");
-  std::cout << judged << " meshes judged, " << failed << " failed" << std::endl;
-  return failed == 0;
-}
-
-bool judge(const std::vector<std::string>& words) {
-  if (words.size() != 2 || words[0] != "--batch") return Judge(parse_job(words)).verdict();
-  if (words[1] == "-") return judge_batch(std::cin);
-  std::ifstream file(words[1]);
-  if (!file) throw std::runtime_error(words[1] + ": cannot open");
-  return judge_batch(file);
-}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return judge({argv + 1, argv + argc}) ? 0 : 1;
-  } catch (const std::exception& error) {
-    std::cerr << "cgal_check: " << error.what() << '\n';
-    return 2;
-  }
+  return oracle::judge_main<Judge>("cgal_check", {argv + 1, argv + argc});
 }

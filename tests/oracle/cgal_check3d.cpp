@@ -1,40 +1,36 @@
 // Judges a quality mesh of tetrahedra with exact arithmetic; shares no code with the mesher.
 //
 //   cgal_check3d MESH.node MESH.ele [--input FILE.node] [--rho R]
+//   cgal_check3d --batch FILE     each line of FILE (or of stdin: '-') holds such arguments
 //
 // A mesh is good when
 //   (1) no two vertices coincide, and every vertex is a corner of a tetrahedron;
 //   (2) every tetrahedron is positively oriented;
 //   (3) the tetrahedra tile the box of the vertices: a face has one on each side, or one and lies
-//   on
-//       the box's boundary; the volumes add up to the box's exactly;
+//       on the box's boundary; the volumes add up to the box's exactly;
 //   (4) it is Delaunay: no vertex opposite a face lies inside the sphere on its other side. Where
-//   it
-//       lies on that sphere, the greatest of the five in lexicographic order counts as outside of
-//       the sphere of the others (if those are in one plane, the next greatest, and so on);
+//       it lies on that sphere, the greatest of the five in lexicographic order counts as outside
+//       of the sphere of the others (if those are in one plane, the next greatest, and so on);
 //   (5) every point of --input is a vertex with the same coordinates (the sign of 0 aside);
 //   (6) no tetrahedron has circumradius > R times its shortest edge (R the double nearest to what
 //       is written; no bound without --rho).
 //
 // Prints `ok MESH.node: ...`, or a line for each of the first failures of every kind and then
-// `FAILED MESH.node: ...`. Exit code: 0 good, 1 not, 2 cannot be judged.
+// `FAILED MESH.node: ...`. Exit code: 0 all good, 1 some mesh is not, 2 cannot be judged.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Interval_nt.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iomanip>
-#include <iostream>
 #include <map>
-#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
+#include "judge_main.hpp"
 #include "node_file.hpp"
 
 namespace {
@@ -43,54 +39,9 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Exact = CGAL::Exact_rational;
 using Interval = CGAL::Interval_nt<>;
+using oracle::Job;
 using Place = std::array<double, 3>;
 using Corners = std::array<std::size_t, 4>;
-
-constexpr int kShownFailures = 5;  // of each kind
-
-struct Job {
-  std::string nodes, elements, input;  // input: empty if none
-  std::optional<double> rho;
-};
-
-struct Places {
-  std::vector<long> ids;
-  std::vector<Place> at;
-};
-
-Places read_places(const std::string& path) {
-  oracle::TokenLines lines(path);
-  const auto header = lines.next(2);
-  if (lines.parse<int>(header[1]) != 3) lines.fail("not in space");
-  Places file;
-  for (auto count = lines.parse<std::size_t>(header[0]); count > 0; --count) {
-    const auto tokens = lines.next(4);
-    file.ids.push_back(lines.parse<long>(tokens[0]));
-    file.at.push_back({lines.parse<double>(tokens[1]), lines.parse<double>(tokens[2]),
-                       lines.parse<double>(tokens[3])});
-  }
-  return file;
-}
-
-std::vector<Corners> read_tetrahedra(const std::string& path, const Places& nodes) {
-  std::unordered_map<long, std::size_t> position;
-  for (std::size_t i = 0; i < nodes.ids.size(); ++i) position[nodes.ids[i]] = i;
-  oracle::TokenLines lines(path);
-  const auto header = lines.next(2);
-  if (lines.parse<int>(header[1]) != 4) lines.fail("not tetrahedra");
-  std::vector<Corners> all;
-  for (auto count = lines.parse<std::size_t>(header[0]); count > 0; --count) {
-    const auto tokens = lines.next(5);
-    Corners corners{};
-    for (std::size_t k = 0; k < 4; ++k) {
-      const auto found = position.find(lines.parse<long>(tokens[k + 1]));
-      if (found == position.end()) lines.fail("unknown vertex " + tokens[k + 1]);
-      corners[k] = found->second;
-    }
-    all.push_back(corners);
-  }
-  return all;
-}
 
 template <class Number>
 using Vector = std::array<Number, 3>;
@@ -108,9 +59,9 @@ class Judge {
  public:
   explicit Judge(const Job& job)
       : job_(job),
-        nodes_(read_places(job.nodes)),
-        tetrahedra_(read_tetrahedra(job.elements, nodes_)) {
-    for (const Place& p : nodes_.at) points_.emplace_back(p[0], p[1], p[2]);
+        nodes_(oracle::read_places<3>(job.nodes)),
+        tetrahedra_(oracle::read_ele<4>(job.elements, nodes_.ids).items) {
+    for (const Place& p : nodes_.items) points_.emplace_back(p[0], p[1], p[2]);
   }
 
   bool verdict() {
@@ -124,8 +75,9 @@ class Judge {
       check_volume();
       if (!job_.input.empty()) check_input();
     }
-    report();
-    return failures_.empty();
+    failures_.report(std::to_string(points_.size()) + " vertices, " +
+                     std::to_string(tetrahedra_.size()) + " tetrahedra");
+    return failures_.none();
   }
 
  private:
@@ -135,13 +87,10 @@ class Judge {
     bool even;  // corners in the order of the sorted face, seen from the opposite corner
   };
 
-  void fail(const std::string& kind, const std::string& what) {
-    if (++failures_[kind] <= kShownFailures)
-      std::cout << job_.nodes << ": " << kind << ": " << what << '\n';
-  }
+  void fail(const std::string& kind, const std::string& what) { failures_.add(kind, what); }
   std::string name(std::size_t v) const {
     std::ostringstream out;
-    const Place& p = nodes_.at[v];
+    const Place& p = nodes_.items[v];
     out << "vertex " << nodes_.ids[v] << std::setprecision(17) << " (" << p[0] << ", " << p[1]
         << ", " << p[2] << ')';
     return out.str();
@@ -153,8 +102,8 @@ class Judge {
   }
 
   void find_box() {
-    lo_ = hi_ = nodes_.at[0];
-    for (const Place& p : nodes_.at) {
+    lo_ = hi_ = nodes_.items[0];
+    for (const Place& p : nodes_.items) {
       for (std::size_t i = 0; i < 3; ++i) {
         lo_[i] = std::min(lo_[i], p[i]);
         hi_[i] = std::max(hi_[i], p[i]);
@@ -163,9 +112,9 @@ class Judge {
   }
   bool on_box(const Face& face) const {
     for (std::size_t i = 0; i < 3; ++i) {
-      const double x = nodes_.at[face[0]][i];
+      const double x = nodes_.items[face[0]][i];
       if (x != lo_[i] && x != hi_[i]) continue;
-      if (nodes_.at[face[1]][i] == x && nodes_.at[face[2]][i] == x) return true;
+      if (nodes_.items[face[1]][i] == x && nodes_.items[face[2]][i] == x) return true;
     }
     return false;
   }
@@ -173,11 +122,11 @@ class Judge {
   // (1)
   void check_vertices() {
     std::map<Place, std::size_t> seen;
-    for (std::size_t v = 0; v < nodes_.at.size(); ++v) {
-      const auto [other, is_new] = seen.insert({nodes_.at[v], v});
+    for (std::size_t v = 0; v < nodes_.items.size(); ++v) {
+      const auto [other, is_new] = seen.insert({nodes_.items[v], v});
       if (!is_new) fail("coincident", name(v) + " and " + name(other->second));
     }
-    std::vector<bool> used(nodes_.at.size());
+    std::vector<bool> used(nodes_.items.size());
     for (const Corners& corners : tetrahedra_)
       for (const std::size_t v : corners) used[v] = true;
     for (std::size_t v = 0; v < used.size(); ++v)
@@ -205,7 +154,7 @@ class Judge {
   bool within_bound_in(std::size_t t) const {
     std::array<Vector<Number>, 4> p;
     for (std::size_t k = 0; k < 4; ++k) {
-      for (std::size_t i = 0; i < 3; ++i) p[k][i] = Number(nodes_.at[tetrahedra_[t][k]][i]);
+      for (std::size_t i = 0; i < 3; ++i) p[k][i] = Number(nodes_.items[tetrahedra_[t][k]][i]);
     }
     const auto minus = [](const Vector<Number>& x, const Vector<Number>& y) {
       return Vector<Number>{x[0] - y[0], x[1] - y[1], x[2] - y[2]};
@@ -271,7 +220,7 @@ class Judge {
     five[4] = e;
     std::array<std::size_t, 5> order{0, 1, 2, 3, 4};
     std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
-      return nodes_.at[five[i]] > nodes_.at[five[j]];
+      return nodes_.items[five[i]] > nodes_.items[five[j]];
     });
     for (const std::size_t i : order) {
       if (i == 4) return false;  // e itself is lifted the most: outside
@@ -291,7 +240,7 @@ class Judge {
       std::array<Vector<Exact>, 3> d;
       for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t i = 0; i < 3; ++i)
-          d[k][i] = Exact(nodes_.at[corners[k + 1]][i]) - Exact(nodes_.at[corners[0]][i]);
+          d[k][i] = Exact(nodes_.items[corners[k + 1]][i]) - Exact(nodes_.items[corners[0]][i]);
       }
       six += dot(d[0], cross(d[1], d[2]));
     }
@@ -302,58 +251,24 @@ class Judge {
 
   // (5)
   void check_input() {
-    const std::set<Place> vertices(nodes_.at.begin(), nodes_.at.end());
-    const Places input = read_places(job_.input);
-    for (std::size_t i = 0; i < input.at.size(); ++i) {
-      if (!vertices.count(input.at[i]))
+    const std::set<Place> vertices(nodes_.items.begin(), nodes_.items.end());
+    const auto input = oracle::read_places<3>(job_.input);
+    for (std::size_t i = 0; i < input.items.size(); ++i) {
+      if (!vertices.count(input.items[i]))
         fail("input", "point " + std::to_string(input.ids[i]) + " is no vertex");
     }
   }
 
-  void report() const {
-    std::cout << (failures_.empty() ? "ok " : "FAILED ") << job_.nodes << ": ";
-    if (failures_.empty())
-      std::cout << points_.size() << " vertices, " << tetrahedra_.size() << " tetrahedra";
-    for (const auto& [kind, count] : failures_) std::cout << kind << ' ' << count << ' ';
-    std::cout << std::endl;
-  }
-
   Job job_;
-  Places nodes_;
+  oracle::Numbered<Place> nodes_;
   std::vector<Corners> tetrahedra_;
   std::vector<Point> points_;
   Place lo_, hi_;
-  std::map<std::string, long> failures_;
+  oracle::Failures failures_{job_.nodes};
 };
-
-Job parse_job(const std::vector<std::string>& words) {
-  Job job;
-  std::vector<std::string> files;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] != "--input" && words[i] != "--rho") {
-      files.push_back(words[i]);
-      continue;
-    }
-    if (i + 1 == words.size()) throw std::runtime_error(words[i] + " needs a value");
-    words[i] == "--input" ? void(job.input = words[i + 1])
-                          : void(job.rho = std::stod(words[i + 1]));
-    ++i;
-  }
-  if (files.size() != 2)
-    throw std::runtime_error(
-        "usage: cgal_check3d MESH.node MESH.ele [--input FILE.node] [--rho R]");
-  job.nodes = files[0];
-  job.elements = files[1];
-  return job;
-}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return Judge(parse_job({argv + 1, argv + argc})).verdict() ? 0 : 1;
-  } catch (const std::exception& error) {
-    std::cerr << "cgal_check3d: " << error.what() << '\n';
-    return 2;
-  }
+  return oracle::judge_main<Judge>("cgal_check3d", {argv + 1, argv + argc});
 }

@@ -1,24 +1,7 @@
 #!/usr/bin/env bash
 # The judge in space itself: a good mesh passes, and each way of being bad is named.
 #   cgal_check3d_test.sh CGAL_CHECK3D
-set -euo pipefail
-check=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-failures=0
-
-# expect CODE PATTERN ARGUMENTS...: the exit code, and a line of the output.
-expect() {
-  local code=$1 pattern=$2 output actual=0
-  shift 2
-  output=$("$check" "$@" 2>&1) || actual=$?
-  if [[ $actual != "$code" ]] || ! grep -q -- "$pattern" <<<"$output"; then
-    echo "cgal_check3d $*: exit $actual, expected $code and '$pattern'; it said:"
-    echo "$output"
-    failures=$((failures + 1))
-  fi
-}
+source "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
 
 # A cube around its centre: two tetrahedra on each side, whose four corners are on a circle. So each
 # side has the diagonal that its greatest corner is not on.
@@ -88,4 +71,9 @@ expect 2 'usage' good.node
 expect 2 'cannot open' none.node good.ele
 printf '1 2 0 0\n1 0 0\n' >plane.node
 expect 2 'not in space' plane.node good.ele
-exit $((failures > 0))
+
+# Batch: every line is judged, the first bad one does not end it.
+printf 'good.node good.ele\n\ngood.node hole.ele # bad\ngood.node good.ele --rho 1\n' >list
+expect 1 '^3 meshes judged, 1 failed' --batch list
+
+finish

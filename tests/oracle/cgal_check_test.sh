@@ -1,24 +1,7 @@
 #!/usr/bin/env bash
 # The judge itself: a good mesh passes, and each way of being bad is named.
 #   cgal_check_test.sh CGAL_CHECK
-set -euo pipefail
-check=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-failures=0
-
-# expect CODE PATTERN ARGUMENTS...: the exit code, and a line of the output.
-expect() {
-  local code=$1 pattern=$2 output actual=0
-  shift 2
-  output=$("$check" "$@" 2>&1) || actual=$?
-  if [[ $actual != "$code" ]] || ! grep -q -- "$pattern" <<<"$output"; then
-    echo "cgal_check $*: exit $actual, expected $code and '$pattern'; it said:"
-    echo "$output"
-    failures=$((failures + 1))
-  fi
-}
+source "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
 
 # A unit square around its centre, 0-based with comments; two points lie inside the north triangle.
 cat >good.node <<'END'
@@ -97,4 +80,4 @@ expect 2 'comma.node:8: not a number: 0,75' comma.node good.ele
 sed '$d' good.ele >short.ele
 expect 2 'ends too early' good.node short.ele
 
-((failures == 0)) && echo "all as expected"
+finish

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace oracle {
@@ -21,17 +22,22 @@ struct Site {
   double y = 0;
 };
 
-/// A .node file in the plane: ids as written, in the order of the file.
+/// What has an id: ids as written, in the order of the file.
+template <class Item>
+struct Numbered {
+  std::vector<long> ids;
+  std::vector<Item> items;
+};
+
+/// A .node file in the plane.
 struct NodeFile {
   std::vector<long> ids;
   std::vector<Site> sites;
 };
 
-/// A .ele file: corners are positions in `NodeFile::sites`, not ids.
-struct EleFile {
-  std::vector<long> ids;
-  std::vector<std::array<std::size_t, 3>> triangles;
-};
+/// A .ele file: corners are positions in the .node file, not ids.
+template <std::size_t N>
+using EleFile = Numbered<std::array<std::size_t, N>>;
 
 /// The lines of a file that hold something, as tokens.
 class TokenLines {
@@ -73,38 +79,53 @@ class TokenLines {
   long number_ = 0;
 };
 
-inline NodeFile read_node(const std::string& path) {
+/// A .node file in dimension D; a header that does not say so means the plane.
+template <std::size_t D>
+Numbered<std::array<double, D>> read_places(const std::string& path) {
   TokenLines lines(path);
   const auto header = lines.next(1);
   const auto count = lines.parse<std::size_t>(header[0]);
-  if (header.size() > 1 && lines.parse<int>(header[1]) != 2) lines.fail("not in the plane");
-  NodeFile file;
+  const std::size_t dimension = header.size() > 1 ? lines.parse<std::size_t>(header[1]) : 2;
+  if (dimension != D) lines.fail(D == 2 ? "not in the plane" : "not in space");
+  Numbered<std::array<double, D>> file;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto tokens = lines.next(3);
+    const auto tokens = lines.next(D + 1);
     file.ids.push_back(lines.parse<long>(tokens[0]));
-    file.sites.push_back({lines.parse<double>(tokens[1]), lines.parse<double>(tokens[2])});
+    std::array<double, D> place{};
+    for (std::size_t k = 0; k < D; ++k) place[k] = lines.parse<double>(tokens[k + 1]);
+    file.items.push_back(place);
   }
   return file;
 }
 
-inline EleFile read_ele(const std::string& path, const NodeFile& nodes) {
+inline NodeFile read_node(const std::string& path) {
+  auto [ids, places] = read_places<2>(path);
+  NodeFile file{std::move(ids), {}};
+  for (const auto& [x, y] : places) file.sites.push_back({x, y});
+  return file;
+}
+
+/// Simplices of N corners; `ids`: of the vertices. A header that does not say so means triangles.
+template <std::size_t N>
+EleFile<N> read_ele(const std::string& path, const std::vector<long>& ids) {
   std::unordered_map<long, std::size_t> position;
-  for (std::size_t i = 0; i < nodes.ids.size(); ++i) position[nodes.ids[i]] = i;
+  for (std::size_t i = 0; i < ids.size(); ++i) position[ids[i]] = i;
   TokenLines lines(path);
   const auto header = lines.next(1);
   const auto count = lines.parse<std::size_t>(header[0]);
-  if (header.size() > 1 && lines.parse<int>(header[1]) != 3) lines.fail("not triangles");
-  EleFile file;
+  const std::size_t size = header.size() > 1 ? lines.parse<std::size_t>(header[1]) : 3;
+  if (size != N) lines.fail(N == 3 ? "not triangles" : "not tetrahedra");
+  EleFile<N> file;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto tokens = lines.next(4);
+    const auto tokens = lines.next(N + 1);
     file.ids.push_back(lines.parse<long>(tokens[0]));
-    std::array<std::size_t, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k) {
+    std::array<std::size_t, N> corners{};
+    for (std::size_t k = 0; k < N; ++k) {
       const auto found = position.find(lines.parse<long>(tokens[k + 1]));
       if (found == position.end()) lines.fail("unknown vertex " + tokens[k + 1]);
       corners[k] = found->second;
     }
-    file.triangles.push_back(corners);
+    file.items.push_back(corners);
   }
   return file;
 }

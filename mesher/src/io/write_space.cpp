@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/box.hpp"
 #include "io/text.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/space_files.hpp"
@@ -29,9 +30,21 @@ std::array<Face, 4> faces_of(const Mesh<3>::Simplex& s) {
 
 void write_place(const Point<3>& p, TextFile& file) { file << p[0] << ' ' << p[1] << ' ' << p[2]; }
 
+void write_places(const Mesh<3>& mesh, std::string_view after, TextFile& file) {
+  for (const Point<3>& p : mesh.vertices) {
+    write_place(p, file);
+    file << after;
+  }
+}
+
+// Cells or faces: the number of each, its corners, and what comes after.
 template <class Corners>
-void write_numbered(const Corners& corners, TextFile& file) {
-  for (const std::uint32_t corner : corners) file << ' ' << corner + kFirst;
+void write_numbered(const std::vector<Corners>& rows, std::string_view after, TextFile& file) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    file << i + kFirst;
+    for (const std::uint32_t corner : rows[i]) file << ' ' << corner + kFirst;
+    file << after;
+  }
 }
 
 void write_node(const Mesh<3>& mesh, TextFile& file) {
@@ -46,21 +59,13 @@ void write_node(const Mesh<3>& mesh, TextFile& file) {
 
 void write_ele(const Mesh<3>& mesh, TextFile& file) {
   file << mesh.simplices.size() << " 4 0\n";
-  for (std::size_t i = 0; i < mesh.simplices.size(); ++i) {
-    file << i + kFirst;
-    write_numbered(mesh.simplices[i], file);
-    file << '\n';
-  }
+  write_numbered(mesh.simplices, "\n", file);
 }
 
 void write_face(const Mesh<3>& mesh, TextFile& file) {
   const auto faces = boundary_faces(mesh);
   file << faces.size() << " 1\n";
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    file << i + kFirst;
-    write_numbered(faces[i], file);
-    file << " 1\n";
-  }
+  write_numbered(faces, " 1\n", file);
 }
 
 void write_vtu(const Mesh<3>& mesh, TextFile& file) {
@@ -73,10 +78,7 @@ void write_vtu(const Mesh<3>& mesh, TextFile& file) {
   for (const VertexKind kind : mesh.kinds) file << static_cast<int>(kind) << '\n';
   file << "</DataArray>\n</PointData>\n<Points>\n<DataArray type=\"Float64\" Name=\"Points\" "
           "NumberOfComponents=\"3\" format=\"ascii\">\n";
-  for (const Point<3>& p : mesh.vertices) {
-    write_place(p, file);
-    file << '\n';
-  }
+  write_places(mesh, "\n", file);
   file << "</DataArray>\n</Points>\n<Cells>\n"
           "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
   for (const auto& [a, b, c, d] : mesh.simplices) {
@@ -92,10 +94,7 @@ void write_vtu(const Mesh<3>& mesh, TextFile& file) {
 void write_vtk(const Mesh<3>& mesh, TextFile& file) {
   file << "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS "
        << mesh.vertices.size() << " double\n";
-  for (const Point<3>& p : mesh.vertices) {
-    write_place(p, file);
-    file << '\n';
-  }
+  write_places(mesh, "\n", file);
   const std::size_t cells = mesh.simplices.size();
   file << "CELLS " << cells << ' ' << 5 * cells << '\n';
   for (const auto& [a, b, c, d] : mesh.simplices) {
@@ -111,14 +110,7 @@ void write_vtk(const Mesh<3>& mesh, TextFile& file) {
 // One entity, the volume 1, that all nodes and elements are of.
 void write_msh(const Mesh<3>& mesh, TextFile& file) {
   constexpr int kVolume = 3, kTetrahedron = 4;  // the entity's dimension, the elements' type
-  Box<3> box;
-  if (!mesh.vertices.empty()) box = {mesh.vertices.front(), mesh.vertices.front()};
-  for (const Point<3>& p : mesh.vertices) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      box.lo[i] = std::min(box.lo[i], p[i]);
-      box.hi[i] = std::max(box.hi[i], p[i]);
-    }
-  }
+  const auto box = detail::bounding_box<3>(mesh.vertices);
   file << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 ";
   write_place(box.lo, file);
   file << ' ';
@@ -127,26 +119,16 @@ void write_msh(const Mesh<3>& mesh, TextFile& file) {
   file << " 0 0\n$EndEntities\n$Nodes\n1 " << nodes << " 1 " << nodes << '\n'
        << kVolume << " 1 0 " << nodes << '\n';
   for (std::size_t i = 0; i < nodes; ++i) file << i + kFirst << '\n';
-  for (const Point<3>& p : mesh.vertices) {
-    write_place(p, file);
-    file << '\n';
-  }
+  write_places(mesh, "\n", file);
   file << "$EndNodes\n$Elements\n1 " << elements << " 1 " << elements << '\n'
        << kVolume << " 1 " << kTetrahedron << ' ' << elements << '\n';
-  for (std::size_t i = 0; i < elements; ++i) {
-    file << i + kFirst;
-    write_numbered(mesh.simplices[i], file);
-    file << '\n';
-  }
+  write_numbered(mesh.simplices, "\n", file);
   file << "$EndElements\n";
 }
 
 void write_medit(const Mesh<3>& mesh, TextFile& file) {
   file << "MeshVersionFormatted 2\n\nDimension 3\n\nVertices\n" << mesh.vertices.size() << '\n';
-  for (const Point<3>& p : mesh.vertices) {
-    write_place(p, file);
-    file << " 0\n";
-  }
+  write_places(mesh, " 0\n", file);
   file << "\nTetrahedra\n" << mesh.simplices.size() << '\n';
   for (const auto& simplex : mesh.simplices) {
     for (const std::uint32_t corner : simplex) file << corner + kFirst << ' ';
