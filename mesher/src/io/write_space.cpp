@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/box.hpp"
 #include "io/text.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/space_files.hpp"
@@ -111,14 +112,7 @@ void write_vtk(const Mesh<3>& mesh, TextFile& file) {
 // One entity, the volume 1, that all nodes and elements are of.
 void write_msh(const Mesh<3>& mesh, TextFile& file) {
   constexpr int kVolume = 3, kTetrahedron = 4;  // the entity's dimension, the elements' type
-  Box<3> box;
-  if (!mesh.vertices.empty()) box = {mesh.vertices.front(), mesh.vertices.front()};
-  for (const Point<3>& p : mesh.vertices) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      box.lo[i] = std::min(box.lo[i], p[i]);
-      box.hi[i] = std::max(box.hi[i], p[i]);
-    }
-  }
+  const Box<3> box = detail::bounding_box<3>(mesh.vertices);
   file << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 ";
   write_place(box.lo, file);
   file << ' ';
