@@ -198,9 +198,7 @@ Error with_domain_hint(const Error& error) {
 }
 
 void open_outputs(const MeshArguments& args, const Input& input, Outputs& outputs) {
-  outputs.protect(args.input);
-  outputs.protect(input.file().point_file);
-  if (!args.sizes.empty()) outputs.protect(args.sizes);
+  protect_inputs(args, input, outputs);
   const auto content =
       has_points_alone(args.input) ? mesher::MeshFiles::plain : mesher::MeshFiles::features;
   for (const auto& path : args.outputs) outputs.open_mesh(path, content);

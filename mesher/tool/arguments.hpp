@@ -71,6 +71,14 @@ void add_mesh_options(CLI::App& command, MeshArguments& args);
 /// The same error with a hint to --domain, if it is one of a point outside.
 [[nodiscard]] mesher::Error with_domain_hint(const mesher::Error& error);
 
+/// What is read is not written: says so to outputs that are yet to be opened.
+template <class Files>
+void protect_inputs(const MeshArguments& args, const Input& input, Files& files) {
+  files.protect(args.input);
+  files.protect(input.file().point_file);
+  if (!args.sizes.empty()) files.protect(args.sizes);
+}
+
 /// Opens the mesh outputs: those of `.node` with all files, if INPUT is of a format that has lines.
 /// Throws: Error (unknown_format, cannot_write, bad_option).
 void open_outputs(const MeshArguments& args, const Input& input, Outputs& outputs);

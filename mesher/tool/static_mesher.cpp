@@ -204,16 +204,17 @@ mesher::DomainUpdate StaticMesher::update(const mesher::RunControl& control) {
   require_unused();
   const mesher::Pslg input = graph();
   mesher::Options<2> options = edited_options_;
-  if (needs_regions()) options.region_limits = region_limits(input, options, extent_, areas_);
+  options.region_limits =
+      needs_regions() ? region_limits(input, options, extent_, areas_) : nullptr;
   mesher::MeshStats stats;
   Mesh<2> after = mesher::mesh_statically(input, options, &stats, control);
   mesher::DomainMesh domain = mesher::domain_mesh(after, input, extent_);
   mesher::DomainUpdate update;
   static_cast<mesher::Change<2>&>(update) = change_between(mesh_, after);
-  update.angles = mesher::angle_news(after, options_, update.simplices_added);
+  update.angles = mesher::angle_news(after, options, update.simplices_added);
   update.domain = change_of_kept(domain_.kept, domain.kept);
   current_ = edited_;
-  options_ = edited_options_;
+  options_ = edited_options_ = std::move(options);
   mesh_ = std::move(after);
   domain_ = std::move(domain);
   stats_ = stats;

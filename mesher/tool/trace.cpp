@@ -24,9 +24,7 @@ struct TraceArguments : MeshArguments {
 // Throws: Error (cannot_write, bad_option) if the trace could not be written at the end.
 void require_writable(const TraceArguments& args, const Input& input) {
   mesher::OutputFiles files;
-  files.protect(args.input);
-  files.protect(input.file().point_file);
-  if (!args.sizes.empty()) files.protect(args.sizes);
+  protect_inputs(args, input, files);
   if (!args.script.empty()) files.protect(args.script);
   files.open(args.trace);
 }

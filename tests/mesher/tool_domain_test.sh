@@ -349,6 +349,16 @@ counts wedge--static.jsonl >static.counts
 same engine.counts static.counts
 same wedge.1.node wedge--static.1.node
 same marked.1.node marked--static.1.node
+# Short lengths that an update's own limits ask for are no news of the guard.
+printf 'limit area 0.002 in 6.5 5 7.5 6\n' >finer.txt
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  expect 0 'shrunk' edit lake.poly --script finer.txt $engine -o finer.vtu \
+    --stats "finer$engine.jsonl"
+done
+counts finer.jsonl >engine.counts
+counts finer--static.jsonl >static.counts
+same engine.counts static.counts
 expect 0 '' mesh wedge.poly --quiet -o wedge.2.node --stats wedge.json
 has wedge.json '"small_angles": 0'
 printf '4 2 0 0\n1 0 0\n2 0.8 0.6\n3 0.7439999994 0.5580000008\n4 0.6879999988 0.5160000016\n3 0\n1 1 2\n2 1 3\n3 1 4\n0\n' >fan.poly

@@ -128,18 +128,23 @@ class PslgJudge {
     const P &x = at(v), &a = at(e[0]), &b = at(e[1]);
     const double dot = (a[0] - x[0]) * (b[0] - x[0]) + (a[1] - x[1]) * (b[1] - x[1]);
     if (dot < -0x1p-50 * apart(a, b)) return false;
-    return std::any_of(e.begin(), e.end(), [&](std::uint32_t w) { return are_level(v, w, 1e-15); });
+    return std::any_of(e.begin(), e.end(), [&](std::uint32_t w) { return are_level(v, w); });
   }
   // Whether both are equally far from a common end of segments that they are on.
-  [[nodiscard]] bool are_level(std::uint32_t v, std::uint32_t w, double tolerance) const {
+  [[nodiscard]] bool are_level(std::uint32_t v, std::uint32_t w) const {
+    return any_apex(v, w, [&](const P& apex) {
+      return std::abs(apart(apex, at(v)) - apart(apex, at(w))) <= 1e-15;
+    });
+  }
+  // Whether accept(apex) is true of a common end of two segments, one through v and one through w.
+  template <class Accept>
+  [[nodiscard]] bool any_apex(std::uint32_t v, std::uint32_t w, Accept&& accept) const {
     if (!on_.contains(v) || !on_.contains(w)) return false;
     for (const Pslg::Ends& s : on_.at(v)) {
       for (const Pslg::Ends& t : on_.at(w)) {
         for (const std::int64_t o : {s.first, s.second}) {
           if (s == t || (o != t.first && o != t.second)) continue;
-          const P& apex = pslg_.points.at(o);
-          const double from_v = apart(apex, at(v)), from_w = apart(apex, at(w));
-          if (std::abs(from_v - from_w) <= tolerance) return true;
+          if (accept(pslg_.points.at(o))) return true;
         }
       }
     }
@@ -191,26 +196,18 @@ class PslgJudge {
   // The shortest edge p -> q of a triangle on its left joins equal distances on two segments that
   // meet at under 60 degrees.
   [[nodiscard]] bool is_forced(std::uint32_t p, std::uint32_t q) const {
-    if (!on_.contains(p) || !on_.contains(q)) return false;
     const bool inside = mesh_.kinds[p] == mesher::VertexKind::segment &&
                         mesh_.kinds[q] == mesher::VertexKind::segment;
-    for (const Pslg::Ends& s : on_.at(p)) {
-      for (const Pslg::Ends& t : on_.at(q)) {
-        for (const std::int64_t o : {s.first, s.second}) {
-          if (s == t || (o != t.first && o != t.second)) continue;
-          const P& apex = pslg_.points.at(o);
-          const double from_p = apart(apex, at(p)), from_q = apart(apex, at(q));
-          if (from_p == 0 || from_q == 0) continue;
-          const P u{(at(p)[0] - apex[0]) / from_p, (at(p)[1] - apex[1]) / from_p};
-          const P w{(at(q)[0] - apex[0]) / from_q, (at(q)[1] - apex[1]) / from_q};
-          if (u[0] * w[0] + u[1] * w[1] <= 0.5 - 1e-9) continue;
-          // Of coordinates up to 16; they are rounded.
-          if (std::abs(from_p - from_q) > 1e-8 * (from_p + from_q) + 0x1p-46) continue;
-          if (inside || mesher::predicates::orient2d(at(p), at(q), apex) > 0) return true;
-        }
-      }
-    }
-    return false;
+    return any_apex(p, q, [&](const P& apex) {
+      const double from_p = apart(apex, at(p)), from_q = apart(apex, at(q));
+      if (from_p == 0 || from_q == 0) return false;
+      const P u{(at(p)[0] - apex[0]) / from_p, (at(p)[1] - apex[1]) / from_p};
+      const P w{(at(q)[0] - apex[0]) / from_q, (at(q)[1] - apex[1]) / from_q};
+      if (u[0] * w[0] + u[1] * w[1] <= 0.5 - 1e-9) return false;
+      // Of coordinates up to 16; they are rounded.
+      if (std::abs(from_p - from_q) > 1e-8 * (from_p + from_q) + 0x1p-46) return false;
+      return inside || mesher::predicates::orient2d(at(p), at(q), apex) > 0;
+    });
   }
 
   const mesher::Mesh<2>& mesh_;

@@ -42,10 +42,8 @@ class SizeField {
   [[nodiscard]] virtual double at(const Point<D>& p) const = 0;
   /// Bounds of the sizes in a box; 0 < least. Near each other for a small box.
   [[nodiscard]] virtual SizeRange range(const Box<D>& box) const = 0;
-  /// Sizes that hold in parts of some extent: each gets the lattice that suits it.
+  /// All finite sizes, if they are few: each then gets the lattice that suits it. Else nothing.
   [[nodiscard]] virtual std::vector<double> plateaus() const { return {}; }
-  /// Whether the size at p is one of them. Asked only if there are any.
-  [[nodiscard]] virtual bool is_plateau(const Point<D>&) const { return true; }
 };
 
 /// A function whose values at p and q differ by at most `slope` |pq|.

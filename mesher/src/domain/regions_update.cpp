@@ -3,8 +3,8 @@
 
 #include "domain/labels.hpp"
 #include "domain/locate.hpp"
-#include "domain/make_set.hpp"
 #include "domain/regions.hpp"
+#include "make_set.hpp"
 #include "mesh/canonical.hpp"
 #include "sac/check.hpp"
 

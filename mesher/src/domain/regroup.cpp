@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "domain/make_set.hpp"
+#include "make_set.hpp"
 
 namespace mesher::detail {
 namespace {

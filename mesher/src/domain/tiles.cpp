@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "domain/make_set.hpp"
 #include "domain/union_find.hpp"
+#include "make_set.hpp"
 #include "sac/check.hpp"
 
 namespace mesher::detail {

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "make_set.hpp"
 #include "mesh/forced.hpp"
 #include "mesh/shrink_test.hpp"
 #include "mesher/check.hpp"
@@ -162,8 +163,7 @@ bool AngleFinder::is_near_two(const Vertex<2>& v, double r) const {
 std::vector<ShrunkVertex> AngleFinder::shrunk(const std::vector<Triangle>& come) const {
   std::vector<VertexHandle> corners;
   for (const Triangle& t : come) corners.insert(corners.end(), t.begin(), t.end());
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  make_set(corners);
   const WorldInput input(world_);
   const ShrinkTest<WorldInput> test(input, kShrinks, world_.box.side);
   std::vector<ShrunkVertex> found;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "domain/labels.hpp"
-#include "facade/followed.hpp"
 
 namespace mesher::detail {
 namespace {
@@ -37,20 +36,29 @@ std::int64_t marker_of(const Markers& markers, FeatureId id) {
 // --- Edits -----------------------------------------------------------------------------------
 
 void DomainState::insert(FeatureId id, const Point<2>& point, std::int64_t marker) {
+  busy_.require_idle();
   mark(point_markers_, id, marker, [&] { mesher_.insert(id, point); });
 }
 
 void DomainState::remove(FeatureId id) {
+  busy_.require_idle();
   mark(point_markers_, id, 0, [&] { mesher_.remove(id); });
+}
+
+void DomainState::move(FeatureId id, const Point<2>& point) {
+  busy_.require_idle();
+  mesher_.move(id, point);
 }
 
 void DomainState::insert_line(FeatureId id, const std::vector<FeatureId>& points,
                               std::int64_t marker) {
+  busy_.require_idle();
   mark(line_markers_, id, marker, [&] { mesher_.insert_polyline(id, points); });
   needs_follower_ = true;
 }
 
 void DomainState::remove_line(FeatureId id) {
+  busy_.require_idle();
   mark(line_markers_, id, 0, [&] { mesher_.remove_segment(id); });
 }
 
@@ -71,6 +79,16 @@ void DomainState::remove_seed(const SeedName& name) {
     throw Error(ErrorCode::unknown_id, text_of(name) + " is not there", {}, {name.id});
   }
   seeds_.set(name, std::nullopt);
+}
+
+void DomainState::limit(const SizeLimits<2>& limits) {
+  busy_.require_idle();
+  mesher_.limit(limits);
+}
+
+void DomainState::limit(const Box<2>& box, const SizeLimits<2>& limits) {
+  busy_.require_idle();
+  mesher_.limit(box, limits);
 }
 
 void DomainState::discard_edits() noexcept {
@@ -103,9 +121,7 @@ void DomainState::commit() noexcept {
 
 // The first run. The follower is there only if the run is accepted: nothing throws after it.
 DomainChange DomainState::begin(const Change<2>& change) {
-  std::vector<Seed> all;
-  seeds_.for_each_edit([&](const SeedName&, const Seed*, const Seed* to) { all.push_back(*to); });
-  DomainFollower first(mesh_of(change), walls_of(change), all, extent_);
+  DomainFollower first(mesh_of(change), walls_of(change), all_of(seeds_), extent_);
   DomainChange domain;
   for (const auto& triangle : change.simplices_added) {
     if (first.keeps(triangle)) domain.kept_added.push_back(triangle);
@@ -134,7 +150,7 @@ bool DomainState::needs_unlimited() const {
 void DomainState::make_unlimited(const RunControl& control) {
   auto made = std::make_unique<UnlimitedMesh>(mesher_.options(), extent_, areas_);
   if (ran_) {
-    UnlimitedMesh::Seeds seeds;
+    EditedSeeds seeds;
     for (const auto& [name, seed] : seeds_.committed()) seeds.set(name, seed);
     announce(input(), made->mesher());
     made->update(seeds, control, [](const auto&, const auto&) {});

@@ -8,6 +8,7 @@
 
 #include "facade/busy.hpp"
 #include "facade/edited_table.hpp"
+#include "facade/followed.hpp"
 #include "facade/unlimited_mesh.hpp"
 #include "mesher/domain_mesher.hpp"
 
@@ -20,15 +21,16 @@ class DomainState {
   DomainState(const Options<2>& options, Extent extent, RegionAreas areas)
       : mesher_(options), extent_(extent), areas_(areas) {}
 
+  // Edits are refused while an update runs, whichever of the meshers it is at.
   void insert(FeatureId id, const Point<2>& point, std::int64_t marker);
   void remove(FeatureId id);
-  void move(FeatureId id, const Point<2>& point) { mesher_.move(id, point); }
+  void move(FeatureId id, const Point<2>& point);
   void insert_line(FeatureId id, const std::vector<FeatureId>& points, std::int64_t marker);
   void remove_line(FeatureId id);
   void insert_seed(const Seed& seed);
   void remove_seed(const SeedName& name);
-  void limit(const SizeLimits<2>& limits) { mesher_.limit(limits); }
-  void limit(const Box<2>& box, const SizeLimits<2>& limits) { mesher_.limit(box, limits); }
+  void limit(const SizeLimits<2>& limits);
+  void limit(const Box<2>& box, const SizeLimits<2>& limits);
   void discard_edits() noexcept;
   [[nodiscard]] bool is_idle() const noexcept { return busy_.is_idle(); }
   DomainUpdate update(const RunControl& control);
@@ -58,11 +60,11 @@ class DomainState {
   Extent extent_;
   RegionAreas areas_;
   Markers point_markers_, line_markers_;
-  EditedTable<SeedName, Seed> seeds_;
+  EditedSeeds seeds_;
   std::optional<DomainFollower> follower_;    // from the first line or seed on
   std::unique_ptr<UnlimitedMesh> unlimited_;  // from the first limits on that it matters to
   Busy busy_;
-  bool needs_follower_ = false;               // there are edits to follow
+  bool needs_follower_ = false;  // there are edits to follow
   bool ran_ = false;
 };
 

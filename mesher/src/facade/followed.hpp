@@ -36,9 +36,22 @@ namespace mesher::detail {
   return walls;
 }
 
+using EditedSeeds = EditedTable<SeedName, Seed>;
+
+/// All seeds that shall be.
+[[nodiscard]] inline std::vector<Seed> all_of(const EditedSeeds& seeds) {
+  std::vector<Seed> all;
+  for (const auto& [name, seed] : seeds.committed()) {
+    if (const Seed* now = seeds.find(name)) all.push_back(*now);
+  }
+  seeds.for_each_edit([&](const SeedName&, const Seed* was, const Seed* is) {
+    if (was == nullptr && is != nullptr) all.push_back(*is);
+  });
+  return all;
+}
+
 /// What comes and goes besides triangles.
-[[nodiscard]] inline DomainEdits domain_edits(const Change<2>& change,
-                                              const EditedTable<SeedName, Seed>& seeds) {
+[[nodiscard]] inline DomainEdits domain_edits(const Change<2>& change, const EditedSeeds& seeds) {
   const auto ends_of = [](const std::vector<LineEdge<2>>& edges) {
     std::vector<DomainEdits::Wall> walls;
     for (const auto& e : edges) walls.push_back({e.low, e.high});

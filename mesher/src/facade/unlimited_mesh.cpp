@@ -7,19 +7,18 @@
 #include <set>
 #include <utility>
 
-#include "facade/followed.hpp"
 #include "geometry/box.hpp"
-#include "mesher/sizes.hpp"
+#include "make_set.hpp"
 #include "program/world.hpp"
+#include "sizes/all_limits.hpp"
 
 namespace mesher::detail {
 
 namespace {
 
 Options<2> unlimited(Options<2> options) {
-  options.region_limits = nullptr;
+  AllLimits().apply_to(options);
   options.record_weights = false;
-  set_limits(options, SizeLimits<2>());
   return options;
 }
 
@@ -69,17 +68,6 @@ class Retiled {
 };
 
 }  // namespace
-
-std::vector<Seed> all_of(const UnlimitedMesh::Seeds& seeds) {
-  std::vector<Seed> all;
-  for (const auto& [name, seed] : seeds.committed()) {
-    if (const Seed* now = seeds.find(name)) all.push_back(*now);
-  }
-  seeds.for_each_edit([&](const SeedName&, const Seed* was, const Seed* is) {
-    if (was == nullptr && is != nullptr) all.push_back(*is);
-  });
-  return all;
-}
 
 UnlimitedMesh::UnlimitedMesh(const Options<2>& options, Extent extent, RegionAreas areas)
     : extent_(extent), areas_(areas), mesher_(unlimited(options)), box_(mesh_box(options)) {}
@@ -140,8 +128,7 @@ std::vector<Corners> UnlimitedMesh::staying(const Change<2>& change, const Domai
       if (limit.region && changed.contains(*limit.region)) all.push_back(t);
     });
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  make_set(all);
   return without(without(all, change.simplices_added), change.simplices_removed);
 }
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "facade/edited_table.hpp"
+#include "facade/followed.hpp"
 #include "mesher/domain_mesher.hpp"
 #include "sizes/region_limits.hpp"
 
@@ -16,7 +16,7 @@ namespace mesher::detail {
 
 class UnlimitedMesh {
  public:
-  using Seeds = EditedTable<SeedName, Seed>;
+  using Seeds = EditedSeeds;
 
   UnlimitedMesh(const Options<2>& options, Extent extent, RegionAreas areas);
 
@@ -49,8 +49,5 @@ class UnlimitedMesh {
   std::optional<DomainFollower> follower_;  // from the first update on
   std::shared_ptr<const RegionLimits> limits_;
 };
-
-/// All seeds that shall be.
-[[nodiscard]] std::vector<Seed> all_of(const UnlimitedMesh::Seeds& seeds);
 
 }  // namespace mesher::detail

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "make_set.hpp"
 #include "mesher/mesh_data.hpp"
 #include "mesher/output_files.hpp"
 
@@ -30,8 +31,7 @@ template <class Value>
 class GroupNumbers {
  public:
   explicit GroupNumbers(std::vector<Value> values) : values_(std::move(values)) {
-    std::sort(values_.begin(), values_.end());
-    values_.erase(std::unique(values_.begin(), values_.end()), values_.end());
+    detail::make_set(values_);
     values_.erase(std::remove(values_.begin(), values_.end(), Value{0}), values_.end());
     as_they_are_ = std::all_of(values_.begin(), values_.end(), [](Value value) {
       return value >= 1 && value < INT32_MAX && value == static_cast<std::int32_t>(value);

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "geometry/box.hpp"
 #include "io/text.hpp"
 #include "io/write_mesh.hpp"
 
@@ -98,10 +99,7 @@ class MshWriter {
       for (const std::uint32_t v : element) {
         const Point<2>& p = mesh_.vertices[v];
         if (first) entity.box = {p, p};
-        for (int i = 0; i < 2; ++i) {
-          entity.box.lo[i] = std::min(entity.box.lo[i], p[i]);
-          entity.box.hi[i] = std::max(entity.box.hi[i], p[i]);
-        }
+        detail::grow(entity.box, p);
         first = false;
       }
     }

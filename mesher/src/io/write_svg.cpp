@@ -3,12 +3,14 @@
 // one width is one path (dots are lines of length 0 with round ends), which keeps files small and
 // viewers fast; widths are powers of two, so that there are few.
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <iterator>
 #include <map>
 #include <utility>
 
+#include "geometry/box.hpp"
 #include "mesher/svg.hpp"
 
 namespace mesher {
@@ -26,19 +28,8 @@ constexpr double kLeastOnLine = 0.75;  // and at least so wide: a line stays in 
 constexpr const char* kRegionColours[] = {"#dbe9f6", "#fde3cf", "#ddf0dc", "#f6dce6",
                                           "#ebe3f5", "#fdf6cf", "#d9f0ee", "#ece6df"};
 
-void grow(Box<2>& box, const Point<2>& p) {
-  for (int i = 0; i < 2; ++i) {
-    box.lo[i] = std::min(box.lo[i], p[i]);
-    box.hi[i] = std::max(box.hi[i], p[i]);
-  }
-}
-
 double longer_side(const Box<2>& box) {
   return std::max(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1]);
-}
-
-bool overlaps(const Box<2>& a, const Box<2>& b) {
-  return a.lo[0] <= b.hi[0] && b.lo[0] <= a.hi[0] && a.lo[1] <= b.hi[1] && b.lo[1] <= a.hi[1];
 }
 
 using Edge = std::array<std::uint32_t, 2>;
@@ -51,10 +42,8 @@ class Canvas {
 
   [[nodiscard]] bool shows(const Point<2>& a, const Point<2>& b) const { return shows(a, b, b); }
   [[nodiscard]] bool shows(const Point<2>& a, const Point<2>& b, const Point<2>& c) const {
-    Box<2> box{a, a};
-    grow(box, b);
-    grow(box, c);
-    return overlaps(box, window_);
+    const Box<2> box = detail::bounding_box<2>(std::array{a, b, c});
+    return !detail::is_empty(detail::common(box, window_));
   }
   [[nodiscard]] double width() const { return scale_ * (window_.hi[0] - window_.lo[0]); }
   [[nodiscard]] double height() const { return scale_ * (window_.hi[1] - window_.lo[1]); }
@@ -188,8 +177,7 @@ SvgView svg_view(const Mesh<2>& mesh) {
     if (inputs < 2 || mesh.kinds[i] == VertexKind::input) shown.push_back(mesh.vertices[i]);
   }
   if (shown.empty()) return {{{0, 0}, {1, 1}}, {}};
-  Box<2> box{shown.front(), shown.front()};
-  for (const Point<2>& p : shown) grow(box, p);
+  Box<2> box = detail::bounding_box<2>(shown);
   const double margin = longer_side(box) > 0 ? longer_side(box) / 8 : 1;
   for (int i = 0; i < 2; ++i) {
     box.lo[i] -= margin;

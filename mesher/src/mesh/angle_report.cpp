@@ -21,9 +21,6 @@ namespace {
 
 using detail::MeshLines;
 
-constexpr double kDegrees = 180 / 3.141592653589793;
-constexpr double kSmall = 60;
-
 using Corners = Mesh<2>::Simplex;
 
 class Report {
@@ -35,7 +32,7 @@ class Report {
     for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) look_around(v);
     for (const Corners& t : mesh_.simplices) look_at(t);
     out_.angles = angles();
-    out_.promised_deg = std::asin(1 / (2 * options_.rho)) * kDegrees;
+    out_.promised_deg = std::asin(1 / (2 * options_.rho)) * detail::kDegrees;
     out_.shrunk = shrunk();
     return std::move(out_);
   }
@@ -92,7 +89,7 @@ class Report {
               [&](auto s, auto t) { return direction(s) < direction(t); });
     for (std::size_t i = 0; i < around.size(); ++i) {
       const std::uint32_t s = around[i], t = around[(i + 1) % around.size()];
-      if (lines_.degrees(s, t, v) < kSmall) angle(s, t, v);
+      if (lines_.degrees(s, t, v) < detail::kSmall) angle(s, t, v);
     }
   }
 

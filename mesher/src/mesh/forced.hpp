@@ -15,6 +15,10 @@ namespace mesher::detail {
 
 /// Triangles whose radius-edge ratio exceeds the bound by no more than this are not poor.
 inline constexpr double kPoorRounding = 1e-9;
+/// Angles between lines below this, in degrees, are small.
+inline constexpr double kSmall = 60;
+/// In one radian.
+inline constexpr double kDegrees = 180 / 3.141592653589793;
 
 inline void keep_smallest(double& least, double degrees) {
   least = least == 0 ? degrees : std::min(least, degrees);
@@ -39,7 +43,6 @@ template <class Vertex, class PlaceOf>
 }
 /// The angle of two directions.
 [[nodiscard]] inline double degrees_between(const Point<2>& u, const Point<2>& w) {
-  constexpr double kDegrees = 180 / 3.141592653589793;
   return std::atan2(std::abs(u[0] * w[1] - u[1] * w[0]), u[0] * w[0] + u[1] * w[1]) * kDegrees;
 }
 /// The order of reports.

@@ -13,7 +13,6 @@ namespace mesher::detail {
 
 namespace {
 
-constexpr double kSmall = 60;    // degrees
 constexpr double kEqual = 1e-9;  // distances that differ by no more are of equal labels
 
 }  // namespace

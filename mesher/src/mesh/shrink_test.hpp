@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "geometry/segment_tests.hpp"
+#include "make_set.hpp"
 #include "mesher/angles.hpp"
 
 namespace mesher::detail {
@@ -52,8 +53,7 @@ class ShrinkTest {
       const bool nearer = f.distance2 < found.feature_size * found.feature_size;
       if (nearer && !is_point(f.code)) blame(f.code, found);
     }
-    std::sort(found.lines.begin(), found.lines.end());
-    found.lines.erase(std::unique(found.lines.begin(), found.lines.end()), found.lines.end());
+    make_set(found.lines);
     return found;
   }
 
@@ -85,8 +85,7 @@ class ShrinkTest {
   // Those not farther from v than `most`, by distance.
   [[nodiscard]] std::vector<Feature> features_near(std::uint32_t v, double most) const {
     std::vector<std::uint32_t> near = input_.codes_near(input_.place(v), most);
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
+    make_set(near);
     std::vector<Feature> by_distance;
     for (const std::uint32_t code : near) {
       const double d2 = distance2_of(v, code);

@@ -6,6 +6,7 @@
 
 #include "geometry/box.hpp"
 #include "input.hpp"
+#include "make_set.hpp"
 #include "mesher/repair.hpp"
 #include "repair/box_search.hpp"
 #include "repair/crossing_place.hpp"
@@ -55,8 +56,7 @@ std::vector<Crossing> crossings(const Drawing& drawing, const News& news) {
     if (inside) found.push_back({at, r, t});
     return inside;
   });
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  make_set(found);
   return found;
 }
 

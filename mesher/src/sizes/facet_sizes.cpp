@@ -12,16 +12,6 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-bool meet(const Box<2>& a, const Box<2>& b) {
-  return a.lo[0] <= b.hi[0] && b.lo[0] <= a.hi[0] && a.lo[1] <= b.hi[1] && b.lo[1] <= a.hi[1];
-}
-bool is_inside(const Box<2>& a, const Box<2>& b) {
-  return a.lo[0] >= b.lo[0] && a.hi[0] <= b.hi[0] && a.lo[1] >= b.lo[1] && a.hi[1] <= b.hi[1];
-}
-Box<2> joined(const Box<2>& a, const Box<2>& b) {
-  return {{std::min(a.lo[0], b.lo[0]), std::min(a.lo[1], b.lo[1])},
-          {std::max(a.hi[0], b.hi[0]), std::max(a.hi[1], b.hi[1])}};
-}
 void take(SizeRange& all, const SizeRange& r) {
   all.least = std::min(all.least, r.least);
   all.most = std::max(all.most, r.most);
@@ -39,7 +29,7 @@ void FacetSizes::build(std::size_t begin, std::size_t end) {
   const std::size_t me = nodes_.size();
   Node node{facets_[begin].extent(), {kInfinite, 0}, begin, end};
   for (std::size_t i = begin; i < end; ++i) {
-    node.box = joined(node.box, facets_[i].extent());
+    for (const Point<2>& p : facets_[i].corners()) grow(node.box, p);
     take(node.range, {facets_[i].least(), facets_[i].most()});
   }
   nodes_.push_back(node);
@@ -77,13 +67,10 @@ void FacetSizes::visit(Enter&& enter, Visit&& visit_facet) const {
 
 double FacetSizes::at(const Point<2>& p) const {
   double least = kInfinite;
-  visit(
-      [&](const Node& n) {
-        return n.range.least < least && meet(n.box, {p, p});
-      },
-      [&](const Facet& f) {
-        if (f.least() < least && f.contains(p)) least = std::min(least, f.at(p));
-      });
+  visit([&](const Node& n) { return n.range.least < least && contains(n.box, p); },
+        [&](const Facet& f) {
+          if (f.least() < least && f.contains(p)) least = std::min(least, f.at(p));
+        });
   return least;
 }
 
@@ -92,8 +79,8 @@ SizeRange FacetSizes::range(const Box<2>& box) const {
   visit(
       [&](const Node& n) {
         const bool known = n.range.least >= all.least && n.range.most <= all.most;
-        if (known || !meet(n.box, box)) return false;
-        if (is_inside(n.box, box)) return take(all, n.range), false;
+        if (known || is_empty(common(n.box, box))) return false;
+        if (contains(box, n.box)) return take(all, n.range), false;
         return true;
       },
       [&](const Facet& f) {

@@ -8,6 +8,7 @@
 #include "geometry/box.hpp"
 #include "input.hpp"
 #include "io/text.hpp"
+#include "make_set.hpp"
 #include "mesher/error.hpp"
 #include "sizes/region_limits.hpp"
 
@@ -63,8 +64,7 @@ Limits::Limits(const Options<2>& options, const MeshBox<2>& box)
   if (asked && options.rule != Rule::radius_edge) {
     refuse("limits of size need the rule radius_edge");
   }
-  std::sort(plateaus_.begin(), plateaus_.end());
-  plateaus_.erase(std::unique(plateaus_.begin(), plateaus_.end()), plateaus_.end());
+  make_set(plateaus_);
 }
 
 void Limits::add_part(const Box<2>& box, const SizeLimits<2>& limits) {
@@ -128,7 +128,7 @@ Limits::Look Limits::look(const Part& part, const Point<2>& p) const {
   if (!(h > 0)) refuse("the size at " + place_text(p) + " is not above 0");
   const double area = area_of_size(h);
   if (part.area <= area) return {part.area, part.pitch};
-  return {area, 0, part.has_plateaus && part.sizes->is_plateau(p)};
+  return {area, 0, part.has_plateaus};
 }
 
 double Limits::pitch_for(const Look& look) const {

@@ -7,9 +7,9 @@
 
 #include "geometry/box.hpp"
 #include "mesher/domain_mesh.hpp"
-#include "mesher/sizes.hpp"
 #include "program/world.hpp"
 #include "sac/check.hpp"
+#include "sizes/all_limits.hpp"
 
 namespace mesher {
 
@@ -152,8 +152,7 @@ RegionLimits::Range RegionLimits::range(const Box<2>& box) const {
 std::shared_ptr<const RegionLimits> region_limits(const Pslg& graph, const Options<2>& options,
                                                   Extent extent, RegionAreas areas) {
   Options<2> unlimited = options;
-  set_limits(unlimited, SizeLimits<2>());
-  unlimited.region_limits = nullptr;
+  detail::AllLimits().apply_to(unlimited);
   const MeshData whole = with_features(mesh_statically(graph, unlimited), graph);
   const Domain domain = find_domain(whole, whole.features.edges, seeds_of(graph), extent);
   const auto limits = std::make_shared<RegionLimits>(detail::mesh_box(options));

@@ -5,6 +5,7 @@
 #include <stop_token>
 
 #include "failing_new.hpp"
+#include "failing_update.hpp"
 #include "sac/check.hpp"
 #include "scratch_file.hpp"
 
@@ -205,27 +206,11 @@ TEST_CASE("a point keeps its marker when it moves, and has another when it goes 
 }
 
 TEST_CASE("an update in which any one allocation fails leaves mesh and domain, and works again") {
-  Parted whole;
-  whole.announce();
-  whole.m.update();
-  const Seen expected(whole.m);
-  const Seen before(Parted().m);
-  bool burnt = true;
-  std::uint64_t count = 1;
-  for (; burnt; ++count) {
-    CAPTURE(count);
-    Parted p;
-    p.announce();
-    const bool failed = support::fails(count, burnt, [&] { p.m.update(); });
-    if (count % 16 == 0) p.m.check_invariants();
-    if (failed) {
-      REQUIRE(Seen(p.m) == before);
-      p.announce();
-      p.m.update();
-    }
-    REQUIRE(Seen(p.m) == expected);
-  }
-  CHECK(count > 200);
+  struct SeenParted : Parted {
+    Seen before{m};
+  };
+  const auto see = [](const DomainMesher& m) { return Seen(m); };
+  CHECK(support::check_failing_updates<SeenParted>(see) > 200);
 }
 
 TEST_CASE("an announcement that finds no memory announces nothing") {
@@ -281,11 +266,20 @@ TEST_CASE("a callback that uses a mesher with its domain is refused, and nothing
     if (p == Point<2>{5, 5.5} || p[0] >= 7.9) continue;
     for (Parted* each : {&parted, &twin}) each->m.insert(id(1000 + i), p, 11);
   }
-  for (Parted* each : {&parted, &twin}) each->announce();
+  const bool limited = GENERATE(false, true);  // there is a second mesh
+  for (Parted* each : {&parted, &twin}) {
+    each->announce();
+    if (limited) each->m.limit({.max_area = 4});
+  }
   int refused = 0;
   const auto progress = [&](const mesher::Progress&) {
     CHECK_THROWS_AS(parted.m.update(), sac::UsageError);
     CHECK_THROWS_AS(parted.m.insert(id(9999), {3, 3}, 5), sac::UsageError);
+    CHECK_THROWS_AS(parted.m.move(id(7), {3, 3}), sac::UsageError);
+    CHECK_THROWS_AS(parted.m.remove(id(7)), sac::UsageError);
+    CHECK_THROWS_AS(parted.m.insert_segment(id(9999), id(7), id(3)), sac::UsageError);
+    CHECK_THROWS_AS(parted.m.remove_segment(id(3)), sac::UsageError);
+    CHECK_THROWS_AS(parted.m.limit(mesher::SizeLimits<2>()), sac::UsageError);
     CHECK_THROWS_AS(parted.m.insert_hole(id(77), {3, 3}), sac::UsageError);
     CHECK_THROWS_AS(parted.m.remove_hole(id(2)), sac::UsageError);
     parted.m.discard_edits();  // does nothing
