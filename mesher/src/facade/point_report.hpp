@@ -45,8 +45,13 @@ std::vector<InputPoint<D>> PointState<D>::points() const {
 }
 
 template <int D>
+Mesh<D> PointState<D>::mesh_of(const std::vector<Simplex>& simplices) const {
+  return canonical(pool(), live_vertices(), simplices, line_edges());
+}
+
+template <int D>
 Mesh<D> PointState<D>::mesh() const {
-  return canonical(pool(), live_vertices(), simplices(), line_edges());
+  return mesh_of(simplices());
 }
 
 template <int D>

@@ -136,10 +136,11 @@ Change<D> PointState<D>::first_run(PointEdits edits, const RunControl& control,
   require_others();
   vertices().set_logging(true);
   ran_ = true;
-  const Mesh<D> all = mesh();
-  stats_ = timed_stats(*world_, all);
-  Change<D> change = whole(all);
-  find_angles(simplices(), change);
+  const std::vector<Simplex> come = simplices();
+  const Mesh<D> mesh = mesh_of(come);
+  stats_ = timed_stats(*world_, mesh);
+  Change<D> change = whole(mesh);
+  find_angles(come, change);
   change.calls = calls;
   if (accept) accept(change);
   return change;

@@ -111,6 +111,7 @@ class PointState {
   void rename(const PointEdits& edits, Ids& arrived) noexcept;
   void require_room(std::size_t vertices) const;
   [[nodiscard]] std::vector<Simplex> simplices() const;
+  [[nodiscard]] Mesh<D> mesh_of(const std::vector<Simplex>& simplices) const;
   [[nodiscard]] std::vector<VertexHandle> live_vertices() const;
   [[nodiscard]] Change<D> whole(const Mesh<D>& mesh) const;
   [[nodiscard]] std::array<Point<D>, D + 1> corners(const Simplex& s) const;

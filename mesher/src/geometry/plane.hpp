@@ -19,7 +19,7 @@ namespace mesher::detail {
 }
 [[nodiscard]] inline double squared(const Point<2>& a) { return a[0] * a[0] + a[1] * a[1]; }
 [[nodiscard]] inline double squared_distance(const Point<2>& a, const Point<2>& b) {
-  return squared({a[0] - b[0], a[1] - b[1]});
+  return squared(Point<2>{a[0] - b[0], a[1] - b[1]});
 }
 
 }  // namespace mesher::detail

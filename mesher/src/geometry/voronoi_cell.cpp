@@ -143,23 +143,6 @@ void VoronoiCell::set_corner(int i) {
   tolerance2_[a] = c.tolerance2;
 }
 
-void VoronoiCell::update_reach() {
-  reach2_ = 0;
-  open2_ = 0;
-  open_count_ = 0;
-  double tolerance2 = 0;
-  for (std::size_t i = 0; i < index(size_); ++i) {
-    reach2_ = std::max(reach2_, q2_[i]);
-    tolerance2 = std::max(tolerance2, tolerance2_[i]);
-    if (is_open_[i] == 0) continue;
-    open2_ = std::max(open2_, q2_[i]);
-    open_[index(open_count_++)] = static_cast<std::uint16_t>(i);
-  }
-  reach2_ *= 1 + 0x1p-30;  // so that rounding never leaves out a vertex that cuts
-  open2_ *= 1 + 0x1p-30;
-  error_ = std::sqrt(tolerance2 * reach2_) * 1.01;  // half of 2 w.q's error, for any w in reach
-}
-
 bool VoronoiCell::is_compact() const noexcept {
   for (int k = 0; k < open_count_; ++k) {
     const int i = open_[index(k)];
@@ -172,10 +155,8 @@ bool VoronoiCell::is_compact() const noexcept {
   return open2_ <= farthest2;
 }
 
-// Where the corner is known badly, as between neighbours in nearly one direction, the ball is larger
-// by more than the corner's error.
 void VoronoiCell::add_gap_ball(std::size_t i, Box<2>& extent) const noexcept {
-  const double r = std::sqrt(q2_[i]) * (1 + 0x1p-30) + std::sqrt(tolerance2_[i]);
+  const double r = gap_radius(i);
   extent.lo = {std::min(extent.lo[0], qx_[i] - r), std::min(extent.lo[1], qy_[i] - r)};
   extent.hi = {std::max(extent.hi[0], qx_[i] + r), std::max(extent.hi[1], qy_[i] + r)};
 }

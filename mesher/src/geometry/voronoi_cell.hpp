@@ -25,12 +25,13 @@
 #include <span>
 #include <vector>
 
+#include "geometry/corner_reach.hpp"
 #include "index/vertex.hpp"
 #include "mesher/mesh.hpp"
 
 namespace mesher::detail {
 
-class VoronoiCell {
+class VoronoiCell : public CornerReach<std::uint16_t> {
  public:
   static constexpr int kClips = 8;
 
@@ -46,9 +47,6 @@ class VoronoiCell {
   template <class Left>
   [[nodiscard]] bool restore(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
                              std::span<const Code> codes, Left&& left, bool repair);
-
-  /// Whether w might cut an open corner, by distance: |w - v|^2 <= 4 |q|^2.
-  [[nodiscard]] bool in_reach(double distance2) const noexcept { return distance2 <= 4 * open2_; }
 
   /// Whether w is nearer than v to some corner; of a virtual neighbour's place: whether it takes
   /// it.
@@ -85,10 +83,6 @@ class VoronoiCell {
   /// Corners have the numbers of neighbours; around q_i are these.
   [[nodiscard]] int corners() const noexcept { return size_; }
   [[nodiscard]] std::array<int, 2> ends(int i) const noexcept { return {i, next(i)}; }
-  /// max |q_i|^2.
-  [[nodiscard]] double reach2() const noexcept { return reach2_; }
-  /// The same over the open corners; 0: there is none.
-  [[nodiscard]] double open2() const noexcept { return open2_; }
   /// Whether no open corner is next to a virtual neighbour, nor farther than the neighbours: then
   /// the cell is not much larger than it will be.
   [[nodiscard]] bool is_compact() const noexcept;
@@ -152,14 +146,11 @@ class VoronoiCell {
   void move_entries(int from, int to, int n);
   void insert_neighbour(int first, int count, Code w);
   void resize(int n);
-  void update_reach();
+  void update_reach() noexcept { CornerReach::update_reach(index(size_)); }
   void add_gap_ball(std::size_t i, Box<2>& extent) const noexcept;
 
   const Vertex<2>* v_ = nullptr;
   int size_ = 0;
-  double reach2_ = 0;
-  double open2_ = 0;
-  double error_ = 0;
   // Of the candidate under test: its place relative to v, and the run of corners it takes.
   Point<2> w_{};
   double wx_ = 0;
@@ -167,10 +158,7 @@ class VoronoiCell {
   int run_first_ = 0;
   int run_count_ = 0;
   int replaces_ = -1;  // a virtual neighbour at the candidate's very place
-  std::vector<double> ux_, uy_, qx_, qy_, q2_, tolerance2_;
-  std::vector<std::uint8_t> is_open_;
-  std::vector<std::uint16_t> open_;  // the open corners
-  int open_count_ = 0;
+  std::vector<double> ux_, uy_, qx_, qy_;
   std::vector<Point<2>> place_;
   std::vector<VertexHandle> handle_;
   std::vector<std::uint8_t> clip_;

@@ -300,25 +300,8 @@ void VoronoiCell3::fill_hole(int t) {
 
 // --- What it says ----------------------------------------------------------------------------
 
-void VoronoiCell3::update_reach() {
-  reach2_ = 0;
-  open2_ = 0;
-  open_count_ = 0;
-  double tolerance2 = 0;
-  for (std::size_t t = 0; t < index(corners_); ++t) {
-    reach2_ = std::max(reach2_, q2_[t]);
-    tolerance2 = std::max(tolerance2, tolerance2_[t]);
-    if (is_open_[t] == 0) continue;
-    open2_ = std::max(open2_, q2_[t]);
-    open_[index(open_count_++)] = static_cast<int>(t);
-  }
-  reach2_ *= 1 + 0x1p-30;  // so that rounding never leaves out a vertex that cuts
-  open2_ *= 1 + 0x1p-30;
-  error_ = std::sqrt(tolerance2 * reach2_) * 1.01;  // half of 2 w.q's error, for any w in reach
-}
-
 void VoronoiCell3::add_gap_ball(int t, Box<3>& extent) const noexcept {
-  const double r = std::sqrt(corner2(t)) * (1 + 0x1p-30) + std::sqrt(tolerance2_[index(t)]);
+  const double r = gap_radius(index(t));
   const Point<3> q = corner(t);
   for (std::size_t i = 0; i < 3; ++i) {
     extent.lo[i] = std::min(extent.lo[i], q[i] - r);

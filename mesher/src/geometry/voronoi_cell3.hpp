@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/corner_reach.hpp"
 #include "geometry/link_record.hpp"
 #include "geometry/space.hpp"
 #include "index/vertex.hpp"
@@ -28,7 +29,7 @@
 
 namespace mesher::detail {
 
-class VoronoiCell3 {
+class VoronoiCell3 : public CornerReach<int> {
  public:
   static constexpr int kClips = 6;
   using Code = LinkRecord::Code;
@@ -44,8 +45,6 @@ class VoronoiCell3 {
   bool restore(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
                std::span<const Code> record, Left&& left, bool repair);
 
-  /// Whether w might cut an open corner, by distance: |w - v|^2 <= 4 |q|^2.
-  [[nodiscard]] bool in_reach(double distance2) const noexcept { return distance2 <= 4 * open2_; }
   /// Whether w is nearer than v to some corner; of a virtual neighbour's place: whether it takes
   /// it.
   [[nodiscard]] bool cuts(const Point<3>& w) {
@@ -87,10 +86,6 @@ class VoronoiCell3 {
     return {qx_[index(t)], qy_[index(t)], qz_[index(t)]};
   }
   [[nodiscard]] double corner2(int t) const noexcept { return q2_[index(t)]; }
-  /// max |q|^2.
-  [[nodiscard]] double reach2() const noexcept { return reach2_; }
-  /// The same over the open corners; 0: there is none.
-  [[nodiscard]] double open2() const noexcept { return open2_; }
   /// A box around the gap balls of the open corners, relative to v.
   [[nodiscard]] Box<3> open_extent() const noexcept;
   /// The same of the corners between three real neighbours, or on the inner side of the planes
@@ -164,13 +159,10 @@ class VoronoiCell3 {
   void release_ends();
   void join_rim(int to);
   void fill_hole(int t);
-  void update_reach();
+  void update_reach() noexcept { CornerReach::update_reach(index(corners_)); }
   void add_gap_ball(int t, Box<3>& extent) const noexcept;
 
   const Vertex<3>* v_ = nullptr;
-  double reach2_ = 0;
-  double open2_ = 0;
-  double error_ = 0;
   // Of the candidate under test: its place, relative to v too, and the corners it takes.
   Point<3> w_{};
   Point<3> aim_{};
@@ -188,11 +180,8 @@ class VoronoiCell3 {
   std::vector<int> uses_;   // in triangles
   std::vector<int> unused_;
   int corners_ = 0;
-  std::vector<double> qx_, qy_, qz_, q2_, tolerance2_;
+  std::vector<double> qx_, qy_, qz_;
   std::vector<Face> face_;
-  std::vector<std::uint8_t> is_open_;
-  std::vector<int> open_;  // the open corners
-  int open_count_ = 0;
 
   static constexpr Code kUnused = 0xffffffffu;
 };

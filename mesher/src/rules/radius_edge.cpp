@@ -113,7 +113,7 @@ Point<2> RadiusEdge<2>::place(const Poor& poor) const {
 // --- In space [rules B4] ---------------------------------------------------------------------
 
 // The shortest edge between v and the real neighbours around corner t; ties by places, so that all
-// corners of a simplex name the same. Requires: one is real.
+// corners of a simplex name the same. Infinitely long if no neighbour is real.
 template <int D>
 auto RadiusEdge<D>::shortest_edge(const CellOf<D>& cell, int t) const -> Poor {
   const Point<D>& v = cell.center().p;

@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "cell_scene.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/predicates.hpp"
 
@@ -17,7 +18,6 @@ using mesher::Point;
 using mesher::SplitMix64;
 using mesher::detail::LinkRecord;
 using mesher::detail::Vertex;
-using mesher::detail::VertexPool;
 using Cell = mesher::detail::VoronoiCell3;
 
 using Triangle = std::array<std::uint32_t, 3>;  // codes, the smallest first
@@ -44,10 +44,8 @@ Link link_of(const std::vector<std::uint32_t>& words) {
   return link;
 }
 
-struct Site {
-  Point<3> p;
-  std::uint32_t code;
-};
+using Scene = CellScene<3>;
+using Site = Scene::Site;
 
 // The star of v among `sites` by the definition: abc is a triangle of its link if no other site is
 // inside the sphere of v, a, b, c.
@@ -70,41 +68,6 @@ Link brute_force(const Point<3>& v, const std::vector<Site>& sites) {
   }
   return link;
 }
-
-struct Scene {
-  VertexPool<3> pool;
-  Vertex<3>* v = nullptr;
-  std::vector<Vertex<3>*> others;
-  double radius = 1;
-
-  void add(const Point<3>& p) {
-    if (v != nullptr && p == v->p) return;
-    for (const auto* u : others) {
-      if (u->p == p) return;
-    }
-    auto& fresh = pool.create(p);
-    v == nullptr ? void(v = &fresh) : others.push_back(&fresh);
-  }
-  static void cut_by(Cell& cell, const Vertex<3>& w) {
-    if (cell.cuts(w.p)) cell.cut(w.self);
-  }
-  void cut_by_all(Cell& cell) const {
-    cell.reset(*v, radius);
-    for (const auto* w : others) cut_by(cell, *w);
-  }
-  [[nodiscard]] std::vector<Site> sites() const {
-    Cell clip;
-    clip.reset(*v, radius);
-    std::vector<Site> all;
-    for (int i = 0; i < clip.size(); ++i) all.push_back({clip.place(i), clip.code(i)});
-    for (const auto* u : others) {
-      // A vertex at a virtual neighbour's place takes it.
-      std::erase_if(all, [&](const Site& s) { return s.p == u->p; });
-      all.push_back({u->p, u->self});
-    }
-    return all;
-  }
-};
 
 enum class Kind { uniform, lattice, sphere, near_sphere, plane, near_plane, on_clip, kinds };
 
@@ -165,10 +128,6 @@ Scene make_scene(SplitMix64& random, Kind kind) {
 
 Kind kind_of(int i) { return static_cast<Kind>(i % static_cast<int>(Kind::kinds)); }
 
-void shuffle(std::vector<Vertex<3>*>& all, SplitMix64& random) {
-  for (std::size_t k = all.size(); k > 1; --k) std::swap(all[k - 1], all[random.below(k)]);
-}
-
 }  // namespace
 
 TEST_CASE(
@@ -181,7 +140,7 @@ TEST_CASE(
     Scene scene = make_scene(random, kind_of(i));
     const Link expected = brute_force(scene.v->p, scene.sites());
     for (int order = 0; order < 3; ++order) {
-      shuffle(scene.others, random);
+      scene.shuffle(random);
       scene.cut_by_all(cell);
       REQUIRE(link_of(cell) == expected);
       for (const auto* w : scene.others) REQUIRE_FALSE(cell.cuts(w->p));  // once is enough

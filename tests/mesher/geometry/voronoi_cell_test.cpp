@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "cell_scene.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/predicates.hpp"
 
@@ -17,7 +18,6 @@ using mesher::Point;
 using mesher::SplitMix64;
 using mesher::detail::Vertex;
 using mesher::detail::VertexHandle;
-using mesher::detail::VertexPool;
 using mesher::detail::VoronoiCell;
 
 using Ring = std::vector<std::uint32_t>;  // codes counterclockwise, the smallest first
@@ -33,10 +33,8 @@ Ring ring_of(const VoronoiCell& cell) {
   return canonical(ring);
 }
 
-struct Site {
-  Point<2> p;
-  std::uint32_t code;
-};
+using Scene = CellScene<2>;
+using Site = Scene::Site;
 
 // The star of v among `sites` by the definition: (a, b) follow each other if no other site is
 // inside the circle of v, a, b.
@@ -62,37 +60,6 @@ Ring brute_force(const Point<2>& v, const std::vector<Site>& sites) {
   REQUIRE(ring.size() == next.size());
   return canonical(ring);
 }
-
-struct Scene {
-  VertexPool<2> pool;
-  Vertex<2>* v = nullptr;
-  std::vector<Vertex<2>*> others;
-  double radius = 1;
-
-  void add(const Point<2>& p) {
-    if (v != nullptr && p == v->p) return;
-    for (const auto* u : others) {
-      if (u->p == p) return;
-    }
-    auto& fresh = pool.create(p);
-    v == nullptr ? void(v = &fresh) : others.push_back(&fresh);
-  }
-  void cut_by(VoronoiCell& cell, const Vertex<2>& w) const {
-    if (cell.cuts(w.p)) cell.cut(w.self);
-  }
-  [[nodiscard]] std::vector<Site> sites() const {
-    VoronoiCell clip;
-    clip.reset(*v, radius);
-    std::vector<Site> all;
-    for (int i = 0; i < clip.size(); ++i) all.push_back({clip.place(i), clip.code(i)});
-    for (const auto* u : others) {
-      // A vertex at a virtual neighbour's place takes it.
-      std::erase_if(all, [&](const Site& s) { return s.p == u->p; });
-      all.push_back({u->p, u->self});
-    }
-    return all;
-  }
-};
 
 enum class Kind { uniform, lattice, circle, line, near_circle, on_clip, kinds };
 
@@ -155,11 +122,8 @@ TEST_CASE(
     Scene scene = make_scene(random, kind);
     const Ring expected = brute_force(scene.v->p, scene.sites());
     for (int order = 0; order < 4; ++order) {
-      for (std::size_t k = scene.others.size(); k > 1; --k) {
-        std::swap(scene.others[k - 1], scene.others[random.below(k)]);
-      }
-      cell.reset(*scene.v, scene.radius);
-      for (const auto* w : scene.others) scene.cut_by(cell, *w);
+      scene.shuffle(random);
+      scene.cut_by_all(cell);
       REQUIRE(ring_of(cell) == expected);
       for (const auto* w : scene.others) REQUIRE_FALSE(cell.cuts(w->p));  // once is enough
     }
@@ -181,8 +145,7 @@ TEST_CASE("a new vertex that cuts is in reach, in an entered square, and may_cut
     if (scene.others.empty()) continue;
     const Vertex<2>* fresh = scene.others.back();
     scene.others.pop_back();
-    cell.reset(*scene.v, scene.radius);
-    for (const auto* w : scene.others) scene.cut_by(cell, *w);
+    scene.cut_by_all(cell);
     std::vector<std::uint32_t> codes;
     for (int k = 0; k < cell.size(); ++k) codes.push_back(cell.code(k));
     const bool may = VoronoiCell::may_cut(scene.pool, *scene.v, scene.radius, codes, fresh->p);
@@ -217,8 +180,7 @@ TEST_CASE("far from the origin, and across thirty powers of two, signs stay exac
                  -0x1p30 + step * std::floor(far * (random.unit() - 0.5))});
     }
     const Ring expected = brute_force(scene.v->p, scene.sites());
-    cell.reset(*scene.v, scene.radius);
-    for (const auto* w : scene.others) scene.cut_by(cell, *w);
+    scene.cut_by_all(cell);
     REQUIRE(ring_of(cell) == expected);
   }
 }
@@ -237,8 +199,7 @@ TEST_CASE("a cell restored after some vertices went and some came is that of bru
       arrivals.push_back(scene.others.back());
       scene.others.pop_back();
     }
-    cell.reset(*scene.v, scene.radius);
-    for (const auto* w : scene.others) scene.cut_by(cell, *w);
+    scene.cut_by_all(cell);
     const Ring before = ring_of(cell);
     std::map<std::uint32_t, bool> gone;
     std::erase_if(scene.others,
@@ -249,7 +210,7 @@ TEST_CASE("a cell restored after some vertices went and some came is that of bru
     if (!worked) continue;
     ++restored;
     cell.check_invariants();
-    for (const auto* w : arrivals) scene.cut_by(cell, *w);
+    for (const auto* w : arrivals) Scene::cut_by(cell, *w);
     for (int k = 0; k < cell.size(); ++k) closed += cell.corner2(k) > cell.open2();
     // Who takes what is left can be found in the gap balls of open corners.
     for (const auto* w : scene.others) {
