@@ -106,10 +106,15 @@ class GridMesh {
                  *has_line_ = nullptr;
 };
 
+MeshData mesh_of(VtkGrid grid) {
+  require_plane(grid);
+  return GridMesh(std::move(grid)).read();
+}
+
 }  // namespace
 
-MeshData read_vtu_mesh(const std::string& path) { return GridMesh(read_vtu(path)).read(); }
+MeshData read_vtu_mesh(const std::string& path) { return mesh_of(read_vtu(path)); }
 
-MeshData read_vtk_mesh(const std::string& path) { return GridMesh(read_vtk(path)).read(); }
+MeshData read_vtk_mesh(const std::string& path) { return mesh_of(read_vtk(path)); }
 
 }  // namespace mesher
