@@ -42,17 +42,6 @@ struct Camera {
   [[nodiscard]] Point<2> project(const Point<3>& p) const { return {dot(p, right), dot(p, up)}; }
 };
 
-// The corners of a box, seen.
-Box<2> project(const Box<3>& box, const Camera& camera) {
-  std::vector<Point<2>> corners;
-  for (unsigned k = 0; k < 8; ++k) {
-    Point<3> p;
-    for (unsigned i = 0; i < 3; ++i) p[i] = (k >> i & 1) != 0 ? box.hi[i] : box.lo[i];
-    corners.push_back(camera.project(p));
-  }
-  return detail::bounding_box<2>(corners);
-}
-
 Point<3> middle_of(const Mesh<3>& mesh, const Simplex& s) {
   Point<3> sum{};
   for (const std::uint32_t v : s) sum = detail::plus(sum, mesh.vertices[v]);
@@ -157,7 +146,7 @@ class Scene {
     return colour_of(std::sqrt(centre_of(s).length2) / shortest_edge(mesh_, s));
   }
   static Colour shaded(Colour colour, const Point<3>& normal) {
-    const double light = 0.6 + 0.4 * std::max(0.0, dot(normal, kToLight));
+    const double light = 0.72 + 0.28 * std::max(0.0, dot(normal, kToLight));
     for (double& c : colour) c *= light;
     return colour;
   }
@@ -167,11 +156,29 @@ class Scene {
   std::vector<Shown> faces_;
 };
 
+// What faces take up of the picture's plane, with a little room around them; a unit square if there
+// are none.
+Box<2> extent_of(const std::vector<Shown>& faces, const Mesh<3>& mesh, const Camera& camera) {
+  std::vector<Point<2>> corners;
+  for (const Shown& shown : faces) {
+    for (const std::uint32_t v : shown.face) corners.push_back(camera.project(mesh.vertices[v]));
+  }
+  if (corners.empty()) return {{0, 0}, {1, 1}};
+  Box<2> box = detail::bounding_box<2>(corners);
+  const double margin = svg::longest_side(box) / 64;
+  for (std::size_t i = 0; i < 2; ++i) {
+    box.lo[i] -= margin;
+    box.hi[i] += margin;
+  }
+  return box;
+}
+
 // Writes the faces, and each input point on the last face that it is a corner of.
 class Drawing {
  public:
-  Drawing(const Mesh<3>& mesh, const Box<3>& window, TextFile& file)
-      : mesh_(mesh), canvas_(project(window, camera_), file), file_(file) {
+  Drawing(const std::vector<Shown>& faces, const Mesh<3>& mesh, const Box<3>& window,
+          TextFile& file)
+      : faces_(faces), mesh_(mesh), canvas_(extent_of(faces, mesh, camera_), file), file_(file) {
     front_ = dot(window.lo, kToViewer);
     back_ = front_;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -180,19 +187,19 @@ class Drawing {
     }
   }
 
-  void draw(const std::vector<Shown>& faces) {
+  void draw() {
     canvas_.begin();
     file_ << "<g stroke=\"#3b5b7c\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n";
     std::vector<std::uint32_t> left(mesh_.vertices.size(), 0);
     std::vector<double> shortest(mesh_.vertices.size(), svg::kLongerSide);
-    for (const Shown& shown : faces) {
+    for (const Shown& shown : faces_) {
       const double side = shortest_side(shown.face);
       for (const std::uint32_t v : shown.face) {
         ++left[v];
         shortest[v] = std::min(shortest[v], side);
       }
     }
-    for (const Shown& shown : faces) {
+    for (const Shown& shown : faces_) {
       draw_face(shown);
       for (const std::uint32_t v : shown.face) {
         if (--left[v] == 0 && mesh_.kinds[v] == VertexKind::input) draw_dot(v, shortest[v]);
@@ -212,7 +219,6 @@ class Drawing {
   void draw_face(const Shown& shown) {
     const auto& [face, colour] = shown;
     const Point<2> a = seen(face[0]), b = seen(face[1]), c = seen(face[2]);
-    if (!canvas_.shows(a, b, c)) return;
     file_ << "<path fill=\"" << hexadecimal(colour, fade_at(face)) << "\" stroke-width=\"";
     canvas_.number(std::ldexp(svg::kLineShare, svg::length_class(shortest_side(face)) - 1));
     file_ << "\" d=\"M";
@@ -226,7 +232,6 @@ class Drawing {
 
   void draw_dot(std::uint32_t v, double shortest) {
     const Point<2> p = seen(v);
-    if (!canvas_.shows(p, p)) return;
     file_ << "<path stroke=\"#c0392b\" stroke-width=\"";
     canvas_.number(std::ldexp(svg::kDotShare, svg::length_class(shortest)));
     file_ << "\" d=\"M";
@@ -234,10 +239,10 @@ class Drawing {
     file_ << "h0\"/>\n";
   }
 
-  // What is at the back has three quarters of its light.
+  // What is at the back has less of its light.
   [[nodiscard]] double fade_at(const Face& f) const {
     const double depth = dot(mesh_.vertices[f[0]], kToViewer);
-    return 0.75 + 0.25 * std::clamp((depth - back_) / (front_ - back_), 0.0, 1.0);
+    return 0.85 + 0.15 * std::clamp((depth - back_) / (front_ - back_), 0.0, 1.0);
   }
 
   static std::string hexadecimal(const Colour& colour, double factor) {
@@ -251,6 +256,7 @@ class Drawing {
     return text;
   }
 
+  const std::vector<Shown>& faces_;
   const Mesh<3>& mesh_;
   Camera camera_;
   svg::Canvas canvas_;
@@ -263,7 +269,8 @@ class Drawing {
 SpaceView space_view(const Mesh<3>& mesh) { return {svg::window_of<3>(mesh), {}}; }
 
 void write_svg(const Mesh<3>& mesh, const SpaceView& view, TextFile& file) {
-  Drawing(mesh, view.window, file).draw(Scene(mesh, view).faces());
+  const Scene scene(mesh, view);
+  Drawing(scene.faces(), mesh, view.window, file).draw();
 }
 
 }  // namespace mesher
