@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "mesher/io.hpp"
 #include "io/text.hpp"
+#include "mesher/io.hpp"
 
 namespace mesher {
 
@@ -31,6 +31,10 @@ struct NodeHeader {
 /// Throws: Error (bad_header, bad_dimension, bad_number).
 [[nodiscard]] NodeHeader read_node_header(const text::Line& line, int dimension);
 
+/// The dimension that the header of a .node file tells, 2 if it tells none. Throws: Error
+/// (cannot_read, truncated, bad_number).
+[[nodiscard]] std::int64_t node_dimension(const std::string& path);
+
 /// Throws: Error (truncated, wrong_count) unless the current line has the fields of a row.
 void require_node_fields(const text::FieldLines& lines, const NodeHeader& header);
 
@@ -46,9 +50,9 @@ template <int D>
 
 template <int D>
 struct NodeFile {
-  PointFile<D> rows;              ///< ids and points may repeat
-  std::vector<VertexKind> kinds;      ///< from a file as write_mesh writes it, else all steiner
-  std::vector<FeatureId> origins;     ///< from such a file, else empty
+  PointFile<D> rows;               ///< ids and points may repeat
+  std::vector<VertexKind> kinds;   ///< from a file as write_mesh writes it, else all steiner
+  std::vector<FeatureId> origins;  ///< from such a file, else empty
   /// One per row, if the file has them; for CoordinateRule::finite if they say more.
   std::vector<std::int64_t> markers;
   std::vector<Note> notes;

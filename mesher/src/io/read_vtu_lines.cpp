@@ -50,6 +50,7 @@ void add_cell(const VtkGrid& grid, std::size_t i, std::int64_t marker,
 
 PslgFile read_vtu_lines(const std::string& path) {
   VtkGrid grid = read_vtu(path);
+  require_plane(grid);
   const VtkArray* const point_markers = VtkGrid::find_integers(grid.point_data, "marker");
   const VtkArray* const cell_markers = VtkGrid::find_integers(grid.cell_data, "marker");
   note_unused(grid.point_data, {point_markers}, grid.notes);

@@ -44,17 +44,6 @@ void require_indices(const VtkGrid& grid) {
   }
 }
 
-void require_plane(const VtkGrid& grid) {
-  const auto& values = grid.points.reals;
-  for (std::size_t i = 2; i < values.size(); i += 3) {
-    if (values[i] == values[2]) continue;
-    throw Error(ErrorCode::bad_dimension,
-                "z is not the same everywhere: " + text::to_text(values[i]) + " at vertex " +
-                    std::to_string(i / 3) + ", " + text::to_text(values[2]) + " at vertex 0",
-                grid.points.place);
-  }
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> VtkGrid::cell(std::size_t i) const {
@@ -79,9 +68,19 @@ void require_consistent(const VtkGrid& grid) {
   require_size(grid.offsets, grid.cell_count(), "cells");
   require_offsets(grid);
   require_indices(grid);
-  require_plane(grid);
   for (const VtkArray& array : grid.point_data) require_size(array, grid.point_count(), "points");
   for (const VtkArray& array : grid.cell_data) require_size(array, grid.cell_count(), "cells");
+}
+
+void require_plane(const VtkGrid& grid) {
+  const auto& values = grid.points.reals;
+  for (std::size_t i = 2; i < values.size(); i += 3) {
+    if (values[i] == values[2]) continue;
+    throw Error(ErrorCode::bad_dimension,
+                "z is not the same everywhere: " + text::to_text(values[i]) + " at vertex " +
+                    std::to_string(i / 3) + ", " + text::to_text(values[2]) + " at vertex 0",
+                grid.points.place);
+  }
 }
 
 void note_unused(const std::vector<VtkArray>& arrays, std::initializer_list<const VtkArray*> used,

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "io/note_counter.hpp"
 #include "mesher/error.hpp"
 #include "mesher/mesh.hpp"
-#include "io/note_counter.hpp"
 
 namespace mesher {
 
@@ -19,7 +19,8 @@ enum class VtkCell : std::uint8_t {
   poly_vertex = 2,
   line = 3,
   poly_line = 4,
-  triangle = 5
+  triangle = 5,
+  tetrahedron = 10
 };
 
 /// Numbers under a name; all integers, or all doubles.
@@ -56,13 +57,15 @@ struct VtkGrid {
                                             std::string_view name);
 };
 
-/// Throws: Error as read_mesh. The grid is consistent: sizes agree, cells name points, z is the
-/// same everywhere.
+/// Throws: Error as read_mesh. The grid is consistent: sizes agree, cells name points.
 [[nodiscard]] VtkGrid read_vtu(const std::string& path);
 [[nodiscard]] VtkGrid read_vtk(const std::string& path);
 
-/// Throws: Error (wrong_count, bad_mesh, bad_dimension, too_many) unless `grid` is consistent.
+/// Throws: Error (wrong_count, bad_mesh, too_many) unless `grid` is consistent.
 void require_consistent(const VtkGrid& grid);
+
+/// Throws: Error(bad_dimension) unless z is the same everywhere. Requires: consistent.
+void require_plane(const VtkGrid& grid);
 
 /// Notes the arrays that are not among `used` (which may have nullptrs).
 void note_unused(const std::vector<VtkArray>& arrays, std::initializer_list<const VtkArray*> used,

@@ -1,32 +1,19 @@
 // The formats of meshes of tetrahedra: those of the plane's writers, with a third coordinate.
-#include <algorithm>
-#include <array>
 #include <cstdint>
-#include <map>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "geometry/box.hpp"
 #include "io/text.hpp"
-#include "mesh/canonical.hpp"
 #include "mesher/space_files.hpp"
 
 namespace mesher {
 
 namespace {
 
-using Face = std::array<std::uint32_t, 3>;
-
 constexpr std::size_t kFirst = 1;  // of what is numbered in TetGen's, Gmsh's and Medit's files
 constexpr int kVtkTetrahedron = 10;
-
-// As seen from outside, counterclockwise. Corners abcd are positively oriented: abc is
-// counterclockwise seen from d, which is inside.
-std::array<Face, 4> faces_of(const Mesh<3>::Simplex& s) {
-  const auto [a, b, c, d] = s;
-  return {Face{a, c, b}, Face{a, b, d}, Face{b, c, d}, Face{a, d, c}};
-}
 
 void write_place(const Point<3>& p, TextFile& file) { file << p[0] << ' ' << p[1] << ' ' << p[2]; }
 
@@ -142,22 +129,6 @@ constexpr std::pair<std::string_view, Write> kSingleFiles[] = {
     {".vtu", write_vtu}, {".vtk", write_vtk}, {".msh", write_msh}, {".mesh", write_medit}};
 
 }  // namespace
-
-std::vector<Face> boundary_faces(const Mesh<3>& mesh) {
-  std::map<Face, Face> open;  // sorted corners: the face
-  for (const auto& simplex : mesh.simplices) {
-    for (const Face& face : faces_of(simplex)) {
-      Face key = face;
-      std::sort(key.begin(), key.end());
-      const auto [twin, is_new] = open.emplace(key, face);
-      if (!is_new) open.erase(twin);
-    }
-  }
-  std::vector<Face> faces;
-  for (const auto& [key, face] : open) faces.push_back(detail::smallest_first(face));
-  std::sort(faces.begin(), faces.end());
-  return faces;
-}
 
 void write_mesh(const Mesh<3>& mesh, const std::string& path) {
   OutputFiles files;

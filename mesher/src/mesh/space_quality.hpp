@@ -1,0 +1,23 @@
+// How good a single tetrahedron is.
+#pragma once
+
+#include "mesher/mesh.hpp"
+
+namespace mesher::detail {
+
+/// Circumradius over shortest edge.
+struct RadiusEdge {
+  double ratio;
+  double error;  ///< a bound on that of `ratio`
+};
+/// Requires: orient3d(a, b, c, d) > 0.
+[[nodiscard]] RadiusEdge radius_edge(const Point<3>& a, const Point<3>& b, const Point<3>& c,
+                                     const Point<3>& d);
+
+/// The ratio of a tetrahedron of a mesh.
+[[nodiscard]] inline RadiusEdge radius_edge(const Mesh<3>& mesh, const Mesh<3>::Simplex& s) {
+  const auto& v = mesh.vertices;
+  return radius_edge(v[s[0]], v[s[1]], v[s[2]], v[s[3]]);
+}
+
+}  // namespace mesher::detail
