@@ -1,10 +1,12 @@
 // The arguments that `mesh`, `edit` and `trace` share.
 #include "arguments.hpp"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "mesher/domain_mesh.hpp"
 #include "mesher/sizes.hpp"
@@ -16,19 +18,31 @@ using mesher::Error;
 using mesher::ErrorCode;
 
 constexpr double kLeastRho = 1.01;  // Options::rho
-constexpr const char* kDomainHint = "; --domain XMIN YMIN XMAX YMAX sets another domain";
+
+template <int D>
+constexpr const char* kDomainHint =
+    D == 2 ? "; --domain XMIN YMIN XMAX YMAX sets another domain"
+           : "; --domain XMIN YMIN ZMIN XMAX YMAX ZMAX sets another "
+             "domain";
 
 std::string to_text(double value) {
   char digits[32];
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
-std::string to_text(const mesher::Point<2>& p) {
-  return "(" + to_text(p[0]) + ", " + to_text(p[1]) + ")";
+template <std::size_t N>
+std::string to_text(const std::array<double, N>& p) {
+  std::string text = "(";
+  for (const double x : p) text += (text.size() > 1 ? ", " : "") + to_text(x);
+  return text + ")";
 }
 
-bool contains(const mesher::Box<2>& box, const mesher::Point<2>& p) {
-  return box.lo[0] <= p[0] && p[0] <= box.hi[0] && box.lo[1] <= p[1] && p[1] <= box.hi[1];
+template <int D>
+bool contains(const mesher::Box<D>& box, const mesher::Point<D>& p) {
+  for (int i = 0; i < D; ++i) {
+    if (p[i] < box.lo[i] || p[i] > box.hi[i]) return false;
+  }
+  return true;
 }
 
 double domain_coordinate(const std::string& text) {
@@ -39,12 +53,23 @@ double domain_coordinate(const std::string& text) {
               "--domain " + text + ": neither 0 nor of magnitude 2^-100 to 2^100");
 }
 
-mesher::Box<2> domain_of(const std::vector<std::string>& texts) {
-  const mesher::Box<2> box{{domain_coordinate(texts[0]), domain_coordinate(texts[1])},
-                           {domain_coordinate(texts[2]), domain_coordinate(texts[3])}};
-  if (box.lo[0] < box.hi[0] && box.lo[1] < box.hi[1]) return box;
+template <int D>
+mesher::Box<D> domain_of(const std::vector<std::string>& texts) {
+  if (texts.size() != std::size_t{2 * D}) {
+    throw Error(ErrorCode::bad_option, "--domain: " + std::to_string(texts.size()) +
+                                           " numbers; it has 4 in the plane, and 6 in space");
+  }
+  mesher::Box<D> box;
+  bool ordered = true;
+  for (int i = 0; i < D; ++i) {
+    box.lo[i] = domain_coordinate(texts[i]);
+    box.hi[i] = domain_coordinate(texts[i + D]);
+    ordered = ordered && box.lo[i] < box.hi[i];
+  }
+  if (ordered) return box;
   throw Error(ErrorCode::bad_option, "--domain " + to_text(box.lo) + " to " + to_text(box.hi) +
-                                         ": the first corner must be below and left");
+                                         ": the first corner must be below" +
+                                         (D == 2 ? " and left" : ", left and before"));
 }
 
 std::size_t option_count(const std::string& option, const std::string& text) {
@@ -65,16 +90,63 @@ void add_limits(const MeshArguments& args, mesher::Options<2>& options) {
   options.sizes = mesher::sampled_sizes(mesher::read_sizes(args.sizes).samples);
 }
 
-void require_inside(const Input& input, const mesher::Box<2>& domain) {
-  const auto& points = input.graph().points;
+template <int D>
+std::vector<mesher::Point<D>> places_of(const std::vector<mesher::InputPoint<D>>& points) {
+  std::vector<mesher::Point<D>> places;
+  for (const auto& point : points) places.push_back(point.at);
+  return places;
+}
+
+template <int D>
+void require_inside(const InputOf<D>& input, const std::vector<mesher::InputPoint<D>>& points,
+                    const mesher::Box<D>& domain) {
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (contains(domain, points[i].at)) continue;
+    if (contains<D>(domain, points[i].at)) continue;
     throw Error(ErrorCode::outside_domain,
                 "point " + std::to_string(static_cast<std::int64_t>(points[i].id)) + " at " +
                     to_text(points[i].at) + " is outside the domain " + to_text(domain.lo) +
-                    " to " + to_text(domain.hi) + kDomainHint,
-                input.file().place_of_point(i));
+                    " to " + to_text(domain.hi) + kDomainHint<D>,
+                input.place_of_point(i));
   }
+}
+
+// What both dimensions have.
+template <int D>
+mesher::Options<D> common_options(const MeshArguments& args, const InputOf<D>& input) {
+  mesher::Options<D> options;
+  if (!args.rho.empty()) options.rho = option_rho(args.rho);
+  options.rule =
+      args.rule == "radius-edge" ? mesher::Rule::radius_edge : mesher::Rule::voronoi_aspect;
+  const auto points = input.points();
+  options.domain = args.domain.empty() ? mesher::snapped_domain<D>(places_of<D>(points))
+                                       : domain_of<D>(args.domain);
+  if (!args.max_vertices.empty()) {
+    options.max_vertices = option_count("--max-vertices", args.max_vertices);
+  }
+  require_inside<D>(input, points, options.domain);
+  return options;
+}
+
+void require_no_plane_options(const MeshArguments& args) {
+  const std::pair<const char*, bool> given[] = {{"--max-area", !args.max_area.empty()},
+                                                {"--max-size", !args.max_size.empty()},
+                                                {"--sizes", !args.sizes.empty()},
+                                                {"--region-areas", args.region_areas},
+                                                {"--repair", args.repair}};
+  for (const auto& [option, is_given] : given) {
+    if (!is_given) continue;
+    throw Error(ErrorCode::bad_option,
+                std::string(option) + " is for the plane; INPUT has points in space", {args.input});
+  }
+}
+
+// A positional INPUT behind the four numbers of --domain is taken for the fifth.
+void settle_input(MeshArguments& args) {
+  if (args.input.empty() && args.domain.size() == 5) {
+    args.input = args.domain.back();
+    args.domain.pop_back();
+  }
+  if (args.input.empty()) throw CLI::RequiredError("INPUT");
 }
 
 bool has_points_alone(const std::string& path) {
@@ -85,13 +157,21 @@ bool has_points_alone(const std::string& path) {
 }  // namespace
 
 void add_program_options(CLI::App& command, MeshArguments& args) {
+  command.add_option(
+      "INPUT", args.input,
+      "Points and lines: .poly, .geojson, .json, .obj or .vtu; points: .node, .xyz or .csv;\n"
+      "points in space: these three, and the vertices of .off, .obj, .ply, .stl, .vtu or .vtk");
+  command.parse_complete_callback([&args] { settle_input(args); });
   command
-      .add_option(
-          "INPUT", args.input,
-          "Points and lines: .poly, .geojson, .json, .obj or .vtu; points: .node, .xyz or .csv")
-      ->required();
-  command.add_option("--rho", args.rho, "Bound of circumradius over shortest edge, above 1.01")
-      ->capture_default_str();
+      .add_option("--dimension,--dim", args.dimension,
+                  "2: the plane; 3: space (default: 3 if a .node file says so, or z is there and "
+                  "not\n"
+                  "the same everywhere; of .xyz and .csv, not 0 everywhere)")
+      ->check(CLI::IsMember({"2", "3"}));
+  command.add_option(
+      "--rho", args.rho,
+      "Bound of circumradius over shortest edge, above 1.01 (default: 1.4142; in space "
+      "2)");
   command.add_option("--rule", args.rule, "Where to insert: radius-edge or voronoi-aspect")
       ->check(CLI::IsMember({"radius-edge", "voronoi-aspect"}))
       ->capture_default_str();
@@ -99,8 +179,8 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
       .add_option("--domain", args.domain,
                   "Where points may lie (default: the box of INPUT, moved outward to a\n"
                   "power-of-two grid)")
-      ->type_name("XMIN YMIN XMAX YMAX")
-      ->expected(4)
+      ->type_name("XMIN YMIN [ZMIN] XMAX YMAX [ZMAX]")
+      ->expected(4, 6)
       ->allow_extra_args(false);
   command
       .add_option(
@@ -164,11 +244,17 @@ double option_rho(const std::string& text) {
   throw Error(ErrorCode::bad_option, "--rho " + text + ": must be above " + to_text(kLeastRho));
 }
 
-Input read_input(const MeshArguments& args) {
+int dimension_of(const MeshArguments& args) {
+  if (args.dimension.empty()) return mesher::dimension_of(args.input);
+  return args.dimension == "3" ? 3 : 2;
+}
+
+template <>
+Input read_input<2>(const MeshArguments& args) {
   Input input(args.input);
   if (!args.repair) return input;
   std::optional<mesher::Box<2>> domain;
-  if (!args.domain.empty()) domain = domain_of(args.domain);
+  if (!args.domain.empty()) domain = domain_of<2>(args.domain);
   try {
     input.repair(domain);
   } catch (const Error& error) {
@@ -177,25 +263,29 @@ Input read_input(const MeshArguments& args) {
   return input;
 }
 
+template <>
+SpaceInput read_input<3>(const MeshArguments& args) {
+  require_no_plane_options(args);
+  return SpaceInput(args.input);
+}
+
 mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input) {
-  mesher::Options<2> options;
-  options.rho = option_rho(args.rho);
-  options.rule =
-      args.rule == "radius-edge" ? mesher::Rule::radius_edge : mesher::Rule::voronoi_aspect;
-  options.domain = args.domain.empty() ? mesher::snapped_domain<2>(places_of(input.graph()))
-                                       : domain_of(args.domain);
+  auto options = common_options<2>(args, input);
   add_limits(args, options);
-  if (!args.max_vertices.empty()) {
-    options.max_vertices = option_count("--max-vertices", args.max_vertices);
-  }
-  require_inside(input, options.domain);
   return options;
 }
 
+mesher::Options<3> mesh_options(const MeshArguments& args, const SpaceInput& input) {
+  return common_options<3>(args, input);
+}
+
+template <int D>
 Error with_domain_hint(const Error& error) {
   if (error.code() != ErrorCode::outside_domain) return error;
-  return Error(error.code(), error.message() + kDomainHint, error.place(), error.ids());
+  return Error(error.code(), error.message() + kDomainHint<D>, error.place(), error.ids());
 }
+template Error with_domain_hint<2>(const Error&);
+template Error with_domain_hint<3>(const Error&);
 
 void open_outputs(const MeshArguments& args, const Input& input, Outputs& outputs) {
   protect_inputs(args, input, outputs);

@@ -15,9 +15,10 @@ namespace tool {
 struct MeshArguments {
   std::string input;
   std::vector<std::string> outputs;
-  std::string rho = "1.4142";
+  std::string dimension;  // empty: that of the input
+  std::string rho;        // empty: the default of the dimension
   std::string rule = "radius-edge";
-  std::vector<std::string> domain;  // XMIN YMIN XMAX YMAX, or nothing
+  std::vector<std::string> domain;  // the lower corner, the upper corner; or nothing
   std::string max_area, max_size, sizes;
   std::string max_vertices;
   bool region_areas = false;
@@ -49,15 +50,19 @@ void add_mesh_options(CLI::App& command, MeshArguments& args);
 /// The value of --rho. Throws: Error(bad_option).
 [[nodiscard]] double option_rho(const std::string& text);
 
-/// The input as it is to be meshed: repaired, if that is asked for.
-/// Throws: Error, as read_pslg and mesher::repair.
-[[nodiscard]] Input read_input(const MeshArguments& args);
+/// The dimension that is asked for, or else that of the input. Throws: as mesher::dimension_of.
+[[nodiscard]] int dimension_of(const MeshArguments& args);
+
+/// The input as it is to be meshed: repaired, if that is asked for. D is 2 or 3.
+/// Throws: Error, as read_pslg and mesher::repair, or as read_points.
+template <int D = 2>
+[[nodiscard]] InputOf<D> read_input(const MeshArguments& args);
 
 /// What to mesh: the domain as given, or around the input.
-/// Throws: Error(bad_option); Error(outside_domain) with the line of the first point outside,
-/// naming
-/// --domain; as read_sizes.
+/// Throws: Error(bad_option), also for options that mean nothing in space; Error(outside_domain)
+/// with the line of the first point outside, naming --domain; as read_sizes.
 [[nodiscard]] mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input);
+[[nodiscard]] mesher::Options<3> mesh_options(const MeshArguments& args, const SpaceInput& input);
 
 /// Which part of the mesh is written.
 [[nodiscard]] inline mesher::Extent extent(const MeshArguments& args) {
@@ -69,13 +74,14 @@ void add_mesh_options(CLI::App& command, MeshArguments& args);
 }
 
 /// The same error with a hint to --domain, if it is one of a point outside.
+template <int D = 2>
 [[nodiscard]] mesher::Error with_domain_hint(const mesher::Error& error);
 
 /// What is read is not written: says so to outputs that are yet to be opened.
 template <class Files>
-void protect_inputs(const MeshArguments& args, const Input& input, Files& files) {
+void protect_inputs(const MeshArguments& args, const auto& input, Files& files) {
   files.protect(args.input);
-  files.protect(input.file().point_file);
+  files.protect(input.point_file());
   if (!args.sizes.empty()) files.protect(args.sizes);
 }
 

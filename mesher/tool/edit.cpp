@@ -54,7 +54,7 @@ void run_edit_on(Target target, const EditArguments& args, Input input) {
   open_outputs(args, input, outputs);
   Figures figures(args.stats, outputs);
   Progress progress(args.quiet);
-  const Run run = first_run(input, option_rho(args.rho), target, progress);
+  const Run run = first_run(input, target.options().rho, target, progress);
   if (figures.wanted()) figures << json_of(run).dump() << "\n";
   const Followed followed = apply_script(args, input, target, figures, progress);
   const mesher::DomainMesh mesh = target.domain_mesh();

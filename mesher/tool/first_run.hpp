@@ -8,12 +8,24 @@
 
 namespace tool {
 
+/// Announces all of the input to a mesher of its dimension. Throws: as the mesher.
+template <class Target>
+void announce(const Input& input, Target& target) {
+  mesher::announce(input.graph(), target);
+}
+template <class Target>
+void announce(const SpaceInput& input, Target& target) {
+  const auto& points = input.file();
+  for (std::size_t i = 0; i < points.ids.size(); ++i)
+    target.insert(points.ids[i], points.points[i]);
+}
+
 /// Gives `target` the input and updates it.
 /// Throws: Error, said of the line of the feature to blame or of the file; Error(cancelled).
-template <class Target>
+template <class Input, class Target>
 void insert_all(const Input& input, Target& target, Progress& progress) {
   try {
-    mesher::announce(input.graph(), target);
+    announce(input, target);
     Watched(target, progress).update();
   } catch (const mesher::Error& error) {
     throw input.located(error);

@@ -85,21 +85,46 @@ std::string text_of(const Place& place) {
   return place.line > 0 ? place.file + ":" + std::to_string(place.line) : place.file;
 }
 
+Place Standing::place(Featured kind, FeatureId id) const {
+  const auto edited = edited_.find({kind, id});
+  return edited != edited_.end() ? edited->second : place_in_file(kind, id);
+}
+
+Error Standing::located(const Error& error) const {
+  if (error.code() == ErrorCode::cancelled) return error;
+  const std::vector<Featured> kinds = kinds_of(error);
+  Place blamed = error.place();
+  std::string others;
+  for (std::size_t i = 0; i < std::min(kinds.size(), error.ids().size()); ++i) {
+    const Place stands = place(kinds[i], error.ids()[i]);
+    if (stands.line == 0 || same_line(stands, blamed)) continue;
+    if (blamed.line == 0) {
+      blamed = stands;
+    } else {
+      others +=
+          (others.empty() ? " (" : ", ") + words(kinds[i], error.ids()[i]) + ": " + text_of(stands);
+    }
+  }
+  if (blamed.file.empty()) blamed.file = path_;
+  if (!others.empty()) others += ")";
+  return Error(error.code(), error.message() + others, blamed, error.ids());
+}
+
+// --- In the plane ----------------------------------------------------------------------------
+
+std::vector<mesher::InputPoint<2>> Input::points() const {
+  std::vector<mesher::InputPoint<2>> points;
+  for (const auto& point : file_.pslg.points) points.push_back({point.id, point.at});
+  return points;
+}
+
 void Input::repair(const std::optional<mesher::Box<2>>& domain) {
   mesher::Repaired repaired = mesher::repair(file_, domain);
   file_ = std::move(repaired.file);
   repairs_ = std::move(repaired.notes);
 }
 
-void Input::follow(const std::vector<mesher::Edit>& edits) {
-  for (const auto& edit : edits) {
-    edited_.insert_or_assign({mesher::featured(edit.kind), edit.id}, edit.place);
-  }
-}
-
-Place Input::place(Featured kind, FeatureId id) const {
-  const auto edited = edited_.find({kind, id});
-  if (edited != edited_.end()) return edited->second;
+Place Input::place_in_file(Featured kind, FeatureId id) const {
   const auto& graph = file_.pslg;
   const auto at = [&](const auto& parts, auto place_of) {
     const std::size_t i = find(parts, id);
@@ -120,30 +145,26 @@ Place Input::place(Featured kind, FeatureId id) const {
   return segment.line > 0 ? segment : at(graph.polylines, &mesher::PslgFile::place_of_polyline);
 }
 
-Error Input::located(const Error& error) const {
-  if (error.code() == ErrorCode::cancelled) return error;
-  const std::vector<Featured> kinds = kinds_of(error);
-  Place blamed = error.place();
-  std::string others;
-  for (std::size_t i = 0; i < std::min(kinds.size(), error.ids().size()); ++i) {
-    const Place stands = place(kinds[i], error.ids()[i]);
-    if (stands.line == 0 || same_line(stands, blamed)) continue;
-    if (blamed.line == 0) {
-      blamed = stands;
-    } else {
-      others +=
-          (others.empty() ? " (" : ", ") + words(kinds[i], error.ids()[i]) + ": " + text_of(stands);
-    }
-  }
-  if (blamed.file.empty()) blamed.file = file_.file;
-  if (!others.empty()) others += ")";
-  return Error(error.code(), error.message() + others, blamed, error.ids());
-}
-
 std::string Input::warning(const mesher::SeedFault& fault) const {
   const bool hole = fault.seed.kind == mesher::SeedKind::hole;
   const Place stands = place(hole ? Featured::hole : Featured::region, fault.seed.id);
   return text_of(stands) + ": warning: " + describe(fault);
+}
+
+// --- In space --------------------------------------------------------------------------------
+
+std::vector<mesher::InputPoint<3>> SpaceInput::points() const {
+  std::vector<mesher::InputPoint<3>> points;
+  for (std::size_t i = 0; i < file_.ids.size(); ++i) {
+    points.push_back({file_.ids[i], file_.points[i]});
+  }
+  return points;
+}
+
+Place SpaceInput::place_in_file(Featured kind, FeatureId id) const {
+  const auto found = std::find(file_.ids.begin(), file_.ids.end(), id);
+  if (kind != Featured::point || found == file_.ids.end()) return {file_.file};
+  return file_.place(static_cast<std::size_t>(found - file_.ids.begin()));
 }
 
 }  // namespace tool

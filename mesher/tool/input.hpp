@@ -4,10 +4,13 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "mesher/domain.hpp"
 #include "mesher/edit_script.hpp"
+#include "mesher/io.hpp"
 #include "mesher/pslg.hpp"
 #include "mesher/repair.hpp"
 
@@ -16,22 +19,21 @@ namespace tool {
 /// FILE:LINE, or FILE where the line is not known.
 [[nodiscard]] std::string text_of(const mesher::Place& place);
 
-class Input {
+/// Where features stand that have come from a file or from a script since.
+class Standing {
  public:
-  /// Throws: Error, as read_pslg.
-  explicit Input(const std::string& path) : file_(mesher::read_pslg(path)) {}
+  explicit Standing(std::string path) : path_(std::move(path)) {}
+  virtual ~Standing() = default;
 
-  [[nodiscard]] const std::string& path() const noexcept { return file_.file; }
-  [[nodiscard]] const mesher::Pslg& graph() const noexcept { return file_.pslg; }
-  [[nodiscard]] const mesher::PslgFile& file() const noexcept { return file_; }
-
-  /// Lines that cross, touch or overlap become a graph that can be meshed; repairs() says how.
-  /// Throws: Error, as mesher::repair.
-  void repair(const std::optional<mesher::Box<2>>& domain);
-  [[nodiscard]] const std::vector<mesher::RepairNote>& repairs() const noexcept { return repairs_; }
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
   /// From now on, what `edits` bring stands where they do.
-  void follow(const std::vector<mesher::Edit>& edits);
+  template <int D>
+  void follow(const std::vector<mesher::EditOf<D>>& edits) {
+    for (const auto& edit : edits) {
+      edited_.insert_or_assign({mesher::featured(edit.kind), edit.id}, edit.place);
+    }
+  }
 
   /// Where a feature stands; without a line if it is not there. Cost: O(n), for errors.
   [[nodiscard]] mesher::Place place(mesher::Featured kind, mesher::FeatureId id) const;
@@ -40,13 +42,75 @@ class Input {
   /// the others in its message. What is said of nothing that stands somewhere is said of the file.
   [[nodiscard]] mesher::Error located(const mesher::Error& error) const;
 
+ protected:
+  Standing(const Standing&) = default;
+  Standing(Standing&&) = default;
+
+ private:
+  /// In the file; without a line if it is not there.
+  [[nodiscard]] virtual mesher::Place place_in_file(mesher::Featured kind,
+                                                    mesher::FeatureId id) const = 0;
+
+  std::string path_;
+  std::map<std::pair<mesher::Featured, mesher::FeatureId>, mesher::Place> edited_;
+};
+
+/// Points and lines in the plane.
+class Input final : public Standing {
+ public:
+  /// Throws: Error, as read_pslg.
+  explicit Input(const std::string& path) : Standing(path), file_(mesher::read_pslg(path)) {}
+
+  [[nodiscard]] const mesher::Pslg& graph() const noexcept { return file_.pslg; }
+  [[nodiscard]] const mesher::PslgFile& file() const noexcept { return file_; }
+  [[nodiscard]] const std::vector<mesher::Note>& notes() const noexcept { return file_.notes; }
+
+  /// What was read beside path().
+  [[nodiscard]] const std::string& point_file() const noexcept { return file_.point_file; }
+  [[nodiscard]] std::vector<mesher::InputPoint<2>> points() const;
+  [[nodiscard]] mesher::Place place_of_point(std::size_t i) const {
+    return file_.place_of_point(i);
+  }
+
+  /// Lines that cross, touch or overlap become a graph that can be meshed; repairs() says how.
+  /// Throws: Error, as mesher::repair.
+  void repair(const std::optional<mesher::Box<2>>& domain);
+  [[nodiscard]] const std::vector<mesher::RepairNote>& repairs() const noexcept { return repairs_; }
+
   /// `PLACE: warning: WHAT` for a seed that has no region of its own.
   [[nodiscard]] std::string warning(const mesher::SeedFault& fault) const;
 
  private:
+  [[nodiscard]] mesher::Place place_in_file(mesher::Featured kind,
+                                            mesher::FeatureId id) const override;
+
   mesher::PslgFile file_;
   std::vector<mesher::RepairNote> repairs_;
-  std::map<std::pair<mesher::Featured, mesher::FeatureId>, mesher::Place> edited_;
 };
+
+/// Points in space.
+class SpaceInput final : public Standing {
+ public:
+  /// Throws: Error, as read_points.
+  explicit SpaceInput(const std::string& path)
+      : Standing(path), file_(mesher::read_points<3>(path)) {}
+
+  [[nodiscard]] const mesher::PointFile<3>& file() const noexcept { return file_; }
+  [[nodiscard]] const std::vector<mesher::Note>& notes() const noexcept { return file_.notes; }
+
+  [[nodiscard]] const std::string& point_file() const noexcept { return path(); }
+  [[nodiscard]] std::vector<mesher::InputPoint<3>> points() const;
+  [[nodiscard]] mesher::Place place_of_point(std::size_t i) const { return file_.place(i); }
+
+ private:
+  [[nodiscard]] mesher::Place place_in_file(mesher::Featured kind,
+                                            mesher::FeatureId id) const override;
+
+  mesher::PointFile<3> file_;
+};
+
+/// The input of a dimension.
+template <int D>
+using InputOf = std::conditional_t<D == 2, Input, SpaceInput>;
 
 }  // namespace tool

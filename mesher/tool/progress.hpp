@@ -48,13 +48,12 @@ class Watched {
   Watched(Target& target, Progress& progress) : target_(target), progress_(progress) {}
 
   // With a marker, if the mesher takes one.
-  void insert(mesher::FeatureId id, const mesher::Point<2>& p, auto... marker) requires
-      requires(Target& t) {
+  void insert(mesher::FeatureId id, const auto& p, auto... marker) requires requires(Target& t) {
     t.insert(id, p, marker...);
   }
   { target_.insert(id, p, marker...); }
   void remove(mesher::FeatureId id) { target_.remove(id); }
-  void move(mesher::FeatureId id, const mesher::Point<2>& p) { target_.move(id, p); }
+  void move(mesher::FeatureId id, const auto& p) { target_.move(id, p); }
   void insert_segment(mesher::FeatureId id, mesher::FeatureId from, mesher::FeatureId to,
                       auto... marker) requires requires(Target& t) {
     t.insert_segment(id, from, to, marker...);

@@ -28,6 +28,8 @@
 // block is judged by where its points end: it may take a place before it frees it, and remove a
 // point before its segments.
 //
+// In space points have a third coordinate, `+point ID x y z`, and there are no other edits.
+//
 // Example:
 //   mesher::EditScript script("edits.txt");
 //   mesher::apply(script, m, [](const mesher::Update<2>& u) { ... u.change ... });
@@ -47,55 +49,60 @@
 
 namespace mesher {
 
+enum class EditKind : std::uint8_t {
+  insert,
+  remove,
+  move,
+  insert_segment,
+  remove_segment,
+  insert_polyline,
+  remove_polyline,
+  insert_hole,
+  remove_hole,
+  insert_region,
+  remove_region,
+  limit,
+};
+
 /// One edit of one point, line or seed, or of limits.
-struct Edit {
-  enum class Kind : std::uint8_t {
-    insert,
-    remove,
-    move,
-    insert_segment,
-    remove_segment,
-    insert_polyline,
-    remove_polyline,
-    insert_hole,
-    remove_hole,
-    insert_region,
-    remove_region,
-    limit,
-  };
+template <int D>
+struct EditOf {
+  using Kind = EditKind;
   Kind kind = Kind::insert;
   FeatureId id{};
-  Point<2> point{};                  ///< of insert and move, and of a new seed
+  Point<D> point{};                  ///< of insert and move, and of a new seed
   std::vector<FeatureId> points{};   ///< of a new segment or polyline
   std::int64_t marker = 0;           ///< of a new point or line; 0: none
   double attribute = 0;              ///< of a new region
   std::optional<double> max_area{};  ///< likewise
-  SizeLimits<2> limits{};            ///< of limit
-  std::optional<Box<2>> box{};       ///< likewise; nothing: everywhere
+  SizeLimits<D> limits{};            ///< of limit
+  std::optional<Box<D>> box{};       ///< likewise; nothing: everywhere
   std::string text;                  ///< the line without comment and outer blanks
   Place place;
 };
+using Edit = EditOf<2>;
 
 /// What has ids of its own; limits have none.
 enum class Featured : std::uint8_t { point, line, hole, region, nothing };
 
 /// What an edit is of.
-[[nodiscard]] Featured featured(Edit::Kind kind);
+[[nodiscard]] Featured featured(EditKind kind);
 
-/// Reads a script a batch at a time; a batch is one update.
-class EditScript {
+/// Reads a script a batch at a time; a batch is one update. D is 2 or 3.
+template <int D>
+class EditScriptOf {
  public:
   /// Throws: Error(cannot_read).
-  explicit EditScript(const std::string& path);
+  explicit EditScriptOf(const std::string& path);
 
   /// The next edit, or the edits of the next block; nothing at the end of the script. A line
   /// is read only when it is asked for.
   /// Throws: Error (bad_edit, bad_number, not_finite, magnitude, unbalanced_commit, cannot_read).
-  [[nodiscard]] std::optional<std::vector<Edit>> next();
+  [[nodiscard]] std::optional<std::vector<EditOf<D>>> next();
 
  private:
   [[nodiscard]] bool read_line();
-  [[nodiscard]] std::vector<Edit> read_block();
+  [[nodiscard]] std::vector<EditOf<D>> read_block();
   [[nodiscard]] Place here() const { return {path_, number_, 1}; }
 
   std::string path_;
@@ -103,14 +110,16 @@ class EditScript {
   std::string text_;  // the current line
   long number_ = 0;
 };
+using EditScript = EditScriptOf<2>;
 
 /// The edits' lines, with "; " between them.
-[[nodiscard]] std::string text_of(const std::vector<Edit>& edits);
+template <int D>
+[[nodiscard]] std::string text_of(const std::vector<EditOf<D>>& edits);
 
 /// What one update of a script did. `Made`: what the target's update() returns.
 template <int D, class Made = Change<D>>
 struct Update {
-  std::vector<Edit> edits;
+  std::vector<EditOf<D>> edits;
   Made change;
   double seconds = 0;  ///< of wall-clock time: the edits and the update
 
@@ -120,17 +129,17 @@ struct Update {
 /// Announces `edit` of a line to a mesher, or to anything with its functions for lines, which may
 /// take a marker.
 /// Throws: Error as those; Error(bad_edit) if the target has points only.
-template <class Target>
-void announce_line(const Edit& edit, Target& target) {
+template <int D, class Target>
+void announce_line(const EditOf<D>& edit, Target& target) {
   if constexpr (requires { target.remove_segment(edit.id); }) {
     switch (edit.kind) {
-      case Edit::Kind::insert_segment:
+      case EditKind::insert_segment:
         if constexpr (requires { target.insert_segment(edit.id, edit.id, edit.id, edit.marker); }) {
           return target.insert_segment(edit.id, edit.points[0], edit.points[1], edit.marker);
         } else {
           return target.insert_segment(edit.id, edit.points[0], edit.points[1]);
         }
-      case Edit::Kind::insert_polyline:
+      case EditKind::insert_polyline:
         if constexpr (requires { target.insert_polyline(edit.id, edit.points, edit.marker); }) {
           return target.insert_polyline(edit.id, edit.points, edit.marker);
         } else {
@@ -145,12 +154,12 @@ void announce_line(const Edit& edit, Target& target) {
 }
 
 /// The same of a seed and a DomainMesher, or anything with its functions for seeds.
-template <class Target>
-void announce_seed(const Edit& edit, Target& target) {
+template <int D, class Target>
+void announce_seed(const EditOf<D>& edit, Target& target) {
   if constexpr (requires { target.insert_seed(Seed()); }) {
     const SeedKind kind = featured(edit.kind) == Featured::hole ? SeedKind::hole : SeedKind::region;
     const SeedName name{kind, edit.id};
-    if (edit.kind == Edit::Kind::remove_hole || edit.kind == Edit::Kind::remove_region) {
+    if (edit.kind == EditKind::remove_hole || edit.kind == EditKind::remove_region) {
       return target.remove_seed(name);
     }
     target.insert_seed({name, edit.point, edit.attribute, edit.max_area});
@@ -160,8 +169,8 @@ void announce_seed(const Edit& edit, Target& target) {
 }
 
 /// The same of limits of size.
-template <class Target>
-void announce_limit(const Edit& edit, Target& target) {
+template <int D, class Target>
+void announce_limit(const EditOf<D>& edit, Target& target) {
   if constexpr (requires { target.limit(edit.limits); }) {
     return edit.box ? target.limit(*edit.box, edit.limits) : target.limit(edit.limits);
   } else {
@@ -171,20 +180,20 @@ void announce_limit(const Edit& edit, Target& target) {
 
 /// Announces `edit` to a mesher, or to anything with its insert, remove and move, and perhaps its
 /// functions for lines, seeds and limits. Throws: Error as those, said of the edit's place.
-template <class Target>
-void announce(const Edit& edit, Target& target) {
+template <int D, class Target>
+void announce(const EditOf<D>& edit, Target& target) {
   try {
-    if (edit.kind == Edit::Kind::limit) return announce_limit(edit, target);
+    if (edit.kind == EditKind::limit) return announce_limit(edit, target);
     if (featured(edit.kind) == Featured::line) return announce_line(edit, target);
     if (featured(edit.kind) != Featured::point) return announce_seed(edit, target);
     switch (edit.kind) {
-      case Edit::Kind::insert:
+      case EditKind::insert:
         if constexpr (requires { target.insert(edit.id, edit.point, edit.marker); }) {
           return target.insert(edit.id, edit.point, edit.marker);
         } else {
           return target.insert(edit.id, edit.point);
         }
-      case Edit::Kind::remove:
+      case EditKind::remove:
         return target.remove(edit.id);
       default:
         return target.move(edit.id, edit.point);
@@ -200,22 +209,24 @@ void announce(const Edit& edit, Target& target) {
 /// The order in which a batch is announced: lines that go; points, those that are there before
 /// those that the batch inserts, so that places are free before they are taken; lines that come;
 /// seeds and limits. Else as they stand.
-[[nodiscard]] std::vector<Edit> announcing_order(std::vector<Edit> edits);
+template <int D>
+[[nodiscard]] std::vector<EditOf<D>> announcing_order(std::vector<EditOf<D>> edits);
 
 /// Where the edit stands that an error of update() is about: the last one of the feature to blame,
 /// else the last one. Requires: edits not empty.
-[[nodiscard]] Place place_to_blame(const std::vector<Edit>& edits, const Error& error);
+template <int D>
+[[nodiscard]] Place place_to_blame(const std::vector<EditOf<D>>& edits, const Error& error);
 
 /// Makes one batch one update of `target`.
 /// Throws: Error, with the place of the edit to blame; `target` is then as before the batch.
-template <class Target>
-auto apply(std::vector<Edit> edits, Target& target) {
+template <int D, class Target>
+auto apply(std::vector<EditOf<D>> edits, Target& target) {
   using Made = decltype(target.update());
   const double start = now();
   try {
-    for (const Edit& edit : announcing_order(edits)) announce(edit, target);
+    for (const auto& edit : announcing_order(edits)) announce(edit, target);
     Made change = target.update();
-    return Update<2, Made>{std::move(edits), std::move(change), now() - start};
+    return Update<D, Made>{std::move(edits), std::move(change), now() - start};
   } catch (const Error& error) {
     target.discard_edits();
     if (error.place().line > 0 || error.code() == ErrorCode::cancelled || edits.empty()) throw;
@@ -229,8 +240,8 @@ auto apply(std::vector<Edit> edits, Target& target) {
 /// Applies a whole script, calling `each(update)` after every update.
 /// Throws: Error at the first bad line; what came before it stays applied, and of the block it
 /// stands in, nothing.
-template <class Target, class Each>
-void apply(EditScript& script, Target& target, Each each) {
+template <int D, class Target, class Each>
+void apply(EditScriptOf<D>& script, Target& target, Each each) {
   while (auto edits = script.next()) each(apply(std::move(*edits), target));
 }
 

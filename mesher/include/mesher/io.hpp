@@ -40,10 +40,24 @@ struct PointFile {
   std::string file;
   std::vector<FeatureId> ids;
   std::vector<Point<D>> points;
-  std::vector<long> lines;  ///< from 1
+  std::vector<long> lines;    ///< from 1; 0 where a file has no lines
+  std::vector<Note> notes{};  ///< what the file holds that is not used
 
-  [[nodiscard]] Place place(std::size_t i) const { return {file, lines[i], 1}; }
+  [[nodiscard]] Place place(std::size_t i) const { return {file, lines[i], lines[i] > 0 ? 1 : 0}; }
 };
+
+/// The dimension, 2 or 3, of the input that a file is:
+///
+/// - `.node`: that of its header;
+/// - `.xyz`, and `.csv` with columns named x, y and z: 2 if z is missing or 0 everywhere, else 3;
+///   `.csv` without names: the number of its columns;
+/// - `.obj`, `.vtu`: 2 if z is the same everywhere, else 3;
+/// - `.off`, `.stl`, `.ply`, `.vtk`: 3;
+/// - all others: 2.
+///
+/// What no reader would take has some dimension, too. Throws: Error(cannot_read), and of `.vtu` as
+/// its reader. Cost: O(file).
+[[nodiscard]] int dimension_of(const std::string& path);
 
 /// Reads points, by the extension of `path`. D is 2 or 3.
 ///
@@ -56,8 +70,19 @@ struct PointFile {
 ///   `lon,lat` or `longitude,latitude` in the plane, in any case and order, among other columns.
 ///   Without names a line holds exactly D numbers. A comment fills its line. Ids are 1..n.
 ///
+/// and in space the vertices of
+///
+/// - `.off` (Geomview), with colours or normals or without; `.obj` (Wavefront);
+/// - `.ply` (Stanford): ASCII or binary, of either byte order;
+/// - `.stl`: ASCII or binary; corners in one place are one point;
+/// - `.vtu` and `.vtk` (VTK) as read_pslg and read_mesh read them.
+///
+/// Ids are 1..n. Faces, cells and all else are checked as far as it takes to find the end of the
+/// file, and noted: they are not used.
+///
 /// Throws: Error (cannot_read, unknown_format, bad_header, bad_dimension, bad_number, not_finite,
-/// magnitude, wrong_count, truncated, repeated_id, duplicate_point). Cost: O(n log n).
+/// magnitude, wrong_count, truncated, repeated_id, duplicate_point; of files of surfaces and of VTK
+/// also bad_syntax, bad_mesh, unsupported). Cost: O(n log n).
 template <int D>
 [[nodiscard]] PointFile<D> read_points(const std::string& path);
 

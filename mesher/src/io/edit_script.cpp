@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <span>
 
 #include "io/text.hpp"
 #include "mesher/sizes.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 struct Form {
   std::string_view word;
-  Edit::Kind kind;
+  EditKind kind;
   std::size_t fields;
   std::string_view usage;
   std::size_t most = fields;
@@ -26,57 +27,78 @@ struct Form {
 constexpr std::string_view kLimitUsage =
     "limit area A|size H|sizes FILE|none [in XMIN YMIN XMAX YMAX]";
 
-constexpr Form kForms[] = {
-    {"+point", Edit::Kind::insert, 4, "+point ID x y [marker M]"},
-    {"-point", Edit::Kind::remove, 2, "-point ID"},
-    {"move", Edit::Kind::move, 4, "move ID x y"},
-    {"+segment", Edit::Kind::insert_segment, 4, "+segment ID A B [marker M]"},
-    {"-segment", Edit::Kind::remove_segment, 2, "-segment ID"},
-    {"+polyline", Edit::Kind::insert_polyline, 4, "+polyline ID P P... [marker M]", SIZE_MAX},
-    {"-polyline", Edit::Kind::remove_polyline, 2, "-polyline ID"},
-    {"+hole", Edit::Kind::insert_hole, 4, "+hole ID x y"},
-    {"-hole", Edit::Kind::remove_hole, 2, "-hole ID"},
-    {"+region", Edit::Kind::insert_region, 5, "+region ID x y ATTRIBUTE [MAX_AREA]", 6},
-    {"-region", Edit::Kind::remove_region, 2, "-region ID"},
-    {"limit", Edit::Kind::limit, 2, kLimitUsage, 8},
+constexpr Form kPlaneForms[] = {
+    {"+point", EditKind::insert, 4, "+point ID x y [marker M]"},
+    {"-point", EditKind::remove, 2, "-point ID"},
+    {"move", EditKind::move, 4, "move ID x y"},
+    {"+segment", EditKind::insert_segment, 4, "+segment ID A B [marker M]"},
+    {"-segment", EditKind::remove_segment, 2, "-segment ID"},
+    {"+polyline", EditKind::insert_polyline, 4, "+polyline ID P P... [marker M]", SIZE_MAX},
+    {"-polyline", EditKind::remove_polyline, 2, "-polyline ID"},
+    {"+hole", EditKind::insert_hole, 4, "+hole ID x y"},
+    {"-hole", EditKind::remove_hole, 2, "-hole ID"},
+    {"+region", EditKind::insert_region, 5, "+region ID x y ATTRIBUTE [MAX_AREA]", 6},
+    {"-region", EditKind::remove_region, 2, "-region ID"},
+    {"limit", EditKind::limit, 2, kLimitUsage, 8},
 };
 
-const Form& form_of(const text::Line& line) {
-  for (const Form& form : kForms) {
-    if (line[0] == form.word) return form;
+constexpr Form kSpaceForms[] = {
+    {"+point", EditKind::insert, 5, "+point ID x y z"},
+    {"-point", EditKind::remove, 2, "-point ID"},
+    {"move", EditKind::move, 5, "move ID x y z"},
+};
+
+const Form* find_form(std::span<const Form> forms, std::string_view word) {
+  for (const Form& form : forms) {
+    if (form.word == word) return &form;
   }
+  return nullptr;
+}
+
+std::string words_of(std::span<const Form> forms) {
+  std::string words;
+  for (const Form& form : forms) words += std::string(form.word) + ", ";
+  return words + "begin and commit";
+}
+
+template <int D>
+const Form& form_of(const text::Line& line) {
+  constexpr std::span<const Form> kForms =
+      D == 2 ? std::span<const Form>(kPlaneForms) : std::span<const Form>(kSpaceForms);
+  if (const Form* const form = find_form(kForms, line[0])) return *form;
+  const bool elsewhere = find_form(kPlaneForms, line[0]) != nullptr;
   throw line.error(ErrorCode::bad_edit,
-                   "no edit is called " + text::quoted(line[0]) +
-                       "; there are +point, -point, move, +segment, -segment, +polyline, "
-                       "-polyline, +hole, -hole, +region, -region, limit, begin and commit",
+                   (elsewhere ? text::quoted(line[0]) + " is an edit in the plane; in space"
+                              : "no edit is called " + text::quoted(line[0]) + ";") +
+                       " there are " + words_of(kForms),
                    0);
 }
 
-bool takes_place(Edit::Kind kind) {
-  return kind == Edit::Kind::insert || kind == Edit::Kind::move ||
-         kind == Edit::Kind::insert_hole || kind == Edit::Kind::insert_region;
+bool takes_place(EditKind kind) {
+  return kind == EditKind::insert || kind == EditKind::move || kind == EditKind::insert_hole ||
+         kind == EditKind::insert_region;
 }
-bool is_of_line(const Edit& edit) { return featured(edit.kind) == Featured::line; }
-bool inserts(const Edit& edit) {
-  return edit.kind == Edit::Kind::insert || edit.kind == Edit::Kind::insert_segment ||
-         edit.kind == Edit::Kind::insert_polyline;
+bool inserts(EditKind kind) {
+  return kind == EditKind::insert || kind == EditKind::insert_segment ||
+         kind == EditKind::insert_polyline;
 }
 
 // When edits of a batch are announced, by rank: 0 of lines that go, 1 of points that are there, 2
 // of points that come, 3 of lines that come, 4 of seeds and limits.
-std::vector<int> ranks(const std::vector<Edit>& edits) {
+template <int D>
+std::vector<int> ranks(const std::vector<EditOf<D>>& edits) {
   std::map<FeatureId, bool> points;  // whether they come: by the first edit of each
   std::map<FeatureId, bool> lines;   // whether they have come so far
   std::vector<int> all;
-  for (const Edit& edit : edits) {
-    if (is_of_line(edit)) {
+  for (const auto& edit : edits) {
+    if (featured(edit.kind) == Featured::line) {
       bool& came = lines[edit.id];
-      came = came || inserts(edit);
+      came = came || inserts(edit.kind);
       all.push_back(came ? 3 : 0);
     } else if (featured(edit.kind) != Featured::point) {
       all.push_back(4);
     } else {
-      all.push_back(points.emplace(edit.id, inserts(edit)).first->second ? 2 : 1);
+      all.push_back(points.emplace(edit.id, inserts(edit.kind)).first->second ? 2 : 1);
     }
   }
   return all;
@@ -84,10 +106,7 @@ std::vector<int> ranks(const std::vector<Edit>& edits) {
 
 // Whether the line ends with 'marker M', as edits of what has markers may.
 bool has_marker(const text::Line& line, const Form& form) {
-  const auto k = form.kind;
-  const bool may = k == Edit::Kind::insert || k == Edit::Kind::insert_segment ||
-                   k == Edit::Kind::insert_polyline;
-  return may && line.size() >= form.fields + 2 && line[line.size() - 2] == "marker";
+  return inserts(form.kind) && line.size() >= form.fields + 2 && line[line.size() - 2] == "marker";
 }
 
 void require_fields(const text::Line& line, std::size_t size, const Form& form) {
@@ -146,21 +165,31 @@ void parse_limit(const text::Line& line, Edit& edit) {
   if (line.size() > said) edit.box = limit_box(line, said + 1);
 }
 
-Edit parse(const text::Line& line) {
-  const Form& form = form_of(line);
-  const bool marked = has_marker(line, form);
+template <int D>
+Point<D> place_of(const text::Line& line, std::size_t first) {
+  Point<D> place;
+  for (std::size_t i = 0; i < D; ++i) place[i] = line.coordinate(first + i);
+  return place;
+}
+
+template <int D>
+EditOf<D> parse(const text::Line& line) {
+  const Form& form = form_of<D>(line);
+  const bool marked = D == 2 && has_marker(line, form);
   const std::size_t size = line.size() - (marked ? 2 : 0);
   require_fields(line, size, form);
-  Edit edit;
+  EditOf<D> edit;
   edit.kind = form.kind;
   edit.text = line.trimmed();
   edit.place = line.place(0);
   if (marked) edit.marker = line.integer(line.size() - 1);
-  if (form.kind == Edit::Kind::limit) return parse_limit(line, edit), edit;
+  if constexpr (D == 2) {
+    if (form.kind == EditKind::limit) return parse_limit(line, edit), edit;
+  }
   edit.id = FeatureId{line.integer(1)};
   if (takes_place(form.kind)) {
-    edit.point = {line.coordinate(2), line.coordinate(3)};
-    if (form.kind == Edit::Kind::insert_region) {
+    edit.point = place_of<D>(line, 2);
+    if (form.kind == EditKind::insert_region) {
       edit.attribute = line.finite(4);
       edit.max_area = max_area_of(line);
     }
@@ -192,26 +221,27 @@ bool is_word(const text::Line& line, std::string_view word) {
 
 }  // namespace
 
-Featured featured(Edit::Kind kind) {
+Featured featured(EditKind kind) {
   switch (kind) {
-    case Edit::Kind::insert:
-    case Edit::Kind::remove:
-    case Edit::Kind::move:
+    case EditKind::insert:
+    case EditKind::remove:
+    case EditKind::move:
       return Featured::point;
-    case Edit::Kind::insert_hole:
-    case Edit::Kind::remove_hole:
+    case EditKind::insert_hole:
+    case EditKind::remove_hole:
       return Featured::hole;
-    case Edit::Kind::insert_region:
-    case Edit::Kind::remove_region:
+    case EditKind::insert_region:
+    case EditKind::remove_region:
       return Featured::region;
-    case Edit::Kind::limit:
+    case EditKind::limit:
       return Featured::nothing;
     default:
       return Featured::line;
   }
 }
 
-EditScript::EditScript(const std::string& path) : path_(path) {
+template <int D>
+EditScriptOf<D>::EditScriptOf(const std::string& path) : path_(path) {
   std::error_code error;
   errno = std::filesystem::is_directory(path, error) ? EISDIR : 0;
   if (errno == 0) stream_.open(path, std::ios::binary);
@@ -221,7 +251,8 @@ EditScript::EditScript(const std::string& path) : path_(path) {
 }
 
 // Goes to the next line that holds anything.
-bool EditScript::read_line() {
+template <int D>
+bool EditScriptOf<D>::read_line() {
   while (std::getline(stream_, text_)) {
     if (++number_ == 1) text_ = without_mark(text_);
     if (!text_.empty() && text_.back() == '\r') text_.pop_back();
@@ -231,19 +262,21 @@ bool EditScript::read_line() {
   return false;
 }
 
-std::optional<std::vector<Edit>> EditScript::next() {
+template <int D>
+std::optional<std::vector<EditOf<D>>> EditScriptOf<D>::next() {
   if (!read_line()) return std::nullopt;
   const text::Line line = split(path_, number_, text_);
   if (is_word(line, "commit")) {
     throw line.error(ErrorCode::unbalanced_commit, "commit without begin", 0);
   }
   if (is_word(line, "begin")) return read_block();
-  return std::vector<Edit>{parse(line)};
+  return std::vector<EditOf<D>>{parse<D>(line)};
 }
 
-std::vector<Edit> EditScript::read_block() {
+template <int D>
+std::vector<EditOf<D>> EditScriptOf<D>::read_block() {
   const Place begin = split(path_, number_, text_).place(0);
-  std::vector<Edit> edits;
+  std::vector<EditOf<D>> edits;
   while (read_line()) {
     const text::Line line = split(path_, number_, text_);
     if (is_word(line, "commit")) return edits;
@@ -251,14 +284,15 @@ std::vector<Edit> EditScript::read_block() {
       throw line.error(ErrorCode::unbalanced_commit,
                        "begin within the block begun on line " + std::to_string(begin.line), 0);
     }
-    edits.push_back(parse(line));
+    edits.push_back(parse<D>(line));
   }
   throw Error(ErrorCode::unbalanced_commit, "begin without commit", begin);
 }
 
-std::vector<Edit> announcing_order(std::vector<Edit> edits) {
+template <int D>
+std::vector<EditOf<D>> announcing_order(std::vector<EditOf<D>> edits) {
   const std::vector<int> rank = ranks(edits);
-  std::vector<Edit> ordered;
+  std::vector<EditOf<D>> ordered;
   ordered.reserve(edits.size());
   for (int r = 0; r < 5; ++r) {
     for (std::size_t i = 0; i < edits.size(); ++i) {
@@ -270,12 +304,13 @@ std::vector<Edit> announcing_order(std::vector<Edit> edits) {
 
 // A line may have the id of a point: where the error is one of lines, theirs are meant. Seeds are
 // never to blame, limits only where no feature is.
-Place place_to_blame(const std::vector<Edit>& edits, const Error& error) {
+template <int D>
+Place place_to_blame(const std::vector<EditOf<D>>& edits, const Error& error) {
   const bool of_lines = error.code() == ErrorCode::crossing_segments ||
                         error.code() == ErrorCode::overlapping_segments ||
                         error.code() == ErrorCode::repeated_segment;
   for (const FeatureId id : error.ids()) {
-    const auto is_of = [&](const Edit& edit) {
+    const auto is_of = [&](const EditOf<D>& edit) {
       const Featured of = featured(edit.kind);
       return edit.id == id && (of == Featured::line || (of == Featured::point && !of_lines));
     };
@@ -285,9 +320,10 @@ Place place_to_blame(const std::vector<Edit>& edits, const Error& error) {
   return edits.back().place;
 }
 
-std::string text_of(const std::vector<Edit>& edits) {
+template <int D>
+std::string text_of(const std::vector<EditOf<D>>& edits) {
   std::string all;
-  for (const Edit& edit : edits) all += (all.empty() ? "" : "; ") + edit.text;
+  for (const auto& edit : edits) all += (all.empty() ? "" : "; ") + edit.text;
   return all;
 }
 
@@ -295,5 +331,14 @@ double now() {
   const auto since_start = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration<double>(since_start).count();
 }
+
+template class EditScriptOf<2>;
+template class EditScriptOf<3>;
+template std::string text_of(const std::vector<EditOf<2>>&);
+template std::string text_of(const std::vector<EditOf<3>>&);
+template std::vector<EditOf<2>> announcing_order(std::vector<EditOf<2>>);
+template std::vector<EditOf<3>> announcing_order(std::vector<EditOf<3>>);
+template Place place_to_blame(const std::vector<EditOf<2>>&, const Error&);
+template Place place_to_blame(const std::vector<EditOf<3>>&, const Error&);
 
 }  // namespace mesher

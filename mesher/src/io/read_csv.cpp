@@ -97,7 +97,7 @@ Columns<D> unnamed_columns(const text::Line& line) {
   if (line.size() > D) {
     throw line.error(ErrorCode::bad_dimension,
                      std::to_string(line.size()) + " columns, expected " + std::to_string(D) +
-                         ": name the columns in a first line (x,y)",
+                         ": name the columns in a first line (" + (D == 2 ? "x,y" : "x,y,z") + ")",
                      D);
   }
   Columns<D> columns;
@@ -121,32 +121,85 @@ Point<D> read_point(const text::Line& line, const Columns<D>& columns) {
   return point;
 }
 
+// The lines of a file that are neither blank nor comments, split where the first of them says.
+class CsvLines {
+ public:
+  CsvLines(const std::string& path, std::string_view content) : lines_(content), line_(path) {}
+
+  bool next() {
+    while (lines_.next()) {
+      if (first_) separator_ = separator_of(lines_.text());
+      line_.split_separated(lines_.number(), lines_.text(), separator_);
+      if (is_blank_or_comment(line_)) continue;
+      first_ = false;
+      return true;
+    }
+    return false;
+  }
+  [[nodiscard]] const text::Line& line() const { return line_; }
+  [[nodiscard]] const text::Lines& lines() const { return lines_; }
+
+ private:
+  text::Lines lines_;
+  text::Line line_;
+  char separator_ = ',';
+  bool first_ = true;
+};
+
 // Columns of the first of `sets` that the file names in full, or its D columns if it names none.
 template <int D>
 PointFile<D> read_columns(const std::string& path, const std::vector<Names<D>>& sets) {
   const std::string content = text::read_file(path);
   PointFile<D> rows{path, {}, {}, {}};
-  text::Line line(path);
   std::optional<Columns<D>> columns;
   std::size_t width = 0;
-  char separator = ',';
-  for (text::Lines lines(content); lines.next();) {
-    if (!columns) separator = separator_of(lines.text());
-    line.split_separated(lines.number(), lines.text(), separator);
-    if (is_blank_or_comment(line)) continue;
+  for (CsvLines all(path, content); all.next();) {
+    const text::Line& line = all.line();
     if (!columns) {
       const bool named = is_header(line);
       columns = named ? named_columns<D>(line, sets) : unnamed_columns<D>(line);
       width = named ? line.size() : D;
       if (named) continue;
     }
-    require_fields(line, width, lines);
+    require_fields(line, width, all.lines());
     add_row<D>(rows, read_point<D>(line, *columns), line.number());
   }
   return rows;
 }
 
+// The column z of a header that names x and y as well; kMissing if it does not.
+std::size_t height_column(const text::Line& header) {
+  std::size_t z = kMissing;
+  for (const std::string_view name : kSpace.front()) {
+    z = find_column(header, name);
+    if (z == kMissing) break;
+  }
+  return z;
+}
+
+// What is no finite number is not: the reader will say so.
+bool is_zero(const text::Line& line, std::size_t i) {
+  try {
+    return i < line.size() && line.finite(i) == 0;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 }  // namespace
+
+bool csv_is_in_space(const std::string& path) {
+  const std::string content = text::read_file(path);
+  CsvLines all(path, content);
+  if (!all.next()) return false;
+  if (!is_header(all.line())) return all.line().size() == 3;
+  const std::size_t z = height_column(all.line());
+  if (z == kMissing) return false;
+  while (all.next()) {
+    if (!is_zero(all.line(), z)) return true;
+  }
+  return false;
+}
 
 template <>
 PointFile<2> read_csv<2>(const std::string& path) {

@@ -13,6 +13,18 @@ template <int D>
 template <int D>
 [[nodiscard]] PointFile<D> read_csv(const std::string& path);
 
+/// Whether the file has three columns, or columns named x, y and z with a z that is not 0.
+[[nodiscard]] bool csv_is_in_space(const std::string& path);
+
+/// The vertices of a surface or a grid in space.
+[[nodiscard]] PointFile<3> read_off_points(const std::string& path);
+[[nodiscard]] PointFile<3> read_obj_points(const std::string& path);
+[[nodiscard]] PointFile<3> read_ply_points(const std::string& path);
+/// Distinct: corners in one place are one point.
+[[nodiscard]] PointFile<3> read_stl_points(const std::string& path);
+[[nodiscard]] PointFile<3> read_vtu_points(const std::string& path);
+[[nodiscard]] PointFile<3> read_vtk_points(const std::string& path);
+
 /// The columns x, y, h of a background of sizes. Throws: Error likewise.
 [[nodiscard]] PointFile<3> read_csv_sizes(const std::string& path);
 
@@ -23,5 +35,9 @@ void add_row(PointFile<D>& rows, const Point<D>& point, long line) {
   rows.ids.push_back(FeatureId{static_cast<std::int64_t>(rows.points.size())});
   rows.lines.push_back(line);
 }
+
+/// The same of a place whose coordinates have not been looked at; -0 becomes 0.
+/// Throws: Error(magnitude) of `place`.
+void add_vertex(PointFile<3>& rows, Point<3> point, const Place& place);
 
 }  // namespace mesher

@@ -1,0 +1,100 @@
+// Reads the vertices of `.off` and `.obj` files as points in space. Faces and lines are not used.
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
+#include "io/note_counter.hpp"
+#include "io/read_points.hpp"
+#include "io/rows.hpp"
+#include "io/text.hpp"
+
+namespace mesher {
+namespace {
+
+Point<3> read_point(const text::Line& line, std::size_t first) {
+  return {line.coordinate(first), line.coordinate(first + 1), line.coordinate(first + 2)};
+}
+
+// --- .off ------------------------------------------------------------------------------------
+
+constexpr std::string_view kOffHeaders[] = {"OFF", "COFF", "NOFF", "CNOFF"};
+
+void require_off(const text::Line& first) {
+  const bool known =
+      std::find(std::begin(kOffHeaders), std::end(kOffHeaders), first[0]) != std::end(kOffHeaders);
+  if (known && (first.size() == 1 || first.size() == 4)) return;
+  throw first.error(ErrorCode::bad_header,
+                    "the first line must be 'OFF', 'COFF', 'NOFF' or 'CNOFF'", 0);
+}
+
+// Throws: Error(wrong_count) unless the row names as many corners as it says.
+void require_face(const text::Line& line) {
+  const std::int64_t corners = read_count(line, 0);
+  if (std::cmp_less_equal(corners, line.size() - 1)) return;
+  throw line.error(ErrorCode::wrong_count,
+                   "a face of " + std::to_string(corners) + " corners, but " +
+                       std::to_string(line.size() - 1) + " numbers follow",
+                   line.size());
+}
+
+// --- .obj ------------------------------------------------------------------------------------
+
+constexpr std::string_view kObjWords[] = {"vt", "vn",     "vp",     "g",  "o",   "s", "l",
+                                          "f",  "usemtl", "mtllib", "mg", "lod", "p"};
+
+void read_vertex(const text::Line& line, PointFile<3>& rows, NoteCounter& notes) {
+  if (line.size() < 4 || line.size() > 7 || line.size() == 6) {
+    throw line.error(ErrorCode::wrong_count, "a vertex in space is 'v x y z'", line.size());
+  }
+  add_row<3>(rows, read_point(line, 1), line.number());
+  if (line.size() > 4) notes.add("a weight or colour is not used", line.place(4));
+}
+
+void note_statement(const text::Line& line, NoteCounter& notes) {
+  if (std::find(std::begin(kObjWords), std::end(kObjWords), line[0]) == std::end(kObjWords)) {
+    throw line.error(ErrorCode::bad_syntax, "no statement is called " + text::quoted(line[0]), 0);
+  }
+  if (line[0] == "p") return;  // its vertices are points anyway
+  notes.add("the statement " + text::quoted(line[0]) + " is not used", line.place(0));
+}
+
+}  // namespace
+
+PointFile<3> read_off_points(const std::string& path) {
+  const std::string content = text::read_file(path);
+  text::FieldLines lines(path, content);
+  const text::Line& first = header_row(lines, path);
+  require_off(first);
+  const std::size_t at = first.size() == 1 ? 0 : 1;  // of the counts
+  const text::Line& counts = at == 1 ? first : next_row(lines, 2, 0, 1, "lines of counts");
+  const std::int64_t vertices = read_count(counts, at), faces = read_count(counts, at + 1);
+  PointFile<3> rows{path, {}, {}, {}};
+  NoteCounter notes;
+  while (std::cmp_less(rows.points.size(), vertices)) {
+    const text::Line& line = next_row(lines, 3, rows.points.size(), vertices, "vertices");
+    add_row<3>(rows, read_point(line, 0), line.number());
+    if (line.size() > 3) notes.add("a colour or normal is not used", line.place(3));
+  }
+  for (std::size_t i = 0; std::cmp_less(i, faces); ++i) {
+    const text::Line& line = next_row(lines, 1, i, faces, "faces");
+    require_face(line);
+    notes.add("a face is not used", line.place(0));
+  }
+  require_end(lines, "faces");
+  rows.notes = notes.notes();
+  return rows;
+}
+
+PointFile<3> read_obj_points(const std::string& path) {
+  const std::string content = text::read_file(path);
+  PointFile<3> rows{path, {}, {}, {}};
+  NoteCounter notes;
+  for (text::FieldLines lines(path, content); lines.next();) {
+    const text::Line& line = lines.line();
+    line[0] == "v" ? read_vertex(line, rows, notes) : note_statement(line, notes);
+  }
+  rows.notes = notes.notes();
+  return rows;
+}
+
+}  // namespace mesher
