@@ -112,13 +112,6 @@ NodeHeader read_node_header(const text::Line& line, int dimension) {
   return header;
 }
 
-std::int64_t node_dimension(const std::string& path) {
-  const std::string content = text::read_file(path);
-  text::FieldLines lines(path, content);
-  const text::Line& header = header_row(lines, path);
-  return header.size() > 1 ? header.integer(1) : NodeHeader{}.dimension;
-}
-
 // A row that is too short is the file's end where nothing follows, and a mistake elsewhere.
 void require_node_fields(const text::FieldLines& lines, const NodeHeader& header) {
   const text::Line& line = lines.line();

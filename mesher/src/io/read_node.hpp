@@ -31,10 +31,6 @@ struct NodeHeader {
 /// Throws: Error (bad_header, bad_dimension, bad_number).
 [[nodiscard]] NodeHeader read_node_header(const text::Line& line, int dimension);
 
-/// The dimension that the header of a .node file tells, 2 if it tells none. Throws: Error
-/// (cannot_read, truncated, bad_number).
-[[nodiscard]] std::int64_t node_dimension(const std::string& path);
-
 /// Throws: Error (truncated, wrong_count) unless the current line has the fields of a row.
 void require_node_fields(const text::FieldLines& lines, const NodeHeader& header);
 

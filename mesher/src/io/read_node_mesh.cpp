@@ -186,7 +186,7 @@ class NodeMesh {
 }  // namespace
 
 AnyMesh read_node_mesh(const std::string& path) {
-  if (node_dimension(text::with_extension(path, ".node")) == 3) return NodeMesh<3>(path).read();
+  if (dimension_of(text::with_extension(path, ".node")) == 3) return NodeMesh<3>(path).read();
   return NodeMesh<2>(path).read();
 }
 
