@@ -1,18 +1,21 @@
 // The mesher against itself: static run, first run with the engine, updates.
 //
-//   mesher_bench [N[:RHO]]...   default: 10000 100000 10000:1.1 (1000000 takes a minute and 2 GB)
+//   mesher_bench [[3d:]N[:RHO]]...
 //
-// Points uniform in the unit square, rho = 1.4142 if not given, rule radius_edge. One JSON line per
-// figure:
+// default: 10000 100000 10000:1.1 3d:100000 (1000000 takes a minute and 2 GB, 3d:1000000 minutes
+// and 6 GB). Points uniform in the unit square or cube, rho = 1.4142 or 2 if not given, rule
+// radius_edge. One JSON line per figure:
 //   static        vertices, seconds of the phases, of canonical output, and in all
 //   first_run     the same with the engine, its ratio to static, bytes of trace per output vertex
 //   insert/remove median and p99 of single updates in microseconds, and per update: calls
-//                 executed, edges touched, vertices and triangles changed
+//                 executed, edges touched, vertices and simplices changed
 // Run cgal_reference in the same session for what CGAL takes.
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "mesher/mesher.hpp"
@@ -38,81 +41,77 @@ struct Random {
     return z ^ (z >> 31);
   }
   double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
-  Point<2> point() {
-    const double x = uniform();
-    return {x, uniform()};
+  template <int D>
+  Point<D> point() {
+    Point<D> p;
+    for (double& x : p) x = uniform();
+    return p;
   }
 };
 
 struct Sample {
   std::vector<double> microseconds;
-  double executed = 0, edges = 0, vertices = 0, triangles = 0;
+  double executed = 0, edges = 0, vertices = 0, simplices = 0;
 
-  void add(double seconds, const mesher::Change<2>& change) {
+  template <int D>
+  void add(double seconds, const mesher::Change<D>& change) {
     microseconds.push_back(1e6 * seconds);
     executed += static_cast<double>(change.calls.executed);
     edges += static_cast<double>(change.calls.edges);
     vertices += static_cast<double>(change.vertices_added.size() + change.vertices_removed.size());
-    triangles +=
+    simplices +=
         static_cast<double>(change.simplices_added.size() + change.simplices_removed.size());
   }
-  void print(const char* figure, std::size_t n, double rho) const {
+  void print(const char* figure, std::size_t n, int dimension, double rho) const {
     const auto k = static_cast<double>(microseconds.size());
     std::printf(
-        "{\"bench\":\"mesher\",\"figure\":\"%s\",\"n\":%zu,\"rho\":%g,\"updates\":%zu,\"median_"
+        "{\"bench\":\"mesher\",\"figure\":\"%s\",\"dimension\":%d,\"n\":%zu,\"rho\":%g,\"updates\":"
+        "%zu,\"median_"
         "us\":%.1f,"
         "\"p99_us\":%.1f,\"calls_executed\":%.1f,\"edges\":%.1f,\"vertices\":%.2f,"
-        "\"triangles\":%.2f}\n",
-        figure, n, rho, microseconds.size(), bench::quantile(microseconds, 0.5),
-        bench::quantile(microseconds, 0.99), executed / k, edges / k, vertices / k, triangles / k);
+        "\"simplices\":%.2f}\n",
+        figure, dimension, n, rho, microseconds.size(), bench::quantile(microseconds, 0.5),
+        bench::quantile(microseconds, 0.99), executed / k, edges / k, vertices / k, simplices / k);
   }
 };
 
-double print_static(const std::vector<Point<2>>& points, const mesher::Options<2>& options) {
+template <int D>
+double print_static(const std::vector<Point<D>>& points, const mesher::Options<D>& options) {
   mesher::MeshStats stats;
   const auto start = Clock::now();
-  const auto mesh = mesher::mesh_statically<2>(points, options, {}, &stats);
+  const auto mesh = mesher::mesh_statically<D>(points, options, {}, &stats);
   const double total = seconds_since(start);
   std::printf(
-      "{\"bench\":\"mesher\",\"figure\":\"static\",\"n\":%zu,\"vertices\":%zu,"
-      "\"triangles\":%zu,\"quadtree_s\":%.4f,\"steiner_s\":%.4f,\"triangulate_s\":%.4f,"
+      "{\"bench\":\"mesher\",\"figure\":\"static\",\"dimension\":%d,\"n\":%zu,\"vertices\":%zu,"
+      "\"simplices\":%zu,\"quadtree_s\":%.4f,\"steiner_s\":%.4f,\"triangulate_s\":%.4f,"
       "\"total_s\":%.4f}\n",
-      points.size(), stats.vertices, stats.simplices, stats.seconds_quadtree, stats.seconds_steiner,
-      stats.seconds_triangulate, total);
+      D, points.size(), stats.vertices, stats.simplices, stats.seconds_quadtree,
+      stats.seconds_steiner, stats.seconds_triangulate, total);
   return stats.seconds_quadtree + stats.seconds_steiner + stats.seconds_triangulate;
 }
 
-void print_first_run(const mesher::MeshStats& s, std::size_t n, double static_seconds) {
+void print_first_run(const mesher::MeshStats& s, std::size_t n, int dimension,
+                     double static_seconds) {
   const double run = s.seconds_quadtree + s.seconds_steiner + s.seconds_triangulate;
   std::printf(
-      "{\"bench\":\"mesher\",\"figure\":\"first_run\",\"n\":%zu,\"quadtree_s\":%.4f,"
+      "{\"bench\":\"mesher\",\"figure\":\"first_run\",\"dimension\":%d,\"n\":%zu,\"quadtree_s\":%."
+      "4f,"
       "\"steiner_s\":%.4f,\"triangulate_s\":%.4f,\"run_s\":%.4f,\"over_static\":%.3f,"
       "\"calls\":%llu,\"edges\":%llu,\"trace_bytes\":%llu,\"bytes_per_vertex\":%.1f}\n",
-      n, s.seconds_quadtree, s.seconds_steiner, s.seconds_triangulate, run, run / static_seconds,
-      static_cast<unsigned long long>(s.calls), static_cast<unsigned long long>(s.edges),
-      static_cast<unsigned long long>(s.trace_bytes),
+      dimension, n, s.seconds_quadtree, s.seconds_steiner, s.seconds_triangulate, run,
+      run / static_seconds, static_cast<unsigned long long>(s.calls),
+      static_cast<unsigned long long>(s.edges), static_cast<unsigned long long>(s.trace_bytes),
       static_cast<double>(s.trace_bytes) / static_cast<double>(s.vertices));
 }
 
-void bench_points(std::size_t n, double rho = 1.4142) {
-  Random random{n};
-  mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}, .rho = rho};
-  std::vector<Point<2>> points(n);
-  std::vector<FeatureId> ids(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    points[i] = random.point();
-    ids[i] = FeatureId{static_cast<std::int64_t>(i)};
-  }
-  const double static_seconds = print_static(points, options);
-  mesher::Mesher<2> m(options);
-  m.insert(ids, points);
-  m.update();
-  print_first_run(m.stats(), n, static_seconds);
+template <int D>
+void bench_updates(mesher::Mesher<D>& m, std::vector<FeatureId> ids, Random& random) {
+  const std::size_t n = ids.size();
   Sample insert;
   Sample remove;
   for (std::size_t k = 0; k < 2000; ++k) {
     const FeatureId id{static_cast<std::int64_t>(n + k)};
-    const Point<2> p = random.point();
+    const Point<D> p = random.point<D>();
     const FeatureId gone = ids[k % n];
     auto start = Clock::now();
     m.insert(id, p);
@@ -124,21 +123,45 @@ void bench_points(std::size_t n, double rho = 1.4142) {
     remove.add(seconds_since(start), change);
     ids[k % n] = id;
   }
-  insert.print("insert", n, rho);
-  remove.print("remove", n, rho);
+  insert.print("insert", n, D, m.options().rho);
+  remove.print("remove", n, D, m.options().rho);
+}
+
+template <int D>
+void bench_points(std::size_t n, std::optional<double> rho = {}) {
+  Random random{n};
+  mesher::Options<D> options;
+  options.domain.hi.fill(1);
+  if (rho) options.rho = *rho;
+  std::vector<Point<D>> points(n);
+  std::vector<FeatureId> ids(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    points[i] = random.point<D>();
+    ids[i] = FeatureId{static_cast<std::int64_t>(i)};
+  }
+  const double static_seconds = print_static<D>(points, options);
+  mesher::Mesher<D> m(options);
+  m.insert(ids, points);
+  m.update();
+  print_first_run(m.stats(), n, D, static_seconds);
+  bench_updates(m, ids, random);
+}
+
+void bench_argument(std::string_view text) {
+  const bool in_space = text.substr(0, 3) == "3d:";
+  if (in_space) text.remove_prefix(3);
+  char* rest = nullptr;
+  const std::size_t n = std::strtoull(text.data(), &rest, 10);
+  std::optional<double> rho;
+  if (*rest == ':') rho = std::strtod(rest + 1, nullptr);
+  in_space ? bench_points<3>(n, rho) : bench_points<2>(n, rho);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc == 1) {
-    bench_points(10000);
-    bench_points(100000);
-    bench_points(10000, 1.1);
+    for (const char* input : {"10000", "100000", "10000:1.1", "3d:100000"}) bench_argument(input);
   }
-  for (int i = 1; i < argc; ++i) {
-    char* rest = nullptr;
-    const std::size_t n = std::strtoull(argv[i], &rest, 10);
-    bench_points(n, *rest == ':' ? std::strtod(rest + 1, nullptr) : 1.4142);
-  }
+  for (int i = 1; i < argc; ++i) bench_argument(argv[i]);
 }

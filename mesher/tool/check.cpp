@@ -4,11 +4,13 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <variant>
 
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "mesher/io.hpp"
 #include "mesher/pslg.hpp"
+#include "mesher/space_check.hpp"
 
 namespace tool {
 namespace {
@@ -20,6 +22,14 @@ struct CheckArguments {
   std::string boundary = "auto";
   std::string max_area;
   bool constrained = false;
+  bool ties = false;
+};
+
+/// What was looked at, and what was found.
+struct Judged {
+  std::vector<mesher::Finding> findings;
+  std::vector<mesher::Note> notes;
+  std::string counts;
 };
 
 void print_findings(const std::vector<mesher::Finding>& findings) {
@@ -50,8 +60,19 @@ mesher::BoundaryRule boundary_rule(const CheckArguments& args, const mesher::Mes
   return lines ? mesher::BoundaryRule::lines : mesher::BoundaryRule::box;
 }
 
-void run_check(const CheckArguments& args) {
-  const mesher::MeshData mesh = mesher::read_mesh(args.mesh);
+template <int D>
+std::string counts_of(const mesher::MeshDataOf<D>& mesh) {
+  return std::to_string(mesh.vertices.size()) + " vertices, " +
+         std::to_string(mesh.simplices.size()) + (D == 2 ? " triangles" : " tetrahedra");
+}
+
+[[noreturn]] void refuse(const CheckArguments& args, const std::string& option, const char* of) {
+  throw mesher::Error(mesher::ErrorCode::bad_option, option + " is for meshes of " + of,
+                      {args.mesh});
+}
+
+Judged judge(const CheckArguments& args, const mesher::MeshDataOf<2>& mesh) {
+  if (args.ties) refuse(args, "--ties", "tetrahedra");
   mesher::PslgFile graph;
   if (!args.input.empty()) graph = mesher::read_pslg(args.input);
   mesher::CheckOptions options;
@@ -61,13 +82,33 @@ void run_check(const CheckArguments& args) {
   if (!args.max_area.empty()) options.max_area = option_positive("--max-area", args.max_area);
   options.boundary = boundary_rule(args, mesh, graph.pslg);
   options.constrained = args.constrained;
-  const auto findings = mesher::check_mesh(mesh, options);
-  std::printf("%s: %zu vertices, %zu triangles\n", args.mesh.c_str(), mesh.vertices.size(),
-              mesh.simplices.size());
-  print_notes(mesh.notes);
-  print_notes(graph.notes);
-  print_findings(findings);
-  for (const auto& finding : findings) {
+  Judged judged{mesher::check_mesh(mesh, options), mesh.notes, counts_of(mesh)};
+  judged.notes.insert(judged.notes.end(), graph.notes.begin(), graph.notes.end());
+  return judged;
+}
+
+Judged judge(const CheckArguments& args, const mesher::MeshDataOf<3>& mesh) {
+  if (args.constrained) refuse(args, "--constrained", "triangles");
+  if (!args.max_area.empty()) refuse(args, "--max-area", "triangles");
+  if (args.boundary == "lines") refuse(args, "--boundary lines", "triangles");
+  mesher::PointFile<3> input;
+  if (!args.input.empty()) input = mesher::read_points<3>(args.input);
+  mesher::SpaceCheckOptions options;
+  options.features = &mesh.features;
+  if (!args.input.empty()) options.input = &input;
+  if (!args.rho.empty()) options.rho = option_rho(args.rho);
+  if (args.boundary == "any") options.boundary = mesher::BoundaryRule::any;
+  options.ties = args.ties;
+  return {mesher::check_mesh(mesh, options), mesh.notes, counts_of(mesh)};
+}
+
+void run_check(const CheckArguments& args) {
+  const Judged judged = std::visit([&](const auto& mesh) { return judge(args, mesh); },
+                                   mesher::read_any_mesh(args.mesh));
+  std::printf("%s: %s\n", args.mesh.c_str(), judged.counts.c_str());
+  print_notes(judged.notes);
+  print_findings(judged.findings);
+  for (const auto& finding : judged.findings) {
     if (finding.holds) continue;
     throw mesher::Error(mesher::ErrorCode::bad_quality, finding.property + ": " + finding.detail,
                         {args.mesh});
@@ -80,34 +121,45 @@ void add_check(CLI::App& app) {
   const auto args = std::make_shared<CheckArguments>();
   CLI::App* check = app.add_subcommand("check", "Verifies a mesh, whoever made it.");
   check
-      ->add_option("MESH", args->mesh,
-                   "A mesh: .node with .ele beside it, .vtu, .vtk, .msh, .mesh, .off or .obj")
+      ->add_option(
+          "MESH", args->mesh,
+          "A mesh of triangles or tetrahedra: .node with .ele beside it, .vtu, .vtk, .msh\n"
+          "or .mesh; of triangles also .off or .obj")
       ->required();
   check->add_option("--input", args->input,
                     "Points that must be vertices, bit for bit, and lines that must be unions of\n"
-                    "edges: .poly, .geojson, .obj, .vtu, .node, .xyz or .csv");
+                    "edges: .poly, .geojson, .obj, .vtu, .node, .xyz or .csv; for tetrahedra\n"
+                    "points: .node, .xyz or .csv");
   check->add_option("--rho", args->rho, "Bound of circumradius over shortest edge");
   check->add_option("--max-area", args->max_area, "Bound of the area of triangles");
   check
-      ->add_option("--boundary", args->boundary,
-                   "What bounds the mesh: box, lines (or the box), any; auto: lines if there are "
-                   "any,\n"
-                   "else box")
+      ->add_option(
+          "--boundary", args->boundary,
+          "What bounds the mesh: box, lines (or the box), any (for tetrahedra: any convex\n"
+          "body); auto: lines if there are any, else box")
       ->check(CLI::IsMember({"auto", "box", "lines", "any"}))
       ->capture_default_str();
   check->add_flag("--constrained", args->constrained,
                   "Edges on lines need not be Delaunay: a constrained triangulation will do");
+  check->add_flag(
+      "--ties", args->ties,
+      "Where more points are on one sphere, the choice must be that of their coordinates,\n"
+      "as in all meshes of this tool");
   check->footer(
       "Checks that the triangles do not overlap and fill a box, or what lines enclose; that the\n"
       "triangulation is Delaunay (by exact arithmetic), first off lines, then on them\n"
       "(conforming); that each point of --input is a vertex and each line a union of edges;\n"
       "that regions end at lines and are those of their seeds; and that no triangle has a\n"
       "radius-edge ratio above --rho, but at small angles between lines: of --input, or MESH.\n"
+      "Of tetrahedra: that they fill a box without gap or overlap, are Delaunay, have the points\n"
+      "of --input as vertices (with their kinds and ids, where MESH tells them), and are within\n"
+      "--rho, those at the box too.\n"
       "It says what fails first, and where. Exit code 0 if all that holds, 1 if not.\n"
       "Examples:\n"
       "  mesher check mesh.node --input points.node --rho 1.4142\n"
       "  mesher check lake.1.node --input lake.poly --rho 1.4142 --max-area 0.01\n"
-      "  mesher check plate.msh --constrained");
+      "  mesher check plate.msh --constrained\n"
+      "  mesher check cloud.vtu --input cloud.node --rho 2 --ties");
   check->callback([args] { run_check(*args); });
 }
 

@@ -22,35 +22,35 @@ struct TraceArguments : MeshArguments {
 };
 
 // Throws: Error (cannot_write, bad_option) if the trace could not be written at the end.
-void require_writable(const TraceArguments& args, const Input& input) {
+void require_writable(const TraceArguments& args, const auto& input) {
   mesher::OutputFiles files;
   protect_inputs(args, input, files);
   if (!args.script.empty()) files.protect(args.script);
   files.open(args.trace);
 }
 
-void follow_script(const TraceArguments& args, Input& input, mesher::Mesher<2>& mesher,
+template <int D>
+void follow_script(const TraceArguments& args, InputOf<D>& input, mesher::Mesher<D>& mesher,
                    Progress& progress) {
-  mesher::EditScript script(args.script);
+  mesher::EditScriptOf<D> script(args.script);
   std::size_t updates = 0;
   Watched watched(mesher, progress);
   try {
     while (auto edits = script.next()) {
-      input.follow(*edits);
+      input.template follow<D>(*edits);
       mesher::apply(std::move(*edits), watched);
       progress.set_task("after " + std::to_string(++updates) + " updates, ");
     }
   } catch (const mesher::Error& error) {
-    throw with_domain_hint(input.located(error));
+    throw with_domain_hint<D>(input.located(error));
   }
 }
 
-traces::Recording record(const mesher::Mesher<2>& mesher, const std::string& path,
-                         traces::Edges edges) {
+traces::Recording record(const sac::Engine& engine, const std::string& path, traces::Edges edges) {
   require_uninterrupted();
   set_doomed({traces::temporary_of(path)});
   try {
-    const traces::Recording recording = traces::Recorder(mesher.engine()).record(path, edges);
+    const traces::Recording recording = traces::Recorder(engine).record(path, edges);
     set_doomed({});
     return recording;
   } catch (const traces::FileError& error) {
@@ -59,16 +59,17 @@ traces::Recording record(const mesher::Mesher<2>& mesher, const std::string& pat
   }
 }
 
+template <int D>
 void run_trace(const TraceArguments& args) {
-  Input input(args.input);
+  InputOf<D> input(args.input);
   const auto options = mesh_options(args, input);
   require_writable(args, input);
   Progress progress(args.quiet);
-  mesher::Mesher<2> mesher(options);
+  mesher::Mesher<D> mesher(options);
   insert_all(input, mesher, progress);
-  if (!args.script.empty()) follow_script(args, input, mesher, progress);
+  if (!args.script.empty()) follow_script<D>(args, input, mesher, progress);
   const traces::Recording recording =
-      record(mesher, args.trace, args.edges ? traces::Edges::yes : traces::Edges::no);
+      record(mesher.engine(), args.trace, args.edges ? traces::Edges::yes : traces::Edges::no);
   progress.erase();
   if (!args.quiet) {
     std::printf("%s: %llu calls\n", args.trace.c_str(),
@@ -96,7 +97,7 @@ void add_trace(CLI::App& app) {
       "  mesher trace points.node -o before.trace\n"
       "  mesher trace points.node --script edits.txt -o after.trace\n"
       "  traces distance before.trace after.trace");
-  trace->callback([args] { run_trace(*args); });
+  trace->callback([args] { dimension_of(*args) == 2 ? run_trace<2>(*args) : run_trace<3>(*args); });
 }
 
 }  // namespace tool

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Writes meshes of tetrahedra with space_files and compares what meshio and gmsh read with what
-they are.
+they are; has meshio, gmsh and TetGen write them in all their ways and compares what we read.
 
     compare_space.py SPACE_FILES
 
@@ -8,6 +8,7 @@ Points must be equal bit for bit and cells equal, with positive volumes; faces m
 Exit code 77: neither meshio nor gmsh is installed; 1: a difference.
 """
 import glob
+import shutil
 import struct
 import subprocess
 import sys
@@ -83,12 +84,78 @@ def differs(what, found, expected, ordered=True):
     return not same
 
 
+# How meshio writes: a name, an extension, the format's name and its options.
+MESHIO_WRITES = [("zlib", ".vtu", "vtu", {"compression": "zlib"}),
+                 ("plain", ".vtu", "vtu", {"compression": None}),
+                 ("ascii42", ".vtk", "vtk42", {"binary": False}),
+                 ("ascii51", ".vtk", "vtk51", {"binary": False}),
+                 ("binary42", ".vtk", "vtk42", {"binary": True}),
+                 ("binary51", ".vtk", "vtk51", {"binary": True}),
+                 ("tetgen", ".node", "tetgen", {}),
+                 ("medit", ".mesh", "medit", {"float_fmt": ".17g"})]
+
+
+def our_reading(program, path):
+    subprocess.run([program, "dump", path, path + ".read"], check=True)
+    return read_truth(path + ".read")
+
+
+def compare_files_of_meshio(program, stem, truth):
+    failures = 0
+    mesh = meshio.read(stem + ".vtu")
+    mesh.point_data = {}
+    for name, extension, form, options in MESHIO_WRITES:
+        path = f"{stem}.meshio_{name}{extension}"
+        meshio.write(path, mesh, form, **options)
+        failures += differs(path, our_reading(program, path), truth)
+    return failures
+
+
+def compare_files_of_gmsh(program, stem, truth):
+    """gmsh writes coordinates in text with 16 digits: only binary files are the same to the bit."""
+    failures = 0
+    for binary, extension in ((0, ".msh"), (0, ".mesh"), (0, ".vtk"), (1, ".msh"), (1, ".vtk")):
+        path = f"{stem}.gmsh{binary}{extension}"
+        gmsh.initialize()
+        gmsh.option.setNumber("General.Verbosity", 0)
+        gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
+        gmsh.option.setNumber("Mesh.SaveAll", 1)
+        gmsh.option.setNumber("Mesh.Binary", binary)
+        gmsh.open(stem + ".msh")
+        gmsh.write(path)
+        gmsh.finalize()
+        points, cells = our_reading(program, path)
+        expected = truth if binary else (points, truth[1])
+        failures += len(points) != len(truth[0])
+        failures += differs(path, (points, cells), expected, False)
+    return failures
+
+
+def compare_files_of_tetgen(program, stem, truth):
+    """TetGen refines nothing that is as it wants it, and writes numbers from 1 or from 0 on."""
+    failures = 0
+    for zero in ("", "z"):
+        copy = f"{stem}_tetgen{zero}"
+        shutil.copy(stem + ".node", copy + ".node")
+        subprocess.run(["tetgen", "-Q" + zero, copy + ".node"], check=True,
+                       stdout=subprocess.DEVNULL)
+        points, cells = our_reading(program, copy + ".1.node")
+        with open(copy + ".1.ele") as lines:
+            rows = [line.split("#")[0].split() for line in lines]
+        rows = [list(map(int, row[:5])) for row in rows if row][1:]
+        if len(points) != len(truth[0]) or cells != [tuple(v - (not zero) for v in row[1:])
+                                                     for row in rows]:
+            print(f"{copy}.1: points or cells differ", file=sys.stderr)
+            failures += 1
+    return failures
+
+
 def main():
     if meshio is None and gmsh is None:
         return 77
     failures = 0
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([sys.argv[1], folder], check=True)
+        subprocess.run([sys.argv[1], "write", folder], check=True)
         stems = [path[:-6] for path in sorted(glob.glob(folder + "/*.truth"))]
         for stem in stems:
             truth = read_truth(stem + ".truth")
@@ -97,6 +164,12 @@ def main():
                 failures += differs(f"meshio {extension}", by_meshio(stem + extension), truth)
             for extension in (".vtk", ".msh", ".mesh") if gmsh else ():
                 failures += differs(f"gmsh {extension}", by_gmsh(stem + extension), truth, False)
+            if meshio:
+                failures += compare_files_of_meshio(sys.argv[1], stem, truth)
+            if gmsh:
+                failures += compare_files_of_gmsh(sys.argv[1], stem, truth)
+            if shutil.which("tetgen") and "small" not in stem:  # below TetGen's tolerance
+                failures += compare_files_of_tetgen(sys.argv[1], stem, truth)
     return 1 if failures or not stems else 0
 
 

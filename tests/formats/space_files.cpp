@@ -1,6 +1,8 @@
 // Writes meshes of tetrahedra in every format for compare_space.py, and what they are as `.truth`:
-// "v" and the bits of three coordinates, "t" and four vertices from 0 on.
-//   space_files FOLDER
+// "v" and the bits of three coordinates, "t" and four vertices from 0 on; says what a file of
+// others is to us.
+//   space_files write FOLDER
+//   space_files dump FILE TRUTH
 #include "mesher/space_files.hpp"
 
 #include <bit>
@@ -11,19 +13,15 @@
 #include <vector>
 
 #include "mesher/generate.hpp"
+#include "mesher/io.hpp"
 #include "mesher/mesher.hpp"
 
 namespace {
 
 using mesher::Point;
 
-void write(const std::string& stem, const std::vector<Point<3>>& points) {
-  const mesher::Options<3> options{.domain = mesher::snapped_domain<3>(points)};
-  const mesher::Mesh<3> mesh = mesher::mesh_statically<3>(points, options);
-  for (const char* extension : {".node", ".vtu", ".vtk", ".msh", ".mesh"}) {
-    mesher::write_mesh(mesh, stem + extension);
-  }
-  std::ofstream truth(stem + ".truth");
+void write_truth(const mesher::Mesh<3>& mesh, const std::string& path) {
+  std::ofstream truth(path);
   for (const auto& p : mesh.vertices) {
     truth << 'v';
     for (const double x : p) truth << ' ' << std::bit_cast<std::uint64_t>(x);
@@ -34,11 +32,16 @@ void write(const std::string& stem, const std::vector<Point<3>>& points) {
   }
 }
 
-}  // namespace
+void write(const std::string& stem, const std::vector<Point<3>>& points) {
+  const mesher::Options<3> options{.domain = mesher::snapped_domain<3>(points)};
+  const mesher::Mesh<3> mesh = mesher::mesh_statically<3>(points, options);
+  for (const char* extension : {".node", ".vtu", ".vtk", ".msh", ".mesh"}) {
+    mesher::write_mesh(mesh, stem + extension);
+  }
+  write_truth(mesh, stem + ".truth");
+}
 
-int main(int argc, char** argv) {
-  if (argc != 2) return std::cerr << "usage: space_files FOLDER\n", 2;
-  const std::string folder = argv[1];
+void write_all(const std::string& folder) {
   write(folder + "/uniform", mesher::generate_points<3>(mesher::PointKind::uniform, 50, 1));
   write(folder + "/grid", mesher::generate_points<3>(mesher::PointKind::grid, 27, 1));
   std::vector<Point<3>> small = mesher::generate_points<3>(mesher::PointKind::gaussian, 9, 4);
@@ -46,4 +49,23 @@ int main(int argc, char** argv) {
     for (double& x : p) x *= 0x1p-70;
   }
   write(folder + "/small", small);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string command = argc > 1 ? argv[1] : "";
+  try {
+    if (command == "write" && argc == 3) {
+      write_all(argv[2]);
+    } else if (command == "dump" && argc == 4) {
+      write_truth(mesher::read_mesh<3>(argv[2]), argv[3]);
+    } else {
+      return 2;
+    }
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+  return 0;
 }

@@ -178,6 +178,12 @@ done
 "$traces" stability --n 20 --edits 60 --trust --json >deep.jsonl
 checks=$((checks + 1))
 grep -Eq '"lg_L_d":(3[3-9]|4[0-9])' deep.jsonl || fail "no edit is nearer than 2^-33 to a point"
+# In space.
+"$traces" stability --dimension 3 --n 30 --edits 4 --json >space.jsonl
+checks=$((checks + 1))
+grep -q '"drift":[^0]' space.jsonl && fail "space.jsonl drifts"
+[[ $(wc -l <space.jsonl) == 4 ]] || fail "space.jsonl has not 4 lines"
+refuse 2 'error[bad_option]' stability --dimension 4
 refuse 2 'error[bad_option]' stability --n 1
 refuse 2 'error[bad_option]' stability --kind circle
 refuse 2 'error[bad_option]' stability --rho 1

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "../../mesher/bench/sample.hpp"
+#include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"
-#include "mesher/pslg.hpp"
 #include "traces/distance.hpp"
 #include "traces/recorder.hpp"
 
@@ -23,30 +23,34 @@ struct Cost {
   }
 };
 
-/// A mesh in the unit square, and edits of it that are taken back at once.
+struct EditCosts {
+  Cost come, go;
+  std::size_t on_edit = 1;  // vertices that stand on it
+};
+
+/// A mesh in the unit square or cube, and edits of it that are taken back at once. D is 2 or 3.
+template <int D>
 class Ground {
  public:
-  explicit Ground(const mesher::Pslg& pslg)
-      : mesher_({.domain = {{0, 0}, {1, 1}}, .record_weights = true}) {
-    for (const auto& v : pslg.points) mesher_.insert(v.id, v.at), points_.push_back(v.at);
-    for (const auto& s : pslg.segments) mesher_.insert_segment(s.id, s.from, s.to);
+  Ground(const std::vector<mesher::Point<D>>& points, const std::vector<mesher::FeatureId>& ids,
+         const std::vector<mesher::Segment>& segments = {})
+      : mesher_(unit_box()), points_(points) {
+    mesher_.insert(ids, points);
+    for (const auto& s : segments) mesher_.insert_segment(s.id, s.from, s.to);
     mesher_.update();
   }
-  [[nodiscard]] const std::vector<mesher::Point<2>>& points() const { return points_; }
+  [[nodiscard]] const std::vector<mesher::Point<D>>& points() const { return points_; }
 
-  struct Costs {
-    Cost come, go;
-    std::size_t on_line = 1;  // vertices that stand on the edit
-  };
-  /// Nothing if the input does not take the line. `record`: the distance is asked for, too: that is
-  /// of the same edit made once more, since recording a trace leaves nothing of the mesh in cache.
-  std::optional<Costs> edit(const std::vector<mesher::Point<2>>& line, bool record) {
-    Costs costs;
+  /// Nothing if the input does not take the line: its points, and in the plane what joins them.
+  /// `record`: the distance is asked for, too: that is of the same edit made once more, since
+  /// recording a trace leaves nothing of the mesh in cache.
+  std::optional<EditCosts> edit(const std::vector<mesher::Point<D>>& line, bool record) {
+    EditCosts costs;
     if (!come(line, costs)) return {};
     go(line.size(), costs.go);
     if (!record) return costs;
     if (!base_) base_ = trace();
-    Costs again;
+    EditCosts again;
     come(line, again);
     const auto apart = traces::distance(*base_, trace()).all.distance();
     costs.come.distance = costs.go.distance = static_cast<double>(apart);
@@ -60,15 +64,24 @@ class Ground {
     return mesher::FeatureId{kFirst + static_cast<std::int64_t>(i)};
   }
 
-  bool come(const std::vector<mesher::Point<2>>& line, Costs& costs) {
+  static bool has_line(std::size_t points) { return D == 2 && points > 1; }
+  static mesher::Options<D> unit_box() {
+    mesher::Options<D> options;
+    options.domain.hi.fill(1);
+    options.record_weights = true;
+    return options;
+  }
+
+  bool come(const std::vector<mesher::Point<D>>& line, EditCosts& costs) {
     std::vector<mesher::FeatureId> ids;
     try {
       for (std::size_t i = 0; i < line.size(); ++i) {
         ids.push_back(id(i));
         mesher_.insert(ids.back(), line[i]);
       }
-      if (line.size() > 1) mesher_.insert_polyline(ids.front(), ids);
-      costs.on_line = 1 + update(costs.come).edges_added.size();
+      if (has_line(line.size())) mesher_.insert_polyline(ids.front(), ids);
+      const auto edges = update(costs.come).edges_added.size();
+      costs.on_edit = has_line(line.size()) ? 1 + edges : line.size();
       return true;
     } catch (const mesher::Error&) {
       mesher_.discard_edits();
@@ -77,13 +90,13 @@ class Ground {
     }
   }
   void go(std::size_t points, Cost& cost) {
-    if (points > 1) mesher_.remove_segment(id(0));
+    if (has_line(points)) mesher_.remove_segment(id(0));
     for (std::size_t i = 0; i < points; ++i) mesher_.remove(id(i));
     update(cost);
   }
   [[nodiscard]] traces::Trace trace() const { return traces::Recorder(mesher_.engine()).trace(); }
-  mesher::Change<2> update(Cost& cost) {
-    mesher::Change<2> change;
+  mesher::Change<D> update(Cost& cost) {
+    mesher::Change<D> change;
     cost.microseconds = 1e6 * seconds_of([&] { change = mesher_.update(); });
     const auto& calls = change.calls;
     cost.work = static_cast<double>(calls.created + calls.discarded + calls.executed);
@@ -91,9 +104,18 @@ class Ground {
     return change;
   }
 
-  mesher::Mesher<2> mesher_;
-  std::vector<mesher::Point<2>> points_;
+  mesher::Mesher<D> mesher_;
+  std::vector<mesher::Point<D>> points_;
   std::optional<traces::Trace> base_;  // without an edit
 };
+
+/// `n` points anywhere.
+template <int D>
+[[nodiscard]] Ground<D> scattered(std::size_t n) {
+  std::vector<mesher::FeatureId> ids;
+  for (std::size_t i = 1; i <= n; ++i)
+    ids.push_back(mesher::FeatureId{static_cast<std::int64_t>(i)});
+  return Ground<D>(mesher::generate_points<D>(mesher::PointKind::uniform, n, 5), ids);
+}
 
 }  // namespace bench

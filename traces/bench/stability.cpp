@@ -16,46 +16,42 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "../../mesher/bench/random_line.hpp"
-#include "../../mesher/bench/sample.hpp"
-#include "chart.hpp"
 #include "ground.hpp"
 #include "mesher/generate.hpp"
+#include "plots.hpp"
 
 namespace {
 
-using bench::Cost;
-using bench::Ground;
+using bench::Against;
+using bench::Plot;
+using Ground = bench::Ground<2>;
 using mesher::FeatureId;
 using mesher::Point;
 
-constexpr const char* kKinds[] = {"point", "segment", "polyline"};
-constexpr const char* kColours[] = {"#1b6ca8", "#c0392b", "#2e8b57"};
-constexpr const char* kQuantities[] = {"distance", "work", "weight", "microseconds"};
+const std::vector<bench::Kind> kKinds{
+    {"point", "#1b6ca8"}, {"segment", "#c0392b"}, {"polyline", "#2e8b57"}};
 
-/// Costs by what they are plotted against.
-using Plot = std::map<double, std::vector<Cost>>;
-
-void add(Plot& plot, double x, const Ground::Costs& costs) {
-  plot[x].push_back(costs.come);
-  plot[x].push_back(costs.go);
-}
-
-/// An edit of a kind (an index of kKinds); h: the length of a segment of the input, at most.
+// An edit of a kind (an index of kKinds); h: the length of a segment of the input, at most.
 std::vector<Point<2>> random_edit(int kind, const Point<2>& from, double h,
                                   mesher::SplitMix64& random) {
   if (kind == 0) return {from};
   const double piece = kind == 1 ? h * (0.2 + 0.8 * random.unit()) : 0.4 * h;
   const double at = 4 * random.unit();
   return bench::random_line(from, at, kind == 1 ? 1 : 9, piece, random);
+}
+
+Ground segments(std::size_t n) {
+  const auto pslg = mesher::generate_pslg({mesher::PslgKind::segments, n});
+  std::vector<Point<2>> points;
+  std::vector<FeatureId> ids;
+  for (const auto& v : pslg.points) points.push_back(v.at), ids.push_back(v.id);
+  return Ground(points, ids, pslg.segments);
 }
 
 double length_of(std::size_t n) { return 1 / std::sqrt(2.0 * static_cast<double>(n)); }
@@ -83,7 +79,7 @@ Plot over_spread(int kind, Ground& ground, std::size_t n, int edits) {
 
 // Of the larger inputs the distances are fewer.
 void over_size(std::vector<Plot>& plots, std::size_t n, int edits) {
-  Ground ground(mesher::generate_pslg({mesher::PslgKind::segments, n}));
+  Ground ground = segments(n);
   const int recorded = n <= 10000 ? edits : n <= 100000 ? std::min(edits, 8) : 0;
   for (int kind = 0; kind < 3; ++kind) {
     mesher::SplitMix64 random(17);
@@ -115,95 +111,9 @@ Plot over_length(int kind, Ground& ground, int edits) {
     }
     const auto costs = ground.edit(line, done < 4 * edits);
     if (!costs) continue;
-    add(plot, 20 * std::floor(static_cast<double>(costs->on_line) / 20) + 10, *costs);
+    add(plot, 20 * std::floor(static_cast<double>(costs->on_edit) / 20) + 10, *costs);
   }
   return plot;
-}
-
-// --- Figures ---------------------------------------------------------------------------------
-
-bench::Series series_of(const Plot& plot, int kind, int quantity) {
-  bench::Series series{kKinds[kind], kColours[kind], {}};
-  for (const auto& [x, costs] : plot) {
-    std::vector<double> values;
-    for (const Cost& cost : costs) {
-      if (const auto value = cost.quantity(quantity)) values.push_back(*value);
-    }
-    if (values.size() < 4) continue;
-    series.points.push_back({x, bench::quantile(values, 0.5), bench::quantile(values, 0.99)});
-  }
-  return series;
-}
-
-// Least squares: y = a + b x, and how much of y's variance that explains.
-void print_fit(const char* against, const bench::Series& s, const char* quantity) {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-  for (const auto& at : s.points) {
-    n += 1, x += at.x, y += at.median;
-    xx += at.x * at.x, xy += at.x * at.median, yy += at.median * at.median;
-  }
-  if (n < 3) return;
-  const double b = (n * xy - x * y) / (n * xx - x * x), a = (y - b * x) / n;
-  const double variance = n * yy - y * y;
-  const double r2 = variance > 0 ? b * b * (n * xx - x * x) / variance : 1;
-  std::printf(
-      "{\"bench\":\"stability\",\"against\":\"%s\",\"kind\":\"%s\",\"quantity\":\"%s\","
-      "\"fit\":[%.4g,%.4g],\"r2\":%.3f}\n",
-      against, s.name.c_str(), quantity, a, b, r2);
-}
-
-void print_growth(const bench::Series& s, const char* quantity) {
-  double at_10000 = 0;
-  for (const auto& at : s.points) at_10000 = at.x == 10000 ? at.median : at_10000;
-  if (at_10000 == 0 || s.points.back().x <= 10000) return;
-  std::printf(
-      "{\"bench\":\"stability\",\"against\":\"n\",\"kind\":\"%s\",\"quantity\":\"%s\","
-      "\"to\":%.0f,\"growth_from_10000\":%.3f}\n",
-      s.name.c_str(), quantity, s.points.back().x, s.points.back().median / at_10000);
-}
-
-void print_places(const char* against, const bench::Series& s, const char* quantity) {
-  for (const auto& at : s.points) {
-    std::printf(
-        "{\"bench\":\"stability\",\"against\":\"%s\",\"kind\":\"%s\",\"quantity\":\"%s\","
-        "\"x\":%.4g,\"median\":%.1f,\"p99\":%.1f}\n",
-        against, s.name.c_str(), quantity, at.x, at.median, at.p99);
-  }
-}
-
-struct Against {
-  const char* name;
-  const char* axis;
-  bool log_x;
-  std::vector<Plot> plots;  // by kind
-};
-
-std::vector<bench::Panel> figures(const std::vector<Against>& all) {
-  std::vector<bench::Panel> panels;
-  for (int quantity = 0; quantity < 4; ++quantity) {
-    for (const Against& against : all) {
-      bench::Panel panel{kQuantities[quantity], against.axis, against.log_x, {}};
-      for (int kind = 0; kind < 3; ++kind) {
-        const auto s = series_of(against.plots[static_cast<std::size_t>(kind)], kind, quantity);
-        if (s.points.empty()) continue;
-        print_places(against.name, s, kQuantities[quantity]);
-        against.log_x ? print_growth(s, kQuantities[quantity])
-                      : print_fit(against.name, s, kQuantities[quantity]);
-        panel.series.push_back(s);
-      }
-      panels.push_back(panel);
-    }
-  }
-  return panels;
-}
-
-mesher::Pslg scattered(std::size_t n) {
-  mesher::Pslg pslg;
-  std::int64_t id = 1;
-  for (const Point<2>& p : mesher::generate_points<2>(mesher::PointKind::uniform, n, 5)) {
-    pslg.points.push_back({FeatureId{id++}, p});
-  }
-  return pslg;
 }
 
 }  // namespace
@@ -223,22 +133,17 @@ int main(int argc, char** argv) {
   Against length{"m_f", "vertices on the edit", false, std::vector<Plot>(3)};
   {
     constexpr std::size_t kSmall = 1000;
-    Ground ground(mesher::generate_pslg({mesher::PslgKind::segments, kSmall}));
+    Ground ground = segments(kSmall);
     for (int kind = 0; kind < 3; ++kind) {
       spread.plots[static_cast<std::size_t>(kind)] = over_spread(kind, ground, kSmall, edits);
     }
   }
   {
-    Ground ground(scattered(10000));
+    Ground ground = bench::scattered<2>(10000);
     for (int kind = 1; kind < 3; ++kind) {
       length.plots[static_cast<std::size_t>(kind)] = over_length(kind, ground, edits);
     }
   }
   for (const std::size_t n : sizes) over_size(size.plots, n, edits);
-  std::ofstream file(out + ".svg");
-  file << bench::Chart::draw(figures({spread, size, length}), 3);
-  if (!file.flush()) {
-    std::fprintf(stderr, "stability: cannot write %s.svg\n", out.c_str());
-    return 1;
-  }
+  return bench::draw("stability", kKinds, {spread, size, length}, out + ".svg");
 }

@@ -14,20 +14,24 @@ namespace {
 using mesher::FeatureId;
 using mesher::Point;
 
-double distance2(const Point<2>& a, const Point<2>& b) {
-  const double x = a[0] - b[0], y = a[1] - b[1];
-  return x * x + y * y;
+template <int D>
+double distance2(const Point<D>& a, const Point<D>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < D; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sum;
 }
 
-// Squared, of two different points. Cost: O(n log n) for points that are not all in a column.
-double least_distance2(std::vector<Point<2>> points) {
+// Squared, of two different points. Cost: O(n log n) for points that are not all in a column; in
+// space O(n^(5/3)) for uniform ones.
+template <int D>
+double least_distance2(std::vector<Point<D>> points) {
   std::sort(points.begin(), points.end());
   double least = HUGE_VAL;
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t j = i + 1; j < points.size(); ++j) {
       const double x = points[j][0] - points[i][0];
       if (x * x >= least) break;
-      least = std::min(least, distance2(points[i], points[j]));
+      least = std::min(least, distance2<D>(points[i], points[j]));
     }
   }
   return least;
@@ -46,8 +50,9 @@ std::vector<FeatureId> first_ids(std::size_t count) {
 
 }  // namespace
 
-MeshSubject::MeshSubject(const mesher::Options<2>& options, std::vector<Point<2>> points,
-                         std::uint64_t seed)
+template <int D>
+MeshSubject<D>::MeshSubject(const mesher::Options<D>& options, std::vector<Point<D>> points,
+                            std::uint64_t seed)
     : options_(options),
       points_(std::move(points)),
       ids_(first_ids(points_.size())),
@@ -55,47 +60,58 @@ MeshSubject::MeshSubject(const mesher::Options<2>& options, std::vector<Point<2>
       random_(seed),
       mesher_(meshed(options_, points_, ids_)) {}
 
-mesher::Mesher<2> MeshSubject::meshed(const mesher::Options<2>& options,
-                                      const std::vector<Point<2>>& points,
-                                      const std::vector<FeatureId>& ids) {
-  mesher::Mesher<2> mesher(options);
+template <int D>
+mesher::Mesher<D> MeshSubject<D>::meshed(const mesher::Options<D>& options,
+                                         const std::vector<Point<D>>& points,
+                                         const std::vector<FeatureId>& ids) {
+  mesher::Mesher<D> mesher(options);
   mesher.insert(ids, points);
   mesher.update();
   return mesher;
 }
 
-traces::Trace MeshSubject::trace() const { return traces::Recorder(mesher_.engine()).trace(); }
+template <int D>
+traces::Trace MeshSubject<D>::trace() const {
+  return traces::Recorder(mesher_.engine()).trace();
+}
 
-traces::Trace MeshSubject::fresh_trace() const {
-  const mesher::Mesher<2> fresh = meshed(options_, points_, ids_);
+template <int D>
+traces::Trace MeshSubject<D>::fresh_trace() const {
+  const mesher::Mesher<D> fresh = meshed(options_, points_, ids_);
   return traces::Recorder(fresh.engine()).trace();
 }
 
-double MeshSubject::side() const {
+template <int D>
+double MeshSubject<D>::side() const {
   const auto& [lo, hi] = options_.domain;
-  return std::max(hi[0] - lo[0], hi[1] - lo[1]);
+  double side = 0;
+  for (std::size_t i = 0; i < D; ++i) side = std::max(side, hi[i] - lo[i]);
+  return side;
 }
 
-Point<2> MeshSubject::somewhere() {
+template <int D>
+Point<D> MeshSubject<D>::somewhere() {
   const auto& [lo, hi] = options_.domain;
-  Point<2> p;
+  Point<D> p;
   if (points_.empty() || random_.below(2) == 0) {
-    for (int i = 0; i < 2; ++i) p[i] = lo[i] + (hi[i] - lo[i]) * random_.unit();
+    for (int i = 0; i < D; ++i) p[i] = lo[i] + (hi[i] - lo[i]) * random_.unit();
     return p;
   }
-  const Point<2> near = points_[random_.below(points_.size())];
+  const Point<D> near = points_[random_.below(points_.size())];
   const double reach = std::ldexp(side(), -kFirstScale - static_cast<int>(random_.below(kScales)));
-  for (int i = 0; i < 2; ++i) {
-    const double offset = reach * (0.5 + random_.unit() / 5);  // their length: 0.7 to 1 of reach
+  const double each = reach * std::sqrt(2.0 / D);  // offsets of length 0.7 to 1 of reach
+  for (int i = 0; i < D; ++i) {
+    const double offset = each * (0.5 + random_.unit() / 5);
     p[i] = std::clamp(near[i] + (random_.below(2) == 0 ? offset : -offset), lo[i], hi[i]);
   }
   return p;
 }
 
 // Where the mesher refuses a point (it is there already, or too near to another), another is tried.
-Point<2> MeshSubject::insert() {
+template <int D>
+Point<D> MeshSubject<D>::insert() {
   for (;;) {
-    const Point<2> p = somewhere();
+    const Point<D> p = somewhere();
     try {
       mesher_.insert(FeatureId{next_id_}, p);
     } catch (const mesher::Error&) {
@@ -107,22 +123,24 @@ Point<2> MeshSubject::insert() {
   }
 }
 
-Point<2> MeshSubject::remove() {
+template <int D>
+Point<D> MeshSubject<D>::remove() {
   const std::size_t i = random_.below(points_.size());
   mesher_.remove(ids_[i]);
   std::swap(ids_[i], ids_.back());
   std::swap(points_[i], points_.back());
-  const Point<2> p = points_.back();
+  const Point<D> p = points_.back();
   ids_.pop_back();
   points_.pop_back();
   return p;
 }
 
-MeshSubject::Edit MeshSubject::edit() {
+template <int D>
+traces::Subject::Edit MeshSubject<D>::edit() {
   Edit result;
   const bool inserts = points_.size() <= 2 || random_.below(2) == 0;
   const auto before = points_;
-  const Point<2> edited = inserts ? insert() : remove();
+  const Point<D> edited = inserts ? insert() : remove();
   const std::size_t m = mesher_.stats().vertices;
   const mesher::CallCounts calls = mesher_.update().calls;
   result.work.executed = calls.executed;
@@ -132,14 +150,17 @@ MeshSubject::Edit MeshSubject::edit() {
   result.work.weight = calls.weight;
   const auto& larger = inserts ? points_ : before;
   double d2 = HUGE_VAL;
-  for (const Point<2>& p : larger) {
-    if (p != edited) d2 = std::min(d2, distance2(p, edited));
+  for (const Point<D>& p : larger) {
+    if (p != edited) d2 = std::min(d2, distance2<D>(p, edited));
   }
   result.figures = {{"n", static_cast<double>(larger.size())},
                     {"m", static_cast<double>(std::max(m, mesher_.stats().vertices))},
-                    {"lg_L_s", std::log2(side() / std::sqrt(least_distance2(larger)))},
+                    {"lg_L_s", std::log2(side() / std::sqrt(least_distance2<D>(larger)))},
                     {"lg_L_d", std::log2(side() / std::sqrt(d2))}};
   return result;
 }
+
+template class MeshSubject<2>;
+template class MeshSubject<3>;
 
 }  // namespace tool

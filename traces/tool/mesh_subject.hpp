@@ -14,7 +14,7 @@ namespace tool {
 
 /// Every edit inserts or removes one point, evenly often. Half of the insertions are anywhere in
 /// the domain; the other half next to a point, at a distance that is as likely to lie between 2^-k
-/// and 2^-k-1 of the domain's side for each k from 3 to 42, so that the spread varies.
+/// and 2^-k-1 of the domain's side for each k from 3 to 42, so that the spread varies. D is 2 or 3.
 ///
 /// Figures, of the larger of the inputs before and after the edit:
 ///   n        points
@@ -22,10 +22,11 @@ namespace tool {
 ///   lg_L_s   binary logarithm of L/s: the domain's side over the least distance of two points
 ///   lg_L_d   the same for d, the distance from the edited point to its nearest neighbour; last
 /// A point is one vertex of the mesh: m_f is 1.
+template <int D>
 class MeshSubject final : public traces::Subject {
  public:
   /// Requires: at least two points, in the domain.
-  MeshSubject(const mesher::Options<2>& options, std::vector<mesher::Point<2>> points,
+  MeshSubject(const mesher::Options<D>& options, std::vector<mesher::Point<D>> points,
               std::uint64_t seed);
 
   Edit edit() override;
@@ -33,20 +34,20 @@ class MeshSubject final : public traces::Subject {
   [[nodiscard]] traces::Trace fresh_trace() const override;
 
  private:
-  [[nodiscard]] static mesher::Mesher<2> meshed(const mesher::Options<2>& options,
-                                                const std::vector<mesher::Point<2>>& points,
+  [[nodiscard]] static mesher::Mesher<D> meshed(const mesher::Options<D>& options,
+                                                const std::vector<mesher::Point<D>>& points,
                                                 const std::vector<mesher::FeatureId>& ids);
-  [[nodiscard]] mesher::Point<2> somewhere();
+  [[nodiscard]] mesher::Point<D> somewhere();
   [[nodiscard]] double side() const;
-  mesher::Point<2> insert();
-  mesher::Point<2> remove();
+  mesher::Point<D> insert();
+  mesher::Point<D> remove();
 
-  mesher::Options<2> options_;
-  std::vector<mesher::Point<2>> points_;
+  mesher::Options<D> options_;
+  std::vector<mesher::Point<D>> points_;
   std::vector<mesher::FeatureId> ids_;
   std::int64_t next_id_;
   mesher::SplitMix64 random_;
-  mesher::Mesher<2> mesher_;
+  mesher::Mesher<D> mesher_;
 };
 
 }  // namespace tool

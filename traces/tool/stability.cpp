@@ -8,6 +8,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ struct Arguments {
   std::uint64_t seed = 1;
   std::string kind = "uniform";
   std::string rule = "radius-edge";
-  double rho = 1.4142;
+  int dimension = 2;
+  std::optional<double> rho;  // without it, that of the dimension
   bool trust = false;
   bool json = false;
 };
@@ -132,21 +134,27 @@ void print_summary(const std::vector<traces::StabilityRow>& rows, bool of_meshes
   print_summary_line("all", rows);
 }
 
-mesher::Options<2> options_of(const Arguments& args, const std::vector<mesher::Point<2>>& points) {
-  mesher::Options<2> options;
-  options.rho = args.rho;
+template <int D>
+mesher::Options<D> options_of(const Arguments& args, const std::vector<mesher::Point<D>>& points) {
+  mesher::Options<D> options;
+  if (args.rho) options.rho = *args.rho;
   options.record_weights = true;
   options.rule =
       args.rule == "radius-edge" ? mesher::Rule::radius_edge : mesher::Rule::voronoi_aspect;
-  options.domain = mesher::snapped_domain<2>(points);
+  options.domain = mesher::snapped_domain<D>(points);
   return options;
+}
+
+template <int D>
+std::unique_ptr<traces::Subject> make_mesh(const Arguments& args, std::uint64_t n) {
+  auto points = mesher::generate_points<D>(*mesher::point_kind(args.kind), n, args.seed);
+  const auto options = options_of<D>(args, points);
+  return std::make_unique<MeshSubject<D>>(options, std::move(points), args.seed);
 }
 
 std::unique_ptr<traces::Subject> make_subject(const Arguments& args, std::uint64_t n) {
   if (!args.example.empty()) return make_example(args.example, args.seed, static_cast<int>(n));
-  auto points = mesher::generate_points<2>(*mesher::point_kind(args.kind), n, args.seed);
-  const auto options = options_of(args, points);
-  return std::make_unique<MeshSubject>(options, std::move(points), args.seed);
+  return args.dimension == 2 ? make_mesh<2>(args, n) : make_mesh<3>(args, n);
 }
 
 // Whether a propagated trace was not that of a fresh run.
@@ -195,13 +203,18 @@ void add_stability(CLI::App& app, int& exit_code) {
           },
           "")
       ->capture_default_str();
+  sub->add_option("--dimension", args->dimension, "Of the points: 2 or 3")
+      ->check(CLI::IsMember({2, 3}), "")
+      ->type_name("D")
+      ->capture_default_str();
   sub->add_option("--rule", args->rule, "radius-edge or voronoi-aspect")
       ->check(CLI::IsMember({"radius-edge", "voronoi-aspect"}), "")
       ->capture_default_str();
-  sub->add_option("--rho", args->rho, "Bound of circumradius over shortest edge, above 1.01")
+  sub->add_option("--rho", args->rho,
+                  "Bound of circumradius over shortest edge, above 1.01; by default 1.4142 in the "
+                  "plane\nand 2 in space")
       ->check(CLI::Range(1.0101, 1e6), "")
-      ->type_name("RHO")
-      ->capture_default_str();
+      ->type_name("RHO");
   sub->add_flag("--trust", args->trust,
                 "Take propagated traces for those of runs from scratch: faster");
   sub->add_flag("--json", args->json, "A JSON object a line for each edit");
@@ -210,8 +223,10 @@ void add_stability(CLI::App& app, int& exit_code) {
       "lg(L/s),\n"
       "lg(L/d), the distance of the traces, and the work of the propagation. L is the domain's\n"
       "side, s the least distance of two points, d that from the edited point to its nearest.\n"
-      "Of an example it says distance and work. By weight (w.dist, w.work, w.ratio) a call counts 1\n"
-      "and what it has said that it does inside; heaviest is the weight of one that comes or goes,\n"
+      "Of an example it says distance and work. By weight (w.dist, w.work, w.ratio) a call counts "
+      "1\n"
+      "and what it has said that it does inside; heaviest is the weight of one that comes or "
+      "goes,\n"
       "the greatest.\n"
       "Exit code 1 if a propagated trace is not that of a run from scratch.\n"
       "Examples:\n"

@@ -86,26 +86,33 @@ struct PointFile {
 template <int D>
 [[nodiscard]] PointFile<D> read_points(const std::string& path);
 
-/// Reads a triangulation with what its format knows of features, by the extension of `path`:
+/// Reads a mesh of triangles or of tetrahedra with what its format knows of features, by the
+/// extension of `path`. It is of tetrahedra if there are any; the triangles and edges of such a
+/// file are then not used:
 ///
-/// - `.node` or `.ele` (Triangle), the other beside it. If they are there, `.edge` (its edges with
-///   a marker or line), `.poly` without points of its own (its segments) and `.neigh` (which must
-///   agree with the triangles) are read too;
+/// - `.node` or `.ele` (Triangle, TetGen), the other beside it; the dimension is .node's. In the
+///   plane also `.edge` (its edges with a marker or line), `.poly` without points of its own (its
+///   segments) and `.neigh` (which must agree with the triangles), if they are there;
 /// - `.vtu` (VTK) as in pslg.hpp, and `.vtk` (legacy, ASCII or binary): the cells are triangles and
-///   lines;
+///   lines, or tetrahedra;
 /// - `.msh` (Gmsh, version 4.1, ASCII or binary): physical groups are regions and markers;
 /// - `.mesh` (Medit, ASCII): references are markers and regions;
 /// - `.off` (Geomview) and `.obj` (Wavefront): triangles; of .obj also lines.
 ///
-/// Vertices and triangles keep the order of the file; a triangle keeps its corners' order. An array
-/// of MeshFeatures whose values are all 0 is empty. Where the third coordinate is not 0 it must be
-/// the same everywhere (.off: 0). Kinds and origins are known from files that `write_mesh` wrote as
-/// .node, .vtu or .vtk, else all vertices are steiner. What is not used is in `notes`.
+/// Vertices and simplices keep the order of the file; a simplex keeps its corners' order. An array
+/// of MeshFeatures whose values are all 0 is empty. In the plane, where the third coordinate is not
+/// 0 it must be the same everywhere (.off: 0). Kinds and origins are known from files that
+/// `write_mesh` wrote as .node, .vtu or .vtk, else all vertices are steiner. What is not used is in
+/// `notes`.
 ///
-/// Throws: Error as read_points and read_pslg, and bad_mesh for a triangle whose corners are not
-/// three different vertices of the file, and for an edge given twice; coordinates are any finite
+/// Throws: Error as read_points and read_pslg, and bad_mesh for a simplex whose corners are not
+/// different vertices of the file, and for an edge given twice; coordinates are any finite
 /// doubles, duplicate points are not looked for. Cost: O(m log m).
-[[nodiscard]] MeshData read_mesh(const std::string& path);
+[[nodiscard]] AnyMesh read_any_mesh(const std::string& path);
+
+/// Throws: also Error(bad_dimension) for the other kind. D is 2 or 3.
+template <int D = 2>
+[[nodiscard]] MeshDataOf<D> read_mesh(const std::string& path);
 
 /// Writes a mesh into files that are already open.
 class MeshWriter {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "mesher/error.hpp"
@@ -22,13 +23,13 @@ struct MeshEdge {
   friend bool operator==(const MeshEdge&, const MeshEdge&) = default;
 };
 
-/// What is known of a mesh beside its triangles; an array that is empty says nothing.
+/// What is known of a mesh beside its simplices; an array that is empty says nothing.
 struct MeshFeatures {
   /// One per vertex: the id of the input point (kind `input`) or line (kind `segment`) that it is
   /// or lies on; 0 for other kinds.
   std::vector<FeatureId> origins;
   std::vector<std::int64_t> markers;  ///< one per vertex; 0: none
-  std::vector<double> regions;        ///< one per triangle: its region's attribute, finite
+  std::vector<double> regions;        ///< one per simplex: its region's attribute, finite
   std::vector<MeshEdge> edges;        ///< ascending by (low, high), none twice
 
   [[nodiscard]] bool empty() const {
@@ -38,14 +39,19 @@ struct MeshFeatures {
 };
 
 /// A mesh of a file or for one.
-struct MeshData : Mesh<2> {
+template <int D>
+struct MeshDataOf : Mesh<D> {
   MeshFeatures features;
   std::vector<Note> notes;  ///< what the file holds that is not used
 
-  MeshData() = default;
-  explicit MeshData(Mesh<2> mesh, MeshFeatures of = {})
-      : Mesh<2>(std::move(mesh)), features(std::move(of)) {}
+  MeshDataOf() = default;
+  explicit MeshDataOf(Mesh<D> mesh, MeshFeatures of = {})
+      : Mesh<D>(std::move(mesh)), features(std::move(of)) {}
 };
+using MeshData = MeshDataOf<2>;
+
+/// A mesh of a file that may hold either.
+using AnyMesh = std::variant<MeshDataOf<2>, MeshDataOf<3>>;
 
 /// A neighbour that is not there.
 inline constexpr std::uint32_t kNoTriangle = UINT32_MAX;

@@ -1,9 +1,35 @@
-// How good a mesh of tetrahedra is.
+// How good a mesh of tetrahedra is, and an independent verification that it is what it should be.
+//
+// `check_mesh` shares nothing with the mesher but the exact predicates, and circumcentres that are
+// exact quotients where doubles are not good for them. Its properties, in order; each is looked at
+// only if those it needs hold:
+//   (1) coordinates: every vertex is 0 or of magnitude 2^-160 to 2^101 in each coordinate;
+//   (2) vertices: no two coincide, and each is a corner of a tetrahedron;
+//   (3) orientation: every tetrahedron is positively oriented (predicates.hpp);
+//   (4) faces: each is of one tetrahedron, or of two on opposite sides;
+//   (5) hull: the faces of one tetrahedron are on the sides of the bounding box or, where it may be
+//       any convex body, on planes with all vertices on one side;
+//   (6) cover: a place inside the first tetrahedron with room for one is in no other. With (1) to
+//       (5) the tetrahedra then fill the box, or the convex hull, without gap or overlap: by (3)
+//       and (4) as many tetrahedra cover a place on one side of an inner face as on the other, so
+//       that number changes at faces of one tetrahedron alone, and by (5) these are on the hull;
+//   (7) delaunay: no face has the opposite corner of one tetrahedron inside the other's sphere;
+//   (8) ties, if asked: an opposite corner on that sphere counts as outside by the rule of
+//       predicates::insphere_perturbed; the mesh is then the only one of its vertices;
+//   (9) input, if asked: every input point is a vertex, bit for bit;
+//  (10) kinds, where a vertex has one but `steiner`: vertices of the kind `boundary` are on the
+//       bounding box, and, with an input, those of the kind `input` are its points, under their ids
+//       where the mesh tells origins;
+//  (11) quality, if asked: no tetrahedron, the box's included, has a circumradius above rho times
+//       its shortest edge (by more than its rounding, and 10^-9 of it).
 #pragma once
 
-#include <cstddef>
+#include <optional>
+#include <vector>
 
-#include "mesher/mesh.hpp"
+#include "mesher/check.hpp"
+#include "mesher/io.hpp"
+#include "mesher/mesh_data.hpp"
 
 namespace mesher {
 
@@ -20,5 +46,21 @@ struct SpaceQuality {
 
 /// Requires: tetrahedra are positively oriented. Cost: O(m).
 [[nodiscard]] SpaceQuality quality(const Mesh<3>& mesh);
+
+/// What to hold a mesh of tetrahedra against.
+struct SpaceCheckOptions {
+  const PointFile<3>* input = nullptr;        ///< checks (9) where given
+  std::optional<double> rho{};                ///< checks (11) where given
+  BoundaryRule boundary = BoundaryRule::box;  ///< box; any: of any convex body
+  const MeshFeatures* features = nullptr;     ///< tells origins for (10)
+  bool ties = false;                          ///< checks (8)
+};
+
+/// The properties in order; the list ends early where a property fails that the next ones need.
+/// Vertices and tetrahedra are named by their number in the mesh, from 1.
+/// Requires: options.boundary is box or any. Cost: O(m log m), and O(h n) for a hull of h faces
+/// that is no box.
+[[nodiscard]] std::vector<Finding> check_mesh(const Mesh<3>& mesh,
+                                              const SpaceCheckOptions& options);
 
 }  // namespace mesher

@@ -47,7 +47,8 @@ class ObjReader {
     }
     const bool input = rule_ == CoordinateRule::input;
     const auto number = [&](std::size_t i) { return input ? line.coordinate(i) : line.finite(i); };
-    height_.require(line.size() > 3 ? line.finite(3) : 0, [&] { return line.place(3); });
+    height_.see(line.size() > 3 ? line.finite(3) : 0, [&] { return line.place(3); });
+    height_.require_same();
     for (std::size_t i = 4; i < line.size(); ++i) (void)line.finite(i);
     if (line.size() > 4) notes_.add("a weight or colour is not used", line.place(4));
     out_.vertices.push_back({number(1), number(2)});

@@ -2,6 +2,7 @@
 //
 //   MeshVersionFormatted v   Dimension 2 or 3
 //   Vertices n  x y [z] ref      Edges n  a b ref      Triangles n  a b c ref      (from 1)
+//   Tetrahedra n  a b c d ref
 #include <optional>
 #include <utility>
 
@@ -22,18 +23,17 @@ constexpr std::pair<std::string_view, int> kNoted[] = {{"Corners", 1},
 
 class MeditReader {
  public:
-  explicit MeditReader(const text::Source& source) : source_(source), fields_(source.content()) {}
+  explicit MeditReader(const text::Source& source)
+      : source_(source), fields_(source.content()), mesh_(source.file()) {}
 
-  MeshData read() {
+  AnyMesh read() {
     if (const auto word = next(); word != "MeshVersionFormatted") {
       throw source_.error(ErrorCode::bad_header, "expected MeshVersionFormatted", word);
     }
     (void)source_.integer(take("a version"));
     for (auto word = next(); !word.empty() && word != "End"; word = next()) read_list(word);
     check_indices();
-    mesh_.kinds.assign(mesh_.vertices.size(), VertexKind::steiner);
-    mesh_.notes = notes_.notes();
-    return std::move(mesh_);
+    return mesh_.finish();
   }
 
  private:
@@ -68,10 +68,11 @@ class MeditReader {
     if (word == "Dimension") return read_dimension();
     if (word == "Vertices") return read_vertices(word);
     if (word == "Edges") return read_edges(word);
-    if (word == "Triangles") return read_triangles(word);
+    if (word == "Triangles") return read_simplices<2>(word);
+    if (word == "Tetrahedra") return read_simplices<3>(word);
     for (const auto& [noted, numbers] : kNoted) {
       if (word != noted) continue;
-      notes_.add("the list " + text::quoted(word) + " is not used", source_.place(word));
+      mesh_.notes.add("the list " + text::quoted(word) + " is not used", source_.place(word));
       for (auto left = take_count(word) * numbers; left > 0; --left) (void)take_integer(word);
       return;
     }
@@ -88,16 +89,16 @@ class MeditReader {
   void read_vertices(std::string_view word) {
     if (dimension_ == 0) throw source_.error(ErrorCode::bad_header, "no Dimension", word);
     for (auto left = take_count(word); left > 0; --left) {
-      const double x = source_.finite(take("all Vertices"));
-      const double y = source_.finite(take("all Vertices"));
-      if (dimension_ == 3) {
-        const std::string_view z = take("all Vertices");
-        height_.require(source_.finite(z), [&] { return source_.place(z); });
+      Point<3> p{};
+      std::string_view field;
+      for (int i = 0; i < dimension_; ++i) {
+        field = take("all Vertices");
+        p[i] = source_.finite(field);
       }
-      mesh_.vertices.push_back({x, y});
-      mesh_.features.markers.push_back(take_integer(word));
+      mesh_.add_vertex(p, [&] { return source_.place(field); });
+      mesh_.markers.push_back(take_integer(word));
     }
-    require_indexable(mesh_.vertices.size(), source_.file());
+    require_indexable(mesh_.vertices(), source_.file());
   }
 
   // Vertices may stand behind what names them: their number is looked at in the end.
@@ -113,8 +114,7 @@ class MeditReader {
 
   void check_indices() const {
     if (highest_at_.empty()) return;
-    (void)vertex_index(highest_, mesh_.vertices.size(), 1,
-                       [&] { return source_.place(highest_at_); });
+    (void)vertex_index(highest_, mesh_.vertices(), 1, [&] { return source_.place(highest_at_); });
   }
 
   void read_edges(std::string_view word) {
@@ -122,37 +122,36 @@ class MeditReader {
       const std::uint32_t a = take_vertex(word), b = take_vertex(word);
       MeshEdge edge = edge_of(a, b, [&] { return source_.place(word); });
       edge.marker = take_integer(word);
-      mesh_.features.edges.push_back(edge);
+      mesh_.edges.push_back(edge);
     }
   }
 
-  void read_triangles(std::string_view word) {
+  template <int D>
+  void read_simplices(std::string_view word) {
     for (auto left = take_count(word); left > 0; --left) {
-      const std::uint32_t a = take_vertex(word), b = take_vertex(word), c = take_vertex(word);
-      if (a == b || b == c || c == a) {
-        throw source_.error(
-            ErrorCode::bad_mesh,
-            "triangle " + std::to_string(mesh_.simplices.size() + 1) + " has the same corner twice",
-            word);
+      typename Mesh<D>::Simplex corners;
+      for (auto& corner : corners) corner = take_vertex(word);
+      if (!are_different(corners)) {
+        throw source_.error(ErrorCode::bad_mesh,
+                            std::string(kSimplexName<D>) + ' ' +
+                                std::to_string(mesh_.count<D>() + 1) + " has the same corner twice",
+                            word);
       }
-      mesh_.simplices.push_back({a, b, c});
-      mesh_.features.regions.push_back(static_cast<double>(take_integer(word)));
+      mesh_.add<D>(corners, static_cast<double>(take_integer(word)));
     }
   }
 
   const text::Source& source_;
   text::Fields fields_;
-  MeshData mesh_;
-  NoteCounter notes_;
+  MeshParts mesh_;
   std::int64_t dimension_ = 0;
-  PlaneHeight height_;
   std::int64_t highest_ = 0;  // the highest number of a vertex that is named, and where
   std::string_view highest_at_;
 };
 
 }  // namespace
 
-MeshData read_medit(const std::string& path) {
+AnyMesh read_medit(const std::string& path) {
   const text::Source source(path);
   return MeditReader(source).read();
 }

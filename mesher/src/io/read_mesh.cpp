@@ -3,16 +3,17 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 namespace mesher {
 namespace {
 
-using Read = MeshData (*)(const std::string&);
+using Read = AnyMesh (*)(const std::string&);
 
 constexpr std::pair<std::string_view, Read> kReaders[] = {
-    {".node", read_triangle_files}, {".ele", read_triangle_files}, {".vtu", read_vtu_mesh},
-    {".vtk", read_vtk_mesh},        {".msh", read_msh},            {".mesh", read_medit},
-    {".off", read_off},             {".obj", read_obj_mesh}};
+    {".node", read_node_mesh}, {".ele", read_node_mesh}, {".vtu", read_vtu_mesh},
+    {".vtk", read_vtk_mesh},   {".msh", read_msh},       {".mesh", read_medit},
+    {".off", read_off},        {".obj", read_obj_mesh}};
 
 Read reader_of(const std::string& path) {
   const std::string extension = text::extension(path);
@@ -45,29 +46,38 @@ void clear_if_zero(std::vector<T>& values) {
   if (std::all_of(values.begin(), values.end(), [](T v) { return v == T{}; })) values.clear();
 }
 
+void tidy(MeshFeatures& features, const std::string& path) {
+  sort_edges(features.edges, path);
+  clear_if_zero(features.origins);
+  clear_if_zero(features.markers);
+  clear_if_zero(features.regions);
+}
+
 }  // namespace
 
-MeshData read_mesh(const std::string& path) {
-  MeshData mesh = reader_of(path)(path);
-  sort_edges(mesh.features.edges, path);
-  clear_if_zero(mesh.features.origins);
-  clear_if_zero(mesh.features.markers);
-  clear_if_zero(mesh.features.regions);
-  return mesh;
+AnyMesh read_any_mesh(const std::string& path) {
+  AnyMesh any = reader_of(path)(path);
+  std::visit([&](auto& mesh) { tidy(mesh.features, path); }, any);
+  return any;
 }
+
+template <int D>
+MeshDataOf<D> read_mesh(const std::string& path) {
+  AnyMesh any = read_any_mesh(path);
+  if (auto* const mesh = std::get_if<MeshDataOf<D>>(&any)) return std::move(*mesh);
+  throw Error(ErrorCode::bad_dimension,
+              "a mesh of " + std::string(kSimplicesName<5 - D>) + ", expected " + kSimplicesName<D>,
+              {path});
+}
+
+template MeshDataOf<2> read_mesh<2>(const std::string&);
+template MeshDataOf<3> read_mesh<3>(const std::string&);
 
 void detail::fail_no_vertex(std::int64_t value, std::size_t count, std::int64_t first,
                             const Place& place) {
   throw Error(ErrorCode::bad_mesh,
               "no vertex " + std::to_string(value) + ": there are " + std::to_string(count) +
                   ", from " + std::to_string(first),
-              place);
-}
-
-void detail::fail_other_height(double z, double first, const Place& place) {
-  throw Error(ErrorCode::bad_dimension,
-              "z is not the same everywhere: " + text::to_text(z) + ", at first " +
-                  text::to_text(first),
               place);
 }
 

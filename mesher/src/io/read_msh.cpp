@@ -21,17 +21,17 @@
 namespace mesher {
 namespace {
 
-constexpr std::int64_t kLine = 1, kTriangle = 2, kPoint = 15;  // types of elements
-constexpr std::int64_t kCurve = 1, kSurface = 2;               // dimensions of entities
+constexpr std::int64_t kLine = 1, kTriangle = 2, kTetrahedron = 4, kPoint = 15;  // types
+constexpr std::int64_t kCurve = 1, kSurface = 2, kVolume = 3;  // dimensions of entities
 
 using Key = std::pair<std::int64_t, std::int64_t>;  // dimension and number
 
 class MshReader {
  public:
   explicit MshReader(const text::Source& source)
-      : source_(source), fields_(source.content()), bytes_(source, fields_) {}
+      : source_(source), fields_(source.content()), bytes_(source, fields_), mesh_(source.file()) {}
 
-  MeshData read() {
+  AnyMesh read() {
     expect("$MeshFormat");
     read_format();
     for (auto word = fields_.next(); !word.empty(); word = fields_.next()) read_section(word);
@@ -39,9 +39,7 @@ class MshReader {
       if (seen_.contains(section)) continue;
       throw source_.error(ErrorCode::truncated, std::string("no ") + section, source_.end());
     }
-    mesh_.kinds.assign(mesh_.vertices.size(), VertexKind::steiner);
-    mesh_.notes = notes_.notes();
-    return std::move(mesh_);
+    return mesh_.finish();
   }
 
  private:
@@ -133,7 +131,7 @@ class MshReader {
 
   void skip_section(std::string_view word) {
     if (word[0] != '$') throw source_.error(ErrorCode::bad_syntax, "expected a section", word);
-    notes_.add("the section " + text::quoted(word) + " is not used", source_.place(word));
+    mesh_.notes.add("the section " + text::quoted(word) + " is not used", source_.place(word));
     const std::string end = "$End" + std::string(word.substr(1));
     const auto at = fields_.rest().find(end);
     if (at == std::string_view::npos) {
@@ -168,7 +166,7 @@ class MshReader {
     }
     for (std::int64_t i = 0; i < curves; ++i) read_entity(kCurve);
     for (std::int64_t i = 0; i < surfaces; ++i) read_entity(kSurface);
-    for (std::int64_t i = 0; i < volumes; ++i) read_entity(kSurface + 1);
+    for (std::int64_t i = 0; i < volumes; ++i) read_entity(kVolume);
   }
 
   void read_entity(std::int64_t dimension) {
@@ -176,7 +174,7 @@ class MshReader {
     skip_reals(6);
     const Number groups = number(8);
     if (groups.value > 1) {
-      notes_.add("groups of an entity but the first are not used", place(groups));
+      mesh_.notes.add("groups of an entity but the first are not used", place(groups));
     }
     for (std::int64_t i = 0; i < groups.value; ++i) {
       const std::int64_t number = integer();
@@ -200,21 +198,20 @@ class MshReader {
         if (parametric) skip_reals(dimension);
       }
     }
-    require_indexable(mesh_.vertices.size(), source_.file());
-    require_count("nodes", nodes, mesh_.vertices.size());
+    require_indexable(mesh_.vertices(), source_.file());
+    require_count("nodes", nodes, mesh_.vertices());
   }
 
   void add_node(const Number& tag) {
     const double x = real(), y = real();
     const std::string_view at = fields_.rest();
     const double z = real();
-    height_.require(z,
-                    [&] { return binary_ ? place(tag) : source_.place(text::Fields(at).next()); });
-    const auto index = static_cast<std::uint32_t>(mesh_.vertices.size());
+    const auto index = static_cast<std::uint32_t>(mesh_.vertices());
     if (!node_.try_emplace(tag.value, index).second) {
       throw error(ErrorCode::repeated_id, "node " + tag.text() + " is given twice", tag);
     }
-    mesh_.vertices.push_back({x, y});
+    mesh_.add_vertex({x, y, z},
+                     [&] { return binary_ ? place(tag) : source_.place(text::Fields(at).next()); });
   }
 
   void read_elements() {
@@ -234,17 +231,19 @@ class MshReader {
   void read_block(const Number& type, const Key& entity, std::int64_t elements) {
     switch (type.value) {
       case kPoint:
-        notes_.add("elements that are points are not used", place(type));
+        mesh_.notes.add("elements that are points are not used", place(type));
         for (; elements > 0; --elements) (void)tag(), (void)node();
         return;
       case kLine:
         return read_lines(marker_of(entity), elements);
       case kTriangle:
-        return read_triangles(region_of(entity), elements);
+        return read_simplices<2>(region_of(entity), elements);
+      case kTetrahedron:
+        return read_simplices<3>(region_of(entity), elements);
     }
     throw error(ErrorCode::unsupported,
                 "elements of the type " + type.text() +
-                    ": points (15), lines (1) and triangles (2) make a mesh",
+                    ": points (15), lines (1) and triangles (2), or tetrahedra (4), make a mesh",
                 type);
   }
 
@@ -254,20 +253,23 @@ class MshReader {
       const std::uint32_t a = node(), b = node();
       MeshEdge edge = edge_of(a, b, [&] { return place(number); });
       edge.marker = marker;
-      mesh_.features.edges.push_back(edge);
+      mesh_.edges.push_back(edge);
     }
   }
 
-  void read_triangles(double region, std::int64_t elements) {
+  template <int D>
+  void read_simplices(double region, std::int64_t elements) {
     for (; elements > 0; --elements) {
       const Number number = tag();
-      const Mesh<2>::Simplex t{node(), node(), node()};
-      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
-        throw error(ErrorCode::bad_mesh, "triangle " + number.text() + " has the same corner twice",
-                    number);
+      typename Mesh<D>::Simplex corners;
+      for (auto& corner : corners) corner = node();
+      if (!are_different(corners)) {
+        throw error(
+            ErrorCode::bad_mesh,
+            std::string(kSimplexName<D>) + ' ' + number.text() + " has the same corner twice",
+            number);
       }
-      mesh_.simplices.push_back(t);
-      mesh_.features.regions.push_back(region);
+      mesh_.add<D>(corners, region);
     }
   }
 
@@ -312,9 +314,7 @@ class MshReader {
   text::Fields fields_;
   BinaryCursor bytes_;
   bool binary_ = false;
-  MeshData mesh_;
-  NoteCounter notes_;
-  PlaneHeight height_;
+  MeshParts mesh_;
   std::map<std::int64_t, std::uint32_t> node_;  // by tag
   std::map<Key, std::int64_t> group_of_;        // of an entity
   std::map<Key, std::string_view> names_;       // of groups
@@ -323,7 +323,7 @@ class MshReader {
 
 }  // namespace
 
-MeshData read_msh(const std::string& path) {
+AnyMesh read_msh(const std::string& path) {
   const text::Source source(path);
   return MshReader(source).read();
 }

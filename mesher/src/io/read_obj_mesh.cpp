@@ -4,7 +4,7 @@
 
 namespace mesher {
 
-MeshData read_obj_mesh(const std::string& path) {
+AnyMesh read_obj_mesh(const std::string& path) {
   ObjFile obj = read_obj_file(path, CoordinateRule::finite);
   MeshData mesh;
   mesh.vertices = std::move(obj.vertices);

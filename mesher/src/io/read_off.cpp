@@ -22,14 +22,14 @@ Mesh<2>::Simplex read_face(const text::Line& line, std::size_t vertices) {
   if (line.integer(0) != 3) {
     throw line.error(ErrorCode::bad_mesh, "a face of " + std::string(line[0]) + " corners", 0);
   }
-  return read_corners(line, 1, [&](std::size_t i) {
+  return read_corners<2>(line, 1, [&](std::size_t i) {
     return vertex_index(line.integer(i), vertices, 0, [&] { return line.place(i); });
   });
 }
 
 }  // namespace
 
-MeshData read_off(const std::string& path) {
+AnyMesh read_off(const std::string& path) {
   const std::string content = text::read_file(path);
   text::FieldLines lines(path, content);
   const text::Line& first = header_row(lines, path);

@@ -1,4 +1,6 @@
 // The meshes of VTK's grids.
+#include <algorithm>
+
 #include "io/read_mesh.hpp"
 #include "io/vtk_grid.hpp"
 
@@ -7,35 +9,35 @@ namespace {
 
 class GridMesh {
  public:
-  explicit GridMesh(VtkGrid grid) : grid_(std::move(grid)) {}
+  explicit GridMesh(VtkGrid grid) : grid_(std::move(grid)), mesh_(grid_.file) {}
 
-  MeshData read() {
+  AnyMesh read() {
     read_points();
     find_cell_data();
     for (std::size_t i = 0; i < grid_.cell_count(); ++i) read_cell(i);
     note_unused(grid_.point_data, {kinds_, origins_, markers_}, grid_.notes);
     note_unused(grid_.cell_data, {regions_, cell_markers_, lines_, has_line_}, grid_.notes);
-    mesh_.notes = grid_.notes.notes();
-    return std::move(mesh_);
+    mesh_.notes = std::move(grid_.notes);
+    return mesh_.finish();
   }
 
  private:
   void read_points() {
     const auto& values = grid_.points.reals;
     for (std::size_t i = 0; i < values.size(); i += 3) {
-      mesh_.vertices.push_back({values[i], values[i + 1]});
+      mesh_.add_vertex({values[i], values[i + 1], values[i + 2]},
+                       [&] { return grid_.points.place; });
     }
-    mesh_.kinds.assign(mesh_.vertices.size(), VertexKind::steiner);
     kinds_ = VtkGrid::find_integers(grid_.point_data, "kind");
-    for (std::size_t i = 0; kinds_ != nullptr && i < mesh_.kinds.size(); ++i) {
-      mesh_.kinds[i] = kind_of(kinds_->integers[i]);
+    if (kinds_ != nullptr) {
+      for (const auto kind : kinds_->integers) mesh_.kinds.push_back(kind_of(kind));
     }
     origins_ = VtkGrid::find_integers(grid_.point_data, "origin");
     if (origins_ != nullptr) {
-      for (const auto id : origins_->integers) mesh_.features.origins.push_back(FeatureId{id});
+      for (const auto id : origins_->integers) mesh_.origins.push_back(FeatureId{id});
     }
     markers_ = VtkGrid::find_integers(grid_.point_data, "marker");
-    if (markers_ != nullptr) mesh_.features.markers = markers_->integers;
+    if (markers_ != nullptr) mesh_.markers = markers_->integers;
   }
 
   [[nodiscard]] VertexKind kind_of(std::int64_t value) const {
@@ -57,34 +59,40 @@ class GridMesh {
     const auto vertices = grid_.cell(i);
     switch (grid_.type(i)) {
       case VtkCell::triangle:
-        return add_triangle(i, vertices);
+        return add_simplex<2>(i, vertices);
+      case VtkCell::tetrahedron:
+        return add_simplex<3>(i, vertices);
       case VtkCell::line:
       case VtkCell::poly_line:
         return add_line(i, vertices);
       case VtkCell::vertex:
       case VtkCell::poly_vertex:
         return grid_.notes.add("cells that are vertices are not used", grid_.types.place);
-      case VtkCell::tetrahedron:
-        break;
     }
     throw Error(ErrorCode::unsupported,
                 "cell " + std::to_string(i) + " has the type " +
                     std::to_string(grid_.types.integers[i]) +
-                    ": triangles (5) and lines (3, 4) "
-                    "make a mesh",
+                    ": triangles (5) and lines (3, 4), or tetrahedra (10), make a mesh",
                 grid_.types.place);
   }
 
-  void add_triangle(std::size_t i, const std::vector<std::uint32_t>& v) {
-    if (v.size() != 3 || v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
+  template <int D>
+  void add_simplex(std::size_t i, const std::vector<std::uint32_t>& v) {
+    typename Mesh<D>::Simplex corners{};  // the same unless there are as many
+    if (v.size() == corners.size()) std::copy(v.begin(), v.end(), corners.begin());
+    if (!are_different(corners)) {
       throw Error(ErrorCode::bad_mesh,
-                  "cell " + std::to_string(i) + " is a triangle without three different corners",
+                  "cell " + std::to_string(i) + " is a " + kSimplexName<D> + " without " +
+                      (D == 2 ? "three" : "four") + " different corners",
                   grid_.connectivity.place);
     }
-    mesh_.simplices.push_back({v[0], v[1], v[2]});
-    if (regions_ == nullptr) return;
-    mesh_.features.regions.push_back(
-        regions_->is_integral ? static_cast<double>(regions_->integers[i]) : regions_->reals[i]);
+    mesh_.add<D>(corners, region(i));
+  }
+
+  [[nodiscard]] double region(std::size_t cell) const {
+    if (regions_ == nullptr) return 0;
+    return regions_->is_integral ? static_cast<double>(regions_->integers[cell])
+                                 : regions_->reals[cell];
   }
 
   void add_line(std::size_t i, const std::vector<std::uint32_t>& v) {
@@ -97,26 +105,21 @@ class GridMesh {
       if (cell_markers_ != nullptr) edge.marker = cell_markers_->integers[i];
       const bool has_line = has_line_ == nullptr || has_line_->integers[i] != 0;
       if (lines_ != nullptr && has_line) edge.line = FeatureId{lines_->integers[i]};
-      mesh_.features.edges.push_back(edge);
+      mesh_.edges.push_back(edge);
     }
   }
 
   VtkGrid grid_;
-  MeshData mesh_;
+  MeshParts mesh_;
   const VtkArray *kinds_ = nullptr, *origins_ = nullptr, *markers_ = nullptr;
   const VtkArray *regions_ = nullptr, *cell_markers_ = nullptr, *lines_ = nullptr,
                  *has_line_ = nullptr;
 };
 
-MeshData mesh_of(VtkGrid grid) {
-  require_plane(grid);
-  return GridMesh(std::move(grid)).read();
-}
-
 }  // namespace
 
-MeshData read_vtu_mesh(const std::string& path) { return mesh_of(read_vtu(path)); }
+AnyMesh read_vtu_mesh(const std::string& path) { return GridMesh(read_vtu(path)).read(); }
 
-MeshData read_vtk_mesh(const std::string& path) { return mesh_of(read_vtk(path)); }
+AnyMesh read_vtk_mesh(const std::string& path) { return GridMesh(read_vtk(path)).read(); }
 
 }  // namespace mesher

@@ -1,8 +1,5 @@
 // The formats of meshes of tetrahedra: those of the plane's writers, with a third coordinate.
-#include <algorithm>
-#include <array>
 #include <cstdint>
-#include <map>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -10,7 +7,6 @@
 #include "geometry/box.hpp"
 #include "io/text.hpp"
 #include "io/write_surface.hpp"
-#include "mesh/canonical.hpp"
 #include "mesher/space_files.hpp"
 #include "mesher/space_svg.hpp"
 
@@ -18,17 +14,8 @@ namespace mesher {
 
 namespace {
 
-using Face = std::array<std::uint32_t, 3>;
-
 constexpr std::size_t kFirst = 1;  // of what is numbered in TetGen's, Gmsh's and Medit's files
 constexpr int kVtkTetrahedron = 10;
-
-// As seen from outside, counterclockwise. Corners abcd are positively oriented: abc is
-// counterclockwise seen from d, which is inside.
-std::array<Face, 4> faces_of(const Mesh<3>::Simplex& s) {
-  const auto [a, b, c, d] = s;
-  return {Face{a, c, b}, Face{a, b, d}, Face{b, c, d}, Face{a, d, c}};
-}
 
 void write_place(const Point<3>& p, TextFile& file) { file << p[0] << ' ' << p[1] << ' ' << p[2]; }
 
@@ -162,22 +149,6 @@ SpaceMeshWriter open_node(OutputFiles& files, const std::string& path) {
 }
 
 }  // namespace
-
-std::vector<Face> boundary_faces(const Mesh<3>& mesh) {
-  std::map<Face, Face> open;  // sorted corners: the face
-  for (const auto& simplex : mesh.simplices) {
-    for (const Face& face : faces_of(simplex)) {
-      Face key = face;
-      std::sort(key.begin(), key.end());
-      const auto [twin, is_new] = open.emplace(key, face);
-      if (!is_new) open.erase(twin);
-    }
-  }
-  std::vector<Face> faces;
-  for (const auto& [key, face] : open) faces.push_back(detail::smallest_first(face));
-  std::sort(faces.begin(), faces.end());
-  return faces;
-}
 
 SpaceMeshWriter open_space_mesh(OutputFiles& files, const std::string& path) {
   const std::string extension = text::extension(path);

@@ -2,12 +2,10 @@
 #include "mesher/check.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <numeric>
 #include <utility>
 
 #include "io/text.hpp"
+#include "mesh/check_parts.hpp"
 #include "mesh/checked_mesh.hpp"
 #include "mesher/predicates.hpp"
 
@@ -23,9 +21,10 @@ class Checker {
       : mesh_(mesh), options_(options), checked_(mesh) {}
 
   std::vector<Finding> run() {
-    const bool is_mesh =
-        check("coordinates", &Checker::coordinates) && check("vertices", &Checker::vertices) &&
-        check("orientation", &Checker::orientation) && check("edges", &Checker::edges);
+    const bool is_mesh = findings_.add("coordinates", detail::check_coordinates(mesh_)) &&
+                         findings_.add("vertices", detail::check_vertices(mesh_)) &&
+                         findings_.add("orientation", detail::check_orientation(mesh_)) &&
+                         check("edges", &Checker::edges);
     if (is_mesh) collect_lines();
     const bool tiles =
         is_mesh && (options_.boundary == BoundaryRule::box ? tiles_box() : tiles_domain());
@@ -35,7 +34,7 @@ class Checker {
     if (tiles && has_lines()) check("regions", &Checker::regions);
     if (tiles && options_.rho) check("quality", &Checker::quality);
     if (tiles && options_.max_area) check("area", &Checker::area);
-    return std::move(findings_);
+    return findings_.take();
   }
 
  private:
@@ -43,59 +42,15 @@ class Checker {
   static Verdict bad(std::string detail) { return Verdict::bad(std::move(detail)); }
 
   bool check(const char* property, Verdict (Checker::*verify)()) {
-    return add(property, (this->*verify)());
-  }
-  bool add(const char* property, Verdict verdict) {
-    findings_.push_back({property, verdict.holds, std::move(verdict.detail)});
-    return verdict.holds;
+    return findings_.add(property, (this->*verify)());
   }
 
   bool tiles_box() { return check("hull", &Checker::hull) && check("euler", &Checker::euler); }
 
   bool tiles_domain() {
-    if (!add("overlap", detail::check_overlap(checked_))) return false;
+    if (!findings_.add("overlap", detail::check_overlap(checked_))) return false;
     if (options_.boundary == BoundaryRule::lines) check("boundary", &Checker::boundary);
     return true;
-  }
-
-  // What the predicates can judge.
-  static bool in_range(double x) {
-    return x == 0 || (std::abs(x) >= 0x1p-160 && std::abs(x) <= 0x1p101);
-  }
-
-  Verdict coordinates() {
-    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
-      const auto& p = mesh_.vertices[v];
-      if (in_range(p[0]) && in_range(p[1])) continue;
-      return bad(checked_.vertex(v) + " is beyond the magnitudes 2^-160 to 2^101");
-    }
-    return good(std::to_string(mesh_.vertices.size()) + " vertices");
-  }
-
-  Verdict vertices() {
-    std::vector<std::uint32_t> order(mesh_.vertices.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return at(a) < at(b); });
-    for (std::size_t i = 1; i < order.size(); ++i) {
-      if (at(order[i - 1]) != at(order[i])) continue;
-      return bad(checked_.vertex(order[i - 1]) + " and " + checked_.vertex(order[i]) + " coincide");
-    }
-    std::vector<bool> used(mesh_.vertices.size());
-    for (const auto& t : mesh_.simplices) {
-      for (const auto corner : t) used[corner] = true;
-    }
-    const auto unused = std::find(used.begin(), used.end(), false);
-    if (unused == used.end()) return good("all distinct, all used");
-    return bad(checked_.vertex(unused - used.begin()) + " is in no triangle");
-  }
-
-  Verdict orientation() {
-    for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
-      const auto& t = mesh_.simplices[i];
-      if (predicates::orient2d(at(t[0]), at(t[1]), at(t[2])) > 0) continue;
-      return bad(checked_.triangle(i) + " is not counterclockwise");
-    }
-    return good(std::to_string(mesh_.simplices.size()) + " triangles counterclockwise");
   }
 
   Verdict edges() {
@@ -122,7 +77,7 @@ class Checker {
     }
     if (options_.graph != nullptr) {
       auto [verdict, paths] = detail::check_segments(checked_, options_);
-      if (!paths.empty()) add("segments", std::move(verdict));
+      if (!paths.empty()) findings_.add("segments", std::move(verdict));
       paths_ = std::move(paths);
     }
     for (const auto& path : paths_) {
@@ -205,18 +160,9 @@ class Checker {
     return good(std::to_string(inner) + " inner edges");
   }
 
-  struct InputPoint {
-    Point<2> at;
-    FeatureId id;
-    long line;
-  };
-  [[nodiscard]] std::vector<InputPoint> input_points() const {
-    std::vector<InputPoint> all;
-    if (const PointFile<2>* const file = options_.input) {
-      for (std::size_t i = 0; i < file->points.size(); ++i) {
-        all.push_back({file->points[i], file->ids[i], file->lines[i]});
-      }
-    }
+  [[nodiscard]] std::vector<detail::InputPoint<2>> input_points() const {
+    std::vector<detail::InputPoint<2>> all;
+    if (options_.input != nullptr) all = detail::input_points(*options_.input);
     if (const PslgFile* const graph = options_.graph) {
       for (std::size_t i = 0; i < graph->pslg.points.size(); ++i) {
         const auto& point = graph->pslg.points[i];
@@ -227,22 +173,9 @@ class Checker {
   }
 
   Verdict input() {
-    std::vector<Point<2>> sorted = mesh_.vertices;
-    std::sort(sorted.begin(), sorted.end());
-    const auto points = input_points();
-    std::size_t outside = 0;
-    for (const InputPoint& point : points) {
-      if (std::binary_search(sorted.begin(), sorted.end(), point.at)) continue;
-      if (options_.boundary != BoundaryRule::box && !checked_.triangle_at(point.at)) {
-        ++outside;
-        continue;
-      }
-      return bad("input point " + std::to_string(static_cast<std::int64_t>(point.id)) + " at " +
-                 text::to_text<2>(point.at) + " (line " + std::to_string(point.line) +
-                 ") is no vertex");
-    }
-    return good(std::to_string(points.size() - outside) + " points are vertices" +
-                (outside > 0 ? ", " + std::to_string(outside) + " are outside" : ""));
+    return detail::check_input<2>(mesh_, input_points(), [&](const Point<2>& p) {
+      return options_.boundary != BoundaryRule::box && !checked_.triangle_at(p);
+    });
   }
 
   Verdict regions() { return detail::check_regions(checked_, on_lines_, options_); }
@@ -283,7 +216,7 @@ class Checker {
   const Mesh<2>& mesh_;
   const CheckOptions& options_;
   detail::CheckedMesh checked_;
-  std::vector<Finding> findings_;
+  detail::Findings findings_;
   std::vector<HalfEdge> border_;  // of edges with one triangle
   detail::LineEdges on_lines_;
   std::vector<detail::LinePath> paths_;  // of the input's lines

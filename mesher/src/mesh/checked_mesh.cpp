@@ -2,7 +2,7 @@
 #include "mesh/checked_mesh.hpp"
 
 #include "geometry/box.hpp"
-#include "io/text.hpp"
+#include "mesh/check_parts.hpp"
 #include "mesher/predicates.hpp"
 
 namespace mesher::detail {
@@ -39,9 +39,7 @@ std::vector<HalfEdge> CheckedMesh::border() const {
   return border;
 }
 
-Box<2> CheckedMesh::bounding_box() const {
-  return detail::bounding_box<2>(mesh_.vertices);
-}
+Box<2> CheckedMesh::bounding_box() const { return detail::bounding_box<2>(mesh_.vertices); }
 
 std::optional<std::size_t> CheckedMesh::triangle_at(const Point<2>& p) const {
   for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
@@ -54,9 +52,7 @@ std::optional<std::size_t> CheckedMesh::triangle_at(const Point<2>& p) const {
   return std::nullopt;
 }
 
-std::string CheckedMesh::vertex(std::size_t v) const {
-  return "vertex " + std::to_string(v + 1) + " at " + text::to_text<2>(at(v));
-}
+std::string CheckedMesh::vertex(std::size_t v) const { return vertex_name(mesh_, v); }
 
 std::string CheckedMesh::edge(std::uint32_t from, std::uint32_t to) const {
   return "the edge from " + vertex(from) + " to " + vertex(to);
@@ -64,10 +60,6 @@ std::string CheckedMesh::edge(std::uint32_t from, std::uint32_t to) const {
 
 std::string CheckedMesh::edge(const HalfEdge& e) const { return edge(e.from, e.to); }
 
-std::string CheckedMesh::triangle(std::size_t i) const {
-  const auto& [a, b, c] = mesh_.simplices[i];
-  return "triangle " + std::to_string(i + 1) + " with the vertices " + std::to_string(a + 1) +
-         ", " + std::to_string(b + 1) + ", " + std::to_string(c + 1);
-}
+std::string CheckedMesh::triangle(std::size_t i) const { return simplex_name(mesh_, i); }
 
 }  // namespace mesher::detail

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/verdict.hpp"
 #include "mesher/check.hpp"
 
 namespace mesher::detail {
@@ -20,15 +21,6 @@ struct HalfEdge {
   [[nodiscard]] std::uint32_t low() const { return std::min(from, to); }
   [[nodiscard]] std::uint32_t high() const { return std::max(from, to); }
   [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> edge() const { return {low(), high()}; }
-};
-
-/// What a check says: nothing wrong and what was looked at, or the first violation.
-struct Verdict {
-  bool holds;
-  std::string detail;
-
-  static Verdict good(std::string detail) { return {true, std::move(detail)}; }
-  static Verdict bad(std::string detail) { return {false, std::move(detail)}; }
 };
 
 /// A mesh with its half-edges by edge. Requires: corners name vertices.

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstring>
 #include <string>
 
+#include "bytes.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/io.hpp"
 #include "scratch_file.hpp"
@@ -13,36 +13,8 @@ namespace {
 
 using mesher::ErrorCode;
 using mesher::MeshData;
+using support::Bytes;
 using support::ScratchFolder;
-
-// Numbers as bytes.
-class Bytes {
- public:
-  explicit Bytes(bool big_endian) : big_endian_(big_endian) {}
-
-  Bytes& operator<<(const char* words) {
-    text_ += words;
-    return *this;
-  }
-  template <class T>
-  requires std::is_arithmetic_v<T> Bytes& operator<<(T value) {
-    char bytes[sizeof value];
-    std::memcpy(bytes, &value, sizeof value);
-    if (big_endian_) std::reverse(bytes, bytes + sizeof value);
-    text_.append(bytes, sizeof value);
-    return *this;
-  }
-  template <class T, class... Values>
-  Bytes& all(Values... values) {
-    ((*this << static_cast<T>(values)), ...);
-    return *this;
-  }
-  [[nodiscard]] const std::string& text() const { return text_; }
-
- private:
-  bool big_endian_;
-  std::string text_;
-};
 
 // Two triangles, regions 1.5 and -2, and two edges on lines, markers 7 and 0.
 std::string vtk_file() {

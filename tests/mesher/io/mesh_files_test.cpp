@@ -383,7 +383,9 @@ TEST_CASE("what is no mesh is refused with the code and the place of the mistake
        "repeated_id@8:1"},
       {"m.msh", msh + "$Nodes\n1 3 1 2\n2 1 0 2\n1\n2\n0 0 0\n1 0 0\n$EndNodes\n",
        "wrong_count@12:1"},
-      {"m.msh", msh + "$Nodes\n1 2 1 2\n2 1 0 2\n1\n2\n0 0 0\n1 0 9\n$EndNodes\n",
+      {"m.msh",
+       msh + "$Nodes\n1 2 1 2\n2 1 0 2\n1\n2\n0 0 0\n1 0 9\n$EndNodes\n"
+             "$Elements\n0 0 1 0\n$EndElements\n",
        "bad_dimension@10:5"},
       {"m.msh", msh + "$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n", "bad_mesh@7:3"},
       {"m.msh", msh + "$Elements\n1 1 1 1\n2 1 3 1\n1 1 2 3 4\n$EndElements\n", "unsupported@6:5"},

@@ -1,7 +1,7 @@
-// Reads the files of a mesh that Triangle would write: `.node` and `.ele`, and, where they are,
-// `.edge`, `.poly` and `.neigh`.
+// Reads the files of a mesh that Triangle or TetGen would write: `.node` and `.ele`, and in the
+// plane, where they are, `.edge`, `.poly` and `.neigh`.
 //
-//   .ele:   count [corners [attributes]]     id corner corner corner [attributes...]
+//   .ele:   count [corners [attributes]]     id corner corner corner [corner] [attributes...]
 //   .edge:  count [markers]                  id vertex vertex [marker [line]]
 //   .neigh: count 3                          id triangle triangle triangle    (-1: none)
 #include <algorithm>
@@ -46,28 +46,33 @@ class IdTable {
   std::vector<std::pair<FeatureId, std::size_t>> rows_;
 };
 
-class TriangleFiles {
+template <int D>
+class NodeMesh {
  public:
-  explicit TriangleFiles(const std::string& path) : path_(path) {}
+  explicit NodeMesh(const std::string& path) : path_(path) {}
 
-  MeshData read() {
+  MeshDataOf<D> read() {
     read_vertices(beside(".node"));
-    read_triangles(beside(".ele"));
-    if (std::filesystem::exists(beside(".edge"))) read_edges(beside(".edge"));
-    if (std::filesystem::exists(beside(".poly"))) read_segments(beside(".poly"));
-    if (std::filesystem::exists(beside(".neigh"))) check_neighbours(beside(".neigh"));
-    for (const auto& [ends, edge] : edges_) mesh_.features.edges.push_back(edge);
+    read_simplices(beside(".ele"));
+    if constexpr (D == 2) read_lines();
     mesh_.notes = notes_.notes();
     return std::move(mesh_);
   }
 
  private:
+  void read_lines() {
+    if (std::filesystem::exists(beside(".edge"))) read_edges(beside(".edge"));
+    if (std::filesystem::exists(beside(".poly"))) read_segments(beside(".poly"));
+    if (std::filesystem::exists(beside(".neigh"))) check_neighbours(beside(".neigh"));
+    for (const auto& [ends, edge] : edges_) mesh_.features.edges.push_back(edge);
+  }
+
   [[nodiscard]] std::string beside(const char* extension) const {
     return text::with_extension(path_, extension);
   }
 
   void read_vertices(const std::string& path) {
-    NodeFile<2> nodes = read_node<2>(path, CoordinateRule::finite);
+    NodeFile<D> nodes = read_node<D>(path, CoordinateRule::finite);
     require_distinct_ids(nodes.rows);
     require_indexable(nodes.rows.points.size(), path_);
     vertices_ = IdTable(nodes.rows.ids);
@@ -78,26 +83,30 @@ class TriangleFiles {
     for (const Note& note : nodes.notes) notes_.add(note.text, note.place);
   }
 
-  void read_triangles(const std::string& path) {
+  void read_simplices(const std::string& path) {
+    constexpr std::size_t kCorners = D + 1;
     const std::string content = text::read_file(path);
     text::FieldLines lines(path, content);
     const text::Line& header = header_row(lines, path);
     const std::int64_t count = read_count(header, 0);
-    if (header.size() > 1 && header.integer(1) != 3) {
-      throw header.error(ErrorCode::bad_dimension, "expected triangles: 3 corners each", 1);
+    if (header.size() > 1 && header.integer(1) != kCorners) {
+      throw header.error(ErrorCode::bad_dimension,
+                         std::string("expected ") + kSimplicesName<D> + ": " +
+                             std::to_string(kCorners) + " corners each",
+                         1);
     }
     const std::int64_t attributes = header.size() > 2 ? read_count(header, 2) : 0;
     if (attributes > 1) notes_.add("attributes but the first are not used", header.place(2));
     std::vector<FeatureId> ids;
-    const std::size_t fields = attributes > 0 ? 5 : 4;
+    const std::size_t fields = 1 + kCorners + (attributes > 0 ? 1 : 0);
     while (std::cmp_less(ids.size(), count)) {
-      const text::Line& line = next_row(lines, fields, ids.size(), count, "triangles");
+      const text::Line& line = next_row(lines, fields, ids.size(), count, kSimplicesName<D>);
       ids.push_back(FeatureId{line.integer(0)});
       mesh_.simplices.push_back(
-          read_corners(line, 1, [&](std::size_t i) { return vertices_.vertex(line, i); }));
-      if (attributes > 0) mesh_.features.regions.push_back(line.finite(4));
+          read_corners<D>(line, 1, [&](std::size_t i) { return vertices_.vertex(line, i); }));
+      if (attributes > 0) mesh_.features.regions.push_back(line.finite(1 + kCorners));
     }
-    require_end(lines, "triangles");
+    require_end(lines, kSimplicesName<D>);
     triangles_ = IdTable(ids);
   }
 
@@ -168,7 +177,7 @@ class TriangleFiles {
   }
 
   std::string path_;
-  MeshData mesh_;
+  MeshDataOf<D> mesh_;
   IdTable vertices_, triangles_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, MeshEdge> edges_;
   NoteCounter notes_;
@@ -176,6 +185,9 @@ class TriangleFiles {
 
 }  // namespace
 
-MeshData read_triangle_files(const std::string& path) { return TriangleFiles(path).read(); }
+AnyMesh read_node_mesh(const std::string& path) {
+  if (dimension_of(text::with_extension(path, ".node")) == 3) return NodeMesh<3>(path).read();
+  return NodeMesh<2>(path).read();
+}
 
 }  // namespace mesher

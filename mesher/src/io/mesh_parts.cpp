@@ -1,0 +1,43 @@
+// The mesh of one dimension that the parts make.
+#include "io/mesh_parts.hpp"
+
+#include "io/text.hpp"
+
+namespace mesher {
+
+template <int D>
+MeshDataOf<D> MeshParts::take() {
+  MeshDataOf<D> mesh;
+  mesh.vertices.reserve(vertices_.size());
+  for (const Point<3>& p : vertices_) {
+    std::copy_n(p.begin(), D, mesh.vertices.emplace_back().begin());
+  }
+  mesh.simplices = std::move(cells<D>().simplices);
+  mesh.kinds = std::move(kinds);
+  mesh.kinds.resize(vertices_.size(), VertexKind::steiner);
+  mesh.features.origins = std::move(origins);
+  mesh.features.markers = std::move(markers);
+  mesh.features.regions = std::move(cells<D>().regions);
+  if (D == 2) mesh.features.edges = std::move(edges);
+  mesh.notes = notes.notes();
+  return mesh;
+}
+
+AnyMesh MeshParts::finish() {
+  if (tetrahedra_.simplices.empty()) {
+    height_.require_same();
+    return take<2>();
+  }
+  if (count<2>() > 0) notes.add("triangles beside tetrahedra are not used", {file_});
+  if (!edges.empty()) notes.add("edges beside tetrahedra are not used", {file_});
+  return take<3>();
+}
+
+void detail::fail_other_height(double z, double first, const Place& place) {
+  throw Error(
+      ErrorCode::bad_dimension,
+      "z is not the same everywhere: " + text::to_text(z) + ", at first " + text::to_text(first),
+      place);
+}
+
+}  // namespace mesher

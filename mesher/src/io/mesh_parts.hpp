@@ -1,0 +1,110 @@
+// A mesh as it grows from a file whose format has room for both dimensions: vertices in space,
+// triangles and tetrahedra. Which dimension it is of shows when all is read: three if there are
+// tetrahedra, else two.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/note_counter.hpp"
+#include "mesh/simplex_name.hpp"
+#include "mesher/mesh_data.hpp"
+
+namespace mesher {
+
+namespace detail {
+[[noreturn]] void fail_other_height(double z, double first, const Place& place);
+}  // namespace detail
+
+/// The value of a third coordinate, which must be the same everywhere in the plane.
+class PlaneHeight {
+ public:
+  /// `place()` is asked for once, where z differs.
+  template <class PlaceOf>
+  void see(double z, PlaceOf place) {
+    if (!first_) first_ = z;
+    if (z != *first_ && !other_) other_ = {z, place()};
+  }
+  /// Throws: Error(bad_dimension) of the place where z differed first.
+  void require_same() const {
+    if (other_) detail::fail_other_height(other_->first, *first_, other_->second);
+  }
+
+ private:
+  std::optional<double> first_;
+  std::optional<std::pair<double, Place>> other_;
+};
+
+/// Whether all corners differ. N is small.
+template <std::size_t N>
+[[nodiscard]] bool are_different(const std::array<std::uint32_t, N>& corners) {
+  for (std::size_t i = 0; i < N; ++i) {
+    if (std::count(corners.begin(), corners.end(), corners[i]) > 1) return false;
+  }
+  return true;
+}
+
+class MeshParts {
+ public:
+  explicit MeshParts(std::string file) : file_(std::move(file)) {}
+
+  /// `place()` tells where z stands.
+  template <class PlaceOf>
+  void add_vertex(const Point<3>& p, PlaceOf place) {
+    height_.see(p[2], place);
+    vertices_.push_back(p);
+  }
+  [[nodiscard]] std::size_t vertices() const { return vertices_.size(); }
+
+  /// Requires: corners are different.
+  template <int D>
+  void add(const typename Mesh<D>::Simplex& corners, double region) {
+    cells<D>().simplices.push_back(corners);
+    cells<D>().regions.push_back(region);
+  }
+  /// How many simplices of dimension D there are.
+  template <int D>
+  [[nodiscard]] std::size_t count() {
+    return cells<D>().simplices.size();
+  }
+
+  /// One per vertex, or none.
+  std::vector<VertexKind> kinds;
+  std::vector<FeatureId> origins;
+  std::vector<std::int64_t> markers;
+  std::vector<MeshEdge> edges;
+  NoteCounter notes;
+
+  /// Throws: Error(bad_dimension) if there are no tetrahedra and z is not the same everywhere.
+  [[nodiscard]] AnyMesh finish();
+
+ private:
+  template <int D>
+  struct Cells {
+    std::vector<typename Mesh<D>::Simplex> simplices;
+    std::vector<double> regions;
+  };
+  template <int D>
+  Cells<D>& cells() {
+    if constexpr (D == 2) {
+      return triangles_;
+    } else {
+      return tetrahedra_;
+    }
+  }
+  template <int D>
+  [[nodiscard]] MeshDataOf<D> take();
+
+  std::string file_;
+  std::vector<Point<3>> vertices_;
+  Cells<2> triangles_;
+  Cells<3> tetrahedra_;
+  PlaneHeight height_;
+};
+
+}  // namespace mesher
