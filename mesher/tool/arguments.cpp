@@ -208,8 +208,9 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
   add_program_options(command, args);
   command
       .add_option("-o", args.outputs,
-                  "A mesh: .node (with .ele), .vtu, .vtk, .msh, .mesh, .off, .obj or .svg; may be\n"
-                  "repeated")
+                  "A mesh: .node (with .ele, in space also .face), .vtu, .vtk, .msh, .mesh, .off, "
+                  ".obj\n"
+                  "or .svg; in space .off, .obj and .stl have its boundary; may be repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
   command.add_flag("--repair", args.repair,
@@ -292,6 +293,11 @@ void open_outputs(const MeshArguments& args, const Input& input, Outputs& output
   const auto content =
       has_points_alone(args.input) ? mesher::MeshFiles::plain : mesher::MeshFiles::features;
   for (const auto& path : args.outputs) outputs.open_mesh(path, content);
+}
+
+void open_outputs(const MeshArguments& args, const SpaceInput& input, SpaceOutputs& outputs) {
+  protect_inputs(args, input, outputs);
+  for (const auto& path : args.outputs) outputs.open_mesh(path);
 }
 
 }  // namespace tool

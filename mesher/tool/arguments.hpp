@@ -88,5 +88,7 @@ void protect_inputs(const MeshArguments& args, const auto& input, Files& files) 
 /// Opens the mesh outputs: those of `.node` with all files, if INPUT is of a format that has lines.
 /// Throws: Error (unknown_format, cannot_write, bad_option).
 void open_outputs(const MeshArguments& args, const Input& input, Outputs& outputs);
+/// In space. Throws: likewise.
+void open_outputs(const MeshArguments& args, const SpaceInput& input, SpaceOutputs& outputs);
 
 }  // namespace tool

@@ -12,6 +12,7 @@
 #include "outputs.hpp"
 #include "report.hpp"
 #include "static_mesher.hpp"
+#include "static_space_mesher.hpp"
 
 namespace tool {
 namespace {
@@ -21,66 +22,92 @@ struct EditArguments : MeshArguments {
 };
 
 // What the updates of a script leave besides the mesh.
+template <int D>
 struct Followed {
-  std::vector<double> seconds;      // of each update
-  Outputs::Triangles last_changed;  // what the last one brought to what is kept
+  std::vector<double> seconds;                    // of each update
+  typename OutputsOf<D>::Simplices last_changed;  // what the last one brought
 };
 
-template <class Target>
-Followed apply_script(const EditArguments& args, Input& input, Target& target, Figures& figures,
-                      Progress& progress) {
-  mesher::EditScript script(args.script);
-  Followed followed;
+// What an update brought to what is kept.
+Outputs::Simplices& kept_added(mesher::DomainUpdate& change) { return change.domain.kept_added; }
+SpaceOutputs::Simplices& kept_added(mesher::Change<3>& change) { return change.simplices_added; }
+
+template <int D, class Target>
+Followed<D> apply_script(const EditArguments& args, InputOf<D>& input, Target& target,
+                         Figures& figures, Progress& progress) {
+  mesher::EditScriptOf<D> script(args.script);
+  Followed<D> followed;
   Watched watched(target, progress);
   try {
     while (auto edits = script.next()) {
       input.follow(*edits);
-      DomainStep update = mesher::apply(std::move(*edits), watched);
+      auto update = mesher::apply(std::move(*edits), watched);
       followed.seconds.push_back(update.seconds);
       if (figures.wanted()) figures << json_of(update).dump() << "\n";
-      followed.last_changed = std::move(update.change.domain.kept_added);
+      followed.last_changed = std::move(kept_added(update.change));
       progress.set_task("after " + std::to_string(followed.seconds.size()) + " updates, ");
     }
   } catch (const mesher::Error& error) {
-    throw with_domain_hint(input.located(error));
+    throw with_domain_hint<D>(input.located(error));
   }
   return followed;
 }
 
 template <class Target>
-void run_edit_on(Target target, const EditArguments& args, Input input) {
-  Outputs outputs;
+void look_at_angles(const Target& target, Run& run) {
+  run.angles = mesher::angle_report(target.mesh(), target.options());
+}
+template <class Target>
+void look_at_angles(const Target&, SpaceRun&) {}
+
+template <int D, class Target>
+void run_edit_on(Target target, const EditArguments& args, InputOf<D> input) {
+  OutputsOf<D> outputs;
   outputs.protect(args.script);
   open_outputs(args, input, outputs);
   Figures figures(args.stats, outputs);
-  Progress progress(args.quiet);
-  const Run run = first_run(input, target.options().rho, target, progress);
+  Progress progress(args.quiet, D);
+  RunOf<D> run = first_run<D>(input, target, progress);
   if (figures.wanted()) figures << json_of(run).dump() << "\n";
-  const Followed followed = apply_script(args, input, target, figures, progress);
-  const mesher::DomainMesh mesh = target.domain_mesh();
+  const auto followed = apply_script<D>(args, input, target, figures, progress);
+  const Kept<D> mesh = kept_mesh(target);
   outputs.write(mesh, followed.last_changed);
   const auto targets = outputs.targets();
   progress.erase();
-  if (!args.quiet) print_remarks(input, mesh.faults);
+  if (!args.quiet) print_remarks(input, mesh);
   figures.print();
   outputs.commit();
   if (args.quiet || figures.printed()) return;
-  print_run(args.input, input.graph(), run);
+  print_run(input, run);
   print_updates(followed.seconds);
   print_after(mesh);
-  print_angles(mesher::angle_report(target.mesh(), target.options()));
+  look_at_angles(target, run);
+  print_angles(run);
   print_outputs(targets);
 }
 
-void run_edit(const EditArguments& args) {
-  Input input = read_input(args);
+void run_edit_in_plane(const EditArguments& args) {
+  Input input = read_input<2>(args);
   const auto options = mesh_options(args, input);
   if (args.is_static) {
-    return run_edit_on(StaticMesher(options, extent(args), region_areas(args)), args,
-                       std::move(input));
+    return run_edit_on<2>(StaticMesher(options, extent(args), region_areas(args)), args,
+                          std::move(input));
   }
-  run_edit_on(mesher::DomainMesher(options, extent(args), region_areas(args)), args,
-              std::move(input));
+  run_edit_on<2>(mesher::DomainMesher(options, extent(args), region_areas(args)), args,
+                 std::move(input));
+}
+
+void run_edit_in_space(const EditArguments& args) {
+  SpaceInput input = read_input<3>(args);
+  const auto options = mesh_options(args, input);
+  if (args.is_static) {
+    return run_edit_on<3>(StaticSpaceMesher(options), args, std::move(input));
+  }
+  run_edit_on<3>(mesher::Mesher<3>(options), args, std::move(input));
+}
+
+void run_edit(const EditArguments& args) {
+  dimension_of(args) == 3 ? run_edit_in_space(args) : run_edit_in_plane(args);
 }
 
 }  // namespace
@@ -112,7 +139,8 @@ void add_edit(CLI::App& app) {
           "domain, which by default is that of INPUT; an .svg also shows what the last update\n"
           "has brought. With --static each update meshes from scratch.\n"
           "--stats: a JSON object for the first run, then one a line for each update; - for\n"
-          "standard output.\n") +
+          "standard output.\n"
+          "In space there are +point ID x y z, -point ID and move ID x y z.\n") +
       kQualityHelp +
       "\nExamples:\n"
       "  mesher edit lake.poly --script wall.txt -o lake.vtu -o lake.svg\n"

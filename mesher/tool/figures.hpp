@@ -11,7 +11,7 @@ namespace tool {
 class Figures {
  public:
   /// `path`: as --stats has it; empty for nowhere. Throws: Error (cannot_write, bad_option).
-  Figures(const std::string& path, Outputs& outputs)
+  Figures(const std::string& path, CommandFiles& outputs)
       : file_(path.empty() || path == "-" ? nullptr : &outputs.open(path)), printed_(path == "-") {}
 
   [[nodiscard]] bool wanted() const noexcept { return file_ != nullptr || printed_; }

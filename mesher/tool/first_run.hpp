@@ -32,16 +32,26 @@ void insert_all(const Input& input, Target& target, Progress& progress) {
   }
 }
 
-/// Runs `target`, a mesher without input for this rho, on the input. Throws: Error, as insert_all.
+/// What is wanted of a target's mesh.
 template <class Target>
-Run first_run(const Input& input, double rho, Target& target, Progress& progress) {
+[[nodiscard]] decltype(auto) kept_mesh(const Target& target) {
+  if constexpr (requires { target.domain_mesh(); }) {
+    return target.domain_mesh();
+  } else {
+    return target.mesh();
+  }
+}
+
+/// Runs `target`, a mesher without input, on the input. Throws: Error, as insert_all.
+template <int D, class Target>
+RunOf<D> first_run(const InputOf<D>& input, Target& target, Progress& progress) {
   const double start = mesher::now();
   insert_all(input, target, progress);
-  const mesher::DomainMesh& mesh = target.domain_mesh();
-  Run run;
+  const Kept<D>& mesh = kept_mesh(target);
+  RunOf<D> run;
   run.seconds_total = mesher::now() - start;
   run.stats = target.stats();
-  measure(mesh, rho, run);
+  measure(mesh, target.options().rho, run);
   return run;
 }
 

@@ -31,7 +31,8 @@ struct GenArguments {
 };
 
 std::vector<std::string> kinds() {
-  std::vector<std::string> all{"uniform", "gaussian", "clusters", "grid", "line-circle", "spiral"};
+  std::vector<std::string> all{"uniform",     "gaussian", "clusters", "grid",
+                               "line-circle", "spiral",   "sphere",   "spread"};
   all.insert(all.end(), mesher::pslg_kind_names().begin(), mesher::pslg_kind_names().end());
   return all;
 }
@@ -83,7 +84,8 @@ void run_gen(const GenArguments& args) {
     args.dimension == 2 ? write_points<2>(args, file) : write_points<3>(args, file);
   } else {
     require_extension(args, {".poly", ".obj"}, "points and lines are written to .poly and .obj");
-    if (args.dimension != 2) throw Error(ErrorCode::bad_option, "--dim: lines are in the plane");
+    if (args.dimension != 2)
+      throw Error(ErrorCode::bad_option, "--dimension: lines are in the plane");
     const mesher::Pslg pslg = mesher::generate_pslg(family_of(args));
     mesher::TextFile& file = outputs.open(args.output);
     const bool is_poly = std::filesystem::path(args.output).extension() == ".poly";
@@ -97,16 +99,16 @@ void run_gen(const GenArguments& args) {
 void add_gen(CLI::App& app) {
   const auto args = std::make_shared<GenArguments>();
   CLI::App* gen = app.add_subcommand("gen", "Writes a family of points, or of points and lines.");
-  gen->add_option("KIND", args->kind,
-                  "Points: uniform, gaussian, clusters, grid, line-circle, spiral. Lines: "
-                  "segments,\n"
-                  "lengths, polylines, trees, corridors, zigzag, fan, bundle")
+  gen->add_option(
+         "KIND", args->kind,
+         "Points: uniform, gaussian, clusters, grid, line-circle, spiral, sphere, spread.\n"
+         "Lines: segments, lengths, polylines, trees, corridors, zigzag, fan, bundle")
       ->required()
       ->check(CLI::IsMember(kinds()));
   gen->add_option("--n", args->n, "How many points; of lines, how many segments")
       ->required()
       ->check(CLI::Range(std::uint64_t{0}, kMostPoints));
-  gen->add_option("--dim", args->dimension, "The dimension, 2 or 3")
+  gen->add_option("--dimension,--dim", args->dimension, "2: the plane; 3: space, of points alone")
       ->check(CLI::IsMember({2, 3}))
       ->capture_default_str();
   gen->add_option("--seed", args->seed, "Other random ones for another seed")
@@ -119,11 +121,11 @@ void add_gen(CLI::App& app) {
       ->type_name("FILE");
   gen->footer(
       "The points are distinct and the same on every machine. Lines do not cross and meet at ends\n"
-      "alone; where there is no room, there are fewer. grid, line-circle, spiral and fan have no\n"
-      "randomness.\n"
+      "alone; where there is no room, there are fewer. grid, line-circle, spiral, spread and fan\n"
+      "have no randomness. Of spread, distances differ by a factor of 10^12.\n"
       "Examples:\n"
       "  mesher gen gaussian --n 100000 --seed 7 -o g.node\n"
-      "  mesher gen line-circle --n 2000 --dim 3 -o lc.node\n"
+      "  mesher gen line-circle --n 2000 --dimension 3 -o lc.node\n"
       "  mesher gen trees --n 10000 -o trees.poly\n"
       "  mesher gen fan --n 2 --angle 0.01 -o wedge.poly");
   gen->callback([args] { run_gen(*args); });

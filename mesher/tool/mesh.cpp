@@ -15,42 +15,69 @@
 namespace tool {
 namespace {
 
+template <int D>
 struct Result {
-  mesher::DomainMesh mesh;
-  Run run;
+  Kept<D> mesh;
+  RunOf<D> run;
 };
 
-mesher::Mesh<2> mesh_without_engine(const Input& input, const mesher::Options<2>& options,
+mesher::Mesh<2> mesh_statically(const Input& input, const mesher::Options<2>& options,
+                                mesher::MeshStats& stats, const mesher::RunControl& control) {
+  return mesher::mesh_statically(input.graph(), options, &stats, control);
+}
+mesher::Mesh<3> mesh_statically(const SpaceInput& input, const mesher::Options<3>& options,
+                                mesher::MeshStats& stats, const mesher::RunControl& control) {
+  const auto& points = input.file();
+  return mesher::mesh_statically<3>(points.points, options, points.ids, &stats, control);
+}
+
+template <int D>
+mesher::Mesh<D> mesh_without_engine(const InputOf<D>& input, const mesher::Options<D>& options,
                                     mesher::MeshStats& stats, Progress& progress) {
   try {
     const StopPolitely stop;
-    return mesher::mesh_statically(input.graph(), options, &stats, progress.control());
+    return mesh_statically(input, options, stats, progress.control());
   } catch (const mesher::Error& error) {
     throw input.located(error);
   }
 }
 
-mesher::Mesh<2> mesh_with_engine(const Input& input, const mesher::Options<2>& options,
+template <int D>
+mesher::Mesh<D> mesh_with_engine(const InputOf<D>& input, const mesher::Options<D>& options,
                                  mesher::MeshStats& stats, Progress& progress) {
-  mesher::Mesher<2> mesher(options);
+  mesher::Mesher<D> mesher(options);
   insert_all(input, mesher, progress);
   stats = mesher.stats();
   return mesher.mesh();
 }
 
-Result mesh(const MeshArguments& args, const Input& input, const mesher::Options<2>& options,
-            Progress& progress) {
-  Result result;
-  const double start = mesher::now();
-  const auto make = args.is_static ? mesh_without_engine : mesh_with_engine;
-  mesher::Mesh<2> all = make(input, options, result.run.stats, progress);
-  const double meshed = mesher::now();
+Result<2> finish(const MeshArguments& args, const Input& input, const mesher::Options<2>& options,
+                 mesher::Mesh<2> all) {
+  Result<2> result;
   if (!all.edges.empty() && (!args.quiet || !args.stats.empty())) {
     result.run.angles = mesher::angle_report(all, options);
   }
-  const double looked_at = mesher::now();
+  const double start = mesher::now();
   result.mesh = mesher::domain_mesh(std::move(all), input.graph(), extent(args));
-  result.run.seconds_total = mesher::now() - start - (looked_at - meshed);
+  result.run.seconds_total = mesher::now() - start;
+  return result;
+}
+Result<3> finish(const MeshArguments&, const SpaceInput&, const mesher::Options<3>&,
+                 mesher::Mesh<3> all) {
+  return {std::move(all), {}};
+}
+
+template <int D>
+Result<D> mesh(const MeshArguments& args, const InputOf<D>& input,
+               const mesher::Options<D>& options, Progress& progress) {
+  mesher::MeshStats stats;
+  const double start = mesher::now();
+  const auto make = args.is_static ? mesh_without_engine<D> : mesh_with_engine<D>;
+  mesher::Mesh<D> all = make(input, options, stats, progress);
+  const double seconds = mesher::now() - start;
+  Result<D> result = finish(args, input, options, std::move(all));
+  result.run.stats = stats;
+  result.run.seconds_total += seconds;
   measure(result.mesh, options.rho, result.run);
   return result;
 }
@@ -68,26 +95,33 @@ void limit_regions(const MeshArguments& args, const Input& input, mesher::Option
   }
 }
 
-void run_mesh(const MeshArguments& args) {
-  const Input input = read_input(args);
+void limit_regions(const MeshArguments&, const SpaceInput&, mesher::Options<3>&) {}
+
+template <int D>
+void run_mesh_in(const MeshArguments& args) {
+  const auto input = read_input<D>(args);
   auto options = mesh_options(args, input);
-  Outputs outputs;
+  OutputsOf<D> outputs;
   open_outputs(args, input, outputs);
   Figures figures(args.stats, outputs);
   limit_regions(args, input, options);
-  Progress progress(args.quiet);
-  const Result result = mesh(args, input, options, progress);
+  Progress progress(args.quiet, D);
+  const Result<D> result = mesh<D>(args, input, options, progress);
   if (figures.wanted()) figures << json_of(result.run).dump(2) << "\n";
   outputs.write(result.mesh);
   const auto targets = outputs.targets();
   progress.erase();
-  if (!args.quiet) print_remarks(input, result.mesh.faults);
+  if (!args.quiet) print_remarks(input, result.mesh);
   figures.print();
   outputs.commit();
   if (args.quiet || figures.printed()) return;
-  print_run(args.input, input.graph(), result.run);
-  if (result.run.angles) print_angles(*result.run.angles);
+  print_run(input, result.run);
+  print_angles(result.run);
   print_outputs(targets);
+}
+
+void run_mesh(const MeshArguments& args) {
+  dimension_of(args) == 3 ? run_mesh_in<3>(args) : run_mesh_in<2>(args);
 }
 
 }  // namespace

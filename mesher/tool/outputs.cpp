@@ -1,38 +1,43 @@
 // Output files that survive neither an error nor an interrupt.
 #include "outputs.hpp"
 
-#include "cancel.hpp"
+#include "mesher/space_svg.hpp"
 #include "mesher/svg.hpp"
 
 namespace tool {
 
-Outputs::~Outputs() { set_doomed({}); }
+CommandFiles::~CommandFiles() { set_doomed({}); }
 
-mesher::TextFile& Outputs::open(const std::string& path) {
-  const HoldInterrupts hold;
-  mesher::TextFile& file = files_.open(path);
-  set_doomed(files_.temporaries());
-  return file;
+mesher::TextFile& CommandFiles::open(const std::string& path) {
+  return *open_among([&](mesher::OutputFiles& files) { return &files.open(path); });
 }
+
+void CommandFiles::commit() {
+  const HoldInterrupts hold;
+  require_uninterrupted();
+  files_.commit();
+  set_doomed({});
+}
+
+// --- In the plane ----------------------------------------------------------------------------
 
 void Outputs::open_mesh(const std::string& path, mesher::MeshFiles content) {
   if (mesher::format_of(path) == ".svg") {
     pictures_.push_back(&open(path));
     return;
   }
-  const HoldInterrupts hold;
-  writers_.push_back(mesher::open_mesh(files_, path, content));
-  set_doomed(files_.temporaries());
+  writers_.push_back(open_among(
+      [&](mesher::OutputFiles& files) { return mesher::open_mesh(files, path, content); }));
 }
 
-void Outputs::write(const mesher::DomainMesh& mesh, const Triangles& coloured) {
+void Outputs::write(const mesher::DomainMesh& mesh, const Simplices& coloured) {
   require_uninterrupted();
   for (const auto& writer : writers_) writer(mesh.kept, mesh.kept.features);
   if (!pictures_.empty()) draw(mesh, coloured);
 }
 
 // A domain has a colour, whether or not it has regions.
-void Outputs::draw(const mesher::DomainMesh& mesh, const Triangles& coloured) {
+void Outputs::draw(const mesher::DomainMesh& mesh, const Simplices& coloured) {
   mesher::SvgView view = mesher::svg_view(mesh.kept);
   view.coloured = coloured;
   mesher::MeshFeatures features = mesh.kept.features;
@@ -40,11 +45,24 @@ void Outputs::draw(const mesher::DomainMesh& mesh, const Triangles& coloured) {
   for (auto* picture : pictures_) mesher::write_svg(mesh.kept, features, view, *picture);
 }
 
-void Outputs::commit() {
-  const HoldInterrupts hold;
+// --- In space --------------------------------------------------------------------------------
+
+void SpaceOutputs::open_mesh(const std::string& path) {
+  if (mesher::format_of(path) == ".svg") {
+    pictures_.push_back(&open(path));
+    return;
+  }
+  writers_.push_back(
+      open_among([&](mesher::OutputFiles& files) { return mesher::open_space_mesh(files, path); }));
+}
+
+void SpaceOutputs::write(const mesher::Mesh<3>& mesh, const Simplices& coloured) {
   require_uninterrupted();
-  files_.commit();
-  set_doomed({});
+  for (const auto& writer : writers_) writer(mesh);
+  if (pictures_.empty()) return;
+  mesher::SpaceView view = mesher::space_view(mesh);
+  view.coloured = coloured;
+  for (auto* picture : pictures_) mesher::write_svg(mesh, view, *picture);
 }
 
 }  // namespace tool

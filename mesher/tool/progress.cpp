@@ -13,22 +13,22 @@ namespace {
 constexpr double kPatience = 2;     // seconds before the first line
 constexpr double kInterval = 0.25;  // and between lines
 
-const char* name(mesher::Phase phase) {
+const char* name(mesher::Phase phase, int dimension) {
   switch (phase) {
     case mesher::Phase::quadtree:
-      return "quadtree (1 of 3)";
+      return dimension == 2 ? "quadtree (1 of 3)" : "octree (1 of 3)";
     case mesher::Phase::steiner:
       return "Steiner points (2 of 3)";
     case mesher::Phase::triangulate:
-      return "triangles (3 of 3)";
+      return dimension == 2 ? "triangles (3 of 3)" : "tetrahedra (3 of 3)";
     case mesher::Phase::update:
       return "update";
   }
   return "";
 }
 
-std::string text(const mesher::Progress& p) {
-  const std::string what = name(p.phase);
+std::string text(const mesher::Progress& p, int dimension) {
+  const std::string what = name(p.phase, dimension);
   if (p.of == 0) return what + ": " + std::to_string(p.done) + " calls";
   if (p.phase == mesher::Phase::update) {
     return what + ": " + std::to_string(p.done) + " of " + std::to_string(p.of) + " calls";
@@ -38,8 +38,10 @@ std::string text(const mesher::Progress& p) {
 
 }  // namespace
 
-Progress::Progress(bool quiet)
-    : enabled_(!quiet && isatty(STDERR_FILENO) != 0), next_(mesher::now() + kPatience) {}
+Progress::Progress(bool quiet, int dimension)
+    : enabled_(!quiet && isatty(STDERR_FILENO) != 0),
+      dimension_(dimension),
+      next_(mesher::now() + kPatience) {}
 
 mesher::RunControl Progress::control() {
   return {.progress =
@@ -52,7 +54,7 @@ mesher::RunControl Progress::control() {
 
 void Progress::tick(const mesher::Progress& progress) {
   if (!enabled_ || mesher::now() < next_) return;
-  std::fprintf(stderr, "\r\033[K%s%s", task_.c_str(), text(progress).c_str());
+  std::fprintf(stderr, "\r\033[K%s%s", task_.c_str(), text(progress, dimension_).c_str());
   shown_ = true;
   next_ = mesher::now() + kInterval;
 }

@@ -13,7 +13,8 @@ namespace tool {
 
 class Progress {
  public:
-  explicit Progress(bool quiet);
+  /// `dimension`: 2 or 3, for words.
+  explicit Progress(bool quiet, int dimension = 2);
   ~Progress() { erase(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -30,6 +31,7 @@ class Progress {
   void tick(const mesher::Progress& progress);
 
   bool enabled_;
+  int dimension_;
   bool shown_ = false;
   double next_;  // when to show a line
   std::string task_;
@@ -64,7 +66,8 @@ class Watched {
     t.insert_polyline(id, points, marker...);
   }
   { target_.insert_polyline(id, points, marker...); }
-  void remove_segment(mesher::FeatureId id) { target_.remove_segment(id); }
+  void remove_segment(mesher::FeatureId id) requires requires(Target& t) { t.remove_segment(id); }
+  { target_.remove_segment(id); }
   void insert_seed(const mesher::Seed& seed) requires TakesSeeds<Target> {
     target_.insert_seed(seed);
   }

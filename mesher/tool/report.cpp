@@ -87,6 +87,12 @@ Json json_of(const std::vector<mesher::ShrunkVertex>& vertices) {
   return all;
 }
 
+void print_notes(const std::vector<mesher::Note>& notes) {
+  for (const auto& note : notes) {
+    std::fprintf(stderr, "%s: note: %s\n", text_of(note.place).c_str(), note.text.c_str());
+  }
+}
+
 std::string milliseconds(double seconds) { return format("%.3f ms", seconds * 1000); }
 
 }  // namespace
@@ -106,6 +112,46 @@ void measure(const mesher::DomainMesh& mesh, double rho, Run& run) {
   }
 }
 
+namespace {
+
+// How long a run took, and what it keeps.
+void add_costs(const mesher::MeshStats& stats, double seconds_total, Json& json) {
+  json["seconds"] = {{"quadtree", stats.seconds_quadtree},
+                     {"steiner", stats.seconds_steiner},
+                     {"triangulate", stats.seconds_triangulate},
+                     {"total", seconds_total}};
+  json["calls"] = stats.calls;
+  json["edges"] = stats.edges;
+  json["trace_bytes"] = stats.trace_bytes;
+  json["peak_rss_bytes"] = peak_rss_bytes();
+}
+
+// What an update did to the mesh of the box.
+template <class Step>
+Json json_of_change(const Step& update) {
+  const auto& change = update.change;
+  Json json;
+  json["edit"] = update.text();
+  json["seconds"] = update.seconds;
+  json["calls"] = {{"executed", change.calls.executed},
+                   {"reused", change.calls.reused},
+                   {"created", change.calls.created},
+                   {"discarded", change.calls.discarded}};
+  json["vertices"] = {{"added", change.vertices_added.size()},
+                      {"removed", change.vertices_removed.size()}};
+  json["simplices"] = {{"added", change.simplices_added.size()},
+                       {"removed", change.simplices_removed.size()}};
+  return json;
+}
+
+}  // namespace
+
+void measure(const mesher::Mesh<3>& mesh, double, SpaceRun& run) {
+  run.quality = mesher::quality(mesh);
+  run.points = static_cast<std::size_t>(
+      std::count(mesh.kinds.begin(), mesh.kinds.end(), mesher::VertexKind::input));
+}
+
 Json json_of(const Run& run) {
   Json json;
   json["vertices"] = run.stats.vertices;
@@ -123,40 +169,38 @@ Json json_of(const Run& run) {
   json["regions"] = run.regions;
   json["holes"] = run.holes;
   json["seed_faults"] = run.faults;
-  json["seconds"] = {{"quadtree", run.stats.seconds_quadtree},
-                     {"steiner", run.stats.seconds_steiner},
-                     {"triangulate", run.stats.seconds_triangulate},
-                     {"total", run.seconds_total}};
-  json["calls"] = run.stats.calls;
-  json["edges"] = run.stats.edges;
-  json["trace_bytes"] = run.stats.trace_bytes;
-  json["peak_rss_bytes"] = peak_rss_bytes();
+  add_costs(run.stats, run.seconds_total, json);
+  return json;
+}
+
+Json json_of(const SpaceRun& run) {
+  Json json;
+  json["vertices"] = run.stats.vertices;
+  json["simplices"] = run.stats.simplices;
+  json["min_dihedral_deg"] = run.quality.min_dihedral_deg;  // NaN is written as null
+  json["max_dihedral_deg"] = run.quality.max_dihedral_deg;
+  json["max_radius_edge"] = run.quality.max_radius_edge;
+  json["slivers"] = run.quality.slivers;
+  json["points"] = run.points;
+  add_costs(run.stats, run.seconds_total, json);
   return json;
 }
 
 Json json_of(const DomainStep& update) {
-  const mesher::DomainUpdate& change = update.change;
-  Json json;
-  json["edit"] = update.text();
-  json["seconds"] = update.seconds;
-  json["calls"] = {{"executed", change.calls.executed},
-                   {"reused", change.calls.reused},
-                   {"created", change.calls.created},
-                   {"discarded", change.calls.discarded}};
-  json["vertices"] = {{"added", change.vertices_added.size()},
-                      {"removed", change.vertices_removed.size()}};
-  json["simplices"] = {{"added", change.simplices_added.size()},
-                       {"removed", change.simplices_removed.size()}};
-  const auto& [forced, shrunk] = change.angles;
+  Json json = json_of_change(update);
+  const auto& [forced, shrunk] = update.change.angles;
   if (!forced.empty()) json["small_angles"] = json_of(forced);
   if (!shrunk.empty()) json["shrunk"] = json_of(shrunk);
-  json["kept"] = {{"added", change.domain.kept_added.size()},
-                  {"removed", change.domain.kept_removed.size()}};
+  json["kept"] = {{"added", update.change.domain.kept_added.size()},
+                  {"removed", update.change.domain.kept_removed.size()}};
   return json;
 }
 
-void print_run(const std::string& input, const mesher::Pslg& graph, const Run& run) {
-  std::printf("%s: %zu points", input.c_str(), graph.points.size());
+Json json_of(const SpaceStep& update) { return json_of_change(update); }
+
+void print_run(const Input& input, const Run& run) {
+  const mesher::Pslg& graph = input.graph();
+  std::printf("%s: %zu points", input.path().c_str(), graph.points.size());
   const std::size_t lines = graph.segments.size() + graph.polylines.size();
   if (lines > 0) std::printf(", %zu lines", lines);
   std::printf("\n");
@@ -174,24 +218,41 @@ void print_run(const std::string& input, const mesher::Pslg& graph, const Run& r
   print_row("time", format("%.3f s", run.seconds_total));
 }
 
-void print_remarks(const Input& input, const std::vector<mesher::SeedFault>& faults) {
-  for (const auto& note : input.file().notes) {
-    std::fprintf(stderr, "%s: note: %s\n", text_of(note.place).c_str(), note.text.c_str());
-  }
+void print_run(const SpaceInput& input, const SpaceRun& run) {
+  std::printf("%s: %zu points in space\n", input.path().c_str(), run.points);
+  print_row("vertices", std::to_string(run.stats.vertices));
+  print_row("tetrahedra", std::to_string(run.stats.simplices));
+  print_row("dihedral angles", format("%.2f", run.quality.min_dihedral_deg) + " to " +
+                                   format("%.2f degrees", run.quality.max_dihedral_deg));
+  print_row("slivers", std::to_string(run.quality.slivers) + ", of dihedral angles below " +
+                           format("%g degrees", mesher::kSliverDegrees));
+  print_row("largest radius-edge", format("%.4f", run.quality.max_radius_edge));
+  print_row("time", format("%.3f s", run.seconds_total));
+}
+
+void print_remarks(const Input& input, const mesher::DomainMesh& mesh) {
+  print_notes(input.notes());
   for (const auto& note : input.repairs()) {
     std::fprintf(stderr, "%s\n", note.text("repair: ").c_str());
   }
-  for (const auto& fault : faults) std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
+  for (const auto& fault : mesh.faults) {
+    std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
+  }
 }
 
-void print_angles(const mesher::AngleReport& report) {
-  const std::string text = report.text();
+void print_remarks(const SpaceInput& input, const mesher::Mesh<3>&) { print_notes(input.notes()); }
+
+void print_angles(const Run& run) {
+  if (!run.angles) return;
+  const std::string text = run.angles->text();
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = text.find('\n', at);
     std::printf("  %s\n", text.substr(at, end - at).c_str());
     at = end + 1;
   }
 }
+
+void print_angles(const SpaceRun&) {}
 
 void print_updates(std::vector<double> seconds) {
   print_row("updates", std::to_string(seconds.size()));
@@ -205,6 +266,11 @@ void print_updates(std::vector<double> seconds) {
 void print_after(const mesher::DomainMesh& mesh) {
   print_row("after them", std::to_string(mesh.kept.vertices.size()) + " vertices, " +
                               std::to_string(mesh.kept.simplices.size()) + " triangles");
+}
+
+void print_after(const mesher::Mesh<3>& mesh) {
+  print_row("after them", std::to_string(mesh.vertices.size()) + " vertices, " +
+                              std::to_string(mesh.simplices.size()) + " tetrahedra");
 }
 
 void print_outputs(const std::vector<std::string>& paths) {

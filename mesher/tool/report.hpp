@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "input.hpp"
@@ -11,11 +12,16 @@
 #include "mesher/check.hpp"
 #include "mesher/domain_mesher.hpp"
 #include "mesher/edit_script.hpp"
+#include "mesher/space_check.hpp"
 
 namespace tool {
 
 /// Keeps the order in which fields are given.
 using Json = nlohmann::ordered_json;
+
+/// What is wanted of a mesh: what lines enclose; in space all of it.
+template <int D>
+using Kept = std::conditional_t<D == 2, mesher::DomainMesh, mesher::Mesh<3>>;
 
 /// The first run of a mesh, or a run from scratch.
 struct Run {
@@ -28,32 +34,51 @@ struct Run {
   std::size_t points = 0;           ///< of the input, kept
   std::size_t regions = 0;          ///< kept
   std::size_t holes = 0;
-  std::size_t faults = 0;    ///< seeds without a region of their own
+  std::size_t faults = 0;                     ///< seeds without a region of their own
   std::optional<mesher::AngleReport> angles;  ///< of the box, if it was asked for
   double seconds_total = 0;  ///< from the first point inserted to the finished mesh
 };
 
+/// The same in space.
+struct SpaceRun {
+  mesher::MeshStats stats;
+  mesher::SpaceQuality quality;
+  std::size_t points = 0;  ///< of the input
+  double seconds_total = 0;
+};
+
+template <int D>
+using RunOf = std::conditional_t<D == 2, Run, SpaceRun>;
+
 /// An update of a script by a mesher that knows of domains.
 using DomainStep = mesher::Update<2, mesher::DomainUpdate>;
+/// The same in space.
+using SpaceStep = mesher::Update<3, mesher::Change<3>>;
 
 /// Sizes and quality of what is kept.
 void measure(const mesher::DomainMesh& mesh, double rho, Run& run);
+void measure(const mesher::Mesh<3>& mesh, double rho, SpaceRun& run);
 
 /// Figures of a run, as --stats writes them, with the process's peak memory.
 [[nodiscard]] Json json_of(const Run& run);
+[[nodiscard]] Json json_of(const SpaceRun& run);
 
 /// Figures of an update, as --stats of `edit` writes them.
 [[nodiscard]] Json json_of(const DomainStep& update);
+[[nodiscard]] Json json_of(const SpaceStep& update);
 
 /// Prints size, quality and time of a run on standard output.
-void print_run(const std::string& input, const mesher::Pslg& graph, const Run& run);
+void print_run(const Input& input, const Run& run);
+void print_run(const SpaceInput& input, const SpaceRun& run);
 
 /// Prints on standard error what of the input is not used or was repaired, and which seeds have no
 /// region of their own.
-void print_remarks(const Input& input, const std::vector<mesher::SeedFault>& faults);
+void print_remarks(const Input& input, const mesher::DomainMesh& mesh);
+void print_remarks(const SpaceInput& input, const mesher::Mesh<3>& mesh);
 
-/// Prints what small angles do to a mesh.
-void print_angles(const mesher::AngleReport& report);
+/// Prints what small angles do to a mesh, if they were looked at.
+void print_angles(const Run& run);
+void print_angles(const SpaceRun& run);
 
 /// Prints the number of updates with their median, 99th percentile and longest time.
 /// `seconds`: one per update.
@@ -61,6 +86,7 @@ void print_updates(std::vector<double> seconds);
 
 /// Prints how large the mesh is that updates have left.
 void print_after(const mesher::DomainMesh& mesh);
+void print_after(const mesher::Mesh<3>& mesh);
 
 /// Prints the names of the files written.
 void print_outputs(const std::vector<std::string>& paths);

@@ -10,20 +10,21 @@
 
 #include "mesher/domain_mesher.hpp"
 #include "mesher/sizes.hpp"
+#include "static_points.hpp"
 
 namespace tool {
 
-class StaticMesher {
+class StaticMesher : public StaticPoints<2> {
  public:
   StaticMesher(const mesher::Options<2>& options, mesher::Extent extent, mesher::RegionAreas areas)
-      : options_(options), edited_options_(options), extent_(extent), areas_(areas) {}
+      : StaticPoints(options.domain),
+        options_(options),
+        edited_options_(options),
+        extent_(extent),
+        areas_(areas) {}
 
-  /// As those of DomainMesher, but that points that are too close are left to update().
-  /// Throws: Error (repeated_id, unknown_id, duplicate_point, outside_domain, zero_length), and
-  /// then changes nothing.
-  void insert(mesher::FeatureId id, const mesher::Point<2>& point, std::int64_t marker = 0);
-  void remove(mesher::FeatureId id);
-  void move(mesher::FeatureId id, const mesher::Point<2>& point);
+  /// As those of DomainMesher.
+  /// Throws: Error (repeated_id, unknown_id, zero_length), and then changes nothing.
   void insert_segment(mesher::FeatureId id, mesher::FeatureId from, mesher::FeatureId to,
                       std::int64_t marker = 0) {
     insert_polyline(id, {from, to}, marker);
@@ -38,6 +39,7 @@ class StaticMesher {
     set_limits(edited_options_, box, limits);
   }
   void discard_edits() {
+    StaticPoints::discard_edits();
     edited_ = current_;
     edited_options_ = options_;
   }
@@ -52,27 +54,16 @@ class StaticMesher {
   [[nodiscard]] const mesher::MeshStats& stats() const { return stats_; }
 
  private:
-  struct Vertex {
-    mesher::Point<2> at{};
-    std::int64_t marker = 0;
-  };
   struct Line {
     std::vector<mesher::FeatureId> points;
     std::int64_t marker = 0;
   };
-  // ids has (points.at(id).at, id) for every id, and nothing else.
   struct Features {
-    std::map<mesher::FeatureId, Vertex> points;
-    std::multimap<mesher::Point<2>, mesher::FeatureId> ids;
     std::map<mesher::FeatureId, Line> lines;
     std::map<mesher::SeedName, mesher::Seed> seeds;
   };
-  void require_inside(mesher::FeatureId id, const mesher::Point<2>& point) const;
-  void require_free(mesher::FeatureId id, const mesher::Point<2>& point) const;
-  void require_known(mesher::FeatureId id) const;
   void require_unused() const;
   [[nodiscard]] bool needs_regions() const;
-  void put(mesher::FeatureId id, const Vertex& vertex);
   [[nodiscard]] mesher::Pslg graph() const;
 
   mesher::Options<2> options_, edited_options_;  // they differ in the limits of size

@@ -45,7 +45,7 @@ refuse 2 '--angle' gen trees --n 5 --angle 5 -o out/x.poly
 refuse 2 '--angle' gen uniform --n 5 --angle 5 -o out/x.node
 refuse 2 '--angle' gen fan --n 5 --angle 100 -o out/x.poly
 refuse 2 '--angle' gen fan --n 5 --angle 0 -o out/x.poly
-refuse 2 '--dim' gen fan --n 5 --dim 3 -o out/x.poly
+refuse 2 '--dimension' gen fan --n 5 --dim 3 -o out/x.poly
 
 echo "== help"
 for command in '' gen mesh edit check; do
@@ -102,7 +102,7 @@ done
 
 echo "== bad options and outputs"
 refuse 2 'none.node: error[cannot_read]' mesh none.node -o out/x.vtu
-refuse 2 'uniform.stl: error[unknown_format]' mesh uniform.stl -o out/x.vtu
+refuse 2 'uniform.dae: error[unknown_format]' mesh uniform.dae -o out/x.vtu
 refuse 2 'none.poly: error[cannot_read]' mesh none.poly -o out/x.vtu
 refuse 2 'out/x.stl: error[unknown_format]' mesh uniform.node -o out/x.off -o out/x.stl
 refuse 2 'error[cannot_write]' mesh uniform.node -o out/x.vtu -o none/x.vtu
@@ -139,7 +139,7 @@ points '2 2 0 0\n7 0 1\n7 1 0\n'
 refuse 3 'bad.node:3:1: error[repeated_id]' mesh bad.node -o out/x.vtu
 points '2 2 0 0\n7 0 1\n8 0 1\n'
 refuse 1 'bad.node:3:1: error[duplicate_point]: point 8 lies on point 7' mesh bad.node -o out/x.vtu
-refuse 3 'space.node:1:4: error[bad_dimension]' mesh space.node -o out/x.vtu
+refuse 3 'space.node:1:4: error[bad_dimension]' mesh space.node --dimension 2 -o out/x.vtu
 points '2 2 0 0\n7 0 1\n8 3 1\n'
 refuse 1 'bad.node:3:1: error[outside_domain]: point 8' mesh bad.node --domain 0 0 1 1 -o out/x.vtu
 refuse 1 '--domain' mesh bad.node --domain 0 0 1 1 --static -o out/x.vtu
@@ -375,6 +375,9 @@ if command -v script >/dev/null; then
 fi
 timeout -s INT 3.5 "$tool" mesh large.node --rho 1.1 >said.txt 2>&1
 if grep -q 'of 3)' said.txt; then fail "progress in a file"; fi
+
+# shellcheck source=tool_space_test.sh
+source "$here/tool_space_test.sh"
 
 echo "== the cities of the world"
 expect 0 '7343 points' mesh "$data/places.node" -o cities.node

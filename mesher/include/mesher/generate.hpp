@@ -44,12 +44,17 @@ enum class PointKind : std::uint8_t {
   grid,         ///< the first n places of an integer grid: cocircular everywhere
   line_circle,  ///< half on a line, half on a circle around it; in space, on the circle's axis
   spiral,       ///< eight turns outward from 0; in space, upward to 1 as well
+  sphere,       ///< the unit sphere; in the plane, the unit circle
+  spread,  ///< spheres (circles) around 0, each half as wide as the last: from a few dozen points
+           ///< on, the largest distance is 10^12 times the smallest
 };
 
-/// "uniform", "gaussian", "clusters", "grid", "line-circle" or "spiral"; nothing for other names.
+/// "uniform", "gaussian", "clusters", "grid", "line-circle", "spiral", "sphere" or "spread";
+/// nothing for other names.
 [[nodiscard]] std::optional<PointKind> point_kind(std::string_view name);
 
-/// `n` distinct points, n x D, fit to be input. `seed` is ignored by the last three kinds.
+/// `n` distinct points, n x D, fit to be input. `seed` is ignored by grid, line_circle, spiral
+/// and spread.
 /// Cost: O(n).
 template <int D>
 [[nodiscard]] std::vector<Point<D>> generate_points(PointKind kind, std::size_t n,

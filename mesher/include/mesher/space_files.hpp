@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,26 @@ namespace mesher {
 /// counterclockwise, the smallest first, in lexicographic order. Cost: O(m log m).
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> boundary_faces(const Mesh<3>& mesh);
 
-/// Writes a mesh of tetrahedra by the extension of `path`: .node (with .ele and .face, TetGen's),
-/// .vtu, .vtk (VTK's), .msh (Gmsh's, version 4.1) or .mesh (Medit's); all in text, coordinates as
-/// decimals that read back bit for bit. The vertices' kinds go along where the format has room.
-/// Nothing is written on failure. Throws: Error (unknown_format, cannot_write).
+/// Writes a mesh of tetrahedra into files that are already open. Throws: Error(cannot_write).
+using SpaceMeshWriter = std::function<void(const Mesh<3>&)>;
+
+/// Opens the files of one output among `files`, by the extension of `path`:
+///
+/// - `.node`, and `.ele` and `.face` beside it (TetGen): numbered from 1. Vertices have one
+///   attribute (1 for an input point, 0 otherwise) and one marker (1 on the boundary grid, 0
+///   otherwise); faces are those of the boundary, with marker 1;
+/// - `.vtu` and `.vtk` (VTK, ParaView): with the vertices' kinds;
+/// - `.msh` (Gmsh 4.1) and `.mesh` (Medit): vertices and tetrahedra;
+/// - `.off` (Geomview), `.obj` (Wavefront) and `.stl`: the boundary alone, as triangles seen from
+///   outside counterclockwise, with the vertices on it;
+/// - `.svg`: a picture, cut open: see space_svg.hpp; its coordinates are rounded.
+///
+/// All in text, coordinates as decimals that read back bit for bit. `files` must outlive the
+/// writer. Throws: Error (unknown_format, cannot_write, bad_option).
+[[nodiscard]] SpaceMeshWriter open_space_mesh(OutputFiles& files, const std::string& path);
+
+/// Writes a mesh to `path` (and beside it) as open_space_mesh describes, whole or not at all.
+/// Throws: Error (unknown_format, cannot_write).
 void write_mesh(const Mesh<3>& mesh, const std::string& path);
 
 }  // namespace mesher

@@ -6,7 +6,9 @@
 
 #include "geometry/box.hpp"
 #include "io/text.hpp"
+#include "io/write_surface.hpp"
 #include "mesher/space_files.hpp"
+#include "mesher/space_svg.hpp"
 
 namespace mesher {
 
@@ -126,29 +128,47 @@ void write_medit(const Mesh<3>& mesh, TextFile& file) {
 
 using Write = void (*)(const Mesh<3>&, TextFile&);
 constexpr std::pair<std::string_view, Write> kSingleFiles[] = {
-    {".vtu", write_vtu}, {".vtk", write_vtk}, {".msh", write_msh}, {".mesh", write_medit}};
+    {".vtu", write_vtu},
+    {".vtk", write_vtk},
+    {".msh", write_msh},
+    {".mesh", write_medit},
+    {".off", write_surface_off},
+    {".obj", write_surface_obj},
+    {".stl", write_surface_stl},
+    {".svg", [](const Mesh<3>& mesh, TextFile& file) { write_svg(mesh, space_view(mesh), file); }}};
+
+SpaceMeshWriter open_node(OutputFiles& files, const std::string& path) {
+  TextFile& node = files.open(path);
+  TextFile& ele = files.open(text::with_extension(path, ".ele"));
+  TextFile& face = files.open(text::with_extension(path, ".face"));
+  return [&node, &ele, &face](const Mesh<3>& mesh) {
+    write_node(mesh, node);
+    write_ele(mesh, ele);
+    write_face(mesh, face);
+  };
+}
 
 }  // namespace
 
-void write_mesh(const Mesh<3>& mesh, const std::string& path) {
-  OutputFiles files;
+SpaceMeshWriter open_space_mesh(OutputFiles& files, const std::string& path) {
   const std::string extension = text::extension(path);
-  if (extension == ".node") {
-    write_node(mesh, files.open(path));
-    write_ele(mesh, files.open(text::with_extension(path, ".ele")));
-    write_face(mesh, files.open(text::with_extension(path, ".face")));
-    return files.commit();
-  }
+  if (extension == ".node") return open_node(files, path);
   for (const auto& [known, write] : kSingleFiles) {
     if (extension != known) continue;
-    write(mesh, files.open(path));
-    return files.commit();
+    TextFile& file = files.open(path);
+    return [write = write, &file](const Mesh<3>& mesh) { write(mesh, file); };
   }
   throw Error(ErrorCode::unknown_format,
               "meshes of tetrahedra are written to .node (with .ele and .face), .vtu, .vtk, .msh "
-              "and .mesh, not " +
+              "and .mesh, their boundaries to .off, .obj and .stl, pictures to .svg, not " +
                   text::quoted(extension),
               {path});
+}
+
+void write_mesh(const Mesh<3>& mesh, const std::string& path) {
+  OutputFiles files;
+  open_space_mesh(files, path)(mesh);
+  files.commit();
 }
 
 }  // namespace mesher

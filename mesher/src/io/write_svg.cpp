@@ -4,23 +4,17 @@
 // viewers fast; widths are powers of two, so that there are few.
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <map>
 #include <utility>
 
-#include "geometry/box.hpp"
+#include "io/svg_canvas.hpp"
 #include "mesher/svg.hpp"
 
 namespace mesher {
 namespace {
 
-constexpr double kLongerSide = 1000;   // units of the picture
-constexpr int kLongest = 3;            // lines of length 2^3 and more have the full width,
-constexpr int kShortest = -6;          // those below 2^-6 the least
-constexpr double kLineShare = 0x1p-3;  // a line's width over its length
-constexpr double kDotShare = 0.625;    // a dot's width over the shortest edge at it
 constexpr double kThick = 2;           // an edge on a line over another edge, in width,
 constexpr double kLeastOnLine = 0.75;  // and at least so wide: a line stays in sight
 
@@ -28,60 +22,14 @@ constexpr double kLeastOnLine = 0.75;  // and at least so wide: a line stays in 
 constexpr const char* kRegionColours[] = {"#dbe9f6", "#fde3cf", "#ddf0dc", "#f6dce6",
                                           "#ebe3f5", "#fdf6cf", "#d9f0ee", "#ece6df"};
 
-double longer_side(const Box<2>& box) {
-  return std::max(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1]);
-}
-
 using Edge = std::array<std::uint32_t, 2>;
-
-// Maps the window onto the picture and writes rounded coordinates.
-class Canvas {
- public:
-  Canvas(const Box<2>& window, TextFile& file)
-      : window_(window), scale_(kLongerSide / longer_side(window)), file_(file) {}
-
-  [[nodiscard]] bool shows(const Point<2>& a, const Point<2>& b) const { return shows(a, b, b); }
-  [[nodiscard]] bool shows(const Point<2>& a, const Point<2>& b, const Point<2>& c) const {
-    const Box<2> box = detail::bounding_box<2>(std::array{a, b, c});
-    return !detail::is_empty(detail::common(box, window_));
-  }
-  [[nodiscard]] double width() const { return scale_ * (window_.hi[0] - window_.lo[0]); }
-  [[nodiscard]] double height() const { return scale_ * (window_.hi[1] - window_.lo[1]); }
-
-  // In units of the picture.
-  [[nodiscard]] double distance(const Point<2>& a, const Point<2>& b) const {
-    const double x = (a[0] - b[0]) * scale_, y = (a[1] - b[1]) * scale_;
-    return std::sqrt(x * x + y * y);
-  }
-
-  void point(const Point<2>& p) {
-    number((p[0] - window_.lo[0]) * scale_);
-    file_ << ' ';
-    number((window_.hi[1] - p[1]) * scale_);
-  }
-  // Three decimals, without what the value does not need. Far outside the view they are capped.
-  void number(double value) {
-    constexpr double kFar = 1e9;
-    char digits[32];  // '-', 10 digits, '.', 3 digits
-    const double rounded = std::round(std::clamp(value, -kFar, kFar) * 1000) / 1000 + 0.0;
-    const auto end =
-        std::to_chars(digits, digits + sizeof digits, rounded, std::chars_format::fixed).ptr;
-    file_ << std::string_view(digits, end - digits);
-  }
-
- private:
-  Box<2> window_;
-  double scale_;
-  TextFile& file_;
-};
 
 // Lines or dots by the binary exponent of a length in the picture.
 template <class T>
 using ByLength = std::map<int, std::vector<T>>;
 
-int length_class(double length) {
-  return length > 0 ? std::clamp(std::ilogb(length), kShortest, kLongest) : kShortest;
-}
+using svg::Canvas;
+using svg::length_class;
 
 void fill_triangles(const std::vector<std::array<Point<2>, 3>>& triangles, const char* colour,
                     Canvas& canvas, TextFile& file) {
@@ -144,7 +92,7 @@ void draw_edges(const Mesh<2>& mesh, const std::vector<Edge>& edges, const char*
 
 void draw_input(const Mesh<2>& mesh, const std::vector<Edge>& edges, Canvas& canvas,
                 TextFile& file) {
-  std::vector<double> shortest(mesh.vertices.size(), kLongerSide);
+  std::vector<double> shortest(mesh.vertices.size(), svg::kLongerSide);
   for (const auto& [a, b] : edges) {
     const double length = canvas.distance(mesh.vertices[a], mesh.vertices[b]);
     shortest[a] = std::min(shortest[a], length);
@@ -157,7 +105,7 @@ void draw_input(const Mesh<2>& mesh, const std::vector<Edge>& edges, Canvas& can
     shown[length_class(shortest[i])].push_back(p);
   }
   for (const auto& [exponent, dots] : shown) {
-    begin_path(std::ldexp(kDotShare, exponent), "stroke=\"#c0392b\" stroke-linecap=\"round\"",
+    begin_path(std::ldexp(svg::kDotShare, exponent), "stroke=\"#c0392b\" stroke-linecap=\"round\"",
                canvas, file);
     for (const Point<2>& p : dots) {
       file << 'M';
@@ -170,21 +118,7 @@ void draw_input(const Mesh<2>& mesh, const std::vector<Edge>& edges, Canvas& can
 
 }  // namespace
 
-SvgView svg_view(const Mesh<2>& mesh) {
-  const auto inputs = std::count(mesh.kinds.begin(), mesh.kinds.end(), VertexKind::input);
-  std::vector<Point<2>> shown;
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (inputs < 2 || mesh.kinds[i] == VertexKind::input) shown.push_back(mesh.vertices[i]);
-  }
-  if (shown.empty()) return {{{0, 0}, {1, 1}}, {}};
-  Box<2> box = detail::bounding_box<2>(shown);
-  const double margin = longer_side(box) > 0 ? longer_side(box) / 8 : 1;
-  for (int i = 0; i < 2; ++i) {
-    box.lo[i] -= margin;
-    box.hi[i] += margin;
-  }
-  return {box, {}};
-}
+SvgView svg_view(const Mesh<2>& mesh) { return {svg::window_of<2>(mesh), {}}; }
 
 void write_svg(const Mesh<2>& mesh, const SvgView& view, TextFile& file) {
   write_svg(mesh, MeshFeatures(), view, file);
@@ -193,17 +127,13 @@ void write_svg(const Mesh<2>& mesh, const SvgView& view, TextFile& file) {
 void write_svg(const Mesh<2>& mesh, const MeshFeatures& features, const SvgView& view,
                TextFile& file) {
   Canvas canvas(view.window, file);
-  file << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 ";
-  canvas.number(canvas.width());
-  file << ' ';
-  canvas.number(canvas.height());
-  file << "\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+  canvas.begin();
   draw_regions(mesh, features.regions, canvas, file);
   fill_triangles(view.coloured, "#ffb347", canvas, file);
   const auto all = edges(mesh);
-  const auto width = [](int exponent) { return std::ldexp(kLineShare, exponent); };
+  const auto width = [](int exponent) { return std::ldexp(svg::kLineShare, exponent); };
   const auto width_on_line = [](int exponent) {
-    return std::max(std::ldexp(kThick * kLineShare, exponent), kLeastOnLine);
+    return std::max(std::ldexp(kThick * svg::kLineShare, exponent), kLeastOnLine);
   };
   draw_edges(mesh, all, "stroke=\"#3b5b7c\"", width, canvas, file);
   std::vector<Edge> on_lines;

@@ -149,11 +149,67 @@ std::vector<Point<D>> spiral(std::size_t n) {
   return points;
 }
 
+// On the unit sphere: a normal deviate has no preferred direction.
+template <int D>
+Point<D> sphere_point(SplitMix64& random) {
+  Point<D> p = normal_point<D>(random, Point<D>{}, 1.0);
+  double square = 0;
+  for (const double x : p) square += x * x;
+  for (double& x : p) x /= std::sqrt(square);
+  return p;
+}
+
+// The i-th of m places on the unit sphere that are nowhere near each other (a golden spiral), after
+// some golden parts of a turn.
+template <int D>
+Point<D> even_direction(std::size_t i, std::size_t m, std::size_t turns) {
+  constexpr double kGolden = 0.6180339887498949;
+  const double turned = kGolden * static_cast<double>(turns);
+  if constexpr (D == 2) {
+    return on_circle(turned + fraction(i, m));
+  } else {
+    const double z = 1 - fraction(2 * i + 1, m);
+    const Point<2> c = on_circle(turned + kGolden * static_cast<double>(i));
+    const double r = std::sqrt(1 - z * z);
+    return {r * c[0], r * c[1], z};
+  }
+}
+
+// How many spheres n points are spread over. Neighbours on the innermost, of radius r and m points,
+// are 3 r / sqrt(m) apart, in the plane 6 r / m: the last of s spheres has the radius 2^(1-s), and
+// 2^(s-1) sqrt(m) is to be about 2^42, or 2^(s-1) m 2^43. Then the least distance is some 2^-40,
+// and 10^12 times that is less than the largest, 2.
+template <int D>
+std::size_t spheres_for(std::size_t n) {
+  constexpr int kMost = 44;
+  const auto exceeds = [&](int spheres) {
+    const double m = std::ceil(static_cast<double>(n) / spheres);
+    return std::ldexp(D == 2 ? m : std::sqrt(m), spheres - 1) > (D == 2 ? 0x1p43 : 0x1p42);
+  };
+  int spheres = kMost;
+  while (spheres > 1 && exceeds(spheres)) --spheres;
+  return static_cast<std::size_t>(spheres);
+}
+
+template <int D>
+std::vector<Point<D>> spread(std::size_t n) {
+  const std::size_t spheres = spheres_for<D>(n);
+  std::vector<Point<D>> points;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t sphere = i % spheres;
+    const std::size_t on_it = n / spheres + (sphere < n % spheres ? 1 : 0);
+    Point<D> p = even_direction<D>(i / spheres, on_it, sphere);
+    for (double& x : p) x = std::ldexp(x, -static_cast<int>(sphere)) + 0.0;
+    points.push_back(p);
+  }
+  return points;
+}
+
 }  // namespace
 
 std::optional<PointKind> point_kind(std::string_view name) {
-  constexpr std::string_view kNames[] = {"uniform", "gaussian",    "clusters",
-                                         "grid",    "line-circle", "spiral"};
+  constexpr std::string_view kNames[] = {"uniform",     "gaussian", "clusters", "grid",
+                                         "line-circle", "spiral",   "sphere",   "spread"};
   const auto found = std::find(std::begin(kNames), std::end(kNames), name);
   if (found == std::end(kNames)) return std::nullopt;
   return static_cast<PointKind>(found - std::begin(kNames));
@@ -180,6 +236,10 @@ std::vector<Point<D>> generate_points(PointKind kind, std::size_t n, std::uint64
       return line_circle<D>(n);
     case PointKind::spiral:
       return spiral<D>(n);
+    case PointKind::sphere:
+      return draw_distinct<D>(n, [&] { return sphere_point<D>(random); });
+    case PointKind::spread:
+      return spread<D>(n);
   }
   return {};
 }

@@ -13,7 +13,8 @@ using mesher::Point;
 using mesher::PointKind;
 
 constexpr PointKind kKinds[] = {PointKind::uniform, PointKind::gaussian,    PointKind::clusters,
-                                PointKind::grid,    PointKind::line_circle, PointKind::spiral};
+                                PointKind::grid,    PointKind::line_circle, PointKind::spiral,
+                                PointKind::sphere,  PointKind::spread};
 
 // A digest of the bits of all coordinates in order.
 template <int D>
@@ -54,7 +55,8 @@ TEST_CASE("every family has n distinct points that are fit to be input") {
 }
 
 TEST_CASE("the random families follow the seed") {
-  for (const PointKind kind : {PointKind::uniform, PointKind::gaussian, PointKind::clusters}) {
+  for (const PointKind kind :
+       {PointKind::uniform, PointKind::gaussian, PointKind::clusters, PointKind::sphere}) {
     CHECK(mesher::generate_points<2>(kind, 100, 1) != mesher::generate_points<2>(kind, 100, 2));
   }
 }
@@ -105,4 +107,51 @@ TEST_CASE("families are named as on the command line") {
   CHECK(mesher::point_kind("line-circle") == PointKind::line_circle);
   CHECK(mesher::point_kind("spiral") == PointKind::spiral);
   CHECK_FALSE(mesher::point_kind("Uniform").has_value());
+}
+
+namespace {
+
+// The least distance of two points, of those nearest to 0.
+template <int D>
+double least_distance(std::vector<Point<D>> points, std::size_t looked_at) {
+  const auto square = [](const Point<D>& p, const Point<D>& q) {
+    double sum = 0;
+    for (int i = 0; i < D; ++i) sum += (p[i] - q[i]) * (p[i] - q[i]);
+    return sum;
+  };
+  std::sort(points.begin(), points.end(),
+            [&](const Point<D>& p, const Point<D>& q) { return square(p, {}) < square(q, {}); });
+  points.resize(std::min(points.size(), looked_at));
+  double least = INFINITY;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) least = std::min(least, square(points[i], points[k]));
+  }
+  return std::sqrt(least);
+}
+
+template <int D>
+void require_spread(std::size_t n) {
+  INFO("n " << n << ", dimension " << D);
+  const auto points = mesher::generate_points<D>(PointKind::spread, n, 1);
+  const double least = least_distance<D>(points, 2000);
+  CHECK(2 / least >= 1e12);
+  CHECK(2 / least <= 1e14);  // a mesh has room for it
+}
+
+}  // namespace
+
+TEST_CASE("distances of the family spread differ by a factor of 10^12, and not by much more") {
+  for (const std::size_t n : {100, 1000, 30000, 1000000}) {
+    require_spread<2>(n);
+    require_spread<3>(n);
+  }
+}
+
+TEST_CASE("points of the family sphere are on the unit sphere, in all octants") {
+  int octants[8] = {};
+  for (const auto& p : mesher::generate_points<3>(PointKind::sphere, 8000, 5)) {
+    CHECK(std::abs(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1) < 1e-15);
+    ++octants[(p[0] < 0 ? 1 : 0) + (p[1] < 0 ? 2 : 0) + (p[2] < 0 ? 4 : 0)];
+  }
+  for (const int count : octants) CHECK(std::abs(count - 1000) < 160);  // over 5 deviations
 }

@@ -1,0 +1,14 @@
+// The boundary of a mesh of tetrahedra as a surface. Each throws Error(cannot_write).
+#pragma once
+
+#include "mesher/mesh.hpp"
+#include "mesher/output_files.hpp"
+
+namespace mesher {
+
+void write_surface_off(const Mesh<3>& mesh, TextFile& file);
+void write_surface_obj(const Mesh<3>& mesh, TextFile& file);
+/// In text: floats of the binary format would round coordinates.
+void write_surface_stl(const Mesh<3>& mesh, TextFile& file);
+
+}  // namespace mesher
