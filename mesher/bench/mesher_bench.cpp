@@ -5,12 +5,12 @@
 // default: 10000 100000 10000:1.1 3d:100000 (1000000 takes a minute and 2 GB, 3d:1000000 minutes
 // and 6 GB). Points uniform in the unit square or cube, rho = 1.4142 or 2 if not given, rule
 // radius_edge. One JSON line per figure:
-//   static        vertices, seconds of the phases, of canonical output, and in all
+//   static        vertices, seconds of the phases (by the clock), and in all, canonical output
+//                 included (of the process, as of all that follows)
 //   first_run     the same with the engine, its ratio to static, bytes of trace per output vertex
 //   insert/remove median and p99 of single updates in microseconds, and per update: calls
 //                 executed, edges touched, vertices and simplices changed
 // Run cgal_reference in the same session for what CGAL takes.
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -25,12 +25,6 @@ namespace {
 
 using mesher::FeatureId;
 using mesher::Point;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 // splitmix64: the same points everywhere.
 struct Random {
   std::uint64_t state;
@@ -53,9 +47,13 @@ struct Sample {
   std::vector<double> microseconds;
   double executed = 0, edges = 0, vertices = 0, simplices = 0;
 
-  template <int D>
-  void add(double seconds, const mesher::Change<D>& change) {
-    microseconds.push_back(1e6 * seconds);
+  template <int D, class Edit>
+  void update(mesher::Mesher<D>& m, Edit edit) {
+    mesher::Change<D> change;
+    microseconds.push_back(1e6 * bench::seconds_of([&] {
+                             edit();
+                             change = m.update();
+                           }));
     executed += static_cast<double>(change.calls.executed);
     edges += static_cast<double>(change.calls.edges);
     vertices += static_cast<double>(change.vertices_added.size() + change.vertices_removed.size());
@@ -78,28 +76,26 @@ struct Sample {
 template <int D>
 double print_static(const std::vector<Point<D>>& points, const mesher::Options<D>& options) {
   mesher::MeshStats stats;
-  const auto start = Clock::now();
-  const auto mesh = mesher::mesh_statically<D>(points, options, {}, &stats);
-  const double total = seconds_since(start);
+  const double total = bench::seconds_of(
+      [&] { static_cast<void>(mesher::mesh_statically<D>(points, options, {}, &stats)); });
   std::printf(
       "{\"bench\":\"mesher\",\"figure\":\"static\",\"dimension\":%d,\"n\":%zu,\"vertices\":%zu,"
       "\"simplices\":%zu,\"quadtree_s\":%.4f,\"steiner_s\":%.4f,\"triangulate_s\":%.4f,"
       "\"total_s\":%.4f}\n",
       D, points.size(), stats.vertices, stats.simplices, stats.seconds_quadtree,
       stats.seconds_steiner, stats.seconds_triangulate, total);
-  return stats.seconds_quadtree + stats.seconds_steiner + stats.seconds_triangulate;
+  return total;
 }
 
-void print_first_run(const mesher::MeshStats& s, std::size_t n, int dimension,
-                     double static_seconds) {
-  const double run = s.seconds_quadtree + s.seconds_steiner + s.seconds_triangulate;
+void print_first_run(const mesher::MeshStats& s, std::size_t n, int dimension, double total,
+                     double static_total) {
   std::printf(
       "{\"bench\":\"mesher\",\"figure\":\"first_run\",\"dimension\":%d,\"n\":%zu,\"quadtree_s\":%."
       "4f,"
-      "\"steiner_s\":%.4f,\"triangulate_s\":%.4f,\"run_s\":%.4f,\"over_static\":%.3f,"
+      "\"steiner_s\":%.4f,\"triangulate_s\":%.4f,\"total_s\":%.4f,\"over_static\":%.3f,"
       "\"calls\":%llu,\"edges\":%llu,\"trace_bytes\":%llu,\"bytes_per_vertex\":%.1f}\n",
-      dimension, n, s.seconds_quadtree, s.seconds_steiner, s.seconds_triangulate, run,
-      run / static_seconds, static_cast<unsigned long long>(s.calls),
+      dimension, n, s.seconds_quadtree, s.seconds_steiner, s.seconds_triangulate, total,
+      total / static_total, static_cast<unsigned long long>(s.calls),
       static_cast<unsigned long long>(s.edges), static_cast<unsigned long long>(s.trace_bytes),
       static_cast<double>(s.trace_bytes) / static_cast<double>(s.vertices));
 }
@@ -113,14 +109,8 @@ void bench_updates(mesher::Mesher<D>& m, std::vector<FeatureId> ids, Random& ran
     const FeatureId id{static_cast<std::int64_t>(n + k)};
     const Point<D> p = random.point<D>();
     const FeatureId gone = ids[k % n];
-    auto start = Clock::now();
-    m.insert(id, p);
-    auto change = m.update();
-    insert.add(seconds_since(start), change);
-    start = Clock::now();
-    m.remove(gone);
-    change = m.update();
-    remove.add(seconds_since(start), change);
+    insert.update(m, [&] { m.insert(id, p); });
+    remove.update(m, [&] { m.remove(gone); });
     ids[k % n] = id;
   }
   insert.print("insert", n, D, m.options().rho);
@@ -139,11 +129,14 @@ void bench_points(std::size_t n, std::optional<double> rho = {}) {
     points[i] = random.point<D>();
     ids[i] = FeatureId{static_cast<std::int64_t>(i)};
   }
-  const double static_seconds = print_static<D>(points, options);
+  const double static_total = print_static<D>(points, options);
   mesher::Mesher<D> m(options);
-  m.insert(ids, points);
-  m.update();
-  print_first_run(m.stats(), n, D, static_seconds);
+  const double total = bench::seconds_of([&] {
+    m.insert(ids, points);
+    m.update();
+    static_cast<void>(m.mesh());
+  });
+  print_first_run(m.stats(), n, D, total, static_total);
   bench_updates(m, ids, random);
 }
 

@@ -37,7 +37,7 @@ class VertexColumns {
   void add(const text::Line& line) {
     if (has_markers_) markers_.push_back(line.integer(line.size() - 1));
     if (attributes_ > 0 && first_.file.empty()) first_ = line.place(3);
-    if (ours_ && attributes_ == 1) kinds_.push_back(kind_of_plain(line));
+    if (ours_ && attributes_ == 1) ours_ = add_kind(line);
     if (ours_ && attributes_ == 2) ours_ = add_kind_and_origin(line);
   }
 
@@ -58,9 +58,16 @@ class VertexColumns {
   }
 
  private:
-  static VertexKind kind_of_plain(const text::Line& line) {
-    if (line[line.size() - 2] == "1") return VertexKind::input;
-    return line[line.size() - 1] == "1" ? VertexKind::boundary : VertexKind::steiner;
+  // Whether the attribute and the marker can say "input point" and "boundary grid".
+  bool add_kind(const text::Line& line) {
+    const std::string_view input = line[line.size() - 2], boundary = line[line.size() - 1];
+    const auto is_one = [](std::string_view field) { return field == "1"; };
+    if ((input != "0" && !is_one(input)) || (boundary != "0" && !is_one(boundary))) return false;
+    if (is_one(input) && is_one(boundary)) return false;
+    kinds_.push_back(is_one(input)      ? VertexKind::input
+                     : is_one(boundary) ? VertexKind::boundary
+                                        : VertexKind::steiner);
+    return true;
   }
 
   // Whether the two attributes can be a kind and an id.

@@ -204,7 +204,10 @@ TEST_CASE("files of Triangle are read: 0-based, attributes, markers, segments, s
   Edges edges;
   for (const auto& e : mesh.features.edges) edges.push_back({e.low, e.high, e.marker});
   CHECK(edges == Edges{{0, 1, 1}, {0, 2, 1}, {1, 2, 0}, {1, 3, 4}, {2, 3, 1}});
-  CHECK(mesh.notes.size() == 1);  // the second attribute of triangles
+  CHECK(mesh.kinds == std::vector<VertexKind>(4, VertexKind::steiner));
+  REQUIRE(mesh.notes.size() == 2);
+  CHECK(mesh.notes[0].text == "attributes are not used");                // of vertices
+  CHECK(mesh.notes[1].text == "attributes but the first are not used");  // of triangles
   folder.write("m.poly", "1 2 0 0\n0 0 0\n0 0\n0\n");
   CHECK(mesher::read_mesh(folder.path("m.ele")).features.edges.size() == 4);
 }

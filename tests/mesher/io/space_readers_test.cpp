@@ -80,6 +80,19 @@ TEST_CASE("TetGen's files are read, numbered from any number on, with regions") 
   CHECK(named.features.markers[2] == 5);
 }
 
+TEST_CASE("an attribute and a marker that are not 0 or 1 are no kinds") {
+  const ScratchFolder folder;
+  folder.write("m.ele", "1 4\n1 1 2 3 4\n");
+  for (const char* row : {"1 0 0 0 1 1\n", "1 0 0 0 0.5 0\n", "1 0 0 0 1 2\n"}) {
+    INFO(row);
+    folder.write("m.node",
+                 "4 3 1 1\n" + std::string(row) + "2 1 0 0 1 0\n3 0 1 0 0 1\n4 0 0 1 0 0\n");
+    const SpaceMesh mesh = mesher::read_mesh<3>(folder.path("m.node"));
+    CHECK(mesh.kinds == std::vector<VertexKind>(4, VertexKind::steiner));
+    CHECK(mesh.features.markers[2] == 1);
+  }
+}
+
 TEST_CASE("regions of tetrahedra are read from .vtk, .msh and .mesh") {
   CHECK(read("m.vtk", std::string(kVtkPoints) +
                           "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\nCELL_DATA 1\n"
