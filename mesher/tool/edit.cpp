@@ -1,4 +1,5 @@
-// mesher edit: a mesh of a file of points and lines that follows a script of edits.
+// mesher edit: a mesh of a file of points and lines, or of points in space, that follows a script
+// of edits.
 #include <memory>
 #include <utility>
 
@@ -114,8 +115,8 @@ void run_edit(const EditArguments& args) {
 
 void add_edit(CLI::App& app) {
   const auto args = std::make_shared<EditArguments>();
-  CLI::App* edit =
-      app.add_subcommand("edit", "Meshes a file of points and lines, and follows its edits.");
+  CLI::App* edit = app.add_subcommand(
+      "edit", "Meshes a file of points and lines, or of points in space, and follows its edits.");
   add_mesh_options(*edit, *args);
   edit->add_option("--script", args->script, "The edits")->required()->type_name("EDITS");
   edit->footer(
