@@ -2,7 +2,8 @@
 //
 // `check_mesh` shares nothing with the mesher but the exact predicates. Its properties, in order;
 // each is looked at only if those it needs hold:
-//   (1) coordinates: every vertex is 0 or of magnitude 2^-160 to 2^101 in each coordinate;
+//   (1) coordinates: every vertex is 0 or of magnitude 2^-160 to 2^101 in each coordinate, and all
+//       are multiples of one power of two, not more than 253 bits below the largest;
 //   (2) vertices: no two coincide, and each is a corner of a triangle;
 //   (3) orientation: every triangle's corners go round counterclockwise;
 //   (4) edges: each borders one triangle, or two on opposite sides;

@@ -3,7 +3,8 @@
 // `check_mesh` shares nothing with the mesher but the exact predicates, and circumcentres that are
 // exact quotients where doubles are not good for them. Its properties, in order; each is looked at
 // only if those it needs hold:
-//   (1) coordinates: every vertex is 0 or of magnitude 2^-160 to 2^101 in each coordinate;
+//   (1) coordinates: every vertex is 0 or of magnitude 2^-160 to 2^101 in each coordinate, and all
+//       are multiples of one power of two, not more than 253 bits below the largest;
 //   (2) vertices: no two coincide, and each is a corner of a tetrahedron;
 //   (3) orientation: every tetrahedron is positively oriented (predicates.hpp);
 //   (4) faces: each is of one tetrahedron, or of two on opposite sides;

@@ -8,12 +8,15 @@
 #include <numeric>
 
 #include "geometry/box.hpp"
+#include "geometry/exact_sign.hpp"
 #include "io/text.hpp"
 #include "mesh/simplex_name.hpp"
 #include "mesher/predicates.hpp"
 
 namespace mesher::detail {
 namespace {
+
+using predicates::detail::BitRange;
 
 bool in_range(double x) { return x == 0 || (std::abs(x) >= 0x1p-160 && std::abs(x) <= 0x1p101); }
 
@@ -55,10 +58,22 @@ std::string simplex_name(const Mesh<D>& mesh, std::size_t i) {
 
 template <int D>
 Verdict check_coordinates(const Mesh<D>& mesh) {
+  constexpr int kBits = predicates::detail::kCoordinateBits<4>;
+  std::size_t finest = 0, largest = 0;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Point<D>& p = mesh.vertices[v];
-    if (std::all_of(p.begin(), p.end(), in_range)) continue;
-    return Verdict::bad(vertex_name(mesh, v) + " is beyond the magnitudes 2^-160 to 2^101");
+    if (!std::all_of(p.begin(), p.end(), in_range)) {
+      return Verdict::bad(vertex_name(mesh, v) + " is beyond the magnitudes 2^-160 to 2^101");
+    }
+    if (BitRange(p).low < BitRange(mesh.vertices[finest]).low) finest = v;
+    if (BitRange(p).high > BitRange(mesh.vertices[largest]).high) largest = v;
+  }
+  if (mesh.vertices.empty()) return Verdict::good("0 vertices");
+  const int bits = BitRange(mesh.vertices[largest]).high - BitRange(mesh.vertices[finest]).low;
+  if (bits > kBits) {
+    return Verdict::bad("from the last digits of " + vertex_name(mesh, finest) + " to " +
+                        vertex_name(mesh, largest) + " there are " + std::to_string(bits) +
+                        " bits, more than the " + std::to_string(kBits) + " that can be judged");
   }
   return Verdict::good(std::to_string(mesh.vertices.size()) + " vertices");
 }

@@ -1,8 +1,11 @@
 // Verifies a mesh of tetrahedra from its vertices, and the points it is of; see space_check.hpp.
 #include <algorithm>
+#include <climits>
+#include <cmath>
 #include <optional>
 
 #include "geometry/box.hpp"
+#include "geometry/exact_sign.hpp"
 #include "io/text.hpp"
 #include "mesh/check_parts.hpp"
 #include "mesh/half_faces.hpp"
@@ -18,6 +21,8 @@ using detail::simplex_name;
 using detail::Verdict;
 using detail::vertex_name;
 using predicates::orient3d;
+using predicates::detail::BitRange;
+using predicates::detail::kCoordinateBits;
 
 class SpaceChecker {
  public:
@@ -162,14 +167,22 @@ class SpaceChecker {
 
   // A place strictly inside a tetrahedron, and that tetrahedron.
   [[nodiscard]] std::optional<std::pair<Point<3>, std::size_t>> inner_place() const {
+    int high = INT_MIN;  // what has more bits below is beyond the predicates' range
+    for (const Point<3>& p : mesh_.vertices) high = std::max(high, BitRange(p).high);
     for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
       Point<3> middle{};
       for (const std::uint32_t corner : mesh_.simplices[i]) {
         for (std::size_t k = 0; k < 3; ++k) middle[k] += at(corner)[k] / 4;
       }
+      for (double& x : middle) x = without_digits(x, high - kCoordinateBits<4>);
       if (in_tetrahedron(i, middle, 1)) return std::pair(middle, i);
     }
     return std::nullopt;
+  }
+  // Rounded to a multiple of 2^last. (A double of 2^(52 + last) or more is one.)
+  static double without_digits(double x, int last) {
+    const double scaled = std::ldexp(x, -last);
+    return std::abs(scaled) < 0x1p52 ? std::ldexp(std::nearbyint(scaled), last) : x;
   }
   // Its boundary included.
   [[nodiscard]] bool covers(std::size_t i, const Point<3>& p) const {

@@ -8,6 +8,7 @@
 #include "mesher/io.hpp"
 #include "mesher/svg.hpp"
 #include "random_mesh.hpp"
+#include "random_mistakes.hpp"
 #include "scratch_file.hpp"
 
 namespace {
@@ -471,27 +472,10 @@ TEST_CASE("files with random mistakes are read or refused with a place, never an
   for (const char* beside : {"mesh.ele", "mesh.edge", "mesh.poly", "mesh.neigh"}) {
     names.push_back(beside);
   }
-  const std::string pieces[] = {"-1", "0", "7", "1e400", "nan", "99999999999", "#",  "\n", " ",
-                                "x",  "<", ">", "]",     "{",   "\"",          "\0", "$",  "/"};
   for (const std::string& name : names) {
     const std::string good = folder.read(name);
     for (int round = 0; round < 100; ++round) {
-      std::string bad = good;
-      for (auto changes = 1 + random.below(3); changes > 0; --changes) {
-        const std::size_t at = random.below(bad.size() + 1);
-        const std::size_t length = random.below(2) == 0 ? 0 : random.below(6);
-        const std::string& piece = pieces[random.below(std::size(pieces))];
-        switch (random.below(3)) {
-          case 0:
-            bad.resize(at);
-            break;
-          case 1:
-            bad.replace(at, std::min(length, bad.size() - at), piece);
-            break;
-          default:
-            bad.erase(at, length);
-        }
-      }
+      const std::string bad = support::with_mistakes(good, random);
       folder.write(name, bad);
       INFO("seed " << seed << ", " << name << ":\n" << bad);
       try {

@@ -6,7 +6,9 @@
 #include "bytes.hpp"
 #include "mesher/io.hpp"
 #include "mesher/mesher.hpp"
+#include "mesher/space_check.hpp"
 #include "mesher/space_files.hpp"
+#include "random_mistakes.hpp"
 #include "scratch_file.hpp"
 #include "space_points.hpp"
 
@@ -195,4 +197,41 @@ TEST_CASE("what is no mesh of tetrahedra is refused with its place") {
     INFO(refused.name << ": " << refused.content);
     CHECK(failure_of([&] { (void)mesher::read_mesh<3>(path); }) == refused.failure);
   }
+}
+
+TEST_CASE("files of tetrahedra with random mistakes are read and judged or refused with a place") {
+  const ScratchFolder folder;
+  const std::uint64_t seed = GENERATE(1, 2, 3);
+  mesher::SplitMix64 random(seed);
+  mesher::Mesh<3> mesh;
+  mesh.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {0.5, 0.5, 0.5}};
+  mesh.kinds.assign(5, VertexKind::boundary);
+  mesh.simplices = {{0, 1, 2, 4}, {0, 2, 3, 4}, {0, 3, 1, 4}, {1, 3, 2, 4}};
+  for (const char* name : {"m.node", "m.vtu", "m.vtk", "m.msh", "m.mesh"}) {
+    mesher::write_mesh(mesh, folder.path(name));
+  }
+  const auto judge = [](const auto& read) {
+    if constexpr (std::is_same_v<decltype(read), const SpaceMesh&>) {
+      (void)mesher::check_mesh(read,
+                               {.rho = 2.0, .boundary = mesher::BoundaryRule::any, .ties = true});
+    }
+  };
+  std::size_t refused = 0;
+  for (const std::string name : {"m.node", "m.ele", "m.vtu", "m.vtk", "m.msh", "m.mesh"}) {
+    const std::string good = folder.read(name);
+    for (int round = 0; round < 100; ++round) {
+      const std::string bad = support::with_mistakes(good, random);
+      folder.write(name, bad);
+      INFO("seed " << seed << ", " << name << ":\n" << bad);
+      try {
+        std::visit(judge, mesher::read_any_mesh(folder.path(name)));
+      } catch (const mesher::Error& error) {
+        ++refused;
+        CHECK(error.place().file.substr(0, 1) == "/");
+        CHECK(mesher::exit_code(error.code()) == mesher::ExitCode::format);
+      }
+    }
+    folder.write(name, good);
+  }
+  CHECK((refused > 100 && refused < 590));
 }

@@ -45,6 +45,13 @@ TEST_CASE("each way to break a mesh is found as what it is") {
     mesh.vertices[2][0] = 0x1p-161;
     CHECK(broken(mesh) == "coordinates");
   }
+  SECTION("coordinates: more bits than can be judged") {
+    mesh.vertices[4] = {0x1p100, 0x1p100};
+    mesh.vertices[2][0] = 0x1.8p-153;
+    CHECK(broken(mesh) == "coordinates");
+    mesh.vertices[2][0] = 0x1p-152;
+    CHECK(broken(mesh) != "coordinates");
+  }
   SECTION("vertices: two coincide") {
     mesh.vertices.push_back({1, 2});
     CHECK(broken(mesh) == "vertices");

@@ -124,6 +124,13 @@ TEST_CASE("each way to break a mesh of tetrahedra is found as what it is, where 
     mesh.vertices[8][0] = 0x1p-161;
     CHECK(broken(mesh) == "coordinates");
   }
+  SECTION("coordinates: more bits than can be judged") {
+    mesh.vertices[7] = {0x1p100, 0x1p100, 0x1p100};
+    mesh.vertices[8][0] = 0x1.8p-153;
+    CHECK(broken(mesh) == "coordinates");
+    mesh.vertices[8][0] = 0x1p-152;
+    CHECK(broken(mesh) != "coordinates");
+  }
   SECTION("vertices: two coincide") {
     mesh.vertices.push_back({1, 1, 1});
     CHECK(complaint(mesh) == "vertex 9 at (1, 1, 1) and vertex 10 at (1, 1, 1) coincide");
