@@ -33,6 +33,9 @@ class Checker {
     if (tiles && has_lines() && !options_.constrained) check("conforming", &Checker::conforming);
     if (options_.input != nullptr || options_.graph != nullptr) check("input", &Checker::input);
     if (tiles && has_lines()) check("regions", &Checker::regions);
+    if (tiles && has_paths_ && detail::tells_markers(options_)) {
+      add("markers", detail::check_markers(checked_, paths_, options_));
+    }
     if (tiles && options_.rho) check("quality", &Checker::quality);
     if (tiles && options_.max_area) check("area", &Checker::area);
     return std::move(findings_);
@@ -122,6 +125,7 @@ class Checker {
     }
     if (options_.graph != nullptr) {
       auto [verdict, paths] = detail::check_segments(checked_, options_);
+      has_paths_ = verdict.holds;
       if (!paths.empty()) add("segments", std::move(verdict));
       paths_ = std::move(paths);
     }
@@ -287,6 +291,7 @@ class Checker {
   std::vector<HalfEdge> border_;  // of edges with one triangle
   detail::LineEdges on_lines_;
   std::vector<detail::LinePath> paths_;  // of the input's lines
+  bool has_paths_ = false;               // all of them
   long long edges_ = 0;
 };
 
