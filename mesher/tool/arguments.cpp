@@ -166,7 +166,10 @@ double option_rho(const std::string& text) {
 
 Input read_input(const MeshArguments& args) {
   Input input(args.input);
-  if (!args.repair) return input;
+  if (!args.repair) {
+    input.offer_repair();
+    return input;
+  }
   std::optional<mesher::Box<2>> domain;
   if (!args.domain.empty()) domain = domain_of(args.domain);
   try {

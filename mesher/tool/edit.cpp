@@ -61,7 +61,7 @@ void run_edit_on(Target target, const EditArguments& args, Input input) {
   outputs.write(mesh, followed.last_changed);
   const auto targets = outputs.targets();
   progress.erase();
-  if (!args.quiet) print_remarks(input, mesh.faults);
+  if (!args.quiet) print_remarks(args, input, mesh.faults);
   figures.print();
   outputs.commit();
   if (args.quiet || figures.printed()) return;

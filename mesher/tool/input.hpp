@@ -30,6 +30,12 @@ class Input {
   void repair(const std::optional<mesher::Box<2>>& domain);
   [[nodiscard]] const std::vector<mesher::RepairNote>& repairs() const noexcept { return repairs_; }
 
+  /// From now on, errors that repair() would mend say so.
+  void offer_repair() noexcept { offers_repair_ = true; }
+
+  /// Whether a region of the file, or one that edits have brought, has a largest area.
+  [[nodiscard]] bool has_region_areas() const;
+
   /// From now on, what `edits` bring stands where they do.
   void follow(const std::vector<mesher::Edit>& edits);
 
@@ -37,7 +43,8 @@ class Input {
   [[nodiscard]] mesher::Place place(mesher::Featured kind, mesher::FeatureId id) const;
 
   /// The error with the place of the feature to blame, unless it has a line already, and those of
-  /// the others in its message. What is said of nothing that stands somewhere is said of the file.
+  /// the others in its message, and whether --repair would help. What is said of nothing that
+  /// stands somewhere is said of the file.
   [[nodiscard]] mesher::Error located(const mesher::Error& error) const;
 
   /// `PLACE: warning: WHAT` for a seed that has no region of its own.
@@ -46,6 +53,8 @@ class Input {
  private:
   mesher::PslgFile file_;
   std::vector<mesher::RepairNote> repairs_;
+  bool offers_repair_ = false;
+  bool edits_areas_ = false;
   std::map<std::pair<mesher::Featured, mesher::FeatureId>, mesher::Place> edited_;
 };
 

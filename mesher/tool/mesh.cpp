@@ -81,7 +81,7 @@ void run_mesh(const MeshArguments& args) {
   outputs.write(result.mesh);
   const auto targets = outputs.targets();
   progress.erase();
-  if (!args.quiet) print_remarks(input, result.mesh.faults);
+  if (!args.quiet) print_remarks(args, input, result.mesh.faults);
   figures.print();
   outputs.commit();
   if (args.quiet || figures.printed()) return;

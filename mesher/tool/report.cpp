@@ -174,9 +174,14 @@ void print_run(const std::string& input, const mesher::Pslg& graph, const Run& r
   print_row("time", format("%.3f s", run.seconds_total));
 }
 
-void print_remarks(const Input& input, const std::vector<mesher::SeedFault>& faults) {
+void print_remarks(const MeshArguments& args, const Input& input,
+                   const std::vector<mesher::SeedFault>& faults) {
   for (const auto& note : input.file().notes) {
     std::fprintf(stderr, "%s: note: %s\n", text_of(note.place).c_str(), note.text.c_str());
+  }
+  if (args.region_areas && !input.has_region_areas()) {
+    std::fprintf(stderr, "%s: note: --region-areas is not used: no region has a largest area\n",
+                 input.path().c_str());
   }
   for (const auto& note : input.repairs()) {
     std::fprintf(stderr, "%s\n", note.text("repair: ").c_str());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "arguments.hpp"
 #include "input.hpp"
 #include "mesher/angles.hpp"
 #include "mesher/check.hpp"
@@ -48,9 +49,10 @@ void measure(const mesher::DomainMesh& mesh, double rho, Run& run);
 /// Prints size, quality and time of a run on standard output.
 void print_run(const std::string& input, const mesher::Pslg& graph, const Run& run);
 
-/// Prints on standard error what of the input is not used or was repaired, and which seeds have no
-/// region of their own.
-void print_remarks(const Input& input, const std::vector<mesher::SeedFault>& faults);
+/// Prints on standard error what of the input, or of what was asked for, is not used or was
+/// repaired, and which seeds have no region of their own.
+void print_remarks(const MeshArguments& args, const Input& input,
+                   const std::vector<mesher::SeedFault>& faults);
 
 /// Prints what small angles do to a mesh.
 void print_angles(const mesher::AngleReport& report);
