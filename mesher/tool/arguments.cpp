@@ -255,7 +255,10 @@ int dimension_of(const MeshArguments& args) {
 template <>
 Input read_input<2>(const MeshArguments& args) {
   Input input(args.input);
-  if (!args.repair) return input;
+  if (!args.repair) {
+    input.offer_repair();
+    return input;
+  }
   std::optional<mesher::Box<2>> domain;
   if (!args.domain.empty()) domain = domain_of<2>(args.domain);
   try {
