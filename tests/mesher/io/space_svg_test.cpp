@@ -146,16 +146,22 @@ bool same(Triangle a, Triangle b) {
 }  // namespace
 
 TEST_CASE("what is drawn last at a place of a picture in space is what is nearest there") {
-  for (const auto family : {support::SpaceFamily::uniform, support::SpaceFamily::sphere}) {
+  for (const auto family :
+       {support::SpaceFamily::uniform, support::SpaceFamily::sphere,
+        support::SpaceFamily::line_and_circle, support::SpaceFamily::clusters}) {
     INFO(support::name(family));
     const Mesh<3> mesh = mesh_of(family, 300);
-    const auto view = mesher::space_view(mesh);
+    auto view = mesher::space_view(mesh);
+    for (std::size_t i = 0; i < 3; ++i) {  // with large tetrahedra around small ones
+      view.window.lo[i] -= 1;
+      view.window.hi[i] += 1;
+    }
     const auto drawn = triangles_of(picture(mesh, view));
     Viewer viewer(mesh, view.window);
     viewer.fit(drawn);
     mesher::SplitMix64 random(7);
     int looked_at = 0, covered = 0;
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 600; ++i) {
       const Point<2> at{1000 * random.unit(), 1000 * random.unit()};
       const Triangle nearest = viewer.nearest_at(at);
       const bool on_edge = !same(nearest, viewer.nearest_at({at[0] + 0.05, at[1]})) ||
