@@ -10,6 +10,8 @@ mkdir -p "$1"
 scratch=$(cd "$1" && pwd)
 jobs=${JOBS:-$(nproc)}
 kinds=(uniform gaussian clusters grid line-circle spiral)
+space_kinds=(uniform gaussian clusters grid line-circle spiral sphere spread)
+space_points=200
 line_kinds=(segments lengths polylines trees corridors zigzag fan bundle)
 points=400
 
@@ -49,6 +51,14 @@ write_files() {  # TOOLS FOLDER
     "$tool" mesh "$kind.node" --quiet --rule voronoi-aspect -o "$kind.aspect.node"
     cmp "$kind.out.node" "$kind.static.node"
     cmp "$kind.out.ele" "$kind.static.ele"
+  done
+  for kind in "${space_kinds[@]}"; do
+    "$tool" gen "$kind" --n $space_points --seed 3 --dimension 3 -o "$kind.space.node"
+    "$tool" mesh "$kind.space.node" --quiet -o "$kind.space.out.node" -o "$kind.space.vtu" \
+      -o "$kind.space.svg" -o "$kind.space.stl"
+    "$tool" mesh "$kind.space.node" --quiet --static -o "$kind.space.static.node"
+    cmp "$kind.space.out.node" "$kind.space.static.node"
+    cmp "$kind.space.out.ele" "$kind.space.static.ele"
   done
   for kind in "${line_kinds[@]}"; do
     "$tool" gen "$kind" --n $points --seed 3 -o "$kind.poly"
