@@ -1,7 +1,10 @@
 // Long stories of edits against meshing anew at every step.
 //
-//   walls_bench [FILE.poly] [STEPS]     default: a generated lake, 1000 steps
+//   walls_bench [FILE.poly] [STEPS] [--inputs PREFIX]
+//                                       default: a generated lake, 1000 steps
 //
+// With --inputs, what each story ends with is written to PREFIXcrack.poly and PREFIXwall.poly, for
+// other meshers to be timed on: `cgal_reference PREFIXcrack.poly`.
 // One JSON line per figure, each with the seconds of all updates, those of as many static runs (the
 // mean of the first input and the last), and their ratio:
 //   crack   a polyline grows through a plate with 10^4 random points, a point and a segment a step
@@ -30,6 +33,16 @@ void print(const Sample& updates, const Input& in, const char* figure, double re
   updates.print("walls", in.name, figure, more);
 }
 
+void write(const Input& in, const std::string& prefix, const char* figure) {
+  if (prefix.empty()) return;
+  mesher::Pslg pslg;
+  for (std::size_t i = 0; i < in.points.size(); ++i) {
+    pslg.points.push_back({in.ids[i], in.points[i]});
+  }
+  for (const auto& s : in.segments) pslg.segments.push_back({s.id, s.from, s.to});
+  mesher::write_pslg(pslg, prefix + figure + ".poly");
+}
+
 constexpr std::int64_t kWall = 1'000'000'000;
 FeatureId wall_id(int i) { return FeatureId{kWall + i}; }
 
@@ -50,7 +63,7 @@ Input plate() {
   return Input("plate", pslg);
 }
 
-void bench_crack(int steps) {
+void bench_crack(int steps, const std::string& prefix) {
   Input in = plate();
   double remesh = bench::static_seconds(in) / 2;
   mesher::Mesher<2> m = bench::first_run(in);
@@ -68,6 +81,7 @@ void bench_crack(int steps) {
   }
   remesh += bench::static_seconds(in) / 2;
   print(updates, in, "crack", remesh);
+  write(in, prefix, "crack");
 }
 
 // --- A wall ----------------------------------------------------------------------------------
@@ -101,7 +115,7 @@ std::pair<Point<2>, double> open_water(const Input& in) {
   return best;
 }
 
-void bench_wall(Input in, int steps) {
+void bench_wall(Input in, int steps, const std::string& prefix) {
   constexpr int kPoints = 10;
   const auto [middle, clear] = open_water(in);
   const double step = clear / kPoints;
@@ -125,17 +139,22 @@ void bench_wall(Input in, int steps) {
   for (int i = 1; i < kPoints; ++i) in.segments.push_back({wall[i], wall[i - 1], wall[i]});
   remesh += bench::static_seconds(in) / 2;
   print(updates, in, "wall", remesh);
+  write(in, prefix, "wall");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string file;
+  std::string file, prefix;
   int steps = 1000;
   for (int i = 1; i < argc; ++i) {
+    if (std::string(argv[i]) == "--inputs" && i + 1 < argc) {
+      prefix = argv[++i];
+      continue;
+    }
     const int number = std::atoi(argv[i]);
     number > 0 ? void(steps = number) : void(file = argv[i]);
   }
-  bench_crack(steps);
-  bench_wall(file.empty() ? lake() : bench::file_input(file), steps);
+  bench_crack(steps, prefix);
+  bench_wall(file.empty() ? lake() : bench::file_input(file), steps, prefix);
 }

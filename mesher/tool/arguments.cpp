@@ -157,10 +157,12 @@ bool has_points_alone(const std::string& path) {
 }  // namespace
 
 void add_program_options(CLI::App& command, MeshArguments& args) {
-  command.add_option(
-      "INPUT", args.input,
-      "Points and lines: .poly, .geojson, .json, .obj or .vtu; points: .node, .xyz or .csv;\n"
-      "points in space: these three, and the vertices of .off, .obj, .ply, .stl, .vtu or .vtk");
+  command
+      .add_option(
+          "INPUT", args.input,
+          "Points and lines: .poly, .geojson, .json, .obj or .vtu; points: .node, .xyz or .csv;\n"
+          "points in space: these three, and the vertices of .off, .obj, .ply, .stl, .vtu or .vtk")
+      ->option_text("TEXT REQUIRED");
   command.parse_complete_callback([&args] { settle_input(args); });
   command
       .add_option("--dimension,--dim", args.dimension,
@@ -179,7 +181,7 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
       .add_option("--domain", args.domain,
                   "Where points may lie (default: the box of INPUT, moved outward to a\n"
                   "power-of-two grid)")
-      ->type_name("XMIN YMIN [ZMIN] XMAX YMAX [ZMAX]")
+      ->option_text("XMIN YMIN [ZMIN] XMAX YMAX [ZMAX]")
       ->expected(4, 6)
       ->allow_extra_args(false);
   command
@@ -253,7 +255,10 @@ int dimension_of(const MeshArguments& args) {
 template <>
 Input read_input<2>(const MeshArguments& args) {
   Input input(args.input);
-  if (!args.repair) return input;
+  if (!args.repair) {
+    input.offer_repair();
+    return input;
+  }
   std::optional<mesher::Box<2>> domain;
   if (!args.domain.empty()) domain = domain_of<2>(args.domain);
   try {

@@ -1,4 +1,5 @@
-// mesher edit: a mesh of a file of points and lines that follows a script of edits.
+// mesher edit: a mesh of a file of points and lines, or of points in space, that follows a script
+// of edits.
 #include <memory>
 #include <utility>
 
@@ -74,7 +75,7 @@ void run_edit_on(Target target, const EditArguments& args, InputOf<D> input) {
   outputs.write(mesh, followed.last_changed);
   const auto targets = outputs.targets();
   progress.erase();
-  if (!args.quiet) print_remarks(input, mesh);
+  if (!args.quiet) print_remarks(args, input, mesh);
   figures.print();
   outputs.commit();
   if (args.quiet || figures.printed()) return;
@@ -114,8 +115,8 @@ void run_edit(const EditArguments& args) {
 
 void add_edit(CLI::App& app) {
   const auto args = std::make_shared<EditArguments>();
-  CLI::App* edit =
-      app.add_subcommand("edit", "Meshes a file of points and lines, and follows its edits.");
+  CLI::App* edit = app.add_subcommand(
+      "edit", "Meshes a file of points and lines, or of points in space, and follows its edits.");
   add_mesh_options(*edit, *args);
   edit->add_option("--script", args->script, "The edits")->required()->type_name("EDITS");
   edit->footer(

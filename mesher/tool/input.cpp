@@ -77,6 +77,21 @@ std::string words(Featured kind, FeatureId id) {
          std::to_string(static_cast<std::int64_t>(id));
 }
 
+// Whether a repaired graph has no such fault.
+bool is_repaired(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::duplicate_point:
+    case ErrorCode::crossing_segments:
+    case ErrorCode::point_on_segment:
+    case ErrorCode::overlapping_segments:
+    case ErrorCode::repeated_segment:
+    case ErrorCode::zero_length:
+      return true;
+    default:
+      return false;
+  }
+}
+
 bool same_line(const Place& a, const Place& b) { return a.file == b.file && a.line == b.line; }
 
 }  // namespace
@@ -95,8 +110,10 @@ Error Standing::located(const Error& error) const {
   const std::vector<Featured> kinds = kinds_of(error);
   Place blamed = error.place();
   std::string others;
+  bool mends = offers_repair_ && is_repaired(error.code());
   for (std::size_t i = 0; i < std::min(kinds.size(), error.ids().size()); ++i) {
     const Place stands = place(kinds[i], error.ids()[i]);
+    mends = mends && !edited_.contains({kinds[i], error.ids()[i]});
     if (stands.line == 0 || same_line(stands, blamed)) continue;
     if (blamed.line == 0) {
       blamed = stands;
@@ -107,6 +124,7 @@ Error Standing::located(const Error& error) const {
   }
   if (blamed.file.empty()) blamed.file = path_;
   if (!others.empty()) others += ")";
+  if (mends) others += "; --repair mends this";
   return Error(error.code(), error.message() + others, blamed, error.ids());
 }
 
@@ -122,6 +140,13 @@ void Input::repair(const std::optional<mesher::Box<2>>& domain) {
   mesher::Repaired repaired = mesher::repair(file_, domain);
   file_ = std::move(repaired.file);
   repairs_ = std::move(repaired.notes);
+}
+
+bool Input::has_region_areas() const {
+  const auto& regions = file_.pslg.regions;
+  return edits_areas() || std::any_of(regions.begin(), regions.end(), [](const auto& region) {
+           return region.max_area.has_value();
+         });
 }
 
 Place Input::place_in_file(Featured kind, FeatureId id) const {

@@ -27,11 +27,15 @@ class Standing {
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
+  /// From now on, errors that repair() would mend say so.
+  void offer_repair() noexcept { offers_repair_ = true; }
+
   /// From now on, what `edits` bring stands where they do.
   template <int D>
   void follow(const std::vector<mesher::EditOf<D>>& edits) {
     for (const auto& edit : edits) {
       edited_.insert_or_assign({mesher::featured(edit.kind), edit.id}, edit.place);
+      edits_areas_ = edits_areas_ || edit.max_area.has_value();
     }
   }
 
@@ -39,12 +43,16 @@ class Standing {
   [[nodiscard]] mesher::Place place(mesher::Featured kind, mesher::FeatureId id) const;
 
   /// The error with the place of the feature to blame, unless it has a line already, and those of
-  /// the others in its message. What is said of nothing that stands somewhere is said of the file.
+  /// the others in its message, and whether --repair would help. What is said of nothing that
+  /// stands somewhere is said of the file.
   [[nodiscard]] mesher::Error located(const mesher::Error& error) const;
 
  protected:
   Standing(const Standing&) = default;
   Standing(Standing&&) = default;
+
+  /// Whether edits have brought a region with a largest area.
+  [[nodiscard]] bool edits_areas() const noexcept { return edits_areas_; }
 
  private:
   /// In the file; without a line if it is not there.
@@ -52,6 +60,8 @@ class Standing {
                                                     mesher::FeatureId id) const = 0;
 
   std::string path_;
+  bool offers_repair_ = false;
+  bool edits_areas_ = false;
   std::map<std::pair<mesher::Featured, mesher::FeatureId>, mesher::Place> edited_;
 };
 
@@ -76,6 +86,9 @@ class Input final : public Standing {
   /// Throws: Error, as mesher::repair.
   void repair(const std::optional<mesher::Box<2>>& domain);
   [[nodiscard]] const std::vector<mesher::RepairNote>& repairs() const noexcept { return repairs_; }
+
+  /// Whether a region of the file, or one that edits have brought, has a largest area.
+  [[nodiscard]] bool has_region_areas() const;
 
   /// `PLACE: warning: WHAT` for a seed that has no region of its own.
   [[nodiscard]] std::string warning(const mesher::SeedFault& fault) const;

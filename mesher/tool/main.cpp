@@ -1,4 +1,4 @@
-// mesher: quality meshes of files of points and lines, that follow edits.
+// mesher: quality meshes of files of points and lines, or of points in space, that follow edits.
 #include <csignal>
 #include <exception>
 #include <iostream>
@@ -17,6 +17,7 @@ constexpr const char* kHelpFooter =
     "Examples:\n"
     "  mesher mesh lake.poly -o lake.1.node -o lake.svg\n"
     "  mesher edit lake.poly --script wall.txt -o after.1.node --stats updates.jsonl\n"
+    "  mesher mesh scan.ply -o scan.vtu -o scan.svg\n"
     "  mesher check after.1.node --rho 1.4142\n"
     "  mesher gen uniform --n 10000 -o points.node\n"
     "  mesher trace points.node --script edits.txt -o after.trace\n"
@@ -29,8 +30,11 @@ int fail(ExitCode code, const std::string& message) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Quality Delaunay meshes of points and lines in the plane, and their updates.",
-               "mesher"};
+  CLI::App app{
+      "Quality Delaunay meshes of points and lines in the plane, and of points in space, and "
+      "their\n"
+      "updates.",
+      "mesher"};
   app.footer(kHelpFooter);
   app.require_subcommand(1);
   tool::add_gen(app);

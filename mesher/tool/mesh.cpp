@@ -1,4 +1,4 @@
-// mesher mesh: a mesh of a file of points and lines.
+// mesher mesh: a mesh of a file of points and lines, or of points in space.
 #include <memory>
 #include <utility>
 
@@ -111,7 +111,7 @@ void run_mesh_in(const MeshArguments& args) {
   outputs.write(result.mesh);
   const auto targets = outputs.targets();
   progress.erase();
-  if (!args.quiet) print_remarks(input, result.mesh);
+  if (!args.quiet) print_remarks(args, input, result.mesh);
   figures.print();
   outputs.commit();
   if (args.quiet || figures.printed()) return;
@@ -128,7 +128,8 @@ void run_mesh(const MeshArguments& args) {
 
 void add_mesh(CLI::App& app) {
   const auto args = std::make_shared<MeshArguments>();
-  CLI::App* mesh = app.add_subcommand("mesh", "Meshes a file of points and lines.");
+  CLI::App* mesh =
+      app.add_subcommand("mesh", "Meshes a file of points and lines, or of points in space.");
   add_mesh_options(*mesh, *args);
   mesh->footer(
       std::string(
@@ -143,6 +144,8 @@ void add_mesh(CLI::App& app) {
           "when all is done, or not at all.\n"
           "Limits of size hold in what is written, less what is beyond the domain, and are filled\n"
           "from a lattice, so that edits move little. Several together: the smallest counts.\n"
+          "In space, INPUT's points are meshed, what else a surface or grid has is noted. All of\n"
+          "the box is written; an .svg is cut open, and bluer where radius-edge ratios are worse.\n"
           "--stats: one JSON object; - for standard output.\n") +
       kQualityHelp +
       "\nExamples:\n"
@@ -151,6 +154,7 @@ void add_mesh(CLI::App& app) {
       "  mesher mesh lake.poly --max-area 1e-4 -o lake.vtu\n"
       "  mesher mesh lake.poly --sizes depth.csv -o lake.vtu\n"
       "  mesher mesh points.node -o mesh.node -o mesh.svg --stats mesh.json\n"
+      "  mesher mesh scan.ply -o scan.vtu -o scan.svg\n"
       "  mesher mesh cities.csv --domain -180 -90 180 90 --rho 2 --static -o cities.vtu");
   mesh->callback([args] { run_mesh(*args); });
 }

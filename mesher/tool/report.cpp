@@ -230,8 +230,12 @@ void print_run(const SpaceInput& input, const SpaceRun& run) {
   print_row("time", format("%.3f s", run.seconds_total));
 }
 
-void print_remarks(const Input& input, const mesher::DomainMesh& mesh) {
+void print_remarks(const MeshArguments& args, const Input& input, const mesher::DomainMesh& mesh) {
   print_notes(input.notes());
+  if (args.region_areas && !input.has_region_areas()) {
+    std::fprintf(stderr, "%s: note: --region-areas is not used: no region has a largest area\n",
+                 input.path().c_str());
+  }
   for (const auto& note : input.repairs()) {
     std::fprintf(stderr, "%s\n", note.text("repair: ").c_str());
   }
@@ -240,7 +244,9 @@ void print_remarks(const Input& input, const mesher::DomainMesh& mesh) {
   }
 }
 
-void print_remarks(const SpaceInput& input, const mesher::Mesh<3>&) { print_notes(input.notes()); }
+void print_remarks(const MeshArguments&, const SpaceInput& input, const mesher::Mesh<3>&) {
+  print_notes(input.notes());
+}
 
 void print_angles(const Run& run) {
   if (!run.angles) return;

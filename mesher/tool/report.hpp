@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "arguments.hpp"
 #include "input.hpp"
 #include "mesher/angles.hpp"
 #include "mesher/check.hpp"
@@ -71,10 +72,10 @@ void measure(const mesher::Mesh<3>& mesh, double rho, SpaceRun& run);
 void print_run(const Input& input, const Run& run);
 void print_run(const SpaceInput& input, const SpaceRun& run);
 
-/// Prints on standard error what of the input is not used or was repaired, and which seeds have no
-/// region of their own.
-void print_remarks(const Input& input, const mesher::DomainMesh& mesh);
-void print_remarks(const SpaceInput& input, const mesher::Mesh<3>& mesh);
+/// Prints on standard error what of the input, or of what was asked for, is not used or was
+/// repaired, and which seeds have no region of their own.
+void print_remarks(const MeshArguments& args, const Input& input, const mesher::DomainMesh& mesh);
+void print_remarks(const MeshArguments& args, const SpaceInput& input, const mesher::Mesh<3>& mesh);
 
 /// Prints what small angles do to a mesh, if they were looked at.
 void print_angles(const Run& run);

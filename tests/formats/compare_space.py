@@ -76,6 +76,31 @@ def by_hand(stem):
     return points, cells
 
 
+def surface_by_hand(stem):
+    """The faces of .face by the bits of their corners."""
+    points, _ = by_hand(stem)
+    with open(stem + ".face") as lines:
+        rows = [line.split() for line in lines][1:]
+    return Counter(tuple(points[int(v) - 1] for v in row[1:4]) for row in rows)
+
+
+def surface_by_meshio(path):
+    mesh = meshio.read(path)
+    points = [tuple(map(bits, p)) for p in mesh.points]
+    faces = [face for block in mesh.cells if block.type == "triangle" for face in block.data]
+    return Counter(tuple(points[int(v)] for v in face) for face in faces)
+
+
+def compare_surfaces(stem):
+    failures = 0
+    truth = surface_by_hand(stem)
+    for extension in (".off", ".obj", ".stl"):
+        if surface_by_meshio(stem + extension) != truth:
+            print(f"meshio {stem + extension}: faces differ", file=sys.stderr)
+            failures += 1
+    return failures
+
+
 def differs(what, found, expected, ordered=True):
     same = found[0] == expected[0] and (found[1] == expected[1] if ordered else
                                         Counter(found[1]) == Counter(expected[1]))
@@ -165,6 +190,7 @@ def main():
             for extension in (".vtk", ".msh", ".mesh") if gmsh else ():
                 failures += differs(f"gmsh {extension}", by_gmsh(stem + extension), truth, False)
             if meshio:
+                failures += compare_surfaces(stem)
                 failures += compare_files_of_meshio(sys.argv[1], stem, truth)
             if gmsh:
                 failures += compare_files_of_gmsh(sys.argv[1], stem, truth)

@@ -35,7 +35,7 @@ void write_truth(const mesher::Mesh<3>& mesh, const std::string& path) {
 void write(const std::string& stem, const std::vector<Point<3>>& points) {
   const mesher::Options<3> options{.domain = mesher::snapped_domain<3>(points)};
   const mesher::Mesh<3> mesh = mesher::mesh_statically<3>(points, options);
-  for (const char* extension : {".node", ".vtu", ".vtk", ".msh", ".mesh"}) {
+  for (const char* extension : {".node", ".vtu", ".vtk", ".msh", ".mesh", ".off", ".obj", ".stl"}) {
     mesher::write_mesh(mesh, stem + extension);
   }
   write_truth(mesh, stem + ".truth");

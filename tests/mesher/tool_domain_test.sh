@@ -44,6 +44,14 @@ for format in "${formats[@]}"; do same "lake.1.$format" "lake--static.1.$format"
 for format in node vtu vtk msh mesh obj; do
   expect 0 'segments    ok' check "lake.1.$format" --input lake.poly --rho 1.4142
 done
+for format in node vtu vtk mesh; do
+  expect 0 'markers     ok      19 vertices and 20 edges' check "lake.1.$format" --input lake.poly
+done
+sed 's/ 7 11$/ 8 11/' lake.1.edge >marked.edge
+cp lake.1.node marked.node
+cp lake.1.ele marked.ele
+refuse 1 'has the marker 8, but is on line 11 (line 24), which has 7' check marked.node \
+  --input lake.poly
 has lake.1.ele '^[0-9]+ [0-9]+ [0-9]+ [0-9]+ 10$'
 has lake.1.ele '^[0-9]+ [0-9]+ [0-9]+ [0-9]+ 20$'
 has lake.1.edge '^[0-9]+ [0-9]+ [0-9]+ 7 11$'
@@ -107,6 +115,28 @@ END
 expect 0 'regions               1, holes 1' mesh island.geojson -o island.1.node
 has island.1.ele ' 3$'
 expect 0 'regions     ok' check island.1.node --input island.geojson --rho 1.4142
+
+
+echo "== neighbouring polygons share a border"
+cat >countries.geojson <<'END'
+{"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {"attribute": 5}, "geometry": {"type": "Polygon", "coordinates":
+  [[[0,0],[8,0],[8,8],[0,8],[0,0]], [[2,2],[2,4],[4,4],[4,2],[2,2]], [[6,6],[6,7],[7,6],[6,6]]]}},
+{"type": "Feature", "properties": {"attribute": 6}, "geometry": {"type": "Polygon", "coordinates":
+  [[[8,8],[8,0],[12,4],[8,8]]]}},
+{"type": "Feature", "properties": {"attribute": 7}, "geometry": {"type": "Polygon", "coordinates":
+  [[[2,2],[4,2],[4,4],[2,4],[2,2]]]}}]}
+END
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  expect 0 'regions               3, holes 1' mesh countries.geojson $engine -o countries.1.node
+  for attribute in 5 6 7; do has countries.1.ele " $attribute\$"; done
+done
+expect 0 'countries.geojson:5: note: a border that polygons share' mesh countries.geojson -o x.vtu
+expect 0 'regions     ok' check countries.1.node --input countries.geojson --rho 1.4142
+sed 's/\[8,8\],\[8,0\],\[12,4\],\[8,8\]/[8,6],[8,2],[12,4],[8,6]/' countries.geojson >bays.geojson
+refuse 1 '; --repair mends this' mesh bays.geojson -o out/x.vtu
+expect 0 'regions               3, holes 1' mesh bays.geojson --repair -o x.vtu
 
 echo "== what encloses nothing is meshed in the box"
 sed '/^4 4 1$/d; s/^4 0$/3 0/' ring.poly >open.poly
@@ -197,6 +227,16 @@ for row in [l.split() for l in open('by_region.1.ele') if not l.startswith('#')]
     largest[row[4]] = max(largest.get(row[4], 0), area)
 assert largest['20'] <= 0.5 < largest['10'], largest
 END
+# Asked for without any: said, also of an edit, unless that brings one.
+unused='note: --region-areas is not used: no region has a largest area'
+expect 0 "open.poly: $unused" mesh open.poly --region-areas -o x.vtu
+printf '+region 3 1 1 5\n' >region.txt
+expect 0 "open.poly: $unused" edit open.poly --region-areas --script region.txt -o x.vtu
+printf '+region 3 1 1 5 0.5\n' >region.txt
+said=$("$tool" edit open.poly --region-areas --script region.txt -o x.vtu 2>&1)
+said+=$("$tool" mesh lake.poly --region-areas -o x.vtu 2>&1)
+said+=$("$tool" mesh open.poly --region-areas --quiet -o x.vtu 2>&1)
+[[ $said != *"$unused"* ]] || fail "used or --quiet, and said to be unused: $said"
 # A bad output is found before any work, that for the limits too: the lines cross.
 sed 's/^11 2 5 7/11 2 6 7/; s/^3 3 4 0/3 3 5 0/' lake.poly >crossing.poly
 for limit in '' --region-areas; do
@@ -229,6 +269,12 @@ refuse 2 'radius_edge' mesh lake.poly --max-area 1 --rule voronoi-aspect -o out/
 printf 'x,y,h\n0,0,0\n' >zero.csv
 refuse 3 'zero.csv:2' mesh lake.poly --sizes zero.csv -o out/x.vtu
 refuse 2 'sizes.csv' mesh lake.poly --sizes sizes.csv -o sizes.csv
+printf '# sizes\nlimit sizes none.csv\n' >sizes.txt
+refuse 2 'none.csv: error[cannot_read]: cannot be read: No such file or directory (named by sizes.txt:2)' \
+  edit lake.poly --script sizes.txt -o out/x.vtu
+printf 'limit sizes zero.csv\n' >sizes.txt
+refuse 3 'zero.csv:2:1: error[bad_number]' edit lake.poly --script sizes.txt -o out/x.vtu
+refuse 3 '(named by sizes.txt:1)' edit lake.poly --script sizes.txt --static -o out/x.vtu
 
 echo "== edits of lines and seeds"
 cat >harbour.txt <<'END'

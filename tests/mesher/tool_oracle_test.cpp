@@ -1,10 +1,13 @@
 // The tool as a whole: what `edit` writes of random scripts are the bytes that `mesh` writes of the
 // edited input, with the engine and without.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <map>
 #include <string>
+#include <vector>
 
+#include "mesher/generate.hpp"
 #include "mesher/pslg.hpp"
 #include "random_lake.hpp"
 #include "scratch_file.hpp"
@@ -119,6 +122,94 @@ TEST_CASE("edits of any kind by a script leave the files of the edited input, by
   run("edit --static " + folder.path("after.poly") + " --script " + folder.path("limits.txt"),
       "fresh");
   for (const std::string format : {".msh", ".mesh", ".off", ".obj"}) {
+    CAPTURE(format);
+    const std::string fresh = folder.read("fresh" + format);
+    CHECK(folder.read("engine" + format) == fresh);
+    CHECK(folder.read("static" + format) == fresh);
+  }
+}
+
+namespace {
+
+// Batches of edits of points in space, and the points that they lead to. Coordinates are of a
+// coarse grid, so that spheres through many points, points that move onto places just freed, and
+// ids that come back are common.
+struct SpaceHistory {
+  std::string script, after;
+
+  SpaceHistory(std::uint64_t seed, int batches) {
+    mesher::SplitMix64 random(seed);
+    std::map<std::uint64_t, mesher::Point<3>> points;
+    for (int i = 0; i < batches; ++i) {
+      const bool one = random.below(3) == 0;
+      if (!one) script += "begin\n";
+      for (auto left = one ? 1 : 1 + random.below(6); left > 0; --left) edit(random, points);
+      if (!one) script += "commit\n";
+    }
+    after = std::to_string(points.size()) + " 3 0 0\n";
+    for (const auto& [id, p] : points) after += std::to_string(id) + place(p) + "\n";
+  }
+
+ private:
+  static std::string place(const mesher::Point<3>& p) {
+    return number(p[0]) + number(p[1]) + number(p[2]);
+  }
+  static mesher::Point<3> free_place(mesher::SplitMix64& random,
+                                     const std::map<std::uint64_t, mesher::Point<3>>& points) {
+    mesher::Point<3> p;
+    const auto is_taken = [&](const auto& entry) { return entry.second == p; };
+    const double steps = random.below(2) == 0 ? 8 : 1024;
+    do {
+      for (double& x : p) {
+        x = static_cast<double>(random.below(static_cast<std::uint64_t>(steps) + 1)) / steps;
+      }
+    } while (std::any_of(points.begin(), points.end(), is_taken));
+    return p;
+  }
+  void edit(mesher::SplitMix64& random, std::map<std::uint64_t, mesher::Point<3>>& points) {
+    const std::uint64_t id = random.below(40);
+    const auto known = points.find(id);
+    if (known == points.end()) {
+      const auto p = free_place(random, points);
+      points.emplace(id, p);
+      script += "+point " + std::to_string(id) + place(p) + "\n";
+    } else if (random.below(3) > 0) {
+      known->second = free_place(random, points);
+      script += "move " + std::to_string(id) + place(known->second) + "\n";
+    } else {
+      points.erase(known);
+      script += "-point " + std::to_string(id) + "\n";
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("edits in space by a script leave the files of the edited input, byte for byte") {
+  const std::string tool = test_paths::kMesherTool;
+  if (tool.empty()) return;
+  const auto seed = GENERATE(range<std::uint64_t>(1, 6));
+  const std::string rule = seed % 3 == 0 ? " --rule voronoi-aspect --rho 4" : "";
+  CAPTURE(seed);
+  const SpaceHistory history(seed, 40);
+  const ScratchFolder folder;
+  folder.write("edits.txt", history.script);
+  folder.write("before.node", "0 3 0 0\n");
+  folder.write("after.node", history.after);
+  const std::vector<std::string> formats{".vtu", ".vtk", ".msh", ".mesh", ".off", ".obj", ".stl"};
+  const auto run = [&](const std::string& arguments, const std::string& out) {
+    std::string command = tool + " " + arguments + rule + " --quiet --domain 0 0 0 1 1 1 -o " +
+                          folder.path(out + ".node");
+    for (const std::string& format : formats) command += " -o " + folder.path(out + format);
+    REQUIRE(std::system(command.c_str()) == 0);
+  };
+  const std::string edits = folder.path("before.node") + " --script " + folder.path("edits.txt");
+  run("edit " + edits, "engine");
+  run("edit --static " + edits, "static");
+  run("mesh " + folder.path("after.node"), "fresh");
+  std::vector<std::string> all{".node", ".ele", ".face"};
+  all.insert(all.end(), formats.begin(), formats.end());
+  for (const std::string& format : all) {
     CAPTURE(format);
     const std::string fresh = folder.read("fresh" + format);
     CHECK(folder.read("engine" + format) == fresh);

@@ -18,7 +18,10 @@ cat >crossing.poly <<'END'
 4 6 3 0
 0
 END
-refuse 1 'error[' mesh crossing.poly -o out/x.vtu
+refuse 1 '; --repair mends this' mesh crossing.poly -o out/x.vtu
+refuse 1 '; --repair mends this' mesh crossing.poly --static -o out/x.vtu
+said=$("$tool" trace crossing.poly -o out/x.trace 2>&1)
+[[ $said == *crossing.poly:*'error['* && $said != *--repair* ]] || fail "trace has no --repair: $said"
 for engine in '' --static; do
   # shellcheck disable=SC2086
   expect 0 'crossing.poly:7:1: repair: point 6 is point 2 at (4, 4)' \
@@ -39,6 +42,14 @@ expect 0 'lines       ok' check crossing.1.node --rho 1.4142
 refuse 1 'error[outside_domain]' mesh crossing.poly --repair --domain 0 0 3 3 -o out/x.vtu
 printf -- '-segment 1\n' >edits.txt
 expect 0 'repair: line 1 is split' edit crossing.poly --repair --script edits.txt -o x.1.node
+# Edits are not repaired, nor is what is repaired a second time.
+printf '4 2 0 0\n1 0 0\n2 4 4\n3 0 4\n4 4 0\n1 0\n1 1 2\n0\n' >sound.poly
+printf -- '+segment 2 3 4\n' >edits.txt
+for options in '' --repair --static; do
+  # shellcheck disable=SC2086
+  said=$("$tool" edit sound.poly $options --script edits.txt -o out/x.vtu 2>&1)
+  [[ $said == *'error[crossing_segments]'* && $said != *--repair* ]] || fail "repairs edits: $said"
+done
 
 echo "== small angles are reported"
 cat >sharp.poly <<'END'

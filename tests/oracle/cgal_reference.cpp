@@ -1,11 +1,12 @@
 // What CGAL takes for the mesher's work on the same machine: the reference of our benchmarks.
 //
-//   cgal_reference [FILE.node] [--n N]... [--rho R]... [--edits K] [--seed S]
+//   cgal_reference [FILE] [--n N]... [--rho R]... [--edits K] [--seed S]
 //
-// Without a file: N points uniform in the unit square (default 10000 and 100000). The meshed domain
-// is a square around the points' bounding box, of side 6 times its longest side. Default rho is
-// 1.4142135623730951, K is 1000 edits (0: none). Prints one JSON line per figure, times in process
-// CPU seconds:
+// FILE: a .node file, or a .poly file with points, between which its segments are constraints; then
+// there are no edits. Without a file: N points uniform in the unit square (default 10000 and
+// 100000). The meshed domain is a square around the points' bounding box, of side 6 times its
+// longest side. Default rho is 1.4142135623730951, K is 1000 edits (0: none). Prints one JSON line
+// per figure, times in process CPU seconds:
 //   delaunay   the Delaunay triangulation of the points alone
 //   mesh       Mesh_2 from the points: all steps after reading, and the vertices that result
 //   insert     a random point put into that mesh, bad triangles around it refined (median, p99)
@@ -51,6 +52,7 @@ struct Settings {
 struct Input {
   std::string name;
   std::vector<Point> points;
+  std::vector<std::pair<std::size_t, std::size_t>> segments = {};  // positions in points
 };
 
 /// Process CPU time, to the nanosecond (std::clock is too coarse for one edit).
@@ -76,10 +78,13 @@ double quantile(std::vector<double> values, double q) {
 class EditableMesh {
  public:
   /// The bound on squared sines is (1 / (2 rho))^2.
-  EditableMesh(const std::vector<Point>& points, double rho)
+  EditableMesh(const Input& input, double rho)
       : criteria_(1 / (4 * rho * rho), 0), mesher_(mesh_, criteria_) {
-    mesh_.insert(points.begin(), points.end());
-    add_box(points);
+    mesh_.insert(input.points.begin(), input.points.end());
+    for (const auto& [a, b] : input.segments) {
+      mesh_.insert_constraint(input.points[a], input.points[b]);
+    }
+    add_box(input.points);
     mesher_.refine_mesh();
   }
 
@@ -190,17 +195,17 @@ void bench_input(const Input& input, const Settings& settings) {
   bench_delaunay(input);
   for (const double rho : settings.rhos) {
     const double start = cpu_seconds();
-    EditableMesh mesh(input.points, rho);
+    EditableMesh mesh(input, rho);
     const double seconds = cpu_seconds() - start;
     Line("mesh", input).field("rho", rho).field("vertices", mesh.size()).field("seconds", seconds);
-    if (settings.edits > 0) bench_edits(input, rho, settings, mesh);
+    if (settings.edits > 0 && input.segments.empty()) bench_edits(input, rho, settings, mesh);
   }
 }
 
 Input uniform_input(std::size_t n, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
-  Input input{"uniform", {}};
+  Input input{"uniform", {}, {}};
   for (std::size_t i = 0; i < n; ++i) {
     const double x = unit(random);
     input.points.emplace_back(x, unit(random));
@@ -209,8 +214,19 @@ Input uniform_input(std::size_t n, std::uint64_t seed) {
 }
 
 Input file_input(const std::string& path) {
-  Input input{path.substr(path.rfind('/') + 1), {}};
-  for (const oracle::Site& s : oracle::read_node(path).sites) input.points.emplace_back(s.x, s.y);
+  Input input{path.substr(path.rfind('/') + 1), {}, {}};
+  oracle::TokenLines lines(path);
+  const auto places = oracle::read_places<2>(lines);
+  for (const auto& [x, y] : places.items) input.points.emplace_back(x, y);
+  if (path.size() < 5 || path.substr(path.size() - 5) != ".poly") return input;
+  std::unordered_map<long, std::size_t> position;
+  for (std::size_t i = 0; i < places.ids.size(); ++i) position[places.ids[i]] = i;
+  const auto count = lines.parse<std::size_t>(lines.next(1)[0]);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto tokens = lines.next(3);
+    input.segments.emplace_back(position.at(lines.parse<long>(tokens[1])),
+                                position.at(lines.parse<long>(tokens[2])));
+  }
   return input;
 }
 

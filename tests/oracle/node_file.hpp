@@ -79,10 +79,10 @@ class TokenLines {
   long number_ = 0;
 };
 
-/// A .node file in dimension D; a header that does not say so means the plane.
+/// The points of a .node or .poly file in dimension D; a header that does not say so means the
+/// plane.
 template <std::size_t D>
-Numbered<std::array<double, D>> read_places(const std::string& path) {
-  TokenLines lines(path);
+Numbered<std::array<double, D>> read_places(TokenLines& lines) {
   const auto header = lines.next(1);
   const auto count = lines.parse<std::size_t>(header[0]);
   const std::size_t dimension = header.size() > 1 ? lines.parse<std::size_t>(header[1]) : 2;
@@ -96,6 +96,12 @@ Numbered<std::array<double, D>> read_places(const std::string& path) {
     file.items.push_back(place);
   }
   return file;
+}
+
+template <std::size_t D>
+Numbered<std::array<double, D>> read_places(const std::string& path) {
+  TokenLines lines(path);
+  return read_places<D>(lines);
 }
 
 inline NodeFile read_node(const std::string& path) {

@@ -127,13 +127,13 @@ class PslgJudge {
   [[nodiscard]] bool is_beside_by_rounding(std::uint32_t v, const Edge& e) const {
     const P &x = at(v), &a = at(e[0]), &b = at(e[1]);
     const double dot = (a[0] - x[0]) * (b[0] - x[0]) + (a[1] - x[1]) * (b[1] - x[1]);
-    if (dot < -0x1p-50 * apart(a, b)) return false;
+    if (dot < -kRounding * apart(a, b)) return false;
     return std::any_of(e.begin(), e.end(), [&](std::uint32_t w) { return are_level(v, w); });
   }
   // Whether both are equally far from a common end of segments that they are on.
   [[nodiscard]] bool are_level(std::uint32_t v, std::uint32_t w) const {
     return any_apex(v, w, [&](const P& apex) {
-      return std::abs(apart(apex, at(v)) - apart(apex, at(w))) <= 1e-15;
+      return std::abs(apart(apex, at(v)) - apart(apex, at(w))) <= kRounding;
     });
   }
   // Whether accept(apex) is true of a common end of two segments, one through v and one through w.
@@ -204,11 +204,15 @@ class PslgJudge {
       const P u{(at(p)[0] - apex[0]) / from_p, (at(p)[1] - apex[1]) / from_p};
       const P w{(at(q)[0] - apex[0]) / from_q, (at(q)[1] - apex[1]) / from_q};
       if (u[0] * w[0] + u[1] * w[1] <= 0.5 - 1e-9) return false;
-      // Of coordinates up to 16; they are rounded.
-      if (std::abs(from_p - from_q) > 1e-8 * (from_p + from_q) + 0x1p-46) return false;
+      if (std::abs(from_p - from_q) > 1e-8 * (from_p + from_q) + kRounding) return false;
       return inside || mesher::predicates::orient2d(at(p), at(q), apex) > 0;
     });
   }
+
+  // Of coordinates up to 16: a vertex on a segment is within 2^-48 of its place in each, by the
+  // rounding of the segment's difference, of the part of it, of their product, and of the sum; so
+  // two distances from an apex differ by 2 sqrt 2 times that at most.
+  static constexpr double kRounding = 0x1p-46;
 
   const mesher::Mesh<2>& mesh_;
   const Pslg& pslg_;

@@ -64,6 +64,17 @@ for options in '--rho 2' '--rule voronoi-aspect'; do
 done
 expect_of "$mesher" 0 '' trace points.node "${domain[@]}" --edges -o edges.trace
 expect_of "$mesher" 0 'Examples:' trace --help
+# Limits of size, given and edited, leave the trace of a run from scratch.
+printf 'limit area 0.001\nlimit area 0.002 in 0 0 .5 1\n+point 901 .25 .3\nlimit none\n' >limits.txt
+printf 'limit area 0.0015\n-point 901\n' >>limits.txt
+expect_of "$mesher" 0 '' trace points.node "${domain[@]}" --max-area 0.0015 -o limited.trace
+expect_of "$mesher" 0 '' trace points.node "${domain[@]}" --script limits.txt -o edited.trace
+"$traces" distance limited.trace edited.trace --json >distance.json
+holds "$(value distance) == 0 && $(value common) > 1000"
+"$traces" distance before.trace limited.trace --json >distance.json
+holds "$(value distance) > 1000"
+expect 0 'fill' show limited.trace
+[[ -z $("$traces" audit limited.trace edited.trace 2>&1) ]] || fail "audit of limits is not silent"
 refuse_of "$mesher" 2 'error[bad_option]' trace points.node
 refuse_of "$mesher" 2 'error[cannot_read]' trace none.node -o out/x.trace
 refuse_of "$mesher" 2 'error[cannot_write]' trace points.node -o none/x.trace

@@ -1,18 +1,19 @@
 // The cost of an edit on a plot: of points, segments and polylines in meshes with segments.
 //
-//   stability [--n N]... [--edits K] [--out PATH]
+//   stability [--n N]... [--edits K] [--out PATH] [--of segments|points]
 //
 // Each edit comes in one update and goes in another. Of both: the distance D of the traces before
 // and after, the work W (calls made, let go and run), W by weight (with what calls look at inside),
 // and microseconds of the process. Against
 //   lg(L/s)  an end of the edit is put at a distance s, from L / 10 to L / 10^12, from a point of
 //            the input (1000 segments, and as many points)
-//   n        N segments and as many points (default: 1000 10000 100000), the edit anywhere
+//   n        N segments and as many points (default: 1000 10000 100000), the edit anywhere; with
+//            `--of points` a point in N points alone, and nothing else
 //   m_f      vertices that stand on the edit, up to some 200, among 10^4 points
 // PATH.svg (default: build/stability.svg) shows medians as lines and 99th percentiles as ticks; one
 // JSON line per place on the plot goes to standard output, and one per line on it: a fit over
 // lg(L/s) and m_f, and for n the median at the last N over that at 10^4. D is recorded where N is
-// at most 10^5. N = 1000000 takes some minutes and 7 GB.
+// at most 10^5. N = 1000000 takes some minutes and 7 GB, of points alone 2.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -77,11 +78,10 @@ Plot over_spread(int kind, Ground& ground, std::size_t n, int edits) {
 
 // --- Against n -------------------------------------------------------------------------------
 
-// Of the larger inputs the distances are fewer.
-void over_size(std::vector<Plot>& plots, std::size_t n, int edits) {
-  Ground ground = segments(n);
+// Of the larger inputs the distances are fewer. `kinds`: so many are edited.
+void over_size(std::vector<Plot>& plots, Ground& ground, std::size_t n, int kinds, int edits) {
   const int recorded = n <= 10000 ? edits : n <= 100000 ? std::min(edits, 8) : 0;
-  for (int kind = 0; kind < 3; ++kind) {
+  for (int kind = 0; kind < kinds; ++kind) {
     mesher::SplitMix64 random(17);
     for (int done = 0; done < 10 * edits;) {
       const Point<2> p{random.unit(), random.unit()};
@@ -121,29 +121,35 @@ Plot over_length(int kind, Ground& ground, int edits) {
 int main(int argc, char** argv) {
   std::vector<std::size_t> sizes;
   int edits = 20;
+  bool alone = false;
   std::string out = "build/stability";
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::strcmp(argv[i], "--n") == 0) sizes.push_back(std::strtoull(argv[i + 1], nullptr, 10));
     if (std::strcmp(argv[i], "--edits") == 0) edits = std::max(2, std::atoi(argv[i + 1]));
     if (std::strcmp(argv[i], "--out") == 0) out = argv[i + 1];
+    if (std::strcmp(argv[i], "--of") == 0) alone = std::strcmp(argv[i + 1], "points") == 0;
   }
   if (sizes.empty()) sizes = {1000, 10000, 100000};
   Against spread{"lg(L/s)", "lg(L/s)", false, std::vector<Plot>(3)};
-  Against size{"n", "segments, and points", true, std::vector<Plot>(3)};
+  Against size{"n", alone ? "points" : "segments, and points", true, std::vector<Plot>(3)};
   Against length{"m_f", "vertices on the edit", false, std::vector<Plot>(3)};
-  {
+  if (!alone) {
     constexpr std::size_t kSmall = 1000;
     Ground ground = segments(kSmall);
     for (int kind = 0; kind < 3; ++kind) {
       spread.plots[static_cast<std::size_t>(kind)] = over_spread(kind, ground, kSmall, edits);
     }
   }
-  {
+  if (!alone) {
     Ground ground = bench::scattered<2>(10000);
     for (int kind = 1; kind < 3; ++kind) {
       length.plots[static_cast<std::size_t>(kind)] = over_length(kind, ground, edits);
     }
   }
-  for (const std::size_t n : sizes) over_size(size.plots, n, edits);
-  return bench::draw("stability", kKinds, {spread, size, length}, out + ".svg");
+  for (const std::size_t n : sizes) {
+    Ground ground = alone ? bench::scattered<2>(n) : segments(n);
+    over_size(size.plots, ground, n, alone ? 1 : 3, edits);
+  }
+  const std::vector<Against> all = alone ? std::vector{size} : std::vector{spread, size, length};
+  return bench::draw("stability", kKinds, all, out + ".svg");
 }

@@ -33,7 +33,11 @@
 //   (d) regions: triangles on both sides of an edge that is on no line have the same region; where
 //       seeds are given, that of one of the seeds inside; no triangle holds the seed of a hole,
 //       unless the mesh is to fill a box. A seed on a line stands for nothing;
-//   (e) area, if asked: no triangle is larger than a limit.
+//   (e) area, if asked: no triangle is larger than a limit;
+//   (f) markers, if the input has some and the mesh does: a vertex that is a point with a marker
+//       has that one; every other, and every edge, has the marker of one of the lines with a marker
+//       that it is on, or, on none, 0, or 1 on the mesh's boundary. Those of edges are looked at
+//       where any edge has one.
 #pragma once
 
 #include <cstdint>
@@ -80,8 +84,8 @@ struct CheckOptions {
   const PointFile<2>* input = nullptr;  ///< checks (8) where given
   std::optional<double> rho{};          ///< checks (9) where given
   BoundaryRule boundary = BoundaryRule::box;
-  const PslgFile* graph = nullptr;         ///< checks (8), (b) and the seeds of (d) where given
-  const MeshFeatures* features = nullptr;  ///< checks (a), (d), and says which edges are on lines
+  const PslgFile* graph = nullptr;         ///< checks (8), (b), (f) and seeds in (d) where given
+  const MeshFeatures* features = nullptr;  ///< checks (a), (d), (f); says which edges are on lines
   bool constrained = false;                ///< (c) is not asked for
   std::optional<double> max_area{};        ///< checks (e) where given
 };

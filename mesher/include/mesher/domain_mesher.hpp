@@ -104,6 +104,8 @@ class DomainMesher {
   [[nodiscard]] bool contains_line(FeatureId id) const;
   [[nodiscard]] bool contains_seed(const SeedName& name) const;
 
+  /// Of mesh(); calls, edges and bytes of the second mesh, too, if there is one.
+  /// Cost: O(1); with a second mesh, O(its triangles).
   [[nodiscard]] MeshStats stats() const;
   [[nodiscard]] const Options<2>& options() const;
   [[nodiscard]] Extent extent() const;

@@ -191,8 +191,8 @@ class Mesher {
   /// removed; unknown_id: a segment's end is not there), std::bad_alloc, or
   /// what control.progress throws: the edits are taken back as well.
   /// Cost: O(log L/s) calls per edited point [Theorem 4.3.8], each O(log L/s), the first time per
-  /// vertex; where limits of size are edited, per vertex that was or is there; stopped or failed,
-  /// as much again to take back what was done.
+  /// vertex; per vertex that was or is on lines that come, go or have a point that moves, and where
+  /// limits of size are edited; stopped or failed, as much again to take back what was done.
   Change<D> update(const RunControl& control = {});
   /// The same, with a last word on the change before it is final: what `accept` throws leaves
   /// update(), and the mesh stays as it was. It must not use the mesher.

@@ -115,8 +115,12 @@ struct PslgFile {
 ///   one a polyline. Each ring of a polygon is a closed polyline; the polygon is a region, whose
 ///   attribute is its number in the file from 1, and each inner ring makes a hole. Their seeds are
 ///   places just inside the ring that no line of the file cuts off from it. A closed line is only a
-///   line. A feature's properties `marker` (of its points and lines), `attribute` and `max_area`
-///   (of its regions) are used. Altitudes and other members are noted.
+///   line. Polygons may share borders: a piece that a ring before has is of that one, a Note says
+///   so, and what is left of the ring is a line for each run of pieces; an inner ring that shares a
+///   piece with the outer one of another polygon is filled by that and makes no hole; what several
+///   polygons enclose together is kept, without a region. A feature's properties `marker` (of its
+///   points and lines), `attribute` and `max_area` (of its regions) are used. Altitudes and other
+///   members are noted.
 /// - `.obj` (Wavefront): `v x y [z]`, `l i j ...` (1 is the first point, -1 the last so far), `p`.
 ///   z must be the same everywhere. Names, groups and materials are noted; faces are refused.
 /// - `.vtu` (VTK): vertices, lines and polylines of an unstructured grid in one piece: ASCII,

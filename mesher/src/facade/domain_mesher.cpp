@@ -70,7 +70,11 @@ bool DomainMesher::contains(FeatureId id) const { return impl_->mesher().contain
 bool DomainMesher::contains_line(FeatureId id) const { return impl_->mesher().contains_line(id); }
 bool DomainMesher::contains_seed(const SeedName& name) const { return impl_->contains_seed(name); }
 
-MeshStats DomainMesher::stats() const { return impl_->mesher().stats(); }
+MeshStats DomainMesher::stats() const {
+  MeshStats stats = impl_->mesher().stats();
+  if (impl_->unlimited()) impl_->unlimited()->add_to(stats);
+  return stats;
+}
 const Options<2>& DomainMesher::options() const { return impl_->mesher().options(); }
 Extent DomainMesher::extent() const { return impl_->extent(); }
 

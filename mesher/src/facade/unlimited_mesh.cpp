@@ -155,6 +155,13 @@ void UnlimitedMesh::follow(const Change<2>& change, const Seeds& seeds, const Th
   });
 }
 
+void UnlimitedMesh::add_to(MeshStats& stats) const {
+  const MeshStats own = mesher_.stats();
+  stats.calls += own.calls;
+  stats.edges += own.edges;
+  stats.trace_bytes += own.trace_bytes + (limits_ == nullptr ? 0 : limits_->bytes());
+}
+
 void UnlimitedMesh::check_invariants() const {
   mesher_.check_invariants();
   if (follower_) follower_->check_invariants();

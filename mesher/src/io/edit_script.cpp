@@ -133,6 +133,20 @@ double positive(const text::Line& line, std::size_t i) {
 // How many fields say what the limit is, 'limit' included.
 std::size_t limit_fields(const text::Line& line) { return line[1] == "none" ? 2 : 3; }
 
+// The background in the file that field 2 names; an error is said of that file, and of the line.
+std::shared_ptr<const SizeField<2>> background_of(const text::Line& line) {
+  const Place place = line.place(2);
+  const auto path = std::filesystem::path(place.file).parent_path() / std::string(line[2]);
+  try {
+    return sampled_sizes(read_sizes(path.string()).samples);
+  } catch (const Error& error) {
+    throw Error(
+        error.code(),
+        error.message() + " (named by " + place.file + ":" + std::to_string(place.line) + ")",
+        error.place(), error.ids());
+  }
+}
+
 SizeLimits<2> limits_of(const text::Line& line) {
   const std::string_view kind = line[1];
   if (kind == "none") return {};
@@ -141,8 +155,7 @@ SizeLimits<2> limits_of(const text::Line& line) {
     const double h = positive(line, 2);
     return {.max_area = kAreaOfSize * h * h};
   }
-  const auto folder = std::filesystem::path(line.place(0).file).parent_path();
-  return {.sizes = sampled_sizes(read_sizes((folder / std::string(line[2])).string()).samples)};
+  return {.sizes = background_of(line)};
 }
 
 Box<2> limit_box(const text::Line& line, std::size_t first) {

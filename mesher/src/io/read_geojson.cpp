@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "io/json.hpp"
+#include "io/polygon_builder.hpp"
 #include "io/read_pslg.hpp"
-#include "io/ring_seeds.hpp"
 #include "io/text.hpp"
 
 namespace mesher {
@@ -22,22 +22,16 @@ struct Properties {
 
 class GeoJsonReader {
  public:
-  explicit GeoJsonReader(const text::Source& source) : source_(source), build_(source.file()) {}
+  explicit GeoJsonReader(const text::Source& source)
+      : source_(source), build_(source.file()), polygons_(build_, source.file()) {}
 
   PslgFile read() {
     read_object(read_json(source_), Properties());
-    add_seeds();
+    polygons_.add_seeds();
     return build_.finish();
   }
 
  private:
-  // A polygon whose seeds are to be found; the first ring is the outer one.
-  struct Polygon {
-    std::vector<Ring> rings;
-    std::vector<FilePosition> positions;
-    Properties properties;
-  };
-
   [[noreturn]] void fail(const std::string& what, const JsonValue& at) const {
     throw source_.error(ErrorCode::bad_syntax, what, at.at);
   }
@@ -163,34 +157,31 @@ class GeoJsonReader {
   void read_line(const JsonValue& line, const Properties& properties) {
     require(line, Kind::array, "an array of positions");
     if (line.values.size() < 2) fail("a line has two positions or more", line);
-    add_line(line, properties);
+    polygons_.add_line(places_of(line, properties), properties.marker, source_.position(line.at));
   }
 
   void read_polygon(const JsonValue& polygon, const Properties& properties) {
     require(polygon, Kind::array, "an array of rings");
     if (polygon.values.empty()) fail("a polygon has a ring", polygon);
-    Polygon added{{}, {}, properties};
+    Polygon added{{}, {}, properties.marker, properties.attribute, properties.max_area};
     for (const JsonValue& ring : polygon.values) {
       require(ring, Kind::array, "a ring of positions");
       if (ring.values.size() < 4) fail("a ring has four positions or more", ring);
-      added.rings.push_back(add_line(ring, properties));
+      added.rings.push_back(places_of(ring, properties));
       added.positions.push_back(source_.position(ring.at));
       if (added.rings.back().front() == added.rings.back().back()) continue;
       fail("a ring ends where it begins", ring);
     }
-    polygons_.push_back(std::move(added));
+    polygons_.add(std::move(added));
   }
 
-  Ring add_line(const JsonValue& line, const Properties& properties) {
+  // Of positions, each of which is a point from now on.
+  Ring places_of(const JsonValue& line, const Properties& properties) {
     Ring places;
-    std::vector<FeatureId> points;
     for (const JsonValue& position : line.values) {
       places.push_back(position_of(position));
-      points.push_back(
-          build_.point_at(places.back(), properties.marker, source_.position(position.at)));
-      if (places.size() > 1) lines_.push_back({places[places.size() - 2], places.back()});
+      build_.point_at(places.back(), properties.marker, source_.position(position.at));
     }
-    build_.add_line(std::move(points), properties.marker, source_.position(line.at));
     return places;
   }
 
@@ -204,50 +195,9 @@ class GeoJsonReader {
     return {source_.coordinate(position.values[0].at), source_.coordinate(position.values[1].at)};
   }
 
-  // For each polygon its region, then its holes.
-  std::vector<SeedQuestion> seed_questions() const {
-    std::vector<SeedQuestion> questions;
-    for (const Polygon& polygon : polygons_) {
-      SeedQuestion region{&polygon.rings.front(), {}};
-      for (std::size_t i = 1; i < polygon.rings.size(); ++i) {
-        region.inner.push_back(&polygon.rings[i]);
-      }
-      questions.push_back(std::move(region));
-      for (std::size_t i = 1; i < polygon.rings.size(); ++i) {
-        questions.push_back({&polygon.rings[i], {}});
-      }
-    }
-    return questions;
-  }
-
-  void add_seeds() {
-    const auto seeds = find_seeds(seed_questions(), lines_);
-    auto seed = seeds.begin();
-    double number = 0;
-    for (const Polygon& polygon : polygons_) {
-      add_region(polygon, *seed++, ++number);
-      for (std::size_t i = 1; i < polygon.rings.size(); ++i, ++seed) {
-        *seed ? build_.add_hole(**seed, polygon.positions[i])
-              : note_thin("a hole", polygon.positions[i]);
-      }
-    }
-  }
-
-  void add_region(const Polygon& polygon, const std::optional<Point<2>>& seed, double number) {
-    if (!seed) return note_thin("a polygon", polygon.positions[0]);
-    build_.add_region(*seed, polygon.properties.attribute.value_or(number),
-                      polygon.properties.max_area, polygon.positions[0]);
-  }
-
-  void note_thin(const std::string& what, FilePosition position) {
-    build_.note(what + " too thin to have a place inside: only its lines are used",
-                {source_.file(), position.line, position.column});
-  }
-
   const text::Source& source_;
   PslgBuilder build_;
-  std::vector<Polygon> polygons_;
-  std::vector<std::array<Point<2>, 2>> lines_;
+  PolygonBuilder polygons_;
 };
 
 }  // namespace

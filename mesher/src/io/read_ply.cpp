@@ -63,7 +63,8 @@ struct Element {
 // What the header says. Its lines are `lines`'.
 class PlyHeader {
  public:
-  PlyHeader(const std::string& path, std::string_view content) : lines_(content), line_(path) {
+  PlyHeader(const std::string& path, std::string_view content)
+      : path_(path), lines_(content), line_(path) {
     next("'ply'");
     if (line_[0] != "ply") throw line_.error(ErrorCode::bad_header, "expected 'ply'", 0);
     for (next("'end_header'"); line_[0] != "end_header"; next("'end_header'")) read_statement();
@@ -84,7 +85,8 @@ class PlyHeader {
   void next(const char* before) {
     do {
       if (!lines_.next()) {
-        throw line_.error(ErrorCode::truncated, std::string("the file ends before ") + before, 0);
+        const Place end = lines_.number() > 0 ? line_.place(line_.size()) : Place{path_};
+        throw Error(ErrorCode::truncated, std::string("the file ends before ") + before, end);
       }
       line_.split_blanks(lines_.number(), lines_.text());
     } while (line_.size() == 0);
@@ -136,6 +138,7 @@ class PlyHeader {
     throw line_.error(ErrorCode::unsupported, "numbers of the type " + text::quoted(line_[i]), i);
   }
 
+  std::string path_;
   text::Lines lines_;
   text::Line line_;
   std::string_view body_;

@@ -3,21 +3,19 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "geometry/circumcentre.hpp"
 #include "geometry/space.hpp"
 #include "io/svg_canvas.hpp"
-#include "mesh/canonical.hpp"
-#include "mesher/space_files.hpp"
+#include "mesh/half_faces.hpp"
 #include "mesher/space_svg.hpp"
 
 namespace mesher {
 namespace {
 
 using detail::dot;
-using Face = std::array<std::uint32_t, 3>;
+using detail::Face;
 using Simplex = Mesh<3>::Simplex;
 
 constexpr std::size_t kCutAxis = 1;                    // the cut is y = constant,
@@ -55,12 +53,6 @@ bool is_shown(const Point<3>& middle, const Box<3>& window) {
   return 2 * middle[kCutAxis] > window.lo[kCutAxis] + window.hi[kCutAxis];
 }
 
-// Seen from outside counterclockwise.
-std::array<Face, 4> faces_of(const Simplex& s) {
-  const auto [a, b, c, d] = s;
-  return {Face{a, c, b}, Face{a, b, d}, Face{b, c, d}, Face{a, d, c}};
-}
-
 double shortest_edge(const Mesh<3>& mesh, const Simplex& s) {
   double least = INFINITY;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -92,26 +84,35 @@ class Scene {
   Scene(const Mesh<3>& mesh, const SpaceView& view) : mesh_(mesh) {
     coloured_ = view.coloured;
     std::sort(coloured_.begin(), coloured_.end());
-    Mesh<3> left;  // its simplices are all that matters
+    std::vector<Simplex> left;
     for (const Simplex& s : mesh.simplices) {
-      if (is_shown(middle_of(mesh, s), view.window)) left.simplices.push_back(s);
+      if (is_shown(middle_of(mesh, s), view.window)) left.push_back(s);
     }
-    const auto border = boundary_faces(left);
-    std::vector<std::array<double, 2>> depth(left.simplices.size());
-    std::vector<std::uint32_t> order;
-    for (std::uint32_t t = 0; t < left.simplices.size(); ++t) {
-      depth[t] = depth_of(left.simplices[t]);
-      order.push_back(t);
+    for (const Placed& placed : turned_to_viewer(left)) {
+      const auto& [face, opposite, tetrahedron] = placed.half;
+      faces_.push_back({face, shaded(base_colour(left[tetrahedron]), normal_of(face))});
     }
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return std::pair(depth[a], a) < std::pair(depth[b], b);
-    });
-    for (const std::uint32_t t : order) add_faces(left.simplices[t], border);
   }
 
   [[nodiscard]] const std::vector<Shown>& faces() const { return faces_; }
 
  private:
+  struct Placed {
+    std::array<double, 2> depth;
+    detail::HalfFace half;
+  };
+
+  [[nodiscard]] std::vector<Placed> turned_to_viewer(const std::vector<Simplex>& left) const {
+    std::vector<Placed> placed;
+    for (const auto& half : detail::HalfFaces(left).border()) {
+      if (dot(normal_of(half.face), kToViewer) <= 0) continue;
+      placed.push_back({depth_of(left[half.tetrahedron]), half});
+    }
+    std::stable_sort(placed.begin(), placed.end(),
+                     [](const Placed& a, const Placed& b) { return a.depth < b.depth; });
+    return placed;
+  }
+
   // Towards the viewer: of the circumcentre, then, where spheres are one, of the middle.
   [[nodiscard]] std::array<double, 2> depth_of(const Simplex& s) const {
     const Point<3>& a = mesh_.vertices[s[0]];
@@ -122,16 +123,6 @@ class Scene {
     return detail::circumcentre(v[s[0]], v[s[1]], v[s[2]], v[s[3]]);
   }
 
-  void add_faces(const Simplex& s, const std::vector<Face>& border) {
-    for (const Face& face : faces_of(s)) {
-      const Point<3> normal = normal_of(face);
-      if (dot(normal, kToViewer) <= 0) continue;
-      const Face key = detail::smallest_first(face);
-      if (std::binary_search(border.begin(), border.end(), key)) {
-        faces_.push_back({face, shaded(base_colour(s), normal)});
-      }
-    }
-  }
   [[nodiscard]] Point<3> normal_of(const Face& f) const {
     const auto& v = mesh_.vertices;
     const Point<3> n =

@@ -32,6 +32,9 @@ class Checker {
     if (tiles && has_lines() && !options_.constrained) check("conforming", &Checker::conforming);
     if (options_.input != nullptr || options_.graph != nullptr) check("input", &Checker::input);
     if (tiles && has_lines()) check("regions", &Checker::regions);
+    if (tiles && has_paths_ && detail::tells_markers(options_)) {
+      findings_.add("markers", detail::check_markers(checked_, paths_, options_));
+    }
     if (tiles && options_.rho) check("quality", &Checker::quality);
     if (tiles && options_.max_area) check("area", &Checker::area);
     return findings_.take();
@@ -77,6 +80,7 @@ class Checker {
     }
     if (options_.graph != nullptr) {
       auto [verdict, paths] = detail::check_segments(checked_, options_);
+      has_paths_ = verdict.holds;
       if (!paths.empty()) findings_.add("segments", std::move(verdict));
       paths_ = std::move(paths);
     }
@@ -220,6 +224,7 @@ class Checker {
   std::vector<HalfEdge> border_;  // of edges with one triangle
   detail::LineEdges on_lines_;
   std::vector<detail::LinePath> paths_;  // of the input's lines
+  bool has_paths_ = false;               // all of them
   long long edges_ = 0;
 };
 

@@ -86,6 +86,12 @@ struct PathsVerdict {
 [[nodiscard]] Verdict check_regions(const CheckedMesh& mesh, const LineEdges& on_lines,
                                     const CheckOptions& options);
 
+/// Whether (f) is asked: the input has markers, and the mesh does.
+[[nodiscard]] bool tells_markers(const CheckOptions& options);
+/// (f), with the paths of all lines. Requires: tells_markers(options).
+[[nodiscard]] Verdict check_markers(const CheckedMesh& mesh, const std::vector<LinePath>& paths,
+                                    const CheckOptions& options);
+
 /// (9), with triangles excused whose shortest edge joins two of `paths` that leave one point at
 /// under 60 degrees.
 [[nodiscard]] Verdict check_quality(const CheckedMesh& mesh, double rho,

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "input.hpp"
+#include "io/text.hpp"
+#include "mesh/forced.hpp"
 
 namespace mesher::detail {
 
@@ -25,6 +27,24 @@ std::set<SegmentHandle> segments_in_ball(const Leaf& leaf, const VertexSearch<2>
 
 Point<2> common_end(const Segment& s, const Segment& t) {
   return t.has_end(s.a) ? s.place_a : s.place_b;
+}
+
+Point<2> direction_from(const Point<2>& end, const Segment& s) {
+  const Point<2>& other = s.place_a == end ? s.place_b : s.place_a;
+  return {other[0] - end[0], other[1] - end[1]};
+}
+
+// Where the leaf's segment meets the others, and the smallest angle at which it does.
+std::string meeting(const Segment& s, const std::set<SegmentHandle>& others,
+                    const SegmentPool& segments) {
+  const Point<2> apex = common_end(s, segments[*others.begin()]);
+  double least = kSmall;
+  for (const SegmentHandle other : others) {
+    const Segment& t = segments[other];
+    if (t.place_a != apex && t.place_b != apex) continue;
+    least = std::min(least, degrees_between(direction_from(apex, s), direction_from(apex, t)));
+  }
+  return "at " + place_text(apex) + " at angles down to " + text::to_text(least) + " degrees, ";
 }
 
 // The leaf's line, then the first of the others.
@@ -58,12 +78,10 @@ void LostEdge::require_none(const VertexSearch<2>& vertices, const SegmentPool& 
   std::vector<FeatureId> ids;
   if (names != nullptr) ids = lines_of(*first_, others, *names);
   std::string text = list(ids) + " meet ";
-  if (!others.empty()) {
-    text += "at " + place_text(common_end(*first_->segment, segments[*others.begin()])) + " ";
-  }
+  text += others.empty() ? "at angles " : meeting(*first_->segment, others, segments);
   throw Error(ErrorCode::too_close,
-              text + "at angles too small for double precision: no edge joins " +
-                  place_text(first_->lo) + " and " + place_text(first_->hi),
+              text + "too small for double precision: no edge joins " + place_text(first_->lo) +
+                  " and " + place_text(first_->hi),
               {}, std::move(ids));
 }
 

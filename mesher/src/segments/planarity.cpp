@@ -21,6 +21,13 @@ bool overlap(const Segment& s, const Segment& t) {
   return std::max(s.place_a, t.place_a) < std::min(s.place_b, t.place_b);
 }
 
+// Of segments with a common end, which is on both lines: the other end of t decides. So that legs
+// of a hub, each pair of which is looked at, need no exact arithmetic.
+bool overlap_beyond_end(const Segment& s, const Segment& t) {
+  const Point<2>& other = s.has_end(t.a) ? t.place_b : t.place_a;
+  return overlap(s, t) && predicates::orient2d(s.place_a, s.place_b, other) == 0;
+}
+
 std::string text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
 // Pieces of a polyline have one id.
@@ -33,12 +40,12 @@ std::string other_text(FeatureId line, FeatureId other) {
 namespace planarity {
 
 std::optional<Conflict> conflict_with(const Segment& s, const Segment& t) {
-  if (!segments_meet(s.place_a, s.place_b, t.place_a, t.place_b)) return std::nullopt;
-  if (on_one_line(s, t)) {
-    if (!overlap(s, t)) return std::nullopt;
-    return Conflict{Conflict::Kind::overlap, &s, &t, nullptr};
+  const Conflict overlapping{Conflict::Kind::overlap, &s, &t, nullptr};
+  if (s.has_end(t.a) || s.has_end(t.b)) {
+    return overlap_beyond_end(s, t) ? std::optional(overlapping) : std::nullopt;
   }
-  if (s.has_end(t.a) || s.has_end(t.b)) return std::nullopt;
+  if (!segments_meet(s.place_a, s.place_b, t.place_a, t.place_b)) return std::nullopt;
+  if (on_one_line(s, t)) return overlap(s, t) ? std::optional(overlapping) : std::nullopt;
   return Conflict{Conflict::Kind::crossing, &s, &t, nullptr};
 }
 

@@ -114,6 +114,16 @@ void RegionLimits::visit(const Node& node, const Point<2>& lo, double side, Ente
   }
 }
 
+std::size_t RegionLimits::bytes_below(const Node& node) {
+  constexpr std::size_t kCounts = 16;  // what a shared_ptr keeps beside a node
+  std::size_t bytes = sizeof(Node) + kCounts + node.entries.capacity() * sizeof(Entry);
+  for (const Link& child : node.child) {
+    if (child != nullptr) bytes += bytes_below(*child);
+  }
+  return bytes;
+}
+std::size_t RegionLimits::bytes() const { return root_ == nullptr ? 0 : bytes_below(*root_); }
+
 RegionLimits::Limit RegionLimits::at(const Point<2>& p) const {
   Limit found;
   const auto enter = [&](const Box<2>& box, const Node& node) {

@@ -62,6 +62,8 @@ class RegionLimits {
   /// Cost: O(log L/s).
   [[nodiscard]] Limit at(const Point<2>& p) const;
   [[nodiscard]] Range range(const Box<2>& box) const;
+  /// Memory, with what other values have as well. Cost: O(triangles).
+  [[nodiscard]] std::size_t bytes() const;
   /// Calls visit(corners, limit) for all triangles.
   template <class Visit>
   void for_each(Visit&& visit) const {
@@ -87,6 +89,7 @@ class RegionLimits {
   [[nodiscard]] detail::Cell<2> cell_of(const Corners& triangle) const;
   template <class Edit>
   static void edit_at(Link& link, const detail::Cell<2>& cell, int level, Edit& edit);
+  [[nodiscard]] static std::size_t bytes_below(const Node& node);
   template <class Enter, class Visit>
   void visit(const Node& node, const Point<2>& lo, double side, Enter& enter,
              Visit& visit_entry) const;

@@ -387,3 +387,45 @@ TEST_CASE("a script may begin with a byte order mark") {
   CHECK(apply("\xEF\xBB\xBF", table).empty());
   CHECK(apply("\xEF\xBB\xBF# nothing\n\n", table).empty());
 }
+
+TEST_CASE("a script in space has points with three coordinates, and no other edits") {
+  const ScratchFolder folder;
+  mesher::Mesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
+  mesher::EditScriptOf<3> script(folder.write("edits.txt",
+                                              "+point 1 .5 .25 .125  # a point\n"
+                                              "begin\n+point 2 .5 .5 .5\nmove 1 .25 .25 1\ncommit\n"
+                                              "-point 2\n"));
+  std::vector<std::string> texts;
+  mesher::apply(script, m, [&](const mesher::Update<3>& u) { texts.push_back(u.text()); });
+  CHECK(texts == std::vector<std::string>{"+point 1 .5 .25 .125",
+                                          "+point 2 .5 .5 .5; move 1 .25 .25 1", "-point 2"});
+  CHECK(m.points() == std::vector{mesher::InputPoint<3>{FeatureId{1}, {.25, .25, 1}}});
+  CHECK(m.mesh() == mesher::mesh_statically<3>({{.25, .25, 1}}, m.options()));
+}
+
+TEST_CASE("bad lines of a script in space are refused with the code and the place of the mistake") {
+  const Refused refused = GENERATE(values<Refused>({
+      {"+point 1 0 0\n", "bad_edit@1:13"},
+      {"+point 1 0 0 0 0\n", "bad_edit@1:16"},
+      {"+point 1 0 0 0 marker 5\n", "bad_edit@1:16"},
+      {"+point 1 0 0 0\nmove 1 0 0\n", "bad_edit@2:11"},
+      {"+point 1 0 0 nan\n", "not_finite@1:14"},
+      {"+point 1 0 0 1e-31\n", "magnitude@1:14"},
+      {"-point 1 0\n", "bad_edit@1:10"},
+      {"+point 1 0 0 2\n", "outside_domain@1:1"},
+      {"+point 1 0 0 0\n+point 2 0 0 0\n", "duplicate_point@2:1"},
+      {"begin\n+point 1 0 0 0\n move 1 0 0 0\n+point 2 0 0 0\ncommit\n", "duplicate_point@4:1"},
+      {"+segment 1 1 2\n", "bad_edit@1:1"},
+      {"+polyline 1 1 2\n", "bad_edit@1:1"},
+      {"+hole 1 0 0 0\n", "bad_edit@1:1"},
+      {"+region 1 0 0 0 1\n", "bad_edit@1:1"},
+      {"limit none\n", "bad_edit@1:1"},
+      {"+tetrahedron 1\n", "bad_edit@1:1"},
+      {"begin\n+point 1 0 0 0\n", "unbalanced_commit@1:1"},
+  }));
+  CAPTURE(refused.content);
+  const ScratchFolder folder;
+  mesher::Mesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
+  mesher::EditScriptOf<3> script(folder.write("edits.txt", refused.content));
+  CHECK(failure_of([&] { mesher::apply(script, m, [](const auto&) {}); }) == refused.failure);
+}

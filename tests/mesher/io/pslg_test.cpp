@@ -381,6 +381,59 @@ TEST_CASE("a polygon of GeoJSON is closed lines, a region, and a hole for each i
   CHECK(within(file.pslg.regions[1].seed, 3, 5));
 }
 
+TEST_CASE("polygons of GeoJSON share borders: a piece is a line once, and each keeps its region") {
+  // 1 | 2  with 3 below both; all three have borders in common.
+  const auto file = read("a.geojson", geometry("MultiPolygon",
+                                               "[[[[0,0],[1,0],[1,1],[0,1],[0,0]]],\n"
+                                               "[[[1,0],[2,0],[2,1],[1,1],[1,0]]],\n"
+                                               "[[[0,0],[0,-1],[2,-1],[2,0],[1,0],[0,0]]]]"));
+  CHECK(file.pslg.points.size() == 8);
+  CHECK(file.pslg.polylines == std::vector<Pslg::Polyline>{{id(1), ids({1, 2, 3, 4, 1}), 0},
+                                                           {id(2), ids({2, 5, 6, 3}), 0},
+                                                           {id(3), ids({1, 7, 8, 5}), 0}});
+  CHECK(file.pslg.segments.empty());
+  CHECK(file.place_of_polyline(2).line == 3);
+  REQUIRE(file.pslg.regions.size() == 3);
+  CHECK(file.pslg.regions[2].seed[1] < 0);
+  CHECK(notes_of(file) ==
+        std::vector<std::string>{"a border that polygons share is a line of the first of them (2 "
+                                 "times)"});
+}
+
+TEST_CASE("what is left of a ring between borders that it shares is a line for each run") {
+  // A frame of a square, whose corners and every other side belong to others.
+  const auto file = read("a.geojson", geometry("MultiPolygon",
+                                               "[[[[0,0],[1,0],[0.5,-1],[0,0]]],\n"
+                                               "[[[0,1],[1,1],[0.5,2],[0,1]]],\n"
+                                               "[[[0.5,1],[0.25,0.5],[0.75,0.5],[0.5,1]]],\n"
+                                               "[[[0,1],[0,0],[1,0],[1,1],[0,1]]]]"));
+  CHECK(file.pslg.polylines.size() == 3);
+  CHECK(file.pslg.segments ==
+        std::vector<Pslg::Segment>{{id(4), id(2), id(5), 0}, {id(5), id(4), id(1), 0}});
+}
+
+TEST_CASE("an inner ring that another polygon fills makes no hole; one that none does is one") {
+  const std::string hole = "[[2,2],[2,6],[6,6],[6,2],[2,2]]";
+  const std::string outer = "[[0,0],[8,0],[8,8],[0,8],[0,0]]";
+  const std::string around = "[" + outer + "," + hole + "]";
+  for (const std::string& polygons :
+       {"[" + around + ",[" + hole + "]]", "[[" + hole + "]," + around + "]",
+        "[" + around + ",[[[2,2],[2,6],[6,6],[2,2]]],[[[6,6],[6,2],[2,2],[6,6]]]]"}) {
+    const auto file = read("a.geojson", geometry("MultiPolygon", polygons));
+    INFO(polygons);
+    CHECK(file.pslg.holes.empty());
+    CHECK(file.pslg.regions.size() >= 2);
+  }
+  // Twice the same polygon fills no hole.
+  CHECK(read("a.geojson", geometry("MultiPolygon", "[" + around + "," + around + "]"))
+            .pslg.holes.size() == 2);
+  // An outer ring and its own hole that have a side in common.
+  CHECK(read("a.geojson", geometry("Polygon",
+                                   "[[[0,0],[2,0],[6,0],[8,0],[8,8],[0,0]],"
+                                   "[[2,0],[6,0],[6,1],[3,1],[2,0]]]"))
+            .pslg.holes.size() == 1);
+}
+
 TEST_CASE("seeds lie inside their ring, and no line cuts them off from it") {
   mesher::SplitMix64 random(3);
   for (int round = 0; round < 200; ++round) {

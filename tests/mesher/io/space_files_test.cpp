@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "mesher/io.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/predicates.hpp"
 #include "scratch_file.hpp"
@@ -48,9 +49,9 @@ TEST_CASE("the boundary's faces are those on the box's sides, seen from outside,
   CHECK(mesher::boundary_faces({}).empty());
 }
 
-TEST_CASE("a mesh of tetrahedra is refused for formats of the plane, and nothing is written") {
+TEST_CASE("a mesh of tetrahedra is refused for formats that do not take it, nothing is written") {
   const support::ScratchFolder folder;
-  for (const char* name : {"mesh.svg", "mesh.off", "mesh"}) {
+  for (const char* name : {"mesh.ply", "mesh.poly", "mesh"}) {
     INFO(name);
     try {
       mesher::write_mesh(some_mesh(), folder.path(name));
@@ -63,4 +64,33 @@ TEST_CASE("a mesh of tetrahedra is refused for formats of the plane, and nothing
   std::filesystem::create_directories(folder.path("mesh.ele"));  // in the way of the second file
   CHECK_THROWS_AS(mesher::write_mesh(some_mesh(), folder.path("mesh.node")), mesher::Error);
   CHECK_FALSE(std::filesystem::exists(folder.path("mesh.node")));
+}
+
+TEST_CASE("surfaces have the vertices and faces of the boundary, in their order") {
+  const Mesh<3> mesh = some_mesh();
+  const auto faces = mesher::boundary_faces(mesh);
+  std::vector<Point<3>> on_boundary;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (mesh.kinds[i] == mesher::VertexKind::boundary) on_boundary.push_back(mesh.vertices[i]);
+  }
+  const support::ScratchFolder folder;
+  for (const char* name : {"m.off", "m.obj"}) {
+    INFO(name);
+    mesher::write_mesh(mesh, folder.path(name));
+    CHECK(mesher::read_points<3>(folder.path(name)).points == on_boundary);
+  }
+  mesher::write_mesh(mesh, folder.path("m.stl"));
+  auto corners = mesher::read_points<3>(folder.path("m.stl")).points;
+  std::sort(corners.begin(), corners.end());
+  CHECK(corners == on_boundary);
+  const auto count = [](const std::string& text, const std::string& word) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+      ++found;
+    }
+    return found;
+  };
+  CHECK(count(folder.read("m.off"), "\n3 ") == faces.size());
+  CHECK(count(folder.read("m.obj"), "\nf ") == faces.size());
+  CHECK(count(folder.read("m.stl"), "facet normal") == faces.size());
 }

@@ -1,5 +1,6 @@
 // What calls look at inside, in runs of growing size: no search is hidden in a constant.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -37,6 +38,27 @@ double per_point(std::uint64_t count, std::size_t n) {
   return static_cast<double>(count) / static_cast<double>(n);
 }
 
+// A line beside which `n` points stand, so that it has at least as many pieces; the counts of the
+// update in which its end moves by a unit in the last place, for each piece.
+double calls_per_piece(std::size_t n) {
+  Mesher<2> m(kWeighed);
+  const Point<2> from{0.1, 0.5}, to{0.9, 0.5123};
+  m.insert(FeatureId{1}, from);
+  m.insert(FeatureId{2}, to);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+    const double y = from[1] + t * (to[1] - from[1]) + 0.4 / static_cast<double>(n);
+    m.insert(FeatureId{10 + static_cast<std::int64_t>(i)}, {from[0] + t * (to[0] - from[0]), y});
+  }
+  m.insert_segment(FeatureId{1}, FeatureId{1}, FeatureId{2});
+  const std::size_t pieces = m.update().edges_added.size();
+  CHECK(pieces > n);
+  m.move(FeatureId{2}, {to[0], std::nextafter(to[1], 1)});
+  const auto calls = m.update().calls;
+  return static_cast<double>(calls.executed + calls.created + calls.discarded) /
+         static_cast<double>(pieces);
+}
+
 }  // namespace
 
 TEST_CASE("what a first run looks at grows with its points, and no faster") {
@@ -57,4 +79,13 @@ TEST_CASE("many points that come at once cost about what they cost in a first ru
     CHECK(per_point(batch.calls, n) < 1.5 * per_point(fresh.calls, n));
     CHECK(per_point(batch.weight, n) < 2.0 * per_point(fresh.weight, n));
   }
+}
+
+TEST_CASE(
+    "a line whose end moves costs as many calls for each of its pieces, be it short or long") {
+  const double of_short = calls_per_piece(32);
+  const double of_long = calls_per_piece(512);
+  INFO(of_short << " and " << of_long);
+  CHECK(of_short < 40);
+  CHECK(of_long < 1.2 * of_short);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <string>
 
 #include "mesher/mesher.hpp"
 #include "pslg_judge.hpp"
@@ -61,6 +62,11 @@ int inner_vertices(const Mesh<2>& mesh) {
 }
 
 constexpr double kTurns[] = {0, 1.5707963267948966, 0.3, 2.2, 4.0};
+
+double angle_told(const std::string& message) {
+  const std::string before = "angles down to ";
+  return std::stod(message.substr(message.find(before) + before.size()));
+}
 
 }  // namespace
 
@@ -144,6 +150,10 @@ TEST_CASE("Fans below double precision conform, or are refused by name and leave
         } catch (const Error& error) {
           CHECK(error.code() == ErrorCode::too_close);
           CHECK(is_named(error));
+          CHECK(error.message().find(" meet at (0, 0) at angles down to ") != std::string::npos);
+          const double told = angle_told(error.message());
+          CHECK(told > 0.9 * std::pow(10, -decades));
+          CHECK(told < 1.1 * legs * std::pow(10, -decades));
           ++refused;
           is_meshed = false;
         }

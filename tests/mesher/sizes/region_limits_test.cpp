@@ -11,6 +11,7 @@
 #include "mesher/domain_mesher.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/sizes.hpp"
+#include "program/world.hpp"
 
 namespace {
 
@@ -252,4 +253,27 @@ TEST_CASE("an update of regions' limits in which any one allocation fails leaves
 
 TEST_CASE("the same where limits come to an enclosed domain") {
   support::check_failing_updates<Begun>();
+}
+
+TEST_CASE("The second mesh, which tells what lines enclose, counts in the memory that is told") {
+  mesher::Mesher<2> alone(options());
+  announce_rooms(alone);
+  alone.update();
+  Options<2> limited = options();
+  limited.max_area = 4;
+  DomainMesher m(limited);
+  announce_rooms(m);
+  m.update();
+  mesher::Mesher<2> in_rooms(m.options());  // with the limits in their regions
+  announce_rooms(in_rooms);
+  in_rooms.update();
+  const auto both = m.stats(), first = in_rooms.stats(), second = alone.stats();
+  CHECK(both.vertices == first.vertices);
+  CHECK(both.calls == first.calls + second.calls);
+  CHECK(both.edges == first.edges + second.edges);
+  CHECK(both.trace_bytes > first.trace_bytes + second.trace_bytes);  // and the limits' own
+  RegionLimits limits(mesher::detail::mesh_box(options()));
+  CHECK(limits.bytes() == 0);
+  limits.insert({Point<2>{1, 1}, {2, 1}, {1, 2}}, {});
+  CHECK(limits.bytes() > sizeof(RegionLimits::Corners));
 }
