@@ -10,7 +10,7 @@
 //   m_f
 //            is how many they are
 // PATH.svg (default: build/space_stability.svg) and the JSON lines are as there. D is recorded
-// where N is at most 10^4. N = 1000000 takes some minutes and 16 GB.
+// where N is at most 10^4. N = 1000000 takes some minutes and 3.4 GB.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
