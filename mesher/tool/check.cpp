@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "mesher/io.hpp"
 #include "mesher/pslg.hpp"
+#include "references.hpp"
 
 namespace tool {
 namespace {
@@ -51,9 +52,10 @@ mesher::BoundaryRule boundary_rule(const CheckArguments& args, const mesher::Mes
 }
 
 void run_check(const CheckArguments& args) {
-  const mesher::MeshData mesh = mesher::read_mesh(args.mesh);
+  mesher::MeshData mesh = mesher::read_mesh(args.mesh);
   mesher::PslgFile graph;
   if (!args.input.empty()) graph = mesher::read_pslg(args.input);
+  forget_counted_values(args.mesh, mesh, graph);
   mesher::CheckOptions options;
   options.features = &mesh.features;
   if (!args.input.empty()) options.graph = &graph;
