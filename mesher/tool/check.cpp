@@ -11,6 +11,7 @@
 #include "mesher/io.hpp"
 #include "mesher/pslg.hpp"
 #include "mesher/space_check.hpp"
+#include "references.hpp"
 
 namespace tool {
 namespace {
@@ -71,10 +72,11 @@ std::string counts_of(const mesher::MeshDataOf<D>& mesh) {
                       {args.mesh});
 }
 
-Judged judge(const CheckArguments& args, const mesher::MeshDataOf<2>& mesh) {
+Judged judge(const CheckArguments& args, mesher::MeshDataOf<2>& mesh) {
   if (args.ties) refuse(args, "--ties", "tetrahedra");
   mesher::PslgFile graph;
   if (!args.input.empty()) graph = mesher::read_pslg(args.input);
+  forget_counted_values(args.mesh, mesh, graph);
   mesher::CheckOptions options;
   options.features = &mesh.features;
   if (!args.input.empty()) options.graph = &graph;
@@ -103,8 +105,8 @@ Judged judge(const CheckArguments& args, const mesher::MeshDataOf<3>& mesh) {
 }
 
 void run_check(const CheckArguments& args) {
-  const Judged judged = std::visit([&](const auto& mesh) { return judge(args, mesh); },
-                                   mesher::read_any_mesh(args.mesh));
+  mesher::AnyMesh any = mesher::read_any_mesh(args.mesh);
+  const Judged judged = std::visit([&](auto& mesh) { return judge(args, mesh); }, any);
   std::printf("%s: %s\n", args.mesh.c_str(), judged.counts.c_str());
   print_notes(judged.notes);
   print_findings(judged.findings);

@@ -77,18 +77,21 @@ std::string words(Featured kind, FeatureId id) {
          std::to_string(static_cast<std::int64_t>(id));
 }
 
-// Whether a repaired graph has no such fault.
-bool is_repaired(ErrorCode code) {
-  switch (code) {
+// What a repair does about the error, "" if nothing: lines that meet at tiny angles it leaves.
+std::string repair_hint(const Error& error) {
+  switch (error.code()) {
     case ErrorCode::duplicate_point:
     case ErrorCode::crossing_segments:
     case ErrorCode::point_on_segment:
     case ErrorCode::overlapping_segments:
     case ErrorCode::repeated_segment:
     case ErrorCode::zero_length:
-      return true;
+      return "; --repair mends this";
+    case ErrorCode::too_close:
+      if (error.message().find(" angles ") != std::string::npos) return "";
+      return "; --repair may mend this: it joins what is closer than 2^-44 of the box's side";
     default:
-      return false;
+      return "";
   }
 }
 
@@ -110,7 +113,7 @@ Error Standing::located(const Error& error) const {
   const std::vector<Featured> kinds = kinds_of(error);
   Place blamed = error.place();
   std::string others;
-  bool mends = offers_repair_ && is_repaired(error.code());
+  bool mends = offers_repair_;
   for (std::size_t i = 0; i < std::min(kinds.size(), error.ids().size()); ++i) {
     const Place stands = place(kinds[i], error.ids()[i]);
     mends = mends && !edited_.contains({kinds[i], error.ids()[i]});
@@ -124,7 +127,7 @@ Error Standing::located(const Error& error) const {
   }
   if (blamed.file.empty()) blamed.file = path_;
   if (!others.empty()) others += ")";
-  if (mends) others += "; --repair mends this";
+  if (mends) others += repair_hint(error);
   return Error(error.code(), error.message() + others, blamed, error.ids());
 }
 

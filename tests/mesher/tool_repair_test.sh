@@ -42,6 +42,10 @@ expect 0 'lines       ok' check crossing.1.node --rho 1.4142
 refuse 1 'error[outside_domain]' mesh crossing.poly --repair --domain 0 0 3 3 -o out/x.vtu
 printf -- '-segment 1\n' >edits.txt
 expect 0 'repair: line 1 is split' edit crossing.poly --repair --script edits.txt -o x.1.node
+printf '4 2 0 0\n1 0 0\n2 1 0\n3 0.5 1e-16\n4 0.5 1\n1 0\n1 1 2\n0\n' >near.poly
+refuse 1 'error[too_close]' mesh near.poly -o out/x.vtu
+refuse 1 '; --repair may mend this' mesh near.poly -o out/x.vtu
+expect 0 'repair: line 1 is split at point 3' mesh near.poly --repair -o x.vtu
 # Edits are not repaired, nor is what is repaired a second time.
 printf '4 2 0 0\n1 0 0\n2 4 4\n3 0 4\n4 4 0\n1 0\n1 1 2\n0\n' >sound.poly
 printf -- '+segment 2 3 4\n' >edits.txt

@@ -24,6 +24,7 @@
 
 #include "../../mesher/bench/random_line.hpp"
 #include "ground.hpp"
+#include "mesher/domain_mesh.hpp"
 #include "mesher/generate.hpp"
 #include "plots.hpp"
 
@@ -52,7 +53,7 @@ Ground segments(std::size_t n) {
   std::vector<Point<2>> points;
   std::vector<FeatureId> ids;
   for (const auto& v : pslg.points) points.push_back(v.at), ids.push_back(v.id);
-  return Ground(points, ids, pslg.segments);
+  return Ground(points, ids, mesher::segments_of(pslg));
 }
 
 double length_of(std::size_t n) { return 1 / std::sqrt(2.0 * static_cast<double>(n)); }
