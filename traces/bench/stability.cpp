@@ -13,7 +13,7 @@
 // PATH.svg (default: build/stability.svg) shows medians as lines and 99th percentiles as ticks; one
 // JSON line per place on the plot goes to standard output, and one per line on it: a fit over
 // lg(L/s) and m_f, and for n the median at the last N over that at 10^4. D is recorded where N is
-// at most 10^5. N = 1000000 takes some minutes and 7 GB, of points alone 2.
+// at most 10^5. N = 1000000 takes some minutes and 9 GB, of points alone 2.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <optional>
-#include <unordered_map>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "facade/announced_limits.hpp"
 #include "facade/announced_lines.hpp"
+#include "facade/line_news.hpp"
 #include "facade/point_state.hpp"
 #include "segments/planarity.hpp"
 
@@ -41,7 +40,6 @@ class State final : public PointState<2>, private Names {
   [[nodiscard]] std::vector<InputLine> lines() const;
 
  private:
-  using Lines = std::unordered_map<FeatureId, LinePoints>;
   // A segment of a line, by its ends.
   struct Part {
     FeatureId line{};
@@ -50,7 +48,7 @@ class State final : public PointState<2>, private Names {
 
   void add_others_first() override;
   void make_edits(const PointEdits& edits, Ids& arrived) override;
-  void point_comes(VertexHandle v, FeatureId id) override { new_names_[v] = id; }
+  void point_comes(VertexHandle v, FeatureId id) override { news_.points[v] = id; }
   void make_room_for_others() override;
   void require_others() const override;
   void require_others(const Log& log) const override;
@@ -80,15 +78,11 @@ class State final : public PointState<2>, private Names {
 
   double rho_;
   std::vector<FeatureId> lines_;  // by handle, of the segments
-  Lines line_points_;
+  LineNews::Lines line_points_;
   // What an update brings, until it is done.
   LineEdits line_edits_;
   std::optional<LimitsEdit> limits_edit_;
-  std::unordered_map<VertexHandle, FeatureId> new_names_;
-  std::unordered_map<SegmentHandle, FeatureId> new_lines_;
-  std::vector<SegmentHandle> new_segments_;
-  Lines new_line_points_;
-  std::unordered_set<SegmentHandle> taken_;  // those that went; some have come again
+  LineNews news_;
 };
 
 }  // namespace mesher::detail

@@ -31,13 +31,13 @@ const LinePoints& State::line(FeatureId id) const {
 }
 
 FeatureId State::point(VertexHandle v) const {
-  const auto it = new_names_.find(v);
-  return it == new_names_.end() ? names_[v] : it->second;
+  const auto it = news_.points.find(v);
+  return it == news_.points.end() ? names_[v] : it->second;
 }
 
 FeatureId State::line(SegmentHandle s) const {
-  const auto it = new_lines_.find(s);
-  return it == new_lines_.end() ? lines_[s] : it->second;
+  const auto it = news_.lines.find(s);
+  return it == news_.lines.end() ? lines_[s] : it->second;
 }
 
 // --- Single segments -------------------------------------------------------------------------
@@ -61,14 +61,14 @@ void State::add_part(const Part& part, const Ids& arrived) {
     fail_repeated(part.line, line(same->self), *same);
   }
   const PieceRef all = segments().insert(a, b);
-  new_lines_[all.piece.segment] = part.line;
-  new_segments_.push_back(all.piece.segment);
+  news_.lines[all.piece.segment] = part.line;
+  news_.segments.push_back(all.piece.segment);
   world_->splits.post_from_outside<split_segment>(split_segment_key(box_, all), all);
 }
 
 void State::take_part(VertexHandle from, VertexHandle to) {
   const PieceRef all = segments().erase(from, to);
-  taken_.insert(all.piece.segment);
+  news_.taken.insert(all.piece.segment);
   world_->splits.retract_from_outside<split_segment>(all);
 }
 
@@ -84,7 +84,7 @@ void State::add_others_first() {
 }
 
 bool State::has_lines() const noexcept {
-  return segments().store().live() != 0 || !new_segments_.empty();
+  return segments().store().live() != 0 || !news_.segments.empty();
 }
 
 void State::make_edits(const PointEdits& edits, Ids& arrived) {
@@ -139,7 +139,7 @@ void State::require_unused(const PointEdits& edits) const {
 
 // What has come fits to what is there.
 void State::require_planar(const Ids& arrived) {
-  for (const SegmentHandle h : new_segments_) {
+  for (const SegmentHandle h : news_.segments) {
     const auto conflict = conflict_of(segments().pool()[h], segments().store(), features());
     if (conflict) fail(*conflict, *this);
   }
@@ -155,29 +155,29 @@ void State::require_planar(const Ids& arrived) {
 // So that rename_others() cannot fail.
 void State::make_room_for_others() {
   for (const auto& edit : line_edits_) {
-    if (!edit.to.empty()) new_line_points_.emplace(edit.id, edit.to);
+    if (!edit.to.empty()) news_.line_points.emplace(edit.id, edit.to);
   }
-  line_points_.reserve(line_points_.size() + new_line_points_.size());
+  const std::size_t most = line_points_.size() + news_.line_points.size();
+  const auto buckets = static_cast<float>(line_points_.bucket_count());
+  if (static_cast<float>(most) > line_points_.max_load_factor() * buckets) {
+    line_points_.reserve(2 * most + 16);  // never less than there is: that would move all
+  }
   SegmentHandle last = 0;
-  for (const SegmentHandle h : new_segments_) last = std::max(last, h);
+  for (const SegmentHandle h : news_.segments) last = std::max(last, h);
   if (last >= lines_.capacity()) lines_.reserve(2 * std::size_t{last} + 16);
   if (last >= lines_.size()) lines_.resize(std::size_t{last} + 1);
 }
 
 void State::rename_others() noexcept {
   for (const auto& edit : line_edits_) line_points_.erase(edit.id);
-  line_points_.merge(new_line_points_);
-  for (const auto& [h, id] : new_lines_) lines_[h] = id;
+  line_points_.merge(news_.line_points);
+  for (const auto& [h, id] : news_.lines) lines_[h] = id;
 }
 
 void State::forget_news() noexcept {
   line_edits_ = LineEdits();
   limits_edit_.reset();
-  new_names_.clear();
-  new_lines_.clear();
-  new_segments_.clear();
-  new_line_points_.clear();
-  taken_.clear();
+  news_.clear();
 }
 
 }  // namespace mesher::detail

@@ -31,9 +31,9 @@ std::vector<InputLine> State::lines() const {
 void State::report_renamed(std::vector<mesher::LineEdge<2>>& gone,
                            std::vector<mesher::LineEdge<2>>& come) const {
   const auto is_renamed = [&](SegmentHandle s) {
-    return taken_.find(s) != taken_.end() && lines_[s] != line(s);
+    return news_.taken.find(s) != news_.taken.end() && lines_[s] != line(s);
   };
-  const bool any = std::any_of(new_segments_.begin(), new_segments_.end(), is_renamed);
+  const bool any = std::any_of(news_.segments.begin(), news_.segments.end(), is_renamed);
   if (!any) return;
   world_->leaves.for_each([&](const Leaf& leaf) {
     if (!leaf.committed || !is_renamed(leaf.piece.segment)) return;
