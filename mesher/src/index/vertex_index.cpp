@@ -89,6 +89,7 @@ void VertexIndex<sac::Scope, D>::produced(sac::Scope& s, Vertex<D>& v, BirthEdge
                                           const Role& role) noexcept {
   edge.vertex = v.self;
   const bool was_there = v.presence.there();
+  if (!was_there) log_.came(v);
   const auto window = presences_.produced(v.presence, edge, s.self());
   v.alive = true;
   if (!was_there) {
@@ -213,15 +214,92 @@ template <int D>
 template <class Seen>
 CellLoan<D> VertexIndex<sac::Scope, D>::look(const Vertex<D>& v, double radius,
                                              const Observation* last, Seen&& seen) {
+  CellLoan<D> cell = borrow_cell();
   if (last != nullptr && observers_.knows_arrivals(*last)) {
     const auto arrivals = [&](auto&& visit) { observers_.for_each_arrival(*last, visit); };
-    return Base::repaired_cell(v, radius, observers_.seen(*last), arrivals, seen);
+    begin_repair(*cell, v, radius, observers_.seen(*last), arrivals, seen);
+    if (cell->open2() == 0 || try_successors(*cell, *last, seen)) return cell;
+  } else {
+    begin(*cell, v, radius, seen);
+    log_.for_each_that_came([&](VertexHandle u) { try_cut(*cell, u, seen); });
   }
+  finish(*cell, seen);
+  return cell;
+}
+
+// With who is likely to be near: v's neighbours at another time, or those of the vertex for which v
+// was made.
+template <int D>
+template <class Seen>
+void VertexIndex<sac::Scope, D>::begin(Cell& cell, const Vertex<D>& v, double radius, Seen& seen) {
   const auto surrounds = [](const Observation& o) { return o.kind != kNearest; };
   if (const Observation* other = observers_.find_at(v, surrounds)) {
-    return Base::cell_from_ring(v, radius, observers_.seen(*other), seen);
+    return begin_with_ring(cell, v, radius, observers_.seen(*other), seen);
   }
-  return cut_around(v, radius, seen);
+  cell.reset(v, radius);
+  const CellSeen* made_in = cell_of_producer(v);
+  if (made_in == nullptr) return;
+  try_cut(cell, made_in->center, seen);
+  for (const std::uint32_t u : observers_.neighbours(*made_in)) {
+    if (u < Cell::kVirtual) try_cut(cell, u, seen);
+  }
+}
+
+// Where neighbours have gone, who takes their places are the vertices that were around them and
+// those that have come. Returns whether they are all that could, so that no search is needed: a
+// star's neighbours among the vertices of the last update less those that have gone were its own or
+// those of one that has gone and that it touched, or that one of these touched in turn [rules B5].
+template <int D>
+template <class Seen>
+bool VertexIndex<sac::Scope, D>::try_successors(Cell& cell, const Observation& last, Seen& seen) {
+  bool all = last.kind == kStar && !engine_.undoing();
+  gone_.clear();
+  for (const std::uint32_t u : observers_.neighbours(last)) {
+    if (u < Cell::kVirtual && !seen(u)) gone_.push_back(u);
+  }
+  for (std::size_t i = 0; i < gone_.size(); ++i) all &= try_around(cell, pool_[gone_[i]], seen);
+  const auto try_it = [&](VertexHandle u) { try_cut(cell, u, seen); };
+  return log_.for_each_that_came(try_it) && all;
+}
+
+// Tries those who were around `gone`, and notes who of them has gone, too. Returns whether it is
+// known who they were.
+template <int D>
+template <class Seen>
+bool VertexIndex<sac::Scope, D>::try_around(Cell& cell, const Vertex<D>& gone, Seen& seen) {
+  constexpr std::size_t kMost = 64;
+  const Ring* ring = gone.committed && gone_.size() <= kMost ? last_ring(gone) : nullptr;
+  if (ring == nullptr) return false;
+  bool all = true;
+  for (const std::uint32_t u : Cell::neighbours(ring->span())) {
+    if (u >= Cell::kVirtual) {
+      all = false;
+    } else if (pool_[u].alive) {
+      try_cut(cell, u, seen);
+    } else if (std::find(gone_.begin(), gone_.end(), u) == gone_.end()) {
+      gone_.push_back(u);
+    }
+  }
+  return all;
+}
+
+// The cell in which v was found to be needed.
+template <int D>
+auto VertexIndex<sac::Scope, D>::cell_of_producer(const Vertex<D>& v) const noexcept
+    -> const CellSeen* {
+  const CellSeen* cell = nullptr;
+  if (!v.presence.there()) return cell;
+  engine_.for_each_edge(engine_.call(v.presence.birth()), [&](const sac::Edge& edge) {
+    if (edge.structure == id_ && edge.kind == kCell) cell = static_cast<const CellSeen*>(&edge);
+  });
+  return cell;
+}
+
+// v's star at the end of the last update.
+template <int D>
+const Ring* VertexIndex<sac::Scope, D>::last_ring(const Vertex<D>& v) const noexcept {
+  const Ring* ring = find_ring(v);
+  return ring != nullptr && !ring->fresh ? ring : log_.ring_gone(v);
 }
 
 template <int D>

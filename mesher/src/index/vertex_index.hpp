@@ -163,8 +163,12 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   using Base::add;
   using Base::box_;
   using Base::concern;
+  using Base::begin_repair;
+  using Base::begin_with_ring;
+  using Base::borrow_cell;
   using Base::cut_around;
   using Base::fail_coincident;
+  using Base::finish;
   using Base::nearest_around;
   using Base::packed;
   using Base::pool_;
@@ -172,6 +176,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   using Base::set_role;
   using Base::take_visited;
   using Base::tree_;
+  using Base::try_cut;
   using Base::unpacked;
   using Base::whole;
 
@@ -224,6 +229,14 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   void record_cell(sac::Scope& s, Vertex<D>& v, Reach<D> reach, float radius);
   void record_nearest(sac::Scope& s, Vertex<D>& v, Reach<D> reach, VertexHandle nearest);
   void record_star(sac::Scope& s, Vertex<D>& v, Reach<D> reach);
+  template <class Seen>
+  void begin(Cell& cell, const Vertex<D>& v, double radius, Seen& seen);
+  template <class Seen>
+  bool try_successors(Cell& cell, const Observation& last, Seen& seen);
+  template <class Seen>
+  bool try_around(Cell& cell, const Vertex<D>& gone, Seen& seen);
+  [[nodiscard]] const CellSeen* cell_of_producer(const Vertex<D>& v) const noexcept;
+  [[nodiscard]] const Ring* last_ring(const Vertex<D>& v) const noexcept;
   [[nodiscard]] Ring* find_ring(const Vertex<D>& v) const noexcept;
   [[nodiscard]] sac::Handle new_ring(VertexHandle center);
   void forget(Observation& o) noexcept;
@@ -238,6 +251,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   ChangeLog<D> log_;
   std::uint8_t id_;
   std::vector<std::uint32_t> codes_;  // the cell being recorded, written down
+  std::vector<VertexHandle> gone_;    // the neighbours being replaced
 };
 
 }  // namespace mesher::detail
