@@ -170,14 +170,24 @@ void State::rename_others() noexcept {
   for (const auto& [h, id] : new_lines_) lines_[h] = id;
 }
 
+namespace {
+
+// A table that was once large takes long to clear, however little is in it.
+template <class Table>
+void empty(Table& table) noexcept {
+  table.erase(table.begin(), table.end());
+}
+
+}  // namespace
+
 void State::forget_news() noexcept {
   line_edits_ = LineEdits();
   limits_edit_.reset();
-  new_names_.clear();
-  new_lines_.clear();
+  empty(new_names_);
+  empty(new_lines_);
   new_segments_.clear();
-  new_line_points_.clear();
-  taken_.clear();
+  empty(new_line_points_);
+  empty(taken_);
 }
 
 }  // namespace mesher::detail

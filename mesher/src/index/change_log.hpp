@@ -53,9 +53,9 @@ class ChangeLog {
     v.changed = true;
     v.next_changed = std::exchange(first_, v.self);
   }
-  /// v is there, and was not.
+  /// v is there, and was not. Not noted in a first run.
   void came(const Vertex<D>& v) noexcept {
-    if (came_count_ <= kFew) came_[came_count_++ % kFew] = v.self;
+    if (keeps_stars_ && came_count_ <= kFew) came_[came_count_++ % kFew] = v.self;
   }
   /// Calls visit(handle) for those that came, some of which may have gone again. Returns whether
   /// these are all; a few are kept.

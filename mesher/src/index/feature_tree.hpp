@@ -190,11 +190,12 @@ bool FeatureTree<D>::visit_in(const Box<D>& area, Visit&& visit) const {
   const Fixed<D> lo = box_.fixed(area.lo), hi = box_.fixed(area.hi);
   struct Open {
     Node node;
-    Cell<D> cell;
+    int level;
+    Fixed<D> corner;
   };
   std::array<Open, (kChildren - 1) * kLevels + 2> stack;
   std::size_t open = 0;
-  stack[open++] = {root_, Cell<D>{}};
+  stack[open++] = {root_, 0, {}};
   const auto beside = [&](const Fixed<D>& corner, std::uint64_t last) {
     for (int i = 0; i < D; ++i) {
       if (corner[i] > hi[i] || corner[i] + last < lo[i]) return true;
@@ -210,10 +211,10 @@ bool FeatureTree<D>::visit_in(const Box<D>& area, Visit&& visit) const {
       continue;
     }
     for (int c = 0; c < kChildren; ++c) {
-      Cell<D> inner{at.cell.corner, at.cell.level + 1};
+      Open inner{blocks_[at.node][c], at.level + 1, at.corner};
       const std::uint64_t side = std::uint64_t{1} << (kLevels - inner.level);
       for (int i = 0; i < D; ++i) inner.corner[i] |= (c >> i & 1) != 0 ? side : 0;
-      if (!beside(inner.corner, side - 1)) stack[open++] = {blocks_[at.node][c], inner};
+      if (!beside(inner.corner, side - 1)) stack[open++] = inner;
     }
   }
   return false;

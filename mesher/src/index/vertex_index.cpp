@@ -221,9 +221,10 @@ CellLoan<D> VertexIndex<sac::Scope, D>::look(const Vertex<D>& v, double radius,
     if (cell->open2() == 0 || try_successors(*cell, *last, seen)) return cell;
   } else {
     begin(*cell, v, radius, seen);
-    log_.for_each_that_came([&](VertexHandle u) { try_cut(*cell, u, seen); });
+    log_.for_each_that_came([&](VertexHandle u) { add_candidate(*cell, u); });
+    cut_by_candidates(*cell, seen);
   }
-  finish(*cell, seen);
+  finish(*cell, seen, true);
   return cell;
 }
 
@@ -239,34 +240,39 @@ void VertexIndex<sac::Scope, D>::begin(Cell& cell, const Vertex<D>& v, double ra
   cell.reset(v, radius);
   const CellSeen* made_in = cell_of_producer(v);
   if (made_in == nullptr) return;
-  try_cut(cell, made_in->center, seen);
+  add_candidate(cell, made_in->center);
   for (const std::uint32_t u : observers_.neighbours(*made_in)) {
-    if (u < Cell::kVirtual) try_cut(cell, u, seen);
+    if (u < Cell::kVirtual) add_candidate(cell, u);
   }
 }
 
 // Where neighbours have gone, who takes their places are the vertices that were around them and
-// those that have come. Returns whether they are all that could, so that no search is needed: a
+// those that have come: tries them all. Returns whether they are all that could, so that no search is needed: a
 // star's neighbours among the vertices of the last update less those that have gone were its own or
 // those of one that has gone and that it touched, or that one of these touched in turn [rules B5].
 template <int D>
 template <class Seen>
 bool VertexIndex<sac::Scope, D>::try_successors(Cell& cell, const Observation& last, Seen& seen) {
   bool all = last.kind == kStar && !engine_.undoing();
+  all &= log_.for_each_that_came([&](VertexHandle u) { add_candidate(cell, u); });
+  cut_by_candidates(cell, seen);
   gone_.clear();
   for (const std::uint32_t u : observers_.neighbours(last)) {
     if (u < Cell::kVirtual && !seen(u)) gone_.push_back(u);
   }
-  for (std::size_t i = 0; i < gone_.size(); ++i) all &= try_around(cell, pool_[gone_[i]], seen);
-  const auto try_it = [&](VertexHandle u) { try_cut(cell, u, seen); };
-  return log_.for_each_that_came(try_it) && all;
+  for (std::size_t i = 0; i < gone_.size(); ++i) {
+    const Vertex<D>& u = pool_[gone_[i]];
+    if (!cell.in_reach(squared_distance(u.p, cell.center().p))) continue;
+    all &= add_around(cell, u);
+    cut_by_candidates(cell, seen);
+  }
+  return all;
 }
 
-// Tries those who were around `gone`, and notes who of them has gone, too. Returns whether it is
-// known who they were.
+// Takes those who were around `gone` for candidates, and notes who of them has gone, too. Returns
+// whether it is known who they were.
 template <int D>
-template <class Seen>
-bool VertexIndex<sac::Scope, D>::try_around(Cell& cell, const Vertex<D>& gone, Seen& seen) {
+bool VertexIndex<sac::Scope, D>::add_around(Cell& cell, const Vertex<D>& gone) {
   constexpr std::size_t kMost = 64;
   const Ring* ring = gone.committed && gone_.size() <= kMost ? last_ring(gone) : nullptr;
   if (ring == nullptr) return false;
@@ -275,7 +281,7 @@ bool VertexIndex<sac::Scope, D>::try_around(Cell& cell, const Vertex<D>& gone, S
     if (u >= Cell::kVirtual) {
       all = false;
     } else if (pool_[u].alive) {
-      try_cut(cell, u, seen);
+      add_candidate(cell, u);
     } else if (std::find(gone_.begin(), gone_.end(), u) == gone_.end()) {
       gone_.push_back(u);
     }

@@ -163,10 +163,12 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   using Base::add;
   using Base::box_;
   using Base::concern;
+  using Base::add_candidate;
   using Base::begin_repair;
   using Base::begin_with_ring;
   using Base::borrow_cell;
   using Base::cut_around;
+  using Base::cut_by_candidates;
   using Base::fail_coincident;
   using Base::finish;
   using Base::nearest_around;
@@ -176,7 +178,6 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   using Base::set_role;
   using Base::take_visited;
   using Base::tree_;
-  using Base::try_cut;
   using Base::unpacked;
   using Base::whole;
 
@@ -233,8 +234,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   void begin(Cell& cell, const Vertex<D>& v, double radius, Seen& seen);
   template <class Seen>
   bool try_successors(Cell& cell, const Observation& last, Seen& seen);
-  template <class Seen>
-  bool try_around(Cell& cell, const Vertex<D>& gone, Seen& seen);
+  bool add_around(Cell& cell, const Vertex<D>& gone);
   [[nodiscard]] const CellSeen* cell_of_producer(const Vertex<D>& v) const noexcept;
   [[nodiscard]] const Ring* last_ring(const Vertex<D>& v) const noexcept;
   [[nodiscard]] Ring* find_ring(const Vertex<D>& v) const noexcept;

@@ -113,8 +113,12 @@ class VertexSearch {
     return cell;
   }
 
-  /// A cell to begin with, to be brought to that of v among all vertices u for which seen(u).
-  [[nodiscard]] CellLoan<D> borrow_cell() const { return cells_.borrow(); }
+  /// A cell, to be made that of a vertex v among all vertices u for which seen(u): it begins with
+  /// some, candidates are tried, and a search finishes it. There are no candidates yet.
+  [[nodiscard]] CellLoan<D> borrow_cell() const {
+    met_count_ = 0;
+    return cells_.borrow();
+  }
   /// Begins with vertices that may be seen: v's neighbours at another time, `ring`, as they were
   /// written down, with whatever clip.
   template <class Seen>
@@ -134,24 +138,31 @@ class VertexSearch {
       if (cell.cuts(pool_[u].p) && seen(u)) cell.cut(u);
     });
   }
-  /// Cuts the cell by u if u is seen and nearer to an open corner.
-  template <class Seen>
-  void try_cut(Cell& cell, VertexHandle u, Seen& seen) const {
+  /// Notes u, who may cut an open corner, for cut_by_candidates().
+  void add_candidate(const Cell& cell, VertexHandle u) const {
     const Point<D>& p = pool_[u].p;
     const double d2 = squared_distance(p, cell.center().p);
     ++visited_;
-    if (cell.in_reach(d2) && u != cell.center().self) cut_by(cell, {d2, u, p}, seen);
+    if (!cell.in_reach(d2) || u == cell.center().self) return;
+    if (met_.size() < met_count_ + Tree::kSlots) met_.resize(2 * met_.size() + Tree::kSlots);
+    met_[met_count_++] = {d2, u, p};
+  }
+  /// Cuts the cell by the candidates that are seen and nearer to an open corner, and forgets them.
+  template <class Seen>
+  void cut_by_candidates(Cell& cell, Seen& seen) const {
+    cut_nearest_first(cell, seen);
+    met_count_ = 0;
   }
   /// Cuts the cell by what is seen in the gap balls of its open corners. Where it is not known how
   /// large the cell will be, near vertices come first, the nearest of them first. Where a box holds
   /// very many, as next to far finer parts of the mesh, most are behind the first few of them.
   template <class Seen>
-  requires(D == 2) void finish(Cell& cell, Seen& seen) const {
+  requires(D == 2) void finish(Cell& cell, Seen& seen, bool seeded = false) const {
     const Point<D>& center = cell.center().p;
     typename Tree::Looked looked;
     for (double within = 0; cell.open2() > 0; within *= 2) {
       const Box<D> gaps = cell.open_extent();
-      const bool all = cell.is_compact();
+      const bool all = seeded || cell.is_compact();
       if (!all && within == 0) within = tree_.side_at(center) / 2;
       const bool has_met_all = meet(cell, all ? gaps : clipped(gaps, within), looked);
       all&& has_met_all ? cut_by_met(cell, seen) : cut_nearest_first(cell, seen);
@@ -162,7 +173,7 @@ class VertexSearch {
   /// In space, where shells meet far fine regions with a thousand temporary neighbours, strictly
   /// nearest first [rules B3].
   template <class Seen>
-  requires(D > 2) void finish(Cell& cell, Seen& seen) const {
+  requires(D > 2) void finish(Cell& cell, Seen& seen, bool = false) const {
     if (cell.open2() == 0) return;
     const Vertex<D>& v = cell.center();
     tree_.visit_nearest_first(
@@ -259,6 +270,7 @@ class VertexSearch {
   // too many to be looked at. Whether a vertex is in reach cannot be predicted: all are written
   // down, and those that are not are written over.
   bool meet(const Cell& cell, const Box<D>& box, typename Tree::Looked& looked) const {
+    met_count_ = 0;
     std::size_t count = 0;
     const auto note = [&, v = cell.center().self, center = cell.center().p,
                        reach2 = 4 * cell.open2()](const typename Tree::Handles& handles,
