@@ -224,7 +224,7 @@ CellLoan<D> VertexIndex<sac::Scope, D>::look(const Vertex<D>& v, double radius,
     log_.for_each_that_came([&](VertexHandle u) { add_candidate(*cell, u); });
     cut_by_candidates(*cell, seen);
   }
-  finish(*cell, seen, true);
+  finish_known(*cell, seen);
   return cell;
 }
 
@@ -257,6 +257,9 @@ bool VertexIndex<sac::Scope, D>::try_successors(Cell& cell, const Observation& l
   all &= log_.for_each_that_came([&](VertexHandle u) { add_candidate(cell, u); });
   cut_by_candidates(cell, seen);
   gone_.clear();
+  if constexpr (D == 2) {
+    if (!all && cell.is_compact()) return false;
+  }
   for (const std::uint32_t u : observers_.neighbours(last)) {
     if (u < Cell::kVirtual && !seen(u)) gone_.push_back(u);
   }

@@ -170,7 +170,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   using Base::cut_around;
   using Base::cut_by_candidates;
   using Base::fail_coincident;
-  using Base::finish;
+  using Base::finish_known;
   using Base::nearest_around;
   using Base::packed;
   using Base::pool_;

@@ -157,12 +157,12 @@ class VertexSearch {
   /// large the cell will be, near vertices come first, the nearest of them first. Where a box holds
   /// very many, as next to far finer parts of the mesh, most are behind the first few of them.
   template <class Seen>
-  requires(D == 2) void finish(Cell& cell, Seen& seen, bool seeded = false) const {
+  requires(D == 2) void finish(Cell& cell, Seen& seen) const {
     const Point<D>& center = cell.center().p;
     typename Tree::Looked looked;
     for (double within = 0; cell.open2() > 0; within *= 2) {
       const Box<D> gaps = cell.open_extent();
-      const bool all = seeded || cell.is_compact();
+      const bool all = cell.is_compact();
       if (!all && within == 0) within = tree_.side_at(center) / 2;
       const bool has_met_all = meet(cell, all ? gaps : clipped(gaps, within), looked);
       all&& has_met_all ? cut_by_met(cell, seen) : cut_nearest_first(cell, seen);
@@ -170,10 +170,18 @@ class VertexSearch {
       if (all || clipped(gaps, within) == gaps) return;
     }
   }
+  /// The same for a cell that is known but for little.
+  template <class Seen>
+  void finish_known(Cell& cell, Seen& seen) const {
+    if constexpr (D == 2) {
+      if (!cell.is_compact()) return finish_outward(cell, {}, seen);
+    }
+    finish(cell, seen);
+  }
   /// In space, where shells meet far fine regions with a thousand temporary neighbours, strictly
   /// nearest first [rules B3].
   template <class Seen>
-  requires(D > 2) void finish(Cell& cell, Seen& seen, bool = false) const {
+  requires(D > 2) void finish(Cell& cell, Seen& seen) const {
     if (cell.open2() == 0) return;
     const Vertex<D>& v = cell.center();
     tree_.visit_nearest_first(
