@@ -215,61 +215,65 @@ template <class Seen>
 CellLoan<D> VertexIndex<sac::Scope, D>::look(const Vertex<D>& v, double radius,
                                              const Observation* last, Seen&& seen) {
   CellLoan<D> cell = borrow_cell();
-  if (last != nullptr && observers_.knows_arrivals(*last)) {
+  const bool repairs = last != nullptr && observers_.knows_arrivals(*last);
+  bool known = true;
+  if (repairs) {
     const auto arrivals = [&](auto&& visit) { observers_.for_each_arrival(*last, visit); };
     begin_repair(*cell, v, radius, observers_.seen(*last), arrivals, seen);
-    if (cell->open2() == 0 || try_successors(*cell, *last, seen)) return cell;
+    if (cell->open2() == 0) return cell;
   } else {
-    begin(*cell, v, radius, seen);
-    log_.for_each_that_came([&](VertexHandle u) { add_candidate(*cell, u); });
-    cut_by_candidates(*cell, seen);
+    known = begin(*cell, v, radius, seen);
   }
-  finish_known(*cell, seen);
+  const bool all_came = log_.for_each_that_came([&](VertexHandle u) { add_candidate(*cell, u); });
+  cut_by_candidates(*cell, seen);
+  if (repairs && all_came && last->kind == kStar && try_successors(*cell, *last, seen)) return cell;
+  known ? finish_known(*cell, seen) : finish(*cell, seen);
   return cell;
 }
 
-// With who is likely to be near: v's neighbours at another time, or those of the vertex for which v
-// was made.
+// With who is likely to be near: v's neighbours at another time, or, in an update, those of the
+// vertex for which v was made. Returns false if nobody is known.
 template <int D>
 template <class Seen>
-void VertexIndex<sac::Scope, D>::begin(Cell& cell, const Vertex<D>& v, double radius, Seen& seen) {
+bool VertexIndex<sac::Scope, D>::begin(Cell& cell, const Vertex<D>& v, double radius, Seen& seen) {
   const auto surrounds = [](const Observation& o) { return o.kind != kNearest; };
   if (const Observation* other = observers_.find_at(v, surrounds)) {
-    return begin_with_ring(cell, v, radius, observers_.seen(*other), seen);
+    begin_with_ring(cell, v, radius, observers_.seen(*other), seen);
+    return true;
   }
   cell.reset(v, radius);
-  const CellSeen* made_in = cell_of_producer(v);
-  if (made_in == nullptr) return;
+  const CellSeen* made_in = engine_.appending() ? nullptr : cell_of_producer(v);
+  if (made_in == nullptr) return false;
   add_candidate(cell, made_in->center);
   for (const std::uint32_t u : observers_.neighbours(*made_in)) {
     if (u < Cell::kVirtual) add_candidate(cell, u);
   }
+  return true;
 }
 
-// Where neighbours have gone, who takes their places are the vertices that were around them and
-// those that have come: tries them all. Returns whether they are all that could, so that no search is needed: a
-// star's neighbours among the vertices of the last update less those that have gone were its own or
-// those of one that has gone and that it touched, or that one of these touched in turn [rules B5].
+// Where neighbours of a star have gone, and it has been cut by all that came, who takes their
+// places are vertices of the last update that were around them: tries these. Returns whether there
+// can be no others, so that no search is needed [rules B5].
+//
+// Proof. Let q be a corner in whose ball there is a vertex u, of the last update and alive. On the
+// way from v to q every place y is nearer to v than to any alive vertex outside of q's ball. So the
+// cells of the last update that the way crosses, each a neighbour of the one before, are those of
+// v, of gone vertices in q's ball, and at last of an alive one in it: who has been around a gone one.
 template <int D>
 template <class Seen>
 bool VertexIndex<sac::Scope, D>::try_successors(Cell& cell, const Observation& last, Seen& seen) {
-  bool all = last.kind == kStar && !engine_.undoing();
-  all &= log_.for_each_that_came([&](VertexHandle u) { add_candidate(cell, u); });
-  cut_by_candidates(cell, seen);
+  if (engine_.undoing()) return false;  // other stars may be of another time
   gone_.clear();
-  if constexpr (D == 2) {
-    if (!all && cell.is_compact()) return false;
-  }
   for (const std::uint32_t u : observers_.neighbours(last)) {
     if (u < Cell::kVirtual && !seen(u)) gone_.push_back(u);
   }
   for (std::size_t i = 0; i < gone_.size(); ++i) {
     const Vertex<D>& u = pool_[gone_[i]];
     if (!cell.in_reach(squared_distance(u.p, cell.center().p))) continue;
-    all &= add_around(cell, u);
+    if (!add_around(cell, u)) return false;
     cut_by_candidates(cell, seen);
   }
-  return all;
+  return true;
 }
 
 // Takes those who were around `gone` for candidates, and notes who of them has gone, too. Returns

@@ -170,6 +170,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   using Base::cut_around;
   using Base::cut_by_candidates;
   using Base::fail_coincident;
+  using Base::finish;
   using Base::finish_known;
   using Base::nearest_around;
   using Base::packed;
@@ -231,7 +232,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   void record_nearest(sac::Scope& s, Vertex<D>& v, Reach<D> reach, VertexHandle nearest);
   void record_star(sac::Scope& s, Vertex<D>& v, Reach<D> reach);
   template <class Seen>
-  void begin(Cell& cell, const Vertex<D>& v, double radius, Seen& seen);
+  bool begin(Cell& cell, const Vertex<D>& v, double radius, Seen& seen);
   template <class Seen>
   bool try_successors(Cell& cell, const Observation& last, Seen& seen);
   bool add_around(Cell& cell, const Vertex<D>& gone);
