@@ -147,10 +147,15 @@ class VertexSearch {
     if (met_.size() < met_count_ + Tree::kSlots) met_.resize(2 * met_.size() + Tree::kSlots);
     met_[met_count_++] = {d2, u, p};
   }
-  /// Cuts the cell by the candidates that are seen and nearer to an open corner, and forgets them.
+  /// Cuts the cell by the candidates that are seen and nearer to an open corner, the nearest first,
+  /// and forgets them.
   template <class Seen>
   void cut_by_candidates(Cell& cell, Seen& seen) const {
-    cut_nearest_first(cell, seen);
+    const auto first = met_.begin(), last = first + static_cast<std::ptrdiff_t>(met_count_);
+    std::sort(first, last, [](const Met& a, const Met& b) { return a.distance2 < b.distance2; });
+    for (auto met = first; met != last && cell.in_reach(met->distance2); ++met) {
+      cut_by(cell, *met, seen);
+    }
     met_count_ = 0;
   }
   /// Cuts the cell by what is seen in the gap balls of its open corners. Where it is not known how
