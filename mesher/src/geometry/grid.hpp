@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -95,6 +96,13 @@ struct MeshBox {
     int child = 0;
     for (int i = 0; i < D; ++i) child |= static_cast<int>(f[i] >> (kLevels - 1 - level) & 1) << i;
     return child;
+  }
+
+  /// The deepest level at which one cell contains both, but not the finest.
+  [[nodiscard]] static int common_level(const Fixed<D>& f, const Fixed<D>& g) {
+    std::uint64_t differ = 1;
+    for (int i = 0; i < D; ++i) differ |= f[i] ^ g[i];
+    return std::countl_zero(differ) - (64 - kLevels);
   }
 
   /// The cell of `level` that contains `f`.

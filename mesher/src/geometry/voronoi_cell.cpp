@@ -123,6 +123,17 @@ void VoronoiCell::cut_by_clip(double radius) {
   }
 }
 
+// A corner between two that were next to each other has an empty ball but for who has come since.
+void VoronoiCell::close_known(std::span<const Code> codes) {
+  for (int i = 0; i < size_; ++i) {
+    const auto at = std::find(codes.begin(), codes.end(), code(i));
+    if (at == codes.end()) continue;
+    const Code after = at + 1 == codes.end() ? codes.front() : at[1];
+    if (code(next(i)) == after) is_open_[index(i)] = 0;
+  }
+  update_reach();
+}
+
 Box<2> VoronoiCell::extent_inside(const Point<2>& outward) const noexcept {
   Box<2> extent{{0, 0}, {0, 0}};
   for (int i = 0; i < size_; ++i) {

@@ -42,11 +42,11 @@ class VoronoiCell : public CornerReach<std::uint16_t> {
   using Code = std::uint32_t;
   /// The cell of v among those of its former neighbours, counterclockwise, for which left(code).
   /// `repair`: they are all of v's neighbours that are left, so corners between those that were
-  /// next to each other are closed; else all are open. Returns false if they do not surround v: the
-  /// cell is then the clip. Requires: radius > 0; virtual ones that are left are of this radius.
+  /// next to each other are closed; else all are open. Requires: radius > 0; virtual ones that are
+  /// left are of this radius.
   template <class Left>
-  [[nodiscard]] bool restore(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
-                             std::span<const Code> codes, Left&& left, bool repair);
+  void restore(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
+               std::span<const Code> codes, Left&& left, bool repair);
 
   /// Whether w is nearer than v to some corner; of a virtual neighbour's place: whether it takes
   /// it.
@@ -140,6 +140,7 @@ class VoronoiCell : public CornerReach<std::uint16_t> {
   void append(const VertexPool<2>& pool, double radius, Code code, bool open_before);
   [[nodiscard]] bool close_ring();
   void cut_by_clip(double radius);
+  void close_known(std::span<const Code> codes);
   bool find_cut();
   bool exactly_nearer(int i, const Point<2>& w);
   void set_corner(int i);
@@ -191,7 +192,7 @@ inline bool VoronoiCell::has(VertexHandle u) const noexcept {
 }
 
 template <class Left>
-bool VoronoiCell::restore(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
+void VoronoiCell::restore(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
                           std::span<const Code> codes, Left&& left, bool repair) {
   v_ = &v;
   size_ = 0;
@@ -201,12 +202,12 @@ bool VoronoiCell::restore(const VertexPool<2>& pool, const Vertex<2>& v, double 
     if (stays) append(pool, radius, code, gap || !repair);
     gap = !stays;
   }
-  if (!close_ring()) {
-    reset(v, radius);
-    return false;
+  if (close_ring()) return cut_by_clip(radius);
+  reset(v, radius);  // they do not surround v
+  for (const Code code : codes) {
+    if (code < kVirtual && left(code) && cuts(pool[code].p)) cut(code);
   }
-  cut_by_clip(radius);
-  return true;
+  if (repair) close_known(codes);
 }
 
 }  // namespace mesher::detail

@@ -42,7 +42,7 @@ class VoronoiCell3 : public CornerReach<int> {
   /// all of v's neighbours that are left, so triangles that were there before are closed; else all
   /// are open. `radius`: of the clip, and of that of the record if virtual ones are left.
   template <class Left>
-  bool restore(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
+  void restore(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
                std::span<const Code> record, Left&& left, bool repair);
 
   /// Whether w is nearer than v to some corner; of a virtual neighbour's place: whether it takes
@@ -229,7 +229,7 @@ void VoronoiCell3::cut_by_nearest(const VertexPool<3>& pool, std::span<const Cod
 }
 
 template <class Left>
-bool VoronoiCell3::restore(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
+void VoronoiCell3::restore(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
                            std::span<const Code> record, Left&& left, bool repair) {
   const LinkRecord link(record);
   const auto codes = link.neighbours();
@@ -237,12 +237,11 @@ bool VoronoiCell3::restore(const VertexPool<3>& pool, const Vertex<3>& v, double
     clear(v);
     load(pool, radius, link, !repair);
     if (!repair) cut_by_clip(radius);
-    return true;
+    return;
   }
   reset(v, radius);
   cut_by_nearest(pool, codes, left);
   if (repair) close_known(link);
-  return true;
 }
 
 }  // namespace mesher::detail

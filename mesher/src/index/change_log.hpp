@@ -5,6 +5,8 @@
 // the star's at the end of the last update.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -51,6 +53,26 @@ class ChangeLog {
     v.changed = true;
     v.next_changed = std::exchange(first_, v.self);
   }
+  /// v is there, and was not. Not noted in a first run.
+  void came(const Vertex<D>& v) noexcept {
+    if (keeps_stars_ && came_count_ <= kFew) came_[came_count_++ % kFew] = v.self;
+  }
+  /// Calls visit(handle) for those that came, some of which may have gone again. Returns whether
+  /// these are all; a few are kept.
+  template <class Visit>
+  bool for_each_that_came(Visit&& visit) const {
+    for (std::size_t i = 0; i < std::min(came_count_, kFew); ++i) visit(came_[i]);
+    return came_count_ <= kFew;
+  }
+  /// The ring that v's star had at the end of the last update and has no more, if it is among the
+  /// last few that went; else null.
+  [[nodiscard]] const Ring* ring_gone(const Vertex<D>& v) const noexcept {
+    sac::Handle h = gone_;
+    for (std::size_t i = 0; i < kFew && h != 0; ++i, h = arena_.at<Ring>(h)->next) {
+      if (arena_.at<Ring>(h)->center == v.self) return arena_.at<Ring>(h);
+    }
+    return nullptr;
+  }
   /// v's star has gone; its ring is the log's from now on.
   void star_went(Vertex<D>& v, sac::Handle ring) noexcept {
     if (!keeps_stars_ || arena_.at<Ring>(ring)->fresh) return release(ring);
@@ -84,6 +106,7 @@ class ChangeLog {
   /// Cost: O(what is listed).
   template <class Visit>
   void clear(Visit&& visit) noexcept {
+    came_count_ = 0;
     for (VertexHandle h = std::exchange(first_, 0); h != 0;) {
       Vertex<D>& v = pool_[h];
       h = std::exchange(v.next_changed, 0);
@@ -111,6 +134,9 @@ class ChangeLog {
   VertexHandle first_ = 0;
   sac::Handle gone_ = 0;
   bool keeps_stars_ = false;
+  static constexpr std::size_t kFew = 256;
+  std::size_t came_count_ = 0;  // kFew + 1: more than are kept
+  std::array<VertexHandle, kFew> came_;
 };
 
 }  // namespace mesher::detail

@@ -82,6 +82,12 @@ class FeatureTree {
   [[nodiscard]] Fixed<D> fixed_of(Node point) const {
     return box_.fixed(vertices_[point & ~kPoint].p);
   }
+  struct Step {
+    Node node;
+    int level;
+    Fixed<D> corner;
+  };
+  [[nodiscard]] Step cell_around(const Fixed<D>& lo, const Fixed<D>& hi) const;
   [[nodiscard]] bool inside(Node point, const std::array<std::int64_t, D>& cell, int level) const;
   [[nodiscard]] Around down(const Around& around, const Fixed<D>& f, int level) const;
   [[nodiscard]] Around start() const {
@@ -184,17 +190,25 @@ const Vertex<D>* FeatureTree<D>::obstacle(const Point<D>& p) const {
   return fixed_of(node) == f ? &vertices_[node & ~kPoint] : nullptr;
 }
 
+// The last cell that holds both places, or the one that holds its point.
+template <int D>
+auto FeatureTree<D>::cell_around(const Fixed<D>& lo, const Fixed<D>& hi) const -> Step {
+  const int common = MeshBox<D>::common_level(lo, hi);
+  Node node = root_;
+  int level = 0;
+  for (; level < common && node != 0 && (node & kPoint) == 0; ++level) {
+    node = blocks_[node][MeshBox<D>::child_of(lo, level)];
+  }
+  return {node, level, MeshBox<D>::cell(lo, level).corner};
+}
+
 template <int D>
 template <class Visit>
 bool FeatureTree<D>::visit_in(const Box<D>& area, Visit&& visit) const {
   const Fixed<D> lo = box_.fixed(area.lo), hi = box_.fixed(area.hi);
-  struct Open {
-    Node node;
-    Cell<D> cell;
-  };
-  std::array<Open, (kChildren - 1) * kLevels + 2> stack;
+  std::array<Step, (kChildren - 1) * kLevels + 2> stack;
   std::size_t open = 0;
-  stack[open++] = {root_, Cell<D>{}};
+  stack[open++] = cell_around(lo, hi);
   const auto beside = [&](const Fixed<D>& corner, std::uint64_t last) {
     for (int i = 0; i < D; ++i) {
       if (corner[i] > hi[i] || corner[i] + last < lo[i]) return true;
@@ -202,7 +216,7 @@ bool FeatureTree<D>::visit_in(const Box<D>& area, Visit&& visit) const {
     return false;
   };
   while (open > 0) {
-    const Open at = stack[--open];
+    const Step at = stack[--open];
     if (at.node == 0) continue;
     ++looked_at_;
     if ((at.node & kPoint) != 0) {
@@ -210,10 +224,10 @@ bool FeatureTree<D>::visit_in(const Box<D>& area, Visit&& visit) const {
       continue;
     }
     for (int c = 0; c < kChildren; ++c) {
-      Cell<D> inner{at.cell.corner, at.cell.level + 1};
+      Step inner{blocks_[at.node][c], at.level + 1, at.corner};
       const std::uint64_t side = std::uint64_t{1} << (kLevels - inner.level);
       for (int i = 0; i < D; ++i) inner.corner[i] |= (c >> i & 1) != 0 ? side : 0;
-      if (!beside(inner.corner, side - 1)) stack[open++] = {blocks_[at.node][c], inner};
+      if (!beside(inner.corner, side - 1)) stack[open++] = inner;
     }
   }
   return false;

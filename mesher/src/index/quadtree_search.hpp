@@ -12,9 +12,7 @@ namespace mesher::detail {
 // The last cell that holds both places, or the one that holds its vertices.
 template <int D>
 typename Quadtree<D>::Step Quadtree<D>::cell_around(const Fixed<D>& lo, const Fixed<D>& hi) const {
-  std::uint64_t differ = 1;
-  for (int i = 0; i < D; ++i) differ |= lo[i] ^ hi[i];
-  const int common = std::countl_zero(differ) - (64 - kLevels);  // levels at which they agree
+  const int common = MeshBox<D>::common_level(lo, hi);
   NodeIndex n = 0;
   int level = 0;
   for (; level < common && nodes_[n].open() != 0; ++level) {

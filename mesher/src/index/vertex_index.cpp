@@ -89,6 +89,7 @@ void VertexIndex<sac::Scope, D>::produced(sac::Scope& s, Vertex<D>& v, BirthEdge
                                           const Role& role) noexcept {
   edge.vertex = v.self;
   const bool was_there = v.presence.there();
+  if (!was_there) log_.came(v);
   const auto window = presences_.produced(v.presence, edge, s.self());
   v.alive = true;
   if (!was_there) {
@@ -213,15 +214,105 @@ template <int D>
 template <class Seen>
 CellLoan<D> VertexIndex<sac::Scope, D>::look(const Vertex<D>& v, double radius,
                                              const Observation* last, Seen&& seen) {
-  if (last != nullptr && observers_.knows_arrivals(*last)) {
+  CellLoan<D> cell = borrow_cell();
+  const bool repairs = last != nullptr && observers_.knows_arrivals(*last);
+  bool known = true;
+  if (repairs) {
     const auto arrivals = [&](auto&& visit) { observers_.for_each_arrival(*last, visit); };
-    return Base::repaired_cell(v, radius, observers_.seen(*last), arrivals, seen);
+    begin_repair(*cell, v, radius, observers_.seen(*last), arrivals, seen);
+    if (cell->open2() == 0) return cell;
+  } else {
+    known = begin(*cell, v, radius, seen);
   }
+  const bool all_came = log_.for_each_that_came([&](VertexHandle u) { add_candidate(*cell, u); });
+  cut_by_candidates(*cell, seen);
+  if (repairs && all_came && last->kind == kStar && try_successors(*cell, *last, seen)) return cell;
+  known ? finish_known(*cell, seen) : finish(*cell, seen);
+  return cell;
+}
+
+// With who is likely to be near: v's neighbours at another time, or, in an update, those of the
+// vertex for which v was made. Returns false if nobody is known.
+template <int D>
+template <class Seen>
+bool VertexIndex<sac::Scope, D>::begin(Cell& cell, const Vertex<D>& v, double radius, Seen& seen) {
   const auto surrounds = [](const Observation& o) { return o.kind != kNearest; };
   if (const Observation* other = observers_.find_at(v, surrounds)) {
-    return Base::cell_from_ring(v, radius, observers_.seen(*other), seen);
+    begin_with_ring(cell, v, radius, observers_.seen(*other), seen);
+    return true;
   }
-  return cut_around(v, radius, seen);
+  cell.reset(v, radius);
+  const CellSeen* made_in = engine_.appending() ? nullptr : cell_of_producer(v);
+  if (made_in == nullptr) return false;
+  add_candidate(cell, made_in->center);
+  for (const std::uint32_t u : observers_.neighbours(*made_in)) {
+    if (u < Cell::kVirtual) add_candidate(cell, u);
+  }
+  return true;
+}
+
+// Where neighbours of a star have gone, and it has been cut by all that came, who takes their
+// places are vertices of the last update that were around them: tries these. Returns whether there
+// can be no others, so that no search is needed [rules B5].
+//
+// Proof. Let q be a corner in whose ball there is a vertex u, of the last update and alive. On the
+// way from v to q every place y is nearer to v than to any alive vertex outside of q's ball. So the
+// cells of the last update that the way crosses, each a neighbour of the one before, are those of
+// v, of gone vertices in q's ball, and at last of an alive one in it: who has been around a gone one.
+template <int D>
+template <class Seen>
+bool VertexIndex<sac::Scope, D>::try_successors(Cell& cell, const Observation& last, Seen& seen) {
+  if (engine_.undoing()) return false;  // other stars may be of another time
+  gone_.clear();
+  for (const std::uint32_t u : observers_.neighbours(last)) {
+    if (u < Cell::kVirtual && !seen(u)) gone_.push_back(u);
+  }
+  for (std::size_t i = 0; i < gone_.size(); ++i) {
+    const Vertex<D>& u = pool_[gone_[i]];
+    if (!cell.in_reach(squared_distance(u.p, cell.center().p))) continue;
+    if (!add_around(cell, u)) return false;
+    cut_by_candidates(cell, seen);
+  }
+  return true;
+}
+
+// Takes those who were around `gone` for candidates, and notes who of them has gone, too. Returns
+// whether it is known who they were.
+template <int D>
+bool VertexIndex<sac::Scope, D>::add_around(Cell& cell, const Vertex<D>& gone) {
+  constexpr std::size_t kMost = 64;
+  const Ring* ring = gone.committed && gone_.size() <= kMost ? last_ring(gone) : nullptr;
+  if (ring == nullptr) return false;
+  bool all = true;
+  for (const std::uint32_t u : Cell::neighbours(ring->span())) {
+    if (u >= Cell::kVirtual) {
+      all = false;
+    } else if (pool_[u].alive) {
+      add_candidate(cell, u);
+    } else if (std::find(gone_.begin(), gone_.end(), u) == gone_.end()) {
+      gone_.push_back(u);
+    }
+  }
+  return all;
+}
+
+// The cell in which v was found to be needed.
+template <int D>
+auto VertexIndex<sac::Scope, D>::cell_of_producer(const Vertex<D>& v) const noexcept
+    -> const CellSeen* {
+  const CellSeen* cell = nullptr;
+  if (!v.presence.there()) return cell;
+  engine_.for_each_edge(engine_.call(v.presence.birth()), [&](const sac::Edge& edge) {
+    if (edge.structure == id_ && edge.kind == kCell) cell = static_cast<const CellSeen*>(&edge);
+  });
+  return cell;
+}
+
+// v's star at the end of the last update.
+template <int D>
+const Ring* VertexIndex<sac::Scope, D>::last_ring(const Vertex<D>& v) const noexcept {
+  const Ring* ring = find_ring(v);
+  return ring != nullptr && !ring->fresh ? ring : log_.ring_gone(v);
 }
 
 template <int D>

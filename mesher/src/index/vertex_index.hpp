@@ -163,8 +163,15 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   using Base::add;
   using Base::box_;
   using Base::concern;
+  using Base::add_candidate;
+  using Base::begin_repair;
+  using Base::begin_with_ring;
+  using Base::borrow_cell;
   using Base::cut_around;
+  using Base::cut_by_candidates;
   using Base::fail_coincident;
+  using Base::finish;
+  using Base::finish_known;
   using Base::nearest_around;
   using Base::packed;
   using Base::pool_;
@@ -224,6 +231,13 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   void record_cell(sac::Scope& s, Vertex<D>& v, Reach<D> reach, float radius);
   void record_nearest(sac::Scope& s, Vertex<D>& v, Reach<D> reach, VertexHandle nearest);
   void record_star(sac::Scope& s, Vertex<D>& v, Reach<D> reach);
+  template <class Seen>
+  bool begin(Cell& cell, const Vertex<D>& v, double radius, Seen& seen);
+  template <class Seen>
+  bool try_successors(Cell& cell, const Observation& last, Seen& seen);
+  bool add_around(Cell& cell, const Vertex<D>& gone);
+  [[nodiscard]] const CellSeen* cell_of_producer(const Vertex<D>& v) const noexcept;
+  [[nodiscard]] const Ring* last_ring(const Vertex<D>& v) const noexcept;
   [[nodiscard]] Ring* find_ring(const Vertex<D>& v) const noexcept;
   [[nodiscard]] sac::Handle new_ring(VertexHandle center);
   void forget(Observation& o) noexcept;
@@ -238,6 +252,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   ChangeLog<D> log_;
   std::uint8_t id_;
   std::vector<std::uint32_t> codes_;  // the cell being recorded, written down
+  std::vector<VertexHandle> gone_;    // the neighbours being replaced
 };
 
 }  // namespace mesher::detail

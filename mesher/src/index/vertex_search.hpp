@@ -4,7 +4,7 @@
 // [L 4.3.3]. It need not start from nothing:
 //   repair   from what the same question was answered last time, and the vertices that have come
 //            since: only where a neighbour went are there gap balls to be searched;
-//   seeds    from vertices likely to be neighbours: a small cell from the start.
+//   seeds    from vertices that are likely to be neighbours: a small cell from the start.
 // Either way the cell is that of the set of vertices that are seen, and of nothing else.
 #pragma once
 
@@ -113,34 +113,88 @@ class VertexSearch {
     return cell;
   }
 
-  /// The same, starting from vertices that may be seen: all or most of v's neighbours at another
-  /// time, `seeds`, counterclockwise, virtual neighbours of whatever clip among them.
-  template <class Seen>
-  CellLoan<D> cell_from_ring(const Vertex<D>& v, double radius, Codes seeds, Seen&& seen) {
-    CellLoan<D> cell = cells_.borrow();
-    const auto left = [&](typename Cell::Code u) { return u < Cell::kVirtual && seen(u); };
-    if (!cell->restore(pool_, v, radius, seeds, left, false)) cut_by_seeds(*cell, seeds, left);
-    finish(*cell, seen);
-    return cell;
+  /// A cell, to be made that of a vertex v among all vertices u for which seen(u): it begins with
+  /// some, candidates are tried, and a search finishes it. There are no candidates yet.
+  [[nodiscard]] CellLoan<D> borrow_cell() const {
+    met_count_ = 0;
+    return cells_.borrow();
   }
-
-  /// The same, from the cell for another set of vertices: v's neighbours `last`, with the same
-  /// clip. for_each_arrival(visit) calls visit(u) for all vertices that are new in the set and cut
-  /// that cell, and perhaps for others.
+  /// Begins with vertices that may be seen: v's neighbours at another time, `ring`, as they were
+  /// written down, with whatever clip.
+  template <class Seen>
+  void begin_with_ring(Cell& cell, const Vertex<D>& v, double radius, Codes ring, Seen& seen) {
+    const auto left = [&](typename Cell::Code u) { return u < Cell::kVirtual && seen(u); };
+    cell.restore(pool_, v, radius, ring, left, false);
+  }
+  /// Begins with the cell for another set of vertices, written down as `last`, with the same clip.
+  /// for_each_arrival(visit) calls visit(u) for all vertices that are new in the set and cut that
+  /// cell, and perhaps for others.
   template <class ForEachArrival, class Seen>
-  CellLoan<D> repaired_cell(const Vertex<D>& v, double radius, Codes last,
-                            ForEachArrival&& for_each_arrival, Seen&& seen) {
-    CellLoan<D> cell = cells_.borrow();
+  void begin_repair(Cell& cell, const Vertex<D>& v, double radius, Codes last,
+                    ForEachArrival&& for_each_arrival, Seen& seen) {
     const auto left = [&](typename Cell::Code u) { return u >= Cell::kVirtual || seen(u); };
-    if (cell->restore(pool_, v, radius, last, left, true)) {
-      for_each_arrival([&](VertexHandle u) {
-        if (cell->cuts(pool_[u].p) && seen(u)) cell->cut(u);
-      });
-    } else {
-      cut_by_seeds(*cell, last, left);
+    cell.restore(pool_, v, radius, last, left, true);
+    for_each_arrival([&](VertexHandle u) {
+      if (cell.cuts(pool_[u].p) && seen(u)) cell.cut(u);
+    });
+  }
+  /// Notes u, who may cut an open corner, for cut_by_candidates().
+  void add_candidate(const Cell& cell, VertexHandle u) const {
+    const Point<D>& p = pool_[u].p;
+    const double d2 = squared_distance(p, cell.center().p);
+    ++visited_;
+    if (!cell.in_reach(d2) || u == cell.center().self) return;
+    if (met_.size() < met_count_ + Tree::kSlots) met_.resize(2 * met_.size() + Tree::kSlots);
+    met_[met_count_++] = {d2, u, p};
+  }
+  /// Cuts the cell by the candidates that are seen and nearer to an open corner, the nearest first,
+  /// and forgets them.
+  template <class Seen>
+  void cut_by_candidates(Cell& cell, Seen& seen) const {
+    const auto first = met_.begin(), last = first + static_cast<std::ptrdiff_t>(met_count_);
+    std::sort(first, last, [](const Met& a, const Met& b) { return a.distance2 < b.distance2; });
+    for (auto met = first; met != last && cell.in_reach(met->distance2); ++met) {
+      cut_by(cell, *met, seen);
     }
-    finish(*cell, seen);
-    return cell;
+    met_count_ = 0;
+  }
+  /// Cuts the cell by what is seen in the gap balls of its open corners. Where it is not known how
+  /// large the cell will be, near vertices come first, the nearest of them first. Where a box holds
+  /// very many, as next to far finer parts of the mesh, most are behind the first few of them.
+  template <class Seen>
+  requires(D == 2) void finish(Cell& cell, Seen& seen) const {
+    const Point<D>& center = cell.center().p;
+    typename Tree::Looked looked;
+    for (double within = 0; cell.open2() > 0; within *= 2) {
+      const Box<D> gaps = cell.open_extent();
+      const bool all = cell.is_compact();
+      if (!all && within == 0) within = tree_.side_at(center) / 2;
+      const bool has_met_all = meet(cell, all ? gaps : clipped(gaps, within), looked);
+      all&& has_met_all ? cut_by_met(cell, seen) : cut_nearest_first(cell, seen);
+      if (!has_met_all) return finish_outward(cell, looked, seen);
+      if (all || clipped(gaps, within) == gaps) return;
+    }
+  }
+  /// The same for a cell that is known but for little.
+  template <class Seen>
+  void finish_known(Cell& cell, Seen& seen) const {
+    if constexpr (D == 2) {
+      if (!cell.is_compact()) return finish_outward(cell, {}, seen);
+    }
+    finish(cell, seen);
+  }
+  /// In space, where shells meet far fine regions with a thousand temporary neighbours, strictly
+  /// nearest first [rules B3].
+  template <class Seen>
+  requires(D > 2) void finish(Cell& cell, Seen& seen) const {
+    if (cell.open2() == 0) return;
+    const Vertex<D>& v = cell.center();
+    tree_.visit_nearest_first(
+        v.p, queue_, [&] { return 4 * cell.open2(); }, entered(cell),
+        [&](VertexHandle u, const Point<D>& place, double d2) {
+          ++visited_;
+          if (u != v.self) cut_by(cell, {d2, u, place}, seen);
+        });
   }
 
   /// Where a vertex that comes may cut the cell, or one may be that bounds it: around its gap
@@ -209,37 +263,7 @@ class VertexSearch {
       return cell.enters(corner, side, margin);
     };
   }
-  // Cuts the cell by what is seen in the gap balls of its open corners. Where it is not known how
-  // large the cell will be, near vertices come first, the nearest of them first. Where a box holds
-  // very many, as next to far finer parts of the mesh, most are behind the first few of them.
-  template <class Seen>
-  requires(D == 2) void finish(Cell& cell, Seen&& seen) const {
-    const Point<D>& center = cell.center().p;
-    typename Tree::Looked looked;
-    for (double within = 0; cell.open2() > 0; within *= 2) {
-      const Box<D> gaps = cell.open_extent();
-      const bool all = cell.is_compact();
-      if (!all && within == 0) within = tree_.side_at(center) / 2;
-      const bool has_met_all = meet(cell, all ? gaps : clipped(gaps, within), looked);
-      all&& has_met_all ? cut_by_met(cell, seen) : cut_nearest_first(cell, seen);
-      if (!has_met_all) return finish_outward(cell, looked, seen);
-      if (all || clipped(gaps, within) == gaps) return;
-    }
-  }
-  // In space, where shells meet far fine regions with a thousand temporary neighbours, strictly
-  // nearest first [rules B3].
-  template <class Seen>
-  requires(D > 2) void finish(Cell& cell, Seen&& seen) const {
-    if (cell.open2() == 0) return;
-    const Vertex<D>& v = cell.center();
-    tree_.visit_nearest_first(
-        v.p, queue_, [&] { return 4 * cell.open2(); }, entered(cell),
-        [&](VertexHandle u, const Point<D>& place, double d2) {
-          ++visited_;
-          if (u != v.self) cut_by(cell, {d2, u, place}, seen);
-        });
-  }
-  // The same, leaf by leaf.
+  // What finish() does, leaf by leaf.
   template <class Seen>
   void finish_outward(Cell& cell, const typename Tree::Looked& looked, Seen& seen) const {
     const Vertex<D>& v = cell.center();
@@ -259,6 +283,7 @@ class VertexSearch {
   // too many to be looked at. Whether a vertex is in reach cannot be predicted: all are written
   // down, and those that are not are written over.
   bool meet(const Cell& cell, const Box<D>& box, typename Tree::Looked& looked) const {
+    met_count_ = 0;
     std::size_t count = 0;
     const auto note = [&, v = cell.center().self, center = cell.center().p,
                        reach2 = 4 * cell.open2()](const typename Tree::Handles& handles,
@@ -316,13 +341,6 @@ class VertexSearch {
     for (double& x : box.lo) x = std::max(x, -within);
     for (double& x : box.hi) x = std::min(x, within);
     return box;
-  }
-
-  template <class Left>
-  void cut_by_seeds(Cell& cell, Codes seeds, Left&& left) const {
-    for (const typename Cell::Code u : seeds) {
-      if (u < Cell::kVirtual && left(u) && cell.cuts(pool_[u].p)) cell.cut(u);
-    }
   }
 
   mutable CellPool<D> cells_;

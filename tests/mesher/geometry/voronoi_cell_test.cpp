@@ -189,7 +189,6 @@ TEST_CASE("a cell restored after some vertices went and some came is that of bru
   SplitMix64 random(43);
   INFO("seed 43");
   VoronoiCell cell;
-  int restored = 0;
   int closed = 0;
   for (int i = 0; i < 4000; ++i) {
     INFO("scene " << i);
@@ -204,11 +203,9 @@ TEST_CASE("a cell restored after some vertices went and some came is that of bru
     std::map<std::uint32_t, bool> gone;
     std::erase_if(scene.others,
                   [&](const auto* w) { return gone[w->self] = random.below(6) == 0; });
-    const bool worked = cell.restore(
+    cell.restore(
         scene.pool, *scene.v, scene.radius, before,
         [&](std::uint32_t code) { return !gone.contains(code) || !gone[code]; }, true);
-    if (!worked) continue;
-    ++restored;
     cell.check_invariants();
     for (const auto* w : arrivals) Scene::cut_by(cell, *w);
     for (int k = 0; k < cell.size(); ++k) closed += cell.corner2(k) > cell.open2();
@@ -225,6 +222,5 @@ TEST_CASE("a cell restored after some vertices went and some came is that of bru
     REQUIRE(ring_of(cell) == brute_force(scene.v->p, scene.sites()));
     cell.check_invariants();
   }
-  CHECK(restored > 1500);
   CHECK(closed > 5000);
 }
