@@ -134,7 +134,6 @@ Change<D> PointState<D>::first_run(PointEdits edits, const RunControl& control,
   commit();
   require_room(pool().size());
   require_others();
-  vertices().set_logging(true);
   ran_ = true;
   const std::vector<Simplex> come = simplices();
   const Mesh<D> mesh = mesh_of(come);

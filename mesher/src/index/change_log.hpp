@@ -5,10 +5,10 @@
 // the star's at the end of the last update.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -53,39 +53,36 @@ class ChangeLog {
     v.changed = true;
     v.next_changed = std::exchange(first_, v.self);
   }
-  /// v is there, and was not. Not noted in a first run.
+  /// v is there, and was not.
   void came(const Vertex<D>& v) noexcept {
-    if (keeps_stars_ && came_count_ <= kFew) came_[came_count_++ % kFew] = v.self;
+    if (came_count_ < kFewVertices) came_[came_count_] = v.self;
+    if (came_count_ <= kFewVertices) ++came_count_;
   }
-  /// Calls visit(handle) for those that came, some of which may have gone again. Returns whether
-  /// these are all; a few are kept.
-  template <class Visit>
-  bool for_each_that_came(Visit&& visit) const {
-    for (std::size_t i = 0; i < std::min(came_count_, kFew); ++i) visit(came_[i]);
-    return came_count_ <= kFew;
+  /// Those that came, if they are few; some may have gone again.
+  [[nodiscard]] std::optional<std::span<const VertexHandle>> few_that_came() const noexcept {
+    if (came_count_ > kFewVertices) return std::nullopt;
+    return std::span(came_.data(), came_count_);
   }
   /// The ring that v's star had at the end of the last update and has no more, if it is among the
   /// last few that went; else null.
   [[nodiscard]] const Ring* ring_gone(const Vertex<D>& v) const noexcept {
     sac::Handle h = gone_;
-    for (std::size_t i = 0; i < kFew && h != 0; ++i, h = arena_.at<Ring>(h)->next) {
+    for (int i = 0; i < kFewRings && h != 0; ++i, h = arena_.at<Ring>(h)->next) {
       if (arena_.at<Ring>(h)->center == v.self) return arena_.at<Ring>(h);
     }
     return nullptr;
   }
   /// v's star has gone; its ring is the log's from now on.
   void star_went(Vertex<D>& v, sac::Handle ring) noexcept {
-    if (!keeps_stars_ || arena_.at<Ring>(ring)->fresh) return release(ring);
+    if (arena_.at<Ring>(ring)->fresh) return release(ring);
     mark_star(v);
     arena_.at<Ring>(ring)->next = std::exchange(gone_, ring);
   }
-  /// v has a star that it had not, with this ring.
+  /// v has a star that it had not, with this ring, and not in a first run.
   void star_came(Vertex<D>& v, sac::Handle ring) noexcept {
-    arena_.at<Ring>(ring)->fresh = keeps_stars_;
-    if (keeps_stars_) mark_star(v);
+    arena_.at<Ring>(ring)->fresh = true;
+    mark_star(v);
   }
-  /// Whether stars are noted: a first run need not.
-  void keep_stars(bool on) noexcept { keeps_stars_ = on; }
 
   /// Vertices that may have come, gone, or become another kind; and those with another star.
   [[nodiscard]] std::vector<VertexHandle> touched() const {
@@ -133,10 +130,10 @@ class ChangeLog {
   sac::Arena& arena_;
   VertexHandle first_ = 0;
   sac::Handle gone_ = 0;
-  bool keeps_stars_ = false;
-  static constexpr std::size_t kFew = 256;
-  std::size_t came_count_ = 0;  // kFew + 1: more than are kept
-  std::array<VertexHandle, kFew> came_;
+  static constexpr std::size_t kFewVertices = 64;
+  static constexpr int kFewRings = 256;
+  std::size_t came_count_ = 0;  // one more than are kept: too many
+  std::array<VertexHandle, kFewVertices> came_;
 };
 
 }  // namespace mesher::detail

@@ -224,9 +224,12 @@ CellLoan<D> VertexIndex<sac::Scope, D>::look(const Vertex<D>& v, double radius,
   } else {
     known = begin(*cell, v, radius, seen);
   }
-  const bool all_came = log_.for_each_that_came([&](VertexHandle u) { add_candidate(*cell, u); });
+  const auto came = log_.few_that_came();
+  for (const VertexHandle u : came.value_or(std::span<const VertexHandle>())) {
+    add_candidate(*cell, u);
+  }
   cut_by_candidates(*cell, seen);
-  if (repairs && all_came && last->kind == kStar && try_successors(*cell, *last, seen)) return cell;
+  if (repairs && came && last->kind == kStar && try_successors(*cell, *last, seen)) return cell;
   known ? finish_known(*cell, seen) : finish(*cell, seen);
   return cell;
 }
@@ -417,14 +420,14 @@ void VertexIndex<sac::Scope, D>::record_star(sac::Scope& s, Vertex<D>& v, Reach<
     engine_.arena().release(ring, Ring::bytes(codes_.size()));
     throw;
   }
-  log_.star_came(v, ring);
+  if (!engine_.appending()) log_.star_came(v, ring);
 }
 
 template <int D>
 sac::Handle VertexIndex<sac::Scope, D>::new_ring(VertexHandle center) {
   const sac::Handle handle = engine_.arena().allocate(Ring::bytes(codes_.size()));
   Ring& ring = *engine_.arena().at<Ring>(handle);
-  ring = {center, 0, static_cast<std::uint32_t>(codes_.size()), true};
+  ring = {center, 0, static_cast<std::uint32_t>(codes_.size()), false};
   std::copy(codes_.begin(), codes_.end(), ring.codes());
   return handle;
 }

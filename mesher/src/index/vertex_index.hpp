@@ -128,8 +128,6 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   };
   /// Cost: O(what has changed). Throws: std::bad_alloc.
   [[nodiscard]] Log log() const;
-  /// Whether stars are noted in the log: not in a first run.
-  void set_logging(bool on) noexcept { log_.keep_stars(on); }
   /// Ends an update: frees the records of vertices that nobody produces.
   void commit() noexcept;
   /// Ends an update whose edits were taken back before they were propagated. The engine still holds

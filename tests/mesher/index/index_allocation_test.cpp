@@ -43,7 +43,6 @@ sac::Engine& engine_of(TracedWorld& world) { return const_cast<sac::Engine&>(wor
 
 std::unique_ptr<TracedWorld> world_of_points() {
   auto world = std::make_unique<TracedWorld>(Options<2>{.domain = {{0, 0}, {1, 1}}});
-  world->world().vertices.set_logging(true);
   SplitMix64 random(5);
   for (int i = 0; i < kPoints; ++i) world->insert(FeatureId{i}, {random.unit(), random.unit()});
   world->update();
