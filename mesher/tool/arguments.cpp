@@ -17,7 +17,7 @@ namespace {
 using mesher::Error;
 using mesher::ErrorCode;
 
-constexpr double kLeastRho = 1.01;  // Options::rho
+constexpr double kLeastRho = 1.01, kMostRho = 100;  // Options::rho
 
 template <int D>
 constexpr const char* kDomainHint =
@@ -114,7 +114,7 @@ void require_inside(const InputOf<D>& input, const std::vector<mesher::InputPoin
 template <int D>
 mesher::Options<D> common_options(const MeshArguments& args, const InputOf<D>& input) {
   mesher::Options<D> options;
-  if (!args.rho.empty()) options.rho = option_rho(args.rho);
+  if (!args.rho.empty()) options.rho = option_rho(args.rho, kMostRho);
   options.rule =
       args.rule == "radius-edge" ? mesher::Rule::radius_edge : mesher::Rule::voronoi_aspect;
   const auto points = input.points();
@@ -172,8 +172,8 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
       ->check(CLI::IsMember({"2", "3"}));
   command.add_option(
       "--rho", args.rho,
-      "Bound of circumradius over shortest edge, above 1.01 (default: 1.4142; in space "
-      "2)");
+      "Bound of circumradius over shortest edge, above 1.01 and up to 100\n"
+      "(default: 1.4142; in space 2)");
   command.add_option("--rule", args.rule, "Where to insert: radius-edge or voronoi-aspect")
       ->check(CLI::IsMember({"radius-edge", "voronoi-aspect"}))
       ->capture_default_str();
@@ -241,10 +241,11 @@ double option_positive(const std::string& option, const std::string& text) {
   throw Error(ErrorCode::bad_option, option + " " + text + ": must be above 0");
 }
 
-double option_rho(const std::string& text) {
+double option_rho(const std::string& text, double most) {
   const double rho = option_number("--rho", text);
-  if (rho > kLeastRho) return rho;
-  throw Error(ErrorCode::bad_option, "--rho " + text + ": must be above " + to_text(kLeastRho));
+  if (rho > kLeastRho && rho <= most) return rho;
+  throw Error(ErrorCode::bad_option, "--rho " + text + ": must be above " + to_text(kLeastRho) +
+                                         (most < INFINITY ? " and at most " + to_text(most) : ""));
 }
 
 int dimension_of(const MeshArguments& args) {
@@ -262,7 +263,7 @@ Input read_input<2>(const MeshArguments& args) {
   std::optional<mesher::Box<2>> domain;
   if (!args.domain.empty()) domain = domain_of<2>(args.domain);
   try {
-    input.repair(domain);
+    locating(input, [&] { input.repair(domain); });
   } catch (const Error& error) {
     throw with_domain_hint(error);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -47,8 +48,8 @@ void add_mesh_options(CLI::App& command, MeshArguments& args);
 /// The same, above 0. Throws: likewise.
 [[nodiscard]] double option_positive(const std::string& option, const std::string& text);
 
-/// The value of --rho. Throws: Error(bad_option).
-[[nodiscard]] double option_rho(const std::string& text);
+/// The value of --rho, at most `most`. Throws: Error(bad_option).
+[[nodiscard]] double option_rho(const std::string& text, double most = INFINITY);
 
 /// The dimension that is asked for, or else that of the input. Throws: as mesher::dimension_of.
 [[nodiscard]] int dimension_of(const MeshArguments& args);

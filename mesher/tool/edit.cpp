@@ -94,8 +94,8 @@ void run_edit_in_plane(const EditArguments& args) {
     return run_edit_on<2>(StaticMesher(options, extent(args), region_areas(args)), args,
                           std::move(input));
   }
-  run_edit_on<2>(mesher::DomainMesher(options, extent(args), region_areas(args)), args,
-                 std::move(input));
+  auto mesher = mesher_for<mesher::DomainMesher>(input, options, extent(args), region_areas(args));
+  run_edit_on<2>(std::move(mesher), args, std::move(input));
 }
 
 void run_edit_in_space(const EditArguments& args) {
@@ -104,7 +104,8 @@ void run_edit_in_space(const EditArguments& args) {
   if (args.is_static) {
     return run_edit_on<3>(StaticSpaceMesher(options), args, std::move(input));
   }
-  run_edit_on<3>(mesher::Mesher<3>(options), args, std::move(input));
+  auto mesher = mesher_for<mesher::Mesher<3>>(input, options);
+  run_edit_on<3>(std::move(mesher), args, std::move(input));
 }
 
 void run_edit(const EditArguments& args) {

@@ -20,16 +20,21 @@ void announce(const SpaceInput& input, Target& target) {
     target.insert(points.ids[i], points.points[i]);
 }
 
+/// A Mesher or DomainMesher for the input: that of `arguments`, of which options are the first.
+/// Throws: Error(bad_option), said of the file.
+template <class Mesher>
+[[nodiscard]] Mesher mesher_for(const Standing& input, const auto&... arguments) {
+  return locating(input, [&] { return Mesher(arguments...); });
+}
+
 /// Gives `target` the input and updates it.
 /// Throws: Error, said of the line of the feature to blame or of the file; Error(cancelled).
 template <class Input, class Target>
 void insert_all(const Input& input, Target& target, Progress& progress) {
-  try {
+  locating(input, [&] {
     announce(input, target);
     Watched(target, progress).update();
-  } catch (const mesher::Error& error) {
-    throw input.located(error);
-  }
+  });
 }
 
 /// What is wanted of a target's mesh.

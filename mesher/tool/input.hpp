@@ -65,6 +65,17 @@ class Standing {
   std::map<std::pair<mesher::Featured, mesher::FeatureId>, mesher::Place> edited_;
 };
 
+/// The result of `make`, whose errors are said of where `input` has what they are about.
+/// Throws: as `make`, located.
+template <class Make>
+decltype(auto) locating(const Standing& input, Make&& make) {
+  try {
+    return make();
+  } catch (const mesher::Error& error) {
+    throw input.located(error);
+  }
+}
+
 /// Points and lines in the plane.
 class Input final : public Standing {
  public:

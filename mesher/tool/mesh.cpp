@@ -34,18 +34,16 @@ mesher::Mesh<3> mesh_statically(const SpaceInput& input, const mesher::Options<3
 template <int D>
 mesher::Mesh<D> mesh_without_engine(const InputOf<D>& input, const mesher::Options<D>& options,
                                     mesher::MeshStats& stats, Progress& progress) {
-  try {
+  return locating(input, [&] {
     const StopPolitely stop;
     return mesh_statically(input, options, stats, progress.control());
-  } catch (const mesher::Error& error) {
-    throw input.located(error);
-  }
+  });
 }
 
 template <int D>
 mesher::Mesh<D> mesh_with_engine(const InputOf<D>& input, const mesher::Options<D>& options,
                                  mesher::MeshStats& stats, Progress& progress) {
-  mesher::Mesher<D> mesher(options);
+  auto mesher = mesher_for<mesher::Mesher<D>>(input, options);
   insert_all(input, mesher, progress);
   stats = mesher.stats();
   return mesher.mesh();
@@ -87,12 +85,9 @@ void limit_regions(const MeshArguments& args, const Input& input, mesher::Option
   const bool limited = options.max_area != 0 || options.sizes != nullptr;
   const bool enclosing = !args.box && !segments_of(input.graph()).empty();
   if (!args.region_areas && !(limited && enclosing)) return;
-  try {
-    options.region_limits =
-        mesher::region_limits(input.graph(), options, extent(args), region_areas(args));
-  } catch (const mesher::Error& error) {
-    throw input.located(error);
-  }
+  options.region_limits = locating(input, [&] {
+    return mesher::region_limits(input.graph(), options, extent(args), region_areas(args));
+  });
 }
 
 void limit_regions(const MeshArguments&, const SpaceInput&, mesher::Options<3>&) {}

@@ -65,7 +65,7 @@ void run_trace(const TraceArguments& args) {
   const auto options = mesh_options(args, input);
   require_writable(args, input);
   Progress progress(args.quiet);
-  mesher::Mesher<D> mesher(options);
+  auto mesher = mesher_for<mesher::Mesher<D>>(input, options);
   insert_all(input, mesher, progress);
   if (!args.script.empty()) follow_script<D>(args, input, mesher, progress);
   const traces::Recording recording =

@@ -111,6 +111,8 @@ refuse 2 'out/x.vtu: error[bad_option]' mesh uniform.node -o out/x.vtu -o out/x.
 refuse 2 './uniform.node: error[bad_option]' mesh uniform.node -o out/x.vtu -o ./uniform.node
 refuse 2 '--rho' mesh uniform.node --rho 1 -o out/x.vtu
 refuse 2 '--rho' mesh uniform.node --rho nan -o out/x.vtu
+refuse 2 'error[bad_option]: --rho 101: must be above 1.01 and at most 100' mesh uniform.node \
+  --rho 101 -o out/x.vtu
 refuse 2 '--rho' mesh uniform.node --rho 2x -o out/x.vtu
 refuse 2 'error[bad_option]' mesh uniform.node --rule best -o out/x.vtu
 refuse 2 '--domain' mesh uniform.node --domain 0 0 1 inf -o out/x.vtu
@@ -121,6 +123,21 @@ refuse 2 'At least 4' mesh uniform.node --domain 0 0 1 -o out/x.vtu
 expect 0 '' mesh uniform.node --domain -.5 -1e0 +2 2 -o wide.node
 expect 0 '' mesh --domain -.5 -1e0 +2 2 uniform.node -o wide_first.node
 same wide.node wide_first.node
+echo '-point 1' >remove_1.txt
+printf '2 2 0 0\n1 1e20 0\n2 1.0000000000001e20 .5\n' >far.node
+printf '3 2 0 0\n1 1e20 0\n2 1.0000000000001e20 .5\n3 1e20 1\n2 0\n1 1 2\n2 2 3\n0\n' >far.poly
+printf '2 3 0 0\n1 1e20 0 0\n2 1.0000000000001e20 .5 1\n' >far.3d.node
+for far in far.node far.poly far.3d.node; do
+  too_far="$far: error[bad_option]: the domain is too far from the origin for its size"
+  for engine in '' --static; do
+    # shellcheck disable=SC2086
+    refuse 2 "$too_far" mesh "$far" $engine -o out/x.vtu
+    # shellcheck disable=SC2086
+    refuse 2 "$too_far" edit "$far" --script remove_1.txt $engine -o out/x.vtu
+  done
+  refuse 2 "$too_far" trace "$far" -o out/x.trace
+  [[ $far == far.3d.node ]] || refuse 2 "$too_far" mesh "$far" --repair -o out/x.vtu
+done
 for seed in -1 1.5 18446744073709551616 ''; do
   refuse 2 '--seed' gen uniform --n 5 --seed "$seed" -o out/x.node
 done

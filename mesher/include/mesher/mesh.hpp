@@ -83,7 +83,7 @@ class RegionLimits;
 template <int D>
 struct Options {
   Box<D> domain{};      ///< where input points may lie; must not be empty
-  double rho = D == 2 ? 1.4142 : 2;  ///< bound of circumradius over shortest edge; > 1.01
+  double rho = D == 2 ? 1.4142 : 2;  ///< bound of circumradius over shortest edge; in (1.01, 100]
   Rule rule = Rule::radius_edge;
   double max_area = 0;  ///< of a triangle with its centroid in the domain; 0: no limit
   std::shared_ptr<const SizeField<D>> sizes{};  ///< limits that vary, see sizes.hpp; null: none
