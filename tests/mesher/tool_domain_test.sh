@@ -199,6 +199,12 @@ refuse 2 'segments need the rule radius_edge' mesh lake.poly --rule voronoi-aspe
 echo "== --max-vertices"
 refuse 4 'error[too_many]: more than 60 vertices' mesh lake.poly --max-vertices 60 -o out/x.vtu
 refuse 4 'lake.poly:14:1: error[too_many]' mesh lake.poly --max-vertices 60 --static -o out/x.vtu
+printf '3 2 0 0\n1 0 0\n2 1 0\n3 1 1e-5\n2 0\n1 1 2\n2 1 3\n0\n' >wedge.poly
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  refuse 4 'more than 50 vertices are needed; so far 8 are on segment 1 and 8 on segment 2 (' mesh \
+    wedge.poly --max-vertices 50 $engine -o out/x.vtu
+done
 refuse 2 '--max-vertices' mesh lake.poly --max-vertices 0 -o out/x.vtu
 refuse 2 '--max-vertices' mesh lake.poly --max-vertices -5 -o out/x.vtu
 refuse 2 '--max-vertices' mesh lake.poly --max-vertices 1e3 -o out/x.vtu

@@ -32,8 +32,9 @@ Error too_many_vertices(const VertexSearch<2>& vertices, const Names* names, std
   std::vector<FeatureId> ids;
   if (names != nullptr) {
     for (const auto& [count, id] : lines_by_vertices(vertices, *names)) {
-      text += (ids.empty() ? "; on segment " : ", on segment ") +
-              std::to_string(static_cast<std::int64_t>(id)) + " " + std::to_string(count);
+      text += (ids.empty() ? "; so far " : " and ") + std::to_string(count);
+      if (ids.empty()) text += count == 1 ? " is" : " are";
+      text += " on segment " + std::to_string(static_cast<std::int64_t>(id));
       ids.push_back(id);
       if (ids.size() == 2) break;
     }

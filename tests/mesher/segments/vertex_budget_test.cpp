@@ -1,6 +1,10 @@
 // Meshes that may have so many vertices and no more.
 #include <catch2/catch.hpp>
+#include <regex>
 #include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "mesher/mesher.hpp"
@@ -13,17 +17,30 @@ using mesher::Point;
 
 FeatureId id(int i) { return FeatureId{i}; }
 
-// What `run` throws of too many vertices: the ids that it names.
+// What `run` throws, of too many vertices.
 template <class Run>
-std::vector<FeatureId> named_by(Run&& run) {
+mesher::Error refusal_of(Run&& run) {
   try {
     run();
   } catch (const mesher::Error& error) {
     REQUIRE(error.code() == ErrorCode::too_many);
-    return error.ids();
+    return error;
   }
   FAIL("not refused");
-  return {};
+  throw std::logic_error("not reached");
+}
+
+// The ids that it names.
+template <class Run>
+std::vector<FeatureId> named_by(Run&& run) {
+  return refusal_of(std::forward<Run>(run)).ids();
+}
+
+// What is said of `segments`, of which points 1 and 2, and 3 and 4 are the ends.
+std::string said_of(const std::vector<mesher::Segment>& segments, std::size_t most) {
+  const std::vector<Point<2>> points{{0.1, 0.5}, {0.9, 0.5}, {0.1, 0.50001}, {0.9, 0.50002}};
+  const mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}, .max_vertices = most};
+  return refusal_of([&] { (void)mesher::mesh_statically(points, segments, options); }).message();
 }
 
 }  // namespace
@@ -45,6 +62,18 @@ TEST_CASE(
   m.update();
   CHECK(m.mesh().vertices.size() > before.vertices.size());
   m.check_invariants();
+}
+
+TEST_CASE("Too many vertices are said to be on two lines at most, with how many are on each") {
+  const mesher::Segment first{id(10), id(1), id(2)}, second{id(11), id(3), id(4)};
+  const std::regex both(
+      "more than 3000 vertices are needed; so far ([0-9]+) are on segment 1[01] and ([0-9]+) on "
+      "segment 1[01]");
+  std::smatch counts;
+  const std::string said = said_of({first, second}, 3000);
+  REQUIRE(std::regex_match(said, counts, both));
+  CHECK(std::stoi(counts[1]) >= std::stoi(counts[2]));
+  CHECK(said_of({}, 5) == "more than 5 vertices are needed");
 }
 
 TEST_CASE("A mesh may have just as many vertices as it needs, and not one less") {
