@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -149,6 +150,14 @@ void settle_input(MeshArguments& args) {
   if (args.input.empty()) throw CLI::RequiredError("INPUT");
 }
 
+// INPUT is not `required` to CLI11, as settle_input() may find it later; to people it is.
+class UsageOfInput : public CLI::Formatter {
+ public:
+  std::string make_option_usage(const CLI::Option* option) const override {
+    return make_option_name(option, true);
+  }
+};
+
 bool has_points_alone(const std::string& path) {
   const std::string extension = mesher::format_of(path);
   return extension == ".node" || extension == ".xyz" || extension == ".csv";
@@ -164,16 +173,16 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
           "points in space: these three, and the vertices of .off, .obj, .ply, .stl, .vtu or .vtk")
       ->option_text("TEXT REQUIRED");
   command.parse_complete_callback([&args] { settle_input(args); });
+  command.formatter(std::make_shared<UsageOfInput>());
   command
       .add_option("--dimension,--dim", args.dimension,
                   "2: the plane; 3: space (default: 3 if a .node file says so, or z is there and "
                   "not\n"
                   "the same everywhere; of .xyz and .csv, not 0 everywhere)")
       ->check(CLI::IsMember({"2", "3"}));
-  command.add_option(
-      "--rho", args.rho,
-      "Bound of circumradius over shortest edge, above 1.01 and up to 100\n"
-      "(default: 1.4142; in space 2)");
+  command.add_option("--rho", args.rho,
+                     "Bound of circumradius over shortest edge, above 1.01 and up to 100\n"
+                     "(default: 1.4142; in space 2)");
   command.add_option("--rule", args.rule, "Where to insert: radius-edge or voronoi-aspect")
       ->check(CLI::IsMember({"radius-edge", "voronoi-aspect"}))
       ->capture_default_str();

@@ -52,6 +52,9 @@ for command in '' gen mesh edit check; do
   # shellcheck disable=SC2086
   expect 0 'Examples:' $command --help
 done
+for command in mesh edit trace; do
+  expect 0 "Usage: mesher $command [OPTIONS] INPUT"$'\n' $command --help
+done
 refuse 2 'error[bad_option]'
 refuse 2 'error[bad_option]' paint
 refuse 2 'error[bad_option]' mesh
