@@ -15,14 +15,8 @@ import sys
 import tempfile
 from collections import Counter
 
-try:
-    import meshio
-except ImportError:
-    meshio = None
-try:
-    import gmsh
-except ImportError:
-    gmsh = None
+from foreign import (GMSH_WRITES, MESHIO_WRITES, bits, files_of_gmsh, files_of_meshio, gmsh,
+                     meshio, open_in_gmsh)
 
 
 class Truth:
@@ -44,10 +38,6 @@ class Truth:
         """Whether formats with small numbers keep regions and markers as they are."""
         return (all(r == int(r) and r > 0 for _, r in self.triangles)
                 and all(0 <= m < 2**31 - 1 for _, m in self.edges))
-
-
-def bits(number):
-    return struct.unpack("<Q", struct.pack("<d", number))[0]
 
 
 def value(its_bits):
@@ -143,13 +133,8 @@ def judge_by_meshio(path, truth, extension):
 
 def judge_by_gmsh(path, truth, extension):
     check = Comparison(f"gmsh {path}")
-    gmsh.initialize()
-    gmsh.option.setNumber("General.Verbosity", 0)
-    gmsh.open(path)
-    tags, places, _ = gmsh.model.mesh.getNodes()
-    order = sorted(range(len(tags)), key=lambda i: tags[i])
-    number = {int(tags[i]): k for k, i in enumerate(order)}
-    check.points([places[3 * i:3 * i + 3] for i in order], truth)
+    places, number = open_in_gmsh(path)
+    check.points(places, truth)
     found = {1: [], 2: []}
     for dim, tag in gmsh.model.getEntities():
         group = gmsh.model.getPhysicalGroupsForEntity(dim, tag)
@@ -164,18 +149,6 @@ def judge_by_gmsh(path, truth, extension):
         expected = [(c, float(v) if extension == ".msh" else 0.0) for c, v in what]
         check.cells(f"cells of dimension {dim}", found[dim], expected, ordered=False)
     return check.failures
-
-
-# How meshio writes: a name, an extension, the format's name and its options.
-MESHIO_WRITES = [("zlib", ".vtu", "vtu", {"compression": "zlib"}),
-                 ("plain", ".vtu", "vtu", {"compression": None}),
-                 ("ascii42", ".vtk", "vtk42", {"binary": False}),
-                 ("ascii51", ".vtk", "vtk51", {"binary": False}),
-                 ("binary42", ".vtk", "vtk42", {"binary": True}),
-                 ("binary51", ".vtk", "vtk51", {"binary": True}),
-                 ("medit", ".mesh", "medit", {"float_fmt": ".17g"})]
-# How gmsh writes: binary or not, an extension.
-GMSH_WRITES = ((0, ".msh"), (0, ".mesh"), (0, ".vtk"), (1, ".msh"), (1, ".vtk"))
 
 
 def nearly_equal(points, expected):
@@ -202,31 +175,13 @@ def judge_our_reading(program, path, truth, exact=True):
 
 
 def judge_files_of_meshio(program, stem, truth):
-    failures = 0
-    mesh = meshio.read(stem + ".vtu")
-    mesh.cell_data = {}
-    mesh.point_data = {}
-    for name, extension, form, options in MESHIO_WRITES:
-        path = f"{stem}.meshio_{name}{extension}"
-        meshio.write(path, mesh, form, **options)
-        failures += judge_our_reading(program, path, truth)
-    return failures
+    return sum(judge_our_reading(program, path, truth)
+               for path in files_of_meshio(stem, MESHIO_WRITES))
 
 
 def judge_files_of_gmsh(program, stem, truth):
-    failures = 0
-    for binary, extension in GMSH_WRITES:
-        path = f"{stem}.gmsh{binary}{extension}"
-        gmsh.initialize()
-        gmsh.option.setNumber("General.Verbosity", 0)
-        gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
-        gmsh.option.setNumber("Mesh.SaveAll", 1)
-        gmsh.option.setNumber("Mesh.Binary", binary)
-        gmsh.open(stem + ".msh")
-        gmsh.write(path)
-        gmsh.finalize()
-        failures += judge_our_reading(program, path, truth, exact=bool(binary))
-    return failures
+    return sum(judge_our_reading(program, path, truth, exact=is_binary)
+               for path, is_binary in files_of_gmsh(stem))
 
 
 def main():

@@ -9,24 +9,13 @@ Exit code 77: neither meshio nor gmsh is installed; 1: a difference.
 """
 import glob
 import shutil
-import struct
 import subprocess
 import sys
 import tempfile
 from collections import Counter
 
-try:
-    import meshio
-except ImportError:
-    meshio = None
-try:
-    import gmsh
-except ImportError:
-    gmsh = None
-
-
-def bits(number):
-    return struct.unpack("<Q", struct.pack("<d", number))[0]
+from foreign import (MESHIO_WRITES, bits, files_of_gmsh, files_of_meshio, gmsh, meshio,
+                     open_in_gmsh)
 
 
 def read_truth(path):
@@ -45,13 +34,8 @@ def by_meshio(path):
 
 
 def by_gmsh(path):
-    gmsh.initialize()
-    gmsh.option.setNumber("General.Verbosity", 0)
-    gmsh.open(path)
-    tags, places, _ = gmsh.model.mesh.getNodes()
-    order = sorted(range(len(tags)), key=lambda i: tags[i])
-    number = {int(tags[i]): k for k, i in enumerate(order)}
-    points = [tuple(bits(x) for x in places[3 * i:3 * i + 3]) for i in order]
+    places, number = open_in_gmsh(path)
+    points = [tuple(map(bits, place)) for place in places]
     _, _, nodes = gmsh.model.mesh.getElements(3)
     corners = [number[int(v)] for block in nodes for v in block]
     gmsh.finalize()
@@ -109,15 +93,7 @@ def differs(what, found, expected, ordered=True):
     return not same
 
 
-# How meshio writes: a name, an extension, the format's name and its options.
-MESHIO_WRITES = [("zlib", ".vtu", "vtu", {"compression": "zlib"}),
-                 ("plain", ".vtu", "vtu", {"compression": None}),
-                 ("ascii42", ".vtk", "vtk42", {"binary": False}),
-                 ("ascii51", ".vtk", "vtk51", {"binary": False}),
-                 ("binary42", ".vtk", "vtk42", {"binary": True}),
-                 ("binary51", ".vtk", "vtk51", {"binary": True}),
-                 ("tetgen", ".node", "tetgen", {}),
-                 ("medit", ".mesh", "medit", {"float_fmt": ".17g"})]
+TETGEN_BY_MESHIO = ("tetgen", ".node", "tetgen", {})
 
 
 def our_reading(program, path):
@@ -126,31 +102,16 @@ def our_reading(program, path):
 
 
 def compare_files_of_meshio(program, stem, truth):
-    failures = 0
-    mesh = meshio.read(stem + ".vtu")
-    mesh.point_data = {}
-    for name, extension, form, options in MESHIO_WRITES:
-        path = f"{stem}.meshio_{name}{extension}"
-        meshio.write(path, mesh, form, **options)
-        failures += differs(path, our_reading(program, path), truth)
-    return failures
+    return sum(differs(path, our_reading(program, path), truth)
+               for path in files_of_meshio(stem, [*MESHIO_WRITES, TETGEN_BY_MESHIO]))
 
 
 def compare_files_of_gmsh(program, stem, truth):
     """gmsh writes coordinates in text with 16 digits: only binary files are the same to the bit."""
     failures = 0
-    for binary, extension in ((0, ".msh"), (0, ".mesh"), (0, ".vtk"), (1, ".msh"), (1, ".vtk")):
-        path = f"{stem}.gmsh{binary}{extension}"
-        gmsh.initialize()
-        gmsh.option.setNumber("General.Verbosity", 0)
-        gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
-        gmsh.option.setNumber("Mesh.SaveAll", 1)
-        gmsh.option.setNumber("Mesh.Binary", binary)
-        gmsh.open(stem + ".msh")
-        gmsh.write(path)
-        gmsh.finalize()
+    for path, is_binary in files_of_gmsh(stem):
         points, cells = our_reading(program, path)
-        expected = truth if binary else (points, truth[1])
+        expected = truth if is_binary else (points, truth[1])
         failures += len(points) != len(truth[0])
         failures += differs(path, (points, cells), expected, False)
     return failures
