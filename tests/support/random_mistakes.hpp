@@ -2,10 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <iterator>
 #include <string>
 
+#include "mesher/error.hpp"
 #include "mesher/generate.hpp"
+#include "scratch_file.hpp"
 
 namespace support {
 
@@ -31,6 +34,29 @@ namespace support {
     }
   }
   return bad;
+}
+
+/// Has `read` read the file with mistakes, a hundred times; it may refuse it, as a format, with its
+/// absolute path. The file is good again then. How often it was refused.
+template <class Read>
+std::size_t refused_with_mistakes(const ScratchFolder& folder, const std::string& name,
+                                  mesher::SplitMix64& random, Read&& read) {
+  const std::string good = folder.read(name);
+  std::size_t refused = 0;
+  for (int round = 0; round < 100; ++round) {
+    const std::string bad = with_mistakes(good, random);
+    folder.write(name, bad);
+    INFO(name << ":\n" << bad);
+    try {
+      read();
+    } catch (const mesher::Error& error) {
+      ++refused;
+      CHECK(error.place().file.substr(0, 1) == "/");
+      CHECK(mesher::exit_code(error.code()) == mesher::ExitCode::format);
+    }
+  }
+  folder.write(name, good);
+  return refused;
 }
 
 }  // namespace support
