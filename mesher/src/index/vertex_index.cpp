@@ -265,7 +265,6 @@ bool VertexIndex<sac::Scope, D>::begin(Cell& cell, const Vertex<D>& v, double ra
 template <int D>
 template <class Seen>
 bool VertexIndex<sac::Scope, D>::try_successors(Cell& cell, const Observation& last, Seen& seen) {
-  if (engine_.undoing()) return false;  // other stars may be of another time
   gone_.clear();
   for (const std::uint32_t u : observers_.neighbours(last)) {
     if (u < Cell::kVirtual && !seen(u)) gone_.push_back(u);
@@ -280,7 +279,8 @@ bool VertexIndex<sac::Scope, D>::try_successors(Cell& cell, const Observation& l
 }
 
 // Takes those who were around `gone` for candidates, and notes who of them has gone, too. Returns
-// whether it is known who they were.
+// whether it is known who they were: not of one that came in this very update, as when edits are
+// taken back.
 template <int D>
 bool VertexIndex<sac::Scope, D>::add_around(Cell& cell, const Vertex<D>& gone) {
   constexpr std::size_t kMost = 64;
