@@ -11,9 +11,9 @@
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
-#include <iostream>
 #include <string>
 
+#include "file_program.hpp"
 #include "mesher/io.hpp"
 #include "mesher/mesher.hpp"
 #include "random_mesh.hpp"
@@ -67,18 +67,7 @@ void write_all(const std::string& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string command = argc > 1 ? argv[1] : "";
-  try {
-    if (command == "write" && argc == 3) {
-      write_all(std::string(argv[2]) + "/");
-    } else if (command == "dump" && argc == 4) {
-      write_truth(mesher::read_mesh(argv[2]), argv[3]);
-    } else {
-      return 2;
-    }
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return formats::file_program(
+      argc, argv, [](const std::string& folder) { write_all(folder + "/"); },
+      [](const char* mesh, const char* truth) { write_truth(mesher::read_mesh(mesh), truth); });
 }

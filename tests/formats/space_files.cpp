@@ -8,10 +8,10 @@
 #include <bit>
 #include <cstdint>
 #include <fstream>
-#include <iostream>
 #include <string>
 #include <vector>
 
+#include "file_program.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/io.hpp"
 #include "mesher/mesher.hpp"
@@ -54,18 +54,7 @@ void write_all(const std::string& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string command = argc > 1 ? argv[1] : "";
-  try {
-    if (command == "write" && argc == 3) {
-      write_all(argv[2]);
-    } else if (command == "dump" && argc == 4) {
-      write_truth(mesher::read_mesh<3>(argv[2]), argv[3]);
-    } else {
-      return 2;
-    }
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return formats::file_program(argc, argv, write_all, [](const char* mesh, const char* truth) {
+    write_truth(mesher::read_mesh<3>(mesh), truth);
+  });
 }
