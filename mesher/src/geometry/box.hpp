@@ -38,6 +38,12 @@ namespace mesher::detail {
 [[nodiscard]] inline double reach_of(const Box<2>& box) {
   return std::hypot(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1]) / 2 * (1 + 0x1p-40);
 }
+template <int D>
+[[nodiscard]] double longest_side(const Box<D>& box) {
+  double longest = 0;
+  for (int i = 0; i < D; ++i) longest = std::max(longest, box.hi[i] - box.lo[i]);
+  return longest;
+}
 /// Widens a box to hold p.
 template <int D>
 void grow(Box<D>& box, const std::type_identity_t<Point<D>>& p) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "geometry/box.hpp"
 #include "io/text.hpp"
 #include "program/world.hpp"
 
@@ -42,13 +43,6 @@ double power_of_two_from(double x) {
   int exponent;
   const double mantissa = std::frexp(x, &exponent);
   return std::ldexp(1.0, mantissa == 0.5 ? exponent - 1 : exponent);
-}
-
-template <int D>
-double longest_side(const Box<D>& domain) {
-  double longest = 0;
-  for (int i = 0; i < D; ++i) longest = std::max(longest, domain.hi[i] - domain.lo[i]);
-  return longest;
 }
 
 // The distance from the domain to the nearest side of the box.

@@ -25,13 +25,6 @@ inline int length_class(double length) {
   return length > 0 ? std::clamp(std::ilogb(length), kShortest, kLongest) : kShortest;
 }
 
-template <int D>
-double longest_side(const Box<D>& box) {
-  double longest = 0;
-  for (int i = 0; i < D; ++i) longest = std::max(longest, box.hi[i] - box.lo[i]);
-  return longest;
-}
-
 /// The input points of a mesh with an eighth of their longest side around them; all of the mesh if
 /// it has fewer than two. Cost: O(vertices).
 template <int D>
@@ -45,7 +38,7 @@ Box<D> window_of(const Mesh<D>& mesh) {
   box.hi.fill(1);
   if (shown.empty()) return box;
   box = detail::bounding_box<D>(shown);
-  const double margin = longest_side(box) > 0 ? longest_side(box) / 8 : 1;
+  const double margin = detail::longest_side(box) > 0 ? detail::longest_side(box) / 8 : 1;
   for (int i = 0; i < D; ++i) {
     box.lo[i] -= margin;
     box.hi[i] += margin;
@@ -57,7 +50,7 @@ Box<D> window_of(const Mesh<D>& mesh) {
 class Canvas {
  public:
   Canvas(const Box<2>& window, TextFile& file)
-      : window_(window), scale_(kLongerSide / longest_side(window)), file_(file) {}
+      : window_(window), scale_(kLongerSide / detail::longest_side(window)), file_(file) {}
 
   [[nodiscard]] bool shows(const Point<2>& a, const Point<2>& b) const { return shows(a, b, b); }
   [[nodiscard]] bool shows(const Point<2>& a, const Point<2>& b, const Point<2>& c) const {

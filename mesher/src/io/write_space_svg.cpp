@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/box.hpp"
 #include "geometry/circumcentre.hpp"
 #include "geometry/space.hpp"
 #include "io/svg_canvas.hpp"
@@ -156,7 +157,7 @@ Box<2> extent_of(const std::vector<Shown>& faces, const Mesh<3>& mesh, const Cam
   }
   if (corners.empty()) return {{0, 0}, {1, 1}};
   Box<2> box = detail::bounding_box<2>(corners);
-  const double margin = svg::longest_side(box) / 64;
+  const double margin = detail::longest_side(box) / 64;
   for (std::size_t i = 0; i < 2; ++i) {
     box.lo[i] -= margin;
     box.hi[i] += margin;
