@@ -58,14 +58,20 @@ class Reach {
   [[nodiscard]] bool contains(const Point<D>& d) const noexcept {
     const Box<D> b = box();
     bool contains = true;
-    for (int i = 0; i < D; ++i) contains = contains & (d[i] >= b.lo[i]) & (d[i] <= b.hi[i]);
+    for (int i = 0; i < D; ++i) {
+      contains &= d[i] >= b.lo[i];
+      contains &= d[i] <= b.hi[i];
+    }
     return contains;
   }
   /// The same of some place of a box.
   [[nodiscard]] bool meets(const Box<D>& d) const noexcept {
     const Box<D> b = box();
     bool meets = true;
-    for (int i = 0; i < D; ++i) meets = meets & (d.hi[i] >= b.lo[i]) & (d.lo[i] <= b.hi[i]);
+    for (int i = 0; i < D; ++i) {
+      meets &= d.hi[i] >= b.lo[i];
+      meets &= d.lo[i] <= b.hi[i];
+    }
     return meets;
   }
   [[nodiscard]] bool covers(const Reach& other) const noexcept {
@@ -145,7 +151,8 @@ class Area {
   [[nodiscard]] bool covers(const Area& other) const noexcept {
     bool covers = true;
     for (int i = 0; i < D; ++i) {
-      covers = covers & (below_[i] >= other.below_[i]) & (above_[i] >= other.above_[i]);
+      covers &= below_[i] >= other.below_[i];
+      covers &= above_[i] >= other.above_[i];
     }
     return covers;
   }
@@ -153,7 +160,8 @@ class Area {
   [[nodiscard]] bool contains(const Point<D>& u, double slack) const noexcept {
     bool contains = true;
     for (int i = 0; i < D; ++i) {
-      contains = contains & (-u[i] <= below_[i] + slack) & (u[i] <= above_[i] + slack);
+      contains &= -u[i] <= below_[i] + slack;
+      contains &= u[i] <= above_[i] + slack;
     }
     return contains;
   }
@@ -161,7 +169,8 @@ class Area {
   [[nodiscard]] bool meets(const Box<D>& u, double slack) const noexcept {
     bool meets = true;
     for (int i = 0; i < D; ++i) {
-      meets = meets & (-u.hi[i] <= below_[i] + slack) & (u.lo[i] <= above_[i] + slack);
+      meets &= -u.hi[i] <= below_[i] + slack;
+      meets &= u.lo[i] <= above_[i] + slack;
     }
     return meets;
   }
