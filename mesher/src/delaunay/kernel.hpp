@@ -32,6 +32,7 @@
 #include <span>
 #include <vector>
 
+#include "delaunay/ball_filter.hpp"
 #include "delaunay/simplex_store.hpp"
 #include "mesher/mesh.hpp"
 
@@ -53,7 +54,7 @@ class DelaunayKernel {
   /// Forgets the place of the greatest number. Requires: it is no vertex.
   void drop_place() noexcept;
   /// Gives a place that is no vertex other coordinates.
-  void set_place(std::uint32_t v, const Point<D>& p) noexcept { places_[v] = p; }
+  void set_place(std::uint32_t v, const Point<D>& p) noexcept;
 
   /// Begins with a simplex. Requires: no vertices yet, corners not in a plane (a line).
   void start(const std::array<std::uint32_t, D + 1>& corners);
@@ -109,7 +110,8 @@ class DelaunayKernel {
   [[nodiscard]] std::uint32_t walk(const Point<D>& p, std::uint32_t from) const;
   [[nodiscard]] int side(const Ids& corners, std::size_t i, const Point<D>& p) const;
   [[nodiscard]] bool conflicts(std::uint32_t s, const Point<D>& p) const;
-  [[nodiscard]] bool conflicts_slowly(std::uint32_t s, const Point<D>& p) const;
+  [[nodiscard]] bool conflicts_quickly(std::uint32_t s, const Point<D>& p) const;
+  [[nodiscard]] bool conflicts_slowly(std::uint32_t s, const Point<D>& p, bool tie) const;
   [[nodiscard]] bool ghost_conflicts(std::uint32_t s, std::size_t i, const Point<D>& p) const;
   void dig(std::uint32_t v, std::uint32_t start);
   void undo_dig() noexcept;
@@ -133,6 +135,7 @@ class DelaunayKernel {
   std::vector<Point<D>> places_;           // [0] is not a number
   std::vector<std::uint32_t> simplex_of_;  // by vertex; kNone: no vertex
   SimplexStore<D> store_;
+  Lattice lattice_;             // of all places that there ever were
   std::uint32_t last_ = kNone;  // where the last vertex was inserted
 
   // Scratch, empty between calls (the marks are 0).
@@ -140,6 +143,7 @@ class DelaunayKernel {
   std::vector<std::uint32_t> local_;  // by vertex; its number among the link's, in fill()
   std::vector<std::uint32_t> cavity_, outside_, link_, ridges_;
   std::vector<Border> borders_;
+  std::vector<std::array<std::uint32_t, D>> ends_;  // of the facets of borders_, as in local_
   std::vector<Ridge> many_;
   std::unique_ptr<DelaunayKernel> star_;  // for removal
 };
