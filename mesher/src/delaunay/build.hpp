@@ -1,10 +1,8 @@
-// A triangulation of many points from nothing, and what is left of one for those who ask.
+// A triangulation of many places of a kernel, from nothing.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include "delaunay/independent.hpp"
@@ -14,8 +12,8 @@ namespace mesher::detail {
 
 /// Calls duplicate(v, w) for each of `vertices` with an earlier one w of the same place, w the
 /// first of them.
-template <int D, class Duplicate>
-void find_duplicates(const DelaunayKernel<D>& kernel, std::span<const std::uint32_t> vertices,
+template <int D, class Vertices, class Duplicate>
+void find_duplicates(const DelaunayKernel<D>& kernel, const Vertices& vertices,
                      Duplicate&& duplicate) {
   std::vector<std::uint32_t> sorted(vertices.begin(), vertices.end());
   std::stable_sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -32,11 +30,11 @@ void find_duplicates(const DelaunayKernel<D>& kernel, std::span<const std::uint3
 }
 
 /// Inserts these places, in this order but for the first simplex, or none if all are in one
-/// hyperplane: returns false then. Calls duplicate(v, w) for each v with an earlier one of the same
-/// place, w the first of them.
-template <int D, class Duplicate>
-bool build(DelaunayKernel<D>& kernel, std::span<const std::uint32_t> vertices,
-           Duplicate&& duplicate) {
+/// hyperplane: returns false then. Calls duplicate(v, w) for each v with an earlier one w of the
+/// same place, w the first of them, and step() for each v. `vertices`: a range.
+template <int D, class Vertices, class Duplicate, class Step>
+bool build(DelaunayKernel<D>& kernel, const Vertices& vertices, Duplicate&& duplicate,
+           Step&& step) {
   Independent<D> first;
   for (const std::uint32_t v : vertices) {
     if (first.full()) break;
@@ -48,27 +46,16 @@ bool build(DelaunayKernel<D>& kernel, std::span<const std::uint32_t> vertices,
   }
   kernel.start(first.names());
   for (const std::uint32_t v : vertices) {
+    step();
     if (first.keeps(v)) continue;
     const std::uint32_t w = kernel.insert(v);
     if (w != v) duplicate(v, w);
   }
   return true;
 }
-
-/// The corners, called name(v), and the neighbours (kNone on the hull) of the simplices that are no
-/// ghosts. Allocates nothing.
-template <int D, class Name>
-auto without_ghosts(SimplexStore<D> store, Name&& name) {
-  using Ids = typename SimplexStore<D>::Ids;
-  store.remove_if([](const Ids& c) { return std::find(c.begin(), c.end(), kInfinite) != c.end(); });
-  auto corners = store.release_corners(), across = store.release_across();
-  for (Ids& c : corners) {
-    for (std::uint32_t& v : c) v = name(v);
-  }
-  for (Ids& a : across) {
-    for (std::uint32_t& code : a) code = code == kNone ? kNone : code >> 2;
-  }
-  return std::pair{std::move(corners), std::move(across)};
+template <int D, class Vertices, class Duplicate>
+bool build(DelaunayKernel<D>& kernel, const Vertices& vertices, Duplicate&& duplicate) {
+  return build<D>(kernel, vertices, duplicate, [] {});
 }
 
 }  // namespace mesher::detail

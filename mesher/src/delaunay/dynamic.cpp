@@ -1,13 +1,10 @@
 // A triangulation that changes: the kernel, and what there is while all points are in one
 // hyperplane.
-#include <algorithm>
 #include <map>
-#include <tuple>
 #include <utility>
 
-#include "delaunay/build.hpp"
+#include "delaunay/bulk.hpp"
 #include "delaunay/check_place.hpp"
-#include "delaunay/spatial_order.hpp"
 #include "mesher/delaunay.hpp"
 #include "sac/check.hpp"
 
@@ -205,10 +202,9 @@ std::vector<std::uint32_t> DynamicDelaunay<D>::neighbours(std::uint32_t vertex) 
 
 template <int D>
 Delaunay<D> DynamicDelaunay<D>::simplices() const {
-  Delaunay<D> all;
-  std::tie(all.simplices, all.neighbours) =
-      detail::without_ghosts(state_->kernel().simplices(), [](std::uint32_t v) { return v - 1; });
-  return all;
+  auto flat = detail::without_ghosts<D>(state_->kernel().simplices(),
+                                        [](std::uint32_t v) { return v - 1; });
+  return {std::move(flat.simplices), std::move(flat.neighbours), {}};
 }
 
 template <int D>
