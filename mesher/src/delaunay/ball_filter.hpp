@@ -37,7 +37,7 @@ enum class Side : std::int8_t { outside = -1, tie = 0, inside = 1, unsure = 2 };
 
 /// Where coordinates are multiples of a power of two: up to which square of a distance from p the
 /// determinants are not rounded.
-class Lattice {
+class CommonUnit {
  public:
   template <std::size_t D>
   void add(const std::array<double, D>& p) noexcept {

@@ -48,9 +48,10 @@ template <int D, class Name, class Duplicate, class Step>
   for (const std::uint32_t i : order) kernel.add_place(points[i]);
   const auto vertices = std::views::iota(1u, static_cast<std::uint32_t>(order.size()) + 1);
   const auto of = [&](std::uint32_t v) { return order[v - 1]; };
-  build<D>(kernel, vertices,
-           [&](std::uint32_t v, std::uint32_t w) { duplicate(of(v), of(w)); }, step);
-  return without_ghosts<D>(std::move(kernel).release(), [&](std::uint32_t v) { return name(of(v)); });
+  build<D>(
+      kernel, vertices, [&](std::uint32_t v, std::uint32_t w) { duplicate(of(v), of(w)); }, step);
+  return without_ghosts<D>(std::move(kernel).release(),
+                           [&](std::uint32_t v) { return name(of(v)); });
 }
 
 }  // namespace mesher::detail

@@ -15,7 +15,9 @@ Delaunay<D> delaunay(std::span<const Point<D>> points) {
   Delaunay<D> result;
   auto flat = detail::triangulate<D>(
       points, [](std::uint32_t i) { return i; },
-      [&](std::uint32_t i, std::uint32_t original) { result.duplicates.push_back({i, original}); },
+      [&](std::uint32_t i, std::uint32_t original) {
+        result.duplicates.push_back({i, original});
+      },
       [] {});
   result.simplices = std::move(flat.simplices);
   result.neighbours = std::move(flat.neighbours);

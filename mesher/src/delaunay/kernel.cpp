@@ -40,7 +40,7 @@ template <int D>
 std::uint32_t DelaunayKernel<D>::add_place(const Point<D>& p) {
   SAC_EXPECTS(places_.size() < kNone);
   places_.push_back(p);
-  lattice_.add(p);
+  unit_.add(p);
   try {
     simplex_of_.push_back(kNone);
     local_.push_back(0);
@@ -55,7 +55,7 @@ std::uint32_t DelaunayKernel<D>::add_place(const Point<D>& p) {
 template <int D>
 void DelaunayKernel<D>::set_place(std::uint32_t v, const Point<D>& p) noexcept {
   places_[v] = p;
-  lattice_.add(p);
+  unit_.add(p);
 }
 
 template <int D>
@@ -183,7 +183,7 @@ void DelaunayKernel<D>::clear() noexcept {
   places_.resize(1);
   simplex_of_.resize(1);
   local_.resize(1);
-  lattice_ = {};
+  unit_ = {};
 }
 
 template <int D>

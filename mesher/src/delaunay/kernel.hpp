@@ -135,7 +135,7 @@ class DelaunayKernel {
   std::vector<Point<D>> places_;           // [0] is not a number
   std::vector<std::uint32_t> simplex_of_;  // by vertex; kNone: no vertex
   SimplexStore<D> store_;
-  Lattice lattice_;             // of all places that there ever were
+  CommonUnit unit_;             // of all places that there ever were
   std::uint32_t last_ = kNone;  // where the last vertex was inserted
 
   // Scratch, empty between calls (the marks are 0).

@@ -17,10 +17,10 @@ template <int D>
   const Ids& c = store_.corners(s);
   Side side;
   if constexpr (D == 2) {
-    side = in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], p, lattice_.exact_to());
+    side = in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], p, unit_.exact_to());
   } else {
     side = in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], places_[c[3]], p,
-                           lattice_.exact_to());
+                           unit_.exact_to());
   }
   if (side == Side::inside || side == Side::outside) return side == Side::inside;
   return conflicts_slowly(s, p, side == Side::tie);

@@ -14,7 +14,7 @@ namespace {
 using mesher::Point;
 using mesher::SplitMix64;
 using mesher::detail::in_ball_quickly;
-using mesher::detail::Lattice;
+using mesher::detail::CommonUnit;
 using mesher::detail::Side;
 
 // On a circle or sphere around a middle, but for rounding and a few last bits.
@@ -53,10 +53,10 @@ TEMPLATE_TEST_CASE_SIG("near a ball, at each scale, the filter is right or not s
     Point<D> middle;
     for (double& x : middle) x = scale * random.unit() * apart;
     std::array<Point<D>, D + 2> q;
-    Lattice lattice;
+    CommonUnit unit;
     for (auto& p : q) p = near_ball<D>(random, middle, scale, random.below(2) == 0);
-    for (auto& p : q) lattice.add(p);
-    const auto [quick, exact] = sides<D>(q, lattice.exact_to());
+    for (auto& p : q) unit.add(p);
+    const auto [quick, exact] = sides<D>(q, unit.exact_to());
     REQUIRE((quick == Side::unsure || quick == exact));
     sure += quick != Side::unsure ? 1 : 0;
     ++all;
@@ -90,15 +90,15 @@ TEMPLATE_TEST_CASE_SIG("on a grid, up to the stated size, it is always sure and 
       const auto side = 1 + random.below(random.below(2) == 0 ? 4 : 290);
       const double far = std::ldexp(static_cast<double>(random.below(1000)), exponent);
       std::array<Point<D>, D + 2> q;
-      Lattice lattice;
+      CommonUnit unit;
       for (auto& p : q) {
         for (double& x : p) {
           x = far + std::ldexp(static_cast<double>(random.below(side + 1)), exponent);
         }
-        lattice.add(p);
+        unit.add(p);
       }
-      REQUIRE(lattice.exact_to() >= std::ldexp(most * most, 2 * exponent));
-      const auto [quick, exact] = sides<D>(q, lattice.exact_to());
+      REQUIRE(unit.exact_to() >= std::ldexp(most * most, 2 * exponent));
+      const auto [quick, exact] = sides<D>(q, unit.exact_to());
       REQUIRE(quick == exact);
       ties += quick == Side::tie ? 1 : 0;
     }
@@ -111,13 +111,13 @@ TEMPLATE_TEST_CASE_SIG("a coarse grid's ties are not claimed of fine points", "[
   SplitMix64 random(4);
   for (int i = 0; i < 100000; ++i) {
     std::array<Point<D>, D + 2> q;
-    Lattice lattice;
+    CommonUnit unit;
     for (auto& p : q) {
       for (double& x : p) x = static_cast<double>(random.below(1u << 20));
       if (random.below(4) == 0) p[0] += 0x1p-30;
-      lattice.add(p);
+      unit.add(p);
     }
-    const auto [quick, exact] = sides<D>(q, lattice.exact_to());
+    const auto [quick, exact] = sides<D>(q, unit.exact_to());
     REQUIRE((quick == Side::unsure || quick == exact));
   }
 }
