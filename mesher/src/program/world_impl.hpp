@@ -116,7 +116,7 @@ void PointWorld<S, D>::post_star(S& s, VertexRef<D> v) {
 template <class S, int D>
 void PointWorld<S, D>::triangulate(S& s) {
   if constexpr (S::kTraced) {
-    stars.drain(s);
+    vertices.with_first_stars([&] { stars.drain(s); });
   } else {
     triangulate_at_once(vertices.pool(), plain);
   }
