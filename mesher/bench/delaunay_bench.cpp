@@ -81,7 +81,13 @@ std::vector<Point<D>> read_raw(const std::string& path) {
 template <int D>
 void time_edits(const std::vector<Point<D>>& points, std::size_t edits, Figures& figures) {
   mesher::DynamicDelaunay<D> t{std::span<const Point<D>>(points)};
-  const auto box = mesher::snapped_domain<D>(points);
+  mesher::Box<D> box{points.front(), points.front()};
+  for (const auto& p : points) {
+    for (std::size_t i = 0; i < D; ++i) {
+      box.lo[i] = std::min(box.lo[i], p[i]);
+      box.hi[i] = std::max(box.hi[i], p[i]);
+    }
+  }
   mesher::SplitMix64 random(1);
   std::vector<Point<D>> places(edits);
   for (auto& p : places) {

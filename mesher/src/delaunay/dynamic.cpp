@@ -5,10 +5,13 @@
 
 #include "delaunay/bulk.hpp"
 #include "delaunay/check_place.hpp"
+#include "delaunay/nearby.hpp"
 #include "mesher/delaunay.hpp"
 #include "sac/check.hpp"
 
 namespace mesher {
+
+using detail::kNone;
 
 /// Vertex i is vertex i + 1 of the kernel. While there are no simplices the vertices are in
 /// `flat_`, by place; else that is empty.
@@ -39,7 +42,7 @@ class DynamicDelaunay<D>::State {
       if (is_flat()) {
         insert_flat(v, p);
       } else {
-        w = kernel_.insert(v);
+        w = insert_near(v, p);
       }
     } catch (...) {
       give_place(v);
@@ -58,10 +61,8 @@ class DynamicDelaunay<D>::State {
       flat_.vertices.erase(kernel_.place(v));
     } else if (is_flat()) {
       flat_ = flat_without({v});
-    } else if (!kernel_.remove(v)) {
-      Flat without = flat_without({v});
-      kernel_.clear_simplices();
-      flat_ = std::move(without);
+    } else {
+      remove_from_kernel(v);
     }
     free_.push_back(v);
     --size_;
@@ -112,6 +113,40 @@ class DynamicDelaunay<D>::State {
     }
   }
 
+  std::uint32_t insert_near(std::uint32_t v, const Point<D>& p) {
+    if (!nearby_.fits(p, size_ + 1)) nearby_ = nearby_with(p);
+    const std::uint32_t start = nearby_.near(
+        p, [&](std::uint32_t near) { return near <= kernel_.places() && kernel_.has(near); });
+    if (start != kNone) kernel_.walk_from(start);
+    const std::uint32_t w = kernel_.insert(v);
+    nearby_.add(w, p);
+    return w;
+  }
+  [[nodiscard]] detail::Nearby<D> nearby_with(const Point<D>& p) const {
+    Box<D> box{p, p};
+    const auto for_each_vertex = [&](auto&& visit) {
+      for (std::uint32_t v = 1; v <= kernel_.places(); ++v) {
+        if (kernel_.has(v)) visit(v, kernel_.place(v));
+      }
+    };
+    for_each_vertex([&](std::uint32_t, const Point<D>& place) { detail::grow(box, place); });
+    detail::Nearby<D> nearby(box, size_ + 1);
+    for_each_vertex([&](std::uint32_t v, const Point<D>& place) { nearby.add(v, place); });
+    return nearby;
+  }
+  void remove_from_kernel(std::uint32_t v) {
+    if (kernel_.remove(v)) {
+      if (nearby_.fits(kernel_.place(v), 0)) {
+        nearby_.replace(v, kernel_.place(v), kernel_.last_changed());
+      }
+      return;
+    }
+    Flat without = flat_without({v});
+    kernel_.clear_simplices();
+    nearby_ = {};
+    flat_ = std::move(without);
+  }
+
   void insert_flat(std::uint32_t v, const Point<D>& p) {
     const auto at = flat_.vertices.emplace(p, v).first;
     const detail::Independent<D> before = flat_.first;
@@ -151,6 +186,7 @@ class DynamicDelaunay<D>::State {
 
   detail::DelaunayKernel<D> kernel_;
   Flat flat_;
+  detail::Nearby<D> nearby_;         // of the kernel's vertices, made when first needed
   std::vector<std::uint32_t> free_;  // numbers of no vertex
   std::size_t size_ = 0;
 };

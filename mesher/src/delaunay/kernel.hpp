@@ -62,6 +62,8 @@ class DelaunayKernel {
   /// Requires: started; v is no vertex.
   /// Cost: expected O(1) near the last one inserted, in an order as random as spatial_order's.
   std::uint32_t insert(std::uint32_t v);
+  /// The next insertion starts its walk at vertex v. Requires: has(v).
+  void walk_from(std::uint32_t v) noexcept { last_ = simplex_of_[v]; }
   /// Takes a vertex out. False, and nothing done, if all others are in one plane (on one line).
   /// Cost: the triangulation of its neighbours.
   bool remove(std::uint32_t v);
@@ -72,6 +74,11 @@ class DelaunayKernel {
   [[nodiscard]] const Point<D>& place(std::uint32_t v) const noexcept { return places_[v]; }
   /// Some simplex with this vertex. Requires: has(v).
   [[nodiscard]] std::uint32_t simplex_of(std::uint32_t v) const noexcept { return simplex_of_[v]; }
+  /// A vertex at which the last insertion or removal changed something. Requires: started.
+  [[nodiscard]] std::uint32_t last_changed() const noexcept {
+    const Ids& c = store_.corners(last_);
+    return c[0] != kInfinite ? c[0] : c[1];
+  }
   [[nodiscard]] std::size_t places() const noexcept { return places_.size() - 1; }
   [[nodiscard]] bool is_ghost(std::uint32_t s) const noexcept;
   /// A simplex that holds p, or a ghost whose facet p is outside of. Requires: started.
@@ -112,6 +119,9 @@ class DelaunayKernel {
   [[nodiscard]] bool conflicts(std::uint32_t s, const Point<D>& p) const;
   [[nodiscard]] bool conflicts_quickly(std::uint32_t s, const Point<D>& p) const;
   [[nodiscard]] bool conflicts_slowly(std::uint32_t s, const Point<D>& p, bool tie) const;
+  [[nodiscard]] Side quick_side(const Ids& corners, const Point<D>& p) const;
+  [[nodiscard]] bool ball_holds(const Ids& corners, const Point<D>& p) const;
+  [[nodiscard]] bool ball_holds_exactly(const Ids& corners, const Point<D>& p, bool tie) const;
   [[nodiscard]] bool ghost_conflicts(std::uint32_t s, std::size_t i, const Point<D>& p) const;
   void dig(std::uint32_t v, std::uint32_t start);
   void undo_dig() noexcept;
@@ -126,6 +136,14 @@ class DelaunayKernel {
   [[nodiscard]] bool has_finite_beside(const std::vector<std::uint32_t>& star,
                                        std::uint32_t v) const;
   bool triangulate(const std::vector<std::uint32_t>& link);
+  [[nodiscard]] std::vector<Ids> filling_from_link(const std::vector<std::uint32_t>& star,
+                                                   std::uint32_t v,
+                                                   const std::vector<std::uint32_t>& link) const;
+  [[nodiscard]] std::vector<Ids> ghosts_for(const std::vector<std::uint32_t>& star,
+                                            std::uint32_t v) const;
+  [[nodiscard]] std::vector<Ids> wrapping(const std::vector<std::uint32_t>& star, std::uint32_t v,
+                                          const std::vector<std::uint32_t>& link) const;
+  [[nodiscard]] std::uint32_t apex_over(const Ids& c, const std::vector<std::uint32_t>& link) const;
   void refill(std::uint32_t v, const std::vector<std::uint32_t>& star,
               const std::vector<Ids>& filling);
   void check_simplex(std::uint32_t s) const;

@@ -11,17 +11,37 @@ enum Mark : std::uint8_t { kUnseen = 0, kInside, kOutside };
 
 }  // namespace
 
+/// Of a point and the ball of a simplex, as far as the filter is sure.
+template <int D>
+[[gnu::always_inline]] inline Side DelaunayKernel<D>::quick_side(const Ids& c,
+                                                                 const Point<D>& p) const {
+  if constexpr (D == 2) {
+    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], p, unit_.exact_to());
+  } else {
+    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], places_[c[3]], p,
+                           unit_.exact_to());
+  }
+}
+
+/// `tie`: whether p is known to be on the ball.
+template <int D>
+bool DelaunayKernel<D>::ball_holds_exactly(const Ids& c, const Point<D>& p, bool tie) const {
+  std::array<const Point<D>*, D + 1> q;
+  for (std::size_t i = 0; i <= D; ++i) q[i] = &places_[c[i]];
+  return (tie ? break_tie(q, p) : in_ball(q, p)) > 0;
+}
+
+template <int D>
+bool DelaunayKernel<D>::ball_holds(const Ids& c, const Point<D>& p) const {
+  const Side side = quick_side(c, p);
+  if (side == Side::inside || side == Side::outside) return side == Side::inside;
+  return ball_holds_exactly(c, p, side == Side::tie);
+}
+
 template <int D>
 [[gnu::always_inline]] inline bool DelaunayKernel<D>::conflicts_quickly(std::uint32_t s,
                                                                         const Point<D>& p) const {
-  const Ids& c = store_.corners(s);
-  Side side;
-  if constexpr (D == 2) {
-    side = in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], p, unit_.exact_to());
-  } else {
-    side = in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], places_[c[3]], p,
-                           unit_.exact_to());
-  }
+  const Side side = quick_side(store_.corners(s), p);
   if (side == Side::inside || side == Side::outside) return side == Side::inside;
   return conflicts_slowly(s, p, side == Side::tie);
 }
@@ -36,12 +56,10 @@ template <int D>
 [[gnu::noinline]] bool DelaunayKernel<D>::conflicts_slowly(std::uint32_t s, const Point<D>& p,
                                                            bool tie) const {
   const Ids& c = store_.corners(s);
-  std::array<const Point<D>*, D + 1> q;
   for (std::size_t i = 0; i <= D; ++i) {
     if (c[i] == kInfinite) return ghost_conflicts(s, i, p);
-    q[i] = &places_[c[i]];
   }
-  return (tie ? break_tie(q, p) : in_ball(q, p)) > 0;
+  return ball_holds_exactly(c, p, tie);
 }
 
 /// `i`: the corner at infinity.

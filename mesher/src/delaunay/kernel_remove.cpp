@@ -4,6 +4,8 @@
 // Delaunay among all other points, so among the link's. It is therefore the part of the link's own
 // triangulation that the border of the star encloses, ghosts included. If the link is in one plane
 // (on one line), the vertex was a tip of the hull, and only ghosts take the place of its simplices.
+// Within the hull, and where the link is small, as it nearly always is, that part is made facet by
+// facet instead, which costs a fifth.
 #include <algorithm>
 #include <unordered_set>
 
@@ -13,6 +15,13 @@
 #include "sac/check.hpp"
 
 namespace mesher::detail {
+
+namespace {
+
+// So many are looked through one by one.
+constexpr std::size_t kFew = 64;
+
+}  // namespace
 
 template <int D>
 std::size_t DelaunayKernel<D>::corner_of(std::uint32_t s, std::uint32_t v) const noexcept {
@@ -24,13 +33,18 @@ template <int D>
 std::vector<std::uint32_t> DelaunayKernel<D>::star(std::uint32_t v) const {
   SAC_EXPECTS(has(v));
   std::vector<std::uint32_t> star{simplex_of_[v]};
-  std::unordered_set<std::uint32_t> seen{simplex_of_[v]};
+  std::unordered_set<std::uint32_t> seen;  // of many
+  const auto is_new = [&](std::uint32_t s) {
+    if (star.size() < kFew) return std::find(star.begin(), star.end(), s) == star.end();
+    if (seen.empty()) seen.insert(star.begin(), star.end());
+    return seen.insert(s).second;
+  };
   for (std::size_t k = 0; k < star.size(); ++k) {
     const std::uint32_t s = star[k];
     const std::size_t at = corner_of(s, v);
     for (std::size_t i = 0; i <= D; ++i) {
       const std::uint32_t other = store_.across(s)[i] >> 2;
-      if (i != at && seen.insert(other).second) star.push_back(other);
+      if (i != at && is_new(other)) star.push_back(other);
     }
   }
   return star;
@@ -72,37 +86,115 @@ bool DelaunayKernel<D>::triangulate(const std::vector<std::uint32_t>& link) {
   return build<D>(*star_, local, [](std::uint32_t, std::uint32_t) {});
 }
 
+/// The part of the link's triangulation within the star's border.
+template <int D>
+auto DelaunayKernel<D>::filling_from_link(const std::vector<std::uint32_t>& star, std::uint32_t v,
+                                          const std::vector<std::uint32_t>& link) const
+    -> std::vector<Ids> {
+  const auto local = [&](std::uint32_t w) -> std::uint32_t {
+    const auto at = std::lower_bound(link.begin(), link.end(), w) - link.begin();
+    return w == kInfinite || w == v ? kInfinite : static_cast<std::uint32_t>(at) + 1;
+  };
+  HoleBorder<D> border;
+  for (const std::uint32_t s : star) {
+    Ids c = store_.corners(s);
+    for (std::uint32_t& w : c) w = local(w);
+    border.add(c, corner_of(s, v));
+  }
+  border.done();
+  std::vector<Ids> filling = simplices_within(border, star_->simplices());
+  for (Ids& c : filling) {
+    for (std::uint32_t& w : c) w = w == kInfinite ? kInfinite : link[w - 1];
+  }
+  return filling;
+}
+
+/// Ghosts in the place of the star's simplices that are none.
+template <int D>
+auto DelaunayKernel<D>::ghosts_for(const std::vector<std::uint32_t>& star, std::uint32_t v) const
+    -> std::vector<Ids> {
+  std::vector<Ids> filling;
+  for (const std::uint32_t s : star) {
+    if (is_ghost(s)) continue;
+    filling.push_back(store_.corners(s));
+    filling.back()[corner_of(s, v)] = kInfinite;
+  }
+  return filling;
+}
+
 template <int D>
 bool DelaunayKernel<D>::remove(std::uint32_t v) {
   const std::vector<std::uint32_t> around = star(v), link = link_of(around, v);
-  std::vector<Ids> filling;
-  if (triangulate(link)) {
-    const auto local = [&](std::uint32_t w) -> std::uint32_t {
-      const auto at = std::lower_bound(link.begin(), link.end(), w) - link.begin();
-      return w == kInfinite || w == v ? kInfinite : static_cast<std::uint32_t>(at) + 1;
-    };
-    HoleBorder<D> border;
-    for (const std::uint32_t s : around) {
-      Ids c = store_.corners(s);
-      for (std::uint32_t& w : c) w = local(w);
-      border.add(c, corner_of(s, v));
-    }
-    border.done();
-    filling = simplices_within(border, star_->simplices());
-    for (Ids& c : filling) {
-      for (std::uint32_t& w : c) w = w == kInfinite ? kInfinite : link[w - 1];
-    }
+  const bool inner =
+      std::none_of(around.begin(), around.end(), [&](std::uint32_t s) { return is_ghost(s); });
+  if (inner && link.size() <= kFew) {
+    refill(v, around, wrapping(around, v, link));
+  } else if (triangulate(link)) {
+    refill(v, around, filling_from_link(around, v, link));
   } else if (has_finite_beside(around, v)) {
-    for (const std::uint32_t s : around) {
-      if (is_ghost(s)) continue;
-      filling.push_back(store_.corners(s));
-      filling.back()[corner_of(s, v)] = kInfinite;
-    }
+    refill(v, around, ghosts_for(around, v));
   } else {
     return false;
   }
-  refill(v, around, filling);
   return true;
+}
+
+/// The vertex of the link that is across from a facet of the hole, whose corners are the first of
+/// `c`: of those on its inner side, the one in whose ball there is no other.
+template <int D>
+std::uint32_t DelaunayKernel<D>::apex_over(const Ids& c,
+                                           const std::vector<std::uint32_t>& link) const {
+  Ids best = c;
+  best[D] = kNone;
+  for (const std::uint32_t w : link) {
+    if (std::find(c.begin(), c.end() - 1, w) != c.end() - 1) continue;
+    if (side(c, D, places_[w]) <= 0) continue;
+    if (best[D] == kNone || ball_holds(best, places_[w])) best[D] = w;
+  }
+  return best[D];
+}
+
+/// Whether the first D of a are those of b, in an order of the same orientation.
+template <std::size_t N>
+[[nodiscard]] bool are_same(const std::array<std::uint32_t, N>& a,
+                            const std::array<std::uint32_t, N>& b) {
+  if constexpr (N == 3) return a[0] == b[0] && a[1] == b[1];
+  const std::size_t at = a[0] == b[0] ? 0 : a[0] == b[1] ? 1 : 2;
+  return a[0] == b[at] && a[1] == b[(at + 1) % 3] && a[2] == b[(at + 2) % 3];
+}
+
+/// What fills the hole of a vertex within the hull, from its border inward: the ball of a simplex
+/// of it holds no vertex of the link, so over each facet there is one apex.
+template <int D>
+auto DelaunayKernel<D>::wrapping(const std::vector<std::uint32_t>& star, std::uint32_t v,
+                                 const std::vector<std::uint32_t>& link) const -> std::vector<Ids> {
+  std::vector<Ids> filling, open;  // the facets that wait, as simplices without their last corner
+  for (const std::uint32_t s : star) {
+    const Ids& c = store_.corners(s);
+    Ids& facet = open.emplace_back();
+    for (std::size_t k = 0; k < D; ++k) facet[k] = c[kFacet<D>[corner_of(s, v)][k]];
+  }
+  while (!open.empty()) {
+    Ids c = open.back();
+    open.pop_back();
+    c[D] = apex_over(c, link);
+    SAC_ENSURES(c[D] != kNone);
+    filling.push_back(c);
+    for (std::size_t i = 0; i < D; ++i) {
+      Ids facet{};  // as c sees it
+      for (std::size_t k = 0; k < D; ++k) facet[k] = c[kFacet<D>[i][k]];
+      const auto met = std::find_if(open.begin(), open.end(),
+                                    [&](const Ids& other) { return are_same(facet, other); });
+      if (met != open.end()) {
+        *met = open.back();
+        open.pop_back();
+      } else {
+        std::swap(facet[0], facet[1]);
+        open.push_back(facet);
+      }
+    }
+  }
+  return filling;
 }
 
 /// Puts simplices of these corners into the place of v's star, and joins what has a facet in

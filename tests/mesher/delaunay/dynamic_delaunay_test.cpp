@@ -1,6 +1,7 @@
 // Triangulations that change: after every edit the one from scratch, whatever went before.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <vector>
@@ -133,6 +134,25 @@ TEMPLATE_TEST_CASE_SIG("many points at once, then edits", "[template]", ((int D)
       f.insert(support::point_of<D>(kind, 500, random));
       f.remove(random.below(f.vertices.size()));
     }
+    f.require_fresh();
+  }
+}
+
+TEST_CASE("a vertex in the middle of many goes") {
+  for (const std::size_t n : {40u, 100u, 700u}) {
+    Points<3> points = support::distinct_points<3>(Kind::uniform, n, 3);
+    for (auto& p : points) {
+      for (double& x : p) x -= 0.5;
+      const double r = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+      for (double& x : p) x /= r;
+    }
+    points.push_back({0, 0, 0});
+    Followed<3> f(points);
+    REQUIRE(f.t.neighbours(static_cast<std::uint32_t>(n)).size() == n);
+    f.t.remove(static_cast<std::uint32_t>(n));
+    f.vertices.erase({0, 0, 0});
+    f.require_fresh();
+    f.insert({0, 0, 0});
     f.require_fresh();
   }
 }
