@@ -12,6 +12,11 @@ namespace {
 // Up to so many vertices around the new one, adjacent new simplices are found by a square table.
 constexpr std::size_t kMostInTable = 256;
 
+constexpr std::uint64_t kNoRidge = ~std::uint64_t{0};
+
+// Of a hash table for the 3n/2 edges of n triangles around the new vertex.
+std::size_t places_for_edges(std::size_t triangles) { return std::bit_ceil(3 * triangles); }
+
 }  // namespace
 
 /// All that fill() needs.
@@ -27,7 +32,7 @@ void DelaunayKernel<D>::make_room_for_fill() {
     ends_.reserve(n);
     const std::size_t width = std::size_t{1} << std::bit_width(vertices);
     if (vertices > kMostInTable) {
-      many_.reserve(3 * n);
+      many_.resize(std::max(many_.size(), places_for_edges(n)));
     } else if (ridges_.size() < width * width) {
       ridges_.resize(width * width);
     }
@@ -130,26 +135,28 @@ void DelaunayKernel<D>::number_link() noexcept {
   }
 }
 
-/// The same by sorting the edges.
+/// The same by a hash table of the edges without direction: the first facet of an edge waits there
+/// for the second. It has twice as many places as edges.
 template <int D>
 void DelaunayKernel<D>::join_many_borders() noexcept {
-  many_.clear();
-  for (std::uint32_t k = 0; k < borders_.size(); ++k) {
-    const Border& b = borders_[k];
-    for (const std::uint32_t across : kFacet<D>[b.slot]) {
-      std::array<std::uint32_t, 2> edge{};
-      std::size_t n = 0;
-      for (const std::uint32_t i : kFacet<D>[b.slot]) {
-        if (i != across) edge[n++] = b.corners[i];
-      }
-      const auto [low, high] = std::minmax(edge[0], edge[1]);
-      many_.push_back({std::uint64_t{low} << 32 | high, cavity_[k], across});
+  const std::size_t places = places_for_edges(borders_.size());
+  std::fill_n(many_.begin(), places, Ridge{kNoRidge, 0, 0});
+  const auto meet = [&](std::uint32_t a, std::uint32_t b, std::uint32_t s, std::uint32_t corner) {
+    const auto [low, high] = std::minmax(a, b);
+    const std::uint64_t edge = std::uint64_t{low} << 32 | high;
+    std::size_t at = edge * 0x9e3779b97f4a7c15 >> 32 & (places - 1);  // Fibonacci hashing
+    while (many_[at].edge != kNoRidge && many_[at].edge != edge) at = (at + 1) & (places - 1);
+    if (many_[at].edge == kNoRidge) {
+      many_[at] = {edge, s, corner};
+    } else {
+      store_.join(s, corner, many_[at].simplex, many_[at].corner);
     }
-  }
-  std::sort(many_.begin(), many_.end(),
-            [](const Ridge& a, const Ridge& b) { return a.edge < b.edge; });
-  for (std::size_t k = 0; k + 1 < many_.size(); k += 2) {
-    store_.join(many_[k].simplex, many_[k].corner, many_[k + 1].simplex, many_[k + 1].corner);
+  };
+  for (std::size_t k = 0; k < borders_.size(); ++k) {
+    const auto& facet = kFacet<D>[borders_[k].slot];
+    for (std::size_t i = 0; i < D; ++i) {
+      meet(ends_[k][(i + 1) % D], ends_[k][(i + 2) % D], cavity_[k], facet[i]);
+    }
   }
 }
 
