@@ -139,13 +139,17 @@ mesher::Point<D> point_of(Kind kind, std::size_t n, mesher::SplitMix64& random) 
       if (random.below(8) != 0) p[D - 1] = p[0];
       break;
     case Kind::spread:
-      for (double& x : p)
-        x = std::ldexp(random.unit() + 0x1p-60, -static_cast<int>(random.below(90)));
+      for (double& x : p) {
+        const double fraction = random.unit() + 0x1p-60;
+        x = std::ldexp(fraction, -static_cast<int>(random.below(90)));
+      }
       break;
-    case Kind::walls:  // of a box
+    case Kind::walls: {  // of a box
       for (double& x : p) x = step();
-      p[random.below(D)] = random.below(2) == 0 ? 0 : static_cast<double>(side);
+      const std::uint64_t axis = random.below(D);
+      p[axis] = random.below(2) == 0 ? 0 : static_cast<double>(side);
       break;
+    }
   }
   return p;
 }

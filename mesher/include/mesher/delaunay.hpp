@@ -87,12 +87,14 @@ class DynamicDelaunay {
     bool is_new = false;  ///< false: there was a vertex at this place, `vertex`
   };
   /// Throws: Error (not_finite, magnitude, too_many).
-  /// Cost: a walk from the last change, expected O(n^(1/D)) and O(1) to a place near it, and the
-  ///       simplices that change. O(log n) while all points are in one plane (on one line); the
-  ///       point that is not costs as delaunay().
+  /// Cost: a walk from a vertex nearby, expected O(1) where vertices lie evenly, and the simplices
+  ///       that change; O(n) when there are twice as many vertices as ever, or the first one far
+  ///       out. O(log n) while all points are in one plane (on one line); the point that is not
+  ///       costs as delaunay().
   Inserted insert(const Point<D>& p);
   /// Throws: sac::UsageError if there is no such vertex.
-  /// Cost: O(k^2) for k simplices around it, at most; O(n) where all other points are in one plane.
+  /// Cost: O(k^2) for up to 64 neighbours, else as delaunay() of the neighbours; O(n log n) where
+  ///       all other points are in one plane (on one line).
   void remove(std::uint32_t vertex);
 
   /// How many vertices there are.

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <ranges>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -46,7 +46,8 @@ template <int D, class Name, class Duplicate, class Step>
   DelaunayKernel<D> kernel;
   kernel.reserve(points.size());
   for (const std::uint32_t i : order) kernel.add_place(points[i]);
-  const auto vertices = std::views::iota(1u, static_cast<std::uint32_t>(order.size()) + 1);
+  std::vector<std::uint32_t> vertices(order.size());
+  std::iota(vertices.begin(), vertices.end(), 1u);
   const auto of = [&](std::uint32_t v) { return order[v - 1]; };
   build<D>(
       kernel, vertices, [&](std::uint32_t v, std::uint32_t w) { duplicate(of(v), of(w)); }, step);
