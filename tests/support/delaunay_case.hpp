@@ -141,7 +141,7 @@ mesher::Point<D> point_of(Kind kind, std::size_t n, mesher::SplitMix64& random) 
     case Kind::spread:
       for (double& x : p) {
         const double fraction = random.unit() + 0x1p-60;
-        x = std::ldexp(fraction, -static_cast<int>(random.below(90)));
+        x = std::ldexp(fraction, -static_cast<int>(random.below(46)));
       }
       break;
     case Kind::walls: {  // of a box
