@@ -1,8 +1,9 @@
 // Some vertex near a place, for walks to start from.
 //
 // Grids over a cube, each twice as fine as the one before, the last with about a cell a vertex. A
-// cell names the last vertex that was put into it; a place is looked up in the finest grid whose
-// cell has one. Points that lie evenly are a few steps from there; of m in one cell O(m^(1/D)).
+// cell names a vertex in it, in the finest grid the last that was put there; a place is looked up
+// in the finest grid whose cell has one. Points that lie evenly are a few steps from there; of m in
+// one cell O(m^(1/D)).
 #pragma once
 
 #include <algorithm>
@@ -42,7 +43,11 @@ class Nearby {
   }
   /// Requires (of every p): fits(p, 0).
   void add(std::uint32_t v, const Point<D>& p) noexcept {
-    for_each_cell(p, [&](std::uint32_t& vertex) { return vertex = v, false; });
+    for_each_cell(p, [&](std::uint32_t& vertex) {
+      const bool known = vertex != kNone;  // and then in the larger cells, too
+      vertex = v;
+      return known;
+    });
   }
   /// v goes; w is a vertex near it. (Where w stands in for others that went, it stays when it goes
   /// itself: near() asks.)
