@@ -9,7 +9,8 @@
 // to simplices and neighbours in memory (CGAL: to a triangulation); megabytes that the peak of
 // memory rose meanwhile. Where the bench cgal_delaunay was built (it needs CGAL), its figures, and
 // ours over them. edit_us: microseconds of inserting random points into the box of the triangulated
-// ones, each at a random place, and of removing these again, in another order. CGAL's part is
+// ones, n/50 or at least 1000, and of removing these again, in another order; the first insertion
+// makes the grids by which places are found. CGAL's part is
 // tests/oracle/cgal_delaunay.cpp.
 #include <sys/resource.h>
 
@@ -180,7 +181,9 @@ template <int D>
 void compare(const std::string& name, const std::vector<Point<D>>& points,
              const std::filesystem::path& self) {
   const RawFile file(points);
-  const std::string arguments = ' ' + std::to_string(D) + ' ' + file.path() + " 2000";
+  const std::size_t edits = std::max<std::size_t>(1000, points.size() / 50);
+  const std::string arguments =
+      ' ' + std::to_string(D) + ' ' + file.path() + ' ' + std::to_string(edits);
   const auto peer = self.parent_path() / "cgal_delaunay";
   const bool has_peer = std::filesystem::exists(peer);
   std::optional<Figures> ours, cgal;

@@ -24,11 +24,11 @@ class Nearby {
  public:
   /// Nothing fits.
   Nearby() = default;
-  /// For about n vertices, in the box and as far around it as its longest side.
+  /// For about n vertices, in the box and a quarter of its longest side around it.
   Nearby(const Box<D>& box, std::size_t n) : most_(2 * n), levels_(levels_for(n)) {
     const double longest = longest_side(box);
-    for (std::size_t i = 0; i < D; ++i) lo_[i] = box.lo[i] - longest;
-    side_ = 3 * longest;
+    for (std::size_t i = 0; i < D; ++i) lo_[i] = box.lo[i] - longest / 4;
+    side_ = 1.5 * longest;
     scale_ = static_cast<double>(1u << levels_) / side_;
     std::size_t cells = 0;
     for (int level = 0; level <= levels_; ++level) cells += std::size_t{1} << (D * level);
@@ -70,7 +70,7 @@ class Nearby {
   }
 
  private:
-  static int levels_for(std::size_t n) { return static_cast<int>(std::bit_width(3 * n)) / D + 1; }
+  static int levels_for(std::size_t n) { return static_cast<int>(std::bit_width(n)) / D; }
 
   // The cells that hold p, the smallest first, until visit(vertex) is true.
   template <class Visit>
