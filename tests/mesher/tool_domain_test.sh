@@ -280,7 +280,7 @@ for bad in 0 -1 x nan 1e-40; do
 done
 refuse 2 'max-size' mesh lake.poly --max-size 0 -o out/x.vtu
 refuse 2 'excludes' mesh lake.poly --max-size 1 --max-area 1 -o out/x.vtu
-refuse 2 'radius_edge' mesh lake.poly --max-area 1 --rule voronoi-aspect -o out/x.vtu
+refuse 2 'radius-edge' mesh lake.poly --max-area 1 --rule voronoi-aspect -o out/x.vtu
 printf 'x,y,h\n0,0,0\n' >zero.csv
 refuse 3 'zero.csv:2' mesh lake.poly --sizes zero.csv -o out/x.vtu
 refuse 2 'sizes.csv' mesh lake.poly --sizes sizes.csv -o sizes.csv
