@@ -12,15 +12,9 @@
 
 namespace mesher::detail {
 
-/// Where there are no segments no simplex stays.
+/// In space: program/space_lines.hpp.
 template <class S, int D>
-class Staying {
- public:
-  explicit Staying(const World<S, D>&) {}
-  [[nodiscard]] const EdgeFilter<D>* filter() const noexcept { return nullptr; }
-  void leave(const CellOf<D>&, int, int) {}
-  [[nodiscard]] std::uint64_t looked_at() const noexcept { return 0; }
-};
+class Staying;
 
 template <class S>
 class Staying<S, 2> final : public EdgeFilter<2> {

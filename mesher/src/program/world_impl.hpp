@@ -6,6 +6,7 @@
 #include "program/choose_steiners.hpp"
 #include "program/cut.hpp"
 #include "program/fill.hpp"
+#include "program/split_edges.hpp"
 #include "program/split_segments.hpp"
 #include "program/triangulate.hpp"
 #include "program/world.hpp"
@@ -146,8 +147,8 @@ void PointWorld<S, D>::fail_too_many(S& s) const {
   throw too_many_vertices(vertices, names, most_vertices);
 }
 
-template <class S, int D>
-void World<S, D>::fail_useless(const Vertex<D>& v, const Vertex<D>& x) const {
+template <class S>
+void World<S, 3>::fail_useless(const Vertex<3>& v, const Vertex<3>& x) const {
   throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
                                         place_text(v.p) + ": rounding moved a new vertex to " +
                                         place_text(x.p));
@@ -157,6 +158,23 @@ template <class S>
 void World<S, 2>::fail_useless(const Vertex<2>& v, const Vertex<2>& x) {
   fail_near(v.p, std::sqrt(squared_distance(v.p, x.p)),
             "rounding moved a new vertex to " + place_text(x.p));
+}
+
+template <class S>
+void World<S, 3>::post_split(S& s, const EdgePiece& piece) {
+  if constexpr (!S::kTraced) this->plain.tick();
+  splits.template post<split_edge>(s, split_edge_key(box, piece), piece);
+}
+
+template <class S>
+void World<S, 3>::insert_beside(S& s, const Vertex<3>& v, CellOf<3>& cell, const Placed& y, int b) {
+  const VertexRef<3> x =
+      y.role.on != 0 ? vertices.insert(s, y.p, y.role) : vertices.insert(s, y.p);
+  if (!cell.cuts(x->p)) fail_useless(v, *x);
+  this->require_room(s);
+  cell.cut(x->self);
+  this->post_nearest_in(s, x, b + 1);
+  this->post_star(s, x);
 }
 
 template <class S>
