@@ -49,7 +49,7 @@ class Yielding {
 
   /// While the cell meets features that v is not on: vertices on these.
   void disencroach() {
-    const FeaturesNear near = w_.plc.near(s_, v_, v_.p, std::sqrt(cell_.reach2()));
+    const FeaturesNear near = w_.plc.near(s_, v_, v_.p, (1 + kYields) * std::sqrt(cell_.reach2()));
     for (const Edge* e : near.edges) clear(*e);
     for (const Polygon* f : near.polygons) clear(near, *f);
   }
