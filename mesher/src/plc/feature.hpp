@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <bit>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <ostream>
 #include <vector>
@@ -72,10 +73,12 @@ struct Polygon {
   Plane plane;
   Point<3> middle{};
   double reach = 0;                     // all of it is within this of `middle`
+  double thickness = 0;                 // all of it is within this of the plane
   std::vector<VertexHandle> corners;    // loop by loop
   std::vector<std::uint32_t> loop_end;  // one for each loop: the number of corners so far
   std::vector<Point<3>> places;         // of the corners
   std::vector<Point<2>> outline;        // the same in the frame
+  std::vector<bool> inside_left;        // one for each loop: its edges have the inside on the left
   std::vector<EdgeHandle> edges;        // from each corner to the next of its loop
   std::vector<Point<3>> inside;         // of the ends of inner edges, and of other declared points
   std::vector<VertexHandle> points;     // all that lie on it: a set, ascending
@@ -88,11 +91,18 @@ struct Polygon {
   [[nodiscard]] bool has_edge(EdgeHandle e) const noexcept {
     return std::binary_search(all_edges.begin(), all_edges.end(), e);
   }
+  /// The loop of the i-th corner.
+  [[nodiscard]] std::size_t loop_of(std::uint32_t i) const noexcept {
+    const auto end = std::upper_bound(loop_end.begin(), loop_end.end(), i);
+    return static_cast<std::size_t>(end - loop_end.begin());
+  }
+  [[nodiscard]] std::uint32_t loop_begin(std::size_t loop) const noexcept {
+    return loop == 0 ? 0 : loop_end[loop - 1];
+  }
   /// The corner after the i-th in its loop.
   [[nodiscard]] std::uint32_t next(std::uint32_t i) const noexcept {
-    const auto end = std::upper_bound(loop_end.begin(), loop_end.end(), i);
-    if (i + 1 < *end) return i + 1;
-    return end == loop_end.begin() ? 0 : *(end - 1);
+    const std::size_t loop = loop_of(i);
+    return i + 1 < loop_end[loop] ? i + 1 : loop_begin(loop);
   }
 };
 
