@@ -10,12 +10,12 @@
 //
 // What the program asks about them, of InputFeatures<S> (plc/input_features.hpp):
 //
-//   near(s, v, place, R)   the features within R of a place, in canonical order     (observation)
+//   near(s, place, R)      the features within R of a place, in canonical order     (observation)
 //   crowded(s, piece)      whether a piece of an edge has to be split [rules C]     (observation)
 //   spacing(s, x, f, cap)  how far x, on f, is from what f has nothing in common
 //                          with, at most cap                                        (observation)
-//   common(f, g, x)        what two features share, of several the nearest to x: an edge, a point,
-//                          or nothing; a function of the two alone
+//   common(f, g, x, store) what two features share, of several the nearest to x: an edge, a point,
+//                          or nothing; a function of the two alone (plc/feature_search.hpp)
 #pragma once
 
 #include <algorithm>

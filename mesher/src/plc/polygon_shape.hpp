@@ -40,6 +40,9 @@ void put_in_order(std::vector<std::vector<Corner>>& loops, PlaceOf&& place_of);
 /// Returns whether there is a plane: whether the outer loop goes around an area.
 [[nodiscard]] bool find_shape(Polygon& f);
 
+/// Whether it did.
+[[nodiscard]] inline bool has_area(const Polygon& f) { return f.plane.normal != Point<3>{}; }
+
 /// How far the farthest of what should be in its plane is off, and that.
 struct Deviation {
   double height = 0;  // >= 0
