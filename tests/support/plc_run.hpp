@@ -29,6 +29,8 @@ class PlcRun {
   sac::PlainScope scope_;
   World world_;
   std::map<mesher::detail::VertexHandle, std::size_t> numbers_;
+  std::vector<const mesher::detail::Edge*> edges_;
+  std::vector<const mesher::detail::Polygon*> polygons_;
 };
 
 inline void PlcRun::add(const Complex& complex) {
@@ -40,22 +42,18 @@ inline void PlcRun::add(const Complex& complex) {
     world_.quadtree.post_from_outside<mesher::detail::locate>(
         mesher::detail::locate_key(box_.fixed(p)), mesher::detail::VertexRef<3>{&v});
   }
-  for (const auto& s : complex.segments) world_.plc.add_edge(*at[s[0]], *at[s[1]]);
-  for (const auto& f : complex.faces) {
-    std::vector<std::vector<const Vertex*>> loops;
-    for (const auto& loop : f.loops) {
-      auto& corners = loops.emplace_back();
-      for (const std::size_t i : loop) corners.push_back(at[i]);
-    }
-    std::vector<const Vertex*> on;
-    for (const std::size_t i : f.on) on.push_back(at[i]);
-    world_.plc.add_polygon(loops, on, {});
+  for (const auto& s : complex.segments) {
+    edges_.push_back(&world_.insert_edge(at[s[0]]->self, at[s[1]]->self));
   }
-  world_.plc.for_each_edge([&](const mesher::detail::Edge& e) {
-    const mesher::detail::EdgePiece piece{&e};
-    world_.splits.post_from_outside<mesher::detail::split_edge>(
-        mesher::detail::split_edge_key(box_, piece), piece);
-  });
+  for (const auto& f : complex.faces) {
+    mesher::detail::PolygonParts parts;
+    for (const auto& loop : f.loops) {
+      auto& corners = parts.loops.emplace_back();
+      for (const std::size_t i : loop) corners.push_back(at[i]->self);
+    }
+    for (const std::size_t i : f.on) parts.points.push_back(at[i]->self);
+    polygons_.push_back(&world_.insert_polygon(std::move(parts)));
+  }
 }
 
 inline ComplexMesh PlcRun::mesh() {
@@ -69,34 +67,40 @@ inline ComplexMesh PlcRun::mesh() {
   for (const auto& t : world_.plain.simplices) {
     mesh.tetrahedra.push_back({number(t[0]), number(t[1]), number(t[2]), number(t[3])});
   }
-  const SmallAngles angles(world_.plc);
-  world_.plc.for_each_edge([&](const Edge& e) {
+  const auto standing = [&](const Vertex& v) { return Standing{v, world_.vertices.role(v)}; };
+  std::set<EdgeHandle> edges;
+  for (const Edge* e : edges_) edges.insert(e->self);
+  for (const Polygon* f : polygons_) edges.insert(f->all_edges.begin(), f->all_edges.end());
+  for (const EdgeHandle h : edges) {
+    const Edge& e = world_.plc.store().edges()[h];
     auto& edge = mesh.edges.emplace_back();
     edge.vertices = {{0, number(e.a)}, {1, number(e.b)}};
     pool.for_each([&](const Vertex& v) {
       const Role role = world_.vertices.role(v);
-      if (edge_of(role) == e.self) edge.vertices[fraction(role.label)] = number(v.self);
+      if (edge_of(role) == h) edge.vertices[fraction(role.label)] = number(v.self);
     });
-  });
-  for (PolygonHandle h = 1; h <= world_.plc.polygons(); ++h) {
-    const Polygon& f = world_.plc.polygon(h);
+  }
+  FeaturesNear all;
+  all.polygons = polygons_;
+  for (const Polygon* f : polygons_) {
     auto& face = mesh.faces.emplace_back();
     std::uint32_t begin = 0;
-    for (const std::uint32_t end : f.loop_end) {
-      face.loops.emplace_back(f.places.begin() + begin, f.places.begin() + end);
+    for (const std::uint32_t end : f->loop_end) {
+      face.loops.emplace_back(f->places.begin() + begin, f->places.begin() + end);
       begin = end;
     }
     pool.for_each([&](const Vertex& v) {
-      if (angles.is_on(v, world_.vertices.role(v), f)) face.vertices.insert(number(v.self));
+      if (is_on(standing(v), *f)) face.vertices.insert(number(v.self));
     });
   }
+  const SmallAngles angles(world_.plc.store(), all);
   for (const auto& t : world_.plain.simplices) {
     for (const VertexHandle a : t) {
       for (const VertexHandle b : t) {
-        const Vertex &v = pool[a], &w = pool[b];
-        if (v.p < w.p && angles.keeps(v, world_.vertices.role(v), w, world_.vertices.role(w))) {
-          mesh.exempt.insert({std::min(number(a), number(b)), std::max(number(a), number(b))});
+        if (!(pool[a].p < pool[b].p) || !angles.keeps(standing(pool[a]), standing(pool[b]))) {
+          continue;
         }
+        mesh.exempt.insert({std::min(number(a), number(b)), std::max(number(a), number(b))});
       }
     }
   }

@@ -54,10 +54,10 @@ template <class S, int D>
 void Complete::operator()(S& s, VertexRef<D> v, int b) const {
   auto& w = s.template environment<World<S, D>>();
   const CellLoan<D> gaps = w.vertices.voronoi_cell(s, v, w.buckets().clip_radius(b));
-  Staying<S, D> stays(w);
-  bool cuts = disencroach(s, w, v, *gaps, b);
+  Staying<S, D> stays(w, *gaps);
+  bool cuts = disencroach(s, w, stays, v, b);
   while (const auto point = w.rule->next_point(*gaps, b, stays.filter())) {
-    const Outcome outcome = yields(s, w, v, *gaps, *point, b);
+    const Outcome outcome = yields(s, w, stays, *point, b);
     if (outcome == Outcome::waits) {
       stays.leave(*gaps, point->from, point->to);
       cuts = true;

@@ -12,14 +12,14 @@
 
 namespace mesher::detail {
 
-/// In space: program/space_lines.hpp.
+/// In space it says more: program/space_lines.hpp.
 template <class S, int D>
 class Staying;
 
 template <class S>
 class Staying<S, 2> final : public EdgeFilter<2> {
  public:
-  explicit Staying(const World<S>& world)
+  Staying(const World<S>& world, const VoronoiCell&)
       : world_(world), before_(world.segments.store().looked_at()) {}
 
   /// This, for a rule; null where nothing can stay.

@@ -161,6 +161,45 @@ void World<S, 2>::fail_useless(const Vertex<2>& v, const Vertex<2>& x) {
 }
 
 template <class S>
+void World<S, 3>::edge_came(const Edge& e) {
+  const EdgePiece all{&e};
+  if (plc.store().users(e) == 1) {
+    splits.template post_from_outside<split_edge>(split_edge_key(box, all), all);
+  }
+}
+
+template <class S>
+void World<S, 3>::edge_goes(const Edge& e) {
+  if (plc.store().users(e) == 0) splits.template retract_from_outside<split_edge>(EdgePiece{&e});
+}
+
+template <class S>
+const Edge& World<S, 3>::insert_edge(VertexHandle a, VertexHandle b) {
+  const Edge& e = plc.insert(a, b);
+  edge_came(e);
+  return e;
+}
+
+template <class S>
+void World<S, 3>::erase_edge(const Edge& e) {
+  plc.erase(e);
+  edge_goes(e);
+}
+
+template <class S>
+const Polygon& World<S, 3>::insert_polygon(PolygonParts parts) {
+  const Polygon& f = plc.insert(std::move(parts));
+  for (const EdgeHandle e : f.all_edges) edge_came(plc.store().edges()[e]);
+  return f;
+}
+
+template <class S>
+void World<S, 3>::erase_polygon(const Polygon& f) {
+  plc.erase(f);
+  for (const EdgeHandle e : f.all_edges) edge_goes(plc.store().edges()[e]);
+}
+
+template <class S>
 void World<S, 3>::post_split(S& s, const EdgePiece& piece) {
   if constexpr (!S::kTraced) this->plain.tick();
   splits.template post<split_edge>(s, split_edge_key(box, piece), piece);
