@@ -90,7 +90,8 @@ void LegFan::visit_ranges(double from, double to, Visit&& visit) const {
 
 LongestBeside LegFan::beside(const Segment& s) const {
   const std::size_t self = index_of(s);
-  const auto& [direction, u, handle] = legs_[self];
+  const double direction = legs_[self].direction;
+  const Point<2>& u = legs_[self].along;
   LongestBeside all;
   const auto certain = [&](double from, double to, double& most) {
     visit_ranges(direction + from, direction + to, [&](std::size_t i, std::size_t j) {
