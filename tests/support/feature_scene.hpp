@@ -30,6 +30,7 @@ class FeatureScene {
   auto& features() { return features_; }
   const mesher::detail::FeatureStore& store() const { return features_.store(); }
   const mesher::detail::VertexPool<3>& pool() const { return pool_; }
+  const auto& point_tree() const { return points_; }
   const mesher::detail::MeshBox<3>& box() const { return box_; }
   const std::vector<VertexHandle>& points() const { return handles_; }
 

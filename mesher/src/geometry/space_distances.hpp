@@ -27,4 +27,8 @@ namespace mesher::detail {
 [[nodiscard]] double distance2(const Point<3>& a, const Point<3>& b, const Point<3>& c,
                                const Point<3>& d);
 
+/// The place of the closed segment ab that is nearest to the closed segment cd; one of them.
+[[nodiscard]] Point<3> nearest_place(const Point<3>& a, const Point<3>& b, const Point<3>& c,
+                                     const Point<3>& d);
+
 }  // namespace mesher::detail

@@ -10,15 +10,6 @@ namespace {
 
 Point<3> unit(const Point<3>& a) { return scaled(1 / std::sqrt(squared(a)), a); }
 
-// Twice the area that a loop goes around, as a vector. A sum from the first corner on.
-Point<3> newell(std::span<const Point<3>> loop) {
-  Point<3> sum{};
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    sum = plus(sum, cross(minus(loop[i], loop[0]), minus(loop[i + 1], loop[0])));
-  }
-  return sum;
-}
-
 // The place in which a corner is the largest, the first of several.
 int largest(const Point<3>& a) {
   int k = 0;
@@ -109,9 +100,17 @@ void for_each_edge(const Polygon& f, Visit&& visit) {
 
 }  // namespace
 
+Point<3> twice_area(std::span<const Point<3>> loop) {
+  Point<3> sum{};
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+    sum = plus(sum, cross(minus(loop[i], loop[0]), minus(loop[i + 1], loop[0])));
+  }
+  return sum;
+}
+
 bool find_shape(Polygon& f) {
   find_reach(f);
-  const Point<3> area = newell(std::span(f.places).first(f.loop_end[0]));
+  const Point<3> area = twice_area(std::span(f.places).first(f.loop_end[0]));
   if (!(std::sqrt(squared(area)) > f.reach * f.reach * 0x1p-40)) return false;
   f.plane = plane_across(f.places[0], area);
   f.outline.clear();

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "geometry/space_distances.hpp"
 #include "plc/feature.hpp"
@@ -35,6 +36,9 @@ inline constexpr double kFlatness = 1e-8;
 /// Requires: loops are not empty, and a corner is once in a loop.
 template <class Corner, class PlaceOf>
 void put_in_order(std::vector<std::vector<Corner>>& loops, PlaceOf&& place_of);
+
+/// Twice the area that a loop goes around, across it [Newell]: a sum from the first corner on.
+[[nodiscard]] Point<3> twice_area(std::span<const Point<3>> loop);
 
 /// Fills in what follows from `places`, `loop_end` and `inside`: from plane to inside_left.
 /// Returns whether there is a plane: whether the outer loop goes around an area.

@@ -50,9 +50,8 @@ detail::Version& ModStructure::observe(Scope& scope, Handle head) {
   return *version;
 }
 
-// The last version before `call`, or its own; null if there is none. What a running call wrote last
-// time and has not repeated is not there for it, nor for the children that it makes.
-detail::Version* ModStructure::seen_by(const Call& call, Handle head) const {
+// seen_by(), also where there are several versions, or what is there is hidden.
+detail::Version* ModStructure::seen_among(const Call& call, Handle head) const {
   const Around around = versions_around(call, head);
   if (around.behind != nullptr) require_ahead(call, head, *around.behind);
   return shown(head, around.before);

@@ -293,7 +293,17 @@ class ModStructure final : public Structure {
   [[noreturn]] void fail_null(const char* what) const;
 
   // read.cpp
-  [[nodiscard]] Version* seen_by(const Call& call, Handle head) const;
+  // The last version before `call`, or its own; null if there is none. What a running call wrote
+  // last time and has not repeated is not there for it, nor for the children that it makes.
+  [[nodiscard]] Version* seen_by(const Call& call, Handle head) const {
+    const Version& first = *at(head);
+    if (first.history == 0 && first.written) [[likely]] {
+      const Call& w = writer(first);
+      if (!w.running() && engine_.precedes(w, call)) [[likely]] return at(head);
+    }
+    return seen_among(call, head);
+  }
+  [[nodiscard]] Version* seen_among(const Call& call, Handle head) const;
   [[nodiscard]] Version* visible_to(const Call& call, const Version& seen) const;
   [[nodiscard]] Version* shown(Handle head, Version* version) const noexcept;
   void keep_skip(Handle head, const Version& version) noexcept;
