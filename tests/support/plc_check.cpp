@@ -88,8 +88,8 @@ class Check {
     for (const auto& [face, sides] : sides_) check_face(face, sides);
     for (std::size_t f = 0; f < frames_.size(); ++f) {
       const Real whole = frames_[f].area();
-      report_.area_error = std::max(
-          report_.area_error, static_cast<double>(std::abs(area_[f] - whole) / whole));
+      report_.area_error =
+          std::max(report_.area_error, static_cast<double>(std::abs(area_[f] - whole) / whole));
     }
     for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) check_tetrahedron(t);
     return report_;
@@ -116,7 +116,8 @@ class Check {
         std::sort(face.begin(), face.end());
         sides_[face].push_back(t);
         for (std::size_t k = 0; k < 3; ++k) {
-          lines_.insert({std::min(face[k], face[(k + 1) % 3]), std::max(face[k], face[(k + 1) % 3])});
+          lines_.insert(
+              {std::min(face[k], face[(k + 1) % 3]), std::max(face[k], face[(k + 1) % 3])});
         }
       }
     }
@@ -147,7 +148,8 @@ class Check {
   }
   bool is_flat(const Corners& t) const {
     for (const auto& f : mesh_.faces) {
-      if (!std::all_of(t.begin(), t.end(), [&](auto v) { return f.vertices.count(v) != 0; })) continue;
+      if (!std::all_of(t.begin(), t.end(), [&](auto v) { return f.vertices.count(v) != 0; }))
+        continue;
       return true;
     }
     return false;

@@ -32,13 +32,13 @@ struct ComplexMesh {
 };
 
 struct ComplexReport {
-  long missing_edges = 0;   // of the mesh, between neighbours on an edge
-  long wrong_faces = 0;     // a face that crosses a polygon
-  double area_error = 0;    // relative, the largest
-  long poor = 0;            // tetrahedra off the exempt ones
-  long exempt = 0;          // poor but exempt
-  long flat = 0;            // of four vertices of one polygon
-  double worst = 0;         // radius over edge, off the exempt ones
+  long missing_edges = 0;  // of the mesh, between neighbours on an edge
+  long wrong_faces = 0;    // a face that crosses a polygon
+  double area_error = 0;   // relative, the largest
+  long poor = 0;           // tetrahedra off the exempt ones
+  long exempt = 0;         // poor but exempt
+  long flat = 0;           // of four vertices of one polygon
+  double worst = 0;        // radius over edge, off the exempt ones
 };
 [[nodiscard]] ComplexReport check(const ComplexMesh& mesh, double rho);
 

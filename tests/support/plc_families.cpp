@@ -106,11 +106,14 @@ void add_tetrahedron(Complex& c, double height) {
 
 Complex complex_of(const std::string& family, double g) {
   Complex c;
-  const bool wide = family == "fan" || family == "vee" || family == "spike" ||
-                    family == "segfac" || family == "tet";
-  if (family == "dumbbell") add_dumbbell(c);
-  else if (family == "wedge") c.box({{-1, -2, -1}, {2, 2, 2}});
-  else c.box(wide ? kWide : kUnit);
+  const bool wide = family == "fan" || family == "vee" || family == "spike" || family == "segfac" ||
+                    family == "tet";
+  if (family == "dumbbell")
+    add_dumbbell(c);
+  else if (family == "wedge")
+    c.box({{-1, -2, -1}, {2, 2, 2}});
+  else
+    c.box(wide ? kWide : kUnit);
 
   const double angle = radians(g);
   if (family == "cubepoly") c.face(square(.25, .75, .5));

@@ -15,7 +15,7 @@ namespace support {
 struct Complex {
   using Loop = std::vector<std::size_t>;
   struct Face {
-    std::vector<Loop> loops;  // the outer one, then holes
+    std::vector<Loop> loops;      // the outer one, then holes
     std::vector<std::size_t> on;  // loose points that lie on it
   };
   std::vector<mesher::Point<3>> points;

@@ -12,7 +12,7 @@ namespace support {
 
 class RandomComplex {
  public:
-  static constexpr int kKinds = 10;
+  static constexpr int kKinds = 11;
 
   explicit RandomComplex(std::uint64_t seed) : random_(seed) {}
 
@@ -35,9 +35,12 @@ class RandomComplex {
   }
   void add_box(Complex& c);
   void add_polygon_with_hole(Complex& c);
+  void add_lid(Complex& c);
+  mesher::Point<3> turned(double x, double y, double z);
 
   std::mt19937_64 random_;
   mesher::Point<3> corner_{};
+  double angle_ = 0, tilt_ = 0;
 };
 
 inline Complex RandomComplex::part(const mesher::Point<3>& corner, int kind) {
@@ -78,8 +81,11 @@ inline Complex RandomComplex::part(const mesher::Point<3>& corner, int kind) {
     case 8:
       add_box(c);
       break;
-    default:
+    case 9:
       add_polygon_with_hole(c);
+      break;
+    default:
+      add_lid(c);
       break;
   }
   return c;
@@ -94,18 +100,34 @@ inline void RandomComplex::add_box(Complex& c) {
   c.box(box);
 }
 
+// A hexagon with a point above its middle: no edge of it is crowded.
+inline void RandomComplex::add_lid(Complex& c) {
+  angle_ = number(0, 3), tilt_ = number(0, 3);
+  const double r = number(0.2, 0.4);
+  Complex::Places corners;
+  for (int i = 0; i < 6; ++i) {
+    corners.push_back(
+        turned(r * std::cos(i * 1.0471975511965976), r * std::sin(i * 1.0471975511965976), 0));
+  }
+  c.face(corners);
+  c.point(turned(number(-0.1, 0.1) * r, number(-0.1, 0.1) * r, number(0.05, 0.4) * r));
+}
+
 // A square across a random direction, and one of a third to two thirds of its size inside.
 inline void RandomComplex::add_polygon_with_hole(Complex& c) {
-  const double angle = number(0, 3), tilt = number(0, 3), r = number(0.1, 0.4);
-  const double s = number(0.3, 0.6);
-  const auto at = [&](double x, double y) {
-    const double z = y * std::sin(tilt), w = y * std::cos(tilt);
-    return mesher::Point<3>{corner_[0] + 0.5 + x * std::cos(angle) - w * std::sin(angle),
-                            corner_[1] + 0.5 + x * std::sin(angle) + w * std::cos(angle),
-                            corner_[2] + 0.5 + z};
-  };
+  angle_ = number(0, 3), tilt_ = number(0, 3);
+  const double r = number(0.1, 0.4), s = number(0.3, 0.6);
+  const auto at = [&](double x, double y) { return turned(x, y, 0); };
   const double h = r * s;
   c.face({at(r, 0), at(0, r), at(-r, 0), at(0, -r)}, {{at(h, 0), at(0, h), at(-h, 0), at(0, -h)}});
+}
+
+// About the x axis, then the z axis, and moved to the middle of the cube.
+inline mesher::Point<3> RandomComplex::turned(double x, double y, double z) {
+  const double w = y * std::cos(tilt_) - z * std::sin(tilt_);
+  return {corner_[0] + 0.5 + x * std::cos(angle_) - w * std::sin(angle_),
+          corner_[1] + 0.5 + x * std::sin(angle_) + w * std::cos(angle_),
+          corner_[2] + 0.5 + y * std::sin(tilt_) + z * std::cos(tilt_)};
 }
 
 }  // namespace support

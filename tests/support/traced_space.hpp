@@ -36,6 +36,9 @@ class TracedSpace {
   /// Requires: its points are not there.
   Part insert(const Complex& complex);
   void erase(const Part& part);
+  /// The same of its segments and polygons alone, between points that stay.
+  void insert_features(const Complex& complex, Part& part);
+  void erase_features(Part& part);
 
   /// Brings the trace up to date. What it throws leaves the last state.
   sac::Counts update() {
@@ -94,6 +97,11 @@ inline void TracedSpace::erase_point(Vertex& v) {
 inline TracedSpace::Part TracedSpace::insert(const Complex& complex) {
   Part part;
   for (const auto& p : complex.points) part.points.push_back(insert_point(p));
+  insert_features(complex, part);
+  return part;
+}
+
+inline void TracedSpace::insert_features(const Complex& complex, Part& part) {
   for (const auto& s : complex.segments) {
     part.edges.push_back(
         &world_->insert_edge(part.points[s[0]]->self, part.points[s[1]]->self));
@@ -107,12 +115,18 @@ inline TracedSpace::Part TracedSpace::insert(const Complex& complex) {
     for (const std::size_t i : f.on) parts.points.push_back(part.points[i]->self);
     part.polygons.push_back(&world_->insert_polygon(std::move(parts)));
   }
-  return part;
+}
+
+inline void TracedSpace::erase_features(Part& part) {
+  for (const auto* f : part.polygons) world_->erase_polygon(*f);
+  for (const auto* e : part.edges) world_->erase_edge(*e);
+  part.polygons.clear();
+  part.edges.clear();
 }
 
 inline void TracedSpace::erase(const Part& part) {
-  for (const auto* f : part.polygons) world_->erase_polygon(*f);
-  for (const auto* e : part.edges) world_->erase_edge(*e);
+  Part features = part;
+  erase_features(features);
   for (Vertex* v : part.points) erase_point(*v);
 }
 

@@ -266,7 +266,8 @@ TEST_CASE("Balls are closed, with a slack of 2^-30 [C5]") {
   REQUIRE_FALSE(touches(1 + 0x1p-29, 1));
 }
 
-TEST_CASE("Labels of places on edges are distances from the nearer end, and places are measured so") {
+TEST_CASE(
+    "Labels of places on edges are distances from the nearer end, and places are measured so") {
   Edge e;
   e.place_a = {0.1, 0.2, 0.3};
   e.place_b = {1.1, 0.2, 0.3};
@@ -280,7 +281,8 @@ TEST_CASE("Labels of places on edges are distances from the nearer end, and plac
   }
 }
 
-TEST_CASE("Pieces of edges are split at the middle of the edge, else at round distances from ends") {
+TEST_CASE(
+    "Pieces of edges are split at the middle of the edge, else at round distances from ends") {
   Edge e;
   e.place_b = {2.9, 0, 0};
   e.length = 2.9;

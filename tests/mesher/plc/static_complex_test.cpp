@@ -60,9 +60,9 @@ struct Family {
   std::size_t model;  // vertices inside, without facet Disencroach
 };
 constexpr Family kFamilies[] = {
-    {"cube", 0, 8},        {"cubepoly", 0, 42},   {"dumbbell", 0, 59}, {"nested", 0.1, 524},
-    {"lhole", 0, 70},      {"cloudbox", 300, 809}, {"wedge", 20, 62},   {"wedge", 5, 168},
-    {"wedge", 1, 431},     {"fan", 2, 1225},      {"vee", 5, 87},
+    {"cube", 0, 8},    {"cubepoly", 0, 42},    {"dumbbell", 0, 59}, {"nested", 0.1, 524},
+    {"lhole", 0, 70},  {"cloudbox", 300, 809}, {"wedge", 20, 62},   {"wedge", 5, 168},
+    {"wedge", 1, 431}, {"fan", 2, 1225},       {"vee", 5, 87},
 };
 
 }  // namespace
@@ -81,9 +81,9 @@ TEST_CASE("a complex is in its mesh: edges are unions of edges, polygons of face
 
 TEST_CASE("so it is where features nearly touch, and at needles and slivers") {
   constexpr Family kHard[] = {
-      {"skew", 1e-3, 0},  {"skew", 1e-6, 0}, {"plates", 0.02, 0}, {"spike", 5, 0},
-      {"segfac", 5, 0},   {"segfac", 0.5, 0}, {"tet", 0.1, 0},     {"tet", 0.01, 0},
-      {"fan", 8, 0},      {"wedge", 0.3, 0},  {"vee", 0.1, 0},
+      {"skew", 1e-3, 0}, {"skew", 1e-6, 0},  {"plates", 0.02, 0}, {"spike", 5, 0},
+      {"segfac", 5, 0},  {"segfac", 0.5, 0}, {"tet", 0.1, 0},     {"tet", 0.01, 0},
+      {"fan", 8, 0},     {"wedge", 0.3, 0},  {"vee", 0.1, 0},
   };
   for (const auto& [name, parameter, model] : kHard) {
     for (const bool is_turned : {false, true}) {
@@ -122,6 +122,30 @@ TEST_CASE("refinement ends at random corners, however sharp") {
         require_good(run);
       }
     }
+  }
+}
+
+// The first has a tip of 30, 41 and 48 degrees, the second two sides at 62 degrees: between the
+// angles up to which vertices were copied and from which feet yield.
+TEST_CASE("refinement ends at tips where copies are copied, and at angles just over 60 degrees") {
+  const Complex::Places tips[] = {{{2.1648359523632417, 1.5668346226702006, 0.67273961329500964},
+                                   {2.6708397317089099, 1.7303640950373023, 0.77892219860039802},
+                                   {2.539814177952433, 1.5831604129854147, 0.59574617232301719},
+                                   {2.4411910936309642, 1.1833897922236605, 0.59509786344242266}},
+                                  {{0.34805775646409221, 2.212627211989969, 0.29553729050436905},
+                                   {0.70853288543013437, 2.4009961749153463, 0.21366495897902374},
+                                   {0.88732577227381582, 2.3989269025010742, 0.4116002045667827},
+                                   {0.17355010244570118, 2.7731127523670951, 0.59326784253385989}}};
+  for (const auto& p : tips) {
+    Complex complex;
+    for (std::size_t i = 0; i < 4; ++i) {
+      complex.face({p[i], p[(i + 1) % 4], p[(i + 2) % 4]});
+    }
+    Options<3> options;
+    options.domain = {{0, 0, 0}, {3, 3, 3}};
+    options.max_vertices = 20000;
+    PlcRun run(complex, options);
+    require_good(run);
   }
 }
 
