@@ -103,8 +103,7 @@ inline TracedSpace::Part TracedSpace::insert(const Complex& complex) {
 
 inline void TracedSpace::insert_features(const Complex& complex, Part& part) {
   for (const auto& s : complex.segments) {
-    part.edges.push_back(
-        &world_->insert_edge(part.points[s[0]]->self, part.points[s[1]]->self));
+    part.edges.push_back(&world_->insert_edge(part.points[s[0]]->self, part.points[s[1]]->self));
   }
   for (const auto& f : complex.faces) {
     mesher::detail::PolygonParts parts;

@@ -11,8 +11,8 @@ namespace mesher::detail {
 namespace {
 
 // A place is turned by up to the angle with this cosine, somewhat more than that beyond which its
-// foot yields to what the features share: at an angle t the foot is sin(t) from the place and cos(t)
-// from there, and yields if cos(t) <= kYields sin(t), from 63.44 degrees on.
+// foot yields to what the features share: at an angle t the foot is sin(t) from the place and
+// cos(t) from there, and yields if cos(t) <= kYields sin(t), from 63.44 degrees on.
 constexpr double kTurned = 0.44;
 
 // Where the foot of x on the line of e is, as a fraction.
@@ -118,9 +118,8 @@ auto SmallAngles::turned(const Standing& v, const Feature& g, Foot&& foot_on_g) 
 }
 
 std::optional<Placed> SmallAngles::copy(const Standing& v, const Edge& g) const {
-  const auto turned_to = turned(v, Feature(g), [&](const Point<3>& p) {
-    return place_on_line(g, foot_fraction(g, p));
-  });
+  const auto turned_to = turned(
+      v, Feature(g), [&](const Point<3>& p) { return place_on_line(g, foot_fraction(g, p)); });
   if (!turned_to) return std::nullopt;
   const bool about_a = turned_to->about.handle() == g.a;
   const double from_a = about_a ? turned_to->away : g.length - turned_to->away;
@@ -131,8 +130,7 @@ std::optional<Placed> SmallAngles::copy(const Standing& v, const Edge& g) const 
 
 // On an edge of g if it is there.
 std::optional<Placed> SmallAngles::copy(const Standing& v, const Polygon& g) const {
-  const auto turned_to =
-      turned(v, Feature(g), [&](const Point<3>& p) { return g.plane.foot(p); });
+  const auto turned_to = turned(v, Feature(g), [&](const Point<3>& p) { return g.plane.foot(p); });
   if (!turned_to || !contains(g, turned_to->x)) return std::nullopt;
   for (const EdgeHandle h : g.all_edges) {
     const Edge& e = store_.edges()[h];

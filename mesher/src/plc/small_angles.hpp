@@ -55,7 +55,7 @@ class SmallAngles {
   [[nodiscard]] double kept_shell(const Standing& v, const Feature& h) const;
   template <class Foot>
   [[nodiscard]] std::optional<Turned> turned(const Standing& v, const Feature& g,
-                                               Foot&& foot_on_g) const;
+                                             Foot&& foot_on_g) const;
 
   const FeatureStore& store_;
   const FeaturesNear& near_;

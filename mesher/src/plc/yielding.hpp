@@ -13,7 +13,7 @@ namespace mesher::detail {
 /// A point yields to features within this times the radius of its ball.
 inline constexpr double kYields = 0.5;
 
-/// The coarsest dyadic place on e in the middle half of what the ball around x has of it; nothing
+/// The roundest place on e in the middle half of what the ball around x has of it; nothing
 /// if the ball misses it.
 [[nodiscard]] std::optional<Placed> place_in_ball(const Edge& e, const Point<3>& x, double radius);
 

@@ -57,9 +57,7 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   }
 
  private:
-  [[nodiscard]] Standing standing(const Vertex<3>& v) const {
-    return {v, world_.vertices.role(v)};
-  }
+  [[nodiscard]] Standing standing(const Vertex<3>& v) const { return {v, world_.vertices.role(v)}; }
   [[nodiscard]] SmallAngles angles() const { return {world_.plc.store(), near_}; }
   [[nodiscard]] const Vertex<3>& vertex(const VoronoiCell3& cell, int i) const {
     return i == kCentre ? cell.center() : world_.vertices.pool()[cell.handle(i)];
