@@ -49,6 +49,12 @@ bool are_across_axis(const Point<3>& a, const Point<3>& b, const Point<3>& c, co
   return any;
 }
 
+/// a < b without the three-way comparison of arrays.
+bool is_less(const Point<3>& a, const Point<3>& b) {
+  if (a[0] != b[0]) return a[0] < b[0];
+  return a[1] != b[1] ? a[1] < b[1] : a[2] < b[2];
+}
+
 }  // namespace
 
 int orient3d_exact(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d) {
@@ -70,15 +76,19 @@ int insphere_exact(const Point<3>& a, const Point<3>& b, const Point<3>& c, cons
 /// point is the orientation with e in its place.
 int cospherical_tie(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d,
                     const Point<3>& e) {
-  const std::array<const Point<3>*, 5> points{&a, &b, &c, &d, &e};
-  std::array<std::size_t, 5> order{0, 1, 2, 3, 4};
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t i, std::size_t k) { return *points[i] > *points[k]; });
-  for (const std::size_t i : order) {
+  std::array<const Point<3>*, 5> points{&a, &b, &c, &d, &e};
+  std::array<bool, 5> done{};
+  for (std::size_t round = 0; round < 5; ++round) {
+    std::size_t greatest = 5;
+    for (std::size_t i = 0; i < 5; ++i) {
+      if (done[i]) continue;
+      if (greatest == 5 || is_less(*points[greatest], *points[i])) greatest = i;
+    }
+    done[greatest] = true;
     auto rest = points;
-    std::swap(rest[i], rest[4]);
+    std::swap(rest[greatest], rest[4]);
     const int orientation = orient3d(*rest[0], *rest[1], *rest[2], *rest[3]);
-    if (orientation != 0) return i == 4 ? -orientation : orientation;
+    if (orientation != 0) return greatest == 4 ? -orientation : orientation;
   }
   return 0;  // all in one plane
 }

@@ -261,7 +261,8 @@ bool VertexIndex<sac::Scope, D>::begin(Cell& cell, const Vertex<D>& v, double ra
 // Proof. Let q be a corner in whose ball there is a vertex u, of the last update and alive. On the
 // way from v to q every place y is nearer to v than to any alive vertex outside of q's ball. So the
 // cells of the last update that the way crosses, each a neighbour of the one before, are those of
-// v, of gone vertices in q's ball, and at last of an alive one in it: who has been around a gone one.
+// v, of gone vertices in q's ball, and at last of an alive one in it: who has been around a gone
+// one.
 template <int D>
 template <class Seen>
 bool VertexIndex<sac::Scope, D>::try_successors(Cell& cell, const Observation& last, Seen& seen) {
@@ -347,6 +348,13 @@ double VertexIndex<sac::Scope, D>::nearest2(sac::Scope& s, VertexRef<D> v) {
 
 template <int D>
 CellLoan<D> VertexIndex<sac::Scope, D>::star(sac::Scope& s, VertexRef<D> v) {
+  if (first_stars_ && first_stars_->write(v->self, codes_)) {
+    CellLoan<D> cell = borrow_cell();
+    cell->restore(
+        pool_, *v, whole(), codes_, [](std::uint32_t) { return true; }, true);
+    record_star(s, *v, concern(*cell));
+    return cell;
+  }
   const sac::Handle caller = engine_.handle_of(s.self());
   const Observation* last = observers_.find_at(
       *v, [&](const Observation& o) { return o.kind == kStar && o.call == caller; });

@@ -32,6 +32,7 @@
 #include <vector>
 
 #include "index/change_log.hpp"
+#include "index/first_stars.hpp"
 #include "index/observers.hpp"
 #include "index/vertex_search.hpp"
 #include "sac/sac.hpp"
@@ -112,6 +113,17 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   CellLoan<D> voronoi_cell(sac::Scope& s, VertexRef<D> v, double radius);
   double nearest2(sac::Scope& s, VertexRef<D> v);
   CellLoan<D> star(sac::Scope& s, VertexRef<D> v);
+  /// In a first run run() asks for stars of vertices that are all there already: they are made at
+  /// once. (Not where weights are recorded: they are those of searches.)
+  template <class Run>
+  void with_first_stars(Run&& run) {
+    if (engine_.appending() && !engine_.records_weights()) first_stars_.emplace(pool_);
+    const struct Forget {
+      std::optional<FirstStars<D>>& stars;
+      ~Forget() { stars.reset(); }
+    } forget{first_stars_};
+    run();
+  }
 
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
   void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
@@ -174,12 +186,12 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
 
  private:
   using Base::add;
-  using Base::box_;
-  using Base::concern;
   using Base::add_candidate;
   using Base::begin_repair;
   using Base::begin_with_ring;
   using Base::borrow_cell;
+  using Base::box_;
+  using Base::concern;
   using Base::cut_around;
   using Base::cut_by_candidates;
   using Base::fail_coincident;
@@ -264,8 +276,9 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   Observers<D> observers_;
   ChangeLog<D> log_;
   std::uint8_t id_;
-  std::vector<std::uint32_t> codes_;  // the cell being recorded, written down
-  std::vector<VertexHandle> gone_;    // the neighbours being replaced
+  std::vector<std::uint32_t> codes_;          // the cell being recorded, written down
+  std::optional<FirstStars<D>> first_stars_;  // while a first run triangulates
+  std::vector<VertexHandle> gone_;            // the neighbours being replaced
 };
 
 }  // namespace mesher::detail

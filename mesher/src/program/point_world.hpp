@@ -22,7 +22,7 @@
 
 namespace mesher::detail {
 
-/// The simplices of a static run, as they are output, and who watches it.
+/// The simplices of a static run, and who watches it.
 template <int D>
 struct PlainOutput {
   std::vector<std::array<VertexHandle, D + 1>> simplices;
@@ -80,7 +80,8 @@ struct PointWorld {
   void post_nearest_in(S& s, VertexRef<D> v, int b);
   void post_complete(S& s, VertexRef<D> v, int b);
   void post_star(S& s, VertexRef<D> v);
-  void output(S& s, VertexRef<D> v, const CellOf<D>& star);
+  /// The stars of all vertices that were posted; in a static run the simplices of all.
+  void triangulate(S& s);
   /// Throws: Error(too_many) if there are more vertices than there may be.
   void require_room(S& s) const {
     if (vertices.pool().size() > most_records) fail_too_many(s);

@@ -1,13 +1,17 @@
-// Triangulate [§4.3.1]: the Delaunay star of every vertex is a call.
+// Triangulate [§4.3.1]: the Delaunay star of every vertex is a call; in a static run, which has no
+// use for calls, all vertices are triangulated at once.
 //
-// Exact predicates with ties decided by coordinates make the Delaunay triangulation unique, so the
-// vertices of a simplex agree on it; it is output by the one with the smallest coordinates.
+// Exact predicates with ties decided by coordinates make the Delaunay triangulation unique, so both
+// give the same simplices, and the vertices of a simplex agree on it; of the stars it is output by
+// the one with the smallest coordinates.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
+#include "delaunay/bulk.hpp"
 #include "program/world.hpp"
 
 namespace mesher::detail {
@@ -17,7 +21,7 @@ struct Star {
   template <class S, int D>
   void operator()(S& s, VertexRef<D> v) const {
     auto& w = s.template environment<World<S, D>>();
-    w.output(s, v, *w.vertices.star(s, v));
+    static_cast<void>(w.vertices.star(s, v));  // recorded: that is the output
   }
 };
 inline constexpr Star star{};
@@ -27,23 +31,8 @@ template <std::size_t N>
   return {.order = morton<N>(f)};
 }
 
-/// Calls emit(simplex) for each simplex of v's star that v outputs: its corners positively
-/// oriented, v first. Virtual neighbours bound nothing.
-template <int D, class Emit>
-void for_each_own_simplex(const Vertex<D>& v, const CellOf<D>& cell, Emit&& emit) {
-  for (int t = 0; t < cell.corners(); ++t) {
-    std::array<VertexHandle, D + 1> simplex{v.self};
-    bool own = true;
-    for (std::size_t k = 0; k < D; ++k) {
-      const int i = cell.ends(t)[k];
-      own = own && cell.real(i) && v.p < cell.place(i);
-      simplex[k + 1] = cell.handle(i);
-    }
-    if (own) emit(simplex);
-  }
-}
-
-/// The same for a star that was written down.
+/// Calls emit(simplex) for each simplex of v's star, as it was written down, that v outputs: its
+/// corners positively oriented, v first. Virtual neighbours bound nothing.
 template <int D, class Emit>
 void for_each_own_simplex(const VertexPool<D>& pool, const Vertex<D>& v,
                           std::span<const std::uint32_t> record, Emit&& emit) {
@@ -56,6 +45,22 @@ void for_each_own_simplex(const VertexPool<D>& pool, const Vertex<D>& v,
     }
     if (own) emit(simplex);
   });
+}
+
+/// The simplices of all vertices; ticks once for each.
+template <int D>
+void triangulate_at_once(const VertexPool<D>& pool, PlainOutput<D>& plain) {
+  std::vector<VertexHandle> handles;
+  std::vector<Point<D>> places;
+  pool.for_each([&](const Vertex<D>& v) {
+    handles.push_back(v.self);
+    places.push_back(v.p);
+  });
+  plain.simplices =
+      triangulate<D>(
+          std::span<const Point<D>>(places), [&](std::uint32_t i) { return handles[i]; },
+          [](std::uint32_t, std::uint32_t) {}, [&] { plain.tick(); })
+          .simplices;
 }
 
 }  // namespace mesher::detail

@@ -113,7 +113,7 @@ struct Refine {
     w.marks[1] = now();
     w.steiner.drain(s);
     w.marks[2] = now();
-    w.stars.drain(s);
+    w.triangulate(s);
     w.marks[3] = now();
   }
 };

@@ -25,7 +25,7 @@ void PointWorld<S, D>::add_boundary() {
     const VertexRef<D> v = vertices.add_boundary(p);
     const Fixed<D> f = box.fixed(p);
     steiner.template post_from_outside<complete>(complete_key(buckets(), f, b), v, b);
-    stars.template post_from_outside<star>(star_key(f), v);
+    if constexpr (S::kTraced) stars.template post_from_outside<star>(star_key(f), v);
   });
 }
 
@@ -36,7 +36,7 @@ void World<S, 2>::post_fill() {
 
 template <class S>
 void World<S, 2>::edit_limits(const Options<2>& options, const std::vector<Box<2>>& where,
-                           sac::Engine& engine) {
+                              sac::Engine& engine) {
   engine.begin_edit();
   const auto other = std::make_shared<Limits>(options, box);
   const auto exchange_them = [this, other, where] { exchange(*other, where); };
@@ -111,16 +111,15 @@ bool World<S, 2>::post_cuts(S& s, const std::vector<LeafRef>& found, int b) {
 
 template <class S, int D>
 void PointWorld<S, D>::post_star(S& s, VertexRef<D> v) {
-  stars.template post<star>(s, star_key(box.fixed(v->p)), v);
+  if constexpr (S::kTraced) stars.template post<star>(s, star_key(box.fixed(v->p)), v);
 }
 
 template <class S, int D>
-void PointWorld<S, D>::output(S&, VertexRef<D> v, const CellOf<D>& cell) {
-  if constexpr (!S::kTraced) {
-    plain.tick();
-    for_each_own_simplex(*v, cell, [&](const auto& t) { plain.simplices.push_back(t); });
+void PointWorld<S, D>::triangulate(S& s) {
+  if constexpr (S::kTraced) {
+    vertices.with_first_stars([&] { stars.drain(s); });
   } else {
-    (void)v, (void)cell;
+    triangulate_at_once(vertices.pool(), plain);
   }
 }
 

@@ -1,0 +1,31 @@
+// Of many points at once.
+#include "mesher/delaunay.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "delaunay/bulk.hpp"
+#include "delaunay/check_place.hpp"
+
+namespace mesher {
+
+template <int D>
+Delaunay<D> delaunay(std::span<const Point<D>> points) {
+  for (std::size_t i = 0; i < points.size(); ++i) detail::check_place<D>(points[i], i + 1);
+  Delaunay<D> result;
+  auto flat = detail::triangulate<D>(
+      points, [](std::uint32_t i) { return i; },
+      [&](std::uint32_t i, std::uint32_t original) {
+        result.duplicates.push_back({i, original});
+      },
+      [] {});
+  result.simplices = std::move(flat.simplices);
+  result.neighbours = std::move(flat.neighbours);
+  std::sort(result.duplicates.begin(), result.duplicates.end());
+  return result;
+}
+
+template Delaunay<2> delaunay<2>(std::span<const Point<2>>);
+template Delaunay<3> delaunay<3>(std::span<const Point<3>>);
+
+}  // namespace mesher

@@ -1,0 +1,198 @@
+// Places, the first simplex, the walk to where a point is.
+#include "delaunay/kernel.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "delaunay/facets.hpp"
+#include "delaunay/tuple_predicates.hpp"
+#include "sac/check.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+template <int D>
+Point<D> no_place() {
+  Point<D> p;
+  p.fill(std::numeric_limits<double>::quiet_NaN());
+  return p;
+}
+
+}  // namespace
+
+template <int D>
+DelaunayKernel<D>::DelaunayKernel() : places_{no_place<D>()}, simplex_of_{kNone}, local_{0} {}
+
+template <int D>
+void DelaunayKernel<D>::reserve(std::size_t points) {
+  places_.reserve(points + 1);
+  simplex_of_.reserve(points + 1);
+  local_.reserve(points + 1);
+  // Of random points: 2 triangles a vertex, 6.77 tetrahedra [Dwyer 1991]; and what is free for a
+  // moment, and ghosts.
+  const std::size_t simplices = D == 2 ? 2 * points + points / 50 : 7 * points;
+  store_.reserve(simplices);
+  mark_.reserve(simplices);
+}
+
+template <int D>
+std::uint32_t DelaunayKernel<D>::add_place(const Point<D>& p) {
+  SAC_EXPECTS(places_.size() < kNone);
+  places_.push_back(p);
+  unit_.add(p);
+  try {
+    simplex_of_.push_back(kNone);
+    local_.push_back(0);
+  } catch (...) {
+    places_.pop_back();
+    simplex_of_.resize(places_.size());
+    throw;
+  }
+  return static_cast<std::uint32_t>(places_.size() - 1);
+}
+
+template <int D>
+void DelaunayKernel<D>::set_place(std::uint32_t v, const Point<D>& p) noexcept {
+  places_[v] = p;
+  unit_.add(p);
+}
+
+template <int D>
+void DelaunayKernel<D>::drop_place() noexcept {
+  places_.pop_back();
+  simplex_of_.pop_back();
+  local_.pop_back();
+}
+
+template <int D>
+bool DelaunayKernel<D>::is_ghost(std::uint32_t s) const noexcept {
+  const Ids& c = store_.corners(s);
+  bool ghost = false;
+  for (const std::uint32_t v : c) ghost |= v == kInfinite;
+  return ghost;
+}
+
+/// s, or the simplex at the facet of a ghost s.
+template <int D>
+std::uint32_t DelaunayKernel<D>::finite(std::uint32_t s) const noexcept {
+  const Ids& c = store_.corners(s);
+  const auto at = std::find(c.begin(), c.end(), kInfinite);
+  return at == c.end() ? s : store_.across(s)[static_cast<std::size_t>(at - c.begin())] >> 2;
+}
+
+template <int D>
+void DelaunayKernel<D>::start(const std::array<std::uint32_t, D + 1>& corners) {
+  SAC_EXPECTS(store_.size() == 0);
+  Ids c = corners;
+  std::array<const Point<D>*, D + 1> q;
+  for (std::size_t i = 0; i <= D; ++i) q[i] = &places_[c[i]];
+  const int sign = orientation(q);
+  SAC_EXPECTS(sign != 0);
+  if (sign < 0) std::swap(c[0], c[1]);
+  store_.make_room(D + 2);
+  mark_.resize(store_.places(), 0);
+  const std::uint32_t first = store_.take();
+  store_.corners(first) = c;
+  std::array<std::uint32_t, D + 1> ghosts;
+  // Two corners swapped, since infinity is on the other side of the facet.
+  for (std::uint32_t i = 0; i <= D; ++i) {
+    ghosts[i] = store_.take();
+    store_.corners(ghosts[i]) = c;
+    store_.corners(ghosts[i])[i] = kInfinite;
+    const auto& facet = kFacet<D>[i];
+    std::swap(store_.corners(ghosts[i])[facet[0]], store_.corners(ghosts[i])[facet[1]]);
+    store_.join(first, i, ghosts[i], i);
+  }
+  for (std::uint32_t i = 0; i <= D; ++i) {
+    for (std::uint32_t k = 0; k < i; ++k) {
+      // ghost i lacks c[i]; it meets ghost k across its corner c[k].
+      const auto corner_of = [&](std::uint32_t ghost, std::uint32_t v) {
+        const Ids& in = store_.corners(ghost);
+        return static_cast<std::uint32_t>(std::find(in.begin(), in.end(), v) - in.begin());
+      };
+      store_.join(ghosts[i], corner_of(ghosts[i], c[k]), ghosts[k], corner_of(ghosts[k], c[i]));
+    }
+  }
+  for (const std::uint32_t v : c) simplex_of_[v] = first;
+  last_ = first;
+}
+
+/// The orientation of a simplex with p at corner i: negative if its facet is between it and p.
+template <int D>
+int DelaunayKernel<D>::side(const Ids& corners, std::size_t i, const Point<D>& p) const {
+  std::array<const Point<D>*, D + 1> q;
+  for (std::size_t k = 0; k <= D; ++k) q[k] = &places_[corners[k]];
+  q[i] = &p;
+  return orientation(q);
+}
+
+/// The visibility walk: through a facet that has p on its other side, until there is none. It ends,
+/// since what is behind such a facet is nearer to p in the order of power distances.
+template <int D>
+std::uint32_t DelaunayKernel<D>::walk(const Point<D>& p, std::uint32_t from) const {
+  std::uint32_t s = finite(from);
+  for (std::uint32_t entered = kNone;;) {
+    const Ids& c = store_.corners(s);
+    std::uint32_t through = kNone;
+    for (std::uint32_t i = 0; i <= D && through == kNone; ++i) {
+      if (i != entered && side(c, i, p) < 0) through = store_.across(s)[i];
+    }
+    if (through == kNone) return s;
+    s = through >> 2;
+    entered = through & 3;
+    if (is_ghost(s)) return s;
+  }
+}
+
+template <int D>
+std::uint32_t DelaunayKernel<D>::locate(const Point<D>& p) const {
+  SAC_EXPECTS(last_ != kNone);
+  return walk(p, last_);
+}
+
+template <int D>
+std::uint32_t DelaunayKernel<D>::insert(std::uint32_t v) {
+  const Point<D>& p = places_[v];
+  const std::uint32_t s = locate(p);
+  for (const std::uint32_t w : store_.corners(s)) {
+    if (places_[w] == p) return w;
+  }
+  try {
+    dig(v, s);
+    make_room_for_fill();
+  } catch (...) {
+    undo_dig();
+    throw;
+  }
+  fill(v);
+  return v;
+}
+
+template <int D>
+void DelaunayKernel<D>::clear_simplices() noexcept {
+  store_.clear();
+  mark_.clear();
+  std::fill(simplex_of_.begin(), simplex_of_.end(), kNone);
+  last_ = kNone;
+}
+
+template <int D>
+void DelaunayKernel<D>::clear() noexcept {
+  clear_simplices();
+  places_.resize(1);
+  simplex_of_.resize(1);
+  local_.resize(1);
+  unit_ = {};
+}
+
+template <int D>
+SimplexStore<D> DelaunayKernel<D>::release() && {
+  DelaunayKernel all = std::move(*this);
+  return std::move(all.store_);
+}
+
+template class DelaunayKernel<2>;
+template class DelaunayKernel<3>;
+
+}  // namespace mesher::detail

@@ -1,0 +1,169 @@
+// Delaunay triangulations in the plane and in space, a vertex at a time.
+//
+// Representation. Flat arrays of simplices (simplex_store.hpp) and of places. The convex hull is
+// closed by ghosts: a ghost is a hull facet and vertex 0, kInfinite, so that every facet has a
+// simplex on each side and insertion does not know the hull. A ghost is positively oriented if a
+// point outside of its facet stands for kInfinite.
+//   (The other design on paper gave a simplex 64 bytes with its ball, so that a test is one
+//   distance. An insertion in space makes 20 simplices and tests 40: a circumcentre costs as much
+//   as two filtered tests, and memory doubles. And hulls as facets without a neighbour, with cases
+//   wherever a facet is crossed.)
+//
+// Ties by coordinates (mesher/predicates.hpp): incircle and insphere are never 0, so the conflict
+// of a finite simplex with a point is whether the point is in its ball, and of a ghost, whether it
+// is outside of its facet; in the facet's plane, whether it is in the ball of the finite neighbour,
+// which meets the plane in the facet's own circle. All answers are those of lifted points in
+// general position, where a hull that is flat somewhere is replaced by an infinitesimally round
+// one; so conflicting simplices are connected, what they leave is filled from the new vertex by
+// simplices that are not flat, and one set of points has one triangulation, in whatever order they
+// come and whatever was removed between.
+//
+// Insertion: a walk to the simplex that holds the point, the conflicting simplices around it
+// (Bowyer, Watson), new ones in their place. Removal: the triangulation of the neighbours alone
+// (another kernel) holds all that fills the hole.
+//
+// Strong guarantee: what throws leaves everything as it was.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "delaunay/ball_filter.hpp"
+#include "delaunay/simplex_store.hpp"
+#include "mesher/mesh.hpp"
+
+namespace mesher::detail {
+
+/// The vertex that makes ghosts of simplices.
+inline constexpr std::uint32_t kInfinite = 0;
+
+template <int D>
+class DelaunayKernel {
+ public:
+  using Ids = typename SimplexStore<D>::Ids;
+
+  DelaunayKernel();
+
+  void reserve(std::size_t points);
+  /// A new place, numbered 1, 2, ...; it is no vertex yet.
+  std::uint32_t add_place(const Point<D>& p);
+  /// Forgets the place of the greatest number. Requires: it is no vertex.
+  void drop_place() noexcept;
+  /// Gives a place that is no vertex other coordinates.
+  void set_place(std::uint32_t v, const Point<D>& p) noexcept;
+
+  /// Begins with a simplex. Requires: no vertices yet, corners not in a plane (a line).
+  void start(const std::array<std::uint32_t, D + 1>& corners);
+  /// Makes v a vertex, unless one has the same place: returns v or that one.
+  /// Requires: started; v is no vertex.
+  /// Cost: expected O(1) near the last one inserted, in an order as random as spatial_order's.
+  std::uint32_t insert(std::uint32_t v);
+  /// The next insertion starts its walk at vertex v. Requires: has(v).
+  void walk_from(std::uint32_t v) noexcept { last_ = simplex_of_[v]; }
+  /// Takes a vertex out. False, and nothing done, if all others are in one plane (on one line).
+  /// Cost: the triangulation of its neighbours.
+  bool remove(std::uint32_t v);
+  /// Whether v is a vertex.
+  [[nodiscard]] bool has(std::uint32_t v) const noexcept { return simplex_of_[v] != kNone; }
+
+  [[nodiscard]] const SimplexStore<D>& simplices() const noexcept { return store_; }
+  [[nodiscard]] const Point<D>& place(std::uint32_t v) const noexcept { return places_[v]; }
+  /// Some simplex with this vertex. Requires: has(v).
+  [[nodiscard]] std::uint32_t simplex_of(std::uint32_t v) const noexcept { return simplex_of_[v]; }
+  /// A vertex at which the last insertion or removal changed something. Requires: started.
+  [[nodiscard]] std::uint32_t last_changed() const noexcept {
+    const Ids& c = store_.corners(last_);
+    return c[0] != kInfinite ? c[0] : c[1];
+  }
+  [[nodiscard]] std::size_t places() const noexcept { return places_.size() - 1; }
+  [[nodiscard]] bool is_ghost(std::uint32_t s) const noexcept;
+  /// A simplex that holds p, or a ghost whose facet p is outside of. Requires: started.
+  [[nodiscard]] std::uint32_t locate(const Point<D>& p) const;
+  /// The simplices with corner v, ghosts too. Requires: has(v). Cost: O(k) for k of them.
+  [[nodiscard]] std::vector<std::uint32_t> star(std::uint32_t v) const;
+  /// The finite vertices of v's star but v, ascending.
+  [[nodiscard]] std::vector<std::uint32_t> link_of(const std::vector<std::uint32_t>& star,
+                                                   std::uint32_t v) const;
+
+  /// No vertices; the places stay.
+  void clear_simplices() noexcept;
+  /// No places, nothing.
+  void clear() noexcept;
+  /// Takes the simplices out and frees all else.
+  [[nodiscard]] SimplexStore<D> release() &&;
+
+  /// Throws: sac::InvariantError. Cost: O(simplices).
+  void check_invariants() const;
+
+ private:
+  // A facet between a conflicting simplex and one that stays: that simplex's corners, the one
+  // across replaced by the new vertex, at `slot`; `outer`: the other side, as in the store.
+  struct Border {
+    Ids corners;
+    std::uint32_t outer;
+    std::uint32_t slot;
+  };
+  // An edge of the border, in space, and the corner of a new simplex across from it.
+  struct Ridge {
+    std::uint64_t edge;
+    std::uint32_t simplex, corner;
+  };
+
+  [[nodiscard]] std::uint32_t finite(std::uint32_t s) const noexcept;
+  [[nodiscard]] std::uint32_t walk(const Point<D>& p, std::uint32_t from) const;
+  [[nodiscard]] int side(const Ids& corners, std::size_t i, const Point<D>& p) const;
+  [[nodiscard]] bool conflicts(std::uint32_t s, const Point<D>& p) const;
+  [[nodiscard]] bool conflicts_quickly(std::uint32_t s, const Point<D>& p) const;
+  [[nodiscard]] bool conflicts_slowly(std::uint32_t s, const Point<D>& p, bool tie) const;
+  [[nodiscard]] Side quick_side(const Ids& corners, const Point<D>& p) const;
+  [[nodiscard]] bool ball_holds(const Ids& corners, const Point<D>& p) const;
+  [[nodiscard]] bool ball_holds_exactly(const Ids& corners, const Point<D>& p, bool tie) const;
+  [[nodiscard]] bool ghost_conflicts(std::uint32_t s, std::size_t i, const Point<D>& p) const;
+  void dig(std::uint32_t v, std::uint32_t start);
+  void undo_dig() noexcept;
+  void fill(std::uint32_t v) noexcept;
+  void place_borders() noexcept;
+  void join_borders() noexcept;
+  void join_many_borders() noexcept;
+  void number_link() noexcept;
+  void make_room_for_fill();
+
+  [[nodiscard]] std::size_t corner_of(std::uint32_t s, std::uint32_t v) const noexcept;
+  [[nodiscard]] bool has_finite_beside(const std::vector<std::uint32_t>& star,
+                                       std::uint32_t v) const;
+  bool triangulate(const std::vector<std::uint32_t>& link);
+  [[nodiscard]] std::vector<Ids> filling_from_link(const std::vector<std::uint32_t>& star,
+                                                   std::uint32_t v,
+                                                   const std::vector<std::uint32_t>& link) const;
+  [[nodiscard]] std::vector<Ids> ghosts_for(const std::vector<std::uint32_t>& star,
+                                            std::uint32_t v) const;
+  [[nodiscard]] std::vector<Ids> wrapping(const std::vector<std::uint32_t>& star, std::uint32_t v,
+                                          const std::vector<std::uint32_t>& link) const;
+  [[nodiscard]] std::uint32_t apex_over(const Ids& c, const std::vector<std::uint32_t>& link) const;
+  void refill(std::uint32_t v, const std::vector<std::uint32_t>& star,
+              const std::vector<Ids>& filling);
+  void check_simplex(std::uint32_t s) const;
+  void check_facet(std::uint32_t s, std::size_t i) const;
+  void check_vertices() const;
+
+  std::vector<Point<D>> places_;           // [0] is not a number
+  std::vector<std::uint32_t> simplex_of_;  // by vertex; kNone: no vertex
+  SimplexStore<D> store_;
+  CommonUnit unit_;             // of all places that there ever were
+  std::uint32_t last_ = kNone;  // where the last vertex was inserted
+
+  // Scratch, empty between calls (the marks are 0).
+  std::vector<std::uint8_t> mark_;    // by simplex
+  std::vector<std::uint32_t> local_;  // by vertex; its number among the link's, in fill()
+  std::vector<std::uint32_t> cavity_, outside_, link_, ridges_;
+  std::vector<Border> borders_;
+  std::vector<std::array<std::uint32_t, D>> ends_;  // of the facets of borders_, as in local_
+  std::vector<Ridge> many_;
+  std::unique_ptr<DelaunayKernel> star_;  // for removal
+};
+
+}  // namespace mesher::detail

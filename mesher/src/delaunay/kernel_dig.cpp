@@ -1,0 +1,110 @@
+// Which simplices a point conflicts with.
+#include "delaunay/ball_filter.hpp"
+#include "delaunay/kernel.hpp"
+#include "delaunay/tuple_predicates.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+enum Mark : std::uint8_t { kUnseen = 0, kInside, kOutside };
+
+}  // namespace
+
+/// Of a point and the ball of a simplex, as far as the filter is sure.
+template <int D>
+[[gnu::always_inline]] inline Side DelaunayKernel<D>::quick_side(const Ids& c,
+                                                                 const Point<D>& p) const {
+  if constexpr (D == 2) {
+    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], p, unit_.exact_to());
+  } else {
+    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], places_[c[3]], p,
+                           unit_.exact_to());
+  }
+}
+
+/// `tie`: whether p is known to be on the ball.
+template <int D>
+bool DelaunayKernel<D>::ball_holds_exactly(const Ids& c, const Point<D>& p, bool tie) const {
+  std::array<const Point<D>*, D + 1> q;
+  for (std::size_t i = 0; i <= D; ++i) q[i] = &places_[c[i]];
+  return (tie ? break_tie(q, p) : in_ball(q, p)) > 0;
+}
+
+template <int D>
+bool DelaunayKernel<D>::ball_holds(const Ids& c, const Point<D>& p) const {
+  const Side side = quick_side(c, p);
+  if (side == Side::inside || side == Side::outside) return side == Side::inside;
+  return ball_holds_exactly(c, p, side == Side::tie);
+}
+
+template <int D>
+[[gnu::always_inline]] inline bool DelaunayKernel<D>::conflicts_quickly(std::uint32_t s,
+                                                                        const Point<D>& p) const {
+  const Side side = quick_side(store_.corners(s), p);
+  if (side == Side::inside || side == Side::outside) return side == Side::inside;
+  return conflicts_slowly(s, p, side == Side::tie);
+}
+
+template <int D>
+bool DelaunayKernel<D>::conflicts(std::uint32_t s, const Point<D>& p) const {
+  return conflicts_quickly(s, p);
+}
+
+/// What the filter leaves: ties, ghosts, what is nearly a tie.
+template <int D>
+[[gnu::noinline]] bool DelaunayKernel<D>::conflicts_slowly(std::uint32_t s, const Point<D>& p,
+                                                           bool tie) const {
+  const Ids& c = store_.corners(s);
+  for (std::size_t i = 0; i <= D; ++i) {
+    if (c[i] == kInfinite) return ghost_conflicts(s, i, p);
+  }
+  return ball_holds_exactly(c, p, tie);
+}
+
+/// `i`: the corner at infinity.
+template <int D>
+bool DelaunayKernel<D>::ghost_conflicts(std::uint32_t s, std::size_t i, const Point<D>& p) const {
+  const int sign = side(store_.corners(s), i, p);
+  return sign != 0 ? sign > 0 : conflicts(store_.across(s)[i] >> 2, p);
+}
+
+/// The conflicting simplices from `start` on, and their borders.
+template <int D>
+void DelaunayKernel<D>::dig(std::uint32_t v, std::uint32_t start) {
+  const Point<D> p = places_[v];
+  cavity_.push_back(start);
+  mark_[start] = kInside;
+  for (std::size_t k = 0; k < cavity_.size(); ++k) {
+    const Ids& across = store_.across(cavity_[k]);
+    for (std::uint32_t i = 0; i <= D; ++i) {
+      const std::uint32_t other = across[i] >> 2;
+      if (mark_[other] == kInside) continue;
+      if (mark_[other] == kUnseen) {
+        if (conflicts_quickly(other, p)) {
+          cavity_.push_back(other);
+          mark_[other] = kInside;
+          continue;
+        }
+        outside_.push_back(other);
+        mark_[other] = kOutside;
+      }
+      borders_.push_back({store_.corners(cavity_[k]), across[i], i});
+      borders_.back().corners[i] = v;
+    }
+  }
+}
+
+template <int D>
+void DelaunayKernel<D>::undo_dig() noexcept {
+  for (const std::uint32_t s : cavity_) mark_[s] = kUnseen;
+  for (const std::uint32_t s : outside_) mark_[s] = kUnseen;
+  cavity_.clear();
+  outside_.clear();
+  borders_.clear();
+}
+
+template class DelaunayKernel<2>;
+template class DelaunayKernel<3>;
+
+}  // namespace mesher::detail
