@@ -47,6 +47,14 @@ enum class ErrorCode : std::uint8_t {
   too_many,           ///< more vertices or memory than a run can hold
   cancelled,          ///< stopped by the user
   bad_seed,           ///< a hole's or region's seed that has no region of its own
+  bad_polygon,        ///< loops without an area, that repeat a corner, or do not lie in the first
+  not_flat,           ///< a polygon whose corners lie in no plane
+  repeated_polygon,   ///< two polygons with the same loops
+  point_on_polygon,   ///< an input point in a polygon that does not declare it
+  segment_on_polygon,       ///< an edge in a polygon that does not declare it
+  segment_through_polygon,  ///< a segment and a polygon with a place in common that is no point
+  crossing_polygons,        ///< two polygons with a place in common that is on no common edge
+  overlapping_polygons,     ///< two polygons in a plane, with an area in common
 };
 
 /// What a process exits with.

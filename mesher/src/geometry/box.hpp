@@ -15,6 +15,9 @@ namespace mesher::detail {
 [[nodiscard]] inline Box<2> around(const Point<2>& p, double r) {
   return {{p[0] - r, p[1] - r}, {p[0] + r, p[1] + r}};
 }
+[[nodiscard]] inline Box<3> around(const Point<3>& p, double r) {
+  return {{p[0] - r, p[1] - r, p[2] - r}, {p[0] + r, p[1] + r, p[2] + r}};
+}
 /// The sides belong to a box.
 [[nodiscard]] inline bool contains(const Box<2>& box, const Point<2>& p) {
   return p[0] >= box.lo[0] && p[0] <= box.hi[0] && p[1] >= box.lo[1] && p[1] <= box.hi[1];

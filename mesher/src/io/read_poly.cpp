@@ -73,9 +73,9 @@ class PolyReader {
   }
 
   void read_segments() {
-    const text::Line& header = next_header("segments");
+    const text::Line& header = next_header(lines_, "segments");
     const std::int64_t count = read_count(header, 0);
-    const std::size_t fields = 3 + static_cast<std::size_t>(read_markers(header));
+    const std::size_t fields = 3 + (read_markers(header, 1) ? 1u : 0u);
     require_header(header, 2);
     while (std::cmp_less(out_.segments.size(), count)) {
       const text::Line& line = next_row(lines_, fields, out_.segments.size(), count, "segments");
@@ -88,7 +88,7 @@ class PolyReader {
   }
 
   void read_holes() {
-    const text::Line& header = next_header("holes");
+    const text::Line& header = next_header(lines_, "holes");
     const std::int64_t count = read_count(header, 0);
     require_header(header, 1);
     while (std::cmp_less(out_.holes.size(), count)) {
@@ -125,33 +125,6 @@ class PolyReader {
 
   static Point<2> seed_of(const text::Line& line) {
     return {line.coordinate(1), line.coordinate(2)};
-  }
-
-  static std::int64_t read_markers(const text::Line& header) {
-    const std::int64_t markers = header.size() > 1 ? header.integer(1) : 0;
-    if (markers == 0 || markers == 1) return markers;
-    throw header.error(ErrorCode::bad_header, "markers must be 0 or 1", 1);
-  }
-
-  const text::Line& next_header(const std::string& what) {
-    if (lines_.next()) return lines_.line();
-    throw lines_.line().error(ErrorCode::truncated, "the file ends before the number of " + what,
-                              lines_.line().size());
-  }
-
-  static void require_header(const text::Line& line, std::size_t most) {
-    if (line.size() <= most) return;
-    throw line.error(
-        ErrorCode::bad_header,
-        std::to_string(line.size()) + " numbers, expected " + std::to_string(most) + " at most",
-        most);
-  }
-
-  static void require_fields(const text::Line& line, std::size_t least, std::size_t most) {
-    if (line.size() >= least && line.size() <= most) return;
-    throw line.error(ErrorCode::wrong_count,
-                     std::to_string(line.size()) + " fields, expected " + std::to_string(most),
-                     std::min(line.size(), most));
   }
 
   PslgFile out_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/distinct_ids.hpp"
 #include "io/read_node.hpp"
 #include "io/text.hpp"
 
@@ -11,41 +12,6 @@ namespace mesher {
 namespace {
 
 std::string id_text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
-
-// Ids with the places of what they name, to be checked.
-struct Named {
-  const char* what;  // "segment"
-  std::vector<FeatureId> ids;
-  std::vector<Place> places;
-};
-
-template <class Part, class PlaceOf>
-Named named(const char* what, const std::vector<Part>& parts, PlaceOf place_of) {
-  Named all{what, {}, {}};
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    all.ids.push_back(parts[i].id);
-    all.places.push_back(place_of(i));
-  }
-  return all;
-}
-
-// Throws: Error(repeated_id) for the first part whose id an earlier one has. Cost: O(n log n).
-void require_distinct(const Named& all) {
-  std::vector<std::pair<FeatureId, std::size_t>> order;
-  for (std::size_t i = 0; i < all.ids.size(); ++i) order.emplace_back(all.ids[i], i);
-  std::sort(order.begin(), order.end());
-  std::size_t earlier = 0, later = all.ids.size();
-  for (std::size_t k = 1; k < order.size(); ++k) {
-    if (order[k - 1].first != order[k].first || order[k].second >= later) continue;
-    earlier = order[k - 1].second;
-    later = order[k].second;
-  }
-  if (later == all.ids.size()) return;
-  throw Error(ErrorCode::repeated_id,
-              std::string(all.what) + " " + id_text(all.ids[later]) +
-                  " is given twice, first on line " + std::to_string(all.places[earlier].line),
-              all.places[later], {all.ids[later]});
-}
 
 void require_distinct_ids(const PslgFile& f) {
   require_distinct(named("point", f.pslg.points, [&](auto i) { return f.place_of_point(i); }));

@@ -1,6 +1,8 @@
 // Rows of tables, and what is said where they end too early.
 #include "io/rows.hpp"
 
+#include <algorithm>
+
 namespace mesher {
 namespace {
 
@@ -34,6 +36,33 @@ const text::Line& next_row(text::FieldLines& lines, std::size_t fields, std::siz
   throw line.error(ErrorCode::wrong_count,
                    std::to_string(line.size()) + " fields, expected " + std::to_string(fields),
                    line.size());
+}
+
+const text::Line& next_header(text::FieldLines& lines, const std::string& what) {
+  if (lines.next()) return lines.line();
+  throw lines.line().error(ErrorCode::truncated, "the file ends before the number of " + what,
+                           lines.line().size());
+}
+
+void require_header(const text::Line& line, std::size_t most) {
+  if (line.size() <= most) return;
+  throw line.error(
+      ErrorCode::bad_header,
+      std::to_string(line.size()) + " numbers, expected " + std::to_string(most) + " at most",
+      most);
+}
+
+bool read_markers(const text::Line& header, std::size_t i) {
+  const std::int64_t markers = header.size() > i ? header.integer(i) : 0;
+  if (markers == 0 || markers == 1) return markers == 1;
+  throw header.error(ErrorCode::bad_header, "markers must be 0 or 1", i);
+}
+
+void require_fields(const text::Line& line, std::size_t least, std::size_t most) {
+  if (line.size() >= least && line.size() <= most) return;
+  throw line.error(ErrorCode::wrong_count,
+                   std::to_string(line.size()) + " fields, expected " + std::to_string(most),
+                   std::min(line.size(), most));
 }
 
 void require_end(text::FieldLines& lines, const std::string& what) {

@@ -19,6 +19,19 @@ const text::Line& header_row(text::FieldLines& lines, const std::string& path);
 const text::Line& next_row(text::FieldLines& lines, std::size_t fields, std::size_t done,
                            std::int64_t count, const std::string& what);
 
+/// The next line, with the number of what is called `what`. Throws: Error(truncated).
+const text::Line& next_header(text::FieldLines& lines, const std::string& what);
+
+/// Throws: Error(bad_header) if a header has more than `most` numbers.
+void require_header(const text::Line& line, std::size_t most);
+
+/// Whether a header's field i, 0 if it is not there, says that there are markers.
+/// Throws: Error(bad_header) unless it is 0 or 1.
+[[nodiscard]] bool read_markers(const text::Line& header, std::size_t i);
+
+/// Throws: Error(wrong_count) unless a line has as many fields.
+void require_fields(const text::Line& line, std::size_t least, std::size_t most);
+
 /// Throws: Error(wrong_count) if another line follows.
 void require_end(text::FieldLines& lines, const std::string& what);
 

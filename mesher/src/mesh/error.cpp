@@ -75,6 +75,22 @@ CodeRow row(ErrorCode code) noexcept {
       return {"cancelled", ExitCode::cancelled};
     case ErrorCode::bad_seed:
       return {"bad_seed", ExitCode::geometry};
+    case ErrorCode::bad_polygon:
+      return {"bad_polygon", ExitCode::geometry};
+    case ErrorCode::not_flat:
+      return {"not_flat", ExitCode::geometry};
+    case ErrorCode::repeated_polygon:
+      return {"repeated_polygon", ExitCode::geometry};
+    case ErrorCode::point_on_polygon:
+      return {"point_on_polygon", ExitCode::geometry};
+    case ErrorCode::segment_on_polygon:
+      return {"segment_on_polygon", ExitCode::geometry};
+    case ErrorCode::segment_through_polygon:
+      return {"segment_through_polygon", ExitCode::geometry};
+    case ErrorCode::crossing_polygons:
+      return {"crossing_polygons", ExitCode::geometry};
+    case ErrorCode::overlapping_polygons:
+      return {"overlapping_polygons", ExitCode::geometry};
   }
   return {"unknown", ExitCode::bug};
 }

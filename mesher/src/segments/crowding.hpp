@@ -12,6 +12,8 @@
 // An observation keeps a witness, one of the features that crowd the piece. So an edit that brings
 // a feature changes the answers of the pieces nearby that had none, one that takes a feature those
 // whose witness it was and that have no other; and only a changed answer runs a call again.
+//
+// So it is in the plane; what pieces are, and what crowds them, are a parameter.
 #pragma once
 
 #include <algorithm>
@@ -97,33 +99,65 @@ template <class S>
   return witness;
 }
 
-template <class S>
+/// Where a feature lies: within `slack` of the segment pq.
+template <int D>
+struct FeatureExtent {
+  Point<D> p{}, q{};
+  double slack = 0;
+};
+[[nodiscard]] inline FeatureExtent<2> extent_of(const Segment& s) { return {s.place_a, s.place_b}; }
+[[nodiscard]] inline FeatureExtent<2> extent_of(const Vertex<2>& v) { return {v.p, v.p}; }
+
+/// Pieces of segments in the plane.
+struct PlanePieces {
+  static constexpr int kDimension = 2;
+  using Piece = PieceRef;
+  using Zone = CrowdedZone;
+  using Witness = detail::Witness;
+  using Store = SegmentStore;
+  [[nodiscard]] static bool alive(const PieceRef& piece) { return piece.segment->alive; }
+};
+
+template <class S, class Kind = PlanePieces>
 class Crowding;
 
-template <>
-class Crowding<sac::PlainScope> {
+template <class Kind>
+class Crowding<sac::PlainScope, Kind> {
+  static constexpr int D = Kind::kDimension;
+
  public:
-  Crowding(const MeshBox<2>&, SegmentStore& segments, Features<sac::PlainScope>& points,
+  using Piece = typename Kind::Piece;
+  using Witness = typename Kind::Witness;
+  using Store = typename Kind::Store;
+
+  Crowding(const MeshBox<D>&, Store& segments, Features<sac::PlainScope, D>& points,
            sac::PlainScope&)
       : segments_(segments), points_(points) {}
 
-  [[nodiscard]] bool crowded(sac::PlainScope&, const PieceRef& piece) {
+  [[nodiscard]] bool crowded(sac::PlainScope&, const Piece& piece) {
     return static_cast<bool>(witness(piece));
   }
   /// Some feature that crowds the piece.
-  [[nodiscard]] Witness witness(const PieceRef& piece) {
-    return find_witness(CrowdedZone(piece), segments_, points_);
+  [[nodiscard]] Witness witness(const Piece& piece) {
+    return find_witness(typename Kind::Zone(piece), segments_, points_);
   }
 
  private:
-  SegmentStore& segments_;
-  Features<sac::PlainScope>& points_;
+  Store& segments_;
+  Features<sac::PlainScope, D>& points_;
 };
 
-template <>
-class Crowding<sac::Scope> : public sac::Structure {
+template <class Kind>
+class Crowding<sac::Scope, Kind> : public sac::Structure {
+  static constexpr int D = Kind::kDimension;
+  using Zone = typename Kind::Zone;
+
  public:
-  Crowding(const MeshBox<2>& box, SegmentStore& segments, Features<sac::Scope>& points,
+  using Piece = typename Kind::Piece;
+  using Witness = typename Kind::Witness;
+  using Store = typename Kind::Store;
+
+  Crowding(const MeshBox<D>& box, Store& segments, Features<sac::Scope, D>& points,
            sac::Engine& engine)
       : engine_(engine),
         segments_(segments),
@@ -131,21 +165,21 @@ class Crowding<sac::Scope> : public sac::Structure {
         tree_(box),
         id_(engine.add_structure(*this)) {}
 
-  [[nodiscard]] bool crowded(sac::Scope& s, const PieceRef& piece);
+  [[nodiscard]] bool crowded(sac::Scope& s, const Piece& piece);
   /// Some feature that crowds the piece.
-  [[nodiscard]] Witness witness(const PieceRef& piece) {
-    return find_witness(CrowdedZone(piece), segments_, points_);
+  [[nodiscard]] Witness witness(const Piece& piece) {
+    return find_witness(Zone(piece), segments_, points_);
   }
 
   /// Outside edits: what has come is there already, what has gone is no longer.
   /// Cost: O(log L/s), and that of a look for each piece whose witness has gone.
-  void segment_came(const Segment& t) noexcept;
-  void segment_went(const Segment& t) noexcept;
-  void point_came(const Vertex<2>& v) noexcept;
-  void point_went(const Vertex<2>& v) noexcept;
+  template <class Feature>
+  void came(const Feature& f) noexcept;
+  template <class Feature>
+  void went(const Feature& f) noexcept;
   /// Called by who edits the limits of size in `where`: who asks whether a piece is crowded asks
   /// about the limits in the box around its ball, too.
-  void limits_changed(const Box<2>& where) noexcept;
+  void limits_changed(const Box<D>& where) noexcept;
 
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
   [[nodiscard]] bool unchanged(sac::Call& call, sac::Edge& edge) override;
@@ -162,25 +196,43 @@ class Crowding<sac::Scope> : public sac::Structure {
   struct CrowdedEdge : sac::Edge {
     sac::Handle call;
     Witness witness;  // of now
-    PieceRef piece;
+    Piece piece;
     bool seen;    // the answer that the call had
     bool listed;  // in tree_
   };
   [[nodiscard]] CrowdedEdge& at(sac::Handle h) const noexcept {
     return *engine_.arena().at<CrowdedEdge>(h);
   }
-  [[nodiscard]] Witness find_weighed(sac::Scope& s, const CrowdedZone& zone);
+  [[nodiscard]] Witness find_weighed(sac::Scope& s, const Zone& zone);
   void turn(CrowdedEdge& edge, Witness witness) noexcept;
-  template <class Feature>
-  void came(const Feature& f, const Point<2>& p, const Point<2>& q) noexcept;
-  template <class Feature>
-  void went(const Feature& f, const Point<2>& p, const Point<2>& q) noexcept;
 
   sac::Engine& engine_;
-  SegmentStore& segments_;
-  Features<sac::Scope>& points_;
-  ReachTree<sac::Handle> tree_;  // of the observations, by the zones
+  Store& segments_;
+  Features<sac::Scope, D>& points_;
+  ReachTree<sac::Handle, D> tree_;  // of the observations, by the zones
   std::uint8_t id_;
 };
+
+template <class Kind>
+template <class Feature>
+void Crowding<sac::Scope, Kind>::came(const Feature& f) noexcept {
+  if (tree_.size() == 0) return;
+  const FeatureExtent<D> where = extent_of(f);
+  tree_.visit_near(where.p, where.q, where.slack, [&](sac::Handle h) {
+    CrowdedEdge& edge = at(h);
+    if (!edge.witness && Zone(edge.piece).has(f)) turn(edge, Witness(f));
+  });
+}
+
+template <class Kind>
+template <class Feature>
+void Crowding<sac::Scope, Kind>::went(const Feature& f) noexcept {
+  if (tree_.size() == 0) return;
+  const FeatureExtent<D> where = extent_of(f);
+  tree_.visit_near(where.p, where.q, where.slack, [&](sac::Handle h) {
+    CrowdedEdge& edge = at(h);
+    if (edge.witness == Witness(f)) turn(edge, witness(edge.piece));
+  });
+}
 
 }  // namespace mesher::detail

@@ -15,14 +15,14 @@ using Traced = InputSegments<sac::Scope>;
 
 void Traced::put(Segment& s) {
   store_.put(s);
-  crowding_.segment_came(s);
+  crowding_.came(s);
   shells_.segment_changed(s);
   legs_changed(s);
 }
 
 void Traced::take(Segment& s) noexcept {
   store_.take(s);
-  crowding_.segment_went(s);
+  crowding_.went(s);
   shells_.segment_changed(s);
   legs_changed(s);
 }
@@ -57,12 +57,12 @@ PieceRef Traced::erase(VertexHandle a, VertexHandle b) {
 }
 
 void Traced::point_came(const Vertex<2>& v) noexcept {
-  crowding_.point_came(v);
+  crowding_.came(v);
   shells_.feature_changed(v.p, v.p);
 }
 
 void Traced::point_went(const Vertex<2>& v) noexcept {
-  crowding_.point_went(v);
+  crowding_.went(v);
   shells_.feature_changed(v.p, v.p);
 }
 

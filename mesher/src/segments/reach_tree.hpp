@@ -26,97 +26,116 @@
 namespace mesher::detail {
 
 /// Distances from the segment pq (p = q: a point).
+template <int D>
 class FromSegment {
  public:
-  FromSegment(const Point<2>& p, const Point<2>& q) : p_(p), along_{q[0] - p[0], q[1] - p[1]} {
-    length2_ = along_[0] * along_[0] + along_[1] * along_[1];
+  FromSegment(const Point<D>& p, const Point<D>& q) : p_(p) {
+    for (int i = 0; i < D; ++i) along_[i] = q[i] - p[i];
+    length2_ = squared(along_);
   }
 
   /// The distance of x, but for rounding.
-  [[nodiscard]] double distance(const Point<2>& x) const noexcept {
-    const double dx = x[0] - p_[0], dy = x[1] - p_[1];
-    const double t = length2_ > 0 ? (dx * along_[0] + dy * along_[1]) / length2_ : 0;
-    const double at = std::clamp(t, 0.0, 1.0);
-    return length(dx - at * along_[0], dy - at * along_[1]);
-  }
-  /// At most the distance of the square [lo, lo + side]^2.
-  [[nodiscard]] double distance(const Point<2>& lo, double side) const noexcept {
-    if (length2_ > 0) {
-      return distance(Point<2>{lo[0] + side / 2, lo[1] + side / 2}) - 0.7072 * side;
+  [[nodiscard]] double distance(const Point<D>& x) const noexcept {
+    Point<D> from_p;
+    double along = 0;
+    for (int i = 0; i < D; ++i) {
+      from_p[i] = x[i] - p_[i];
+      along += from_p[i] * along_[i];
     }
-    const auto beyond = [&](int i) { return std::max({lo[i] - p_[i], p_[i] - lo[i] - side, 0.0}); };
-    return length(beyond(0), beyond(1));
+    const double at = length2_ > 0 ? std::clamp(along / length2_, 0.0, 1.0) : 0;
+    for (int i = 0; i < D; ++i) from_p[i] -= at * along_[i];
+    return std::sqrt(squared(from_p));
+  }
+  /// At most the distance of the cube [lo, lo + side]^D.
+  [[nodiscard]] double distance(const Point<D>& lo, double side) const noexcept {
+    Point<D> x;
+    if (length2_ > 0) {
+      for (int i = 0; i < D; ++i) x[i] = lo[i] + side / 2;
+      return distance(x) - kHalfDiagonal * side;
+    }
+    for (int i = 0; i < D; ++i) x[i] = std::max({lo[i] - p_[i], p_[i] - lo[i] - side, 0.0});
+    return std::sqrt(squared(x));
   }
 
  private:
-  static double length(double x, double y) noexcept { return std::sqrt(x * x + y * y); }
+  static_assert(D == 2 || D == 3);
+  static constexpr double kHalfDiagonal = D == 2 ? 0.7072 : 0.8661;  // of a unit cube, and more
 
-  Point<2> p_, along_;
+  static double squared(const Point<D>& x) noexcept {
+    double sum = 0;
+    for (int i = 0; i < D; ++i) sum += x[i] * x[i];
+    return sum;
+  }
+
+  Point<D> p_, along_;
   double length2_;
 };
 
-template <class Item>
+template <class Item, int D = 2>
 class ReachTree {
   static_assert(std::is_trivially_copyable_v<Item>);
 
  public:
-  explicit ReachTree(const MeshBox<2>& box)
+  explicit ReachTree(const MeshBox<D>& box)
       : box_(box), unit_(box.cell_side(kLevels)), nodes_(1), entries_(1) {}
 
   /// Adds an item; others may have its place, and it may have others. Requires: reach >= 0, finite.
   /// Throws: std::bad_alloc, and then changes nothing. Cost: O(depth), at most kLevels.
-  void insert(const Point<2>& place, double reach, const Item& item);
+  void insert(const Point<D>& place, double reach, const Item& item);
 
   /// Requires: the item was inserted with this place. Cost: O(depth, and items in its finest cell).
-  void erase(const Point<2>& place, const Item& item) noexcept;
+  void erase(const Point<D>& place, const Item& item) noexcept;
 
   /// Visits all items whose discs are within `slack` of the segment pq, and few others, until
   /// visit(item) returns true (or all, if it returns nothing). Returns whether it did.
   template <class Visit>
-  bool visit_near(const Point<2>& p, const Point<2>& q, double slack, Visit&& visit) const {
-    const FromSegment segment(p, q);
+  bool visit_near(const Point<D>& p, const Point<D>& q, double slack, Visit&& visit) const {
+    const FromSegment<D> segment(p, q);
     return visit_where(
-        [&](const Point<2>& lo, double side, double reach) {
+        [&](const Point<D>& lo, double side, double reach) {
           return segment.distance(lo, side) <= slack + reach + margin();
         },
-        [&](const Point<2>& x, double reach) {
+        [&](const Point<D>& x, double reach) {
           return segment.distance(x) <= slack + reach + margin();
         },
         visit);
   }
   /// The same for the items whose discs meet the point p.
   template <class Visit>
-  bool visit_at(const Point<2>& p, Visit&& visit) const {
+  bool visit_at(const Point<D>& p, Visit&& visit) const {
     return visit_near(p, p, 0, visit);
   }
   /// The same for the items whose places (whatever they reach) lie in the closed box.
   template <class Visit>
-  bool visit_in(const Box<2>& box, Visit&& visit) const {
-    const auto beside = [&](const Point<2>& lo, double side, int i) {
-      return lo[i] > box.hi[i] + margin() || lo[i] + side < box.lo[i] - margin();
+  bool visit_in(const Box<D>& box, Visit&& visit) const {
+    const auto meets = [&](const Point<D>& lo, double side) {
+      for (int i = 0; i < D; ++i) {
+        if (lo[i] > box.hi[i] + margin() || lo[i] + side < box.lo[i] - margin()) return false;
+      }
+      return true;
     };
     return visit_where(
-        [&](const Point<2>& lo, double side, double) {
-          return !beside(lo, side, 0) && !beside(lo, side, 1);
-        },
-        [&](const Point<2>& x, double) { return !beside(x, 0, 0) && !beside(x, 0, 1); }, visit);
+        [&](const Point<D>& lo, double side, double) { return meets(lo, side); },
+        [&](const Point<D>& x, double) { return meets(x, 0); }, visit);
   }
   /// The same for the items whose boxes around their discs meet the box.
   template <class Visit>
-  bool visit_beside(const Box<2>& box, Visit&& visit) const {
-    const auto meets = [&](const Point<2>& lo, double side, double reach) {
+  bool visit_beside(const Box<D>& box, Visit&& visit) const {
+    const auto meets = [&](const Point<D>& lo, double side, double reach) {
       const double r = reach + margin();
-      return lo[0] - r <= box.hi[0] && box.lo[0] <= lo[0] + side + r && lo[1] - r <= box.hi[1] &&
-             box.lo[1] <= lo[1] + side + r;
+      for (int i = 0; i < D; ++i) {
+        if (lo[i] - r > box.hi[i] || box.lo[i] > lo[i] + side + r) return false;
+      }
+      return true;
     };
     return visit_where(
-        meets, [&](const Point<2>& x, double reach) { return meets(x, 0, reach); }, visit);
+        meets, [&](const Point<D>& x, double reach) { return meets(x, 0, reach); }, visit);
   }
   /// Visits all items.
   template <class Visit>
   bool visit_all(Visit&& visit) const {
-    return visit_where([](const Point<2>&, double, double) { return true; },
-                       [](const Point<2>&, double) { return true; }, visit);
+    return visit_where([](const Point<D>&, double, double) { return true; },
+                       [](const Point<D>&, double) { return true; }, visit);
   }
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
@@ -130,22 +149,23 @@ class ReachTree {
   void check_invariants() const;
 
  private:
+  static constexpr int kChildren = 1 << D;
   using Link = std::uint32_t;  // 0 nothing; kList | entry; node
   static constexpr Link kList = 0x80000000u;
   // Lists of up to so many items that do not share a finest cell; merged again at half as many.
   static constexpr std::uint32_t kMost = 6;
 
   struct Entry {
-    Point<2> place{};
+    Point<D> place{};
     Item item{};
     float reach = 0;
     Link next = 0;            // 0: the last; in a free one: the next free one
     std::uint32_t count = 0;  // of the first in a list: how long that is
   };
   struct Node {
-    Fixed<2> corner{};
-    std::array<Link, 4> child{};  // in a free one: [0] is the next free one
-    std::array<float, 4> reach{};
+    Fixed<D> corner{};
+    std::array<Link, kChildren> child{};  // in a free one: [0] is the next free one
+    std::array<float, kChildren> reach{};
     int level = 0;  // its children are of the next level
   };
   // Where a link is stored: in a node, or at the root (node 0).
@@ -167,18 +187,20 @@ class ReachTree {
     return double{f} < reach ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
   }
   // The level of the smallest cell that holds both.
-  [[nodiscard]] static int common_level(const Fixed<2>& a, const Fixed<2>& b) noexcept {
-    return kLevels - static_cast<int>(std::bit_width((a[0] ^ b[0]) | (a[1] ^ b[1])));
+  [[nodiscard]] static int common_level(const Fixed<D>& a, const Fixed<D>& b) noexcept {
+    std::uint64_t differ = 0;
+    for (int i = 0; i < D; ++i) differ |= a[i] ^ b[i];
+    return kLevels - static_cast<int>(std::bit_width(differ));
   }
   [[nodiscard]] static bool is_list(Link link) noexcept { return (link & kList) != 0; }
-  [[nodiscard]] static bool holds(const Node& n, const Fixed<2>& f) noexcept {
+  [[nodiscard]] static bool holds(const Node& n, const Fixed<D>& f) noexcept {
     return common_level(n.corner, f) >= n.level;
   }
-  [[nodiscard]] Fixed<2> fixed_of(Link list) const noexcept {
+  [[nodiscard]] Fixed<D> fixed_of(Link list) const noexcept {
     return box_.fixed(entries_[list & ~kList].place);
   }
   [[nodiscard]] Link& at(const Slot& s) noexcept { return nodes_[s.node].child[s.child]; }
-  [[nodiscard]] Path descend(const Fixed<2>& f) const noexcept;
+  [[nodiscard]] Path descend(const Fixed<D>& f) const noexcept;
   [[nodiscard]] static float reach_of(const Node& n) noexcept {
     return *std::max_element(n.reach.begin(), n.reach.end());
   }
@@ -189,13 +211,13 @@ class ReachTree {
   [[nodiscard]] int list_level(Link list) const noexcept;
 
   void make_room();
-  [[nodiscard]] Link new_node(const Fixed<2>& f, int level) noexcept;
-  [[nodiscard]] Link new_entry(const Point<2>& place, float reach, const Item& item) noexcept;
+  [[nodiscard]] Link new_node(const Fixed<D>& f, int level) noexcept;
+  [[nodiscard]] Link new_entry(const Point<D>& place, float reach, const Item& item) noexcept;
   void free_node(Link node) noexcept;
   void push_front(Link& list, Link entry) noexcept;
   void split(const Slot& s, int level) noexcept;
-  void put_above(const Slot& s, int level, const Fixed<2>& f, Link entry) noexcept;
-  void unlink(Link& list, const Point<2>& place, const Item& item) noexcept;
+  void put_above(const Slot& s, int level, const Fixed<D>& f, Link entry) noexcept;
+  void unlink(Link& list, const Point<D>& place, const Item& item) noexcept;
   [[nodiscard]] Link shrunk(Link node) noexcept;
 
   template <class Enter, class Take, class Visit>
@@ -206,10 +228,10 @@ class ReachTree {
     std::size_t nodes = 0, entries = 0;
     float reach = 0;
   };
-  [[nodiscard]] Below check_below(Link link, const Cell<2>& cell) const;
-  [[nodiscard]] Below check_list(Link list, const Cell<2>& cell) const;
+  [[nodiscard]] Below check_below(Link link, const Cell<D>& cell) const;
+  [[nodiscard]] Below check_list(Link list, const Cell<D>& cell) const;
 
-  const MeshBox<2>& box_;
+  const MeshBox<D>& box_;
   double unit_;              // the side of a finest cell
   std::vector<Node> nodes_;  // the first holds the root as its first child
   std::vector<Entry> entries_;
@@ -221,9 +243,9 @@ class ReachTree {
 
 // --- Searches --------------------------------------------------------------------------------
 
-template <class Item>
+template <class Item, int D>
 template <class Take, class Visit>
-bool ReachTree<Item>::visit_list(Link list, Take& take, Visit& visit) const {
+bool ReachTree<Item, D>::visit_list(Link list, Take& take, Visit& visit) const {
   for (Link e = list & ~kList; e != 0; e = entries_[e].next) {
     const Entry& entry = entries_[e];
     ++looked_at_;
@@ -237,11 +259,11 @@ bool ReachTree<Item>::visit_list(Link list, Take& take, Visit& visit) const {
   return false;
 }
 
-// A block on the way leaves at most three of its children behind on the stack.
-template <class Item>
+// A block on the way leaves all but one of its children behind on the stack.
+template <class Item, int D>
 template <class Enter, class Take, class Visit>
-bool ReachTree<Item>::visit_where(Enter&& enter, Take&& take, Visit&& visit) const {
-  std::array<Link, 3 * (kLevels + 1) + 1> stack;
+bool ReachTree<Item, D>::visit_where(Enter&& enter, Take&& take, Visit&& visit) const {
+  std::array<Link, (kChildren - 1) * (kLevels + 1) + 1> stack;
   int top = 0;
   stack[top++] = nodes_[0].child[0];
   while (top > 0) {
@@ -254,10 +276,10 @@ bool ReachTree<Item>::visit_where(Enter&& enter, Take&& take, Visit&& visit) con
     const Node& n = nodes_[link];
     ++looked_at_;
     const double side = unit_ * static_cast<double>(std::uint64_t{1} << (kLevels - 1 - n.level));
-    for (int c = 0; c < 4; ++c) {
+    for (int c = 0; c < kChildren; ++c) {
       if (n.child[c] == 0) continue;
-      Point<2> lo;
-      for (int i = 0; i < 2; ++i) {
+      Point<D> lo;
+      for (int i = 0; i < D; ++i) {
         lo[i] = box_.lo[i] + static_cast<double>(n.corner[i]) * unit_ + (c >> i & 1) * side;
       }
       if (enter(lo, side, double{n.reach[c]})) stack[top++] = n.child[c];
@@ -268,22 +290,22 @@ bool ReachTree<Item>::visit_where(Enter&& enter, Take&& take, Visit&& visit) con
 
 // The slots from the root to the one in which a place belongs: it is empty, holds a list, or a node
 // of which the place lies outside.
-template <class Item>
-typename ReachTree<Item>::Path ReachTree<Item>::descend(const Fixed<2>& f) const noexcept {
+template <class Item, int D>
+typename ReachTree<Item, D>::Path ReachTree<Item, D>::descend(const Fixed<D>& f) const noexcept {
   Path path;
   for (;;) {
     const Slot& s = path.last();
     const Link link = nodes_[s.node].child[s.child];
     if (link == 0 || is_list(link) || !holds(nodes_[link], f)) return path;
-    path.push({link, MeshBox<2>::child_of(f, nodes_[link].level)});
+    path.push({link, MeshBox<D>::child_of(f, nodes_[link].level)});
   }
 }
 
 // --- Insertion -------------------------------------------------------------------------------
 
 // Vectors grow by half; what is reserved here is all that an insertion takes.
-template <class Item>
-void ReachTree<Item>::make_room() {
+template <class Item, int D>
+void ReachTree<Item, D>::make_room() {
   const auto grow = [](auto& v, Link free) {
     if (free == 0 && v.size() == v.capacity()) v.reserve(v.size() + v.size() / 2 + 1);
   };
@@ -291,8 +313,8 @@ void ReachTree<Item>::make_room() {
   grow(entries_, free_entries_);
 }
 
-template <class Item>
-typename ReachTree<Item>::Link ReachTree<Item>::new_node(const Fixed<2>& f, int level) noexcept {
+template <class Item, int D>
+typename ReachTree<Item, D>::Link ReachTree<Item, D>::new_node(const Fixed<D>& f, int level) noexcept {
   Link n = free_nodes_;
   if (n != 0) {
     free_nodes_ = nodes_[n].child[0];
@@ -300,12 +322,12 @@ typename ReachTree<Item>::Link ReachTree<Item>::new_node(const Fixed<2>& f, int 
     n = static_cast<Link>(nodes_.size());
     nodes_.emplace_back();
   }
-  nodes_[n] = Node{.corner = MeshBox<2>::cell(f, level).corner, .level = level};
+  nodes_[n] = Node{.corner = MeshBox<D>::cell(f, level).corner, .level = level};
   return n;
 }
 
-template <class Item>
-typename ReachTree<Item>::Link ReachTree<Item>::new_entry(const Point<2>& place, float reach,
+template <class Item, int D>
+typename ReachTree<Item, D>::Link ReachTree<Item, D>::new_entry(const Point<D>& place, float reach,
                                                           const Item& item) noexcept {
   Link e = free_entries_;
   if (e != 0) {
@@ -318,15 +340,15 @@ typename ReachTree<Item>::Link ReachTree<Item>::new_entry(const Point<2>& place,
   return e;
 }
 
-template <class Item>
-void ReachTree<Item>::push_front(Link& list, Link entry) noexcept {
+template <class Item, int D>
+void ReachTree<Item, D>::push_front(Link& list, Link entry) noexcept {
   entries_[entry].count = count_of(list) + 1;
   entries_[entry].next = list & ~kList;
   list = kList | entry;
 }
 
-template <class Item>
-float ReachTree<Item>::reach_of(Link link) const noexcept {
+template <class Item, int D>
+float ReachTree<Item, D>::reach_of(Link link) const noexcept {
   if (!is_list(link)) return link == 0 ? 0 : reach_of(nodes_[link]);
   float reach = 0;
   for (Link e = link & ~kList; e != 0; e = entries_[e].next) {
@@ -336,9 +358,9 @@ float ReachTree<Item>::reach_of(Link link) const noexcept {
 }
 
 // The level of the smallest cell that holds the list.
-template <class Item>
-int ReachTree<Item>::list_level(Link list) const noexcept {
-  const Fixed<2> first = fixed_of(list);
+template <class Item, int D>
+int ReachTree<Item, D>::list_level(Link list) const noexcept {
+  const Fixed<D> first = fixed_of(list);
   int level = kLevels;
   for (Link e = entries_[list & ~kList].next; e != 0; e = entries_[e].next) {
     level = std::min(level, common_level(first, fixed_of(e)));
@@ -347,12 +369,12 @@ int ReachTree<Item>::list_level(Link list) const noexcept {
 }
 
 // The list in the slot goes into lists below a node of this level.
-template <class Item>
-void ReachTree<Item>::split(const Slot& s, int level) noexcept {
+template <class Item, int D>
+void ReachTree<Item, D>::split(const Slot& s, int level) noexcept {
   const Link node = new_node(fixed_of(at(s)), level);
   for (Link e = at(s) & ~kList; e != 0;) {
     const Link next = entries_[e].next;
-    const int c = MeshBox<2>::child_of(fixed_of(e), level);
+    const int c = MeshBox<D>::child_of(fixed_of(e), level);
     nodes_[node].reach[c] = std::max(nodes_[node].reach[c], entries_[e].reach);
     push_front(nodes_[node].child[c], e);
     e = next;
@@ -361,14 +383,14 @@ void ReachTree<Item>::split(const Slot& s, int level) noexcept {
 }
 
 // What is in the slot, and beside it the entry, which is at `f`, go below a node of this level.
-template <class Item>
-void ReachTree<Item>::put_above(const Slot& s, int level, const Fixed<2>& f, Link entry) noexcept {
+template <class Item, int D>
+void ReachTree<Item, D>::put_above(const Slot& s, int level, const Fixed<D>& f, Link entry) noexcept {
   const Link old = at(s);
-  const Fixed<2> corner = is_list(old) ? fixed_of(old) : nodes_[old].corner;
+  const Fixed<D> corner = is_list(old) ? fixed_of(old) : nodes_[old].corner;
   const Link node = new_node(f, level);
   Node& n = nodes_[node];
-  const int there = MeshBox<2>::child_of(corner, level);
-  const int here = MeshBox<2>::child_of(f, level);
+  const int there = MeshBox<D>::child_of(corner, level);
+  const int here = MeshBox<D>::child_of(f, level);
   n.child[there] = old;
   n.reach[there] = reach_of(old);
   n.reach[here] = entries_[entry].reach;
@@ -376,11 +398,11 @@ void ReachTree<Item>::put_above(const Slot& s, int level, const Fixed<2>& f, Lin
   at(s) = node;
 }
 
-template <class Item>
-void ReachTree<Item>::insert(const Point<2>& place, double reach, const Item& item) {
+template <class Item, int D>
+void ReachTree<Item, D>::insert(const Point<D>& place, double reach, const Item& item) {
   SAC_EXPECTS(reach >= 0);
   make_room();
-  const Fixed<2> f = box_.fixed(place);
+  const Fixed<D> f = box_.fixed(place);
   const float up = rounded_up(reach);
   const Path path = descend(f);
   const Slot s = path.last();
@@ -404,13 +426,13 @@ void ReachTree<Item>::insert(const Point<2>& place, double reach, const Item& it
 
 // --- Removal ---------------------------------------------------------------------------------
 
-template <class Item>
-void ReachTree<Item>::free_node(Link node) noexcept {
+template <class Item, int D>
+void ReachTree<Item, D>::free_node(Link node) noexcept {
   nodes_[node].child[0] = std::exchange(free_nodes_, node);
 }
 
-template <class Item>
-void ReachTree<Item>::unlink(Link& list, const Point<2>& place, const Item& item) noexcept {
+template <class Item, int D>
+void ReachTree<Item, D>::unlink(Link& list, const Point<D>& place, const Item& item) noexcept {
   const std::uint32_t left = count_of(list) - 1;
   Link before = 0;
   Link e = list & ~kList;
@@ -427,9 +449,9 @@ void ReachTree<Item>::unlink(Link& list, const Point<2>& place, const Item& item
 }
 
 // What stands for a node that has lost an item: an only child, one list for few items, or itself.
-template <class Item>
-typename ReachTree<Item>::Link ReachTree<Item>::shrunk(Link node) noexcept {
-  const std::array<Link, 4> children = nodes_[node].child;
+template <class Item, int D>
+typename ReachTree<Item, D>::Link ReachTree<Item, D>::shrunk(Link node) noexcept {
+  const std::array<Link, kChildren> children = nodes_[node].child;
   Link only = 0;
   std::uint32_t count = 0;
   int used = 0;
@@ -450,8 +472,8 @@ typename ReachTree<Item>::Link ReachTree<Item>::shrunk(Link node) noexcept {
   return merged;
 }
 
-template <class Item>
-void ReachTree<Item>::erase(const Point<2>& place, const Item& item) noexcept {
+template <class Item, int D>
+void ReachTree<Item, D>::erase(const Point<D>& place, const Item& item) noexcept {
   const Path path = descend(box_.fixed(place));
   unlink(at(path.last()), place, item);
   for (int i = path.depth; i >= 0; --i) {
@@ -464,9 +486,9 @@ void ReachTree<Item>::erase(const Point<2>& place, const Item& item) noexcept {
 
 // --- Checks ----------------------------------------------------------------------------------
 
-template <class Item>
-void ReachTree<Item>::check_invariants() const {
-  const Below all = check_below(nodes_[0].child[0], Cell<2>{});
+template <class Item, int D>
+void ReachTree<Item, D>::check_invariants() const {
+  const Below all = check_below(nodes_[0].child[0], Cell<D>{});
   SAC_INVARIANT(all.entries == size_ && all.reach == nodes_[0].reach[0]);
   std::size_t free = 0;
   for (Link n = free_nodes_; n != 0; n = nodes_[n].child[0]) ++free;
@@ -476,11 +498,11 @@ void ReachTree<Item>::check_invariants() const {
   SAC_INVARIANT(all.entries + free + 1 == entries_.size());
 }
 
-template <class Item>
-typename ReachTree<Item>::Below ReachTree<Item>::check_list(Link list, const Cell<2>& cell) const {
+template <class Item, int D>
+typename ReachTree<Item, D>::Below ReachTree<Item, D>::check_list(Link list, const Cell<D>& cell) const {
   Below below;
   for (Link e = list & ~kList; e != 0; e = entries_[e].next) {
-    SAC_INVARIANT(MeshBox<2>::cell(fixed_of(e), cell.level) == cell);
+    SAC_INVARIANT(MeshBox<D>::cell(fixed_of(e), cell.level) == cell);
     below.reach = std::max(below.reach, entries_[e].reach);
     ++below.entries;
   }
@@ -489,19 +511,19 @@ typename ReachTree<Item>::Below ReachTree<Item>::check_list(Link list, const Cel
   return below;
 }
 
-template <class Item>
-typename ReachTree<Item>::Below ReachTree<Item>::check_below(Link link, const Cell<2>& cell) const {
+template <class Item, int D>
+typename ReachTree<Item, D>::Below ReachTree<Item, D>::check_below(Link link, const Cell<D>& cell) const {
   if (link == 0) return {};
   if (is_list(link)) return check_list(link, cell);
   const Node& n = nodes_[link];
   SAC_INVARIANT(n.level >= cell.level && n.level < kLevels);
-  SAC_INVARIANT(MeshBox<2>::cell(n.corner, cell.level) == cell);
-  SAC_INVARIANT(MeshBox<2>::cell(n.corner, n.level).corner == n.corner);
+  SAC_INVARIANT(MeshBox<D>::cell(n.corner, cell.level) == cell);
+  SAC_INVARIANT(MeshBox<D>::cell(n.corner, n.level).corner == n.corner);
   Below below{1, 0, 0};
   int used = 0;
-  for (int c = 0; c < 4; ++c) {
-    Cell<2> inner{n.corner, n.level + 1};
-    for (int i = 0; i < 2; ++i) {
+  for (int c = 0; c < kChildren; ++c) {
+    Cell<D> inner{n.corner, n.level + 1};
+    for (int i = 0; i < D; ++i) {
       inner.corner[i] |= static_cast<std::uint64_t>(c >> i & 1) << (kLevels - inner.level);
     }
     const Below there = check_below(n.child[c], inner);

@@ -22,10 +22,11 @@ namespace mesher::detail {
 using SegmentHandle = std::uint32_t;  // 0: none
 
 /// A segment between two input points, `a` the lexicographically smaller one.
-struct Segment {
+template <int D>
+struct SegmentOf {
   VertexHandle a = 0;
   VertexHandle b = 0;
-  Point<2> place_a{}, place_b{};
+  Point<D> place_a{}, place_b{};
   double length = 0;               // |ab|, rounded once
   SegmentHandle self = 0;          // in a free record: the next free one
   bool alive = false;              // part of the input that is being meshed
@@ -39,6 +40,7 @@ struct Segment {
   [[nodiscard]] VertexHandle other(VertexHandle end) const noexcept { return end == a ? b : a; }
   [[nodiscard]] bool has_end(VertexHandle v) const noexcept { return v == a || v == b; }
 };
+using Segment = SegmentOf<2>;
 
 /// A place on a segment: a distance >= 0 from a, or from b. The sign bit says from which.
 class Label {
@@ -94,24 +96,28 @@ struct Piece {
 };
 
 /// Records at fixed addresses, addressed by handles; freed ones are used again.
-class SegmentPool {
+template <int D>
+class SegmentPoolOf {
  public:
-  SegmentPool() { chunks_.push_back(std::make_unique<Segment[]>(kChunk)); }
+  using Segment = SegmentOf<D>;
+
+  SegmentPoolOf() { chunks_.push_back(std::make_unique<Segment[]>(kChunk)); }
 
   [[nodiscard]] Segment& operator[](SegmentHandle h) const noexcept {
     return chunks_[h / kChunk][h % kChunk];
   }
   /// Throws: std::bad_alloc, and then changes nothing.
   /// Requires: a.p < b.p.
-  [[nodiscard]] Segment& create(const Vertex<2>& a, const Vertex<2>& b) {
+  [[nodiscard]] Segment& create(const Vertex<D>& a, const Vertex<D>& b) {
     const SegmentHandle h = free_ != 0 ? free_ : fresh();
     free_ = (*this)[h].self;
-    const double x = b.p[0] - a.p[0], y = b.p[1] - a.p[1];
+    double length2 = 0;
+    for (int i = 0; i < D; ++i) length2 += (b.p[i] - a.p[i]) * (b.p[i] - a.p[i]);
     Segment& s = (*this)[h] = Segment{.a = a.self,
                                       .b = b.self,
                                       .place_a = a.p,
                                       .place_b = b.p,
-                                      .length = std::sqrt(x * x + y * y),
+                                      .length = std::sqrt(length2),
                                       .self = h};
     ++size_;
     return s;
@@ -148,6 +154,7 @@ class SegmentPool {
   SegmentHandle next_ = 1;
   std::size_t size_ = 0;
 };
+using SegmentPool = SegmentPoolOf<2>;
 
 /// Where a place on a segment is: measured from the nearer end; an end is where it is, bit for bit.
 [[nodiscard]] inline Point<2> place_of(const Segment& s, const Label& label) {

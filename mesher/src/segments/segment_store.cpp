@@ -4,22 +4,27 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/space_distances.hpp"
+
 namespace mesher::detail {
 
 // --- Records ---------------------------------------------------------------------------------
 
-const Segment* SegmentStore::find(VertexHandle a, VertexHandle b) const {
+template <int D>
+const SegmentOf<D>* SegmentStoreOf<D>::find(VertexHandle a, VertexHandle b) const {
   const SegmentHandle h = by_ends_.find(ends(a, b));
   return h != 0 && pool_[h].alive ? &pool_[h] : nullptr;
 }
 
-void SegmentStore::touch(Segment& s) noexcept {
+template <int D>
+void SegmentStoreOf<D>::touch(Segment& s) noexcept {
   if (s.changed) return;
   s.changed = true;
   s.next_changed = std::exchange(changed_, s.self);
 }
 
-Segment& SegmentStore::record(VertexHandle a, VertexHandle b) {
+template <int D>
+SegmentOf<D>& SegmentStoreOf<D>::record(VertexHandle a, VertexHandle b) {
   SegmentHandle h = by_ends_.find(ends(a, b));
   if (h == 0) {
     const bool in_order = points_[a].p < points_[b].p;
@@ -37,7 +42,8 @@ Segment& SegmentStore::record(VertexHandle a, VertexHandle b) {
 }
 
 // The lists at the ends are there, though empty, before anything is put into them.
-void SegmentStore::put(Segment& s) {
+template <int D>
+void SegmentStoreOf<D>::put(Segment& s) {
   SAC_EXPECTS(!s.alive);
   const TileHandle tile = new_tile(Tile{.segment = s.self});
   try {
@@ -57,12 +63,14 @@ void SegmentStore::put(Segment& s) {
   ++live_;
 }
 
-void SegmentStore::drop_if_empty(VertexHandle end) noexcept {
+template <int D>
+void SegmentStoreOf<D>::drop_if_empty(VertexHandle end) noexcept {
   const auto it = at_.find(end);
   if (it != at_.end() && it->second == 0) at_.erase(it);
 }
 
-void SegmentStore::leave(Segment& s, VertexHandle end) noexcept {
+template <int D>
+void SegmentStoreOf<D>::leave(Segment& s, VertexHandle end) noexcept {
   const auto it = at_.find(end);
   SegmentHandle* link = &it.value();
   while (*link != s.self) link = &link_at(pool_[*link], end);
@@ -70,7 +78,8 @@ void SegmentStore::leave(Segment& s, VertexHandle end) noexcept {
   drop_if_empty(end);
 }
 
-void SegmentStore::take(Segment& s) noexcept {
+template <int D>
+void SegmentStoreOf<D>::take(Segment& s) noexcept {
   leave(s, s.a);
   leave(s, s.b);
   for (TileHandle t = std::exchange(s.tile, 0); t != 0;) {
@@ -84,7 +93,8 @@ void SegmentStore::take(Segment& s) noexcept {
   --live_;
 }
 
-void SegmentStore::commit() noexcept {
+template <int D>
+void SegmentStoreOf<D>::commit() noexcept {
   for (SegmentHandle h = std::exchange(changed_, 0); h != 0;) {
     Segment& s = pool_[h];
     h = std::exchange(s.next_changed, 0);
@@ -97,12 +107,15 @@ void SegmentStore::commit() noexcept {
 
 // --- Tiles -----------------------------------------------------------------------------------
 
-Point<2> SegmentStore::at(const Segment& s, double fraction) const noexcept {
-  const auto& [a, b] = std::pair(s.place_a, s.place_b);
-  return {a[0] + fraction * (b[0] - a[0]), a[1] + fraction * (b[1] - a[1])};
+template <int D>
+Point<D> SegmentStoreOf<D>::at(const Segment& s, double fraction) const noexcept {
+  Point<D> p;
+  for (int i = 0; i < D; ++i) p[i] = s.place_a[i] + fraction * (s.place_b[i] - s.place_a[i]);
+  return p;
 }
 
-SegmentStore::TileHandle SegmentStore::new_tile(const Tile& tile) {
+template <int D>
+typename SegmentStoreOf<D>::TileHandle SegmentStoreOf<D>::new_tile(const Tile& tile) {
   if (free_tiles_ == 0) {
     if (tiles_.size() == tiles_.capacity()) tiles_.reserve(tiles_.size() + tiles_.size() / 2 + 1);
     tiles_.push_back(tile);
@@ -114,21 +127,25 @@ SegmentStore::TileHandle SegmentStore::new_tile(const Tile& tile) {
   return t;
 }
 
-void SegmentStore::free_tile(TileHandle t) noexcept {
+template <int D>
+void SegmentStoreOf<D>::free_tile(TileHandle t) noexcept {
   tiles_[t] = Tile{.next = std::exchange(free_tiles_, t)};
 }
 
 // A search of pq that has met the tile's disc, but is far from the tile.
-bool SegmentStore::is_needless(const Tile& t, const Point<2>& p, const Point<2>& q,
+template <int D>
+bool SegmentStoreOf<D>::is_needless(const Tile& t, const Point<D>& p, const Point<D>& q,
                                double slack) const noexcept {
-  const double long_side = std::max(std::abs(q[0] - p[0]), std::abs(q[1] - p[1]));
+  double long_side = 0;
+  for (int i = 0; i < D; ++i) long_side = std::max(long_side, std::abs(q[i] - p[i]));
   if (length(t) <= kLong * (long_side + 2 * slack) || length(t) < box_.side * 0x1p-40) return false;
   const Segment& s = pool_[t.segment];
   return distance2(at(s, t.lo), at(s, t.hi), p, q) > slack * slack;
 }
 
 // The lower half keeps the tile's handle.
-void SegmentStore::halve(TileHandle t) {
+template <int D>
+void SegmentStoreOf<D>::halve(TileHandle t) {
   const Tile old = tiles_[t];
   const double cut = old.lo + (old.hi - old.lo) / 2;
   const Tile lower{old.segment, old.next, old.lo, cut};
@@ -150,12 +167,14 @@ void SegmentStore::halve(TileHandle t) {
   tiles_[t].next = u;
 }
 
-std::size_t SegmentStore::bytes() const noexcept {
+template <int D>
+std::size_t SegmentStoreOf<D>::bytes() const noexcept {
   return pool_.bytes() + tiles_.capacity() * sizeof(Tile) + tree_.bytes() +
          by_ends_.bytes() + at_.bucket_count() * 3 * sizeof(VertexHandle);
 }
 
-void SegmentStore::check_invariants() const {
+template <int D>
+void SegmentStoreOf<D>::check_invariants() const {
   tree_.check_invariants();
   std::size_t records = 0, live = 0, tiles = 0, ends = 0;
   pool_.for_each([&](const Segment& s) {
@@ -183,5 +202,8 @@ void SegmentStore::check_invariants() const {
   SAC_INVARIANT(records == by_ends_.size() && live == live_ && ends == 2 * live);
   SAC_INVARIANT(tiles == tree_.size());
 }
+
+template class SegmentStoreOf<2>;
+template class SegmentStoreOf<3>;
 
 }  // namespace mesher::detail

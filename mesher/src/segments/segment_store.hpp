@@ -23,14 +23,17 @@
 
 namespace mesher::detail {
 
-class SegmentStore {
+template <int D>
+class SegmentStoreOf {
  public:
-  SegmentStore(const MeshBox<2>& box, const VertexPool<2>& points)
-      : box_(box), points_(points), by_ends_(*this), tiles_(1), tree_(box) {}
-  SegmentStore(const SegmentStore&) = delete;
-  SegmentStore& operator=(const SegmentStore&) = delete;
+  using Segment = SegmentOf<D>;
 
-  [[nodiscard]] const SegmentPool& pool() const noexcept { return pool_; }
+  SegmentStoreOf(const MeshBox<D>& box, const VertexPool<D>& points)
+      : box_(box), points_(points), by_ends_(*this), tiles_(1), tree_(box) {}
+  SegmentStoreOf(const SegmentStoreOf&) = delete;
+  SegmentStoreOf& operator=(const SegmentStoreOf&) = delete;
+
+  [[nodiscard]] const SegmentPoolOf<D>& pool() const noexcept { return pool_; }
   [[nodiscard]] Segment& operator[](SegmentHandle h) const noexcept { return pool_[h]; }
   /// How many segments there are, less those of freed records.
   [[nodiscard]] std::size_t live() const noexcept { return live_; }
@@ -57,7 +60,7 @@ class SegmentStore {
   /// point), and some others, some of them repeatedly, until it returns true: it has found what it
   /// looks for. Returns whether it did. visit must not throw, nor search.
   template <class Visit>
-  bool visit_near(const Point<2>& p, const Point<2>& q, double slack, Visit&& visit) noexcept;
+  bool visit_near(const Point<D>& p, const Point<D>& q, double slack, Visit&& visit) noexcept;
 
   /// How much searches, and visits to the segments at a point, have looked at so far.
   [[nodiscard]] std::uint64_t looked_at() const noexcept { return tree_.looked_at() + met_; }
@@ -83,7 +86,7 @@ class SegmentStore {
   static Ends ends(VertexHandle a, VertexHandle b) noexcept {
     return {std::min(a, b), std::max(a, b)};
   }
-  friend class HandleTable<SegmentStore>;
+  friend class HandleTable<SegmentStoreOf>;
   using Key = Ends;
   [[nodiscard]] Ends key(SegmentHandle h) const noexcept { return ends(pool_[h].a, pool_[h].b); }
   [[nodiscard]] static std::size_t hash(const Ends& e) noexcept {
@@ -99,8 +102,8 @@ class SegmentStore {
   void touch(Segment& s) noexcept;
   void leave(Segment& s, VertexHandle end) noexcept;
   void drop_if_empty(VertexHandle end) noexcept;
-  [[nodiscard]] Point<2> at(const Segment& s, double fraction) const noexcept;
-  [[nodiscard]] Point<2> middle(const Tile& t) const noexcept {
+  [[nodiscard]] Point<D> at(const Segment& s, double fraction) const noexcept;
+  [[nodiscard]] Point<D> middle(const Tile& t) const noexcept {
     return at(pool_[t.segment], t.lo + (t.hi - t.lo) / 2);
   }
   [[nodiscard]] double length(const Tile& t) const noexcept {
@@ -112,25 +115,27 @@ class SegmentStore {
   }
   [[nodiscard]] TileHandle new_tile(const Tile& tile);
   void free_tile(TileHandle t) noexcept;
-  [[nodiscard]] bool is_needless(const Tile& t, const Point<2>& p, const Point<2>& q,
+  [[nodiscard]] bool is_needless(const Tile& t, const Point<D>& p, const Point<D>& q,
                                  double slack) const noexcept;
   void halve(TileHandle t);
 
-  const MeshBox<2>& box_;
-  const VertexPool<2>& points_;
-  SegmentPool pool_;
-  HandleTable<SegmentStore> by_ends_;
+  const MeshBox<D>& box_;
+  const VertexPool<D>& points_;
+  SegmentPoolOf<D> pool_;
+  HandleTable<SegmentStoreOf> by_ends_;
   tsl::robin_map<VertexHandle, SegmentHandle> at_;  // the first of those at a point
   std::vector<Tile> tiles_;
-  ReachTree<TileHandle> tree_;
+  ReachTree<TileHandle, D> tree_;
   TileHandle free_tiles_ = 0;
   SegmentHandle changed_ = 0;
   std::size_t live_ = 0;
   mutable std::uint64_t met_ = 0;  // at points
 };
+using SegmentStore = SegmentStoreOf<2>;
 
+template <int D>
 template <class Visit>
-bool SegmentStore::visit_at(VertexHandle end, Visit&& visit) const {
+bool SegmentStoreOf<D>::visit_at(VertexHandle end, Visit&& visit) const {
   const auto it = at_.find(end);
   if (it == at_.end()) return false;
   for (SegmentHandle h = it->second; h != 0;) {
@@ -146,9 +151,10 @@ bool SegmentStore::visit_at(VertexHandle end, Visit&& visit) const {
   return false;
 }
 
+template <int D>
 template <class Visit>
-bool SegmentStore::visit_near(const Point<2>& p, const Point<2>& q, double slack,
-                              Visit&& visit) noexcept {
+bool SegmentStoreOf<D>::visit_near(const Point<D>& p, const Point<D>& q, double slack,
+                                   Visit&& visit) noexcept {
   std::array<TileHandle, 16> needless;
   std::size_t count = 0;
   const bool found = tree_.visit_near(p, q, slack, [&](TileHandle t) {

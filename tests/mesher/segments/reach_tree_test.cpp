@@ -19,23 +19,37 @@ using mesher::detail::MeshBox;
 using mesher::detail::ReachTree;
 
 const MeshBox<2> kBox{.lo = {-1.5, -1.5}, .side = 4};
+const MeshBox<3> kCube{.lo = {-1.5, -1.5, -1.5}, .side = 4};
+template <int D>
+const MeshBox<D>& box_of() {
+  if constexpr (D == 2) {
+    return kBox;
+  } else {
+    return kCube;
+  }
+}
 
-struct Disc {
-  Point<2> place{};
+template <int D>
+struct DiscOf {
+  Point<D> place{};
   double reach = 0;
   int name = 0;
 };
 
+using Disc = DiscOf<2>;
+
 // Places on a lattice, anywhere, and near others down to the finest cells; reaches of all sizes.
-class Source {
+template <int D>
+class SourceOf {
  public:
-  explicit Source(std::uint64_t seed) : random_(seed) {}
+  explicit SourceOf(std::uint64_t seed) : random_(seed) {}
   SplitMix64& random() { return random_; }
-  Point<2> point(const std::vector<Disc>& all) {
+  Point<D> point(const std::vector<DiscOf<D>>& all) {
     const auto kind = random_.below(5);
-    if (kind == 0 || all.empty()) return {random_.unit(), random_.unit()};
-    if (kind == 1) return {lattice(), lattice()};
-    Point<2> p = all[random_.below(all.size())].place;
+    Point<D> p;
+    for (double& x : p) x = kind == 1 ? lattice() : random_.unit();
+    if (kind < 2 || all.empty()) return p;
+    p = all[random_.below(all.size())].place;
     if (kind == 2) return p;
     for (double& x : p) {
       x = std::clamp(x + (random_.unit() - 0.5) * power(54), 0.0, 1.0);
@@ -54,6 +68,7 @@ class Source {
   double lattice() { return static_cast<double>(random_.below(9)) / 8; }
   SplitMix64 random_;
 };
+using Source = SourceOf<2>;
 
 template <class Search>
 std::vector<int> found(Search&& search) {
@@ -64,7 +79,7 @@ std::vector<int> found(Search&& search) {
 }
 
 // All that must be found is, once, and what is found besides is as good as at the border.
-template <class Gap>
+template <class Disc, class Gap>
 void require_found(const std::vector<Disc>& all, const std::vector<int>& names, Gap&& gap) {
   REQUIRE(std::adjacent_find(names.begin(), names.end()) == names.end());
   for (const Disc& d : all) {
@@ -74,33 +89,48 @@ void require_found(const std::vector<Disc>& all, const std::vector<int>& names, 
   }
 }
 
-void require_searches_right(const ReachTree<int>& tree, const std::vector<Disc>& all,
-                            Source& source) {
-  const Point<2> p = source.point(all);
-  const Point<2> q = source.random().below(2) == 0 ? p : source.point(all);
+template <int D>
+void require_searches_right(const ReachTree<int, D>& tree, const std::vector<DiscOf<D>>& all,
+                            SourceOf<D>& source) {
+  const Point<D> p = source.point(all);
+  const Point<D> q = source.random().below(2) == 0 ? p : source.point(all);
   const double slack = source.random().below(2) == 0 ? 0 : source.reach();
-  const FromSegment segment(p, q);
+  const FromSegment<D> segment(p, q);
   require_found(all, found([&](auto visit) { tree.visit_near(p, q, slack, visit); }),
-                [&](const Disc& d) { return segment.distance(d.place) - d.reach - slack; });
-  require_found(all, found([&](auto visit) { tree.visit_at(p, visit); }), [&](const Disc& d) {
-    return std::hypot(d.place[0] - p[0], d.place[1] - p[1]) - d.reach;
+                [&](const auto& d) { return segment.distance(d.place) - d.reach - slack; });
+  require_found(all, found([&](auto visit) { tree.visit_at(p, visit); }), [&](const auto& d) {
+    double sum = 0;
+    for (int i = 0; i < D; ++i) sum += (d.place[i] - p[i]) * (d.place[i] - p[i]);
+    return std::sqrt(sum) - d.reach;
   });
-  const Box<2> box{{std::min(p[0], q[0]), std::min(p[1], q[1])},
-                   {std::max(p[0], q[0]), std::max(p[1], q[1])}};
-  require_found(all, found([&](auto visit) { tree.visit_in(box, visit); }), [&](const Disc& d) {
-    return std::max({box.lo[0] - d.place[0], d.place[0] - box.hi[0], box.lo[1] - d.place[1],
-                     d.place[1] - box.hi[1]});
-  });
+  Box<D> box;
+  for (int i = 0; i < D; ++i) {
+    box.lo[i] = std::min(p[i], q[i]);
+    box.hi[i] = std::max(p[i], q[i]);
+  }
+  const auto beside = [&](const Point<D>& x, double reach) {
+    double most = -1;
+    for (int i = 0; i < D; ++i) {
+      most = std::max({most, box.lo[i] - x[i] - reach, x[i] - reach - box.hi[i]});
+    }
+    return most;
+  };
+  require_found(all, found([&](auto visit) { tree.visit_in(box, visit); }),
+                [&](const auto& d) { return beside(d.place, 0); });
+  require_found(all, found([&](auto visit) { tree.visit_beside(box, visit); }),
+                [&](const auto& d) { return beside(d.place, d.reach); });
 }
 
 }  // namespace
 
-TEST_CASE("searches visit every disc that meets them, once, and others only for rounding") {
+TEMPLATE_TEST_CASE_SIG(
+    "searches visit every disc that meets them, once, and others only for rounding", "",
+    ((int D), D), 2, 3) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     INFO("seed " << seed);
-    Source source(seed);
-    ReachTree<int> tree(kBox);
-    std::vector<Disc> all;
+    SourceOf<D> source(seed);
+    ReachTree<int, D> tree(box_of<D>());
+    std::vector<DiscOf<D>> all;
     const std::size_t most = 1 + source.random().below(120);
     for (int edit = 0; edit < 300; ++edit) {
       INFO("edit " << edit);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "failing_new.hpp"
+#include "geometry/space_distances.hpp"
 #include "mesher/generate.hpp"
 
 namespace {
@@ -17,59 +18,74 @@ using mesher::SplitMix64;
 using mesher::detail::MeshBox;
 using mesher::detail::Segment;
 using mesher::detail::SegmentHandle;
+using mesher::detail::SegmentOf;
 using mesher::detail::SegmentStore;
+using mesher::detail::SegmentStoreOf;
 using mesher::detail::VertexHandle;
 using mesher::detail::VertexPool;
 
 const MeshBox<2> kBox{.lo = {-1.5, -1.5}, .side = 4};
 
+template <int D>
+MeshBox<D> box_of() {
+  MeshBox<D> box{.side = 4};
+  box.lo.fill(-1.5);
+  return box;
+}
+
 // Points, some close together, so that segments are of all lengths.
-std::vector<VertexHandle> make_points(VertexPool<2>& pool, SplitMix64& random, int n) {
+template <int D>
+std::vector<VertexHandle> make_points(VertexPool<D>& pool, SplitMix64& random, int n) {
   std::vector<VertexHandle> points;
   for (int i = 0; i < n; ++i) {
-    Point<2> p{random.unit(), random.unit()};
+    Point<D> p;
+    for (double& x : p) x = random.unit();
     if (i > 0 && random.below(3) == 0) {
-      const Point<2>& q = pool[points[random.below(points.size())]].p;
+      const Point<D>& q = pool[points[random.below(points.size())]].p;
       const double d = std::ldexp(1.0, -static_cast<int>(random.below(30)));
-      p = {q[0] + d * (p[0] - 0.5), q[1] + d * (p[1] - 0.5)};
+      for (int k = 0; k < D; ++k) p[k] = q[k] + d * (p[k] - 0.5);
     }
     points.push_back(pool.create(p).self);
   }
   return points;
 }
 
-class Source {
+template <int D>
+class SourceOf {
  public:
-  explicit Source(std::uint64_t seed) : random_(seed) {
+  explicit SourceOf(std::uint64_t seed) : random_(seed) {
     points_ = make_points(pool_, random_, 3 + static_cast<int>(random_.below(40)));
   }
   // Puts or takes a segment between two points.
-  void edit(SegmentStore& store) {
+  void edit(SegmentStoreOf<D>& store) {
     VertexHandle a = some(), b = some();
     if (pool_[a].p == pool_[b].p) return;
-    Segment& s = store.record(a, b);
+    auto& s = store.record(a, b);
     s.alive ? store.take(s) : store.put(s);
   }
   VertexHandle some() { return points_[random_.below(points_.size())]; }
-  const Point<2>& some_place() { return pool_[some()].p; }
+  const Point<D>& some_place() { return pool_[some()].p; }
   SplitMix64& random() { return random_; }
-  const VertexPool<2>& pool() const { return pool_; }
+  const VertexPool<D>& pool() const { return pool_; }
   const std::vector<VertexHandle>& points() const { return points_; }
 
  private:
   SplitMix64 random_;
-  VertexPool<2> pool_;
+  VertexPool<D> pool_;
   std::vector<VertexHandle> points_;
 };
 
+using Source = SourceOf<2>;
+
 // Every live segment that meets the disc has been visited.
-void require_found(SegmentStore& store, const Point<2>& p, const Point<2>& q, double slack) {
+template <int D>
+void require_found(SegmentStoreOf<D>& store, const Point<D>& p, const Point<D>& q, double slack) {
   std::vector<SegmentHandle> found;
-  store.visit_near(p, q, slack, [&](const Segment& s) {
+  store.visit_near(p, q, slack, [&](const SegmentOf<D>& s) {
     found.push_back(s.self);
     return false;
   });
-  store.pool().for_each([&](const Segment& s) {
+  store.pool().for_each([&](const SegmentOf<D>& s) {
     if (!s.alive) return;
     const double d2 = mesher::detail::distance2(p, q, s.place_a, s.place_b);
     const bool is_found = std::find(found.begin(), found.end(), s.self) != found.end();
@@ -79,22 +95,26 @@ void require_found(SegmentStore& store, const Point<2>& p, const Point<2>& q, do
 
 }  // namespace
 
-TEST_CASE("segments are found by their ends, at their ends, and by all that is near them") {
+TEMPLATE_TEST_CASE_SIG(
+    "segments are found by their ends, at their ends, and by all that is near them", "",
+    ((int D), D), 2, 3) {
+  const MeshBox<D> box = box_of<D>();
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     INFO("seed " << seed);
-    Source source(seed);
-    SegmentStore store(kBox, source.pool());
+    SourceOf<D> source(seed);
+    SegmentStoreOf<D> store(box, source.pool());
     for (int edit = 0; edit < 120; ++edit) {
       source.edit(store);
-      const double slack = std::ldexp(source.random().unit(), -static_cast<int>(source.random().below(30)));
-      require_found(store, source.some_place(), source.some_place(), slack);
-      const Point<2> p = source.some_place();
-      require_found(store, p, p, slack);
+      const double slack =
+          std::ldexp(source.random().unit(), -static_cast<int>(source.random().below(30)));
+      require_found<D>(store, source.some_place(), source.some_place(), slack);
+      const Point<D> p = source.some_place();
+      require_found<D>(store, p, p, slack);
       if (source.random().below(4) == 0) store.commit();
       store.check_invariants();
     }
     std::map<VertexHandle, std::size_t> degree;
-    store.pool().for_each([&](const Segment& s) {
+    store.pool().for_each([&](const SegmentOf<D>& s) {
       if (!s.alive) return;
       ++degree[s.a], ++degree[s.b];
       REQUIRE(store.find(s.a, s.b) == &s);
@@ -102,7 +122,7 @@ TEST_CASE("segments are found by their ends, at their ends, and by all that is n
     });
     for (const VertexHandle v : source.points()) {
       std::size_t count = 0;
-      store.visit_at(v, [&](const Segment&) { ++count; });
+      store.visit_at(v, [&](const SegmentOf<D>&) { ++count; });
       REQUIRE(count == degree[v]);
     }
   }

@@ -1,0 +1,123 @@
+// Exact tests behind the trees, and what two features share.
+#include "plc/feature_search.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace mesher::detail {
+
+namespace {
+
+// Whether two ascending sets have a common item.
+template <class Handle>
+bool have_common(const std::vector<Handle>& a, const std::vector<Handle>& b) {
+  const auto& [few, many] = a.size() < b.size() ? std::tie(a, b) : std::tie(b, a);
+  return std::any_of(few.begin(), few.end(),
+                     [&](Handle h) { return std::binary_search(many.begin(), many.end(), h); });
+}
+
+// The nearest to x of what it is shown; of equally near ones the first by places.
+class Nearest {
+ public:
+  Nearest(const Point<3>& x, const FeatureStore& store) : x_(x), store_(store) {}
+
+  void show_edge(EdgeHandle h) {
+    const Edge& e = store_.edges()[h];
+    show(distance2_to(x_, e), e.place_a, e.place_b, Feature(e));
+  }
+  void show_point(VertexHandle h) {
+    const Vertex<3>& v = store_.points()[h];
+    show(distance2_to(x_, v), v.p, v.p, Feature(v));
+  }
+  [[nodiscard]] Feature found() const noexcept { return found_; }
+
+ private:
+  void show(double d2, const Point<3>& a, const Point<3>& b, Feature f) {
+    const std::tuple key(d2, a, b);
+    if (!found_ || key < key_) key_ = key, found_ = f;
+  }
+  const Point<3>& x_;
+  const FeatureStore& store_;
+  std::tuple<double, Point<3>, Point<3>> key_;
+  Feature found_;
+};
+
+template <class F>
+bool is_before(const F* a, const F* b);
+template <>
+bool is_before(const Edge* a, const Edge* b) {
+  return std::tie(a->place_a, a->place_b) < std::tie(b->place_a, b->place_b);
+}
+template <>
+bool is_before(const Polygon* a, const Polygon* b) {
+  return PolygonRef{a} < PolygonRef{b};
+}
+
+// Some are found repeatedly.
+template <class F>
+void put_in_canonical_order(std::vector<const F*>& all) {
+  std::sort(all.begin(), all.end(), is_before<F>);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+}
+
+}  // namespace
+
+bool disjoint(const Polygon& f, const Polygon& g) { return !have_common(f.points, g.points); }
+
+void find_near(const Point<3>& place, double radius, FeatureStore& store, FeaturesNear& found) {
+  found.edges.clear();
+  found.polygons.clear();
+  const auto is_near = [&](const auto& f) {
+    return touches(distance2_to(place, f), radius * radius);
+  };
+  struct Take {
+    decltype(is_near)& near;
+    FeaturesNear& found;
+    bool operator()(const Edge& e) const { return near(e) && (found.edges.push_back(&e), false); }
+    bool operator()(const Polygon& f) const {
+      return near(f) && (found.polygons.push_back(&f), false);
+    }
+  };
+  store.visit_near(place, place, radius * (1 + 0x1p-29), Take{is_near, found});
+  put_in_canonical_order(found.edges);
+  put_in_canonical_order(found.polygons);
+}
+
+Feature common(const Edge& e, const Edge& t, const Point<3>& x, const FeatureStore& store) {
+  Nearest nearest(x, store);
+  if (e.self == t.self) return Feature(e);
+  for (const VertexHandle end : {e.a, e.b}) {
+    if (t.has_end(end)) nearest.show_point(end);
+  }
+  return nearest.found();
+}
+
+Feature common(const Edge& e, const Polygon& f, const Point<3>& x, const FeatureStore& store) {
+  if (f.has_edge(e.self)) return Feature(e);
+  Nearest nearest(x, store);
+  for (const VertexHandle end : {e.a, e.b}) {
+    if (f.has(end)) nearest.show_point(end);
+  }
+  return nearest.found();
+}
+
+Feature common(const Polygon& f, const Edge& e, const Point<3>& x, const FeatureStore& store) {
+  return common(e, f, x, store);
+}
+
+Feature common(const Polygon& f, const Polygon& g, const Point<3>& x, const FeatureStore& store) {
+  const bool fewer = f.points.size() < g.points.size();
+  const Polygon& few = fewer ? f : g;
+  const Polygon& many = fewer ? g : f;
+  Nearest nearest(x, store);
+  for (const EdgeHandle e : few.all_edges) {
+    if (many.has_edge(e)) nearest.show_edge(e);
+  }
+  if (nearest.found()) return nearest.found();
+  for (const VertexHandle v : few.points) {
+    if (many.has(v)) nearest.show_point(v);
+  }
+  return nearest.found();
+}
+
+}  // namespace mesher::detail

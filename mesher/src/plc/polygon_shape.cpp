@@ -1,0 +1,207 @@
+// Newell's normal, parity in the frame, and distances by edges.
+#include "plc/polygon_shape.hpp"
+
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace mesher::detail {
+namespace {
+
+Point<3> unit(const Point<3>& a) { return scaled(1 / std::sqrt(squared(a)), a); }
+
+// The place in which a corner is the largest, the first of several.
+int largest(const Point<3>& a) {
+  int k = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (std::abs(a[i]) > std::abs(a[k])) k = i;
+  }
+  return k;
+}
+int smallest(const Point<3>& a) {
+  int k = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (std::abs(a[i]) < std::abs(a[k])) k = i;
+  }
+  return k;
+}
+
+// The normal's largest coordinate is positive, and eu is the axis nearest to the plane: a plane
+// across an axis has a frame of axes.
+Plane plane_across(const Point<3>& origin, const Point<3>& area) {
+  Plane plane{.origin = origin, .normal = unit(area)};
+  if (plane.normal[largest(area)] < 0) plane.normal = scaled(-1, plane.normal);
+  const int axis = smallest(plane.normal);
+  Point<3> along{};
+  along[axis] = 1;
+  plane.eu = unit(minus(along, scaled(plane.normal[axis], plane.normal)));
+  plane.ev = cross(plane.normal, plane.eu);
+  return plane;
+}
+
+// The middle of the bounding box, and the farthest corner from there.
+void find_reach(Polygon& f) {
+  Box<3> box{f.places[0], f.places[0]};
+  for (const Point<3>& p : f.places) {
+    for (int i = 0; i < 3; ++i) {
+      box.lo[i] = std::min(box.lo[i], p[i]);
+      box.hi[i] = std::max(box.hi[i], p[i]);
+    }
+  }
+  for (int i = 0; i < 3; ++i) f.middle[i] = box.lo[i] + (box.hi[i] - box.lo[i]) / 2;
+  double reach2 = 0;
+  for (const Point<3>& p : f.places) reach2 = std::max(reach2, squared_distance(p, f.middle));
+  f.reach = std::sqrt(reach2) * (1 + 0x1p-40);
+}
+
+// Twice the signed area of a loop in the frame.
+double turn(std::span<const Point<2>> loop) {
+  double sum = 0;
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+    const Point<2> a{loop[i][0] - loop[0][0], loop[i][1] - loop[0][1]};
+    const Point<2> b{loop[i + 1][0] - loop[0][0], loop[i + 1][1] - loop[0][1]};
+    sum += a[0] * b[1] - a[1] * b[0];
+  }
+  return sum;
+}
+
+std::span<const Point<2>> loop_in_frame(const Polygon& f, std::size_t loop) {
+  const std::uint32_t begin = f.loop_begin(loop);
+  return std::span(f.outline).subspan(begin, f.loop_end[loop] - begin);
+}
+
+// A loop that lies inside an even number of others has the inside of f inside.
+bool has_inside(const Polygon& f, std::size_t loop) {
+  const auto corners = loop_in_frame(f, loop);
+  const Point<2> on_it{(corners[0][0] + corners[1][0]) / 2, (corners[0][1] + corners[1][1]) / 2};
+  int around = 0;
+  for (std::size_t other = 0; other < f.loop_end.size(); ++other) {
+    around += other != loop && loop_contains(f, other, on_it);
+  }
+  return around % 2 == 0;
+}
+
+// Whether the ray from x to the right crosses ab, which is half open: its upper end is not part.
+bool is_crossed(const Point<2>& x, const Point<2>& a, const Point<2>& b) {
+  if ((a[1] > x[1]) == (b[1] > x[1])) return false;
+  if (x[0] < std::min(a[0], b[0])) return true;
+  if (x[0] > std::max(a[0], b[0])) return false;
+  const double left = (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]);
+  return (left > 0) == (b[1] > a[1]);
+}
+
+template <class Visit>
+void for_each_edge(const Polygon& f, Visit&& visit) {
+  for (std::size_t loop = 0; loop < f.loop_end.size(); ++loop) {
+    std::uint32_t last = f.loop_end[loop] - 1;
+    for (std::uint32_t i = f.loop_begin(loop); i < f.loop_end[loop]; last = i++) visit(last, i);
+  }
+}
+
+}  // namespace
+
+Point<3> twice_area(std::span<const Point<3>> loop) {
+  Point<3> sum{};
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+    sum = plus(sum, cross(minus(loop[i], loop[0]), minus(loop[i + 1], loop[0])));
+  }
+  return sum;
+}
+
+bool find_shape(Polygon& f) {
+  find_reach(f);
+  const Point<3> area = twice_area(std::span(f.places).first(f.loop_end[0]));
+  if (!(std::sqrt(squared(area)) > f.reach * f.reach * 0x1p-40)) return false;
+  f.plane = plane_across(f.places[0], area);
+  f.outline.clear();
+  for (const Point<3>& p : f.places) f.outline.push_back(f.plane.in_frame(p));
+  f.inside_left.clear();
+  for (std::size_t loop = 0; loop < f.loop_end.size(); ++loop) {
+    f.inside_left.push_back((turn(loop_in_frame(f, loop)) > 0) == has_inside(f, loop));
+  }
+  f.thickness = deviation(f).height + resolution(f.middle, f.reach);
+  return true;
+}
+
+bool is_flat(const Polygon& f) {
+  return deviation(f).height <= kFlatness * f.reach + resolution(f.middle, f.reach);
+}
+
+Deviation deviation(const Polygon& f) {
+  Deviation most;
+  for (const auto* places : {&f.places, &f.inside}) {
+    for (const Point<3>& p : *places) {
+      const double height = std::abs(f.plane.height(p));
+      if (height > most.height) most = {height, p};
+    }
+  }
+  return most;
+}
+
+bool loop_contains(const Polygon& f, std::size_t loop, const Point<2>& uv) {
+  const auto corners = loop_in_frame(f, loop);
+  bool inside = false;
+  for (std::size_t i = 0, last = corners.size() - 1; i < corners.size(); last = i++) {
+    inside ^= is_crossed(uv, corners[last], corners[i]);
+  }
+  return inside;
+}
+
+bool contains(const Polygon& f, const Point<2>& uv) {
+  bool inside = false;
+  for (std::size_t loop = 0; loop < f.loop_end.size(); ++loop) {
+    inside ^= loop_contains(f, loop, uv);
+  }
+  return inside;
+}
+
+bool contains(const Polygon& f, const Point<3>& x) { return contains(f, f.plane.in_frame(x)); }
+
+Point<3> inward(const Polygon& f, std::uint32_t i) {
+  const Point<3> left = unit(cross(f.plane.normal, minus(f.places[f.next(i)], f.places[i])));
+  return f.inside_left[f.loop_of(i)] ? left : scaled(-1, left);
+}
+
+Point<3> nearest_place(const Polygon& f, const Point<3>& x) {
+  if (contains(f, x)) return f.plane.foot(x);
+  Point<3> nearest{};
+  double least = std::numeric_limits<double>::infinity();
+  for_each_edge(f, [&](std::uint32_t i, std::uint32_t j) {
+    const Point<3>&a = f.places[i], &b = f.places[j];
+    const Point<3> at = plus(a, scaled(nearest_fraction(x, a, b), minus(b, a)));
+    const double d = squared_distance(at, x);
+    if (d < least) least = d, nearest = at;
+  });
+  return nearest;
+}
+
+double distance2(const Point<3>& x, const Polygon& f) {
+  if (contains(f, x)) {
+    const double height = f.plane.height(x);
+    return height * height;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for_each_edge(f, [&](std::uint32_t i, std::uint32_t j) {
+    least = std::min(least, distance2(x, f.places[i], f.places[j]));
+  });
+  return least;
+}
+
+std::optional<Point<3>> crossing(const Point<3>& a, const Point<3>& b, const Polygon& f) {
+  const double from = f.plane.height(a), to = f.plane.height(b);
+  if (from * to > 0 || from == to) return std::nullopt;
+  const Point<3> x = plus(a, scaled(from / (from - to), minus(b, a)));
+  if (!contains(f, x)) return std::nullopt;
+  return x;
+}
+
+double distance2(const Point<3>& a, const Point<3>& b, const Polygon& f) {
+  if (crossing(a, b, f)) return 0;
+  double least = std::min(distance2(a, f), distance2(b, f));
+  for_each_edge(f, [&](std::uint32_t i, std::uint32_t j) {
+    least = std::min(least, distance2(a, b, f.places[i], f.places[j]));
+  });
+  return least;
+}
+
+}  // namespace mesher::detail

@@ -1,0 +1,138 @@
+// Tests of pairs.
+#include "plc/validity.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace mesher::detail {
+
+namespace {
+
+using Kind = SpaceConflict::Kind;
+
+double resolution_of(const Edge& e) {
+  return resolution(scaled(0.5, plus(e.place_a, e.place_b)), e.length / 2);
+}
+
+double height_of(const Polygon& f, const Point<3>& x) { return std::abs(f.plane.height(x)); }
+
+Point<3> middle_of(const Edge& e) { return scaled(0.5, plus(e.place_a, e.place_b)); }
+
+// Points that both have, in the order along the line that they are on; nothing if they are one
+// place or none.
+std::vector<VertexHandle> common_points(const Polygon& f, const Polygon& g,
+                                        const FeatureStore& store) {
+  std::vector<VertexHandle> all;
+  std::set_intersection(f.points.begin(), f.points.end(), g.points.begin(), g.points.end(),
+                        std::back_inserter(all));
+  const auto place = [&](VertexHandle v) { return store.points()[v].p; };
+  const auto farther = [&](const Point<3>& from) {
+    return [&, from](VertexHandle v, VertexHandle w) {
+      return squared_distance(place(v), from) < squared_distance(place(w), from);
+    };
+  };
+  if (all.size() < 2) return {};
+  const Point<3> end = place(*std::max_element(all.begin(), all.end(), farther(place(all[0]))));
+  std::sort(all.begin(), all.end(), farther(end));
+  return all;
+}
+
+bool lies_in_plane(const Polygon& f, const Polygon& g) {
+  return std::all_of(f.places.begin(), f.places.end(), [&](const Point<3>& p) {
+    return height_of(g, p) <= f.thickness + g.thickness;
+  });
+}
+
+// Which side of its edge a polygon is on: one, or both for an edge that lies inside.
+struct Side {
+  bool both = false;
+  Point<3> inward{};
+};
+Side side_of(const Polygon& f, EdgeHandle e) {
+  const auto it = std::find(f.edges.begin(), f.edges.end(), e);
+  if (it == f.edges.end()) return {true, {}};
+  return {false, inward(f, static_cast<std::uint32_t>(it - f.edges.begin()))};
+}
+
+// Of two in one plane.
+std::optional<SpaceConflict> overlap(const Polygon& f, const Polygon& g,
+                                     const FeatureStore& store) {
+  for (const EdgeHandle e : f.all_edges) {
+    if (!g.has_edge(e)) continue;
+    const Side of_f = side_of(f, e), of_g = side_of(g, e);
+    if (!of_f.both && !of_g.both && dot(of_f.inward, of_g.inward) < 0) continue;
+    return SpaceConflict{Kind::overlapping_polygons, Feature(f), Feature(g),
+                         middle_of(store.edges()[e])};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<SpaceConflict> conflict_with(const Vertex<3>& v, const Edge& e) {
+  const double most = resolution_of(e);
+  if (e.has_end(v.self) || distance2_to(v.p, e) > most * most) return std::nullopt;
+  return SpaceConflict{Kind::point_on_edge, Feature(v), Feature(e), v.p};
+}
+
+std::optional<SpaceConflict> conflict_with(const Vertex<3>& v, const Polygon& f) {
+  if (f.has(v.self) || height_of(f, v.p) > f.thickness || !contains(f, v.p)) return std::nullopt;
+  return SpaceConflict{Kind::point_on_polygon, Feature(v), Feature(f), v.p};
+}
+
+std::optional<SpaceConflict> conflict_with(const Edge& e, const Edge& t) {
+  if (!disjoint(e, t)) return std::nullopt;
+  const double most = std::max(resolution_of(e), resolution_of(t));
+  if (distance2(e.place_a, e.place_b, t.place_a, t.place_b) > most * most) return std::nullopt;
+  return SpaceConflict{Kind::crossing_edges, Feature(e), Feature(t),
+                       nearest_place(e.place_a, e.place_b, t.place_a, t.place_b)};
+}
+
+std::optional<SpaceConflict> conflict_with(const Edge& e, const Polygon& f) {
+  if (f.has_edge(e.self) || f.has(e.a) != f.has(e.b)) return std::nullopt;
+  if (f.has(e.a)) {
+    if (!contains(f, middle_of(e))) return std::nullopt;
+    return SpaceConflict{Kind::edge_on_polygon, Feature(e), Feature(f), middle_of(e)};
+  }
+  if (height_of(f, e.place_a) <= f.thickness || height_of(f, e.place_b) <= f.thickness) {
+    return std::nullopt;
+  }
+  const auto at = crossing(e.place_a, e.place_b, f);
+  if (!at) return std::nullopt;
+  return SpaceConflict{Kind::edge_through_polygon, Feature(e), Feature(f), *at};
+}
+
+std::optional<SpaceConflict> conflict_with(const Polygon& f, const Polygon& g,
+                                           const FeatureStore& store) {
+  if (f.self == g.self) return std::nullopt;
+  const std::vector<VertexHandle> points = common_points(f, g, store);
+  if (points.empty()) return std::nullopt;
+  if (lies_in_plane(f, g) || lies_in_plane(g, f)) return overlap(f, g, store);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Edge* e = store.find_edge(points[i - 1], points[i]);
+    if (e != nullptr && f.has_edge(e->self) && g.has_edge(e->self)) continue;
+    const Point<3> middle =
+        scaled(0.5, plus(store.points()[points[i - 1]].p, store.points()[points[i]].p));
+    if (!contains(f, middle) || !contains(g, middle)) continue;
+    return SpaceConflict{Kind::crossing_polygons, Feature(f), Feature(g), middle};
+  }
+  return std::nullopt;
+}
+
+void keep_first(std::optional<SpaceConflict>& first, const std::optional<SpaceConflict>& conflict) {
+  const auto key = [](const SpaceConflict& c) { return std::tuple(c.kind, c.at); };
+  if (!conflict) return;
+  if (!first || key(*conflict) < key(*first)) first = conflict;
+}
+
+std::optional<SpaceConflict> conflict_of(const Vertex<3>& v, FeatureStore& store) {
+  std::optional<SpaceConflict> first;
+  const FeatureExtent<3> where = validity::widened(extent_of(v));
+  store.visit_near(where.p, where.q, where.slack, [&](const auto& f) {
+    keep_first(first, conflict_with(v, f));
+    return false;
+  });
+  return first;
+}
+
+}  // namespace mesher::detail

@@ -1,0 +1,148 @@
+// What makes an input no piecewise linear complex: found beside the feature that brings it, and
+// named.
+//
+// Features may have corners, ends and edges in common, and what a polygon declares to lie in it;
+// nothing else. Corners of a polygon are hardly ever coplanar in doubles, so tests go by labels
+// first and by tolerances then:
+//  - a point is on an edge if it is no end of it and no farther from it than the resolution of the
+//    place; on a polygon if that does not have it, its foot is inside, and it is no farther from
+//    the plane than the polygon itself is (its thickness);
+//  - two edges cross if they have no common end and are no farther apart than that;
+//  - an edge goes through a polygon if the two have no point in common, both ends are clear of the
+//    plane, on different sides, and the place between is inside. With one point in common it leaves
+//    the plane there, or lies in it; then, as with ends near the plane, what is wrong is wrong with
+//    a point or with an edge of the polygon. With two it lies in the plane, and is on the polygon
+//    if its middle is inside;
+//  - where two polygons of different planes cross, an edge of one goes through the other, or the
+//    places where their line of intersection begins and ends are common points, without a common
+//    edge between them: the middle of those is inside both;
+//  - where two of one plane overlap, edges cross, a point or an edge of one is on the other, or
+//    they have the same side of a common edge.
+#pragma once
+
+#include <optional>
+
+#include "geometry/box.hpp"
+#include "mesher/error.hpp"
+#include "plc/feature_search.hpp"
+
+namespace mesher::detail {
+
+/// What a feature is in the way of.
+struct SpaceConflict {
+  enum class Kind {  // the first is named of several
+    point_on_edge,
+    point_on_polygon,
+    crossing_edges,
+    edge_on_polygon,
+    edge_through_polygon,
+    crossing_polygons,
+    overlapping_polygons,
+  };
+  Kind kind = Kind::point_on_edge;
+  Feature one, other;  // in the order of the kind's name
+  Point<3> at{};
+};
+
+/// The conflict of two features, if there is one.
+[[nodiscard]] std::optional<SpaceConflict> conflict_with(const Vertex<3>& v, const Edge& e);
+[[nodiscard]] std::optional<SpaceConflict> conflict_with(const Vertex<3>& v, const Polygon& f);
+[[nodiscard]] std::optional<SpaceConflict> conflict_with(const Edge& e, const Edge& t);
+[[nodiscard]] std::optional<SpaceConflict> conflict_with(const Edge& e, const Polygon& f);
+/// But for conflicts of one with an edge or a point of the other.
+[[nodiscard]] std::optional<SpaceConflict> conflict_with(const Polygon& f, const Polygon& g,
+                                                         const FeatureStore& store);
+
+/// Keeps the first by kind and place.
+void keep_first(std::optional<SpaceConflict>& first, const std::optional<SpaceConflict>& conflict);
+
+/// The first conflict of a feature with live features and input points; of a polygon without those
+/// of its edges. Cost: O(log L/s), and what is near.
+[[nodiscard]] std::optional<SpaceConflict> conflict_of(const Vertex<3>& v, FeatureStore& store);
+template <class S>
+[[nodiscard]] std::optional<SpaceConflict> conflict_of(const Edge& e, FeatureStore& store,
+                                                       const Features<S, 3>& points);
+template <class S>
+[[nodiscard]] std::optional<SpaceConflict> conflict_of(const Polygon& f, FeatureStore& store,
+                                                       const Features<S, 3>& points);
+
+/// What features in space are called.
+class SpaceNames {
+ public:
+  [[nodiscard]] virtual FeatureId point(VertexHandle v) const = 0;
+  /// Nothing: no segment of the input.
+  [[nodiscard]] virtual std::optional<FeatureId> segment(EdgeHandle e) const = 0;
+  [[nodiscard]] virtual FeatureId polygon(PolygonHandle f) const = 0;
+
+ protected:
+  ~SpaceNames() = default;
+};
+
+/// Throws: Error as the conflict says, with the ids of both and the place.
+[[noreturn]] void fail(const SpaceConflict& conflict, const SpaceNames& names,
+                       const FeatureStore& store);
+
+/// Throws: Error (bad_polygon, not_flat) if a polygon, whose corners are different in each loop, is
+/// none: if it has no area, is not flat, has a loop outside the first or twice the same edge, or if
+/// what it declares to lie in it does not.
+void require_shape(const Polygon& f, FeatureId id, const FeatureStore& store);
+
+namespace validity {
+
+// Beyond a feature by the tolerance of all tests.
+[[nodiscard]] inline FeatureExtent<3> widened(FeatureExtent<3> where) {
+  const Point<3> middle = scaled(0.5, plus(where.p, where.q));
+  where.slack += resolution(middle, std::sqrt(squared_distance(where.p, where.q)) + where.slack);
+  return where;
+}
+[[nodiscard]] inline Box<3> box_of(const FeatureExtent<3>& where) {
+  Box<3> box = around(where.p, where.slack);
+  const Box<3> other = around(where.q, where.slack);
+  for (int i = 0; i < 3; ++i) {
+    box.lo[i] = std::min(box.lo[i], other.lo[i]);
+    box.hi[i] = std::max(box.hi[i], other.hi[i]);
+  }
+  return box;
+}
+
+}  // namespace validity
+
+template <class S>
+std::optional<SpaceConflict> conflict_of(const Edge& e, FeatureStore& store,
+                                         const Features<S, 3>& points) {
+  std::optional<SpaceConflict> first;
+  const FeatureExtent<3> where = validity::widened(extent_of(e));
+  store.visit_near(where.p, where.q, where.slack, [&](const auto& f) {
+    keep_first(first, conflict_with(e, f));
+    return false;
+  });
+  points.visit_points_in(validity::box_of(where), [&](const Vertex<3>& v) {
+    keep_first(first, conflict_with(v, e));
+    return false;
+  });
+  return first;
+}
+
+template <class S>
+std::optional<SpaceConflict> conflict_of(const Polygon& f, FeatureStore& store,
+                                         const Features<S, 3>& points) {
+  std::optional<SpaceConflict> first;
+  const FeatureExtent<3> where = validity::widened(extent_of(f));
+  struct Look {
+    std::optional<SpaceConflict>& first;
+    const Polygon& f;
+    const FeatureStore& store;
+    bool operator()(const Edge& e) const { return keep_first(first, conflict_with(e, f)), false; }
+    bool operator()(const Polygon& g) const {
+      return keep_first(first, conflict_with(f, g, store)), false;
+    }
+  };
+  store.visit_near(where.p, where.q, where.slack, Look{first, f, store});
+  points.visit_points_in(validity::box_of(where), [&](const Vertex<3>& v) {
+    keep_first(first, conflict_with(v, f));
+    return false;
+  });
+  return first;
+}
+
+}  // namespace mesher::detail
