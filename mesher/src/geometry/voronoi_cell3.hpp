@@ -81,6 +81,10 @@ class VoronoiCell3 : public CornerReach<int> {
   [[nodiscard]] int corners() const noexcept { return corners_; }
   /// The neighbours around a corner: orient3d(v, a, b, c) > 0.
   [[nodiscard]] const std::array<int, 3>& ends(int t) const noexcept { return face_[index(t)].end; }
+  /// The corners beside a corner: the k-th does not have ends(t)[k] around it.
+  [[nodiscard]] const std::array<int, 3>& across(int t) const noexcept {
+    return face_[index(t)].across;
+  }
   /// A corner, relative to v.
   [[nodiscard]] Point<3> corner(int t) const noexcept {
     return {qx_[index(t)], qy_[index(t)], qz_[index(t)]};

@@ -46,6 +46,13 @@ class Reach {
 
   /// No side is farther, and one is farther than half of it.
   [[nodiscard]] double most() const noexcept { return unit() * kParts; }
+  /// How far the farthest side is.
+  [[nodiscard]] double farthest() const noexcept {
+    const Box<D> b = box();
+    double farthest = 0;
+    for (int i = 0; i < D; ++i) farthest = std::max({farthest, -b.lo[i], b.hi[i]});
+    return farthest;
+  }
   [[nodiscard]] Box<D> box() const noexcept {
     Box<D> box;
     for (int i = 0; i < D; ++i) {
@@ -147,6 +154,12 @@ class Area {
       below_[i] = std::max(below_[i], other.below_[i]);
       above_[i] = std::max(above_[i], other.above_[i]);
     }
+  }
+  /// No query of a vertex in the cell looks farther, in units of the cell's side.
+  [[nodiscard]] double farthest() const noexcept {
+    float farthest = 0;
+    for (int i = 0; i < D; ++i) farthest = std::max({farthest, below_[i] + 1, above_[i]});
+    return double{farthest} * (1 + 0x1p-20);
   }
   [[nodiscard]] bool covers(const Area& other) const noexcept {
     bool covers = true;

@@ -150,6 +150,21 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   /// the triangles of its star.
   void limits_changed(const Box<D>& where) noexcept;
 
+  /// Called by what makes a feature come or go: who has looked at a cell has asked which features
+  /// are beside it (VertexSearch::beside). `distance(x)`: of the feature from x; it does not throw.
+  template <class Distance>
+  void feature_changed(Distance&& distance) noexcept {
+    tree_.visit_within(Base::kBeside, distance, [&](const Vertex<D>& center) {
+      const double away = distance(center.p);
+      observers_.find_at(center, [&](const Observation& o) {
+        if (o.kind == kCell && away <= Base::beside(o.reach)) {
+          engine_.invalidate(engine_.call(o.call), &o);
+        }
+        return false;
+      });
+    });
+  }
+
   /// Called by what makes a record an input point, or no longer.
   void touch(Vertex<D>& v) noexcept { log_.touch(v); }
 

@@ -68,6 +68,14 @@ class VertexSearch {
                     });
   }
 
+  /// Features that matter to v are within this of it: those that its cell may meet, or that points
+  /// in the balls of its corners yield to. A point x in the ball of a corner q, and a feature in
+  /// the ball around x that is empty, are within 2.75 |q| of v (program/space_lines.hpp), and q's
+  /// ball extends from v farther than 1.577 |q| along some axis.
+  [[nodiscard]] double beside(const CellOf<D>& cell) const noexcept {
+    return beside(concern(cell));
+  }
+
   /// Clip radius at which no corner of a star is hidden: circumcentres lie in the box.
   [[nodiscard]] double whole() const noexcept { return 2 * box_.side; }
 
@@ -229,6 +237,11 @@ class VertexSearch {
       tree_.visit_box(v.p, cube(r), looked, enters, visit);
       if (best.distance2 <= within * within || r < within) return best;
     }
+  }
+
+  static constexpr double kBeside = 1.75;
+  [[nodiscard]] double beside(const Reach<D>& reach) const noexcept {
+    return kBeside * reach.farthest() * box_.side;
   }
 
   /// Cells and vertices that searches have looked at since this was asked last, each as often.

@@ -6,6 +6,7 @@
 //                           with, at most cap                                      (observation)
 #pragma once
 
+#include "index/vertex_index.hpp"
 #include "plc/feature_search.hpp"
 #include "plc/nearby.hpp"
 
@@ -65,6 +66,9 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   [[nodiscard]] const FeatureStore& store() const noexcept { return store_; }
   [[nodiscard]] FeatureStore& store() noexcept { return store_; }
 
+  /// Who looks at cells asks what is beside them without a word to this.
+  void set_cells(VertexIndex<sac::Scope, 3>& cells) noexcept { cells_ = &cells; }
+
   /// Valid until the next call.
   const FeaturesNear& near(sac::Scope& s, const Point<3>& place, double radius) {
     return nearby_.near(s, place, radius);
@@ -102,10 +106,10 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   }
 
  private:
-  void came(const Edge& e) noexcept override { tell_came(e); }
-  void went(const Edge& e) noexcept override { tell_went(e); }
-  void came(const Polygon& f) noexcept override { tell_came(f); }
-  void went(const Polygon& f) noexcept override { tell_went(f); }
+  void came(const Edge& e) noexcept override { tell_came(e), tell_cells(e); }
+  void went(const Edge& e) noexcept override { tell_went(e), tell_cells(e); }
+  void came(const Polygon& f) noexcept override { tell_came(f), tell_cells(f); }
+  void went(const Polygon& f) noexcept override { tell_went(f), tell_cells(f); }
   template <class F>
   void tell_came(const F& f) noexcept {
     crowding_.came(f);
@@ -117,7 +121,14 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
     nearby_.went(f);
   }
 
+  template <class F>
+  void tell_cells(const F& f) noexcept {
+    if (cells_ == nullptr) return;
+    cells_->feature_changed([&](const Point<3>& x) { return std::sqrt(distance2_to(x, f)); });
+  }
+
   sac::Engine& engine_;
+  VertexIndex<sac::Scope, 3>* cells_ = nullptr;
   FeatureStore store_;
   Crowding<sac::Scope, SpacePieces> crowding_;
   Nearby nearby_;

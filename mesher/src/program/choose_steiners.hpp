@@ -54,14 +54,15 @@ template <class S, int D>
 void Complete::operator()(S& s, VertexRef<D> v, int b) const {
   auto& w = s.template environment<World<S, D>>();
   const CellLoan<D> gaps = w.vertices.voronoi_cell(s, v, w.buckets().clip_radius(b));
-  Staying<S, D> stays(w);
-  bool cuts = disencroach(s, w, v, b);
+  Staying<S, D> stays(w, *gaps);
+  bool cuts = disencroach(s, w, stays, v, b);
   while (const auto point = w.rule->next_point(*gaps, b, stays.filter())) {
-    if (yields(s, w, point->p, b)) {
+    const Outcome outcome = yields(s, w, stays, *point, b);
+    if (outcome == Outcome::waits) {
       stays.leave(*gaps, point->from, point->to);
       cuts = true;
-      continue;
     }
+    if (outcome != Outcome::stands) continue;
     const VertexRef<D> x = w.vertices.insert(s, point->p);
     if (!point->farther || !gaps->cuts(x->p)) w.fail_useless(*v, *x);
     w.require_room(s);

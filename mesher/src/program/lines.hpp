@@ -1,31 +1,38 @@
-// What ChooseSteiners asks of segments. Where there are none yet, beyond the plane, the answer is
-// no.
+// What ChooseSteiners asks of segments, and in space of edges and polygons.
 #pragma once
 
-#include <type_traits>
+#include <cstdint>
 
+#include "program/space_lines.hpp"
 #include "program/world.hpp"
 
 namespace mesher::detail {
 
-/// Cuts the leaves that v, in its bucket, encroaches [5.2b]; returns whether there are any.
+/// Cuts the leaves that v, in its bucket, encroaches [5.2b]; returns whether there are any. In
+/// space inserts vertices on the features that the cell meets at once: none is left to be cut.
 template <class S>
-bool disencroach(S& s, World<S, 2>& w, VertexRef<2> v, int b) {
+bool disencroach(S& s, World<S, 2>& w, Staying<S, 2>&, VertexRef<2> v, int b) {
   return v->on_segment && w.post_cuts(s, w.leaves.around(s, v), b);
 }
-template <class S, int D>
-bool disencroach(S&, World<S, D>&, VertexRef<D>, int) {
+template <class S>
+bool disencroach(S& s, World<S, 3>&, Staying<S, 3>& beside, VertexRef<3>, int b) {
+  if (beside.any()) beside.disencroach(s, b);
   return false;
 }
 
-/// Cuts the leaves that have x in their balls [5.2c]; returns whether there are any.
+/// What becomes of a new point [5.2c]: it is inserted; not yet, leaves that have it in their balls
+/// are cut first; not at all, a vertex on a feature was.
+enum class Outcome : std::uint8_t { stands, waits, yielded };
+
 template <class S>
-bool yields(S& s, World<S, 2>& w, const Point<2>& x, int b) {
-  return w.leaves.any() && w.post_cuts(s, w.leaves.around(s, x), b);
+Outcome yields(S& s, World<S, 2>& w, Staying<S, 2>&, const InsertionRule<2>::NewPoint& x, int b) {
+  const bool waits = w.leaves.any() && w.post_cuts(s, w.leaves.around(s, x.p), b);
+  return waits ? Outcome::waits : Outcome::stands;
 }
-template <class S, int D>
-bool yields(S&, World<S, D>&, const std::type_identity_t<Point<D>>&, int) {
-  return false;
+template <class S>
+Outcome yields(S& s, World<S, 3>&, Staying<S, 3>& beside, const InsertionRule<3>::NewPoint& x,
+               int b) {
+  return beside.any() && beside.yields(s, x, b) ? Outcome::yielded : Outcome::stands;
 }
 
 }  // namespace mesher::detail

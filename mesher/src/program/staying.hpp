@@ -12,20 +12,14 @@
 
 namespace mesher::detail {
 
-/// Where there are no segments no simplex stays.
+/// In space it says more: program/space_lines.hpp.
 template <class S, int D>
-class Staying {
- public:
-  explicit Staying(const World<S, D>&) {}
-  [[nodiscard]] const EdgeFilter<D>* filter() const noexcept { return nullptr; }
-  void leave(const CellOf<D>&, int, int) {}
-  [[nodiscard]] std::uint64_t looked_at() const noexcept { return 0; }
-};
+class Staying;
 
 template <class S>
 class Staying<S, 2> final : public EdgeFilter<2> {
  public:
-  explicit Staying(const World<S>& world)
+  Staying(const World<S>& world, const VoronoiCell&)
       : world_(world), before_(world.segments.store().looked_at()) {}
 
   /// This, for a rule; null where nothing can stay.

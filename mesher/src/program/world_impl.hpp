@@ -6,6 +6,7 @@
 #include "program/choose_steiners.hpp"
 #include "program/cut.hpp"
 #include "program/fill.hpp"
+#include "program/split_edges.hpp"
 #include "program/split_segments.hpp"
 #include "program/triangulate.hpp"
 #include "program/world.hpp"
@@ -146,8 +147,8 @@ void PointWorld<S, D>::fail_too_many(S& s) const {
   throw too_many_vertices(vertices, names, most_vertices);
 }
 
-template <class S, int D>
-void World<S, D>::fail_useless(const Vertex<D>& v, const Vertex<D>& x) const {
+template <class S>
+void World<S, 3>::fail_useless(const Vertex<3>& v, const Vertex<3>& x) const {
   throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
                                         place_text(v.p) + ": rounding moved a new vertex to " +
                                         place_text(x.p));
@@ -157,6 +158,62 @@ template <class S>
 void World<S, 2>::fail_useless(const Vertex<2>& v, const Vertex<2>& x) {
   fail_near(v.p, std::sqrt(squared_distance(v.p, x.p)),
             "rounding moved a new vertex to " + place_text(x.p));
+}
+
+template <class S>
+void World<S, 3>::edge_came(const Edge& e) {
+  const EdgePiece all{&e};
+  if (plc.store().users(e) == 1) {
+    splits.template post_from_outside<split_edge>(split_edge_key(box, all), all);
+  }
+}
+
+template <class S>
+void World<S, 3>::edge_goes(const Edge& e) {
+  if (plc.store().users(e) == 0) splits.template retract_from_outside<split_edge>(EdgePiece{&e});
+}
+
+template <class S>
+const Edge& World<S, 3>::insert_edge(VertexHandle a, VertexHandle b) {
+  const Edge& e = plc.insert(a, b);
+  edge_came(e);
+  return e;
+}
+
+template <class S>
+void World<S, 3>::erase_edge(const Edge& e) {
+  plc.erase(e);
+  edge_goes(e);
+}
+
+template <class S>
+const Polygon& World<S, 3>::insert_polygon(PolygonParts parts) {
+  const Polygon& f = plc.insert(std::move(parts));
+  for (const EdgeHandle e : f.all_edges) edge_came(plc.store().edges()[e]);
+  return f;
+}
+
+template <class S>
+void World<S, 3>::erase_polygon(const Polygon& f) {
+  plc.erase(f);
+  for (const EdgeHandle e : f.all_edges) edge_goes(plc.store().edges()[e]);
+}
+
+template <class S>
+void World<S, 3>::post_split(S& s, const EdgePiece& piece) {
+  if constexpr (!S::kTraced) this->plain.tick();
+  splits.template post<split_edge>(s, split_edge_key(box, piece), piece);
+}
+
+template <class S>
+void World<S, 3>::insert_beside(S& s, const Vertex<3>& v, CellOf<3>& cell, const Placed& y, int b) {
+  const VertexRef<3> x =
+      y.role.on != 0 ? vertices.insert(s, y.p, y.role) : vertices.insert(s, y.p);
+  if (!cell.cuts(x->p)) fail_useless(v, *x);
+  this->require_room(s);
+  cell.cut(x->self);
+  this->post_nearest_in(s, x, b + 1);
+  this->post_star(s, x);
 }
 
 template <class S>

@@ -42,6 +42,7 @@ class InsertionRule {
     bool farther;     // clearly more than the length that asked for it, in spite of rounding
     int from = 0;     // the poor triangle's edge, as EdgeFilter names it
     int to = 0;
+    Point<D> corner{};  // the poor simplex's circumcentre; if it is hidden, where the clip is
   };
   /// A point to insert now, in bucket b; none if v is complete up to b. `filter`: null skips none.
   [[nodiscard]] virtual std::optional<NewPoint> next_point(const CellOf<D>& cell, int b,

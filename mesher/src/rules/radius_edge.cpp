@@ -176,6 +176,7 @@ auto RadiusEdge<D>::next_point(const CellOf<D>& cell, int b, const EdgeFilter<D>
     -> std::optional<NewPoint> {
   double shortest2 = std::numeric_limits<double>::infinity();
   Point<D> point{};
+  Point<D> corner{};
   int from = 0;
   int to = 0;
   bool large = false;
@@ -187,12 +188,14 @@ auto RadiusEdge<D>::next_point(const CellOf<D>& cell, int b, const EdgeFilter<D>
     if (skipped(poor, cell, filter)) return;
     shortest2 = poor.length2;
     point = x;
+    corner = poor.corner;
     from = poor.from, to = poor.to;
     large = poor.large;
   });
   if (std::isinf(shortest2)) return std::nullopt;
   NewPoint found = Base::new_point(cell, point, shortest2, large ? kAsFar : Base::growth2());
   found.from = from, found.to = to;
+  found.corner = corner;
   return found;
 }
 

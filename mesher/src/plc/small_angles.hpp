@@ -1,0 +1,54 @@
+// Where features meet at small angles [rules C]: copies instead of projections, and tetrahedra that
+// stay poor.
+//
+// A vertex v on f, too near g, and f and g share h, an edge or a point: projections between them
+// would approach h for ever. Instead v is *copied*: turned about h on to g, which is not near f for
+// that. And an edge from f to g that is shorter than both ends' distances from h is as short as
+// the angle makes it: a tetrahedron that is poor by it stays.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "plc/feature_store.hpp"
+#include "plc/placed.hpp"
+
+namespace mesher::detail {
+
+/// A vertex, and what it stands for.
+struct Standing {
+  const Vertex<3>& v;
+  Role role;
+};
+
+/// Whether it lies on a feature, by labels.
+[[nodiscard]] bool is_on(const Standing& v, const Edge& e);
+[[nodiscard]] bool is_on(const Standing& v, const Polygon& f);
+
+class SmallAngles {
+ public:
+  /// `near`: has the polygons that the vertices asked about are on.
+  SmallAngles(const FeatureStore& store, const FeaturesNear& near) : store_(store), near_(near) {}
+
+  /// The copy of v on g, if there is a place for it there: nearer to v than v is to what they
+  /// share.
+  [[nodiscard]] std::optional<Placed> copy(const Standing& v, const Edge& g) const;
+  [[nodiscard]] std::optional<Placed> copy(const Standing& v, const Polygon& g) const;
+
+  /// Whether a tetrahedron stays whose shortest edge is ab.
+  [[nodiscard]] bool keeps(const Standing& a, const Standing& b) const;
+
+ private:
+  [[nodiscard]] bool on(const Standing& v, const Feature& f) const;
+  [[nodiscard]] std::vector<Feature> features_of(const Role& role) const;
+  [[nodiscard]] Feature shared(const Feature& f, const Feature& g, const Point<3>& x) const;
+  [[nodiscard]] Point<3> foot(const Feature& h, const Point<3>& x) const;
+  template <class Foot>
+  [[nodiscard]] std::optional<Point<3>> turned(const Standing& v, const Feature& g,
+                                               Foot&& foot_on_g) const;
+
+  const FeatureStore& store_;
+  const FeaturesNear& near_;
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,104 @@
+// What the calls of the program share where there are points alone: the box, the rule, the
+// features, the vertices, the work queues. World (program/world.hpp) adds what else a dimension has.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#include "geometry/grid.hpp"
+#include "index/features.hpp"
+#include "index/subdivision.hpp"
+#include "index/vertex_index.hpp"
+#include "mesher/mesher.hpp"
+#include "rules/insertion_rule.hpp"
+#include "sac/sac.hpp"
+#include "segments/planarity.hpp"
+#include "sizes/limits_of.hpp"
+
+namespace mesher::detail {
+
+/// The simplices of a static run, as they are output, and who watches it.
+template <int D>
+struct PlainOutput {
+  std::vector<std::array<VertexHandle, D + 1>> simplices;
+  std::uint64_t calls = 0;  // those that say so by tick()
+  std::uint64_t next_report = ~std::uint64_t{0};
+  std::function<void(PlainOutput&)> report;  // sets the next report; may throw
+
+  void tick() {
+    if (++calls >= next_report) report(*this);
+  }
+};
+struct TracedOutput {};  // the stars' observations are the output
+
+template <class S, int D>
+struct PointWorld {
+  using Agenda = typename S::AgendaType;
+
+  MeshBox<D> box;
+  LimitsOf<D> limits;
+  std::unique_ptr<const InsertionRule<D>> rule;
+  VertexIndex<S, D> vertices;
+  Subdivision<S, D> subdivision;
+  Features<S, D> features;
+  Agenda& quadtree;
+  Agenda& steiner;
+  Agenda& stars;
+  std::size_t most_vertices;
+  std::size_t most_records;      // while an update is under way, of vertices that come and that go
+  const Names* names = nullptr;  // for messages; null: features have none
+  std::conditional_t<S::kTraced, TracedOutput, PlainOutput<D>> plain;
+  std::array<std::chrono::steady_clock::time_point, 4> marks{};
+
+  template <class Host>
+  PointWorld(const Options<D>& options, const MeshBox<D>& mesh_box, Host& host)
+      : box(mesh_box),
+        limits(options, box),
+        rule(insertion_rule<D>(options, box, limits)),
+        vertices(make_vertices(box, host)),
+        subdivision(vertices.tree(), host),
+        features(box, vertices.pool(), host),
+        quadtree(host.make_agenda("quadtree")),
+        steiner(host.make_agenda("steiner")),
+        stars(host.make_agenda("stars")),
+        most_vertices(options.max_vertices != 0 ? options.max_vertices : ~std::size_t{0}),
+        most_records(most_vertices) {
+    add_boundary();
+  }
+  PointWorld(const PointWorld&) = delete;
+  PointWorld& operator=(const PointWorld&) = delete;
+
+  [[nodiscard]] const Buckets<D>& buckets() const noexcept { return rule->buckets(); }
+  void post_nearest(S& s, VertexRef<D> v, int leaf_level);
+  /// Requires: no vertex is nearer than `distance` when Complete begins.
+  void post_nearest_from(S& s, VertexRef<D> v, double distance);
+  void post_nearest_in(S& s, VertexRef<D> v, int b);
+  void post_complete(S& s, VertexRef<D> v, int b);
+  void post_star(S& s, VertexRef<D> v);
+  void output(S& s, VertexRef<D> v, const CellOf<D>& star);
+  /// Throws: Error(too_many) if there are more vertices than there may be.
+  void require_room(S& s) const {
+    if (vertices.pool().size() > most_records) fail_too_many(s);
+  }
+  void fail_too_many(S& s) const;
+
+ private:
+  static auto make_vertices(const MeshBox<D>& box, sac::Engine& engine) {
+    return VertexIndex<sac::Scope, D>(box, engine);
+  }
+  static auto make_vertices(const MeshBox<D>& box, sac::PlainScope&) {
+    return VertexIndex<sac::PlainScope, D>(box);
+  }
+  void add_boundary();
+};
+
+/// PointWorld with what else there is in a dimension.
+template <class S, int D = 2>
+struct World;
+
+}  // namespace mesher::detail

@@ -1,0 +1,116 @@
+// What ChooseSteiners asks of edges and polygons in space [Fig 6.2, 6.3; rules C].
+//
+// No edge or face of the mesh is remembered: an edge of the input is a union of the mesh's edges,
+// and a polygon of its faces, once no vertex that is not on it has a cell that meets it. So
+// Complete(v) asks the features of the input near v, and that is a function of v's cell and these:
+// who has looked at v's cell is told when a feature near it comes or goes
+// (VertexIndex::features_changed).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "plc/encroachment.hpp"
+#include "plc/small_angles.hpp"
+#include "plc/yielding.hpp"
+#include "program/staying.hpp"
+#include "program/world.hpp"
+
+namespace mesher::detail {
+
+/// One Complete(v, b) among edges and polygons: which poor simplices stay, and what yields.
+template <class S>
+class Staying<S, 3> final : public EdgeFilter<3> {
+ public:
+  Staying(World<S, 3>& world, VoronoiCell3& cell)
+      : world_(world), cell_(cell), any_(world.has_features()) {
+    if (!any_) return;
+    const std::uint64_t before = world.plc.store().looked_at();
+    find_near(cell.center().p, world.vertices.beside(cell), world.plc.store(), near_);
+    looked_at_ = world.plc.store().looked_at() - before;
+  }
+
+  [[nodiscard]] bool any() const noexcept { return any_; }
+  /// This, for a rule; null where nothing can stay.
+  [[nodiscard]] const EdgeFilter<3>* filter() const noexcept { return any_ ? this : nullptr; }
+  void leave(const VoronoiCell3&, int, int) {}
+  [[nodiscard]] std::uint64_t looked_at() const noexcept { return looked_at_; }
+
+  [[nodiscard]] bool skips(const VoronoiCell3& cell, int p, int q) const override {
+    return angles().keeps(standing(vertex(cell, p)), standing(vertex(cell, q)));
+  }
+  [[nodiscard]] bool skips_large(const VoronoiCell3&, int, int) const override { return false; }
+
+  /// While the cell meets features that v is not on: vertices on these.
+  void disencroach(S& s, int b) {
+    for (const Edge* e : near_.edges) clear(s, *e, b);
+    for (const Polygon* f : near_.polygons) clear(s, *f, b);
+  }
+
+  /// Whether x yields: a vertex is inserted instead, on a feature.
+  bool yields(S& s, const typename InsertionRule<3>::NewPoint& x, int b) {
+    const auto y = yield(near_, x.p, std::sqrt(x.nearest2));
+    if (!y) return false;
+    insert(s, helps(*y, x.corner) ? *y : instead_of(x.corner), b);
+    return true;
+  }
+
+ private:
+  [[nodiscard]] Standing standing(const Vertex<3>& v) const {
+    return {v, world_.vertices.role(v)};
+  }
+  [[nodiscard]] SmallAngles angles() const { return {world_.plc.store(), near_}; }
+  [[nodiscard]] const Vertex<3>& vertex(const VoronoiCell3& cell, int i) const {
+    return i == kCentre ? cell.center() : world_.vertices.pool()[cell.handle(i)];
+  }
+  void insert(S& s, const Placed& y, int b) {
+    world_.insert_beside(s, cell_.center(), cell_, y, b);
+  }
+
+  // Each new vertex takes some of what the cell has of e.
+  void clear(S& s, const Edge& e, int b) {
+    const Standing v = standing(cell_.center());
+    if (is_on(v, e)) return;
+    while (const auto part = part_in(cell_, e)) {
+      auto y = angles().copy(v, e);
+      if (!y || !cell_.cuts(y->p)) {
+        const auto at = coarsest_dyadic(part->middle_half());
+        if (!at) world_.fail_useless(v.v, v.v);
+        y = placed_on(e, *at);
+      }
+      insert(s, *y, b);
+    }
+  }
+  void clear(S& s, const Polygon& f, int b) {
+    const Standing v = standing(cell_.center());
+    if (is_on(v, f)) return;
+    while (const auto x = place_in(cell_, f)) {
+      auto y = angles().copy(v, f);
+      if (!y || !cell_.cuts(y->p)) {
+        y = yield_to_edges(near_, *x, std::sqrt(squared_distance(*x, v.v.p)));
+      }
+      insert(s, y ? *y : placed_on(f, *x), b);
+    }
+  }
+
+  // Whether a vertex at y takes a corner of the cell.
+  [[nodiscard]] bool helps(const Placed& y, const Point<3>& corner) {
+    const double gap2 = squared_distance(corner, cell_.center().p);
+    return squared_distance(y.p, corner) < gap2 * (1 - 0x1p-30) && cell_.cuts(y.p);
+  }
+  // The off-centre's ball is not all in the circumball: where the off-centre yields to a place
+  // outside of that, the circumcentre does what it asks for.
+  [[nodiscard]] Placed instead_of(const Point<3>& corner) {
+    const auto y = yield(near_, corner, std::sqrt(squared_distance(corner, cell_.center().p)));
+    return y && helps(*y, corner) ? *y : Placed{corner, {}};
+  }
+
+  World<S, 3>& world_;
+  VoronoiCell3& cell_;
+  const bool any_;
+  FeaturesNear near_;
+  std::uint64_t looked_at_ = 0;
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,49 @@
+// What the mesher's calls share in space: besides what points need, the edges and polygons of the
+// input.
+#pragma once
+
+#include "plc/input_features.hpp"
+#include "plc/placed.hpp"
+#include "program/point_world.hpp"
+
+namespace mesher::detail {
+
+template <class S>
+struct World<S, 3> : PointWorld<S, 3> {
+  using Base = PointWorld<S, 3>;
+  using Base::box;
+  using Base::features;
+  using Base::vertices;
+  using typename Base::Agenda;
+
+  InputFeatures<S> plc;
+  Agenda& splits;
+
+  template <class Host>
+  World(const Options<3>& options, const MeshBox<3>& mesh_box, Host& host)
+      : Base(options, mesh_box, host),
+        plc(box, vertices.pool(), features, host),
+        splits(host.make_agenda("edges")) {
+    host.set_environment(this);
+    if constexpr (S::kTraced) plc.set_cells(vertices);
+  }
+
+  /// Outside edits: as those of plc, with the events of the edges that come and go.
+  const Edge& insert_edge(VertexHandle a, VertexHandle b);
+  void erase_edge(const Edge& e);
+  const Polygon& insert_polygon(PolygonParts parts);
+  void erase_polygon(const Polygon& f);
+
+  /// Whether there are edges, and perhaps polygons.
+  [[nodiscard]] bool has_features() const noexcept { return plc.store().live_edges() != 0; }
+  void post_split(S& s, const EdgePiece& piece);
+  /// A vertex that cuts the cell of v, in bucket b.
+  void insert_beside(S& s, const Vertex<3>& v, CellOf<3>& cell, const Placed& y, int b);
+  [[noreturn]] void fail_useless(const Vertex<3>& v, const Vertex<3>& x) const;
+
+ private:
+  void edge_came(const Edge& e);
+  void edge_goes(const Edge& e);
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,45 @@
+// SplitSegments in space [Fig 6.4; rules C]: edges of the input are split before anything is
+// refined, until no feature crowds a piece.
+//
+// As in the plane (program/split_segments.hpp) what crowds a piece is a function of the input
+// alone. A piece that is not crowded is nothing: that an edge is a union of the mesh's edges is for
+// Complete to see, which asks the edge itself [rules C3].
+#pragma once
+
+#include "program/build_qt.hpp"
+#include "program/space_world.hpp"
+
+namespace mesher::detail {
+
+struct SplitEdge {
+  static constexpr std::string_view kName = "split_edge";
+  template <class S>
+  void operator()(S& s, EdgePiece piece) const;
+};
+inline constexpr SplitEdge split_edge{};
+
+/// When split_edge(piece) runs: longest first; a half is half as long, in a later bucket.
+[[nodiscard]] inline sac::Key split_edge_key(const MeshBox<3>& box, const EdgePiece& piece) {
+  int exponent = 0;
+  static_cast<void>(std::frexp(piece.length(), &exponent));
+  return {.bucket = -exponent,
+          .order = morton<3>(box.fixed(place_at(*piece.edge, piece.lo)))};
+}
+
+// if the piece is crowded: split it in the middle, enqueue both halves, and the new vertex for
+// BuildQT
+template <class S>
+void SplitEdge::operator()(S& s, EdgePiece piece) const {
+  auto& w = s.template environment<World<S, 3>>();
+  if (!w.plc.crowded(s, piece)) return;
+  const Label middle = piece.middle();
+  const Placed y = placed_on(*piece.edge, fraction(middle));
+  const VertexRef<3> v = w.vertices.insert_early(s, y.p, y.role);
+  w.require_room(s);
+  w.features.insert(s, v);
+  w.quadtree.template post<locate>(s, locate_key(w.box.fixed(v->p)), v);
+  w.post_split(s, {piece.edge, piece.lo, middle});
+  w.post_split(s, {piece.edge, middle, piece.hi});
+}
+
+}  // namespace mesher::detail
