@@ -40,8 +40,12 @@ class FarthestCorner {
       if (other < t) continue;
       const Point<3> r = cell_.corner(other);
       const double to = dot(f_.plane.normal, r) + height;
-      if ((h > 0) != (to > 0)) look_at(plus(q, scaled(h / (h - to), minus(r, q))));
+      if ((h > 0) != (to > 0)) h > 0 ? look_between(r, to, q, h) : look_between(q, h, r, to);
     }
+  }
+  // From the one below the plane to the one above: corners' numbers depend on the search.
+  void look_between(const Point<3>& low, double below, const Point<3>& high, double above) {
+    look_at(plus(low, scaled(below / (below - above), minus(high, low))));
   }
   void look_at(const Point<3>& q) {
     const Point<3> x = plus(q, cell_.center().p);
