@@ -114,9 +114,20 @@ struct PlcFile {
 /// O(polygons^2 corners) for a facet.
 [[nodiscard]] PlcFile read_plc(const std::string& path);
 
+/// The complex with facets of one plane that are side by side made one, under the least of their
+/// ids, if their markers are the same. An edge goes if nobody else has it, else it lies inside, as
+/// points do that are then on no loop. Requires: what facets and segments name is a point.
+/// Cost: O(n log n).
+[[nodiscard]] Plc with_merged_facets(const Plc& plc);
+
 /// Writes a complex so that read_plc gives it back, but for the numbers of polygons and segments,
 /// where they are not those of the order: `.poly`, or `.smesh` if no facet has more than one loop.
 /// Coordinates read back bit for bit. Throws: Error (unknown_format, cannot_write, unsupported).
 void write_plc(const Plc& plc, const std::string& path);
+void write_poly(const Plc& plc, TextFile& file);
+/// Requires: require_single_loops(plc) has not thrown.
+void write_smesh(const Plc& plc, TextFile& file);
+/// Throws: Error(unsupported) if a polygon is more than one loop: .smesh has no place for that.
+void require_single_loops(const Plc& plc);
 
 }  // namespace mesher

@@ -278,15 +278,19 @@ bool is_word(const text::Line& line, std::string_view word) {
   throw line.error(ErrorCode::bad_edit, text::quoted(word) + " stands alone on its line", 1);
 }
 
-// A line may have the id of a point, and a polygon that of both: where the error is one of lines,
-// or of polygons, theirs are meant. Seeds are never to blame, limits only where no feature is.
-bool may_blame(ErrorCode code, Featured of) {
+// Whether the i-th id of an error is that of an edit of this kind. A line may have the id of a
+// point, and a polygon that of both. Seeds are never to blame, limits only where no feature is.
+bool may_blame(ErrorCode code, std::size_t i, Featured of) {
+  const bool of_lines = of == Featured::line || of == Featured::polygon;
   switch (code) {
+    case ErrorCode::point_on_segment:
+    case ErrorCode::point_on_polygon:
+      return i == 0 ? of == Featured::point : of_lines;
     case ErrorCode::crossing_segments:
     case ErrorCode::overlapping_segments:
     case ErrorCode::segment_through_polygon:
     case ErrorCode::segment_on_polygon:
-      return of == Featured::line || of == Featured::polygon;
+      return of_lines;
     case ErrorCode::repeated_segment:
       return of == Featured::line;
     case ErrorCode::bad_polygon:
@@ -296,7 +300,7 @@ bool may_blame(ErrorCode code, Featured of) {
     case ErrorCode::overlapping_polygons:
       return of == Featured::polygon;
     default:
-      return of == Featured::line || of == Featured::polygon || of == Featured::point;
+      return of_lines || of == Featured::point;
   }
 }
 
@@ -388,9 +392,9 @@ std::vector<EditOf<D>> announcing_order(std::vector<EditOf<D>> edits) {
 
 template <int D>
 Place place_to_blame(const std::vector<EditOf<D>>& edits, const Error& error) {
-  for (const FeatureId id : error.ids()) {
+  for (std::size_t i = 0; i < error.ids().size(); ++i) {
     const auto is_of = [&](const EditOf<D>& edit) {
-      return edit.id == id && may_blame(error.code(), featured(edit.kind));
+      return edit.id == error.ids()[i] && may_blame(error.code(), i, featured(edit.kind));
     };
     const auto last = std::find_if(edits.rbegin(), edits.rend(), is_of);
     if (last != edits.rend()) return last->place;

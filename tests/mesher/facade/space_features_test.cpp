@@ -333,11 +333,13 @@ TEST_CASE(
       if (e.code() == ErrorCode::too_many) throw;
       m.discard_edits();
       ++refusals;
+      INFO(e.what());
       REQUIRE(m.mesh() == before);
       continue;
     }
     points.clear();
     for (const auto& [point, at] : m.points()) points[static_cast<std::int64_t>(point)] = at;
+    REQUIRE(mesh_of_input(m) == static_mesh(m));
     REQUIRE(m.mesh() == static_mesh(m));
     if (round % 10 == 0) m.check_invariants();
   }

@@ -426,7 +426,7 @@ TEST_CASE("a script in space has segments, and polygons with holes and what lies
   mesher::apply(script, m, [&](const mesher::Update<3>&) {
     if (++updates > 1) return;
     REQUIRE(m.polygons().size() == 2);
-    const mesher::Polygon& f = m.polygons()[0];
+    const mesher::Polygon f = m.polygons()[0];
     CHECK(f.loops == std::vector<std::vector<FeatureId>>{list({1, 2, 3, 4}), list({5, 6, 7})});
     CHECK(f.points == list({8, 10}));
     CHECK(f.edges == std::vector<std::array<FeatureId, 2>>{{FeatureId{8}, FeatureId{9}},
