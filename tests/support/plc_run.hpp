@@ -1,11 +1,54 @@
 // The program in space, run on a complex without the engine, and what it made.
 #pragma once
 
+#include <algorithm>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "mesh/canonical.hpp"
 #include "plc_check.hpp"
 #include "plc_families.hpp"
 #include "program/world_impl.hpp"
 
 namespace support {
+
+/// What a run makes, bit for bit, in canonical form: the mesh, and what its vertices are on.
+struct SpaceResult {
+  // The ends of an edge or the corners of a polygon, and a label.
+  struct On {
+    std::vector<mesher::Point<3>> feature;
+    std::uint64_t label = 0;
+    friend bool operator==(const On&, const On&) = default;
+  };
+  mesher::Mesh<3> mesh;
+  std::map<mesher::Point<3>, On> on;
+  friend bool operator==(const SpaceResult&, const SpaceResult&) = default;
+};
+template <class World>
+[[nodiscard]] SpaceResult space_result(
+    const World& world, const std::vector<std::array<mesher::detail::VertexHandle, 4>>& simplices) {
+  using namespace mesher::detail;
+  SpaceResult result;
+  std::vector<VertexHandle> live;
+  const auto& pool = world.vertices.pool();
+  pool.for_each([&](const Vertex<3>& v) {
+    if (!v.alive) return;
+    live.push_back(v.self);
+    const Role role = world.vertices.role(v);
+    if (role.on == 0) return;
+    auto& on = result.on[v.p];
+    on.label = role.label.bits();
+    if (const EdgeHandle h = edge_of(role)) {
+      const Edge& e = world.plc.store().edges()[h];
+      on.feature = {e.place_a, e.place_b};
+    } else {
+      on.feature = world.plc.store().polygons()[polygon_of(role)].places;
+    }
+  });
+  result.mesh = canonical(pool, std::move(live), simplices, {});
+  return result;
+}
 
 /// A static run.
 class PlcRun {
@@ -20,6 +63,7 @@ class PlcRun {
   }
   [[nodiscard]] World& world() noexcept { return world_; }
   [[nodiscard]] ComplexMesh mesh();
+  [[nodiscard]] SpaceResult result() const { return space_result(world_, world_.plain.simplices); }
 
  private:
   void add(const Complex& complex);
@@ -77,7 +121,7 @@ inline ComplexMesh PlcRun::mesh() {
     edge.vertices = {{0, number(e.a)}, {1, number(e.b)}};
     pool.for_each([&](const Vertex& v) {
       const Role role = world_.vertices.role(v);
-      if (edge_of(role) == h) edge.vertices[fraction(role.label)] = number(v.self);
+      if (edge_of(role) == h) edge.vertices[from_a(e, role.label) / e.length] = number(v.self);
     });
   }
   FeaturesNear all;

@@ -1,4 +1,4 @@
-// Dyadic places on an edge: which one to take of a part of it.
+// Dyadic numbers: which one to take of those in a span.
 //
 // A coarse place is likely to be asked for again, by others and after an edit: so it is a function
 // of little.
@@ -11,25 +11,28 @@
 
 namespace mesher::detail {
 
-/// A part of an edge, in fractions of it.
+/// A part of something, in fractions of it.
 struct Span {
   double lo = 0, hi = 1;
-  [[nodiscard]] Span middle_half() const noexcept {
-    const double quarter = (hi - lo) / 4;
-    return {lo + quarter, hi - quarter};
+  /// Its part in the middle; `share`: of all of it.
+  [[nodiscard]] Span middle(double share) const noexcept {
+    const double off = (hi - lo) * (1 - share) / 2;
+    return {lo + off, hi - off};
   }
 };
 
-/// The multiple of the largest power of two in the span, and inside of (0, 1); nothing if there is
-/// none of at least 2^-50, the finest cells' size.
-[[nodiscard]] inline std::optional<double> coarsest_dyadic(const Span& span) noexcept {
-  constexpr double kUnits = 0x1p50;
-  const double lo = std::ceil(std::fmax(span.lo, 0x1p-50) * kUnits);
-  const double hi = std::floor(std::fmin(span.hi, 1 - 0x1p-50) * kUnits);
-  if (!(lo <= hi)) return std::nullopt;
-  const auto below = static_cast<std::uint64_t>(lo) - 1, last = static_cast<std::uint64_t>(hi);
-  const int differ = std::bit_width(below ^ last) - 1;
-  return static_cast<double>(last >> differ << differ) / kUnits;
+/// The multiple of the largest power of two in [lo, hi], not 0; nothing if that power would be
+/// below 2^-50 of the one in `length`. Requires: hi <= length.
+[[nodiscard]] inline std::optional<double> coarsest_dyadic(double lo, double hi,
+                                                           double length) noexcept {
+  const int unit = std::ilogb(length) - 50;
+  const double first = std::ceil(std::ldexp(std::fmax(lo, 0), -unit));
+  const double last = std::floor(std::ldexp(hi, -unit));
+  if (!(first <= last) || last < 1) return std::nullopt;
+  const auto below = static_cast<std::uint64_t>(std::fmax(first, 1)) - 1;
+  const auto end = static_cast<std::uint64_t>(last);
+  const int differ = std::bit_width(below ^ end) - 1;
+  return std::ldexp(static_cast<double>(end >> differ << differ), unit);
 }
 
 }  // namespace mesher::detail

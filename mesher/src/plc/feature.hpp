@@ -23,11 +23,13 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <ostream>
 #include <vector>
 
 #include "geometry/space.hpp"
 #include "index/vertex.hpp"
+#include "plc/dyadic.hpp"
 #include "segments/segment.hpp"
 
 namespace mesher::detail {
@@ -106,19 +108,33 @@ struct Polygon {
   }
 };
 
-/// A place on an edge: a dyadic fraction of it, from a (at most 1/2) or from b (less than 1/2).
-/// Exact: compare labels, never coordinates.
-[[nodiscard]] inline Label dyadic(double from_a) noexcept {
-  return from_a <= 0.5 ? Label(from_a, false) : Label(1 - from_a, true);
+/// The place of an edge that is this far from a, by its distance from the nearer end. Compare
+/// labels, never coordinates.
+[[nodiscard]] inline Label label_at(const Edge& e, double from_a) noexcept {
+  return from_a <= e.length / 2 ? Label(from_a, false) : Label(e.length - from_a, true);
 }
-/// The fraction of the edge before the place. Exact for places no nearer to b than 2^-53.
-[[nodiscard]] inline double fraction(const Label& label) noexcept { return label.from(false, 1); }
+/// How far from a that is, but for rounding.
+[[nodiscard]] inline double from_a(const Edge& e, const Label& label) noexcept {
+  return label.from(false, e.length);
+}
 
 /// Where that is: measured from the nearer end; an end is where it is, bit for bit.
 [[nodiscard]] inline Point<3> place_at(const Edge& e, const Label& label) {
   const Point<3>& o = label.from_b() ? e.place_b : e.place_a;
   const Point<3>& far = label.from_b() ? e.place_a : e.place_b;
-  return plus(o, scaled(label.distance(), minus(far, o)));
+  return plus(o, scaled(label.distance() / e.length, minus(far, o)));
+}
+
+/// The roundest place of those in a span of an edge, in fractions of it: its middle, or else at the
+/// coarsest dyadic distance from the nearer end. So edges that share an end are split at the same
+/// distances from it, powers of 2 where they are split the most. Nothing if the span is too short.
+[[nodiscard]] inline std::optional<Label> roundest(const Edge& e, const Span& span) noexcept {
+  if (span.lo <= 0.5 && span.hi >= 0.5) return Label(e.length / 2, false);
+  const bool from_b = span.lo > 0.5;
+  const Span near = from_b ? Span{1 - span.hi, 1 - span.lo} : span;
+  const auto at = coarsest_dyadic(near.lo * e.length, near.hi * e.length, e.length);
+  if (!at) return std::nullopt;
+  return Label(*at, from_b);
 }
 
 /// A part of an edge between two labelled places, `lo` nearer to a. An argument of traced
@@ -127,17 +143,19 @@ struct EdgePiece {
   const Edge* edge = nullptr;
   Label lo = Label::start(), hi = Label::end();
 
-  [[nodiscard]] Label middle() const noexcept { return dyadic((fraction(lo) + fraction(hi)) / 2); }
-  [[nodiscard]] double length() const noexcept {
-    return (fraction(hi) - fraction(lo)) * edge->length;
+  /// Where it is split: in its middle third. Requires: that is not shorter than the finest cells.
+  [[nodiscard]] Label middle() const noexcept { return *roundest(*edge, span().middle(1.0 / 3)); }
+  [[nodiscard]] Span span() const noexcept {
+    return {from_a(*edge, lo) / edge->length, from_a(*edge, hi) / edge->length};
   }
+  [[nodiscard]] double length() const noexcept { return from_a(*edge, hi) - from_a(*edge, lo); }
 
   friend bool operator==(const EdgePiece&, const EdgePiece&) = default;
   friend std::partial_ordering operator<=>(const EdgePiece& x, const EdgePiece& y) {
     if (const auto c = x.edge->place_a <=> y.edge->place_a; c != 0) return c;
     if (const auto c = x.edge->place_b <=> y.edge->place_b; c != 0) return c;
-    if (const auto c = fraction(x.lo) <=> fraction(y.lo); c != 0) return c;
-    return fraction(x.hi) <=> fraction(y.hi);
+    if (const auto c = x.span().lo <=> y.span().lo; c != 0) return c;
+    return x.span().hi <=> y.span().hi;
   }
   friend std::uint64_t hash_value(const EdgePiece& p) noexcept {
     std::uint64_t h = sac::mix(p.edge->self);

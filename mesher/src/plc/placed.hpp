@@ -1,7 +1,8 @@
 // Where a new vertex is to go, and what on: its role says the lowest feature that it lies on.
 //
-// A vertex on an edge has the edge's handle and a label in its role, one on a polygon the polygon's
-// handle, marked, and no label.
+// A vertex on an edge has the edge's handle and a label in its role; one on a polygon the polygon's
+// handle, marked, and if it is a copy (plc/small_angles.hpp) its distance from what it was turned
+// about.
 #pragma once
 
 #include "plc/feature.hpp"
@@ -12,10 +13,10 @@ namespace mesher::detail {
 /// Marks the handle of a polygon in a role.
 inline constexpr SegmentHandle kOnPolygon = 0x80000000u;
 
-[[nodiscard]] inline Role role_on(const Edge& e, double fraction) {
-  return {dyadic(fraction), e.self};
+[[nodiscard]] inline Role role_on(const Edge& e, const Label& at) { return {at, e.self}; }
+[[nodiscard]] inline Role role_on(const Polygon& f, double copied_at = 0) {
+  return {Label(copied_at, false), f.self | kOnPolygon};
 }
-[[nodiscard]] inline Role role_on(const Polygon& f) { return {Label(), f.self | kOnPolygon}; }
 /// The edge that a role says, 0 if it says none; the same for polygons.
 [[nodiscard]] inline EdgeHandle edge_of(const Role& role) {
   return (role.on & kOnPolygon) != 0 ? 0 : role.on;
@@ -29,12 +30,11 @@ struct Placed {
   Point<3> p{};
   Role role;
 };
-[[nodiscard]] inline Placed placed_on(const Edge& e, double fraction) {
-  const Role role = role_on(e, fraction);
-  return {place_at(e, role.label), role};
+[[nodiscard]] inline Placed placed_on(const Edge& e, const Label& at) {
+  return {place_at(e, at), role_on(e, at)};
 }
-[[nodiscard]] inline Placed placed_on(const Polygon& f, const Point<3>& p) {
-  return {p, role_on(f)};
+[[nodiscard]] inline Placed placed_on(const Polygon& f, const Point<3>& p, double copied_at = 0) {
+  return {p, role_on(f, copied_at)};
 }
 
 }  // namespace mesher::detail

@@ -40,11 +40,20 @@ class SmallAngles {
 
  private:
   [[nodiscard]] bool on(const Standing& v, const Feature& f) const;
+  [[nodiscard]] bool has(const Feature& f, VertexHandle point) const;
+  [[nodiscard]] bool share_shell(const Standing& a, const Standing& b) const;
   [[nodiscard]] std::vector<Feature> features_of(const Role& role) const;
   [[nodiscard]] Feature shared(const Feature& f, const Feature& g, const Point<3>& x) const;
   [[nodiscard]] Point<3> foot(const Feature& h, const Point<3>& x) const;
+  /// A place at distance `away` from what two features share.
+  struct Turned {
+    Point<3> x;
+    Feature about;
+    double away;
+  };
+  [[nodiscard]] double distance(const Standing& v, const Feature& h) const;
   template <class Foot>
-  [[nodiscard]] std::optional<Point<3>> turned(const Standing& v, const Feature& g,
+  [[nodiscard]] std::optional<Turned> turned(const Standing& v, const Feature& g,
                                                Foot&& foot_on_g) const;
 
   const FeatureStore& store_;

@@ -32,7 +32,7 @@ std::optional<Placed> place_in_ball(const Edge& e, const Point<3>& x, double rad
   if (height2 >= radius * radius) return std::nullopt;
   const double half = std::sqrt((radius * radius - height2) / length2);
   const Span chord{std::max(foot - half, 0.0), std::min(foot + half, 1.0)};
-  const auto at = coarsest_dyadic(chord.middle_half());
+  const auto at = roundest(e, chord.middle(0.5));
   if (!at) return std::nullopt;
   return placed_on(e, *at);
 }

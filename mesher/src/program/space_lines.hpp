@@ -75,7 +75,7 @@ class Staying<S, 3> final : public EdgeFilter<3> {
     while (const auto part = part_in(cell_, e)) {
       auto y = angles().copy(v, e);
       if (!y || !cell_.cuts(y->p)) {
-        const auto at = coarsest_dyadic(part->middle_half());
+        const auto at = roundest(e, part->middle(0.5));
         if (!at) world_.fail_useless(v.v, v.v);
         y = placed_on(e, *at);
       }

@@ -8,6 +8,7 @@
 
 #include "program/build_qt.hpp"
 #include "program/space_world.hpp"
+#include "program/split_segments.hpp"
 
 namespace mesher::detail {
 
@@ -18,11 +19,9 @@ struct SplitEdge {
 };
 inline constexpr SplitEdge split_edge{};
 
-/// When split_edge(piece) runs: longest first; a half is half as long, in a later bucket.
+/// When split_edge(piece) runs: longest first.
 [[nodiscard]] inline sac::Key split_edge_key(const MeshBox<3>& box, const EdgePiece& piece) {
-  int exponent = 0;
-  static_cast<void>(std::frexp(piece.length(), &exponent));
-  return {.bucket = -exponent,
+  return {.bucket = split_bucket(piece.length()),
           .order = morton<3>(box.fixed(place_at(*piece.edge, piece.lo)))};
 }
 
@@ -33,7 +32,7 @@ void SplitEdge::operator()(S& s, EdgePiece piece) const {
   auto& w = s.template environment<World<S, 3>>();
   if (!w.plc.crowded(s, piece)) return;
   const Label middle = piece.middle();
-  const Placed y = placed_on(*piece.edge, fraction(middle));
+  const Placed y = placed_on(*piece.edge, middle);
   const VertexRef<3> v = w.vertices.insert_early(s, y.p, y.role);
   w.require_room(s);
   w.features.insert(s, v);

@@ -22,14 +22,18 @@ struct SplitSegment {
 };
 inline constexpr SplitSegment split_segment{};
 
-/// When split_segment(piece) runs: longest first. A half is at most two thirds of a piece, and thus
-/// in a later bucket: there are two an octave, [1/2, sqrt(1/2)) and [sqrt(1/2), 1) times a power
-/// of 2.
-[[nodiscard]] inline sac::Key split_segment_key(const MeshBox<2>& box, const PieceRef& piece) {
+/// Buckets of pieces, longest first. A half is at most two thirds of a piece, and thus in a later
+/// bucket: there are two an octave, [1/2, sqrt(1/2)) and [sqrt(1/2), 1) times a power of 2.
+[[nodiscard]] inline int split_bucket(double length) noexcept {
   constexpr double kRootHalf = 0.70710678118654752;
   int exponent = 0;
-  const bool upper = std::frexp(piece.length(), &exponent) >= kRootHalf;
-  return {.bucket = -(2 * exponent + (upper ? 1 : 0)), .order = morton<2>(box.fixed(piece.lo()))};
+  const bool upper = std::frexp(length, &exponent) >= kRootHalf;
+  return -(2 * exponent + (upper ? 1 : 0));
+}
+
+/// When split_segment(piece) runs.
+[[nodiscard]] inline sac::Key split_segment_key(const MeshBox<2>& box, const PieceRef& piece) {
+  return {.bucket = split_bucket(piece.length()), .order = morton<2>(box.fixed(piece.lo()))};
 }
 
 // if sigma is crowded, or long for the lattice beside it: split it where the shells say, enqueue
