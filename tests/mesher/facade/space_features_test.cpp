@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "failing_new.hpp"
 #include "mesher/error.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"
@@ -345,4 +346,44 @@ TEST_CASE(
   }
   CHECK(refusals > 5);
   CHECK(updates > 15);
+}
+
+// All of the first ones, and then fewer and fewer: there are thousands. What the store of edges can
+// do without is no failure.
+TEST_CASE("An update of features in which an allocation fails leaves all, and works again") {
+  const auto with_segment = [] {
+    Scene scene;
+    scene.m.insert_segment(id(9), id(5), id(7));
+    scene.m.update();
+    return scene;
+  };
+  const auto announce = [](Mesher<3>& m) {
+    m.remove_segment(id(9));
+    m.insert_polygon({id(2), {ids({1, 2, 5})}});
+    m.insert(id(8), {0.9375, 0.875, 0.75});
+    m.insert_segment(id(3), id(8), id(7));
+    m.move(id(3), {0.8125, 0.75, 0.5});
+  };
+  Scene scene = with_segment();
+  const Mesh<3> before = scene.m.mesh();
+  const auto polygons = scene.m.polygons();
+  const auto lines = scene.m.lines();
+  bool burnt = true;
+  int failures = 0;
+  for (std::uint64_t count = 1; burnt; count += 1 + count / 20) {
+    CAPTURE(count);
+    announce(scene.m);
+    if (!support::fails(count, burnt, [&] { scene.m.update(); })) {
+      if (burnt) scene = with_segment();
+      continue;
+    }
+    ++failures;
+    scene.m.check_invariants();
+    REQUIRE(scene.m.mesh() == before);
+    REQUIRE(scene.m.polygons() == polygons);
+    REQUIRE(scene.m.lines() == lines);
+  }
+  CHECK(failures > 100);
+  CHECK(scene.m.polygons().size() == 2);
+  CHECK(scene.m.mesh() == mesh_of_input(scene.m));
 }
