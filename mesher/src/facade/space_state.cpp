@@ -86,16 +86,22 @@ FeatureId SpaceState::polygon(PolygonHandle f) const {
   return polygon_names_.at(f);
 }
 
+// What searches visit must not throw: they are counted first.
 std::vector<PolygonHandle> SpaceState::polygons_at(VertexHandle point) const {
-  std::vector<PolygonHandle> all;
   const FeatureExtent<3> where = validity::widened(extent_of(pool()[point]));
-  const auto take = [&](const auto& f) {
-    if constexpr (std::is_same_v<decltype(f), const Polygon&>) {
-      if (f.has(point)) all.push_back(f.self);
-    }
-    return false;
+  const auto visit_all = [&](auto&& visit) {
+    store().visit_near(where.p, where.q, where.slack, [&](const auto& f) {
+      if constexpr (std::is_same_v<decltype(f), const Polygon&>) {
+        if (f.has(point)) visit(f);
+      }
+      return false;
+    });
   };
-  store().visit_near(where.p, where.q, where.slack, take);
+  std::size_t count = 0;
+  visit_all([&](const Polygon&) { ++count; });
+  std::vector<PolygonHandle> all;
+  all.reserve(count);
+  visit_all([&](const Polygon& f) { all.push_back(f.self); });
   return all;
 }
 
