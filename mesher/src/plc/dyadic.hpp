@@ -31,7 +31,7 @@ struct Span {
   if (!(first <= last) || last < 1) return std::nullopt;
   const auto below = static_cast<std::uint64_t>(std::fmax(first, 1)) - 1;
   const auto end = static_cast<std::uint64_t>(last);
-  const int differ = std::bit_width(below ^ end) - 1;
+  const auto differ = static_cast<int>(std::bit_width(below ^ end)) - 1;
   return std::ldexp(static_cast<double>(end >> differ << differ), unit);
 }
 

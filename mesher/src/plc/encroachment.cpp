@@ -31,14 +31,15 @@ class FarthestCorner {
   [[nodiscard]] const std::optional<Point<3>>& place() const noexcept { return best_; }
 
  private:
-  // At corner t, if it is in the plane, and along the edges that lead to corners beyond.
+  // At corner t, if it is in the plane, and along the edges that lead to corners beyond: each edge
+  // from its smaller end, since numbers of corners say nothing.
   void look_from(int t, double height) {
     const Point<3> q = cell_.corner(t);
     const double h = dot(f_.plane.normal, q) + height;
     if (std::abs(h) <= 0x1p-30 * std::sqrt(cell_.corner2(t))) look_at(q);
     for (const int other : cell_.across(t)) {
-      if (other < t) continue;
       const Point<3> r = cell_.corner(other);
+      if (r < q) continue;
       const double to = dot(f_.plane.normal, r) + height;
       if ((h > 0) != (to > 0)) h > 0 ? look_between(r, to, q, h) : look_between(q, h, r, to);
     }

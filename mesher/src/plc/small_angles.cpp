@@ -10,6 +10,11 @@ namespace mesher::detail {
 
 namespace {
 
+// A place is turned by up to the angle with this cosine, somewhat more than that beyond which its
+// foot yields to what the features share: at an angle t the foot is sin(t) from the place and cos(t)
+// from there, and yields if cos(t) <= kYields sin(t), from 63.44 degrees on.
+constexpr double kTurned = 0.44;
+
 // Where the foot of x on the line of e is, as a fraction.
 double foot_fraction(const Edge& e, const Point<3>& x) {
   const Point<3> along = minus(e.place_b, e.place_a);
@@ -18,9 +23,6 @@ double foot_fraction(const Edge& e, const Point<3>& x) {
 Point<3> place_on_line(const Edge& e, double fraction) {
   return plus(e.place_a, scaled(fraction, minus(e.place_b, e.place_a)));
 }
-
-// Whether two distances are one but for rounding.
-bool is_about(double x, double y) { return std::abs(x - y) <= y * 0x1p-40; }
 
 }  // namespace
 
@@ -72,19 +74,33 @@ Point<3> SmallAngles::foot(const Feature& h, const Point<3>& x) const {
   return place_on_line(e, std::clamp(foot_fraction(e, x), 0.0, 1.0));
 }
 
-// Of v from h; as labels say where they do, so that a copy of a copy is as far, bit for bit.
-double SmallAngles::distance(const Standing& v, const Feature& h) const {
-  if (h.kind() == Feature::Kind::point && edge_of(v.role) != 0) {
-    const Edge& e = store_.edges()[edge_of(v.role)];
-    if (e.has_end(h.handle())) return v.role.label.from(e.b == h.handle(), e.length);
+// The distance of v from a point of its features that is part of what v is: as an edge's end, or
+// since v is a copy about the point. 0: there is none.
+double SmallAngles::shell(const Standing& v, VertexHandle point) const {
+  const Label& label = v.role.label;
+  if (const EdgeHandle h = edge_of(v.role)) {
+    const Edge& e = store_.edges()[h];
+    return e.has_end(point) ? label.from(e.b == point, e.length) : 0;
   }
-  const double away = std::sqrt(squared_distance(v.v.p, foot(h, v.v.p)));
-  const double copied_at = polygon_of(v.role) != 0 ? v.role.label.distance() : 0;
-  return is_about(away, copied_at) ? copied_at : away;
+  const double away = std::sqrt(squared_distance(v.v.p, store_.points()[point].p));
+  return std::abs(away - label.distance()) <= away * 0x1p-40 ? label.distance() : 0;
 }
 
-// At v's distance from what g shares with a feature of v, on the way to the foot of v on g, unless
-// that is at over 60 degrees.
+// Of v from h; as labels say where they do, so that a copy of a copy is as far, bit for bit.
+double SmallAngles::distance(const Standing& v, const Feature& h) const {
+  const double known = h.kind() == Feature::Kind::point ? shell(v, h.handle()) : 0;
+  return known != 0 ? known : std::sqrt(squared_distance(v.v.p, foot(h, v.v.p)));
+}
+
+// To be turned about h leaves v as far from a point as it is: from h itself, or from an end of h.
+double SmallAngles::kept_shell(const Standing& v, const Feature& h) const {
+  if (h.kind() == Feature::Kind::point) return distance(v, h);
+  const Edge& e = store_.edges()[h.handle()];
+  const double from_a = shell(v, e.a), from_b = shell(v, e.b);
+  return from_a == 0 || (from_b != 0 && from_b < from_a) ? from_b : from_a;
+}
+
+// At v's distance from what g shares with a feature of v, on the way to the foot of v on g.
 template <class Foot>
 auto SmallAngles::turned(const Standing& v, const Feature& g, Foot&& foot_on_g) const
     -> std::optional<Turned> {
@@ -94,9 +110,9 @@ auto SmallAngles::turned(const Standing& v, const Feature& g, Foot&& foot_on_g) 
     const Point<3> hinge = foot(h, v.v.p);
     const double away = distance(v, h);
     const Point<3> to = minus(foot_on_g(v.v.p), hinge);
-    if (away == 0 || squared(to) < away * away / 4) continue;
-    const Point<3> x = plus(hinge, scaled(away / std::sqrt(squared(to)), to));
-    if (squared_distance(x, v.v.p) < away * away) return Turned{x, h, away};
+    const double cosine = std::sqrt(squared(to)) / away;
+    if (away == 0 || cosine < kTurned) continue;
+    return Turned{plus(hinge, scaled(1 / cosine, to)), h, away};
   }
   return std::nullopt;
 }
@@ -125,19 +141,17 @@ std::optional<Placed> SmallAngles::copy(const Standing& v, const Polygon& g) con
     if (at > 0 && at < 1) return placed_on(e, label_at(e, at * e.length));
     return std::nullopt;
   }
-  return placed_on(g, turned_to->x, turned_to->away);
+  return placed_on(g, turned_to->x, kept_shell(v, turned_to->about));
 }
 
 // Whether b, a copy about a point, and a are on features at that point, as far from it.
 bool SmallAngles::share_shell(const Standing& a, const Standing& b) const {
-  const double away = b.role.label.distance();
-  if (polygon_of(b.role) == 0 || away == 0) return false;
+  if (polygon_of(b.role) == 0 || b.role.label.distance() == 0) return false;
   for (const VertexHandle p : store_.polygons()[polygon_of(b.role)].points) {
-    const Feature about(store_.points()[p]);
-    if (!is_about(std::sqrt(squared_distance(b.v.p, store_.points()[p].p)), away)) continue;
-    for (const Feature& f : features_of(a.role)) {
-      if (has(f, p) && distance(a, about) == away) return true;
-    }
+    const double away = shell(b, p);
+    if (away == 0 || shell(a, p) != away) continue;
+    const auto on_a = features_of(a.role);
+    return std::any_of(on_a.begin(), on_a.end(), [&](const Feature& f) { return has(f, p); });
   }
   return false;
 }

@@ -30,8 +30,7 @@ class SmallAngles {
   /// `near`: has the polygons that the vertices asked about are on.
   SmallAngles(const FeatureStore& store, const FeaturesNear& near) : store_(store), near_(near) {}
 
-  /// The copy of v on g, if there is a place for it there: nearer to v than v is to what they
-  /// share.
+  /// The copy of v on g, if they share something at a small angle and there is a place for it.
   [[nodiscard]] std::optional<Placed> copy(const Standing& v, const Edge& g) const;
   [[nodiscard]] std::optional<Placed> copy(const Standing& v, const Polygon& g) const;
 
@@ -51,7 +50,9 @@ class SmallAngles {
     Feature about;
     double away;
   };
+  [[nodiscard]] double shell(const Standing& v, VertexHandle point) const;
   [[nodiscard]] double distance(const Standing& v, const Feature& h) const;
+  [[nodiscard]] double kept_shell(const Standing& v, const Feature& h) const;
   template <class Foot>
   [[nodiscard]] std::optional<Turned> turned(const Standing& v, const Feature& g,
                                                Foot&& foot_on_g) const;

@@ -266,19 +266,33 @@ TEST_CASE("Balls are closed, with a slack of 2^-30 [C5]") {
   REQUIRE_FALSE(touches(1 + 0x1p-29, 1));
 }
 
-TEST_CASE("Labels of places on edges are exact, and places those of the nearer end") {
+TEST_CASE("Labels of places on edges are distances from the nearer end, and places are measured so") {
   Edge e;
   e.place_a = {0.1, 0.2, 0.3};
-  e.place_b = {0.9, 0.7, 0.1};
+  e.place_b = {1.1, 0.2, 0.3};
+  e.length = 1;
   REQUIRE(place_at(e, Label::start()) == e.place_a);
   REQUIRE(place_at(e, Label::end()) == e.place_b);
-  REQUIRE(dyadic(0.75) == Label(0.25, true));
-  REQUIRE(dyadic(0.5) == Label(0.5, false));
+  REQUIRE(label_at(e, 0.75) == Label(0.25, true));
+  REQUIRE(label_at(e, 0.5) == Label(0.5, false));
   for (const double t : {0.0, 0x1p-40, 0.375, 0.5, 0.625, 1 - 0x1p-40, 1.0}) {
-    REQUIRE(fraction(dyadic(t)) == t);
+    REQUIRE(from_a(e, label_at(e, t)) == t);
   }
-  const EdgePiece whole{&e};
-  REQUIRE(whole.middle() == Label(0.5, false));
-  REQUIRE(EdgePiece{&e, dyadic(0.5), Label::end()}.middle() == Label(0.25, true));
-  REQUIRE(EdgePiece{&e, Label::start(), dyadic(0.5)} < EdgePiece{&e, dyadic(0.5), Label::end()});
+}
+
+TEST_CASE("Pieces of edges are split at the middle of the edge, else at round distances from ends") {
+  Edge e;
+  e.place_b = {2.9, 0, 0};
+  e.length = 2.9;
+  REQUIRE(EdgePiece{&e}.middle() == Label(1.45, false));
+  const EdgePiece lower{&e, Label::start(), Label(1.45, false)};
+  REQUIRE(lower.middle() == Label(0.5, false));
+  const EdgePiece upper{&e, Label(1.45, false), Label::end()};
+  REQUIRE(upper.middle() == Label(0.5, true));
+  REQUIRE(lower < upper);
+  REQUIRE(EdgePiece{&e, Label(0.5, true), Label::end()}.middle() == Label(0.25, true));
+  REQUIRE(roundest(e, {0.3, 0.31}) == Label(0.875, false));
+  REQUIRE(roundest(e, {0.69, 0.7}) == Label(0.875, true));
+  REQUIRE(roundest(e, {0.49, 0.52}) == Label(1.45, false));
+  REQUIRE_FALSE(roundest(e, {0.3, 0.3 + 0x1p-53}).has_value());
 }
