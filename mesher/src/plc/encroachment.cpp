@@ -41,12 +41,8 @@ class FarthestCorner {
       const Point<3> r = cell_.corner(other);
       if (r < q) continue;
       const double to = dot(f_.plane.normal, r) + height;
-      if ((h > 0) != (to > 0)) h > 0 ? look_between(r, to, q, h) : look_between(q, h, r, to);
+      if ((h > 0) != (to > 0)) look_at(plus(q, scaled(h / (h - to), minus(r, q))));
     }
-  }
-  // From the one below the plane to the one above: corners' numbers depend on the search.
-  void look_between(const Point<3>& low, double below, const Point<3>& high, double above) {
-    look_at(plus(low, scaled(below / (below - above), minus(high, low))));
   }
   void look_at(const Point<3>& q) {
     const Point<3> x = plus(q, cell_.center().p);
