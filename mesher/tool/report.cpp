@@ -40,6 +40,11 @@ std::string of_all(std::size_t kept, std::size_t all) {
   return std::to_string(kept) + " of " + std::to_string(all) + " in the box";
 }
 
+// "1 point", "2 points".
+std::string counted(std::size_t n, const std::string& what) {
+  return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
+}
+
 // Which triangles keep the bound: all, but those that small angles of the input forbid to.
 void measure_bound(double rho, const mesher::Mesh<2>& mesh, Run& run) {
   constexpr double kRounding = 1e-9;
@@ -60,7 +65,7 @@ std::string smallest_angle(const Run& run) {
   const std::string all = format("%.2f degrees", run.quality.min_angle_deg);
   if (run.above_rho == 0) return all;
   return all + ", " + format("%.2f", run.min_angle_within_rho) + " off " +
-         std::to_string(run.above_rho) + " triangles at small angles of the input";
+         counted(run.above_rho, "triangle") + " at small angles of the input";
 }
 
 Json json_of(const std::vector<mesher::SmallAngle>& angles) {
@@ -200,9 +205,9 @@ Json json_of(const SpaceStep& update) { return json_of_change(update); }
 
 void print_run(const Input& input, const Run& run) {
   const mesher::Pslg& graph = input.graph();
-  std::printf("%s: %zu points", input.path().c_str(), graph.points.size());
+  std::printf("%s: %s", input.path().c_str(), counted(graph.points.size(), "point").c_str());
   const std::size_t lines = graph.segments.size() + graph.polylines.size();
-  if (lines > 0) std::printf(", %zu lines", lines);
+  if (lines > 0) std::printf(", %s", counted(lines, "line").c_str());
   std::printf("\n");
   print_row("vertices", of_all(run.vertices, run.stats.vertices));
   print_row("triangles", of_all(run.simplices, run.stats.simplices));
@@ -219,7 +224,7 @@ void print_run(const Input& input, const Run& run) {
 }
 
 void print_run(const SpaceInput& input, const SpaceRun& run) {
-  std::printf("%s: %zu points in space\n", input.path().c_str(), run.points);
+  std::printf("%s: %s in space\n", input.path().c_str(), counted(run.points, "point").c_str());
   print_row("vertices", std::to_string(run.stats.vertices));
   print_row("tetrahedra", std::to_string(run.stats.simplices));
   print_row("dihedral angles", format("%.2f", run.quality.min_dihedral_deg) + " to " +

@@ -194,7 +194,7 @@ refuse 1 'bad.geojson:2:' mesh bad.geojson -o out/x.vtu
 expect 1 'error[crossing_segments]: segment 2 crosses itself at (4, 4)' mesh bad.geojson -o out/x.vtu
 bad_lake 1 '(point 7: bad.poly:9)' 's/^10 2 4 0/10 2 2.000000000000001 0/'
 bad_lake 3 'bad.poly:24:1: error[unknown_id]: segment 11' 's/^11 2 5 7/11 2 99 7/'
-refuse 2 'segments need the rule radius_edge' mesh lake.poly --rule voronoi-aspect -o out/x.vtu
+refuse 2 'segments need the rule radius-edge' mesh lake.poly --rule voronoi-aspect -o out/x.vtu
 
 echo "== --max-vertices"
 refuse 4 'error[too_many]: more than 60 vertices' mesh lake.poly --max-vertices 60 -o out/x.vtu

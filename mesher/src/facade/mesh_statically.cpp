@@ -217,7 +217,7 @@ Mesh<2> mesh_statically(const std::vector<Point<2>>& points, const std::vector<S
                         const Options<2>& options, const std::vector<FeatureId>& ids,
                         MeshStats* stats, const RunControl& control) {
   if (options.rule != Rule::radius_edge) {
-    throw Error(ErrorCode::bad_option, "segments need the rule radius_edge");
+    throw Error(ErrorCode::bad_option, "segments need the rule radius-edge");
   }
   StaticRun<2> run(points, options, ids, control, segments.size());
   if (!segments.empty()) {

@@ -121,7 +121,7 @@ template <>
 void Mesher<2>::Impl::insert_line(FeatureId id, const detail::LinePoints& points) {
   busy.require_idle();
   if (options.rule != Rule::radius_edge) {
-    throw Error(ErrorCode::bad_option, "segments need the rule radius_edge", {}, {id});
+    throw Error(ErrorCode::bad_option, "segments need the rule radius-edge", {}, {id});
   }
   if (points.size() < 2) {
     throw Error(ErrorCode::bad_option, "line " + text(id) + " has fewer than two points", {}, {id});

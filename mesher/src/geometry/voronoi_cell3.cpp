@@ -67,6 +67,7 @@ int VoronoiCell3::new_face() {
   if (open_.size() < index(corners_ + 1)) {
     const std::size_t room = 2 * index(corners_) + 32;
     for (auto* column : {&qx_, &qy_, &qz_, &q2_, &tolerance2_}) column->resize(room);
+    for (auto* column : {&open_x_, &open_y_, &open_z_, &open_q2_}) column->resize(room);
     face_.resize(room);
     is_open_.resize(room);
     is_taken_.resize(room);
@@ -87,6 +88,17 @@ void VoronoiCell3::set_face(int t, const Face& face, bool open) {
   qz_[at] = c.q[2];
   q2_[at] = c.length2;
   tolerance2_[at] = c.tolerance2;
+}
+
+void VoronoiCell3::update_reach() noexcept {
+  CornerReach::update_reach(index(corners_));
+  for (std::size_t k = 0; k < index(open_count_); ++k) {
+    const std::size_t t = index(open_[k]);
+    open_x_[k] = qx_[t];
+    open_y_[k] = qy_[t];
+    open_z_[k] = qz_[t];
+    open_q2_[k] = q2_[t];
+  }
 }
 
 // --- Cells to start from ---------------------------------------------------------------------
@@ -111,44 +123,44 @@ void VoronoiCell3::reset(const Vertex<3>& v, double radius) {
   update_reach();
 }
 
-// Triangles that share an edge have it in opposite directions: sorted by their undirected edges,
-// they are next to each other.
 void VoronoiCell3::load(const VertexPool<3>& pool, double radius, const LinkRecord& record,
                         bool open) {
   for (const Code code : record.neighbours()) {
     static_cast<void>(new_neighbour(code, place_of(pool, v_->p, radius, code)));
   }
   const auto n = static_cast<int>(record.triangles());
-  struct Edge {
-    std::uint64_t ends;
-    int face, opposite;
-  };
-  std::vector<Edge> edges;
-  edges.reserve(3 * index(n));
+  for (int t = 0; t < n; ++t) static_cast<void>(new_face());
   for (int t = 0; t < n; ++t) {
-    static_cast<void>(new_face());
-    const auto end = record.triangle(index(t));
-    for (int k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(end[index((k + 1) % 3)], end[index((k + 2) % 3)]);
-      edges.push_back({std::uint64_t{low} << 32 | high, t, k});
+    const auto [a, b, c] = record.triangle(index(t));
+    const std::array<int, 3> end{static_cast<int>(a), static_cast<int>(b), static_cast<int>(c)};
+    set_face(t, {end, {-1, -1, -1}}, open);
+  }
+  join_across();
+}
+
+// Tells triangles whom they share edges with. An edge waits for its other triangle at the end that
+// has fewer: all that are looked at are O(n), the link being a planar graph.
+void VoronoiCell3::join_across() {
+  if (unpaired_.size() < index(neighbours_)) unpaired_.resize(index(neighbours_));
+  for (int i = 0; i < neighbours_; ++i) unpaired_[index(i)].clear();
+  for (int t = 0; t < corners_; ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      int at = face_[index(t)].end[(k + 1) % 3], other = face_[index(t)].end[(k + 2) % 3];
+      const int fewer = uses_[index(other)] - uses_[index(at)];
+      if (fewer < 0 || (fewer == 0 && other < at)) std::swap(at, other);
+      auto& waiting = unpaired_[index(at)];
+      const auto found = std::find_if(waiting.begin(), waiting.end(),
+                                      [&](const Unpaired& e) { return e.other == other; });
+      if (found == waiting.end()) {
+        waiting.push_back({other, t, static_cast<int>(k)});
+        continue;
+      }
+      face_[index(t)].across[k] = found->face;
+      face_[index(found->face)].across[index(found->opposite)] = t;
+      *found = waiting.back();
+      waiting.pop_back();
     }
   }
-  std::sort(edges.begin(), edges.end(),
-            [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
-  std::vector<std::array<int, 3>> across(index(n));
-  for (std::size_t i = 0; i + 1 < edges.size(); i += 2) {
-    SAC_ENSURES(edges[i].ends == edges[i + 1].ends);
-    across[index(edges[i].face)][index(edges[i].opposite)] = edges[i + 1].face;
-    across[index(edges[i + 1].face)][index(edges[i + 1].opposite)] = edges[i].face;
-  }
-  for (int t = 0; t < n; ++t) {
-    const auto end = record.triangle(index(t));
-    set_face(t,
-             {{static_cast<int>(end[0]), static_cast<int>(end[1]), static_cast<int>(end[2])},
-              across[index(t)]},
-             open);
-  }
-  update_reach();
 }
 
 // A virtual neighbour is 2 radius away: no corner nearer than that is its.
@@ -195,9 +207,8 @@ double VoronoiCell3::largest_projection() const noexcept {
 
 double VoronoiCell3::largest_open_projection() const noexcept {
   double most = -std::numeric_limits<double>::infinity();
-  for (int k = 0; k < open_count_; ++k) {
-    const std::size_t t = index(open_[index(k)]);
-    most = std::max(most, aim_[0] * qx_[t] + aim_[1] * qy_[t] + aim_[2] * qz_[t]);
+  for (std::size_t k = 0; k < index(open_count_); ++k) {
+    most = std::max(most, aim_[0] * open_x_[k] + aim_[1] * open_y_[k] + aim_[2] * open_z_[k]);
   }
   return most;
 }
@@ -270,21 +281,26 @@ void VoronoiCell3::join_rim(int w) {
   for (std::size_t i = 0; i < rim_.size(); ++i) {
     const Rim& edge = rim_[i];
     const int t = taken_[i];
-    Face& beyond = face_[index(edge.beyond)];
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (beyond.end[k] != edge.from && beyond.end[k] != edge.to) beyond.across[k] = t;
-    }
+    link_across(edge.beyond, edge.from, edge.to, t);
     const int next = taken_[index(rim_at_[index(edge.to)])];
     set_face(t, {{edge.from, edge.to, w}, {next, -1, edge.beyond}}, edge.open);
   }
   for (std::size_t i = 0; i < rim_.size(); ++i) {
     face_[index(face_[index(taken_[i])].across[0])].across[1] = taken_[i];
   }
-  for (std::size_t i = gone; i-- > rim_.size();) fill_hole(taken_[i]);
+  for (std::size_t i = gone; i-- > rim_.size();) give_up_number(taken_[i]);
 }
 
-// The last triangle takes the number t. (Holes are filled from the greatest number on.)
-void VoronoiCell3::fill_hole(int t) {
+// Triangle t has `other` beyond its edge between two neighbours.
+void VoronoiCell3::link_across(int t, int from, int to, int other) noexcept {
+  Face& face = face_[index(t)];
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (face.end[k] != from && face.end[k] != to) face.across[k] = other;
+  }
+}
+
+// The last triangle takes the number t. (Numbers are given up from the greatest on.)
+void VoronoiCell3::give_up_number(int t) {
   const int last = --corners_;
   if (t == last) return;
   const std::size_t to = index(t), from = index(last);
@@ -298,6 +314,79 @@ void VoronoiCell3::fill_hole(int t) {
   }
 }
 
+// --- A neighbour that goes --------------------------------------------------------------------
+//
+// Its side of the cell is lost; who bounds the cell there instead are some of those whose sides
+// were next to it: the side of any other would have to cross the lost one's plane, and then was
+// next to it. So its triangles are taken from the link, and the hole is filled by ears: three in a
+// row whose ball no other of the rim is in.
+
+// Returns false, and then leaves no cell, if the others do not surround v, or if it would take
+// long.
+bool VoronoiCell3::remove(int i) {
+  constexpr int kMost = 32;  // ears are looked for in the cube of this
+  if (uses_[index(i)] > kMost) return false;
+  taken_.clear();
+  for (int t = 0; t < corners_; ++t) {
+    const auto& [a, b, c] = ends(t);
+    is_taken_[index(t)] = a == i || b == i || c == i;
+    if (is_taken_[index(t)] != 0) taken_.push_back(t);
+  }
+  find_rim();
+  walk_rim();
+  release_ends();
+  const std::size_t gone = taken_.size();
+  for (std::size_t k = 0; k + 2 < gone; ++k) {
+    std::size_t at = 0;
+    while (at < hole_.size() && !is_ear(at)) ++at;
+    if (at == hole_.size()) return false;
+    cut_ear(at, taken_[k]);
+  }
+  give_up_number(taken_[gone - 1]);
+  give_up_number(taken_[gone - 2]);
+  return true;
+}
+
+void VoronoiCell3::walk_rim() {
+  hole_.clear();
+  int at = 0;
+  do {
+    const Rim& edge = rim_[index(at)];
+    hole_.push_back({edge.from, edge.beyond});
+    at = rim_at_[index(edge.to)];
+  } while (at != 0);
+}
+
+// Whether hole_[at] and the two behind are a triangle of the cell.
+bool VoronoiCell3::is_ear(std::size_t at) {
+  const std::size_t n = hole_.size();
+  const int a = hole_[at].from, b = hole_[(at + 1) % n].from, c = hole_[(at + 2) % n].from;
+  if (predicates::orient3d(v_->p, place(a), place(b), place(c)) <= 0) return false;
+  const Circumcentre corner = circumcentre(v_->p, place(a), place(b), place(c));
+  return std::none_of(rim_.begin(), rim_.end(), [&](const Rim& edge) {
+    const int i = edge.from;
+    if (i == a || i == b || i == c) return false;
+    const Point<3>& u = u_[index(i)];
+    const double u2 = squared(u), value = 2 * dot(u, corner.q) - u2;
+    if (value * value > corner.tolerance2 * u2) return value > 0;
+    return predicates::insphere_perturbed(v_->p, place(a), place(b), place(c), place(i)) > 0;
+  });
+}
+
+// The ear's triangle takes the number t. The last one, of the three that are left, has no new edge.
+void VoronoiCell3::cut_ear(std::size_t at, int t) {
+  const std::size_t n = hole_.size();
+  Side& first = hole_[at];
+  const Side second = hole_[(at + 1) % n], third = hole_[(at + 2) % n];
+  const int beyond = n == 3 ? third.beyond : -1;
+  set_face(t, {{first.from, second.from, third.from}, {second.beyond, beyond, first.beyond}}, true);
+  link_across(first.beyond, first.from, second.from, t);
+  link_across(second.beyond, second.from, third.from, t);
+  if (n == 3) return link_across(third.beyond, third.from, first.from, t);
+  first.beyond = t;
+  hole_.erase(hole_.begin() + static_cast<std::ptrdiff_t>((at + 1) % n));
+}
+
 // --- What it says ----------------------------------------------------------------------------
 
 void VoronoiCell3::add_gap_ball(int t, Box<3>& extent) const noexcept {
@@ -307,6 +396,18 @@ void VoronoiCell3::add_gap_ball(int t, Box<3>& extent) const noexcept {
     extent.lo[i] = std::min(extent.lo[i], q[i] - r);
     extent.hi[i] = std::max(extent.hi[i], q[i] + r);
   }
+}
+
+bool VoronoiCell3::is_compact() const noexcept {
+  for (int k = 0; k < open_count_; ++k) {
+    const auto& [a, b, c] = ends(open_[index(k)]);
+    if (!real(a) || !real(b) || !real(c)) return false;
+  }
+  double farthest2 = 0;
+  for (int i = 0; i < neighbours_; ++i) {
+    if (used(i)) farthest2 = std::max(farthest2, squared(u_[index(i)]));
+  }
+  return open2_ <= farthest2;
 }
 
 Box<3> VoronoiCell3::open_extent() const noexcept {

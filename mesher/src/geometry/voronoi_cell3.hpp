@@ -86,6 +86,8 @@ class VoronoiCell3 : public CornerReach<int> {
     return {qx_[index(t)], qy_[index(t)], qz_[index(t)]};
   }
   [[nodiscard]] double corner2(int t) const noexcept { return q2_[index(t)]; }
+  /// As in the plane: whether the cell is not much larger than it will be.
+  [[nodiscard]] bool is_compact() const noexcept;
   /// A box around the gap balls of the open corners, relative to v.
   [[nodiscard]] Box<3> open_extent() const noexcept;
   /// The same of the corners between three real neighbours, or on the inner side of the planes
@@ -143,6 +145,10 @@ class VoronoiCell3 : public CornerReach<int> {
   [[nodiscard]] int new_face();
   void set_face(int t, const Face& face, bool open);
   void load(const VertexPool<3>& pool, double radius, const LinkRecord& record, bool open);
+  void join_across();
+  template <class Left>
+  bool restore_by_removal(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
+                          const LinkRecord& record, Left& left, bool repair);
   template <class Left>
   void cut_by_nearest(const VertexPool<3>& pool, std::span<const Code> codes, Left&& left);
   void cut_by_clip(double radius);
@@ -158,8 +164,13 @@ class VoronoiCell3 : public CornerReach<int> {
   void find_rim();
   void release_ends();
   void join_rim(int to);
-  void fill_hole(int t);
-  void update_reach() noexcept { CornerReach::update_reach(index(corners_)); }
+  void link_across(int t, int from, int to, int other) noexcept;
+  void give_up_number(int t);
+  bool remove(int i);
+  void walk_rim();
+  [[nodiscard]] bool is_ear(std::size_t at);
+  void cut_ear(std::size_t at, int t);
+  void update_reach() noexcept;
   void add_gap_ball(int t, Box<3>& extent) const noexcept;
 
   const Vertex<3>* v_ = nullptr;
@@ -173,6 +184,17 @@ class VoronoiCell3 : public CornerReach<int> {
   std::vector<Rim> rim_;
   std::vector<std::pair<double, Code>> by_distance_;
   std::vector<int> rim_at_;  // by neighbour: the edge of the rim that starts there
+  // Of a hole that is being filled: what is left of its rim, in order.
+  struct Side {
+    int from;    // a neighbour
+    int beyond;  // the triangle beyond the edge to the next one
+  };
+  std::vector<Side> hole_;
+  // Of a record that is being loaded: the edges whose other triangle has not come, by neighbour.
+  struct Unpaired {
+    int other, face, opposite;
+  };
+  std::vector<std::vector<Unpaired>> unpaired_;
 
   int neighbours_ = 0;
   std::vector<Point<3>> u_, place_;
@@ -182,6 +204,7 @@ class VoronoiCell3 : public CornerReach<int> {
   int corners_ = 0;
   std::vector<double> qx_, qy_, qz_;
   std::vector<Face> face_;
+  std::vector<double> open_x_, open_y_, open_z_, open_q2_;  // of the open corners, in a row
 
   static constexpr Code kUnused = 0xffffffffu;
 };
@@ -196,13 +219,16 @@ inline bool VoronoiCell3::enters(const Point<3>& corner, double side,
     holds_v &= lo[i] <= 0 && hi[i] >= 0;
   }
   if (holds_v) return true;
+  const double* const qx = open_x_.data();
+  const double* const qy = open_y_.data();
+  const double* const qz = open_z_.data();
+  const double* const q2 = open_q2_.data();
   bool enters = false;  // no early end, which could not be predicted
   for (int k = 0; k < open_count_; ++k) {
-    const std::size_t t = index(open_[index(k)]);
-    const double dx = std::max(std::max(lo[0] - qx_[t], qx_[t] - hi[0]), 0.0);
-    const double dy = std::max(std::max(lo[1] - qy_[t], qy_[t] - hi[1]), 0.0);
-    const double dz = std::max(std::max(lo[2] - qz_[t], qz_[t] - hi[2]), 0.0);
-    enters |= dx * dx + dy * dy + dz * dz <= q2_[t] * (1 + 0x1p-30);
+    const double dx = std::max(std::max(lo[0] - qx[k], qx[k] - hi[0]), 0.0);
+    const double dy = std::max(std::max(lo[1] - qy[k], qy[k] - hi[1]), 0.0);
+    const double dz = std::max(std::max(lo[2] - qz[k], qz[k] - hi[2]), 0.0);
+    enters |= dx * dx + dy * dy + dz * dz <= q2[k] * (1 + 0x1p-30);
   }
   return enters;
 }
@@ -232,16 +258,29 @@ template <class Left>
 void VoronoiCell3::restore(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
                            std::span<const Code> record, Left&& left, bool repair) {
   const LinkRecord link(record);
-  const auto codes = link.neighbours();
-  if (std::all_of(codes.begin(), codes.end(), left)) {
-    clear(v);
-    load(pool, radius, link, !repair);
-    if (!repair) cut_by_clip(radius);
-    return;
+  if (!restore_by_removal(pool, v, radius, link, left, repair)) {
+    reset(v, radius);
+    cut_by_nearest(pool, link.neighbours(), left);
+    if (repair) close_known(link);
   }
-  reset(v, radius);
-  cut_by_nearest(pool, codes, left);
-  if (repair) close_known(link);
+}
+
+// Returns false, and then leaves no cell, if those who are left do not surround v, if the places of
+// virtual neighbours are others now, or if that took longer than to begin anew.
+template <class Left>
+bool VoronoiCell3::restore_by_removal(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
+                                      const LinkRecord& record, Left& left, bool repair) {
+  const auto codes = record.neighbours();
+  const auto clip = std::lower_bound(codes.begin(), codes.end(), kVirtual);
+  if (!std::all_of(clip, codes.end(), left)) return false;
+  clear(v);
+  load(pool, radius, record, !repair);
+  for (auto code = codes.begin(); code != clip; ++code) {
+    if (!left(*code) && !remove(static_cast<int>(code - codes.begin()))) return false;
+  }
+  update_reach();
+  cut_by_clip(radius);
+  return true;
 }
 
 }  // namespace mesher::detail

@@ -195,8 +195,9 @@ class Quadtree {
   [[nodiscard]] bool shrink(NodeIndex n) noexcept;
   [[nodiscard]] bool any_child_wanted(NodeIndex n) const noexcept;
   [[nodiscard]] std::size_t held_below(NodeIndex n) const noexcept;
-  // More vertices than this are looked at in the children, if there are any.
-  static constexpr std::size_t kFull = 8;
+  // More vertices than this are looked at in the children, if there are any. Measured in space
+  // (updates of uniform points): 20 take 4% fewer instructions than 8, which are as many as cells.
+  static constexpr std::size_t kFull = D == 2 ? 8 : 20;
   // More than this ask for children.
   static constexpr std::size_t kMany = 32;
   static_assert(kFull <= kMany);

@@ -11,7 +11,8 @@ namespace mesher::detail {
 
 namespace {
 
-// The lines by the number of vertices on them, most first; of equal ones the smallest id first.
+// The lines that are split more than once, by the number of vertices on them, most first; of equal
+// ones the smallest id first. (Others are not to blame.)
 std::vector<std::pair<std::size_t, FeatureId>> lines_by_vertices(const VertexSearch<2>& vertices,
                                                                  const Names& names) {
   std::map<FeatureId, std::size_t> counts;
@@ -19,7 +20,9 @@ std::vector<std::pair<std::size_t, FeatureId>> lines_by_vertices(const VertexSea
     if (v.alive && v.on_segment) ++counts[names.line(vertices.role(v).on)];
   });
   std::vector<std::pair<std::size_t, FeatureId>> lines;
-  for (const auto& [id, count] : counts) lines.emplace_back(count, id);
+  for (const auto& [id, count] : counts) {
+    if (count > 1) lines.emplace_back(count, id);
+  }
   std::stable_sort(lines.begin(), lines.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   return lines;
@@ -33,7 +36,7 @@ Error too_many_vertices(const VertexSearch<2>& vertices, const Names* names, std
   if (names != nullptr) {
     for (const auto& [count, id] : lines_by_vertices(vertices, *names)) {
       text += (ids.empty() ? "; so far " : " and ") + std::to_string(count);
-      if (ids.empty()) text += count == 1 ? " is" : " are";
+      if (ids.empty()) text += " are";
       text += " on segment " + std::to_string(static_cast<std::int64_t>(id));
       ids.push_back(id);
       if (ids.size() == 2) break;

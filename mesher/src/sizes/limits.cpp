@@ -62,7 +62,7 @@ Limits::Limits(const Options<2>& options, const MeshBox<2>& box)
   const auto limits = [](const Part& p) { return p.area != kNone || p.sizes != nullptr; };
   const bool asked = any_ || std::any_of(parts_.begin(), parts_.end(), limits);
   if (asked && options.rule != Rule::radius_edge) {
-    refuse("limits of size need the rule radius_edge");
+    refuse("limits of size need the rule radius-edge");
   }
   make_set(plateaus_);
 }
