@@ -294,7 +294,7 @@ Mesh<3> mesh_statically(const std::vector<Point<3>>& points, const std::vector<S
                         const std::vector<FeatureId>& ids, MeshStats* stats,
                         const RunControl& control) {
   if (options.rule != Rule::radius_edge) {
-    throw Error(ErrorCode::bad_option, "segments and polygons need the rule radius_edge");
+    throw Error(ErrorCode::bad_option, "segments and polygons need the rule radius-edge");
   }
   StaticRun<3> run(points, options, ids, control, 0);
   const auto by_id = handles_by_id(run.handles(), ids);

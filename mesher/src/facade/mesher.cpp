@@ -164,7 +164,7 @@ template <>
 void Mesher<3>::Impl::insert_polygon(const Polygon& polygon) {
   busy.require_idle();
   if (options.rule != Rule::radius_edge) {
-    throw Error(ErrorCode::bad_option, "polygons need the rule radius_edge", {}, {polygon.id});
+    throw Error(ErrorCode::bad_option, "polygons need the rule radius-edge", {}, {polygon.id});
   }
   if (!this->polygon(polygon.id).loops.empty()) {
     throw Error(ErrorCode::repeated_id, "polygon " + text(polygon.id) + " is there already", {},
