@@ -166,6 +166,7 @@ Place Input::place_in_file(Featured kind, FeatureId id) const {
     case Featured::region:
       return at(graph.regions, &mesher::PslgFile::place_of_region);
     case Featured::line:
+    case Featured::polygon:
     case Featured::nothing:
       break;
   }

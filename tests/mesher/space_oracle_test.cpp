@@ -174,7 +174,7 @@ TEST_CASE("in space, the same for other bounds and for the paper's rule") {
   }
 }
 
-TEST_CASE("in space, what is refused leaves the mesh, and lines are for the plane") {
+TEST_CASE("in space, what is refused leaves the mesh") {
   Mesher<3> mesher(options());
   mesher.insert(FeatureId{1}, {0.5, 0.5, 0.5});
   mesher.insert(FeatureId{2}, {0.25, 0.5, 0.5});
@@ -183,7 +183,8 @@ TEST_CASE("in space, what is refused leaves the mesh, and lines are for the plan
   CHECK_THROWS_AS(mesher.insert(FeatureId{1}, {0, 0, 0}), Error);
   CHECK_THROWS_AS(mesher.insert(FeatureId{3}, {0, 0, 2}), Error);
   CHECK_THROWS_AS(mesher.insert(FeatureId{3}, {0.5, 0.5, 0.5}), Error);
-  CHECK_THROWS_AS(mesher.insert_segment(FeatureId{1}, FeatureId{1}, FeatureId{2}), Error);
+  CHECK_THROWS_AS(mesher.insert_segment(FeatureId{1}, FeatureId{1}, FeatureId{1}), Error);
+  CHECK_THROWS_AS(mesher.remove_polygon(FeatureId{1}), Error);
   CHECK_THROWS_AS(mesher.remove_segment(FeatureId{1}), Error);
   CHECK(mesher.lines().empty());
   mesher.move(FeatureId{1}, {0.25, 0.5, 0.5});

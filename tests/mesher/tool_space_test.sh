@@ -193,7 +193,7 @@ bad_edit3 1 '3:2: error[duplicate_point]' 'begin\n move 7 .5 .4999 .5\ncommit'
 bad_edit3 1 '2:1: error[outside_domain]' '+point 1002 .5 .5 7'
 bad_edit3 3 '2:1: error[unbalanced_commit]' 'commit'
 bad_edit3 3 '2:1: error[unbalanced_commit]' 'begin'
-bad_edit3 3 "2:1: error[bad_edit]: '+segment' is an edit in the plane" '+segment 1 2 3'
+bad_edit3 3 "2:1: error[bad_edit]: '+hole' is an edit in the plane" '+hole 1 2 3 4'
 bad_edit3 3 '2:1: error[bad_edit]' 'limit size 1'
 bad_edit3 3 "2:1: error[bad_edit]: no edit is called '+tetrahedron'" '+tetrahedron 1 2 3'
 printf '+point 1002 .5 .5 7\n' >bad3.txt

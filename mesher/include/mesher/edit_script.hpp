@@ -28,7 +28,15 @@
 // block is judged by where its points end: it may take a place before it frees it, and remove a
 // point before its segments.
 //
-// In space points have a third coordinate, `+point ID x y z`, and there are no other edits.
+// In space points have a third coordinate, `+point ID x y z`; there are edits of segments and
+// polylines, without markers, and
+//
+//   +polygon ID P P P... [/ P P P...]... [on P...] [along A B [A B]...]
+//                        a new polygon: the loop of points around it, then those of holes; points
+//                        and edges that it declares to lie inside
+//   -polygon ID          a polygon less, with the edges that nobody else has
+//
+// and no others. Polygons have ids of their own.
 //
 // Example:
 //   mesher::EditScript script("edits.txt");
@@ -62,9 +70,11 @@ enum class EditKind : std::uint8_t {
   insert_region,
   remove_region,
   limit,
+  insert_polygon,
+  remove_polygon,
 };
 
-/// One edit of one point, line or seed, or of limits.
+/// One edit of one point, line, polygon or seed, or of limits.
 template <int D>
 struct EditOf {
   using Kind = EditKind;
@@ -72,6 +82,7 @@ struct EditOf {
   FeatureId id{};
   Point<D> point{};                  ///< of insert and move, and of a new seed
   std::vector<FeatureId> points{};   ///< of a new segment or polyline
+  Polygon polygon{};                 ///< a new polygon
   std::int64_t marker = 0;           ///< of a new point or line; 0: none
   double attribute = 0;              ///< of a new region
   std::optional<double> max_area{};  ///< likewise
@@ -83,7 +94,7 @@ struct EditOf {
 using Edit = EditOf<2>;
 
 /// What has ids of its own; limits have none.
-enum class Featured : std::uint8_t { point, line, hole, region, nothing };
+enum class Featured : std::uint8_t { point, line, polygon, hole, region, nothing };
 
 /// What an edit is of.
 [[nodiscard]] Featured featured(EditKind kind);
@@ -153,6 +164,17 @@ void announce_line(const EditOf<D>& edit, Target& target) {
   }
 }
 
+/// The same of a polygon.
+template <int D, class Target>
+void announce_polygon(const EditOf<D>& edit, Target& target) {
+  if constexpr (requires { target.insert_polygon(edit.polygon); }) {
+    if (edit.kind == EditKind::remove_polygon) return target.remove_polygon(edit.id);
+    target.insert_polygon(edit.polygon);
+  } else {
+    throw Error(ErrorCode::bad_edit, "polygons cannot be edited here");
+  }
+}
+
 /// The same of a seed and a DomainMesher, or anything with its functions for seeds.
 template <int D, class Target>
 void announce_seed(const EditOf<D>& edit, Target& target) {
@@ -185,6 +207,7 @@ void announce(const EditOf<D>& edit, Target& target) {
   try {
     if (edit.kind == EditKind::limit) return announce_limit(edit, target);
     if (featured(edit.kind) == Featured::line) return announce_line(edit, target);
+    if (featured(edit.kind) == Featured::polygon) return announce_polygon(edit, target);
     if (featured(edit.kind) != Featured::point) return announce_seed(edit, target);
     switch (edit.kind) {
       case EditKind::insert:
@@ -206,9 +229,9 @@ void announce(const EditOf<D>& edit, Target& target) {
 /// Seconds of wall-clock time since some fixed moment.
 [[nodiscard]] double now();
 
-/// The order in which a batch is announced: lines that go; points, those that are there before
-/// those that the batch inserts, so that places are free before they are taken; lines that come;
-/// seeds and limits. Else as they stand.
+/// The order in which a batch is announced: lines and polygons that go; points, those that are there
+/// before those that the batch inserts, so that places are free before they are taken; lines and
+/// polygons that come; seeds and limits. Else as they stand.
 template <int D>
 [[nodiscard]] std::vector<EditOf<D>> announcing_order(std::vector<EditOf<D>> edits);
 

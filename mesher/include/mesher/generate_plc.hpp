@@ -29,7 +29,7 @@ enum class PlcKind : std::uint8_t {
   vee,          ///< two segments at a point; the angle, 5
   leaning,      ///< a segment that leaves a square at a corner; the angle, 5
   tetrahedron,  ///< a flat one; its height, 0.1
-  pump,         ///< a round housing with a bore and a square outlet; its sides, 16
+  pump,         ///< a round housing with a bore and a square stub; its sides, 16
   faults,       ///< tilted squares in the cube that do not touch; how many, 20
   bricks,       ///< a wall of bricks with joints; their width, 0.02
   tee,     ///< a wall that stands on a floor, on a line that the floor declares; its height, 0.5

@@ -49,6 +49,16 @@ struct Segment {
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
+/// A flat piece of surface between loops of points. A place is in it if an odd number of loops go
+/// around it; the first loop goes around all others.
+struct Polygon {
+  FeatureId id{};
+  std::vector<std::vector<FeatureId>> loops;      ///< points, three or more, either way around
+  std::vector<std::array<FeatureId, 2>> edges{};  ///< between points, declared to lie inside
+  std::vector<FeatureId> points{};                ///< declared to lie inside
+  friend bool operator==(const Polygon&, const Polygon&) = default;
+};
+
 template <int D>
 class SizeField;
 

@@ -170,6 +170,15 @@ class Mesher {
   void remove_segment(FeatureId id);
   void remove_polyline(FeatureId id) { remove_segment(id); }
 
+  /// Announces a polygon in space between points that shall be there; likewise. It brings its edges,
+  /// and those that it declares to lie inside; they may be segments, or edges of others, too.
+  /// Polygons have ids of their own. Throws: Error (repeated_id; bad_polygon: a loop of fewer than
+  /// three points, or twice along one; zero_length: an edge from a point to itself; bad_option in
+  /// the plane). Cost: O(points log points).
+  void insert_polygon(const Polygon& polygon);
+  /// Announces that it goes, with the edges that nobody else has. Throws: Error(unknown_id).
+  void remove_polygon(FeatureId id);
+
   /// Announces limits of size in place of all that there were; none by default.
   /// Throws: Error(bad_option), as a mesher with these limits. Cost: O(1).
   void limit(const SizeLimits<D>& limits);
@@ -188,7 +197,9 @@ class Mesher {
   /// update() or discard_edits(). Error (duplicate_point, too_close: points that have moved onto
   /// others, or places too near to each other for the vertices that they need; crossing_segments,
   /// point_on_segment, overlapping_segments, repeated_segment; point_in_use: an end of a segment is
-  /// removed; unknown_id: a segment's end is not there), std::bad_alloc, or
+  /// removed; unknown_id: a segment's end is not there; of polygons bad_polygon, not_flat,
+  /// repeated_polygon, point_on_polygon, segment_on_polygon, segment_through_polygon,
+  /// crossing_polygons, overlapping_polygons), std::bad_alloc, or
   /// what control.progress throws: the edits are taken back as well.
   /// Cost: O(log L/s) calls per edited point [Theorem 4.3.8], each O(log L/s), the first time per
   /// vertex; per vertex that was or is on lines that come, go or have a point that moves, and where
@@ -203,14 +214,17 @@ class Mesher {
   /// before the first. Cost: O(m log m).
   [[nodiscard]] Mesh<D> mesh() const;
 
-  /// The points and lines of the last update(), ascending by id. Cost: O(n log n).
+  /// The points, lines and polygons of the last update(), ascending by id. Cost: O(n log n).
   [[nodiscard]] std::vector<InputPoint<D>> points() const;
   [[nodiscard]] std::vector<InputLine> lines() const;
+  [[nodiscard]] std::vector<Polygon> polygons() const;
 
   /// Number of input points that are announced to be there.
   [[nodiscard]] std::size_t size() const;
   /// Whether the line is announced to be there.
   [[nodiscard]] bool contains_line(FeatureId id) const;
+  /// Whether the polygon is.
+  [[nodiscard]] bool contains_polygon(FeatureId id) const;
   /// Whether the point is announced to be there.
   [[nodiscard]] bool contains(FeatureId id) const;
   /// Of the last update(); times of the first. Cost: O(1).
@@ -252,6 +266,14 @@ template <int D>
 [[nodiscard]] Mesh<2> mesh_statically(const std::vector<Point<2>>& points,
                                       const std::vector<Segment>& segments,
                                       const Options<2>& options,
+                                      const std::vector<FeatureId>& ids = {},
+                                      MeshStats* stats = nullptr, const RunControl& control = {});
+
+/// The same in space, with polygons.
+[[nodiscard]] Mesh<3> mesh_statically(const std::vector<Point<3>>& points,
+                                      const std::vector<Segment>& segments,
+                                      const std::vector<Polygon>& polygons,
+                                      const Options<3>& options,
                                       const std::vector<FeatureId>& ids = {},
                                       MeshStats* stats = nullptr, const RunControl& control = {});
 

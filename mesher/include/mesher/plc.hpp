@@ -19,7 +19,6 @@
 // comments and line ends are as in io.hpp; so are coordinates: 0, or of magnitude 2^-100 to 2^100.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -31,16 +30,6 @@
 #include "mesher/output_files.hpp"
 
 namespace mesher {
-
-/// A flat piece of surface between loops of points. A place is in it if an odd number of loops go
-/// around it; the first loop goes around all others.
-struct Polygon {
-  FeatureId id{};
-  std::vector<std::vector<FeatureId>> loops;      ///< points, three or more, either way around
-  std::vector<std::array<FeatureId, 2>> edges{};  ///< between points, declared to lie inside
-  std::vector<FeatureId> points{};                ///< declared to lie inside
-  friend bool operator==(const Polygon&, const Polygon&) = default;
-};
 
 /// Plain data, in the order of the file.
 struct Plc {
@@ -116,15 +105,29 @@ struct PlcFile {
 ///   (a hole empties what it lies in), else its edges lie inside. A facet without loops is
 ///   segments; parts of one that lie apart are polygons of their own, numbered after all facets.
 /// - `.smesh` (TetGen): the same, but a facet is one line `count corner... [marker]`.
+/// - `.off` (Geomview), `.obj` (Wavefront), `.ply` (Stanford), `.stl`: vertices and faces as
+///   read_points reads them; each face is a polygon.
 ///
 /// Throws: Error (cannot_read, unknown_format, bad_header, bad_dimension, bad_number, not_finite,
 /// magnitude, wrong_count, truncated, repeated_id, unknown_id; bad_syntax: a facet's hole that no
-/// polygon of it goes around). Cost: O(n log n); O(polygons^2 corners) for a facet.
+/// polygon of it goes around; bad_mesh: a face's corner that is no vertex). Cost: O(n log n);
+/// O(polygons^2 corners) for a facet.
 [[nodiscard]] PlcFile read_plc(const std::string& path);
+
+/// The complex with facets of one plane that are side by side made one, under the least of their
+/// ids, if their markers are the same. An edge goes if nobody else has it, else it lies inside, as
+/// points do that are then on no loop. Requires: what facets and segments name is a point.
+/// Cost: O(n log n).
+[[nodiscard]] Plc with_merged_facets(const Plc& plc);
 
 /// Writes a complex so that read_plc gives it back, but for the numbers of polygons and segments,
 /// where they are not those of the order: `.poly`, or `.smesh` if no facet has more than one loop.
 /// Coordinates read back bit for bit. Throws: Error (unknown_format, cannot_write, unsupported).
 void write_plc(const Plc& plc, const std::string& path);
+void write_poly(const Plc& plc, TextFile& file);
+/// Requires: require_single_loops(plc) has not thrown.
+void write_smesh(const Plc& plc, TextFile& file);
+/// Throws: Error(unsupported) if a polygon is more than one loop: .smesh has no place for that.
+void require_single_loops(const Plc& plc);
 
 }  // namespace mesher

@@ -1,5 +1,5 @@
-// The edits of lines announced since the last update: for each, the points it went along and those
-// it shall.
+// The edits of lines and polygons announced since the last update: for each, the points it went
+// along and those it shall.
 //
 // Only the difference is kept, as for points.
 #pragma once
@@ -14,11 +14,13 @@ namespace mesher::detail {
 
 using LinePoints = std::vector<FeatureId>;  // empty: the line is not there
 
-class AnnouncedLines {
+/// What is announced of parts that are a `Value` each; Value() is that of one that is not there.
+template <class Value>
+class AnnouncedParts {
  public:
   struct Edit {
     FeatureId id{};
-    LinePoints was, to;
+    Value was, to;
   };
 
   /// The edit of `id`; null if it stays as it was. Valid until the next change.
@@ -28,7 +30,7 @@ class AnnouncedLines {
   }
   /// `id`, which the last update left as `was`, shall be `to`. Throws: bad_alloc, and then changes
   /// nothing.
-  void set(FeatureId id, const LinePoints& was, LinePoints to) {
+  void set(FeatureId id, const Value& was, Value to) {
     if (was == to) {
       edits_.erase(id);
       return;
@@ -47,5 +49,7 @@ class AnnouncedLines {
  private:
   std::map<FeatureId, Edit> edits_;
 };
+using AnnouncedLines = AnnouncedParts<LinePoints>;
+using AnnouncedPolygons = AnnouncedParts<mesher::Polygon>;  // without loops: it is not there
 
 }  // namespace mesher::detail

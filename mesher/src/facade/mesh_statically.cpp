@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "facade/meter.hpp"
+#include "facade/space_input.hpp"
 #include "input.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/predicates.hpp"
@@ -62,13 +63,19 @@ class InputNames final : public detail::Names {
   std::vector<FeatureId> points_, lines_;
 };
 
+std::unordered_map<FeatureId, VertexHandle> handles_by_id(const std::vector<VertexHandle>& handles,
+                                                          const std::vector<FeatureId>& ids) {
+  std::unordered_map<FeatureId, VertexHandle> by_id;
+  for (std::size_t i = 0; i < handles.size(); ++i) by_id.emplace(id_of(i, ids), handles[i]);
+  return by_id;
+}
+
 // The segments' handles, in their order.
 std::vector<detail::SegmentHandle> add_segments(const std::vector<Segment>& segments,
                                                 const std::vector<FeatureId>& ids,
                                                 const std::vector<VertexHandle>& handles,
                                                 World<2>& world, InputNames& names) {
-  std::unordered_map<FeatureId, VertexHandle> by_id;
-  for (std::size_t i = 0; i < handles.size(); ++i) by_id.emplace(id_of(i, ids), handles[i]);
+  const auto by_id = handles_by_id(handles, ids);
   std::vector<detail::SegmentHandle> added;
   for (const Segment& s : segments) {
     if (s.from == s.to) detail::fail_zero_length(s.id, s.from);
@@ -197,6 +204,58 @@ class StaticRun {
   InputNames names_;
 };
 
+// --- In space --------------------------------------------------------------------------------
+
+// What features are called, in a run that adds them once.
+class SpaceInputNames final : public detail::SpaceNames {
+ public:
+  explicit SpaceInputNames(const InputNames& points) : points_(points) {}
+  void name(const detail::Edge& e, FeatureId id) { segments_[e.self] = id; }
+  void name(const detail::Polygon& f, FeatureId id) { polygons_[f.self] = id; }
+  [[nodiscard]] FeatureId point(VertexHandle v) const override { return points_.point(v); }
+  [[nodiscard]] std::optional<FeatureId> segment(detail::EdgeHandle e) const override {
+    const auto it = segments_.find(e);
+    return it == segments_.end() ? std::nullopt : std::optional(it->second);
+  }
+  [[nodiscard]] FeatureId polygon(detail::PolygonHandle f) const override {
+    return polygons_.at(f);
+  }
+
+ private:
+  const InputNames& points_;
+  std::unordered_map<detail::EdgeHandle, FeatureId> segments_;
+  std::unordered_map<detail::PolygonHandle, FeatureId> polygons_;
+};
+
+// `handle_of(id)`: of a point, 0 if there is none.
+template <class HandleOf>
+void add_features(const std::vector<Segment>& segments, const std::vector<Polygon>& polygons,
+                  HandleOf&& handle_of, World<3>& world, const InputNames& points) {
+  SpaceInputNames names(points);
+  std::vector<detail::EdgeHandle> edges_come;
+  std::vector<detail::PolygonHandle> polygons_come;
+  for (const Segment& s : segments) {
+    if (s.from == s.to) detail::fail_zero_length(s.id, s.from);
+    const auto end = [&](FeatureId id) {
+      const VertexHandle v = handle_of(id);
+      if (v == 0) detail::fail_unknown_point(id, "an end of segment", s.id);
+      return v;
+    };
+    const VertexHandle a = end(s.from), b = end(s.to);
+    const detail::Edge& e = detail::add_segment(world, s.id, a, b, names);
+    names.name(e, s.id);
+    edges_come.push_back(e.self);
+  }
+  for (const Polygon& polygon : polygons) {
+    detail::require_loops(polygon);
+    const detail::Polygon& f =
+        detail::add_polygon(world, polygon.id, detail::parts_of(polygon, handle_of), names);
+    names.name(f, polygon.id);
+    polygons_come.push_back(f.self);
+  }
+  detail::require_fit(world, edges_come, polygons_come, names);
+}
+
 }  // namespace
 
 template <int D>
@@ -228,6 +287,24 @@ Mesh<2> mesh_statically(const std::vector<Point<2>>& points, const std::vector<S
   run.refine();
   if (run.world().leaves.may_lose()) require_edges(run.world());
   return run.mesh(line_edges(run.world(), run.names()), stats);
+}
+
+Mesh<3> mesh_statically(const std::vector<Point<3>>& points, const std::vector<Segment>& segments,
+                        const std::vector<Polygon>& polygons, const Options<3>& options,
+                        const std::vector<FeatureId>& ids, MeshStats* stats,
+                        const RunControl& control) {
+  if (options.rule != Rule::radius_edge) {
+    throw Error(ErrorCode::bad_option, "segments and polygons need the rule radius-edge");
+  }
+  StaticRun<3> run(points, options, ids, control, 0);
+  const auto by_id = handles_by_id(run.handles(), ids);
+  const auto handle_of = [&](FeatureId id) {
+    const auto it = by_id.find(id);
+    return it == by_id.end() ? VertexHandle{0} : it->second;
+  };
+  add_features(segments, polygons, handle_of, run.world(), run.names());
+  run.refine();
+  return run.mesh({}, stats);
 }
 
 }  // namespace mesher

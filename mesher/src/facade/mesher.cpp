@@ -8,6 +8,8 @@
 #include "facade/announced_limits.hpp"
 #include "facade/busy.hpp"
 #include "facade/meter.hpp"
+#include "facade/space_input.hpp"
+#include "facade/space_state.hpp"
 #include "facade/state.hpp"
 #include "input.hpp"
 #include "mesher/predicates.hpp"
@@ -30,7 +32,7 @@ std::array<double, N> unsigned_zero(std::array<double, N> p) {
 template <int D>
 struct Mesher<D>::Impl {
   using Announced = detail::Announced<D>;
-  using State = std::conditional_t<D == 2, detail::State, detail::PointState<D>>;
+  using State = std::conditional_t<D == 2, detail::State, detail::SpaceState>;
 
   explicit Impl(const Options<D>& o)
       : options(o), state(std::make_unique<State>(o)), box(state->box()), announced(box) {
@@ -45,6 +47,9 @@ struct Mesher<D>::Impl {
   [[nodiscard]] const detail::LinePoints& line(FeatureId id) const;
   void insert_line(FeatureId id, const detail::LinePoints& points);
   void remove_line(FeatureId id);
+  [[nodiscard]] const Polygon& polygon(FeatureId id) const;
+  void insert_polygon(const Polygon& polygon);
+  void remove_polygon(FeatureId id);
   void limit(detail::AllLimits limits, const std::vector<Box<2>>& where);
   [[nodiscard]] Options<D> announced_options() const;
   void commit_limits() noexcept;
@@ -59,6 +64,7 @@ struct Mesher<D>::Impl {
   detail::MeshBox<D> box;
   Announced announced;
   detail::AnnouncedLines announced_lines;
+  detail::AnnouncedPolygons announced_polygons;  // in space
   detail::AnnouncedLimits announced_limits;
   detail::Busy busy;
   bool moved = false;  // a place was taken that was not looked at
@@ -109,16 +115,16 @@ void Mesher<D>::Impl::insert(FeatureId id, const Point<D>& p) {
   announced.set(id, was, unsigned_zero(p));
 }
 
-// --- Lines: in the plane ---------------------------------------------------------------------
+// --- Lines and polygons ----------------------------------------------------------------------
 
-template <>
-const detail::LinePoints& Mesher<2>::Impl::line(FeatureId id) const {
+template <int D>
+const detail::LinePoints& Mesher<D>::Impl::line(FeatureId id) const {
   const auto* edit = announced_lines.find(id);
   return edit != nullptr ? edit->to : state->line(id);
 }
 
-template <>
-void Mesher<2>::Impl::insert_line(FeatureId id, const detail::LinePoints& points) {
+template <int D>
+void Mesher<D>::Impl::insert_line(FeatureId id, const detail::LinePoints& points) {
   busy.require_idle();
   if (options.rule != Rule::radius_edge) {
     throw Error(ErrorCode::bad_option, "segments need the rule radius-edge", {}, {id});
@@ -134,13 +140,52 @@ void Mesher<2>::Impl::insert_line(FeatureId id, const detail::LinePoints& points
   announced_lines.set(id, state->line(id), points);
 }
 
-template <>
-void Mesher<2>::Impl::remove_line(FeatureId id) {
+template <int D>
+void Mesher<D>::Impl::remove_line(FeatureId id) {
   busy.require_idle();
   if (line(id).empty()) {
     throw Error(ErrorCode::unknown_id, "line " + text(id) + " is not there", {}, {id});
   }
   announced_lines.set(id, state->line(id), {});
+}
+
+template <>
+const Polygon& Mesher<3>::Impl::polygon(FeatureId id) const {
+  const auto* edit = announced_polygons.find(id);
+  return edit != nullptr ? edit->to : state->polygon_parts(id);
+}
+template <int D>
+const Polygon& Mesher<D>::Impl::polygon(FeatureId) const {
+  static const Polygon none;
+  return none;
+}
+
+template <>
+void Mesher<3>::Impl::insert_polygon(const Polygon& polygon) {
+  busy.require_idle();
+  if (options.rule != Rule::radius_edge) {
+    throw Error(ErrorCode::bad_option, "polygons need the rule radius-edge", {}, {polygon.id});
+  }
+  if (!this->polygon(polygon.id).loops.empty()) {
+    throw Error(ErrorCode::repeated_id, "polygon " + text(polygon.id) + " is there already", {},
+                {polygon.id});
+  }
+  detail::require_loops(polygon);
+  announced_polygons.set(polygon.id, state->polygon_parts(polygon.id), polygon);
+}
+template <int D>
+void Mesher<D>::Impl::insert_polygon(const Polygon& polygon) {
+  busy.require_idle();
+  throw Error(ErrorCode::bad_option, "polygons are for space", {}, {polygon.id});
+}
+
+template <int D>
+void Mesher<D>::Impl::remove_polygon(FeatureId id) {
+  busy.require_idle();
+  if (polygon(id).loops.empty()) {
+    throw Error(ErrorCode::unknown_id, "polygon " + text(id) + " is not there", {}, {id});
+  }
+  if constexpr (D == 3) announced_polygons.set(id, state->polygon_parts(id), {});
 }
 
 // --- Limits: in the plane --------------------------------------------------------------------
@@ -171,30 +216,11 @@ void Mesher<2>::Impl::commit_limits() noexcept {
 template <int D>
 void Mesher<D>::Impl::commit_limits() noexcept {}
 
-// --- Beyond the plane ------------------------------------------------------------------------
-
-template <int D>
-const detail::LinePoints& Mesher<D>::Impl::line(FeatureId) const {
-  static const detail::LinePoints none;
-  return none;
-}
-
-template <int D>
-void Mesher<D>::Impl::insert_line(FeatureId id, const detail::LinePoints&) {
-  busy.require_idle();
-  throw Error(ErrorCode::bad_option, "segments are for the plane", {}, {id});
-}
-
-template <int D>
-void Mesher<D>::Impl::remove_line(FeatureId id) {
-  busy.require_idle();
-  throw Error(ErrorCode::unknown_id, "line " + text(id) + " is not there", {}, {id});
-}
-
 template <int D>
 void Mesher<D>::Impl::discard_edits() noexcept {
   announced_limits.clear();
   announced_lines.clear();
+  announced_polygons.clear();
   announced.clear();
   moved = false;
 }
@@ -211,14 +237,16 @@ Change<2> Mesher<2>::Impl::propagate(const RunControl& control, const Accept& ac
   return state->propagate(announced.sorted(), announced_lines.sorted(),
                           announced_limits.edit(options), control, accept);
 }
-template <int D>
-Change<D> Mesher<D>::Impl::first_run(State& fresh, const RunControl& control,
+template <>
+Change<3> Mesher<3>::Impl::first_run(State& fresh, const RunControl& control,
                                      const Accept& accept) {
-  return fresh.first_run(announced.sorted(), control, accept);
+  return fresh.first_run(announced.sorted(),
+                         {announced_lines.sorted(), announced_polygons.sorted()}, control, accept);
 }
-template <int D>
-Change<D> Mesher<D>::Impl::propagate(const RunControl& control, const Accept& accept) {
-  return state->propagate(announced.sorted(), control, accept);
+template <>
+Change<3> Mesher<3>::Impl::propagate(const RunControl& control, const Accept& accept) {
+  return state->propagate(announced.sorted(),
+                          {announced_lines.sorted(), announced_polygons.sorted()}, control, accept);
 }
 
 template <int D>
@@ -307,6 +335,16 @@ void Mesher<D>::remove_segment(FeatureId id) {
   impl_->remove_line(id);
 }
 
+template <int D>
+void Mesher<D>::insert_polygon(const Polygon& polygon) {
+  impl_->insert_polygon(polygon);
+}
+
+template <int D>
+void Mesher<D>::remove_polygon(FeatureId id) {
+  impl_->remove_polygon(id);
+}
+
 template <>
 void Mesher<2>::limit(const SizeLimits<2>& limits) {
   const auto all = impl_->announced_limits.as_announced(impl_->options);
@@ -351,6 +389,10 @@ bool Mesher<D>::has_limits() const {
 template <int D>
 void Mesher<D>::announce_to(Mesher& other) const {
   const auto lines = impl_->announced_lines.sorted();
+  const auto polygons = impl_->announced_polygons.sorted();
+  for (const auto& edit : polygons) {
+    if (!edit.was.loops.empty()) other.remove_polygon(edit.id);
+  }
   for (const auto& edit : lines) {
     if (!edit.was.empty()) other.remove_segment(edit.id);
   }
@@ -363,11 +405,19 @@ void Mesher<D>::announce_to(Mesher& other) const {
   for (const auto& edit : lines) {
     if (!edit.to.empty()) other.insert_polyline(edit.id, edit.to);
   }
+  for (const auto& edit : polygons) {
+    if (!edit.to.loops.empty()) other.insert_polygon(edit.to);
+  }
 }
 
 template <int D>
 bool Mesher<D>::contains_line(FeatureId id) const {
   return !impl_->line(id).empty();
+}
+
+template <int D>
+bool Mesher<D>::contains_polygon(FeatureId id) const {
+  return !impl_->polygon(id).loops.empty();
 }
 
 template <int D>
@@ -397,15 +447,20 @@ std::vector<InputPoint<D>> Mesher<D>::points() const {
   return impl_->state->points();
 }
 
-template <>
-std::vector<InputLine> Mesher<2>::lines() const {
-  impl_->busy.require_idle();
-  return impl_->state->lines();
-}
 template <int D>
 std::vector<InputLine> Mesher<D>::lines() const {
   impl_->busy.require_idle();
-  return {};
+  return impl_->state->lines();
+}
+
+template <int D>
+std::vector<Polygon> Mesher<D>::polygons() const {
+  impl_->busy.require_idle();
+  if constexpr (D == 3) {
+    return impl_->state->polygons();
+  } else {
+    return {};
+  }
 }
 
 template <int D>

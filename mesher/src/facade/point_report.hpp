@@ -134,6 +134,7 @@ void PointState<D>::check_invariants() const {
   }
   SAC_INVARIANT(stats_.vertices == live_vertices().size());
   SAC_INVARIANT(stats_.simplices == simplices().size());
+  check_others();
 }
 
 }  // namespace mesher::detail

@@ -84,6 +84,7 @@ class PointState {
   virtual void commit_others() noexcept {}
   [[nodiscard]] virtual std::vector<detail::LineEdge> line_edges() const { return {}; }
   [[nodiscard]] virtual std::size_t other_bytes() const { return 0; }
+  virtual void check_others() const {}
 
   void make_points(const PointEdits& edits, Ids& arrived);
 

@@ -27,6 +27,9 @@ struct Form {
 constexpr std::string_view kLimitUsage =
     "limit area A|size H|sizes FILE|none [in XMIN YMIN XMAX YMAX]";
 
+constexpr std::string_view kPolygonUsage =
+    "+polygon ID P P P... [/ P P P...]... [on P...] [along A B [A B]...]";
+
 constexpr Form kPlaneForms[] = {
     {"+point", EditKind::insert, 4, "+point ID x y [marker M]"},
     {"-point", EditKind::remove, 2, "-point ID"},
@@ -46,6 +49,12 @@ constexpr Form kSpaceForms[] = {
     {"+point", EditKind::insert, 5, "+point ID x y z"},
     {"-point", EditKind::remove, 2, "-point ID"},
     {"move", EditKind::move, 5, "move ID x y z"},
+    {"+segment", EditKind::insert_segment, 4, "+segment ID A B"},
+    {"-segment", EditKind::remove_segment, 2, "-segment ID"},
+    {"+polyline", EditKind::insert_polyline, 4, "+polyline ID P P...", SIZE_MAX},
+    {"-polyline", EditKind::remove_polyline, 2, "-polyline ID"},
+    {"+polygon", EditKind::insert_polygon, 5, kPolygonUsage, SIZE_MAX},
+    {"-polygon", EditKind::remove_polygon, 2, "-polygon ID"},
 };
 
 const Form* find_form(std::span<const Form> forms, std::string_view word) {
@@ -66,9 +75,12 @@ const Form& form_of(const text::Line& line) {
   constexpr std::span<const Form> kForms =
       D == 2 ? std::span<const Form>(kPlaneForms) : std::span<const Form>(kSpaceForms);
   if (const Form* const form = find_form(kForms, line[0])) return *form;
-  const bool elsewhere = find_form(kPlaneForms, line[0]) != nullptr;
+  const bool elsewhere =
+      find_form(kPlaneForms, line[0]) != nullptr || find_form(kSpaceForms, line[0]) != nullptr;
+  constexpr std::string_view kThere =
+      D == 2 ? " is an edit in space; in the plane" : " is an edit in the plane; in space";
   throw line.error(ErrorCode::bad_edit,
-                   (elsewhere ? text::quoted(line[0]) + " is an edit in the plane; in space"
+                   (elsewhere ? text::quoted(line[0]) + std::string(kThere)
                               : "no edit is called " + text::quoted(line[0]) + ";") +
                        " there are " + words_of(kForms),
                    0);
@@ -80,22 +92,23 @@ bool takes_place(EditKind kind) {
 }
 bool inserts(EditKind kind) {
   return kind == EditKind::insert || kind == EditKind::insert_segment ||
-         kind == EditKind::insert_polyline;
+         kind == EditKind::insert_polyline || kind == EditKind::insert_polygon;
 }
 
-// When edits of a batch are announced, by rank: 0 of lines that go, 1 of points that are there, 2
-// of points that come, 3 of lines that come, 4 of seeds and limits.
+// When edits of a batch are announced, by rank: 0 of lines and polygons that go, 1 of points that
+// are there, 2 of points that come, 3 of lines and polygons that come, 4 of seeds and limits.
 template <int D>
 std::vector<int> ranks(const std::vector<EditOf<D>>& edits) {
   std::map<FeatureId, bool> points;  // whether they come: by the first edit of each
-  std::map<FeatureId, bool> lines;   // whether they have come so far
+  std::map<std::pair<Featured, FeatureId>, bool> others;  // whether they have come so far
   std::vector<int> all;
   for (const auto& edit : edits) {
-    if (featured(edit.kind) == Featured::line) {
-      bool& came = lines[edit.id];
+    const Featured of = featured(edit.kind);
+    if (of == Featured::line || of == Featured::polygon) {
+      bool& came = others[{of, edit.id}];
       came = came || inserts(edit.kind);
       all.push_back(came ? 3 : 0);
-    } else if (featured(edit.kind) != Featured::point) {
+    } else if (of != Featured::point) {
       all.push_back(4);
     } else {
       all.push_back(points.emplace(edit.id, inserts(edit.kind)).first->second ? 2 : 1);
@@ -165,6 +178,37 @@ Box<2> limit_box(const text::Line& line, std::size_t first) {
   throw line.error(ErrorCode::bad_edit, "the first corner of a box must be below and left", first);
 }
 
+// The fields from `i` up to the next that is a word of +polygon; `i` is that one's then.
+std::vector<FeatureId> points_from(const text::Line& line, std::size_t& i) {
+  std::vector<FeatureId> points;
+  for (; i < line.size() && line[i] != "/" && line[i] != "on" && line[i] != "along"; ++i) {
+    points.push_back(FeatureId{line.integer(i)});
+  }
+  return points;
+}
+
+Polygon parse_polygon(const text::Line& line) {
+  Polygon polygon{.id = FeatureId{line.integer(1)}, .loops = {}};
+  std::size_t i = 2;
+  polygon.loops.push_back(points_from(line, i));
+  while (i < line.size()) {
+    const std::size_t word = i++;
+    const std::vector<FeatureId> points = points_from(line, i);
+    if (line[word] == "/") {
+      polygon.loops.push_back(points);
+    } else if (line[word] == "on") {
+      polygon.points.insert(polygon.points.end(), points.begin(), points.end());
+    } else if (points.size() % 2 == 0) {
+      for (std::size_t k = 0; k < points.size(); k += 2) {
+        polygon.edges.push_back({points[k], points[k + 1]});
+      }
+    } else {
+      throw line.error(ErrorCode::bad_edit, "'along' takes two points for each edge", word);
+    }
+  }
+  return polygon;
+}
+
 void parse_limit(const text::Line& line, Edit& edit) {
   constexpr std::array<std::string_view, 4> kKinds{"area", "size", "sizes", "none"};
   const auto refuse = [&](std::size_t i) {
@@ -206,6 +250,8 @@ EditOf<D> parse(const text::Line& line) {
       edit.attribute = line.finite(4);
       edit.max_area = max_area_of(line);
     }
+  } else if (form.kind == EditKind::insert_polygon) {
+    edit.polygon = parse_polygon(line);
   } else {
     for (std::size_t i = 2; i < size; ++i) {
       edit.points.push_back(FeatureId{line.integer(i)});
@@ -232,6 +278,32 @@ bool is_word(const text::Line& line, std::string_view word) {
   throw line.error(ErrorCode::bad_edit, text::quoted(word) + " stands alone on its line", 1);
 }
 
+// Whether the i-th id of an error is that of an edit of this kind. A line may have the id of a
+// point, and a polygon that of both. Seeds are never to blame, limits only where no feature is.
+bool may_blame(ErrorCode code, std::size_t i, Featured of) {
+  const bool of_lines = of == Featured::line || of == Featured::polygon;
+  switch (code) {
+    case ErrorCode::point_on_segment:
+    case ErrorCode::point_on_polygon:
+      return i == 0 ? of == Featured::point : of_lines;
+    case ErrorCode::crossing_segments:
+    case ErrorCode::overlapping_segments:
+    case ErrorCode::segment_through_polygon:
+    case ErrorCode::segment_on_polygon:
+      return of_lines;
+    case ErrorCode::repeated_segment:
+      return of == Featured::line;
+    case ErrorCode::bad_polygon:
+    case ErrorCode::not_flat:
+    case ErrorCode::repeated_polygon:
+    case ErrorCode::crossing_polygons:
+    case ErrorCode::overlapping_polygons:
+      return of == Featured::polygon;
+    default:
+      return of_lines || of == Featured::point;
+  }
+}
+
 }  // namespace
 
 Featured featured(EditKind kind) {
@@ -246,6 +318,9 @@ Featured featured(EditKind kind) {
     case EditKind::insert_region:
     case EditKind::remove_region:
       return Featured::region;
+    case EditKind::insert_polygon:
+    case EditKind::remove_polygon:
+      return Featured::polygon;
     case EditKind::limit:
       return Featured::nothing;
     default:
@@ -315,17 +390,11 @@ std::vector<EditOf<D>> announcing_order(std::vector<EditOf<D>> edits) {
   return ordered;
 }
 
-// A line may have the id of a point: where the error is one of lines, theirs are meant. Seeds are
-// never to blame, limits only where no feature is.
 template <int D>
 Place place_to_blame(const std::vector<EditOf<D>>& edits, const Error& error) {
-  const bool of_lines = error.code() == ErrorCode::crossing_segments ||
-                        error.code() == ErrorCode::overlapping_segments ||
-                        error.code() == ErrorCode::repeated_segment;
-  for (const FeatureId id : error.ids()) {
+  for (std::size_t i = 0; i < error.ids().size(); ++i) {
     const auto is_of = [&](const EditOf<D>& edit) {
-      const Featured of = featured(edit.kind);
-      return edit.id == id && (of == Featured::line || (of == Featured::point && !of_lines));
+      return edit.id == error.ids()[i] && may_blame(error.code(), i, featured(edit.kind));
     };
     const auto last = std::find_if(edits.rbegin(), edits.rend(), is_of);
     if (last != edits.rend()) return last->place;

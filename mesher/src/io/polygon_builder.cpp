@@ -15,13 +15,13 @@ void PolygonBuilder::add_line(const Ring& places, std::int64_t marker,
   build_.add_line(std::move(points), marker, position);
 }
 
-void PolygonBuilder::add(Polygon polygon) {
+void PolygonBuilder::add(RingPolygon polygon) {
   for (std::size_t i = 0; i < polygon.rings.size(); ++i) add_ring(polygon, i);
   polygons_.push_back(std::move(polygon));
 }
 
 // Less what is a line already.
-void PolygonBuilder::add_ring(const Polygon& polygon, std::size_t ring) {
+void PolygonBuilder::add_ring(const RingPolygon& polygon, std::size_t ring) {
   const Ring& places = polygon.rings[ring];
   std::size_t pieces = 0;
   for (const Ring& run : borders_.add(places, polygons_.size(), ring == 0)) {
@@ -56,7 +56,7 @@ void PolygonBuilder::add_seeds() {
   const auto seeds = find_seeds(questions(), lines_);
   auto seed = seeds.begin();
   for (std::size_t p = 0; p < polygons_.size(); ++p) {
-    const Polygon& polygon = polygons_[p];
+    const RingPolygon& polygon = polygons_[p];
     add_region(polygon, *seed++, static_cast<double>(p + 1));
     for (std::size_t i = 1; i < polygon.rings.size(); ++i) {
       if (is_hole(p, i)) add_hole(*seed++, polygon.positions[i]);
@@ -64,7 +64,7 @@ void PolygonBuilder::add_seeds() {
   }
 }
 
-void PolygonBuilder::add_region(const Polygon& polygon, const std::optional<Point<2>>& seed,
+void PolygonBuilder::add_region(const RingPolygon& polygon, const std::optional<Point<2>>& seed,
                                 double number) {
   if (seed) {
     return build_.add_region(*seed, polygon.attribute.value_or(number), polygon.max_area,

@@ -163,7 +163,7 @@ class GeoJsonReader {
   void read_polygon(const JsonValue& polygon, const Properties& properties) {
     require(polygon, Kind::array, "an array of rings");
     if (polygon.values.empty()) fail("a polygon has a ring", polygon);
-    Polygon added{{}, {}, properties.marker, properties.attribute, properties.max_area};
+    RingPolygon added{{}, {}, properties.marker, properties.attribute, properties.max_area};
     for (const JsonValue& ring : polygon.values) {
       require(ring, Kind::array, "a ring of positions");
       if (ring.values.size() < 4) fail("a ring has four positions or more", ring);

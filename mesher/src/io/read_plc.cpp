@@ -2,19 +2,47 @@
 #include "io/read_plc.hpp"
 
 #include "io/distinct_ids.hpp"
+#include "io/read_points.hpp"
 #include "io/text.hpp"
 
 namespace mesher {
 namespace {
 
+// A surface's faces as polygons; `line`: of a point, 0 where a file has no lines.
+PlcFile plc_of(Surface surface) {
+  PlcFile out;
+  out.file = out.point_file = surface.rows.file;
+  out.notes = std::move(surface.rows.notes);
+  for (std::size_t i = 0; i < surface.rows.points.size(); ++i) {
+    out.plc.points.push_back({surface.rows.ids[i], surface.rows.points[i]});
+    out.points.push_back({surface.rows.lines[i], surface.rows.lines[i] > 0 ? 1 : 0});
+  }
+  for (const Surface::Face& face : surface.faces) {
+    const auto id = static_cast<std::int64_t>(out.plc.facets.size()) + 1;
+    Polygon polygon{.id = FeatureId{id}, .loops = {{}}};
+    for (const std::uint32_t corner : face.corners) {
+      polygon.loops[0].push_back(out.plc.points[corner].id);
+    }
+    out.plc.facets.push_back({std::move(polygon)});
+    out.facets.push_back(face.position);
+  }
+  return out;
+}
+
 PlcFile read_any(const std::string& path) {
   const std::string extension = text::extension(path);
   if (extension == ".poly") return read_space_poly(path);
   if (extension == ".smesh") return read_smesh(path);
-  throw Error(ErrorCode::unknown_format,
-              "points, segments and polygons in space are read from .poly and .smesh, not " +
-                  text::quoted(extension),
-              {path});
+  if (extension == ".off") return plc_of(read_off_surface(path));
+  if (extension == ".obj") return plc_of(read_obj_surface(path));
+  if (extension == ".ply") return plc_of(read_ply_surface(path));
+  if (extension == ".stl") return plc_of(read_stl_surface(path));
+  throw Error(
+      ErrorCode::unknown_format,
+      "points, segments and polygons in space are read from .poly, .smesh, .off, .obj, .ply "
+      "and .stl, not " +
+          text::quoted(extension),
+      {path});
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Reads the vertices of `.ply` files (Stanford) as points in space:
+// Reads the vertices of `.ply` files (Stanford) as points in space, and the faces, if asked for:
+// lists vertex_indices or vertex_index of the element face.
 //
 //   ply
 //   format ascii|binary_little_endian|binary_big_endian 1.0
@@ -147,26 +148,36 @@ class PlyHeader {
 
 class PlyReader {
  public:
-  explicit PlyReader(const text::Source& source)
+  enum class Faces : std::uint8_t { use, note };
+
+  PlyReader(const text::Source& source, Faces use)
       : source_(source),
+        use_(use),
         header_(source.file(), source.content()),
         fields_(header_.body()),
         bytes_(source, fields_),
-        rows_{source.file(), {}, {}, {}} {
+        out_{{source.file(), {}, {}, {}}, {}} {
     bytes_.set_big_endian(header_.is_big_endian);
   }
 
-  PointFile<3> read() {
+  Surface read() {
     bool found = false;
     for (const Element& element : header_.elements) {
       const bool vertices = element.name == "vertex" && !found;
-      vertices ? read_vertices(element) : skip(element);
+      if (vertices) {
+        read_vertices(element);
+      } else if (element.name == "face" && use_ == Faces::use) {
+        read_faces(element);
+      } else {
+        skip(element);
+      }
       found = found || vertices;
     }
     if (!found) throw Error(ErrorCode::bad_header, "no element vertex", {source_.file()});
     require_end();
-    rows_.notes = notes_.notes();
-    return std::move(rows_);
+    require_corners();
+    out_.rows.notes = notes_.notes();
+    return std::move(out_);
   }
 
  private:
@@ -190,7 +201,46 @@ class PlyReader {
           if (axes[axis] == k) p[axis] = value;
         }
       }
-      add_vertex(rows_, p, place);
+      add_vertex(out_.rows, p, place);
+    }
+  }
+
+  // Vertices may follow: corners are looked at in the end.
+  void read_faces(const Element& element) {
+    std::size_t list = element.find("vertex_indices");
+    if (list == element.properties.size()) list = element.find("vertex_index");
+    if (list == element.properties.size() || !element.properties[list].count ||
+        !element.properties[list].type.is_integral) {
+      throw Error(ErrorCode::bad_header, "faces without a list vertex_indices of integers",
+                  element.place);
+    }
+    if (element.properties.size() > 1) {
+      notes_.add("properties of faces other than their corners are not used", element.place);
+    }
+    for (std::int64_t i = 0; i < element.count; ++i) {
+      corners_.clear();
+      for (std::size_t k = 0; k < element.properties.size(); ++k) {
+        read_property(element, element.properties[k], i, k == list ? &corners_ : nullptr);
+      }
+      Surface::Face& face = out_.faces.emplace_back();
+      if (header_.is_text) face.position = source_.position(field_);
+      for (const double corner : corners_) face.corners.push_back(number_of(corner));
+    }
+  }
+  // What is beyond 32 bits is no vertex, and said so in the end.
+  static std::uint32_t number_of(double corner) {
+    const bool fits = corner >= 0 && corner < static_cast<double>(UINT32_MAX);
+    return fits ? static_cast<std::uint32_t>(corner) : UINT32_MAX;
+  }
+  void require_corners() const {
+    for (const Surface::Face& face : out_.faces) {
+      for (const std::uint32_t corner : face.corners) {
+        if (corner < out_.rows.points.size()) continue;
+        throw Error(ErrorCode::bad_mesh,
+                    "a face has a corner that is none of the " +
+                        std::to_string(out_.rows.points.size()) + " vertices",
+                    {source_.file(), face.position.line, face.position.column});
+      }
     }
   }
 
@@ -205,13 +255,17 @@ class PlyReader {
     }
   }
 
-  // The value; of a list, its length.
-  double read_property(const Element& element, const Property& property, std::int64_t row) {
+  // The value; of a list, its length, and the numbers in `list` if that is asked for.
+  double read_property(const Element& element, const Property& property, std::int64_t row,
+                       std::vector<double>* list = nullptr) {
     row_ = {&element, row};
     if (!property.count) return read_number(property.type);
     const double count = read_number(*property.count);
     if (count < 0) throw error(ErrorCode::bad_number, "a list of fewer than no numbers");
-    for (double k = 0; k < count; ++k) static_cast<void>(read_number(property.type));
+    for (double k = 0; k < count; ++k) {
+      const double value = read_number(property.type);
+      if (list != nullptr) list->push_back(value);
+    }
     return count;
   }
 
@@ -252,10 +306,12 @@ class PlyReader {
   }
 
   const text::Source& source_;
+  Faces use_;
   PlyHeader header_;
   text::Fields fields_;
   BinaryCursor bytes_;
-  PointFile<3> rows_;
+  Surface out_;
+  std::vector<double> corners_;  // of a face
   NoteCounter notes_;
   std::string_view field_;                                   // the last one of a text
   std::pair<const Element*, std::int64_t> row_{nullptr, 0};  // what is being read
@@ -265,7 +321,11 @@ class PlyReader {
 
 PointFile<3> read_ply_points(const std::string& path) {
   const text::Source source(path);
-  return PlyReader(source).read();
+  return PlyReader(source, PlyReader::Faces::note).read().rows;
+}
+Surface read_ply_surface(const std::string& path) {
+  const text::Source source(path);
+  return PlyReader(source, PlyReader::Faces::use).read();
 }
 
 }  // namespace mesher

@@ -1,7 +1,9 @@
 // The readers of single formats, behind read_points.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "mesher/io.hpp"
 
@@ -24,6 +26,20 @@ template <int D>
 [[nodiscard]] PointFile<3> read_stl_points(const std::string& path);
 [[nodiscard]] PointFile<3> read_vtu_points(const std::string& path);
 [[nodiscard]] PointFile<3> read_vtk_points(const std::string& path);
+
+/// The same with faces, by numbers of points from 0.
+struct Surface {
+  struct Face {
+    std::vector<std::uint32_t> corners;
+    FilePosition position;
+  };
+  PointFile<3> rows;
+  std::vector<Face> faces;
+};
+[[nodiscard]] Surface read_off_surface(const std::string& path);
+[[nodiscard]] Surface read_obj_surface(const std::string& path);
+[[nodiscard]] Surface read_ply_surface(const std::string& path);
+[[nodiscard]] Surface read_stl_surface(const std::string& path);
 
 /// The columns x, y, h of a background of sizes. Throws: Error likewise.
 [[nodiscard]] PointFile<3> read_csv_sizes(const std::string& path);

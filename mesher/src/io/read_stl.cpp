@@ -1,4 +1,4 @@
-// Reads the corners of `.stl` files as points in space:
+// Reads the corners of `.stl` files as points in space, and the facets between them:
 //
 //   solid [name]
 //     facet normal x y z / outer loop / vertex x y z (three times) / endloop / endfacet
@@ -8,7 +8,7 @@
 // facet twelve floats (normal, corners) and two bytes. Corners in one place are one point.
 #include <algorithm>
 #include <bit>
-#include <set>
+#include <map>
 #include <string_view>
 
 #include "io/read_points.hpp"
@@ -18,23 +18,29 @@
 namespace mesher {
 namespace {
 
-// Points in the order in which their places first come.
+// Points in the order in which their places first come; each three corners are a facet.
 class Corners {
  public:
-  explicit Corners(const std::string& path) : rows_{path, {}, {}, {}} {}
+  explicit Corners(const std::string& path) : out_{{path, {}, {}, {}}, {}} {}
 
   void add(const Point<3>& at, const Place& place) {
-    if (seen_.insert(unsigned_zeros(at)).second) add_vertex(rows_, at, place);
+    const auto number = static_cast<std::uint32_t>(out_.rows.points.size());
+    const auto [it, fresh] = number_at_.try_emplace(unsigned_zeros(at), number);
+    if (fresh) add_vertex(out_.rows, at, place);
+    if (out_.faces.empty() || out_.faces.back().corners.size() == 3) {
+      out_.faces.push_back({{}, {place.line, place.column}});
+    }
+    out_.faces.back().corners.push_back(it->second);
   }
-  PointFile<3> take() { return std::move(rows_); }
+  Surface take() { return std::move(out_); }
 
  private:
   static Point<3> unsigned_zeros(Point<3> p) {
     for (double& x : p) x += 0.0;
     return p;
   }
-  PointFile<3> rows_;
-  std::set<Point<3>> seen_;
+  Surface out_;
+  std::map<Point<3>, std::uint32_t> number_at_;
 };
 
 // --- Binary ----------------------------------------------------------------------------------
@@ -68,7 +74,7 @@ void require_size(const std::string& bytes, const std::string& path) {
               {path});
 }
 
-PointFile<3> read_binary(const std::string& bytes, const std::string& path) {
+Surface read_binary(const std::string& bytes, const std::string& path) {
   require_size(bytes, path);
   Corners corners(path);
   for (std::uint64_t i = 0; i < facets_of(bytes); ++i) {
@@ -91,7 +97,7 @@ class StlText {
  public:
   StlText(const std::string& path, std::string_view content) : lines_(path, content), all_(path) {}
 
-  PointFile<3> read() {
+  Surface read() {
     while (lines_.next()) {
       require("solid");
       next();
@@ -145,10 +151,12 @@ bool is_text(const std::string& content) {
 
 }  // namespace
 
-PointFile<3> read_stl_points(const std::string& path) {
+Surface read_stl_surface(const std::string& path) {
   const std::string content = text::read_file(path);
   const bool binary = has_size_of_binary(content) || !is_text(content);
   return binary ? read_binary(content, path) : StlText(path, content).read();
 }
+
+PointFile<3> read_stl_points(const std::string& path) { return read_stl_surface(path).rows; }
 
 }  // namespace mesher

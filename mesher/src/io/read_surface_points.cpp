@@ -1,9 +1,11 @@
-// Reads the vertices of `.off` and `.obj` files as points in space. Faces and lines are not used.
+// Reads the vertices of `.off` and `.obj` files as points in space, and the faces, if asked for.
+// Lines are not used.
 #include <algorithm>
 #include <iterator>
 #include <string_view>
 
 #include "io/note_counter.hpp"
+#include "io/read_mesh.hpp"
 #include "io/read_points.hpp"
 #include "io/rows.hpp"
 #include "io/text.hpp"
@@ -25,6 +27,11 @@ void require_off(const text::Line& first) {
   if (known && (first.size() == 1 || first.size() == 4)) return;
   throw first.error(ErrorCode::bad_header,
                     "the first line must be 'OFF', 'COFF', 'NOFF' or 'CNOFF'", 0);
+}
+
+// Field i as a vertex, of so many. Throws: Error(bad_mesh).
+std::uint32_t corner_of(const text::Line& line, std::size_t i, std::size_t vertices) {
+  return vertex_index(line.integer(i), vertices, 0, [&] { return line.place(i); });
 }
 
 // Throws: Error(wrong_count) unless the row names as many corners as it says.
@@ -58,9 +65,20 @@ void note_statement(const text::Line& line, NoteCounter& notes) {
   notes.add("the statement " + text::quoted(line[0]) + " is not used", line.place(0));
 }
 
-}  // namespace
+// `f v v v...`: v, v/t, v//n or v/t/n; 1 is the first vertex, -1 the last so far.
+Surface::Face read_obj_face(const text::Line& line, std::size_t vertices) {
+  Surface::Face face{{}, line.position(0)};
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const std::int64_t given = line.integer_before(i, line[i].find('/'));
+    const std::int64_t index = given < 0 ? given + static_cast<std::int64_t>(vertices) + 1 : given;
+    face.corners.push_back(vertex_index(index, vertices, 1, [&] { return line.place(i); }));
+  }
+  return face;
+}
 
-PointFile<3> read_off_points(const std::string& path) {
+enum class Faces : std::uint8_t { use, note };
+
+Surface read_off(const std::string& path, Faces use) {
   const std::string content = text::read_file(path);
   text::FieldLines lines(path, content);
   const text::Line& first = header_row(lines, path);
@@ -68,7 +86,8 @@ PointFile<3> read_off_points(const std::string& path) {
   const std::size_t at = first.size() == 1 ? 0 : 1;  // of the counts
   const text::Line& counts = at == 1 ? first : next_row(lines, 2, 0, 1, "lines of counts");
   const std::int64_t vertices = read_count(counts, at), faces = read_count(counts, at + 1);
-  PointFile<3> rows{path, {}, {}, {}};
+  Surface out{{path, {}, {}, {}}, {}};
+  PointFile<3>& rows = out.rows;
   NoteCounter notes;
   while (std::cmp_less(rows.points.size(), vertices)) {
     const text::Line& line = next_row(lines, 3, rows.points.size(), vertices, "vertices");
@@ -78,23 +97,46 @@ PointFile<3> read_off_points(const std::string& path) {
   for (std::size_t i = 0; std::cmp_less(i, faces); ++i) {
     const text::Line& line = next_row(lines, 1, i, faces, "faces");
     require_face(line);
-    notes.add("a face is not used", line.place(0));
+    if (use == Faces::note) {
+      notes.add("a face is not used", line.place(0));
+      continue;
+    }
+    Surface::Face& face = out.faces.emplace_back(Surface::Face{{}, line.position(0)});
+    const auto corners = static_cast<std::size_t>(read_count(line, 0));
+    for (std::size_t k = 1; k <= corners; ++k) {
+      face.corners.push_back(corner_of(line, k, rows.points.size()));
+    }
+    if (line.size() > corners + 1)
+      notes.add("a face's colour is not used", line.place(corners + 1));
   }
   require_end(lines, "faces");
   rows.notes = notes.notes();
-  return rows;
+  return out;
 }
 
-PointFile<3> read_obj_points(const std::string& path) {
+Surface read_obj(const std::string& path, Faces use) {
   const std::string content = text::read_file(path);
-  PointFile<3> rows{path, {}, {}, {}};
+  Surface out{{path, {}, {}, {}}, {}};
   NoteCounter notes;
   for (text::FieldLines lines(path, content); lines.next();) {
     const text::Line& line = lines.line();
-    line[0] == "v" ? read_vertex(line, rows, notes) : note_statement(line, notes);
+    if (line[0] == "v") {
+      read_vertex(line, out.rows, notes);
+    } else if (line[0] == "f" && use == Faces::use) {
+      out.faces.push_back(read_obj_face(line, out.rows.points.size()));
+    } else {
+      note_statement(line, notes);
+    }
   }
-  rows.notes = notes.notes();
-  return rows;
+  out.rows.notes = notes.notes();
+  return out;
 }
+
+}  // namespace
+
+PointFile<3> read_off_points(const std::string& path) { return read_off(path, Faces::note).rows; }
+PointFile<3> read_obj_points(const std::string& path) { return read_obj(path, Faces::note).rows; }
+Surface read_off_surface(const std::string& path) { return read_off(path, Faces::use); }
+Surface read_obj_surface(const std::string& path) { return read_obj(path, Faces::use); }
 
 }  // namespace mesher

@@ -149,6 +149,8 @@ class PlcWriter {
   bool marked_ = false;
 };
 
+}  // namespace
+
 void require_single_loops(const Plc& plc) {
   for (const auto& [polygon, marker] : plc.facets) {
     if (polygon.loops.size() == 1 && polygon.edges.empty() && polygon.points.empty()) continue;
@@ -160,7 +162,8 @@ void require_single_loops(const Plc& plc) {
   }
 }
 
-}  // namespace
+void write_poly(const Plc& plc, TextFile& file) { PlcWriter(plc, file).write_poly(); }
+void write_smesh(const Plc& plc, TextFile& file) { PlcWriter(plc, file).write_smesh(); }
 
 void write_plc(const Plc& plc, const std::string& path) {
   const std::string extension = text::extension(path);
@@ -172,8 +175,8 @@ void write_plc(const Plc& plc, const std::string& path) {
   }
   if (extension == ".smesh") require_single_loops(plc);
   OutputFiles files;
-  PlcWriter writer(plc, files.open(path));
-  extension == ".poly" ? writer.write_poly() : writer.write_smesh();
+  TextFile& file = files.open(path);
+  extension == ".poly" ? write_poly(plc, file) : write_smesh(plc, file);
   files.commit();
 }
 

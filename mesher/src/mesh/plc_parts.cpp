@@ -131,8 +131,7 @@ void add_pump(Builder& b, std::size_t n) {
     }
     b.polygon(loops);
   }
-  add_box(b, {{x, -half, -0.25}, {1.5, half, 0.25}},
-          {{{0, true}, rectangle(0, 1.5, {-half / 2, -0.125}, {half / 2, 0.125})}}, {{0, false}});
+  add_box(b, {{x, -half, -0.25}, {1.5, half, 0.25}}, {}, {{0, false}});
 }
 
 void add_faults(Builder& b, std::size_t n, SplitMix64 random) {

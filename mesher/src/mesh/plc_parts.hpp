@@ -35,7 +35,7 @@ void add_vee(Builder& b, double degrees);
 void add_leaning(Builder& b, double degrees);
 void add_tetrahedron(Builder& b, double height);
 void add_cloud(Builder& b, std::size_t n, SplitMix64 random);
-/// A prism of n sides with a bore; a tube from the middle of one side, which is across x.
+/// A prism of n sides with a bore, and a stub on one side, which is across x. Closed.
 void add_pump(Builder& b, std::size_t n);
 /// Squares in random planes, each well apart from those that are there, by the balls around them;
 /// fewer than n where there is no room.

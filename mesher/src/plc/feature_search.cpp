@@ -2,6 +2,7 @@
 #include "plc/feature_search.hpp"
 
 #include <algorithm>
+#include <new>
 #include <tuple>
 
 namespace mesher::detail {
@@ -64,21 +65,28 @@ void put_in_canonical_order(std::vector<const F*>& all) {
 
 bool disjoint(const Polygon& f, const Polygon& g) { return !have_common(f.points, g.points); }
 
+// Visitors must not throw: they say so, and the search ends.
 void find_near(const Point<3>& place, double radius, FeatureStore& store, FeaturesNear& found) {
   found.edges.clear();
   found.polygons.clear();
-  const auto is_near = [&](const auto& f) {
-    return touches(distance2_to(place, f), radius * radius);
+  bool failed = false;
+  const auto take = [&](auto& all, const auto& f) noexcept {
+    if (!touches(distance2_to(place, f), radius * radius)) return false;
+    try {
+      all.push_back(&f);
+    } catch (const std::bad_alloc&) {
+      failed = true;
+    }
+    return failed;
   };
   struct Take {
-    decltype(is_near)& near;
+    decltype(take)& into;
     FeaturesNear& found;
-    bool operator()(const Edge& e) const { return near(e) && (found.edges.push_back(&e), false); }
-    bool operator()(const Polygon& f) const {
-      return near(f) && (found.polygons.push_back(&f), false);
-    }
+    bool operator()(const Edge& e) const noexcept { return into(found.edges, e); }
+    bool operator()(const Polygon& f) const noexcept { return into(found.polygons, f); }
   };
-  store.visit_near(place, place, radius * (1 + 0x1p-29), Take{is_near, found});
+  store.visit_near(place, place, radius * (1 + 0x1p-29), Take{take, found});
+  if (failed) throw std::bad_alloc();
   put_in_canonical_order(found.edges);
   put_in_canonical_order(found.polygons);
 }

@@ -131,7 +131,7 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   VertexIndex<sac::Scope, 3>* cells_ = nullptr;
   FeatureStore store_;
   Crowding<sac::Scope, SpacePieces> crowding_;
-  Nearby nearby_;
+  NearObservations nearby_;
 };
 
 }  // namespace mesher::detail

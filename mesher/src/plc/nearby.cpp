@@ -3,15 +3,15 @@
 
 namespace mesher::detail {
 
-auto Nearby::recall(sac::Scope& s, std::uint8_t kind, PolygonHandle polygon, const Point<3>& place,
-                    double reach) -> NearEdge* {
+auto NearObservations::recall(sac::Scope& s, std::uint8_t kind, PolygonHandle polygon,
+                              const Point<3>& place, double reach) -> NearEdge* {
   return s.recall<NearEdge>(id_, kind, [&](const NearEdge& edge) {
     return edge.polygon == polygon && edge.place == place && edge.reach == reach;
   });
 }
 
-auto Nearby::observe(sac::Scope& s, std::uint8_t kind, PolygonHandle polygon, const Point<3>& place,
-                     double reach) -> NearEdge& {
+auto NearObservations::observe(sac::Scope& s, std::uint8_t kind, PolygonHandle polygon,
+                               const Point<3>& place, double reach) -> NearEdge& {
   auto& edge = s.observe<NearEdge>(id_, kind);
   edge.call = engine_.handle_of(s.self());
   edge.polygon = polygon;
@@ -25,20 +25,20 @@ auto Nearby::observe(sac::Scope& s, std::uint8_t kind, PolygonHandle polygon, co
 }
 
 template <class Look>
-void Nearby::weighed(sac::Scope& s, Look&& look) {
+void NearObservations::weighed(sac::Scope& s, Look&& look) {
   const auto looked_at = [&] { return store_.looked_at() + points_.looked_at(); };
   const std::uint64_t before = looked_at();
   look();
   s.weigh(looked_at() - before);
 }
 
-const FeaturesNear& Nearby::near(sac::Scope& s, const Point<3>& place, double radius) {
+const FeaturesNear& NearObservations::near(sac::Scope& s, const Point<3>& place, double radius) {
   if (recall(s, kNear, 0, place, radius) == nullptr) observe(s, kNear, 0, place, radius);
   weighed(s, [&] { find_near(place, radius, store_, found_); });
   return found_;
 }
 
-double Nearby::spacing(sac::Scope& s, const Point<3>& x, const Polygon& f, double cap) {
+double NearObservations::spacing(sac::Scope& s, const Point<3>& x, const Polygon& f, double cap) {
   if (NearEdge* edge = recall(s, kSpacing, f.self, x, cap)) return edge->seen = edge->now;
   double answer = 0;
   weighed(s, [&] { answer = find_spacing(x, f, cap, store_, points_); });
@@ -46,24 +46,24 @@ double Nearby::spacing(sac::Scope& s, const Point<3>& x, const Polygon& f, doubl
   return edge.seen = edge.now = answer;
 }
 
-void Nearby::turn(NearEdge& edge, double spacing) noexcept {
+void NearObservations::turn(NearEdge& edge, double spacing) noexcept {
   if (spacing == edge.now) return;
   edge.now = spacing;
   engine_.doubt(engine_.call(edge.call));
 }
 
-void Nearby::retract(sac::Call&, sac::Edge& edge) noexcept {
+void NearObservations::retract(sac::Call&, sac::Edge& edge) noexcept {
   auto& e = static_cast<NearEdge&>(edge);
   if (e.listed) tree_.erase(e.place, engine_.arena().handle_of(&e));
 }
 
 // Who asks what is near is invalidated, never doubted.
-bool Nearby::unchanged(sac::Call&, sac::Edge& edge) {
+bool NearObservations::unchanged(sac::Call&, sac::Edge& edge) {
   const auto& e = static_cast<const NearEdge&>(edge);
   return e.seen == e.now;
 }
 
-void Nearby::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
+void NearObservations::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
   const auto& e = static_cast<const NearEdge&>(edge);
   if (e.kind == kSpacing) return sink.number(std::bit_cast<std::uint64_t>(e.seen));
   FeaturesNear found;
@@ -72,7 +72,7 @@ void Nearby::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink
   for (const Polygon* at : found.polygons) label_bytes(sink, PolygonRef{at});
 }
 
-void Nearby::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
+void NearObservations::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
   const auto& e = static_cast<const NearEdge&>(edge);
   if (e.kind == kSpacing) {
     out << e.seen << " from other features";
@@ -84,7 +84,7 @@ void Nearby::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) c
       << e.reach;
 }
 
-void Nearby::check_invariants() const {
+void NearObservations::check_invariants() const {
   tree_.check_invariants();
   tree_.visit_all([&](sac::Handle h) {
     const NearEdge& e = at(h);

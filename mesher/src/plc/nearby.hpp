@@ -12,10 +12,10 @@
 
 namespace mesher::detail {
 
-class Nearby final : public sac::Structure {
+class NearObservations final : public sac::Structure {
  public:
-  Nearby(const MeshBox<3>& box, FeatureStore& store, Features<sac::Scope, 3>& points,
-         sac::Engine& engine)
+  NearObservations(const MeshBox<3>& box, FeatureStore& store, Features<sac::Scope, 3>& points,
+                   sac::Engine& engine)
       : engine_(engine),
         store_(store),
         points_(points),

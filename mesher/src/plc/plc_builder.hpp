@@ -28,9 +28,9 @@ class PlcBuilder {
     plc_.segments.push_back({id, point(a), point(b)});
   }
   /// The outer loop first. `edges`: that lie inside. What it returns is valid until the next one.
-  Polygon& polygon(const std::vector<Places>& loops,
-                   const std::vector<std::array<Point<3>, 2>>& edges = {}) {
-    Polygon& f = plc_.facets.emplace_back().polygon;
+  mesher::Polygon& polygon(const std::vector<Places>& loops,
+                           const std::vector<std::array<Point<3>, 2>>& edges = {}) {
+    mesher::Polygon& f = plc_.facets.emplace_back().polygon;
     f.id = FeatureId{static_cast<std::int64_t>(plc_.facets.size())};
     for (const Places& loop : loops) {
       auto& corners = f.loops.emplace_back();

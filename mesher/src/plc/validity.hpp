@@ -20,6 +20,7 @@
 //    they have the same side of a common edge.
 #pragma once
 
+#include <new>
 #include <optional>
 
 #include "geometry/box.hpp"
@@ -128,16 +129,26 @@ std::optional<SpaceConflict> conflict_of(const Polygon& f, FeatureStore& store,
                                          const Features<S, 3>& points) {
   std::optional<SpaceConflict> first;
   const FeatureExtent<3> where = validity::widened(extent_of(f));
-  struct Look {
+  bool failed = false;
+  struct Look {  // must not throw
     std::optional<SpaceConflict>& first;
     const Polygon& f;
     const FeatureStore& store;
-    bool operator()(const Edge& e) const { return keep_first(first, conflict_with(e, f)), false; }
-    bool operator()(const Polygon& g) const {
-      return keep_first(first, conflict_with(f, g, store)), false;
+    bool& failed;
+    bool operator()(const Edge& e) const noexcept {
+      return keep_first(first, conflict_with(e, f)), false;
+    }
+    bool operator()(const Polygon& g) const noexcept {
+      try {
+        keep_first(first, conflict_with(f, g, store));
+      } catch (const std::bad_alloc&) {
+        failed = true;
+      }
+      return failed;
     }
   };
-  store.visit_near(where.p, where.q, where.slack, Look{first, f, store});
+  store.visit_near(where.p, where.q, where.slack, Look{first, f, store, failed});
+  if (failed) throw std::bad_alloc();
   points.visit_points_in(validity::box_of(where), [&](const Vertex<3>& v) {
     keep_first(first, conflict_with(v, f));
     return false;

@@ -388,7 +388,7 @@ TEST_CASE("a script may begin with a byte order mark") {
   CHECK(apply("\xEF\xBB\xBF# nothing\n\n", table).empty());
 }
 
-TEST_CASE("a script in space has points with three coordinates, and no other edits") {
+TEST_CASE("a script in space has points with three coordinates") {
   const ScratchFolder folder;
   mesher::Mesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
   mesher::EditScriptOf<3> script(folder.write("edits.txt",
@@ -403,6 +403,58 @@ TEST_CASE("a script in space has points with three coordinates, and no other edi
   CHECK(m.mesh() == mesher::mesh_statically<3>({{.25, .25, 1}}, m.options()));
 }
 
+TEST_CASE("a script in space has segments, and polygons with holes and what lies inside") {
+  const ScratchFolder folder;
+  const auto list = [](std::initializer_list<std::int64_t> values) {
+    std::vector<FeatureId> all;
+    for (const auto v : values) all.push_back(FeatureId{v});
+    return all;
+  };
+  mesher::Mesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
+  mesher::EditScriptOf<3> script(folder.write(
+      "edits.txt",
+      "begin\n"
+      "+polygon 1 1 2 3 4 / 5 6 7 on 8 10 along 8 9 9 10  # before its points\n"
+      "+polygon 2 1 2 11\n"
+      "+point 1 0 0 .5\n+point 2 1 0 .5\n+point 3 1 1 .5\n+point 4 0 1 .5\n"
+      "+point 5 .25 .25 .5\n+point 6 .5 .25 .5\n+point 7 .25 .5 .5\n"
+      "+point 8 .75 .25 .5\n+point 9 .75 .5 .5\n+point 10 .75 .75 .5\n+point 11 .5 0 1\n"
+      "+segment 1 9 11\ncommit\n"
+      "begin\n-point 11\n-segment 1\n-polygon 2\n+polyline 3 5 12 7\n"
+      "+point 12 .25 .25 1\ncommit\n"));
+  std::size_t updates = 0;
+  mesher::apply(script, m, [&](const mesher::Update<3>&) {
+    if (++updates > 1) return;
+    REQUIRE(m.polygons().size() == 2);
+    const mesher::Polygon f = m.polygons()[0];
+    CHECK(f.loops == std::vector<std::vector<FeatureId>>{list({1, 2, 3, 4}), list({5, 6, 7})});
+    CHECK(f.points == list({8, 10}));
+    CHECK(f.edges == std::vector<std::array<FeatureId, 2>>{{FeatureId{8}, FeatureId{9}},
+                                                           {FeatureId{9}, FeatureId{10}}});
+  });
+  CHECK(updates == 2);
+  CHECK(m.polygons().size() == 1);
+  CHECK(m.lines() == std::vector{mesher::InputLine{FeatureId{3}, list({5, 12, 7})}});
+}
+
+TEST_CASE("an error of an update in space is said of the edit of the feature to blame") {
+  const ScratchFolder folder;
+  const auto failure = [&](const std::string& last) {
+    mesher::Mesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
+    mesher::EditScriptOf<3> script(
+        folder.write("edits.txt",
+                     "begin\n+point 1 0 0 0\n+point 2 1 0 0\n+point 3 0 1 0\n"
+                     "+point 4 .25 .25 -0\n+point 5 .25 .5 .5\ncommit\n" +
+                         last));
+    return failure_of([&] { mesher::apply(script, m, [](const auto&) {}); });
+  };
+  CHECK(failure("begin\n+polygon 1 1 2 3\n+point 6 1 1 1\n+segment 4 4 5\ncommit\n") ==
+        "point_on_polygon@9:1");
+  CHECK(failure("begin\n+segment 1 4 5\n+polygon 1 1 2 3 5\ncommit\n") == "not_flat@10:1");
+  CHECK(failure("begin\n+polygon 1 1 2 4\n+polygon 7 4 2 1\n+point 6 1 1 1\ncommit\n") ==
+        "repeated_polygon@10:1");
+}
+
 TEST_CASE("bad lines of a script in space are refused with the code and the place of the mistake") {
   const Refused refused = GENERATE(values<Refused>({
       {"+point 1 0 0\n", "bad_edit@1:13"},
@@ -415,8 +467,17 @@ TEST_CASE("bad lines of a script in space are refused with the code and the plac
       {"+point 1 0 0 2\n", "outside_domain@1:1"},
       {"+point 1 0 0 0\n+point 2 0 0 0\n", "duplicate_point@2:1"},
       {"begin\n+point 1 0 0 0\n move 1 0 0 0\n+point 2 0 0 0\ncommit\n", "duplicate_point@4:1"},
-      {"+segment 1 1 2\n", "bad_edit@1:1"},
-      {"+polyline 1 1 2\n", "bad_edit@1:1"},
+      {"+segment 1 1 2\n", "unknown_id@1:1"},
+      {"+segment 1 1 2 marker 7\n", "bad_edit@1:16"},
+      {"+polyline 1 1\n", "bad_edit@1:14"},
+      {"+polygon 1 1 2\n", "bad_edit@1:15"},
+      {"+polygon 1 1 2 3\n", "unknown_id@1:1"},
+      {"+polygon 1 1 2 x\n", "bad_number@1:16"},
+      {"+polygon 1 1 2 3 / 4 5\n", "bad_polygon@1:1"},
+      {"+polygon 1 1 2 2\n", "bad_polygon@1:1"},
+      {"+polygon 1 1 2 3 along 4 5 6\n", "bad_edit@1:18"},
+      {"+polygon 1 1 2 3 on\n+polygon 1 1 2 3\n", "unknown_id@1:1"},
+      {"-polygon 1\n", "unknown_id@1:1"},
       {"+hole 1 0 0 0\n", "bad_edit@1:1"},
       {"+region 1 0 0 0 1\n", "bad_edit@1:1"},
       {"limit none\n", "bad_edit@1:1"},

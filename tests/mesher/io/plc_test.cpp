@@ -205,3 +205,51 @@ TEST_CASE("TetGen's example is read as its facets are") {
   write_plc(plc, folder.path("a.poly"));
   REQUIRE(mesher::read_plc(folder.path("a.poly")).plc == plc);
 }
+
+TEST_CASE("Surfaces are read with a polygon for each face") {
+  const Loops faces{ids({1, 2, 3, 4}), ids({1, 2, 5})};
+  const auto loops_of = [](const PlcFile& f) {
+    Loops loops;
+    for (const auto& facet : f.plc.facets) loops.push_back(facet.polygon.loops.at(0));
+    return loops;
+  };
+  const std::string vertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n";
+  const PlcFile off = read("a.off", "OFF\n5 2 0\n" + vertices + "4 0 1 2 3\n3 0 1 4 0.5 0.5\n");
+  REQUIRE(off.plc.points.size() == 5);
+  REQUIRE(loops_of(off) == faces);
+  REQUIRE(off.place_of_facet(1).line == 9);
+  REQUIRE(off.notes.size() == 1);
+  const PlcFile obj = read("a.obj",
+                           "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1 2/2 3/3 4\nv 0 0 1\ng x\n"
+                           "f -5 2 -1\n");
+  REQUIRE(loops_of(obj) == faces);
+  REQUIRE(obj.place_of_facet(1).line == 8);
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 2\nproperty uchar red\n"
+      "property list uchar int vertex_indices\nend_header\n";
+  const PlcFile ply = read("a.ply", header + vertices + "9 4 0 1 2 3\n9 3 0 1 4\n");
+  REQUIRE(loops_of(ply) == faces);
+  REQUIRE(ply.place_of_facet(1).line == 17);
+  const PlcFile stl = read("a.stl",
+                           "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                           "vertex 1 1 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
+                           "vertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n"
+                           "endsolid\n");
+  REQUIRE(loops_of(stl) == Loops{ids({1, 2, 3}), ids({1, 2, 4})});
+  REQUIRE(stl.place_of_facet(1).line == 11);
+}
+
+TEST_CASE("A face's corner that is no vertex is refused where it stands") {
+  const auto failure = [](const char* name, const std::string& content) {
+    return failure_of([&] { static_cast<void>(read(name, content)); });
+  };
+  CHECK(failure("a.off", "OFF\n1 1 0\n0 0 0\n3 0 1 0\n") == "bad_mesh@4:5");
+  CHECK(failure("a.obj", "v 0 0 0\nf 1 2 1\n") == "bad_mesh@2:5");
+  CHECK(failure("a.obj", "v 0 0 0\nf 1 -2 1\n") == "bad_mesh@2:5");
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  CHECK(failure("a.ply", header + "0 0 0\n3 0 1 0\n").substr(0, 12) == "bad_mesh@11:");
+  CHECK(failure("a.ply", header + "0 0 0\n3 0 -1 0\n").substr(0, 12) == "bad_mesh@11:");
+}

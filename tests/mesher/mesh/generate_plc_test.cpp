@@ -1,10 +1,12 @@
 // Families of complexes: what they are, and that their parts fit together.
 #include "mesher/generate_plc.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
 
 #include "feature_scene.hpp"
+#include "plc/plc_builder.hpp"
 #include "plc/validity.hpp"
 #include "scratch_file.hpp"
 
@@ -15,6 +17,7 @@ using mesher::generate_plc;
 using mesher::Plc;
 using mesher::PlcFamily;
 using mesher::PlcKind;
+using mesher::Point;
 using namespace mesher::detail;
 
 struct SameNames : SpaceNames {
@@ -105,4 +108,85 @@ TEST_CASE("A generated complex is written and read back equal") {
     write_plc(plc, path);
     REQUIRE(mesher::read_plc(path).plc == plc);
   }
+}
+
+namespace {
+
+// The complex with every polygon of one loop, convex, cut into triangles from its first corner.
+Plc triangulated(const Plc& plc) {
+  Plc out = plc;
+  out.facets.clear();
+  for (const auto& [polygon, marker] : plc.facets) {
+    const auto& loop = polygon.loops.at(0);
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+      const auto id = static_cast<std::int64_t>(out.facets.size()) + 1;
+      out.facets.push_back({{FeatureId{id}, {{loop[0], loop[i], loop[i + 1]}}}, marker});
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("Triangles of one plane are merged to the polygons that they were cut from") {
+  for (const PlcKind kind : {PlcKind::cube, PlcKind::nested, PlcKind::faults, PlcKind::bricks}) {
+    CAPTURE(mesher::plc_kind_names()[static_cast<std::size_t>(kind)]);
+    const Plc plc = generate_plc({kind});
+    const Plc merged = with_merged_facets(triangulated(plc));
+    REQUIRE(merged.facets.size() == plc.facets.size());
+    for (std::size_t i = 0; i < plc.facets.size(); ++i) {
+      auto expected = plc.facets[i].polygon.loops.at(0),
+           loop = merged.facets[i].polygon.loops.at(0);
+      std::sort(expected.begin(), expected.end());
+      std::sort(loop.begin(), loop.end());
+      REQUIRE(loop == expected);
+      REQUIRE(merged.facets[i].polygon.loops.size() == 1);
+      REQUIRE(merged.facets[i].polygon.edges.empty());
+    }
+    REQUIRE_NOTHROW(require_fits(merged));
+  }
+  const Plc shells = generate_plc({PlcKind::shells});
+  REQUIRE(with_merged_facets(shells) == shells);
+}
+
+TEST_CASE("A merge keeps holes, markers, and what others need of an edge or a point") {
+  PlcBuilder b;
+  const auto square = [&](double x, double y) {
+    b.polygon({{{x, y, 0}, {x + 1, y, 0}, {x + 1, y + 1, 0}, {x, y + 1, 0}}});
+  };
+  for (int i = 0; i < 9; ++i) {
+    if (i != 4) square(i % 3, i / 3);
+  }
+  b.polygon({{{0, 1, 0}, {1, 1, 0}, {1, 1, 1}}});  // stands on an edge that else would go
+  Plc plc = b.finish();
+  const Plc merged = with_merged_facets(plc);
+  REQUIRE(merged.facets.size() == 2);
+  const mesher::Polygon& ring = merged.facets[0].polygon;
+  REQUIRE(ring.loops.size() == 2);
+  REQUIRE(ring.loops[0].size() == 12);
+  REQUIRE(ring.loops[1].size() == 4);
+  REQUIRE(ring.edges.size() == 1);
+  REQUIRE(ring.points.empty());
+  REQUIRE_NOTHROW(require_fits(merged));
+  plc.facets[3].marker = 1;  // the square on the left in the middle
+  REQUIRE(with_merged_facets(plc).facets.size() == 3);
+}
+
+TEST_CASE("Points within merged triangles lie on the polygon") {
+  PlcBuilder b;
+  const Point<3> middle{0.5, 0.5, 0};
+  const Point<3> corners[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  for (int i = 0; i < 4; ++i) b.polygon({{corners[i], corners[(i + 1) % 4], middle}});
+  const Plc merged = with_merged_facets(b.plc());
+  REQUIRE(merged.facets.size() == 1);
+  REQUIRE(merged.facets[0].polygon.points == std::vector{FeatureId{3}});
+  REQUIRE_NOTHROW(require_fits(merged));
+}
+
+TEST_CASE("Triangles that are nearly in one plane are not merged") {
+  PlcBuilder b;
+  const Point<3> up{1, 1, 1e-6};
+  b.polygon({{{0, 0, 0}, {1, 0, 0}, up}});
+  b.polygon({{{0, 0, 0}, {0, 1, 0}, up}});
+  REQUIRE(with_merged_facets(b.plc()) == b.plc());
 }

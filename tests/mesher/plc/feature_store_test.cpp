@@ -203,3 +203,22 @@ TEST_CASE("A record of a polygon for which there is no memory is not made") {
     store.check_invariants();
   }
 }
+
+TEST_CASE("A look for what is near for which there is no memory throws, and finds all later") {
+  Plain plain(8);
+  for (int i = 0; i < 40; ++i) plain.add();
+  const Point<3> place{0.5, 0.5, 0.5};
+  const FeaturesNear all = plain.scene.naive_near(place, 2);
+  bool burnt = true;
+  int failures = 0;
+  for (std::uint64_t count = 1; burnt; ++count) {
+    FeaturesNear found;
+    if (support::fails(count, burnt,
+                       [&] { find_near(place, 2, plain.scene.features().store(), found); })) {
+      ++failures;
+      find_near(place, 2, plain.scene.features().store(), found);
+    }
+    REQUIRE(found == all);
+  }
+  CHECK(failures > 5);
+}

@@ -107,6 +107,8 @@ TEST_CASE("Frames are orthogonal, of length one, and hold the corners [C2]") {
       REQUIRE(squared(*e) == Approx(1).epsilon(1e-14));
     }
     REQUIRE(std::abs(dot(p.eu, p.ev)) + std::abs(dot(p.eu, p.normal)) < 1e-15);
+    const auto [least, most] = std::minmax_element(p.normal.begin(), p.normal.end());
+    REQUIRE(*most >= -*least);  // the largest coordinate is positive
     for (std::size_t i = 0; i < f.places.size(); ++i) {
       REQUIRE(std::sqrt(squared_distance(p.at(f.outline[i]), f.places[i])) < 1e-14);
       REQUIRE(std::abs(p.height(f.places[i])) <= f.thickness);

@@ -1,0 +1,36 @@
+// What an update brings of the names of points, segments and polygons in space, until it is done.
+#pragma once
+
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "facade/announced_lines.hpp"
+#include "plc/feature.hpp"
+
+namespace mesher::detail {
+
+/// A polygon of the input, and its record.
+struct NamedPolygon {
+  mesher::Polygon polygon;
+  PolygonHandle record = 0;
+};
+
+struct SpaceNews {
+  using Lines = std::unordered_map<FeatureId, LinePoints>;
+  using Polygons = std::unordered_map<FeatureId, NamedPolygon>;
+
+  std::unordered_map<VertexHandle, FeatureId> points;
+  std::unordered_map<EdgeHandle, FeatureId> segments;
+  std::unordered_map<PolygonHandle, FeatureId> polygons;
+  Lines line_points;
+  Polygons named_polygons;
+  std::vector<EdgeHandle> edges_come;  // of segments; in the order in which they came
+  std::vector<PolygonHandle> polygons_come;
+  std::unordered_set<EdgeHandle> segments_taken;  // some have come again
+  std::vector<FeatureId> polygons_taken;
+
+  void clear() noexcept { *this = SpaceNews(); }
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,269 @@
+// Edits of segments and polygons: between points that are there, that go, or that come.
+#include "facade/space_state.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "facade/space_input.hpp"
+#include "program/world_impl.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+std::string text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
+
+template <class Visit>
+void for_each_part(const LinePoints& points, Visit&& visit) {
+  for (std::size_t i = 1; i < points.size(); ++i) visit(points[i - 1], points[i]);
+}
+
+template <class Value>
+const Value* find_in(const std::unordered_map<FeatureId, Value>& all, FeatureId id) {
+  const auto it = all.find(id);
+  return it == all.end() ? nullptr : &it->second;
+}
+
+// So that merging `more` cannot fail.
+template <class Map>
+void reserve_for(Map& map, const Map& more) {
+  const std::size_t most = map.size() + more.size();
+  if (static_cast<float>(most) > map.max_load_factor() * static_cast<float>(map.bucket_count())) {
+    map.reserve(2 * most + 16);  // never less than there is: that would move all
+  }
+}
+
+[[noreturn]] void fail_in_use(FeatureId point, const std::string& what, FeatureId user) {
+  throw Error(ErrorCode::point_in_use,
+              "point " + text(point) + " cannot go: it is " + what + " " + text(user), {},
+              {point, user});
+}
+
+}  // namespace
+
+// --- What is there ---------------------------------------------------------------------------
+
+const LinePoints& SpaceState::line(FeatureId id) const {
+  static const LinePoints none;
+  const LinePoints* found = find_in(line_points_, id);
+  return found == nullptr ? none : *found;
+}
+
+const mesher::Polygon& SpaceState::polygon_parts(FeatureId id) const {
+  static const mesher::Polygon none;
+  const NamedPolygon* found = find_in(named_polygons_, id);
+  return found == nullptr ? none : found->polygon;
+}
+
+std::vector<InputLine> SpaceState::lines() const {
+  std::vector<InputLine> all;
+  for (const auto& [id, points] : line_points_) all.push_back({id, points});
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return all;
+}
+
+std::vector<mesher::Polygon> SpaceState::polygons() const {
+  std::vector<mesher::Polygon> all;
+  for (const auto& [id, named] : named_polygons_) all.push_back(named.polygon);
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return all;
+}
+
+FeatureId SpaceState::point(VertexHandle v) const {
+  const auto it = news_.points.find(v);
+  return it == news_.points.end() ? names_[v] : it->second;
+}
+
+std::optional<FeatureId> SpaceState::segment(EdgeHandle e) const {
+  if (const auto it = news_.segments.find(e); it != news_.segments.end()) return it->second;
+  const auto it = segment_names_.find(e);
+  if (it == segment_names_.end() || news_.segments_taken.count(e) > 0) return std::nullopt;
+  return it->second;
+}
+
+FeatureId SpaceState::polygon(PolygonHandle f) const {
+  if (const auto it = news_.polygons.find(f); it != news_.polygons.end()) return it->second;
+  return polygon_names_.at(f);
+}
+
+// What searches visit must not throw: they are counted first.
+std::vector<PolygonHandle> SpaceState::polygons_at(VertexHandle point) const {
+  const FeatureExtent<3> where = validity::widened(extent_of(pool()[point]));
+  const auto visit_all = [&](auto&& visit) {
+    store().visit_near(where.p, where.q, where.slack, [&](const auto& f) {
+      if constexpr (std::is_same_v<decltype(f), const Polygon&>) {
+        if (f.has(point)) visit(f);
+      }
+      return false;
+    });
+  };
+  std::size_t count = 0;
+  visit_all([&](const Polygon&) { ++count; });
+  std::vector<PolygonHandle> all;
+  all.reserve(count);
+  visit_all([&](const Polygon& f) { all.push_back(f.self); });
+  return all;
+}
+
+// --- Single features -------------------------------------------------------------------------
+
+// The point with this id when all points have come and gone; 0 if there is none.
+VertexHandle SpaceState::point_with(FeatureId id, const Ids& arrived) const {
+  if (const auto it = arrived.find(id); it != arrived.end()) return it->second;
+  const auto it = ids_.find(id);
+  if (it == ids_.end()) return 0;
+  return pool()[it->second].input && point(it->second) == id ? it->second : 0;
+}
+
+void SpaceState::take_segment(const Edge& e) {
+  news_.segments_taken.insert(e.self);
+  world_->erase_edge(e);
+}
+
+void SpaceState::take_polygon(FeatureId id) {
+  news_.polygons_taken.push_back(id);
+  world_->erase_polygon(store().polygons()[named_polygons_.at(id).record]);
+}
+
+void SpaceState::add_segment(const Part& part, const Ids& arrived) {
+  const auto end = [&](FeatureId id) {
+    const VertexHandle v = point_with(id, arrived);
+    if (v == 0) fail_unknown_point(id, "an end of segment", part.line);
+    return v;
+  };
+  const VertexHandle a = end(part.from), b = end(part.to);
+  const Edge& e = detail::add_segment(*world_, part.line, a, b, *this);
+  news_.segments[e.self] = part.line;
+  news_.edges_come.push_back(e.self);
+}
+
+void SpaceState::add_polygon(const mesher::Polygon& polygon, const Ids& arrived) {
+  PolygonParts parts = parts_of(polygon, [&](FeatureId id) { return point_with(id, arrived); });
+  const Polygon& record = detail::add_polygon(*world_, polygon.id, std::move(parts), *this);
+  news_.polygons[record.self] = polygon.id;
+  news_.polygons_come.push_back(record.self);
+  news_.named_polygons.insert_or_assign(polygon.id, NamedPolygon{polygon, record.self});
+}
+
+// --- All of an update ------------------------------------------------------------------------
+
+void SpaceState::add_others_first() {
+  if (edits_.lines.empty() && edits_.polygons.empty()) return;
+  add_parts(take_parts({}), {});
+  require_fits({});
+  make_room_for_others();
+  rename_others();
+  forget_news();
+}
+
+void SpaceState::make_edits(const PointEdits& edits, Ids& arrived) {
+  const Parts parts = take_parts(edits);
+  require_unused(edits);
+  make_points(edits, arrived);
+  add_parts(parts, arrived);
+  if (store().live_edges() != 0) require_fits(arrived);
+}
+
+void SpaceState::add_parts(const Parts& parts, const Ids& arrived) {
+  for (const Part& part : parts.segments) add_segment(part, arrived);
+  for (const mesher::Polygon& polygon : parts.polygons) add_polygon(polygon, arrived);
+}
+
+// Features that go, and those of the others that have a point that moves. Returns what is to come:
+// all of the new ones, and the latter again.
+SpaceState::Parts SpaceState::take_parts(const PointEdits& points) {
+  Parts parts;
+  for (const auto& edit : edits_.lines) {
+    for_each_part(edit.was, [&](FeatureId a, FeatureId b) {
+      take_segment(*store().find_edge(ids_.at(a), ids_.at(b)));
+    });
+    for_each_part(edit.to, [&](FeatureId a, FeatureId b) {
+      parts.segments.push_back({edit.id, a, b});
+    });
+  }
+  for (const auto& edit : edits_.polygons) {
+    if (!edit.was.loops.empty()) take_polygon(edit.id);
+    if (!edit.to.loops.empty()) parts.polygons.push_back(edit.to);
+  }
+  for (const auto& edit : points) {
+    if (edit.was && edit.to) take_at(ids_.at(edit.id), parts);
+  }
+  return parts;
+}
+
+void SpaceState::take_at(VertexHandle v, Parts& parts) {
+  std::vector<const Edge*> edges;
+  store().visit_edges_at(v, [&](const Edge& e) {
+    if (segment(e.self)) edges.push_back(&e);
+  });
+  for (const Edge* e : edges) {
+    parts.segments.push_back({*segment(e->self), names_[e->a], names_[e->b]});
+    take_segment(*e);
+  }
+  for (const PolygonHandle h : polygons_at(v)) {
+    const FeatureId id = polygon_names_.at(h);
+    parts.polygons.push_back(named_polygons_.at(id).polygon);
+    take_polygon(id);
+  }
+}
+
+// Requires: take_parts.
+void SpaceState::require_unused(const PointEdits& edits) const {
+  for (const auto& edit : edits) {
+    if (!edit.was || edit.to) continue;
+    const VertexHandle v = ids_.at(edit.id);
+    std::optional<FeatureId> user;
+    const auto keep_least = [&](FeatureId id) {
+      if (!user || id < *user) user = id;
+    };
+    store().visit_edges_at(v, [&](const Edge& e) {
+      if (const auto id = segment(e.self)) keep_least(*id);
+    });
+    if (user) fail_in_use(edit.id, "an end of segment", *user);
+    for (const PolygonHandle h : polygons_at(v)) keep_least(polygon_names_.at(h));
+    if (user) fail_in_use(edit.id, "on polygon", *user);
+  }
+}
+
+// What has come fits to what is there.
+void SpaceState::require_fits(const Ids& arrived) {
+  require_fit(*world_, news_.edges_come, news_.polygons_come, *this);
+  std::vector<std::pair<FeatureId, VertexHandle>> points(arrived.begin(), arrived.end());
+  std::sort(points.begin(), points.end());
+  for (const auto& [id, h] : points) {
+    if (const auto conflict = conflict_of(pool()[h], store())) fail(*conflict, *this, store());
+  }
+}
+
+// --- Names -----------------------------------------------------------------------------------
+
+// So that rename_others() cannot fail.
+void SpaceState::make_room_for_others() {
+  for (const auto& edit : edits_.lines) {
+    if (!edit.to.empty()) news_.line_points.emplace(edit.id, edit.to);
+  }
+  reserve_for(line_points_, news_.line_points);
+  reserve_for(named_polygons_, news_.named_polygons);
+  reserve_for(segment_names_, news_.segments);
+  reserve_for(polygon_names_, news_.polygons);
+}
+
+void SpaceState::rename_others() noexcept {
+  for (const auto& edit : edits_.lines) line_points_.erase(edit.id);
+  line_points_.merge(news_.line_points);
+  for (const EdgeHandle e : news_.segments_taken) segment_names_.erase(e);
+  segment_names_.merge(news_.segments);
+  for (const FeatureId id : news_.polygons_taken) {
+    polygon_names_.erase(named_polygons_.at(id).record);
+  }
+  for (const FeatureId id : news_.polygons_taken) named_polygons_.erase(id);
+  named_polygons_.merge(news_.named_polygons);
+  polygon_names_.merge(news_.polygons);
+}
+
+void SpaceState::forget_news() noexcept {
+  edits_ = Edits();
+  news_.clear();
+}
+
+}  // namespace mesher::detail

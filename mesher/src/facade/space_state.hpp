@@ -1,0 +1,91 @@
+// The state in space: points, the segments between them, and polygons.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "facade/point_state.hpp"
+#include "facade/space_news.hpp"
+#include "plc/validity.hpp"
+
+namespace mesher::detail {
+
+class SpaceState final : public PointState<3>, private SpaceNames {
+ public:
+  using LineEdits = std::vector<AnnouncedLines::Edit>;        // by id
+  using PolygonEdits = std::vector<AnnouncedPolygons::Edit>;  // by id
+  struct Edits {
+    LineEdits lines;
+    PolygonEdits polygons;
+  };
+
+  using PointState::PointState;
+
+  Change<3> first_run(PointEdits points, Edits edits, const RunControl& control,
+                      const Accept& accept) {
+    edits_ = std::move(edits);
+    return PointState::first_run(std::move(points), control, accept);
+  }
+  Change<3> propagate(const PointEdits& points, Edits edits, const RunControl& control,
+                      const Accept& accept) {
+    edits_ = std::move(edits);
+    return PointState::propagate(points, control, accept);
+  }
+
+  /// The points that a line goes along; empty if it is not there.
+  [[nodiscard]] const LinePoints& line(FeatureId id) const;
+  /// Without loops if it is not there.
+  [[nodiscard]] const mesher::Polygon& polygon_parts(FeatureId id) const;
+  /// Ascending by id.
+  [[nodiscard]] std::vector<InputLine> lines() const;
+  [[nodiscard]] std::vector<mesher::Polygon> polygons() const;
+
+ private:
+  // A segment of a line, by its ends.
+  struct Part {
+    FeatureId line{};
+    FeatureId from{}, to{};
+  };
+  struct Parts {
+    std::vector<Part> segments;
+    std::vector<mesher::Polygon> polygons;
+  };
+
+  void add_others_first() override;
+  void make_edits(const PointEdits& edits, Ids& arrived) override;
+  void point_comes(VertexHandle v, FeatureId id) override { news_.points[v] = id; }
+  void make_room_for_others() override;
+  void rename_others() noexcept override;
+  void forget_news() noexcept override;
+  void commit_others() noexcept override { world_->plc.commit(); }
+  [[nodiscard]] std::size_t other_bytes() const override { return world_->plc.bytes(); }
+  void check_others() const override { world_->plc.check_invariants(); }
+
+  [[nodiscard]] Parts take_parts(const PointEdits& points);
+  void take_at(VertexHandle point, Parts& parts);
+  void take_segment(const Edge& e);
+  void take_polygon(FeatureId id);
+  void add_parts(const Parts& parts, const Ids& arrived);
+  void add_segment(const Part& part, const Ids& arrived);
+  void add_polygon(const mesher::Polygon& polygon, const Ids& arrived);
+  void require_unused(const PointEdits& edits) const;
+  void require_fits(const Ids& arrived);
+  [[nodiscard]] VertexHandle point_with(FeatureId id, const Ids& arrived) const;
+  [[nodiscard]] std::vector<PolygonHandle> polygons_at(VertexHandle point) const;
+
+  [[nodiscard]] FeatureId point(VertexHandle v) const override;
+  [[nodiscard]] std::optional<FeatureId> segment(EdgeHandle e) const override;
+  [[nodiscard]] FeatureId polygon(PolygonHandle f) const override;
+
+  FeatureStore& store() const noexcept { return world_->plc.store(); }
+
+  std::unordered_map<EdgeHandle, FeatureId> segment_names_;
+  std::unordered_map<PolygonHandle, FeatureId> polygon_names_;
+  SpaceNews::Lines line_points_;
+  SpaceNews::Polygons named_polygons_;
+  // What an update brings, until it is done.
+  Edits edits_;
+  SpaceNews news_;
+};
+
+}  // namespace mesher::detail
