@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,17 +60,18 @@ std::vector<Step> random_edits(Random& random, int nodes, const Outside& outside
   return edits;
 }
 
-// Whether the program itself refuses to do `act`.
-bool refuses(const std::function<void()>& act) {
+// With which words the program itself refuses to do `act`; null: it does it.
+std::optional<std::string> refusal_of(const std::function<void()>& act) {
   try {
     act();
-  } catch (const sac::UsageError&) {
-    return true;
-  } catch (const Refusal&) {
-    return true;
+  } catch (const sac::UsageError& error) {
+    return error.what();
+  } catch (const Refusal& error) {
+    return error.what();
   }
-  return false;
+  return std::nullopt;
 }
+bool refuses(const std::function<void()>& act) { return refusal_of(act).has_value(); }
 
 bool refused_from_scratch(const RandomProgram& text, Outside outside,
                           const std::vector<Step>& edits) {
@@ -87,6 +89,29 @@ void require_undone(Program& p, const std::string& before) {
   REQUIRE(p.state() == before);
 }
 
+// Whether the program refuses the edits where nothing fails, from scratch or for a changed key.
+// `scout` is as before the edits; it has done them if they are not refused.
+bool is_refused(Program& scout, const RandomProgram& text, const Outside& outside,
+                const std::vector<Step>& edits) {
+  const std::string before = scout.state();
+  const auto items = scout.world.items;
+  Outside wanted = outside;
+  const auto refusal = refusal_of([&] {
+    for (const Step& edit : edits) scout.edit(edit, wanted);
+    scout.engine.propagate();
+  });
+  const bool from_scratch = refused_from_scratch(text, outside, edits);
+  if (!refusal) {
+    REQUIRE(!from_scratch);
+    return false;
+  }
+  INFO(*refusal);
+  REQUIRE((from_scratch || is_changed_key(*refusal, text)));
+  require_undone(scout, before);
+  scout.world.items = items;
+  return true;
+}
+
 // Programs of calls alone, and small ones with all features.
 RandomProgram random_text(std::uint64_t seed, int nodes) {
   return seed % 2 == 0 ? RandomProgram(seed, nodes) : focused_case(seed, kFeatures).program;
@@ -100,8 +125,9 @@ std::uint64_t check_failures(std::uint64_t seed, const Source& source, int batch
   const int nodes = 5 + random(6);
   const RandomProgram text = random_text(seed, nodes);
   Outside outside;
-  Program p(text, outside);
+  Program p(text, outside), scout(text, outside);
   if (refuses([&] { p.run(outside); })) return 0;
+  scout.run(outside);
   std::uint64_t failures = 0;
   for (int i = 0; i < batches; ++i) {
     CAPTURE(i);
@@ -112,7 +138,7 @@ std::uint64_t check_failures(std::uint64_t seed, const Source& source, int batch
       for (const Step& edit : edits) p.edit(edit, wanted);
       p.engine.propagate();
     };
-    if (refused_from_scratch(text, outside, edits)) {
+    if (is_refused(scout, text, outside, edits)) {
       Outside wanted = outside;
       REQUIRE(refuses([&] { act(wanted); }));
       require_undone(p, before);

@@ -177,6 +177,13 @@ inline bool is_caught(const std::string& message) {
   return message.find("has caught") != std::string::npos;
 }
 
+/// Whether a propagation may refuse so what a run from scratch accepts: a key that changed under
+/// its label is known to a propagation only, and the error may be caught.
+inline bool is_changed_key(const std::string& refusal, const RandomProgram& program) {
+  return refusal.find("is posted at two keys") != std::string::npos ||
+         (is_caught(refusal) && program.has(Op::keyed));
+}
+
 /// Whether every execution of a node in a propagation must be one of a run from scratch as well:
 /// a program is not to see what no run from scratch shows, not even for a while.
 inline constexpr bool kWatchExecutions = true;
@@ -377,12 +384,10 @@ class Session {
     if (t_.state() != state_) wrong("after a failure:\n" + t_.state() + "\nbefore:\n" + state_);
   }
 
-  // What was refused must be refused from scratch, with the same words; a key that changed under
-  // its label is known only to a propagation, and may be caught. (A message is cut short if memory
-  // runs out in making it.)
+  // What was refused must be refused from scratch, with the same words, but for a changed key. (A
+  // message is cut short if memory runs out in making it.)
   void require_refusal(const Scratch& scratch) const {
-    const bool key_changed = refusal_.find(kKeyChanged) != std::string::npos ||
-                             (is_caught(refusal_) && case_.program.has(Op::keyed));
+    const bool key_changed = is_changed_key(refusal_, case_.program);
     if (scratch.refusal.empty() && key_changed) return;
     if (scratch.refusal.empty()) wrong("refused, but not from scratch: " + refusal_);
     const bool same_words = failures_.armed == 0 && !key_changed && !is_caught(scratch.refusal);
@@ -468,8 +473,6 @@ class Session {
     items_ = t_.world.items;
     edited_ = false;
   }
-
-  static constexpr const char* kKeyChanged = "is posted at two keys";
 
   const Case& case_;
   Outside now_;     // what was propagated last
