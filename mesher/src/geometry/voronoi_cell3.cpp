@@ -67,7 +67,6 @@ int VoronoiCell3::new_face() {
   if (open_.size() < index(corners_ + 1)) {
     const std::size_t room = 2 * index(corners_) + 32;
     for (auto* column : {&qx_, &qy_, &qz_, &q2_, &tolerance2_}) column->resize(room);
-    for (auto* column : {&open_x_, &open_y_, &open_z_, &open_q2_}) column->resize(room);
     face_.resize(room);
     is_open_.resize(room);
     is_taken_.resize(room);
@@ -88,17 +87,6 @@ void VoronoiCell3::set_face(int t, const Face& face, bool open) {
   qz_[at] = c.q[2];
   q2_[at] = c.length2;
   tolerance2_[at] = c.tolerance2;
-}
-
-void VoronoiCell3::update_reach() noexcept {
-  CornerReach::update_reach(index(corners_));
-  for (std::size_t k = 0; k < index(open_count_); ++k) {
-    const std::size_t t = index(open_[k]);
-    open_x_[k] = qx_[t];
-    open_y_[k] = qy_[t];
-    open_z_[k] = qz_[t];
-    open_q2_[k] = q2_[t];
-  }
 }
 
 // --- Cells to start from ---------------------------------------------------------------------
@@ -161,6 +149,7 @@ void VoronoiCell3::join_across() {
       waiting.pop_back();
     }
   }
+  for (int i = 0; i < neighbours_; ++i) SAC_ENSURES(unpaired_[index(i)].empty());
 }
 
 // A virtual neighbour is 2 radius away: no corner nearer than that is its.
@@ -207,8 +196,9 @@ double VoronoiCell3::largest_projection() const noexcept {
 
 double VoronoiCell3::largest_open_projection() const noexcept {
   double most = -std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < index(open_count_); ++k) {
-    most = std::max(most, aim_[0] * open_x_[k] + aim_[1] * open_y_[k] + aim_[2] * open_z_[k]);
+  for (int k = 0; k < open_count_; ++k) {
+    const std::size_t t = index(open_[index(k)]);
+    most = std::max(most, aim_[0] * qx_[t] + aim_[1] * qy_[t] + aim_[2] * qz_[t]);
   }
   return most;
 }

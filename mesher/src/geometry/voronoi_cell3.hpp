@@ -174,7 +174,7 @@ class VoronoiCell3 : public CornerReach<int> {
   void walk_rim();
   [[nodiscard]] bool is_ear(std::size_t at);
   void cut_ear(std::size_t at, int t);
-  void update_reach() noexcept;
+  void update_reach() noexcept { CornerReach::update_reach(index(corners_)); }
   void add_gap_ball(int t, Box<3>& extent) const noexcept;
 
   const Vertex<3>* v_ = nullptr;
@@ -208,7 +208,6 @@ class VoronoiCell3 : public CornerReach<int> {
   int corners_ = 0;
   std::vector<double> qx_, qy_, qz_;
   std::vector<Face> face_;
-  std::vector<double> open_x_, open_y_, open_z_, open_q2_;  // of the open corners, in a row
 
   static constexpr Code kUnused = 0xffffffffu;
 };
@@ -223,16 +222,13 @@ inline bool VoronoiCell3::enters(const Point<3>& corner, double side,
     holds_v &= lo[i] <= 0 && hi[i] >= 0;
   }
   if (holds_v) return true;
-  const double* const qx = open_x_.data();
-  const double* const qy = open_y_.data();
-  const double* const qz = open_z_.data();
-  const double* const q2 = open_q2_.data();
   bool enters = false;  // no early end, which could not be predicted
   for (int k = 0; k < open_count_; ++k) {
-    const double dx = std::max(std::max(lo[0] - qx[k], qx[k] - hi[0]), 0.0);
-    const double dy = std::max(std::max(lo[1] - qy[k], qy[k] - hi[1]), 0.0);
-    const double dz = std::max(std::max(lo[2] - qz[k], qz[k] - hi[2]), 0.0);
-    enters |= dx * dx + dy * dy + dz * dz <= q2[k] * (1 + 0x1p-30);
+    const std::size_t t = index(open_[index(k)]);
+    const double dx = std::max(std::max(lo[0] - qx_[t], qx_[t] - hi[0]), 0.0);
+    const double dy = std::max(std::max(lo[1] - qy_[t], qy_[t] - hi[1]), 0.0);
+    const double dz = std::max(std::max(lo[2] - qz_[t], qz_[t] - hi[2]), 0.0);
+    enters |= dx * dx + dy * dy + dz * dz <= q2_[t] * (1 + 0x1p-30);
   }
   return enters;
 }
