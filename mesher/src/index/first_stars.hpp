@@ -8,13 +8,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "delaunay/bulk.hpp"
 #include "delaunay/facets.hpp"
 #include "geometry/cell_of.hpp"
 #include "geometry/link_record.hpp"
+#include "index/triangulate_pool.hpp"
 #include "index/vertex.hpp"
 
 namespace mesher::detail {
@@ -25,22 +24,11 @@ class FirstStars {
   using Codes = std::vector<typename CellOf<D>::Code>;
 
   /// Of all vertices that are alive.
-  explicit FirstStars(const VertexPool<D>& pool) {
-    std::vector<VertexHandle> handles;
-    std::vector<Point<D>> places;
+  explicit FirstStars(const VertexPool<D>& pool)
+      : all_(triangulate(pool, [] {})), marked_(all_.simplices.size()) {
     pool.for_each([&](const Vertex<D>& v) {
-      if (!v.alive) return;
-      handles.push_back(v.self);
-      places.push_back(v.p);
+      if (v.self >= simplex_of_.size()) simplex_of_.resize(std::size_t{v.self} + 1, kNone);
     });
-    const auto ignore = [](auto...) {};
-    all_ = triangulate<D>(
-        std::span<const Point<D>>(places), [&](std::uint32_t i) { return handles[i]; }, ignore,
-        ignore);
-    simplex_of_.resize(
-        handles.empty() ? 0 : *std::max_element(handles.begin(), handles.end()) + std::size_t{1},
-        kNone);
-    marked_.resize(all_.simplices.size());
     for (std::uint32_t s = 0; s < all_.simplices.size(); ++s) {
       for (const VertexHandle v : all_.simplices[s]) simplex_of_[v] = s;
     }
@@ -112,8 +100,8 @@ class FirstStars {
   }
 
   FlatTriangulation<D> all_;  // by handles
+  std::vector<bool> marked_;    // by simplex; false between calls
   std::vector<std::uint32_t> simplex_of_;
-  std::vector<bool> marked_;  // by simplex; false between calls
   // Of the last star.
   std::vector<std::uint32_t> around_, link_;
   std::vector<Facet> facets_;
