@@ -12,6 +12,7 @@
 #include "delaunay/build.hpp"
 #include "delaunay/hole.hpp"
 #include "delaunay/kernel.hpp"
+#include "make_set.hpp"
 #include "sac/check.hpp"
 
 namespace mesher::detail {
@@ -60,8 +61,7 @@ std::vector<std::uint32_t> DelaunayKernel<D>::link_of(const std::vector<std::uin
       if (w != v && w != kInfinite) link.push_back(w);
     }
   }
-  std::sort(link.begin(), link.end());
-  link.erase(std::unique(link.begin(), link.end()), link.end());
+  make_set(link);
   return link;
 }
 

@@ -15,6 +15,7 @@
 #include "geometry/link_record.hpp"
 #include "index/triangulate_pool.hpp"
 #include "index/vertex.hpp"
+#include "make_set.hpp"
 
 namespace mesher::detail {
 
@@ -85,8 +86,7 @@ class FirstStars {
   void write_link(Codes& record) {
     link_.clear();
     for (const Facet& facet : facets_) link_.insert(link_.end(), facet.begin(), facet.end());
-    std::sort(link_.begin(), link_.end());
-    link_.erase(std::unique(link_.begin(), link_.end()), link_.end());
+    make_set(link_);
     const auto position = [&](VertexHandle u) {
       return static_cast<std::uint32_t>(std::lower_bound(link_.begin(), link_.end(), u) -
                                         link_.begin());
