@@ -58,14 +58,11 @@ class FirstStars {
     bool closed = reach(simplex_of_[v]);
     for (std::size_t k = 0; k < around_.size() && closed; ++k) {
       const auto& corners = all_.simplices[around_[k]];
-      const auto at =
-          static_cast<std::size_t>(std::find(corners.begin(), corners.end(), v) - corners.begin());
-      const auto& facet = kFacet<D>[at];
-      facets_.emplace_back();
-      for (std::size_t i = 0; i < D; ++i) facets_[k][i] = corners[facet[i]];
+      const std::uint32_t at = corner_of(corners, v);
+      facets_.push_back(facet_across<D>(corners, at));
       // In the plane one way around is enough: across from the corner that comes first.
       for (std::size_t i = 0; i < (D == 2 ? 1 : D); ++i) {
-        closed = closed && reach(all_.neighbours[around_[k]][facet[i]]);
+        closed = closed && reach(all_.neighbours[around_[k]][kFacet<D>[at][i]]);
       }
     }
     for (const std::uint32_t s : around_) marked_[s] = false;
