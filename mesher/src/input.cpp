@@ -37,8 +37,7 @@ std::string place_text(const std::array<double, N>& p) {
 }
 
 template <std::size_t N>
-void check_point(const std::array<double, N>& p, const Box<static_cast<int>(N)>& domain,
-                 FeatureId id) {
+void check_coordinates(const std::array<double, N>& p, FeatureId id) {
   for (const double x : p) {
     if (std::isfinite(x)) continue;
     throw Error(ErrorCode::not_finite, named(p, id) + " is not finite", {}, {id});
@@ -49,6 +48,12 @@ void check_point(const std::array<double, N>& p, const Box<static_cast<int>(N)>&
                 named(p, id) + ": a coordinate must be 0 or of magnitude 2^-100 to 2^100", {},
                 {id});
   }
+}
+
+template <std::size_t N>
+void check_point(const std::array<double, N>& p, const Box<static_cast<int>(N)>& domain,
+                 FeatureId id) {
+  check_coordinates(p, id);
   for (std::size_t i = 0; i < N; ++i) {
     if (p[i] >= domain.lo[i] && p[i] <= domain.hi[i]) continue;
     throw Error(ErrorCode::outside_domain,
@@ -89,10 +94,12 @@ std::vector<std::size_t> morton_order(const std::vector<std::array<double, N>>& 
 }
 
 template std::string place_text(const Point<2>&);
+template void check_coordinates(const Point<2>&, FeatureId);
 template void check_point(const Point<2>&, const Box<2>&, FeatureId);
 template void fail_too_near(const Point<2>&, FeatureId, const Point<2>&, FeatureId);
 template std::vector<std::size_t> morton_order(const std::vector<Point<2>>&, const MeshBox<2>&);
 template std::string place_text(const Point<3>&);
+template void check_coordinates(const Point<3>&, FeatureId);
 template void check_point(const Point<3>&, const Box<3>&, FeatureId);
 template void fail_too_near(const Point<3>&, FeatureId, const Point<3>&, FeatureId);
 template std::vector<std::size_t> morton_order(const std::vector<Point<3>>&, const MeshBox<3>&);

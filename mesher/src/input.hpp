@@ -15,6 +15,10 @@ namespace mesher::detail {
 template <std::size_t N>
 [[nodiscard]] std::string place_text(const std::array<double, N>& p);
 
+/// Throws: Error (not_finite, magnitude).
+template <std::size_t N>
+void check_coordinates(const std::array<double, N>& p, FeatureId id);
+
 /// Throws: Error (not_finite, magnitude, outside_domain).
 template <std::size_t N>
 void check_point(const std::array<double, N>& p, const Box<static_cast<int>(N)>& domain,

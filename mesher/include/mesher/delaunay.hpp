@@ -21,7 +21,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -55,8 +54,8 @@ struct Delaunay {
 };
 
 /// The Delaunay triangulation. `points`: n x D; coordinates 0 or of magnitude 2^-100 to 2^100.
-/// Throws: Error (not_finite, magnitude; too_many beyond 2^30 simplices), naming the point by its
-///         place in `points`, from 1.
+/// Throws: Error (not_finite, magnitude, naming the point by its place in `points`, from 1; too_many
+///         beyond 2^30 simplices or 2^32 - 2 points).
 /// Cost: expected O(n log n) in the plane, and in space for points like those of a volume or a
 ///       smooth surface; O(n^2) in space at worst, as so many simplices may be Delaunay. Memory at
 ///       most some 80 n bytes in the plane, 280 n in space (random points), the result's included.
@@ -86,7 +85,7 @@ class DynamicDelaunay {
     std::uint32_t vertex = 0;
     bool is_new = false;  ///< false: there was a vertex at this place, `vertex`
   };
-  /// Throws: Error (not_finite, magnitude, too_many).
+  /// Throws: Error (not_finite, magnitude, which call the point size() + 1; too_many).
   /// Cost: a walk from a vertex nearby, expected O(1) where vertices lie evenly, and the simplices
   ///       that change; O(n) when there are twice as many vertices as ever, or the first one far
   ///       out. O(log n) while all points are in one plane (on one line); the point that is not

@@ -1,7 +1,6 @@
 // A triangulation of many points as flat arrays.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <span>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "delaunay/build.hpp"
+#include "delaunay/facets.hpp"
 #include "delaunay/kernel.hpp"
 #include "delaunay/spatial_order.hpp"
 
@@ -25,7 +25,7 @@ struct FlatTriangulation {
 template <int D, class Name>
 [[nodiscard]] FlatTriangulation<D> without_ghosts(SimplexStore<D> store, Name&& name) {
   using Ids = typename SimplexStore<D>::Ids;
-  store.remove_if([](const Ids& c) { return std::find(c.begin(), c.end(), kInfinite) != c.end(); });
+  store.remove_if([](const Ids& c) { return corner_of(c, kInfinite) <= D; });
   FlatTriangulation<D> flat{store.release_corners(), store.release_across()};
   for (Ids& c : flat.simplices) {
     for (std::uint32_t& v : c) v = name(v);

@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "delaunay/bulk.hpp"
-#include "delaunay/check_place.hpp"
+#include "delaunay/check_places.hpp"
 
 namespace mesher {
 
 template <int D>
 Delaunay<D> delaunay(std::span<const Point<D>> points) {
-  for (std::size_t i = 0; i < points.size(); ++i) detail::check_place<D>(points[i], i + 1);
+  detail::check_places<D>(points);
   Delaunay<D> result;
   auto flat = detail::triangulate<D>(
       points, [](std::uint32_t i) { return i; },

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "delaunay/bulk.hpp"
-#include "delaunay/check_place.hpp"
+#include "delaunay/check_places.hpp"
 #include "delaunay/nearby.hpp"
 #include "mesher/delaunay.hpp"
 #include "sac/check.hpp"
@@ -20,7 +20,7 @@ class DynamicDelaunay<D>::State {
  public:
   State() = default;
   explicit State(std::span<const Point<D>> points) {
-    for (std::size_t i = 0; i < points.size(); ++i) detail::check_place<D>(points[i], i + 1);
+    detail::check_places<D>(points);
     kernel_.reserve(points.size());
     for (const Point<D>& p : points) kernel_.add_place(p);
     free_.reserve(points.size());
@@ -32,7 +32,7 @@ class DynamicDelaunay<D>::State {
   }
 
   Inserted insert(const Point<D>& p) {
-    detail::check_place<D>(p, size_ + 1);
+    detail::check_coordinates(p, FeatureId{static_cast<std::int64_t>(size_ + 1)});
     if (const auto at = flat_.vertices.find(p); at != flat_.vertices.end()) {
       return {at->second - 1, false};
     }

@@ -20,8 +20,8 @@ struct OrientedFacet {
   std::array<std::uint32_t, D> corners;
   bool odd = false;
 
-  OrientedFacet(const std::array<std::uint32_t, D + 1>& simplex, std::size_t across) {
-    for (std::size_t k = 0; k < D; ++k) corners[k] = simplex[kFacet<D>[across][k]];
+  OrientedFacet(const std::array<std::uint32_t, D + 1>& simplex, std::size_t across)
+      : corners(facet_across<D>(simplex, across)) {
     order(0, 1);
     if constexpr (D == 3) {
       order(1, 2);

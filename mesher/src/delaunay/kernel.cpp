@@ -76,18 +76,15 @@ bool DelaunayKernel<D>::is_ghost(std::uint32_t s) const noexcept {
 /// s, or the simplex at the facet of a ghost s.
 template <int D>
 std::uint32_t DelaunayKernel<D>::finite(std::uint32_t s) const noexcept {
-  const Ids& c = store_.corners(s);
-  const auto at = std::find(c.begin(), c.end(), kInfinite);
-  return at == c.end() ? s : store_.across(s)[static_cast<std::size_t>(at - c.begin())] >> 2;
+  const std::uint32_t at = corner_of(s, kInfinite);
+  return at > D ? s : store_.across(s)[at] >> 2;
 }
 
 template <int D>
 void DelaunayKernel<D>::start(const std::array<std::uint32_t, D + 1>& corners) {
   SAC_EXPECTS(store_.size() == 0);
   Ids c = corners;
-  std::array<const Point<D>*, D + 1> q;
-  for (std::size_t i = 0; i <= D; ++i) q[i] = &places_[c[i]];
-  const int sign = orientation(q);
+  const int sign = orientation(places_of(c));
   SAC_EXPECTS(sign != 0);
   if (sign < 0) std::swap(c[0], c[1]);
   store_.make_room(D + 2);
@@ -107,10 +104,6 @@ void DelaunayKernel<D>::start(const std::array<std::uint32_t, D + 1>& corners) {
   for (std::uint32_t i = 0; i <= D; ++i) {
     for (std::uint32_t k = 0; k < i; ++k) {
       // ghost i lacks c[i]; it meets ghost k across its corner c[k].
-      const auto corner_of = [&](std::uint32_t ghost, std::uint32_t v) {
-        const Ids& in = store_.corners(ghost);
-        return static_cast<std::uint32_t>(std::find(in.begin(), in.end(), v) - in.begin());
-      };
       store_.join(ghosts[i], corner_of(ghosts[i], c[k]), ghosts[k], corner_of(ghosts[k], c[i]));
     }
   }
@@ -121,14 +114,14 @@ void DelaunayKernel<D>::start(const std::array<std::uint32_t, D + 1>& corners) {
 /// The orientation of a simplex with p at corner i: negative if its facet is between it and p.
 template <int D>
 int DelaunayKernel<D>::side(const Ids& corners, std::size_t i, const Point<D>& p) const {
-  std::array<const Point<D>*, D + 1> q;
-  for (std::size_t k = 0; k <= D; ++k) q[k] = &places_[corners[k]];
+  auto q = places_of(corners);
   q[i] = &p;
   return orientation(q);
 }
 
-/// The visibility walk: through a facet that has p on its other side, until there is none. It ends,
-/// since what is behind such a facet is nearer to p in the order of power distances.
+/// A simplex that holds p, or a ghost whose facet p is outside of. The visibility walk: through a
+/// facet that has p on its other side, until there is none. It ends, since what is behind such a
+/// facet is nearer to p in the order of power distances.
 template <int D>
 std::uint32_t DelaunayKernel<D>::walk(const Point<D>& p, std::uint32_t from) const {
   std::uint32_t s = finite(from);
@@ -146,15 +139,10 @@ std::uint32_t DelaunayKernel<D>::walk(const Point<D>& p, std::uint32_t from) con
 }
 
 template <int D>
-std::uint32_t DelaunayKernel<D>::locate(const Point<D>& p) const {
-  SAC_EXPECTS(last_ != kNone);
-  return walk(p, last_);
-}
-
-template <int D>
 std::uint32_t DelaunayKernel<D>::insert(std::uint32_t v) {
   const Point<D>& p = places_[v];
-  const std::uint32_t s = locate(p);
+  SAC_EXPECTS(last_ != kNone);
+  const std::uint32_t s = walk(p, last_);
   for (const std::uint32_t w : store_.corners(s)) {
     if (places_[w] == p) return w;
   }

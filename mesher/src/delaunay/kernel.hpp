@@ -33,6 +33,7 @@
 #include <vector>
 
 #include "delaunay/ball_filter.hpp"
+#include "delaunay/facets.hpp"
 #include "delaunay/simplex_store.hpp"
 #include "mesher/mesh.hpp"
 
@@ -72,8 +73,6 @@ class DelaunayKernel {
 
   [[nodiscard]] const SimplexStore<D>& simplices() const noexcept { return store_; }
   [[nodiscard]] const Point<D>& place(std::uint32_t v) const noexcept { return places_[v]; }
-  /// Some simplex with this vertex. Requires: has(v).
-  [[nodiscard]] std::uint32_t simplex_of(std::uint32_t v) const noexcept { return simplex_of_[v]; }
   /// A vertex at which the last insertion or removal changed something. Requires: started.
   [[nodiscard]] std::uint32_t last_changed() const noexcept {
     const Ids& c = store_.corners(last_);
@@ -81,8 +80,6 @@ class DelaunayKernel {
   }
   [[nodiscard]] std::size_t places() const noexcept { return places_.size() - 1; }
   [[nodiscard]] bool is_ghost(std::uint32_t s) const noexcept;
-  /// A simplex that holds p, or a ghost whose facet p is outside of. Requires: started.
-  [[nodiscard]] std::uint32_t locate(const Point<D>& p) const;
   /// The simplices with corner v, ghosts too. Requires: has(v). Cost: O(k) for k of them.
   [[nodiscard]] std::vector<std::uint32_t> star(std::uint32_t v) const;
   /// The finite vertices of v's star but v, ascending.
@@ -113,6 +110,14 @@ class DelaunayKernel {
     std::uint32_t simplex, corner;
   };
 
+  [[nodiscard]] std::uint32_t corner_of(std::uint32_t s, std::uint32_t v) const noexcept {
+    return detail::corner_of(store_.corners(s), v);
+  }
+  [[nodiscard]] auto places_of(const Ids& corners) const noexcept {
+    std::array<const Point<D>*, D + 1> places;
+    for (std::size_t i = 0; i <= D; ++i) places[i] = &places_[corners[i]];
+    return places;
+  }
   [[nodiscard]] std::uint32_t finite(std::uint32_t s) const noexcept;
   [[nodiscard]] std::uint32_t walk(const Point<D>& p, std::uint32_t from) const;
   [[nodiscard]] int side(const Ids& corners, std::size_t i, const Point<D>& p) const;
@@ -132,7 +137,6 @@ class DelaunayKernel {
   void number_link() noexcept;
   void make_room_for_fill();
 
-  [[nodiscard]] std::size_t corner_of(std::uint32_t s, std::uint32_t v) const noexcept;
   [[nodiscard]] bool has_finite_beside(const std::vector<std::uint32_t>& star,
                                        std::uint32_t v) const;
   bool triangulate(const std::vector<std::uint32_t>& link);

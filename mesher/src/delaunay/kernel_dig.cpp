@@ -26,8 +26,7 @@ template <int D>
 /// `tie`: whether p is known to be on the ball.
 template <int D>
 bool DelaunayKernel<D>::ball_holds_exactly(const Ids& c, const Point<D>& p, bool tie) const {
-  std::array<const Point<D>*, D + 1> q;
-  for (std::size_t i = 0; i <= D; ++i) q[i] = &places_[c[i]];
+  const auto q = places_of(c);
   return (tie ? break_tie(q, p) : in_ball(q, p)) > 0;
 }
 
@@ -55,11 +54,9 @@ bool DelaunayKernel<D>::conflicts(std::uint32_t s, const Point<D>& p) const {
 template <int D>
 [[gnu::noinline]] bool DelaunayKernel<D>::conflicts_slowly(std::uint32_t s, const Point<D>& p,
                                                            bool tie) const {
-  const Ids& c = store_.corners(s);
-  for (std::size_t i = 0; i <= D; ++i) {
-    if (c[i] == kInfinite) return ghost_conflicts(s, i, p);
-  }
-  return ball_holds_exactly(c, p, tie);
+  const std::uint32_t infinite = corner_of(s, kInfinite);
+  if (infinite <= D) return ghost_conflicts(s, infinite, p);
+  return ball_holds_exactly(store_.corners(s), p, tie);
 }
 
 /// `i`: the corner at infinity.

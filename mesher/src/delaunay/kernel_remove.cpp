@@ -12,6 +12,7 @@
 #include "delaunay/build.hpp"
 #include "delaunay/hole.hpp"
 #include "delaunay/kernel.hpp"
+#include "make_set.hpp"
 #include "sac/check.hpp"
 
 namespace mesher::detail {
@@ -22,12 +23,6 @@ namespace {
 constexpr std::size_t kFew = 64;
 
 }  // namespace
-
-template <int D>
-std::size_t DelaunayKernel<D>::corner_of(std::uint32_t s, std::uint32_t v) const noexcept {
-  const Ids& c = store_.corners(s);
-  return static_cast<std::size_t>(std::find(c.begin(), c.end(), v) - c.begin());
-}
 
 template <int D>
 std::vector<std::uint32_t> DelaunayKernel<D>::star(std::uint32_t v) const {
@@ -60,8 +55,7 @@ std::vector<std::uint32_t> DelaunayKernel<D>::link_of(const std::vector<std::uin
       if (w != v && w != kInfinite) link.push_back(w);
     }
   }
-  std::sort(link.begin(), link.end());
-  link.erase(std::unique(link.begin(), link.end()), link.end());
+  make_set(link);
   return link;
 }
 
@@ -154,11 +148,11 @@ std::uint32_t DelaunayKernel<D>::apex_over(const Ids& c,
   return best[D];
 }
 
-/// Whether the first D of a are those of b, in an order of the same orientation.
+/// Whether two facets have the same corners and orientation.
 template <std::size_t N>
 [[nodiscard]] bool are_same(const std::array<std::uint32_t, N>& a,
                             const std::array<std::uint32_t, N>& b) {
-  if constexpr (N == 3) return a[0] == b[0] && a[1] == b[1];
+  if constexpr (N == 2) return a == b;
   const std::size_t at = a[0] == b[0] ? 0 : a[0] == b[1] ? 1 : 2;
   return a[0] == b[at] && a[1] == b[(at + 1) % 3] && a[2] == b[(at + 2) % 3];
 }
@@ -168,23 +162,23 @@ template <std::size_t N>
 template <int D>
 auto DelaunayKernel<D>::wrapping(const std::vector<std::uint32_t>& star, std::uint32_t v,
                                  const std::vector<std::uint32_t>& link) const -> std::vector<Ids> {
-  std::vector<Ids> filling, open;  // the facets that wait, as simplices without their last corner
+  using Facet = std::array<std::uint32_t, D>;
+  std::vector<Ids> filling;
+  std::vector<Facet> open;  // those that wait
   for (const std::uint32_t s : star) {
-    const Ids& c = store_.corners(s);
-    Ids& facet = open.emplace_back();
-    for (std::size_t k = 0; k < D; ++k) facet[k] = c[kFacet<D>[corner_of(s, v)][k]];
+    open.push_back(facet_across<D>(store_.corners(s), corner_of(s, v)));
   }
   while (!open.empty()) {
-    Ids c = open.back();
+    Ids c;
+    std::copy(open.back().begin(), open.back().end(), c.begin());
     open.pop_back();
     c[D] = apex_over(c, link);
     SAC_ENSURES(c[D] != kNone);
     filling.push_back(c);
     for (std::size_t i = 0; i < D; ++i) {
-      Ids facet{};  // as c sees it
-      for (std::size_t k = 0; k < D; ++k) facet[k] = c[kFacet<D>[i][k]];
+      Facet facet = facet_across<D>(c, i);  // as c sees it
       const auto met = std::find_if(open.begin(), open.end(),
-                                    [&](const Ids& other) { return are_same(facet, other); });
+                                    [&](const Facet& other) { return are_same(facet, other); });
       if (met != open.end()) {
         *met = open.back();
         open.pop_back();

@@ -8,14 +8,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "delaunay/bulk.hpp"
 #include "delaunay/facets.hpp"
 #include "geometry/cell_of.hpp"
 #include "geometry/link_record.hpp"
+#include "index/triangulate_pool.hpp"
 #include "index/vertex.hpp"
+#include "make_set.hpp"
 
 namespace mesher::detail {
 
@@ -25,22 +25,11 @@ class FirstStars {
   using Codes = std::vector<typename CellOf<D>::Code>;
 
   /// Of all vertices that are alive.
-  explicit FirstStars(const VertexPool<D>& pool) {
-    std::vector<VertexHandle> handles;
-    std::vector<Point<D>> places;
+  explicit FirstStars(const VertexPool<D>& pool)
+      : all_(triangulate(pool, [] {})), marked_(all_.simplices.size()) {
     pool.for_each([&](const Vertex<D>& v) {
-      if (!v.alive) return;
-      handles.push_back(v.self);
-      places.push_back(v.p);
+      if (v.self >= simplex_of_.size()) simplex_of_.resize(std::size_t{v.self} + 1, kNone);
     });
-    const auto ignore = [](auto...) {};
-    all_ = triangulate<D>(
-        std::span<const Point<D>>(places), [&](std::uint32_t i) { return handles[i]; }, ignore,
-        ignore);
-    simplex_of_.resize(
-        handles.empty() ? 0 : *std::max_element(handles.begin(), handles.end()) + std::size_t{1},
-        kNone);
-    marked_.resize(all_.simplices.size());
     for (std::uint32_t s = 0; s < all_.simplices.size(); ++s) {
       for (const VertexHandle v : all_.simplices[s]) simplex_of_[v] = s;
     }
@@ -69,14 +58,11 @@ class FirstStars {
     bool closed = reach(simplex_of_[v]);
     for (std::size_t k = 0; k < around_.size() && closed; ++k) {
       const auto& corners = all_.simplices[around_[k]];
-      const auto at =
-          static_cast<std::size_t>(std::find(corners.begin(), corners.end(), v) - corners.begin());
-      const auto& facet = kFacet<D>[at];
-      facets_.emplace_back();
-      for (std::size_t i = 0; i < D; ++i) facets_[k][i] = corners[facet[i]];
+      const std::uint32_t at = corner_of(corners, v);
+      facets_.push_back(facet_across<D>(corners, at));
       // In the plane one way around is enough: across from the corner that comes first.
       for (std::size_t i = 0; i < (D == 2 ? 1 : D); ++i) {
-        closed = closed && reach(all_.neighbours[around_[k]][facet[i]]);
+        closed = closed && reach(all_.neighbours[around_[k]][kFacet<D>[at][i]]);
       }
     }
     for (const std::uint32_t s : around_) marked_[s] = false;
@@ -97,8 +83,7 @@ class FirstStars {
   void write_link(Codes& record) {
     link_.clear();
     for (const Facet& facet : facets_) link_.insert(link_.end(), facet.begin(), facet.end());
-    std::sort(link_.begin(), link_.end());
-    link_.erase(std::unique(link_.begin(), link_.end()), link_.end());
+    make_set(link_);
     const auto position = [&](VertexHandle u) {
       return static_cast<std::uint32_t>(std::lower_bound(link_.begin(), link_.end(), u) -
                                         link_.begin());
@@ -112,8 +97,8 @@ class FirstStars {
   }
 
   FlatTriangulation<D> all_;  // by handles
+  std::vector<bool> marked_;    // by simplex; false between calls
   std::vector<std::uint32_t> simplex_of_;
-  std::vector<bool> marked_;  // by simplex; false between calls
   // Of the last star.
   std::vector<std::uint32_t> around_, link_;
   std::vector<Facet> facets_;

@@ -9,9 +9,8 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
-#include "delaunay/bulk.hpp"
+#include "index/triangulate_pool.hpp"
 #include "program/world.hpp"
 
 namespace mesher::detail {
@@ -50,17 +49,7 @@ void for_each_own_simplex(const VertexPool<D>& pool, const Vertex<D>& v,
 /// The simplices of all vertices; ticks once for each.
 template <int D>
 void triangulate_at_once(const VertexPool<D>& pool, PlainOutput<D>& plain) {
-  std::vector<VertexHandle> handles;
-  std::vector<Point<D>> places;
-  pool.for_each([&](const Vertex<D>& v) {
-    handles.push_back(v.self);
-    places.push_back(v.p);
-  });
-  plain.simplices =
-      triangulate<D>(
-          std::span<const Point<D>>(places), [&](std::uint32_t i) { return handles[i]; },
-          [](std::uint32_t, std::uint32_t) {}, [&] { plain.tick(); })
-          .simplices;
+  plain.simplices = triangulate(pool, [&] { plain.tick(); }).simplices;
 }
 
 }  // namespace mesher::detail

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -222,6 +223,22 @@ TEMPLATE_TEST_CASE_SIG("numbers that are none, or out of range, are refused", "[
       CHECK_THAT(e.what(), Catch::Contains("point 8"));
     }
   }
+}
+
+TEMPLATE_TEST_CASE_SIG("more points than can be numbered are refused before they are looked at",
+                       "[template]", ((int D), D), 2, 3) {
+  const Point<D> one{};
+  const std::span<const Point<D>> points(&one, std::size_t{1} << 32);  // as many are not there
+  const auto is_refused = [](const auto& run) {
+    try {
+      run();
+    } catch (const Error& e) {
+      return e.code() == ErrorCode::too_many;
+    }
+    return false;
+  };
+  CHECK(is_refused([&] { static_cast<void>(mesher::delaunay<D>(points)); }));
+  CHECK(is_refused([&] { mesher::DynamicDelaunay<D>{points}; }));
 }
 
 TEMPLATE_TEST_CASE_SIG("a mesh is the triangulation of its vertices", "[template]", ((int D), D), 2,
