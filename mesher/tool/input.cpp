@@ -108,6 +108,25 @@ std::string repair_hint(const Error& error) {
   }
 }
 
+// What read(path) gives. That a complex in space is no input says what to do instead.
+template <class Read>
+auto reading(const std::string& path, Read read) {
+  try {
+    return read(path);
+  } catch (const Error& error) {
+    const std::string format = mesher::format_of(path);
+    const bool is_complex =
+        (format == ".poly" && error.code() == ErrorCode::bad_dimension) ||
+        ((format == ".poly" || format == ".smesh") && error.code() == ErrorCode::unknown_format);
+    if (!is_complex) throw;
+    throw Error(error.code(),
+                error.message() +
+                    "; complexes in space are not meshed from files yet: give the points as .node, "
+                    "and the segments and polygons to 'mesher edit', as edits +segment and +polygon",
+                error.place(), error.ids());
+  }
+}
+
 bool same_line(const Place& a, const Place& b) { return a.file == b.file && a.line == b.line; }
 
 }  // namespace
@@ -145,6 +164,8 @@ Error Standing::located(const Error& error) const {
 }
 
 // --- In the plane ----------------------------------------------------------------------------
+
+Input::Input(const std::string& path) : Standing(path), file_(reading(path, mesher::read_pslg)) {}
 
 std::vector<mesher::InputPoint<2>> Input::points() const {
   std::vector<mesher::InputPoint<2>> points;
@@ -194,6 +215,9 @@ std::string Input::warning(const mesher::SeedFault& fault) const {
 }
 
 // --- In space --------------------------------------------------------------------------------
+
+SpaceInput::SpaceInput(const std::string& path)
+    : Standing(path), file_(reading(path, mesher::read_points<3>)) {}
 
 std::vector<mesher::InputPoint<3>> SpaceInput::points() const {
   std::vector<mesher::InputPoint<3>> points;
