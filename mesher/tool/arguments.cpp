@@ -281,7 +281,6 @@ Input read_input<2>(const MeshArguments& args) {
 
 template <>
 SpaceInput read_input<3>(const MeshArguments& args) {
-  require_no_plane_options(args);
   return SpaceInput(args.input);
 }
 
@@ -292,6 +291,7 @@ mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input) {
 }
 
 mesher::Options<3> mesh_options(const MeshArguments& args, const SpaceInput& input) {
+  require_no_plane_options(args);
   return common_options<3>(args, input);
 }
 

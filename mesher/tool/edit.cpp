@@ -142,7 +142,10 @@ void add_edit(CLI::App& app) {
           "has brought. With --static each update meshes from scratch.\n"
           "--stats: a JSON object for the first run, then one a line for each update; - for\n"
           "standard output.\n"
-          "In space there are +point ID x y z, -point ID and move ID x y z.\n") +
+          "In space there are +point ID x y z, -point ID, move ID x y z, segments and polylines\n"
+          "without markers, and\n"
+          "  +polygon ID P P P ... [/ P P P ...] ... [on P ...] [along A B ...]\n"
+          "                         -polygon ID    its loops, then points and edges inside\n") +
       kQualityHelp +
       "\nExamples:\n"
       "  mesher edit lake.poly --script wall.txt -o lake.vtu -o lake.svg\n"

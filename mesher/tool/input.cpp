@@ -23,7 +23,7 @@ std::size_t find(const std::vector<Part>& parts, FeatureId id) {
   return i;
 }
 
-// Of features that are too close to each other, which the message names in the order of the ids.
+// Of features that the message names in the order of the ids.
 std::vector<Featured> kinds_named(const Error& error) {
   std::vector<Featured> kinds;
   std::size_t at = 0;
@@ -37,9 +37,12 @@ std::vector<Featured> kinds_named(const Error& error) {
         found = message.find(word + number, found + 1);
       return found;
     };
-    const std::size_t point = after("point"), line = after("segment");
-    kinds.push_back(point < line ? Featured::point : Featured::line);
-    at = std::min({point, line, message.size()});
+    const std::pair<std::size_t, Featured> first =
+        std::min({std::pair(after("segment"), Featured::line),
+                  std::pair(after("point"), Featured::point),
+                  std::pair(after("polygon"), Featured::polygon)});
+    kinds.push_back(first.first == std::string::npos ? Featured::line : first.second);
+    at = std::min(first.first, message.size() - 1) + 1;
   }
   return kinds;
 }
@@ -48,23 +51,31 @@ std::vector<Featured> kinds_named(const Error& error) {
 std::vector<Featured> kinds_of(const Error& error) {
   const Featured p = Featured::point, l = Featured::line;
   switch (error.code()) {
-    case ErrorCode::crossing_segments:
-    case ErrorCode::overlapping_segments:
     case ErrorCode::repeated_segment:
     case ErrorCode::too_many:
       return {l, l};
-    case ErrorCode::point_on_segment:
-    case ErrorCode::point_in_use:
-      return {p, l};
     case ErrorCode::unknown_id:  // of a line's end, or of something that has a place
-      return error.ids().size() == 2 ? std::vector{p, l} : std::vector<Featured>();
+      return error.ids().size() == 2 ? kinds_named(error) : std::vector<Featured>();
     case ErrorCode::bad_option:
       return {l};
     case ErrorCode::duplicate_point:
     case ErrorCode::outside_domain:
       return {p, p};
+    case ErrorCode::bad_polygon:
+      return {Featured::polygon, p};
+    case ErrorCode::not_flat:
+    case ErrorCode::repeated_polygon:
+      return {Featured::polygon, Featured::polygon};
     case ErrorCode::zero_length:
-      return {l, p};
+    case ErrorCode::crossing_segments:
+    case ErrorCode::overlapping_segments:
+    case ErrorCode::point_on_segment:
+    case ErrorCode::point_in_use:
+    case ErrorCode::point_on_polygon:
+    case ErrorCode::segment_on_polygon:
+    case ErrorCode::segment_through_polygon:
+    case ErrorCode::crossing_polygons:
+    case ErrorCode::overlapping_polygons:
     case ErrorCode::too_close:
       return kinds_named(error);
     default:
@@ -73,8 +84,10 @@ std::vector<Featured> kinds_of(const Error& error) {
 }
 
 std::string words(Featured kind, FeatureId id) {
-  return (kind == Featured::point ? "point " : "segment ") +
-         std::to_string(static_cast<std::int64_t>(id));
+  const char* const what = kind == Featured::point     ? "point "
+                           : kind == Featured::polygon ? "polygon "
+                                                       : "segment ";
+  return what + std::to_string(static_cast<std::int64_t>(id));
 }
 
 // What a repair does about the error, "" if nothing: lines that meet at tiny angles it leaves.
@@ -92,6 +105,25 @@ std::string repair_hint(const Error& error) {
       return "; --repair may mend this: it joins what is closer than 2^-44 of the box's side";
     default:
       return "";
+  }
+}
+
+// What read(path) gives. That a complex in space is no input says what to do instead.
+template <class Read>
+auto reading(const std::string& path, Read read) {
+  try {
+    return read(path);
+  } catch (const Error& error) {
+    const std::string format = mesher::format_of(path);
+    const bool is_complex =
+        (format == ".poly" && error.code() == ErrorCode::bad_dimension) ||
+        ((format == ".poly" || format == ".smesh") && error.code() == ErrorCode::unknown_format);
+    if (!is_complex) throw;
+    throw Error(error.code(),
+                error.message() +
+                    "; complexes in space are not meshed from files yet: give the points as .node, "
+                    "and the segments and polygons to 'mesher edit', as edits +segment and +polygon",
+                error.place(), error.ids());
   }
 }
 
@@ -132,6 +164,8 @@ Error Standing::located(const Error& error) const {
 }
 
 // --- In the plane ----------------------------------------------------------------------------
+
+Input::Input(const std::string& path) : Standing(path), file_(reading(path, mesher::read_pslg)) {}
 
 std::vector<mesher::InputPoint<2>> Input::points() const {
   std::vector<mesher::InputPoint<2>> points;
@@ -181,6 +215,9 @@ std::string Input::warning(const mesher::SeedFault& fault) const {
 }
 
 // --- In space --------------------------------------------------------------------------------
+
+SpaceInput::SpaceInput(const std::string& path)
+    : Standing(path), file_(reading(path, mesher::read_points<3>)) {}
 
 std::vector<mesher::InputPoint<3>> SpaceInput::points() const {
   std::vector<mesher::InputPoint<3>> points;

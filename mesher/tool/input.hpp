@@ -80,7 +80,7 @@ decltype(auto) locating(const Standing& input, Make&& make) {
 class Input final : public Standing {
  public:
   /// Throws: Error, as read_pslg.
-  explicit Input(const std::string& path) : Standing(path), file_(mesher::read_pslg(path)) {}
+  explicit Input(const std::string& path);
 
   [[nodiscard]] const mesher::Pslg& graph() const noexcept { return file_.pslg; }
   [[nodiscard]] const mesher::PslgFile& file() const noexcept { return file_; }
@@ -116,8 +116,7 @@ class Input final : public Standing {
 class SpaceInput final : public Standing {
  public:
   /// Throws: Error, as read_points.
-  explicit SpaceInput(const std::string& path)
-      : Standing(path), file_(mesher::read_points<3>(path)) {}
+  explicit SpaceInput(const std::string& path);
 
   [[nodiscard]] const mesher::PointFile<3>& file() const noexcept { return file_; }
   [[nodiscard]] const std::vector<mesher::Note>& notes() const noexcept { return file_.notes; }

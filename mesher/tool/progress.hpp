@@ -43,6 +43,12 @@ concept TakesSeeds = requires(Target& t, const mesher::SeedName& name) {
   t.remove_seed(name);
 };
 
+/// Whether it takes polygons.
+template <class Target>
+concept TakesPolygons = requires(Target& t, mesher::FeatureId id) {
+  t.remove_polygon(id);
+};
+
 /// A mesher whose updates are watched; the rest of its interface as it is.
 template <class Target>
 class Watched {
@@ -68,6 +74,12 @@ class Watched {
   { target_.insert_polyline(id, points, marker...); }
   void remove_segment(mesher::FeatureId id) requires requires(Target& t) { t.remove_segment(id); }
   { target_.remove_segment(id); }
+  void insert_polygon(const mesher::Polygon& polygon) requires TakesPolygons<Target> {
+    target_.insert_polygon(polygon);
+  }
+  void remove_polygon(mesher::FeatureId id) requires TakesPolygons<Target> {
+    target_.remove_polygon(id);
+  }
   void insert_seed(const mesher::Seed& seed) requires TakesSeeds<Target> {
     target_.insert_seed(seed);
   }

@@ -39,48 +39,17 @@ mesher::DomainChange change_of_kept(const Mesh<2>& before, const Mesh<2>& after)
 
 }  // namespace
 
-// --- Lines and seeds -------------------------------------------------------------------------
-
-void StaticMesher::insert_polyline(FeatureId id, const std::vector<FeatureId>& points,
-                                   std::int64_t marker) {
-  if (edited_.lines.contains(id)) {
-    throw Error(ErrorCode::repeated_id, "there is a line " + id_text(id) + " already", {}, {id});
-  }
-  const auto same = std::adjacent_find(points.begin(), points.end());
-  if (same != points.end()) {
-    throw Error(ErrorCode::zero_length,
-                "segment " + id_text(id) + " goes from point " + id_text(*same) + " to itself", {},
-                {id, *same});
-  }
-  edited_.lines.emplace(id, Line{points, marker});
-}
-
-void StaticMesher::remove_segment(FeatureId id) {
-  if (edited_.lines.erase(id) > 0) return;
-  throw Error(ErrorCode::unknown_id, "there is no line " + id_text(id), {}, {id});
-}
+// --- Seeds -----------------------------------------------------------------------------------
 
 void StaticMesher::insert_seed(const mesher::Seed& seed) {
-  if (edited_.seeds.emplace(seed.name, seed).second) return;
+  if (edited_seeds_.emplace(seed.name, seed).second) return;
   throw Error(ErrorCode::repeated_id, "there is a " + text_of(seed.name) + " already", {},
               {seed.name.id});
 }
 
 void StaticMesher::remove_seed(const mesher::SeedName& name) {
-  if (edited_.seeds.erase(name) > 0) return;
+  if (edited_seeds_.erase(name) > 0) return;
   throw Error(ErrorCode::unknown_id, "there is no " + text_of(name), {}, {name.id});
-}
-
-// Ends of lines that were there before.
-void StaticMesher::require_unused() const {
-  for (const auto& [id, line] : edited_.lines) {
-    for (const FeatureId end : line.points) {
-      if (is_there(end) || !was_there(end)) continue;
-      throw Error(ErrorCode::point_in_use,
-                  "point " + id_text(end) + " cannot go: it is an end of segment " + id_text(id),
-                  {}, {end, id});
-    }
-  }
 }
 
 // --- Updates ---------------------------------------------------------------------------------
@@ -90,10 +59,10 @@ mesher::Pslg StaticMesher::graph() const {
   for (const auto& [id, vertex] : points()) {
     graph.points.push_back({id, vertex.at, vertex.marker});
   }
-  for (const auto& [id, line] : edited_.lines) {
+  for (const auto& [id, line] : lines()) {
     graph.polylines.push_back({id, line.points, line.marker});
   }
-  for (const auto& [name, seed] : edited_.seeds) mesher::add_seed(graph, seed);
+  for (const auto& [name, seed] : edited_seeds_) mesher::add_seed(graph, seed);
   return graph;
 }
 
@@ -106,7 +75,7 @@ bool StaticMesher::needs_regions() const {
 }
 
 mesher::DomainUpdate StaticMesher::update(const mesher::RunControl& control) {
-  require_unused();
+  require_no_ends_go();
   const mesher::Pslg input = graph();
   mesher::Options<2> options = edited_options_;
   options.region_limits =
@@ -119,7 +88,7 @@ mesher::DomainUpdate StaticMesher::update(const mesher::RunControl& control) {
   update.angles = mesher::angle_news(after, options, update.simplices_added);
   update.domain = change_of_kept(domain_.kept, domain.kept);
   keep_edits();
-  current_ = edited_;
+  current_seeds_ = edited_seeds_;
   options_ = edited_options_ = std::move(options);
   mesh_ = std::move(after);
   domain_ = std::move(domain);

@@ -10,28 +10,21 @@
 
 #include "mesher/domain_mesher.hpp"
 #include "mesher/sizes.hpp"
-#include "static_points.hpp"
+#include "static_lines.hpp"
 
 namespace tool {
 
-class StaticMesher : public StaticPoints<2> {
+class StaticMesher : public StaticLines<2> {
  public:
   StaticMesher(const mesher::Options<2>& options, mesher::Extent extent, mesher::RegionAreas areas)
-      : StaticPoints(options.domain),
+      : StaticLines(options.domain),
         options_(options),
         edited_options_(options),
         extent_(extent),
         areas_(areas) {}
 
   /// As those of DomainMesher.
-  /// Throws: Error (repeated_id, unknown_id, zero_length), and then changes nothing.
-  void insert_segment(mesher::FeatureId id, mesher::FeatureId from, mesher::FeatureId to,
-                      std::int64_t marker = 0) {
-    insert_polyline(id, {from, to}, marker);
-  }
-  void insert_polyline(mesher::FeatureId id, const std::vector<mesher::FeatureId>& points,
-                       std::int64_t marker = 0);
-  void remove_segment(mesher::FeatureId id);
+  /// Throws: Error (repeated_id, unknown_id), and then changes nothing.
   void insert_seed(const mesher::Seed& seed);
   void remove_seed(const mesher::SeedName& name);
   void limit(const mesher::SizeLimits<2>& limits) { set_limits(edited_options_, limits); }
@@ -39,8 +32,8 @@ class StaticMesher : public StaticPoints<2> {
     set_limits(edited_options_, box, limits);
   }
   void discard_edits() {
-    StaticPoints::discard_edits();
-    edited_ = current_;
+    StaticLines::discard_edits();
+    edited_seeds_ = current_seeds_;
     edited_options_ = options_;
   }
 
@@ -54,22 +47,14 @@ class StaticMesher : public StaticPoints<2> {
   [[nodiscard]] const mesher::MeshStats& stats() const { return stats_; }
 
  private:
-  struct Line {
-    std::vector<mesher::FeatureId> points;
-    std::int64_t marker = 0;
-  };
-  struct Features {
-    std::map<mesher::FeatureId, Line> lines;
-    std::map<mesher::SeedName, mesher::Seed> seeds;
-  };
-  void require_unused() const;
+  using Seeds = std::map<mesher::SeedName, mesher::Seed>;
   [[nodiscard]] bool needs_regions() const;
   [[nodiscard]] mesher::Pslg graph() const;
 
   mesher::Options<2> options_, edited_options_;  // they differ in the limits of size
   mesher::Extent extent_;
   mesher::RegionAreas areas_;
-  Features current_, edited_;
+  Seeds current_seeds_, edited_seeds_;
   mesher::Mesh<2> mesh_;
   mesher::DomainMesh domain_;
   mesher::MeshStats stats_;

@@ -53,9 +53,13 @@ class StaticPoints {
 
   /// Those that are announced to be there.
   [[nodiscard]] const Points& points() const { return edited_.points; }
-  [[nodiscard]] bool is_there(mesher::FeatureId id) const { return edited_.points.contains(id); }
-  /// At the last keep_edits().
-  [[nodiscard]] bool was_there(mesher::FeatureId id) const { return current_.points.contains(id); }
+  /// Throws: Error(point_in_use) if the point, which is `what` of `user`, goes.
+  void require_stays(mesher::FeatureId id, const char* what, mesher::FeatureId user) const {
+    if (is_there(id) || !was_there(id)) return;
+    throw mesher::Error(
+        mesher::ErrorCode::point_in_use,
+        "point " + id_text(id) + " cannot go: it is " + what + " " + id_text(user), {}, {id, user});
+  }
   void keep_edits() { current_ = edited_; }
   static std::string id_text(mesher::FeatureId id) {
     return std::to_string(static_cast<std::int64_t>(id));
@@ -68,6 +72,9 @@ class StaticPoints {
     std::multimap<mesher::Point<D>, mesher::FeatureId> ids;
   };
 
+  [[nodiscard]] bool is_there(mesher::FeatureId id) const { return edited_.points.contains(id); }
+  // At the last keep_edits().
+  [[nodiscard]] bool was_there(mesher::FeatureId id) const { return current_.points.contains(id); }
   void put(mesher::FeatureId id, const Vertex& vertex) {
     edited_.points.emplace(id, vertex);
     edited_.ids.emplace(vertex.at, id);

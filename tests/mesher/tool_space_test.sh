@@ -108,6 +108,26 @@ refuse 4 'uniform.3d.node: error[too_many]' mesh uniform.3d.node --max-vertices 
 refuse 4 'uniform.3d.node: error[too_many]' mesh uniform.3d.node --max-vertices 300 --static \
   -o out/x.vtu
 
+for option in '--max-area 1' '--max-size 1' '--sizes uniform.node'; do
+  # shellcheck disable=SC2086
+  refuse 2 "error[bad_option]: ${option%% *} is for the plane" trace uniform.3d.node $option \
+    -o out/x.trace
+done
+
+echo "== space: complexes are not read from files, and an error says what to do"
+expect 0 '' gen tee -o complex.poly
+expect 0 '' gen cube -o complex.smesh
+hint="; complexes in space are not meshed from files yet: give the points as .node, and the segments "
+hint+="and polygons to 'mesher edit', as edits +segment and +polygon"
+said="complex.poly:1:4: error[bad_dimension]: points of dimension 3, expected 2$hint"
+refuse 3 "$said" mesh complex.poly -o out/x.vtu
+refuse 3 "$said" mesh complex.poly --static -o out/x.vtu
+refuse 3 "$said" edit complex.poly --script edits3.txt -o out/x.vtu
+refuse 3 "$said" trace complex.poly -o out/x.trace
+refuse 2 "not '.poly'$hint" mesh complex.poly --dimension 3 -o out/x.vtu
+refuse 2 "not '.smesh'$hint" mesh complex.smesh -o out/x.vtu
+refuse 2 "not '.smesh'$hint" mesh complex.smesh --dimension 3 -o out/x.vtu
+
 echo "== space: bad points: FILE:LINE:COL: error[code]"
 points3() { printf '%b' "$1" >bad3.node; }
 points3 '2 3 0 0\n1 0 0 0\n2 0.5 1\n'
@@ -198,6 +218,67 @@ bad_edit3 3 '2:1: error[bad_edit]' 'limit size 1'
 bad_edit3 3 "2:1: error[bad_edit]: no edit is called '+tetrahedron'" '+tetrahedron 1 2 3'
 printf '+point 1002 .5 .5 7\n' >bad3.txt
 refuse 1 'ZMAX' edit uniform.3d.node --script bad3.txt -o out/x.node
+
+echo "== space: segments and polygons come and go by edits"
+cat >corners.node <<'END'
+8 3 0 0
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 .5 .5 -1
+6 .5 .5 1
+7 .2 .2 .5
+8 .8 .8 .5
+END
+printf '%s\n' '+polygon 1 1 2 3 4 along 1 3' '+segment 1 7 8' '+polyline 2 1 5 2' 'begin' '+point 9 .4 .5 0' \
+  '-polygon 1' '+polygon 3 1 2 3 4 on 9' '-point 8' '-segment 1' 'commit' 'move 9 .4 .6 0' >features3.txt
+expect 0 '' edit corners.node --script features3.txt -o after.node --stats after3.jsonl
+expect 0 '' edit corners.node --script features3.txt --static -o after.static.node \
+  --stats after3--static.jsonl
+for format in node ele face; do same after.$format after.static.$format; done
+[[ $(wc -l <after3.jsonl) == 6 ]] || fail 'after3.jsonl has not 6 lines'
+counts after3.jsonl >engine.counts
+counts after3--static.jsonl >static.counts
+same engine.counts static.counts
+expect 0 '' mesh corners.node -o alone.node
+if cmp -s after.ele alone.ele; then fail "polygons say nothing to the mesh"; fi
+printf '%s\n' '+polygon 1 1 2 3 4' '+segment 1 7 8' '-segment 1' '-polygon 1' >gone3.txt
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  expect 0 '' edit corners.node --script gone3.txt $engine -o after.node
+  for format in node ele face; do same after.$format alone.$format; done
+done
+# bad_features3 CODE TEXT SCRIPT: the whole message after the file's name
+bad_features3() {
+  printf '%b\n' "$3" >bad3.txt
+  for engine in '' --static; do
+    # shellcheck disable=SC2086
+    refuse "$1" "bad3.txt:$2" edit corners.node --script bad3.txt $engine -o out/x.node
+    # shellcheck disable=SC2086
+    said=$("$tool" edit corners.node --script bad3.txt $engine 2>&1)
+    [[ $said == "bad3.txt:$2" ]] || fail "$said, expected bad3.txt:$2"
+  done
+}
+bad_features3 1 '2:1: error[segment_through_polygon]: segment 2 goes through polygon 1 at (0.5, 0.5, 0) (polygon 1: bad3.txt:1)' \
+  '+polygon 1 1 2 3 4\n+segment 2 5 6'
+bad_features3 1 '2:1: error[segment_through_polygon]: segment 1 goes through polygon 1 at (0.5, 0.5, 0) (segment 1: bad3.txt:1)' \
+  '+segment 1 5 6\n+polygon 1 1 2 3 4'
+bad_features3 1 '3:1: error[crossing_segments]: an edge of polygon 4 crosses segment 3 at (0.5, 0.5, 0.5) (segment 3: bad3.txt:1)' \
+  '+segment 3 7 8\n+segment 4 1 2\n+polygon 4 5 4 6'
+bad_features3 1 '2:1: error[point_in_use]: point 1 cannot go: it is on polygon 3 (polygon 3: bad3.txt:1)' \
+  '+polygon 3 1 2 3 4\n-point 1'
+bad_features3 1 '2:1: error[point_in_use]: point 7 cannot go: it is an end of segment 1 (segment 1: bad3.txt:1)' \
+  '+segment 1 7 8\n-point 7'
+bad_features3 1 '1:1: error[zero_length]: segment 1 goes from point 1 to itself (point 1: corners.node:2)' \
+  '+segment 1 1 1'
+bad_features3 1 '2:1: error[repeated_polygon]: polygon 4 is polygon 3 again; its first corner is at (0, 0, 0) (polygon 3: bad3.txt:1)' \
+  '+polygon 3 1 2 3 4\n+polygon 4 3 2 1 4'
+bad_features3 1 '1:1: error[not_flat]: polygon 3 is not flat: (0.5, 0.5, -1) is 0.5773502691896258 off its plane' \
+  '+polygon 3 1 2 3 5'
+bad_features3 3 '1:1: error[unknown_id]: point 99, a corner of polygon 3, is not there' \
+  '+polygon 3 1 2 99'
+bad_features3 3 '1:1: error[unknown_id]: polygon 3 is not there' '-polygon 3'
 
 echo "== space: interrupts leave nothing behind"
 expect 0 '' gen uniform --n 100000 --dimension 3 -o large.3d.node

@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "mesher/error.hpp"
+#include "mesher/input_file.hpp"
 #include "mesher/mesh.hpp"
 #include "mesher/output_files.hpp"
 
@@ -33,29 +34,14 @@ namespace mesher {
 
 /// Plain data, in the order of the file.
 struct Plc {
-  struct Vertex {
-    FeatureId id{};
-    Point<3> at{};
-    std::int64_t marker = 0;  ///< 0: none
-    friend bool operator==(const Vertex&, const Vertex&) = default;
-  };
-  struct Segment {
-    FeatureId id{};
-    FeatureId from{}, to{};  ///< points
-    std::int64_t marker = 0;
-    friend bool operator==(const Segment&, const Segment&) = default;
-  };
+  using Vertex = MarkedPoint<3>;
+  using Segment = MarkedSegment;
   struct Facet {
     Polygon polygon;
     std::int64_t marker = 0;
     friend bool operator==(const Facet&, const Facet&) = default;
   };
-  /// What the polygons enclose around `seed` is no part of the domain.
-  struct Hole {
-    FeatureId id{};
-    Point<3> seed{};
-    friend bool operator==(const Hole&, const Hole&) = default;
-  };
+  using Hole = HoleSeed<3>;  ///< of what the polygons enclose
   /// What the polygons enclose around `seed` has this attribute and limit.
   struct Region {
     FeatureId id{};
@@ -75,22 +61,12 @@ struct Plc {
   friend bool operator==(const Plc&, const Plc&) = default;
 };
 
-/// A complex with where its parts stood: one position for each element of the array of that name.
-struct PlcFile {
+/// A complex with where its parts stood.
+struct PlcFile : FileParts {
   Plc plc;
-  std::string file;
-  std::string point_file;  ///< `file`, or the .node file beside it
-  std::vector<FilePosition> points, segments, facets, holes, regions;
-  std::vector<Note> notes;
+  std::vector<FilePosition> facets;
 
-  [[nodiscard]] Place place_of_point(std::size_t i) const { return at(point_file, points[i]); }
-  [[nodiscard]] Place place_of_segment(std::size_t i) const { return at(file, segments[i]); }
   [[nodiscard]] Place place_of_facet(std::size_t i) const { return at(file, facets[i]); }
-  [[nodiscard]] Place place_of_hole(std::size_t i) const { return at(file, holes[i]); }
-  [[nodiscard]] Place place_of_region(std::size_t i) const { return at(file, regions[i]); }
-
- private:
-  static Place at(const std::string& file, FilePosition p) { return {file, p.line, p.column}; }
 };
 
 /// Reads a complex, by the extension of `path`:

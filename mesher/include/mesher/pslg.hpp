@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "mesher/error.hpp"
+#include "mesher/input_file.hpp"
 #include "mesher/mesh.hpp"
 #include "mesher/output_files.hpp"
 
@@ -40,18 +41,8 @@ struct SizeSample {
 
 /// Plain data, in the order of the file.
 struct Pslg {
-  struct Vertex {
-    FeatureId id{};
-    Point<2> at{};
-    std::int64_t marker = 0;  ///< 0: none
-    friend bool operator==(const Vertex&, const Vertex&) = default;
-  };
-  struct Segment {
-    FeatureId id{};
-    FeatureId from{}, to{};  ///< points
-    std::int64_t marker = 0;
-    friend bool operator==(const Segment&, const Segment&) = default;
-  };
+  using Vertex = MarkedPoint<2>;
+  using Segment = MarkedSegment;
   /// Segments from point to point under one id; closed if the last point is the first.
   struct Polyline {
     FeatureId id{};
@@ -59,12 +50,7 @@ struct Pslg {
     std::int64_t marker = 0;
     friend bool operator==(const Polyline&, const Polyline&) = default;
   };
-  /// What the lines enclose around `seed` is no part of the domain.
-  struct Hole {
-    FeatureId id{};
-    Point<2> seed{};
-    friend bool operator==(const Hole&, const Hole&) = default;
-  };
+  using Hole = HoleSeed<2>;  ///< of what the lines enclose
   /// What the lines enclose around `seed` has this attribute and limit.
   struct Region {
     FeatureId id{};
@@ -85,22 +71,12 @@ struct Pslg {
   friend bool operator==(const Pslg&, const Pslg&) = default;
 };
 
-/// A graph with where its parts stood: one position for each element of the array of that name.
-struct PslgFile {
+/// A graph with where its parts stood.
+struct PslgFile : FileParts {
   Pslg pslg;
-  std::string file;
-  std::string point_file;  ///< `file`, or the .node file beside it
-  std::vector<FilePosition> points, segments, polylines, holes, regions;
-  std::vector<Note> notes;
+  std::vector<FilePosition> polylines;
 
-  [[nodiscard]] Place place_of_point(std::size_t i) const { return at(point_file, points[i]); }
-  [[nodiscard]] Place place_of_segment(std::size_t i) const { return at(file, segments[i]); }
   [[nodiscard]] Place place_of_polyline(std::size_t i) const { return at(file, polylines[i]); }
-  [[nodiscard]] Place place_of_hole(std::size_t i) const { return at(file, holes[i]); }
-  [[nodiscard]] Place place_of_region(std::size_t i) const { return at(file, regions[i]); }
-
- private:
-  static Place at(const std::string& file, FilePosition p) { return {file, p.line, p.column}; }
 };
 
 /// Reads a graph, by the extension of `path`:

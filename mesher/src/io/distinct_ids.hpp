@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesher/error.hpp"
+#include "mesher/input_file.hpp"
 
 namespace mesher {
 
@@ -28,5 +29,13 @@ template <class Part, class PlaceOf>
 
 /// Throws: Error(repeated_id) for the first part whose id an earlier one has. Cost: O(n log n).
 void require_distinct(const Named& all);
+
+/// Of points, holes and regions of a Pslg or a Plc.
+template <class Input>
+void require_distinct_parts(const Input& input, const FileParts& f) {
+  require_distinct(named("point", input.points, [&](auto i) { return f.place_of_point(i); }));
+  require_distinct(named("hole", input.holes, [&](auto i) { return f.place_of_hole(i); }));
+  require_distinct(named("region", input.regions, [&](auto i) { return f.place_of_region(i); }));
+}
 
 }  // namespace mesher

@@ -49,9 +49,7 @@ PlcFile read_any(const std::string& path) {
 
 PlcFile read_plc(const std::string& path) {
   PlcFile f = read_any(path);
-  require_distinct(named("point", f.plc.points, [&](auto i) { return f.place_of_point(i); }));
-  require_distinct(named("hole", f.plc.holes, [&](auto i) { return f.place_of_hole(i); }));
-  require_distinct(named("region", f.plc.regions, [&](auto i) { return f.place_of_region(i); }));
+  require_distinct_parts(f.plc, f);
   return f;
 }
 

@@ -14,9 +14,7 @@ namespace {
 std::string id_text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
 void require_distinct_ids(const PslgFile& f) {
-  require_distinct(named("point", f.pslg.points, [&](auto i) { return f.place_of_point(i); }));
-  require_distinct(named("hole", f.pslg.holes, [&](auto i) { return f.place_of_hole(i); }));
-  require_distinct(named("region", f.pslg.regions, [&](auto i) { return f.place_of_region(i); }));
+  require_distinct_parts(f.pslg, f);
   Named lines = named("segment", f.pslg.segments, [&](auto i) { return f.place_of_segment(i); });
   const Named more =
       named("polyline", f.pslg.polylines, [&](auto i) { return f.place_of_polyline(i); });

@@ -6,13 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "mesher/pslg.hpp"
 #include "io/note_counter.hpp"
+#include "io/poly_tables.hpp"
+#include "mesher/pslg.hpp"
 
 namespace mesher {
-
-/// What becomes of a `.node` file beside a `.poly` file without points.
-enum class PointsBeside : std::uint8_t { read, ignore };
 
 /// Throws: Error as read_pslg, but ids and ends are not looked at.
 [[nodiscard]] PslgFile read_poly(const std::string& path, PointsBeside beside);

@@ -12,16 +12,12 @@
 //   id x y z
 //   [count                                        regions
 //    id x y z attribute [max_volume]]
-#include <filesystem>
 #include <unordered_map>
 #include <utility>
 
 #include "io/facet.hpp"
-#include "io/note_counter.hpp"
-#include "io/read_node.hpp"
+#include "io/poly_tables.hpp"
 #include "io/read_plc.hpp"
-#include "io/rows.hpp"
-#include "io/text.hpp"
 
 namespace mesher {
 namespace {
@@ -41,54 +37,21 @@ class SpacePolyReader {
     read_points();
     read_facets();
     number_segments();
-    read_holes();
-    read_regions();
+    read_hole_table(lines_, out_.plc, out_);
+    read_region_table(lines_, out_.plc, out_, notes_);
     out_.notes = notes_.notes();
     return std::move(out_);
   }
 
  private:
-  // --- Points ----------------------------------------------------------------------------------
-
   void read_points() {
-    const NodeHeader header = read_node_header(header_row(lines_, out_.file), 3);
-    read_rows(lines_, header);
-    const std::string beside = text::with_extension(out_.file, ".node");
-    if (header.count == 0 && std::filesystem::exists(beside)) read_points_beside(beside);
+    read_point_table(lines_, PointsBeside::read, out_.plc, out_);
+    require_indexable(out_.plc.points.size(), out_.point_file);
     for (std::uint32_t i = 0; i < out_.plc.points.size(); ++i) {
       number_of_.try_emplace(out_.plc.points[i].id, i);
       places_.push_back(out_.plc.points[i].at);
     }
   }
-
-  void read_points_beside(const std::string& path) {
-    const std::string content = text::read_file(path);
-    text::FieldLines lines(path, content);
-    const NodeHeader header = read_node_header(header_row(lines, path), 3);
-    out_.point_file = path;
-    read_rows(lines, header);
-    require_end(lines, "points");
-  }
-
-  // Requires: `header` is that of the current line.
-  void read_rows(text::FieldLines& lines, const NodeHeader& header) {
-    Plc& plc = out_.plc;
-    plc.attributes_per_point = static_cast<std::size_t>(header.attributes);
-    while (std::cmp_less(plc.points.size(), header.count)) {
-      const text::Line& line = next_row(lines, 1, plc.points.size(), header.count, "points");
-      require_node_fields(lines, header);
-      const Point<3> at = read_node_point<3>(line, CoordinateRule::input);
-      for (std::size_t i = 0; i < plc.attributes_per_point; ++i) {
-        plc.attributes.push_back(line.finite(4 + i));
-      }
-      const std::int64_t marker = header.markers == 0 ? 0 : line.integer(line.size() - 1);
-      plc.points.push_back({FeatureId{line.integer(0)}, at, marker});
-      out_.points.push_back(line.position(0));
-    }
-    require_indexable(plc.points.size(), out_.point_file);
-  }
-
-  // --- Facets ----------------------------------------------------------------------------------
 
   void read_facets() {
     const text::Line& header = next_header(lines_, "facets");
@@ -122,7 +85,7 @@ class SpacePolyReader {
     while (std::cmp_less(facet.holes.size(), holes)) {
       const text::Line& row = next_row(lines_, 4, facet.holes.size(), holes, "holes of a facet");
       require_fields(row, 4, 4);
-      facet.holes.push_back(seed_of(row));
+      facet.holes.push_back(read_node_point<3>(row, CoordinateRule::input));
       places.push_back(row.place(0));
     }
     add(facet, marker, position, places);
@@ -217,48 +180,6 @@ class SpacePolyReader {
   void number_segments() {
     std::int64_t count = 0;
     for (Plc::Segment& s : out_.plc.segments) s.id = FeatureId{++count};
-  }
-
-  // --- Seeds -----------------------------------------------------------------------------------
-
-  void read_holes() {
-    const text::Line& header = next_header(lines_, "holes");
-    const std::int64_t count = read_count(header, 0);
-    require_header(header, 1);
-    while (std::cmp_less(out_.holes.size(), count)) {
-      const text::Line& line = next_row(lines_, 4, out_.holes.size(), count, "holes");
-      require_fields(line, 4, 4);
-      out_.plc.holes.push_back({FeatureId{line.integer(0)}, seed_of(line)});
-      out_.holes.push_back(line.position(0));
-    }
-  }
-
-  void read_regions() {
-    if (!lines_.next()) return;
-    const std::int64_t count = read_count(lines_.line(), 0);
-    require_header(lines_.line(), 1);
-    while (std::cmp_less(out_.regions.size(), count)) {
-      const text::Line& line = next_row(lines_, 5, out_.regions.size(), count, "regions");
-      require_fields(line, 5, 6);
-      out_.plc.regions.push_back(
-          {FeatureId{line.integer(0)}, seed_of(line), line.finite(4), max_volume_of(line)});
-      out_.regions.push_back(line.position(0));
-    }
-    require_end(lines_, "regions");
-  }
-
-  std::optional<double> max_volume_of(const text::Line& line) {
-    if (line.size() < 6) {
-      notes_.add("a region with one value: taken as its attribute, not as a limit of volume",
-                 line.place(4));
-      return std::nullopt;
-    }
-    const double volume = line.finite(5);
-    return volume > 0 ? std::optional(volume) : std::nullopt;
-  }
-
-  static Point<3> seed_of(const text::Line& line) {
-    return {line.coordinate(1), line.coordinate(2), line.coordinate(3)};
   }
 
   PlcFile out_;

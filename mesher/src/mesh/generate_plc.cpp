@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/text.hpp"
 #include "mesh/plc_parts.hpp"
 
 namespace mesher {
@@ -27,9 +28,12 @@ std::size_t count_of(PlcKind kind, double size, double least, double most) {
   return static_cast<std::size_t>(size);
 }
 
-void require_between(PlcKind kind, double size, double low, double high) {
-  if (size > low && size < high) return;
-  fail_size(kind, "above " + std::to_string(low) + " and below " + std::to_string(high));
+// Less is lost beside coordinates of 1: corners would coincide.
+constexpr double kLeastSize = 1e-12;
+
+void require_below(PlcKind kind, double size, double limit) {
+  if (size >= kLeastSize && size < limit) return;
+  fail_size(kind, "at least " + text::to_text(kLeastSize) + " and below " + text::to_text(limit));
 }
 
 }  // namespace
@@ -52,9 +56,9 @@ std::optional<PlcKind> plc_kind(std::string_view name) {
 Plc generate_plc(const PlcFamily& family) {
   Builder b;
   const PlcKind kind = family.kind;
-  const auto between = [&](double preset, double low, double high) {
+  const auto below = [&](double limit, double preset) {
     const double size = family.size.value_or(preset);
-    require_between(kind, size, low, high);
+    require_below(kind, size, limit);
     return size;
   };
   const auto count = [&](double preset, double least, double most) {
@@ -66,20 +70,20 @@ Plc generate_plc(const PlcFamily& family) {
       break;
     case PlcKind::cube_square:
       add_box(b, kUnit);
-      b.polygon({square(0.5, 0.5, between(0.5, 0, 1))});
+      b.polygon({square(0.5, 0.5, below(1, 0.5))});
       break;
     case PlcKind::skew: {
-      const double gap = between(0.001, 0, 0.5);
+      const double gap = below(0.5, 0.001);
       add_box(b, kUnit);
       b.segment({0.25, 0.5, 0.5}, {0.75, 0.5, 0.5});
       b.segment({0.5, 0.25, 0.5 + gap}, {0.5, 0.75, 0.5 + gap});
       break;
     }
     case PlcKind::dumbbell:
-      add_dumbbell(b, between(0.2, 0, 1));
+      add_dumbbell(b, below(1, 0.2));
       break;
     case PlcKind::nested: {
-      const double gap = between(0.1, 0, 0.5);
+      const double gap = below(0.5, 0.1);
       add_box(b, kUnit);
       add_box(b, {{gap, gap, gap}, {1 - gap, 1 - gap, 1 - gap}});
       break;
@@ -88,10 +92,10 @@ Plc generate_plc(const PlcFamily& family) {
       add_box(b, kUnit);
       b.polygon(
           {{{.2, .2, .5}, {.8, .2, .5}, {.8, .5, .5}, {.5, .5, .5}, {.5, .8, .5}, {.2, .8, .5}},
-           square(.5, .35, between(.1, 0, .3))});
+           square(.5, .35, below(.3, .1))});
       break;
     case PlcKind::plates: {
-      const double gap = between(0.02, 0, 0.5);
+      const double gap = below(0.5, 0.02);
       add_box(b, kUnit);
       b.polygon({square(0.5, 0.5, 0.6)});
       b.polygon({square(0.5 + gap, 0.5, 0.4)});
@@ -102,33 +106,33 @@ Plc generate_plc(const PlcFamily& family) {
       add_cloud(b, count(1000, 0, 1e7), SplitMix64(family.seed));
       break;
     case PlcKind::wedge: {
-      const double angle = between(20, 0, 180);
+      const double angle = below(180, 20);
       add_box(b, {{-1, -2, -1}, {2, 2, 2}});
       b.polygon({page(0)});
       b.polygon({page(angle)});
       break;
     }
     case PlcKind::pages: {
-      const double angle = between(8, 0, 60);
+      const double angle = below(60, 8);
       add_box(b, kWide);
       for (int i = 0; i < 6; ++i) b.polygon({page(17 + i * angle)});
       break;
     }
     case PlcKind::spike:
       add_box(b, kWide);
-      add_spike(b, between(20, 0, 90));
+      add_spike(b, below(90, 20));
       break;
     case PlcKind::vee:
       add_box(b, kWide);
-      add_vee(b, between(5, 0, 90));
+      add_vee(b, below(90, 5));
       break;
     case PlcKind::leaning:
       add_box(b, kWide);
-      add_leaning(b, between(5, 0, 90));
+      add_leaning(b, below(90, 5));
       break;
     case PlcKind::tetrahedron:
       add_box(b, kWide);
-      add_tetrahedron(b, between(0.1, 0, 1.5));
+      add_tetrahedron(b, below(1.5, 0.1));
       break;
     case PlcKind::pump:
       add_pump(b, count(16, 4, 100));
@@ -138,11 +142,11 @@ Plc generate_plc(const PlcFamily& family) {
       add_faults(b, count(20, 0, 1e6), SplitMix64(family.seed));
       break;
     case PlcKind::bricks:
-      add_bricks(b, between(0.02, 0, 0.1));
+      add_bricks(b, below(0.1, 0.02));
       break;
     case PlcKind::tee:
       add_box(b, kUnit);
-      add_tee(b, between(0.5, 0, 0.7));
+      add_tee(b, below(0.7, 0.5));
       break;
     case PlcKind::shells:
       for (std::size_t i = 0, n = count(4, 1, 100); i < n; ++i) {
@@ -150,7 +154,7 @@ Plc generate_plc(const PlcFamily& family) {
       }
       break;
     case PlcKind::island: {
-      const double side = between(0.2, 0, 0.4);
+      const double side = below(0.4, 0.2);
       add_box(b, kUnit);
       b.polygon({square(0.5, 0.5, 0.8), square(0.5, 0.5, 0.4), square(0.5, 0.5, side)});
       break;

@@ -90,6 +90,30 @@ TEST_CASE("Families of complexes fit together at other sizes") {
   }
 }
 
+TEST_CASE("The least sizes of complexes are written and read back, and smaller ones are refused") {
+  const support::ScratchFolder folder;
+  for (const PlcKind kind :
+       {PlcKind::cube_square, PlcKind::skew, PlcKind::dumbbell, PlcKind::nested, PlcKind::l_hole,
+        PlcKind::plates, PlcKind::wedge, PlcKind::pages, PlcKind::spike, PlcKind::vee,
+        PlcKind::leaning, PlcKind::tetrahedron, PlcKind::bricks, PlcKind::tee, PlcKind::island}) {
+    CAPTURE(mesher::plc_kind_names()[static_cast<std::size_t>(kind)]);
+    const Plc plc = generate_plc({kind, 1e-12});
+    for (const auto& [polygon, marker] : plc.facets) {
+      for (auto loop : polygon.loops) {
+        std::sort(loop.begin(), loop.end());
+        REQUIRE(std::adjacent_find(loop.begin(), loop.end()) == loop.end());
+      }
+    }
+    const std::string path = folder.path("a.poly");
+    write_plc(plc, path);
+    REQUIRE(mesher::read_plc(path).plc.points == plc.points);
+    for (const double less : {1e-13, 1e-40}) {
+      REQUIRE(support::error_of([&] { static_cast<void>(generate_plc({kind, less})); }).code() ==
+              mesher::ErrorCode::bad_option);
+    }
+  }
+}
+
 TEST_CASE("A size that a complex cannot have is refused") {
   for (const PlcFamily& family : {PlcFamily{PlcKind::nested, 0.5},
                                   {PlcKind::nested, -1.0},

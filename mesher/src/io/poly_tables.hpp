@@ -1,0 +1,111 @@
+// The tables that `.poly` files have in the plane (Triangle) and in space (TetGen): points, holes and
+// regions.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "io/note_counter.hpp"
+#include "io/read_node.hpp"
+#include "io/rows.hpp"
+#include "io/text.hpp"
+#include "mesher/input_file.hpp"
+
+namespace mesher {
+
+/// What becomes of a `.node` file beside a `.poly` file without points.
+enum class PointsBeside : std::uint8_t { read, ignore };
+
+/// Of a Pslg or a Plc.
+template <class Input>
+inline constexpr int kDimensionOf = std::tuple_size_v<decltype(Input::Vertex::at)>;
+
+// Requires: `header` is that of the current line.
+template <class Input>
+void read_point_rows(text::FieldLines& lines, const NodeHeader& header, Input& input,
+                     FileParts& parts) {
+  constexpr int kD = kDimensionOf<Input>;
+  input.attributes_per_point = static_cast<std::size_t>(header.attributes);
+  while (std::cmp_less(input.points.size(), header.count)) {
+    const text::Line& line = next_row(lines, 1, input.points.size(), header.count, "points");
+    require_node_fields(lines, header);
+    const Point<kD> at = read_node_point<kD>(line, CoordinateRule::input);
+    for (std::size_t i = 0; i < input.attributes_per_point; ++i) {
+      input.attributes.push_back(line.finite(kD + 1 + i));
+    }
+    const std::int64_t marker = header.markers == 0 ? 0 : line.integer(line.size() - 1);
+    input.points.push_back({FeatureId{line.integer(0)}, at, marker});
+    parts.points.push_back(line.position(0));
+  }
+}
+
+/// The points, those of the `.node` file beside if there are none and it is to be read.
+/// Throws: Error as read_pslg and read_plc; so do the others.
+template <class Input>
+void read_point_table(text::FieldLines& lines, PointsBeside beside, Input& input,
+                      FileParts& parts) {
+  const auto read_from = [&](text::FieldLines& from, const std::string& path) {
+    const NodeHeader header = read_node_header(header_row(from, path), kDimensionOf<Input>);
+    parts.point_file = path;
+    read_point_rows(from, header, input, parts);
+    return header.count;
+  };
+  if (read_from(lines, parts.file) > 0 || beside == PointsBeside::ignore) return;
+  const std::string path = text::with_extension(parts.file, ".node");
+  if (!std::filesystem::exists(path)) return;
+  const std::string content = text::read_file(path);
+  text::FieldLines others(path, content);
+  read_from(others, path);
+  require_end(others, "points");
+}
+
+template <class Input>
+void read_hole_table(text::FieldLines& lines, Input& input, FileParts& parts) {
+  constexpr int kD = kDimensionOf<Input>;
+  const text::Line& header = next_header(lines, "holes");
+  const std::int64_t count = read_count(header, 0);
+  require_header(header, 1);
+  while (std::cmp_less(parts.holes.size(), count)) {
+    const text::Line& line = next_row(lines, kD + 1, parts.holes.size(), count, "holes");
+    require_fields(line, kD + 1, kD + 1);
+    input.holes.push_back(
+        {FeatureId{line.integer(0)}, read_node_point<kD>(line, CoordinateRule::input)});
+    parts.holes.push_back(line.position(0));
+  }
+}
+
+// The limit of size of a region. D: the dimension.
+template <int D>
+std::optional<double> region_limit(const text::Line& line, NoteCounter& notes) {
+  if (line.size() < D + 3) {
+    notes.add(std::string("a region with one value: taken as its attribute, not as a limit of ") +
+                  (D == 2 ? "area" : "volume"),
+              line.place(D + 1));
+    return std::nullopt;
+  }
+  const double limit = line.finite(D + 2);
+  return limit > 0 ? std::optional(limit) : std::nullopt;
+}
+
+/// To the end of the file. There may be no table.
+template <class Input>
+void read_region_table(text::FieldLines& lines, Input& input, FileParts& parts,
+                       NoteCounter& notes) {
+  constexpr int kD = kDimensionOf<Input>;
+  if (!lines.next()) return;
+  const std::int64_t count = read_count(lines.line(), 0);
+  require_header(lines.line(), 1);
+  while (std::cmp_less(parts.regions.size(), count)) {
+    const text::Line& line = next_row(lines, kD + 2, parts.regions.size(), count, "regions");
+    require_fields(line, kD + 2, kD + 3);
+    input.regions.push_back({FeatureId{line.integer(0)},
+                             read_node_point<kD>(line, CoordinateRule::input), line.finite(kD + 1),
+                             region_limit<kD>(line, notes)});
+    parts.regions.push_back(line.position(0));
+  }
+  require_end(lines, "regions");
+}
+
+}  // namespace mesher
