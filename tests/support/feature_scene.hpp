@@ -129,13 +129,6 @@ class FeatureScene {
     for_each([&](const auto& f) { crowded = crowded || ball.has(f); });
     return crowded;
   }
-  double naive_spacing(const Point<3>& x, const Polygon& f, double cap) const {
-    double least = cap;
-    for_each([&](const auto& g) {
-      if (disjoint(f, g)) least = std::min(least, std::sqrt(mesher::detail::distance2_to(x, g)));
-    });
-    return least;
-  }
 
  private:
   bool points_tree_has(const Point<3>& p) const {

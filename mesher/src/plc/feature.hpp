@@ -8,14 +8,15 @@
 // Records are found by what they are (an edge by its ends, a polygon by its loops and what lies on
 // it), so calls about them are recognised again; they stay where they are until an update ends.
 //
-// What the program asks about them, of InputFeatures<S> (plc/input_features.hpp):
+// What the program asks about them:
 //
-//   near(s, place, R)      the features within R of a place, in canonical order     (observation)
-//   crowded(s, piece)      whether a piece of an edge has to be split [rules C]     (observation)
-//   spacing(s, x, f, cap)  how far x, on f, is from what f has nothing in common
-//                          with, at most cap                                        (observation)
-//   common(f, g, x, store) what two features share, of several the nearest to x: an edge, a point,
-//                          or nothing; a function of the two alone (plc/feature_search.hpp)
+//   crowded(s, piece)       whether a piece of an edge has to be split [rules C]; an observation of
+//                           InputFeatures<S> (plc/input_features.hpp)
+//   find_near(place, R)     the features within R of a place, in canonical order; Complete asks
+//   this
+//                           of the surroundings of its cell, which it observes as it is
+//   common(f, g, x, store)  what two features share, of several the nearest to x: an edge, a point,
+//                           or nothing; a function of the two alone (both: plc/feature_search.hpp)
 #pragma once
 
 #include <algorithm>
@@ -175,34 +176,6 @@ struct EdgePiece {
       for (const double x : at) sink.number(std::bit_cast<std::uint64_t>(x));
     }
     for (const Label& l : {p.lo, p.hi}) sink.number(l.bits());
-  }
-};
-
-/// A polygon as an argument of traced functions: equal by identity, ordered by its corners.
-struct PolygonRef {
-  const Polygon* f = nullptr;
-
-  const Polygon& operator*() const noexcept { return *f; }
-  const Polygon* operator->() const noexcept { return f; }
-  friend bool operator==(const PolygonRef&, const PolygonRef&) = default;
-  friend std::partial_ordering operator<=>(const PolygonRef& x, const PolygonRef& y) {
-    if (const auto c = x.f->places <=> y.f->places; c != 0) return c;
-    if (const auto c = x.f->loop_end <=> y.f->loop_end; c != 0) return c;
-    return x.f->inside <=> y.f->inside;
-  }
-  friend std::uint64_t hash_value(const PolygonRef& r) noexcept { return sac::mix(r.f->self); }
-  friend std::ostream& operator<<(std::ostream& out, const PolygonRef& r) {
-    const char* separator = "(";
-    for (const double x : r.f->plane.origin) out << separator << x, separator = " ";
-    return out << " polygon of " << r.f->places.size() << ')';
-  }
-  friend void label_bytes(sac::LabelSink& sink, const PolygonRef& r) {
-    for (const auto* places : {&r.f->places, &r.f->inside}) {
-      for (const Point<3>& at : *places) {
-        for (const double x : at) sink.number(std::bit_cast<std::uint64_t>(x));
-      }
-    }
-    for (const std::uint32_t end : r.f->loop_end) sink.number(end);
   }
 };
 

@@ -8,7 +8,8 @@
 
 namespace mesher::detail {
 
-/// Whether two features have nothing in common: no corner, no end, and none lies on the other.
+/// Whether an edge and a feature have nothing in common: no corner, no end, and none lies on the
+/// other.
 [[nodiscard]] inline bool disjoint(const Edge& e, const Vertex<3>& v) { return !e.has_end(v.self); }
 [[nodiscard]] inline bool disjoint(const Edge& e, const Edge& t) {
   return !e.has_end(t.a) && !e.has_end(t.b);
@@ -16,9 +17,6 @@ namespace mesher::detail {
 [[nodiscard]] inline bool disjoint(const Edge& e, const Polygon& f) {
   return !f.has(e.a) && !f.has(e.b);
 }
-[[nodiscard]] inline bool disjoint(const Polygon& f, const Vertex<3>& v) { return !f.has(v.self); }
-[[nodiscard]] inline bool disjoint(const Polygon& f, const Edge& e) { return disjoint(e, f); }
-[[nodiscard]] bool disjoint(const Polygon& f, const Polygon& g);
 
 /// Squared distance of a place from a feature.
 [[nodiscard]] inline double distance2_to(const Point<3>& x, const Vertex<3>& v) {
@@ -37,6 +35,10 @@ namespace mesher::detail {
 [[nodiscard]] inline FeatureExtent<3> extent_of(const Polygon& f) {
   return {f.middle, f.middle, f.reach + f.thickness};
 }
+
+/// How far a feature may be off a line or a plane.
+[[nodiscard]] inline double thickness_of(const Edge&) { return 0; }
+[[nodiscard]] inline double thickness_of(const Polygon& f) { return f.thickness; }
 
 /// The edges and polygons within `radius` of a place, in canonical order.
 /// Cost: O(log L/s), and what is near.
@@ -104,22 +106,5 @@ struct SpacePieces {
   using Store = FeatureStore;
   [[nodiscard]] static bool alive(const EdgePiece& piece) { return piece.edge->alive; }
 };
-
-/// How far x is from the features that f has nothing in common with, at most `cap`.
-/// Cost: O(log(cap / answer) log L/s), and what is within twice the answer.
-template <class S>
-[[nodiscard]] double find_spacing(const Point<3>& x, const Polygon& f, double cap,
-                                  FeatureStore& store, const Features<S, 3>& points) {
-  double nearest2 = cap * cap;
-  const auto look = [&](const auto& g) {
-    if (disjoint(f, g)) nearest2 = std::min(nearest2, distance2_to(x, g));
-    return false;
-  };
-  for (double r = cap * 0x1p-10;; r *= 2) {
-    store.visit_near(x, x, std::min(r, cap), look);
-    points.visit_points_in(around(x, std::min(r, cap)), look);
-    if (r >= cap || nearest2 <= r * r) return std::sqrt(nearest2);
-  }
-}
 
 }  // namespace mesher::detail

@@ -57,7 +57,7 @@ void Traced::erase(const Polygon& polygon) {
   store_.take(f);
 }
 
-void Traced::point_came(const Vertex<3>& v) noexcept { tell_came(v); }
-void Traced::point_went(const Vertex<3>& v) noexcept { tell_went(v); }
+void Traced::point_came(const Vertex<3>& v) noexcept { crowding_.came(v); }
+void Traced::point_went(const Vertex<3>& v) noexcept { crowding_.went(v); }
 
 }  // namespace mesher::detail

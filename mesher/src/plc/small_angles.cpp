@@ -45,17 +45,14 @@ bool SmallAngles::has(const Feature& f, VertexHandle point) const {
                                          : store_.polygons()[f.handle()].has(point);
 }
 
-// The edges and polygons that a vertex with this role lies on.
-std::vector<Feature> SmallAngles::features_of(const Role& role) const {
-  std::vector<Feature> all;
-  if (const PolygonHandle f = polygon_of(role)) all.emplace_back(store_.polygons()[f]);
-  if (const EdgeHandle e = edge_of(role)) {
-    all.emplace_back(store_.edges()[e]);
-    for (const Polygon* f : near_.polygons) {
-      if (f->has_edge(e)) all.emplace_back(*f);
-    }
-  }
-  return all;
+template <class Visit>
+bool SmallAngles::visit_features_of(const Role& role, Visit&& visit) const {
+  if (const PolygonHandle f = polygon_of(role)) return visit(Feature(store_.polygons()[f]));
+  const EdgeHandle e = edge_of(role);
+  if (e == 0) return false;
+  return visit(Feature(store_.edges()[e])) ||
+         std::any_of(near_.polygons.begin(), near_.polygons.end(),
+                     [&](const Polygon* f) { return f->has_edge(e) && visit(Feature(*f)); });
 }
 
 Feature SmallAngles::shared(const Feature& f, const Feature& g, const Point<3>& x) const {
@@ -104,17 +101,19 @@ double SmallAngles::kept_shell(const Standing& v, const Feature& h) const {
 template <class Foot>
 auto SmallAngles::turned(const Standing& v, const Feature& g, Foot&& foot_on_g) const
     -> std::optional<Turned> {
-  for (const Feature& f : features_of(v.role)) {
+  std::optional<Turned> found;
+  visit_features_of(v.role, [&](const Feature& f) {
     const Feature h = shared(f, g, v.v.p);
-    if (!h || h == f || h == g) continue;
+    if (!h || h == f || h == g) return false;
     const Point<3> hinge = foot(h, v.v.p);
     const double away = distance(v, h);
     const Point<3> to = minus(foot_on_g(v.v.p), hinge);
     const double cosine = std::sqrt(squared(to)) / away;
-    if (away == 0 || cosine < kTurned) continue;
-    return Turned{plus(hinge, scaled(1 / cosine, to)), h, away};
-  }
-  return std::nullopt;
+    if (away == 0 || cosine < kTurned) return false;
+    found = Turned{plus(hinge, scaled(1 / cosine, to)), h, away};
+    return true;
+  });
+  return found;
 }
 
 std::optional<Placed> SmallAngles::copy(const Standing& v, const Edge& g) const {
@@ -148,8 +147,7 @@ bool SmallAngles::share_shell(const Standing& a, const Standing& b) const {
   for (const VertexHandle p : store_.polygons()[polygon_of(b.role)].points) {
     const double away = shell(b, p);
     if (away == 0 || shell(a, p) != away) continue;
-    const auto on_a = features_of(a.role);
-    return std::any_of(on_a.begin(), on_a.end(), [&](const Feature& f) { return has(f, p); });
+    return visit_features_of(a.role, [&](const Feature& f) { return has(f, p); });
   }
   return false;
 }
@@ -163,14 +161,10 @@ bool SmallAngles::keeps(const Standing& a, const Standing& b) const {
     return h && length2 < std::min(squared_distance(a.v.p, foot(h, a.v.p)),
                                    squared_distance(b.v.p, foot(h, b.v.p)));
   };
-  const std::vector<Feature> of_b = features_of(b.role);
-  for (const Feature& f : features_of(a.role)) {
-    if (on(b, f)) continue;
-    for (const Feature& g : of_b) {
-      if (!on(a, g) && is_wide(f, g)) return true;
-    }
-  }
-  return false;
+  return visit_features_of(a.role, [&](const Feature& f) {
+    return !on(b, f) &&
+           visit_features_of(b.role, [&](const Feature& g) { return !on(a, g) && is_wide(f, g); });
+  });
 }
 
 }  // namespace mesher::detail

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "plc/feature_store.hpp"
 #include "plc/placed.hpp"
@@ -41,7 +40,10 @@ class SmallAngles {
   [[nodiscard]] bool on(const Standing& v, const Feature& f) const;
   [[nodiscard]] bool has(const Feature& f, VertexHandle point) const;
   [[nodiscard]] bool share_shell(const Standing& a, const Standing& b) const;
-  [[nodiscard]] std::vector<Feature> features_of(const Role& role) const;
+  /// Calls visit(feature) for the edges and polygons that a vertex with this role lies on, until
+  /// one returns true; returns whether one has.
+  template <class Visit>
+  bool visit_features_of(const Role& role, Visit&& visit) const;
   [[nodiscard]] Feature shared(const Feature& f, const Feature& g, const Point<3>& x) const;
   [[nodiscard]] Point<3> foot(const Feature& h, const Point<3>& x) const;
   /// A place at distance `away` from what two features share.

@@ -1,11 +1,10 @@
-// Observations of features: after edits, calls run again if their answers have changed, and what
-// they know is what a look at all features says.
+// Observations of crowding in space: after edits, calls run again if their answers have changed,
+// and what they know is what a look at all features says.
 #include "plc/input_features.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <memory>
-#include <variant>
 #include <vector>
 
 #include "feature_scene.hpp"
@@ -13,27 +12,14 @@
 namespace {
 
 using namespace mesher::detail;
-using mesher::Point;
-
-struct NearQuestion {
-  Point<3> place;
-  double radius;
-};
-struct SpacingQuestion {
-  Point<3> place;
-  const Polygon* polygon;
-  double cap;
-};
-using Question = std::variant<NearQuestion, EdgePiece, SpacingQuestion>;
-using Answer = std::variant<FeaturesNear, bool, double>;
 
 // One call for each question; answers are kept, and who ran is noted.
 struct Asking {
   explicit Asking(std::uint64_t seed) : scene(seed, engine) { engine.set_environment(this); }
   sac::Engine engine;
   support::FeatureScene<sac::Scope> scene;
-  std::vector<Question> questions;
-  std::vector<Answer> answers;
+  std::vector<EdgePiece> questions;
+  std::vector<bool> answers;
   std::vector<bool> ran;
 };
 
@@ -41,17 +27,8 @@ struct Ask {
   static constexpr std::string_view kName = "ask";
   void operator()(sac::Scope& s, std::size_t i) const {
     auto& all = s.environment<Asking>();
-    auto& features = all.scene.features();
     all.ran[i] = true;
-    const Question& question = all.questions[i];
-    if (const auto* near = std::get_if<NearQuestion>(&question)) {
-      all.answers[i] = features.near(s, near->place, near->radius);
-    } else if (const auto* piece = std::get_if<EdgePiece>(&question)) {
-      all.answers[i] = features.crowded(s, *piece);
-    } else {
-      const auto& [place, polygon, cap] = std::get<SpacingQuestion>(question);
-      all.answers[i] = features.spacing(s, place, *polygon, cap);
-    }
+    all.answers[i] = all.scene.features().crowded(s, all.questions[i]);
   }
 };
 inline constexpr Ask ask{};
@@ -64,18 +41,7 @@ struct AskAll {
 };
 inline constexpr AskAll ask_all{};
 
-Answer naive_answer(const Asking& all, const Question& question) {
-  if (const auto* near = std::get_if<NearQuestion>(&question)) {
-    return all.scene.naive_near(near->place, near->radius);
-  }
-  if (const auto* piece = std::get_if<EdgePiece>(&question)) {
-    return all.scene.naive_crowded(*piece);
-  }
-  const auto& [place, polygon, cap] = std::get<SpacingQuestion>(question);
-  return all.scene.naive_spacing(place, *polygon, cap);
-}
-
-// Questions about features that stay, and about places; then what comes and goes.
+// Questions about features that stay; then what comes and goes.
 class Editor {
  public:
   explicit Editor(std::uint64_t seed) : asking_(std::make_unique<Asking>(seed)) {
@@ -83,13 +49,9 @@ class Editor {
     asking_->engine.set_audit(true);
     for (int i = 0; i < 12; ++i) {
       EdgePiece piece{&scene.add_edge()};
-      asking_->questions.push_back(piece);
-      asking_->questions.push_back(EdgePiece{piece.edge, piece.lo, piece.middle()});
-      const Polygon& f = scene.add_polygon();
-      const Point<3> x = nearest_place(f, scene.place());
-      asking_->questions.push_back(SpacingQuestion{x, &f, scene.radius() + 0x1p-8});
-      for (int k = 0; k < 3; ++k) {
-        asking_->questions.push_back(NearQuestion{scene.place(), scene.radius()});
+      for (int halved = 0; halved < 5; ++halved) {
+        asking_->questions.push_back(piece);
+        piece = {piece.edge, piece.lo, piece.middle()};
       }
     }
     asking_->answers.resize(asking_->questions.size());
@@ -133,12 +95,12 @@ class Editor {
     asking_->scene.features().commit();
   }
 
-  void require_right(const std::vector<Answer>& before) {
+  void require_right(const std::vector<bool>& before) {
     auto& all = *asking_;
     all.scene.features().check_invariants();
     for (std::size_t i = 0; i < all.questions.size(); ++i) {
       CAPTURE(i);
-      REQUIRE(all.answers[i] == naive_answer(all, all.questions[i]));
+      REQUIRE(all.answers[i] == all.scene.naive_crowded(all.questions[i]));
       if (all.answers[i] != before[i]) REQUIRE(all.ran[i]);
     }
   }
@@ -181,7 +143,7 @@ TEST_CASE("After edits every answer is that of a look at all features, and no ot
   std::size_t changed = 0;
   for (int round = 0; round < 80; ++round) {
     CAPTURE(round);
-    const std::vector<Answer> before = all.answers;
+    const std::vector<bool> before = all.answers;
     editor.edit_some();
     editor.update();
     editor.require_right(before);
@@ -197,7 +159,7 @@ TEST_CASE("One edit runs only the calls whose answers it changes") {
   auto& all = editor.asking();
   for (int round = 0; round < 120; ++round) {
     CAPTURE(round);
-    const std::vector<Answer> before = all.answers;
+    const std::vector<bool> before = all.answers;
     editor.edit();
     editor.update();
     for (std::size_t i = 0; i < before.size(); ++i) {
@@ -214,7 +176,7 @@ TEST_CASE("Edits that are taken back leave no trace") {
   auto& all = editor.asking();
   const auto& store = all.scene.store();
   for (int round = 0; round < 40; ++round) {
-    const std::vector<Answer> before = all.answers;
+    const std::vector<bool> before = all.answers;
     const std::size_t edges = store.live_edges(), polygons = store.live_polygons();
     all.scene.add_edge();
     all.scene.add_polygon();
