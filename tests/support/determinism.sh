@@ -27,6 +27,14 @@ write_edits() {
   }'
 }
 
+# Two triangles that lean on each other and a segment come; one triangle goes.
+write_complex() {
+  printf '%s\n' begin '+point 9001 0.31 0.32 0.33' '+point 9002 0.71 0.33 0.37' \
+    '+point 9003 0.49 0.72 0.41' '+point 9004 0.52 0.38 0.74' '+point 9005 0.9 0.9 0.1' \
+    '+point 9006 0.8 0.95 0.9' commit '+polygon 1 9001 9002 9003' '+polygon 2 9001 9002 9004' \
+    '+segment 3 9005 9006' '-polygon 1'
+}
+
 # Texts of traces name modifiables by where they lie, and with SAC_CHECKS they take more memory: all
 # builds are without.
 build_tool() {  # COMPILER CONFIGURATION FOLDER
@@ -64,8 +72,16 @@ write_files() {  # TOOLS FOLDER
   done
   for kind in "${line_kinds[@]}"; do
     "$tool" gen "$kind" --n $points --seed 3 -o "$kind.poly"
+    "$tool" mesh "$kind.poly" --quiet -o "$kind.lines.node" -o "$kind.lines.vtu"
+    "$tool" mesh "$kind.poly" --quiet --static -o "$kind.lines.static.node"
+    cmp "$kind.lines.ele" "$kind.lines.static.ele"
   done
   "$tool" edit uniform.node --script edits.txt --quiet -o edited.node
+  write_complex >complex.txt
+  "$tool" edit uniform.space.node --script complex.txt --quiet -o complex.node -o complex.vtu
+  "$tool" edit uniform.space.node --script complex.txt --quiet --static -o complex.static.node
+  cmp complex.node complex.static.node
+  cmp complex.ele complex.static.ele
   "$tool" mesh "$source_folder/tests/data/places.node" --quiet -o places.node
   "$tool" trace uniform.node --script edits.txt --quiet --edges -o edited.trace
   for example in $(example_names "$1/traces"); do

@@ -47,11 +47,13 @@ class Editor {
   explicit Editor(std::uint64_t seed) : asking_(std::make_unique<Asking>(seed)) {
     auto& scene = asking_->scene;
     asking_->engine.set_audit(true);
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 40; ++i) {
       EdgePiece piece{&scene.add_edge()};
-      for (int halved = 0; halved < 5; ++halved) {
+      for (int halved = 0; halved < 14; ++halved) {
         asking_->questions.push_back(piece);
-        piece = {piece.edge, piece.lo, piece.middle()};
+        const bool upper = scene.random().below(2) == 1;
+        piece = upper ? EdgePiece{piece.edge, piece.middle(), piece.hi}
+                      : EdgePiece{piece.edge, piece.lo, piece.middle()};
       }
     }
     asking_->answers.resize(asking_->questions.size());
