@@ -12,9 +12,9 @@ enum Mark : std::uint8_t { kUnseen = 0, kInside, kOutside };
 }  // namespace
 
 /// Of a point and the ball of a simplex, as far as the filter is sure.
-template <int D>
-[[gnu::always_inline]] inline Side DelaunayKernel<D>::quick_side(const Ids& c,
-                                                                 const Point<D>& p) const {
+template <int D, class Layout>
+[[gnu::always_inline]] inline Side DelaunayKernel<D, Layout>::quick_side(const Ids& c,
+                                                                         const Point<D>& p) const {
   if constexpr (D == 2) {
     return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], p, unit_.exact_to());
   } else {
@@ -24,51 +24,71 @@ template <int D>
 }
 
 /// `tie`: whether p is known to be on the ball.
-template <int D>
-bool DelaunayKernel<D>::ball_holds_exactly(const Ids& c, const Point<D>& p, bool tie) const {
+template <int D, class Layout>
+bool DelaunayKernel<D, Layout>::ball_holds_exactly(const Ids& c, const Point<D>& p,
+                                                   bool tie) const {
   const auto q = places_of(c);
   return (tie ? break_tie(q, p) : in_ball(q, p)) > 0;
 }
 
-template <int D>
-bool DelaunayKernel<D>::ball_holds(const Ids& c, const Point<D>& p) const {
+template <int D, class Layout>
+bool DelaunayKernel<D, Layout>::ball_holds(const Ids& c, const Point<D>& p) const {
   const Side side = quick_side(c, p);
   if (side == Side::inside || side == Side::outside) return side == Side::inside;
   return ball_holds_exactly(c, p, side == Side::tie);
 }
 
-template <int D>
-[[gnu::always_inline]] inline bool DelaunayKernel<D>::conflicts_quickly(std::uint32_t s,
-                                                                        const Point<D>& p) const {
-  const Side side = quick_side(store_.corners(s), p);
+template <int D, class Layout>
+[[gnu::always_inline]] inline bool DelaunayKernel<D, Layout>::conflicts_quickly(
+    std::uint32_t s, const Point<D>& p) const {
+  Side side;
+  if constexpr (kHasBalls) {
+    side = store_.ball(s).side(p);
+  } else {
+    side = quick_side(store_.corners(s), p);
+  }
   if (side == Side::inside || side == Side::outside) return side == Side::inside;
   return conflicts_slowly(s, p, side == Side::tie);
 }
 
-template <int D>
-bool DelaunayKernel<D>::conflicts(std::uint32_t s, const Point<D>& p) const {
+template <int D, class Layout>
+bool DelaunayKernel<D, Layout>::conflicts(std::uint32_t s, const Point<D>& p) const {
   return conflicts_quickly(s, p);
 }
 
 /// What the filter leaves: ties, ghosts, what is nearly a tie.
-template <int D>
-[[gnu::noinline]] bool DelaunayKernel<D>::conflicts_slowly(std::uint32_t s, const Point<D>& p,
-                                                           bool tie) const {
+template <int D, class Layout>
+[[gnu::noinline]] bool DelaunayKernel<D, Layout>::conflicts_slowly(std::uint32_t s,
+                                                                   const Point<D>& p,
+                                                                   bool tie) const {
   const std::uint32_t infinite = corner_of(s, kInfinite);
   if (infinite <= D) return ghost_conflicts(s, infinite, p);
   return ball_holds_exactly(store_.corners(s), p, tie);
 }
 
 /// `i`: the corner at infinity.
-template <int D>
-bool DelaunayKernel<D>::ghost_conflicts(std::uint32_t s, std::size_t i, const Point<D>& p) const {
+template <int D, class Layout>
+bool DelaunayKernel<D, Layout>::ghost_conflicts(std::uint32_t s, std::size_t i,
+                                                const Point<D>& p) const {
   const int sign = side(store_.corners(s), i, p);
   return sign != 0 ? sign > 0 : conflicts(store_.across(s)[i] >> 2, p);
 }
 
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::dig(std::uint32_t v, std::uint32_t s) {
+  try {
+    find_doomed(v, s);
+    make_room_for_fill();
+  } catch (...) {
+    undo_dig();
+    throw;
+  }
+  number_link();
+}
+
 /// The conflicting simplices from `start` on, and their borders.
-template <int D>
-void DelaunayKernel<D>::dig(std::uint32_t v, std::uint32_t start) {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::find_doomed(std::uint32_t v, std::uint32_t start) {
   const Point<D> p = places_[v];
   cavity_.push_back(start);
   mark_[start] = kInside;
@@ -92,16 +112,36 @@ void DelaunayKernel<D>::dig(std::uint32_t v, std::uint32_t start) {
   }
 }
 
-template <int D>
-void DelaunayKernel<D>::undo_dig() noexcept {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::undo_dig() noexcept {
   for (const std::uint32_t s : cavity_) mark_[s] = kUnseen;
   for (const std::uint32_t s : outside_) mark_[s] = kUnseen;
   cavity_.clear();
   outside_.clear();
   borders_.clear();
+  forget_link();
+}
+
+/// The simplices around v, over facets that have it as a corner. (Marks are 0 again afterwards.)
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::collect_star(std::uint32_t v, std::vector<std::uint32_t>& star) {
+  star.push_back(simplex_of_[v]);
+  mark_[star.front()] = kInside;
+  for (std::size_t k = 0; k < star.size(); ++k) {
+    const Ids& corners = store_.corners(star[k]);
+    for (std::uint32_t i = 0; i <= D; ++i) {
+      const std::uint32_t other = store_.across(star[k])[i] >> 2;
+      if (corners[i] == v || mark_[other] == kInside) continue;
+      star.push_back(other);
+      mark_[other] = kInside;
+    }
+  }
+  for (const std::uint32_t s : star) mark_[s] = kUnseen;
 }
 
 template class DelaunayKernel<2>;
 template class DelaunayKernel<3>;
+template class DelaunayKernel<2, BallLayout<2>>;
+template class DelaunayKernel<3, BallLayout<3>>;
 
 }  // namespace mesher::detail
