@@ -46,7 +46,10 @@ namespace mesher::detail {
 /// The vertex that makes ghosts of simplices.
 inline constexpr std::uint32_t kInfinite = 0;
 
-struct NoBalls {};
+/// In place of the balls' batch where there are none.
+struct NoBalls {
+  [[nodiscard]] Shape shape(std::size_t) const noexcept { return {}; }
+};
 
 template <int D, class Layout = ArrayLayout<D>>
 class DelaunayKernel {
@@ -89,16 +92,13 @@ class DelaunayKernel {
   void undo_dig() noexcept;
   /// Makes v a vertex. Requires: dug.
   void fill(std::uint32_t v) noexcept;
-  /// The simplices that the last insertion made.
-  [[nodiscard]] const std::vector<std::uint32_t>& made() const noexcept requires kHasBalls {
-    return made_;
-  }
+  /// The simplices that the last insertion made. Requires (and for all that follows on them): the
+  /// layout has balls.
+  [[nodiscard]] const std::vector<std::uint32_t>& made() const noexcept { return made_; }
   /// Of made()[k]; not a number for ghosts.
-  [[nodiscard]] Shape shape_made(std::size_t k) const noexcept requires kHasBalls {
-    return balls_.shape(k);
-  }
+  [[nodiscard]] Shape shape_made(std::size_t k) const noexcept { return balls_.shape(k); }
   /// Computes the ball of one simplex again. Returns: its shape; not a number for ghosts.
-  Shape measure(std::uint32_t s) noexcept requires kHasBalls;
+  Shape measure(std::uint32_t s) noexcept;
   /// The simplices with corner v, ghosts too, into `star`, which is empty before. Requires: has(v).
   void collect_star(std::uint32_t v, std::vector<std::uint32_t>& star);
 
@@ -170,11 +170,10 @@ class DelaunayKernel {
   void number_link() noexcept;
   void forget_link() noexcept;
   void place_borders() noexcept;
-  void join_borders() noexcept requires(D == 2);
-  void join_borders() noexcept requires(D == 3);
+  void join_borders() noexcept;
   void join_many_borders() noexcept;
-  void measure_made(std::uint32_t v) noexcept requires kHasBalls;
-  void set_ball(std::size_t k, std::uint32_t s, std::size_t apex) noexcept requires kHasBalls;
+  void measure_made(std::uint32_t v) noexcept;
+  void set_ball(std::size_t k, std::uint32_t s, std::size_t apex) noexcept;
 
   [[nodiscard]] bool has_finite_beside(const std::vector<std::uint32_t>& star,
                                        std::uint32_t v) const;

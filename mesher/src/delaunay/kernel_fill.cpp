@@ -78,26 +78,22 @@ void DelaunayKernel<D, Layout>::place_borders() noexcept {
 }
 
 /// Joins the new simplices with each other. In the plane each vertex of the border begins one edge
-/// of it, counterclockwise.
+/// of it, counterclockwise. In space each directed edge of the border belongs to one of its facets,
+/// and the opposite one to the neighbour: a table by the numbers of both ends in the link.
 template <int D, class Layout>
-void DelaunayKernel<D, Layout>::join_borders() noexcept requires(D == 2) {
-  for (std::uint32_t k = 0; k < borders_.size(); ++k) {
-    const Border& b = borders_[k];
-    local_[b.corners[kFacet<2>[b.slot][0]]] = k;
-  }
-  for (std::uint32_t k = 0; k < borders_.size(); ++k) {
-    const Border& b = borders_[k];
-    const auto [from, to] = kFacet<2>[b.slot];
-    const std::uint32_t next = local_[b.corners[to]];
-    store_.join(cavity_[k], from, cavity_[next], kFacet<2>[borders_[next].slot][1]);
-  }
-}
-
-/// In space each directed edge of the border belongs to one of its facets, and the opposite one to
-/// the neighbour: a table by the numbers of both ends in the link.
-template <int D, class Layout>
-void DelaunayKernel<D, Layout>::join_borders() noexcept requires(D == 3) {
-  if (link_.size() > kMostInTable) {
+void DelaunayKernel<D, Layout>::join_borders() noexcept {
+  if constexpr (D == 2) {
+    for (std::uint32_t k = 0; k < borders_.size(); ++k) {
+      const Border& b = borders_[k];
+      local_[b.corners[kFacet<2>[b.slot][0]]] = k;
+    }
+    for (std::uint32_t k = 0; k < borders_.size(); ++k) {
+      const Border& b = borders_[k];
+      const auto [from, to] = kFacet<2>[b.slot];
+      const std::uint32_t next = local_[b.corners[to]];
+      store_.join(cavity_[k], from, cavity_[next], kFacet<2>[borders_[next].slot][1]);
+    }
+  } else if (link_.size() > kMostInTable) {
     join_many_borders();
   } else {
     const int shift = std::bit_width(link_.size());

@@ -35,8 +35,9 @@ Point<3> exact_centre(const Point<3>& p, const std::array<const Point<3>*, 3>& c
 /// Takes the k-th ball of the batch over: that of simplex s, relative to its corner `apex`. A flat
 /// one is computed exactly first.
 template <int D, class Layout>
-[[gnu::always_inline]] inline void DelaunayKernel<D, Layout>::set_ball(
-    std::size_t k, std::uint32_t s, std::size_t apex) noexcept requires kHasBalls {
+[[gnu::always_inline]] inline void DelaunayKernel<D, Layout>::set_ball(std::size_t k,
+                                                                       std::uint32_t s,
+                                                                       std::size_t apex) noexcept {
   if (balls_.is_flat(k) && !is_ghost(s)) [[unlikely]] {
     const Ids& c = store_.corners(s);
     std::array<const Point<D>*, D> corners;
@@ -47,7 +48,7 @@ template <int D, class Layout>
 }
 
 template <int D, class Layout>
-Shape DelaunayKernel<D, Layout>::measure(std::uint32_t s) noexcept requires kHasBalls {
+Shape DelaunayKernel<D, Layout>::measure(std::uint32_t s) noexcept {
   const Ids& c = store_.corners(s);
   const Point<D>& p = places_[c[0]];
   balls_.start(p, 1);
@@ -62,7 +63,7 @@ Shape DelaunayKernel<D, Layout>::measure(std::uint32_t s) noexcept requires kHas
 /// The new simplices, from the borders. In space a vertex of the link is in six of them: relative
 /// to v it is computed once.
 template <int D, class Layout>
-void DelaunayKernel<D, Layout>::measure_made(std::uint32_t v) noexcept requires kHasBalls {
+void DelaunayKernel<D, Layout>::measure_made(std::uint32_t v) noexcept {
   const Point<D> p = places_[v];
   balls_.start(p, borders_.size());
   if constexpr (D == 2) {

@@ -33,13 +33,9 @@ class SimplexStore {
   [[nodiscard]] const Ids& across(std::uint32_t s) const noexcept { return all_.across(s); }
   [[nodiscard]] Ids& corners(std::uint32_t s) noexcept { return all_.corners(s); }
   [[nodiscard]] Ids& across(std::uint32_t s) noexcept { return all_.across(s); }
-  [[nodiscard]] const SimplexBall<D>& ball(
-      std::uint32_t s) const noexcept requires Layout::kHasBalls {
-    return all_.ball(s);
-  }
-  [[nodiscard]] SimplexBall<D>& ball(std::uint32_t s) noexcept requires Layout::kHasBalls {
-    return all_.ball(s);
-  }
+  /// If the layout has balls.
+  [[nodiscard]] const SimplexBall<D>& ball(std::uint32_t s) const noexcept { return all_.ball(s); }
+  [[nodiscard]] SimplexBall<D>& ball(std::uint32_t s) noexcept { return all_.ball(s); }
 
   void reserve(std::size_t n) { all_.reserve(n); }
   /// The next n calls of take() will find a place. Strong guarantee.
