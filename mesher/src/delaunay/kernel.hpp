@@ -99,8 +99,11 @@ class DelaunayKernel {
   [[nodiscard]] Shape shape_made(std::size_t k) const noexcept { return balls_.shape(k); }
   /// Computes the ball of one simplex again. Returns: its shape; not a number for ghosts.
   Shape measure(std::uint32_t s) noexcept;
-  /// The simplices with corner v, ghosts too, into `star`, which is empty before. Requires: has(v).
-  void collect_star(std::uint32_t v, std::vector<std::uint32_t>& star);
+  /// The first simplex with corner v that is_wanted(s), or kNone; ghosts are asked, too. `star` has
+  /// those that were not wanted afterwards: all, if none was. Requires: has(v).
+  template <class IsWanted>
+  std::uint32_t find_in_star(std::uint32_t v, std::vector<std::uint32_t>& star,
+                             IsWanted&& is_wanted);
 
   /// The next insertion starts its walk at vertex v. Requires: has(v).
   void walk_from(std::uint32_t v) noexcept { last_ = simplex_of_[v]; }
@@ -161,11 +164,13 @@ class DelaunayKernel {
   [[nodiscard]] int side(const Ids& corners, std::size_t i, const Point<D>& p) const;
   [[nodiscard]] bool conflicts_quickly(std::uint32_t s, const Point<D>& p) const;
   [[nodiscard]] bool conflicts_slowly(std::uint32_t s, const Point<D>& p, bool tie) const;
-  [[nodiscard]] Side quick_side(const Ids& corners, const Point<D>& p) const;
+  [[nodiscard]] Side quick_side(const Ids& corners, const Point<D>& p, double exact_to) const;
+  [[nodiscard]] bool is_tie_on_grid(const Ids& corners, const Point<D>& p) const;
   [[nodiscard]] bool ball_holds(const Ids& corners, const Point<D>& p) const;
   [[nodiscard]] bool ball_holds_exactly(const Ids& corners, const Point<D>& p, bool tie) const;
   [[nodiscard]] bool ghost_conflicts(std::uint32_t s, std::size_t i, const Point<D>& p) const;
   void find_doomed(std::uint32_t v, std::uint32_t start);
+  void fetch_around(std::uint32_t s) const;
   void make_room_for_fill();
   void number_link() noexcept;
   void forget_link() noexcept;
@@ -209,6 +214,34 @@ class DelaunayKernel {
   std::vector<Point<D>> relative_;                              // to the new vertex, as in local_
   std::unique_ptr<DelaunayKernel> star_;                        // for removal
 };
+
+/// From one to the next over facets that have v as a corner.
+template <int D, class Layout>
+template <class IsWanted>
+std::uint32_t DelaunayKernel<D, Layout>::find_in_star(std::uint32_t v,
+                                                      std::vector<std::uint32_t>& star,
+                                                      IsWanted&& is_wanted) {
+  std::uint32_t found = kNone;
+  star.assign(1, simplex_of_[v]);
+  mark_[star.front()] = 1;
+  std::size_t asked = 0;
+  for (; asked < star.size() && found == kNone; ++asked) {
+    const std::uint32_t s = star[asked];
+    if (is_wanted(s)) {
+      found = s;
+      break;
+    }
+    for (std::uint32_t i = 0; i <= D; ++i) {
+      const std::uint32_t other = store_.across(s)[i] >> 2;
+      if (store_.corners(s)[i] == v || mark_[other] != 0) continue;
+      star.push_back(other);
+      mark_[other] = 1;
+    }
+  }
+  for (const std::uint32_t s : star) mark_[s] = 0;
+  star.resize(asked);
+  return found;
+}
 
 template <int D, class Layout>
 template <class Visit>

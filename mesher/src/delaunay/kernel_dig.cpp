@@ -1,4 +1,7 @@
 // Which simplices a point conflicts with.
+#include <algorithm>
+#include <limits>
+
 #include "delaunay/ball_filter.hpp"
 #include "delaunay/kernel.hpp"
 #include "delaunay/tuple_predicates.hpp"
@@ -14,26 +17,29 @@ enum Mark : std::uint8_t { kUnseen = 0, kInside, kOutside };
 /// Of a point and the ball of a simplex, as far as the filter is sure.
 template <int D, class Layout>
 [[gnu::always_inline]] inline Side DelaunayKernel<D, Layout>::quick_side(const Ids& c,
-                                                                         const Point<D>& p) const {
+                                                                         const Point<D>& p,
+                                                                         double exact_to) const {
   if constexpr (D == 2) {
-    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], p, unit_.exact_to());
+    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], p, exact_to);
   } else {
     return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], places_[c[3]], p,
-                           unit_.exact_to());
+                           exact_to);
   }
 }
 
-/// `tie`: whether p is known to be on the ball.
+/// `tie`: whether p is known to be on the sphere: then the greatest of all is outside.
 template <int D, class Layout>
 bool DelaunayKernel<D, Layout>::ball_holds_exactly(const Ids& c, const Point<D>& p,
                                                    bool tie) const {
   const auto q = places_of(c);
-  return (tie ? break_tie(q, p) : in_ball(q, p)) > 0;
+  if (!tie) return in_ball(q, p) > 0;
+  const auto is_less = [&](const Point<D>* corner) { return *corner < p; };
+  return !std::all_of(q.begin(), q.end(), is_less) && break_tie(q, p) > 0;
 }
 
 template <int D, class Layout>
 bool DelaunayKernel<D, Layout>::ball_holds(const Ids& c, const Point<D>& p) const {
-  const Side side = quick_side(c, p);
+  const Side side = quick_side(c, p, unit_.exact_to());
   if (side == Side::inside || side == Side::outside) return side == Side::inside;
   return ball_holds_exactly(c, p, side == Side::tie);
 }
@@ -45,7 +51,7 @@ template <int D, class Layout>
   if constexpr (kHasBalls) {
     side = store_.ball(s).side(p);
   } else {
-    side = quick_side(store_.corners(s), p);
+    side = quick_side(store_.corners(s), p, unit_.exact_to());
   }
   if (side == Side::inside || side == Side::outside) return side == Side::inside;
   return conflicts_slowly(s, p, side == Side::tie);
@@ -63,7 +69,15 @@ template <int D, class Layout>
                                                                    bool tie) const {
   const std::uint32_t infinite = corner_of(s, kInfinite);
   if (infinite <= D) return ghost_conflicts(s, infinite, p);
+  if constexpr (kHasBalls) tie = is_tie_on_grid(store_.corners(s), p);
   return ball_holds_exactly(store_.corners(s), p, tie);
+}
+
+/// Most points so near to a sphere are on it, and on a grid.
+template <int D, class Layout>
+bool DelaunayKernel<D, Layout>::is_tie_on_grid(const Ids& c, const Point<D>& p) const {
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  return are_on_coarse_grid(places_of(c), p) && quick_side(c, p, kAny) == Side::tie;
 }
 
 /// `i`: the corner at infinity.
@@ -86,6 +100,14 @@ void DelaunayKernel<D, Layout>::dig(std::uint32_t v, std::uint32_t s) {
   number_link();
 }
 
+/// Soon they are asked.
+template <int D, class Layout>
+[[gnu::always_inline]] inline void DelaunayKernel<D, Layout>::fetch_around(std::uint32_t s) const {
+  for (const std::uint32_t code : store_.across(s)) {
+    __builtin_prefetch(&store_.corners(code >> 2));
+  }
+}
+
 /// The conflicting simplices from `start` on, and their borders.
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::find_doomed(std::uint32_t v, std::uint32_t start) {
@@ -101,6 +123,7 @@ void DelaunayKernel<D, Layout>::find_doomed(std::uint32_t v, std::uint32_t start
         if (conflicts_quickly(other, p)) {
           cavity_.push_back(other);
           mark_[other] = kInside;
+          if constexpr (kHasBalls) fetch_around(other);
           continue;
         }
         outside_.push_back(other);
@@ -120,23 +143,6 @@ void DelaunayKernel<D, Layout>::undo_dig() noexcept {
   outside_.clear();
   borders_.clear();
   forget_link();
-}
-
-/// The simplices around v, over facets that have it as a corner. (Marks are 0 again afterwards.)
-template <int D, class Layout>
-void DelaunayKernel<D, Layout>::collect_star(std::uint32_t v, std::vector<std::uint32_t>& star) {
-  star.push_back(simplex_of_[v]);
-  mark_[star.front()] = kInside;
-  for (std::size_t k = 0; k < star.size(); ++k) {
-    const Ids& corners = store_.corners(star[k]);
-    for (std::uint32_t i = 0; i <= D; ++i) {
-      const std::uint32_t other = store_.across(star[k])[i] >> 2;
-      if (corners[i] == v || mark_[other] == kInside) continue;
-      star.push_back(other);
-      mark_[other] = kInside;
-    }
-  }
-  for (const std::uint32_t s : star) mark_[s] = kUnseen;
 }
 
 template class DelaunayKernel<2>;

@@ -43,98 +43,83 @@ constexpr double kMost = std::numeric_limits<float>::max() / 2;
 
 }  // namespace
 
+/// Of coordinates near p, twice: see above.
 template <int D>
-void BallBatch<D>::make_room(std::size_t n) {
-  if (room_ >= n) return;
-  columns_.resize(kColumns * 2 * n);
-  room_ = 2 * n;
-}
-
-template <int D>
-void BallBatch<D>::start(const Point<D>& p, std::size_t n) noexcept {
-  p_ = p;
-  count_ = n;
-  size_ = 0;
-  for (const double x : p) size_ += std::abs(x);
+double BallBatch<D>::rounding() const noexcept {
+  double sum = 0;
+  for (const double x : p_) sum += std::abs(x);
+  return 2 * kUnit * sum;
 }
 
 template <>
-void BallBatch<2>::run() noexcept {
-  const double* const __restrict ax = column(0), * const __restrict ay = column(1);
-  const double* const __restrict bx = column(2), * const __restrict by = column(3);
-  double* const __restrict cx = column(kCentre), * const __restrict cy = column(kCentre + 1);
-  double* const __restrict radius2 = column(kRadius2), * const __restrict flat = column(kFlatness);
-  double* const __restrict inner2 = column(kInner2), * const __restrict outer2 = column(kOuter2);
-  double* const __restrict shortest2 = column(kShortest2);
-  const double px = p_[0], py = p_[1], rounding = 2 * kUnit * size_;
-  for (std::size_t k = 0; k < count_; ++k) {
-    const double a2 = ax[k] * ax[k] + ay[k] * ay[k], b2 = bx[k] * bx[k] + by[k] * by[k];
-    const double ex = ax[k] - bx[k], ey = ay[k] - by[k];
-    const double f = 0.5 / (ax[k] * by[k] - ay[k] * bx[k]);
-    const double x = (a2 * by[k] - b2 * ay[k]) * f, y = (b2 * ax[k] - a2 * bx[k]) * f;
+void BallBatch<2>::run(Block& b) const noexcept {
+  const double from_p = rounding(), px = p_[0], py = p_[1];
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    const double ax = b.corner[0][0][l], ay = b.corner[0][1][l];
+    const double bx = b.corner[1][0][l], by = b.corner[1][1][l];
+    const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by;
+    const double ex = ax - bx, ey = ay - by;
+    const double f = 0.5 / (ax * by - ay * bx);
+    const double x = (a2 * by - b2 * ay) * f, y = (b2 * ax - a2 * bx) * f;
     const double r2 = x * x + y * y, r = std::sqrt(r2);
     const double flatness = std::sqrt(a2 * b2) * (2 * f);
-    const double e = 320 * kUnit * flatness * r + rounding;
-    cx[k] = px + x, cy[k] = py + y;
-    radius2[k] = r2;
-    shortest2[k] = lesser(lesser(a2, b2), ex * ex + ey * ey);
-    inner2[k] = inner_of(r, e), outer2[k] = outer_of(r, e);
-    flat[k] = f > 0 ? flatness : std::numeric_limits<double>::infinity();
+    const double e = 320 * kUnit * flatness * r + from_p;
+    b.centre[0][l] = px + x;
+    b.centre[1][l] = py + y;
+    b.radius2[l] = r2;
+    b.shortest2[l] = lesser(lesser(a2, b2), ex * ex + ey * ey);
+    b.inner2[l] = inner_of(r, e);
+    b.outer2[l] = outer_of(r, e);
+    b.flatness[l] = f > 0 ? flatness : std::numeric_limits<double>::infinity();
   }
 }
 
 template <>
-void BallBatch<3>::run() noexcept {
-  const double* const __restrict ax = column(0), * const __restrict ay = column(1);
-  const double* const __restrict az = column(2), * const __restrict bx = column(3);
-  const double* const __restrict by = column(4), * const __restrict bz = column(5);
-  const double* const __restrict cx = column(6), * const __restrict cy = column(7);
-  const double* const __restrict cz = column(8);
-  double* const __restrict qx = column(kCentre), * const __restrict qy = column(kCentre + 1);
-  double* const __restrict qz = column(kCentre + 2), * const __restrict flat = column(kFlatness);
-  double* const __restrict radius2 = column(kRadius2);
-  double* const __restrict inner2 = column(kInner2), * const __restrict outer2 = column(kOuter2);
-  double* const __restrict shortest2 = column(kShortest2);
-  const double px = p_[0], py = p_[1], pz = p_[2], rounding = 2 * kUnit * size_;
+void BallBatch<3>::run(Block& b) const noexcept {
+  const double from_p = rounding(), px = p_[0], py = p_[1], pz = p_[2];
   const auto squared = [](double x, double y, double z) { return x * x + y * y + z * z; };
-  for (std::size_t k = 0; k < count_; ++k) {
-    const double a2 = squared(ax[k], ay[k], az[k]), b2 = squared(bx[k], by[k], bz[k]);
-    const double c2 = squared(cx[k], cy[k], cz[k]);
-    const double bcx = by[k] * cz[k] - bz[k] * cy[k], bcy = bz[k] * cx[k] - bx[k] * cz[k];
-    const double bcz = bx[k] * cy[k] - by[k] * cx[k];
-    const double cax = cy[k] * az[k] - cz[k] * ay[k], cay = cz[k] * ax[k] - cx[k] * az[k];
-    const double caz = cx[k] * ay[k] - cy[k] * ax[k];
-    const double abx = ay[k] * bz[k] - az[k] * by[k], aby = az[k] * bx[k] - ax[k] * bz[k];
-    const double abz = ax[k] * by[k] - ay[k] * bx[k];
-    const double f = 0.5 / (ax[k] * bcx + ay[k] * bcy + az[k] * bcz);
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    const double ax = b.corner[0][0][l], ay = b.corner[0][1][l], az = b.corner[0][2][l];
+    const double bx = b.corner[1][0][l], by = b.corner[1][1][l], bz = b.corner[1][2][l];
+    const double cx = b.corner[2][0][l], cy = b.corner[2][1][l], cz = b.corner[2][2][l];
+    const double a2 = squared(ax, ay, az), b2 = squared(bx, by, bz), c2 = squared(cx, cy, cz);
+    const double bcx = by * cz - bz * cy, bcy = bz * cx - bx * cz, bcz = bx * cy - by * cx;
+    const double cax = cy * az - cz * ay, cay = cz * ax - cx * az, caz = cx * ay - cy * ax;
+    const double abx = ay * bz - az * by, aby = az * bx - ax * bz, abz = ax * by - ay * bx;
+    const double f = 0.5 / (ax * bcx + ay * bcy + az * bcz);
     const double x = (a2 * bcx + b2 * cax + c2 * abx) * f;
     const double y = (a2 * bcy + b2 * cay + c2 * aby) * f;
     const double z = (a2 * bcz + b2 * caz + c2 * abz) * f;
     const double r2 = squared(x, y, z), r = std::sqrt(r2);
     const double flatness = std::sqrt(a2 * b2 * c2) * (2 * f);
-    const double e = 320 * kUnit * flatness * r + rounding;
-    const double ab2 = squared(ax[k] - bx[k], ay[k] - by[k], az[k] - bz[k]);
-    const double ac2 = squared(ax[k] - cx[k], ay[k] - cy[k], az[k] - cz[k]);
-    const double bc2 = squared(bx[k] - cx[k], by[k] - cy[k], bz[k] - cz[k]);
-    qx[k] = px + x, qy[k] = py + y, qz[k] = pz + z;
-    radius2[k] = r2;
-    shortest2[k] = lesser(lesser(lesser(a2, b2), lesser(c2, ab2)), lesser(ac2, bc2));
-    inner2[k] = inner_of(r, e), outer2[k] = outer_of(r, e);
-    flat[k] = f > 0 ? flatness : std::numeric_limits<double>::infinity();
+    const double e = 320 * kUnit * flatness * r + from_p;
+    const double ab2 = squared(ax - bx, ay - by, az - bz);
+    const double ac2 = squared(ax - cx, ay - cy, az - cz);
+    const double bc2 = squared(bx - cx, by - cy, bz - cz);
+    b.centre[0][l] = px + x;
+    b.centre[1][l] = py + y;
+    b.centre[2][l] = pz + z;
+    b.radius2[l] = r2;
+    b.shortest2[l] = lesser(lesser(lesser(a2, b2), lesser(c2, ab2)), lesser(ac2, bc2));
+    b.inner2[l] = inner_of(r, e);
+    b.outer2[l] = outer_of(r, e);
+    b.flatness[l] = f > 0 ? flatness : std::numeric_limits<double>::infinity();
   }
 }
 
 template <int D>
 void BallBatch<D>::set_centre(std::size_t k, const Point<D>& q) noexcept {
+  Block& b = blocks_[k / kLanes];
+  const std::size_t l = k % kLanes;
   double r2 = 0;
   for (std::size_t i = 0; i < D; ++i) {
-    column(kCentre + i)[k] = p_[i] + q[i];
+    b.centre[i][l] = p_[i] + q[i];
     r2 += q[i] * q[i];
   }
-  const double r = std::sqrt(r2), e = kUnit * (320 * kMostFlatness * r + 2 * size_);
-  column(kRadius2)[k] = r2;
-  column(kInner2)[k] = inner_of(r, e);
-  column(kOuter2)[k] = outer_of(r, e);
+  const double r = std::sqrt(r2), e = 320 * kUnit * kMostFlatness * r + rounding();
+  b.radius2[l] = r2;
+  b.inner2[l] = inner_of(r, e);
+  b.outer2[l] = outer_of(r, e);
 }
 
 template class BallBatch<2>;

@@ -39,61 +39,67 @@ struct Shape {
   double radius2 = 0, shortest2 = 0;
 };
 
-/// The balls of simplices that share a vertex, computed together: loops over arrays, so that the
-/// compiler takes several at a time.
+/// The balls of simplices that share a vertex, computed together: the lanes of a block go through
+/// one loop, which the compiler takes several at a time.
 template <int D>
 class BallBatch {
  public:
   /// The next start(p, n) will find room.
-  void make_room(std::size_t n);
+  void make_room(std::size_t n) {
+    if (blocks_.size() * kLanes < n) blocks_.resize(2 * n / kLanes + 1);
+  }
   /// For n simplices around a vertex at p. Requires: make_room(n) was called.
-  void start(const Point<D>& p, std::size_t n) noexcept;
+  void start(const Point<D>& p, std::size_t n) noexcept {
+    p_ = p;
+    used_ = (n + kLanes - 1) / kLanes;
+  }
   /// The i-th other corner of the k-th, relative to p, in such an order that their determinant is
   /// positive.
   void set_corner(std::size_t k, std::size_t i, const Point<D>& corner) noexcept {
-    for (std::size_t axis = 0; axis < D; ++axis) column(i * D + axis)[k] = corner[axis];
+    Block& b = blocks_[k / kLanes];
+    for (std::size_t axis = 0; axis < D; ++axis) b.corner[i][axis][k % kLanes] = corner[axis];
   }
   /// Computes them all.
-  void run() noexcept;
+  void run() noexcept {
+    for (std::size_t i = 0; i < used_; ++i) run(blocks_[i]);
+  }
   /// Whether the k-th is too flat for doubles, or is not a number: what was computed is worthless.
   [[nodiscard]] bool is_flat(std::size_t k) const noexcept {
-    return !(column(kFlatness)[k] <= kMostFlatness);
+    return !(blocks_[k / kLanes].flatness[k % kLanes] <= kMostFlatness);
   }
   /// Of such a one: its centre relative to p, as circumcentre() has it.
   void set_centre(std::size_t k, const Point<D>& q) noexcept;
 
   [[nodiscard]] SimplexBall<D> ball(std::size_t k) const noexcept {
+    const Block& b = blocks_[k / kLanes];
     SimplexBall<D> ball;
-    for (std::size_t i = 0; i < D; ++i) ball.centre[i] = column(kCentre + i)[k];
-    ball.inner2 = static_cast<float>(column(kInner2)[k]);
-    ball.outer2 = static_cast<float>(column(kOuter2)[k]);
+    for (std::size_t i = 0; i < D; ++i) ball.centre[i] = b.centre[i][k % kLanes];
+    ball.inner2 = static_cast<float>(b.inner2[k % kLanes]);
+    ball.outer2 = static_cast<float>(b.outer2[k % kLanes]);
     return ball;
   }
   [[nodiscard]] Shape shape(std::size_t k) const noexcept {
-    return {column(kRadius2)[k], column(kShortest2)[k]};
+    const Block& b = blocks_[k / kLanes];
+    return {b.radius2[k % kLanes], b.shortest2[k % kLanes]};
   }
 
  private:
   static constexpr double kMostFlatness = 1e7;
-  enum Column : std::size_t {  // after those of the corners
-    kCentre = D * D,
-    kRadius2 = kCentre + D,
-    kShortest2,
-    kInner2,
-    kOuter2,
-    kFlatness,  // the product of the corners' lengths over their determinant
-    kColumns
+  static constexpr std::size_t kLanes = 4;
+  using Lanes = std::array<double, kLanes>;
+  struct Block {
+    std::array<std::array<Lanes, D>, D> corner;
+    std::array<Lanes, D> centre;
+    Lanes radius2, shortest2, inner2, outer2;
+    Lanes flatness;  // the product of the corners' lengths over their determinant
   };
 
-  [[nodiscard]] double* column(std::size_t i) noexcept { return columns_.data() + i * room_; }
-  [[nodiscard]] const double* column(std::size_t i) const noexcept {
-    return columns_.data() + i * room_;
-  }
+  void run(Block& block) const noexcept;
+  [[nodiscard]] double rounding() const noexcept;
 
   Point<D> p_{};
-  double size_ = 0;  // the sum of p's absolute coordinates
-  std::size_t count_ = 0, room_ = 0;
-  std::vector<double> columns_;
+  std::size_t used_ = 0;
+  std::vector<Block> blocks_;
 };
 
 }  // namespace mesher::detail

@@ -182,16 +182,17 @@ void Refinement<D>::split(std::uint32_t s) {
 /// Around a Steiner vertex any point can go in: none is near, or it would be there in its place.
 template <int D>
 void Refinement<D>::split_crowded(std::uint32_t v) {
-  star_.clear();
-  kernel_.collect_star(v, star_);
   const bool is_input = kinds_[v] == VertexKind::input;
   const Found found{is_input ? lists_.farthest(v) : lists_.any(v), v};
-  const Point<D>& p = lists_.place(found.point);
-  const std::uint32_t s = is_input ? deep_in_star(v, p) : conflict_in_star(p);
+  const Point<D> p = lists_.place(found.point);
+  const auto conflicts = [&](std::uint32_t s) { return kernel_.conflicts(s, p); };
+  const auto is_deep = [&](std::uint32_t s) { return is_deep_in(s, p, v); };
+  const std::uint32_t s = is_input ? kernel_.find_in_star(v, star_, is_deep)
+                                   : kernel_.find_in_star(v, star_, conflicts);
   if (s != kNone) {
     ++stats_.crowded;
     insert_point(found, s);
-  } else if (is_input && conflict_in_star(p) != kNone) {
+  } else if (is_input && std::any_of(star_.begin(), star_.end(), conflicts)) {
     split(largest_in_star(v));
   } else {
     insert_lost(found);
@@ -210,22 +211,12 @@ std::uint32_t Refinement<D>::largest_in_star(std::uint32_t v) const {
   return largest;
 }
 
-/// One of v's star, in star_, with p in B(c, k r).
+/// Whether p is in B(c, k r) of a simplex with corner v.
 template <int D>
-std::uint32_t Refinement<D>::deep_in_star(std::uint32_t v, const Point<D>& p) const {
-  for (const std::uint32_t s : star_) {
-    const Point<D>& c = kernel_.simplices().ball(s).centre;
-    const double r2 = squared_distance<D>(c, kernel_.place(v));
-    if (squared_distance<D>(c, p) < settings_.k * settings_.k * r2) return s;
-  }
-  return kNone;
-}
-
-template <int D>
-std::uint32_t Refinement<D>::conflict_in_star(const Point<D>& p) const {
-  const auto at = std::find_if(star_.begin(), star_.end(),
-                               [&](std::uint32_t s) { return kernel_.conflicts(s, p); });
-  return at == star_.end() ? kNone : *at;
+bool Refinement<D>::is_deep_in(std::uint32_t s, const Point<D>& p, std::uint32_t v) const {
+  const Point<D>& c = kernel_.simplices().ball(s).centre;
+  const double r2 = squared_distance<D>(c, kernel_.place(v));
+  return squared_distance<D>(c, p) < settings_.k * settings_.k * r2;
 }
 
 template <int D>

@@ -74,8 +74,7 @@ class Refinement {
   void split(std::uint32_t s);
   void split_crowded(std::uint32_t v);
   [[nodiscard]] std::uint32_t largest_in_star(std::uint32_t v) const;
-  [[nodiscard]] std::uint32_t deep_in_star(std::uint32_t v, const Point<D>& p) const;
-  [[nodiscard]] std::uint32_t conflict_in_star(const Point<D>& p) const;
+  [[nodiscard]] bool is_deep_in(std::uint32_t s, const Point<D>& p, std::uint32_t v) const;
   [[nodiscard]] Centre centre_of(std::uint32_t s) const;
   [[nodiscard]] Centre moved_to_sides(const Centre& centre, double margin) const;
   void require_apart(std::uint32_t s, const Centre& centre) const;

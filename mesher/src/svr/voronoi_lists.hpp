@@ -24,9 +24,8 @@ template <int D>
 class VoronoiLists {
  public:
   /// `side`: of a box around everything.
-  VoronoiLists(std::span<const Point<D>> points, double side) : left_(points.size()) {
-    points_.reserve(points.size());
-    for (const Point<D>& p : points) points_.push_back({p, 0, kNone});
+  VoronoiLists(std::span<const Point<D>> points, double side)
+      : places_(points.begin(), points.end()), listed_(points.size()), left_(points.size()) {
     // A power of two that brings squared distances into the range of floats.
     int exponent;
     std::frexp(side, &exponent);
@@ -36,7 +35,7 @@ class VoronoiLists {
   /// How many points are no vertices.
   [[nodiscard]] std::size_t left() const noexcept { return left_; }
   [[nodiscard]] const Point<D>& place(std::uint32_t point) const noexcept {
-    return points_[point].p;
+    return places_[point];
   }
   [[nodiscard]] bool is_crowded(std::uint32_t v) const noexcept { return first_[v] != kNone; }
   /// Requires (and below): is_crowded(v).
@@ -45,8 +44,8 @@ class VoronoiLists {
   /// Takes a point off v's list. Requires: it is on it.
   void drop(std::uint32_t v, std::uint32_t point) noexcept {
     std::uint32_t* link = &first_[v];
-    while (*link != point) link = &points_[*link].next;
-    *link = points_[point].next;
+    while (*link != point) link = &listed_[*link].next;
+    *link = listed_[point].next;
     --left_;
   }
 
@@ -66,10 +65,10 @@ class VoronoiLists {
                                    double r) const noexcept;
 
  private:
+  // Most are only passed: they are apart from places, so that more of them are in the cache.
   struct Listed {
-    Point<D> p;
-    float distance2;  // to the vertex, in units of unit2_, rounded up
-    std::uint32_t next;
+    float distance2 = 0;  // to the vertex, in units of unit2_, rounded up
+    std::uint32_t next = kNone;
   };
   static constexpr double kUp = 1 + 0x1p-22, kDown = 1 - 0x1p-22;
 
@@ -82,13 +81,14 @@ class VoronoiLists {
     return distance2(a, b) * unit2_;
   }
   void put(std::uint32_t v, std::uint32_t point, double d2) noexcept {
-    points_[point].distance2 = static_cast<float>(d2 * kUp);
-    points_[point].next = first_[v];
+    listed_[point].distance2 = static_cast<float>(d2 * kUp);
+    listed_[point].next = first_[v];
     first_[v] = point;
-    reach2_[v] = std::max(reach2_[v], points_[point].distance2);
+    reach2_[v] = std::max(reach2_[v], listed_[point].distance2);
   }
 
-  std::vector<Listed> points_;
+  std::vector<Point<D>> places_;
+  std::vector<Listed> listed_;  // by point
   std::vector<std::uint32_t> first_{kNone};  // by vertex
   std::vector<float> reach2_{0};             // at least the greatest distance2 on the list
   std::size_t left_;
@@ -98,16 +98,16 @@ class VoronoiLists {
 template <int D>
 std::uint32_t VoronoiLists<D>::farthest(std::uint32_t v) const noexcept {
   std::uint32_t best = first_[v];
-  for (std::uint32_t k = best; k != kNone; k = points_[k].next) {
-    if (points_[k].distance2 > points_[best].distance2) best = k;
+  for (std::uint32_t k = best; k != kNone; k = listed_[k].next) {
+    if (listed_[k].distance2 > listed_[best].distance2) best = k;
   }
   return best;
 }
 
 template <int D>
 void VoronoiLists<D>::start(std::uint32_t v, const Point<D>& p, std::uint32_t except) noexcept {
-  for (auto k = static_cast<std::uint32_t>(points_.size()); k-- > 0;) {
-    if (k != except) put(v, k, scaled2(points_[k].p, p));
+  for (auto k = static_cast<std::uint32_t>(places_.size()); k-- > 0;) {
+    if (k != except) put(v, k, scaled2(places_[k], p));
   }
   --left_;
 }
@@ -122,13 +122,13 @@ bool VoronoiLists<D>::relocate(std::uint32_t v, const Point<D>& p, std::uint32_t
   bool was_there = false;
   float reach2 = 0;
   for (std::uint32_t* link = &first_[w]; *link != kNone;) {
-    Listed& listed = points_[*link];
+    const std::uint32_t point = *link;
+    Listed& listed = listed_[point];
     if (static_cast<double>(listed.distance2) >= stays2) {
-      const double d2 = scaled2(listed.p, p);
+      const double d2 = scaled2(places_[point], p);
       if (d2 < static_cast<double>(listed.distance2)) {
-        const std::uint32_t point = *link;
         *link = listed.next;
-        if (listed.p == p) {
+        if (places_[point] == p) {
           was_there = true;
           --left_;
         } else {
@@ -152,8 +152,8 @@ std::uint32_t VoronoiLists<D>::find(std::uint32_t w, const Point<D>& q, const Po
   // The ball is farther from w than any point.
   const double gap = std::sqrt(distance2(c, q)) - r;
   if (gap > 0 && gap * gap * unit2_ > static_cast<double>(reach2_[w])) return kNone;
-  for (const double r2 = r * r; point != kNone; point = points_[point].next) {
-    if (distance2(points_[point].p, c) <= r2) return point;
+  for (const double r2 = r * r; point != kNone; point = listed_[point].next) {
+    if (distance2(places_[point], c) <= r2) return point;
   }
   return kNone;
 }
