@@ -202,11 +202,14 @@ TEMPLATE_TEST_CASE_SIG("a hole that is dug and not filled leaves nothing behind"
       kernel.dig(v, s);
       kernel.fill(v);
       std::vector<std::uint32_t> star;
-      kernel.collect_star(v, star);
+      const auto nobody = [](std::uint32_t) { return false; };
+      CHECK(kernel.find_in_star(v, star, nobody) == mesher::detail::kNone);
       std::sort(star.begin(), star.end());
       auto made = kernel.made();
       std::sort(made.begin(), made.end());
       CHECK(star == made);
+      const auto one = [&](std::uint32_t t) { return t == made[made.size() / 2]; };
+      CHECK(kernel.find_in_star(v, star, one) == made[made.size() / 2]);
       kernel.check_invariants();
     } else {
       kernel.drop_place();
