@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -32,28 +31,6 @@ namespace mesher::detail {
 
 inline constexpr double kPlaneBound = 30.1 * predicates::detail::kUnitRoundoff;
 inline constexpr double kSpaceBound = 104 * predicates::detail::kUnitRoundoff;
-
-/// Whether these points are on a grid that is coarse enough for that: if no difference to p is 2^b
-/// units or more, for some power of two. That is read off each call, since a refiner has few such
-/// points among many others.
-template <std::size_t D, std::size_t N>
-[[nodiscard]] bool are_on_coarse_grid(const std::array<const std::array<double, D>*, N>& points,
-                                      const std::array<double, D>& p) noexcept {
-  double most = 0;
-  for (const auto* q : points) {
-    for (std::size_t i = 0; i < D; ++i) most = std::max(most, std::abs((*q)[i] - p[i]));
-  }
-  constexpr std::uint64_t kExponent = 0x7ff0000000000000;
-  const double power = std::bit_cast<double>(std::bit_cast<std::uint64_t>(most) & kExponent);
-  // Of x + round the last bit is a unit, so it is rounded unless x is a multiple of that.
-  const double round = 0x1.8p52 * power * (D == 2 ? 0x1p-11 : 0x1p-8);
-  bool on_grid = true;
-  for (std::size_t i = 0; i < D; ++i) {
-    on_grid &= (p[i] + round) - round == p[i];
-    for (const auto* q : points) on_grid &= ((*q)[i] + round) - round == (*q)[i];
-  }
-  return on_grid;
-}
 
 /// What is known of a point and a ball.
 enum class Side : std::int8_t { outside = -1, tie = 0, inside = 1, unsure = 2 };

@@ -160,6 +160,7 @@ class DelaunayKernel {
     for (std::size_t i = 0; i <= D; ++i) places[i] = &places_[corners[i]];
     return places;
   }
+  void note_unit(std::uint32_t v) noexcept;
   [[nodiscard]] std::uint32_t finite(std::uint32_t s) const noexcept;
   [[nodiscard]] int side(const Ids& corners, std::size_t i, const Point<D>& p) const;
   [[nodiscard]] bool conflicts_quickly(std::uint32_t s, const Point<D>& p) const;
@@ -200,8 +201,9 @@ class DelaunayKernel {
   std::vector<Point<D>> places_;           // [0] is not a number
   std::vector<std::uint32_t> simplex_of_;  // by vertex; kNone: no vertex
   Store store_;
-  CommonUnit unit_;             // of all places that there ever were
-  std::uint32_t last_ = kNone;  // where the last vertex was inserted
+  CommonUnit unit_;               // of all places that there ever were
+  std::vector<double> exact_to_;  // if there are balls: of each place alone
+  std::uint32_t last_ = kNone;    // where the last vertex was inserted
 
   // Scratch, empty between calls (the marks are 0).
   std::vector<std::uint8_t> mark_;    // by simplex

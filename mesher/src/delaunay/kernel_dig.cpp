@@ -22,8 +22,7 @@ template <int D, class Layout>
   if constexpr (D == 2) {
     return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], p, exact_to);
   } else {
-    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], places_[c[3]], p,
-                           exact_to);
+    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], places_[c[3]], p, exact_to);
   }
 }
 
@@ -73,11 +72,15 @@ template <int D, class Layout>
   return ball_holds_exactly(store_.corners(s), p, tie);
 }
 
-/// Most points so near to a sphere are on it, and on a grid.
+/// Most points so near to a sphere are on it, and on a grid: the corners' and p's own, since a
+/// refiner has such points among many others.
 template <int D, class Layout>
 bool DelaunayKernel<D, Layout>::is_tie_on_grid(const Ids& c, const Point<D>& p) const {
-  constexpr double kAny = std::numeric_limits<double>::infinity();
-  return are_on_coarse_grid(places_of(c), p) && quick_side(c, p, kAny) == Side::tie;
+  CommonUnit unit;
+  unit.add(p);
+  double exact_to = unit.exact_to();
+  for (const std::uint32_t v : c) exact_to = std::min(exact_to, exact_to_[v]);
+  return quick_side(c, p, exact_to) == Side::tie;
 }
 
 /// `i`: the corner at infinity.
