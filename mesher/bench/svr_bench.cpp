@@ -2,18 +2,21 @@
 //
 //   svr_bench [--k K] [FILE.node]...   default: families of points, see kFamilies
 //
-// Ours and TetGen in turns, kRounds times; the medians of seconds of the processes count, of ours
-// from points in memory to a mesh in memory, and of TetGen what it says it ran, without files, of
-// the same points in a box six times as wide. One JSON line an input: vertices, seconds, megabytes
-// that the peak of memory rose since the last input; TetGen's; time_ratio: its seconds over ours;
-// vertex_ratio: our vertices over its. In a line of its own what happened in the run: how many
-// points were inserted for a new vertex, how many since they crowded one; the worst radius-edge
-// ratio and the largest degree that there ever were.
+// Ours and TetGen in turns, kRounds times, in processes of their own; the medians of seconds of the
+// processes count, of ours from points in memory to a mesh in memory, and of TetGen what it says it
+// ran, without files, of the same points in a box six times as wide. One JSON line an input:
+// vertices, seconds, megabytes that the peak of memory rises to, with the points; TetGen's vertices
+// and seconds; time_ratio: its seconds over ours; vertex_ratio: our vertices over its. In a line of
+// its own what happened in the run: how many points were inserted for a new vertex, how many since
+// they crowded one; the worst radius-edge ratio and the largest degree that there ever were.
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -36,14 +39,45 @@ struct Family {
 constexpr Family kFamilies[] = {
     {"uniform 100000", PointKind::uniform, 100000},
     {"gaussian 100000", PointKind::gaussian, 100000},
+    {"clusters 100000", PointKind::clusters, 100000},
     {"grid 125000", PointKind::grid, 125000},
     {"line-circle 2000", PointKind::line_circle, 2000},
 };
 
-double peak_megabytes() {
+struct Run {
+  std::size_t vertices = 0;
+  double seconds = 0, megabytes = 0;
+};
+
+Run run_here(const std::vector<Point<3>>& points, const mesher::Options<3>& options,
+             const mesher::SvrSettings& settings) {
+  Run run;
+  run.seconds = bench::seconds_of(
+      [&] { run.vertices = mesher::svr<3>(points, options, settings).vertices.size(); });
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
+  run.megabytes = static_cast<double>(usage.ru_maxrss) / 1024;
+  return run;
+}
+
+// In a process of its own, so that runs before leave no memory.
+Run run_apart(const std::vector<Point<3>>& points, const mesher::Options<3>& options,
+              const mesher::SvrSettings& settings) {
+  int ends[2];
+  if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("no process");
+  Run run;
+  if (child == 0) {
+    run = run_here(points, options, settings);
+    _exit(write(ends[1], &run, sizeof run) == sizeof run ? 0 : 1);
+  }
+  close(ends[1]);
+  const bool well = read(ends[0], &run, sizeof run) == sizeof run;
+  close(ends[0]);
+  waitpid(child, nullptr, 0);
+  if (!well) throw std::runtime_error("a run failed");
+  return run;
 }
 
 void print_events(const std::string& name, const std::vector<Point<3>>& points,
@@ -60,13 +94,11 @@ void bench_points(const std::string& name, const std::vector<Point<3>>& points,
                   const mesher::SvrSettings& settings) {
   const mesher::Options<3> options{.domain = mesher::snapped_domain<3>(points)};
   std::vector<double> ours, theirs;
-  std::size_t vertices = 0, their_vertices = 0;
-  const double before = peak_megabytes();
-  double megabytes = 0;
+  Run run;
+  std::size_t their_vertices = 0;
   for (int round = 0; round < kRounds; ++round) {
-    ours.push_back(bench::seconds_of(
-        [&] { vertices = mesher::svr<3>(points, options, settings).vertices.size(); }));
-    if (round == 0) megabytes = peak_megabytes() - before;
+    run = run_apart(points, options, settings);
+    ours.push_back(run.seconds);
     const auto tetgen = bench::run_tetgen(points);
     if (!tetgen) continue;
     theirs.push_back(tetgen->seconds);
@@ -76,14 +108,14 @@ void bench_points(const std::string& name, const std::vector<Point<3>>& points,
   std::printf(
       "{\"bench\":\"svr\",\"input\":\"%s\",\"n\":%zu,\"k\":%g,\"vertices\":%zu,"
       "\"seconds\":%.3f,\"megabytes\":%.1f",
-      name.c_str(), points.size(), settings.k, vertices, seconds, megabytes);
+      name.c_str(), points.size(), settings.k, run.vertices, seconds, run.megabytes);
   if (!theirs.empty()) {
     const double their_seconds = bench::quantile(theirs, 0.5);
     std::printf(
         ",\"tetgen_vertices\":%zu,\"tetgen_seconds\":%.3f,\"time_ratio\":%.2f,"
         "\"vertex_ratio\":%.3f",
         their_vertices, their_seconds, their_seconds / seconds,
-        static_cast<double>(vertices) / static_cast<double>(their_vertices));
+        static_cast<double>(run.vertices) / static_cast<double>(their_vertices));
   }
   std::printf("}\n");
   print_events(name, points, options, settings);

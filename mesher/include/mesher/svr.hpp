@@ -13,7 +13,8 @@
 //  (3) no simplex has circumradius / shortest edge > rho;
 //  (4) it is a function of the set of points and the options alone: not of their order, the ids, or
 //      the machine.
-// It is another mesh than that of mesh_statically: fewer vertices, and edits may change all of it.
+// It is another mesh than that of mesh_statically, in space with fewer vertices, and a point more or
+// less may change all of it.
 #pragma once
 
 #include <cstddef>
