@@ -100,7 +100,7 @@ void DelaunayKernel<D, Layout>::dig(std::uint32_t v, std::uint32_t s) {
     undo_dig();
     throw;
   }
-  number_link();
+  if constexpr (D == 3) number_link();
 }
 
 /// Soon they are asked.
@@ -145,7 +145,7 @@ void DelaunayKernel<D, Layout>::undo_dig() noexcept {
   cavity_.clear();
   outside_.clear();
   borders_.clear();
-  forget_link();
+  if constexpr (D == 3) forget_link();
 }
 
 template class DelaunayKernel<2>;

@@ -62,7 +62,7 @@ void DelaunayKernel<D, Layout>::fill(std::uint32_t v) noexcept {
   cavity_.clear();
   outside_.clear();
   borders_.clear();
-  forget_link();
+  if constexpr (D == 3) forget_link();
 }
 
 /// Afterwards the new simplices have corners, and are joined with those outside.
@@ -124,11 +124,10 @@ void DelaunayKernel<D, Layout>::forget_link() noexcept {
   link_.clear();
 }
 
-/// Gives the link's vertices numbers from 1, and each border those of its facet. (In the plane
-/// nobody asks.)
+/// Gives the link's vertices numbers from 1, and each border those of its facet. (In the plane the
+/// border says it all.)
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::number_link() noexcept {
-  if constexpr (D == 2) return;
   ends_.resize(borders_.size());
   for (std::size_t k = 0; k < borders_.size(); ++k) {
     const Border& b = borders_[k];
