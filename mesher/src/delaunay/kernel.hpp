@@ -223,24 +223,28 @@ template <class IsWanted>
 std::uint32_t DelaunayKernel<D, Layout>::find_in_star(std::uint32_t v,
                                                       std::vector<std::uint32_t>& star,
                                                       IsWanted&& is_wanted) {
-  std::uint32_t found = kNone;
   star.assign(1, simplex_of_[v]);
   mark_[star.front()] = 1;
-  std::size_t asked = 0;
-  for (; asked < star.size() && found == kNone; ++asked) {
-    const std::uint32_t s = star[asked];
-    if (is_wanted(s)) {
-      found = s;
-      break;
-    }
+  const auto look_around = [&](std::uint32_t s) {
     for (std::uint32_t i = 0; i <= D; ++i) {
       const std::uint32_t other = store_.across(s)[i] >> 2;
       if (store_.corners(s)[i] == v || mark_[other] != 0) continue;
       star.push_back(other);
       mark_[other] = 1;
     }
+  };
+  const auto unmark = [&] {
+    for (const std::uint32_t s : star) mark_[s] = 0;
+  };
+  std::size_t asked = 0;
+  try {
+    for (; asked < star.size() && !is_wanted(star[asked]); ++asked) look_around(star[asked]);
+  } catch (...) {
+    unmark();
+    throw;
   }
-  for (const std::uint32_t s : star) mark_[s] = 0;
+  unmark();
+  const std::uint32_t found = asked < star.size() ? star[asked] : kNone;
   star.resize(asked);
   return found;
 }
