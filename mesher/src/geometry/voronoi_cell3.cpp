@@ -215,8 +215,8 @@ bool VoronoiCell3::may_take_open() const noexcept {
   const Lanes x = both(aim_[0]), y = both(aim_[1]), z = both(aim_[2]);
   LaneMask taken{};
   for (std::size_t k = 0; k < near_count_; k += kLanes) {
-    const Lanes along = x * lanes_at(&near_.q[0][k]) + y * lanes_at(&near_.q[1][k]) +
-                        z * lanes_at(&near_.q[2][k]);
+    const Lanes along =
+        x * lanes_at(&near_.q[0][k]) + y * lanes_at(&near_.q[1][k]) + z * lanes_at(&near_.q[2][k]);
     taken |= along >= clear;
   }
   return any(taken);
