@@ -26,6 +26,7 @@ struct MeshArguments {
   bool repair = false;
   bool box = false;
   bool is_static = false;
+  std::string algorithm = "gap-balls";  // or "svr", of `mesh` alone
   std::string stats;
   bool quiet = false;
 };

@@ -9,6 +9,7 @@
 #include "mesher/angles.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/sizes.hpp"
+#include "mesher/svr.hpp"
 #include "outputs.hpp"
 #include "report.hpp"
 
@@ -38,6 +39,33 @@ mesher::Mesh<D> mesh_without_engine(const InputOf<D>& input, const mesher::Optio
     const StopPolitely stop;
     return mesh_statically(input, options, stats, progress.control());
   });
+}
+
+// What has lines is for the other algorithm.
+void require_points_alone(const Input& input) {
+  if (segments_of(input.graph()).empty()) return;
+  throw mesher::Error(mesher::ErrorCode::bad_option,
+                      "--algorithm svr takes no lines, INPUT has some", {input.path()});
+}
+void require_points_alone(const SpaceInput&) {}
+
+template <int D>
+mesher::Mesh<D> mesh_by_svr(const InputOf<D>& input, const mesher::Options<D>& options,
+                            mesher::MeshStats& stats, Progress& progress) {
+  require_points_alone(input);
+  std::vector<mesher::Point<D>> places;
+  std::vector<mesher::FeatureId> ids;
+  for (const auto& point : input.points()) {
+    places.push_back(point.at);
+    ids.push_back(point.id);
+  }
+  mesher::Mesh<D> mesh = locating(input, [&] {
+    const StopPolitely stop;
+    return mesher::svr<D>(places, options, {}, ids, nullptr, progress.control());
+  });
+  stats.vertices = mesh.vertices.size();
+  stats.simplices = mesh.simplices.size();
+  return mesh;
 }
 
 template <int D>
@@ -70,7 +98,9 @@ Result<D> mesh(const MeshArguments& args, const InputOf<D>& input,
                const mesher::Options<D>& options, Progress& progress) {
   mesher::MeshStats stats;
   const double start = mesher::now();
-  const auto make = args.is_static ? mesh_without_engine<D> : mesh_with_engine<D>;
+  const auto make = args.algorithm == "svr" ? mesh_by_svr<D>
+                    : args.is_static        ? mesh_without_engine<D>
+                                            : mesh_with_engine<D>;
   mesher::Mesh<D> all = make(input, options, stats, progress);
   const double seconds = mesher::now() - start;
   Result<D> result = finish(args, input, options, std::move(all));
@@ -126,6 +156,13 @@ void add_mesh(CLI::App& app) {
   CLI::App* mesh =
       app.add_subcommand("mesh", "Meshes a file of points and lines, or of points in space.");
   add_mesh_options(*mesh, *args);
+  mesh->add_option(
+          "--algorithm", args->algorithm,
+          "gap-balls: the mesh that `edit` keeps; svr: sparse Voronoi refinement, of\n"
+          "points alone without limits of size: another mesh, in a quarter of the time in\n"
+          "the plane and a tenth in space, there with fewer vertices")
+      ->check(CLI::IsMember({"gap-balls", "svr"}))
+      ->capture_default_str();
   mesh->footer(
       std::string(
           "Every line is a union of edges. Where lines enclose something, what they enclose is\n"
@@ -134,9 +171,9 @@ void add_mesh(CLI::App& app) {
           "warned of.\n"
           "With INPUT of a format that has lines, a .node output has .edge, .poly and .neigh\n"
           "beside .ele.\n"
-          "The mesh is a function of INPUT, the domain, --rho, --rule and the limits of size\n"
-          "alone: its files are the same bytes each time, with --static or without. Files appear\n"
-          "when all is done, or not at all.\n"
+          "The mesh is a function of INPUT, the domain, --rho, --rule, --algorithm and the limits\n"
+          "of size alone: its files are the same bytes each time, with --static or without. Files\n"
+          "appear when all is done, or not at all.\n"
           "Limits of size hold in what is written, less what is beyond the domain, and are filled\n"
           "from a lattice, so that edits move little. Several together: the smallest counts.\n"
           "In space, INPUT's points are meshed, what else a surface or grid has is noted. All of\n"
@@ -150,6 +187,7 @@ void add_mesh(CLI::App& app) {
       "  mesher mesh lake.poly --sizes depth.csv -o lake.vtu\n"
       "  mesher mesh points.node -o mesh.node -o mesh.svg --stats mesh.json\n"
       "  mesher mesh scan.ply -o scan.vtu -o scan.svg\n"
+      "  mesher mesh scan.ply --algorithm svr -o scan.vtu\n"
       "  mesher mesh cities.csv --domain -180 -90 180 90 --rho 2 --static -o cities.vtu");
   mesh->callback([args] { run_mesh(*args); });
 }

@@ -60,6 +60,7 @@ write_files() {  # TOOLS FOLDER
       -o "$kind.vtk" -o "$kind.msh" -o "$kind.mesh" -o "$kind.out.obj"
     "$tool" mesh "$kind.node" --quiet --static -o "$kind.static.node"
     "$tool" mesh "$kind.node" --quiet --rule voronoi-aspect -o "$kind.aspect.node"
+    "$tool" mesh "$kind.node" --quiet --algorithm svr -o "$kind.svr.node"
     cmp "$kind.out.node" "$kind.static.node"
     cmp "$kind.out.ele" "$kind.static.ele"
   done
@@ -68,6 +69,7 @@ write_files() {  # TOOLS FOLDER
     "$tool" mesh "$kind.space.node" --quiet -o "$kind.space.out.node" -o "$kind.space.vtu" \
       -o "$kind.space.svg" -o "$kind.space.stl"
     "$tool" mesh "$kind.space.node" --quiet --static -o "$kind.space.static.node"
+    "$tool" mesh "$kind.space.node" --quiet --algorithm svr -o "$kind.space.svr.node"
     cmp "$kind.space.out.node" "$kind.space.static.node"
     cmp "$kind.space.out.ele" "$kind.space.static.ele"
   done

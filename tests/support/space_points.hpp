@@ -84,36 +84,44 @@ inline std::vector<mesher::Point<3>> space_points(SpaceFamily family, std::size_
 }
 
 /// "" if the exact judge accepts the mesh, or is not there; else what it says.
-inline std::string space_verdict(const mesher::Mesh<3>& mesh,
-                                 const std::vector<mesher::Point<3>>& input, double rho) {
-  if (*test_paths::kCgalCheck3d == 0) return "";
+template <int D>
+std::string box_verdict(const mesher::Mesh<D>& mesh, const std::vector<mesher::Point<D>>& input,
+                        double rho) {
+  const std::string judge = D == 2 ? test_paths::kCgalCheck : test_paths::kCgalCheck3d;
+  if (judge.empty()) return "";
   const ScratchFolder folder;
-  const auto write = [&](const std::string& file, const std::vector<mesher::Point<3>>& points) {
+  const auto write = [&](const std::string& file, const std::vector<mesher::Point<D>>& points) {
     std::ofstream out(folder.path(file));
     out.precision(17);
-    out << points.size() << " 3 0 0\n";
+    out << points.size() << ' ' << D << " 0 0\n";
     for (std::size_t i = 0; i < points.size(); ++i) {
-      out << i << ' ' << points[i][0] << ' ' << points[i][1] << ' ' << points[i][2] << '\n';
+      out << i;
+      for (const double x : points[i]) out << ' ' << x;
+      out << '\n';
     }
   };
   write("mesh.node", mesh.vertices);
   write("input.node", input);
   {
     std::ofstream out(folder.path("mesh.ele"));
-    out << mesh.simplices.size() << " 4 0\n";
+    out << mesh.simplices.size() << ' ' << D + 1 << " 0\n";
     for (std::size_t t = 0; t < mesh.simplices.size(); ++t) {
       out << t;
       for (const auto v : mesh.simplices[t]) out << ' ' << v;
       out << '\n';
     }
   }
-  const std::string command = std::string(test_paths::kCgalCheck3d) + ' ' +
-                              folder.path("mesh.node") + ' ' + folder.path("mesh.ele") +
-                              " --input " + folder.path("input.node") + " --rho " +
-                              std::to_string(rho) + " > " + folder.path("verdict") + " 2>&1";
+  const std::string command = judge + ' ' + folder.path("mesh.node") + ' ' +
+                              folder.path("mesh.ele") + " --input " + folder.path("input.node") +
+                              " --rho " + std::to_string(rho) + " > " + folder.path("verdict") +
+                              " 2>&1";
   if (std::system(command.c_str()) == 0) return "";
   std::ifstream in(folder.path("verdict"));
   return {std::istreambuf_iterator<char>(in), {}};
+}
+inline std::string space_verdict(const mesher::Mesh<3>& mesh,
+                                 const std::vector<mesher::Point<3>>& input, double rho) {
+  return box_verdict<3>(mesh, input, rho);
 }
 
 }  // namespace support

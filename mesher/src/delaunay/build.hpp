@@ -12,8 +12,8 @@ namespace mesher::detail {
 
 /// Calls duplicate(v, w) for each of `vertices` with an earlier one w of the same place, w the
 /// first of them.
-template <int D, class Vertices, class Duplicate>
-void find_duplicates(const DelaunayKernel<D>& kernel, const Vertices& vertices,
+template <int D, class Layout, class Vertices, class Duplicate>
+void find_duplicates(const DelaunayKernel<D, Layout>& kernel, const Vertices& vertices,
                      Duplicate&& duplicate) {
   std::vector<std::uint32_t> sorted(vertices.begin(), vertices.end());
   std::stable_sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -32,8 +32,8 @@ void find_duplicates(const DelaunayKernel<D>& kernel, const Vertices& vertices,
 /// Inserts these places, in this order but for the first simplex, or none if all are in one
 /// hyperplane: returns false then. Calls duplicate(v, w) for each v with an earlier one w of the
 /// same place, w the first of them, and step() for each v. `vertices`: a range.
-template <int D, class Vertices, class Duplicate, class Step>
-bool build(DelaunayKernel<D>& kernel, const Vertices& vertices, Duplicate&& duplicate,
+template <int D, class Layout, class Vertices, class Duplicate, class Step>
+bool build(DelaunayKernel<D, Layout>& kernel, const Vertices& vertices, Duplicate&& duplicate,
            Step&& step) {
   Independent<D> first;
   for (const std::uint32_t v : vertices) {
@@ -53,8 +53,8 @@ bool build(DelaunayKernel<D>& kernel, const Vertices& vertices, Duplicate&& dupl
   }
   return true;
 }
-template <int D, class Vertices, class Duplicate>
-bool build(DelaunayKernel<D>& kernel, const Vertices& vertices, Duplicate&& duplicate) {
+template <int D, class Layout, class Vertices, class Duplicate>
+bool build(DelaunayKernel<D, Layout>& kernel, const Vertices& vertices, Duplicate&& duplicate) {
   return build<D>(kernel, vertices, duplicate, [] {});
 }
 

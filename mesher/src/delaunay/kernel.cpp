@@ -21,13 +21,15 @@ Point<D> no_place() {
 
 }  // namespace
 
-template <int D>
-DelaunayKernel<D>::DelaunayKernel() : places_{no_place<D>()}, simplex_of_{kNone}, local_{0} {}
+template <int D, class Layout>
+DelaunayKernel<D, Layout>::DelaunayKernel()
+    : places_{no_place<D>()}, simplex_of_{kNone}, exact_to_(1, 0.0), local_{0} {}
 
-template <int D>
-void DelaunayKernel<D>::reserve(std::size_t points) {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::reserve(std::size_t points) {
   places_.reserve(points + 1);
   simplex_of_.reserve(points + 1);
+  if constexpr (kHasBalls) exact_to_.reserve(points + 1);
   local_.reserve(points + 1);
   // Of random points: 2 triangles a vertex, 6.77 tetrahedra [Dwyer 1991]; and what is free for a
   // moment, and ghosts.
@@ -36,37 +38,51 @@ void DelaunayKernel<D>::reserve(std::size_t points) {
   mark_.reserve(simplices);
 }
 
-template <int D>
-std::uint32_t DelaunayKernel<D>::add_place(const Point<D>& p) {
+template <int D, class Layout>
+std::uint32_t DelaunayKernel<D, Layout>::add_place(const Point<D>& p) {
   SAC_EXPECTS(places_.size() < kNone);
   places_.push_back(p);
-  unit_.add(p);
   try {
     simplex_of_.push_back(kNone);
+    if constexpr (kHasBalls) exact_to_.push_back(0);
     local_.push_back(0);
   } catch (...) {
     places_.pop_back();
     simplex_of_.resize(places_.size());
+    if constexpr (kHasBalls) exact_to_.resize(places_.size());
     throw;
   }
+  note_unit(static_cast<std::uint32_t>(places_.size() - 1));
   return static_cast<std::uint32_t>(places_.size() - 1);
 }
 
-template <int D>
-void DelaunayKernel<D>::set_place(std::uint32_t v, const Point<D>& p) noexcept {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::set_place(std::uint32_t v, const Point<D>& p) noexcept {
   places_[v] = p;
-  unit_.add(p);
+  note_unit(v);
 }
 
-template <int D>
-void DelaunayKernel<D>::drop_place() noexcept {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::note_unit(std::uint32_t v) noexcept {
+  if constexpr (kHasBalls) {
+    CommonUnit unit;
+    unit.add(places_[v]);
+    exact_to_[v] = unit.exact_to();
+  } else {
+    unit_.add(places_[v]);
+  }
+}
+
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::drop_place() noexcept {
   places_.pop_back();
   simplex_of_.pop_back();
+  if constexpr (kHasBalls) exact_to_.pop_back();
   local_.pop_back();
 }
 
-template <int D>
-bool DelaunayKernel<D>::is_ghost(std::uint32_t s) const noexcept {
+template <int D, class Layout>
+bool DelaunayKernel<D, Layout>::is_ghost(std::uint32_t s) const noexcept {
   const Ids& c = store_.corners(s);
   bool ghost = false;
   for (const std::uint32_t v : c) ghost |= v == kInfinite;
@@ -74,14 +90,14 @@ bool DelaunayKernel<D>::is_ghost(std::uint32_t s) const noexcept {
 }
 
 /// s, or the simplex at the facet of a ghost s.
-template <int D>
-std::uint32_t DelaunayKernel<D>::finite(std::uint32_t s) const noexcept {
+template <int D, class Layout>
+std::uint32_t DelaunayKernel<D, Layout>::finite(std::uint32_t s) const noexcept {
   const std::uint32_t at = corner_of(s, kInfinite);
   return at > D ? s : store_.across(s)[at] >> 2;
 }
 
-template <int D>
-void DelaunayKernel<D>::start(const std::array<std::uint32_t, D + 1>& corners) {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::start(const std::array<std::uint32_t, D + 1>& corners) {
   SAC_EXPECTS(store_.size() == 0);
   Ids c = corners;
   const int sign = orientation(places_of(c));
@@ -109,11 +125,16 @@ void DelaunayKernel<D>::start(const std::array<std::uint32_t, D + 1>& corners) {
   }
   for (const std::uint32_t v : c) simplex_of_[v] = first;
   last_ = first;
+  if constexpr (kHasBalls) {
+    balls_.make_room(1);
+    measure(first);
+    for (const std::uint32_t s : ghosts) measure(s);
+  }
 }
 
 /// The orientation of a simplex with p at corner i: negative if its facet is between it and p.
-template <int D>
-int DelaunayKernel<D>::side(const Ids& corners, std::size_t i, const Point<D>& p) const {
+template <int D, class Layout>
+int DelaunayKernel<D, Layout>::side(const Ids& corners, std::size_t i, const Point<D>& p) const {
   auto q = places_of(corners);
   q[i] = &p;
   return orientation(q);
@@ -122,8 +143,8 @@ int DelaunayKernel<D>::side(const Ids& corners, std::size_t i, const Point<D>& p
 /// A simplex that holds p, or a ghost whose facet p is outside of. The visibility walk: through a
 /// facet that has p on its other side, until there is none. It ends, since what is behind such a
 /// facet is nearer to p in the order of power distances.
-template <int D>
-std::uint32_t DelaunayKernel<D>::walk(const Point<D>& p, std::uint32_t from) const {
+template <int D, class Layout>
+std::uint32_t DelaunayKernel<D, Layout>::walk(const Point<D>& p, std::uint32_t from) const {
   std::uint32_t s = finite(from);
   for (std::uint32_t entered = kNone;;) {
     const Ids& c = store_.corners(s);
@@ -138,49 +159,46 @@ std::uint32_t DelaunayKernel<D>::walk(const Point<D>& p, std::uint32_t from) con
   }
 }
 
-template <int D>
-std::uint32_t DelaunayKernel<D>::insert(std::uint32_t v) {
+template <int D, class Layout>
+std::uint32_t DelaunayKernel<D, Layout>::insert(std::uint32_t v) {
   const Point<D>& p = places_[v];
   SAC_EXPECTS(last_ != kNone);
   const std::uint32_t s = walk(p, last_);
   for (const std::uint32_t w : store_.corners(s)) {
     if (places_[w] == p) return w;
   }
-  try {
-    dig(v, s);
-    make_room_for_fill();
-  } catch (...) {
-    undo_dig();
-    throw;
-  }
+  dig(v, s);
   fill(v);
   return v;
 }
 
-template <int D>
-void DelaunayKernel<D>::clear_simplices() noexcept {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::clear_simplices() noexcept {
   store_.clear();
   mark_.clear();
   std::fill(simplex_of_.begin(), simplex_of_.end(), kNone);
   last_ = kNone;
 }
 
-template <int D>
-void DelaunayKernel<D>::clear() noexcept {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::clear() noexcept {
   clear_simplices();
   places_.resize(1);
   simplex_of_.resize(1);
+  if constexpr (kHasBalls) exact_to_.resize(1);
   local_.resize(1);
   unit_ = {};
 }
 
-template <int D>
-SimplexStore<D> DelaunayKernel<D>::release() && {
+template <int D, class Layout>
+auto DelaunayKernel<D, Layout>::release() && -> Store {
   DelaunayKernel all = std::move(*this);
   return std::move(all.store_);
 }
 
 template class DelaunayKernel<2>;
 template class DelaunayKernel<3>;
+template class DelaunayKernel<2, BallLayout<2>>;
+template class DelaunayKernel<3, BallLayout<3>>;
 
 }  // namespace mesher::detail

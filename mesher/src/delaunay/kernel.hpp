@@ -1,9 +1,10 @@
 // Delaunay triangulations in the plane and in space, a vertex at a time.
 //
-// Representation. Flat arrays of simplices (simplex_store.hpp) and of places. The convex hull is
-// closed by ghosts: a ghost is a hull facet and vertex 0, kInfinite, so that every facet has a
-// simplex on each side and insertion does not know the hull. A ghost is positively oriented if a
-// point outside of its facet stands for kInfinite.
+// Representation. Simplices (simplex_store.hpp), by `Layout` with their balls or without
+// (simplex_layout.hpp), and places. The convex hull is closed by ghosts: a ghost is a hull facet
+// and vertex 0, kInfinite, so that every facet has a simplex on each side and insertion does not
+// know the hull. A ghost is positively oriented if a point outside of its facet stands for
+// kInfinite.
 //   (The other design on paper gave a simplex 64 bytes with its ball, so that a test is one
 //   distance. An insertion in space makes 20 simplices and tests 40: a circumcentre costs as much
 //   as two filtered tests, and memory doubles. And hulls as facets without a neighbour, with cases
@@ -22,6 +23,8 @@
 // (Bowyer, Watson), new ones in their place. Removal: the triangulation of the neighbours alone
 // (another kernel) holds all that fills the hole.
 //
+// A refiner looks at a hole before it fills it, or not: dig(), then fill() or undo_dig().
+//
 // Strong guarantee: what throws leaves everything as it was.
 #pragma once
 
@@ -30,6 +33,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "delaunay/ball_filter.hpp"
@@ -42,10 +46,17 @@ namespace mesher::detail {
 /// The vertex that makes ghosts of simplices.
 inline constexpr std::uint32_t kInfinite = 0;
 
-template <int D>
+/// In place of the balls' batch where there are none.
+struct NoBalls {
+  [[nodiscard]] Shape shape(std::size_t) const noexcept { return {}; }
+};
+
+template <int D, class Layout = ArrayLayout<D>>
 class DelaunayKernel {
  public:
-  using Ids = typename SimplexStore<D>::Ids;
+  using Ids = typename Layout::Ids;
+  using Store = SimplexStore<D, Layout>;
+  static constexpr bool kHasBalls = Layout::kHasBalls;
 
   DelaunayKernel();
 
@@ -63,6 +74,37 @@ class DelaunayKernel {
   /// Requires: started; v is no vertex.
   /// Cost: expected O(1) near the last one inserted, in an order as random as spatial_order's.
   std::uint32_t insert(std::uint32_t v);
+
+  // --- The same in steps.
+  /// A simplex that holds p, or a ghost whose facet p is outside of. Requires: started.
+  /// Cost: as many simplices as are between it and `from`.
+  [[nodiscard]] std::uint32_t walk(const Point<D>& p, std::uint32_t from) const;
+  /// Whether a vertex at p takes simplex s out. Requires: p is no vertex's place.
+  [[nodiscard]] bool conflicts(std::uint32_t s, const Point<D>& p) const;
+  /// Finds what v takes out, from simplex s on. Requires: v is no vertex, nobody is at its place;
+  /// conflicts(s, place(v)). What throws digs nothing.
+  void dig(std::uint32_t v, std::uint32_t s);
+  /// The simplices that v takes out. Requires: dug.
+  [[nodiscard]] const std::vector<std::uint32_t>& doomed() const noexcept { return cavity_; }
+  /// Calls visit(w) for each vertex that v will have an edge with, infinity too. Requires: dug.
+  template <class Visit>
+  void for_each_in_link(Visit&& visit) const;
+  void undo_dig() noexcept;
+  /// Makes v a vertex. Requires: dug.
+  void fill(std::uint32_t v) noexcept;
+  /// The simplices that the last insertion made. Requires (and for all that follows on them): the
+  /// layout has balls.
+  [[nodiscard]] const std::vector<std::uint32_t>& made() const noexcept { return made_; }
+  /// Of made()[k]; not a number for ghosts.
+  [[nodiscard]] Shape shape_made(std::size_t k) const noexcept { return balls_.shape(k); }
+  /// Computes the ball of one simplex again. Returns: its shape; not a number for ghosts.
+  Shape measure(std::uint32_t s) noexcept;
+  /// The first simplex with corner v that is_wanted(s), or kNone; ghosts are asked, too. `star` has
+  /// those that were not wanted afterwards: all, if none was. Requires: has(v).
+  template <class IsWanted>
+  std::uint32_t find_in_star(std::uint32_t v, std::vector<std::uint32_t>& star,
+                             IsWanted&& is_wanted);
+
   /// The next insertion starts its walk at vertex v. Requires: has(v).
   void walk_from(std::uint32_t v) noexcept { last_ = simplex_of_[v]; }
   /// Takes a vertex out. False, and nothing done, if all others are in one plane (on one line).
@@ -71,7 +113,7 @@ class DelaunayKernel {
   /// Whether v is a vertex.
   [[nodiscard]] bool has(std::uint32_t v) const noexcept { return simplex_of_[v] != kNone; }
 
-  [[nodiscard]] const SimplexStore<D>& simplices() const noexcept { return store_; }
+  [[nodiscard]] const Store& simplices() const noexcept { return store_; }
   [[nodiscard]] const Point<D>& place(std::uint32_t v) const noexcept { return places_[v]; }
   /// A vertex at which the last insertion or removal changed something. Requires: started.
   [[nodiscard]] std::uint32_t last_changed() const noexcept {
@@ -91,7 +133,7 @@ class DelaunayKernel {
   /// No places, nothing.
   void clear() noexcept;
   /// Takes the simplices out and frees all else.
-  [[nodiscard]] SimplexStore<D> release() &&;
+  [[nodiscard]] Store release() &&;
 
   /// Throws: sac::InvariantError. Cost: O(simplices).
   void check_invariants() const;
@@ -118,24 +160,26 @@ class DelaunayKernel {
     for (std::size_t i = 0; i <= D; ++i) places[i] = &places_[corners[i]];
     return places;
   }
+  void note_unit(std::uint32_t v) noexcept;
   [[nodiscard]] std::uint32_t finite(std::uint32_t s) const noexcept;
-  [[nodiscard]] std::uint32_t walk(const Point<D>& p, std::uint32_t from) const;
   [[nodiscard]] int side(const Ids& corners, std::size_t i, const Point<D>& p) const;
-  [[nodiscard]] bool conflicts(std::uint32_t s, const Point<D>& p) const;
   [[nodiscard]] bool conflicts_quickly(std::uint32_t s, const Point<D>& p) const;
   [[nodiscard]] bool conflicts_slowly(std::uint32_t s, const Point<D>& p, bool tie) const;
-  [[nodiscard]] Side quick_side(const Ids& corners, const Point<D>& p) const;
+  [[nodiscard]] Side quick_side(const Ids& corners, const Point<D>& p, double exact_to) const;
+  [[nodiscard]] bool is_tie_on_grid(const Ids& corners, const Point<D>& p) const;
   [[nodiscard]] bool ball_holds(const Ids& corners, const Point<D>& p) const;
   [[nodiscard]] bool ball_holds_exactly(const Ids& corners, const Point<D>& p, bool tie) const;
   [[nodiscard]] bool ghost_conflicts(std::uint32_t s, std::size_t i, const Point<D>& p) const;
-  void dig(std::uint32_t v, std::uint32_t start);
-  void undo_dig() noexcept;
-  void fill(std::uint32_t v) noexcept;
+  void find_doomed(std::uint32_t v, std::uint32_t start);
+  void fetch_around(std::uint32_t s) const;
+  void make_room_for_fill();
+  void number_link() noexcept;
+  void forget_link() noexcept;
   void place_borders() noexcept;
   void join_borders() noexcept;
   void join_many_borders() noexcept;
-  void number_link() noexcept;
-  void make_room_for_fill();
+  void measure_made(std::uint32_t v) noexcept;
+  void set_ball(std::size_t k, std::uint32_t s, std::size_t apex) noexcept;
 
   [[nodiscard]] bool has_finite_beside(const std::vector<std::uint32_t>& star,
                                        std::uint32_t v) const;
@@ -156,18 +200,59 @@ class DelaunayKernel {
 
   std::vector<Point<D>> places_;           // [0] is not a number
   std::vector<std::uint32_t> simplex_of_;  // by vertex; kNone: no vertex
-  SimplexStore<D> store_;
-  CommonUnit unit_;             // of all places that there ever were
-  std::uint32_t last_ = kNone;  // where the last vertex was inserted
+  Store store_;
+  CommonUnit unit_;               // of all places that there ever were
+  std::vector<double> exact_to_;  // if there are balls: of each place alone
+  std::uint32_t last_ = kNone;    // where the last vertex was inserted
 
   // Scratch, empty between calls (the marks are 0).
   std::vector<std::uint8_t> mark_;    // by simplex
   std::vector<std::uint32_t> local_;  // by vertex; its number among the link's, in fill()
-  std::vector<std::uint32_t> cavity_, outside_, link_, ridges_;
+  std::vector<std::uint32_t> cavity_, outside_, link_, ridges_, made_;
   std::vector<Border> borders_;
   std::vector<std::array<std::uint32_t, D>> ends_;  // of the facets of borders_, as in local_
   std::vector<Ridge> many_;
-  std::unique_ptr<DelaunayKernel> star_;  // for removal
+  std::conditional_t<kHasBalls, BallBatch<D>, NoBalls> balls_;  // of made_
+  std::vector<Point<D>> relative_;                              // to the new vertex, as in local_
+  std::unique_ptr<DelaunayKernel> star_;                        // for removal
 };
+
+/// From one to the next over facets that have v as a corner.
+template <int D, class Layout>
+template <class IsWanted>
+std::uint32_t DelaunayKernel<D, Layout>::find_in_star(std::uint32_t v,
+                                                      std::vector<std::uint32_t>& star,
+                                                      IsWanted&& is_wanted) {
+  std::uint32_t found = kNone;
+  star.assign(1, simplex_of_[v]);
+  mark_[star.front()] = 1;
+  std::size_t asked = 0;
+  for (; asked < star.size() && found == kNone; ++asked) {
+    const std::uint32_t s = star[asked];
+    if (is_wanted(s)) {
+      found = s;
+      break;
+    }
+    for (std::uint32_t i = 0; i <= D; ++i) {
+      const std::uint32_t other = store_.across(s)[i] >> 2;
+      if (store_.corners(s)[i] == v || mark_[other] != 0) continue;
+      star.push_back(other);
+      mark_[other] = 1;
+    }
+  }
+  for (const std::uint32_t s : star) mark_[s] = 0;
+  star.resize(asked);
+  return found;
+}
+
+template <int D, class Layout>
+template <class Visit>
+void DelaunayKernel<D, Layout>::for_each_in_link(Visit&& visit) const {
+  if constexpr (D == 2) {  // each begins one edge of the border
+    for (const Border& b : borders_) visit(b.corners[kFacet<2>[b.slot][0]]);
+  } else {
+    for (const std::uint32_t v : link_) visit(v);
+  }
+}
 
 }  // namespace mesher::detail

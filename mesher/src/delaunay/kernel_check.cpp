@@ -11,8 +11,8 @@
 
 namespace mesher::detail {
 
-template <int D>
-void DelaunayKernel<D>::check_facet(std::uint32_t s, std::size_t i) const {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::check_facet(std::uint32_t s, std::size_t i) const {
   const std::uint32_t code = store_.across(s)[i], other = code >> 2, k = code & 3;
   SAC_INVARIANT(other < store_.places() && k <= D && store_.alive(other));
   SAC_INVARIANT(store_.across(other)[k] == (s << 2 | static_cast<std::uint32_t>(i)));
@@ -23,8 +23,8 @@ void DelaunayKernel<D>::check_facet(std::uint32_t s, std::size_t i) const {
   if (w != kInfinite) SAC_INVARIANT(!conflicts(s, places_[w]));
 }
 
-template <int D>
-void DelaunayKernel<D>::check_simplex(std::uint32_t s) const {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::check_simplex(std::uint32_t s) const {
   Ids c = store_.corners(s);
   if (!is_ghost(s)) SAC_INVARIANT(side(c, 0, places_[c[0]]) > 0);
   for (std::size_t i = 0; i <= D; ++i) check_facet(s, i);
@@ -33,8 +33,8 @@ void DelaunayKernel<D>::check_simplex(std::uint32_t s) const {
   SAC_INVARIANT(std::adjacent_find(c.begin(), c.end()) == c.end());
 }
 
-template <int D>
-void DelaunayKernel<D>::check_vertices() const {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::check_vertices() const {
   std::size_t vertices = 0;
   for (std::uint32_t v = 1; v < places_.size(); ++v) {
     if (!has(v)) continue;
@@ -44,8 +44,8 @@ void DelaunayKernel<D>::check_vertices() const {
   if (D == 2 && store_.size() > 0) SAC_INVARIANT(store_.size() == 2 * vertices - 2);
 }
 
-template <int D>
-void DelaunayKernel<D>::check_invariants() const {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::check_invariants() const {
   SAC_INVARIANT(simplex_of_.size() == places_.size() && local_.size() == places_.size());
   SAC_INVARIANT(mark_.size() == store_.places());
   SAC_INVARIANT(std::all_of(mark_.begin(), mark_.end(), [](auto mark) { return mark == 0; }));
@@ -64,5 +64,7 @@ void DelaunayKernel<D>::check_invariants() const {
 
 template class DelaunayKernel<2>;
 template class DelaunayKernel<3>;
+template class DelaunayKernel<2, BallLayout<2>>;
+template class DelaunayKernel<3, BallLayout<3>>;
 
 }  // namespace mesher::detail

@@ -1,4 +1,7 @@
 // Which simplices a point conflicts with.
+#include <algorithm>
+#include <limits>
+
 #include "delaunay/ball_filter.hpp"
 #include "delaunay/kernel.hpp"
 #include "delaunay/tuple_predicates.hpp"
@@ -12,63 +15,105 @@ enum Mark : std::uint8_t { kUnseen = 0, kInside, kOutside };
 }  // namespace
 
 /// Of a point and the ball of a simplex, as far as the filter is sure.
-template <int D>
-[[gnu::always_inline]] inline Side DelaunayKernel<D>::quick_side(const Ids& c,
-                                                                 const Point<D>& p) const {
+template <int D, class Layout>
+[[gnu::always_inline]] inline Side DelaunayKernel<D, Layout>::quick_side(const Ids& c,
+                                                                         const Point<D>& p,
+                                                                         double exact_to) const {
   if constexpr (D == 2) {
-    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], p, unit_.exact_to());
+    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], p, exact_to);
   } else {
-    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], places_[c[3]], p,
-                           unit_.exact_to());
+    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], places_[c[3]], p, exact_to);
   }
 }
 
-/// `tie`: whether p is known to be on the ball.
-template <int D>
-bool DelaunayKernel<D>::ball_holds_exactly(const Ids& c, const Point<D>& p, bool tie) const {
+/// `tie`: whether p is known to be on the sphere: then the greatest of all is outside.
+template <int D, class Layout>
+bool DelaunayKernel<D, Layout>::ball_holds_exactly(const Ids& c, const Point<D>& p,
+                                                   bool tie) const {
   const auto q = places_of(c);
-  return (tie ? break_tie(q, p) : in_ball(q, p)) > 0;
+  if (!tie) return in_ball(q, p) > 0;
+  const auto is_less = [&](const Point<D>* corner) { return *corner < p; };
+  return !std::all_of(q.begin(), q.end(), is_less) && break_tie(q, p) > 0;
 }
 
-template <int D>
-bool DelaunayKernel<D>::ball_holds(const Ids& c, const Point<D>& p) const {
-  const Side side = quick_side(c, p);
+template <int D, class Layout>
+bool DelaunayKernel<D, Layout>::ball_holds(const Ids& c, const Point<D>& p) const {
+  const Side side = quick_side(c, p, unit_.exact_to());
   if (side == Side::inside || side == Side::outside) return side == Side::inside;
   return ball_holds_exactly(c, p, side == Side::tie);
 }
 
-template <int D>
-[[gnu::always_inline]] inline bool DelaunayKernel<D>::conflicts_quickly(std::uint32_t s,
-                                                                        const Point<D>& p) const {
-  const Side side = quick_side(store_.corners(s), p);
+template <int D, class Layout>
+[[gnu::always_inline]] inline bool DelaunayKernel<D, Layout>::conflicts_quickly(
+    std::uint32_t s, const Point<D>& p) const {
+  Side side;
+  if constexpr (kHasBalls) {
+    side = store_.ball(s).side(p);
+  } else {
+    side = quick_side(store_.corners(s), p, unit_.exact_to());
+  }
   if (side == Side::inside || side == Side::outside) return side == Side::inside;
   return conflicts_slowly(s, p, side == Side::tie);
 }
 
-template <int D>
-bool DelaunayKernel<D>::conflicts(std::uint32_t s, const Point<D>& p) const {
+template <int D, class Layout>
+bool DelaunayKernel<D, Layout>::conflicts(std::uint32_t s, const Point<D>& p) const {
   return conflicts_quickly(s, p);
 }
 
 /// What the filter leaves: ties, ghosts, what is nearly a tie.
-template <int D>
-[[gnu::noinline]] bool DelaunayKernel<D>::conflicts_slowly(std::uint32_t s, const Point<D>& p,
-                                                           bool tie) const {
+template <int D, class Layout>
+[[gnu::noinline]] bool DelaunayKernel<D, Layout>::conflicts_slowly(std::uint32_t s,
+                                                                   const Point<D>& p,
+                                                                   bool tie) const {
   const std::uint32_t infinite = corner_of(s, kInfinite);
   if (infinite <= D) return ghost_conflicts(s, infinite, p);
+  if constexpr (kHasBalls) tie = is_tie_on_grid(store_.corners(s), p);
   return ball_holds_exactly(store_.corners(s), p, tie);
 }
 
+/// Most points so near to a sphere are on it, and on a grid: the corners' and p's own, since a
+/// refiner has such points among many others.
+template <int D, class Layout>
+bool DelaunayKernel<D, Layout>::is_tie_on_grid(const Ids& c, const Point<D>& p) const {
+  CommonUnit unit;
+  unit.add(p);
+  double exact_to = unit.exact_to();
+  for (const std::uint32_t v : c) exact_to = std::min(exact_to, exact_to_[v]);
+  return quick_side(c, p, exact_to) == Side::tie;
+}
+
 /// `i`: the corner at infinity.
-template <int D>
-bool DelaunayKernel<D>::ghost_conflicts(std::uint32_t s, std::size_t i, const Point<D>& p) const {
+template <int D, class Layout>
+bool DelaunayKernel<D, Layout>::ghost_conflicts(std::uint32_t s, std::size_t i,
+                                                const Point<D>& p) const {
   const int sign = side(store_.corners(s), i, p);
   return sign != 0 ? sign > 0 : conflicts(store_.across(s)[i] >> 2, p);
 }
 
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::dig(std::uint32_t v, std::uint32_t s) {
+  try {
+    find_doomed(v, s);
+    make_room_for_fill();
+  } catch (...) {
+    undo_dig();
+    throw;
+  }
+  if constexpr (D == 3) number_link();
+}
+
+/// Soon they are asked.
+template <int D, class Layout>
+[[gnu::always_inline]] inline void DelaunayKernel<D, Layout>::fetch_around(std::uint32_t s) const {
+  for (const std::uint32_t code : store_.across(s)) {
+    __builtin_prefetch(&store_.corners(code >> 2));
+  }
+}
+
 /// The conflicting simplices from `start` on, and their borders.
-template <int D>
-void DelaunayKernel<D>::dig(std::uint32_t v, std::uint32_t start) {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::find_doomed(std::uint32_t v, std::uint32_t start) {
   const Point<D> p = places_[v];
   cavity_.push_back(start);
   mark_[start] = kInside;
@@ -81,6 +126,7 @@ void DelaunayKernel<D>::dig(std::uint32_t v, std::uint32_t start) {
         if (conflicts_quickly(other, p)) {
           cavity_.push_back(other);
           mark_[other] = kInside;
+          if constexpr (kHasBalls) fetch_around(other);
           continue;
         }
         outside_.push_back(other);
@@ -92,16 +138,19 @@ void DelaunayKernel<D>::dig(std::uint32_t v, std::uint32_t start) {
   }
 }
 
-template <int D>
-void DelaunayKernel<D>::undo_dig() noexcept {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::undo_dig() noexcept {
   for (const std::uint32_t s : cavity_) mark_[s] = kUnseen;
   for (const std::uint32_t s : outside_) mark_[s] = kUnseen;
   cavity_.clear();
   outside_.clear();
   borders_.clear();
+  if constexpr (D == 3) forget_link();
 }
 
 template class DelaunayKernel<2>;
 template class DelaunayKernel<3>;
+template class DelaunayKernel<2, BallLayout<2>>;
+template class DelaunayKernel<3, BallLayout<3>>;
 
 }  // namespace mesher::detail

@@ -20,12 +20,17 @@ std::size_t places_for_edges(std::size_t triangles) { return std::bit_ceil(3 * t
 }  // namespace
 
 /// All that fill() needs.
-template <int D>
-void DelaunayKernel<D>::make_room_for_fill() {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::make_room_for_fill() {
   const std::size_t n = borders_.size(), k = cavity_.size();
   if (n > k) store_.make_room(n - k);
   mark_.resize(store_.places(), 0);
   if (cavity_.capacity() < n) cavity_.reserve(2 * n);
+  if constexpr (kHasBalls) {
+    made_.reserve(cavity_.capacity());
+    balls_.make_room(n);
+    if (relative_.size() < n + 1) relative_.resize(2 * n);
+  }
   if constexpr (D == 3) {
     const std::size_t vertices = n / 2 + 2;  // of a sphere of n triangles
     link_.reserve(vertices);
@@ -40,8 +45,8 @@ void DelaunayKernel<D>::make_room_for_fill() {
 }
 
 /// New simplices from the borders to v. The first take the places of the conflicting ones.
-template <int D>
-void DelaunayKernel<D>::fill(std::uint32_t v) noexcept {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::fill(std::uint32_t v) noexcept {
   for (const std::uint32_t s : outside_) mark_[s] = 0;
   for (const std::uint32_t s : cavity_) mark_[s] = 0;
   while (cavity_.size() > borders_.size()) {
@@ -51,15 +56,18 @@ void DelaunayKernel<D>::fill(std::uint32_t v) noexcept {
   while (cavity_.size() < borders_.size()) cavity_.push_back(store_.take());
   place_borders();
   join_borders();
+  if constexpr (kHasBalls) measure_made(v);
   last_ = simplex_of_[v] = cavity_.back();
+  if constexpr (kHasBalls) made_.assign(cavity_.begin(), cavity_.end());
   cavity_.clear();
   outside_.clear();
   borders_.clear();
+  if constexpr (D == 3) forget_link();
 }
 
 /// Afterwards the new simplices have corners, and are joined with those outside.
-template <int D>
-void DelaunayKernel<D>::place_borders() noexcept {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::place_borders() noexcept {
   for (std::size_t k = 0; k < borders_.size(); ++k) {
     const Border& b = borders_[k];
     const std::uint32_t s = cavity_[k];
@@ -70,28 +78,22 @@ void DelaunayKernel<D>::place_borders() noexcept {
 }
 
 /// Joins the new simplices with each other. In the plane each vertex of the border begins one edge
-/// of it, counterclockwise.
-template <>
-void DelaunayKernel<2>::join_borders() noexcept {
-  for (std::uint32_t k = 0; k < borders_.size(); ++k) {
-    const Border& b = borders_[k];
-    local_[b.corners[kFacet<2>[b.slot][0]]] = k;
-  }
-  for (std::uint32_t k = 0; k < borders_.size(); ++k) {
-    const Border& b = borders_[k];
-    const auto [from, to] = kFacet<2>[b.slot];
-    const std::uint32_t next = local_[b.corners[to]];
-    store_.join(cavity_[k], from, cavity_[next], kFacet<2>[borders_[next].slot][1]);
-  }
-}
-
-/// In space each directed edge of the border belongs to one of its facets, and the opposite one to
-/// the neighbour: a table by the numbers of both ends in the link. Afterwards local_ of the link's
-/// vertices is 0 again.
-template <>
-void DelaunayKernel<3>::join_borders() noexcept {
-  number_link();
-  if (link_.size() > kMostInTable) {
+/// of it, counterclockwise. In space each directed edge of the border belongs to one of its facets,
+/// and the opposite one to the neighbour: a table by the numbers of both ends in the link.
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::join_borders() noexcept {
+  if constexpr (D == 2) {
+    for (std::uint32_t k = 0; k < borders_.size(); ++k) {
+      const Border& b = borders_[k];
+      local_[b.corners[kFacet<2>[b.slot][0]]] = k;
+    }
+    for (std::uint32_t k = 0; k < borders_.size(); ++k) {
+      const Border& b = borders_[k];
+      const auto [from, to] = kFacet<2>[b.slot];
+      const std::uint32_t next = local_[b.corners[to]];
+      store_.join(cavity_[k], from, cavity_[next], kFacet<2>[borders_[next].slot][1]);
+    }
+  } else if (link_.size() > kMostInTable) {
     join_many_borders();
   } else {
     const int shift = std::bit_width(link_.size());
@@ -113,13 +115,19 @@ void DelaunayKernel<3>::join_borders() noexcept {
       across[j] = edge[a << shift | c];
     }
   }
+}
+
+/// Afterwards local_ of the link's vertices is 0 again.
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::forget_link() noexcept {
   for (const std::uint32_t v : link_) local_[v] = 0;
   link_.clear();
 }
 
-/// Gives the link's vertices numbers from 1, and each border those of its facet.
-template <int D>
-void DelaunayKernel<D>::number_link() noexcept {
+/// Gives the link's vertices numbers from 1, and each border those of its facet. (In the plane the
+/// border says it all.)
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::number_link() noexcept {
   ends_.resize(borders_.size());
   for (std::size_t k = 0; k < borders_.size(); ++k) {
     const Border& b = borders_[k];
@@ -137,8 +145,8 @@ void DelaunayKernel<D>::number_link() noexcept {
 
 /// The same by a hash table of the edges without direction: the first facet of an edge waits there
 /// for the second. It has twice as many places as edges.
-template <int D>
-void DelaunayKernel<D>::join_many_borders() noexcept {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::join_many_borders() noexcept {
   const std::size_t places = places_for_edges(borders_.size());
   std::fill_n(many_.begin(), places, Ridge{kNoRidge, 0, 0});
   const auto meet = [&](std::uint32_t a, std::uint32_t b, std::uint32_t s, std::uint32_t corner) {
@@ -162,5 +170,7 @@ void DelaunayKernel<D>::join_many_borders() noexcept {
 
 template class DelaunayKernel<2>;
 template class DelaunayKernel<3>;
+template class DelaunayKernel<2, BallLayout<2>>;
+template class DelaunayKernel<3, BallLayout<3>>;
 
 }  // namespace mesher::detail

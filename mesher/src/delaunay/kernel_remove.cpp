@@ -24,8 +24,8 @@ constexpr std::size_t kFew = 64;
 
 }  // namespace
 
-template <int D>
-std::vector<std::uint32_t> DelaunayKernel<D>::star(std::uint32_t v) const {
+template <int D, class Layout>
+std::vector<std::uint32_t> DelaunayKernel<D, Layout>::star(std::uint32_t v) const {
   SAC_EXPECTS(has(v));
   std::vector<std::uint32_t> star{simplex_of_[v]};
   std::unordered_set<std::uint32_t> seen;  // of many
@@ -46,9 +46,9 @@ std::vector<std::uint32_t> DelaunayKernel<D>::star(std::uint32_t v) const {
 }
 
 /// The finite vertices around v, ascending.
-template <int D>
-std::vector<std::uint32_t> DelaunayKernel<D>::link_of(const std::vector<std::uint32_t>& star,
-                                                      std::uint32_t v) const {
+template <int D, class Layout>
+std::vector<std::uint32_t> DelaunayKernel<D, Layout>::link_of(
+    const std::vector<std::uint32_t>& star, std::uint32_t v) const {
   std::vector<std::uint32_t> link;
   for (const std::uint32_t s : star) {
     for (const std::uint32_t w : store_.corners(s)) {
@@ -61,9 +61,9 @@ std::vector<std::uint32_t> DelaunayKernel<D>::link_of(const std::vector<std::uin
 
 /// Whether some simplex that is not in v's star is no ghost: then one is across from v, since a
 /// triangulation is connected through facets.
-template <int D>
-bool DelaunayKernel<D>::has_finite_beside(const std::vector<std::uint32_t>& star,
-                                          std::uint32_t v) const {
+template <int D, class Layout>
+bool DelaunayKernel<D, Layout>::has_finite_beside(const std::vector<std::uint32_t>& star,
+                                                  std::uint32_t v) const {
   return std::any_of(star.begin(), star.end(), [&](std::uint32_t s) {
     return !is_ghost(s) && !is_ghost(store_.across(s)[corner_of(s, v)] >> 2);
   });
@@ -71,8 +71,8 @@ bool DelaunayKernel<D>::has_finite_beside(const std::vector<std::uint32_t>& star
 
 /// star_: the triangulation of these vertices, numbered from 1 in their order. False if they are
 /// all in one hyperplane.
-template <int D>
-bool DelaunayKernel<D>::triangulate(const std::vector<std::uint32_t>& link) {
+template <int D, class Layout>
+bool DelaunayKernel<D, Layout>::triangulate(const std::vector<std::uint32_t>& link) {
   if (star_ == nullptr) star_ = std::make_unique<DelaunayKernel>();
   star_->clear();
   std::vector<std::uint32_t> local;
@@ -81,9 +81,10 @@ bool DelaunayKernel<D>::triangulate(const std::vector<std::uint32_t>& link) {
 }
 
 /// The part of the link's triangulation within the star's border.
-template <int D>
-auto DelaunayKernel<D>::filling_from_link(const std::vector<std::uint32_t>& star, std::uint32_t v,
-                                          const std::vector<std::uint32_t>& link) const
+template <int D, class Layout>
+auto DelaunayKernel<D, Layout>::filling_from_link(const std::vector<std::uint32_t>& star,
+                                                  std::uint32_t v,
+                                                  const std::vector<std::uint32_t>& link) const
     -> std::vector<Ids> {
   const auto local = [&](std::uint32_t w) -> std::uint32_t {
     const auto at = std::lower_bound(link.begin(), link.end(), w) - link.begin();
@@ -104,9 +105,9 @@ auto DelaunayKernel<D>::filling_from_link(const std::vector<std::uint32_t>& star
 }
 
 /// Ghosts in the place of the star's simplices that are none.
-template <int D>
-auto DelaunayKernel<D>::ghosts_for(const std::vector<std::uint32_t>& star, std::uint32_t v) const
-    -> std::vector<Ids> {
+template <int D, class Layout>
+auto DelaunayKernel<D, Layout>::ghosts_for(const std::vector<std::uint32_t>& star,
+                                           std::uint32_t v) const -> std::vector<Ids> {
   std::vector<Ids> filling;
   for (const std::uint32_t s : star) {
     if (is_ghost(s)) continue;
@@ -116,8 +117,8 @@ auto DelaunayKernel<D>::ghosts_for(const std::vector<std::uint32_t>& star, std::
   return filling;
 }
 
-template <int D>
-bool DelaunayKernel<D>::remove(std::uint32_t v) {
+template <int D, class Layout>
+bool DelaunayKernel<D, Layout>::remove(std::uint32_t v) {
   const std::vector<std::uint32_t> around = star(v), link = link_of(around, v);
   const bool inner =
       std::none_of(around.begin(), around.end(), [&](std::uint32_t s) { return is_ghost(s); });
@@ -135,9 +136,9 @@ bool DelaunayKernel<D>::remove(std::uint32_t v) {
 
 /// The vertex of the link that is across from a facet of the hole, whose corners are the first of
 /// `c`: of those on its inner side, the one in whose ball there is no other.
-template <int D>
-std::uint32_t DelaunayKernel<D>::apex_over(const Ids& c,
-                                           const std::vector<std::uint32_t>& link) const {
+template <int D, class Layout>
+std::uint32_t DelaunayKernel<D, Layout>::apex_over(const Ids& c,
+                                                   const std::vector<std::uint32_t>& link) const {
   Ids best = c;
   best[D] = kNone;
   for (const std::uint32_t w : link) {
@@ -159,9 +160,10 @@ template <std::size_t N>
 
 /// What fills the hole of a vertex within the hull, from its border inward: the ball of a simplex
 /// of it holds no vertex of the link, so over each facet there is one apex.
-template <int D>
-auto DelaunayKernel<D>::wrapping(const std::vector<std::uint32_t>& star, std::uint32_t v,
-                                 const std::vector<std::uint32_t>& link) const -> std::vector<Ids> {
+template <int D, class Layout>
+auto DelaunayKernel<D, Layout>::wrapping(const std::vector<std::uint32_t>& star, std::uint32_t v,
+                                         const std::vector<std::uint32_t>& link) const
+    -> std::vector<Ids> {
   using Facet = std::array<std::uint32_t, D>;
   std::vector<Ids> filling;
   std::vector<Facet> open;  // those that wait
@@ -193,9 +195,9 @@ auto DelaunayKernel<D>::wrapping(const std::vector<std::uint32_t>& star, std::ui
 
 /// Puts simplices of these corners into the place of v's star, and joins what has a facet in
 /// common.
-template <int D>
-void DelaunayKernel<D>::refill(std::uint32_t v, const std::vector<std::uint32_t>& star,
-                               const std::vector<Ids>& filling) {
+template <int D, class Layout>
+void DelaunayKernel<D, Layout>::refill(std::uint32_t v, const std::vector<std::uint32_t>& star,
+                                       const std::vector<Ids>& filling) {
   struct Side {
     std::array<std::uint32_t, D> facet;
     std::uint32_t code;

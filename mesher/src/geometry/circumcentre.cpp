@@ -78,7 +78,24 @@ Circumcentre from_smallest(const Point<3>& v, const Point<3>& first, const Point
   return {q, q2, 4 * kRounded * kRounded * (spread2 * f * f) * q2};
 }
 
+/// d: the differences a, b. All sums are among those of incircle.
+template <std::size_t W>
+Point<2> centre(const std::array<predicates::detail::FixedInt<W>, 4>& d, int low) {
+  using predicates::detail::minor;
+  using predicates::detail::to_double;
+  const auto a2 = d[0] * d[0] + d[1] * d[1], b2 = d[2] * d[2] + d[3] * d[3];
+  const double det = to_double(minor(d[0], d[1], d[2], d[3]));
+  return {std::ldexp(to_double(a2 * d[3] - b2 * d[1]) / det, low - 1),
+          std::ldexp(to_double(b2 * d[0] - a2 * d[2]) / det, low - 1)};
+}
+
 }  // namespace
+
+Point<2> exact_circumcentre(const Point<2>& v, const Point<2>& a, const Point<2>& b) {
+  return predicates::detail::with_integers<2, 3>(
+      {a[0], a[1], b[0], b[1], v[0], v[1]},
+      [](const auto& differences, int low) { return centre(differences, low); });
+}
 
 Circumcentre circumcentre(const Point<3>& v, const Point<3>& a, const Point<3>& b,
                           const Point<3>& c) {

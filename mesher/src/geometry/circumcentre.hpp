@@ -21,4 +21,8 @@ struct Circumcentre {
 [[nodiscard]] Circumcentre circumcentre(const Point<3>& v, const Point<3>& a, const Point<3>& b,
                                         const Point<3>& c);
 
+/// In the plane: the centre relative to v, a quotient of exact integers always.
+/// Requires: orient2d(v, a, b) != 0.
+[[nodiscard]] Point<2> exact_circumcentre(const Point<2>& v, const Point<2>& a, const Point<2>& b);
+
 }  // namespace mesher::detail

@@ -28,32 +28,57 @@ auto sorted_by_corner(const std::vector<std::array<VertexHandle, N>>& simplices,
   return sorted;
 }
 
+template <int D>
+struct Placed {
+  Point<D> p;
+  std::uint32_t handle;
+};
+
+// All of a mesh but its edges, and where the vertices went, by handle.
+template <std::size_t N, class KindOf>
+Mesh<N - 1> sorted(std::vector<Placed<N - 1>> placed, KindOf&& kind_of,
+                   const std::vector<std::array<VertexHandle, N>>& simplices,
+                   std::vector<std::uint32_t>& index) {
+  std::sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.p < b.p; });
+  Mesh<N - 1> mesh;
+  mesh.vertices.reserve(placed.size());
+  mesh.kinds.reserve(placed.size());
+  for (const auto& v : placed) {
+    index[v.handle] = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back(v.p);
+    mesh.kinds.push_back(kind_of(v.handle));
+  }
+  mesh.simplices = sorted_by_corner(simplices, index, placed.size());
+  return mesh;
+}
+
 }  // namespace
+
+template <int D>
+Mesh<D> canonical(std::span<const Point<D>> places, std::span<const VertexKind> kinds,
+                  std::uint32_t first,
+                  const std::vector<std::array<std::uint32_t, D + 1>>& simplices) {
+  std::vector<Placed<D>> placed;
+  placed.reserve(places.size());
+  for (const Point<D>& p : places) {
+    placed.push_back({p, first + static_cast<std::uint32_t>(placed.size())});
+  }
+  std::vector<std::uint32_t> index(first + places.size());
+  const auto kind_of = [&](std::uint32_t v) { return kinds[v - first]; };
+  return sorted<D + 1>(std::move(placed), kind_of, simplices, index);
+}
 
 template <std::size_t N>
 Mesh<N - 1> canonical(const VertexPool<N - 1>& pool, std::vector<VertexHandle> vertices,
                       const std::vector<std::array<VertexHandle, N>>& simplices,
                       const std::vector<LineEdge>& edges) {
-  struct Placed {
-    Point<N - 1> p;
-    VertexHandle handle;
-  };
-  std::vector<Placed> placed;
+  std::vector<Placed<N - 1>> placed;
   placed.reserve(vertices.size());
   for (const VertexHandle h : vertices) placed.push_back({pool[h].p, h});
-  std::sort(placed.begin(), placed.end(),
-            [](const Placed& a, const Placed& b) { return a.p < b.p; });
-  Mesh<N - 1> mesh;
-  mesh.vertices.reserve(placed.size());
-  mesh.kinds.reserve(placed.size());
   std::vector<std::uint32_t> index(
       vertices.empty() ? 0 : *std::max_element(vertices.begin(), vertices.end()) + std::size_t{1});
-  for (const Placed& v : placed) {
-    index[v.handle] = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.push_back(v.p);
-    mesh.kinds.push_back(pool[v.handle].kind());
-  }
-  mesh.simplices = sorted_by_corner(simplices, index, placed.size());
+  const auto kind_of = [&](VertexHandle h) { return pool[h].kind(); };
+  Mesh<N - 1> mesh = sorted<N>(std::move(placed), kind_of, simplices, index);
   mesh.edges.reserve(edges.size());
   for (const LineEdge& e : edges) {
     const auto [low, high] = std::minmax(index[e.from], index[e.to]);
@@ -63,6 +88,10 @@ Mesh<N - 1> canonical(const VertexPool<N - 1>& pool, std::vector<VertexHandle> v
   return mesh;
 }
 
+template Mesh<2> canonical<2>(std::span<const Point<2>>, std::span<const VertexKind>, std::uint32_t,
+                              const std::vector<std::array<std::uint32_t, 3>>&);
+template Mesh<3> canonical<3>(std::span<const Point<3>>, std::span<const VertexKind>, std::uint32_t,
+                              const std::vector<std::array<std::uint32_t, 4>>&);
 template Mesh<2> canonical(const VertexPool<2>&, std::vector<VertexHandle>,
                            const std::vector<std::array<VertexHandle, 3>>&,
                            const std::vector<LineEdge>&);

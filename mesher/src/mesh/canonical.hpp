@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,12 @@ template <std::size_t N>
                                     std::vector<VertexHandle> vertices,
                                     const std::vector<std::array<VertexHandle, N>>& simplices,
                                     const std::vector<LineEdge>& edges = {});
+
+/// The same of vertices first, first + 1, ... at `places`, no edges.
+template <int D>
+[[nodiscard]] Mesh<D> canonical(std::span<const Point<D>> places, std::span<const VertexKind> kinds,
+                                std::uint32_t first,
+                                const std::vector<std::array<std::uint32_t, D + 1>>& simplices);
 
 /// Rotates a triangle so that the smallest corner comes first.
 template <class T>

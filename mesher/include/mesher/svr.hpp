@@ -1,0 +1,61 @@
+// Sparse Voronoi refinement [Hudson, Ch 2, 3]: a quality mesh of points, from scratch and fast.
+//
+// Refinement that starts from the Delaunay triangulation of all points is slow where that is large,
+// quadratic for points on a line and a circle around it. Here the mesh begins with the box and one
+// point, and has good quality all the time; other points are brought in as it becomes fine enough
+// for them.
+//
+//   const auto mesh = mesher::svr<3>(points, {.domain = mesher::snapped_domain<3>(points)});
+//
+// What holds of the mesh:
+//  (1) every point is a vertex, bit for bit;
+//  (2) it is the Delaunay triangulation of its vertices, ties decided by coordinates alone;
+//  (3) no simplex has circumradius / shortest edge > rho;
+//  (4) it is a function of the set of points and the options alone: not of their order, the ids, or
+//      the machine.
+// It is another mesh than that of mesh_statically, in space with fewer vertices, and a point more or
+// less may change all of it.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "mesher/mesh.hpp"
+#include "mesher/mesher.hpp"
+
+namespace mesher {
+
+/// How SVR refines.
+struct SvrSettings {
+  /// The k of B(c, k r): instead of a new vertex at c, a point that is so near to it is inserted, r
+  /// from c to the nearest vertices. In (0, 1).
+  double k = 0.9;
+};
+
+/// What happened in a run.
+struct SvrStats {
+  std::size_t vertices = 0;
+  std::size_t simplices = 0;
+  std::size_t warped = 0;    ///< input points inserted in the place of a new vertex
+  std::size_t crowded = 0;   ///< input points inserted since they crowded a vertex
+  std::size_t on_sides = 0;  ///< new vertices that were moved onto a side of the box
+  double worst_radius_edge =
+      0;  ///< of any simplex that there was after the first point's insertion
+  std::size_t largest_degree = 0;  ///< the most neighbours that a vertex ever had since then
+};
+
+/// The mesh. `options`: domain, rho and max_vertices count; `ids`: as many as points, only used in
+/// errors (empty: 1..n).
+/// Requires: ids.empty() || ids.size() == points.size().
+/// Throws: Error (bad_option: as mesh_statically, and for limits of size, another rule, or k out of
+///         range; not_finite, magnitude, outside_domain, duplicate_point, too_close; too_many:
+///         beyond options.max_vertices; cancelled), std::bad_alloc, what control.progress throws.
+/// Cost: O(n log(spread) + m) for m vertices, where spread is the largest over the smallest
+/// distance
+///       of points. `stats` costs some 10%.
+template <int D>
+[[nodiscard]] Mesh<D> svr(const std::vector<Point<D>>& points, const Options<D>& options,
+                          const SvrSettings& settings = {}, const std::vector<FeatureId>& ids = {},
+                          SvrStats* stats = nullptr, const RunControl& control = {});
+
+}  // namespace mesher

@@ -1,0 +1,394 @@
+// The main loop, Split and Insert.
+#include "svr/refinement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "delaunay/build.hpp"
+#include "delaunay/spatial_order.hpp"
+#include "input.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+// What is poor on the way, in units of rho [rules D9].
+constexpr double kMeanwhile = 1.25;
+// Of a square: more than twice the error of a radius that the balls have, 2^-21 (simplex_ball.hpp).
+constexpr double kSurely = 1 - 0x1p-18;
+// Nearer than this to a side of the box, in units of its distance to vertices, no vertex is put.
+constexpr double kBesideSide = 0.25;
+// A new vertex is at least so far from the corners of the simplex, in units of the distance that it
+// should have: 0.8 for rho = 1.01, if nothing is rounded.
+constexpr double kLeastDistance = 0.5;
+// An off-centre aims a little lower than the bound, so that rounding does not make it poor.
+constexpr double kAim = 1 - 0x1p-16;
+constexpr std::size_t kBetweenWatches = 256;
+
+// The most from the middle of an edge of length 1 to its off-centre. In the plane that is where the
+// triangle of both would have a circumradius of rho; in space lower is better.
+template <int D>
+double offcentre_height(double rho) {
+  const double aim = rho * kAim;
+  return D == 2 ? aim + std::sqrt(aim * aim - 0.25) : rho;
+}
+
+template <int D>
+double squared_distance(const Point<D>& a, const Point<D>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < D; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sum;
+}
+
+}  // namespace
+
+template <int D>
+Refinement<D>::Refinement(const MeshBox<D>& box, std::span<const Point<D>> points,
+                          const Settings& settings)
+    : box_(box),
+      settings_(settings),
+      rho2_(settings.rho * settings.rho * kSurely),
+      skinny2_(points.empty() ? rho2_ : kMeanwhile * kMeanwhile * rho2_),
+      height_(offcentre_height<D>(settings.rho)),
+      tiny_(box.side * 0x1p-60),
+      lists_(points, box.side),
+      kinds_{VertexKind::boundary} {
+  kernel_.reserve(points.size() + points.size() / 2 + 1024);
+}
+
+/// [Fig 2.5].
+template <int D>
+void Refinement<D>::run() {
+  start();
+  const auto is_crowded = [&](std::uint32_t v) { return lists_.is_crowded(v); };
+  for (std::size_t steps = 1;; ++steps) {
+    if (settings_.watch != nullptr && steps % kBetweenWatches == 0) {
+      settings_.watch(kernel_.places());
+    }
+    if (const std::uint32_t s = queue_.take_skinny(); s != kNone) {
+      split(s);
+    } else if (const std::uint32_t v = queue_.crowded(is_crowded); v != kNone) {
+      split_crowded(v);
+    } else {
+      skinny2_ = rho2_;  // no point is left
+      const std::uint32_t moderate = queue_.take_moderate();
+      if (moderate == kNone) break;
+      split(moderate);
+    }
+  }
+  stats_.worst_radius_edge = std::sqrt(worst2_);
+}
+
+// --- Initialize [Fig 2.6] --------------------------------------------------------------------
+
+template <int D>
+void Refinement<D>::start() {
+  add_box();
+  if (lists_.left() != 0) add_first_point();
+  look_at_all();
+}
+
+template <int D>
+void Refinement<D>::add_box() {
+  std::vector<Point<D>> places;
+  box_.for_each_boundary_point([&](const Point<D>& p) { places.push_back(p); });
+  std::vector<std::uint32_t> vertices;
+  for (const std::uint32_t i : spatial_order<D>(places)) {
+    add_place(places[i], VertexKind::boundary);
+    vertices.push_back(static_cast<std::uint32_t>(kernel_.places()));
+  }
+  build<D>(kernel_, vertices, [](std::uint32_t, std::uint32_t) {});
+}
+
+/// The nearest to the middle of the box.
+template <int D>
+std::uint32_t Refinement<D>::first_point() const {
+  Point<D> middle;
+  for (int i = 0; i < D; ++i) middle[i] = box_.lo[i] + box_.side / 2;
+  std::uint32_t best = 0;
+  for (std::uint32_t k = 1; k < lists_.left(); ++k) {
+    if (squared_distance<D>(lists_.place(k), middle) <
+        squared_distance<D>(lists_.place(best), middle)) {
+      best = k;
+    }
+  }
+  return best;
+}
+
+template <int D>
+void Refinement<D>::add_first_point() {
+  const std::uint32_t first = first_point();
+  add_place(lists_.place(first), VertexKind::input);
+  const auto v = static_cast<std::uint32_t>(kernel_.places());
+  kernel_.insert(v);
+  lists_.start(v, kernel_.place(v), first);
+  queue_.add_crowded(v);
+}
+
+template <int D>
+void Refinement<D>::look_at_all() {
+  const auto& simplices = kernel_.simplices();
+  queue_.make_room(simplices.places());
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t s = 0; s < simplices.places(); ++s) {
+    if (!simplices.alive(s)) continue;
+    all.push_back(s);
+    look_at(s, kernel_.measure(s));
+  }
+  count_degrees(all, 1);
+}
+
+/// Of a ghost nothing is true.
+template <int D>
+void Refinement<D>::look_at(std::uint32_t s, const Shape& shape) {
+  if (shape.radius2 > worst2_ * shape.shortest2) worst2_ = shape.radius2 / shape.shortest2;
+  if (!(shape.radius2 > rho2_ * shape.shortest2)) return;
+  const bool skinny = shape.radius2 > skinny2_ * shape.shortest2;
+  queue_.add(s, skinny ? WorkQueue::Wait::skinny : WorkQueue::Wait::moderately_skinny);
+}
+
+// --- Split [Fig 2.7] -------------------------------------------------------------------------
+
+/// Of a point near the centre nearly always a corner of s is the owner: so they are asked before
+/// anything is dug [rules D6].
+template <int D>
+void Refinement<D>::split(std::uint32_t s) {
+  const Centre centre = centre_of(s);
+  const bool warps = lists_.left() != 0 && !centre.on_side;
+  if (warps) {
+    if (const Found found = point_near_corners(centre, s); found.point != kNone) {
+      ++stats_.warped;
+      return insert_point(found, s);
+    }
+  }
+  require_apart(s, centre);
+  const std::uint32_t v =
+      add_place(centre.place, centre.on_side ? VertexKind::boundary : VertexKind::steiner);
+  stats_.on_sides += centre.on_side ? 1 : 0;
+  kernel_.dig(v, s);
+  const Found found = warps ? point_near_link(centre, s) : Found{};
+  if (found.point != kNone) {
+    ++stats_.warped;
+    kernel_.undo_dig();
+    kernel_.set_place(v, lists_.place(found.point));
+    kinds_[v] = VertexKind::input;
+    kernel_.dig(v, s);
+  }
+  insert_dug(v, found);
+}
+
+/// Around a Steiner vertex any point can go in: none is near, or it would be there in its place.
+template <int D>
+void Refinement<D>::split_crowded(std::uint32_t v) {
+  const bool is_input = kinds_[v] == VertexKind::input;
+  const Found found{is_input ? lists_.farthest(v) : lists_.any(v), v};
+  const Point<D> p = lists_.place(found.point);
+  const auto conflicts = [&](std::uint32_t s) { return kernel_.conflicts(s, p); };
+  const auto is_deep = [&](std::uint32_t s) { return is_deep_in(s, p, v); };
+  const std::uint32_t s = is_input ? kernel_.find_in_star(v, star_, is_deep)
+                                   : kernel_.find_in_star(v, star_, conflicts);
+  if (s != kNone) {
+    ++stats_.crowded;
+    insert_point(found, s);
+  } else if (is_input && std::any_of(star_.begin(), star_.end(), conflicts)) {
+    split(largest_in_star(v));
+  } else {
+    insert_lost(found);
+  }
+}
+
+/// The simplex of v's star, in star_, with the largest ball.
+template <int D>
+std::uint32_t Refinement<D>::largest_in_star(std::uint32_t v) const {
+  std::uint32_t largest = kNone;
+  double radius2 = 0;
+  for (const std::uint32_t s : star_) {
+    const double r2 = squared_distance<D>(kernel_.simplices().ball(s).centre, kernel_.place(v));
+    if (r2 > radius2) largest = s, radius2 = r2;
+  }
+  return largest;
+}
+
+/// Whether p is in B(c, k r) of a simplex with corner v.
+template <int D>
+bool Refinement<D>::is_deep_in(std::uint32_t s, const Point<D>& p, std::uint32_t v) const {
+  const Point<D>& c = kernel_.simplices().ball(s).centre;
+  const double r2 = squared_distance<D>(c, kernel_.place(v));
+  return squared_distance<D>(c, p) < settings_.k * settings_.k * r2;
+}
+
+template <int D>
+auto Refinement<D>::point_near(const Centre& centre, std::uint32_t w) const -> Found {
+  const std::uint32_t point =
+      lists_.find(w, kernel_.place(w), centre.place, settings_.k * centre.radius);
+  return {point, w};
+}
+
+/// A point whose insertion takes s out.
+template <int D>
+auto Refinement<D>::point_near_corners(const Centre& centre, std::uint32_t s) const -> Found {
+  for (const std::uint32_t w : kernel_.simplices().corners(s)) {
+    const Found found = point_near(centre, w);
+    if (found.point != kNone && kernel_.conflicts(s, lists_.place(found.point))) return found;
+  }
+  return {};
+}
+
+/// The same in the lists of those around the hole that is dug at the centre.
+template <int D>
+auto Refinement<D>::point_near_link(const Centre& centre, std::uint32_t s) const -> Found {
+  Found best;
+  kernel_.for_each_in_link([&](std::uint32_t w) {
+    if (best.point != kNone) return;
+    const Found found = point_near(centre, w);
+    if (found.point != kNone && kernel_.conflicts(s, lists_.place(found.point))) best = found;
+  });
+  return best;
+}
+
+// --- Centres ---------------------------------------------------------------------------------
+
+template <int D>
+auto Refinement<D>::centre_of(std::uint32_t s) const -> Centre {
+  const auto& corners = kernel_.simplices().corners(s);
+  double shortest2 = std::numeric_limits<double>::infinity();
+  const Point<D>*a = nullptr, *b = nullptr;
+  for (std::size_t i = 0; i <= D; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Point<D>&p = kernel_.place(corners[i]), &q = kernel_.place(corners[j]);
+      const double length2 = squared_distance<D>(p, q);
+      if (length2 < shortest2) shortest2 = length2, a = &p, b = &q;
+    }
+  }
+  const Point<D>& circumcentre = kernel_.simplices().ball(s).centre;
+  Point<D> middle;
+  for (std::size_t i = 0; i < D; ++i) middle[i] = (*a)[i] + ((*b)[i] - (*a)[i]) / 2;
+  const double height2 = squared_distance<D>(circumcentre, middle);
+  const double highest2 = height_ * height_ * shortest2;
+  Centre centre{circumcentre, std::sqrt(std::min(height2, highest2) + shortest2 / 4), false};
+  if (height2 > highest2) {
+    const double share = std::sqrt(highest2 / height2);
+    for (std::size_t i = 0; i < D; ++i) {
+      centre.place[i] = middle[i] + share * (circumcentre[i] - middle[i]);
+    }
+  }
+  // Noise of sums that cancel near an axis would leave the predicates' range of bits.
+  for (double& x : centre.place) x = std::abs(x) < tiny_ ? 0 : x;
+  centre = moved_to_sides(centre, kBesideSide * centre.radius);
+  if (!centre.on_side || kernel_.conflicts(s, centre.place)) return centre;
+  // What is nearest in the box to the circumcentre is nearer than the corners.
+  return moved_to_sides({circumcentre, centre.radius, false}, 0);
+}
+
+/// What is nearer than this to a side, or outside of it, goes onto it.
+template <int D>
+auto Refinement<D>::moved_to_sides(const Centre& centre, double margin) const -> Centre {
+  Centre moved = centre;
+  for (int i = 0; i < D; ++i) {
+    double& x = moved.place[i];
+    const double side = x < box_.lo[i] + margin ? box_.lo[i] : box_.hi(i);
+    if (x >= box_.lo[i] + margin && x <= box_.hi(i) - margin) continue;
+    x = side;
+    moved.on_side = true;
+  }
+  return moved;
+}
+
+/// Of doubles there are not enough where input points are nearly equal.
+template <int D>
+void Refinement<D>::require_apart(std::uint32_t s, const Centre& centre) const {
+  const double least = centre.on_side ? 0 : kLeastDistance * centre.radius;
+  for (const std::uint32_t w : kernel_.simplices().corners(s)) {
+    const double length2 = squared_distance<D>(kernel_.place(w), centre.place);
+    if (length2 > least * least) continue;
+    throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
+                                          place_text(kernel_.place(w)) +
+                                          ": rounding moved a new vertex to " +
+                                          place_text(centre.place));
+  }
+  if (kernel_.conflicts(s, centre.place)) return;
+  throw Error(ErrorCode::too_close,
+              "input points are too close for double precision near " + place_text(centre.place));
+}
+
+// --- Insert [Fig 2.8] ------------------------------------------------------------------------
+
+template <int D>
+std::uint32_t Refinement<D>::add_place(const Point<D>& p, VertexKind kind) {
+  if (settings_.most_vertices != 0 && kernel_.places() >= settings_.most_vertices) {
+    throw Error(ErrorCode::too_many,
+                "more than " + std::to_string(settings_.most_vertices) + " vertices are needed");
+  }
+  const std::uint32_t v = kernel_.add_place(p);
+  kinds_.push_back(kind);
+  lists_.add_vertex();
+  return v;
+}
+
+/// Requires: it takes s out.
+template <int D>
+void Refinement<D>::insert_point(const Found& found, std::uint32_t s) {
+  const std::uint32_t v = add_place(lists_.place(found.point), VertexKind::input);
+  kernel_.dig(v, s);
+  insert_dug(v, found);
+}
+
+/// A point that is not in its owner's cell, but for rounding. It may be where a vertex is.
+template <int D>
+void Refinement<D>::insert_lost(const Found& found) {
+  const Point<D>& p = lists_.place(found.point);
+  const std::uint32_t s = kernel_.walk(p, star_.front());
+  for (const std::uint32_t w : kernel_.simplices().corners(s)) {
+    if (kernel_.place(w) != p) continue;
+    kinds_[w] = VertexKind::input;
+    return lists_.drop(found.owner, found.point);
+  }
+  insert_point(found, s);
+}
+
+/// `found`: the point that v is, if it is one.
+template <int D>
+void Refinement<D>::insert_dug(std::uint32_t v, const Found& found) {
+  for (const std::uint32_t s : kernel_.doomed()) queue_.forget(s);
+  count_degrees(kernel_.doomed(), -1);
+  if (lists_.left() != 0) {
+    const Point<D>& p = kernel_.place(v);
+    bool is_point = false;
+    kernel_.for_each_in_link([&](std::uint32_t w) {
+      if (w != kInfinite) is_point |= lists_.relocate(v, p, w, kernel_.place(w));
+    });
+    if (is_point) {
+      kinds_[v] = VertexKind::input;
+    } else if (found.point != kNone) {
+      lists_.drop(found.owner, found.point);
+    }
+    if (lists_.is_crowded(v)) queue_.add_crowded(v);
+  }
+  kernel_.fill(v);
+  queue_.make_room(kernel_.simplices().places());
+  const auto& made = kernel_.made();
+  for (std::size_t k = 0; k < made.size(); ++k) look_at(made[k], kernel_.shape_made(k));
+  count_degrees(made, 1);
+}
+
+/// Of n facets around a vertex in space, n / 2 + 2 corners are its neighbours [Euler].
+template <int D>
+void Refinement<D>::count_degrees(std::span<const std::uint32_t> simplices, int change) {
+  if (!settings_.follow_degrees) return;
+  star_size_.resize(kernel_.places() + 1);
+  for (const std::uint32_t s : simplices) {
+    for (const std::uint32_t w : kernel_.simplices().corners(s)) {
+      std::size_t& size = star_size_[w];
+      size += static_cast<std::size_t>(change);
+      if (w == kInfinite) continue;
+      stats_.largest_degree = std::max(stats_.largest_degree, D == 2 ? size : size / 2 + 2);
+    }
+  }
+}
+
+template class Refinement<2>;
+template class Refinement<3>;
+
+}  // namespace mesher::detail
