@@ -14,6 +14,7 @@ space_kinds=(uniform gaussian clusters grid line-circle spiral sphere spread)
 space_points=200
 line_kinds=(segments lengths polylines trees corridors zigzag fan bundle)
 points=400
+lines=60
 
 # A hundred edits of points 1..n near the middle of the first ones: added, moved, removed.
 write_edits() {
@@ -73,7 +74,7 @@ write_files() {  # TOOLS FOLDER
     cmp "$kind.space.out.ele" "$kind.space.static.ele"
   done
   for kind in "${line_kinds[@]}"; do
-    "$tool" gen "$kind" --n $points --seed 3 -o "$kind.poly"
+    "$tool" gen "$kind" --n $lines --seed 3 -o "$kind.poly"
     "$tool" mesh "$kind.poly" --quiet -o "$kind.lines.node" -o "$kind.lines.vtu"
     "$tool" mesh "$kind.poly" --quiet --static -o "$kind.lines.static.node"
     cmp "$kind.lines.ele" "$kind.lines.static.ele"

@@ -124,7 +124,7 @@ class FeatureScene {
     return near;
   }
   bool naive_crowded(const mesher::detail::EdgePiece& piece) const {
-    const mesher::detail::CrowdedBall ball(piece);
+    const mesher::detail::EdgeBall ball(piece);
     bool crowded = false;
     for_each([&](const auto& f) { crowded = crowded || ball.has(f); });
     return crowded;

@@ -67,6 +67,7 @@ int VoronoiCell3::new_face() {
   if (open_.size() < index(corners_ + 1)) {
     const std::size_t room = 2 * index(corners_) + 32;
     for (auto* column : {&qx_, &qy_, &qz_, &q2_, &tolerance2_}) column->resize(room);
+    for (auto* column : {&near_.q[0], &near_.q[1], &near_.q[2], &near_.q2}) column->resize(room);
     face_.resize(room);
     is_open_.resize(room);
     is_taken_.resize(room);
@@ -175,6 +176,20 @@ void VoronoiCell3::close_known(const LinkRecord& record) {
   update_reach();
 }
 
+void VoronoiCell3::update_reach() noexcept {
+  CornerReach::update_reach(index(corners_));
+  const std::size_t n = index(open_count_);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t t = index(open_[k]);
+    near_.q[0][k] = qx_[t], near_.q[1][k] = qy_[t], near_.q[2][k] = qz_[t];
+    near_.q2[k] = q2_[t] * (1 + 0x1p-30);
+  }
+  for (near_count_ = n; near_count_ % kLanes != 0; ++near_count_) {
+    for (auto& q : near_.q) q[near_count_] = 0;
+    near_.q2[near_count_] = -1;
+  }
+}
+
 // --- Cuts ------------------------------------------------------------------------------------
 
 void VoronoiCell3::aim(const Point<3>& w) noexcept {
@@ -194,13 +209,17 @@ double VoronoiCell3::largest_projection() const noexcept {
   return most;
 }
 
-double VoronoiCell3::largest_open_projection() const noexcept {
-  double most = -std::numeric_limits<double>::infinity();
-  for (int k = 0; k < open_count_; ++k) {
-    const std::size_t t = index(open_[index(k)]);
-    most = std::max(most, aim_[0] * qx_[t] + aim_[1] * qy_[t] + aim_[2] * qz_[t]);
+// Whether the candidate may be nearer to an open corner.
+bool VoronoiCell3::may_take_open() const noexcept {
+  const Lanes clear = both(w2_ / 2 - error_);
+  const Lanes x = both(aim_[0]), y = both(aim_[1]), z = both(aim_[2]);
+  LaneMask taken{};
+  for (std::size_t k = 0; k < near_count_; k += kLanes) {
+    const Lanes along =
+        x * lanes_at(&near_.q[0][k]) + y * lanes_at(&near_.q[1][k]) + z * lanes_at(&near_.q[2][k]);
+    taken |= along >= clear;
   }
-  return most;
+  return any(taken);
 }
 
 bool VoronoiCell3::find_cut() {

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "geometry/corner_reach.hpp"
+#include "geometry/lanes.hpp"
 #include "geometry/link_record.hpp"
 #include "geometry/space.hpp"
 #include "index/vertex.hpp"
@@ -54,7 +55,7 @@ class VoronoiCell3 : public CornerReach<int> {
   /// The same for a w that is known not to take closed corners only.
   [[nodiscard]] bool cuts_open(const Point<3>& w) {
     aim(w);
-    return !is_clear(largest_open_projection()) && find_cut();
+    return may_take_open() && find_cut();
   }
   /// Cuts the cell by the vertex w. Requires: the last call was cuts(its place) or cuts_open, and
   /// it said true.
@@ -162,7 +163,7 @@ class VoronoiCell3 : public CornerReach<int> {
     return projection < w2_ / 2 - error_;
   }
   [[nodiscard]] double largest_projection() const noexcept;
-  [[nodiscard]] double largest_open_projection() const noexcept;
+  [[nodiscard]] bool may_take_open() const noexcept;
   bool find_cut();
   bool exactly_nearer(int t);
   void find_rim();
@@ -174,7 +175,7 @@ class VoronoiCell3 : public CornerReach<int> {
   void walk_rim();
   [[nodiscard]] bool is_ear(std::size_t at);
   void cut_ear(std::size_t at, int t);
-  void update_reach() noexcept { CornerReach::update_reach(index(corners_)); }
+  void update_reach() noexcept;
   void add_gap_ball(int t, Box<3>& extent) const noexcept;
 
   const Vertex<3>* v_ = nullptr;
@@ -208,6 +209,13 @@ class VoronoiCell3 : public CornerReach<int> {
   int corners_ = 0;
   std::vector<double> qx_, qy_, qz_;
   std::vector<Face> face_;
+  // The open corners once more, one behind the other, to be looked at several in one step; behind
+  // them may be one that nothing comes near.
+  struct {
+    std::array<std::vector<double>, 3> q;
+    std::vector<double> q2;  // a little more
+  } near_;
+  std::size_t near_count_ = 0;  // a multiple of kLanes
 
   static constexpr Code kUnused = 0xffffffffu;
 };
@@ -222,15 +230,17 @@ inline bool VoronoiCell3::enters(const Point<3>& corner, double side,
     holds_v &= lo[i] <= 0 && hi[i] >= 0;
   }
   if (holds_v) return true;
-  bool enters = false;  // no early end, which could not be predicted
-  for (int k = 0; k < open_count_; ++k) {
-    const std::size_t t = index(open_[index(k)]);
-    const double dx = std::max(std::max(lo[0] - qx_[t], qx_[t] - hi[0]), 0.0);
-    const double dy = std::max(std::max(lo[1] - qy_[t], qy_[t] - hi[1]), 0.0);
-    const double dz = std::max(std::max(lo[2] - qz_[t], qz_[t] - hi[2]), 0.0);
-    enters |= dx * dx + dy * dy + dz * dz <= q2_[t] * (1 + 0x1p-30);
+  LaneMask enters{};  // no early end, which could not be predicted
+  for (std::size_t k = 0; k < near_count_; k += kLanes) {
+    Lanes away2{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Lanes q = lanes_at(&near_.q[i][k]);
+      const Lanes d = greater(greater(both(lo[i]) - q, q - both(hi[i])), Lanes{});
+      away2 += d * d;
+    }
+    enters |= away2 <= lanes_at(&near_.q2[k]);
   }
-  return enters;
+  return any(enters);
 }
 
 inline bool VoronoiCell3::has(VertexHandle u) const noexcept {

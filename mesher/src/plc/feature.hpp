@@ -10,11 +10,10 @@
 //
 // What the program asks about them:
 //
-//   crowded(s, piece)       whether a piece of an edge has to be split [rules C]; an observation of
-//                           InputFeatures<S> (plc/input_features.hpp)
+//   crowded(s, piece)       whether a piece of an edge, or of a polygon, has to be split [rules C];
+//                           an observation of InputFeatures<S> (plc/input_features.hpp)
 //   find_near(place, R)     the features within R of a place, in canonical order; Complete asks
-//   this
-//                           of the surroundings of its cell, which it observes as it is
+//                           this of the surroundings of its cell, which it observes as it is
 //   common(f, g, x, store)  what two features share, of several the nearest to x: an edge, a point,
 //                           or nothing; a function of the two alone (both: plc/feature_search.hpp)
 #pragma once
@@ -81,6 +80,7 @@ struct Polygon {
   std::vector<std::uint32_t> loop_end;  // one for each loop: the number of corners so far
   std::vector<Point<3>> places;         // of the corners
   std::vector<Point<2>> outline;        // the same in the frame
+  Box<2> bounds{};                      // of the outline
   std::vector<bool> inside_left;        // one for each loop: its edges have the inside on the left
   std::vector<EdgeHandle> edges;        // from each corner to the next of its loop
   std::vector<Point<3>> inside;         // of the ends of inner edges, and of other declared points
@@ -108,6 +108,13 @@ struct Polygon {
     return i + 1 < loop_end[loop] ? i + 1 : loop_begin(loop);
   }
 };
+
+/// Polygons are ordered by their places.
+[[nodiscard]] inline std::partial_ordering order(const Polygon& f, const Polygon& g) {
+  if (const auto c = f.places <=> g.places; c != 0) return c;
+  if (const auto c = f.loop_end <=> g.loop_end; c != 0) return c;
+  return f.inside <=> g.inside;
+}
 
 /// The place of an edge that is this far from a, by its distance from the nearer end. Compare
 /// labels, never coordinates.

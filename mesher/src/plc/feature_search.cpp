@@ -9,6 +9,14 @@ namespace mesher::detail {
 
 namespace {
 
+// Whether two ascending sets have a common item.
+template <class Handle>
+bool have_common(const std::vector<Handle>& a, const std::vector<Handle>& b) {
+  const auto& [few, many] = a.size() < b.size() ? std::tie(a, b) : std::tie(b, a);
+  return std::any_of(few.begin(), few.end(),
+                     [&](Handle h) { return std::binary_search(many.begin(), many.end(), h); });
+}
+
 // The nearest to x of what it is shown; of equally near ones the first by places.
 class Nearest {
  public:
@@ -43,7 +51,7 @@ bool is_before(const Edge* a, const Edge* b) {
 }
 template <>
 bool is_before(const Polygon* a, const Polygon* b) {
-  return std::tie(a->places, a->loop_end, a->inside) < std::tie(b->places, b->loop_end, b->inside);
+  return order(*a, *b) < 0;
 }
 
 // Some are found repeatedly.
@@ -54,6 +62,8 @@ void put_in_canonical_order(std::vector<const F*>& all) {
 }
 
 }  // namespace
+
+bool disjoint(const Polygon& f, const Polygon& g) { return !have_common(f.points, g.points); }
 
 // Visitors must not throw: they say so, and the search ends.
 void find_near(const Point<3>& place, double radius, FeatureStore& store, FeaturesNear& found) {

@@ -3,13 +3,13 @@
 
 #include "geometry/box.hpp"
 #include "index/features.hpp"
+#include "plc/facet_piece.hpp"
 #include "plc/feature_store.hpp"
 #include "segments/crowding.hpp"
 
 namespace mesher::detail {
 
-/// Whether an edge and a feature have nothing in common: no corner, no end, and none lies on the
-/// other.
+/// Whether two features have nothing in common: no corner, no end, and none lies on the other.
 [[nodiscard]] inline bool disjoint(const Edge& e, const Vertex<3>& v) { return !e.has_end(v.self); }
 [[nodiscard]] inline bool disjoint(const Edge& e, const Edge& t) {
   return !e.has_end(t.a) && !e.has_end(t.b);
@@ -17,6 +17,9 @@ namespace mesher::detail {
 [[nodiscard]] inline bool disjoint(const Edge& e, const Polygon& f) {
   return !f.has(e.a) && !f.has(e.b);
 }
+[[nodiscard]] inline bool disjoint(const Polygon& f, const Vertex<3>& v) { return !f.has(v.self); }
+[[nodiscard]] inline bool disjoint(const Polygon& f, const Edge& e) { return disjoint(e, f); }
+[[nodiscard]] bool disjoint(const Polygon& f, const Polygon& g);
 
 /// Squared distance of a place from a feature.
 [[nodiscard]] inline double distance2_to(const Point<3>& x, const Vertex<3>& v) {
@@ -55,35 +58,95 @@ void find_near(const Point<3>& place, double radius, FeatureStore& store, Featur
 [[nodiscard]] Feature common(const Polygon& f, const Polygon& g, const Point<3>& x,
                              const FeatureStore& store);
 
-/// The closed ball that has a piece of an edge as its diameter, and what crowds the piece there:
-/// features that the edge has nothing in common with [rules C, Split].
-class CrowdedBall {
+/// Whether a feature that does not lie on a polygon has something in common with it, and is at no
+/// more than 64 degrees to its plane: then vertices of one may be turned on to the other
+/// (plc/small_angles.hpp).
+[[nodiscard]] inline bool leans_on(const Vertex<3>&, const Polygon&) { return false; }
+[[nodiscard]] inline bool leans_on(const Edge& e, const Polygon& f) {
+  const double sine = dot(minus(e.place_b, e.place_a), f.plane.normal) / e.length;
+  return std::abs(sine) <= 0.9 && !f.has_edge(e.self) && !disjoint(f, e);
+}
+[[nodiscard]] inline bool leans_on(const Polygon& g, const Polygon& f) {
+  const double cosine = dot(g.plane.normal, f.plane.normal);
+  return std::abs(cosine) >= 0.43 && &g != &f && !disjoint(f, g);
+}
+
+/// A closed ball around a piece of an edge or a polygon.
+template <class Whole>
+class PieceBall {
  public:
-  explicit CrowdedBall(const EdgePiece& piece) : edge_(*piece.edge) {
-    const Point<3> lo = place_at(edge_, piece.lo), hi = place_at(edge_, piece.hi);
-    for (int i = 0; i < 3; ++i) middle_[i] = (lo[i] + hi[i]) / 2;
-    radius2_ = squared_distance(lo, hi) / 4;
-  }
+  PieceBall(const Whole& whole, const Point<3>& middle, double radius2)
+      : whole_(whole), middle_(middle), radius2_(radius2) {}
+
   [[nodiscard]] const Point<3>& middle() const noexcept { return middle_; }
   /// The ball lies within this around the middle, with its slack.
   [[nodiscard]] double reach() const noexcept { return std::sqrt(radius2_) * (1 + 0x1p-29); }
   [[nodiscard]] Box<3> box() const noexcept { return around(middle_, reach()); }
 
-  /// `f`: a vertex, an edge, or a polygon.
+ protected:
+  [[nodiscard]] const Whole& whole() const noexcept { return whole_; }
   template <class F>
-  [[nodiscard]] bool has(const F& f) const {
-    return disjoint(edge_, f) && touches(distance2_to(middle_, f), radius2_);
+  [[nodiscard]] bool meets(const F& f) const {
+    return touches(distance2_to(middle_, f), radius2_);
   }
 
  private:
-  const Edge& edge_;
-  Point<3> middle_{};
+  const Whole& whole_;
+  Point<3> middle_;
   double radius2_;
 };
 
-/// Some feature in the ball, or nothing.
-template <class S>
-[[nodiscard]] Feature find_witness(const CrowdedBall& ball, FeatureStore& store,
+/// The ball that has a piece of an edge as its diameter. What crowds the piece there: features that
+/// the edge has nothing in common with [rules C, Split].
+class EdgeBall : public PieceBall<Edge> {
+ public:
+  explicit EdgeBall(const EdgePiece& piece)
+      : EdgeBall(*piece.edge, place_at(*piece.edge, piece.lo), place_at(*piece.edge, piece.hi)) {}
+
+  /// `f`: a vertex, an edge, or a polygon.
+  template <class F>
+  [[nodiscard]] bool has(const F& f) const {
+    return disjoint(whole(), f) && meets(f);
+  }
+
+ private:
+  EdgeBall(const Edge& e, const Point<3>& lo, const Point<3>& hi)
+      : PieceBall(e, scaled(0.5, plus(lo, hi)), squared_distance(lo, hi) / 4) {}
+};
+
+/// A ball around the middle of a piece of a polygon; `radius`: of the longer side.
+[[nodiscard]] inline PieceBall<Polygon> ball_around(const FacetPiece& piece, double radius) {
+  const Polygon& f = *piece.polygon;
+  const double r = radius * piece.longer_side();
+  return {f, f.plane.at(piece.middle()), r * r};
+}
+
+/// What crowds a piece of a polygon: features that the polygon has nothing in common with [rules C,
+/// Disencroach]. Where they stay out, the lattice leaves no place as far from its vertices as from
+/// them, but for the borders.
+class FacetBall : public PieceBall<Polygon> {
+ public:
+  explicit FacetBall(const FacetPiece& piece) : PieceBall(ball_around(piece, 0.55)) {}
+  template <class F>
+  [[nodiscard]] bool has(const F& f) const {
+    return disjoint(whole(), f) && meets(f);
+  }
+};
+
+/// What hems in a piece of a polygon: features that lean on the polygon so near that they would get
+/// copies of the piece's vertex.
+class HingeBall : public PieceBall<Polygon> {
+ public:
+  explicit HingeBall(const FacetPiece& piece) : PieceBall(ball_around(piece, 0.75)) {}
+  template <class F>
+  [[nodiscard]] bool has(const F& f) const {
+    return leans_on(f, whole()) && meets(f);
+  }
+};
+
+/// Some feature in a ball, or nothing.
+template <class Ball, class S>
+[[nodiscard]] Feature find_witness(const Ball& ball, FeatureStore& store,
                                    const Features<S, 3>& points) {
   Feature witness;
   const auto take = [&](const auto& f) {
@@ -97,14 +160,19 @@ template <class S>
   return witness;
 }
 
-/// Pieces of edges in space.
+/// What Crowding<S, Kind> (segments/crowding.hpp) is about in space.
+template <class PieceOf, class Ball>
 struct SpacePieces {
   static constexpr int kDimension = 3;
-  using Piece = EdgePiece;
-  using Zone = CrowdedBall;
+  using Piece = PieceOf;
+  using Zone = Ball;
   using Witness = Feature;
   using Store = FeatureStore;
   [[nodiscard]] static bool alive(const EdgePiece& piece) { return piece.edge->alive; }
+  [[nodiscard]] static bool alive(const FacetPiece& piece) { return piece.polygon->alive; }
 };
+using EdgePieces = SpacePieces<EdgePiece, EdgeBall>;
+using FacetPieces = SpacePieces<FacetPiece, FacetBall>;
+using HingePieces = SpacePieces<FacetPiece, HingeBall>;
 
 }  // namespace mesher::detail

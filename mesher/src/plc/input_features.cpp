@@ -5,8 +5,12 @@
 
 namespace mesher::detail {
 
-template class Crowding<sac::PlainScope, SpacePieces>;
-template class Crowding<sac::Scope, SpacePieces>;
+template class Crowding<sac::PlainScope, EdgePieces>;
+template class Crowding<sac::Scope, EdgePieces>;
+template class Crowding<sac::PlainScope, FacetPieces>;
+template class Crowding<sac::Scope, FacetPieces>;
+template class Crowding<sac::PlainScope, HingePieces>;
+template class Crowding<sac::Scope, HingePieces>;
 
 const Edge& InputFeatures<sac::PlainScope>::insert(VertexHandle a, VertexHandle b) {
   Edge& e = store_.record(a, b);
@@ -57,7 +61,7 @@ void Traced::erase(const Polygon& polygon) {
   store_.take(f);
 }
 
-void Traced::point_came(const Vertex<3>& v) noexcept { crowding_.came(v); }
-void Traced::point_went(const Vertex<3>& v) noexcept { crowding_.went(v); }
+void Traced::point_came(const Vertex<3>& v) noexcept { tell_pieces_came(v); }
+void Traced::point_went(const Vertex<3>& v) noexcept { tell_pieces_went(v); }
 
 }  // namespace mesher::detail

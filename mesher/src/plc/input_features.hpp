@@ -1,6 +1,8 @@
 // The input's edges and polygons, and what calls ask about them; outside edits.
 //
-//   crowded(s, piece)   whether a piece of an edge has to be split   (observation)
+//   crowded(s, piece)     whether a piece of an edge, or of a polygon, has to be split
+//   (observation) hemmed_in(s, piece)   whether a piece of a polygon is better off without a vertex
+//   (observation)
 //
 // Who looks at cells reads what is beside them (find_near) without an observation but that of the
 // cell: a feature that comes or goes looks for the cells that it is beside.
@@ -19,15 +21,23 @@ class InputFeatures<sac::PlainScope> {
  public:
   InputFeatures(const MeshBox<3>& box, const VertexPool<3>& pool,
                 Features<sac::PlainScope, 3>& points, sac::PlainScope& s)
-      : store_(box, pool), crowding_(box, store_, points, s) {}
+      : store_(box, pool),
+        edges_(box, store_, points, s),
+        facets_(box, store_, points, s),
+        hinges_(box, store_, points, s) {}
 
   [[nodiscard]] const FeatureStore& store() const noexcept { return store_; }
   [[nodiscard]] FeatureStore& store() noexcept { return store_; }
 
   [[nodiscard]] bool crowded(sac::PlainScope& s, const EdgePiece& piece) {
-    return crowding_.crowded(s, piece);
+    return edges_.crowded(s, piece);
   }
-  [[nodiscard]] Feature witness(const EdgePiece& piece) { return crowding_.witness(piece); }
+  [[nodiscard]] bool crowded(sac::PlainScope& s, const FacetPiece& piece) {
+    return facets_.crowded(s, piece);
+  }
+  [[nodiscard]] bool hemmed_in(sac::PlainScope& s, const FacetPiece& piece) {
+    return hinges_.crowded(s, piece);
+  }
 
   /// One user more of the edge between two different input points.
   const Edge& insert(VertexHandle a, VertexHandle b);
@@ -36,7 +46,9 @@ class InputFeatures<sac::PlainScope> {
 
  private:
   FeatureStore store_;
-  Crowding<sac::PlainScope, SpacePieces> crowding_;
+  Crowding<sac::PlainScope, EdgePieces> edges_;
+  Crowding<sac::PlainScope, FacetPieces> facets_;
+  Crowding<sac::PlainScope, HingePieces> hinges_;
 };
 
 template <>
@@ -44,7 +56,11 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
  public:
   InputFeatures(const MeshBox<3>& box, const VertexPool<3>& pool, Features<sac::Scope, 3>& points,
                 sac::Engine& engine)
-      : engine_(engine), store_(box, pool), crowding_(box, store_, points, engine) {
+      : engine_(engine),
+        store_(box, pool),
+        edges_(box, store_, points, engine),
+        facets_(box, store_, points, engine),
+        hinges_(box, store_, points, engine) {
     points.set_listener(this);
     store_.set_listener(this);
   }
@@ -56,9 +72,14 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   void set_cells(VertexIndex<sac::Scope, 3>& cells) noexcept { cells_ = &cells; }
 
   [[nodiscard]] bool crowded(sac::Scope& s, const EdgePiece& piece) {
-    return crowding_.crowded(s, piece);
+    return edges_.crowded(s, piece);
   }
-  [[nodiscard]] Feature witness(const EdgePiece& piece) { return crowding_.witness(piece); }
+  [[nodiscard]] bool crowded(sac::Scope& s, const FacetPiece& piece) {
+    return facets_.crowded(s, piece);
+  }
+  [[nodiscard]] bool hemmed_in(sac::Scope& s, const FacetPiece& piece) {
+    return hinges_.crowded(s, piece);
+  }
 
   /// Outside edits, with their inverses noted for a roll-back: one user more, or less, of the edge
   /// between two different input points; a polygon that is not there (and has an area), or is.
@@ -74,18 +95,35 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   /// Ends an update: frees the records of features that have gone.
   void commit() noexcept { store_.commit(); }
 
-  [[nodiscard]] std::size_t bytes() const noexcept { return store_.bytes() + crowding_.bytes(); }
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return store_.bytes() + edges_.bytes() + facets_.bytes() + hinges_.bytes();
+  }
   /// Requires: between updates. Throws InvariantError.
   void check_invariants() const {
     store_.check_invariants();
-    crowding_.check_invariants();
+    edges_.check_invariants();
+    facets_.check_invariants();
+    hinges_.check_invariants();
   }
 
  private:
-  void came(const Edge& e) noexcept override { crowding_.came(e), tell_cells(e); }
-  void went(const Edge& e) noexcept override { crowding_.went(e), tell_cells(e); }
-  void came(const Polygon& f) noexcept override { crowding_.came(f), tell_cells(f); }
-  void went(const Polygon& f) noexcept override { crowding_.went(f), tell_cells(f); }
+  void came(const Edge& e) noexcept override { tell_pieces_came(e), tell_cells(e); }
+  void went(const Edge& e) noexcept override { tell_pieces_went(e), tell_cells(e); }
+  void came(const Polygon& f) noexcept override { tell_pieces_came(f), tell_cells(f); }
+  void went(const Polygon& f) noexcept override { tell_pieces_went(f), tell_cells(f); }
+
+  template <class F>
+  void tell_pieces_came(const F& f) noexcept {
+    edges_.came(f);
+    facets_.came(f);
+    hinges_.came(f);
+  }
+  template <class F>
+  void tell_pieces_went(const F& f) noexcept {
+    edges_.went(f);
+    facets_.went(f);
+    hinges_.went(f);
+  }
 
   // What find_near finds, it finds with a slack; and where a foot leaves a polygon, its distance
   // may jump by as much as corners on both sides are off the plane.
@@ -100,7 +138,9 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   sac::Engine& engine_;
   VertexIndex<sac::Scope, 3>* cells_ = nullptr;
   FeatureStore store_;
-  Crowding<sac::Scope, SpacePieces> crowding_;
+  Crowding<sac::Scope, EdgePieces> edges_;
+  Crowding<sac::Scope, FacetPieces> facets_;
+  Crowding<sac::Scope, HingePieces> hinges_;
 };
 
 }  // namespace mesher::detail

@@ -39,15 +39,21 @@ Plane plane_across(const Point<3>& origin, const Point<3>& area) {
   return plane;
 }
 
-// The middle of the bounding box, and the farthest corner from there.
-void find_reach(Polygon& f) {
-  Box<3> box{f.places[0], f.places[0]};
-  for (const Point<3>& p : f.places) {
-    for (int i = 0; i < 3; ++i) {
+template <std::size_t N>
+Box<static_cast<int>(N)> bounds(const std::vector<std::array<double, N>>& places) {
+  Box<static_cast<int>(N)> box{places[0], places[0]};
+  for (const auto& p : places) {
+    for (std::size_t i = 0; i < N; ++i) {
       box.lo[i] = std::min(box.lo[i], p[i]);
       box.hi[i] = std::max(box.hi[i], p[i]);
     }
   }
+  return box;
+}
+
+// The middle of the bounding box, and the farthest corner from there.
+void find_reach(Polygon& f) {
+  const Box<3> box = bounds(f.places);
   for (int i = 0; i < 3; ++i) f.middle[i] = box.lo[i] + (box.hi[i] - box.lo[i]) / 2;
   double reach2 = 0;
   for (const Point<3>& p : f.places) reach2 = std::max(reach2, squared_distance(p, f.middle));
@@ -115,6 +121,7 @@ bool find_shape(Polygon& f) {
   f.plane = plane_across(f.places[0], area);
   f.outline.clear();
   for (const Point<3>& p : f.places) f.outline.push_back(f.plane.in_frame(p));
+  f.bounds = bounds(f.outline);
   f.inside_left.clear();
   for (std::size_t loop = 0; loop < f.loop_end.size(); ++loop) {
     f.inside_left.push_back((turn(loop_in_frame(f, loop)) > 0) == has_inside(f, loop));

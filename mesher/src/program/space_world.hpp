@@ -18,17 +18,19 @@ struct World<S, 3> : PointWorld<S, 3> {
 
   InputFeatures<S> plc;
   Agenda& splits;
+  Agenda& fills;
 
   template <class Host>
   World(const Options<3>& options, const MeshBox<3>& mesh_box, Host& host)
       : Base(options, mesh_box, host),
         plc(box, vertices.pool(), features, host),
-        splits(host.make_agenda("edges")) {
+        splits(host.make_agenda("edges")),
+        fills(host.make_agenda("facets")) {
     host.set_environment(this);
     if constexpr (S::kTraced) plc.set_cells(vertices);
   }
 
-  /// Outside edits: as those of plc, with the events of the edges that come and go.
+  /// Outside edits: as those of plc, with the events of the edges and polygons that come and go.
   const Edge& insert_edge(VertexHandle a, VertexHandle b);
   void erase_edge(const Edge& e);
   const Polygon& insert_polygon(PolygonParts parts);
@@ -37,9 +39,12 @@ struct World<S, 3> : PointWorld<S, 3> {
   /// Whether there are edges, and perhaps polygons.
   [[nodiscard]] bool has_features() const noexcept { return plc.store().live_edges() != 0; }
   void post_split(S& s, const EdgePiece& piece);
+  void post_fill(S& s, const FacetPiece& piece);
   /// A vertex that cuts the cell of v, in bucket b.
   void insert_beside(S& s, const Vertex<3>& v, CellOf<3>& cell, const Placed& y, int b);
   [[noreturn]] void fail_useless(const Vertex<3>& v, const Vertex<3>& x) const;
+  /// `at`: in f's frame, where another feature touches f.
+  [[noreturn]] void fail_too_fine(const Polygon& f, const Point<2>& at) const;
 
  private:
   void edge_came(const Edge& e);

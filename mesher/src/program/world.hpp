@@ -89,7 +89,7 @@ struct World<S, 2> : PointWorld<S, 2> {
 template <int D>
 [[nodiscard]] MeshBox<D> mesh_box(const Options<D>& options);
 
-/// Splits segments and fills what must not be large.
+/// Splits segments and fills what must not be large, or is near others.
 template <class S>
 void drain_lines(S& s, World<S, 2>& w) {
   w.splits.drain(s);
@@ -98,6 +98,7 @@ void drain_lines(S& s, World<S, 2>& w) {
 template <class S>
 void drain_lines(S& s, World<S, 3>& w) {
   w.splits.drain(s);
+  w.fills.drain(s);
 }
 
 template <int D>

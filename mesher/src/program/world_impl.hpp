@@ -6,6 +6,7 @@
 #include "program/choose_steiners.hpp"
 #include "program/cut.hpp"
 #include "program/fill.hpp"
+#include "program/fill_facets.hpp"
 #include "program/split_edges.hpp"
 #include "program/split_segments.hpp"
 #include "program/triangulate.hpp"
@@ -154,6 +155,13 @@ void World<S, 3>::fail_useless(const Vertex<3>& v, const Vertex<3>& x) const {
 }
 
 template <class S>
+void World<S, 3>::fail_too_fine(const Polygon& f, const Point<2>& at) const {
+  throw Error(ErrorCode::too_close, "features are too close for double precision near " +
+                                        place_text(f.plane.at(at)) +
+                                        ": a polygon would be filled ever more closely");
+}
+
+template <class S>
 void World<S, 2>::fail_useless(const Vertex<2>& v, const Vertex<2>& x) {
   fail_near(v.p, std::sqrt(squared_distance(v.p, x.p)),
             "rounding moved a new vertex to " + place_text(x.p));
@@ -189,6 +197,8 @@ template <class S>
 const Polygon& World<S, 3>::insert_polygon(PolygonParts parts) {
   const Polygon& f = plc.insert(std::move(parts));
   for (const EdgeHandle e : f.all_edges) edge_came(plc.store().edges()[e]);
+  const FacetPiece all{&f};
+  fills.template post_from_outside<fill_facet>(fill_facet_key(box, all), all);
   return f;
 }
 
@@ -196,6 +206,7 @@ template <class S>
 void World<S, 3>::erase_polygon(const Polygon& f) {
   plc.erase(f);
   for (const EdgeHandle e : f.all_edges) edge_goes(plc.store().edges()[e]);
+  fills.template retract_from_outside<fill_facet>(FacetPiece{&f});
 }
 
 template <class S>
@@ -205,9 +216,14 @@ void World<S, 3>::post_split(S& s, const EdgePiece& piece) {
 }
 
 template <class S>
+void World<S, 3>::post_fill(S& s, const FacetPiece& piece) {
+  if constexpr (!S::kTraced) this->plain.tick();
+  fills.template post<fill_facet>(s, fill_facet_key(box, piece), piece);
+}
+
+template <class S>
 void World<S, 3>::insert_beside(S& s, const Vertex<3>& v, CellOf<3>& cell, const Placed& y, int b) {
-  const VertexRef<3> x =
-      y.role.on != 0 ? vertices.insert(s, y.p, y.role) : vertices.insert(s, y.p);
+  const VertexRef<3> x = y.role.on != 0 ? vertices.insert(s, y.p, y.role) : vertices.insert(s, y.p);
   if (!cell.cuts(x->p)) fail_useless(v, *x);
   this->require_room(s);
   cell.cut(x->self);

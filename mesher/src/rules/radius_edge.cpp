@@ -140,12 +140,29 @@ auto RadiusEdge<D>::shortest_edge(const CellOf<D>& cell, int t) const -> Poor {
   return best;
 }
 
+// Whether corner t is that of a simplex that is not poor: nearly all are.
+template <int D>
+bool RadiusEdge<D>::is_good(const CellOf<D>& cell, int t) const {
+  double shortest2 = std::numeric_limits<double>::infinity();
+  const auto& ends = cell.ends(t);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (!cell.real(ends[i])) return false;
+    shortest2 = std::min(shortest2, squared(cell.neighbour(ends[i])));
+    for (std::size_t j = 0; j < i; ++j) {
+      const double across = squared_distance(cell.place(ends[i]), cell.place(ends[j]));
+      shortest2 = std::min(shortest2, across);
+    }
+  }
+  return !Base::exceeds(cell.corner2(t), shortest2);
+}
+
 // Calls visit(poor) for the shortest edge of every poor simplex of v's star, and for the shortest
 // visible one beside every hidden corner.
 template <int D>
 template <class Visit>
 void RadiusEdge<D>::for_each_poor(const CellOf<D>& cell, Visit&& visit) const {
   for (int t = 0; t < cell.corners(); ++t) {
+    if (is_good(cell, t)) continue;
     const Poor poor = shortest_edge(cell, t);
     if (std::isinf(poor.length2)) continue;  // no neighbour is visible
     if (poor.hidden ? Base::is_centre(cell, t) : Base::exceeds(cell.corner2(t), poor.length2)) {

@@ -52,6 +52,7 @@ class RadiusEdge final : public InsertionRule<D> {
                       : filter->skips(cell, poor.from, poor.to);
   }
   [[nodiscard]] bool is_large(const CellOf<D>& cell, int i, int j) const;
+  [[nodiscard]] bool is_good(const CellOf<D>& cell, int t) const;
   [[nodiscard]] Poor shortest_edge(const CellOf<D>& cell, int t) const;
   template <class Visit>
   void for_each_poor(const CellOf<D>& cell, Visit&& visit) const;

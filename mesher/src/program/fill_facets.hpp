@@ -1,0 +1,51 @@
+// Disencroach a polygon [Fig 6.4; rules C]: where other features are near, a polygon gets vertices
+// from a lattice of its own before anything is refined.
+//
+// Departure: not the corners of the polygon's Voronoi diagram that are far from their vertices, one
+// by one. Whether a piece is crowded, and whether there is room for its vertex, are functions of
+// the input alone (plc/facet_piece.hpp), so a call depends on no other, and an edit changes the
+// pieces whose balls it reaches.
+#pragma once
+
+#include "program/build_qt.hpp"
+#include "program/space_world.hpp"
+#include "program/split_segments.hpp"
+
+namespace mesher::detail {
+
+struct FillFacet {
+  static constexpr std::string_view kName = "fill_facet";
+  template <class S>
+  void operator()(S& s, FacetPiece piece) const;
+};
+inline constexpr FillFacet fill_facet{};
+
+/// When fill_facet(piece) runs: a piece before its halves.
+[[nodiscard]] inline sac::Key fill_facet_key(const MeshBox<3>& box, const FacetPiece& piece) {
+  return {.bucket = piece.level,
+          .order = morton<3>(box.fixed(piece.polygon->plane.at(piece.middle())))};
+}
+
+// if the piece is crowded: enqueue the halves that have some of the polygon. Else, if it is a half
+// and there is room: add its vertex, and enqueue that for BuildQT
+template <class S>
+void FillFacet::operator()(S& s, FacetPiece piece) const {
+  auto& w = s.template environment<World<S, 3>>();
+  const Polygon& f = *piece.polygon;
+  s.weigh(f.all_edges.size());
+  if (w.plc.crowded(s, piece)) {
+    if (piece.longer_side() < w.box.side * kShortestPiece) w.fail_too_fine(f, piece.middle());
+    for (const FacetPiece& half : piece.halves()) {
+      if (half.meets_polygon()) w.post_fill(s, half);
+    }
+    return;
+  }
+  const auto place = piece.level > 0 ? vertex_place(piece, w.plc.store()) : std::nullopt;
+  if (!place || w.plc.hemmed_in(s, piece)) return;
+  const VertexRef<3> v = w.vertices.insert_early(s, *place, role_on(f));
+  w.require_room(s);
+  w.features.insert(s, v);
+  w.quadtree.template post<locate>(s, locate_key(w.box.fixed(v->p)), v);
+}
+
+}  // namespace mesher::detail
