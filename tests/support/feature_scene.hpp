@@ -123,11 +123,15 @@ class FeatureScene {
     });
     return near;
   }
+  /// `ball`: one of those that pieces have.
+  template <class Ball>
+  bool naive_any_in(const Ball& ball) const {
+    bool any = false;
+    for_each([&](const auto& f) { any = any || ball.has(f); });
+    return any;
+  }
   bool naive_crowded(const mesher::detail::EdgePiece& piece) const {
-    const mesher::detail::EdgeBall ball(piece);
-    bool crowded = false;
-    for_each([&](const auto& f) { crowded = crowded || ball.has(f); });
-    return crowded;
+    return naive_any_in(mesher::detail::EdgeBall(piece));
   }
 
  private:

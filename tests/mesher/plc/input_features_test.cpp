@@ -3,8 +3,10 @@
 #include "plc/input_features.hpp"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <memory>
+#include <variant>
 #include <vector>
 
 #include "feature_scene.hpp"
@@ -13,14 +15,27 @@ namespace {
 
 using namespace mesher::detail;
 
+// Of pieces whether they are crowded; of polygons' whether they are hemmed in, too.
+struct HemmedIn {
+  FacetPiece piece;
+};
+using Question = std::variant<EdgePiece, FacetPiece, HemmedIn>;
+
 // One call for each question; answers are kept, and who ran is noted.
 struct Asking {
   explicit Asking(std::uint64_t seed) : scene(seed, engine) { engine.set_environment(this); }
   sac::Engine engine;
   support::FeatureScene<sac::Scope> scene;
-  std::vector<EdgePiece> questions;
+  std::vector<Question> questions;
   std::vector<bool> answers;
   std::vector<bool> ran;
+
+  bool answer(sac::Scope& s, const EdgePiece& p) { return scene.features().crowded(s, p); }
+  bool answer(sac::Scope& s, const FacetPiece& p) { return scene.features().crowded(s, p); }
+  bool answer(sac::Scope& s, const HemmedIn& q) { return scene.features().hemmed_in(s, q.piece); }
+  bool naive(const EdgePiece& p) const { return scene.naive_any_in(EdgeBall(p)); }
+  bool naive(const FacetPiece& p) const { return scene.naive_any_in(FacetBall(p)); }
+  bool naive(const HemmedIn& q) const { return scene.naive_any_in(HingeBall(q.piece)); }
 };
 
 struct Ask {
@@ -28,7 +43,7 @@ struct Ask {
   void operator()(sac::Scope& s, std::size_t i) const {
     auto& all = s.environment<Asking>();
     all.ran[i] = true;
-    all.answers[i] = all.scene.features().crowded(s, all.questions[i]);
+    all.answers[i] = std::visit([&](const auto& q) { return all.answer(s, q); }, all.questions[i]);
   }
 };
 inline constexpr Ask ask{};
@@ -47,6 +62,14 @@ class Editor {
   explicit Editor(std::uint64_t seed) : asking_(std::make_unique<Asking>(seed)) {
     auto& scene = asking_->scene;
     asking_->engine.set_audit(true);
+    for (int i = 0; i < 10; ++i) {
+      FacetPiece piece{&scene.add_polygon()};
+      for (int halved = 0; halved < 10; ++halved) {
+        asking_->questions.push_back(piece);
+        asking_->questions.push_back(HemmedIn{piece});
+        piece = piece.halves()[scene.random().below(2)];
+      }
+    }
     for (int i = 0; i < 40; ++i) {
       EdgePiece piece{&scene.add_edge()};
       for (int halved = 0; halved < 14; ++halved) {
@@ -102,7 +125,8 @@ class Editor {
     all.scene.features().check_invariants();
     for (std::size_t i = 0; i < all.questions.size(); ++i) {
       CAPTURE(i);
-      REQUIRE(all.answers[i] == all.scene.naive_crowded(all.questions[i]));
+      REQUIRE(all.answers[i] ==
+              std::visit([&](const auto& q) { return all.naive(q); }, all.questions[i]));
       if (all.answers[i] != before[i]) REQUIRE(all.ran[i]);
     }
   }
@@ -142,16 +166,20 @@ TEST_CASE("After edits every answer is that of a look at all features, and no ot
   CAPTURE(seed);
   Editor editor(seed);
   auto& all = editor.asking();
-  std::size_t changed = 0;
-  for (int round = 0; round < 80; ++round) {
+  std::array<std::size_t, 3> changed{};  // by kind of question
+  for (int round = 0; round < 160; ++round) {
     CAPTURE(round);
     const std::vector<bool> before = all.answers;
     editor.edit_some();
     editor.update();
     editor.require_right(before);
-    for (std::size_t i = 0; i < before.size(); ++i) changed += all.answers[i] != before[i];
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      changed[all.questions[i].index()] += all.answers[i] != before[i];
+    }
   }
-  REQUIRE(changed > 20);
+  REQUIRE(changed[0] > 20);
+  REQUIRE(changed[1] > 20);
+  REQUIRE(changed[2] > 0);
 }
 
 TEST_CASE("One edit runs only the calls whose answers it changes") {
