@@ -33,7 +33,7 @@ auto sorted_by_corner(const std::vector<std::array<VertexHandle, N>>& simplices,
 template <std::size_t N>
 Mesh<N - 1> canonical(const VertexPool<N - 1>& pool, std::vector<VertexHandle> vertices,
                       const std::vector<std::array<VertexHandle, N>>& simplices,
-                      const std::vector<LineEdge>& edges) {
+                      const OnFeatures& on) {
   struct Placed {
     Point<N - 1> p;
     VertexHandle handle;
@@ -54,20 +54,26 @@ Mesh<N - 1> canonical(const VertexPool<N - 1>& pool, std::vector<VertexHandle> v
     mesh.kinds.push_back(pool[v.handle].kind());
   }
   mesh.simplices = sorted_by_corner(simplices, index, placed.size());
-  mesh.edges.reserve(edges.size());
-  for (const LineEdge& e : edges) {
+  mesh.edges.reserve(on.edges.size());
+  for (const LineEdge& e : on.edges) {
     const auto [low, high] = std::minmax(index[e.from], index[e.to]);
-    mesh.edges.push_back({low, high, e.line});
+    mesh.edges.push_back({low, high, e.line, e.of_polygon});
   }
   std::sort(mesh.edges.begin(), mesh.edges.end());
+  mesh.faces.reserve(on.faces.size());
+  for (const PolygonFace& f : on.faces) {
+    std::array<std::uint32_t, 3> corners{index[f.corners[0]], index[f.corners[1]],
+                                         index[f.corners[2]]};
+    std::sort(corners.begin(), corners.end());
+    mesh.faces.push_back({corners, f.polygon});
+  }
+  std::sort(mesh.faces.begin(), mesh.faces.end());
   return mesh;
 }
 
 template Mesh<2> canonical(const VertexPool<2>&, std::vector<VertexHandle>,
-                           const std::vector<std::array<VertexHandle, 3>>&,
-                           const std::vector<LineEdge>&);
+                           const std::vector<std::array<VertexHandle, 3>>&, const OnFeatures&);
 template Mesh<3> canonical(const VertexPool<3>&, std::vector<VertexHandle>,
-                           const std::vector<std::array<VertexHandle, 4>>&,
-                           const std::vector<LineEdge>&);
+                           const std::vector<std::array<VertexHandle, 4>>&, const OnFeatures&);
 
 }  // namespace mesher::detail
