@@ -136,8 +136,8 @@ void require_no_plane_options(const MeshArguments& args) {
                                                 {"--repair", args.repair}};
   for (const auto& [option, is_given] : given) {
     if (!is_given) continue;
-    throw Error(ErrorCode::bad_option,
-                std::string(option) + " is for the plane; INPUT has points in space", {args.input});
+    throw Error(ErrorCode::bad_option, std::string(option) + " is for the plane; INPUT is in space",
+                {args.input});
   }
 }
 
@@ -170,15 +170,22 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
       .add_option(
           "INPUT", args.input,
           "Points and lines: .poly, .geojson, .json, .obj or .vtu; points: .node, .xyz or .csv;\n"
-          "points in space: these three, and the vertices of .off, .obj, .ply, .stl, .vtu or .vtk")
+          "in space points, segments and polygons: .poly or .smesh; points: these three, and the\n"
+          "vertices of .off, .obj, .ply, .stl, .vtu or .vtk")
       ->option_text("TEXT REQUIRED");
   command.parse_complete_callback([&args] { settle_input(args); });
   command.formatter(std::make_shared<UsageOfInput>());
+  command.add_flag("--surface", args.surface,
+                   "In space: the faces of .off, .obj, .ply or .stl are polygons, and edges lines");
+  command.add_flag("--merge", args.merge,
+                   "The same, and polygons of one plane that are side by side are one, if their\n"
+                   "markers are the same; also of .poly and .smesh");
   command
-      .add_option("--dimension,--dim", args.dimension,
-                  "2: the plane; 3: space (default: 3 if a .node file says so, or z is there and "
-                  "not\n"
-                  "the same everywhere; of .xyz and .csv, not 0 everywhere)")
+      .add_option(
+          "--dimension,--dim", args.dimension,
+          "2: the plane; 3: space (default: 3 if a .node or .poly file says so, or z is there and "
+          "not\n"
+          "the same everywhere; of .xyz and .csv, not 0 everywhere)")
       ->check(CLI::IsMember({"2", "3"}));
   command.add_option("--rho", args.rho,
                      "Bound of circumradius over shortest edge, above 1.01 and up to 100\n"
@@ -219,8 +226,8 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
   add_program_options(command, args);
   command
       .add_option("-o", args.outputs,
-                  "A mesh: .node (with .ele, in space also .face), .vtu, .vtk, .msh, .mesh, .off, "
-                  ".obj\n"
+                  "A mesh: .node (with .ele, in space also .face, and .edge for segments and\n"
+                  "polygons), .vtu, .vtk, .msh, .mesh, .off, .obj\n"
                   "or .svg; in space .off, .obj and .stl have its boundary; may be repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
@@ -229,7 +236,9 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
                    "one, what lines share is that of the smallest id; each is reported");
   command.add_flag("--region-areas", args.region_areas,
                    "The largest areas of regions are limits of size");
-  command.add_flag("--box", args.box, "All of the box, not only what lines enclose less the holes");
+  command.add_flag(
+      "--box", args.box,
+      "All of the box, not only what lines (in space polygons) enclose less the holes");
   command.add_flag("--static", args.is_static, "Without the engine; the mesh is the same");
   command.add_option("--stats", args.stats, "Figures as JSON")->type_name("FILE");
   command.add_flag("--quiet", args.quiet, "Print nothing but errors");
@@ -258,12 +267,16 @@ double option_rho(const std::string& text, double most) {
 }
 
 int dimension_of(const MeshArguments& args) {
+  if (args.dimension.empty() && faces(args) != Faces::unless_points) return 3;
   if (args.dimension.empty()) return mesher::dimension_of(args.input);
   return args.dimension == "3" ? 3 : 2;
 }
 
 template <>
 Input read_input<2>(const MeshArguments& args) {
+  if (faces(args) != Faces::unless_points) {
+    throw Error(ErrorCode::bad_option, "--surface and --merge are for space", {args.input});
+  }
   Input input(args.input);
   if (!args.repair) {
     input.offer_repair();
@@ -281,7 +294,7 @@ Input read_input<2>(const MeshArguments& args) {
 
 template <>
 SpaceInput read_input<3>(const MeshArguments& args) {
-  return SpaceInput(args.input);
+  return SpaceInput(args.input, faces(args));
 }
 
 mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input) {
@@ -312,7 +325,8 @@ void open_outputs(const MeshArguments& args, const Input& input, Outputs& output
 
 void open_outputs(const MeshArguments& args, const SpaceInput& input, SpaceOutputs& outputs) {
   protect_inputs(args, input, outputs);
-  for (const auto& path : args.outputs) outputs.open_mesh(path);
+  const auto content = input.is_complex() ? mesher::MeshFiles::features : mesher::MeshFiles::plain;
+  for (const auto& path : args.outputs) outputs.open_mesh(path, content);
 }
 
 }  // namespace tool

@@ -23,6 +23,7 @@ struct MeshArguments {
   std::string max_area, max_size, sizes;
   std::string max_vertices;
   bool region_areas = false;
+  bool surface = false, merge = false;
   bool repair = false;
   bool box = false;
   bool is_static = false;
@@ -52,11 +53,17 @@ void add_mesh_options(CLI::App& command, MeshArguments& args);
 /// The value of --rho, at most `most`. Throws: Error(bad_option).
 [[nodiscard]] double option_rho(const std::string& text, double most = INFINITY);
 
+/// What faces of INPUT in space are.
+[[nodiscard]] inline Faces faces(const MeshArguments& args) {
+  if (args.merge) return Faces::merged;
+  return args.surface ? Faces::polygons : Faces::unless_points;
+}
+
 /// The dimension that is asked for, or else that of the input. Throws: as mesher::dimension_of.
 [[nodiscard]] int dimension_of(const MeshArguments& args);
 
 /// The input as it is to be meshed: repaired, if that is asked for. D is 2 or 3.
-/// Throws: Error, as read_pslg and mesher::repair, or as read_points.
+/// Throws: Error, as read_pslg and mesher::repair, or as SpaceInput.
 template <int D = 2>
 [[nodiscard]] InputOf<D> read_input(const MeshArguments& args);
 

@@ -1,6 +1,7 @@
 // mesher check: is this mesh what it should be?
 #include "mesher/check.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 
 #include "arguments.hpp"
 #include "commands.hpp"
+#include "input.hpp"
 #include "mesher/io.hpp"
 #include "mesher/pslg.hpp"
 #include "mesher/space_check.hpp"
@@ -24,6 +26,7 @@ struct CheckArguments {
   std::string max_area;
   bool constrained = false;
   bool ties = false;
+  bool surface = false, merge = false;
 };
 
 /// What was looked at, and what was found.
@@ -61,6 +64,19 @@ mesher::BoundaryRule boundary_rule(const CheckArguments& args, const mesher::Mes
   return lines ? mesher::BoundaryRule::lines : mesher::BoundaryRule::box;
 }
 
+// Likewise in space: polygons if there are any.
+mesher::BoundaryRule boundary_rule(const CheckArguments& args, const mesher::MeshDataOf<3>& mesh,
+                                   const mesher::PlcFile* complex) {
+  if (args.boundary == "box") return mesher::BoundaryRule::box;
+  if (args.boundary == "lines") return mesher::BoundaryRule::lines;
+  if (args.boundary == "any") return mesher::BoundaryRule::any;
+  const auto& faces = mesh.features.faces;
+  const bool polygons = std::any_of(faces.begin(), faces.end(),
+                                    [](const auto& f) { return f.polygon.has_value(); }) ||
+                        (complex != nullptr && !complex->plc.facets.empty());
+  return polygons ? mesher::BoundaryRule::lines : mesher::BoundaryRule::box;
+}
+
 template <int D>
 std::string counts_of(const mesher::MeshDataOf<D>& mesh) {
   return std::to_string(mesh.vertices.size()) + " vertices, " +
@@ -74,6 +90,7 @@ std::string counts_of(const mesher::MeshDataOf<D>& mesh) {
 
 Judged judge(const CheckArguments& args, mesher::MeshDataOf<2>& mesh) {
   if (args.ties) refuse(args, "--ties", "tetrahedra");
+  if (args.surface || args.merge) refuse(args, args.merge ? "--merge" : "--surface", "tetrahedra");
   mesher::PslgFile graph;
   if (!args.input.empty()) graph = mesher::read_pslg(args.input);
   forget_counted_values(args.mesh, mesh, graph);
@@ -89,19 +106,32 @@ Judged judge(const CheckArguments& args, mesher::MeshDataOf<2>& mesh) {
   return judged;
 }
 
-Judged judge(const CheckArguments& args, const mesher::MeshDataOf<3>& mesh) {
+Judged judge(const CheckArguments& args, mesher::MeshDataOf<3>& mesh) {
   if (args.constrained) refuse(args, "--constrained", "triangles");
   if (!args.max_area.empty()) refuse(args, "--max-area", "triangles");
-  if (args.boundary == "lines") refuse(args, "--boundary lines", "triangles");
-  mesher::PointFile<3> input;
-  if (!args.input.empty()) input = mesher::read_points<3>(args.input);
+  std::optional<SpaceInput> input;
+  mesher::PointFile<3> points;
+  mesher::PlcFile complex;
+  if (!args.input.empty()) {
+    input.emplace(args.input, args.merge     ? Faces::merged
+                              : args.surface ? Faces::polygons
+                                             : Faces::unless_points);
+    points = points_of(input->file());
+    complex = input->file();
+    forget_counted_values(args.mesh, mesh, complex);
+  }
   mesher::SpaceCheckOptions options;
   options.features = &mesh.features;
-  if (!args.input.empty()) options.input = &input;
+  if (input) options.input = &points;
+  if (input && input->is_complex()) options.complex = &complex;
   if (!args.rho.empty()) options.rho = option_rho(args.rho);
-  if (args.boundary == "any") options.boundary = mesher::BoundaryRule::any;
+  options.boundary = boundary_rule(args, mesh, options.complex);
   options.ties = args.ties;
-  return {mesher::check_mesh(mesh, options), mesh.notes, counts_of(mesh)};
+  Judged judged{mesher::check_mesh(mesh, options), mesh.notes, counts_of(mesh)};
+  if (input) {
+    judged.notes.insert(judged.notes.end(), input->notes().begin(), input->notes().end());
+  }
+  return judged;
 }
 
 void run_check(const CheckArguments& args) {
@@ -131,14 +161,18 @@ void add_check(CLI::App& app) {
   check->add_option("--input", args->input,
                     "Points that must be vertices, bit for bit, and lines that must be unions of\n"
                     "edges: .poly, .geojson, .obj, .vtu, .node, .xyz or .csv; for tetrahedra\n"
-                    "points: .node, .xyz or .csv");
+                    "complexes, whose polygons must be unions of faces: .poly or .smesh; points:\n"
+                    "all formats that 'mesh' reads");
+  check->add_flag("--surface", args->surface,
+                  "The faces of .off, .obj, .ply or .stl are polygons, as for 'mesh'");
+  check->add_flag("--merge", args->merge, "Likewise, made one as by 'mesh'");
   check->add_option("--rho", args->rho, "Bound of circumradius over shortest edge");
   check->add_option("--max-area", args->max_area, "Bound of the area of triangles");
   check
       ->add_option(
           "--boundary", args->boundary,
-          "What bounds the mesh: box, lines (or the box), any (for tetrahedra: any convex\n"
-          "body); auto: lines if there are any, else box")
+          "What bounds the mesh: box, lines (or the box; for tetrahedra: polygons, or the\n"
+          "box), any (for tetrahedra: any convex body); auto: lines if there are any, else box")
       ->check(CLI::IsMember({"auto", "box", "lines", "any"}))
       ->capture_default_str();
   check->add_flag("--constrained", args->constrained,
@@ -154,15 +188,20 @@ void add_check(CLI::App& app) {
       "that regions end at lines and are those of their seeds; that markers, where --input has\n"
       "some, are those of its points and lines; and that no triangle has a radius-edge ratio\n"
       "above --rho, but at small angles between lines: of --input, or MESH.\n"
-      "Of tetrahedra: that they fill a box without gap or overlap, are Delaunay, have the points\n"
-      "of --input as vertices (with their kinds and ids, where MESH tells them), and are within\n"
-      "--rho, those at the box too.\n"
+      "Of tetrahedra: that they fill a box, or what polygons enclose, without gap or overlap, are\n"
+      "Delaunay, have the points of --input as vertices (with their kinds and ids, where MESH "
+      "tells\n"
+      "them), and are within --rho, those at the box too, but at small angles of --input; that "
+      "each\n"
+      "segment of --input is a union of edges, and each polygon one of faces, with its area; and\n"
+      "that regions end at polygons and are those of their seeds.\n"
       "It says what fails first, and where. Exit code 0 if all that holds, 1 if not.\n"
       "Examples:\n"
       "  mesher check mesh.node --input points.node --rho 1.4142\n"
       "  mesher check lake.1.node --input lake.poly --rho 1.4142 --max-area 0.01\n"
       "  mesher check plate.msh --constrained\n"
-      "  mesher check cloud.vtu --input cloud.node --rho 2 --ties");
+      "  mesher check cloud.vtu --input cloud.node --rho 2 --ties\n"
+      "  mesher check pump.vtu --input pump.poly --rho 2");
   check->callback([args] { run_check(*args); });
 }
 

@@ -1,5 +1,5 @@
-// mesher edit: a mesh of a file of points and lines, or of points in space, that follows a script
-// of edits.
+// mesher edit: a mesh of a file of points and lines, or of a complex in space, that follows a
+// script of edits.
 #include <memory>
 #include <utility>
 
@@ -68,10 +68,10 @@ void run_edit_on(Target target, const EditArguments& args, InputOf<D> input) {
   open_outputs(args, input, outputs);
   Figures figures(args.stats, outputs);
   Progress progress(args.quiet, D);
-  RunOf<D> run = first_run<D>(input, target, progress);
+  RunOf<D> run = first_run<D>(input, target, extent(args), progress);
   if (figures.wanted()) figures << json_of(run).dump() << "\n";
   const auto followed = apply_script<D>(args, input, target, figures, progress);
-  const Kept<D> mesh = kept_mesh(target);
+  const Kept<D> mesh = kept_mesh(target, input, extent(args));
   outputs.write(mesh, followed.last_changed);
   const auto targets = outputs.targets();
   progress.erase();
@@ -117,7 +117,8 @@ void run_edit(const EditArguments& args) {
 void add_edit(CLI::App& app) {
   const auto args = std::make_shared<EditArguments>();
   CLI::App* edit = app.add_subcommand(
-      "edit", "Meshes a file of points and lines, or of points in space, and follows its edits.");
+      "edit",
+      "Meshes a file of points and lines, or of a complex in space, and follows its edits.");
   add_mesh_options(*edit, *args);
   edit->add_option("--script", args->script, "The edits")->required()->type_name("EDITS");
   edit->footer(
@@ -143,7 +144,7 @@ void add_edit(CLI::App& app) {
           "--stats: a JSON object for the first run, then one a line for each update; - for\n"
           "standard output.\n"
           "In space there are +point ID x y z, -point ID, move ID x y z, segments and polylines\n"
-          "without markers, and\n"
+          "without markers (what stays of INPUT keeps its own), and\n"
           "  +polygon ID P P P ... [/ P P P ...] ... [on P ...] [along A B ...]\n"
           "                         -polygon ID    its loops, then points and edges inside\n") +
       kQualityHelp +

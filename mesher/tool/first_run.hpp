@@ -15,9 +15,7 @@ void announce(const Input& input, Target& target) {
 }
 template <class Target>
 void announce(const SpaceInput& input, Target& target) {
-  const auto& points = input.file();
-  for (std::size_t i = 0; i < points.ids.size(); ++i)
-    target.insert(points.ids[i], points.points[i]);
+  mesher::announce(input.graph(), target);
 }
 
 /// A Mesher or DomainMesher for the input: that of `arguments`, of which options are the first.
@@ -37,22 +35,25 @@ void insert_all(const Input& input, Target& target, Progress& progress) {
   });
 }
 
-/// What is wanted of a target's mesh.
+/// What is wanted of a target's mesh. In the plane targets know; in space it is found anew.
+/// Cost: O(1); in space O(m log m).
 template <class Target>
-[[nodiscard]] decltype(auto) kept_mesh(const Target& target) {
-  if constexpr (requires { target.domain_mesh(); }) {
-    return target.domain_mesh();
-  } else {
-    return target.mesh();
-  }
+[[nodiscard]] decltype(auto) kept_mesh(const Target& target, const Input&, mesher::Extent) {
+  return target.domain_mesh();
+}
+template <class Target>
+[[nodiscard]] Kept<3> kept_mesh(const Target& target, const SpaceInput& input,
+                                mesher::Extent extent) {
+  return mesher::domain_mesh(target.mesh(), input.current(), extent);
 }
 
 /// Runs `target`, a mesher without input, on the input. Throws: Error, as insert_all.
 template <int D, class Target>
-RunOf<D> first_run(const InputOf<D>& input, Target& target, Progress& progress) {
+RunOf<D> first_run(const InputOf<D>& input, Target& target, mesher::Extent extent,
+                   Progress& progress) {
   const double start = mesher::now();
   insert_all(input, target, progress);
-  const Kept<D>& mesh = kept_mesh(target);
+  const Kept<D>& mesh = kept_mesh(target, input, extent);
   RunOf<D> run;
   run.seconds_total = mesher::now() - start;
   run.stats = target.stats();

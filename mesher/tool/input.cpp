@@ -1,4 +1,4 @@
-// Places of features, for errors.
+// Inputs, and the places of their features, for errors.
 #include "input.hpp"
 
 #include <algorithm>
@@ -37,10 +37,9 @@ std::vector<Featured> kinds_named(const Error& error) {
         found = message.find(word + number, found + 1);
       return found;
     };
-    const std::pair<std::size_t, Featured> first =
-        std::min({std::pair(after("segment"), Featured::line),
-                  std::pair(after("point"), Featured::point),
-                  std::pair(after("polygon"), Featured::polygon)});
+    const std::pair<std::size_t, Featured> first = std::min(
+        {std::pair(after("segment"), Featured::line), std::pair(after("point"), Featured::point),
+         std::pair(after("polygon"), Featured::polygon)});
     kinds.push_back(first.first == std::string::npos ? Featured::line : first.second);
     at = std::min(first.first, message.size() - 1) + 1;
   }
@@ -108,25 +107,6 @@ std::string repair_hint(const Error& error) {
   }
 }
 
-// What read(path) gives. That a complex in space is no input says what to do instead.
-template <class Read>
-auto reading(const std::string& path, Read read) {
-  try {
-    return read(path);
-  } catch (const Error& error) {
-    const std::string format = mesher::format_of(path);
-    const bool is_complex =
-        (format == ".poly" && error.code() == ErrorCode::bad_dimension) ||
-        ((format == ".poly" || format == ".smesh") && error.code() == ErrorCode::unknown_format);
-    if (!is_complex) throw;
-    throw Error(error.code(),
-                error.message() +
-                    "; complexes in space are not meshed from files yet: give the points as .node, "
-                    "and the segments and polygons to 'mesher edit', as edits +segment and +polygon",
-                error.place(), error.ids());
-  }
-}
-
 bool same_line(const Place& a, const Place& b) { return a.file == b.file && a.line == b.line; }
 
 }  // namespace
@@ -163,9 +143,14 @@ Error Standing::located(const Error& error) const {
   return Error(error.code(), error.message() + others, blamed, error.ids());
 }
 
+std::string Standing::warning_text(const mesher::SeedName& seed, const std::string& what) const {
+  const bool hole = seed.kind == mesher::SeedKind::hole;
+  return text_of(place(hole ? Featured::hole : Featured::region, seed.id)) + ": warning: " + what;
+}
+
 // --- In the plane ----------------------------------------------------------------------------
 
-Input::Input(const std::string& path) : Standing(path), file_(reading(path, mesher::read_pslg)) {}
+Input::Input(const std::string& path) : Standing(path), file_(mesher::read_pslg(path)) {}
 
 std::vector<mesher::InputPoint<2>> Input::points() const {
   std::vector<mesher::InputPoint<2>> points;
@@ -209,28 +194,7 @@ Place Input::place_in_file(Featured kind, FeatureId id) const {
 }
 
 std::string Input::warning(const mesher::SeedFault& fault) const {
-  const bool hole = fault.seed.kind == mesher::SeedKind::hole;
-  const Place stands = place(hole ? Featured::hole : Featured::region, fault.seed.id);
-  return text_of(stands) + ": warning: " + describe(fault);
-}
-
-// --- In space --------------------------------------------------------------------------------
-
-SpaceInput::SpaceInput(const std::string& path)
-    : Standing(path), file_(reading(path, mesher::read_points<3>)) {}
-
-std::vector<mesher::InputPoint<3>> SpaceInput::points() const {
-  std::vector<mesher::InputPoint<3>> points;
-  for (std::size_t i = 0; i < file_.ids.size(); ++i) {
-    points.push_back({file_.ids[i], file_.points[i]});
-  }
-  return points;
-}
-
-Place SpaceInput::place_in_file(Featured kind, FeatureId id) const {
-  const auto found = std::find(file_.ids.begin(), file_.ids.end(), id);
-  if (kind != Featured::point || found == file_.ids.end()) return {file_.file};
-  return file_.place(static_cast<std::size_t>(found - file_.ids.begin()));
+  return warning_text(fault.seed, describe(fault));
 }
 
 }  // namespace tool

@@ -11,6 +11,7 @@
 #include "mesher/domain.hpp"
 #include "mesher/edit_script.hpp"
 #include "mesher/io.hpp"
+#include "mesher/plc.hpp"
 #include "mesher/pslg.hpp"
 #include "mesher/repair.hpp"
 
@@ -51,6 +52,9 @@ class Standing {
   Standing(const Standing&) = default;
   Standing(Standing&&) = default;
 
+  /// `PLACE: warning: WHAT` of a seed.
+  [[nodiscard]] std::string warning_text(const mesher::SeedName& seed,
+                                         const std::string& what) const;
   /// Whether edits have brought a region with a largest area.
   [[nodiscard]] bool edits_areas() const noexcept { return edits_areas_; }
 
@@ -112,25 +116,58 @@ class Input final : public Standing {
   std::vector<mesher::RepairNote> repairs_;
 };
 
-/// Points in space.
+/// What faces of a file in space are.
+enum class Faces : std::uint8_t {
+  unless_points,  ///< polygons of formats of complexes (.poly, .smesh); of others nothing
+  polygons,
+  merged,  ///< polygons; those of one plane that are side by side are one
+};
+
+/// Points, segments and polygons in space.
 class SpaceInput final : public Standing {
  public:
-  /// Throws: Error, as read_points.
-  explicit SpaceInput(const std::string& path);
+  /// Throws: Error, as read_points, or as read_plc where faces are polygons; Error(bad_option) if
+  /// they are to be, but the format has none.
+  explicit SpaceInput(const std::string& path, Faces faces = Faces::unless_points);
 
-  [[nodiscard]] const mesher::PointFile<3>& file() const noexcept { return file_; }
+  /// As the file has it.
+  [[nodiscard]] const mesher::Plc& graph() const noexcept { return file_.plc; }
+  [[nodiscard]] const mesher::PlcFile& file() const noexcept { return file_; }
   [[nodiscard]] const std::vector<mesher::Note>& notes() const noexcept { return file_.notes; }
+  /// Whether segments and polygons are meshed, if there are any.
+  [[nodiscard]] bool is_complex() const noexcept { return is_complex_; }
+  /// Whether the file may have faces that are not meshed.
+  [[nodiscard]] bool leaves_faces() const noexcept;
 
-  [[nodiscard]] const std::string& point_file() const noexcept { return path(); }
+  [[nodiscard]] const std::string& point_file() const noexcept { return file_.point_file; }
   [[nodiscard]] std::vector<mesher::InputPoint<3>> points() const;
-  [[nodiscard]] mesher::Place place_of_point(std::size_t i) const { return file_.place(i); }
+  [[nodiscard]] mesher::Place place_of_point(std::size_t i) const {
+    return file_.place_of_point(i);
+  }
+
+  /// As Standing; and current() is as they leave it.
+  void follow(const std::vector<mesher::EditOf<3>>& edits);
+  /// With the edits since; those that have come have no markers. Cost: O(n log n).
+  [[nodiscard]] mesher::Plc current() const;
+
+  /// `PLACE: warning: WHAT` for a seed that has no region of its own.
+  [[nodiscard]] std::string warning(const mesher::SeedFaultOf<3>& fault) const;
 
  private:
   [[nodiscard]] mesher::Place place_in_file(mesher::Featured kind,
                                             mesher::FeatureId id) const override;
+  void follow(const mesher::EditOf<3>& edit);
 
-  mesher::PointFile<3> file_;
+  mesher::PlcFile file_;
+  bool is_complex_ = false;
+  // What edits have made of features; nothing: they went.
+  std::map<mesher::FeatureId, std::optional<mesher::MarkedPoint<3>>> points_;
+  std::map<mesher::FeatureId, std::vector<mesher::FeatureId>> lines_;
+  std::map<mesher::FeatureId, std::optional<mesher::Polygon>> polygons_;
 };
+
+/// The points of a complex, as of a file of points: what checks of points take.
+[[nodiscard]] mesher::PointFile<3> points_of(const mesher::PlcFile& file);
 
 /// The input of a dimension.
 template <int D>

@@ -1,4 +1,4 @@
-// mesher mesh: a mesh of a file of points and lines, or of points in space.
+// mesher mesh: a mesh of a file of points and lines, or of a complex in space.
 #include <memory>
 #include <utility>
 
@@ -22,22 +22,12 @@ struct Result {
   RunOf<D> run;
 };
 
-mesher::Mesh<2> mesh_statically(const Input& input, const mesher::Options<2>& options,
-                                mesher::MeshStats& stats, const mesher::RunControl& control) {
-  return mesher::mesh_statically(input.graph(), options, &stats, control);
-}
-mesher::Mesh<3> mesh_statically(const SpaceInput& input, const mesher::Options<3>& options,
-                                mesher::MeshStats& stats, const mesher::RunControl& control) {
-  const auto& points = input.file();
-  return mesher::mesh_statically<3>(points.points, options, points.ids, &stats, control);
-}
-
 template <int D>
 mesher::Mesh<D> mesh_without_engine(const InputOf<D>& input, const mesher::Options<D>& options,
                                     mesher::MeshStats& stats, Progress& progress) {
   return locating(input, [&] {
     const StopPolitely stop;
-    return mesh_statically(input, options, stats, progress.control());
+    return mesher::mesh_statically(input.graph(), options, &stats, progress.control());
   });
 }
 
@@ -47,7 +37,12 @@ void require_points_alone(const Input& input) {
   throw mesher::Error(mesher::ErrorCode::bad_option,
                       "--algorithm svr takes no lines, INPUT has some", {input.path()});
 }
-void require_points_alone(const SpaceInput&) {}
+void require_points_alone(const SpaceInput& input) {
+  if (input.graph().segments.empty() && input.graph().facets.empty()) return;
+  throw mesher::Error(mesher::ErrorCode::bad_option,
+                      "--algorithm svr takes no segments and polygons, INPUT has some",
+                      {input.path()});
+}
 
 template <int D>
 mesher::Mesh<D> mesh_by_svr(const InputOf<D>& input, const mesher::Options<D>& options,
@@ -77,20 +72,23 @@ mesher::Mesh<D> mesh_with_engine(const InputOf<D>& input, const mesher::Options<
   return mesher.mesh();
 }
 
-Result<2> finish(const MeshArguments& args, const Input& input, const mesher::Options<2>& options,
-                 mesher::Mesh<2> all) {
-  Result<2> result;
-  if (!all.edges.empty() && (!args.quiet || !args.stats.empty())) {
-    result.run.angles = mesher::angle_report(all, options);
-  }
+void look_at_angles(const MeshArguments& args, const mesher::Mesh<2>& all,
+                    const mesher::Options<2>& options, Run& run) {
+  if (all.edges.empty() || (args.quiet && args.stats.empty())) return;
+  run.angles = mesher::angle_report(all, options);
+}
+void look_at_angles(const MeshArguments&, const mesher::Mesh<3>&, const mesher::Options<3>&,
+                    SpaceRun&) {}
+
+template <int D>
+Result<D> finish(const MeshArguments& args, const InputOf<D>& input,
+                 const mesher::Options<D>& options, mesher::Mesh<D> all) {
+  Result<D> result;
+  look_at_angles(args, all, options, result.run);
   const double start = mesher::now();
   result.mesh = mesher::domain_mesh(std::move(all), input.graph(), extent(args));
   result.run.seconds_total = mesher::now() - start;
   return result;
-}
-Result<3> finish(const MeshArguments&, const SpaceInput&, const mesher::Options<3>&,
-                 mesher::Mesh<3> all) {
-  return {std::move(all), {}};
 }
 
 template <int D>
@@ -103,7 +101,7 @@ Result<D> mesh(const MeshArguments& args, const InputOf<D>& input,
                                             : mesh_with_engine<D>;
   mesher::Mesh<D> all = make(input, options, stats, progress);
   const double seconds = mesher::now() - start;
-  Result<D> result = finish(args, input, options, std::move(all));
+  Result<D> result = finish<D>(args, input, options, std::move(all));
   result.run.stats = stats;
   result.run.seconds_total += seconds;
   measure(result.mesh, options.rho, result.run);
@@ -154,7 +152,7 @@ void run_mesh(const MeshArguments& args) {
 void add_mesh(CLI::App& app) {
   const auto args = std::make_shared<MeshArguments>();
   CLI::App* mesh =
-      app.add_subcommand("mesh", "Meshes a file of points and lines, or of points in space.");
+      app.add_subcommand("mesh", "Meshes a file of points and lines, or of a complex in space.");
   add_mesh_options(*mesh, *args);
   mesh->add_option(
           "--algorithm", args->algorithm,
@@ -176,8 +174,10 @@ void add_mesh(CLI::App& app) {
           "appear when all is done, or not at all.\n"
           "Limits of size hold in what is written, less what is beyond the domain, and are filled\n"
           "from a lattice, so that edits move little. Several together: the smallest counts.\n"
-          "In space, INPUT's points are meshed, what else a surface or grid has is noted. All of\n"
-          "the box is written; an .svg is cut open, and bluer where radius-edge ratios are worse.\n"
+          "In space the same holds of polygons: every one is a union of faces, and what they\n"
+          "enclose is written. .poly and .smesh have segments and polygons; of surfaces and grids\n"
+          "the points are meshed, and with --surface the faces of .off, .obj, .ply and .stl. An .svg\n"
+          "is cut open, green in polygons, and bluer where radius-edge ratios are worse.\n"
           "--stats: one JSON object; - for standard output.\n") +
       kQualityHelp +
       "\nExamples:\n"
@@ -187,6 +187,8 @@ void add_mesh(CLI::App& app) {
       "  mesher mesh lake.poly --sizes depth.csv -o lake.vtu\n"
       "  mesher mesh points.node -o mesh.node -o mesh.svg --stats mesh.json\n"
       "  mesher mesh scan.ply -o scan.vtu -o scan.svg\n"
+      "  mesher mesh pump.poly -o pump.vtu -o pump.svg\n"
+      "  mesher mesh part.stl --merge -o part.msh\n"
       "  mesher mesh scan.ply --algorithm svr -o scan.vtu\n"
       "  mesher mesh cities.csv --domain -180 -90 180 90 --rho 2 --static -o cities.vtu");
   mesh->callback([args] { run_mesh(*args); });

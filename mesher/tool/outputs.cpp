@@ -47,22 +47,23 @@ void Outputs::draw(const mesher::DomainMesh& mesh, const Simplices& coloured) {
 
 // --- In space --------------------------------------------------------------------------------
 
-void SpaceOutputs::open_mesh(const std::string& path) {
+void SpaceOutputs::open_mesh(const std::string& path, mesher::MeshFiles content) {
   if (mesher::format_of(path) == ".svg") {
     pictures_.push_back(&open(path));
     return;
   }
-  writers_.push_back(
-      open_among([&](mesher::OutputFiles& files) { return mesher::open_space_mesh(files, path); }));
+  writers_.push_back(open_among(
+      [&](mesher::OutputFiles& files) { return mesher::open_space_mesh(files, path, content); }));
 }
 
-void SpaceOutputs::write(const mesher::Mesh<3>& mesh, const Simplices& coloured) {
+void SpaceOutputs::write(const mesher::DomainMeshOf<3>& mesh, const Simplices& coloured) {
   require_uninterrupted();
-  for (const auto& writer : writers_) writer(mesh);
+  const auto& kept = mesh.kept;
+  for (const auto& writer : writers_) writer(kept, kept.features);
   if (pictures_.empty()) return;
-  mesher::SpaceView view = mesher::space_view(mesh);
+  mesher::SpaceView view = mesher::space_view(kept);
   view.coloured = coloured;
-  for (auto* picture : pictures_) mesher::write_svg(mesh, view, *picture);
+  for (auto* picture : pictures_) mesher::write_svg(kept, kept.features, view, *picture);
 }
 
 }  // namespace tool

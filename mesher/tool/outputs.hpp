@@ -68,9 +68,9 @@ class Outputs : public CommandFiles {
 class SpaceOutputs : public CommandFiles {
  public:
   /// As those of Outputs.
-  void open_mesh(const std::string& path);
+  void open_mesh(const std::string& path, mesher::MeshFiles content = mesher::MeshFiles::plain);
   using Simplices = std::vector<std::array<mesher::Point<3>, 4>>;
-  void write(const mesher::Mesh<3>& mesh, const Simplices& coloured = {});
+  void write(const mesher::DomainMeshOf<3>& mesh, const Simplices& coloured = {});
 
  private:
   std::vector<mesher::SpaceMeshWriter> writers_;

@@ -28,26 +28,39 @@ void forget_markers(MeshData& mesh) {
   for (auto& edge : mesh.features.edges) edge.marker = 0;
 }
 
+void note(const std::string& path, const char* what, std::vector<mesher::Note>& notes) {
+  notes.push_back({std::string(what) + " are not compared: .mesh counts those of INPUT", {path}});
+}
+
+template <class Regions>
+bool are_attributes(const Regions& regions) {
+  return are_references(regions, [](const auto& region) { return region.attribute; });
+}
+
 }  // namespace
 
 void forget_counted_values(const std::string& path, MeshData& mesh, mesher::PslgFile& graph) {
   if (mesher::format_of(path) != ".mesh") return;
   Pslg& pslg = graph.pslg;
-  const auto note = [&](const char* what) {
-    mesh.notes.push_back(
-        {std::string(what) + " are not compared: .mesh counts those of INPUT", {path}});
-  };
   const auto marker = [](const auto& part) { return part.marker; };
   if (!are_references(pslg.points, marker) || !are_references(pslg.segments, marker) ||
       !are_references(pslg.polylines, marker)) {
     forget_markers(mesh);
-    note("markers");
+    note(path, "markers", mesh.notes);
   }
-  if (!are_references(pslg.regions, [](const auto& region) { return region.attribute; })) {
+  if (!are_attributes(pslg.regions)) {
     pslg.regions.clear();
     graph.regions.clear();
-    note("attributes of regions");
+    note(path, "attributes of regions", mesh.notes);
   }
+}
+
+void forget_counted_values(const std::string& path, mesher::MeshDataOf<3>& mesh,
+                           mesher::PlcFile& complex) {
+  if (mesher::format_of(path) != ".mesh" || are_attributes(complex.plc.regions)) return;
+  complex.plc.regions.clear();
+  complex.regions.clear();
+  note(path, "attributes of regions", mesh.notes);
 }
 
 }  // namespace tool

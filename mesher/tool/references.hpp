@@ -5,6 +5,7 @@
 
 #include "mesher/io.hpp"
 #include "mesher/mesh_data.hpp"
+#include "mesher/plc.hpp"
 #include "mesher/pslg.hpp"
 
 namespace tool {
@@ -13,5 +14,9 @@ namespace tool {
 /// has such: what would be compared with them is taken out of both, and a note of the mesh says so.
 void forget_counted_values(const std::string& path, mesher::MeshData& mesh,
                            mesher::PslgFile& graph);
+
+/// The same of regions in space; markers are not compared there.
+void forget_counted_values(const std::string& path, mesher::MeshDataOf<3>& mesh,
+                           mesher::PlcFile& complex);
 
 }  // namespace tool

@@ -102,9 +102,10 @@ std::string milliseconds(double seconds) { return format("%.3f ms", seconds * 10
 
 }  // namespace
 
-void measure(const mesher::DomainMesh& mesh, double rho, Run& run) {
-  run.quality = mesher::quality(mesh.kept);
-  measure_bound(rho, mesh.kept, run);
+namespace {
+
+template <int D>
+void count_kept(const Kept<D>& mesh, AnyRun& run) {
   run.vertices = mesh.kept.vertices.size();
   run.simplices = mesh.kept.simplices.size();
   run.faults = mesh.faults.size();
@@ -115,6 +116,14 @@ void measure(const mesher::DomainMesh& mesh, double rho, Run& run) {
     if (mesh.keeps_all || region.label.zone == mesher::Zone::inside) ++run.regions;
     if (region.label.zone == mesher::Zone::hole) ++run.holes;
   }
+}
+
+}  // namespace
+
+void measure(const mesher::DomainMesh& mesh, double rho, Run& run) {
+  run.quality = mesher::quality(mesh.kept);
+  measure_bound(rho, mesh.kept, run);
+  count_kept(mesh, run);
 }
 
 namespace {
@@ -151,10 +160,10 @@ Json json_of_change(const Step& update) {
 
 }  // namespace
 
-void measure(const mesher::Mesh<3>& mesh, double, SpaceRun& run) {
-  run.quality = mesher::quality(mesh);
-  run.points = static_cast<std::size_t>(
-      std::count(mesh.kinds.begin(), mesh.kinds.end(), mesher::VertexKind::input));
+void measure(const Kept<3>& mesh, double rho, SpaceRun& run) {
+  run.quality = mesher::quality(mesh.kept);
+  run.above_rho = mesher::count_above(mesh.kept, rho);
+  count_kept(mesh, run);
 }
 
 Json json_of(const Run& run) {
@@ -186,7 +195,12 @@ Json json_of(const SpaceRun& run) {
   json["max_dihedral_deg"] = run.quality.max_dihedral_deg;
   json["max_radius_edge"] = run.quality.max_radius_edge;
   json["slivers"] = run.quality.slivers;
+  json["above_rho"] = run.above_rho;
   json["points"] = run.points;
+  json["kept"] = {{"vertices", run.vertices}, {"simplices", run.simplices}};
+  json["regions"] = run.regions;
+  json["holes"] = run.holes;
+  json["seed_faults"] = run.faults;
   add_costs(run.stats, run.seconds_total, json);
   return json;
 }
@@ -224,14 +238,30 @@ void print_run(const Input& input, const Run& run) {
 }
 
 void print_run(const SpaceInput& input, const SpaceRun& run) {
-  std::printf("%s: %s in space\n", input.path().c_str(), counted(run.points, "point").c_str());
-  print_row("vertices", std::to_string(run.stats.vertices));
-  print_row("tetrahedra", std::to_string(run.stats.simplices));
+  const mesher::Plc& graph = input.graph();
+  std::printf("%s: %s in space", input.path().c_str(),
+              counted(graph.points.size(), "point").c_str());
+  if (!graph.segments.empty())
+    std::printf(", %s", counted(graph.segments.size(), "segment").c_str());
+  if (!graph.facets.empty()) std::printf(", %s", counted(graph.facets.size(), "polygon").c_str());
+  std::printf("\n");
+  print_row("vertices", of_all(run.vertices, run.stats.vertices));
+  print_row("tetrahedra", of_all(run.simplices, run.stats.simplices));
+  if (run.points < graph.points.size()) {
+    print_row("points left out",
+              std::to_string(graph.points.size() - run.points) + "; --box keeps all");
+  }
+  if (run.vertices != run.stats.vertices || run.regions > 1) {
+    print_row("regions", std::to_string(run.regions) + ", holes " + std::to_string(run.holes));
+  }
   print_row("dihedral angles", format("%.2f", run.quality.min_dihedral_deg) + " to " +
                                    format("%.2f degrees", run.quality.max_dihedral_deg));
   print_row("slivers", std::to_string(run.quality.slivers) + ", of dihedral angles below " +
                            format("%g degrees", mesher::kSliverDegrees));
   print_row("largest radius-edge", format("%.4f", run.quality.max_radius_edge));
+  if (run.above_rho > 0) {
+    print_row("above rho", std::to_string(run.above_rho) + ", at small angles of the input");
+  }
   print_row("time", format("%.3f s", run.seconds_total));
 }
 
@@ -249,8 +279,15 @@ void print_remarks(const MeshArguments& args, const Input& input, const mesher::
   }
 }
 
-void print_remarks(const MeshArguments&, const SpaceInput& input, const mesher::Mesh<3>&) {
+void print_remarks(const MeshArguments&, const SpaceInput& input, const Kept<3>& mesh) {
   print_notes(input.notes());
+  if (input.leaves_faces()) {
+    std::fprintf(stderr, "%s: note: its vertices are meshed; --surface meshes its faces, too\n",
+                 input.path().c_str());
+  }
+  for (const auto& fault : mesh.faults) {
+    std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
+  }
 }
 
 void print_angles(const Run& run) {
@@ -279,9 +316,9 @@ void print_after(const mesher::DomainMesh& mesh) {
                               std::to_string(mesh.kept.simplices.size()) + " triangles");
 }
 
-void print_after(const mesher::Mesh<3>& mesh) {
-  print_row("after them", std::to_string(mesh.vertices.size()) + " vertices, " +
-                              std::to_string(mesh.simplices.size()) + " tetrahedra");
+void print_after(const Kept<3>& mesh) {
+  print_row("after them", std::to_string(mesh.kept.vertices.size()) + " vertices, " +
+                              std::to_string(mesh.kept.simplices.size()) + " tetrahedra");
 }
 
 void print_outputs(const std::vector<std::string>& paths) {

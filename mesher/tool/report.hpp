@@ -20,32 +20,30 @@ namespace tool {
 /// Keeps the order in which fields are given.
 using Json = nlohmann::ordered_json;
 
-/// What is wanted of a mesh: what lines enclose; in space all of it.
+/// What is wanted of a mesh: what lines, or in space polygons, enclose.
 template <int D>
-using Kept = std::conditional_t<D == 2, mesher::DomainMesh, mesher::Mesh<3>>;
+using Kept = mesher::DomainMeshOf<D>;
 
 /// The first run of a mesh, or a run from scratch.
-struct Run {
-  mesher::MeshStats stats;          ///< of the box
-  mesher::Quality quality;          ///< of what is kept
-  std::size_t above_rho = 0;        ///< triangles kept, at small angles of the input
-  double min_angle_within_rho = 0;  ///< degrees; of the others
-  std::size_t vertices = 0;         ///< kept
-  std::size_t simplices = 0;        ///< kept
-  std::size_t points = 0;           ///< of the input, kept
-  std::size_t regions = 0;          ///< kept
+struct AnyRun {
+  mesher::MeshStats stats;    ///< of the box
+  std::size_t above_rho = 0;  ///< simplices kept, at small angles of the input
+  std::size_t vertices = 0;   ///< kept
+  std::size_t simplices = 0;  ///< kept
+  std::size_t points = 0;     ///< of the input, kept
+  std::size_t regions = 0;    ///< kept
   std::size_t holes = 0;
-  std::size_t faults = 0;                     ///< seeds without a region of their own
-  std::optional<mesher::AngleReport> angles;  ///< of the box, if it was asked for
+  std::size_t faults = 0;    ///< seeds without a region of their own
   double seconds_total = 0;  ///< from the first point inserted to the finished mesh
 };
-
-/// The same in space.
-struct SpaceRun {
-  mesher::MeshStats stats;
-  mesher::SpaceQuality quality;
-  std::size_t points = 0;  ///< of the input
-  double seconds_total = 0;
+struct Run : AnyRun {
+  mesher::Quality quality;                    ///< of what is kept
+  double min_angle_within_rho = 0;            ///< degrees; off triangles above rho
+  std::optional<mesher::AngleReport> angles;  ///< of the box, if it was asked for
+};
+/// In space.
+struct SpaceRun : AnyRun {
+  mesher::SpaceQuality quality;  ///< of what is kept
 };
 
 template <int D>
@@ -58,7 +56,7 @@ using SpaceStep = mesher::Update<3, mesher::Change<3>>;
 
 /// Sizes and quality of what is kept.
 void measure(const mesher::DomainMesh& mesh, double rho, Run& run);
-void measure(const mesher::Mesh<3>& mesh, double rho, SpaceRun& run);
+void measure(const Kept<3>& mesh, double rho, SpaceRun& run);
 
 /// Figures of a run, as --stats writes them, with the process's peak memory.
 [[nodiscard]] Json json_of(const Run& run);
@@ -75,7 +73,7 @@ void print_run(const SpaceInput& input, const SpaceRun& run);
 /// Prints on standard error what of the input, or of what was asked for, is not used or was
 /// repaired, and which seeds have no region of their own.
 void print_remarks(const MeshArguments& args, const Input& input, const mesher::DomainMesh& mesh);
-void print_remarks(const MeshArguments& args, const SpaceInput& input, const mesher::Mesh<3>& mesh);
+void print_remarks(const MeshArguments& args, const SpaceInput& input, const Kept<3>& mesh);
 
 /// Prints what small angles do to a mesh, if they were looked at.
 void print_angles(const Run& run);
@@ -87,7 +85,7 @@ void print_updates(std::vector<double> seconds);
 
 /// Prints how large the mesh is that updates have left.
 void print_after(const mesher::DomainMesh& mesh);
-void print_after(const mesher::Mesh<3>& mesh);
+void print_after(const Kept<3>& mesh);
 
 /// Prints the names of the files written.
 void print_outputs(const std::vector<std::string>& paths);

@@ -37,7 +37,7 @@ void follow_script(const TraceArguments& args, InputOf<D>& input, mesher::Mesher
   Watched watched(mesher, progress);
   try {
     while (auto edits = script.next()) {
-      input.template follow<D>(*edits);
+      input.follow(*edits);
       mesher::apply(std::move(*edits), watched);
       progress.set_task("after " + std::to_string(++updates) + " updates, ");
     }
@@ -60,8 +60,17 @@ traces::Recording record(const sac::Engine& engine, const std::string& path, tra
 }
 
 template <int D>
+InputOf<D> unrepaired(const TraceArguments& args) {
+  if constexpr (D == 2) {
+    return Input(args.input);
+  } else {
+    return read_input<3>(args);
+  }
+}
+
+template <int D>
 void run_trace(const TraceArguments& args) {
-  InputOf<D> input(args.input);
+  InputOf<D> input = unrepaired<D>(args);
   const auto options = mesh_options(args, input);
   require_writable(args, input);
   Progress progress(args.quiet);

@@ -1,10 +1,12 @@
 // Writes meshes of tetrahedra in every format for compare_space.py, and what they are as `.truth`:
-// "v" and the bits of three coordinates, "t" and four vertices from 0 on; says what a file of
-// others is to us.
+// "v" and the bits of three coordinates, "t" and four vertices from 0 on, "p" and a whole number
+// and the ascending vertices of a tetrahedron (its region), a face or an edge (its marker); says
+// what a file of others is to us.
 //   space_files write FOLDER
 //   space_files dump FILE TRUTH
 #include "mesher/space_files.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <fstream>
@@ -12,7 +14,9 @@
 #include <vector>
 
 #include "file_program.hpp"
+#include "mesher/domain_mesh.hpp"
 #include "mesher/generate.hpp"
+#include "mesher/generate_plc.hpp"
 #include "mesher/io.hpp"
 #include "mesher/mesher.hpp"
 
@@ -20,7 +24,24 @@ namespace {
 
 using mesher::Point;
 
-void write_truth(const mesher::Mesh<3>& mesh, const std::string& path) {
+template <class Corners>
+void write_part(Corners corners, std::int64_t value, std::ofstream& truth) {
+  std::sort(corners.begin(), corners.end());
+  truth << "p " << value;
+  for (const std::uint32_t v : corners) truth << ' ' << v;
+  truth << '\n';
+}
+
+void write_parts(const mesher::MeshDataOf<3>& mesh, std::ofstream& truth) {
+  const auto& f = mesh.features;
+  for (std::size_t i = 0; i < f.regions.size(); ++i) {
+    write_part(mesh.simplices[i], static_cast<std::int64_t>(f.regions[i]), truth);
+  }
+  for (const auto& face : f.faces) write_part(face.corners, face.marker, truth);
+  for (const auto& e : f.edges) write_part(std::array{e.low, e.high}, e.marker, truth);
+}
+
+void write_truth(const mesher::MeshDataOf<3>& mesh, const std::string& path) {
   std::ofstream truth(path);
   for (const auto& p : mesh.vertices) {
     truth << 'v';
@@ -30,18 +51,40 @@ void write_truth(const mesher::Mesh<3>& mesh, const std::string& path) {
   for (const auto& s : mesh.simplices) {
     truth << "t " << s[0] << ' ' << s[1] << ' ' << s[2] << ' ' << s[3] << '\n';
   }
+  write_parts(mesh, truth);
 }
 
-void write(const std::string& stem, const std::vector<Point<3>>& points) {
-  const mesher::Options<3> options{.domain = mesher::snapped_domain<3>(points)};
-  const mesher::Mesh<3> mesh = mesher::mesh_statically<3>(points, options);
+void write(const std::string& stem, const mesher::MeshDataOf<3>& mesh) {
   for (const char* extension : {".node", ".vtu", ".vtk", ".msh", ".mesh", ".off", ".obj", ".stl"}) {
     mesher::write_mesh(mesh, stem + extension);
   }
   write_truth(mesh, stem + ".truth");
 }
 
+void write(const std::string& stem, const std::vector<Point<3>>& points) {
+  const mesher::Options<3> options{.domain = mesher::snapped_domain<3>(points)};
+  write(stem, mesher::MeshDataOf<3>(mesher::mesh_statically<3>(points, options)));
+}
+
+// A cube in a cube, with two regions, and a marker for each side; one side's edges are segments.
+void write_complex(const std::string& stem, mesher::Extent extent) {
+  mesher::Plc plc = mesher::generate_plc({mesher::PlcKind::nested, 0.2});
+  std::int64_t marker = 10;
+  for (auto& facet : plc.facets) facet.marker = ++marker;
+  const auto& side = plc.facets[2].polygon.loops[0];
+  for (std::size_t i = 0; i < side.size(); ++i) {
+    const auto id = static_cast<std::int64_t>(i) + 1;
+    plc.segments.push_back({mesher::FeatureId{id}, side[i], side[(i + 1) % side.size()], 90 + id});
+  }
+  plc.regions.push_back({mesher::FeatureId{1}, {0.1, 0.1, 0.1}, 3, {}});
+  plc.regions.push_back({mesher::FeatureId{2}, {0.5, 0.5, 0.5}, 8, {}});
+  const mesher::Options<3> options{.domain = mesher::snapped_domain<3>(places_of(plc))};
+  write(stem, mesher::domain_mesh(mesher::mesh_statically(plc, options), plc, extent).kept);
+}
+
 void write_all(const std::string& folder) {
+  write_complex(folder + "/complex", mesher::Extent::enclosed);
+  write_complex(folder + "/complexbox", mesher::Extent::box);
   write(folder + "/uniform", mesher::generate_points<3>(mesher::PointKind::uniform, 50, 1));
   write(folder + "/grid", mesher::generate_points<3>(mesher::PointKind::grid, 27, 1));
   std::vector<Point<3>> small = mesher::generate_points<3>(mesher::PointKind::gaussian, 9, 4);

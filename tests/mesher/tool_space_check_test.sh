@@ -49,7 +49,7 @@ expect 1 'error[bad_quality]: orientation: tetrahedron 99 with the vertices ' ch
 
 expect 2 'error[bad_option]: --constrained is for meshes of triangles' check uniform.vtu --constrained
 expect 2 'error[bad_option]: --max-area is for meshes of triangles' check uniform.vtu --max-area 1
-expect 2 'error[bad_option]: --boundary lines is for meshes' check uniform.vtu --boundary lines
+expect 0 'hull        ok      the box ' check uniform.vtu --boundary lines
 printf '3 2\n1 0 0\n2 1 0\n3 0 1\n' >flat.node
 printf '1 3\n1 1 2 3\n' >flat.ele
 expect 2 'error[bad_option]: --ties is for meshes of tetrahedra' check flat.node --ties

@@ -114,20 +114,6 @@ for option in '--max-area 1' '--max-size 1' '--sizes uniform.node'; do
     -o out/x.trace
 done
 
-echo "== space: complexes are not read from files, and an error says what to do"
-expect 0 '' gen tee -o complex.poly
-expect 0 '' gen cube -o complex.smesh
-hint="; complexes in space are not meshed from files yet: give the points as .node, and the segments "
-hint+="and polygons to 'mesher edit', as edits +segment and +polygon"
-said="complex.poly:1:4: error[bad_dimension]: points of dimension 3, expected 2$hint"
-refuse 3 "$said" mesh complex.poly -o out/x.vtu
-refuse 3 "$said" mesh complex.poly --static -o out/x.vtu
-refuse 3 "$said" edit complex.poly --script edits3.txt -o out/x.vtu
-refuse 3 "$said" trace complex.poly -o out/x.trace
-refuse 2 "not '.poly'$hint" mesh complex.poly --dimension 3 -o out/x.vtu
-refuse 2 "not '.smesh'$hint" mesh complex.smesh -o out/x.vtu
-refuse 2 "not '.smesh'$hint" mesh complex.smesh --dimension 3 -o out/x.vtu
-
 echo "== space: bad points: FILE:LINE:COL: error[code]"
 points3() { printf '%b' "$1" >bad3.node; }
 points3 '2 3 0 0\n1 0 0 0\n2 0.5 1\n'

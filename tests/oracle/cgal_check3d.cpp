@@ -1,6 +1,6 @@
 // Judges a quality mesh of tetrahedra with exact arithmetic; shares no code with the mesher.
 //
-//   cgal_check3d MESH.node MESH.ele [--input FILE.node] [--rho R]
+//   cgal_check3d MESH.node MESH.ele [--input FILE.node] [--rho R] [--complex FILE.poly]
 //   cgal_check3d --batch FILE     each line of FILE (or of stdin: '-') holds such arguments
 //
 // A mesh is good when
@@ -13,7 +13,9 @@
 //       of the sphere of the others (if those are in one plane, the next greatest, and so on);
 //   (5) every point of --input is a vertex with the same coordinates (the sign of 0 aside);
 //   (6) no tetrahedron has circumradius > R times its shortest edge (R the double nearest to what
-//       is written; no bound without --rho).
+//       is written; no bound without --rho);
+//   (7) the polygons and segments of --complex, a .poly file of TetGen, are unions of faces and
+//       edges: of those that MESH.face names, see complex_judge.hpp.
 //
 // Prints `ok MESH.node: ...`, or a line for each of the first failures of every kind and then
 // `FAILED MESH.node: ...`. Exit code: 0 all good, 1 some mesh is not, 2 cannot be judged.
@@ -30,6 +32,7 @@
 #include <string>
 #include <vector>
 
+#include "complex_judge.hpp"
 #include "judge_main.hpp"
 #include "node_file.hpp"
 
@@ -74,6 +77,7 @@ class Judge {
       check_faces();
       check_volume();
       if (!job_.input.empty()) check_input();
+      if (!job_.complex.empty()) check_complex();
     }
     failures_.report(std::to_string(points_.size()) + " vertices, " +
                      std::to_string(tetrahedra_.size()) + " tetrahedra");
@@ -257,6 +261,22 @@ class Judge {
       if (!vertices.count(input.items[i]))
         fail("input", "point " + std::to_string(input.ids[i]) + " is no vertex");
     }
+  }
+
+  // (7)
+  void check_complex() {
+    std::set<Face> faces;
+    std::set<std::array<std::size_t, 2>> edges;
+    for (Corners c : tetrahedra_) {
+      std::sort(c.begin(), c.end());
+      faces.insert(
+          {{c[0], c[1], c[2]}, {c[0], c[1], c[3]}, {c[0], c[2], c[3]}, {c[1], c[2], c[3]}});
+      for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t k = i + 1; k < 4; ++k) edges.insert({c[i], c[k]});
+    }
+    const std::string face_file = job_.nodes.substr(0, job_.nodes.rfind('.')) + ".face";
+    oracle::ComplexJudge(nodes_.items, faces, edges, failures_)
+        .judge(job_.complex, face_file, nodes_.ids);
   }
 
   Job job_;

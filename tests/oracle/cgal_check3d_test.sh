@@ -67,6 +67,51 @@ printf '1 3 0 0\n1 1 1 1\n' >corner.node
 expect 1 'input: point 1 is no vertex' good.node good.ele --input other.node
 expect 0 '^ok' good.node good.ele --input corner.node
 
+# A complex: the bottom, the diagonal that the mesh has of it declared, and a segment to the centre.
+cat >good.poly <<'END'
+9 3 0 0
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 1 1 0
+5 0 0 1
+6 1 0 1
+7 0 1 1
+8 1 1 1
+9 0.5 0.5 0.5
+2 0
+2 0
+4 1 2 4 3
+2 2 3
+1 0
+2 1 9
+0
+0
+END
+printf '3 1\n1 1 3 2 5 1\n2 2 3 4 5 1\n3 5 6 7 1\n' >good.face
+expect 0 '^ok' good.node good.ele --complex good.poly
+sed 's/^2 2 3 4 5 1/2 2 3 4 5/' good.face >holed.face
+cp good.node holed.node
+expect 1 'polygon: 1 has an edge that is no chain' holed.node good.ele --complex good.poly
+sed 's/^2 2 3$/2 1 4/' good.poly >other.poly
+expect 1 'polygon: 1 has an edge that is no chain' good.node good.ele --complex other.poly
+sed 's/^2 1 9$/2 1 7/' good.poly >other.poly
+expect 1 'segment: 2 is no chain of edges' good.node good.ele --complex other.poly
+printf '3 1\n1 1 3 2 5 1\n2 2 3 4 5 1\n3 1 2 3 5 1\n' >over.face
+cp good.node over.node
+expect 1 'polygon: 1 has faces that overlap' over.node good.ele --complex good.poly
+printf '3 1\n1 1 3 2 5 1\n2 2 3 4 5 1\n3 1 2 5 5 1\n' >bent.face
+cp good.node bent.node
+expect 1 'polygon: 1 has a face off its plane' bent.node good.ele --complex good.poly
+printf '2 1\n1 1 3 4 5 1\n2 1 2 4 5 1\n' >lost.face
+cp good.node lost.node
+expect 1 'polygon: 1 has a face of no tetrahedron' lost.node good.ele --complex good.poly
+printf '2 1\n1 1 3 2 5 3\n2 2 3 4 5 3\n' >named.face
+cp good.node named.node
+expect 1 'polygon: 1 has no faces' named.node good.ele --complex good.poly
+expect 1 'polygon: 3 is not in the complex' named.node good.ele --complex good.poly
+expect 2 'cannot open' good.node good.ele --complex none.poly
+
 expect 2 'usage' good.node
 expect 2 'cannot open' none.node good.ele
 printf '1 2 0 0\n1 0 0\n' >plane.node

@@ -17,7 +17,8 @@ namespace oracle {
 struct Job {
   std::string nodes;
   std::string elements;
-  std::string input;  // empty: none
+  std::string input;    // empty: none
+  std::string complex;  // likewise; in space
   std::optional<double> rho;
 };
 
@@ -26,13 +27,15 @@ inline Job parse_job(const std::vector<std::string>& words) {
   Job job;
   std::vector<std::string> files;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] != "--input" && words[i] != "--rho") {
+    if (words[i] != "--input" && words[i] != "--rho" && words[i] != "--complex") {
       files.push_back(words[i]);
       continue;
     }
     if (i + 1 == words.size()) throw std::runtime_error(words[i] + " needs a value");
     if (words[i] == "--input")
       job.input = words[i + 1];
+    else if (words[i] == "--complex")
+      job.complex = words[i + 1];
     else
       job.rho = std::stod(words[i + 1]);
     ++i;

@@ -3,14 +3,14 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <map>
+#include <memory>
 
 #include "input.hpp"
-#include "mesher/mesher.hpp"
 #include "mesh/canonical.hpp"
-#include "sac/sac.hpp"
+#include "mesher/mesher.hpp"
 #include "program/world_impl.hpp"
+#include "sac/sac.hpp"
 
 namespace support {
 
@@ -137,7 +137,7 @@ inline mesher::Mesh<2> TracedWorld::mesh() const {
     edges.push_back({vertices.tree().find(leaf.lo)->self, vertices.tree().find(leaf.hi)->self,
                      lines_.at(leaf.piece.segment)});
   });
-  return mesher::detail::canonical(pool, live, triangles, edges);
+  return mesher::detail::canonical(pool, live, triangles, {edges, {}});
 }
 
 }  // namespace support

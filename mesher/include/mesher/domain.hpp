@@ -1,4 +1,5 @@
-// What segments enclose: regions of a triangulation, holes, and the part of a mesh that is wanted.
+// What segments enclose, or in space polygons: regions of a triangulation, holes, and the part of a
+// mesh that is wanted.
 //
 // Everything is refined in the box; which triangles belong to the domain is found afterwards by a
 // flood that does not cross segments [rules A6].
@@ -10,7 +11,8 @@
 //
 // A *wall* is an edge of the mesh that is a part of a segment. A *region* is what triangles reach
 // from each other across edges that are no walls. It is *open* if it reaches the boundary of the
-// triangulation at an edge that is no wall, else *closed*.
+// triangulation at an edge that is no wall, else *closed*. In space read tetrahedra, faces and
+// polygons for triangles, edges and segments.
 //
 // Guarantees:
 //   (1) an open region is outside. A closed one with a hole's seed in it is a hole, any other is
@@ -30,6 +32,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "mesher/error.hpp"
@@ -58,16 +61,19 @@ struct SeedName {
 /// "hole 3", "region 3".
 [[nodiscard]] std::string text_of(const SeedName& seed);
 
-/// A place that stands for the region around it.
-struct Seed {
+/// A place that stands for the region around it. D is 2 or 3.
+template <int D>
+struct SeedOf {
   SeedName name;
-  Point<2> at{};                   ///< finite; 0 or of magnitude 2^-100 to 2^100
+  Point<D> at{};                   ///< finite; 0 or of magnitude 2^-100 to 2^100
   double attribute = 0;            ///< of a region; finite
-  std::optional<double> max_area;  ///< of a region's triangles, input units squared, > 0
-  friend bool operator==(const Seed&, const Seed&) = default;
+  std::optional<double> max_area;  ///< of a region's triangles, input units squared, > 0; in space
+                                   ///< of its tetrahedra, input units cubed
+  friend bool operator==(const SeedOf&, const SeedOf&) = default;
 };
+using Seed = SeedOf<2>;
 
-/// What a triangle is part of.
+/// What a simplex is part of.
 struct RegionLabel {
   Zone zone = Zone::outside;
   std::optional<FeatureId> seed;  ///< the hole of a hole, else the region seed if there is one
@@ -76,15 +82,16 @@ struct RegionLabel {
 
 struct Region {
   RegionLabel label;
-  std::uint32_t smallest = 0;  ///< triangle
-  std::size_t triangles = 0;
-  double attribute = 0;  ///< 0 without a region seed
+  std::uint32_t smallest = 0;  ///< simplex
+  std::size_t triangles = 0;   ///< or tetrahedra
+  double attribute = 0;        ///< 0 without a region seed
   std::optional<double> max_area;
   friend bool operator==(const Region&, const Region&) = default;
 };
 
 /// A seed that has no region of its own.
-struct SeedFault {
+template <int D>
+struct SeedFaultOf {
   enum class Kind : std::uint8_t {
     outside,     ///< outside of what is kept; of the box, perhaps
     on_segment,  ///< on a wall
@@ -92,42 +99,55 @@ struct SeedFault {
   };
   Kind kind = Kind::outside;
   SeedName seed;
-  Point<2> at{};
+  Point<D> at{};
   std::optional<SeedName> other;  ///< the seed that counts
-  std::optional<FeatureId> line;  ///< the least id of a segment that it is on, where known
-  friend bool operator==(const SeedFault&, const SeedFault&) = default;
+  std::optional<FeatureId> line;  ///< the least id of a segment that it is on, where known; in
+                                  ///< space of a polygon
+  friend bool operator==(const SeedFaultOf&, const SeedFaultOf&) = default;
 };
+using SeedFault = SeedFaultOf<2>;
 
 /// One sentence with ids and place.
-[[nodiscard]] std::string describe(const SeedFault& fault);
+template <int D>
+[[nodiscard]] std::string describe(const SeedFaultOf<D>& fault);
 /// The same as an error of code bad_seed, for those who refuse such input.
-[[nodiscard]] Error error_of(const SeedFault& fault);
+template <int D>
+[[nodiscard]] Error error_of(const SeedFaultOf<D>& fault);
 
 inline constexpr std::uint32_t kNoRegion = UINT32_MAX;
 
 /// The regions of a mesh.
-struct Domain {
-  std::vector<std::array<std::uint32_t, 3>> neighbours;  ///< across from each corner; kNoTriangle
-  std::vector<std::uint32_t> region_of;                  ///< one per triangle: number in `regions`
-  std::vector<Region> regions;                           ///< ascending by their smallest triangle
-  std::vector<SeedFault> faults;                         ///< ascending by seed
-  bool keeps_all = true;                                 ///< the box is wanted, or nothing enclosed
+template <int D>
+struct DomainOf {
+  std::vector<std::array<std::uint32_t, D + 1>> neighbours;  ///< across from each corner;
+                                                             ///< kNoTriangle
+  std::vector<std::uint32_t> region_of;  ///< one per simplex: number in `regions`
+  std::vector<Region> regions;           ///< ascending by their smallest simplex
+  std::vector<SeedFaultOf<D>> faults;    ///< ascending by seed
+  bool keeps_all = true;                 ///< the box is wanted, or nothing enclosed
 
   [[nodiscard]] bool keeps(const Region& region) const {
     return keeps_all || region.label.zone == Zone::inside;
   }
-  [[nodiscard]] bool keeps(std::uint32_t triangle) const {
-    return keeps(regions[region_of[triangle]]);
+  [[nodiscard]] bool keeps(std::uint32_t simplex) const {
+    return keeps(regions[region_of[simplex]]);
   }
 };
+using Domain = DomainOf<2>;
 
-/// Finds the regions. `walls`: edges of the mesh, in any order.
-/// Requires: corners go round counterclockwise; no edge borders more than two triangles.
+/// What simplices are parted by: an edge on a line, or in space a face in a polygon.
+template <int D>
+using WallOf = std::conditional_t<D == 2, MeshEdge, MeshFace>;
+
+/// Finds the regions. `walls`: edges (or faces) of the mesh, in any order. D is 2 or 3.
+/// Requires: simplices are positively oriented; no edge (or face) borders more than two.
 /// Throws: Error: bad_mesh for a wall that is no edge of the mesh; repeated_id for two seeds of one
 /// name; not_finite, magnitude, bad_number for a seed that is not as described.
-/// Cost: O(m log d) for vertices of degree d, and for each seed O(triangles above and below it).
-[[nodiscard]] Domain find_domain(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls,
-                                 const std::vector<Seed>& seeds, Extent extent);
+/// Cost: O(m log d) for vertices of degree d (in space O(m log m)), and for each seed O(simplices
+/// above and below it).
+template <int D>
+[[nodiscard]] DomainOf<D> find_domain(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls,
+                                      const std::vector<SeedOf<D>>& seeds, Extent extent);
 
 /// An edge with the regions beside it: numbers in Domain::regions, or kNoRegion.
 struct SidedEdge : MeshEdge {
@@ -147,18 +167,24 @@ inline constexpr std::int64_t kBoundaryMarker = 1;
                                                  const Domain& domain);
 
 /// A part of a mesh as a mesh of its own, and where its parts were.
-struct Extract {
-  MeshData mesh;
-  std::vector<std::array<std::uint32_t, 3>> neighbours;  ///< across from each corner
+template <int D>
+struct ExtractOf {
+  MeshDataOf<D> mesh;
+  std::vector<std::array<std::uint32_t, D + 1>> neighbours;  ///< across from each corner
   std::vector<std::uint32_t> vertices;   ///< one per vertex: its number in the whole, ascending
-  std::vector<std::uint32_t> triangles;  ///< likewise
+  std::vector<std::uint32_t> triangles;  ///< or tetrahedra; likewise
 };
+using Extract = ExtractOf<2>;
 
 /// What `domain` keeps of `whole`, with vertices and triangles in the order of the whole: canonical
 /// if that is. Vertices without a triangle go. Edges are those of sided_edges with a kept side. As
 /// Triangle does, a vertex without a marker gets that of a segment that it is on (the least), else
 /// kBoundaryMarker on the boundary. Attributes of regions are filled in if there is a region seed.
-/// `domain`: found with whole.features.edges. Cost: O(m + w log w).
-[[nodiscard]] Extract extract(const MeshData& whole, const Domain& domain);
+/// In space faces are the walls with a kept side and the boundary of what is kept, which has
+/// kBoundaryMarker where it has no other; edges are those of the whole that a kept tetrahedron has;
+/// a vertex on no segment with a marker gets that of a polygon that it is on (the least).
+/// `domain`: found with whole.features.edges, or .faces. Cost: O(m + w log w); in space O(m log w).
+template <int D>
+[[nodiscard]] ExtractOf<D> extract(const MeshDataOf<D>& whole, const DomainOf<D>& domain);
 
 }  // namespace mesher

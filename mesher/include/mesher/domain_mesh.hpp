@@ -7,7 +7,8 @@
 //       domain_mesh(mesh_statically(lake.pslg, options), lake.pslg, Extent::enclosed);
 //   write_mesh(mesh.kept, "lake.vtu");
 //
-// DomainMesher does the same for graphs that are edited.
+// DomainMesher does the same for graphs that are edited. In space a complex takes the graph's
+// place.
 #pragma once
 
 #include <vector>
@@ -15,40 +16,54 @@
 #include "mesher/domain.hpp"
 #include "mesher/mesh_data.hpp"
 #include "mesher/mesher.hpp"
+#include "mesher/plc.hpp"
 #include "mesher/pslg.hpp"
 
 namespace mesher {
 
 /// The part of a mesh that is wanted, and what was found of regions.
-struct DomainMesh {
-  MeshData kept;                  ///< as `extract` gives it; without features if the graph is bare
-  std::vector<Region> regions;    ///< of the whole mesh, as find_domain gives them
-  std::vector<SeedFault> faults;  ///< likewise
+template <int D>
+struct DomainMeshOf {
+  MeshDataOf<D> kept;           ///< as `extract` gives it; without features if the graph is bare
+  std::vector<Region> regions;  ///< of the whole mesh, as find_domain gives them
+  std::vector<SeedFaultOf<D>> faults;  ///< likewise
   bool keeps_all = true;
 };
+using DomainMesh = DomainMeshOf<2>;
 
-/// Whether there are no lines, seeds and markers: then meshes are meshes of points alone.
+/// Whether there are no lines, polygons, seeds and markers: then meshes are meshes of points alone.
 [[nodiscard]] bool is_bare(const Pslg& graph);
+[[nodiscard]] bool is_bare(const Plc& complex);
 
 [[nodiscard]] std::vector<Point<2>> places_of(const Pslg& graph);
+[[nodiscard]] std::vector<Point<3>> places_of(const Plc& complex);
 /// Segments with their ids, then the pieces of polylines with theirs.
 [[nodiscard]] std::vector<Segment> segments_of(const Pslg& graph);
+[[nodiscard]] std::vector<Segment> segments_of(const Plc& complex);
+[[nodiscard]] std::vector<Polygon> polygons_of(const Plc& complex);
 /// Holes, then regions.
 [[nodiscard]] std::vector<Seed> seeds_of(const Pslg& graph);
+[[nodiscard]] std::vector<SeedOf<3>> seeds_of(const Plc& complex);
 /// Adds a hole or region, so that seeds_of has it.
 void add_seed(Pslg& graph, const Seed& seed);
 
 /// The mesh of a graph's points and lines in the box. Throws: as mesh_statically of these.
 [[nodiscard]] Mesh<2> mesh_statically(const Pslg& graph, const Options<2>& options,
                                       MeshStats* stats = nullptr, const RunControl& control = {});
+[[nodiscard]] Mesh<3> mesh_statically(const Plc& complex, const Options<3>& options,
+                                      MeshStats* stats = nullptr, const RunControl& control = {});
 
 /// A mesh of `graph` with origins, edges on lines, and the markers of the graph's points and lines.
 /// Requires: `mesh` is that of its points and lines. Cost: O(m + n log n).
 [[nodiscard]] MeshData with_features(Mesh<2> mesh, const Pslg& graph);
+/// The same in space, with faces in polygons. An edge on no segment with a marker has the least of
+/// the markers of polygons that it bounds or lies in.
+[[nodiscard]] MeshDataOf<3> with_features(Mesh<3> mesh, const Plc& complex);
 
 /// Finds the domain in a mesh of `graph`, and takes it out. Requires: as with_features.
 /// Throws: Error as find_domain. Cost: as with_features, find_domain and extract.
 [[nodiscard]] DomainMesh domain_mesh(Mesh<2> mesh, const Pslg& graph, Extent extent);
+[[nodiscard]] DomainMeshOf<3> domain_mesh(Mesh<3> mesh, const Plc& complex, Extent extent);
 
 /// Whether the largest areas of regions are limits of size.
 enum class RegionAreas : std::uint8_t { ignored, limits };
@@ -76,6 +91,13 @@ void announce(const Pslg& graph, Target& target) {
     for (const auto& s : graph.segments) target.insert_segment(s.id, s.from, s.to);
     for (const auto& l : graph.polylines) target.insert_polyline(l.id, l.points);
   }
+}
+/// The same of a complex, without its seeds and markers.
+template <class Target>
+void announce(const Plc& complex, Target& target) {
+  for (const auto& p : complex.points) target.insert(p.id, p.at);
+  for (const auto& s : complex.segments) target.insert_segment(s.id, s.from, s.to);
+  for (const auto& f : complex.facets) target.insert_polygon(f.polygon);
 }
 
 }  // namespace mesher

@@ -48,11 +48,11 @@ struct PointFile {
 
 /// The dimension, 2 or 3, of the input that a file is:
 ///
-/// - `.node`: that of its header;
+/// - `.node`, `.poly`: that of its header;
 /// - `.xyz`, and `.csv` with columns named x, y and z: 2 if z is missing or 0 everywhere, else 3;
 ///   `.csv` without names: the number of its columns;
 /// - `.obj`, `.vtu`: 2 if z is the same everywhere, else 3;
-/// - `.off`, `.stl`, `.ply`, `.vtk`: 3;
+/// - `.off`, `.stl`, `.ply`, `.vtk`, `.smesh`: 3;
 /// - all others: 2.
 ///
 /// What no reader would take has some dimension, too. Throws: Error(cannot_read), and of `.vtu` as
@@ -87,14 +87,15 @@ template <int D>
 [[nodiscard]] PointFile<D> read_points(const std::string& path);
 
 /// Reads a mesh of triangles or of tetrahedra with what its format knows of features, by the
-/// extension of `path`. It is of tetrahedra if there are any; the triangles and edges of such a
-/// file are then not used:
+/// extension of `path`. It is of tetrahedra if there are any; the triangles of such a file are its
+/// faces:
 ///
-/// - `.node` or `.ele` (Triangle, TetGen), the other beside it; the dimension is .node's. In the
-///   plane also `.edge` (its edges with a marker or line), `.poly` without points of its own (its
-///   segments) and `.neigh` (which must agree with the triangles), if they are there;
+/// - `.node` or `.ele` (Triangle, TetGen), the other beside it; the dimension is .node's. If they
+///   are there also `.edge` (its edges with a marker or line), in the plane `.poly` without points
+///   of its own (its segments) and `.neigh` (which must agree with the triangles), and in space
+///   `.face` (its faces with a marker or polygon);
 /// - `.vtu` (VTK) as in pslg.hpp, and `.vtk` (legacy, ASCII or binary): the cells are triangles and
-///   lines, or tetrahedra;
+///   lines, or tetrahedra with these;
 /// - `.msh` (Gmsh, version 4.1, ASCII or binary): physical groups are regions and markers;
 /// - `.mesh` (Medit, ASCII): references are markers and regions;
 /// - `.off` (Geomview) and `.obj` (Wavefront): triangles; of .obj also lines.
@@ -106,32 +107,34 @@ template <int D>
 /// `notes`.
 ///
 /// Throws: Error as read_points and read_pslg, and bad_mesh for a simplex whose corners are not
-/// different vertices of the file, and for an edge given twice; coordinates are any finite
-/// doubles, duplicate points are not looked for. Cost: O(m log m).
+/// different vertices of the file, and for an edge or a face given twice; coordinates are any
+/// finite doubles, duplicate points are not looked for. Cost: O(m log m).
 [[nodiscard]] AnyMesh read_any_mesh(const std::string& path);
 
 /// Throws: also Error(bad_dimension) for the other kind. D is 2 or 3.
 template <int D = 2>
 [[nodiscard]] MeshDataOf<D> read_mesh(const std::string& path);
 
-/// Writes a mesh into files that are already open.
-class MeshWriter {
+/// Writes a mesh into files that are already open. D is 2 or 3.
+template <int D>
+class MeshWriterOf {
  public:
-  using Write = std::function<void(const Mesh<2>&, const MeshFeatures&)>;
-  explicit MeshWriter(Write write) : write_(std::move(write)) {}
+  using Write = std::function<void(const Mesh<D>&, const MeshFeatures&)>;
+  explicit MeshWriterOf(Write write) : write_(std::move(write)) {}
   /// Throws: Error(cannot_write).
-  void operator()(const Mesh<2>& mesh, const MeshFeatures& features = {}) const {
+  void operator()(const Mesh<D>& mesh, const MeshFeatures& features = {}) const {
     write_(mesh, features);
   }
 
  private:
   Write write_;
 };
+using MeshWriter = MeshWriterOf<2>;
 
 /// Which files a `.node` output has.
 enum class MeshFiles : std::uint8_t {
   plain,     ///< .node and .ele
-  features,  ///< .edge, .poly and .neigh as well
+  features,  ///< .edge, .poly and .neigh as well; in space .edge
 };
 
 /// Opens the files of one mesh output among `files`, by the extension of `path`:

@@ -39,7 +39,7 @@ enum class VertexKind : std::uint8_t {
   steiner = 0,
   boundary = 1,  ///< on the boundary grid
   input = 2,
-  segment = 3,  ///< between the ends of a line of the input
+  segment = 3,  ///< between the ends of a line of the input; in space also on a polygon
 };
 
 /// A line of the input between two of its points. Several may share an id: a polyline.
@@ -109,16 +109,24 @@ struct Options {
 template <int D>
 struct Mesh {
   using Simplex = std::array<std::uint32_t, D + 1>;
-  /// An edge on a line of the input; low < high.
+  /// An edge on a line of the input, or in space on an edge of its polygons; low < high.
   struct Edge {
     std::uint32_t low = 0, high = 0;
     FeatureId line{};
+    bool of_polygon = false;  ///< no segment has it: `line` is the least polygon that does
     friend auto operator<=>(const Edge&, const Edge&) = default;
+  };
+  /// A face in a polygon of the input; corners ascend.
+  struct Face {
+    std::array<std::uint32_t, 3> corners{};
+    FeatureId polygon{};
+    friend auto operator<=>(const Face&, const Face&) = default;
   };
   std::vector<Point<D>> vertices;
   std::vector<VertexKind> kinds;  ///< one per vertex
   std::vector<Simplex> simplices;
   std::vector<Edge> edges;  ///< those on lines, in lexicographic order
+  std::vector<Face> faces;  ///< those in polygons, likewise; in the plane none
   friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 

@@ -23,17 +23,33 @@ struct MeshEdge {
   friend bool operator==(const MeshEdge&, const MeshEdge&) = default;
 };
 
+/// A face of a mesh of tetrahedra that lies in a polygon of the input, or on the boundary.
+/// Corners: the smallest first; on the boundary counterclockwise seen from outside, else ascending.
+struct MeshFace {
+  std::array<std::uint32_t, 3> corners{};  ///< vertices
+  std::optional<FeatureId> polygon{};      ///< nothing if none or not known
+  std::int64_t marker = 0;                 ///< of the polygon, or of the boundary
+
+  /// The corners, ascending: the same for both sides.
+  [[nodiscard]] std::array<std::uint32_t, 3> key() const {
+    const auto [a, b, c] = corners;
+    return b < c ? corners : std::array<std::uint32_t, 3>{a, c, b};
+  }
+  friend bool operator==(const MeshFace&, const MeshFace&) = default;
+};
+
 /// What is known of a mesh beside its simplices; an array that is empty says nothing.
 struct MeshFeatures {
   /// One per vertex: the id of the input point (kind `input`) or line (kind `segment`) that it is
-  /// or lies on; 0 for other kinds.
+  /// or lies on; in space, of the polygon if it is on no segment; 0 for other kinds.
   std::vector<FeatureId> origins;
   std::vector<std::int64_t> markers;  ///< one per vertex; 0: none
   std::vector<double> regions;        ///< one per simplex: its region's attribute, finite
   std::vector<MeshEdge> edges;        ///< ascending by (low, high), none twice
+  std::vector<MeshFace> faces;        ///< in space; ascending by key(), none twice
 
   [[nodiscard]] bool empty() const {
-    return origins.empty() && markers.empty() && regions.empty() && edges.empty();
+    return origins.empty() && markers.empty() && regions.empty() && edges.empty() && faces.empty();
   }
   friend bool operator==(const MeshFeatures&, const MeshFeatures&) = default;
 };

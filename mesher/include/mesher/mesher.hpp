@@ -78,7 +78,7 @@ struct Change {
   std::vector<KindChange<D>> kinds_changed;
   std::vector<std::array<Point<D>, D + 1>> simplices_added;
   std::vector<std::array<Point<D>, D + 1>> simplices_removed;
-  std::vector<LineEdge<D>> edges_added;  ///< on lines
+  std::vector<LineEdge<D>> edges_added;  ///< on lines; in the plane
   std::vector<LineEdge<D>> edges_removed;
   AngleNews angles;  ///< what small angles of the input did to what has come
   CallCounts calls;

@@ -22,7 +22,27 @@
 //       bounding box, and, with an input, those of the kind `input` are its points, under their ids
 //       where the mesh tells origins;
 //  (11) quality, if asked: no tetrahedron, the box's included, has a circumradius above rho times
-//       its shortest edge (by more than its rounding, and 10^-9 of it).
+//       its shortest edge (by more than its rounding, and 10^-9 of it), those of small angles of
+//       the complex aside: with a shortest edge that joins two of its features, which share an edge
+//       or a point that is farther from both ends than they are from each other, or two features at
+//       a point from which both ends are as far;
+//   and for meshes with features
+//   (a) parts: every edge and face of MeshFeatures is one of a tetrahedron;
+//   (b) segments, if a complex is given: every segment, and every edge of a polygon, is a union of
+//       edges: a path from end to end, each vertex of which is on it but for rounding (2^-48 of the
+//       largest coordinate). Where MESH has what polygons enclose, one whose end is no vertex may
+//       be outside;
+//   (c) polygons, likewise: every polygon is a union of faces: of those that MeshFeatures say are
+//       its, or if they name none, of those with corners on its plane whose Voronoi edge crosses
+//       it (on the boundary, whose middle is in it). Their corners are on it, but for rounding and
+//       its own corners' deviation; each of their edges is of two of them, or of one and on an edge
+//       of the polygon; and their areas add up to its own, but for 10^-9. One of which no corner is
+//       a vertex may be outside;
+//   (d) regions: tetrahedra on both sides of a face in no polygon have the same region; where seeds
+//       are given, that of one of the seeds inside.
+// If the mesh need not be convex, (5) is that faces of one tetrahedron are on the box or in
+// polygons; then (6) looks at a place in each part that hangs together, and beside each part of the
+// boundary: as (c) says, and as polygons do not cross, the boundary has no crossings.
 #pragma once
 
 #include <optional>
@@ -31,6 +51,7 @@
 #include "mesher/check.hpp"
 #include "mesher/io.hpp"
 #include "mesher/mesh_data.hpp"
+#include "mesher/plc.hpp"
 
 namespace mesher {
 
@@ -48,19 +69,24 @@ struct SpaceQuality {
 /// Requires: tetrahedra are positively oriented. Cost: O(m).
 [[nodiscard]] SpaceQuality quality(const Mesh<3>& mesh);
 
+/// How many tetrahedra have a circumradius above rho times their shortest edge, by more than its
+/// rounding, and 10^-9 of it. Cost: O(m).
+[[nodiscard]] std::size_t count_above(const Mesh<3>& mesh, double rho);
+
 /// What to hold a mesh of tetrahedra against.
 struct SpaceCheckOptions {
   const PointFile<3>* input = nullptr;        ///< checks (9) where given
   std::optional<double> rho{};                ///< checks (11) where given
-  BoundaryRule boundary = BoundaryRule::box;  ///< box; any: of any convex body
-  const MeshFeatures* features = nullptr;     ///< tells origins for (10)
+  BoundaryRule boundary = BoundaryRule::box;  ///< box; lines: polygons, or the box; any: of any
+                                              ///< convex body
+  const PlcFile* complex = nullptr;           ///< checks (b), (c), seeds in (d) where given
+  const MeshFeatures* features = nullptr;     ///< tells origins for (10); (a), (c), (d)
   bool ties = false;                          ///< checks (8)
 };
 
 /// The properties in order; the list ends early where a property fails that the next ones need.
 /// Vertices and tetrahedra are named by their number in the mesh, from 1.
-/// Requires: options.boundary is box or any. Cost: O(m log m), and O(h n) for a hull of h faces
-/// that is no box.
+/// Cost: O(m log m), and O(h n) for a hull of h faces that is no box.
 [[nodiscard]] std::vector<Finding> check_mesh(const Mesh<3>& mesh,
                                               const SpaceCheckOptions& options);
 

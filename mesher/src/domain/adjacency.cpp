@@ -5,21 +5,25 @@
 #include <string>
 #include <utility>
 
+#include "make_set.hpp"
 #include "mesher/error.hpp"
 #include "mesher/mesh_data.hpp"
 #include "sac/check.hpp"
 
 namespace mesher::detail {
 
-std::uint32_t Adjacency::open_neighbour(std::uint32_t t, int i) const {
-  return is_wall(t, i) ? kNoTriangle : neighbours[t][i];
-}
-
-std::vector<Edge> ends_of(const std::vector<MeshEdge>& walls) {
+std::vector<Edge> corners_of(const std::vector<MeshEdge>& walls) {
   std::vector<Edge> ends;
   ends.reserve(walls.size());
   for (const MeshEdge& wall : walls) ends.push_back({wall.low, wall.high});
   return ends;
+}
+
+std::vector<Face> corners_of(const std::vector<MeshFace>& walls) {
+  std::vector<Face> corners;
+  corners.reserve(walls.size());
+  for (const MeshFace& wall : walls) corners.push_back(wall.key());
+  return corners;
 }
 
 Adjacency adjacency(const std::vector<Corners>& triangles, const std::vector<Edge>& walls) {
@@ -41,7 +45,44 @@ Adjacency adjacency(const std::vector<Corners>& triangles, const std::vector<Edg
   return result;
 }
 
-std::vector<std::uint32_t> flood(const Adjacency& adjacency) {
+AdjacencyOf<3> adjacency(const std::vector<Mesh<3>::Simplex>& tetrahedra,
+                         const std::vector<Face>& walls) {
+  AdjacencyOf<3> result;
+  std::array<std::uint32_t, 4> none;
+  none.fill(kNoTriangle);
+  result.neighbours.assign(tetrahedra.size(), none);
+  result.walls.resize(tetrahedra.size());
+  std::vector<Face> left = walls;
+  make_set(left);
+  const auto corner_of = [&](const HalfFace& half) {
+    const auto& s = tetrahedra[half.tetrahedron];
+    return static_cast<std::size_t>(std::find(s.begin(), s.end(), half.opposite) - s.begin());
+  };
+  const HalfFaces halves(tetrahedra);
+  auto wall = left.begin();
+  for (std::size_t i = 0, n = 0; i < halves.size(); i += n) {
+    n = halves.partners(i);
+    SAC_EXPECTS(n <= 2);
+    if (n == 2) {
+      const HalfFace &a = halves[i], &b = halves[i + 1];
+      result.neighbours[a.tetrahedron][corner_of(a)] = b.tetrahedron;
+      result.neighbours[b.tetrahedron][corner_of(b)] = a.tetrahedron;
+    }
+    if (wall != left.end() && *wall < halves[i].key()) break;  // it is no face
+    if (wall == left.end() || *wall != halves[i].key()) continue;
+    for (std::size_t k = i; k < i + n; ++k) {
+      result.walls[halves[k].tetrahedron] |= static_cast<std::uint8_t>(1 << corner_of(halves[k]));
+    }
+    ++wall;
+  }
+  if (wall == left.end()) return result;
+  std::string names;
+  for (const std::uint32_t v : *wall) names += ' ' + std::to_string(v + 1);
+  throw Error(ErrorCode::bad_mesh, "no face has the vertices" + names + ", which a polygon has");
+}
+
+template <int D>
+std::vector<std::uint32_t> flood(const AdjacencyOf<D>& adjacency) {
   const auto size = static_cast<std::uint32_t>(adjacency.neighbours.size());
   std::vector<std::uint32_t> region(size, UINT32_MAX), reached;
   std::uint32_t count = 0;
@@ -52,7 +93,7 @@ std::vector<std::uint32_t> flood(const Adjacency& adjacency) {
     while (!reached.empty()) {
       const std::uint32_t t = reached.back();
       reached.pop_back();
-      for (int i = 0; i < 3; ++i) {
+      for (int i = 0; i <= D; ++i) {
         const std::uint32_t n = adjacency.open_neighbour(t, i);
         if (n == kNoTriangle || region[n] != UINT32_MAX) continue;
         region[n] = count;
@@ -63,5 +104,8 @@ std::vector<std::uint32_t> flood(const Adjacency& adjacency) {
   }
   return region;
 }
+
+template std::vector<std::uint32_t> flood<2>(const AdjacencyOf<2>&);
+template std::vector<std::uint32_t> flood<3>(const AdjacencyOf<3>&);
 
 }  // namespace mesher::detail

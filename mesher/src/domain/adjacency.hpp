@@ -1,34 +1,46 @@
-// Who is next to whom in a set of triangles, and which of their edges are walls.
+// Who is next to whom in a set of triangles or tetrahedra, and which of their sides are walls.
+//
+// A side of a triangle is an edge, of a tetrahedron a face; it is across from a corner.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "mesh/half_faces.hpp"
 #include "mesh/sides.hpp"
 
 namespace mesher::detail {
 
-/// Edge i of a triangle is across from its corner i.
-struct Adjacency {
-  std::vector<std::array<std::uint32_t, 3>> neighbours;  // kNoTriangle at the boundary
-  std::vector<std::uint8_t> walls;                       // bit i: edge i is a wall
+/// Side i of a simplex is across from its corner i.
+template <int D>
+struct AdjacencyOf {
+  std::vector<std::array<std::uint32_t, D + 1>> neighbours;  // kNoTriangle at the boundary
+  std::vector<std::uint8_t> walls;                           // bit i: side i is a wall
 
   [[nodiscard]] bool is_wall(std::uint32_t t, int i) const { return (walls[t] >> i & 1) != 0; }
-  /// The triangle that a flood reaches across edge i; kNoTriangle if it does not.
-  [[nodiscard]] std::uint32_t open_neighbour(std::uint32_t t, int i) const;
+  /// The simplex that a flood reaches across side i; kNoTriangle if it does not.
+  [[nodiscard]] std::uint32_t open_neighbour(std::uint32_t t, int i) const {
+    return is_wall(t, i) ? kNoTriangle : neighbours[t][static_cast<std::size_t>(i)];
+  }
 };
+using Adjacency = AdjacencyOf<2>;
 
-/// The ends of walls.
-[[nodiscard]] std::vector<Edge> ends_of(const std::vector<MeshEdge>& walls);
+/// The corners of walls.
+[[nodiscard]] std::vector<Edge> corners_of(const std::vector<MeshEdge>& walls);
+[[nodiscard]] std::vector<Face> corners_of(const std::vector<MeshFace>& walls);
 
 /// Requires: no edge borders more than two triangles. Throws: Error(bad_mesh) for a wall that is no
 /// edge. Cost: O(m log d) for vertices of degree d.
 [[nodiscard]] Adjacency adjacency(const std::vector<Corners>& triangles,
                                   const std::vector<Edge>& walls);
+/// The same in space; walls by their corners, ascending. Cost: O(m log m).
+[[nodiscard]] AdjacencyOf<3> adjacency(const std::vector<Mesh<3>::Simplex>& tetrahedra,
+                                       const std::vector<Face>& walls);
 
-/// The number of each triangle's region, counted in the order of their smallest triangles.
+/// The number of each simplex's region, counted in the order of their smallest simplices.
 /// Cost: O(m).
-[[nodiscard]] std::vector<std::uint32_t> flood(const Adjacency& adjacency);
+template <int D>
+[[nodiscard]] std::vector<std::uint32_t> flood(const AdjacencyOf<D>& adjacency);
 
 }  // namespace mesher::detail

@@ -84,7 +84,7 @@ struct DomainFollower::Impl {
   Impl(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls, const std::vector<Seed>& seeds,
        Extent wanted)
       : numbers(mesh.vertices),
-        regions(mesh.simplices, detail::ends_of(walls), seeds,
+        regions(mesh.simplices, detail::corners_of(walls), seeds,
                 [this](std::uint32_t v) { return numbers.place(v); }),
         extent(wanted) {}
 

@@ -1,4 +1,4 @@
-// Boundary and segment edges with their sides, and the kept part as a mesh of its own.
+// The kept part of a mesh as a mesh of its own.
 #include <algorithm>
 
 #include "domain/adjacency.hpp"
@@ -7,78 +7,32 @@
 namespace mesher {
 namespace {
 
-bool before(const MeshEdge& a, const MeshEdge& b) {
-  return std::pair(a.low, a.high) < std::pair(b.low, b.high);
+constexpr std::uint32_t kAbsent = UINT32_MAX;
+
+// Of several markers, the least but 0.
+void keep_least(std::int64_t& least, std::int64_t marker) {
+  if (marker != 0 && (least == 0 || marker < least)) least = marker;
 }
 
-class Sider {
- public:
-  Sider(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls, const Domain& domain)
-      : mesh_(mesh), walls_(walls), domain_(domain) {
-    std::sort(walls_.begin(), walls_.end(), before);
-  }
-
-  std::vector<SidedEdge> run() {
-    for (std::uint32_t t = 0; t < mesh_.simplices.size(); ++t) {
-      for (int i = 0; i < 3; ++i) add(t, i);
-    }
-    std::sort(edges_.begin(), edges_.end(), before);
-    return std::move(edges_);
-  }
-
- private:
-  [[nodiscard]] std::uint32_t side(std::uint32_t t) const {
-    return t != kNoTriangle && domain_.keeps(t) ? domain_.region_of[t] : kNoRegion;
-  }
-
-  // Each edge is taken from the triangle left of it, or from the only one.
-  void add(std::uint32_t t, int i) {
-    const std::uint32_t from = mesh_.simplices[t][detail::next_corner(i)];
-    const std::uint32_t to = mesh_.simplices[t][detail::previous_corner(i)];
-    const std::uint32_t other = domain_.neighbours[t][i];
-    if (from > to && other != kNoTriangle) return;
-    SidedEdge edge{{std::min(from, to), std::max(from, to), {}, 0}, side(t), side(other)};
-    if (from > to) std::swap(edge.left, edge.right);
-    const bool boundary = (edge.left == kNoRegion) != (edge.right == kNoRegion);
-    const bool wall = copy_wall(edge);
-    if (boundary && edge.marker == 0) edge.marker = kBoundaryMarker;
-    if (boundary || wall) edges_.push_back(edge);
-  }
-
-  // A wall is between two regions, at the boundary, or loose in one region.
-  bool copy_wall(SidedEdge& edge) const {
-    const auto it = std::lower_bound(walls_.begin(), walls_.end(), edge, before);
-    if (it == walls_.end() || before(edge, *it)) return false;
-    static_cast<MeshEdge&>(edge) = *it;
-    return true;
-  }
-
-  const Mesh<2>& mesh_;
-  std::vector<MeshEdge> walls_;
-  const Domain& domain_;
-  std::vector<SidedEdge> edges_;
-};
-
+// What both dimensions have.
+template <int D>
 class Extractor {
  public:
-  Extractor(const MeshData& whole, const Domain& domain) : whole_(whole), domain_(domain) {}
-
-  Extract run() {
+  Extractor(const MeshDataOf<D>& whole, const DomainOf<D>& domain)
+      : whole_(whole), domain_(domain) {
     choose();
     copy_vertices();
-    copy_triangles();
+    copy_simplices();
     copy_attributes();
-    copy_edges();
-    return std::move(part_);
   }
 
- private:
+ protected:
   void choose() {
     new_vertex_.assign(whole_.vertices.size(), kAbsent);
-    new_triangle_.assign(whole_.simplices.size(), kNoTriangle);
+    new_simplex_.assign(whole_.simplices.size(), kNoTriangle);
     for (std::uint32_t t = 0; t < whole_.simplices.size(); ++t) {
       if (!domain_.keeps(t)) continue;
-      new_triangle_[t] = static_cast<std::uint32_t>(part_.triangles.size());
+      new_simplex_[t] = static_cast<std::uint32_t>(part_.triangles.size());
       part_.triangles.push_back(t);
       for (const std::uint32_t v : whole_.simplices[t]) new_vertex_[v] = 0;
     }
@@ -100,13 +54,13 @@ class Extractor {
     }
   }
 
-  void copy_triangles() {
+  void copy_simplices() {
     for (const std::uint32_t t : part_.triangles) {
       auto corners = whole_.simplices[t];
       for (std::uint32_t& v : corners) v = new_vertex_[v];
       part_.mesh.simplices.push_back(corners);
       auto neighbours = domain_.neighbours[t];
-      for (std::uint32_t& n : neighbours) n = n == kNoTriangle ? n : new_triangle_[n];
+      for (std::uint32_t& n : neighbours) n = n == kNoTriangle ? n : new_simplex_[n];
       part_.neighbours.push_back(neighbours);
     }
   }
@@ -122,54 +76,135 @@ class Extractor {
     }
   }
 
-  void copy_edges() {
-    mark_lines();
-    auto& features = part_.mesh.features;
-    for (const SidedEdge& edge : sided_edges(whole_, whole_.features.edges, domain_)) {
-      if (edge.left == kNoRegion && edge.right == kNoRegion) continue;
-      MeshEdge kept = edge;
-      kept.low = new_vertex_[kept.low];
-      kept.high = new_vertex_[kept.high];
-      features.edges.push_back(kept);
-      if (edge.left != kNoRegion && edge.right != kNoRegion) continue;
-      for (const std::uint32_t v : {kept.low, kept.high}) {
-        if (features.markers[v] == 0) features.markers[v] = kBoundaryMarker;
-      }
-    }
-  }
-
-  // Vertices without a marker get the least of the segments that they are on.
-  void mark_lines() {
+  // Vertices without a marker get the least of the walls or edges that they are on. `corners_of`:
+  // of one of these, as an array.
+  template <class Parts, class CornersOf>
+  void mark(const Parts& parts, CornersOf&& corners_of) {
     auto& markers = part_.mesh.features.markers;
     std::vector<std::int64_t> least(markers.size(), 0);
-    for (const MeshEdge& edge : whole_.features.edges) {
-      if (edge.marker == 0) continue;
-      for (const std::uint32_t v : {new_vertex_[edge.low], new_vertex_[edge.high]}) {
-        if (v == kAbsent) continue;
-        if (least[v] == 0 || edge.marker < least[v]) least[v] = edge.marker;
+    for (const auto& part : parts) {
+      for (const std::uint32_t v : corners_of(part)) {
+        if (new_vertex_[v] != kAbsent) keep_least(least[new_vertex_[v]], part.marker);
       }
     }
     for (std::size_t v = 0; v < markers.size(); ++v) {
       if (markers[v] == 0) markers[v] = least[v];
     }
   }
+  template <std::size_t N>
+  void mark_boundary(const std::array<std::uint32_t, N>& corners) {
+    for (const std::uint32_t v : corners) {
+      std::int64_t& marker = part_.mesh.features.markers[v];
+      if (marker == 0) marker = kBoundaryMarker;
+    }
+  }
 
-  static constexpr std::uint32_t kAbsent = UINT32_MAX;
-  const MeshData& whole_;
-  const Domain& domain_;
-  Extract part_;
-  std::vector<std::uint32_t> new_vertex_, new_triangle_;
+  static std::array<std::uint32_t, 2> ends_of(const MeshEdge& e) { return {e.low, e.high}; }
+
+  const MeshDataOf<D>& whole_;
+  const DomainOf<D>& domain_;
+  ExtractOf<D> part_;
+  std::vector<std::uint32_t> new_vertex_, new_simplex_;
+};
+
+class PlaneExtractor : Extractor<2> {
+ public:
+  using Extractor::Extractor;
+
+  Extract run() {
+    mark(whole_.features.edges, ends_of);
+    for (const SidedEdge& edge : sided_edges(whole_, whole_.features.edges, domain_)) {
+      if (edge.left == kNoRegion && edge.right == kNoRegion) continue;
+      MeshEdge kept = edge;
+      kept.low = new_vertex_[kept.low];
+      kept.high = new_vertex_[kept.high];
+      part_.mesh.features.edges.push_back(kept);
+      if (edge.left == kNoRegion || edge.right == kNoRegion) mark_boundary(ends_of(kept));
+    }
+    return std::move(part_);
+  }
+};
+
+class SpaceExtractor : Extractor<3> {
+ public:
+  using Extractor::Extractor;
+
+  ExtractOf<3> run() {
+    mark(whole_.features.edges, ends_of);
+    mark(whole_.features.faces, [](const MeshFace& f) { return f.corners; });
+    copy_edges();
+    for (const std::uint32_t t : part_.triangles) {
+      for (std::size_t i = 0; i < 4; ++i) copy_face(t, i);
+    }
+    auto& faces = part_.mesh.features.faces;
+    std::sort(faces.begin(), faces.end(),
+              [](const MeshFace& a, const MeshFace& b) { return a.key() < b.key(); });
+    return std::move(part_);
+  }
+
+ private:
+  // Those that a kept tetrahedron has.
+  void copy_edges() {
+    const auto& edges = whole_.features.edges;
+    std::vector<bool> kept(edges.size());
+    for (const std::uint32_t t : part_.triangles) {
+      const auto& s = whole_.simplices[t];
+      for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t k = i + 1; k < 4; ++k) {
+          const std::pair<std::uint32_t, std::uint32_t> ends = std::minmax(s[i], s[k]);
+          const auto found = std::lower_bound(
+              edges.begin(), edges.end(), ends,
+              [](const MeshEdge& e, const auto& key) { return std::pair(e.low, e.high) < key; });
+          if (found == edges.end() || std::pair(found->low, found->high) != ends) continue;
+          kept[static_cast<std::size_t>(found - edges.begin())] = true;
+        }
+      }
+    }
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (!kept[i]) continue;
+      MeshEdge edge = edges[i];
+      edge.low = new_vertex_[edge.low];
+      edge.high = new_vertex_[edge.high];
+      part_.mesh.features.edges.push_back(edge);
+    }
+  }
+
+  // A face between two kept tetrahedra is taken from the first.
+  void copy_face(std::uint32_t t, std::size_t i) {
+    const std::uint32_t other = domain_.neighbours[t][i];
+    const bool boundary = other == kNoTriangle || !domain_.keeps(other);
+    if (!boundary && other < t) return;
+    detail::Face corners = detail::faces_of(whole_.simplices[t])[i];
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    MeshFace face{corners, {}, 0};
+    const bool wall = copy_wall(face);
+    if (!boundary && !wall) return;
+    if (boundary && face.marker == 0) face.marker = kBoundaryMarker;
+    face.corners = boundary ? corners : face.key();
+    for (std::uint32_t& v : face.corners) v = new_vertex_[v];
+    if (boundary) mark_boundary(face.corners);
+    part_.mesh.features.faces.push_back(face);
+  }
+  bool copy_wall(MeshFace& face) const {
+    const auto& walls = whole_.features.faces;
+    const auto it =
+        std::lower_bound(walls.begin(), walls.end(), face,
+                         [](const MeshFace& a, const MeshFace& b) { return a.key() < b.key(); });
+    if (it == walls.end() || it->key() != face.key()) return false;
+    face = *it;
+    return true;
+  }
 };
 
 }  // namespace
 
-std::vector<SidedEdge> sided_edges(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls,
-                                   const Domain& domain) {
-  return Sider(mesh, walls, domain).run();
-}
-
+template <>
 Extract extract(const MeshData& whole, const Domain& domain) {
-  return Extractor(whole, domain).run();
+  return PlaneExtractor(whole, domain).run();
+}
+template <>
+ExtractOf<3> extract(const MeshDataOf<3>& whole, const DomainOf<3>& domain) {
+  return SpaceExtractor(whole, domain).run();
 }
 
 }  // namespace mesher

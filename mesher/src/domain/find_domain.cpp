@@ -1,5 +1,6 @@
 // The regions of a mesh at one time: adjacency, flood, seeds.
 #include <algorithm>
+#include <utility>
 
 #include "domain/adjacency.hpp"
 #include "domain/labels.hpp"
@@ -9,43 +10,21 @@
 namespace mesher {
 namespace {
 
-using detail::Adjacency;
-using detail::Holding;
-
-// Calls visit(triangle, corner) for all triangles around a vertex, given one of them.
-template <class Visit>
-void for_each_around(const Adjacency& adjacency, const Mesh<2>& mesh, std::uint32_t vertex,
-                     std::uint32_t first, Visit&& visit) {
-  const auto corner_of = [&](std::uint32_t t) {
-    const auto& corners = mesh.simplices[t];
-    return static_cast<int>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
-  };
-  std::uint32_t t = first;
-  do {  // counterclockwise, until the boundary
-    const int i = corner_of(t);
-    visit(t, i);
-    t = adjacency.neighbours[t][detail::next_corner(i)];
-  } while (t != kNoTriangle && t != first);
-  if (t == first) return;
-  t = adjacency.neighbours[first][detail::previous_corner(corner_of(first))];
-  while (t != kNoTriangle) {
-    const int i = corner_of(t);
-    visit(t, i);
-    t = adjacency.neighbours[t][detail::previous_corner(i)];
-  }
-}
-
+template <int D>
 class Finder {
  public:
-  Finder(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls, const std::vector<Seed>& seeds)
+  using Seed = SeedOf<D>;
+  using SeedFault = SeedFaultOf<D>;
+
+  Finder(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls, const std::vector<Seed>& seeds)
       : mesh_(mesh),
         walls_(walls),
         seeds_(seeds),
-        adjacency_(detail::adjacency(mesh.simplices, detail::ends_of(walls))) {}
+        adjacency_(detail::adjacency(mesh.simplices, detail::corners_of(walls))) {}
 
-  Domain run(Extent extent) {
-    domain_.region_of = detail::flood(adjacency_);
-    count_triangles();
+  DomainOf<D> run(Extent extent) {
+    domain_.region_of = detail::flood<D>(adjacency_);
+    count_simplices();
     place_seeds();
     label();
     domain_.keeps_all = detail::keeps_all(extent, encloses_);
@@ -55,7 +34,7 @@ class Finder {
   }
 
  private:
-  void count_triangles() {
+  void count_simplices() {
     auto& regions = domain_.regions;
     for (std::uint32_t t = 0; t < mesh_.simplices.size(); ++t) {
       const std::uint32_t r = domain_.region_of[t];
@@ -64,23 +43,25 @@ class Finder {
         open_.push_back(false);
       }
       ++regions[r].triangles;
-      for (int i = 0; i < 3; ++i) {
-        if (adjacency_.neighbours[t][i] == kNoTriangle && !adjacency_.is_wall(t, i)) {
-          open_[r] = true;
-        }
+      for (int i = 0; i <= D; ++i) {
+        if (neighbour(t, i) == kNoTriangle && !adjacency_.is_wall(t, i)) open_[r] = true;
       }
     }
   }
 
   void place_seeds() {
-    std::vector<Point<2>> places;
+    std::vector<Point<D>> places;
     for (const Seed& seed : seeds_) places.push_back(seed.at);
-    holder_ = detail::first_holding(
-        places, mesh_.simplices.size(), [&](std::size_t t) { return corners(t); }, kNoTriangle);
+    holders_.resize(seeds_.size());
+    detail::for_each_holding<D>(
+        places, mesh_.simplices.size(), [&](std::size_t t) { return corners(t); },
+        [&](std::uint32_t seed, std::uint32_t t, unsigned sides) {
+          holders_[seed].push_back({t, sides});
+        });
     counting_.resize(domain_.regions.size());
     for (std::size_t i = 0; i < seeds_.size(); ++i) {
-      const bool placed = holder_[i] != kNoTriangle && !is_on_wall(i);
-      region_.push_back(placed ? domain_.region_of[holder_[i]] : kNoRegion);
+      const bool placed = !holders_[i].empty() && !is_on_wall(i);
+      region_.push_back(placed ? domain_.region_of[holders_[i].front().simplex] : kNoRegion);
       if (placed) counting_[region_[i]].add(seeds_[i].name);
     }
   }
@@ -109,7 +90,7 @@ class Finder {
 
   [[nodiscard]] std::optional<SeedFault> fault_of(std::size_t i) const {
     const Seed& seed = seeds_[i];
-    if (holder_[i] == kNoTriangle) {
+    if (holders_[i].empty()) {
       return SeedFault{SeedFault::Kind::outside, seed.name, seed.at, {}, {}};
     }
     if (region_[i] == kNoRegion) {
@@ -118,66 +99,90 @@ class Finder {
     return detail::fault_in(seed, domain_.regions[region_[i]].label, domain_.keeps_all);
   }
 
-  [[nodiscard]] std::array<Point<2>, 3> corners(std::size_t t) const {
-    const auto& c = mesh_.simplices[t];
-    return {mesh_.vertices[c[0]], mesh_.vertices[c[1]], mesh_.vertices[c[2]]};
+  [[nodiscard]] std::uint32_t neighbour(std::uint32_t t, int i) const {
+    return adjacency_.neighbours[t][static_cast<std::size_t>(i)];
+  }
+  [[nodiscard]] std::array<Point<D>, D + 1> corners(std::size_t t) const {
+    std::array<Point<D>, D + 1> places;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      places[i] = mesh_.vertices[mesh_.simplices[t][i]];
+    }
+    return places;
   }
 
-  // Calls visit(triangle, edge) for each side of an edge that the seed is on or at an end of.
+  // Calls visit(simplex, side) for each side that the seed is on.
   template <class Visit>
   void for_each_side_at(std::size_t seed, Visit&& visit) const {
-    const std::uint32_t t = holder_[seed];
-    const Holding held = *detail::holding(corners(t), seeds_[seed].at);
-    if (held.where == Holding::Where::edge) visit(t, held.index);
-    if (held.where != Holding::Where::vertex) return;
-    for_each_around(adjacency_, mesh_, mesh_.simplices[t][held.index], t,
-                    [&](std::uint32_t around, int corner) {
-                      visit(around, detail::next_corner(corner));
-                      visit(around, detail::previous_corner(corner));
-                    });
+    for (const Holder& holder : holders_[seed]) {
+      for (int i = 0; i <= D; ++i) {
+        if ((holder.sides >> i & 1) != 0) visit(holder.simplex, i);
+      }
+    }
   }
 
   [[nodiscard]] bool is_on_wall(std::size_t seed) const {
     bool found = false;
     for_each_side_at(
-        seed, [&](std::uint32_t t, int edge) { found = found || adjacency_.is_wall(t, edge); });
+        seed, [&](std::uint32_t t, int side) { found = found || adjacency_.is_wall(t, side); });
     return found;
+  }
+
+  static std::optional<FeatureId> name(const MeshEdge& wall) { return wall.line; }
+  static std::optional<FeatureId> name(const MeshFace& wall) { return wall.polygon; }
+  // The corners of a side, ascending.
+  [[nodiscard]] std::array<std::uint32_t, D> side_of(std::uint32_t t, int across) const {
+    std::array<std::uint32_t, D> side;
+    std::size_t n = 0;
+    for (std::size_t i = 0; i <= D; ++i) {
+      if (std::cmp_not_equal(i, across)) side[n++] = mesh_.simplices[t][i];
+    }
+    std::sort(side.begin(), side.end());
+    return side;
   }
 
   // Cost: O(walls); there is a fault to speak of.
   [[nodiscard]] std::optional<FeatureId> line_at(std::size_t seed) const {
     std::optional<FeatureId> least;
-    for_each_side_at(seed, [&](std::uint32_t t, int edge) {
-      const auto& c = mesh_.simplices[t];
-      const auto ends = std::minmax(c[detail::next_corner(edge)], c[detail::previous_corner(edge)]);
-      for (const MeshEdge& wall : walls_) {
-        if (!wall.line || std::pair(wall.low, wall.high) != std::pair(ends.first, ends.second)) {
-          continue;
-        }
-        if (!least || *wall.line < *least) least = wall.line;
+    const auto all = detail::corners_of(walls_);
+    for_each_side_at(seed, [&](std::uint32_t t, int side) {
+      const auto corners = side_of(t, side);
+      for (std::size_t i = 0; i < walls_.size(); ++i) {
+        const auto id = name(walls_[i]);
+        if (id && all[i] == corners && (!least || *id < *least)) least = id;
       }
     });
     return least;
   }
 
-  const Mesh<2>& mesh_;
-  const std::vector<MeshEdge>& walls_;
+  // A closed simplex that holds a seed, and the sides that the seed is on: bit i, side i.
+  struct Holder {
+    std::uint32_t simplex;
+    unsigned sides;
+  };
+  const Mesh<D>& mesh_;
+  const std::vector<WallOf<D>>& walls_;
   const std::vector<Seed>& seeds_;
-  Adjacency adjacency_;
-  Domain domain_;
-  std::vector<bool> open_;                  // one per region
-  std::vector<detail::Counting> counting_;  // likewise
-  std::vector<std::uint32_t> holder_;       // one per seed: a triangle that holds it
-  std::vector<std::uint32_t> region_;       // likewise; kNoRegion on a wall
+  detail::AdjacencyOf<D> adjacency_;
+  DomainOf<D> domain_;
+  std::vector<bool> open_;                    // one per region
+  std::vector<detail::Counting> counting_;    // likewise
+  std::vector<std::vector<Holder>> holders_;  // one per seed; ascending
+  std::vector<std::uint32_t> region_;         // likewise; kNoRegion on a wall
   bool encloses_ = false;
 };
 
 }  // namespace
 
-Domain find_domain(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls,
-                   const std::vector<Seed>& seeds, Extent extent) {
+template <int D>
+DomainOf<D> find_domain(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls,
+                        const std::vector<SeedOf<D>>& seeds, Extent extent) {
   detail::check_seeds(seeds);
-  return Finder(mesh, walls, seeds).run(extent);
+  return Finder<D>(mesh, walls, seeds).run(extent);
 }
+
+template Domain find_domain(const Mesh<2>&, const std::vector<MeshEdge>&, const std::vector<Seed>&,
+                            Extent);
+template DomainOf<3> find_domain(const Mesh<3>&, const std::vector<MeshFace>&,
+                                 const std::vector<SeedOf<3>>&, Extent);
 
 }  // namespace mesher

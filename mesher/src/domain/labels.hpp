@@ -10,9 +10,11 @@
 namespace mesher::detail {
 
 /// Throws: Error (not_finite, magnitude, bad_number for a limit that is not > 0).
-void check_seed(const Seed& seed);
+template <int D>
+void check_seed(const SeedOf<D>& seed);
 /// The same of each. Throws also: Error(repeated_id) for two of one name. Cost: O(s log s).
-void check_seeds(const std::vector<Seed>& seeds);
+template <int D>
+void check_seeds(const std::vector<SeedOf<D>>& seeds);
 
 /// The seeds of one region that count, as they are met in any order.
 class Counting {
@@ -46,8 +48,10 @@ class Counting {
 }
 
 /// The fault of a seed in a region with this label; nothing if it has the region to itself.
-[[nodiscard]] inline std::optional<SeedFault> fault_in(const Seed& seed, const RegionLabel& label,
-                                                       bool keeps_all) {
+template <int D>
+[[nodiscard]] std::optional<SeedFaultOf<D>> fault_in(const SeedOf<D>& seed,
+                                                     const RegionLabel& label, bool keeps_all) {
+  using SeedFault = SeedFaultOf<D>;
   const bool hole = seed.name.kind == SeedKind::hole;
   if (label.zone == Zone::outside && (hole || !keeps_all)) {
     return SeedFault{SeedFault::Kind::outside, seed.name, seed.at, {}, {}};

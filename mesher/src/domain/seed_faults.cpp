@@ -9,13 +9,16 @@
 namespace mesher {
 namespace {
 
-std::string reason(const SeedFault& fault) {
+template <int D>
+std::string reason(const SeedFaultOf<D>& fault) {
+  using SeedFault = SeedFaultOf<D>;
+  const std::string wall = D == 2 ? "segment" : "polygon";
   switch (fault.kind) {
     case SeedFault::Kind::outside:
-      return "is outside of what the segments enclose";
+      return "is outside of what the " + wall + "s enclose";
     case SeedFault::Kind::on_segment:
-      if (!fault.line) return "is on a segment";
-      return "is on segment " + std::to_string(static_cast<std::int64_t>(*fault.line));
+      if (!fault.line) return "is on a " + wall;
+      return "is on " + wall + " " + std::to_string(static_cast<std::int64_t>(*fault.line));
     case SeedFault::Kind::shared:
       return "is in one region with " + text_of(*fault.other) + ", which counts";
   }
@@ -29,28 +32,36 @@ std::string text_of(const SeedName& seed) {
          std::to_string(static_cast<std::int64_t>(seed.id));
 }
 
-std::string describe(const SeedFault& fault) {
-  return "the seed of " + text_of(fault.seed) + " at " + text::to_text<2>(fault.at) + " " +
+template <int D>
+std::string describe(const SeedFaultOf<D>& fault) {
+  return "the seed of " + text_of(fault.seed) + " at " + text::to_text<D>(fault.at) + " " +
          reason(fault);
 }
 
-Error error_of(const SeedFault& fault) {
+template std::string describe(const SeedFaultOf<2>&);
+template std::string describe(const SeedFaultOf<3>&);
+
+template <int D>
+Error error_of(const SeedFaultOf<D>& fault) {
   std::vector<FeatureId> ids{fault.seed.id};
   if (fault.other) ids.push_back(fault.other->id);
   if (fault.line) ids.push_back(*fault.line);
   return {ErrorCode::bad_seed, describe(fault), {}, std::move(ids)};
 }
+template Error error_of(const SeedFaultOf<2>&);
+template Error error_of(const SeedFaultOf<3>&);
 
 namespace detail {
 
-void check_seed(const Seed& seed) {
+template <int D>
+void check_seed(const SeedOf<D>& seed) {
   const auto refuse = [&](ErrorCode code, const std::string& what) {
     throw Error(code, "the seed of " + text_of(seed.name) + " " + what, {}, {seed.name.id});
   };
   for (const double x : seed.at) {
     if (!std::isfinite(x)) refuse(ErrorCode::not_finite, "has a coordinate that is not finite");
     if (!text::is_coordinate(x)) {
-      refuse(ErrorCode::magnitude, "at " + text::to_text<2>(seed.at) +
+      refuse(ErrorCode::magnitude, "at " + text::to_text<D>(seed.at) +
                                        " has a coordinate beyond the magnitudes 2^-100 to 2^100");
     }
   }
@@ -58,13 +69,18 @@ void check_seed(const Seed& seed) {
     refuse(ErrorCode::not_finite, "has an attribute that is not finite");
   }
   if (seed.max_area && !(*seed.max_area > 0)) {
-    refuse(ErrorCode::bad_number, "has an area limit that is not positive");
+    refuse(ErrorCode::bad_number, D == 2 ? "has an area limit that is not positive"
+                                         : "has a volume limit that is not positive");
   }
 }
 
-void check_seeds(const std::vector<Seed>& seeds) {
+template void check_seed(const SeedOf<2>&);
+template void check_seed(const SeedOf<3>&);
+
+template <int D>
+void check_seeds(const std::vector<SeedOf<D>>& seeds) {
   std::vector<SeedName> names;
-  for (const Seed& seed : seeds) {
+  for (const SeedOf<D>& seed : seeds) {
     check_seed(seed);
     names.push_back(seed.name);
   }
@@ -73,6 +89,8 @@ void check_seeds(const std::vector<Seed>& seeds) {
   if (twice == names.end()) return;
   throw Error(ErrorCode::repeated_id, text_of(*twice) + " has two seeds", {}, {twice->id});
 }
+template void check_seeds(const std::vector<SeedOf<2>>&);
+template void check_seeds(const std::vector<SeedOf<3>>&);
 
 }  // namespace detail
 }  // namespace mesher

@@ -9,6 +9,7 @@
 #include "input.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/predicates.hpp"
+#include "plc/parts_in_mesh.hpp"
 #include "program/world_impl.hpp"
 #include "segments/lost_edge.hpp"
 
@@ -105,14 +106,14 @@ void require_planar(World<2>& world, const std::vector<detail::SegmentHandle>& a
   }
 }
 
-std::vector<detail::LineEdge> line_edges(const World<2>& world, const InputNames& names) {
-  std::vector<detail::LineEdge> edges;
+detail::OnFeatures on_features(const World<2>& world, const InputNames& names) {
+  detail::OnFeatures on;
   const auto& tree = world.vertices.tree();
   world.leaves.for_each([&](const detail::Leaf& leaf) {
-    edges.push_back(
+    on.edges.push_back(
         {tree.find(leaf.lo)->self, tree.find(leaf.hi)->self, names.line(leaf.piece.segment)});
   });
-  return edges;
+  return on;
 }
 
 // Of the leaves' edges, those that no triangle has are lost.
@@ -179,11 +180,11 @@ class StaticRun {
       throw detail::too_many_vertices(world_.vertices, world_.names, world_.most_vertices);
     }
   }
-  [[nodiscard]] Mesh<D> mesh(const std::vector<detail::LineEdge>& edges, MeshStats* stats) {
+  [[nodiscard]] Mesh<D> mesh(const detail::OnFeatures& on, MeshStats* stats) {
     std::vector<VertexHandle> vertices;
     world_.vertices.pool().for_each([&](detail::Vertex<D>& v) { vertices.push_back(v.self); });
-    Mesh<D> mesh = detail::canonical(world_.vertices.pool(), std::move(vertices),
-                                     world_.plain.simplices, edges);
+    Mesh<D> mesh =
+        detail::canonical(world_.vertices.pool(), std::move(vertices), world_.plain.simplices, on);
     if (stats != nullptr) *stats = detail::timed_stats(world_, mesh);
     return mesh;
   }
@@ -230,8 +231,7 @@ class SpaceInputNames final : public detail::SpaceNames {
 // `handle_of(id)`: of a point, 0 if there is none.
 template <class HandleOf>
 void add_features(const std::vector<Segment>& segments, const std::vector<Polygon>& polygons,
-                  HandleOf&& handle_of, World<3>& world, const InputNames& points) {
-  SpaceInputNames names(points);
+                  HandleOf&& handle_of, World<3>& world, SpaceInputNames& names) {
   std::vector<detail::EdgeHandle> edges_come;
   std::vector<detail::PolygonHandle> polygons_come;
   for (const Segment& s : segments) {
@@ -286,7 +286,7 @@ Mesh<2> mesh_statically(const std::vector<Point<2>>& points, const std::vector<S
   }
   run.refine();
   if (run.world().leaves.may_lose()) require_edges(run.world());
-  return run.mesh(line_edges(run.world(), run.names()), stats);
+  return run.mesh(on_features(run.world(), run.names()), stats);
 }
 
 Mesh<3> mesh_statically(const std::vector<Point<3>>& points, const std::vector<Segment>& segments,
@@ -302,9 +302,14 @@ Mesh<3> mesh_statically(const std::vector<Point<3>>& points, const std::vector<S
     const auto it = by_id.find(id);
     return it == by_id.end() ? VertexHandle{0} : it->second;
   };
-  add_features(segments, polygons, handle_of, run.world(), run.names());
+  SpaceInputNames names(run.names());
+  World<3>& world = run.world();
+  add_features(segments, polygons, handle_of, world, names);
   run.refine();
-  return run.mesh({}, stats);
+  const auto& vertices = world.vertices;
+  return run.mesh(detail::on_features(world.plain.simplices, {vertices.pool(), vertices.roles(),
+                                                              world.plc.store(), names}),
+                  stats);
 }
 
 }  // namespace mesher

@@ -46,7 +46,7 @@ std::vector<InputPoint<D>> PointState<D>::points() const {
 
 template <int D>
 Mesh<D> PointState<D>::mesh_of(const std::vector<Simplex>& simplices) const {
-  return canonical(pool(), live_vertices(), simplices, line_edges());
+  return canonical(pool(), live_vertices(), simplices, on_features(simplices));
 }
 
 template <int D>

@@ -113,6 +113,7 @@ Change<D> PointState<D>::whole(const Mesh<D>& mesh) const {
     auto& corners = change.simplices_added.emplace_back();
     for (std::size_t k = 0; k < s.size(); ++k) corners[k] = mesh.vertices[s[k]];
   }
+  if constexpr (D != 2) return change;
   for (const auto& e : mesh.edges) {
     change.edges_added.push_back({mesh.vertices[e.low], mesh.vertices[e.high], e.line});
   }

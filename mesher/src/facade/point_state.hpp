@@ -82,7 +82,8 @@ class PointState {
   virtual void rename_others() noexcept {}
   virtual void forget_news() noexcept {}
   virtual void commit_others() noexcept {}
-  [[nodiscard]] virtual std::vector<detail::LineEdge> line_edges() const { return {}; }
+  /// Of the mesh with these simplices.
+  [[nodiscard]] virtual OnFeatures on_features(const std::vector<Simplex>&) const { return {}; }
   [[nodiscard]] virtual std::size_t other_bytes() const { return 0; }
   virtual void check_others() const {}
 

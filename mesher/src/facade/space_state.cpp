@@ -5,6 +5,7 @@
 #include <string>
 
 #include "facade/space_input.hpp"
+#include "plc/parts_in_mesh.hpp"
 #include "program/world_impl.hpp"
 
 namespace mesher::detail {
@@ -103,6 +104,11 @@ std::vector<PolygonHandle> SpaceState::polygons_at(VertexHandle point) const {
   all.reserve(count);
   visit_all([&](const Polygon& f) { all.push_back(f.self); });
   return all;
+}
+
+OnFeatures SpaceState::on_features(const std::vector<Simplex>& simplices) const {
+  if (store().live_edges() == 0) return {};
+  return detail::on_features(simplices, {pool(), vertices().roles(), store(), *this});
 }
 
 // --- Single features -------------------------------------------------------------------------

@@ -58,6 +58,7 @@ class SpaceState final : public PointState<3>, private SpaceNames {
   void rename_others() noexcept override;
   void forget_news() noexcept override;
   void commit_others() noexcept override { world_->plc.commit(); }
+  [[nodiscard]] OnFeatures on_features(const std::vector<Simplex>& simplices) const override;
   [[nodiscard]] std::size_t other_bytes() const override { return world_->plc.bytes(); }
   void check_others() const override { world_->plc.check_invariants(); }
 

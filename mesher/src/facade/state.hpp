@@ -57,7 +57,7 @@ class State final : public PointState<2>, private Names {
   void rename_others() noexcept override;
   void forget_news() noexcept override;
   void commit_others() noexcept override;
-  [[nodiscard]] std::vector<detail::LineEdge> line_edges() const override;
+  [[nodiscard]] OnFeatures on_features(const std::vector<Simplex>& simplices) const override;
   [[nodiscard]] std::size_t other_bytes() const override;
 
   [[nodiscard]] bool has_lines() const noexcept;

@@ -9,11 +9,12 @@
 
 namespace mesher::detail {
 
-std::vector<detail::LineEdge> State::line_edges() const {
-  std::vector<detail::LineEdge> all;
+OnFeatures State::on_features(const std::vector<Simplex>&) const {
+  OnFeatures all;
   const auto& tree = vertices().tree();
   world_->leaves.for_each([&](const Leaf& leaf) {
-    all.push_back({tree.find(leaf.lo)->self, tree.find(leaf.hi)->self, lines_[leaf.piece.segment]});
+    all.edges.push_back(
+        {tree.find(leaf.lo)->self, tree.find(leaf.hi)->self, lines_[leaf.piece.segment]});
   });
   return all;
 }

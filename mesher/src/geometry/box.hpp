@@ -22,6 +22,10 @@ namespace mesher::detail {
 [[nodiscard]] inline bool contains(const Box<2>& box, const Point<2>& p) {
   return p[0] >= box.lo[0] && p[0] <= box.hi[0] && p[1] >= box.lo[1] && p[1] <= box.hi[1];
 }
+[[nodiscard]] inline bool contains(const Box<3>& box, const Point<3>& p) {
+  return p[0] >= box.lo[0] && p[0] <= box.hi[0] && p[1] >= box.lo[1] && p[1] <= box.hi[1] &&
+         p[2] >= box.lo[2] && p[2] <= box.hi[2];
+}
 /// What lies in both; may be empty.
 [[nodiscard]] inline Box<2> common(const Box<2>& a, const Box<2>& b) {
   return {{std::max(a.lo[0], b.lo[0]), std::max(a.lo[1], b.lo[1])},

@@ -59,11 +59,11 @@ bool vtu_is_in_space(const std::string& path) {
 int dimension_of(const std::string& path) {
   const std::string extension = text::extension(path);
   const auto is = [&](std::string_view name) { return extension == name; };
-  if (is(".off") || is(".stl") || is(".ply") || is(".vtk")) return 3;
+  if (is(".off") || is(".stl") || is(".ply") || is(".vtk") || is(".smesh")) return 3;
   const bool in_space =
-      (is(".node") && node_is_in_space(path)) || (is(".xyz") && xyz_is_in_space(path)) ||
-      (is(".csv") && csv_is_in_space(path)) || (is(".obj") && obj_is_in_space(path)) ||
-      (is(".vtu") && vtu_is_in_space(path));
+      ((is(".node") || is(".poly")) && node_is_in_space(path)) ||
+      (is(".xyz") && xyz_is_in_space(path)) || (is(".csv") && csv_is_in_space(path)) ||
+      (is(".obj") && obj_is_in_space(path)) || (is(".vtu") && vtu_is_in_space(path));
   return in_space ? 3 : 2;
 }
 

@@ -18,7 +18,8 @@ MeshDataOf<D> MeshParts::take() {
   mesh.features.origins = std::move(origins);
   mesh.features.markers = std::move(markers);
   mesh.features.regions = std::move(cells<D>().regions);
-  if (D == 2) mesh.features.edges = std::move(edges);
+  mesh.features.edges = std::move(edges);
+  if (D == 3) mesh.features.faces = std::move(faces_);
   mesh.notes = notes.notes();
   return mesh;
 }
@@ -28,8 +29,6 @@ AnyMesh MeshParts::finish() {
     height_.require_same();
     return take<2>();
   }
-  if (count<2>() > 0) notes.add("triangles beside tetrahedra are not used", {file_});
-  if (!edges.empty()) notes.add("edges beside tetrahedra are not used", {file_});
   return take<3>();
 }
 

@@ -67,6 +67,17 @@ class MeshParts {
     cells<D>().simplices.push_back(corners);
     cells<D>().regions.push_back(region);
   }
+  /// Likewise; what a triangle is if there are tetrahedra: a face.
+  void add_triangle(const Mesh<2>::Simplex& corners, double region, std::int64_t marker,
+                    std::optional<FeatureId> polygon = {}) {
+    add<2>(corners, region);
+    faces_.push_back(face_of(corners, marker, polygon));
+  }
+  [[nodiscard]] static MeshFace face_of(Mesh<2>::Simplex corners, std::int64_t marker,
+                                        std::optional<FeatureId> polygon = {}) {
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    return {corners, polygon, marker};
+  }
   /// How many simplices of dimension D there are.
   template <int D>
   [[nodiscard]] std::size_t count() {
@@ -103,6 +114,7 @@ class MeshParts {
   std::string file_;
   std::vector<Point<3>> vertices_;
   Cells<2> triangles_;
+  std::vector<MeshFace> faces_;  // the same
   Cells<3> tetrahedra_;
   PlaneHeight height_;
 };

@@ -137,7 +137,12 @@ class MeditReader {
                                 std::to_string(mesh_.count<D>() + 1) + " has the same corner twice",
                             word);
       }
-      mesh_.add<D>(corners, static_cast<double>(take_integer(word)));
+      const std::int64_t reference = take_integer(word);
+      if constexpr (D == 2) {
+        mesh_.add_triangle(corners, static_cast<double>(reference), reference);
+      } else {
+        mesh_.add<D>(corners, static_cast<double>(reference));
+      }
     }
   }
 

@@ -1,4 +1,4 @@
-// Reads meshes of any known format; sorts their edges and drops arrays that say nothing.
+// Reads meshes of any known format; sorts their edges and faces and drops arrays that say nothing.
 #include "io/read_mesh.hpp"
 
 #include <algorithm>
@@ -41,6 +41,20 @@ void sort_edges(std::vector<MeshEdge>& edges, const std::string& path) {
               {path});
 }
 
+// Likewise.
+void sort_faces(std::vector<MeshFace>& faces, const std::string& path) {
+  std::sort(faces.begin(), faces.end(),
+            [](const MeshFace& a, const MeshFace& b) { return a.key() < b.key(); });
+  const auto twice =
+      std::adjacent_find(faces.begin(), faces.end(),
+                         [](const MeshFace& a, const MeshFace& b) { return a.key() == b.key(); });
+  if (twice == faces.end()) return;
+  std::string names;
+  for (const std::uint32_t v : twice->key()) names += ' ' + std::to_string(v + std::size_t{1});
+  throw Error(ErrorCode::bad_mesh,
+              "the face of vertices" + names + " (counted from 1) is given twice", {path});
+}
+
 template <class T>
 void clear_if_zero(std::vector<T>& values) {
   if (std::all_of(values.begin(), values.end(), [](T v) { return v == T{}; })) values.clear();
@@ -48,6 +62,7 @@ void clear_if_zero(std::vector<T>& values) {
 
 void tidy(MeshFeatures& features, const std::string& path) {
   sort_edges(features.edges, path);
+  sort_faces(features.faces, path);
   clear_if_zero(features.origins);
   clear_if_zero(features.markers);
   clear_if_zero(features.regions);

@@ -237,7 +237,7 @@ class MshReader {
       case kLine:
         return read_lines(marker_of(entity), elements);
       case kTriangle:
-        return read_simplices<2>(region_of(entity), elements);
+        return read_simplices<2>(region_of(entity), elements, marker_of(entity));
       case kTetrahedron:
         return read_simplices<3>(region_of(entity), elements);
     }
@@ -258,7 +258,7 @@ class MshReader {
   }
 
   template <int D>
-  void read_simplices(double region, std::int64_t elements) {
+  void read_simplices(double region, std::int64_t elements, std::int64_t marker = 0) {
     for (; elements > 0; --elements) {
       const Number number = tag();
       typename Mesh<D>::Simplex corners;
@@ -269,7 +269,11 @@ class MshReader {
             std::string(kSimplexName<D>) + ' ' + number.text() + " has the same corner twice",
             number);
       }
-      mesh_.add<D>(corners, region);
+      if constexpr (D == 2) {
+        mesh_.add_triangle(corners, region, marker);
+      } else {
+        mesh_.add<D>(corners, region);
+      }
     }
   }
 

@@ -1,8 +1,9 @@
-// Reads the files of a mesh that Triangle or TetGen would write: `.node` and `.ele`, and in the
-// plane, where they are, `.edge`, `.poly` and `.neigh`.
+// Reads the files of a mesh that Triangle or TetGen would write: `.node` and `.ele`, and where they
+// are, `.edge`, in the plane `.poly` and `.neigh`, in space `.face`.
 //
 //   .ele:   count [corners [attributes]]     id corner corner corner [corner] [attributes...]
 //   .edge:  count [markers]                  id vertex vertex [marker [line]]
+//   .face:  count [markers]                  id vertex vertex vertex [marker [polygon]]
 //   .neigh: count 3                          id triangle triangle triangle    (-1: none)
 #include <algorithm>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <map>
 #include <utility>
 
+#include "io/mesh_parts.hpp"
 #include "io/note_counter.hpp"
 #include "io/read_mesh.hpp"
 #include "io/read_node.hpp"
@@ -54,17 +56,21 @@ class NodeMesh {
   MeshDataOf<D> read() {
     read_vertices(beside(".node"));
     read_simplices(beside(".ele"));
-    if constexpr (D == 2) read_lines();
+    if (std::filesystem::exists(beside(".edge"))) read_edges(beside(".edge"));
+    if constexpr (D == 2) {
+      read_lines();
+    } else if (std::filesystem::exists(beside(".face"))) {
+      read_faces(beside(".face"));
+    }
+    for (const auto& [ends, edge] : edges_) mesh_.features.edges.push_back(edge);
     mesh_.notes = notes_.notes();
     return std::move(mesh_);
   }
 
  private:
   void read_lines() {
-    if (std::filesystem::exists(beside(".edge"))) read_edges(beside(".edge"));
     if (std::filesystem::exists(beside(".poly"))) read_segments(beside(".poly"));
     if (std::filesystem::exists(beside(".neigh"))) check_neighbours(beside(".neigh"));
-    for (const auto& [ends, edge] : edges_) mesh_.features.edges.push_back(edge);
   }
 
   [[nodiscard]] std::string beside(const char* extension) const {
@@ -127,6 +133,22 @@ class NodeMesh {
       }
     }
     require_end(lines, "edges");
+  }
+
+  // Faces with neither marker nor polygon likewise.
+  void read_faces(const std::string& path) {
+    const std::string content = text::read_file(path);
+    text::FieldLines lines(path, content);
+    const std::int64_t count = read_count(header_row(lines, path), 0);
+    for (std::size_t done = 0; std::cmp_less(done, count); ++done) {
+      const text::Line& line = next_row(lines, 4, done, count, "faces");
+      const auto corners =
+          read_corners<2>(line, 1, [&](std::size_t i) { return vertices_.vertex(line, i); });
+      MeshFace face = MeshParts::face_of(corners, line.size() > 4 ? line.integer(4) : 0);
+      if (line.size() > 5) face.polygon = FeatureId{line.integer(5)};
+      if (face.marker != 0 || face.polygon) mesh_.features.faces.push_back(face);
+    }
+    require_end(lines, "faces");
   }
 
   // A .poly file with points of its own is an input, not a part of this mesh.

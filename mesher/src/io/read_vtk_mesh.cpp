@@ -1,5 +1,6 @@
 // The meshes of VTK's grids.
 #include <algorithm>
+#include <optional>
 
 #include "io/read_mesh.hpp"
 #include "io/vtk_grid.hpp"
@@ -16,7 +17,8 @@ class GridMesh {
     find_cell_data();
     for (std::size_t i = 0; i < grid_.cell_count(); ++i) read_cell(i);
     note_unused(grid_.point_data, {kinds_, origins_, markers_}, grid_.notes);
-    note_unused(grid_.cell_data, {regions_, cell_markers_, lines_, has_line_}, grid_.notes);
+    note_unused(grid_.cell_data,
+                {regions_, cell_markers_, lines_, has_line_, polygons_, has_polygon_}, grid_.notes);
     mesh_.notes = std::move(grid_.notes);
     return mesh_.finish();
   }
@@ -53,6 +55,8 @@ class GridMesh {
     cell_markers_ = VtkGrid::find_integers(grid_.cell_data, "marker");
     lines_ = VtkGrid::find_integers(grid_.cell_data, "line");
     has_line_ = VtkGrid::find_integers(grid_.cell_data, "has_line");
+    polygons_ = VtkGrid::find_integers(grid_.cell_data, "polygon");
+    has_polygon_ = VtkGrid::find_integers(grid_.cell_data, "has_polygon");
   }
 
   void read_cell(std::size_t i) {
@@ -86,13 +90,28 @@ class GridMesh {
                       (D == 2 ? "three" : "four") + " different corners",
                   grid_.connectivity.place);
     }
-    mesh_.add<D>(corners, region(i));
+    if constexpr (D == 2) {
+      mesh_.add_triangle(corners, region(i), marker(i), id(polygons_, has_polygon_, i));
+    } else {
+      mesh_.add<D>(corners, region(i));
+    }
   }
 
   [[nodiscard]] double region(std::size_t cell) const {
     if (regions_ == nullptr) return 0;
     return regions_->is_integral ? static_cast<double>(regions_->integers[cell])
                                  : regions_->reals[cell];
+  }
+
+  [[nodiscard]] std::int64_t marker(std::size_t cell) const {
+    return cell_markers_ == nullptr ? 0 : cell_markers_->integers[cell];
+  }
+  // Of `ids`, if there are any and `has_id` does not say that this cell has none.
+  static std::optional<FeatureId> id(const VtkArray* ids, const VtkArray* has_id,
+                                     std::size_t cell) {
+    const bool has_one = has_id == nullptr || has_id->integers[cell] != 0;
+    if (ids == nullptr || !has_one) return std::nullopt;
+    return FeatureId{ids->integers[cell]};
   }
 
   void add_line(std::size_t i, const std::vector<std::uint32_t>& v) {
@@ -102,9 +121,8 @@ class GridMesh {
     }
     for (std::size_t k = 1; k < v.size(); ++k) {
       MeshEdge edge = edge_of(v[k - 1], v[k], [&] { return grid_.connectivity.place; });
-      if (cell_markers_ != nullptr) edge.marker = cell_markers_->integers[i];
-      const bool has_line = has_line_ == nullptr || has_line_->integers[i] != 0;
-      if (lines_ != nullptr && has_line) edge.line = FeatureId{lines_->integers[i]};
+      edge.marker = marker(i);
+      edge.line = id(lines_, has_line_, i);
       mesh_.edges.push_back(edge);
     }
   }
@@ -113,7 +131,7 @@ class GridMesh {
   MeshParts mesh_;
   const VtkArray *kinds_ = nullptr, *origins_ = nullptr, *markers_ = nullptr;
   const VtkArray *regions_ = nullptr, *cell_markers_ = nullptr, *lines_ = nullptr,
-                 *has_line_ = nullptr;
+                 *has_line_ = nullptr, *polygons_ = nullptr, *has_polygon_ = nullptr;
 };
 
 }  // namespace

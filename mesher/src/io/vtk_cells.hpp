@@ -1,16 +1,19 @@
-// What both of VTK's formats say of the cells of a mesh: the triangles, then the edges on lines.
+// What both of VTK's formats say of the cells of a mesh: the simplices, in space then the faces in
+// polygons, then the edges on lines.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "mesher/mesh_data.hpp"
 #include "io/vtk_grid.hpp"
+#include "mesher/mesh_data.hpp"
 
 namespace mesher {
 
 inline constexpr int kVtkLine = static_cast<int>(VtkCell::line);
 inline constexpr int kVtkTriangle = static_cast<int>(VtkCell::triangle);
+inline constexpr int kVtkTetrahedron = static_cast<int>(VtkCell::tetrahedron);
 
 /// Ids or kinds as integers.
 template <class T>
@@ -20,29 +23,65 @@ template <class T>
   return integers;
 }
 
-/// Arrays with a value for each cell, 0 where a cell has none; empty where no cell has one.
+/// Arrays with a value for each cell, 0 where a cell has none; empty where no cell has one. Cells:
+/// simplices, faces, edges.
 struct CellData {
   std::vector<double> regions;
-  std::vector<std::int64_t> markers, lines, has_line;
+  std::vector<std::int64_t> markers, lines, has_line, polygons, has_polygon;
 
-  CellData(const Mesh<2>& mesh, const MeshFeatures& features) {
-    const std::size_t triangles = mesh.simplices.size();
+  template <int D>
+  CellData(const Mesh<D>& mesh, const MeshFeatures& features) {
+    const std::size_t simplices = mesh.simplices.size(), faces = features.faces.size();
+    const std::size_t all = simplices + faces + features.edges.size();
     if (!features.regions.empty()) {
       regions = features.regions;
-      regions.resize(triangles + features.edges.size());
+      regions.resize(all);
     }
-    if (features.edges.empty()) return;
-    markers.resize(triangles);
-    lines.resize(triangles);
-    has_line.resize(triangles);
-    for (const MeshEdge& e : features.edges) {
-      markers.push_back(e.marker);
-      lines.push_back(static_cast<std::int64_t>(e.line.value_or(FeatureId{0})));
-      has_line.push_back(e.line ? 1 : 0);
+    if (all == simplices) return;
+    for (auto* array : {&markers, &lines, &has_line}) array->resize(all);
+    if (D == 3) polygons.resize(all), has_polygon.resize(all);
+    for (std::size_t i = 0; i < faces; ++i) {
+      const MeshFace& f = features.faces[i];
+      markers[simplices + i] = f.marker;
+      polygons[simplices + i] = static_cast<std::int64_t>(f.polygon.value_or(FeatureId{0}));
+      has_polygon[simplices + i] = f.polygon ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < features.edges.size(); ++i) {
+      const MeshEdge& e = features.edges[i];
+      markers[simplices + faces + i] = e.marker;
+      lines[simplices + faces + i] = static_cast<std::int64_t>(e.line.value_or(FeatureId{0}));
+      has_line[simplices + faces + i] = e.line ? 1 : 0;
     }
   }
 
   [[nodiscard]] bool empty() const { return regions.empty() && markers.empty(); }
+  /// Calls visit(name, type, values) for those there are; a type is real, whole, or flag.
+  enum class Type : std::uint8_t { real, whole, flag };
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    if (!regions.empty()) visit("region", Type::real, regions);
+    if (!markers.empty()) visit("marker", Type::whole, markers);
+    if (!polygons.empty()) {
+      visit("polygon", Type::whole, polygons);
+      visit("has_polygon", Type::flag, has_polygon);
+    }
+    if (!lines.empty()) {
+      visit("line", Type::whole, lines);
+      visit("has_line", Type::flag, has_line);
+    }
+  }
 };
+
+/// Calls visit(type, corners) for each cell.
+template <int D, class Visit>
+void for_each_cell(const Mesh<D>& mesh, const MeshFeatures& features, Visit&& visit) {
+  for (const auto& s : mesh.simplices) visit(D == 2 ? kVtkTriangle : kVtkTetrahedron, s);
+  for (const MeshFace& f : features.faces) visit(kVtkTriangle, f.corners);
+  for (const MeshEdge& e : features.edges) visit(kVtkLine, std::array{e.low, e.high});
+}
+template <int D>
+[[nodiscard]] std::size_t cell_count(const Mesh<D>& mesh, const MeshFeatures& features) {
+  return mesh.simplices.size() + features.faces.size() + features.edges.size();
+}
 
 }  // namespace mesher

@@ -3,9 +3,9 @@
 
 #include <utility>
 
+#include "io/text.hpp"
 #include "mesher/io.hpp"
 #include "mesher/svg.hpp"
-#include "io/text.hpp"
 
 namespace mesher {
 namespace {
@@ -13,13 +13,12 @@ namespace {
 using Write = void (*)(const Mesh<2>&, const MeshFeatures&, TextFile&);
 
 constexpr std::pair<std::string_view, Write> kSingleFiles[] = {
-    {".vtu", write_vtu},
-    {".vtk", write_vtk},
-    {".msh", write_msh},
-    {".mesh", write_medit},
-    {".off", [](const Mesh<2>& mesh, const MeshFeatures&, TextFile& file) {
-       write_off(mesh, file);
-     }},
+    {".vtu", write_vtu<2>},
+    {".vtk", write_vtk<2>},
+    {".msh", write_msh<2>},
+    {".mesh", write_medit<2>},
+    {".off",
+     [](const Mesh<2>& mesh, const MeshFeatures&, TextFile& file) { write_off(mesh, file); }},
     {".obj", write_obj},
     {".svg", [](const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file) {
        write_svg(mesh, features, svg_view(mesh), file);
@@ -36,13 +35,13 @@ MeshWriter open_node(OutputFiles& files, const std::string& path, MeshFiles cont
   TextFile& edge = files.open(text::with_extension(path, ".edge"));
   TextFile& poly = files.open(text::with_extension(path, ".poly"));
   TextFile& neigh = files.open(text::with_extension(path, ".neigh"));
-  return MeshWriter([write, &edge, &poly, &neigh](const Mesh<2>& mesh,
-                                                  const MeshFeatures& features) {
-    write(mesh, features);
-    write_edge(mesh, features, edge);
-    write_poly(features, poly);
-    write_neigh(mesh, neigh);
-  });
+  return MeshWriter(
+      [write, &edge, &poly, &neigh](const Mesh<2>& mesh, const MeshFeatures& features) {
+        write(mesh, features);
+        write_edge(mesh, features, edge);
+        write_poly(features, poly);
+        write_neigh(mesh, neigh);
+      });
 }
 
 }  // namespace

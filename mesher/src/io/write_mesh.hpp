@@ -12,17 +12,37 @@
 
 namespace mesher {
 
-void write_node(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file);
-void write_ele(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file);
+// D is 2 or 3.
+template <int D>
+void write_node(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file);
+template <int D>
+void write_ele(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file);
+template <int D>
+void write_vtu(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file);
+template <int D>
+void write_vtk(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file);
+template <int D>
+void write_msh(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file);
+template <int D>
+void write_medit(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file);
+
+/// In space: the faces of the features, or of the boundary if they have none; the features' edges.
+void write_face(const Mesh<3>& mesh, const MeshFeatures& features, TextFile& file);
+void write_edge(const MeshFeatures& features, TextFile& file);
+
 void write_edge(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file);
 void write_poly(const MeshFeatures& features, TextFile& file);
 void write_neigh(const Mesh<2>& mesh, TextFile& file);
-void write_vtu(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file);
-void write_vtk(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file);
-void write_msh(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file);
-void write_medit(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file);
 void write_off(const Mesh<2>& mesh, TextFile& file);
 void write_obj(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file);
+
+/// The coordinates, three of them; in the plane z is 0.
+inline void write_in_space(const Point<2>& p, TextFile& file) {
+  file << p[0] << ' ' << p[1] << " 0";
+}
+inline void write_in_space(const Point<3>& p, TextFile& file) {
+  file << p[0] << ' ' << p[1] << ' ' << p[2];
+}
 
 /// Numbers for formats whose groups are positive integers below 2^31 - 1: 0 stays 0; other values
 /// stay if all are such integers, else they are numbered upward from 1. Value is double or an

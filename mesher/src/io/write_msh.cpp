@@ -1,9 +1,12 @@
-// Writes `.msh` files (Gmsh, version 4.1, ASCII), nodes and elements numbered from 1, z = 0.
+// Writes `.msh` files (Gmsh, version 4.1, ASCII), nodes and elements numbered from 1; in the plane
+// z = 0.
 //
 // Gmsh keeps elements in entities, and names groups of entities. Here each region is a surface, and
-// each marker of edges a curve; the nodes, in their order, are all of the first surface. If there
-// is a group, every entity is in one: readers take a file without groups, or all of it in groups.
+// each marker of edges a curve; in space each region is a volume, and each marker of faces a
+// surface. The nodes, in their order, are all of the first region. If there is a group, every
+// entity is in one: readers take a file without groups, or all of it in groups.
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 
@@ -15,28 +18,37 @@ namespace mesher {
 namespace {
 
 constexpr std::size_t kFirst = 1;
-constexpr int kLine = 1, kTriangle = 2;  // element types
-constexpr int kCurve = 1, kSurface = 2;  // dimensions of entities
+constexpr int kLine = 1, kTriangle = 2, kTetrahedron = 4;  // element types
+constexpr std::size_t kCurve = 1, kSurface = 2;            // dimensions of entities
 
 // Elements of one entity, in the order of the mesh.
+template <int D>
 struct Entity {
-  int dimension;
+  std::size_t dimension;
   int type;
   std::string group;  // its name; empty: none
   std::int32_t number;
-  Box<2> box;
+  Box<D> box;
   std::vector<std::vector<std::uint32_t>> elements;
 };
 
+template <int D>
 class MshWriter {
  public:
-  MshWriter(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file)
+  MshWriter(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file)
       : mesh_(mesh), features_(features), file_(file) {
-    collect_triangles();
-    collect_edges();
+    collect_simplices();
+    collect_parts(kCurve, kLine, features.edges, [](const MeshEdge& e) {
+      return std::array{e.low, e.high};
+    });
+    if (D == 3) {
+      collect_parts(kSurface, kTriangle, features.faces,
+                    [](const MeshFace& f) { return f.corners; });
+    }
     if (groups() > 0) {
-      group_rest(curves_, "marker 0");
-      group_rest(surfaces_, "region 0");
+      for (std::size_t d = kCurve; d <= D; ++d) {
+        group_rest(entities_[d], d == D ? "region 0" : "marker 0");
+      }
     }
   }
 
@@ -49,30 +61,43 @@ class MshWriter {
   }
 
  private:
-  void collect_triangles() {
+  using Entity = mesher::Entity<D>;
+  using Elements = std::vector<std::vector<std::uint32_t>>;
+
+  void collect_simplices() {
     const GroupNumbers<double> numbers(features_.regions);
-    std::map<double, std::vector<std::vector<std::uint32_t>>> by_region;
+    std::map<double, Elements> by_region;
     for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
       const auto& t = mesh_.simplices[i];
       const double region = features_.regions.empty() ? 0 : features_.regions[i] + 0.0;
       by_region[region].emplace_back(t.begin(), t.end());
     }
-    if (by_region.empty()) by_region[0];  // the nodes need a surface
-    for (auto& [region, triangles] : by_region) {
+    if (by_region.empty()) by_region[0];  // the nodes need an entity
+    for (auto& [region, elements] : by_region) {
       const std::string name = region == 0 ? "" : "region " + text::to_text(region);
-      add_entity({kSurface, kTriangle, name, numbers.of(region), {}, std::move(triangles)});
+      add_entity({D,
+                  D == 2 ? kTriangle : kTetrahedron,
+                  name,
+                  numbers.of(region),
+                  {},
+                  std::move(elements)});
     }
   }
 
-  void collect_edges() {
-    std::map<std::int64_t, std::vector<std::vector<std::uint32_t>>> by_marker;
-    for (const MeshEdge& e : features_.edges) by_marker[e.marker].push_back({e.low, e.high});
+  // Edges or faces by their markers.
+  template <class Parts, class CornersOf>
+  void collect_parts(std::size_t dimension, int type, const Parts& parts, CornersOf&& corners_of) {
+    std::map<std::int64_t, Elements> by_marker;
+    for (const auto& part : parts) {
+      const auto corners = corners_of(part);
+      by_marker[part.marker].emplace_back(corners.begin(), corners.end());
+    }
     std::vector<std::int64_t> markers;
-    for (const auto& [marker, edges] : by_marker) markers.push_back(marker);
+    for (const auto& [marker, elements] : by_marker) markers.push_back(marker);
     const GroupNumbers<std::int64_t> numbers(markers);
-    for (auto& [marker, edges] : by_marker) {
+    for (auto& [marker, elements] : by_marker) {
       const std::string name = marker == 0 ? "" : "marker " + std::to_string(marker);
-      add_entity({kCurve, kLine, name, numbers.of(marker), {}, std::move(edges)});
+      add_entity({dimension, type, name, numbers.of(marker), {}, std::move(elements)});
     }
   }
 
@@ -97,21 +122,21 @@ class MshWriter {
     bool first = true;
     for (const auto& element : entity.elements) {
       for (const std::uint32_t v : element) {
-        const Point<2>& p = mesh_.vertices[v];
+        const Point<D>& p = mesh_.vertices[v];
         if (first) entity.box = {p, p};
-        detail::grow(entity.box, p);
+        detail::grow<D>(entity.box, p);
         first = false;
       }
     }
-    (entity.dimension == kCurve ? curves_ : surfaces_).push_back(std::move(entity));
+    entities_[entity.dimension].push_back(std::move(entity));
   }
 
   template <class Each>
   void for_each_entity(Each each) const {
-    std::size_t tag = kFirst;
-    for (const Entity& curve : curves_) each(curve, tag++);
-    tag = kFirst;
-    for (const Entity& surface : surfaces_) each(surface, tag++);
+    for (const auto& all : entities_) {
+      std::size_t tag = kFirst;
+      for (const Entity& entity : all) each(entity, tag++);
+    }
   }
 
   void write_names() {
@@ -125,14 +150,19 @@ class MshWriter {
   }
 
   void write_entities() {
-    file_ << "$Entities\n0 " << curves_.size() << ' ' << surfaces_.size() << " 0\n";
+    file_ << "$Entities\n0";
+    for (std::size_t d = kCurve; d <= 3; ++d) file_ << ' ' << (d <= D ? entities_[d].size() : 0);
+    file_ << '\n';
     for_each_entity([&](const Entity& e, std::size_t tag) {
       const auto& [lo, hi] = e.box;
-      file_ << tag << ' ' << lo[0] << ' ' << lo[1] << " 0 " << hi[0] << ' ' << hi[1] << " 0 ";
+      file_ << tag << ' ';
+      write_in_space(lo, file_);
+      file_ << ' ';
+      write_in_space(hi, file_);
       if (e.group.empty()) {
-        file_ << "0 0\n";
+        file_ << " 0 0\n";
       } else {
-        file_ << "1 " << e.number << " 0\n";
+        file_ << " 1 " << e.number << " 0\n";
       }
     });
     file_ << "$EndEntities\n";
@@ -141,16 +171,19 @@ class MshWriter {
   void write_nodes() {
     const std::size_t n = mesh_.vertices.size();
     file_ << "$Nodes\n1 " << n << ' ' << (n > 0 ? kFirst : 0) << ' ' << n << '\n';
-    file_ << kSurface << ' ' << kFirst << " 0 " << n << '\n';
+    file_ << D << ' ' << kFirst << " 0 " << n << '\n';
     for (std::size_t i = 0; i < n; ++i) file_ << i + kFirst << '\n';
-    for (const auto& [x, y] : mesh_.vertices) file_ << x << ' ' << y << " 0\n";
+    for (const Point<D>& p : mesh_.vertices) {
+      write_in_space(p, file_);
+      file_ << '\n';
+    }
     file_ << "$EndNodes\n";
   }
 
   void write_elements() {
     std::size_t blocks = 0;
     for_each_entity([&](const Entity& e, std::size_t) { blocks += e.elements.empty() ? 0 : 1; });
-    const std::size_t n = mesh_.simplices.size() + features_.edges.size();
+    const std::size_t n = mesh_.simplices.size() + features_.faces.size() + features_.edges.size();
     file_ << "$Elements\n" << blocks << ' ' << n << ' ' << (n > 0 ? kFirst : 0) << ' ' << n << '\n';
     std::size_t number = kFirst;
     for_each_entity([&](const Entity& e, std::size_t tag) {
@@ -165,16 +198,20 @@ class MshWriter {
     file_ << "$EndElements\n";
   }
 
-  const Mesh<2>& mesh_;
+  const Mesh<D>& mesh_;
   const MeshFeatures& features_;
   TextFile& file_;
-  std::vector<Entity> curves_, surfaces_;
+  std::array<std::vector<Entity>, D + 1> entities_;  // by dimension
 };
 
 }  // namespace
 
-void write_msh(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file) {
-  MshWriter(mesh, features, file).write();
+template <int D>
+void write_msh(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file) {
+  MshWriter<D>(mesh, features, file).write();
 }
+
+template void write_msh(const Mesh<2>&, const MeshFeatures&, TextFile&);
+template void write_msh(const Mesh<3>&, const MeshFeatures&, TextFile&);
 
 }  // namespace mesher

@@ -1,8 +1,10 @@
-// Writes `.node`, `.ele`, `.edge`, `.poly` and `.neigh` files (Triangle), numbered from 1.
+// Writes `.node`, `.ele`, `.edge`, `.poly` and `.neigh` files (Triangle), and `.face` (TetGen),
+// numbered from 1.
 #include <algorithm>
 
-#include "mesher/io.hpp"
 #include "io/write_mesh.hpp"
+#include "mesher/io.hpp"
+#include "mesher/space_files.hpp"
 
 namespace mesher {
 namespace {
@@ -10,7 +12,8 @@ namespace {
 constexpr std::size_t kFirst = 1;
 
 // Kind, origin and marker: what read_mesh gives back.
-void write_vertex_features(const Mesh<2>& mesh, const MeshFeatures& features, std::size_t i,
+template <int D>
+void write_vertex_features(const Mesh<D>& mesh, const MeshFeatures& features, std::size_t i,
                            TextFile& file) {
   const bool has_origins = !features.origins.empty(), has_markers = !features.markers.empty();
   file << ' ' << static_cast<int>(mesh.kinds[i]);
@@ -25,23 +28,56 @@ void write_kind(VertexKind kind, TextFile& file) {
 
 }  // namespace
 
-void write_node(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file) {
+template <int D>
+void write_node(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file) {
   const bool plain = features.origins.empty() && features.markers.empty();
-  file << mesh.vertices.size() << (plain ? " 2 1 1\n" : " 2 2 1\n");
+  file << mesh.vertices.size() << ' ' << D << (plain ? " 1 1\n" : " 2 1\n");
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const auto& [x, y] = mesh.vertices[i];
-    file << i + kFirst << ' ' << x << ' ' << y;
+    file << i + kFirst;
+    for (const double x : mesh.vertices[i]) file << ' ' << x;
     plain ? write_kind(mesh.kinds[i], file) : write_vertex_features(mesh, features, i, file);
   }
 }
 
-void write_ele(const Mesh<2>& mesh, const MeshFeatures& features, TextFile& file) {
+template void write_node(const Mesh<2>&, const MeshFeatures&, TextFile&);
+template void write_node(const Mesh<3>&, const MeshFeatures&, TextFile&);
+
+template <int D>
+void write_ele(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file) {
   const bool has_regions = !features.regions.empty();
-  file << mesh.simplices.size() << (has_regions ? " 3 1\n" : " 3 0\n");
+  file << mesh.simplices.size() << ' ' << D + 1 << (has_regions ? " 1\n" : " 0\n");
   for (std::size_t i = 0; i < mesh.simplices.size(); ++i) {
     file << i + kFirst;
     for (const auto corner : mesh.simplices[i]) file << ' ' << corner + kFirst;
     if (has_regions) file << ' ' << features.regions[i];
+    file << '\n';
+  }
+}
+
+template void write_ele(const Mesh<2>&, const MeshFeatures&, TextFile&);
+template void write_ele(const Mesh<3>&, const MeshFeatures&, TextFile&);
+
+void write_face(const Mesh<3>& mesh, const MeshFeatures& features, TextFile& file) {
+  std::vector<MeshFace> faces = features.faces;
+  if (features.empty()) {
+    for (const auto& corners : boundary_faces(mesh)) faces.push_back({corners, {}, 1});
+  }
+  file << faces.size() << " 1\n";
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    file << i + kFirst;
+    for (const std::uint32_t v : faces[i].corners) file << ' ' << v + kFirst;
+    file << ' ' << faces[i].marker;
+    if (faces[i].polygon) file << ' ' << static_cast<std::int64_t>(*faces[i].polygon);
+    file << '\n';
+  }
+}
+
+void write_edge(const MeshFeatures& features, TextFile& file) {
+  file << features.edges.size() << " 1\n";
+  std::size_t number = kFirst;
+  for (const MeshEdge& e : features.edges) {
+    file << number++ << ' ' << e.low + kFirst << ' ' << e.high + kFirst << ' ' << e.marker;
+    if (e.line) file << ' ' << static_cast<std::int64_t>(*e.line);
     file << '\n';
   }
 }

@@ -27,6 +27,7 @@ constexpr double kWorst = 2;                           // what has the full colo
 constexpr std::array<double, 3> kGood{247, 244, 234};  // red, green, blue
 constexpr std::array<double, 3> kPoor{64, 124, 184};
 constexpr std::array<double, 3> kChanged{255, 179, 71};
+constexpr std::array<double, 3> kInPolygon{163, 201, 145};
 
 // The directions of the picture: to the right, up, and to the viewer; orthonormal.
 struct Camera {
@@ -79,10 +80,44 @@ struct Shown {
   Colour colour;
 };
 
+// Which faces and edges of a mesh are parts of the input's.
+class Parts {
+ public:
+  using Ends = std::array<std::uint32_t, 2>;
+
+  explicit Parts(const Mesh<3>& mesh) {
+    for (const auto& f : mesh.faces) faces_.push_back(f.corners);
+    for (const auto& e : mesh.edges) edges_.push_back({e.low, e.high});
+    sort();
+  }
+  explicit Parts(const MeshFeatures& features) {
+    for (const MeshFace& f : features.faces) {
+      if (f.polygon) faces_.push_back(f.key());
+    }
+    for (const MeshEdge& e : features.edges) edges_.push_back({e.low, e.high});
+    sort();
+  }
+  /// By its corners, ascending.
+  [[nodiscard]] bool has(const Face& key) const {
+    return std::binary_search(faces_.begin(), faces_.end(), key);
+  }
+  [[nodiscard]] bool has_edge(std::uint32_t a, std::uint32_t b) const {
+    return std::binary_search(edges_.begin(), edges_.end(), Ends{std::min(a, b), std::max(a, b)});
+  }
+
+ private:
+  void sort() {
+    std::sort(faces_.begin(), faces_.end());
+    std::sort(edges_.begin(), edges_.end());
+  }
+  std::vector<Face> faces_;
+  std::vector<Ends> edges_;
+};
+
 // The faces of what is left that are turned to the viewer, those behind first.
 class Scene {
  public:
-  Scene(const Mesh<3>& mesh, const SpaceView& view) : mesh_(mesh) {
+  Scene(const Mesh<3>& mesh, const Parts& parts, const SpaceView& view) : mesh_(mesh) {
     coloured_ = view.coloured;
     std::sort(coloured_.begin(), coloured_.end());
     std::vector<Simplex> left;
@@ -91,7 +126,9 @@ class Scene {
     }
     for (const Placed& placed : turned_to_viewer(left)) {
       const auto& [face, opposite, tetrahedron] = placed.half;
-      faces_.push_back({face, shaded(base_colour(left[tetrahedron]), normal_of(face))});
+      const Colour colour =
+          parts.has(placed.half.key()) ? kInPolygon : base_colour(left[tetrahedron]);
+      faces_.push_back({face, shaded(colour, normal_of(face))});
     }
   }
 
@@ -165,12 +202,17 @@ Box<2> extent_of(const std::vector<Shown>& faces, const Mesh<3>& mesh, const Cam
   return box;
 }
 
-// Writes the faces, and each input point on the last face that it is a corner of.
+// Writes the faces, with their edges on lines, and each input point on the last face that it is a
+// corner of.
 class Drawing {
  public:
-  Drawing(const std::vector<Shown>& faces, const Mesh<3>& mesh, const Box<3>& window,
-          TextFile& file)
-      : faces_(faces), mesh_(mesh), canvas_(extent_of(faces, mesh, camera_), file), file_(file) {
+  Drawing(const std::vector<Shown>& faces, const Mesh<3>& mesh, const Parts& parts,
+          const Box<3>& window, TextFile& file)
+      : faces_(faces),
+        mesh_(mesh),
+        parts_(parts),
+        canvas_(extent_of(faces, mesh, camera_), file),
+        file_(file) {
     front_ = dot(window.lo, kToViewer);
     back_ = front_;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -193,6 +235,7 @@ class Drawing {
     }
     for (const Shown& shown : faces_) {
       draw_face(shown);
+      draw_edges(shown.face);
       for (const std::uint32_t v : shown.face) {
         if (--left[v] == 0 && mesh_.kinds[v] == VertexKind::input) draw_dot(v, shortest[v]);
       }
@@ -220,6 +263,20 @@ class Drawing {
     file_ << 'L';
     canvas_.point(c);
     file_ << "Z\"/>\n";
+  }
+
+  void draw_edges(const Face& face) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = face[i], b = face[(i + 1) % 3];
+      if (!parts_.has_edge(a, b)) continue;
+      file_ << "<path stroke=\"#1f2d3d\" stroke-width=\"";
+      canvas_.number(std::ldexp(svg::kLineShare, svg::length_class(shortest_side(face)) + 1));
+      file_ << "\" d=\"M";
+      canvas_.point(seen(a));
+      file_ << 'L';
+      canvas_.point(seen(b));
+      file_ << "\"/>\n";
+    }
   }
 
   void draw_dot(std::uint32_t v, double shortest) {
@@ -250,6 +307,7 @@ class Drawing {
 
   const std::vector<Shown>& faces_;
   const Mesh<3>& mesh_;
+  const Parts& parts_;
   Camera camera_;
   svg::Canvas canvas_;
   TextFile& file_;
@@ -260,9 +318,22 @@ class Drawing {
 
 SpaceView space_view(const Mesh<3>& mesh) { return {svg::window_of<3>(mesh), {}}; }
 
+namespace {
+
+void draw(const Mesh<3>& mesh, const Parts& parts, const SpaceView& view, TextFile& file) {
+  const Scene scene(mesh, parts, view);
+  Drawing(scene.faces(), mesh, parts, view.window, file).draw();
+}
+
+}  // namespace
+
 void write_svg(const Mesh<3>& mesh, const SpaceView& view, TextFile& file) {
-  const Scene scene(mesh, view);
-  Drawing(scene.faces(), mesh, view.window, file).draw();
+  draw(mesh, Parts(mesh), view, file);
+}
+
+void write_svg(const Mesh<3>& mesh, const MeshFeatures& features, const SpaceView& view,
+               TextFile& file) {
+  draw(mesh, features.empty() ? Parts(mesh) : Parts(features), view, file);
 }
 
 }  // namespace mesher

@@ -71,7 +71,7 @@ Mesh<D> canonical(std::span<const Point<D>> places, std::span<const VertexKind> 
 template <std::size_t N>
 Mesh<N - 1> canonical(const VertexPool<N - 1>& pool, std::vector<VertexHandle> vertices,
                       const std::vector<std::array<VertexHandle, N>>& simplices,
-                      const std::vector<LineEdge>& edges) {
+                      const OnFeatures& on) {
   std::vector<Placed<N - 1>> placed;
   placed.reserve(vertices.size());
   for (const VertexHandle h : vertices) placed.push_back({pool[h].p, h});
@@ -79,12 +79,20 @@ Mesh<N - 1> canonical(const VertexPool<N - 1>& pool, std::vector<VertexHandle> v
       vertices.empty() ? 0 : *std::max_element(vertices.begin(), vertices.end()) + std::size_t{1});
   const auto kind_of = [&](VertexHandle h) { return pool[h].kind(); };
   Mesh<N - 1> mesh = sorted<N>(std::move(placed), kind_of, simplices, index);
-  mesh.edges.reserve(edges.size());
-  for (const LineEdge& e : edges) {
+  mesh.edges.reserve(on.edges.size());
+  for (const LineEdge& e : on.edges) {
     const auto [low, high] = std::minmax(index[e.from], index[e.to]);
-    mesh.edges.push_back({low, high, e.line});
+    mesh.edges.push_back({low, high, e.line, e.of_polygon});
   }
   std::sort(mesh.edges.begin(), mesh.edges.end());
+  mesh.faces.reserve(on.faces.size());
+  for (const PolygonFace& f : on.faces) {
+    std::array<std::uint32_t, 3> corners{index[f.corners[0]], index[f.corners[1]],
+                                         index[f.corners[2]]};
+    std::sort(corners.begin(), corners.end());
+    mesh.faces.push_back({corners, f.polygon});
+  }
+  std::sort(mesh.faces.begin(), mesh.faces.end());
   return mesh;
 }
 
@@ -93,10 +101,8 @@ template Mesh<2> canonical<2>(std::span<const Point<2>>, std::span<const VertexK
 template Mesh<3> canonical<3>(std::span<const Point<3>>, std::span<const VertexKind>, std::uint32_t,
                               const std::vector<std::array<std::uint32_t, 4>>&);
 template Mesh<2> canonical(const VertexPool<2>&, std::vector<VertexHandle>,
-                           const std::vector<std::array<VertexHandle, 3>>&,
-                           const std::vector<LineEdge>&);
+                           const std::vector<std::array<VertexHandle, 3>>&, const OnFeatures&);
 template Mesh<3> canonical(const VertexPool<3>&, std::vector<VertexHandle>,
-                           const std::vector<std::array<VertexHandle, 4>>&,
-                           const std::vector<LineEdge>&);
+                           const std::vector<std::array<VertexHandle, 4>>&, const OnFeatures&);
 
 }  // namespace mesher::detail

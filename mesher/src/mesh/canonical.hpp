@@ -17,15 +17,26 @@ namespace mesher::detail {
 struct LineEdge {
   VertexHandle from, to;
   FeatureId line;
+  bool of_polygon = false;
+};
+/// A face in a polygon of the input.
+struct PolygonFace {
+  std::array<VertexHandle, 3> corners;
+  FeatureId polygon;
+};
+/// What of a mesh is part of the input's features; in any order.
+struct OnFeatures {
+  std::vector<LineEdge> edges;
+  std::vector<PolygonFace> faces;
 };
 
-/// `vertices` and `edges` in any order; `simplices` by handles, positively oriented.
+/// `vertices` in any order; `simplices` by handles, positively oriented.
 /// Cost: O(m log m).
 template <std::size_t N>
 [[nodiscard]] Mesh<N - 1> canonical(const VertexPool<N - 1>& pool,
                                     std::vector<VertexHandle> vertices,
                                     const std::vector<std::array<VertexHandle, N>>& simplices,
-                                    const std::vector<LineEdge>& edges = {});
+                                    const OnFeatures& on = {});
 
 /// The same of vertices first, first + 1, ... at `places`, no edges.
 template <int D>

@@ -2,11 +2,15 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 
+#include "domain/union_find.hpp"
 #include "geometry/box.hpp"
 #include "geometry/exact_sign.hpp"
 #include "io/text.hpp"
+#include "mesh/check_complex.hpp"
 #include "mesh/check_parts.hpp"
 #include "mesh/half_faces.hpp"
 #include "mesh/space_quality.hpp"
@@ -33,13 +37,14 @@ class SpaceChecker {
     const bool tiles = findings_.add("coordinates", detail::check_coordinates(mesh_)) &&
                        findings_.add("vertices", detail::check_vertices(mesh_)) &&
                        findings_.add("orientation", detail::check_orientation(mesh_)) &&
-                       check("faces", &SpaceChecker::faces) && check("hull", &SpaceChecker::hull) &&
-                       check("cover", &SpaceChecker::cover);
+                       check("faces", &SpaceChecker::faces) && find_complex() &&
+                       check("hull", &SpaceChecker::hull) && check("cover", &SpaceChecker::cover);
     if (tiles && check("delaunay", &SpaceChecker::delaunay) && options_.ties) {
       check("ties", &SpaceChecker::ties);
     }
     if (options_.input != nullptr) check("input", &SpaceChecker::input);
     if (has_kinds()) check("kinds", &SpaceChecker::kinds);
+    if (tiles && has_parts()) check_features();
     if (tiles && options_.rho) check("quality", &SpaceChecker::quality);
     return findings_.take();
   }
@@ -69,10 +74,45 @@ class SpaceChecker {
                 " on the hull");
   }
 
+  // Whether it has been looked at; its verdicts come later.
+  bool find_complex() {
+    if (options_.complex != nullptr) complex_.emplace(mesh_, options_, *half_faces_);
+    return true;
+  }
+  [[nodiscard]] bool has_parts() const {
+    const auto* f = options_.features;
+    return complex_ ||
+           (f != nullptr && !(f->edges.empty() && f->faces.empty() && f->regions.empty()));
+  }
+  void check_features() {
+    if (options_.features != nullptr && !check("parts", &SpaceChecker::parts)) return;
+    if (complex_) {
+      findings_.add("segments", complex_->segments());
+      findings_.add("polygons", complex_->polygons());
+    }
+    check("regions", &SpaceChecker::regions);
+  }
+
+  // In a polygon of the complex, or else what the mesh says.
+  [[nodiscard]] bool is_in_polygon(const detail::Face& key) const {
+    if (complex_) return complex_->is_in_polygon(key);
+    if (options_.features == nullptr) return false;
+    const auto& faces = options_.features->faces;
+    const auto it = std::lower_bound(
+        faces.begin(), faces.end(), key,
+        [](const MeshFace& f, const detail::Face& corners) { return f.key() < corners; });
+    return it != faces.end() && it->key() == key;
+  }
+
   Verdict hull() {
     if (border_.empty()) return bad("no tetrahedra");
     for (const HalfFace& half : border_) {
       if (on_box(half)) continue;
+      if (options_.boundary == BoundaryRule::lines) {
+        if (is_in_polygon(half.key())) continue;
+        return bad(face(half) + " is of " + simplex(half.tetrahedron) +
+                   " alone, and neither on a side of the box nor in a polygon");
+      }
       if (options_.boundary == BoundaryRule::box) {
         return bad(face(half) + " is of " + simplex(half.tetrahedron) +
                    " alone, and not on a side of the box");
@@ -84,19 +124,55 @@ class SpaceChecker {
     }
     const bool is_box = std::all_of(border_.begin(), border_.end(),
                                     [&](const HalfFace& half) { return on_box(half); });
-    return good((is_box ? "the box " : "a convex body in the box ") + text::to_text<3>(box_.lo) +
-                " to " + text::to_text<3>(box_.hi));
+    const char* const body = options_.boundary == BoundaryRule::lines
+                                 ? "what polygons enclose in the box "
+                                 : "a convex body in the box ";
+    return good((is_box ? "the box " : body) + text::to_text<3>(box_.lo) + " to " +
+                text::to_text<3>(box_.hi));
   }
 
   Verdict cover() {
-    const auto place = inner_place();
-    if (!place) return bad("no tetrahedron has room for a place inside");
-    const auto& [at, inside] = *place;
-    for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
-      if (i == inside || !covers(i, at)) continue;
-      return bad(simplex(inside) + " overlaps " + simplex(i) + " at " + text::to_text<3>(at));
+    std::vector<std::vector<std::size_t>> parts = parts_to_cover();
+    for (const auto& part : parts) {
+      const auto place = inner_place(part);
+      if (!place) return bad("no tetrahedron has room for a place inside");
+      const auto& [at, inside] = *place;
+      for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
+        if (i == inside || !covers(i, at)) continue;
+        return bad(simplex(inside) + " overlaps " + simplex(i) + " at " + text::to_text<3>(at));
+      }
     }
     return good("each place once");
+  }
+
+  // Tetrahedra of which one has to be looked at: any; or if the body need not be convex, those that
+  // hang together, and those beside one part of the boundary.
+  [[nodiscard]] std::vector<std::vector<std::size_t>> parts_to_cover() const {
+    std::vector<std::size_t> all(mesh_.simplices.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    if (options_.boundary != BoundaryRule::lines) return {all};
+    detail::UnionFind bodies(mesh_.simplices.size()), surfaces(border_.size());
+    for (std::size_t i = 0; i < half_faces_->size(); i += half_faces_->partners(i)) {
+      if (half_faces_->partners(i) != 2) continue;
+      bodies.unite((*half_faces_)[i].tetrahedron, (*half_faces_)[i + 1].tetrahedron);
+    }
+    std::map<std::array<std::uint32_t, 2>, std::uint32_t> first;  // face of the boundary, by edge
+    for (std::uint32_t i = 0; i < border_.size(); ++i) {
+      const auto [a, b, c] = border_[i].face;
+      for (const auto& [p, q] : {std::minmax(a, b), std::minmax(b, c), std::minmax(c, a)}) {
+        surfaces.unite(first.try_emplace({p, q}, i).first->second, i);
+      }
+    }
+    std::map<std::uint32_t, std::vector<std::size_t>> of_body, of_surface;
+    for (std::uint32_t i = 0; i < all.size(); ++i) of_body[bodies.find(i)].push_back(i);
+    for (std::uint32_t i = 0; i < border_.size(); ++i) {
+      of_surface[surfaces.find(i)].push_back(border_[i].tetrahedron);
+    }
+    std::vector<std::vector<std::size_t>> parts;
+    for (auto* groups : {&of_body, &of_surface}) {
+      for (auto& [least, part] : *groups) parts.push_back(std::move(part));
+    }
+    return parts;
   }
 
   Verdict delaunay() {
@@ -122,8 +198,77 @@ class SpaceChecker {
   }
 
   Verdict input() {
-    return detail::check_input<3>(mesh_, detail::input_points(*options_.input),
-                                  [](const Point<3>&) { return false; });
+    return detail::check_input<3>(
+        mesh_, detail::input_points(*options_.input), [&](const Point<3>& p) {
+          return options_.boundary == BoundaryRule::lines && !detail::tetrahedron_at(mesh_, p);
+        });
+  }
+
+  Verdict parts() {
+    std::set<std::array<std::uint32_t, 2>> edges;
+    std::set<detail::Face> faces;
+    for (std::size_t i = 0; i < half_faces_->size(); i += half_faces_->partners(i)) {
+      const auto [a, b, c] = (*half_faces_)[i].key();
+      faces.insert({a, b, c});
+      edges.insert({{a, b}, {a, c}, {b, c}});
+    }
+    for (const MeshEdge& e : options_.features->edges) {
+      if (edges.count({e.low, e.high}) != 0) continue;
+      return bad("no tetrahedron has the edge from " + vertex(e.low) + " to " + vertex(e.high));
+    }
+    for (const MeshFace& f : options_.features->faces) {
+      if (faces.count(f.key()) == 0) return bad("no tetrahedron has " + face(f.key()));
+    }
+    return good(std::to_string(options_.features->edges.size()) + " edges and " +
+                std::to_string(options_.features->faces.size()) + " faces are of tetrahedra");
+  }
+
+  Verdict regions() {
+    const auto* f = options_.features;
+    const bool known = f != nullptr && !f->regions.empty();
+    const std::vector<double> regions =
+        known ? f->regions : std::vector<double>(mesh_.simplices.size());
+    detail::UnionFind parts(mesh_.simplices.size());  // that hang together across no polygon
+    for (std::size_t i = 0; i < half_faces_->size(); i += half_faces_->partners(i)) {
+      const HalfFace& half = (*half_faces_)[i];
+      if (half_faces_->partners(i) != 2 || is_in_polygon(half.key())) continue;
+      const std::uint32_t a = half.tetrahedron, b = (*half_faces_)[i + 1].tetrahedron;
+      parts.unite(a, b);
+      if (regions[a] == regions[b]) continue;
+      return bad("the regions " + text::to_text(regions[a]) + " and " + text::to_text(regions[b]) +
+                 " meet at " + face(half) + ", which is in no polygon");
+    }
+    if (complex_) {
+      if (const auto trouble = seed_trouble(regions, parts, known)) return bad(*trouble);
+    }
+    const std::set<double> distinct(regions.begin(), regions.end());
+    return good(std::to_string(distinct.size()) + " regions, none across a face in no polygon");
+  }
+
+  std::optional<std::string> seed_trouble(const std::vector<double>& regions,
+                                          detail::UnionFind& parts, bool known) const {
+    const Plc& plc = options_.complex->plc;
+    for (const auto& hole : plc.holes) {
+      const auto t = detail::tetrahedron_at(mesh_, hole.seed);
+      if (!t || options_.boundary != BoundaryRule::lines) continue;
+      return simplex(*t) + " holds the seed of hole " +
+             std::to_string(static_cast<std::int64_t>(hole.id)) + " at " +
+             text::to_text<3>(hole.seed);
+    }
+    std::map<std::uint32_t, std::set<double>> seeded;
+    std::vector<std::pair<const Plc::Region*, std::uint32_t>> found;
+    for (const auto& region : plc.regions) {
+      const auto t = detail::tetrahedron_at(mesh_, region.seed);
+      if (!t) continue;
+      seeded[parts.find(*t)].insert(region.attribute);
+      found.emplace_back(&region, *t);
+    }
+    for (const auto& [region, t] : found) {
+      if (!known || seeded[parts.find(t)].count(regions[t]) > 0) continue;
+      return simplex(t) + " has the region " + text::to_text(regions[t]) + ", the seed in it at " +
+             text::to_text<3>(region->seed) + " " + text::to_text(region->attribute);
+    }
+    return std::nullopt;
   }
 
   [[nodiscard]] bool has_kinds() const {
@@ -138,19 +283,24 @@ class SpaceChecker {
   }
 
   Verdict quality() {
-    constexpr double kRounding = 1e-9;  // far below any use
+    std::size_t excused = 0;
     for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
-      const auto [ratio, error] = detail::radius_edge(mesh_, mesh_.simplices[i]);
-      if (ratio - error <= *options_.rho * (1 + kRounding)) continue;
+      const auto ratio = detail::radius_edge(mesh_, mesh_.simplices[i]);
+      if (!detail::is_above(ratio, *options_.rho)) continue;
+      if (complex_ && complex_->excuses(mesh_.simplices[i])) {
+        ++excused;
+        continue;
+      }
       return bad(simplex(i) + ", one of them " + vertex(mesh_.simplices[i][0]) +
-                 ", has radius-edge " + text::to_text(ratio) + ", above rho " +
+                 ", has radius-edge " + text::to_text(ratio.ratio) + ", above rho " +
                  text::to_text(*options_.rho));
     }
     const SpaceQuality worst = mesher::quality(mesh_);
     return good("radius-edge at most " + text::to_text(worst.max_radius_edge) +
                 ", dihedral angles from " + text::to_text(worst.min_dihedral_deg) + " to " +
                 text::to_text(worst.max_dihedral_deg) + " degrees, " +
-                std::to_string(worst.slivers) + " slivers below " + text::to_text(kSliverDegrees));
+                std::to_string(worst.slivers) + " slivers below " + text::to_text(kSliverDegrees) +
+                (excused > 0 ? ", " + std::to_string(excused) + " above rho at small angles" : ""));
   }
 
   // Across the face of half-faces i and i + 1: where the corner of the second is of the sphere of
@@ -165,11 +315,12 @@ class SpaceChecker {
            simplex((*half_faces_)[i].tetrahedron) + " across " + face((*half_faces_)[i]);
   }
 
-  // A place strictly inside a tetrahedron, and that tetrahedron.
-  [[nodiscard]] std::optional<std::pair<Point<3>, std::size_t>> inner_place() const {
+  // A place strictly inside one of some tetrahedra, and that tetrahedron.
+  [[nodiscard]] std::optional<std::pair<Point<3>, std::size_t>> inner_place(
+      const std::vector<std::size_t>& tetrahedra) const {
     int high = INT_MIN;  // what has more bits below is beyond the predicates' range
     for (const Point<3>& p : mesh_.vertices) high = std::max(high, BitRange(p).high);
-    for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
+    for (const std::size_t i : tetrahedra) {
       Point<3> middle{};
       for (const std::uint32_t corner : mesh_.simplices[i]) {
         for (std::size_t k = 0; k < 3; ++k) middle[k] += at(corner)[k] / 4;
@@ -216,8 +367,9 @@ class SpaceChecker {
   [[nodiscard]] const Point<3>& at(std::size_t v) const { return mesh_.vertices[v]; }
   [[nodiscard]] std::string vertex(std::size_t v) const { return vertex_name(mesh_, v); }
   [[nodiscard]] std::string simplex(std::size_t i) const { return simplex_name(mesh_, i); }
-  [[nodiscard]] std::string face(const HalfFace& half) const {
-    const auto [a, b, c] = half.key();
+  [[nodiscard]] std::string face(const HalfFace& half) const { return face(half.key()); }
+  [[nodiscard]] std::string face(const detail::Face& key) const {
+    const auto [a, b, c] = key;
     return "the face of " + vertex(a) + ", " + vertex(b) + " and " + vertex(c);
   }
 
@@ -226,7 +378,8 @@ class SpaceChecker {
   const SpaceCheckOptions& options_;
   Box<3> box_;
   std::optional<detail::HalfFaces> half_faces_;
-  std::vector<HalfFace> border_;  // of faces of one tetrahedron
+  std::vector<HalfFace> border_;                 // of faces of one tetrahedron
+  std::optional<detail::ComplexCheck> complex_;  // if one is given
   detail::Findings findings_;
 };
 

@@ -64,6 +64,12 @@ detail::RadiusEdge detail::radius_edge(const Point<3>& a, const Point<3>& b, con
   return {std::sqrt(centre.length2) / edge, std::sqrt(centre.tolerance2) / 2 / edge};
 }
 
+std::size_t count_above(const Mesh<3>& mesh, double rho) {
+  return static_cast<std::size_t>(std::count_if(
+      mesh.simplices.begin(), mesh.simplices.end(),
+      [&](const auto& s) { return detail::is_above(detail::radius_edge(mesh, s), rho); }));
+}
+
 SpaceQuality quality(const Mesh<3>& mesh) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   if (mesh.simplices.empty()) return {kNone, kNone, kNone, 0};

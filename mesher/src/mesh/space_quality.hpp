@@ -14,6 +14,11 @@ struct RadiusEdge {
 [[nodiscard]] RadiusEdge radius_edge(const Point<3>& a, const Point<3>& b, const Point<3>& c,
                                      const Point<3>& d);
 
+/// Whether a ratio exceeds the bound, by more than its rounding and 10^-9 of it, far below any use.
+[[nodiscard]] inline bool is_above(const RadiusEdge& x, double rho) {
+  return x.ratio - x.error > rho * (1 + 1e-9);
+}
+
 /// The ratio of a tetrahedron of a mesh.
 [[nodiscard]] inline RadiusEdge radius_edge(const Mesh<3>& mesh, const Mesh<3>::Simplex& s) {
   const auto& v = mesh.vertices;

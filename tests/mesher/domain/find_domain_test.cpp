@@ -170,7 +170,7 @@ TEST_CASE("a wall that is no edge of the mesh is refused") {
 }
 
 TEST_CASE("an empty mesh has no regions") {
-  const Domain domain = find_domain({}, {}, {hole(1, 0, 0)}, Extent::enclosed);
+  const Domain domain = find_domain<2>({}, {}, {hole(1, 0, 0)}, Extent::enclosed);
   CHECK(domain.regions.empty());
   CHECK(words(domain) ==
         Words{"the seed of hole 1 at (0, 0) is outside of what the segments enclose"});

@@ -138,7 +138,9 @@ TEST_CASE("a file is in space where its header, or a third coordinate that varie
       {{"a.ply", ""}, 3},
       {{"a.stl", ""}, 3},
       {{"a.vtk", ""}, 3},
-      {{"a.poly", "0 3 0 0\n"}, 2},
+      {{"a.poly", "0 3 0 0\n"}, 3},
+      {{"a.poly", "0 2 0 0\n"}, 2},
+      {{"a.smesh", ""}, 3},
       {{"a.geojson", ""}, 2},
       {{"a.dae", ""}, 2}};
   for (const auto& [file, expected] : all) {

@@ -1,5 +1,6 @@
 // Meshes of tetrahedra in every format: what is written reads back, what others write is read, and
 // what is no mesh is refused with its place.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
 
@@ -57,7 +58,13 @@ TEST_CASE("meshes of tetrahedra read back equal from every format, kinds where i
       const SpaceMesh back = mesher::read_mesh<3>(folder.path(name));
       CHECK(same_bits(back.vertices, mesh.vertices));
       CHECK(back.simplices == mesh.simplices);
-      CHECK(back.features.empty());
+      // .face has the boundary, with marker 1.
+      std::vector<mesher::MeshFace> faces;
+      for (const auto& corners : boundary_faces(mesh)) faces.push_back({corners, {}, 1});
+      std::sort(faces.begin(), faces.end(),
+                [](const auto& a, const auto& b) { return a.key() < b.key(); });
+      if (name != "m.node") faces.clear();
+      CHECK(back.features == mesher::MeshFeatures{{}, {}, {}, {}, faces});
       CHECK(back.notes.empty());
       const bool has_kinds = name == "m.node" || name == "m.vtu" || name == "m.vtk";
       CHECK((back.kinds == mesh.kinds) == has_kinds);
@@ -136,15 +143,38 @@ TEST_CASE("binary files of tetrahedra are read, lowest or highest byte first") {
   }
 }
 
-TEST_CASE("a file with tetrahedra is a mesh in space, whose triangles and edges are not used") {
-  const auto mesh = read("m.vtk", std::string(kVtkPoints) +
-                                      "CELLS 3 12\n3 0 1 2\n4 0 1 2 3\n2 0 1\n"
-                                      "CELL_TYPES 3\n5\n10\n3\n");
+TEST_CASE("a file with tetrahedra is a mesh in space, whose triangles and edges are its parts") {
+  const std::string cells =
+      "CELLS 3 12\n3 2 1 0\n4 0 1 2 3\n2 1 0\nCELL_TYPES 3\n5\n10\n3\nCELL_DATA 3\n"
+      "FIELD FieldData 3\nmarker 1 3 long\n7\n0\n-2\n"
+      "polygon 1 3 long\n9\n0\n0\nhas_polygon 1 3 unsigned_char\n1\n0\n0\n";
+  const auto mesh = read("m.vtk", kVtkPoints + cells);
   CHECK(mesh.simplices.size() == 1);
-  CHECK(mesh.features.edges.empty());
-  REQUIRE(mesh.notes.size() == 2);
-  CHECK(mesh.notes[0].text == "triangles beside tetrahedra are not used");
-  CHECK(mesh.notes[1].text == "edges beside tetrahedra are not used");
+  REQUIRE(mesh.features.edges.size() == 1);
+  CHECK(mesh.features.edges[0] == mesher::MeshEdge{0, 1, {}, -2});
+  REQUIRE(mesh.features.faces.size() == 1);
+  CHECK(mesh.features.faces[0] == mesher::MeshFace{{0, 2, 1}, mesher::FeatureId{9}, 7});
+  CHECK(mesh.features.faces[0].key() == std::array<std::uint32_t, 3>{0, 1, 2});
+  CHECK(mesh.notes.empty());
+  CHECK_THROWS_WITH(
+      read("m.vtk", std::string(kVtkPoints) +
+                        "CELLS 3 13\n3 0 1 2\n4 0 1 2 3\n3 2 1 0\nCELL_TYPES 3\n5\n10\n5\n"),
+      Catch::Contains("the face of vertices 1 2 3 (counted from 1) is given twice"));
+}
+
+TEST_CASE(".face and .edge are read beside .node and .ele") {
+  const ScratchFolder folder;
+  folder.write("m.node", "4 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n");
+  folder.write("m.face", "3 1\n1 1 2 3 5 8\n2 4 2 1 0\n3 2 4 3 -1\n");
+  folder.write("m.edge", "2 1\n1 2 1 4\n2 3 4 0 6\n");
+  const auto mesh = mesher::read_mesh<3>(folder.write("m.ele", "1 4 1\n1 1 2 4 3 2.5\n"));
+  const auto& f = mesh.features;
+  CHECK(f.faces ==
+        std::vector<mesher::MeshFace>{{{0, 1, 2}, mesher::FeatureId{8}, 5}, {{1, 3, 2}, {}, -1}});
+  CHECK(f.edges == std::vector<mesher::MeshEdge>{{0, 1, {}, 4}, {2, 3, mesher::FeatureId{6}, 0}});
+  CHECK(f.regions == std::vector<double>{2.5});
+  folder.write("m.face", "2 1\n1 1 2 3 5\n2 3 2 1 5\n");
+  CHECK_THROWS_AS(mesher::read_mesh<3>(folder.path("m.ele")), mesher::Error);
 }
 
 TEST_CASE("any mesh is of the dimension of its file, and the other one is refused") {

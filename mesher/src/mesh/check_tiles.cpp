@@ -1,0 +1,168 @@
+// Whether polygons are unions of faces: of those that tile them.
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/circumcentre.hpp"
+#include "io/text.hpp"
+#include "make_set.hpp"
+#include "mesh/check_complex.hpp"
+#include "mesh/flat_polygon.hpp"
+#include "mesh/line_walk.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+constexpr double kArea = 1e-9;  // areas that differ by no more of them are equal
+
+std::string name_of(const char* kind, FeatureId id) {
+  return std::string(kind) + std::to_string(static_cast<std::int64_t>(id));
+}
+
+FlatPolygon flat(const Polygon& polygon, const std::map<FeatureId, Point<3>>& places) {
+  std::vector<std::vector<Point<3>>> loops;
+  for (const auto& loop : polygon.loops) {
+    auto& corners = loops.emplace_back();
+    for (const FeatureId id : loop) corners.push_back(places.at(id));
+  }
+  return FlatPolygon(loops);
+}
+
+std::array<std::uint32_t, 2> ends_of(std::uint32_t a, std::uint32_t b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+}  // namespace
+
+void ComplexCheck::add_edges(Surface& surface, const std::vector<FeatureId>& ends,
+                             std::set<Ends>& edges) {
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    const auto& path = lines_[line(ends[i], ends[i + 1], "")].vertices;
+    for (std::size_t k = 1; k < path.size(); ++k) edges.insert(ends_of(path[k - 1], path[k]));
+    surface.on.insert(surface.on.end(), path.begin(), path.end());
+  }
+}
+
+void ComplexCheck::add_named_tiles() {
+  std::map<FeatureId, std::size_t> number;
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) number[surfaces_[i].polygon->id] = i;
+  for (const MeshFace& f : options_.features->faces) {
+    if (!f.polygon) continue;
+    const auto found = number.find(*f.polygon);
+    if (found != number.end()) surfaces_[found->second].tiles.push_back(f.key());
+  }
+}
+
+// Of faces with their corners on the plane, those whose Voronoi edge crosses the polygon; on the
+// boundary, where that is a ray, those with their middle in it.
+void ComplexCheck::add_crossed_tiles(const HalfFaces& faces) {
+  const auto centre = [&](std::uint32_t t) {
+    const auto& [a, b, c, d] = mesh_.simplices[t];
+    const Circumcentre o = circumcentre(at(a), at(b), at(c), at(d));
+    return FlatPolygon::wide(plus(at(a), o.q));
+  };
+  for (Surface& surface : surfaces_) {
+    const FlatPolygon f = flat(*surface.polygon, places_);
+    const double tolerance = static_cast<double>(f.deviation()) + 4 * rounding_;
+    std::vector<bool> near(mesh_.vertices.size());
+    for (std::uint32_t v = 0; v < near.size(); ++v)
+      near[v] = std::abs(f.height(at(v))) <= tolerance;
+    for (std::size_t i = 0, n = 0; i < faces.size(); i += n) {
+      n = faces.partners(i);
+      const auto [a, b, c] = faces[i].face;
+      if (!near[a] || !near[b] || !near[c]) continue;
+      if (n == 1) {
+        const Point<3> middle = scaled(1.0 / 3, plus(at(a), plus(at(b), at(c))));
+        if (f.contains(FlatPolygon::wide(middle))) surface.tiles.push_back(faces[i].key());
+        continue;
+      }
+      const auto p = centre(faces[i].tetrahedron), q = centre(faces[i + 1].tetrahedron);
+      const auto from = f.height(p), to = f.height(q);
+      if ((from > 0) == (to > 0)) continue;
+      const auto t = from / (from - to);
+      if (f.contains(
+              {p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])})) {
+        surface.tiles.push_back(faces[i].key());
+      }
+    }
+  }
+}
+
+Verdict ComplexCheck::find_polygons(const HalfFaces& faces) {
+  const auto* features = options_.features;
+  const bool named =
+      features != nullptr && std::any_of(features->faces.begin(), features->faces.end(),
+                                         [](const MeshFace& f) { return f.polygon.has_value(); });
+  for (Surface& surface : surfaces_) {
+    for (auto loop : surface.polygon->loops) {
+      loop.push_back(loop.front());
+      add_edges(surface, loop, surface.border);
+    }
+    for (const auto& [a, b] : surface.polygon->edges) add_edges(surface, {a, b}, surface.inner);
+  }
+  named ? add_named_tiles() : add_crossed_tiles(faces);
+  std::set<Face> there;
+  for (std::size_t i = 0; i < faces.size(); i += faces.partners(i)) there.insert(faces[i].key());
+  std::size_t tiles = 0, outside = 0;
+  Verdict verdict = Verdict::good("");
+  for (Surface& surface : surfaces_) {
+    for (const Face& tile : surface.tiles) {
+      tiles_.insert(tile);
+      surface.on.insert(surface.on.end(), tile.begin(), tile.end());
+    }
+    make_set(surface.on);
+    tiles += surface.tiles.size();
+    if (surface.tiles.empty() && is_outside(flat(*surface.polygon, places_).inner_place())) {
+      ++outside;
+    } else if (const auto trouble = trouble_of(surface); trouble && verdict.holds) {
+      verdict = Verdict::bad(name_of("polygon ", surface.polygon->id) + ": " + *trouble);
+    }
+  }
+  for (const Face& tile : tiles_) {
+    if (!verdict.holds || there.count(tile) != 0) continue;
+    verdict = Verdict::bad("no tetrahedron has the face of " + vertex_name(mesh_, tile[0]) + ", " +
+                           vertex_name(mesh_, tile[1]) + " and " + vertex_name(mesh_, tile[2]));
+  }
+  if (!verdict.holds) return verdict;
+  return Verdict::good(std::to_string(surfaces_.size() - outside) + " polygons are unions of " +
+                       std::to_string(tiles) + " faces" +
+                       (outside > 0 ? ", " + std::to_string(outside) + " are outside" : ""));
+}
+
+// Why the tiles do not make up the polygon; nothing if they do.
+std::optional<std::string> ComplexCheck::trouble_of(const Surface& surface) const {
+  const FlatPolygon f = flat(*surface.polygon, places_);
+  const double tolerance = static_cast<double>(f.deviation()) + 4 * rounding_;
+  long double area = 0;
+  std::map<Ends, int> sides;
+  for (const auto& [a, b, c] : surface.tiles) {
+    for (const std::uint32_t v : {a, b, c}) {
+      if (std::abs(f.height(at(v))) <= tolerance) continue;
+      return vertex_name(mesh_, v) + ", a corner of one of its faces, is " +
+             text::to_text(static_cast<double>(f.height(at(v)))) + " off its plane";
+    }
+    area += twice_area(at(a), at(b), at(c)) / 2;
+    for (const auto& e : {ends_of(a, b), ends_of(b, c), ends_of(c, a)}) ++sides[e];
+  }
+  const auto edge = [&](const Ends& e) {
+    return "the edge from " + vertex_name(mesh_, e[0]) + " to " + vertex_name(mesh_, e[1]);
+  };
+  for (const Ends& e : surface.border) {
+    if (sides[e] != 1)
+      return edge(e) + ", on its border, is of " + std::to_string(sides[e]) + " of its faces";
+  }
+  for (const Ends& e : surface.inner) {
+    if (sides[e] != 2)
+      return edge(e) + ", which it declares, is of " + std::to_string(sides[e]) + " of its faces";
+  }
+  for (const auto& [e, count] : sides) {
+    if (count == 2 || surface.border.count(e) != 0) continue;
+    return edge(e) + " is of " + std::to_string(count) + " of its faces, and not on its border";
+  }
+  const long double whole = f.area();
+  if (std::abs(area - whole) <= kArea * whole) return std::nullopt;
+  return "its faces' area is " + text::to_text(static_cast<double>(area)) + ", its own " +
+         text::to_text(static_cast<double>(whole));
+}
+
+}  // namespace mesher::detail

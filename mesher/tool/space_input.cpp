@@ -1,0 +1,190 @@
+// Inputs in space: complexes, or points alone.
+#include <algorithm>
+#include <string_view>
+
+#include "input.hpp"
+
+namespace tool {
+namespace {
+
+using mesher::Error;
+using mesher::ErrorCode;
+using mesher::Featured;
+using mesher::FeatureId;
+using mesher::Place;
+using mesher::Plc;
+using mesher::PlcFile;
+
+bool is_one_of(std::string_view format, std::initializer_list<std::string_view> formats) {
+  return std::find(formats.begin(), formats.end(), format) != formats.end();
+}
+bool is_of_complexes(const std::string& path) {
+  return is_one_of(mesher::format_of(path), {".poly", ".smesh"});
+}
+bool is_of_surfaces(const std::string& path) {
+  return is_one_of(mesher::format_of(path), {".off", ".obj", ".ply", ".stl"});
+}
+
+PlcFile points_alone(mesher::PointFile<3> points) {
+  PlcFile file;
+  file.file = file.point_file = points.file;
+  for (std::size_t i = 0; i < points.ids.size(); ++i) {
+    file.plc.points.push_back({points.ids[i], points.points[i], 0});
+    const Place place = points.place(i);
+    file.points.push_back({place.line, place.column});
+  }
+  file.notes = std::move(points.notes);
+  return file;
+}
+
+PlcFile read(const std::string& path, Faces faces) {
+  if (faces == Faces::unless_points && !is_of_complexes(path)) {
+    return points_alone(mesher::read_points<3>(path));
+  }
+  if (!is_of_complexes(path) && !is_of_surfaces(path)) {
+    throw Error(ErrorCode::bad_option,
+                "--surface is for .off, .obj, .ply and .stl: this format has no polygons", {path});
+  }
+  return mesher::read_plc(path);
+}
+
+// Where the part with this id stands: parts[i] at positions(i).
+template <class Parts, class IdOf, class PlaceOf>
+Place place_among(const Parts& parts, FeatureId id, IdOf&& id_of, PlaceOf&& place_of,
+                  const std::string& file) {
+  const auto found =
+      std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return id_of(part) == id; });
+  return found == parts.end() ? Place{file}
+                              : place_of(static_cast<std::size_t>(found - parts.begin()));
+}
+
+}  // namespace
+
+SpaceInput::SpaceInput(const std::string& path, Faces faces)
+    : Standing(path),
+      file_(read(path, faces)),
+      is_complex_(faces != Faces::unless_points || is_of_complexes(path)) {
+  if (faces != Faces::merged) return;
+  // Facets that are left keep their places, by their ids.
+  const PlcFile all = file_;
+  file_.plc = mesher::with_merged_facets(all.plc);
+  std::map<FeatureId, mesher::FilePosition> places;
+  for (std::size_t i = 0; i < all.facets.size(); ++i) {
+    places.emplace(all.plc.facets[i].polygon.id, all.facets[i]);
+  }
+  file_.facets.clear();
+  for (const auto& f : file_.plc.facets) file_.facets.push_back(places.at(f.polygon.id));
+}
+
+bool SpaceInput::leaves_faces() const noexcept { return !is_complex_ && is_of_surfaces(path()); }
+
+std::vector<mesher::InputPoint<3>> SpaceInput::points() const {
+  std::vector<mesher::InputPoint<3>> points;
+  for (const auto& p : file_.plc.points) points.push_back({p.id, p.at});
+  return points;
+}
+
+// --- Edits -----------------------------------------------------------------------------------
+
+void SpaceInput::follow(const std::vector<mesher::EditOf<3>>& edits) {
+  Standing::follow<3>(edits);
+  for (const auto& edit : edits) follow(edit);
+}
+
+void SpaceInput::follow(const mesher::EditOf<3>& edit) {
+  switch (edit.kind) {
+    case mesher::EditKind::insert:
+    case mesher::EditKind::move:
+      points_[edit.id] = mesher::MarkedPoint<3>{edit.id, edit.point, 0};
+      return;
+    case mesher::EditKind::remove:
+      points_[edit.id].reset();
+      return;
+    case mesher::EditKind::insert_segment:
+    case mesher::EditKind::insert_polyline:
+      lines_[edit.id] = edit.points;
+      return;
+    case mesher::EditKind::remove_segment:
+    case mesher::EditKind::remove_polyline:
+      lines_[edit.id].clear();
+      return;
+    case mesher::EditKind::insert_polygon:
+      polygons_[edit.id] = edit.polygon;
+      return;
+    case mesher::EditKind::remove_polygon:
+      polygons_[edit.id].reset();
+      return;
+    default:
+      return;  // in the plane
+  }
+}
+
+Plc SpaceInput::current() const {
+  Plc plc = file_.plc;
+  std::erase_if(plc.points, [&](const auto& p) { return points_.contains(p.id); });
+  for (const auto& p : file_.plc.points) {  // one that moves keeps its marker
+    const auto moved = points_.find(p.id);
+    if (moved != points_.end() && moved->second) {
+      plc.points.push_back({p.id, moved->second->at, p.marker});
+    }
+  }
+  std::erase_if(plc.segments, [&](const auto& s) { return lines_.contains(s.id); });
+  for (const auto& [id, points] : lines_) {
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      plc.segments.push_back({id, points[i - 1], points[i], 0});
+    }
+  }
+  std::erase_if(plc.facets, [&](const auto& f) { return polygons_.contains(f.polygon.id); });
+  for (const auto& [id, polygon] : polygons_) {
+    if (polygon) plc.facets.push_back({*polygon, 0});
+  }
+  std::map<FeatureId, bool> known;
+  for (const auto& p : plc.points) known[p.id] = true;
+  for (const auto& [id, point] : points_) {
+    if (point && !known.contains(id)) plc.points.push_back(*point);
+  }
+  return plc;
+}
+
+// --- Places ----------------------------------------------------------------------------------
+
+Place SpaceInput::place_in_file(Featured kind, FeatureId id) const {
+  const Plc& plc = file_.plc;
+  const auto own = [](const auto& part) { return part.id; };
+  const auto at = [&](const auto& parts, auto id_of, auto place_of) {
+    return place_among(
+        parts, id, id_of, [&](std::size_t i) { return (file_.*place_of)(i); }, file_.file);
+  };
+  switch (kind) {
+    case Featured::point:
+      return at(plc.points, own, &PlcFile::place_of_point);
+    case Featured::line:
+      return at(plc.segments, own, &PlcFile::place_of_segment);
+    case Featured::polygon:
+      return at(
+          plc.facets, [](const auto& f) { return f.polygon.id; }, &PlcFile::place_of_facet);
+    case Featured::hole:
+      return at(plc.holes, own, &PlcFile::place_of_hole);
+    case Featured::region:
+      return at(plc.regions, own, &PlcFile::place_of_region);
+    case Featured::nothing:
+      break;
+  }
+  return {file_.file};
+}
+
+std::string SpaceInput::warning(const mesher::SeedFaultOf<3>& fault) const {
+  return warning_text(fault.seed, describe(fault));
+}
+
+mesher::PointFile<3> points_of(const PlcFile& file) {
+  mesher::PointFile<3> points{file.point_file, {}, {}, {}, {}};
+  for (std::size_t i = 0; i < file.plc.points.size(); ++i) {
+    points.ids.push_back(file.plc.points[i].id);
+    points.points.push_back(file.plc.points[i].at);
+    points.lines.push_back(file.points[i].line);
+  }
+  return points;
+}
+
+}  // namespace tool

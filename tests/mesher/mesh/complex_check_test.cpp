@@ -1,0 +1,198 @@
+// The check of meshes of complexes: good ones hold, and each fault that is put in is found and
+// said.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <functional>
+#include <string>
+
+#include "mesher/domain_mesh.hpp"
+#include "mesher/generate_plc.hpp"
+#include "mesher/space_check.hpp"
+#include "mesher/space_files.hpp"
+
+namespace {
+
+using mesher::BoundaryRule;
+using mesher::Extent;
+using mesher::FeatureId;
+using mesher::Finding;
+using mesher::Mesh;
+using mesher::MeshDataOf;
+using mesher::Options;
+using mesher::Plc;
+using mesher::PlcFile;
+using mesher::PlcKind;
+
+struct Case {
+  PlcFile complex;
+  MeshDataOf<3> mesh;
+
+  explicit Case(const Plc& plc, Extent extent = Extent::enclosed) {
+    complex.plc = plc;
+    const Options<3> options{.domain = mesher::snapped_domain<3>(places_of(plc)),
+                             .max_vertices = 100000};
+    mesh = domain_mesh(mesh_statically(plc, options), plc, extent).kept;
+  }
+  std::vector<Finding> findings() const {
+    mesher::SpaceCheckOptions options;
+    options.rho = 2;
+    options.complex = &complex;
+    options.features = &mesh.features;
+    options.boundary = BoundaryRule::lines;
+    return check_mesh(mesh, options);
+  }
+};
+
+std::string first_fault(const std::vector<Finding>& findings) {
+  for (const Finding& f : findings) {
+    if (!f.holds) return f.property + ": " + f.detail;
+  }
+  return "";
+}
+std::vector<std::string> faulty(const std::vector<Finding>& findings) {
+  std::vector<std::string> names;
+  for (const Finding& f : findings) {
+    if (!f.holds) names.push_back(f.property);
+  }
+  return names;
+}
+
+// Names of polygons and of lines are for formats that have them.
+void forget_names(MeshDataOf<3>& mesh) {
+  for (auto& f : mesh.features.faces) f.polygon.reset();
+  for (auto& e : mesh.features.edges) e.line.reset();
+}
+
+}  // namespace
+
+TEST_CASE("meshes of all families hold, with what they enclose or all, named or not") {
+  for (const std::string& name : mesher::plc_kind_names()) {
+    const auto kind = mesher::plc_kind(name);
+    REQUIRE(kind);
+    if (*kind == PlcKind::bricks || *kind == PlcKind::cloud) continue;  // large
+    const Plc plc = mesher::generate_plc({*kind});
+    for (const Extent extent : {Extent::enclosed, Extent::box}) {
+      Case good(plc, extent);
+      INFO(name);
+      CHECK(first_fault(good.findings()) == "");
+      forget_names(good.mesh);
+      CHECK(first_fault(good.findings()) == "");
+    }
+  }
+}
+
+TEST_CASE("what is wrong with edges, faces and regions is said with ids and places") {
+  Plc plc = mesher::generate_plc({PlcKind::cube_square});
+  plc.regions.push_back({FeatureId{1}, {0.1, 0.1, 0.1}, 3, {}});
+  const Case good(plc);
+  REQUIRE(first_fault(good.findings()) == "");
+  struct Fault {
+    const char* property;
+    const char* said;
+    std::function<void(Case&)> put;
+  };
+  const Fault faults[] = {
+      {"parts", "no tetrahedron has the edge from vertex 1 at ",
+       [](Case& c) {
+         auto& e = c.mesh.features.edges;
+         const auto last = static_cast<std::uint32_t>(c.mesh.vertices.size() - 1);
+         e.insert(e.begin(), {0, last, {}, 0});
+       }},
+      {"parts", "no tetrahedron has the face of vertex 1 at ",
+       [](Case& c) {
+         auto& f = c.mesh.features.faces;
+         const auto last = static_cast<std::uint32_t>(c.mesh.vertices.size() - 1);
+         f.insert(f.begin(), {{0, last - 1, last}, {}, 0});
+       }},
+      {"polygons", " of its faces",
+       [](Case& c) {
+         auto& f = c.mesh.features.faces;
+         f.erase(f.begin() + static_cast<std::ptrdiff_t>(f.size() / 2));
+       }},
+      {"polygons", " off its plane",
+       [](Case& c) {
+         auto& f = c.mesh.features.faces;
+         for (auto& face : f) {
+           if (face.polygon != f[0].polygon) {
+             face.polygon = f[0].polygon;
+             break;
+           }
+         }
+       }},
+      {"regions", ", which is in no polygon",
+       [](Case& c) { c.mesh.features.regions[c.mesh.simplices.size() / 2] = 4; }},
+      {"regions", "the seed in it at ", [](Case& c) { c.complex.plc.regions[0].attribute = 5; }},
+      {"regions", " holds the seed of hole 6 at ",
+       [](Case& c) {
+         c.complex.plc.holes.push_back({FeatureId{6}, {0.3, 0.3, 0.3}});
+       }},
+  };
+  for (const Fault& fault : faults) {
+    Case bad = good;
+    fault.put(bad);
+    const std::string said = first_fault(bad.findings());
+    INFO(said);
+    CHECK(said.starts_with(fault.property));
+    CHECK(said.find(fault.said) != std::string::npos);
+  }
+}
+
+TEST_CASE("a mesh of the points alone has no segments and polygons") {
+  Plc plc = mesher::generate_plc({PlcKind::plates});
+  Plc points = plc;
+  points.facets.clear();
+  Case bare(points);
+  bare.complex.plc = plc;
+  const auto names = faulty(bare.findings());
+  CHECK(std::count(names.begin(), names.end(), "polygons") == 1);
+  // A segment across the cube, past the corners of a square in its middle.
+  plc = mesher::generate_plc({PlcKind::cube_square});
+  plc.facets.clear();
+  Case loose(plc);
+  plc.segments.push_back({FeatureId{5}, {}, {}, 0});
+  for (const auto& p : plc.points) {
+    if (p.at == mesher::Point<3>{0, 0, 0}) plc.segments[0].from = p.id;
+    if (p.at == mesher::Point<3>{1, 1, 1}) plc.segments[0].to = p.id;
+  }
+  loose.complex.plc = plc;
+  const std::string said = first_fault(loose.findings());
+  CHECK(said.starts_with("segments: segment 5 from "));
+  CHECK(said.find("no edge on it goes on from vertex ") != std::string::npos);
+}
+
+TEST_CASE("small angles excuse what they forbid, and nothing else") {
+  const Plc plc = mesher::generate_plc({PlcKind::wedge, 2});
+  Case sharp(plc);
+  REQUIRE(first_fault(sharp.findings()) == "");
+  REQUIRE(count_above(sharp.mesh, 2) > 0);
+  mesher::SpaceCheckOptions options;  // the same mesh without its complex: nothing is excused
+  options.rho = 2;
+  options.features = &sharp.mesh.features;
+  options.boundary = BoundaryRule::lines;
+  CHECK(faulty(check_mesh(sharp.mesh, options)) == std::vector<std::string>{"quality"});
+}
+
+TEST_CASE("tetrahedra that overlap beyond the box are found") {
+  Case twice(mesher::generate_plc({PlcKind::dumbbell}));
+  REQUIRE(first_fault(twice.findings()) == "");
+  // A copy of one tetrahedron with corners of its own, moved a little: a part that overlaps.
+  auto s = twice.mesh.simplices[twice.mesh.simplices.size() / 2];
+  for (auto& v : s) {
+    auto p = twice.mesh.vertices[v];
+    p[0] += 0x1p-20;
+    v = static_cast<std::uint32_t>(twice.mesh.vertices.size());
+    twice.mesh.vertices.push_back(p);
+    twice.mesh.kinds.push_back(mesher::VertexKind::steiner);
+  }
+  twice.mesh.simplices.push_back(s);
+  twice.mesh.features = {};
+  mesher::SpaceCheckOptions options;
+  options.boundary = BoundaryRule::lines;
+  mesher::MeshFeatures features;
+  for (const auto& face : boundary_faces(twice.mesh)) features.faces.push_back({face, {}, 1});
+  std::sort(features.faces.begin(), features.faces.end(),
+            [](const auto& a, const auto& b) { return a.key() < b.key(); });
+  options.features = &features;
+  const std::string said = first_fault(check_mesh(twice.mesh, options));
+  CHECK(said.starts_with("cover: "));
+}

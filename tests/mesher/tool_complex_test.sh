@@ -1,0 +1,196 @@
+#!/usr/bin/env bash
+# Segments and polygons in space from files: `mesher mesh`, `edit`, `trace` and `check` of them, and
+# what an independent judge says of the families.
+#
+#   tool_complex_test.sh MESHER_TOOL [CGAL_CHECK3D]
+set -u
+tool=$(realpath "$1")
+judge=${2:+$(realpath "$2")}
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+# shellcheck source=../support/tool_checks.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../support/tool_checks.sh"
+cd "$scratch" || exit 1
+
+expect() { expect_of "$tool" "$@"; }
+refuse() { refuse_of "$tool" "$@"; }
+
+mkdir out
+formats=(node ele face edge vtu vtk msh mesh off obj stl svg)
+
+echo "== complexes: every family is in its mesh, by our check and by the judge"
+for kind in cube cube-square skew dumbbell nested l-hole plates wedge pages spike vee leaning \
+  tetrahedron pump faults tee shells island; do
+  expect 0 '' gen "$kind" -o "$kind.poly"
+  expect 0 '' mesh "$kind.poly" --static --quiet -o in.vtu -o in.msh
+  expect 0 'polygons    ok' check in.vtu --input "$kind.poly" --rho 2 --ties
+  expect 0 'polygons    ok' check in.msh --input "$kind.poly" --rho 2 --ties
+  expect 0 '' mesh "$kind.poly" --static --quiet --box -o box.node
+  expect 0 'segments    ok' check box.node --input "$kind.poly" --rho 2 --ties
+  [[ -z $judge ]] || expect_of "$judge" 0 'ok box.node' box.node box.ele --complex "$kind.poly"
+done
+
+echo "== complexes: with the engine and without, and all outputs"
+for kind in island tee skew; do
+  outputs=()
+  for format in node vtu vtk msh mesh off obj stl svg; do outputs+=(-o "a.$format"); done
+  expect 0 ' points in space' mesh $kind.poly "${outputs[@]}" --stats a.json
+  expect 0 '' mesh $kind.poly "${outputs[@]/a./b.}" --static --quiet
+  for format in "${formats[@]}"; do same a.$format b.$format; done
+done
+for field in above_rho regions holes seed_faults points; do has a.json "^ *\"$field\": [0-9]"; done
+has a.node '^[0-9]+ 3 2 1$'
+expect 0 '' mesh tee.poly --quiet -o c.node # the mesh is the same with other outputs
+expect 0 '' mesh tee.poly --static --quiet -o d.node
+same c.face d.face
+expect 0 'tee.poly: ' mesh tee.poly
+expect 0 ' in the box' mesh tee.poly
+expect 0 ' polygons' mesh tee.poly --dimension 3
+
+echo "== complexes: markers, holes and regions"
+cat >two.poly <<'END'
+16 3 0 1
+1 0 0 0 5
+2 1 0 0 0
+3 1 1 0 0
+4 0 1 0 0
+5 0 0 1 0
+6 1 0 1 0
+7 1 1 1 0
+8 0 1 1 0
+11 .25 .25 .25 0
+12 .75 .25 .25 0
+13 .75 .75 .25 0
+14 .25 .75 .25 0
+15 .25 .25 .75 0
+16 .75 .25 .75 0
+17 .75 .75 .75 0
+18 .25 .75 .75 0
+12 1
+1 0 21
+4 1 2 3 4
+1 0 22
+4 5 6 7 8
+1 0 23
+4 1 2 6 5
+1 0 24
+4 2 3 7 6
+1 0 25
+4 3 4 8 7
+1 0 26
+4 4 1 5 8
+1 0 31
+4 11 12 13 14
+1 0 31
+4 15 16 17 18
+1 0 31
+4 11 12 16 15
+1 0 31
+4 12 13 17 16
+1 0 31
+4 13 14 18 17
+1 0 31
+4 14 11 15 18
+0
+2
+1 .1 .1 .1 2.5
+2 .5 .5 .5 7
+END
+sed 's/^0$/1\n1 .5 .5 .5/; s/^2$/1/; /^2 .5 .5 .5 7/d' two.poly >hollow.poly
+expect 0 'regions               2, holes 0' mesh two.poly -o two.vtu -o two.msh -o two.node
+expect 0 'regions     ok      2 regions' check two.vtu --input two.poly --rho 2
+expect 0 'regions     ok      2 regions' check two.node --input two.poly --rho 2
+has two.msh '^3 1 "region 2.5"$'
+has two.msh '^2 31 "marker 31"$'
+has two.node '^1 0 0 0 2 1 5$'
+for marker in 21 22 23 24 25 26 31; do has two.face " $marker [0-9]+$"; done
+expect 0 'regions               1, holes 1' mesh hollow.poly -o hollow.vtu -o hollow.stl -o hollow.mesh \
+  -o hollow.msh
+expect 0 'regions     ok' check hollow.vtu --input hollow.poly --rho 2
+expect 0 'attributes of regions are not compared: .mesh counts those of INPUT' check hollow.mesh \
+  --input hollow.poly --rho 2
+expect 0 'regions     ok' check hollow.msh --input hollow.poly --rho 2
+expect 1 'error[bad_quality]: regions: tetrahedron ' check two.vtu --input hollow.poly
+sed 's/^1 .1 .1 .1 2.5/1 .5 .5 .25 2.5/' two.poly >seeds.poly
+expect 0 'seeds.poly:45: warning: the seed of region 1 at (0.5, 0.5, 0.25) is on polygon 7' \
+  mesh seeds.poly
+expect 0 '' mesh two.poly --box --quiet -o all.vtu
+expect 0 'regions     ok      3 regions' check all.vtu --input two.poly --rho 2
+
+echo "== complexes: faces of surfaces are polygons if that is asked for"
+expect 0 '' mesh hollow.poly --quiet -o hollow.off -o hollow.obj
+expect 0 ' points in space, ' mesh hollow.off --surface -o s.vtu
+expect 0 'polygons    ok' check s.vtu --input hollow.off --surface --rho 2
+expect 0 ' polygons' mesh hollow.off --merge -o m.vtu
+expect 0 '12 polygons are unions of' check m.vtu --input hollow.off --merge --rho 2
+expect 0 '--surface meshes its faces, too' mesh hollow.stl
+expect 0 '' mesh hollow.stl --merge --quiet -o n.node
+expect 0 '' mesh hollow.off --merge --quiet -o o.node
+same n.ele o.ele
+expect 0 '' mesh hollow.obj --merge --quiet --static -o n.node
+same n.ele o.ele
+refuse 2 'two.node: error[bad_option]: --surface is for .off, .obj, .ply and .stl' mesh two.node \
+  --surface -o out/x.vtu
+refuse 2 'error[bad_option]: --surface and --merge are for space' mesh hollow.off --surface --dim 2 \
+  -o out/x.vtu
+printf '3 2\n1 0 0\n2 1 0\n3 0 1\n' >flat.node
+printf '1 3\n1 1 2 3\n' >flat.ele
+expect 2 'error[bad_option]: --surface is for meshes of tetrahedra' check flat.node --surface
+expect 2 'error[bad_option]: --merge is for meshes of tetrahedra' check flat.node --merge
+
+echo "== complexes: edits go on from a file, and keep the markers of what stays"
+cat >edits.txt <<'END'
++point 90 .5 .5 .9
++segment 3 90 7
+move 90 .5 .6 .9
+-polygon 8
+begin
++polygon 40 15 16 17 18
+-segment 3
+commit
+END
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  expect 0 'updates' edit two.poly --script edits.txt $engine -o "after$engine.node" \
+    -o "after$engine.vtu" -o "after$engine.svg" --stats "after$engine.jsonl"
+done
+for format in node ele face edge vtu svg; do same after.$format after--static.$format; done
+has after.face ' 26 6$'
+has after.face ' 0 40$'
+expect 0 '' trace two.poly --script edits.txt -o after.trace
+printf '+point 90 .5 .5 .1\n+point 91 .6 .5 .6\n+segment 3 90 91\n' >bad.txt
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  refuse 1 'bad.txt:3:1: error[segment_through_polygon]: segment 3 goes through polygon 7' \
+    edit two.poly --script bad.txt $engine -o out/x.node
+done
+
+echo "== complexes: what is wrong is said with line, ids and place"
+# bad CODE TEXT SED: of two.poly, changed
+bad() {
+  sed "$3" two.poly >bad.poly
+  for engine in '' --static; do
+    # shellcheck disable=SC2086
+    refuse "$1" "$2" mesh bad.poly $engine -o out/x.vtu
+  done
+}
+bad 1 'bad.poly:19:1: error[not_flat]: polygon 1 is not flat' 's/^3 1 1 0 0/3 1 1 .1 0/'
+bad 3 'bad.poly:20:3: error[unknown_id]' 's/^4 1 2 3 4/4 9 2 3 4/'
+bad 1 ' (polygon ' 's/^18 .25 .75 .75/18 .25 .75 1.75/;s/^17 .75 .75 .75/17 .75 .75 1.75/'
+bad 3 'bad.poly:18:' 's/^12 1$/x 1/'
+refuse 2 'error[cannot_read]' mesh nothing.poly -o out/x.vtu
+refuse 2 'two.poly: error[bad_option]: --max-area is for the plane' mesh two.poly --max-area 1 \
+  -o out/x.vtu
+refuse 2 'is an input' mesh hollow.off --surface -o out/x.svg -o hollow.off
+expect 3 'error[bad_dimension]' mesh two.poly --dim 2
+
+echo "== complexes: check says what is missing"
+expect 0 '' mesh two.poly --quiet --box -o good.node
+for part in node ele edge; do cp good.$part cut.$part; done
+grep -m1 -n ' [0-9]* 8$' good.face | cut -d: -f1 >line
+sed "$(cat line)d; 1s/.*/$(($(wc -l <good.face) - 2)) 1/" good.face >cut.face
+expect 1 'error[bad_quality]: polygons: polygon ' check cut.node --input two.poly
+sed 's/ 8$/ 9/' good.face >cut.face
+expect 1 'polygon 8: the edge from ' check cut.node --input two.poly
+
+report_checks
