@@ -37,8 +37,9 @@ void StaticSpaceMesher::remove_polygon(FeatureId id) {
 }
 
 void StaticSpaceMesher::require_no_corners_go() const {
-  for (const auto& [id, polygon] : edited_polygons_) {
-    for_each_point(polygon, [&](FeatureId point) { require_stays(point, "on polygon", id); });
+  for (const auto& edited : edited_polygons_) {
+    for_each_point(edited.second,
+                   [&](FeatureId point) { require_stays(point, "on polygon", edited.first); });
   }
 }
 

@@ -68,11 +68,8 @@ Places page(double degrees) {
 
 void add_spike(Builder& b, double degrees) {
   const auto [cosine, sine] = circle_at(degrees / 2);
-  const Places base = [&] {
-    Places loop = square(0, 0, 2 * sine / cosine);
-    for (Point<3>& p : loop) p = plus(p, {0.1, 0.2, 0});
-    return loop;
-  }();
+  Places base = square(0, 0, 2 * sine / cosine);
+  for (Point<3>& p : base) p = plus(p, {0.1, 0.2, 0});
   b.polygon({base});
   for (int i = 0; i < 4; ++i) b.polygon({{{0.1, 0.2, 1}, base[i], base[(i + 1) % 4]}});
 }

@@ -12,9 +12,9 @@ namespace {
 // Whether two ascending sets have a common item.
 template <class Handle>
 bool have_common(const std::vector<Handle>& a, const std::vector<Handle>& b) {
-  const auto& [few, many] = a.size() < b.size() ? std::tie(a, b) : std::tie(b, a);
-  return std::any_of(few.begin(), few.end(),
-                     [&](Handle h) { return std::binary_search(many.begin(), many.end(), h); });
+  if (b.size() < a.size()) return have_common(b, a);
+  return std::any_of(a.begin(), a.end(),
+                     [&](Handle h) { return std::binary_search(b.begin(), b.end(), h); });
 }
 
 // The nearest to x of what it is shown; of equally near ones the first by places.
