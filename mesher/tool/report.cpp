@@ -217,6 +217,21 @@ Json json_of(const DomainStep& update) {
 
 Json json_of(const SpaceStep& update) { return json_of_change(update); }
 
+namespace {
+
+// What is written of a mesh in its box. `points`: of the input.
+template <class AnyRun>
+void print_domain(const AnyRun& run, std::size_t points) {
+  if (run.points < points) {
+    print_row("points left out", std::to_string(points - run.points) + "; --box keeps all");
+  }
+  if (run.vertices != run.stats.vertices || run.regions > 1) {
+    print_row("regions", std::to_string(run.regions) + ", holes " + std::to_string(run.holes));
+  }
+}
+
+}  // namespace
+
 void print_run(const Input& input, const Run& run) {
   const mesher::Pslg& graph = input.graph();
   std::printf("%s: %s", input.path().c_str(), counted(graph.points.size(), "point").c_str());
@@ -225,13 +240,7 @@ void print_run(const Input& input, const Run& run) {
   std::printf("\n");
   print_row("vertices", of_all(run.vertices, run.stats.vertices));
   print_row("triangles", of_all(run.simplices, run.stats.simplices));
-  if (run.points < graph.points.size()) {
-    print_row("points left out",
-              std::to_string(graph.points.size() - run.points) + "; --box keeps all");
-  }
-  if (run.vertices != run.stats.vertices || run.regions > 1) {
-    print_row("regions", std::to_string(run.regions) + ", holes " + std::to_string(run.holes));
-  }
+  print_domain(run, graph.points.size());
   print_row("smallest angle", smallest_angle(run));
   print_row("largest radius-edge", format("%.4f", run.quality.max_radius_edge));
   print_row("time", format("%.3f s", run.seconds_total));
@@ -241,19 +250,14 @@ void print_run(const SpaceInput& input, const SpaceRun& run) {
   const mesher::Plc& graph = input.graph();
   std::printf("%s: %s in space", input.path().c_str(),
               counted(graph.points.size(), "point").c_str());
-  if (!graph.segments.empty())
+  if (!graph.segments.empty()) {
     std::printf(", %s", counted(graph.segments.size(), "segment").c_str());
+  }
   if (!graph.facets.empty()) std::printf(", %s", counted(graph.facets.size(), "polygon").c_str());
   std::printf("\n");
   print_row("vertices", of_all(run.vertices, run.stats.vertices));
   print_row("tetrahedra", of_all(run.simplices, run.stats.simplices));
-  if (run.points < graph.points.size()) {
-    print_row("points left out",
-              std::to_string(graph.points.size() - run.points) + "; --box keeps all");
-  }
-  if (run.vertices != run.stats.vertices || run.regions > 1) {
-    print_row("regions", std::to_string(run.regions) + ", holes " + std::to_string(run.holes));
-  }
+  print_domain(run, graph.points.size());
   print_row("dihedral angles", format("%.2f", run.quality.min_dihedral_deg) + " to " +
                                    format("%.2f degrees", run.quality.max_dihedral_deg));
   print_row("slivers", std::to_string(run.quality.slivers) + ", of dihedral angles below " +

@@ -42,10 +42,7 @@ void FillFacet::operator()(S& s, FacetPiece piece) const {
   }
   const auto place = piece.level > 0 ? vertex_place(piece, w.plc.store()) : std::nullopt;
   if (!place || w.plc.hemmed_in(s, piece)) return;
-  const VertexRef<3> v = w.vertices.insert_early(s, *place, role_on(f));
-  w.require_room(s);
-  w.features.insert(s, v);
-  w.quadtree.template post<locate>(s, locate_key(w.box.fixed(v->p)), v);
+  insert_on_feature(s, w, *place, role_on(f));
 }
 
 }  // namespace mesher::detail

@@ -33,10 +33,7 @@ void SplitEdge::operator()(S& s, EdgePiece piece) const {
   if (!w.plc.crowded(s, piece)) return;
   const Label middle = piece.middle();
   const Placed y = placed_on(*piece.edge, middle);
-  const VertexRef<3> v = w.vertices.insert_early(s, y.p, y.role);
-  w.require_room(s);
-  w.features.insert(s, v);
-  w.quadtree.template post<locate>(s, locate_key(w.box.fixed(v->p)), v);
+  insert_on_feature(s, w, y.p, y.role);
   w.post_split(s, {piece.edge, piece.lo, middle});
   w.post_split(s, {piece.edge, middle, piece.hi});
 }

@@ -36,6 +36,15 @@ inline constexpr SplitSegment split_segment{};
   return {.bucket = split_bucket(piece.length()), .order = morton<2>(box.fixed(piece.lo()))};
 }
 
+/// A vertex on a feature, before anything is refined: BuildQT takes it for a point of the input.
+template <class S, class AnyWorld, class Place>
+void insert_on_feature(S& s, AnyWorld& w, const Place& place, const Role& role) {
+  const auto v = w.vertices.insert_early(s, place, role);
+  w.require_room(s);
+  w.features.insert(s, v);
+  w.quadtree.template post<locate>(s, locate_key(w.box.fixed(v->p)), v);
+}
+
 // if sigma is crowded, or long for the lattice beside it: split it where the shells say, enqueue
 // both halves, and the new vertex for BuildQT; else it is a leaf
 template <class S>
@@ -46,10 +55,7 @@ void SplitSegment::operator()(S& s, PieceRef piece) const {
   if (!divides) return w.leaves.begin(s, piece.piece);
   if (piece.length() < w.box.side * kShortestPiece) w.fail_too_short(piece);
   const Halves halves = w.segments.halves(s, piece);
-  const VertexRef<2> y = w.vertices.insert_early(s, halves.place, halves.role);
-  w.require_room(s);
-  w.features.insert(s, y);
-  w.quadtree.template post<locate>(s, locate_key(w.box.fixed(y->p)), y);
+  insert_on_feature(s, w, halves.place, halves.role);
   w.post_split(s, halves.lower);
   w.post_split(s, halves.upper);
 }

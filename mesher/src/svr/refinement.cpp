@@ -1,14 +1,12 @@
-// The main loop, Split and Insert.
+// The main loop, Split and Insert. (Where a simplex is split: refinement_centres.cpp.)
 #include "svr/refinement.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "delaunay/build.hpp"
 #include "delaunay/spatial_order.hpp"
-#include "input.hpp"
 
 namespace mesher::detail {
 
@@ -18,11 +16,6 @@ namespace {
 constexpr double kMeanwhile = 1.25;
 // Of a square: more than twice the error of a radius that the balls have, 2^-21 (simplex_ball.hpp).
 constexpr double kSurely = 1 - 0x1p-18;
-// Nearer than this to a side of the box, in units of its distance to vertices, no vertex is put.
-constexpr double kBesideSide = 0.25;
-// A new vertex is at least so far from the corners of the simplex, in units of the distance that it
-// should have: 0.8 for rho = 1.01, if nothing is rounded.
-constexpr double kLeastDistance = 0.5;
 // An off-centre aims a little lower than the bound, so that rounding does not make it poor.
 constexpr double kAim = 1 - 0x1p-16;
 constexpr std::size_t kBetweenWatches = 256;
@@ -33,13 +26,6 @@ template <int D>
 double offcentre_height(double rho) {
   const double aim = rho * kAim;
   return D == 2 ? aim + std::sqrt(aim * aim - 0.25) : rho;
-}
-
-template <int D>
-double squared_distance(const Point<D>& a, const Point<D>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < D; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return sum;
 }
 
 }  // namespace
@@ -109,8 +95,7 @@ std::uint32_t Refinement<D>::first_point() const {
   for (int i = 0; i < D; ++i) middle[i] = box_.lo[i] + box_.side / 2;
   std::uint32_t best = 0;
   for (std::uint32_t k = 1; k < lists_.left(); ++k) {
-    if (squared_distance<D>(lists_.place(k), middle) <
-        squared_distance<D>(lists_.place(best), middle)) {
+    if (squared_distance(lists_.place(k), middle) < squared_distance(lists_.place(best), middle)) {
       best = k;
     }
   }
@@ -205,7 +190,7 @@ std::uint32_t Refinement<D>::largest_in_star(std::uint32_t v) const {
   std::uint32_t largest = kNone;
   double radius2 = 0;
   for (const std::uint32_t s : star_) {
-    const double r2 = squared_distance<D>(kernel_.simplices().ball(s).centre, kernel_.place(v));
+    const double r2 = squared_distance(kernel_.simplices().ball(s).centre, kernel_.place(v));
     if (r2 > radius2) largest = s, radius2 = r2;
   }
   return largest;
@@ -215,8 +200,8 @@ std::uint32_t Refinement<D>::largest_in_star(std::uint32_t v) const {
 template <int D>
 bool Refinement<D>::is_deep_in(std::uint32_t s, const Point<D>& p, std::uint32_t v) const {
   const Point<D>& c = kernel_.simplices().ball(s).centre;
-  const double r2 = squared_distance<D>(c, kernel_.place(v));
-  return squared_distance<D>(c, p) < settings_.k * settings_.k * r2;
+  const double r2 = squared_distance(c, kernel_.place(v));
+  return squared_distance(c, p) < settings_.k * settings_.k * r2;
 }
 
 template <int D>
@@ -246,71 +231,6 @@ auto Refinement<D>::point_near_link(const Centre& centre, std::uint32_t s) const
     if (found.point != kNone && kernel_.conflicts(s, lists_.place(found.point))) best = found;
   });
   return best;
-}
-
-// --- Centres ---------------------------------------------------------------------------------
-
-template <int D>
-auto Refinement<D>::centre_of(std::uint32_t s) const -> Centre {
-  const auto& corners = kernel_.simplices().corners(s);
-  double shortest2 = std::numeric_limits<double>::infinity();
-  const Point<D>*a = nullptr, *b = nullptr;
-  for (std::size_t i = 0; i <= D; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const Point<D>&p = kernel_.place(corners[i]), &q = kernel_.place(corners[j]);
-      const double length2 = squared_distance<D>(p, q);
-      if (length2 < shortest2) shortest2 = length2, a = &p, b = &q;
-    }
-  }
-  const Point<D>& circumcentre = kernel_.simplices().ball(s).centre;
-  Point<D> middle;
-  for (std::size_t i = 0; i < D; ++i) middle[i] = (*a)[i] + ((*b)[i] - (*a)[i]) / 2;
-  const double height2 = squared_distance<D>(circumcentre, middle);
-  const double highest2 = height_ * height_ * shortest2;
-  Centre centre{circumcentre, std::sqrt(std::min(height2, highest2) + shortest2 / 4), false};
-  if (height2 > highest2) {
-    const double share = std::sqrt(highest2 / height2);
-    for (std::size_t i = 0; i < D; ++i) {
-      centre.place[i] = middle[i] + share * (circumcentre[i] - middle[i]);
-    }
-  }
-  // Noise of sums that cancel near an axis would leave the predicates' range of bits.
-  for (double& x : centre.place) x = std::abs(x) < tiny_ ? 0 : x;
-  centre = moved_to_sides(centre, kBesideSide * centre.radius);
-  if (!centre.on_side || kernel_.conflicts(s, centre.place)) return centre;
-  // What is nearest in the box to the circumcentre is nearer than the corners.
-  return moved_to_sides({circumcentre, centre.radius, false}, 0);
-}
-
-/// What is nearer than this to a side, or outside of it, goes onto it.
-template <int D>
-auto Refinement<D>::moved_to_sides(const Centre& centre, double margin) const -> Centre {
-  Centre moved = centre;
-  for (int i = 0; i < D; ++i) {
-    double& x = moved.place[i];
-    const double side = x < box_.lo[i] + margin ? box_.lo[i] : box_.hi(i);
-    if (x >= box_.lo[i] + margin && x <= box_.hi(i) - margin) continue;
-    x = side;
-    moved.on_side = true;
-  }
-  return moved;
-}
-
-/// Of doubles there are not enough where input points are nearly equal.
-template <int D>
-void Refinement<D>::require_apart(std::uint32_t s, const Centre& centre) const {
-  const double least = centre.on_side ? 0 : kLeastDistance * centre.radius;
-  for (const std::uint32_t w : kernel_.simplices().corners(s)) {
-    const double length2 = squared_distance<D>(kernel_.place(w), centre.place);
-    if (length2 > least * least) continue;
-    throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
-                                          place_text(kernel_.place(w)) +
-                                          ": rounding moved a new vertex to " +
-                                          place_text(centre.place));
-  }
-  if (kernel_.conflicts(s, centre.place)) return;
-  throw Error(ErrorCode::too_close,
-              "input points are too close for double precision near " + place_text(centre.place));
 }
 
 // --- Insert [Fig 2.8] ------------------------------------------------------------------------

@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "delaunay/simplex_store.hpp"
+#include "geometry/plane.hpp"
+#include "geometry/space.hpp"
 #include "mesher/mesh.hpp"
 
 namespace mesher::detail {
@@ -34,9 +36,7 @@ class VoronoiLists {
 
   /// How many points are no vertices.
   [[nodiscard]] std::size_t left() const noexcept { return left_; }
-  [[nodiscard]] const Point<D>& place(std::uint32_t point) const noexcept {
-    return places_[point];
-  }
+  [[nodiscard]] const Point<D>& place(std::uint32_t point) const noexcept { return places_[point]; }
   [[nodiscard]] bool is_crowded(std::uint32_t v) const noexcept { return first_[v] != kNone; }
   /// Requires (and below): is_crowded(v).
   [[nodiscard]] std::uint32_t any(std::uint32_t v) const noexcept { return first_[v]; }
@@ -72,13 +72,8 @@ class VoronoiLists {
   };
   static constexpr double kUp = 1 + 0x1p-22, kDown = 1 - 0x1p-22;
 
-  [[nodiscard]] static double distance2(const Point<D>& a, const Point<D>& b) noexcept {
-    double sum = 0;
-    for (std::size_t i = 0; i < D; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-    return sum;
-  }
   [[nodiscard]] double scaled2(const Point<D>& a, const Point<D>& b) const noexcept {
-    return distance2(a, b) * unit2_;
+    return squared_distance(a, b) * unit2_;
   }
   void put(std::uint32_t v, std::uint32_t point, double d2) noexcept {
     listed_[point].distance2 = static_cast<float>(d2 * kUp);
@@ -88,7 +83,7 @@ class VoronoiLists {
   }
 
   std::vector<Point<D>> places_;
-  std::vector<Listed> listed_;  // by point
+  std::vector<Listed> listed_;               // by point
   std::vector<std::uint32_t> first_{kNone};  // by vertex
   std::vector<float> reach2_{0};             // at least the greatest distance2 on the list
   std::size_t left_;
@@ -150,10 +145,10 @@ std::uint32_t VoronoiLists<D>::find(std::uint32_t w, const Point<D>& q, const Po
   std::uint32_t point = first_[w];
   if (point == kNone) return kNone;
   // The ball is farther from w than any point.
-  const double gap = std::sqrt(distance2(c, q)) - r;
+  const double gap = std::sqrt(squared_distance(c, q)) - r;
   if (gap > 0 && gap * gap * unit2_ > static_cast<double>(reach2_[w])) return kNone;
   for (const double r2 = r * r; point != kNone; point = listed_[point].next) {
-    if (distance2(places_[point], c) <= r2) return point;
+    if (squared_distance(places_[point], c) <= r2) return point;
   }
   return kNone;
 }
