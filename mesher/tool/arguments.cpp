@@ -239,6 +239,10 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
   command.add_flag(
       "--box", args.box,
       "All of the box, not only what lines (in space polygons) enclose less the holes");
+  command.add_flag(
+      "--no-flat", args.no_flat,
+      "In space: flat tetrahedra are taken out; what comes instead is Delaunay but for\n"
+      "rounding ('check --near')");
   command.add_flag("--static", args.is_static, "Without the engine; the mesh is the same");
   command.add_option("--stats", args.stats, "Figures as JSON")->type_name("FILE");
   command.add_flag("--quiet", args.quiet, "Print nothing but errors");
@@ -276,6 +280,9 @@ template <>
 Input read_input<2>(const MeshArguments& args) {
   if (faces(args) != Faces::unless_points) {
     throw Error(ErrorCode::bad_option, "--surface and --merge are for space", {args.input});
+  }
+  if (args.no_flat) {
+    throw Error(ErrorCode::bad_option, "--no-flat is for space", {args.input});
   }
   Input input(args.input);
   if (!args.repair) {

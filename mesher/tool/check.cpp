@@ -25,7 +25,7 @@ struct CheckArguments {
   std::string boundary = "auto";
   std::string max_area;
   bool constrained = false;
-  bool ties = false;
+  bool ties = false, near = false;
   bool surface = false, merge = false;
 };
 
@@ -90,6 +90,7 @@ std::string counts_of(const mesher::MeshDataOf<D>& mesh) {
 
 Judged judge(const CheckArguments& args, mesher::MeshDataOf<2>& mesh) {
   if (args.ties) refuse(args, "--ties", "tetrahedra");
+  if (args.near) refuse(args, "--near", "tetrahedra");
   if (args.surface || args.merge) refuse(args, args.merge ? "--merge" : "--surface", "tetrahedra");
   mesher::PslgFile graph;
   if (!args.input.empty()) graph = mesher::read_pslg(args.input);
@@ -127,6 +128,7 @@ Judged judge(const CheckArguments& args, mesher::MeshDataOf<3>& mesh) {
   if (!args.rho.empty()) options.rho = option_rho(args.rho);
   options.boundary = boundary_rule(args, mesh, options.complex);
   options.ties = args.ties;
+  options.near_delaunay = args.near;
   Judged judged{mesher::check_mesh(mesh, options), mesh.notes, counts_of(mesh)};
   if (input) {
     judged.notes.insert(judged.notes.end(), input->notes().begin(), input->notes().end());
@@ -181,6 +183,9 @@ void add_check(CLI::App& app) {
       "--ties", args->ties,
       "Where more points are on one sphere, the choice must be that of their coordinates,\n"
       "as in all meshes of this tool");
+  check->add_flag("--near", args->near,
+                  "Tetrahedra need not be Delaunay by less than 10^-6 of their radius, as after\n"
+                  "'mesh --no-flat'");
   check->footer(
       "Checks that the triangles do not overlap and fill a box, or what lines enclose; that the\n"
       "triangulation is Delaunay (by exact arithmetic), first off lines, then on them\n"

@@ -1,4 +1,5 @@
 // mesher mesh: a mesh of a file of points and lines, or of a complex in space.
+#include <cstdio>
 #include <memory>
 #include <utility>
 
@@ -7,6 +8,7 @@
 #include "figures.hpp"
 #include "first_run.hpp"
 #include "mesher/angles.hpp"
+#include "mesher/flat.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/sizes.hpp"
 #include "mesher/svr.hpp"
@@ -80,13 +82,24 @@ void look_at_angles(const MeshArguments& args, const mesher::Mesh<2>& all,
 void look_at_angles(const MeshArguments&, const mesher::Mesh<3>&, const mesher::Options<3>&,
                     SpaceRun&) {}
 
+mesher::Mesh<2> without_flat(const MeshArguments&, mesher::Mesh<2> all) { return all; }
+mesher::Mesh<3> without_flat(const MeshArguments& args, mesher::Mesh<3> all) {
+  if (!args.no_flat) return all;
+  mesher::Unflattened result = mesher::without_flat_tetrahedra(std::move(all));
+  if (result.left > 0 && !args.quiet) {
+    std::fprintf(stderr, "%s: note: %zu flat tetrahedra stay\n", args.input.c_str(), result.left);
+  }
+  return std::move(result.mesh);
+}
+
 template <int D>
 Result<D> finish(const MeshArguments& args, const InputOf<D>& input,
                  const mesher::Options<D>& options, mesher::Mesh<D> all) {
   Result<D> result;
   look_at_angles(args, all, options, result.run);
   const double start = mesher::now();
-  result.mesh = mesher::domain_mesh(std::move(all), input.graph(), extent(args));
+  result.mesh =
+      mesher::domain_mesh(without_flat(args, std::move(all)), input.graph(), extent(args));
   result.run.seconds_total = mesher::now() - start;
   return result;
 }
@@ -176,7 +189,8 @@ void add_mesh(CLI::App& app) {
           "from a lattice, so that edits move little. Several together: the smallest counts.\n"
           "In space the same holds of polygons: every one is a union of faces, and what they\n"
           "enclose is written. .poly and .smesh have segments and polygons; of surfaces and grids\n"
-          "the points are meshed, and with --surface the faces of .off, .obj, .ply and .stl. An .svg\n"
+          "the points are meshed, and with --surface the faces of .off, .obj, .ply and .stl. An "
+          ".svg\n"
           "is cut open, green in polygons, and bluer where radius-edge ratios are worse.\n"
           "--stats: one JSON object; - for standard output.\n") +
       kQualityHelp +

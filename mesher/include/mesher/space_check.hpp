@@ -14,7 +14,8 @@
 //       (5) the tetrahedra then fill the box, or the convex hull, without gap or overlap: by (3)
 //       and (4) as many tetrahedra cover a place on one side of an inner face as on the other, so
 //       that number changes at faces of one tetrahedron alone, and by (5) these are on the hull;
-//   (7) delaunay: no face has the opposite corner of one tetrahedron inside the other's sphere;
+//   (7) delaunay: no face has the opposite corner of one tetrahedron inside the other's sphere; or,
+//       if asked, farther inside than kNearSphere times the radius;
 //   (8) ties, if asked: an opposite corner on that sphere counts as outside by the rule of
 //       predicates::insphere_perturbed; the mesh is then the only one of its vertices;
 //   (9) input, if asked: every input point is a vertex, bit for bit;
@@ -58,6 +59,9 @@ namespace mesher {
 /// Tetrahedra with a dihedral angle below this are slivers.
 inline constexpr double kSliverDegrees = 5;
 
+/// What is inside a sphere by less than this share of its radius may be there by rounding.
+inline constexpr double kNearSphere = 0x1p-20;
+
 /// The worst tetrahedra of a mesh; NaN if there are none.
 struct SpaceQuality {
   double min_dihedral_deg = 0;
@@ -82,6 +86,7 @@ struct SpaceCheckOptions {
   const PlcFile* complex = nullptr;           ///< checks (b), (c), seeds in (d) where given
   const MeshFeatures* features = nullptr;     ///< tells origins for (10); (a), (c), (d)
   bool ties = false;                          ///< checks (8)
+  bool near_delaunay = false;                 ///< (7) as for without_flat_tetrahedra (flat.hpp)
 };
 
 /// The properties in order; the list ends early where a property fails that the next ones need.

@@ -8,7 +8,9 @@
 
 #include "domain/union_find.hpp"
 #include "geometry/box.hpp"
+#include "geometry/circumcentre.hpp"
 #include "geometry/exact_sign.hpp"
+#include "geometry/space.hpp"
 #include "io/text.hpp"
 #include "mesh/check_complex.hpp"
 #include "mesh/check_parts.hpp"
@@ -176,15 +178,18 @@ class SpaceChecker {
   }
 
   Verdict delaunay() {
-    std::size_t inner = 0, ties = 0;
+    std::size_t inner = 0, ties = 0, near = 0;
     for (std::size_t i = 0; i < half_faces_->size(); i += half_faces_->partners(i)) {
       if (half_faces_->partners(i) != 2) continue;
       ++inner;
       const int side = in_sphere(i, predicates::insphere);
       if (side == 0) ++ties;
-      if (side > 0) return bad(inside_sphere(i, " is inside"));
+      if (side <= 0) continue;
+      if (!options_.near_delaunay || !is_near_sphere(i)) return bad(inside_sphere(i, " is inside"));
+      ++near;
     }
-    return good(std::to_string(inner) + " inner faces, " + std::to_string(ties) + " of them ties");
+    return good(std::to_string(inner) + " inner faces, " + std::to_string(ties) + " of them ties" +
+                (near > 0 ? ", " + std::to_string(near) + " nearly" : ""));
   }
 
   Verdict ties() {
@@ -309,6 +314,14 @@ class SpaceChecker {
   [[nodiscard]] int in_sphere(std::size_t i, Predicate predicate) const {
     const auto& [a, b, c, d] = mesh_.simplices[(*half_faces_)[i].tetrahedron];
     return predicate(at(a), at(b), at(c), at(d), at((*half_faces_)[i + 1].opposite));
+  }
+  // Of a corner inside.
+  [[nodiscard]] bool is_near_sphere(std::size_t i) const {
+    const auto& [a, b, c, d] = mesh_.simplices[(*half_faces_)[i].tetrahedron];
+    const detail::Circumcentre centre = detail::circumcentre(at(a), at(b), at(c), at(d));
+    const Point<3> to = detail::minus(at((*half_faces_)[i + 1].opposite), at(a));
+    const double far2 = detail::squared_distance(to, centre.q);
+    return std::sqrt(far2) >= (1 - kNearSphere) * std::sqrt(centre.length2);
   }
   [[nodiscard]] std::string inside_sphere(std::size_t i, const char* what) const {
     return vertex((*half_faces_)[i + 1].opposite) + what + " the sphere of " +

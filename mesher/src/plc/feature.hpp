@@ -56,9 +56,13 @@ struct Plane {
   }
   /// How far x is from the plane, on the normal's side if positive.
   [[nodiscard]] double height(const Point<3>& x) const { return dot(minus(x, origin), normal); }
-  /// The foot of x.
+  /// The foot of x, without error if the plane is across an axis.
   [[nodiscard]] Point<3> foot(const Point<3>& x) const {
-    return minus(x, scaled(height(x), normal));
+    Point<3> foot = minus(x, scaled(height(x), normal));
+    for (int i = 0; i < 3; ++i) {
+      if (normal[i] == 1) foot[i] = origin[i];
+    }
+    return foot;
   }
 };
 
