@@ -12,7 +12,8 @@
 namespace support {
 
 /// What edits there are is up to the seed: parts come and go, with their points or without, one for
-/// another, or get other ids; points of them move. M: a Mesher<3>, or another with its edits.
+/// another, or get other ids; single features go and come; points of them move. M: a Mesher<3>, or
+/// another with its edits.
 template <class M>
 class SpaceParcels {
  public:
@@ -39,7 +40,7 @@ class SpaceParcels {
   void edit() {
     Parcel& parcel = parcels_[below(parcels_.size())];
     if (parcel.points.empty()) return put(parcel);
-    switch (below(6)) {
+    switch (below(8)) {
       case 0:
         erase(parcel);
         break;
@@ -54,16 +55,20 @@ class SpaceParcels {
       case 3:
         move(parcel);
         break;
-      default:  // features alone
+      case 4:  // features alone
         parcel.features.empty() ? insert_features(parcel) : erase_features(parcel);
+        break;
+      default:
+        if (!parcel.features.empty()) turn(parcel.features[below(parcel.features.size())]);
         break;
     }
   }
 
  private:
   struct Feature {
-    mesher::FeatureId id;
-    bool is_polygon;
+    mesher::Polygon polygon;  // a segment: of one loop of two points
+    bool there = true;
+    [[nodiscard]] bool is_polygon() const { return polygon.loops[0].size() > 2; }
   };
   struct Parcel {
     Complex complex;
@@ -79,7 +84,9 @@ class SpaceParcels {
   }
 
   void put(Parcel& parcel) {
-    parcel.complex = random_.part(corner_of(parcel));
+    const bool any = below(2) == 0;  // else what encloses
+    parcel.complex = any ? random_.part(corner_of(parcel))
+                         : random_.part(corner_of(parcel), below(2) == 0 ? 6 : 8);
     for (const auto& p : parcel.complex.points) {
       parcel.points.push_back(fresh());
       m_.insert(parcel.points.back(), p);
@@ -91,36 +98,42 @@ class SpaceParcels {
     for (const mesher::FeatureId id : parcel.points) m_.remove(id);
     parcel.points.clear();
   }
+  void turn(Feature& f) {
+    const mesher::FeatureId id = f.polygon.id;
+    const auto& loop = f.polygon.loops[0];
+    if (f.there) {
+      f.is_polygon() ? m_.remove_polygon(id) : m_.remove_segment(id);
+    } else {
+      f.is_polygon() ? m_.insert_polygon(f.polygon) : m_.insert_segment(id, loop[0], loop[1]);
+    }
+    f.there = !f.there;
+  }
+  void add(Parcel& parcel, const mesher::Polygon& polygon) {
+    parcel.features.push_back({polygon, false});
+    turn(parcel.features.back());
+  }
   void insert_features(Parcel& parcel) {
+    const auto& points = parcel.points;
     for (const auto& [a, b] : parcel.complex.segments) {
-      parcel.features.push_back({fresh(), false});
-      m_.insert_segment(parcel.features.back().id, parcel.points[a], parcel.points[b]);
+      add(parcel, {fresh(), {{points[a], points[b]}}});
     }
     for (const Complex::Face& face : parcel.complex.faces) {
       mesher::Polygon polygon{fresh(), {}};
       for (const auto& loop : face.loops) {
         auto& ids = polygon.loops.emplace_back();
-        for (const std::size_t i : loop) ids.push_back(parcel.points[i]);
+        for (const std::size_t i : loop) ids.push_back(points[i]);
       }
-      for (const std::size_t i : face.on) polygon.points.push_back(parcel.points[i]);
-      m_.insert_polygon(polygon);
-      parcel.features.push_back({polygon.id, true});
-      const auto& loop = polygon.loops[0];  // an edge of it is a segment too
-      if (below(4) == 0 && !has_segments(parcel)) {
-        parcel.features.push_back({fresh(), false});
-        m_.insert_segment(parcel.features.back().id, loop[0], loop[1]);
-      }
+      for (const std::size_t i : face.on) polygon.points.push_back(points[i]);
+      add(parcel, polygon);
     }
-  }
-  static bool has_segments(const Parcel& parcel) {
-    for (const Feature& f : parcel.features) {
-      if (!f.is_polygon) return true;
-    }
-    return false;
+    const auto& faces = parcel.complex.faces;
+    if (faces.empty() || !parcel.complex.segments.empty() || below(2) == 0) return;
+    const auto& loop = faces[0].loops[0];  // an edge of it is a segment too
+    add(parcel, {fresh(), {{points[loop[0]], points[loop[1]]}}});
   }
   void erase_features(Parcel& parcel) {
-    for (const auto& [id, is_polygon] : parcel.features) {
-      is_polygon ? m_.remove_polygon(id) : m_.remove_segment(id);
+    for (Feature& f : parcel.features) {
+      if (f.there) turn(f);
     }
     parcel.features.clear();
   }

@@ -37,6 +37,7 @@ class Engine;
 namespace mesher {
 
 namespace detail {
+template <int D>
 class DomainState;
 }
 
@@ -252,7 +253,7 @@ class Mesher {
   void check_invariants() const;
 
  private:
-  friend class detail::DomainState;  // which keeps the limits of regions up to date
+  friend class detail::DomainState<D>;  // which keeps the limits of regions up to date
   void announce_to(Mesher& other) const;
   void limit_regions(std::shared_ptr<const RegionLimits> regions,
                      const std::vector<Box<D>>& where);
