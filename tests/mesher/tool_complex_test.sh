@@ -232,4 +232,28 @@ expect 1 'error[bad_quality]: polygons: polygon ' check cut.node --input two.pol
 sed 's/ 8$/ 9/' good.face >cut.face
 expect 1 'polygon 8: the edge from ' check cut.node --input two.poly
 
+echo "== complexes: check compares markers, where both have them"
+expect 0 ' faces have one' \
+  check good.node --input two.poly
+for format in vtu vtk msh mesh; do
+  expect 0 '' mesh two.poly --quiet -o marked.$format
+  expect 0 'markers     ok' check marked.$format --input two.poly
+done
+for part in node ele edge face; do cp good.$part cut.$part; done
+sed 's/ 31 8$/ 30 8/' good.face >cut.face
+expect 1 ' has the marker 30, but is on polygon 8 (line' check cut.node \
+  --input two.poly
+cp good.face cut.face
+sed -E 's/^([0-9]+ 0 0 0 .*) 5$/\1 6/' good.node >cut.node
+expect 1 ' has the marker 6, but is point 1 (line 2), which has 5' check cut.node \
+  --input two.poly
+cp good.node cut.node
+sed -E '2s/^([0-9]+ [0-9]+ [0-9]+) [0-9]+/\1 99/' good.edge >cut.edge
+expect 1 ' has the marker 99, but is on polygon' check cut.node \
+  --input two.poly
+sed 's/ 31$/ -31/' two.poly >negative.poly
+expect 0 '' mesh negative.poly --quiet -o marked.mesh
+expect 0 'markers are not compared: .mesh counts those of INPUT' check marked.mesh \
+  --input negative.poly
+
 report_checks
