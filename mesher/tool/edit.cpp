@@ -29,10 +29,6 @@ struct Followed {
   typename OutputsOf<D>::Simplices last_changed;  // what the last one brought
 };
 
-// What an update brought to what is kept.
-Outputs::Simplices& kept_added(mesher::DomainUpdate& change) { return change.domain.kept_added; }
-SpaceOutputs::Simplices& kept_added(mesher::Change<3>& change) { return change.simplices_added; }
-
 template <int D, class Target>
 Followed<D> apply_script(const EditArguments& args, InputOf<D>& input, Target& target,
                          Figures& figures, Progress& progress) {
@@ -45,7 +41,7 @@ Followed<D> apply_script(const EditArguments& args, InputOf<D>& input, Target& t
       auto update = mesher::apply(std::move(*edits), watched);
       followed.seconds.push_back(update.seconds);
       if (figures.wanted()) figures << json_of(update).dump() << "\n";
-      followed.last_changed = std::move(kept_added(update.change));
+      followed.last_changed = std::move(update.change.domain.kept_added);
       progress.set_task("after " + std::to_string(followed.seconds.size()) + " updates, ");
     }
   } catch (const mesher::Error& error) {
@@ -68,10 +64,10 @@ void run_edit_on(Target target, const EditArguments& args, InputOf<D> input) {
   open_outputs(args, input, outputs);
   Figures figures(args.stats, outputs);
   Progress progress(args.quiet, D);
-  RunOf<D> run = first_run<D>(input, target, extent(args), progress);
+  RunOf<D> run = first_run<D>(input, target, progress);
   if (figures.wanted()) figures << json_of(run).dump() << "\n";
   const auto followed = apply_script<D>(args, input, target, figures, progress);
-  const Kept<D> mesh = kept_mesh(target, input, extent(args));
+  const Kept<D> mesh = target.domain_mesh();
   outputs.write(mesh, followed.last_changed);
   const auto targets = outputs.targets();
   progress.erase();
@@ -102,9 +98,9 @@ void run_edit_in_space(const EditArguments& args) {
   SpaceInput input = read_input<3>(args);
   const auto options = mesh_options(args, input);
   if (args.is_static) {
-    return run_edit_on<3>(StaticSpaceMesher(options), args, std::move(input));
+    return run_edit_on<3>(StaticSpaceMesher(options, extent(args)), args, std::move(input));
   }
-  auto mesher = mesher_for<mesher::Mesher<3>>(input, options);
+  auto mesher = mesher_for<mesher::DomainMesherOf<3>>(input, options, extent(args));
   run_edit_on<3>(std::move(mesher), args, std::move(input));
 }
 
@@ -146,7 +142,10 @@ void add_edit(CLI::App& app) {
           "In space there are +point ID x y z, -point ID, move ID x y z, segments and polylines\n"
           "without markers (what stays of INPUT keeps its own), and\n"
           "  +polygon ID P P P ... [/ P P P ...] ... [on P ...] [along A B ...]\n"
-          "                         -polygon ID    its loops, then points and edges inside\n") +
+          "                         -polygon ID    its loops, then points and edges inside\n"
+          "  +hole ID x y z         -hole ID\n"
+          "  +region ID x y z ATTRIBUTE\n"
+          "                         -region ID     what polygons enclose there\n") +
       kQualityHelp +
       "\nExamples:\n"
       "  mesher edit lake.poly --script wall.txt -o lake.vtu -o lake.svg\n"

@@ -35,25 +35,12 @@ void insert_all(const Input& input, Target& target, Progress& progress) {
   });
 }
 
-/// What is wanted of a target's mesh. In the plane targets know; in space it is found anew.
-/// Cost: O(1); in space O(m log m).
-template <class Target>
-[[nodiscard]] decltype(auto) kept_mesh(const Target& target, const Input&, mesher::Extent) {
-  return target.domain_mesh();
-}
-template <class Target>
-[[nodiscard]] Kept<3> kept_mesh(const Target& target, const SpaceInput& input,
-                                mesher::Extent extent) {
-  return mesher::domain_mesh(target.mesh(), input.current(), extent);
-}
-
 /// Runs `target`, a mesher without input, on the input. Throws: Error, as insert_all.
 template <int D, class Target>
-RunOf<D> first_run(const InputOf<D>& input, Target& target, mesher::Extent extent,
-                   Progress& progress) {
+RunOf<D> first_run(const InputOf<D>& input, Target& target, Progress& progress) {
   const double start = mesher::now();
   insert_all(input, target, progress);
-  const Kept<D>& mesh = kept_mesh(target, input, extent);
+  const Kept<D>& mesh = target.domain_mesh();
   RunOf<D> run;
   run.seconds_total = mesher::now() - start;
   run.stats = target.stats();

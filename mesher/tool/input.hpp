@@ -145,25 +145,15 @@ class SpaceInput final : public Standing {
     return file_.place_of_point(i);
   }
 
-  /// As Standing; and current() is as they leave it.
-  void follow(const std::vector<mesher::EditOf<3>>& edits);
-  /// With the edits since; those that have come have no markers. Cost: O(n log n).
-  [[nodiscard]] mesher::Plc current() const;
-
   /// `PLACE: warning: WHAT` for a seed that has no region of its own.
   [[nodiscard]] std::string warning(const mesher::SeedFaultOf<3>& fault) const;
 
  private:
   [[nodiscard]] mesher::Place place_in_file(mesher::Featured kind,
                                             mesher::FeatureId id) const override;
-  void follow(const mesher::EditOf<3>& edit);
 
   mesher::PlcFile file_;
   bool is_complex_ = false;
-  // What edits have made of features; nothing: they went.
-  std::map<mesher::FeatureId, std::optional<mesher::MarkedPoint<3>>> points_;
-  std::map<mesher::FeatureId, std::vector<mesher::FeatureId>> lines_;
-  std::map<mesher::FeatureId, std::optional<mesher::Polygon>> polygons_;
 };
 
 /// The points of a complex, as of a file of points: what checks of points take.

@@ -80,7 +80,8 @@ class Watched {
   void remove_polygon(mesher::FeatureId id) requires TakesPolygons<Target> {
     target_.remove_polygon(id);
   }
-  void insert_seed(const mesher::Seed& seed) requires TakesSeeds<Target> {
+  template <int D>
+  void insert_seed(const mesher::SeedOf<D>& seed) requires TakesSeeds<Target> {
     target_.insert_seed(seed);
   }
   void remove_seed(const mesher::SeedName& name) requires TakesSeeds<Target> {

@@ -23,9 +23,10 @@ bool are_references(const auto& parts, auto value_of) {
   });
 }
 
-void forget_markers(MeshData& mesh) {
-  mesh.features.markers.clear();
-  for (auto& edge : mesh.features.edges) edge.marker = 0;
+void forget_markers(mesher::MeshFeatures& features) {
+  features.markers.clear();
+  for (auto& edge : features.edges) edge.marker = 0;
+  for (auto& face : features.faces) face.marker = 0;
 }
 
 void note(const std::string& path, const char* what, std::vector<mesher::Note>& notes) {
@@ -45,7 +46,7 @@ void forget_counted_values(const std::string& path, MeshData& mesh, mesher::Pslg
   const auto marker = [](const auto& part) { return part.marker; };
   if (!are_references(pslg.points, marker) || !are_references(pslg.segments, marker) ||
       !are_references(pslg.polylines, marker)) {
-    forget_markers(mesh);
+    forget_markers(mesh.features);
     note(path, "markers", mesh.notes);
   }
   if (!are_attributes(pslg.regions)) {
@@ -57,7 +58,15 @@ void forget_counted_values(const std::string& path, MeshData& mesh, mesher::Pslg
 
 void forget_counted_values(const std::string& path, mesher::MeshDataOf<3>& mesh,
                            mesher::PlcFile& complex) {
-  if (mesher::format_of(path) != ".mesh" || are_attributes(complex.plc.regions)) return;
+  if (mesher::format_of(path) != ".mesh") return;
+  const mesher::Plc& plc = complex.plc;
+  const auto marker = [](const auto& part) { return part.marker; };
+  if (!are_references(plc.points, marker) || !are_references(plc.segments, marker) ||
+      !are_references(plc.facets, marker)) {
+    forget_markers(mesh.features);
+    note(path, "markers", mesh.notes);
+  }
+  if (are_attributes(plc.regions)) return;
   complex.plc.regions.clear();
   complex.regions.clear();
   note(path, "attributes of regions", mesh.notes);

@@ -140,6 +140,13 @@ void add_costs(const mesher::MeshStats& stats, double seconds_total, Json& json)
   json["peak_rss_bytes"] = peak_rss_bytes();
 }
 
+// What an update did to what is kept.
+template <class Step>
+void add_kept(const Step& update, Json& json) {
+  json["kept"] = {{"added", update.change.domain.kept_added.size()},
+                  {"removed", update.change.domain.kept_removed.size()}};
+}
+
 // What an update did to the mesh of the box.
 template <class Step>
 Json json_of_change(const Step& update) {
@@ -210,12 +217,15 @@ Json json_of(const DomainStep& update) {
   const auto& [forced, shrunk] = update.change.angles;
   if (!forced.empty()) json["small_angles"] = json_of(forced);
   if (!shrunk.empty()) json["shrunk"] = json_of(shrunk);
-  json["kept"] = {{"added", update.change.domain.kept_added.size()},
-                  {"removed", update.change.domain.kept_removed.size()}};
+  add_kept(update, json);
   return json;
 }
 
-Json json_of(const SpaceStep& update) { return json_of_change(update); }
+Json json_of(const SpaceStep& update) {
+  Json json = json_of_change(update);
+  add_kept(update, json);
+  return json;
+}
 
 namespace {
 

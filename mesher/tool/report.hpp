@@ -52,7 +52,7 @@ using RunOf = std::conditional_t<D == 2, Run, SpaceRun>;
 /// An update of a script by a mesher that knows of domains.
 using DomainStep = mesher::Update<2, mesher::DomainUpdate>;
 /// The same in space.
-using SpaceStep = mesher::Update<3, mesher::Change<3>>;
+using SpaceStep = mesher::Update<3, mesher::DomainUpdateOf<3>>;
 
 /// Sizes and quality of what is kept.
 void measure(const mesher::DomainMesh& mesh, double rho, Run& run);

@@ -84,68 +84,6 @@ std::vector<mesher::InputPoint<3>> SpaceInput::points() const {
   return points;
 }
 
-// --- Edits -----------------------------------------------------------------------------------
-
-void SpaceInput::follow(const std::vector<mesher::EditOf<3>>& edits) {
-  Standing::follow<3>(edits);
-  for (const auto& edit : edits) follow(edit);
-}
-
-void SpaceInput::follow(const mesher::EditOf<3>& edit) {
-  switch (edit.kind) {
-    case mesher::EditKind::insert:
-    case mesher::EditKind::move:
-      points_[edit.id] = mesher::MarkedPoint<3>{edit.id, edit.point, 0};
-      return;
-    case mesher::EditKind::remove:
-      points_[edit.id].reset();
-      return;
-    case mesher::EditKind::insert_segment:
-    case mesher::EditKind::insert_polyline:
-      lines_[edit.id] = edit.points;
-      return;
-    case mesher::EditKind::remove_segment:
-    case mesher::EditKind::remove_polyline:
-      lines_[edit.id].clear();
-      return;
-    case mesher::EditKind::insert_polygon:
-      polygons_[edit.id] = edit.polygon;
-      return;
-    case mesher::EditKind::remove_polygon:
-      polygons_[edit.id].reset();
-      return;
-    default:
-      return;  // in the plane
-  }
-}
-
-Plc SpaceInput::current() const {
-  Plc plc = file_.plc;
-  std::erase_if(plc.points, [&](const auto& p) { return points_.contains(p.id); });
-  for (const auto& p : file_.plc.points) {  // one that moves keeps its marker
-    const auto moved = points_.find(p.id);
-    if (moved != points_.end() && moved->second) {
-      plc.points.push_back({p.id, moved->second->at, p.marker});
-    }
-  }
-  std::erase_if(plc.segments, [&](const auto& s) { return lines_.contains(s.id); });
-  for (const auto& [id, points] : lines_) {
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      plc.segments.push_back({id, points[i - 1], points[i], 0});
-    }
-  }
-  std::erase_if(plc.facets, [&](const auto& f) { return polygons_.contains(f.polygon.id); });
-  for (const auto& [id, polygon] : polygons_) {
-    if (polygon) plc.facets.push_back({*polygon, 0});
-  }
-  std::map<FeatureId, bool> known;
-  for (const auto& p : plc.points) known[p.id] = true;
-  for (const auto& [id, point] : points_) {
-    if (point && !known.contains(id)) plc.points.push_back(*point);
-  }
-  return plc;
-}
-
 // --- Places ----------------------------------------------------------------------------------
 
 Place SpaceInput::place_in_file(Featured kind, FeatureId id) const {

@@ -10,9 +10,6 @@
 namespace tool {
 namespace {
 
-using mesher::Error;
-using mesher::ErrorCode;
-using mesher::FeatureId;
 using mesher::Mesh;
 
 std::vector<mesher::LineEdge<2>> edges_of(const Mesh<2>& mesh) {
@@ -31,28 +28,7 @@ mesher::Change<2> change_of_lines_too(const Mesh<2>& before, const Mesh<2>& afte
   return change;
 }
 
-mesher::DomainChange change_of_kept(const Mesh<2>& before, const Mesh<2>& after) {
-  const auto old_triangles = simplices_of(before), new_triangles = simplices_of(after);
-  return {
-      difference(new_triangles, old_triangles), difference(old_triangles, new_triangles), {}, 0};
-}
-
 }  // namespace
-
-// --- Seeds -----------------------------------------------------------------------------------
-
-void StaticMesher::insert_seed(const mesher::Seed& seed) {
-  if (edited_seeds_.emplace(seed.name, seed).second) return;
-  throw Error(ErrorCode::repeated_id, "there is a " + text_of(seed.name) + " already", {},
-              {seed.name.id});
-}
-
-void StaticMesher::remove_seed(const mesher::SeedName& name) {
-  if (edited_seeds_.erase(name) > 0) return;
-  throw Error(ErrorCode::unknown_id, "there is no " + text_of(name), {}, {name.id});
-}
-
-// --- Updates ---------------------------------------------------------------------------------
 
 mesher::Pslg StaticMesher::graph() const {
   mesher::Pslg graph;
@@ -62,7 +38,7 @@ mesher::Pslg StaticMesher::graph() const {
   for (const auto& [id, line] : lines()) {
     graph.polylines.push_back({id, line.points, line.marker});
   }
-  for (const auto& [name, seed] : edited_seeds_) mesher::add_seed(graph, seed);
+  add_seeds(graph);
   return graph;
 }
 
@@ -86,9 +62,8 @@ mesher::DomainUpdate StaticMesher::update(const mesher::RunControl& control) {
   mesher::DomainUpdate update;
   static_cast<mesher::Change<2>&>(update) = change_of_lines_too(mesh_, after);
   update.angles = mesher::angle_news(after, options, update.simplices_added);
-  update.domain = change_of_kept(domain_.kept, domain.kept);
+  update.domain = change_of_kept<2>(domain_.kept, domain.kept);
   keep_edits();
-  current_seeds_ = edited_seeds_;
   options_ = edited_options_ = std::move(options);
   mesh_ = std::move(after);
   domain_ = std::move(domain);

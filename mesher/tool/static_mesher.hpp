@@ -10,30 +10,26 @@
 
 #include "mesher/domain_mesher.hpp"
 #include "mesher/sizes.hpp"
-#include "static_lines.hpp"
+#include "static_seeds.hpp"
 
 namespace tool {
 
-class StaticMesher : public StaticLines<2> {
+class StaticMesher : public StaticSeeds<2> {
  public:
   StaticMesher(const mesher::Options<2>& options, mesher::Extent extent, mesher::RegionAreas areas)
-      : StaticLines(options.domain),
+      : StaticSeeds(options.domain),
         options_(options),
         edited_options_(options),
         extent_(extent),
         areas_(areas) {}
 
   /// As those of DomainMesher.
-  /// Throws: Error (repeated_id, unknown_id), and then changes nothing.
-  void insert_seed(const mesher::Seed& seed);
-  void remove_seed(const mesher::SeedName& name);
   void limit(const mesher::SizeLimits<2>& limits) { set_limits(edited_options_, limits); }
   void limit(const mesher::Box<2>& box, const mesher::SizeLimits<2>& limits) {
     set_limits(edited_options_, box, limits);
   }
   void discard_edits() {
-    StaticLines::discard_edits();
-    edited_seeds_ = current_seeds_;
+    StaticSeeds::discard_edits();
     edited_options_ = options_;
   }
 
@@ -47,14 +43,12 @@ class StaticMesher : public StaticLines<2> {
   [[nodiscard]] const mesher::MeshStats& stats() const { return stats_; }
 
  private:
-  using Seeds = std::map<mesher::SeedName, mesher::Seed>;
   [[nodiscard]] bool needs_regions() const;
   [[nodiscard]] mesher::Pslg graph() const;
 
   mesher::Options<2> options_, edited_options_;  // they differ in the limits of size
   mesher::Extent extent_;
   mesher::RegionAreas areas_;
-  Seeds current_seeds_, edited_seeds_;
   mesher::Mesh<2> mesh_;
   mesher::DomainMesh domain_;
   mesher::MeshStats stats_;

@@ -25,8 +25,8 @@ void for_each_point(const mesher::Polygon& polygon, Visit&& visit) {
 
 }  // namespace
 
-void StaticSpaceMesher::insert_polygon(const mesher::Polygon& polygon) {
-  if (edited_polygons_.emplace(polygon.id, polygon).second) return;
+void StaticSpaceMesher::insert_polygon(const mesher::Polygon& polygon, std::int64_t marker) {
+  if (edited_polygons_.emplace(polygon.id, mesher::Plc::Facet{polygon, marker}).second) return;
   throw Error(ErrorCode::repeated_id, "polygon " + id_text(polygon.id) + " is there already", {},
               {polygon.id});
 }
@@ -38,45 +38,40 @@ void StaticSpaceMesher::remove_polygon(FeatureId id) {
 
 void StaticSpaceMesher::require_no_corners_go() const {
   for (const auto& edited : edited_polygons_) {
-    for_each_point(edited.second,
+    for_each_point(edited.second.polygon,
                    [&](FeatureId point) { require_stays(point, "on polygon", edited.first); });
   }
 }
 
-// Points alone take any rule.
-mesher::Mesh<3> StaticSpaceMesher::meshed(mesher::MeshStats& stats,
-                                          const mesher::RunControl& control) const {
-  std::vector<mesher::Point<3>> places;
-  std::vector<FeatureId> ids;
-  for (const auto& [id, vertex] : points()) {
-    places.push_back(vertex.at);
-    ids.push_back(id);
-  }
-  if (lines().empty() && edited_polygons_.empty()) {
-    return mesher::mesh_statically<3>(places, options_, ids, &stats, control);
-  }
-  std::vector<mesher::Segment> segments;
+mesher::Plc StaticSpaceMesher::complex() const {
+  mesher::Plc plc;
+  for (const auto& [id, vertex] : points()) plc.points.push_back({id, vertex.at, vertex.marker});
   for (const auto& [id, line] : lines()) {
     for (std::size_t i = 1; i < line.points.size(); ++i) {
-      segments.push_back({id, line.points[i - 1], line.points[i]});
+      plc.segments.push_back({id, line.points[i - 1], line.points[i], line.marker});
     }
   }
-  std::vector<mesher::Polygon> polygons;
-  for (const auto& [id, polygon] : edited_polygons_) polygons.push_back(polygon);
-  return mesher::mesh_statically(places, segments, polygons, options_, ids, &stats, control);
+  for (const auto& [id, facet] : edited_polygons_) plc.facets.push_back(facet);
+  add_seeds(plc);
+  return plc;
 }
 
-mesher::Change<3> StaticSpaceMesher::update(const mesher::RunControl& control) {
+mesher::DomainUpdateOf<3> StaticSpaceMesher::update(const mesher::RunControl& control) {
   require_no_ends_go();
   require_no_corners_go();
+  const mesher::Plc input = complex();
   mesher::MeshStats stats;
-  auto after = meshed(stats, control);
-  auto change = change_between<3>(mesh_, after);
+  auto after = mesher::mesh_statically(input, options_, &stats, control);
+  auto domain = mesher::domain_mesh(after, input, extent_);
+  mesher::DomainUpdateOf<3> update;
+  static_cast<mesher::Change<3>&>(update) = change_between<3>(mesh_, after);
+  update.domain = change_of_kept<3>(domain_.kept, domain.kept);
   keep_edits();
   current_polygons_ = edited_polygons_;
   mesh_ = std::move(after);
+  domain_ = std::move(domain);
   stats_ = stats;
-  return change;
+  return update;
 }
 
 }  // namespace tool

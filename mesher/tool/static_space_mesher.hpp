@@ -7,41 +7,43 @@
 #include <vector>
 
 #include "mesher/mesher.hpp"
-#include "static_lines.hpp"
+#include "static_seeds.hpp"
 
 namespace tool {
 
-class StaticSpaceMesher : public StaticLines<3> {
+class StaticSpaceMesher : public StaticSeeds<3> {
  public:
-  explicit StaticSpaceMesher(const mesher::Options<3>& options)
-      : StaticLines(options.domain), options_(options) {}
+  StaticSpaceMesher(const mesher::Options<3>& options, mesher::Extent extent)
+      : StaticSeeds(options.domain), options_(options), extent_(extent) {}
 
-  /// As those of Mesher, but that what is wrong with a polygon alone is left to update().
+  /// As those of DomainMesherOf<3>, but that what is wrong with a polygon alone is left to update().
   /// Throws: Error (repeated_id, unknown_id), and then changes nothing.
-  void insert_polygon(const mesher::Polygon& polygon);
+  void insert_polygon(const mesher::Polygon& polygon, std::int64_t marker = 0);
   void remove_polygon(mesher::FeatureId id);
   void discard_edits() {
-    StaticLines::discard_edits();
+    StaticSeeds::discard_edits();
     edited_polygons_ = current_polygons_;
   }
 
-  /// As that of Mesher, but that edits that fail stay announced. Cost: a mesh from scratch; counts
-  /// of calls are 0.
-  mesher::Change<3> update(const mesher::RunControl& control = {});
+  /// As that of DomainMesherOf<3>, but that edits that fail stay announced, and that edges, faces
+  /// and `relabelled` are not found. Cost: a mesh from scratch; counts of calls are 0.
+  mesher::DomainUpdateOf<3> update(const mesher::RunControl& control = {});
 
   [[nodiscard]] const mesher::Mesh<3>& mesh() const { return mesh_; }
+  [[nodiscard]] const mesher::DomainMeshOf<3>& domain_mesh() const { return domain_; }
   [[nodiscard]] const mesher::Options<3>& options() const { return options_; }
   [[nodiscard]] const mesher::MeshStats& stats() const { return stats_; }
 
  private:
-  using Polygons = std::map<mesher::FeatureId, mesher::Polygon>;
+  using Polygons = std::map<mesher::FeatureId, mesher::Plc::Facet>;
   void require_no_corners_go() const;
-  [[nodiscard]] mesher::Mesh<3> meshed(mesher::MeshStats& stats,
-                                       const mesher::RunControl& control) const;
+  [[nodiscard]] mesher::Plc complex() const;
 
   mesher::Options<3> options_;
+  mesher::Extent extent_;
   Polygons current_polygons_, edited_polygons_;
   mesher::Mesh<3> mesh_;
+  mesher::DomainMeshOf<3> domain_;
   mesher::MeshStats stats_;
 };
 

@@ -165,6 +165,45 @@ for engine in '' --static; do
     edit two.poly --script bad.txt $engine -o out/x.node
 done
 
+echo "== complexes: holes and regions follow edits"
+printf -- '-region 2\n+hole 1 .5 .5 .5\n' >hollow.txt
+expect 0 '' mesh hollow.poly --quiet -o hollow.1.node -o hollow.1.vtu
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  expect 0 'updates' edit two.poly --script hollow.txt $engine -o hollow.1.node -o edited.vtu \
+    --stats edited.jsonl
+  same edited.vtu hollow.1.vtu
+done
+has edited.jsonl '"kept":.*"added":0,"removed":[1-9]'
+cat >seeds.txt <<'END'
+begin
++region 4 .9 .9 .1 9
+-region 1
+commit
+-polygon 12
+begin
+-region 4
++hole 3 .5 .5 .5
+commit
++polygon 50 14 11 15 18
+END
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  expect 0 'updates' edit two.poly --script seeds.txt $engine -o "seeds$engine.node" \
+    -o "seeds$engine.vtu" -o "seeds$engine.svg" --stats "seeds$engine.jsonl"
+  grep -o '"kept":{"added.*' "seeds$engine.jsonl" >"kept$engine"
+done
+for format in node ele face vtu svg; do same seeds.$format seeds--static.$format; done
+same kept kept--static
+has kept '"removed":[1-9]'
+printf '+hole 9 5 5 5\n' >far.txt
+expect 0 'far.txt:1: warning: the seed of hole 9' edit two.poly --script far.txt
+printf '+point 90 .5 .6 .9\n+region 1 .5 .5 .5 4\n' >twice.txt
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  refuse 3 'twice.txt:2:1: error[repeated_id]' edit two.poly --script twice.txt $engine -o out/x.vtu
+done
+
 echo "== complexes: what is wrong is said with line, ids and place"
 # bad CODE TEXT SED: of two.poly, changed
 bad() {
@@ -192,5 +231,29 @@ sed "$(cat line)d; 1s/.*/$(($(wc -l <good.face) - 2)) 1/" good.face >cut.face
 expect 1 'error[bad_quality]: polygons: polygon ' check cut.node --input two.poly
 sed 's/ 8$/ 9/' good.face >cut.face
 expect 1 'polygon 8: the edge from ' check cut.node --input two.poly
+
+echo "== complexes: check compares markers, where both have them"
+expect 0 ' faces have one' \
+  check good.node --input two.poly
+for format in vtu vtk msh mesh; do
+  expect 0 '' mesh two.poly --quiet -o marked.$format
+  expect 0 'markers     ok' check marked.$format --input two.poly
+done
+for part in node ele edge face; do cp good.$part cut.$part; done
+sed 's/ 31 8$/ 30 8/' good.face >cut.face
+expect 1 ' has the marker 30, but is on polygon 8 (line' check cut.node \
+  --input two.poly
+cp good.face cut.face
+sed -E 's/^([0-9]+ 0 0 0 .*) 5$/\1 6/' good.node >cut.node
+expect 1 ' has the marker 6, but is point 1 (line 2), which has 5' check cut.node \
+  --input two.poly
+cp good.node cut.node
+sed -E '2s/^([0-9]+ [0-9]+ [0-9]+) [0-9]+/\1 99/' good.edge >cut.edge
+expect 1 ' has the marker 99, but is on polygon' check cut.node \
+  --input two.poly
+sed 's/ 31$/ -31/' two.poly >negative.poly
+expect 0 '' mesh negative.poly --quiet -o marked.mesh
+expect 0 'markers are not compared: .mesh counts those of INPUT' check marked.mesh \
+  --input negative.poly
 
 report_checks

@@ -167,7 +167,7 @@ for engine in '' --static; do
   for format in node ele face; do same after.$format fresh.$format; done
   same after.vtu fresh.vtu
   [[ $(wc -l <"after3$engine.jsonl") == 5 ]] || fail "after3$engine.jsonl has not 5 lines"
-  has "after3$engine.jsonl" '^\{"edit":"-point 3","seconds":[0-9.e-]+,"calls":\{"executed":[0-9]+,"reused":[0-9]+,"created":[0-9]+,"discarded":[0-9]+\},"vertices":\{"added":[0-9]+,"removed":[1-9][0-9]*\},"simplices":\{"added":[0-9]+,"removed":[0-9]+\}\}$'
+  has "after3$engine.jsonl" '^\{"edit":"-point 3","seconds":[0-9.e-]+,"calls":\{"executed":[0-9]+,"reused":[0-9]+,"created":[0-9]+,"discarded":[0-9]+\},"vertices":\{"added":[0-9]+,"removed":[1-9][0-9]*\},"simplices":\{"added":[0-9]+,"removed":[0-9]+\},"kept":\{"added":[0-9]+,"removed":[1-9][0-9]*\}\}$'
   has after.svg 'fill="#(ff|f|e|d|c)[0-9a-f]*"'
   cp after.svg "picture$engine.svg"
 done
@@ -199,7 +199,7 @@ bad_edit3 1 '3:2: error[duplicate_point]' 'begin\n move 7 .5 .4999 .5\ncommit'
 bad_edit3 1 '2:1: error[outside_domain]' '+point 1002 .5 .5 7'
 bad_edit3 3 '2:1: error[unbalanced_commit]' 'commit'
 bad_edit3 3 '2:1: error[unbalanced_commit]' 'begin'
-bad_edit3 3 "2:1: error[bad_edit]: '+hole' is an edit in the plane" '+hole 1 2 3 4'
+bad_edit3 3 "2:1: error[bad_edit]: 'limit' is an edit in the plane" 'limit none'
 bad_edit3 3 '2:1: error[bad_edit]' 'limit size 1'
 bad_edit3 3 "2:1: error[bad_edit]: no edit is called '+tetrahedron'" '+tetrahedron 1 2 3'
 printf '+point 1002 .5 .5 7\n' >bad3.txt

@@ -7,7 +7,8 @@
 //   const DomainChange change = lake.update(m.update(), {.seeds_in = {seed}});
 //   ... change.kept_added, change.kept_removed, change.relabelled ...
 //
-// Words, and what is kept, as in domain.hpp. Guarantees:
+// Words, and what is kept, as in domain.hpp: in space read tetrahedra and faces for triangles and
+// edges. Guarantees:
 //   (1) labels and faults are those of find_domain on the mesh, walls and seeds of the moment;
 //   (2) the change is exact: no triangle is missing, none is named twice, all are in canonical
 //       order;
@@ -31,16 +32,19 @@
 namespace mesher {
 
 /// What comes and goes besides triangles. A wall in both lists stays, a seed moves.
-struct DomainEdits {
-  using Wall = std::array<Point<2>, 2>;  // its ends, in either order
+template <int D>
+struct DomainEditsOf {
+  using Wall = std::array<Point<D>, D>;  // its ends, in any order
   std::vector<Wall> walls_out, walls_in;
   std::vector<SeedName> seeds_out;
-  std::vector<Seed> seeds_in;
+  std::vector<SeedOf<D>> seeds_in;
 };
+using DomainEdits = DomainEditsOf<2>;
 
-/// Triangles by their corners, counterclockwise from the smallest, in lexicographic order.
-struct DomainChange {
-  using Corners = std::array<Point<2>, 3>;
+/// Triangles by their corners, as in Change, in lexicographic order.
+template <int D>
+struct DomainChangeOf {
+  using Corners = std::array<Point<D>, D + 1>;
   struct Relabelled {
     Corners corners{};
     RegionLabel before, after;
@@ -51,31 +55,36 @@ struct DomainChange {
   std::vector<Relabelled> relabelled;  ///< of the mesh before and after, kept or not
   std::uint64_t visited = 0;           ///< triangles looked at beyond the change itself
 };
+using DomainChange = DomainChangeOf<2>;
 
-class DomainFollower {
+template <int D>
+class DomainFollowerOf {
  public:
+  using DomainChange = DomainChangeOf<D>;
+  using DomainEdits = DomainEditsOf<D>;
+
   /// `walls`: edges of the mesh. Throws: Error as find_domain. Cost: as find_domain.
-  DomainFollower(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls,
-                 const std::vector<Seed>& seeds, Extent extent);
-  DomainFollower(DomainFollower&&) noexcept;
-  DomainFollower& operator=(DomainFollower&&) noexcept;
-  ~DomainFollower();
+  DomainFollowerOf(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls,
+                   const std::vector<SeedOf<D>>& seeds, Extent extent);
+  DomainFollowerOf(DomainFollowerOf&&) noexcept;
+  DomainFollowerOf& operator=(DomainFollowerOf&&) noexcept;
+  ~DomainFollowerOf();
 
   /// Requires: `change` is that of the mesh followed; afterwards all walls are edges of it.
   /// Throws: sac::UsageError if not, Error (unknown_id, and as find_domain) of seeds,
   /// std::bad_alloc.
-  DomainChange update(const Change<2>& change, const DomainEdits& edits = {});
+  DomainChange update(const Change<D>& change, const DomainEdits& edits = {});
 
   /// The same, with a last word on it: what `accept` throws leaves all as it was. It may ask for
   /// labels.
   using Accept = std::function<void(const DomainChange&)>;
-  DomainChange update(const Change<2>& change, const DomainEdits& edits, const Accept& accept);
+  DomainChange update(const Change<D>& change, const DomainEdits& edits, const Accept& accept);
 
   /// Requires: a triangle of the mesh, from any corner. Cost: O(1) for vertices of bounded degree.
-  [[nodiscard]] RegionLabel label(const DomainChange::Corners& triangle) const;
-  [[nodiscard]] bool keeps(const DomainChange::Corners& triangle) const;
+  [[nodiscard]] RegionLabel label(const typename DomainChange::Corners& triangle) const;
+  [[nodiscard]] bool keeps(const typename DomainChange::Corners& triangle) const;
   /// As find_domain's, but without the segments' ids. Cost: O(seeds).
-  [[nodiscard]] std::vector<SeedFault> faults() const;
+  [[nodiscard]] std::vector<SeedFaultOf<D>> faults() const;
 
   /// Throws std::logic_error naming the broken invariant. Cost: O(m log m).
   void check_invariants() const;
@@ -84,5 +93,6 @@ class DomainFollower {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+using DomainFollower = DomainFollowerOf<2>;
 
 }  // namespace mesher

@@ -11,6 +11,7 @@
 // place.
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 #include "mesher/domain.hpp"
@@ -31,6 +32,10 @@ struct DomainMeshOf {
 };
 using DomainMesh = DomainMeshOf<2>;
 
+/// What a mesh is made of: a graph, or in space a complex.
+template <int D>
+using GraphOf = std::conditional_t<D == 2, Pslg, Plc>;
+
 /// Whether there are no lines, polygons, seeds and markers: then meshes are meshes of points alone.
 [[nodiscard]] bool is_bare(const Pslg& graph);
 [[nodiscard]] bool is_bare(const Plc& complex);
@@ -46,6 +51,7 @@ using DomainMesh = DomainMeshOf<2>;
 [[nodiscard]] std::vector<SeedOf<3>> seeds_of(const Plc& complex);
 /// Adds a hole or region, so that seeds_of has it.
 void add_seed(Pslg& graph, const Seed& seed);
+void add_seed(Plc& complex, const SeedOf<3>& seed);
 
 /// The mesh of a graph's points and lines in the box. Throws: as mesh_statically of these.
 [[nodiscard]] Mesh<2> mesh_statically(const Pslg& graph, const Options<2>& options,
@@ -92,12 +98,20 @@ void announce(const Pslg& graph, Target& target) {
     for (const auto& l : graph.polylines) target.insert_polyline(l.id, l.points);
   }
 }
-/// The same of a complex, without its seeds and markers.
+/// The same of a complex, to a DomainMesherOf<3> or to a Mesher<3>.
 template <class Target>
 void announce(const Plc& complex, Target& target) {
-  for (const auto& p : complex.points) target.insert(p.id, p.at);
-  for (const auto& s : complex.segments) target.insert_segment(s.id, s.from, s.to);
-  for (const auto& f : complex.facets) target.insert_polygon(f.polygon);
+  constexpr bool kTakesSeeds = requires { target.insert_seed(SeedOf<3>()); };
+  if constexpr (kTakesSeeds) {
+    for (const auto& p : complex.points) target.insert(p.id, p.at, p.marker);
+    for (const auto& s : complex.segments) target.insert_segment(s.id, s.from, s.to, s.marker);
+    for (const auto& f : complex.facets) target.insert_polygon(f.polygon, f.marker);
+    for (const SeedOf<3>& seed : seeds_of(complex)) target.insert_seed(seed);
+  } else {
+    for (const auto& p : complex.points) target.insert(p.id, p.at);
+    for (const auto& s : complex.segments) target.insert_segment(s.id, s.from, s.to);
+    for (const auto& f : complex.facets) target.insert_polygon(f.polygon);
+  }
 }
 
 }  // namespace mesher

@@ -10,17 +10,18 @@
 //   ... change.domain.kept_added, change.domain.kept_removed ...
 //   write_mesh(lake.domain_mesh().kept, "lake.vtu");
 //
-// Words as in domain.hpp. Guarantees, after every update():
-//   (1) the mesh is that of a Mesher<2> with these points and lines, and with limits of size by
+// Words as in domain.hpp; in space, where polygons enclose, read tetrahedra and faces for triangles
+// and edges. Guarantees, after every update():
+//   (1) the mesh is that of a Mesher with these points, lines and polygons, and with limits of size by
 //       region_limits; the domain is that of find_domain in it;
 //   (2) both are functions of the input and the options alone;
 //   (3) what throws, for whatever reason, leaves mesh, domain, seeds and markers as they were:
-//       points, lines and seeds of a batch come together or not at all.
-// Cost of an update: that of Mesher<2>, and that of DomainFollower for its change: that of a region
-// where walls join or part regions, or where a seed gives one another label. The first line or seed
-// that comes to a mesh of points alone costs all its triangles, once.
+//       points, lines, polygons and seeds of a batch come together or not at all.
+// Cost of an update: that of Mesher, and that of DomainFollower for its change: that of a region
+// where walls join or part regions, or where a seed gives one another label. The first line (in
+// space polygon) or seed that comes to a mesh of points alone costs all its triangles, once.
 //
-// Limits of size count in what is wanted alone: where lines enclose something, in what they
+// Limits of size are for the plane. They count in what is wanted alone: where lines enclose something, in what they
 // enclose. So where there are limits, a second mesh, without, follows the input to tell what that
 // is; an update costs that of both, and where a region becomes or ceases to be wanted, or gets
 // another largest area, the vertices in it; where lines at which limits begin or end are edited,
@@ -40,35 +41,42 @@
 namespace mesher {
 
 /// What an update did to the mesh, and to the domain.
-struct DomainUpdate : Change<2> {
-  DomainChange domain;
+template <int D>
+struct DomainUpdateOf : Change<D> {
+  DomainChangeOf<D> domain;
 };
+using DomainUpdate = DomainUpdateOf<2>;
 
-class DomainMesher {
+template <int D>
+class DomainMesherOf {
  public:
-  /// Throws: as Mesher<2>.
-  explicit DomainMesher(const Options<2>& options, Extent extent = Extent::enclosed,
-                        RegionAreas areas = RegionAreas::ignored);
-  DomainMesher(DomainMesher&&) noexcept;
-  DomainMesher& operator=(DomainMesher&&) noexcept;
-  ~DomainMesher();
+  /// Throws: as Mesher; Error(bad_option) for `areas` that are limits, in space.
+  explicit DomainMesherOf(const Options<D>& options, Extent extent = Extent::enclosed,
+                          RegionAreas areas = RegionAreas::ignored);
+  DomainMesherOf(DomainMesherOf&&) noexcept;
+  DomainMesherOf& operator=(DomainMesherOf&&) noexcept;
+  ~DomainMesherOf();
 
-  /// Points and lines are announced as to a Mesher<2>, with its errors. `marker`: what vertices and
-  /// edges get in domain_mesh(); a point keeps it when it moves.
-  void insert(FeatureId id, const Point<2>& point, std::int64_t marker = 0);
+  /// Points, lines and polygons are announced as to a Mesher, with its errors. `marker`: what
+  /// vertices, edges and faces get in domain_mesh(); a point keeps it when it moves.
+  void insert(FeatureId id, const Point<D>& point, std::int64_t marker = 0);
   void remove(FeatureId id);
-  void move(FeatureId id, const Point<2>& point);
+  void move(FeatureId id, const Point<D>& point);
   void insert_segment(FeatureId id, FeatureId from, FeatureId to, std::int64_t marker = 0);
   void insert_polyline(FeatureId id, const std::vector<FeatureId>& points, std::int64_t marker = 0);
   void remove_segment(FeatureId id);
   void remove_polyline(FeatureId id) { remove_segment(id); }
+  void insert_polygon(const Polygon& polygon, std::int64_t marker = 0)
+  requires(D == 3);
+  void remove_polygon(FeatureId id)
+  requires(D == 3);
 
   /// Announces a seed that shall be there. It may be anywhere: one without a region of its own is
   /// one of faults(). A seed that is removed and inserted in one batch moves.
   /// Throws: Error (repeated_id, and as find_domain). Cost: O(log s).
-  void insert_seed(const Seed& seed);
-  void insert_hole(FeatureId id, const Point<2>& at);
-  void insert_region(FeatureId id, const Point<2>& at, double attribute,
+  void insert_seed(const SeedOf<D>& seed);
+  void insert_hole(FeatureId id, const Point<D>& at);
+  void insert_region(FeatureId id, const Point<D>& at, double attribute,
                      std::optional<double> max_area = {});
   /// Announces that a seed goes. Throws: Error(unknown_id). Cost: O(log s).
   void remove_seed(const SeedName& name);
@@ -76,38 +84,42 @@ class DomainMesher {
   void remove_region(FeatureId id) { remove_seed({SeedKind::region, id}); }
 
   /// Announces limits of size, as to a Mesher<2>; they count in what is wanted.
-  void limit(const SizeLimits<2>& limits);
-  void limit(const Box<2>& box, const SizeLimits<2>& limits);
+  void limit(const SizeLimits<D>& limits)
+  requires(D == 2);
+  void limit(const Box<D>& box, const SizeLimits<D>& limits)
+  requires(D == 2);
 
   /// Takes back every edit announced since the last update().
   void discard_edits() noexcept;
 
-  /// As Mesher<2>::update, of all that is announced. `domain` of the first: from nothing.
-  DomainUpdate update(const RunControl& control = {});
+  /// As Mesher::update, of all that is announced. `domain` of the first: from nothing.
+  DomainUpdateOf<D> update(const RunControl& control = {});
 
   /// The mesh of the last update() in the box, without features. Cost: O(m log m).
-  [[nodiscard]] Mesh<2> mesh() const;
+  [[nodiscard]] Mesh<D> mesh() const;
   /// The part that is wanted, with features: mesher::domain_mesh of mesh() and input().
-  [[nodiscard]] DomainMesh domain_mesh() const;
-  /// The graph of the last update(), ascending by id; a line of two points is a segment.
+  [[nodiscard]] DomainMeshOf<D> domain_mesh() const;
+  /// The graph of the last update(), ascending by id; a line of two points is a segment. In space
+  /// others are several of one id.
   /// Cost: O(n log n).
-  [[nodiscard]] Pslg input() const;
+  [[nodiscard]] GraphOf<D> input() const;
 
   /// Requires: a triangle of the mesh, from any corner. Cost: O(1) for vertices of bounded degree.
-  [[nodiscard]] RegionLabel label(const DomainChange::Corners& triangle) const;
-  [[nodiscard]] bool keeps(const DomainChange::Corners& triangle) const;
+  [[nodiscard]] RegionLabel label(const typename DomainChangeOf<D>::Corners& triangle) const;
+  [[nodiscard]] bool keeps(const typename DomainChangeOf<D>::Corners& triangle) const;
   /// Of the last update(); without the segments' ids. Cost: O(seeds).
-  [[nodiscard]] std::vector<SeedFault> faults() const;
+  [[nodiscard]] std::vector<SeedFaultOf<D>> faults() const;
 
   /// Whether it is announced to be there.
   [[nodiscard]] bool contains(FeatureId id) const;
   [[nodiscard]] bool contains_line(FeatureId id) const;
+  [[nodiscard]] bool contains_polygon(FeatureId id) const;
   [[nodiscard]] bool contains_seed(const SeedName& name) const;
 
   /// Of mesh(); calls, edges and bytes of the second mesh, too, if there is one.
   /// Cost: O(1); with a second mesh, O(its triangles).
   [[nodiscard]] MeshStats stats() const;
-  [[nodiscard]] const Options<2>& options() const;
+  [[nodiscard]] const Options<D>& options() const;
   [[nodiscard]] Extent extent() const;
 
   /// Throws std::logic_error naming the broken invariant. Cost: O(trace + m log m).
@@ -117,5 +129,6 @@ class DomainMesher {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+using DomainMesher = DomainMesherOf<2>;
 
 }  // namespace mesher

@@ -178,13 +178,13 @@ void announce_polygon(const EditOf<D>& edit, Target& target) {
 /// The same of a seed and a DomainMesher, or anything with its functions for seeds.
 template <int D, class Target>
 void announce_seed(const EditOf<D>& edit, Target& target) {
-  if constexpr (requires { target.insert_seed(Seed()); }) {
+  if constexpr (requires { target.insert_seed(SeedOf<D>()); }) {
     const SeedKind kind = featured(edit.kind) == Featured::hole ? SeedKind::hole : SeedKind::region;
     const SeedName name{kind, edit.id};
     if (edit.kind == EditKind::remove_hole || edit.kind == EditKind::remove_region) {
       return target.remove_seed(name);
     }
-    target.insert_seed({name, edit.point, edit.attribute, edit.max_area});
+    target.insert_seed(SeedOf<D>{name, edit.point, edit.attribute, edit.max_area});
   } else {
     throw Error(ErrorCode::bad_edit, "holes and regions cannot be edited here");
   }

@@ -37,6 +37,7 @@ class Engine;
 namespace mesher {
 
 namespace detail {
+template <int D>
 class DomainState;
 }
 
@@ -60,16 +61,26 @@ struct KindChange {
   friend bool operator==(const KindChange&, const KindChange&) = default;
 };
 
-/// An edge of the mesh on a line of the input; low < high in lexicographic order.
+/// An edge of the mesh on a line of the input, or in space on an edge of its polygons; low < high
+/// in lexicographic order.
 template <int D>
 struct LineEdge {
   Point<D> low{}, high{};
   FeatureId line{};
+  bool of_polygon = false;  ///< as in Mesh::Edge
   friend auto operator<=>(const LineEdge&, const LineEdge&) = default;
 };
 
+/// A face of the mesh in a polygon of the input; corners ascend in lexicographic order.
+template <int D>
+struct PolygonFace {
+  std::array<Point<D>, 3> corners{};
+  FeatureId polygon{};
+  friend auto operator<=>(const PolygonFace&, const PolygonFace&) = default;
+};
+
 /// The exact difference between the mesh before and after an update.
-/// Vertices and edges in lexicographic order; each simplex by its corners, smallest first,
+/// Vertices, edges and faces in lexicographic order; each simplex by its corners, smallest first,
 /// positively oriented.
 template <int D>
 struct Change {
@@ -78,8 +89,11 @@ struct Change {
   std::vector<KindChange<D>> kinds_changed;
   std::vector<std::array<Point<D>, D + 1>> simplices_added;
   std::vector<std::array<Point<D>, D + 1>> simplices_removed;
-  std::vector<LineEdge<D>> edges_added;  ///< on lines; in the plane
+  std::vector<LineEdge<D>> edges_added;  ///< of Mesh::edges; one that stays with another line's
+                                         ///< id is in both lists
   std::vector<LineEdge<D>> edges_removed;
+  std::vector<PolygonFace<D>> faces_added;  ///< of Mesh::faces, likewise; in the plane none
+  std::vector<PolygonFace<D>> faces_removed;
   AngleNews angles;  ///< what small angles of the input did to what has come
   CallCounts calls;
 };
@@ -239,7 +253,7 @@ class Mesher {
   void check_invariants() const;
 
  private:
-  friend class detail::DomainState;  // which keeps the limits of regions up to date
+  friend class detail::DomainState<D>;  // which keeps the limits of regions up to date
   void announce_to(Mesher& other) const;
   void limit_regions(std::shared_ptr<const RegionLimits> regions,
                      const std::vector<Box<D>>& where);

@@ -39,7 +39,10 @@
 //       its own corners' deviation; each of their edges is of two of them, or of one and on an edge
 //       of the polygon; and their areas add up to its own, but for 10^-9. One of which no corner is
 //       a vertex may be outside;
-//   (d) regions: tetrahedra on both sides of a face in no polygon have the same region; where seeds
+//   (d) markers, where complex and mesh have some: vertices have that of their point, or else of a
+//       segment or polygon that they are on, edges that of their segment, or else of such a polygon,
+//       faces that of their polygon; what is on none has none, or on the boundary perhaps 1;
+//   (e) regions: tetrahedra on both sides of a face in no polygon have the same region; where seeds
 //       are given, that of one of the seeds inside.
 // If the mesh need not be convex, (5) is that faces of one tetrahedron are on the box or in
 // polygons; then (6) looks at a place in each part that hangs together, and beside each part of the
@@ -83,8 +86,8 @@ struct SpaceCheckOptions {
   std::optional<double> rho{};                ///< checks (11) where given
   BoundaryRule boundary = BoundaryRule::box;  ///< box; lines: polygons, or the box; any: of any
                                               ///< convex body
-  const PlcFile* complex = nullptr;           ///< checks (b), (c), seeds in (d) where given
-  const MeshFeatures* features = nullptr;     ///< tells origins for (10); (a), (c), (d)
+  const PlcFile* complex = nullptr;           ///< checks (b), (c), (d), seeds in (e) where given
+  const MeshFeatures* features = nullptr;     ///< tells origins for (10); (a), (c) to (e)
   bool ties = false;                          ///< checks (8)
   bool near_delaunay = false;                 ///< (7) as for without_flat_tetrahedra (flat.hpp)
 };

@@ -12,26 +12,26 @@
 namespace mesher {
 namespace {
 
-using detail::Corners;
-using detail::Edge;
-
 struct PlaceHash {
-  std::size_t operator()(const Point<2>& p) const noexcept {
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
-    return sac::mix(sac::mix(bits(p[0])) + bits(p[1]));
+  template <std::size_t D>
+  std::size_t operator()(const std::array<double, D>& p) const noexcept {
+    std::uint64_t h = 0;
+    for (const double x : p) h = sac::mix(h) + std::bit_cast<std::uint64_t>(x + 0.0);
+    return sac::mix(h);
   }
 };
 
 // The vertices of a mesh by number.
+template <int D>
 class Numbering {
  public:
-  explicit Numbering(const std::vector<Point<2>>& places) : places_(places) {
+  explicit Numbering(const std::vector<Point<D>>& places) : places_(places) {
     numbers_.reserve(places.size());
     for (std::uint32_t v = 0; v < places.size(); ++v) numbers_.emplace(places[v], v);
   }
 
-  [[nodiscard]] const Point<2>& place(std::uint32_t v) const { return places_[v]; }
-  [[nodiscard]] std::uint32_t number(const Point<2>& p) const {
+  [[nodiscard]] const Point<D>& place(std::uint32_t v) const { return places_[v]; }
+  [[nodiscard]] std::uint32_t number(const Point<D>& p) const {
     const auto it = numbers_.find(p);
     SAC_EXPECTS(it != numbers_.end());
     return it->second;
@@ -39,7 +39,7 @@ class Numbering {
 
   /// Numbers for new vertices, or for none of them. Afterwards forget() needs no memory for
   /// `leaving` vertices.
-  void add(const std::vector<Point<2>>& places, std::size_t leaving) {
+  void add(const std::vector<Point<D>>& places, std::size_t leaving) {
     free_.reserve(free_.size() + places.size() + leaving);
     std::size_t done = 0;
     try {
@@ -49,8 +49,8 @@ class Numbering {
       throw;
     }
   }
-  void forget(std::span<const Point<2>> places) noexcept {
-    for (const Point<2>& p : places) {
+  void forget(std::span<const Point<D>> places) noexcept {
+    for (const Point<D>& p : places) {
       const auto it = numbers_.find(p);
       if (it == numbers_.end()) continue;
       free_.push_back(it->second);
@@ -59,7 +59,7 @@ class Numbering {
   }
 
  private:
-  void add(const Point<2>& p) {
+  void add(const Point<D>& p) {
     const auto next = static_cast<std::uint32_t>(places_.size());
     const std::uint32_t v = free_.empty() ? next : free_.back();
     if (v == next) places_.push_back(p);
@@ -73,46 +73,48 @@ class Numbering {
     if (v != next) free_.pop_back();
   }
 
-  std::vector<Point<2>> places_;
-  std::unordered_map<Point<2>, std::uint32_t, PlaceHash> numbers_;
+  std::vector<Point<D>> places_;
+  std::unordered_map<Point<D>, std::uint32_t, PlaceHash> numbers_;
   std::vector<std::uint32_t> free_;
 };
 
 }  // namespace
 
-struct DomainFollower::Impl {
-  Impl(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls, const std::vector<Seed>& seeds,
-       Extent wanted)
+template <int D>
+struct DomainFollowerOf<D>::Impl {
+  using Corners = detail::CornersOf<D>;
+  Impl(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls,
+       const std::vector<SeedOf<D>>& seeds, Extent wanted)
       : numbers(mesh.vertices),
         regions(mesh.simplices, detail::corners_of(walls), seeds,
                 [this](std::uint32_t v) { return numbers.place(v); }),
         extent(wanted) {}
 
-  [[nodiscard]] Corners number(const DomainChange::Corners& t) const {
-    return {numbers.number(t[0]), numbers.number(t[1]), numbers.number(t[2])};
+  template <std::size_t N>
+  [[nodiscard]] std::array<std::uint32_t, N> number(const std::array<Point<D>, N>& t) const {
+    std::array<std::uint32_t, N> corners;
+    for (std::size_t i = 0; i < N; ++i) corners[i] = numbers.number(t[i]);
+    return corners;
   }
-  [[nodiscard]] DomainChange::Corners places(const Corners& t) const {
-    return detail::smallest_first(
-        DomainChange::Corners{numbers.place(t[0]), numbers.place(t[1]), numbers.place(t[2])});
-  }
-  [[nodiscard]] std::vector<Corners> number(const std::vector<DomainChange::Corners>& all) const {
-    std::vector<Corners> numbered;
+  template <std::size_t N>
+  [[nodiscard]] auto number(const std::vector<std::array<Point<D>, N>>& all) const {
+    std::vector<std::array<std::uint32_t, N>> numbered;
     for (const auto& t : all) numbered.push_back(number(t));
     return numbered;
   }
-  [[nodiscard]] std::vector<Edge> number(const std::vector<DomainEdits::Wall>& all) const {
-    std::vector<Edge> numbered;
-    for (const auto& e : all) numbered.push_back({numbers.number(e[0]), numbers.number(e[1])});
-    return numbered;
+  [[nodiscard]] typename DomainChange::Corners places(const Corners& t) const {
+    typename DomainChange::Corners corners;
+    for (std::size_t i = 0; i < t.size(); ++i) corners[i] = numbers.place(t[i]);
+    return detail::smallest_first(corners);
   }
 
-  [[nodiscard]] std::vector<DomainChange::Corners> places(const std::vector<Corners>& all) const {
-    std::vector<DomainChange::Corners> placed;
+  [[nodiscard]] std::vector<typename DomainChange::Corners> places(const std::vector<Corners>& all) const {
+    std::vector<typename DomainChange::Corners> placed;
     for (const Corners& t : all) placed.push_back(places(t));
     std::sort(placed.begin(), placed.end());
     return placed;
   }
-  [[nodiscard]] DomainChange report(const detail::RegionsDifference& difference) const {
+  [[nodiscard]] DomainChange report(const detail::RegionsDifferenceOf<D>& difference) const {
     const auto kept = kept_difference(regions, difference, extent);
     DomainChange change{places(kept.added), places(kept.removed), {}, difference.visited};
     for (const auto& t : difference.relabelled) {
@@ -123,7 +125,7 @@ struct DomainFollower::Impl {
     return change;
   }
 
-  DomainChange update(const Change<2>& change, const DomainEdits& edits, const Accept& accept) {
+  DomainChange update(const Change<D>& change, const DomainEdits& edits, const Accept& accept) {
     const auto difference = regions.update(
         {number(change.simplices_removed), number(change.simplices_added), number(edits.walls_out),
          number(edits.walls_in), edits.seeds_out, edits.seeds_in});
@@ -137,25 +139,32 @@ struct DomainFollower::Impl {
     }
   }
 
-  Numbering numbers;
-  detail::Regions regions;
+  Numbering<D> numbers;
+  detail::RegionsOf<D> regions;
   Extent extent;
 };
 
-DomainFollower::DomainFollower(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls,
-                               const std::vector<Seed>& seeds, Extent extent)
+template <int D>
+DomainFollowerOf<D>::DomainFollowerOf(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls,
+                                      const std::vector<SeedOf<D>>& seeds, Extent extent)
     : impl_(std::make_unique<Impl>(mesh, walls, seeds, extent)) {}
-DomainFollower::DomainFollower(DomainFollower&&) noexcept = default;
-DomainFollower& DomainFollower::operator=(DomainFollower&&) noexcept = default;
-DomainFollower::~DomainFollower() = default;
+template <int D>
+DomainFollowerOf<D>::DomainFollowerOf(DomainFollowerOf&&) noexcept = default;
+template <int D>
+DomainFollowerOf<D>& DomainFollowerOf<D>::operator=(DomainFollowerOf&&) noexcept = default;
+template <int D>
+DomainFollowerOf<D>::~DomainFollowerOf() = default;
 
-DomainChange DomainFollower::update(const Change<2>& change, const DomainEdits& edits) {
+template <int D>
+auto DomainFollowerOf<D>::update(const Change<D>& change, const DomainEdits& edits)
+    -> DomainChange {
   return update(change, edits, {});
 }
 
-DomainChange DomainFollower::update(const Change<2>& change, const DomainEdits& edits,
-                                    const Accept& accept) {
-  Numbering& numbers = impl_->numbers;
+template <int D>
+auto DomainFollowerOf<D>::update(const Change<D>& change, const DomainEdits& edits,
+                                 const Accept& accept) -> DomainChange {
+  Numbering<D>& numbers = impl_->numbers;
   numbers.add(change.vertices_added, change.vertices_removed.size());
   try {
     DomainChange result = impl_->update(change, edits, accept);
@@ -167,18 +176,27 @@ DomainChange DomainFollower::update(const Change<2>& change, const DomainEdits& 
   }
 }
 
-RegionLabel DomainFollower::label(const DomainChange::Corners& triangle) const {
+template <int D>
+RegionLabel DomainFollowerOf<D>::label(const typename DomainChange::Corners& triangle) const {
   return impl_->regions.label(impl_->number(triangle));
 }
 
-bool DomainFollower::keeps(const DomainChange::Corners& triangle) const {
+template <int D>
+bool DomainFollowerOf<D>::keeps(const typename DomainChange::Corners& triangle) const {
   return impl_->regions.keeps(label(triangle), impl_->extent);
 }
 
-std::vector<SeedFault> DomainFollower::faults() const {
+template <int D>
+std::vector<SeedFaultOf<D>> DomainFollowerOf<D>::faults() const {
   return impl_->regions.faults(impl_->extent);
 }
 
-void DomainFollower::check_invariants() const { impl_->regions.check_invariants(); }
+template <int D>
+void DomainFollowerOf<D>::check_invariants() const {
+  impl_->regions.check_invariants();
+}
+
+template class DomainFollowerOf<2>;
+template class DomainFollowerOf<3>;
 
 }  // namespace mesher

@@ -116,6 +116,14 @@ void add_seed(Pslg& graph, const Seed& seed) {
   }
 }
 
+void add_seed(Plc& complex, const SeedOf<3>& seed) {
+  if (seed.name.kind == SeedKind::hole) {
+    complex.holes.push_back({seed.name.id, seed.at});
+  } else {
+    complex.regions.push_back({seed.name.id, seed.at, seed.attribute, seed.max_area});
+  }
+}
+
 Mesh<2> mesh_statically(const Pslg& graph, const Options<2>& options, MeshStats* stats,
                         const RunControl& control) {
   const std::vector<FeatureId> ids = ids_of(graph.points);

@@ -7,7 +7,8 @@ namespace mesher::detail {
 
 // --- Clusters --------------------------------------------------------------------------------
 
-Clusters::Clusters(const Tiles& tiles, const Seams& seams) {
+template <int D>
+Clusters<D>::Clusters(const TilesOf<D>& tiles, const SeamsOf<D>& seams) {
   std::vector<Slot> added = seams.added;
   std::sort(added.begin(), added.end());
   std::merge(added.begin(), added.end(), seams.frontier.begin(), seams.frontier.end(),
@@ -15,7 +16,7 @@ Clusters::Clusters(const Tiles& tiles, const Seams& seams) {
   for (std::uint32_t k = 0; k < count(); ++k) cluster_.push_back(k);
   UnionFind sets(nodes_.size());
   for (std::uint32_t k = 0; k < count(); ++k) {
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i <= D; ++i) {
       const std::uint32_t n = of(tiles[nodes_[k]].open_neighbour(i));
       if (n != kNone) sets.unite(k, n);
     }
@@ -25,18 +26,21 @@ Clusters::Clusters(const Tiles& tiles, const Seams& seams) {
   std::sort(members_.begin(), members_.end());
 }
 
-std::uint32_t Clusters::of(Slot s) const {
+template <int D>
+std::uint32_t Clusters<D>::of(Slot s) const {
   const auto it = std::lower_bound(nodes_.begin(), nodes_.end(), s);
   if (it == nodes_.end() || *it != s) return kNone;
   return cluster_[static_cast<std::size_t>(it - nodes_.begin())];
 }
 
-std::span<const Member> Clusters::members(std::uint32_t component) const {
+template <int D>
+std::span<const Member> Clusters<D>::members(std::uint32_t component) const {
   const auto first = std::lower_bound(members_.begin(), members_.end(), Member{component, 0, 0});
   return {first, std::upper_bound(first, members_.end(), Member{component, kNone, kNone})};
 }
 
-std::span<const Member> Clusters::members(std::uint32_t component, std::uint32_t cluster) const {
+template <int D>
+std::span<const Member> Clusters<D>::members(std::uint32_t component, std::uint32_t cluster) const {
   const Member low{component, cluster, 0}, high{component, cluster, kNone};
   const auto first = std::lower_bound(members_.begin(), members_.end(), low);
   return {first, std::upper_bound(first, members_.end(), high)};
@@ -44,7 +48,8 @@ std::span<const Member> Clusters::members(std::uint32_t component, std::uint32_t
 
 // --- Parting a region ------------------------------------------------------------------------
 
-Parting::Parting(const Tiles& tiles, const Clusters& clusters, Marks& marks,
+template <int D>
+Parting<D>::Parting(const TilesOf<D>& tiles, const Clusters<D>& clusters, Marks& marks,
                  std::uint32_t component, std::span<const std::uint32_t> starts)
     : tiles_(tiles),
       clusters_(clusters),
@@ -58,20 +63,23 @@ Parting::Parting(const Tiles& tiles, const Clusters& clusters, Marks& marks,
   }
 }
 
-void Parting::mark(Slot s, std::uint32_t group) {
+template <int D>
+void Parting<D>::mark(Slot s, std::uint32_t group) {
   groups_[group].pending.push_back(s);
   marks_[s] = base_ + group;
 }
 
 // Either all or none of a cluster's members are marked.
-void Parting::reach(Slot s, std::uint32_t group) {
+template <int D>
+void Parting<D>::reach(Slot s, std::uint32_t group) {
   if (is_marked(s)) return meet(met_.find(marks_[s] - base_), met_.find(group));
   const std::uint32_t cluster = clusters_.of(s);
   if (cluster == kNone) return mark(s, met_.find(group));
   for (const Member& m : clusters_.members(component_, cluster)) mark(m.slot, met_.find(group));
 }
 
-void Parting::meet(std::uint32_t a, std::uint32_t b) {
+template <int D>
+void Parting<D>::meet(std::uint32_t a, std::uint32_t b) {
   if (a == b) return;
   if (groups_[a].size() < groups_[b].size()) std::swap(groups_[a], groups_[b]);
   Group &to = groups_[a], &from = groups_[b];
@@ -83,18 +91,20 @@ void Parting::meet(std::uint32_t a, std::uint32_t b) {
   if (met_.find(a) != a) std::swap(groups_[a], groups_[b]);
 }
 
-void Parting::step(std::uint32_t group) {
+template <int D>
+void Parting<D>::step(std::uint32_t group) {
   Group& g = groups_[group];
   const Slot s = g.pending[g.head++];
   g.done.push_back(s);
   ++visited_;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i <= D; ++i) {
     const Slot n = tiles_[s].open_neighbour(i);
     if (n != kNone && tiles_[n].component == component_) reach(n, group);
   }
 }
 
-void Parting::run() {
+template <int D>
+void Parting<D>::run() {
   std::vector<std::uint32_t> active(groups_.size());
   std::iota(active.begin(), active.end(), std::uint32_t{0});
   while (active.size() > 1) {
@@ -111,14 +121,16 @@ void Parting::run() {
 }
 
 // All fragments are found: the largest is as good as not listed.
-void Parting::choose() {
+template <int D>
+void Parting<D>::choose() {
   const auto largest = std::max_element(
       finished_.begin(), finished_.end(),
       [&](std::uint32_t a, std::uint32_t b) { return groups_[a].size() < groups_[b].size(); });
   finished_.erase(largest);
 }
 
-std::vector<Fragment> Parting::listed() {
+template <int D>
+std::vector<Fragment> Parting<D>::listed() {
   std::vector<Fragment> fragments;
   for (const std::uint32_t g : finished_) {
     groups_[g].listed = static_cast<std::uint32_t>(fragments.size());
@@ -128,8 +140,14 @@ std::vector<Fragment> Parting::listed() {
   return fragments;
 }
 
-std::uint32_t Parting::listed_with(Slot s) {
+template <int D>
+std::uint32_t Parting<D>::listed_with(Slot s) {
   return is_marked(s) ? groups_[met_.find(marks_[s] - base_)].listed : kNone;
 }
+
+template class Clusters<2>;
+template class Clusters<3>;
+template class Parting<2>;
+template class Parting<3>;
 
 }  // namespace mesher::detail

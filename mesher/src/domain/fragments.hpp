@@ -30,10 +30,11 @@ struct Member {
 };
 
 /// The frontier and the new triangles, in clusters.
+template <int D>
 class Clusters {
  public:
   /// Cost: O(c log c).
-  Clusters(const Tiles& tiles, const Seams& seams);
+  Clusters(const TilesOf<D>& tiles, const SeamsOf<D>& seams);
 
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(nodes_.size()); }
   /// The triangles, ascending; their clusters are numbered 0 .. count() - 1, not all used.
@@ -61,10 +62,11 @@ struct Fragment {
 };
 
 /// Parts one region. Marks hold what it has found until they are used again.
+template <int D>
 class Parting {
  public:
   /// `starts`: the clusters to start from, each with a member of the region.
-  Parting(const Tiles& tiles, const Clusters& clusters, Marks& marks, std::uint32_t component,
+  Parting(const TilesOf<D>& tiles, const Clusters<D>& clusters, Marks& marks, std::uint32_t component,
           std::span<const std::uint32_t> starts);
 
   void run();
@@ -91,8 +93,8 @@ class Parting {
   void step(std::uint32_t group);
   void choose();
 
-  const Tiles& tiles_;
-  const Clusters& clusters_;
+  const TilesOf<D>& tiles_;
+  const Clusters<D>& clusters_;
   Marks& marks_;
   std::uint32_t component_;
   std::uint32_t base_;  // the mark of group 0

@@ -8,12 +8,16 @@
 namespace mesher::detail {
 namespace {
 
+template <int D>
 class Comparison {
  public:
+  using Corners = CornersOf<D>;
+  using RegionsDifference = RegionsDifferenceOf<D>;
+
   Comparison(const RegionsDifference& difference, Extent extent)
       : difference_(difference), extent_(extent) {}
 
-  KeptDifference run(const Regions& regions) {
+  KeptDifference<D> run(const RegionsOf<D>& regions) {
     for (const auto& t : difference_.removed) {
       if (was_kept(t.label)) kept_.removed.push_back(t.corners);
     }
@@ -42,7 +46,7 @@ class Comparison {
   }
 
   // Triangles whose labels are what they were.
-  void compare_others(const Regions& regions) {
+  void compare_others(const RegionsOf<D>& regions) {
     std::vector<Corners> named;
     for (const auto& t : difference_.added) named.push_back(t.corners);
     for (const auto& t : difference_.relabelled) named.push_back(t.corners);
@@ -55,14 +59,19 @@ class Comparison {
 
   const RegionsDifference& difference_;
   Extent extent_;
-  KeptDifference kept_;
+  KeptDifference<D> kept_;
 };
 
 }  // namespace
 
-KeptDifference kept_difference(const Regions& regions, const RegionsDifference& difference,
-                               Extent extent) {
-  return Comparison(difference, extent).run(regions);
+template <int D>
+KeptDifference<D> kept_difference(const RegionsOf<D>& regions,
+                                  const RegionsDifferenceOf<D>& difference, Extent extent) {
+  return Comparison<D>(difference, extent).run(regions);
 }
+template KeptDifference<2> kept_difference(const RegionsOf<2>&, const RegionsDifferenceOf<2>&,
+                                           Extent);
+template KeptDifference<3> kept_difference(const RegionsOf<3>&, const RegionsDifferenceOf<3>&,
+                                           Extent);
 
 }  // namespace mesher::detail

@@ -1,4 +1,4 @@
-// Where places lie among triangles, by exact signs.
+// Where places lie among triangles or tetrahedra, by exact signs.
 #pragma once
 
 #include <algorithm>
@@ -13,28 +13,6 @@
 #include "mesher/predicates.hpp"
 
 namespace mesher::detail {
-
-/// How a closed triangle holds a place.
-struct Holding {
-  enum class Where : std::uint8_t { inside, edge, vertex };
-  Where where = Where::inside;
-  int index = 0;  // of the edge (across from corner `index`) or corner
-};
-
-/// Nothing if the closed triangle abc, counterclockwise, does not hold p.
-[[nodiscard]] inline std::optional<Holding> holding(const std::array<Point<2>, 3>& t,
-                                                    const Point<2>& p) {
-  int zeros = 0, on = 0, off = 0;  // the last edge that p is on the line of, the last other one
-  for (int i = 0; i < 3; ++i) {
-    const int side = predicates::orient2d(t[(i + 1) % 3], t[(i + 2) % 3], p);
-    if (side < 0) return std::nullopt;
-    zeros += side == 0;
-    (side == 0 ? on : off) = i;
-  }
-  if (zeros == 0) return Holding{};
-  if (zeros == 1) return Holding{Holding::Where::edge, on};
-  return Holding{Holding::Where::vertex, off};
-}
 
 /// On which side of a simplex's side across from corner i a place is: inside 1, on its plane 0.
 [[nodiscard]] inline int inward_side(const std::array<Point<2>, 3>& t, std::size_t i,
@@ -84,29 +62,15 @@ void for_each_holding(const std::vector<Point<D>>& places, std::size_t count, Co
   }
 }
 
-/// For each place the first of `count` triangles that holds it, or `none`. corners(i): the places
-/// of the i-th one's corners, counterclockwise.
-/// Cost: O(count log places), and a test for each triangle above or below a place.
-template <class Corners>
-[[nodiscard]] std::vector<std::uint32_t> first_holding(const std::vector<Point<2>>& places,
+/// For each place the first of `count` simplices that holds it, or `none`; likewise.
+template <int D, class Corners>
+[[nodiscard]] std::vector<std::uint32_t> first_holding(const std::vector<Point<D>>& places,
                                                        std::size_t count, Corners&& corners,
                                                        std::uint32_t none) {
   std::vector<std::uint32_t> found(places.size(), none);
-  std::vector<std::pair<double, std::uint32_t>> by_x;
-  for (std::uint32_t i = 0; i < places.size(); ++i) by_x.emplace_back(places[i][0], i);
-  std::sort(by_x.begin(), by_x.end());
-  if (by_x.empty()) return found;
-  for (std::uint32_t t = 0; t < count; ++t) {
-    const std::array<Point<2>, 3> triangle = corners(t);
-    const auto [left, right] = std::minmax({triangle[0][0], triangle[1][0], triangle[2][0]});
-    const auto [low, high] = std::minmax({triangle[0][1], triangle[1][1], triangle[2][1]});
-    auto it = std::lower_bound(by_x.begin(), by_x.end(), std::pair{left, std::uint32_t{0}});
-    for (; it != by_x.end() && it->first <= right; ++it) {
-      const Point<2>& p = places[it->second];
-      if (found[it->second] != none || p[1] < low || p[1] > high) continue;
-      if (holding(triangle, p)) found[it->second] = t;
-    }
-  }
+  for_each_holding<D>(places, count, corners, [&](std::uint32_t i, std::uint32_t t, unsigned) {
+    if (found[i] == none) found[i] = t;
+  });
   return found;
 }
 

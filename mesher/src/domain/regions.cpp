@@ -2,6 +2,7 @@
 #include "domain/regions.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "domain/labels.hpp"
 #include "domain/locate.hpp"
@@ -12,8 +13,9 @@ namespace mesher::detail {
 
 // --- Beginning -------------------------------------------------------------------------------
 
-Regions::Regions(const std::vector<Corners>& triangles, const std::vector<Edge>& walls,
-                 const std::vector<Seed>& seeds, Places places)
+template <int D>
+RegionsOf<D>::RegionsOf(const std::vector<Corners>& triangles, const std::vector<Wall>& walls,
+                        const std::vector<Seed>& seeds, Places places)
     : places_(std::move(places)), tiles_(triangles, walls) {
   flood_all(triangles);
   place_all(seeds);
@@ -27,7 +29,8 @@ Regions::Regions(const std::vector<Corners>& triangles, const std::vector<Edge>&
   keep();
 }
 
-void Regions::flood_all(const std::vector<Corners>& triangles) {
+template <int D>
+void RegionsOf<D>::flood_all(const std::vector<Corners>& triangles) {
   std::vector<Slot> reached;
   for (Slot first = 0; first < triangles.size(); ++first) {
     if (tiles_[first].component != kNone) continue;
@@ -44,17 +47,18 @@ void Regions::flood_all(const std::vector<Corners>& triangles) {
     while (!reached.empty()) {
       const Slot s = reached.back();
       reached.pop_back();
-      for (int i = 0; i < 3; ++i) take(tiles_[s].open_neighbour(i));
+      for (int i = 0; i <= D; ++i) take(tiles_[s].open_neighbour(i));
     }
     components_.edit(c) = component;
   }
 }
 
-void Regions::place_all(const std::vector<Seed>& seeds) {
+template <int D>
+void RegionsOf<D>::place_all(const std::vector<Seed>& seeds) {
   check_seeds(seeds);
-  std::vector<Point<2>> places;
+  std::vector<Point<D>> places;
   for (const Seed& seed : seeds) places.push_back(seed.at);
-  const auto holders = first_holding(
+  const auto holders = first_holding<D>(
       places, tiles_.slots(), [&](Slot s) { return corners_of(s); }, kNone);
   for (std::size_t k = 0; k < seeds.size(); ++k) {
     const std::uint32_t i = seeds_.add(seeds[k]);
@@ -64,14 +68,16 @@ void Regions::place_all(const std::vector<Seed>& seeds) {
   }
 }
 
-void Regions::keep() noexcept {
+template <int D>
+void RegionsOf<D>::keep() noexcept {
   tiles_.keep();
   components_.keep();
   seeds_.keep();
   closed_.keep();
 }
 
-void Regions::roll_back() noexcept {
+template <int D>
+void RegionsOf<D>::roll_back() noexcept {
   tiles_.take_back();
   components_.take_back();
   seeds_.take_back();
@@ -80,74 +86,79 @@ void Regions::roll_back() noexcept {
 
 // --- Places ----------------------------------------------------------------------------------
 
-std::array<Point<2>, 3> Regions::corners_of(Slot s) const {
-  const Corners& c = tiles_[s].corners;
-  return {places_(c[0]), places_(c[1]), places_(c[2])};
+template <int D>
+std::array<Point<D>, D + 1> RegionsOf<D>::corners_of(Slot s) const {
+  std::array<Point<D>, D + 1> places;
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] = places_(tiles_[s].corners[i]);
+  return places;
 }
 
 // A walk towards p. In a Delaunay triangulation of a convex place it ends; where it leaves the
 // triangulation, or takes longer than there are triangles, all of them are looked at.
-Slot Regions::locate(const Point<2>& p) const {
+template <int D>
+Slot RegionsOf<D>::locate(const Point<D>& p) const {
   Slot s = 0;
   while (s < tiles_.slots() && tiles_[s].is_free()) ++s;
   for (std::uint32_t steps = 0; s < tiles_.slots() && steps < tiles_.live(); ++steps) {
     const auto t = corners_of(s);
-    int beyond = 0;
-    while (beyond < 3 &&
-           predicates::orient2d(t[next_corner(beyond)], t[previous_corner(beyond)], p) >= 0) {
-      ++beyond;
-    }
-    if (beyond == 3) return s;
+    std::size_t beyond = 0;
+    while (beyond <= D && inward_side(t, beyond, p) >= 0) ++beyond;
+    if (beyond > D) return s;
     s = tiles_[s].neighbours[beyond];
   }
   for (s = 0; s < tiles_.slots(); ++s) {
-    if (!tiles_[s].is_free() && holding(corners_of(s), p)) return s;
+    if (!tiles_[s].is_free() && sides_at(corners_of(s), p)) return s;
   }
   return kNone;
 }
 
-// The region around p, which the closed triangle holds; kNone on a wall.
-std::uint32_t Regions::component_at(const Point<2>& p, Slot s) const {
-  const Tile& tile = tiles_[s];
-  const Holding held = *holding(corners_of(s), p);
-  const bool on_wall = (held.where == Holding::Where::edge && tile.is_wall(held.index)) ||
-                       (held.where == Holding::Where::vertex && has_wall(tile.corners[held.index]));
-  return on_wall ? kNone : tile.component;
-}
-
-bool Regions::has_wall(std::uint32_t vertex) const {
-  bool found = false;
-  tiles_.for_each_around(vertex, [&](Slot s) {
-    const int i = tiles_[s].corner_of(vertex);
-    found = tiles_[s].is_wall(next_corner(i)) || tiles_[s].is_wall(previous_corner(i));
-    return !found;
-  });
-  return found;
+// The region around p, which the closed triangle holds; kNone on a wall. All that hold p are
+// reached across the sides that p is on.
+template <int D>
+std::uint32_t RegionsOf<D>::component_at(const Point<D>& p, Slot first) const {
+  std::vector<Slot> reached{first};
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const auto& tile = tiles_[reached[k]];
+    const unsigned sides = *sides_at(corners_of(reached[k]), p);
+    for (int i = 0; i <= D; ++i) {
+      if ((sides >> i & 1) == 0) continue;
+      if (tile.is_wall(i)) return kNone;
+      const Slot n = tile.neighbours[static_cast<std::size_t>(i)];
+      const bool is_new = std::find(reached.begin(), reached.end(), n) == reached.end();
+      if (n != kNone && is_new) reached.push_back(n);
+    }
+  }
+  return tiles_[first].component;
 }
 
 // --- Questions -------------------------------------------------------------------------------
 
-RegionLabel Regions::label_of(const Component& component) const {
+template <int D>
+RegionLabel RegionsOf<D>::label_of(const Component& component) const {
   Counting counting;
   seeds_.for_each_inside(component, [&](std::uint32_t i) { counting.add(seeds_[i].seed.name); });
   return counting.label(component.exits > 0);
 }
 
-RegionLabel Regions::label(const Corners& triangle) const {
-  const TileEdge side = tiles_.left_of(triangle[0], triangle[1]);
-  SAC_EXPECTS(side.slot != kNone && tiles_[side.slot].corners[side.edge] == triangle[2]);
-  return components_[tiles_[side.slot].component].label;
+template <int D>
+RegionLabel RegionsOf<D>::label(const Corners& triangle) const {
+  const Slot s = tiles_.find(triangle);
+  SAC_EXPECTS(s != kNone);
+  return components_[tiles_[s].component].label;
 }
 
-bool Regions::keeps(const RegionLabel& label, Extent extent) const noexcept {
+template <int D>
+bool RegionsOf<D>::keeps(const RegionLabel& label, Extent extent) const noexcept {
   return detail::keeps(label, keeps_all(extent, encloses()));
 }
 
-std::vector<SeedFault> Regions::faults(Extent extent) const {
+template <int D>
+std::vector<SeedFaultOf<D>> RegionsOf<D>::faults(Extent extent) const {
+  using SeedFault = SeedFaultOf<D>;
   const bool all_kept = keeps_all(extent, encloses());
   std::vector<SeedFault> all;
   seeds_.for_each([&](std::uint32_t i) {
-    const SeedTable::Record& record = seeds_[i];
+    const auto& record = seeds_[i];
     const Seed& seed = record.seed;
     if (record.slot == kNone) {
       all.push_back({SeedFault::Kind::outside, seed.name, seed.at, {}, {}});
@@ -160,10 +171,11 @@ std::vector<SeedFault> Regions::faults(Extent extent) const {
   return all;
 }
 
-std::vector<NamedRegion> Regions::regions() const {
+template <int D>
+std::vector<NamedRegion<D>> RegionsOf<D>::regions() const {
   struct Named {
-    std::array<Point<2>, 3> places;
-    NamedRegion region;
+    std::array<Point<D>, D + 1> places;
+    NamedRegion<D> region;
   };
   std::vector<Named> all(components_.size());
   for (Slot s = 0; s < tiles_.slots(); ++s) {
@@ -177,15 +189,14 @@ std::vector<NamedRegion> Regions::regions() const {
   std::erase_if(all, [](const Named& named) { return named.region.triangles == 0; });
   std::sort(all.begin(), all.end(),
             [](const Named& a, const Named& b) { return a.places < b.places; });
-  std::vector<NamedRegion> regions;
+  std::vector<NamedRegion<D>> regions;
   for (Named& named : all) {
-    NamedRegion& region = regions.emplace_back(named.region);
+    NamedRegion<D>& region = regions.emplace_back(named.region);
     Corners& c = region.smallest;
-    std::rotate(
-        c.begin(),
-        std::min_element(c.begin(), c.end(),
-                         [&](std::uint32_t a, std::uint32_t b) { return places_(a) < places_(b); }),
-        c.end());
+    std::array<std::pair<Point<D>, std::uint32_t>, D + 1> placed;
+    for (std::size_t i = 0; i < c.size(); ++i) placed[i] = {places_(c[i]), c[i]};
+    placed = smallest_first(placed);
+    for (std::size_t i = 0; i < c.size(); ++i) c[i] = placed[i].second;
     region.label = label(c);
     const auto counts = counting_seed(region.label);
     if (!counts || counts->kind == SeedKind::hole) continue;
@@ -195,5 +206,8 @@ std::vector<NamedRegion> Regions::regions() const {
   }
   return regions;
 }
+
+template class RegionsOf<2>;
+template class RegionsOf<3>;
 
 }  // namespace mesher::detail

@@ -5,7 +5,7 @@
 //   const RegionsDifference d = regions.update({.triangles_out = ..., .triangles_in = ...});
 //   for (const auto& t : d.relabelled) ... t.corners, t.before, t.after ...
 //
-// Words as in mesher/domain.hpp. Guarantees, after every update:
+// Words as in mesher/domain.hpp, for space too. Guarantees, after every update:
 //   (1) labels and faults are those of find_domain on the same triangles, walls and seeds, however
 //       they were reached;
 //   (2) the difference names every triangle that came, went, or has another label than before;
@@ -33,15 +33,19 @@ namespace mesher::detail {
 
 /// What comes and goes. Triangles counterclockwise, from any corner; walls in either direction. A
 /// wall or seed that goes and comes is one that stays (a wall) or moves (a seed).
-struct RegionsChange {
-  std::vector<Corners> triangles_out, triangles_in;
-  std::vector<Edge> walls_out, walls_in;
+template <int D>
+struct RegionsChangeOf {
+  std::vector<CornersOf<D>> triangles_out, triangles_in;
+  std::vector<SideOf<D>> walls_out, walls_in;
   std::vector<SeedName> seeds_out;
-  std::vector<Seed> seeds_in;
+  std::vector<SeedOf<D>> seeds_in;
 };
+using RegionsChange = RegionsChangeOf<2>;
 
 /// Triangles by their vertices, counterclockwise from the smallest number, in ascending order.
-struct RegionsDifference {
+template <int D>
+struct RegionsDifferenceOf {
+  using Corners = CornersOf<D>;
   struct Labelled {
     Corners corners;
     RegionLabel label;
@@ -59,31 +63,40 @@ struct RegionsDifference {
   bool encloses = false;               // is: if this changes, so does what Extent::enclosed keeps
   std::uint64_t visited = 0;           // triangles looked at beyond the change itself
 };
+using RegionsDifference = RegionsDifferenceOf<2>;
 
 /// The exact difference of what is kept; triangles as in RegionsDifference.
+template <int D>
 struct KeptDifference {
-  std::vector<Corners> removed, added;
+  std::vector<CornersOf<D>> removed, added;
 };
 
 /// A region by name.
+template <int D>
 struct NamedRegion {
   RegionLabel label;
-  Corners smallest{};  // by its corners' places, from the smallest
+  CornersOf<D> smallest{};  // by its corners' places, from the smallest
   std::size_t triangles = 0;
   double attribute = 0;
   std::optional<double> max_area;
   friend bool operator==(const NamedRegion&, const NamedRegion&) = default;
 };
 
-class Regions {
+template <int D>
+class RegionsOf {
  public:
+  using Corners = CornersOf<D>;
+  using Wall = SideOf<D>;
+  using Seed = SeedOf<D>;
+  using RegionsChange = RegionsChangeOf<D>;
+  using RegionsDifference = RegionsDifferenceOf<D>;
   /// Where a vertex is; asked of vertices of triangles that are there.
-  using Places = std::function<Point<2>(std::uint32_t)>;
+  using Places = std::function<Point<D>(std::uint32_t)>;
 
   /// Throws: Error as find_domain.
   /// Cost: O(m), and as find_domain for the seeds.
-  Regions(const std::vector<Corners>& triangles, const std::vector<Edge>& walls,
-          const std::vector<Seed>& seeds, Places places);
+  RegionsOf(const std::vector<Corners>& triangles, const std::vector<Wall>& walls,
+            const std::vector<Seed>& seeds, Places places);
 
   /// Requires: triangles and walls that go are there, those that come are not; what comes covers
   /// what goes; every wall is an edge afterwards.
@@ -98,9 +111,9 @@ class Regions {
   [[nodiscard]] bool encloses() const noexcept { return closed_[0] > 0; }
   [[nodiscard]] bool keeps(const RegionLabel& label, Extent extent) const noexcept;
   /// As find_domain's, but without the segments' ids. Cost: O(seeds).
-  [[nodiscard]] std::vector<SeedFault> faults(Extent extent) const;
+  [[nodiscard]] std::vector<SeedFaultOf<D>> faults(Extent extent) const;
   /// Ascending by their smallest triangles. Cost: O(m).
-  [[nodiscard]] std::vector<NamedRegion> regions() const;
+  [[nodiscard]] std::vector<NamedRegion<D>> regions() const;
   /// Calls visit(corners, label) for every triangle, in no order that means anything.
   template <class Visit>
   void for_each(Visit&& visit) const {
@@ -120,23 +133,25 @@ class Regions {
   void flood_all(const std::vector<Corners>& triangles);
   void place_all(const std::vector<Seed>& seeds);
   void keep() noexcept;
-  [[nodiscard]] std::array<Point<2>, 3> corners_of(Slot s) const;
-  [[nodiscard]] Slot locate(const Point<2>& p) const;
-  [[nodiscard]] std::uint32_t component_at(const Point<2>& p, Slot s) const;
-  [[nodiscard]] bool has_wall(std::uint32_t vertex) const;
+  [[nodiscard]] std::array<Point<D>, D + 1> corners_of(Slot s) const;
+  [[nodiscard]] Slot locate(const Point<D>& p) const;
+  [[nodiscard]] std::uint32_t component_at(const Point<D>& p, Slot s) const;
   [[nodiscard]] RegionLabel label_of(const Component& component) const;
 
   Places places_;
-  Tiles tiles_;
+  TilesOf<D> tiles_;
   Components components_;
-  SeedTable seeds_;
+  SeedTableOf<D> seeds_;
   Journal<std::uint32_t> closed_;  // one: how many regions are closed
   Marks marks_;
 };
+using Regions = RegionsOf<2>;
 
 /// What the update that gave `difference`, the last one, did to the part that is kept.
 /// Cost: O(difference); where the input begins or ceases to enclose anything, O(m log m).
-[[nodiscard]] KeptDifference kept_difference(const Regions& regions,
-                                             const RegionsDifference& difference, Extent extent);
+template <int D>
+[[nodiscard]] KeptDifference<D> kept_difference(const RegionsOf<D>& regions,
+                                                const RegionsDifferenceOf<D>& difference,
+                                                Extent extent);
 
 }  // namespace mesher::detail

@@ -9,26 +9,40 @@ namespace mesher::detail {
 namespace {
 
 // The triangulation of the moment. Vertices keep their numbers; a number without one is at 0.
+template <int D>
 struct Snapshot {
-  Mesh<2> mesh;
-  std::vector<MeshEdge> walls;
+  Mesh<D> mesh;
+  std::vector<WallOf<D>> walls;
   std::vector<Slot> slots;  // one per triangle
 };
 
-Snapshot snapshot(const Tiles& tiles, const Regions::Places& places) {
-  Snapshot now;
+MeshEdge wall_at(const SideOf<2>& ends) { return {ends[0], ends[1], {}, 0}; }
+MeshFace wall_at(const SideOf<3>& corners) { return {corners, {}, 0}; }
+
+template <int D>
+SideOf<D> side_of(const CornersOf<D>& corners, std::size_t across) {
+  SideOf<D> side;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i <= D; ++i) {
+    if (i != across) side[n++] = corners[i];
+  }
+  std::sort(side.begin(), side.end());
+  return side;
+}
+
+template <int D>
+Snapshot<D> snapshot(const TilesOf<D>& tiles, const typename RegionsOf<D>::Places& places) {
+  Snapshot<D> now;
   for (Slot s = 0; s < tiles.slots(); ++s) {
-    const Tile& t = tiles[s];
+    const TileOf<D>& t = tiles[s];
     if (t.is_free()) continue;
     now.slots.push_back(s);
     now.mesh.simplices.push_back(t.corners);
-    for (int i = 0; i < 3; ++i) {
-      const auto [low, high] =
-          std::minmax(t.corners[next_corner(i)], t.corners[previous_corner(i)]);
-      if (t.is_wall(i)) now.walls.push_back({low, high, {}, 0});
-      if (now.mesh.vertices.size() <= high) now.mesh.vertices.resize(high + std::size_t{1});
-      now.mesh.vertices[high] = places(high);
-      now.mesh.vertices[low] = places(low);
+    for (std::size_t i = 0; i <= D; ++i) {
+      const std::uint32_t v = t.corners[i];
+      if (now.mesh.vertices.size() <= v) now.mesh.vertices.resize(v + std::size_t{1});
+      now.mesh.vertices[v] = places(v);
+      if (t.is_wall(static_cast<int>(i))) now.walls.push_back(wall_at(side_of<D>(t.corners, i)));
     }
   }
   return now;
@@ -36,14 +50,15 @@ Snapshot snapshot(const Tiles& tiles, const Regions::Places& places) {
 
 }  // namespace
 
-void Regions::check_invariants() const {
+template <int D>
+void RegionsOf<D>::check_invariants() const {
   tiles_.check_invariants();
   seeds_.check_invariants(tiles_, components_);
-  const Snapshot now = snapshot(tiles_, places_);
+  const Snapshot<D> now = snapshot<D>(tiles_, places_);
   std::vector<Seed> seeds;
   seeds_.for_each([&](std::uint32_t i) { seeds.push_back(seeds_[i].seed); });
   for (const Extent extent : {Extent::enclosed, Extent::box}) {
-    const Domain domain = find_domain(now.mesh, now.walls, seeds, extent);
+    const DomainOf<D> domain = find_domain<D>(now.mesh, now.walls, seeds, extent);
     SAC_INVARIANT(faults(extent) == domain.faults);
     std::map<std::uint32_t, std::uint32_t> names;  // components by the regions found
     std::uint32_t closed = 0;
@@ -65,5 +80,8 @@ void Regions::check_invariants() const {
   for (std::uint32_t c = 0; c < components_.size(); ++c) live += components_[c].size > 0;
   SAC_INVARIANT(live == regions().size());
 }
+
+template void RegionsOf<2>::check_invariants() const;
+template void RegionsOf<3>::check_invariants() const;
 
 }  // namespace mesher::detail

@@ -10,9 +10,10 @@
 
 namespace mesher::detail {
 
-class Regions::Update {
+template <int D>
+class RegionsOf<D>::Update {
  public:
-  explicit Update(Regions& regions) : r_(regions) {}
+  explicit Update(RegionsOf& regions) : r_(regions) {}
 
   RegionsDifference run(const RegionsChange& change) {
     remove_seeds(change.seeds_out);
@@ -54,7 +55,7 @@ class Regions::Update {
   }
 
   void drop_seeds() {
-    for (const Tile& tile : seams_.removed) {
+    for (const TileOf<D>& tile : seams_.removed) {
       r_.seeds_.for_each_held(tile, [&](std::uint32_t i) {
         dropped_.push_back(i);
         r_.seeds_.drop(i);
@@ -64,9 +65,9 @@ class Regions::Update {
 
   // What comes covers what went.
   void place_dropped() {
-    std::vector<Point<2>> places;
+    std::vector<Point<D>> places;
     for (const std::uint32_t i : dropped_) places.push_back(r_.seeds_[i].seed.at);
-    const auto holders = first_holding(
+    const auto holders = first_holding<D>(
         places, seams_.added.size(), [&](std::size_t k) { return r_.corners_of(seams_.added[k]); },
         kNone);
     for (std::size_t k = 0; k < dropped_.size(); ++k) {
@@ -97,7 +98,7 @@ class Regions::Update {
     };
     for (const auto& moved : regrouped_.moved) collect(moved.slot);
     if (r_.seeds_.size() == 0) return;
-    for (const Edge& edge : seams_.toggled) {
+    for (const Wall& edge : seams_.toggled) {
       for (const std::uint32_t v : edge) r_.tiles_.for_each_around(v, collect);
     }
   }
@@ -127,7 +128,7 @@ class Regions::Update {
   }
 
   void report() {
-    for (const Tile& t : seams_.removed) {
+    for (const TileOf<D>& t : seams_.removed) {
       difference_.removed.push_back({smallest_first(t.corners), before(t.component)});
     }
     for (const Slot s : seams_.added) {
@@ -178,7 +179,7 @@ class Regions::Update {
       const Slot s = reached.back();
       reached.pop_back();
       ++difference_.visited;
-      for (int i = 0; i < 3; ++i) take(r_.tiles_[s].open_neighbour(i));
+      for (int i = 0; i <= D; ++i) take(r_.tiles_[s].open_neighbour(i));
     }
   }
 
@@ -207,8 +208,8 @@ class Regions::Update {
     difference_.encloses = closed > 0;
   }
 
-  Regions& r_;
-  Seams seams_;
+  RegionsOf& r_;
+  SeamsOf<D> seams_;
   Regrouped regrouped_;
   std::vector<std::uint32_t> dropped_;    // seeds whose triangle went
   std::vector<std::uint32_t> disturbed_;  // seeds that may be in another region
@@ -219,7 +220,8 @@ class Regions::Update {
   RegionsDifference difference_;
 };
 
-RegionsDifference Regions::update(const RegionsChange& change) {
+template <int D>
+auto RegionsOf<D>::update(const RegionsChange& change) -> RegionsDifference {
   keep();
   try {
     return Update(*this).run(change);
@@ -228,5 +230,8 @@ RegionsDifference Regions::update(const RegionsChange& change) {
     throw;
   }
 }
+
+template RegionsDifferenceOf<2> RegionsOf<2>::update(const RegionsChangeOf<2>&);
+template RegionsDifferenceOf<3> RegionsOf<3>::update(const RegionsChangeOf<3>&);
 
 }  // namespace mesher::detail

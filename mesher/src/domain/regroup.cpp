@@ -7,8 +7,13 @@
 namespace mesher::detail {
 namespace {
 
+template <int D>
 class Regroup {
  public:
+  using Tile = TileOf<D>;
+  using Tiles = TilesOf<D>;
+  using Seams = SeamsOf<D>;
+
   Regroup(Tiles& tiles, Components& components, Marks& marks, const Seams& seams)
       : tiles_(tiles),
         components_(components),
@@ -36,7 +41,7 @@ class Regroup {
       c.exits -= t.exits();
       result_.touched.push_back(t.component);
     }
-    for (const Seams::Exits& e : seams_.exits) {
+    for (const typename Seams::Exits& e : seams_.exits) {
       components_.edit(tiles_[e.survivor].component).exits += static_cast<std::uint32_t>(e.more);
     }
     for (const Member& m : clusters_.members()) result_.touched.push_back(m.component);
@@ -82,7 +87,7 @@ class Regroup {
   }
 
   void part(std::uint32_t component, const std::vector<std::uint32_t>& starts) {
-    Parting parting(tiles_, clusters_, marks_, component, starts);
+    Parting<D> parting(tiles_, clusters_, marks_, component, starts);
     parting.run();
     result_.visited += parting.visited();
     const auto base = static_cast<std::uint32_t>(fragments_.size());
@@ -198,7 +203,7 @@ class Regroup {
       const Slot s = reached.back();
       reached.pop_back();
       ++result_.visited;
-      for (int i = 0; i < 3; ++i) take(tiles_[s].open_neighbour(i));
+      for (int i = 0; i <= D; ++i) take(tiles_[s].open_neighbour(i));
     }
     shift(weight, from, target);
   }
@@ -221,7 +226,7 @@ class Regroup {
   Components& components_;
   Marks& marks_;
   const Seams& seams_;
-  Clusters clusters_;
+  Clusters<D> clusters_;
   std::vector<Fragment> fragments_;
   std::vector<std::uint32_t> fragment_of_;  // one per member
   UnionFind sets_{0};
@@ -231,8 +236,12 @@ class Regroup {
 
 }  // namespace
 
-Regrouped regroup(Tiles& tiles, Components& components, Marks& marks, const Seams& seams) {
-  return Regroup(tiles, components, marks, seams).run();
+template <int D>
+Regrouped regroup(TilesOf<D>& tiles, Components& components, Marks& marks,
+                  const SeamsOf<D>& seams) {
+  return Regroup<D>(tiles, components, marks, seams).run();
 }
+template Regrouped regroup(TilesOf<2>&, Components&, Marks&, const SeamsOf<2>&);
+template Regrouped regroup(TilesOf<3>&, Components&, Marks&, const SeamsOf<3>&);
 
 }  // namespace mesher::detail

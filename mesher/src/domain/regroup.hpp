@@ -24,7 +24,8 @@ struct Regrouped {
 /// Cost: O(c log c) for a change of c triangles and walls; for regions that it joins, the triangles
 /// of all but the largest; for one that it parts, the triangles of all parts but the largest, times
 /// the parts; and see fragments.hpp.
-[[nodiscard]] Regrouped regroup(Tiles& tiles, Components& components, Marks& marks,
-                                const Seams& seams);
+template <int D>
+[[nodiscard]] Regrouped regroup(TilesOf<D>& tiles, Components& components, Marks& marks,
+                                const SeamsOf<D>& seams);
 
 }  // namespace mesher::detail

@@ -7,12 +7,14 @@
 
 namespace mesher::detail {
 
-std::uint32_t SeedTable::find(const SeedName& name) const noexcept {
+template <int D>
+std::uint32_t SeedTableOf<D>::find(const SeedName& name) const noexcept {
   const auto it = names_.find(name);
   return it != names_.end() ? it->second : kNone;
 }
 
-std::uint32_t SeedTable::add(const Seed& seed) {
+template <int D>
+std::uint32_t SeedTableOf<D>::add(const Seed& seed) {
   Record record;
   record.seed = seed;
   std::uint32_t i = free_[0];
@@ -28,7 +30,8 @@ std::uint32_t SeedTable::add(const Seed& seed) {
   return i;
 }
 
-void SeedTable::remove(std::uint32_t i) {
+template <int D>
+void SeedTableOf<D>::remove(std::uint32_t i) {
   const SeedName name = records_[i].seed.name;
   name_edits_.push_back({name});
   name_edits_.back().removed = names_.extract(name);
@@ -38,7 +41,8 @@ void SeedTable::remove(std::uint32_t i) {
   free_.edit(0) = i;
 }
 
-void SeedTable::hold(Tiles& tiles, std::uint32_t i, Slot slot) {
+template <int D>
+void SeedTableOf<D>::hold(Tiles& tiles, std::uint32_t i, Slot slot) {
   Tile& tile = tiles.edit(slot);
   const std::uint32_t first = tile.seed == Tile::kNoSeed ? kNone : std::uint32_t{tile.seed};
   if (first != kNone) records_.edit(first).previous_held = i;
@@ -48,7 +52,8 @@ void SeedTable::hold(Tiles& tiles, std::uint32_t i, Slot slot) {
   record.next_held = first;
 }
 
-void SeedTable::let_go(Tiles& tiles, std::uint32_t i) {
+template <int D>
+void SeedTableOf<D>::let_go(Tiles& tiles, std::uint32_t i) {
   const auto [next, previous, slot] =
       std::tuple(records_[i].next_held, records_[i].previous_held, records_[i].slot);
   if (slot == kNone) return;
@@ -61,12 +66,14 @@ void SeedTable::let_go(Tiles& tiles, std::uint32_t i) {
   drop(i);
 }
 
-void SeedTable::drop(std::uint32_t i) {
+template <int D>
+void SeedTableOf<D>::drop(std::uint32_t i) {
   Record& record = records_.edit(i);
   record.slot = record.next_held = record.previous_held = kNone;
 }
 
-void SeedTable::leave(Components& components, const Record& record) {
+template <int D>
+void SeedTableOf<D>::leave(Components& components, const Record& record) {
   const std::uint32_t next = record.next_inside, previous = record.previous_inside;
   if (next != kNone) records_.edit(next).previous_inside = previous;
   if (previous != kNone) {
@@ -76,7 +83,8 @@ void SeedTable::leave(Components& components, const Record& record) {
   }
 }
 
-void SeedTable::enter(Components& components, std::uint32_t i, std::uint32_t component) {
+template <int D>
+void SeedTableOf<D>::enter(Components& components, std::uint32_t i, std::uint32_t component) {
   if (records_[i].component == component) return;
   if (records_[i].component != kNone) leave(components, records_[i]);
   const std::uint32_t first = component == kNone ? kNone : components[component].seed;
@@ -88,13 +96,15 @@ void SeedTable::enter(Components& components, std::uint32_t i, std::uint32_t com
   record.previous_inside = kNone;
 }
 
-void SeedTable::keep() noexcept {
+template <int D>
+void SeedTableOf<D>::keep() noexcept {
   records_.keep();
   free_.keep();
   name_edits_ = decltype(name_edits_)();  // not {}, for which a vector keeps its size
 }
 
-void SeedTable::take_back() noexcept {
+template <int D>
+void SeedTableOf<D>::take_back() noexcept {
   records_.take_back();
   free_.take_back();
   for (; !name_edits_.empty(); name_edits_.pop_back()) {
@@ -107,7 +117,8 @@ void SeedTable::take_back() noexcept {
   }
 }
 
-void SeedTable::check_invariants(const Tiles& tiles, const Components& components) const {
+template <int D>
+void SeedTableOf<D>::check_invariants(const Tiles& tiles, const Components& components) const {
   std::size_t held = 0, inside = 0, placed = 0, placed_inside = 0;
   for (const auto& [name, i] : names_) {
     SAC_INVARIANT(records_[i].seed.name == name);
@@ -133,5 +144,8 @@ void SeedTable::check_invariants(const Tiles& tiles, const Components& component
   }
   SAC_INVARIANT(held == placed && inside == placed_inside);
 }
+
+template class SeedTableOf<2>;
+template class SeedTableOf<3>;
 
 }  // namespace mesher::detail

@@ -10,8 +10,12 @@
 namespace mesher::detail {
 
 /// Seeds by number; each is in the list of the triangle that holds it and in that of its region.
-class SeedTable {
+template <int D>
+class SeedTableOf {
  public:
+  using Seed = SeedOf<D>;
+  using Tile = TileOf<D>;
+  using Tiles = TilesOf<D>;
   struct Record {
     Seed seed{};
     Slot slot = kNone;                // that holds it; kNone: not in the triangulation
@@ -21,7 +25,7 @@ class SeedTable {
     std::uint32_t next_inside = kNone, previous_inside = kNone;  // in the region's list
   };
 
-  SeedTable() { free_.add(kNone); }
+  SeedTableOf() { free_.add(kNone); }
 
   [[nodiscard]] const Record& operator[](std::uint32_t i) const noexcept { return records_[i]; }
   /// kNone if there is no such seed.

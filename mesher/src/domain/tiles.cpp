@@ -6,18 +6,47 @@
 
 #include "domain/union_find.hpp"
 #include "make_set.hpp"
+#include "mesh/canonical.hpp"
 #include "sac/check.hpp"
 
 namespace mesher::detail {
 namespace {
 
-Edge sorted(const Edge& e) { return {std::min(e[0], e[1]), std::max(e[0], e[1])}; }
+template <std::size_t N>
+std::array<std::uint32_t, N> sorted(std::array<std::uint32_t, N> side) {
+  std::sort(side.begin(), side.end());
+  return side;
+}
 
-Edge ends_of(const Corners& t, int edge) {
-  return sorted({t[next_corner(edge)], t[previous_corner(edge)]});
+// The corners of a side, as they are in its simplex.
+template <std::size_t N>
+std::array<std::uint32_t, N - 1> corners_across(const std::array<std::uint32_t, N>& t, int side) {
+  std::array<std::uint32_t, N - 1> corners;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < N; ++i) {
+    if (i != static_cast<std::size_t>(side)) corners[n++] = t[i];
+  }
+  return corners;
+}
+
+template <std::size_t N>
+std::array<std::uint32_t, N - 1> ends_of(const std::array<std::uint32_t, N>& t, int side) {
+  return sorted(corners_across(t, side));
+}
+
+// Which of the two ways around a side has, seen from its simplex: not that seen from the other.
+template <std::size_t N>
+bool way_around(const std::array<std::uint32_t, N>& t, int side) {
+  const auto corners = corners_across(t, side);
+  bool way = side % 2 != 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    for (std::size_t k = i + 1; k < corners.size(); ++k) way ^= corners[k] < corners[i];
+  }
+  return way;
 }
 
 // The edges of `a` that are not in `b`, ascending.
+template <class Edge>
 std::vector<Edge> difference(std::span<const Edge> a, std::span<const Edge> b) {
   const auto ascending = [](std::span<const Edge> edges) {
     std::vector<Edge> all;
@@ -37,15 +66,18 @@ std::vector<Edge> difference(std::span<const Edge> a, std::span<const Edge> b) {
 
 // --- Reading ---------------------------------------------------------------------------------
 
-Tiles::Tiles(const std::vector<Corners>& triangles, const std::vector<Edge>& walls) {
-  const Adjacency all = adjacency(triangles, walls);
+template <int D>
+TilesOf<D>::TilesOf(const std::vector<Corners>& triangles, const std::vector<Wall>& walls) {
+  std::vector<Wall> ascending;
+  for (const Wall& wall : walls) ascending.push_back(sorted(wall));
+  const AdjacencyOf<D> all = adjacency(triangles, ascending);
   tiles_.reserve(triangles.size());
   std::uint32_t vertices = 0;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     Tile tile;
     tile.corners = triangles[t];
     tile.neighbours = all.neighbours[t];
-    tile.walls = all.walls[t] & 7u;
+    tile.walls = all.walls[t] & Tile::kAllWalls;
     tiles_.add(tile);
     for (const std::uint32_t v : tile.corners) vertices = std::max(vertices, v + 1);
   }
@@ -57,48 +89,59 @@ Tiles::Tiles(const std::vector<Corners>& triangles, const std::vector<Edge>& wal
   heads_.add({kNone, static_cast<std::uint32_t>(triangles.size())});
 }
 
-TileEdge Tiles::left_of(std::uint32_t u, std::uint32_t v) const {
-  TileEdge found;
-  for_each_around(u, [&](Slot s) {
-    const int i = tiles_[s].corner_of(u);
-    if (tiles_[s].corners[next_corner(i)] != v) return true;
-    found = {s, previous_corner(i)};
+template <int D>
+Slot TilesOf<D>::find(const Corners& t) const {
+  Slot found = kNone;
+  for_each_around(t[0], [&](Slot s) {
+    if (smallest_first(tiles_[s].corners) == smallest_first(t)) found = s;
+    return found == kNone;
+  });
+  return found;
+}
+
+template <int D>
+TileSide TilesOf<D>::side_on(const Wall& ends) const {
+  TileSide found;
+  for_each_around(ends[0], [&](Slot s) {
+    const Tile& t = tiles_[s];
+    if (!std::all_of(ends.begin(), ends.end(), [&](std::uint32_t v) { return t.has(v); })) {
+      return true;
+    }
+    found.slot = s;
+    while (ends_of(t.corners, found.side) != sorted(ends)) ++found.side;
     return false;
   });
   return found;
 }
 
-Slot Tiles::find(const Corners& t) const {
-  const TileEdge side = left_of(t[0], t[1]);
-  if (side.slot == kNone || tiles_[side.slot].corners[side.edge] != t[2]) return kNone;
-  return side.slot;
-}
-
-void Tiles::keep() noexcept {
+template <int D>
+void TilesOf<D>::keep() noexcept {
   tiles_.keep();
   at_vertex_.keep();
   heads_.keep();
 }
 
-void Tiles::take_back() noexcept {
+template <int D>
+void TilesOf<D>::take_back() noexcept {
   tiles_.take_back();
   at_vertex_.take_back();
   heads_.take_back();
 }
 
-void Tiles::check_invariants() const {
+template <int D>
+void TilesOf<D>::check_invariants() const {
   std::uint32_t live = 0, free = 0;
   for (Slot s = 0; s < slots(); ++s) {
     const Tile& t = tiles_[s];
     if (t.is_free()) continue;
     ++live;
-    for (int i = 0; i < 3; ++i) {
-      SAC_INVARIANT(at_vertex(t.corners[i]) != kNone);
-      const Slot n = t.neighbours[i];
+    for (int i = 0; i <= D; ++i) {
+      SAC_INVARIANT(at_vertex(t.corners[static_cast<std::size_t>(i)]) != kNone);
+      const Slot n = t.neighbours[static_cast<std::size_t>(i)];
       if (n == kNone) continue;
       const Tile& other = tiles_[n];
-      const int back = other.edge_to(s);
-      SAC_INVARIANT(!other.is_free() && other.neighbours[back] == s);
+      const int back = other.side_to(s);
+      SAC_INVARIANT(!other.is_free() && other.neighbours[static_cast<std::size_t>(back)] == s);
       SAC_INVARIANT(ends_of(other.corners, back) == ends_of(t.corners, i));
       SAC_INVARIANT(other.is_wall(back) == t.is_wall(i));
     }
@@ -110,25 +153,26 @@ void Tiles::check_invariants() const {
   SAC_INVARIANT(live == heads_[0].live && live + free == slots());
   for (std::uint32_t v = 0; v < at_vertex_.size(); ++v) {
     const Slot s = at_vertex_[v];
-    SAC_INVARIANT(s == kNone || tiles_[s].corners[tiles_[s].corner_of(v)] == v);
+    SAC_INVARIANT(s == kNone || tiles_[s].has(v));
   }
 }
 
 // --- Changing --------------------------------------------------------------------------------
 
-class Tiles::Changer {
+template <int D>
+class TilesOf<D>::Changer {
  public:
-  explicit Changer(Tiles& tiles) : t_(tiles) {}
+  explicit Changer(TilesOf& tiles) : t_(tiles) {}
 
-  Seams run(std::span<const Corners> out, std::span<const Corners> in, std::span<const Edge> lost,
-            std::span<const Edge> gained) {
+  Seams run(std::span<const Corners> out, std::span<const Corners> in, std::span<const Wall> lost,
+            std::span<const Wall> gained) {
     find_all(out);
     find_cuts();
     take_out();
     put_in(in);
     sew();
-    open(difference(lost, gained));
-    close(difference(gained, lost));
+    open(difference<Wall>(lost, gained));
+    close(difference<Wall>(gained, lost));
     make_set(seams_.frontier);
     make_set(seams_.bonds);
     return std::move(seams_);
@@ -155,27 +199,27 @@ class Tiles::Changer {
   void find_cuts() {
     UnionFind sets(out_.size());
     for (std::uint32_t k = 0; k < out_.size(); ++k) {
-      for (int i = 0; i < 3; ++i) {
+      for (int i = 0; i <= D; ++i) {
         const Slot n = seams_.removed[k].open_neighbour(i);
         if (n != kNone && goes(n)) sets.unite(k, index_of(n));
       }
     }
     for (std::uint32_t k = 0; k < out_.size(); ++k) {
-      for (int i = 0; i < 3; ++i) add_rim(k, i, sets.find(k));
+      for (int i = 0; i <= D; ++i) add_rim(k, i, sets.find(k));
     }
     make_set(loose_);
   }
 
   void add_rim(std::uint32_t k, int i, std::uint32_t cut) {
     const Tile& tile = seams_.removed[k];
-    const Slot n = tile.neighbours[i];
+    const Slot n = tile.neighbours[static_cast<std::size_t>(i)];
     const bool wall = tile.is_wall(i);
     if (n == kNone || goes(n)) {
       if (wall) loose_.push_back(ends_of(tile.corners, i));
       return;
     }
     seams_.frontier.push_back(n);
-    sides_.push_back({ends_of(tile.corners, i), n, t_[n].edge_to(out_[k]), true});
+    sides_.push_back({ends_of(tile.corners, i), n, t_[n].side_to(out_[k]), true});
     if (!wall) seams_.bonds.push_back({cut, n});
   }
 
@@ -209,7 +253,7 @@ class Tiles::Changer {
       }
       seams_.added.push_back(s);
       for (const std::uint32_t v : corners) remember(v, s);
-      for (int i = 0; i < 3; ++i) sides_.push_back({ends_of(corners, i), s, i, false});
+      for (int i = 0; i <= D; ++i) sides_.push_back({ends_of(corners, i), s, i, false});
     }
     heads.live += static_cast<std::uint32_t>(in.size());
     t_.heads_.edit(0) = heads;
@@ -239,63 +283,62 @@ class Tiles::Changer {
 
   void join(const Side& a, const Side& b) {
     SAC_EXPECTS(!(a.survivor && b.survivor));
-    SAC_EXPECTS(start_of(a) != start_of(b));  // on opposite sides
+    SAC_EXPECTS(way_around(a) != way_around(b));  // on opposite sides
     bool wall = !a.survivor && !b.survivor && was_loose(a.ends);
-    for (const Side& s : {a, b}) wall = wall || (s.survivor && t_[s.slot].is_wall(s.edge));
+    for (const Side& s : {a, b}) wall = wall || (s.survivor && t_[s.slot].is_wall(s.side));
     const Slot slots[2] = {a.slot, b.slot};
     for (const Side& s : {a, b}) {
       Tile& tile = t_.tiles_.edit(s.slot);
-      tile.neighbours[s.edge] = slots[s.slot == slots[0] ? 1 : 0];
-      tile.walls |= wall ? 1u << s.edge & 7u : 0u;
+      tile.neighbours[static_cast<std::size_t>(s.side)] = slots[s.slot == slots[0] ? 1 : 0];
+      tile.walls |= wall ? 1u << s.side & Tile::kAllWalls : 0u;
     }
   }
 
   void leave_at_boundary(const Side& s) {
     SAC_EXPECTS(!s.survivor);
-    if (was_loose(s.ends)) t_.tiles_.edit(s.slot).walls |= 1u << s.edge & 7u;
+    if (was_loose(s.ends)) t_.tiles_.edit(s.slot).walls |= 1u << s.side & Tile::kAllWalls;
   }
 
-  [[nodiscard]] std::uint32_t start_of(const Side& s) const {
-    return t_[s.slot].corners[next_corner(s.edge)];
+  [[nodiscard]] bool way_around(const Side& s) const {
+    return detail::way_around(t_[s.slot].corners, s.side);
   }
-  bool was_loose(const Edge& ends) {
+  bool was_loose(const Wall& ends) {
     const auto it = std::lower_bound(loose_.begin(), loose_.end(), ends);
     if (it == loose_.end() || *it != ends) return false;
     placed_.push_back(ends);
     return true;
   }
 
-  void open(const std::vector<Edge>& lost) {
+  void open(const std::vector<Wall>& lost) {
     make_set(placed_);
-    std::vector<Edge> vanished;
+    std::vector<Wall> vanished;
     std::set_difference(loose_.begin(), loose_.end(), placed_.begin(), placed_.end(),
                         std::back_inserter(vanished));
-    for (const Edge& e : lost) {
+    for (const Wall& e : lost) {
       seams_.toggled.push_back(e);
       if (std::binary_search(vanished.begin(), vanished.end(), e)) continue;
       toggle(e, false);
     }
     SAC_EXPECTS(std::includes(lost.begin(), lost.end(), vanished.begin(), vanished.end()));
   }
-  void close(const std::vector<Edge>& gained) {
-    for (const Edge& e : gained) {
+  void close(const std::vector<Wall>& gained) {
+    for (const Wall& e : gained) {
       seams_.toggled.push_back(e);
       toggle(e, true);
     }
   }
 
-  void toggle(const Edge& e, bool wall) {
-    TileEdge side = t_.left_of(e[0], e[1]);
-    if (side.slot == kNone) side = t_.left_of(e[1], e[0]);
-    SAC_EXPECTS(side.slot != kNone && t_[side.slot].is_wall(side.edge) != wall);
-    const Slot other = t_[side.slot].neighbours[side.edge];
+  void toggle(const Wall& e, bool wall) {
+    const TileSide side = t_.side_on(e);
+    SAC_EXPECTS(side.slot != kNone && t_[side.slot].is_wall(side.side) != wall);
+    const Slot other = t_[side.slot].neighbours[static_cast<std::size_t>(side.side)];
     const std::uint32_t cut = cuts_++;
     flip(side, wall, other == kNone, cut);
-    if (other != kNone) flip({other, t_[other].edge_to(side.slot)}, wall, false, cut);
+    if (other != kNone) flip({other, t_[other].side_to(side.slot)}, wall, false, cut);
   }
 
-  void flip(const TileEdge& side, bool wall, bool boundary, std::uint32_t cut) {
-    t_.tiles_.edit(side.slot).walls ^= 1u << side.edge & 7u;
+  void flip(const TileSide& side, bool wall, bool boundary, std::uint32_t cut) {
+    t_.tiles_.edit(side.slot).walls ^= 1u << side.side & Tile::kAllWalls;
     if (came(side.slot)) return;
     seams_.frontier.push_back(side.slot);
     if (boundary) seams_.exits.push_back({side.slot, wall ? -1 : 1});
@@ -303,18 +346,22 @@ class Tiles::Changer {
   }
   [[nodiscard]] bool came(Slot s) const { return t_[s].component == kNone; }
 
-  Tiles& t_;
+  TilesOf& t_;
   Seams seams_;
   std::vector<Slot> out_;  // ascending, as seams_.removed
   std::uint32_t cuts_ = 0;
   std::vector<Side> sides_;   // to be sewn
-  std::vector<Edge> loose_;   // walls with no survivor beside them, ascending
-  std::vector<Edge> placed_;  // those of them that are edges again
+  std::vector<Wall> loose_;   // walls with no survivor beside them, ascending
+  std::vector<Wall> placed_;  // those of them that are edges again
 };
 
-Seams Tiles::change(std::span<const Corners> out, std::span<const Corners> in,
-                    std::span<const Edge> lost, std::span<const Edge> gained) {
+template <int D>
+auto TilesOf<D>::change(std::span<const Corners> out, std::span<const Corners> in,
+                        std::span<const Wall> lost, std::span<const Wall> gained) -> Seams {
   return Changer(*this).run(out, in, lost, gained);
 }
+
+template class TilesOf<2>;
+template class TilesOf<3>;
 
 }  // namespace mesher::detail

@@ -5,83 +5,141 @@
 
 namespace mesher {
 
-struct DomainMesher::Impl : detail::DomainState {
-  using DomainState::DomainState;
+template <int D>
+struct DomainMesherOf<D>::Impl : detail::DomainState<D> {
+  using detail::DomainState<D>::DomainState;
 };
 
-DomainMesher::DomainMesher(const Options<2>& options, Extent extent, RegionAreas areas)
+template <int D>
+DomainMesherOf<D>::DomainMesherOf(const Options<D>& options, Extent extent, RegionAreas areas)
     : impl_(std::make_unique<Impl>(options, extent, areas)) {}
-DomainMesher::DomainMesher(DomainMesher&&) noexcept = default;
-DomainMesher& DomainMesher::operator=(DomainMesher&&) noexcept = default;
-DomainMesher::~DomainMesher() = default;
+template <int D>
+DomainMesherOf<D>::DomainMesherOf(DomainMesherOf&&) noexcept = default;
+template <int D>
+DomainMesherOf<D>& DomainMesherOf<D>::operator=(DomainMesherOf&&) noexcept = default;
+template <int D>
+DomainMesherOf<D>::~DomainMesherOf() = default;
 
-void DomainMesher::insert(FeatureId id, const Point<2>& point, std::int64_t marker) {
+template <int D>
+void DomainMesherOf<D>::insert(FeatureId id, const Point<D>& point, std::int64_t marker) {
   impl_->insert(id, point, marker);
 }
-void DomainMesher::remove(FeatureId id) { impl_->remove(id); }
-void DomainMesher::move(FeatureId id, const Point<2>& point) { impl_->move(id, point); }
+template <int D>
+void DomainMesherOf<D>::remove(FeatureId id) { impl_->remove(id); }
+template <int D>
+void DomainMesherOf<D>::move(FeatureId id, const Point<D>& point) { impl_->move(id, point); }
 
-void DomainMesher::insert_segment(FeatureId id, FeatureId from, FeatureId to, std::int64_t marker) {
+template <int D>
+void DomainMesherOf<D>::insert_segment(FeatureId id, FeatureId from, FeatureId to, std::int64_t marker) {
   impl_->insert_line(id, {from, to}, marker);
 }
-void DomainMesher::insert_polyline(FeatureId id, const std::vector<FeatureId>& points,
+template <int D>
+void DomainMesherOf<D>::insert_polyline(FeatureId id, const std::vector<FeatureId>& points,
                                    std::int64_t marker) {
   impl_->insert_line(id, points, marker);
 }
-void DomainMesher::remove_segment(FeatureId id) { impl_->remove_line(id); }
+template <int D>
+void DomainMesherOf<D>::remove_segment(FeatureId id) { impl_->remove_line(id); }
 
-void DomainMesher::insert_seed(const Seed& seed) { impl_->insert_seed(seed); }
-void DomainMesher::insert_hole(FeatureId id, const Point<2>& at) {
+template <int D>
+void DomainMesherOf<D>::insert_polygon(const Polygon& polygon, std::int64_t marker)
+requires(D == 3)
+{
+  impl_->insert_polygon(polygon, marker);
+}
+template <int D>
+void DomainMesherOf<D>::remove_polygon(FeatureId id)
+requires(D == 3)
+{
+  impl_->remove_polygon(id);
+}
+
+template <int D>
+void DomainMesherOf<D>::insert_seed(const SeedOf<D>& seed) { impl_->insert_seed(seed); }
+template <int D>
+void DomainMesherOf<D>::insert_hole(FeatureId id, const Point<D>& at) {
   impl_->insert_seed({{SeedKind::hole, id}, at, 0, {}});
 }
-void DomainMesher::insert_region(FeatureId id, const Point<2>& at, double attribute,
+template <int D>
+void DomainMesherOf<D>::insert_region(FeatureId id, const Point<D>& at, double attribute,
                                  std::optional<double> max_area) {
   impl_->insert_seed({{SeedKind::region, id}, at, attribute, max_area});
 }
-void DomainMesher::remove_seed(const SeedName& name) { impl_->remove_seed(name); }
+template <int D>
+void DomainMesherOf<D>::remove_seed(const SeedName& name) { impl_->remove_seed(name); }
 
-void DomainMesher::limit(const SizeLimits<2>& limits) { impl_->limit(limits); }
-void DomainMesher::limit(const Box<2>& box, const SizeLimits<2>& limits) {
+template <int D>
+void DomainMesherOf<D>::limit(const SizeLimits<D>& limits)
+requires(D == 2)
+{
+  impl_->limit(limits);
+}
+template <int D>
+void DomainMesherOf<D>::limit(const Box<D>& box, const SizeLimits<D>& limits)
+requires(D == 2)
+{
   impl_->limit(box, limits);
 }
 
-void DomainMesher::discard_edits() noexcept {
+template <int D>
+void DomainMesherOf<D>::discard_edits() noexcept {
   if (impl_->is_idle()) impl_->discard_edits();
 }
-DomainUpdate DomainMesher::update(const RunControl& control) { return impl_->update(control); }
+template <int D>
+DomainUpdateOf<D> DomainMesherOf<D>::update(const RunControl& control) { return impl_->update(control); }
 
-Mesh<2> DomainMesher::mesh() const { return impl_->mesher().mesh(); }
-DomainMesh DomainMesher::domain_mesh() const {
+template <int D>
+Mesh<D> DomainMesherOf<D>::mesh() const { return impl_->mesher().mesh(); }
+template <int D>
+DomainMeshOf<D> DomainMesherOf<D>::domain_mesh() const {
   return mesher::domain_mesh(mesh(), input(), impl_->extent());
 }
-Pslg DomainMesher::input() const { return impl_->input(); }
+template <int D>
+GraphOf<D> DomainMesherOf<D>::input() const { return impl_->input(); }
 
-RegionLabel DomainMesher::label(const DomainChange::Corners& triangle) const {
+template <int D>
+RegionLabel DomainMesherOf<D>::label(const typename DomainChangeOf<D>::Corners& triangle) const {
   return impl_->follower() ? impl_->follower()->label(triangle) : RegionLabel();
 }
-bool DomainMesher::keeps(const DomainChange::Corners& triangle) const {
+template <int D>
+bool DomainMesherOf<D>::keeps(const typename DomainChangeOf<D>::Corners& triangle) const {
   return !impl_->follower() || impl_->follower()->keeps(triangle);
 }
-std::vector<SeedFault> DomainMesher::faults() const {
-  return impl_->follower() ? impl_->follower()->faults() : std::vector<SeedFault>();
+template <int D>
+std::vector<SeedFaultOf<D>> DomainMesherOf<D>::faults() const {
+  return impl_->follower() ? impl_->follower()->faults() : std::vector<SeedFaultOf<D>>();
 }
 
-bool DomainMesher::contains(FeatureId id) const { return impl_->mesher().contains(id); }
-bool DomainMesher::contains_line(FeatureId id) const { return impl_->mesher().contains_line(id); }
-bool DomainMesher::contains_seed(const SeedName& name) const { return impl_->contains_seed(name); }
+template <int D>
+bool DomainMesherOf<D>::contains(FeatureId id) const { return impl_->mesher().contains(id); }
+template <int D>
+bool DomainMesherOf<D>::contains_line(FeatureId id) const { return impl_->mesher().contains_line(id); }
+template <int D>
+bool DomainMesherOf<D>::contains_polygon(FeatureId id) const {
+  return impl_->mesher().contains_polygon(id);
+}
+template <int D>
+bool DomainMesherOf<D>::contains_seed(const SeedName& name) const { return impl_->contains_seed(name); }
 
-MeshStats DomainMesher::stats() const {
+template <int D>
+MeshStats DomainMesherOf<D>::stats() const {
   MeshStats stats = impl_->mesher().stats();
   if (impl_->unlimited()) impl_->unlimited()->add_to(stats);
   return stats;
 }
-const Options<2>& DomainMesher::options() const { return impl_->mesher().options(); }
-Extent DomainMesher::extent() const { return impl_->extent(); }
+template <int D>
+const Options<D>& DomainMesherOf<D>::options() const { return impl_->mesher().options(); }
+template <int D>
+Extent DomainMesherOf<D>::extent() const { return impl_->extent(); }
 
-void DomainMesher::check_invariants() const {
+template <int D>
+void DomainMesherOf<D>::check_invariants() const {
   impl_->mesher().check_invariants();
   if (impl_->follower()) impl_->follower()->check_invariants();
   if (impl_->unlimited()) impl_->unlimited()->check_invariants();
 }
+
+template class DomainMesherOf<2>;
+template class DomainMesherOf<3>;
 
 }  // namespace mesher

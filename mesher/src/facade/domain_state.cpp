@@ -10,7 +10,7 @@
 namespace mesher::detail {
 namespace {
 
-using Markers = DomainState::Markers;
+using Markers = DomainState<2>::Markers;
 
 // Sets a marker, 0 for none, and makes the edit; or does neither.
 template <class Make>
@@ -31,38 +31,77 @@ std::int64_t marker_of(const Markers& markers, FeatureId id) {
   return it == markers.committed().end() ? 0 : it->second;
 }
 
+void add_line(Pslg& graph, InputLine line, std::int64_t marker) {
+  if (line.points.size() == 2) {
+    graph.segments.push_back({line.id, line.points[0], line.points[1], marker});
+  } else {
+    graph.polylines.push_back({line.id, std::move(line.points), marker});
+  }
+}
+void add_line(Plc& complex, const InputLine& line, std::int64_t marker) {
+  for (std::size_t i = 1; i < line.points.size(); ++i) {
+    complex.segments.push_back({line.id, line.points[i - 1], line.points[i], marker});
+  }
+}
+
 }  // namespace
+
+template <int D>
+DomainState<D>::DomainState(const Options<D>& options, Extent extent, RegionAreas areas)
+    : mesher_(options), extent_(extent), areas_(areas) {
+  if (D == 2 || areas == RegionAreas::ignored) return;
+  throw Error(ErrorCode::bad_option, "the largest volumes of regions cannot be limits yet");
+}
 
 // --- Edits -----------------------------------------------------------------------------------
 
-void DomainState::insert(FeatureId id, const Point<2>& point, std::int64_t marker) {
+template <int D>
+void DomainState<D>::insert(FeatureId id, const Point<D>& point, std::int64_t marker) {
   busy_.require_idle();
   mark(point_markers_, id, marker, [&] { mesher_.insert(id, point); });
 }
 
-void DomainState::remove(FeatureId id) {
+template <int D>
+void DomainState<D>::remove(FeatureId id) {
   busy_.require_idle();
   mark(point_markers_, id, 0, [&] { mesher_.remove(id); });
 }
 
-void DomainState::move(FeatureId id, const Point<2>& point) {
+template <int D>
+void DomainState<D>::move(FeatureId id, const Point<D>& point) {
   busy_.require_idle();
   mesher_.move(id, point);
 }
 
-void DomainState::insert_line(FeatureId id, const std::vector<FeatureId>& points,
+template <int D>
+void DomainState<D>::insert_line(FeatureId id, const std::vector<FeatureId>& points,
                               std::int64_t marker) {
   busy_.require_idle();
   mark(line_markers_, id, marker, [&] { mesher_.insert_polyline(id, points); });
-  needs_follower_ = true;
+  needs_follower_ = needs_follower_ || D == 2;  // in space lines enclose nothing
 }
 
-void DomainState::remove_line(FeatureId id) {
+template <int D>
+void DomainState<D>::remove_line(FeatureId id) {
   busy_.require_idle();
   mark(line_markers_, id, 0, [&] { mesher_.remove_segment(id); });
 }
 
-void DomainState::insert_seed(const Seed& seed) {
+template <int D>
+void DomainState<D>::insert_polygon(const mesher::Polygon& polygon, std::int64_t marker) {
+  busy_.require_idle();
+  mark(polygon_markers_, polygon.id, marker, [&] { mesher_.insert_polygon(polygon); });
+  needs_follower_ = true;
+}
+
+template <int D>
+void DomainState<D>::remove_polygon(FeatureId id) {
+  busy_.require_idle();
+  mark(polygon_markers_, id, 0, [&] { mesher_.remove_polygon(id); });
+}
+
+template <int D>
+void DomainState<D>::insert_seed(const SeedOf<D>& seed) {
   busy_.require_idle();
   check_seed(seed);
   if (seeds_.find(seed.name) != nullptr) {
@@ -73,7 +112,8 @@ void DomainState::insert_seed(const Seed& seed) {
   needs_follower_ = true;
 }
 
-void DomainState::remove_seed(const SeedName& name) {
+template <int D>
+void DomainState<D>::remove_seed(const SeedName& name) {
   busy_.require_idle();
   if (seeds_.find(name) == nullptr) {
     throw Error(ErrorCode::unknown_id, text_of(name) + " is not there", {}, {name.id});
@@ -81,20 +121,24 @@ void DomainState::remove_seed(const SeedName& name) {
   seeds_.set(name, std::nullopt);
 }
 
-void DomainState::limit(const SizeLimits<2>& limits) {
+template <int D>
+void DomainState<D>::limit(const SizeLimits<D>& limits) {
   busy_.require_idle();
   mesher_.limit(limits);
 }
 
-void DomainState::limit(const Box<2>& box, const SizeLimits<2>& limits) {
+template <int D>
+void DomainState<D>::limit(const Box<D>& box, const SizeLimits<D>& limits) {
   busy_.require_idle();
   mesher_.limit(box, limits);
 }
 
-void DomainState::discard_edits() noexcept {
+template <int D>
+void DomainState<D>::discard_edits() noexcept {
   mesher_.discard_edits();
   point_markers_.discard();
   line_markers_.discard();
+  polygon_markers_.discard();
   seeds_.discard();
   needs_follower_ = false;
 }
@@ -102,27 +146,32 @@ void DomainState::discard_edits() noexcept {
 // --- Updates ---------------------------------------------------------------------------------
 
 // So that commit() needs no memory, and follow() has somebody to follow.
-void DomainState::prepare() {
+template <int D>
+void DomainState<D>::prepare() {
   point_markers_.prepare();
   line_markers_.prepare();
+  polygon_markers_.prepare();
   seeds_.prepare();
   if (needs_follower_ && ran_ && !follower_) {
-    follower_.emplace(mesher_.mesh(), std::vector<MeshEdge>(), std::vector<Seed>(), extent_);
+    follower_.emplace(mesher_.mesh(), std::vector<WallOf<D>>(), std::vector<SeedOf<D>>(), extent_);
   }
 }
 
-void DomainState::commit() noexcept {
+template <int D>
+void DomainState<D>::commit() noexcept {
   point_markers_.commit();
   line_markers_.commit();
+  polygon_markers_.commit();
   seeds_.commit();
   needs_follower_ = false;
   ran_ = true;
 }
 
 // The first run. The follower is there only if the run is accepted: nothing throws after it.
-DomainChange DomainState::begin(const Change<2>& change) {
-  DomainFollower first(mesh_of(change), walls_of(change), all_of(seeds_), extent_);
-  DomainChange domain;
+template <int D>
+DomainChangeOf<D> DomainState<D>::begin(const Change<D>& change) {
+  DomainFollowerOf<D> first(mesh_of(change), walls_of(change), all_of(seeds_), extent_);
+  DomainChangeOf<D> domain;
   for (const auto& triangle : change.simplices_added) {
     if (first.keeps(triangle)) domain.kept_added.push_back(triangle);
   }
@@ -130,24 +179,27 @@ DomainChange DomainState::begin(const Change<2>& change) {
   return domain;
 }
 
-DomainChange DomainState::follow(const Change<2>& change) {
+template <int D>
+DomainChangeOf<D> DomainState<D>::follow(const Change<D>& change) {
   if (!follower_ && needs_follower_) return begin(change);
   if (!follower_) return {change.simplices_added, change.simplices_removed, {}, 0};
-  return follower_->update(change, domain_edits(change, seeds_));
+  return follower_->update(change, domain_edits<D>(change, seeds_));
 }
 
 // Whether it matters what lines enclose.
-bool DomainState::needs_unlimited() const {
+template <int D>
+bool DomainState<D>::needs_unlimited() const {
   if (!follower_ && !needs_follower_) return false;  // no line, no seed
   if (extent_ == Extent::enclosed && mesher_.has_limits()) return true;
   if (areas_ == RegionAreas::ignored) return false;
-  const std::vector<Seed> seeds = all_of(seeds_);
+  const std::vector<SeedOf<D>> seeds = all_of(seeds_);
   return std::any_of(seeds.begin(), seeds.end(),
-                     [](const Seed& seed) { return seed.max_area.has_value(); });
+                     [](const SeedOf<D>& seed) { return seed.max_area.has_value(); });
 }
 
 // It begins with what the last update left.
-void DomainState::make_unlimited(const RunControl& control) {
+template <>
+void DomainState<2>::make_unlimited(const RunControl& control) {
   auto made = std::make_unique<UnlimitedMesh>(mesher_.options(), extent_, areas_);
   if (ran_) {
     EditedSeeds seeds;
@@ -158,17 +210,10 @@ void DomainState::make_unlimited(const RunControl& control) {
   unlimited_ = std::move(made);
 }
 
-DomainUpdate DomainState::run(const RunControl& control) {
-  DomainUpdate update;
-  const auto run_limited = [&] {
-    static_cast<Change<2>&>(update) =
-        mesher_.update(control, [&](const Change<2>& change) { update.domain = follow(change); });
-  };
-  if (!unlimited_ && needs_unlimited()) make_unlimited(control);
-  if (!unlimited_) {
-    run_limited();
-    return update;
-  }
+template <>
+void DomainState<2>::run_with_unlimited(const RunControl& control,
+                                        const std::function<void()>& run_limited) {
+  if (!unlimited_) make_unlimited(control);
   unlimited_->mesher().discard_edits();
   mesher_.announce_to(unlimited_->mesher());
   unlimited_->update(seeds_, control, [&](const auto& limits, const auto& where) {
@@ -176,12 +221,29 @@ DomainUpdate DomainState::run(const RunControl& control) {
     mesher_.limit_regions(limits, first ? std::vector{mesher_.options().domain} : where);
     run_limited();
   });
+}
+
+template <int D>
+DomainUpdateOf<D> DomainState<D>::run(const RunControl& control) {
+  DomainUpdateOf<D> update;
+  const auto run_limited = [&] {
+    static_cast<Change<D>&>(update) =
+        mesher_.update(control, [&](const Change<D>& change) { update.domain = follow(change); });
+  };
+  if constexpr (D == 2) {
+    if (unlimited_ || needs_unlimited()) {
+      run_with_unlimited(control, run_limited);
+      return update;
+    }
+  }
+  run_limited();
   return update;
 }
 
-DomainUpdate DomainState::update(const RunControl& control) {
+template <int D>
+DomainUpdateOf<D> DomainState<D>::update(const RunControl& control) {
   const Busy::Run running(busy_);
-  DomainUpdate update;
+  DomainUpdateOf<D> update;
   try {
     prepare();
     update = run(control);
@@ -196,21 +258,27 @@ DomainUpdate DomainState::update(const RunControl& control) {
   return update;
 }
 
-Pslg DomainState::input() const {
-  Pslg graph;
+template <int D>
+GraphOf<D> DomainState<D>::input() const {
+  GraphOf<D> graph;
   for (const auto& p : mesher_.points()) {
     graph.points.push_back({p.id, p.at, marker_of(point_markers_, p.id)});
   }
   for (auto& line : mesher_.lines()) {
     const std::int64_t marker = marker_of(line_markers_, line.id);
-    if (line.points.size() == 2) {
-      graph.segments.push_back({line.id, line.points[0], line.points[1], marker});
-    } else {
-      graph.polylines.push_back({line.id, std::move(line.points), marker});
+    add_line(graph, std::move(line), marker);
+  }
+  if constexpr (D == 3) {
+    for (auto& polygon : mesher_.polygons()) {
+      const std::int64_t marker = marker_of(polygon_markers_, polygon.id);
+      graph.facets.push_back({std::move(polygon), marker});
     }
   }
   for (const auto& [name, seed] : seeds_.committed()) add_seed(graph, seed);
   return graph;
 }
+
+template class DomainState<2>;
+template class DomainState<3>;
 
 }  // namespace mesher::detail

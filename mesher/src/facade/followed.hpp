@@ -9,24 +9,28 @@
 
 namespace mesher::detail {
 
-[[nodiscard]] inline std::uint32_t index_of(const std::vector<Point<2>>& sorted,
-                                            const Point<2>& p) {
+template <class Point>
+[[nodiscard]] std::uint32_t index_of(const std::vector<Point>& sorted, const Point& p) {
   return static_cast<std::uint32_t>(std::lower_bound(sorted.begin(), sorted.end(), p) -
                                     sorted.begin());
 }
 
 /// The mesh that a first run brings.
-[[nodiscard]] inline Mesh<2> mesh_of(const Change<2>& change) {
-  Mesh<2> mesh;
+template <int D>
+[[nodiscard]] Mesh<D> mesh_of(const Change<D>& change) {
+  Mesh<D> mesh;
   mesh.vertices = change.vertices_added;
   mesh.simplices.reserve(change.simplices_added.size());
-  for (const auto& [a, b, c] : change.simplices_added) {
-    const auto& all = mesh.vertices;
-    mesh.simplices.push_back({index_of(all, a), index_of(all, b), index_of(all, c)});
+  for (const auto& corners : change.simplices_added) {
+    auto& simplex = mesh.simplices.emplace_back();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      simplex[i] = index_of(mesh.vertices, corners[i]);
+    }
   }
   return mesh;
 }
 
+/// The walls that a first run brings.
 [[nodiscard]] inline std::vector<MeshEdge> walls_of(const Change<2>& change) {
   std::vector<MeshEdge> walls;
   for (const auto& e : change.edges_added) {
@@ -36,10 +40,23 @@ namespace mesher::detail {
   return walls;
 }
 
-using EditedSeeds = EditedTable<SeedName, Seed>;
+[[nodiscard]] inline std::vector<MeshFace> walls_of(const Change<3>& change) {
+  std::vector<MeshFace> walls;
+  for (const auto& f : change.faces_added) {
+    const auto& all = change.vertices_added;
+    const auto& [a, b, c] = f.corners;
+    walls.push_back({{index_of(all, a), index_of(all, b), index_of(all, c)}, f.polygon, 0});
+  }
+  return walls;
+}
+
+template <int D>
+using EditedSeedsOf = EditedTable<SeedName, SeedOf<D>>;
+using EditedSeeds = EditedSeedsOf<2>;
 
 /// All seeds that shall be.
-[[nodiscard]] inline std::vector<Seed> all_of(const EditedSeeds& seeds) {
+template <class Seed>
+[[nodiscard]] std::vector<Seed> all_of(const EditedTable<SeedName, Seed>& seeds) {
   std::vector<Seed> all;
   for (const auto& [name, seed] : seeds.committed()) {
     if (const Seed* now = seeds.find(name)) all.push_back(*now);
@@ -50,17 +67,32 @@ using EditedSeeds = EditedTable<SeedName, Seed>;
   return all;
 }
 
+[[nodiscard]] inline std::vector<DomainEdits::Wall> ends_of(
+    const std::vector<LineEdge<2>>& edges) {
+  std::vector<DomainEdits::Wall> walls;
+  for (const auto& e : edges) walls.push_back({e.low, e.high});
+  return walls;
+}
+[[nodiscard]] inline std::vector<DomainEditsOf<3>::Wall> ends_of(
+    const std::vector<PolygonFace<3>>& faces) {
+  std::vector<DomainEditsOf<3>::Wall> walls;
+  for (const auto& f : faces) walls.push_back(f.corners);
+  return walls;
+}
+
 /// What comes and goes besides triangles.
-[[nodiscard]] inline DomainEdits domain_edits(const Change<2>& change, const EditedSeeds& seeds) {
-  const auto ends_of = [](const std::vector<LineEdge<2>>& edges) {
-    std::vector<DomainEdits::Wall> walls;
-    for (const auto& e : edges) walls.push_back({e.low, e.high});
-    return walls;
-  };
-  DomainEdits edits;
-  edits.walls_out = ends_of(change.edges_removed);
-  edits.walls_in = ends_of(change.edges_added);
-  seeds.for_each_edit([&](const SeedName& name, const Seed* was, const Seed* is) {
+template <int D>
+[[nodiscard]] DomainEditsOf<D> domain_edits(const Change<D>& change,
+                                            const EditedSeedsOf<D>& seeds) {
+  DomainEditsOf<D> edits;
+  if constexpr (D == 2) {
+    edits.walls_out = ends_of(change.edges_removed);
+    edits.walls_in = ends_of(change.edges_added);
+  } else {
+    edits.walls_out = ends_of(change.faces_removed);
+    edits.walls_in = ends_of(change.faces_added);
+  }
+  seeds.for_each_edit([&](const SeedName& name, const SeedOf<D>* was, const SeedOf<D>* is) {
     if (was != nullptr) edits.seeds_out.push_back(name);
     if (is != nullptr) edits.seeds_in.push_back(*is);
   });

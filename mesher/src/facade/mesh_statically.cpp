@@ -307,9 +307,11 @@ Mesh<3> mesh_statically(const std::vector<Point<3>>& points, const std::vector<S
   add_features(segments, polygons, handle_of, world, names);
   run.refine();
   const auto& vertices = world.vertices;
-  return run.mesh(detail::on_features(world.plain.simplices, {vertices.pool(), vertices.roles(),
-                                                              world.plc.store(), names}),
-                  stats);
+  const detail::PolygonsAt all = detail::polygons_at(world.plc.store());
+  return run.mesh(
+      detail::on_features(world.plain.simplices, {vertices.pool(), vertices.roles(),
+                                                  world.plc.store(), names, {&all}}),
+      stats);
 }
 
 }  // namespace mesher

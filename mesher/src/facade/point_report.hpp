@@ -45,13 +45,9 @@ std::vector<InputPoint<D>> PointState<D>::points() const {
 }
 
 template <int D>
-Mesh<D> PointState<D>::mesh_of(const std::vector<Simplex>& simplices) const {
-  return canonical(pool(), live_vertices(), simplices, on_features(simplices));
-}
-
-template <int D>
 Mesh<D> PointState<D>::mesh() const {
-  return mesh_of(simplices());
+  const std::vector<Simplex> all = simplices();
+  return canonical(pool(), live_vertices(), all, on_features(all));
 }
 
 template <int D>

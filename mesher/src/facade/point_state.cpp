@@ -113,9 +113,13 @@ Change<D> PointState<D>::whole(const Mesh<D>& mesh) const {
     auto& corners = change.simplices_added.emplace_back();
     for (std::size_t k = 0; k < s.size(); ++k) corners[k] = mesh.vertices[s[k]];
   }
-  if constexpr (D != 2) return change;
+  const auto& at = mesh.vertices;
   for (const auto& e : mesh.edges) {
-    change.edges_added.push_back({mesh.vertices[e.low], mesh.vertices[e.high], e.line});
+    change.edges_added.push_back({at[e.low], at[e.high], e.line, e.of_polygon});
+  }
+  for (const auto& f : mesh.faces) {
+    const auto& [a, b, c] = f.corners;
+    change.faces_added.push_back({{at[a], at[b], at[c]}, f.polygon});
   }
   return change;
 }
@@ -137,7 +141,9 @@ Change<D> PointState<D>::first_run(PointEdits edits, const RunControl& control,
   require_others();
   ran_ = true;
   const std::vector<Simplex> come = simplices();
-  const Mesh<D> mesh = mesh_of(come);
+  const OnFeatures parts = on_features(come);
+  const Mesh<D> mesh = canonical(pool(), live_vertices(), come, parts);
+  remember(parts);
   stats_ = timed_stats(*world_, mesh);
   Change<D> change = whole(mesh);
   find_angles(come, change);
@@ -242,8 +248,8 @@ Change<D> PointState<D>::propagate(const PointEdits& edits, const RunControl& co
     Log log = vertices().log();
     require_others(log);
     report_vertices(log, change);
+    report_others(log, change);
     find_angles(report_stars(std::move(log), change), change);
-    report_others(change);
     require_room(stats_.vertices + change.vertices_added.size() - change.vertices_removed.size());
     if (accept) accept(change);
   };

@@ -76,7 +76,9 @@ class PointState {
   /// update.
   virtual void require_others() const {}
   virtual void require_others(const Log&) const {}
-  virtual void report_others(Change<D>&) const {}
+  /// What is on features in the mesh of the first run.
+  virtual void remember(const OnFeatures&) {}
+  virtual void report_others(const Log&, Change<D>&) {}
   /// `come`: simplices of the mesh that were not there before.
   virtual void find_angles(const std::vector<Simplex>&, Change<D>&) const {}
   virtual void rename_others() noexcept {}
@@ -88,6 +90,7 @@ class PointState {
   virtual void check_others() const {}
 
   void make_points(const PointEdits& edits, Ids& arrived);
+  [[nodiscard]] std::vector<Simplex> simplices() const;
 
   auto& vertices() noexcept { return world_->vertices; }
   const auto& vertices() const noexcept { return world_->vertices; }
@@ -112,8 +115,6 @@ class PointState {
   void make_room(const Ids& arrived);
   void rename(const PointEdits& edits, Ids& arrived) noexcept;
   void require_room(std::size_t vertices) const;
-  [[nodiscard]] std::vector<Simplex> simplices() const;
-  [[nodiscard]] Mesh<D> mesh_of(const std::vector<Simplex>& simplices) const;
   [[nodiscard]] std::vector<VertexHandle> live_vertices() const;
   [[nodiscard]] Change<D> whole(const Mesh<D>& mesh) const;
   [[nodiscard]] std::array<Point<D>, D + 1> corners(const Simplex& s) const;

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "facade/announced_lines.hpp"
-#include "plc/feature.hpp"
+#include "plc/known_parts.hpp"
+#include "plc/polygons_at.hpp"
 
 namespace mesher::detail {
 
@@ -29,6 +30,8 @@ struct SpaceNews {
   std::vector<PolygonHandle> polygons_come;
   std::unordered_set<EdgeHandle> segments_taken;  // some have come again
   std::vector<FeatureId> polygons_taken;
+  PolygonsAt polygons_at;  // of those that come
+  KnownParts::News parts;
 
   void clear() noexcept { *this = SpaceNews(); }
 };

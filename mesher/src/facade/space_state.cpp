@@ -87,28 +87,19 @@ FeatureId SpaceState::polygon(PolygonHandle f) const {
   return polygon_names_.at(f);
 }
 
-// What searches visit must not throw: they are counted first.
+// Requires: none has come yet.
 std::vector<PolygonHandle> SpaceState::polygons_at(VertexHandle point) const {
-  const FeatureExtent<3> where = validity::widened(extent_of(pool()[point]));
-  const auto visit_all = [&](auto&& visit) {
-    store().visit_near(where.p, where.q, where.slack, [&](const auto& f) {
-      if constexpr (std::is_same_v<decltype(f), const Polygon&>) {
-        if (f.has(point)) visit(f);
-      }
-      return false;
-    });
-  };
-  std::size_t count = 0;
-  visit_all([&](const Polygon&) { ++count; });
   std::vector<PolygonHandle> all;
-  all.reserve(count);
-  visit_all([&](const Polygon& f) { all.push_back(f.self); });
+  polygons_at_.visit_with_point(point, [&](PolygonHandle h) {
+    if (store().polygons()[h].alive) all.push_back(h);
+  });
   return all;
 }
 
 OnFeatures SpaceState::on_features(const std::vector<Simplex>& simplices) const {
   if (store().live_edges() == 0) return {};
-  return detail::on_features(simplices, {pool(), vertices().roles(), store(), *this});
+  return detail::on_features(simplices, {pool(), vertices().roles(), store(), *this,
+                                         {&polygons_at_, &news_.polygons_at}});
 }
 
 // --- Single features -------------------------------------------------------------------------
@@ -148,6 +139,7 @@ void SpaceState::add_polygon(const mesher::Polygon& polygon, const Ids& arrived)
   const Polygon& record = detail::add_polygon(*world_, polygon.id, std::move(parts), *this);
   news_.polygons[record.self] = polygon.id;
   news_.polygons_come.push_back(record.self);
+  news_.polygons_at.add(record);
   news_.named_polygons.insert_or_assign(polygon.id, NamedPolygon{polygon, record.self});
 }
 
@@ -260,11 +252,15 @@ void SpaceState::rename_others() noexcept {
   for (const EdgeHandle e : news_.segments_taken) segment_names_.erase(e);
   segment_names_.merge(news_.segments);
   for (const FeatureId id : news_.polygons_taken) {
-    polygon_names_.erase(named_polygons_.at(id).record);
+    const PolygonHandle record = named_polygons_.at(id).record;
+    polygon_names_.erase(record);
+    polygons_at_.erase(store().polygons()[record]);
   }
   for (const FeatureId id : news_.polygons_taken) named_polygons_.erase(id);
   named_polygons_.merge(news_.named_polygons);
   polygon_names_.merge(news_.polygons);
+  polygons_at_.merge(news_.polygons_at);
+  parts_.apply(news_.parts);
 }
 
 void SpaceState::forget_news() noexcept {

@@ -57,10 +57,14 @@ class SpaceState final : public PointState<3>, private SpaceNames {
   void make_room_for_others() override;
   void rename_others() noexcept override;
   void forget_news() noexcept override;
+  void remember(const OnFeatures& parts) override { parts_ = KnownParts(parts); }
+  void report_others(const Log& log, Change<3>& change) override;
   void commit_others() noexcept override { world_->plc.commit(); }
   [[nodiscard]] OnFeatures on_features(const std::vector<Simplex>& simplices) const override;
-  [[nodiscard]] std::size_t other_bytes() const override { return world_->plc.bytes(); }
-  void check_others() const override { world_->plc.check_invariants(); }
+  [[nodiscard]] std::size_t other_bytes() const override {
+    return world_->plc.bytes() + polygons_at_.bytes() + parts_.bytes();
+  }
+  void check_others() const override;
 
   [[nodiscard]] Parts take_parts(const PointEdits& points);
   void take_at(VertexHandle point, Parts& parts);
@@ -73,6 +77,12 @@ class SpaceState final : public PointState<3>, private SpaceNames {
   void require_fits(const Ids& arrived);
   [[nodiscard]] VertexHandle point_with(FeatureId id, const Ids& arrived) const;
   [[nodiscard]] std::vector<PolygonHandle> polygons_at(VertexHandle point) const;
+  [[nodiscard]] std::vector<VertexHandle> disturbed(const Log& log) const;
+  void list_neighbours(VertexHandle v, std::vector<VertexHandle>& all) const;
+  void list_on(const Polygon& f, std::vector<VertexHandle>& all) const;
+  void list_on(const Edge& e, std::vector<VertexHandle>& all) const;
+  void list_inside(const Polygon& f, std::vector<VertexHandle>& all) const;
+  [[nodiscard]] OnFeatures parts_at(const std::vector<VertexHandle>& at) const;
 
   [[nodiscard]] FeatureId point(VertexHandle v) const override;
   [[nodiscard]] std::optional<FeatureId> segment(EdgeHandle e) const override;
@@ -84,6 +94,8 @@ class SpaceState final : public PointState<3>, private SpaceNames {
   std::unordered_map<PolygonHandle, FeatureId> polygon_names_;
   SpaceNews::Lines line_points_;
   SpaceNews::Polygons named_polygons_;
+  PolygonsAt polygons_at_;
+  KnownParts parts_;  // of the mesh of the last update
   // What an update brings, until it is done.
   Edits edits_;
   SpaceNews news_;

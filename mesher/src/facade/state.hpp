@@ -52,7 +52,7 @@ class State final : public PointState<2>, private Names {
   void make_room_for_others() override;
   void require_others() const override;
   void require_others(const Log& log) const override;
-  void report_others(Change<2>& change) const override;
+  void report_others(const Log& log, Change<2>& change) override;
   void find_angles(const std::vector<Simplex>& come, Change<2>& change) const override;
   void rename_others() noexcept override;
   void forget_news() noexcept override;

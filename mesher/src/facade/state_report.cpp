@@ -45,7 +45,7 @@ void State::report_renamed(std::vector<mesher::LineEdge<2>>& gone,
 }
 
 // Leaves that ended or began, without those of which another piece is in the same place.
-void State::report_others(Change<2>& change) const {
+void State::report_others(const Log&, Change<2>& change) {
   std::vector<mesher::LineEdge<2>> gone;
   std::vector<mesher::LineEdge<2>> come;
   world_->leaves.for_each_changed([&](const Leaf& leaf) {

@@ -55,6 +55,10 @@ constexpr Form kSpaceForms[] = {
     {"-polyline", EditKind::remove_polyline, 2, "-polyline ID"},
     {"+polygon", EditKind::insert_polygon, 5, kPolygonUsage, SIZE_MAX},
     {"-polygon", EditKind::remove_polygon, 2, "-polygon ID"},
+    {"+hole", EditKind::insert_hole, 5, "+hole ID x y z"},
+    {"-hole", EditKind::remove_hole, 2, "-hole ID"},
+    {"+region", EditKind::insert_region, 6, "+region ID x y z ATTRIBUTE [MAX_VOLUME]", 7},
+    {"-region", EditKind::remove_region, 2, "-region ID"},
 };
 
 const Form* find_form(std::span<const Form> forms, std::string_view word) {
@@ -131,9 +135,9 @@ void require_fields(const text::Line& line, std::size_t size, const Form& form) 
 }
 
 // The limit of a region, where it is given: as in a .poly file, none if it is not above 0.
-std::optional<double> max_area_of(const text::Line& line) {
-  if (line.size() < 6) return std::nullopt;
-  const double area = line.finite(5);
+std::optional<double> max_area_of(const text::Line& line, std::size_t field) {
+  if (line.size() <= field) return std::nullopt;
+  const double area = line.finite(field);
   return area > 0 ? std::optional(area) : std::nullopt;
 }
 
@@ -247,8 +251,8 @@ EditOf<D> parse(const text::Line& line) {
   if (takes_place(form.kind)) {
     edit.point = place_of<D>(line, 2);
     if (form.kind == EditKind::insert_region) {
-      edit.attribute = line.finite(4);
-      edit.max_area = max_area_of(line);
+      edit.attribute = line.finite(2 + D);
+      edit.max_area = max_area_of(line, 3 + D);
     }
   } else if (form.kind == EditKind::insert_polygon) {
     edit.polygon = parse_polygon(line);

@@ -28,10 +28,15 @@ class ComplexCheck {
   [[nodiscard]] const Verdict& polygons() const { return polygons_; }
   /// Of the faces that polygons are unions of: by its corners, ascending.
   [[nodiscard]] bool is_in_polygon(const Face& key) const { return tiles_.count(key) != 0; }
+  /// Whether both the complex and the mesh have markers.
+  [[nodiscard]] bool tells_markers() const;
+  /// Requires: that; segments() and polygons() hold. `faces`: those given first.
+  [[nodiscard]] Verdict markers(const HalfFaces& faces) const;
   /// Whether a poor tetrahedron is one of small angles of the complex.
   [[nodiscard]] bool excuses(const Mesh<3>::Simplex& s) const;
 
  private:
+  class Markers;
   // An edge of the complex, called by its segment, or else by the polygon that has it.
   struct Line {
     std::string name;

@@ -4,21 +4,10 @@
 #include <set>
 
 #include "mesh/checked_mesh.hpp"
-#include "mesher/domain.hpp"
+#include "mesh/marked.hpp"
 
 namespace mesher::detail {
 namespace {
-
-// Who has a marker, for messages: "line 11 (line 24)".
-struct Marked {
-  std::int64_t marker = 0;
-  std::string name;
-};
-
-std::string text_of(const char* what, FeatureId id, const FilePosition& position) {
-  return std::string(what) + " " + std::to_string(static_cast<std::int64_t>(id)) + " (line " +
-         std::to_string(position.line) + ")";
-}
 
 class MarkerCheck {
  public:
@@ -27,7 +16,7 @@ class MarkerCheck {
       : mesh_(mesh), features_(*options.features), graph_(*options.graph) {
     for (std::size_t i = 0; i < graph_.points.size(); ++i) {
       const auto& p = graph_.pslg.points[i];
-      if (p.marker != 0) points_[p.at] = {p.marker, text_of("point", p.id, graph_.points[i])};
+      if (p.marker != 0) points_[p.at] = marked(p.marker, "point", p.id, graph_.points, i);
     }
     add(graph_.pslg.segments, graph_.segments);
     add(graph_.pslg.polylines, graph_.polylines);
@@ -57,12 +46,11 @@ class MarkerCheck {
 
  private:
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
-  using Lines = std::vector<const Marked*>;
 
   template <class Line>
   void add(const std::vector<Line>& lines, const std::vector<FilePosition>& positions) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      lines_[lines[i].id] = {lines[i].marker, text_of("line", lines[i].id, positions[i])};
+      lines_[lines[i].id] = marked(lines[i].marker, "line", lines[i].id, positions, i);
     }
   }
   void add(const LinePath& path) {
@@ -73,30 +61,13 @@ class MarkerCheck {
     }
   }
 
-  // What is wrong with a marker, if one of `lines`, which are there, should give it.
-  static std::string trouble_of(std::int64_t marker, const Lines& lines, bool at_border) {
-    const Marked* expected = nullptr;
-    for (const Marked* line : lines) {
-      if (line->marker == 0) continue;
-      if (line->marker == marker) return "";
-      if (expected == nullptr) expected = line;
-    }
-    const std::string has = " has the marker " + std::to_string(marker);
-    if (expected != nullptr) {
-      return has + ", but is on " + expected->name + ", which has " +
-             std::to_string(expected->marker);
-    }
-    if (marker == 0 || (at_border && marker == kBoundaryMarker)) return "";
-    return has + (at_border ? ", but is on no line with that one" : ", but is on no line with one");
-  }
-
   [[nodiscard]] std::string trouble_at(std::uint32_t v) const {
     const std::int64_t marker = features_.markers[v];
     const auto point = points_.find(mesh_.at(v));
     if (point == points_.end()) {
       const auto lines = at_vertex_.find(v);
-      return trouble_of(marker, lines == at_vertex_.end() ? Lines() : lines->second,
-                        border_vertices_.contains(v));
+      return marker_trouble(marker, lines == at_vertex_.end() ? Givers() : lines->second,
+                            border_vertices_.contains(v), "line");
     }
     if (point->second.marker == marker) return "";
     return " has the marker " + std::to_string(marker) + ", but is " + point->second.name +
@@ -105,8 +76,8 @@ class MarkerCheck {
 
   [[nodiscard]] std::string trouble_at(const Edge& edge, std::int64_t marker) const {
     const auto lines = at_edge_.find(edge);
-    return trouble_of(marker, lines == at_edge_.end() ? Lines() : lines->second,
-                      border_.contains(edge));
+    return marker_trouble(marker, lines == at_edge_.end() ? Givers() : lines->second,
+                          border_.contains(edge), "line");
   }
 
   // Of the edges that the mesh lists and of those on lines; nothing if no edge has a marker: then
@@ -126,15 +97,11 @@ class MarkerCheck {
   const PslgFile& graph_;
   std::map<Point<2>, Marked> points_;
   std::map<FeatureId, Marked> lines_;
-  std::map<std::uint32_t, Lines> at_vertex_;
-  std::map<Edge, Lines> at_edge_;
+  std::map<std::uint32_t, Givers> at_vertex_;
+  std::map<Edge, Givers> at_edge_;
   std::set<Edge> border_;
   std::set<std::uint32_t> border_vertices_;
 };
-
-bool has_marker(const auto& parts) {
-  return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.marker != 0; });
-}
 
 }  // namespace
 

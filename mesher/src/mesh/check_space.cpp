@@ -89,8 +89,11 @@ class SpaceChecker {
   void check_features() {
     if (options_.features != nullptr && !check("parts", &SpaceChecker::parts)) return;
     if (complex_) {
-      findings_.add("segments", complex_->segments());
-      findings_.add("polygons", complex_->polygons());
+      const bool segments = findings_.add("segments", complex_->segments());
+      const bool polygons = findings_.add("polygons", complex_->polygons());
+      if (segments && polygons && complex_->tells_markers()) {
+        findings_.add("markers", complex_->markers(*half_faces_));
+      }
     }
     check("regions", &SpaceChecker::regions);
   }

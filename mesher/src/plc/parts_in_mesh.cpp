@@ -20,26 +20,22 @@ using Simplex = std::array<VertexHandle, 4>;
 using Corners = std::array<VertexHandle, 3>;
 using Polygons = std::span<const PolygonHandle>;  // ascending
 
-// What vertices lie on.
+// What vertices lie on; what has been asked once is remembered.
 class Standings {
  public:
-  explicit Standings(const Labelled& labelled) : labelled_(labelled) {
-    labelled.features.polygons().for_each([&](const Polygon& f) {
-      if (!f.alive) return;
-      if (f.self >= handles_.size()) handles_.resize(f.self + std::size_t{1});
-      handles_[f.self] = f.self;
-      for (const EdgeHandle e : f.all_edges) at_edge_[e].push_back(f.self);
-      for (const VertexHandle v : f.points) at_point_[v].push_back(f.self);
-    });
-  }
+  explicit Standings(const Labelled& labelled) : labelled_(labelled) {}
 
-  [[nodiscard]] Polygons with_edge(EdgeHandle e) const { return find(at_edge_, e); }
+  [[nodiscard]] Polygons with_edge(EdgeHandle e) {
+    return find(at_edge_, e, [&](const PolygonsAt& all, auto&& add) { all.visit_with_edge(e, add); });
+  }
   /// Those that v lies on.
-  [[nodiscard]] Polygons polygons(VertexHandle v) const {
+  [[nodiscard]] Polygons polygons(VertexHandle v) {
     const Role role = labelled_.role(v);
-    if (const PolygonHandle f = polygon_of(role)) return {&handles_[f], 1};
+    if (const PolygonHandle f = polygon_of(role)) return {&labelled_.features.polygons()[f].self, 1};
     if (role.on != 0) return with_edge(role.on);
-    return labelled_.vertices[v].input ? find(at_point_, v) : Polygons();
+    if (!labelled_.vertices[v].input) return {};
+    return find(at_point_, v,
+                [&](const PolygonsAt& all, auto&& add) { all.visit_with_point(v, add); });
   }
   /// The edge that both lie on; 0 if there is none.
   [[nodiscard]] EdgeHandle common_edge(VertexHandle v, VertexHandle w) const {
@@ -52,16 +48,24 @@ class Standings {
 
  private:
   using Table = std::unordered_map<std::uint32_t, std::vector<PolygonHandle>>;
-  static Polygons find(const Table& all, std::uint32_t h) {
-    const auto it = all.find(h);
-    return it == all.end() ? Polygons() : it->second;
+  // Of an index some may have gone.
+  template <class Visit>
+  Polygons find(Table& known, std::uint32_t h, Visit&& visit) {
+    const auto [it, is_new] = known.try_emplace(h);
+    if (!is_new) return it->second;
+    for (const PolygonsAt* all : labelled_.polygons) {
+      visit(*all, [&](PolygonHandle f) {
+        if (labelled_.features.polygons()[f].alive) it->second.push_back(f);
+      });
+    }
+    make_set(it->second);
+    return it->second;
   }
   [[nodiscard]] bool has_end(EdgeHandle e, VertexHandle v) const {
     return labelled_.features.edges()[e].has_end(v);
   }
 
   const Labelled& labelled_;
-  std::vector<PolygonHandle> handles_;  // of polygons, at their own places
   Table at_edge_, at_point_;
 };
 
@@ -149,14 +153,14 @@ class PartFinder {
         f, Point<2>{p[0][0] + (cv * b2 - bv * c2) / twice, p[0][1] + (bu * c2 - cu * b2) / twice});
   }
 
-  [[nodiscard]] LineEdge named(VertexHandle low, VertexHandle high, EdgeHandle e) const {
-    if (const auto id = labelled_.names.segment(e)) return {low, high, *id};
+  [[nodiscard]] LineEdge named(VertexHandle low, VertexHandle high, EdgeHandle e) {
+    if (const auto id = labelled_.names.segment(e)) return {low, high, *id, false, e};
     std::optional<FeatureId> least;
     for (const PolygonHandle f : standings_.with_edge(e)) {
       const FeatureId id = labelled_.names.polygon(f);
       if (!least || id < *least) least = id;
     }
-    return {low, high, least.value_or(FeatureId{}), true};
+    return {low, high, least.value_or(FeatureId{}), true, e};
   }
 
   const Labelled& labelled_;

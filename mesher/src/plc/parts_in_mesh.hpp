@@ -13,7 +13,7 @@
 
 #include "index/vertex.hpp"
 #include "mesh/canonical.hpp"
-#include "plc/feature_store.hpp"
+#include "plc/polygons_at.hpp"
 #include "plc/validity.hpp"
 #include "segments/roles.hpp"
 
@@ -25,14 +25,17 @@ struct Labelled {
   const Roles& roles;
   const FeatureStore& features;
   const SpaceNames& names;
+  std::vector<const PolygonsAt*> polygons;  // together they have all polygons that are there
 
   [[nodiscard]] Role role(VertexHandle v) const noexcept {
     return vertices[v].on_segment ? roles[v] : Role();
   }
 };
 
-/// The parts of all features, of the mesh with these tetrahedra. An edge is called by its segment,
-/// or else by the least polygon that has it. Cost: O(m + f log f) for f simplices at features.
+/// The parts of all features, of the mesh with these tetrahedra; corners ascend. An edge is called
+/// by its segment, or else by the least polygon that has it. If the tetrahedra are only those at
+/// some vertices: all parts at these, and some others.
+/// Cost: O(m + f log f) for f simplices at features.
 [[nodiscard]] OnFeatures on_features(const std::vector<std::array<VertexHandle, 4>>& simplices,
                                      const Labelled& labelled);
 

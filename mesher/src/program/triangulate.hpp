@@ -30,20 +30,27 @@ template <std::size_t N>
   return {.order = morton<N>(f)};
 }
 
-/// Calls emit(simplex) for each simplex of v's star, as it was written down, that v outputs: its
-/// corners positively oriented, v first. Virtual neighbours bound nothing.
+/// Calls emit(simplex) for each simplex of v's star, as it was written down, whose other corners
+/// are all `wanted`: its corners positively oriented, v first. Virtual neighbours bound nothing.
+template <int D, class Wanted, class Emit>
+void for_each_simplex_at(const Vertex<D>& v, std::span<const std::uint32_t> record, Wanted&& wanted,
+                         Emit&& emit) {
+  CellOf<D>::for_each_link_simplex(record, [&](const std::array<std::uint32_t, D>& ends) {
+    std::array<VertexHandle, D + 1> simplex{v.self};
+    bool all = true;
+    for (std::size_t k = 0; k < D; ++k) {
+      all = all && ends[k] < CellOf<D>::kVirtual && wanted(ends[k]);
+      simplex[k + 1] = ends[k];
+    }
+    if (all) emit(simplex);
+  });
+}
+/// The same of those that v outputs.
 template <int D, class Emit>
 void for_each_own_simplex(const VertexPool<D>& pool, const Vertex<D>& v,
                           std::span<const std::uint32_t> record, Emit&& emit) {
-  CellOf<D>::for_each_link_simplex(record, [&](const std::array<std::uint32_t, D>& ends) {
-    std::array<VertexHandle, D + 1> simplex{v.self};
-    bool own = true;
-    for (std::size_t k = 0; k < D; ++k) {
-      own = own && ends[k] < CellOf<D>::kVirtual && v.p < pool[ends[k]].p;
-      simplex[k + 1] = ends[k];
-    }
-    if (own) emit(simplex);
-  });
+  const auto is_larger = [&](VertexHandle w) { return v.p < pool[w].p; };
+  for_each_simplex_at(v, record, is_larger, emit);
 }
 
 /// The simplices of all vertices; ticks once for each.

@@ -437,6 +437,29 @@ TEST_CASE("a script in space has segments, and polygons with holes and what lies
   CHECK(m.lines() == std::vector{mesher::InputLine{FeatureId{3}, list({5, 12, 7})}});
 }
 
+TEST_CASE("a script in space has seeds, whose errors are said of their lines") {
+  const ScratchFolder folder;
+  mesher::DomainMesherOf<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
+  mesher::EditScriptOf<3> script(folder.write("edits.txt",
+                                              "begin\n+hole 1 .25 .5 .75\n"
+                                              "+region 1 .5 .5 .125 -2 0.5\n"
+                                              "+region 2 .5 .25 .5 3 -1\n+point 1 0 0 .5\ncommit\n"
+                                              "begin\n-region 1\n-hole 1\n"
+                                              "+region 1 .5 .5 .5 4\ncommit\n"
+                                              "+region 2 0 0 0 1\n"));
+  std::vector<mesher::Plc> inputs;
+  CHECK(failure_of([&] {
+          mesher::apply(script, m, [&](const auto&) { inputs.push_back(m.input()); });
+        }) == "repeated_id@12:1");
+  REQUIRE(inputs.size() == 2);
+  using Region = mesher::Plc::Region;
+  CHECK(inputs[0].holes == std::vector<mesher::Plc::Hole>{{FeatureId{1}, {.25, .5, .75}}});
+  CHECK(inputs[0].regions == std::vector<Region>{{FeatureId{1}, {.5, .5, .125}, -2, 0.5},
+                                                 {FeatureId{2}, {.5, .25, .5}, 3, {}}});
+  CHECK(inputs[1].holes.empty());
+  CHECK(inputs[1].regions.at(0) == Region{FeatureId{1}, {.5, .5, .5}, 4, {}});
+}
+
 TEST_CASE("an error of an update in space is said of the edit of the feature to blame") {
   const ScratchFolder folder;
   const auto failure = [&](const std::string& last) {
@@ -478,8 +501,15 @@ TEST_CASE("bad lines of a script in space are refused with the code and the plac
       {"+polygon 1 1 2 3 along 4 5 6\n", "bad_edit@1:18"},
       {"+polygon 1 1 2 3 on\n+polygon 1 1 2 3\n", "unknown_id@1:1"},
       {"-polygon 1\n", "unknown_id@1:1"},
-      {"+hole 1 0 0 0\n", "bad_edit@1:1"},
+      {"+hole 1 0 0 0\n", "bad_edit@1:1"},  // the mesher knows of no seeds
       {"+region 1 0 0 0 1\n", "bad_edit@1:1"},
+      {"+hole 1 0 0\n", "bad_edit@1:12"},
+      {"+hole 1 0 0 nan\n", "not_finite@1:13"},
+      {"-hole 1 0\n", "bad_edit@1:9"},
+      {"+region 1 0 0 0\n", "bad_edit@1:16"},
+      {"+region 1 0 0 0 1 2 3\n", "bad_edit@1:21"},
+      {"+region 1 0 0 0 inf\n", "not_finite@1:17"},
+      {"+region 1 0 0 0 1 x\n", "bad_number@1:19"},
       {"limit none\n", "bad_edit@1:1"},
       {"+tetrahedron 1\n", "bad_edit@1:1"},
       {"begin\n+point 1 0 0 0\n", "unbalanced_commit@1:1"},
