@@ -5,17 +5,11 @@
 #include <new>
 #include <tuple>
 
+#include "common_items.hpp"
+
 namespace mesher::detail {
 
 namespace {
-
-// Whether two ascending sets have a common item.
-template <class Handle>
-bool have_common(const std::vector<Handle>& a, const std::vector<Handle>& b) {
-  if (b.size() < a.size()) return have_common(b, a);
-  return std::any_of(a.begin(), a.end(),
-                     [&](Handle h) { return std::binary_search(b.begin(), b.end(), h); });
-}
 
 // The nearest to x of what it is shown; of equally near ones the first by places.
 class Nearest {
@@ -63,7 +57,9 @@ void put_in_canonical_order(std::vector<const F*>& all) {
 
 }  // namespace
 
-bool disjoint(const Polygon& f, const Polygon& g) { return !have_common(f.points, g.points); }
+bool disjoint(const Polygon& f, const Polygon& g) {
+  return !visit_common(f.points, g.points, [](VertexHandle) { return true; });
+}
 
 // Visitors must not throw: they say so, and the search ends.
 void find_near(const Point<3>& place, double radius, FeatureStore& store, FeaturesNear& found) {
@@ -71,7 +67,7 @@ void find_near(const Point<3>& place, double radius, FeatureStore& store, Featur
   found.polygons.clear();
   bool failed = false;
   const auto take = [&](auto& all, const auto& f) noexcept {
-    if (!touches(distance2_to(place, f), radius * radius)) return false;
+    if (!is_in_ball(place, radius * radius, f)) return false;
     try {
       all.push_back(&f);
     } catch (const std::bad_alloc&) {
@@ -114,17 +110,10 @@ Feature common(const Polygon& f, const Edge& e, const Point<3>& x, const Feature
 }
 
 Feature common(const Polygon& f, const Polygon& g, const Point<3>& x, const FeatureStore& store) {
-  const bool fewer = f.points.size() < g.points.size();
-  const Polygon& few = fewer ? f : g;
-  const Polygon& many = fewer ? g : f;
   Nearest nearest(x, store);
-  for (const EdgeHandle e : few.all_edges) {
-    if (many.has_edge(e)) nearest.show_edge(e);
-  }
+  visit_common(f.all_edges, g.all_edges, [&](EdgeHandle e) { return nearest.show_edge(e), false; });
   if (nearest.found()) return nearest.found();
-  for (const VertexHandle v : few.points) {
-    if (many.has(v)) nearest.show_point(v);
-  }
+  visit_common(f.points, g.points, [&](VertexHandle v) { return nearest.show_point(v), false; });
   return nearest.found();
 }
 

@@ -32,6 +32,16 @@ namespace mesher::detail {
   return distance2(x, f);
 }
 
+/// Whether a closed ball around a place has some of a feature.
+template <class F>
+[[nodiscard]] bool is_in_ball(const Point<3>& x, double radius2, const F& f) {
+  return touches(distance2_to(x, f), radius2);
+}
+template <>
+[[nodiscard]] inline bool is_in_ball(const Point<3>& x, double radius2, const Polygon& f) {
+  return is_within(x, f, closed(radius2));
+}
+
 /// Where a feature lies.
 [[nodiscard]] inline FeatureExtent<3> extent_of(const Vertex<3>& v) { return {v.p, v.p}; }
 [[nodiscard]] inline FeatureExtent<3> extent_of(const Edge& e) { return {e.place_a, e.place_b}; }
@@ -87,7 +97,7 @@ class PieceBall {
   [[nodiscard]] const Whole& whole() const noexcept { return whole_; }
   template <class F>
   [[nodiscard]] bool meets(const F& f) const {
-    return touches(distance2_to(middle_, f), radius2_);
+    return is_in_ball(middle_, radius2_, f);
   }
 
  private:

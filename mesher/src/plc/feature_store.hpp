@@ -96,7 +96,7 @@ class FeatureStore {
 
   /// How much searches have looked at so far.
   [[nodiscard]] std::uint64_t looked_at() const noexcept {
-    return edges_.looked_at() + tree_.looked_at();
+    return edges_.looked_at() + tree_.looked_at() + parts_looked_at_;
   }
   /// Frees the records of features that are not live.
   void commit() noexcept;
@@ -125,6 +125,7 @@ class FeatureStore {
   PolygonPool polygons_;
   HandleTable<FeatureStore> by_parts_;
   ReachTree<PolygonHandle, 3> tree_;
+  std::uint64_t parts_looked_at_ = 0;  // of polygons
   PolygonHandle changed_ = 0;
   FeatureEvents* listener_ = nullptr;
 };

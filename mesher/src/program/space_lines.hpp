@@ -24,18 +24,20 @@ template <class S>
 class Staying<S, 3> final : public EdgeFilter<3> {
  public:
   Staying(World<S, 3>& world, VoronoiCell3& cell)
-      : world_(world), cell_(cell), any_(world.has_features()) {
-    if (!any_) return;
-    const std::uint64_t before = world.plc.store().looked_at();
-    find_near(cell.center().p, world.vertices.beside(cell), world.plc.store(), near_);
-    looked_at_ = world.plc.store().looked_at() - before;
+      : world_(world),
+        cell_(cell),
+        any_(world.has_features()),
+        before_(world.plc.store().looked_at()) {
+    if (any_) find_near(cell.center().p, world.vertices.beside(cell), world.plc.store(), near_);
   }
 
   [[nodiscard]] bool any() const noexcept { return any_; }
   /// This, for a rule; null where nothing can stay.
   [[nodiscard]] const EdgeFilter<3>* filter() const noexcept { return any_ ? this : nullptr; }
   void leave(const VoronoiCell3&, int, int) {}
-  [[nodiscard]] std::uint64_t looked_at() const noexcept { return looked_at_; }
+  [[nodiscard]] std::uint64_t looked_at() const noexcept {
+    return world_.plc.store().looked_at() - before_;
+  }
 
   [[nodiscard]] bool skips(const VoronoiCell3& cell, int p, int q) const override {
     return angles().keeps(standing(vertex(cell, p)), standing(vertex(cell, q)));
@@ -107,8 +109,8 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   World<S, 3>& world_;
   VoronoiCell3& cell_;
   const bool any_;
+  const std::uint64_t before_;
   FeaturesNear near_;
-  std::uint64_t looked_at_ = 0;
 };
 
 }  // namespace mesher::detail
