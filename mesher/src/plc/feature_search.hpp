@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/box.hpp"
+#include "geometry/voronoi_cell3.hpp"
 #include "index/features.hpp"
 #include "plc/facet_piece.hpp"
 #include "plc/feature_store.hpp"
@@ -53,9 +54,21 @@ template <>
 [[nodiscard]] inline double thickness_of(const Edge&) { return 0; }
 [[nodiscard]] inline double thickness_of(const Polygon& f) { return f.thickness; }
 
-/// The edges and polygons within `radius` of a place, in canonical order.
-/// Cost: O(log L/s), and what is near.
-void find_near(const Point<3>& place, double radius, FeatureStore& store, FeaturesNear& found);
+/// The edges, or polygons, within `radius` of a place, in canonical order: edges by the places of
+/// their ends, polygons by those of their corners. Cost: O(log L/s), and what is near.
+template <class F>
+[[nodiscard]] std::vector<const F*> find_near(const Point<3>& place, double radius,
+                                              FeatureStore& store);
+/// The edges that meet a cell, and few others, likewise.
+[[nodiscard]] std::vector<const Edge*> find_in(const VoronoiCell3& cell, FeatureStore& store);
+
+/// What may be asked of features by who observes a cell: those within `radius` of its vertex.
+struct FeaturesBeside {
+  FeatureStore& store;
+  Point<3> place{};
+  double radius = 0;
+  std::vector<const Polygon*> polygons{};  // in canonical order
+};
 
 /// The features that two features share: the edge or else the point nearest to x, of equally near
 /// ones the first by its places; none.

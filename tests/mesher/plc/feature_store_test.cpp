@@ -12,6 +12,8 @@ namespace {
 
 using namespace mesher::detail;
 using mesher::Point;
+using support::all_near;
+using support::FeaturesNear;
 using Scene = support::FeatureScene<sac::PlainScope>;
 
 struct Plain {
@@ -70,8 +72,7 @@ TEST_CASE("What is near, or crowds a piece, is found as by looking at all") {
     for (int ask = 0; ask < 10; ++ask) {
       const Point<3> place = scene.place();
       const double radius = scene.radius();
-      FeaturesNear near;
-      find_near(place, radius, scene.features().store(), near);
+      const FeaturesNear near = all_near(place, radius, scene.features().store());
       REQUIRE(near == scene.naive_near(place, radius));
       near_some += !near.polygons.empty();
     }
@@ -208,9 +209,9 @@ TEST_CASE("A look for what is near for which there is no memory throws, and find
   for (std::uint64_t count = 1; burnt; ++count) {
     FeaturesNear found;
     if (support::fails(count, burnt,
-                       [&] { find_near(place, 2, plain.scene.features().store(), found); })) {
+                       [&] { found = all_near(place, 2, plain.scene.features().store()); })) {
       ++failures;
-      find_near(place, 2, plain.scene.features().store(), found);
+      found = all_near(place, 2, plain.scene.features().store());
     }
     REQUIRE(found == all);
   }
