@@ -154,7 +154,9 @@ class EdgeTree::Builder {
 
 void EdgeTree::build(const std::vector<Ends>& edges,
                      const std::vector<std::uint32_t>& chain_end) {
-  *this = EdgeTree();
+  nodes_.clear();
+  items_.clear();
+  extent_ = 0;
   count_ = static_cast<std::uint32_t>(edges.size());
   for (const Ends& e : edges) {
     for (const Point<2>& p : e) {

@@ -82,9 +82,9 @@ Polygon& FeatureStore::record(PolygonParts parts) {
   Polygon f = shaped(parts);
   PolygonHandle h = by_parts_.find(Key{&f});
   if (h == 0) {
-    static_cast<void>(find_shape(f));
     f.outline_tree.count_in(parts_looked_at_);
     f.inner_tree.count_in(parts_looked_at_);
+    static_cast<void>(find_shape(f));
     h = polygons_.create(std::move(f)).self;
     try {
       by_parts_.insert(h);
