@@ -33,7 +33,7 @@ inline constexpr double kPlaneBound = 30.1 * predicates::detail::kUnitRoundoff;
 inline constexpr double kSpaceBound = 104 * predicates::detail::kUnitRoundoff;
 
 /// What is known of a point and a ball.
-enum class Side : std::int8_t { outside = -1, tie = 0, inside = 1, unsure = 2 };
+enum class BallSide : std::int8_t { outside = -1, tie = 0, inside = 1, unsure = 2 };
 
 /// Where coordinates are multiples of a power of two: up to which square of a distance from p the
 /// determinants are not rounded.
@@ -54,16 +54,21 @@ class CommonUnit {
 };
 
 /// From a determinant whose error is at most `bound`, or 0 if m is at most `exact_to`.
-[[nodiscard]] inline Side side_of(double det, double bound, double m, double exact_to) noexcept {
-  if (det > bound) return Side::inside;
-  if (det < -bound) return Side::outside;
-  if (!(m <= exact_to)) return Side::unsure;
-  return det > 0 ? Side::inside : det < 0 ? Side::outside : det == 0 ? Side::tie : Side::unsure;
+[[nodiscard]] inline BallSide side_of(double det, double bound, double m,
+                                      double exact_to) noexcept {
+  if (det > bound) return BallSide::inside;
+  if (det < -bound) return BallSide::outside;
+  if (!(m <= exact_to)) return BallSide::unsure;
+  return det > 0    ? BallSide::inside
+         : det < 0  ? BallSide::outside
+         : det == 0 ? BallSide::tie
+                    : BallSide::unsure;
 }
 
 /// incircle(a, b, c, p), as far as that is sure; if a coordinate is not a number it is not.
-[[nodiscard]] inline Side in_ball_quickly(const Point<2>& a, const Point<2>& b, const Point<2>& c,
-                                          const Point<2>& p, double exact_to) noexcept {
+[[nodiscard]] inline BallSide in_ball_quickly(const Point<2>& a, const Point<2>& b,
+                                              const Point<2>& c, const Point<2>& p,
+                                              double exact_to) noexcept {
   const double ax = a[0] - p[0], ay = a[1] - p[1];
   const double bx = b[0] - p[0], by = b[1] - p[1];
   const double cx = c[0] - p[0], cy = c[1] - p[1];
@@ -76,9 +81,9 @@ class CommonUnit {
 }
 
 /// insphere(a, b, c, d, p), likewise.
-[[nodiscard]] inline Side in_ball_quickly(const Point<3>& a, const Point<3>& b, const Point<3>& c,
-                                          const Point<3>& d, const Point<3>& p,
-                                          double exact_to) noexcept {
+[[nodiscard]] inline BallSide in_ball_quickly(const Point<3>& a, const Point<3>& b,
+                                              const Point<3>& c, const Point<3>& d,
+                                              const Point<3>& p, double exact_to) noexcept {
   const double ax = a[0] - p[0], ay = a[1] - p[1], az = a[2] - p[2];
   const double bx = b[0] - p[0], by = b[1] - p[1], bz = b[2] - p[2];
   const double cx = c[0] - p[0], cy = c[1] - p[1], cz = c[2] - p[2];

@@ -165,7 +165,7 @@ class DelaunayKernel {
   [[nodiscard]] int side(const Ids& corners, std::size_t i, const Point<D>& p) const;
   [[nodiscard]] bool conflicts_quickly(std::uint32_t s, const Point<D>& p) const;
   [[nodiscard]] bool conflicts_slowly(std::uint32_t s, const Point<D>& p, bool tie) const;
-  [[nodiscard]] Side quick_side(const Ids& corners, const Point<D>& p, double exact_to) const;
+  [[nodiscard]] BallSide quick_side(const Ids& corners, const Point<D>& p, double exact_to) const;
   [[nodiscard]] bool is_tie_on_grid(const Ids& corners, const Point<D>& p) const;
   [[nodiscard]] bool ball_holds(const Ids& corners, const Point<D>& p) const;
   [[nodiscard]] bool ball_holds_exactly(const Ids& corners, const Point<D>& p, bool tie) const;

@@ -24,13 +24,13 @@ struct SimplexBall {
   float inner2 = 0, outer2 = 0;
 
   /// Not sure if the centre is not a number.
-  [[nodiscard]] Side side(const Point<D>& p) const noexcept {
+  [[nodiscard]] BallSide side(const Point<D>& p) const noexcept {
     double distance2 = 0;
     for (std::size_t i = 0; i < D; ++i) {
       distance2 += (p[i] - centre[i]) * (p[i] - centre[i]);
     }
-    if (distance2 < static_cast<double>(inner2)) return Side::inside;
-    return distance2 > static_cast<double>(outer2) ? Side::outside : Side::unsure;
+    if (distance2 < static_cast<double>(inner2)) return BallSide::inside;
+    return distance2 > static_cast<double>(outer2) ? BallSide::outside : BallSide::unsure;
   }
 };
 

@@ -1,4 +1,4 @@
-// The main loop, Split and Insert. (Where a simplex is split: refinement_centres.cpp.)
+// The main loop, Split and Insert. (Where a simplex is split: refinement_centres_impl.hpp.)
 #include "svr/refinement.hpp"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 
 #include "delaunay/build.hpp"
 #include "delaunay/spatial_order.hpp"
+#include "svr/refinement_centres_impl.hpp"
 
 namespace mesher::detail {
 

@@ -13,9 +13,9 @@ namespace {
 
 using mesher::Point;
 using mesher::SplitMix64;
-using mesher::detail::in_ball_quickly;
+using mesher::detail::BallSide;
 using mesher::detail::CommonUnit;
-using mesher::detail::Side;
+using mesher::detail::in_ball_quickly;
 
 // On a circle or sphere around a middle, but for rounding and a few last bits.
 template <int D>
@@ -30,14 +30,15 @@ Point<D> near_ball(SplitMix64& random, const Point<D>& middle, double radius, bo
 
 // What the filter says of a ball and a point, and what is so.
 template <int D>
-std::pair<Side, Side> sides(const std::array<Point<D>, D + 2>& q, double exact_to) {
+std::pair<BallSide, BallSide> sides(const std::array<Point<D>, D + 2>& q, double exact_to) {
   if constexpr (D == 2) {
-    return {in_ball_quickly(q[0], q[1], q[2], q[3], exact_to),
-            Side{static_cast<std::int8_t>(mesher::predicates::incircle(q[0], q[1], q[2], q[3]))}};
-  } else {
     return {
-        in_ball_quickly(q[0], q[1], q[2], q[3], q[4], exact_to),
-        Side{static_cast<std::int8_t>(mesher::predicates::insphere(q[0], q[1], q[2], q[3], q[4]))}};
+        in_ball_quickly(q[0], q[1], q[2], q[3], exact_to),
+        BallSide{static_cast<std::int8_t>(mesher::predicates::incircle(q[0], q[1], q[2], q[3]))}};
+  } else {
+    return {in_ball_quickly(q[0], q[1], q[2], q[3], q[4], exact_to),
+            BallSide{static_cast<std::int8_t>(
+                mesher::predicates::insphere(q[0], q[1], q[2], q[3], q[4]))}};
   }
 }
 
@@ -57,8 +58,8 @@ TEMPLATE_TEST_CASE_SIG("near a ball, at each scale, the filter is right or not s
     for (auto& p : q) p = near_ball<D>(random, middle, scale, random.below(2) == 0);
     for (auto& p : q) unit.add(p);
     const auto [quick, exact] = sides<D>(q, unit.exact_to());
-    REQUIRE((quick == Side::unsure || quick == exact));
-    sure += quick != Side::unsure ? 1 : 0;
+    REQUIRE((quick == BallSide::unsure || quick == exact));
+    sure += quick != BallSide::unsure ? 1 : 0;
     ++all;
   }
   CHECK(sure > all / 100);  // not vacuous
@@ -74,7 +75,7 @@ TEMPLATE_TEST_CASE_SIG("for random points the filter is nearly always sure", "[t
     for (auto& p : q) {
       for (double& x : p) x = random.unit();
     }
-    unsure += sides<D>(q, 0).first == Side::unsure ? 1 : 0;
+    unsure += sides<D>(q, 0).first == BallSide::unsure ? 1 : 0;
   }
   CHECK(unsure <= 2);
 }
@@ -100,7 +101,7 @@ TEMPLATE_TEST_CASE_SIG("on a grid, up to the stated size, it is always sure and 
       REQUIRE(unit.exact_to() >= std::ldexp(most * most, 2 * exponent));
       const auto [quick, exact] = sides<D>(q, unit.exact_to());
       REQUIRE(quick == exact);
-      ties += quick == Side::tie ? 1 : 0;
+      ties += quick == BallSide::tie ? 1 : 0;
     }
   }
   CHECK(ties > 1000);
@@ -118,16 +119,16 @@ TEMPLATE_TEST_CASE_SIG("a coarse grid's ties are not claimed of fine points", "[
       unit.add(p);
     }
     const auto [quick, exact] = sides<D>(q, unit.exact_to());
-    REQUIRE((quick == Side::unsure || quick == exact));
+    REQUIRE((quick == BallSide::unsure || quick == exact));
   }
 }
 
 TEST_CASE("the filter is not sure of what is no number") {
   const double nan = std::numeric_limits<double>::quiet_NaN(), all = 0x1p200;
   const Point<2> none{nan, nan};
-  CHECK(in_ball_quickly(none, {1, 0}, {0, 1}, {0, 0}, all) == Side::unsure);
-  CHECK(in_ball_quickly({1, 0}, {0, 1}, none, {0, 0}, all) == Side::unsure);
+  CHECK(in_ball_quickly(none, {1, 0}, {0, 1}, {0, 0}, all) == BallSide::unsure);
+  CHECK(in_ball_quickly({1, 0}, {0, 1}, none, {0, 0}, all) == BallSide::unsure);
   const Point<3> nowhere{nan, nan, nan}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, o{0, 0, 0};
-  CHECK(in_ball_quickly(nowhere, x, y, z, o, all) == Side::unsure);
-  CHECK(in_ball_quickly(x, y, z, nowhere, o, all) == Side::unsure);
+  CHECK(in_ball_quickly(nowhere, x, y, z, o, all) == BallSide::unsure);
+  CHECK(in_ball_quickly(x, y, z, nowhere, o, all) == BallSide::unsure);
 }

@@ -21,7 +21,7 @@ using mesher::Point;
 using mesher::SplitMix64;
 using mesher::detail::BallBatch;
 using mesher::detail::BallLayout;
-using mesher::detail::Side;
+using mesher::detail::BallSide;
 using mesher::detail::SimplexBall;
 using support::Kind;
 
@@ -97,9 +97,9 @@ TEMPLATE_TEST_CASE_SIG("a ball is never wrong about a point near its sphere, and
       const Point<D> p = near_sphere<D>(ball, radius, random);
       if (std::find(q.begin(), q.end(), p) != q.end()) continue;
       if (!(std::abs(p[0]) < 0x1p90) || std::abs(p[0]) < 0x1p-90) continue;
-      const Side side = ball.side(p);
+      const BallSide side = ball.side(p);
       ++asked;
-      if (side == Side::unsure) {
+      if (side == BallSide::unsure) {
         ++unsure;
       } else {
         wrong += support::in_ball(q, p) != static_cast<int>(side) ? 1 : 0;
@@ -138,9 +138,9 @@ TEST_CASE("squares beyond the range of floats leave a ball unsure, not wrong") {
   for (const int exponent : {-90, -70, 70, 90}) {
     const double unit = std::ldexp(1.0, exponent);
     const auto ball = ball_of<2>({Point<2>{0, 0}, {unit, 0}, {0, unit}});
-    CHECK(ball.side({unit * 0.5, unit * 0.5}) != Side::outside);
-    CHECK(ball.side({unit * 1.5, unit * 1.5}) != Side::inside);
-    CHECK(ball.side({unit, unit}) == Side::unsure);
+    CHECK(ball.side({unit * 0.5, unit * 0.5}) != BallSide::outside);
+    CHECK(ball.side({unit * 1.5, unit * 1.5}) != BallSide::inside);
+    CHECK(ball.side({unit, unit}) == BallSide::unsure);
   }
 }
 

@@ -3,6 +3,8 @@
 // Neighbours and orientation are those of a closed surface (in the plane) around which the hull's
 // ghosts close; no vertex across a facet conflicts with the simplex there: that is Delaunay, and
 // for two ghosts, that the hull is convex [Delaunay's lemma].
+#pragma once
+
 #include <algorithm>
 
 #include "delaunay/hole.hpp"
@@ -61,10 +63,5 @@ void DelaunayKernel<D, Layout>::check_invariants() const {
   SAC_INVARIANT(alive == store_.size());
   check_vertices();
 }
-
-template class DelaunayKernel<2>;
-template class DelaunayKernel<3>;
-template class DelaunayKernel<2, BallLayout<2>>;
-template class DelaunayKernel<3, BallLayout<3>>;
 
 }  // namespace mesher::detail

@@ -1,11 +1,11 @@
 // The balls of new simplices.
+#pragma once
+
 #include "delaunay/facets.hpp"
 #include "delaunay/kernel.hpp"
 #include "geometry/circumcentre.hpp"
 
 namespace mesher::detail {
-
-namespace {
 
 template <std::size_t D>
 std::array<double, D> minus(const std::array<double, D>& a, const std::array<double, D>& b) {
@@ -23,14 +23,12 @@ constexpr std::array<std::uint32_t, D> positive_facet(std::size_t i) {
   return facet;
 }
 
-Point<2> exact_centre(const Point<2>& p, const std::array<const Point<2>*, 2>& corners) {
+inline Point<2> exact_centre(const Point<2>& p, const std::array<const Point<2>*, 2>& corners) {
   return exact_circumcentre(p, *corners[0], *corners[1]);
 }
-Point<3> exact_centre(const Point<3>& p, const std::array<const Point<3>*, 3>& corners) {
+inline Point<3> exact_centre(const Point<3>& p, const std::array<const Point<3>*, 3>& corners) {
   return circumcentre(p, *corners[0], *corners[1], *corners[2]).q;
 }
-
-}  // namespace
 
 /// Takes the k-th ball of the batch over: that of simplex s, relative to its corner `apex`. A flat
 /// one is computed exactly first.
@@ -84,10 +82,5 @@ void DelaunayKernel<D, Layout>::measure_made(std::uint32_t v) noexcept {
   balls_.run();
   for (std::size_t k = 0; k < borders_.size(); ++k) set_ball(k, cavity_[k], borders_[k].slot);
 }
-
-template void DelaunayKernel<2, BallLayout<2>>::measure_made(std::uint32_t) noexcept;
-template void DelaunayKernel<3, BallLayout<3>>::measure_made(std::uint32_t) noexcept;
-template Shape DelaunayKernel<2, BallLayout<2>>::measure(std::uint32_t) noexcept;
-template Shape DelaunayKernel<3, BallLayout<3>>::measure(std::uint32_t) noexcept;
 
 }  // namespace mesher::detail

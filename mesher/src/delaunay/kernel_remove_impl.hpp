@@ -6,6 +6,8 @@
 // (on one line), the vertex was a tip of the hull, and only ghosts take the place of its simplices.
 // Within the hull, and where the link is small, as it nearly always is, that part is made facet by
 // facet instead, which costs a fifth.
+#pragma once
+
 #include <algorithm>
 #include <unordered_set>
 
@@ -17,12 +19,8 @@
 
 namespace mesher::detail {
 
-namespace {
-
 // So many are looked through one by one.
 constexpr std::size_t kFew = 64;
-
-}  // namespace
 
 template <int D, class Layout>
 std::vector<std::uint32_t> DelaunayKernel<D, Layout>::star(std::uint32_t v) const {
@@ -229,8 +227,5 @@ void DelaunayKernel<D, Layout>::refill(std::uint32_t v, const std::vector<std::u
   }
   simplex_of_[v] = kNone;
 }
-
-template class DelaunayKernel<2>;
-template class DelaunayKernel<3>;
 
 }  // namespace mesher::detail

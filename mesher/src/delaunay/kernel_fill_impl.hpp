@@ -1,4 +1,6 @@
 // New simplices in the place of those that a point conflicts with.
+#pragma once
+
 #include <algorithm>
 #include <bit>
 
@@ -7,17 +9,13 @@
 
 namespace mesher::detail {
 
-namespace {
-
 // Up to so many vertices around the new one, adjacent new simplices are found by a square table.
 constexpr std::size_t kMostInTable = 256;
 
 constexpr std::uint64_t kNoRidge = ~std::uint64_t{0};
 
 // Of a hash table for the 3n/2 edges of n triangles around the new vertex.
-std::size_t places_for_edges(std::size_t triangles) { return std::bit_ceil(3 * triangles); }
-
-}  // namespace
+inline std::size_t places_for_edges(std::size_t triangles) { return std::bit_ceil(3 * triangles); }
 
 /// All that fill() needs.
 template <int D, class Layout>
@@ -167,10 +165,5 @@ void DelaunayKernel<D, Layout>::join_many_borders() noexcept {
     }
   }
 }
-
-template class DelaunayKernel<2>;
-template class DelaunayKernel<3>;
-template class DelaunayKernel<2, BallLayout<2>>;
-template class DelaunayKernel<3, BallLayout<3>>;
 
 }  // namespace mesher::detail

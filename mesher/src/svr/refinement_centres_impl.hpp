@@ -1,4 +1,6 @@
 // Where a simplex is split.
+#pragma once
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,15 +10,11 @@
 
 namespace mesher::detail {
 
-namespace {
-
 // Nearer than this to a side of the box, in units of its distance to vertices, no vertex is put.
 constexpr double kBesideSide = 0.25;
 // A new vertex is at least so far from the corners of the simplex, in units of the distance that it
 // should have: 0.8 for rho = 1.01, if nothing is rounded.
 constexpr double kLeastDistance = 0.5;
-
-}  // namespace
 
 template <int D>
 auto Refinement<D>::centre_of(std::uint32_t s) const -> Centre {
@@ -80,8 +78,5 @@ void Refinement<D>::require_apart(std::uint32_t s, const Centre& centre) const {
   throw Error(ErrorCode::too_close,
               "input points are too close for double precision near " + place_text(centre.place));
 }
-
-template class Refinement<2>;
-template class Refinement<3>;
 
 }  // namespace mesher::detail

@@ -1,4 +1,6 @@
 // Which simplices a point conflicts with.
+#pragma once
+
 #include <algorithm>
 #include <limits>
 
@@ -8,17 +10,12 @@
 
 namespace mesher::detail {
 
-namespace {
-
 enum Mark : std::uint8_t { kUnseen = 0, kInside, kOutside };
-
-}  // namespace
 
 /// Of a point and the ball of a simplex, as far as the filter is sure.
 template <int D, class Layout>
-[[gnu::always_inline]] inline Side DelaunayKernel<D, Layout>::quick_side(const Ids& c,
-                                                                         const Point<D>& p,
-                                                                         double exact_to) const {
+[[gnu::always_inline]] inline BallSide DelaunayKernel<D, Layout>::quick_side(
+    const Ids& c, const Point<D>& p, double exact_to) const {
   if constexpr (D == 2) {
     return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], p, exact_to);
   } else {
@@ -38,22 +35,22 @@ bool DelaunayKernel<D, Layout>::ball_holds_exactly(const Ids& c, const Point<D>&
 
 template <int D, class Layout>
 bool DelaunayKernel<D, Layout>::ball_holds(const Ids& c, const Point<D>& p) const {
-  const Side side = quick_side(c, p, unit_.exact_to());
-  if (side == Side::inside || side == Side::outside) return side == Side::inside;
-  return ball_holds_exactly(c, p, side == Side::tie);
+  const BallSide side = quick_side(c, p, unit_.exact_to());
+  if (side == BallSide::inside || side == BallSide::outside) return side == BallSide::inside;
+  return ball_holds_exactly(c, p, side == BallSide::tie);
 }
 
 template <int D, class Layout>
 [[gnu::always_inline]] inline bool DelaunayKernel<D, Layout>::conflicts_quickly(
     std::uint32_t s, const Point<D>& p) const {
-  Side side;
+  BallSide side;
   if constexpr (kHasBalls) {
     side = store_.ball(s).side(p);
   } else {
     side = quick_side(store_.corners(s), p, unit_.exact_to());
   }
-  if (side == Side::inside || side == Side::outside) return side == Side::inside;
-  return conflicts_slowly(s, p, side == Side::tie);
+  if (side == BallSide::inside || side == BallSide::outside) return side == BallSide::inside;
+  return conflicts_slowly(s, p, side == BallSide::tie);
 }
 
 template <int D, class Layout>
@@ -80,7 +77,7 @@ bool DelaunayKernel<D, Layout>::is_tie_on_grid(const Ids& c, const Point<D>& p) 
   unit.add(p);
   double exact_to = unit.exact_to();
   for (const std::uint32_t v : c) exact_to = std::min(exact_to, exact_to_[v]);
-  return quick_side(c, p, exact_to) == Side::tie;
+  return quick_side(c, p, exact_to) == BallSide::tie;
 }
 
 /// `i`: the corner at infinity.
@@ -147,10 +144,5 @@ void DelaunayKernel<D, Layout>::undo_dig() noexcept {
   borders_.clear();
   if constexpr (D == 3) forget_link();
 }
-
-template class DelaunayKernel<2>;
-template class DelaunayKernel<3>;
-template class DelaunayKernel<2, BallLayout<2>>;
-template class DelaunayKernel<3, BallLayout<3>>;
 
 }  // namespace mesher::detail

@@ -1,0 +1,14 @@
+// The kernel whose simplices have their balls with them. It removes nothing.
+#include "delaunay/kernel.hpp"
+#include "delaunay/kernel_check_impl.hpp"
+#include "delaunay/kernel_dig_impl.hpp"
+#include "delaunay/kernel_fill_impl.hpp"
+#include "delaunay/kernel_impl.hpp"
+#include "delaunay/kernel_measure_impl.hpp"
+
+namespace mesher::detail {
+
+template class DelaunayKernel<2, BallLayout<2>>;
+template class DelaunayKernel<3, BallLayout<3>>;
+
+}  // namespace mesher::detail
