@@ -32,7 +32,7 @@ mesher::Options<3> options_of(const Plc& plc) {
 std::size_t vertices_inside(const Plc& plc) {
   auto mesh = mesher::mesh_statically(plc, options_of(plc));
   return mesher::domain_mesh(std::move(mesh), plc, mesher::Extent::enclosed)
-      .kept.mesh.vertices.size();
+      .kept.vertices.size();
 }
 
 void bench_plc(const std::string& name, const Plc& plc) {
