@@ -31,8 +31,7 @@ mesher::Options<3> options_of(const Plc& plc) {
 
 std::size_t vertices_inside(const Plc& plc) {
   auto mesh = mesher::mesh_statically(plc, options_of(plc));
-  return mesher::domain_mesh(std::move(mesh), plc, mesher::Extent::enclosed)
-      .kept.vertices.size();
+  return mesher::domain_mesh(std::move(mesh), plc, mesher::Extent::enclosed).kept.vertices.size();
 }
 
 void bench_plc(const std::string& name, const Plc& plc) {
@@ -60,22 +59,23 @@ void bench_plc(const std::string& name, const Plc& plc) {
     std::printf(
         ",\"tetgen_vertices\":%zu,\"tetgen_s\":%.4f,\"vertices_over_tetgen\":%.3f,"
         "\"static_over_tetgen\":%.1f",
-        their_vertices, their,
-        static_cast<double>(inside) / static_cast<double>(their_vertices), ours / their);
+        their_vertices, their, static_cast<double>(inside) / static_cast<double>(their_vertices),
+        ours / their);
   }
   std::printf("}\n");
   std::fflush(stdout);
 }
 
-constexpr mesher::PlcFamily kOtherSizes[] = {
-    {PlcKind::nested, 0.075},   {PlcKind::wedge, 5.0}, {PlcKind::wedge, 1.0},
-    {PlcKind::cloud, 300.0},    {PlcKind::spike, 8.0}, {PlcKind::pump, 64.0},
-    {PlcKind::cloud, 20000.0},  {PlcKind::faults, 100.0}};
+constexpr mesher::PlcFamily kOtherSizes[] = {{PlcKind::nested, 0.075},  {PlcKind::wedge, 5.0},
+                                             {PlcKind::wedge, 1.0},     {PlcKind::cloud, 300.0},
+                                             {PlcKind::spike, 8.0},     {PlcKind::pump, 64.0},
+                                             {PlcKind::cloud, 20000.0}, {PlcKind::faults, 100.0}};
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (!bench::has_tetgen()) std::fprintf(stderr, "plc_bench: tetgen is not installed: without it\n");
+  if (!bench::has_tetgen())
+    std::fprintf(stderr, "plc_bench: tetgen is not installed: without it\n");
   for (int i = 1; i < argc; ++i) {
     bench_plc(std::filesystem::path(argv[i]).stem().string(), mesher::read_plc(argv[i]).plc);
   }

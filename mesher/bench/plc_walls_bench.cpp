@@ -118,9 +118,8 @@ void add_block(Story& story) {
   for (int i = 0; i < 8; ++i) {
     at.push_back(story.point({double(i & 1), double(i >> 1 & 1), double(i >> 2 & 1)}));
   }
-  for (const auto& side : std::vector<std::vector<std::size_t>>{{0, 1, 3, 2}, {4, 5, 7, 6},
-                                                                {0, 1, 5, 4}, {2, 3, 7, 6},
-                                                                {0, 2, 6, 4}, {1, 3, 7, 5}}) {
+  for (const auto& side : std::vector<std::vector<std::size_t>>{
+           {0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}) {
     story.polygon({at[side[0]], at[side[1]], at[side[2]], at[side[3]]});
   }
 }
@@ -132,8 +131,7 @@ void bench_crack() {
   constexpr double kStep = 0.05;
   Story story("crack", kSteps, {{0, 0, 0}, {1, 1, 1}});
   add_block(story);
-  for (const Point<3>& p :
-       mesher::generate_points<3>(mesher::PointKind::uniform, 2000, 1)) {
+  for (const Point<3>& p : mesher::generate_points<3>(mesher::PointKind::uniform, 2000, 1)) {
     if (std::abs(p[2] - 0.5) > kStep) story.point({0.02 + 0.96 * p[0], 0.02 + 0.96 * p[1], p[2]});
   }
   mesher::SplitMix64 random(3);
@@ -167,7 +165,8 @@ constexpr int kCorners = 16;
 double angle_at(int i) { return 6.283185307179586 * i / kCorners; }
 
 // Two round ends with sides between them; ends.first and ends.second have the corners of each.
-void add_prism(Story& story, const std::pair<std::vector<FeatureId>, std::vector<FeatureId>>& ends) {
+void add_prism(Story& story,
+               const std::pair<std::vector<FeatureId>, std::vector<FeatureId>>& ends) {
   story.polygon(ends.first);
   story.polygon(ends.second);
   for (std::size_t i = 0; i < kCorners; ++i) {

@@ -1,4 +1,5 @@
-// TetGen on points in a box and on complexes, as a program of its own: vertices and seconds to compare with.
+// TetGen on points in a box and on complexes, as a program of its own: vertices and seconds to
+// compare with.
 #pragma once
 
 #include <algorithm>

@@ -77,8 +77,8 @@ inline Loop3 spiral(std::size_t n) {
 inline Loop3 lattice_walk(mesher::SplitMix64& random, std::size_t n) {
   Loop3 loop;
   for (std::size_t i = 0; i < n; ++i) {
-    loop.push_back({static_cast<double>(random.below(9)) / 8,
-                    static_cast<double>(random.below(9)) / 8, 0});
+    loop.push_back(
+        {static_cast<double>(random.below(9)) / 8, static_cast<double>(random.below(9)) / 8, 0});
   }
   return loop;
 }

@@ -152,8 +152,7 @@ class EdgeTree::Builder {
   std::vector<Point<2>> middles_;  // of chains
 };
 
-void EdgeTree::build(const std::vector<Ends>& edges,
-                     const std::vector<std::uint32_t>& chain_end) {
+void EdgeTree::build(const std::vector<Ends>& edges, const std::vector<std::uint32_t>& chain_end) {
   nodes_.clear();
   items_.clear();
   extent_ = 0;

@@ -7,7 +7,8 @@
 // do not overlap much.
 //
 //   near     a node is looked into if its box, some wider, may have what is asked for;
-//   around   whether a ray from x to the right crosses an odd number of edges. What is in a box that
+//   around   whether a ray from x to the right crosses an odd number of edges. What is in a box
+//   that
 //            x is clear of crosses it as often, but for an even number, as the straight line from
 //            the chain's beginning to its end does; so only boxes that x is in are looked into.
 //
@@ -53,9 +54,9 @@ class EdgeTree {
     double slack = 0;  // how far places of the frame may be off
     double above = 0, below = 0;
   };
-  /// Calls visit(i) for the edges that may be within sqrt(most2) of a place, nearer ones first where
-  /// that is easily told, until it returns true; returns whether it did. `most2` may become less
-  /// meanwhile. Cost: O(log edges), and what is as near, where boxes do not overlap much.
+  /// Calls visit(i) for the edges that may be within sqrt(most2) of a place, nearer ones first
+  /// where that is easily told, until it returns true; returns whether it did. `most2` may become
+  /// less meanwhile. Cost: O(log edges), and what is as near, where boxes do not overlap much.
   template <class Visit>
   bool visit_near(const Place& place, const double& most2, Visit&& visit) const;
   /// Likewise for the edges that may have a place at this distance.

@@ -121,8 +121,7 @@ std::vector<const F*> find_near(const Point<3>& place, double radius, FeatureSto
   return found.finish();
 }
 template std::vector<const Edge*> find_near(const Point<3>& place, double radius, FeatureStore&);
-template std::vector<const Polygon*> find_near(const Point<3>& place, double radius,
-                                               FeatureStore&);
+template std::vector<const Polygon*> find_near(const Point<3>& place, double radius, FeatureStore&);
 
 std::vector<const Edge*> find_in(const VoronoiCell3& cell, FeatureStore& store) {
   const Outside outside(cell);

@@ -34,8 +34,7 @@ void number_edges(Polygon& f) {
   f.corner_of.assign(f.all_edges.size(), Polygon::kInner);
   for (std::size_t i = f.edges.size(); i-- > 0;) {
     const auto at = std::lower_bound(f.all_edges.begin(), f.all_edges.end(), f.edges[i]);
-    f.corner_of[static_cast<std::size_t>(at - f.all_edges.begin())] =
-        static_cast<std::uint32_t>(i);
+    f.corner_of[static_cast<std::size_t>(at - f.all_edges.begin())] = static_cast<std::uint32_t>(i);
   }
 }
 

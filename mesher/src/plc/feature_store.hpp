@@ -98,16 +98,14 @@ class FeatureStore {
     if constexpr (std::is_same_v<F, Edge>) {
       return edges_.visit_near(p, q, slack, [&](const Edge& e) { return visit(e); });
     } else {
-      return tree_.visit_near(p, q, slack, [&](PolygonHandle h) {
-        return visit(std::as_const(polygons_[h]));
-      });
+      return tree_.visit_near(p, q, slack,
+                              [&](PolygonHandle h) { return visit(std::as_const(polygons_[h])); });
     }
   }
   /// The same with the edges within `reach` of p that are not `outside(x, r)`: no place of the ball
   /// of radius r around x matters.
   template <class Outside, class Visit>
-  bool visit_edges_in(const Point<3>& p, double reach, Outside&& outside,
-                      Visit&& visit) noexcept {
+  bool visit_edges_in(const Point<3>& p, double reach, Outside&& outside, Visit&& visit) noexcept {
     return edges_.visit_in(p, reach, outside, [&](const Edge& e) { return visit(e); });
   }
 

@@ -113,11 +113,11 @@ template <class Visit>
 bool visit_edges_near(const Polygon& f, const Point<3>& x, double distance, Visit&& visit) {
   const EdgeTree::Place place = place_beside(f, x);
   const double most2 = distance * distance;
-  return f.outline_tree.visit_near(
-             place, most2, [&](std::uint32_t i) { return visit(f.edges[f.previous(i)]); }) ||
-         f.inner_tree.visit_near(place, most2, [&](std::uint32_t i) {
-           return i < f.inner_edges.size() && visit(f.inner_edges[i]);
-         });
+  return f.outline_tree.visit_near(place, most2, [&](std::uint32_t i) {
+    return visit(f.edges[f.previous(i)]);
+  }) || f.inner_tree.visit_near(place, most2, [&](std::uint32_t i) {
+    return i < f.inner_edges.size() && visit(f.inner_edges[i]);
+  });
 }
 
 namespace polygon_shape {

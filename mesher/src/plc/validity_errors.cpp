@@ -35,7 +35,8 @@ Named name_of(const Feature& f, const SpaceNames& names, const FeatureStore& sto
     if (!g.alive || !g.has_edge(f.handle())) return;
     if (const FeatureId id = names.polygon(g.self); !least || id < *least) least = id;
   });
-  return {"an edge of polygon " + id_text(least.value_or(FeatureId{})), least.value_or(FeatureId{})};
+  return {"an edge of polygon " + id_text(least.value_or(FeatureId{})),
+          least.value_or(FeatureId{})};
 }
 
 struct Words {

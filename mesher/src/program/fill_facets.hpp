@@ -50,8 +50,7 @@ void FillFacet::operator()(S& s, FacetPiece piece) const {
     return;
   }
   if (piece.level == 0) return;
-  const auto place =
-      weighed(s, w.plc.store(), [&] { return vertex_place(piece, w.plc.store()); });
+  const auto place = weighed(s, w.plc.store(), [&] { return vertex_place(piece, w.plc.store()); });
   if (!place || w.plc.hemmed_in(s, piece)) return;
   insert_on_feature(s, w, *place, role_on(f));
 }

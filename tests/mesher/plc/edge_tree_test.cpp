@@ -99,8 +99,7 @@ TEST_CASE("Distances and nearest places are those of a look at all edges, bit fo
     if (f.loop_end.empty()) continue;
     for (int ask = 0; ask < 40; ++ask) {
       const double height = std::ldexp(random.unit(), -4 * static_cast<int>(random.below(14)));
-      const Point<3> x =
-          plus(f.plane.at(hard_place(random, f)), scaled(height, f.plane.normal));
+      const Point<3> x = plus(f.plane.at(hard_place(random, f)), scaled(height, f.plane.normal));
       const double expected = support::naive::distance2(f, x);
       REQUIRE(distance2(x, f) == expected);
       for (const double most2 : {expected, std::nextafter(expected, 0), 2 * random.unit()}) {

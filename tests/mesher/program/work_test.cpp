@@ -84,8 +84,8 @@ Work edits_beside(Mesher<3>& m) {
     sum.calls += calls.executed, sum.weight += calls.weight;
   };
   for (int i = 0; i < 10; ++i) {
-    m.insert(FeatureId{100000}, {1.6 * random.unit() - 0.8, 1.6 * random.unit() - 0.8,
-                                 0.2 * random.unit() + 0.05});
+    m.insert(FeatureId{100000},
+             {1.6 * random.unit() - 0.8, 1.6 * random.unit() - 0.8, 0.2 * random.unit() + 0.05});
     update();
     m.remove(FeatureId{100000});
     update();
