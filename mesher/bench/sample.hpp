@@ -30,8 +30,9 @@ inline double quantile(std::vector<double> all, double q) {
 class Sample {
  public:
   /// Times m.update().
-  mesher::Change<2> update(mesher::Mesher<2>& m) {
-    mesher::Change<2> change;
+  template <int D>
+  mesher::Change<D> update(mesher::Mesher<D>& m) {
+    mesher::Change<D> change;
     const double seconds = seconds_of([&] { change = m.update(); });
     microseconds_.push_back(1e6 * seconds);
     executed_ += static_cast<double>(change.calls.executed);

@@ -1,4 +1,5 @@
-// TetGen on points in a box, as a program of its own: vertices and seconds to compare with.
+// TetGen on points in a box and on complexes, as a program of its own: vertices and seconds to
+// compare with.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "mesher/generate.hpp"
 #include "mesher/io.hpp"
 #include "mesher/mesh.hpp"
+#include "mesher/plc.hpp"
 
 namespace bench {
 
@@ -88,12 +90,10 @@ inline std::optional<double> said(const std::string& text, const std::string& la
   return std::strtod(text.c_str() + at + label.size(), nullptr);
 }
 
-/// The points in a box six times as wide. Its options are -pq2.0O0/0NEF: with others it leaves
-/// tetrahedra above its own bound; no files. Nothing if it does not run, or does not end well.
-inline std::optional<Figures> run_tetgen(const std::vector<Point<3>>& points) {
-  const TemporaryFolder folder;
-  write_boxed(points, folder.file("points.poly"));
-  const std::string command = "tetgen -pq2.0O0/0NEF " + folder.file("points.poly") + " 2>&1";
+/// A file. Its options are -pq2.0O0/0NEF: with others it leaves tetrahedra above its own bound; no
+/// files. Nothing if it does not run, or does not end well, or not in a minute.
+inline std::optional<Figures> run_tetgen(const std::string& path) {
+  const std::string command = "timeout 60 tetgen -pq2.0O0/0NEF " + path + " 2>&1";
   std::FILE* const pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return std::nullopt;
   std::string text;
@@ -102,6 +102,20 @@ inline std::optional<Figures> run_tetgen(const std::vector<Point<3>>& points) {
   const auto vertices = said(text, "Mesh points:"), seconds = said(text, "Total running seconds:");
   if (!vertices || !seconds) return std::nullopt;
   return Figures{static_cast<std::size_t>(*vertices), *seconds};
+}
+
+/// The points in a box six times as wide.
+inline std::optional<Figures> run_tetgen(const std::vector<Point<3>>& points) {
+  const TemporaryFolder folder;
+  write_boxed(points, folder.file("points.poly"));
+  return run_tetgen(folder.file("points.poly"));
+}
+
+/// What the polygons enclose.
+inline std::optional<Figures> run_tetgen(const mesher::Plc& plc) {
+  const TemporaryFolder folder;
+  mesher::write_plc(plc, folder.file("complex.poly"));
+  return run_tetgen(folder.file("complex.poly"));
 }
 
 inline bool has_tetgen() { return std::system("command -v tetgen >/dev/null") == 0; }

@@ -12,6 +12,18 @@
 
 namespace support {
 
+/// What is near a place, in canonical order.
+struct FeaturesNear {
+  std::vector<const mesher::detail::Edge*> edges;
+  std::vector<const mesher::detail::Polygon*> polygons;
+  friend bool operator==(const FeaturesNear&, const FeaturesNear&) = default;
+};
+inline FeaturesNear all_near(const Point<3>& place, double radius,
+                             mesher::detail::FeatureStore& store) {
+  return {mesher::detail::find_near<mesher::detail::Edge>(place, radius, store),
+          mesher::detail::find_near<mesher::detail::Polygon>(place, radius, store)};
+}
+
 template <class S>
 class FeatureScene {
  public:
@@ -98,10 +110,10 @@ class FeatureScene {
       if (f.alive) visit(f);
     });
   }
-  mesher::detail::FeaturesNear naive_near(const Point<3>& place, double radius) const {
-    mesher::detail::FeaturesNear near;
+  FeaturesNear naive_near(const Point<3>& place, double radius) const {
+    FeaturesNear near;
     struct Take {
-      mesher::detail::FeaturesNear& near;
+      FeaturesNear& near;
       const Point<3>& place;
       double radius;
       bool has(double d2) const { return mesher::detail::touches(d2, radius * radius); }

@@ -124,7 +124,7 @@ inline ComplexMesh PlcRun::mesh() {
       if (edge_of(role) == h) edge.vertices[from_a(e, role.label) / e.length] = number(v.self);
     });
   }
-  FeaturesNear all;
+  FeaturesBeside all{world_.plc.store()};
   all.polygons = polygons_;
   for (const Polygon* f : polygons_) {
     auto& face = mesh.faces.emplace_back();
@@ -137,7 +137,7 @@ inline ComplexMesh PlcRun::mesh() {
       if (is_on(standing(v), *f)) face.vertices.insert(number(v.self));
     });
   }
-  const SmallAngles angles(world_.plc.store(), all);
+  const SmallAngles angles(all);
   for (const auto& t : world_.plain.simplices) {
     for (const VertexHandle a : t) {
       for (const VertexHandle b : t) {

@@ -28,11 +28,9 @@ double whole_side(const Polygon& f) {
 bool is_clear(const Polygon& f, const Point<2>& uv, double room, const FeatureStore& store) {
   if (!contains(f, uv)) return false;
   const Point<3> x = f.plane.at(uv);
-  const auto is_far = [&](const auto& feature) { return distance2_to(x, feature) >= room * room; };
-  return std::all_of(f.all_edges.begin(), f.all_edges.end(),
-                     [&](EdgeHandle e) { return is_far(store.edges()[e]); }) &&
-         std::all_of(f.points.begin(), f.points.end(),
-                     [&](VertexHandle v) { return is_far(store.points()[v]); });
+  const auto is_near = [&](const auto& feature) { return distance2_to(x, feature) < room * room; };
+  return !visit_edges_near(f, x, room, [&](EdgeHandle e) { return is_near(store.edges()[e]); }) &&
+         !visit_points_near(f, x, room, [&](VertexHandle v) { return is_near(store.points()[v]); });
 }
 
 }  // namespace
@@ -71,7 +69,7 @@ std::array<FacetPiece, 2> FacetPiece::halves() const noexcept {
 
 bool FacetPiece::meets_polygon() const {
   const auto [width, height] = sides();
-  return 4 * distance2(polygon->plane.at(middle()), *polygon) <= width * width + height * height;
+  return is_within(polygon->plane.at(middle()), *polygon, (width * width + height * height) / 4);
 }
 
 std::ostream& operator<<(std::ostream& out, const FacetPiece& p) {

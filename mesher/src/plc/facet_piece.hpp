@@ -31,7 +31,7 @@ struct FacetPiece {
   [[nodiscard]] Point<2> middle() const noexcept;
   [[nodiscard]] Point<2> place() const noexcept;
   [[nodiscard]] std::array<FacetPiece, 2> halves() const noexcept;
-  /// Whether the circle around the piece meets the polygon. Cost: O(corners).
+  /// Whether the circle around the piece meets the polygon.
   [[nodiscard]] bool meets_polygon() const;
 
   friend bool operator==(const FacetPiece&, const FacetPiece&) = default;
@@ -58,7 +58,7 @@ struct FacetPiece {
 };
 
 /// Where a piece gets its vertex: at place(), or else in its middle; nowhere if neither is inside
-/// the polygon and clear of what lies on that. Cost: O(corners, and what lies on the polygon).
+/// the polygon and clear of what lies on that.
 [[nodiscard]] std::optional<Point<3>> vertex_place(const FacetPiece& piece,
                                                    const FeatureStore& store);
 

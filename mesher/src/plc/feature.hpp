@@ -12,8 +12,9 @@
 //
 //   crowded(s, piece)       whether a piece of an edge, or of a polygon, has to be split [rules C];
 //                           an observation of InputFeatures<S> (plc/input_features.hpp)
-//   find_near(place, R)     the features within R of a place, in canonical order; Complete asks
-//                           this of the surroundings of its cell, which it observes as it is
+//   find_near(place, R)     the edges, or polygons, within R of a place, in canonical order, and
+//   find_in(cell)           the edges that may meet a cell; Complete asks these of the surroundings
+//                           of its cell, which it observes as it is
 //   common(f, g, x, store)  what two features share, of several the nearest to x: an edge, a point,
 //                           or nothing; a function of the two alone (both: plc/feature_search.hpp)
 #pragma once
@@ -30,6 +31,7 @@
 #include "geometry/space.hpp"
 #include "index/vertex.hpp"
 #include "plc/dyadic.hpp"
+#include "plc/edge_tree.hpp"
 #include "segments/segment.hpp"
 
 namespace mesher::detail {
@@ -87,9 +89,15 @@ struct Polygon {
   Box<2> bounds{};                      // of the outline
   std::vector<bool> inside_left;        // one for each loop: its edges have the inside on the left
   std::vector<EdgeHandle> edges;        // from each corner to the next of its loop
-  std::vector<Point<3>> inside;         // of the ends of inner edges, and of other declared points
-  std::vector<VertexHandle> points;     // all that lie on it: a set, ascending
-  std::vector<EdgeHandle> all_edges;    // all that lie on it: a set, ascending
+  std::vector<EdgeHandle> inner_edges;  // that are declared to lie inside
+  std::vector<VertexHandle> inner_points;  // their ends, and other declared points
+  std::vector<Point<3>> inside;            // of the ends of each inner edge, and of inner points
+  std::vector<VertexHandle> points;        // all that lie on it: a set, ascending
+  std::vector<EdgeHandle> all_edges;       // all that lie on it: a set, ascending
+  std::vector<std::uint32_t> corner_of;    // the first from which one leads to the next; kInner
+  EdgeTree outline_tree;                   // of edges by the corners that they lead to, by loops
+  EdgeTree inner_tree;                     // of inner edges, and then inner points
+  static constexpr std::uint32_t kInner = ~std::uint32_t{0};
 
   /// Whether a point, or an edge, of the input lies on it.
   [[nodiscard]] bool has(VertexHandle v) const noexcept {
@@ -97,6 +105,11 @@ struct Polygon {
   }
   [[nodiscard]] bool has_edge(EdgeHandle e) const noexcept {
     return std::binary_search(all_edges.begin(), all_edges.end(), e);
+  }
+  /// The corner from which an edge that lies on it leads to the next; kInner: none.
+  [[nodiscard]] std::uint32_t corner_at(EdgeHandle e) const noexcept {
+    const auto at = std::lower_bound(all_edges.begin(), all_edges.end(), e);
+    return corner_of[static_cast<std::size_t>(at - all_edges.begin())];
   }
   /// The loop of the i-th corner.
   [[nodiscard]] std::size_t loop_of(std::uint32_t i) const noexcept {
@@ -110,6 +123,11 @@ struct Polygon {
   [[nodiscard]] std::uint32_t next(std::uint32_t i) const noexcept {
     const std::size_t loop = loop_of(i);
     return i + 1 < loop_end[loop] ? i + 1 : loop_begin(loop);
+  }
+  /// The one before it.
+  [[nodiscard]] std::uint32_t previous(std::uint32_t i) const noexcept {
+    const std::size_t loop = loop_of(i);
+    return (i > loop_begin(loop) ? i : loop_end[loop]) - 1;
   }
 };
 
@@ -188,13 +206,6 @@ struct EdgePiece {
     }
     for (const Label& l : {p.lo, p.hi}) sink.number(l.bits());
   }
-};
-
-/// Features near a place: edges by the places of their ends, polygons by those of their corners.
-struct FeaturesNear {
-  std::vector<const Edge*> edges;
-  std::vector<const Polygon*> polygons;
-  friend bool operator==(const FeaturesNear&, const FeaturesNear&) = default;
 };
 
 /// A point, an edge, a polygon, or nothing.

@@ -5,17 +5,11 @@
 #include <new>
 #include <tuple>
 
+#include "common_items.hpp"
+
 namespace mesher::detail {
 
 namespace {
-
-// Whether two ascending sets have a common item.
-template <class Handle>
-bool have_common(const std::vector<Handle>& a, const std::vector<Handle>& b) {
-  if (b.size() < a.size()) return have_common(b, a);
-  return std::any_of(a.begin(), a.end(),
-                     [&](Handle h) { return std::binary_search(b.begin(), b.end(), h); });
-}
 
 // The nearest to x of what it is shown; of equally near ones the first by places.
 class Nearest {
@@ -61,34 +55,82 @@ void put_in_canonical_order(std::vector<const F*>& all) {
   all.erase(std::unique(all.begin(), all.end()), all.end());
 }
 
+// Takes what it is shown. Visitors must not throw: this one says so, and the search ends.
+template <class F>
+class Found {
+ public:
+  bool take(const F& f) noexcept {
+    try {
+      all_.push_back(&f);
+    } catch (const std::bad_alloc&) {
+      failed_ = true;
+    }
+    return failed_;
+  }
+  [[nodiscard]] std::vector<const F*> finish() {
+    if (failed_) throw std::bad_alloc();
+    put_in_canonical_order(all_);
+    return std::move(all_);
+  }
+
+ private:
+  std::vector<const F*> all_;
+  bool failed_ = false;
+};
+
+// What is outside of a cell: of the ball around it, or beyond one of its planes. Wider than tests
+// of what is in it, by more than their slack and rounding.
+class Outside {
+ public:
+  explicit Outside(const VoronoiCell3& cell)
+      : cell_(cell), reach_(std::sqrt(cell.reach2()) * (1 + 0x1p-10)) {}
+
+  [[nodiscard]] double reach() const noexcept { return reach_; }
+  /// Whether a ball is.
+  [[nodiscard]] bool has(const Point<3>& middle, double radius) const noexcept {
+    const Point<3> x = minus(middle, cell_.center().p);
+    const double most = reach_ + radius;
+    if (squared(x) > most * most) return true;
+    const double wide = radius + 0x1p-20 * most;
+    for (int i = 0; i < cell_.size(); ++i) {
+      if (!cell_.used(i)) continue;
+      const Point<3>& u = cell_.neighbour(i);
+      const double u2 = squared(u), beyond = dot(u, x) - u2 / 2 * (1 + 0x1p-10);
+      if (beyond > 0 && beyond * beyond > wide * wide * u2) return true;
+    }
+    return false;
+  }
+
+ private:
+  const VoronoiCell3& cell_;
+  double reach_;
+};
+
 }  // namespace
 
-bool disjoint(const Polygon& f, const Polygon& g) { return !have_common(f.points, g.points); }
+bool disjoint(const Polygon& f, const Polygon& g) {
+  return !visit_common(f.points, g.points, [](VertexHandle) { return true; });
+}
 
-// Visitors must not throw: they say so, and the search ends.
-void find_near(const Point<3>& place, double radius, FeatureStore& store, FeaturesNear& found) {
-  found.edges.clear();
-  found.polygons.clear();
-  bool failed = false;
-  const auto take = [&](auto& all, const auto& f) noexcept {
-    if (!touches(distance2_to(place, f), radius * radius)) return false;
-    try {
-      all.push_back(&f);
-    } catch (const std::bad_alloc&) {
-      failed = true;
-    }
-    return failed;
-  };
-  struct Take {
-    decltype(take)& into;
-    FeaturesNear& found;
-    bool operator()(const Edge& e) const noexcept { return into(found.edges, e); }
-    bool operator()(const Polygon& f) const noexcept { return into(found.polygons, f); }
-  };
-  store.visit_near(place, place, radius * (1 + 0x1p-29), Take{take, found});
-  if (failed) throw std::bad_alloc();
-  put_in_canonical_order(found.edges);
-  put_in_canonical_order(found.polygons);
+template <class F>
+std::vector<const F*> find_near(const Point<3>& place, double radius, FeatureStore& store) {
+  Found<F> found;
+  store.visit_near<F>(place, place, radius * (1 + 0x1p-29), [&](const F& f) noexcept {
+    return is_in_ball(place, radius * radius, f) && found.take(f);
+  });
+  return found.finish();
+}
+template std::vector<const Edge*> find_near(const Point<3>& place, double radius, FeatureStore&);
+template std::vector<const Polygon*> find_near(const Point<3>& place, double radius, FeatureStore&);
+
+std::vector<const Edge*> find_in(const VoronoiCell3& cell, FeatureStore& store) {
+  const Outside outside(cell);
+  Found<Edge> found;
+  store.visit_edges_in(
+      cell.center().p, outside.reach(),
+      [&](const Point<3>& x, double radius) { return outside.has(x, radius); },
+      [&](const Edge& e) noexcept { return found.take(e); });
+  return found.finish();
 }
 
 Feature common(const Edge& e, const Edge& t, const Point<3>& x, const FeatureStore& store) {
@@ -114,17 +156,10 @@ Feature common(const Polygon& f, const Edge& e, const Point<3>& x, const Feature
 }
 
 Feature common(const Polygon& f, const Polygon& g, const Point<3>& x, const FeatureStore& store) {
-  const bool fewer = f.points.size() < g.points.size();
-  const Polygon& few = fewer ? f : g;
-  const Polygon& many = fewer ? g : f;
   Nearest nearest(x, store);
-  for (const EdgeHandle e : few.all_edges) {
-    if (many.has_edge(e)) nearest.show_edge(e);
-  }
+  visit_common(f.all_edges, g.all_edges, [&](EdgeHandle e) { return nearest.show_edge(e), false; });
   if (nearest.found()) return nearest.found();
-  for (const VertexHandle v : few.points) {
-    if (many.has(v)) nearest.show_point(v);
-  }
+  visit_common(f.points, g.points, [&](VertexHandle v) { return nearest.show_point(v), false; });
   return nearest.found();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/box.hpp"
+#include "geometry/voronoi_cell3.hpp"
 #include "index/features.hpp"
 #include "plc/facet_piece.hpp"
 #include "plc/feature_store.hpp"
@@ -32,6 +33,16 @@ namespace mesher::detail {
   return distance2(x, f);
 }
 
+/// Whether a closed ball around a place has some of a feature.
+template <class F>
+[[nodiscard]] bool is_in_ball(const Point<3>& x, double radius2, const F& f) {
+  return touches(distance2_to(x, f), radius2);
+}
+template <>
+[[nodiscard]] inline bool is_in_ball(const Point<3>& x, double radius2, const Polygon& f) {
+  return is_within(x, f, closed(radius2));
+}
+
 /// Where a feature lies.
 [[nodiscard]] inline FeatureExtent<3> extent_of(const Vertex<3>& v) { return {v.p, v.p}; }
 [[nodiscard]] inline FeatureExtent<3> extent_of(const Edge& e) { return {e.place_a, e.place_b}; }
@@ -43,9 +54,21 @@ namespace mesher::detail {
 [[nodiscard]] inline double thickness_of(const Edge&) { return 0; }
 [[nodiscard]] inline double thickness_of(const Polygon& f) { return f.thickness; }
 
-/// The edges and polygons within `radius` of a place, in canonical order.
-/// Cost: O(log L/s), and what is near.
-void find_near(const Point<3>& place, double radius, FeatureStore& store, FeaturesNear& found);
+/// The edges, or polygons, within `radius` of a place, in canonical order: edges by the places of
+/// their ends, polygons by those of their corners. Cost: O(log L/s), and what is near.
+template <class F>
+[[nodiscard]] std::vector<const F*> find_near(const Point<3>& place, double radius,
+                                              FeatureStore& store);
+/// The edges that meet a cell, and few others, likewise.
+[[nodiscard]] std::vector<const Edge*> find_in(const VoronoiCell3& cell, FeatureStore& store);
+
+/// What may be asked of features by who observes a cell: those within `radius` of its vertex.
+struct FeaturesBeside {
+  FeatureStore& store;
+  Point<3> place{};
+  double radius = 0;
+  std::vector<const Polygon*> polygons{};  // in canonical order
+};
 
 /// The features that two features share: the edge or else the point nearest to x, of equally near
 /// ones the first by its places; none.
@@ -87,7 +110,7 @@ class PieceBall {
   [[nodiscard]] const Whole& whole() const noexcept { return whole_; }
   template <class F>
   [[nodiscard]] bool meets(const F& f) const {
-    return touches(distance2_to(middle_, f), radius2_);
+    return is_in_ball(middle_, radius2_, f);
   }
 
  private:

@@ -22,6 +22,24 @@ Edge& FeatureStore::record(VertexHandle a, VertexHandle b) {
   return e;
 }
 
+namespace {
+
+template <class Handle, class Key>
+void sort_by(std::vector<Handle>& all, Key&& key) {
+  std::sort(all.begin(), all.end(), [&](Handle a, Handle b) { return key(a) < key(b); });
+}
+
+// Of an edge that is there twice, which is refused later, the first corner.
+void number_edges(Polygon& f) {
+  f.corner_of.assign(f.all_edges.size(), Polygon::kInner);
+  for (std::size_t i = f.edges.size(); i-- > 0;) {
+    const auto at = std::lower_bound(f.all_edges.begin(), f.all_edges.end(), f.edges[i]);
+    f.corner_of[static_cast<std::size_t>(at - f.all_edges.begin())] = static_cast<std::uint32_t>(i);
+  }
+}
+
+}  // namespace
+
 // All of a record. What is inside is known by its places, too: inner edges by those of their ends.
 Polygon FeatureStore::shaped(PolygonParts& parts) {
   const auto place = [&](VertexHandle v) { return points_[v].p; };
@@ -37,25 +55,25 @@ Polygon FeatureStore::shaped(PolygonParts& parts) {
   }
   f.points = f.corners;
   f.all_edges = f.edges;
-  std::vector<EdgeHandle> inner;
   for (const auto& [a, b] : parts.edges) {
-    inner.push_back(record(a, b).self);
+    f.inner_edges.push_back(record(a, b).self);
     parts.points.insert(parts.points.end(), {a, b});
   }
-  make_set(inner);
+  make_set(f.inner_edges);
   make_set(parts.points);
-  std::vector<std::pair<Point<3>, Point<3>>> ends;
-  for (const EdgeHandle e : inner) ends.push_back({edges()[e].place_a, edges()[e].place_b});
-  std::sort(ends.begin(), ends.end());
-  for (const auto& [a, b] : ends) f.inside.insert(f.inside.end(), {a, b});
-  std::vector<Point<3>> places;
-  for (const VertexHandle v : parts.points) places.push_back(place(v));
-  std::sort(places.begin(), places.end());
-  f.inside.insert(f.inside.end(), places.begin(), places.end());
-  f.points.insert(f.points.end(), parts.points.begin(), parts.points.end());
-  f.all_edges.insert(f.all_edges.end(), inner.begin(), inner.end());
+  f.inner_points = std::move(parts.points);
+  const auto ends = [&](EdgeHandle e) { return std::pair(edges()[e].place_a, edges()[e].place_b); };
+  sort_by(f.inner_edges, ends);
+  sort_by(f.inner_points, place);
+  for (const EdgeHandle e : f.inner_edges) {
+    f.inside.insert(f.inside.end(), {edges()[e].place_a, edges()[e].place_b});
+  }
+  for (const VertexHandle v : f.inner_points) f.inside.push_back(place(v));
+  f.points.insert(f.points.end(), f.inner_points.begin(), f.inner_points.end());
+  f.all_edges.insert(f.all_edges.end(), f.inner_edges.begin(), f.inner_edges.end());
   make_set(f.points);
   make_set(f.all_edges);
+  number_edges(f);
   return f;
 }
 
@@ -63,6 +81,8 @@ Polygon& FeatureStore::record(PolygonParts parts) {
   Polygon f = shaped(parts);
   PolygonHandle h = by_parts_.find(Key{&f});
   if (h == 0) {
+    f.outline_tree.count_in(parts_looked_at_);
+    f.inner_tree.count_in(parts_looked_at_);
     static_cast<void>(find_shape(f));
     h = polygons_.create(std::move(f)).self;
     try {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -89,14 +90,28 @@ class FeatureStore {
   /// whether it did. visit must not throw, nor search.
   template <class Visit>
   bool visit_near(const Point<3>& p, const Point<3>& q, double slack, Visit&& visit) noexcept {
-    return edges_.visit_near(p, q, slack, [&](const Edge& e) { return visit(e); }) ||
-           tree_.visit_near(p, q, slack,
-                            [&](PolygonHandle h) { return visit(std::as_const(polygons_[h])); });
+    return visit_near<Edge>(p, q, slack, visit) || visit_near<Polygon>(p, q, slack, visit);
+  }
+  /// The same with the edges, or the polygons, alone.
+  template <class F, class Visit>
+  bool visit_near(const Point<3>& p, const Point<3>& q, double slack, Visit&& visit) noexcept {
+    if constexpr (std::is_same_v<F, Edge>) {
+      return edges_.visit_near(p, q, slack, [&](const Edge& e) { return visit(e); });
+    } else {
+      return tree_.visit_near(p, q, slack,
+                              [&](PolygonHandle h) { return visit(std::as_const(polygons_[h])); });
+    }
+  }
+  /// The same with the edges within `reach` of p that are not `outside(x, r)`: no place of the ball
+  /// of radius r around x matters.
+  template <class Outside, class Visit>
+  bool visit_edges_in(const Point<3>& p, double reach, Outside&& outside, Visit&& visit) noexcept {
+    return edges_.visit_in(p, reach, outside, [&](const Edge& e) { return visit(e); });
   }
 
   /// How much searches have looked at so far.
   [[nodiscard]] std::uint64_t looked_at() const noexcept {
-    return edges_.looked_at() + tree_.looked_at();
+    return edges_.looked_at() + tree_.looked_at() + parts_looked_at_;
   }
   /// Frees the records of features that are not live.
   void commit() noexcept;
@@ -125,6 +140,7 @@ class FeatureStore {
   PolygonPool polygons_;
   HandleTable<FeatureStore> by_parts_;
   ReachTree<PolygonHandle, 3> tree_;
+  std::uint64_t parts_looked_at_ = 0;  // of polygons
   PolygonHandle changed_ = 0;
   FeatureEvents* listener_ = nullptr;
 };

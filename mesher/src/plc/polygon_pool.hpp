@@ -60,7 +60,8 @@ inline std::size_t PolygonPool::bytes() const noexcept {
   for (PolygonHandle h = 1; h < records_.size(); ++h) {
     const Polygon& f = *records_[h];
     bytes += sizeof f + of(f.corners) + of(f.loop_end) + of(f.places) + of(f.outline) +
-             of(f.edges) + of(f.inside) + of(f.points) + of(f.all_edges);
+             of(f.edges) + of(f.inner_edges) + of(f.inner_points) + of(f.inside) + of(f.points) +
+             of(f.all_edges) + of(f.corner_of) + f.outline_tree.bytes() + f.inner_tree.bytes();
   }
   return bytes;
 }

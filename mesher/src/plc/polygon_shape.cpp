@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 
 namespace mesher::detail {
@@ -76,32 +77,39 @@ std::span<const Point<2>> loop_in_frame(const Polygon& f, std::size_t loop) {
   return std::span(f.outline).subspan(begin, f.loop_end[loop] - begin);
 }
 
+// The edge that leads to the i-th corner.
+EdgeTree::Ends edge_to(const Polygon& f, std::uint32_t i) {
+  return {f.outline[f.previous(i)], f.outline[i]};
+}
+
+void plant_trees(Polygon& f) {
+  std::vector<EdgeTree::Ends> edges;
+  for (std::uint32_t i = 0; i < f.outline.size(); ++i) edges.push_back(edge_to(f, i));
+  f.outline_tree.build(edges, f.loop_end);
+  edges.clear();
+  const std::size_t ends = 2 * f.inner_edges.size();
+  for (std::size_t i = 0; i < f.inside.size(); i += i < ends ? 2 : 1) {
+    const std::size_t other = i < ends ? i + 1 : i;
+    edges.push_back({f.plane.in_frame(f.inside[i]), f.plane.in_frame(f.inside[other])});
+  }
+  std::vector<std::uint32_t> each_alone(edges.size());
+  std::iota(each_alone.begin(), each_alone.end(), 1);
+  f.inner_tree.build(edges, each_alone);
+}
+
 // A loop that lies inside an even number of others has the inside of f inside.
 bool has_inside(const Polygon& f, std::size_t loop) {
   const auto corners = loop_in_frame(f, loop);
   const Point<2> on_it{(corners[0][0] + corners[1][0]) / 2, (corners[0][1] + corners[1][1]) / 2};
-  int around = 0;
-  for (std::size_t other = 0; other < f.loop_end.size(); ++other) {
-    around += other != loop && loop_contains(f, other, on_it);
-  }
-  return around % 2 == 0;
+  return contains(f, on_it) == loop_contains(f, loop, on_it);
 }
 
-// Whether the ray from x to the right crosses ab, which is half open: its upper end is not part.
-bool is_crossed(const Point<2>& x, const Point<2>& a, const Point<2>& b) {
-  if ((a[1] > x[1]) == (b[1] > x[1])) return false;
-  if (x[0] < std::min(a[0], b[0])) return true;
-  if (x[0] > std::max(a[0], b[0])) return false;
-  const double left = (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]);
-  return (left > 0) == (b[1] > a[1]);
-}
-
+// Calls visit(a, b, i) for the edges ab, to the i-th corner, that may be within sqrt(most2) of x.
 template <class Visit>
-void for_each_edge(const Polygon& f, Visit&& visit) {
-  for (std::size_t loop = 0; loop < f.loop_end.size(); ++loop) {
-    std::uint32_t last = f.loop_end[loop] - 1;
-    for (std::uint32_t i = f.loop_begin(loop); i < f.loop_end[loop]; last = i++) visit(last, i);
-  }
+void visit_border(const Polygon& f, const Point<3>& x, const double& most2, Visit&& visit) {
+  f.outline_tree.visit_near(place_beside(f, x), most2, [&](std::uint32_t i) {
+    return visit(f.places[f.previous(i)], f.places[i], i);
+  });
 }
 
 }  // namespace
@@ -122,6 +130,7 @@ bool find_shape(Polygon& f) {
   f.outline.clear();
   for (const Point<3>& p : f.places) f.outline.push_back(f.plane.in_frame(p));
   f.bounds = bounds(f.outline);
+  plant_trees(f);
   f.inside_left.clear();
   for (std::size_t loop = 0; loop < f.loop_end.size(); ++loop) {
     f.inside_left.push_back((turn(loop_in_frame(f, loop)) > 0) == has_inside(f, loop));
@@ -146,20 +155,14 @@ Deviation deviation(const Polygon& f) {
 }
 
 bool loop_contains(const Polygon& f, std::size_t loop, const Point<2>& uv) {
-  const auto corners = loop_in_frame(f, loop);
-  bool inside = false;
-  for (std::size_t i = 0, last = corners.size() - 1; i < corners.size(); last = i++) {
-    inside ^= is_crossed(uv, corners[last], corners[i]);
-  }
-  return inside;
+  return f.outline_tree.is_around(
+      uv, [&](std::uint32_t i) { return edge_to(f, i); },
+      [&](std::uint32_t i) { return f.loop_begin(loop) <= i && i < f.loop_end[loop]; });
 }
 
 bool contains(const Polygon& f, const Point<2>& uv) {
-  bool inside = false;
-  for (std::size_t loop = 0; loop < f.loop_end.size(); ++loop) {
-    inside ^= loop_contains(f, loop, uv);
-  }
-  return inside;
+  return f.outline_tree.is_around(
+      uv, [&](std::uint32_t i) { return edge_to(f, i); }, [](std::uint32_t) { return true; });
 }
 
 bool contains(const Polygon& f, const Point<3>& x) { return contains(f, f.plane.in_frame(x)); }
@@ -169,15 +172,24 @@ Point<3> inward(const Polygon& f, std::uint32_t i) {
   return f.inside_left[f.loop_of(i)] ? left : scaled(-1, left);
 }
 
+EdgeTree::Place place_beside(const Polygon& f, const Point<3>& x) {
+  const Point<2> uv = f.plane.in_frame(x);
+  const double height = std::abs(f.plane.height(x));
+  const double size = f.outline_tree.extent() + std::abs(uv[0]) + std::abs(uv[1]) + height;
+  const double slack = 4 * EdgeTree::kSlack * size, thick = f.thickness + slack;
+  return {uv, slack, std::max(height - thick, 0.0), height + thick};
+}
+
 Point<3> nearest_place(const Polygon& f, const Point<3>& x) {
   if (contains(f, x)) return f.plane.foot(x);
   Point<3> nearest{};
+  std::uint32_t corner = 0;
   double least = std::numeric_limits<double>::infinity();
-  for_each_edge(f, [&](std::uint32_t i, std::uint32_t j) {
-    const Point<3>&a = f.places[i], &b = f.places[j];
+  visit_border(f, x, least, [&](const Point<3>& a, const Point<3>& b, std::uint32_t i) {
     const Point<3> at = plus(a, scaled(nearest_fraction(x, a, b), minus(b, a)));
     const double d = squared_distance(at, x);
-    if (d < least) least = d, nearest = at;
+    if (d < least || (d == least && i < corner)) least = d, nearest = at, corner = i;
+    return false;
   });
   return nearest;
 }
@@ -188,10 +200,23 @@ double distance2(const Point<3>& x, const Polygon& f) {
     return height * height;
   }
   double least = std::numeric_limits<double>::infinity();
-  for_each_edge(f, [&](std::uint32_t i, std::uint32_t j) {
-    least = std::min(least, distance2(x, f.places[i], f.places[j]));
+  visit_border(f, x, least, [&](const Point<3>& a, const Point<3>& b, std::uint32_t) {
+    least = std::min(least, distance2(x, a, b));
+    return false;
   });
   return least;
+}
+
+bool is_within(const Point<3>& x, const Polygon& f, double most2) {
+  if (contains(f, x)) {
+    const double height = f.plane.height(x);
+    return height * height <= most2;
+  }
+  bool found = false;
+  visit_border(f, x, most2, [&](const Point<3>& a, const Point<3>& b, std::uint32_t) {
+    return found = distance2(x, a, b) <= most2;
+  });
+  return found;
 }
 
 std::optional<Point<3>> crossing(const Point<3>& a, const Point<3>& b, const Polygon& f) {
@@ -205,9 +230,9 @@ std::optional<Point<3>> crossing(const Point<3>& a, const Point<3>& b, const Pol
 double distance2(const Point<3>& a, const Point<3>& b, const Polygon& f) {
   if (crossing(a, b, f)) return 0;
   double least = std::min(distance2(a, f), distance2(b, f));
-  for_each_edge(f, [&](std::uint32_t i, std::uint32_t j) {
-    least = std::min(least, distance2(a, b, f.places[i], f.places[j]));
-  });
+  for (std::uint32_t i = 0; i < f.places.size(); ++i) {
+    least = std::min(least, distance2(a, b, f.places[f.previous(i)], f.places[i]));
+  }
   return least;
 }
 

@@ -27,9 +27,11 @@ inline constexpr double kFlatness = 1e-8;
   return most * 0x1p-48;
 }
 
+/// The squared radius of a ball, with its slack.
+[[nodiscard]] inline double closed(double radius2) { return radius2 * (1 + 0x1p-30); }
 /// Whether a squared distance is within a ball's squared radius.
 [[nodiscard]] inline bool touches(double distance2, double radius2) {
-  return distance2 <= radius2 * (1 + 0x1p-30);
+  return distance2 <= closed(radius2);
 }
 
 /// Puts loops into the order of Polygon. `place_of(corner)`: lexicographic order is by these.
@@ -42,6 +44,8 @@ void put_in_order(std::vector<std::vector<Corner>>& loops, PlaceOf&& place_of);
 
 /// Fills in what follows from `places`, `loop_end` and `inside`: from plane to inside_left.
 /// Returns whether there is a plane: whether the outer loop goes around an area.
+/// Cost: O(n log n) for n corners and what lies inside. What is asked then is O(log n), and what is
+/// near, where corners are not in each other's way (plc/edge_tree.hpp).
 [[nodiscard]] bool find_shape(Polygon& f);
 
 /// Whether it did.
@@ -69,8 +73,23 @@ struct Deviation {
 [[nodiscard]] Point<3> nearest_place(const Polygon& f, const Point<3>& x);
 /// Squared distance of x from f.
 [[nodiscard]] double distance2(const Point<3>& x, const Polygon& f);
+/// Whether that is at most `most2`.
+[[nodiscard]] bool is_within(const Point<3>& x, const Polygon& f, double most2);
 /// Squared distance of the closed segment ab from f.
 [[nodiscard]] double distance2(const Point<3>& a, const Point<3>& b, const Polygon& f);
+
+/// x, as the trees of f are asked about it.
+[[nodiscard]] EdgeTree::Place place_beside(const Polygon& f, const Point<3>& x);
+/// Calls visit(edge) with the handles of the edges on f within `distance` of x, and some others,
+/// until it returns true; returns whether it did.
+template <class Visit>
+bool visit_edges_near(const Polygon& f, const Point<3>& x, double distance, Visit&& visit);
+/// The same with the points on f.
+template <class Visit>
+bool visit_points_near(const Polygon& f, const Point<3>& x, double distance, Visit&& visit);
+/// The same with the points on f that are at this distance from x, but for 2^-39 of it.
+template <class Visit>
+bool visit_points_at(const Polygon& f, const Point<3>& x, double distance, Visit&& visit);
 
 /// Where the closed segment ab crosses the plane, if that is inside f.
 [[nodiscard]] std::optional<Point<3>> crossing(const Point<3>& a, const Point<3>& b,
@@ -88,6 +107,49 @@ void put_in_order(std::vector<std::vector<Corner>>& loops, PlaceOf&& place_of) {
   std::sort(loops.begin() + 1, loops.end(), [&](const auto& a, const auto& b) {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), before);
   });
+}
+
+template <class Visit>
+bool visit_edges_near(const Polygon& f, const Point<3>& x, double distance, Visit&& visit) {
+  const EdgeTree::Place place = place_beside(f, x);
+  const double most2 = distance * distance;
+  return f.outline_tree.visit_near(place, most2, [&](std::uint32_t i) {
+    return visit(f.edges[f.previous(i)]);
+  }) || f.inner_tree.visit_near(place, most2, [&](std::uint32_t i) {
+    return i < f.inner_edges.size() && visit(f.inner_edges[i]);
+  });
+}
+
+namespace polygon_shape {
+
+// visit(handle) for points, by what the trees have found.
+template <class Visit>
+auto corners(const Polygon& f, Visit& visit) {
+  return [&](std::uint32_t i) { return visit(f.corners[i]); };
+}
+template <class Visit>
+auto inner_points(const Polygon& f, Visit& visit) {
+  return [&, edges = f.inner_edges.size()](std::uint32_t i) {
+    return i >= edges && visit(f.inner_points[i - edges]);
+  };
+}
+
+}  // namespace polygon_shape
+
+template <class Visit>
+bool visit_points_near(const Polygon& f, const Point<3>& x, double distance, Visit&& visit) {
+  const EdgeTree::Place place = place_beside(f, x);
+  const double most2 = distance * distance;
+  return f.outline_tree.visit_near(place, most2, polygon_shape::corners(f, visit)) ||
+         f.inner_tree.visit_near(place, most2, polygon_shape::inner_points(f, visit));
+}
+
+template <class Visit>
+bool visit_points_at(const Polygon& f, const Point<3>& x, double distance, Visit&& visit) {
+  EdgeTree::Place place = place_beside(f, x);
+  place.slack += distance * 0x1p-39;
+  return f.outline_tree.visit_at(place, distance, polygon_shape::corners(f, visit)) ||
+         f.inner_tree.visit_at(place, distance, polygon_shape::inner_points(f, visit));
 }
 
 }  // namespace mesher::detail

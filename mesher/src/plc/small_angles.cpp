@@ -131,9 +131,8 @@ std::optional<Placed> SmallAngles::copy(const Standing& v, const Edge& g) const 
 std::optional<Placed> SmallAngles::copy(const Standing& v, const Polygon& g) const {
   const auto turned_to = turned(v, Feature(g), [&](const Point<3>& p) { return g.plane.foot(p); });
   if (!turned_to || !contains(g, turned_to->x)) return std::nullopt;
-  for (const EdgeHandle h : g.all_edges) {
+  if (const EdgeHandle h = edge_at(g, turned_to->x)) {
     const Edge& e = store_.edges()[h];
-    if (distance2_to(turned_to->x, e) > 0x1p-60 * e.length * e.length) continue;
     const double at = foot_fraction(e, turned_to->x);
     if (at > 0 && at < 1) return placed_on(e, label_at(e, at * e.length));
     return std::nullopt;
@@ -141,15 +140,29 @@ std::optional<Placed> SmallAngles::copy(const Standing& v, const Polygon& g) con
   return placed_on(g, turned_to->x, kept_shell(v, turned_to->about));
 }
 
+// The first of the edges on g that x is on; 0: none. No edge is longer than 2 reach.
+EdgeHandle SmallAngles::edge_at(const Polygon& g, const Point<3>& x) const {
+  EdgeHandle first = 0;
+  visit_edges_near(g, x, 0x1p-29 * g.reach, [&](EdgeHandle h) {
+    const Edge& e = store_.edges()[h];
+    const bool is_on_it = distance2_to(x, e) <= 0x1p-60 * e.length * e.length;
+    if (is_on_it && (first == 0 || h < first)) first = h;
+    return false;
+  });
+  return first;
+}
+
 // Whether b, a copy about a point, and a are on features at that point, as far from it.
 bool SmallAngles::share_shell(const Standing& a, const Standing& b) const {
-  if (polygon_of(b.role) == 0 || b.role.label.distance() == 0) return false;
-  for (const VertexHandle p : store_.polygons()[polygon_of(b.role)].points) {
+  const double distance = b.role.label.distance();
+  if (polygon_of(b.role) == 0 || distance == 0) return false;
+  VertexHandle first = 0;
+  visit_points_at(store_.polygons()[polygon_of(b.role)], b.v.p, distance, [&](VertexHandle p) {
     const double away = shell(b, p);
-    if (away == 0 || shell(a, p) != away) continue;
-    return visit_features_of(a.role, [&](const Feature& f) { return has(f, p); });
-  }
-  return false;
+    if (away != 0 && shell(a, p) == away && (first == 0 || p < first)) first = p;
+    return false;
+  });
+  return first != 0 && visit_features_of(a.role, [&](const Feature& f) { return has(f, first); });
 }
 
 bool SmallAngles::keeps(const Standing& a, const Standing& b) const {

@@ -9,7 +9,7 @@
 
 #include <optional>
 
-#include "plc/feature_store.hpp"
+#include "plc/feature_search.hpp"
 #include "plc/placed.hpp"
 
 namespace mesher::detail {
@@ -27,7 +27,7 @@ struct Standing {
 class SmallAngles {
  public:
   /// `near`: has the polygons that the vertices asked about are on.
-  SmallAngles(const FeatureStore& store, const FeaturesNear& near) : store_(store), near_(near) {}
+  explicit SmallAngles(const FeaturesBeside& near) : store_(near.store), near_(near) {}
 
   /// The copy of v on g, if they share something at a small angle and there is a place for it.
   [[nodiscard]] std::optional<Placed> copy(const Standing& v, const Edge& g) const;
@@ -39,6 +39,7 @@ class SmallAngles {
  private:
   [[nodiscard]] bool on(const Standing& v, const Feature& f) const;
   [[nodiscard]] bool has(const Feature& f, VertexHandle point) const;
+  [[nodiscard]] EdgeHandle edge_at(const Polygon& g, const Point<3>& x) const;
   [[nodiscard]] bool share_shell(const Standing& a, const Standing& b) const;
   /// Calls visit(feature) for the edges and polygons that a vertex with this role lies on, until
   /// one returns true; returns whether one has.
@@ -60,7 +61,7 @@ class SmallAngles {
                                              Foot&& foot_on_g) const;
 
   const FeatureStore& store_;
-  const FeaturesNear& near_;
+  const FeaturesBeside& near_;
 };
 
 }  // namespace mesher::detail

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "common_items.hpp"
+
 namespace mesher::detail {
 
 namespace {
@@ -23,8 +25,7 @@ Point<3> middle_of(const Edge& e) { return scaled(0.5, plus(e.place_a, e.place_b
 std::vector<VertexHandle> common_points(const Polygon& f, const Polygon& g,
                                         const FeatureStore& store) {
   std::vector<VertexHandle> all;
-  std::set_intersection(f.points.begin(), f.points.end(), g.points.begin(), g.points.end(),
-                        std::back_inserter(all));
+  visit_common(f.points, g.points, [&](VertexHandle v) { return all.push_back(v), false; });
   const auto place = [&](VertexHandle v) { return store.points()[v].p; };
   const auto farther = [&](const Point<3>& from) {
     return [&, from](VertexHandle v, VertexHandle w) {
@@ -35,6 +36,14 @@ std::vector<VertexHandle> common_points(const Polygon& f, const Polygon& g,
   const Point<3> end = place(*std::max_element(all.begin(), all.end(), farther(place(all[0]))));
   std::sort(all.begin(), all.end(), farther(end));
   return all;
+}
+
+// The one with fewer corners is looked at first.
+bool lies_in_plane(const Polygon& f, const Polygon& g);
+bool one_lies_in_the_others(const Polygon& f, const Polygon& g) {
+  const bool fewer = f.places.size() <= g.places.size();
+  return fewer ? lies_in_plane(f, g) || lies_in_plane(g, f)
+               : lies_in_plane(g, f) || lies_in_plane(f, g);
 }
 
 bool lies_in_plane(const Polygon& f, const Polygon& g) {
@@ -49,22 +58,23 @@ struct Side {
   Point<3> inward{};
 };
 Side side_of(const Polygon& f, EdgeHandle e) {
-  const auto it = std::find(f.edges.begin(), f.edges.end(), e);
-  if (it == f.edges.end()) return {true, {}};
-  return {false, inward(f, static_cast<std::uint32_t>(it - f.edges.begin()))};
+  const std::uint32_t corner = f.corner_at(e);
+  if (corner == Polygon::kInner) return {true, {}};
+  return {false, inward(f, corner)};
 }
 
 // Of two in one plane.
 std::optional<SpaceConflict> overlap(const Polygon& f, const Polygon& g,
                                      const FeatureStore& store) {
-  for (const EdgeHandle e : f.all_edges) {
-    if (!g.has_edge(e)) continue;
+  std::optional<SpaceConflict> first;
+  visit_common(f.all_edges, g.all_edges, [&](EdgeHandle e) {
     const Side of_f = side_of(f, e), of_g = side_of(g, e);
-    if (!of_f.both && !of_g.both && dot(of_f.inward, of_g.inward) < 0) continue;
-    return SpaceConflict{Kind::overlapping_polygons, Feature(f), Feature(g),
-                         middle_of(store.edges()[e])};
-  }
-  return std::nullopt;
+    if (!of_f.both && !of_g.both && dot(of_f.inward, of_g.inward) < 0) return false;
+    first = SpaceConflict{Kind::overlapping_polygons, Feature(f), Feature(g),
+                          middle_of(store.edges()[e])};
+    return true;
+  });
+  return first;
 }
 
 }  // namespace
@@ -107,7 +117,7 @@ std::optional<SpaceConflict> conflict_with(const Polygon& f, const Polygon& g,
   if (f.self == g.self) return std::nullopt;
   const std::vector<VertexHandle> points = common_points(f, g, store);
   if (points.empty()) return std::nullopt;
-  if (lies_in_plane(f, g) || lies_in_plane(g, f)) return overlap(f, g, store);
+  if (one_lies_in_the_others(f, g)) return overlap(f, g, store);
   for (std::size_t i = 1; i < points.size(); ++i) {
     const Edge* e = store.find_edge(points[i - 1], points[i]);
     if (e != nullptr && f.has_edge(e->self) && g.has_edge(e->self)) continue;

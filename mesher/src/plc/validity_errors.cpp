@@ -4,6 +4,7 @@
 
 #include "input.hpp"
 #include "io/text.hpp"
+#include "make_set.hpp"
 #include "plc/validity.hpp"
 
 namespace mesher::detail {
@@ -34,7 +35,8 @@ Named name_of(const Feature& f, const SpaceNames& names, const FeatureStore& sto
     if (!g.alive || !g.has_edge(f.handle())) return;
     if (const FeatureId id = names.polygon(g.self); !least || id < *least) least = id;
   });
-  return {"an edge of polygon " + id_text(least.value_or(FeatureId{})), least.value_or(FeatureId{})};
+  return {"an edge of polygon " + id_text(least.value_or(FeatureId{})),
+          least.value_or(FeatureId{})};
 }
 
 struct Words {
@@ -88,23 +90,21 @@ void require_edges_once(const Polygon& f, FeatureId id, const FeatureStore& stor
       "has the edge from " + place_text(e.place_a) + " to " + place_text(e.place_b) + " twice");
 }
 
-bool is_corner(const Polygon& f, VertexHandle v) {
-  return std::find(f.corners.begin(), f.corners.end(), v) != f.corners.end();
-}
-
 void require_declared_inside(const Polygon& f, FeatureId id, const FeatureStore& store) {
   const auto require = [&](const Point<3>& x, const std::string& what, const Point<3>& at) {
     if (contains(f, x)) return;
     fail_polygon(ErrorCode::bad_polygon, id,
                  "declares " + what + place_text(at) + " to lie in it, which does not");
   };
+  std::vector<VertexHandle> corners = f.corners;
+  make_set(corners);
   for (const VertexHandle v : f.points) {
     const Point<3>& p = store.points()[v].p;
-    if (!is_corner(f, v)) require(p, "a point at ", p);
+    if (!std::binary_search(corners.begin(), corners.end(), v)) require(p, "a point at ", p);
   }
   for (const EdgeHandle h : f.all_edges) {
     const Edge& e = store.edges()[h];
-    if (std::find(f.edges.begin(), f.edges.end(), h) != f.edges.end()) continue;
+    if (f.corner_at(h) != Polygon::kInner) continue;
     require(scaled(0.5, plus(e.place_a, e.place_b)), "an edge from ", e.place_a);
   }
 }

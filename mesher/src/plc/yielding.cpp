@@ -11,7 +11,7 @@ namespace mesher::detail {
 
 namespace {
 
-const Polygon* nearest_below(const FeaturesNear& near, const Point<3>& x, double within) {
+const Polygon* nearest_below(const FeaturesBeside& near, const Point<3>& x, double within) {
   const Polygon* nearest = nullptr;
   for (const Polygon* f : near.polygons) {
     const double height = std::abs(f->plane.height(x));
@@ -37,10 +37,11 @@ std::optional<Placed> place_in_ball(const Edge& e, const Point<3>& x, double rad
   return placed_on(e, *at);
 }
 
-std::optional<Placed> yield_to_edges(const FeaturesNear& near, const Point<3>& x, double radius) {
+std::optional<Placed> yield_to_edges(const FeaturesBeside& near, const Point<3>& x, double radius) {
   const Edge* nearest = nullptr;
   double within2 = kYields * kYields * radius * radius;
-  for (const Edge* e : near.edges) {
+  for (const Edge* e : find_near<Edge>(x, kYields * radius, near.store)) {
+    if (!is_in_ball(near.place, near.radius * near.radius, *e)) continue;
     const double d2 = distance2(x, e->place_a, e->place_b);
     if (d2 > within2 || (nearest != nullptr && d2 == within2)) continue;
     nearest = e, within2 = d2;
@@ -49,7 +50,7 @@ std::optional<Placed> yield_to_edges(const FeaturesNear& near, const Point<3>& x
   return place_in_ball(*nearest, x, radius);
 }
 
-std::optional<Placed> yield(const FeaturesNear& near, const Point<3>& x, double radius) {
+std::optional<Placed> yield(const FeaturesBeside& near, const Point<3>& x, double radius) {
   if (const auto on_edge = yield_to_edges(near, x, radius)) return on_edge;
   const Polygon* f = nearest_below(near, x, kYields * radius);
   if (f == nullptr) return std::nullopt;

@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "plc/feature_search.hpp"
 #include "plc/placed.hpp"
 
 namespace mesher::detail {
@@ -19,11 +20,11 @@ inline constexpr double kYields = 0.5;
 
 /// Where the centre x of an empty ball goes instead, on the nearest edge within kYields; nothing if
 /// there is none.
-[[nodiscard]] std::optional<Placed> yield_to_edges(const FeaturesNear& near, const Point<3>& x,
+[[nodiscard]] std::optional<Placed> yield_to_edges(const FeaturesBeside& near, const Point<3>& x,
                                                    double radius);
 /// The same on edges, and if none is near on the nearest polygon: the foot, which yields to edges
 /// in turn.
-[[nodiscard]] std::optional<Placed> yield(const FeaturesNear& near, const Point<3>& x,
+[[nodiscard]] std::optional<Placed> yield(const FeaturesBeside& near, const Point<3>& x,
                                           double radius);
 
 }  // namespace mesher::detail

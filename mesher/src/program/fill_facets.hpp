@@ -26,21 +26,31 @@ inline constexpr FillFacet fill_facet{};
           .order = morton<3>(box.fixed(piece.polygon->plane.at(piece.middle())))};
 }
 
+// look(), and what it looks at as steps of the call.
+template <class S, class Look>
+auto weighed(S& s, const FeatureStore& store, Look&& look) {
+  const std::uint64_t before = store.looked_at();
+  const auto found = look();
+  s.weigh(store.looked_at() - before);
+  return found;
+}
+
 // if the piece is crowded: enqueue the halves that have some of the polygon. Else, if it is a half
 // and there is room: add its vertex, and enqueue that for BuildQT
 template <class S>
 void FillFacet::operator()(S& s, FacetPiece piece) const {
   auto& w = s.template environment<World<S, 3>>();
   const Polygon& f = *piece.polygon;
-  s.weigh(f.all_edges.size());
   if (w.plc.crowded(s, piece)) {
     if (piece.longer_side() < w.box.side * kShortestPiece) w.fail_too_fine(f, piece.middle());
     for (const FacetPiece& half : piece.halves()) {
-      if (half.meets_polygon()) w.post_fill(s, half);
+      const bool meets = weighed(s, w.plc.store(), [&] { return half.meets_polygon(); });
+      if (meets) w.post_fill(s, half);
     }
     return;
   }
-  const auto place = piece.level > 0 ? vertex_place(piece, w.plc.store()) : std::nullopt;
+  if (piece.level == 0) return;
+  const auto place = weighed(s, w.plc.store(), [&] { return vertex_place(piece, w.plc.store()); });
   if (!place || w.plc.hemmed_in(s, piece)) return;
   insert_on_feature(s, w, *place, role_on(f));
 }

@@ -24,18 +24,21 @@ template <class S>
 class Staying<S, 3> final : public EdgeFilter<3> {
  public:
   Staying(World<S, 3>& world, VoronoiCell3& cell)
-      : world_(world), cell_(cell), any_(world.has_features()) {
-    if (!any_) return;
-    const std::uint64_t before = world.plc.store().looked_at();
-    find_near(cell.center().p, world.vertices.beside(cell), world.plc.store(), near_);
-    looked_at_ = world.plc.store().looked_at() - before;
+      : world_(world),
+        cell_(cell),
+        any_(world.has_features()),
+        before_(world.plc.store().looked_at()),
+        near_{world.plc.store(), cell.center().p, world.vertices.beside(cell)} {
+    if (any_) near_.polygons = find_near<Polygon>(near_.place, near_.radius, near_.store);
   }
 
   [[nodiscard]] bool any() const noexcept { return any_; }
   /// This, for a rule; null where nothing can stay.
   [[nodiscard]] const EdgeFilter<3>* filter() const noexcept { return any_ ? this : nullptr; }
   void leave(const VoronoiCell3&, int, int) {}
-  [[nodiscard]] std::uint64_t looked_at() const noexcept { return looked_at_; }
+  [[nodiscard]] std::uint64_t looked_at() const noexcept {
+    return world_.plc.store().looked_at() - before_;
+  }
 
   [[nodiscard]] bool skips(const VoronoiCell3& cell, int p, int q) const override {
     return angles().keeps(standing(vertex(cell, p)), standing(vertex(cell, q)));
@@ -44,12 +47,14 @@ class Staying<S, 3> final : public EdgeFilter<3> {
 
   /// While the cell meets features that v is not on: vertices on these.
   void disencroach(S& s, int b) {
-    for (const Edge* e : near_.edges) clear(s, *e, b);
+    if (!any_) return;
+    for (const Edge* e : find_in(cell_, near_.store)) clear(s, *e, b);
     for (const Polygon* f : near_.polygons) clear(s, *f, b);
   }
 
   /// Whether x yields: a vertex is inserted instead, on a feature.
   bool yields(S& s, const typename InsertionRule<3>::NewPoint& x, int b) {
+    if (!any_) return false;
     const auto y = yield(near_, x.p, std::sqrt(x.nearest2));
     if (!y) return false;
     insert(s, helps(*y, x.corner) ? *y : instead_of(x.corner), b);
@@ -58,7 +63,7 @@ class Staying<S, 3> final : public EdgeFilter<3> {
 
  private:
   [[nodiscard]] Standing standing(const Vertex<3>& v) const { return {v, world_.vertices.role(v)}; }
-  [[nodiscard]] SmallAngles angles() const { return {world_.plc.store(), near_}; }
+  [[nodiscard]] SmallAngles angles() const { return SmallAngles(near_); }
   [[nodiscard]] const Vertex<3>& vertex(const VoronoiCell3& cell, int i) const {
     return i == kCentre ? cell.center() : world_.vertices.pool()[cell.handle(i)];
   }
@@ -107,8 +112,8 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   World<S, 3>& world_;
   VoronoiCell3& cell_;
   const bool any_;
-  FeaturesNear near_;
-  std::uint64_t looked_at_ = 0;
+  const std::uint64_t before_;
+  FeaturesBeside near_;
 };
 
 }  // namespace mesher::detail

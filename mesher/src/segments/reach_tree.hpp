@@ -29,6 +29,8 @@ namespace mesher::detail {
 template <int D>
 class FromSegment {
  public:
+  static constexpr double kHalfDiagonal = D == 2 ? 0.7072 : 0.8661;  // of a unit cube, and more
+
   FromSegment(const Point<D>& p, const Point<D>& q) : p_(p) {
     for (int i = 0; i < D; ++i) along_[i] = q[i] - p[i];
     length2_ = squared(along_);
@@ -59,7 +61,6 @@ class FromSegment {
 
  private:
   static_assert(D == 2 || D == 3);
-  static constexpr double kHalfDiagonal = D == 2 ? 0.7072 : 0.8661;  // of a unit cube, and more
 
   static double squared(const Point<D>& x) noexcept {
     double sum = 0;
@@ -104,6 +105,18 @@ class ReachTree {
   template <class Visit>
   bool visit_at(const Point<D>& p, Visit&& visit) const {
     return visit_near(p, p, 0, visit);
+  }
+  /// The same for the items but those that lie outside: outside(x, r) says so of all of the ball of
+  /// radius r around x.
+  template <class Outside, class Visit>
+  bool visit_unless(Outside&& outside, Visit&& visit) const {
+    return visit_where(
+        [&](const Point<D>& lo, double side, double reach) {
+          Point<D> middle = lo;
+          for (double& x : middle) x += side / 2;
+          return !outside(middle, FromSegment<D>::kHalfDiagonal * side + reach + margin());
+        },
+        [&](const Point<D>& x, double reach) { return !outside(x, reach + margin()); }, visit);
   }
   /// The same for the items whose places (whatever they reach) lie in the closed box.
   template <class Visit>

@@ -61,6 +61,10 @@ class SegmentStoreOf {
   /// looks for. Returns whether it did. visit must not throw, nor search.
   template <class Visit>
   bool visit_near(const Point<D>& p, const Point<D>& q, double slack, Visit&& visit) noexcept;
+  /// The same with the segments within `reach` of p, but for those of which all is `outside`:
+  /// outside(x, r) says so of the ball of radius r around x.
+  template <class Outside, class Visit>
+  bool visit_in(const Point<D>& p, double reach, Outside&& outside, Visit&& visit) noexcept;
 
   /// How much searches, and visits to the segments at a point, have looked at so far.
   [[nodiscard]] std::uint64_t looked_at() const noexcept { return tree_.looked_at() + met_; }
@@ -118,6 +122,9 @@ class SegmentStoreOf {
   [[nodiscard]] bool is_needless(const Tile& t, const Point<D>& p, const Point<D>& q,
                                  double slack) const noexcept;
   void halve(TileHandle t);
+  template <class Search, class Visit>
+  bool visit_tiles(const Point<D>& p, const Point<D>& q, double slack, Search&& search,
+                   Visit& visit) noexcept;
 
   const MeshBox<D>& box_;
   const VertexPool<D>& points_;
@@ -155,9 +162,26 @@ template <int D>
 template <class Visit>
 bool SegmentStoreOf<D>::visit_near(const Point<D>& p, const Point<D>& q, double slack,
                                    Visit&& visit) noexcept {
+  const auto search = [&](auto&& take) { return tree_.visit_near(p, q, slack, take); };
+  return visit_tiles(p, q, slack, search, visit);
+}
+
+template <int D>
+template <class Outside, class Visit>
+bool SegmentStoreOf<D>::visit_in(const Point<D>& p, double reach, Outside&& outside,
+                                 Visit&& visit) noexcept {
+  const auto search = [&](auto&& take) { return tree_.visit_unless(outside, take); };
+  return visit_tiles(p, p, reach, search, visit);
+}
+
+// search(take): what has been found of a search for what is within `slack` of pq.
+template <int D>
+template <class Search, class Visit>
+bool SegmentStoreOf<D>::visit_tiles(const Point<D>& p, const Point<D>& q, double slack,
+                                    Search&& search, Visit& visit) noexcept {
   std::array<TileHandle, 16> needless;
   std::size_t count = 0;
-  const bool found = tree_.visit_near(p, q, slack, [&](TileHandle t) {
+  const bool found = search([&](TileHandle t) {
     if (visit(pool_[tiles_[t].segment])) return true;
     if (count < needless.size() && is_needless(tiles_[t], p, q, slack)) needless[count++] = t;
     return false;

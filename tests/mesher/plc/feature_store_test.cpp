@@ -5,13 +5,17 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
+#include "cell_scene.hpp"
 #include "failing_new.hpp"
 #include "feature_scene.hpp"
+#include "plc/encroachment.hpp"
 
 namespace {
 
 using namespace mesher::detail;
 using mesher::Point;
+using support::all_near;
+using support::FeaturesNear;
 using Scene = support::FeatureScene<sac::PlainScope>;
 
 struct Plain {
@@ -70,8 +74,7 @@ TEST_CASE("What is near, or crowds a piece, is found as by looking at all") {
     for (int ask = 0; ask < 10; ++ask) {
       const Point<3> place = scene.place();
       const double radius = scene.radius();
-      FeaturesNear near;
-      find_near(place, radius, scene.features().store(), near);
+      const FeaturesNear near = all_near(place, radius, scene.features().store());
       REQUIRE(near == scene.naive_near(place, radius));
       near_some += !near.polygons.empty();
     }
@@ -83,6 +86,39 @@ TEST_CASE("What is near, or crowds a piece, is found as by looking at all") {
   }
   REQUIRE(crowded > 5);
   REQUIRE(near_some > 50);
+}
+
+TEST_CASE("The edges that may meet a cell have all that do, and are few") {
+  const std::uint64_t seed = GENERATE(1, 2, 3, 4);
+  CAPTURE(seed);
+  Plain plain(seed);
+  Scene& scene = plain.scene;
+  for (int i = 0; i < 150; ++i) plain.add();
+  std::size_t met = 0, found = 0, all = 0;
+  for (int round = 0; round < 200; ++round) {
+    CellScene<3> cells;
+    cells.radius = scene.radius();
+    const Point<3> center = scene.place();
+    cells.add(center);
+    for (std::uint64_t i = scene.random().below(30); i-- > 0;) {
+      Point<3> p = center;
+      for (double& x : p) x += cells.radius * (scene.random().unit() - 0.5);
+      cells.add(p);
+    }
+    VoronoiCell3 cell;
+    cells.cut_by_all(cell);
+    const std::vector<const Edge*> edges = find_in(cell, scene.features().store());
+    found += edges.size();
+    scene.store().edges().for_each([&](const Edge& e) {
+      if (!e.alive) return;
+      ++all;
+      if (!part_in(cell, e)) return;
+      ++met;
+      REQUIRE(std::find(edges.begin(), edges.end(), &e) != edges.end());
+    });
+  }
+  CHECK(met > 300);
+  CHECK(found < all / 4);
 }
 
 TEST_CASE("An edge is there while a segment or a polygon uses it") {
@@ -208,9 +244,9 @@ TEST_CASE("A look for what is near for which there is no memory throws, and find
   for (std::uint64_t count = 1; burnt; ++count) {
     FeaturesNear found;
     if (support::fails(count, burnt,
-                       [&] { find_near(place, 2, plain.scene.features().store(), found); })) {
+                       [&] { found = all_near(place, 2, plain.scene.features().store()); })) {
       ++failures;
-      find_near(place, 2, plain.scene.features().store(), found);
+      found = all_near(place, 2, plain.scene.features().store());
     }
     REQUIRE(found == all);
   }

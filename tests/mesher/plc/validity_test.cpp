@@ -269,6 +269,32 @@ TEST_CASE("Two random triangles fit together if they have only what their common
   REQUIRE(fitting < total * 9 / 10);
 }
 
+TEST_CASE("A point, an edge and a triangle are judged beside few of a polygon's 10000 corners") {
+  const auto looked_at = [](int n) {
+    Plc plc;
+    Loop round;
+    for (int i = 0; i < n; ++i) {
+      const double at = 6.283185307179586 * i / n;
+      round.push_back(plc.point(0.5 + 0.4 * std::cos(at), 0.5 + 0.4 * std::sin(at), 0.5));
+    }
+    plc.polygon(round);
+    FeatureStore& store = plc.scene.features().store();
+    const VertexHandle a = plc.point(0.5, 0.4, 0.25), b = plc.point(0.5, 0.4, 0.75);
+    const VertexHandle on_it = plc.point(0.5, 0.6, 0.5);
+    const std::uint64_t before = store.looked_at();
+    REQUIRE(conflict_of(plc.scene.pool()[on_it], store)->kind == Kind::point_on_polygon);
+    const Edge& through = plc.segment(a, b);
+    REQUIRE(conflict_of(through, store, plc.scene.point_tree())->kind ==
+            Kind::edge_through_polygon);
+    const Polygon& triangle = plc.polygon({a, b, on_it});
+    static_cast<void>(conflict_of(triangle, store, plc.scene.point_tree()));
+    return store.looked_at() - before;
+  };
+  const std::uint64_t few = looked_at(100), many = looked_at(10000);
+  CAPTURE(few, many);
+  CHECK(many < few + 150);
+}
+
 TEST_CASE("Errors name both features and the place") {
   Plc plc;
   const Polygon& f = plc.polygon(square(plc, 0, 0, 0, 1));

@@ -6,6 +6,7 @@
 
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"
+#include "mesher/plc.hpp"
 
 namespace {
 
@@ -59,6 +60,39 @@ double calls_per_piece(std::size_t n) {
          static_cast<double>(pieces);
 }
 
+// A round, tilted polygon of n corners; the first run.
+Mesher<3> round_polygon(int n, Work& first) {
+  Mesher<3> m({.domain = {{-1, -1, -1}, {1, 1, 1}}, .record_weights = true});
+  mesher::Polygon f{.id = FeatureId{1}, .loops = {{}}};
+  for (int i = 0; i < n; ++i) {
+    const double at = 6.283185307179586 * i / n, r = 0.8 + 0.02 * std::sin(7 * at);
+    f.loops[0].push_back(FeatureId{i + 1});
+    m.insert(f.loops[0].back(), {r * std::cos(at), r * std::sin(at), 0.1 * r * std::cos(at)});
+  }
+  m.insert_polygon(f);
+  const auto calls = m.update().calls;
+  first = {calls.executed, calls.weight};
+  return m;
+}
+
+// Of points that come and go above and below it, one by one.
+Work edits_beside(Mesher<3>& m) {
+  mesher::SplitMix64 random(5);
+  Work sum;
+  const auto update = [&] {
+    const auto calls = m.update().calls;
+    sum.calls += calls.executed, sum.weight += calls.weight;
+  };
+  for (int i = 0; i < 10; ++i) {
+    m.insert(FeatureId{100000},
+             {1.6 * random.unit() - 0.8, 1.6 * random.unit() - 0.8, 0.2 * random.unit() + 0.05});
+    update();
+    m.remove(FeatureId{100000});
+    update();
+  }
+  return sum;
+}
+
 }  // namespace
 
 TEST_CASE("what a first run looks at grows with its points, and no faster") {
@@ -88,4 +122,17 @@ TEST_CASE(
   INFO(of_short << " and " << of_long);
   CHECK(of_short < 40);
   CHECK(of_long < 1.2 * of_short);
+}
+
+TEST_CASE("a call beside a polygon looks at about as much if that has 16 times as many corners") {
+  Work first_of_few, first_of_many;
+  Mesher<3> few = round_polygon(100, first_of_few), many = round_polygon(1600, first_of_many);
+  CHECK(per_point(first_of_many.weight, first_of_many.calls) <
+        1.5 * per_point(first_of_few.weight, first_of_few.calls));
+  const Work beside_few = edits_beside(few), beside_many = edits_beside(many);
+  const double per_few = per_point(beside_few.weight, beside_few.calls);
+  const double per_many = per_point(beside_many.weight, beside_many.calls);
+  INFO(per_few << " and " << per_many);
+  CHECK(per_many < 1.5 * per_few);
+  CHECK(beside_many.calls < 2 * beside_few.calls);
 }
