@@ -13,6 +13,7 @@
 #include "geometry/space.hpp"
 #include "io/text.hpp"
 #include "mesh/check_complex.hpp"
+#include "mesh/gave_in.hpp"
 #include "mesh/check_parts.hpp"
 #include "mesh/half_faces.hpp"
 #include "mesh/space_quality.hpp"
@@ -292,6 +293,8 @@ class SpaceChecker {
 
   Verdict quality() {
     std::size_t excused = 0;
+    std::optional<detail::LonelyEdges> lonely;  // made where it is asked for
+    detail::GuardCounts gave_in;
     for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
       const auto ratio = detail::radius_edge(mesh_, mesh_.simplices[i]);
       if (!detail::is_above(ratio, *options_.rho)) continue;
@@ -299,16 +302,26 @@ class SpaceChecker {
         ++excused;
         continue;
       }
+      if (complex_ && *options_.rho < kGuarded) {
+        if (!lonely) lonely.emplace(options_.complex->plc);
+        const auto& [a, b, c, d] = mesh_.simplices[i];
+        if (gave_in.look({at(a), at(b), at(c), at(d)}, ratio.ratio,
+                         [&](const auto& p, const auto& q) { return lonely->find(p, q); })) {
+          continue;
+        }
+      }
       return bad(simplex(i) + ", one of them " + vertex(mesh_.simplices[i][0]) +
                  ", has radius-edge " + text::to_text(ratio.ratio) + ", above rho " +
                  text::to_text(*options_.rho));
     }
     const SpaceQuality worst = mesher::quality(mesh_);
+    const std::size_t left = gave_in.report().tetrahedra;
     return good("radius-edge at most " + text::to_text(worst.max_radius_edge) +
                 ", dihedral angles from " + text::to_text(worst.min_dihedral_deg) + " to " +
                 text::to_text(worst.max_dihedral_deg) + " degrees, " +
                 std::to_string(worst.slivers) + " slivers below " + text::to_text(kSliverDegrees) +
-                (excused > 0 ? ", " + std::to_string(excused) + " above rho at small angles" : ""));
+                (excused > 0 ? ", " + std::to_string(excused) + " above rho at small angles" : "") +
+                (left > 0 ? ", " + std::to_string(left) + " beside features that are alone" : ""));
   }
 
   // Across the face of half-faces i and i + 1: where the corner of the second is of the sphere of

@@ -11,6 +11,8 @@ template class Crowding<sac::PlainScope, FacetPieces>;
 template class Crowding<sac::Scope, FacetPieces>;
 template class Crowding<sac::PlainScope, HingePieces>;
 template class Crowding<sac::Scope, HingePieces>;
+template class Crowding<sac::PlainScope, GuardPieces>;
+template class Crowding<sac::Scope, GuardPieces>;
 
 const Edge& InputFeatures<sac::PlainScope>::insert(VertexHandle a, VertexHandle b) {
   Edge& e = store_.record(a, b);

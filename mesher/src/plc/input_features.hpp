@@ -1,7 +1,10 @@
 // The input's edges and polygons, and what calls ask about them; outside edits.
 //
 //   crowded(s, piece)     whether a piece of an edge, or of a polygon, has to be split
-//   (observation) hemmed_in(s, piece)   whether a piece of a polygon is better off without a vertex
+//   (observation)
+//   crowded(s, edge)      whether an edge of the mesh is not lonely (plc/guard.hpp)
+//   (observation)
+//   hemmed_in(s, piece)   whether a piece of a polygon is better off without a vertex
 //   (observation)
 //
 // Who looks at cells reads what is beside them (find_near) without an observation but that of the
@@ -10,6 +13,7 @@
 
 #include "index/vertex_index.hpp"
 #include "plc/feature_search.hpp"
+#include "plc/guard.hpp"
 
 namespace mesher::detail {
 
@@ -24,7 +28,8 @@ class InputFeatures<sac::PlainScope> {
       : store_(box, pool),
         edges_(box, store_, points, s),
         facets_(box, store_, points, s),
-        hinges_(box, store_, points, s) {}
+        hinges_(box, store_, points, s),
+        guards_(box, store_, points, s) {}
 
   [[nodiscard]] const FeatureStore& store() const noexcept { return store_; }
   [[nodiscard]] FeatureStore& store() noexcept { return store_; }
@@ -35,6 +40,7 @@ class InputFeatures<sac::PlainScope> {
   [[nodiscard]] bool crowded(sac::PlainScope& s, const FacetPiece& piece) {
     return facets_.crowded(s, piece);
   }
+  [[nodiscard]] bool crowded(sac::PlainScope& s, const ShortEdge& e) { return guards_.crowded(s, e); }
   [[nodiscard]] bool hemmed_in(sac::PlainScope& s, const FacetPiece& piece) {
     return hinges_.crowded(s, piece);
   }
@@ -49,6 +55,7 @@ class InputFeatures<sac::PlainScope> {
   Crowding<sac::PlainScope, EdgePieces> edges_;
   Crowding<sac::PlainScope, FacetPieces> facets_;
   Crowding<sac::PlainScope, HingePieces> hinges_;
+  Crowding<sac::PlainScope, GuardPieces> guards_;
 };
 
 template <>
@@ -60,7 +67,8 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
         store_(box, pool),
         edges_(box, store_, points, engine),
         facets_(box, store_, points, engine),
-        hinges_(box, store_, points, engine) {
+        hinges_(box, store_, points, engine),
+        guards_(box, store_, points, engine) {
     points.set_listener(this);
     store_.set_listener(this);
   }
@@ -77,6 +85,7 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   [[nodiscard]] bool crowded(sac::Scope& s, const FacetPiece& piece) {
     return facets_.crowded(s, piece);
   }
+  [[nodiscard]] bool crowded(sac::Scope& s, const ShortEdge& e) { return guards_.crowded(s, e); }
   [[nodiscard]] bool hemmed_in(sac::Scope& s, const FacetPiece& piece) {
     return hinges_.crowded(s, piece);
   }
@@ -96,7 +105,7 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   void commit() noexcept { store_.commit(); }
 
   [[nodiscard]] std::size_t bytes() const noexcept {
-    return store_.bytes() + edges_.bytes() + facets_.bytes() + hinges_.bytes();
+    return store_.bytes() + edges_.bytes() + facets_.bytes() + hinges_.bytes() + guards_.bytes();
   }
   /// Requires: between updates. Throws InvariantError.
   void check_invariants() const {
@@ -104,6 +113,7 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
     edges_.check_invariants();
     facets_.check_invariants();
     hinges_.check_invariants();
+    guards_.check_invariants();
   }
 
  private:
@@ -117,12 +127,14 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
     edges_.came(f);
     facets_.came(f);
     hinges_.came(f);
+    guards_.came(f);
   }
   template <class F>
   void tell_pieces_went(const F& f) noexcept {
     edges_.went(f);
     facets_.went(f);
     hinges_.went(f);
+    guards_.went(f);
   }
 
   // What find_near finds, it finds with a slack; and where a foot leaves a polygon, its distance
@@ -141,6 +153,7 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   Crowding<sac::Scope, EdgePieces> edges_;
   Crowding<sac::Scope, FacetPieces> facets_;
   Crowding<sac::Scope, HingePieces> hinges_;
+  Crowding<sac::Scope, GuardPieces> guards_;
 };
 
 }  // namespace mesher::detail

@@ -58,9 +58,9 @@ void Complete::operator()(S& s, VertexRef<D> v, int b) const {
   bool cuts = disencroach(s, w, stays, v, b);
   while (const auto point = w.rule->next_point(*gaps, b, stays.filter())) {
     const Outcome outcome = yields(s, w, stays, *point, b);
-    if (outcome == Outcome::waits) {
+    if (outcome == Outcome::waits || outcome == Outcome::refused) {
       stays.leave(*gaps, point->from, point->to);
-      cuts = true;
+      cuts = cuts || outcome == Outcome::waits;
     }
     if (outcome != Outcome::stands) continue;
     const VertexRef<D> x = w.vertices.insert(s, point->p);

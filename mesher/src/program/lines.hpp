@@ -20,10 +20,6 @@ bool disencroach(S& s, World<S, 3>&, Staying<S, 3>& beside, VertexRef<3>, int b)
   return false;
 }
 
-/// What becomes of a new point [5.2c]: it is inserted; not yet, leaves that have it in their balls
-/// are cut first; not at all, a vertex on a feature was.
-enum class Outcome : std::uint8_t { stands, waits, yielded };
-
 template <class S>
 Outcome yields(S& s, World<S, 2>& w, Staying<S, 2>&, const InsertionRule<2>::NewPoint& x, int b) {
   const bool waits = w.leaves.any() && w.post_cuts(s, w.leaves.around(s, x.p), b);
@@ -32,7 +28,7 @@ Outcome yields(S& s, World<S, 2>& w, Staying<S, 2>&, const InsertionRule<2>::New
 template <class S>
 Outcome yields(S& s, World<S, 3>&, Staying<S, 3>& beside, const InsertionRule<3>::NewPoint& x,
                int b) {
-  return beside.any() && beside.yields(s, x, b) ? Outcome::yielded : Outcome::stands;
+  return beside.any() ? beside.yields(s, x, b) : Outcome::stands;
 }
 
 }  // namespace mesher::detail

@@ -8,10 +8,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "plc/encroachment.hpp"
+#include "plc/guard.hpp"
 #include "plc/small_angles.hpp"
 #include "plc/yielding.hpp"
 #include "program/staying.hpp"
@@ -35,13 +38,15 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   [[nodiscard]] bool any() const noexcept { return any_; }
   /// This, for a rule; null where nothing can stay.
   [[nodiscard]] const EdgeFilter<3>* filter() const noexcept { return any_ ? this : nullptr; }
-  void leave(const VoronoiCell3&, int, int) {}
+  /// The simplices at this edge stay.
+  void leave(const VoronoiCell3& cell, int p, int q) { left_.push_back(ends(cell, p, q)); }
   [[nodiscard]] std::uint64_t looked_at() const noexcept {
     return world_.plc.store().looked_at() - before_;
   }
 
   [[nodiscard]] bool skips(const VoronoiCell3& cell, int p, int q) const override {
-    return angles().keeps(standing(vertex(cell, p)), standing(vertex(cell, q)));
+    return std::find(left_.begin(), left_.end(), ends(cell, p, q)) != left_.end() ||
+           angles().keeps(standing(vertex(cell, p)), standing(vertex(cell, q)));
   }
   [[nodiscard]] bool skips_large(const VoronoiCell3&, int, int) const override { return false; }
 
@@ -52,18 +57,23 @@ class Staying<S, 3> final : public EdgeFilter<3> {
     for (const Polygon* f : near_.polygons) clear(s, *f, b);
   }
 
-  /// Whether x yields: a vertex is inserted instead, on a feature.
-  bool yields(S& s, const typename InsertionRule<3>::NewPoint& x, int b) {
-    if (!any_) return false;
+  /// Whether x yields: a vertex is inserted instead, on a feature; or is refused.
+  Outcome yields(S& s, const typename InsertionRule<3>::NewPoint& x, int b) {
     const auto y = yield(near_, x.p, std::sqrt(x.nearest2));
-    if (!y) return false;
+    if (world_.guarded && is_refused(s, x, y)) return Outcome::refused;
+    if (!y) return Outcome::stands;
     insert(s, helps(*y, x.corner) ? *y : instead_of(x.corner), b);
-    return true;
+    return Outcome::yielded;
   }
 
  private:
   [[nodiscard]] Standing standing(const Vertex<3>& v) const { return {v, world_.vertices.role(v)}; }
   [[nodiscard]] SmallAngles angles() const { return SmallAngles(near_); }
+  using Ends = std::array<VertexHandle, 2>;
+  [[nodiscard]] Ends ends(const VoronoiCell3& cell, int p, int q) const {
+    const auto [first, last] = std::minmax({vertex(cell, p).self, vertex(cell, q).self});
+    return {first, last};
+  }
   [[nodiscard]] const Vertex<3>& vertex(const VoronoiCell3& cell, int i) const {
     return i == kCentre ? cell.center() : world_.vertices.pool()[cell.handle(i)];
   }
@@ -97,6 +107,19 @@ class Staying<S, 3> final : public EdgeFilter<3> {
     }
   }
 
+  // By the guard (plc/guard.hpp).
+  [[nodiscard]] bool is_refused(S& s, const typename InsertionRule<3>::NewPoint& x,
+                                const std::optional<Placed>& y) {
+    const Point<3>& p = vertex(cell_, x.from).p;
+    const Point<3>& q = vertex(cell_, x.to).p;
+    const double length = std::sqrt(squared_distance(p, q));
+    ShortEdge e = beside_new(near_, y, x.p, kNearNew * length);
+    if (e.edge == nullptr && e.polygon == nullptr) return false;
+    e.middle = scaled(0.5, plus(p, q));
+    e.length = length;
+    return !has_two_parts(e, near_.store) && !world_.plc.crowded(s, e);
+  }
+
   // Whether a vertex at y takes a corner of the cell.
   [[nodiscard]] bool helps(const Placed& y, const Point<3>& corner) {
     const double gap2 = squared_distance(corner, cell_.center().p);
@@ -114,6 +137,7 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   const bool any_;
   const std::uint64_t before_;
   FeaturesBeside near_;
+  std::vector<Ends> left_;
 };
 
 }  // namespace mesher::detail

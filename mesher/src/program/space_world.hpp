@@ -2,6 +2,7 @@
 // input.
 #pragma once
 
+#include "plc/guard.hpp"
 #include "plc/input_features.hpp"
 #include "plc/placed.hpp"
 #include "program/point_world.hpp"
@@ -19,13 +20,15 @@ struct World<S, 3> : PointWorld<S, 3> {
   InputFeatures<S> plc;
   Agenda& splits;
   Agenda& fills;
+  const bool guarded;  // plc/guard.hpp
 
   template <class Host>
   World(const Options<3>& options, const MeshBox<3>& mesh_box, Host& host)
       : Base(options, mesh_box, host),
         plc(box, vertices.pool(), features, host),
         splits(host.make_agenda("edges")),
-        fills(host.make_agenda("facets")) {
+        fills(host.make_agenda("facets")),
+        guarded(options.rho < kGuarded) {
     host.set_environment(this);
     if constexpr (S::kTraced) plc.set_cells(vertices);
   }

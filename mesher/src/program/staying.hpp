@@ -12,6 +12,10 @@
 
 namespace mesher::detail {
 
+/// What becomes of a new point [5.2c]: it is inserted; not yet, leaves that have it in their balls
+/// are cut first; not at all, a vertex on a feature was; never, since lengths have shrunk.
+enum class Outcome : std::uint8_t { stands, waits, yielded, refused };
+
 /// In space it says more: program/space_lines.hpp.
 template <class S, int D>
 class Staying;

@@ -1,0 +1,48 @@
+// Counting what has stayed poor beside each feature.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "io/text.hpp"
+#include "mesh/check_complex.hpp"
+#include "mesh/gave_in.hpp"
+#include "mesh/space_quality.hpp"
+
+namespace mesher {
+
+GuardReport guard_report(const Mesh<3>& mesh, const Plc& complex, double rho) {
+  const bool has_lines = !complex.segments.empty() || !complex.facets.empty();
+  if (rho >= kGuarded || !has_lines) return {};
+  PlcFile file;
+  file.plc = complex;
+  SpaceCheckOptions options;
+  options.complex = &file;
+  options.rho = rho;
+  const detail::HalfFaces faces(mesh.simplices);
+  const detail::ComplexCheck parts(mesh, options, faces);
+  const detail::LonelyEdges lonely(complex);
+  detail::GuardCounts counts;
+  for (const auto& s : mesh.simplices) {
+    const detail::RadiusEdge ratio = detail::radius_edge(mesh, s);
+    if (!detail::is_above(ratio, rho) || parts.excuses(s)) continue;
+    const auto& v = mesh.vertices;
+    counts.look({v[s[0]], v[s[1]], v[s[2]], v[s[3]]}, ratio.ratio,
+                [&](const auto& p, const auto& q) { return lonely.find(p, q); });
+  }
+  return counts.report();
+}
+
+std::string GuardReport::text() const {
+  std::string all;
+  for (const GaveIn& place : places) {
+    all += (place.is_polygon ? "polygon " : "segment ") +
+           std::to_string(static_cast<std::int64_t>(place.feature)) + ": " +
+           std::to_string(place.tetrahedra) + " tetrahedra stay poor beside it, up to " +
+           text::to_text(place.max_radius_edge) + ", the first at " + text::to_text<3>(place.at) +
+           '\n';
+  }
+  return all;
+}
+
+}  // namespace mesher
