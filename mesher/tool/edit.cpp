@@ -55,7 +55,9 @@ void look_at_angles(const Target& target, Run& run) {
   run.angles = mesher::angle_report(target.mesh(), target.options());
 }
 template <class Target>
-void look_at_angles(const Target&, SpaceRun&) {}
+void look_at_angles(const Target& target, SpaceRun& run) {
+  run.guard = mesher::guard_report(target.mesh(), target.input(), target.options().rho);
+}
 
 template <int D, class Target>
 void run_edit_on(Target target, const EditArguments& args, InputOf<D> input) {

@@ -74,13 +74,16 @@ mesher::Mesh<D> mesh_with_engine(const InputOf<D>& input, const mesher::Options<
   return mesher.mesh();
 }
 
-void look_at_angles(const MeshArguments& args, const mesher::Mesh<2>& all,
+void look_at_angles(const MeshArguments& args, const Input&, const mesher::Mesh<2>& all,
                     const mesher::Options<2>& options, Run& run) {
   if (all.edges.empty() || (args.quiet && args.stats.empty())) return;
   run.angles = mesher::angle_report(all, options);
 }
-void look_at_angles(const MeshArguments&, const mesher::Mesh<3>&, const mesher::Options<3>&,
-                    SpaceRun&) {}
+void look_at_angles(const MeshArguments& args, const SpaceInput& input, const mesher::Mesh<3>& all,
+                    const mesher::Options<3>& options, SpaceRun& run) {
+  if (args.quiet && args.stats.empty()) return;
+  run.guard = mesher::guard_report(all, input.graph(), options.rho);
+}
 
 mesher::Mesh<2> without_flat(const MeshArguments&, mesher::Mesh<2> all) { return all; }
 mesher::Mesh<3> without_flat(const MeshArguments& args, mesher::Mesh<3> all) {
@@ -96,7 +99,7 @@ template <int D>
 Result<D> finish(const MeshArguments& args, const InputOf<D>& input,
                  const mesher::Options<D>& options, mesher::Mesh<D> all) {
   Result<D> result;
-  look_at_angles(args, all, options, result.run);
+  look_at_angles(args, input, all, options, result.run);
   const double start = mesher::now();
   result.mesh =
       mesher::domain_mesh(without_flat(args, std::move(all)), input.graph(), extent(args));

@@ -92,6 +92,17 @@ Json json_of(const std::vector<mesher::ShrunkVertex>& vertices) {
   return all;
 }
 
+Json json_of(const std::vector<mesher::GaveIn>& places) {
+  Json all = Json::array();
+  for (const auto& place : places) {
+    all.push_back({{place.is_polygon ? "polygon" : "segment", place.feature},
+                   {"at", place.at},
+                   {"tetrahedra", place.tetrahedra},
+                   {"max_radius_edge", place.max_radius_edge}});
+  }
+  return all;
+}
+
 void print_notes(const std::vector<mesher::Note>& notes) {
   for (const auto& note : notes) {
     std::fprintf(stderr, "%s: note: %s\n", text_of(note.place).c_str(), note.text.c_str());
@@ -203,6 +214,7 @@ Json json_of(const SpaceRun& run) {
   json["max_radius_edge"] = run.quality.max_radius_edge;
   json["slivers"] = run.quality.slivers;
   json["above_rho"] = run.above_rho;
+  if (run.guard && !run.guard->places.empty()) json["gave_in"] = json_of(run.guard->places);
   json["points"] = run.points;
   json["kept"] = {{"vertices", run.vertices}, {"simplices", run.simplices}};
   json["regions"] = run.regions;
@@ -223,6 +235,8 @@ Json json_of(const DomainStep& update) {
 
 Json json_of(const SpaceStep& update) {
   Json json = json_of_change(update);
+  const auto& places = update.change.guard.places;
+  if (!places.empty()) json["gave_in"] = json_of(places);
   add_kept(update, json);
   return json;
 }
@@ -274,7 +288,10 @@ void print_run(const SpaceInput& input, const SpaceRun& run) {
                            format("%g degrees", mesher::kSliverDegrees));
   print_row("largest radius-edge", format("%.4f", run.quality.max_radius_edge));
   if (run.above_rho > 0) {
-    print_row("above rho", std::to_string(run.above_rho) + ", at small angles of the input");
+    print_row("above rho", std::to_string(run.above_rho) + ", at small angles of the input" +
+                               (run.guard && run.guard->tetrahedra > 0
+                                    ? ", or beside features that are alone"
+                                    : ""));
   }
   print_row("time", format("%.3f s", run.seconds_total));
 }
@@ -304,9 +321,9 @@ void print_remarks(const MeshArguments&, const SpaceInput& input, const Kept<3>&
   }
 }
 
-void print_angles(const Run& run) {
-  if (!run.angles) return;
-  const std::string text = run.angles->text();
+namespace {
+
+void print_lines(const std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = text.find('\n', at);
     std::printf("  %s\n", text.substr(at, end - at).c_str());
@@ -314,7 +331,15 @@ void print_angles(const Run& run) {
   }
 }
 
-void print_angles(const SpaceRun&) {}
+}  // namespace
+
+void print_angles(const Run& run) {
+  if (run.angles) print_lines(run.angles->text());
+}
+
+void print_angles(const SpaceRun& run) {
+  if (run.guard) print_lines(run.guard->text());
+}
 
 void print_updates(std::vector<double> seconds) {
   print_row("updates", std::to_string(seconds.size()));

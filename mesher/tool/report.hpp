@@ -13,6 +13,7 @@
 #include "mesher/check.hpp"
 #include "mesher/domain_mesher.hpp"
 #include "mesher/edit_script.hpp"
+#include "mesher/guard.hpp"
 #include "mesher/space_check.hpp"
 
 namespace tool {
@@ -43,7 +44,8 @@ struct Run : AnyRun {
 };
 /// In space.
 struct SpaceRun : AnyRun {
-  mesher::SpaceQuality quality;  ///< of what is kept
+  mesher::SpaceQuality quality;              ///< of what is kept
+  std::optional<mesher::GuardReport> guard;  ///< of the box, if it was asked for
 };
 
 template <int D>
@@ -75,7 +77,8 @@ void print_run(const SpaceInput& input, const SpaceRun& run);
 void print_remarks(const MeshArguments& args, const Input& input, const mesher::DomainMesh& mesh);
 void print_remarks(const MeshArguments& args, const SpaceInput& input, const Kept<3>& mesh);
 
-/// Prints what small angles do to a mesh, if they were looked at.
+/// Prints what small angles do to a mesh, and in space where the guard gave in, if that was looked
+/// at.
 void print_angles(const Run& run);
 void print_angles(const SpaceRun& run);
 

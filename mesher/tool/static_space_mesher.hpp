@@ -33,6 +33,7 @@ class StaticSpaceMesher : public StaticSeeds<3> {
   [[nodiscard]] const mesher::DomainMeshOf<3>& domain_mesh() const { return domain_; }
   [[nodiscard]] const mesher::Options<3>& options() const { return options_; }
   [[nodiscard]] const mesher::MeshStats& stats() const { return stats_; }
+  [[nodiscard]] mesher::Plc input() const { return complex(); }
 
  private:
   using Polygons = std::map<mesher::FeatureId, mesher::Plc::Facet>;

@@ -18,9 +18,11 @@
 #include <string>
 #include <vector>
 
-#include "mesher/plc.hpp"
+#include "mesher/mesh.hpp"
 
 namespace mesher {
+
+struct Plc;
 
 /// Bounds of the radius-edge ratio below this one are guarded.
 inline constexpr double kGuarded = 2;

@@ -28,6 +28,7 @@
 
 #include "mesher/angles.hpp"
 #include "mesher/error.hpp"
+#include "mesher/guard.hpp"
 #include "mesher/mesh.hpp"
 
 namespace sac {
@@ -94,7 +95,8 @@ struct Change {
   std::vector<LineEdge<D>> edges_removed;
   std::vector<PolygonFace<D>> faces_added;  ///< of Mesh::faces, likewise; in the plane none
   std::vector<PolygonFace<D>> faces_removed;
-  AngleNews angles;  ///< what small angles of the input did to what has come
+  AngleNews angles;   ///< what small angles of the input did to what has come
+  GuardReport guard;  ///< in space: which new simplices stay poor beside features (guard.hpp)
   CallCounts calls;
 };
 

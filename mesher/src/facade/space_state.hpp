@@ -6,6 +6,7 @@
 
 #include "facade/point_state.hpp"
 #include "facade/space_news.hpp"
+#include "mesh/lonely_edges.hpp"
 #include "plc/validity.hpp"
 
 namespace mesher::detail {
@@ -19,7 +20,7 @@ class SpaceState final : public PointState<3>, private SpaceNames {
     PolygonEdits polygons;
   };
 
-  using PointState::PointState;
+  explicit SpaceState(const Options<3>& options) : PointState(options), rho_(options.rho) {}
 
   Change<3> first_run(PointEdits points, Edits edits, const RunControl& control,
                       const Accept& accept) {
@@ -65,6 +66,7 @@ class SpaceState final : public PointState<3>, private SpaceNames {
     return world_->plc.bytes() + polygons_at_.bytes() + parts_.bytes();
   }
   void check_others() const override;
+  void find_angles(const std::vector<Simplex>& come, Change<3>& change) const override;
 
   [[nodiscard]] Parts take_parts(const PointEdits& points);
   void take_at(VertexHandle point, Parts& parts);
@@ -88,8 +90,11 @@ class SpaceState final : public PointState<3>, private SpaceNames {
   [[nodiscard]] std::optional<FeatureId> segment(EdgeHandle e) const override;
   [[nodiscard]] FeatureId polygon(PolygonHandle f) const override;
 
+  [[nodiscard]] LonelyEdges::Beside name_of(const Edge& e,
+                                            const std::vector<const Polygon*>& near) const;
   FeatureStore& store() const noexcept { return world_->plc.store(); }
 
+  double rho_;
   std::unordered_map<EdgeHandle, FeatureId> segment_names_;
   std::unordered_map<PolygonHandle, FeatureId> polygon_names_;
   SpaceNews::Lines line_points_;

@@ -1,13 +1,9 @@
 // Counting what has stayed poor beside each feature.
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <utility>
-
 #include "io/text.hpp"
 #include "mesh/check_complex.hpp"
 #include "mesh/gave_in.hpp"
 #include "mesh/space_quality.hpp"
+#include "mesher/plc.hpp"
 
 namespace mesher {
 

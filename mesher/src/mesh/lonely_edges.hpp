@@ -8,6 +8,7 @@
 
 #include "mesh/flat_polygon.hpp"
 #include "mesher/guard.hpp"
+#include "mesher/plc.hpp"
 
 namespace mesher::detail {
 

@@ -90,6 +90,11 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
     return hinges_.crowded(s, piece);
   }
 
+  /// The guard's question, from outside (plc/guard.hpp).
+  [[nodiscard]] bool is_lonely(const ShortEdge& e) {
+    return !has_two_parts(e, store_) && !guards_.witness(e);
+  }
+
   /// Outside edits, with their inverses noted for a roll-back: one user more, or less, of the edge
   /// between two different input points; a polygon that is not there (and has an area), or is.
   /// Throws: std::bad_alloc.

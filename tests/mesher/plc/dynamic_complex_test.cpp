@@ -16,8 +16,9 @@ using support::TracedSpace;
 
 constexpr std::size_t kAcross = 3;
 
-mesher::Options<3> cube_options() {
+mesher::Options<3> cube_options(double rho = 2) {
   mesher::Options<3> options;
+  options.rho = rho;
   options.domain = {{0, 0, 0}, {kAcross, kAcross, kAcross}};
   options.max_vertices = 200000;
   return options;
@@ -39,7 +40,8 @@ void append(Complex& all, const Complex& part) {
 // A grid of cubes, with a part or nothing in each.
 class Grid {
  public:
-  explicit Grid(std::uint64_t seed) : random_(seed), parts_(kAcross * kAcross * kAcross) {}
+  explicit Grid(std::uint64_t seed, double rho = 2)
+      : random_(seed), space_(cube_options(rho)), parts_(kAcross * kAcross * kAcross) {}
 
   /// Takes what is in a random cube, or puts something, or one for the other; or takes or puts back
   /// the segments and polygons alone.
@@ -89,7 +91,7 @@ class Grid {
   }
 
   support::RandomComplex random_;
-  TracedSpace space_{cube_options()};
+  TracedSpace space_;
   std::vector<std::optional<Cube>> parts_;
 };
 
@@ -109,6 +111,23 @@ TEST_CASE("after each edit of points, segments and polygons the mesh is a fresh 
     const sac::AuditReport& report = grid.space().engine().audit();
     CHECK(report.first_duplicate == "");
     CHECK(report.first_reordered == "");
+  }
+}
+
+TEST_CASE("so it is below rho = 2, where the guard looks farther than cells [rules C]") {
+  for (const double rho : {1.3, 1.42}) {
+    for (const std::uint64_t seed : {1, 2}) {
+      Grid grid(seed, rho);
+      for (int update = 0; update < 8; ++update) {
+        INFO("rho " << rho << ", seed " << seed << ", update " << update);
+        for (std::uint64_t n = update == 0 ? 4 : 1 + grid.below(2); n > 0; --n) grid.edit();
+        grid.space().update();
+        PlcRun fresh(grid.all(), cube_options(rho));
+        REQUIRE(grid.space().result() == fresh.result());
+        if (update % 4 == 3) grid.space().check_invariants();
+      }
+      CHECK(grid.space().engine().audit().first_duplicate == "");
+    }
   }
 }
 
