@@ -232,6 +232,13 @@ expect 1 'error[bad_quality]: polygons: polygon ' check cut.node --input two.pol
 sed 's/ 8$/ 9/' good.face >cut.face
 expect 1 'polygon 8: the edge from ' check cut.node --input two.poly
 
+echo "== complexes: below rho = 2 the guard says where it gave in, and check excuses that alone"
+expect 0 ' tetrahedra stay poor beside it, up to ' mesh vee.poly --rho 1.42 --box -o guard.node \
+  --stats guard.json
+grep -q '"gave_in"' guard.json || fail 'no "gave_in" in --stats'
+expect 0 ' beside features that are alone' check guard.node --input vee.poly --rho 1.42
+expect 1 'error[bad_quality]: quality: ' check guard.node --input vee.poly --rho 1.3
+
 echo "== complexes: check compares markers, where both have them"
 expect 0 ' faces have one' \
   check good.node --input two.poly

@@ -26,7 +26,8 @@
 //       its shortest edge (by more than its rounding, and 10^-9 of it), those of small angles of
 //       the complex aside: with a shortest edge that joins two of its features, which share an edge
 //       or a point that is farther from both ends than they are from each other, or two features at
-//       a point from which both ends are as far;
+//       a point from which both ends are as far; and for rho below kGuarded those with a shortest
+//       edge that is lonely beside a segment or polygon (guard.hpp);
 //   and for meshes with features
 //   (a) parts: every edge and face of MeshFeatures is one of a tetrahedron;
 //   (b) segments, if a complex is given: every segment, and every edge of a polygon, is a union of

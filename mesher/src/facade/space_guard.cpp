@@ -39,7 +39,8 @@ class EdgeBeside {
     const auto standing = [&](const Vertex<3>& v) { return Standing{v, world_.vertices.role(v)}; };
     return SmallAngles(near_).keeps(standing(p_), standing(q_));
   }
-  /// `name(f)`: of an edge or polygon. The nearest beside which it is lonely, as LonelyEdges has it.
+  /// `name(f)`: of an edge or polygon. The nearest beside which it is lonely, as LonelyEdges has
+  /// it.
   template <class Name>
   [[nodiscard]] std::optional<Beside> lonely(Name&& name) const {
     std::optional<Beside> best;

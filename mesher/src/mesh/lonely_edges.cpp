@@ -51,7 +51,8 @@ LonelyEdges::LonelyEdges(const Plc& complex) {
     }
     for (const auto& [a, b] : f.edges) polygon.lines.push_back(line(a, b, polygon.name));
     for (const FeatureId id : f.points) polygon.others.push_back(corner(id));
-    for (const auto& [a, b] : polygon.lines) polygon.points.insert(polygon.points.end(), {a.id, b.id});
+    for (const auto& [a, b] : polygon.lines)
+      polygon.points.insert(polygon.points.end(), {a.id, b.id});
     make_set(polygon.points);
     polygon.shape.emplace(places);
     polygons.push_back(std::move(polygon));
@@ -102,9 +103,8 @@ bool LonelyEdges::has_two_parts(const Feature& f, const Point<3>& x, double with
   };
   return std::any_of(lines.begin(), lines.end(), [&](const auto& s) {
     if (!corners.empty() && !has(s, *corners.begin())) return true;
-    return std::any_of(lines.begin(), lines.end(), [&](const auto& t) {
-      return !has(s, t[0]) && !has(s, t[1]);
-    });
+    return std::any_of(lines.begin(), lines.end(),
+                       [&](const auto& t) { return !has(s, t[0]) && !has(s, t[1]); });
   });
 }
 
@@ -123,7 +123,8 @@ std::optional<LonelyEdges::Beside> LonelyEdges::find(const Point<3>& p, const Po
   const double within = kLonely * length * (1 - kRounding);
   std::vector<std::pair<double, const Feature*>> near, beside;
   for (const Feature& f : features_) {
-    if (std::sqrt(squared_distance(f.middle, middle)) > f.reach * (1 + kRounding) + within) continue;
+    if (std::sqrt(squared_distance(f.middle, middle)) > f.reach * (1 + kRounding) + within)
+      continue;
     const double away = distance(f, middle);
     if (away <= within) near.emplace_back(away, &f);
   }
@@ -139,9 +140,9 @@ std::optional<LonelyEdges::Beside> LonelyEdges::find(const Point<3>& p, const Po
     const Beside& name = item.second->name;
     return std::tuple(item.first, item.second->kind, name.is_polygon, name.feature);
   };
-  return std::min_element(beside.begin(), beside.end(), [&](const auto& a, const auto& b) {
-           return order(a) < order(b);
-         })->second->name;
+  return std::min_element(beside.begin(), beside.end(),
+                          [&](const auto& a, const auto& b) { return order(a) < order(b); })
+      ->second->name;
 }
 
 }  // namespace mesher::detail

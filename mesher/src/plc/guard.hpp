@@ -7,10 +7,10 @@
 // times its length there is no feature that this one has nothing in common with, and no two parts
 // of it (corners, ends, edges) that have nothing in common with each other.
 //
-// It ends: an edge e that asks is within kBesideEdge e of a feature, and not lonely; so two features
-// that have nothing in common are within (kBesideEdge + kLonely) e of each other. These have a least
-// distance, and all vertices that tetrahedra ask for are at least a constant times that apart. (That
-// is no proof for what features ask of each other at small angles.)
+// It ends: an edge e that asks is within kBesideEdge e of a feature, and not lonely; so two
+// features that have nothing in common are within (kBesideEdge + kLonely) e of each other. These
+// have a least distance, and all vertices that tetrahedra ask for are at least a constant times
+// that apart. (That is no proof for what features ask of each other at small angles.)
 #pragma once
 
 #include "mesher/guard.hpp"

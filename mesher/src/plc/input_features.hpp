@@ -40,7 +40,9 @@ class InputFeatures<sac::PlainScope> {
   [[nodiscard]] bool crowded(sac::PlainScope& s, const FacetPiece& piece) {
     return facets_.crowded(s, piece);
   }
-  [[nodiscard]] bool crowded(sac::PlainScope& s, const ShortEdge& e) { return guards_.crowded(s, e); }
+  [[nodiscard]] bool crowded(sac::PlainScope& s, const ShortEdge& e) {
+    return guards_.crowded(s, e);
+  }
   [[nodiscard]] bool hemmed_in(sac::PlainScope& s, const FacetPiece& piece) {
     return hinges_.crowded(s, piece);
   }

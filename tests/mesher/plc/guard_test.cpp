@@ -61,19 +61,24 @@ Plc plc_of(const support::Complex& complex) {
 
 }  // namespace
 
-TEST_CASE("below rho = 2 refinement of families ends, and what stays poor is beside lonely features") {
+TEST_CASE(
+    "below rho = 2 refinement of families ends, and what stays poor is beside lonely features") {
   struct Family {
     PlcKind kind;
     double rho;
     std::size_t most;  // vertices
   };
   // Without a guard those at 1.42 and 1.2 do not end.
-  for (const auto& [kind, rho, most] :
-       {Family{PlcKind::dumbbell, 1.42, 2100}, {PlcKind::vee, 1.42, 1600},
-        {PlcKind::tee, 1.42, 2000}, {PlcKind::pages, 1.42, 3000}, {PlcKind::cloud, 1.42, 6500},
-        {PlcKind::vee, 1.2, 8000}, {PlcKind::cube_square, 1.2, 10000},
-        {PlcKind::tetrahedron, 1.7, 1000}, {PlcKind::leaning, 1.7, 900},
-        {PlcKind::nested, 1.7, 1500}}) {
+  for (const auto& [kind, rho, most] : {Family{PlcKind::dumbbell, 1.42, 2100},
+                                        {PlcKind::vee, 1.42, 1600},
+                                        {PlcKind::tee, 1.42, 2000},
+                                        {PlcKind::pages, 1.42, 3000},
+                                        {PlcKind::cloud, 1.42, 6500},
+                                        {PlcKind::vee, 1.2, 8000},
+                                        {PlcKind::cube_square, 1.2, 10000},
+                                        {PlcKind::tetrahedron, 1.7, 1000},
+                                        {PlcKind::leaning, 1.7, 900},
+                                        {PlcKind::nested, 1.7, 1500}}) {
     INFO(name(kind) << ", rho " << rho);
     const Plc plc = mesher::generate_plc({kind});
     const Mesh<3> mesh = mesh_statically(plc, options_for(plc, rho, most));
@@ -126,11 +131,10 @@ TEST_CASE("the guard says beside which feature it gave in, and where") {
   std::size_t all = 0;
   for (const mesher::GaveIn& place : report.places) {
     const auto is = [&](const auto& f) { return f == place.feature; };
-    CHECK((place.is_polygon
-               ? std::any_of(plc.facets.begin(), plc.facets.end(),
-                             [&](const auto& f) { return is(f.polygon.id); })
-               : std::any_of(plc.segments.begin(), plc.segments.end(),
-                             [&](const auto& s) { return is(s.id); })));
+    CHECK((place.is_polygon ? std::any_of(plc.facets.begin(), plc.facets.end(),
+                                          [&](const auto& f) { return is(f.polygon.id); })
+                            : std::any_of(plc.segments.begin(), plc.segments.end(),
+                                          [&](const auto& s) { return is(s.id); })));
     CHECK(place.max_radius_edge > 1.42);
     all += place.tetrahedra;
   }
