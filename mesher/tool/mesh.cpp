@@ -1,5 +1,4 @@
 // mesher mesh: a mesh of a file of points and lines, or of a complex in space.
-#include <cstdio>
 #include <memory>
 #include <utility>
 
@@ -8,11 +7,11 @@
 #include "figures.hpp"
 #include "first_run.hpp"
 #include "mesher/angles.hpp"
-#include "mesher/flat.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/refine.hpp"
 #include "mesher/sizes.hpp"
 #include "mesher/svr.hpp"
+#include "no_flat.hpp"
 #include "outputs.hpp"
 #include "report.hpp"
 
@@ -103,16 +102,6 @@ void look_at_angles(const MeshArguments& args, const mesher::Mesh<2>& all,
 }
 void look_at_angles(const MeshArguments&, const mesher::Mesh<3>&, const mesher::Options<3>&,
                     SpaceRun&) {}
-
-mesher::Mesh<2> without_flat(const MeshArguments&, mesher::Mesh<2> all) { return all; }
-mesher::Mesh<3> without_flat(const MeshArguments& args, mesher::Mesh<3> all) {
-  if (!args.no_flat) return all;
-  mesher::Unflattened result = mesher::without_flat_tetrahedra(std::move(all));
-  if (result.left > 0 && !args.quiet) {
-    std::fprintf(stderr, "%s: note: %zu flat tetrahedra stay\n", args.input.c_str(), result.left);
-  }
-  return std::move(result.mesh);
-}
 
 template <int D>
 Result<D> finish(const MeshArguments& args, const InputOf<D>& input,
