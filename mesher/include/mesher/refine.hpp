@@ -26,7 +26,7 @@ enum class RefineOrder : std::uint8_t {
 struct RefineSettings {
   RefineOrder order = RefineOrder::shortest_edge_first;
   /// Whether the order is kept exactly, which is slow for some points in the plane [Fig 2.2]. Else
-  /// only powers of two of squares are told apart [Fig 1.5], and of equals the last found goes first.
+  /// only powers of two of squares are told apart [Fig 1.5]; of equals the last found goes first.
   bool strict = false;
 };
 
