@@ -10,6 +10,7 @@
 #include "mesher/angles.hpp"
 #include "mesher/domain_mesher.hpp"
 #include "mesher/edit_script.hpp"
+#include "no_flat.hpp"
 #include "outputs.hpp"
 #include "report.hpp"
 #include "static_mesher.hpp"
@@ -69,7 +70,7 @@ void run_edit_on(Target target, const EditArguments& args, InputOf<D> input) {
   RunOf<D> run = first_run<D>(input, target, progress);
   if (figures.wanted()) figures << json_of(run).dump() << "\n";
   const auto followed = apply_script<D>(args, input, target, figures, progress);
-  const Kept<D> mesh = target.domain_mesh();
+  const Kept<D> mesh = kept_of<D>(args, target);
   outputs.write(mesh, followed.last_changed);
   const auto targets = outputs.targets();
   progress.erase();

@@ -1,5 +1,4 @@
 // mesher mesh: a mesh of a file of points and lines, or of a complex in space.
-#include <cstdio>
 #include <memory>
 #include <utility>
 
@@ -8,10 +7,11 @@
 #include "figures.hpp"
 #include "first_run.hpp"
 #include "mesher/angles.hpp"
-#include "mesher/flat.hpp"
 #include "mesher/mesher.hpp"
+#include "mesher/refine.hpp"
 #include "mesher/sizes.hpp"
 #include "mesher/svr.hpp"
+#include "no_flat.hpp"
 #include "outputs.hpp"
 #include "report.hpp"
 
@@ -33,23 +33,24 @@ mesher::Mesh<D> mesh_without_engine(const InputOf<D>& input, const mesher::Optio
   });
 }
 
-// What has lines is for the other algorithm.
-void require_points_alone(const Input& input) {
-  if (segments_of(input.graph()).empty()) return;
-  throw mesher::Error(mesher::ErrorCode::bad_option,
-                      "--algorithm svr takes no lines, INPUT has some", {input.path()});
-}
-void require_points_alone(const SpaceInput& input) {
-  if (input.graph().segments.empty() && input.graph().facets.empty()) return;
-  throw mesher::Error(mesher::ErrorCode::bad_option,
-                      "--algorithm svr takes no segments and polygons, INPUT has some",
-                      {input.path()});
+bool has_lines(const Input& input) { return !segments_of(input.graph()).empty(); }
+bool has_lines(const SpaceInput& input) {
+  return !input.graph().segments.empty() || !input.graph().facets.empty();
 }
 
+// What has lines is for gap-balls.
 template <int D>
-mesher::Mesh<D> mesh_by_svr(const InputOf<D>& input, const mesher::Options<D>& options,
-                            mesher::MeshStats& stats, Progress& progress) {
-  require_points_alone(input);
+void require_points_alone(const InputOf<D>& input, const std::string& algorithm) {
+  if (!has_lines(input)) return;
+  const char* lines = D == 2 ? " takes no lines" : " takes no segments and polygons";
+  throw mesher::Error(mesher::ErrorCode::bad_option,
+                      "--algorithm " + algorithm + lines + ", INPUT has some", {input.path()});
+}
+
+// By a function that knows points alone: make(places, ids, control).
+template <int D, class Make>
+mesher::Mesh<D> mesh_of_points(const InputOf<D>& input, mesher::MeshStats& stats,
+                               Progress& progress, Make&& make) {
   std::vector<mesher::Point<D>> places;
   std::vector<mesher::FeatureId> ids;
   for (const auto& point : input.points()) {
@@ -58,11 +59,31 @@ mesher::Mesh<D> mesh_by_svr(const InputOf<D>& input, const mesher::Options<D>& o
   }
   mesher::Mesh<D> mesh = locating(input, [&] {
     const StopPolitely stop;
-    return mesher::svr<D>(places, options, {}, ids, nullptr, progress.control());
+    return make(places, ids, progress.control());
   });
   stats.vertices = mesh.vertices.size();
   stats.simplices = mesh.simplices.size();
   return mesh;
+}
+
+template <int D>
+mesher::Mesh<D> mesh_by_svr(const InputOf<D>& input, const mesher::Options<D>& options,
+                            mesher::MeshStats& stats, Progress& progress) {
+  require_points_alone<D>(input, "svr");
+  return mesh_of_points<D>(input, stats, progress,
+                           [&](const auto& places, const auto& ids, const auto& control) {
+                             return mesher::svr<D>(places, options, {}, ids, nullptr, control);
+                           });
+}
+
+template <int D>
+mesher::Mesh<D> mesh_by_refine(const InputOf<D>& input, const mesher::Options<D>& options,
+                               mesher::MeshStats& stats, Progress& progress) {
+  require_points_alone<D>(input, "refine");
+  return mesh_of_points<D>(input, stats, progress,
+                           [&](const auto& places, const auto& ids, const auto& control) {
+                             return mesher::refine<D>(places, options, {}, ids, nullptr, control);
+                           });
 }
 
 template <int D>
@@ -85,16 +106,6 @@ void look_at_angles(const MeshArguments& args, const SpaceInput& input, const me
   run.guard = mesher::guard_report(all, input.graph(), options.rho);
 }
 
-mesher::Mesh<2> without_flat(const MeshArguments&, mesher::Mesh<2> all) { return all; }
-mesher::Mesh<3> without_flat(const MeshArguments& args, mesher::Mesh<3> all) {
-  if (!args.no_flat) return all;
-  mesher::Unflattened result = mesher::without_flat_tetrahedra(std::move(all));
-  if (result.left > 0 && !args.quiet) {
-    std::fprintf(stderr, "%s: note: %zu flat tetrahedra stay\n", args.input.c_str(), result.left);
-  }
-  return std::move(result.mesh);
-}
-
 template <int D>
 Result<D> finish(const MeshArguments& args, const InputOf<D>& input,
                  const mesher::Options<D>& options, mesher::Mesh<D> all) {
@@ -112,9 +123,10 @@ Result<D> mesh(const MeshArguments& args, const InputOf<D>& input,
                const mesher::Options<D>& options, Progress& progress) {
   mesher::MeshStats stats;
   const double start = mesher::now();
-  const auto make = args.algorithm == "svr" ? mesh_by_svr<D>
-                    : args.is_static        ? mesh_without_engine<D>
-                                            : mesh_with_engine<D>;
+  const auto make = args.algorithm == "svr"      ? mesh_by_svr<D>
+                    : args.algorithm == "refine" ? mesh_by_refine<D>
+                    : args.is_static             ? mesh_without_engine<D>
+                                                 : mesh_with_engine<D>;
   mesher::Mesh<D> all = make(input, options, stats, progress);
   const double seconds = mesher::now() - start;
   Result<D> result = finish<D>(args, input, options, std::move(all));
@@ -174,8 +186,9 @@ void add_mesh(CLI::App& app) {
           "--algorithm", args->algorithm,
           "gap-balls: the mesh that `edit` keeps; svr: sparse Voronoi refinement, of\n"
           "points alone without limits of size: another mesh, in a quarter of the time in\n"
-          "the plane and a tenth in space, there with fewer vertices")
-      ->check(CLI::IsMember({"gap-balls", "svr"}))
+          "the plane and a tenth in space, there with fewer vertices; refine: the traditional\n"
+          "way, by the Delaunay triangulation of all points, for the same inputs")
+      ->check(CLI::IsMember({"gap-balls", "svr", "refine"}))
       ->capture_default_str();
   mesh->footer(
       std::string(

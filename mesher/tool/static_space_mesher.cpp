@@ -43,7 +43,7 @@ void StaticSpaceMesher::require_no_corners_go() const {
   }
 }
 
-mesher::Plc StaticSpaceMesher::complex() const {
+mesher::Plc StaticSpaceMesher::input() const {
   mesher::Plc plc;
   for (const auto& [id, vertex] : points()) plc.points.push_back({id, vertex.at, vertex.marker});
   for (const auto& [id, line] : lines()) {
@@ -59,7 +59,7 @@ mesher::Plc StaticSpaceMesher::complex() const {
 mesher::DomainUpdateOf<3> StaticSpaceMesher::update(const mesher::RunControl& control) {
   require_no_ends_go();
   require_no_corners_go();
-  const mesher::Plc input = complex();
+  const mesher::Plc input = this->input();
   mesher::MeshStats stats;
   auto after = mesher::mesh_statically(input, options_, &stats, control);
   auto domain = mesher::domain_mesh(after, input, extent_);

@@ -16,8 +16,8 @@ class StaticSpaceMesher : public StaticSeeds<3> {
   StaticSpaceMesher(const mesher::Options<3>& options, mesher::Extent extent)
       : StaticSeeds(options.domain), options_(options), extent_(extent) {}
 
-  /// As those of DomainMesherOf<3>, but that what is wrong with a polygon alone is left to update().
-  /// Throws: Error (repeated_id, unknown_id), and then changes nothing.
+  /// As those of DomainMesherOf<3>, but that what is wrong with a polygon alone is left to
+  /// update(). Throws: Error (repeated_id, unknown_id), and then changes nothing.
   void insert_polygon(const mesher::Polygon& polygon, std::int64_t marker = 0);
   void remove_polygon(mesher::FeatureId id);
   void discard_edits() {
@@ -31,6 +31,8 @@ class StaticSpaceMesher : public StaticSeeds<3> {
 
   [[nodiscard]] const mesher::Mesh<3>& mesh() const { return mesh_; }
   [[nodiscard]] const mesher::DomainMeshOf<3>& domain_mesh() const { return domain_; }
+  /// With the edits that are announced.
+  [[nodiscard]] mesher::Plc input() const;
   [[nodiscard]] const mesher::Options<3>& options() const { return options_; }
   [[nodiscard]] const mesher::MeshStats& stats() const { return stats_; }
   [[nodiscard]] mesher::Plc input() const { return complex(); }
@@ -38,7 +40,6 @@ class StaticSpaceMesher : public StaticSeeds<3> {
  private:
   using Polygons = std::map<mesher::FeatureId, mesher::Plc::Facet>;
   void require_no_corners_go() const;
-  [[nodiscard]] mesher::Plc complex() const;
 
   mesher::Options<3> options_;
   mesher::Extent extent_;

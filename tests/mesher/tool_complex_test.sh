@@ -47,6 +47,22 @@ expect 0 'tee.poly: ' mesh tee.poly
 expect 0 ' in the box' mesh tee.poly
 expect 0 ' polygons' mesh tee.poly --dimension 3
 
+echo "== complexes: flat tetrahedra are taken out, of what edits leave too"
+echo '+point 1000 0 0 0' >point.txt
+echo '-point 1000' >>point.txt
+for options in "--quiet" "--quiet --static"; do
+  # shellcheck disable=SC2086
+  expect 0 '' mesh shells.poly --no-flat $options -o swapped.node
+  expect 0 ' nearly' check swapped.node --input shells.poly --rho 2 --near
+  expect 1 'delaunay: ' check swapped.node --input shells.poly --rho 2
+  # shellcheck disable=SC2086
+  expect 0 '' edit shells.poly --script point.txt --no-flat $options -o edited.node
+  same swapped.ele edited.ele
+  same swapped.face edited.face
+done
+expect 0 '' gen uniform --n 20 -o plane.node
+refuse 2 'error[bad_option]: --no-flat is for space' mesh plane.node --no-flat -o x.node
+
 echo "== complexes: markers, holes and regions"
 cat >two.poly <<'END'
 16 3 0 1

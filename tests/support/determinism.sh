@@ -61,6 +61,7 @@ write_files() {  # TOOLS FOLDER
     "$tool" mesh "$kind.node" --quiet --static -o "$kind.static.node"
     "$tool" mesh "$kind.node" --quiet --rule voronoi-aspect -o "$kind.aspect.node"
     "$tool" mesh "$kind.node" --quiet --algorithm svr -o "$kind.svr.node"
+    "$tool" mesh "$kind.node" --quiet --algorithm refine -o "$kind.refine.node"
     cmp "$kind.out.node" "$kind.static.node"
     cmp "$kind.out.ele" "$kind.static.ele"
   done
@@ -70,6 +71,7 @@ write_files() {  # TOOLS FOLDER
       -o "$kind.space.svg" -o "$kind.space.stl"
     "$tool" mesh "$kind.space.node" --quiet --static -o "$kind.space.static.node"
     "$tool" mesh "$kind.space.node" --quiet --algorithm svr -o "$kind.space.svr.node"
+    "$tool" mesh "$kind.space.node" --quiet --algorithm refine -o "$kind.space.refine.node"
     cmp "$kind.space.out.node" "$kind.space.static.node"
     cmp "$kind.space.out.ele" "$kind.space.static.ele"
   done

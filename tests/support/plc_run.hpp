@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 #include <vector>
@@ -124,8 +125,8 @@ inline ComplexMesh PlcRun::mesh() {
       if (edge_of(role) == h) edge.vertices[from_a(e, role.label) / e.length] = number(v.self);
     });
   }
-  FeaturesBeside all{world_.plc.store()};
-  all.polygons = polygons_;
+  constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+  const FeaturesBeside all(world_.plc.store(), {}, kEverywhere, kEverywhere);
   for (const Polygon* f : polygons_) {
     auto& face = mesh.faces.emplace_back();
     std::uint32_t begin = 0;

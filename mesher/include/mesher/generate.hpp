@@ -60,6 +60,11 @@ template <int D>
 [[nodiscard]] std::vector<Point<D>> generate_points(PointKind kind, std::size_t n,
                                                     std::uint64_t seed);
 
+/// The n points of [Hudson, Fig 2.2], for which refinement at rho = sqrt 2 is slow if it takes the
+/// shortest edge first: n - 3 on a line, a little farther from each other each; one that sees them
+/// all; and two far away. Requires: n >= 5.
+[[nodiscard]] std::vector<Point<2>> generate_quadratic(std::size_t n);
+
 /// A family of points and lines. n: how many segments are asked for.
 enum class PslgKind : std::uint8_t {
   segments,   ///< n segments of length h/5 to h, h = 1 / sqrt(2 n), and as many points

@@ -13,8 +13,8 @@
 //  (3) no simplex has circumradius / shortest edge > rho;
 //  (4) it is a function of the set of points and the options alone: not of their order, the ids, or
 //      the machine.
-// It is another mesh than that of mesh_statically, in space with fewer vertices, and a point more or
-// less may change all of it.
+// It is another mesh than that of mesh_statically, in space with fewer vertices, and a point more
+// or less may change all of it.
 #pragma once
 
 #include <cstddef>
@@ -22,6 +22,7 @@
 
 #include "mesher/mesh.hpp"
 #include "mesher/mesher.hpp"
+#include "mesher/refine.hpp"
 
 namespace mesher {
 
@@ -32,16 +33,10 @@ struct SvrSettings {
   double k = 0.9;
 };
 
-/// What happened in a run.
-struct SvrStats {
-  std::size_t vertices = 0;
-  std::size_t simplices = 0;
-  std::size_t warped = 0;    ///< input points inserted in the place of a new vertex
-  std::size_t crowded = 0;   ///< input points inserted since they crowded a vertex
-  std::size_t on_sides = 0;  ///< new vertices that were moved onto a side of the box
-  double worst_radius_edge =
-      0;  ///< of any simplex that there was after the first point's insertion
-  std::size_t largest_degree = 0;  ///< the most neighbours that a vertex ever had since then
+/// What happened in a run; it begins with the first point's insertion.
+struct SvrStats : RefineStats {
+  std::size_t warped = 0;   ///< input points inserted in the place of a new vertex
+  std::size_t crowded = 0;  ///< input points inserted since they crowded a vertex
 };
 
 /// The mesh. `options`: domain, rho and max_vertices count; `ids`: as many as points, only used in

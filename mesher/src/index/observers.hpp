@@ -36,9 +36,16 @@ template <int D>
 struct NearestSeen : Observation<D> {
   std::uint32_t nearest;  // 0: none
 };
+/// What a call that sees a cell may have asked of features besides.
+template <int D>
+struct FeaturesAsked {};
+template <>
+struct FeaturesAsked<3> {
+  float features_within;  // of the cell's vertex, in units of the box's side
+};
 /// A clipped cell; as it was written down lies behind it.
 template <int D>
-struct CellSeen : Observation<D> {
+struct CellSeen : Observation<D>, FeaturesAsked<D> {
   float radius;  // the clip, in units of the box's side
   std::uint32_t count;
 

@@ -332,7 +332,7 @@ CellLoan<D> VertexIndex<sac::Scope, D>::voronoi_cell(sac::Scope& s, VertexRef<D>
       look(*v, radius, last, [&](VertexHandle u) { return born_before(pool_[u], self); });
   s.weigh(take_visited());
   cell->write(codes_);
-  record_cell(s, *v, concern(*cell), clip);
+  record_cell(s, *v, *cell, clip);
   return cell;
 }
 
@@ -379,21 +379,28 @@ void VertexIndex<sac::Scope, D>::fill(sac::Scope& s, Observation& o, Vertex<D>& 
 }
 
 template <int D>
-void VertexIndex<sac::Scope, D>::record_cell(sac::Scope& s, Vertex<D>& v, Reach<D> reach,
+void VertexIndex<sac::Scope, D>::record_cell(sac::Scope& s, Vertex<D>& v, const CellOf<D>& cell,
                                              float radius) {
+  const Reach<D> reach = concern(cell);
   const auto same = [&](const CellSeen& o) {
     return o.center == v.self && o.reach == reach && o.radius == radius &&
            std::equal(codes_.begin(), codes_.end(), o.codes(), o.codes() + o.count);
   };
-  if (auto* o = s.recall<CellSeen>(id_, kCell, same)) {
-    o->arrivals = 0;
+  // If this run of the call asks less of features than the last one, it is told of more than it
+  // must be: an update that fails leaves the observation as it was.
+  last_cell_ = s.recall<CellSeen>(id_, kCell, same);
+  if (last_cell_ != nullptr) {
+    last_cell_->arrivals = 0;
     return;
   }
-  auto& o = s.observe<CellSeen>(id_, kCell, codes_.size() * sizeof(std::uint32_t));
-  o.radius = radius;
-  o.count = static_cast<std::uint32_t>(codes_.size());
-  std::copy(codes_.begin(), codes_.end(), o.codes());
-  fill(s, o, v, reach);
+  last_cell_ = &s.observe<CellSeen>(id_, kCell, codes_.size() * sizeof(std::uint32_t));
+  last_cell_->radius = radius;
+  last_cell_->count = static_cast<std::uint32_t>(codes_.size());
+  std::copy(codes_.begin(), codes_.end(), last_cell_->codes());
+  if constexpr (D == 3) {
+    last_cell_->features_within = in_sides(std::sqrt(cell.reach2()) * (1 + 0x1p-10));
+  }
+  fill(s, *last_cell_, v, reach);
 }
 
 template <int D>

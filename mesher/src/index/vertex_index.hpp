@@ -67,6 +67,7 @@ class VertexIndex<sac::PlainScope, D> : public VertexSearch<D> {
   CellLoan<D> voronoi_cell(sac::PlainScope&, VertexRef<D> v, double radius) {
     return Base::cut_around(*v, radius, [](VertexHandle) { return true; });
   }
+  void note_asked(double) noexcept {}
   double nearest2(sac::PlainScope&, VertexRef<D> v) {
     return Base::nearest_around(*v, [](VertexHandle) { return true; }).distance2;
   }
@@ -111,6 +112,13 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   VertexRef<D> insert_early(sac::Scope& s, const Point<D>& p);
   void insert(sac::Scope& s, VertexRef<D> v);
   CellLoan<D> voronoi_cell(sac::Scope& s, VertexRef<D> v, double radius);
+  /// In space: who has seen the last cell has asked for features within this of its vertex, but not
+  /// beyond VertexSearch::beside. It always asks for those that meet the cell.
+  void note_asked(double distance) noexcept {
+    if constexpr (D == 3) {
+      last_cell_->features_within = std::max(last_cell_->features_within, in_sides(distance));
+    }
+  }
   double nearest2(sac::Scope& s, VertexRef<D> v);
   CellLoan<D> star(sac::Scope& s, VertexRef<D> v);
   /// In a first run run() asks for stars of vertices that are all there already: they are made at
@@ -163,13 +171,13 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   void limits_changed(const Box<D>& where) noexcept;
 
   /// Called by what makes a feature come or go: who has looked at a cell has asked which features
-  /// are beside it (VertexSearch::beside). `distance(x)`: of the feature from x; it does not throw.
+  /// meet it, or are beside it. `distance(x)`: of the feature from x; it does not throw.
   template <class Distance>
   void feature_changed(Distance&& distance) noexcept {
     tree_.visit_within(Base::kBeside, distance, [&](const Vertex<D>& center) {
-      const double away = distance(center.p);
+      const double away = distance(center.p) / box_.side;
       observers_.find_at(center, [&](const Observation& o) {
-        if (o.kind == kCell && away <= Base::beside(o.reach)) {
+        if (o.kind == kCell && away <= static_cast<const CellSeen&>(o).features_within) {
           engine_.invalidate(engine_.call(o.call), &o);
         }
         return false;
@@ -253,7 +261,11 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   template <class Seen>
   CellLoan<D> look(const Vertex<D>& v, double radius, const Observation* last, Seen&& seen);
   void fill(sac::Scope& s, Observation& o, Vertex<D>& v, Reach<D> reach) noexcept;
-  void record_cell(sac::Scope& s, Vertex<D>& v, Reach<D> reach, float radius);
+  void record_cell(sac::Scope& s, Vertex<D>& v, const CellOf<D>& cell, float radius);
+  /// In units of the box's side, rounded up.
+  [[nodiscard]] float in_sides(double distance) const noexcept {
+    return static_cast<float>(distance / box_.side * (1 + 0x1p-20));
+  }
   void record_nearest(sac::Scope& s, Vertex<D>& v, Reach<D> reach, VertexHandle nearest);
   void record_star(sac::Scope& s, Vertex<D>& v, Reach<D> reach);
   template <class Seen>
@@ -277,6 +289,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   ChangeLog<D> log_;
   std::uint8_t id_;
   std::vector<std::uint32_t> codes_;          // the cell being recorded, written down
+  CellSeen* last_cell_ = nullptr;             // the last one recorded
   std::optional<FirstStars<D>> first_stars_;  // while a first run triangulates
   std::vector<VertexHandle> gone_;            // the neighbours being replaced
 };

@@ -9,6 +9,7 @@
 
 #include "io/text.hpp"
 #include "mesh/on_circle.hpp"
+#include "sac/check.hpp"
 
 namespace mesher {
 namespace {
@@ -242,6 +243,19 @@ std::vector<Point<D>> generate_points(PointKind kind, std::size_t n, std::uint64
       return spread<D>(n);
   }
   return {};
+}
+
+std::vector<Point<2>> generate_quadratic(std::size_t n) {
+  SAC_EXPECTS(n >= 5);
+  std::vector<Point<2>> points;
+  double y = 0;
+  for (double gap = 1; points.size() < n - 3; y += gap, gap *= 1 + 0x1p-20)
+    points.push_back({0, y});
+  // A little nearer than the off-centre of the first two.
+  points.push_back({(1 - 0x1p-13) * (std::sqrt(2.0) + std::sqrt(1.75)), 0.5});
+  points.push_back({8 * y, -y / 2});
+  points.push_back({8 * y, 1.5 * y});
+  return points;
 }
 
 template std::vector<Point<2>> generate_points<2>(PointKind, std::size_t, std::uint64_t);

@@ -133,6 +133,25 @@ std::vector<const Edge*> find_in(const VoronoiCell3& cell, FeatureStore& store) 
   return found.finish();
 }
 
+void FeaturesBeside::ask(const Point<3>& x, double radius) const {
+  const double within = (std::sqrt(squared_distance(x, place_)) + radius) * (1 + 0x1p-20);
+  asked_ = std::max(asked_, std::min(within, most_));
+}
+
+const std::vector<const Polygon*>& FeaturesBeside::polygons(const Point<3>& x,
+                                                            double radius) const {
+  ask(x, radius);
+  if (asked_ > known_) polygons_ = find_near<Polygon>(place_, asked_, store_), known_ = asked_;
+  return polygons_;
+}
+
+std::vector<const Edge*> FeaturesBeside::edges(const Point<3>& x, double radius) const {
+  ask(x, radius);
+  auto edges = find_near<Edge>(x, radius, store_);
+  std::erase_if(edges, [&](const Edge* e) { return !is_in_ball(place_, most_ * most_, *e); });
+  return edges;
+}
+
 Feature common(const Edge& e, const Edge& t, const Point<3>& x, const FeatureStore& store) {
   Nearest nearest(x, store);
   if (e.self == t.self) return Feature(e);

@@ -62,12 +62,37 @@ template <class F>
 /// The edges that meet a cell, and few others, likewise.
 [[nodiscard]] std::vector<const Edge*> find_in(const VoronoiCell3& cell, FeatureStore& store);
 
-/// What may be asked of features by who observes a cell: those within `radius` of its vertex.
-struct FeaturesBeside {
-  FeatureStore& store;
-  Point<3> place{};
-  double radius = 0;
-  std::vector<const Polygon*> polygons{};  // in canonical order
+/// What is asked of features by who observes a cell. How far is noted: the farther, the more
+/// features are there whose coming and going concerns it.
+class FeaturesBeside {
+ public:
+  /// `reach`: of the cell, which asks within this at least; `most`: it asks nothing beyond.
+  FeaturesBeside(FeatureStore& store, const Point<3>& place, double reach, double most)
+      : store_(store), place_(place), most_(most), asked_(reach * (1 + 0x1p-20)) {}
+
+  [[nodiscard]] FeatureStore& store() const noexcept { return store_; }
+  [[nodiscard]] const Point<3>& place() const noexcept { return place_; }
+  /// Within what distance of the cell's vertex features have been asked for.
+  [[nodiscard]] double asked() const noexcept { return asked_; }
+  /// The polygons within `radius` of x, and others, in canonical order.
+  [[nodiscard]] const std::vector<const Polygon*>& polygons(const Point<3>& x, double radius) const;
+  /// The polygons that have x, but for rounding (of which half of its distance is far more, unless
+  /// it is the cell's vertex), and others.
+  [[nodiscard]] const std::vector<const Polygon*>& polygons_at(const Point<3>& x) const {
+    return polygons(x, std::sqrt(squared_distance(x, place_)) / 2);
+  }
+  /// The edges within `radius` of x, in canonical order.
+  [[nodiscard]] std::vector<const Edge*> edges(const Point<3>& x, double radius) const;
+
+ private:
+  void ask(const Point<3>& x, double radius) const;
+
+  FeatureStore& store_;
+  Point<3> place_;
+  double most_;
+  mutable double asked_;
+  mutable double known_ = -1;  // within this polygons_ are all
+  mutable std::vector<const Polygon*> polygons_;
 };
 
 /// The features that two features share: the edge or else the point nearest to x, of equally near

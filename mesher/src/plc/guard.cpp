@@ -26,15 +26,14 @@ ShortEdge beside_new(const FeaturesBeside& near, const std::optional<Placed>& yi
                      const Point<3>& x, double reach) {
   ShortEdge found;
   if (yields) {
-    const FeatureStore& store = near.store;
+    const FeatureStore& store = near.store();
     if (const EdgeHandle e = edge_of(yields->role)) found.edge = &store.edges()[e];
     if (const PolygonHandle f = polygon_of(yields->role)) found.polygon = &store.polygons()[f];
     return found;
   }
-  for (const Edge* e : find_near<Edge>(x, reach, near.store)) {
-    if (is_in_ball(near.place, near.radius * near.radius, *e)) return found.edge = e, found;
-  }
-  for (const Polygon* f : near.polygons) {
+  const auto edges = near.edges(x, reach);
+  if (!edges.empty()) return found.edge = edges.front(), found;
+  for (const Polygon* f : near.polygons(x, reach)) {
     if (is_in_ball(x, reach * reach, *f)) return found.polygon = f, found;
   }
   return found;

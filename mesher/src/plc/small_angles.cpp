@@ -46,12 +46,13 @@ bool SmallAngles::has(const Feature& f, VertexHandle point) const {
 }
 
 template <class Visit>
-bool SmallAngles::visit_features_of(const Role& role, Visit&& visit) const {
-  if (const PolygonHandle f = polygon_of(role)) return visit(Feature(store_.polygons()[f]));
-  const EdgeHandle e = edge_of(role);
+bool SmallAngles::visit_features_of(const Standing& v, Visit&& visit) const {
+  if (const PolygonHandle f = polygon_of(v.role)) return visit(Feature(store_.polygons()[f]));
+  const EdgeHandle e = edge_of(v.role);
   if (e == 0) return false;
-  return visit(Feature(store_.edges()[e])) ||
-         std::any_of(near_.polygons.begin(), near_.polygons.end(),
+  if (visit(Feature(store_.edges()[e]))) return true;
+  const auto& polygons = near_.polygons_at(v.v.p);
+  return std::any_of(polygons.begin(), polygons.end(),
                      [&](const Polygon* f) { return f->has_edge(e) && visit(Feature(*f)); });
 }
 
@@ -102,7 +103,7 @@ template <class Foot>
 auto SmallAngles::turned(const Standing& v, const Feature& g, Foot&& foot_on_g) const
     -> std::optional<Turned> {
   std::optional<Turned> found;
-  visit_features_of(v.role, [&](const Feature& f) {
+  visit_features_of(v, [&](const Feature& f) {
     const Feature h = shared(f, g, v.v.p);
     if (!h || h == f || h == g) return false;
     const Point<3> hinge = foot(h, v.v.p);
@@ -162,7 +163,7 @@ bool SmallAngles::share_shell(const Standing& a, const Standing& b) const {
     if (away != 0 && shell(a, p) == away && (first == 0 || p < first)) first = p;
     return false;
   });
-  return first != 0 && visit_features_of(a.role, [&](const Feature& f) { return has(f, first); });
+  return first != 0 && visit_features_of(a, [&](const Feature& f) { return has(f, first); });
 }
 
 bool SmallAngles::keeps(const Standing& a, const Standing& b) const {
@@ -174,9 +175,9 @@ bool SmallAngles::keeps(const Standing& a, const Standing& b) const {
     return h && length2 < std::min(squared_distance(a.v.p, foot(h, a.v.p)),
                                    squared_distance(b.v.p, foot(h, b.v.p)));
   };
-  return visit_features_of(a.role, [&](const Feature& f) {
+  return visit_features_of(a, [&](const Feature& f) {
     return !on(b, f) &&
-           visit_features_of(b.role, [&](const Feature& g) { return !on(a, g) && is_wide(f, g); });
+           visit_features_of(b, [&](const Feature& g) { return !on(a, g) && is_wide(f, g); });
   });
 }
 

@@ -26,8 +26,7 @@ struct Standing {
 
 class SmallAngles {
  public:
-  /// `near`: has the polygons that the vertices asked about are on.
-  explicit SmallAngles(const FeaturesBeside& near) : store_(near.store), near_(near) {}
+  explicit SmallAngles(const FeaturesBeside& near) : store_(near.store()), near_(near) {}
 
   /// The copy of v on g, if they share something at a small angle and there is a place for it.
   [[nodiscard]] std::optional<Placed> copy(const Standing& v, const Edge& g) const;
@@ -41,10 +40,10 @@ class SmallAngles {
   [[nodiscard]] bool has(const Feature& f, VertexHandle point) const;
   [[nodiscard]] EdgeHandle edge_at(const Polygon& g, const Point<3>& x) const;
   [[nodiscard]] bool share_shell(const Standing& a, const Standing& b) const;
-  /// Calls visit(feature) for the edges and polygons that a vertex with this role lies on, until
-  /// one returns true; returns whether one has.
+  /// Calls visit(feature) for the edges and polygons that a vertex lies on, until one returns true;
+  /// returns whether one has.
   template <class Visit>
-  bool visit_features_of(const Role& role, Visit&& visit) const;
+  bool visit_features_of(const Standing& v, Visit&& visit) const;
   [[nodiscard]] Feature shared(const Feature& f, const Feature& g, const Point<3>& x) const;
   [[nodiscard]] Point<3> foot(const Feature& h, const Point<3>& x) const;
   /// A place at distance `away` from what two features share.

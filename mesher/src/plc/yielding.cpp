@@ -13,7 +13,7 @@ namespace {
 
 const Polygon* nearest_below(const FeaturesBeside& near, const Point<3>& x, double within) {
   const Polygon* nearest = nullptr;
-  for (const Polygon* f : near.polygons) {
+  for (const Polygon* f : near.polygons(x, within)) {
     const double height = std::abs(f->plane.height(x));
     if (height > within || (nearest != nullptr && height >= within)) continue;
     if (!contains(*f, f->plane.foot(x))) continue;
@@ -40,8 +40,7 @@ std::optional<Placed> place_in_ball(const Edge& e, const Point<3>& x, double rad
 std::optional<Placed> yield_to_edges(const FeaturesBeside& near, const Point<3>& x, double radius) {
   const Edge* nearest = nullptr;
   double within2 = kYields * kYields * radius * radius;
-  for (const Edge* e : find_near<Edge>(x, kYields * radius, near.store)) {
-    if (!is_in_ball(near.place, near.radius * near.radius, *e)) continue;
+  for (const Edge* e : near.edges(x, kYields * radius)) {
     const double d2 = distance2(x, e->place_a, e->place_b);
     if (d2 > within2 || (nearest != nullptr && d2 == within2)) continue;
     nearest = e, within2 = d2;

@@ -31,9 +31,8 @@ class Staying<S, 3> final : public EdgeFilter<3> {
         cell_(cell),
         any_(world.has_features()),
         before_(world.plc.store().looked_at()),
-        near_{world.plc.store(), cell.center().p, world.vertices.beside(cell)} {
-    if (any_) near_.polygons = find_near<Polygon>(near_.place, near_.radius, near_.store);
-  }
+        near_(world.plc.store(), cell.center().p, std::sqrt(cell.reach2()),
+              world.vertices.beside(cell)) {}
 
   [[nodiscard]] bool any() const noexcept { return any_; }
   /// This, for a rule; null where nothing can stay.
@@ -45,25 +44,29 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   }
 
   [[nodiscard]] bool skips(const VoronoiCell3& cell, int p, int q) const override {
-    return std::find(left_.begin(), left_.end(), ends(cell, p, q)) != left_.end() ||
-           angles().keeps(standing(vertex(cell, p)), standing(vertex(cell, q)));
+    if (std::find(left_.begin(), left_.end(), ends(cell, p, q)) != left_.end()) return true;
+    const bool keeps = angles().keeps(standing(vertex(cell, p)), standing(vertex(cell, q)));
+    note_asked();
+    return keeps;
   }
   [[nodiscard]] bool skips_large(const VoronoiCell3&, int, int) const override { return false; }
 
   /// While the cell meets features that v is not on: vertices on these.
   void disencroach(S& s, int b) {
     if (!any_) return;
-    for (const Edge* e : find_in(cell_, near_.store)) clear(s, *e, b);
-    for (const Polygon* f : near_.polygons) clear(s, *f, b);
+    for (const Edge* e : find_in(cell_, near_.store())) clear(s, *e, b);
+    const auto polygons = near_.polygons(near_.place(), 0);  // clear() asks for more
+    for (const Polygon* f : polygons) clear(s, *f, b);
+    note_asked();
   }
 
   /// Whether x yields: a vertex is inserted instead, on a feature; or is refused.
   Outcome yields(S& s, const typename InsertionRule<3>::NewPoint& x, int b) {
     const auto y = yield(near_, x.p, std::sqrt(x.nearest2));
-    if (world_.guarded && is_refused(s, x, y)) return Outcome::refused;
-    if (!y) return Outcome::stands;
-    insert(s, helps(*y, x.corner) ? *y : instead_of(x.corner), b);
-    return Outcome::yielded;
+    const bool refused = world_.guarded && is_refused(s, x, y);
+    if (y && !refused) insert(s, helps(*y, x.corner) ? *y : instead_of(x.corner), b);
+    note_asked();
+    return refused ? Outcome::refused : y ? Outcome::yielded : Outcome::stands;
   }
 
  private:
@@ -74,6 +77,7 @@ class Staying<S, 3> final : public EdgeFilter<3> {
     const auto [first, last] = std::minmax({vertex(cell, p).self, vertex(cell, q).self});
     return {first, last};
   }
+  void note_asked() const { world_.vertices.note_asked(near_.asked()); }
   [[nodiscard]] const Vertex<3>& vertex(const VoronoiCell3& cell, int i) const {
     return i == kCentre ? cell.center() : world_.vertices.pool()[cell.handle(i)];
   }
@@ -117,7 +121,7 @@ class Staying<S, 3> final : public EdgeFilter<3> {
     if (e.edge == nullptr && e.polygon == nullptr) return false;
     e.middle = scaled(0.5, plus(p, q));
     e.length = length;
-    return !has_two_parts(e, near_.store) && !world_.plc.crowded(s, e);
+    return !has_two_parts(e, near_.store()) && !world_.plc.crowded(s, e);
   }
 
   // Whether a vertex at y takes a corner of the cell.
@@ -136,7 +140,7 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   VoronoiCell3& cell_;
   const bool any_;
   const std::uint64_t before_;
-  FeaturesBeside near_;
+  const FeaturesBeside near_;
   std::vector<Ends> left_;
 };
 

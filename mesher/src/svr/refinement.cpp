@@ -1,13 +1,10 @@
-// The main loop, Split and Insert. (Where a simplex is split: refinement_centres_impl.hpp.)
+// The main loop, Split and Insert.
 #include "svr/refinement.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <string>
 
 #include "delaunay/build.hpp"
 #include "delaunay/spatial_order.hpp"
-#include "svr/refinement_centres_impl.hpp"
 
 namespace mesher::detail {
 
@@ -15,35 +12,16 @@ namespace {
 
 // What is poor on the way, in units of rho [rules D9].
 constexpr double kMeanwhile = 1.25;
-// Of a square: more than twice the error of a radius that the balls have, 2^-21 (simplex_ball.hpp).
-constexpr double kSurely = 1 - 0x1p-18;
-// An off-centre aims a little lower than the bound, so that rounding does not make it poor.
-constexpr double kAim = 1 - 0x1p-16;
-constexpr std::size_t kBetweenWatches = 256;
-
-// The most from the middle of an edge of length 1 to its off-centre. In the plane that is where the
-// triangle of both would have a circumradius of rho; in space lower is better.
-template <int D>
-double offcentre_height(double rho) {
-  const double aim = rho * kAim;
-  return D == 2 ? aim + std::sqrt(aim * aim - 0.25) : rho;
-}
 
 }  // namespace
 
 template <int D>
 Refinement<D>::Refinement(const MeshBox<D>& box, std::span<const Point<D>> points,
                           const Settings& settings)
-    : box_(box),
-      settings_(settings),
-      rho2_(settings.rho * settings.rho * kSurely),
+    : Base(box, settings, points.size()),
+      k_(settings.k),
       skinny2_(points.empty() ? rho2_ : kMeanwhile * kMeanwhile * rho2_),
-      height_(offcentre_height<D>(settings.rho)),
-      tiny_(box.side * 0x1p-60),
-      lists_(points, box.side),
-      kinds_{VertexKind::boundary} {
-  kernel_.reserve(points.size() + points.size() / 2 + 1024);
-}
+      lists_(points, box.side) {}
 
 /// [Fig 2.5].
 template <int D>
@@ -51,9 +29,7 @@ void Refinement<D>::run() {
   start();
   const auto is_crowded = [&](std::uint32_t v) { return lists_.is_crowded(v); };
   for (std::size_t steps = 1;; ++steps) {
-    if (settings_.watch != nullptr && steps % kBetweenWatches == 0) {
-      settings_.watch(kernel_.places());
-    }
+    this->watch(steps, kernel_.places());
     if (const std::uint32_t s = queue_.take_skinny(); s != kNone) {
       split(s);
     } else if (const std::uint32_t v = queue_.crowded(is_crowded); v != kNone) {
@@ -65,7 +41,6 @@ void Refinement<D>::run() {
       split(moderate);
     }
   }
-  stats_.worst_radius_edge = std::sqrt(worst2_);
 }
 
 // --- Initialize [Fig 2.6] --------------------------------------------------------------------
@@ -74,13 +49,13 @@ template <int D>
 void Refinement<D>::start() {
   add_box();
   if (lists_.left() != 0) add_first_point();
-  look_at_all();
+  queue_.make_room(kernel_.simplices().places());
+  this->look_at_all([&](std::uint32_t s) { look_at(s, kernel_.measure(s)); });
 }
 
 template <int D>
 void Refinement<D>::add_box() {
-  std::vector<Point<D>> places;
-  box_.for_each_boundary_point([&](const Point<D>& p) { places.push_back(p); });
+  const std::vector<Point<D>> places = this->boundary();
   std::vector<std::uint32_t> vertices;
   for (const std::uint32_t i : spatial_order<D>(places)) {
     add_place(places[i], VertexKind::boundary);
@@ -114,23 +89,8 @@ void Refinement<D>::add_first_point() {
 }
 
 template <int D>
-void Refinement<D>::look_at_all() {
-  const auto& simplices = kernel_.simplices();
-  queue_.make_room(simplices.places());
-  std::vector<std::uint32_t> all;
-  for (std::uint32_t s = 0; s < simplices.places(); ++s) {
-    if (!simplices.alive(s)) continue;
-    all.push_back(s);
-    look_at(s, kernel_.measure(s));
-  }
-  count_degrees(all, 1);
-}
-
-/// Of a ghost nothing is true.
-template <int D>
 void Refinement<D>::look_at(std::uint32_t s, const Shape& shape) {
-  if (shape.radius2 > worst2_ * shape.shortest2) worst2_ = shape.radius2 / shape.shortest2;
-  if (!(shape.radius2 > rho2_ * shape.shortest2)) return;
+  if (!this->is_poor(shape)) return;
   const bool skinny = shape.radius2 > skinny2_ * shape.shortest2;
   queue_.add(s, skinny ? WorkQueue::Wait::skinny : WorkQueue::Wait::moderately_skinny);
 }
@@ -141,7 +101,7 @@ void Refinement<D>::look_at(std::uint32_t s, const Shape& shape) {
 /// anything is dug [rules D6].
 template <int D>
 void Refinement<D>::split(std::uint32_t s) {
-  const Centre centre = centre_of(s);
+  const Centre<D> centre = centres_.of(kernel_, s);
   const bool warps = lists_.left() != 0 && !centre.on_side;
   if (warps) {
     if (const Found found = point_near_corners(centre, s); found.point != kNone) {
@@ -149,10 +109,10 @@ void Refinement<D>::split(std::uint32_t s) {
       return insert_point(found, s);
     }
   }
-  require_apart(s, centre);
+  centres_.require_apart(kernel_, s, centre);
   const std::uint32_t v =
       add_place(centre.place, centre.on_side ? VertexKind::boundary : VertexKind::steiner);
-  stats_.on_sides += centre.on_side ? 1 : 0;
+  on_sides_ += centre.on_side ? 1 : 0;
   kernel_.dig(v, s);
   const Found found = warps ? point_near_link(centre, s) : Found{};
   if (found.point != kNone) {
@@ -202,19 +162,18 @@ template <int D>
 bool Refinement<D>::is_deep_in(std::uint32_t s, const Point<D>& p, std::uint32_t v) const {
   const Point<D>& c = kernel_.simplices().ball(s).centre;
   const double r2 = squared_distance(c, kernel_.place(v));
-  return squared_distance(c, p) < settings_.k * settings_.k * r2;
+  return squared_distance(c, p) < k_ * k_ * r2;
 }
 
 template <int D>
-auto Refinement<D>::point_near(const Centre& centre, std::uint32_t w) const -> Found {
-  const std::uint32_t point =
-      lists_.find(w, kernel_.place(w), centre.place, settings_.k * centre.radius);
+auto Refinement<D>::point_near(const Centre<D>& centre, std::uint32_t w) const -> Found {
+  const std::uint32_t point = lists_.find(w, kernel_.place(w), centre.place, k_ * centre.radius);
   return {point, w};
 }
 
 /// A point whose insertion takes s out.
 template <int D>
-auto Refinement<D>::point_near_corners(const Centre& centre, std::uint32_t s) const -> Found {
+auto Refinement<D>::point_near_corners(const Centre<D>& centre, std::uint32_t s) const -> Found {
   for (const std::uint32_t w : kernel_.simplices().corners(s)) {
     const Found found = point_near(centre, w);
     if (found.point != kNone && kernel_.conflicts(s, lists_.place(found.point))) return found;
@@ -224,7 +183,7 @@ auto Refinement<D>::point_near_corners(const Centre& centre, std::uint32_t s) co
 
 /// The same in the lists of those around the hole that is dug at the centre.
 template <int D>
-auto Refinement<D>::point_near_link(const Centre& centre, std::uint32_t s) const -> Found {
+auto Refinement<D>::point_near_link(const Centre<D>& centre, std::uint32_t s) const -> Found {
   Found best;
   kernel_.for_each_in_link([&](std::uint32_t w) {
     if (best.point != kNone) return;
@@ -238,12 +197,7 @@ auto Refinement<D>::point_near_link(const Centre& centre, std::uint32_t s) const
 
 template <int D>
 std::uint32_t Refinement<D>::add_place(const Point<D>& p, VertexKind kind) {
-  if (settings_.most_vertices != 0 && kernel_.places() >= settings_.most_vertices) {
-    throw Error(ErrorCode::too_many,
-                "more than " + std::to_string(settings_.most_vertices) + " vertices are needed");
-  }
-  const std::uint32_t v = kernel_.add_place(p);
-  kinds_.push_back(kind);
+  const std::uint32_t v = Base::add_place(p, kind);
   lists_.add_vertex();
   return v;
 }
@@ -273,7 +227,7 @@ void Refinement<D>::insert_lost(const Found& found) {
 template <int D>
 void Refinement<D>::insert_dug(std::uint32_t v, const Found& found) {
   for (const std::uint32_t s : kernel_.doomed()) queue_.forget(s);
-  count_degrees(kernel_.doomed(), -1);
+  this->count_degrees(kernel_.doomed(), -1);
   if (lists_.left() != 0) {
     const Point<D>& p = kernel_.place(v);
     bool is_point = false;
@@ -291,22 +245,14 @@ void Refinement<D>::insert_dug(std::uint32_t v, const Found& found) {
   queue_.make_room(kernel_.simplices().places());
   const auto& made = kernel_.made();
   for (std::size_t k = 0; k < made.size(); ++k) look_at(made[k], kernel_.shape_made(k));
-  count_degrees(made, 1);
+  this->count_made();
 }
 
-/// Of n facets around a vertex in space, n / 2 + 2 corners are its neighbours [Euler].
 template <int D>
-void Refinement<D>::count_degrees(std::span<const std::uint32_t> simplices, int change) {
-  if (!settings_.follow_degrees) return;
-  star_size_.resize(kernel_.places() + 1);
-  for (const std::uint32_t s : simplices) {
-    for (const std::uint32_t w : kernel_.simplices().corners(s)) {
-      std::size_t& size = star_size_[w];
-      size += static_cast<std::size_t>(change);
-      if (w == kInfinite) continue;
-      stats_.largest_degree = std::max(stats_.largest_degree, D == 2 ? size : size / 2 + 2);
-    }
-  }
+SvrStats Refinement<D>::stats() const {
+  SvrStats stats = stats_;
+  this->set_figures(stats);
+  return stats;
 }
 
 template class Refinement<2>;

@@ -1,0 +1,167 @@
+// The thesis's experiments in small [Hudson, Fig 2.2, 2.3, 3.2]: a JSON line a run, and pictures.
+//
+//   experiments [FOLDER [FILE.node]...]
+//
+// FOLDER gets quadratic.svg, line_circle.svg and one k_*.svg an input; without it no pictures.
+// FILEs: inputs in space of the experiment with k beside its own, as the thesis has the bunny.
+//   Fig 2.2  points that are slow for a strict order by shortest edges: seconds by n
+//   Fig 2.3  a line and a circle around it: the most simplices that there ever were, by n; and
+//   those
+//            of the mesh over n, which the thesis says are 42. TetGen's seconds beside, if
+//            installed.
+//   Fig 3.2  vertices and seconds of SVR by k
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mesher/generate.hpp"
+#include "mesher/refine.hpp"
+#include "mesher/svr.hpp"
+#include "plot.hpp"
+#include "sample.hpp"
+#include "tetgen.hpp"
+
+namespace {
+
+using mesher::Point;
+using mesher::RefineOrder;
+using mesher::RefineStats;
+
+constexpr int kRounds = 3;
+
+template <int D>
+mesher::Options<D> options_for(const std::vector<Point<D>>& points) {
+  return {.domain = mesher::snapped_domain<D>(points)};
+}
+
+// A way to mesh points; with statistics, if they are asked for.
+template <int D>
+struct Way {
+  const char* name;
+  RefineStats (*run)(const std::vector<Point<D>>& points, bool with_stats);
+};
+
+template <int D>
+RefineStats by_svr(const std::vector<Point<D>>& points, bool with_stats) {
+  mesher::SvrStats stats;
+  static_cast<void>(
+      mesher::svr<D>(points, options_for<D>(points), {}, {}, with_stats ? &stats : nullptr));
+  return stats;
+}
+template <int D, RefineOrder kOrder, bool kStrict>
+RefineStats by_refine(const std::vector<Point<D>>& points, bool with_stats) {
+  RefineStats stats;
+  static_cast<void>(mesher::refine<D>(points, options_for<D>(points), {kOrder, kStrict}, {},
+                                      with_stats ? &stats : nullptr));
+  return stats;
+}
+template <int D>
+constexpr Way<D> kWays[] = {
+    {"svr", by_svr<D>},
+    {"refine, shortest edge first", by_refine<D, RefineOrder::shortest_edge_first, false>},
+    {"refine, largest first", by_refine<D, RefineOrder::largest_first, false>},
+    {"refine, shortest edge first, strictly", by_refine<D, RefineOrder::shortest_edge_first, true>},
+};
+
+template <class Run>
+double least_seconds(Run&& run) {
+  double least = HUGE_VAL;
+  for (int i = 0; i < kRounds; ++i) least = std::min(least, bench::seconds_of(run));
+  return least;
+}
+
+// All ways for points of several sizes; draws what value(stats, seconds) says.
+template <int D, class Make, class Value>
+bench::Plot compare(const char* figure, const std::vector<std::size_t>& sizes, Make&& make,
+                    Value&& value) {
+  bench::Plot plot;
+  for (const auto& way : kWays<D>) {
+    bench::Curve curve{way.name, {}};
+    for (const std::size_t n : sizes) {
+      const auto points = make(n);
+      const double seconds = least_seconds([&] { way.run(points, false); });
+      const RefineStats stats = way.run(points, true);
+      std::printf(
+          "{\"bench\":\"experiments\",\"figure\":\"%s\",\"way\":\"%s\",\"n\":%zu,\"seconds\":%.5f,"
+          "\"vertices\":%zu,\"simplices_over_n\":%.1f,\"most_simplices\":%zu,\"made\":%zu,"
+          "\"largest_degree\":%zu}\n",
+          figure, way.name, n, seconds, stats.vertices,
+          static_cast<double>(stats.simplices) / static_cast<double>(n), stats.most_simplices,
+          stats.made, stats.largest_degree);
+      std::fflush(stdout);
+      curve.points.push_back({static_cast<double>(n), value(stats, seconds)});
+    }
+    plot.curves.push_back(curve);
+  }
+  return plot;
+}
+
+bench::Plot quadratic() {
+  bench::Plot plot = compare<2>("2.2", {400, 800, 1600, 3200, 6400}, mesher::generate_quadratic,
+                                [](const RefineStats&, double seconds) { return seconds; });
+  plot.title = "Figure 2.2: seconds by number of points";
+  return plot;
+}
+
+bench::Plot line_circle() {
+  const auto make = [](std::size_t n) {
+    return mesher::generate_points<3>(mesher::PointKind::line_circle, n, 1);
+  };
+  const std::vector<std::size_t> sizes{250, 500, 1000, 2000};
+  bench::Plot plot = compare<3>("2.3", sizes, make, [](const RefineStats& stats, double) {
+    return static_cast<double>(stats.most_simplices);
+  });
+  plot.title = "Figure 2.3: the most simplices that there ever were, by number of points";
+  for (const std::size_t n : sizes) {
+    const auto tetgen = bench::run_tetgen(make(n));
+    if (!tetgen) continue;
+    std::printf(
+        "{\"bench\":\"experiments\",\"figure\":\"2.3\",\"way\":\"tetgen\",\"n\":%zu,"
+        "\"seconds\":%.5f,\"vertices\":%zu}\n",
+        n, tetgen->seconds, tetgen->vertices);
+  }
+  return plot;
+}
+
+// Each relative to the one at k = 0.9.
+bench::Plot by_k(const std::string& name, const std::vector<Point<3>>& points) {
+  bench::Curve seconds{"seconds", {}}, vertices{"vertices", {}};
+  const auto measure = [&](double k) {
+    std::size_t count = 0;
+    const double time = least_seconds(
+        [&] { count = mesher::svr<3>(points, options_for<3>(points), {k}).vertices.size(); });
+    return std::pair{time, static_cast<double>(count)};
+  };
+  const auto [time, count] = measure(mesher::SvrSettings{}.k);
+  for (const double k : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.93, 0.96, 0.99}) {
+    const auto [time_k, count_k] = measure(k);
+    std::printf(
+        "{\"bench\":\"experiments\",\"figure\":\"3.2\",\"input\":\"%s\",\"k\":%g,"
+        "\"seconds\":%.4f,\"vertices\":%.0f}\n",
+        name.c_str(), k, time_k, count_k);
+    std::fflush(stdout);
+    seconds.points.push_back({k, time_k / time});
+    vertices.points.push_back({k, count_k / count});
+  }
+  return {"Figure 3.2: " + name + ", by k, over that at k = 0.9", {seconds, vertices}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  const auto draw = [&](const bench::Plot& plot, const std::string& name) {
+    if (!arguments.empty()) plot.write(std::filesystem::path(arguments[0]) / (name + ".svg"));
+  };
+  draw(quadratic(), "quadratic");
+  draw(line_circle(), "line_circle");
+  draw(by_k("line-circle 10000",
+            mesher::generate_points<3>(mesher::PointKind::line_circle, 10000, 1)),
+       "k_line_circle");
+  for (std::size_t i = 1; i < arguments.size(); ++i) {
+    const std::string name = std::filesystem::path(arguments[i]).stem().string();
+    draw(by_k(name, mesher::read_points<3>(arguments[i]).points), "k_" + name);
+  }
+}

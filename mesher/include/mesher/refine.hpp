@@ -1,0 +1,57 @@
+// Traditional Delaunay refinement [Hudson, Fig 2.1; Chew, Ruppert, Shewchuk]: the Delaunay
+// triangulation of all points first, then new vertices in poor simplices until there is none.
+//
+//   const auto mesh = mesher::refine<2>(points, {.domain = mesher::snapped_domain<2>(points)});
+//
+// Of the mesh holds what holds of that of svr (mesher/svr.hpp); it is another one. Where the
+// triangulation of the points is small, as of points that lie evenly, it is made about as soon;
+// where that is large, much later, and it takes the memory of that triangulation.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "mesher/mesh.hpp"
+#include "mesher/mesher.hpp"
+
+namespace mesher {
+
+/// Which poor simplex is split first.
+enum class RefineOrder : std::uint8_t {
+  shortest_edge_first,  ///< mostly fewer vertices [Ungor]: 2% to 8% in the plane, to 4% in space
+  largest_first,        ///< by the circumradius [Miller]: fewer simplices are made in bad inputs
+};
+
+struct RefineSettings {
+  RefineOrder order = RefineOrder::shortest_edge_first;
+  /// Whether the order is kept exactly, which is slow for some points in the plane [Fig 2.2]. Else
+  /// only powers of two of squares are told apart [Fig 1.5]; of equals the last found goes first.
+  bool strict = false;
+};
+
+/// What happened in a run.
+struct RefineStats {
+  std::size_t vertices = 0;
+  std::size_t simplices = 0;
+  std::size_t made = 0;            ///< simplices that refinement made; most of them went again
+  std::size_t most_simplices = 0;  ///< the most that there ever were, the hull's facets counted
+  std::size_t on_sides = 0;        ///< new vertices that were moved onto a side of the box
+  double worst_radius_edge = 0;    ///< of any simplex that there was since refinement began
+  std::size_t largest_degree = 0;  ///< the most neighbours that a vertex ever had since then
+};
+
+/// The mesh. `options`: domain, rho and max_vertices count; `ids`: as many as points, only used in
+/// errors (empty: 1..n).
+/// Requires: ids.empty() || ids.size() == points.size().
+/// Throws: Error (bad_option: as mesh_statically, and for limits of size or another rule;
+///         not_finite, magnitude, outside_domain, duplicate_point, too_close; too_many: beyond
+///         options.max_vertices; cancelled), std::bad_alloc, what control.progress throws.
+/// Cost: that of the Delaunay triangulation of the points, and of the simplices that are made.
+template <int D>
+[[nodiscard]] Mesh<D> refine(const std::vector<Point<D>>& points, const Options<D>& options,
+                             const RefineSettings& settings = {},
+                             const std::vector<FeatureId>& ids = {}, RefineStats* stats = nullptr,
+                             const RunControl& control = {});
+
+}  // namespace mesher

@@ -1,0 +1,71 @@
+// What refinements of points do before and after: checks, the order of points, the mesh.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "facade/meter.hpp"
+#include "mesh/canonical.hpp"
+#include "mesher/mesher.hpp"
+#include "mesher/predicates.hpp"
+#include "svr/distinct_order.hpp"
+
+namespace mesher::detail {
+
+/// `name`: of the algorithm.
+template <int D>
+void require_no_limits(const Options<D>& options, const std::string& name) {
+  const auto refuse = [&](const char* what) { throw Error(ErrorCode::bad_option, name + what); };
+  if (options.rule != Rule::radius_edge) refuse(" needs the rule radius-edge");
+  if (options.max_area != 0 || options.sizes != nullptr || !options.box_limits.empty() ||
+      options.region_limits != nullptr) {
+    refuse(" knows no limits of size");
+  }
+}
+
+template <int D, class Algorithm>
+[[nodiscard]] Mesh<D> mesh_of(const Algorithm& algorithm) {
+  const auto& kernel = algorithm.kernel();
+  const auto& store = kernel.simplices();
+  std::vector<typename Mesh<D>::Simplex> simplices;
+  simplices.reserve(store.size());
+  for (std::uint32_t s = 0; s < store.places(); ++s) {
+    if (store.alive(s) && !kernel.is_ghost(s)) simplices.push_back(store.corners(s));
+  }
+  std::vector<Point<D>> places;
+  places.reserve(kernel.places());
+  for (std::uint32_t v = 1; v <= kernel.places(); ++v) places.push_back(kernel.place(v));
+  return canonical<D>(places, std::span(algorithm.kinds()).subspan(1), 1, simplices);
+}
+
+/// What an Algorithm makes of the points. `settings`: but for what is in `options`.
+template <template <int> class Algorithm, int D, class Stats>
+[[nodiscard]] Mesh<D> mesh_points(const std::vector<Point<D>>& points, const Options<D>& options,
+                                  typename Algorithm<D>::Settings settings,
+                                  const std::vector<FeatureId>& ids, Stats* stats,
+                                  const RunControl& control) {
+  const MeshBox<D> box = mesh_box(options);
+  settings.rho = options.rho;
+  settings.most_vertices = options.max_vertices;
+  settings.follow_degrees = stats != nullptr;
+  if (watches(control)) {
+    settings.watch = [&](std::size_t vertices) {
+      if (!report(control, {.phase = Phase::steiner, .done = vertices})) fail_cancelled();
+    };
+  }
+  const std::vector<Point<D>> sorted = in_distinct_order<D>(points, ids, options.domain, box);
+  Algorithm<D> algorithm(box, sorted, settings);
+  algorithm.run();
+  Mesh<D> mesh = mesh_of<D>(algorithm);
+  if (stats != nullptr) {
+    *stats = algorithm.stats();
+    stats->vertices = mesh.vertices.size();
+    stats->simplices = mesh.simplices.size();
+  }
+  return mesh;
+}
+
+}  // namespace mesher::detail

@@ -1,0 +1,91 @@
+// What refinements of points have in common: a Delaunay kernel in a box, whose simplices keep their
+// balls, kinds of vertices, and figures of the run.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "delaunay/kernel.hpp"
+#include "geometry/grid.hpp"
+#include "mesher/refine.hpp"
+#include "svr/centres.hpp"
+
+namespace mesher::detail {
+
+template <int D>
+class RefinedMesh {
+ public:
+  using Kernel = DelaunayKernel<D, BallLayout<D>>;
+
+  struct Settings {
+    double rho = 2;
+    std::size_t most_vertices = 0;  // 0: any number
+    bool follow_degrees = false;
+    std::function<void(std::size_t)> watch{};  // called now and then with the number of vertices
+  };
+
+  [[nodiscard]] const Kernel& kernel() const noexcept { return kernel_; }
+  /// By vertex; of infinity, too.
+  [[nodiscard]] const std::vector<VertexKind>& kinds() const noexcept { return kinds_; }
+
+ protected:
+  RefinedMesh(const MeshBox<D>& box, const Settings& settings, std::size_t points);
+
+  /// Throws: Error(too_many) beyond settings.most_vertices, what add_place() of the kernel throws.
+  std::uint32_t add_place(const Point<D>& p, VertexKind kind);
+  /// Of the box with its grids.
+  [[nodiscard]] std::vector<Point<D>> boundary() const;
+  /// Now and then, of `count` vertices.
+  void watch(std::size_t step, std::size_t count) const {
+    if (settings_.watch != nullptr && step % kBetweenWatches == 0) settings_.watch(count);
+  }
+  /// Whether the simplex is poor; of a ghost nothing is true.
+  [[nodiscard]] bool is_poor(const Shape& shape) noexcept {
+    if (shape.radius2 > worst2_ * shape.shortest2) worst2_ = shape.radius2 / shape.shortest2;
+    return shape.radius2 > rho2_ * shape.shortest2;
+  }
+  /// Before and after an insertion: of kernel_.doomed() and made().
+  void count_degrees(std::span<const std::uint32_t> simplices, int change);
+  void count_made() {
+    made_ += kernel_.made().size();
+    count_degrees(kernel_.made(), 1);
+  }
+  /// Calls look(s) for each simplex and counts them.
+  template <class Look>
+  void look_at_all(Look&& look);
+  /// All but what is counted in the result.
+  void set_figures(RefineStats& stats) const;
+
+  MeshBox<D> box_;
+  double rho2_;
+  Kernel kernel_;
+  Centres<D> centres_;
+  std::vector<VertexKind> kinds_{VertexKind::boundary};
+  std::size_t on_sides_ = 0;
+
+ private:
+  static constexpr std::size_t kBetweenWatches = 256;
+
+  Settings settings_;
+  double worst2_ = 0;  // radius-edge ratio, squared
+  std::size_t made_ = 0, largest_degree_ = 0;
+  std::vector<std::size_t> star_size_;  // by vertex, if degrees are followed
+};
+
+template <int D>
+template <class Look>
+void RefinedMesh<D>::look_at_all(Look&& look) {
+  const auto& simplices = kernel_.simplices();
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t s = 0; s < simplices.places(); ++s) {
+    if (!simplices.alive(s)) continue;
+    all.push_back(s);
+    look(s);
+  }
+  count_degrees(all, 1);
+}
+
+}  // namespace mesher::detail

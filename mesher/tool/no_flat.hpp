@@ -1,0 +1,35 @@
+// The option --no-flat: what is written has no flat tetrahedra.
+#pragma once
+
+#include <cstdio>
+#include <utility>
+
+#include "arguments.hpp"
+#include "mesher/domain_mesh.hpp"
+#include "mesher/flat.hpp"
+
+namespace tool {
+
+inline mesher::Mesh<2> without_flat(const MeshArguments&, mesher::Mesh<2> all) { return all; }
+/// Says how many stay.
+inline mesher::Mesh<3> without_flat(const MeshArguments& args, mesher::Mesh<3> all) {
+  if (!args.no_flat) return all;
+  mesher::Unflattened result = mesher::without_flat_tetrahedra(std::move(all));
+  if (result.left > 0 && !args.quiet) {
+    std::fprintf(stderr, "%s: note: %zu flat tetrahedra stay\n", args.input.c_str(), result.left);
+  }
+  return std::move(result.mesh);
+}
+
+/// What a mesher has made, a DomainMesher or one like it.
+template <int D, class Target>
+mesher::DomainMeshOf<D> kept_of(const MeshArguments& args, const Target& target) {
+  if constexpr (D == 3) {
+    if (args.no_flat) {
+      return mesher::domain_mesh(without_flat(args, target.mesh()), target.input(), extent(args));
+    }
+  }
+  return target.domain_mesh();
+}
+
+}  // namespace tool
