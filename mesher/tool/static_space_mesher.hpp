@@ -35,7 +35,6 @@ class StaticSpaceMesher : public StaticSeeds<3> {
   [[nodiscard]] mesher::Plc input() const;
   [[nodiscard]] const mesher::Options<3>& options() const { return options_; }
   [[nodiscard]] const mesher::MeshStats& stats() const { return stats_; }
-  [[nodiscard]] mesher::Plc input() const { return complex(); }
 
  private:
   using Polygons = std::map<mesher::FeatureId, mesher::Plc::Facet>;

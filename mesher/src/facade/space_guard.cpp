@@ -30,9 +30,9 @@ class EdgeBeside {
         q_(*world.vertices.tree().find(q)),
         middle_(scaled(0.5, plus(p, q))),
         length_(std::sqrt(squared_distance(p, q))),
-        near_{world.plc.store(), middle_, kBesideEdge * length_} {
-    near_.polygons = find_near<Polygon>(middle_, near_.radius, near_.store);
-  }
+        reach_(kBesideEdge * length_),
+        near_(world.plc.store(), middle_, reach_, reach_),
+        polygons_(find_near<Polygon>(middle_, reach_, near_.store())) {}
 
   /// Whether small angles excuse it.
   [[nodiscard]] bool is_kept() const {
@@ -47,15 +47,15 @@ class EdgeBeside {
     std::tuple<double, bool, bool, FeatureId> best_key;
     const auto look = [&](const auto& f, bool is_polygon, const ShortEdge& e) {
       if (!world_.plc.is_lonely(e)) return;
-      const Beside beside = name(f, near_.polygons);
+      const Beside beside = name(f, polygons_);
       const std::tuple key(std::sqrt(distance2_to(middle_, f)), is_polygon, beside.is_polygon,
                            beside.feature);
       if (!best || key < best_key) best = beside, best_key = key;
     };
-    for (const Edge* e : find_near<Edge>(middle_, near_.radius, near_.store)) {
+    for (const Edge* e : find_near<Edge>(middle_, reach_, near_.store())) {
       look(*e, false, {e, nullptr, middle_, length_});
     }
-    for (const Polygon* f : near_.polygons) look(*f, true, {nullptr, f, middle_, length_});
+    for (const Polygon* f : polygons_) look(*f, true, {nullptr, f, middle_, length_});
     return best;
   }
 
@@ -64,8 +64,9 @@ class EdgeBeside {
   const Vertex<3>& p_;
   const Vertex<3>& q_;
   Point<3> middle_;
-  double length_;
+  double length_, reach_;
   FeaturesBeside near_;
+  std::vector<const Polygon*> polygons_;
 };
 
 }  // namespace
