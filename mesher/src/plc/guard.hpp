@@ -53,7 +53,7 @@ struct GuardPieces : SpacePieces<ShortEdge, GuardBall> {
 };
 
 /// The feature that a new point x is beside: what it yields to, else the first of those within
-/// `reach` of it, edges before polygons; nothing if there is none. Of what near.radius has.
+/// `reach` of it, edges before polygons; nothing if there is none.
 [[nodiscard]] ShortEdge beside_new(const FeaturesBeside& near, const std::optional<Placed>& yields,
                                    const Point<3>& x, double reach);
 

@@ -3,8 +3,8 @@
 // No edge or face of the mesh is remembered: an edge of the input is a union of the mesh's edges,
 // and a polygon of its faces, once no vertex that is not on it has a cell that meets it. So
 // Complete(v) asks the features of the input near v, and that is a function of v's cell and these:
-// who has looked at v's cell is told when a feature near it comes or goes
-// (VertexIndex::features_changed).
+// who has looked at v's cell is told when a feature as near as it has asked comes or goes
+// (VertexIndex::feature_changed).
 #pragma once
 
 #include <algorithm>
@@ -31,8 +31,14 @@ class Staying<S, 3> final : public EdgeFilter<3> {
         cell_(cell),
         any_(world.has_features()),
         before_(world.plc.store().looked_at()),
-        near_(world.plc.store(), cell.center().p, std::sqrt(cell.reach2()),
-              world.vertices.beside(cell)) {}
+        near_(world.plc.store(), cell.center().p, any_ ? std::sqrt(cell.reach2()) : 0,
+              any_ ? world.vertices.beside(cell) : 0) {}
+  Staying(const Staying&) = delete;
+  Staying& operator=(const Staying&) = delete;
+  /// Whoever observes the cell has asked as far as this call did.
+  ~Staying() {
+    if (any_) world_.vertices.note_asked(near_.asked());
+  }
 
   [[nodiscard]] bool any() const noexcept { return any_; }
   /// This, for a rule; null where nothing can stay.
@@ -45,9 +51,7 @@ class Staying<S, 3> final : public EdgeFilter<3> {
 
   [[nodiscard]] bool skips(const VoronoiCell3& cell, int p, int q) const override {
     if (std::find(left_.begin(), left_.end(), ends(cell, p, q)) != left_.end()) return true;
-    const bool keeps = angles().keeps(standing(vertex(cell, p)), standing(vertex(cell, q)));
-    note_asked();
-    return keeps;
+    return angles().keeps(standing(vertex(cell, p)), standing(vertex(cell, q)));
   }
   [[nodiscard]] bool skips_large(const VoronoiCell3&, int, int) const override { return false; }
 
@@ -57,16 +61,15 @@ class Staying<S, 3> final : public EdgeFilter<3> {
     for (const Edge* e : find_in(cell_, near_.store())) clear(s, *e, b);
     const auto polygons = near_.polygons(near_.place(), 0);  // clear() asks for more
     for (const Polygon* f : polygons) clear(s, *f, b);
-    note_asked();
   }
 
   /// Whether x yields: a vertex is inserted instead, on a feature; or is refused.
   Outcome yields(S& s, const typename InsertionRule<3>::NewPoint& x, int b) {
     const auto y = yield(near_, x.p, std::sqrt(x.nearest2));
-    const bool refused = world_.guarded && is_refused(s, x, y);
-    if (y && !refused) insert(s, helps(*y, x.corner) ? *y : instead_of(x.corner), b);
-    note_asked();
-    return refused ? Outcome::refused : y ? Outcome::yielded : Outcome::stands;
+    if (world_.guarded && is_refused(s, x, y)) return Outcome::refused;
+    if (!y) return Outcome::stands;
+    insert(s, helps(*y, x.corner) ? *y : instead_of(x.corner), b);
+    return Outcome::yielded;
   }
 
  private:
@@ -77,7 +80,6 @@ class Staying<S, 3> final : public EdgeFilter<3> {
     const auto [first, last] = std::minmax({vertex(cell, p).self, vertex(cell, q).self});
     return {first, last};
   }
-  void note_asked() const { world_.vertices.note_asked(near_.asked()); }
   [[nodiscard]] const Vertex<3>& vertex(const VoronoiCell3& cell, int i) const {
     return i == kCentre ? cell.center() : world_.vertices.pool()[cell.handle(i)];
   }

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "failing_new.hpp"
+#include "feature_ids.hpp"
 #include "mesher/generate.hpp"
 #include "space_parcels.hpp"
 #include "space_parts.hpp"
@@ -15,15 +16,10 @@ using mesher::Mesher;
 using mesher::Options;
 using mesher::Point;
 using mesher::Polygon;
+using support::id;
+using support::ids;
 using support::parts_of;
 using support::SpaceParts;
-
-FeatureId id(std::int64_t i) { return FeatureId{i}; }
-std::vector<FeatureId> ids(std::initializer_list<std::int64_t> values) {
-  std::vector<FeatureId> all;
-  for (const auto v : values) all.push_back(id(v));
-  return all;
-}
 
 const Options<3> kOptions{.domain = {{0, 0, 0}, {2, 2, 2}}};
 
@@ -79,7 +75,8 @@ TEST_CASE("After random edits the parts of features are the old ones with the up
   CHECK(refused < 30);
 }
 
-TEST_CASE("A polygon that comes along another's edge gives its parts another name, and takes none") {
+TEST_CASE(
+    "A polygon that comes along another's edge gives its parts another name, and takes none") {
   Scene s;
   s.m.insert_polygon(s.second());
   s.update();
@@ -186,8 +183,8 @@ TEST_CASE("The first run reports all parts, and one without features none") {
 // Many parts on a long edge and in a large polygon, and an edit beside a few.
 TEST_CASE("What an update reports of a large polygon is what is near the edit") {
   Scene s;
-  s.m.insert(ids({31, 32, 33, 34}), {{0.05, 0.05, 0.5}, {1.95, 0.05, 0.5}, {1.95, 1.95, 0.5},
-                                     {0.05, 1.95, 0.5}});
+  s.m.insert(ids({31, 32, 33, 34}),
+             {{0.05, 0.05, 0.5}, {1.95, 0.05, 0.5}, {1.95, 1.95, 0.5}, {0.05, 1.95, 0.5}});
   s.m.insert_polygon({id(7), {ids({31, 32, 33, 34})}});
   mesher::SplitMix64 random(3);
   for (std::int64_t i = 100; i < 400; ++i) {

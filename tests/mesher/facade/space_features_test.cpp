@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "failing_new.hpp"
+#include "feature_ids.hpp"
 #include "mesher/error.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"
@@ -22,13 +23,8 @@ using mesher::Mesher;
 using mesher::Options;
 using mesher::Point;
 using mesher::Polygon;
-
-FeatureId id(std::int64_t i) { return FeatureId{i}; }
-std::vector<FeatureId> ids(std::initializer_list<std::int64_t> values) {
-  std::vector<FeatureId> all;
-  for (const auto v : values) all.push_back(id(v));
-  return all;
-}
+using support::id;
+using support::ids;
 
 const Options<3> kOptions{.domain = {{0, 0, 0}, {1, 1, 1}}};
 

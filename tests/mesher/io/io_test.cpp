@@ -8,6 +8,7 @@
 #include <limits>
 #include <sstream>
 
+#include "feature_ids.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/svg.hpp"
 #include "scratch_file.hpp"
@@ -20,13 +21,8 @@ using mesher::Point;
 using mesher::VertexKind;
 using support::error_of;
 using support::failure_of;
+using support::ids;
 using support::ScratchFolder;
-
-std::vector<FeatureId> ids(std::initializer_list<std::int64_t> values) {
-  std::vector<FeatureId> out;
-  for (const auto value : values) out.push_back(FeatureId{value});
-  return out;
-}
 
 mesher::PointFile<2> read(const std::string& name, const std::string& content) {
   const ScratchFolder folder;

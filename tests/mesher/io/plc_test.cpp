@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <fstream>
 
+#include "feature_ids.hpp"
 #include "mesher/generate.hpp"
 #include "random_mistakes.hpp"
 #include "scratch_file.hpp"
@@ -19,17 +20,11 @@ using mesher::PlcFile;
 using mesher::Point;
 using support::error_of;
 using support::failure_of;
+using support::id;
+using support::ids;
 using support::ScratchFolder;
 
 using Loops = std::vector<std::vector<FeatureId>>;
-
-FeatureId id(std::int64_t value) { return FeatureId{value}; }
-
-std::vector<FeatureId> ids(std::initializer_list<std::int64_t> values) {
-  std::vector<FeatureId> out;
-  for (const auto value : values) out.push_back(id(value));
-  return out;
-}
 
 PlcFile read(const std::string& name, const std::string& content) {
   const ScratchFolder folder;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 
+#include "feature_ids.hpp"
 #include "mesher/domain_mesh.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/io.hpp"
@@ -22,15 +23,9 @@ using mesher::Pslg;
 using mesher::PslgFile;
 using support::error_of;
 using support::failure_of;
+using support::id;
+using support::ids;
 using support::ScratchFolder;
-
-FeatureId id(std::int64_t value) { return FeatureId{value}; }
-
-std::vector<FeatureId> ids(std::initializer_list<std::int64_t> values) {
-  std::vector<FeatureId> out;
-  for (const auto value : values) out.push_back(id(value));
-  return out;
-}
 
 PslgFile read(const std::string& name, const std::string& content) {
   const ScratchFolder folder;
