@@ -6,20 +6,21 @@
 // FILEs: inputs in space of the experiment with k beside its own, as the thesis has the bunny.
 //   Fig 2.2  points that are slow for a strict order by shortest edges: seconds by n
 //   Fig 2.3  a line and a circle around it: the most simplices that there ever were, by n; and
-//   those
-//            of the mesh over n, which the thesis says are 42. TetGen's seconds beside, if
+//            those of the mesh over n, which the thesis says are 42. TetGen's seconds beside, if
 //            installed.
 //   Fig 3.2  vertices and seconds of SVR by k
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "chart.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/refine.hpp"
 #include "mesher/svr.hpp"
-#include "plot.hpp"
 #include "sample.hpp"
 #include "tetgen.hpp"
 
@@ -40,6 +41,7 @@ mesher::Options<D> options_for(const std::vector<Point<D>>& points) {
 template <int D>
 struct Way {
   const char* name;
+  const char* colour;
   RefineStats (*run)(const std::vector<Point<D>>& points, bool with_stats);
 };
 
@@ -59,10 +61,11 @@ RefineStats by_refine(const std::vector<Point<D>>& points, bool with_stats) {
 }
 template <int D>
 constexpr Way<D> kWays[] = {
-    {"svr", by_svr<D>},
-    {"refine, shortest edge first", by_refine<D, RefineOrder::shortest_edge_first, false>},
-    {"refine, largest first", by_refine<D, RefineOrder::largest_first, false>},
-    {"refine, shortest edge first, strictly", by_refine<D, RefineOrder::shortest_edge_first, true>},
+    {"svr", "#1b6", by_svr<D>},
+    {"refine, shortest edge first", "#26c", by_refine<D, RefineOrder::shortest_edge_first, false>},
+    {"refine, largest first", "#c62", by_refine<D, RefineOrder::largest_first, false>},
+    {"refine, shortest edge first, strictly", "#a2a",
+     by_refine<D, RefineOrder::shortest_edge_first, true>},
 };
 
 template <class Run>
@@ -74,11 +77,11 @@ double least_seconds(Run&& run) {
 
 // All ways for points of several sizes; draws what value(stats, seconds) says.
 template <int D, class Make, class Value>
-bench::Plot compare(const char* figure, const std::vector<std::size_t>& sizes, Make&& make,
-                    Value&& value) {
-  bench::Plot plot;
+std::vector<bench::Series> compare(const char* figure, const std::vector<std::size_t>& sizes,
+                                   Make&& make, Value&& value) {
+  std::vector<bench::Series> all;
   for (const auto& way : kWays<D>) {
-    bench::Curve curve{way.name, {}};
+    bench::Series series{way.name, way.colour, {}};
     for (const std::size_t n : sizes) {
       const auto points = make(n);
       const double seconds = least_seconds([&] { way.run(points, false); });
@@ -91,29 +94,30 @@ bench::Plot compare(const char* figure, const std::vector<std::size_t>& sizes, M
           static_cast<double>(stats.simplices) / static_cast<double>(n), stats.most_simplices,
           stats.made, stats.largest_degree);
       std::fflush(stdout);
-      curve.points.push_back({static_cast<double>(n), value(stats, seconds)});
+      series.points.push_back({static_cast<double>(n), value(stats, seconds)});
     }
-    plot.curves.push_back(curve);
+    all.push_back(series);
   }
-  return plot;
+  return all;
 }
 
-bench::Plot quadratic() {
-  bench::Plot plot = compare<2>("2.2", {400, 800, 1600, 3200, 6400}, mesher::generate_quadratic,
-                                [](const RefineStats&, double seconds) { return seconds; });
-  plot.title = "Figure 2.2: seconds by number of points";
-  return plot;
+bench::Panel quadratic() {
+  const auto seconds = [](const RefineStats&, double seconds) { return seconds; };
+  return {"Figure 2.2: seconds", "points", true,
+          compare<2>("2.2", {400, 800, 1600, 3200, 6400}, mesher::generate_quadratic, seconds),
+          true};
 }
 
-bench::Plot line_circle() {
+bench::Panel line_circle() {
   const auto make = [](std::size_t n) {
     return mesher::generate_points<3>(mesher::PointKind::line_circle, n, 1);
   };
   const std::vector<std::size_t> sizes{250, 500, 1000, 2000};
-  bench::Plot plot = compare<3>("2.3", sizes, make, [](const RefineStats& stats, double) {
+  const auto most = [](const RefineStats& stats, double) {
     return static_cast<double>(stats.most_simplices);
-  });
-  plot.title = "Figure 2.3: the most simplices that there ever were, by number of points";
+  };
+  const bench::Panel panel{"Figure 2.3: the most simplices that there ever were", "points", true,
+                           compare<3>("2.3", sizes, make, most), true};
   for (const std::size_t n : sizes) {
     const auto tetgen = bench::run_tetgen(make(n));
     if (!tetgen) continue;
@@ -122,12 +126,12 @@ bench::Plot line_circle() {
         "\"seconds\":%.5f,\"vertices\":%zu}\n",
         n, tetgen->seconds, tetgen->vertices);
   }
-  return plot;
+  return panel;
 }
 
 // Each relative to the one at k = 0.9.
-bench::Plot by_k(const std::string& name, const std::vector<Point<3>>& points) {
-  bench::Curve seconds{"seconds", {}}, vertices{"vertices", {}};
+bench::Panel by_k(const std::string& name, const std::vector<Point<3>>& points) {
+  bench::Series seconds{"seconds", "#1b6", {}}, vertices{"vertices", "#26c", {}};
   const auto measure = [&](double k) {
     std::size_t count = 0;
     const double time = least_seconds(
@@ -145,15 +149,20 @@ bench::Plot by_k(const std::string& name, const std::vector<Point<3>>& points) {
     seconds.points.push_back({k, time_k / time});
     vertices.points.push_back({k, count_k / count});
   }
-  return {"Figure 3.2: " + name + ", by k, over that at k = 0.9", {seconds, vertices}};
+  return {"Figure 3.2: " + name + ", over that at k = 0.9", "k", true, {seconds, vertices}};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  const auto draw = [&](const bench::Plot& plot, const std::string& name) {
-    if (!arguments.empty()) plot.write(std::filesystem::path(arguments[0]) / (name + ".svg"));
+  if (!arguments.empty()) std::filesystem::create_directories(arguments[0]);
+  const auto draw = [&](const bench::Panel& panel, const std::string& name) {
+    if (arguments.empty()) return;
+    const auto path = std::filesystem::path(arguments[0]) / (name + ".svg");
+    std::ofstream file(path);
+    file << bench::Chart::draw({panel}, 1);
+    if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
   };
   draw(quadratic(), "quadratic");
   draw(line_circle(), "line_circle");

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "../../mesher/bench/chart.hpp"
 #include "../../mesher/bench/sample.hpp"
-#include "chart.hpp"
 #include "ground.hpp"
 
 namespace bench {
