@@ -51,7 +51,7 @@ std::vector<Case> cases() {
   std::vector<Case> all;
   const auto constant = [&](const char* name, double area, int model) {
     Options<2> options{.domain = SizedSquare::domain()};
-    options.max_area = area;
+    options.max_measure = area;
     all.push_back({name, options, SizesInSquare::size(area), model});
   };
   const auto varying = [&](const char* name, double area, const SizesInSquare& sizes, int model) {
@@ -160,7 +160,7 @@ void print_discs(const Case& c, mesher::Mesher<2>& m, double radius) {
   while (edits.vertices.size() < 20) {
     const Point<2> p{random.unit(), random.unit()};
     if (SizedSquare::beyond(p) > -radius) continue;
-    const double size = std::sqrt(c.options.max_area / mesher::kAreaOfSize);
+    const double size = std::sqrt(c.options.max_measure / mesher::kAreaOfSize);
     const auto disc = std::make_shared<Disc>(p, radius, size);
     const auto count = [&] {
       const auto mesh = m.mesh();
@@ -169,10 +169,10 @@ void print_discs(const Case& c, mesher::Mesher<2>& m, double radius) {
                         [&](const Point<2>& v) { return disc->contains(v); }));
     };
     const double before = count();
-    m.limit(disc->box(), {.max_area = 0, .sizes = disc});
+    m.limit(disc->box(), {.max_measure = 0, .sizes = disc});
     update(m, edits);
     inside.push_back(before + count());
-    m.limit(disc->box(), {.max_area = c.options.max_area});
+    m.limit(disc->box(), {.max_measure = c.options.max_measure});
     update(m, edits);
     inside.push_back(inside.back());
   }
@@ -195,17 +195,17 @@ void print_edits(const Case& c) {
   m.update();
   random_edits(m, 0).print("point", c);
   random_edits(m, 3 * c.spacing).print("segment", c);
-  if (c.options.max_area == 0) return;
+  if (c.options.max_measure == 0) return;
   for (const double spacings : {3.0, 10.0}) print_discs(c, m, spacings * c.spacing);
 }
 
 void print_file(const char* path, double area) {
   bench::Input in = bench::file_input(path);
-  in.options.max_area = area;
+  in.options.max_measure = area;
   const auto start = Clock::now();
   const auto mesh = mesh_statically(in.points, in.segments, in.options, in.ids);
   std::printf(
-      "{\"bench\":\"sizes\",\"figure\":\"static\",\"file\":\"%s\",\"max_area\":%g,\"vertices\":%zu,"
+      "{\"bench\":\"sizes\",\"figure\":\"static\",\"file\":\"%s\",\"max_measure\":%g,\"vertices\":%zu,"
       "\"seconds\":%.4f}\n",
       path, area, mesh.vertices.size(), seconds_since(start));
 }

@@ -81,14 +81,18 @@ std::size_t option_count(const std::string& option, const std::string& text) {
   throw Error(ErrorCode::bad_option, option + " '" + text + "': not a whole number above 0");
 }
 
-void add_limits(const MeshArguments& args, mesher::Options<2>& options) {
-  if (!args.max_area.empty()) options.max_area = option_positive("--max-area", args.max_area);
+template <int D>
+void add_limits(const MeshArguments& args, mesher::Options<D>& options) {
+  const std::string& measure = D == 2 ? args.max_area : args.max_volume;
+  const char* const name = D == 2 ? "--max-area" : "--max-volume";
+  if (!measure.empty()) options.max_measure = option_positive(name, measure);
   if (!args.max_size.empty()) {
-    const double h = option_positive("--max-size", args.max_size);
-    options.max_area = mesher::kAreaOfSize * h * h;
+    options.max_measure = mesher::measure_of_size<D>(option_positive("--max-size", args.max_size));
   }
-  if (args.sizes.empty()) return;
-  options.sizes = mesher::sampled_sizes(mesher::read_sizes(args.sizes).samples);
+  if constexpr (D == 2) {
+    if (args.sizes.empty()) return;
+    options.sizes = mesher::sampled_sizes(mesher::read_sizes(args.sizes).samples);
+  }
 }
 
 template <int D>
@@ -130,9 +134,7 @@ mesher::Options<D> common_options(const MeshArguments& args, const InputOf<D>& i
 
 void require_no_plane_options(const MeshArguments& args) {
   const std::pair<const char*, bool> given[] = {{"--max-area", !args.max_area.empty()},
-                                                {"--max-size", !args.max_size.empty()},
                                                 {"--sizes", !args.sizes.empty()},
-                                                {"--region-areas", args.region_areas},
                                                 {"--repair", args.repair}};
   for (const auto& [option, is_given] : given) {
     if (!is_given) continue;
@@ -207,10 +209,14 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
           "(default: no limit)")
       ->type_name("A");
   command
+      .add_option("--max-volume", args.max_volume, "The same of tetrahedra, in space")
+      ->type_name("V");
+  command
       .add_option("--max-size", args.max_size,
-                  "The same by the edges H of an equilateral triangle of that area")
+                  "The same by the edges H of a regular triangle, or tetrahedron, as large as that")
       ->type_name("H")
-      ->excludes("--max-area");
+      ->excludes("--max-area")
+      ->excludes("--max-volume");
   command
       .add_option("--sizes", args.sizes,
                   "A background of such H: .node with one value a point, or .csv with x,y,h;\n"
@@ -234,8 +240,8 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
   command.add_flag("--repair", args.repair,
                    "Lines that cross or touch get a common point there, points in one place are\n"
                    "one, what lines share is that of the smallest id; each is reported");
-  command.add_flag("--region-areas", args.region_areas,
-                   "The largest areas of regions are limits of size");
+  command.add_flag("--region-areas,--region-volumes", args.region_areas,
+                   "The largest areas, or volumes, of regions are limits of size");
   command.add_flag(
       "--box", args.box,
       "All of the box, not only what lines (in space polygons) enclose less the holes");
@@ -305,6 +311,10 @@ SpaceInput read_input<3>(const MeshArguments& args) {
 }
 
 mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input) {
+  if (!args.max_volume.empty()) {
+    throw Error(ErrorCode::bad_option, "--max-volume is for space; INPUT is in the plane",
+                {args.input});
+  }
   auto options = common_options<2>(args, input);
   add_limits(args, options);
   return options;
@@ -312,7 +322,9 @@ mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input) {
 
 mesher::Options<3> mesh_options(const MeshArguments& args, const SpaceInput& input) {
   require_no_plane_options(args);
-  return common_options<3>(args, input);
+  auto options = common_options<3>(args, input);
+  add_limits(args, options);
+  return options;
 }
 
 template <int D>

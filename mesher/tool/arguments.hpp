@@ -20,7 +20,7 @@ struct MeshArguments {
   std::string rho;        // empty: the default of the dimension
   std::string rule = "radius-edge";
   std::vector<std::string> domain;  // the lower corner, the upper corner; or nothing
-  std::string max_area, max_size, sizes;
+  std::string max_area, max_volume, max_size, sizes;
   std::string max_vertices;
   bool region_areas = false;
   bool surface = false, merge = false;

@@ -23,7 +23,7 @@ struct CheckArguments {
   std::string input;
   std::string rho;
   std::string boundary = "auto";
-  std::string max_area;
+  std::string max_area, max_volume;
   bool constrained = false;
   bool ties = false, near = false;
   bool surface = false, merge = false;
@@ -90,6 +90,7 @@ std::string counts_of(const mesher::MeshDataOf<D>& mesh) {
 
 Judged judge(const CheckArguments& args, mesher::MeshDataOf<2>& mesh) {
   if (args.ties) refuse(args, "--ties", "tetrahedra");
+  if (!args.max_volume.empty()) refuse(args, "--max-volume", "tetrahedra");
   if (args.near) refuse(args, "--near", "tetrahedra");
   if (args.surface || args.merge) refuse(args, args.merge ? "--merge" : "--surface", "tetrahedra");
   mesher::PslgFile graph;
@@ -126,6 +127,9 @@ Judged judge(const CheckArguments& args, mesher::MeshDataOf<3>& mesh) {
   if (input) options.input = &points;
   if (input && input->is_complex()) options.complex = &complex;
   if (!args.rho.empty()) options.rho = option_rho(args.rho);
+  if (!args.max_volume.empty()) {
+    options.max_volume = option_positive("--max-volume", args.max_volume);
+  }
   options.boundary = boundary_rule(args, mesh, options.complex);
   options.ties = args.ties;
   options.near_delaunay = args.near;
@@ -170,6 +174,7 @@ void add_check(CLI::App& app) {
   check->add_flag("--merge", args->merge, "Likewise, made one as by 'mesh'");
   check->add_option("--rho", args->rho, "Bound of circumradius over shortest edge");
   check->add_option("--max-area", args->max_area, "Bound of the area of triangles");
+  check->add_option("--max-volume", args->max_volume, "Bound of the volume of tetrahedra");
   check
       ->add_option(
           "--boundary", args->boundary,
@@ -207,7 +212,7 @@ void add_check(CLI::App& app) {
       "  mesher check lake.1.node --input lake.poly --rho 1.4142 --max-area 0.01\n"
       "  mesher check plate.msh --constrained\n"
       "  mesher check cloud.vtu --input cloud.node --rho 2 --ties\n"
-      "  mesher check pump.vtu --input pump.poly --rho 2");
+      "  mesher check pump.vtu --input pump.poly --rho 2 --max-volume 0.01");
   check->callback([args] { run_check(*args); });
 }
 

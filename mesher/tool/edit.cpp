@@ -101,9 +101,10 @@ void run_edit_in_space(const EditArguments& args) {
   SpaceInput input = read_input<3>(args);
   const auto options = mesh_options(args, input);
   if (args.is_static) {
-    return run_edit_on<3>(StaticSpaceMesher(options, extent(args)), args, std::move(input));
+    return run_edit_on<3>(StaticSpaceMesher(options, extent(args), region_areas(args)), args,
+                          std::move(input));
   }
-  auto mesher = mesher_for<mesher::DomainMesherOf<3>>(input, options, extent(args));
+  auto mesher = mesher_for<mesher::DomainMesherOf<3>>(input, options, extent(args), region_areas(args));
   run_edit_on<3>(std::move(mesher), args, std::move(input));
 }
 

@@ -36,7 +36,7 @@ class Standing {
   void follow(const std::vector<mesher::EditOf<D>>& edits) {
     for (const auto& edit : edits) {
       edited_.insert_or_assign({mesher::featured(edit.kind), edit.id}, edit.place);
-      edits_areas_ = edits_areas_ || edit.max_area.has_value();
+      edits_areas_ = edits_areas_ || edit.max_measure.has_value();
     }
   }
 

@@ -136,17 +136,20 @@ Result<D> mesh(const MeshArguments& args, const InputOf<D>& input,
   return result;
 }
 
+bool has_walls(const mesher::Pslg& graph) { return !segments_of(graph).empty(); }
+bool has_walls(const mesher::Plc& complex) { return !complex.facets.empty(); }
+
 // Limits count in what is wanted.
-void limit_regions(const MeshArguments& args, const Input& input, mesher::Options<2>& options) {
-  const bool limited = options.max_area != 0 || options.sizes != nullptr;
-  const bool enclosing = !args.box && !segments_of(input.graph()).empty();
+template <int D>
+void limit_regions(const MeshArguments& args, const InputOf<D>& input,
+                   mesher::Options<D>& options) {
+  const bool limited = options.max_measure != 0 || options.sizes != nullptr;
+  const bool enclosing = !args.box && has_walls(input.graph());
   if (!args.region_areas && !(limited && enclosing)) return;
   options.region_limits = locating(input, [&] {
     return mesher::region_limits(input.graph(), options, extent(args), region_areas(args));
   });
 }
-
-void limit_regions(const MeshArguments&, const SpaceInput&, mesher::Options<3>&) {}
 
 template <int D>
 void run_mesh_in(const MeshArguments& args) {
@@ -155,7 +158,7 @@ void run_mesh_in(const MeshArguments& args) {
   OutputsOf<D> outputs;
   open_outputs(args, input, outputs);
   Figures figures(args.stats, outputs);
-  limit_regions(args, input, options);
+  limit_regions<D>(args, input, options);
   Progress progress(args.quiet, D);
   const Result<D> result = mesh<D>(args, input, options, progress);
   if (figures.wanted()) figures << json_of(result.run).dump(2) << "\n";

@@ -87,10 +87,8 @@ class Watched {
   void remove_seed(const mesher::SeedName& name) requires TakesSeeds<Target> {
     target_.remove_seed(name);
   }
-  void limit(const mesher::SizeLimits<2>& limits) { target_.limit(limits); }
-  void limit(const mesher::Box<2>& box, const mesher::SizeLimits<2>& limits) {
-    target_.limit(box, limits);
-  }
+  void limit(const auto& limits) { target_.limit(limits); }
+  void limit(const auto& box, const auto& limits) { target_.limit(box, limits); }
   void discard_edits() { target_.discard_edits(); }
   auto update() {
     const StopPolitely stop;

@@ -42,20 +42,12 @@ mesher::Pslg StaticMesher::graph() const {
   return graph;
 }
 
-// Whether it matters to limits of size what lines enclose.
-bool StaticMesher::needs_regions() const {
-  if (areas_ == mesher::RegionAreas::limits) return true;
-  const auto& o = edited_options_;
-  const bool limited = o.max_area != 0 || o.sizes != nullptr || !o.box_limits.empty();
-  return extent_ == mesher::Extent::enclosed && limited;
-}
-
 mesher::DomainUpdate StaticMesher::update(const mesher::RunControl& control) {
   require_no_ends_go();
   const mesher::Pslg input = graph();
   mesher::Options<2> options = edited_options_;
   options.region_limits =
-      needs_regions() ? region_limits(input, options, extent_, areas_) : nullptr;
+      needs_regions(options, extent_, areas_) ? region_limits(input, options, extent_, areas_) : nullptr;
   mesher::MeshStats stats;
   Mesh<2> after = mesher::mesh_statically(input, options, &stats, control);
   mesher::DomainMesh domain = mesher::domain_mesh(after, input, extent_);

@@ -43,7 +43,6 @@ class StaticMesher : public StaticSeeds<2> {
   [[nodiscard]] const mesher::MeshStats& stats() const { return stats_; }
 
  private:
-  [[nodiscard]] bool needs_regions() const;
   [[nodiscard]] mesher::Pslg graph() const;
 
   mesher::Options<2> options_, edited_options_;  // they differ in the limits of size

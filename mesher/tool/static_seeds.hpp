@@ -45,6 +45,16 @@ class StaticSeeds : public StaticLines<D> {
   std::map<mesher::SeedName, mesher::SeedOf<D>> current_, edited_;
 };
 
+/// Whether it matters to limits of size what lines, or polygons, enclose.
+template <int D>
+[[nodiscard]] bool needs_regions(const mesher::Options<D>& options, mesher::Extent extent,
+                                 mesher::RegionAreas areas) {
+  if (areas == mesher::RegionAreas::limits) return true;
+  const bool limited =
+      options.max_measure != 0 || options.sizes != nullptr || !options.box_limits.empty();
+  return extent == mesher::Extent::enclosed && limited;
+}
+
 /// What an update did to what is kept; `relabelled` is not found.
 template <int D>
 [[nodiscard]] mesher::DomainChangeOf<D> change_of_kept(const mesher::Mesh<D>& before,

@@ -60,14 +60,19 @@ mesher::DomainUpdateOf<3> StaticSpaceMesher::update(const mesher::RunControl& co
   require_no_ends_go();
   require_no_corners_go();
   const mesher::Plc input = this->input();
+  mesher::Options<3> options = edited_options_;
+  options.region_limits = needs_regions(options, extent_, areas_)
+                              ? region_limits(input, options, extent_, areas_)
+                              : nullptr;
   mesher::MeshStats stats;
-  auto after = mesher::mesh_statically(input, options_, &stats, control);
+  auto after = mesher::mesh_statically(input, options, &stats, control);
   auto domain = mesher::domain_mesh(after, input, extent_);
   mesher::DomainUpdateOf<3> update;
   static_cast<mesher::Change<3>&>(update) = change_between<3>(mesh_, after);
   update.domain = change_of_kept<3>(domain_.kept, domain.kept);
   keep_edits();
   current_polygons_ = edited_polygons_;
+  options_ = edited_options_ = std::move(options);
   mesh_ = std::move(after);
   domain_ = std::move(domain);
   stats_ = stats;

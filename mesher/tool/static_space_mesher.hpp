@@ -7,14 +7,26 @@
 #include <vector>
 
 #include "mesher/mesher.hpp"
+#include "mesher/sizes.hpp"
 #include "static_seeds.hpp"
 
 namespace tool {
 
 class StaticSpaceMesher : public StaticSeeds<3> {
  public:
-  StaticSpaceMesher(const mesher::Options<3>& options, mesher::Extent extent)
-      : StaticSeeds(options.domain), options_(options), extent_(extent) {}
+  StaticSpaceMesher(const mesher::Options<3>& options, mesher::Extent extent,
+                    mesher::RegionAreas areas)
+      : StaticSeeds(options.domain),
+        options_(options),
+        edited_options_(options),
+        extent_(extent),
+        areas_(areas) {}
+
+  /// As those of DomainMesherOf<3>.
+  void limit(const mesher::SizeLimits<3>& limits) { set_limits(edited_options_, limits); }
+  void limit(const mesher::Box<3>& box, const mesher::SizeLimits<3>& limits) {
+    set_limits(edited_options_, box, limits);
+  }
 
   /// As those of DomainMesherOf<3>, but that what is wrong with a polygon alone is left to
   /// update(). Throws: Error (repeated_id, unknown_id), and then changes nothing.
@@ -23,6 +35,7 @@ class StaticSpaceMesher : public StaticSeeds<3> {
   void discard_edits() {
     StaticSeeds::discard_edits();
     edited_polygons_ = current_polygons_;
+    edited_options_ = options_;
   }
 
   /// As that of DomainMesherOf<3>, but that edits that fail stay announced, and that edges, faces
@@ -40,8 +53,9 @@ class StaticSpaceMesher : public StaticSeeds<3> {
   using Polygons = std::map<mesher::FeatureId, mesher::Plc::Facet>;
   void require_no_corners_go() const;
 
-  mesher::Options<3> options_;
+  mesher::Options<3> options_, edited_options_;  // they differ in the limits of size
   mesher::Extent extent_;
+  mesher::RegionAreas areas_;
   Polygons current_polygons_, edited_polygons_;
   mesher::Mesh<3> mesh_;
   mesher::DomainMeshOf<3> domain_;

@@ -29,7 +29,7 @@ std::string number(mesher::FeatureId id) {
 }
 
 std::string limit_line(const Edit& edit) {
-  const double area = edit.limits.max_area;
+  const double area = edit.limits.max_measure;
   std::string line = area == 0 ? "limit none" : "limit area" + number(area);
   if (!edit.box) return line + "\n";
   const auto& [lo, hi] = *edit.box;
@@ -54,13 +54,13 @@ std::string line_of(const Edit& edit) {
   for (const auto id : edit.points) line += number(id);
   const bool placed = word == "+point" || word == "move" || word == "+hole" || word == "+region";
   if (placed) line += number(edit.point[0]) + number(edit.point[1]);
-  if (word == "+region") line += number(edit.attribute) + number(edit.max_area.value_or(0));
+  if (word == "+region") line += number(edit.attribute) + number(edit.max_measure.value_or(0));
   return line + "\n";
 }
 
 Edit everywhere(const mesher::Options<2>& options) {
   Edit edit;
-  edit.limits = {options.max_area, options.sizes};
+  edit.limits = {options.max_measure, options.sizes};
   return edit;
 }
 Edit within(const mesher::BoxLimits<2>& limits) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "geometry/diametral_ball.hpp"
+#include "geometry/centroid.hpp"
 #include "geometry/plane.hpp"
 #include "mesher/predicates.hpp"
 #include "mesher/sizes.hpp"
@@ -156,18 +157,18 @@ class PslgJudge {
     for (std::size_t i = 0; i < 2; ++i) {
       if (p[i] < options.domain.lo[i] || p[i] > options.domain.hi[i]) return 1e300;
     }
-    mesher::SizeLimits<2> there{options.max_area, options.sizes};
+    mesher::SizeLimits<2> there{options.max_measure, options.sizes};
     for (const auto& part : options.box_limits) {
       if (mesher::detail::contains(part.box, p)) there = part.limits;
     }
     const double h = there.sizes == nullptr ? 1e150 : there.sizes->at(p);
-    return std::min(there.max_area == 0 ? 1e300 : there.max_area, std::sqrt(3.0) / 4 * h * h);
+    return std::min(there.max_measure == 0 ? 1e300 : there.max_measure, std::sqrt(3.0) / 4 * h * h);
   }
   [[nodiscard]] std::string large(const mesher::Options<2>& options) const {
     for (const auto& t : mesh_.simplices) {
       const P &p = at(t[0]), &q = at(t[1]), &r = at(t[2]);
       const double area = ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
-      if (area > limit(options, mesher::detail::centroid({p, q, r}))) {
+      if (area > limit(options, mesher::detail::centroid(mesher::detail::CornersOf<2>{p, q, r}))) {
         return "large: " + text(p) + text(q) + text(r);
       }
     }

@@ -40,7 +40,7 @@ struct Lake {
       if (name.kind == mesher::SeedKind::hole) {
         graph.holes.push_back({name.id, s.at});
       } else {
-        graph.regions.push_back({name.id, s.at, s.attribute, s.max_area});
+        graph.regions.push_back({name.id, s.at, s.attribute, s.max_measure});
       }
     }
     return graph;
@@ -169,12 +169,12 @@ class LakeEditor {
     if (lake.seeds.contains(name)) remove_seed(lake, name);
     mesher::Seed seed{name, place(), 0, {}};
     if (!hole) seed.attribute = static_cast<double>(below(5));
-    if (!hole && below(2) == 0) seed.max_area = 0.5;
+    if (!hole && below(2) == 0) seed.max_measure = 0.5;
     lake.seeds[name] = seed;
     auto& edit = push(hole ? Kind::insert_hole : Kind::insert_region, static_cast<Id>(name.id));
     edit.point = seed.at;
     edit.attribute = seed.attribute;
-    edit.max_area = seed.max_area;
+    edit.max_measure = seed.max_measure;
   }
   void remove_seed(Lake& lake) {
     if (lake.seeds.empty()) return;
@@ -189,7 +189,7 @@ class LakeEditor {
   // Coarse, that meshes from scratch take no time.
   void edit_limits(Lake& lake) {
     auto& edit = push(Kind::limit, 0);
-    if (below(3) != 0) edit.limits.max_area = below(2) == 0 ? 0.4375 : 4;
+    if (below(3) != 0) edit.limits.max_measure = below(2) == 0 ? 0.4375 : 4;
     if (below(4) == 0) return set_limits(lake.options, edit.limits);
     const mesher::Point<2> lo = place();
     edit.box = {lo, {lo[0] + static_cast<double>(below(5)), lo[1] + 5 * unit()}};

@@ -51,14 +51,14 @@ class RandomLimits {
     for (int i = 0; i < 30; ++i) {
       samples.push_back({{16 * random_.unit(), 16 * random_.unit()}, 0.8 + 3 * random_.unit()});
     }
-    fields_ = {std::make_shared<mesher::SlopedSizes>(sloped, 0.3, 0.7),
+    fields_ = {std::make_shared<mesher::SlopedSizes<2>>(sloped, 0.3, 0.7),
                std::make_shared<Chessboard>(false), std::make_shared<Chessboard>(true),
                mesher::sampled_sizes(samples)};
   }
 
   /// Edits the limits of `options`; returns where.
   mesher::Box<2> edit(mesher::Options<2>& options) {
-    auto all = mesher::detail::AllLimits::of(options);
+    auto all = mesher::detail::AllLimits<2>::of(options);
     mesher::Box<2> where = options.domain;
     if (below(4) == 0) {
       all = {limits(), {}};
@@ -73,7 +73,7 @@ class RandomLimits {
     // The pitch of the lattice is 1 for the first.
     constexpr double kAreas[] = {0.4375, 0.2, 3, 0.4375 * (1 + 0x1p-40)};
     mesher::SizeLimits<2> limits;
-    if (below(3) != 0) limits.max_area = kAreas[below(4)];
+    if (below(3) != 0) limits.max_measure = kAreas[below(4)];
     if (below(3) == 0) limits.sizes = fields_[below(fields_.size())];
     return limits;
   }

@@ -85,7 +85,7 @@ class TracedWorld {
   }
   /// `options` but for the limits of size are those of the world.
   void limit(const mesher::Options<2>& options, const std::vector<mesher::Box<2>>& where) {
-    world_->edit_limits(options, where, *engine_);
+    mesher::detail::edit_limits(*world_, options, where, *engine_);
   }
   /// Brings the trace up to date. What it throws leaves the last state.
   sac::Counts update() {

@@ -175,7 +175,7 @@ class WalledMesh {
       REQUIRE(named[r].label == region.label);
       REQUIRE(named[r].triangles == region.triangles);
       REQUIRE(named[r].attribute == region.attribute);
-      REQUIRE(named[r].max_area == region.max_area);
+      REQUIRE(named[r].max_measure == region.max_measure);
       for (int i = 0; i < 3; ++i) {
         REQUIRE(places_[named[r].smallest[i]] == mesh.vertices[mesh.simplices[region.smallest][i]]);
       }

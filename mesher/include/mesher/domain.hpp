@@ -67,7 +67,7 @@ struct SeedOf {
   SeedName name;
   Point<D> at{};                   ///< finite; 0 or of magnitude 2^-100 to 2^100
   double attribute = 0;            ///< of a region; finite
-  std::optional<double> max_area;  ///< of a region's triangles, input units squared, > 0; in space
+  std::optional<double> max_measure;  ///< of a region's triangles, input units squared, > 0; in space
                                    ///< of its tetrahedra, input units cubed
   friend bool operator==(const SeedOf&, const SeedOf&) = default;
 };
@@ -85,7 +85,7 @@ struct Region {
   std::uint32_t smallest = 0;  ///< simplex
   std::size_t triangles = 0;   ///< or tetrahedra
   double attribute = 0;        ///< 0 without a region seed
-  std::optional<double> max_area;
+  std::optional<double> max_measure;
   friend bool operator==(const Region&, const Region&) = default;
 };
 

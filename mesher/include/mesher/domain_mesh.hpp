@@ -71,15 +71,18 @@ void add_seed(Plc& complex, const SeedOf<3>& seed);
 [[nodiscard]] DomainMesh domain_mesh(Mesh<2> mesh, const Pslg& graph, Extent extent);
 [[nodiscard]] DomainMeshOf<3> domain_mesh(Mesh<3> mesh, const Plc& complex, Extent extent);
 
-/// Whether the largest areas of regions are limits of size.
+/// Whether the largest areas, or volumes, of regions are limits of size.
 enum class RegionAreas : std::uint8_t { ignored, limits };
 
 /// For Options::region_limits: limits of size count in the part of the domain that is wanted, and
-/// the largest areas of regions there, if that is asked for. They are found in the mesh that
-/// `options` give the graph without limits: lines are unions of its edges, as of all others'.
+/// those of regions there, if that is asked for. They are found in the mesh that
+/// `options` give the graph without limits: lines are unions of its edges, and polygons of its faces, as of all others'.
 /// Throws: as mesh_statically and find_domain. Cost: that of this mesh.
-[[nodiscard]] std::shared_ptr<const RegionLimits> region_limits(
+[[nodiscard]] std::shared_ptr<const RegionLimits<2>> region_limits(
     const Pslg& graph, const Options<2>& options, Extent extent,
+    RegionAreas areas = RegionAreas::ignored);
+[[nodiscard]] std::shared_ptr<const RegionLimits<3>> region_limits(
+    const Plc& complex, const Options<3>& options, Extent extent,
     RegionAreas areas = RegionAreas::ignored);
 
 /// Announces all of `graph` to a DomainMesher, or to a Mesher<2>, which takes no seeds and markers.

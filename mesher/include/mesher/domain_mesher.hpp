@@ -21,12 +21,12 @@
 // where walls join or part regions, or where a seed gives one another label. The first line (in
 // space polygon) or seed that comes to a mesh of points alone costs all its triangles, once.
 //
-// Limits of size are for the plane. They count in what is wanted alone: where lines enclose something, in what they
-// enclose. So where there are limits, a second mesh, without, follows the input to tell what that
-// is; an update costs that of both, and where a region becomes or ceases to be wanted, or gets
-// another largest area, the vertices in it; where lines at which limits begin or end are edited,
-// the vertices in the triangles of the second mesh that this changes. A seed that changes nothing
-// but its area costs a look at all triangles of the second mesh.
+// Limits of size count in what is wanted alone: where lines enclose something, in what they enclose.
+// So where there are limits, a second mesh, without, follows the input to tell what that is; an
+// update costs that of both, and where a region becomes or ceases to be wanted, or gets another
+// largest area, the vertices in it; where lines at which limits begin or end are edited, the
+// vertices in the triangles of the second mesh that this changes. A seed that changes nothing but
+// its area costs a look at all triangles of the second mesh.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +50,7 @@ using DomainUpdate = DomainUpdateOf<2>;
 template <int D>
 class DomainMesherOf {
  public:
-  /// Throws: as Mesher; Error(bad_option) for `areas` that are limits, in space.
+  /// Throws: as Mesher.
   explicit DomainMesherOf(const Options<D>& options, Extent extent = Extent::enclosed,
                           RegionAreas areas = RegionAreas::ignored);
   DomainMesherOf(DomainMesherOf&&) noexcept;
@@ -77,17 +77,15 @@ class DomainMesherOf {
   void insert_seed(const SeedOf<D>& seed);
   void insert_hole(FeatureId id, const Point<D>& at);
   void insert_region(FeatureId id, const Point<D>& at, double attribute,
-                     std::optional<double> max_area = {});
+                     std::optional<double> max_measure = {});
   /// Announces that a seed goes. Throws: Error(unknown_id). Cost: O(log s).
   void remove_seed(const SeedName& name);
   void remove_hole(FeatureId id) { remove_seed({SeedKind::hole, id}); }
   void remove_region(FeatureId id) { remove_seed({SeedKind::region, id}); }
 
-  /// Announces limits of size, as to a Mesher<2>; they count in what is wanted.
-  void limit(const SizeLimits<D>& limits)
-  requires(D == 2);
-  void limit(const Box<D>& box, const SizeLimits<D>& limits)
-  requires(D == 2);
+  /// Announces limits of size, as to a Mesher; they count in what is wanted.
+  void limit(const SizeLimits<D>& limits);
+  void limit(const Box<D>& box, const SizeLimits<D>& limits);
 
   /// Takes back every edit announced since the last update().
   void discard_edits() noexcept;

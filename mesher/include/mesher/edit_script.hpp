@@ -35,6 +35,8 @@
 //                        a new polygon: the loop of points around it, then those of holes; points
 //                        and edges that it declares to lie inside
 //   -polygon ID          a polygon less, with the edges that nobody else has
+//   limit volume V       no tetrahedron with its centroid in the domain is larger; or `size H`, the
+//                        edges of a regular one, or `none`; `in XMIN YMIN ZMIN XMAX YMAX ZMAX`
 //
 // and no others. Polygons have ids of their own.
 //
@@ -85,7 +87,7 @@ struct EditOf {
   Polygon polygon{};                 ///< a new polygon
   std::int64_t marker = 0;           ///< of a new point or line; 0: none
   double attribute = 0;              ///< of a new region
-  std::optional<double> max_area{};  ///< likewise
+  std::optional<double> max_measure{};  ///< likewise
   SizeLimits<D> limits{};            ///< of limit
   std::optional<Box<D>> box{};       ///< likewise; nothing: everywhere
   std::string text;                  ///< the line without comment and outer blanks
@@ -184,7 +186,7 @@ void announce_seed(const EditOf<D>& edit, Target& target) {
     if (edit.kind == EditKind::remove_hole || edit.kind == EditKind::remove_region) {
       return target.remove_seed(name);
     }
-    target.insert_seed(SeedOf<D>{name, edit.point, edit.attribute, edit.max_area});
+    target.insert_seed(SeedOf<D>{name, edit.point, edit.attribute, edit.max_measure});
   } else {
     throw Error(ErrorCode::bad_edit, "holes and regions cannot be edited here");
   }

@@ -62,10 +62,10 @@ struct Polygon {
 template <int D>
 class SizeField;
 
-/// Limits of size.
+/// Limits of size: areas of triangles, volumes of tetrahedra; in input units, squared or cubed.
 template <int D>
 struct SizeLimits {
-  double max_area = 0;  ///< of a triangle with its centroid where this holds; 0: no limit
+  double max_measure = 0;  ///< of a simplex with its centroid where this holds; 0: no limit
   std::shared_ptr<const SizeField<D>> sizes{};  ///< limits that vary, see sizes.hpp; null: none
   friend bool operator==(const SizeLimits&, const SizeLimits&) = default;
 };
@@ -87,6 +87,7 @@ struct AllBoxLimits : std::vector<BoxLimits<D>> {
 };
 
 /// Where limits of size count, and those of regions: see region_limits in domain_mesh.hpp.
+template <int D>
 class RegionLimits;
 
 /// What to mesh, and how well.
@@ -95,10 +96,12 @@ struct Options {
   Box<D> domain{};      ///< where input points may lie; must not be empty
   double rho = D == 2 ? 1.4142 : 2;  ///< bound of circumradius over shortest edge; in (1.01, 100]
   Rule rule = Rule::radius_edge;
-  double max_area = 0;  ///< of a triangle with its centroid in the domain; 0: no limit
+  /// The largest area of a triangle, or volume of a tetrahedron, with its centroid in the domain;
+  /// 0: no limit.
+  double max_measure = 0;
   std::shared_ptr<const SizeField<D>> sizes{};  ///< limits that vary, see sizes.hpp; null: none
   AllBoxLimits<D> box_limits{};  ///< instead of these; the last box with a place counts
-  std::shared_ptr<const RegionLimits> region_limits{};  ///< null: limits count everywhere
+  std::shared_ptr<const RegionLimits<D>> region_limits{};  ///< null: limits count everywhere
   std::size_t max_vertices = 0;  ///< more are refused with Error(too_many); 0: no limit
   bool record_weights = false;  ///< keeps what calls do inside, for those who study the trace
 };

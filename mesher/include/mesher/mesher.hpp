@@ -257,7 +257,7 @@ class Mesher {
  private:
   friend class detail::DomainState<D>;  // which keeps the limits of regions up to date
   void announce_to(Mesher& other) const;
-  void limit_regions(std::shared_ptr<const RegionLimits> regions,
+  void limit_regions(std::shared_ptr<const RegionLimits<D>> regions,
                      const std::vector<Box<D>>& where);
   [[nodiscard]] bool has_limits() const;
 

@@ -1,20 +1,22 @@
-// How large triangles may be, as a function of place.
+// How large simplices may be, as a function of place.
 //
-// A size h at p allows a triangle with its centroid at p the area of an equilateral one with edges
-// of length h: sqrt(3) / 4 h^2. Where a size is infinite there is no limit.
+// A size h at p allows a simplex with its centroid at p the measure of a regular one with edges of
+// length h: a triangle the area sqrt(3) / 4 h^2, a tetrahedron the volume h^3 / (6 sqrt(2)). Where a
+// size is infinite there is no limit.
 //
 // Example: fine around the origin, and coarser with the distance.
-//   options.sizes = std::make_shared<mesher::SlopedSizes>(
+//   options.sizes = std::make_shared<mesher::SlopedSizes<2>>(
 //       [](const mesher::Point<2>& p) { return 0.01 + 0.1 * std::hypot(p[0], p[1]); },
 //       0.1, 0.01);
 //
 // The mesh is a function of the field, of its sizes and of its bounds: near bounds make an even
-// mesh. A field that breaks its own bounds gets no triangle that is too large, but a mesh that is
+// mesh. A field that breaks its own bounds gets no simplex that is too large, but a mesh that is
 // less even and moves more under edits.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -25,6 +27,14 @@ namespace mesher {
 
 /// The area of an equilateral triangle with edges of length 1.
 inline constexpr double kAreaOfSize = 0.43301270189221932;
+/// The volume of a regular tetrahedron with edges of length 1.
+inline constexpr double kVolumeOfSize = 0.11785113019775793;
+
+/// What a size allows. D is 2 or 3.
+template <int D>
+[[nodiscard]] constexpr double measure_of_size(double h) noexcept {
+  return D == 2 ? kAreaOfSize * h * h : kVolumeOfSize * h * h * h;
+}
 
 /// Sizes between two bounds.
 struct SizeRange {
@@ -47,17 +57,18 @@ class SizeField {
 };
 
 /// A function whose values at p and q differ by at most `slope` |pq|.
-class SlopedSizes final : public SizeField<2> {
+template <int D = 2>
+class SlopedSizes final : public SizeField<D> {
  public:
   /// Requires: slope >= 0; 0 < least <= size(p) for all p.
-  SlopedSizes(std::function<double(const Point<2>&)> size, double slope, double least)
+  SlopedSizes(std::function<double(const Point<D>&)> size, double slope, double least)
       : size_(std::move(size)), slope_(slope), least_(least) {}
 
-  [[nodiscard]] double at(const Point<2>& p) const override { return size_(p); }
-  [[nodiscard]] SizeRange range(const Box<2>& box) const override;
+  [[nodiscard]] double at(const Point<D>& p) const override { return size_(p); }
+  [[nodiscard]] SizeRange range(const Box<D>& box) const override;
 
  private:
-  std::function<double(const Point<2>&)> size_;
+  std::function<double(const Point<D>&)> size_;
   double slope_, least_;
 };
 
@@ -69,8 +80,11 @@ class SlopedSizes final : public SizeField<2> {
 [[nodiscard]] std::shared_ptr<const SizeField<2>> sampled_sizes(
     const std::vector<SizeSample>& samples);
 
-/// What Mesher::limit makes of options: these limits everywhere, or in a box.
-void set_limits(Options<2>& options, const SizeLimits<2>& limits);
-void set_limits(Options<2>& options, const Box<2>& box, const SizeLimits<2>& limits);
+/// What Mesher::limit makes of options: these limits everywhere, or in a box. D is 2 or 3.
+template <int D>
+void set_limits(Options<D>& options, const SizeLimits<D>& limits);
+template <int D>
+void set_limits(Options<D>& options, const std::type_identity_t<Box<D>>& box,
+                const SizeLimits<D>& limits);
 
 }  // namespace mesher

@@ -28,6 +28,7 @@
 //       or a point that is farther from both ends than they are from each other, or two features at
 //       a point from which both ends are as far; and for rho below kGuarded those with a shortest
 //       edge that is lonely beside a segment or polygon (guard.hpp);
+//  (12) volume, if asked: no tetrahedron is larger than a limit (by more than 10^-9 of it);
 //   and for meshes with features
 //   (a) parts: every edge and face of MeshFeatures is one of a tetrahedron;
 //   (b) segments, if a complex is given: every segment, and every edge of a polygon, is a union of
@@ -89,6 +90,7 @@ struct SpaceCheckOptions {
                                               ///< convex body
   const PlcFile* complex = nullptr;           ///< checks (b), (c), (d), seeds in (e) where given
   const MeshFeatures* features = nullptr;     ///< tells origins for (10); (a), (c) to (e)
+  std::optional<double> max_volume{};         ///< checks (12) where given
   bool ties = false;                          ///< checks (8)
   bool near_delaunay = false;                 ///< (7) as for without_flat_tetrahedra (flat.hpp)
 };

@@ -112,7 +112,7 @@ void add_seed(Pslg& graph, const Seed& seed) {
   if (seed.name.kind == SeedKind::hole) {
     graph.holes.push_back({seed.name.id, seed.at});
   } else {
-    graph.regions.push_back({seed.name.id, seed.at, seed.attribute, seed.max_area});
+    graph.regions.push_back({seed.name.id, seed.at, seed.attribute, seed.max_measure});
   }
 }
 
@@ -120,7 +120,7 @@ void add_seed(Plc& complex, const SeedOf<3>& seed) {
   if (seed.name.kind == SeedKind::hole) {
     complex.holes.push_back({seed.name.id, seed.at});
   } else {
-    complex.regions.push_back({seed.name.id, seed.at, seed.attribute, seed.max_area});
+    complex.regions.push_back({seed.name.id, seed.at, seed.attribute, seed.max_measure});
   }
 }
 

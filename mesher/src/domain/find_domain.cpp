@@ -76,7 +76,7 @@ class Finder {
       Region& region = domain_.regions[region_[i]];
       if (detail::counting_seed(region.label) != seeds_[i].name) continue;
       region.attribute = seeds_[i].attribute;
-      region.max_area = seeds_[i].max_area;
+      region.max_measure = seeds_[i].max_measure;
     }
   }
 

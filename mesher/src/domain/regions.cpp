@@ -202,7 +202,7 @@ std::vector<NamedRegion<D>> RegionsOf<D>::regions() const {
     if (!counts || counts->kind == SeedKind::hole) continue;
     const Seed& seed = seeds_[seeds_.find(*counts)].seed;
     region.attribute = seed.attribute;
-    region.max_area = seed.max_area;
+    region.max_measure = seed.max_measure;
   }
   return regions;
 }

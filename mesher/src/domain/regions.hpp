@@ -78,7 +78,7 @@ struct NamedRegion {
   CornersOf<D> smallest{};  // by its corners' places, from the smallest
   std::size_t triangles = 0;
   double attribute = 0;
-  std::optional<double> max_area;
+  std::optional<double> max_measure;
   friend bool operator==(const NamedRegion&, const NamedRegion&) = default;
 };
 

@@ -68,7 +68,7 @@ void check_seed(const SeedOf<D>& seed) {
   if (!std::isfinite(seed.attribute)) {
     refuse(ErrorCode::not_finite, "has an attribute that is not finite");
   }
-  if (seed.max_area && !(*seed.max_area > 0)) {
+  if (seed.max_measure && !(*seed.max_measure > 0)) {
     refuse(ErrorCode::bad_number, D == 2 ? "has an area limit that is not positive"
                                          : "has a volume limit that is not positive");
   }

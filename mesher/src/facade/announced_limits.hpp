@@ -11,35 +11,37 @@
 namespace mesher::detail {
 
 /// Options with the limits that shall be.
+template <int D>
 struct LimitsEdit {
-  Options<2> options;
-  std::vector<Box<2>> where;
+  Options<D> options;
+  std::vector<Box<D>> where;
 };
 
+template <int D>
 class AnnouncedLimits {
  public:
   /// `now`: those of the last update.
-  [[nodiscard]] AllLimits as_announced(const Options<2>& now) const {
-    return to_ ? *to_ : AllLimits::of(now);
+  [[nodiscard]] AllLimits<D> as_announced(const Options<D>& now) const {
+    return to_ ? *to_ : AllLimits<D>::of(now);
   }
   /// They shall be `to`, which differ in `where` from those announced before.
   /// Throws: bad_alloc, and then changes nothing.
-  void set(AllLimits to, const std::vector<Box<2>>& where, const Options<2>& now) {
-    if (to == AllLimits::of(now)) return clear();
+  void set(AllLimits<D> to, const std::vector<Box<D>>& where, const Options<D>& now) {
+    if (to == AllLimits<D>::of(now)) return clear();
     where_.reserve(where_.size() + where.size());
     where_.insert(where_.end(), where.begin(), where.end());
     to_ = std::move(to);
   }
   /// Nothing if they stay.
-  [[nodiscard]] std::optional<LimitsEdit> edit(const Options<2>& now) const {
+  [[nodiscard]] std::optional<LimitsEdit<D>> edit(const Options<D>& now) const {
     if (!to_) return std::nullopt;
-    return LimitsEdit{applied_to(now), where_};
+    return LimitsEdit<D>{applied_to(now), where_};
   }
-  [[nodiscard]] Options<2> applied_to(Options<2> options) const {
+  [[nodiscard]] Options<D> applied_to(Options<D> options) const {
     as_announced(options).apply_to(options);
     return options;
   }
-  void commit(Options<2>& now) noexcept {
+  void commit(Options<D>& now) noexcept {
     if (to_) std::move(*to_).apply_to(now);
     clear();
   }
@@ -49,8 +51,8 @@ class AnnouncedLimits {
   }
 
  private:
-  std::optional<AllLimits> to_;
-  std::vector<Box<2>> where_;
+  std::optional<AllLimits<D>> to_;
+  std::vector<Box<D>> where_;
 };
 
 }  // namespace mesher::detail

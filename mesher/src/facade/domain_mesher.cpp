@@ -62,22 +62,18 @@ void DomainMesherOf<D>::insert_hole(FeatureId id, const Point<D>& at) {
 }
 template <int D>
 void DomainMesherOf<D>::insert_region(FeatureId id, const Point<D>& at, double attribute,
-                                 std::optional<double> max_area) {
-  impl_->insert_seed({{SeedKind::region, id}, at, attribute, max_area});
+                                 std::optional<double> max_measure) {
+  impl_->insert_seed({{SeedKind::region, id}, at, attribute, max_measure});
 }
 template <int D>
 void DomainMesherOf<D>::remove_seed(const SeedName& name) { impl_->remove_seed(name); }
 
 template <int D>
-void DomainMesherOf<D>::limit(const SizeLimits<D>& limits)
-requires(D == 2)
-{
+void DomainMesherOf<D>::limit(const SizeLimits<D>& limits) {
   impl_->limit(limits);
 }
 template <int D>
-void DomainMesherOf<D>::limit(const Box<D>& box, const SizeLimits<D>& limits)
-requires(D == 2)
-{
+void DomainMesherOf<D>::limit(const Box<D>& box, const SizeLimits<D>& limits) {
   impl_->limit(box, limits);
 }
 

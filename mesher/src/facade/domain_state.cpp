@@ -48,10 +48,7 @@ void add_line(Plc& complex, const InputLine& line, std::int64_t marker) {
 
 template <int D>
 DomainState<D>::DomainState(const Options<D>& options, Extent extent, RegionAreas areas)
-    : mesher_(options), extent_(extent), areas_(areas) {
-  if (D == 2 || areas == RegionAreas::ignored) return;
-  throw Error(ErrorCode::bad_option, "the largest volumes of regions cannot be limits yet");
-}
+    : mesher_(options), extent_(extent), areas_(areas) {}
 
 // --- Edits -----------------------------------------------------------------------------------
 
@@ -186,7 +183,7 @@ DomainChangeOf<D> DomainState<D>::follow(const Change<D>& change) {
   return follower_->update(change, domain_edits<D>(change, seeds_));
 }
 
-// Whether it matters what lines enclose.
+// Whether it matters what lines, or polygons, enclose.
 template <int D>
 bool DomainState<D>::needs_unlimited() const {
   if (!follower_ && !needs_follower_) return false;  // no line, no seed
@@ -194,15 +191,15 @@ bool DomainState<D>::needs_unlimited() const {
   if (areas_ == RegionAreas::ignored) return false;
   const std::vector<SeedOf<D>> seeds = all_of(seeds_);
   return std::any_of(seeds.begin(), seeds.end(),
-                     [](const SeedOf<D>& seed) { return seed.max_area.has_value(); });
+                     [](const SeedOf<D>& seed) { return seed.max_measure.has_value(); });
 }
 
 // It begins with what the last update left.
-template <>
-void DomainState<2>::make_unlimited(const RunControl& control) {
-  auto made = std::make_unique<UnlimitedMesh>(mesher_.options(), extent_, areas_);
+template <int D>
+void DomainState<D>::make_unlimited(const RunControl& control) {
+  auto made = std::make_unique<UnlimitedMesh<D>>(mesher_.options(), extent_, areas_);
   if (ran_) {
-    EditedSeeds seeds;
+    EditedSeedsOf<D> seeds;
     for (const auto& [name, seed] : seeds_.committed()) seeds.set(name, seed);
     announce(input(), made->mesher());
     made->update(seeds, control, [](const auto&, const auto&) {});
@@ -210,8 +207,8 @@ void DomainState<2>::make_unlimited(const RunControl& control) {
   unlimited_ = std::move(made);
 }
 
-template <>
-void DomainState<2>::run_with_unlimited(const RunControl& control,
+template <int D>
+void DomainState<D>::run_with_unlimited(const RunControl& control,
                                         const std::function<void()>& run_limited) {
   if (!unlimited_) make_unlimited(control);
   unlimited_->mesher().discard_edits();
@@ -230,13 +227,11 @@ DomainUpdateOf<D> DomainState<D>::run(const RunControl& control) {
     static_cast<Change<D>&>(update) =
         mesher_.update(control, [&](const Change<D>& change) { update.domain = follow(change); });
   };
-  if constexpr (D == 2) {
-    if (unlimited_ || needs_unlimited()) {
-      run_with_unlimited(control, run_limited);
-      return update;
-    }
+  if (unlimited_ || needs_unlimited()) {
+    run_with_unlimited(control, run_limited);
+  } else {
+    run_limited();
   }
-  run_limited();
   return update;
 }
 

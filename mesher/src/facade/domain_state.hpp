@@ -48,8 +48,8 @@ class DomainState {
   /// Nobody as long as there are points alone.
   [[nodiscard]] const std::optional<DomainFollowerOf<D>>& follower() const noexcept { return follower_; }
 
-  /// Nobody as long as it does not matter to limits of size what lines enclose.
-  [[nodiscard]] const UnlimitedMesh* unlimited() const noexcept { return unlimited_.get(); }
+  /// Nobody as long as it does not matter to limits of size what lines, or polygons, enclose.
+  [[nodiscard]] const UnlimitedMesh<D>* unlimited() const noexcept { return unlimited_.get(); }
 
  private:
   void prepare();
@@ -67,7 +67,7 @@ class DomainState {
   Markers point_markers_, line_markers_, polygon_markers_;
   EditedSeedsOf<D> seeds_;
   std::optional<DomainFollowerOf<D>> follower_;  // from the first line (polygon) or seed on
-  std::unique_ptr<UnlimitedMesh> unlimited_;     // from the first limits on that it matters to
+  std::unique_ptr<UnlimitedMesh<D>> unlimited_;  // from the first limits on that it matters to
   Busy busy_;
   bool needs_follower_ = false;  // there are edits to follow
   bool ran_ = false;

@@ -50,7 +50,7 @@ struct Mesher<D>::Impl {
   [[nodiscard]] const Polygon& polygon(FeatureId id) const;
   void insert_polygon(const Polygon& polygon);
   void remove_polygon(FeatureId id);
-  void limit(detail::AllLimits limits, const std::vector<Box<2>>& where);
+  void limit(detail::AllLimits<D> limits, const std::vector<Box<D>>& where);
   [[nodiscard]] Options<D> announced_options() const;
   void commit_limits() noexcept;
   void discard_edits() noexcept;
@@ -65,7 +65,7 @@ struct Mesher<D>::Impl {
   Announced announced;
   detail::AnnouncedLines announced_lines;
   detail::AnnouncedPolygons announced_polygons;  // in space
-  detail::AnnouncedLimits announced_limits;
+  detail::AnnouncedLimits<D> announced_limits;
   detail::Busy busy;
   bool moved = false;  // a place was taken that was not looked at
 };
@@ -188,33 +188,27 @@ void Mesher<D>::Impl::remove_polygon(FeatureId id) {
   if constexpr (D == 3) announced_polygons.set(id, state->polygon_parts(id), {});
 }
 
-// --- Limits: in the plane --------------------------------------------------------------------
+// --- Limits ----------------------------------------------------------------------------------
 
 // Limits that make no sense are refused at once.
-template <>
-void Mesher<2>::Impl::limit(detail::AllLimits limits, const std::vector<Box<2>>& where) {
+template <int D>
+void Mesher<D>::Impl::limit(detail::AllLimits<D> limits, const std::vector<Box<D>>& where) {
   busy.require_idle();
-  Options<2> all = options;
-  detail::AllLimits(limits).apply_to(all);
-  static_cast<void>(detail::Limits(all, box));
+  Options<D> all = options;
+  detail::AllLimits<D>(limits).apply_to(all);
+  static_cast<void>(detail::Limits<D>(all, box));
   announced_limits.set(std::move(limits), where, options);
 }
 
-template <>
-Options<2> Mesher<2>::Impl::announced_options() const {
-  return announced_limits.applied_to(options);
-}
 template <int D>
 Options<D> Mesher<D>::Impl::announced_options() const {
-  return options;
+  return announced_limits.applied_to(options);
 }
 
-template <>
-void Mesher<2>::Impl::commit_limits() noexcept {
+template <int D>
+void Mesher<D>::Impl::commit_limits() noexcept {
   announced_limits.commit(options);
 }
-template <int D>
-void Mesher<D>::Impl::commit_limits() noexcept {}
 
 template <int D>
 void Mesher<D>::Impl::discard_edits() noexcept {
@@ -246,7 +240,9 @@ Change<3> Mesher<3>::Impl::first_run(State& fresh, const RunControl& control,
 template <>
 Change<3> Mesher<3>::Impl::propagate(const RunControl& control, const Accept& accept) {
   return state->propagate(announced.sorted(),
-                          {announced_lines.sorted(), announced_polygons.sorted()}, control, accept);
+                          {announced_lines.sorted(), announced_polygons.sorted(),
+                           announced_limits.edit(options)},
+                          control, accept);
 }
 
 template <int D>
@@ -345,44 +341,27 @@ void Mesher<D>::remove_polygon(FeatureId id) {
   impl_->remove_polygon(id);
 }
 
-template <>
-void Mesher<2>::limit(const SizeLimits<2>& limits) {
+template <int D>
+void Mesher<D>::limit(const SizeLimits<D>& limits) {
   const auto all = impl_->announced_limits.as_announced(impl_->options);
   impl_->limit({limits, {}, all.regions}, {impl_->options.domain});
 }
-template <>
-void Mesher<2>::limit(const Box<2>& box, const SizeLimits<2>& limits) {
+template <int D>
+void Mesher<D>::limit(const Box<D>& box, const SizeLimits<D>& limits) {
   auto all = impl_->announced_limits.as_announced(impl_->options);
   all.set_within(box, limits);
   impl_->limit(std::move(all), {box});
 }
-template <>
-void Mesher<2>::limit_regions(std::shared_ptr<const RegionLimits> regions,
-                              const std::vector<Box<2>>& where) {
+template <int D>
+void Mesher<D>::limit_regions(std::shared_ptr<const RegionLimits<D>> regions,
+                              const std::vector<Box<D>>& where) {
   auto all = impl_->announced_limits.as_announced(impl_->options);
   all.regions = std::move(regions);
   impl_->limit(std::move(all), where);
 }
-template <>
-bool Mesher<2>::has_limits() const {
-  return impl_->announced_limits.as_announced(impl_->options).any();
-}
-
-template <int D>
-void Mesher<D>::limit(const SizeLimits<D>&) {
-  detail::fail_limits_in_space();
-}
-template <int D>
-void Mesher<D>::limit(const Box<D>&, const SizeLimits<D>&) {
-  detail::fail_limits_in_space();
-}
-template <int D>
-void Mesher<D>::limit_regions(std::shared_ptr<const RegionLimits>, const std::vector<Box<D>>&) {
-  detail::fail_limits_in_space();
-}
 template <int D>
 bool Mesher<D>::has_limits() const {
-  return false;
+  return impl_->announced_limits.as_announced(impl_->options).any();
 }
 
 // In the other: lines go first, and points before others come to their places.

@@ -155,6 +155,7 @@ void SpaceState::add_others_first() {
 }
 
 void SpaceState::make_edits(const PointEdits& edits, Ids& arrived) {
+  if (edits_.limits) edit_limits(*world_, edits_.limits->options, edits_.limits->where, *engine_);
   const Parts parts = take_parts(edits);
   require_unused(edits);
   make_points(edits, arrived);

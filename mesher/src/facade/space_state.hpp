@@ -1,9 +1,11 @@
 // The state in space: points, the segments between them, and polygons.
 #pragma once
 
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
+#include "facade/announced_limits.hpp"
 #include "facade/point_state.hpp"
 #include "facade/space_news.hpp"
 #include "mesh/lonely_edges.hpp"
@@ -18,6 +20,7 @@ class SpaceState final : public PointState<3>, private SpaceNames {
   struct Edits {
     LineEdits lines;
     PolygonEdits polygons;
+    std::optional<LimitsEdit<3>> limits{};
   };
 
   explicit SpaceState(const Options<3>& options) : PointState(options), rho_(options.rho) {}

@@ -27,7 +27,7 @@ class State final : public PointState<2>, private Names {
     line_edits_ = std::move(lines);
     return PointState::first_run(std::move(points), control, accept);
   }
-  Change<2> propagate(const PointEdits& points, LineEdits lines, std::optional<LimitsEdit> limits,
+  Change<2> propagate(const PointEdits& points, LineEdits lines, std::optional<LimitsEdit<2>> limits,
                       const RunControl& control, const Accept& accept) {
     line_edits_ = std::move(lines);
     limits_edit_ = std::move(limits);
@@ -81,7 +81,7 @@ class State final : public PointState<2>, private Names {
   LineNews::Lines line_points_;
   // What an update brings, until it is done.
   LineEdits line_edits_;
-  std::optional<LimitsEdit> limits_edit_;
+  std::optional<LimitsEdit<2>> limits_edit_;
   LineNews news_;
 };
 

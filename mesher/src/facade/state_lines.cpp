@@ -88,7 +88,7 @@ bool State::has_lines() const noexcept {
 }
 
 void State::make_edits(const PointEdits& edits, Ids& arrived) {
-  if (limits_edit_) world_->edit_limits(limits_edit_->options, limits_edit_->where, *engine_);
+  if (limits_edit_) edit_limits(*world_, limits_edit_->options, limits_edit_->where, *engine_);
   const std::vector<Part> parts = take_lines(edits);
   require_unused(edits);
   make_points(edits, arrived);

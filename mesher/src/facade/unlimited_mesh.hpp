@@ -1,5 +1,5 @@
-// A mesh of the same input without limits of size, which tells what lines enclose: where limits
-// count, and which largest areas hold there. It follows the input before the mesh with limits does,
+// A mesh of the same input without limits of size, which tells what lines and polygons enclose: where limits
+// count, and which largest measures hold there. It follows the input before the mesh with limits does,
 // and is taken back with it.
 #pragma once
 
@@ -14,43 +14,44 @@
 
 namespace mesher::detail {
 
+template <int D>
 class UnlimitedMesh {
  public:
-  using Seeds = EditedSeeds;
+  using Seeds = EditedSeedsOf<D>;
 
-  UnlimitedMesh(const Options<2>& options, Extent extent, RegionAreas areas);
+  UnlimitedMesh(const Options<D>& options, Extent extent, RegionAreas areas);
 
-  /// For points and lines to be announced to.
-  [[nodiscard]] Mesher<2>& mesher() noexcept { return mesher_; }
+  /// For the input to be announced to.
+  [[nodiscard]] Mesher<D>& mesher() noexcept { return mesher_; }
 
   /// The limits after an update, and where they differ from those before.
-  using Then = std::function<void(const std::shared_ptr<const RegionLimits>& limits,
-                                  const std::vector<Box<2>>& where)>;
+  using Then = std::function<void(const std::shared_ptr<const RegionLimits<D>>& limits,
+                                  const std::vector<Box<D>>& where)>;
   /// Brings all up to date with what is announced, then asks `then`: what that throws leaves
   /// update(), and all is as it was. `seeds`: as they shall be, with edits since the last update.
   void update(const Seeds& seeds, const RunControl& control, const Then& then);
 
-  /// Adds the calls, edges and bytes of all this. Cost: O(triangles).
+  /// Adds the calls, edges and bytes of all this. Cost: O(simplices).
   void add_to(MeshStats& stats) const;
 
   void check_invariants() const;
 
  private:
-  using Corners = DomainChange::Corners;
-  void begin(const Change<2>& change, const Seeds& seeds, const Then& then);
-  void follow(const Change<2>& change, const Seeds& seeds, const Then& then);
-  [[nodiscard]] RegionLimits::Limit limit_of(const DomainFollower& follower, const Corners& t,
+  using Corners = typename DomainChangeOf<D>::Corners;
+  void begin(const Change<D>& change, const Seeds& seeds, const Then& then);
+  void follow(const Change<D>& change, const Seeds& seeds, const Then& then);
+  [[nodiscard]] typename RegionLimits<D>::Limit limit_of(const DomainFollowerOf<D>& follower, const Corners& t,
                                              const Seeds& seeds) const;
-  void give_areas(RegionLimits& limits, const Seeds& seeds) const;
-  [[nodiscard]] std::vector<Corners> staying(const Change<2>& change, const DomainChange& domain,
+  void give_measures(RegionLimits<D>& limits, const Seeds& seeds) const;
+  [[nodiscard]] std::vector<Corners> staying(const Change<D>& change, const DomainChangeOf<D>& domain,
                                              const Seeds& seeds) const;
 
   Extent extent_;
   RegionAreas areas_;
-  Mesher<2> mesher_;
-  MeshBox<2> box_;
-  std::optional<DomainFollower> follower_;  // from the first update on
-  std::shared_ptr<const RegionLimits> limits_;
+  Mesher<D> mesher_;
+  MeshBox<D> box_;
+  std::optional<DomainFollowerOf<D>> follower_;  // from the first update on
+  std::shared_ptr<const RegionLimits<D>> limits_;
 };
 
 }  // namespace mesher::detail

@@ -27,23 +27,40 @@ namespace mesher::detail {
          p[2] >= box.lo[2] && p[2] <= box.hi[2];
 }
 /// What lies in both; may be empty.
-[[nodiscard]] inline Box<2> common(const Box<2>& a, const Box<2>& b) {
-  return {{std::max(a.lo[0], b.lo[0]), std::max(a.lo[1], b.lo[1])},
-          {std::min(a.hi[0], b.hi[0]), std::min(a.hi[1], b.hi[1])}};
+template <int D>
+[[nodiscard]] Box<D> common(const Box<D>& a, const Box<D>& b) {
+  Box<D> both;
+  for (std::size_t i = 0; i < D; ++i) {
+    both.lo[i] = std::max(a.lo[i], b.lo[i]);
+    both.hi[i] = std::min(a.hi[i], b.hi[i]);
+  }
+  return both;
 }
-[[nodiscard]] inline bool is_empty(const Box<2>& box) {
-  return box.lo[0] > box.hi[0] || box.lo[1] > box.hi[1];
+template <int D>
+[[nodiscard]] bool is_empty(const Box<D>& box) {
+  for (std::size_t i = 0; i < D; ++i) {
+    if (box.lo[i] > box.hi[i]) return true;
+  }
+  return false;
 }
 /// Whether all of `inner` is in `box`.
-[[nodiscard]] inline bool contains(const Box<2>& box, const Box<2>& inner) {
+template <int D>
+[[nodiscard]] bool contains(const Box<D>& box, const Box<D>& inner) {
   return contains(box, inner.lo) && contains(box, inner.hi);
 }
-[[nodiscard]] inline Point<2> middle_of(const Box<2>& box) {
-  return {box.lo[0] + (box.hi[0] - box.lo[0]) / 2, box.lo[1] + (box.hi[1] - box.lo[1]) / 2};
+template <int D>
+[[nodiscard]] Point<D> middle_of(const Box<D>& box) {
+  Point<D> middle;
+  for (std::size_t i = 0; i < D; ++i) middle[i] = box.lo[i] + (box.hi[i] - box.lo[i]) / 2;
+  return middle;
 }
 /// All of the box is within this of its middle.
 [[nodiscard]] inline double reach_of(const Box<2>& box) {
   return std::hypot(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1]) / 2 * (1 + 0x1p-40);
+}
+[[nodiscard]] inline double reach_of(const Box<3>& box) {
+  return std::hypot(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]) / 2 *
+         (1 + 0x1p-40);
 }
 template <int D>
 [[nodiscard]] double longest_side(const Box<D>& box) {

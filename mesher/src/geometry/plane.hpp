@@ -1,21 +1,12 @@
 // Sums and squared lengths of points of the plane.
 #pragma once
 
-#include <algorithm>
-#include <array>
-
 #include "mesher/mesh.hpp"
 
 namespace mesher::detail {
 
 [[nodiscard]] inline Point<2> plus(const Point<2>& a, const Point<2>& b) {
   return {a[0] + b[0], a[1] + b[1]};
-}
-/// The same, to the last bit, in whatever order the corners are.
-[[nodiscard]] inline Point<2> centroid(std::array<Point<2>, 3> corners) {
-  std::sort(corners.begin(), corners.end());
-  const Point<2> sum = plus(plus(corners[0], corners[1]), corners[2]);
-  return {sum[0] / 3, sum[1] / 3};
 }
 [[nodiscard]] inline double squared(const Point<2>& a) { return a[0] * a[0] + a[1] * a[1]; }
 [[nodiscard]] inline double squared_distance(const Point<2>& a, const Point<2>& b) {

@@ -24,8 +24,10 @@ struct Form {
   std::size_t most = fields;
 };
 
+template <int D>
 constexpr std::string_view kLimitUsage =
-    "limit area A|size H|sizes FILE|none [in XMIN YMIN XMAX YMAX]";
+    D == 2 ? "limit area A|size H|sizes FILE|none [in XMIN YMIN XMAX YMAX]"
+           : "limit volume V|size H|none [in XMIN YMIN ZMIN XMAX YMAX ZMAX]";
 
 constexpr std::string_view kPolygonUsage =
     "+polygon ID P P P... [/ P P P...]... [on P...] [along A B [A B]...]";
@@ -42,7 +44,7 @@ constexpr Form kPlaneForms[] = {
     {"-hole", EditKind::remove_hole, 2, "-hole ID"},
     {"+region", EditKind::insert_region, 5, "+region ID x y ATTRIBUTE [MAX_AREA]", 6},
     {"-region", EditKind::remove_region, 2, "-region ID"},
-    {"limit", EditKind::limit, 2, kLimitUsage, 8},
+    {"limit", EditKind::limit, 2, kLimitUsage<2>, 8},
 };
 
 constexpr Form kSpaceForms[] = {
@@ -55,6 +57,7 @@ constexpr Form kSpaceForms[] = {
     {"-polyline", EditKind::remove_polyline, 2, "-polyline ID"},
     {"+polygon", EditKind::insert_polygon, 5, kPolygonUsage, SIZE_MAX},
     {"-polygon", EditKind::remove_polygon, 2, "-polygon ID"},
+    {"limit", EditKind::limit, 2, kLimitUsage<3>, 10},
     {"+hole", EditKind::insert_hole, 5, "+hole ID x y z"},
     {"-hole", EditKind::remove_hole, 2, "-hole ID"},
     {"+region", EditKind::insert_region, 6, "+region ID x y z ATTRIBUTE [MAX_VOLUME]", 7},
@@ -135,7 +138,7 @@ void require_fields(const text::Line& line, std::size_t size, const Form& form) 
 }
 
 // The limit of a region, where it is given: as in a .poly file, none if it is not above 0.
-std::optional<double> max_area_of(const text::Line& line, std::size_t field) {
+std::optional<double> max_measure_of(const text::Line& line, std::size_t field) {
   if (line.size() <= field) return std::nullopt;
   const double area = line.finite(field);
   return area > 0 ? std::optional(area) : std::nullopt;
@@ -164,22 +167,34 @@ std::shared_ptr<const SizeField<2>> background_of(const text::Line& line) {
   }
 }
 
-SizeLimits<2> limits_of(const text::Line& line) {
+template <int D>
+SizeLimits<D> limits_of(const text::Line& line) {
   const std::string_view kind = line[1];
   if (kind == "none") return {};
-  if (kind == "area") return {.max_area = positive(line, 2)};
-  if (kind == "size") {
-    const double h = positive(line, 2);
-    return {.max_area = kAreaOfSize * h * h};
-  }
-  return {.sizes = background_of(line)};
+  if (kind == "area" || kind == "volume") return {.max_measure = positive(line, 2)};
+  if (kind == "size") return {.max_measure = measure_of_size<D>(positive(line, 2))};
+  if constexpr (D == 2) return {.sizes = background_of(line)};
+  return {};
 }
 
-Box<2> limit_box(const text::Line& line, std::size_t first) {
-  const Box<2> box{{line.coordinate(first), line.coordinate(first + 1)},
-                   {line.coordinate(first + 2), line.coordinate(first + 3)}};
-  if (box.lo[0] <= box.hi[0] && box.lo[1] <= box.hi[1]) return box;
-  throw line.error(ErrorCode::bad_edit, "the first corner of a box must be below and left", first);
+template <int D>
+Point<D> place_of(const text::Line& line, std::size_t first) {
+  Point<D> place;
+  for (std::size_t i = 0; i < D; ++i) place[i] = line.coordinate(first + i);
+  return place;
+}
+
+template <int D>
+Box<D> limit_box(const text::Line& line, std::size_t first) {
+  const Box<D> box{place_of<D>(line, first), place_of<D>(line, first + D)};
+  for (std::size_t i = 0; i < D; ++i) {
+    if (box.lo[i] <= box.hi[i]) continue;
+    throw line.error(ErrorCode::bad_edit,
+                     D == 2 ? "the first corner of a box must be below and left"
+                            : "the first corner of a box must be below, left and before",
+                     first);
+  }
+  return box;
 }
 
 // The fields from `i` up to the next that is a word of +polygon; `i` is that one's then.
@@ -213,24 +228,23 @@ Polygon parse_polygon(const text::Line& line) {
   return polygon;
 }
 
-void parse_limit(const text::Line& line, Edit& edit) {
-  constexpr std::array<std::string_view, 4> kKinds{"area", "size", "sizes", "none"};
-  const auto refuse = [&](std::size_t i) {
-    throw line.error(ErrorCode::bad_edit, "expected '" + std::string(kLimitUsage) + "'", i);
-  };
-  if (std::find(kKinds.begin(), kKinds.end(), line[1]) == kKinds.end()) refuse(1);
-  const std::size_t said = limit_fields(line);
-  if (line.size() != said && line.size() != said + 5) refuse(std::min(line.size(), said + 5));
-  if (line.size() > said && line[said] != "in") refuse(said);
-  edit.limits = limits_of(line);
-  if (line.size() > said) edit.box = limit_box(line, said + 1);
+template <int D>
+bool is_limit(std::string_view kind) {
+  if (kind == "size" || kind == "none") return true;
+  return D == 2 ? kind == "area" || kind == "sizes" : kind == "volume";
 }
 
 template <int D>
-Point<D> place_of(const text::Line& line, std::size_t first) {
-  Point<D> place;
-  for (std::size_t i = 0; i < D; ++i) place[i] = line.coordinate(first + i);
-  return place;
+void parse_limit(const text::Line& line, EditOf<D>& edit) {
+  const auto refuse = [&](std::size_t i) {
+    throw line.error(ErrorCode::bad_edit, "expected '" + std::string(kLimitUsage<D>) + "'", i);
+  };
+  if (!is_limit<D>(line[1])) refuse(1);
+  const std::size_t said = limit_fields(line), with_box = said + 1 + 2 * D;
+  if (line.size() != said && line.size() != with_box) refuse(std::min(line.size(), with_box));
+  if (line.size() > said && line[said] != "in") refuse(said);
+  edit.limits = limits_of<D>(line);
+  if (line.size() > said) edit.box = limit_box<D>(line, said + 1);
 }
 
 template <int D>
@@ -244,15 +258,13 @@ EditOf<D> parse(const text::Line& line) {
   edit.text = line.trimmed();
   edit.place = line.place(0);
   if (marked) edit.marker = line.integer(line.size() - 1);
-  if constexpr (D == 2) {
-    if (form.kind == EditKind::limit) return parse_limit(line, edit), edit;
-  }
+  if (form.kind == EditKind::limit) return parse_limit<D>(line, edit), edit;
   edit.id = FeatureId{line.integer(1)};
   if (takes_place(form.kind)) {
     edit.point = place_of<D>(line, 2);
     if (form.kind == EditKind::insert_region) {
       edit.attribute = line.finite(2 + D);
-      edit.max_area = max_area_of(line, 3 + D);
+      edit.max_measure = max_measure_of(line, 3 + D);
     }
   } else if (form.kind == EditKind::insert_polygon) {
     edit.polygon = parse_polygon(line);

@@ -60,7 +60,7 @@ class Report {
   }
   [[nodiscard]] std::vector<ShrunkVertex> shrunk() const {
     std::vector<ShrunkVertex> all = detail::shrunk_vertices(mesh_, lines_, kShrinks);
-    const detail::Limits limits(options_, detail::mesh_box(options_));
+    const detail::Limits<2> limits(options_, detail::mesh_box(options_));
     std::erase_if(all, [&](const auto& v) { return detail::is_wanted(v, limits); });
     return all;
   }

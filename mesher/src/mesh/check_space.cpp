@@ -49,6 +49,9 @@ class SpaceChecker {
     if (has_kinds()) check("kinds", &SpaceChecker::kinds);
     if (tiles && has_parts()) check_features();
     if (tiles && options_.rho) check("quality", &SpaceChecker::quality);
+    if (tiles && options_.max_volume) {
+      findings_.add("volume", detail::check_volumes(mesh_, *options_.max_volume));
+    }
     return findings_.take();
   }
 

@@ -50,7 +50,7 @@ template <class Vertex, class PlaceOf>
   return std::tie(a.at, a.degrees, a.lines) < std::tie(b.at, b.degrees, b.lines);
 }
 /// Short lengths that limits of size ask for are no fault.
-[[nodiscard]] inline bool is_wanted(const ShrunkVertex& v, const Limits& limits) {
+[[nodiscard]] inline bool is_wanted(const ShrunkVertex& v, const Limits<2>& limits) {
   if (!limits.any()) return false;
   const Point<2> p = limits.nearest_in_domain(v.at);
   return limits.pitch(p) + std::hypot(p[0] - v.at[0], p[1] - v.at[1]) <= kShrinks * v.nearest;

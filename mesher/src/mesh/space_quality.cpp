@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "geometry/circumcentre.hpp"
 #include "geometry/space.hpp"
+#include "io/text.hpp"
 #include "mesher/space_check.hpp"
 
 namespace mesher {
@@ -85,5 +87,25 @@ SpaceQuality quality(const Mesh<3>& mesh) {
   }
   return {angles.least, angles.most, ratios.most, slivers};
 }
+
+namespace detail {
+
+Verdict check_volumes(const Mesh<3>& mesh, double most) {
+  constexpr double kRounding = 1e-9;
+  double largest = 0;
+  for (std::size_t i = 0; i < mesh.simplices.size(); ++i) {
+    const auto& [a, b, c, d] = mesh.simplices[i];
+    const auto& v = mesh.vertices;
+    const double volume =
+        std::abs(dot(minus(v[b], v[a]), cross(minus(v[c], v[a]), minus(v[d], v[a])))) / 6;
+    largest = std::max(largest, volume);
+    if (volume <= most * (1 + kRounding)) continue;
+    return Verdict::bad("tetrahedron " + std::to_string(i + 1) + " has the volume " + text::to_text(volume) + ", above " +
+                        text::to_text(most));
+  }
+  return Verdict::good("volumes at most " + text::to_text(largest));
+}
+
+}  // namespace detail
 
 }  // namespace mesher

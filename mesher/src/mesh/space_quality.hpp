@@ -1,6 +1,7 @@
 // How good a single tetrahedron is.
 #pragma once
 
+#include "mesh/verdict.hpp"
 #include "mesher/mesh.hpp"
 
 namespace mesher::detail {
@@ -24,5 +25,8 @@ struct RadiusEdge {
   const auto& v = mesh.vertices;
   return radius_edge(v[s[0]], v[s[1]], v[s[2]], v[s[3]]);
 }
+
+/// That no tetrahedron of a mesh is larger than `most`, by more than 10^-9 of it. Cost: O(m).
+[[nodiscard]] Verdict check_volumes(const Mesh<3>& mesh, double most);
 
 }  // namespace mesher::detail

@@ -63,7 +63,13 @@ void Traced::erase(const Polygon& polygon) {
   store_.take(f);
 }
 
-void Traced::point_came(const Vertex<3>& v) noexcept { tell_pieces_came(v); }
-void Traced::point_went(const Vertex<3>& v) noexcept { tell_pieces_went(v); }
+void Traced::point_came(const Vertex<3>& v) noexcept {
+  tell_pieces_came(v);
+  if (surroundings_ != nullptr) surroundings_->changed(extent_of(v));
+}
+void Traced::point_went(const Vertex<3>& v) noexcept {
+  tell_pieces_went(v);
+  if (surroundings_ != nullptr) surroundings_->changed(extent_of(v));
+}
 
 }  // namespace mesher::detail

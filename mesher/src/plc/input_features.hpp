@@ -14,6 +14,7 @@
 #include "index/vertex_index.hpp"
 #include "plc/feature_search.hpp"
 #include "plc/guard.hpp"
+#include "sizes/surroundings.hpp"
 
 namespace mesher::detail {
 
@@ -79,7 +80,11 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   [[nodiscard]] FeatureStore& store() noexcept { return store_; }
 
   /// Who looks at these is told which features come and go beside them.
-  void set_cells(VertexIndex<sac::Scope, 3>& cells) noexcept { cells_ = &cells; }
+  void set_listeners(VertexIndex<sac::Scope, 3>& cells,
+                     Surroundings<sac::Scope, 3>& surroundings) noexcept {
+    cells_ = &cells;
+    surroundings_ = &surroundings;
+  }
 
   [[nodiscard]] bool crowded(sac::Scope& s, const EdgePiece& piece) {
     return edges_.crowded(s, piece);
@@ -90,6 +95,13 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   [[nodiscard]] bool crowded(sac::Scope& s, const ShortEdge& e) { return guards_.crowded(s, e); }
   [[nodiscard]] bool hemmed_in(sac::Scope& s, const FacetPiece& piece) {
     return hinges_.crowded(s, piece);
+  }
+
+  /// Called by who edits the limits of size in `where`: who asks whether a piece is crowded asks
+  /// about the limits in the box around its ball, too.
+  void limits_changed(const Box<3>& where) noexcept {
+    edges_.limits_changed(where);
+    facets_.limits_changed(where);
   }
 
   /// The guard's question, from outside (plc/guard.hpp).
@@ -124,10 +136,10 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   }
 
  private:
-  void came(const Edge& e) noexcept override { tell_pieces_came(e), tell_cells(e); }
-  void went(const Edge& e) noexcept override { tell_pieces_went(e), tell_cells(e); }
-  void came(const Polygon& f) noexcept override { tell_pieces_came(f), tell_cells(f); }
-  void went(const Polygon& f) noexcept override { tell_pieces_went(f), tell_cells(f); }
+  void came(const Edge& e) noexcept override { tell_pieces_came(e), tell_others(e); }
+  void went(const Edge& e) noexcept override { tell_pieces_went(e), tell_others(e); }
+  void came(const Polygon& f) noexcept override { tell_pieces_came(f), tell_others(f); }
+  void went(const Polygon& f) noexcept override { tell_pieces_went(f), tell_others(f); }
 
   template <class F>
   void tell_pieces_came(const F& f) noexcept {
@@ -147,8 +159,9 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   // What find_near finds, it finds with a slack; and where a foot leaves a polygon, its distance
   // may jump by as much as corners on both sides are off the plane.
   template <class F>
-  void tell_cells(const F& f) noexcept {
+  void tell_others(const F& f) noexcept {
     if (cells_ == nullptr) return;
+    surroundings_->changed(extent_of(f));
     cells_->feature_changed([&](const Point<3>& x) {
       return std::sqrt(distance2_to(x, f)) * (1 - 0x1p-29) - 2 * thickness_of(f);
     });
@@ -156,6 +169,7 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
 
   sac::Engine& engine_;
   VertexIndex<sac::Scope, 3>* cells_ = nullptr;
+  Surroundings<sac::Scope, 3>* surroundings_ = nullptr;
   FeatureStore store_;
   Crowding<sac::Scope, EdgePieces> edges_;
   Crowding<sac::Scope, FacetPieces> facets_;

@@ -35,13 +35,13 @@ auto weighed(S& s, const FeatureStore& store, Look&& look) {
   return found;
 }
 
-// if the piece is crowded: enqueue the halves that have some of the polygon. Else, if it is a half
+// if the piece is crowded, or long for the lattice beside it: enqueue the halves that have some of the polygon. Else, if it is a half
 // and there is room: add its vertex, and enqueue that for BuildQT
 template <class S>
 void FillFacet::operator()(S& s, FacetPiece piece) const {
   auto& w = s.template environment<World<S, 3>>();
   const Polygon& f = *piece.polygon;
-  if (w.plc.crowded(s, piece)) {
+  if (w.divides(s, piece)) {
     if (piece.longer_side() < w.box.side * kShortestPiece) w.fail_too_fine(f, piece.middle());
     for (const FacetPiece& half : piece.halves()) {
       const bool meets = weighed(s, w.plc.store(), [&] { return half.meets_polygon(); });

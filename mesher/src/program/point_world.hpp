@@ -18,7 +18,7 @@
 #include "rules/insertion_rule.hpp"
 #include "sac/sac.hpp"
 #include "segments/planarity.hpp"
-#include "sizes/limits_of.hpp"
+#include "sizes/limits.hpp"
 
 namespace mesher::detail {
 
@@ -41,7 +41,9 @@ struct PointWorld {
   using Agenda = typename S::AgendaType;
 
   MeshBox<D> box;
-  LimitsOf<D> limits;
+  using AnyCell = Cell<D>;
+
+  Limits<D> limits;
   std::unique_ptr<const InsertionRule<D>> rule;
   VertexIndex<S, D> vertices;
   Subdivision<S, D> subdivision;

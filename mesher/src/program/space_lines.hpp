@@ -66,7 +66,7 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   /// Whether x yields: a vertex is inserted instead, on a feature; or is refused.
   Outcome yields(S& s, const typename InsertionRule<3>::NewPoint& x, int b) {
     const auto y = yield(near_, x.p, std::sqrt(x.nearest2));
-    if (world_.guarded && is_refused(s, x, y)) return Outcome::refused;
+    if (world_.guarded && !x.large && is_refused(s, x, y)) return Outcome::refused;
     if (!y) return Outcome::stands;
     insert(s, helps(*y, x.corner) ? *y : instead_of(x.corner), b);
     return Outcome::yielded;

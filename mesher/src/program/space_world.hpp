@@ -5,6 +5,7 @@
 #include "plc/guard.hpp"
 #include "plc/input_features.hpp"
 #include "plc/placed.hpp"
+#include "program/filling.hpp"
 #include "program/point_world.hpp"
 
 namespace mesher::detail {
@@ -14,10 +15,13 @@ struct World<S, 3> : PointWorld<S, 3> {
   using Base = PointWorld<S, 3>;
   using Base::box;
   using Base::features;
+  using Base::limits;
   using Base::vertices;
   using typename Base::Agenda;
 
   InputFeatures<S> plc;
+  FillPlans<S, 3> plans;
+  Surroundings<S, 3> surroundings;
   Agenda& splits;
   Agenda& fills;
   const bool guarded;  // plc/guard.hpp
@@ -26,12 +30,18 @@ struct World<S, 3> : PointWorld<S, 3> {
   World(const Options<3>& options, const MeshBox<3>& mesh_box, Host& host)
       : Base(options, mesh_box, host),
         plc(box, vertices.pool(), features, host),
+        plans(box, limits, host),
+        surroundings(box, limits, Obstacles<S, 3>(features, plc.store()), host),
         splits(host.make_agenda("edges")),
         fills(host.make_agenda("facets")),
         guarded(options.rho < kGuarded) {
     host.set_environment(this);
-    if constexpr (S::kTraced) plc.set_cells(vertices);
+    if constexpr (S::kTraced) plc.set_listeners(vertices, surroundings);
+    if (limits.any()) post_cells(*this);
   }
+
+  /// Calls that may have asked about the limits there run again.
+  void limits_changed(const Box<3>& where) noexcept;
 
   /// Outside edits: as those of plc, with the events of the edges and polygons that come and go.
   const Edge& insert_edge(VertexHandle a, VertexHandle b);
@@ -43,6 +53,17 @@ struct World<S, 3> : PointWorld<S, 3> {
   [[nodiscard]] bool has_features() const noexcept { return plc.store().live_edges() != 0; }
   void post_split(S& s, const EdgePiece& piece);
   void post_fill(S& s, const FacetPiece& piece);
+  /// fill() of what a cell consists of, which is split, too.
+  void post_parts(S& s, const Cell<3>& c) { detail::post_parts(s, *this, c); }
+  /// Whether a piece is crowded, or long for the lattice beside it.
+  [[nodiscard]] bool divides(S& s, const EdgePiece& piece) {
+    const bool crowded = plc.crowded(s, piece);  // first: who asks is found by this
+    return crowded || limits.is_long(EdgeBall(piece).box(), piece.length(), kLongestEdge);
+  }
+  [[nodiscard]] bool divides(S& s, const FacetPiece& piece) {
+    const bool crowded = plc.crowded(s, piece);
+    return crowded || limits.is_long(FacetBall(piece).box(), piece.longer_side(), kWidestPiece);
+  }
   /// A vertex that cuts the cell of v, in bucket b.
   void insert_beside(S& s, const Vertex<3>& v, CellOf<3>& cell, const Placed& y, int b);
   [[noreturn]] void fail_useless(const Vertex<3>& v, const Vertex<3>& x) const;

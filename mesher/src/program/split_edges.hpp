@@ -25,12 +25,12 @@ inline constexpr SplitEdge split_edge{};
           .order = morton<3>(box.fixed(place_at(*piece.edge, piece.lo)))};
 }
 
-// if the piece is crowded: split it in the middle, enqueue both halves, and the new vertex for
+// if the piece is crowded, or long for the lattice beside it: split it in the middle, enqueue both halves, and the new vertex for
 // BuildQT
 template <class S>
 void SplitEdge::operator()(S& s, EdgePiece piece) const {
   auto& w = s.template environment<World<S, 3>>();
-  if (!w.plc.crowded(s, piece)) return;
+  if (!w.divides(s, piece)) return;
   const Label middle = piece.middle();
   const Placed y = placed_on(*piece.edge, middle);
   insert_on_feature(s, w, y.p, y.role);

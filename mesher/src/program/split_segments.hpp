@@ -15,6 +15,18 @@ namespace mesher::detail {
 /// some finest cells apart.
 inline constexpr double kShortestPiece = 0x1p-44;
 
+/// The lattice is kept out of the balls of leaves [rules A7.1]: the gap must not be larger than what
+/// a lattice's triangle leaves. The spacing is the least in the ball, not only on the piece: so the
+/// lattice's points that a leaf blocks have its ends near by.
+[[nodiscard]] inline bool is_long(const Limits<2>& limits, const PieceRef& piece) {
+  constexpr double kLongest = 1.4;
+  if (!limits.any()) return false;
+  const Point<2>a = piece.lo(), b = piece.hi();
+  const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+  const Point<2> middle{a[0] + (b[0] - a[0]) / 2, a[1] + (b[1] - a[1]) / 2};
+  return limits.is_long(around(middle, length / 2), length, kLongest);
+}
+
 struct SplitSegment {
   static constexpr std::string_view kName = "split_segment";
   template <class S>
@@ -51,7 +63,7 @@ template <class S>
 void SplitSegment::operator()(S& s, PieceRef piece) const {
   auto& w = s.template environment<World<S>>();
   const bool crowded = w.segments.crowded(s, piece);  // first: who asks is found by this
-  const bool divides = crowded || w.limits.is_long(piece.lo(), piece.hi());
+  const bool divides = crowded || is_long(w.limits, piece);
   if (!divides) return w.leaves.begin(s, piece.piece);
   if (piece.length() < w.box.side * kShortestPiece) w.fail_too_short(piece);
   const Halves halves = w.segments.halves(s, piece);

@@ -4,9 +4,9 @@
 //   refine = SplitSegments; Fill; BuildQT; ChooseSteiners; Triangulate
 // Each part drains its agenda; a part posts on its own agenda and on those of later parts.
 //
-// PointWorld is what points need. World is that with what else there is in a dimension: in the
-// plane segments and limits of size, so far in no other. What the program asks of those is answered
-// in program/lines.hpp.
+// PointWorld is what points need. World is that with what else there is in a dimension: segments in
+// the plane, edges and polygons in space, and limits of size. What the program asks of those is
+// answered in program/lines.hpp.
 #pragma once
 
 #include <chrono>
@@ -14,12 +14,11 @@
 #include <vector>
 
 #include "program/point_world.hpp"
+#include "program/filling.hpp"
 #include "program/space_world.hpp"
 #include "segments/exempt.hpp"
 #include "segments/input_segments.hpp"
 #include "segments/leaves.hpp"
-#include "sizes/fill_plans.hpp"
-#include "sizes/surroundings.hpp"
 
 namespace mesher::detail {
 
@@ -35,8 +34,8 @@ struct World<S, 2> : PointWorld<S, 2> {
 
   InputSegments<S> segments;
   Leaves<S> leaves;
-  FillPlans<S> plans;
-  Surroundings<S> surroundings;
+  FillPlans<S, 2> plans;
+  Surroundings<S, 2> surroundings;
   Agenda& splits;
   Agenda& fills;
 
@@ -46,25 +45,22 @@ struct World<S, 2> : PointWorld<S, 2> {
         segments(box, vertices, features, host),
         leaves(vertices, segments.pool(), host),
         plans(box, limits, host),
-        surroundings(box, limits, features, host),
+        surroundings(box, limits, Obstacles<S, 2>(features), host),
         splits(host.make_agenda("segments")),
         fills(host.make_agenda("fill")) {
     host.set_environment(this);
     features.set_refusal([this](const Vertex<2>& v, const Vertex<2>& x) { fail_too_close(v, x); });
     vertices.set_refusal(
         [this](const Point<2>& p) { fail_near(p, 0, "a new vertex would coincide with another"); });
-    if (limits.any()) post_fill();
+    if constexpr (S::kTraced) features.set_feature_listener(&surroundings);
+    if (limits.any()) post_cells(*this);
   }
 
-  /// Sets the limits that the options say, from outside, with how to take it back. `where` they
-  /// differ: calls that may have asked there run again. Throws: Error(bad_option), bad_alloc.
-  void edit_limits(const Options<2>& options, const std::vector<Box<2>>& where,
-                   sac::Engine& engine);
-  /// fill() of the box, asked for from the outside if there are limits.
-  void post_fill();
+  /// Calls that may have asked about the limits there run again.
+  void limits_changed(const Box<2>& where) noexcept;
   void post_split(S& s, const PieceRef& piece);
   /// fill() of what a cell consists of, which is split, too.
-  void post_parts(S& s, const Cell<2>& c);
+  void post_parts(S& s, const Cell<2>& c) { detail::post_parts(s, *this, c); }
   /// Whether there are any.
   bool post_cuts(S& s, const std::vector<LeafRef>& leaves, int b);
   /// Whether a poor triangle on the left of p -> q, its shortest edge, stays.
@@ -78,10 +74,6 @@ struct World<S, 2> : PointWorld<S, 2> {
   [[noreturn]] void fail_useless(const Vertex<2>& v, const Vertex<2>& x);
   /// Throws: Error(too_close), with the ids of the features nearest to p, within `radius` or not.
   [[noreturn]] void fail_near(const Point<2>& p, double radius, const std::string& why);
-
- private:
-  void exchange(Limits& other, const std::vector<Box<2>>& where) noexcept;
-  void limits_changed(const Box<2>& where) noexcept;
 };
 
 /// The box of a mesh: four times the domain's longest side (rounded up to a power of two), with the

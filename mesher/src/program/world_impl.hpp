@@ -30,28 +30,23 @@ void PointWorld<S, D>::add_boundary() {
   });
 }
 
-template <class S>
-void World<S, 2>::post_fill() {
-  fills.template post_from_outside<fill>(fill_key({}), Cell<2>{});
+template <class AnyWorld>
+void post_cells(AnyWorld& w) {
+  using Whole = typename AnyWorld::AnyCell;
+  w.fills.template post_from_outside<fill>(fill_key(Whole()), Whole());
+}
+template <class AnyWorld>
+void retract_cells(AnyWorld& w) {
+  w.fills.template retract_from_outside<fill>(typename AnyWorld::AnyCell());
 }
 
-template <class S>
-void World<S, 2>::edit_limits(const Options<2>& options, const std::vector<Box<2>>& where,
-                              sac::Engine& engine) {
-  engine.begin_edit();
-  const auto other = std::make_shared<Limits>(options, box);
-  const auto exchange_them = [this, other, where] { exchange(*other, where); };
-  engine.on_rollback(exchange_them);
-  exchange_them();
-  if (limits.any() == other->any()) return;
-  if (limits.any()) return post_fill();
-  fills.template retract_from_outside<fill>(Cell<2>{});
-}
-
-template <class S>
-void World<S, 2>::exchange(Limits& other, const std::vector<Box<2>>& where) noexcept {
-  std::swap(limits, other);
-  for (const Box<2>& box : where) limits_changed(box);
+template <class S, class AnyWorld, int D>
+void post_parts(S& s, AnyWorld& w, const Cell<D>& c) {
+  w.quadtree.template post<split>(s, split_key(c), c);
+  MeshBox<D>::for_each_child(c, [&](const Cell<D>& part) {
+    if constexpr (!S::kTraced) w.plain.tick();
+    w.fills.template post<fill>(s, fill_key(part), part);
+  });
 }
 
 // Who splits a piece of a segment, fills a cell, locates a feature, or completes a vertex.
@@ -63,13 +58,14 @@ void World<S, 2>::limits_changed(const Box<2>& where) noexcept {
   vertices.limits_changed(where);
 }
 
+// Who splits an edge or a piece of a polygon, fills a cell, locates a feature, or completes a
+// vertex.
 template <class S>
-void World<S, 2>::post_parts(S& s, const Cell<2>& c) {
-  this->quadtree.template post<split>(s, split_key(c), c);
-  MeshBox<2>::for_each_child(c, [&](const Cell<2>& part) {
-    if constexpr (!S::kTraced) this->plain.tick();
-    fills.template post<fill>(s, fill_key(part), part);
-  });
+void World<S, 3>::limits_changed(const Box<3>& where) noexcept {
+  plc.limits_changed(where);
+  plans.limits_changed(where);
+  features.limits_changed(where);
+  vertices.limits_changed(where);
 }
 
 template <class S>

@@ -13,7 +13,7 @@
 
 #include "geometry/cell_of.hpp"
 #include "rules/buckets.hpp"
-#include "sizes/limits_of.hpp"
+#include "sizes/limits.hpp"
 
 namespace mesher::detail {
 
@@ -42,7 +42,8 @@ class InsertionRule {
     bool farther;     // clearly more than the length that asked for it, in spite of rounding
     int from = 0;     // the poor triangle's edge, as EdgeFilter names it
     int to = 0;
-    Point<D> corner{};  // the poor simplex's circumcentre; if it is hidden, where the clip is
+    bool large = false;  // the simplex is not poor, but too large
+    Point<D> corner{};   // the poor simplex's circumcentre; if it is hidden, where the clip is
   };
   /// A point to insert now, in bucket b; none if v is complete up to b. `filter`: null skips none.
   [[nodiscard]] virtual std::optional<NewPoint> next_point(const CellOf<D>& cell, int b,
@@ -82,7 +83,7 @@ class InsertionRule {
 template <int D>
 [[nodiscard]] std::unique_ptr<const InsertionRule<D>> insertion_rule(const Options<D>& options,
                                                                      const MeshBox<D>& box,
-                                                                     const LimitsOf<D>& limits);
+                                                                     const Limits<D>& limits);
 /// What the rule of this name promises. Throws: likewise.
 template <int D>
 [[nodiscard]] Promise promise(Rule rule, double rho);

@@ -6,6 +6,8 @@
 #include <limits>
 #include <tuple>
 
+#include "geometry/centroid.hpp"
+
 namespace mesher::detail {
 
 namespace {
@@ -13,11 +15,11 @@ namespace {
 // The off-centre aims a little lower than the bound, so that rounding it does not make it poor.
 constexpr double kAim = 1 - 0x1p-16;
 
-// Areas are computed to within 2^-45: what passes is not larger in exact arithmetic.
+// Measures are computed to within 2^-45: what passes is not larger in exact arithmetic.
 constexpr double kLargest = 1 - 0x1p-40;
 
 // A circumcentre is as far as the circumradius, but for rounding. What ends the refinement of large
-// triangles is not that lengths grow, but that no length is shorter than one that fits the limit.
+// simplices is not that lengths grow, but that no length is shorter than one that fits the limit.
 constexpr double kAsFar = 1 - 0x1p-20;
 
 // The height at which the apex over an edge of length 1 gives a circumradius of rho.
@@ -40,7 +42,7 @@ Promise RadiusEdge<D>::promise_for(double rho) {
 
 template <int D>
 RadiusEdge<D>::RadiusEdge(const Options<D>& options, const MeshBox<D>& box,
-                          const LimitsOf<D>& limits)
+                          const Limits<D>& limits)
     : Base(options, box, promise_for(options.rho)),
       height_(offcentre_height(options.rho)),
       limits_(&limits) {}
@@ -53,8 +55,8 @@ template <>
 bool RadiusEdge<2>::is_large(const VoronoiCell& cell, int i, int j) const {
   const Point<2>&u = cell.neighbour(i), &w = cell.neighbour(j);
   const double area = (u[0] * w[1] - u[1] * w[0]) / 2;
-  const Point<2> middle = centroid({cell.center().p, cell.place(i), cell.place(j)});
-  return area > limits_->area(middle) * kLargest;
+  const CornersOf<2> corners{cell.center().p, cell.place(i), cell.place(j)};
+  return area > limits_->measure(centroid(corners)) * kLargest;
 }
 
 // Calls visit(poor) for the shortest edge of every poor triangle of v's star, for every visible
@@ -156,18 +158,37 @@ bool RadiusEdge<D>::is_good(const CellOf<D>& cell, int t) const {
   return !Base::exceeds(cell.corner2(t), shortest2);
 }
 
-// Calls visit(poor) for the shortest edge of every poor simplex of v's star, and for the shortest
-// visible one beside every hidden corner.
+// Whether the tetrahedron of corner t, all visible, is larger than the limit at its centroid, which
+// is computed alike by all of its corners.
+template <>
+bool RadiusEdge<3>::is_large(const VoronoiCell3& cell, int t) const {
+  const auto& ends = cell.ends(t);
+  const Point<3>& u = cell.neighbour(ends[0]);
+  const Point<3> uxw = cross(cell.neighbour(ends[1]), cell.neighbour(ends[2]));
+  const double volume = std::abs(dot(u, uxw)) / 6;
+  const Point<3> middle = centroid(CornersOf<3>{cell.center().p, cell.place(ends[0]),
+                                                cell.place(ends[1]), cell.place(ends[2])});
+  return volume > limits_->measure(middle) * kLargest;
+}
+
+// Calls visit(poor) for the shortest edge of every poor simplex of v's star, for the shortest
+// visible one beside every hidden corner, and for the large simplices. One that is poor and large
+// is the former first, since R is longer than its edge.
 template <int D>
 template <class Visit>
 void RadiusEdge<D>::for_each_poor(const CellOf<D>& cell, Visit&& visit) const {
+  const bool limited = limits_->any();
   for (int t = 0; t < cell.corners(); ++t) {
-    if (is_good(cell, t)) continue;
-    const Poor poor = shortest_edge(cell, t);
+    const bool good = is_good(cell, t);
+    if (good && !(limited && is_large(cell, t))) continue;
+    Poor poor = shortest_edge(cell, t);
     if (std::isinf(poor.length2)) continue;  // no neighbour is visible
     if (poor.hidden ? Base::is_centre(cell, t) : Base::exceeds(cell.corner2(t), poor.length2)) {
       visit(poor);
     }
+    if (poor.hidden || !limited || !(good || is_large(cell, t))) continue;
+    poor.length2 = cell.corner2(t), poor.large = true;
+    visit(poor);
   }
 }
 
@@ -181,7 +202,7 @@ Point<D> RadiusEdge<D>::place(const Poor& poor) const {
   }
   const double highest = height_ * std::sqrt(poor.length2);
   const double height = std::sqrt(squared(up));
-  if (!poor.hidden && height <= highest) return poor.corner;
+  if (poor.large || (!poor.hidden && height <= highest)) return poor.corner;
   for (std::size_t i = 0; i < D; ++i) middle[i] += highest / height * up[i];
   return middle;
 }
@@ -213,6 +234,7 @@ auto RadiusEdge<D>::next_point(const CellOf<D>& cell, int b, const EdgeFilter<D>
   NewPoint found = Base::new_point(cell, point, shortest2, large ? kAsFar : Base::growth2());
   found.from = from, found.to = to;
   found.corner = corner;
+  found.large = large;
   return found;
 }
 

@@ -8,7 +8,7 @@
 // rho times that edge allows, or at the circumcentre if that is lower. Poor simplices go shortest
 // edge first.
 //
-// A triangle that is too large where it is counts as one of length R, its circumradius, and is
+// A simplex that is too large where it is counts as one of length R, its circumradius, and is
 // filled at its circumcentre [rules A7.5].
 #pragma once
 
@@ -26,7 +26,7 @@ class RadiusEdge final : public InsertionRule<D> {
   using typename Base::NewPoint;
 
   /// Refers to `limits`.
-  RadiusEdge(const Options<D>& options, const MeshBox<D>& box, const LimitsOf<D>& limits);
+  RadiusEdge(const Options<D>& options, const MeshBox<D>& box, const Limits<D>& limits);
 
   [[nodiscard]] static Promise promise_for(double rho);
   [[nodiscard]] std::optional<NewPoint> next_point(const CellOf<D>& cell, int b,
@@ -51,7 +51,8 @@ class RadiusEdge final : public InsertionRule<D> {
     return poor.large ? filter->skips_large(cell, poor.from, poor.to)
                       : filter->skips(cell, poor.from, poor.to);
   }
-  [[nodiscard]] bool is_large(const CellOf<D>& cell, int i, int j) const;
+  [[nodiscard]] bool is_large(const CellOf<D>& cell, int i, int j) const;  // in the plane
+  [[nodiscard]] bool is_large(const CellOf<D>& cell, int t) const;         // in space
   [[nodiscard]] bool is_good(const CellOf<D>& cell, int t) const;
   [[nodiscard]] Poor shortest_edge(const CellOf<D>& cell, int t) const;
   template <class Visit>
@@ -59,7 +60,7 @@ class RadiusEdge final : public InsertionRule<D> {
   [[nodiscard]] Point<D> place(const Poor& poor) const;
 
   double height_;              // of the off-centre, in units of the edge
-  const LimitsOf<D>* limits_;  // null: there are none
+  const Limits<D>* limits_;  // null: there are none
 };
 
 }  // namespace mesher::detail

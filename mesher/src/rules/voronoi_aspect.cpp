@@ -13,7 +13,7 @@ Promise VoronoiAspect<D>::promise_for(double rho) {
 
 template <int D>
 VoronoiAspect<D>::VoronoiAspect(const Options<D>& options, const MeshBox<D>& box,
-                                const LimitsOf<D>&)
+                                const Limits<D>&)
     : Base(options, box, promise_for(options.rho)) {}
 
 template <int D>

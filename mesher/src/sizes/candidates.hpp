@@ -1,6 +1,6 @@
-// Which places are filled where triangles must not be large [rules A7]: a function of space.
+// Which places are filled where simplices must not be large [rules A7]: a function of space.
 //
-// The vertices come from a lattice first: were too large a triangle but one more reason to insert,
+// The vertices come from a lattice first: were too large a simplex but one more reason to insert,
 // the mesh would be one advancing front, and an edit would move all of it.
 //
 // A point of a lattice is a *candidate* if its pitch is that of the lattice, and no candidate of a
@@ -15,23 +15,27 @@
 namespace mesher::detail {
 
 /// A place that may be filled.
+template <int D>
 struct Candidate {
-  Point<2> place{};
+  Point<D> place{};
   double pitch = 0;
-  // The six around it on the lattice are candidates, its six triangles have no other candidates in
-  // their circumcircles, and they fit.
+  // Those around it on the lattice are candidates, the lattice's simplices at it have no other
+  // candidates in their circumspheres, and they fit.
   bool amid = false;
 };
 /// Those in a cell, by pitch and rows.
-using Candidates = std::vector<Candidate>;
+template <int D>
+using Candidates = std::vector<Candidate<D>>;
 
 /// What is to be done about a cell.
+template <int D>
 struct CellPlan {
   bool parts = false;     // it is too large to be filled at once
-  Candidates candidates;  // else
-  Box<2> looked_at{};     // where the limits matter for this
+  Candidates<D> candidates;  // else
+  Box<D> looked_at{};     // where the limits matter for this
 };
 /// Cost: O(1) looks at the limits, by the number of pitches beside it.
-[[nodiscard]] CellPlan plan_of(const Limits& limits, const MeshBox<2>& box, const Cell<2>& c);
+template <int D>
+[[nodiscard]] CellPlan<D> plan_of(const Limits<D>& limits, const MeshBox<D>& box, const Cell<D>& c);
 
 }  // namespace mesher::detail

@@ -5,25 +5,15 @@
 #include <array>
 #include <limits>
 
-#include "geometry/box.hpp"
-#include "geometry/plane.hpp"
-#include "mesher/predicates.hpp"
 #include "mesher/sizes.hpp"
+#include "sizes/tile.hpp"
 
 namespace mesher::detail {
 
-class Facet {
+class Facet : public Tile<2> {
  public:
-  Facet(const std::array<Point<2>, 3>& at, const std::array<double, 3>& size)
-      : at_(at), size_(size) {}
+  Facet(const CornersOf<2>& at, const std::array<double, 3>& size) : Tile<2>(at), size_(size) {}
 
-  [[nodiscard]] const std::array<Point<2>, 3>& corners() const noexcept { return at_; }
-  [[nodiscard]] bool contains(const Point<2>& p) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (predicates::orient2d(at_[i], at_[(i + 1) % 3], p) < 0) return false;
-    }
-    return true;
-  }
   [[nodiscard]] double least() const { return *std::min_element(size_.begin(), size_.end()); }
   [[nodiscard]] double most() const { return *std::max_element(size_.begin(), size_.end()); }
   /// At a place inside or out.
@@ -57,28 +47,12 @@ class Facet {
     }
     return true;
   }
-  /// Whether the closed triangle and the closed box have a place in common.
-  [[nodiscard]] bool touches(const Box<2>& box) const {
-    if (is_empty(common(extent(), box))) return false;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Point<2>&a = at_[i], &b = at_[(i + 1) % 3];
-      if (predicates::orient2d(a, b, farthest_left(a, b, box)) < 0) return false;
-    }
-    return true;
-  }
-  [[nodiscard]] Box<2> extent() const { return bounding_box<2>(at_); }
-  [[nodiscard]] Point<2> middle() const { return centroid(at_); }
 
  private:
-  // The corner that is farthest to the left of ab.
-  static Point<2> farthest_left(const Point<2>& a, const Point<2>& b, const Box<2>& box) {
-    return {a[1] < b[1] ? box.lo[0] : box.hi[0], a[0] < b[0] ? box.hi[1] : box.lo[1]};
-  }
   // Twice the area.
   static double doubled(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
   }
-  std::array<Point<2>, 3> at_;
   std::array<double, 3> size_;
 };
 

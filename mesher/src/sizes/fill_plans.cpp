@@ -10,11 +10,12 @@ namespace mesher::detail {
 
 namespace {
 
-std::uint64_t digest(const CellPlan& plan) {
+template <int D>
+std::uint64_t digest(const CellPlan<D>& plan) {
   std::uint64_t all = plan.parts ? 1 : 0;
   const auto take = [&](double x) { all = sac::mix(all) + std::bit_cast<std::uint64_t>(x); };
-  for (const Candidate& q : plan.candidates) {
-    take(q.place[0]), take(q.place[1]);
+  for (const Candidate<D>& q : plan.candidates) {
+    for (const double x : q.place) take(x);
     take(q.amid ? q.pitch : -q.pitch);
   }
   return all;
@@ -22,18 +23,17 @@ std::uint64_t digest(const CellPlan& plan) {
 
 }  // namespace
 
-using Traced = FillPlans<sac::Scope>;
-
-CellPlan Traced::plan(sac::Scope& s, const Cell<2>& c) {
-  CellPlan plan = plan_of(limits_, box_, c);
-  const Point<2> middle = middle_of(plan.looked_at);
+template <int D>
+CellPlan<D> FillPlans<sac::Scope, D>::plan(sac::Scope& s, const Cell<D>& c) {
+  CellPlan<D> plan = plan_of(limits_, box_, c);
+  const Point<D> middle = middle_of(plan.looked_at);
   const double reach = reach_of(plan.looked_at);
   const std::uint64_t answer = digest(plan);
   const auto same = [&](const PlanEdge& edge) {
     return edge.cell == c && edge.middle == middle && edge.reach == reach && edge.answer == answer;
   };
-  if (s.recall<PlanEdge>(id_, kPlan, same) != nullptr) return plan;
-  auto& edge = s.observe<PlanEdge>(id_, kPlan);
+  if (s.template recall<PlanEdge>(id_, kPlan, same) != nullptr) return plan;
+  auto& edge = s.template observe<PlanEdge>(id_, kPlan);
   edge.cell = c;
   edge.middle = middle;
   edge.reach = reach;
@@ -45,24 +45,28 @@ CellPlan Traced::plan(sac::Scope& s, const Cell<2>& c) {
   return plan;
 }
 
-void Traced::limits_changed(const Box<2>& where) noexcept {
+template <int D>
+void FillPlans<sac::Scope, D>::limits_changed(const Box<D>& where) noexcept {
   looks_.visit_beside(where, [&](sac::Handle h) {
     const PlanEdge& edge = at(h);
     engine_.invalidate(engine_.call(edge.call), &edge);
   });
 }
 
-void Traced::retract(sac::Call&, sac::Edge& edge) noexcept {
+template <int D>
+void FillPlans<sac::Scope, D>::retract(sac::Call&, sac::Edge& edge) noexcept {
   const auto& plan = static_cast<const PlanEdge&>(edge);
   if (plan.listed) looks_.erase(plan.middle, engine_.arena().handle_of(&plan));
 }
 
-void Traced::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
+template <int D>
+void FillPlans<sac::Scope, D>::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
   sink.number(static_cast<const PlanEdge&>(edge).answer);
 }
 
-void Traced::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
-  const CellPlan plan = plan_of(limits_, box_, static_cast<const PlanEdge&>(edge).cell);
+template <int D>
+void FillPlans<sac::Scope, D>::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
+  const CellPlan<D> plan = plan_of(limits_, box_, static_cast<const PlanEdge&>(edge).cell);
   if (plan.parts) {
     out << "is filled in parts";
   } else {
@@ -70,7 +74,8 @@ void Traced::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) c
   }
 }
 
-void Traced::check_invariants() const {
+template <int D>
+void FillPlans<sac::Scope, D>::check_invariants() const {
   looks_.check_invariants();
   looks_.visit_all([&](sac::Handle h) {
     const PlanEdge& edge = at(h);
@@ -78,5 +83,8 @@ void Traced::check_invariants() const {
     SAC_INVARIANT(edge.answer == digest(plan_of(limits_, box_, edge.cell)));
   });
 }
+
+template class FillPlans<sac::Scope, 2>;
+template class FillPlans<sac::Scope, 3>;
 
 }  // namespace mesher::detail

@@ -16,38 +16,38 @@
 
 namespace mesher::detail {
 
-template <class S>
+template <class S, int D>
 class FillPlans;
 
-template <>
-class FillPlans<sac::PlainScope> {
+template <int D>
+class FillPlans<sac::PlainScope, D> {
  public:
-  FillPlans(const MeshBox<2>& box, const Limits& limits, sac::PlainScope&)
+  FillPlans(const MeshBox<D>& box, const Limits<D>& limits, sac::PlainScope&)
       : box_(box), limits_(limits) {}
 
-  [[nodiscard]] CellPlan plan(sac::PlainScope&, const Cell<2>& c) const {
+  [[nodiscard]] CellPlan<D> plan(sac::PlainScope&, const Cell<D>& c) const {
     return plan_of(limits_, box_, c);
   }
 
  private:
-  const MeshBox<2>& box_;
-  const Limits& limits_;
+  const MeshBox<D>& box_;
+  const Limits<D>& limits_;
 };
 
-template <>
-class FillPlans<sac::Scope> final : public sac::Structure {
+template <int D>
+class FillPlans<sac::Scope, D> final : public sac::Structure {
  public:
-  FillPlans(const MeshBox<2>& box, const Limits& limits, sac::Engine& engine)
+  FillPlans(const MeshBox<D>& box, const Limits<D>& limits, sac::Engine& engine)
       : engine_(engine),
         box_(box),
         limits_(limits),
         looks_(box),
         id_(engine.add_structure(*this)) {}
 
-  [[nodiscard]] CellPlan plan(sac::Scope& s, const Cell<2>& c);
+  [[nodiscard]] CellPlan<D> plan(sac::Scope& s, const Cell<D>& c);
 
   /// Called by who edits the limits in `where`.
-  void limits_changed(const Box<2>& where) noexcept;
+  void limits_changed(const Box<D>& where) noexcept;
 
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
   void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
@@ -61,8 +61,8 @@ class FillPlans<sac::Scope> final : public sac::Structure {
  private:
   static constexpr std::uint8_t kPlan = 0;
   struct PlanEdge : sac::Edge {
-    Cell<2> cell;
-    Point<2> middle;       // of where the limits matter,
+    Cell<D> cell;
+    Point<D> middle;       // of where the limits matter,
     double reach;          // which lies within this of it
     std::uint64_t answer;  // digest of the plan
     sac::Handle call;
@@ -73,9 +73,9 @@ class FillPlans<sac::Scope> final : public sac::Structure {
   }
 
   sac::Engine& engine_;
-  const MeshBox<2>& box_;
-  const Limits& limits_;
-  ReachTree<sac::Handle> looks_;  // PlanEdges
+  const MeshBox<D>& box_;
+  const Limits<D>& limits_;
+  ReachTree<sac::Handle, D> looks_;  // PlanEdges
   std::uint8_t id_;
 };
 

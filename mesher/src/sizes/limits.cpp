@@ -23,6 +23,15 @@ namespace {
          " is too small for double precision at coordinates up to " + text::to_text(coordinates));
 }
 
+// Not so if a side is not a number.
+template <int D>
+bool is_ordered(const Box<D>& box) {
+  for (std::size_t i = 0; i < D; ++i) {
+    if (!(box.lo[i] <= box.hi[i])) return false;
+  }
+  return true;
+}
+
 double rounded_down(double x, int bits) {
   int exponent = 0;
   const double mantissa = std::frexp(x, &exponent);
@@ -36,30 +45,31 @@ int bits_of_pitch(double spacing, double coordinates) {
 }
 constexpr int kFewestBits = 6;
 
-double largest_coordinate(const Box<2>& domain) {
+template <int D>
+double largest_coordinate(const Box<D>& domain) {
   double most = 0;
-  for (int i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < D; ++i) {
     most = std::max({most, std::abs(domain.lo[i]), std::abs(domain.hi[i])});
   }
   return most;
 }
 
-double area_of_size(double h) { return kAreaOfSize * h * h; }
 
 }  // namespace
 
-Limits::Limits(const Options<2>& options, const MeshBox<2>& box)
+template <int D>
+Limits<D>::Limits(const Options<D>& options, const MeshBox<D>& box)
     : domain_(options.domain),
       coordinates_(largest_coordinate(options.domain)),
       widest_(box.side),
       regions_(options.region_limits) {
   parts_.reserve(options.box_limits.size() + 1);
-  add_part(domain_, {options.max_area, options.sizes});
-  for (const BoxLimits<2>& part : options.box_limits) add_part(part.box, part.limits);
+  add_part(domain_, {options.max_measure, options.sizes});
+  for (const BoxLimits<D>& part : options.box_limits) add_part(part.box, part.limits);
   if (regions_ != nullptr) {
-    for (const double area : regions_->areas()) add_plateau(spacing(area));
+    for (const double measure : regions_->measures()) add_plateau(spacing(measure));
   }
-  const auto limits = [](const Part& p) { return p.area != kNone || p.sizes != nullptr; };
+  const auto limits = [](const Part& p) { return p.measure != kNone || p.sizes != nullptr; };
   const bool asked = any_ || std::any_of(parts_.begin(), parts_.end(), limits);
   if (asked && options.rule != Rule::radius_edge) {
     refuse("limits of size need the rule radius-edge");
@@ -67,22 +77,24 @@ Limits::Limits(const Options<2>& options, const MeshBox<2>& box)
   make_set(plateaus_);
 }
 
-void Limits::add_part(const Box<2>& box, const SizeLimits<2>& limits) {
-  if (!(box.lo[0] <= box.hi[0] && box.lo[1] <= box.hi[1])) refuse("a box of limits is empty");
-  if (!(limits.max_area >= 0)) refuse("max_area must be above 0");
-  const double area = limits.max_area != 0 ? limits.max_area : kNone;
-  parts_.push_back({box, area, add_plateau(spacing(area)), limits.sizes});
+template <int D>
+void Limits<D>::add_part(const Box<D>& box, const SizeLimits<D>& limits) {
+  if (!is_ordered(box)) refuse("a box of limits is empty");
+  if (!(limits.max_measure >= 0)) refuse("max_measure must be above 0");
+  const double measure = limits.max_measure != 0 ? limits.max_measure : kNone;
+  parts_.push_back({box, measure, add_plateau(spacing(measure)), limits.sizes});
   if (limits.sizes == nullptr) return;
   any_ = true;
   if (bands_.empty()) add_bands();
   for (const double h : limits.sizes->plateaus()) {
     parts_.back().has_plateaus = true;
-    add_plateau(spacing(area_of_size(h)));
+    add_plateau(spacing(measure_of_size<D>(h)));
   }
 }
 
 // Returns its pitch.
-double Limits::add_plateau(double spacing) {
+template <int D>
+double Limits<D>::add_plateau(double spacing) {
   if (spacing >= widest_) return kNone;
   any_ = true;
   plateaus_.push_back(even_pitch(spacing));
@@ -90,7 +102,8 @@ double Limits::add_plateau(double spacing) {
 }
 
 // From the smallest that is not too small.
-void Limits::add_bands() {
+template <int D>
+void Limits<D>::add_bands() {
   constexpr std::array<double, 4> kQuarters{1, 1.189207115002721, 1.4142135623730951,
                                             1.681792830507429};
   int exponent = std::ilogb(coordinates_) - (53 - 4 - kFewestBits);
@@ -106,50 +119,57 @@ void Limits::add_bands() {
 
 // --- Places ----------------------------------------------------------------------------------
 
-Limits::Look Limits::look(const Point<2>& p) const {
+template <int D>
+auto Limits<D>::look(const Point<D>& p) const -> Look {
   if (!contains(domain_, p)) return {kNone, kNone};
   if (regions_ == nullptr) return asked_at(p);
-  const RegionLimits::Limit there = regions_->at(p);
+  const typename RegionLimits<D>::Limit there = regions_->at(p);
   if (!there.counts) return {kNone, kNone};
   const Look asked = asked_at(p);
-  return there.area < asked.area ? Look{there.area, 0, true} : asked;
+  return there.measure < asked.measure ? Look{there.measure, 0, true} : asked;
 }
 
 // Where limits count.
-Limits::Look Limits::asked_at(const Point<2>& p) const {
+template <int D>
+auto Limits<D>::asked_at(const Point<D>& p) const -> Look {
   std::size_t i = parts_.size() - 1;
   while (i > 0 && !contains(parts_[i].box, p)) --i;
   return look(parts_[i], p);
 }
 
-Limits::Look Limits::look(const Part& part, const Point<2>& p) const {
-  if (part.sizes == nullptr) return {part.area, part.pitch};
+template <int D>
+auto Limits<D>::look(const Part& part, const Point<D>& p) const -> Look {
+  if (part.sizes == nullptr) return {part.measure, part.pitch};
   const double h = part.sizes->at(p);
   if (!(h > 0)) refuse("the size at " + place_text(p) + " is not above 0");
-  const double area = area_of_size(h);
-  if (part.area <= area) return {part.area, part.pitch};
-  return {area, 0, part.has_plateaus};
+  const double measure = measure_of_size<D>(h);
+  if (part.measure <= measure) return {part.measure, part.pitch};
+  return {measure, 0, part.has_plateaus};
 }
 
-double Limits::pitch_for(const Look& look) const {
+template <int D>
+double Limits<D>::pitch_for(const Look& look) const {
   if (look.pitch != 0) return look.pitch;
-  const double s = spacing(look.area);
+  const double s = spacing(look.measure);
   if (s >= widest_) return kNone;
   return look.even ? even_pitch(s) : band_pitch(s);
 }
 
 // Requires: a finite spacing.
-void Limits::require_not_small(double spacing) const {
+template <int D>
+void Limits<D>::require_not_small(double spacing) const {
   if (spacing > 0 && bits_of_pitch(spacing, coordinates_) >= kFewestBits) return;
   fail_too_small(spacing, coordinates_);
 }
 
-double Limits::even_pitch(double spacing) const {
+template <int D>
+double Limits<D>::even_pitch(double spacing) const {
   require_not_small(spacing);
   return rounded_down(spacing, bits_of_pitch(spacing, coordinates_));
 }
 
-double Limits::band_pitch(double spacing) const {
+template <int D>
+double Limits<D>::band_pitch(double spacing) const {
   if (spacing < bands_.front().spacing) fail_too_small(spacing, coordinates_);
   const auto above = std::upper_bound(bands_.begin(), bands_.end(), spacing,
                                       [](double x, const Band& b) { return x < b.spacing; });
@@ -158,11 +178,12 @@ double Limits::band_pitch(double spacing) const {
 
 // --- Boxes -----------------------------------------------------------------------------------
 
-Limits::Spread Limits::spread(const Part& part, const Box<2>& box) const {
-  const double widest = spacing(part.area);
+template <int D>
+auto Limits<D>::spread(const Part& part, const Box<D>& box) const -> Spread {
+  const double widest = spacing(part.measure);
   if (part.sizes == nullptr) return {widest, widest, true};
   const SizeRange sizes = part.sizes->range(box);
-  const auto of = [&](double h) { return spacing(std::min(part.area, area_of_size(h))); };
+  const auto of = [&](double h) { return spacing(std::min(part.measure, measure_of_size<D>(h))); };
   const Spread found{of(sizes.least), of(std::max(sizes.least, sizes.most)),
                      sizes.even && part.has_plateaus};
   if (!(found.least >= widest_)) require_not_small(found.least);
@@ -170,11 +191,12 @@ Limits::Spread Limits::spread(const Part& part, const Box<2>& box) const {
 }
 
 // Of places in the domain.
-Limits::Spread Limits::spacings_in(const Box<2>& box) const {
-  const Box<2> inside = common(box, domain_);
+template <int D>
+auto Limits<D>::spacings_in(const Box<D>& box) const -> Spread {
+  const Box<D> inside = common(box, domain_);
   if (is_empty(inside)) return {kNone, kNone, true};
   if (regions_ == nullptr) return asked_in(inside);
-  const RegionLimits::Range there = regions_->range(inside);
+  const typename RegionLimits<D>::Range there = regions_->range(inside);
   if (!there.some) return {kNone, kNone, true};
   const Spread asked = asked_in(inside);
   const double least = spacing(there.least), most = spacing(there.most);
@@ -183,12 +205,13 @@ Limits::Spread Limits::spacings_in(const Box<2>& box) const {
 }
 
 // What lies behind a part that has all of the box is hidden.
-Limits::Spread Limits::asked_in(const Box<2>& inside) const {
+template <int D>
+auto Limits<D>::asked_in(const Box<D>& inside) const -> Spread {
   std::size_t i = parts_.size() - 1;
   while (i > 0 && !contains(parts_[i].box, inside)) --i;
   Spread all = spread(parts_[i], inside);
   while (++i < parts_.size()) {
-    const Box<2> there = common(inside, parts_[i].box);
+    const Box<D> there = common(inside, parts_[i].box);
     if (is_empty(there)) continue;
     const Spread more = spread(parts_[i], there);
     all = {std::min(all.least, more.least), std::max(all.most, more.most), all.even && more.even};
@@ -196,7 +219,8 @@ Limits::Spread Limits::asked_in(const Box<2>& inside) const {
   return all;
 }
 
-Limits::Pitches Limits::pitches_in(const Box<2>& box) const {
+template <int D>
+auto Limits<D>::pitches_in(const Box<D>& box) const -> Pitches {
   if (!any()) return {};
   const Spread spacings = spacings_in(box);
   if (spacings.least >= widest_) return {};
@@ -205,15 +229,7 @@ Limits::Pitches Limits::pitches_in(const Box<2>& box) const {
   return {least, spacings.most, spacings.even};
 }
 
-// The lattice is kept out of the balls of leaves [rules A7.1]: the gap must not be larger than what
-// a lattice's triangle leaves. The spacing is the least in the ball, not only on the piece: so the
-// lattice's points that a leaf blocks have its ends near by.
-bool Limits::is_long(const Point<2>& a, const Point<2>& b) const {
-  constexpr double kLongest = 1.4;
-  if (!any()) return false;
-  const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
-  const Point<2> middle{a[0] + (b[0] - a[0]) / 2, a[1] + (b[1] - a[1]) / 2};
-  return length > kLongest * spacings_in(around(middle, length / 2)).least;
-}
+template class Limits<2>;
+template class Limits<3>;
 
 }  // namespace mesher::detail

@@ -1,13 +1,13 @@
-// How large triangles may be, and the lattices that suit that [rules A7]: functions of space.
+// How large simplices may be, and the lattices that suit that [rules A7]: functions of space.
 //
-// A triangle whose centroid is in the domain has at most the area of the limit there. A limit of A
-// asks for a *spacing* of sqrt(A / 0.4375), that of the lattice whose triangles have this area.
+// A simplex whose centroid is in the domain has at most the measure (area, volume) of the limit
+// there. A limit asks for a *spacing*, that of the lattice whose simplices have this measure.
 //
 // The *pitch* at a place is that of the lattice that fills it: the spacing there, rounded down to a
-// few bits, where the limit is constant (max_area, or a plateau of the sizes); elsewhere that of
+// few bits, where the limit is constant (max_measure, or a plateau of the sizes); elsewhere that of
 // its *band*, [2^(k/4), 2^((k+1)/4)), so that lattices of some extent result.
 //
-// Where regions are given, limits count in some, and these may have areas of their own.
+// Where regions are given, limits count in some, and these may have measures of their own.
 //
 // All that is said of a place, or of a box, depends on the limits there alone: limits that change
 // elsewhere do not matter.
@@ -26,12 +26,13 @@
 
 namespace mesher::detail {
 
+template <int D>
 class Limits {
  public:
   static constexpr double kNone = std::numeric_limits<double>::infinity();
 
   /// Throws: Error(bad_option).
-  Limits(const Options<2>& options, const MeshBox<2>& box);
+  Limits(const Options<D>& options, const MeshBox<D>& box);
 
   /// Whether there is a limit somewhere.
   [[nodiscard]] bool any() const noexcept { return any_; }
@@ -39,29 +40,35 @@ class Limits {
   [[nodiscard]] bool uniform() const noexcept {
     return parts_.size() == 1 && parts_.front().sizes == nullptr && regions_ == nullptr;
   }
-  /// The largest area of a triangle with its centroid at p; kNone: any.
+  /// The largest measure of a simplex with its centroid at p; kNone: any.
   /// Throws: Error(bad_option) for a size that is not above 0.
-  [[nodiscard]] double area(const Point<2>& p) const { return look(p).area; }
+  [[nodiscard]] double measure(const Point<D>& p) const { return look(p).measure; }
   /// The pitch of the lattice at p; kNone: no lattice. Throws: also if it is too small.
-  [[nodiscard]] double pitch(const Point<2>& p) const { return any() ? pitch_for(look(p)) : kNone; }
+  [[nodiscard]] double pitch(const Point<D>& p) const { return any() ? pitch_for(look(p)) : kNone; }
   /// The same where the limit is a constant or a plateau; elsewhere 0.
-  [[nodiscard]] double constant_pitch(const Point<2>& p) const {
+  [[nodiscard]] double constant_pitch(const Point<D>& p) const {
     const Look there = look(p);
     return there.even ? pitch_for(there) : 0;
   }
-  [[nodiscard]] Point<2> nearest_in_domain(const Point<2>& p) const noexcept {
-    return {std::clamp(p[0], domain_.lo[0], domain_.hi[0]),
-            std::clamp(p[1], domain_.lo[1], domain_.hi[1])};
+  [[nodiscard]] Point<D> nearest_in_domain(const Point<D>& p) const noexcept {
+    Point<D> nearest;
+    for (std::size_t i = 0; i < D; ++i) {
+      nearest[i] = std::clamp(p[i], domain_.lo[i], domain_.hi[i]);
+    }
+    return nearest;
   }
-  /// Whether a piece of a segment is so long that the lattice would leave a gap beside it.
-  [[nodiscard]] bool is_long(const Point<2>& a, const Point<2>& b) const;
+  /// Whether a piece of a feature is so long that the lattice would leave a gap beside it: longer
+  /// than `most` spacings somewhere in the box around its ball.
+  [[nodiscard]] bool is_long(const Box<D>& box, double length, double most) const {
+    return any() && length > most * spacings_in(box).least;
+  }
 
   /// What lies in a box: no pitch is below `least`, none above `most`; kNone: no lattice.
   struct Pitches {
     double least = kNone, most = kNone;
     bool even = true;  // the limits are constants and plateaus
   };
-  [[nodiscard]] Pitches pitches_in(const Box<2>& box) const;
+  [[nodiscard]] Pitches pitches_in(const Box<D>& box) const;
   /// Calls visit(pitch) for what there may be, ascending, until it returns true; returns whether it
   /// did.
   template <class Visit>
@@ -74,14 +81,14 @@ class Limits {
   };
   // The last part that has a place says what holds there.
   struct Part {
-    Box<2> box;
-    double area;                                // kNone: no limit
+    Box<D> box;
+    double measure;                             // kNone: no limit
     double pitch;                               // that this asks for
-    std::shared_ptr<const SizeField<2>> sizes;  // null: area everywhere
+    std::shared_ptr<const SizeField<D>> sizes;  // null: measure everywhere
     bool has_plateaus = false;
   };
   struct Look {
-    double area;
+    double measure;
     double pitch;  // of a constant; 0: of sizes that vary
     bool even = true;
   };
@@ -91,33 +98,34 @@ class Limits {
     bool even = true;
   };
 
-  static double spacing(double area) noexcept { return std::sqrt(area / Lattice::kArea); }
-  void add_part(const Box<2>& box, const SizeLimits<2>& limits);
+  static double spacing(double measure) noexcept { return Lattice<D>::spacing(measure); }
+  void add_part(const Box<D>& box, const SizeLimits<D>& limits);
   double add_plateau(double spacing);
   void add_bands();
   [[nodiscard]] double even_pitch(double spacing) const;
   [[nodiscard]] double band_pitch(double spacing) const;
   [[nodiscard]] double pitch_for(const Look& look) const;
-  [[nodiscard]] Look look(const Point<2>& p) const;
-  [[nodiscard]] Look asked_at(const Point<2>& p) const;
-  [[nodiscard]] Look look(const Part& part, const Point<2>& p) const;
-  [[nodiscard]] Spread spread(const Part& part, const Box<2>& box) const;
-  [[nodiscard]] Spread asked_in(const Box<2>& inside) const;
-  [[nodiscard]] Spread spacings_in(const Box<2>& box) const;
+  [[nodiscard]] Look look(const Point<D>& p) const;
+  [[nodiscard]] Look asked_at(const Point<D>& p) const;
+  [[nodiscard]] Look look(const Part& part, const Point<D>& p) const;
+  [[nodiscard]] Spread spread(const Part& part, const Box<D>& box) const;
+  [[nodiscard]] Spread asked_in(const Box<D>& inside) const;
+  [[nodiscard]] Spread spacings_in(const Box<D>& box) const;
   void require_not_small(double spacing) const;
 
-  Box<2> domain_;
+  Box<D> domain_;
   double coordinates_;  // none in the domain is larger
   double widest_;       // spacings from this on have no lattice
   bool any_ = false;
   std::vector<Part> parts_;                      // the first has all of the domain
-  std::shared_ptr<const RegionLimits> regions_;  // null: all of this counts everywhere
+  std::shared_ptr<const RegionLimits<D>> regions_;  // null: all of this counts everywhere
   std::vector<double> plateaus_;                 // pitches, ascending
   std::vector<Band> bands_;                      // ascending; empty if all is constant
 };
 
+template <int D>
 template <class Visit>
-bool Limits::visit_pitches(const Pitches& range, Visit&& visit) const {
+bool Limits<D>::visit_pitches(const Pitches& range, Visit&& visit) const {
   std::size_t i = 0, j = range.even ? bands_.size() : 0;
   while (i < plateaus_.size() || j < bands_.size()) {
     const bool of_band =

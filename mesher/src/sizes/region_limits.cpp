@@ -1,4 +1,4 @@
-// Triangles in a quadtree of shared nodes.
+// Simplices in a tree of shared nodes.
 #include "sizes/region_limits.hpp"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 
 #include "geometry/box.hpp"
 #include "mesher/domain_mesh.hpp"
+#include "mesher/mesher.hpp"
 #include "program/world.hpp"
 #include "sac/check.hpp"
 #include "sizes/all_limits.hpp"
@@ -15,15 +16,17 @@ namespace mesher {
 
 using detail::Cell;
 
-void RegionLimits::take(Range& all, const Limit& limit) {
+template <int D>
+void RegionLimits<D>::take(Range& all, const Limit& limit) {
   all.all = all.all && limit.counts;
   if (!limit.counts) return;
   all.some = true;
-  all.least = std::min(all.least, limit.area);
-  all.most = std::max(all.most, limit.area);
+  all.least = std::min(all.least, limit.measure);
+  all.most = std::max(all.most, limit.measure);
 }
 
-void RegionLimits::take(Range& all, const Range& more) {
+template <int D>
+void RegionLimits<D>::take(Range& all, const Range& more) {
   all.least = std::min(all.least, more.least);
   all.most = std::max(all.most, more.most);
   all.some = all.some || more.some;
@@ -33,7 +36,8 @@ void RegionLimits::take(Range& all, const Range& more) {
 // --- Writing ---------------------------------------------------------------------------------
 
 // A node that no other value has.
-RegionLimits::Node& RegionLimits::own(Link& link) {
+template <int D>
+auto RegionLimits<D>::own(Link& link) -> Node& {
   if (link == nullptr) {
     link = std::make_shared<Node>();
   } else if (link.use_count() > 1) {
@@ -42,7 +46,8 @@ RegionLimits::Node& RegionLimits::own(Link& link) {
   return *link;
 }
 
-void RegionLimits::summarise(Link& link) {
+template <int D>
+void RegionLimits<D>::summarise(Link& link) {
   const auto is_there = [](const Link& child) { return child != nullptr; };
   Node& node = *link;
   if (node.entries.empty() && std::none_of(node.child.begin(), node.child.end(), is_there)) {
@@ -56,65 +61,74 @@ void RegionLimits::summarise(Link& link) {
   }
 }
 
-Cell<2> RegionLimits::cell_of(const Corners& triangle) const {
-  const Box<2> box = detail::bounding_box<2>(triangle);
-  const double extent = std::max(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1]);
+template <int D>
+Cell<D> RegionLimits<D>::cell_of(const Corners& simplex) const {
+  const Box<D> box = detail::bounding_box<D>(simplex);
+  const double extent = detail::longest_side(box);
   const int level = std::ilogb(box_.side / extent) - 1;  // the side is twice the extent, or more
-  return detail::MeshBox<2>::cell(box_.fixed(detail::middle_of(box)),
+  return detail::MeshBox<D>::cell(box_.fixed(detail::middle_of(box)),
                                   std::clamp(level, 0, detail::kLevels - 1));
 }
 
+template <int D>
 template <class Edit>
-void RegionLimits::edit_at(Link& link, const Cell<2>& cell, int level, Edit& edit) {
+void RegionLimits<D>::edit_at(Link& link, const Cell<D>& cell, int level, Edit& edit) {
   Node& node = own(link);
   if (level == cell.level) {
     edit(node.entries);
   } else {
-    const int c = detail::MeshBox<2>::child_of(cell.corner, level);
+    const int c = detail::MeshBox<D>::child_of(cell.corner, level);
     edit_at(node.child[static_cast<std::size_t>(c)], cell, level + 1, edit);
   }
   summarise(link);
 }
 
-void RegionLimits::insert(const Corners& triangle, const Limit& limit) {
-  const Entry entry{detail::Facet(triangle, {}), limit};
+template <int D>
+void RegionLimits<D>::insert(const Corners& simplex, const Limit& limit) {
+  const Entry entry{detail::Tile<D>(simplex), limit};
   const auto put = [&](std::vector<Entry>& entries) { entries.push_back(entry); };
-  edit_at(root_, cell_of(triangle), 0, put);
+  edit_at(root_, cell_of(simplex), 0, put);
 }
 
-RegionLimits::Limit RegionLimits::erase(const Corners& triangle) {
+template <int D>
+auto RegionLimits<D>::erase(const Corners& simplex) -> Limit {
   Limit limit;
   const auto take_out = [&](std::vector<Entry>& entries) {
-    const auto same = [&](const Entry& e) { return e.facet.corners() == triangle; };
+    const auto same = [&](const Entry& e) { return e.tile.corners() == simplex; };
     const auto it = std::find_if(entries.begin(), entries.end(), same);
     SAC_EXPECTS(it != entries.end());
     limit = it->limit;
     entries.erase(it);
   };
-  edit_at(root_, cell_of(triangle), 0, take_out);
+  edit_at(root_, cell_of(simplex), 0, take_out);
   return limit;
 }
 
 // --- Reading ---------------------------------------------------------------------------------
 
 // enter(box, node): of all that is in a cell; lo, side: of the cell.
+template <int D>
 template <class Enter, class Visit>
-void RegionLimits::visit(const Node& node, const Point<2>& lo, double side, Enter& enter,
+void RegionLimits<D>::visit(const Node& node, const Point<D>& lo, double side, Enter& enter,
                          Visit& visit_entry) const {
   const double around = 0.26 * side;  // with some rounding
-  const Box<2> box{{lo[0] - around, lo[1] - around},
-                   {lo[0] + side + around, lo[1] + side + around}};
+  Box<D> box;
+  for (std::size_t i = 0; i < D; ++i) {
+    box.lo[i] = lo[i] - around;
+    box.hi[i] = lo[i] + side + around;
+  }
   if (!enter(box, node)) return;
   for (const Entry& e : node.entries) visit_entry(e);
-  for (std::size_t c = 0; c < 4; ++c) {
+  for (std::size_t c = 0; c < node.child.size(); ++c) {
     if (node.child[c] == nullptr) continue;
-    const Point<2> inner{lo[0] + ((c & 1) != 0 ? side / 2 : 0),
-                         lo[1] + ((c & 2) != 0 ? side / 2 : 0)};
+    Point<D> inner = lo;
+    for (std::size_t i = 0; i < D; ++i) inner[i] += ((c >> i) & 1) != 0 ? side / 2 : 0;
     visit(*node.child[c], inner, side / 2, enter, visit_entry);
   }
 }
 
-std::size_t RegionLimits::bytes_below(const Node& node) {
+template <int D>
+std::size_t RegionLimits<D>::bytes_below(const Node& node) {
   constexpr std::size_t kCounts = 16;  // what a shared_ptr keeps beside a node
   std::size_t bytes = sizeof(Node) + kCounts + node.entries.capacity() * sizeof(Entry);
   for (const Link& child : node.child) {
@@ -122,26 +136,29 @@ std::size_t RegionLimits::bytes_below(const Node& node) {
   }
   return bytes;
 }
-std::size_t RegionLimits::bytes() const { return root_ == nullptr ? 0 : bytes_below(*root_); }
+template <int D>
+std::size_t RegionLimits<D>::bytes() const { return root_ == nullptr ? 0 : bytes_below(*root_); }
 
-RegionLimits::Limit RegionLimits::at(const Point<2>& p) const {
+template <int D>
+auto RegionLimits<D>::at(const Point<D>& p) const -> Limit {
   Limit found;
-  const auto enter = [&](const Box<2>& box, const Node& node) {
+  const auto enter = [&](const Box<D>& box, const Node& node) {
     return node.range.some && detail::contains(box, p);
   };
   const auto look = [&](const Entry& e) {
-    if (!e.limit.counts || !e.facet.contains(p)) return;
+    if (!e.limit.counts || !e.tile.contains(p)) return;
     found.counts = true;
-    found.area = std::min(found.area, e.limit.area);
+    found.measure = std::min(found.measure, e.limit.measure);
   };
   if (root_ != nullptr) visit(*root_, box_.lo, box_.side, enter, look);
   return found;
 }
 
 // What lies in the box takes no further look, nor what says nothing new.
-RegionLimits::Range RegionLimits::range(const Box<2>& box) const {
+template <int D>
+auto RegionLimits<D>::range(const Box<D>& box) const -> Range {
   Range all;
-  const auto enter = [&](const Box<2>& around, const Node& node) {
+  const auto enter = [&](const Box<D>& around, const Node& node) {
     if (detail::is_empty(detail::common(around, box))) return false;
     Range more = all;
     take(more, node.range);
@@ -151,34 +168,63 @@ RegionLimits::Range RegionLimits::range(const Box<2>& box) const {
     return false;
   };
   const auto look = [&](const Entry& e) {
-    if (e.facet.touches(box)) take(all, e.limit);
+    if (e.tile.touches(box)) take(all, e.limit);
   };
   if (root_ != nullptr) visit(*root_, box_.lo, box_.side, enter, look);
   return all;
 }
 
+template class RegionLimits<2>;
+template class RegionLimits<3>;
+
 // --- From scratch ----------------------------------------------------------------------------
 
-std::shared_ptr<const RegionLimits> region_limits(const Pslg& graph, const Options<2>& options,
-                                                  Extent extent, RegionAreas areas) {
-  Options<2> unlimited = options;
-  detail::AllLimits().apply_to(unlimited);
-  const MeshData whole = with_features(mesh_statically(graph, unlimited), graph);
-  const Domain domain = find_domain(whole, whole.features.edges, seeds_of(graph), extent);
-  const auto limits = std::make_shared<RegionLimits>(detail::mesh_box(options));
+namespace {
+
+[[nodiscard]] std::optional<double> limit_said_of(const Pslg::Region& region) { return region.max_area; }
+[[nodiscard]] std::optional<double> limit_said_of(const Plc::Region& region) {
+  return region.max_volume;
+}
+
+template <int D>
+std::shared_ptr<const RegionLimits<D>> limits_in(const GraphOf<D>& graph,
+                                                 const Options<D>& options, Extent extent,
+                                                 RegionAreas areas) {
+  Options<D> unlimited = options;
+  detail::AllLimits<D>().apply_to(unlimited);
+  const auto whole = with_features(mesh_statically(graph, unlimited), graph);
+  const auto& walls = [&]() -> const std::vector<WallOf<D>>& {
+    if constexpr (D == 2) return whole.features.edges;
+    if constexpr (D == 3) return whole.features.faces;
+  }();
+  const auto domain = find_domain(whole, walls, seeds_of(graph), extent);
+  const auto limits = std::make_shared<RegionLimits<D>>(detail::mesh_box(options));
   std::vector<double> all;
   for (const auto& region : graph.regions) {
-    if (areas == RegionAreas::limits && region.max_area) all.push_back(*region.max_area);
+    if (areas == RegionAreas::limits && limit_said_of(region)) all.push_back(*limit_said_of(region));
   }
   for (std::size_t t = 0; t < whole.simplices.size(); ++t) {
     const Region& region = domain.regions[domain.region_of[t]];
-    RegionLimits::Limit limit{domain.keeps(region), RegionLimits::kNone, {}};
-    if (areas == RegionAreas::limits && region.max_area) limit.area = *region.max_area;
-    const auto& [a, b, c] = whole.simplices[t];
-    limits->insert({whole.vertices[a], whole.vertices[b], whole.vertices[c]}, limit);
+    typename RegionLimits<D>::Limit limit{domain.keeps(region), RegionLimits<D>::kNone, {}};
+    if (areas == RegionAreas::limits && region.max_measure) limit.measure = *region.max_measure;
+    detail::CornersOf<D> corners;
+    for (std::size_t i = 0; i <= D; ++i) corners[i] = whole.vertices[whole.simplices[t][i]];
+    limits->insert(corners, limit);
   }
-  limits->set_areas(std::move(all));
+  limits->set_measures(std::move(all));
   return limits;
+}
+
+}  // namespace
+
+std::shared_ptr<const RegionLimits<2>> region_limits(const Pslg& graph, const Options<2>& options,
+                                                     Extent extent, RegionAreas areas) {
+  return limits_in<2>(graph, options, extent, areas);
+}
+std::shared_ptr<const RegionLimits<3>> region_limits(const Plc& complex,
+                                                     const Options<3>& options, Extent extent,
+                                                     RegionAreas areas) {
+  return limits_in<3>(complex, options, extent, areas);
 }
 
 }  // namespace mesher

@@ -14,12 +14,19 @@
 
 namespace mesher {
 
-SizeRange SlopedSizes::range(const Box<2>& box) const {
-  const Point<2> middle{(box.lo[0] + box.hi[0]) / 2, (box.lo[1] + box.hi[1]) / 2};
-  const double radius = std::hypot(box.hi[0] - middle[0], box.hi[1] - middle[1]);
+template <int D>
+SizeRange SlopedSizes<D>::range(const Box<D>& box) const {
+  Point<D> middle;
+  double radius = 0;
+  for (std::size_t i = 0; i < D; ++i) {
+    middle[i] = (box.lo[i] + box.hi[i]) / 2;
+    radius = std::hypot(radius, box.hi[i] - middle[i]);
+  }
   const double here = size_(middle), change = slope_ * radius * (1 + 0x1p-40);
   return {std::max(here - change, least_), here + change};
 }
+template class SlopedSizes<2>;
+template class SlopedSizes<3>;
 
 namespace {
 

@@ -11,33 +11,23 @@ namespace mesher::detail {
 namespace {
 
 // Requires: candidates is not empty.
-Box<2> extent_of(const Candidates& candidates) {
-  Box<2> all{candidates.front().place, candidates.front().place};
+template <class S, int D>
+Box<D> extent_of(const Candidates<D>& candidates) {
+  Box<D> all{candidates.front().place, candidates.front().place};
   for (const auto& q : candidates) {
-    const Box<2> one = around(q.place, kUndisturbed * q.pitch);
+    const Box<D> one = around(q.place, Obstacles<S, D>::kReach * q.pitch);
     grow(all, one.lo);
     grow(all, one.hi);
   }
   return all;
 }
 
-template <class S>
-bool has_within(const Features<S>& features, const Point<2>& p, double distance) {
-  return features.visit_features_in(around(p, distance), [&](const Vertex<2>& v) {
-    return squared_distance(v.p, p) < distance * distance;
-  });
-}
-
-template <class S>
-std::vector<Room> rooms_of(const Candidates& candidates, const Features<S>& features) {
+template <class S, int D>
+std::vector<Room> rooms_of(const Candidates<D>& candidates, const Obstacles<S, D>& obstacles) {
   std::vector<Room> rooms(candidates.size(), Room::ample);
-  if (candidates.empty()) return rooms;
-  const auto any = [](const Vertex<2>&) { return true; };
-  if (!features.visit_features_in(extent_of(candidates), any)) return rooms;
-  std::transform(candidates.begin(), candidates.end(), rooms.begin(), [&](const auto& q) {
-    if (!has_within(features, q.place, kUndisturbed * q.pitch)) return Room::ample;
-    return has_within(features, q.place, kClear * q.pitch) ? Room::none : Room::some;
-  });
+  if (candidates.empty() || !obstacles.any_in(extent_of<S>(candidates))) return rooms;
+  std::transform(candidates.begin(), candidates.end(), rooms.begin(),
+                 [&](const auto& q) { return obstacles.room(q.place, q.pitch); });
   return rooms;
 }
 
@@ -49,23 +39,24 @@ std::uint64_t digest(const std::vector<Room>& rooms) {
 
 }  // namespace
 
-std::vector<Room> Surroundings<sac::PlainScope>::rooms(sac::PlainScope&, const Cell<2>&,
-                                                       const Candidates& candidates) const {
-  return rooms_of(candidates, features_);
+template <int D>
+std::vector<Room> Surroundings<sac::PlainScope, D>::rooms(sac::PlainScope&, const Cell<D>&,
+                                                          const Candidates<D>& candidates) const {
+  return rooms_of(candidates, obstacles_);
 }
 
-using Traced = Surroundings<sac::Scope>;
-
-std::vector<Room> Traced::rooms(sac::Scope& s, const Cell<2>& c, const Candidates& candidates) {
-  std::vector<Room> rooms = rooms_of(candidates, features_);
+template <int D>
+auto Surroundings<sac::Scope, D>::rooms(sac::Scope& s, const Cell<D>& c,
+                                        const Candidates<D>& candidates) -> std::vector<Room> {
+  std::vector<Room> rooms = rooms_of(candidates, obstacles_);
   if (candidates.empty()) return rooms;
-  const Box<2> extent = extent_of(candidates);
+  const Box<D> extent = extent_of<sac::Scope>(candidates);
   const auto same = [&](const AskEdge& ask) { return ask.cell == c && ask.extent == extent; };
-  if (auto* ask = s.recall<AskEdge>(id_, kAsk, same)) {
+  if (auto* ask = s.template recall<AskEdge>(id_, kAsk, same)) {
     ask->answer = digest(rooms);
     return rooms;
   }
-  auto& ask = s.observe<AskEdge>(id_, kAsk);
+  auto& ask = s.template observe<AskEdge>(id_, kAsk);
   ask.cell = c;
   ask.extent = extent;
   ask.answer = digest(rooms);
@@ -78,41 +69,53 @@ std::vector<Room> Traced::rooms(sac::Scope& s, const Cell<2>& c, const Candidate
   return rooms;
 }
 
-void Traced::feature_changed(const Point<2>& p) noexcept {
+template <int D>
+void Surroundings<sac::Scope, D>::changed(const FeatureExtent<D>& where) noexcept {
   if (asks_.size() == 0) return;
-  asks_.visit_at(p, [&](sac::Handle h) {
-    const AskEdge& ask = at(h);
-    if (contains(ask.extent, p)) engine_.doubt(engine_.call(ask.call));
-  });
+  Box<D> near = around(where.p, where.slack);
+  const Box<D> end = around(where.q, where.slack);
+  grow(near, end.lo), grow(near, end.hi);
+  asks_.visit_near(where.p, where.q, where.slack,
+                   [&](sac::Handle h) {
+                     const AskEdge& ask = at(h);
+                     const bool beside = is_empty(common(ask.extent, near));
+                     if (!beside) engine_.doubt(engine_.call(ask.call));
+                   });
 }
 
-void Traced::retract(sac::Call&, sac::Edge& edge) noexcept {
+template <int D>
+void Surroundings<sac::Scope, D>::retract(sac::Call&, sac::Edge& edge) noexcept {
   const auto& ask = static_cast<const AskEdge&>(edge);
   if (ask.listed) asks_.erase(middle_of(ask.extent), engine_.arena().handle_of(&ask));
 }
 
-std::uint64_t Traced::answer_now(const AskEdge& ask) const {
-  return digest(rooms_of(plan_of(limits_, box_, ask.cell).candidates, features_));
+template <int D>
+std::uint64_t Surroundings<sac::Scope, D>::answer_now(const AskEdge& ask) const {
+  return digest(rooms_of(plan_of(limits_, box_, ask.cell).candidates, obstacles_));
 }
 
-bool Traced::unchanged(sac::Call&, sac::Edge& edge) {
+template <int D>
+bool Surroundings<sac::Scope, D>::unchanged(sac::Call&, sac::Edge& edge) {
   const auto& ask = static_cast<const AskEdge&>(edge);
   return ask.answer == answer_now(ask);
 }
 
-void Traced::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
+template <int D>
+void Surroundings<sac::Scope, D>::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
   sink.number(static_cast<const AskEdge&>(edge).answer);
 }
 
-void Traced::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
+template <int D>
+void Surroundings<sac::Scope, D>::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
   const auto& ask = static_cast<const AskEdge&>(edge);
-  const Candidates candidates = plan_of(limits_, box_, ask.cell).candidates;
-  const std::vector<Room> rooms = rooms_of(candidates, features_);
+  const Candidates<D> candidates = plan_of(limits_, box_, ask.cell).candidates;
+  const std::vector<Room> rooms = rooms_of(candidates, obstacles_);
   out << candidates.size() << " candidates, " << std::count(rooms.begin(), rooms.end(), Room::none)
       << " beside features";
 }
 
-void Traced::check_invariants() const {
+template <int D>
+void Surroundings<sac::Scope, D>::check_invariants() const {
   asks_.check_invariants();
   asks_.visit_all([&](sac::Handle h) {
     const AskEdge& ask = at(h);
@@ -120,5 +123,10 @@ void Traced::check_invariants() const {
     SAC_INVARIANT(ask.answer == answer_now(ask));
   });
 }
+
+template class Surroundings<sac::PlainScope, 2>;
+template class Surroundings<sac::PlainScope, 3>;
+template class Surroundings<sac::Scope, 2>;
+template class Surroundings<sac::Scope, 3>;
 
 }  // namespace mesher::detail

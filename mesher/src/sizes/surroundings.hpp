@@ -1,69 +1,54 @@
-// How much room features leave to places that may be filled. Features are input points, and
-// vertices at which segments are split.
+// How much room features leave to places that may be filled.
 //
 //   rooms(s, c, candidates)   for each candidate in the cell c, see Room   (observation)
 //
 // Whoever asks comes behind all splits. So an answer changes only before its call's turn: by an
-// edit from outside, or by a split of a segment that comes or goes.
+// edit from outside, or in the plane by a split of a segment that comes or goes.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "index/features.hpp"
 #include "segments/reach_tree.hpp"
 #include "sizes/candidates.hpp"
+#include "sizes/obstacles.hpp"
 
 namespace mesher::detail {
 
-/// How near the nearest feature is.
-enum class Room : std::uint8_t {
-  none,  ///< nearer than kClear
-  some,
-  ample,  ///< not nearer than kUndisturbed
-};
-/// A place nearer to a feature than this, in pitches, is not filled.
-inline constexpr double kClear = 0.5;
-/// If no feature is nearer than this, in pitches, a vertex amid the lattice needs nothing: no
-/// leaf's ball has one of the six around it (such a leaf is at most 1.4 spacings long, hence 1.67
-/// pitches, and its ends are features), and no feature is in the circumcircles of its six
-/// triangles.
-inline constexpr double kUndisturbed = 3.2;
-
-template <class S>
+template <class S, int D>
 class Surroundings;
 
-template <>
-class Surroundings<sac::PlainScope> {
+template <int D>
+class Surroundings<sac::PlainScope, D> {
  public:
-  Surroundings(const MeshBox<2>&, const Limits&, const Features<sac::PlainScope>& features,
+  Surroundings(const MeshBox<D>&, const Limits<D>&, const Obstacles<sac::PlainScope, D>& obstacles,
                sac::PlainScope&)
-      : features_(features) {}
+      : obstacles_(obstacles) {}
 
-  [[nodiscard]] std::vector<Room> rooms(sac::PlainScope&, const Cell<2>&,
-                                        const Candidates& candidates) const;
+  [[nodiscard]] std::vector<Room> rooms(sac::PlainScope&, const Cell<D>&,
+                                        const Candidates<D>& candidates) const;
 
  private:
-  const Features<sac::PlainScope>& features_;
+  Obstacles<sac::PlainScope, D> obstacles_;
 };
 
-template <>
-class Surroundings<sac::Scope> final : public sac::Structure, public FeatureListener<2> {
+template <int D>
+class Surroundings<sac::Scope, D> final : public sac::Structure, public FeatureListener<D> {
  public:
-  Surroundings(const MeshBox<2>& box, const Limits& limits, Features<sac::Scope>& features,
-               sac::Engine& engine)
+  Surroundings(const MeshBox<D>& box, const Limits<D>& limits,
+               const Obstacles<sac::Scope, D>& obstacles, sac::Engine& engine)
       : engine_(engine),
         box_(box),
         limits_(limits),
-        features_(features),
+        obstacles_(obstacles),
         asks_(box),
-        id_(engine.add_structure(*this)) {
-    features.set_feature_listener(this);
-  }
+        id_(engine.add_structure(*this)) {}
 
-  std::vector<Room> rooms(sac::Scope& s, const Cell<2>& c, const Candidates& candidates);
+  std::vector<Room> rooms(sac::Scope& s, const Cell<D>& c, const Candidates<D>& candidates);
 
-  void feature_changed(const Point<2>& p) noexcept override;
+  /// A feature has come, or gone.
+  void feature_changed(const Point<D>& p) noexcept override { changed({p, p}); }
+  void changed(const FeatureExtent<D>& where) noexcept;
 
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
   [[nodiscard]] bool unchanged(sac::Call& call, sac::Edge& edge) override;
@@ -78,8 +63,8 @@ class Surroundings<sac::Scope> final : public sac::Structure, public FeatureList
  private:
   static constexpr std::uint8_t kAsk = 0;
   struct AskEdge : sac::Edge {
-    Cell<2> cell;
-    Box<2> extent;         // what features change the answer lie in it
+    Cell<D> cell;
+    Box<D> extent;         // what features change the answer lie in it
     std::uint64_t answer;  // digest of the rooms
     sac::Handle call;
     bool listed;  // in asks_
@@ -90,10 +75,10 @@ class Surroundings<sac::Scope> final : public sac::Structure, public FeatureList
   [[nodiscard]] std::uint64_t answer_now(const AskEdge& ask) const;
 
   sac::Engine& engine_;
-  const MeshBox<2>& box_;
-  const Limits& limits_;
-  Features<sac::Scope>& features_;
-  ReachTree<sac::Handle> asks_;  // AskEdges, by the discs around their extents
+  const MeshBox<D>& box_;
+  const Limits<D>& limits_;
+  Obstacles<sac::Scope, D> obstacles_;
+  ReachTree<sac::Handle, D> asks_;  // AskEdges, by the balls around their extents
   std::uint8_t id_;
 };
 

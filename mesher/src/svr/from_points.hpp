@@ -20,7 +20,7 @@ template <int D>
 void require_no_limits(const Options<D>& options, const std::string& name) {
   const auto refuse = [&](const char* what) { throw Error(ErrorCode::bad_option, name + what); };
   if (options.rule != Rule::radius_edge) refuse(" needs the rule radius-edge");
-  if (options.max_area != 0 || options.sizes != nullptr || !options.box_limits.empty() ||
+  if (options.max_measure != 0 || options.sizes != nullptr || !options.box_limits.empty() ||
       options.region_limits != nullptr) {
     refuse(" knows no limits of size");
   }

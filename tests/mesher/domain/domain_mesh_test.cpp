@@ -64,7 +64,7 @@ TEST_CASE("what is enclosed is kept, with attributes and limits of regions; or a
   for (const auto& p : inside.kept.vertices) CHECK(std::min(p[0], p[1]) >= 2);
   CHECK(inside.kept.features.regions.size() == inside.kept.simplices.size());
   std::size_t limited = 0;
-  for (const auto& region : inside.regions) limited += region.max_area == 0.125;
+  for (const auto& region : inside.regions) limited += region.max_measure == 0.125;
   CHECK(limited == 1);
   const DomainMesh box = domain_mesh(mesh, graph, Extent::box);
   CHECK(box.kept.simplices == mesh.simplices);

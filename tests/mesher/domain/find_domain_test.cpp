@@ -101,7 +101,7 @@ TEST_CASE("a region has the attribute and the limit of its seed, its triangles i
   auto walls = grid.rectangle(1, 1, 7, 7);
   WalledGrid::append(walls, grid.line(4, 1, 4, 7));
   Seed right = region(9, 5.5, 5.25, -2.5);
-  right.max_area = 0.125;
+  right.max_measure = 0.125;
   const Domain domain = domain_of(grid, walls, {right});
   REQUIRE(domain.regions.size() == 3);
   CHECK(domain.faults.empty());
@@ -192,7 +192,7 @@ TEST_CASE("seeds that are none are refused by name") {
   CHECK(refused({region(6, 1, 1, inf)}) == ErrorCode::not_finite);
   CHECK(refused({region(6, 1, 1), hole(6, 2, 2), region(6, 3, 3)}) == ErrorCode::repeated_id);
   Seed empty = region(6, 1, 1);
-  empty.max_area = 0;
+  empty.max_measure = 0;
   CHECK(refused({empty}) == ErrorCode::bad_number);
 }
 

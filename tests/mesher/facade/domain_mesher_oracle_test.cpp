@@ -71,7 +71,7 @@ class Follower {
   void check() {
     const mesher::Pslg graph = lake_.graph();
     REQUIRE(m_.input() == graph);
-    REQUIRE(m_.options().max_area == lake_.options.max_area);
+    REQUIRE(m_.options().max_measure == lake_.options.max_measure);
     REQUIRE(m_.options().box_limits == lake_.options.box_limits);
     mesher::Options<2> options = lake_.options;
     options.region_limits = mesher::region_limits(graph, options, extent_, areas_);

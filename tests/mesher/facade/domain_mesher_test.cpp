@@ -79,7 +79,7 @@ TEST_CASE(
   REQUIRE(parted.regions.size() == 3);
   for (const auto& v : parted.kept.vertices) CHECK(v[0] >= 8);
   for (const double attribute : parted.kept.features.regions) CHECK(attribute == 7);
-  CHECK(parted.regions[2].max_area == 0.5);
+  CHECK(parted.regions[2].max_measure == 0.5);
 
   p.m.remove_segment(id(2));
   const DomainUpdate joined = p.m.update();
@@ -269,7 +269,7 @@ TEST_CASE("a callback that uses a mesher with its domain is refused, and nothing
   const bool limited = GENERATE(false, true);  // there is a second mesh
   for (Parted* each : {&parted, &twin}) {
     each->announce();
-    if (limited) each->m.limit({.max_area = 4});
+    if (limited) each->m.limit({.max_measure = 4});
   }
   int refused = 0;
   const auto progress = [&](const mesher::Progress&) {

@@ -104,7 +104,7 @@ TEST_CASE("what cannot be meshed in space is refused by name") {
   CHECK(refusal({{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}}, options) == ErrorCode::duplicate_point);
   CHECK(refusal({{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5 + 0x1p-52}}, options) == ErrorCode::too_close);
   Options<3> limited = options;
-  limited.max_area = 1;
+  limited.max_measure = 1e-60;
   CHECK(refusal({}, limited) == ErrorCode::bad_option);
   Options<3> few = options;
   few.max_vertices = 400;

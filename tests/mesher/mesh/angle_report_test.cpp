@@ -164,7 +164,7 @@ TEST_CASE("Lengths that limits of size ask for have not shrunk") {
   mesher::Options<2> options{.domain = {{0, 0}, {16, 16}}};
   const std::vector<mesher::Point<2>> points{{2, 2}, {13, 3}, {9, 14}};
   for (const double area : {0.0, 0.5, 0.01}) {
-    options.max_area = area;
+    options.max_measure = area;
     const auto mesh = mesher::mesh_statically<2>(points, options);
     CHECK(mesher::angle_report(mesh, options).shrunk.empty());
   }

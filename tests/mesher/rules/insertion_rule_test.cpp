@@ -12,8 +12,8 @@
 
 namespace {
 
-const mesher::detail::Limits& no_limits() {
-  static const mesher::detail::Limits none({}, {});
+const mesher::detail::Limits<2>& no_limits() {
+  static const mesher::detail::Limits<2> none({}, {});
   return none;
 }
 

@@ -18,7 +18,7 @@ using mesher::Rule;
 using mesher::detail::EdgeFilter;
 using mesher::detail::InsertionRule;
 using mesher::detail::MeshBox;
-using mesher::detail::NoLimits;
+using mesher::detail::Limits;
 using mesher::detail::VertexRef;
 using mesher::detail::VoronoiCell3;
 using World = mesher::detail::World<sac::PlainScope, 3>;
@@ -40,7 +40,8 @@ class Watched final : public InsertionRule<3> {
  public:
   Watched(const Options<3>& options, const MeshBox<3>& box, const Points& input, Farthest& farthest)
       : InsertionRule(options, box, mesher::detail::promise<3>(options.rule, options.rho)),
-        rule_(mesher::detail::insertion_rule<3>(options, box, NoLimits<3>(options, box))),
+        limits_(options, box),
+        rule_(mesher::detail::insertion_rule<3>(options, box, limits_)),
         box_(box),
         input_(input),
         farthest_(farthest) {}
@@ -67,6 +68,7 @@ class Watched final : public InsertionRule<3> {
   }
 
  private:
+  Limits<3> limits_;
   std::unique_ptr<const InsertionRule<3>> rule_;
   MeshBox<3> box_;
   const Points& input_;

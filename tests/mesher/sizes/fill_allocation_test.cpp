@@ -16,7 +16,7 @@ FeatureId id(std::int64_t i) { return FeatureId{i}; }
 
 Options<2> options() {
   Options<2> o{.domain = {{0, 0}, {16, 16}}};
-  o.max_area = 6;
+  o.max_measure = 6;
   return o;
 }
 
@@ -59,8 +59,8 @@ struct Limited {
     before = m.mesh();
   }
   void announce() {
-    m.limit({.max_area = 6});
-    m.limit({{6, 6}, {9, 10}}, {.max_area = 1});
+    m.limit({.max_measure = 6});
+    m.limit({{6, 6}, {9, 10}}, {.max_measure = 1});
     m.insert(id(4), {8, 8.5});
     m.remove(id(3));
   }
@@ -86,7 +86,7 @@ struct Boxed : Limited {
     m.update();
     before = m.mesh();
   }
-  void announce() { m.limit({{5, 8}, {8, 11}}, {.max_area = 0.5}); }
+  void announce() { m.limit({{5, 8}, {8, 11}}, {.max_measure = 0.5}); }
 };
 
 }  // namespace

@@ -26,7 +26,7 @@ constexpr double kAreas[] = {0.4375, 0.2, 3};
 
 std::string follow(PslgEditor::Family family, std::uint64_t seed, double area, int steps) {
   mesher::Options<2> options = PslgEditor::options();
-  options.max_area = area;
+  options.max_measure = area;
   return PslgFollower(family, seed, options).follow(steps);
 }
 
@@ -53,13 +53,13 @@ TEST_CASE("The same with sizes that vary: by a slope, in steps, by a background"
     samples.push_back({{16 * random.unit(), 16 * random.unit()}, 0.8 + 3 * random.unit()});
   }
   const std::shared_ptr<const mesher::SizeField<2>> fields[] = {
-      std::make_shared<mesher::SlopedSizes>(sloped, 0.3, 0.7),
+      std::make_shared<mesher::SlopedSizes<2>>(sloped, 0.3, 0.7),
       std::make_shared<support::Chessboard>(), mesher::sampled_sizes(samples)};
   for (const PslgEditor::Family family : kFamilies) {
     for (std::size_t i = 0; i < std::size(fields); ++i) {
       mesher::Options<2> options = PslgEditor::options();
       options.sizes = fields[i];
-      if (i == 0) options.max_area = 2;
+      if (i == 0) options.max_measure = 2;
       INFO("family " << static_cast<int>(family) << " field " << i);
       REQUIRE(PslgFollower(family, 2, options).follow(20) == "");
     }

@@ -23,7 +23,7 @@ using mesher::Mesh;
 using mesher::Options;
 using mesher::Point;
 using mesher::RegionAreas;
-using mesher::RegionLimits;
+using RegionLimits = mesher::RegionLimits<2>;
 
 FeatureId id(std::int64_t i) { return FeatureId{i}; }
 
@@ -67,7 +67,7 @@ double largest_kept(const DomainMesher& m) {
 
 TEST_CASE("A limit counts in what lines enclose, and fills nothing around it") {
   DomainMesher m(options());
-  m.limit({.max_area = 0.05});
+  m.limit({.max_measure = 0.05});
   announce_rooms(m);
   m.update();
   CHECK(m.mesh() == from_scratch(m, RegionAreas::ignored));
@@ -75,7 +75,7 @@ TEST_CASE("A limit counts in what lines enclose, and fills nothing around it") {
   CHECK(vertices_in(m.mesh(), kLeft) + vertices_in(m.mesh(), kRight) > 300);
   CHECK(m.mesh().vertices.size() < 1200);  // 16^2 / 0.05 / 2 would be 2560
   DomainMesher all(options(), Extent::box);
-  all.limit({.max_area = 0.05});
+  all.limit({.max_measure = 0.05});
   announce_rooms(all);
   all.update();
   CHECK(all.mesh().vertices.size() > 2500);
@@ -85,7 +85,7 @@ TEST_CASE("What begins or ceases to be enclosed is filled or emptied") {
   DomainMesher m(options());
   announce_rooms(m);
   m.update();
-  m.limit({.max_area = 0.1});
+  m.limit({.max_measure = 0.1});
   m.update();
   CHECK(m.mesh() == from_scratch(m));
   const Mesh<2> closed = m.mesh();
@@ -164,7 +164,7 @@ TEST_CASE(
   CHECK(m.mesh() == from_scratch(m));
   m.check_invariants();
   m.insert_segment(id(2), id(2), id(5));
-  m.limit({.max_area = 1});
+  m.limit({.max_measure = 1});
   m.discard_edits();
   m.update();
   CHECK(m.mesh() == from_scratch(m));
@@ -186,7 +186,7 @@ TEST_CASE("Triangles come and go, and what is said of places and boxes is that o
       const double e = std::exp2(-10 * random.unit());
       const RegionLimits::Corners t{p, {p[0] + e, p[1]}, {p[0] + e * random.unit(), p[1] + e}};
       RegionLimits::Limit limit{random.below(3) != 0, RegionLimits::kNone, {}};
-      if (random.below(2) == 0) limit.area = random.unit();
+      if (random.below(2) == 0) limit.measure = random.unit();
       tree.insert(t, limit);
       all.push_back({t, limit});
     }
@@ -196,16 +196,16 @@ TEST_CASE("Triangles come and go, and what is said of places and boxes is that o
     RegionLimits::Range range;
     RegionLimits::Limit at;
     for (const auto& [t, limit] : all) {
-      const mesher::detail::Facet facet(t, {});
+      const mesher::detail::Tile<2> facet(t);
       if (limit.counts && facet.contains(lo)) {
-        at.counts = true, at.area = std::min(at.area, limit.area);
+        at.counts = true, at.measure = std::min(at.measure, limit.measure);
       }
       if (!facet.touches(some)) continue;
       range.all = range.all && limit.counts;
       if (!limit.counts) continue;
       range.some = true;
-      range.least = std::min(range.least, limit.area);
-      range.most = std::max(range.most, limit.area);
+      range.least = std::min(range.least, limit.measure);
+      range.most = std::max(range.most, limit.measure);
     }
     REQUIRE(tree.at(lo) == at);
     REQUIRE(tree.range(some) == range);
@@ -242,7 +242,7 @@ struct Begun : Rooms {
     m.update();
     before = m.mesh();
   }
-  void announce() { m.limit({.max_area = 2}); }
+  void announce() { m.limit({.max_measure = 2}); }
 };
 
 }  // namespace
@@ -260,7 +260,7 @@ TEST_CASE("The second mesh, which tells what lines enclose, counts in the memory
   announce_rooms(alone);
   alone.update();
   Options<2> limited = options();
-  limited.max_area = 4;
+  limited.max_measure = 4;
   DomainMesher m(limited);
   announce_rooms(m);
   m.update();

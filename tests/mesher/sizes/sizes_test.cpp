@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "geometry/centroid.hpp"
 #include "geometry/plane.hpp"
 #include "mesher/error.hpp"
 #include "mesher/generate.hpp"
@@ -24,9 +25,9 @@ using mesher::SizeSample;
 using support::SizedSquare;
 using support::SizesInSquare;
 
-Options<2> limited(double max_area) {
+Options<2> limited(double max_measure) {
   Options<2> options{.domain = SizedSquare::domain()};
-  options.max_area = max_area;
+  options.max_measure = max_measure;
   return options;
 }
 Options<2> sized(SizesInSquare sizes) {
@@ -50,7 +51,7 @@ double largest(const Mesh<2>& mesh, Limit&& limit) {
   for (const auto& t : mesh.simplices) {
     const Point<2>&p = mesh.vertices[t[0]], &q = mesh.vertices[t[1]], &r = mesh.vertices[t[2]];
     const double area = ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
-    most = std::max(most, area / limit(mesher::detail::centroid({p, q, r})));
+    most = std::max(most, area / limit(mesher::detail::centroid(mesher::detail::CornersOf<2>{p, q, r})));
   }
   return most;
 }
@@ -89,7 +90,7 @@ TEST_CASE("Sizes that vary take no more vertices than the model, by 1.03 [rules 
 
 TEST_CASE("Of two limits the smaller one counts") {
   Options<2> options = sized(SizesInSquare::linear(1e-4, 0.2));
-  options.max_area = 4e-4;
+  options.max_measure = 4e-4;
   const Mesh<2> mesh = square(options);
   CHECK(largest(mesh, [&](const Point<2>& p) {
           const bool counts = p[0] >= 0 && p[0] <= 1 && p[1] >= 0 && p[1] <= 1;

@@ -1,0 +1,140 @@
+// Limits of size in space: nothing is larger, and under edits of complexes, of limits and of regions
+// the mesh is that of a run from scratch.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "geometry/centroid.hpp"
+#include "geometry/space.hpp"
+#include "mesher/domain_mesher.hpp"
+#include "mesher/error.hpp"
+#include "mesher/space_check.hpp"
+#include "program/world.hpp"
+#include "sizes/limits.hpp"
+#include "space_limits.hpp"
+#include "space_parcels.hpp"
+
+namespace {
+
+using mesher::Extent;
+using mesher::FeatureId;
+using mesher::Mesh;
+using mesher::Options;
+using mesher::Plc;
+using mesher::Point;
+using mesher::RegionAreas;
+using Mesher = mesher::DomainMesherOf<3>;
+
+const Options<3> kOptions{.domain = {{0, 0, 0}, {2, 2, 2}}, .max_vertices = 200000};
+
+// The tetrahedra of a mesh that are larger than they may be.
+std::size_t count_large(const Mesh<3>& mesh, const Options<3>& options) {
+  const mesher::detail::Limits<3> limits(options, mesher::detail::mesh_box<3>(options));
+  std::size_t large = 0;
+  for (const auto& s : mesh.simplices) {
+    mesher::detail::CornersOf<3> p;
+    for (std::size_t i = 0; i < 4; ++i) p[i] = mesh.vertices[s[i]];
+    using mesher::detail::cross, mesher::detail::dot, mesher::detail::minus;
+    const Point<3> n = cross(minus(p[1], p[0]), minus(p[2], p[0]));
+    const double volume = dot(minus(p[3], p[0]), n) / 6;
+    large += volume > limits.measure(mesher::detail::centroid(p)) ? 1 : 0;
+  }
+  return large;
+}
+
+Options<3> fresh_options(const Mesher& m, RegionAreas areas) {
+  Options<3> options = m.options();
+  options.region_limits = nullptr;
+  const bool regions = m.options().region_limits != nullptr;
+  if (regions) options.region_limits = region_limits(m.input(), options, m.extent(), areas);
+  return options;
+}
+
+// Edits of complexes and of limits, and of seeds if regions have limits of their own.
+void follow(std::uint64_t seed, Extent extent, RegionAreas areas, int updates) {
+  Mesher m(kOptions, extent, areas);
+  support::SpaceParcels<Mesher> parcels(m, seed);
+  support::SpaceLimits limits(seed);
+  mesher::SplitMix64 random(seed);
+  std::int64_t last_seed = 0;
+  bool refined = false;
+  for (int update = 0; update < updates; ++update) {
+    INFO("seed " << seed << ", update " << update);
+    const bool done = parcels.edit_and(update == 0 ? 6 : 1 + parcels.below(3), [&] {
+      if (update == 0 || random.below(2) == 0) limits.edit(m);
+      if (areas == RegionAreas::limits && random.below(2) == 0) {
+        const Point<3> at{2 * random.unit(), 2 * random.unit(), 2 * random.unit()};
+        const double volume = random.below(2) == 0 ? 0.002 : 0.0004;
+        m.insert_region(FeatureId{++last_seed}, at, 1, volume);
+      }
+      m.update();
+    });
+    const Options<3> options = fresh_options(m, areas);
+    const Mesh<3> mesh = m.mesh();
+    if (!done && mesh.vertices.empty()) return;
+    REQUIRE(mesh == mesh_statically(m.input(), options));
+    REQUIRE(count_large(mesh, options) == 0);
+    if (update % 3 == 2) m.check_invariants();
+    if (!refined) {
+      refined = mesh.vertices.size() > mesh_statically(m.input(), kOptions).vertices.size();
+    }
+  }
+  CHECK(refined);
+}
+
+}  // namespace
+
+TEST_CASE("With limits that are edited the mesh is that of a fresh run, and nothing is larger") {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    follow(seed, Extent::box, RegionAreas::ignored, 8);
+  }
+}
+
+TEST_CASE("So it is where limits count in what polygons enclose, and regions have their own") {
+  for (std::uint64_t seed = 11; seed <= 13; ++seed) {
+    follow(seed, Extent::enclosed, RegionAreas::ignored, 6);
+    follow(seed, Extent::enclosed, RegionAreas::limits, 6);
+  }
+}
+
+TEST_CASE("Long sequences with limits in space follow runs from scratch", "[.soak]") {
+  for (std::uint64_t seed = 100; seed < 130; ++seed) {
+    follow(seed, Extent::box, RegionAreas::limits, 40);
+    follow(seed, Extent::enclosed, RegionAreas::limits, 40);
+  }
+}
+
+TEST_CASE("A point amid a lattice in space changes few vertices, however fine the lattice is") {
+  for (const double volume : {1e-3, 1e-4}) {
+    Options<3> options = kOptions;
+    options.max_measure = volume;
+    Mesher m(options, Extent::box);
+    m.update();
+    const std::size_t all = m.mesh().vertices.size();
+    CHECK(all > 1 / volume);  // 8 / (6 volume) and the box
+    m.insert(FeatureId{1}, {1.01, 0.93, 1.07});
+    const auto change = m.update();
+    CHECK(change.vertices_added.size() + change.vertices_removed.size() < 40);
+  }
+}
+
+TEST_CASE("Limits in space that make no sense are refused, and change nothing") {
+  Mesher m(kOptions, Extent::box);
+  m.limit({.max_measure = 0.01});
+  m.update();
+  const Mesh<3> before = m.mesh();
+  const auto refused = [&](const mesher::Box<3>& box, double volume) {
+    try {
+      m.limit(box, {.max_measure = volume});
+    } catch (const mesher::Error& error) {
+      return error.code() == mesher::ErrorCode::bad_option;
+    }
+    return false;
+  };
+  CHECK(refused(kOptions.domain, -1));
+  CHECK(refused(kOptions.domain, std::nan("")));
+  CHECK(refused(kOptions.domain, 1e-60));
+  CHECK(refused({{1, 1, 1}, {0, 2, 2}}, 1));
+  m.update();
+  CHECK(m.mesh() == before);
+  CHECK(m.options().max_measure == 0.01);
+}
