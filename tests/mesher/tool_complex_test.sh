@@ -254,6 +254,15 @@ expect 0 ' tetrahedra stay poor beside it, up to ' mesh vee.poly --rho 1.42 --bo
 grep -q '"gave_in"' guard.json || fail 'no "gave_in" in --stats'
 expect 0 ' beside features that are alone' check guard.node --input vee.poly --rho 1.42
 expect 1 'error[bad_quality]: quality: ' check guard.node --input vee.poly --rho 1.3
+printf '+point 900 .5 .5 .9\n-point 900\n+point 901 .1 .2 .2\n' >guard.txt
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  expect 0 ' tetrahedra stay poor beside it, up to ' edit vee.poly --rho 1.42 --script guard.txt \
+    $engine --stats "guard$engine.jsonl"
+  tail -n +2 "guard$engine.jsonl" | sed -n 's/.*\("gave_in":.*\),"kept":.*/\1/p' >"gave_in$engine"
+done
+same gave_in gave_in--static
+[[ -s gave_in ]] || fail 'no "gave_in" of updates in --stats'
 
 echo "== complexes: check compares markers, where both have them"
 expect 0 ' faces have one' \
