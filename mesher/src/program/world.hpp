@@ -75,6 +75,8 @@ struct World<S, 2> : PointWorld<S, 2> {
   [[noreturn]] void fail_too_short(const PieceRef& piece);
   /// Throws: Error(too_close), with the ids of the features that v and x are on.
   [[noreturn]] void fail_too_close(const Vertex<2>& v, const Vertex<2>& x) const;
+  /// What is said where there are too many vertices.
+  [[nodiscard]] Error too_many() const;
   [[noreturn]] void fail_useless(const Vertex<2>& v, const Vertex<2>& x);
   /// Throws: Error(too_close), with the ids of the features nearest to p, within `radius` or not.
   [[noreturn]] void fail_near(const Point<2>& p, double radius, const std::string& why);

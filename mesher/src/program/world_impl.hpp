@@ -2,6 +2,7 @@
 #pragma once
 
 #include "input.hpp"
+#include "plc/space_budget.hpp"
 #include "program/build_qt.hpp"
 #include "program/choose_steiners.hpp"
 #include "program/cut.hpp"
@@ -144,7 +145,17 @@ void PointWorld<S, D>::fail_too_many(S& s) const {
   if constexpr (S::kTraced) {
     if (s.engine().undoing()) return;
   }
-  throw too_many_vertices(vertices, names, most_vertices);
+  throw static_cast<const World<S, D>&>(*this).too_many();
+}
+
+template <class S>
+Error World<S, 2>::too_many() const {
+  return too_many_vertices(vertices, names, this->most_vertices);
+}
+
+template <class S>
+Error World<S, 3>::too_many() const {
+  return too_many_vertices(vertices, feature_names, plc.store(), this->most_vertices);
 }
 
 template <class S>
