@@ -138,8 +138,8 @@ class VoronoiCellAny : public CornerReach<int> {
                                          double radius, Code code) {
     return code >= kVirtual ? clip_place(v, radius, code & 0xff) : pool[code].p;
   }
-  [[nodiscard]] Corners<D> places(const Ends& ends) const {
-    Corners<D> corners;
+  [[nodiscard]] BallCorners<D> places(const Ends& ends) const {
+    BallCorners<D> corners;
     for (std::size_t k = 0; k < D; ++k) corners[k] = place(ends[k]);
     return corners;
   }

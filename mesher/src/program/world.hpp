@@ -5,8 +5,8 @@
 // Each part drains its agenda; a part posts on its own agenda and on those of later parts.
 //
 // PointWorld is what points need. World is that with what else there is in a dimension: in the
-// plane segments and limits of size, so far in no other. What the program asks of those is answered
-// in program/lines.hpp.
+// plane segments and limits of size, in space edges and polygons, beyond that nothing. What the
+// program asks of those is answered in program/lines.hpp.
 #pragma once
 
 #include <chrono>
@@ -22,6 +22,19 @@
 #include "sizes/surroundings.hpp"
 
 namespace mesher::detail {
+
+template <class S, int D>
+struct World : PointWorld<S, D> {
+  template <class Host>
+  World(const Options<D>& options, const MeshBox<D>& mesh_box, Host& host)
+      : PointWorld<S, D>(options, mesh_box, host) {
+    host.set_environment(this);
+  }
+
+  /// What is said where there are too many vertices.
+  [[nodiscard]] Error too_many() const;
+  [[noreturn]] void fail_useless(const Vertex<D>& v, const Vertex<D>& x) const;
+};
 
 template <class S>
 struct World<S, 2> : PointWorld<S, 2> {
@@ -102,6 +115,9 @@ void drain_lines(S& s, World<S, 3>& w) {
   w.splits.drain(s);
   w.fills.drain(s);
 }
+
+template <class S, int D>
+void drain_lines(S&, World<S, D>&) {}
 
 template <int D>
 struct Refine {

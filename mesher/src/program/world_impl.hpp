@@ -120,8 +120,10 @@ template <class S, int D>
 void PointWorld<S, D>::triangulate(S& s) {
   if constexpr (S::kTraced) {
     vertices.with_first_stars([&] { stars.drain(s); });
-  } else {
+  } else if constexpr (D <= 3) {
     triangulate_at_once(vertices.pool(), plain);
+  } else {
+    triangulate_star_by_star(s, vertices, plain);
   }
 }
 
@@ -158,11 +160,27 @@ Error World<S, 3>::too_many() const {
   return too_many_vertices(vertices, feature_names, plc.store(), this->most_vertices);
 }
 
+template <class S, int D>
+Error World<S, D>::too_many() const {
+  return {ErrorCode::too_many,
+          "more than " + std::to_string(this->most_vertices) + " vertices are needed"};
+}
+
+template <int D>
+[[noreturn]] void fail_rounded(const Point<D>& near, const Point<D>& to) {
+  throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
+                                        place_text(near) + ": rounding moved a new vertex to " +
+                                        place_text(to));
+}
+
+template <class S, int D>
+void World<S, D>::fail_useless(const Vertex<D>& v, const Vertex<D>& x) const {
+  fail_rounded<D>(v.p, x.p);
+}
+
 template <class S>
 void World<S, 3>::fail_useless(const Vertex<3>& v, const Vertex<3>& x) const {
-  throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
-                                        place_text(v.p) + ": rounding moved a new vertex to " +
-                                        place_text(x.p));
+  fail_rounded<3>(v.p, x.p);
 }
 
 template <class S>

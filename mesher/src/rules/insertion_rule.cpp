@@ -100,13 +100,18 @@ Promise promise(Rule rule, double rho) {
 
 template class InsertionRule<2>;
 template class InsertionRule<3>;
+template class InsertionRule<4>;
 template std::unique_ptr<const InsertionRule<2>> insertion_rule<2>(const Options<2>&,
                                                                    const MeshBox<2>&,
                                                                    const Limits&);
 template std::unique_ptr<const InsertionRule<3>> insertion_rule<3>(const Options<3>&,
                                                                    const MeshBox<3>&,
                                                                    const NoLimits<3>&);
+template std::unique_ptr<const InsertionRule<4>> insertion_rule<4>(const Options<4>&,
+                                                                   const MeshBox<4>&,
+                                                                   const NoLimits<4>&);
 template Promise promise<2>(Rule, double);
 template Promise promise<3>(Rule, double);
+template Promise promise<4>(Rule, double);
 
 }  // namespace mesher::detail

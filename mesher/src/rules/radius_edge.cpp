@@ -240,5 +240,6 @@ std::optional<int> RadiusEdge<D>::next_bucket(const CellOf<D>& cell, int b,
 
 template class RadiusEdge<2>;
 template class RadiusEdge<3>;
+template class RadiusEdge<4>;
 
 }  // namespace mesher::detail

@@ -49,5 +49,6 @@ auto VoronoiAspect<D>::next_point(const CellOf<D>& cell, int, const EdgeFilter<D
 
 template class VoronoiAspect<2>;
 template class VoronoiAspect<3>;
+template class VoronoiAspect<4>;
 
 }  // namespace mesher::detail
