@@ -103,5 +103,7 @@ template void check_coordinates(const Point<3>&, FeatureId);
 template void check_point(const Point<3>&, const Box<3>&, FeatureId);
 template void fail_too_near(const Point<3>&, FeatureId, const Point<3>&, FeatureId);
 template std::vector<std::size_t> morton_order(const std::vector<Point<3>>&, const MeshBox<3>&);
+template std::string place_text(const Point<4>&);
+template void fail_too_near(const Point<4>&, FeatureId, const Point<4>&, FeatureId);
 
 }  // namespace mesher::detail

@@ -178,7 +178,8 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
   command.parse_complete_callback([&args] { settle_input(args); });
   command.formatter(std::make_shared<UsageOfInput>());
   command.add_flag("--surface", args.surface,
-                   "In space: the faces of .off, .obj, .ply or .stl are polygons, and edges lines");
+                   "In space: the faces of .off, .obj, .ply, .stl, .vtu or .vtk are polygons, and\n"
+                   "edges lines");
   command.add_flag("--merge", args.merge,
                    "The same, and polygons of one plane that are side by side are one, if their\n"
                    "markers are the same; also of .poly and .smesh");

@@ -51,7 +51,6 @@ std::vector<Featured> kinds_of(const Error& error) {
   const Featured p = Featured::point, l = Featured::line;
   switch (error.code()) {
     case ErrorCode::repeated_segment:
-    case ErrorCode::too_many:
       return {l, l};
     case ErrorCode::unknown_id:  // of a line's end, or of something that has a place
       return error.ids().size() == 2 ? kinds_named(error) : std::vector<Featured>();
@@ -76,6 +75,7 @@ std::vector<Featured> kinds_of(const Error& error) {
     case ErrorCode::crossing_polygons:
     case ErrorCode::overlapping_polygons:
     case ErrorCode::too_close:
+    case ErrorCode::too_many:
       return kinds_named(error);
     default:
       return {};

@@ -208,9 +208,8 @@ void add_mesh(CLI::App& app) {
           "from a lattice, so that edits move little. Several together: the smallest counts.\n"
           "In space the same holds of polygons: every one is a union of faces, and what they\n"
           "enclose is written. .poly and .smesh have segments and polygons; of surfaces and grids\n"
-          "the points are meshed, and with --surface the faces of .off, .obj, .ply and .stl. An "
-          ".svg\n"
-          "is cut open, green in polygons, and bluer where radius-edge ratios are worse.\n"
+          "the points are meshed, and with --surface the faces of .off, .obj, .ply, .stl, .vtu and\n"
+          ".vtk. An .svg is cut open, green in polygons, and bluer where radius-edge ratios are worse.\n"
           "--stats: one JSON object; - for standard output.\n") +
       kQualityHelp +
       "\nExamples:\n"

@@ -24,6 +24,10 @@ bool is_of_complexes(const std::string& path) {
 bool is_of_surfaces(const std::string& path) {
   return is_one_of(mesher::format_of(path), {".off", ".obj", ".ply", ".stl"});
 }
+// Which may have faces.
+bool is_of_grids(const std::string& path) {
+  return is_one_of(mesher::format_of(path), {".vtu", ".vtk"});
+}
 
 PlcFile points_alone(mesher::PointFile<3> points) {
   PlcFile file;
@@ -41,9 +45,11 @@ PlcFile read(const std::string& path, Faces faces) {
   if (faces == Faces::unless_points && !is_of_complexes(path)) {
     return points_alone(mesher::read_points<3>(path));
   }
-  if (!is_of_complexes(path) && !is_of_surfaces(path)) {
-    throw Error(ErrorCode::bad_option,
-                "--surface is for .off, .obj, .ply and .stl: this format has no polygons", {path});
+  if (!is_of_complexes(path) && !is_of_surfaces(path) && !is_of_grids(path)) {
+    throw Error(
+        ErrorCode::bad_option,
+        "--surface is for .off, .obj, .ply, .stl, .vtu and .vtk: this format has no polygons",
+        {path});
   }
   return mesher::read_plc(path);
 }

@@ -69,6 +69,7 @@ mesher::DomainUpdateOf<3> StaticSpaceMesher::update(const mesher::RunControl& co
   auto domain = mesher::domain_mesh(after, input, extent_);
   mesher::DomainUpdateOf<3> update;
   static_cast<mesher::Change<3>&>(update) = change_between<3>(mesh_, after);
+  update.guard = mesher::guard_news(after, input, options_.rho, update.simplices_added);
   update.domain = change_of_kept<3>(domain_.kept, domain.kept);
   keep_edits();
   current_polygons_ = edited_polygons_;

@@ -3,13 +3,14 @@
 // and the ascending vertices of a tetrahedron (its region), a face or an edge (its marker); says
 // what a file of others is to us.
 //   space_files write FOLDER
-//   space_files dump FILE TRUTH
+//   space_files dump FILE TRUTH        of FILE.surface.vtu its points and polygons
 #include "mesher/space_files.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,23 @@ void write_truth(const mesher::MeshDataOf<3>& mesh, const std::string& path) {
     truth << "t " << s[0] << ' ' << s[1] << ' ' << s[2] << ' ' << s[3] << '\n';
   }
   write_parts(mesh, truth);
+}
+
+// Of points and polygons, by numbers of points from 0 on.
+void write_surface(const mesher::Plc& plc, const std::string& path) {
+  std::ofstream truth(path);
+  std::map<mesher::FeatureId, std::uint32_t> number;
+  for (const auto& p : plc.points) {
+    number.emplace(p.id, static_cast<std::uint32_t>(number.size()));
+    truth << 'v';
+    for (const double x : p.at) truth << ' ' << std::bit_cast<std::uint64_t>(x);
+    truth << '\n';
+  }
+  for (const auto& f : plc.facets) {
+    std::vector<std::uint32_t> corners;
+    for (const auto id : f.polygon.loops[0]) corners.push_back(number.at(id));
+    write_part(corners, f.marker, truth);
+  }
 }
 
 void write(const std::string& stem, const mesher::MeshDataOf<3>& mesh) {
@@ -98,6 +116,8 @@ void write_all(const std::string& folder) {
 
 int main(int argc, char** argv) {
   return formats::file_program(argc, argv, write_all, [](const char* mesh, const char* truth) {
-    write_truth(mesher::read_mesh<3>(mesh), truth);
+    const std::string path = mesh;
+    path.ends_with(".surface.vtu") ? write_surface(mesher::read_plc(path).plc, truth)
+                                   : write_truth(mesher::read_mesh<3>(path), truth);
   });
 }

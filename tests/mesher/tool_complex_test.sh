@@ -140,12 +140,17 @@ expect 0 'polygons    ok' check s.vtu --input hollow.off --surface --rho 2
 expect 0 ' polygons' mesh hollow.off --merge -o m.vtu
 expect 0 '12 polygons are unions of' check m.vtu --input hollow.off --merge --rho 2
 expect 0 '--surface meshes its faces, too' mesh hollow.stl
+expect 0 '' mesh two.poly --quiet -o faces.vtu -o faces.vtk
+for format in vtu vtk; do
+  expect 0 'cells other than faces are not used' mesh faces.$format --merge -o again.vtu
+  expect 0 'polygons    ok' check again.vtu --input faces.$format --merge --rho 2
+done
 expect 0 '' mesh hollow.stl --merge --quiet -o n.node
 expect 0 '' mesh hollow.off --merge --quiet -o o.node
 same n.ele o.ele
 expect 0 '' mesh hollow.obj --merge --quiet --static -o n.node
 same n.ele o.ele
-refuse 2 'two.node: error[bad_option]: --surface is for .off, .obj, .ply and .stl' mesh two.node \
+refuse 2 'two.node: error[bad_option]: --surface is for .off, .obj, .ply, .stl, .vtu' mesh two.node \
   --surface -o out/x.vtu
 refuse 2 'error[bad_option]: --surface and --merge are for space' mesh hollow.off --surface --dim 2 \
   -o out/x.vtu
@@ -254,6 +259,15 @@ expect 0 ' tetrahedra stay poor beside it, up to ' mesh vee.poly --rho 1.42 --bo
 grep -q '"gave_in"' guard.json || fail 'no "gave_in" in --stats'
 expect 0 ' beside features that are alone' check guard.node --input vee.poly --rho 1.42
 expect 1 'error[bad_quality]: quality: ' check guard.node --input vee.poly --rho 1.3
+printf '+point 900 .5 .5 .9\n-point 900\n+point 901 .1 .2 .2\n' >guard.txt
+for engine in '' --static; do
+  # shellcheck disable=SC2086
+  expect 0 ' tetrahedra stay poor beside it, up to ' edit vee.poly --rho 1.42 --script guard.txt \
+    $engine --stats "guard$engine.jsonl"
+  tail -n +2 "guard$engine.jsonl" | sed -n 's/.*\("gave_in":.*\),"kept":.*/\1/p' >"gave_in$engine"
+done
+same gave_in gave_in--static
+[[ -s gave_in ]] || fail 'no "gave_in" of updates in --stats'
 
 echo "== complexes: check compares markers, where both have them"
 expect 0 ' faces have one' \

@@ -82,7 +82,7 @@ refuse 2 'error[unknown_format]: points and lines are read from' mesh uniform.3d
 refuse 2 'error[bad_option]' mesh uniform.node --dimension 4 -o out/x.vtu
 
 echo "== space: bad options and outputs"
-for option in '--max-area 1' '--max-size 1' '--sizes uniform.node' --region-areas --repair; do
+for option in '--max-area 1' '--sizes uniform.node' --repair; do
   # shellcheck disable=SC2086
   refuse 2 "error[bad_option]: ${option%% *} is for the plane" mesh uniform.3d.node $option \
     -o out/x.vtu
@@ -108,7 +108,7 @@ refuse 4 'uniform.3d.node: error[too_many]' mesh uniform.3d.node --max-vertices 
 refuse 4 'uniform.3d.node: error[too_many]' mesh uniform.3d.node --max-vertices 300 --static \
   -o out/x.vtu
 
-for option in '--max-area 1' '--max-size 1' '--sizes uniform.node'; do
+for option in '--max-area 1' '--sizes uniform.node'; do
   # shellcheck disable=SC2086
   refuse 2 "error[bad_option]: ${option%% *} is for the plane" trace uniform.3d.node $option \
     -o out/x.trace
@@ -199,8 +199,9 @@ bad_edit3 1 '3:2: error[duplicate_point]' 'begin\n move 7 .5 .4999 .5\ncommit'
 bad_edit3 1 '2:1: error[outside_domain]' '+point 1002 .5 .5 7'
 bad_edit3 3 '2:1: error[unbalanced_commit]' 'commit'
 bad_edit3 3 '2:1: error[unbalanced_commit]' 'begin'
-bad_edit3 3 "2:1: error[bad_edit]: 'limit' is an edit in the plane" 'limit none'
-bad_edit3 3 '2:1: error[bad_edit]' 'limit size 1'
+bad_edit3 3 "2:7: error[bad_edit]" 'limit area 1'
+bad_edit3 3 '2:12: error[bad_number]' 'limit size 0'
+bad_edit3 3 '2:24: error[bad_edit]' 'limit size 1 in 0 0 1 1'
 bad_edit3 3 "2:1: error[bad_edit]: no edit is called '+tetrahedron'" '+tetrahedron 1 2 3'
 printf '+point 1002 .5 .5 7\n' >bad3.txt
 refuse 1 'ZMAX' edit uniform.3d.node --script bad3.txt -o out/x.node

@@ -33,15 +33,20 @@ template <int D>
 class Ground {
  public:
   Ground(const std::vector<mesher::Point<D>>& points, const std::vector<mesher::FeatureId>& ids,
-         const std::vector<mesher::Segment>& segments = {})
-      : mesher_(unit_box()), points_(points) {
+         const std::vector<mesher::Segment>& segments = {},
+         const std::vector<mesher::Polygon>& polygons = {})
+      : mesher_(unit_box()), points_(points), joins_(D == 2 || !segments.empty()) {
     mesher_.insert(ids, points);
     for (const auto& s : segments) mesher_.insert_segment(s.id, s.from, s.to);
+    if constexpr (D == 3) {
+      for (const auto& f : polygons) mesher_.insert_polygon(f);
+    }
     mesher_.update();
   }
   [[nodiscard]] const std::vector<mesher::Point<D>>& points() const { return points_; }
 
-  /// Nothing if the input does not take the line: its points, and in the plane what joins them.
+  /// Nothing if the input does not take the line: its points, and what joins them in the plane, and
+  /// in space where there are segments: of three points there the triangle.
   /// `record`: the distance is asked for, too: that is of the same edit made once more, since
   /// recording a trace leaves nothing of the mesh in cache.
   std::optional<EditCosts> edit(const std::vector<mesher::Point<D>>& line, bool record) {
@@ -64,7 +69,12 @@ class Ground {
     return mesher::FeatureId{kFirst + static_cast<std::int64_t>(i)};
   }
 
-  static bool has_line(std::size_t points) { return D == 2 && points > 1; }
+  [[nodiscard]] bool has_polygon(std::size_t points) const {
+    return D == 3 && joins_ && points == 3;
+  }
+  [[nodiscard]] bool has_line(std::size_t points) const {
+    return joins_ && points > 1 && !has_polygon(points);
+  }
   static mesher::Options<D> unit_box() {
     mesher::Options<D> options;
     options.domain.hi.fill(1);
@@ -80,6 +90,11 @@ class Ground {
         mesher_.insert(ids.back(), line[i]);
       }
       if (has_line(line.size())) mesher_.insert_polyline(ids.front(), ids);
+      if constexpr (D == 3) {
+        mesher::Polygon polygon;
+        polygon.id = ids.front(), polygon.loops = {ids};
+        if (has_polygon(line.size())) mesher_.insert_polygon(polygon);
+      }
       const auto edges = update(costs.come).edges_added.size();
       costs.on_edit = has_line(line.size()) ? 1 + edges : line.size();
       return true;
@@ -91,6 +106,9 @@ class Ground {
   }
   void go(std::size_t points, Cost& cost) {
     if (has_line(points)) mesher_.remove_segment(id(0));
+    if constexpr (D == 3) {
+      if (has_polygon(points)) mesher_.remove_polygon(id(0));
+    }
     for (std::size_t i = 0; i < points; ++i) mesher_.remove(id(i));
     update(cost);
   }
@@ -106,6 +124,7 @@ class Ground {
 
   mesher::Mesher<D> mesher_;
   std::vector<mesher::Point<D>> points_;
+  bool joins_;
   std::optional<traces::Trace> base_;  // without an edit
 };
 

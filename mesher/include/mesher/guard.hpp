@@ -54,8 +54,14 @@ struct GuardReport {
 };
 
 /// What of a mesh is poor, and not at a small angle of the complex. Nothing if rho is not guarded.
-/// Requires: a mesh in its box, of a complex without faults. Cost: O(m log m), and O(features) for
-/// each poor tetrahedron.
+/// Requires: a mesh in its box, of a complex without faults. Cost: O(m log m), and for each poor
+/// tetrahedron a look at the features within kLonely times its shortest edge.
 [[nodiscard]] GuardReport guard_report(const Mesh<3>& mesh, const Plc& complex, double rho);
+
+/// The same of these tetrahedra (in order) of the mesh alone: what the Change says of the update
+/// that brought them. (What is at a small angle is told by labels there, by places here, which
+/// excuses some tetrahedra more.) Requires, Cost: likewise.
+[[nodiscard]] GuardReport guard_news(const Mesh<3>& mesh, const Plc& complex, double rho,
+                                     const std::vector<std::array<Point<3>, 4>>& tetrahedra);
 
 }  // namespace mesher

@@ -46,7 +46,9 @@ class DomainState {
   [[nodiscard]] const Mesher<D>& mesher() const noexcept { return mesher_; }
   [[nodiscard]] Extent extent() const noexcept { return extent_; }
   /// Nobody as long as there are points alone.
-  [[nodiscard]] const std::optional<DomainFollowerOf<D>>& follower() const noexcept { return follower_; }
+  [[nodiscard]] const std::optional<DomainFollowerOf<D>>& follower() const noexcept {
+    return follower_;
+  }
 
   /// Nobody as long as it does not matter to limits of size what lines, or polygons, enclose.
   [[nodiscard]] const UnlimitedMesh<D>* unlimited() const noexcept { return unlimited_.get(); }

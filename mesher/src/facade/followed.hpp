@@ -67,8 +67,7 @@ template <class Seed>
   return all;
 }
 
-[[nodiscard]] inline std::vector<DomainEdits::Wall> ends_of(
-    const std::vector<LineEdge<2>>& edges) {
+[[nodiscard]] inline std::vector<DomainEdits::Wall> ends_of(const std::vector<LineEdge<2>>& edges) {
   std::vector<DomainEdits::Wall> walls;
   for (const auto& e : edges) walls.push_back({e.low, e.high});
   return walls;

@@ -177,7 +177,7 @@ class StaticRun {
     watch(world_, control_, handles_.size());
     scope_.template run<detail::refine<D>>();
     if (world_.vertices.pool().size() > world_.most_vertices) {
-      throw detail::too_many_vertices(world_.vertices, world_.names, world_.most_vertices);
+      throw world_.too_many();
     }
   }
   [[nodiscard]] Mesh<D> mesh(const detail::OnFeatures& on, MeshStats* stats) {
@@ -305,6 +305,7 @@ Mesh<3> mesh_statically(const std::vector<Point<3>>& points, const std::vector<S
   SpaceInputNames names(run.names());
   World<3>& world = run.world();
   add_features(segments, polygons, handle_of, world, names);
+  world.feature_names = &names;
   run.refine();
   const auto& vertices = world.vertices;
   const detail::PolygonsAt all = detail::polygons_at(world.plc.store());

@@ -230,7 +230,7 @@ void PointState<D>::settle() noexcept {
 template <int D>
 void PointState<D>::require_room(std::size_t now) const {
   if (now > world_->most_vertices) {
-    throw too_many_vertices(vertices(), world_->names, world_->most_vertices);
+    throw world_->too_many();
   }
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -39,24 +38,19 @@ class EdgeBeside {
     const auto standing = [&](const Vertex<3>& v) { return Standing{v, world_.vertices.role(v)}; };
     return SmallAngles(near_).keeps(standing(p_), standing(q_));
   }
-  /// `name(f)`: of an edge or polygon. The nearest beside which it is lonely, as LonelyEdges has
-  /// it.
+  /// `name(f)`: of an edge or polygon. The one beside which it is lonely, as LonelyEdges has it.
   template <class Name>
   [[nodiscard]] std::optional<Beside> lonely(Name&& name) const {
-    std::optional<Beside> best;
-    std::tuple<double, bool, bool, FeatureId> best_key;
+    NearestBeside beside;
     const auto look = [&](const auto& f, bool is_polygon, const ShortEdge& e) {
       if (!world_.plc.is_lonely(e)) return;
-      const Beside beside = name(f, polygons_);
-      const std::tuple key(std::sqrt(distance2_to(middle_, f)), is_polygon, beside.is_polygon,
-                           beside.feature);
-      if (!best || key < best_key) best = beside, best_key = key;
+      beside.show(std::sqrt(distance2_to(middle_, f)), is_polygon, name(f, polygons_));
     };
     for (const Edge* e : find_near<Edge>(middle_, reach_, near_.store())) {
       look(*e, false, {e, nullptr, middle_, length_});
     }
     for (const Polygon* f : polygons_) look(*f, true, {nullptr, f, middle_, length_});
-    return best;
+    return beside.found(length_);
   }
 
  private:
@@ -101,7 +95,7 @@ void SpaceState::find_angles(const std::vector<Simplex>& come, Change<3>& change
       return EdgeBeside(*world_, e[0], e[1]).is_kept();
     });
     if (kept) continue;
-    counts.look(places, ratio.ratio, [&](const auto& p, const auto& q) {
+    counts.look(edges, ratio.ratio, [&](const auto& p, const auto& q) {
       return EdgeBeside(*world_, p, q).lonely(name);
     });
   }

@@ -23,7 +23,9 @@ class SpaceState final : public PointState<3>, private SpaceNames {
     std::optional<LimitsEdit<3>> limits{};
   };
 
-  explicit SpaceState(const Options<3>& options) : PointState(options), rho_(options.rho) {}
+  explicit SpaceState(const Options<3>& options) : PointState(options), rho_(options.rho) {
+    world_->feature_names = this;
+  }
 
   Change<3> first_run(PointEdits points, Edits edits, const RunControl& control,
                       const Accept& accept) {

@@ -95,5 +95,6 @@ MeshBox<D> mesh_box(const Options<D>& options) {
 
 template MeshBox<2> mesh_box<2>(const Options<2>&);
 template MeshBox<3> mesh_box<3>(const Options<3>&);
+template MeshBox<4> mesh_box<4>(const Options<4>&);
 
 }  // namespace mesher::detail

@@ -89,17 +89,33 @@ template <std::size_t W>
   return any != 0 ? 1 : 0;
 }
 
-/// The number itself, but for at most 1 + 2^-10 roundings. Requires: below 2^1023.
+/// fraction * 2^exponent.
+struct Leading {
+  double fraction = 0;  // below 2^65, and 0 or at least 2^63
+  int exponent = 0;
+};
+
+/// The number itself, but for at most 1 + 2^-10 roundings.
 template <std::size_t W>
-[[nodiscard]] inline double to_double(const FixedInt<W>& a) noexcept {
-  if (a.negative()) return -to_double(FixedInt<W>{} - a);
+[[nodiscard]] inline Leading leading(const FixedInt<W>& a) noexcept {
+  if (a.negative()) {
+    const Leading positive = leading(FixedInt<W>{} - a);
+    return {-positive.fraction, positive.exponent};
+  }
   std::size_t top = W;
   while (top > 0 && a.limb[top - 1] == 0) --top;
-  if (top == 0) return 0;
+  if (top == 0) return {};
   const auto limb = [&](std::size_t i) { return i < top ? a.limb[top - 1 - i] : 0; };
   const int shift = std::countl_zero(limb(0));
-  const std::uint64_t leading = shift == 0 ? limb(0) : limb(0) << shift | limb(1) >> (64 - shift);
-  return std::ldexp(static_cast<double>(leading), static_cast<int>(64 * (top - 1)) - shift);
+  const std::uint64_t first = shift == 0 ? limb(0) : limb(0) << shift | limb(1) >> (64 - shift);
+  return {static_cast<double>(first), static_cast<int>(64 * (top - 1)) - shift};
+}
+
+/// The same as a double. Requires: below 2^1023.
+template <std::size_t W>
+[[nodiscard]] inline double to_double(const FixedInt<W>& a) noexcept {
+  const Leading all = leading(a);
+  return std::ldexp(all.fraction, all.exponent);
 }
 
 /// A normal double as fraction * 2^exponent, fraction a 53-bit integer.

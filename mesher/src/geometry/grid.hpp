@@ -86,7 +86,8 @@ struct MeshBox {
     for (int i = 0; i < D; ++i) {
       const double step = (p[i] - lo[i]) / side * kSteps;  // exact but for the subtraction
       f[i] = step >= kSteps ? (std::uint64_t{1} << kLevels) - 1
-                            : step <= 0 ? 0 : static_cast<std::uint64_t>(step);
+             : step <= 0    ? 0
+                            : static_cast<std::uint64_t>(step);
     }
     return f;
   }
@@ -179,7 +180,16 @@ void MeshBox<D>::for_each_parent_around(const Cell<D>& c, Visit&& visit) {
 
 /// The first 64/D bits of each coordinate, interleaved: Morton order, a canonical order of places.
 template <int D>
-[[nodiscard]] std::uint64_t morton(const Fixed<D>& f);
+[[nodiscard]] std::uint64_t morton(const Fixed<D>& f) {
+  constexpr int kBits = 64 / D;
+  std::uint64_t code = 0;
+  for (int bit = 0; bit < kBits; ++bit) {
+    for (int i = 0; i < D; ++i) {
+      code |= (f[static_cast<std::size_t>(i)] >> (kLevels - kBits + bit) & 1) << (D * bit + i);
+    }
+  }
+  return code;
+}
 
 template <>
 [[nodiscard]] inline std::uint64_t morton<2>(const Fixed<2>& f) {

@@ -75,7 +75,11 @@ class FeatureTree {
   using Node = std::uint32_t;  // 0 empty; kPoint | vertex; block index
   static constexpr Node kPoint = 0x80000000u;
   static constexpr int kChildren = 1 << D;
-  static constexpr int kBlock3 = D == 2 ? 9 : 27;
+  static constexpr int kBlock3 = [] {  // 3^D
+    int cells = 1;
+    for (int i = 0; i < D; ++i) cells *= 3;
+    return cells;
+  }();
   using Block = std::array<Node, kChildren>;
   using Around = std::array<Node, kBlock3>;
 

@@ -227,7 +227,9 @@ template void refuse_close<2>(const Vertex<2>&, const Vertex<2>&);
 template void refuse_close<3>(const Vertex<3>&, const Vertex<3>&);
 template class Features<sac::PlainScope, 2>;
 template class Features<sac::PlainScope, 3>;
+template class Features<sac::PlainScope, 4>;
 template class Features<sac::Scope, 2>;
 template class Features<sac::Scope, 3>;
+template class Features<sac::Scope, 4>;
 
 }  // namespace mesher::detail

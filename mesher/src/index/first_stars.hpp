@@ -97,12 +97,20 @@ class FirstStars {
   }
 
   FlatTriangulation<D> all_;  // by handles
-  std::vector<bool> marked_;    // by simplex; false between calls
+  std::vector<bool> marked_;  // by simplex; false between calls
   std::vector<std::uint32_t> simplex_of_;
   // Of the last star.
   std::vector<std::uint32_t> around_, link_;
   std::vector<Facet> facets_;
   std::vector<LinkRecord::Triangle> triangles_;
+};
+
+/// Beyond space there is no bulk triangulation: each star is searched for.
+template <int D>
+requires(D > 3) class FirstStars<D> {
+ public:
+  explicit FirstStars(const VertexPool<D>&) {}
+  bool write(VertexHandle, std::vector<typename CellOf<D>::Code>&) { return false; }
 };
 
 }  // namespace mesher::detail

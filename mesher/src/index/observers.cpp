@@ -69,5 +69,6 @@ void Observers<D>::check_invariants(const Vertex<D>& v) const {
 
 template class Observers<2>;
 template class Observers<3>;
+template class Observers<4>;
 
 }  // namespace mesher::detail

@@ -20,5 +20,6 @@ void Subdivision<sac::Scope, D>::retract(sac::Call&, sac::Edge& edge) noexcept {
 
 template class Subdivision<sac::Scope, 2>;
 template class Subdivision<sac::Scope, 3>;
+template class Subdivision<sac::Scope, 4>;
 
 }  // namespace mesher::detail

@@ -603,5 +603,6 @@ void VertexIndex<sac::Scope, D>::check_observation(const Vertex<D>& v, const Obs
 
 template class VertexIndex<sac::Scope, 2>;
 template class VertexIndex<sac::Scope, 3>;
+template class VertexIndex<sac::Scope, 4>;
 
 }  // namespace mesher::detail

@@ -39,5 +39,6 @@ void VertexSearch<D>::fail_coincident(const Point<D>& p) const {
 
 template class VertexSearch<2>;
 template class VertexSearch<3>;
+template class VertexSearch<4>;
 
 }  // namespace mesher::detail

@@ -18,12 +18,12 @@ PlcFile plc_of(Surface surface) {
     out.points.push_back({surface.rows.lines[i], surface.rows.lines[i] > 0 ? 1 : 0});
   }
   for (const Surface::Face& face : surface.faces) {
-    const auto id = static_cast<std::int64_t>(out.plc.facets.size()) + 1;
-    Polygon polygon{.id = FeatureId{id}, .loops = {{}}};
+    const auto next = static_cast<std::int64_t>(out.plc.facets.size()) + 1;
+    Polygon polygon{.id = face.id.value_or(FeatureId{next}), .loops = {{}}};
     for (const std::uint32_t corner : face.corners) {
       polygon.loops[0].push_back(out.plc.points[corner].id);
     }
-    out.plc.facets.push_back({std::move(polygon)});
+    out.plc.facets.push_back({std::move(polygon), face.marker});
     out.facets.push_back(face.position);
   }
   return out;
@@ -37,10 +37,12 @@ PlcFile read_any(const std::string& path) {
   if (extension == ".obj") return plc_of(read_obj_surface(path));
   if (extension == ".ply") return plc_of(read_ply_surface(path));
   if (extension == ".stl") return plc_of(read_stl_surface(path));
+  if (extension == ".vtu") return plc_of(read_vtu_surface(path));
+  if (extension == ".vtk") return plc_of(read_vtk_surface(path));
   throw Error(
       ErrorCode::unknown_format,
-      "points, segments and polygons in space are read from .poly, .smesh, .off, .obj, .ply "
-      "and .stl, not " +
+      "points, segments and polygons in space are read from .poly, .smesh, .off, .obj, .ply, "
+      ".stl, .vtu and .vtk, not " +
           text::quoted(extension),
       {path});
 }

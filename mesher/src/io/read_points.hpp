@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct Surface {
   struct Face {
     std::vector<std::uint32_t> corners;
     FilePosition position;
+    std::int64_t marker = 0;
+    std::optional<FeatureId> id{};  ///< of all faces or of none
   };
   PointFile<3> rows;
   std::vector<Face> faces;
@@ -40,6 +43,10 @@ struct Surface {
 [[nodiscard]] Surface read_obj_surface(const std::string& path);
 [[nodiscard]] Surface read_ply_surface(const std::string& path);
 [[nodiscard]] Surface read_stl_surface(const std::string& path);
+/// Of a grid's triangles, quadrilaterals and polygons, with cell data `marker`; `polygon` are ids, if
+/// all faces have one, and no two the same.
+[[nodiscard]] Surface read_vtu_surface(const std::string& path);
+[[nodiscard]] Surface read_vtk_surface(const std::string& path);
 
 /// The columns x, y, h of a background of sizes. Throws: Error likewise.
 [[nodiscard]] PointFile<3> read_csv_sizes(const std::string& path);

@@ -72,6 +72,9 @@ class GridMesh {
       case VtkCell::vertex:
       case VtkCell::poly_vertex:
         return grid_.notes.add("cells that are vertices are not used", grid_.types.place);
+      case VtkCell::polygon:
+      case VtkCell::quad:
+        break;
     }
     throw Error(ErrorCode::unsupported,
                 "cell " + std::to_string(i) + " has the type " +

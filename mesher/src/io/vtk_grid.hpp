@@ -20,6 +20,8 @@ enum class VtkCell : std::uint8_t {
   line = 3,
   poly_line = 4,
   triangle = 5,
+  polygon = 7,
+  quad = 9,
   tetrahedron = 10
 };
 

@@ -54,9 +54,11 @@ bool ComplexCheck::is_short(std::uint32_t a, std::uint32_t b) const {
   return share_shell(a, b) || share_shell(b, a) || is_wide(a, b);
 }
 
-// Whether b, on a polygon with a point, is as far from that as a, which is on something with it.
+// Whether b, on a polygon with a point and on no edge, is as far from that as a, which is on
+// something with it.
 bool ComplexCheck::share_shell(std::uint32_t a, std::uint32_t b) const {
   const Featured &p = featured_.at(a), &q = featured_.at(b);
+  if (!q.lines.empty()) return false;
   const auto has = [&](FeatureId point) {
     return std::any_of(p.lines.begin(), p.lines.end(),
                        [&](std::size_t l) {

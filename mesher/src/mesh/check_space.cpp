@@ -308,7 +308,8 @@ class SpaceChecker {
       if (complex_ && *options_.rho < kGuarded) {
         if (!lonely) lonely.emplace(options_.complex->plc);
         const auto& [a, b, c, d] = mesh_.simplices[i];
-        if (gave_in.look({at(a), at(b), at(c), at(d)}, ratio.ratio,
+        const auto edges = detail::GuardCounts::shortest_edges({at(a), at(b), at(c), at(d)});
+        if (gave_in.look(edges, ratio.ratio,
                          [&](const auto& p, const auto& q) { return lonely->find(p, q); })) {
           continue;
         }

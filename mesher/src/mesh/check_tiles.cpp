@@ -6,8 +6,10 @@
 #include "io/text.hpp"
 #include "make_set.hpp"
 #include "mesh/check_complex.hpp"
+#include "mesh/cube_around.hpp"
 #include "mesh/flat_polygon.hpp"
 #include "mesh/line_walk.hpp"
+#include "segments/reach_tree.hpp"
 
 namespace mesher::detail {
 
@@ -53,38 +55,94 @@ void ComplexCheck::add_named_tiles() {
   }
 }
 
-// Of faces with their corners on the plane, those whose Voronoi edge crosses the polygon; on the
-// boundary, where that is a ray, those with their middle in it.
+namespace {
+
+// Faces whose corners are all near a polygon, found by the place of their first.
+class FacesBeside {
+ public:
+  FacesBeside(const Mesh<3>& mesh, const HalfFaces& faces)
+      : mesh_(mesh),
+        faces_(faces),
+        cube_(cube_around<3>(mesh.vertices)),
+        tree_(cube_),
+        near_(mesh.vertices.size()) {
+    for (std::uint32_t v = 0; v < near_.size(); ++v) tree_.insert(mesh.vertices[v], 0, v);
+  }
+
+  FacesBeside(const FacesBeside&) = delete;
+  FacesBeside& operator=(const FacesBeside&) = delete;
+
+  /// Calls visit(i, n) for the faces in a box with all corners `tolerance` from the polygon's plane
+  /// at most: by their half-faces, n from the i-th on, ascending.
+  template <class Visit>
+  void visit(const FlatPolygon& f, const Box<3>& box, double tolerance, Visit&& visit) {
+    std::vector<std::uint32_t> found;
+    tree_.visit_in(box, [&](std::uint32_t v) {
+      if (std::abs(f.height(mesh_.vertices[v])) <= tolerance) found.push_back(v);
+    });
+    std::sort(found.begin(), found.end());
+    for (const std::uint32_t v : found) near_[v] = true;
+    for (const std::uint32_t v : found) {
+      for (std::size_t i = faces_.first_at(v), n = 0; i < faces_.size(); i += n) {
+        const auto [a, b, c] = faces_[i].face;
+        if (a != v) break;
+        n = faces_.partners(i);
+        if (near_[b] && near_[c]) visit(i, n);
+      }
+    }
+    for (const std::uint32_t v : found) near_[v] = false;
+  }
+
+ private:
+  const Mesh<3>& mesh_;
+  const HalfFaces& faces_;
+  MeshBox<3> cube_;
+  ReachTree<std::uint32_t, 3> tree_;
+  std::vector<bool> near_;
+};
+
+// What the corners of a polygon are in, and places that are off it by no more than this.
+Box<3> box_of(const Polygon& polygon, const std::map<FeatureId, Point<3>>& places, double by) {
+  std::vector<Point<3>> corners;
+  for (const auto& loop : polygon.loops) {
+    for (const FeatureId id : loop) corners.push_back(places.at(id));
+  }
+  Box<3> box = bounding_box<3>(corners);
+  for (int i = 0; i < 3; ++i) box.lo[i] -= by, box.hi[i] += by;
+  return box;
+}
+
+}  // namespace
+
+// Of faces beside the polygon with their corners on its plane, those whose Voronoi edge crosses it;
+// on the boundary, where that is a ray, those with their middle in it.
 void ComplexCheck::add_crossed_tiles(const HalfFaces& faces) {
   const auto centre = [&](std::uint32_t t) {
     const auto& [a, b, c, d] = mesh_.simplices[t];
     const Circumcentre o = circumcentre(at(a), at(b), at(c), at(d));
     return FlatPolygon::wide(plus(at(a), o.q));
   };
+  const auto is_tile = [&](const FlatPolygon& f, std::size_t i, std::size_t n) {
+    if (n == 1) {
+      const auto [a, b, c] = faces[i].face;
+      const Point<3> middle = scaled(1.0 / 3, plus(at(a), plus(at(b), at(c))));
+      return f.contains(FlatPolygon::wide(middle));
+    }
+    const auto p = centre(faces[i].tetrahedron), q = centre(faces[i + 1].tetrahedron);
+    const auto from = f.height(p), to = f.height(q);
+    if ((from > 0) == (to > 0)) return false;
+    const auto t = from / (from - to);
+    return f.contains(
+        {p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])});
+  };
+  FacesBeside beside(mesh_, faces);
   for (Surface& surface : surfaces_) {
     const FlatPolygon f = flat(*surface.polygon, places_);
     const double tolerance = static_cast<double>(f.deviation()) + 4 * rounding_;
-    std::vector<bool> near(mesh_.vertices.size());
-    for (std::uint32_t v = 0; v < near.size(); ++v)
-      near[v] = std::abs(f.height(at(v))) <= tolerance;
-    for (std::size_t i = 0, n = 0; i < faces.size(); i += n) {
-      n = faces.partners(i);
-      const auto [a, b, c] = faces[i].face;
-      if (!near[a] || !near[b] || !near[c]) continue;
-      if (n == 1) {
-        const Point<3> middle = scaled(1.0 / 3, plus(at(a), plus(at(b), at(c))));
-        if (f.contains(FlatPolygon::wide(middle))) surface.tiles.push_back(faces[i].key());
-        continue;
-      }
-      const auto p = centre(faces[i].tetrahedron), q = centre(faces[i + 1].tetrahedron);
-      const auto from = f.height(p), to = f.height(q);
-      if ((from > 0) == (to > 0)) continue;
-      const auto t = from / (from - to);
-      if (f.contains(
-              {p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])})) {
-        surface.tiles.push_back(faces[i].key());
-      }
-    }
+    const Box<3> box = box_of(*surface.polygon, places_, tolerance);
+    beside.visit(f, box, tolerance, [&](std::size_t i, std::size_t n) {
+      if (is_tile(f, i, n)) surface.tiles.push_back(faces[i].key());
+    });
   }
 }
 

@@ -1,4 +1,6 @@
 // Counting what has stayed poor beside each feature.
+#include <algorithm>
+
 #include "io/text.hpp"
 #include "mesh/check_complex.hpp"
 #include "mesh/gave_in.hpp"
@@ -7,7 +9,11 @@
 
 namespace mesher {
 
-GuardReport guard_report(const Mesh<3>& mesh, const Plc& complex, double rho) {
+namespace {
+
+// `counts(corners)`: whether a tetrahedron is one to be looked at.
+template <class Counts>
+GuardReport report_of(const Mesh<3>& mesh, const Plc& complex, double rho, Counts&& counts) {
   const bool has_lines = !complex.segments.empty() || !complex.facets.empty();
   if (rho >= kGuarded || !has_lines) return {};
   PlcFile file;
@@ -18,15 +24,29 @@ GuardReport guard_report(const Mesh<3>& mesh, const Plc& complex, double rho) {
   const detail::HalfFaces faces(mesh.simplices);
   const detail::ComplexCheck parts(mesh, options, faces);
   const detail::LonelyEdges lonely(complex);
-  detail::GuardCounts counts;
+  detail::GuardCounts found;
   for (const auto& s : mesh.simplices) {
-    const detail::RadiusEdge ratio = detail::radius_edge(mesh, s);
-    if (!detail::is_above(ratio, rho) || parts.excuses(s)) continue;
     const auto& v = mesh.vertices;
-    counts.look({v[s[0]], v[s[1]], v[s[2]], v[s[3]]}, ratio.ratio,
-                [&](const auto& p, const auto& q) { return lonely.find(p, q); });
+    const std::array corners{v[s[0]], v[s[1]], v[s[2]], v[s[3]]};
+    const detail::RadiusEdge ratio = detail::radius_edge(mesh, s);
+    if (!detail::is_above(ratio, rho) || !counts(corners) || parts.excuses(s)) continue;
+    found.look(detail::GuardCounts::shortest_edges(corners), ratio.ratio,
+               [&](const auto& p, const auto& q) { return lonely.find(p, q); });
   }
-  return counts.report();
+  return found.report();
+}
+
+}  // namespace
+
+GuardReport guard_report(const Mesh<3>& mesh, const Plc& complex, double rho) {
+  return report_of(mesh, complex, rho, [](const auto&) { return true; });
+}
+
+GuardReport guard_news(const Mesh<3>& mesh, const Plc& complex, double rho,
+                       const std::vector<std::array<Point<3>, 4>>& tetrahedra) {
+  return report_of(mesh, complex, rho, [&](const auto& corners) {
+    return std::binary_search(tetrahedra.begin(), tetrahedra.end(), corners);
+  });
 }
 
 std::string GuardReport::text() const {

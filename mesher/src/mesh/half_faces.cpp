@@ -28,6 +28,12 @@ std::size_t HalfFaces::partners(std::size_t i) const {
   return end - i;
 }
 
+std::size_t HalfFaces::first_at(std::uint32_t v) const {
+  const auto at = std::lower_bound(all_.begin(), all_.end(), v,
+                                   [](const HalfFace& f, auto w) { return f.face[0] < w; });
+  return static_cast<std::size_t>(at - all_.begin());
+}
+
 std::vector<HalfFace> HalfFaces::border() const {
   std::vector<HalfFace> border;
   for (std::size_t i = 0, n = 0; i < all_.size(); i += n) {

@@ -44,6 +44,8 @@ class HalfFaces {
   [[nodiscard]] const HalfFace& operator[](std::size_t i) const { return all_[i]; }
   /// How many half-faces from i on are of i's triangle.
   [[nodiscard]] std::size_t partners(std::size_t i) const;
+  /// Where the half-faces begin that have v, or else a later vertex, as their first corner.
+  [[nodiscard]] std::size_t first_at(std::uint32_t v) const;
   /// The half-faces that have no partner.
   [[nodiscard]] std::vector<HalfFace> border() const;
 

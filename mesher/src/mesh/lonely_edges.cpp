@@ -1,4 +1,4 @@
-// Distances from all features, one by one.
+// Distances from the features near an edge, one by one.
 #include "mesh/lonely_edges.hpp"
 
 #include <algorithm>
@@ -6,10 +6,11 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include "geometry/space_distances.hpp"
 #include "make_set.hpp"
+#include "mesh/cube_around.hpp"
+#include "mesh/gave_in.hpp"
 
 namespace mesher::detail {
 
@@ -22,9 +23,16 @@ bool meet(const std::vector<FeatureId>& a, const std::vector<FeatureId>& b) {
                      [&](FeatureId x) { return std::binary_search(b.begin(), b.end(), x); });
 }
 
+std::vector<Point<3>> places_of(const Plc& complex) {
+  std::vector<Point<3>> places;
+  for (const auto& p : complex.points) places.push_back(p.at);
+  return places;
+}
+
 }  // namespace
 
-LonelyEdges::LonelyEdges(const Plc& complex) {
+LonelyEdges::LonelyEdges(const Plc& complex)
+    : cube_(cube_around<3>(places_of(complex))), tree_(cube_) {
   std::map<FeatureId, Point<3>> at;
   for (const auto& p : complex.points) at[p.id] = p.at;
   const auto corner = [&](FeatureId id) { return Corner{id, at.at(id)}; };
@@ -82,7 +90,18 @@ void LonelyEdges::add(Feature f) {
       f.reach = std::max(f.reach, std::sqrt(squared_distance(c.at, f.middle)));
     }
   }
+  tree_.insert(f.middle, f.reach * (1 + kRounding), static_cast<std::uint32_t>(features_.size()));
   features_.push_back(std::move(f));
+}
+
+std::vector<const LonelyEdges::Feature*> LonelyEdges::find_near(const Point<3>& x,
+                                                                double within) const {
+  std::vector<std::uint32_t> found;
+  tree_.visit_near(x, x, within, [&](std::uint32_t i) { found.push_back(i); });
+  std::sort(found.begin(), found.end());
+  std::vector<const Feature*> near;
+  for (const std::uint32_t i : found) near.push_back(&features_[i]);
+  return near;
 }
 
 bool LonelyEdges::has_two_parts(const Feature& f, const Point<3>& x, double within) {
@@ -121,28 +140,22 @@ std::optional<LonelyEdges::Beside> LonelyEdges::find(const Point<3>& p, const Po
   const Point<3> middle = scaled(0.5, plus(p, q));
   const double length = std::sqrt(squared_distance(p, q));
   const double within = kLonely * length * (1 - kRounding);
-  std::vector<std::pair<double, const Feature*>> near, beside;
-  for (const Feature& f : features_) {
-    if (std::sqrt(squared_distance(f.middle, middle)) > f.reach * (1 + kRounding) + within)
-      continue;
-    const double away = distance(f, middle);
-    if (away <= within) near.emplace_back(away, &f);
+  std::vector<std::pair<double, const Feature*>> near;
+  for (const Feature* f : find_near(middle, within)) {
+    const double away = distance(*f, middle);
+    if (away <= within) near.emplace_back(away, f);
   }
+  NearestBeside beside;
   for (const auto& [away, f] : near) {
     if (f->kind == Kind::point || away > kBesideEdge * length * (1 + kRounding)) continue;
     const bool lonely = std::none_of(near.begin(), near.end(), [&, g = f](const auto& other) {
       return !meet(g->points, other.second->points);
     });
-    if (lonely && !has_two_parts(*f, middle, within)) beside.emplace_back(away, f);
+    if (lonely && !has_two_parts(*f, middle, within)) {
+      beside.show(away, f->kind == Kind::polygon, f->name);
+    }
   }
-  if (beside.empty()) return std::nullopt;
-  const auto order = [](const auto& item) {
-    const Beside& name = item.second->name;
-    return std::tuple(item.first, item.second->kind, name.is_polygon, name.feature);
-  };
-  return std::min_element(beside.begin(), beside.end(),
-                          [&](const auto& a, const auto& b) { return order(a) < order(b); })
-      ->second->name;
+  return beside.found(length);
 }
 
 }  // namespace mesher::detail

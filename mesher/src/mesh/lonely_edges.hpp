@@ -9,6 +9,7 @@
 #include "mesh/flat_polygon.hpp"
 #include "mesher/guard.hpp"
 #include "mesher/plc.hpp"
+#include "segments/reach_tree.hpp"
 
 namespace mesher::detail {
 
@@ -16,6 +17,8 @@ class LonelyEdges {
  public:
   /// Requires: what segments and polygons name is a point.
   explicit LonelyEdges(const Plc& complex);
+  LonelyEdges(const LonelyEdges&) = delete;
+  LonelyEdges& operator=(const LonelyEdges&) = delete;
 
   /// A segment or polygon.
   struct Beside {
@@ -23,7 +26,7 @@ class LonelyEdges {
     bool is_polygon = false;
   };
   /// The nearest feature beside which pq is lonely; of equally near ones segments first, and by id.
-  /// Cost: O(features).
+  /// Cost: O(log L/s), and that of a look at what is within kLonely lengths.
   [[nodiscard]] std::optional<Beside> find(const Point<3>& p, const Point<3>& q) const;
 
  private:
@@ -48,8 +51,12 @@ class LonelyEdges {
   [[nodiscard]] static Feature straight(Kind kind, const Beside& name, const Corner& a,
                                         const Corner& b);
   void add(Feature f);
+  // Those that may be within a distance of x, and perhaps others, in the order of features_.
+  [[nodiscard]] std::vector<const Feature*> find_near(const Point<3>& x, double within) const;
 
   std::vector<Feature> features_;  // lines, polygons, then points
+  MeshBox<3> cube_;
+  ReachTree<std::uint32_t, 3> tree_;  // of their numbers
 };
 
 }  // namespace mesher::detail

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/box.hpp"
+#include "mesh/cube_around.hpp"
 #include "mesh/shrink_test.hpp"
 #include "segments/reach_tree.hpp"
 
@@ -14,11 +14,6 @@ namespace mesher::detail {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-MeshBox<2> box_of(const Mesh<2>& mesh) {
-  const Box<2> all = bounding_box<2>(mesh.vertices);
-  return {all.lo, std::max(all.hi[0] - all.lo[0], all.hi[1] - all.lo[1])};
-}
 
 // The input as a mesh has it.
 class MeshInput {
@@ -83,7 +78,7 @@ std::vector<double> nearest_of_all(const Mesh<2>& mesh, const MeshLines& lines) 
 
 std::vector<ShrunkVertex> shrunk_vertices(const Mesh<2>& mesh, const MeshLines& lines,
                                           double allowed) {
-  const MeshBox<2> box = box_of(mesh);
+  const MeshBox<2> box = cube_around<2>(mesh.vertices);
   const MeshInput input(mesh, lines, box);
   const ShrinkTest<MeshInput> test(input, allowed, box.side);
   const std::vector<double> nearest = nearest_of_all(mesh, lines);

@@ -13,8 +13,8 @@
 //   crowded(s, piece)       whether a piece of an edge, or of a polygon, has to be split [rules C];
 //                           an observation of InputFeatures<S> (plc/input_features.hpp)
 //   find_near(place, R)     the edges, or polygons, within R of a place, in canonical order, and
-//   find_in(cell)           the edges that may meet a cell; Complete asks these of the surroundings
-//                           of its cell, which it observes as it is
+//   find_in(cell)           those that may meet a cell; Complete asks these of the surroundings of
+//                           its cell, which it observes as it is
 //   common(f, g, x, store)  what two features share, of several the nearest to x: an edge, a point,
 //                           or nothing; a function of the two alone (both: plc/feature_search.hpp)
 #pragma once

@@ -123,15 +123,21 @@ std::vector<const F*> find_near(const Point<3>& place, double radius, FeatureSto
 template std::vector<const Edge*> find_near(const Point<3>& place, double radius, FeatureStore&);
 template std::vector<const Polygon*> find_near(const Point<3>& place, double radius, FeatureStore&);
 
-std::vector<const Edge*> find_in(const VoronoiCell3& cell, FeatureStore& store) {
+template <class F>
+std::vector<const F*> find_in(const VoronoiCell3& cell, FeatureStore& store) {
   const Outside outside(cell);
-  Found<Edge> found;
-  store.visit_edges_in(
-      cell.center().p, outside.reach(),
-      [&](const Point<3>& x, double radius) { return outside.has(x, radius); },
-      [&](const Edge& e) noexcept { return found.take(e); });
+  Found<F> found;
+  const auto is_outside = [&](const Point<3>& x, double radius) { return outside.has(x, radius); };
+  const auto take = [&](const F& f) noexcept { return found.take(f); };
+  if constexpr (std::is_same_v<F, Edge>) {
+    store.visit_edges_in(cell.center().p, outside.reach(), is_outside, take);
+  } else {
+    store.visit_polygons_in(is_outside, take);
+  }
   return found.finish();
 }
+template std::vector<const Edge*> find_in(const VoronoiCell3&, FeatureStore&);
+template std::vector<const Polygon*> find_in(const VoronoiCell3&, FeatureStore&);
 
 void FeaturesBeside::ask(const Point<3>& x, double radius) const {
   const double within = (std::sqrt(squared_distance(x, place_)) + radius) * (1 + 0x1p-20);

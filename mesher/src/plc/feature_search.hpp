@@ -59,8 +59,9 @@ template <>
 template <class F>
 [[nodiscard]] std::vector<const F*> find_near(const Point<3>& place, double radius,
                                               FeatureStore& store);
-/// The edges that meet a cell, and few others, likewise.
-[[nodiscard]] std::vector<const Edge*> find_in(const VoronoiCell3& cell, FeatureStore& store);
+/// The edges, or polygons, that meet a cell, and few others, likewise.
+template <class F>
+[[nodiscard]] std::vector<const F*> find_in(const VoronoiCell3& cell, FeatureStore& store);
 
 /// What is asked of features by who observes a cell. How far is noted: the farther, the more
 /// features are there whose coming and going concerns it.

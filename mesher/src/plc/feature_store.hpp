@@ -109,6 +109,13 @@ class FeatureStore {
     return edges_.visit_in(p, reach, outside, [&](const Edge& e) { return visit(e); });
   }
 
+  /// The same with all polygons that are not.
+  template <class Outside, class Visit>
+  bool visit_polygons_in(Outside&& outside, Visit&& visit) noexcept {
+    return tree_.visit_unless(outside,
+                              [&](PolygonHandle h) { return visit(std::as_const(polygons_[h])); });
+  }
+
   /// How much searches have looked at so far.
   [[nodiscard]] std::uint64_t looked_at() const noexcept {
     return edges_.looked_at() + tree_.looked_at() + parts_looked_at_;

@@ -22,6 +22,7 @@
 
 #include <new>
 #include <optional>
+#include <string>
 
 #include "geometry/box.hpp"
 #include "mesher/error.hpp"
@@ -44,6 +45,17 @@ struct SpaceConflict {
   Feature one, other;  // in the order of the kind's name
   Point<3> at{};
 };
+
+class SpaceNames;
+
+/// A feature as a message names it; `id` is that of the segment or polygon that it is, or belongs
+/// to: of several polygons with an edge the least.
+struct NamedFeature {
+  std::string text;
+  FeatureId id{};
+};
+[[nodiscard]] NamedFeature named(const Feature& f, const SpaceNames& names,
+                                 const FeatureStore& store);
 
 /// The conflict of two features, if there is one.
 [[nodiscard]] std::optional<SpaceConflict> conflict_with(const Vertex<3>& v, const Edge& e);

@@ -13,32 +13,6 @@ namespace {
 
 std::string id_text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
-// A feature as a message names it; `id` is that of the segment or polygon that it is, or belongs
-// to: of several polygons with an edge the least.
-struct Named {
-  std::string text;
-  FeatureId id{};
-};
-
-Named name_of(const Feature& f, const SpaceNames& names, const FeatureStore& store) {
-  if (f.kind() == Feature::Kind::point) {
-    const FeatureId id = names.point(f.handle());
-    return {"point " + id_text(id), id};
-  }
-  if (f.kind() == Feature::Kind::polygon) {
-    const FeatureId id = names.polygon(f.handle());
-    return {"polygon " + id_text(id), id};
-  }
-  if (const auto id = names.segment(f.handle())) return {"segment " + id_text(*id), *id};
-  std::optional<FeatureId> least;
-  store.polygons().for_each([&](const Polygon& g) {
-    if (!g.alive || !g.has_edge(f.handle())) return;
-    if (const FeatureId id = names.polygon(g.self); !least || id < *least) least = id;
-  });
-  return {"an edge of polygon " + id_text(least.value_or(FeatureId{})),
-          least.value_or(FeatureId{})};
-}
-
 struct Words {
   ErrorCode code;
   const char* verb;
@@ -111,8 +85,27 @@ void require_declared_inside(const Polygon& f, FeatureId id, const FeatureStore&
 
 }  // namespace
 
+NamedFeature named(const Feature& f, const SpaceNames& names, const FeatureStore& store) {
+  if (f.kind() == Feature::Kind::point) {
+    const FeatureId id = names.point(f.handle());
+    return {"point " + id_text(id), id};
+  }
+  if (f.kind() == Feature::Kind::polygon) {
+    const FeatureId id = names.polygon(f.handle());
+    return {"polygon " + id_text(id), id};
+  }
+  if (const auto id = names.segment(f.handle())) return {"segment " + id_text(*id), *id};
+  std::optional<FeatureId> least;
+  store.polygons().for_each([&](const Polygon& g) {
+    if (!g.alive || !g.has_edge(f.handle())) return;
+    if (const FeatureId id = names.polygon(g.self); !least || id < *least) least = id;
+  });
+  return {"an edge of polygon " + id_text(least.value_or(FeatureId{})),
+          least.value_or(FeatureId{})};
+}
+
 void fail(const SpaceConflict& c, const SpaceNames& names, const FeatureStore& store) {
-  Named one = name_of(c.one, names, store), other = name_of(c.other, names, store);
+  NamedFeature one = named(c.one, names, store), other = named(c.other, names, store);
   if (other.text < one.text && c.one.kind() == c.other.kind()) std::swap(one, other);
   const Words words = words_of(c.kind);
   const bool itself = one.text == other.text;

@@ -20,6 +20,11 @@ bool disencroach(S& s, World<S, 3>&, Staying<S, 3>& beside, VertexRef<3>, int b)
   return false;
 }
 
+template <class S, int D>
+bool disencroach(S&, World<S, D>&, Staying<S, D>&, VertexRef<D>, int) {
+  return false;
+}
+
 template <class S>
 Outcome yields(S& s, World<S, 2>& w, Staying<S, 2>&, const InsertionRule<2>::NewPoint& x, int b) {
   const bool waits = w.leaves.any() && w.post_cuts(s, w.leaves.around(s, x.p), b);
@@ -29,6 +34,11 @@ template <class S>
 Outcome yields(S& s, World<S, 3>&, Staying<S, 3>& beside, const InsertionRule<3>::NewPoint& x,
                int b) {
   return beside.any() ? beside.yields(s, x, b) : Outcome::stands;
+}
+
+template <class S, int D>
+Outcome yields(S&, World<S, D>&, Staying<S, D>&, const typename InsertionRule<D>::NewPoint&, int) {
+  return Outcome::stands;
 }
 
 }  // namespace mesher::detail

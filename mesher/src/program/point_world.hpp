@@ -18,7 +18,7 @@
 #include "rules/insertion_rule.hpp"
 #include "sac/sac.hpp"
 #include "segments/planarity.hpp"
-#include "sizes/limits.hpp"
+#include "sizes/limits_of.hpp"
 
 namespace mesher::detail {
 
@@ -43,7 +43,7 @@ struct PointWorld {
   MeshBox<D> box;
   using AnyCell = Cell<D>;
 
-  Limits<D> limits;
+  LimitsOf<D> limits;
   std::unique_ptr<const InsertionRule<D>> rule;
   VertexIndex<S, D> vertices;
   Subdivision<S, D> subdivision;

@@ -58,9 +58,8 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   /// While the cell meets features that v is not on: vertices on these.
   void disencroach(S& s, int b) {
     if (!any_) return;
-    for (const Edge* e : find_in(cell_, near_.store())) clear(s, *e, b);
-    const auto polygons = near_.polygons(near_.place(), 0);  // clear() asks for more
-    for (const Polygon* f : polygons) clear(s, *f, b);
+    for (const Edge* e : find_in<Edge>(cell_, near_.store())) clear(s, *e, b);
+    for (const Polygon* f : find_in<Polygon>(cell_, near_.store())) clear(s, *f, b);
   }
 
   /// Whether x yields: a vertex is inserted instead, on a feature; or is refused.

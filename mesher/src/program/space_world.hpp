@@ -5,6 +5,7 @@
 #include "plc/guard.hpp"
 #include "plc/input_features.hpp"
 #include "plc/placed.hpp"
+#include "plc/validity.hpp"
 #include "program/filling.hpp"
 #include "program/point_world.hpp"
 
@@ -24,7 +25,8 @@ struct World<S, 3> : PointWorld<S, 3> {
   Surroundings<S, 3> surroundings;
   Agenda& splits;
   Agenda& fills;
-  const bool guarded;  // plc/guard.hpp
+  const bool guarded;                         // plc/guard.hpp
+  const SpaceNames* feature_names = nullptr;  // for messages; null: features have none
 
   template <class Host>
   World(const Options<3>& options, const MeshBox<3>& mesh_box, Host& host)
@@ -66,6 +68,8 @@ struct World<S, 3> : PointWorld<S, 3> {
   }
   /// A vertex that cuts the cell of v, in bucket b.
   void insert_beside(S& s, const Vertex<3>& v, CellOf<3>& cell, const Placed& y, int b);
+  /// What is said where there are too many vertices.
+  [[nodiscard]] Error too_many() const;
   [[noreturn]] void fail_useless(const Vertex<3>& v, const Vertex<3>& x) const;
   /// `at`: in f's frame, where another feature touches f.
   [[noreturn]] void fail_too_fine(const Polygon& f, const Point<2>& at) const;

@@ -16,9 +16,15 @@ namespace mesher::detail {
 /// are cut first; not at all, a vertex on a feature was; never, since lengths have shrunk.
 enum class Outcome : std::uint8_t { stands, waits, yielded, refused };
 
-/// In space it says more: program/space_lines.hpp.
+/// Nothing stays where there are points alone. In space it says more: program/space_lines.hpp.
 template <class S, int D>
-class Staying;
+class Staying {
+ public:
+  Staying(const World<S, D>&, const CellOf<D>&) {}
+  [[nodiscard]] const EdgeFilter<D>* filter() const noexcept { return nullptr; }
+  void leave(const CellOf<D>&, int, int) {}
+  [[nodiscard]] std::uint64_t looked_at() const noexcept { return 0; }
+};
 
 template <class S>
 class Staying<S, 2> final : public EdgeFilter<2> {

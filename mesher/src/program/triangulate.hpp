@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "index/triangulate_pool.hpp"
 #include "program/world.hpp"
@@ -57,6 +58,18 @@ void for_each_own_simplex(const VertexPool<D>& pool, const Vertex<D>& v,
 template <int D>
 void triangulate_at_once(const VertexPool<D>& pool, PlainOutput<D>& plain) {
   plain.simplices = triangulate(pool, [&] { plain.tick(); }).simplices;
+}
+/// The same beyond space, star by star.
+template <int D>
+void triangulate_star_by_star(sac::PlainScope& s, VertexIndex<sac::PlainScope, D>& vertices,
+                              PlainOutput<D>& plain) {
+  std::vector<std::uint32_t> record;
+  vertices.pool().for_each([&](Vertex<D>& v) {
+    plain.tick();
+    vertices.star(s, {&v})->write(record);
+    for_each_own_simplex(vertices.pool(), v, record,
+                         [&](const auto& simplex) { plain.simplices.push_back(simplex); });
+  });
 }
 
 }  // namespace mesher::detail

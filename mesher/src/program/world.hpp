@@ -5,8 +5,8 @@
 // Each part drains its agenda; a part posts on its own agenda and on those of later parts.
 //
 // PointWorld is what points need. World is that with what else there is in a dimension: segments in
-// the plane, edges and polygons in space, and limits of size. What the program asks of those is
-// answered in program/lines.hpp.
+// the plane, edges and polygons in space, and in both limits of size; beyond that nothing. What the
+// program asks of those is answered in program/lines.hpp.
 #pragma once
 
 #include <chrono>
@@ -21,6 +21,19 @@
 #include "segments/leaves.hpp"
 
 namespace mesher::detail {
+
+template <class S, int D>
+struct World : PointWorld<S, D> {
+  template <class Host>
+  World(const Options<D>& options, const MeshBox<D>& mesh_box, Host& host)
+      : PointWorld<S, D>(options, mesh_box, host) {
+    host.set_environment(this);
+  }
+
+  /// What is said where there are too many vertices.
+  [[nodiscard]] Error too_many() const;
+  [[noreturn]] void fail_useless(const Vertex<D>& v, const Vertex<D>& x) const;
+};
 
 template <class S>
 struct World<S, 2> : PointWorld<S, 2> {
@@ -71,6 +84,8 @@ struct World<S, 2> : PointWorld<S, 2> {
   [[noreturn]] void fail_too_short(const PieceRef& piece);
   /// Throws: Error(too_close), with the ids of the features that v and x are on.
   [[noreturn]] void fail_too_close(const Vertex<2>& v, const Vertex<2>& x) const;
+  /// What is said where there are too many vertices.
+  [[nodiscard]] Error too_many() const;
   [[noreturn]] void fail_useless(const Vertex<2>& v, const Vertex<2>& x);
   /// Throws: Error(too_close), with the ids of the features nearest to p, within `radius` or not.
   [[noreturn]] void fail_near(const Point<2>& p, double radius, const std::string& why);
@@ -92,6 +107,9 @@ void drain_lines(S& s, World<S, 3>& w) {
   w.splits.drain(s);
   w.fills.drain(s);
 }
+
+template <class S, int D>
+void drain_lines(S&, World<S, D>&) {}
 
 template <int D>
 struct Refine {

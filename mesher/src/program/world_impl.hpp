@@ -2,6 +2,7 @@
 #pragma once
 
 #include "input.hpp"
+#include "plc/space_budget.hpp"
 #include "program/build_qt.hpp"
 #include "program/choose_steiners.hpp"
 #include "program/cut.hpp"
@@ -78,7 +79,9 @@ void World<S, 2>::post_split(S& s, const PieceRef& piece) {
 // is a lattice, its points may be nearer
 template <class S, int D>
 void PointWorld<S, D>::post_nearest(S& s, VertexRef<D> v, int leaf_level) {
-  post_nearest_from(s, v, std::min(box.cell_side(leaf_level) / 2, kClear * limits.pitch(v->p)));
+  double nearest = box.cell_side(leaf_level) / 2;
+  if (limits.any()) nearest = std::min(nearest, kClear * limits.pitch(v->p));
+  post_nearest_from(s, v, nearest);
 }
 
 template <class S, int D>
@@ -115,8 +118,10 @@ template <class S, int D>
 void PointWorld<S, D>::triangulate(S& s) {
   if constexpr (S::kTraced) {
     vertices.with_first_stars([&] { stars.drain(s); });
-  } else {
+  } else if constexpr (D <= 3) {
     triangulate_at_once(vertices.pool(), plain);
+  } else {
+    triangulate_star_by_star(s, vertices, plain);
   }
 }
 
@@ -140,14 +145,40 @@ void PointWorld<S, D>::fail_too_many(S& s) const {
   if constexpr (S::kTraced) {
     if (s.engine().undoing()) return;
   }
-  throw too_many_vertices(vertices, names, most_vertices);
+  throw static_cast<const World<S, D>&>(*this).too_many();
+}
+
+template <class S>
+Error World<S, 2>::too_many() const {
+  return too_many_vertices(vertices, names, this->most_vertices);
+}
+
+template <class S>
+Error World<S, 3>::too_many() const {
+  return too_many_vertices(vertices, feature_names, plc.store(), this->most_vertices);
+}
+
+template <class S, int D>
+Error World<S, D>::too_many() const {
+  return {ErrorCode::too_many,
+          "more than " + std::to_string(this->most_vertices) + " vertices are needed"};
+}
+
+template <int D>
+[[noreturn]] void fail_rounded(const Point<D>& near, const Point<D>& to) {
+  throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
+                                        place_text(near) + ": rounding moved a new vertex to " +
+                                        place_text(to));
+}
+
+template <class S, int D>
+void World<S, D>::fail_useless(const Vertex<D>& v, const Vertex<D>& x) const {
+  fail_rounded<D>(v.p, x.p);
 }
 
 template <class S>
 void World<S, 3>::fail_useless(const Vertex<3>& v, const Vertex<3>& x) const {
-  throw Error(ErrorCode::too_close, "input points are too close for double precision near " +
-                                        place_text(v.p) + ": rounding moved a new vertex to " +
-                                        place_text(x.p));
+  fail_rounded<3>(v.p, x.p);
 }
 
 template <class S>

@@ -62,5 +62,6 @@ unsigned Buckets<D>::colour(const Fixed<D>& f, int b) const {
 
 template class Buckets<2>;
 template class Buckets<3>;
+template class Buckets<4>;
 
 }  // namespace mesher::detail

@@ -58,4 +58,7 @@ inline constexpr double kReads = 2 * 1.7320508075688773;  // 2 sqrt(3)
 template <>
 inline constexpr double kReads<2> = 2 * 1.0823922002923939687994464;  // 2 / cos(pi / 8)
 
+template <>
+inline constexpr double kReads<4> = 2 * 2.0;  // 2 sqrt(4)
+
 }  // namespace mesher::detail

@@ -21,13 +21,13 @@ template <int D>
 struct Policy {
   Promise (*promise)(double rho);
   std::unique_ptr<const InsertionRule<D>> (*make)(const Options<D>&, const MeshBox<D>&,
-                                                  const Limits<D>&);
+                                                  const LimitsOf<D>&);
 };
 
 template <int D, class R>
 Policy<D> policy_of() {
   return {R::promise_for,
-          [](const Options<D>& options, const MeshBox<D>& box, const Limits<D>& limits) {
+          [](const Options<D>& options, const MeshBox<D>& box, const LimitsOf<D>& limits) {
             return std::unique_ptr<const InsertionRule<D>>(
                 std::make_unique<const R>(options, box, limits));
           }};
@@ -89,7 +89,7 @@ auto InsertionRule<D>::new_point(const CellOf<D>& cell, const Point<D>& p, doubl
 template <int D>
 std::unique_ptr<const InsertionRule<D>> insertion_rule(const Options<D>& options,
                                                        const MeshBox<D>& box,
-                                                       const Limits<D>& limits) {
+                                                       const LimitsOf<D>& limits) {
   return policy<D>(options.rule).make(options, box, limits);
 }
 
@@ -100,13 +100,18 @@ Promise promise(Rule rule, double rho) {
 
 template class InsertionRule<2>;
 template class InsertionRule<3>;
+template class InsertionRule<4>;
 template std::unique_ptr<const InsertionRule<2>> insertion_rule<2>(const Options<2>&,
                                                                    const MeshBox<2>&,
-                                                                   const Limits<2>&);
+                                                                   const LimitsOf<2>&);
 template std::unique_ptr<const InsertionRule<3>> insertion_rule<3>(const Options<3>&,
                                                                    const MeshBox<3>&,
-                                                                   const Limits<3>&);
+                                                                   const LimitsOf<3>&);
+template std::unique_ptr<const InsertionRule<4>> insertion_rule<4>(const Options<4>&,
+                                                                   const MeshBox<4>&,
+                                                                   const LimitsOf<4>&);
 template Promise promise<2>(Rule, double);
 template Promise promise<3>(Rule, double);
+template Promise promise<4>(Rule, double);
 
 }  // namespace mesher::detail

@@ -13,7 +13,7 @@
 
 #include "geometry/cell_of.hpp"
 #include "rules/buckets.hpp"
-#include "sizes/limits.hpp"
+#include "sizes/limits_of.hpp"
 
 namespace mesher::detail {
 
@@ -83,7 +83,7 @@ class InsertionRule {
 template <int D>
 [[nodiscard]] std::unique_ptr<const InsertionRule<D>> insertion_rule(const Options<D>& options,
                                                                      const MeshBox<D>& box,
-                                                                     const Limits<D>& limits);
+                                                                     const LimitsOf<D>& limits);
 /// What the rule of this name promises. Throws: likewise.
 template <int D>
 [[nodiscard]] Promise promise(Rule rule, double rho);

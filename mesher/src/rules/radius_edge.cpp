@@ -42,7 +42,7 @@ Promise RadiusEdge<D>::promise_for(double rho) {
 
 template <int D>
 RadiusEdge<D>::RadiusEdge(const Options<D>& options, const MeshBox<D>& box,
-                          const Limits<D>& limits)
+                          const LimitsOf<D>& limits)
     : Base(options, box, promise_for(options.rho)),
       height_(offcentre_height(options.rho)),
       limits_(&limits) {}
@@ -171,6 +171,12 @@ bool RadiusEdge<3>::is_large(const VoronoiCell3& cell, int t) const {
   return volume > limits_->measure(middle) * kLargest;
 }
 
+// Beyond space there are no limits.
+template <int D>
+bool RadiusEdge<D>::is_large(const CellOf<D>&, int) const {
+  return false;
+}
+
 // Calls visit(poor) for the shortest edge of every poor simplex of v's star, for the shortest
 // visible one beside every hidden corner, and for the large simplices. One that is poor and large
 // is the former first, since R is longer than its edge.
@@ -262,5 +268,6 @@ std::optional<int> RadiusEdge<D>::next_bucket(const CellOf<D>& cell, int b,
 
 template class RadiusEdge<2>;
 template class RadiusEdge<3>;
+template class RadiusEdge<4>;
 
 }  // namespace mesher::detail

@@ -26,7 +26,7 @@ class RadiusEdge final : public InsertionRule<D> {
   using typename Base::NewPoint;
 
   /// Refers to `limits`.
-  RadiusEdge(const Options<D>& options, const MeshBox<D>& box, const Limits<D>& limits);
+  RadiusEdge(const Options<D>& options, const MeshBox<D>& box, const LimitsOf<D>& limits);
 
   [[nodiscard]] static Promise promise_for(double rho);
   [[nodiscard]] std::optional<NewPoint> next_point(const CellOf<D>& cell, int b,
@@ -60,7 +60,7 @@ class RadiusEdge final : public InsertionRule<D> {
   [[nodiscard]] Point<D> place(const Poor& poor) const;
 
   double height_;              // of the off-centre, in units of the edge
-  const Limits<D>* limits_;  // null: there are none
+  const LimitsOf<D>* limits_;  // null: there are none
 };
 
 }  // namespace mesher::detail

@@ -13,7 +13,7 @@ Promise VoronoiAspect<D>::promise_for(double rho) {
 
 template <int D>
 VoronoiAspect<D>::VoronoiAspect(const Options<D>& options, const MeshBox<D>& box,
-                                const Limits<D>&)
+                                const LimitsOf<D>&)
     : Base(options, box, promise_for(options.rho)) {}
 
 template <int D>
@@ -49,5 +49,6 @@ auto VoronoiAspect<D>::next_point(const CellOf<D>& cell, int, const EdgeFilter<D
 
 template class VoronoiAspect<2>;
 template class VoronoiAspect<3>;
+template class VoronoiAspect<4>;
 
 }  // namespace mesher::detail

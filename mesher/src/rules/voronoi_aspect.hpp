@@ -18,7 +18,7 @@ class VoronoiAspect final : public InsertionRule<D> {
   using typename Base::NewPoint;
 
   /// `limits`: there are none for this rule.
-  VoronoiAspect(const Options<D>& options, const MeshBox<D>& box, const Limits<D>& limits);
+  VoronoiAspect(const Options<D>& options, const MeshBox<D>& box, const LimitsOf<D>& limits);
 
   [[nodiscard]] static Promise promise_for(double rho);
   [[nodiscard]] std::optional<NewPoint> next_point(const CellOf<D>& cell, int b,

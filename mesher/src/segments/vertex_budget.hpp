@@ -10,10 +10,4 @@ namespace mesher::detail {
 /// Names the two lines with the most vertices on them, if there are any. Cost: O(vertices).
 [[nodiscard]] Error too_many_vertices(const VertexSearch<2>& vertices, const Names* names,
                                       std::size_t most);
-/// The same where there are no lines.
-template <int D>
-[[nodiscard]] Error too_many_vertices(const VertexSearch<D>&, const Names*, std::size_t most) {
-  return {ErrorCode::too_many, "more than " + std::to_string(most) + " vertices are needed"};
-}
-
 }  // namespace mesher::detail

@@ -243,7 +243,6 @@ TEST_CASE("What fails leaves mesh, regions and seeds in space, and it works agai
   follower.follow(m.update());
   CHECK_THROWS_AS(m.insert_region(id(2), {1, 1, 1}, 7), mesher::Error);
   CHECK_THROWS_AS(m.remove_hole(id(9)), mesher::Error);
-  CHECK_THROWS_AS(Mesher(kOptions, Extent::enclosed, mesher::RegionAreas::limits), mesher::Error);
   m.insert(id(50), {1, 1, 1.75});  // on a polygon
   m.insert_hole(id(1), {1, 1, 1});
   CHECK_THROWS_AS(m.update(), mesher::Error);

@@ -510,7 +510,12 @@ TEST_CASE("bad lines of a script in space are refused with the code and the plac
       {"+region 1 0 0 0 1 2 3\n", "bad_edit@1:21"},
       {"+region 1 0 0 0 inf\n", "not_finite@1:17"},
       {"+region 1 0 0 0 1 x\n", "bad_number@1:19"},
-      {"limit none\n", "bad_edit@1:1"},
+      {"limit area 1\n", "bad_edit@1:7"},
+      {"limit volume\n", "bad_edit@1:13"},
+      {"limit volume 0\n", "bad_number@1:14"},
+      {"limit size inf\n", "not_finite@1:12"},
+      {"limit none in 0 0 1 1\n", "bad_edit@1:22"},
+      {"limit none in 0 0 2 1 1 1\n", "bad_edit@1:15"},
       {"+tetrahedron 1\n", "bad_edit@1:1"},
       {"begin\n+point 1 0 0 0\n", "unbalanced_commit@1:1"},
   }));

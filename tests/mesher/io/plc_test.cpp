@@ -235,6 +235,40 @@ TEST_CASE("Surfaces are read with a polygon for each face") {
   REQUIRE(stl.place_of_facet(1).line == 11);
 }
 
+TEST_CASE("Faces of grids are polygons with their markers, and with their ids if all differ") {
+  // Two triangles, a quadrilateral and a tetrahedron.
+  const auto vtu = [](const std::string& polygons) {
+    const auto ints = [](const std::string& name, const std::string& values) {
+      return "<DataArray type=\"Int64\" Name=\"" + name + "\" format=\"ascii\">" + values +
+             "</DataArray>\n";
+    };
+    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\">\n"
+           "<UnstructuredGrid><Piece NumberOfPoints=\"5\" NumberOfCells=\"4\">\n<Points>"
+           "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">"
+           "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1</DataArray></Points>\n<Cells>\n" +
+           ints("connectivity", "0 1 4 0 1 2 3 1 2 4 0 1 2 4") + ints("offsets", "3 7 10 14") +
+           ints("types", "5 9 5 10") + "</Cells>\n<CellData>\n" + ints("marker", "7 8 9 0") +
+           ints("polygon", polygons) + "</CellData></Piece></UnstructuredGrid></VTKFile>\n";
+  };
+  const auto facets_of = [&](const std::string& polygons) {
+    return read("a.vtu", vtu(polygons)).plc.facets;
+  };
+  const auto named = facets_of("12 11 10 0"), numbered = facets_of("12 11 12 0");
+  REQUIRE(named.size() == 3);
+  CHECK(named[1].polygon.loops == Loops{ids({1, 2, 3, 4})});
+  CHECK(named[2].polygon.loops == Loops{ids({2, 3, 5})});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto n = static_cast<std::int64_t>(i);
+    CHECK(named[i].marker == 7 + n);
+    CHECK(named[i].polygon.id == FeatureId{12 - n});
+    CHECK(numbered[i].polygon.id == FeatureId{1 + n});
+  }
+  CHECK(read("a.vtu", vtu("1 2 3 0")).notes.size() == 1);
+  std::string bad = vtu("1 2 3 0");
+  bad.replace(bad.find("5 9 5 10"), 8, "5 5 5 10");
+  CHECK_THROWS_AS(read("a.vtu", bad), mesher::Error);
+}
+
 TEST_CASE("A face's corner that is no vertex is refused where it stands") {
   const auto failure = [](const char* name, const std::string& content) {
     return failure_of([&] { static_cast<void>(read(name, content)); });

@@ -131,6 +131,35 @@ TEST_CASE("so it is below rho = 2, where the guard looks farther than cells [rul
   }
 }
 
+// A tetrahedron of which 555 edges are lonely, and short segments 5 to 15 lengths from these: the
+// calls that look at the edges' cells do not look so far.
+TEST_CASE("what comes far from a lonely edge, where no cell looks, ends its loneliness") {
+  mesher::Options<3> options;
+  options.rho = 1.42;
+  options.domain = {{0, 0, 0}, {1, 1, 1}};
+  const Complex alone = support::RandomComplex(1506).part({0, 0, 0}, 6);
+  TracedSpace space(options, false);
+  space.insert(alone);
+  space.update();
+  const auto before = space.result();
+  for (const mesher::Point<3>& p : {mesher::Point<3>{0.5602, 0.6658, 0.5968},
+                                    {0.7808, 0.4947, 0.6489},
+                                    {0.6976, 0.773, 0.6237},
+                                    {0.847, 0.5338, 0.6177}}) {
+    INFO(p[0] << ' ' << p[1] << ' ' << p[2]);
+    Complex near;
+    near.segment(p, {p[0] + 1e-5, p[1] + 2e-5, p[2] + 1e-5});
+    Complex all = alone;
+    append(all, near);
+    const auto part = space.insert(near);
+    space.update();
+    REQUIRE(space.result() == PlcRun(all, options).result());
+    space.erase(part);
+    space.update();
+    REQUIRE(space.result() == before);
+  }
+}
+
 // Most features bring vertices where they are crowded, which tells those around them. A polygon
 // above whose middle there is a point, far from its edges, does not.
 TEST_CASE("features between points that stay reach the vertices whose cells they meet") {

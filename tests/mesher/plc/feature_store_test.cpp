@@ -107,7 +107,7 @@ TEST_CASE("The edges that may meet a cell have all that do, and are few") {
     }
     VoronoiCell3 cell;
     cells.cut_by_all(cell);
-    const std::vector<const Edge*> edges = find_in(cell, scene.features().store());
+    const std::vector<const Edge*> edges = find_in<Edge>(cell, scene.features().store());
     found += edges.size();
     scene.store().edges().for_each([&](const Edge& e) {
       if (!e.alive) return;
