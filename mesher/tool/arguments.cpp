@@ -134,8 +134,7 @@ mesher::Options<D> common_options(const MeshArguments& args, const InputOf<D>& i
 
 void require_no_plane_options(const MeshArguments& args) {
   const std::pair<const char*, bool> given[] = {{"--max-area", !args.max_area.empty()},
-                                                {"--sizes", !args.sizes.empty()},
-                                                {"--repair", args.repair}};
+                                                {"--sizes", !args.sizes.empty()}};
   for (const auto& [option, is_given] : given) {
     if (!is_given) continue;
     throw Error(ErrorCode::bad_option, std::string(option) + " is for the plane; INPUT is in space",
@@ -239,8 +238,9 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
       ->type_name("OUT")
       ->allow_extra_args(false);
   command.add_flag("--repair", args.repair,
-                   "Lines that cross or touch get a common point there, points in one place are\n"
-                   "one, what lines share is that of the smallest id; each is reported");
+                   "Lines (in space also polygons) that cross or touch get common points there,\n"
+                   "points in one place are one, what several cover is that of the smallest id,\n"
+                   "polygons that are not flat become triangles; each is reported");
   command.add_flag("--region-areas,--region-volumes", args.region_areas,
                    "The largest areas, or volumes, of regions are limits of size");
   command.add_flag(
@@ -283,6 +283,26 @@ int dimension_of(const MeshArguments& args) {
   return args.dimension == "3" ? 3 : 2;
 }
 
+namespace {
+
+template <int D>
+InputOf<D> as_meshed(InputOf<D> input, const MeshArguments& args) {
+  if (!args.repair) {
+    input.offer_repair();
+    return input;
+  }
+  std::optional<mesher::Box<D>> domain;
+  if (!args.domain.empty()) domain = domain_of<D>(args.domain);
+  try {
+    locating(input, [&] { input.repair(domain); });
+  } catch (const Error& error) {
+    throw with_domain_hint<D>(error);
+  }
+  return input;
+}
+
+}  // namespace
+
 template <>
 Input read_input<2>(const MeshArguments& args) {
   if (faces(args) != Faces::unless_points) {
@@ -291,24 +311,12 @@ Input read_input<2>(const MeshArguments& args) {
   if (args.no_flat) {
     throw Error(ErrorCode::bad_option, "--no-flat is for space", {args.input});
   }
-  Input input(args.input);
-  if (!args.repair) {
-    input.offer_repair();
-    return input;
-  }
-  std::optional<mesher::Box<2>> domain;
-  if (!args.domain.empty()) domain = domain_of<2>(args.domain);
-  try {
-    locating(input, [&] { input.repair(domain); });
-  } catch (const Error& error) {
-    throw with_domain_hint(error);
-  }
-  return input;
+  return as_meshed<2>(Input(args.input), args);
 }
 
 template <>
 SpaceInput read_input<3>(const MeshArguments& args) {
-  return SpaceInput(args.input, faces(args));
+  return as_meshed<3>(SpaceInput(args.input, faces(args)), args);
 }
 
 mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input) {

@@ -90,7 +90,8 @@ std::string words(Featured kind, FeatureId id) {
 }
 
 // What a repair does about the error, "" if nothing: lines that meet at tiny angles it leaves.
-std::string repair_hint(const Error& error) {
+// `reach`: what it joins is closer.
+std::string repair_hint(const Error& error, const std::string& reach) {
   switch (error.code()) {
     case ErrorCode::duplicate_point:
     case ErrorCode::crossing_segments:
@@ -98,10 +99,19 @@ std::string repair_hint(const Error& error) {
     case ErrorCode::overlapping_segments:
     case ErrorCode::repeated_segment:
     case ErrorCode::zero_length:
+    case ErrorCode::bad_polygon:
+    case ErrorCode::not_flat:
+    case ErrorCode::repeated_polygon:
+    case ErrorCode::point_on_polygon:
+    case ErrorCode::segment_on_polygon:
+    case ErrorCode::segment_through_polygon:
+    case ErrorCode::crossing_polygons:
+    case ErrorCode::overlapping_polygons:
       return "; --repair mends this";
     case ErrorCode::too_close:
       if (error.message().find(" angles ") != std::string::npos) return "";
-      return "; --repair may mend this: it joins what is closer than 2^-44 of the box's side";
+      return "; --repair may mend this: it joins what is closer than " + reach +
+             " of the box's side";
     default:
       return "";
   }
@@ -139,7 +149,7 @@ Error Standing::located(const Error& error) const {
   }
   if (blamed.file.empty()) blamed.file = path_;
   if (!others.empty()) others += ")";
-  if (mends) others += repair_hint(error);
+  if (mends) others += repair_hint(error, repair_reach());
   return Error(error.code(), error.message() + others, blamed, error.ids());
 }
 

@@ -14,6 +14,7 @@
 #include "mesher/plc.hpp"
 #include "mesher/pslg.hpp"
 #include "mesher/repair.hpp"
+#include "mesher/space_repair.hpp"
 
 namespace tool {
 
@@ -62,6 +63,8 @@ class Standing {
   /// In the file; without a line if it is not there.
   [[nodiscard]] virtual mesher::Place place_in_file(mesher::Featured kind,
                                                     mesher::FeatureId id) const = 0;
+  /// What repair() joins: closer than this.
+  [[nodiscard]] virtual std::string repair_reach() const = 0;
 
   std::string path_;
   bool offers_repair_ = false;
@@ -111,6 +114,7 @@ class Input final : public Standing {
  private:
   [[nodiscard]] mesher::Place place_in_file(mesher::Featured kind,
                                             mesher::FeatureId id) const override;
+  [[nodiscard]] std::string repair_reach() const override { return "2^-44"; }
 
   mesher::PslgFile file_;
   std::vector<mesher::RepairNote> repairs_;
@@ -145,15 +149,24 @@ class SpaceInput final : public Standing {
     return file_.place_of_point(i);
   }
 
+  /// Segments and polygons that do not fit together become a complex that can be meshed; repairs()
+  /// says how. Throws: Error, as mesher::repair.
+  void repair(const std::optional<mesher::Box<3>>& domain);
+  [[nodiscard]] const std::vector<mesher::RepairNoteOf<3>>& repairs() const noexcept {
+    return repairs_;
+  }
+
   /// `PLACE: warning: WHAT` for a seed that has no region of its own.
   [[nodiscard]] std::string warning(const mesher::SeedFaultOf<3>& fault) const;
 
  private:
   [[nodiscard]] mesher::Place place_in_file(mesher::Featured kind,
                                             mesher::FeatureId id) const override;
+  [[nodiscard]] std::string repair_reach() const override { return "2^-42"; }
 
   mesher::PlcFile file_;
   bool is_complex_ = false;
+  std::vector<mesher::RepairNoteOf<3>> repairs_;
 };
 
 /// The points of a complex, as of a file of points: what checks of points take.

@@ -109,6 +109,13 @@ void print_notes(const std::vector<mesher::Note>& notes) {
   }
 }
 
+template <class AnyInput>
+void print_repairs(const AnyInput& input) {
+  for (const auto& note : input.repairs()) {
+    std::fprintf(stderr, "%s\n", note.text("repair: ").c_str());
+  }
+}
+
 std::string milliseconds(double seconds) { return format("%.3f ms", seconds * 1000); }
 
 }  // namespace
@@ -288,10 +295,10 @@ void print_run(const SpaceInput& input, const SpaceRun& run) {
                            format("%g degrees", mesher::kSliverDegrees));
   print_row("largest radius-edge", format("%.4f", run.quality.max_radius_edge));
   if (run.above_rho > 0) {
-    print_row("above rho", std::to_string(run.above_rho) + ", at small angles of the input" +
-                               (run.guard && run.guard->tetrahedra > 0
-                                    ? ", or beside features that are alone"
-                                    : ""));
+    print_row(
+        "above rho",
+        std::to_string(run.above_rho) + ", at small angles of the input" +
+            (run.guard && run.guard->tetrahedra > 0 ? ", or beside features that are alone" : ""));
   }
   print_row("time", format("%.3f s", run.seconds_total));
 }
@@ -302,9 +309,7 @@ void print_remarks(const MeshArguments& args, const Input& input, const mesher::
     std::fprintf(stderr, "%s: note: --region-areas is not used: no region has a largest area\n",
                  input.path().c_str());
   }
-  for (const auto& note : input.repairs()) {
-    std::fprintf(stderr, "%s\n", note.text("repair: ").c_str());
-  }
+  print_repairs(input);
   for (const auto& fault : mesh.faults) {
     std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
   }
@@ -316,6 +321,7 @@ void print_remarks(const MeshArguments&, const SpaceInput& input, const Kept<3>&
     std::fprintf(stderr, "%s: note: its vertices are meshed; --surface meshes its faces, too\n",
                  input.path().c_str());
   }
+  print_repairs(input);
   for (const auto& fault : mesh.faults) {
     std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
   }

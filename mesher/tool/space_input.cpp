@@ -90,6 +90,12 @@ std::vector<mesher::InputPoint<3>> SpaceInput::points() const {
   return points;
 }
 
+void SpaceInput::repair(const std::optional<mesher::Box<3>>& domain) {
+  mesher::RepairedPlc repaired = mesher::repair(file_, domain);
+  file_ = std::move(repaired.file);
+  repairs_ = std::move(repaired.notes);
+}
+
 // --- Places ----------------------------------------------------------------------------------
 
 Place SpaceInput::place_in_file(Featured kind, FeatureId id) const {

@@ -64,7 +64,7 @@ InputOf<D> unrepaired(const TraceArguments& args) {
   if constexpr (D == 2) {
     return Input(args.input);
   } else {
-    return read_input<3>(args);
+    return SpaceInput(args.input, faces(args));
   }
 }
 

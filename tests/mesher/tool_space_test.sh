@@ -82,7 +82,7 @@ refuse 2 'error[unknown_format]: points and lines are read from' mesh uniform.3d
 refuse 2 'error[bad_option]' mesh uniform.node --dimension 4 -o out/x.vtu
 
 echo "== space: bad options and outputs"
-for option in '--max-area 1' '--sizes uniform.node' --repair; do
+for option in '--max-area 1' '--sizes uniform.node'; do
   # shellcheck disable=SC2086
   refuse 2 "error[bad_option]: ${option%% *} is for the plane" mesh uniform.3d.node $option \
     -o out/x.vtu

@@ -398,6 +398,8 @@ if grep -q 'of 3)' said.txt; then fail "progress in a file"; fi
 
 # shellcheck source=tool_space_test.sh
 source "$here/tool_space_test.sh"
+# shellcheck source=tool_space_repair_test.sh
+source "$here/tool_space_repair_test.sh"
 # shellcheck source=tool_svr_test.sh
 source "$here/tool_svr_test.sh"
 

@@ -53,24 +53,31 @@ namespace mesher {
 enum class RepairKind : std::uint8_t {
   merged_points,      ///< points: the one that goes, the one that stays
   zero_length,        ///< lines: of a piece that has no length; points: its end
-  split_at_point,     ///< lines: one that leads through a point now; points: that
-  split_at_crossing,  ///< lines: those that lead through a new point; points: that
-  overlap,            ///< lines: one that has lost some pieces, and whose they are
-  renamed,            ///< lines: one that has a gap, and what its rest is now
+  split_at_point,     ///< lines, or polygons: one that leads through a point now; points: that
+  split_at_crossing,  ///< lines, polygons: those that lead through a new point; points: that
+  overlap,            ///< lines, or polygons: one that has lost some of it, and whose that is
+  renamed,            ///< lines: one that has a gap, or is split, and what its rest is now
   dropped_line,       ///< lines: one that has no piece left
+  bent_polygon,       ///< polygons: one that is not flat, and the other triangles that it is now
+  cut_polygon,        ///< polygons: one that is several now, and the others
+  dropped_polygon,    ///< polygons: one that has no area left
 };
 
-/// What a repair has done.
-struct RepairNote {
+/// What a repair has done. D: 2, or 3 (mesher/space_repair.hpp).
+template <int D>
+struct RepairNoteOf {
   RepairKind kind{};
   std::vector<FeatureId> lines;
   std::vector<FeatureId> points;
-  Point<2> at{};  ///< where, or where it begins
-  Place place;    ///< of the first line, if there is one, or of the first point
+  Point<D> at{};  ///< where, or where it begins
+  Place place;    ///< of the first line or polygon, if there is one, or of the first point
+  std::vector<FeatureId> polygons{};
+  double deviation = 0;  ///< of a bent polygon: how far the farthest corner is off its plane
 
   /// "FILE:LINE:COL: what was done", the place where it is known; `prefix` stands before the deed.
   [[nodiscard]] std::string text(const std::string& prefix = {}) const;
 };
+using RepairNote = RepairNoteOf<2>;
 
 /// A graph without faults, and how it became so.
 struct Repaired {

@@ -289,6 +289,33 @@ Mesh<2> mesh_statically(const std::vector<Point<2>>& points, const std::vector<S
   return run.mesh(on_features(run.world(), run.names()), stats);
 }
 
+namespace {
+
+// The segments and polygons put into a run.
+SpaceInputNames add_features(const std::vector<Segment>& segments,
+                             const std::vector<Polygon>& polygons,
+                             const std::vector<FeatureId>& ids, StaticRun<3>& run) {
+  const auto by_id = handles_by_id(run.handles(), ids);
+  const auto handle_of = [&](FeatureId id) {
+    const auto it = by_id.find(id);
+    return it == by_id.end() ? VertexHandle{0} : it->second;
+  };
+  SpaceInputNames names(run.names());
+  add_features(segments, polygons, handle_of, run.world(), names);
+  return names;
+}
+
+}  // namespace
+
+void detail::require_complex(const std::vector<Point<3>>& points,
+                             const std::vector<mesher::Segment>& segments,
+                             const std::vector<mesher::Polygon>& polygons,
+                             const Options<3>& options, const std::vector<FeatureId>& ids) {
+  const RunControl control;
+  StaticRun<3> run(points, options, ids, control, 0);
+  static_cast<void>(add_features(segments, polygons, ids, run));
+}
+
 Mesh<3> mesh_statically(const std::vector<Point<3>>& points, const std::vector<Segment>& segments,
                         const std::vector<Polygon>& polygons, const Options<3>& options,
                         const std::vector<FeatureId>& ids, MeshStats* stats,
@@ -297,21 +324,15 @@ Mesh<3> mesh_statically(const std::vector<Point<3>>& points, const std::vector<S
     throw Error(ErrorCode::bad_option, "segments and polygons need the rule radius-edge");
   }
   StaticRun<3> run(points, options, ids, control, 0);
-  const auto by_id = handles_by_id(run.handles(), ids);
-  const auto handle_of = [&](FeatureId id) {
-    const auto it = by_id.find(id);
-    return it == by_id.end() ? VertexHandle{0} : it->second;
-  };
-  SpaceInputNames names(run.names());
+  const SpaceInputNames names = add_features(segments, polygons, ids, run);
   World<3>& world = run.world();
-  add_features(segments, polygons, handle_of, world, names);
   world.feature_names = &names;
   run.refine();
   const auto& vertices = world.vertices;
   const detail::PolygonsAt all = detail::polygons_at(world.plc.store());
   return run.mesh(
-      detail::on_features(world.plain.simplices, {vertices.pool(), vertices.roles(),
-                                                  world.plc.store(), names, {&all}}),
+      detail::on_features(world.plain.simplices,
+                          {vertices.pool(), vertices.roles(), world.plc.store(), names, {&all}}),
       stats);
 }
 

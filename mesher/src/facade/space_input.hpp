@@ -13,6 +13,13 @@ namespace mesher::detail {
 /// Throws: Error as Mesher::insert_polygon, of what can be told by the ids alone.
 void require_loops(const mesher::Polygon& polygon);
 
+/// What a Mesher says of points, segments and polygons before it meshes them, by the ids of the
+/// points. Throws: Error as it does. Cost: O(n log L/s).
+void require_complex(const std::vector<Point<3>>& points,
+                     const std::vector<mesher::Segment>& segments,
+                     const std::vector<mesher::Polygon>& polygons, const Options<3>& options,
+                     const std::vector<FeatureId>& ids);
+
 /// Throws: Error(unknown_id). `what`: "an end of segment"; `user`: its id.
 [[noreturn]] void fail_unknown_point(FeatureId point, const std::string& what, FeatureId user);
 

@@ -14,6 +14,10 @@ class PolygonPool {
   PolygonPool() : records_(1) {}
 
   [[nodiscard]] Polygon& operator[](PolygonHandle h) const noexcept { return *records_[h]; }
+  /// No record has a handle above this.
+  [[nodiscard]] PolygonHandle last() const noexcept {
+    return static_cast<PolygonHandle>(records_.size() - 1);
+  }
   /// The polygon as a record. Throws: std::bad_alloc, and then changes nothing.
   [[nodiscard]] Polygon& create(Polygon&& f) {
     if (free_ == 0) {

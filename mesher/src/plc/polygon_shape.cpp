@@ -6,6 +6,8 @@
 #include <numeric>
 #include <span>
 
+#include "geometry/twofold.hpp"
+
 namespace mesher::detail {
 namespace {
 
@@ -25,6 +27,24 @@ int smallest(const Point<3>& a) {
     if (std::abs(a[i]) < std::abs(a[k])) k = i;
   }
   return k;
+}
+
+// twice_area(), in twice the precision of doubles.
+Point<3> area_of_needle(std::span<const Point<3>> loop) {
+  const auto from_first = [&](std::size_t i) {
+    std::array<Twofold, 3> v;
+    for (std::size_t k = 0; k < 3; ++k) v[k] = twofold_sum(loop[i][k], -loop[0][k]);
+    return v;
+  };
+  std::array<Twofold, 3> area;
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+    const auto u = from_first(i), w = from_first(i + 1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t m = (k + 1) % 3, n = (k + 2) % 3;
+      area[k] = area[k] + (u[m] * w[n] + -(u[n] * w[m]));
+    }
+  }
+  return {area[0].hi, area[1].hi, area[2].hi};
 }
 
 // The normal's largest coordinate is positive, and eu is the axis nearest to the plane: a plane
@@ -124,8 +144,12 @@ Point<3> twice_area(std::span<const Point<3>> loop) {
 
 bool find_shape(Polygon& f) {
   find_reach(f);
-  const Point<3> area = twice_area(std::span(f.places).first(f.loop_end[0]));
-  if (!(std::sqrt(squared(area)) > f.reach * f.reach * 0x1p-40)) return false;
+  constexpr double kNeedle = 0x1p-16;  // above this doubles know the normal to about 2^-36
+  const double reach2 = f.reach * f.reach;
+  const auto outer = std::span<const Point<3>>(f.places).first(f.loop_end[0]);
+  Point<3> area = twice_area(outer);
+  if (std::sqrt(squared(area)) < reach2 * kNeedle) area = area_of_needle(outer);
+  if (!(std::sqrt(squared(area)) > reach2 * 0x1p-40)) return false;
   f.plane = plane_across(f.places[0], area);
   f.outline.clear();
   for (const Point<3>& p : f.places) f.outline.push_back(f.plane.in_frame(p));

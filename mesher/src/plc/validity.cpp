@@ -19,6 +19,9 @@ double resolution_of(const Edge& e) {
 double height_of(const Polygon& f, const Point<3>& x) { return std::abs(f.plane.height(x)); }
 
 Point<3> middle_of(const Edge& e) { return scaled(0.5, plus(e.place_a, e.place_b)); }
+Point<3> middle_of(VertexHandle v, VertexHandle w, const FeatureStore& store) {
+  return scaled(0.5, plus(store.points()[v].p, store.points()[w].p));
+}
 
 // Points that both have, in the order along the line that they are on; nothing if they are one
 // place or none.
@@ -33,17 +36,25 @@ std::vector<VertexHandle> common_points(const Polygon& f, const Polygon& g,
     };
   };
   if (all.size() < 2) return {};
-  const Point<3> end = place(*std::max_element(all.begin(), all.end(), farther(place(all[0]))));
+  const VertexHandle first = *std::min_element(all.begin(), all.end(),
+                                               [&](auto v, auto w) { return place(v) < place(w); });
+  const Point<3> end = place(*std::max_element(all.begin(), all.end(), farther(place(first))));
   std::sort(all.begin(), all.end(), farther(end));
   return all;
 }
 
-// The one with fewer corners is looked at first.
-bool lies_in_plane(const Polygon& f, const Polygon& g);
-bool one_lies_in_the_others(const Polygon& f, const Polygon& g) {
-  const bool fewer = f.places.size() <= g.places.size();
-  return fewer ? lies_in_plane(f, g) || lies_in_plane(g, f)
-               : lies_in_plane(g, f) || lies_in_plane(f, g);
+// `points`: those that both have.
+std::vector<std::array<VertexHandle, 2>> uncut(const Polygon& f, const Polygon& g,
+                                               const std::vector<VertexHandle>& points,
+                                               const FeatureStore& store) {
+  std::vector<std::array<VertexHandle, 2>> all;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Edge* e = store.find_edge(points[i - 1], points[i]);
+    if (e != nullptr && f.has_edge(e->self) && g.has_edge(e->self)) continue;
+    const Point<3> middle = middle_of(points[i - 1], points[i], store);
+    if (contains(f, middle) && contains(g, middle)) all.push_back({points[i - 1], points[i]});
+  }
+  return all;
 }
 
 bool lies_in_plane(const Polygon& f, const Polygon& g) {
@@ -63,7 +74,15 @@ Side side_of(const Polygon& f, EdgeHandle e) {
   return {false, inward(f, corner)};
 }
 
-// Of two in one plane.
+}  // namespace
+
+// The one with fewer corners is looked at first.
+bool lie_in_one_plane(const Polygon& f, const Polygon& g) {
+  const bool fewer = f.places.size() <= g.places.size();
+  return fewer ? lies_in_plane(f, g) || lies_in_plane(g, f)
+               : lies_in_plane(g, f) || lies_in_plane(f, g);
+}
+
 std::optional<SpaceConflict> overlap(const Polygon& f, const Polygon& g,
                                      const FeatureStore& store) {
   std::optional<SpaceConflict> first;
@@ -77,7 +96,10 @@ std::optional<SpaceConflict> overlap(const Polygon& f, const Polygon& g,
   return first;
 }
 
-}  // namespace
+std::vector<std::array<VertexHandle, 2>> uncut(const Polygon& f, const Polygon& g,
+                                               const FeatureStore& store) {
+  return uncut(f, g, common_points(f, g, store), store);
+}
 
 std::optional<SpaceConflict> conflict_with(const Vertex<3>& v, const Edge& e) {
   const double most = resolution_of(e);
@@ -117,16 +139,11 @@ std::optional<SpaceConflict> conflict_with(const Polygon& f, const Polygon& g,
   if (f.self == g.self) return std::nullopt;
   const std::vector<VertexHandle> points = common_points(f, g, store);
   if (points.empty()) return std::nullopt;
-  if (one_lies_in_the_others(f, g)) return overlap(f, g, store);
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const Edge* e = store.find_edge(points[i - 1], points[i]);
-    if (e != nullptr && f.has_edge(e->self) && g.has_edge(e->self)) continue;
-    const Point<3> middle =
-        scaled(0.5, plus(store.points()[points[i - 1]].p, store.points()[points[i]].p));
-    if (!contains(f, middle) || !contains(g, middle)) continue;
-    return SpaceConflict{Kind::crossing_polygons, Feature(f), Feature(g), middle};
-  }
-  return std::nullopt;
+  if (lie_in_one_plane(f, g)) return overlap(f, g, store);
+  const auto gaps = uncut(f, g, points, store);
+  if (gaps.empty()) return std::nullopt;
+  return SpaceConflict{Kind::crossing_polygons, Feature(f), Feature(g),
+                       middle_of(gaps[0][0], gaps[0][1], store)};
 }
 
 void keep_first(std::optional<SpaceConflict>& first, const std::optional<SpaceConflict>& conflict) {

@@ -20,9 +20,11 @@
 //    they have the same side of a common edge.
 #pragma once
 
+#include <array>
 #include <new>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geometry/box.hpp"
 #include "mesher/error.hpp"
@@ -65,6 +67,16 @@ struct NamedFeature {
 /// But for conflicts of one with an edge or a point of the other.
 [[nodiscard]] std::optional<SpaceConflict> conflict_with(const Polygon& f, const Polygon& g,
                                                          const FeatureStore& store);
+
+/// Whether one of two polygons lies in the other's plane, as far as they can tell.
+[[nodiscard]] bool lie_in_one_plane(const Polygon& f, const Polygon& g);
+/// The conflict of two that have a side of an edge in common. Requires: lie_in_one_plane(f, g).
+[[nodiscard]] std::optional<SpaceConflict> overlap(const Polygon& f, const Polygon& g,
+                                                   const FeatureStore& store);
+/// Of two in different planes: the points that both have, between which both go on, without an edge
+/// of both; in the order along the line in which their planes meet.
+[[nodiscard]] std::vector<std::array<VertexHandle, 2>> uncut(const Polygon& f, const Polygon& g,
+                                                             const FeatureStore& store);
 
 /// Keeps the first by kind and place.
 void keep_first(std::optional<SpaceConflict>& first, const std::optional<SpaceConflict>& conflict);

@@ -5,6 +5,9 @@
 
 namespace mesher::detail {
 
+/// The nearest coordinate that an input may have: 0, or of magnitude 2^-100 and more.
+[[nodiscard]] double allowed(double x);
+
 /// The place where ab and cd cross: that of twice the precision of doubles, rounded, and in the
 /// boxes of both. If it is a pair of doubles, it is just that (but for angles near 2^-50).
 /// Requires: they cross, and are not on one line.

@@ -76,7 +76,7 @@ class Drawing {
   }
 
   double tolerance_;
-  PlaceGrid spots_;
+  PlaceGrid<2> spots_;
   std::vector<Rod> rods_;
   std::unordered_map<std::uint64_t, std::uint32_t> by_ends_;
 };

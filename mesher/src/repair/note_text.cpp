@@ -2,6 +2,7 @@
 #include <string>
 
 #include "input.hpp"
+#include "io/text.hpp"
 #include "mesher/repair.hpp"
 
 namespace mesher {
@@ -19,47 +20,105 @@ std::string ids_text(const std::vector<FeatureId>& ids) {
 
 std::string id_text(FeatureId id) { return ids_text({id}); }
 
-std::string lines_text(const std::vector<FeatureId>& lines) {
-  return (lines.size() == 1 ? "line " : "lines ") + ids_text(lines);
+std::string counted(const std::string& what, const std::vector<FeatureId>& ids) {
+  return what + (ids.size() == 1 ? " " : "s ") + ids_text(ids);
 }
 
-std::string deed(const RepairNote& n) {
-  const std::string at = " at " + detail::place_text(n.at);
-  switch (n.kind) {
-    case RepairKind::merged_points:
-      return "point " + id_text(n.points[0]) + " is point " + id_text(n.points[1]) + at;
-    case RepairKind::zero_length:
-      return lines_text(n.lines) + ": a piece without length is dropped, at point " +
-             id_text(n.points[0]) + ' ' + detail::place_text(n.at);
-    case RepairKind::split_at_point:
-      return lines_text(n.lines) + " is split at point " + id_text(n.points[0]) + ' ' +
-             detail::place_text(n.at);
-    case RepairKind::split_at_crossing:
-      return lines_text(n.lines) + (n.lines.size() == 1 ? " crosses itself" : " cross") + at +
-             ", point " + id_text(n.points[0]) + " now";
-    case RepairKind::overlap:
-      if (n.lines[0] == n.lines[1]) {
-        return lines_text({n.lines[0]}) + " covers itself from " + detail::place_text(n.at) + " on";
-      }
-      return lines_text({n.lines[0]}) + " leaves to line " + id_text(n.lines[1]) +
-             " what both cover, from " + detail::place_text(n.at) + " on";
-    case RepairKind::renamed:
-      return lines_text({n.lines[0]}) + " has a gap, and goes on as line " + id_text(n.lines[1]) +
-             " from " + detail::place_text(n.at) + " on";
-    case RepairKind::dropped_line:
-      return lines_text(n.lines) + " is dropped: nothing is left of it";
-  }
-  return {};
+std::string some(const std::string& what, std::size_t n) {
+  return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
 }
+
+template <int D>
+class Words {
+ public:
+  explicit Words(const RepairNoteOf<D>& note) : n_(note), at_(" at " + place_text(n_.at)) {}
+
+  [[nodiscard]] std::string deed() const {
+    switch (n_.kind) {
+      case RepairKind::merged_points:
+        return "point " + id_text(n_.points[0]) + " is point " + id_text(n_.points[1]) + at_;
+      case RepairKind::zero_length:
+        return who() + ": a piece without length is dropped, at point " + point();
+      case RepairKind::split_at_point:
+        if (!n_.polygons.empty()) return who() + " has point " + point() + " on it";
+        return who() + " is split at point " + point();
+      case RepairKind::split_at_crossing:
+        return crossing();
+      case RepairKind::overlap:
+        return overlap();
+      case RepairKind::renamed:
+        return renamed();
+      case RepairKind::bent_polygon:
+        return "polygon " + id_text(n_.polygons[0]) + " is not flat, by " +
+               text::to_text(n_.deviation) + at_ + ": " + some("triangle", n_.polygons.size()) +
+               " now" + others();
+      case RepairKind::cut_polygon:
+        return "polygon " + id_text(n_.polygons[0]) + " is cut" + at_ + ": " +
+               some("polygon", n_.polygons.size()) + " now" + others();
+      case RepairKind::dropped_line:
+      case RepairKind::dropped_polygon:
+        break;
+    }
+    return who() + " is dropped: nothing is left of it";
+  }
+
+ private:
+  static constexpr const char* kLine = D == 2 ? "line" : "segment";
+  static std::string place_text(const Point<D>& at) { return detail::place_text(at); }
+
+  [[nodiscard]] std::string who() const {
+    if (n_.lines.empty()) return counted("polygon", n_.polygons);
+    return counted(kLine, n_.lines) +
+           (n_.polygons.empty() ? "" : " and " + counted("polygon", n_.polygons));
+  }
+  [[nodiscard]] std::string point() const {
+    return id_text(n_.points[0]) + ' ' + place_text(n_.at);
+  }
+  [[nodiscard]] std::string crossing() const {
+    const bool itself = n_.lines.size() + n_.polygons.size() == 1;
+    return who() + (itself ? " crosses itself" : " cross") + at_ + ", point " +
+           id_text(n_.points[0]) + " now";
+  }
+  [[nodiscard]] std::string overlap() const {
+    const bool is_line = n_.polygons.empty();
+    const auto& ids = is_line ? n_.lines : n_.polygons;
+    const std::string what = is_line ? kLine : "polygon";
+    const std::string from = is_line ? ", from " + place_text(n_.at) + " on" : at_;
+    if (ids[0] == ids[1]) {
+      return what + ' ' + id_text(ids[0]) + " covers itself" + from.substr(is_line);
+    }
+    return what + ' ' + id_text(ids[0]) + " leaves to " + what + ' ' + id_text(ids[1]) +
+           " what both cover" + from;
+  }
+  [[nodiscard]] std::string renamed() const {
+    return std::string(kLine) + ' ' + id_text(n_.lines[0]) + (D == 2 ? " has a gap, and" : "") +
+           " goes on as " + kLine + ' ' + id_text(n_.lines[1]) + " from " + place_text(n_.at) +
+           " on";
+  }
+  // Of the parts but the first, which are numbered one after the other.
+  [[nodiscard]] std::string others() const {
+    if (n_.polygons.size() < 2) return {};
+    const std::string first = id_text(n_.polygons[1]), last = id_text(n_.polygons.back());
+    return n_.polygons.size() == 2 ? ", the new one has id " + first
+                                   : ", the new ones have ids " + first + " to " + last;
+  }
+
+  const RepairNoteOf<D>& n_;
+  std::string at_;
+};
 
 }  // namespace
 
-std::string RepairNote::text(const std::string& prefix) const {
+template <int D>
+std::string RepairNoteOf<D>::text(const std::string& prefix) const {
   std::string text = place.file;
   for (const long part : {place.line, place.column}) {
     if (!text.empty() && part > 0) text += ':' + std::to_string(part);
   }
-  return (text.empty() ? text : text + ": ") + prefix + deed(*this);
+  return (text.empty() ? text : text + ": ") + prefix + Words<D>(*this).deed();
 }
+
+template struct RepairNoteOf<2>;
+template struct RepairNoteOf<3>;
 
 }  // namespace mesher

@@ -5,21 +5,17 @@
 #include <limits>
 #include <tuple>
 
+#include "repair/merging.hpp"
 #include "repair/redrawing.hpp"
 
 namespace mesher::detail {
 
-namespace {
-
-// Throws: Error(too_many).
 FeatureId next_id(std::int64_t& last) {
   if (last == std::numeric_limits<std::int64_t>::max()) {
     throw Error(ErrorCode::too_many, "no id is left for what a repair makes");
   }
   return FeatureId{++last};
 }
-
-}  // namespace
 
 // The lines of a file, segments first.
 std::vector<Redrawing::Line> Redrawing::lines_of(const PslgFile& f) {

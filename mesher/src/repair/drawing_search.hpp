@@ -1,0 +1,72 @@
+// What is near what in a drawing in space, within the tolerance; and all that has come since.
+#pragma once
+
+#include <algorithm>
+#include <new>
+#include <vector>
+
+#include "make_set.hpp"
+#include "plc/validity.hpp"
+#include "repair/space_drawing.hpp"
+
+namespace mesher::detail {
+
+class DrawingSearch {
+ public:
+  explicit DrawingSearch(SpaceDrawing& drawing) : drawing_(drawing), store_(drawing.store()) {}
+
+  [[nodiscard]] VertexHandle last_point() const {
+    return static_cast<VertexHandle>(drawing_.points());
+  }
+  [[nodiscard]] EdgeHandle last_edge() const {
+    return static_cast<EdgeHandle>(store_.edges().size());
+  }
+  [[nodiscard]] PolygonHandle last_polygon() const { return store_.polygons().last(); }
+
+  /// The handles of live edges, or polygons, near a feature, and others; ascending.
+  template <class F>
+  [[nodiscard]] std::vector<std::uint32_t> near(const FeatureExtent<3>& where) {
+    std::vector<std::uint32_t> found;
+    bool failed = false;
+    const double slack = where.slack + drawing_.tolerance();
+    store_.visit_near<F>(where.p, where.q, slack, [&](const F& f) noexcept {
+      try {
+        found.push_back(f.self);
+      } catch (const std::bad_alloc&) {
+        failed = true;
+      }
+      return failed;
+    });
+    if (failed) throw std::bad_alloc();
+    make_set(found);
+    return found;
+  }
+  /// Calls visit(handle) for the points near a feature, and others.
+  template <class Visit>
+  void visit_points(FeatureExtent<3> where, Visit&& visit) {
+    where.slack += drawing_.tolerance();
+    drawing_.points_tree().visit_points_in(validity::box_of(where), [&](const Vertex<3>& v) {
+      visit(v.self);
+      return false;
+    });
+  }
+  /// Calls visit(feature) for the live ones from a handle on, in their order.
+  template <class Visit>
+  void visit_edges(EdgeHandle from, Visit&& visit) {
+    for (EdgeHandle h = std::max<EdgeHandle>(from, 1); h <= last_edge(); ++h) {
+      if (store_.edges()[h].alive) visit(store_.edges()[h]);
+    }
+  }
+  template <class Visit>
+  void visit_polygons(PolygonHandle from, Visit&& visit) {
+    for (PolygonHandle h = std::max<PolygonHandle>(from, 1); h <= last_polygon(); ++h) {
+      if (store_.polygons()[h].alive) visit(store_.polygons()[h]);
+    }
+  }
+
+ private:
+  SpaceDrawing& drawing_;
+  FeatureStore& store_;
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,76 @@
+// How points are merged, in the plane and in space.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "geometry/grid.hpp"
+#include "input.hpp"
+#include "mesher/input_file.hpp"
+#include "program/world.hpp"
+
+namespace mesher::detail {
+
+template <int D>
+[[nodiscard]] std::vector<Point<D>> places_of(const std::vector<MarkedPoint<D>>& points) {
+  std::vector<Point<D>> places;
+  for (const auto& point : points) places.push_back(point.at);
+  return places;
+}
+
+/// What can be repaired, and the box that it is repaired in. Throws: Error (not_finite, magnitude,
+/// outside_domain, bad_option).
+template <int D>
+[[nodiscard]] MeshBox<D> box_of_points(const std::vector<MarkedPoint<D>>& points,
+                                       const FileParts& file, const std::optional<Box<D>>& given) {
+  Box<D> everywhere;
+  everywhere.lo.fill(-0x1p101);
+  everywhere.hi.fill(0x1p101);
+  const auto require_in = [&](const Box<D>& domain) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      try {
+        check_point(points[i].at, domain, points[i].id);
+      } catch (const Error& error) {
+        throw error.at(file.place_of_point(i));
+      }
+    }
+  };
+  require_in(everywhere);
+  const Box<D> domain = given ? *given : snapped_domain<D>(places_of(points));
+  const MeshBox<D> box = mesh_box(Options<D>{.domain = domain});
+  require_in(domain);
+  return box;
+}
+
+/// What is as close is made to touch: a share of the box's side, and some units in the last place
+/// of the largest coordinate: places near the box's corners are rounded to these.
+template <int D>
+[[nodiscard]] double tolerance_in(const MeshBox<D>& box, double share, double units) {
+  double largest = 0;
+  for (int i = 0; i < D; ++i) {
+    largest = std::max({largest, std::abs(box.lo[i]), std::abs(box.hi(i))});
+  }
+  const double unit = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
+  return std::max(box.side * share, units * unit);
+}
+
+/// The points in the order of merging.
+template <int D>
+[[nodiscard]] std::vector<std::size_t> merging_order(const std::vector<MarkedPoint<D>>& points) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return std::tie(points[i].at, points[i].id) < std::tie(points[j].at, points[j].id);
+  });
+  return order;
+}
+
+/// The next id after the last one, which it is then. Throws: Error(too_many).
+[[nodiscard]] FeatureId next_id(std::int64_t& last);
+
+}  // namespace mesher::detail

@@ -1,0 +1,250 @@
+// Edges are led; sheets are taken out of the store, and put into it again.
+#include "repair/space_drawing.hpp"
+
+#include <algorithm>
+
+#include "make_set.hpp"
+#include "mesher/error.hpp"
+
+namespace mesher::detail {
+
+SpaceDrawing::SpaceDrawing(const MeshBox<3>& box, double tolerance)
+    : tolerance_(tolerance),
+      box_(box),
+      grid_(box.lo, 2 * tolerance),
+      tree_(box_, pool_, scope_),
+      store_(box_, pool_) {}
+
+// --- Points and edges ------------------------------------------------------------------------
+
+VertexHandle SpaceDrawing::add_point(const Point<3>& p, const Ends& on) {
+  Vertex<3>& v = pool_.create(p);
+  v.input = true;
+  grid_.add(p);
+  on_.push_back(on);
+  SAC_ENSURES(v.self == points());
+  tree_.tree().insert_only(v);
+  return v.self;
+}
+
+std::vector<VertexHandle> SpaceDrawing::points_near(const Point<3>& p) const {
+  std::vector<VertexHandle> near = grid_.all_near(p);
+  for (VertexHandle& v : near) ++v;
+  return near;
+}
+
+bool SpaceDrawing::may_lead(const Edge& e, VertexHandle v) const {
+  const double whole = squared_distance(e.place_a, e.place_b);
+  return !e.has_end(v) && squared_distance(e.place_a, place(v)) < whole &&
+         squared_distance(place(v), e.place_b) < whole;
+}
+
+// Of all sheets and paths, some more than once.
+template <class Visit>
+void SpaceDrawing::visit_edges(Visit&& visit) const {
+  for (const Sheet& sheet : sheets_) {
+    for (const Loop& loop : sheet.parts.loops) {
+      for (std::size_t i = 0; i < loop.size(); ++i) visit(loop[i], loop[(i + 1) % loop.size()]);
+    }
+    for (const auto& [s, t] : sheet.parts.edges) visit(s, t);
+  }
+  for (const Path& path : paths_) {
+    for (std::size_t i = 1; i < path.size(); ++i) visit(path[i - 1], path[i]);
+  }
+}
+
+void SpaceDrawing::use_edges() {
+  std::vector<bool> wanted(used_.size());
+  visit_edges([&](VertexHandle s, VertexHandle t) {
+    if (s == t) return;
+    const EdgeHandle e = store_.record(s, t).self;
+    if (e >= wanted.size()) wanted.resize(e + std::size_t{1});
+    wanted[e] = true;
+  });
+  used_.resize(wanted.size());
+  known_.resize(wanted.size());
+  for (EdgeHandle h = 0; h < wanted.size(); ++h) {
+    if (wanted[h] == used_[h]) continue;
+    const Edge& e = store_.edges()[h];
+    if (wanted[h]) {
+      has_revived_ = has_revived_ || known_[h];
+      known_[h] = true;
+      store_.use(store_.record(e.a, e.b));
+    } else {
+      store_.leave(store_.record(e.a, e.b));
+    }
+    used_[h] = wanted[h];
+  }
+}
+
+// --- Changes ---------------------------------------------------------------------------------
+
+// From end to end; what would make a part as long as the whole is left to the next round.
+std::vector<VertexHandle> SpaceDrawing::chain(const Edge& e,
+                                              std::vector<VertexHandle> through) const {
+  const Point<3> along = minus(e.place_b, e.place_a);
+  const auto at = [&](VertexHandle v) {
+    return std::pair(dot(minus(place(v), e.place_a), along), place(v));
+  };
+  make_set(through);
+  std::sort(through.begin(), through.end(),
+            [&](VertexHandle v, VertexHandle w) { return at(v) < at(w); });
+  std::vector<VertexHandle> chain{e.a};
+  const double whole = squared_distance(e.place_a, e.place_b);
+  for (const VertexHandle v : through) {
+    if (squared_distance(place(chain.back()), place(v)) < whole) chain.push_back(v);
+  }
+  chain.push_back(e.b);
+  return chain;
+}
+
+// Null if it stays as it is.
+const std::vector<VertexHandle>* SpaceDrawing::chain_of(VertexHandle s, VertexHandle t,
+                                                        const Chains& chains) const {
+  if (s == t) return nullptr;
+  const Edge* e = store_.find_edge(s, t);
+  const auto it = e == nullptr ? chains.end() : chains.find(e->self);
+  return it == chains.end() ? nullptr : &it->second;
+}
+
+bool SpaceDrawing::lead(std::vector<VertexHandle>& line, bool is_closed,
+                        const Chains& chains) const {
+  std::vector<VertexHandle> led;
+  bool is_changed = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    led.push_back(line[i]);
+    if (i + 1 == line.size() && !is_closed) break;
+    const auto* chain = chain_of(line[i], line[(i + 1) % line.size()], chains);
+    if (chain == nullptr) continue;
+    is_changed = true;
+    if (chain->front() == line[i]) {
+      led.insert(led.end(), chain->begin() + 1, chain->end() - 1);
+    } else {
+      led.insert(led.end(), chain->rbegin() + 1, chain->rend() - 1);
+    }
+  }
+  if (is_changed) line = std::move(led);
+  return is_changed;
+}
+
+bool SpaceDrawing::lead(std::vector<Ends>& edges, const Chains& chains) const {
+  std::vector<Ends> led;
+  bool is_changed = false;
+  for (const auto& [s, t] : edges) {
+    const auto* chain = chain_of(s, t, chains);
+    if (chain == nullptr) {
+      led.emplace_back(s, t);
+      continue;
+    }
+    is_changed = true;
+    for (std::size_t i = 1; i < chain->size(); ++i) led.emplace_back((*chain)[i - 1], (*chain)[i]);
+  }
+  if (is_changed) edges = std::move(led);
+  return is_changed;
+}
+
+void SpaceDrawing::apply(const Change& change) {
+  for (const auto& [f, declared] : change.declared) {
+    const std::size_t i = sheet_of_.at(f);
+    PolygonParts& parts = sheets_[i].parts;
+    take(i);
+    parts.edges.insert(parts.edges.end(), declared.edges.begin(), declared.edges.end());
+    parts.points.insert(parts.points.end(), declared.points.begin(), declared.points.end());
+  }
+  if (change.leads.empty()) return;
+  Chains chains;
+  for (const auto& [h, through] : change.leads) {
+    chains.emplace(h, chain(store_.edges()[h], through));
+  }
+  std::vector<std::size_t> changed;
+  for (std::size_t i = 0; i < sheets_.size(); ++i) {
+    Sheet& sheet = sheets_[i];
+    bool is_changed = false;
+    for (Loop& loop : sheet.parts.loops) is_changed |= lead(loop, true, chains);
+    sheet.is_redrawn |= is_changed;
+    is_changed |= lead(sheet.parts.edges, chains);
+    if (is_changed) changed.push_back(i);
+  }
+  for (Path& path : paths_) lead(path, false, chains);
+  for (const std::size_t i : changed) take(i);  // edges go with them
+}
+
+bool SpaceDrawing::can_settle(PolygonHandle f, std::vector<Loop> loops) {
+  Sheet rest = sheet_of(f);
+  rest.parts.loops = std::move(loops);
+  rest.is_redrawn = true;
+  try {
+    static_cast<void>(settled(rest, {}, tolerance_, store_));
+  } catch (const Error&) {
+    return false;
+  }
+  return true;
+}
+
+void SpaceDrawing::take_away(PolygonHandle f, std::vector<Loop> loops,
+                             const std::vector<std::size_t>& to) {
+  const std::size_t i = sheet_of_.at(f);
+  for (const std::size_t facet : to) losses_.emplace_back(sheets_[i].facet, facet);
+  take(i);
+  sheets_[i].parts.loops = std::move(loops);
+  sheets_[i].is_redrawn = true;
+}
+
+void SpaceDrawing::cut_up(PolygonHandle f) {
+  const std::size_t i = sheet_of_.at(f);
+  take(i);
+  sheets_[i].is_cut_up = true;
+}
+
+// --- Sheets ----------------------------------------------------------------------------------
+
+void SpaceDrawing::take(std::size_t i) {
+  Sheet& sheet = sheets_[i];
+  if (sheet.record == 0) return;
+  sheet_of_.erase(sheet.record);
+  Polygon& f = store_.polygons()[sheet.record];
+  store_.take(f);
+  sheet.record = 0;
+}
+
+// Of equal ones that of the first facet stays.
+void SpaceDrawing::put(std::size_t i) {
+  Polygon& f = store_.record(sheets_[i].parts);
+  if (f.alive) {
+    const std::size_t other = sheet_of_.at(f.self);
+    const bool other_goes = sheets_[i].facet < sheets_[other].facet;
+    const std::size_t goes = other_goes ? other : i, stays = other_goes ? i : other;
+    losses_.emplace_back(sheets_[goes].facet, sheets_[stays].facet);
+    sheets_[goes].parts = {};
+    sheets_[goes].record = 0;
+    sheets_[stays].record = f.self;
+    sheet_of_[f.self] = stays;
+    return;
+  }
+  store_.put(f);
+  sheets_[i].record = f.self;
+  sheet_of_.emplace(f.self, i);
+}
+
+bool SpaceDrawing::settle(const std::vector<FeatureId>& names) {
+  bool any = false;
+  const std::size_t count = sheets_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (sheets_[i].record != 0 || sheets_[i].is_gone()) continue;
+    any = true;
+    const std::size_t facet = sheets_[i].facet;
+    std::vector<PolygonParts> pieces = settled(sheets_[i], names[facet], tolerance_, store_);
+    const bool is_cut_up = sheets_[i].is_cut_up;
+    sheets_[i].parts = {};
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      const std::size_t at = k == 0 ? i : sheets_.size();
+      if (k > 0) sheets_.push_back({facet, {}, 0, true, is_cut_up});
+      sheets_[at].parts = std::move(pieces[k]);
+      put(at);
+    }
+  }
+  if (any) use_edges();
+  return any;
+}
+
+}  // namespace mesher::detail

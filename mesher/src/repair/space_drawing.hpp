@@ -1,0 +1,141 @@
+// A complex in space while it is made one that fits together: points, the edges between them, and
+// sheets: parts of polygons.
+//
+// Edges are led through points, and then are several; sheets are cut, lose parts, and get edges and
+// points inside. What has changed is put into a FeatureStore again by settle(), so that it is found
+// by place, and judged by the same functions as in a mesher.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "index/features.hpp"
+#include "plc/feature_store.hpp"
+#include "repair/place_grid.hpp"
+
+namespace mesher::detail {
+
+using Ends = std::pair<VertexHandle, VertexHandle>;
+[[nodiscard]] inline Ends in_order(VertexHandle a, VertexHandle b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+/// Part of a polygon: flat, but for what is_flat lets be.
+struct Sheet {
+  std::size_t facet = 0;     // whose part it is: by rank of ids
+  PolygonParts parts;        // no loops: it is gone
+  PolygonHandle record = 0;  // live, if it is settled
+  bool is_redrawn = false;   // its loops are not those that it came with
+  bool is_cut_up = false;    // into triangles, with nothing inside
+
+  [[nodiscard]] bool is_gone() const noexcept { return parts.loops.empty(); }
+};
+
+/// A line of the input: from point to point along edges.
+using Path = std::vector<VertexHandle>;
+
+class SpaceDrawing {
+ public:
+  /// What is to be done to edges, and declared to lie in live polygons.
+  struct Change {
+    std::map<EdgeHandle, std::vector<VertexHandle>> leads;
+    std::map<PolygonHandle, PolygonParts> declared;  // without loops
+
+    [[nodiscard]] bool any() const noexcept { return !leads.empty() || !declared.empty(); }
+  };
+
+  SpaceDrawing(const MeshBox<3>& box, double tolerance);
+  SpaceDrawing(const SpaceDrawing&) = delete;
+  SpaceDrawing& operator=(const SpaceDrawing&) = delete;
+
+  /// What is as close is made to touch; points are farther apart than twice that.
+  [[nodiscard]] double tolerance() const noexcept { return tolerance_; }
+  [[nodiscard]] std::size_t points() const noexcept { return grid_.places().size(); }
+  [[nodiscard]] const Vertex<3>& point(VertexHandle v) const { return pool_[v]; }
+  [[nodiscard]] const Point<3>& place(VertexHandle v) const { return pool_[v].p; }
+  [[nodiscard]] FeatureStore& store() noexcept { return store_; }
+  [[nodiscard]] const FeatureStore& store() const noexcept { return store_; }
+  [[nodiscard]] const Features<sac::PlainScope, 3>& points_tree() const noexcept { return tree_; }
+  [[nodiscard]] const std::vector<Sheet>& sheets() const noexcept { return sheets_; }
+  [[nodiscard]] const std::vector<Path>& paths() const noexcept { return paths_; }
+  /// Facets that have lost a part, and to which.
+  [[nodiscard]] const std::vector<std::pair<std::size_t, std::size_t>>& losses() const noexcept {
+    return losses_;
+  }
+  /// The sheet of a live polygon.
+  [[nodiscard]] const Sheet& sheet_of(PolygonHandle f) const { return sheets_[sheet_of_.at(f)]; }
+
+  /// Points get the handles 1, 2, ... `on`: the ends of an edge that it is on, if it is new.
+  /// Requires: none is within twice the tolerance.
+  VertexHandle add_point(const Point<3>& p, const Ends& on = {});
+  [[nodiscard]] const Ends& was_on(VertexHandle v) const { return on_[v - std::size_t{1}]; }
+  /// The points within twice the tolerance, the nearest first.
+  [[nodiscard]] std::vector<VertexHandle> points_near(const Point<3>& p) const;
+  void add_path(Path path) { paths_.push_back(std::move(path)); }
+  /// In the order of facets.
+  void add_sheet(std::size_t facet, PolygonParts parts, bool is_redrawn) {
+    sheets_.push_back({facet, std::move(parts), 0, is_redrawn, false});
+  }
+
+  /// Whether e may be led through a point: both parts will be shorter than it.
+  [[nodiscard]] bool may_lead(const Edge& e, VertexHandle v) const;
+
+  /// Makes the edges live that sheets and paths have, and no others.
+  void use_edges();
+  /// Whether edges have come to life since it was asked, that had gone.
+  [[nodiscard]] bool has_revived() noexcept { return std::exchange(has_revived_, false); }
+  /// Leads edges, and declares; what is changed has yet to be settled.
+  void apply(const Change& change);
+  /// Whether there is a way to settle a live polygon of which this goes around the rest.
+  [[nodiscard]] bool can_settle(PolygonHandle f, std::vector<Loop> loops);
+  /// Takes from a live polygon what other facets have. `loops`: what goes around the rest.
+  void take_away(PolygonHandle f, std::vector<Loop> loops, const std::vector<std::size_t>& to);
+  /// Cuts a live polygon into triangles, and what becomes of these.
+  void cut_up(PolygonHandle f);
+  /// Puts sheets into the store: cut where their loops meet, or into triangles if they are bent.
+  /// Of equal ones that of the first facet stays. Returns whether it did something.
+  /// Throws: Error(not_flat) for a polygon that is too bent. `names`: of facets.
+  bool settle(const std::vector<FeatureId>& names);
+
+ private:
+  using Chains = std::unordered_map<EdgeHandle, std::vector<VertexHandle>>;
+
+  void take(std::size_t sheet);
+  void put(std::size_t sheet);
+  [[nodiscard]] std::vector<VertexHandle> chain(const Edge& e,
+                                                std::vector<VertexHandle> through) const;
+  [[nodiscard]] const std::vector<VertexHandle>* chain_of(VertexHandle s, VertexHandle t,
+                                                          const Chains& chains) const;
+  bool lead(std::vector<VertexHandle>& line, bool is_closed, const Chains& chains) const;
+  bool lead(std::vector<Ends>& edges, const Chains& chains) const;
+  template <class Visit>
+  void visit_edges(Visit&& visit) const;
+
+  double tolerance_;
+  MeshBox<3> box_;
+  PlaceGrid<3> grid_;
+  std::vector<Ends> on_;
+  VertexPool<3> pool_;
+  sac::PlainScope scope_;
+  Features<sac::PlainScope, 3> tree_;
+  FeatureStore store_;
+  std::vector<Sheet> sheets_;
+  std::vector<Path> paths_;
+  std::unordered_map<PolygonHandle, std::size_t> sheet_of_;
+  std::vector<bool> used_, known_;  // by handles of edges: now, and ever
+  bool has_revived_ = false;
+  std::vector<std::pair<std::size_t, std::size_t>> losses_;
+};
+
+/// What a polygon is cut into, so that each part is flat and its loops go around it, once; nothing
+/// if it has no area. sheet.parts: may have loops that meet, and points more than once.
+/// Throws: Error(not_flat), if it cannot be.
+[[nodiscard]] std::vector<PolygonParts> settled(const Sheet& sheet, FeatureId polygon,
+                                                double tolerance, FeatureStore& store);
+
+}  // namespace mesher::detail

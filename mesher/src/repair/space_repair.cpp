@@ -1,0 +1,150 @@
+// Merges points, makes the drawing fit together, and draws segments and polygons anew.
+#include "mesher/space_repair.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <unordered_map>
+
+#include "facade/space_input.hpp"
+#include "io/distinct_ids.hpp"
+#include "mesher/mesher.hpp"
+#include "repair/merging.hpp"
+#include "repair/space_arrange.hpp"
+#include "repair/space_redraw.hpp"
+
+namespace mesher {
+
+namespace {
+
+using detail::Drawn;
+using detail::PolygonParts;
+using detail::SpaceDrawing;
+using detail::VertexHandle;
+
+// A gap has to be as wide as a few of the shortest pieces (program/split_segments.hpp), and a
+// triangle as high as its area needs that has its corners in a box of a quarter of the side
+// (plc/polygon_shape.cpp: 2^-40 of the reach's square).
+constexpr double kShare = 0x1p-42;
+constexpr double kUnits = 64;
+
+void require_ids(const PlcFile& file) {
+  const Plc& plc = file.plc;
+  require_distinct_parts(plc, file);
+  require_distinct(
+      named("segment", plc.segments, [&](auto i) { return file.place_of_segment(i); }));
+  std::vector<mesher::Polygon> polygons;
+  std::unordered_map<FeatureId, bool> points;
+  for (const auto& p : plc.points) points.emplace(p.id, true);
+  const auto require = [&](FeatureId id, const char* what, FeatureId user, const Place& place) {
+    if (points.count(id) > 0) return;
+    try {
+      detail::fail_unknown_point(id, what, user);
+    } catch (const Error& error) {
+      throw error.at(place);
+    }
+  };
+  for (std::size_t i = 0; i < plc.segments.size(); ++i) {
+    for (const FeatureId end : {plc.segments[i].from, plc.segments[i].to}) {
+      require(end, "an end of segment", plc.segments[i].id, file.place_of_segment(i));
+    }
+  }
+  for (std::size_t i = 0; i < plc.facets.size(); ++i) {
+    const mesher::Polygon& f = plc.facets[i].polygon;
+    const Place place = file.place_of_facet(i);
+    for (const auto& loop : f.loops) {
+      for (const FeatureId id : loop) require(id, "a corner of polygon", f.id, place);
+    }
+    for (const auto& [a, b] : f.edges) {
+      for (const FeatureId id : {a, b}) require(id, "in polygon", f.id, place);
+    }
+    for (const FeatureId id : f.points) require(id, "in polygon", f.id, place);
+    polygons.push_back({f.id, {}});
+  }
+  require_distinct(named("polygon", polygons, [&](auto i) { return file.place_of_facet(i); }));
+}
+
+template <class Parts, class IdOf>
+std::vector<std::size_t> ranked(const Parts& parts, IdOf&& id_of) {
+  std::vector<std::size_t> order(parts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t i, std::size_t j) { return id_of(parts[i]) < id_of(parts[j]); });
+  return order;
+}
+
+Drawn draw(const Plc& plc, SpaceDrawing& drawing) {
+  Drawn drawn;
+  drawn.points.resize(plc.points.size());
+  std::unordered_map<FeatureId, VertexHandle> handles;
+  for (const std::size_t i : detail::merging_order(plc.points)) {
+    const auto near = drawing.points_near(plc.points[i].at);
+    drawn.points[i] = near.empty() ? drawing.add_point(plc.points[i].at) : near[0];
+    if (near.empty()) drawn.keepers.push_back(i);
+    handles.emplace(plc.points[i].id, drawn.points[i]);
+  }
+  drawn.segments = ranked(plc.segments, [](const auto& s) { return s.id; });
+  for (const std::size_t i : drawn.segments) {
+    drawing.add_path({handles.at(plc.segments[i].from), handles.at(plc.segments[i].to)});
+  }
+  drawn.facets = ranked(plc.facets, [](const auto& f) { return f.polygon.id; });
+  const auto is_moved = [&](FeatureId id) {
+    return plc.points[drawn.keepers[handles.at(id) - std::size_t{1}]].id != id;
+  };
+  for (std::size_t rank = 0; rank < drawn.facets.size(); ++rank) {
+    const mesher::Polygon& f = plc.facets[drawn.facets[rank]].polygon;
+    const bool is_redrawn = std::any_of(f.loops.begin(), f.loops.end(), [&](const auto& loop) {
+      return std::any_of(loop.begin(), loop.end(), is_moved);
+    });
+    drawing.add_sheet(rank, detail::drawn_parts(f, handles), is_redrawn);
+  }
+  return drawn;
+}
+
+// What a Mesher says of it.
+void require_sound(const Plc& plc, const Options<3>& options) {
+  std::vector<Point<3>> points;
+  std::vector<FeatureId> ids;
+  for (const auto& p : plc.points) points.push_back(p.at), ids.push_back(p.id);
+  std::vector<Segment> segments;
+  for (const auto& s : plc.segments) segments.push_back({s.id, s.from, s.to});
+  std::vector<mesher::Polygon> polygons;
+  for (const auto& f : plc.facets) polygons.push_back(f.polygon);
+  try {
+    detail::require_complex(points, segments, polygons, options, ids);
+  } catch (const Error& error) {
+    throw Error(
+        ErrorCode::too_close,
+        "what is there is too close to each other to be repaired: after it, " + error.message());
+  }
+}
+
+}  // namespace
+
+RepairedPlc repair(const PlcFile& file, const std::optional<Box<3>>& given) {
+  require_ids(file);
+  const Plc& plc = file.plc;
+  if (plc.points.empty()) return {file, {}, 0, 0};
+  const detail::MeshBox<3> box = detail::box_of_points(plc.points, file, given);
+  SpaceDrawing drawing(box, detail::tolerance_in(box, kShare, kUnits));
+  const Drawn drawn = draw(plc, drawing);
+  std::vector<FeatureId> names;
+  for (const std::size_t i : drawn.facets) names.push_back(plc.facets[i].polygon.id);
+  detail::arrange(drawing, names);
+  RepairedPlc repaired = detail::redraw(file, drawing, drawn);
+  const Box<3> domain = given ? *given : snapped_domain<3>(detail::places_of(plc.points));
+  require_sound(repaired.file.plc, {.domain = domain});
+  return repaired;
+}
+
+RepairedPlc repair(const Plc& plc, const std::optional<Box<3>>& domain) {
+  PlcFile file;
+  file.plc = plc;
+  file.points.resize(plc.points.size());
+  file.segments.resize(plc.segments.size());
+  file.facets.resize(plc.facets.size());
+  file.holes.resize(plc.holes.size());
+  file.regions.resize(plc.regions.size());
+  return repair(file, domain);
+}
+
+}  // namespace mesher

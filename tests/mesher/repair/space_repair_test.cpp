@@ -1,0 +1,205 @@
+// Repaired complexes: what each rule does.
+#include "mesher/space_repair.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "feature_ids.hpp"
+#include "repaired_complex.hpp"
+
+namespace {
+
+using mesher::Error;
+using mesher::Plc;
+using mesher::Point;
+using mesher::RepairedPlc;
+using mesher::RepairKind;
+using mesher::detail::PlcBuilder;
+using support::area;
+using support::id;
+using support::ids;
+using support::notes_of;
+using support::repaired;
+using support::square;
+
+}  // namespace
+
+TEST_CASE("a complex without faults comes back as it is, in its order, and so does none") {
+  Plc plc;
+  plc.points = {{id(9), {0, 0, 0}, 3}, {id(2), {4, 0, 0}}, {id(5), {4, 4, 0}}, {id(1), {0, 4, 0}},
+                {id(7), {1, 1, 0}},    {id(8), {2, 1, 0}}, {id(3), {3, 3, 0}}, {id(4), {1, 1, 2}}};
+  plc.attributes_per_point = 1;
+  plc.attributes = {1, 2, 3, 4, 5, 6, 7, 8};
+  plc.facets = {{{id(6), {ids({5, 1, 9, 2})}, {{id(8), id(7)}}, ids({3})}, 4}};
+  plc.segments = {{id(3), id(7), id(4), 1}, {id(1), id(8), id(4), 2}};
+  plc.holes = {{id(1), {1, 2, 3}}};
+  const RepairedPlc r = repaired(plc);
+  REQUIRE(r.file.plc == plc);
+  REQUIRE(r.notes.empty());
+  REQUIRE(r.deviation == 0);
+  REQUIRE(mesher::repair(Plc{}).file.plc == Plc{});
+}
+
+TEST_CASE("a bent quadrilateral becomes two triangles, of which the first keeps the id") {
+  PlcBuilder b;
+  b.polygon({{{0, 0, 0}, {2, 0, 0}, {2, 2, 0.5}, {0, 2, 0}}});
+  Plc plc = b.finish();
+  plc.facets[0].marker = 7;
+  const RepairedPlc r = repaired(plc);
+  REQUIRE(r.file.plc.facets.size() == 2);
+  REQUIRE(r.file.plc.facets[0].polygon.id == id(1));
+  REQUIRE(r.file.plc.facets[1].polygon.id == id(2));
+  for (const auto& f : r.file.plc.facets) {
+    REQUIRE(f.polygon.loops[0].size() == 3);
+    REQUIRE(f.marker == 7);
+  }
+  REQUIRE(r.notes.size() == 1);
+  REQUIRE(r.notes[0].kind == RepairKind::bent_polygon);
+  REQUIRE(r.notes[0].polygons == ids({1, 2}));
+  REQUIRE(r.notes[0].deviation > 0.1);
+  REQUIRE(r.file.plc.points == plc.points);
+}
+
+TEST_CASE("a bent polygon keeps its hole, the edge and the point that lie in it") {
+  PlcBuilder b;
+  b.polygon(
+      {{{0, 0, 0}, {6, 0, 0}, {6, 6, 1}, {0, 6, 0}}, {{1, 1, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}}},
+      {{Point<3>{4, 1, 0}, Point<3>{5, 2, 0}}});
+  Plc plc = b.finish();
+  plc.points.push_back({id(99), {1, 4, 0}});
+  plc.facets[0].polygon.points = {id(99)};
+  const RepairedPlc r = repaired(plc);
+  REQUIRE(r.file.plc.points == plc.points);
+  REQUIRE(area(r.file.plc) == Approx(35).epsilon(0.05));
+  bool has_edge = false, has_point = false;
+  for (const auto& f : r.file.plc.facets) {
+    const auto& loop = f.polygon.loops[0];
+    const auto on = [&](mesher::FeatureId v) {
+      return std::find(loop.begin(), loop.end(), v) != loop.end();
+    };
+    has_edge = has_edge ||
+               (on(plc.facets[0].polygon.edges[0][0]) && on(plc.facets[0].polygon.edges[0][1]));
+    has_point = has_point || on(id(99));
+  }
+  REQUIRE(has_edge);
+  REQUIRE(has_point);
+}
+
+TEST_CASE("a polygon whose edges cross from every side is cut into triangles between its corners") {
+  PlcBuilder b;
+  b.polygon({{{0, 0, 0}, {1, 1, 1}, {1, 0, 0.1}, {0.1, 1, 0.9}}});
+  const RepairedPlc r = repaired(b.finish());
+  REQUIRE(r.file.plc.facets.size() == 2);
+  REQUIRE(r.file.plc.points.size() == 4);
+}
+
+TEST_CASE("points in one place are one, also for polygons, which may lose all of their area") {
+  PlcBuilder b;
+  b.polygon({square(0, 0, 0)});
+  b.polygon({{{0, 0, 0}, {1, 0, 0}, {0.5, 1e-16, 0}}});
+  Plc plc = b.finish();
+  plc.points.push_back({id(50), {1, 1, 1e-16}, 6});
+  plc.points.push_back({id(51), {1, 2, 0}});
+  plc.segments = {{id(4), id(50), id(51)}, {id(5), id(50), plc.facets[0].polygon.loops[0][2]}};
+  const RepairedPlc r = repaired(plc);
+  const auto& out = r.file.plc;
+  REQUIRE(out.segments.size() == 1);
+  REQUIRE(out.segments[0].from == plc.facets[0].polygon.loops[0][2]);
+  REQUIRE(out.facets.size() == 1);
+  REQUIRE(out.facets[0].polygon.loops[0].size() == 5);
+  REQUIRE(notes_of(r) == std::vector<std::string>{
+                             "point 50 is point 3 at (1, 1, 0)",
+                             "segment 5: a piece without length is dropped, at point 3 (1, 1, 0)",
+                             "polygon 1 has point 5 (0.5, 1e-16, 0) on it",
+                             "segment 5 is dropped: nothing is left of it",
+                             "polygon 2 is dropped: nothing is left of it"});
+  REQUIRE(out.points[2].marker == 6);
+}
+
+TEST_CASE("segments are split at points and where they cross, and go on under new ids") {
+  PlcBuilder b;
+  b.segment({0, 0, 0}, {4, 4, 4});
+  b.segment({0, 4, 2}, {4, 0, 2});
+  Plc plc = b.finish();
+  plc.points.push_back({id(9), {1, 1, 1}});
+  plc.segments[0].marker = 5;
+  plc.segments[1].marker = 8;
+  plc.attributes_per_point = 1;
+  plc.attributes = {0, 4, 10, 20, 100};
+  const auto& out = repaired(plc).file.plc;
+  REQUIRE(out.segments.size() == 5);
+  REQUIRE(out.segments[0] == mesher::MarkedSegment{id(1), id(1), id(9), 5});
+  REQUIRE(out.segments[2] == mesher::MarkedSegment{id(3), id(9), id(10), 5});
+  REQUIRE(out.segments[4] == mesher::MarkedSegment{id(5), id(10), id(4), 8});
+  REQUIRE(out.points.back() == mesher::MarkedPoint<3>{id(10), {2, 2, 2}, 5});
+}
+
+TEST_CASE("what goes through a polygon, or lies on it, is declared to") {
+  PlcBuilder b;
+  b.polygon({square(0, 0, 0, 4)});
+  b.segment({1, 1, -1}, {1, 1, 1});
+  b.segment({2, 3, 0}, {3, 3, 0});
+  Plc plc = b.finish();
+  plc.points.push_back({id(90), {3, 1, 0}});
+  const RepairedPlc r = repaired(plc);
+  const auto& f = r.file.plc.facets[0].polygon;
+  REQUIRE(f.edges.size() == 1);
+  REQUIRE(f.points == ids({91, 90}));
+  REQUIRE(r.file.plc.points.back().at == Point<3>{1, 1, 0});
+  REQUIRE(r.file.plc.segments.size() == 3);
+  REQUIRE(notes_of(r) ==
+          std::vector<std::string>{"polygon 1 has point 7 (2, 3, 0) on it",
+                                   "polygon 1 has point 8 (3, 3, 0) on it",
+                                   "polygon 1 has point 90 (3, 1, 0) on it",
+                                   "segment 1 and polygon 1 cross at (1, 1, 0), point 91 now",
+                                   "segment 1 goes on as segment 3 from (1, 1, 0) on"});
+}
+
+TEST_CASE("polygons that cross have the edges along their line, also across each other's borders") {
+  PlcBuilder b;
+  b.polygon({square(0, 0, 0, 4)});
+  b.polygon({{{1, 2, -1}, {6, 2, -1}, {6, 2, 1}, {1, 2, 1}}});
+  const auto& out = repaired(b.finish()).file.plc;
+  REQUIRE(out.facets.size() == 2);
+  REQUIRE(out.facets[0].polygon.edges.size() == 1);
+  REQUIRE(out.facets[0].polygon.edges == out.facets[1].polygon.edges);
+  REQUIRE(area(out) == Approx(26));
+}
+
+TEST_CASE("a polygon that is thinner than doubles tell, but not than the tolerance, stays flat") {
+  PlcBuilder b;
+  b.polygon({{{0.1, 0.2, 0.3}, {0.9, 0.8, 0.7}, {0.5, 0.5 + 1e-9, 0.5}}});
+  REQUIRE(repair(b.finish()).file.plc.facets.size() == 1);
+}
+
+TEST_CASE("what cannot be repaired in space is an error with its place") {
+  mesher::PlcFile file;
+  file.file = file.point_file = "x.poly";
+  file.plc.points = {{id(1), {0, 0, 0}}, {id(2), {1, 0, 0}}};
+  file.points = {{2, 1}, {3, 1}};
+  file.plc.segments = {{id(4), id(1), id(7)}};
+  file.segments = {{5, 1}};
+  const auto said = [&](const mesher::PlcFile& f, std::optional<mesher::Box<3>> domain = {}) {
+    try {
+      static_cast<void>(repair(f, domain));
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  REQUIRE(said(file) ==
+          "x.poly:5:1: error[unknown_id]: point 7, an end of segment 4, is not there");
+  file.plc.segments[0].to = id(2);
+  REQUIRE(said(file).empty());
+  REQUIRE(said(file, mesher::Box<3>{{-1, -1, -1}, {0.5, 1, 1}}).find("x.poly:3:1") == 0);
+  file.plc.facets = {{{id(3), {ids({1, 2, 5})}}}};
+  file.facets = {{7, 1}};
+  REQUIRE(said(file) ==
+          "x.poly:7:1: error[unknown_id]: point 5, a corner of polygon 3, is not there");
+  file.plc.facets = {{{id(3), {}}}, {{id(3), {}}}};
+  file.facets = {{7, 1}, {8, 1}};
+  REQUIRE(said(file).find("x.poly:8:1: error[repeated_id]") == 0);
+  file.plc.facets = {};
+  file.plc.points[1].at[1] = std::numeric_limits<double>::infinity();
+  REQUIRE(said(file).find("x.poly:3:1: error[not_finite]") == 0);
+}

@@ -1,0 +1,68 @@
+// A complex that is repaired, as tests want it: a mesher takes the result and meshes it, and a
+// second repair does nothing.
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mesher/mesher.hpp"
+#include "mesher/space_repair.hpp"
+#include "plc/plc_builder.hpp"
+#include "plc/polygon_shape.hpp"
+
+namespace support {
+
+using Places = mesher::detail::PlcBuilder::Places;
+
+inline mesher::Box<3> domain_of(const mesher::Plc& plc) {
+  std::vector<mesher::Point<3>> places;
+  for (const auto& p : plc.points) places.push_back(p.at);
+  return mesher::snapped_domain<3>(places);
+}
+
+inline mesher::RepairedPlc repaired(const mesher::Plc& plc) {
+  const auto domain = domain_of(plc);
+  mesher::RepairedPlc result = mesher::repair(plc, domain);
+  const mesher::Plc& out = result.file.plc;
+  mesher::Mesher<3> m({.domain = domain, .max_vertices = 200000});
+  for (const auto& p : out.points) m.insert(p.id, p.at);
+  for (const auto& s : out.segments) m.insert_segment(s.id, s.from, s.to);
+  for (const auto& f : out.facets) m.insert_polygon(f.polygon);
+  m.update();
+  const mesher::RepairedPlc again = mesher::repair(result.file, domain);
+  REQUIRE(again.file.plc == out);
+  REQUIRE(again.notes.empty());
+  return result;
+}
+
+inline std::vector<std::string> notes_of(const mesher::RepairedPlc& r) {
+  std::vector<std::string> texts;
+  for (const auto& note : r.notes) texts.push_back(note.text());
+  return texts;
+}
+
+inline Places square(double x, double y, double z, double side = 1) {
+  return {{x, y, z}, {x + side, y, z}, {x + side, y + side, z}, {x, y + side, z}};
+}
+
+/// Of all polygons, less their holes.
+inline double area(const mesher::Plc& plc) {
+  std::map<mesher::FeatureId, mesher::Point<3>> at;
+  for (const auto& p : plc.points) at[p.id] = p.at;
+  double sum = 0;
+  for (const auto& f : plc.facets) {
+    double sign = 1;
+    for (const auto& loop : f.polygon.loops) {
+      Places places;
+      for (const auto v : loop) places.push_back(at.at(v));
+      sum += sign * std::sqrt(mesher::detail::squared(mesher::detail::twice_area(places))) / 2;
+      sign = -1;
+    }
+  }
+  return sum;
+}
+
+}  // namespace support
