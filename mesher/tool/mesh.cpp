@@ -25,7 +25,7 @@ struct Result {
 };
 
 template <int D>
-mesher::Mesh<D> mesh_without_engine(const InputOf<D>& input, const mesher::Options<D>& options,
+mesher::Mesh<D> mesh_without_engine(const MeshArguments&, const InputOf<D>& input, const mesher::Options<D>& options,
                                     mesher::MeshStats& stats, Progress& progress) {
   return locating(input, [&] {
     const StopPolitely stop;
@@ -66,9 +66,30 @@ mesher::Mesh<D> mesh_of_points(const InputOf<D>& input, mesher::MeshStats& stats
   return mesh;
 }
 
+// By a function of a complex: make(complex, extent, control).
+template <class Make>
+mesher::Mesh<3> mesh_of_complex(const MeshArguments& args, const SpaceInput& input,
+                                mesher::MeshStats& stats, Progress& progress, Make&& make) {
+  mesher::Mesh<3> mesh = locating(input, [&] {
+    const StopPolitely stop;
+    return make(input.graph(), extent(args), progress.control());
+  });
+  stats.vertices = mesh.vertices.size();
+  stats.simplices = mesh.simplices.size();
+  return mesh;
+}
+
 template <int D>
-mesher::Mesh<D> mesh_by_svr(const InputOf<D>& input, const mesher::Options<D>& options,
+mesher::Mesh<D> mesh_by_svr(const MeshArguments& args, const InputOf<D>& input, const mesher::Options<D>& options,
                             mesher::MeshStats& stats, Progress& progress) {
+  if constexpr (D == 3) {
+    if (has_lines(input)) {
+      return mesh_of_complex(args, input, stats, progress,
+                             [&](const auto& complex, auto extent, const auto& control) {
+                               return mesher::svr(complex, options, extent, {}, nullptr, control);
+                             });
+    }
+  }
   require_points_alone<D>(input, "svr");
   return mesh_of_points<D>(input, stats, progress,
                            [&](const auto& places, const auto& ids, const auto& control) {
@@ -77,8 +98,17 @@ mesher::Mesh<D> mesh_by_svr(const InputOf<D>& input, const mesher::Options<D>& o
 }
 
 template <int D>
-mesher::Mesh<D> mesh_by_refine(const InputOf<D>& input, const mesher::Options<D>& options,
-                               mesher::MeshStats& stats, Progress& progress) {
+mesher::Mesh<D> mesh_by_refine(const MeshArguments& args, const InputOf<D>& input,
+                               const mesher::Options<D>& options, mesher::MeshStats& stats,
+                               Progress& progress) {
+  if constexpr (D == 3) {
+    if (has_lines(input)) {
+      return mesh_of_complex(args, input, stats, progress,
+                             [&](const auto& complex, auto extent, const auto& control) {
+                               return mesher::refine(complex, options, extent, {}, nullptr, control);
+                             });
+    }
+  }
   require_points_alone<D>(input, "refine");
   return mesh_of_points<D>(input, stats, progress,
                            [&](const auto& places, const auto& ids, const auto& control) {
@@ -87,7 +117,7 @@ mesher::Mesh<D> mesh_by_refine(const InputOf<D>& input, const mesher::Options<D>
 }
 
 template <int D>
-mesher::Mesh<D> mesh_with_engine(const InputOf<D>& input, const mesher::Options<D>& options,
+mesher::Mesh<D> mesh_with_engine(const MeshArguments&, const InputOf<D>& input, const mesher::Options<D>& options,
                                  mesher::MeshStats& stats, Progress& progress) {
   auto mesher = mesher_for<mesher::Mesher<D>>(input, options);
   insert_all(input, mesher, progress);
@@ -127,7 +157,7 @@ Result<D> mesh(const MeshArguments& args, const InputOf<D>& input,
                     : args.algorithm == "refine" ? mesh_by_refine<D>
                     : args.is_static             ? mesh_without_engine<D>
                                                  : mesh_with_engine<D>;
-  mesher::Mesh<D> all = make(input, options, stats, progress);
+  mesher::Mesh<D> all = make(args, input, options, stats, progress);
   const double seconds = mesher::now() - start;
   Result<D> result = finish<D>(args, input, options, std::move(all));
   result.run.stats = stats;

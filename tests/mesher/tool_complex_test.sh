@@ -225,6 +225,24 @@ for engine in '' --static; do
   refuse 3 'twice.txt:2:1: error[repeated_id]' edit two.poly --script twice.txt $engine -o out/x.vtu
 done
 
+echo "== complexes: by svr and refine they are in their meshes too"
+for kind in nested tee pages spike island; do
+  expect 0 '' gen $kind -o byother.poly
+  for algorithm in svr refine; do
+    expect 0 ' in the box' mesh byother.poly --algorithm $algorithm -o kept.node \
+      -o kept.vtu --stats figures.json
+    expect 0 'polygons    ok' check kept.node --input byother.poly --rho 2 --ties
+    expect 0 '' mesh byother.poly --algorithm $algorithm --box --quiet -o other.node
+    expect 0 'quality     ok' check other.node --input byother.poly --rho 2
+    [[ -z $judge ]] || expect_of "$judge" 0 'ok other.node' other.node other.ele \
+      --complex byother.poly
+  done
+done
+refuse 2 'svr of segments and polygons needs a rho of 2 or more' mesh byother.poly \
+  --algorithm svr --rho 1.5 -o out/x.node
+refuse 2 'refine knows no limits of size' mesh byother.poly --algorithm refine \
+  --max-volume 1 -o out/x.node
+
 echo "== complexes: what is wrong is said with line, ids and place"
 # bad CODE TEXT SED: of two.poly, changed
 bad() {

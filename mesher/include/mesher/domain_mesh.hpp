@@ -19,6 +19,8 @@
 #include "mesher/mesher.hpp"
 #include "mesher/plc.hpp"
 #include "mesher/pslg.hpp"
+#include "mesher/refine.hpp"
+#include "mesher/svr.hpp"
 
 namespace mesher {
 
@@ -58,6 +60,14 @@ void add_seed(Plc& complex, const SeedOf<3>& seed);
                                       MeshStats* stats = nullptr, const RunControl& control = {});
 [[nodiscard]] Mesh<3> mesh_statically(const Plc& complex, const Options<3>& options,
                                       MeshStats* stats = nullptr, const RunControl& control = {});
+
+/// The same by other algorithms (mesher/refine.hpp, mesher/svr.hpp), good in `extent`.
+[[nodiscard]] Mesh<3> refine(const Plc& complex, const Options<3>& options,
+                             Extent extent = Extent::box, const RefineSettings& settings = {},
+                             RefineStats* stats = nullptr, const RunControl& control = {});
+[[nodiscard]] Mesh<3> svr(const Plc& complex, const Options<3>& options,
+                          Extent extent = Extent::box, const SvrSettings& settings = {},
+                          SvrStats* stats = nullptr, const RunControl& control = {});
 
 /// A mesh of `graph` with origins, edges on lines, and the markers of the graph's points and lines.
 /// Requires: `mesh` is that of its points and lines. Cost: O(m + n log n).

@@ -30,6 +30,13 @@ struct RefineSettings {
   bool strict = false;
 };
 
+/// What of a complex is refined: all, or what polygons enclose, if they enclose anything, less the
+/// holes at these places. Other simplices may be poor.
+struct RefinedExtent {
+  bool only_enclosed = false;
+  std::vector<Point<3>> holes{};
+};
+
 /// What happened in a run.
 struct RefineStats {
   std::size_t vertices = 0;
@@ -51,6 +58,16 @@ struct RefineStats {
 template <int D>
 [[nodiscard]] Mesh<D> refine(const std::vector<Point<D>>& points, const Options<D>& options,
                              const RefineSettings& settings = {},
+                             const std::vector<FeatureId>& ids = {}, RefineStats* stats = nullptr,
+                             const RunControl& control = {});
+
+/// The same of a complex: its edges are unions of edges of the mesh, its polygons unions of faces.
+/// A simplex is poor only where features meet at a small angle. Not for `strict`; rho is 2 or more.
+/// Throws: also Error as mesh_statically of these.
+[[nodiscard]] Mesh<3> refine(const std::vector<Point<3>>& points,
+                             const std::vector<Segment>& segments,
+                             const std::vector<Polygon>& polygons, const Options<3>& options,
+                             const RefinedExtent& extent = {}, const RefineSettings& settings = {},
                              const std::vector<FeatureId>& ids = {}, RefineStats* stats = nullptr,
                              const RunControl& control = {});
 

@@ -53,4 +53,11 @@ template <int D>
                           const SvrSettings& settings = {}, const std::vector<FeatureId>& ids = {},
                           SvrStats* stats = nullptr, const RunControl& control = {});
 
+/// The same of a complex, of which holds also what holds of refine of one (mesher/refine.hpp).
+[[nodiscard]] Mesh<3> svr(const std::vector<Point<3>>& points, const std::vector<Segment>& segments,
+                          const std::vector<Polygon>& polygons, const Options<3>& options,
+                          const RefinedExtent& extent = {}, const SvrSettings& settings = {},
+                          const std::vector<FeatureId>& ids = {}, SvrStats* stats = nullptr,
+                          const RunControl& control = {});
+
 }  // namespace mesher

@@ -86,6 +86,8 @@ class DelaunayKernel {
   void dig(std::uint32_t v, std::uint32_t s);
   /// The simplices that v takes out. Requires: dug.
   [[nodiscard]] const std::vector<std::uint32_t>& doomed() const noexcept { return cavity_; }
+  /// Whether s is one of them.
+  [[nodiscard]] bool is_doomed(std::uint32_t s) const noexcept;
   /// Calls visit(w) for each vertex that v will have an edge with, infinity too. Requires: dug.
   template <class Visit>
   void for_each_in_link(Visit&& visit) const;

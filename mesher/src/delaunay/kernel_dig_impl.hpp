@@ -89,6 +89,11 @@ bool DelaunayKernel<D, Layout>::ghost_conflicts(std::uint32_t s, std::size_t i,
 }
 
 template <int D, class Layout>
+bool DelaunayKernel<D, Layout>::is_doomed(std::uint32_t s) const noexcept {
+  return mark_[s] == kInside;
+}
+
+template <int D, class Layout>
 void DelaunayKernel<D, Layout>::dig(std::uint32_t v, std::uint32_t s) {
   try {
     find_doomed(v, s);

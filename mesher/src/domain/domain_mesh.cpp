@@ -222,6 +222,28 @@ Mesh<3> mesh_statically(const Plc& complex, const Options<3>& options, MeshStats
   return mesh_statically(places_of(complex), segments, polygons, options, ids, stats, control);
 }
 
+namespace {
+
+RefinedExtent refined(const Plc& complex, Extent extent) {
+  RefinedExtent refined{.only_enclosed = extent == Extent::enclosed};
+  for (const auto& hole : complex.holes) refined.holes.push_back(hole.seed);
+  return refined;
+}
+
+}  // namespace
+
+Mesh<3> refine(const Plc& complex, const Options<3>& options, Extent extent,
+               const RefineSettings& settings, RefineStats* stats, const RunControl& control) {
+  return refine(places_of(complex), segments_of(complex), polygons_of(complex), options,
+                refined(complex, extent), settings, ids_of(complex.points), stats, control);
+}
+
+Mesh<3> svr(const Plc& complex, const Options<3>& options, Extent extent,
+            const SvrSettings& settings, SvrStats* stats, const RunControl& control) {
+  return svr(places_of(complex), segments_of(complex), polygons_of(complex), options,
+             refined(complex, extent), settings, ids_of(complex.points), stats, control);
+}
+
 MeshDataOf<3> with_features(Mesh<3> mesh, const Plc& complex) {
   MeshDataOf<3> data(std::move(mesh));
   auto& features = data.features;

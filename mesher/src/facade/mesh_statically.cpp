@@ -4,6 +4,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "facade/checked_complex.hpp"
 #include "facade/meter.hpp"
 #include "facade/space_input.hpp"
 #include "input.hpp"
@@ -306,6 +307,29 @@ SpaceInputNames add_features(const std::vector<Segment>& segments,
 }
 
 }  // namespace
+
+struct detail::CheckedComplex::Run {
+  Run(const std::vector<Point<3>>& points, const std::vector<mesher::Segment>& segments,
+      const std::vector<mesher::Polygon>& polygons, const Options<3>& options,
+      const std::vector<FeatureId>& ids, const RunControl& control)
+      : run(points, options, ids, control, 0), names(add_features(segments, polygons, ids, run)) {}
+
+  StaticRun<3> run;
+  SpaceInputNames names;
+};
+
+detail::CheckedComplex::CheckedComplex(const std::vector<Point<3>>& points,
+                                       const std::vector<mesher::Segment>& segments,
+                                       const std::vector<mesher::Polygon>& polygons,
+                                       const Options<3>& options, const std::vector<FeatureId>& ids,
+                                       const RunControl& control)
+    : run_(std::make_unique<Run>(points, segments, polygons, options, ids, control)) {}
+detail::CheckedComplex::~CheckedComplex() = default;
+const detail::MeshBox<3>& detail::CheckedComplex::box() const { return run_->run.world().box; }
+detail::FeatureStore& detail::CheckedComplex::store() const {
+  return run_->run.world().plc.store();
+}
+const detail::SpaceNames& detail::CheckedComplex::names() const { return run_->names; }
 
 void detail::require_complex(const std::vector<Point<3>>& points,
                              const std::vector<mesher::Segment>& segments,

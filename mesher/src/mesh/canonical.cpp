@@ -52,33 +52,9 @@ Mesh<N - 1> sorted(std::vector<Placed<N - 1>> placed, KindOf&& kind_of,
   return mesh;
 }
 
-}  // namespace
-
+// `index`: in the mesh, by the names that `on` calls vertices.
 template <int D>
-Mesh<D> canonical(std::span<const Point<D>> places, std::span<const VertexKind> kinds,
-                  std::uint32_t first,
-                  const std::vector<std::array<std::uint32_t, D + 1>>& simplices) {
-  std::vector<Placed<D>> placed;
-  placed.reserve(places.size());
-  for (const Point<D>& p : places) {
-    placed.push_back({p, first + static_cast<std::uint32_t>(placed.size())});
-  }
-  std::vector<std::uint32_t> index(first + places.size());
-  const auto kind_of = [&](std::uint32_t v) { return kinds[v - first]; };
-  return sorted<D + 1>(std::move(placed), kind_of, simplices, index);
-}
-
-template <std::size_t N>
-Mesh<N - 1> canonical(const VertexPool<N - 1>& pool, std::vector<VertexHandle> vertices,
-                      const std::vector<std::array<VertexHandle, N>>& simplices,
-                      const OnFeatures& on) {
-  std::vector<Placed<N - 1>> placed;
-  placed.reserve(vertices.size());
-  for (const VertexHandle h : vertices) placed.push_back({pool[h].p, h});
-  std::vector<std::uint32_t> index(
-      vertices.empty() ? 0 : *std::max_element(vertices.begin(), vertices.end()) + std::size_t{1});
-  const auto kind_of = [&](VertexHandle h) { return pool[h].kind(); };
-  Mesh<N - 1> mesh = sorted<N>(std::move(placed), kind_of, simplices, index);
+void add_parts(Mesh<D>& mesh, const OnFeatures& on, const std::vector<std::uint32_t>& index) {
   mesh.edges.reserve(on.edges.size());
   for (const LineEdge& e : on.edges) {
     const auto [low, high] = std::minmax(index[e.from], index[e.to]);
@@ -93,13 +69,48 @@ Mesh<N - 1> canonical(const VertexPool<N - 1>& pool, std::vector<VertexHandle> v
     mesh.faces.push_back({corners, f.polygon});
   }
   std::sort(mesh.faces.begin(), mesh.faces.end());
+}
+
+}  // namespace
+
+template <int D>
+Mesh<D> canonical(std::span<const Point<D>> places, std::span<const VertexKind> kinds,
+                  std::uint32_t first,
+                  const std::vector<std::array<std::uint32_t, D + 1>>& simplices,
+                  const OnFeatures& on) {
+  std::vector<Placed<D>> placed;
+  placed.reserve(places.size());
+  for (const Point<D>& p : places) {
+    placed.push_back({p, first + static_cast<std::uint32_t>(placed.size())});
+  }
+  std::vector<std::uint32_t> index(first + places.size());
+  const auto kind_of = [&](std::uint32_t v) { return kinds[v - first]; };
+  Mesh<D> mesh = sorted<D + 1>(std::move(placed), kind_of, simplices, index);
+  add_parts(mesh, on, index);
+  return mesh;
+}
+
+template <std::size_t N>
+Mesh<N - 1> canonical(const VertexPool<N - 1>& pool, std::vector<VertexHandle> vertices,
+                      const std::vector<std::array<VertexHandle, N>>& simplices,
+                      const OnFeatures& on) {
+  std::vector<Placed<N - 1>> placed;
+  placed.reserve(vertices.size());
+  for (const VertexHandle h : vertices) placed.push_back({pool[h].p, h});
+  std::vector<std::uint32_t> index(
+      vertices.empty() ? 0 : *std::max_element(vertices.begin(), vertices.end()) + std::size_t{1});
+  const auto kind_of = [&](VertexHandle h) { return pool[h].kind(); };
+  Mesh<N - 1> mesh = sorted<N>(std::move(placed), kind_of, simplices, index);
+  add_parts(mesh, on, index);
   return mesh;
 }
 
 template Mesh<2> canonical<2>(std::span<const Point<2>>, std::span<const VertexKind>, std::uint32_t,
-                              const std::vector<std::array<std::uint32_t, 3>>&);
+                              const std::vector<std::array<std::uint32_t, 3>>&,
+                              const OnFeatures&);
 template Mesh<3> canonical<3>(std::span<const Point<3>>, std::span<const VertexKind>, std::uint32_t,
-                              const std::vector<std::array<std::uint32_t, 4>>&);
+                              const std::vector<std::array<std::uint32_t, 4>>&,
+                              const OnFeatures&);
 template Mesh<2> canonical(const VertexPool<2>&, std::vector<VertexHandle>,
                            const std::vector<std::array<VertexHandle, 3>>&, const OnFeatures&);
 template Mesh<3> canonical(const VertexPool<3>&, std::vector<VertexHandle>,

@@ -41,11 +41,12 @@ template <std::size_t N>
                                     const std::vector<std::array<VertexHandle, N>>& simplices,
                                     const OnFeatures& on = {});
 
-/// The same of vertices first, first + 1, ... at `places`, no edges.
+/// The same of vertices first, first + 1, ... at `places`.
 template <int D>
 [[nodiscard]] Mesh<D> canonical(std::span<const Point<D>> places, std::span<const VertexKind> kinds,
                                 std::uint32_t first,
-                                const std::vector<std::array<std::uint32_t, D + 1>>& simplices);
+                                const std::vector<std::array<std::uint32_t, D + 1>>& simplices,
+                                const OnFeatures& on = {});
 
 /// Rotates a triangle so that the smallest corner comes first.
 template <class T>

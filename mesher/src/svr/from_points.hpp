@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "facade/meter.hpp"
+#include "io/text.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/predicates.hpp"
@@ -26,8 +27,13 @@ void require_no_limits(const Options<D>& options, const std::string& name) {
   }
 }
 
+inline void require_k(double k) {
+  if (k > 0 && k < 1) return;
+  throw Error(ErrorCode::bad_option, "k is " + text::to_text(k) + ", it must be between 0 and 1");
+}
+
 template <int D, class Algorithm>
-[[nodiscard]] Mesh<D> mesh_of(const Algorithm& algorithm) {
+[[nodiscard]] Mesh<D> mesh_of(const Algorithm& algorithm, const OnFeatures& on = {}) {
   const auto& kernel = algorithm.kernel();
   const auto& store = kernel.simplices();
   std::vector<typename Mesh<D>::Simplex> simplices;
@@ -38,7 +44,29 @@ template <int D, class Algorithm>
   std::vector<Point<D>> places;
   places.reserve(kernel.places());
   for (std::uint32_t v = 1; v <= kernel.places(); ++v) places.push_back(kernel.place(v));
-  return canonical<D>(places, std::span(algorithm.kinds()).subspan(1), 1, simplices);
+  return canonical<D>(places, std::span(algorithm.kinds()).subspan(1), 1, simplices, on);
+}
+
+/// What all refinements are told alike.
+template <int D, class Settings>
+void set_common(Settings& settings, const Options<D>& options, bool follow_degrees,
+                const RunControl& control) {
+  settings.rho = options.rho;
+  settings.most_vertices = options.max_vertices;
+  settings.follow_degrees = follow_degrees;
+  if (!watches(control)) return;
+  settings.watch = [&](std::size_t vertices) {
+    if (!report(control, {.phase = Phase::steiner, .done = vertices})) fail_cancelled();
+  };
+}
+
+/// `stats`: may be null.
+template <int D, class Algorithm, class Stats>
+void set_stats(Stats* stats, const Algorithm& algorithm, const Mesh<D>& mesh) {
+  if (stats == nullptr) return;
+  *stats = algorithm.stats();
+  stats->vertices = mesh.vertices.size();
+  stats->simplices = mesh.simplices.size();
 }
 
 /// What an Algorithm makes of the points. `settings`: but for what is in `options`.
@@ -48,23 +76,12 @@ template <template <int> class Algorithm, int D, class Stats>
                                   const std::vector<FeatureId>& ids, Stats* stats,
                                   const RunControl& control) {
   const MeshBox<D> box = mesh_box(options);
-  settings.rho = options.rho;
-  settings.most_vertices = options.max_vertices;
-  settings.follow_degrees = stats != nullptr;
-  if (watches(control)) {
-    settings.watch = [&](std::size_t vertices) {
-      if (!report(control, {.phase = Phase::steiner, .done = vertices})) fail_cancelled();
-    };
-  }
+  set_common(settings, options, stats != nullptr, control);
   const std::vector<Point<D>> sorted = in_distinct_order<D>(points, ids, options.domain, box);
   Algorithm<D> algorithm(box, sorted, settings);
   algorithm.run();
   Mesh<D> mesh = mesh_of<D>(algorithm);
-  if (stats != nullptr) {
-    *stats = algorithm.stats();
-    stats->vertices = mesh.vertices.size();
-    stats->simplices = mesh.simplices.size();
-  }
+  set_stats(stats, algorithm, mesh);
   return mesh;
 }
 

@@ -2,6 +2,7 @@
 #include "svr/refinement.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "delaunay/build.hpp"
 #include "delaunay/spatial_order.hpp"
@@ -12,24 +13,28 @@ namespace {
 
 // What is poor on the way, in units of rho [rules D9].
 constexpr double kMeanwhile = 1.25;
+// What has yielded is at least so far from vertices, in units of the distance before.
+constexpr double kYieldedApart = 0.25;
 
 }  // namespace
 
-template <int D>
-Refinement<D>::Refinement(const MeshBox<D>& box, std::span<const Point<D>> points,
+template <int D, class Mesh>
+Refinement<D, Mesh>::Refinement(const MeshBox<D>& box, std::span<const Point<D>> points,
                           const Settings& settings)
     : Base(box, settings, points.size()),
       k_(settings.k),
       skinny2_(points.empty() ? rho2_ : kMeanwhile * kMeanwhile * rho2_),
+      handles_(settings.handles),
       lists_(points, box.side) {}
 
 /// [Fig 2.5].
-template <int D>
-void Refinement<D>::run() {
+template <int D, class Mesh>
+void Refinement<D, Mesh>::run() {
   start();
   const auto is_crowded = [&](std::uint32_t v) { return lists_.is_crowded(v); };
   for (std::size_t steps = 1;; ++steps) {
     this->watch(steps, kernel_.places());
+    if (!conforms()) continue;
     if (const std::uint32_t s = queue_.take_skinny(); s != kNone) {
       split(s);
     } else if (const std::uint32_t v = queue_.crowded(is_crowded); v != kNone) {
@@ -43,18 +48,35 @@ void Refinement<D>::run() {
   }
 }
 
+/// Once all points are vertices: else a vertex is inserted that is needed for it, or will be.
+template <int D, class Mesh>
+bool Refinement<D, Mesh>::conforms() {
+  if constexpr (kConforms) {
+    if (lists_.left() != 0) return true;
+    if (!std::exchange(has_started_, true)) this->conformity_.start();
+    if (const auto wanted = this->conformity_.next()) {
+      if (const auto v = this->dig(*wanted)) {
+        lists_.add_vertex();
+        insert_dug(*v, {});
+      }
+      return false;
+    }
+  }
+  return true;
+}
+
 // --- Initialize [Fig 2.6] --------------------------------------------------------------------
 
-template <int D>
-void Refinement<D>::start() {
+template <int D, class Mesh>
+void Refinement<D, Mesh>::start() {
   add_box();
   if (lists_.left() != 0) add_first_point();
   queue_.make_room(kernel_.simplices().places());
   this->look_at_all([&](std::uint32_t s) { look_at(s, kernel_.measure(s)); });
 }
 
-template <int D>
-void Refinement<D>::add_box() {
+template <int D, class Mesh>
+void Refinement<D, Mesh>::add_box() {
   const std::vector<Point<D>> places = this->boundary();
   std::vector<std::uint32_t> vertices;
   for (const std::uint32_t i : spatial_order<D>(places)) {
@@ -65,8 +87,8 @@ void Refinement<D>::add_box() {
 }
 
 /// The nearest to the middle of the box.
-template <int D>
-std::uint32_t Refinement<D>::first_point() const {
+template <int D, class Mesh>
+std::uint32_t Refinement<D, Mesh>::first_point() const {
   Point<D> middle;
   for (int i = 0; i < D; ++i) middle[i] = box_.lo[i] + box_.side / 2;
   std::uint32_t best = 0;
@@ -78,18 +100,18 @@ std::uint32_t Refinement<D>::first_point() const {
   return best;
 }
 
-template <int D>
-void Refinement<D>::add_first_point() {
+template <int D, class Mesh>
+void Refinement<D, Mesh>::add_first_point() {
   const std::uint32_t first = first_point();
-  add_place(lists_.place(first), VertexKind::input);
+  add_place(lists_.place(first), VertexKind::input, first);
   const auto v = static_cast<std::uint32_t>(kernel_.places());
   kernel_.insert(v);
   lists_.start(v, kernel_.place(v), first);
   queue_.add_crowded(v);
 }
 
-template <int D>
-void Refinement<D>::look_at(std::uint32_t s, const Shape& shape) {
+template <int D, class Mesh>
+void Refinement<D, Mesh>::look_at(std::uint32_t s, const Shape& shape) {
   if (!this->is_poor(shape)) return;
   const bool skinny = shape.radius2 > skinny2_ * shape.shortest2;
   queue_.add(s, skinny ? WorkQueue::Wait::skinny : WorkQueue::Wait::moderately_skinny);
@@ -99,8 +121,11 @@ void Refinement<D>::look_at(std::uint32_t s, const Shape& shape) {
 
 /// Of a point near the centre nearly always a corner of s is the owner: so they are asked before
 /// anything is dug [rules D6].
-template <int D>
-void Refinement<D>::split(std::uint32_t s) {
+template <int D, class Mesh>
+void Refinement<D, Mesh>::split(std::uint32_t s) {
+  if constexpr (kConforms) {
+    if (has_started_ && !this->is_split(s)) return;
+  }
   const Centre<D> centre = centres_.of(kernel_, s);
   const bool warps = lists_.left() != 0 && !centre.on_side;
   if (warps) {
@@ -112,22 +137,57 @@ void Refinement<D>::split(std::uint32_t s) {
   centres_.require_apart(kernel_, s, centre);
   const std::uint32_t v =
       add_place(centre.place, centre.on_side ? VertexKind::boundary : VertexKind::steiner);
-  on_sides_ += centre.on_side ? 1 : 0;
   kernel_.dig(v, s);
   const Found found = warps ? point_near_link(centre, s) : Found{};
   if (found.point != kNone) {
     ++stats_.warped;
     kernel_.undo_dig();
     kernel_.set_place(v, lists_.place(found.point));
-    kinds_[v] = VertexKind::input;
+    set_point(v, found.point);
     kernel_.dig(v, s);
+  } else if constexpr (kConforms) {
+    if (!dig_yielding(v, centre, s)) return;
   }
+  on_sides_ += centre.on_side ? 1 : 0;
   insert_dug(v, found);
 }
 
+/// v is dug at the centre; it stays there, or goes onto a feature, or is undone.
+template <int D, class Mesh>
+bool Refinement<D, Mesh>::dig_yielding(std::uint32_t v, const Centre<D>& centre, std::uint32_t s) {
+  if constexpr (kConforms) {
+    if (centre.on_side) return true;
+    if (has_started_) {
+      if (!this->conformity_.yields(v)) return true;
+      undo_place();
+      look_at(s, kernel_.measure(s));
+      return false;
+    }
+    const auto y = this->conformity_.yield(centre.place, centre.radius);
+    if (!y || !kernel_.conflicts(s, y->p)) return true;
+    kernel_.undo_dig();
+    kernel_.set_place(v, y->p);
+    kernel_.dig(v, s);
+    bool apart = true;
+    const double least = kYieldedApart * centre.radius;
+    kernel_.for_each_in_link([&](std::uint32_t w) {
+      if (w != kInfinite && squared_distance(kernel_.place(w), y->p) < least * least) apart = false;
+    });
+    if (apart) {
+      kinds_[v] = VertexKind::segment;
+      this->conformity_.set_vertex(v, y->role, 0);
+      return true;
+    }
+    kernel_.undo_dig();
+    kernel_.set_place(v, centre.place);
+    kernel_.dig(v, s);
+  }
+  return true;
+}
+
 /// Around a Steiner vertex any point can go in: none is near, or it would be there in its place.
-template <int D>
-void Refinement<D>::split_crowded(std::uint32_t v) {
+template <int D, class Mesh>
+void Refinement<D, Mesh>::split_crowded(std::uint32_t v) {
   const bool is_input = kinds_[v] == VertexKind::input;
   const Found found{is_input ? lists_.farthest(v) : lists_.any(v), v};
   const Point<D> p = lists_.place(found.point);
@@ -146,8 +206,8 @@ void Refinement<D>::split_crowded(std::uint32_t v) {
 }
 
 /// The simplex of v's star, in star_, with the largest ball.
-template <int D>
-std::uint32_t Refinement<D>::largest_in_star(std::uint32_t v) const {
+template <int D, class Mesh>
+std::uint32_t Refinement<D, Mesh>::largest_in_star(std::uint32_t v) const {
   std::uint32_t largest = kNone;
   double radius2 = 0;
   for (const std::uint32_t s : star_) {
@@ -158,22 +218,22 @@ std::uint32_t Refinement<D>::largest_in_star(std::uint32_t v) const {
 }
 
 /// Whether p is in B(c, k r) of a simplex with corner v.
-template <int D>
-bool Refinement<D>::is_deep_in(std::uint32_t s, const Point<D>& p, std::uint32_t v) const {
+template <int D, class Mesh>
+bool Refinement<D, Mesh>::is_deep_in(std::uint32_t s, const Point<D>& p, std::uint32_t v) const {
   const Point<D>& c = kernel_.simplices().ball(s).centre;
   const double r2 = squared_distance(c, kernel_.place(v));
   return squared_distance(c, p) < k_ * k_ * r2;
 }
 
-template <int D>
-auto Refinement<D>::point_near(const Centre<D>& centre, std::uint32_t w) const -> Found {
+template <int D, class Mesh>
+auto Refinement<D, Mesh>::point_near(const Centre<D>& centre, std::uint32_t w) const -> Found {
   const std::uint32_t point = lists_.find(w, kernel_.place(w), centre.place, k_ * centre.radius);
   return {point, w};
 }
 
 /// A point whose insertion takes s out.
-template <int D>
-auto Refinement<D>::point_near_corners(const Centre<D>& centre, std::uint32_t s) const -> Found {
+template <int D, class Mesh>
+auto Refinement<D, Mesh>::point_near_corners(const Centre<D>& centre, std::uint32_t s) const -> Found {
   for (const std::uint32_t w : kernel_.simplices().corners(s)) {
     const Found found = point_near(centre, w);
     if (found.point != kNone && kernel_.conflicts(s, lists_.place(found.point))) return found;
@@ -182,8 +242,8 @@ auto Refinement<D>::point_near_corners(const Centre<D>& centre, std::uint32_t s)
 }
 
 /// The same in the lists of those around the hole that is dug at the centre.
-template <int D>
-auto Refinement<D>::point_near_link(const Centre<D>& centre, std::uint32_t s) const -> Found {
+template <int D, class Mesh>
+auto Refinement<D, Mesh>::point_near_link(const Centre<D>& centre, std::uint32_t s) const -> Found {
   Found best;
   kernel_.for_each_in_link([&](std::uint32_t w) {
     if (best.point != kNone) return;
@@ -195,47 +255,70 @@ auto Refinement<D>::point_near_link(const Centre<D>& centre, std::uint32_t s) co
 
 // --- Insert [Fig 2.8] ------------------------------------------------------------------------
 
-template <int D>
-std::uint32_t Refinement<D>::add_place(const Point<D>& p, VertexKind kind) {
-  const std::uint32_t v = Base::add_place(p, kind);
+template <int D, class Mesh>
+std::uint32_t Refinement<D, Mesh>::add_place(const Point<D>& p, VertexKind kind,
+                                             std::uint32_t point) {
   lists_.add_vertex();
-  return v;
+  if constexpr (kConforms) {
+    return Base::add_place({p, {}}, kind, point == kNone ? 0 : handles_[point]);
+  } else {
+    return Base::add_place(p, kind);
+  }
+}
+
+/// v is this point of the input.
+template <int D, class Mesh>
+void Refinement<D, Mesh>::set_point(std::uint32_t v, std::uint32_t point) {
+  kinds_[v] = VertexKind::input;
+  if constexpr (kConforms) this->conformity_.set_vertex(v, {}, handles_[point]);
+}
+
+/// Requires: dug.
+template <int D, class Mesh>
+void Refinement<D, Mesh>::undo_place() {
+  if constexpr (kConforms) Base::undo_place();
+  lists_.drop_vertex();
 }
 
 /// Requires: it takes s out.
-template <int D>
-void Refinement<D>::insert_point(const Found& found, std::uint32_t s) {
-  const std::uint32_t v = add_place(lists_.place(found.point), VertexKind::input);
+template <int D, class Mesh>
+void Refinement<D, Mesh>::insert_point(const Found& found, std::uint32_t s) {
+  const std::uint32_t v = add_place(lists_.place(found.point), VertexKind::input, found.point);
   kernel_.dig(v, s);
   insert_dug(v, found);
 }
 
 /// A point that is not in its owner's cell, but for rounding. It may be where a vertex is.
-template <int D>
-void Refinement<D>::insert_lost(const Found& found) {
+template <int D, class Mesh>
+void Refinement<D, Mesh>::insert_lost(const Found& found) {
   const Point<D>& p = lists_.place(found.point);
   const std::uint32_t s = kernel_.walk(p, star_.front());
   for (const std::uint32_t w : kernel_.simplices().corners(s)) {
     if (kernel_.place(w) != p) continue;
-    kinds_[w] = VertexKind::input;
+    set_point(w, found.point);
     return lists_.drop(found.owner, found.point);
   }
   insert_point(found, s);
 }
 
 /// `found`: the point that v is, if it is one.
-template <int D>
-void Refinement<D>::insert_dug(std::uint32_t v, const Found& found) {
+template <int D, class Mesh>
+void Refinement<D, Mesh>::insert_dug(std::uint32_t v, const Found& found) {
   for (const std::uint32_t s : kernel_.doomed()) queue_.forget(s);
+  if constexpr (kConforms) {
+    if (has_started_) this->conformity_.before_fill(v);
+  }
   this->count_degrees(kernel_.doomed(), -1);
   if (lists_.left() != 0) {
     const Point<D>& p = kernel_.place(v);
-    bool is_point = false;
+    std::uint32_t is_point = kNone;
     kernel_.for_each_in_link([&](std::uint32_t w) {
-      if (w != kInfinite) is_point |= lists_.relocate(v, p, w, kernel_.place(w));
+      if (w == kInfinite) return;
+      const std::uint32_t point = lists_.relocate(v, p, w, kernel_.place(w));
+      if (point != kNone) is_point = point;
     });
-    if (is_point) {
-      kinds_[v] = VertexKind::input;
+    if (is_point != kNone) {
+      set_point(v, is_point);
     } else if (found.point != kNone) {
       lists_.drop(found.owner, found.point);
     }
@@ -246,16 +329,20 @@ void Refinement<D>::insert_dug(std::uint32_t v, const Found& found) {
   const auto& made = kernel_.made();
   for (std::size_t k = 0; k < made.size(); ++k) look_at(made[k], kernel_.shape_made(k));
   this->count_made();
+  if constexpr (kConforms) {
+    if (has_started_) this->conformity_.after_fill(v);
+  }
 }
 
-template <int D>
-SvrStats Refinement<D>::stats() const {
+template <int D, class Mesh>
+SvrStats Refinement<D, Mesh>::stats() const {
   SvrStats stats = stats_;
   this->set_figures(stats);
   return stats;
 }
 
-template class Refinement<2>;
-template class Refinement<3>;
+template class Refinement<2, RefinedMesh<2>>;
+template class Refinement<3, RefinedMesh<3>>;
+template class Refinement<3, ConformingMesh>;
 
 }  // namespace mesher::detail

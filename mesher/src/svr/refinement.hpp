@@ -8,28 +8,35 @@
 //   - while a point is left only simplices beyond 1.25 rho are skinny (D9): 3% to 8% fewer;
 //   - a crowded input vertex has its farthest point inserted, if that is in some B(c, k r) around
 //     it, before its largest simplex is split (D7): 10% fewer;
+//   - of a complex, new vertices yield to the features beside them, by a look at the input, until
+//     all points are vertices; then it is made to conform, and stays so (conformity.hpp);
 //   - no circumcentre is outside of the box, whose sides begin with a grid that is fine enough
 //     [L 4.4.1]; where the box is left all the same, the new vertex goes onto its side.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "mesher/svr.hpp"
+#include "svr/conforming_mesh.hpp"
 #include "svr/refined_mesh.hpp"
 #include "svr/voronoi_lists.hpp"
 #include "svr/work_queue.hpp"
 
 namespace mesher::detail {
 
-template <int D>
-class Refinement : public RefinedMesh<D> {
-  using Base = RefinedMesh<D>;
+/// `Mesh`: RefinedMesh, or ConformingMesh.
+template <int D, class Mesh>
+class Refinement : public Mesh {
+  using Base = Mesh;
+  static constexpr bool kConforms = !std::is_same_v<Mesh, RefinedMesh<D>>;
 
  public:
   struct Settings : Base::Settings {
     double k = 0.9;
+    std::vector<VertexHandle> handles{};  // of a complex: those of the points
   };
 
   /// Of distinct points in the box's domain, in an order in which what is near is near.
@@ -63,16 +70,26 @@ class Refinement : public RefinedMesh<D> {
   [[nodiscard]] Found point_near_corners(const Centre<D>& centre, std::uint32_t s) const;
   [[nodiscard]] Found point_near_link(const Centre<D>& centre, std::uint32_t s) const;
 
-  std::uint32_t add_place(const Point<D>& p, VertexKind kind);
+  [[nodiscard]] bool conforms();
+  [[nodiscard]] bool dig_yielding(std::uint32_t v, const Centre<D>& centre, std::uint32_t s);
+  std::uint32_t add_place(const Point<D>& p, VertexKind kind, std::uint32_t point = kNone);
+  void set_point(std::uint32_t v, std::uint32_t point);
+  void undo_place();
   void insert_point(const Found& found, std::uint32_t s);
   void insert_lost(const Found& found);
   void insert_dug(std::uint32_t v, const Found& found);
 
   double k_, skinny2_;
+  std::vector<VertexHandle> handles_;  // of points, if it conforms
+  bool has_started_ = false;           // to conform
   VoronoiLists<D> lists_;
   WorkQueue queue_;
   SvrStats stats_;                   // warped and crowded
   std::vector<std::uint32_t> star_;  // scratch
 };
+
+template <int D>
+using PointRefinement = Refinement<D, RefinedMesh<D>>;
+using ComplexSvr = Refinement<3, ConformingMesh>;
 
 }  // namespace mesher::detail

@@ -1,7 +1,6 @@
 // From points to a mesh.
 #include "mesher/svr.hpp"
 
-#include "io/text.hpp"
 #include "svr/from_points.hpp"
 #include "svr/refinement.hpp"
 
@@ -14,12 +13,9 @@ Mesh<D> svr(const std::vector<Point<D>>& points, const Options<D>& options,
   SAC_EXPECTS(ids.empty() || ids.size() == points.size());
   predicates::self_test();
   detail::require_unstopped(control);
-  if (!(settings.k > 0) || !(settings.k < 1)) {
-    throw Error(ErrorCode::bad_option,
-                "k is " + text::to_text(settings.k) + ", it must be between 0 and 1");
-  }
+  detail::require_k(settings.k);
   detail::require_no_limits(options, "svr");
-  return detail::mesh_points<detail::Refinement, D>(points, options, {{}, settings.k}, ids, stats,
+  return detail::mesh_points<detail::PointRefinement, D>(points, options, {{}, settings.k, {}}, ids, stats,
                                                     control);
 }
 

@@ -54,11 +54,16 @@ class VoronoiLists {
     first_.push_back(kNone);
     reach2_.push_back(0);
   }
+  /// Takes the last vertex back, which has no points.
+  void drop_vertex() noexcept {
+    first_.pop_back();
+    reach2_.pop_back();
+  }
   /// Puts all points but `except`, which is gone, on v's list, whose place is p.
   void start(std::uint32_t v, const Point<D>& p, std::uint32_t except) noexcept;
   /// Gives the new vertex v at p what is nearer to it of the list of its neighbour w at q. A point
-  /// at p is gone. Returns: whether there was one.
-  bool relocate(std::uint32_t v, const Point<D>& p, std::uint32_t w, const Point<D>& q) noexcept;
+  /// at p is gone. Returns: that, or kNone.
+  std::uint32_t relocate(std::uint32_t v, const Point<D>& p, std::uint32_t w, const Point<D>& q) noexcept;
 
   /// A point on the list of w, at q, in the ball around c. `r`: its radius.
   [[nodiscard]] std::uint32_t find(std::uint32_t w, const Point<D>& q, const Point<D>& c,
@@ -108,13 +113,13 @@ void VoronoiLists<D>::start(std::uint32_t v, const Point<D>& p, std::uint32_t ex
 }
 
 template <int D>
-bool VoronoiLists<D>::relocate(std::uint32_t v, const Point<D>& p, std::uint32_t w,
+std::uint32_t VoronoiLists<D>::relocate(std::uint32_t v, const Point<D>& p, std::uint32_t w,
                                const Point<D>& q) noexcept {
-  if (first_[w] == kNone) return false;
+  if (first_[w] == kNone) return kNone;
   // A point within half of the way to v stays.
   const double stays2 = scaled2(p, q) / 4 * kDown;
-  if (static_cast<double>(reach2_[w]) < stays2) return false;
-  bool was_there = false;
+  if (static_cast<double>(reach2_[w]) < stays2) return kNone;
+  std::uint32_t was_there = kNone;
   float reach2 = 0;
   for (std::uint32_t* link = &first_[w]; *link != kNone;) {
     const std::uint32_t point = *link;
@@ -124,7 +129,7 @@ bool VoronoiLists<D>::relocate(std::uint32_t v, const Point<D>& p, std::uint32_t
       if (d2 < static_cast<double>(listed.distance2)) {
         *link = listed.next;
         if (places_[point] == p) {
-          was_there = true;
+          was_there = point;
           --left_;
         } else {
           put(v, point, d2);

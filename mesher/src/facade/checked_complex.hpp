@@ -1,0 +1,32 @@
+// A complex in space that was found to be one: its features, and what they are called.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geometry/grid.hpp"
+#include "mesher/mesher.hpp"
+#include "plc/feature_store.hpp"
+#include "plc/validity.hpp"
+
+namespace mesher::detail {
+
+class CheckedComplex {
+ public:
+  /// Throws: as mesh_statically of these.
+  CheckedComplex(const std::vector<Point<3>>& points, const std::vector<mesher::Segment>& segments,
+                 const std::vector<mesher::Polygon>& polygons, const Options<3>& options,
+                 const std::vector<FeatureId>& ids, const RunControl& control);
+  ~CheckedComplex();
+
+  [[nodiscard]] const MeshBox<3>& box() const;
+  /// Its points are those with `input`.
+  [[nodiscard]] FeatureStore& store() const;
+  [[nodiscard]] const SpaceNames& names() const;
+
+ private:
+  struct Run;
+  std::unique_ptr<Run> run_;
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,68 @@
+// Vertices on features, and what is left alone.
+#include "svr/conforming_mesh.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "input.hpp"
+
+namespace mesher::detail {
+
+ConformingMesh::ConformingMesh(const MeshBox<3>& box, const Settings& settings, std::size_t points)
+    : Base(box, settings, points),
+      store_(*settings.store),
+      conformity_(store_, kernel_),
+      only_enclosed_(settings.only_enclosed),
+      holes_(settings.holes) {}
+
+std::uint32_t ConformingMesh::add_place(const Placed& place, VertexKind kind, VertexHandle point) {
+  const std::uint32_t v = Base::add_place(place.p, kind);
+  conformity_.add_vertex(place.role, point);
+  return v;
+}
+
+void ConformingMesh::undo_place() {
+  kernel_.undo_dig();
+  kernel_.drop_place();
+  kinds_.pop_back();
+  conformity_.drop_vertex();
+}
+
+std::optional<std::uint32_t> ConformingMesh::dig(const Conformity::Wanted& wanted) {
+  const auto any = [](std::uint32_t) { return true; };
+  const std::uint32_t from = kernel_.find_in_star(wanted.beside, star_, any);
+  const std::uint32_t s = kernel_.walk(wanted.place.p, from);
+  for (const std::uint32_t w : kernel_.simplices().corners(s)) {
+    if (w == kInfinite || kernel_.place(w) != wanted.place.p) continue;
+    throw Error(ErrorCode::too_close, "features are too close for double precision near " +
+                                          place_text(wanted.place.p));
+  }
+  const std::uint32_t v = add_place(wanted.place, VertexKind::segment);
+  kernel_.dig(v, s);
+  if (edge_of(wanted.place.role) != 0 || !conformity_.yields_to_edges(v)) return v;
+  undo_place();
+  return std::nullopt;
+}
+
+bool ConformingMesh::is_split(std::uint32_t s) {
+  if (only_enclosed_ && !std::exchange(has_regions_, true)) {
+    only_enclosed_ = conformity_.find_regions(holes_);
+  }
+  return !(only_enclosed_ && conformity_.is_outside(s)) && !stays(s);
+}
+
+/// Its shortest edge is as short as the angle of features makes it.
+bool ConformingMesh::stays(std::uint32_t s) const {
+  const auto& corners = kernel_.simplices().corners(s);
+  std::pair<std::uint32_t, std::uint32_t> shortest;
+  double shortest2 = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const double length2 = squared_distance(kernel_.place(corners[i]), kernel_.place(corners[k]));
+      if (length2 < shortest2) shortest2 = length2, shortest = {corners[i], corners[k]};
+    }
+  }
+  return conformity_.keeps(shortest.first, shortest.second);
+}
+
+}  // namespace mesher::detail

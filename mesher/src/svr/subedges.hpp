@@ -1,0 +1,69 @@
+// The pieces of the input's edges between vertices that lie on them: M_f of an edge [2.3].
+#pragma once
+
+#include <tsl/robin_map.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "delaunay/simplex_store.hpp"
+#include "plc/feature.hpp"
+
+namespace mesher::detail {
+
+class Subedges {
+ public:
+  /// Between vertices a and b; `lo` is a's label.
+  struct Piece {
+    std::uint32_t a, b;
+    Label lo, hi;
+    EdgeHandle edge;
+    bool encroached = false;   // it is to be split
+    std::uint32_t by = kNone;  // a vertex in its ball, if it is known
+  };
+
+  [[nodiscard]] const Piece& operator[](std::uint32_t i) const noexcept { return all_[i]; }
+  /// The piece between two vertices, in either order; kNone: there is none.
+  [[nodiscard]] std::uint32_t find(std::uint32_t a, std::uint32_t b) const {
+    const auto it = by_ends_.find(key(a, b));
+    return it == by_ends_.end() ? kNone : it->second;
+  }
+  /// Throws: std::bad_alloc, and then changes nothing that matters.
+  std::uint32_t add(const Piece& piece) {
+    const auto i = static_cast<std::uint32_t>(all_.size());
+    all_.push_back(piece);
+    by_ends_.insert_or_assign(key(piece.a, piece.b), i);
+    return i;
+  }
+  /// Splits a piece at vertex m: it is the part at a afterwards. Returns the other part.
+  std::uint32_t split(std::uint32_t i, std::uint32_t m, const Label& at) {
+    Piece rest = all_[i];
+    rest.a = m, rest.lo = at, rest.encroached = false;
+    by_ends_.erase(key(all_[i].a, all_[i].b));
+    all_[i].b = m, all_[i].hi = at, all_[i].encroached = false;
+    by_ends_.insert_or_assign(key(all_[i].a, m), i);
+    return add(rest);
+  }
+  void set_encroached(std::uint32_t i, std::uint32_t by) noexcept {
+    all_[i].encroached = true;
+    all_[i].by = by;
+  }
+
+  [[nodiscard]] std::uint32_t size() const noexcept {
+    return static_cast<std::uint32_t>(all_.size());
+  }
+
+ private:
+  [[nodiscard]] static std::uint64_t key(std::uint32_t a, std::uint32_t b) noexcept {
+    return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+  }
+  struct Hash {
+    std::size_t operator()(std::uint64_t k) const noexcept { return sac::mix(k); }
+  };
+
+  std::vector<Piece> all_;
+  tsl::robin_map<std::uint64_t, std::uint32_t, Hash> by_ends_;
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,238 @@
+// Meshes of complexes by each refinement: the complex is in the mesh, exactly, and what is wanted
+// is of quality off small angles.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <random>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "failing_new.hpp"
+#include "mesher/domain_mesh.hpp"
+#include "mesher/generate_plc.hpp"
+#include "mesher/space_check.hpp"
+#include "mesher/space_files.hpp"
+#include "random_complex.hpp"
+
+namespace {
+
+using mesher::BoundaryRule;
+using mesher::Extent;
+using mesher::FeatureId;
+using mesher::Mesh;
+using mesher::Options;
+using mesher::Plc;
+using mesher::PlcFile;
+using mesher::PlcKind;
+using mesher::Point;
+
+enum class By { svr, refine };
+
+template <By B>
+Mesh<3> mesh_of(const Plc& plc, const Options<3>& options, Extent extent = Extent::box,
+                const mesher::RunControl& control = {}) {
+  if constexpr (B == By::svr) {
+    return mesher::svr(plc, options, extent, {}, nullptr, control);
+  } else {
+    return mesher::refine(plc, options, extent, {}, nullptr, control);
+  }
+}
+
+Options<3> options_for(const Plc& plc) {
+  return {.domain = mesher::snapped_domain<3>(places_of(plc)), .max_vertices = 30000};
+}
+
+// What is wrong with a mesh of plc, less what of it is not wanted.
+std::string fault(const Mesh<3>& mesh, const Plc& plc, Extent extent) {
+  PlcFile file;
+  file.plc = plc;
+  const auto kept = domain_mesh(mesh, plc, extent).kept;
+  mesher::SpaceCheckOptions options;
+  options.rho = 2;
+  options.complex = &file;
+  options.features = &kept.features;
+  options.boundary = BoundaryRule::lines;
+  for (const mesher::Finding& f : check_mesh(kept, options)) {
+    if (!f.holds) return f.property + ": " + f.detail;
+  }
+  return "";
+}
+
+FeatureId id(std::size_t i) { return FeatureId{static_cast<std::int64_t>(i + 1)}; }
+
+Plc plc_of(const support::Complex& complex) {
+  Plc plc;
+  for (const Point<3>& p : complex.points) plc.points.push_back({id(plc.points.size()), p, 0});
+  for (const auto& [a, b] : complex.segments) {
+    plc.segments.push_back({id(plc.segments.size()), id(a), id(b), 0});
+  }
+  for (const auto& face : complex.faces) {
+    mesher::Polygon polygon{.id = id(plc.facets.size()), .loops = {}};
+    for (const auto& loop : face.loops) {
+      polygon.loops.emplace_back();
+      for (const std::size_t i : loop) polygon.loops.back().push_back(id(i));
+    }
+    for (const std::size_t i : face.on) polygon.points.push_back(id(i));
+    plc.facets.push_back({polygon, 0});
+  }
+  return plc;
+}
+
+// With other ids, and all in another order.
+Plc shuffled(const Plc& plc) {
+  std::mt19937_64 random(7);
+  Plc other = plc;
+  const auto renamed = [](FeatureId& id) { id = FeatureId{1000 - 3 * static_cast<std::int64_t>(id)}; };
+  std::shuffle(other.points.begin(), other.points.end(), random);
+  std::shuffle(other.facets.begin(), other.facets.end(), random);
+  std::shuffle(other.segments.begin(), other.segments.end(), random);
+  for (auto& p : other.points) renamed(p.id);
+  for (auto& s : other.segments) {
+    std::swap(s.from, s.to);
+    renamed(s.from), renamed(s.to);
+  }
+  for (auto& f : other.facets) {
+    for (auto& loop : f.polygon.loops) {
+      std::rotate(loop.begin(), loop.begin() + 1, loop.end());
+      for (auto& corner : loop) renamed(corner);
+    }
+    for (auto& edge : f.polygon.edges) renamed(edge[0]), renamed(edge[1]);
+    for (auto& point : f.polygon.points) renamed(point);
+  }
+  return other;
+}
+
+std::size_t poor_ones(const Mesh<3>& mesh) { return mesher::count_above(mesh, 2); }
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("complexes of all families are in their meshes, and these of quality", "",
+                       ((By B), B), By::svr, By::refine) {
+  for (const std::string& name : mesher::plc_kind_names()) {
+    const auto kind = mesher::plc_kind(name);
+    for (const Extent extent : {Extent::enclosed, Extent::box}) {
+      if (*kind == PlcKind::bricks && extent == Extent::box) continue;  // large
+      INFO(name << (extent == Extent::box ? " in the box" : ""));
+      const Plc plc = mesher::generate_plc({*kind});
+      CHECK(fault(mesh_of<B>(plc, options_for(plc), extent), plc, extent) == "");
+    }
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("so it is of complexes in no frame of the axes, near each other and sharp",
+                       "", ((By B), B), By::svr, By::refine) {
+  constexpr std::pair<const char*, double> kFamilies[] = {
+      {"cube", 0},      {"cubepoly", 0}, {"skew", 1e-3}, {"skew", 1e-6}, {"dumbbell", 0},
+      {"nested", 0.1},  {"lhole", 0},    {"plates", .02}, {"cloudbox", 300}, {"wedge", 20},
+      {"wedge", 5},     {"wedge", 1},    {"fan", 8},     {"spike", 5},   {"vee", 5},
+      {"vee", 0.5},     {"segfac", 5},   {"tet", 0.1},
+  };
+  for (const auto& [name, parameter] : kFamilies) {
+    INFO(name << ' ' << parameter);
+    const Plc plc = plc_of(turned(support::complex_of(name, parameter)));
+    CHECK(fault(mesh_of<B>(plc, options_for(plc)), plc, Extent::box) == "");
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("so it is at random corners, however sharp", "", ((By B), B), By::svr,
+                       By::refine) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    support::RandomComplex random(seed);
+    for (int kind = 0; kind < support::RandomComplex::kKinds; ++kind) {
+      for (int n = 0; n < 8; ++n) {
+        INFO("seed " << seed << ", kind " << kind << ", " << n);
+        const Plc plc = plc_of(random.part({0, 0, 0}, kind));
+        const Options<3> options{.domain = {{0, 0, 0}, {1, 1, 1}}, .max_vertices = 20000};
+        CHECK(fault(mesh_of<B>(plc, options), plc, Extent::box) == "");
+      }
+    }
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("a mesh of a complex depends on no order, and on no ids", "", ((By B), B),
+                       By::svr, By::refine) {
+  for (const char* name : {"lhole", "wedge", "vee", "fan"}) {
+    INFO(name);
+    const Plc plc = plc_of(turned(support::complex_of(name, name[0] == 'l' ? 0 : 5)));
+    const Mesh<3> mesh = mesh_of<B>(plc, options_for(plc), Extent::enclosed);
+    CHECK(mesh_of<B>(shuffled(plc), options_for(plc), Extent::enclosed) == mesh);
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("what is not wanted is not refined: the outside, and holes", "", ((By B), B),
+                       By::svr, By::refine) {
+  Plc plc = mesher::generate_plc({PlcKind::nested, 0.02});
+  const Options<3> options = options_for(plc);
+  const Mesh<3> all = mesh_of<B>(plc, options), enclosed = mesh_of<B>(plc, options, Extent::enclosed);
+  CHECK(poor_ones(all) == 0);
+  CHECK(poor_ones(enclosed) > 0);
+  CHECK(enclosed.vertices.size() < all.vertices.size());
+  const Point<3> middle{0.5, 0.5, 0.5};
+  plc.holes.push_back({id(0), middle});
+  const Mesh<3> shell = mesh_of<B>(plc, options, Extent::enclosed);
+  CHECK(shell.vertices.size() < enclosed.vertices.size());
+  CHECK(fault(shell, plc, Extent::enclosed) == "");
+  // Nothing is enclosed: then all is wanted.
+  plc = mesher::generate_plc({PlcKind::vee});
+  plc.facets.clear();
+  CHECK(mesh_of<B>(plc, options_for(plc), Extent::enclosed) == mesh_of<B>(plc, options_for(plc)));
+}
+
+TEMPLATE_TEST_CASE_SIG("what cannot be meshed is refused", "", ((By B), B), By::svr, By::refine) {
+  const Plc plc = mesher::generate_plc({PlcKind::cube_square});
+  const auto refusal = [&](const Plc& bad, auto&& change) {
+    Options<3> options = options_for(plc);
+    change(options);
+    try {
+      static_cast<void>(mesh_of<B>(bad, options));
+    } catch (const mesher::Error& e) {
+      return std::string(mesher::code_name(e.code()));
+    }
+    return std::string();
+  };
+  const auto same = [](const auto&) {};
+  CHECK(refusal(plc, [](auto& o) { o.rho = 1.9; }) == "bad_option");
+  CHECK(refusal(plc, [](auto& o) { o.max_measure = 1; }) == "bad_option");
+  CHECK(refusal(plc, [](auto& o) { o.rule = mesher::Rule::voronoi_aspect; }) == "bad_option");
+  CHECK(refusal(plc, [](auto& o) { o.max_vertices = 390; }) == "too_many");
+  Plc bad = plc;
+  bad.points[0].at[0] += 0.1;
+  CHECK(refusal(bad, same) == "not_flat");
+  bad = plc;
+  bad.facets[0].polygon.loops[0][0] = FeatureId{99};
+  CHECK(refusal(bad, same) == "unknown_id");
+  std::stop_source stop;
+  stop.request_stop();
+  CHECK_THROWS_AS(mesh_of<B>(plc, options_for(plc), Extent::box, {.progress = {}, .stop = stop.get_token()}),
+                  mesher::Error);
+}
+
+TEMPLATE_TEST_CASE_SIG("without memory a mesh of a complex fails, and nothing is lost", "",
+                       ((By B), B), By::svr, By::refine) {
+  const Plc plc = mesher::generate_plc({PlcKind::dumbbell});
+  const Options<3> options = options_for(plc);
+  const Mesh<3> mesh = mesh_of<B>(plc, options);
+  bool burnt = true;
+  int failures = 0;
+  for (std::uint64_t count = 1; burnt; count += 1 + count / 4) {
+    Mesh<3> other;
+    const bool failed = support::fails(count, burnt, [&] { other = mesh_of<B>(plc, options); });
+    failures += failed ? 1 : 0;
+    if (!failed) CHECK(other == mesh);
+  }
+  CHECK(failures > 10);
+}
+
+TEST_CASE("what happened in a run on a complex is told") {
+  const Plc plc = mesher::generate_plc({PlcKind::cloud, 200});
+  mesher::SvrStats svr;
+  const Mesh<3> mesh = mesher::svr(plc, options_for(plc), Extent::box, {}, &svr);
+  CHECK(svr.vertices == mesh.vertices.size());
+  CHECK(svr.simplices == mesh.simplices.size());
+  CHECK(svr.warped + svr.crowded > 100);
+  CHECK(svr.worst_radius_edge > 2);
+  mesher::RefineStats refined;
+  const Mesh<3> other = mesher::refine(plc, options_for(plc), Extent::box, {}, &refined);
+  CHECK(refined.simplices == other.simplices.size());
+  CHECK(refined.made > other.simplices.size());
+}
