@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "input.hpp"
@@ -74,7 +75,9 @@ void require_fit(World<S, 3>& world, const std::vector<EdgeHandle>& segments,
   const auto require_none = [&](const std::optional<SpaceConflict>& conflict) {
     if (conflict) fail(*conflict, names, store);
   };
+  std::unordered_set<EdgeHandle> seen;  // edges are of several polygons
   const auto look_at = [&](EdgeHandle e) {
+    if (!seen.insert(e).second) return;
     require_none(conflict_of(store.edges()[e], store, world.features));
   };
   for (const EdgeHandle e : segments) look_at(e);
