@@ -78,7 +78,7 @@ constexpr Family kFamilies[] = {
     {"cube", 0, 8},    {"cubepoly", 0, 64},    {"dumbbell", 0, 59},    {"nested", 0.1, 652},
     {"lhole", 0, 73},  {"cloudbox", 300, 809}, {"plates", 0.02, 1057}, {"wedge", 20, 62},
     {"wedge", 5, 168}, {"wedge", 1, 431},      {"fan", 2, 1225},       {"fan", 8, 167},
-    {"vee", 5, 87},
+    {"vee", 5, 87},    {"spike", 8, 81},       {"skew", 1e-3, 142},
 };
 
 }  // namespace
