@@ -137,6 +137,23 @@ TEST_CASE("what is wrong with edges, faces and regions is said with ids and plac
   }
 }
 
+TEST_CASE("a seed on a polygon, on its edge or at its corner stands for neither side") {
+  const Plc plc = mesher::generate_plc({PlcKind::cube_square});
+  for (const mesher::Point<3>& seed : {mesher::Point<3>{0.5, 0.5, 0.5},
+                                       {0.5, 0.5, 1},
+                                       {0.5, 1, 1},
+                                       {1, 1, 1},
+                                       {0.375, 0.25, 0.5}}) {
+    Plc seeded = plc;
+    seeded.holes.push_back({FeatureId{1}, seed});
+    seeded.regions.push_back({FeatureId{1}, seed, 3, {}});
+    seeded.regions.push_back({FeatureId{2}, {0.1, 0.1, 0.1}, 4, {}});
+    Case made(seeded);
+    INFO(seed[0] << ' ' << seed[1] << ' ' << seed[2]);
+    CHECK(first_fault(made.findings()) == "");
+  }
+}
+
 TEST_CASE("a mesh of the points alone has no segments and polygons") {
   Plc plc = mesher::generate_plc({PlcKind::plates});
   Plc points = plc;
