@@ -2,6 +2,7 @@
 // said.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -135,6 +136,15 @@ TEST_CASE("what is wrong with edges, faces and regions is said with ids and plac
     CHECK(said.starts_with(fault.property));
     CHECK(said.find(fault.said) != std::string::npos);
   }
+}
+
+// Corners of cells are in a polygon's plane but for more than the rounding of places.
+TEST_CASE("vertices of polygons are in their planes, at decimal places too") {
+  Plc plc = mesher::generate_plc({PlcKind::pages});
+  for (auto& p : plc.points) {
+    for (double& x : p.at) x = std::round(x * 1e9) / 1e9;
+  }
+  CHECK(first_fault(Case(plc).findings()) == "");
 }
 
 TEST_CASE("a seed on a polygon, on its edge or at its corner stands for neither side") {

@@ -189,24 +189,6 @@ TEST_CASE(
   }
 }
 
-// Corners of cells are in a polygon's plane but for more than rounding of places.
-TEST_CASE("vertices of polygons are in their planes, at decimal places too") {
-  Complex complex = support::complex_of("fan", 8);
-  for (Point<3>& p : complex.points) {
-    for (double& x : p) x = std::round(x * 1e9) / 1e9;
-  }
-  PlcRun run(complex, options_for(complex));
-  require_good(run);
-  const auto& world = run.world();
-  double farthest = 0;
-  world.vertices.pool().for_each([&](const mesher::detail::Vertex<3>& v) {
-    const auto h = mesher::detail::polygon_of(world.vertices.role(v));
-    if (h == 0) return;
-    farthest = std::max(farthest, std::abs(world.plc.store().polygons()[h].plane.height(v.p)));
-  });
-  CHECK(farthest < 1e-14);
-}
-
 // Before anything is refined there are vertices wherever others are nearer: one more point changes
 // those around it. Without them half of all vertices change, and more.
 TEST_CASE("between sides that are near each other a point changes few vertices [Fig 6.4]") {
