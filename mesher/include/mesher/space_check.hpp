@@ -45,7 +45,8 @@
 //       segment or polygon that they are on, edges that of their segment, or else of such a polygon,
 //       faces that of their polygon; what is on none has none, or on the boundary perhaps 1;
 //   (e) regions: tetrahedra on both sides of a face in no polygon have the same region; where seeds
-//       are given, that of one of the seeds inside.
+//       are given, that of one of the seeds inside; no tetrahedron holds the seed of a hole, unless
+//       the mesh is to fill a box. A seed on a polygon stands for nothing.
 // If the mesh need not be convex, (5) is that faces of one tetrahedron are on the box or in
 // polygons; then (6) looks at a place in each part that hangs together, and beside each part of the
 // boundary: as (c) says, and as polygons do not cross, the boundary has no crossings.

@@ -257,11 +257,28 @@ class SpaceChecker {
     return good(std::to_string(distinct.size()) + " regions, none across a face in no polygon");
   }
 
+  // The tetrahedron that a seed stands for; nothing if it is outside, or on a polygon, where it
+  // stands for neither side.
+  [[nodiscard]] std::optional<std::uint32_t> seeded_by(const Point<3>& seed) const {
+    const auto is_on_polygon = [&](const detail::Face& f) {
+      const HalfFace half{f, 0, 0};
+      return orient3d(at(f[0]), at(f[1]), at(f[2]), seed) == 0 && is_in_polygon(half.key());
+    };
+    std::optional<std::uint32_t> first;
+    for (std::uint32_t t = 0; t < mesh_.simplices.size(); ++t) {
+      if (!covers(t, seed)) continue;
+      const auto faces = detail::faces_of(mesh_.simplices[t]);
+      if (std::any_of(faces.begin(), faces.end(), is_on_polygon)) return std::nullopt;
+      if (!first) first = t;
+    }
+    return first;
+  }
+
   std::optional<std::string> seed_trouble(const std::vector<double>& regions,
                                           detail::UnionFind& parts, bool known) const {
     const Plc& plc = options_.complex->plc;
     for (const auto& hole : plc.holes) {
-      const auto t = detail::tetrahedron_at(mesh_, hole.seed);
+      const auto t = seeded_by(hole.seed);
       if (!t || options_.boundary != BoundaryRule::lines) continue;
       return simplex(*t) + " holds the seed of hole " +
              std::to_string(static_cast<std::int64_t>(hole.id)) + " at " +
@@ -270,7 +287,7 @@ class SpaceChecker {
     std::map<std::uint32_t, std::set<double>> seeded;
     std::vector<std::pair<const Plc::Region*, std::uint32_t>> found;
     for (const auto& region : plc.regions) {
-      const auto t = detail::tetrahedron_at(mesh_, region.seed);
+      const auto t = seeded_by(region.seed);
       if (!t) continue;
       seeded[parts.find(*t)].insert(region.attribute);
       found.emplace_back(&region, *t);

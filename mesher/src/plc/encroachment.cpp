@@ -31,12 +31,14 @@ class FarthestCorner {
   [[nodiscard]] const std::optional<Point<3>>& place() const noexcept { return best_; }
 
  private:
-  // At corner t, if it is in the plane, and along the edges that lead to corners beyond: each edge
-  // from its smaller end, since numbers of corners say nothing.
+  // At corner t, if it is in the plane but for rounding (then its foot), and along the edges that
+  // lead to corners beyond: each edge from its smaller end, since numbers of corners say nothing.
   void look_from(int t, double height) {
     const Point<3> q = cell_.corner(t);
     const double h = dot(f_.plane.normal, q) + height;
-    if (std::abs(h) <= 0x1p-30 * std::sqrt(cell_.corner2(t))) look_at(q);
+    if (std::abs(h) <= 0x1p-30 * std::sqrt(cell_.corner2(t))) {
+      look_at(minus(q, scaled(h, f_.plane.normal)));
+    }
     for (const int other : cell_.across(t)) {
       const Point<3> r = cell_.corner(other);
       if (r < q) continue;

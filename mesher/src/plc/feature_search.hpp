@@ -145,10 +145,15 @@ class PieceBall {
   double radius2_;
 };
 
-/// The ball that has a piece of an edge as its diameter. What crowds the piece there: features that
-/// the edge has nothing in common with [rules C, Split].
+/// The ball that has a piece of an edge as its diameter, somewhat larger. What crowds the piece
+/// there: features that the edge has nothing in common with [rules C, Split].
 class EdgeBall : public PieceBall<Edge> {
  public:
+  /// Of the piece's length. Half of it misses what is beside an end of the piece, however near: two
+  /// edges that cross at a small gap, at a place where both are split, would have long pieces
+  /// there. With 1/512 more these are at most 23 gaps long, and double from there on.
+  static constexpr double kRadius = 0.5 + 0x1p-9;
+
   explicit EdgeBall(const EdgePiece& piece)
       : EdgeBall(*piece.edge, place_at(*piece.edge, piece.lo), place_at(*piece.edge, piece.hi)) {}
 
@@ -160,7 +165,7 @@ class EdgeBall : public PieceBall<Edge> {
 
  private:
   EdgeBall(const Edge& e, const Point<3>& lo, const Point<3>& hi)
-      : PieceBall(e, scaled(0.5, plus(lo, hi)), squared_distance(lo, hi) / 4) {}
+      : PieceBall(e, scaled(0.5, plus(lo, hi)), squared_distance(lo, hi) * (kRadius * kRadius)) {}
 };
 
 /// A ball around the middle of a piece of a polygon; `radius`: of the longer side.

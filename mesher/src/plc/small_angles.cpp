@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "plc/feature_search.hpp"
 
@@ -132,7 +133,7 @@ std::optional<Placed> SmallAngles::copy(const Standing& v, const Edge& g) const 
 std::optional<Placed> SmallAngles::copy(const Standing& v, const Polygon& g) const {
   const auto turned_to = turned(v, Feature(g), [&](const Point<3>& p) { return g.plane.foot(p); });
   if (!turned_to || !contains(g, turned_to->x)) return std::nullopt;
-  if (const EdgeHandle h = edge_at(g, turned_to->x)) {
+  if (const EdgeHandle h = edge_at(g, turned_to->x, turned_to->away)) {
     const Edge& e = store_.edges()[h];
     const double at = foot_fraction(e, turned_to->x);
     if (at > 0 && at < 1) return placed_on(e, label_at(e, at * e.length));
@@ -141,29 +142,33 @@ std::optional<Placed> SmallAngles::copy(const Standing& v, const Polygon& g) con
   return placed_on(g, turned_to->x, kept_shell(v, turned_to->about));
 }
 
-// The first of the edges on g that x is on; 0: none. No edge is longer than 2 reach.
-EdgeHandle SmallAngles::edge_at(const Polygon& g, const Point<3>& x) const {
-  EdgeHandle first = 0;
-  visit_edges_near(g, x, 0x1p-29 * g.reach, [&](EdgeHandle h) {
+// Of the edges on g that x, turned about something this far away, is on the nearest, of equally
+// near ones the first by its places; 0: none. x is in g's plane, which edges may be off.
+EdgeHandle SmallAngles::edge_at(const Polygon& g, const Point<3>& x, double away) const {
+  const double rounding = 0x1p-30 * away + g.thickness;
+  const Edge* nearest = nullptr;
+  const auto key = [&](const Edge& e) {
+    return std::tuple(distance2_to(x, e), e.place_a, e.place_b);
+  };
+  visit_edges_near(g, x, rounding, [&](EdgeHandle h) {
     const Edge& e = store_.edges()[h];
-    const bool is_on_it = distance2_to(x, e) <= 0x1p-60 * e.length * e.length;
-    if (is_on_it && (first == 0 || h < first)) first = h;
+    const bool is_on_it = distance2_to(x, e) <= rounding * rounding;
+    if (is_on_it && (nearest == nullptr || key(e) < key(*nearest))) nearest = &e;
     return false;
   });
-  return first;
+  return nearest == nullptr ? 0 : nearest->self;
 }
 
 // Whether b, a copy about a point, and a are on features at that point, as far from it.
 bool SmallAngles::share_shell(const Standing& a, const Standing& b) const {
   const double distance = b.role.label.distance();
   if (polygon_of(b.role) == 0 || distance == 0) return false;
-  VertexHandle first = 0;
-  visit_points_at(store_.polygons()[polygon_of(b.role)], b.v.p, distance, [&](VertexHandle p) {
+  const auto is_shared = [&](VertexHandle p) {
     const double away = shell(b, p);
-    if (away != 0 && shell(a, p) == away && (first == 0 || p < first)) first = p;
-    return false;
-  });
-  return first != 0 && visit_features_of(a, [&](const Feature& f) { return has(f, first); });
+    return away != 0 && shell(a, p) == away &&
+           visit_features_of(a, [&](const Feature& f) { return has(f, p); });
+  };
+  return visit_points_at(store_.polygons()[polygon_of(b.role)], b.v.p, distance, is_shared);
 }
 
 bool SmallAngles::keeps(const Standing& a, const Standing& b) const {

@@ -38,7 +38,7 @@ class SmallAngles {
  private:
   [[nodiscard]] bool on(const Standing& v, const Feature& f) const;
   [[nodiscard]] bool has(const Feature& f, VertexHandle point) const;
-  [[nodiscard]] EdgeHandle edge_at(const Polygon& g, const Point<3>& x) const;
+  [[nodiscard]] EdgeHandle edge_at(const Polygon& g, const Point<3>& x, double away) const;
   [[nodiscard]] bool share_shell(const Standing& a, const Standing& b) const;
   /// Calls visit(feature) for the edges and polygons that a vertex lies on, until one returns true;
   /// returns whether one has.

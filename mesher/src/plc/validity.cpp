@@ -126,9 +126,6 @@ std::optional<SpaceConflict> conflict_with(const Edge& e, const Polygon& f) {
     if (!contains(f, middle_of(e))) return std::nullopt;
     return SpaceConflict{Kind::edge_on_polygon, Feature(e), Feature(f), middle_of(e)};
   }
-  if (height_of(f, e.place_a) <= f.thickness || height_of(f, e.place_b) <= f.thickness) {
-    return std::nullopt;
-  }
   const auto at = crossing(e.place_a, e.place_b, f);
   if (!at) return std::nullopt;
   return SpaceConflict{Kind::edge_through_polygon, Feature(e), Feature(f), *at};

@@ -8,11 +8,11 @@
 //    place; on a polygon if that does not have it, its foot is inside, and it is no farther from
 //    the plane than the polygon itself is (its thickness);
 //  - two edges cross if they have no common end and are no farther apart than that;
-//  - an edge goes through a polygon if the two have no point in common, both ends are clear of the
-//    plane, on different sides, and the place between is inside. With one point in common it leaves
-//    the plane there, or lies in it; then, as with ends near the plane, what is wrong is wrong with
-//    a point or with an edge of the polygon. With two it lies in the plane, and is on the polygon
-//    if its middle is inside;
+//  - an edge goes through a polygon if the two have no point in common, its ends are on different
+//    sides of the plane, however near, and the place between is inside. With one point in common it
+//    leaves the plane there, or lies in it; then what is wrong is wrong with a point or with an
+//    edge of the polygon. With two it lies in the plane, and is on the polygon if its middle is
+//    inside;
 //  - where two polygons of different planes cross, an edge of one goes through the other, or the
 //    places where their line of intersection begins and ends are common points, without a common
 //    edge between them: the middle of those is inside both;

@@ -2,6 +2,7 @@
 // said.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -134,6 +135,32 @@ TEST_CASE("what is wrong with edges, faces and regions is said with ids and plac
     INFO(said);
     CHECK(said.starts_with(fault.property));
     CHECK(said.find(fault.said) != std::string::npos);
+  }
+}
+
+// Corners of cells are in a polygon's plane but for more than the rounding of places.
+TEST_CASE("vertices of polygons are in their planes, at decimal places too") {
+  Plc plc = mesher::generate_plc({PlcKind::pages});
+  for (auto& p : plc.points) {
+    for (double& x : p.at) x = std::round(x * 1e9) / 1e9;
+  }
+  CHECK(first_fault(Case(plc).findings()) == "");
+}
+
+TEST_CASE("a seed on a polygon, on its edge or at its corner stands for neither side") {
+  const Plc plc = mesher::generate_plc({PlcKind::cube_square});
+  for (const mesher::Point<3>& seed : {mesher::Point<3>{0.5, 0.5, 0.5},
+                                       {0.5, 0.5, 1},
+                                       {0.5, 1, 1},
+                                       {1, 1, 1},
+                                       {0.375, 0.25, 0.5}}) {
+    Plc seeded = plc;
+    seeded.holes.push_back({FeatureId{1}, seed});
+    seeded.regions.push_back({FeatureId{1}, seed, 3, {}});
+    seeded.regions.push_back({FeatureId{2}, {0.1, 0.1, 0.1}, 4, {}});
+    Case made(seeded);
+    INFO(seed[0] << ' ' << seed[1] << ' ' << seed[2]);
+    CHECK(first_fault(made.findings()) == "");
   }
 }
 

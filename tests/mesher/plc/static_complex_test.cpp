@@ -2,6 +2,7 @@
 // small as the model's.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <iterator>
 #include <random>
 #include <set>
@@ -78,7 +79,7 @@ constexpr Family kFamilies[] = {
     {"cube", 0, 8},    {"cubepoly", 0, 64},    {"dumbbell", 0, 59},    {"nested", 0.1, 652},
     {"lhole", 0, 73},  {"cloudbox", 300, 809}, {"plates", 0.02, 1057}, {"wedge", 20, 62},
     {"wedge", 5, 168}, {"wedge", 1, 431},      {"fan", 2, 1225},       {"fan", 8, 167},
-    {"vee", 5, 87},
+    {"vee", 5, 87},    {"spike", 8, 81},       {"skew", 1e-3, 142},
 };
 
 }  // namespace
@@ -162,6 +163,29 @@ TEST_CASE("refinement ends at tips where copies are copied, and at angles just o
     options.max_vertices = 20000;
     PlcRun run(complex, options);
     require_good(run);
+  }
+}
+
+// A page's edges are near each other at its corner, and a copy there is on one of them or on none:
+// by how far it was turned, whatever the length of the edges, and whichever came first.
+TEST_CASE(
+    "a point at a corner of pages is meshed, however near, and whoever else has their edges") {
+  for (const double away : {1e-7, 1e-9, 2e-10, 1e-11}) {
+    INFO(away);
+    Complex complex;
+    const Point<3> corner{0, 0, 0}, hinge{0, 1, 0};
+    const auto outer = [](double angle) { return Point<3>{std::cos(angle), 0.2, std::sin(angle)}; };
+    for (const double angle : {0.3, 0.65}) complex.face({corner, hinge, outer(angle)});
+    complex.point({away * std::cos(0.4), away, away * std::sin(0.4)});
+    Options<3> options;
+    options.domain = {{-1, -1, -1}, {1, 1, 1}};
+    options.max_vertices = 20000;
+    PlcRun run(complex, options);
+    require_good(run);
+    Complex other = complex;
+    std::reverse(other.faces.begin(), other.faces.end());
+    for (const double angle : {0.3, 0.65}) other.segment(corner, outer(angle));
+    CHECK(vertices_of(other, options) == vertices_of(complex, options));
   }
 }
 

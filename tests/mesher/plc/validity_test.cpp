@@ -185,6 +185,21 @@ TEST_CASE("Segments through polygons are conflicts, those that end at a corner a
   });
 }
 
+// One end is nearer to the plane than corners are, wherever that is between these, but the border's
+// edges are far: such edges would be split without end.
+TEST_CASE("A segment goes through a polygon that is not quite flat, however near to its plane") {
+  for (const double off : {1e-10, 1e-9}) {
+    const auto build = [&](Plc& plc, double x) {
+      plc.polygon(
+          Loop{plc.point(0, 0, 0), plc.point(1, 0, off), plc.point(1, 1, 0), plc.point(0, 1, off)});
+      plc.segment(plc.point(x - 0.1, 0.52, 1.5 * off), plc.point(x + 1.1, 0.48, -0.9 * off));
+    };
+    INFO(off);
+    require_kind(Kind::edge_through_polygon, [&](Plc& plc) { build(plc, 0); });
+    require_kind(std::nullopt, [&](Plc& plc) { build(plc, 2); });
+  }
+}
+
 TEST_CASE("Polygons that cross without an edge through one are conflicts") {
   require_kind(Kind::crossing_polygons, [](Plc& plc) {  // along the diagonal of both
     const VertexHandle a = plc.point(0, 0, 0), b = plc.point(1, 1, 1);
