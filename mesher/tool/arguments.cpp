@@ -81,6 +81,16 @@ std::size_t option_count(const std::string& option, const std::string& text) {
   throw Error(ErrorCode::bad_option, option + " '" + text + "': not a whole number above 0");
 }
 
+// Areas are for the plane, volumes for space.
+template <int D>
+void require_own_measure(const MeshArguments& args) {
+  if ((D == 2 ? args.max_volume : args.max_area).empty()) return;
+  throw Error(ErrorCode::bad_option,
+              D == 2 ? "--max-volume is for space; INPUT is in the plane"
+                     : "--max-area is for the plane; INPUT is in space",
+              {args.input});
+}
+
 template <int D>
 void add_limits(const MeshArguments& args, mesher::Options<D>& options) {
   const std::string& measure = D == 2 ? args.max_area : args.max_volume;
@@ -89,10 +99,8 @@ void add_limits(const MeshArguments& args, mesher::Options<D>& options) {
   if (!args.max_size.empty()) {
     options.max_measure = mesher::measure_of_size<D>(option_positive("--max-size", args.max_size));
   }
-  if constexpr (D == 2) {
-    if (args.sizes.empty()) return;
-    options.sizes = mesher::sampled_sizes(mesher::read_sizes(args.sizes).samples);
-  }
+  if (args.sizes.empty()) return;
+  options.sizes = mesher::sampled_sizes<D>(mesher::read_sizes<D>(args.sizes).samples);
 }
 
 template <int D>
@@ -115,9 +123,9 @@ void require_inside(const InputOf<D>& input, const std::vector<mesher::InputPoin
   }
 }
 
-// What both dimensions have.
 template <int D>
-mesher::Options<D> common_options(const MeshArguments& args, const InputOf<D>& input) {
+mesher::Options<D> options_of(const MeshArguments& args, const InputOf<D>& input) {
+  require_own_measure<D>(args);
   mesher::Options<D> options;
   if (!args.rho.empty()) options.rho = option_rho(args.rho, kMostRho);
   options.rule =
@@ -129,17 +137,8 @@ mesher::Options<D> common_options(const MeshArguments& args, const InputOf<D>& i
     options.max_vertices = option_count("--max-vertices", args.max_vertices);
   }
   require_inside<D>(input, points, options.domain);
+  add_limits(args, options);
   return options;
-}
-
-void require_no_plane_options(const MeshArguments& args) {
-  const std::pair<const char*, bool> given[] = {{"--max-area", !args.max_area.empty()},
-                                                {"--sizes", !args.sizes.empty()}};
-  for (const auto& [option, is_given] : given) {
-    if (!is_given) continue;
-    throw Error(ErrorCode::bad_option, std::string(option) + " is for the plane; INPUT is in space",
-                {args.input});
-  }
 }
 
 // A positional INPUT behind the four numbers of --domain is taken for the fifth.
@@ -219,8 +218,8 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
       ->excludes("--max-volume");
   command
       .add_option("--sizes", args.sizes,
-                  "A background of such H: .node with one value a point, or .csv with x,y,h;\n"
-                  "linear between its points")
+                  "A background of such H: .node with one value a point, or .csv with x,y,h (in space\n"
+                  "x,y,z,h); linear between its points")
       ->type_name("FILE");
   command
       .add_option("--max-vertices", args.max_vertices,
@@ -320,20 +319,11 @@ SpaceInput read_input<3>(const MeshArguments& args) {
 }
 
 mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input) {
-  if (!args.max_volume.empty()) {
-    throw Error(ErrorCode::bad_option, "--max-volume is for space; INPUT is in the plane",
-                {args.input});
-  }
-  auto options = common_options<2>(args, input);
-  add_limits(args, options);
-  return options;
+  return options_of<2>(args, input);
 }
 
 mesher::Options<3> mesh_options(const MeshArguments& args, const SpaceInput& input) {
-  require_no_plane_options(args);
-  auto options = common_options<3>(args, input);
-  add_limits(args, options);
-  return options;
+  return options_of<3>(args, input);
 }
 
 template <int D>

@@ -33,11 +33,14 @@
 namespace mesher {
 
 /// The size that a background asks for at a place. h: an edge's length, input units, > 0.
-struct SizeSample {
-  Point<2> at{};
+/// D is 2 or 3.
+template <int D>
+struct SizeSampleOf {
+  Point<D> at{};
   double h = 0;
-  friend bool operator==(const SizeSample&, const SizeSample&) = default;
+  friend bool operator==(const SizeSampleOf&, const SizeSampleOf&) = default;
 };
+using SizeSample = SizeSampleOf<2>;
 
 /// Plain data, in the order of the file.
 struct Pslg {
@@ -110,16 +113,19 @@ struct PslgFile : FileParts {
 [[nodiscard]] PslgFile read_pslg(const std::string& path);
 
 /// A background of sizes: a `.node` file whose one attribute is the size, or a `.csv` file with
-/// columns `x,y,h` (or `lon,lat,h`), by name or three numbers a line.
-struct SizeFile {
+/// columns `x,y,h` (or `lon,lat,h`), by name or three numbers a line; in space `x,y,z,h`, or four.
+template <int D>
+struct SizeFileOf {
   std::string file;
-  std::vector<SizeSample> samples;
+  std::vector<SizeSampleOf<D>> samples;
   std::vector<FilePosition> positions;  ///< one for each sample
 };
+using SizeFile = SizeFileOf<2>;
 
-/// Places are distinct. Throws: Error as read_points, and bad_number for a size that is not > 0.
-/// Cost: O(n log n).
-[[nodiscard]] SizeFile read_sizes(const std::string& path);
+/// Places are distinct. D is 2 or 3. Throws: Error as read_points, and bad_number for a size that
+/// is not > 0. Cost: O(n log n).
+template <int D = 2>
+[[nodiscard]] SizeFileOf<D> read_sizes(const std::string& path);
 
 /// Writes a graph so that read_pslg gives it back:
 ///

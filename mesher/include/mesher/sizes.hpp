@@ -72,13 +72,16 @@ class SlopedSizes final : public SizeField<D> {
   double slope_, least_;
 };
 
-/// What a background says between its samples: linear on the triangles of their Delaunay
-/// triangulation. Around them it goes on to a square four times as wide (and from there as it is on
-/// its side), at whose corners the size is that of the nearest sample.
-/// Throws: Error (bad_option: no samples, or a size that is not above 0; duplicate_point).
-/// Cost: O(n log n); of a look at a place, O(log n).
-[[nodiscard]] std::shared_ptr<const SizeField<2>> sampled_sizes(
-    const std::vector<SizeSample>& samples);
+/// What a background says between its samples: linear on the simplices of their Delaunay
+/// triangulation. Around them it goes on to a square (a cube) four times as wide, and from there as
+/// it is on its side; at its corners the size is that of the nearest sample. So samples may all be
+/// on a plane or a line, or be one. D is 2 or 3.
+/// Throws: Error (bad_option: no samples, or a size that is not above 0; duplicate_point; as
+///         delaunay()).
+/// Cost: as delaunay(); of a look at a place, O(log n) where simplices are not long and thin.
+template <int D = 2>
+[[nodiscard]] std::shared_ptr<const SizeField<D>> sampled_sizes(
+    const std::vector<std::type_identity_t<SizeSampleOf<D>>>& samples);
 
 /// What Mesher::limit makes of options: these limits everywhere, or in a box. D is 2 or 3.
 template <int D>

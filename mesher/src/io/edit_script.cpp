@@ -27,7 +27,7 @@ struct Form {
 template <int D>
 constexpr std::string_view kLimitUsage =
     D == 2 ? "limit area A|size H|sizes FILE|none [in XMIN YMIN XMAX YMAX]"
-           : "limit volume V|size H|none [in XMIN YMIN ZMIN XMAX YMAX ZMAX]";
+           : "limit volume V|size H|sizes FILE|none [in XMIN YMIN ZMIN XMAX YMAX ZMAX]";
 
 constexpr std::string_view kPolygonUsage =
     "+polygon ID P P P... [/ P P P...]... [on P...] [along A B [A B]...]";
@@ -154,11 +154,12 @@ double positive(const text::Line& line, std::size_t i) {
 std::size_t limit_fields(const text::Line& line) { return line[1] == "none" ? 2 : 3; }
 
 // The background in the file that field 2 names; an error is said of that file, and of the line.
-std::shared_ptr<const SizeField<2>> background_of(const text::Line& line) {
+template <int D>
+std::shared_ptr<const SizeField<D>> background_of(const text::Line& line) {
   const Place place = line.place(2);
   const auto path = std::filesystem::path(place.file).parent_path() / std::string(line[2]);
   try {
-    return sampled_sizes(read_sizes(path.string()).samples);
+    return sampled_sizes<D>(read_sizes<D>(path.string()).samples);
   } catch (const Error& error) {
     throw Error(
         error.code(),
@@ -173,8 +174,7 @@ SizeLimits<D> limits_of(const text::Line& line) {
   if (kind == "none") return {};
   if (kind == "area" || kind == "volume") return {.max_measure = positive(line, 2)};
   if (kind == "size") return {.max_measure = measure_of_size<D>(positive(line, 2))};
-  if constexpr (D == 2) return {.sizes = background_of(line)};
-  return {};
+  return {.sizes = background_of<D>(line)};
 }
 
 template <int D>
@@ -230,8 +230,8 @@ Polygon parse_polygon(const text::Line& line) {
 
 template <int D>
 bool is_limit(std::string_view kind) {
-  if (kind == "size" || kind == "none") return true;
-  return D == 2 ? kind == "area" || kind == "sizes" : kind == "volume";
+  if (kind == "size" || kind == "sizes" || kind == "none") return true;
+  return kind == (D == 2 ? "area" : "volume");
 }
 
 template <int D>

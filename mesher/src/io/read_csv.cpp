@@ -52,14 +52,19 @@ const std::vector<Names<2>> kPlane{{"x", "y"}, {"lon", "lat"}, {"longitude", "la
 const std::vector<Names<3>> kSpace{{"x", "y", "z"}};
 const std::vector<Names<3>> kSizes{
     {"x", "y", "h"}, {"lon", "lat", "h"}, {"longitude", "latitude", "h"}};
+const std::vector<Names<4>> kSpaceSizes{{"x", "y", "z", "h"}};
+
+template <int D>
+std::string text_of(const Names<D>& names) {
+  std::string text;
+  for (const auto& name : names) text += (name == names[0] ? "" : ",") + std::string(name);
+  return text;
+}
 
 template <int D>
 std::string text_of(const std::vector<Names<D>>& sets) {
   std::string text;
-  for (const auto& names : sets) {
-    text += text.empty() ? "" : " or ";
-    for (const auto& name : names) text += (name == names[0] ? "" : ",") + std::string(name);
-  }
+  for (const auto& names : sets) text += (text.empty() ? "" : " or ") + text_of<D>(names);
   return text;
 }
 
@@ -93,11 +98,11 @@ bool is_header(const text::Line& line) {
 }
 
 template <int D>
-Columns<D> unnamed_columns(const text::Line& line) {
+Columns<D> unnamed_columns(const text::Line& line, const Names<D>& names) {
   if (line.size() > D) {
     throw line.error(ErrorCode::bad_dimension,
                      std::to_string(line.size()) + " columns, expected " + std::to_string(D) +
-                         ": name the columns in a first line (" + (D == 2 ? "x,y" : "x,y,z") + ")",
+                         ": name the columns in a first line (" + text_of<D>(names) + ")",
                      D);
   }
   Columns<D> columns;
@@ -157,7 +162,7 @@ PointFile<D> read_columns(const std::string& path, const std::vector<Names<D>>& 
     const text::Line& line = all.line();
     if (!columns) {
       const bool named = is_header(line);
-      columns = named ? named_columns<D>(line, sets) : unnamed_columns<D>(line);
+      columns = named ? named_columns<D>(line, sets) : unnamed_columns<D>(line, sets.front());
       width = named ? line.size() : D;
       if (named) continue;
     }
@@ -211,6 +216,14 @@ PointFile<3> read_csv<3>(const std::string& path) {
   return read_columns<3>(path, kSpace);
 }
 
-PointFile<3> read_csv_sizes(const std::string& path) { return read_columns<3>(path, kSizes); }
+template <>
+PointFile<3> read_csv_sizes<2>(const std::string& path) {
+  return read_columns<3>(path, kSizes);
+}
+
+template <>
+PointFile<4> read_csv_sizes<3>(const std::string& path) {
+  return read_columns<4>(path, kSpaceSizes);
+}
 
 }  // namespace mesher

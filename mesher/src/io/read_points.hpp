@@ -48,8 +48,9 @@ struct Surface {
 [[nodiscard]] Surface read_vtu_surface(const std::string& path);
 [[nodiscard]] Surface read_vtk_surface(const std::string& path);
 
-/// The columns x, y, h of a background of sizes. Throws: Error likewise.
-[[nodiscard]] PointFile<3> read_csv_sizes(const std::string& path);
+/// The columns x, y, h of a background of sizes; x, y, z, h in space. Throws: Error likewise.
+template <int D>
+[[nodiscard]] PointFile<D + 1> read_csv_sizes(const std::string& path);
 
 /// Adds a point of a format without ids: the next of 1..n.
 template <int D>

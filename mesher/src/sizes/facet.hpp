@@ -1,59 +1,92 @@
-// A triangle of a background: sizes at its corners, and what is linear between them.
+// A simplex of a background: sizes at its corners, and what is linear between them.
+//
+// Simplices in space may be flat but for rounding, so the gradient is found in twice the precision;
+// of one that is flatter yet, the least size is that of all of it.
 #pragma once
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <cmath>
+#include <cstddef>
+#include <utility>
 
+#include "geometry/twofold.hpp"
 #include "mesher/sizes.hpp"
 #include "sizes/tile.hpp"
 
 namespace mesher::detail {
 
-class Facet : public Tile<2> {
+template <int D>
+class Facet : public Tile<D> {
  public:
-  Facet(const CornersOf<2>& at, const std::array<double, 3>& size) : Tile<2>(at), size_(size) {}
+  /// Of the corners, in this order.
+  using Sizes = std::array<double, D + 1>;
 
-  [[nodiscard]] double least() const { return *std::min_element(size_.begin(), size_.end()); }
-  [[nodiscard]] double most() const { return *std::max_element(size_.begin(), size_.end()); }
+  Facet(const CornersOf<D>& at, const Sizes& size)
+      : Tile<D>(at),
+        least_(*std::min_element(size.begin(), size.end())),
+        most_(*std::max_element(size.begin(), size.end())),
+        first_(size[0]),
+        slope_(gradient(at, size)) {
+    const bool finite = std::all_of(slope_.begin(), slope_.end(), [](double x) {
+      return std::isfinite(x);
+    });
+    if (finite) return;
+    slope_ = {};
+    first_ = least_;
+  }
+
+  [[nodiscard]] double least() const { return least_; }
+  [[nodiscard]] double most() const { return most_; }
   /// At a place inside or out.
-  [[nodiscard]] double linear(const Point<2>& p) const {
-    const double a = doubled(p, at_[1], at_[2]), b = doubled(at_[0], p, at_[2]);
-    const double all = doubled(at_[0], at_[1], at_[2]);
-    return size_[2] + (a * (size_[0] - size_[2]) + b * (size_[1] - size_[2])) / all;
+  [[nodiscard]] double at(const Point<D>& p) const {
+    double h = first_;
+    for (std::size_t i = 0; i < D; ++i) h += slope_[i] * (p[i] - this->at_[0][i]);
+    return std::clamp(h, least_, most_);
   }
-  [[nodiscard]] double at(const Point<2>& p) const {
-    return std::clamp(linear(p), least(), most());
-  }
-  /// Bounds in the part inside the box.
-  [[nodiscard]] SizeRange range(const Box<2>& box) const {
-    SizeRange at_corners{std::numeric_limits<double>::infinity(), 0};
-    for (const double x : {box.lo[0], box.hi[0]}) {
-      for (const double y : {box.lo[1], box.hi[1]}) {
-        const double h = linear({x, y});
-        at_corners.least = std::min(at_corners.least, h);
-        at_corners.most = std::max(at_corners.most, h);
-      }
+  /// Bounds of at() in the part inside the box. They hold to the last bit, as each step of at() is
+  /// monotone in each coordinate, rounded as it is.
+  [[nodiscard]] SizeRange range(const Box<D>& box) const {
+    const Box<D> extent = this->extent();
+    if (mesher::detail::contains(box, extent)) return {least_, most_};
+    const Box<D> inside = common(box, extent);
+    Point<D> low = inside.lo, high = inside.hi;
+    for (std::size_t i = 0; i < D; ++i) {
+      if (slope_[i] < 0) std::swap(low[i], high[i]);
     }
-    constexpr double kSlack = 0x1p-30;
-    return {std::max(at_corners.least * (1 - kSlack), least()),
-            std::min(at_corners.most * (1 + kSlack), most())};
-  }
-  /// False only if the box lies outside.
-  [[nodiscard]] bool meets(const Box<2>& box) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Point<2>&a = at_[i], &b = at_[(i + 1) % 3];
-      if (doubled(a, b, farthest_left(a, b, box)) < 0) return false;
-    }
-    return true;
+    return {at(low), at(high)};
   }
 
  private:
-  // Twice the area.
-  static double doubled(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  // e g = the differences of sizes, e the edges at the first corner: by elimination. Not finite
+  // where these are in one hyperplane.
+  static Point<D> gradient(const CornersOf<D>& at, const Sizes& size) {
+    std::array<std::array<Twofold, D + 1>, D> rows;
+    for (std::size_t r = 0; r < D; ++r) {
+      for (std::size_t i = 0; i < D; ++i) rows[r][i] = twofold_sum(at[r + 1][i], -at[0][i]);
+      rows[r][D] = twofold_sum(size[r + 1], -size[0]);
+    }
+    for (std::size_t i = 0; i < D; ++i) eliminate(rows, i);
+    Point<D> slope;
+    for (std::size_t i = 0; i < D; ++i) slope[i] = (rows[i][D] / rows[i][i]).hi;
+    return slope;
   }
-  std::array<double, 3> size_;
+  // Leaves the i-th unknown in the i-th row alone.
+  static void eliminate(std::array<std::array<Twofold, D + 1>, D>& rows, std::size_t i) {
+    const auto larger = [i](const auto& a, const auto& b) {
+      return std::abs(a[i].hi) < std::abs(b[i].hi);
+    };
+    const auto from = rows.begin() + static_cast<std::ptrdiff_t>(i);
+    std::iter_swap(from, std::max_element(from, rows.end(), larger));
+    for (std::size_t r = 0; r < D; ++r) {
+      if (r == i) continue;
+      const Twofold factor = -(rows[r][i] / rows[i][i]);
+      for (std::size_t k = i; k <= D; ++k) rows[r][k] = rows[r][k] + factor * rows[i][k];
+    }
+  }
+
+  double least_, most_, first_;
+  Point<D> slope_;
 };
 
 }  // namespace mesher::detail

@@ -19,27 +19,34 @@ void take(SizeRange& all, const SizeRange& r) {
 
 }  // namespace
 
-FacetSizes::FacetSizes(std::vector<Facet> facets) : facets_(std::move(facets)) {
+template <int D>
+FacetSizes<D>::FacetSizes(std::vector<Facet<D>> facets) : facets_(std::move(facets)) {
   nodes_.reserve(2 * facets_.size());
   if (!facets_.empty()) build(0, facets_.size());
 }
 
-void FacetSizes::build(std::size_t begin, std::size_t end) {
+template <int D>
+void FacetSizes<D>::build(std::size_t begin, std::size_t end) {
   constexpr std::size_t kLeaf = 4;
   const std::size_t me = nodes_.size();
   Node node{facets_[begin].extent(), {kInfinite, 0}, begin, end};
   for (std::size_t i = begin; i < end; ++i) {
-    for (const Point<2>& p : facets_[i].corners()) grow(node.box, p);
+    for (const Point<D>& p : facets_[i].corners()) grow(node.box, p);
     take(node.range, {facets_[i].least(), facets_[i].most()});
   }
   nodes_.push_back(node);
   if (end - begin <= kLeaf) return;
-  const std::size_t axis =
-      node.box.hi[0] - node.box.lo[0] < node.box.hi[1] - node.box.lo[1] ? 1 : 0;
+  std::size_t axis = 0;
+  const auto side = [&](std::size_t i) { return node.box.hi[i] - node.box.lo[i]; };
+  for (std::size_t i = 1; i < D; ++i) axis = side(axis) < side(i) ? i : axis;
   const std::size_t middle = begin + (end - begin) / 2;
   const auto at = [&](std::size_t i) { return facets_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(begin), at(middle), at(end), [axis](const Facet& a, const Facet& b) {
-    return a.middle()[axis] < b.middle()[axis];
+  const auto amid = [axis](const Facet<D>& f) {
+    const Box<D> extent = f.extent();
+    return extent.lo[axis] + extent.hi[axis];
+  };
+  std::nth_element(at(begin), at(middle), at(end), [&](const Facet<D>& a, const Facet<D>& b) {
+    return amid(a) < amid(b);
   });
   build(begin, middle);
   nodes_[me].right = nodes_.size();
@@ -47,8 +54,9 @@ void FacetSizes::build(std::size_t begin, std::size_t end) {
 }
 
 // Halving keeps the tree's depth below the number of bits of a size.
+template <int D>
 template <class Enter, class Visit>
-void FacetSizes::visit(Enter&& enter, Visit&& visit_facet) const {
+void FacetSizes<D>::visit(Enter&& enter, Visit&& visit_facet) const {
   std::array<std::size_t, 65> stack;
   std::size_t top = 0;
   if (!nodes_.empty()) stack[top++] = 0;
@@ -65,16 +73,18 @@ void FacetSizes::visit(Enter&& enter, Visit&& visit_facet) const {
   }
 }
 
-double FacetSizes::at(const Point<2>& p) const {
+template <int D>
+double FacetSizes<D>::at(const Point<D>& p) const {
   double least = kInfinite;
   visit([&](const Node& n) { return n.range.least < least && contains(n.box, p); },
-        [&](const Facet& f) {
+        [&](const Facet<D>& f) {
           if (f.least() < least && f.contains(p)) least = std::min(least, f.at(p));
         });
   return least;
 }
 
-SizeRange FacetSizes::range(const Box<2>& box) const {
+template <int D>
+SizeRange FacetSizes<D>::range(const Box<D>& box) const {
   SizeRange all{kInfinite, 0};
   visit(
       [&](const Node& n) {
@@ -83,10 +93,13 @@ SizeRange FacetSizes::range(const Box<2>& box) const {
         if (contains(box, n.box)) return take(all, n.range), false;
         return true;
       },
-      [&](const Facet& f) {
-        if (f.meets(box)) take(all, f.range(box));
+      [&](const Facet<D>& f) {
+        if (f.touches(box)) take(all, f.range(box));
       });
   return {all.least, std::max(all.least, all.most)};
 }
+
+template class FacetSizes<2>;
+template class FacetSizes<3>;
 
 }  // namespace mesher::detail

@@ -4,13 +4,13 @@
 #include <utility>
 
 #include "geometry/box.hpp"
-#include "geometry/grid.hpp"
 #include "geometry/plane.hpp"
+#include "geometry/space.hpp"
 #include "input.hpp"
+#include "mesher/delaunay.hpp"
 #include "mesher/error.hpp"
 #include "mesher/sizes.hpp"
 #include "sizes/facet_sizes.hpp"
-#include "sizes/sample_triangulation.hpp"
 
 namespace mesher {
 
@@ -31,87 +31,130 @@ template class SlopedSizes<3>;
 namespace {
 
 using detail::Facet;
-using detail::SampleTriangulation;
 
-Point<2> nearest_in(const Box<2>& square, const Point<2>& p) {
-  return {std::clamp(p[0], square.lo[0], square.hi[0]),
-          std::clamp(p[1], square.lo[1], square.hi[1])};
+template <int D>
+Point<D> nearest_in(const Box<D>& cube, Point<D> p) {
+  for (std::size_t i = 0; i < D; ++i) p[i] = std::clamp(p[i], cube.lo[i], cube.hi[i]);
+  return p;
 }
 
-class SampledSizes final : public detail::FacetSizes {
+template <int D>
+class SampledSizes final : public detail::FacetSizes<D> {
  public:
-  SampledSizes(const Box<2>& square, std::vector<Facet> facets)
-      : FacetSizes(std::move(facets)), square_(square) {}
+  SampledSizes(const Box<D>& cube, std::vector<Facet<D>> facets)
+      : detail::FacetSizes<D>(std::move(facets)), cube_(cube) {}
 
-  [[nodiscard]] double at(const Point<2>& p) const override {
-    return FacetSizes::at(nearest_in(square_, p));
+  [[nodiscard]] double at(const Point<D>& p) const override {
+    return detail::FacetSizes<D>::at(nearest_in<D>(cube_, p));
   }
-  [[nodiscard]] SizeRange range(const Box<2>& box) const override {
-    return FacetSizes::range({nearest_in(square_, box.lo), nearest_in(square_, box.hi)});
+  [[nodiscard]] SizeRange range(const Box<D>& box) const override {
+    return detail::FacetSizes<D>::range(
+        {nearest_in<D>(cube_, box.lo), nearest_in<D>(cube_, box.hi)});
   }
 
  private:
-  Box<2> square_;
+  Box<D> cube_;
 };
 
-void check(const std::vector<SizeSample>& samples) {
+template <int D>
+void check(const std::vector<SizeSampleOf<D>>& samples) {
   if (samples.empty()) throw Error(ErrorCode::bad_option, "a background without samples");
-  for (const SizeSample& s : samples) {
+  for (const auto& s : samples) {
     if (s.h > 0 && std::isfinite(s.h)) continue;
     throw Error(ErrorCode::bad_option,
                 "the size at " + detail::place_text(s.at) + " is not above 0 and finite");
   }
 }
 
-// Four times as wide as what the samples lie in; its side is a power of two.
-Box<2> square_around(const std::vector<SizeSample>& samples) {
-  Box<2> box{samples.front().at, samples.front().at};
-  for (const SizeSample& s : samples) detail::grow(box, s.at);
+// A square or a cube, four times as wide as what the samples lie in; its side is a power of two.
+template <int D>
+Box<D> cube_around(const std::vector<SizeSampleOf<D>>& samples) {
+  Box<D> box{samples.front().at, samples.front().at};
+  for (const auto& s : samples) detail::grow(box, s.at);
   double largest = 0x1p-90, extent = 0;
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < D; ++i) {
     largest = std::max({largest, std::abs(box.lo[i]), std::abs(box.hi[i])});
     extent = std::max(extent, box.hi[i] - box.lo[i]);
   }
   const double half = std::exp2(std::ceil(std::log2(std::max(extent, largest * 0x1p-20)))) * 2;
-  Box<2> square;
-  for (std::size_t i = 0; i < 2; ++i) {
+  Box<D> cube;
+  for (std::size_t i = 0; i < D; ++i) {
     const double middle = box.lo[i] + (box.hi[i] - box.lo[i]) / 2;
-    square.lo[i] = middle - half;
-    square.hi[i] = middle + half;
+    cube.lo[i] = middle - half;
+    cube.hi[i] = middle + half;
   }
-  return square;
+  return cube;
 }
 
-double nearest_size(const std::vector<SizeSample>& samples, const Point<2>& p) {
-  const auto nearer = [&](const SizeSample& s, const SizeSample& t) {
+template <int D>
+double nearest_size(const std::vector<SizeSampleOf<D>>& samples, const Point<D>& p) {
+  const auto nearer = [&](const auto& s, const auto& t) {
     const double ds = detail::squared_distance(s.at, p), dt = detail::squared_distance(t.at, p);
     return ds != dt ? ds < dt : s.at < t.at;
   };
   return std::min_element(samples.begin(), samples.end(), nearer)->h;
 }
 
+// The corners of a box of samples, with the sizes of the samples nearest to them, and the samples.
+template <int D>
+std::vector<SizeSampleOf<D>> with_corners(const std::vector<SizeSampleOf<D>>& samples,
+                                          const Box<D>& box) {
+  std::vector<SizeSampleOf<D>> all;
+  for (std::size_t c = 0; c < std::size_t{1} << D; ++c) {
+    Point<D> p;
+    for (std::size_t i = 0; i < D; ++i) p[i] = ((c >> i) & 1) != 0 ? box.hi[i] : box.lo[i];
+    all.push_back({p, nearest_size<D>(samples, p)});
+  }
+  all.insert(all.end(), samples.begin(), samples.end());
+  return all;
+}
+
+// Its corners by their coordinates, the last two in the order that leaves it positively oriented:
+// what is between them is the same to the last bit in whatever order samples are.
+template <int D>
+Facet<D> facet_of(std::array<SizeSampleOf<D>, D + 1> corners) {
+  const auto before = [](const auto& s, const auto& t) { return s.at < t.at; };
+  bool turned = false;
+  for (std::size_t i = 0; i <= D; ++i) {
+    for (std::size_t j = 0; j < i; ++j) turned = turned != before(corners[i], corners[j]);
+  }
+  std::sort(corners.begin(), corners.end(), before);
+  if (turned) std::swap(corners[D - 1], corners[D]);
+  detail::CornersOf<D> at;
+  typename Facet<D>::Sizes sizes;
+  for (std::size_t i = 0; i <= D; ++i) {
+    at[i] = corners[i].at;
+    sizes[i] = corners[i].h;
+  }
+  return {at, sizes};
+}
+
 }  // namespace
 
-std::shared_ptr<const SizeField<2>> sampled_sizes(const std::vector<SizeSample>& samples) {
-  check(samples);
-  const Box<2> square = square_around(samples);
-  std::vector<Point<2>> points{
-      square.lo, {square.hi[0], square.lo[1]}, square.hi, {square.lo[0], square.hi[1]}};
-  std::vector<double> sizes;
-  for (const Point<2>& p : points) sizes.push_back(nearest_size(samples, p));
-  std::vector<Point<2>> places;
-  for (const SizeSample& s : samples) places.push_back(s.at);
-  const double side = square.hi[0] - square.lo[0];
-  for (const std::size_t i : detail::morton_order(places, {square.lo, side})) {
-    points.push_back(samples[i].at);
-    sizes.push_back(samples[i].h);
+template <int D>
+std::shared_ptr<const SizeField<D>> sampled_sizes(
+    const std::vector<std::type_identity_t<SizeSampleOf<D>>>& samples) {
+  check<D>(samples);
+  const Box<D> cube = cube_around<D>(samples);
+  const auto all = with_corners<D>(samples, cube);
+  std::vector<Point<D>> places;
+  for (const auto& s : all) places.push_back(s.at);
+  const Delaunay<D> triangulation = delaunay<D>(places);
+  if (!triangulation.duplicates.empty()) {
+    throw Error(ErrorCode::duplicate_point,
+                "two sizes at " +
+                    detail::place_text(places[triangulation.duplicates.front().point]));
   }
-  std::vector<Facet> facets;
-  for (const auto& [a, b, c] : SampleTriangulation(points).triangles()) {
-    facets.emplace_back(std::array{points[a], points[b], points[c]},
-                        std::array{sizes[a], sizes[b], sizes[c]});
+  std::vector<Facet<D>> facets;
+  facets.reserve(triangulation.simplices.size());
+  for (const auto& simplex : triangulation.simplices) {
+    std::array<SizeSampleOf<D>, D + 1> corners;
+    for (std::size_t i = 0; i <= D; ++i) corners[i] = all[simplex[i]];
+    facets.push_back(facet_of<D>(corners));
   }
-  return std::make_shared<SampledSizes>(square, std::move(facets));
+  return std::make_shared<SampledSizes<D>>(cube, std::move(facets));
 }
+template std::shared_ptr<const SizeField<2>> sampled_sizes<2>(const std::vector<SizeSampleOf<2>>&);
+template std::shared_ptr<const SizeField<3>> sampled_sizes<3>(const std::vector<SizeSampleOf<3>>&);
 
 }  // namespace mesher

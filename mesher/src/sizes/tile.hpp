@@ -22,7 +22,6 @@ class Tile<2> {
 
   [[nodiscard]] const CornersOf<2>& corners() const noexcept { return at_; }
   [[nodiscard]] Box<2> extent() const noexcept { return bounding_box<2>(at_); }
-  [[nodiscard]] Point<2> middle() const { return centroid(at_); }
   [[nodiscard]] bool contains(const Point<2>& p) const {
     for (std::size_t i = 0; i < 3; ++i) {
       if (predicates::orient2d(at_[i], at_[(i + 1) % 3], p) < 0) return false;
@@ -51,7 +50,7 @@ template <>
 class Tile<3> {
  public:
   explicit Tile(const CornersOf<3>& at)
-      : at_(at), sign_(predicates::orient3d(at[0], at[1], at[2], at[3])) {}
+      : sign_(predicates::orient3d(at[0], at[1], at[2], at[3])), at_(at) {}
 
   [[nodiscard]] const CornersOf<3>& corners() const noexcept { return at_; }
   [[nodiscard]] Box<3> extent() const noexcept { return bounding_box<3>(at_); }
@@ -110,8 +109,10 @@ class Tile<3> {
     return false;
   }
 
-  CornersOf<3> at_;
   int sign_;
+
+ protected:
+  CornersOf<3> at_;
 };
 
 }  // namespace mesher::detail

@@ -13,7 +13,6 @@
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"
 #include "sized_square.hpp"
-#include "sizes/sample_triangulation.hpp"
 
 namespace {
 
@@ -21,7 +20,6 @@ using mesher::Mesh;
 using mesher::Mesher;
 using mesher::Options;
 using mesher::Point;
-using mesher::SizeSample;
 using support::SizedSquare;
 using support::SizesInSquare;
 
@@ -180,61 +178,4 @@ TEST_CASE("A point or a segment changes as few vertices where 16 times as many a
       CHECK(changed[12] <= (kind == 'p' ? 6 : 20));
     }
   }
-}
-
-TEST_CASE("A background is linear between its samples, and has their sizes at them") {
-  mesher::SplitMix64 random(3);
-  std::vector<SizeSample> samples;
-  for (int i = 0; i < 300; ++i) {
-    // Some on a lattice: cocircular.
-    const Point<2> p =
-        i % 2 == 0 ? Point<2>{std::floor(30 * random.unit()), std::floor(30 * random.unit())}
-                   : Point<2>{30 * random.unit(), 30 * random.unit()};
-    const auto same = [&](const SizeSample& s) { return s.at == p; };
-    if (std::any_of(samples.begin(), samples.end(), same)) continue;
-    samples.push_back({p, 1 + p[0] / 10 + p[1] / 5});
-  }
-  const auto field = mesher::sampled_sizes(samples);
-  for (const auto& s : samples) CHECK(field->at(s.at) == Approx(s.h).epsilon(1e-12));
-  for (int i = 0; i < 300; ++i) {
-    const Point<2> p{5 + 20 * random.unit(), 5 + 20 * random.unit()};
-    CHECK(field->at(p) == Approx(1 + p[0] / 10 + p[1] / 5).epsilon(0.05));
-  }
-  std::reverse(samples.begin(), samples.end());
-  const auto again = mesher::sampled_sizes(samples);
-  for (int i = 0; i < 300; ++i) {
-    const Point<2> p{-100 + 200 * random.unit(), -100 + 200 * random.unit()};
-    CHECK(again->at(p) == field->at(p));
-  }
-}
-
-TEST_CASE("The bounds of a background hold, and are near each other in small boxes") {
-  mesher::SplitMix64 random(4);
-  std::vector<SizeSample> samples;
-  for (int i = 0; i < 60; ++i) {
-    samples.push_back({{random.unit(), random.unit()}, std::exp(-5 * random.unit())});
-  }
-  const auto field = mesher::sampled_sizes(samples);
-  for (int i = 0; i < 2000; ++i) {
-    const Point<2> lo{-1 + 3 * random.unit(), -1 + 3 * random.unit()};
-    const double side = std::exp2(-20 * random.unit());
-    const mesher::Box<2> box{lo, {lo[0] + side, lo[1] + side}};
-    const mesher::SizeRange range = field->range(box);
-    CHECK(range.least > 0);
-    for (int k = 0; k < 20; ++k) {
-      const double h = field->at({lo[0] + side * random.unit(), lo[1] + side * random.unit()});
-      CHECK(h >= range.least * (1 - 1e-12));
-      CHECK(h <= range.most * (1 + 1e-12));
-    }
-    if (side < 1e-5) CHECK(range.most - range.least <= 1e-2);
-  }
-}
-
-TEST_CASE("One sample is a constant; none, two at a place, or a bad size is refused") {
-  const auto field = mesher::sampled_sizes({{{3, 4}, 0.5}});
-  CHECK(field->at({3, 4}) == 0.5);
-  CHECK(field->at({1e6, -4}) == 0.5);
-  CHECK_THROWS_AS(mesher::sampled_sizes({}), mesher::Error);
-  CHECK_THROWS_AS(mesher::sampled_sizes({{{3, 4}, 0.5}, {{3, 4}, 0.6}}), mesher::Error);
-  CHECK_THROWS_AS(mesher::sampled_sizes({{{3, 4}, 0}}), mesher::Error);
 }
