@@ -174,9 +174,9 @@ void Input::repair(const std::optional<mesher::Box<2>>& domain) {
   repairs_ = std::move(repaired.notes);
 }
 
-bool Input::has_region_areas() const {
+bool Input::has_region_limits() const {
   const auto& regions = file_.pslg.regions;
-  return edits_areas() || std::any_of(regions.begin(), regions.end(), [](const auto& region) {
+  return edits_limits() || std::any_of(regions.begin(), regions.end(), [](const auto& region) {
            return region.max_area.has_value();
          });
 }

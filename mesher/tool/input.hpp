@@ -37,7 +37,7 @@ class Standing {
   void follow(const std::vector<mesher::EditOf<D>>& edits) {
     for (const auto& edit : edits) {
       edited_.insert_or_assign({mesher::featured(edit.kind), edit.id}, edit.place);
-      edits_areas_ = edits_areas_ || edit.max_measure.has_value();
+      edits_limits_ = edits_limits_ || edit.max_measure.has_value();
     }
   }
 
@@ -56,8 +56,8 @@ class Standing {
   /// `PLACE: warning: WHAT` of a seed.
   [[nodiscard]] std::string warning_text(const mesher::SeedName& seed,
                                          const std::string& what) const;
-  /// Whether edits have brought a region with a largest area.
-  [[nodiscard]] bool edits_areas() const noexcept { return edits_areas_; }
+  /// Whether edits have brought a region with a largest area, or volume.
+  [[nodiscard]] bool edits_limits() const noexcept { return edits_limits_; }
 
  private:
   /// In the file; without a line if it is not there.
@@ -68,7 +68,7 @@ class Standing {
 
   std::string path_;
   bool offers_repair_ = false;
-  bool edits_areas_ = false;
+  bool edits_limits_ = false;
   std::map<std::pair<mesher::Featured, mesher::FeatureId>, mesher::Place> edited_;
 };
 
@@ -106,7 +106,7 @@ class Input final : public Standing {
   [[nodiscard]] const std::vector<mesher::RepairNote>& repairs() const noexcept { return repairs_; }
 
   /// Whether a region of the file, or one that edits have brought, has a largest area.
-  [[nodiscard]] bool has_region_areas() const;
+  [[nodiscard]] bool has_region_limits() const;
 
   /// `PLACE: warning: WHAT` for a seed that has no region of its own.
   [[nodiscard]] std::string warning(const mesher::SeedFault& fault) const;
@@ -155,6 +155,9 @@ class SpaceInput final : public Standing {
   [[nodiscard]] const std::vector<mesher::RepairNoteOf<3>>& repairs() const noexcept {
     return repairs_;
   }
+
+  /// Whether a region of the file, or one that edits have brought, has a largest volume.
+  [[nodiscard]] bool has_region_limits() const;
 
   /// `PLACE: warning: WHAT` for a seed that has no region of its own.
   [[nodiscard]] std::string warning(const mesher::SeedFaultOf<3>& fault) const;

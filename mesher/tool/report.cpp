@@ -305,7 +305,7 @@ void print_run(const SpaceInput& input, const SpaceRun& run) {
 
 void print_remarks(const MeshArguments& args, const Input& input, const mesher::DomainMesh& mesh) {
   print_notes(input.notes());
-  if (args.region_areas && !input.has_region_areas()) {
+  if (args.region_areas && !input.has_region_limits()) {
     std::fprintf(stderr, "%s: note: --region-areas is not used: no region has a largest area\n",
                  input.path().c_str());
   }
@@ -315,8 +315,13 @@ void print_remarks(const MeshArguments& args, const Input& input, const mesher::
   }
 }
 
-void print_remarks(const MeshArguments&, const SpaceInput& input, const Kept<3>& mesh) {
+void print_remarks(const MeshArguments& args, const SpaceInput& input, const Kept<3>& mesh) {
   print_notes(input.notes());
+  if (args.region_areas && !input.has_region_limits()) {
+    std::fprintf(stderr,
+                 "%s: note: --region-volumes is not used: no region has a largest volume\n",
+                 input.path().c_str());
+  }
   if (input.leaves_faces()) {
     std::fprintf(stderr, "%s: note: its vertices are meshed; --surface meshes its faces, too\n",
                  input.path().c_str());

@@ -96,6 +96,13 @@ void SpaceInput::repair(const std::optional<mesher::Box<3>>& domain) {
   repairs_ = std::move(repaired.notes);
 }
 
+bool SpaceInput::has_region_limits() const {
+  const auto& regions = file_.plc.regions;
+  return edits_limits() || std::any_of(regions.begin(), regions.end(), [](const auto& region) {
+           return region.max_volume.has_value();
+         });
+}
+
 // --- Places ----------------------------------------------------------------------------------
 
 Place SpaceInput::place_in_file(Featured kind, FeatureId id) const {
