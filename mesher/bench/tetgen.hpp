@@ -91,9 +91,10 @@ inline std::optional<double> said(const std::string& text, const std::string& la
 }
 
 /// A file. Its options are -pq2.0O0/0NEF: with others it leaves tetrahedra above its own bound; no
-/// files. Nothing if it does not run, or does not end well, or not in a minute.
-inline std::optional<Figures> run_tetgen(const std::string& path) {
-  const std::string command = "timeout 60 tetgen -pq2.0O0/0NEF " + path + " 2>&1";
+/// files. `more`: options as well. Nothing if it does not run, or does not end well, or not in a
+/// minute.
+inline std::optional<Figures> run_tetgen(const std::string& path, const std::string& more = "") {
+  const std::string command = "timeout 60 tetgen -pq2.0O0/0NEF" + more + ' ' + path + " 2>&1";
   std::FILE* const pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return std::nullopt;
   std::string text;
@@ -112,10 +113,10 @@ inline std::optional<Figures> run_tetgen(const std::vector<Point<3>>& points) {
 }
 
 /// What the polygons enclose.
-inline std::optional<Figures> run_tetgen(const mesher::Plc& plc) {
+inline std::optional<Figures> run_tetgen(const mesher::Plc& plc, const std::string& more = "") {
   const TemporaryFolder folder;
   mesher::write_plc(plc, folder.file("complex.poly"));
-  return run_tetgen(folder.file("complex.poly"));
+  return run_tetgen(folder.file("complex.poly"), more);
 }
 
 inline bool has_tetgen() { return std::system("command -v tetgen >/dev/null") == 0; }

@@ -148,8 +148,11 @@ void add_edit(CLI::App& app) {
           "  +polygon ID P P P ... [/ P P P ...] ... [on P ...] [along A B ...]\n"
           "                         -polygon ID    its loops, then points and edges inside\n"
           "  +hole ID x y z         -hole ID\n"
-          "  +region ID x y z ATTRIBUTE\n"
-          "                         -region ID     what polygons enclose there\n") +
+          "  +region ID x y z ATTRIBUTE [MAX_VOLUME]\n"
+          "                         -region ID     what polygons enclose there\n"
+          "  limit volume V         no tetrahedron is larger; or as above, 'size H', 'sizes FILE', "
+          "'none';\n"
+          "                         'in XMIN YMIN ZMIN XMAX YMAX ZMAX': in this box\n") +
       kQualityHelp +
       "\nExamples:\n"
       "  mesher edit lake.poly --script wall.txt -o lake.vtu -o lake.svg\n"

@@ -250,6 +250,7 @@ void add_mesh(CLI::App& app) {
       "  mesher mesh points.node -o mesh.node -o mesh.svg --stats mesh.json\n"
       "  mesher mesh scan.ply -o scan.vtu -o scan.svg\n"
       "  mesher mesh pump.poly -o pump.vtu -o pump.svg\n"
+      "  mesher mesh pump.poly --max-volume 1e-4 -o pump.vtu\n"
       "  mesher mesh part.stl --merge -o part.msh\n"
       "  mesher mesh scan.ply --algorithm svr -o scan.vtu\n"
       "  mesher mesh cities.csv --domain -180 -90 180 90 --rho 2 --static -o cities.vtu");

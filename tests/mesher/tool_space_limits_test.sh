@@ -168,15 +168,23 @@ expect 0 '' edit box.poly --script same.txt -o same.vtu
 same same.vtu limited3.vtu
 
 echo "== limits in space: the trace that edits leave is a fresh one"
-expect 0 ' calls' trace box.poly --max-volume 0.03 -o fresh.trace
-printf 'limit size .3\nlimit volume 0.01 in 0 0 0 .5 .5 .5\nlimit volume 0.03\n' >same.txt
-expect 0 ' calls' trace box.poly --script same.txt -o same.trace
-expect_of "$traces" 0 '' distance fresh.trace same.trace
-"$traces" distance fresh.trace same.trace >distance.txt
-has distance.txt '^ +0 .* complete$'
-! grep -E '^ +[1-9]' distance.txt || fail 'a limit of a script is another than one of an option'
+# A point that is alone is located in another bucket where there is a lattice.
+printf '4 3 0 0\n1 0 0 0\n2 1 1 1\n3 .52 .43 .57\n4 .9 .1 .2\n' >lone.node
+printf 'limit size .3\nlimit volume 0.01 in 0 0 0 .5 .5 .5\nlimit volume 0.02\n' >same.txt
+printf 'limit volume 1e-3\n' >fine.txt
+while read -r input volume script; do
+  expect 0 ' calls' trace "$input" --max-volume "$volume" -o fresh.trace
+  expect 0 ' calls' trace "$input" --script "$script" -o edited.trace
+  expect_of "$traces" 0 '' audit edited.trace
+  "$traces" distance fresh.trace edited.trace >distance.txt
+  has distance.txt '^ +0 .* complete$'
+  ! grep -E '^ +[1-9]' distance.txt || fail "$input: a limit of $script is another than an option's"
+done <<'END'
+box.poly 0.02 same.txt
+lone.node 1e-3 fine.txt
+END
 expect 0 ' calls' trace box.poly --script limits.txt -o edited.trace
-for file in fresh same edited; do expect_of "$traces" 0 '' audit $file.trace; done
+expect_of "$traces" 0 '' audit edited.trace
 
 echo "== limits in space: what makes no sense is refused"
 for bad in 0 -1 x nan 1e-60; do

@@ -36,7 +36,7 @@
 //                        and edges that it declares to lie inside
 //   -polygon ID          a polygon less, with the edges that nobody else has
 //   limit volume V       no tetrahedron with its centroid in the domain is larger; or `size H`, the
-//                        edges of a regular one, or `none`; `in XMIN YMIN ZMIN XMAX YMAX ZMAX`
+//                        edges of one, `sizes FILE`, `none`; `in XMIN YMIN ZMIN XMAX YMAX ZMAX`
 //
 // and no others. Polygons have ids of their own.
 //

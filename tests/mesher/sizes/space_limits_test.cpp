@@ -114,6 +114,7 @@ TEST_CASE("A point amid a lattice in space changes few vertices, however fine th
     m.insert(FeatureId{1}, {1.01, 0.93, 1.07});
     const auto change = m.update();
     CHECK(change.vertices_added.size() + change.vertices_removed.size() < 40);
+    CHECK(m.mesh() == mesh_statically(m.input(), options));  // also where it takes a place's room
   }
 }
 
