@@ -1,7 +1,10 @@
 // Limits of size in space: nothing is larger, and under edits of complexes, of limits and of regions
 // the mesh is that of a run from scratch.
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <vector>
 
 #include "geometry/centroid.hpp"
 #include "geometry/space.hpp"
@@ -10,6 +13,7 @@
 #include "mesher/space_check.hpp"
 #include "program/world.hpp"
 #include "sizes/limits.hpp"
+#include "sizes/obstacles.hpp"
 #include "space_limits.hpp"
 #include "space_parcels.hpp"
 
@@ -116,6 +120,47 @@ TEST_CASE("A point amid a lattice in space changes few vertices, however fine th
     CHECK(change.vertices_added.size() + change.vertices_removed.size() < 40);
     CHECK(m.mesh() == mesh_statically(m.input(), options));  // also where it takes a place's room
   }
+}
+
+// In a sheet there is no centroid and no place of a lattice: nothing else splits.
+TEST_CASE("Edges and polygons are as fine as the lattice where they meet a limit, if it is a sheet") {
+  const double spacing = 0.2;
+  Mesher m({.domain = {{0, 0, 0}, {4, 4, 4}}}, Extent::box);
+  m.insert(FeatureId{1}, {0.5, 1.9, 3.1});
+  m.insert(FeatureId{2}, {3.5, 2.2, 2.9});
+  m.insert_segment(FeatureId{1}, FeatureId{1}, FeatureId{2});
+  m.insert(FeatureId{3}, {0.5, 0.5, 1});
+  m.insert(FeatureId{4}, {3.5, 0.5, 1});
+  m.insert(FeatureId{5}, {3.5, 3.5, 1});
+  m.insert(FeatureId{6}, {0.5, 3.5, 1});
+  m.insert_polygon({.id = FeatureId{1},
+                    .loops = {{FeatureId{3}, FeatureId{4}, FeatureId{5}, FeatureId{6}}}});
+  m.limit({{2.03, 0, 0}, {2.03, 4, 4}}, {.max_measure = spacing * spacing * spacing / 12});
+  m.update();
+  const Mesh<3> mesh = m.mesh();
+  // The longest of those that meet the sheet.
+  const auto longest = [&](const auto& parts) {
+    double longest2 = 0;
+    for (const auto& part : parts) {
+      bool left = false, right = false;
+      for (const auto v : part) (mesh.vertices[v][0] <= 2.03 ? left : right) = true;
+      for (const auto v : part) {
+        for (const auto w : part) {
+          if (!left || !right) continue;
+          const double length2 = mesher::detail::squared_distance(mesh.vertices[v], mesh.vertices[w]);
+          longest2 = std::max(longest2, length2);
+        }
+      }
+    }
+    return std::sqrt(longest2);
+  };
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  for (const auto& e : mesh.edges) edges.push_back({e.low, e.high});
+  std::vector<std::array<std::uint32_t, 3>> faces;
+  for (const auto& f : mesh.faces) faces.push_back(f.corners);
+  CHECK(longest(edges) > 0);
+  CHECK(longest(edges) <= mesher::detail::kLongestEdge * spacing);
+  CHECK(longest(faces) <= 3 * spacing);  // of pieces up to 1.1 wide, with one vertex in each
 }
 
 TEST_CASE("Limits in space that make no sense are refused, and change nothing") {
