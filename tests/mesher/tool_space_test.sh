@@ -82,11 +82,10 @@ refuse 2 'error[unknown_format]: points and lines are read from' mesh uniform.3d
 refuse 2 'error[bad_option]' mesh uniform.node --dimension 4 -o out/x.vtu
 
 echo "== space: bad options and outputs"
-for option in '--max-area 1' '--sizes uniform.node'; do
-  # shellcheck disable=SC2086
-  refuse 2 "error[bad_option]: ${option%% *} is for the plane" mesh uniform.3d.node $option \
-    -o out/x.vtu
-done
+refuse 2 'error[bad_option]: --max-area is for the plane' mesh uniform.3d.node --max-area 1 \
+  -o out/x.vtu
+refuse 3 'uniform.node:1:5: error[bad_dimension]' mesh uniform.3d.node --sizes uniform.node \
+  -o out/x.vtu
 refuse 2 'error[bad_option]: --domain: 4 numbers' mesh uniform.3d.node --domain 0 0 1 1 -o out/x.vtu
 refuse 2 'error[bad_option]: --domain: 6 numbers' mesh uniform.node --domain 0 0 0 1 1 1 -o out/x.vtu
 refuse 2 'error[bad_option]: --domain: 5 numbers' mesh uniform.node --domain 0 0 0 1 1 -o out/x.vtu
@@ -108,11 +107,10 @@ refuse 4 'uniform.3d.node: error[too_many]' mesh uniform.3d.node --max-vertices 
 refuse 4 'uniform.3d.node: error[too_many]' mesh uniform.3d.node --max-vertices 300 --static \
   -o out/x.vtu
 
-for option in '--max-area 1' '--sizes uniform.node'; do
-  # shellcheck disable=SC2086
-  refuse 2 "error[bad_option]: ${option%% *} is for the plane" trace uniform.3d.node $option \
-    -o out/x.trace
-done
+refuse 2 'error[bad_option]: --max-area is for the plane' trace uniform.3d.node --max-area 1 \
+  -o out/x.trace
+refuse 3 'uniform.node:1:5: error[bad_dimension]' trace uniform.3d.node --sizes uniform.node \
+  -o out/x.trace
 
 echo "== space: bad points: FILE:LINE:COL: error[code]"
 points3() { printf '%b' "$1" >bad3.node; }
