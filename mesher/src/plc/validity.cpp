@@ -17,6 +17,9 @@ double resolution_of(const Edge& e) {
 }
 
 double height_of(const Polygon& f, const Point<3>& x) { return std::abs(f.plane.height(x)); }
+bool is_on(const Polygon& f, const Point<3>& x) {
+  return height_of(f, x) <= f.thickness && contains(f, x);
+}
 
 Point<3> middle_of(const Edge& e) { return scaled(0.5, plus(e.place_a, e.place_b)); }
 Point<3> middle_of(VertexHandle v, VertexHandle w, const FeatureStore& store) {
@@ -108,7 +111,7 @@ std::optional<SpaceConflict> conflict_with(const Vertex<3>& v, const Edge& e) {
 }
 
 std::optional<SpaceConflict> conflict_with(const Vertex<3>& v, const Polygon& f) {
-  if (f.has(v.self) || height_of(f, v.p) > f.thickness || !contains(f, v.p)) return std::nullopt;
+  if (f.has(v.self) || !is_on(f, v.p)) return std::nullopt;
   return SpaceConflict{Kind::point_on_polygon, Feature(v), Feature(f), v.p};
 }
 
@@ -126,6 +129,7 @@ std::optional<SpaceConflict> conflict_with(const Edge& e, const Polygon& f) {
     if (!contains(f, middle_of(e))) return std::nullopt;
     return SpaceConflict{Kind::edge_on_polygon, Feature(e), Feature(f), middle_of(e)};
   }
+  if (is_on(f, e.place_a) || is_on(f, e.place_b)) return std::nullopt;  // its end is a conflict
   const auto at = crossing(e.place_a, e.place_b, f);
   if (!at) return std::nullopt;
   return SpaceConflict{Kind::edge_through_polygon, Feature(e), Feature(f), *at};
