@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "feature_scene.hpp"
+#include "plc/all_fit.hpp"
 #include "triangle_pairs.hpp"
 
 namespace {
@@ -58,6 +59,7 @@ struct Plc {
     store.polygons().for_each([&](const Polygon& f) {
       if (f.alive) keep_first(first, conflict_of(f, store, scene.point_tree()));
     });
+    REQUIRE(all_fit(store) == !first.has_value());
     return first;
   }
   std::string message() {
