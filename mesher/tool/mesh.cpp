@@ -218,9 +218,10 @@ void add_mesh(CLI::App& app) {
   mesh->add_option(
           "--algorithm", args->algorithm,
           "gap-balls: the mesh that `edit` keeps; svr: sparse Voronoi refinement, of\n"
-          "points alone without limits of size: another mesh, in a quarter of the time in\n"
-          "the plane and a tenth in space, there with fewer vertices; refine: the traditional\n"
-          "way, by the Delaunay triangulation of all points, for the same inputs")
+          "points, and of complexes in space, without limits of size: another mesh, in a\n"
+          "quarter of the time in the plane and a tenth in space, there with fewer vertices;\n"
+          "refine: the traditional way, by the Delaunay triangulation of all points, for the\n"
+          "same inputs")
       ->check(CLI::IsMember({"gap-balls", "svr", "refine"}))
       ->capture_default_str();
   mesh->footer(
