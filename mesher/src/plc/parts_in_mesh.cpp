@@ -52,14 +52,15 @@ class Standings {
   template <class Visit>
   Polygons find(Table& known, std::uint32_t h, Visit&& visit) {
     const auto [it, is_new] = known.try_emplace(h);
-    if (!is_new) return it->second;
+    std::vector<PolygonHandle>& found = it->second;
+    if (!is_new) return found;
     for (const PolygonsAt* all : labelled_.polygons) {
       visit(*all, [&](PolygonHandle f) {
-        if (labelled_.features.polygons()[f].alive) it->second.push_back(f);
+        if (labelled_.features.polygons()[f].alive) found.push_back(f);
       });
     }
-    make_set(it->second);
-    return it->second;
+    make_set(found);
+    return found;
   }
   [[nodiscard]] bool has_end(EdgeHandle e, VertexHandle v) const {
     return labelled_.features.edges()[e].has_end(v);
