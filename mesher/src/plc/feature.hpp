@@ -174,7 +174,11 @@ struct EdgePiece {
   Label lo = Label::start(), hi = Label::end();
 
   /// Where it is split: in its middle third. Requires: that is not shorter than the finest cells.
-  [[nodiscard]] Label middle() const noexcept { return *roundest(*edge, span().middle(1.0 / 3)); }
+  [[nodiscard]] Label middle() const noexcept { return *middle_if_any(); }
+  /// The same; nothing if it is too short.
+  [[nodiscard]] std::optional<Label> middle_if_any() const noexcept {
+    return roundest(*edge, span().middle(1.0 / 3));
+  }
   [[nodiscard]] Span span() const noexcept {
     return {from_a(*edge, lo) / edge->length, from_a(*edge, hi) / edge->length};
   }

@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "input.hpp"
-
 namespace mesher::detail {
 
 ConformingMesh::ConformingMesh(const MeshBox<3>& box, const Settings& settings, std::size_t points)
@@ -34,8 +32,7 @@ std::optional<std::uint32_t> ConformingMesh::dig(const Conformity::Wanted& wante
   const std::uint32_t s = kernel_.walk(wanted.place.p, from);
   for (const std::uint32_t w : kernel_.simplices().corners(s)) {
     if (w == kInfinite || kernel_.place(w) != wanted.place.p) continue;
-    throw Error(ErrorCode::too_close, "features are too close for double precision near " +
-                                          place_text(wanted.place.p));
+    throw too_close_near(wanted.place.p);
   }
   const std::uint32_t v = add_place(wanted.place, VertexKind::segment);
   kernel_.dig(v, s);

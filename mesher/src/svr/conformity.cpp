@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "delaunay/facets.hpp"
+#include "input.hpp"
 #include "make_set.hpp"
 #include "plc/polygon_shape.hpp"
 #include "plc/small_angles.hpp"
@@ -43,6 +44,11 @@ bool is_in_tile(const Point<3>& centre, double r2, const Point<3>& p) {
 Face face_across(const Facet& facet) { return face_of(facet[0], facet[1], facet[2]); }
 
 }  // namespace
+
+Error too_close_near(const Point<3>& x) {
+  return Error(ErrorCode::too_close,
+               "features are too close for double precision near " + place_text(x));
+}
 
 Conformity::Conformity(FeatureStore& store, Kernel& kernel)
     : store_(store), kernel_(kernel), vertices_(1) {
@@ -191,7 +197,9 @@ auto Conformity::split_piece(std::uint32_t piece) const -> Wanted {
       return {*copy, p.a};
     }
   }
-  return {placed_on(e, EdgePiece{&e, p.lo, p.hi}.middle()), p.a};
+  const auto middle = EdgePiece{&e, p.lo, p.hi}.middle_if_any();
+  if (!middle) throw too_close_near(place(p.a));
+  return {placed_on(e, *middle), p.a};
 }
 
 // --- Where features meet at small angles -----------------------------------------------------

@@ -24,12 +24,16 @@
 #include <vector>
 
 #include "delaunay/kernel.hpp"
+#include "mesher/error.hpp"
 #include "plc/feature_store.hpp"
 #include "plc/placed.hpp"
 #include "svr/crossings.hpp"
 #include "svr/subedges.hpp"
 
 namespace mesher::detail {
+
+/// What is thrown where vertices on features come too close to each other.
+[[nodiscard]] Error too_close_near(const Point<3>& x);
 
 class Conformity {
  public:
@@ -57,7 +61,7 @@ class Conformity {
     Placed place;
     std::uint32_t beside;
   };
-  /// Nothing: all conforms.
+  /// Nothing: all conforms. Throws: Error (too_close: a piece is too short to be split).
   [[nodiscard]] std::optional<Wanted> next();
 
   /// Whether a simplex stays that is poor by the edge vw: where features meet at a small angle.
