@@ -144,14 +144,9 @@ class PartFinder {
   // Whether the line of places as far from each corner meets f.
   [[nodiscard]] bool holds_centre(PolygonHandle h, const Corners& corners) const {
     const Polygon& f = labelled_.features.polygons()[h];
-    std::array<Point<2>, 3> p;
-    for (std::size_t i = 0; i < 3; ++i) p[i] = f.plane.in_frame(labelled_.vertices[corners[i]].p);
-    std::sort(p.begin(), p.end());
-    const double bu = p[1][0] - p[0][0], bv = p[1][1] - p[0][1];
-    const double cu = p[2][0] - p[0][0], cv = p[2][1] - p[0][1];
-    const double b2 = bu * bu + bv * bv, c2 = cu * cu + cv * cv, twice = 2 * (bu * cv - bv * cu);
-    return contains(
-        f, Point<2>{p[0][0] + (cv * b2 - bv * c2) / twice, p[0][1] + (bu * c2 - cu * b2) / twice});
+    std::array<Point<3>, 3> p;
+    for (std::size_t i = 0; i < 3; ++i) p[i] = labelled_.vertices[corners[i]].p;
+    return contains(f, centre_in_frame(f, p));
   }
 
   [[nodiscard]] LineEdge named(VertexHandle low, VertexHandle high, EdgeHandle e) {

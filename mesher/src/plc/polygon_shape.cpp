@@ -191,6 +191,16 @@ bool contains(const Polygon& f, const Point<2>& uv) {
 
 bool contains(const Polygon& f, const Point<3>& x) { return contains(f, f.plane.in_frame(x)); }
 
+Point<2> centre_in_frame(const Polygon& f, const std::array<Point<3>, 3>& places) {
+  std::array<Point<2>, 3> p;
+  for (std::size_t i = 0; i < 3; ++i) p[i] = f.plane.in_frame(places[i]);
+  std::sort(p.begin(), p.end());
+  const double bu = p[1][0] - p[0][0], bv = p[1][1] - p[0][1];
+  const double cu = p[2][0] - p[0][0], cv = p[2][1] - p[0][1];
+  const double b2 = bu * bu + bv * bv, c2 = cu * cu + cv * cv, twice = 2 * (bu * cv - bv * cu);
+  return {p[0][0] + (cv * b2 - bv * c2) / twice, p[0][1] + (bu * c2 - cu * b2) / twice};
+}
+
 Point<3> inward(const Polygon& f, std::uint32_t i) {
   const Point<3> left = unit(cross(f.plane.normal, minus(f.places[f.next(i)], f.places[i])));
   return f.inside_left[f.loop_of(i)] ? left : scaled(-1, left);

@@ -8,6 +8,7 @@
 // [rules C5].
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -65,6 +66,10 @@ struct Deviation {
 /// The same for a place of the frame, and for one loop.
 [[nodiscard]] bool contains(const Polygon& f, const Point<2>& uv);
 [[nodiscard]] bool loop_contains(const Polygon& f, std::size_t loop, const Point<2>& uv);
+
+/// Where in the frame it is as far from the feet of all three, in any order. Requires: these are not
+/// on a line.
+[[nodiscard]] Point<2> centre_in_frame(const Polygon& f, const std::array<Point<3>, 3>& places);
 
 /// The direction, in the plane, of length 1, into f across its edge from the i-th corner on.
 [[nodiscard]] Point<3> inward(const Polygon& f, std::uint32_t i);

@@ -28,14 +28,6 @@ constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 
 using Facet = std::array<std::uint32_t, 3>;
 
-// Of three places. Requires: they are not on a line.
-Point<2> circumcentre_of(const std::array<Point<2>, 3>& p) {
-  const double bu = p[1][0] - p[0][0], bv = p[1][1] - p[0][1];
-  const double cu = p[2][0] - p[0][0], cv = p[2][1] - p[0][1];
-  const double b2 = bu * bu + bv * bv, c2 = cu * cu + cv * cv, twice = 2 * (bu * cv - bv * cu);
-  return {p[0][0] + (cv * b2 - bv * c2) / twice, p[0][1] + (bu * c2 - cu * b2) / twice};
-}
-
 // Whether p is in the ball of squared radius r2 around the centre of a tile.
 bool is_in_tile(const Point<3>& centre, double r2, const Point<3>& p) {
   return squared_distance(centre, p) < r2 * kOpen;
@@ -339,10 +331,7 @@ bool Conformity::is_above(std::uint32_t s, Rank rank) const {
 
 /// Where places of f are as far from all three, which are on f.
 Point<3> Conformity::middle_of(const Face& face, const Polygon& f) const {
-  std::array<Point<2>, 3> p;
-  for (std::size_t i = 0; i < 3; ++i) p[i] = f.plane.in_frame(place(face[i]));
-  std::sort(p.begin(), p.end());
-  return f.plane.at(circumcentre_of(p));
+  return f.plane.at(centre_in_frame(f, {place(face[0]), place(face[1]), place(face[2])}));
 }
 
 /// The face between s and t, whose Voronoi edge crosses the plane, if that is inside f.

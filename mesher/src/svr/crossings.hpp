@@ -41,7 +41,6 @@ class Crossings {
   };
 
   [[nodiscard]] const Crossing& operator[](std::uint32_t i) const noexcept { return all_[i]; }
-  [[nodiscard]] bool empty() const noexcept { return first_.empty(); }
   /// The first of a face; kNone: there is none.
   [[nodiscard]] std::uint32_t find(const Face& face) const {
     const auto it = first_.find(face);
