@@ -53,6 +53,7 @@ detail::OnFeatures parts_of(const detail::Conformity& all, const detail::Feature
 template <class Algorithm, class Stats>
 Mesh<3> run(Algorithm& algorithm, const detail::CheckedComplex& complex, Stats* stats) {
   algorithm.run();
+  algorithm.conformity().require_whole();
   Mesh<3> mesh = detail::mesh_of<3>(
       algorithm, parts_of(algorithm.conformity(), complex.store(), complex.names()));
   detail::set_stats(stats, algorithm, mesh);

@@ -64,6 +64,10 @@ class Conformity {
   /// Nothing: all conforms. Throws: Error (too_close: a piece is too short to be split).
   [[nodiscard]] std::optional<Wanted> next();
 
+  /// Throws: Error (too_close), unless the tiles of each polygon are all of it. Requires: next()
+  /// has returned nothing.
+  void require_whole() const;
+
   /// Whether a simplex stays that is poor by the edge vw: where features meet at a small angle.
   [[nodiscard]] bool keeps(std::uint32_t v, std::uint32_t w) const;
 
@@ -121,15 +125,18 @@ class Conformity {
                   std::vector<std::uint32_t>& between);
   void look_at_piece(std::uint32_t piece);
   void want_piece(std::uint32_t piece, std::uint32_t by);
+  [[nodiscard]] std::uint32_t piece_at(EdgeHandle handle, const Label& at) const;
   [[nodiscard]] Wanted split_piece(std::uint32_t piece) const;
   template <class Visit>
   void visit_pieces_dug(Visit&& visit) const;
+  [[nodiscard]] bool is_made(std::uint32_t piece) const;
 
   void start_polygons();
   void find_crossings(Rank f, std::vector<std::uint32_t> cells, std::vector<Rank>& seen_for);
   template <class Visit>
   void look_at_faces(const std::vector<std::uint32_t>& all, bool with_borders, Rank f,
                      Visit&& visit);
+  void look_at_made(Rank f);
   std::uint32_t look_at_face(std::uint32_t s, std::uint32_t i, Rank f, bool crosses);
   [[nodiscard]] Side side(std::uint32_t s, Rank f) const;
   [[nodiscard]] bool all_on_polygons(const std::array<std::uint32_t, 3>& facet) const noexcept;
@@ -137,13 +144,15 @@ class Conformity {
   [[nodiscard]] Point<3> middle_of(const Face& face, const Polygon& f) const;
   [[nodiscard]] bool is_wall(std::uint32_t s, std::uint32_t i) const;
   [[nodiscard]] std::optional<Crossings::Crossing> crossing_of(const Face& face, std::uint32_t s,
-                                                               std::uint32_t t,
-                                                               Rank f) const;
+                                                               std::uint32_t t, Rank f) const;
   void flood_outside(std::uint32_t from);
   void want_crossing(std::uint32_t crossing, const Point<3>& from);
   [[nodiscard]] Placed place_for(const Crossings::Crossing& crossing) const;
   [[nodiscard]] std::optional<Point<3>> foot_in(const Polygon& f, const Point<3>& x,
                                                 const Crossings::Crossing& crossing) const;
+  [[nodiscard]] bool is_nearest(std::uint32_t v, const Point<3>& x) const;
+  [[nodiscard]] Placed place_near(const Polygon& f, const Point<3>& x, std::uint32_t v) const;
+  [[nodiscard]] bool cuts_cell(std::uint32_t v, const Point<3>& x) const;
   [[nodiscard]] Vertex<3> record(std::uint32_t v) const;
   void erase(std::uint32_t crossing);
   template <class Visit>
@@ -158,13 +167,14 @@ class Conformity {
   Subedges pieces_;
   Crossings crossings_;
   std::vector<std::uint32_t> wanted_pieces_, wanted_crossings_;
-  std::size_t foreign_ = 0;             // crossings that are no tiles
-  bool has_polygons_ = false;           // their crossings are known
-  std::uint32_t splitting_ = kNone;     // the piece that next() has split
-  std::vector<Rank> touched_;           // scratch: whose crossings an insertion may change
-  std::vector<std::uint32_t> star_;     // scratch
-  std::vector<Side> sides_;             // scratch: by simplex, unknown between calls
-  std::vector<Region> region_;          // by simplex
+  std::size_t foreign_ = 0;                // crossings that are no tiles
+  bool has_polygons_ = false;              // their crossings are known
+  std::uint32_t splitting_ = kNone;        // the piece that next() has split
+  std::vector<std::uint32_t> dug_pieces_;  // scratch
+  std::vector<Rank> touched_;              // scratch: whose crossings an insertion may change
+  std::vector<std::uint32_t> star_;        // scratch
+  std::vector<Side> sides_;                // scratch: by simplex, unknown between calls
+  std::vector<Region> region_;             // by simplex
 };
 
 }  // namespace mesher::detail

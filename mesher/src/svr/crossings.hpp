@@ -1,8 +1,8 @@
 // Where Voronoi edges cross polygons: the faces that these are dual to, by their corners.
 //
-// The Voronoi diagram cuts a polygon into parts, one for each cell that meets it. The parts' corners
-// are these crossings. The polygon is a union of faces if all three corners of each face lie on it:
-// then the faces are its tiles [rules C3].
+// The Voronoi diagram cuts a polygon into parts, one for each cell that meets it. The parts'
+// corners are these crossings. The polygon is a union of faces if all three corners of each face
+// lie on it: then the faces are its tiles [rules C3].
 #pragma once
 
 #include <tsl/robin_map.h>
@@ -32,11 +32,11 @@ class Crossings {
   struct Crossing {
     Face face{};
     std::uint32_t polygon = 0;
-    Point<3> at{};           // as far from all three corners
-    Point<3> from{};         // of a tile: what encroaches on it, if it waits
+    Point<3> at{};    // as far from all three corners
+    Point<3> from{};  // of a tile: what encroaches on it, if it waits
     bool alive = false;
-    bool is_tile = false;    // all corners are on the polygon
-    bool waiting = false;    // in the queue of those that have to go
+    bool is_tile = false;        // all corners are on the polygon
+    bool waiting = false;        // in the queue of those that have to go
     std::uint32_t next = kNone;  // of the same face; free ones: the next free one
   };
 
@@ -83,6 +83,8 @@ class Crossings {
     all_[i].alive = false;
     if (!all_[i].waiting) release(i);
   }
+  /// Its Voronoi edge became shorter, and is in the polygon's plane.
+  void move(std::uint32_t i, const Point<3>& at) noexcept { all_[i].at = at; }
   void set_waiting(std::uint32_t i, const Point<3>& from) noexcept {
     all_[i].waiting = true;
     all_[i].from = from;

@@ -19,8 +19,9 @@ class Subedges {
     std::uint32_t a, b;
     Label lo, hi;
     EdgeHandle edge;
-    bool encroached = false;   // it is to be split
-    std::uint32_t by = kNone;  // a vertex in its ball, if it is known
+    bool encroached = false;     // it is to be split
+    std::uint32_t by = kNone;    // a vertex in its ball, if it is known
+    std::uint32_t next = kNone;  // of the same edge
   };
 
   [[nodiscard]] const Piece& operator[](std::uint32_t i) const noexcept { return all_[i]; }
@@ -29,21 +30,33 @@ class Subedges {
     const auto it = by_ends_.find(key(a, b));
     return it == by_ends_.end() ? kNone : it->second;
   }
+  /// A piece of an edge, from its a on: at first, or after the one that was added before.
   /// Throws: std::bad_alloc, and then changes nothing that matters.
   std::uint32_t add(const Piece& piece) {
-    const auto i = static_cast<std::uint32_t>(all_.size());
-    all_.push_back(piece);
-    by_ends_.insert_or_assign(key(piece.a, piece.b), i);
-    return i;
+    if (!all_.empty() && all_.back().edge == piece.edge) {
+      all_.back().next = size();
+    } else {
+      first_.insert_or_assign(piece.edge, size());
+    }
+    return push(piece);
   }
   /// Splits a piece at vertex m: it is the part at a afterwards. Returns the other part.
   std::uint32_t split(std::uint32_t i, std::uint32_t m, const Label& at) {
     Piece rest = all_[i];
     rest.a = m, rest.lo = at, rest.encroached = false;
     by_ends_.erase(key(all_[i].a, all_[i].b));
+    all_[i].next = size();
     all_[i].b = m, all_[i].hi = at, all_[i].encroached = false;
     by_ends_.insert_or_assign(key(all_[i].a, m), i);
-    return add(rest);
+    return push(rest);
+  }
+  /// The first piece of an edge of which ends_behind(piece). Requires: there is one. Cost: the
+  /// pieces before it.
+  template <class EndsBehind>
+  [[nodiscard]] std::uint32_t find_on(EdgeHandle e, EndsBehind&& ends_behind) const {
+    std::uint32_t i = first_.at(e);
+    while (!ends_behind(all_[i])) i = all_[i].next;
+    return i;
   }
   void set_encroached(std::uint32_t i, std::uint32_t by) noexcept {
     all_[i].encroached = true;
@@ -55,6 +68,11 @@ class Subedges {
   }
 
  private:
+  std::uint32_t push(const Piece& piece) {
+    all_.push_back(piece);
+    by_ends_.insert_or_assign(key(piece.a, piece.b), size() - 1);
+    return size() - 1;
+  }
   [[nodiscard]] static std::uint64_t key(std::uint32_t a, std::uint32_t b) noexcept {
     return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
   }
@@ -63,6 +81,7 @@ class Subedges {
   };
 
   std::vector<Piece> all_;
+  tsl::robin_map<EdgeHandle, std::uint32_t> first_;
   tsl::robin_map<std::uint64_t, std::uint32_t, Hash> by_ends_;
 };
 

@@ -15,71 +15,23 @@
 #include "mesher/space_check.hpp"
 #include "mesher/space_files.hpp"
 #include "random_complex.hpp"
+#include "refined_complex.hpp"
 
 namespace {
 
-using mesher::BoundaryRule;
 using mesher::Extent;
 using mesher::FeatureId;
 using mesher::Mesh;
 using mesher::Options;
 using mesher::Plc;
-using mesher::PlcFile;
 using mesher::PlcKind;
 using mesher::Point;
-
-enum class By { svr, refine };
-
-template <By B>
-Mesh<3> mesh_of(const Plc& plc, const Options<3>& options, Extent extent = Extent::box,
-                const mesher::RunControl& control = {}) {
-  if constexpr (B == By::svr) {
-    return mesher::svr(plc, options, extent, {}, nullptr, control);
-  } else {
-    return mesher::refine(plc, options, extent, {}, nullptr, control);
-  }
-}
-
-Options<3> options_for(const Plc& plc) {
-  return {.domain = mesher::snapped_domain<3>(places_of(plc)), .max_vertices = 30000};
-}
-
-// What is wrong with a mesh of plc, less what of it is not wanted.
-std::string fault(const Mesh<3>& mesh, const Plc& plc, Extent extent,
-                  std::optional<double> rho = 2) {
-  PlcFile file;
-  file.plc = plc;
-  const auto kept = domain_mesh(mesh, plc, extent).kept;
-  mesher::SpaceCheckOptions options;
-  options.rho = rho;
-  options.complex = &file;
-  options.features = &kept.features;
-  options.boundary = BoundaryRule::lines;
-  for (const mesher::Finding& f : check_mesh(kept, options)) {
-    if (!f.holds) return f.property + ": " + f.detail;
-  }
-  return "";
-}
-
-FeatureId id(std::size_t i) { return FeatureId{static_cast<std::int64_t>(i + 1)}; }
-
-Plc plc_of(const support::Complex& complex) {
-  Plc plc;
-  for (const Point<3>& p : complex.points) plc.points.push_back({id(plc.points.size()), p, 0});
-  for (const auto& [a, b] : complex.segments) {
-    plc.segments.push_back({id(plc.segments.size()), id(a), id(b), 0});
-  }
-  for (const auto& face : complex.faces) {
-    mesher::Polygon polygon{.id = id(plc.facets.size()), .loops = {}};
-    for (const auto& loop : face.loops) {
-      polygon.loops.emplace_back();
-      for (const std::size_t i : loop) polygon.loops.back().push_back(id(i));
-    }
-    for (const std::size_t i : face.on) polygon.points.push_back(id(i));
-    plc.facets.push_back({polygon, 0});
-  }
-  return plc;
-}
+using support::By;
+using support::fault;
+using support::id;
+using support::mesh_of;
+using support::options_for;
+using support::plc_of;
 
 // With other ids, and all in another order.
 Plc shuffled(const Plc& plc) {
