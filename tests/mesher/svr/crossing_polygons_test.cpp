@@ -111,3 +111,12 @@ TEMPLATE_TEST_CASE_SIG("an edge that a vertex on its ball takes is split", "", (
                               {{{4, 0, 4}, {0, 1, 3}, {2, 4, 0}}}},
                              0.25));
 }
+
+// Where it crosses is any place of it, then, and another one when it has become shorter.
+TEMPLATE_TEST_CASE_SIG("a Voronoi edge may be in a polygon's plane", "", ((By B), B), By::svr,
+                       By::refine) {
+  require_meshed<B>(repaired({{{{4, 1, 1}, {2, 4, 4}, {0, 0, 0}}},
+                              {{{1, 0, 0}, {1, 0, 3}, {3, 2, 1}}},
+                              {{{3, 0, 0}, {0, 0, 3}, {1, 4, 2}}}},
+                             0.25));
+}
