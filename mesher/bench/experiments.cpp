@@ -9,20 +9,25 @@
 //            those of the mesh over n, which the thesis says are 42. TetGen's seconds beside, if
 //            installed.
 //   Fig 3.2  vertices and seconds of SVR by k
+//   Fig 3.5  from file to file by the number of points, beside TetGen if installed: grids, lines
+//   and
+//            circles, and of each FILE points out of 27 copies in a 3 x 3 x 3 grid. 3.4 is
+//            files_bench.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "chart.hpp"
+#include "from_files.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/refine.hpp"
 #include "mesher/svr.hpp"
 #include "sample.hpp"
-#include "tetgen.hpp"
 
 namespace {
 
@@ -152,25 +157,93 @@ bench::Panel by_k(const std::string& name, const std::vector<Point<3>>& points) 
   return {"Figure 3.2: " + name + ", over that at k = 0.9", "k", true, {seconds, vertices}};
 }
 
+// Figure 3.5: seconds and vertices by n, in thousands.
+using Scaling = std::vector<bench::Panel>;
+
+template <class Make>
+Scaling by_size(const bench::FromFiles& both, const std::string& name,
+                const std::vector<std::size_t>& sizes, Make&& make) {
+  bench::Series ours{both.algorithm(), "#1b6", {}}, tetgen{"TetGen", "#c62", {}};
+  bench::Series our_vertices = ours, their_vertices = tetgen;
+  bool with_tetgen = bench::has_tetgen();
+  for (const std::size_t size : sizes) {
+    const auto result = both.run(make(size), with_tetgen, 1);
+    bench::print("experiments", "\"figure\":\"3.5\",\"input\":\"" + name + '"', both.algorithm(),
+                 result);
+    const double n = 1e-3 * static_cast<double>(result.n);
+    const auto add = [&](const std::optional<bench::Process>& run, bench::Series& seconds,
+                         bench::Series& vertices) {
+      if (!run) return;
+      seconds.points.push_back({n, run->seconds});
+      vertices.points.push_back({n, 1e-3 * static_cast<double>(run->vertices)});
+    };
+    add(result.ours, ours, our_vertices);
+    add(result.tetgen, tetgen, their_vertices);
+    with_tetgen = result.tetgen.has_value();  // it ends at what is too large for it
+  }
+  return {{"Figure 3.5: " + name + ", seconds", "thousands of points", false, {ours, tetgen}},
+          {name + ", thousands of vertices",
+           "thousands of points",
+           false,
+           {our_vertices, their_vertices}}};
+}
+
+// n points out of 27 copies; each point's copies have a rank in a fixed random order.
+std::vector<Point<3>> of_copies(const std::vector<Point<3>>& points, std::size_t n) {
+  const auto box = mesher::snapped_domain<3>(points);
+  std::vector<std::size_t> order(27 * points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  mesher::SplitMix64 random(1);
+  for (std::size_t i = 0; i < n; ++i) {
+    std::swap(order[i], order[i + random.below(order.size() - i)]);
+  }
+  std::vector<Point<3>> some(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    some[i] = points[order[i] / 27];
+    std::size_t copy = order[i] % 27;
+    for (std::size_t k = 0; k < 3; ++k, copy /= 3) {
+      some[i][k] += static_cast<double>(copy % 3) * (box.hi[k] - box.lo[k]);
+    }
+  }
+  return some;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (!arguments.empty()) std::filesystem::create_directories(arguments[0]);
-  const auto draw = [&](const bench::Panel& panel, const std::string& name) {
+  const auto draw = [&](const std::vector<bench::Panel>& panels, const std::string& name) {
     if (arguments.empty()) return;
     const auto path = std::filesystem::path(arguments[0]) / (name + ".svg");
     std::ofstream file(path);
-    file << bench::Chart::draw({panel}, 1);
+    file << bench::Chart::draw(panels, static_cast<int>(panels.size()));
     if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
   };
-  draw(quadratic(), "quadratic");
-  draw(line_circle(), "line_circle");
-  draw(by_k("line-circle 10000",
-            mesher::generate_points<3>(mesher::PointKind::line_circle, 10000, 1)),
+  draw({quadratic()}, "quadratic");
+  draw({line_circle()}, "line_circle");
+  draw({by_k("line-circle 10000",
+             mesher::generate_points<3>(mesher::PointKind::line_circle, 10000, 1))},
        "k_line_circle");
+  const bench::FromFiles both(bench::tool_beside(argv[0]), "svr");
+  const auto of_kind = [](mesher::PointKind kind) {
+    return [kind](std::size_t n) { return mesher::generate_points<3>(kind, n, 1); };
+  };
+  draw(by_size(both, "line and circle", {1000, 2000, 4000, 8000, 16000, 40000, 100000},
+               of_kind(mesher::PointKind::line_circle)),
+       "size_line_circle");
+  draw(by_size(both, "grid", {8000, 27000, 64000, 125000, 216000, 343000},
+               of_kind(mesher::PointKind::grid)),
+       "size_grid");
   for (std::size_t i = 1; i < arguments.size(); ++i) {
     const std::string name = std::filesystem::path(arguments[i]).stem().string();
-    draw(by_k(name, mesher::read_points<3>(arguments[i]).points), "k_" + name);
+    const auto points = mesher::read_points<3>(arguments[i]).points;
+    draw({by_k(name, points)}, "k_" + name);
+    std::vector<std::size_t> sizes;
+    for (const double part : {0.05, 0.1, 0.2, 0.4, 0.7, 1.0}) {
+      sizes.push_back(static_cast<std::size_t>(part * 27 * static_cast<double>(points.size())));
+    }
+    draw(by_size(both, "27 of " + name, sizes, [&](std::size_t n) { return of_copies(points, n); }),
+         "size_" + name);
   }
 }

@@ -27,7 +27,11 @@ class TextFile {
   ~TextFile();
 
   TextFile& operator<<(std::string_view text);
-  TextFile& operator<<(char c) { return *this << std::string_view(&c, 1); }
+  TextFile& operator<<(char c) {
+    if (used_ == buffer_.size()) flush();
+    buffer_[used_++] = c;
+    return *this;
+  }
   /// The shortest decimal that reads back bit for bit.
   TextFile& operator<<(double value);
   TextFile& operator<<(std::integral auto value) { return add_integer(value); }
@@ -37,11 +41,14 @@ class TextFile {
 
  private:
   TextFile& add_integer(long long value);
+  template <class Number>
+  TextFile& add_number(Number value);
   void flush();
   [[noreturn]] void fail();
 
   std::string shown_as_;
-  std::string buffer_;
+  std::string buffer_;  // of a fixed size
+  std::size_t used_ = 0;
   std::FILE* file_;
 };
 

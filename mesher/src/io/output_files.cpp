@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -18,6 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kBufferBytes = 1 << 16;
+// A long long has 20 characters at the most, the shortest form of a double 24.
+constexpr std::size_t kMostDigits = 32;
 
 Error cannot_write(const std::string& path, int error) {
   return {
@@ -77,7 +80,7 @@ TextFile::TextFile(const std::string& path, std::string shown_as)
     : shown_as_(std::move(shown_as)), file_(std::fopen(path.c_str(), "wbe")) {
   if (!file_) fail();
   std::setvbuf(file_, nullptr, _IONBF, 0);  // buffer_ is the buffer
-  buffer_.reserve(kBufferBytes);
+  buffer_.resize(kBufferBytes);
 }
 
 TextFile::~TextFile() {
@@ -87,27 +90,34 @@ TextFile::~TextFile() {
 void TextFile::fail() { throw cannot_write(shown_as_, errno); }
 
 void TextFile::flush() {
-  if (std::fwrite(buffer_.data(), 1, buffer_.size(), file_) != buffer_.size()) fail();
-  buffer_.clear();
+  if (std::fwrite(buffer_.data(), 1, used_, file_) != used_) fail();
+  used_ = 0;
 }
 
 TextFile& TextFile::operator<<(std::string_view text) {
-  buffer_ += text;
-  if (buffer_.size() >= kBufferBytes) flush();
+  while (text.size() > buffer_.size() - used_) {
+    const std::size_t fits = buffer_.size() - used_;
+    std::copy_n(text.data(), fits, buffer_.data() + used_);
+    used_ += fits;
+    text.remove_prefix(fits);
+    flush();
+  }
+  std::copy_n(text.data(), text.size(), buffer_.data() + used_);
+  used_ += text.size();
   return *this;
 }
 
-TextFile& TextFile::operator<<(double value) {
-  char digits[32];  // the longest shortest form has 24 characters
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  return *this << std::string_view(digits, end - digits);
+template <class Number>
+TextFile& TextFile::add_number(Number value) {
+  if (buffer_.size() - used_ < kMostDigits) flush();
+  char* const from = buffer_.data() + used_;
+  used_ += static_cast<std::size_t>(std::to_chars(from, from + kMostDigits, value).ptr - from);
+  return *this;
 }
 
-TextFile& TextFile::add_integer(long long value) {
-  char digits[24];  // -2^63 has 20 characters
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  return *this << std::string_view(digits, end - digits);
-}
+TextFile& TextFile::operator<<(double value) { return add_number(value); }
+
+TextFile& TextFile::add_integer(long long value) { return add_number(value); }
 
 void TextFile::close() {
   if (!file_) return;

@@ -35,7 +35,7 @@ struct HalfFace {
 };
 
 /// All faces of all tetrahedra, those of one triangle next to each other.
-/// Requires: fewer than 2^32 tetrahedra. Cost: O(m log m).
+/// Requires: fewer than 2^32 tetrahedra. Cost: O(m log d), where d is the most at a vertex.
 class HalfFaces {
  public:
   explicit HalfFaces(const std::vector<Mesh<3>::Simplex>& tetrahedra);

@@ -30,30 +30,50 @@ double shortest_edge(const Corners& p) {
   return std::sqrt(least);
 }
 
-// The angle at the edge pq between the faces pqr and pqs. Their normals' cross product is the edge
-// times the determinant.
-double dihedral_deg(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
-  constexpr double kDegrees = 180 / 3.141592653589793;
-  const Point<3> edge = minus(q, p), to_r = minus(r, p), to_s = minus(s, p);
-  const double sine = std::sqrt(dot(edge, edge)) * std::abs(dot(edge, cross(to_r, to_s)));
-  return std::atan2(sine, dot(cross(edge, to_r), cross(edge, to_s))) * kDegrees;
-}
+// An angle by its sine and cosine times something.
+struct Angle {
+  double sine, cosine;
 
-struct Range {
-  double least = std::numeric_limits<double>::infinity();
-  double most = -std::numeric_limits<double>::infinity();
-
-  void add(double x) {
-    least = std::min(least, x);
-    most = std::max(most, x);
+  // Less for greater angles.
+  [[nodiscard]] double cotangent() const {
+    return sine == 0 && cosine == 0 ? std::numeric_limits<double>::infinity() : cosine / sine;
+  }
+  [[nodiscard]] double degrees() const {
+    constexpr double kDegrees = 180 / 3.141592653589793;
+    return std::atan2(sine, cosine) * kDegrees;
   }
 };
 
-Range dihedrals_deg(const Corners& p) {
-  constexpr int kEdges[][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2},
-                               {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
-  Range angles;
-  for (const auto& [a, b, c, d] : kEdges) angles.add(dihedral_deg(p[a], p[b], p[c], p[d]));
+// The least and the greatest of some.
+class Angles {
+ public:
+  void add(const Angle& angle) {
+    const double cotangent = angle.cotangent();
+    if (!(cotangent <= highest_)) highest_ = cotangent, least_ = angle;
+    if (!(cotangent >= lowest_)) lowest_ = cotangent, most_ = angle;
+  }
+  [[nodiscard]] const Angle& least() const { return least_; }
+  [[nodiscard]] const Angle& most() const { return most_; }
+
+ private:
+  double highest_ = std::numeric_limits<double>::quiet_NaN(), lowest_ = highest_;  // cotangents
+  Angle least_{}, most_{};
+};
+
+// Those between the faces. The cross product of two normals is the edge of both times the
+// determinant.
+Angles dihedrals(const Corners& p) {
+  const Point<3> b = minus(p[1], p[0]), c = minus(p[2], p[0]), d = minus(p[3], p[0]);
+  const Point<3> e = minus(p[2], p[1]), f = minus(p[3], p[1]), g = minus(p[3], p[2]);
+  // Of the faces across from p[1], p[2], p[3], p[0], all outward, or all inward.
+  const Point<3> at_b = cross(d, c), at_c = cross(b, d), at_d = cross(c, b), at_a = cross(e, f);
+  const double determinant = std::abs(dot(b, cross(c, d)));
+  Angles angles;
+  const auto add = [&](const Point<3>& edge, const Point<3>& m, const Point<3>& n) {
+    angles.add({std::sqrt(dot(edge, edge)) * determinant, -dot(m, n)});
+  };
+  add(b, at_c, at_d), add(c, at_b, at_d), add(d, at_b, at_c);
+  add(e, at_a, at_d), add(f, at_a, at_c), add(g, at_a, at_b);
   return angles;
 }
 
@@ -74,18 +94,22 @@ std::size_t count_above(const Mesh<3>& mesh, double rho) {
 
 SpaceQuality quality(const Mesh<3>& mesh) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kNoSliver = 11;  // cotangents up to it are of more than 5 degrees
+  static_assert(kSliverDegrees <= 5);
   if (mesh.simplices.empty()) return {kNone, kNone, kNone, 0};
-  Range angles, ratios;
+  Angles angles;
+  double worst = 0;
   std::size_t slivers = 0;
   for (const auto& [a, b, c, d] : mesh.simplices) {
     const auto& v = mesh.vertices;
-    const Range of_this = dihedrals_deg({v[a], v[b], v[c], v[d]});
-    angles.add(of_this.least);
-    angles.add(of_this.most);
-    if (of_this.least < kSliverDegrees) ++slivers;
-    ratios.add(detail::radius_edge(mesh, {a, b, c, d}).ratio);
+    const Angles of_this = dihedrals({v[a], v[b], v[c], v[d]});
+    angles.add(of_this.least());
+    angles.add(of_this.most());
+    const Angle& least = of_this.least();
+    if (least.cotangent() > kNoSliver && least.degrees() < kSliverDegrees) ++slivers;
+    worst = std::max(worst, detail::radius_edge(mesh, {a, b, c, d}).ratio);
   }
-  return {angles.least, angles.most, ratios.most, slivers};
+  return {angles.least().degrees(), angles.most().degrees(), worst, slivers};
 }
 
 namespace detail {
@@ -100,8 +124,8 @@ Verdict check_volumes(const Mesh<3>& mesh, double most) {
         std::abs(dot(minus(v[b], v[a]), cross(minus(v[c], v[a]), minus(v[d], v[a])))) / 6;
     largest = std::max(largest, volume);
     if (volume <= most * (1 + kRounding)) continue;
-    return Verdict::bad("tetrahedron " + std::to_string(i + 1) + " has the volume " + text::to_text(volume) + ", above " +
-                        text::to_text(most));
+    return Verdict::bad("tetrahedron " + std::to_string(i + 1) + " has the volume " +
+                        text::to_text(volume) + ", above " + text::to_text(most));
   }
   return Verdict::good("volumes at most " + text::to_text(largest));
 }
