@@ -1,6 +1,7 @@
 // Sparse Voronoi refinement in space at rho = 2: how many vertices, how long, beside TetGen.
 //
-//   svr_bench [--k K] [FILE.node]...   default: families of points, see kFamilies
+//   svr_bench [--k K] [FILE.node]...              default: families of points, see kFamilies
+//   svr_bench --locations [NAME] [FILE.node]...   by each structure for point location, or one
 //
 // Ours and TetGen in turns, kRounds times, in processes of their own; the medians of seconds of the
 // processes count, of ours from points in memory to a mesh in memory, and of TetGen what it says it
@@ -9,6 +10,8 @@
 // and seconds; time_ratio: its seconds over ours; vertex_ratio: our vertices over its. In a line of
 // its own what happened in the run: how many points were inserted for a new vertex, how many since
 // they crowded one; the worst radius-edge ratio and the largest degree that there ever were.
+// --locations: without TetGen; how many times points were looked at for one near a new vertex, and
+// to move them.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -122,23 +125,75 @@ void bench_points(const std::string& name, const std::vector<Point<3>>& points,
   std::fflush(stdout);
 }
 
+struct Location {
+  const char* name;
+  mesher::PointLocation location;
+};
+constexpr Location kLocations[] = {
+    {"voronoi-reach", mesher::PointLocation::voronoi_reach},
+    {"voronoi-plain", mesher::PointLocation::voronoi_plain},
+    {"voronoi-shells", mesher::PointLocation::voronoi_shells},
+    {"simplex", mesher::PointLocation::simplex},
+    {"circumball", mesher::PointLocation::circumball},
+};
+
+// `only`: a location, or "".
+void bench_locations(const std::string& name, const std::vector<Point<3>>& points,
+                     mesher::SvrSettings settings, const std::string& only) {
+  const mesher::Options<3> options{.domain = mesher::snapped_domain<3>(points)};
+  for (const Location& l : kLocations) {
+    if (!only.empty() && only != l.name) continue;
+    settings.location = l.location;
+    std::vector<double> seconds;
+    Run run;
+    for (int round = 0; round < kRounds; ++round) {
+      run = run_apart(points, options, settings);
+      seconds.push_back(run.seconds);
+    }
+    mesher::SvrStats s;
+    static_cast<void>(mesher::svr<3>(points, options, settings, {}, &s));
+    std::printf(
+        "{\"bench\":\"svr\",\"input\":\"%s\",\"figure\":\"location\",\"location\":\"%s\","
+        "\"vertices\":%zu,\"seconds\":%.3f,\"megabytes\":%.1f,\"looked_at_to_find\":%llu,"
+        "\"looked_at_to_move\":%llu,\"worst_radius_edge\":%.2f}\n",
+        name.c_str(), l.name, run.vertices, bench::quantile(seconds, 0.5), run.megabytes,
+        static_cast<unsigned long long>(s.looked_at_to_find),
+        static_cast<unsigned long long>(s.looked_at_to_move), s.worst_radius_edge);
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (!bench::has_tetgen())
-    std::fprintf(stderr, "svr_bench: tetgen is not installed: without it\n");
   std::vector<std::string> files(argv + 1, argv + argc);
+  const auto take = [&] {
+    std::string word = files.front();
+    files.erase(files.begin());
+    return word;
+  };
   mesher::SvrSettings settings;
-  if (files.size() >= 2 && files[0] == "--k") {
-    settings.k = std::stod(files[1]);
-    files.erase(files.begin(), files.begin() + 2);
+  bool locations = false;
+  std::string only;
+  if (files.size() >= 2 && files[0] == "--k") take(), settings.k = std::stod(take());
+  if (!files.empty() && files[0] == "--locations") {
+    locations = true;
+    take();
+    for (const Location& l : kLocations) {
+      if (!files.empty() && files[0] == l.name) only = take();
+    }
   }
+  if (!locations && !bench::has_tetgen())
+    std::fprintf(stderr, "svr_bench: tetgen is not installed: without it\n");
+  const auto run = [&](const std::string& name, const std::vector<Point<3>>& points) {
+    locations ? bench_locations(name, points, settings, only)
+              : bench_points(name, points, settings);
+  };
   for (const std::string& file : files) {
-    bench_points(std::filesystem::path(file).stem().string(), mesher::read_points<3>(file).points,
-                 settings);
+    run(std::filesystem::path(file).stem().string(), mesher::read_points<3>(file).points);
   }
   if (!files.empty()) return 0;
   for (const Family& family : kFamilies) {
-    bench_points(family.name, mesher::generate_points<3>(family.kind, family.n, 1), settings);
+    run(family.name, mesher::generate_points<3>(family.kind, family.n, 1));
   }
 }

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "mesher/mesh.hpp"
@@ -26,17 +27,31 @@
 
 namespace mesher {
 
+/// Where points wait that are no vertices yet [3.1]. The meshes are different ones, by the points
+/// that are found first. For complexes it is voronoi_reach.
+enum class PointLocation : std::uint8_t {
+  voronoi_reach,   ///< at the vertex of the Voronoi cell, in lists that know how far they reach
+  voronoi_plain,   ///< the same, in lists that know nothing
+  voronoi_shells,  ///< the same, in concentric shells
+  simplex,         ///< at the simplex that they are in
+  circumball,      ///< at all simplices in whose circumballs they are
+};
+
 /// How SVR refines.
 struct SvrSettings {
   /// The k of B(c, k r): instead of a new vertex at c, a point that is so near to it is inserted, r
   /// from c to the nearest vertices. In (0, 1).
   double k = 0.9;
+  PointLocation location = PointLocation::voronoi_reach;
 };
 
 /// What happened in a run; it begins with the first point's insertion.
 struct SvrStats : RefineStats {
   std::size_t warped = 0;   ///< input points inserted in the place of a new vertex
   std::size_t crowded = 0;  ///< input points inserted since they crowded a vertex
+  /// How many times a waiting point was looked at, for one that is near a new vertex, and to see
+  /// where it waits from now on.
+  std::uint64_t looked_at_to_find = 0, looked_at_to_move = 0;
 };
 
 /// The mesh. `options`: domain, rho and max_vertices count; `ids`: as many as points, only used in

@@ -6,6 +6,10 @@
 
 #include "delaunay/build.hpp"
 #include "delaunay/spatial_order.hpp"
+#include "svr/ball_location.hpp"
+#include "svr/plain_lists.hpp"
+#include "svr/shell_lists.hpp"
+#include "svr/simplex_location.hpp"
 
 namespace mesher::detail {
 
@@ -18,20 +22,20 @@ constexpr double kYieldedApart = 0.25;
 
 }  // namespace
 
-template <int D, class Mesh>
-Refinement<D, Mesh>::Refinement(const MeshBox<D>& box, std::span<const Point<D>> points,
-                          const Settings& settings)
+template <int D, class Mesh, class Location>
+Refinement<D, Mesh, Location>::Refinement(const MeshBox<D>& box, std::span<const Point<D>> points,
+                                          const Settings& settings)
     : Base(box, settings, points.size()),
       k_(settings.k),
       skinny2_(points.empty() ? rho2_ : kMeanwhile * kMeanwhile * rho2_),
       handles_(settings.handles),
-      lists_(points, box.side) {}
+      location_(points, box.side) {}
 
 /// [Fig 2.5].
-template <int D, class Mesh>
-void Refinement<D, Mesh>::run() {
+template <int D, class Mesh, class Location>
+void Refinement<D, Mesh, Location>::run() {
   start();
-  const auto is_crowded = [&](std::uint32_t v) { return lists_.is_crowded(v); };
+  const auto is_crowded = [&](std::uint32_t v) { return location_.is_crowded(v); };
   for (std::size_t steps = 1;; ++steps) {
     this->watch(steps, kernel_.places());
     if (!conforms()) continue;
@@ -49,14 +53,14 @@ void Refinement<D, Mesh>::run() {
 }
 
 /// Once all points are vertices: else a vertex is inserted that is needed for it, or will be.
-template <int D, class Mesh>
-bool Refinement<D, Mesh>::conforms() {
+template <int D, class Mesh, class Location>
+bool Refinement<D, Mesh, Location>::conforms() {
   if constexpr (kConforms) {
-    if (lists_.left() != 0) return true;
+    if (location_.left() != 0) return true;
     if (!std::exchange(has_started_, true)) this->conformity_.start();
     if (const auto wanted = this->conformity_.next()) {
       if (const auto v = this->dig(*wanted)) {
-        lists_.add_vertex();
+        location_.add_vertex();
         insert_dug(*v, {});
       }
       return false;
@@ -67,16 +71,16 @@ bool Refinement<D, Mesh>::conforms() {
 
 // --- Initialize [Fig 2.6] --------------------------------------------------------------------
 
-template <int D, class Mesh>
-void Refinement<D, Mesh>::start() {
+template <int D, class Mesh, class Location>
+void Refinement<D, Mesh, Location>::start() {
   add_box();
-  if (lists_.left() != 0) add_first_point();
+  if (location_.left() != 0) add_first_point();
   queue_.make_room(kernel_.simplices().places());
   this->look_at_all([&](std::uint32_t s) { look_at(s, kernel_.measure(s)); });
 }
 
-template <int D, class Mesh>
-void Refinement<D, Mesh>::add_box() {
+template <int D, class Mesh, class Location>
+void Refinement<D, Mesh, Location>::add_box() {
   const std::vector<Point<D>> places = this->boundary();
   std::vector<std::uint32_t> vertices;
   for (const std::uint32_t i : spatial_order<D>(places)) {
@@ -87,31 +91,31 @@ void Refinement<D, Mesh>::add_box() {
 }
 
 /// The nearest to the middle of the box.
-template <int D, class Mesh>
-std::uint32_t Refinement<D, Mesh>::first_point() const {
+template <int D, class Mesh, class Location>
+std::uint32_t Refinement<D, Mesh, Location>::first_point() const {
   Point<D> middle;
   for (int i = 0; i < D; ++i) middle[i] = box_.lo[i] + box_.side / 2;
   std::uint32_t best = 0;
-  for (std::uint32_t k = 1; k < lists_.left(); ++k) {
-    if (squared_distance(lists_.place(k), middle) < squared_distance(lists_.place(best), middle)) {
+  for (std::uint32_t k = 1; k < location_.left(); ++k) {
+    if (squared_distance(location_.place(k), middle) <
+        squared_distance(location_.place(best), middle)) {
       best = k;
     }
   }
   return best;
 }
 
-template <int D, class Mesh>
-void Refinement<D, Mesh>::add_first_point() {
+template <int D, class Mesh, class Location>
+void Refinement<D, Mesh, Location>::add_first_point() {
   const std::uint32_t first = first_point();
-  add_place(lists_.place(first), VertexKind::input, first);
+  add_place(location_.place(first), VertexKind::input, first);
   const auto v = static_cast<std::uint32_t>(kernel_.places());
   kernel_.insert(v);
-  lists_.start(v, kernel_.place(v), first);
-  queue_.add_crowded(v);
+  location_.start(kernel_, v, first, [&](std::uint32_t w) { queue_.add_crowded(w); });
 }
 
-template <int D, class Mesh>
-void Refinement<D, Mesh>::look_at(std::uint32_t s, const Shape& shape) {
+template <int D, class Mesh, class Location>
+void Refinement<D, Mesh, Location>::look_at(std::uint32_t s, const Shape& shape) {
   if (!this->is_poor(shape)) return;
   const bool skinny = shape.radius2 > skinny2_ * shape.shortest2;
   queue_.add(s, skinny ? WorkQueue::Wait::skinny : WorkQueue::Wait::moderately_skinny);
@@ -119,17 +123,17 @@ void Refinement<D, Mesh>::look_at(std::uint32_t s, const Shape& shape) {
 
 // --- Split [Fig 2.7] -------------------------------------------------------------------------
 
-/// Of a point near the centre nearly always a corner of s is the owner: so they are asked before
-/// anything is dug [rules D6].
-template <int D, class Mesh>
-void Refinement<D, Mesh>::split(std::uint32_t s) {
+template <int D, class Mesh, class Location>
+void Refinement<D, Mesh, Location>::split(std::uint32_t s) {
   if constexpr (kConforms) {
     if (has_started_ && !this->is_split(s)) return;
   }
   const Centre<D> centre = centres_.of(kernel_, s);
-  const bool warps = lists_.left() != 0 && !centre.on_side;
+  const bool warps = location_.left() != 0 && !centre.on_side;
   if (warps) {
-    if (const Found found = point_near_corners(centre, s); found.point != kNone) {
+    const Found found =
+        location_.find_early(kernel_, s, centre.place, k_ * centre.radius, takes(s));
+    if (found.point != kNone) {
       ++stats_.warped;
       return insert_point(found, s);
     }
@@ -138,11 +142,12 @@ void Refinement<D, Mesh>::split(std::uint32_t s) {
   const std::uint32_t v =
       add_place(centre.place, centre.on_side ? VertexKind::boundary : VertexKind::steiner);
   kernel_.dig(v, s);
-  const Found found = warps ? point_near_link(centre, s) : Found{};
+  const Found found =
+      warps ? location_.find_late(kernel_, s, centre.place, k_ * centre.radius, takes(s)) : Found{};
   if (found.point != kNone) {
     ++stats_.warped;
     kernel_.undo_dig();
-    kernel_.set_place(v, lists_.place(found.point));
+    kernel_.set_place(v, location_.place(found.point));
     set_point(v, found.point);
     kernel_.dig(v, s);
   } else if constexpr (kConforms) {
@@ -153,8 +158,9 @@ void Refinement<D, Mesh>::split(std::uint32_t s) {
 }
 
 /// v is dug at the centre; it stays there, or goes onto a feature, or is undone.
-template <int D, class Mesh>
-bool Refinement<D, Mesh>::dig_yielding(std::uint32_t v, const Centre<D>& centre, std::uint32_t s) {
+template <int D, class Mesh, class Location>
+bool Refinement<D, Mesh, Location>::dig_yielding(std::uint32_t v, const Centre<D>& centre,
+                                                 std::uint32_t s) {
   if constexpr (kConforms) {
     if (centre.on_side) return true;
     if (has_started_) {
@@ -186,11 +192,11 @@ bool Refinement<D, Mesh>::dig_yielding(std::uint32_t v, const Centre<D>& centre,
 }
 
 /// Around a Steiner vertex any point can go in: none is near, or it would be there in its place.
-template <int D, class Mesh>
-void Refinement<D, Mesh>::split_crowded(std::uint32_t v) {
+template <int D, class Mesh, class Location>
+void Refinement<D, Mesh, Location>::split_crowded(std::uint32_t v) {
   const bool is_input = kinds_[v] == VertexKind::input;
-  const Found found{is_input ? lists_.farthest(v) : lists_.any(v), v};
-  const Point<D> p = lists_.place(found.point);
+  const Found found = is_input ? location_.farthest(kernel_, v) : location_.any(kernel_, v);
+  const Point<D> p = location_.place(found.point);
   const auto conflicts = [&](std::uint32_t s) { return kernel_.conflicts(s, p); };
   const auto is_deep = [&](std::uint32_t s) { return is_deep_in(s, p, v); };
   const std::uint32_t s = is_input ? kernel_.find_in_star(v, star_, is_deep)
@@ -206,8 +212,8 @@ void Refinement<D, Mesh>::split_crowded(std::uint32_t v) {
 }
 
 /// The simplex of v's star, in star_, with the largest ball.
-template <int D, class Mesh>
-std::uint32_t Refinement<D, Mesh>::largest_in_star(std::uint32_t v) const {
+template <int D, class Mesh, class Location>
+std::uint32_t Refinement<D, Mesh, Location>::largest_in_star(std::uint32_t v) const {
   std::uint32_t largest = kNone;
   double radius2 = 0;
   for (const std::uint32_t s : star_) {
@@ -218,47 +224,26 @@ std::uint32_t Refinement<D, Mesh>::largest_in_star(std::uint32_t v) const {
 }
 
 /// Whether p is in B(c, k r) of a simplex with corner v.
-template <int D, class Mesh>
-bool Refinement<D, Mesh>::is_deep_in(std::uint32_t s, const Point<D>& p, std::uint32_t v) const {
+template <int D, class Mesh, class Location>
+bool Refinement<D, Mesh, Location>::is_deep_in(std::uint32_t s, const Point<D>& p,
+                                               std::uint32_t v) const {
   const Point<D>& c = kernel_.simplices().ball(s).centre;
   const double r2 = squared_distance(c, kernel_.place(v));
   return squared_distance(c, p) < k_ * k_ * r2;
 }
 
-template <int D, class Mesh>
-auto Refinement<D, Mesh>::point_near(const Centre<D>& centre, std::uint32_t w) const -> Found {
-  const std::uint32_t point = lists_.find(w, kernel_.place(w), centre.place, k_ * centre.radius);
-  return {point, w};
-}
-
-/// A point whose insertion takes s out.
-template <int D, class Mesh>
-auto Refinement<D, Mesh>::point_near_corners(const Centre<D>& centre, std::uint32_t s) const -> Found {
-  for (const std::uint32_t w : kernel_.simplices().corners(s)) {
-    const Found found = point_near(centre, w);
-    if (found.point != kNone && kernel_.conflicts(s, lists_.place(found.point))) return found;
-  }
-  return {};
-}
-
-/// The same in the lists of those around the hole that is dug at the centre.
-template <int D, class Mesh>
-auto Refinement<D, Mesh>::point_near_link(const Centre<D>& centre, std::uint32_t s) const -> Found {
-  Found best;
-  kernel_.for_each_in_link([&](std::uint32_t w) {
-    if (best.point != kNone) return;
-    const Found found = point_near(centre, w);
-    if (found.point != kNone && kernel_.conflicts(s, lists_.place(found.point))) best = found;
-  });
-  return best;
+/// Asks of a point whether its insertion takes s out.
+template <int D, class Mesh, class Location>
+auto Refinement<D, Mesh, Location>::takes(std::uint32_t s) const {
+  return [this, s](std::uint32_t point) { return kernel_.conflicts(s, location_.place(point)); };
 }
 
 // --- Insert [Fig 2.8] ------------------------------------------------------------------------
 
-template <int D, class Mesh>
-std::uint32_t Refinement<D, Mesh>::add_place(const Point<D>& p, VertexKind kind,
-                                             std::uint32_t point) {
-  lists_.add_vertex();
+template <int D, class Mesh, class Location>
+std::uint32_t Refinement<D, Mesh, Location>::add_place(const Point<D>& p, VertexKind kind,
+                                                       std::uint32_t point) {
+  location_.add_vertex();
   if constexpr (kConforms) {
     return Base::add_place({p, {}}, kind, point == kNone ? 0 : handles_[point]);
   } else {
@@ -267,64 +252,59 @@ std::uint32_t Refinement<D, Mesh>::add_place(const Point<D>& p, VertexKind kind,
 }
 
 /// v is this point of the input.
-template <int D, class Mesh>
-void Refinement<D, Mesh>::set_point(std::uint32_t v, std::uint32_t point) {
+template <int D, class Mesh, class Location>
+void Refinement<D, Mesh, Location>::set_point(std::uint32_t v, std::uint32_t point) {
   kinds_[v] = VertexKind::input;
   if constexpr (kConforms) this->conformity_.set_vertex(v, {}, handles_[point]);
 }
 
 /// Requires: dug.
-template <int D, class Mesh>
-void Refinement<D, Mesh>::undo_place() {
+template <int D, class Mesh, class Location>
+void Refinement<D, Mesh, Location>::undo_place() {
   if constexpr (kConforms) Base::undo_place();
-  lists_.drop_vertex();
+  location_.drop_vertex();
 }
 
 /// Requires: it takes s out.
-template <int D, class Mesh>
-void Refinement<D, Mesh>::insert_point(const Found& found, std::uint32_t s) {
-  const std::uint32_t v = add_place(lists_.place(found.point), VertexKind::input, found.point);
+template <int D, class Mesh, class Location>
+void Refinement<D, Mesh, Location>::insert_point(const Found& found, std::uint32_t s) {
+  const std::uint32_t v = add_place(location_.place(found.point), VertexKind::input, found.point);
   kernel_.dig(v, s);
   insert_dug(v, found);
 }
 
 /// A point that is not in its owner's cell, but for rounding. It may be where a vertex is.
-template <int D, class Mesh>
-void Refinement<D, Mesh>::insert_lost(const Found& found) {
-  const Point<D>& p = lists_.place(found.point);
+template <int D, class Mesh, class Location>
+void Refinement<D, Mesh, Location>::insert_lost(const Found& found) {
+  const Point<D>& p = location_.place(found.point);
   const std::uint32_t s = kernel_.walk(p, star_.front());
   for (const std::uint32_t w : kernel_.simplices().corners(s)) {
     if (kernel_.place(w) != p) continue;
     set_point(w, found.point);
-    return lists_.drop(found.owner, found.point);
+    return location_.drop(kernel_, found);
   }
   insert_point(found, s);
 }
 
 /// `found`: the point that v is, if it is one.
-template <int D, class Mesh>
-void Refinement<D, Mesh>::insert_dug(std::uint32_t v, const Found& found) {
+template <int D, class Mesh, class Location>
+void Refinement<D, Mesh, Location>::insert_dug(std::uint32_t v, const Found& found) {
   for (const std::uint32_t s : kernel_.doomed()) queue_.forget(s);
   if constexpr (kConforms) {
     if (has_started_) this->conformity_.before_fill(v);
   }
   this->count_degrees(kernel_.doomed(), -1);
-  if (lists_.left() != 0) {
-    const Point<D>& p = kernel_.place(v);
-    std::uint32_t is_point = kNone;
-    kernel_.for_each_in_link([&](std::uint32_t w) {
-      if (w == kInfinite) return;
-      const std::uint32_t point = lists_.relocate(v, p, w, kernel_.place(w));
-      if (point != kNone) is_point = point;
-    });
+  const bool moves = location_.left() != 0;
+  if (moves) {
+    const std::uint32_t is_point = location_.take(kernel_, v);
     if (is_point != kNone) {
       set_point(v, is_point);
     } else if (found.point != kNone) {
-      lists_.drop(found.owner, found.point);
+      location_.drop(kernel_, found);
     }
-    if (lists_.is_crowded(v)) queue_.add_crowded(v);
   }
   kernel_.fill(v);
+  if (moves) location_.give(kernel_, v, [&](std::uint32_t w) { queue_.add_crowded(w); });
   queue_.make_room(kernel_.simplices().places());
   const auto& made = kernel_.made();
   for (std::size_t k = 0; k < made.size(); ++k) look_at(made[k], kernel_.shape_made(k));
@@ -334,15 +314,26 @@ void Refinement<D, Mesh>::insert_dug(std::uint32_t v, const Found& found) {
   }
 }
 
-template <int D, class Mesh>
-SvrStats Refinement<D, Mesh>::stats() const {
+template <int D, class Mesh, class Location>
+SvrStats Refinement<D, Mesh, Location>::stats() const {
   SvrStats stats = stats_;
   this->set_figures(stats);
+  const LookedAt& looked_at = location_.looked_at();
+  stats.looked_at_to_find = looked_at.to_find;
+  stats.looked_at_to_move = looked_at.to_move;
   return stats;
 }
 
 template class Refinement<2, RefinedMesh<2>>;
 template class Refinement<3, RefinedMesh<3>>;
 template class Refinement<3, ConformingMesh>;
+template class Refinement<2, RefinedMesh<2>, VoronoiLocation<2, PlainLists<2>>>;
+template class Refinement<3, RefinedMesh<3>, VoronoiLocation<3, PlainLists<3>>>;
+template class Refinement<2, RefinedMesh<2>, VoronoiLocation<2, ShellLists<2>>>;
+template class Refinement<3, RefinedMesh<3>, VoronoiLocation<3, ShellLists<3>>>;
+template class Refinement<2, RefinedMesh<2>, SimplexLocation<2>>;
+template class Refinement<3, RefinedMesh<3>, SimplexLocation<3>>;
+template class Refinement<2, RefinedMesh<2>, BallLocation<2>>;
+template class Refinement<3, RefinedMesh<3>, BallLocation<3>>;
 
 }  // namespace mesher::detail

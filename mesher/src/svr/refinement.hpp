@@ -21,14 +21,16 @@
 
 #include "mesher/svr.hpp"
 #include "svr/conforming_mesh.hpp"
+#include "svr/location.hpp"
 #include "svr/refined_mesh.hpp"
 #include "svr/voronoi_lists.hpp"
+#include "svr/voronoi_location.hpp"
 #include "svr/work_queue.hpp"
 
 namespace mesher::detail {
 
-/// `Mesh`: RefinedMesh, or ConformingMesh.
-template <int D, class Mesh>
+/// `Mesh`: RefinedMesh, or ConformingMesh. `Location`: where points wait, see location.hpp.
+template <int D, class Mesh, class Location = VoronoiLocation<D, VoronoiLists<D>>>
 class Refinement : public Mesh {
   using Base = Mesh;
   static constexpr bool kConforms = !std::is_same_v<Mesh, RefinedMesh<D>>;
@@ -51,11 +53,6 @@ class Refinement : public Mesh {
  private:
   using Base::box_, Base::centres_, Base::kernel_, Base::kinds_, Base::on_sides_, Base::rho2_;
 
-  // A point, and the vertex that has it on its list; or none.
-  struct Found {
-    std::uint32_t point = kNone, owner = kNone;
-  };
-
   void start();
   void add_box();
   void add_first_point();
@@ -66,10 +63,7 @@ class Refinement : public Mesh {
   void split_crowded(std::uint32_t v);
   [[nodiscard]] std::uint32_t largest_in_star(std::uint32_t v) const;
   [[nodiscard]] bool is_deep_in(std::uint32_t s, const Point<D>& p, std::uint32_t v) const;
-  [[nodiscard]] Found point_near(const Centre<D>& centre, std::uint32_t w) const;
-  [[nodiscard]] Found point_near_corners(const Centre<D>& centre, std::uint32_t s) const;
-  [[nodiscard]] Found point_near_link(const Centre<D>& centre, std::uint32_t s) const;
-
+  [[nodiscard]] auto takes(std::uint32_t s) const;
   [[nodiscard]] bool conforms();
   [[nodiscard]] bool dig_yielding(std::uint32_t v, const Centre<D>& centre, std::uint32_t s);
   std::uint32_t add_place(const Point<D>& p, VertexKind kind, std::uint32_t point = kNone);
@@ -82,7 +76,7 @@ class Refinement : public Mesh {
   double k_, skinny2_;
   std::vector<VertexHandle> handles_;  // of points, if it conforms
   bool has_started_ = false;           // to conform
-  VoronoiLists<D> lists_;
+  Location location_;
   WorkQueue queue_;
   SvrStats stats_;                   // warped and crowded
   std::vector<std::uint32_t> star_;  // scratch

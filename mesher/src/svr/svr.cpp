@@ -1,10 +1,24 @@
 // From points to a mesh.
 #include "mesher/svr.hpp"
 
+#include "svr/ball_location.hpp"
 #include "svr/from_points.hpp"
+#include "svr/plain_lists.hpp"
 #include "svr/refinement.hpp"
+#include "svr/shell_lists.hpp"
+#include "svr/simplex_location.hpp"
 
 namespace mesher {
+
+namespace {
+
+template <class Location>
+struct With {
+  template <int D>
+  using Algorithm = detail::Refinement<D, detail::RefinedMesh<D>, Location>;
+};
+
+}  // namespace
 
 template <int D>
 Mesh<D> svr(const std::vector<Point<D>>& points, const Options<D>& options,
@@ -15,8 +29,24 @@ Mesh<D> svr(const std::vector<Point<D>>& points, const Options<D>& options,
   detail::require_unstopped(control);
   detail::require_k(settings.k);
   detail::require_no_limits(options, "svr");
-  return detail::mesh_points<detail::PointRefinement, D>(points, options, {{}, settings.k, {}}, ids, stats,
-                                                    control);
+  const auto by = [&]<class Location>() {
+    return detail::mesh_points<With<Location>::template Algorithm, D>(
+        points, options, {{}, settings.k, {}}, ids, stats, control);
+  };
+  using namespace detail;
+  switch (settings.location) {
+    case PointLocation::voronoi_reach:
+      return by.template operator()<VoronoiLocation<D, VoronoiLists<D>>>();
+    case PointLocation::voronoi_plain:
+      return by.template operator()<VoronoiLocation<D, PlainLists<D>>>();
+    case PointLocation::voronoi_shells:
+      return by.template operator()<VoronoiLocation<D, ShellLists<D>>>();
+    case PointLocation::simplex:
+      return by.template operator()<SimplexLocation<D>>();
+    case PointLocation::circumball:
+      return by.template operator()<BallLocation<D>>();
+  }
+  throw Error(ErrorCode::bad_option, "no such structure for point location");
 }
 
 template Mesh<2> svr<2>(const std::vector<Point<2>>&, const Options<2>&, const SvrSettings&,

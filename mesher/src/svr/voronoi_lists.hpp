@@ -18,6 +18,7 @@
 #include "geometry/plane.hpp"
 #include "geometry/space.hpp"
 #include "mesher/mesh.hpp"
+#include "svr/location.hpp"
 
 namespace mesher::detail {
 
@@ -63,11 +64,14 @@ class VoronoiLists {
   void start(std::uint32_t v, const Point<D>& p, std::uint32_t except) noexcept;
   /// Gives the new vertex v at p what is nearer to it of the list of its neighbour w at q. A point
   /// at p is gone. Returns: that, or kNone.
-  std::uint32_t relocate(std::uint32_t v, const Point<D>& p, std::uint32_t w, const Point<D>& q) noexcept;
+  std::uint32_t relocate(std::uint32_t v, const Point<D>& p, std::uint32_t w,
+                         const Point<D>& q) noexcept;
 
   /// A point on the list of w, at q, in the ball around c. `r`: its radius.
   [[nodiscard]] std::uint32_t find(std::uint32_t w, const Point<D>& q, const Point<D>& c,
                                    double r) const noexcept;
+
+  [[nodiscard]] const LookedAt& looked_at() const noexcept { return looked_at_; }
 
  private:
   // Most are only passed: they are apart from places, so that more of them are in the cache.
@@ -91,6 +95,7 @@ class VoronoiLists {
   std::vector<Listed> listed_;               // by point
   std::vector<std::uint32_t> first_{kNone};  // by vertex
   std::vector<float> reach2_{0};             // at least the greatest distance2 on the list
+  mutable LookedAt looked_at_;
   std::size_t left_;
   double unit2_;
 };
@@ -114,7 +119,7 @@ void VoronoiLists<D>::start(std::uint32_t v, const Point<D>& p, std::uint32_t ex
 
 template <int D>
 std::uint32_t VoronoiLists<D>::relocate(std::uint32_t v, const Point<D>& p, std::uint32_t w,
-                               const Point<D>& q) noexcept {
+                                        const Point<D>& q) noexcept {
   if (first_[w] == kNone) return kNone;
   // A point within half of the way to v stays.
   const double stays2 = scaled2(p, q) / 4 * kDown;
@@ -125,6 +130,7 @@ std::uint32_t VoronoiLists<D>::relocate(std::uint32_t v, const Point<D>& p, std:
     const std::uint32_t point = *link;
     Listed& listed = listed_[point];
     if (static_cast<double>(listed.distance2) >= stays2) {
+      ++looked_at_.to_move;
       const double d2 = scaled2(places_[point], p);
       if (d2 < static_cast<double>(listed.distance2)) {
         *link = listed.next;
@@ -153,6 +159,7 @@ std::uint32_t VoronoiLists<D>::find(std::uint32_t w, const Point<D>& q, const Po
   const double gap = std::sqrt(squared_distance(c, q)) - r;
   if (gap > 0 && gap * gap * unit2_ > static_cast<double>(reach2_[w])) return kNone;
   for (const double r2 = r * r; point != kNone; point = listed_[point].next) {
+    ++looked_at_.to_find;
     if (squared_distance(places_[point], c) <= r2) return point;
   }
   return kNone;

@@ -1,0 +1,195 @@
+// Each point waits at the simplex that it is in [3.1, "By simplex"; Kirkpatrick].
+//
+// A vertex is crowded by the points that are nearest to it of the corners of their simplex. When
+// simplices go, their points walk to where they are, with exact predicates. A query looks at the
+// simplices that its ball meets.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/plane.hpp"
+#include "geometry/space.hpp"
+#include "svr/location.hpp"
+
+namespace mesher::detail {
+
+template <int D>
+class SimplexLocation {
+ public:
+  using Kernel = RefinedKernel<D>;
+
+  SimplexLocation(std::span<const Point<D>> points, double /*side*/)
+      : places_(points.begin(), points.end()),
+        next_(points.size(), kNone),
+        owner_(points.size()),
+        left_(points.size()) {}
+
+  [[nodiscard]] std::size_t left() const noexcept { return left_; }
+  [[nodiscard]] const Point<D>& place(std::uint32_t point) const noexcept { return places_[point]; }
+  void add_vertex() { owned_.push_back(0); }
+  void drop_vertex() noexcept { owned_.pop_back(); }
+  /// All vertices but v are the box's. They go to where they are one by one.
+  template <class Visit>
+  void start(const Kernel& kernel, std::uint32_t v, std::uint32_t except, Visit&& visit) {
+    for (std::uint32_t k = 0; k < places_.size(); ++k) {
+      if (k != except) moving_.push_back(k);
+    }
+    --left_;
+    give(kernel, v, visit);
+  }
+  [[nodiscard]] bool is_crowded(std::uint32_t v) const noexcept { return owned_[v] != 0; }
+  [[nodiscard]] Found any(Kernel& kernel, std::uint32_t v) {
+    return best_of(kernel, v, [](std::uint32_t) { return true; });
+  }
+  [[nodiscard]] Found farthest(Kernel& kernel, std::uint32_t v) {
+    double most = -1;
+    return best_of(kernel, v, [&](std::uint32_t point) {
+      const double d2 = squared_distance(places_[point], kernel.place(v));
+      if (d2 <= most) return false;
+      most = d2;
+      return true;
+    });
+  }
+
+  template <class Takes>
+  [[nodiscard]] Found find_early(const Kernel& kernel, std::uint32_t s, const Point<D>& c, double r,
+                                 Takes&& takes) {
+    std::vector<std::uint32_t>& all = met_;
+    all.assign(1, kernel.walk(c, s));
+    Found found;
+    if (kernel.is_ghost(all[0])) return found;
+    seen_.resize(first_.size());
+    seen_[all[0]] = true;
+    for (std::size_t i = 0; i < all.size() && found.point == kNone; ++i) {
+      found = find_in(all[i], c, r, takes);
+      for (std::uint32_t k = 0; k <= D; ++k) {
+        const std::uint32_t other = kernel.simplices().across(all[i])[k] >> 2;
+        if (kernel.is_ghost(other) || seen_[other] || is_beyond(kernel, all[i], k, c, r)) continue;
+        seen_[other] = true;
+        all.push_back(other);
+      }
+    }
+    for (const std::uint32_t t : all) seen_[t] = false;
+    return found;
+  }
+  template <class Takes>
+  [[nodiscard]] Found find_late(const Kernel&, std::uint32_t, const Point<D>&, double,
+                                Takes&&) const {
+    return {};
+  }
+
+  std::uint32_t take(const Kernel& kernel, std::uint32_t v) {
+    std::uint32_t is_point = kNone;
+    for (const std::uint32_t s : kernel.doomed()) {
+      for (std::uint32_t k = first_[s]; k != kNone; k = next_[k]) {
+        --owned_[owner_[k]];
+        if (places_[k] == kernel.place(v)) {
+          is_point = k;
+          --left_;
+        } else {
+          moving_.push_back(k);
+        }
+      }
+      first_[s] = kNone;
+    }
+    return is_point;
+  }
+  template <class Visit>
+  void give(const Kernel& kernel, std::uint32_t, Visit&& visit) {
+    first_.resize(kernel.simplices().places(), kNone);
+    std::uint32_t s = kernel.made().front();
+    for (const std::uint32_t k : moving_) {
+      s = kernel.walk(places_[k], s);
+      looked_at_.to_move += D + 1;
+      next_[k] = first_[s];
+      first_[s] = k;
+      owner_[k] = nearest_corner(kernel, s, places_[k]);
+      if (owned_[owner_[k]]++ == 0) visit(owner_[k]);
+    }
+    moving_.clear();
+  }
+  /// `found.owner`: the simplex.
+  void drop(Kernel&, const Found& found) noexcept {
+    std::uint32_t* link = &first_[found.owner];
+    while (*link != found.point) link = &next_[*link];
+    *link = next_[found.point];
+    --owned_[owner_[found.point]];
+    --left_;
+  }
+  [[nodiscard]] const LookedAt& looked_at() const noexcept { return looked_at_; }
+
+ private:
+  // The last of v's points in its star of which is_better(point).
+  template <class IsBetter>
+  [[nodiscard]] Found best_of(Kernel& kernel, std::uint32_t v, IsBetter&& is_better) {
+    Found best;
+    kernel.find_in_star(v, star_, [](std::uint32_t) { return false; });
+    for (const std::uint32_t s : star_) {
+      for (std::uint32_t k = first_[s]; k != kNone; k = next_[k]) {
+        ++looked_at_.to_find;
+        if (owner_[k] == v && is_better(k)) best = {k, s};
+      }
+    }
+    return best;
+  }
+  template <class Takes>
+  [[nodiscard]] Found find_in(std::uint32_t s, const Point<D>& c, double r, Takes&& takes) {
+    for (std::uint32_t k = first_[s]; k != kNone; k = next_[k]) {
+      ++looked_at_.to_find;
+      if (squared_distance(places_[k], c) <= r * r && takes(k)) return {k, s};
+    }
+    return {};
+  }
+  // Whether the ball is on this side of the face across from corner k, but for rounding.
+  [[nodiscard]] static bool is_beyond(const Kernel& kernel, std::uint32_t s, std::uint32_t k,
+                                      const Point<D>& c, double r) {
+    const auto& corners = kernel.simplices().corners(s);
+    const Point<D>& at = kernel.place(corners[(k + 1) % (D + 1)]);
+    const Point<D> a = difference(kernel.place(corners[(k + 2) % (D + 1)]), at);
+    Point<D> normal;
+    if constexpr (D == 2) {
+      normal = {a[1], -a[0]};
+    } else {
+      normal = cross(a, difference(kernel.place(corners[(k + 3) % (D + 1)]), at));
+    }
+    const double inside = product(normal, difference(kernel.place(corners[k]), at));
+    const double height = product(normal, difference(c, at)) * (inside < 0 ? -1 : 1);
+    constexpr double kClear = 1 + 0x1p-20;
+    return height > kClear * r * std::sqrt(product(normal, normal));
+  }
+  [[nodiscard]] static Point<D> difference(const Point<D>& a, const Point<D>& b) {
+    Point<D> d;
+    for (std::size_t i = 0; i < D; ++i) d[i] = a[i] - b[i];
+    return d;
+  }
+  [[nodiscard]] static double product(const Point<D>& a, const Point<D>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < D; ++i) sum += a[i] * b[i];
+    return sum;
+  }
+  [[nodiscard]] static std::uint32_t nearest_corner(const Kernel& kernel, std::uint32_t s,
+                                                    const Point<D>& p) {
+    const auto& corners = kernel.simplices().corners(s);
+    std::uint32_t nearest = corners[0];
+    for (const std::uint32_t w : corners) {
+      if (squared_distance(p, kernel.place(w)) < squared_distance(p, kernel.place(nearest))) {
+        nearest = w;
+      }
+    }
+    return nearest;
+  }
+
+  std::vector<Point<D>> places_;
+  std::vector<std::uint32_t> next_, owner_;  // by point: of the same simplex; a vertex
+  std::vector<std::uint32_t> first_;         // by simplex
+  std::vector<std::uint32_t> owned_{0};      // by vertex: how many points
+  std::size_t left_;
+  std::vector<std::uint32_t> moving_, met_, star_;  // scratch
+  std::vector<bool> seen_;                          // scratch: by simplex
+  LookedAt looked_at_;
+};
+
+}  // namespace mesher::detail
