@@ -24,7 +24,6 @@ Refinement<D, Mesh>::Refinement(const MeshBox<D>& box, std::span<const Point<D>>
     : Base(box, settings, points.size()),
       k_(settings.k),
       skinny2_(points.empty() ? rho2_ : kMeanwhile * kMeanwhile * rho2_),
-      handles_(settings.handles),
       lists_(points, box.side) {}
 
 /// [Fig 2.5].
@@ -260,7 +259,7 @@ std::uint32_t Refinement<D, Mesh>::add_place(const Point<D>& p, VertexKind kind,
                                              std::uint32_t point) {
   lists_.add_vertex();
   if constexpr (kConforms) {
-    return Base::add_place({p, {}}, kind, point == kNone ? 0 : handles_[point]);
+    return Base::add_place({p, {}}, kind, point == kNone ? 0 : this->handles_[point]);
   } else {
     return Base::add_place(p, kind);
   }
@@ -270,7 +269,7 @@ std::uint32_t Refinement<D, Mesh>::add_place(const Point<D>& p, VertexKind kind,
 template <int D, class Mesh>
 void Refinement<D, Mesh>::set_point(std::uint32_t v, std::uint32_t point) {
   kinds_[v] = VertexKind::input;
-  if constexpr (kConforms) this->conformity_.set_vertex(v, {}, handles_[point]);
+  if constexpr (kConforms) this->conformity_.set_vertex(v, {}, this->handles_[point]);
 }
 
 /// Requires: dug.
@@ -343,6 +342,7 @@ SvrStats Refinement<D, Mesh>::stats() const {
 
 template class Refinement<2, RefinedMesh<2>>;
 template class Refinement<3, RefinedMesh<3>>;
-template class Refinement<3, ConformingMesh>;
+template class Refinement<2, ConformingMesh<2>>;
+template class Refinement<3, ConformingMesh<3>>;
 
 }  // namespace mesher::detail

@@ -15,7 +15,7 @@ Mesh<D> svr(const std::vector<Point<D>>& points, const Options<D>& options,
   detail::require_unstopped(control);
   detail::require_k(settings.k);
   detail::require_no_limits(options, "svr");
-  return detail::mesh_points<detail::PointRefinement, D>(points, options, {{}, settings.k, {}}, ids, stats,
+  return detail::mesh_points<detail::PointRefinement, D>(points, options, {{}, settings.k}, ids, stats,
                                                     control);
 }
 
