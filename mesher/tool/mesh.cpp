@@ -203,10 +203,9 @@ void add_mesh(CLI::App& app) {
   mesh->add_option(
           "--algorithm", args->algorithm,
           "gap-balls: the mesh that `edit` keeps; svr: sparse Voronoi refinement, without\n"
-          "limits of size: another mesh, in a quarter of the time in the plane and a tenth in\n"
-          "space, there with fewer vertices;\n"
-          "refine: the traditional way, by the Delaunay triangulation of all points, for the\n"
-          "same inputs")
+          "limits of size: another mesh, in a third to a quarter of the time in the plane and a\n"
+          "tenth in space, there with fewer vertices;\n"
+          "refine: the traditional way, by the Delaunay triangulation of all points first")
       ->check(CLI::IsMember({"gap-balls", "svr", "refine"}))
       ->capture_default_str();
   mesh->footer(
@@ -239,6 +238,7 @@ void add_mesh(CLI::App& app) {
       "  mesher mesh pump.poly --max-volume 1e-4 -o pump.vtu\n"
       "  mesher mesh part.stl --merge -o part.msh\n"
       "  mesher mesh scan.ply --algorithm svr -o scan.vtu\n"
+      "  mesher mesh lake.poly --algorithm refine -o lake.vtu\n"
       "  mesher mesh cities.csv --domain -180 -90 180 90 --rho 2 --static -o cities.vtu");
   mesh->callback([args] { run_mesh(*args); });
 }

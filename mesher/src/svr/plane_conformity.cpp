@@ -82,17 +82,13 @@ void PlaneConformity::start() {
   std::vector<std::uint32_t> vertex_of;
   for (std::uint32_t v = 1; v < vertices_.size(); ++v) {
     const auto& [role, point, on_edge] = vertices_[v];
-    if (role.on != 0) {
-      const double length = store_.segments.pool()[role.on].length;
-      between_.push_back({role.on, role.label.from(false, length), v});
-    }
+    if (role.on != 0) between_.push_back({role, v});
     if (point == 0) continue;
     if (vertex_of.size() <= point) vertex_of.resize(point + 1, kNone);
     vertex_of[point] = v;
   }
-  std::sort(between_.begin(), between_.end(), [](const Between& x, const Between& y) {
-    return std::tie(x.segment, x.from_a) < std::tie(y.segment, y.from_a);
-  });
+  std::sort(between_.begin(), between_.end(),
+            [](const Between& x, const Between& y) { return is_before(x, y.role); });
   std::vector<const Segment*> segments;
   store_.segments.pool().for_each([&](const Segment& s) {
     if (s.alive) segments.push_back(&s);
@@ -106,31 +102,10 @@ void PlaneConformity::start() {
   for (std::uint32_t i = 0; i < pieces_.size(); ++i) look_at_piece(i);
 }
 
-std::size_t PlaneConformity::first_between(SegmentHandle s, double from_a) const {
-  const auto first = std::lower_bound(
-      between_.begin(), between_.end(), std::tie(s, from_a),
-      [](const Between& x, const auto& key) { return std::tie(x.segment, x.from_a) < key; });
-  return static_cast<std::size_t>(first - between_.begin());
-}
-
 /// The vertex that there was at the start; kNone: there was none.
 std::uint32_t PlaneConformity::vertex_at(const Role& role) const {
-  const double length = store_.segments.pool()[role.on].length;
-  const std::size_t i = first_between(role.on, role.label.from(false, length));
-  if (i == between_.size() || vertices_[between_[i].v].role != role) return kNone;
-  return between_[i].v;
-}
-
-/// Whether there were vertices between its ends at the start.
-bool PlaneConformity::has_vertices(std::uint32_t piece) const {
-  if (between_.empty()) return false;
-  const Subedges::Piece& p = pieces_[piece];
-  const double length = store_.segments.pool()[p.edge].length;
-  for (std::size_t i = first_between(p.edge, p.lo.from(false, length)); i < between_.size(); ++i) {
-    if (between_[i].segment != p.edge || between_[i].from_a >= p.hi.from(false, length)) break;
-    if (between_[i].v != p.a) return true;
-  }
-  return false;
+  const auto at = std::lower_bound(between_.begin(), between_.end(), role, is_before);
+  return at == between_.end() || at->role != role ? kNone : at->v;
 }
 
 auto PlaneConformity::relation_to(std::uint32_t piece, std::uint32_t v) const -> Relation {
@@ -173,9 +148,10 @@ void PlaneConformity::require_edge(std::uint32_t piece) const {
   throw lost_edge(leaf(piece), others, store_.segments.pool(), store_.names);
 }
 
-/// In the triangulation an edge with a vertex in its ball has one in the triangles beside it.
+/// In the triangulation an edge with a vertex in its ball has one in the triangles beside it. A piece
+/// with a vertex of its segment between its ends is none, however that vertex was rounded: a circle
+/// past it would have half of the box inside.
 void PlaneConformity::look_at_piece(std::uint32_t piece) {
-  if (has_vertices(piece)) return want_piece(piece, kNone);
   const Subedges::Piece& p = pieces_[piece];
   kernel_.find_in_star(p.a, star_, [](std::uint32_t) { return false; });
   bool is_there = false;

@@ -97,10 +97,12 @@ class PlaneConformity {
   };
   // A vertex on a segment that there was at the start.
   struct Between {
-    SegmentHandle segment;
-    double from_a;
+    Role role;
     std::uint32_t v;
   };
+  static bool is_before(const Between& x, const Role& role) noexcept {
+    return x.role.on != role.on ? x.role.on < role.on : x.role.label < role.label;
+  }
   // What a vertex is to a piece.
   enum class Relation : std::uint8_t {
     apart,
@@ -117,8 +119,6 @@ class PlaneConformity {
   [[nodiscard]] Relation relation(std::uint32_t piece, std::uint32_t v);
   [[nodiscard]] Relation relation_to(std::uint32_t piece, std::uint32_t v) const;
   [[nodiscard]] std::uint32_t vertex_at(const Role& role) const;
-  [[nodiscard]] bool has_vertices(std::uint32_t piece) const;
-  [[nodiscard]] std::size_t first_between(SegmentHandle s, double from_a) const;
   void look_at_piece(std::uint32_t piece);
   [[nodiscard]] Leaf leaf(std::uint32_t piece) const;
   void require_edge(std::uint32_t piece) const;
@@ -132,7 +132,7 @@ class PlaneConformity {
   Store& store_;
   Kernel& kernel_;
   std::vector<Known> vertices_;   // by vertex, from infinity on
-  std::vector<Between> between_;  // by segment, from a to b
+  std::vector<Between> between_;  // by segment and label
   Subedges pieces_;
   std::vector<std::uint32_t> wanted_;
   std::uint32_t splitting_ = kNone;    // the piece that next() has split
