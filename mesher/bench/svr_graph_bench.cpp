@@ -4,13 +4,12 @@
 //   svr_graph_bench [--cgal PROGRAM] [FILE.poly | lines:N | points:N]...
 //       default: lines:10000 lines:100000 points:100000 points:1000000
 //
-// lines:N are N random segments and as many points (family `segments` of `mesher gen`), points:N are
-// uniform ones. PROGRAM is cgal_reference, which is built with the tests: it gets the same input,
-// with lines as constraints, so that its triangles are Delaunay but for these.
-// One JSON line an input and algorithm: `vertices` in what lines enclose, `all_vertices` with those
-// between that and the box, of what is refined alone; `seconds` of the process, with all checks of
-// the input; CGAL's vertices and seconds, and ours over its. All in turns, kRounds times; seconds
-// are medians.
+// lines:N are N random segments and as many points (family `segments` of `mesher gen`), points:N
+// are uniform ones. PROGRAM is cgal_reference, which is built with the tests: it gets the same
+// input, with lines as constraints, so that its triangles are Delaunay but for these. One JSON line
+// an input and algorithm: `vertices` in what lines enclose, `all_vertices` with those between that
+// and the box, of what is refined alone; `seconds` of the process, with all checks of the input;
+// CGAL's vertices and seconds, and ours over its. All in turns, kRounds times; seconds are medians.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -111,7 +110,9 @@ Pslg uniform(std::size_t n) {
 }
 
 Pslg graph_of(const std::string& input) {
-  const auto count = [&] { return std::strtoull(input.c_str() + input.find(':') + 1, nullptr, 10); };
+  const auto count = [&] {
+    return std::strtoull(input.c_str() + input.find(':') + 1, nullptr, 10);
+  };
   if (input.rfind("points:", 0) == 0) return uniform(count());
   if (input.rfind("lines:", 0) == 0) {
     return mesher::generate_pslg({mesher::PslgKind::segments, count()});
@@ -131,6 +132,7 @@ int main(int argc, char** argv) {
   if (inputs.empty()) inputs = {"lines:10000", "lines:100000", "points:100000", "points:1000000"};
   for (const std::string& input : inputs) {
     const bool is_file = std::filesystem::exists(input);
-    bench_graph(is_file ? std::filesystem::path(input).stem().string() : input, graph_of(input), cgal);
+    bench_graph(is_file ? std::filesystem::path(input).stem().string() : input, graph_of(input),
+                cgal);
   }
 }

@@ -1,7 +1,7 @@
 // Which simplices walls enclose, less holes, in a triangulation that is refined.
 //
-// Walls are facets, which stay where they are: only what is new has to be looked at, and it is where
-// what was there before is, on the same side of them.
+// Walls are facets, which stay where they are: only what is new has to be looked at, and it is
+// where what was there before is, on the same side of them.
 #pragma once
 
 #include <cstdint>

@@ -2,28 +2,14 @@
 #include "svr/plane_conformity.hpp"
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <tuple>
 #include <utility>
 
 #include "delaunay/facets.hpp"
 #include "geometry/diametral_ball.hpp"
-#include "geometry/segment_tests.hpp"
 #include "program/split_segments.hpp"
-#include "segments/lost_edge.hpp"
-#include "segments/vertex_budget.hpp"
 
 namespace mesher::detail {
-
-namespace {
-
-// A new vertex yields to segments within this times its distance to others.
-constexpr double kYields = 0.5;
-// And goes to a place that is no farther than this from its foot, in the same units.
-constexpr double kFromFoot = 0.5;
-
-}  // namespace
 
 PlaneConformity::PlaneConformity(Store& store, Kernel& kernel)
     : store_(store), kernel_(kernel), vertices_(1), enclosed_(kernel) {}
@@ -32,38 +18,6 @@ auto PlaneConformity::known(const Role& role, VertexHandle point) const -> Known
   const bool is_end =
       point != 0 && store_.segments.store().visit_at(point, [](const Segment&) { return true; });
   return {role, point, role.on != 0 || is_end};
-}
-
-// --- While points are left -------------------------------------------------------------------
-
-/// The nearest segment; of those as near, the first in canonical order.
-auto PlaneConformity::yield(const Point<2>& x, double radius) const -> std::optional<Placed> {
-  const Segment* nearest = nullptr;
-  double least2 = kYields * kYields * radius * radius;
-  const auto key = [](const Segment& s) { return std::tie(s.place_a, s.place_b); };
-  store_.segments.store().visit_near(x, x, kYields * radius, [&](const Segment& s) {
-    const double d2 = distance2(x, s.place_a, s.place_b);
-    if (d2 > least2 || (d2 == least2 && nearest != nullptr && !(key(s) < key(*nearest)))) return false;
-    nearest = &s, least2 = d2;
-    return false;
-  });
-  if (nearest == nullptr) return std::nullopt;
-  const Segment& s = *nearest;
-  double along = 0;
-  for (std::size_t i = 0; i < 2; ++i) along += (x[i] - s.place_a[i]) * (s.place_b[i] - s.place_a[i]);
-  return place_near(s, std::clamp(along / s.length, 0.0, s.length), kFromFoot * radius);
-}
-
-/// The highest place in the tree that is within the radius.
-auto PlaneConformity::place_near(const Segment& s, double from_a, double radius) const
-    -> std::optional<Placed> {
-  for (PieceRef piece = whole(s); piece.length() > store_.box.side * kShortestPiece;) {
-    const Halves parts = halves(piece);
-    const double at = parts.role.label.from(false, s.length);
-    if (std::abs(at - from_a) <= radius) return Placed{parts.place, parts.role};
-    piece = from_a < at ? parts.lower : parts.upper;
-  }
-  return std::nullopt;
 }
 
 // --- Pieces ----------------------------------------------------------------------------------
@@ -135,22 +89,9 @@ Leaf PlaneConformity::leaf(std::uint32_t piece) const {
   return leaf;
 }
 
-/// Of a piece that is no edge: that there is a vertex in its ball. Cost: O(vertices), if labels have
-/// ever overruled places beside it.
-void PlaneConformity::require_edge(std::uint32_t piece) const {
-  if (piece >= overruled_.size() || !overruled_[piece]) return;
-  std::set<SegmentHandle> others;
-  for (std::uint32_t v = 1; v < vertices_.size(); ++v) {
-    const Relation is = relation_to(piece, v);
-    if (is == Relation::in_ball) return;
-    if (is == Relation::beside) others.insert(vertices_[v].role.on);
-  }
-  throw lost_edge(leaf(piece), others, store_.segments.pool(), store_.names);
-}
-
-/// In the triangulation an edge with a vertex in its ball has one in the triangles beside it. A piece
-/// with a vertex of its segment between its ends is none, however that vertex was rounded: a circle
-/// past it would have half of the box inside.
+/// In the triangulation an edge with a vertex in its ball has one in the triangles beside it. A
+/// piece with a vertex of its segment between its ends is none, however that vertex was rounded: a
+/// circle past it would have half of the box inside.
 void PlaneConformity::look_at_piece(std::uint32_t piece) {
   const Subedges::Piece& p = pieces_[piece];
   kernel_.find_in_star(p.a, star_, [](std::uint32_t) { return false; });
@@ -193,26 +134,14 @@ auto PlaneConformity::next() -> std::optional<Wanted> {
 
 void PlaneConformity::split_piece(std::uint32_t piece, std::uint32_t at) {
   const Halves parts = halves(ref(piece));
-  const std::uint32_t other = pieces_.split(piece, at, parts.role.label,
-                                            {parts.lower.piece.kind, parts.upper.piece.kind});
+  const std::uint32_t other =
+      pieces_.split(piece, at, parts.role.label, {parts.lower.piece.kind, parts.upper.piece.kind});
   if (piece < overruled_.size() && overruled_[piece]) {
     overruled_.resize(pieces_.size());
     overruled_[other] = true;
   }
   look_at_piece(piece);
   look_at_piece(other);
-}
-
-void PlaneConformity::fail_occupied(const Placed& place) const {
-  store_.fail_near(place.p, 0, "a new vertex would coincide with another");
-}
-
-void PlaneConformity::fail_too_many(std::size_t most) const {
-  std::map<FeatureId, std::size_t> counts;
-  for (const Known& v : vertices_) {
-    if (v.role.on != 0) ++counts[store_.names->line(v.role.on)];
-  }
-  throw too_many_vertices(counts, most);
 }
 
 bool PlaneConformity::keeps(std::uint32_t v, std::uint32_t w) const {
@@ -264,36 +193,6 @@ void PlaneConformity::after_fill(std::uint32_t v) {
   if (splitting_ != kNone) split_piece(std::exchange(splitting_, kNone), v);
   for (const std::uint32_t piece : beside_) look_at_piece(piece);
   enclosed_.forget_made();
-}
-
-// --- What is enclosed ------------------------------------------------------------------------
-
-/// A hole on a segment is none.
-bool PlaneConformity::find_regions(std::span<const Point<2>> holes) {
-  const std::uint32_t any = kernel_.find_in_star(1, star_, [](std::uint32_t) { return true; });
-  std::vector<std::uint32_t> in_holes;
-  for (const Point<2>& p : holes) {
-    const std::uint32_t s = kernel_.walk(p, any);
-    if (!is_on_wall(p, s)) in_holes.push_back(s);
-  }
-  return enclosed_.find(in_holes, [&](auto s, auto i) { return is_wall(s, i); });
-}
-
-bool PlaneConformity::is_on_wall(const Point<2>& p, std::uint32_t s) const {
-  const auto& corners = kernel_.simplices().corners(s);
-  for (std::uint32_t i = 0; i < 3; ++i) {
-    if (corners[i] == kInfinite) continue;
-    if (place(corners[i]) == p && vertices_[corners[i]].on_edge) return true;
-    if (!is_wall(s, i)) continue;
-    const auto [a, b] = facet_across<2>(corners, i);
-    if (predicates::orient2d(place(a), place(b), p) == 0) return true;
-  }
-  return false;
-}
-
-bool PlaneConformity::is_wall(std::uint32_t s, std::uint32_t i) const {
-  const auto [a, b] = facet_across<2>(kernel_.simplices().corners(s), i);
-  return vertices_[a].on_edge && vertices_[b].on_edge && pieces_.find(a, b) != kNone;
 }
 
 }  // namespace mesher::detail
