@@ -38,15 +38,6 @@ bool has_lines(const SpaceInput& input) {
   return !input.graph().segments.empty() || !input.graph().facets.empty();
 }
 
-// What has lines is for gap-balls.
-template <int D>
-void require_points_alone(const InputOf<D>& input, const std::string& algorithm) {
-  if (!has_lines(input)) return;
-  const char* lines = D == 2 ? " takes no lines" : " takes no segments and polygons";
-  throw mesher::Error(mesher::ErrorCode::bad_option,
-                      "--algorithm " + algorithm + lines + ", INPUT has some", {input.path()});
-}
-
 // By a function that knows points alone: make(places, ids, control).
 template <int D, class Make>
 mesher::Mesh<D> mesh_of_points(const InputOf<D>& input, mesher::MeshStats& stats,
@@ -66,11 +57,11 @@ mesher::Mesh<D> mesh_of_points(const InputOf<D>& input, mesher::MeshStats& stats
   return mesh;
 }
 
-// By a function of a complex: make(complex, extent, control).
-template <class Make>
-mesher::Mesh<3> mesh_of_complex(const MeshArguments& args, const SpaceInput& input,
-                                mesher::MeshStats& stats, Progress& progress, Make&& make) {
-  mesher::Mesh<3> mesh = locating(input, [&] {
+// By a function of a graph or a complex: make(graph, extent, control).
+template <int D, class Make>
+mesher::Mesh<D> mesh_of_graph(const MeshArguments& args, const InputOf<D>& input,
+                              mesher::MeshStats& stats, Progress& progress, Make&& make) {
+  mesher::Mesh<D> mesh = locating(input, [&] {
     const StopPolitely stop;
     return make(input.graph(), extent(args), progress.control());
   });
@@ -82,15 +73,12 @@ mesher::Mesh<3> mesh_of_complex(const MeshArguments& args, const SpaceInput& inp
 template <int D>
 mesher::Mesh<D> mesh_by_svr(const MeshArguments& args, const InputOf<D>& input, const mesher::Options<D>& options,
                             mesher::MeshStats& stats, Progress& progress) {
-  if constexpr (D == 3) {
-    if (has_lines(input)) {
-      return mesh_of_complex(args, input, stats, progress,
-                             [&](const auto& complex, auto extent, const auto& control) {
-                               return mesher::svr(complex, options, extent, {}, nullptr, control);
-                             });
-    }
+  if (has_lines(input)) {
+    return mesh_of_graph<D>(args, input, stats, progress,
+                            [&](const auto& graph, auto extent, const auto& control) {
+                              return mesher::svr(graph, options, extent, {}, nullptr, control);
+                            });
   }
-  require_points_alone<D>(input, "svr");
   return mesh_of_points<D>(input, stats, progress,
                            [&](const auto& places, const auto& ids, const auto& control) {
                              return mesher::svr<D>(places, options, {}, ids, nullptr, control);
@@ -101,15 +89,12 @@ template <int D>
 mesher::Mesh<D> mesh_by_refine(const MeshArguments& args, const InputOf<D>& input,
                                const mesher::Options<D>& options, mesher::MeshStats& stats,
                                Progress& progress) {
-  if constexpr (D == 3) {
-    if (has_lines(input)) {
-      return mesh_of_complex(args, input, stats, progress,
-                             [&](const auto& complex, auto extent, const auto& control) {
-                               return mesher::refine(complex, options, extent, {}, nullptr, control);
-                             });
-    }
+  if (has_lines(input)) {
+    return mesh_of_graph<D>(args, input, stats, progress,
+                            [&](const auto& graph, auto extent, const auto& control) {
+                              return mesher::refine(graph, options, extent, {}, nullptr, control);
+                            });
   }
-  require_points_alone<D>(input, "refine");
   return mesh_of_points<D>(input, stats, progress,
                            [&](const auto& places, const auto& ids, const auto& control) {
                              return mesher::refine<D>(places, options, {}, ids, nullptr, control);
@@ -217,11 +202,10 @@ void add_mesh(CLI::App& app) {
   add_mesh_options(*mesh, *args);
   mesh->add_option(
           "--algorithm", args->algorithm,
-          "gap-balls: the mesh that `edit` keeps; svr: sparse Voronoi refinement, of\n"
-          "points, and of complexes in space, without limits of size: another mesh, in a\n"
-          "quarter of the time in the plane and a tenth in space, there with fewer vertices;\n"
-          "refine: the traditional way, by the Delaunay triangulation of all points, for the\n"
-          "same inputs")
+          "gap-balls: the mesh that `edit` keeps; svr: sparse Voronoi refinement, without\n"
+          "limits of size: another mesh, in a third to a quarter of the time in the plane and a\n"
+          "tenth in space, there with fewer vertices;\n"
+          "refine: the traditional way, by the Delaunay triangulation of all points first")
       ->check(CLI::IsMember({"gap-balls", "svr", "refine"}))
       ->capture_default_str();
   mesh->footer(
@@ -254,6 +238,7 @@ void add_mesh(CLI::App& app) {
       "  mesher mesh pump.poly --max-volume 1e-4 -o pump.vtu\n"
       "  mesher mesh part.stl --merge -o part.msh\n"
       "  mesher mesh scan.ply --algorithm svr -o scan.vtu\n"
+      "  mesher mesh lake.poly --algorithm refine -o lake.vtu\n"
       "  mesher mesh cities.csv --domain -180 -90 180 90 --rho 2 --static -o cities.vtu");
   mesh->callback([args] { run_mesh(*args); });
 }

@@ -26,6 +26,21 @@ for dimension in 2 3; do
   done
 done
 
+echo "== svr: lines in the plane, their holes and regions, in all formats"
+printf '8 2 0 1\n1 0 0 5\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 .4 .4 0\n6 .6 .4 0\n7 .6 .5 0\n8 .4 .6 0\n8 1\n1 1 2 7\n2 2 3 0\n3 3 4 0\n4 4 1 0\n5 5 6 0\n6 6 7 0\n7 7 8 0\n8 8 5 0\n1\n1 .5 .45\n1\n1 .1 .1 3\n' >svr/holed.poly
+for lines in "$data/great_lakes.poly" svr/holed.poly; do
+  for algorithm in svr refine; do
+    for extent in '' --box; do
+      [[ $lines$extent == svr/holed.poly--box ]] && continue  # holes are kept then
+      expect 0 '' mesh "$lines" $extent --algorithm $algorithm --quiet -o svr/lines.1.node \
+        -o svr/lines.vtu -o svr/lines.msh -o svr/lines.svg --stats svr/figures.json
+      expect 0 'quality' check svr/lines.vtu --input "$lines" --rho 1.4142
+      expect 0 'quality' check svr/lines.1.node --input "$lines" --rho 1.4142
+      python3 -m json.tool svr/figures.json >/dev/null || fail "--stats of $algorithm"
+    done
+  done
+done
+
 echo "== svr: gap-balls is the default, and another mesh"
 expect 0 '' mesh svr/uniform.3.node --quiet -o svr/plain.node
 expect 0 '' mesh svr/uniform.3.node --algorithm gap-balls --quiet -o svr/named.node
@@ -40,8 +55,12 @@ rm -rf out
 mkdir out
 refuse 2 'svrr not in {gap-balls,svr,refine}' mesh svr/uniform.3.node --algorithm svrr -o out/x.node
 for algorithm in svr refine; do
-  refuse 2 "$algorithm takes no lines" mesh "$data/great_lakes.poly" --algorithm $algorithm \
-    -o out/x.node
+  refuse 2 "$algorithm knows no limits of size" mesh "$data/great_lakes.poly" \
+    --algorithm $algorithm --max-area 0.1 -o out/x.node
+  refuse 2 "$algorithm of segments needs a rho of 1.4142 or more" mesh "$data/great_lakes.poly" \
+    --algorithm $algorithm --rho 1.4 -o out/x.node
+  refuse 4 'more than 6000 vertices are needed; so far' mesh \
+    "$data/great_lakes.poly" --algorithm $algorithm --max-vertices 6000 -o out/x.node
   refuse 2 "$algorithm knows no limits of size" mesh svr/uniform.2.node --algorithm $algorithm \
     --max-area 0.1 -o out/x.node
   refuse 2 "$algorithm needs the rule radius-edge" mesh svr/uniform.2.node --algorithm $algorithm \

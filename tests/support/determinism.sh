@@ -78,6 +78,8 @@ write_files() {  # TOOLS FOLDER
   for kind in "${line_kinds[@]}"; do
     "$tool" gen "$kind" --n $lines --seed 3 -o "$kind.poly"
     "$tool" mesh "$kind.poly" --quiet -o "$kind.lines.node" -o "$kind.lines.vtu"
+    "$tool" mesh "$kind.poly" --quiet --algorithm svr -o "$kind.lines.svr.node"
+    "$tool" mesh "$kind.poly" --quiet --algorithm refine -o "$kind.lines.refine.node"
     "$tool" mesh "$kind.poly" --quiet --static -o "$kind.lines.static.node"
     cmp "$kind.lines.ele" "$kind.lines.static.ele"
   done

@@ -62,6 +62,12 @@ void add_seed(Plc& complex, const SeedOf<3>& seed);
                                       MeshStats* stats = nullptr, const RunControl& control = {});
 
 /// The same by other algorithms (mesher/refine.hpp, mesher/svr.hpp), good in `extent`.
+[[nodiscard]] Mesh<2> refine(const Pslg& graph, const Options<2>& options,
+                             Extent extent = Extent::box, const RefineSettings& settings = {},
+                             RefineStats* stats = nullptr, const RunControl& control = {});
+[[nodiscard]] Mesh<2> svr(const Pslg& graph, const Options<2>& options,
+                          Extent extent = Extent::box, const SvrSettings& settings = {},
+                          SvrStats* stats = nullptr, const RunControl& control = {});
 [[nodiscard]] Mesh<3> refine(const Plc& complex, const Options<3>& options,
                              Extent extent = Extent::box, const RefineSettings& settings = {},
                              RefineStats* stats = nullptr, const RunControl& control = {});

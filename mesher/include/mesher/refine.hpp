@@ -30,12 +30,14 @@ struct RefineSettings {
   bool strict = false;
 };
 
-/// What of a complex is refined: all, or what polygons enclose, if they enclose anything, less the
-/// holes at these places. Other simplices may be poor.
-struct RefinedExtent {
+/// What of a graph or a complex is refined: all, or what segments (in space polygons) enclose, if
+/// they enclose anything, less the holes at these places. Other simplices may be poor.
+template <int D>
+struct RefinedExtentOf {
   bool only_enclosed = false;
-  std::vector<Point<3>> holes{};
+  std::vector<Point<D>> holes{};  ///< in the plane one on a segment is none
 };
+using RefinedExtent = RefinedExtentOf<3>;
 
 /// What happened in a run.
 struct RefineStats {
@@ -57,6 +59,18 @@ struct RefineStats {
 /// Cost: that of the Delaunay triangulation of the points, and of the simplices that are made.
 template <int D>
 [[nodiscard]] Mesh<D> refine(const std::vector<Point<D>>& points, const Options<D>& options,
+                             const RefineSettings& settings = {},
+                             const std::vector<FeatureId>& ids = {}, RefineStats* stats = nullptr,
+                             const RunControl& control = {});
+
+/// The same with segments between the points, named by their ids: every segment is a union of edges
+/// of the mesh. A triangle is poor only where segments meet at under 60 degrees, its shortest edge
+/// from one to the other, at equal distances. Not for `strict`; rho is 1.4142 or more: there no
+/// input was found that asks for vertices without end; max_vertices ends it if one does.
+/// Throws: also Error as mesh_statically of these.
+[[nodiscard]] Mesh<2> refine(const std::vector<Point<2>>& points,
+                             const std::vector<Segment>& segments, const Options<2>& options,
+                             const RefinedExtentOf<2>& extent = {},
                              const RefineSettings& settings = {},
                              const std::vector<FeatureId>& ids = {}, RefineStats* stats = nullptr,
                              const RunControl& control = {});

@@ -68,6 +68,13 @@ template <int D>
                           const SvrSettings& settings = {}, const std::vector<FeatureId>& ids = {},
                           SvrStats* stats = nullptr, const RunControl& control = {});
 
+/// The same of points and segments, of which holds also what holds of refine of these
+/// (mesher/refine.hpp).
+[[nodiscard]] Mesh<2> svr(const std::vector<Point<2>>& points, const std::vector<Segment>& segments,
+                          const Options<2>& options, const RefinedExtentOf<2>& extent = {},
+                          const SvrSettings& settings = {}, const std::vector<FeatureId>& ids = {},
+                          SvrStats* stats = nullptr, const RunControl& control = {});
+
 /// The same of a complex, of which holds also what holds of refine of one (mesher/refine.hpp).
 [[nodiscard]] Mesh<3> svr(const std::vector<Point<3>>& points, const std::vector<Segment>& segments,
                           const std::vector<Polygon>& polygons, const Options<3>& options,

@@ -224,24 +224,37 @@ Mesh<3> mesh_statically(const Plc& complex, const Options<3>& options, MeshStats
 
 namespace {
 
-RefinedExtent refined(const Plc& complex, Extent extent) {
-  RefinedExtent refined{.only_enclosed = extent == Extent::enclosed};
-  for (const auto& hole : complex.holes) refined.holes.push_back(hole.seed);
+template <int D>
+RefinedExtentOf<D> refined(const GraphOf<D>& graph, Extent extent) {
+  RefinedExtentOf<D> refined{.only_enclosed = extent == Extent::enclosed};
+  for (const auto& hole : graph.holes) refined.holes.push_back(hole.seed);
   return refined;
 }
 
 }  // namespace
 
+Mesh<2> refine(const Pslg& graph, const Options<2>& options, Extent extent,
+               const RefineSettings& settings, RefineStats* stats, const RunControl& control) {
+  return refine(places_of(graph), segments_of(graph), options, refined<2>(graph, extent), settings,
+                ids_of(graph.points), stats, control);
+}
+
+Mesh<2> svr(const Pslg& graph, const Options<2>& options, Extent extent,
+            const SvrSettings& settings, SvrStats* stats, const RunControl& control) {
+  return svr(places_of(graph), segments_of(graph), options, refined<2>(graph, extent), settings,
+             ids_of(graph.points), stats, control);
+}
+
 Mesh<3> refine(const Plc& complex, const Options<3>& options, Extent extent,
                const RefineSettings& settings, RefineStats* stats, const RunControl& control) {
   return refine(places_of(complex), segments_of(complex), polygons_of(complex), options,
-                refined(complex, extent), settings, ids_of(complex.points), stats, control);
+                refined<3>(complex, extent), settings, ids_of(complex.points), stats, control);
 }
 
 Mesh<3> svr(const Plc& complex, const Options<3>& options, Extent extent,
             const SvrSettings& settings, SvrStats* stats, const RunControl& control) {
   return svr(places_of(complex), segments_of(complex), polygons_of(complex), options,
-             refined(complex, extent), settings, ids_of(complex.points), stats, control);
+             refined<3>(complex, extent), settings, ids_of(complex.points), stats, control);
 }
 
 MeshDataOf<3> with_features(Mesh<3> mesh, const Plc& complex) {

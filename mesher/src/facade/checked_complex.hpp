@@ -1,4 +1,5 @@
-// A complex in space that was found to be one: its features, and what they are called.
+// A graph in the plane, or a complex in space, that was found to be one: its features, and what they
+// are called.
 #pragma once
 
 #include <memory>
@@ -8,8 +9,27 @@
 #include "mesher/mesher.hpp"
 #include "plc/feature_store.hpp"
 #include "plc/validity.hpp"
+#include "program/world.hpp"
 
 namespace mesher::detail {
+
+class CheckedGraph {
+ public:
+  /// Throws: as mesh_statically of these.
+  CheckedGraph(const std::vector<Point<2>>& points, const std::vector<mesher::Segment>& segments,
+               const Options<2>& options, const std::vector<FeatureId>& ids,
+               const RunControl& control);
+  ~CheckedGraph();
+
+  [[nodiscard]] const MeshBox<2>& box() const { return store().box; }
+  /// Its vertices are the points.
+  [[nodiscard]] World<sac::PlainScope, 2>& store() const;
+  [[nodiscard]] const Names& names() const { return *store().names; }
+
+ private:
+  struct Run;
+  std::unique_ptr<Run> run_;
+};
 
 class CheckedComplex {
  public:

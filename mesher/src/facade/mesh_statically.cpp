@@ -273,18 +273,38 @@ template Mesh<2> mesh_statically<2>(const std::vector<Point<2>>&, const Options<
 template Mesh<3> mesh_statically<3>(const std::vector<Point<3>>&, const Options<3>&,
                                     const std::vector<FeatureId>&, MeshStats*, const RunControl&);
 
+namespace {
+
+struct GraphRun : StaticRun<2> {
+  GraphRun(const std::vector<Point<2>>& points, const std::vector<Segment>& segments,
+           const Options<2>& options, const std::vector<FeatureId>& ids, const RunControl& control)
+      : StaticRun<2>(points, options, ids, control, segments.size()) {
+    if (segments.empty()) return;
+    require_planar(world(), add_segments(segments, ids, handles(), world(), names()), names());
+  }
+};
+
+}  // namespace
+
+struct detail::CheckedGraph::Run : GraphRun {
+  using GraphRun::GraphRun;
+};
+
+detail::CheckedGraph::CheckedGraph(const std::vector<Point<2>>& points,
+                                   const std::vector<mesher::Segment>& segments,
+                                   const Options<2>& options, const std::vector<FeatureId>& ids,
+                                   const RunControl& control)
+    : run_(std::make_unique<Run>(points, segments, options, ids, control)) {}
+detail::CheckedGraph::~CheckedGraph() = default;
+World<2>& detail::CheckedGraph::store() const { return run_->world(); }
+
 Mesh<2> mesh_statically(const std::vector<Point<2>>& points, const std::vector<Segment>& segments,
                         const Options<2>& options, const std::vector<FeatureId>& ids,
                         MeshStats* stats, const RunControl& control) {
   if (options.rule != Rule::radius_edge) {
     throw Error(ErrorCode::bad_option, "segments need the rule radius-edge");
   }
-  StaticRun<2> run(points, options, ids, control, segments.size());
-  if (!segments.empty()) {
-    require_planar(run.world(),
-                   add_segments(segments, ids, run.handles(), run.world(), run.names()),
-                   run.names());
-  }
+  GraphRun run(points, segments, options, ids, control);
   run.refine();
   if (run.world().leaves.may_lose()) require_edges(run.world());
   return run.mesh(on_features(run.world(), run.names()), stats);

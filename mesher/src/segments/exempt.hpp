@@ -16,12 +16,21 @@
 
 namespace mesher::detail {
 
+/// A vertex as far as this rule asks: its place on a segment, or the input point that it is.
+struct VertexOnLines {
+  Point<2> p;
+  Role role;
+  VertexHandle point = 0;
+};
+
 /// Whether a live segment at `apex`, an end of s, meets s there at under 60 degrees. If none does,
 /// no triangle stays or not for the sake of s as a leg from that apex. Cost: O(segments at it).
 [[nodiscard]] bool has_sharp_neighbour(const SegmentStore& segments, const Segment& s,
                                        VertexHandle apex);
 
 /// Whether a poor triangle on the left of p -> q, its shortest edge, stays.
+[[nodiscard]] bool is_exempt(const SegmentStore& segments, const VertexOnLines& p,
+                             const VertexOnLines& q);
 [[nodiscard]] bool is_exempt(const VertexSearch<2>& vertices, const SegmentStore& segments,
                              const Vertex<2>& p, const Vertex<2>& q);
 

@@ -2,7 +2,6 @@
 #include "segments/lost_edge.hpp"
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -71,18 +70,22 @@ std::string list(const std::vector<FeatureId>& ids) {
 
 }  // namespace
 
+Error lost_edge(const Leaf& leaf, const std::set<SegmentHandle>& others,
+                const SegmentPool& segments, const Names* names) {
+  std::vector<FeatureId> ids;
+  if (names != nullptr) ids = lines_of(leaf, others, *names);
+  std::string text = list(ids) + " meet ";
+  text += others.empty() ? "at angles " : meeting(*leaf.segment, others, segments);
+  return Error(ErrorCode::too_close,
+               text + "too small for double precision: no edge joins " + place_text(leaf.lo) +
+                   " and " + place_text(leaf.hi),
+               {}, std::move(ids));
+}
+
 void LostEdge::require_none(const VertexSearch<2>& vertices, const SegmentPool& segments,
                             const Names* names) const {
   if (first_ == nullptr) return;
-  const std::set<SegmentHandle> others = segments_in_ball(*first_, vertices);
-  std::vector<FeatureId> ids;
-  if (names != nullptr) ids = lines_of(*first_, others, *names);
-  std::string text = list(ids) + " meet ";
-  text += others.empty() ? "at angles " : meeting(*first_->segment, others, segments);
-  throw Error(ErrorCode::too_close,
-              text + "too small for double precision: no edge joins " + place_text(first_->lo) +
-                  " and " + place_text(first_->hi),
-              {}, std::move(ids));
+  throw lost_edge(*first_, segments_in_ball(*first_, vertices), segments, names);
 }
 
 }  // namespace mesher::detail

@@ -7,12 +7,19 @@
 // there.
 #pragma once
 
+#include <set>
+
 #include "index/vertex_search.hpp"
 #include "mesher/error.hpp"
 #include "segments/leaf.hpp"
 #include "segments/planarity.hpp"
 
 namespace mesher::detail {
+
+/// A leaf that is no edge, named with its line and `others`, the segments that have vertices in its
+/// ball. `names`: null if features have none.
+[[nodiscard]] Error lost_edge(const Leaf& leaf, const std::set<SegmentHandle>& others,
+                              const SegmentPool& segments, const Names* names);
 
 /// The first in canonical order of the leaves that are found to be no edges.
 class LostEdge {

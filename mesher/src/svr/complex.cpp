@@ -1,11 +1,11 @@
-// From a complex to a mesh.
+// From a graph or a complex to a mesh.
 #include <algorithm>
 #include <unordered_map>
 
 #include "facade/checked_complex.hpp"
 #include "mesher/refine.hpp"
 #include "mesher/svr.hpp"
-#include "svr/complex_refinement.hpp"
+#include "svr/delaunay_refinement.hpp"
 #include "svr/from_points.hpp"
 #include "svr/refinement.hpp"
 
@@ -50,32 +50,75 @@ detail::OnFeatures parts_of(const detail::Conformity& all, const detail::Feature
   return on;
 }
 
-template <class Algorithm, class Stats>
-Mesh<3> run(Algorithm& algorithm, const detail::CheckedComplex& complex, Stats* stats) {
+detail::OnFeatures parts_of(const detail::PlaneConformity& all,
+                            const detail::PlaneConformity::Store&, const detail::Names& names) {
+  detail::OnFeatures on;
+  for (std::uint32_t i = 0; i < all.pieces().size(); ++i) {
+    const auto& piece = all.pieces()[i];
+    on.edges.push_back({piece.a, piece.b, names.line(piece.edge)});
+  }
+  return on;
+}
+
+// Below these only the guard of mesh_statically bounds what vertices on features ask of each other.
+template <int D>
+void require_simple(const Options<D>& options, const std::string& name) {
+  detail::require_no_limits(options, name);
+  if (options.rho >= Options<D>().rho) return;
+  const char* what = D == 2 ? " of segments needs a rho of 1.4142 or more"
+                            : " of segments and polygons needs a rho of 2 or more";
+  throw Error(ErrorCode::bad_option, name + what);
+}
+
+const auto& points_of(const detail::PlaneConformity::Store& store) { return store.vertices.pool(); }
+const auto& points_of(const detail::FeatureStore& store) { return store.points(); }
+
+// What an Algorithm makes of what was checked. `settings`: but for what is in the others.
+template <class Algorithm, int D, class Checked, class Stats>
+Mesh<D> run(const Checked& checked, const Options<D>& options, const RefinedExtentOf<D>& extent,
+            typename Algorithm::Settings settings, Stats* stats, const RunControl& control) {
+  settings.store = &checked.store();
+  settings.only_enclosed = extent.only_enclosed;
+  settings.holes = extent.holes;
+  std::vector<Point<D>> places;
+  points_of(checked.store()).for_each([&](const detail::Vertex<D>& v) {
+    if (!v.input) return;
+    places.push_back(v.p);
+    settings.handles.push_back(v.self);
+  });
+  detail::set_common(settings, options, stats != nullptr, control);
+  Algorithm algorithm(checked.box(), places, settings);
   algorithm.run();
-  algorithm.conformity().require_whole();
-  Mesh<3> mesh = detail::mesh_of<3>(
-      algorithm, parts_of(algorithm.conformity(), complex.store(), complex.names()));
+  if constexpr (D == 3) algorithm.conformity().require_whole();
+  Mesh<D> mesh = detail::mesh_of<D>(
+      algorithm, parts_of(algorithm.conformity(), checked.store(), checked.names()));
   detail::set_stats(stats, algorithm, mesh);
   return mesh;
 }
 
-// Below 2 only the guard of mesh_statically bounds what vertices on features ask of each other.
-void require_simple(const Options<3>& options, const std::string& name) {
-  detail::require_no_limits(options, name);
-  if (options.rho >= 2) return;
-  throw Error(ErrorCode::bad_option, name + " of segments and polygons needs a rho of 2 or more");
-}
-
-template <class Settings>
-void set_complex(Settings& all, const detail::CheckedComplex& complex,
-                 const RefinedExtent& extent) {
-  all.store = &complex.store();
-  all.only_enclosed = extent.only_enclosed;
-  all.holes = extent.holes;
-}
-
 }  // namespace
+
+Mesh<2> refine(const std::vector<Point<2>>& points, const std::vector<Segment>& segments,
+               const Options<2>& options, const RefinedExtentOf<2>& extent,
+               const RefineSettings& settings, const std::vector<FeatureId>& ids,
+               RefineStats* stats, const RunControl& control) {
+  if (segments.empty()) return refine<2>(points, options, settings, ids, stats, control);
+  require_simple(options, "refine");
+  const detail::CheckedGraph graph(points, segments, options, ids, control);
+  return run<detail::ComplexRefinement<2>>(graph, options, extent, {{}, settings.order}, stats,
+                                           control);
+}
+
+Mesh<2> svr(const std::vector<Point<2>>& points, const std::vector<Segment>& segments,
+            const Options<2>& options, const RefinedExtentOf<2>& extent,
+            const SvrSettings& settings, const std::vector<FeatureId>& ids, SvrStats* stats,
+            const RunControl& control) {
+  if (segments.empty()) return svr<2>(points, options, settings, ids, stats, control);
+  require_simple(options, "svr");
+  detail::require_k(settings.k);
+  const detail::CheckedGraph graph(points, segments, options, ids, control);
+  return run<detail::ComplexSvr<2>>(graph, options, extent, {{}, settings.k}, stats, control);
+}
 
 Mesh<3> refine(const std::vector<Point<3>>& points, const std::vector<Segment>& segments,
                const std::vector<Polygon>& polygons, const Options<3>& options,
@@ -83,12 +126,8 @@ Mesh<3> refine(const std::vector<Point<3>>& points, const std::vector<Segment>& 
                const std::vector<FeatureId>& ids, RefineStats* stats, const RunControl& control) {
   require_simple(options, "refine");
   const detail::CheckedComplex complex(points, segments, polygons, options, ids, control);
-  detail::ComplexRefinement::Settings all;
-  all.order = settings.order;
-  set_complex(all, complex, extent);
-  detail::set_common(all, options, stats != nullptr, control);
-  detail::ComplexRefinement algorithm(complex.box(), all);
-  return run(algorithm, complex, stats);
+  return run<detail::ComplexRefinement<3>>(complex, options, extent, {{}, settings.order}, stats,
+                                           control);
 }
 
 Mesh<3> svr(const std::vector<Point<3>>& points, const std::vector<Segment>& segments,
@@ -98,18 +137,7 @@ Mesh<3> svr(const std::vector<Point<3>>& points, const std::vector<Segment>& seg
   require_simple(options, "svr");
   detail::require_k(settings.k);
   const detail::CheckedComplex complex(points, segments, polygons, options, ids, control);
-  detail::ComplexSvr::Settings all;
-  all.k = settings.k;
-  set_complex(all, complex, extent);
-  detail::set_common(all, options, stats != nullptr, control);
-  std::vector<Point<3>> places;
-  complex.store().points().for_each([&](const detail::Vertex<3>& v) {
-    if (!v.input) return;
-    places.push_back(v.p);
-    all.handles.push_back(v.self);
-  });
-  detail::ComplexSvr algorithm(complex.box(), places, all);
-  return run(algorithm, complex, stats);
+  return run<detail::ComplexSvr<3>>(complex, options, extent, {{}, settings.k}, stats, control);
 }
 
 }  // namespace mesher

@@ -6,33 +6,42 @@
 
 namespace mesher::detail {
 
-ConformingMesh::ConformingMesh(const MeshBox<3>& box, const Settings& settings, std::size_t points)
+template <int D>
+ConformingMesh<D>::ConformingMesh(const MeshBox<D>& box, const Settings& settings,
+                                  std::size_t points)
     : Base(box, settings, points),
-      store_(*settings.store),
-      conformity_(store_, kernel_),
+      handles_(settings.handles),
+      conformity_(*settings.store, kernel_),
       only_enclosed_(settings.only_enclosed),
       holes_(settings.holes) {}
 
-std::uint32_t ConformingMesh::add_place(const Placed& place, VertexKind kind, VertexHandle point) {
+template <int D>
+std::uint32_t ConformingMesh<D>::add_place(const Placed& place, VertexKind kind,
+                                           VertexHandle point) {
+  if constexpr (D == 2) {
+    if (const std::size_t most = this->full_with(); most != 0) conformity_.fail_too_many(most);
+  }
   const std::uint32_t v = Base::add_place(place.p, kind);
   conformity_.add_vertex(place.role, point);
   return v;
 }
 
-void ConformingMesh::undo_place() {
+template <int D>
+void ConformingMesh<D>::undo_place() {
   kernel_.undo_dig();
   kernel_.drop_place();
   kinds_.pop_back();
   conformity_.drop_vertex();
 }
 
-std::optional<std::uint32_t> ConformingMesh::dig(const Conformity::Wanted& wanted) {
+template <int D>
+std::optional<std::uint32_t> ConformingMesh<D>::dig(const typename Conforms::Wanted& wanted) {
   const auto any = [](std::uint32_t) { return true; };
   const std::uint32_t from = kernel_.find_in_star(wanted.beside, star_, any);
   const std::uint32_t s = kernel_.walk(wanted.place.p, from);
   for (const std::uint32_t w : kernel_.simplices().corners(s)) {
     if (w == kInfinite || kernel_.place(w) != wanted.place.p) continue;
-    throw too_close_near(wanted.place.p);
+    conformity_.fail_occupied(wanted.place);
   }
   const std::uint32_t v = add_place(wanted.place, VertexKind::segment);
   kernel_.dig(v, s);
@@ -41,25 +50,34 @@ std::optional<std::uint32_t> ConformingMesh::dig(const Conformity::Wanted& wante
   return std::nullopt;
 }
 
-bool ConformingMesh::is_split(std::uint32_t s) {
+template <int D>
+bool ConformingMesh<D>::is_split(std::uint32_t s) {
   if (only_enclosed_ && !std::exchange(has_regions_, true)) {
     only_enclosed_ = conformity_.find_regions(holes_);
   }
   return !(only_enclosed_ && conformity_.is_outside(s)) && !stays(s);
 }
 
-/// Its shortest edge is as short as the angle of features makes it.
-bool ConformingMesh::stays(std::uint32_t s) const {
+/// Its shortest edge is as short as the angle of features makes it. In the plane the simplex is on
+/// the left of that edge.
+template <int D>
+bool ConformingMesh<D>::stays(std::uint32_t s) const {
   const auto& corners = kernel_.simplices().corners(s);
   std::pair<std::uint32_t, std::uint32_t> shortest;
   double shortest2 = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i <= D; ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       const double length2 = squared_distance(kernel_.place(corners[i]), kernel_.place(corners[k]));
-      if (length2 < shortest2) shortest2 = length2, shortest = {corners[i], corners[k]};
+      if (length2 >= shortest2) continue;
+      shortest2 = length2;
+      shortest = {corners[k], corners[i]};
+      if (i - k == 2) std::swap(shortest.first, shortest.second);
     }
   }
   return conformity_.keeps(shortest.first, shortest.second);
 }
+
+template class ConformingMesh<2>;
+template class ConformingMesh<3>;
 
 }  // namespace mesher::detail

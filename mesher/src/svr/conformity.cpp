@@ -18,7 +18,7 @@ Error too_close_near(const Point<3>& x) {
 }
 
 Conformity::Conformity(FeatureStore& store, Kernel& kernel)
-    : store_(store), kernel_(kernel), vertices_(1) {
+    : store_(store), kernel_(kernel), vertices_(1), enclosed_(kernel) {
   by_rank_.push_back(nullptr);
   store_.polygons().for_each([&](const Polygon& f) {
     if (f.alive) by_rank_.push_back(&f);
@@ -236,8 +236,7 @@ void Conformity::after_fill(std::uint32_t v) {
   for (const std::uint32_t piece : dug_pieces_) {
     if (!is_made(piece)) want_piece(piece, v);
   }
-  region_.resize(kernel_.simplices().places(), Region::unknown);
-  for (const std::uint32_t s : kernel_.made()) region_[s] = Region::unknown;
+  enclosed_.forget_made();
   for (const Rank f : touched_) look_at_made(f);
 }
 

@@ -28,6 +28,7 @@
 #include "plc/feature_store.hpp"
 #include "plc/placed.hpp"
 #include "svr/crossings.hpp"
+#include "svr/enclosed.hpp"
 #include "svr/subedges.hpp"
 
 namespace mesher::detail {
@@ -38,6 +39,8 @@ namespace mesher::detail {
 class Conformity {
  public:
   using Kernel = DelaunayKernel<3, BallLayout<3>>;
+  using Store = FeatureStore;
+  using Placed = detail::Placed;
 
   Conformity(FeatureStore& store, Kernel& kernel);
 
@@ -63,6 +66,8 @@ class Conformity {
   };
   /// Nothing: all conforms. Throws: Error (too_close: a piece is too short to be split).
   [[nodiscard]] std::optional<Wanted> next();
+  /// Throws: Error (too_close: another vertex is there).
+  [[noreturn]] void fail_occupied(const Placed& place) const { throw too_close_near(place.p); }
 
   /// Throws: Error (too_close), unless the tiles of each polygon are all of it. Requires: next()
   /// has returned nothing.
@@ -83,7 +88,9 @@ class Conformity {
 
   /// Whether no polygons enclose s, or it is in a hole. Requires: next() has returned nothing, and
   /// nothing was inserted since; find_regions(). Cost: amortized O(1) for each that was made.
-  [[nodiscard]] bool is_outside(std::uint32_t s);
+  [[nodiscard]] bool is_outside(std::uint32_t s) {
+    return enclosed_.is_outside(s, [&](auto t, auto i) { return is_wall(t, i); });
+  }
 
   [[nodiscard]] const Polygon& polygon_of(const Crossings::Crossing& tile) const noexcept {
     return polygon(tile.polygon);
@@ -98,7 +105,6 @@ class Conformity {
     bool on_edge, on_polygon;
   };
   enum class Side : std::uint8_t { unknown, none, below, above };
-  enum class Region : std::uint8_t { unknown, inside, outside };
   // Polygons are called by their place in canonical order, from 1 on.
   using Rank = std::uint32_t;
   using Polygons = std::span<const Rank>;  // ascending
@@ -145,7 +151,6 @@ class Conformity {
   [[nodiscard]] bool is_wall(std::uint32_t s, std::uint32_t i) const;
   [[nodiscard]] std::optional<Crossings::Crossing> crossing_of(const Face& face, std::uint32_t s,
                                                                std::uint32_t t, Rank f) const;
-  void flood_outside(std::uint32_t from);
   void want_crossing(std::uint32_t crossing, const Point<3>& from);
   [[nodiscard]] Placed place_for(const Crossings::Crossing& crossing) const;
   [[nodiscard]] std::optional<Point<3>> foot_in(const Polygon& f, const Point<3>& x,
@@ -174,7 +179,7 @@ class Conformity {
   std::vector<Rank> touched_;              // scratch: whose crossings an insertion may change
   std::vector<std::uint32_t> star_;        // scratch
   std::vector<Side> sides_;                // scratch: by simplex, unknown between calls
-  std::vector<Region> region_;             // by simplex
+  Enclosed<3> enclosed_;
 };
 
 }  // namespace mesher::detail

@@ -1,6 +1,5 @@
 // What polygons enclose, and whether all of them is there.
 #include <algorithm>
-#include <utility>
 
 #include "delaunay/facets.hpp"
 #include "svr/conformity.hpp"
@@ -8,61 +7,11 @@
 
 namespace mesher::detail {
 
-/// Unknown ones are joined to known ones around them; those that tiles alone are around are inside.
-bool Conformity::is_outside(std::uint32_t s) {
-  if (region_[s] != Region::unknown) return region_[s] == Region::outside;
-  std::vector<std::uint32_t> all{s};
-  region_[s] = Region::inside;
-  bool outside = false;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    for (std::uint32_t i = 0; i < 4; ++i) {
-      const std::uint32_t other = kernel_.simplices().across(all[k])[i] >> 2;
-      if (is_wall(all[k], i)) continue;
-      if (region_[other] == Region::unknown) {
-        region_[other] = Region::inside;
-        all.push_back(other);
-      }
-      outside = outside || region_[other] == Region::outside;
-    }
-  }
-  if (outside) {
-    for (const std::uint32_t t : all) region_[t] = Region::outside;
-  }
-  return outside;
-}
-
 bool Conformity::find_regions(std::span<const Point<3>> holes) {
-  const auto& simplices = kernel_.simplices();
-  region_.assign(simplices.places(), Region::unknown);
-  std::uint32_t any = kNone;
-  for (std::uint32_t s = 0; s < simplices.places(); ++s) {
-    if (!simplices.alive(s)) continue;
-    any = s;
-    if (kernel_.is_ghost(s)) flood_outside(s);
-  }
-  for (const Point<3>& p : holes) flood_outside(kernel_.walk(p, any));
-  bool encloses = false;
-  for (std::uint32_t s = 0; s < simplices.places(); ++s) {
-    if (!simplices.alive(s) || region_[s] != Region::unknown) continue;
-    region_[s] = Region::inside;
-    encloses = true;
-  }
-  return encloses;
-}
-
-void Conformity::flood_outside(std::uint32_t from) {
-  if (std::exchange(region_[from], Region::outside) == Region::outside) return;
-  std::vector<std::uint32_t> all{from};
-  while (!all.empty()) {
-    const std::uint32_t s = all.back();
-    all.pop_back();
-    for (std::uint32_t i = 0; i < 4; ++i) {
-      const std::uint32_t other = kernel_.simplices().across(s)[i] >> 2;
-      if (region_[other] == Region::outside || is_wall(s, i)) continue;
-      region_[other] = Region::outside;
-      all.push_back(other);
-    }
-  }
+  const std::uint32_t any = kernel_.find_in_star(1, star_, [](std::uint32_t) { return true; });
+  std::vector<std::uint32_t> in_holes;
+  for (const Point<3>& p : holes) in_holes.push_back(kernel_.walk(p, any));
+  return enclosed_.find(in_holes, [&](auto s, auto i) { return is_wall(s, i); });
 }
 
 bool Conformity::is_wall(std::uint32_t s, std::uint32_t i) const {

@@ -1,24 +1,31 @@
-// Traditional Delaunay refinement of points [Fig 2.1], with the gamma-bucketed queue [Fig 1.5] or a
+// Traditional Delaunay refinement [Fig 2.1], with the gamma-bucketed queue [Fig 1.5] or a
 // strict one.
 //
 // A simplex that is gone leaves its entry: each place of a simplex counts how many there were, and
 // an entry names the one that it is for.
+//
+// Of lines and polygons (`Mesh` is ConformingMesh) what the mesh needs to conform comes before poor
+// simplices. A centre that encroaches on features yields: these are split first.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "mesher/refine.hpp"
 #include "svr/bucketed_queue.hpp"
+#include "svr/conforming_mesh.hpp"
 #include "svr/refined_mesh.hpp"
 #include "svr/strict_queue.hpp"
 
 namespace mesher::detail {
 
-template <int D, template <class> class Queue>
-class DelaunayRefinement : public RefinedMesh<D> {
-  using Base = RefinedMesh<D>;
+/// `Mesh`: RefinedMesh, or ConformingMesh.
+template <int D, template <class> class Queue, class Mesh = RefinedMesh<D>>
+class DelaunayRefinement : public Mesh {
+  using Base = Mesh;
+  static constexpr bool kConforms = !std::is_same_v<Mesh, RefinedMesh<D>>;
 
  public:
   struct Settings : Base::Settings {
@@ -42,9 +49,12 @@ class DelaunayRefinement : public RefinedMesh<D> {
   };
 
   void triangulate();
+  std::uint32_t add(const Point<D>& p, VertexKind kind, std::uint32_t point = kNone);
+  [[nodiscard]] bool conforms();
   void look_at(std::uint32_t s, const Shape& shape);
   [[nodiscard]] double key_of(const Shape& shape) const noexcept;
   void split(std::uint32_t s);
+  void fill(std::uint32_t v);
 
   std::span<const Point<D>> points_;
   RefineOrder order_;
@@ -59,5 +69,7 @@ template <int D>
 using BucketedRefinement = DelaunayRefinement<D, PowersOfTwo>;
 template <int D>
 using StrictRefinement = DelaunayRefinement<D, StrictQueue>;
+template <int D>
+using ComplexRefinement = DelaunayRefinement<D, PowersOfTwo, ConformingMesh<D>>;
 
 }  // namespace mesher::detail

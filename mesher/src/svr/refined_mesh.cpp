@@ -25,9 +25,9 @@ RefinedMesh<D>::RefinedMesh(const MeshBox<D>& box, const Settings& settings, std
 
 template <int D>
 std::uint32_t RefinedMesh<D>::add_place(const Point<D>& p, VertexKind kind) {
-  if (settings_.most_vertices != 0 && kernel_.places() >= settings_.most_vertices) {
+  if (const std::size_t most = full_with(); most != 0) {
     throw Error(ErrorCode::too_many,
-                "more than " + std::to_string(settings_.most_vertices) + " vertices are needed");
+                "more than " + std::to_string(most) + " vertices are needed");
   }
   const std::uint32_t v = kernel_.add_place(p);
   kinds_.push_back(kind);

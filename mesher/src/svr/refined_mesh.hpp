@@ -34,6 +34,10 @@ class RefinedMesh {
  protected:
   RefinedMesh(const MeshBox<D>& box, const Settings& settings, std::size_t points);
 
+  /// How many vertices there may be, if there are as many; else 0.
+  [[nodiscard]] std::size_t full_with() const noexcept {
+    return kernel_.places() >= settings_.most_vertices ? settings_.most_vertices : 0;
+  }
   /// Throws: Error(too_many) beyond settings.most_vertices, what add_place() of the kernel throws.
   std::uint32_t add_place(const Point<D>& p, VertexKind kind);
   /// Of the box with its grids.

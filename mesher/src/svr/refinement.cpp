@@ -28,7 +28,6 @@ Refinement<D, Mesh, Location>::Refinement(const MeshBox<D>& box, std::span<const
     : Base(box, settings, points.size()),
       k_(settings.k),
       skinny2_(points.empty() ? rho2_ : kMeanwhile * kMeanwhile * rho2_),
-      handles_(settings.handles),
       location_(points, box.side) {}
 
 /// [Fig 2.5].
@@ -245,7 +244,7 @@ std::uint32_t Refinement<D, Mesh, Location>::add_place(const Point<D>& p, Vertex
                                                        std::uint32_t point) {
   location_.add_vertex();
   if constexpr (kConforms) {
-    return Base::add_place({p, {}}, kind, point == kNone ? 0 : handles_[point]);
+    return Base::add_place({p, {}}, kind, point == kNone ? 0 : this->handles_[point]);
   } else {
     return Base::add_place(p, kind);
   }
@@ -255,7 +254,7 @@ std::uint32_t Refinement<D, Mesh, Location>::add_place(const Point<D>& p, Vertex
 template <int D, class Mesh, class Location>
 void Refinement<D, Mesh, Location>::set_point(std::uint32_t v, std::uint32_t point) {
   kinds_[v] = VertexKind::input;
-  if constexpr (kConforms) this->conformity_.set_vertex(v, {}, handles_[point]);
+  if constexpr (kConforms) this->conformity_.set_vertex(v, {}, this->handles_[point]);
 }
 
 /// Requires: dug.
@@ -326,7 +325,6 @@ SvrStats Refinement<D, Mesh, Location>::stats() const {
 
 template class Refinement<2, RefinedMesh<2>>;
 template class Refinement<3, RefinedMesh<3>>;
-template class Refinement<3, ConformingMesh>;
 template class Refinement<2, RefinedMesh<2>, VoronoiLocation<2, PlainLists<2>>>;
 template class Refinement<3, RefinedMesh<3>, VoronoiLocation<3, PlainLists<3>>>;
 template class Refinement<2, RefinedMesh<2>, VoronoiLocation<2, ShellLists<2>>>;
@@ -335,5 +333,7 @@ template class Refinement<2, RefinedMesh<2>, SimplexLocation<2>>;
 template class Refinement<3, RefinedMesh<3>, SimplexLocation<3>>;
 template class Refinement<2, RefinedMesh<2>, BallLocation<2>>;
 template class Refinement<3, RefinedMesh<3>, BallLocation<3>>;
+template class Refinement<2, ConformingMesh<2>>;
+template class Refinement<3, ConformingMesh<3>>;
 
 }  // namespace mesher::detail

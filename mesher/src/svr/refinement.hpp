@@ -38,7 +38,6 @@ class Refinement : public Mesh {
  public:
   struct Settings : Base::Settings {
     double k = 0.9;
-    std::vector<VertexHandle> handles{};  // of a complex: those of the points
   };
 
   /// Of distinct points in the box's domain, in an order in which what is near is near.
@@ -74,7 +73,6 @@ class Refinement : public Mesh {
   void insert_dug(std::uint32_t v, const Found& found);
 
   double k_, skinny2_;
-  std::vector<VertexHandle> handles_;  // of points, if it conforms
   bool has_started_ = false;           // to conform
   Location location_;
   WorkQueue queue_;
@@ -84,6 +82,7 @@ class Refinement : public Mesh {
 
 template <int D>
 using PointRefinement = Refinement<D, RefinedMesh<D>>;
-using ComplexSvr = Refinement<3, ConformingMesh>;
+template <int D>
+using ComplexSvr = Refinement<D, ConformingMesh<D>>;
 
 }  // namespace mesher::detail

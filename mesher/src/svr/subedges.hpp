@@ -4,6 +4,7 @@
 #include <tsl/robin_map.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +20,7 @@ class Subedges {
     std::uint32_t a, b;
     Label lo, hi;
     EdgeHandle edge;
+    PieceKind kind = PieceKind::whole;  // in the plane: how it is split
     bool encroached = false;     // it is to be split
     std::uint32_t by = kNone;    // a vertex in its ball, if it is known
     std::uint32_t next = kNone;  // of the same edge
@@ -40,13 +42,15 @@ class Subedges {
     }
     return push(piece);
   }
-  /// Splits a piece at vertex m: it is the part at a afterwards. Returns the other part.
-  std::uint32_t split(std::uint32_t i, std::uint32_t m, const Label& at) {
+  /// Splits a piece at vertex m: it is the part at a afterwards. Returns the other part. `kinds`:
+  /// of both.
+  std::uint32_t split(std::uint32_t i, std::uint32_t m, const Label& at,
+                      const std::array<PieceKind, 2>& kinds = {}) {
     Piece rest = all_[i];
-    rest.a = m, rest.lo = at, rest.encroached = false;
+    rest.a = m, rest.lo = at, rest.kind = kinds[1], rest.encroached = false;
     by_ends_.erase(key(all_[i].a, all_[i].b));
     all_[i].next = size();
-    all_[i].b = m, all_[i].hi = at, all_[i].encroached = false;
+    all_[i].b = m, all_[i].hi = at, all_[i].kind = kinds[0], all_[i].encroached = false;
     by_ends_.insert_or_assign(key(all_[i].a, m), i);
     return push(rest);
   }

@@ -31,7 +31,7 @@ Mesh<D> svr(const std::vector<Point<D>>& points, const Options<D>& options,
   detail::require_no_limits(options, "svr");
   const auto by = [&]<class Location>() {
     return detail::mesh_points<With<Location>::template Algorithm, D>(
-        points, options, {{}, settings.k, {}}, ids, stats, control);
+        points, options, {{}, settings.k}, ids, stats, control);
   };
   using namespace detail;
   switch (settings.location) {

@@ -1,0 +1,129 @@
+// Meshes of points and segments by each refinement, and a judge of them.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesher/check.hpp"
+#include "mesher/domain_mesh.hpp"
+#include "random_pslg.hpp"
+
+namespace support {
+
+enum class By { svr, refine };
+
+template <By B>
+mesher::Mesh<2> mesh_of(const mesher::Pslg& graph, const mesher::Options<2>& options,
+                        mesher::Extent extent = mesher::Extent::box,
+                        const mesher::RunControl& control = {}) {
+  if constexpr (B == By::svr) {
+    return mesher::svr(graph, options, extent, {}, nullptr, control);
+  } else {
+    return mesher::refine(graph, options, extent, {}, nullptr, control);
+  }
+}
+
+inline mesher::Options<2> options_for(const mesher::Pslg& graph) {
+  return {.domain = mesher::snapped_domain<2>(places_of(graph)), .max_vertices = 100000};
+}
+
+// What is wrong with a mesh of the graph, less what of it is not wanted.
+inline std::string fault(const mesher::Mesh<2>& mesh, const mesher::Pslg& graph,
+                         mesher::Extent extent) {
+  mesher::PslgFile file;
+  file.pslg = graph;
+  file.points.resize(graph.points.size());
+  const auto kept = domain_mesh(mesh, graph, extent).kept;
+  mesher::CheckOptions options;
+  options.rho = 1.4142;
+  options.graph = &file;
+  options.features = &kept.features;
+  options.boundary = mesher::BoundaryRule::lines;
+  for (const mesher::Finding& f : check_mesh(kept, options)) {
+    if (!f.holds) return f.property + ": " + f.detail;
+  }
+  return "";
+}
+
+inline mesher::FeatureId id(std::size_t i) {
+  return mesher::FeatureId{static_cast<std::int64_t>(i + 1)};
+}
+
+inline mesher::Pslg graph_of(const std::vector<mesher::Point<2>>& points,
+                             const std::vector<std::pair<std::size_t, std::size_t>>& segments) {
+  mesher::Pslg graph;
+  for (const mesher::Point<2>& p : points) graph.points.push_back({id(graph.points.size()), p, 0});
+  for (const auto& [a, b] : segments) {
+    graph.segments.push_back({id(graph.segments.size()), id(a), id(b), 0});
+  }
+  return graph;
+}
+
+// A square of side 1, and one of side 1/4 in the middle.
+inline mesher::Pslg frame() {
+  return graph_of(
+      {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {.375, .375}, {.625, .375}, {.625, .625}, {.375, .625}},
+      {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}});
+}
+
+struct Nobody {
+  template <class... Edit>
+  void insert(const Edit&...) {}
+  template <class... Edit>
+  void remove(const Edit&...) {}
+  template <class... Edit>
+  void insert_segment(const Edit&...) {}
+  template <class... Edit>
+  void remove_segment(const Edit&...) {}
+};
+
+// Points at 10^-7 beside segments, and segments to them, ask for many vertices.
+inline mesher::Options<2> random_options() {
+  mesher::Options<2> options = PslgEditor::options();
+  options.max_vertices = 40000;
+  return options;
+}
+
+// In [0, 16]^2.
+inline Pslg random_graph(PslgEditor::Family family, std::uint64_t seed, int edits) {
+  PslgEditor editor(family, seed);
+  const mesher::detail::MeshBox<2> box = mesher::detail::mesh_box(PslgEditor::options());
+  Pslg graph;
+  Nobody nobody;
+  for (int i = 0; i < edits; ++i) editor.edit(graph, box, nobody);
+  return graph;
+}
+
+inline mesher::Pslg graph_of(const Pslg& random) {
+  mesher::Pslg graph;
+  for (const auto& [id, p] : random.points) graph.points.push_back({mesher::FeatureId{id}, p, 0});
+  for (const auto& [ends, id] : random.segments) {
+    graph.segments.push_back(
+        {mesher::FeatureId{id}, mesher::FeatureId{ends.first}, mesher::FeatureId{ends.second}, 0});
+  }
+  return graph;
+}
+
+// The error of a run: its code, its text, and the ids that it names.
+struct Refusal {
+  std::string code, text;
+  std::vector<mesher::FeatureId> ids;
+};
+template <By B>
+Refusal refusal(const mesher::Pslg& graph, const mesher::Options<2>& options,
+                const mesher::RunControl& control = {}) {
+  try {
+    static_cast<void>(mesh_of<B>(graph, options, mesher::Extent::box, control));
+  } catch (const mesher::Error& e) {
+    return {std::string(mesher::code_name(e.code())), e.what(), e.ids()};
+  }
+  return {};
+}
+
+}  // namespace support
