@@ -28,7 +28,7 @@ struct MeshArguments {
   bool box = false;
   bool is_static = false;
   bool no_flat = false;  // in space
-  std::string algorithm = "gap-balls";  // or "svr", "refine", of `mesh` alone
+  std::string algorithm = "auto";  // of `mesh` alone
   std::string stats;
   bool quiet = false;
 };

@@ -2,15 +2,13 @@
 #include <memory>
 #include <utility>
 
+#include "algorithms.hpp"
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "figures.hpp"
-#include "first_run.hpp"
 #include "mesher/angles.hpp"
 #include "mesher/mesher.hpp"
-#include "mesher/refine.hpp"
 #include "mesher/sizes.hpp"
-#include "mesher/svr.hpp"
 #include "no_flat.hpp"
 #include "outputs.hpp"
 #include "report.hpp"
@@ -23,92 +21,6 @@ struct Result {
   Kept<D> mesh;
   RunOf<D> run;
 };
-
-template <int D>
-mesher::Mesh<D> mesh_without_engine(const MeshArguments&, const InputOf<D>& input, const mesher::Options<D>& options,
-                                    mesher::MeshStats& stats, Progress& progress) {
-  return locating(input, [&] {
-    const StopPolitely stop;
-    return mesher::mesh_statically(input.graph(), options, &stats, progress.control());
-  });
-}
-
-bool has_lines(const Input& input) { return !segments_of(input.graph()).empty(); }
-bool has_lines(const SpaceInput& input) {
-  return !input.graph().segments.empty() || !input.graph().facets.empty();
-}
-
-// By a function that knows points alone: make(places, ids, control).
-template <int D, class Make>
-mesher::Mesh<D> mesh_of_points(const InputOf<D>& input, mesher::MeshStats& stats,
-                               Progress& progress, Make&& make) {
-  std::vector<mesher::Point<D>> places;
-  std::vector<mesher::FeatureId> ids;
-  for (const auto& point : input.points()) {
-    places.push_back(point.at);
-    ids.push_back(point.id);
-  }
-  mesher::Mesh<D> mesh = locating(input, [&] {
-    const StopPolitely stop;
-    return make(places, ids, progress.control());
-  });
-  stats.vertices = mesh.vertices.size();
-  stats.simplices = mesh.simplices.size();
-  return mesh;
-}
-
-// By a function of a graph or a complex: make(graph, extent, control).
-template <int D, class Make>
-mesher::Mesh<D> mesh_of_graph(const MeshArguments& args, const InputOf<D>& input,
-                              mesher::MeshStats& stats, Progress& progress, Make&& make) {
-  mesher::Mesh<D> mesh = locating(input, [&] {
-    const StopPolitely stop;
-    return make(input.graph(), extent(args), progress.control());
-  });
-  stats.vertices = mesh.vertices.size();
-  stats.simplices = mesh.simplices.size();
-  return mesh;
-}
-
-template <int D>
-mesher::Mesh<D> mesh_by_svr(const MeshArguments& args, const InputOf<D>& input, const mesher::Options<D>& options,
-                            mesher::MeshStats& stats, Progress& progress) {
-  if (has_lines(input)) {
-    return mesh_of_graph<D>(args, input, stats, progress,
-                            [&](const auto& graph, auto extent, const auto& control) {
-                              return mesher::svr(graph, options, extent, {}, nullptr, control);
-                            });
-  }
-  return mesh_of_points<D>(input, stats, progress,
-                           [&](const auto& places, const auto& ids, const auto& control) {
-                             return mesher::svr<D>(places, options, {}, ids, nullptr, control);
-                           });
-}
-
-template <int D>
-mesher::Mesh<D> mesh_by_refine(const MeshArguments& args, const InputOf<D>& input,
-                               const mesher::Options<D>& options, mesher::MeshStats& stats,
-                               Progress& progress) {
-  if (has_lines(input)) {
-    return mesh_of_graph<D>(args, input, stats, progress,
-                            [&](const auto& graph, auto extent, const auto& control) {
-                              return mesher::refine(graph, options, extent, {}, nullptr, control);
-                            });
-  }
-  return mesh_of_points<D>(input, stats, progress,
-                           [&](const auto& places, const auto& ids, const auto& control) {
-                             return mesher::refine<D>(places, options, {}, ids, nullptr, control);
-                           });
-}
-
-template <int D>
-mesher::Mesh<D> mesh_with_engine(const MeshArguments&, const InputOf<D>& input, const mesher::Options<D>& options,
-                                 mesher::MeshStats& stats, Progress& progress) {
-  auto mesher = mesher_for<mesher::Mesher<D>>(input, options);
-  insert_all(input, mesher, progress);
-  stats = mesher.stats();
-  return mesher.mesh();
-}
 
 void look_at_angles(const MeshArguments& args, const Input&, const mesher::Mesh<2>& all,
                     const mesher::Options<2>& options, Run& run) {
@@ -136,17 +48,13 @@ Result<D> finish(const MeshArguments& args, const InputOf<D>& input,
 template <int D>
 Result<D> mesh(const MeshArguments& args, const InputOf<D>& input,
                const mesher::Options<D>& options, Progress& progress) {
-  mesher::MeshStats stats;
+  AnyRun run;
   const double start = mesher::now();
-  const auto make = args.algorithm == "svr"      ? mesh_by_svr<D>
-                    : args.algorithm == "refine" ? mesh_by_refine<D>
-                    : args.is_static             ? mesh_without_engine<D>
-                                                 : mesh_with_engine<D>;
-  mesher::Mesh<D> all = make(args, input, options, stats, progress);
-  const double seconds = mesher::now() - start;
+  mesher::Mesh<D> all = mesh_by_algorithm<D>(args, input, options, run, progress);
+  run.seconds_total = mesher::now() - start;
   Result<D> result = finish<D>(args, input, options, std::move(all));
-  result.run.stats = stats;
-  result.run.seconds_total += seconds;
+  run.seconds_total += result.run.seconds_total;
+  static_cast<AnyRun&>(result.run) = std::move(run);
   measure(result.mesh, options.rho, result.run);
   return result;
 }
@@ -202,11 +110,12 @@ void add_mesh(CLI::App& app) {
   add_mesh_options(*mesh, *args);
   mesh->add_option(
           "--algorithm", args->algorithm,
-          "gap-balls: the mesh that `edit` keeps; svr: sparse Voronoi refinement, without\n"
-          "limits of size: another mesh, in a third to a quarter of the time in the plane and a\n"
-          "tenth in space, there with fewer vertices;\n"
-          "refine: the traditional way, by the Delaunay triangulation of all points first")
-      ->check(CLI::IsMember({"gap-balls", "svr", "refine"}))
+          "svr: sparse Voronoi refinement; refine: Delaunay refinement, from the triangulation\n"
+          "of all points; gap-balls: the mesh that `edit` keeps, in 3 to 10 times the time, also\n"
+          "with limits of size. auto: refine in the plane and svr in space, but gap-balls with\n"
+          "limits of size, --static, another rule, or a --rho below its default if there are lines\n"
+          "or polygons, or if the other one finds features too close")
+      ->check(CLI::IsMember({"auto", "gap-balls", "svr", "refine"}))
       ->capture_default_str();
   mesh->footer(
       std::string(

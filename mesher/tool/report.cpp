@@ -158,6 +158,22 @@ void add_costs(const mesher::MeshStats& stats, double seconds_total, Json& json)
   json["peak_rss_bytes"] = peak_rss_bytes();
 }
 
+// By which algorithm, and what happened in it.
+void add_algorithm(const AnyRun& run, Json& json) {
+  if (!run.algorithm.empty()) json["algorithm"] = run.algorithm;
+  if (!run.refinement) return;
+  const mesher::SvrStats& s = *run.refinement;
+  Json& events = json["refinement"];
+  events["simplices_made"] = s.made;
+  events["most_simplices"] = s.most_simplices;
+  events["worst_radius_edge"] = s.worst_radius_edge;
+  events["largest_degree"] = s.largest_degree;
+  events["on_sides"] = s.on_sides;
+  if (run.algorithm != "svr") return;
+  events["warped"] = s.warped;
+  events["crowded"] = s.crowded;
+}
+
 // What an update did to what is kept.
 template <class Step>
 void add_kept(const Step& update, Json& json) {
@@ -208,6 +224,7 @@ Json json_of(const Run& run) {
   json["regions"] = run.regions;
   json["holes"] = run.holes;
   json["seed_faults"] = run.faults;
+  add_algorithm(run, json);
   add_costs(run.stats, run.seconds_total, json);
   return json;
 }
@@ -227,6 +244,7 @@ Json json_of(const SpaceRun& run) {
   json["regions"] = run.regions;
   json["holes"] = run.holes;
   json["seed_faults"] = run.faults;
+  add_algorithm(run, json);
   add_costs(run.stats, run.seconds_total, json);
   return json;
 }
@@ -274,6 +292,7 @@ void print_run(const Input& input, const Run& run) {
   print_domain(run, graph.points.size());
   print_row("smallest angle", smallest_angle(run));
   print_row("largest radius-edge", format("%.4f", run.quality.max_radius_edge));
+  if (!run.algorithm.empty()) print_row("algorithm", run.algorithm);
   print_row("time", format("%.3f s", run.seconds_total));
 }
 
@@ -300,6 +319,7 @@ void print_run(const SpaceInput& input, const SpaceRun& run) {
         std::to_string(run.above_rho) + ", at small angles of the input" +
             (run.guard && run.guard->tetrahedra > 0 ? ", or beside features that are alone" : ""));
   }
+  if (!run.algorithm.empty()) print_row("algorithm", run.algorithm);
   print_row("time", format("%.3f s", run.seconds_total));
 }
 
@@ -318,8 +338,7 @@ void print_remarks(const MeshArguments& args, const Input& input, const mesher::
 void print_remarks(const MeshArguments& args, const SpaceInput& input, const Kept<3>& mesh) {
   print_notes(input.notes());
   if (args.region_areas && !input.has_region_limits()) {
-    std::fprintf(stderr,
-                 "%s: note: --region-volumes is not used: no region has a largest volume\n",
+    std::fprintf(stderr, "%s: note: --region-volumes is not used: no region has a largest volume\n",
                  input.path().c_str());
   }
   if (input.leaves_faces()) {

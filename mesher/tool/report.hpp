@@ -15,6 +15,7 @@
 #include "mesher/edit_script.hpp"
 #include "mesher/guard.hpp"
 #include "mesher/space_check.hpp"
+#include "mesher/svr.hpp"
 
 namespace tool {
 
@@ -36,6 +37,9 @@ struct AnyRun {
   std::size_t holes = 0;
   std::size_t faults = 0;    ///< seeds without a region of their own
   double seconds_total = 0;  ///< from the first point inserted to the finished mesh
+  std::string algorithm;     ///< empty: there was no choice
+  /// What happened in svr or refine, if it was asked for; `warped` and on are of svr.
+  std::optional<mesher::SvrStats> refinement;
 };
 struct Run : AnyRun {
   mesher::Quality quality;                    ///< of what is kept

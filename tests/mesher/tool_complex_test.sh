@@ -11,6 +11,7 @@ trap 'rm -rf "$scratch"' EXIT
 # shellcheck source=../support/tool_checks.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../support/tool_checks.sh"
 cd "$scratch" || exit 1
+tool=$(by_gap_balls "$tool" "$scratch")
 
 expect() { expect_of "$tool" "$@"; }
 refuse() { refuse_of "$tool" "$@"; }

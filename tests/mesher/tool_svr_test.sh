@@ -41,19 +41,42 @@ for lines in "$data/great_lakes.poly" svr/holed.poly; do
   done
 done
 
-echo "== svr: gap-balls is the default, and another mesh"
-expect 0 '' mesh svr/uniform.3.node --quiet -o svr/plain.node
-expect 0 '' mesh svr/uniform.3.node --algorithm gap-balls --quiet -o svr/named.node
-same svr/plain.node svr/named.node
-expect 0 '' mesh svr/uniform.3.node --algorithm svr --quiet -o svr/svr.node
-if cmp -s svr/plain.node svr/svr.node; then fail "--algorithm says nothing"; fi
-expect 0 '' mesh svr/uniform.3.node --algorithm refine --quiet -o svr/refined.node
-if cmp -s svr/svr.node svr/refined.node; then fail "refine is svr"; fi
+echo "== auto: refine in the plane, svr in space, gap-balls for what these do not know; it says which"
+# taken ALGORITHM ARGUMENT...: `mesh` takes it, and makes its mesh.
+taken() {
+  local algorithm=$1
+  shift
+  expect_of "$chosen" 0 "algorithm             $algorithm" mesh "$@" -o svr/auto.vtu \
+    --stats svr/auto.json
+  has svr/auto.json "\"algorithm\": \"$algorithm\""
+  expect 0 '' mesh "$@" --algorithm "$algorithm" -o svr/named.vtu
+  same svr/auto.vtu svr/named.vtu
+}
+taken refine svr/uniform.2.node
+has svr/auto.json '"worst_radius_edge": [0-9.]+,'
+taken svr svr/uniform.3.node
+has svr/auto.json '"largest_degree": [0-9]+,'
+has svr/auto.json '"warped": [0-9]+,'
+taken refine "$data/great_lakes.poly"
+taken gap-balls svr/uniform.2.node --max-area 0.01
+taken gap-balls svr/uniform.2.node --rule voronoi-aspect --rho 2
+taken gap-balls svr/uniform.3.node --static
+taken gap-balls svr/holed.poly --rho 1.3
+taken refine svr/uniform.2.node --rho 1.3
+expect 0 '' gen cube --dim 3 -o svr/cube.poly
+taken svr svr/cube.poly
+taken gap-balls svr/cube.poly --rho 1.8
+taken gap-balls svr/cube.poly --max-volume 0.01
+for algorithm in gap-balls svr refine; do
+  expect 0 '' mesh svr/uniform.3.node --algorithm $algorithm --quiet -o svr/$algorithm.node
+done
+if cmp -s svr/gap-balls.node svr/svr.node; then fail "--algorithm says nothing"; fi
+if cmp -s svr/svr.node svr/refine.node; then fail "refine is svr"; fi
 
 echo "== svr: refusals, and nothing is written"
 rm -rf out
 mkdir out
-refuse 2 'svrr not in {gap-balls,svr,refine}' mesh svr/uniform.3.node --algorithm svrr -o out/x.node
+refuse 2 'svrr not in {auto,gap-balls,svr,refine}' mesh svr/uniform.3.node --algorithm svrr -o out/x.node
 for algorithm in svr refine; do
   refuse 2 "$algorithm knows no limits of size" mesh "$data/great_lakes.poly" \
     --algorithm $algorithm --max-area 0.1 -o out/x.node

@@ -13,6 +13,8 @@ trap 'rm -rf "$scratch"' EXIT
 # shellcheck source=../support/tool_checks.sh
 source "$here/../support/tool_checks.sh"
 cd "$scratch" || exit 1
+chosen=$tool  # with its own choice of algorithms
+tool=$(by_gap_balls "$tool" "$scratch")
 
 expect() { expect_of "$tool" "$@"; }
 refuse() { refuse_of "$tool" "$@"; }

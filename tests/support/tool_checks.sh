@@ -44,3 +44,19 @@ report_checks() {
   echo "$checks checks, $failures failures"
   ((failures == 0))
 }
+
+# by_gap_balls TOOL FOLDER: a program in FOLDER that is TOOL, but whose `mesh` makes the mesh that
+# `edit` keeps unless it is told an algorithm.
+by_gap_balls() {
+  cat >"$2/mesher" <<END
+#!/usr/bin/env bash
+words=" \$* "
+if [[ \${1:-} == mesh && \$words != *" --algorithm "* && \$words != *" --help "* ]]; then
+  shift
+  exec "$1" mesh --algorithm gap-balls "\$@"
+fi
+exec "$1" "\$@"
+END
+  chmod +x "$2/mesher"
+  echo "$2/mesher"
+}
