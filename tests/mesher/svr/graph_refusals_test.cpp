@@ -92,6 +92,12 @@ TEMPLATE_TEST_CASE_SIG("graphs that cannot be meshed are refused, by name", "", 
   stop.request_stop();
   CHECK(refusal<B>(graph, options_for(graph), {.progress = {}, .stop = stop.get_token()}).code ==
         "cancelled");
+  int reports = 0;
+  const mesher::RunControl third{.progress = [&](const auto&) { return ++reports < 3; },
+                                 .stop = {}};
+  const Pslg many = mesher::generate_pslg({PslgKind::segments, 500});
+  CHECK(refusal<B>(many, options_for(many), third).code == "cancelled");
+  CHECK(reports == 3);
 }
 
 TEMPLATE_TEST_CASE_SIG("without memory a mesh of a graph fails, and nothing is lost", "",
