@@ -249,7 +249,7 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
       "--no-flat", args.no_flat,
       "In space: flat tetrahedra are taken out; what comes instead is Delaunay but for\n"
       "rounding ('check --near')");
-  command.add_flag("--static", args.is_static, "Without the engine; the mesh is the same");
+  command.add_flag("--static", args.is_static, "gap-balls without the engine; its mesh is the same");
   command.add_option("--stats", args.stats, "Figures as JSON")->type_name("FILE");
   command.add_flag("--quiet", args.quiet, "Print nothing but errors");
 }

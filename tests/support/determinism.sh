@@ -56,10 +56,10 @@ write_files() {  # TOOLS FOLDER
   write_edits >edits.txt
   for kind in "${kinds[@]}"; do
     "$tool" gen "$kind" --n $points --seed 3 -o "$kind.node"
-    "$tool" mesh "$kind.node" --quiet -o "$kind.out.node" -o "$kind.vtu" -o "$kind.svg" \
+    "$tool" mesh "$kind.node" --algorithm gap-balls --quiet -o "$kind.out.node" -o "$kind.vtu" -o "$kind.svg" \
       -o "$kind.vtk" -o "$kind.msh" -o "$kind.mesh" -o "$kind.out.obj"
     "$tool" mesh "$kind.node" --quiet --static -o "$kind.static.node"
-    "$tool" mesh "$kind.node" --quiet --rule voronoi-aspect -o "$kind.aspect.node"
+    "$tool" mesh "$kind.node" --algorithm gap-balls --quiet --rule voronoi-aspect -o "$kind.aspect.node"
     "$tool" mesh "$kind.node" --quiet --algorithm svr -o "$kind.svr.node"
     "$tool" mesh "$kind.node" --quiet --algorithm refine -o "$kind.refine.node"
     cmp "$kind.out.node" "$kind.static.node"
@@ -67,7 +67,7 @@ write_files() {  # TOOLS FOLDER
   done
   for kind in "${space_kinds[@]}"; do
     "$tool" gen "$kind" --n $space_points --seed 3 --dimension 3 -o "$kind.space.node"
-    "$tool" mesh "$kind.space.node" --quiet -o "$kind.space.out.node" -o "$kind.space.vtu" \
+    "$tool" mesh "$kind.space.node" --algorithm gap-balls --quiet -o "$kind.space.out.node" -o "$kind.space.vtu" \
       -o "$kind.space.svg" -o "$kind.space.stl"
     "$tool" mesh "$kind.space.node" --quiet --static -o "$kind.space.static.node"
     "$tool" mesh "$kind.space.node" --quiet --algorithm svr -o "$kind.space.svr.node"
@@ -77,7 +77,7 @@ write_files() {  # TOOLS FOLDER
   done
   for kind in "${line_kinds[@]}"; do
     "$tool" gen "$kind" --n $lines --seed 3 -o "$kind.poly"
-    "$tool" mesh "$kind.poly" --quiet -o "$kind.lines.node" -o "$kind.lines.vtu"
+    "$tool" mesh "$kind.poly" --algorithm gap-balls --quiet -o "$kind.lines.node" -o "$kind.lines.vtu"
     "$tool" mesh "$kind.poly" --quiet --algorithm svr -o "$kind.lines.svr.node"
     "$tool" mesh "$kind.poly" --quiet --algorithm refine -o "$kind.lines.refine.node"
     "$tool" mesh "$kind.poly" --quiet --static -o "$kind.lines.static.node"
@@ -89,7 +89,7 @@ write_files() {  # TOOLS FOLDER
   "$tool" edit uniform.space.node --script complex.txt --quiet --static -o complex.static.node
   cmp complex.node complex.static.node
   cmp complex.ele complex.static.ele
-  "$tool" mesh "$source_folder/tests/data/places.node" --quiet -o places.node
+  "$tool" mesh "$source_folder/tests/data/places.node" --algorithm gap-balls --quiet -o places.node
   "$tool" trace uniform.node --script edits.txt --quiet --edges -o edited.trace
   for example in $(example_names "$1/traces"); do
     "$1/traces" example "$example" --n 200 --edits 50 --edges -o "$example.trace" >"$example.txt"
