@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -35,6 +36,11 @@ inline constexpr double kSpaceBound = 104 * predicates::detail::kUnitRoundoff;
 /// What is known of a point and a ball.
 enum class BallSide : std::int8_t { outside = -1, tie = 0, inside = 1, unsure = 2 };
 
+/// 2^exponent. Requires: it is normal.
+[[nodiscard]] constexpr double power_of_two(int exponent) noexcept {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
+}
+
 /// Where coordinates are multiples of a power of two: up to which square of a distance from p the
 /// determinants are not rounded.
 class CommonUnit {
@@ -44,7 +50,7 @@ class CommonUnit {
     const int low = predicates::detail::BitRange(p).low;
     if (low >= low_) return;
     low_ = low;
-    exact_to_ = std::ldexp(1.0, 2 * (low_ + (D == 2 ? 12 : 9)));
+    exact_to_ = power_of_two(2 * (low_ + (D == 2 ? 12 : 9)));
   }
   [[nodiscard]] double exact_to() const noexcept { return exact_to_; }
 

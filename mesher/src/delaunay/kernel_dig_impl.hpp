@@ -29,7 +29,9 @@ bool DelaunayKernel<D, Layout>::ball_holds_exactly(const Ids& c, const Point<D>&
                                                    bool tie) const {
   const auto q = places_of(c);
   if (!tie) return in_ball(q, p) > 0;
-  const auto is_less = [&](const Point<D>* corner) { return *corner < p; };
+  const auto is_less = [&](const Point<D>* corner) {
+    return (*corner)[0] != p[0] ? (*corner)[0] < p[0] : *corner < p;
+  };
   return !std::all_of(q.begin(), q.end(), is_less) && break_tie(q, p) > 0;
 }
 
@@ -110,6 +112,7 @@ template <int D, class Layout>
 [[gnu::always_inline]] inline void DelaunayKernel<D, Layout>::fetch_around(std::uint32_t s) const {
   for (const std::uint32_t code : store_.across(s)) {
     __builtin_prefetch(&store_.corners(code >> 2));
+    __builtin_prefetch(&mark_[code >> 2]);
   }
 }
 

@@ -1,8 +1,8 @@
 // The exact side of the predicates in space.
 #include <algorithm>
-#include <utility>
 
 #include "geometry/exact_sign.hpp"
+#include "geometry/ties.hpp"
 #include "mesher/predicates.hpp"
 
 namespace mesher::predicates::detail {
@@ -49,12 +49,6 @@ bool are_across_axis(const Point<3>& a, const Point<3>& b, const Point<3>& c, co
   return any;
 }
 
-/// a < b without the three-way comparison of arrays.
-bool is_less(const Point<3>& a, const Point<3>& b) {
-  if (a[0] != b[0]) return a[0] < b[0];
-  return a[1] != b[1] ? a[1] < b[1] : a[2] < b[2];
-}
-
 }  // namespace
 
 int orient3d_exact(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d) {
@@ -71,26 +65,10 @@ int insphere_exact(const Point<3>& a, const Point<3>& b, const Point<3>& c, cons
       [](const auto& differences) { return insphere_sign(differences); });
 }
 
-/// The first cofactor of a height that is not 0, the greatest point's first. The cofactor of e is
-/// minus the orientation of abcd; two points that are swapped flip the sign, so that of another
-/// point is the orientation with e in its place.
 int cospherical_tie(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d,
                     const Point<3>& e) {
-  std::array<const Point<3>*, 5> points{&a, &b, &c, &d, &e};
-  std::array<bool, 5> done{};
-  for (std::size_t round = 0; round < 5; ++round) {
-    std::size_t greatest = 5;
-    for (std::size_t i = 0; i < 5; ++i) {
-      if (done[i]) continue;
-      if (greatest == 5 || is_less(*points[greatest], *points[i])) greatest = i;
-    }
-    done[greatest] = true;
-    auto rest = points;
-    std::swap(rest[greatest], rest[4]);
-    const int orientation = orient3d(*rest[0], *rest[1], *rest[2], *rest[3]);
-    if (orientation != 0) return greatest == 4 ? -orientation : orientation;
-  }
-  return 0;  // all in one plane
+  return first_cofactor({&a, &b, &c, &d, &e},
+                        [](const auto&... corners) { return orient3d(corners...); });
 }
 
 }  // namespace mesher::predicates::detail
