@@ -22,40 +22,32 @@ struct Result {
   RunOf<D> run;
 };
 
-void look_at_angles(const MeshArguments& args, const Input&, const mesher::Mesh<2>& all,
-                    const mesher::Options<2>& options, Run& run) {
-  if (all.edges.empty() || (args.quiet && args.stats.empty())) return;
+void look_at_angles(const Input&, const mesher::Mesh<2>& all, const mesher::Options<2>& options,
+                    Run& run) {
+  if (all.edges.empty()) return;
   run.angles = mesher::angle_report(all, options);
 }
-void look_at_angles(const MeshArguments& args, const SpaceInput& input, const mesher::Mesh<3>& all,
+void look_at_angles(const SpaceInput& input, const mesher::Mesh<3>& all,
                     const mesher::Options<3>& options, SpaceRun& run) {
-  if (args.quiet && args.stats.empty()) return;
   run.guard = mesher::guard_report(all, input.graph(), options.rho);
 }
 
-template <int D>
-Result<D> finish(const MeshArguments& args, const InputOf<D>& input,
-                 const mesher::Options<D>& options, mesher::Mesh<D> all) {
-  Result<D> result;
-  look_at_angles(args, input, all, options, result.run);
-  const double start = mesher::now();
-  result.mesh =
-      mesher::domain_mesh(without_flat(args, std::move(all)), input.graph(), extent(args));
-  result.run.seconds_total = mesher::now() - start;
-  return result;
-}
-
+// What is said of a mesh is looked at only where it is said.
 template <int D>
 Result<D> mesh(const MeshArguments& args, const InputOf<D>& input,
                const mesher::Options<D>& options, Progress& progress) {
-  AnyRun run;
-  const double start = mesher::now();
+  const bool is_silent = args.quiet && args.stats.empty();
+  Result<D> result;
+  auto& run = result.run;
+  double start = mesher::now();
   mesher::Mesh<D> all = mesh_by_algorithm<D>(args, input, options, run, progress);
   run.seconds_total = mesher::now() - start;
-  Result<D> result = finish<D>(args, input, options, std::move(all));
-  run.seconds_total += result.run.seconds_total;
-  static_cast<AnyRun&>(result.run) = std::move(run);
-  measure(result.mesh, options.rho, result.run);
+  if (!is_silent) look_at_angles(input, all, options, run);
+  start = mesher::now();
+  result.mesh =
+      mesher::domain_mesh(without_flat(args, std::move(all)), input.graph(), extent(args));
+  run.seconds_total += mesher::now() - start;
+  if (!is_silent) measure(result.mesh, options.rho, run);
   return result;
 }
 

@@ -203,7 +203,7 @@ Json json_of_change(const Step& update) {
 
 void measure(const Kept<3>& mesh, double rho, SpaceRun& run) {
   run.quality = mesher::quality(mesh.kept);
-  run.above_rho = mesher::count_above(mesh.kept, rho);
+  if (run.quality.max_radius_edge > rho) run.above_rho = mesher::count_above(mesh.kept, rho);
   count_kept(mesh, run);
 }
 

@@ -35,14 +35,19 @@ class TextFile {
   /// The shortest decimal that reads back bit for bit.
   TextFile& operator<<(double value);
   TextFile& operator<<(std::integral auto value) { return add_integer(value); }
+  /// What `write` puts where it is told: it returns the end of that, at most `most` characters on,
+  /// which are 1024 at the most. For rows of many numbers.
+  template <class Write>
+  void add_up_to(std::size_t most, Write&& write) {
+    if (buffer_.size() - used_ < most) flush();
+    used_ = static_cast<std::size_t>(write(buffer_.data() + used_) - buffer_.data());
+  }
 
   /// Writes what is left and closes.
   void close();
 
  private:
   TextFile& add_integer(long long value);
-  template <class Number>
-  TextFile& add_number(Number value);
   void flush();
   [[noreturn]] void fail();
 

@@ -19,6 +19,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/wide_lanes.hpp"
+
 namespace mesher::detail {
 
 namespace {
@@ -52,7 +54,7 @@ double BallBatch<D>::rounding() const noexcept {
 }
 
 template <>
-void BallBatch<2>::run(Block& b) const noexcept {
+MESHER_WIDE_LANES void BallBatch<2>::run(Block& b) const noexcept {
   const double from_p = rounding(), px = p_[0], py = p_[1];
   for (std::size_t l = 0; l < kLanes; ++l) {
     const double ax = b.corner[0][0][l], ay = b.corner[0][1][l];
@@ -75,7 +77,7 @@ void BallBatch<2>::run(Block& b) const noexcept {
 }
 
 template <>
-void BallBatch<3>::run(Block& b) const noexcept {
+MESHER_WIDE_LANES void BallBatch<3>::run(Block& b) const noexcept {
   const double from_p = rounding(), px = p_[0], py = p_[1], pz = p_[2];
   const auto squared = [](double x, double y, double z) { return x * x + y * y + z * z; };
   for (std::size_t l = 0; l < kLanes; ++l) {

@@ -1,4 +1,5 @@
 // In which dimension the input of a file is: as much is looked at as tells.
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -19,10 +20,16 @@ std::optional<double> number(const text::Line& line, std::size_t i) {
   }
 }
 
+// The header tells; the whole file is needed if all that was read is a comment.
 bool node_is_in_space(const std::string& path) {
-  const std::string content = text::read_file(path);
-  text::FieldLines lines(path, content);
-  return lines.next() && lines.line().size() > 1 && lines.line()[1] == "3";
+  for (const std::size_t most : {std::size_t{1} << 12, SIZE_MAX}) {
+    const std::string content = text::read_file(path, most);
+    text::FieldLines lines(path, content);
+    const bool has_header = lines.next();
+    if (content.size() == most && (!has_header || lines.at_end())) continue;  // it may be cut
+    return has_header && lines.line().size() > 1 && lines.line()[1] == "3";
+  }
+  return false;
 }
 
 bool xyz_is_in_space(const std::string& path) {

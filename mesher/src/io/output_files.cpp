@@ -13,6 +13,8 @@
 #include <system_error>
 #include <utility>
 
+#include "io/digits.hpp"
+
 namespace mesher {
 namespace {
 
@@ -107,17 +109,19 @@ TextFile& TextFile::operator<<(std::string_view text) {
   return *this;
 }
 
-template <class Number>
-TextFile& TextFile::add_number(Number value) {
-  if (buffer_.size() - used_ < kMostDigits) flush();
-  char* const from = buffer_.data() + used_;
-  used_ += static_cast<std::size_t>(std::to_chars(from, from + kMostDigits, value).ptr - from);
+TextFile& TextFile::operator<<(double value) {
+  add_up_to(kMostDigits, [&](char* at) { return std::to_chars(at, at + kMostDigits, value).ptr; });
   return *this;
 }
 
-TextFile& TextFile::operator<<(double value) { return add_number(value); }
-
-TextFile& TextFile::add_integer(long long value) { return add_number(value); }
+TextFile& TextFile::add_integer(long long value) {
+  add_up_to(kMostDigits, [&](char* at) {
+    if (value >= 0 && value <= UINT32_MAX)
+      return detail::put_number(at, static_cast<std::uint32_t>(value));
+    return std::to_chars(at, at + kMostDigits, value).ptr;
+  });
+  return *this;
+}
 
 void TextFile::close() {
   if (!file_) return;

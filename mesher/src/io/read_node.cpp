@@ -133,6 +133,11 @@ void require_node_fields(const text::FieldLines& lines, const NodeHeader& header
                    std::min(line.size(), header.fields()));
 }
 
+// What a header says may be wrong: a field is a digit and a blank at least.
+std::size_t most_rows(const NodeHeader& header, std::size_t bytes) {
+  return std::min(static_cast<std::size_t>(header.count), bytes / (2 * header.fields()));
+}
+
 template <int D>
 NodeFile<D> read_node(const std::string& path, CoordinateRule rule) {
   const std::string content = text::read_file(path);
@@ -141,6 +146,10 @@ NodeFile<D> read_node(const std::string& path, CoordinateRule rule) {
   VertexColumns columns(header);
   NodeFile<D> nodes;
   nodes.rows.file = path;
+  const std::size_t most = most_rows(header, content.size());
+  nodes.rows.ids.reserve(most);
+  nodes.rows.points.reserve(most);
+  nodes.rows.lines.reserve(most);
   while (lines.next()) {
     const text::Line& line = lines.line();
     if (std::cmp_equal(nodes.rows.ids.size(), header.count)) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -27,15 +26,14 @@ std::optional<Repeat> first_repeat(const std::vector<Key>& keys) {
   if (std::adjacent_find(keys.begin(), keys.end(), std::greater_equal<>()) == keys.end()) {
     return {};
   }
-  std::vector<std::size_t> order(keys.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return keys[a] < keys[b] || (keys[a] == keys[b] && a < b);
-  });
+  std::vector<std::pair<Key, std::size_t>> order;
+  order.reserve(keys.size());
+  for (const Key& key : keys) order.emplace_back(key, order.size());
+  std::sort(order.begin(), order.end());
   std::optional<Repeat> first;
   for (std::size_t i = 1; i < order.size(); ++i) {
-    const Repeat repeat{order[i - 1], order[i]};
-    if (keys[repeat.earlier] != keys[repeat.later]) continue;
+    if (order[i - 1].first != order[i].first) continue;
+    const Repeat repeat{order[i - 1].second, order[i].second};
     if (!first || repeat.later < first->later) first = repeat;
   }
   return first;

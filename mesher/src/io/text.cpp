@@ -14,6 +14,7 @@ namespace mesher::text {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\v\f";
+constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 constexpr std::string_view kSpace = " \t\v\f\r\n";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
@@ -86,17 +87,23 @@ auto failing_at(const Where& where, At at) {
 
 }  // namespace
 
-std::string read_file(const std::string& path) {
+std::string read_file(const std::string& path, std::size_t most) {
   errno = 0;
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
   if (!file) throw cannot_read(path);
-  std::string content;
-  std::vector<char> chunk(1 << 16);
-  while (const auto n = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
-    content.append(chunk.data(), n);
+  // Of a pipe the size is not known. One byte more than it, and the end is seen at once.
+  constexpr std::size_t kLeast = 1 << 16;
+  std::error_code unknown;
+  const auto bytes = std::filesystem::file_size(path, unknown);
+  std::string content(std::min(unknown ? kLeast : static_cast<std::size_t>(bytes) + 1, most), '\0');
+  std::size_t size = 0;
+  while (const auto n = std::fread(content.data() + size, 1, content.size() - size, file.get())) {
+    size += n;
+    if (size == content.size()) content.resize(std::min(2 * size + kLeast, most));
   }
   if (std::ferror(file.get())) throw cannot_read(path);
+  content.resize(size);
   return content;
 }
 
@@ -131,13 +138,19 @@ bool is_coordinate(double value) noexcept {
 
 void Line::split_blanks(long number, std::string_view text) {
   number_ = number;
-  text_ = without_comment(text);
   fields_.clear();
-  for (auto at = text_.find_first_not_of(kBlanks); at != std::string_view::npos;) {
-    const auto end = std::min(text_.find_first_of(kBlanks, at), text_.size());
-    fields_.push_back(text_.substr(at, end - at));
-    at = text_.find_first_not_of(kBlanks, end);
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (at != end && *at != '#') {
+    if (is_blank(*at)) {
+      ++at;
+      continue;
+    }
+    const char* const from = at;
+    while (at != end && *at != '#' && !is_blank(*at)) ++at;
+    fields_.emplace_back(from, static_cast<std::size_t>(at - from));
   }
+  text_ = text.substr(0, static_cast<std::size_t>(at - text.data()));
 }
 
 void Line::split_separated(long number, std::string_view text, char separator) {
@@ -168,9 +181,7 @@ FilePosition Line::position(std::size_t i) const {
   return {number_, at - text_.data() + 1};
 }
 
-double Line::finite(std::size_t i) const {
-  return parse_finite(fields_[i], failing_at(*this, i));
-}
+double Line::finite(std::size_t i) const { return parse_finite(fields_[i], failing_at(*this, i)); }
 
 double Line::coordinate(std::size_t i) const {
   return parse_coordinate(fields_[i], failing_at(*this, i));

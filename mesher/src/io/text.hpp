@@ -16,8 +16,8 @@
 
 namespace mesher::text {
 
-/// The whole file. Throws: Error(cannot_read).
-[[nodiscard]] std::string read_file(const std::string& path);
+/// The whole file, or its first `most` bytes. Throws: Error(cannot_read).
+[[nodiscard]] std::string read_file(const std::string& path, std::size_t most = SIZE_MAX);
 
 /// The part of a path from its last dot, in lower case (".node"); empty if there is none.
 [[nodiscard]] std::string extension(const std::string& path);

@@ -2,6 +2,7 @@
 // numbered from 1.
 #include <algorithm>
 
+#include "io/digits.hpp"
 #include "io/write_mesh.hpp"
 #include "mesher/io.hpp"
 #include "mesher/space_files.hpp"
@@ -9,7 +10,7 @@
 namespace mesher {
 namespace {
 
-constexpr std::size_t kFirst = 1;
+constexpr std::uint32_t kFirst = 1;
 
 // Kind, origin and marker: what read_mesh gives back.
 template <int D>
@@ -24,6 +25,19 @@ void write_vertex_features(const Mesh<D>& mesh, const MeshFeatures& features, st
 void write_kind(VertexKind kind, TextFile& file) {
   file << (kind == VertexKind::input ? " 1" : " 0");
   file << (kind == VertexKind::boundary ? " 1\n" : " 0\n");
+}
+
+// Vertices, each after a blank.
+template <std::size_t N>
+void add_corners(const std::array<std::uint32_t, N>& corners, TextFile& file) {
+  constexpr std::size_t kMostDigits = 10;
+  file.add_up_to(N * (1 + kMostDigits), [&](char* at) {
+    for (const std::uint32_t v : corners) {
+      *at++ = ' ';
+      at = detail::put_number(at, v + kFirst);
+    }
+    return at;
+  });
 }
 
 }  // namespace
@@ -48,7 +62,7 @@ void write_ele(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file
   file << mesh.simplices.size() << ' ' << D + 1 << (has_regions ? " 1\n" : " 0\n");
   for (std::size_t i = 0; i < mesh.simplices.size(); ++i) {
     file << i + kFirst;
-    for (const auto corner : mesh.simplices[i]) file << ' ' << corner + kFirst;
+    add_corners(mesh.simplices[i], file);
     if (has_regions) file << ' ' << features.regions[i];
     file << '\n';
   }
@@ -65,7 +79,7 @@ void write_face(const Mesh<3>& mesh, const MeshFeatures& features, TextFile& fil
   file << faces.size() << " 1\n";
   for (std::size_t i = 0; i < faces.size(); ++i) {
     file << i + kFirst;
-    for (const std::uint32_t v : faces[i].corners) file << ' ' << v + kFirst;
+    add_corners(faces[i].corners, file);
     file << ' ' << faces[i].marker;
     if (faces[i].polygon) file << ' ' << static_cast<std::int64_t>(*faces[i].polygon);
     file << '\n';

@@ -5,42 +5,20 @@ namespace mesher::detail {
 
 namespace {
 
-// The simplices in lexicographic order: counted by their first corner, then each corner's few.
-template <std::size_t N>
-auto sorted_by_corner(const std::vector<std::array<VertexHandle, N>>& simplices,
-                      const std::vector<std::uint32_t>& index, std::size_t corners) {
-  using Simplex = std::array<std::uint32_t, N>;
-  std::vector<Simplex> renamed;
-  renamed.reserve(simplices.size());
-  std::vector<std::uint32_t> start(corners + 1, 0);
-  for (Simplex t : simplices) {
-    for (std::uint32_t& corner : t) corner = index[corner];
-    renamed.push_back(smallest_first(t));
-    ++start[renamed.back()[0] + 1];
-  }
-  for (std::size_t i = 1; i <= corners; ++i) start[i] += start[i - 1];
-  std::vector<Simplex> sorted(simplices.size());
-  std::vector<std::uint32_t> next = start;
-  for (const Simplex& t : renamed) sorted[next[t[0]]++] = t;
-  for (std::size_t i = 0; i < corners; ++i) {
-    std::sort(sorted.begin() + start[i], sorted.begin() + start[i + 1]);
-  }
-  return sorted;
-}
-
 template <int D>
 struct Placed {
   Point<D> p;
   std::uint32_t handle;
 };
 
-// All of a mesh but its edges, and where the vertices went, by handle.
-template <std::size_t N, class KindOf>
-Mesh<N - 1> sorted(std::vector<Placed<N - 1>> placed, KindOf&& kind_of,
-                   const std::vector<std::array<VertexHandle, N>>& simplices,
-                   std::vector<std::uint32_t>& index) {
-  std::sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.p < b.p; });
-  Mesh<N - 1> mesh;
+// A mesh of vertices alone, and where they went, by handle.
+template <int D, class KindOf>
+Mesh<D> sorted(std::vector<Placed<D>> placed, KindOf&& kind_of, std::vector<std::uint32_t>& index) {
+  // Most differ in the first coordinate.
+  std::sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) {
+    return a.p[0] != b.p[0] ? a.p[0] < b.p[0] : a.p < b.p;
+  });
+  Mesh<D> mesh;
   mesh.vertices.reserve(placed.size());
   mesh.kinds.reserve(placed.size());
   for (const auto& v : placed) {
@@ -48,11 +26,11 @@ Mesh<N - 1> sorted(std::vector<Placed<N - 1>> placed, KindOf&& kind_of,
     mesh.vertices.push_back(v.p);
     mesh.kinds.push_back(kind_of(v.handle));
   }
-  mesh.simplices = sorted_by_corner(simplices, index, placed.size());
   return mesh;
 }
 
-// `index`: in the mesh, by the names that `on` calls vertices.
+}  // namespace
+
 template <int D>
 void add_parts(Mesh<D>& mesh, const OnFeatures& on, const std::vector<std::uint32_t>& index) {
   mesh.edges.reserve(on.edges.size());
@@ -71,23 +49,17 @@ void add_parts(Mesh<D>& mesh, const OnFeatures& on, const std::vector<std::uint3
   std::sort(mesh.faces.begin(), mesh.faces.end());
 }
 
-}  // namespace
-
 template <int D>
-Mesh<D> canonical(std::span<const Point<D>> places, std::span<const VertexKind> kinds,
-                  std::uint32_t first,
-                  const std::vector<std::array<std::uint32_t, D + 1>>& simplices,
-                  const OnFeatures& on) {
+Mesh<D> sorted_vertices(std::span<const Point<D>> places, std::span<const VertexKind> kinds,
+                        std::uint32_t first, std::vector<std::uint32_t>& index) {
   std::vector<Placed<D>> placed;
   placed.reserve(places.size());
   for (const Point<D>& p : places) {
     placed.push_back({p, first + static_cast<std::uint32_t>(placed.size())});
   }
-  std::vector<std::uint32_t> index(first + places.size());
-  const auto kind_of = [&](std::uint32_t v) { return kinds[v - first]; };
-  Mesh<D> mesh = sorted<D + 1>(std::move(placed), kind_of, simplices, index);
-  add_parts(mesh, on, index);
-  return mesh;
+  index.resize(first + places.size());
+  return sorted<D>(
+      std::move(placed), [&](std::uint32_t v) { return kinds[v - first]; }, index);
 }
 
 template <std::size_t N>
@@ -99,18 +71,21 @@ Mesh<N - 1> canonical(const VertexPool<N - 1>& pool, std::vector<VertexHandle> v
   for (const VertexHandle h : vertices) placed.push_back({pool[h].p, h});
   std::vector<std::uint32_t> index(
       vertices.empty() ? 0 : *std::max_element(vertices.begin(), vertices.end()) + std::size_t{1});
-  const auto kind_of = [&](VertexHandle h) { return pool[h].kind(); };
-  Mesh<N - 1> mesh = sorted<N>(std::move(placed), kind_of, simplices, index);
+  Mesh<N - 1> mesh = sorted<N - 1>(
+      std::move(placed), [&](VertexHandle h) { return pool[h].kind(); }, index);
+  mesh.simplices = sorted_by_corner<N>(index, mesh.vertices.size(), [&](auto&& visit) {
+    std::for_each(simplices.begin(), simplices.end(), visit);
+  });
   add_parts(mesh, on, index);
   return mesh;
 }
 
-template Mesh<2> canonical<2>(std::span<const Point<2>>, std::span<const VertexKind>, std::uint32_t,
-                              const std::vector<std::array<std::uint32_t, 3>>&,
-                              const OnFeatures&);
-template Mesh<3> canonical<3>(std::span<const Point<3>>, std::span<const VertexKind>, std::uint32_t,
-                              const std::vector<std::array<std::uint32_t, 4>>&,
-                              const OnFeatures&);
+template Mesh<2> sorted_vertices<2>(std::span<const Point<2>>, std::span<const VertexKind>,
+                                    std::uint32_t, std::vector<std::uint32_t>&);
+template Mesh<3> sorted_vertices<3>(std::span<const Point<3>>, std::span<const VertexKind>,
+                                    std::uint32_t, std::vector<std::uint32_t>&);
+template void add_parts(Mesh<2>&, const OnFeatures&, const std::vector<std::uint32_t>&);
+template void add_parts(Mesh<3>&, const OnFeatures&, const std::vector<std::uint32_t>&);
 template Mesh<2> canonical(const VertexPool<2>&, std::vector<VertexHandle>,
                            const std::vector<std::array<VertexHandle, 3>>&, const OnFeatures&);
 template Mesh<3> canonical(const VertexPool<3>&, std::vector<VertexHandle>,

@@ -36,15 +36,15 @@ template <int D, class Algorithm>
 [[nodiscard]] Mesh<D> mesh_of(const Algorithm& algorithm, const OnFeatures& on = {}) {
   const auto& kernel = algorithm.kernel();
   const auto& store = kernel.simplices();
-  std::vector<typename Mesh<D>::Simplex> simplices;
-  simplices.reserve(store.size());
-  for (std::uint32_t s = 0; s < store.places(); ++s) {
-    if (store.alive(s) && !kernel.is_ghost(s)) simplices.push_back(store.corners(s));
-  }
+  const auto for_each_simplex = [&](auto&& visit) {
+    for (std::uint32_t s = 0; s < store.places(); ++s) {
+      if (store.alive(s) && !kernel.is_ghost(s)) visit(store.corners(s));
+    }
+  };
   std::vector<Point<D>> places;
   places.reserve(kernel.places());
   for (std::uint32_t v = 1; v <= kernel.places(); ++v) places.push_back(kernel.place(v));
-  return canonical<D>(places, std::span(algorithm.kinds()).subspan(1), 1, simplices, on);
+  return canonical<D>(places, std::span(algorithm.kinds()).subspan(1), 1, on, for_each_simplex);
 }
 
 /// What all refinements are told alike.

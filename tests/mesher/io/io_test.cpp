@@ -2,11 +2,17 @@
 // back bit for bit.
 #include "mesher/io.hpp"
 
+#include <sys/stat.h>
+
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "feature_ids.hpp"
 #include "mesher/generate.hpp"
@@ -217,6 +223,48 @@ TEST_CASE("coordinates of every magnitude are written so that they read back bit
       }
     }
     CHECK(same);
+  }
+}
+
+TEST_CASE("integers of every length are written with all their digits") {
+  const ScratchFolder folder;
+  std::vector<long long> all{0, INT64_MAX, INT64_MIN, UINT32_MAX, UINT32_MAX + 1LL};
+  for (long long power = 1; power < 2'000'000'000'000'000'000; power *= 10) {
+    for (const long long n : {power - 1, power, power + 1, power / 9 * 8 + power / 1000}) {
+      all.push_back(n);
+      all.push_back(-n);
+    }
+  }
+  std::string expected;
+  mesher::OutputFiles files;
+  auto& file = files.open(folder.path("numbers"));
+  for (int round = 0; round < 200; ++round) {  // beyond the buffer
+    for (const long long n : all) {
+      file << n << ' ';
+      expected += std::to_string(n) + ' ';
+    }
+  }
+  files.commit();
+  CHECK(folder.read("numbers") == expected);
+}
+
+TEST_CASE("a file is read from a pipe, and its header after any comment") {
+  const ScratchFolder folder;
+  const std::string path = folder.path("pipe.node");
+  REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
+  std::string content = "50000 2 0 0\n";
+  for (int i = 0; i < 50000; ++i) content += std::to_string(i) + ' ' + std::to_string(i) + " 1\n";
+  std::thread writer([&] { std::ofstream(path) << content; });
+  const auto file = mesher::read_points<2>(path);
+  writer.join();
+  REQUIRE(file.points.size() == 50000);
+  CHECK(file.points.back() == Point<2>{49999, 1});
+  // Comments as long as what is read first, and the header cut there.
+  for (std::size_t length = 4080; length < 4100; ++length) {
+    const std::string comment = '#' + std::string(length - 2, 'x') + '\n';
+    INFO(length);
+    CHECK(mesher::dimension_of(folder.write("a.node", comment + "10 3 0 0\n1 0 0 0\n")) == 3);
+    CHECK(mesher::dimension_of(folder.write("b.node", comment + "10 33 0 0\n")) == 2);
   }
 }
 

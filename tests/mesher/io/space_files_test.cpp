@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <iterator>
 #include <map>
+#include <random>
+#include <set>
 
 #include "mesher/io.hpp"
 #include "mesher/mesher.hpp"
@@ -47,6 +50,48 @@ TEST_CASE("the boundary's faces are those on the box's sides, seen from outside,
       std::count(mesh.kinds.begin(), mesh.kinds.end(), mesher::VertexKind::boundary);
   CHECK(static_cast<long>(faces.size()) == 2 * on_boundary - 4);  // a sphere
   CHECK(mesher::boundary_faces({}).empty());
+}
+
+TEST_CASE("the boundary's faces are those of one tetrahedron, whatever the tetrahedra are") {
+  // Around the first vertex are more faces than a table of bits has room for; some tetrahedra are
+  // there twice, and corners come in any order that keeps the orientation.
+  std::mt19937 random(7);
+  for (const std::uint32_t around : {4u, 20u, 300u}) {
+    Mesh<3> mesh;
+    mesh.vertices.resize(around + 1);
+    for (int k = 0; k < 500; ++k) {
+      Mesh<3>::Simplex s;
+      do {
+        for (std::uint32_t& v : s) v = random() % (around + 1);
+        s[0] = k % 3 == 0 ? 0 : s[0];
+      } while (std::set(s.begin(), s.end()).size() < 4);
+      mesh.simplices.push_back(s);
+    }
+    std::map<std::set<std::uint32_t>, int> count;
+    std::vector<std::array<std::uint32_t, 3>> all, once;
+    for (const auto& [a, b, c, d] : mesh.simplices) {
+      using Face = std::array<std::uint32_t, 3>;
+      for (Face f : {Face{b, c, d}, Face{a, d, c}, Face{a, b, d}, Face{a, c, b}}) {
+        ++count[{f.begin(), f.end()}];
+        std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+        all.push_back(f);
+      }
+    }
+    std::copy_if(all.begin(), all.end(), std::back_inserter(once), [&](const auto& f) {
+      return count.at({f.begin(), f.end()}) == 1;
+    });
+    std::sort(once.begin(), once.end());
+    INFO(around);
+    CHECK(mesher::boundary_faces(mesh) == once);
+    // In order, as those of the mesher are; a cycle of three corners keeps the orientation.
+    for (auto& s : mesh.simplices) {
+      const auto least = std::min_element(s.begin(), s.end()) - s.begin();
+      if (least == 3) s = {s[3], s[1], s[0], s[2]};
+      if (least < 3) std::rotate(s.begin(), s.begin() + least, s.begin() + 3);
+    }
+    std::sort(mesh.simplices.begin(), mesh.simplices.end());
+    CHECK(mesher::boundary_faces(mesh) == once);
+  }
 }
 
 TEST_CASE("a mesh of tetrahedra is refused for formats that do not take it, nothing is written") {

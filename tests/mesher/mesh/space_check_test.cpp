@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 #include <set>
+#include <utility>
 
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"
@@ -327,4 +329,57 @@ TEST_CASE("the worst tetrahedra are over all tetrahedra, and slivers are counted
   CHECK(sliver.min_dihedral_deg == Approx(std::atan(0.02) * kDegrees).epsilon(0.01));
   CHECK(sliver.max_dihedral_deg > 177);
   CHECK(std::isnan(mesher::quality(Mesh<3>{}).max_radius_edge));
+}
+
+TEST_CASE("the worst of many tetrahedra are those of each alone, at every scale") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(-1, 1);
+  for (const double scale : {0x1p-99, 1e-12, 1.0, 1e9, 0x1p99}) {
+    for (const double height : {1.0, 1e-3, 1e-9, 1e-14}) {  // of the fourth corner over the others
+      Mesh<3> mesh;
+      for (int k = 0; k < 200; ++k) {
+        std::array<Point<3>, 4> p;
+        for (auto& corner : p) corner = {place(random), place(random), place(random)};
+        for (std::size_t i = 0; i < 3; ++i) {
+          const double centroid = (p[0][i] + p[1][i] + p[2][i]) / 3;
+          p[3][i] = centroid + height * (p[3][i] - centroid);
+          if (k % 7 == 0) p[1][i] = p[0][i] + 1e-4 * (p[1][i] - p[0][i]);  // a short edge
+        }
+        for (auto& corner : p) {
+          for (double& x : corner) x *= scale;
+        }
+        if (mesher::predicates::orient3d(p[0], p[1], p[2], p[3]) < 0) std::swap(p[2], p[3]);
+        if (mesher::predicates::orient3d(p[0], p[1], p[2], p[3]) == 0) continue;
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        mesh.vertices.insert(mesh.vertices.end(), p.begin(), p.end());
+        mesh.simplices.push_back({first, first + 1, first + 2, first + 3});
+      }
+      mesher::SpaceQuality worst = mesher::quality(mesh);
+      std::vector<double> ratios;
+      for (const auto& s : mesh.simplices) {
+        Mesh<3> one;
+        one.vertices = mesh.vertices;
+        one.simplices = {s};
+        const auto of_this = mesher::quality(one);
+        CHECK(of_this.min_dihedral_deg >= worst.min_dihedral_deg);
+        CHECK(of_this.max_dihedral_deg <= worst.max_dihedral_deg);
+        CHECK(of_this.max_radius_edge <= worst.max_radius_edge);
+        ratios.push_back(of_this.max_radius_edge);
+        worst.slivers -= of_this.slivers;
+      }
+      INFO(scale << ' ' << height);
+      CHECK(worst.slivers == 0);
+      CHECK(std::count(ratios.begin(), ratios.end(), worst.max_radius_edge) > 0);
+      std::sort(ratios.begin(), ratios.end());
+      if (height < 1e-3) continue;  // flat ones have no ratio but for rounding
+      for (const double rho : {ratios[ratios.size() / 4], ratios[ratios.size() / 2], 2.0}) {
+        const auto above =
+            ratios.end() - std::upper_bound(ratios.begin(), ratios.end(), rho * 1.01);
+        const auto near = std::upper_bound(ratios.begin(), ratios.end(), rho * 1.01) -
+                          std::lower_bound(ratios.begin(), ratios.end(), rho);
+        const auto count = static_cast<std::ptrdiff_t>(mesher::count_above(mesh, rho));
+        CHECK((count >= above && count <= above + near));
+      }
+    }
+  }
 }

@@ -1,0 +1,9 @@
+// For loops over lanes of doubles: compiled also for machines with registers of four, and chosen
+// when the program starts. The results are the same bits: operations are not fused.
+#pragma once
+
+#if defined(__x86_64__) && defined(__linux__)
+#define MESHER_WIDE_LANES [[gnu::target_clones("avx2", "default")]]
+#else
+#define MESHER_WIDE_LANES
+#endif
