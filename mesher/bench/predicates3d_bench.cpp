@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "mesher/ball_predicates.hpp"
 #include "mesher/predicates.hpp"
 
 namespace {
@@ -87,11 +88,39 @@ void report(const char* name, Five (*make)(Random&), Call call) {
 }
 
 int orient(const Five& q) { return mesher::predicates::orient3d(q[0], q[1], q[2], q[3]); }
-int insphere(const Five& q) {
-  return mesher::predicates::insphere(q[0], q[1], q[2], q[3], q[4]);
-}
+int insphere(const Five& q) { return mesher::predicates::insphere(q[0], q[1], q[2], q[3], q[4]); }
 int perturbed(const Five& q) {
   return mesher::predicates::insphere_perturbed(q[0], q[1], q[2], q[3], q[4]);
+}
+
+/// The last point is near the sphere of half the radius around the first 2, 3 or 4.
+template <std::size_t N>
+Five near_half(Random& random) {
+  Five five = near_sphere(random);
+  Point<3> centre{0.5, 0.5, 0.5};
+  if (N == 2) {
+    for (std::size_t i = 0; i < 3; ++i) five[1][i] = 1 - five[0][i];
+  } else if (N == 3) {
+    for (Point<3>& p : five) p[2] = 0.5;
+    const auto onto = [&](Point<3>& p) {
+      const double x = p[0] - 0.5, y = p[1] - 0.5, scale = 0.3 / std::hypot(x, y);
+      p[0] = 0.5 + scale * x;
+      p[1] = 0.5 + scale * y;
+    };
+    for (Point<3>& p : five) onto(p);
+  }
+  for (std::size_t i = 0; i < 3; ++i) five[4][i] = centre[i] + (five[4][i] - centre[i]) / 2;
+  return five;
+}
+
+int segment_ball(const Five& q) {
+  return mesher::predicates::in_shrunken_ball(q[0], q[1], q[4], 0.5);
+}
+int triangle_ball(const Five& q) {
+  return mesher::predicates::in_shrunken_ball(q[0], q[1], q[2], q[4], 0.5);
+}
+int tetrahedron_ball(const Five& q) {
+  return mesher::predicates::in_shrunken_ball(q[0], q[1], q[2], q[3], q[4], 0.5);
 }
 
 }  // namespace
@@ -106,4 +135,13 @@ int main() {
   report("insphere/near_degenerate", near_sphere, insphere);
   report("insphere/widest", widest, insphere);
   report("insphere_perturbed/grid", grid_cube, perturbed);
+  report("in_shrunken_ball/segment/random", random_five, segment_ball);
+  report("in_shrunken_ball/segment/near_degenerate", near_half<2>, segment_ball);
+  report("in_shrunken_ball/segment/widest", widest, segment_ball);
+  report("in_shrunken_ball/triangle/random", random_five, triangle_ball);
+  report("in_shrunken_ball/triangle/near_degenerate", near_half<3>, triangle_ball);
+  report("in_shrunken_ball/triangle/widest", widest, triangle_ball);
+  report("in_shrunken_ball/tetrahedron/random", random_five, tetrahedron_ball);
+  report("in_shrunken_ball/tetrahedron/near_degenerate", near_half<4>, tetrahedron_ball);
+  report("in_shrunken_ball/tetrahedron/widest", widest, tetrahedron_ball);
 }
