@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
       "updates.",
       "mesher"};
   app.footer(kHelpFooter);
+  app.set_version_flag("--version", "mesher " MESHER_VERSION);
   app.require_subcommand(1);
   tool::add_gen(app);
   tool::add_mesh(app);

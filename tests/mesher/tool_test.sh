@@ -57,6 +57,7 @@ done
 for command in mesh edit trace; do
   expect 0 "Usage: mesher $command [OPTIONS] INPUT"$'\n' $command --help
 done
+expect 0 'mesher 0.' --version
 refuse 2 'error[bad_option]'
 refuse 2 'error[bad_option]' paint
 refuse 2 'error[bad_option]' mesh
