@@ -136,7 +136,7 @@ void PlaneConformity::split_piece(std::uint32_t piece, std::uint32_t at) {
   const Halves parts = halves(ref(piece));
   const std::uint32_t other =
       pieces_.split(piece, at, parts.role.label, {parts.lower.piece.kind, parts.upper.piece.kind});
-  if (piece < overruled_.size() && overruled_[piece]) {
+  if (is_overruled(piece)) {
     overruled_.resize(pieces_.size());
     overruled_[other] = true;
   }
@@ -184,8 +184,11 @@ void PlaneConformity::before_fill(std::uint32_t v) {
   beside_.clear();
   visit_pieces_dug([&](std::uint32_t piece) {
     const Relation is = relation(piece, v);
-    if (is == Relation::in_ball) want_piece(piece, v);
-    if (is == Relation::beside) beside_.push_back(piece);
+    if (is == Relation::in_ball) {
+      want_piece(piece, v);
+    } else if (is_overruled(piece)) {
+      beside_.push_back(piece);
+    }
   });
 }
 

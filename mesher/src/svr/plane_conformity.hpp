@@ -118,6 +118,10 @@ class PlaneConformity {
                                                  double radius) const;
   [[nodiscard]] Relation relation(std::uint32_t piece, std::uint32_t v);
   [[nodiscard]] Relation relation_to(std::uint32_t piece, std::uint32_t v) const;
+  /// Then its ball may hold vertices, so that one outside of it may cost its edge.
+  [[nodiscard]] bool is_overruled(std::uint32_t piece) const {
+    return piece < overruled_.size() && overruled_[piece];
+  }
   [[nodiscard]] std::uint32_t vertex_at(const Role& role) const;
   void look_at_piece(std::uint32_t piece);
   [[nodiscard]] Leaf leaf(std::uint32_t piece) const;
