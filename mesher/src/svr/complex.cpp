@@ -87,13 +87,14 @@ Mesh<D> run(const Checked& checked, const Options<D>& options, const RefinedExte
     settings.handles.push_back(v.self);
   });
   detail::set_common(settings, options, stats != nullptr, control);
-  Algorithm algorithm(checked.box(), places, settings);
-  algorithm.run();
-  if constexpr (D == 3) algorithm.conformity().require_whole();
-  Mesh<D> mesh = detail::mesh_of<D>(
-      algorithm, parts_of(algorithm.conformity(), checked.store(), checked.names()));
-  detail::set_stats(stats, algorithm, mesh);
-  return mesh;
+  return detail::refined_in<Algorithm, D>(
+      checked.box(), places, settings, [&](const Algorithm& algorithm) {
+        if constexpr (D == 3) algorithm.conformity().require_whole();
+        Mesh<D> mesh = detail::mesh_of<D>(
+            algorithm, parts_of(algorithm.conformity(), checked.store(), checked.names()));
+        detail::set_stats(stats, algorithm, mesh);
+        return mesh;
+      });
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ void DelaunayRefinement<D, Queue, Mesh>::split(std::uint32_t s) {
   if constexpr (kConforms) {
     if (!this->is_split(s)) return;
   }
-  const Centre<D> centre = centres_.of(kernel_, s);
+  const Centre<D> centre = this->centre_of(s);
   centres_.require_apart(kernel_, s, centre);
   const VertexKind kind = centre.on_side ? VertexKind::boundary : VertexKind::steiner;
   const std::uint32_t v = add(centre.place, kind);

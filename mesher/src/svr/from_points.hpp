@@ -1,7 +1,9 @@
 // What refinements of points do before and after: checks, the order of points, the mesh.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "mesher/mesher.hpp"
 #include "mesher/predicates.hpp"
 #include "svr/distinct_order.hpp"
+#include "svr/refined_mesh.hpp"
 
 namespace mesher::detail {
 
@@ -55,8 +58,10 @@ void set_common(Settings& settings, const Options<D>& options, bool follow_degre
   settings.most_vertices = options.max_vertices;
   settings.follow_degrees = follow_degrees;
   if (!watches(control)) return;
-  settings.watch = [&](std::size_t vertices) {
-    if (!report(control, {.phase = Phase::steiner, .done = vertices})) fail_cancelled();
+  // A run that begins anew does not say so.
+  settings.watch = [&control, most = std::make_shared<std::size_t>(0)](std::size_t vertices) {
+    *most = std::max(*most, vertices);
+    if (!report(control, {.phase = Phase::steiner, .done = *most})) fail_cancelled();
   };
 }
 
@@ -69,6 +74,25 @@ void set_stats(Stats* stats, const Algorithm& algorithm, const Mesh<D>& mesh) {
   stats->simplices = mesh.simplices.size();
 }
 
+/// take(algorithm) of an Algorithm that has run, in a coarse box if that will do. Bounds stronger
+/// than the default may need vertices beside its sides.
+template <class Algorithm, int D, class Take>
+[[nodiscard]] auto refined_in(const MeshBox<D>& box, const std::vector<Point<D>>& points,
+                              typename Algorithm::Settings settings, Take&& take) {
+  const auto run = [&](bool coarse) {
+    settings.coarse_box = coarse;
+    Algorithm algorithm(box, points, settings);
+    algorithm.run();
+    return take(algorithm);
+  };
+  if (settings.rho < Options<D>{}.rho) return run(false);
+  try {
+    return run(true);
+  } catch (const SideReached&) {
+    return run(false);
+  }
+}
+
 /// What an Algorithm makes of the points. `settings`: but for what is in `options`.
 template <template <int> class Algorithm, int D, class Stats>
 [[nodiscard]] Mesh<D> mesh_points(const std::vector<Point<D>>& points, const Options<D>& options,
@@ -78,11 +102,11 @@ template <template <int> class Algorithm, int D, class Stats>
   const MeshBox<D> box = mesh_box(options);
   set_common(settings, options, stats != nullptr, control);
   const std::vector<Point<D>> sorted = in_distinct_order<D>(points, ids, options.domain, box);
-  Algorithm<D> algorithm(box, sorted, settings);
-  algorithm.run();
-  Mesh<D> mesh = mesh_of<D>(algorithm);
-  set_stats(stats, algorithm, mesh);
-  return mesh;
+  return refined_in<Algorithm<D>, D>(box, sorted, settings, [&](const Algorithm<D>& algorithm) {
+    Mesh<D> mesh = mesh_of<D>(algorithm);
+    set_stats(stats, algorithm, mesh);
+    return mesh;
+  });
 }
 
 }  // namespace mesher::detail

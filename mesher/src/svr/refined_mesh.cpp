@@ -12,6 +12,15 @@ namespace {
 // Of a square: more than twice the error of a radius that the balls have, 2^-21 (simplex_ball.hpp).
 constexpr double kSurely = 1 - 0x1p-18;
 
+// Along an edge of a coarse box. A ball with its centre beyond a side and no vertex inside meets
+// the side in a disc of radius step / sqrt(2) at most, so it has its corners as near to that side:
+// with three steps, two thirds of the domain's distance to it. That is enough nearly always, and
+// where it is not, the run begins anew with the grid of gap balls. (With that grid from the start,
+// eight steps, small complexes take up to five times as long, and meshes have up to 4% more
+// vertices. To go on instead, from the centre to the side, need not end: a vertex beside a side, in
+// the ball of one of its edges, halves the distance again and again.)
+constexpr int kCoarseSteps = 3;
+
 }  // namespace
 
 template <int D>
@@ -26,8 +35,7 @@ RefinedMesh<D>::RefinedMesh(const MeshBox<D>& box, const Settings& settings, std
 template <int D>
 std::uint32_t RefinedMesh<D>::add_place(const Point<D>& p, VertexKind kind) {
   if (const std::size_t most = full_with(); most != 0) {
-    throw Error(ErrorCode::too_many,
-                "more than " + std::to_string(most) + " vertices are needed");
+    throw Error(ErrorCode::too_many, "more than " + std::to_string(most) + " vertices are needed");
   }
   const std::uint32_t v = kernel_.add_place(p);
   kinds_.push_back(kind);
@@ -37,7 +45,9 @@ std::uint32_t RefinedMesh<D>::add_place(const Point<D>& p, VertexKind kind) {
 template <int D>
 std::vector<Point<D>> RefinedMesh<D>::boundary() const {
   std::vector<Point<D>> places;
-  box_.for_each_boundary_point([&](const Point<D>& p) { places.push_back(p); });
+  MeshBox<D> box = box_;
+  if (settings_.coarse_box) box.boundary_steps = std::min(box.boundary_steps, kCoarseSteps);
+  box.for_each_boundary_point([&](const Point<D>& p) { places.push_back(p); });
   return places;
 }
 

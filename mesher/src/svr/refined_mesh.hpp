@@ -15,6 +15,9 @@
 
 namespace mesher::detail {
 
+/// A centre is on a side of a box with few vertices: the run is to begin anew with all of them.
+struct SideReached {};
+
 template <int D>
 class RefinedMesh {
  public:
@@ -24,6 +27,7 @@ class RefinedMesh {
     double rho = 2;
     std::size_t most_vertices = 0;  // 0: any number
     bool follow_degrees = false;
+    bool coarse_box = false;                   // the box has few vertices
     std::function<void(std::size_t)> watch{};  // called now and then with the number of vertices
   };
 
@@ -42,6 +46,12 @@ class RefinedMesh {
   std::uint32_t add_place(const Point<D>& p, VertexKind kind);
   /// Of the box with its grids.
   [[nodiscard]] std::vector<Point<D>> boundary() const;
+  /// Where a poor simplex is split. Throws: SideReached, if the box is coarse.
+  [[nodiscard]] Centre<D> centre_of(std::uint32_t s) const {
+    const Centre<D> centre = centres_.of(kernel_, s);
+    if (centre.on_side && settings_.coarse_box) throw SideReached();
+    return centre;
+  }
   /// Now and then, of `count` vertices.
   void watch(std::size_t step, std::size_t count) const {
     if (settings_.watch != nullptr && step % kBetweenWatches == 0) settings_.watch(count);

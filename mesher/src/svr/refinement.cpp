@@ -127,7 +127,7 @@ void Refinement<D, Mesh, Location>::split(std::uint32_t s) {
   if constexpr (kConforms) {
     if (has_started_ && !this->is_split(s)) return;
   }
-  const Centre<D> centre = centres_.of(kernel_, s);
+  const Centre<D> centre = this->centre_of(s);
   const bool warps = location_.left() != 0 && !centre.on_side;
   if (warps) {
     const Found found =
