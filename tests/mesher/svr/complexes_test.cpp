@@ -57,6 +57,20 @@ Plc shuffled(const Plc& plc) {
   return other;
 }
 
+// About the axes, by any angles.
+void turn(Plc& plc, std::mt19937_64& random) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double angle = std::uniform_real_distribution<double>(0, 6)(random);
+    const auto turn_one = [&](Point<3>& p) {
+      const double x = p[k], y = p[(k + 1) % 3];
+      p[k] = std::cos(angle) * x - std::sin(angle) * y;
+      p[(k + 1) % 3] = std::sin(angle) * x + std::cos(angle) * y;
+    };
+    for (auto& point : plc.points) turn_one(point.at);
+    for (auto& hole : plc.holes) turn_one(hole.seed);
+  }
+}
+
 std::size_t poor_ones(const Mesh<3>& mesh) { return mesher::count_above(mesh, 2); }
 
 }  // namespace
@@ -173,10 +187,33 @@ TEMPLATE_TEST_CASE_SIG("what is not wanted is not refined: the outside, and hole
   const Mesh<3> shell = mesh_of<B>(plc, options, Extent::enclosed);
   CHECK(shell.vertices.size() < enclosed.vertices.size());
   CHECK(fault(shell, plc, Extent::enclosed) == "");
+  for (const Point<3>& p : {Point<3>{0.5, 0.5, 0.02}, Point<3>{0.5, 0.02, 0.02},
+                            Point<3>{0.02, 0.02, 0.02}, Point<3>{50, 50, 50}}) {
+    plc.holes[0].seed = p;  // on a polygon, on its edge, on its corner, in no region
+    CHECK(mesh_of<B>(plc, options, Extent::enclosed) == enclosed);
+  }
   // Nothing is enclosed: then all is wanted.
   plc = mesher::generate_plc({PlcKind::vee});
   plc.facets.clear();
   CHECK(mesh_of<B>(plc, options_for(plc), Extent::enclosed) == mesh_of<B>(plc, options_for(plc)));
+}
+
+// As near to a polygon as doubles come, rounding says on which side of it a hole is.
+TEMPLATE_TEST_CASE_SIG("wherever a hole on a turned polygon counts to, what is kept is refined", "",
+                       ((By B), B), By::svr, By::refine) {
+  std::mt19937_64 random(11);
+  for (int i = 0; i < 12; ++i) {
+    Plc plc = mesher::generate_plc({PlcKind::nested, 0.4});
+    const auto add = [&](const Point<3>& p) { plc.points.push_back({id(plc.points.size()), p, 0}); };
+    for (int k = 1; k < 6; ++k) {  // close to each other, inside and outside of the inner box
+      add({0.41 + 0.001 * k * k, 0.5, 0.5});
+      add({0.1 + 0.002 * k * k, 0.1, 0.1});
+    }
+    plc.holes.push_back({id(0), {0.5, 0.5, 0.4}});
+    turn(plc, random);
+    INFO("turn " << i);
+    CHECK(fault(mesh_of<B>(plc, options_for(plc), Extent::enclosed), plc, Extent::enclosed) == "");
+  }
 }
 
 TEMPLATE_TEST_CASE_SIG("what cannot be meshed is refused", "", ((By B), B), By::svr, By::refine) {
