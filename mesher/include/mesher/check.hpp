@@ -27,8 +27,7 @@
 //   (b) segments: every segment, and every piece of a polyline, is a union of edges: a path from
 //       end to end, each vertex of which is on it but for rounding (2^-48 of the largest
 //       coordinate), those of MeshFeatures that name the line first; and an edge that names a line
-//       is on it. Unless the mesh is to fill a
-//       box, one whose end is no vertex may have its middle in no triangle instead;
+//       is on it. Unless the mesh is to fill a box, what of it is outside need not be there;
 //   (c) conforming: (7) of the edges on lines;
 //   (d) regions: triangles on both sides of an edge that is on no line have the same region; where
 //       seeds are given, that of one of the seeds inside; no triangle holds the seed of a hole,

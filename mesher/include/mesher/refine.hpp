@@ -35,7 +35,7 @@ struct RefineSettings {
 template <int D>
 struct RefinedExtentOf {
   bool only_enclosed = false;
-  std::vector<Point<D>> holes{};  ///< in the plane one on a segment is none
+  std::vector<Point<D>> holes{};  ///< one on a segment, in space on a polygon, is none
 };
 using RefinedExtent = RefinedExtentOf<3>;
 

@@ -88,10 +88,10 @@ struct Repaired {
 };
 
 /// Repairs a graph. `domain`: of the Options that it will be meshed with, snapped_domain of its
-/// points by default.
-/// Throws: Error (not_finite, magnitude, outside_domain, repeated_id, unknown_id) for what cannot
-/// be repaired; Error(bad_option) for a domain that cannot be meshed; Error(too_close) if
-/// kRepairRounds rounds do not do.
+/// points by default. Positions that `file` does not have are unknown.
+/// Throws: Error (not_finite, magnitude, outside_domain, repeated_id, unknown_id, wrong_count: of
+/// attributes) for what cannot be repaired; Error(bad_option) for a domain that cannot be meshed;
+/// Error(too_close) if kRepairRounds rounds do not do.
 /// Cost: O((n + c) log L/s) for n pieces of lines and c crossings, where lines are as long as they
 /// are far apart or lie side by side (10^5 segments that cross 10^5 times: 3 s); more for long
 /// lines in all directions. Many that cross in one place are worst: O(n^1.5 log L/s).

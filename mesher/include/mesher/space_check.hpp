@@ -33,8 +33,8 @@
 //   (a) parts: every edge and face of MeshFeatures is one of a tetrahedron;
 //   (b) segments, if a complex is given: every segment, and every edge of a polygon, is a union of
 //       edges: a path from end to end, each vertex of which is on it but for rounding (2^-48 of the
-//       largest coordinate). Where MESH has what polygons enclose, one whose end is no vertex may
-//       be outside;
+//       largest coordinate). Where MESH has what polygons enclose, what of it is outside need not
+//       be there;
 //   (c) polygons, likewise: every polygon is a union of faces: of those that MeshFeatures say are
 //       its, or if they name none, of those with corners on its plane whose Voronoi edge crosses
 //       it (on the boundary, whose middle is in it). Their corners are on it, but for rounding and
@@ -42,8 +42,9 @@
 //       of the polygon; and their areas add up to its own, but for 10^-9. One of which no corner is
 //       a vertex may be outside;
 //   (d) markers, where complex and mesh have some: vertices have that of their point, or else of a
-//       segment or polygon that they are on, edges that of their segment, or else of such a polygon,
-//       faces that of their polygon; what is on none has none, or on the boundary perhaps 1;
+//       segment or polygon that they are on, edges that of their segment, or else of such a
+//       polygon, faces that of their polygon; what is on none has none, or on the boundary perhaps
+//       1;
 //   (e) regions: tetrahedra on both sides of a face in no polygon have the same region; where seeds
 //       are given, that of one of the seeds inside; no tetrahedron holds the seed of a hole, unless
 //       the mesh is to fill a box. A seed on a polygon stands for nothing.

@@ -60,12 +60,12 @@ struct RepairedPlc {
 };
 
 /// Repairs a complex. `domain`: of the Options that it will be meshed with, snapped_domain of its
-/// points by default.
-/// Throws: Error (not_finite, magnitude, outside_domain, repeated_id, unknown_id) for what cannot
-/// be repaired; Error(bad_option) for a domain that cannot be meshed; Error(not_flat) for a polygon
-/// that is so bent that its edges cross in every view, if it has holes or more than 256 corners;
-/// Error(too_close) if twice kRepairRounds do not do, or what is nearly parallel cannot be told
-/// apart.
+/// points by default. Positions that `file` does not have are unknown.
+/// Throws: Error (not_finite, magnitude, outside_domain, repeated_id, unknown_id, wrong_count: of
+/// attributes) for what cannot be repaired; Error(bad_option) for a domain that cannot be meshed;
+/// Error(not_flat) for a polygon that is so bent that its edges cross in every view, if it has
+/// holes or more than 256 corners; Error(too_close) if twice kRepairRounds do not do, or what is
+/// nearly parallel cannot be told apart.
 /// Cost: O((n + c) log L/s) for n edges and c crossings, where polygons are about as large as they
 /// are far apart.
 [[nodiscard]] RepairedPlc repair(const PlcFile& file, const std::optional<Box<3>>& domain = {});

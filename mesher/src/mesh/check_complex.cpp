@@ -95,28 +95,35 @@ Verdict ComplexCheck::find_segments(const HalfFaces& faces) {
   if (options_.features != nullptr) {
     for (const MeshEdge& e : options_.features->edges) known.insert({e.low, e.high});
   }
+  const auto is_known = [&](std::uint32_t a, std::uint32_t b) {
+    return known.count(ends_of(a, b)) != 0;
+  };
+  const std::vector<HalfFace> border = faces.border();
+  const auto is_outside_between = [&](const Point<3>& p, const Point<3>& q) {
+    return is_outside(scaled(0.5, plus(p, q))) &&
+           std::none_of(border.begin(), border.end(), [&](const HalfFace& half) {
+             const auto [a, b, c] = half.face;
+             return goes_through(p, q, {at(a), at(b), at(c)});
+           });
+  };
   Verdict verdict = Verdict::good("");
-  std::size_t parts = 0, outside = 0;
+  std::size_t parts = 0, outside = 0, cut = 0;
   for (Line& l : lines_) {
-    const auto trouble = walk.find(
-        l, [&](std::uint32_t a, std::uint32_t b) { return known.count(ends_of(a, b)) != 0; });
-    if (!trouble) {
-      parts += l.vertices.size() - 1;
-      continue;
-    }
-    l.vertices.clear();
-    if (is_outside(scaled(0.5, plus(l.from, l.to)))) {
-      ++outside;
-    } else if (verdict.holds) {
+    auto way = walk.find(l.from, l.to, is_known, is_outside_between);
+    if (way.trouble && verdict.holds) {
       verdict = Verdict::bad(l.name + " from " + text::to_text<3>(l.from) + " to " +
-                             text::to_text<3>(l.to) + ": " + *trouble);
+                             text::to_text<3>(l.to) + ": " + *way.trouble);
     }
+    if (way.trouble) continue;
+    for (const auto& run : way.runs) parts += run.size() - 1;
+    outside += way.runs.empty() ? 1 : 0;
+    cut += way.runs.empty() || way.is_whole ? 0 : 1;
+    l.runs = std::move(way.runs);
   }
   if (!verdict.holds) return verdict;
   return Verdict::good(std::to_string(lines_.size() - outside) +
                        " segments and edges of polygons are unions of " + std::to_string(parts) +
-                       " edges" +
-                       (outside > 0 ? ", " + std::to_string(outside) + " are outside" : ""));
+                       " edges" + outside_text(outside, cut));
 }
 
 }  // namespace mesher::detail

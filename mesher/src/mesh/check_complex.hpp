@@ -42,7 +42,8 @@ class ComplexCheck {
     std::string name;
     std::array<FeatureId, 2> ends;
     Point<3> from, to;
-    std::vector<std::uint32_t> vertices;  // from end to end
+    std::vector<std::vector<std::uint32_t>>
+        runs;  // of vertices that edges join; one if it is whole
   };
   using Ends = std::array<std::uint32_t, 2>;  // low, high
   struct Surface {

@@ -29,9 +29,30 @@ LinesOfEdges lines_of(const MeshFeatures* features) {
   return lines;
 }
 
-Point<2> middle(const LinePath& path) {
-  return {path.from[0] / 2 + path.to[0] / 2, path.from[1] / 2 + path.to[1] / 2};
-}
+// Asks whether all between two places is outside of what is meshed.
+class Outside {
+ public:
+  Outside(const CheckedMesh& mesh, const LineWalk<2>& walk, BoundaryRule rule)
+      : mesh_(mesh), walk_(walk), rule_(rule) {
+    if (rule != BoundaryRule::box) border_ = mesh.border();
+  }
+  // Of a boundary that is not judged a piece between two vertices may be lost.
+  [[nodiscard]] bool operator()(const Point<2>& p, const Point<2>& q) const {
+    if (rule_ == BoundaryRule::any && walk_.vertex_at(p) && walk_.vertex_at(q)) return false;
+    if (border_.empty() || mesh_.triangle_at({p[0] / 2 + q[0] / 2, p[1] / 2 + q[1] / 2})) {
+      return false;
+    }
+    return std::none_of(border_.begin(), border_.end(), [&](const HalfEdge& e) {
+      return goes_through(p, q, {mesh_.at(e.from), mesh_.at(e.to)});
+    });
+  }
+
+ private:
+  const CheckedMesh& mesh_;
+  const LineWalk<2>& walk_;
+  BoundaryRule rule_;
+  std::vector<HalfEdge> border_;  // none: nothing is outside
+};
 
 std::vector<LinePath> pieces_of(const Pslg& graph) {
   std::map<FeatureId, Point<2>> place;
@@ -75,31 +96,34 @@ Verdict check_names(const CheckedMesh& mesh, const MeshFeatures& features,
 PathsVerdict check_segments(const CheckedMesh& mesh, const CheckOptions& options) {
   const LineWalk<2> walk = walk_of(mesh);
   const LinesOfEdges lines = lines_of(options.features);
-  PathsVerdict all{Verdict::good(""), pieces_of(options.graph->pslg)};
-  std::size_t edges = 0, outside = 0;
-  for (LinePath& path : all.paths) {
-    const auto trouble = walk.find(path, [&](std::uint32_t a, std::uint32_t b) {
+  const Outside outside(mesh, walk, options.boundary);
+  PathsVerdict all{Verdict::good(""), {}};
+  std::size_t segments = 0, edges = 0, left_out = 0, cut = 0;
+  for (const LinePath& piece : pieces_of(options.graph->pslg)) {
+    const auto is_known = [&](std::uint32_t a, std::uint32_t b) {
       const auto found = lines.find(std::minmax(a, b));
-      return found != lines.end() && found->second == path.line;
-    });
-    edges += path.vertices.empty() ? 0 : path.vertices.size() - 1;
-    if (!trouble || !all.verdict.holds) continue;
-    if (path.vertices.empty() && options.boundary != BoundaryRule::box &&
-        !mesh.triangle_at(middle(path))) {
-      ++outside;
-      continue;
+      return found != lines.end() && found->second == piece.line;
+    };
+    auto way = walk.find(piece.from, piece.to, is_known, outside);
+    if (way.trouble && all.verdict.holds) {
+      all.verdict = Verdict::bad("line " + std::to_string(static_cast<std::int64_t>(piece.line)) +
+                                 " from " + text::to_text<2>(piece.from) + " to " +
+                                 text::to_text<2>(piece.to) + ": " + *way.trouble);
     }
-    all.verdict = Verdict::bad("line " + std::to_string(static_cast<std::int64_t>(path.line)) +
-                               " from " + text::to_text<2>(path.from) + " to " +
-                               text::to_text<2>(path.to) + ": " + *trouble);
+    (way.runs.empty() ? left_out : segments) += 1;
+    cut += way.runs.empty() || way.is_whole ? 0 : 1;
+    if (way.runs.empty()) all.paths.push_back(piece);
+    for (auto& run : way.runs) {
+      edges += run.size() - 1;
+      all.paths.push_back({piece.line, piece.from, piece.to, std::move(run)});
+    }
   }
   if (all.verdict.holds && !all.paths.empty() && options.features != nullptr) {
     all.verdict = check_names(mesh, *options.features, all.paths);
   }
   if (all.verdict.holds) {
-    all.verdict.detail = std::to_string(all.paths.size() - outside) + " segments are unions of " +
-                         std::to_string(edges) + " edges" +
-                         (outside > 0 ? ", " + std::to_string(outside) + " are outside" : "");
+    all.verdict.detail = std::to_string(segments) + " segments are unions of " +
+                         std::to_string(edges) + " edges" + outside_text(left_out, cut);
   }
   return all;
 }

@@ -22,11 +22,12 @@ bool intersects(const Items& a, const Items& b) {
 
 void ComplexCheck::name_vertices() {
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    const auto& path = lines_[i].vertices;
-    for (std::size_t k = 0; k < path.size(); ++k) {
-      Featured& v = featured_[path[k]];
-      v.lines.push_back(i);
-      v.is_point = v.is_point || k == 0 || k + 1 == path.size();
+    for (const auto& run : lines_[i].runs) {
+      for (const std::uint32_t vertex : run) {
+        Featured& v = featured_[vertex];
+        v.lines.push_back(i);
+        v.is_point = v.is_point || at(vertex) == lines_[i].from || at(vertex) == lines_[i].to;
+      }
     }
   }
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {

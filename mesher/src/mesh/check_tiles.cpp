@@ -39,9 +39,10 @@ std::array<std::uint32_t, 2> ends_of(std::uint32_t a, std::uint32_t b) {
 void ComplexCheck::add_edges(Surface& surface, const std::vector<FeatureId>& ends,
                              std::set<Ends>& edges) {
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    const auto& path = lines_[line(ends[i], ends[i + 1], "")].vertices;
-    for (std::size_t k = 1; k < path.size(); ++k) edges.insert(ends_of(path[k - 1], path[k]));
-    surface.on.insert(surface.on.end(), path.begin(), path.end());
+    for (const auto& run : lines_[line(ends[i], ends[i + 1], "")].runs) {
+      for (std::size_t k = 1; k < run.size(); ++k) edges.insert(ends_of(run[k - 1], run[k]));
+      surface.on.insert(surface.on.end(), run.begin(), run.end());
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -21,6 +22,26 @@ template <int D>
   std::vector<Point<D>> places;
   for (const auto& point : points) places.push_back(point.at);
   return places;
+}
+
+/// `file` with a position for each part that both kinds of input have: an unknown one where it has
+/// none, as one that was made by hand.
+template <class Input>
+void add_positions(const Input& input, FileParts& file) {
+  file.points.resize(input.points.size());
+  file.segments.resize(input.segments.size());
+  file.holes.resize(input.holes.size());
+  file.regions.resize(input.regions.size());
+}
+
+/// Throws: Error(wrong_count), if not each point has its attributes.
+template <class Input>
+void require_attributes(const Input& input) {
+  const std::size_t n = input.attributes_per_point, all = input.attributes.size();
+  if (n == 0 ? all == 0 : all % n == 0 && all / n == input.points.size()) return;
+  throw Error(ErrorCode::wrong_count, std::to_string(all) + " attributes are there, of " +
+                                          std::to_string(input.points.size()) + " points with " +
+                                          std::to_string(n) + " each");
 }
 
 /// What can be repaired, and the box that it is repaired in. Throws: Error (not_finite, magnitude,

@@ -36,10 +36,9 @@ void draw_rods(const Pslg& pslg, const std::vector<Spot>& spots, Drawing& drawin
   for (const auto& [s, t] : rods) drawing.rod(s, t);
 }
 
-}  // namespace
-
-Repaired repair(const PslgFile& file, const std::optional<Box<2>>& given) {
+Repaired repair_placed(const PslgFile& file, const std::optional<Box<2>>& given) {
   detail::require_ids(file);
+  detail::require_attributes(file.pslg);
   const auto& points = file.pslg.points;
   if (points.empty()) return {file, {}, 0, 0};
   const detail::MeshBox<2> box = detail::box_of_points(points, file, given);
@@ -56,14 +55,18 @@ Repaired repair(const PslgFile& file, const std::optional<Box<2>>& given) {
   return detail::redraw(file, drawing, spots, keepers);
 }
 
+}  // namespace
+
+Repaired repair(const PslgFile& file, const std::optional<Box<2>>& domain) {
+  PslgFile placed = file;
+  detail::add_positions(file.pslg, placed);
+  placed.polylines.resize(file.pslg.polylines.size());
+  return repair_placed(placed, domain);
+}
+
 Repaired repair(const Pslg& pslg, const std::optional<Box<2>>& domain) {
   PslgFile file;
   file.pslg = pslg;
-  file.points.resize(pslg.points.size());
-  file.segments.resize(pslg.segments.size());
-  file.polylines.resize(pslg.polylines.size());
-  file.holes.resize(pslg.holes.size());
-  file.regions.resize(pslg.regions.size());
   return repair(file, domain);
 }
 

@@ -118,10 +118,9 @@ void require_sound(const Plc& plc, const Options<3>& options) {
   }
 }
 
-}  // namespace
-
-RepairedPlc repair(const PlcFile& file, const std::optional<Box<3>>& given) {
+RepairedPlc repair_placed(const PlcFile& file, const std::optional<Box<3>>& given) {
   require_ids(file);
+  detail::require_attributes(file.plc);
   const Plc& plc = file.plc;
   if (plc.points.empty()) return {file, {}, 0, 0};
   const detail::MeshBox<3> box = detail::box_of_points(plc.points, file, given);
@@ -136,14 +135,18 @@ RepairedPlc repair(const PlcFile& file, const std::optional<Box<3>>& given) {
   return repaired;
 }
 
+}  // namespace
+
+RepairedPlc repair(const PlcFile& file, const std::optional<Box<3>>& domain) {
+  PlcFile placed = file;
+  detail::add_positions(file.plc, placed);
+  placed.facets.resize(file.plc.facets.size());
+  return repair_placed(placed, domain);
+}
+
 RepairedPlc repair(const Plc& plc, const std::optional<Box<3>>& domain) {
   PlcFile file;
   file.plc = plc;
-  file.points.resize(plc.points.size());
-  file.segments.resize(plc.segments.size());
-  file.facets.resize(plc.facets.size());
-  file.holes.resize(plc.holes.size());
-  file.regions.resize(plc.regions.size());
   return repair(file, domain);
 }
 

@@ -6,6 +6,14 @@
 
 namespace mesher::detail {
 
+namespace {
+
+// Of the box's side: within this of a wall rounding decides on which side of it a place is, or that
+// the wall is not quite flat (plc/polygon_shape.hpp).
+constexpr double kNearWall = 0x1p-24;
+
+}  // namespace
+
 template <int D>
 ConformingMesh<D>::ConformingMesh(const MeshBox<D>& box, const Settings& settings,
                                   std::size_t points)
@@ -53,7 +61,7 @@ std::optional<std::uint32_t> ConformingMesh<D>::dig(const typename Conforms::Wan
 template <int D>
 bool ConformingMesh<D>::is_split(std::uint32_t s) {
   if (only_enclosed_ && !std::exchange(has_regions_, true)) {
-    only_enclosed_ = conformity_.find_regions(holes_);
+    only_enclosed_ = conformity_.find_regions(holes_, kNearWall * this->box_.side);
   }
   return !(only_enclosed_ && conformity_.is_outside(s)) && !stays(s);
 }

@@ -51,9 +51,9 @@ class Conformity {
   void drop_vertex() noexcept { vertices_.pop_back(); }
   /// Finds the pieces. Requires: all input points are vertices.
   void start();
-  /// Finds what polygons enclose, less what holes are in; whether that is anything.
-  /// Requires: as is_outside().
-  bool find_regions(std::span<const Point<3>> holes);
+  /// Finds what polygons enclose, less what holes are in that are not within `near` of polygons;
+  /// whether that is anything. Requires: as is_outside().
+  bool find_regions(std::span<const Point<3>> holes, double near);
 
   /// Where the centre x of an empty ball goes instead, on a feature; nothing: none is near. By the
   /// input alone: before start(). Cost: O(log L/s), and what is near.

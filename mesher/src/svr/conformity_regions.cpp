@@ -7,11 +7,8 @@
 
 namespace mesher::detail {
 
-bool Conformity::find_regions(std::span<const Point<3>> holes) {
-  const std::uint32_t any = kernel_.find_in_star(1, star_, [](std::uint32_t) { return true; });
-  std::vector<std::uint32_t> in_holes;
-  for (const Point<3>& p : holes) in_holes.push_back(kernel_.walk(p, any));
-  return enclosed_.find(in_holes, [&](auto s, auto i) { return is_wall(s, i); });
+bool Conformity::find_regions(std::span<const Point<3>> holes, double near) {
+  return enclosed_.find(holes, near, [&](auto s, auto i) { return is_wall(s, i); });
 }
 
 bool Conformity::is_wall(std::uint32_t s, std::uint32_t i) const {

@@ -4,12 +4,14 @@
 // where what was there before is, on the same side of them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "delaunay/kernel.hpp"
+#include "svr/clear_of_side.hpp"
 
 namespace mesher::detail {
 
@@ -21,10 +23,10 @@ class Enclosed {
 
   explicit Enclosed(const Kernel& kernel) : kernel_(kernel) {}
 
-  /// Finds what is outside: what no walls part from the hull, or from one of `holes`, simplices.
-  /// Returns: whether there is anything else.
+  /// Finds what is outside: what no walls part from the hull, or from one of `holes` that is not
+  /// within `near` of a wall. Returns: whether there is anything else.
   template <class IsWall>
-  bool find(std::span<const std::uint32_t> holes, IsWall&& is_wall);
+  bool find(std::span<const Point<D>> holes, double near, IsWall&& is_wall);
   /// After an insertion.
   void forget_made() {
     region_.resize(kernel_.simplices().places(), Region::unknown);
@@ -38,6 +40,9 @@ class Enclosed {
   enum class Region : std::uint8_t { unknown, inside, outside };
 
   template <class IsWall>
+  [[nodiscard]] bool is_near_wall(const Point<D>& p, std::uint32_t s, double near,
+                                  IsWall&& is_wall) const;
+  template <class IsWall>
   void flood_outside(std::uint32_t from, IsWall&& is_wall);
   [[nodiscard]] std::uint32_t across(std::uint32_t s, std::uint32_t i) const noexcept {
     return kernel_.simplices().across(s)[i] >> 2;
@@ -49,13 +54,19 @@ class Enclosed {
 
 template <int D>
 template <class IsWall>
-bool Enclosed<D>::find(std::span<const std::uint32_t> holes, IsWall&& is_wall) {
+bool Enclosed<D>::find(std::span<const Point<D>> holes, double near, IsWall&& is_wall) {
   const auto& simplices = kernel_.simplices();
   region_.assign(simplices.places(), Region::unknown);
+  std::uint32_t at = kNone;
   for (std::uint32_t s = 0; s < simplices.places(); ++s) {
-    if (simplices.alive(s) && kernel_.is_ghost(s)) flood_outside(s, is_wall);
+    if (!simplices.alive(s)) continue;
+    at = s;
+    if (kernel_.is_ghost(s)) flood_outside(s, is_wall);
   }
-  for (const std::uint32_t s : holes) flood_outside(s, is_wall);
+  for (const Point<D>& p : holes) {
+    at = kernel_.walk(p, at);
+    if (!is_near_wall(p, at, near, is_wall)) flood_outside(at, is_wall);
+  }
   bool encloses = false;
   for (std::uint32_t s = 0; s < simplices.places(); ++s) {
     if (!simplices.alive(s) || region_[s] != Region::unknown) continue;
@@ -63,6 +74,24 @@ bool Enclosed<D>::find(std::span<const std::uint32_t> holes, IsWall&& is_wall) {
     encloses = true;
   }
   return encloses;
+}
+
+/// s holds p. A wall near p is a facet of one of those that facets near p part from s.
+template <int D>
+template <class IsWall>
+bool Enclosed<D>::is_near_wall(const Point<D>& p, std::uint32_t s, double near,
+                               IsWall&& is_wall) const {
+  std::vector<std::uint32_t> all{s};
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (kernel_.is_ghost(all[k])) continue;
+    for (std::uint32_t i = 0; i <= D; ++i) {
+      if (is_clear_of_side<D>(kernel_, all[k], i, p, near)) continue;
+      if (is_wall(all[k], i)) return true;
+      const std::uint32_t other = across(all[k], i);
+      if (std::find(all.begin(), all.end(), other) == all.end()) all.push_back(other);
+    }
+  }
+  return false;
 }
 
 template <int D>

@@ -48,9 +48,9 @@ class PlaneConformity {
   void drop_vertex() noexcept { vertices_.pop_back(); }
   /// Finds the pieces. Requires: all input points are vertices.
   void start();
-  /// Finds what segments enclose, less what holes are in; whether that is anything.
-  /// Requires: as is_outside().
-  bool find_regions(std::span<const Point<2>> holes);
+  /// Finds what segments enclose, less what holes are in that are not within `near` of segments;
+  /// whether that is anything. Requires: as is_outside().
+  bool find_regions(std::span<const Point<2>> holes, double near);
 
   /// Where the centre x of an empty ball goes instead, on a segment; nothing: none is near. By the
   /// input alone: before start(). Cost: O(log L/s), and what is near.
@@ -131,7 +131,6 @@ class PlaneConformity {
   template <class Visit>
   void visit_pieces_dug(Visit&& visit) const;
   [[nodiscard]] bool is_wall(std::uint32_t s, std::uint32_t i) const;
-  [[nodiscard]] bool is_on_wall(const Point<2>& p, std::uint32_t s) const;
 
   Store& store_;
   Kernel& kernel_;

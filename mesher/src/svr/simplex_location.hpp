@@ -5,13 +5,13 @@
 // simplices that its ball meets.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "geometry/plane.hpp"
 #include "geometry/space.hpp"
+#include "svr/clear_of_side.hpp"
 #include "svr/location.hpp"
 
 namespace mesher::detail {
@@ -67,7 +67,8 @@ class SimplexLocation {
       found = find_in(all[i], c, r, takes);
       for (std::uint32_t k = 0; k <= D; ++k) {
         const std::uint32_t other = kernel.simplices().across(all[i])[k] >> 2;
-        if (kernel.is_ghost(other) || seen_[other] || is_beyond(kernel, all[i], k, c, r)) continue;
+        if (kernel.is_ghost(other) || seen_[other]) continue;
+        if (is_clear_of_side<D>(kernel, all[i], k, c, r)) continue;
         seen_[other] = true;
         all.push_back(other);
       }
@@ -142,33 +143,6 @@ class SimplexLocation {
       if (squared_distance(places_[k], c) <= r * r && takes(k)) return {k, s};
     }
     return {};
-  }
-  // Whether the ball is on this side of the face across from corner k, but for rounding.
-  [[nodiscard]] static bool is_beyond(const Kernel& kernel, std::uint32_t s, std::uint32_t k,
-                                      const Point<D>& c, double r) {
-    const auto& corners = kernel.simplices().corners(s);
-    const Point<D>& at = kernel.place(corners[(k + 1) % (D + 1)]);
-    const Point<D> a = difference(kernel.place(corners[(k + 2) % (D + 1)]), at);
-    Point<D> normal;
-    if constexpr (D == 2) {
-      normal = {a[1], -a[0]};
-    } else {
-      normal = cross(a, difference(kernel.place(corners[(k + 3) % (D + 1)]), at));
-    }
-    const double inside = product(normal, difference(kernel.place(corners[k]), at));
-    const double height = product(normal, difference(c, at)) * (inside < 0 ? -1 : 1);
-    constexpr double kClear = 1 + 0x1p-20;
-    return height > kClear * r * std::sqrt(product(normal, normal));
-  }
-  [[nodiscard]] static Point<D> difference(const Point<D>& a, const Point<D>& b) {
-    Point<D> d;
-    for (std::size_t i = 0; i < D; ++i) d[i] = a[i] - b[i];
-    return d;
-  }
-  [[nodiscard]] static double product(const Point<D>& a, const Point<D>& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < D; ++i) sum += a[i] * b[i];
-    return sum;
   }
   [[nodiscard]] static std::uint32_t nearest_corner(const Kernel& kernel, std::uint32_t s,
                                                     const Point<D>& p) {

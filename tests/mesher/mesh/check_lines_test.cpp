@@ -194,11 +194,15 @@ TEST_CASE("a segment is a union of edges, its vertices on it but for rounding") 
   };
   mesh.vertices[2][1] = 0x1p-50;  // on the lower side, rounded
   CHECK(segments_hold());
-  mesh.vertices[2][1] = 0x1p-40;
-  CHECK_FALSE(segments_hold());
+  mesh.vertices[2][1] = 0x1p-40;  // then it is outside, and what bounds the mesh is no line
+  CHECK(segments_hold());
+  CHECK(broken(mesh, options) == "boundary");
+  CHECK(broken(mesh, {.boundary = BoundaryRule::any, .graph = &graph}) == "segments");
   mesh = plate(true);
   graph.pslg.segments[4].to = FeatureId{6};  // across the hole
-  CHECK(trouble(mesh, options) ==
+  CHECK(segments_hold());
+  CHECK(broken(mesh, options) == "boundary");
+  CHECK(trouble(mesh, {.boundary = BoundaryRule::box, .graph = &graph}) ==
         "segments: line 14 from (1, 1) to (2, 2): no edge on it goes on from vertex 6 at (1, 1)");
   graph.pslg.segments[4].to = FeatureId{5};
   graph.pslg.points[6].at = {2, 1.75};
@@ -237,6 +241,34 @@ TEST_CASE("lines and points outside of what is meshed are told, those inside mus
   graph.pslg.points.back().at = {0.5, 0.5};
   CHECK(trouble(plate(true), options) ==
         "input: input point 22 at (0.5, 0.5) (line 99) is no vertex");
+}
+
+TEST_CASE("of a line with an end outside of what is meshed the part inside must be there") {
+  auto graph = square_in_square();
+  const auto add = [&](std::int64_t id, Point<2> at) {
+    graph.pslg.points.push_back({FeatureId{id}, at, 0});
+    graph.points.push_back({99, 1});
+  };
+  add(20, {2, 1});
+  add(21, {2, -1});
+  graph.pslg.segments.push_back({FeatureId{30}, FeatureId{20}, FeatureId{21}, 0});
+  graph.segments.push_back({50, 1});
+  const CheckOptions options{.boundary = BoundaryRule::lines, .graph = &graph};
+  const auto said = [&](double x, double y) {
+    graph.pslg.points.back().at = {x, y};
+    for (const auto& finding : mesher::check_mesh(plate(true), options)) {
+      if (finding.property == "segments") return finding.detail;
+    }
+    return std::string();
+  };
+  CHECK(said(2, -1) == "9 segments are unions of 17 edges, 1 in part");
+  CHECK(said(2, -9) == "9 segments are unions of 17 edges, 1 in part");
+  CHECK(said(2, 9) == "9 segments are unions of 18 edges, 1 in part");  // along the hole first
+  CHECK(said(1.5, -1) == "line 30 from (2, 1) to (1.5, -1): its end at (1.5, -1) is no vertex");
+  CHECK(said(0, -9) == "line 30 from (2, 1) to (0, -9): its end at (0, -9) is no vertex");
+  std::swap(graph.pslg.segments.back().from, graph.pslg.segments.back().to);
+  CHECK(said(2, -9) == "9 segments are unions of 17 edges, 1 in part");
+  CHECK(said(0, -9) == "line 30 from (0, -9) to (2, 1): its end at (0, -9) is no vertex");
 }
 
 TEST_CASE("regions end at lines, are those of their seeds, and leave holes out") {

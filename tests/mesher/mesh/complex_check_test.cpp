@@ -187,6 +187,44 @@ TEST_CASE("a mesh of the points alone has no segments and polygons") {
   CHECK(said.find("no edge on it goes on from vertex ") != std::string::npos);
 }
 
+TEST_CASE("of a segment with an end outside of what is meshed the part inside must be there") {
+  using mesher::Point;
+  Plc plc = mesher::generate_plc({PlcKind::cube});
+  const auto add = [&](std::int64_t id, const Point<3>& at) {
+    plc.points.push_back({FeatureId{id}, at, 0});
+  };
+  add(90, {0.5, 0.5, 0.5});
+  add(91, {1, 0.5, 0.5});
+  for (auto& f : plc.facets) {
+    const auto is_at_side = [&](FeatureId id) {
+      return std::any_of(plc.points.begin(), plc.points.end(),
+                         [&](const auto& p) { return p.id == id && p.at[0] == 1; });
+    };
+    const auto& loop = f.polygon.loops[0];
+    if (!std::all_of(loop.begin(), loop.end(), is_at_side)) continue;
+    f.polygon.points.push_back(FeatureId{91});
+  }
+  plc.segments.push_back({FeatureId{7}, FeatureId{90}, FeatureId{91}, 0});
+  Case strut(plc);
+  REQUIRE(first_fault(strut.findings()) == "");
+  strut.complex.plc.points.push_back({FeatureId{92}, {}, 0});
+  strut.complex.plc.segments[0].to = FeatureId{92};
+  const auto said = [&](const Point<3>& end) {
+    strut.complex.plc.points.back().at = end;
+    for (const Finding& f : strut.findings()) {
+      if (f.property == "segments") return f.detail;
+    }
+    return std::string();
+  };
+  for (int i = 0; i < 2; ++i) {
+    CHECK(said({1.25, 0.5, 0.5}).ends_with(" edges, 1 in part"));
+    CHECK(said({9, 0.5, 0.5}).ends_with(" edges, 1 in part"));
+    CHECK(said({1.25, 0.5, 0.7}).ends_with("its end at (1.25, 0.5, 0.7) is no vertex"));
+    CHECK(said({9, 0.5, 0.7}).ends_with("its end at (9, 0.5, 0.7) is no vertex"));
+    std::swap(strut.complex.plc.segments[0].from, strut.complex.plc.segments[0].to);
+  }
+}
+
 TEST_CASE("small angles excuse what they forbid, and nothing else") {
   const Plc plc = mesher::generate_plc({PlcKind::wedge, 2});
   Case sharp(plc);

@@ -507,3 +507,18 @@ TEST_CASE("nothing, points alone and a planar graph come back as they are") {
   CHECK(repaired.file.pslg == g);
   CHECK(repaired.notes.empty());
 }
+
+TEST_CASE("a graph that was made by hand, without positions, is repaired in its file as well") {
+  mesher::PslgFile file;
+  file.pslg = two_crossing();
+  file.pslg.polylines = {{id(50), {id(1), id(4), id(3)}, 0}};
+  file.pslg.holes = {{id(1), {2, 2}}};
+  const Repaired repaired = repair(file);
+  CHECK(repaired.file.pslg == repair(file.pslg).file.pslg);
+  CHECK(!repaired.notes.empty());
+  CHECK(repaired.file.points.size() == repaired.file.pslg.points.size());
+  CHECK(repaired.file.holes.size() == 1);
+  file.pslg.attributes = {1};
+  CHECK_THROWS_WITH(repair(file),
+                    "error[wrong_count]: 1 attributes are there, of 4 points with 0 each");
+}

@@ -203,3 +203,28 @@ TEST_CASE("what cannot be repaired in space is an error with its place") {
   file.plc.points[1].at[1] = std::numeric_limits<double>::infinity();
   REQUIRE(said(file).find("x.poly:3:1: error[not_finite]") == 0);
 }
+
+TEST_CASE("a complex that was made by hand, without positions, is repaired in its file as well") {
+  PlcBuilder b;
+  b.polygon({square(0, 0, 0, 4)});
+  b.polygon({{{1, 2, -1}, {6, 2, -1}, {6, 2, 1}, {1, 2, 1}}});
+  mesher::PlcFile file;
+  file.plc = b.finish();
+  file.plc.points.push_back({id(70), {1, 1, 0}});
+  file.plc.points.push_back({id(71), {1, 1, 3}});
+  file.plc.points.push_back({id(72), {1, 1, 0}});
+  file.plc.segments = {{id(1), id(70), id(71)}, {id(2), id(72), id(71)}};
+  file.plc.holes = {{id(1), {2, 3, 1}}};
+  const RepairedPlc r = repair(file);
+  REQUIRE(r.file.plc == repair(file.plc).file.plc);
+  REQUIRE(!r.notes.empty());
+  REQUIRE(r.file.points.size() == r.file.plc.points.size());
+  REQUIRE(r.file.segments.size() == r.file.plc.segments.size());
+  REQUIRE(r.file.facets.size() == r.file.plc.facets.size());
+  REQUIRE(r.file.holes.size() == 1);
+  file.facets = {{7, 1}};  // of the first alone
+  REQUIRE(repair(file).file.plc == r.file.plc);
+  file.plc.attributes_per_point = 2;
+  REQUIRE_THROWS_WITH(repair(file),
+                      "error[wrong_count]: 0 attributes are there, of 11 points with 2 each");
+}

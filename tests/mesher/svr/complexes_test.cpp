@@ -37,7 +37,9 @@ using support::plc_of;
 Plc shuffled(const Plc& plc) {
   std::mt19937_64 random(7);
   Plc other = plc;
-  const auto renamed = [](FeatureId& id) { id = FeatureId{1000 - 3 * static_cast<std::int64_t>(id)}; };
+  const auto renamed = [](FeatureId& id) {
+    id = FeatureId{1000 - 3 * static_cast<std::int64_t>(id)};
+  };
   std::shuffle(other.points.begin(), other.points.end(), random);
   std::shuffle(other.facets.begin(), other.facets.end(), random);
   std::shuffle(other.segments.begin(), other.segments.end(), random);
@@ -55,6 +57,20 @@ Plc shuffled(const Plc& plc) {
     for (auto& point : f.polygon.points) renamed(point);
   }
   return other;
+}
+
+// About the axes, by any angles.
+void turn(Plc& plc, std::mt19937_64& random) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double angle = std::uniform_real_distribution<double>(0, 6)(random);
+    const auto turn_one = [&](Point<3>& p) {
+      const double x = p[k], y = p[(k + 1) % 3];
+      p[k] = std::cos(angle) * x - std::sin(angle) * y;
+      p[(k + 1) % 3] = std::sin(angle) * x + std::cos(angle) * y;
+    };
+    for (auto& point : plc.points) turn_one(point.at);
+    for (auto& hole : plc.holes) turn_one(hole.seed);
+  }
 }
 
 std::size_t poor_ones(const Mesh<3>& mesh) { return mesher::count_above(mesh, 2); }
@@ -77,10 +93,10 @@ TEMPLATE_TEST_CASE_SIG("complexes of all families are in their meshes, and these
 TEMPLATE_TEST_CASE_SIG("so it is of complexes in no frame of the axes, near each other and sharp",
                        "", ((By B), B), By::svr, By::refine) {
   constexpr std::pair<const char*, double> kFamilies[] = {
-      {"cube", 0},      {"cubepoly", 0}, {"skew", 1e-3}, {"skew", 1e-6}, {"dumbbell", 0},
-      {"nested", 0.1},  {"lhole", 0},    {"plates", .02}, {"cloudbox", 300}, {"wedge", 20},
-      {"wedge", 5},     {"wedge", 1},    {"fan", 8},     {"spike", 5},   {"vee", 5},
-      {"vee", 0.5},     {"segfac", 5},   {"tet", 0.1},
+      {"cube", 0},     {"cubepoly", 0}, {"skew", 1e-3},  {"skew", 1e-6},    {"dumbbell", 0},
+      {"nested", 0.1}, {"lhole", 0},    {"plates", .02}, {"cloudbox", 300}, {"wedge", 20},
+      {"wedge", 5},    {"wedge", 1},    {"fan", 8},      {"spike", 5},      {"vee", 5},
+      {"vee", 0.5},    {"segfac", 5},   {"tet", 0.1},
   };
   for (const auto& [name, parameter] : kFamilies) {
     INFO(name << ' ' << parameter);
@@ -135,8 +151,9 @@ TEMPLATE_TEST_CASE_SIG("so it is of many random complexes", "[soak]", ((By B), B
       }
     }
     const Plc plc = plc_of(all);
-    const Options<3> options{.domain = {{offset, offset, offset}, {offset + 2, offset + 2, offset + 2}},
-                             .max_vertices = 60000};
+    const Options<3> options{
+        .domain = {{offset, offset, offset}, {offset + 2, offset + 2, offset + 2}},
+        .max_vertices = 60000};
     try {
       // Far away edges of 10^-9 at a corner are, by rounding, on it for one and not for another.
       const std::optional<double> rho = far ? std::nullopt : std::optional(2.0);
@@ -164,7 +181,8 @@ TEMPLATE_TEST_CASE_SIG("what is not wanted is not refined: the outside, and hole
                        By::svr, By::refine) {
   Plc plc = mesher::generate_plc({PlcKind::nested, 0.02});
   const Options<3> options = options_for(plc);
-  const Mesh<3> all = mesh_of<B>(plc, options), enclosed = mesh_of<B>(plc, options, Extent::enclosed);
+  const Mesh<3> all = mesh_of<B>(plc, options),
+                enclosed = mesh_of<B>(plc, options, Extent::enclosed);
   CHECK(poor_ones(all) == 0);
   CHECK(poor_ones(enclosed) > 0);
   CHECK(enclosed.vertices.size() < all.vertices.size());
@@ -173,10 +191,35 @@ TEMPLATE_TEST_CASE_SIG("what is not wanted is not refined: the outside, and hole
   const Mesh<3> shell = mesh_of<B>(plc, options, Extent::enclosed);
   CHECK(shell.vertices.size() < enclosed.vertices.size());
   CHECK(fault(shell, plc, Extent::enclosed) == "");
+  for (const Point<3>& p : {Point<3>{0.5, 0.5, 0.02}, Point<3>{0.5, 0.02, 0.02},
+                            Point<3>{0.02, 0.02, 0.02}, Point<3>{50, 50, 50}}) {
+    plc.holes[0].seed = p;  // on a polygon, on its edge, on its corner, in no region
+    CHECK(mesh_of<B>(plc, options, Extent::enclosed) == enclosed);
+  }
   // Nothing is enclosed: then all is wanted.
   plc = mesher::generate_plc({PlcKind::vee});
   plc.facets.clear();
   CHECK(mesh_of<B>(plc, options_for(plc), Extent::enclosed) == mesh_of<B>(plc, options_for(plc)));
+}
+
+// As near to a polygon as doubles come, rounding says on which side of it a hole is.
+TEMPLATE_TEST_CASE_SIG("wherever a hole on a turned polygon counts to, what is kept is refined", "",
+                       ((By B), B), By::svr, By::refine) {
+  std::mt19937_64 random(11);
+  for (int i = 0; i < 12; ++i) {
+    Plc plc = mesher::generate_plc({PlcKind::nested, 0.4});
+    const auto add = [&](const Point<3>& p) {
+      plc.points.push_back({id(plc.points.size()), p, 0});
+    };
+    for (int k = 1; k < 6; ++k) {  // close to each other, inside and outside of the inner box
+      add({0.41 + 0.001 * k * k, 0.5, 0.5});
+      add({0.1 + 0.002 * k * k, 0.1, 0.1});
+    }
+    plc.holes.push_back({id(0), {0.5, 0.5, 0.4}});
+    turn(plc, random);
+    INFO("turn " << i);
+    CHECK(fault(mesh_of<B>(plc, options_for(plc), Extent::enclosed), plc, Extent::enclosed) == "");
+  }
 }
 
 TEMPLATE_TEST_CASE_SIG("what cannot be meshed is refused", "", ((By B), B), By::svr, By::refine) {
@@ -204,8 +247,9 @@ TEMPLATE_TEST_CASE_SIG("what cannot be meshed is refused", "", ((By B), B), By::
   CHECK(refusal(bad, same) == "unknown_id");
   std::stop_source stop;
   stop.request_stop();
-  CHECK_THROWS_AS(mesh_of<B>(plc, options_for(plc), Extent::box, {.progress = {}, .stop = stop.get_token()}),
-                  mesher::Error);
+  CHECK_THROWS_AS(
+      mesh_of<B>(plc, options_for(plc), Extent::box, {.progress = {}, .stop = stop.get_token()}),
+      mesher::Error);
 }
 
 TEMPLATE_TEST_CASE_SIG("without memory a mesh of a complex fails, and nothing is lost", "",
