@@ -15,22 +15,21 @@
 
 #include "geometry/plane.hpp"
 #include "geometry/space.hpp"
-#include "svr/location.hpp"
+#include "svr/simplex_lists.hpp"
 
 namespace mesher::detail {
 
 template <int D>
-class BallLocation {
+class BallLocation : public SimplexLists<D, BallLocation<D>> {
+  using Base = SimplexLists<D, BallLocation<D>>;
+  using Base::places_, Base::left_, Base::looked_at_, Base::owned_, Base::star_;
+
  public:
-  using Kernel = RefinedKernel<D>;
+  using typename Base::Kernel;
 
   BallLocation(std::span<const Point<D>> points, double /*side*/)
-      : places_(points.begin(), points.end()), points_(points.size()), left_(points.size()) {}
+      : Base(points), points_(points.size()) {}
 
-  [[nodiscard]] std::size_t left() const noexcept { return left_; }
-  [[nodiscard]] const Point<D>& place(std::uint32_t point) const noexcept { return places_[point]; }
-  void add_vertex() { owned_.push_back(0); }
-  void drop_vertex() noexcept { owned_.pop_back(); }
   template <class Visit>
   void start(const Kernel& kernel, std::uint32_t v, std::uint32_t except, Visit&& visit) {
     first_.resize(kernel.simplices().places(), kNone);
@@ -45,19 +44,6 @@ class BallLocation {
       if (owned_[w] != 0) visit(w);
     }
   }
-  [[nodiscard]] bool is_crowded(std::uint32_t v) const noexcept { return owned_[v] != 0; }
-  [[nodiscard]] Found any(Kernel& kernel, std::uint32_t v) {
-    return best_of(kernel, v, [](std::uint32_t) { return true; });
-  }
-  [[nodiscard]] Found farthest(Kernel& kernel, std::uint32_t v) {
-    double most = -1;
-    return best_of(kernel, v, [&](std::uint32_t point) {
-      if (points_[point].distance2 <= most) return false;
-      most = points_[point].distance2;
-      return true;
-    });
-  }
-
   /// What is in B(c, k r) is in the ball of s.
   template <class Takes>
   [[nodiscard]] Found find_early(const Kernel&, std::uint32_t s, const Point<D>& c, double r,
@@ -67,11 +53,6 @@ class BallLocation {
       const std::uint32_t point = entries_[i].point;
       if (squared_distance(places_[point], c) <= r * r && takes(point)) return {point, s};
     }
-    return {};
-  }
-  template <class Takes>
-  [[nodiscard]] Found find_late(const Kernel&, std::uint32_t, const Point<D>&, double,
-                                Takes&&) const {
     return {};
   }
 
@@ -115,7 +96,7 @@ class BallLocation {
         look_at(entries_[i].point);
       }
     }
-    if (is_crowded(v)) visit(v);
+    if (this->is_crowded(v)) visit(v);
   }
   /// A point is where a vertex came without taking it: it cannot be, the vertex takes the same
   /// simplices out. `found.owner`: a simplex.
@@ -127,9 +108,10 @@ class BallLocation {
     }
     forget(found.point);
   }
-  [[nodiscard]] const LookedAt& looked_at() const noexcept { return looked_at_; }
 
  private:
+  friend Base;
+
   struct Waiting {
     double distance2 = std::numeric_limits<double>::infinity();  // to the nearest vertex
     std::uint32_t nearest = 0;
@@ -143,6 +125,13 @@ class BallLocation {
     std::uint32_t across, begin, end;
   };
 
+  [[nodiscard]] std::uint32_t owner(std::uint32_t point) const noexcept {
+    return points_[point].nearest;
+  }
+  template <class Visit>
+  void visit_at(std::uint32_t s, Visit&& visit) const {
+    for (std::uint32_t i = first_[s]; i != kNone; i = entries_[i].next) visit(entries_[i].point);
+  }
   void forget(std::uint32_t point) noexcept {
     --owned_[points_[point].nearest];
     --left_;
@@ -199,32 +188,14 @@ class BallLocation {
     entries_[entry].next = free_;
     free_ = entry;
   }
-  // The last of v's points in its star of which is_better(point).
-  template <class IsBetter>
-  [[nodiscard]] Found best_of(Kernel& kernel, std::uint32_t v, IsBetter&& is_better) {
-    Found best;
-    kernel.find_in_star(v, star_, [](std::uint32_t) { return false; });
-    for (const std::uint32_t s : star_) {
-      for (std::uint32_t i = first_[s]; i != kNone; i = entries_[i].next) {
-        ++looked_at_.to_find;
-        const std::uint32_t point = entries_[i].point;
-        if (points_[point].nearest == v && is_better(point)) best = {point, s};
-      }
-    }
-    return best;
-  }
 
-  std::vector<Point<D>> places_;
   std::vector<Waiting> points_;
-  std::vector<std::uint32_t> owned_{0};  // by vertex: of how many points it is the nearest
-  std::vector<std::uint32_t> first_;     // by simplex: entries
+  std::vector<std::uint32_t> first_;  // by simplex: entries
   std::vector<Entry> entries_;
   std::uint32_t free_ = kNone;
-  std::size_t left_;
-  std::vector<std::uint32_t> taken_, star_;  // scratch
-  std::vector<Facet> facets_;                // scratch
-  std::uint32_t asked_ = 0;                  // counts facets
-  LookedAt looked_at_;
+  std::vector<std::uint32_t> taken_;  // scratch
+  std::vector<Facet> facets_;         // scratch
+  std::uint32_t asked_ = 0;           // counts facets
 };
 
 }  // namespace mesher::detail

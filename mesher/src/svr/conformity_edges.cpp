@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "plc/small_angles.hpp"
+#include "svr/at_edge.hpp"
 #include "svr/conformity.hpp"
 #include "svr/conformity_balls.hpp"
 
@@ -29,27 +30,15 @@ bool Conformity::is_in_ball(std::uint32_t piece, const Point<3>& p) const noexce
   return dot(to_a, to_b) < (kOpen - 1) * squared_distance(a, b);
 }
 
-/// In the triangulation an edge with a vertex in its ball has one in the tetrahedra around it.
 void Conformity::look_at_piece(std::uint32_t piece) {
   const Subedges::Piece& p = pieces_[piece];
-  kernel_.find_in_star(p.a, star_, [](std::uint32_t) { return false; });
-  bool is_there = false;
-  for (const std::uint32_t s : star_) {
-    const auto& corners = kernel_.simplices().corners(s);
-    if (corner_of(corners, p.b) == corners.size()) continue;
-    is_there = true;
-    for (const std::uint32_t w : corners) {
-      if (w == p.a || w == p.b || w == kInfinite) continue;
-      if (is_in_ball(piece, place(w))) return want_piece(piece, w);
-    }
-  }
-  if (!is_there) want_piece(piece, kNone);
+  const AtEdge at = look_at_edge(kernel_, p.a, p.b, star_,
+                                 [&](std::uint32_t w) { return is_in_ball(piece, place(w)); });
+  if (!at.is_there || at.by != kNone) want_piece(piece, at.by);
 }
 
 void Conformity::want_piece(std::uint32_t piece, std::uint32_t by) {
-  if (pieces_[piece].encroached) return;
-  pieces_.set_encroached(piece, by);
-  wanted_pieces_.push_back(piece);
+  if (pieces_.set_encroached(piece, by)) wanted_pieces_.push_back(piece);
 }
 
 /// Where features meet at a small angle at a copy of what is in the ball, else about in the middle.

@@ -13,13 +13,14 @@
 namespace mesher::detail {
 
 template <int D>
-class PlainLists {
+class PlainLists : public WaitingPoints<D> {
+  using Base = WaitingPoints<D>;
+  using Base::places_, Base::left_, Base::looked_at_;
+
  public:
   PlainLists(std::span<const Point<D>> points, double /*side*/)
-      : places_(points.begin(), points.end()), next_(points.size(), kNone), left_(points.size()) {}
+      : Base(points), next_(points.size(), kNone) {}
 
-  [[nodiscard]] std::size_t left() const noexcept { return left_; }
-  [[nodiscard]] const Point<D>& place(std::uint32_t point) const noexcept { return places_[point]; }
   [[nodiscard]] bool is_crowded(std::uint32_t v) const noexcept { return first_[v] != kNone; }
   [[nodiscard]] std::uint32_t any(std::uint32_t v) const noexcept { return first_[v]; }
   [[nodiscard]] std::uint32_t farthest(std::uint32_t v) const noexcept {
@@ -84,7 +85,6 @@ class PlainLists {
     }
     return kNone;
   }
-  [[nodiscard]] const LookedAt& looked_at() const noexcept { return looked_at_; }
 
  private:
   void put(std::uint32_t v, std::uint32_t point) noexcept {
@@ -92,11 +92,9 @@ class PlainLists {
     first_[v] = point;
   }
 
-  std::vector<Point<D>> places_, vertices_{Point<D>{}};  // of vertices that had points
-  std::vector<std::uint32_t> next_;                      // by point
-  std::vector<std::uint32_t> first_{kNone};              // by vertex
-  std::size_t left_;
-  mutable LookedAt looked_at_;
+  std::vector<Point<D>> vertices_{Point<D>{}};  // of vertices that had points
+  std::vector<std::uint32_t> next_;             // by point
+  std::vector<std::uint32_t> first_{kNone};     // by vertex
 };
 
 }  // namespace mesher::detail

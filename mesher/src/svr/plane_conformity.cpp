@@ -8,6 +8,7 @@
 #include "delaunay/facets.hpp"
 #include "geometry/diametral_ball.hpp"
 #include "program/split_segments.hpp"
+#include "svr/at_edge.hpp"
 
 namespace mesher::detail {
 
@@ -89,30 +90,19 @@ Leaf PlaneConformity::leaf(std::uint32_t piece) const {
   return leaf;
 }
 
-/// In the triangulation an edge with a vertex in its ball has one in the triangles beside it. A
-/// piece with a vertex of its segment between its ends is none, however that vertex was rounded: a
-/// circle past it would have half of the box inside.
+/// A piece with a vertex of its segment between its ends is no edge, however that vertex was
+/// rounded: a circle past it would have half of the box inside.
 void PlaneConformity::look_at_piece(std::uint32_t piece) {
   const Subedges::Piece& p = pieces_[piece];
-  kernel_.find_in_star(p.a, star_, [](std::uint32_t) { return false; });
-  bool is_there = false;
-  for (const std::uint32_t s : star_) {
-    const auto& corners = kernel_.simplices().corners(s);
-    if (corner_of(corners, p.b) == corners.size()) continue;
-    is_there = true;
-    for (const std::uint32_t w : corners) {
-      if (w != kInfinite && relation(piece, w) == Relation::in_ball) return want_piece(piece, w);
-    }
-  }
-  if (is_there) return;
-  require_edge(piece);
-  want_piece(piece, kNone);
+  const AtEdge at = look_at_edge(kernel_, p.a, p.b, star_, [&](std::uint32_t w) {
+    return relation(piece, w) == Relation::in_ball;
+  });
+  if (!at.is_there) require_edge(piece);
+  if (!at.is_there || at.by != kNone) want_piece(piece, at.by);
 }
 
 void PlaneConformity::want_piece(std::uint32_t piece, std::uint32_t by) {
-  if (pieces_[piece].encroached) return;
-  pieces_.set_encroached(piece, by);
-  wanted_.push_back(piece);
+  if (pieces_.set_encroached(piece, by)) wanted_.push_back(piece);
 }
 
 auto PlaneConformity::next() -> std::optional<Wanted> {

@@ -20,13 +20,14 @@
 namespace mesher::detail {
 
 template <int D>
-class ShellLists {
+class ShellLists : public WaitingPoints<D> {
+  using Base = WaitingPoints<D>;
+  using Base::places_, Base::left_, Base::looked_at_;
+
  public:
   ShellLists(std::span<const Point<D>> points, double /*side*/)
-      : places_(points.begin(), points.end()), listed_(points.size()), left_(points.size()) {}
+      : Base(points), listed_(points.size()) {}
 
-  [[nodiscard]] std::size_t left() const noexcept { return left_; }
-  [[nodiscard]] const Point<D>& place(std::uint32_t point) const noexcept { return places_[point]; }
   [[nodiscard]] bool is_crowded(std::uint32_t v) const noexcept { return outermost_[v] != kNone; }
   [[nodiscard]] std::uint32_t any(std::uint32_t v) const noexcept {
     return shells_[outermost_[v]].first;
@@ -107,7 +108,6 @@ class ShellLists {
     }
     return kNone;
   }
-  [[nodiscard]] const LookedAt& looked_at() const noexcept { return looked_at_; }
 
  private:
   static constexpr double kUp = 1 + 0x1p-40, kDown = 1 - 0x1p-40;
@@ -153,14 +153,11 @@ class ShellLists {
     free_ = gone;
   }
 
-  std::vector<Point<D>> places_;
   std::vector<Listed> listed_;                   // by point
   std::vector<std::uint32_t> outermost_{kNone};  // by vertex
   std::vector<Shell> shells_;
   std::uint32_t free_ = kNone;
-  std::size_t left_;
   std::vector<Moving> moving_;  // scratch
-  mutable LookedAt looked_at_;
 };
 
 }  // namespace mesher::detail

@@ -12,25 +12,21 @@
 #include "geometry/plane.hpp"
 #include "geometry/space.hpp"
 #include "svr/clear_of_side.hpp"
-#include "svr/location.hpp"
+#include "svr/simplex_lists.hpp"
 
 namespace mesher::detail {
 
 template <int D>
-class SimplexLocation {
+class SimplexLocation : public SimplexLists<D, SimplexLocation<D>> {
+  using Base = SimplexLists<D, SimplexLocation<D>>;
+  using Base::places_, Base::left_, Base::looked_at_, Base::owned_, Base::star_;
+
  public:
-  using Kernel = RefinedKernel<D>;
+  using typename Base::Kernel;
 
   SimplexLocation(std::span<const Point<D>> points, double /*side*/)
-      : places_(points.begin(), points.end()),
-        next_(points.size(), kNone),
-        owner_(points.size()),
-        left_(points.size()) {}
+      : Base(points), next_(points.size(), kNone), owner_(points.size()) {}
 
-  [[nodiscard]] std::size_t left() const noexcept { return left_; }
-  [[nodiscard]] const Point<D>& place(std::uint32_t point) const noexcept { return places_[point]; }
-  void add_vertex() { owned_.push_back(0); }
-  void drop_vertex() noexcept { owned_.pop_back(); }
   /// All vertices but v are the box's. They go to where they are one by one.
   template <class Visit>
   void start(const Kernel& kernel, std::uint32_t v, std::uint32_t except, Visit&& visit) {
@@ -40,20 +36,6 @@ class SimplexLocation {
     --left_;
     give(kernel, v, visit);
   }
-  [[nodiscard]] bool is_crowded(std::uint32_t v) const noexcept { return owned_[v] != 0; }
-  [[nodiscard]] Found any(Kernel& kernel, std::uint32_t v) {
-    return best_of(kernel, v, [](std::uint32_t) { return true; });
-  }
-  [[nodiscard]] Found farthest(Kernel& kernel, std::uint32_t v) {
-    double most = -1;
-    return best_of(kernel, v, [&](std::uint32_t point) {
-      const double d2 = squared_distance(places_[point], kernel.place(v));
-      if (d2 <= most) return false;
-      most = d2;
-      return true;
-    });
-  }
-
   template <class Takes>
   [[nodiscard]] Found find_early(const Kernel& kernel, std::uint32_t s, const Point<D>& c, double r,
                                  Takes&& takes) {
@@ -75,11 +57,6 @@ class SimplexLocation {
     }
     for (const std::uint32_t t : all) seen_[t] = false;
     return found;
-  }
-  template <class Takes>
-  [[nodiscard]] Found find_late(const Kernel&, std::uint32_t, const Point<D>&, double,
-                                Takes&&) const {
-    return {};
   }
 
   std::uint32_t take(const Kernel& kernel, std::uint32_t v) {
@@ -120,21 +97,14 @@ class SimplexLocation {
     --owned_[owner_[found.point]];
     --left_;
   }
-  [[nodiscard]] const LookedAt& looked_at() const noexcept { return looked_at_; }
 
  private:
-  // The last of v's points in its star of which is_better(point).
-  template <class IsBetter>
-  [[nodiscard]] Found best_of(Kernel& kernel, std::uint32_t v, IsBetter&& is_better) {
-    Found best;
-    kernel.find_in_star(v, star_, [](std::uint32_t) { return false; });
-    for (const std::uint32_t s : star_) {
-      for (std::uint32_t k = first_[s]; k != kNone; k = next_[k]) {
-        ++looked_at_.to_find;
-        if (owner_[k] == v && is_better(k)) best = {k, s};
-      }
-    }
-    return best;
+  friend Base;
+
+  [[nodiscard]] std::uint32_t owner(std::uint32_t point) const noexcept { return owner_[point]; }
+  template <class Visit>
+  void visit_at(std::uint32_t s, Visit&& visit) const {
+    for (std::uint32_t k = first_[s]; k != kNone; k = next_[k]) visit(k);
   }
   template <class Takes>
   [[nodiscard]] Found find_in(std::uint32_t s, const Point<D>& c, double r, Takes&& takes) {
@@ -156,14 +126,10 @@ class SimplexLocation {
     return nearest;
   }
 
-  std::vector<Point<D>> places_;
   std::vector<std::uint32_t> next_, owner_;  // by point: of the same simplex; a vertex
   std::vector<std::uint32_t> first_;         // by simplex
-  std::vector<std::uint32_t> owned_{0};      // by vertex: how many points
-  std::size_t left_;
-  std::vector<std::uint32_t> moving_, met_, star_;  // scratch
-  std::vector<bool> seen_;                          // scratch: by simplex
-  LookedAt looked_at_;
+  std::vector<std::uint32_t> moving_, met_;  // scratch
+  std::vector<bool> seen_;                   // scratch: by simplex
 };
 
 }  // namespace mesher::detail

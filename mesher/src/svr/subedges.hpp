@@ -62,9 +62,12 @@ class Subedges {
     while (!ends_behind(all_[i])) i = all_[i].next;
     return i;
   }
-  void set_encroached(std::uint32_t i, std::uint32_t by) noexcept {
+  /// By a vertex, or kNone. Returns: whether it was not.
+  bool set_encroached(std::uint32_t i, std::uint32_t by) noexcept {
+    if (all_[i].encroached) return false;
     all_[i].encroached = true;
     all_[i].by = by;
+    return true;
   }
 
   [[nodiscard]] std::uint32_t size() const noexcept {

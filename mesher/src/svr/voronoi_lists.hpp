@@ -24,20 +24,20 @@ namespace mesher::detail {
 
 /// Points are called by their place in an order of their own. Vertices are numbered from 1.
 template <int D>
-class VoronoiLists {
+class VoronoiLists : public WaitingPoints<D> {
+  using Base = WaitingPoints<D>;
+  using Base::places_, Base::left_, Base::looked_at_;
+
  public:
   /// `side`: of a box around everything.
   VoronoiLists(std::span<const Point<D>> points, double side)
-      : places_(points.begin(), points.end()), listed_(points.size()), left_(points.size()) {
+      : Base(points), listed_(points.size()) {
     // A power of two that brings squared distances into the range of floats.
     int exponent;
     std::frexp(side, &exponent);
     unit2_ = std::ldexp(1.0, -2 * exponent);
   }
 
-  /// How many points are no vertices.
-  [[nodiscard]] std::size_t left() const noexcept { return left_; }
-  [[nodiscard]] const Point<D>& place(std::uint32_t point) const noexcept { return places_[point]; }
   [[nodiscard]] bool is_crowded(std::uint32_t v) const noexcept { return first_[v] != kNone; }
   /// Requires (and below): is_crowded(v).
   [[nodiscard]] std::uint32_t any(std::uint32_t v) const noexcept { return first_[v]; }
@@ -71,8 +71,6 @@ class VoronoiLists {
   [[nodiscard]] std::uint32_t find(std::uint32_t w, const Point<D>& q, const Point<D>& c,
                                    double r) const noexcept;
 
-  [[nodiscard]] const LookedAt& looked_at() const noexcept { return looked_at_; }
-
  private:
   // Most are only passed: they are apart from places, so that more of them are in the cache.
   struct Listed {
@@ -91,12 +89,9 @@ class VoronoiLists {
     reach2_[v] = std::max(reach2_[v], listed_[point].distance2);
   }
 
-  std::vector<Point<D>> places_;
   std::vector<Listed> listed_;               // by point
   std::vector<std::uint32_t> first_{kNone};  // by vertex
   std::vector<float> reach2_{0};             // at least the greatest distance2 on the list
-  mutable LookedAt looked_at_;
-  std::size_t left_;
   double unit2_;
 };
 

@@ -10,27 +10,22 @@ namespace mesher::detail {
 
 /// `Lists`: VoronoiLists, PlainLists or ShellLists.
 template <int D, class Lists>
-class VoronoiLocation {
+class VoronoiLocation : Lists {
  public:
   using Kernel = RefinedKernel<D>;
 
-  VoronoiLocation(std::span<const Point<D>> points, double side) : lists_(points, side) {}
+  VoronoiLocation(std::span<const Point<D>> points, double side) : Lists(points, side) {}
 
-  [[nodiscard]] std::size_t left() const noexcept { return lists_.left(); }
-  [[nodiscard]] const Point<D>& place(std::uint32_t point) const noexcept {
-    return lists_.place(point);
-  }
-  void add_vertex() { lists_.add_vertex(); }
-  void drop_vertex() noexcept { lists_.drop_vertex(); }
+  using Lists::left, Lists::place, Lists::add_vertex, Lists::drop_vertex, Lists::is_crowded,
+      Lists::looked_at;
   template <class Visit>
   void start(const Kernel& kernel, std::uint32_t v, std::uint32_t except, Visit&& visit) {
-    lists_.start(v, kernel.place(v), except);
+    Lists::start(v, kernel.place(v), except);
     give(kernel, v, visit);
   }
-  [[nodiscard]] bool is_crowded(std::uint32_t v) const noexcept { return lists_.is_crowded(v); }
-  [[nodiscard]] Found any(Kernel&, std::uint32_t v) const noexcept { return {lists_.any(v), v}; }
+  [[nodiscard]] Found any(Kernel&, std::uint32_t v) const noexcept { return {Lists::any(v), v}; }
   [[nodiscard]] Found farthest(Kernel&, std::uint32_t v) const noexcept {
-    return {lists_.farthest(v), v};
+    return {Lists::farthest(v), v};
   }
 
   /// Of a point near the centre nearly always a corner of s is the owner [rules D6].
@@ -38,7 +33,7 @@ class VoronoiLocation {
   [[nodiscard]] Found find_early(const Kernel& kernel, std::uint32_t s, const Point<D>& c, double r,
                                  Takes&& takes) const {
     for (const std::uint32_t w : kernel.simplices().corners(s)) {
-      const std::uint32_t point = lists_.find(w, kernel.place(w), c, r);
+      const std::uint32_t point = Lists::find(w, kernel.place(w), c, r);
       if (point != kNone && takes(point)) return {point, w};
     }
     return {};
@@ -50,7 +45,7 @@ class VoronoiLocation {
     Found best;
     kernel.for_each_in_link([&](std::uint32_t w) {
       if (best.point != kNone) return;
-      const std::uint32_t point = lists_.find(w, kernel.place(w), c, r);
+      const std::uint32_t point = Lists::find(w, kernel.place(w), c, r);
       if (point != kNone && takes(point)) best = {point, w};
     });
     return best;
@@ -61,7 +56,7 @@ class VoronoiLocation {
     std::uint32_t is_point = kNone;
     kernel.for_each_in_link([&](std::uint32_t w) {
       if (w == kInfinite) return;
-      const std::uint32_t point = lists_.relocate(v, p, w, kernel.place(w));
+      const std::uint32_t point = Lists::relocate(v, p, w, kernel.place(w));
       if (point != kNone) is_point = point;
     });
     return is_point;
@@ -70,11 +65,7 @@ class VoronoiLocation {
   void give(const Kernel&, std::uint32_t v, Visit&& visit) {
     if (is_crowded(v)) visit(v);
   }
-  void drop(Kernel&, const Found& found) noexcept { lists_.drop(found.owner, found.point); }
-  [[nodiscard]] LookedAt looked_at() const noexcept { return lists_.looked_at(); }
-
- private:
-  Lists lists_;
+  void drop(Kernel&, const Found& found) noexcept { Lists::drop(found.owner, found.point); }
 };
 
 }  // namespace mesher::detail
