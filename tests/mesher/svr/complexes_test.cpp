@@ -238,7 +238,7 @@ TEMPLATE_TEST_CASE_SIG("what cannot be meshed is refused", "", ((By B), B), By::
   CHECK(refusal(plc, [](auto& o) { o.rho = 1.9; }) == "bad_option");
   CHECK(refusal(plc, [](auto& o) { o.max_measure = 1; }) == "bad_option");
   CHECK(refusal(plc, [](auto& o) { o.rule = mesher::Rule::voronoi_aspect; }) == "bad_option");
-  CHECK(refusal(plc, [](auto& o) { o.max_vertices = 70; }) == "too_many");
+  CHECK(refusal(plc, [](auto& o) { o.max_vertices = 110; }) == "too_many");
   Plc bad = plc;
   bad.points[0].at[0] += 0.1;
   CHECK(refusal(bad, same) == "not_flat");
