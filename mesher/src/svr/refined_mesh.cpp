@@ -12,13 +12,14 @@ namespace {
 // Of a square: more than twice the error of a radius that the balls have, 2^-21 (simplex_ball.hpp).
 constexpr double kSurely = 1 - 0x1p-18;
 
-// Along an edge of a coarse box. A ball with its centre beyond a side and no vertex inside meets the
-// side in a disc of radius step / sqrt(2) at most, so it has its corners as near to that side: with
-// four steps, half of the domain's distance to it. That is enough nearly always (with three, it was
-// not for 10^5 random points), and where it is not, the run begins anew with the grid of gap balls.
-// (With that grid from the start, eight steps, small complexes take up to three times as long, and
-// meshes have up to 3% more vertices. To go on instead, from the centre to the side, need not end: a
-// vertex beside a side, in the ball of one of its edges, halves the distance again and again.)
+// Along an edge of a coarse box. A ball with its centre beyond a side and no vertex inside meets
+// the side in a disc of radius step / sqrt(2) at most, so it has its corners as near to that side:
+// with four steps, half of the domain's distance to it. That is enough nearly always (with three,
+// it was not for 10^5 random points), and where it is not, the run begins anew with the grid of gap
+// balls. (With that grid from the start, eight steps, small complexes take up to three times as
+// long, and meshes have up to 3% more vertices. To go on instead, from the centre to the side, need
+// not end: a vertex beside a side, in the ball of one of its edges, halves the distance again and
+// again.)
 constexpr int kCoarseSteps = 4;
 
 }  // namespace
