@@ -32,7 +32,8 @@ cpp_int integer(double x, int low) {
   const int shift = exponent - 53 - low;
   cpp_int all = mantissa;
   if (shift >= 0) return all << shift;
-  REQUIRE((all >> -shift) << -shift == all);
+  const cpp_int cut = all >> -shift;
+  REQUIRE(cpp_int(cut << -shift) == all);
   return all >> -shift;
 }
 
