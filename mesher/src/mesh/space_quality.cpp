@@ -105,11 +105,11 @@ struct Lanes {
 
 [[gnu::always_inline]] inline double lesser(double a, double b) noexcept { return a < b ? a : b; }
 
-// Of the measures above the part that the limits need, in squares. What is near a limit is not
-// within: of angles by 2^-40. Nor is for radii what is nearly flat or long: the determinant has an
-// error of 2^-49 |b||c||d|, here 2^-29 of it at most, and the centre, not yet divided by it, one of
-// 2^-47 |b||c||d| times the longest of these edges, 2^-23 of what it is compared with, rounded up
-// to 2^-20 (circumcentre.cpp).
+// The same as dihedrals() and radius_edge(), as far as limits need it: in squares. What is near one
+// is not within: of angles by 2^-40. Nor is for radii what is nearly flat or long: the determinant
+// has an error of 2^-49 |b||c||d|, here 2^-29 of it at most, and the centre, not yet divided by it,
+// one of 2^-47 |b||c||d| times the longest of these edges, 2^-23 of what it is compared with,
+// rounded up to 2^-20 (circumcentre.cpp).
 MESHER_WIDE_LANES void look(Lanes& all, const Limits& limits) {
   constexpr double kNearAngle = 1 - 0x1p-40, kNearRadius = 1 - 0x1p-20, kNormal = 0x1p-960;
   constexpr double kFlat = 0x1p-40, kLong = 0x1p8;
