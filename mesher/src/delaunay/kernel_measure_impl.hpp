@@ -4,15 +4,10 @@
 #include "delaunay/facets.hpp"
 #include "delaunay/kernel.hpp"
 #include "geometry/circumcentre.hpp"
+#include "geometry/plane.hpp"
+#include "geometry/space.hpp"
 
 namespace mesher::detail {
-
-template <std::size_t D>
-std::array<double, D> minus(const std::array<double, D>& a, const std::array<double, D>& b) {
-  std::array<double, D> difference;
-  for (std::size_t i = 0; i < D; ++i) difference[i] = a[i] - b[i];
-  return difference;
-}
 
 // The corners of the facet across from corner i, such that their determinant relative to it is
 // positive (see kFacet).
