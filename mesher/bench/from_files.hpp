@@ -85,7 +85,9 @@ class FromFiles {
     const TemporaryFolder folder;
     const std::string node = folder.file("points.node"), boxed = folder.file("boxed.poly"),
                       meshed = folder.file("meshed.node"), theirs = folder.file("boxed.1.node");
-    write_points(points, node);
+    mesher::OutputFiles files;
+    mesher::write_points<3>(points, files.open(node));
+    files.commit();
     if (with_tetgen) write_boxed(points, boxed);
     std::vector<Process> of_ours, of_tetgen;
     for (int round = 0; round < rounds; ++round) {
@@ -97,14 +99,6 @@ class FromFiles {
   }
 
  private:
-  static void write_points(const std::vector<Point<3>>& points, const std::string& path) {
-    mesher::OutputFiles files;
-    auto& file = files.open(path);
-    file << points.size() << " 3 0 0\n";
-    std::size_t id = 0;
-    for (const auto& p : points) file << ++id << ' ' << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
-    files.commit();
-  }
   // Whether it ended well.
   static bool add(std::vector<Process>& all, const std::vector<std::string>& command,
                   const std::string& node_file) {

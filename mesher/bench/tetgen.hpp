@@ -61,18 +61,17 @@ inline void write_boxed(const std::vector<Point<3>>& points, const std::string& 
   for (std::size_t i = 0; i < 3; ++i) side = std::max(side, domain.hi[i] - domain.lo[i]);
   mesher::OutputFiles files;
   auto& file = files.open(path);
-  file << points.size() + 8 << " 3 0 0\n";
-  std::size_t id = 0;
-  for (const auto& p : points) file << ++id << ' ' << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
-  const std::size_t first = id + 1;
+  std::vector<Point<3>> all = points;
   for (int corner = 0; corner < 8; ++corner) {
-    file << ++id;
+    Point<3> p;
     for (std::size_t i = 0; i < 3; ++i) {
       const double middle = (domain.lo[i] + domain.hi[i]) / 2;
-      file << ' ' << ((corner >> i & 1) != 0 ? middle + 3 * side : middle - 3 * side);
+      p[i] = (corner >> i & 1) != 0 ? middle + 3 * side : middle - 3 * side;
     }
-    file << '\n';
+    all.push_back(p);
   }
+  mesher::write_points<3>(all, file);
+  const std::size_t first = points.size() + 1;
   file << "6 0\n";
   for (const auto& [a, b, c, d] : std::vector<std::array<std::size_t, 4>>{
            {0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}) {
