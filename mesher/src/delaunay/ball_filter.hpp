@@ -41,30 +41,20 @@ enum class BallSide : std::int8_t { outside = -1, tie = 0, inside = 1, unsure = 
   return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
 }
 
-/// Where coordinates are multiples of a power of two: up to which square of a distance from p the
-/// determinants are not rounded.
-class CommonUnit {
- public:
-  template <std::size_t D>
-  void add(const std::array<double, D>& p) noexcept {
-    const int low = predicates::detail::BitRange(p).low;
-    if (low >= low_) return;
-    low_ = low;
-    exact_to_ = power_of_two(2 * (low_ + (D == 2 ? 12 : 9)));
-  }
-  [[nodiscard]] double exact_to() const noexcept { return exact_to_; }
+/// Below which distance from p the determinants of points with p's unit or a greater one are not
+/// rounded: a power of two, or 0.
+template <std::size_t D>
+[[nodiscard]] double exact_reach(const std::array<double, D>& p) noexcept {
+  const int low = predicates::detail::BitRange(p).low;
+  // The determinant's unit is normal; of the origin any unit will do.
+  return low < -200 ? 0 : power_of_two(std::min(low, 400) + (D == 2 ? 12 : 9));
+}
 
- private:
-  int low_ = 400;  // more than any coordinate's
-  double exact_to_ = 0;
-};
-
-/// From a determinant whose error is at most `bound`, or 0 if m is at most `exact_to`.
-[[nodiscard]] inline BallSide side_of(double det, double bound, double m,
-                                      double exact_to) noexcept {
+/// From a determinant whose error is at most `bound`, or 0 if m is less than the square of `reach`.
+[[nodiscard]] inline BallSide side_of(double det, double bound, double m, double reach) noexcept {
   if (det > bound) return BallSide::inside;
   if (det < -bound) return BallSide::outside;
-  if (!(m <= exact_to)) return BallSide::unsure;
+  if (!(m < reach * reach)) return BallSide::unsure;
   return det > 0    ? BallSide::inside
          : det < 0  ? BallSide::outside
          : det == 0 ? BallSide::tie
@@ -74,7 +64,7 @@ class CommonUnit {
 /// incircle(a, b, c, p), as far as that is sure; if a coordinate is not a number it is not.
 [[nodiscard]] inline BallSide in_ball_quickly(const Point<2>& a, const Point<2>& b,
                                               const Point<2>& c, const Point<2>& p,
-                                              double exact_to) noexcept {
+                                              double reach) noexcept {
   const double ax = a[0] - p[0], ay = a[1] - p[1];
   const double bx = b[0] - p[0], by = b[1] - p[1];
   const double cx = c[0] - p[0], cy = c[1] - p[1];
@@ -83,13 +73,13 @@ class CommonUnit {
       (a_lift * (bx * cy - cx * by) + b_lift * (cx * ay - ax * cy)) + c_lift * (ax * by - bx * ay);
   const double m = std::max(std::max(a_lift, b_lift), c_lift);
   const double bound = kPlaneBound * (m * m);
-  return side_of(det, bound, m, exact_to);
+  return side_of(det, bound, m, reach);
 }
 
 /// insphere(a, b, c, d, p), likewise.
 [[nodiscard]] inline BallSide in_ball_quickly(const Point<3>& a, const Point<3>& b,
                                               const Point<3>& c, const Point<3>& d,
-                                              const Point<3>& p, double exact_to) noexcept {
+                                              const Point<3>& p, double reach) noexcept {
   const double ax = a[0] - p[0], ay = a[1] - p[1], az = a[2] - p[2];
   const double bx = b[0] - p[0], by = b[1] - p[1], bz = b[2] - p[2];
   const double cx = c[0] - p[0], cy = c[1] - p[1], cz = c[2] - p[2];
@@ -103,7 +93,7 @@ class CommonUnit {
   const double det = (c_lift * dab - d_lift * abc) + (a_lift * bcd - b_lift * cda);
   const double m = std::max(std::max(a_lift, b_lift), std::max(c_lift, d_lift));
   const double bound = kSpaceBound * ((m * m) * std::sqrt(m)) + predicates::detail::kUnderflow;
-  return side_of(det, bound, m, exact_to);
+  return side_of(det, bound, m, reach);
 }
 
 }  // namespace mesher::detail

@@ -31,6 +31,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <type_traits>
@@ -165,10 +166,12 @@ class DelaunayKernel {
   void note_unit(std::uint32_t v) noexcept;
   [[nodiscard]] std::uint32_t finite(std::uint32_t s) const noexcept;
   [[nodiscard]] int side(const Ids& corners, std::size_t i, const Point<D>& p) const;
-  [[nodiscard]] bool conflicts_quickly(std::uint32_t s, const Point<D>& p) const;
-  [[nodiscard]] bool conflicts_slowly(std::uint32_t s, const Point<D>& p, bool tie) const;
-  [[nodiscard]] BallSide quick_side(const Ids& corners, const Point<D>& p, double exact_to) const;
-  [[nodiscard]] bool is_tie_on_grid(const Ids& corners, const Point<D>& p) const;
+  template <class Reach>
+  [[nodiscard]] bool conflicts_quickly(std::uint32_t s, const Point<D>& p, Reach&& reach) const;
+  [[nodiscard]] bool conflicts_slowly(std::uint32_t s, const Point<D>& p, BallSide side) const;
+  [[nodiscard]] bool conflicts_slowly(std::uint32_t s, const Point<D>& p,
+                                      double reach) const requires kHasBalls;
+  [[nodiscard]] BallSide quick_side(const Ids& corners, const Point<D>& p, double reach) const;
   [[nodiscard]] bool ball_holds(const Ids& corners, const Point<D>& p) const;
   [[nodiscard]] bool ball_holds_exactly(const Ids& corners, const Point<D>& p, bool tie) const;
   [[nodiscard]] bool ghost_conflicts(std::uint32_t s, std::size_t i, const Point<D>& p) const;
@@ -203,9 +206,9 @@ class DelaunayKernel {
   std::vector<Point<D>> places_;           // [0] is not a number
   std::vector<std::uint32_t> simplex_of_;  // by vertex; kNone: no vertex
   Store store_;
-  CommonUnit unit_;               // of all places that there ever were
-  std::vector<double> exact_to_;  // if there are balls: of each place alone
-  std::uint32_t last_ = kNone;    // where the last vertex was inserted
+  double least_reach_ = std::numeric_limits<double>::max();  // of places: see exact_reach
+  std::vector<double> reach_;                                // if there are balls: of each place
+  std::uint32_t last_ = kNone;                               // where the last vertex was inserted
 
   // Scratch, empty between calls (the marks are 0).
   std::vector<std::uint8_t> mark_;    // by simplex

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "delaunay/ball_filter.hpp"
+#include "delaunay/grid_ball.hpp"
 #include "delaunay/kernel.hpp"
 #include "delaunay/tuple_predicates.hpp"
 
@@ -14,72 +15,77 @@ enum Mark : std::uint8_t { kUnseen = 0, kInside, kOutside };
 
 /// Of a point and the ball of a simplex, as far as the filter is sure.
 template <int D, class Layout>
-[[gnu::always_inline]] inline BallSide DelaunayKernel<D, Layout>::quick_side(
-    const Ids& c, const Point<D>& p, double exact_to) const {
+[[gnu::always_inline]] inline BallSide DelaunayKernel<D, Layout>::quick_side(const Ids& c,
+                                                                             const Point<D>& p,
+                                                                             double reach) const {
   if constexpr (D == 2) {
-    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], p, exact_to);
+    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], p, reach);
   } else {
-    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], places_[c[3]], p, exact_to);
+    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], places_[c[3]], p, reach);
   }
 }
 
-/// `tie`: whether p is known to be on the sphere: then the greatest of all is outside.
+/// `tie`: whether p is known to be on the sphere, and no determinant is rounded.
 template <int D, class Layout>
 bool DelaunayKernel<D, Layout>::ball_holds_exactly(const Ids& c, const Point<D>& p,
                                                    bool tie) const {
   const auto q = places_of(c);
-  if (!tie) return in_ball(q, p) > 0;
-  const auto is_less = [&](const Point<D>* corner) {
-    return (*corner)[0] != p[0] ? (*corner)[0] < p[0] : *corner < p;
-  };
-  return !std::all_of(q.begin(), q.end(), is_less) && break_tie(q, p) > 0;
+  return (tie ? break_tie<D>(q, p) : in_ball(q, p)) > 0;
 }
 
 template <int D, class Layout>
 bool DelaunayKernel<D, Layout>::ball_holds(const Ids& c, const Point<D>& p) const {
-  const BallSide side = quick_side(c, p, unit_.exact_to());
+  const BallSide side = quick_side(c, p, least_reach_);
   if (side == BallSide::inside || side == BallSide::outside) return side == BallSide::inside;
   return ball_holds_exactly(c, p, side == BallSide::tie);
 }
 
+/// `reach`: of p, if there are balls, when it is called.
 template <int D, class Layout>
+template <class Reach>
 [[gnu::always_inline]] inline bool DelaunayKernel<D, Layout>::conflicts_quickly(
-    std::uint32_t s, const Point<D>& p) const {
+    std::uint32_t s, const Point<D>& p, Reach&& reach) const {
   BallSide side;
   if constexpr (kHasBalls) {
     side = store_.ball(s).side(p);
   } else {
-    side = quick_side(store_.corners(s), p, unit_.exact_to());
+    side = quick_side(store_.corners(s), p, least_reach_);
   }
   if (side == BallSide::inside || side == BallSide::outside) return side == BallSide::inside;
-  return conflicts_slowly(s, p, side == BallSide::tie);
+  if constexpr (kHasBalls) {
+    return conflicts_slowly(s, p, reach());
+  } else {
+    return conflicts_slowly(s, p, side);
+  }
 }
 
 template <int D, class Layout>
 bool DelaunayKernel<D, Layout>::conflicts(std::uint32_t s, const Point<D>& p) const {
-  return conflicts_quickly(s, p);
+  return conflicts_quickly(s, p, [&] { return exact_reach(p); });
 }
 
 /// What the filter leaves: ties, ghosts, what is nearly a tie.
 template <int D, class Layout>
 [[gnu::noinline]] bool DelaunayKernel<D, Layout>::conflicts_slowly(std::uint32_t s,
                                                                    const Point<D>& p,
-                                                                   bool tie) const {
+                                                                   BallSide side) const {
   const std::uint32_t infinite = corner_of(s, kInfinite);
   if (infinite <= D) return ghost_conflicts(s, infinite, p);
-  if constexpr (kHasBalls) tie = is_tie_on_grid(store_.corners(s), p);
-  return ball_holds_exactly(store_.corners(s), p, tie);
+  return ball_holds_exactly(store_.corners(s), p, side == BallSide::tie);
 }
 
 /// Most points so near to a sphere are on it, and on a grid: the corners' and p's own, since a
 /// refiner has such points among many others.
 template <int D, class Layout>
-bool DelaunayKernel<D, Layout>::is_tie_on_grid(const Ids& c, const Point<D>& p) const {
-  CommonUnit unit;
-  unit.add(p);
-  double exact_to = unit.exact_to();
-  for (const std::uint32_t v : c) exact_to = std::min(exact_to, exact_to_[v]);
-  return quick_side(c, p, exact_to) == BallSide::tie;
+[[gnu::noinline]] bool DelaunayKernel<D, Layout>::conflicts_slowly(
+    std::uint32_t s, const Point<D>& p, double reach) const requires kHasBalls {
+  const Ids& c = store_.corners(s);
+  for (const std::uint32_t v : c) reach = std::min(reach, reach_[v]);
+  const int side = side_on_grid<D>(places_of(c), store_.ball(s).centre, p, reach);
+  if (side != 0) return side > 0;
+  const std::uint32_t infinite = corner_of(s, kInfinite);
+  if (infinite <= D) return ghost_conflicts(s, infinite, p);
+  return ball_holds_exactly(c, p, quick_side(c, p, reach) == BallSide::tie);
 }
 
 /// `i`: the corner at infinity.
@@ -128,7 +134,7 @@ void DelaunayKernel<D, Layout>::find_doomed(std::uint32_t v, std::uint32_t start
       const std::uint32_t other = across[i] >> 2;
       if (mark_[other] == kInside) continue;
       if (mark_[other] == kUnseen) {
-        if (conflicts_quickly(other, p)) {
+        if (conflicts_quickly(other, p, [&] { return reach_[v]; })) {
           cavity_.push_back(other);
           mark_[other] = kInside;
           if constexpr (kHasBalls) fetch_around(other);

@@ -20,13 +20,13 @@ Point<D> no_place() {
 
 template <int D, class Layout>
 DelaunayKernel<D, Layout>::DelaunayKernel()
-    : places_{no_place<D>()}, simplex_of_{kNone}, exact_to_(1, 0.0), local_{0} {}
+    : places_{no_place<D>()}, simplex_of_{kNone}, reach_(1, 0.0), local_{0} {}
 
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::reserve(std::size_t points) {
   places_.reserve(points + 1);
   simplex_of_.reserve(points + 1);
-  if constexpr (kHasBalls) exact_to_.reserve(points + 1);
+  if constexpr (kHasBalls) reach_.reserve(points + 1);
   local_.reserve(points + 1);
   // Of random points: 2 triangles a vertex, 6.77 tetrahedra [Dwyer 1991]; and what is free for a
   // moment, and ghosts.
@@ -41,12 +41,12 @@ std::uint32_t DelaunayKernel<D, Layout>::add_place(const Point<D>& p) {
   places_.push_back(p);
   try {
     simplex_of_.push_back(kNone);
-    if constexpr (kHasBalls) exact_to_.push_back(0);
+    if constexpr (kHasBalls) reach_.push_back(0);
     local_.push_back(0);
   } catch (...) {
     places_.pop_back();
     simplex_of_.resize(places_.size());
-    if constexpr (kHasBalls) exact_to_.resize(places_.size());
+    if constexpr (kHasBalls) reach_.resize(places_.size());
     throw;
   }
   note_unit(static_cast<std::uint32_t>(places_.size() - 1));
@@ -62,11 +62,9 @@ void DelaunayKernel<D, Layout>::set_place(std::uint32_t v, const Point<D>& p) no
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::note_unit(std::uint32_t v) noexcept {
   if constexpr (kHasBalls) {
-    CommonUnit unit;
-    unit.add(places_[v]);
-    exact_to_[v] = unit.exact_to();
+    reach_[v] = exact_reach(places_[v]);
   } else {
-    unit_.add(places_[v]);
+    least_reach_ = std::min(least_reach_, exact_reach(places_[v]));
   }
 }
 
@@ -74,7 +72,7 @@ template <int D, class Layout>
 void DelaunayKernel<D, Layout>::drop_place() noexcept {
   places_.pop_back();
   simplex_of_.pop_back();
-  if constexpr (kHasBalls) exact_to_.pop_back();
+  if constexpr (kHasBalls) reach_.pop_back();
   local_.pop_back();
 }
 
@@ -182,9 +180,9 @@ void DelaunayKernel<D, Layout>::clear() noexcept {
   clear_simplices();
   places_.resize(1);
   simplex_of_.resize(1);
-  if constexpr (kHasBalls) exact_to_.resize(1);
+  if constexpr (kHasBalls) reach_.resize(1);
   local_.resize(1);
-  unit_ = {};
+  least_reach_ = std::numeric_limits<double>::max();
 }
 
 template <int D, class Layout>

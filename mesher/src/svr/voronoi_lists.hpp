@@ -124,6 +124,8 @@ std::uint32_t VoronoiLists<D>::relocate(std::uint32_t v, const Point<D>& p, std:
   for (std::uint32_t* link = &first_[w]; *link != kNone;) {
     const std::uint32_t point = *link;
     Listed& listed = listed_[point];
+    __builtin_prefetch(listed_.data() + listed.next);
+    __builtin_prefetch(places_.data() + listed.next);
     if (static_cast<double>(listed.distance2) >= stays2) {
       ++looked_at_.to_move;
       const double d2 = scaled2(places_[point], p);

@@ -14,7 +14,7 @@ namespace {
 using mesher::Point;
 using mesher::SplitMix64;
 using mesher::detail::BallSide;
-using mesher::detail::CommonUnit;
+using mesher::detail::exact_reach;
 using mesher::detail::in_ball_quickly;
 
 // On a circle or sphere around a middle, but for rounding and a few last bits.
@@ -28,15 +28,22 @@ Point<D> near_ball(SplitMix64& random, const Point<D>& middle, double radius, bo
   return p;
 }
 
+template <int D>
+double least_reach(const std::array<Point<D>, D + 2>& q) {
+  double least = std::numeric_limits<double>::max();
+  for (const auto& p : q) least = std::min(least, exact_reach(p));
+  return least;
+}
+
 // What the filter says of a ball and a point, and what is so.
 template <int D>
-std::pair<BallSide, BallSide> sides(const std::array<Point<D>, D + 2>& q, double exact_to) {
+std::pair<BallSide, BallSide> sides(const std::array<Point<D>, D + 2>& q, double reach) {
   if constexpr (D == 2) {
     return {
-        in_ball_quickly(q[0], q[1], q[2], q[3], exact_to),
+        in_ball_quickly(q[0], q[1], q[2], q[3], reach),
         BallSide{static_cast<std::int8_t>(mesher::predicates::incircle(q[0], q[1], q[2], q[3]))}};
   } else {
-    return {in_ball_quickly(q[0], q[1], q[2], q[3], q[4], exact_to),
+    return {in_ball_quickly(q[0], q[1], q[2], q[3], q[4], reach),
             BallSide{static_cast<std::int8_t>(
                 mesher::predicates::insphere(q[0], q[1], q[2], q[3], q[4]))}};
   }
@@ -54,10 +61,8 @@ TEMPLATE_TEST_CASE_SIG("near a ball, at each scale, the filter is right or not s
     Point<D> middle;
     for (double& x : middle) x = scale * random.unit() * apart;
     std::array<Point<D>, D + 2> q;
-    CommonUnit unit;
     for (auto& p : q) p = near_ball<D>(random, middle, scale, random.below(2) == 0);
-    for (auto& p : q) unit.add(p);
-    const auto [quick, exact] = sides<D>(q, unit.exact_to());
+    const auto [quick, exact] = sides<D>(q, least_reach<D>(q));
     REQUIRE((quick == BallSide::unsure || quick == exact));
     sure += quick != BallSide::unsure ? 1 : 0;
     ++all;
@@ -91,15 +96,13 @@ TEMPLATE_TEST_CASE_SIG("on a grid, up to the stated size, it is always sure and 
       const auto side = 1 + random.below(random.below(2) == 0 ? 4 : 290);
       const double far = std::ldexp(static_cast<double>(random.below(1000)), exponent);
       std::array<Point<D>, D + 2> q;
-      CommonUnit unit;
       for (auto& p : q) {
         for (double& x : p) {
           x = far + std::ldexp(static_cast<double>(random.below(side + 1)), exponent);
         }
-        unit.add(p);
       }
-      REQUIRE(unit.exact_to() >= std::ldexp(most * most, 2 * exponent));
-      const auto [quick, exact] = sides<D>(q, unit.exact_to());
+      REQUIRE(least_reach<D>(q) >= std::ldexp(most, exponent));
+      const auto [quick, exact] = sides<D>(q, least_reach<D>(q));
       REQUIRE(quick == exact);
       ties += quick == BallSide::tie ? 1 : 0;
     }
@@ -112,13 +115,11 @@ TEMPLATE_TEST_CASE_SIG("a coarse grid's ties are not claimed of fine points", "[
   SplitMix64 random(4);
   for (int i = 0; i < 100000; ++i) {
     std::array<Point<D>, D + 2> q;
-    CommonUnit unit;
     for (auto& p : q) {
       for (double& x : p) x = static_cast<double>(random.below(1u << 20));
       if (random.below(4) == 0) p[0] += 0x1p-30;
-      unit.add(p);
     }
-    const auto [quick, exact] = sides<D>(q, unit.exact_to());
+    const auto [quick, exact] = sides<D>(q, least_reach<D>(q));
     REQUIRE((quick == BallSide::unsure || quick == exact));
   }
 }
