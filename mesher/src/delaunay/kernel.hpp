@@ -109,21 +109,21 @@ class DelaunayKernel {
                              IsWanted&& is_wanted);
 
   /// The next insertion starts its walk at vertex v. Requires: has(v).
-  void walk_from(std::uint32_t v) noexcept { last_ = simplex_of_[v]; }
+  void walk_from(std::uint32_t v) noexcept { last_ = vertices_[v].simplex; }
   /// Takes a vertex out. False, and nothing done, if all others are in one plane (on one line).
   /// Cost: the triangulation of its neighbours.
   bool remove(std::uint32_t v);
   /// Whether v is a vertex.
-  [[nodiscard]] bool has(std::uint32_t v) const noexcept { return simplex_of_[v] != kNone; }
+  [[nodiscard]] bool has(std::uint32_t v) const noexcept { return vertices_[v].simplex != kNone; }
 
   [[nodiscard]] const Store& simplices() const noexcept { return store_; }
-  [[nodiscard]] const Point<D>& place(std::uint32_t v) const noexcept { return places_[v]; }
+  [[nodiscard]] const Point<D>& place(std::uint32_t v) const noexcept { return vertices_[v].place; }
   /// A vertex at which the last insertion or removal changed something. Requires: started.
   [[nodiscard]] std::uint32_t last_changed() const noexcept {
     const Ids& c = store_.corners(last_);
     return c[0] != kInfinite ? c[0] : c[1];
   }
-  [[nodiscard]] std::size_t places() const noexcept { return places_.size() - 1; }
+  [[nodiscard]] std::size_t places() const noexcept { return vertices_.size() - 1; }
   [[nodiscard]] bool is_ghost(std::uint32_t s) const noexcept;
   /// The simplices with corner v, ghosts too. Requires: has(v). Cost: O(k) for k of them.
   [[nodiscard]] std::vector<std::uint32_t> star(std::uint32_t v) const;
@@ -142,6 +142,12 @@ class DelaunayKernel {
   void check_invariants() const;
 
  private:
+  // All that an insertion asks of a vertex; in space they are 32 bytes, in one line of the cache.
+  struct alignas(D == 3 ? 32 : 8) Vertex {
+    Point<D> place;
+    std::uint32_t simplex = kNone;  // with this corner; kNone: it is no vertex
+    std::uint32_t link_number = 0;  // in dig() and fill()
+  };
   // A facet between a conflicting simplex and one that stays: that simplex's corners, the one
   // across replaced by the new vertex, at `slot`; `outer`: the other side, as in the store.
   struct Border {
@@ -160,7 +166,7 @@ class DelaunayKernel {
   }
   [[nodiscard]] auto places_of(const Ids& corners) const noexcept {
     std::array<const Point<D>*, D + 1> places;
-    for (std::size_t i = 0; i <= D; ++i) places[i] = &places_[corners[i]];
+    for (std::size_t i = 0; i <= D; ++i) places[i] = &place(corners[i]);
     return places;
   }
   void note_unit(std::uint32_t v) noexcept;
@@ -203,22 +209,20 @@ class DelaunayKernel {
   void check_facet(std::uint32_t s, std::size_t i) const;
   void check_vertices() const;
 
-  std::vector<Point<D>> places_;           // [0] is not a number
-  std::vector<std::uint32_t> simplex_of_;  // by vertex; kNone: no vertex
+  std::vector<Vertex> vertices_;  // the place of [0] is not a number
   Store store_;
   double least_reach_ = std::numeric_limits<double>::max();  // of places: see exact_reach
   std::vector<double> reach_;                                // if there are balls: of each place
   std::uint32_t last_ = kNone;                               // where the last vertex was inserted
 
   // Scratch, empty between calls (the marks are 0).
-  std::vector<std::uint8_t> mark_;    // by simplex
-  std::vector<std::uint32_t> local_;  // by vertex; its number among the link's, in fill()
+  std::vector<std::uint8_t> mark_;  // by simplex
   std::vector<std::uint32_t> cavity_, outside_, link_, ridges_, made_;
   std::vector<Border> borders_;
-  std::vector<std::array<std::uint32_t, D>> ends_;  // of the facets of borders_, as in local_
+  std::vector<std::array<std::uint32_t, D>> ends_;  // of the facets of borders_, by link_number
   std::vector<Ridge> many_;
   std::conditional_t<kHasBalls, BallBatch<D>, NoBalls> balls_;  // of made_
-  std::vector<Point<D>> relative_;                              // to the new vertex, as in local_
+  std::vector<Point<D>> relative_;                              // to the new vertex, likewise
   std::unique_ptr<DelaunayKernel> star_;                        // for removal
 };
 
@@ -228,7 +232,7 @@ template <class IsWanted>
 std::uint32_t DelaunayKernel<D, Layout>::find_in_star(std::uint32_t v,
                                                       std::vector<std::uint32_t>& star,
                                                       IsWanted&& is_wanted) {
-  star.assign(1, simplex_of_[v]);
+  star.assign(1, vertices_[v].simplex);
   mark_[star.front()] = 1;
   const auto look_around = [&](std::uint32_t s) {
     for (std::uint32_t i = 0; i <= D; ++i) {

@@ -22,15 +22,15 @@ void DelaunayKernel<D, Layout>::check_facet(std::uint32_t s, std::size_t i) cons
   SAC_INVARIANT(ours.corners == theirs.corners && ours.odd != theirs.odd);
   const std::uint32_t w = store_.corners(other)[k];
   SAC_INVARIANT(corner_of(s, w) > D);
-  if (w != kInfinite) SAC_INVARIANT(!conflicts(s, places_[w]));
+  if (w != kInfinite) SAC_INVARIANT(!conflicts(s, place(w)));
 }
 
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::check_simplex(std::uint32_t s) const {
   Ids c = store_.corners(s);
-  if (!is_ghost(s)) SAC_INVARIANT(side(c, 0, places_[c[0]]) > 0);
+  if (!is_ghost(s)) SAC_INVARIANT(side(c, 0, place(c[0])) > 0);
   for (std::size_t i = 0; i <= D; ++i) check_facet(s, i);
-  for (const std::uint32_t v : c) SAC_INVARIANT(v == kInfinite || (v < places_.size() && has(v)));
+  for (const std::uint32_t v : c) SAC_INVARIANT(v == kInfinite || (v < vertices_.size() && has(v)));
   std::sort(c.begin(), c.end());
   SAC_INVARIANT(std::adjacent_find(c.begin(), c.end()) == c.end());
 }
@@ -38,17 +38,17 @@ void DelaunayKernel<D, Layout>::check_simplex(std::uint32_t s) const {
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::check_vertices() const {
   std::size_t vertices = 0;
-  for (std::uint32_t v = 1; v < places_.size(); ++v) {
+  for (std::uint32_t v = 1; v < vertices_.size(); ++v) {
     if (!has(v)) continue;
     ++vertices;
-    SAC_INVARIANT(store_.alive(simplex_of_[v]) && corner_of(simplex_of_[v], v) <= D);
+    SAC_INVARIANT(store_.alive(vertices_[v].simplex) && corner_of(vertices_[v].simplex, v) <= D);
   }
   if (D == 2 && store_.size() > 0) SAC_INVARIANT(store_.size() == 2 * vertices - 2);
 }
 
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::check_invariants() const {
-  SAC_INVARIANT(simplex_of_.size() == places_.size() && local_.size() == places_.size());
+  SAC_INVARIANT(!kHasBalls || reach_.size() == vertices_.size());
   SAC_INVARIANT(mark_.size() == store_.places());
   SAC_INVARIANT(std::all_of(mark_.begin(), mark_.end(), [](auto mark) { return mark == 0; }));
   SAC_INVARIANT(cavity_.empty() && outside_.empty() && borders_.empty() && link_.empty());

@@ -19,9 +19,9 @@ template <int D, class Layout>
                                                                              const Point<D>& p,
                                                                              double reach) const {
   if constexpr (D == 2) {
-    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], p, reach);
+    return in_ball_quickly(place(c[0]), place(c[1]), place(c[2]), p, reach);
   } else {
-    return in_ball_quickly(places_[c[0]], places_[c[1]], places_[c[2]], places_[c[3]], p, reach);
+    return in_ball_quickly(place(c[0]), place(c[1]), place(c[2]), place(c[3]), p, reach);
   }
 }
 
@@ -125,7 +125,7 @@ template <int D, class Layout>
 /// The conflicting simplices from `start` on, and their borders.
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::find_doomed(std::uint32_t v, std::uint32_t start) {
-  const Point<D> p = places_[v];
+  const Point<D> p = place(v);
   cavity_.push_back(start);
   mark_[start] = kInside;
   for (std::size_t k = 0; k < cavity_.size(); ++k) {

@@ -55,7 +55,7 @@ void DelaunayKernel<D, Layout>::fill(std::uint32_t v) noexcept {
   place_borders();
   join_borders();
   if constexpr (kHasBalls) measure_made(v);
-  last_ = simplex_of_[v] = cavity_.back();
+  last_ = vertices_[v].simplex = cavity_.back();
   if constexpr (kHasBalls) made_.assign(cavity_.begin(), cavity_.end());
   cavity_.clear();
   outside_.clear();
@@ -71,7 +71,7 @@ void DelaunayKernel<D, Layout>::place_borders() noexcept {
     const std::uint32_t s = cavity_[k];
     store_.corners(s) = b.corners;
     store_.join(s, b.slot, b.outer >> 2, b.outer & 3);
-    for (const std::uint32_t w : b.corners) simplex_of_[w] = s;
+    for (const std::uint32_t w : b.corners) vertices_[w].simplex = s;
   }
 }
 
@@ -83,12 +83,12 @@ void DelaunayKernel<D, Layout>::join_borders() noexcept {
   if constexpr (D == 2) {
     for (std::uint32_t k = 0; k < borders_.size(); ++k) {
       const Border& b = borders_[k];
-      local_[b.corners[kFacet<2>[b.slot][0]]] = k;
+      vertices_[b.corners[kFacet<2>[b.slot][0]]].link_number = k;
     }
     for (std::uint32_t k = 0; k < borders_.size(); ++k) {
       const Border& b = borders_[k];
       const auto [from, to] = kFacet<2>[b.slot];
-      const std::uint32_t next = local_[b.corners[to]];
+      const std::uint32_t next = vertices_[b.corners[to]].link_number;
       store_.join(cavity_[k], from, cavity_[next], kFacet<2>[borders_[next].slot][1]);
     }
   } else if (link_.size() > kMostInTable) {
@@ -115,10 +115,10 @@ void DelaunayKernel<D, Layout>::join_borders() noexcept {
   }
 }
 
-/// Afterwards local_ of the link's vertices is 0 again.
+/// Afterwards the link's vertices have no numbers.
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::forget_link() noexcept {
-  for (const std::uint32_t v : link_) local_[v] = 0;
+  for (const std::uint32_t v : link_) vertices_[v].link_number = 0;
   link_.clear();
 }
 
@@ -131,7 +131,7 @@ void DelaunayKernel<D, Layout>::number_link() noexcept {
     const Border& b = borders_[k];
     for (std::size_t i = 0; i < D; ++i) {
       const std::uint32_t v = b.corners[kFacet<D>[b.slot][i]];
-      std::uint32_t& number = local_[v];
+      std::uint32_t& number = vertices_[v].link_number;
       if (number == 0) {
         link_.push_back(v);
         number = static_cast<std::uint32_t>(link_.size());

@@ -19,15 +19,12 @@ Point<D> no_place() {
 }
 
 template <int D, class Layout>
-DelaunayKernel<D, Layout>::DelaunayKernel()
-    : places_{no_place<D>()}, simplex_of_{kNone}, reach_(1, 0.0), local_{0} {}
+DelaunayKernel<D, Layout>::DelaunayKernel() : vertices_{{no_place<D>()}}, reach_(1, 0.0) {}
 
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::reserve(std::size_t points) {
-  places_.reserve(points + 1);
-  simplex_of_.reserve(points + 1);
+  vertices_.reserve(points + 1);
   if constexpr (kHasBalls) reach_.reserve(points + 1);
-  local_.reserve(points + 1);
   // Of random points: 2 triangles a vertex, 6.77 tetrahedra [Dwyer 1991]; and what is free for a
   // moment, and ghosts.
   const std::size_t simplices = D == 2 ? 2 * points + points / 50 : 7 * points;
@@ -37,43 +34,38 @@ void DelaunayKernel<D, Layout>::reserve(std::size_t points) {
 
 template <int D, class Layout>
 std::uint32_t DelaunayKernel<D, Layout>::add_place(const Point<D>& p) {
-  SAC_EXPECTS(places_.size() < kNone);
-  places_.push_back(p);
+  SAC_EXPECTS(vertices_.size() < kNone);
+  const auto v = static_cast<std::uint32_t>(vertices_.size());
+  if constexpr (kHasBalls) reach_.push_back(0);
   try {
-    simplex_of_.push_back(kNone);
-    if constexpr (kHasBalls) reach_.push_back(0);
-    local_.push_back(0);
+    vertices_.push_back({p});
   } catch (...) {
-    places_.pop_back();
-    simplex_of_.resize(places_.size());
-    if constexpr (kHasBalls) reach_.resize(places_.size());
+    if constexpr (kHasBalls) reach_.pop_back();
     throw;
   }
-  note_unit(static_cast<std::uint32_t>(places_.size() - 1));
-  return static_cast<std::uint32_t>(places_.size() - 1);
+  note_unit(v);
+  return v;
 }
 
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::set_place(std::uint32_t v, const Point<D>& p) noexcept {
-  places_[v] = p;
+  vertices_[v].place = p;
   note_unit(v);
 }
 
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::note_unit(std::uint32_t v) noexcept {
   if constexpr (kHasBalls) {
-    reach_[v] = exact_reach(places_[v]);
+    reach_[v] = exact_reach(place(v));
   } else {
-    least_reach_ = std::min(least_reach_, exact_reach(places_[v]));
+    least_reach_ = std::min(least_reach_, exact_reach(place(v)));
   }
 }
 
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::drop_place() noexcept {
-  places_.pop_back();
-  simplex_of_.pop_back();
+  vertices_.pop_back();
   if constexpr (kHasBalls) reach_.pop_back();
-  local_.pop_back();
 }
 
 template <int D, class Layout>
@@ -118,7 +110,7 @@ void DelaunayKernel<D, Layout>::start(const std::array<std::uint32_t, D + 1>& co
       store_.join(ghosts[i], corner_of(ghosts[i], c[k]), ghosts[k], corner_of(ghosts[k], c[i]));
     }
   }
-  for (const std::uint32_t v : c) simplex_of_[v] = first;
+  for (const std::uint32_t v : c) vertices_[v].simplex = first;
   last_ = first;
   if constexpr (kHasBalls) {
     balls_.make_room(1);
@@ -156,11 +148,11 @@ std::uint32_t DelaunayKernel<D, Layout>::walk(const Point<D>& p, std::uint32_t f
 
 template <int D, class Layout>
 std::uint32_t DelaunayKernel<D, Layout>::insert(std::uint32_t v) {
-  const Point<D>& p = places_[v];
+  const Point<D>& p = place(v);
   SAC_EXPECTS(last_ != kNone);
   const std::uint32_t s = walk(p, last_);
   for (const std::uint32_t w : store_.corners(s)) {
-    if (places_[w] == p) return w;
+    if (place(w) == p) return w;
   }
   dig(v, s);
   fill(v);
@@ -171,17 +163,15 @@ template <int D, class Layout>
 void DelaunayKernel<D, Layout>::clear_simplices() noexcept {
   store_.clear();
   mark_.clear();
-  std::fill(simplex_of_.begin(), simplex_of_.end(), kNone);
+  for (Vertex& v : vertices_) v.simplex = kNone;
   last_ = kNone;
 }
 
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::clear() noexcept {
   clear_simplices();
-  places_.resize(1);
-  simplex_of_.resize(1);
+  vertices_.resize(1);
   if constexpr (kHasBalls) reach_.resize(1);
-  local_.resize(1);
   least_reach_ = std::numeric_limits<double>::max();
 }
 

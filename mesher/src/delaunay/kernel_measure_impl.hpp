@@ -34,8 +34,8 @@ template <int D, class Layout>
   if (balls_.is_flat(k) && !is_ghost(s)) [[unlikely]] {
     const Ids& c = store_.corners(s);
     std::array<const Point<D>*, D> corners;
-    for (std::size_t i = 0; i < D; ++i) corners[i] = &places_[c[positive_facet<D>(apex)[i]]];
-    balls_.set_centre(k, exact_centre(places_[c[apex]], corners));
+    for (std::size_t i = 0; i < D; ++i) corners[i] = &place(c[positive_facet<D>(apex)[i]]);
+    balls_.set_centre(k, exact_centre(place(c[apex]), corners));
   }
   store_.ball(s) = balls_.ball(k);
 }
@@ -43,10 +43,10 @@ template <int D, class Layout>
 template <int D, class Layout>
 Shape DelaunayKernel<D, Layout>::measure(std::uint32_t s) noexcept {
   const Ids& c = store_.corners(s);
-  const Point<D>& p = places_[c[0]];
+  const Point<D>& p = place(c[0]);
   balls_.start(p, 1);
   for (std::size_t i = 0; i < D; ++i) {
-    balls_.set_corner(0, i, minus(places_[c[positive_facet<D>(0)[i]]], p));
+    balls_.set_corner(0, i, minus(place(c[positive_facet<D>(0)[i]]), p));
   }
   balls_.run();
   set_ball(0, s, 0);
@@ -57,16 +57,16 @@ Shape DelaunayKernel<D, Layout>::measure(std::uint32_t s) noexcept {
 /// to v it is computed once.
 template <int D, class Layout>
 void DelaunayKernel<D, Layout>::measure_made(std::uint32_t v) noexcept {
-  const Point<D> p = places_[v];
+  const Point<D> p = place(v);
   balls_.start(p, borders_.size());
   if constexpr (D == 2) {
     for (std::size_t k = 0; k < borders_.size(); ++k) {
       const auto [from, to] = kFacet<2>[borders_[k].slot];
-      balls_.set_corner(k, 0, minus(places_[borders_[k].corners[from]], p));
-      balls_.set_corner(k, 1, minus(places_[borders_[k].corners[to]], p));
+      balls_.set_corner(k, 0, minus(place(borders_[k].corners[from]), p));
+      balls_.set_corner(k, 1, minus(place(borders_[k].corners[to]), p));
     }
   } else {
-    for (std::size_t i = 0; i < link_.size(); ++i) relative_[i + 1] = minus(places_[link_[i]], p);
+    for (std::size_t i = 0; i < link_.size(); ++i) relative_[i + 1] = minus(place(link_[i]), p);
     for (std::size_t k = 0; k < borders_.size(); ++k) {
       const auto [a, b, c] = ends_[k];  // in kFacet's order
       balls_.set_corner(k, 0, relative_[b]);

@@ -25,7 +25,7 @@ constexpr std::size_t kFew = 64;
 template <int D, class Layout>
 std::vector<std::uint32_t> DelaunayKernel<D, Layout>::star(std::uint32_t v) const {
   SAC_EXPECTS(has(v));
-  std::vector<std::uint32_t> star{simplex_of_[v]};
+  std::vector<std::uint32_t> star{vertices_[v].simplex};
   std::unordered_set<std::uint32_t> seen;  // of many
   const auto is_new = [&](std::uint32_t s) {
     if (star.size() < kFew) return std::find(star.begin(), star.end(), s) == star.end();
@@ -74,7 +74,7 @@ bool DelaunayKernel<D, Layout>::triangulate(const std::vector<std::uint32_t>& li
   if (star_ == nullptr) star_ = std::make_unique<DelaunayKernel>();
   star_->clear();
   std::vector<std::uint32_t> local;
-  for (const std::uint32_t v : link) local.push_back(star_->add_place(places_[v]));
+  for (const std::uint32_t v : link) local.push_back(star_->add_place(place(v)));
   return build<D>(*star_, local, [](std::uint32_t, std::uint32_t) {});
 }
 
@@ -141,8 +141,8 @@ std::uint32_t DelaunayKernel<D, Layout>::apex_over(const Ids& c,
   best[D] = kNone;
   for (const std::uint32_t w : link) {
     if (std::find(c.begin(), c.end() - 1, w) != c.end() - 1) continue;
-    if (side(c, D, places_[w]) <= 0) continue;
-    if (best[D] == kNone || ball_holds(best, places_[w])) best[D] = w;
+    if (side(c, D, place(w)) <= 0) continue;
+    if (best[D] == kNone || ball_holds(best, place(w))) best[D] = w;
   }
   return best[D];
 }
@@ -213,7 +213,7 @@ void DelaunayKernel<D, Layout>::refill(std::uint32_t v, const std::vector<std::u
   for (const Ids& c : filling) {
     const std::uint32_t s = store_.take();
     store_.corners(s) = c;
-    for (const std::uint32_t w : c) simplex_of_[w] = s;
+    for (const std::uint32_t w : c) vertices_[w].simplex = s;
     for (std::uint32_t i = 0; i <= D; ++i) {
       sides.push_back({OrientedFacet<D>(c, i).corners, s << 2 | i});
     }
@@ -225,7 +225,7 @@ void DelaunayKernel<D, Layout>::refill(std::uint32_t v, const std::vector<std::u
     const std::uint32_t one = sides[k].code, other = sides[k + 1].code;
     store_.join(one >> 2, one & 3, other >> 2, other & 3);
   }
-  simplex_of_[v] = kNone;
+  vertices_[v].simplex = kNone;
 }
 
 }  // namespace mesher::detail
