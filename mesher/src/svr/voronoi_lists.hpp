@@ -38,28 +38,22 @@ class VoronoiLists : public WaitingPoints<D> {
     unit2_ = std::ldexp(1.0, -2 * exponent);
   }
 
-  [[nodiscard]] bool is_crowded(std::uint32_t v) const noexcept { return first_[v] != kNone; }
+  [[nodiscard]] bool is_crowded(std::uint32_t v) const noexcept { return lists_[v].first != kNone; }
   /// Requires (and below): is_crowded(v).
-  [[nodiscard]] std::uint32_t any(std::uint32_t v) const noexcept { return first_[v]; }
+  [[nodiscard]] std::uint32_t any(std::uint32_t v) const noexcept { return lists_[v].first; }
   [[nodiscard]] std::uint32_t farthest(std::uint32_t v) const noexcept;
   /// Takes a point off v's list. Requires: it is on it.
   void drop(std::uint32_t v, std::uint32_t point) noexcept {
-    std::uint32_t* link = &first_[v];
+    std::uint32_t* link = &lists_[v].first;
     while (*link != point) link = &listed_[*link].next;
     *link = listed_[point].next;
     --left_;
   }
 
   /// There are no points on v's list, which is the next vertex.
-  void add_vertex() {
-    first_.push_back(kNone);
-    reach2_.push_back(0);
-  }
+  void add_vertex() { lists_.push_back({}); }
   /// Takes the last vertex back, which has no points.
-  void drop_vertex() noexcept {
-    first_.pop_back();
-    reach2_.pop_back();
-  }
+  void drop_vertex() noexcept { lists_.pop_back(); }
   /// Puts all points but `except`, which is gone, on v's list, whose place is p.
   void start(std::uint32_t v, const Point<D>& p, std::uint32_t except) noexcept;
   /// Gives the new vertex v at p what is nearer to it of the list of its neighbour w at q. A point
@@ -77,6 +71,10 @@ class VoronoiLists : public WaitingPoints<D> {
     float distance2 = 0;  // to the vertex, in units of unit2_, rounded up
     std::uint32_t next = kNone;
   };
+  struct List {
+    std::uint32_t first = kNone;
+    float reach2 = 0;  // at least the greatest distance2 on the list
+  };
   static constexpr double kUp = 1 + 0x1p-22, kDown = 1 - 0x1p-22;
 
   [[nodiscard]] double scaled2(const Point<D>& a, const Point<D>& b) const noexcept {
@@ -84,20 +82,19 @@ class VoronoiLists : public WaitingPoints<D> {
   }
   void put(std::uint32_t v, std::uint32_t point, double d2) noexcept {
     listed_[point].distance2 = static_cast<float>(d2 * kUp);
-    listed_[point].next = first_[v];
-    first_[v] = point;
-    reach2_[v] = std::max(reach2_[v], listed_[point].distance2);
+    listed_[point].next = lists_[v].first;
+    lists_[v].first = point;
+    lists_[v].reach2 = std::max(lists_[v].reach2, listed_[point].distance2);
   }
 
-  std::vector<Listed> listed_;               // by point
-  std::vector<std::uint32_t> first_{kNone};  // by vertex
-  std::vector<float> reach2_{0};             // at least the greatest distance2 on the list
+  std::vector<Listed> listed_;       // by point
+  std::vector<List> lists_{List{}};  // by vertex
   double unit2_;
 };
 
 template <int D>
 std::uint32_t VoronoiLists<D>::farthest(std::uint32_t v) const noexcept {
-  std::uint32_t best = first_[v];
+  std::uint32_t best = lists_[v].first;
   for (std::uint32_t k = best; k != kNone; k = listed_[k].next) {
     if (listed_[k].distance2 > listed_[best].distance2) best = k;
   }
@@ -115,17 +112,16 @@ void VoronoiLists<D>::start(std::uint32_t v, const Point<D>& p, std::uint32_t ex
 template <int D>
 std::uint32_t VoronoiLists<D>::relocate(std::uint32_t v, const Point<D>& p, std::uint32_t w,
                                         const Point<D>& q) noexcept {
-  if (first_[w] == kNone) return kNone;
+  List& list = lists_[w];
+  if (list.first == kNone) return kNone;
   // A point within half of the way to v stays.
   const double stays2 = scaled2(p, q) / 4 * kDown;
-  if (static_cast<double>(reach2_[w]) < stays2) return kNone;
+  if (static_cast<double>(list.reach2) < stays2) return kNone;
   std::uint32_t was_there = kNone;
   float reach2 = 0;
-  for (std::uint32_t* link = &first_[w]; *link != kNone;) {
+  for (std::uint32_t* link = &list.first; *link != kNone;) {
     const std::uint32_t point = *link;
     Listed& listed = listed_[point];
-    __builtin_prefetch(listed_.data() + listed.next);
-    __builtin_prefetch(places_.data() + listed.next);
     if (static_cast<double>(listed.distance2) >= stays2) {
       ++looked_at_.to_move;
       const double d2 = scaled2(places_[point], p);
@@ -143,18 +139,18 @@ std::uint32_t VoronoiLists<D>::relocate(std::uint32_t v, const Point<D>& p, std:
     reach2 = std::max(reach2, listed.distance2);
     link = &listed.next;
   }
-  reach2_[w] = reach2;
+  list.reach2 = reach2;
   return was_there;
 }
 
 template <int D>
 std::uint32_t VoronoiLists<D>::find(std::uint32_t w, const Point<D>& q, const Point<D>& c,
                                     double r) const noexcept {
-  std::uint32_t point = first_[w];
+  std::uint32_t point = lists_[w].first;
   if (point == kNone) return kNone;
   // The ball is farther from w than any point.
   const double gap = std::sqrt(squared_distance(c, q)) - r;
-  if (gap > 0 && gap * gap * unit2_ > static_cast<double>(reach2_[w])) return kNone;
+  if (gap > 0 && gap * gap * unit2_ > static_cast<double>(lists_[w].reach2)) return kNone;
   for (const double r2 = r * r; point != kNone; point = listed_[point].next) {
     ++looked_at_.to_find;
     if (squared_distance(places_[point], c) <= r2) return point;
