@@ -19,6 +19,13 @@ bool has_lines(const SpaceInput& input) {
 }
 
 template <int D>
+std::vector<mesher::Point<D>> places(const InputOf<D>& input) {
+  std::vector<mesher::Point<D>> all;
+  for (const auto& point : input.points()) all.push_back(point.at);
+  return all;
+}
+
+template <int D>
 struct Task {
   const MeshArguments& args;
   const InputOf<D>& input;
@@ -52,13 +59,9 @@ mesher::Mesh<D> by_refinement(const Task<D>& task, OfPoints&& of_points, OfGraph
     if (has_lines(task.input)) {
       return of_graph(task.input.graph(), extent(task.args), wanted, task.progress.control());
     }
-    std::vector<mesher::Point<D>> places;
     std::vector<mesher::FeatureId> ids;
-    for (const auto& point : task.input.points()) {
-      places.push_back(point.at);
-      ids.push_back(point.id);
-    }
-    return of_points(places, ids, wanted, task.progress.control());
+    for (const auto& point : task.input.points()) ids.push_back(point.id);
+    return of_points(places<D>(task.input), ids, wanted, task.progress.control());
   });
   task.run.stats.vertices = mesh.vertices.size();
   task.run.stats.simplices = mesh.simplices.size();
@@ -113,7 +116,9 @@ const char* fastest(const Task<D>& task) {
   if (task.args.is_static || limited || low || o.rule != mesher::Rule::radius_edge) {
     return "gap-balls";
   }
-  return D == 2 ? "refine" : "svr";
+  const bool refines =
+      D == 2 || (!has_lines(task.input) && mesher::are_even<D>(places<D>(task.input)));
+  return refines ? "refine" : "svr";
 }
 
 }  // namespace

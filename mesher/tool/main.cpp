@@ -1,8 +1,12 @@
 // mesher: quality meshes of files of points and lines, or of points in space, that follow edits.
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
+#include <string_view>
 
 #include "cancel.hpp"
 #include "commands.hpp"
@@ -24,6 +28,26 @@ constexpr const char* kHelpFooter =
     "'mesher COMMAND --help' says more.\n"
     "Exit codes: 0 ok, 1 geometry, 2 usage, 3 format, 4 limit, 5 cancelled, 70 a bug of ours.";
 
+struct Command {
+  std::string_view name;
+  void (*add)(CLI::App&);
+};
+constexpr std::array<Command, 5> kCommands{{{"gen", tool::add_gen},
+                                            {"mesh", tool::add_mesh},
+                                            {"edit", tool::add_edit},
+                                            {"check", tool::add_check},
+                                            {"trace", tool::add_trace}}};
+
+// The one that is called, or all: each has some thirty options, which take longer to add than a
+// small mesh to make.
+void add_commands(CLI::App& app, std::string_view called) {
+  const auto is_called = [&](const Command& c) { return c.name == called; };
+  const bool any = std::any_of(kCommands.begin(), kCommands.end(), is_called);
+  for (const Command& command : kCommands) {
+    if (!any || is_called(command)) command.add(app);
+  }
+}
+
 int fail(ExitCode code, const std::string& message) {
   std::cerr << message << std::endl;
   return static_cast<int>(code);
@@ -38,11 +62,7 @@ int run(int argc, char** argv) {
   app.footer(kHelpFooter);
   app.set_version_flag("--version", "mesher " MESHER_VERSION);
   app.require_subcommand(1);
-  tool::add_gen(app);
-  tool::add_mesh(app);
-  tool::add_edit(app);
-  tool::add_check(app);
-  tool::add_trace(app);
+  add_commands(app, argc > 1 ? argv[1] : "");
   try {
     app.parse(argc, argv);
     return static_cast<int>(ExitCode::ok);

@@ -104,9 +104,9 @@ void add_mesh(CLI::App& app) {
           "--algorithm", args->algorithm,
           "svr: sparse Voronoi refinement; refine: Delaunay refinement, from the triangulation\n"
           "of all points; gap-balls: the mesh that `edit` keeps, in 3 to 10 times the time, also\n"
-          "with limits of size. auto: refine in the plane and svr in space, but gap-balls with\n"
-          "limits of size, --static, another rule, or a --rho below its default if there are lines\n"
-          "or polygons, or if the other one finds features too close")
+          "with limits of size. auto: refine in the plane and of points that lie evenly in space,\n"
+          "else svr; gap-balls with limits of size, --static, another rule, or a --rho below its\n"
+          "default if there are lines or polygons, or if the other one finds features too close")
       ->check(CLI::IsMember({"auto", "gap-balls", "svr", "refine"}))
       ->capture_default_str();
   mesh->footer(

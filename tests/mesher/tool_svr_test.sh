@@ -41,7 +41,7 @@ for lines in "$data/great_lakes.poly" svr/holed.poly; do
   done
 done
 
-echo "== auto: refine in the plane, svr in space, gap-balls for what these do not know; it says which"
+echo "== auto: refine in the plane and for even points, svr else in space, gap-balls for what these do not know; it says which"
 # taken ALGORITHM ARGUMENT...: `mesh` takes it, and makes its mesh.
 taken() {
   local algorithm=$1
@@ -54,7 +54,9 @@ taken() {
 }
 taken refine svr/uniform.2.node
 has svr/auto.json '"worst_radius_edge": [0-9.]+,'
-taken svr svr/uniform.3.node
+taken refine svr/uniform.3.node
+taken refine svr/grid.3.node
+taken svr svr/line-circle.3.node
 has svr/auto.json '"largest_degree": [0-9]+,'
 has svr/auto.json '"warped": [0-9]+,'
 taken refine "$data/great_lakes.poly"

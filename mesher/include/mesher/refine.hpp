@@ -4,8 +4,8 @@
 //   const auto mesh = mesher::refine<2>(points, {.domain = mesher::snapped_domain<2>(points)});
 //
 // Of the mesh holds what holds of that of svr (mesher/svr.hpp); it is another one. Where the
-// triangulation of the points is small, as of points that lie evenly, it is made about as soon;
-// where that is large, much later, and it takes the memory of that triangulation.
+// triangulation of the points is small, as of points that lie evenly (are_even), it is made about as
+// soon or sooner; where that is large, much later, and it takes the memory of that triangulation.
 #pragma once
 
 #include <cstddef>
@@ -29,6 +29,12 @@ struct RefineSettings {
   /// only powers of two of squares are told apart [Fig 1.5]; of equals the last found goes first.
   bool strict = false;
 };
+
+/// Whether points lie so evenly that refine() is as fast as svr() or faster: their box, cut into up
+/// to as many cubes, has points in at least 0.4 times as many, and in none more than 32.
+/// Cost: O(n).
+template <int D>
+[[nodiscard]] bool are_even(const std::vector<Point<D>>& points);
 
 /// What of a graph or a complex is refined: all, or what segments (in space polygons) enclose, if
 /// they enclose anything, less the holes at these places. Other simplices may be poor.

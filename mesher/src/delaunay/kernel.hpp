@@ -102,6 +102,9 @@ class DelaunayKernel {
   [[nodiscard]] Shape shape_made(std::size_t k) const noexcept { return balls_.shape(k); }
   /// Computes the ball of one simplex again. Returns: its shape; not a number for ghosts.
   Shape measure(std::uint32_t s) noexcept;
+  /// Calls visit(s, shape) for each simplex. Requires: visit does not change the kernel.
+  template <class Visit>
+  void for_each_shape(Visit&& visit);
   /// The first simplex with corner v that is_wanted(s), or kNone; ghosts are asked, too. `star` has
   /// those that were not wanted afterwards: all, if none was. Requires: has(v).
   template <class IsWanted>
@@ -190,6 +193,7 @@ class DelaunayKernel {
   void join_borders() noexcept;
   void join_many_borders() noexcept;
   void measure_made(std::uint32_t v) noexcept;
+  void set_corners(std::size_t k, std::uint32_t s) noexcept;
   void set_ball(std::size_t k, std::uint32_t s, std::size_t apex) noexcept;
 
   [[nodiscard]] bool has_finite_beside(const std::vector<std::uint32_t>& star,
@@ -225,6 +229,36 @@ class DelaunayKernel {
   std::vector<Point<D>> relative_;                              // to the new vertex, likewise
   std::unique_ptr<DelaunayKernel> star_;                        // for removal
 };
+
+/// Several go through the batch at a time.
+template <int D, class Layout>
+template <class Visit>
+void DelaunayKernel<D, Layout>::for_each_shape(Visit&& visit) {
+  constexpr std::size_t kAtATime = 16;
+  std::array<std::uint32_t, kAtATime> some;
+  std::array<Shape, kAtATime> shapes;
+  std::size_t used = 0;
+  balls_.make_room(kAtATime);
+  const auto measure_some = [&] {
+    balls_.start(Point<D>{}, used);
+    for (std::size_t k = 0; k < used; ++k) set_corners(k, some[k]);
+    balls_.run();
+    std::array<bool, kAtATime> is_flat;
+    for (std::size_t k = 0; k < used; ++k) {
+      is_flat[k] = balls_.is_flat(k) && !is_ghost(some[k]);
+      shapes[k] = balls_.shape(k);
+    }
+    for (std::size_t k = 0; k < used; ++k) {
+      visit(some[k], is_flat[k] ? measure(some[k]) : shapes[k]);
+    }
+    used = 0;
+  };
+  for (std::uint32_t s = 0; s < store_.places(); ++s) {
+    if (store_.alive(s)) some[used++] = s;
+    if (used == kAtATime) measure_some();
+  }
+  measure_some();
+}
 
 /// From one to the next over facets that have v as a corner.
 template <int D, class Layout>

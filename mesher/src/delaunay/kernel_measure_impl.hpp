@@ -40,14 +40,20 @@ template <int D, class Layout>
   store_.ball(s) = balls_.ball(k);
 }
 
+/// Of s as the k-th of the batch, relative to the first.
 template <int D, class Layout>
-Shape DelaunayKernel<D, Layout>::measure(std::uint32_t s) noexcept {
+void DelaunayKernel<D, Layout>::set_corners(std::size_t k, std::uint32_t s) noexcept {
   const Ids& c = store_.corners(s);
   const Point<D>& p = place(c[0]);
-  balls_.start(p, 1);
   for (std::size_t i = 0; i < D; ++i) {
-    balls_.set_corner(0, i, minus(place(c[positive_facet<D>(0)[i]]), p));
+    balls_.set_corner(k, i, minus(place(c[positive_facet<D>(0)[i]]), p));
   }
+}
+
+template <int D, class Layout>
+Shape DelaunayKernel<D, Layout>::measure(std::uint32_t s) noexcept {
+  balls_.start(place(store_.corners(s)[0]), 1);
+  set_corners(0, s);
   balls_.run();
   set_ball(0, s, 0);
   return balls_.shape(0);

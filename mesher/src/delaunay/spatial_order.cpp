@@ -6,9 +6,10 @@
 #include <bit>
 #include <numeric>
 
+#include "counting_sort.hpp"
 #include "delaunay/hilbert.hpp"
 #include "geometry/box.hpp"
-#include "sac/label.hpp"
+#include "geometry/place_hash.hpp"
 
 namespace mesher::detail {
 
@@ -51,14 +52,6 @@ class Grid {
   double cells_, scale_;
 };
 
-// Equal points (0 and -0 are equal) have equal hashes.
-template <int D>
-std::uint64_t hash_of(const Point<D>& p) {
-  std::uint64_t h = 0;
-  for (const double x : p) h = sac::mix(h + std::bit_cast<std::uint64_t>(x + 0.0));
-  return h;
-}
-
 std::uint32_t rounds_of(std::size_t n) {
   std::uint32_t rounds = 1;
   for (; n > kFirstRound << kRoundBits && rounds < 16; n >>= kRoundBits) ++rounds;
@@ -75,11 +68,8 @@ void sort_by_key(std::vector<Keyed>& items, int bits) {
   constexpr int kDigit = 11;
   std::vector<Keyed> other(items.size());
   for (int shift = 0; shift < bits; shift += kDigit) {
-    const auto digit = [&](const Keyed& k) { return k.key >> shift & ((1u << kDigit) - 1); };
-    std::array<std::uint32_t, (1u << kDigit) + 1> start{};
-    for (const Keyed& k : items) ++start[digit(k) + 1];
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    for (const Keyed& k : items) other[start[digit(k)]++] = k;
+    sort_by_part<Keyed>(items, other, std::size_t{1} << kDigit,
+                        [&](const Keyed& k) { return k.key >> shift & ((1u << kDigit) - 1); });
     items.swap(other);
   }
 }
@@ -127,7 +117,7 @@ class Sorter {
   }
   // Early rounds have small numbers.
   static std::uint32_t round_of(const Point<D>& p, std::uint32_t rounds) {
-    const int early = std::countr_zero(hash_of<D>(p)) / kRoundBits;
+    const int early = std::countr_zero(place_hash(p)) / kRoundBits;
     return rounds - 1 - std::min(rounds - 1, static_cast<std::uint32_t>(early));
   }
 

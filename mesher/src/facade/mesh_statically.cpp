@@ -155,20 +155,25 @@ void watch(World<D>& world, const RunControl& control, std::size_t points) {
   };
 }
 
+// Whether a run goes on to a mesh, or ends when its input was found to be one.
+enum class Purpose : bool { mesh, check };
+
 // One static run.
 template <int D>
 class StaticRun {
  public:
   StaticRun(const std::vector<Point<D>>& points, const Options<D>& options,
-            const std::vector<FeatureId>& ids, const RunControl& control, std::size_t segments)
+            const std::vector<FeatureId>& ids, const RunControl& control, std::size_t segments,
+            Purpose purpose = Purpose::mesh)
       : control_(control),
         box_((begin(points, ids, control), detail::mesh_box(options))),
-        world_(options, box_, scope_),
+        world_(options, box_for(purpose), scope_),
         handles_(add_points<D>(points, options, ids, world_)),
         names_(handles_, ids, segments) {
     world_.names = &names_;
   }
 
+  [[nodiscard]] const detail::MeshBox<D>& box() const noexcept { return box_; }
   [[nodiscard]] World<D>& world() noexcept { return world_; }
   [[nodiscard]] const std::vector<VertexHandle>& handles() const noexcept { return handles_; }
   [[nodiscard]] InputNames& names() noexcept { return names_; }
@@ -196,6 +201,12 @@ class StaticRun {
     SAC_EXPECTS(ids.empty() || ids.size() == points.size());
     predicates::self_test();
     detail::require_unstopped(control);
+  }
+  // No vertices on its sides but the corners if none are needed.
+  [[nodiscard]] detail::MeshBox<D> box_for(Purpose purpose) const {
+    detail::MeshBox<D> box = box_;
+    if (purpose == Purpose::check) box.boundary_steps = 1;
+    return box;
   }
 
   const RunControl& control_;
@@ -332,7 +343,8 @@ struct detail::CheckedComplex::Run {
   Run(const std::vector<Point<3>>& points, const std::vector<mesher::Segment>& segments,
       const std::vector<mesher::Polygon>& polygons, const Options<3>& options,
       const std::vector<FeatureId>& ids, const RunControl& control)
-      : run(points, options, ids, control, 0), names(add_features(segments, polygons, ids, run)) {}
+      : run(points, options, ids, control, 0, Purpose::check),
+        names(add_features(segments, polygons, ids, run)) {}
 
   StaticRun<3> run;
   SpaceInputNames names;
@@ -345,7 +357,7 @@ detail::CheckedComplex::CheckedComplex(const std::vector<Point<3>>& points,
                                        const RunControl& control)
     : run_(std::make_unique<Run>(points, segments, polygons, options, ids, control)) {}
 detail::CheckedComplex::~CheckedComplex() = default;
-const detail::MeshBox<3>& detail::CheckedComplex::box() const { return run_->run.world().box; }
+const detail::MeshBox<3>& detail::CheckedComplex::box() const { return run_->run.box(); }
 detail::FeatureStore& detail::CheckedComplex::store() const {
   return run_->run.world().plc.store();
 }
@@ -356,7 +368,7 @@ void detail::require_complex(const std::vector<Point<3>>& points,
                              const std::vector<mesher::Polygon>& polygons,
                              const Options<3>& options, const std::vector<FeatureId>& ids) {
   const RunControl control;
-  StaticRun<3> run(points, options, ids, control, 0);
+  StaticRun<3> run(points, options, ids, control, 0, Purpose::check);
   static_cast<void>(add_features(segments, polygons, ids, run));
 }
 

@@ -2,17 +2,30 @@
 #include "io/read_points.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "counting_sort.hpp"
+#include "geometry/place_hash.hpp"
 #include "io/read_node.hpp"
+#include "io/rows.hpp"
 #include "io/text.hpp"
+#include "sac/label.hpp"
 
 namespace mesher {
 namespace {
+
+std::uint64_t hash_of(FeatureId id) { return sac::mix(static_cast<std::uint64_t>(id)); }
+template <std::size_t N>
+std::uint64_t hash_of(const std::array<double, N>& p) {
+  return detail::place_hash(p);
+}
 
 // Two rows of a file with equal keys; the later one is the first in the file to repeat an earlier.
 struct Repeat {
@@ -20,20 +33,30 @@ struct Repeat {
   std::size_t later;
 };
 
-// Nothing where all keys differ. Cost: O(n log n), O(n) where keys ascend.
+// A row by a hash of its key.
+struct Hashed {
+  std::uint64_t hash;
+  std::size_t row;
+};
+
+// Nothing where all keys differ. Cost: O(n) expected.
 template <class Key>
 std::optional<Repeat> first_repeat(const std::vector<Key>& keys) {
   if (std::adjacent_find(keys.begin(), keys.end(), std::greater_equal<>()) == keys.end()) {
     return {};
   }
-  std::vector<std::pair<Key, std::size_t>> order;
-  order.reserve(keys.size());
-  for (const Key& key : keys) order.emplace_back(key, order.size());
-  std::sort(order.begin(), order.end());
+  std::vector<Hashed> order(keys.size());
+  for (std::size_t row = 0; row < keys.size(); ++row) order[row] = {hash_of(keys[row]), row};
+  detail::sort_spread(
+      order, [](const Hashed& h) { return h.hash; },
+      [&](const Hashed& a, const Hashed& b) {
+        if (a.hash != b.hash) return a.hash < b.hash;
+        return std::tie(keys[a.row], a.row) < std::tie(keys[b.row], b.row);
+      });
   std::optional<Repeat> first;
   for (std::size_t i = 1; i < order.size(); ++i) {
-    if (order[i - 1].first != order[i].first) continue;
-    const Repeat repeat{order[i - 1].second, order[i].second};
+    const Repeat repeat{order[i - 1].row, order[i].row};
+    if (order[i - 1].hash != order[i].hash || keys[repeat.earlier] != keys[repeat.later]) continue;
     if (!first || repeat.later < first->later) first = repeat;
   }
   return first;
@@ -122,6 +145,7 @@ void require_distinct_points(const PointFile<D>& rows) {
 template <int D>
 PointFile<D> read_points(const std::string& path) {
   PointFile<D> rows = read_any<D>(path);
+  require_indexable(rows.points.size(), path);
   require_distinct_ids(rows);
   require_distinct_points(rows);
   return rows;

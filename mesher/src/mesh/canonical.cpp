@@ -1,6 +1,10 @@
 // Sorting vertices and simplices.
 #include "mesh/canonical.hpp"
 
+#include <cmath>
+
+#include "counting_sort.hpp"
+
 namespace mesher::detail {
 
 namespace {
@@ -11,13 +15,33 @@ struct Placed {
   std::uint32_t handle;
 };
 
+// By coordinates from `axis` on; the earlier ones are equal. Requires: as many `spare`.
+template <int D>
+void sort_places(std::span<Placed<D>> placed, std::span<Placed<D>> spare, std::size_t axis = 0) {
+  const auto by_comparing = [&] {
+    std::sort(placed.begin(), placed.end(), [axis](const Placed<D>& a, const Placed<D>& b) {
+      return a.p[axis] != b.p[axis] ? a.p[axis] < b.p[axis] : a.p < b.p;
+    });
+  };
+  if (placed.size() < kFewToSort || axis + 1 == D) return by_comparing();
+  const auto ends = std::minmax_element(
+      placed.begin(), placed.end(),
+      [axis](const Placed<D>& a, const Placed<D>& b) { return a.p[axis] < b.p[axis]; });
+  const double lo = ends.first->p[axis], width = ends.second->p[axis] - lo;
+  if (width == 0) return sort_places<D>(placed, spare, axis + 1);
+  const double scale = 0x1p62 / width;
+  if (!std::isfinite(scale)) return by_comparing();
+  spread_by_key(
+      placed, spare,
+      [&](const Placed<D>& v) { return static_cast<std::uint64_t>((v.p[axis] - lo) * scale); },
+      [axis](auto part, auto rest) { sort_places<D>(part, rest, axis); });
+}
+
 // A mesh of vertices alone, and where they went, by handle.
 template <int D, class KindOf>
 Mesh<D> sorted(std::vector<Placed<D>> placed, KindOf&& kind_of, std::vector<std::uint32_t>& index) {
-  // Most differ in the first coordinate.
-  std::sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) {
-    return a.p[0] != b.p[0] ? a.p[0] < b.p[0] : a.p < b.p;
-  });
+  std::vector<Placed<D>> spare(placed.size());
+  sort_places<D>(placed, spare);
   Mesh<D> mesh;
   mesh.vertices.reserve(placed.size());
   mesh.kinds.reserve(placed.size());

@@ -62,6 +62,7 @@ template <int D>
 bool ConformingMesh<D>::is_split(std::uint32_t s) {
   if (only_enclosed_ && !std::exchange(has_regions_, true)) {
     only_enclosed_ = conformity_.find_regions(holes_, kNearWall * this->box_.side);
+    if (!only_enclosed_) this->require_box(kCoarseSteps);
   }
   return !(only_enclosed_ && conformity_.is_outside(s)) && !stays(s);
 }

@@ -20,7 +20,7 @@ template <int D, template <class> class Queue, class Mesh>
 void DelaunayRefinement<D, Queue, Mesh>::run() {
   triangulate();
   age_.resize(kernel_.simplices().places());
-  this->look_at_all([&](std::uint32_t s) { look_at(s, kernel_.measure(s)); });
+  this->look_at_all([&](std::uint32_t s, const Shape& shape) { look_at(s, shape); });
   if constexpr (kConforms) this->conformity_.start();
   for (std::size_t steps = 1;; ++steps) {
     this->watch(steps, kernel_.places());

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "counting_sort.hpp"
 #include "input.hpp"
 
 namespace mesher::detail {
@@ -45,9 +46,11 @@ class Order {
   [[nodiscard]] std::vector<Point<D>> sorted() const {
     std::vector<Coded> all(points_.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = {morton<D>(fixed(i)), i};
-    std::sort(all.begin(), all.end(), [](const Coded& a, const Coded& b) {
-      return a.code != b.code ? a.code < b.code : a.index < b.index;
-    });
+    sort_spread(
+        all, [](const Coded& c) { return c.code; },
+        [](const Coded& a, const Coded& b) {
+          return a.code != b.code ? a.code < b.code : a.index < b.index;
+        });
     for (auto from = all.begin(), to = from; from != all.end(); from = to) {
       while (to != all.end() && to->code == from->code) ++to;
       if (to - from > 1) sort_cell(from, to);

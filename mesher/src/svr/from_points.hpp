@@ -79,18 +79,28 @@ void set_stats(Stats* stats, const Algorithm& algorithm, const Mesh<D>& mesh) {
 template <class Algorithm, int D, class Take>
 [[nodiscard]] auto refined_in(const MeshBox<D>& box, const std::vector<Point<D>>& points,
                               typename Algorithm::Settings settings, Take&& take) {
-  const auto run = [&](bool coarse) {
-    settings.coarse_box = coarse;
+  const auto run = [&] {
     Algorithm algorithm(box, points, settings);
     algorithm.run();
     return take(algorithm);
   };
-  if (settings.rho < Options<D>{}.rho) return run(false);
-  try {
-    return run(true);
-  } catch (const SideReached&) {
-    return run(false);
+  const auto coarsest = [&] {
+    if constexpr (D == 3 && requires { settings.only_enclosed; }) {
+      if (settings.only_enclosed && points.size() <= kFewPoints) return kCoarsestSteps;
+    }
+    return kCoarseSteps;
+  };
+  if (settings.rho >= Options<D>{}.rho) {
+    for (settings.box_steps = coarsest(); settings.box_steps <= kCoarseSteps;
+         settings.box_steps *= 2) {
+      try {
+        return run();
+      } catch (const SideReached&) {
+      }
+    }
   }
+  settings.box_steps = 0;
+  return run();
 }
 
 /// What an Algorithm makes of the points. `settings`: but for what is in `options`.

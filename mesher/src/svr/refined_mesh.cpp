@@ -12,16 +12,6 @@ namespace {
 // Of a square: more than twice the error of a radius that the balls have, 2^-21 (simplex_ball.hpp).
 constexpr double kSurely = 1 - 0x1p-18;
 
-// Along an edge of a coarse box. A ball with its centre beyond a side and no vertex inside meets
-// the side in a disc of radius step / sqrt(2) at most, so it has its corners as near to that side:
-// with four steps, half of the domain's distance to it. That is enough nearly always (with three,
-// it was not for 10^5 random points), and where it is not, the run begins anew with the grid of gap
-// balls. (With that grid from the start, eight steps, small complexes take up to three times as
-// long, and meshes have up to 3% more vertices. To go on instead, from the centre to the side, need
-// not end: a vertex beside a side, in the ball of one of its edges, halves the distance again and
-// again.)
-constexpr int kCoarseSteps = 4;
-
 }  // namespace
 
 template <int D>
@@ -47,7 +37,9 @@ template <int D>
 std::vector<Point<D>> RefinedMesh<D>::boundary() const {
   std::vector<Point<D>> places;
   MeshBox<D> box = box_;
-  if (settings_.coarse_box) box.boundary_steps = std::min(box.boundary_steps, kCoarseSteps);
+  if (const int steps = settings_.box_steps; steps != 0) {
+    box.boundary_steps = std::min(box.boundary_steps, steps);
+  }
   box.for_each_boundary_point([&](const Point<D>& p) { places.push_back(p); });
   return places;
 }

@@ -75,7 +75,7 @@ void Refinement<D, Mesh, Location>::start() {
   add_box();
   if (location_.left() != 0) add_first_point();
   queue_.make_room(kernel_.simplices().places());
-  this->look_at_all([&](std::uint32_t s) { look_at(s, kernel_.measure(s)); });
+  this->look_at_all([&](std::uint32_t s, const Shape& shape) { look_at(s, shape); });
 }
 
 template <int D, class Mesh, class Location>

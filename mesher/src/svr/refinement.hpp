@@ -73,7 +73,7 @@ class Refinement : public Mesh {
   void insert_dug(std::uint32_t v, const Found& found);
 
   double k_, skinny2_;
-  bool has_started_ = false;           // to conform
+  bool has_started_ = false;  // to conform
   Location location_;
   WorkQueue queue_;
   SvrStats stats_;                   // warped and crowded

@@ -21,9 +21,9 @@ class Subedges {
     Label lo, hi;
     EdgeHandle edge;
     PieceKind kind = PieceKind::whole;  // in the plane: how it is split
-    bool encroached = false;     // it is to be split
-    std::uint32_t by = kNone;    // a vertex in its ball, if it is known
-    std::uint32_t next = kNone;  // of the same edge
+    bool encroached = false;            // it is to be split
+    std::uint32_t by = kNone;           // a vertex in its ball, if it is known
+    std::uint32_t next = kNone;         // of the same edge
   };
 
   [[nodiscard]] const Piece& operator[](std::uint32_t i) const noexcept { return all_[i]; }

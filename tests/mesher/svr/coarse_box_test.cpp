@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "mesher/generate.hpp"
+#include "mesher/generate_plc.hpp"
 #include "mesher/mesher.hpp"
+#include "refined_complex.hpp"
 #include "svr/from_points.hpp"
 #include "svr/refinement.hpp"
 
@@ -66,7 +68,7 @@ TEMPLATE_TEST_CASE_SIG("where a centre is beyond a side of the coarse box all of
   const auto run_in = [&](const auto& points, bool coarse) {
     typename PointRefinement<D>::Settings settings;
     settings.rho = rho;
-    settings.coarse_box = coarse;
+    settings.box_steps = coarse ? mesher::detail::kCoarseSteps : 0;
     PointRefinement<D> run(box, points, settings);
     run.run();
     return mesher::detail::mesh_of<D>(run);
@@ -88,4 +90,24 @@ TEMPLATE_TEST_CASE_SIG("bounds stronger than the default have the whole box from
   const MeshBox<D> box = mesher::detail::mesh_box(options);
   const auto mesh = mesh_in<D>(box, near_sides<D>(box, 0.2), options.rho);
   CHECK(on_boundary<D>(mesh) == of_grid<D>(box, box.boundary_steps));
+}
+
+TEMPLATE_TEST_CASE_SIG("a small complex that encloses what is refined has the coarsest box", "",
+                       ((support::By B), B), support::By::svr, support::By::refine) {
+  const auto boundary_of = [](const mesher::Plc& plc, mesher::Extent extent) {
+    return on_boundary<3>(support::mesh_of<B>(plc, support::options_for(plc), extent));
+  };
+  const auto grid_of = [](const mesher::Plc& plc, int steps) {
+    return of_grid<3>(mesher::detail::mesh_box(support::options_for(plc)), steps);
+  };
+  const auto cube = mesher::generate_plc({mesher::PlcKind::cube});
+  CHECK(boundary_of(cube, mesher::Extent::enclosed) == grid_of(cube, 2));
+  CHECK(boundary_of(cube, mesher::Extent::box) == grid_of(cube, 4));
+
+  mesher::Plc open = mesher::generate_plc({mesher::PlcKind::cloud, 50});
+  CHECK(boundary_of(open, mesher::Extent::enclosed) == grid_of(open, 2));
+  open.facets.pop_back();
+  CHECK(boundary_of(open, mesher::Extent::enclosed) == grid_of(open, 4));
+  const auto cloud = mesher::generate_plc({mesher::PlcKind::cloud, 1200});
+  CHECK(boundary_of(cloud, mesher::Extent::enclosed) == grid_of(cloud, 4));
 }
