@@ -1,7 +1,7 @@
 // From file to file: `mesher mesh` of points in space beside TetGen 1.5, at rho = 2: the thesis's
 // table [Hudson, Fig 3.4], and larger inputs.
 //
-//   files_bench [--large] [--algorithm NAME] [FILE.node]...
+//   files_bench [--large] [--algorithm NAME, default auto] [FILE.node]...
 //
 // Default: families of points, see kFamilies; --large: and those that take minutes and gigabytes.
 // Both are processes, in turns, kRounds times (from_files.hpp). A JSON line an input: medians of
@@ -39,7 +39,7 @@ constexpr Family kFamilies[] = {
 }  // namespace
 
 int main(int, char** argv) {
-  std::string algorithm = "svr";
+  std::string algorithm = "auto";
   bool large = false;
   std::vector<std::string> files;
   for (char** word = argv + 1; *word != nullptr; ++word) {

@@ -130,8 +130,7 @@ struct Location {
   mesher::PointLocation location;
 };
 constexpr Location kLocations[] = {
-    {"voronoi-reach", mesher::PointLocation::voronoi_reach},
-    {"voronoi-plain", mesher::PointLocation::voronoi_plain},
+    {"voronoi", mesher::PointLocation::voronoi},
     {"voronoi-shells", mesher::PointLocation::voronoi_shells},
     {"simplex", mesher::PointLocation::simplex},
     {"circumball", mesher::PointLocation::circumball},

@@ -28,10 +28,9 @@
 namespace mesher {
 
 /// Where points wait that are no vertices yet [3.1]. The meshes are different ones, by the points
-/// that are found first. For complexes it is voronoi_reach.
+/// that are found first. For complexes it is voronoi.
 enum class PointLocation : std::uint8_t {
-  voronoi_reach,   ///< at the vertex of the Voronoi cell, in lists that know how far they reach
-  voronoi_plain,   ///< the same, in lists that know nothing
+  voronoi,         ///< at the vertex of the Voronoi cell, in a list
   voronoi_shells,  ///< the same, in concentric shells
   simplex,         ///< at the simplex that they are in
   circumball,      ///< at all simplices in whose circumballs they are
@@ -42,7 +41,7 @@ struct SvrSettings {
   /// The k of B(c, k r): instead of a new vertex at c, a point that is so near to it is inserted, r
   /// from c to the nearest vertices. In (0, 1).
   double k = 0.9;
-  PointLocation location = PointLocation::voronoi_reach;
+  PointLocation location = PointLocation::voronoi;
 };
 
 /// What happened in a run; it begins with the first point's insertion.

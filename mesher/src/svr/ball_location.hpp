@@ -27,7 +27,7 @@ class BallLocation : public SimplexLists<D, BallLocation<D>> {
  public:
   using typename Base::Kernel;
 
-  BallLocation(std::span<const Point<D>> points, double /*side*/)
+  explicit BallLocation(std::span<const Point<D>> points)
       : Base(points), points_(points.size()) {}
 
   template <class Visit>

@@ -7,7 +7,6 @@
 #include "delaunay/build.hpp"
 #include "delaunay/spatial_order.hpp"
 #include "svr/ball_location.hpp"
-#include "svr/plain_lists.hpp"
 #include "svr/shell_lists.hpp"
 #include "svr/simplex_location.hpp"
 
@@ -28,7 +27,7 @@ Refinement<D, Mesh, Location>::Refinement(const MeshBox<D>& box, std::span<const
     : Base(box, settings, points.size()),
       k_(settings.k),
       skinny2_(points.empty() ? rho2_ : kMeanwhile * kMeanwhile * rho2_),
-      location_(points, box.side) {}
+      location_(points) {}
 
 /// [Fig 2.5].
 template <int D, class Mesh, class Location>
@@ -325,8 +324,6 @@ SvrStats Refinement<D, Mesh, Location>::stats() const {
 
 template class Refinement<2, RefinedMesh<2>>;
 template class Refinement<3, RefinedMesh<3>>;
-template class Refinement<2, RefinedMesh<2>, VoronoiLocation<2, PlainLists<2>>>;
-template class Refinement<3, RefinedMesh<3>, VoronoiLocation<3, PlainLists<3>>>;
 template class Refinement<2, RefinedMesh<2>, VoronoiLocation<2, ShellLists<2>>>;
 template class Refinement<3, RefinedMesh<3>, VoronoiLocation<3, ShellLists<3>>>;
 template class Refinement<2, RefinedMesh<2>, SimplexLocation<2>>;

@@ -25,14 +25,14 @@ class ShellLists : public WaitingPoints<D> {
   using Base::places_, Base::left_, Base::looked_at_;
 
  public:
-  ShellLists(std::span<const Point<D>> points, double /*side*/)
+  explicit ShellLists(std::span<const Point<D>> points)
       : Base(points), listed_(points.size()) {}
 
   [[nodiscard]] bool is_crowded(std::uint32_t v) const noexcept { return outermost_[v] != kNone; }
   [[nodiscard]] std::uint32_t any(std::uint32_t v) const noexcept {
     return shells_[outermost_[v]].first;
   }
-  [[nodiscard]] std::uint32_t farthest(std::uint32_t v) const noexcept {
+  [[nodiscard]] std::uint32_t farthest(std::uint32_t v, const Point<D>& /*p*/) const noexcept {
     std::uint32_t best = any(v);
     for (std::uint32_t k = best; k != kNone; k = listed_[k].next) {
       ++looked_at_.to_find;

@@ -24,7 +24,7 @@ class SimplexLocation : public SimplexLists<D, SimplexLocation<D>> {
  public:
   using typename Base::Kernel;
 
-  SimplexLocation(std::span<const Point<D>> points, double /*side*/)
+  explicit SimplexLocation(std::span<const Point<D>> points)
       : Base(points), next_(points.size(), kNone), owner_(points.size()) {}
 
   /// All vertices but v are the box's. They go to where they are one by one.

@@ -3,7 +3,6 @@
 
 #include "svr/ball_location.hpp"
 #include "svr/from_points.hpp"
-#include "svr/plain_lists.hpp"
 #include "svr/refinement.hpp"
 #include "svr/shell_lists.hpp"
 #include "svr/simplex_location.hpp"
@@ -35,10 +34,8 @@ Mesh<D> svr(const std::vector<Point<D>>& points, const Options<D>& options,
   };
   using namespace detail;
   switch (settings.location) {
-    case PointLocation::voronoi_reach:
+    case PointLocation::voronoi:
       return by.template operator()<VoronoiLocation<D, VoronoiLists<D>>>();
-    case PointLocation::voronoi_plain:
-      return by.template operator()<VoronoiLocation<D, PlainLists<D>>>();
     case PointLocation::voronoi_shells:
       return by.template operator()<VoronoiLocation<D, ShellLists<D>>>();
     case PointLocation::simplex:

@@ -8,13 +8,13 @@
 
 namespace mesher::detail {
 
-/// `Lists`: VoronoiLists, PlainLists or ShellLists.
+/// `Lists`: VoronoiLists or ShellLists.
 template <int D, class Lists>
 class VoronoiLocation : Lists {
  public:
   using Kernel = RefinedKernel<D>;
 
-  VoronoiLocation(std::span<const Point<D>> points, double side) : Lists(points, side) {}
+  explicit VoronoiLocation(std::span<const Point<D>> points) : Lists(points) {}
 
   using Lists::left, Lists::place, Lists::add_vertex, Lists::drop_vertex, Lists::is_crowded,
       Lists::looked_at;
@@ -24,8 +24,8 @@ class VoronoiLocation : Lists {
     give(kernel, v, visit);
   }
   [[nodiscard]] Found any(Kernel&, std::uint32_t v) const noexcept { return {Lists::any(v), v}; }
-  [[nodiscard]] Found farthest(Kernel&, std::uint32_t v) const noexcept {
-    return {Lists::farthest(v), v};
+  [[nodiscard]] Found farthest(const Kernel& kernel, std::uint32_t v) const noexcept {
+    return {Lists::farthest(v, kernel.place(v)), v};
   }
 
   /// Of a point near the centre nearly always a corner of s is the owner [rules D6].

@@ -38,22 +38,21 @@ Options<D> options_for(const std::vector<Point<D>>& points) {
 }
 
 // SVR by each structure for point location, and refinement in each order.
-enum class By { svr, plain, shells, simplex, circumball, shortest_first, largest_first, strictly };
+enum class By { svr, shells, simplex, circumball, shortest_first, largest_first, strictly };
 
 constexpr mesher::PointLocation location(By by) {
   using mesher::PointLocation;
-  return by == By::plain        ? PointLocation::voronoi_plain
-         : by == By::shells     ? PointLocation::voronoi_shells
+  return by == By::shells       ? PointLocation::voronoi_shells
          : by == By::simplex    ? PointLocation::simplex
          : by == By::circumball ? PointLocation::circumball
-                                : PointLocation::voronoi_reach;
+                                : PointLocation::voronoi;
 }
 
 template <int D, By B>
 Mesh<D> mesh_of(const std::vector<Point<D>>& points, const Options<D>& options,
                 const std::vector<mesher::FeatureId>& ids = {},
                 const mesher::RunControl& control = {}) {
-  if (B == By::svr || location(B) != mesher::PointLocation::voronoi_reach) {
+  if (B == By::svr || location(B) != mesher::PointLocation::voronoi) {
     return mesher::svr<D>(points, options, {.location = location(B)}, ids, nullptr, control);
   }
   const auto order =
@@ -79,11 +78,11 @@ ErrorCode refusal(const std::vector<Point<D>>& points, const Options<D>& options
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG("a refined mesh is Delaunay with its points, and has no poor simplex", "",
-                       ((int D, By B), D, B), (2, By::svr), (3, By::svr), (2, By::plain),
-                       (3, By::plain), (2, By::shells), (3, By::shells), (2, By::simplex),
-                       (3, By::simplex), (2, By::circumball), (3, By::circumball),
-                       (2, By::largest_first), (3, By::largest_first), (2, By::shortest_first),
-                       (3, By::shortest_first), (2, By::strictly), (3, By::strictly)) {
+                       ((int D, By B), D, B), (2, By::svr), (3, By::svr), (2, By::shells),
+                       (3, By::shells), (2, By::simplex), (3, By::simplex), (2, By::circumball),
+                       (3, By::circumball), (2, By::largest_first), (3, By::largest_first),
+                       (2, By::shortest_first), (3, By::shortest_first), (2, By::strictly),
+                       (3, By::strictly)) {
   for (const PointKind family : kFamilies) {
     for (const std::size_t n : {1, 2, 3, 4, 5, 40, 400}) {
       INFO("family " << static_cast<int>(family) << ", " << n << " points");
@@ -94,11 +93,11 @@ TEMPLATE_TEST_CASE_SIG("a refined mesh is Delaunay with its points, and has no p
 }
 
 TEMPLATE_TEST_CASE_SIG("so it is of points with many ties, on lines, in planes and on balls", "",
-                       ((int D, By B), D, B), (2, By::svr), (3, By::svr), (2, By::plain),
-                       (3, By::plain), (2, By::shells), (3, By::shells), (2, By::simplex),
-                       (3, By::simplex), (2, By::circumball), (3, By::circumball),
-                       (2, By::largest_first), (3, By::largest_first), (2, By::shortest_first),
-                       (3, By::shortest_first), (2, By::strictly), (3, By::strictly)) {
+                       ((int D, By B), D, B), (2, By::svr), (3, By::svr), (2, By::shells),
+                       (3, By::shells), (2, By::simplex), (3, By::simplex), (2, By::circumball),
+                       (3, By::circumball), (2, By::largest_first), (3, By::largest_first),
+                       (2, By::shortest_first), (3, By::shortest_first), (2, By::strictly),
+                       (3, By::strictly)) {
   for (const Kind kind : support::kKinds) {
     for (const std::size_t n : {2, 6, 30, 150}) {
       INFO(name(kind) << ", " << n << " points");
@@ -109,7 +108,7 @@ TEMPLATE_TEST_CASE_SIG("so it is of points with many ties, on lines, in planes a
 }
 
 TEMPLATE_TEST_CASE_SIG("so it is of the families of points in space that gap balls are tested with",
-                       "", ((By B), B), By::svr, By::plain, By::shells, By::simplex, By::circumball,
+                       "", ((By B), B), By::svr, By::shells, By::simplex, By::circumball,
                        By::largest_first, By::shortest_first, By::strictly) {
   for (const SpaceFamily family : support::kSpaceFamilies) {
     INFO(name(family));
@@ -119,8 +118,8 @@ TEMPLATE_TEST_CASE_SIG("so it is of the families of points in space that gap bal
 }
 
 TEMPLATE_TEST_CASE_SIG("so it is of points all in one line or plane, and of none", "", ((By B), B),
-                       By::svr, By::plain, By::shells, By::simplex, By::circumball,
-                       By::largest_first, By::shortest_first, By::strictly) {
+                       By::svr, By::shells, By::simplex, By::circumball, By::largest_first,
+                       By::shortest_first, By::strictly) {
   std::vector<Point<3>> line, plane;
   for (int i = 0; i < 30; ++i) {
     line.push_back({0.1 * i, 0.3, 0.7});
@@ -133,11 +132,10 @@ TEMPLATE_TEST_CASE_SIG("so it is of points all in one line or plane, and of none
 }
 
 TEMPLATE_TEST_CASE_SIG("so it is for other bounds", "", ((int D, By B), D, B), (2, By::svr),
-                       (3, By::svr), (2, By::plain), (3, By::plain), (2, By::shells),
-                       (3, By::shells), (2, By::simplex), (3, By::simplex), (2, By::circumball),
-                       (3, By::circumball), (2, By::largest_first), (3, By::largest_first),
-                       (2, By::shortest_first), (3, By::shortest_first), (2, By::strictly),
-                       (3, By::strictly)) {
+                       (3, By::svr), (2, By::shells), (3, By::shells), (2, By::simplex),
+                       (3, By::simplex), (2, By::circumball), (3, By::circumball),
+                       (2, By::largest_first), (3, By::largest_first), (2, By::shortest_first),
+                       (3, By::shortest_first), (2, By::strictly), (3, By::strictly)) {
   for (const double rho : {1.1, 1.3, 1.7, 3.0, 20.0}) {
     if (D == 3 && rho < 1.2) continue;  // too many vertices for a judge
     INFO("rho " << rho);
@@ -149,11 +147,11 @@ TEMPLATE_TEST_CASE_SIG("so it is for other bounds", "", ((int D, By B), D, B), (
 }
 
 TEMPLATE_TEST_CASE_SIG("a refined mesh does not depend on the order of points", "",
-                       ((int D, By B), D, B), (2, By::svr), (3, By::svr), (2, By::plain),
-                       (3, By::plain), (2, By::shells), (3, By::shells), (2, By::simplex),
-                       (3, By::simplex), (2, By::circumball), (3, By::circumball),
-                       (2, By::largest_first), (3, By::largest_first), (2, By::shortest_first),
-                       (3, By::shortest_first), (2, By::strictly), (3, By::strictly)) {
+                       ((int D, By B), D, B), (2, By::svr), (3, By::svr), (2, By::shells),
+                       (3, By::shells), (2, By::simplex), (3, By::simplex), (2, By::circumball),
+                       (3, By::circumball), (2, By::largest_first), (3, By::largest_first),
+                       (2, By::shortest_first), (3, By::shortest_first), (2, By::strictly),
+                       (3, By::strictly)) {
   for (const Kind kind : support::kKinds) {
     INFO(name(kind));
     auto points = support::distinct_points<D>(kind, 150, 77);
@@ -168,11 +166,11 @@ TEMPLATE_TEST_CASE_SIG("a refined mesh does not depend on the order of points", 
 }
 
 TEMPLATE_TEST_CASE_SIG("scaling by a power of two scales the mesh, and extreme scales are meshed",
-                       "", ((int D, By B), D, B), (2, By::svr), (3, By::svr), (2, By::plain),
-                       (3, By::plain), (2, By::shells), (3, By::shells), (2, By::simplex),
-                       (3, By::simplex), (2, By::circumball), (3, By::circumball),
-                       (2, By::largest_first), (3, By::largest_first), (2, By::shortest_first),
-                       (3, By::shortest_first), (2, By::strictly), (3, By::strictly)) {
+                       "", ((int D, By B), D, B), (2, By::svr), (3, By::svr), (2, By::shells),
+                       (3, By::shells), (2, By::simplex), (3, By::simplex), (2, By::circumball),
+                       (3, By::circumball), (2, By::largest_first), (3, By::largest_first),
+                       (2, By::shortest_first), (3, By::shortest_first), (2, By::strictly),
+                       (3, By::strictly)) {
   const auto points = mesher::generate_points<D>(PointKind::clusters, 80, 3);
   const Mesh<D> mesh = mesh_of<D, B>(points);
   const auto scaled = [&](std::vector<Point<D>> all, int exponent) {
@@ -194,8 +192,8 @@ TEMPLATE_TEST_CASE_SIG("scaling by a power of two scales the mesh, and extreme s
 }
 
 TEMPLATE_TEST_CASE_SIG("a refinement refuses what gap balls refuse, by name", "", ((By B), B),
-                       By::svr, By::plain, By::shells, By::simplex, By::circumball,
-                       By::largest_first, By::shortest_first, By::strictly) {
+                       By::svr, By::shells, By::simplex, By::circumball, By::largest_first,
+                       By::shortest_first, By::strictly) {
   const Options<3> options{.domain = {{0, 0, 0}, {1, 1, 1}}};
   CHECK(refusal<3, B>({{0.5, 0.5, 2}}, options) == ErrorCode::outside_domain);
   CHECK(refusal<3, B>({{0.5, std::numeric_limits<double>::quiet_NaN(), 0}}, options) ==
@@ -222,8 +220,8 @@ TEMPLATE_TEST_CASE_SIG("a refinement refuses what gap balls refuse, by name", ""
 }
 
 TEMPLATE_TEST_CASE_SIG("a refinement keeps to the vertices it may have, exactly", "", ((By B), B),
-                       By::svr, By::plain, By::shells, By::simplex, By::circumball,
-                       By::largest_first, By::shortest_first, By::strictly) {
+                       By::svr, By::shells, By::simplex, By::circumball, By::largest_first,
+                       By::shortest_first, By::strictly) {
   const auto points = mesher::generate_points<3>(PointKind::uniform, 100, 3);
   auto options = options_for<3>(points);
   const std::size_t needed = mesh_of<3, B>(points).vertices.size();
@@ -236,8 +234,8 @@ TEMPLATE_TEST_CASE_SIG("a refinement keeps to the vertices it may have, exactly"
 }
 
 TEMPLATE_TEST_CASE_SIG("a refinement stops when asked to, and says how far it is", "", ((By B), B),
-                       By::svr, By::plain, By::shells, By::simplex, By::circumball,
-                       By::largest_first, By::shortest_first, By::strictly) {
+                       By::svr, By::shells, By::simplex, By::circumball, By::largest_first,
+                       By::shortest_first, By::strictly) {
   const auto points = mesher::generate_points<2>(PointKind::uniform, 3000, 3);
   const auto run = [&](const mesher::RunControl& control) {
     return mesh_of<2, B>(points, options_for<2>(points), {}, control);
@@ -259,7 +257,7 @@ TEMPLATE_TEST_CASE_SIG("a refinement stops when asked to, and says how far it is
 }
 
 TEMPLATE_TEST_CASE_SIG("a refinement without memory fails, and the next is as ever", "",
-                       ((By B), B), By::svr, By::plain, By::shells, By::simplex, By::circumball,
+                       ((By B), B), By::svr, By::shells, By::simplex, By::circumball,
                        By::largest_first, By::shortest_first, By::strictly) {
   const auto points = mesher::generate_points<3>(PointKind::uniform, 60, 3);
   const auto options = options_for<3>(points);
