@@ -73,6 +73,55 @@ void turn(Plc& plc, std::mt19937_64& random) {
   }
 }
 
+// Up to eight parts beside each other, some of them as small as 2^-20, or far from the origin. At
+// some corners, with few bits left for what is sharp, refinement does not end; it is said.
+struct Scattered {
+  support::Complex all;
+  double offset = 0;
+
+  explicit Scattered(std::uint64_t seed) {
+    support::RandomComplex random(seed);
+    const int parts = 1 + static_cast<int>(random.below(8));
+    if (random.below(2) == 0) offset = 1000;
+    const double scale = std::ldexp(1.0, -static_cast<int>(random.below(offset == 0 ? 20 : 4)));
+    for (int cube = 0; cube < parts; ++cube) {
+      const Point<3> corner{double(cube % 2), double(cube / 2 % 2), double(cube / 4)};
+      const support::Complex part = random.part(corner);
+      const double unit = random.below(3) == 0 ? scale : 1;
+      add(part, [&](Point<3> p) {
+        for (std::size_t i = 0; i < 3; ++i) p[i] = offset + corner[i] + unit * (p[i] - corner[i]);
+        return p;
+      });
+    }
+  }
+  // A cube around them, this far away.
+  void add_walls(double margin) {
+    const double lo = offset - margin, hi = offset + 2 + margin;
+    all.box({{lo, lo, lo}, {hi, hi, hi}});
+  }
+  [[nodiscard]] mesher::Box<3> domain() const {
+    return {{offset, offset, offset}, {offset + 2, offset + 2, offset + 2}};
+  }
+  // Far away edges of 10^-9 at a corner are, by rounding, on it for one and not for another.
+  [[nodiscard]] std::optional<double> rho() const {
+    return offset == 0 ? std::optional(2.0) : std::nullopt;
+  }
+
+ private:
+  template <class Move>
+  void add(const support::Complex& part, Move&& move) {
+    const std::size_t first = all.points.size();
+    for (const Point<3>& p : part.points) all.points.push_back(move(p));
+    for (auto s : part.segments) all.segments.push_back({s[0] + first, s[1] + first});
+    for (auto face : part.faces) {
+      for (auto& loop : face.loops) {
+        for (std::size_t& i : loop) i += first;
+      }
+      all.faces.push_back(face);
+    }
+  }
+};
+
 std::size_t poor_ones(const Mesh<3>& mesh) { return mesher::count_above(mesh, 2); }
 
 }  // namespace
@@ -120,44 +169,16 @@ TEMPLATE_TEST_CASE_SIG("so it is at random corners, however sharp", "", ((By B),
   }
 }
 
-// Up to eight parts beside each other, some of them as small as 2^-20, or far from the origin. At
-// some corners, with few bits left for what is sharp, refinement does not end; it is said.
 TEMPLATE_TEST_CASE_SIG("so it is of many random complexes", "[soak]", ((By B), B), By::svr,
                        By::refine) {
   int refused = 0;
   for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
     INFO("seed " << seed);
-    support::RandomComplex random(seed);
-    const int parts = 1 + static_cast<int>(random.below(8));
-    const bool far = random.below(2) == 0;
-    const double scale = std::ldexp(1.0, -static_cast<int>(random.below(far ? 4 : 20)));
-    const double offset = far ? 1000 : 0;
-    support::Complex all;
-    for (int cube = 0; cube < parts; ++cube) {
-      const Point<3> corner{double(cube % 2), double(cube / 2 % 2), double(cube / 4)};
-      const support::Complex part = random.part(corner);
-      const std::size_t first = all.points.size();
-      const double unit = random.below(3) == 0 ? scale : 1;
-      for (Point<3> p : part.points) {
-        for (std::size_t i = 0; i < 3; ++i) p[i] = offset + corner[i] + unit * (p[i] - corner[i]);
-        all.points.push_back(p);
-      }
-      for (auto s : part.segments) all.segments.push_back({s[0] + first, s[1] + first});
-      for (auto face : part.faces) {
-        for (auto& loop : face.loops) {
-          for (std::size_t& i : loop) i += first;
-        }
-        all.faces.push_back(face);
-      }
-    }
-    const Plc plc = plc_of(all);
-    const Options<3> options{
-        .domain = {{offset, offset, offset}, {offset + 2, offset + 2, offset + 2}},
-        .max_vertices = 60000};
+    const Scattered parts(seed);
+    const Plc plc = plc_of(parts.all);
+    const Options<3> options{.domain = parts.domain(), .max_vertices = 60000};
     try {
-      // Far away edges of 10^-9 at a corner are, by rounding, on it for one and not for another.
-      const std::optional<double> rho = far ? std::nullopt : std::optional(2.0);
-      const std::string said = fault(mesh_of<B>(plc, options), plc, Extent::box, rho);
+      const std::string said = fault(mesh_of<B>(plc, options), plc, Extent::box, parts.rho());
       CHECK(said == "");
     } catch (const mesher::Error& e) {
       CHECK((e.code() == mesher::ErrorCode::too_close || e.code() == mesher::ErrorCode::too_many));
@@ -165,6 +186,41 @@ TEMPLATE_TEST_CASE_SIG("so it is of many random complexes", "[soak]", ((By B), B
     }
   }
   CHECK(refused < 100);
+}
+
+namespace {
+
+// As many as refuse, of complexes in walls, near them or far, of which the inside is wanted alone.
+template <By B>
+int refused_in_walls(std::uint64_t first_seed, std::uint64_t last_seed) {
+  int refused = 0;
+  for (std::uint64_t seed = first_seed; seed <= last_seed; ++seed) {
+    INFO("seed " << seed);
+    Scattered parts(seed);
+    parts.add_walls(std::ldexp(1.0, -static_cast<int>(seed % 8)));
+    const Plc plc = plc_of(parts.all);
+    Options<3> options = options_for(plc);
+    options.max_vertices = 60000;
+    try {
+      const Mesh<3> mesh = mesh_of<B>(plc, options, Extent::enclosed);
+      CHECK(fault(mesh, plc, Extent::enclosed, parts.rho()) == "");
+    } catch (const mesher::Error& e) {
+      CHECK((e.code() == mesher::ErrorCode::too_close || e.code() == mesher::ErrorCode::too_many));
+      ++refused;
+    }
+  }
+  return refused;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("what walls enclose is of quality too in a box of few vertices", "",
+                       ((By B), B), By::svr, By::refine) {
+  CHECK(refused_in_walls<B>(1, 40) < 4);
+}
+
+TEMPLATE_TEST_CASE_SIG("so it is in many walls", "[soak]", ((By B), B), By::svr, By::refine) {
+  CHECK(refused_in_walls<B>(41, 1500) < 75);
 }
 
 TEMPLATE_TEST_CASE_SIG("a mesh of a complex depends on no order, and on no ids", "", ((By B), B),
