@@ -167,26 +167,20 @@ class DelaunayKernel {
   [[nodiscard]] std::uint32_t corner_of(std::uint32_t s, std::uint32_t v) const noexcept {
     return detail::corner_of(store_.corners(s), v);
   }
-  using Places = std::array<const Point<D>*, D + 1>;
-  [[nodiscard]] Places places_of(const Ids& corners) const noexcept {
-    Places places;
+  [[nodiscard]] auto places_of(const Ids& corners) const noexcept {
+    std::array<const Point<D>*, D + 1> places;
     for (std::size_t i = 0; i <= D; ++i) places[i] = &place(corners[i]);
     return places;
   }
   void note_unit(std::uint32_t v) noexcept;
   [[nodiscard]] std::uint32_t finite(std::uint32_t s) const noexcept;
   [[nodiscard]] int side(const Ids& corners, std::size_t i, const Point<D>& p) const;
-  [[nodiscard]] int flat_side(const Ids& corners, std::size_t i,
-                              const Places& q) const requires(D == 3);
-  // See exact_reach.
-  [[nodiscard]] double reach_of(std::uint32_t v) const noexcept {
-    return kHasBalls ? reach_[v] : least_reach_;
-  }
+  [[nodiscard]] double least_reach(const Ids& corners, std::size_t i,
+                                   const Point<D>& p) const noexcept;
   template <class Reach>
   [[nodiscard]] bool conflicts_quickly(std::uint32_t s, const Point<D>& p, Reach&& reach) const;
   [[nodiscard]] bool conflicts_slowly(std::uint32_t s, const Point<D>& p, BallSide side) const;
-  [[nodiscard]] bool conflicts_slowly(std::uint32_t s, const Point<D>& p,
-                                      double reach) const requires kHasBalls;
+  [[nodiscard]] bool conflicts_slowly(std::uint32_t s, const Point<D>& p, double reach) const;
   [[nodiscard]] BallSide quick_side(const Ids& corners, const Point<D>& p, double reach) const;
   [[nodiscard]] bool ball_holds(const Ids& corners, const Point<D>& p) const;
   [[nodiscard]] bool ball_holds_exactly(const Ids& corners, const Point<D>& p, bool tie) const;

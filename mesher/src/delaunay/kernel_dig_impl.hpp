@@ -77,12 +77,15 @@ template <int D, class Layout>
 /// Most points so near to a sphere are on it, and on a grid: the corners' and p's own, since a
 /// refiner has such points among many others.
 template <int D, class Layout>
-[[gnu::noinline]] bool DelaunayKernel<D, Layout>::conflicts_slowly(
-    std::uint32_t s, const Point<D>& p, double reach) const requires kHasBalls {
+[[gnu::noinline]] bool DelaunayKernel<D, Layout>::conflicts_slowly(std::uint32_t s,
+                                                                   const Point<D>& p,
+                                                                   double reach) const {
   const Ids& c = store_.corners(s);
-  for (const std::uint32_t v : c) reach = std::min(reach, reach_[v]);
-  const int side = side_on_grid<D>(places_of(c), store_.ball(s).centre, p, reach);
-  if (side != 0) return side > 0;
+  if constexpr (kHasBalls) {
+    for (const std::uint32_t v : c) reach = std::min(reach, reach_[v]);
+    const int side = side_on_grid<D>(places_of(c), store_.ball(s).centre, p, reach);
+    if (side != 0) return side > 0;
+  }
   const std::uint32_t infinite = corner_of(s, kInfinite);
   if (infinite <= D) return ghost_conflicts(s, infinite, p);
   return ball_holds_exactly(c, p, quick_side(c, p, reach) == BallSide::tie);

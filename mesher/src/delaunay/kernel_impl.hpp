@@ -2,14 +2,13 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "delaunay/ball_filter.hpp"
 #include "delaunay/facets.hpp"
+#include "delaunay/flat_orientation.hpp"
 #include "delaunay/kernel.hpp"
 #include "delaunay/tuple_predicates.hpp"
-#include "geometry/space.hpp"
 #include "sac/check.hpp"
 
 namespace mesher::detail {
@@ -131,29 +130,19 @@ int DelaunayKernel<D, Layout>::side(const Ids& corners, std::size_t i, const Poi
     return orientation(q);
   } else {
     const int sign = predicates::detail::orient3d_filter(*q[0], *q[1], *q[2], *q[3]);
-    return sign != 0 ? sign : flat_side(corners, i, q);
+    return sign != 0 ? sign : flat_orientation(q, least_reach(corners, i, p));
   }
 }
 
-/// What the filter leaves. On grids nothing is rounded: of places that are multiples of some 2^low
-/// and differ by less than 2^16 of these units, entries of a cross product have 33 bits, the
-/// determinant 51. `q`: the places, p's at i.
+/// Of p and the corners but corner i.
 template <int D, class Layout>
-[[gnu::noinline]] int DelaunayKernel<D, Layout>::flat_side(const Ids& corners, std::size_t i,
-                                                           const Places& q) const
-    requires(D == 3)
-{
-  double reach = exact_reach(*q[i]);
+double DelaunayKernel<D, Layout>::least_reach(const Ids& corners, std::size_t i,
+                                              const Point<D>& p) const noexcept {
+  double reach = exact_reach(p);
   for (std::size_t k = 0; k <= D; ++k) {
-    if (k != i) reach = std::min(reach, reach_of(corners[k]));
+    if (k != i) reach = std::min(reach, kHasBalls ? reach_[corners[k]] : least_reach_);
   }
-  const Point<D> a = minus(*q[0], *q[3]), b = minus(*q[1], *q[3]), c = minus(*q[2], *q[3]);
-  double most = 0;
-  for (std::size_t k = 0; k < D; ++k) {
-    most = std::max({most, std::abs(a[k]), std::abs(b[k]), std::abs(c[k])});
-  }
-  if (most < 0x1p7 * reach) return -predicates::detail::sign(dot(a, cross(b, c)));
-  return predicates::detail::orient3d_exact(*q[0], *q[1], *q[2], *q[3]);
+  return reach;
 }
 
 /// A simplex that holds p, or a ghost whose facet p is outside of. The visibility walk: through a
