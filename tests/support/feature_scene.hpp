@@ -47,7 +47,10 @@ class FeatureScene {
   const std::vector<VertexHandle>& points() const { return handles_; }
 
   Point<3> place() { return {random_.unit(), random_.unit(), random_.unit()}; }
-  double radius() { return std::ldexp(random_.unit(), -static_cast<int>(random_.below(8))); }
+  double radius() {
+    const int exponent = -static_cast<int>(random_.below(8));  // first, by any compiler
+    return std::ldexp(random_.unit(), exponent);
+  }
 
   /// A point of the input; null if its place is taken.
   const Vertex* add_point(const Point<3>& p) {

@@ -322,7 +322,8 @@ TEST_CASE("Errors name both features and the place") {
           "error[segment_through_polygon]: segment 7 goes through polygon 1 at (0.5, 0.25, 0)");
   Plc crossing;
   crossing.polygon(square(crossing, 0, 0, 0, 1));
-  crossing.segment(crossing.point(0.5, -1, 0), crossing.point(0.5, 0.5, 0), 3);
+  const VertexHandle on_it = crossing.point(0.5, 0.5, 0);
+  crossing.segment(crossing.point(0.5, -1, 0), on_it, 3);
   REQUIRE(crossing.message() ==
           "error[point_on_polygon]: point 5 lies on polygon 1 at (0.5, 0.5, 0), which does "
           "not declare it");
