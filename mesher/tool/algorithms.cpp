@@ -19,9 +19,9 @@ bool has_lines(const SpaceInput& input) {
 }
 
 template <int D>
-std::vector<mesher::Point<D>> places(const InputOf<D>& input) {
+std::vector<mesher::Point<D>> places(const std::vector<mesher::InputPoint<D>>& points) {
   std::vector<mesher::Point<D>> all;
-  for (const auto& point : input.points()) all.push_back(point.at);
+  for (const auto& point : points) all.push_back(point.at);
   return all;
 }
 
@@ -59,9 +59,10 @@ mesher::Mesh<D> by_refinement(const Task<D>& task, OfPoints&& of_points, OfGraph
     if (has_lines(task.input)) {
       return of_graph(task.input.graph(), extent(task.args), wanted, task.progress.control());
     }
+    const auto points = task.input.points();
     std::vector<mesher::FeatureId> ids;
-    for (const auto& point : task.input.points()) ids.push_back(point.id);
-    return of_points(places<D>(task.input), ids, wanted, task.progress.control());
+    for (const auto& point : points) ids.push_back(point.id);
+    return of_points(places<D>(points), ids, wanted, task.progress.control());
   });
   task.run.stats.vertices = mesh.vertices.size();
   task.run.stats.simplices = mesh.simplices.size();
@@ -117,7 +118,7 @@ const char* fastest(const Task<D>& task) {
     return "gap-balls";
   }
   const bool refines =
-      D == 2 || (!has_lines(task.input) && mesher::are_even<D>(places<D>(task.input)));
+      D == 2 || (!has_lines(task.input) && mesher::are_even<D>(places<D>(task.input.points())));
   return refines ? "refine" : "svr";
 }
 
