@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "mesher/generate.hpp"
+#include "refinement/bucketed_queue.hpp"
 #include "sample.hpp"
-#include "svr/bucketed_queue.hpp"
 
 namespace {
 

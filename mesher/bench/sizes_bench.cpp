@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "../../tests/support/sized_square.hpp"
-#include "input.hpp"
+#include "geometry/input_point.hpp"
 #include "mesher/error.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"

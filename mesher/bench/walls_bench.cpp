@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "input.hpp"
+#include "geometry/input_point.hpp"
 #include "sample.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "input.hpp"
+#include "geometry/input_point.hpp"
 #include "mesher/domain_mesh.hpp"
 #include "mesher/mesh.hpp"
 #include "outputs.hpp"

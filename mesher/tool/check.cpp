@@ -9,7 +9,7 @@
 
 #include "arguments.hpp"
 #include "commands.hpp"
-#include "input.hpp"
+#include "geometry/input_point.hpp"
 #include "mesher/io.hpp"
 #include "mesher/pslg.hpp"
 #include "mesher/space_check.hpp"

@@ -1,5 +1,5 @@
 // Inputs, and the places of their features, for errors.
-#include "input.hpp"
+#include "geometry/input_point.hpp"
 
 #include <algorithm>
 #include <cctype>

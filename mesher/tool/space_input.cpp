@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "input.hpp"
+#include "geometry/input_point.hpp"
 
 namespace tool {
 namespace {

@@ -10,6 +10,7 @@
 #include "mesher/generate.hpp"
 #include "mesher/pslg.hpp"
 #include "random_lake.hpp"
+#include "rules/mesh_box.hpp"
 #include "scratch_file.hpp"
 
 namespace {

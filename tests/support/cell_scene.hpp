@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/cell_of.hpp"
-#include "index/vertex.hpp"
+#include "cells/cell_of.hpp"
 #include "mesher/generate.hpp"
+#include "records/vertex.hpp"
 
 template <int D>
 struct CellScene {

@@ -7,8 +7,8 @@
 #include <set>
 #include <vector>
 
-#include "plc/input_features.hpp"
 #include "polygons.hpp"
+#include "program/input_features.hpp"
 
 namespace support {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "geometry/space.hpp"
+#include "geometry/space_vectors.hpp"
 
 namespace support {
 

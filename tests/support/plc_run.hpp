@@ -11,6 +11,7 @@
 #include "plc_check.hpp"
 #include "plc_families.hpp"
 #include "program/world_impl.hpp"
+#include "rules/mesh_box.hpp"
 
 namespace support {
 

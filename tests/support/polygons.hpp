@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mesher/generate.hpp"
-#include "plc/polygon_shape.hpp"
+#include "space/polygon_shape.hpp"
 
 namespace support {
 

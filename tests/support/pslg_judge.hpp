@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/diametral_ball.hpp"
 #include "geometry/centroid.hpp"
-#include "geometry/plane.hpp"
+#include "geometry/diametral_ball.hpp"
+#include "geometry/plane_vectors.hpp"
 #include "mesher/predicates.hpp"
 #include "mesher/sizes.hpp"
 #include "random_pslg.hpp"

@@ -13,6 +13,7 @@
 #include "mesher/check.hpp"
 #include "mesher/domain_mesh.hpp"
 #include "random_pslg.hpp"
+#include "rules/mesh_box.hpp"
 
 namespace support {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "graph/plc_builder.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/space_repair.hpp"
-#include "plc/plc_builder.hpp"
-#include "plc/polygon_shape.hpp"
+#include "space/polygon_shape.hpp"
 
 namespace support {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plc_run.hpp"
+#include "rules/mesh_box.hpp"
 #include "sac/sac.hpp"
 
 namespace support {

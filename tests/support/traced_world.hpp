@@ -6,10 +6,11 @@
 #include <map>
 #include <memory>
 
-#include "input.hpp"
+#include "geometry/input_point.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/mesher.hpp"
 #include "program/world_impl.hpp"
+#include "rules/mesh_box.hpp"
 #include "sac/sac.hpp"
 
 namespace support {

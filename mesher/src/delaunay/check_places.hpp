@@ -5,7 +5,7 @@
 #include <span>
 
 #include "delaunay/simplex_store.hpp"
-#include "input.hpp"
+#include "geometry/input_point.hpp"
 
 namespace mesher::detail {
 

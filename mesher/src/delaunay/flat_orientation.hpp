@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "geometry/space.hpp"
+#include "geometry/space_vectors.hpp"
 #include "mesher/predicates.hpp"
 
 namespace mesher::detail {

@@ -4,8 +4,8 @@
 #include "delaunay/facets.hpp"
 #include "delaunay/kernel.hpp"
 #include "geometry/circumcentre.hpp"
-#include "geometry/plane.hpp"
-#include "geometry/space.hpp"
+#include "geometry/plane_vectors.hpp"
+#include "geometry/space_vectors.hpp"
 
 namespace mesher::detail {
 

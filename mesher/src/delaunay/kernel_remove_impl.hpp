@@ -14,8 +14,8 @@
 #include "delaunay/build.hpp"
 #include "delaunay/hole.hpp"
 #include "delaunay/kernel.hpp"
-#include "make_set.hpp"
 #include "sac/check.hpp"
+#include "sets/make_set.hpp"
 
 namespace mesher::detail {
 

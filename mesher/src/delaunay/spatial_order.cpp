@@ -6,10 +6,10 @@
 #include <bit>
 #include <numeric>
 
-#include "counting_sort.hpp"
 #include "delaunay/hilbert.hpp"
 #include "geometry/box.hpp"
 #include "geometry/place_hash.hpp"
+#include "sets/counting_sort.hpp"
 
 namespace mesher::detail {
 

@@ -1,7 +1,7 @@
 // The kept part of a mesh as a mesh of its own.
 #include <algorithm>
 
-#include "domain/adjacency.hpp"
+#include "mesh/adjacency.hpp"
 #include "mesher/domain.hpp"
 
 namespace mesher {

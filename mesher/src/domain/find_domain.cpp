@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "domain/adjacency.hpp"
 #include "domain/labels.hpp"
-#include "domain/locate.hpp"
+#include "mesh/adjacency.hpp"
+#include "mesh/locate.hpp"
 #include "mesher/domain.hpp"
 
 namespace mesher {

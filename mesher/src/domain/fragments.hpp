@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "domain/components.hpp"
-#include "domain/union_find.hpp"
+#include "sets/union_find.hpp"
 
 namespace mesher::detail {
 

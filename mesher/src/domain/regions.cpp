@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "domain/labels.hpp"
-#include "domain/locate.hpp"
 #include "mesh/canonical.hpp"
+#include "mesh/locate.hpp"
 #include "sac/check.hpp"
 
 namespace mesher::detail {

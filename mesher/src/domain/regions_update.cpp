@@ -2,11 +2,11 @@
 #include <algorithm>
 
 #include "domain/labels.hpp"
-#include "domain/locate.hpp"
 #include "domain/regions.hpp"
-#include "make_set.hpp"
 #include "mesh/canonical.hpp"
+#include "mesh/locate.hpp"
 #include "sac/check.hpp"
+#include "sets/make_set.hpp"
 
 namespace mesher::detail {
 

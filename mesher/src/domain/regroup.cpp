@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "make_set.hpp"
+#include "sets/make_set.hpp"
 
 namespace mesher::detail {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "domain/labels.hpp"
-#include "io/text.hpp"
 #include "mesher/domain.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

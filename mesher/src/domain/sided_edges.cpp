@@ -1,7 +1,7 @@
 // Boundary and segment edges with their sides.
 #include <algorithm>
 
-#include "domain/adjacency.hpp"
+#include "mesh/adjacency.hpp"
 #include "mesher/domain.hpp"
 
 namespace mesher {

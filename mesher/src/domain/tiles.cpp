@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <iterator>
 
-#include "domain/union_find.hpp"
-#include "make_set.hpp"
 #include "mesh/canonical.hpp"
 #include "sac/check.hpp"
+#include "sets/make_set.hpp"
+#include "sets/union_find.hpp"
 
 namespace mesher::detail {
 namespace {

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "domain/adjacency.hpp"
 #include "domain/journal.hpp"
+#include "mesh/adjacency.hpp"
 
 namespace mesher::detail {
 

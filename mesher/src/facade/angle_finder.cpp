@@ -7,11 +7,11 @@
 #include <map>
 #include <utility>
 
-#include "make_set.hpp"
-#include "mesh/forced.hpp"
-#include "mesh/shrink_test.hpp"
+#include "check/forced.hpp"
+#include "check/shrink_test.hpp"
 #include "mesher/check.hpp"
-#include "segments/exempt.hpp"
+#include "plane/exempt.hpp"
+#include "sets/make_set.hpp"
 
 namespace mesher::detail {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "facade/announced_lines.hpp"
-#include "segments/segment.hpp"
+#include "records/segment.hpp"
 
 namespace mesher::detail {
 

@@ -4,15 +4,17 @@
 #include <string>
 #include <unordered_map>
 
-#include "facade/checked_complex.hpp"
-#include "facade/meter.hpp"
-#include "facade/space_input.hpp"
-#include "input.hpp"
+#include "geometry/input_point.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/predicates.hpp"
-#include "plc/parts_in_mesh.hpp"
+#include "plane/lost_edge.hpp"
+#include "program/checked_complex.hpp"
+#include "program/meter.hpp"
+#include "program/space_input.hpp"
+#include "program/timed_stats.hpp"
 #include "program/world_impl.hpp"
-#include "segments/lost_edge.hpp"
+#include "rules/mesh_box.hpp"
+#include "space/parts_in_mesh.hpp"
 
 namespace mesher {
 

@@ -7,12 +7,12 @@
 #include "facade/announced.hpp"
 #include "facade/announced_limits.hpp"
 #include "facade/busy.hpp"
-#include "facade/meter.hpp"
-#include "facade/space_input.hpp"
 #include "facade/space_state.hpp"
 #include "facade/state.hpp"
-#include "input.hpp"
+#include "geometry/input_point.hpp"
 #include "mesher/predicates.hpp"
+#include "program/meter.hpp"
+#include "program/space_input.hpp"
 
 namespace mesher {
 

@@ -5,9 +5,11 @@
 #include <functional>
 #include <utility>
 
-#include "facade/meter.hpp"
 #include "facade/point_report.hpp"
+#include "program/meter.hpp"
+#include "program/timed_stats.hpp"
 #include "program/world_impl.hpp"
+#include "rules/mesh_box.hpp"
 
 namespace mesher::detail {
 

@@ -7,11 +7,11 @@
 #include <type_traits>
 #include <vector>
 
+#include "check/gave_in.hpp"
+#include "check/space_quality.hpp"
 #include "facade/space_state.hpp"
-#include "mesh/gave_in.hpp"
-#include "mesh/space_quality.hpp"
-#include "plc/small_angles.hpp"
 #include "program/world_impl.hpp"
+#include "space/small_angles.hpp"
 
 namespace mesher::detail {
 

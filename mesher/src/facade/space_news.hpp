@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "facade/announced_lines.hpp"
-#include "plc/known_parts.hpp"
-#include "plc/polygons_at.hpp"
+#include "space/known_parts.hpp"
+#include "space/polygons_at.hpp"
 
 namespace mesher::detail {
 

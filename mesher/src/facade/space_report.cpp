@@ -11,11 +11,11 @@
 #include <set>
 
 #include "facade/space_state.hpp"
-#include "make_set.hpp"
-#include "plc/parts_in_mesh.hpp"
-#include "plc/placed.hpp"
 #include "program/triangulate.hpp"
 #include "program/world_impl.hpp"
+#include "sets/make_set.hpp"
+#include "space/parts_in_mesh.hpp"
+#include "space/placed.hpp"
 
 namespace mesher::detail {
 

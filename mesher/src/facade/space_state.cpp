@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string>
 
-#include "facade/space_input.hpp"
-#include "plc/parts_in_mesh.hpp"
+#include "program/space_input.hpp"
 #include "program/world_impl.hpp"
+#include "space/parts_in_mesh.hpp"
 
 namespace mesher::detail {
 

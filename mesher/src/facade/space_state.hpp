@@ -5,11 +5,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "check/lonely_edges.hpp"
 #include "facade/announced_limits.hpp"
 #include "facade/point_state.hpp"
 #include "facade/space_news.hpp"
-#include "mesh/lonely_edges.hpp"
-#include "plc/validity.hpp"
+#include "space/validity.hpp"
 
 namespace mesher::detail {
 

@@ -9,7 +9,7 @@
 #include "facade/announced_lines.hpp"
 #include "facade/line_news.hpp"
 #include "facade/point_state.hpp"
-#include "segments/planarity.hpp"
+#include "plane/planarity.hpp"
 
 namespace mesher::detail {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "facade/state.hpp"
-#include "input.hpp"
+#include "geometry/input_point.hpp"
 #include "program/world_impl.hpp"
 
 namespace mesher::detail {

@@ -4,8 +4,8 @@
 
 #include "facade/angle_finder.hpp"
 #include "facade/state.hpp"
+#include "plane/lost_edge.hpp"
 #include "program/world_impl.hpp"
-#include "segments/lost_edge.hpp"
 
 namespace mesher::detail {
 

@@ -8,8 +8,9 @@
 #include <utility>
 
 #include "geometry/box.hpp"
-#include "make_set.hpp"
 #include "program/world.hpp"
+#include "rules/mesh_box.hpp"
+#include "sets/make_set.hpp"
 #include "sizes/all_limits.hpp"
 
 namespace mesher::detail {

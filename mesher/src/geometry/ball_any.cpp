@@ -1,8 +1,8 @@
 // Centres in doubles, and as exact quotients.
 #include "geometry/ball_any.hpp"
 
-#include "geometry/any_space.hpp"
-#include "geometry/space.hpp"
+#include "geometry/any_vectors.hpp"
+#include "geometry/space_vectors.hpp"
 
 namespace mesher::detail {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/exact_sign.hpp"
-#include "geometry/space.hpp"
+#include "geometry/space_vectors.hpp"
 
 namespace mesher::detail {
 

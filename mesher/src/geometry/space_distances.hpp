@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "geometry/space.hpp"
+#include "geometry/space_vectors.hpp"
 
 namespace mesher::detail {
 

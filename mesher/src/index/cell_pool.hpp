@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/cell_of.hpp"
+#include "cells/cell_of.hpp"
 
 namespace mesher::detail {
 

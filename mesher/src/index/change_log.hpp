@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "index/vertex.hpp"
+#include "records/vertex.hpp"
 #include "sac/internal/arena.hpp"
 
 namespace mesher::detail {

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "geometry/grid.hpp"
-#include "index/vertex.hpp"
+#include "records/vertex.hpp"
 #include "sac/check.hpp"
 
 namespace mesher::detail {

@@ -1,7 +1,7 @@
 // Observing the level of a point, outside edits of the set of points, and splits of segments.
 #include "index/features.hpp"
 
-#include "input.hpp"
+#include "geometry/input_point.hpp"
 #include "mesher/error.hpp"
 
 namespace mesher::detail {

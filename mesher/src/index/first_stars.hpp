@@ -10,12 +10,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "cells/cell_of.hpp"
+#include "cells/link_record.hpp"
 #include "delaunay/facets.hpp"
-#include "geometry/cell_of.hpp"
-#include "geometry/link_record.hpp"
 #include "index/triangulate_pool.hpp"
-#include "index/vertex.hpp"
-#include "make_set.hpp"
+#include "records/vertex.hpp"
+#include "sets/make_set.hpp"
 
 namespace mesher::detail {
 

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/cell_of.hpp"
+#include "cells/cell_of.hpp"
 #include "index/change_log.hpp"
 #include "index/quadtree.hpp"
 #include "sac/engine.hpp"

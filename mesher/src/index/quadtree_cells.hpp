@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "index/quadtree.hpp"
+#include "index/quadtree_class.hpp"
 
 namespace mesher::detail {
 

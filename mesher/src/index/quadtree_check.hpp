@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "index/quadtree.hpp"
+#include "index/quadtree_class.hpp"
 
 namespace mesher::detail {
 

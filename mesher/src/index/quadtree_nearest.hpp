@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <array>
 
-#include "index/quadtree.hpp"
+#include "index/quadtree_class.hpp"
 
 namespace mesher::detail {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "index/quadtree.hpp"
+#include "index/quadtree_class.hpp"
 
 namespace mesher::detail {
 

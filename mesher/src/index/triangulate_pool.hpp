@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "delaunay/bulk.hpp"
-#include "index/vertex.hpp"
+#include "records/vertex.hpp"
 
 namespace mesher::detail {
 

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "input.hpp"
+#include "geometry/input_point.hpp"
 #include "mesher/error.hpp"
 
 namespace mesher::detail {

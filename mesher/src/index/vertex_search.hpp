@@ -16,11 +16,11 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/cell_of.hpp"
+#include "cells/cell_of.hpp"
 #include "index/cell_pool.hpp"
 #include "index/quadtree.hpp"
-#include "index/vertex.hpp"
-#include "segments/roles.hpp"
+#include "records/roles.hpp"
+#include "records/vertex.hpp"
 
 namespace mesher::detail {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "io/text.hpp"
 #include "io/vtu_data.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 

@@ -4,9 +4,9 @@
 #include <string_view>
 
 #include "io/read_points.hpp"
-#include "io/text.hpp"
 #include "io/vtk_grid.hpp"
 #include "mesher/io.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

@@ -10,8 +10,8 @@
 #include <map>
 #include <span>
 
-#include "io/text.hpp"
 #include "mesher/sizes.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

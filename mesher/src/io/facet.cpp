@@ -6,7 +6,7 @@
 #include <numeric>
 #include <optional>
 
-#include "plc/polygon_shape.hpp"
+#include "space/polygon_shape.hpp"
 
 namespace mesher {
 namespace {

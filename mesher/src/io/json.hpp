@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 

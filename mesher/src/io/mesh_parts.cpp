@@ -1,7 +1,7 @@
 // The mesh of one dimension that the parts make.
 #include "io/mesh_parts.hpp"
 
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 

@@ -11,7 +11,7 @@
 #include "io/note_counter.hpp"
 #include "io/read_mesh.hpp"
 #include "io/rows.hpp"
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

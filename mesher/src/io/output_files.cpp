@@ -13,7 +13,7 @@
 #include <system_error>
 #include <utility>
 
-#include "io/digits.hpp"
+#include "text/digits.hpp"
 
 namespace mesher {
 namespace {

@@ -10,8 +10,8 @@
 #include "io/note_counter.hpp"
 #include "io/read_node.hpp"
 #include "io/rows.hpp"
-#include "io/text.hpp"
 #include "mesher/input_file.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "io/read_points.hpp"
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

@@ -6,7 +6,7 @@
 #include "io/json.hpp"
 #include "io/polygon_builder.hpp"
 #include "io/read_pslg.hpp"
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

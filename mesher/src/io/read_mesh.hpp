@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "io/mesh_parts.hpp"
-#include "io/text.hpp"
 #include "mesher/io.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "io/rows.hpp"
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "io/text.hpp"
 #include "mesher/io.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 

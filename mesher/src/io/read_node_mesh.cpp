@@ -17,7 +17,7 @@
 #include "io/read_node.hpp"
 #include "io/read_pslg.hpp"
 #include "io/rows.hpp"
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "io/read_mesh.hpp"
 #include "io/rows.hpp"
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

@@ -1,9 +1,9 @@
 // Reads complexes of any known format and refuses repeated ids.
 #include "io/read_plc.hpp"
 
-#include "io/distinct_ids.hpp"
+#include "graph/distinct_ids.hpp"
 #include "io/read_points.hpp"
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "counting_sort.hpp"
 #include "geometry/place_hash.hpp"
 #include "io/read_node.hpp"
 #include "io/rows.hpp"
-#include "io/text.hpp"
 #include "sac/label.hpp"
+#include "sets/counting_sort.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

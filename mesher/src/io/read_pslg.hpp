@@ -19,14 +19,6 @@ namespace mesher {
 [[nodiscard]] PslgFile read_obj_lines(const std::string& path);
 [[nodiscard]] PslgFile read_vtu_lines(const std::string& path);
 
-namespace detail {
-
-/// Throws: Error (repeated_id; unknown_id for an end that is no point; bad_syntax for a line of
-/// fewer than two points).
-void require_ids(const PslgFile& file);
-
-}  // namespace detail
-
 /// A graph in the making, for formats without ids: numbers points and lines from 1.
 class PslgBuilder {
  public:

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "mesher/pslg.hpp"
 #include "io/read_node.hpp"
 #include "io/read_points.hpp"
 #include "io/rows.hpp"
-#include "io/text.hpp"
+#include "mesher/pslg.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

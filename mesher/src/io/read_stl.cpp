@@ -12,8 +12,8 @@
 #include <string_view>
 
 #include "io/read_points.hpp"
-#include "io/text.hpp"
 #include "io/vtu_data.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "io/binary.hpp"
-#include "io/text.hpp"
 #include "io/vtk_grid.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <utility>
 
-#include "io/text.hpp"
 #include "io/vtk_grid.hpp"
 #include "io/vtu_data.hpp"
 #include "io/xml.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

@@ -1,7 +1,7 @@
 // The points and lines of `.vtu` files.
 #include "io/read_pslg.hpp"
-#include "io/text.hpp"
 #include "io/vtk_grid.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

@@ -1,6 +1,6 @@
 // Reads `.xyz` files: a line of blank-separated coordinates for each point.
 #include "io/read_points.hpp"
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "mesher/predicates.hpp"
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

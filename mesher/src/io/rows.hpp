@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 

@@ -5,7 +5,7 @@
 
 #include "io/read_mesh.hpp"
 #include "io/rows.hpp"
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

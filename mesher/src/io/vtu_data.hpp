@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 

@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "io/text.hpp"
 #include "mesher/io.hpp"
 #include "mesher/svg.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

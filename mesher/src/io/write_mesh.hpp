@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "make_set.hpp"
 #include "mesher/mesh_data.hpp"
 #include "mesher/output_files.hpp"
+#include "sets/make_set.hpp"
 
 namespace mesher {
 

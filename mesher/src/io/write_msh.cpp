@@ -11,8 +11,8 @@
 #include <string>
 
 #include "geometry/box.hpp"
-#include "io/text.hpp"
 #include "io/write_mesh.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

@@ -2,10 +2,10 @@
 // numbered from 1.
 #include <algorithm>
 
-#include "io/digits.hpp"
 #include "io/write_mesh.hpp"
 #include "mesher/io.hpp"
 #include "mesher/space_files.hpp"
+#include "text/digits.hpp"
 
 namespace mesher {
 namespace {

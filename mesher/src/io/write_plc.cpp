@@ -5,9 +5,9 @@
 #include <map>
 #include <utility>
 
-#include "io/text.hpp"
 #include "mesher/plc.hpp"
-#include "plc/polygon_shape.hpp"
+#include "space/polygon_shape.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "mesher/pslg.hpp"
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 namespace {

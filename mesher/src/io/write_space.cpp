@@ -2,11 +2,11 @@
 #include <string_view>
 #include <utility>
 
-#include "io/text.hpp"
 #include "io/write_mesh.hpp"
 #include "io/write_surface.hpp"
 #include "mesher/space_files.hpp"
 #include "mesher/space_svg.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 

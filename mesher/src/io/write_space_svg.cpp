@@ -7,7 +7,7 @@
 
 #include "geometry/box.hpp"
 #include "geometry/circumcentre.hpp"
-#include "geometry/space.hpp"
+#include "geometry/space_vectors.hpp"
 #include "io/svg_canvas.hpp"
 #include "mesh/half_faces.hpp"
 #include "mesher/space_svg.hpp"

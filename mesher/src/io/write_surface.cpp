@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/space.hpp"
+#include "geometry/space_vectors.hpp"
 #include "mesher/space_files.hpp"
 
 namespace mesher {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/text.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 

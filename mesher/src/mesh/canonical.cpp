@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "counting_sort.hpp"
+#include "sets/counting_sort.hpp"
 
 namespace mesher::detail {
 

@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "index/vertex.hpp"
-#include "mesher/mesher.hpp"
+#include "mesher/mesh.hpp"
+#include "records/vertex.hpp"
 
 namespace mesher::detail {
 
@@ -141,20 +140,6 @@ template <int D, class ForEach>
   mesh.simplices = sorted_by_corner<D + 1>(index, places.size(), for_each);
   add_parts(mesh, on, index);
   return mesh;
-}
-
-template <class W, int D>
-[[nodiscard]] MeshStats timed_stats(const W& world, const Mesh<D>& mesh) {
-  const auto seconds = [&](std::size_t i) {
-    return std::chrono::duration<double>(world.marks[i + 1] - world.marks[i]).count();
-  };
-  MeshStats stats;
-  stats.vertices = mesh.vertices.size();
-  stats.simplices = mesh.simplices.size();
-  stats.seconds_quadtree = seconds(0);
-  stats.seconds_steiner = seconds(1);
-  stats.seconds_triangulate = seconds(2);
-  return stats;
 }
 
 }  // namespace mesher::detail

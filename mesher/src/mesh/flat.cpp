@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "domain/adjacency.hpp"
-#include "geometry/space.hpp"
+#include "geometry/space_vectors.hpp"
+#include "mesh/adjacency.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/predicates.hpp"
 

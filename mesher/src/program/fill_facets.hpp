@@ -3,7 +3,7 @@
 //
 // Departure: not the corners of the polygon's Voronoi diagram that are far from their vertices, one
 // by one. Whether a piece is crowded, and whether there is room for its vertex, are functions of
-// the input alone (plc/facet_piece.hpp), so a call depends on no other, and an edit changes the
+// the input alone (space/facet_piece.hpp), so a call depends on no other, and an edit changes the
 // pieces whose balls it reaches.
 #pragma once
 

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "program/fill_plans.hpp"
 #include "program/point_world.hpp"
-#include "sizes/fill_plans.hpp"
-#include "sizes/surroundings.hpp"
+#include "program/surroundings.hpp"
 
 namespace mesher::detail {
 

@@ -15,9 +15,9 @@
 #include "index/subdivision.hpp"
 #include "index/vertex_index.hpp"
 #include "mesher/mesher.hpp"
+#include "plane/planarity.hpp"
 #include "rules/insertion_rule.hpp"
 #include "sac/sac.hpp"
-#include "segments/planarity.hpp"
 #include "sizes/limits_of.hpp"
 
 namespace mesher::detail {

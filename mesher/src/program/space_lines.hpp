@@ -13,12 +13,12 @@
 #include <optional>
 #include <vector>
 
-#include "plc/encroachment.hpp"
-#include "plc/guard.hpp"
-#include "plc/small_angles.hpp"
-#include "plc/yielding.hpp"
 #include "program/staying.hpp"
 #include "program/world.hpp"
+#include "space/encroachment.hpp"
+#include "space/guard.hpp"
+#include "space/small_angles.hpp"
+#include "space/yielding.hpp"
 
 namespace mesher::detail {
 
@@ -112,7 +112,7 @@ class Staying<S, 3> final : public EdgeFilter<3> {
     }
   }
 
-  // By the guard (plc/guard.hpp).
+  // By the guard (space/guard.hpp).
   [[nodiscard]] bool is_refused(S& s, const typename InsertionRule<3>::NewPoint& x,
                                 const std::optional<Placed>& y) {
     const Point<3>& p = vertex(cell_, x.from).p;

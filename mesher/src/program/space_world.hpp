@@ -2,12 +2,12 @@
 // input.
 #pragma once
 
-#include "plc/guard.hpp"
-#include "plc/input_features.hpp"
-#include "plc/placed.hpp"
-#include "plc/validity.hpp"
 #include "program/filling.hpp"
+#include "program/input_features.hpp"
 #include "program/point_world.hpp"
+#include "space/guard.hpp"
+#include "space/placed.hpp"
+#include "space/validity.hpp"
 
 namespace mesher::detail {
 
@@ -25,7 +25,7 @@ struct World<S, 3> : PointWorld<S, 3> {
   Surroundings<S, 3> surroundings;
   Agenda& splits;
   Agenda& fills;
-  const bool guarded;                         // plc/guard.hpp
+  const bool guarded;                         // space/guard.hpp
   const SpaceNames* feature_names = nullptr;  // for messages; null: features have none
 
   template <class Host>

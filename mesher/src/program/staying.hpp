@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "plane/exempt.hpp"
 #include "program/world.hpp"
-#include "segments/exempt.hpp"
 
 namespace mesher::detail {
 

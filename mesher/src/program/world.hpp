@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "program/point_world.hpp"
+#include "plane/exempt.hpp"
+#include "plane/input_segments.hpp"
+#include "plane/leaves.hpp"
 #include "program/filling.hpp"
+#include "program/point_world.hpp"
 #include "program/space_world.hpp"
-#include "segments/exempt.hpp"
-#include "segments/input_segments.hpp"
-#include "segments/leaves.hpp"
 
 namespace mesher::detail {
 
@@ -90,11 +90,6 @@ struct World<S, 2> : PointWorld<S, 2> {
   /// Throws: Error(too_close), with the ids of the features nearest to p, within `radius` or not.
   [[noreturn]] void fail_near(const Point<2>& p, double radius, const std::string& why);
 };
-
-/// The box of a mesh: four times the domain's longest side (rounded up to a power of two), with the
-/// boundary grid that [L 4.4.1] asks for. Throws: Error(bad_option).
-template <int D>
-[[nodiscard]] MeshBox<D> mesh_box(const Options<D>& options);
 
 /// Splits segments and fills what must not be large, or is near others.
 template <class S>

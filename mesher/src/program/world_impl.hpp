@@ -1,8 +1,9 @@
 // The parts of World that need the program's functions.
 #pragma once
 
-#include "input.hpp"
-#include "plc/space_budget.hpp"
+#include "geometry/input_point.hpp"
+#include "plane/near_features.hpp"
+#include "plane/vertex_budget.hpp"
 #include "program/build_qt.hpp"
 #include "program/choose_steiners.hpp"
 #include "program/cut.hpp"
@@ -12,8 +13,7 @@
 #include "program/split_segments.hpp"
 #include "program/triangulate.hpp"
 #include "program/world.hpp"
-#include "segments/near_features.hpp"
-#include "segments/vertex_budget.hpp"
+#include "space/space_budget.hpp"
 
 namespace mesher::detail {
 

@@ -5,11 +5,11 @@
 #include <tuple>
 
 #include "geometry/box.hpp"
-#include "input.hpp"
-#include "make_set.hpp"
+#include "geometry/input_point.hpp"
 #include "mesher/repair.hpp"
 #include "repair/box_search.hpp"
 #include "repair/crossing_place.hpp"
+#include "sets/make_set.hpp"
 
 namespace mesher::detail {
 

@@ -7,9 +7,9 @@
 #include <map>
 #include <set>
 
-#include "make_set.hpp"
 #include "repair/constrained.hpp"
 #include "repair/least_surface.hpp"
+#include "sets/make_set.hpp"
 
 namespace mesher::detail {
 

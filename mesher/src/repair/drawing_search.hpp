@@ -5,9 +5,9 @@
 #include <new>
 #include <vector>
 
-#include "make_set.hpp"
-#include "plc/validity.hpp"
 #include "repair/space_drawing.hpp"
+#include "sets/make_set.hpp"
+#include "space/validity.hpp"
 
 namespace mesher::detail {
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "geometry/grid.hpp"
-#include "input.hpp"
+#include "geometry/input_point.hpp"
 #include "mesher/input_file.hpp"
-#include "program/world.hpp"
+#include "rules/mesh_box.hpp"
 
 namespace mesher::detail {
 

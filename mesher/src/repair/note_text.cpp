@@ -1,9 +1,9 @@
 // What a repair has done, for people.
 #include <string>
 
-#include "input.hpp"
-#include "io/text.hpp"
+#include "geometry/input_point.hpp"
 #include "mesher/repair.hpp"
+#include "text/text.hpp"
 
 namespace mesher {
 

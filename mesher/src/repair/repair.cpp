@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "io/read_pslg.hpp"
+#include "graph/require_ids.hpp"
 #include "repair/arrange.hpp"
 #include "repair/merging.hpp"
 #include "repair/redraw.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "make_set.hpp"
+#include "sets/make_set.hpp"
 
 namespace mesher::detail {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "plc/feature_store.hpp"
+#include "space/feature_store.hpp"
 
 namespace mesher::detail {
 

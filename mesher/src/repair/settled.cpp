@@ -3,9 +3,9 @@
 #include <set>
 #include <string>
 
-#include "input.hpp"
-#include "make_set.hpp"
+#include "geometry/input_point.hpp"
 #include "repair/cutting.hpp"
+#include "sets/make_set.hpp"
 
 namespace mesher::detail {
 

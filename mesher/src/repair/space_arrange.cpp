@@ -6,12 +6,12 @@
 #include <string>
 #include <tuple>
 
-#include "input.hpp"
-#include "make_set.hpp"
+#include "geometry/input_point.hpp"
 #include "mesher/space_repair.hpp"
 #include "repair/crossing_place.hpp"
 #include "repair/drawing_search.hpp"
 #include "repair/rest_of.hpp"
+#include "sets/make_set.hpp"
 
 namespace mesher::detail {
 

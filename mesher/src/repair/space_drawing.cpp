@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "make_set.hpp"
 #include "mesher/error.hpp"
+#include "sets/make_set.hpp"
 
 namespace mesher::detail {
 

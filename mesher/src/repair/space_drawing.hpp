@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "index/features.hpp"
-#include "plc/feature_store.hpp"
 #include "repair/place_grid.hpp"
+#include "space/feature_store.hpp"
 
 namespace mesher::detail {
 

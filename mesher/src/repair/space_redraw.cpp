@@ -7,9 +7,9 @@
 #include <set>
 #include <tuple>
 
-#include "make_set.hpp"
 #include "repair/merging.hpp"
 #include "repair/space_redrawing.hpp"
+#include "sets/make_set.hpp"
 
 namespace mesher::detail {
 

@@ -5,9 +5,9 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "facade/space_input.hpp"
-#include "io/distinct_ids.hpp"
+#include "graph/distinct_ids.hpp"
 #include "mesher/mesher.hpp"
+#include "program/space_input.hpp"
 #include "repair/merging.hpp"
 #include "repair/space_arrange.hpp"
 #include "repair/space_redraw.hpp"
@@ -23,7 +23,7 @@ using detail::VertexHandle;
 
 // A gap has to be as wide as a few of the shortest pieces (program/split_segments.hpp), and a
 // triangle as high as its area needs that has its corners in a box of a quarter of the side
-// (plc/polygon_shape.cpp: 2^-40 of the reach's square).
+// (space/polygon_shape.cpp: 2^-40 of the reach's square).
 constexpr double kShare = 0x1p-42;
 constexpr double kUnits = 64;
 

@@ -11,7 +11,7 @@
 #include <memory>
 #include <optional>
 
-#include "geometry/cell_of.hpp"
+#include "cells/cell_of.hpp"
 #include "rules/buckets.hpp"
 #include "sizes/limits_of.hpp"
 

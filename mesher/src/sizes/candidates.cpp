@@ -8,8 +8,8 @@
 
 #include "geometry/box.hpp"
 #include "geometry/centroid.hpp"
-#include "geometry/plane.hpp"
-#include "geometry/space.hpp"
+#include "geometry/plane_vectors.hpp"
+#include "geometry/space_vectors.hpp"
 
 namespace mesher::detail {
 

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "geometry/box.hpp"
-#include "input.hpp"
-#include "io/text.hpp"
-#include "make_set.hpp"
+#include "geometry/input_point.hpp"
 #include "mesher/error.hpp"
+#include "sets/make_set.hpp"
 #include "sizes/region_limits.hpp"
+#include "text/text.hpp"
 
 namespace mesher::detail {
 

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "geometry/box.hpp"
-#include "geometry/plane.hpp"
-#include "geometry/space.hpp"
-#include "input.hpp"
+#include "geometry/input_point.hpp"
+#include "geometry/plane_vectors.hpp"
+#include "geometry/space_vectors.hpp"
 #include "mesher/delaunay.hpp"
 #include "mesher/error.hpp"
 #include "mesher/sizes.hpp"

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "geometry/circumcentre.hpp"
-#include "geometry/space.hpp"
+#include "geometry/space_vectors.hpp"
 #include "mesher/domain_mesh.hpp"
 #include "mesher/generate_plc.hpp"
 #include "mesher/space_check.hpp"

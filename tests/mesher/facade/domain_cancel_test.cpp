@@ -7,6 +7,7 @@
 #include "mesher/edit_script.hpp"
 #include "mesher/generate.hpp"
 #include "random_lake.hpp"
+#include "rules/mesh_box.hpp"
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include "mesher/domain_mesher.hpp"
 #include "mesher/edit_script.hpp"
 #include "random_lake.hpp"
+#include "rules/mesh_box.hpp"
 
 namespace {
 

@@ -9,6 +9,7 @@
 #include "mesher/error.hpp"
 #include "mesher/mesher.hpp"
 #include "random_pslg.hpp"
+#include "rules/mesh_box.hpp"
 
 namespace {
 

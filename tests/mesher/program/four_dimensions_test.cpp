@@ -10,6 +10,7 @@
 
 #include "brute_balls.hpp"
 #include "program/world_impl.hpp"
+#include "rules/mesh_box.hpp"
 #include "sac/sac.hpp"
 
 namespace {

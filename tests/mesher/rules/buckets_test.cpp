@@ -7,6 +7,7 @@
 #include "mesher/generate.hpp"
 #include "program/world.hpp"
 #include "rules/insertion_rule.hpp"
+#include "rules/mesh_box.hpp"
 
 namespace {
 

@@ -9,6 +9,7 @@
 #include "mesher/check.hpp"
 #include "mesher/generate.hpp"
 #include "program/world_impl.hpp"
+#include "rules/mesh_box.hpp"
 
 namespace {
 

@@ -8,6 +8,7 @@
 
 #include "mesher/predicates.hpp"
 #include "program/world_impl.hpp"
+#include "rules/mesh_box.hpp"
 #include "space_points.hpp"
 
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "geometry/box.hpp"
-#include "geometry/plane.hpp"
-#include "geometry/space.hpp"
+#include "geometry/plane_vectors.hpp"
+#include "geometry/space_vectors.hpp"
 #include "mesher/delaunay.hpp"
 #include "mesher/error.hpp"
 #include "mesher/generate.hpp"

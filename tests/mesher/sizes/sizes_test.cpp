@@ -8,7 +8,7 @@
 #include <set>
 
 #include "geometry/centroid.hpp"
-#include "geometry/plane.hpp"
+#include "geometry/plane_vectors.hpp"
 #include "mesher/error.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"

@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "geometry/space.hpp"
+#include "geometry/space_vectors.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/predicates.hpp"
 #include "sizes/lattice.hpp"

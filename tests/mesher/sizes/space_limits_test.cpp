@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "geometry/centroid.hpp"
-#include "geometry/space.hpp"
+#include "geometry/space_vectors.hpp"
 #include "mesher/domain_mesher.hpp"
 #include "mesher/error.hpp"
 #include "mesher/space_check.hpp"
+#include "program/obstacles.hpp"
 #include "program/world.hpp"
+#include "rules/mesh_box.hpp"
 #include "sizes/limits.hpp"
-#include "sizes/obstacles.hpp"
 #include "space_limits.hpp"
 #include "space_parcels.hpp"
 

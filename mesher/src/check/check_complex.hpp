@@ -1,0 +1,89 @@
+// What of a mesh of tetrahedra are parts of the segments and polygons of a complex, found from the
+// places of vertices and verified; see (b) to (d) of space_check.hpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "check/verdict.hpp"
+#include "mesh/half_faces.hpp"
+#include "mesher/space_check.hpp"
+
+namespace mesher::detail {
+
+/// The first tetrahedron that holds a place; nothing outside.
+[[nodiscard]] std::optional<std::uint32_t> tetrahedron_at(const Mesh<3>& mesh, const Point<3>& p);
+
+class ComplexCheck {
+ public:
+  /// `options.complex` is given. All must outlive this. Requires: (1) to (4) hold.
+  ComplexCheck(const Mesh<3>& mesh, const SpaceCheckOptions& options, const HalfFaces& faces);
+
+  [[nodiscard]] const Verdict& segments() const { return segments_; }
+  [[nodiscard]] const Verdict& polygons() const { return polygons_; }
+  /// Of the faces that polygons are unions of: by its corners, ascending.
+  [[nodiscard]] bool is_in_polygon(const Face& key) const { return tiles_.count(key) != 0; }
+  /// Whether both the complex and the mesh have markers.
+  [[nodiscard]] bool tells_markers() const;
+  /// Requires: that; segments() and polygons() hold. `faces`: those given first.
+  [[nodiscard]] Verdict markers(const HalfFaces& faces) const;
+  /// Whether a poor tetrahedron is one of small angles of the complex.
+  [[nodiscard]] bool excuses(const Mesh<3>::Simplex& s) const;
+
+ private:
+  class Markers;
+  // An edge of the complex, called by its segment, or else by the polygon that has it.
+  struct Line {
+    std::string name;
+    std::array<FeatureId, 2> ends;
+    Point<3> from, to;
+    std::vector<std::vector<std::uint32_t>>
+        runs;  // of vertices that edges join; one if it is whole
+  };
+  using Ends = std::array<std::uint32_t, 2>;  // low, high
+  struct Surface {
+    const Polygon* polygon;
+    std::vector<std::size_t> lines;
+    std::set<Ends> border, inner;   // the edges that loops, and declared edges, are unions of
+    std::set<FeatureId> points;     // all that it names
+    std::vector<std::uint32_t> on;  // vertices on it, ascending
+    std::vector<Face> tiles;
+  };
+  struct Featured {  // what a vertex is on
+    std::vector<std::size_t> lines, surfaces;
+    bool is_point = false;
+  };
+
+  void add_lines();
+  std::size_t line(FeatureId a, FeatureId b, const std::string& name);
+  Verdict find_segments(const HalfFaces& faces);
+  void add_edges(Surface& surface, const std::vector<FeatureId>& ends, std::set<Ends>& edges);
+  Verdict find_polygons(const HalfFaces& faces);
+  void add_named_tiles();
+  void add_crossed_tiles(const HalfFaces& faces);
+  [[nodiscard]] std::optional<std::string> trouble_of(const Surface& surface) const;
+  [[nodiscard]] bool is_outside(const Point<3>& p) const;
+  void name_vertices();
+  [[nodiscard]] bool is_short(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] bool is_wide(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] bool share_shell(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] const Point<3>& at(std::uint32_t v) const { return mesh_.vertices[v]; }
+
+  const Mesh<3>& mesh_;
+  const SpaceCheckOptions& options_;
+  double rounding_;
+  std::map<FeatureId, Point<3>> places_;
+  std::vector<Line> lines_;
+  std::map<std::array<FeatureId, 2>, std::size_t> line_of_;  // by ends, ascending
+  std::vector<Surface> surfaces_;
+  std::set<Face> tiles_;
+  std::map<std::uint32_t, Featured> featured_;
+  Verdict segments_, polygons_;
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,121 @@
+// Whether vertices and edges have the markers of the input's points and lines.
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "check/checked_mesh.hpp"
+#include "check/marked.hpp"
+
+namespace mesher::detail {
+namespace {
+
+class MarkerCheck {
+ public:
+  MarkerCheck(const CheckedMesh& mesh, const std::vector<LinePath>& paths,
+              const CheckOptions& options)
+      : mesh_(mesh), features_(*options.features), graph_(*options.graph) {
+    for (std::size_t i = 0; i < graph_.points.size(); ++i) {
+      const auto& p = graph_.pslg.points[i];
+      if (p.marker != 0) points_[p.at] = marked(p.marker, "point", p.id, graph_.points, i);
+    }
+    add(graph_.pslg.segments, graph_.segments);
+    add(graph_.pslg.polylines, graph_.polylines);
+    for (const LinePath& path : paths) add(path);
+    for (const HalfEdge& e : mesh.border()) {
+      border_.insert(e.edge());
+      border_vertices_.insert({e.from, e.to});
+    }
+  }
+
+  [[nodiscard]] Verdict run() const {
+    std::size_t vertices = 0, edges = 0;
+    for (std::uint32_t v = 0; v < features_.markers.size(); ++v) {
+      const std::string trouble = trouble_at(v);
+      if (!trouble.empty()) return Verdict::bad(mesh_.vertex(v) + trouble);
+      if (features_.markers[v] != 0) ++vertices;
+    }
+    const auto markers = markers_of_edges();
+    for (const auto& [edge, marker] : markers) {
+      const std::string trouble = trouble_at(edge, marker);
+      if (!trouble.empty()) return Verdict::bad(mesh_.edge(edge.first, edge.second) + trouble);
+      if (marker != 0) ++edges;
+    }
+    return Verdict::good(std::to_string(vertices) + " vertices and " + std::to_string(edges) +
+                         " edges have one");
+  }
+
+ private:
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+  template <class Line>
+  void add(const std::vector<Line>& lines, const std::vector<FilePosition>& positions) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      lines_[lines[i].id] = marked(lines[i].marker, "line", lines[i].id, positions, i);
+    }
+  }
+  void add(const LinePath& path) {
+    const Marked* const line = &lines_.at(path.line);
+    for (std::size_t i = 0; i < path.vertices.size(); ++i) {
+      at_vertex_[path.vertices[i]].push_back(line);
+      if (i > 0) at_edge_[std::minmax(path.vertices[i - 1], path.vertices[i])].push_back(line);
+    }
+  }
+
+  [[nodiscard]] std::string trouble_at(std::uint32_t v) const {
+    const std::int64_t marker = features_.markers[v];
+    const auto point = points_.find(mesh_.at(v));
+    if (point == points_.end()) {
+      const auto lines = at_vertex_.find(v);
+      return marker_trouble(marker, lines == at_vertex_.end() ? Givers() : lines->second,
+                            border_vertices_.contains(v), "line");
+    }
+    if (point->second.marker == marker) return "";
+    return " has the marker " + std::to_string(marker) + ", but is " + point->second.name +
+           ", which has " + std::to_string(point->second.marker);
+  }
+
+  [[nodiscard]] std::string trouble_at(const Edge& edge, std::int64_t marker) const {
+    const auto lines = at_edge_.find(edge);
+    return marker_trouble(marker, lines == at_edge_.end() ? Givers() : lines->second,
+                          border_.contains(edge), "line");
+  }
+
+  // Of the edges that the mesh lists and of those on lines; nothing if no edge has a marker: then
+  // the file does not tell them.
+  [[nodiscard]] std::map<Edge, std::int64_t> markers_of_edges() const {
+    std::map<Edge, std::int64_t> markers;
+    const bool told = std::any_of(features_.edges.begin(), features_.edges.end(),
+                                  [](const MeshEdge& e) { return e.marker != 0; });
+    if (!told) return markers;
+    for (const auto& [edge, lines] : at_edge_) markers[edge] = 0;
+    for (const MeshEdge& e : features_.edges) markers[{e.low, e.high}] = e.marker;
+    return markers;
+  }
+
+  const CheckedMesh& mesh_;
+  const MeshFeatures& features_;
+  const PslgFile& graph_;
+  std::map<Point<2>, Marked> points_;
+  std::map<FeatureId, Marked> lines_;
+  std::map<std::uint32_t, Givers> at_vertex_;
+  std::map<Edge, Givers> at_edge_;
+  std::set<Edge> border_;
+  std::set<std::uint32_t> border_vertices_;
+};
+
+}  // namespace
+
+bool tells_markers(const CheckOptions& options) {
+  if (options.graph == nullptr || options.features == nullptr) return false;
+  const Pslg& graph = options.graph->pslg;
+  const bool asked =
+      has_marker(graph.points) || has_marker(graph.segments) || has_marker(graph.polylines);
+  return asked && (!options.features->markers.empty() || has_marker(options.features->edges));
+}
+
+Verdict check_markers(const CheckedMesh& mesh, const std::vector<LinePath>& paths,
+                      const CheckOptions& options) {
+  return MarkerCheck(mesh, paths, options).run();
+}
+
+}  // namespace mesher::detail

@@ -1,8 +1,0 @@
-// The error of a run that was asked to stop.
-#include "facade/meter.hpp"
-
-namespace mesher::detail {
-
-void fail_cancelled() { throw Error(ErrorCode::cancelled, "stopped before its end"); }
-
-}  // namespace mesher::detail

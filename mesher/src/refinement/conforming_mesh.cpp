@@ -1,0 +1,92 @@
+// Vertices on features, and what is left alone.
+#include "refinement/conforming_mesh.hpp"
+
+#include <limits>
+#include <utility>
+
+namespace mesher::detail {
+
+namespace {
+
+// Of the box's side: within this of a wall rounding decides on which side of it a place is, or that
+// the wall is not quite flat (space/polygon_shape.hpp).
+constexpr double kNearWall = 0x1p-24;
+
+}  // namespace
+
+template <int D>
+ConformingMesh<D>::ConformingMesh(const MeshBox<D>& box, const Settings& settings,
+                                  std::size_t points)
+    : Base(box, settings, points),
+      handles_(settings.handles),
+      conformity_(*settings.store, kernel_),
+      only_enclosed_(settings.only_enclosed),
+      holes_(settings.holes) {}
+
+template <int D>
+std::uint32_t ConformingMesh<D>::add_place(const Placed& place, VertexKind kind,
+                                           VertexHandle point) {
+  if constexpr (D == 2) {
+    if (const std::size_t most = this->full_with(); most != 0) conformity_.fail_too_many(most);
+  }
+  const std::uint32_t v = Base::add_place(place.p, kind);
+  conformity_.add_vertex(place.role, point);
+  return v;
+}
+
+template <int D>
+void ConformingMesh<D>::undo_place() {
+  kernel_.undo_dig();
+  kernel_.drop_place();
+  kinds_.pop_back();
+  conformity_.drop_vertex();
+}
+
+template <int D>
+std::optional<std::uint32_t> ConformingMesh<D>::dig(const typename Conforms::Wanted& wanted) {
+  const auto any = [](std::uint32_t) { return true; };
+  const std::uint32_t from = kernel_.find_in_star(wanted.beside, star_, any);
+  const std::uint32_t s = kernel_.walk(wanted.place.p, from);
+  for (const std::uint32_t w : kernel_.simplices().corners(s)) {
+    if (w == kInfinite || kernel_.place(w) != wanted.place.p) continue;
+    conformity_.fail_occupied(wanted.place);
+  }
+  const std::uint32_t v = add_place(wanted.place, VertexKind::segment);
+  kernel_.dig(v, s);
+  if (edge_of(wanted.place.role) != 0 || !conformity_.yields_to_edges(v)) return v;
+  undo_place();
+  return std::nullopt;
+}
+
+template <int D>
+bool ConformingMesh<D>::is_split(std::uint32_t s) {
+  if (only_enclosed_ && !std::exchange(has_regions_, true)) {
+    only_enclosed_ = conformity_.find_regions(holes_, kNearWall * this->box_.side);
+    if (!only_enclosed_) this->require_box(kCoarseSteps);
+  }
+  return !(only_enclosed_ && conformity_.is_outside(s)) && !stays(s);
+}
+
+/// Its shortest edge is as short as the angle of features makes it. In the plane the simplex is on
+/// the left of that edge.
+template <int D>
+bool ConformingMesh<D>::stays(std::uint32_t s) const {
+  const auto& corners = kernel_.simplices().corners(s);
+  std::pair<std::uint32_t, std::uint32_t> shortest;
+  double shortest2 = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i <= D; ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const double length2 = squared_distance(kernel_.place(corners[i]), kernel_.place(corners[k]));
+      if (length2 >= shortest2) continue;
+      shortest2 = length2;
+      shortest = {corners[k], corners[i]};
+      if (i - k == 2) std::swap(shortest.first, shortest.second);
+    }
+  }
+  return conformity_.keeps(shortest.first, shortest.second);
+}
+
+template class ConformingMesh<2>;
+template class ConformingMesh<3>;
+
+}  // namespace mesher::detail

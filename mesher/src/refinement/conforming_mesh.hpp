@@ -1,0 +1,59 @@
+// What refinements of lines and polygons have in common: a refined mesh that is made to conform.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "refinement/conformity.hpp"
+#include "refinement/plane_conformity.hpp"
+#include "refinement/refined_mesh.hpp"
+
+namespace mesher::detail {
+
+template <int D>
+class ConformingMesh : public RefinedMesh<D> {
+  using Base = RefinedMesh<D>;
+
+ public:
+  using Conforms = std::conditional_t<D == 2, PlaneConformity, Conformity>;
+  using Placed = typename Conforms::Placed;
+
+  struct Settings : Base::Settings {
+    typename Conforms::Store* store = nullptr;  // the features of the points, by handles
+    std::vector<VertexHandle> handles{};        // those of the points
+    bool only_enclosed = false;                 // else all of the box
+    std::vector<Point<D>> holes{};
+  };
+
+  [[nodiscard]] const Conforms& conformity() const noexcept { return conformity_; }
+
+ protected:
+  using Base::kernel_, Base::kinds_;
+
+  /// Requires: there is a store, which lives as long as this.
+  ConformingMesh(const MeshBox<D>& box, const Settings& settings, std::size_t points);
+
+  std::uint32_t add_place(const Placed& place, VertexKind kind, VertexHandle point = 0);
+  /// Requires: dug.
+  void undo_place();
+  /// Digs a vertex that is to make the mesh conform; or nothing, if it yields. Throws: Error
+  /// (too_close: there is a vertex, as add_place()).
+  [[nodiscard]] std::optional<std::uint32_t> dig(const typename Conforms::Wanted& wanted);
+  /// Whether a poor simplex is split: it is in what is wanted, and not poor by a small angle.
+  /// Requires: conformity_.next() has returned nothing, and nothing was inserted since.
+  [[nodiscard]] bool is_split(std::uint32_t s);
+
+  std::vector<VertexHandle> handles_;  // of points
+  Conforms conformity_;
+
+ private:
+  [[nodiscard]] bool stays(std::uint32_t s) const;
+
+  bool only_enclosed_, has_regions_ = false;
+  std::vector<Point<D>> holes_;
+  std::vector<std::uint32_t> star_;  // scratch
+};
+
+}  // namespace mesher::detail

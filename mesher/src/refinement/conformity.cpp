@@ -1,0 +1,243 @@
+// What vertices are, and insertions.
+#include "refinement/conformity.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "delaunay/facets.hpp"
+#include "geometry/input_point.hpp"
+#include "refinement/conformity_balls.hpp"
+#include "sets/make_set.hpp"
+
+namespace mesher::detail {
+
+Error too_close_near(const Point<3>& x) {
+  return Error(ErrorCode::too_close,
+               "features are too close for double precision near " + place_text(x));
+}
+
+Conformity::Conformity(FeatureStore& store, Kernel& kernel)
+    : store_(store), kernel_(kernel), vertices_(1), enclosed_(kernel) {
+  by_rank_.push_back(nullptr);
+  store_.polygons().for_each([&](const Polygon& f) {
+    if (f.alive) by_rank_.push_back(&f);
+  });
+  std::sort(by_rank_.begin() + 1, by_rank_.end(),
+            [](const Polygon* f, const Polygon* g) { return order(*f, *g) < 0; });
+  rank_.resize(store_.polygons().last() + std::size_t{1});
+  for (Rank f = 1; f < by_rank_.size(); ++f) rank_[polygon(f).self] = f;
+  at_edge_ = lists([](const Polygon& f) -> const auto& { return f.all_edges; });
+  at_point_ = lists([](const Polygon& f) -> const auto& { return f.points; });
+}
+
+// --- What vertices are -----------------------------------------------------------------------
+
+/// `keys_of(polygon)`: handles.
+template <class KeysOf>
+auto Conformity::lists(KeysOf&& keys_of) const -> Lists {
+  Lists lists;
+  const auto for_each = [&](auto&& visit) {
+    for (Rank f = 1; f < by_rank_.size(); ++f) {
+      for (const std::uint32_t key : keys_of(polygon(f))) visit(key, f);
+    }
+  };
+  for_each([&](std::uint32_t key, Rank) {
+    if (lists.begin.size() < key + 2) lists.begin.resize(key + 2);
+    ++lists.begin[key + 1];
+  });
+  for (std::size_t k = 1; k < lists.begin.size(); ++k) lists.begin[k] += lists.begin[k - 1];
+  lists.all.resize(lists.begin.empty() ? 0 : lists.begin.back());
+  std::vector<std::uint32_t> next = lists.begin;
+  for_each([&](std::uint32_t key, Rank f) { lists.all[next[key]++] = f; });
+  return lists;
+}
+
+auto Conformity::known(const Role& role, VertexHandle point) const -> Known {
+  Known known{role, point, edge_of(role) != 0, role.on != 0};
+  if (point != 0) {
+    known.on_edge = store_.visit_edges_at(point, [](const Edge&) { return true; });
+    known.on_polygon = !at_point_[point].empty();
+  } else if (known.on_edge) {
+    known.on_polygon = !at_edge_[role.on].empty();
+  }
+  return known;
+}
+
+auto Conformity::polygons(std::uint32_t v) const noexcept -> Polygons {
+  const Known& known = vertices_[v];
+  if (known.point != 0) return at_point_[known.point];
+  if (const PolygonHandle f = detail::polygon_of(known.role)) return {&rank_[f], 1};
+  return known.role.on == 0 ? Polygons{} : at_edge_[known.role.on];
+}
+
+bool Conformity::is_on(std::uint32_t v, Rank f) const noexcept {
+  const Polygons all = polygons(v);
+  return std::binary_search(all.begin(), all.end(), f);
+}
+
+void Conformity::set_vertex(std::uint32_t v, const Role& role, VertexHandle point) {
+  vertices_[v] = known(role, point);
+}
+
+void Conformity::start() {
+  std::vector<std::uint32_t> vertex_of;
+  for (std::uint32_t v = 1; v < vertices_.size(); ++v) {
+    const VertexHandle point = vertices_[v].point;
+    if (point == 0) continue;
+    if (vertex_of.size() <= point) vertex_of.resize(point + 1, kNone);
+    vertex_of[point] = v;
+  }
+  std::vector<const Edge*> edges;
+  EdgeHandle most = 0;
+  store_.edges().for_each([&](const Edge& e) {
+    if (e.alive) edges.push_back(&e), most = std::max(most, e.self);
+  });
+  std::sort(edges.begin(), edges.end(), [](const Edge* e, const Edge* t) {
+    return std::tie(e->place_a, e->place_b) < std::tie(t->place_a, t->place_b);
+  });
+  std::vector<std::vector<std::uint32_t>> between(most + std::size_t{1});
+  for (std::uint32_t v = 1; v < vertices_.size(); ++v) {
+    if (const EdgeHandle e = edge_of(vertices_[v].role)) between[e].push_back(v);
+  }
+  for (const Edge* e : edges) add_pieces(*e, vertex_of[e->a], vertex_of[e->b], between[e->self]);
+  for (std::uint32_t i = 0; i < pieces_.size(); ++i) look_at_piece(i);
+}
+
+// --- Insertions ------------------------------------------------------------------------------
+
+auto Conformity::next() -> std::optional<Wanted> {
+  for (;;) {
+    while (!wanted_pieces_.empty()) {
+      const std::uint32_t piece = wanted_pieces_.back();
+      if (pieces_[piece].encroached) {
+        splitting_ = piece;
+        return split_piece(piece);
+      }
+      wanted_pieces_.pop_back();
+    }
+    splitting_ = kNone;
+    if (!has_polygons_) start_polygons();
+    while (!wanted_crossings_.empty()) {
+      const std::uint32_t i = wanted_crossings_.back();
+      const Crossings::Crossing& crossing = crossings_[i];
+      if (crossing.alive) {
+        const Placed place = place_for(crossing);
+        if (const EdgeHandle e = edge_of(place.role)) splitting_ = piece_at(e, place.role.label);
+        return Wanted{place, crossing.face[0]};
+      }
+      crossings_.set_done(i);
+      wanted_crossings_.pop_back();
+    }
+    return std::nullopt;
+  }
+}
+
+/// Calls visit(piece) for the pieces whose edges are in the hole that is dug, some repeatedly.
+template <class Visit>
+void Conformity::visit_pieces_dug(Visit&& visit) const {
+  for (const std::uint32_t s : kernel_.doomed()) {
+    const auto& corners = kernel_.simplices().corners(s);
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (!vertices_[corners[i]].on_edge) continue;
+      for (std::size_t k = 0; k < i; ++k) {
+        if (!vertices_[corners[k]].on_edge) continue;
+        const std::uint32_t piece = pieces_.find(corners[i], corners[k]);
+        if (piece != kNone) visit(piece);
+      }
+    }
+  }
+}
+
+bool Conformity::yields_to_edges(std::uint32_t v) {
+  bool yields = false;
+  visit_pieces_dug([&](std::uint32_t piece) {
+    if (!is_in_ball(piece, place(v))) return;
+    want_piece(piece, kNone);
+    yields = true;
+  });
+  return yields;
+}
+
+bool Conformity::yields(std::uint32_t v) {
+  if (yields_to_edges(v)) return true;
+  bool yields = false;
+  for (const std::uint32_t s : kernel_.doomed()) {
+    visit_crossings_of(s, [&](std::uint32_t i, std::uint32_t) {
+      const Crossings::Crossing& tile = crossings_[i];
+      const double r2 = squared_distance(tile.at, place(tile.face[0]));
+      if (!detail::is_in_ball(tile.at, r2, place(v))) return;
+      want_crossing(i, place(v));
+      yields = true;
+    });
+  }
+  return yields;
+}
+
+/// Calls visit(crossing, across) for the crossings of the faces of s.
+template <class Visit>
+void Conformity::visit_crossings_of(std::uint32_t s, Visit&& visit) const {
+  const auto& corners = kernel_.simplices().corners(s);
+  std::uint32_t on_polygons = 0;
+  for (const std::uint32_t w : corners) on_polygons += vertices_[w].on_polygon ? 1 : 0;
+  if (foreign_ == 0 && on_polygons < 3) return;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const Facet facet = facet_across<3>(corners, i);
+    if (foreign_ == 0 && on_polygons == 3 && vertices_[corners[i]].on_polygon) continue;
+    for (std::uint32_t c = crossings_.find(face_across(facet)); c != kNone;) {
+      const std::uint32_t next = crossings_[c].next;
+      visit(c, kernel_.simplices().across(s)[i] >> 2);
+      c = next;
+    }
+  }
+}
+
+void Conformity::before_fill(std::uint32_t v) {
+  dug_pieces_.clear();
+  visit_pieces_dug([&](std::uint32_t piece) {
+    if (is_in_ball(piece, place(v))) {
+      want_piece(piece, v);
+    } else if (piece != splitting_) {
+      dug_pieces_.push_back(piece);
+    }
+  });
+  make_set(dug_pieces_);
+  touched_.clear();
+  if (!has_polygons_) return;
+  const Polygons on = polygons(v);
+  touched_.assign(on.begin(), on.end());
+  for (const std::uint32_t s : kernel_.doomed()) {
+    visit_crossings_of(s, [&](std::uint32_t i, std::uint32_t across) {
+      touched_.push_back(crossings_[i].polygon);
+      if (kernel_.is_doomed(across)) erase(i);
+    });
+  }
+  make_set(touched_);
+}
+
+/// Whether the edge of a piece is in a simplex that was made: of one that was dug, whether it is
+/// still there.
+bool Conformity::is_made(std::uint32_t piece) const {
+  const auto& made = kernel_.made();
+  return std::any_of(made.begin(), made.end(), [&](std::uint32_t s) {
+    const auto& corners = kernel_.simplices().corners(s);
+    return corner_of(corners, pieces_[piece].a) != corners.size() &&
+           corner_of(corners, pieces_[piece].b) != corners.size();
+  });
+}
+
+void Conformity::after_fill(std::uint32_t v) {
+  if (splitting_ != kNone) {
+    const std::uint32_t piece = std::exchange(splitting_, kNone);
+    const std::uint32_t other = pieces_.split(piece, v, vertices_[v].role.label);
+    look_at_piece(piece);
+    look_at_piece(other);
+  }
+  for (const std::uint32_t piece : dug_pieces_) {
+    if (!is_made(piece)) want_piece(piece, v);
+  }
+  enclosed_.forget_made();
+  for (const Rank f : touched_) look_at_made(f);
+}
+
+}  // namespace mesher::detail

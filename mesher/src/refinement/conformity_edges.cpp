@@ -1,0 +1,82 @@
+// Pieces of edges, and small angles.
+#include <algorithm>
+
+#include "refinement/at_edge.hpp"
+#include "refinement/conformity.hpp"
+#include "refinement/conformity_balls.hpp"
+#include "space/small_angles.hpp"
+
+namespace mesher::detail {
+
+/// `between`: the vertices between its ends.
+void Conformity::add_pieces(const Edge& e, std::uint32_t a, std::uint32_t b,
+                            std::vector<std::uint32_t>& between) {
+  const auto at = [&](std::uint32_t v) { return from_a(e, vertices_[v].role.label); };
+  std::sort(between.begin(), between.end(),
+            [&](std::uint32_t v, std::uint32_t w) { return at(v) < at(w); });
+  Subedges::Piece piece{a, b, Label::start(), Label::end(), e.self};
+  for (const std::uint32_t v : between) {
+    piece.b = v, piece.hi = vertices_[v].role.label;
+    pieces_.add(piece);
+    piece.a = v, piece.lo = piece.hi;
+  }
+  piece.b = b, piece.hi = Label::end();
+  pieces_.add(piece);
+}
+
+bool Conformity::is_in_ball(std::uint32_t piece, const Point<3>& p) const noexcept {
+  const Point<3>&a = place(pieces_[piece].a), &b = place(pieces_[piece].b);
+  const Point<3> to_a = minus(a, p), to_b = minus(b, p);
+  return dot(to_a, to_b) < (kOpen - 1) * squared_distance(a, b);
+}
+
+void Conformity::look_at_piece(std::uint32_t piece) {
+  const Subedges::Piece& p = pieces_[piece];
+  const AtEdge at = look_at_edge(kernel_, p.a, p.b, star_,
+                                 [&](std::uint32_t w) { return is_in_ball(piece, place(w)); });
+  if (!at.is_there || at.by != kNone) want_piece(piece, at.by);
+}
+
+void Conformity::want_piece(std::uint32_t piece, std::uint32_t by) {
+  if (pieces_.set_encroached(piece, by)) wanted_pieces_.push_back(piece);
+}
+
+/// Where features meet at a small angle at a copy of what is in the ball, else about in the middle.
+auto Conformity::split_piece(std::uint32_t piece) const -> Wanted {
+  const Subedges::Piece& p = pieces_[piece];
+  const Edge& e = store_.edges()[p.edge];
+  if (p.by != kNone && vertices_[p.by].role.on != 0) {
+    const Vertex<3> v = record(p.by);
+    const FeaturesBeside near(store_, place(p.a), 0, kEverywhere);
+    const auto copy = SmallAngles(near).copy({v, vertices_[p.by].role}, e);
+    if (copy && from_a(e, p.lo) < from_a(e, copy->role.label) &&
+        from_a(e, copy->role.label) < from_a(e, p.hi)) {
+      return {*copy, p.a};
+    }
+  }
+  const auto middle = EdgePiece{&e, p.lo, p.hi}.middle_if_any();
+  if (!middle) throw too_close_near(place(p.a));
+  return {placed_on(e, *middle), p.a};
+}
+
+std::uint32_t Conformity::piece_at(EdgeHandle handle, const Label& at) const {
+  const Edge& e = store_.edges()[handle];
+  const double from = from_a(e, at);
+  return pieces_.find_on(handle, [&](const Subedges::Piece& p) { return from < from_a(e, p.hi); });
+}
+
+/// As space/ knows it.
+Vertex<3> Conformity::record(std::uint32_t v) const {
+  Vertex<3> record;
+  record.p = place(v);
+  record.self = vertices_[v].point;
+  return record;
+}
+
+bool Conformity::keeps(std::uint32_t v, std::uint32_t w) const {
+  if (vertices_[v].role.on == 0 || vertices_[w].role.on == 0) return false;
+  const FeaturesBeside near(store_, scaled(0.5, plus(place(v), place(w))), 0, kEverywhere);
+  return SmallAngles(near).keeps({record(v), vertices_[v].role}, {record(w), vertices_[w].role});
+}
+
+}  // namespace mesher::detail

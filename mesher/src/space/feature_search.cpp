@@ -1,0 +1,191 @@
+// Exact tests behind the trees, and what two features share.
+#include "space/feature_search.hpp"
+
+#include <algorithm>
+#include <new>
+#include <tuple>
+
+#include "sets/common_items.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+// The nearest to x of what it is shown; of equally near ones the first by places.
+class Nearest {
+ public:
+  Nearest(const Point<3>& x, const FeatureStore& store) : x_(x), store_(store) {}
+
+  void show_edge(EdgeHandle h) {
+    const Edge& e = store_.edges()[h];
+    show(distance2_to(x_, e), e.place_a, e.place_b, Feature(e));
+  }
+  void show_point(VertexHandle h) {
+    const Vertex<3>& v = store_.points()[h];
+    show(distance2_to(x_, v), v.p, v.p, Feature(v));
+  }
+  [[nodiscard]] Feature found() const noexcept { return found_; }
+
+ private:
+  void show(double d2, const Point<3>& a, const Point<3>& b, Feature f) {
+    const std::tuple key(d2, a, b);
+    if (!found_ || key < key_) key_ = key, found_ = f;
+  }
+  const Point<3>& x_;
+  const FeatureStore& store_;
+  std::tuple<double, Point<3>, Point<3>> key_;
+  Feature found_;
+};
+
+template <class F>
+bool is_before(const F* a, const F* b);
+template <>
+bool is_before(const Edge* a, const Edge* b) {
+  return std::tie(a->place_a, a->place_b) < std::tie(b->place_a, b->place_b);
+}
+template <>
+bool is_before(const Polygon* a, const Polygon* b) {
+  return order(*a, *b) < 0;
+}
+
+// Some are found repeatedly.
+template <class F>
+void put_in_canonical_order(std::vector<const F*>& all) {
+  std::sort(all.begin(), all.end(), is_before<F>);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+}
+
+// Takes what it is shown. Visitors must not throw: this one says so, and the search ends.
+template <class F>
+class Found {
+ public:
+  bool take(const F& f) noexcept {
+    try {
+      all_.push_back(&f);
+    } catch (const std::bad_alloc&) {
+      failed_ = true;
+    }
+    return failed_;
+  }
+  [[nodiscard]] std::vector<const F*> finish() {
+    if (failed_) throw std::bad_alloc();
+    put_in_canonical_order(all_);
+    return std::move(all_);
+  }
+
+ private:
+  std::vector<const F*> all_;
+  bool failed_ = false;
+};
+
+// What is outside of a cell: of the ball around it, or beyond one of its planes. Wider than tests
+// of what is in it, by more than their slack and rounding.
+class Outside {
+ public:
+  explicit Outside(const VoronoiCell3& cell)
+      : cell_(cell), reach_(std::sqrt(cell.reach2()) * (1 + 0x1p-10)) {}
+
+  [[nodiscard]] double reach() const noexcept { return reach_; }
+  /// Whether a ball is.
+  [[nodiscard]] bool has(const Point<3>& middle, double radius) const noexcept {
+    const Point<3> x = minus(middle, cell_.center().p);
+    const double most = reach_ + radius;
+    if (squared(x) > most * most) return true;
+    const double wide = radius + 0x1p-20 * most;
+    for (int i = 0; i < cell_.size(); ++i) {
+      if (!cell_.used(i)) continue;
+      const Point<3>& u = cell_.neighbour(i);
+      const double u2 = squared(u), beyond = dot(u, x) - u2 / 2 * (1 + 0x1p-10);
+      if (beyond > 0 && beyond * beyond > wide * wide * u2) return true;
+    }
+    return false;
+  }
+
+ private:
+  const VoronoiCell3& cell_;
+  double reach_;
+};
+
+}  // namespace
+
+bool disjoint(const Polygon& f, const Polygon& g) {
+  return !visit_common(f.points, g.points, [](VertexHandle) { return true; });
+}
+
+template <class F>
+std::vector<const F*> find_near(const Point<3>& place, double radius, FeatureStore& store) {
+  Found<F> found;
+  store.visit_near<F>(place, place, radius * (1 + 0x1p-29), [&](const F& f) noexcept {
+    return is_in_ball(place, radius * radius, f) && found.take(f);
+  });
+  return found.finish();
+}
+template std::vector<const Edge*> find_near(const Point<3>& place, double radius, FeatureStore&);
+template std::vector<const Polygon*> find_near(const Point<3>& place, double radius, FeatureStore&);
+
+template <class F>
+std::vector<const F*> find_in(const VoronoiCell3& cell, FeatureStore& store) {
+  const Outside outside(cell);
+  Found<F> found;
+  const auto is_outside = [&](const Point<3>& x, double radius) { return outside.has(x, radius); };
+  const auto take = [&](const F& f) noexcept { return found.take(f); };
+  if constexpr (std::is_same_v<F, Edge>) {
+    store.visit_edges_in(cell.center().p, outside.reach(), is_outside, take);
+  } else {
+    store.visit_polygons_in(is_outside, take);
+  }
+  return found.finish();
+}
+template std::vector<const Edge*> find_in(const VoronoiCell3&, FeatureStore&);
+template std::vector<const Polygon*> find_in(const VoronoiCell3&, FeatureStore&);
+
+void FeaturesBeside::ask(const Point<3>& x, double radius) const {
+  const double within = (std::sqrt(squared_distance(x, place_)) + radius) * (1 + 0x1p-20);
+  asked_ = std::max(asked_, std::min(within, most_));
+}
+
+const std::vector<const Polygon*>& FeaturesBeside::polygons(const Point<3>& x,
+                                                            double radius) const {
+  ask(x, radius);
+  if (asked_ > known_) polygons_ = find_near<Polygon>(place_, asked_, store_), known_ = asked_;
+  return polygons_;
+}
+
+std::vector<const Edge*> FeaturesBeside::edges(const Point<3>& x, double radius) const {
+  ask(x, radius);
+  auto edges = find_near<Edge>(x, radius, store_);
+  std::erase_if(edges, [&](const Edge* e) { return !is_in_ball(place_, most_ * most_, *e); });
+  return edges;
+}
+
+Feature common(const Edge& e, const Edge& t, const Point<3>& x, const FeatureStore& store) {
+  Nearest nearest(x, store);
+  if (e.self == t.self) return Feature(e);
+  for (const VertexHandle end : {e.a, e.b}) {
+    if (t.has_end(end)) nearest.show_point(end);
+  }
+  return nearest.found();
+}
+
+Feature common(const Edge& e, const Polygon& f, const Point<3>& x, const FeatureStore& store) {
+  if (f.has_edge(e.self)) return Feature(e);
+  Nearest nearest(x, store);
+  for (const VertexHandle end : {e.a, e.b}) {
+    if (f.has(end)) nearest.show_point(end);
+  }
+  return nearest.found();
+}
+
+Feature common(const Polygon& f, const Edge& e, const Point<3>& x, const FeatureStore& store) {
+  return common(e, f, x, store);
+}
+
+Feature common(const Polygon& f, const Polygon& g, const Point<3>& x, const FeatureStore& store) {
+  Nearest nearest(x, store);
+  visit_common(f.all_edges, g.all_edges, [&](EdgeHandle e) { return nearest.show_edge(e), false; });
+  if (nearest.found()) return nearest.found();
+  visit_common(f.points, g.points, [&](VertexHandle v) { return nearest.show_point(v), false; });
+  return nearest.found();
+}
+
+}  // namespace mesher::detail

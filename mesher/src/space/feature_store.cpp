@@ -1,0 +1,189 @@
+// Records of polygons, and the users of edges.
+#include "space/feature_store.hpp"
+
+#include <algorithm>
+
+#include "sets/make_set.hpp"
+
+namespace mesher::detail {
+
+// --- Records ---------------------------------------------------------------------------------
+
+std::size_t FeatureStore::hash(const Key& key) noexcept {
+  std::uint64_t h = key.f->points.size();
+  for (const VertexHandle v : key.f->corners) h = sac::mix(h + v);
+  for (const EdgeHandle e : key.f->all_edges) h = sac::mix(h + e);
+  return h;
+}
+
+Edge& FeatureStore::record(VertexHandle a, VertexHandle b) {
+  Edge& e = edges_.record(a, b);
+  if (e.self >= users_.size()) users_.resize(e.self + std::size_t{1});
+  return e;
+}
+
+namespace {
+
+template <class Handle, class Key>
+void sort_by(std::vector<Handle>& all, Key&& key) {
+  std::sort(all.begin(), all.end(), [&](Handle a, Handle b) { return key(a) < key(b); });
+}
+
+// Of an edge that is there twice, which is refused later, the first corner.
+void number_edges(Polygon& f) {
+  f.corner_of.assign(f.all_edges.size(), Polygon::kInner);
+  for (std::size_t i = f.edges.size(); i-- > 0;) {
+    const auto at = std::lower_bound(f.all_edges.begin(), f.all_edges.end(), f.edges[i]);
+    f.corner_of[static_cast<std::size_t>(at - f.all_edges.begin())] = static_cast<std::uint32_t>(i);
+  }
+}
+
+}  // namespace
+
+// All of a record. What is inside is known by its places, too: inner edges by those of their ends.
+Polygon FeatureStore::shaped(PolygonParts& parts) {
+  const auto place = [&](VertexHandle v) { return points_[v].p; };
+  put_in_order(parts.loops, place);
+  Polygon f;
+  for (const Loop& loop : parts.loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      f.corners.push_back(loop[i]);
+      f.places.push_back(place(loop[i]));
+      f.edges.push_back(record(loop[i], loop[(i + 1) % loop.size()]).self);
+    }
+    f.loop_end.push_back(static_cast<std::uint32_t>(f.corners.size()));
+  }
+  f.points = f.corners;
+  f.all_edges = f.edges;
+  for (const auto& [a, b] : parts.edges) {
+    f.inner_edges.push_back(record(a, b).self);
+    parts.points.insert(parts.points.end(), {a, b});
+  }
+  make_set(f.inner_edges);
+  make_set(parts.points);
+  f.inner_points = std::move(parts.points);
+  const auto ends = [&](EdgeHandle e) { return std::pair(edges()[e].place_a, edges()[e].place_b); };
+  sort_by(f.inner_edges, ends);
+  sort_by(f.inner_points, place);
+  for (const EdgeHandle e : f.inner_edges) {
+    f.inside.insert(f.inside.end(), {edges()[e].place_a, edges()[e].place_b});
+  }
+  for (const VertexHandle v : f.inner_points) f.inside.push_back(place(v));
+  f.points.insert(f.points.end(), f.inner_points.begin(), f.inner_points.end());
+  f.all_edges.insert(f.all_edges.end(), f.inner_edges.begin(), f.inner_edges.end());
+  make_set(f.points);
+  make_set(f.all_edges);
+  number_edges(f);
+  return f;
+}
+
+Polygon& FeatureStore::record(PolygonParts parts) {
+  Polygon f = shaped(parts);
+  PolygonHandle h = by_parts_.find(Key{&f});
+  if (h == 0) {
+    f.outline_tree.count_in(parts_looked_at_);
+    f.inner_tree.count_in(parts_looked_at_);
+    static_cast<void>(find_shape(f));
+    h = polygons_.create(std::move(f)).self;
+    try {
+      by_parts_.insert(h);
+    } catch (...) {
+      polygons_.release(polygons_[h]);
+      throw;
+    }
+  }
+  touch(polygons_[h]);
+  return polygons_[h];
+}
+
+void FeatureStore::touch(Polygon& f) noexcept {
+  if (f.changed) return;
+  f.changed = true;
+  f.next_changed = std::exchange(changed_, f.self);
+}
+
+// --- What is there ---------------------------------------------------------------------------
+
+void FeatureStore::use(Edge& e) {
+  if (users(e) == 0) {
+    edges_.put(e);
+    if (listener_ != nullptr) listener_->came(e);
+  }
+  ++users_[e.self];
+}
+
+void FeatureStore::leave(Edge& e) noexcept {
+  if (--users_[e.self] != 0) return;
+  edges_.take(e);
+  if (listener_ != nullptr) listener_->went(e);
+}
+
+void FeatureStore::leave(std::span<const EdgeHandle> edges) noexcept {
+  for (const EdgeHandle e : edges) leave(edges_[e]);
+}
+
+void FeatureStore::put(Polygon& f) {
+  SAC_EXPECTS(!f.alive);
+  std::size_t used = 0;
+  try {
+    for (; used < f.all_edges.size(); ++used) use(edges_[f.all_edges[used]]);
+    tree_.insert(f.middle, f.reach + f.thickness, f.self);
+  } catch (...) {
+    leave(std::span(f.all_edges).first(used));
+    throw;
+  }
+  touch(f);
+  f.alive = true;
+  if (listener_ != nullptr) listener_->came(f);
+}
+
+void FeatureStore::take(Polygon& f) noexcept {
+  tree_.erase(f.middle, f.self);
+  touch(f);
+  f.alive = false;
+  if (listener_ != nullptr) listener_->went(f);
+  leave(f.all_edges);
+}
+
+// Polygons refer to edges.
+void FeatureStore::commit() noexcept {
+  for (PolygonHandle h = std::exchange(changed_, 0); h != 0;) {
+    Polygon& f = polygons_[h];
+    h = std::exchange(f.next_changed, 0);
+    f.changed = false;
+    if (f.alive) continue;
+    by_parts_.erase(f.self);
+    polygons_.release(f);
+  }
+  edges_.commit();
+}
+
+std::size_t FeatureStore::bytes() const noexcept {
+  return edges_.bytes() + users_.capacity() * sizeof(users_[0]) + polygons_.bytes() +
+         by_parts_.bytes() + tree_.bytes();
+}
+
+void FeatureStore::check_invariants() const {
+  edges_.check_invariants();
+  tree_.check_invariants();
+  std::vector<std::uint32_t> polygons_at(users_.size());
+  std::size_t records = 0, live = 0;
+  polygons_.for_each([&](const Polygon& f) {
+    ++records;
+    SAC_INVARIANT(by_parts_.find(Key{&f}) == f.self && (f.alive || f.changed));
+    if (!f.alive) return;
+    ++live;
+    for (const EdgeHandle e : f.all_edges) ++polygons_at[e];
+    for (std::size_t i = 0; i < f.corners.size(); ++i) {
+      SAC_INVARIANT(points_[f.corners[i]].p == f.places[i]);
+      SAC_INVARIANT(f.has(f.corners[i]) && f.has_edge(f.edges[i]));
+    }
+  });
+  SAC_INVARIANT(records == by_parts_.size() && live == tree_.size());
+  edges().for_each([&](const Edge& e) {
+    SAC_INVARIANT((users(e) > 0) == e.alive);
+    SAC_INVARIANT(!e.alive || users(e) >= polygons_at[e.self]);
+  });
+}
+
+}  // namespace mesher::detail

@@ -1,0 +1,155 @@
+// The input's edges and polygons: their records, who uses which edge, and what is near.
+//
+// An edge is there while somebody uses it: a segment of the input, or polygons, of which it is an
+// edge or inside. Who listens is told of edges and polygons that come and go.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "plane/segment_store.hpp"
+#include "records/handle_table.hpp"
+#include "records/reach_tree.hpp"
+#include "space/polygon_pool.hpp"
+#include "space/polygon_shape.hpp"
+
+namespace mesher::detail {
+
+using Loop = std::vector<VertexHandle>;  // corners in their order around, either way
+
+/// What a polygon is, by the points of the input; in any order.
+struct PolygonParts {
+  std::vector<Loop> loops;  // the outer one first; three corners or more, each once in a loop
+  std::vector<std::pair<VertexHandle, VertexHandle>> edges;  // that lie inside
+  std::vector<VertexHandle> points;                          // that lie inside, ends or not
+};
+
+/// Who wants to know of features that come and go: what has come is there, what has gone is not.
+class FeatureEvents {
+ public:
+  virtual void came(const Edge& e) noexcept = 0;
+  virtual void went(const Edge& e) noexcept = 0;
+  virtual void came(const Polygon& f) noexcept = 0;
+  virtual void went(const Polygon& f) noexcept = 0;
+
+ protected:
+  ~FeatureEvents() = default;
+};
+
+class FeatureStore {
+ public:
+  FeatureStore(const MeshBox<3>& box, const VertexPool<3>& points)
+      : points_(points), edges_(box, points), by_parts_(*this), tree_(box) {}
+  FeatureStore(const FeatureStore&) = delete;
+  FeatureStore& operator=(const FeatureStore&) = delete;
+  void set_listener(FeatureEvents* listener) noexcept { listener_ = listener; }
+
+  [[nodiscard]] const EdgePool& edges() const noexcept { return edges_.pool(); }
+  [[nodiscard]] const PolygonPool& polygons() const noexcept { return polygons_; }
+  [[nodiscard]] const VertexPool<3>& points() const noexcept { return points_; }
+  /// How many there are, less those of freed records.
+  [[nodiscard]] std::size_t live_edges() const noexcept { return edges_.live(); }
+  [[nodiscard]] std::size_t live_polygons() const noexcept { return tree_.size(); }
+
+  /// The live edge between two points, in either order; null if there is none. Cost: O(1).
+  [[nodiscard]] const Edge* find_edge(VertexHandle a, VertexHandle b) const {
+    return edges_.find(a, b);
+  }
+  /// Calls visit(edge) for the live edges at a point, until it returns true.
+  template <class Visit>
+  bool visit_edges_at(VertexHandle point, Visit&& visit) const {
+    return edges_.visit_at(point, visit);
+  }
+
+  /// The record of the edge between two points, or of a polygon, made if there is none; it is freed
+  /// by commit() unless it is live then. A polygon without an area is one whose plane has no
+  /// normal. Throws: std::bad_alloc, and then changes nothing.
+  [[nodiscard]] Edge& record(VertexHandle a, VertexHandle b);
+  [[nodiscard]] Polygon& record(PolygonParts parts);
+
+  /// One user more of an edge, who makes it live if it is the first. Throws: std::bad_alloc, and
+  /// then changes nothing.
+  void use(Edge& e);
+  /// One user less. Requires: use(e) before.
+  void leave(Edge& e) noexcept;
+  [[nodiscard]] std::uint32_t users(const Edge& e) const noexcept {
+    return e.self < users_.size() ? users_[e.self] : 0;
+  }
+  /// Makes f live, with the edges on it. Requires: it is not, and has an area. Throws:
+  /// std::bad_alloc, and then changes nothing. Cost: O(corners log L/s).
+  void put(Polygon& f);
+  /// Requires: f is live.
+  void take(Polygon& f) noexcept;
+
+  /// Calls visit(edge) and visit(polygon) for the live features within `slack` of the segment pq
+  /// (p = q: of the point), and some others, some repeatedly, until it returns true. Returns
+  /// whether it did. visit must not throw, nor search.
+  template <class Visit>
+  bool visit_near(const Point<3>& p, const Point<3>& q, double slack, Visit&& visit) noexcept {
+    return visit_near<Edge>(p, q, slack, visit) || visit_near<Polygon>(p, q, slack, visit);
+  }
+  /// The same with the edges, or the polygons, alone.
+  template <class F, class Visit>
+  bool visit_near(const Point<3>& p, const Point<3>& q, double slack, Visit&& visit) noexcept {
+    if constexpr (std::is_same_v<F, Edge>) {
+      return edges_.visit_near(p, q, slack, [&](const Edge& e) { return visit(e); });
+    } else {
+      return tree_.visit_near(p, q, slack,
+                              [&](PolygonHandle h) { return visit(std::as_const(polygons_[h])); });
+    }
+  }
+  /// The same with the edges within `reach` of p that are not `outside(x, r)`: no place of the ball
+  /// of radius r around x matters.
+  template <class Outside, class Visit>
+  bool visit_edges_in(const Point<3>& p, double reach, Outside&& outside, Visit&& visit) noexcept {
+    return edges_.visit_in(p, reach, outside, [&](const Edge& e) { return visit(e); });
+  }
+
+  /// The same with all polygons that are not.
+  template <class Outside, class Visit>
+  bool visit_polygons_in(Outside&& outside, Visit&& visit) noexcept {
+    return tree_.visit_unless(outside,
+                              [&](PolygonHandle h) { return visit(std::as_const(polygons_[h])); });
+  }
+
+  /// How much searches have looked at so far.
+  [[nodiscard]] std::uint64_t looked_at() const noexcept {
+    return edges_.looked_at() + tree_.looked_at() + parts_looked_at_;
+  }
+  /// Frees the records of features that are not live.
+  void commit() noexcept;
+  [[nodiscard]] std::size_t bytes() const noexcept;
+  /// Throws InvariantError. Cost: O(features).
+  void check_invariants() const;
+
+ private:
+  friend class HandleTable<FeatureStore>;
+  struct Key {
+    const Polygon* f;
+    friend bool operator==(const Key& a, const Key& b) noexcept {
+      return a.f->corners == b.f->corners && a.f->loop_end == b.f->loop_end &&
+             a.f->points == b.f->points && a.f->all_edges == b.f->all_edges;
+    }
+  };
+  [[nodiscard]] Key key(PolygonHandle h) const noexcept { return {&polygons_[h]}; }
+  [[nodiscard]] static std::size_t hash(const Key& key) noexcept;
+  void touch(Polygon& f) noexcept;
+  void leave(std::span<const EdgeHandle> edges) noexcept;
+  [[nodiscard]] Polygon shaped(PolygonParts& parts);
+
+  const VertexPool<3>& points_;
+  SegmentStoreOf<3> edges_;
+  std::vector<std::uint32_t> users_;  // by the handles of edges
+  PolygonPool polygons_;
+  HandleTable<FeatureStore> by_parts_;
+  ReachTree<PolygonHandle, 3> tree_;
+  std::uint64_t parts_looked_at_ = 0;  // of polygons
+  PolygonHandle changed_ = 0;
+  FeatureEvents* listener_ = nullptr;
+};
+
+}  // namespace mesher::detail

@@ -1,0 +1,176 @@
+// Parts of features, simplex by simplex; what two simplices find is joined by sorting.
+#include "space/parts_in_mesh.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include "geometry/circumcentre.hpp"
+#include "sets/make_set.hpp"
+#include "space/placed.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+using Simplex = std::array<VertexHandle, 4>;
+using Corners = std::array<VertexHandle, 3>;
+using Polygons = std::span<const PolygonHandle>;  // ascending
+
+// What vertices lie on; what has been asked once is remembered.
+class Standings {
+ public:
+  explicit Standings(const Labelled& labelled) : labelled_(labelled) {}
+
+  [[nodiscard]] Polygons with_edge(EdgeHandle e) {
+    return find(at_edge_, e, [&](const PolygonsAt& all, auto&& add) { all.visit_with_edge(e, add); });
+  }
+  /// Those that v lies on.
+  [[nodiscard]] Polygons polygons(VertexHandle v) {
+    const Role role = labelled_.role(v);
+    if (const PolygonHandle f = polygon_of(role)) return {&labelled_.features.polygons()[f].self, 1};
+    if (role.on != 0) return with_edge(role.on);
+    if (!labelled_.vertices[v].input) return {};
+    return find(at_point_, v,
+                [&](const PolygonsAt& all, auto&& add) { all.visit_with_point(v, add); });
+  }
+  /// The edge that both lie on; 0 if there is none.
+  [[nodiscard]] EdgeHandle common_edge(VertexHandle v, VertexHandle w) const {
+    const EdgeHandle e = edge_of(labelled_.role(v)), t = edge_of(labelled_.role(w));
+    if (e != 0) return e == t || has_end(e, w) ? e : 0;
+    if (t != 0) return has_end(t, v) ? t : 0;
+    const Edge* both = labelled_.features.find_edge(v, w);
+    return both == nullptr ? 0 : both->self;
+  }
+
+ private:
+  using Table = std::unordered_map<std::uint32_t, std::vector<PolygonHandle>>;
+  // Of an index some may have gone.
+  template <class Visit>
+  Polygons find(Table& known, std::uint32_t h, Visit&& visit) {
+    const auto [it, is_new] = known.try_emplace(h);
+    std::vector<PolygonHandle>& found = it->second;
+    if (!is_new) return found;
+    for (const PolygonsAt* all : labelled_.polygons) {
+      visit(*all, [&](PolygonHandle f) {
+        if (labelled_.features.polygons()[f].alive) found.push_back(f);
+      });
+    }
+    make_set(found);
+    return found;
+  }
+  [[nodiscard]] bool has_end(EdgeHandle e, VertexHandle v) const {
+    return labelled_.features.edges()[e].has_end(v);
+  }
+
+  const Labelled& labelled_;
+  Table at_edge_, at_point_;
+};
+
+class PartFinder {
+ public:
+  explicit PartFinder(const Labelled& labelled) : labelled_(labelled), standings_(labelled) {}
+
+  void look_at(const Simplex& s) {
+    std::array<Polygons, 4> on;
+    std::size_t featured = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      on[i] = standings_.polygons(s[i]);
+      featured += may_be_on_edge(s[i]) || !on[i].empty() ? 1 : 0;
+    }
+    if (featured < 2) return;
+    look_at_edges(s);
+    for (std::size_t i = 0; i < 4; ++i) look_at_face(s, on, i);
+  }
+
+  [[nodiscard]] OnFeatures finish() {
+    make_set(edges_);
+    OnFeatures all;
+    for (const auto& [low, high, e] : edges_) all.edges.push_back(named(low, high, e));
+    std::sort(sides_.begin(), sides_.end());
+    for (std::size_t i = 1; i < sides_.size(); ++i) {
+      const auto& [f, corners, is_above] = sides_[i];
+      if (std::tie(f, corners) !=
+          std::tie(std::get<0>(sides_[i - 1]), std::get<1>(sides_[i - 1]))) {
+        continue;
+      }
+      const bool crosses = is_above != std::get<2>(sides_[i - 1]);
+      if (crosses && holds_centre(f, corners)) {
+        all.faces.push_back({corners, labelled_.names.polygon(f)});
+      }
+    }
+    return all;
+  }
+
+ private:
+  [[nodiscard]] bool may_be_on_edge(VertexHandle v) const {
+    return labelled_.vertices[v].input || edge_of(labelled_.role(v)) != 0;
+  }
+  void look_at_edges(const Simplex& s) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t k = i + 1; k < 4; ++k) {
+        const EdgeHandle e = standings_.common_edge(s[i], s[k]);
+        if (e != 0) edges_.emplace_back(std::min(s[i], s[k]), std::max(s[i], s[k]), e);
+      }
+    }
+  }
+  // The face across from corner i.
+  void look_at_face(const Simplex& s, const std::array<Polygons, 4>& on, std::size_t i) {
+    const std::size_t a = (i + 1) % 4, b = (i + 2) % 4, c = (i + 3) % 4;
+    const auto has = [](Polygons all, PolygonHandle f) {
+      return std::binary_search(all.begin(), all.end(), f);
+    };
+    for (const PolygonHandle f : on[a]) {
+      if (!has(on[b], f) || !has(on[c], f)) continue;
+      Corners corners{s[a], s[b], s[c]};
+      std::sort(corners.begin(), corners.end());
+      sides_.emplace_back(f, corners, is_above(s, f));
+    }
+  }
+
+  // Whether the centre is on the normal's side of the plane: a function of the corners' places, in
+  // no order.
+  [[nodiscard]] bool is_above(const Simplex& s, PolygonHandle f) const {
+    std::array<Point<3>, 4> p;
+    for (std::size_t i = 0; i < 4; ++i) p[i] = labelled_.vertices[s[i]].p;
+    p = smallest_first(p);
+    const Plane& plane = labelled_.features.polygons()[f].plane;
+    const Circumcentre centre = circumcentre(p[0], p[1], p[2], p[3]);
+    return plane.height(p[0]) + dot(centre.q, plane.normal) > 0;
+  }
+  // Whether the line of places as far from each corner meets f.
+  [[nodiscard]] bool holds_centre(PolygonHandle h, const Corners& corners) const {
+    const Polygon& f = labelled_.features.polygons()[h];
+    std::array<Point<3>, 3> p;
+    for (std::size_t i = 0; i < 3; ++i) p[i] = labelled_.vertices[corners[i]].p;
+    return contains(f, centre_in_frame(f, p));
+  }
+
+  [[nodiscard]] LineEdge named(VertexHandle low, VertexHandle high, EdgeHandle e) {
+    if (const auto id = labelled_.names.segment(e)) return {low, high, *id, false, e};
+    std::optional<FeatureId> least;
+    for (const PolygonHandle f : standings_.with_edge(e)) {
+      const FeatureId id = labelled_.names.polygon(f);
+      if (!least || id < *least) least = id;
+    }
+    return {low, high, least.value_or(FeatureId{}), true, e};
+  }
+
+  const Labelled& labelled_;
+  Standings standings_;
+  std::vector<std::tuple<VertexHandle, VertexHandle, EdgeHandle>> edges_;
+  std::vector<std::tuple<PolygonHandle, Corners, bool>> sides_;  // of faces with corners on one
+};
+
+}  // namespace
+
+OnFeatures on_features(const std::vector<Simplex>& simplices, const Labelled& labelled) {
+  PartFinder finder(labelled);
+  for (const Simplex& s : simplices) finder.look_at(s);
+  return finder.finish();
+}
+
+}  // namespace mesher::detail

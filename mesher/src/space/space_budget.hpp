@@ -1,0 +1,15 @@
+// What is said in space when a mesh needs more vertices than it may have: where they are.
+#pragma once
+
+#include "index/vertex_search.hpp"
+#include "mesher/error.hpp"
+#include "space/validity.hpp"
+
+namespace mesher::detail {
+
+/// Names the two features with the most vertices on them, if there are any, and where these lie the
+/// closest. `names`: null if there are no features. Cost: O(vertices).
+[[nodiscard]] Error too_many_vertices(const VertexSearch<3>& vertices, const SpaceNames* names,
+                                      const FeatureStore& store, std::size_t most);
+
+}  // namespace mesher::detail
