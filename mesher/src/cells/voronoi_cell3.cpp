@@ -17,7 +17,7 @@ namespace {
 
 // Three unit directions at right angles, right-handed: turned by 0.7, 0.5 and 0.3 radians about the
 // axes, so that no grid is aligned with them. The virtual neighbours are these and their opposites.
-constexpr std::array<Point<3>, 3> kDirections{{
+constexpr std::array<Point<3>, 3> kAxes{{
     {0.83838664359420356, 0.25934338005223079, -0.47942553860420301},
     {0.069033568057884742, 0.82195436950412748, 0.56535420838114381},
     {0.54068678763591338, -0.50708187275444627, 0.67121216615895773},
@@ -26,7 +26,7 @@ constexpr std::array<Point<3>, 3> kDirections{{
 }  // namespace
 
 Point<3> VoronoiCell3::clip_place(const Point<3>& v, double radius, std::size_t i) {
-  return plus(v, scaled((i % 2 == 0 ? 2 : -2) * radius, kDirections[i / 2]));
+  return plus(v, scaled((i % 2 == 0 ? 2 : -2) * radius, kAxes[i / 2]));
 }
 
 // --- Columns ---------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ namespace mesher::detail {
 
 namespace {
 
-constexpr double kEqual = 1e-9;  // distances that differ by no more of them are equal
+constexpr double kEqualDistances = 1e-9;  // distances that differ by no more of them are equal
 
 template <class Items>
 bool intersects(const Items& a, const Items& b) {
@@ -44,7 +44,7 @@ bool ComplexCheck::excuses(const Mesh<3>::Simplex& s) const {
   }
   const double least = std::min_element(edges.begin(), edges.end())->first;
   return std::any_of(edges.begin(), edges.end(), [&](const auto& e) {
-    return e.first <= least * (1 + kEqual) && is_short(e.second[0], e.second[1]);
+    return e.first <= least * (1 + kEqualDistances) && is_short(e.second[0], e.second[1]);
   });
 }
 
@@ -73,7 +73,7 @@ bool ComplexCheck::share_shell(std::uint32_t a, std::uint32_t b) const {
       const Point<3>& o = places_.at(point);
       const double x = std::sqrt(squared_distance(at(a), o)),
                    y = std::sqrt(squared_distance(at(b), o));
-      if (std::abs(x - y) <= kEqual * (x + y) && has(point)) return true;
+      if (std::abs(x - y) <= kEqualDistances * (x + y) && has(point)) return true;
     }
   }
   return false;

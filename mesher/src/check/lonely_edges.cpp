@@ -16,7 +16,7 @@ namespace mesher::detail {
 
 namespace {
 
-constexpr double kRounding = 1e-9;  // of lengths, in favour of the mesh
+constexpr double kRoundedLength = 1e-9;  // of lengths, in favour of the mesh
 
 bool meet(const std::vector<FeatureId>& a, const std::vector<FeatureId>& b) {
   return std::any_of(a.begin(), a.end(),
@@ -90,7 +90,7 @@ void LonelyEdges::add(Feature f) {
       f.reach = std::max(f.reach, std::sqrt(squared_distance(c.at, f.middle)));
     }
   }
-  tree_.insert(f.middle, f.reach * (1 + kRounding), static_cast<std::uint32_t>(features_.size()));
+  tree_.insert(f.middle, f.reach * (1 + kRoundedLength), static_cast<std::uint32_t>(features_.size()));
   features_.push_back(std::move(f));
 }
 
@@ -139,7 +139,7 @@ double LonelyEdges::distance(const Feature& f, const Point<3>& x) {
 std::optional<LonelyEdges::Beside> LonelyEdges::find(const Point<3>& p, const Point<3>& q) const {
   const Point<3> middle = scaled(0.5, plus(p, q));
   const double length = std::sqrt(squared_distance(p, q));
-  const double within = kLonely * length * (1 - kRounding);
+  const double within = kLonely * length * (1 - kRoundedLength);
   std::vector<std::pair<double, const Feature*>> near;
   for (const Feature* f : find_near(middle, within)) {
     const double away = distance(*f, middle);
@@ -147,7 +147,7 @@ std::optional<LonelyEdges::Beside> LonelyEdges::find(const Point<3>& p, const Po
   }
   NearestBeside beside;
   for (const auto& [away, f] : near) {
-    if (f->kind == Kind::point || away > kBesideEdge * length * (1 + kRounding)) continue;
+    if (f->kind == Kind::point || away > kBesideEdge * length * (1 + kRoundedLength)) continue;
     const bool lonely = std::none_of(near.begin(), near.end(), [&, g = f](const auto& other) {
       return !meet(g->points, other.second->points);
     });

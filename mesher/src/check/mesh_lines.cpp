@@ -13,7 +13,7 @@ namespace mesher::detail {
 
 namespace {
 
-constexpr double kEqual = 1e-9;  // distances that differ by no more are of equal labels
+constexpr double kEqualEdges = 1e-9;  // distances that differ by no more are of equal labels
 
 }  // namespace
 
@@ -76,7 +76,7 @@ std::vector<MeshLines::Wedge> MeshLines::wedges_across(std::uint32_t p, std::uin
   const bool both_inside = through_[p] != kNone && through_[q] != kNone;
   for_each_leg(p, [&](std::uint32_t s, std::uint32_t apex, double from_p) {
     for_each_leg(q, [&](std::uint32_t t, std::uint32_t other, double from_q) {
-      const double tolerance = kEqual * (from_p + from_q) + distance_rounding(mesh_.vertices[apex]);
+      const double tolerance = kEqualEdges * (from_p + from_q) + distance_rounding(mesh_.vertices[apex]);
       if (s == t || apex != other || std::abs(from_p - from_q) > tolerance) return;
       const double angle = degrees(s, t, apex);
       if (angle >= kSmall) return;

@@ -19,9 +19,9 @@ namespace {
 using detail::cross;
 using detail::dot;
 using detail::minus;
-using Corners = std::array<Point<3>, 4>;
+using CornerPlaces = std::array<Point<3>, 4>;
 
-double shortest_edge(const Corners& p) {
+double shortest_edge(const CornerPlaces& p) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = i + 1; j < 4; ++j) {
@@ -69,7 +69,7 @@ class Angles {
 
 // Those between the faces. The cross product of two normals is the edge of both times the
 // determinant.
-Angles dihedrals(const Corners& p) {
+Angles dihedrals(const CornerPlaces& p) {
   const Point<3> b = minus(p[1], p[0]), c = minus(p[2], p[0]), d = minus(p[3], p[0]);
   const Point<3> e = minus(p[2], p[1]), f = minus(p[3], p[1]), g = minus(p[3], p[2]);
   // Of the faces across from p[1], p[2], p[3], p[0], all outward, or all inward.

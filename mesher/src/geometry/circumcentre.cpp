@@ -11,7 +11,7 @@ namespace mesher::detail {
 namespace {
 
 // What |a||b||c| / det may be at most for doubles.
-constexpr double kFlat = 1e7;
+constexpr double kFlatCentre = 1e7;
 
 // A bound on the error of 2 w.q for |w| <= 4 |q|, in units of k |q| |w|; k = |a||b||c| / det >= 1,
 // u = 2^-53. An entry of a is rounded once. A product a2 (b x c) has 4 rounded entries and 6
@@ -21,9 +21,9 @@ constexpr double kFlat = 1e7;
 // determinant, 8 u for each monomial, sqrt(2) |a||b||c| in all, moves q by 12 u k |q|. Twice that
 // for 2 w.q makes 126, the rounding of w, of the sum and of |w|^2 at most 32 more. (Beyond 4 |q|,
 // 2 w.q - |w|^2 <= -|w|^2 / 2 is clear.) This is more than twice as much.
-constexpr double kRounded = 512 * 0x1p-53;
+constexpr double kRoundedCentre = 512 * 0x1p-53;
 // The same for a centre that has only been rounded: 2 u for q, the 32 u as above.
-constexpr double kExact = 64 * 0x1p-53;
+constexpr double kExactCentre = 64 * 0x1p-53;
 
 template <std::size_t W>
 using Vector = std::array<predicates::detail::FixedInt<W>, 3>;
@@ -58,7 +58,7 @@ Point<3> centre(const std::array<predicates::detail::FixedInt<W>, 9>& d, int low
       {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2], v[0], v[1], v[2]},
       [](const auto& differences, int low) { return centre(differences, low); });
   const double q2 = squared(q);
-  return {q, q2, kExact * kExact * q2};
+  return {q, q2, kExactCentre * kExactCentre * q2};
 }
 
 Circumcentre from_smallest(const Point<3>& v, const Point<3>& first, const Point<3>& second,
@@ -68,14 +68,14 @@ Circumcentre from_smallest(const Point<3>& v, const Point<3>& first, const Point
   const double det = dot(a, bc);
   const double a2 = squared(a), b2 = squared(b), c2 = squared(c);
   const double spread2 = a2 * b2 * c2;
-  if (!(det > 0) || spread2 > kFlat * kFlat * (det * det)) {
+  if (!(det > 0) || spread2 > kFlatCentre * kFlatCentre * (det * det)) {
     return exact_centre(v, first, second, third);
   }
   const double f = 0.5 / det;
   Point<3> q;
   for (std::size_t i = 0; i < 3; ++i) q[i] = (a2 * bc[i] + b2 * ca[i] + c2 * ab[i]) * f;
   const double q2 = squared(q);
-  return {q, q2, 4 * kRounded * kRounded * (spread2 * f * f) * q2};
+  return {q, q2, 4 * kRoundedCentre * kRoundedCentre * (spread2 * f * f) * q2};
 }
 
 /// d: the differences a, b. All sums are among those of incircle.

@@ -16,7 +16,7 @@
 namespace mesher {
 namespace {
 
-constexpr std::string_view kNoted[] = {"vt", "vn",     "vp",     "g",  "o",
+constexpr std::string_view kNotedWords[] = {"vt", "vn",     "vp",     "g",  "o",
                                        "s",  "usemtl", "mtllib", "mg", "lod"};
 
 class ObjReader {
@@ -35,7 +35,7 @@ class ObjReader {
     const std::string_view word = line[0];
     if (word == "v") return read_vertex(line);
     if (word == "p" || word == "l" || word == "f") return read_element(line);
-    if (std::find(std::begin(kNoted), std::end(kNoted), word) == std::end(kNoted)) {
+    if (std::find(std::begin(kNotedWords), std::end(kNotedWords), word) == std::end(kNotedWords)) {
       throw line.error(ErrorCode::bad_syntax, "no statement is called " + text::quoted(word), 0);
     }
     notes_.add("the statement " + text::quoted(word) + " is not used", line.place(0));

@@ -46,23 +46,23 @@ std::size_t find_column(const text::Line& header, std::string_view name) {
 
 // Columns that belong together, by name.
 template <int D>
-using Names = std::array<std::string_view, D>;
+using ColumnNames = std::array<std::string_view, D>;
 
-const std::vector<Names<2>> kPlane{{"x", "y"}, {"lon", "lat"}, {"longitude", "latitude"}};
-const std::vector<Names<3>> kSpace{{"x", "y", "z"}};
-const std::vector<Names<3>> kSizes{
+const std::vector<ColumnNames<2>> kPlaneColumns{{"x", "y"}, {"lon", "lat"}, {"longitude", "latitude"}};
+const std::vector<ColumnNames<3>> kSpaceColumns{{"x", "y", "z"}};
+const std::vector<ColumnNames<3>> kSizes{
     {"x", "y", "h"}, {"lon", "lat", "h"}, {"longitude", "latitude", "h"}};
-const std::vector<Names<4>> kSpaceSizes{{"x", "y", "z", "h"}};
+const std::vector<ColumnNames<4>> kSpaceSizes{{"x", "y", "z", "h"}};
 
 template <int D>
-std::string text_of(const Names<D>& names) {
+std::string text_of(const ColumnNames<D>& names) {
   std::string text;
   for (const auto& name : names) text += (name == names[0] ? "" : ",") + std::string(name);
   return text;
 }
 
 template <int D>
-std::string text_of(const std::vector<Names<D>>& sets) {
+std::string text_of(const std::vector<ColumnNames<D>>& sets) {
   std::string text;
   for (const auto& names : sets) text += (text.empty() ? "" : " or ") + text_of<D>(names);
   return text;
@@ -70,8 +70,8 @@ std::string text_of(const std::vector<Names<D>>& sets) {
 
 // The columns of the first set of names that the header has in full.
 template <int D>
-Columns<D> named_columns(const text::Line& header, const std::vector<Names<D>>& sets) {
-  for (const Names<D>& names : sets) {
+Columns<D> named_columns(const text::Line& header, const std::vector<ColumnNames<D>>& sets) {
+  for (const ColumnNames<D>& names : sets) {
     Columns<D> columns;
     std::transform(names.begin(), names.end(), columns.begin(),
                    [&](std::string_view name) { return find_column(header, name); });
@@ -98,7 +98,7 @@ bool is_header(const text::Line& line) {
 }
 
 template <int D>
-Columns<D> unnamed_columns(const text::Line& line, const Names<D>& names) {
+Columns<D> unnamed_columns(const text::Line& line, const ColumnNames<D>& names) {
   if (line.size() > D) {
     throw line.error(ErrorCode::bad_dimension,
                      std::to_string(line.size()) + " columns, expected " + std::to_string(D) +
@@ -153,7 +153,7 @@ class CsvLines {
 
 // Columns of the first of `sets` that the file names in full, or its D columns if it names none.
 template <int D>
-PointFile<D> read_columns(const std::string& path, const std::vector<Names<D>>& sets) {
+PointFile<D> read_columns(const std::string& path, const std::vector<ColumnNames<D>>& sets) {
   const std::string content = text::read_file(path);
   PointFile<D> rows{path, {}, {}, {}};
   std::optional<Columns<D>> columns;
@@ -175,7 +175,7 @@ PointFile<D> read_columns(const std::string& path, const std::vector<Names<D>>& 
 // The column z of a header that names x and y as well; kMissing if it does not.
 std::size_t height_column(const text::Line& header) {
   std::size_t z = kMissing;
-  for (const std::string_view name : kSpace.front()) {
+  for (const std::string_view name : kSpaceColumns.front()) {
     z = find_column(header, name);
     if (z == kMissing) break;
   }
@@ -208,12 +208,12 @@ bool csv_is_in_space(const std::string& path) {
 
 template <>
 PointFile<2> read_csv<2>(const std::string& path) {
-  return read_columns<2>(path, kPlane);
+  return read_columns<2>(path, kPlaneColumns);
 }
 
 template <>
 PointFile<3> read_csv<3>(const std::string& path) {
-  return read_columns<3>(path, kSpace);
+  return read_columns<3>(path, kSpaceColumns);
 }
 
 template <>

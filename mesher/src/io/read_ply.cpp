@@ -26,14 +26,14 @@
 namespace mesher {
 namespace {
 
-struct NumberType {
+struct PlyNumber {
   std::string_view name;
   std::size_t bytes;
   bool is_integral;
   bool is_signed;
 };
 
-constexpr NumberType kTypes[] = {
+constexpr PlyNumber kPlyNumbers[] = {
     {"char", 1, true, true},    {"int8", 1, true, true},     {"uchar", 1, true, false},
     {"uint8", 1, true, false},  {"short", 2, true, true},    {"int16", 2, true, true},
     {"ushort", 2, true, false}, {"uint16", 2, true, false},  {"int", 4, true, true},
@@ -43,8 +43,8 @@ constexpr NumberType kTypes[] = {
 
 struct Property {
   std::string_view name;
-  NumberType type;
-  std::optional<NumberType> count;  // of a list
+  PlyNumber type;
+  std::optional<PlyNumber> count;  // of a list
 };
 
 struct Element {
@@ -132,8 +132,8 @@ class PlyHeader {
     }
     elements.back().properties.push_back(property);
   }
-  [[nodiscard]] NumberType type_of(std::size_t i) const {
-    for (const NumberType& type : kTypes) {
+  [[nodiscard]] PlyNumber type_of(std::size_t i) const {
+    for (const PlyNumber& type : kPlyNumbers) {
       if (type.name == line_[i]) return type;
     }
     throw line_.error(ErrorCode::unsupported, "numbers of the type " + text::quoted(line_[i]), i);
@@ -269,7 +269,7 @@ class PlyReader {
     return count;
   }
 
-  double read_number(const NumberType& type) {
+  double read_number(const PlyNumber& type) {
     if (header_.is_text) return read_text(type);
     if (fields_.rest().size() < type.bytes) fail_truncated();
     if (!type.is_integral) return bytes_.real(type.bytes);
@@ -277,7 +277,7 @@ class PlyReader {
                           : static_cast<double>(bytes_.bits(type.bytes));
   }
 
-  double read_text(const NumberType& type) {
+  double read_text(const PlyNumber& type) {
     field_ = fields_.next();
     if (field_.empty()) fail_truncated();
     return type.is_integral ? static_cast<double>(source_.integer(field_)) : source_.finite(field_);

@@ -71,9 +71,9 @@ std::string line_text(const PointFile<D>& rows, std::size_t i) {
 }
 
 template <int D>
-using Read = PointFile<D> (*)(const std::string&);
+using ReadPoints = PointFile<D> (*)(const std::string&);
 template <int D>
-using Readers = std::vector<std::pair<std::string_view, Read<D>>>;
+using PointReaders = std::vector<std::pair<std::string_view, ReadPoints<D>>>;
 
 template <int D>
 PointFile<D> read_node_rows(const std::string& path) {
@@ -81,12 +81,12 @@ PointFile<D> read_node_rows(const std::string& path) {
 }
 
 template <int D>
-Readers<D> readers() {
+PointReaders<D> readers() {
   return {{".node", read_node_rows<D>}, {".xyz", read_xyz<D>}, {".csv", read_csv<D>}};
 }
 
 template <>
-Readers<3> readers() {
+PointReaders<3> readers() {
   return {{".node", read_node_rows<3>}, {".xyz", read_xyz<3>},     {".csv", read_csv<3>},
           {".off", read_off_points},    {".obj", read_obj_points}, {".ply", read_ply_points},
           {".stl", read_stl_points},    {".vtu", read_vtu_points}, {".vtk", read_vtk_points}};

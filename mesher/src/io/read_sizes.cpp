@@ -54,7 +54,7 @@ Rows<D> split(PointFile<D + 1> all) {
 }
 
 template <int D>
-Rows<D> read_any(const std::string& path) {
+Rows<D> read_any_sizes(const std::string& path) {
   const std::string extension = text::extension(path);
   if (extension == ".node") return read_node_sizes<D>(path);
   if (extension == ".csv") return split<D>(read_csv_sizes<D>(path));
@@ -75,7 +75,7 @@ void require_positive(const Rows<D>& rows) {
 
 template <int D>
 SizeFileOf<D> read_sizes(const std::string& path) {
-  const Rows<D> rows = read_any<D>(path);
+  const Rows<D> rows = read_any_sizes<D>(path);
   require_distinct_ids(rows.places);
   require_distinct_points(rows.places);
   require_positive(rows);

@@ -18,7 +18,7 @@
 namespace mesher {
 namespace {
 
-struct NumberType {
+struct VtkNumber {
   std::string_view name;
   bool is_integral;
   bool is_signed;
@@ -26,14 +26,14 @@ struct NumberType {
 };
 
 // VTK writes its vtkIdType as int.
-constexpr NumberType kTypes[] = {{"bit", true, false, 0},      {"unsigned_char", true, false, 1},
+constexpr VtkNumber kVtkNumbers[] = {{"bit", true, false, 0},      {"unsigned_char", true, false, 1},
                                  {"char", true, true, 1},      {"unsigned_short", true, false, 2},
                                  {"short", true, true, 2},     {"unsigned_int", true, false, 4},
                                  {"int", true, true, 4},       {"unsigned_long", true, false, 8},
                                  {"long", true, true, 8},      {"vtktypeint64", true, true, 8},
                                  {"vtkidtype", true, true, 4}, {"vtkIdType", true, true, 4},
                                  {"float", false, true, 4},    {"double", false, true, 8}};
-constexpr NumberType kInt = {"int", true, true, 4};  // of cells where no type is said
+constexpr VtkNumber kVtkInt = {"int", true, true, 4};  // of cells where no type is said
 
 class VtkReader {
  public:
@@ -115,9 +115,9 @@ class VtkReader {
     if (count < 0) fail(ErrorCode::bad_header, "a count of " + std::string(field), field);
     return static_cast<std::size_t>(count);
   }
-  NumberType take_type() {
+  VtkNumber take_type() {
     const std::string_view type = take("a type of numbers");
-    for (const NumberType& known : kTypes) {
+    for (const VtkNumber& known : kVtkNumbers) {
       if (type == known.name && (!binary_ || known.bytes > 0)) return known;
     }
     fail(ErrorCode::unsupported, "numbers of the type " + text::quoted(type), type);
@@ -126,7 +126,7 @@ class VtkReader {
   void begin_numbers() {
     if (binary_) bytes_.begin();
   }
-  void read_numbers(VtkArray& array, std::size_t count, const NumberType& type) {
+  void read_numbers(VtkArray& array, std::size_t count, const VtkNumber& type) {
     if (binary_) bytes_.require(count, type.bytes);
     for (std::size_t i = 0; i < count; ++i) {
       if (array.is_integral) {
@@ -136,12 +136,12 @@ class VtkReader {
       }
     }
   }
-  std::int64_t take_integer(const NumberType& type) {
+  std::int64_t take_integer(const VtkNumber& type) {
     if (!binary_) return source_.integer(take("all of its numbers"));
     return type.is_signed ? bytes_.integer(type.bytes) : bytes_.natural(type.bytes);
   }
   // Where reals are asked for, a file may have integers.
-  double take_real(const NumberType& type) {
+  double take_real(const VtkNumber& type) {
     if (!binary_) return source_.finite(take("all of its numbers"));
     return type.is_integral ? static_cast<double>(take_integer(type)) : bytes_.real(type.bytes);
   }
@@ -149,7 +149,7 @@ class VtkReader {
   void read_points(std::string_view word) {
     has_points_ = true;
     const std::size_t count = take_count("the number of points");
-    const NumberType type = take_type();
+    const VtkNumber type = take_type();
     grid_.points = VtkArray{"POINTS", 3, false, {}, {}, source_.place(word)};
     begin_numbers();
     for (std::size_t i = 0; i < count; ++i) read_numbers(grid_.points, 3, type);
@@ -171,14 +171,14 @@ class VtkReader {
         fail(ErrorCode::wrong_count, "cells have more numbers than CELLS says", word);
       }
       left -= corners + 1;
-      read_numbers(grid_.connectivity, corners, kInt);
+      read_numbers(grid_.connectivity, corners, kVtkInt);
       grid_.offsets.integers.push_back(static_cast<std::int64_t>(grid_.connectivity.size()));
     }
     if (left > 0) fail(ErrorCode::wrong_count, "cells have fewer numbers than CELLS says", word);
   }
 
   std::size_t take_corners() {
-    const std::int64_t corners = bytes_.integer(kInt.bytes);
+    const std::int64_t corners = bytes_.integer(kVtkInt.bytes);
     if (corners >= 0) return static_cast<std::size_t>(corners);
     throw bytes_.error(ErrorCode::bad_header, "a count of " + std::to_string(corners));
   }
@@ -195,7 +195,7 @@ class VtkReader {
     read_integers(grid_.connectivity, size, word);
   }
   void read_integers(VtkArray& array, std::size_t count, std::string_view word) {
-    const NumberType type = take_type();
+    const VtkNumber type = take_type();
     if (!type.is_integral) fail(ErrorCode::bad_mesh, "cells of numbers that are no integers", word);
     begin_numbers();
     read_numbers(array, count, type);
@@ -205,7 +205,7 @@ class VtkReader {
     grid_.types = integers("types", word);
     const std::size_t count = take_count("the number of types");
     begin_numbers();
-    read_numbers(grid_.types, count, kInt);
+    read_numbers(grid_.types, count, kVtkInt);
   }
 
   VtkArray integers(const char* name, std::string_view at) const {
@@ -233,7 +233,7 @@ class VtkReader {
       array.place = source_.place(at);
       array.components = take_count("the number of components");
       const std::size_t count = take_count("the number of values");
-      const NumberType type = take_type();
+      const VtkNumber type = take_type();
       array.is_integral = type.is_integral;
       if (array.components == 0 || (data_ != nullptr && count != items_)) {
         fail(ErrorCode::wrong_count,
@@ -251,7 +251,7 @@ class VtkReader {
     const std::string_view at = take("a name");
     array.name = at;
     array.place = source_.place(at);
-    const NumberType type = take_type();
+    const VtkNumber type = take_type();
     array.is_integral = type.is_integral;
     std::string_view next = take("LOOKUP_TABLE");
     if (next != "LOOKUP_TABLE") {

@@ -17,12 +17,12 @@ namespace mesher {
 namespace {
 
 // How the bytes of a number are to be read.
-struct NumberType {
+struct VtuNumber {
   std::string_view name;
   std::size_t bytes;
   bool is_integral, is_signed;
 };
-constexpr NumberType kTypes[] = {{"Float64", 8, false, true}, {"Float32", 4, false, true},
+constexpr VtuNumber kVtuNumbers[] = {{"Float64", 8, false, true}, {"Float32", 4, false, true},
                                  {"Int64", 8, true, true},    {"UInt64", 8, true, false},
                                  {"Int32", 4, true, true},    {"UInt32", 4, true, false},
                                  {"Int16", 2, true, true},    {"UInt16", 2, true, false},
@@ -140,7 +140,7 @@ class VtuReader {
   }
 
   VtkArray read_array(const XmlElement& element) const {
-    const NumberType& type = type_of(element);
+    const VtuNumber& type = type_of(element);
     VtkArray array;
     array.name = value_of(element, "Name", "");
     array.is_integral = type.is_integral;
@@ -166,9 +166,9 @@ class VtuReader {
     return array;
   }
 
-  const NumberType& type_of(const XmlElement& element) const {
+  const VtuNumber& type_of(const XmlElement& element) const {
     const std::string_view name = value_of(element, "type", "");
-    for (const NumberType& type : kTypes) {
+    for (const VtuNumber& type : kVtuNumbers) {
       if (type.name == name) return type;
     }
     fail(ErrorCode::unsupported, "numbers of the type " + text::quoted(name), element);
@@ -204,7 +204,7 @@ class VtuReader {
                       encoding_);
   }
 
-  void decode(const std::string& bytes, const NumberType& type, const XmlElement& element,
+  void decode(const std::string& bytes, const VtuNumber& type, const XmlElement& element,
               VtkArray& array) const {
     if (bytes.size() % type.bytes != 0) {
       fail(ErrorCode::wrong_count,
@@ -221,7 +221,7 @@ class VtuReader {
     }
   }
 
-  std::int64_t integer_of(std::uint64_t bits, const NumberType& type,
+  std::int64_t integer_of(std::uint64_t bits, const VtuNumber& type,
                           const XmlElement& element) const {
     const unsigned unused = 64 - 8 * static_cast<unsigned>(type.bytes);
     if (type.is_signed) return static_cast<std::int64_t>(bits << unused) >> unused;
@@ -229,7 +229,7 @@ class VtuReader {
     return static_cast<std::int64_t>(bits);
   }
 
-  double real_of(std::uint64_t bits, const NumberType& type, std::size_t number,
+  double real_of(std::uint64_t bits, const VtuNumber& type, std::size_t number,
                  const XmlElement& element) const {
     const double value = type.bytes == 8 ? std::bit_cast<double>(bits)
                                          : std::bit_cast<float>(static_cast<std::uint32_t>(bits));

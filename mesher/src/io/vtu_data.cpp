@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kAlphabet =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-constexpr std::string_view kSpace = " \t\r\n";
+constexpr std::string_view kBlanks = " \t\r\n";
 
 // Bytes of a text in base64, four characters at a time; '=' ends a run, and another may follow.
 class Base64 {
@@ -47,7 +47,7 @@ class Base64 {
   }
 
   char next(std::string_view begin) {
-    rest_.remove_prefix(std::min(rest_.find_first_not_of(kSpace), rest_.size()));
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlanks), rest_.size()));
     if (rest_.empty()) throw source_.error(ErrorCode::truncated, "the data end too early", begin);
     const char c = rest_.front();
     rest_.remove_prefix(1);

@@ -6,7 +6,7 @@
 namespace mesher {
 namespace {
 
-constexpr std::string_view kSpace = " \t\r\n";
+constexpr std::string_view kXmlBlanks = " \t\r\n";
 constexpr std::string_view kEndOfName = " \t\r\n/>=<\"'";
 constexpr int kDeepest = 64;
 
@@ -35,7 +35,7 @@ class XmlReader {
     return true;
   }
   void skip_space() {
-    rest_.remove_prefix(std::min(rest_.find_first_not_of(kSpace), rest_.size()));
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(kXmlBlanks), rest_.size()));
   }
   void expect(std::string_view token, const std::string& what) {
     if (!skip(token)) fail(what);

@@ -11,7 +11,7 @@ namespace mesher::detail {
 namespace {
 
 // A new vertex yields to segments within this times its distance to others.
-constexpr double kYields = 0.5;
+constexpr double kYieldsWithin = 0.5;
 // And goes to a place that is no farther than this from its foot, in the same units.
 constexpr double kFromFoot = 0.5;
 
@@ -20,9 +20,9 @@ constexpr double kFromFoot = 0.5;
 /// The nearest segment; of those as near, the first in canonical order.
 auto PlaneConformity::yield(const Point<2>& x, double radius) const -> std::optional<Placed> {
   const Segment* nearest = nullptr;
-  double least2 = kYields * kYields * radius * radius;
+  double least2 = kYieldsWithin * kYieldsWithin * radius * radius;
   const auto key = [](const Segment& s) { return std::tie(s.place_a, s.place_b); };
-  store_.segments.store().visit_near(x, x, kYields * radius, [&](const Segment& s) {
+  store_.segments.store().visit_near(x, x, kYieldsWithin * radius, [&](const Segment& s) {
     const double d2 = distance2(x, s.place_a, s.place_b);
     if (d2 > least2 || (d2 == least2 && nearest != nullptr && !(key(s) < key(*nearest))))
       return false;

@@ -24,8 +24,8 @@ using detail::VertexHandle;
 // A gap has to be as wide as a few of the shortest pieces (program/split_segments.hpp), and a
 // triangle as high as its area needs that has its corners in a box of a quarter of the side
 // (space/polygon_shape.cpp: 2^-40 of the reach's square).
-constexpr double kShare = 0x1p-42;
-constexpr double kUnits = 64;
+constexpr double kSpaceShare = 0x1p-42;
+constexpr double kSpaceUnits = 64;
 
 void require_ids(const PlcFile& file) {
   const Plc& plc = file.plc;
@@ -124,7 +124,7 @@ RepairedPlc repair_placed(const PlcFile& file, const std::optional<Box<3>>& give
   const Plc& plc = file.plc;
   if (plc.points.empty()) return {file, {}, 0, 0};
   const detail::MeshBox<3> box = detail::box_of_points(plc.points, file, given);
-  SpaceDrawing drawing(box, detail::tolerance_in(box, kShare, kUnits));
+  SpaceDrawing drawing(box, detail::tolerance_in(box, kSpaceShare, kSpaceUnits));
   const Drawn drawn = draw(plc, drawing);
   std::vector<FeatureId> names;
   for (const std::size_t i : drawn.facets) names.push_back(plc.facets[i].polygon.id);
