@@ -14,6 +14,7 @@ import re
 import sys
 
 ROOMS = {  # from the ground up
+    "platform": "what is asked of the operating system, one file for each",
     "text": "numbers and quoted text, errors",
     "sets": "sorting, disjoint sets, sets by sorted lists",
     "geometry": "predicates, balls, boxes, the grid; input points at the boundary",

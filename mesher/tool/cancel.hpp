@@ -5,7 +5,6 @@
 // What a signal does is a matter of the process, so this is the tool's one piece of global state.
 #pragma once
 
-#include <csignal>
 #include <string>
 #include <vector>
 
@@ -44,7 +43,7 @@ class HoldInterrupts {
   HoldInterrupts& operator=(const HoldInterrupts&) = delete;
 
  private:
-  sigset_t before_;
+  unsigned before_;
 };
 
 }  // namespace tool

@@ -1,7 +1,6 @@
 // mesher: quality meshes of files of points and lines, or of points in space, that follow edits.
 #include <algorithm>
 #include <array>
-#include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -12,6 +11,7 @@
 #include "commands.hpp"
 #include "mesher/error.hpp"
 #include "mesher/predicates.hpp"
+#include "platform/process.hpp"
 
 namespace {
 
@@ -78,8 +78,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   tool::catch_interrupts();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file grown too large is then an error of the write,
-  std::signal(SIGPIPE, SIG_IGN);  // and so is a pipe that nobody reads
+  tool::platform::return_failures_of_writes();
   try {
     mesher::predicates::self_test();
     return run(argc, argv);

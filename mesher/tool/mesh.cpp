@@ -1,9 +1,4 @@
 // mesher mesh: a mesh of a file of points and lines, or of a complex in space.
-#if __has_include(<malloc.h>)
-#include <malloc.h>
-#endif
-
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -16,6 +11,7 @@
 #include "mesher/sizes.hpp"
 #include "no_flat.hpp"
 #include "outputs.hpp"
+#include "platform/process.hpp"
 #include "report.hpp"
 
 namespace tool {
@@ -94,18 +90,8 @@ void run_mesh_in(const MeshArguments& args) {
   print_outputs(targets);
 }
 
-// Large tables go while others come: what is given back to the system comes anew, to be cleared. A
-// mesh of 10^6 points takes 8% more memory so, a quarter fewer pages, and 2% less time, or a tenth
-// where memory is new to the machine.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  mallopt(M_MMAP_MAX, 0);
-  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-#endif
-}
-
 void run_mesh(const MeshArguments& args) {
-  if (args.algorithm != "gap-balls") keep_freed_memory();
+  if (args.algorithm != "gap-balls") platform::keep_freed_memory();
   dimension_of(args) == 3 ? run_mesh_in<3>(args) : run_mesh_in<2>(args);
 }
 

@@ -1,11 +1,10 @@
 // The line of progress.
 #include "progress.hpp"
 
-#include <unistd.h>
-
 #include <cstdio>
 
 #include "mesher/edit_script.hpp"
+#include "platform/process.hpp"
 
 namespace tool {
 namespace {
@@ -39,7 +38,7 @@ std::string text(const mesher::Progress& p, int dimension) {
 }  // namespace
 
 Progress::Progress(bool quiet, int dimension)
-    : enabled_(!quiet && isatty(STDERR_FILENO) != 0),
+    : enabled_(!quiet && platform::shows_errors_to_people()),
       dimension_(dimension),
       next_(mesher::now() + kPatience) {}
 

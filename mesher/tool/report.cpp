@@ -1,22 +1,15 @@
 // Figures for programs and for people.
 #include "report.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
+#include "platform/process.hpp"
+
 namespace tool {
 namespace {
-
-std::uint64_t peak_rss_bytes() {
-  constexpr std::uint64_t kBytesPerUnit = 1024;  // Linux counts in kB
-  struct rusage usage {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * kBytesPerUnit;
-}
 
 // The value below which a share of the sorted values lies. Requires: values not empty.
 double quantile(const std::vector<double>& sorted, double share) {
@@ -155,7 +148,7 @@ void add_costs(const mesher::MeshStats& stats, double seconds_total, Json& json)
   json["calls"] = stats.calls;
   json["edges"] = stats.edges;
   json["trace_bytes"] = stats.trace_bytes;
-  json["peak_rss_bytes"] = peak_rss_bytes();
+  json["peak_rss_bytes"] = platform::peak_memory_bytes();
 }
 
 // By which algorithm, and what happened in it.

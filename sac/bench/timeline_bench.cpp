@@ -35,7 +35,7 @@
 #include <utility>
 #include <vector>
 
-#include "sac/internal/arena.hpp"
+#include "sac/arena.hpp"
 #include "sac/label.hpp"
 #include "sac/internal/timeline.hpp"
 

@@ -120,7 +120,7 @@ TEST_CASE("a shrunk arena keeps what is live, gives pages back, and hands their 
     arena.shrink();
     arena.check_invariants();
     CHECK(arena.bytes_held() <= before);
-    if (live.empty()) CHECK(arena.bytes_held() < 4096);
+    if (live.empty() && sac::platform::kReturnsPages) CHECK(arena.bytes_held() < 4096);
     for (std::size_t i = 0; i < live.size(); ++i) {
       const char* bytes = arena.at<char>(live[i].first);
       REQUIRE(std::equal(contents[i].begin(), contents[i].end(), bytes));

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "records/vertex.hpp"
-#include "sac/internal/arena.hpp"
+#include "sac/arena.hpp"
 
 namespace mesher::detail {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <new>
 
-#include "sac/internal/huge_pages.hpp"
+#include "sac/huge_pages.hpp"
 
 namespace mesher::detail {
 

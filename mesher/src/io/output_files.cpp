@@ -1,18 +1,14 @@
 // Output files that appear whole or not at all: temporaries, then renames.
 #include "mesher/output_files.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
+#include "platform/files.hpp"
 #include "text/digits.hpp"
 
 namespace mesher {
@@ -24,9 +20,11 @@ constexpr std::size_t kBufferBytes = 1 << 16;
 // A long long has 20 characters at the most, the shortest form of a double 24.
 constexpr std::size_t kMostDigits = 32;
 
+Error cannot_write(const std::string& path, const std::error_code& error) {
+  return {ErrorCode::cannot_write, "cannot be written: " + error.message(), {path}};
+}
 Error cannot_write(const std::string& path, int error) {
-  return {
-      ErrorCode::cannot_write, std::string("cannot be written: ") + std::strerror(error), {path}};
+  return cannot_write(path, std::error_code(error, std::generic_category()));
 }
 
 Error not_a_file(const std::string& path) {
@@ -37,7 +35,8 @@ Error not_a_file(const std::string& path) {
 class Names {
  public:
   Names(const std::string& target, std::string ending)
-      : stem_((fs::path(target).parent_path() / (".mesher-" + std::to_string(::getpid()) + "-"))
+      : stem_((fs::path(target).parent_path() /
+               (".mesher-" + std::to_string(platform::process_number()) + "-"))
                   .string()),
         ending_(std::move(ending)) {}
   std::string next() { return stem_ + std::to_string(number_++) + ending_; }
@@ -52,12 +51,9 @@ class Names {
 std::string create_temporary(const std::string& target, const std::string& shown_as) {
   for (Names names(target, ".part");;) {
     const std::string path = names.next();
-    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0) {
-      ::close(descriptor);
-      return path;
-    }
-    if (errno != EEXIST) throw cannot_write(shown_as, errno);
+    const std::error_code error = platform::create(path);
+    if (!error) return path;
+    if (error != std::errc::file_exists) throw cannot_write(shown_as, error);
   }
 }
 
@@ -65,13 +61,15 @@ std::string create_temporary(const std::string& target, const std::string& shown
 std::string resolve(const std::string& target) {
   std::error_code error;
   const auto path = fs::weakly_canonical(fs::absolute(target, error), error);
-  if (error) throw cannot_write(target, error.value());
+  if (error) throw cannot_write(target, error);
   if (fs::is_directory(path, error)) throw cannot_write(target, EISDIR);
   if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
     throw not_a_file(target);
   }
-  if (fs::exists(path, error) && ::access(path.c_str(), W_OK) != 0) {
-    throw cannot_write(target, errno);
+  if (fs::exists(path, error)) {
+    if (const auto forbidden = platform::why_not_writable(path.string())) {
+      throw cannot_write(target, forbidden);
+    }
   }
   return path.string();
 }
@@ -79,7 +77,7 @@ std::string resolve(const std::string& target) {
 }  // namespace
 
 TextFile::TextFile(const std::string& path, std::string shown_as)
-    : shown_as_(std::move(shown_as)), file_(std::fopen(path.c_str(), "wbe")) {
+    : shown_as_(std::move(shown_as)), file_(platform::open_to_write(path)) {
   if (!file_) fail();
   std::setvbuf(file_, nullptr, _IONBF, 0);  // buffer_ is the buffer
   buffer_.resize(kBufferBytes);
@@ -131,7 +129,7 @@ void TextFile::close() {
 }
 
 OutputFiles::~OutputFiles() {
-  for (const auto& path : temporaries()) ::unlink(path.c_str());
+  for (const auto& path : temporaries()) platform::remove(path);
 }
 
 void OutputFiles::require_free(const Entry& entry) const {
@@ -154,7 +152,7 @@ TextFile& OutputFiles::open(const std::string& target) {
   try {
     entry.file = std::make_unique<TextFile>(entry.temporary, target);
   } catch (...) {
-    ::unlink(entry.temporary.c_str());
+    platform::remove(entry.temporary);
     throw;
   }
   entries_.push_back(std::move(entry));
@@ -164,16 +162,18 @@ TextFile& OutputFiles::open(const std::string& target) {
 // Gives what has the target's name another one: a second one where the file system has links, so
 // that the target is there all the time.
 void OutputFiles::keep(Entry& entry) {
-  struct stat there {};
-  if (::lstat(entry.resolved.c_str(), &there) != 0) return;  // then renaming tells
-  if (!S_ISREG(there.st_mode)) throw not_a_file(entry.target);
+  std::error_code error;
+  const auto there = fs::symlink_status(entry.resolved, error);
+  if (!fs::exists(there)) return;  // if it is there, renaming tells
+  if (!fs::is_regular_file(there)) throw not_a_file(entry.target);
   for (Names names(entry.resolved, ".kept");;) {
     std::string name = names.next();
-    if (::link(entry.resolved.c_str(), name.c_str()) != 0) {
-      if (errno == EEXIST) continue;
-      if (::lstat(name.c_str(), &there) == 0) continue;
-      if (std::rename(entry.resolved.c_str(), name.c_str()) != 0) {
-        throw cannot_write(entry.target, errno);
+    fs::create_hard_link(entry.resolved, name, error);
+    if (error) {
+      if (error == std::errc::file_exists) continue;
+      if (fs::exists(fs::symlink_status(name, error))) continue;
+      if (const auto failure = platform::rename(entry.resolved, name)) {
+        throw cannot_write(entry.target, failure);
       }
     }
     entry.kept = std::move(name);
@@ -183,8 +183,8 @@ void OutputFiles::keep(Entry& entry) {
 
 void OutputFiles::replace(Entry& entry) {
   keep(entry);
-  if (std::rename(entry.temporary.c_str(), entry.resolved.c_str()) == 0) return;
-  const int error = errno;
+  const std::error_code error = platform::rename(entry.temporary, entry.resolved);
+  if (!error) return;
   if (!entry.kept.empty()) restore(entry);
   throw cannot_write(entry.target, error);
 }
@@ -192,9 +192,9 @@ void OutputFiles::replace(Entry& entry) {
 // Renaming one name of a file to another of it does nothing: the name that is left over goes.
 void OutputFiles::restore(Entry& entry) noexcept {
   if (entry.kept.empty()) {
-    ::unlink(entry.resolved.c_str());
-  } else if (std::rename(entry.kept.c_str(), entry.resolved.c_str()) == 0) {
-    ::unlink(entry.kept.c_str());
+    platform::remove(entry.resolved);
+  } else if (!platform::rename(entry.kept, entry.resolved)) {
+    platform::remove(entry.kept);
   }
 }
 
@@ -208,7 +208,7 @@ void OutputFiles::commit() {
     throw;
   }
   for (const auto& entry : entries_) {
-    if (!entry.kept.empty()) ::unlink(entry.kept.c_str());
+    if (!entry.kept.empty()) platform::remove(entry.kept);
   }
   entries_.clear();
 }

@@ -22,7 +22,7 @@ inline constexpr double kShortestPiece = 0x1p-44;
   constexpr double kLongest = 1.4;
   if (!limits.any()) return false;
   const Point<2>a = piece.lo(), b = piece.hi();
-  const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+  const double length = std::sqrt(squared_distance(a, b));
   const Point<2> middle{a[0] + (b[0] - a[0]) / 2, a[1] + (b[1] - a[1]) / 2};
   return limits.is_long(around(middle, length / 2), length, kLongest);
 }

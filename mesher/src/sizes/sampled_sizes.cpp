@@ -17,11 +17,8 @@ namespace mesher {
 template <int D>
 SizeRange SlopedSizes<D>::range(const Box<D>& box) const {
   Point<D> middle;
-  double radius = 0;
-  for (std::size_t i = 0; i < D; ++i) {
-    middle[i] = (box.lo[i] + box.hi[i]) / 2;
-    radius = std::hypot(radius, box.hi[i] - middle[i]);
-  }
+  for (std::size_t i = 0; i < D; ++i) middle[i] = (box.lo[i] + box.hi[i]) / 2;
+  const double radius = std::sqrt(detail::squared_distance(box.hi, middle));
   const double here = size_(middle), change = slope_ * radius * (1 + 0x1p-40);
   return {std::max(here - change, least_), here + change};
 }

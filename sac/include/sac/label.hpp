@@ -31,7 +31,7 @@
 #include <tuple>
 #include <type_traits>
 
-#include "sac/internal/arena.hpp"
+#include "sac/arena.hpp"
 
 namespace sac {
 

@@ -18,7 +18,7 @@
 #include <ostream>
 #include <string_view>
 
-#include "sac/internal/arena.hpp"
+#include "sac/arena.hpp"
 #include "sac/internal/timeline.hpp"
 #include "sac/label.hpp"
 

@@ -1,23 +1,17 @@
 // Modes of the core: entering, finishing, undoing; audit, sizes, invariants.
 #include "sac/internal/core.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 
 #include "sac/engine.hpp"
+#include "sac/internal/platform.hpp"
 
 namespace sac {
 
 namespace {
 
 // A quarter is left for what the client has on the stack already, and for the last call's own.
-std::size_t default_stack_limit() {
-  constexpr rlim_t kUnknown = rlim_t{2} << 20;
-  rlimit limit{};
-  const bool known = getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-  return static_cast<std::size_t>((known ? limit.rlim_cur : kUnknown) / 4 * 3);
-}
+std::size_t default_stack_limit() { return platform::stack_bytes() / 4 * 3; }
 
 }  // namespace
 

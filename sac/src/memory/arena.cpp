@@ -1,13 +1,12 @@
 // Reserving, committing, the free lists of large blocks, and giving pages back.
-#include "sac/internal/arena.hpp"
-
-#include <sys/mman.h>
+#include "sac/arena.hpp"
 
 #include <algorithm>
 #include <new>
 
 #include "sac/check.hpp"
-#include "sac/internal/huge_pages.hpp"
+#include "sac/huge_pages.hpp"
+#include "sac/internal/platform.hpp"
 
 namespace sac {
 
@@ -17,48 +16,21 @@ namespace {
 // huge pages: a small engine touches a few small ones.
 constexpr std::size_t kStep = std::size_t{2} << 20;
 constexpr std::size_t kHugeFrom = 4 * kStep;
-constexpr std::size_t kPage = 4096;
-constexpr std::size_t kPageGranules = kPage / Arena::kGranule;
 constexpr std::size_t kHeaderGranules =
     (sizeof(Arena::Header) + Arena::kGranule - 1) / Arena::kGranule;
 
 }  // namespace
 
 void advise_huge_pages(void* block, std::size_t bytes) noexcept {
-  madvise(block, bytes, MADV_HUGEPAGE);
-}
-
-// `bytes` of addresses that begin at a multiple of Arena::kReserve; null if there are none.
-static void* reserve_aligned(std::size_t bytes) {
-  constexpr int kFlags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
-  constexpr std::uintptr_t kMost = std::uintptr_t{1} << 47;
-  // Where the system would put it: aligned places are tried from there downwards, then upwards.
-  void* const anywhere = mmap(nullptr, bytes, PROT_NONE, kFlags, -1, 0);
-  if (anywhere == MAP_FAILED) return nullptr;
-  munmap(anywhere, bytes);
-  const std::uintptr_t start = reinterpret_cast<std::uintptr_t>(anywhere) / Arena::kReserve;
-  const auto at = [&](std::uintptr_t number) -> void* {
-    void* const place = reinterpret_cast<void*>(number * Arena::kReserve);
-    void* const got = mmap(place, bytes, PROT_NONE, kFlags | MAP_FIXED_NOREPLACE, -1, 0);
-    if (got == place) return got;
-    if (got != MAP_FAILED) munmap(got, bytes);
-    return nullptr;
-  };
-  for (std::uintptr_t n = start; n > 0; --n) {
-    if (void* got = at(n)) return got;
-  }
-  for (std::uintptr_t n = start + 1; n < kMost / Arena::kReserve; ++n) {
-    if (void* got = at(n)) return got;
-  }
-  return nullptr;
+  platform::advise_huge_pages(block, bytes);
 }
 
 Arena::Arena() : next_(kHeaderGranules) {
   reserve();
   try {
-    commit(kPage);
+    commit(sizeof(Header));
   } catch (...) {
-    munmap(base_, reserved_);
+    platform::release(base_, reserved_, kReserve);
     throw;
   }
   ::new (static_cast<void*>(base_)) Header;
@@ -67,23 +39,21 @@ Arena::Arena() : next_(kHeaderGranules) {
 void Arena::reserve() {
   constexpr std::size_t kLeast = std::size_t{64} << 20;
   for (reserved_ = kReserve; reserved_ >= kLeast; reserved_ /= 2) {
-    base_ = static_cast<std::byte*>(reserve_aligned(reserved_));
+    base_ = static_cast<std::byte*>(platform::reserve(reserved_, kReserve));
     if (base_ != nullptr) return;
   }
   throw std::bad_alloc();
 }
 
-Arena::~Arena() { munmap(base_, reserved_); }
+Arena::~Arena() { platform::release(base_, reserved_, kReserve); }
 
 void Arena::commit(std::size_t bytes) {
   if (bytes > std::min(limit_, reserved_)) throw std::bad_alloc();
   if (bytes <= committed_) return;
   const std::size_t wanted = std::max(bytes, committed_ + committed_ / 16);
   const std::size_t target = std::min(reserved_, (wanted + kStep - 1) / kStep * kStep);
-  if (mprotect(base_ + committed_, target - committed_, PROT_READ | PROT_WRITE) != 0) {
-    throw std::bad_alloc();
-  }
-  if (committed_ >= kHugeFrom) advise_huge_pages(base_ + committed_, target - committed_);
+  if (!platform::commit(base_ + committed_, target - committed_)) throw std::bad_alloc();
+  if (committed_ >= kHugeFrom) platform::advise_huge_pages(base_ + committed_, target - committed_);
   committed_ = target;
   usable_ = std::min(limit_, committed_);
 }
@@ -150,6 +120,7 @@ void Arena::keep_free(Run run) noexcept {
 // Free blocks that touch are joined; of a run, whole pages go back to the system and their
 // granules are spare, and what is left keeps waiting on the free lists.
 void Arena::shrink() {
+  if (!platform::kReturnsPages) return;
   std::vector<Run> runs = free_blocks();
   runs.insert(runs.end(), spares_.begin(), spares_.end());
   std::sort(runs.begin(), runs.end(), [](Run a, Run b) { return a.first > b.first; });
@@ -167,30 +138,31 @@ void Arena::shrink() {
   for (auto& [granules, head] : free_large_) head = 0;
   free_.fill(0);
   spare_ = 0;
+  const std::size_t page = platform::page_bytes(), page_granules = page / kGranule;
   for (const Run& run : joined) {
     const std::size_t end = run.first + run.granules;
     if (end == next_) {
       next_ = run.first;
       continue;
     }
-    const std::size_t first_page = (run.first + kPageGranules - 1) / kPageGranules;
-    const std::size_t end_page = end / kPageGranules;
+    const std::size_t first_page = (run.first + page_granules - 1) / page_granules;
+    const std::size_t end_page = end / page_granules;
     if (first_page >= end_page) {
       keep_free(run);
       continue;
     }
-    const std::size_t from = first_page * kPageGranules;
-    const std::size_t granules = (end_page - first_page) * kPageGranules;
+    const std::size_t from = first_page * page_granules;
+    const std::size_t granules = (end_page - first_page) * page_granules;
     keep_free({run.first, from - run.first});
     keep_free({static_cast<Handle>(from + granules), end - from - granules});
-    madvise(base_ + from * kGranule, granules * kGranule, MADV_DONTNEED);
+    platform::discard(base_ + from * kGranule, granules * kGranule);
     spares.push_back({static_cast<Handle>(from), granules});
     spare_ += granules;
   }
   spares.shrink_to_fit();  // there are fewer of them than free runs
   spares_.swap(spares);
-  const std::size_t behind = (next_ * kGranule + kPage - 1) / kPage * kPage;
-  if (behind < committed_) madvise(base_ + behind, committed_ - behind, MADV_DONTNEED);
+  const std::size_t behind = (next_ * kGranule + page - 1) / page * page;
+  if (behind < committed_) platform::discard(base_ + behind, committed_ - behind);
 }
 
 void Arena::check_invariants() const {

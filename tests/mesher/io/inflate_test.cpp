@@ -1,5 +1,7 @@
-// Decompression of what zlib has made: stored, in fixed and in given codes; damage is noticed.
+// Decompression of data of zlib: stored, in fixed and in given codes; damage is noticed.
 #include "io/inflate.hpp"
+
+#include <zlib.h>
 
 #include <catch2/catch.hpp>
 
@@ -52,6 +54,31 @@ TEST_CASE("what zlib has compressed comes back") {
     INFO(sample.hex);
     CHECK(mesher::inflate(from_hex(sample.hex), sample.bytes.size()) == sample.bytes);
   }
+}
+
+TEST_CASE("long data comes back, and what is announced too long or too short is refused") {
+  mesher::SplitMix64 random(2);
+  for (const uLong size : {32767, 32768, 32769, 65536, 1000000}) {
+    std::string bytes(size, '\0');
+    for (char& c : bytes) c = static_cast<char>('a' + random.below(3));
+    uLongf length = compressBound(size);
+    std::string compressed(length, '\0');
+    REQUIRE(compress(reinterpret_cast<Bytef*>(compressed.data()), &length,
+                     reinterpret_cast<const Bytef*>(bytes.data()), size) == Z_OK);
+    compressed.resize(length);
+    INFO(size);
+    CHECK(mesher::inflate(compressed, size) == bytes);
+    CHECK(mesher::inflate(compressed + "behind", size) == bytes);
+    CHECK_FALSE(mesher::inflate(compressed, size - 1));
+    CHECK_FALSE(mesher::inflate(compressed, size + 1));
+    compressed.pop_back();
+    CHECK_FALSE(mesher::inflate(compressed, size));
+  }
+}
+
+TEST_CASE("no memory is taken for a size that is announced alone") {
+  const Compressed sample = samples()[4];
+  CHECK_FALSE(mesher::inflate(from_hex(sample.hex), std::size_t{1} << 62));
 }
 
 TEST_CASE("another size than was announced is noticed") {

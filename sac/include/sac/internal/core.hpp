@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "sac/check.hpp"
-#include "sac/internal/arena.hpp"
+#include "sac/arena.hpp"
 #include "sac/internal/memo_table.hpp"
 #include "sac/internal/originals.hpp"
 #include "sac/internal/propagation_queue.hpp"

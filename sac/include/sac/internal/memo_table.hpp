@@ -20,7 +20,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "sac/internal/huge_pages.hpp"
+#include "sac/huge_pages.hpp"
 #include "sac/internal/sorted_index.hpp"
 #include "sac/internal/timeline.hpp"
 #include "sac/trace.hpp"

@@ -21,7 +21,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sac/internal/arena.hpp"
+#include "sac/arena.hpp"
 
 namespace sac {
 

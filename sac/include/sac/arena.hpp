@@ -19,6 +19,8 @@
 #include <map>
 #include <vector>
 
+#include "sac/internal/platform.hpp"
+
 namespace sac {
 
 struct Function;
@@ -29,8 +31,9 @@ using Handle = std::uint32_t;
 class Arena {
  public:
   static constexpr std::size_t kGranule = 8;
-  /// Address space of an arena: 2^32 handles.
-  static constexpr std::size_t kReserve = (std::size_t{1} << 32) * kGranule;
+  /// Address space of an arena: 2^32 handles at the most.
+  static constexpr std::size_t kReserve = std::size_t{1} << platform::kReserveBits;
+  static_assert(kReserve / kGranule <= std::size_t{1} << 32);
 
   /// What lies at the start of the range, for objects that know nothing but their own address.
   struct Header {
@@ -108,8 +111,8 @@ class Arena {
                                 handle * kGranule);
   }
 
-  /// A number for an object that lies in some arena: no other object has it while 10^6 are numbered,
-  /// nor one of another arena.
+  /// A number for an object that lies in some arena: no other object has it while kMostStamps are
+  /// numbered, nor one of another arena.
   [[nodiscard]] static std::uint32_t next_stamp(const void* object) noexcept {
     std::uint32_t& stamps = header_of(object).stamps;
     stamps = stamps % kMostStamps + 1;
@@ -134,7 +137,7 @@ class Arena {
   /// The `count`-th allocation from now fails, once; 0: none. For tests.
   void fail_after(std::uint64_t count) noexcept { until_failure_ = count; }
 
-  /// Gives freed memory back to the system where whole pages of it are free.
+  /// Gives freed memory back to the system, if it takes any, where whole pages of it are free.
   /// Cost: O(f log f) for f free blocks. Throws: std::bad_alloc, and then changes nothing.
   void shrink();
 
@@ -151,10 +154,13 @@ class Arena {
     std::size_t granules;
   };
 
-  // Of 2^47 bytes of addresses, 12 bits say which range of kReserve it is.
-  static constexpr std::uint32_t kMostStamps = (std::uint32_t{1} << 20) - 1;
+  // The first bits of an address say which range of kReserve it is in: on Linux 12 of 47, which
+  // leaves 20 of 32 for stamps.
+  static constexpr int kNumberBits = platform::kAddressBits - platform::kReserveBits;
+  static constexpr std::uint32_t kMostStamps = (std::uint32_t{1} << (32 - kNumberBits)) - 1;
   [[nodiscard]] static std::uint32_t number_of(const void* object) noexcept {
-    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(object) / kReserve & 0xfff);
+    constexpr std::uintptr_t kMask = (std::uintptr_t{1} << kNumberBits) - 1;
+    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(object) / kReserve & kMask);
   }
 
   static std::size_t granules_for(std::size_t bytes) noexcept {
@@ -166,6 +172,7 @@ class Arena {
   void commit(std::size_t bytes);
   [[noreturn]] void fail();
   [[nodiscard]] std::vector<Run> free_blocks() const;
+  [[nodiscard]] bool discard(Run run) noexcept;
   void keep_free(Run run) noexcept;
 
   std::byte* base_ = nullptr;
