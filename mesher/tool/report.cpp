@@ -323,6 +323,15 @@ void print_run(const SpaceInput& input, const SpaceRun& run) {
   print_row("time", format("%.3f s", run.seconds_total));
 }
 
+namespace {
+
+void warn_of_no_mesh(const Standing& input, const char* features) {
+  std::fprintf(stderr, "%s: warning: the mesh is empty: all that %s enclose is in holes\n",
+               input.path().c_str(), features);
+}
+
+}  // namespace
+
 void print_remarks(const MeshArguments& args, const Input& input, const mesher::DomainMesh& mesh) {
   print_notes(input.notes());
   if (args.region_areas && !input.has_region_limits()) {
@@ -333,6 +342,7 @@ void print_remarks(const MeshArguments& args, const Input& input, const mesher::
   for (const auto& fault : mesh.faults) {
     std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
   }
+  if (mesh.kept.simplices.empty()) warn_of_no_mesh(input, "lines");
 }
 
 void print_remarks(const MeshArguments& args, const SpaceInput& input, const Kept<3>& mesh) {
@@ -349,6 +359,7 @@ void print_remarks(const MeshArguments& args, const SpaceInput& input, const Kep
   for (const auto& fault : mesh.faults) {
     std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
   }
+  if (mesh.kept.simplices.empty()) warn_of_no_mesh(input, "polygons");
 }
 
 namespace {

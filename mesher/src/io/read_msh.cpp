@@ -159,6 +159,7 @@ class MshReader {
 
   void read_entities() {
     const std::int64_t points = count(), curves = count(), surfaces = count(), volumes = count();
+    mesh_.is_in_space = volumes > 0;
     for (std::int64_t i = 0; i < points; ++i) {
       (void)integer();
       skip_reals(3);
