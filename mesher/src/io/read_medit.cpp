@@ -58,7 +58,7 @@ class MeditReader {
     const std::string_view field = take("the number of " + std::string(list));
     const std::int64_t count = source_.integer(field);
     if (count >= 0) return count;
-    throw source_.error(ErrorCode::bad_header, "a count of " + std::string(field), field);
+    throw source_.error(ErrorCode::bad_header, "a count of " + text::quoted(field), field);
   }
   std::int64_t take_integer(std::string_view list) {
     return source_.integer(take("all " + std::string(list)));

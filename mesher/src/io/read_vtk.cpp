@@ -112,7 +112,7 @@ class VtkReader {
   std::size_t take_count(const std::string& what) {
     const std::string_view field = take(what);
     const std::int64_t count = source_.integer(field);
-    if (count < 0) fail(ErrorCode::bad_header, "a count of " + std::string(field), field);
+    if (count < 0) fail(ErrorCode::bad_header, "a count of " + text::quoted(field), field);
     return static_cast<std::size_t>(count);
   }
   NumberType take_type() {

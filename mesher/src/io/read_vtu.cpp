@@ -111,7 +111,7 @@ class VtuReader {
     if (said == nullptr) fail(ErrorCode::bad_header, "no " + std::string(name), piece);
     if (std::cmp_equal(source_.integer(*said), count)) return;
     throw source_.error(ErrorCode::wrong_count,
-                        std::string(name) + " is " + std::string(*said) + ", but there are " +
+                        std::string(name) + " is " + text::quoted(*said) + ", but there are " +
                             std::to_string(count),
                         *said);
   }
