@@ -13,6 +13,7 @@
 #include "mesher/io.hpp"
 #include "mesher/pslg.hpp"
 #include "mesher/space_check.hpp"
+#include "pipe.hpp"
 #include "references.hpp"
 
 namespace tool {
@@ -21,6 +22,7 @@ namespace {
 struct CheckArguments {
   std::string mesh;
   std::string input;
+  std::string format, input_format;  // empty: as extensions say
   std::string rho;
   std::string boundary = "auto";
   std::string max_area, max_volume;
@@ -123,10 +125,13 @@ Judged judge(const CheckArguments& args, mesher::MeshDataOf<3>& mesh) {
   return judged;
 }
 
-void run_check(const CheckArguments& args) {
+void run_check(CheckArguments args) {
+  const std::string called = args.mesh;
+  args.mesh = readable(args.mesh, args.format);
+  args.input = readable(args.input, args.input_format);
   mesher::AnyMesh any = mesher::read_any_mesh(args.mesh);
   const Judged judged = std::visit([&](auto& mesh) { return judge(args, mesh); }, any);
-  std::printf("%s: %s\n", args.mesh.c_str(), judged.counts.c_str());
+  std::printf("%s: %s\n", called.c_str(), judged.counts.c_str());
   print_notes(judged.notes);
   print_findings(judged.findings);
   for (const auto& finding : judged.findings) {
@@ -152,6 +157,12 @@ void add_check(CLI::App& app) {
                     "edges: .poly, .geojson, .obj, .vtu, .node, .xyz or .csv; for tetrahedra\n"
                     "complexes, whose polygons must be unions of faces: .poly or .smesh; points:\n"
                     "all formats that 'mesh' reads");
+  check
+      ->add_option("--format", args->format,
+                   "That of MESH, by an extension as above; for pipes, and for files without one")
+      ->type_name("EXTENSION");
+  check->add_option("--input-format", args->input_format, "Likewise that of --input")
+      ->type_name("EXTENSION");
   check->add_flag("--surface", args->surface,
                   "The faces of .off, .obj, .ply or .stl are polygons, as for 'mesh'");
   check->add_flag("--merge", args->merge, "Likewise, made one as by 'mesh'");
