@@ -32,7 +32,7 @@ ROOMS = {  # from the ground up
     "program": "the self-adjusting program: BuildQT, ChooseSteiners, Triangulate, features",
     "check": "reports on meshes, and checks that know nothing of how they were made",
     "generate": "families of points, graphs and complexes",
-    "refinement": "the static refiners: SVR and Delaunay refinement",
+    "refinement": "the static refiners: SVR, Delaunay refinement, flat tetrahedra taken out",
     "repair": "graphs and complexes that do not fit together, made to fit",
     "io": "files",
     "facade": "what users call: edits on one side, runs on the other",

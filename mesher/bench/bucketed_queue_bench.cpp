@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "mesher/generate.hpp"
 #include "refinement/bucketed_queue.hpp"
 #include "sample.hpp"
@@ -126,6 +127,7 @@ void run_all(std::size_t n) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   std::vector<std::size_t> sizes;
   for (int i = 1; i < argc; ++i) sizes.push_back(std::stoul(argv[i]));
   if (sizes.empty()) sizes = {1000, 100000, 1000000};

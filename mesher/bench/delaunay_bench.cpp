@@ -26,6 +26,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "mesher/delaunay.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/io.hpp"
@@ -220,6 +221,7 @@ void compare_file(const std::string& path, const std::filesystem::path& self) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   const std::filesystem::path self = std::filesystem::canonical(argv[0]);
   if (arguments.size() >= 3 && arguments[0] == "--one") {

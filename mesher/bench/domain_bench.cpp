@@ -18,6 +18,7 @@
 #include <set>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "domain/regions.hpp"
 #include "mesher/domain.hpp"
 #include "mesher/generate.hpp"
@@ -185,9 +186,10 @@ void run(std::size_t n) {
 
 }  // namespace
 
-int main(int count, char** arguments) {
+int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   std::vector<std::size_t> sizes;
-  for (int i = 1; i < count; ++i) sizes.push_back(std::strtoul(arguments[i], nullptr, 10));
+  for (int i = 1; i < argc; ++i) sizes.push_back(std::strtoul(argv[i], nullptr, 10));
   if (sizes.empty()) sizes = {10000, 100000};
   for (const std::size_t n : sizes) run(std::max<std::size_t>(n, 1000));
 }

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "chart.hpp"
 #include "from_files.hpp"
 #include "mesher/generate.hpp"
@@ -211,6 +212,7 @@ std::vector<Point<3>> of_copies(const std::vector<Point<3>>& points, std::size_t
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (!arguments.empty()) std::filesystem::create_directories(arguments[0]);
   const auto draw = [&](const std::vector<bench::Panel>& panels, const std::string& name) {

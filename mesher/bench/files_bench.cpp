@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "from_files.hpp"
 
 namespace {
@@ -38,7 +39,8 @@ constexpr Family kFamilies[] = {
 
 }  // namespace
 
-int main(int, char** argv) {
+int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   std::string algorithm = "auto";
   bool large = false;
   std::vector<std::string> files;

@@ -18,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "mesher/mesher.hpp"
 #include "sample.hpp"
 
@@ -153,6 +154,7 @@ void bench_argument(std::string_view text) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   if (argc == 1) {
     for (const char* input : {"10000", "100000", "10000:1.1", "3d:100000"}) bench_argument(input);
   }

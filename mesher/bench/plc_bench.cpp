@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "mesher/domain_mesh.hpp"
 #include "mesher/generate_plc.hpp"
 #include "sample.hpp"
@@ -74,6 +75,7 @@ constexpr mesher::PlcFamily kOtherSizes[] = {{PlcKind::nested, 0.075},  {PlcKind
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   if (!bench::has_tetgen())
     std::fprintf(stderr, "plc_bench: tetgen is not installed: without it\n");
   for (int i = 1; i < argc; ++i) {

@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "mesher/domain_mesh.hpp"
 #include "mesher/generate.hpp"
 #include "sample.hpp"
@@ -210,6 +211,7 @@ void bench_valve() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   if (!bench::has_tetgen()) {
     std::fprintf(stderr, "plc_walls_bench: tetgen is not installed: without it\n");
   }

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "mesher/ball_predicates.hpp"
 #include "mesher/predicates.hpp"
 
@@ -125,7 +126,8 @@ int tetrahedron_ball(const Five& q) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   report("orient3d/random", random_five, orient);
   report("orient3d/grid", grid_cube, orient);
   report("orient3d/near_degenerate", near_plane, orient);

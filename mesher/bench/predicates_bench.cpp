@@ -14,6 +14,7 @@
 #include <random>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "mesher/predicates.hpp"
 
 namespace {
@@ -114,7 +115,8 @@ int perturbed(const Quad& q) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   const double r = 0.3;
   const auto circle = [=](Random& random) { return on_circle(random, {0.6, 0.5}, r); };
   const auto line = [=](Random& random) { return on_line(random, {0.6, 0.5}, {r, 0.1}); };

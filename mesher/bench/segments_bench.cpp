@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "geometry/input_point.hpp"
 #include "random_line.hpp"
 #include "sample.hpp"
@@ -124,6 +125,7 @@ void bench_input(const Input& in, int edits) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   constexpr int kEdits = 500;
   std::vector<std::string> inputs(argv + 1, argv + argc);
   if (inputs.empty()) inputs = {"10000", "100000"};

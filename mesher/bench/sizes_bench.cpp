@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "../../tests/support/sized_square.hpp"
+#include "bench_help.hpp"
 #include "geometry/input_point.hpp"
 #include "mesher/error.hpp"
 #include "mesher/generate.hpp"
@@ -213,6 +214,7 @@ void print_file(const char* path, double area) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   for (int i = 1; i + 1 < argc; i += 2) print_file(argv[i], std::strtod(argv[i + 1], nullptr));
   if (argc > 1) return 0;
   for (const Case& c : cases()) {

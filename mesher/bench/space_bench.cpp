@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/io.hpp"
 #include "mesher/mesher.hpp"
@@ -67,6 +68,7 @@ void bench_points(const std::string& name, const std::vector<Point<3>>& points,
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   if (!bench::has_tetgen())
     std::fprintf(stderr, "space_bench: tetgen is not installed: without it\n");
   for (int i = 1; i < argc; ++i) {

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "mesher/domain_mesh.hpp"
 #include "mesher/generate_plc.hpp"
 #include "sample.hpp"
@@ -93,7 +94,8 @@ void bench_plc(const char* name, const Plc& plc) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   if (!bench::has_tetgen()) {
     std::fprintf(stderr, "space_sizes_bench: tetgen is not installed: without it\n");
   }

@@ -23,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "mesher/svr.hpp"
 #include "sample.hpp"
 #include "tetgen.hpp"
@@ -165,6 +166,7 @@ void bench_locations(const std::string& name, const std::vector<Point<3>>& point
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   std::vector<std::string> files(argv + 1, argv + argc);
   const auto take = [&] {
     std::string word = files.front();

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "mesher/domain_mesh.hpp"
 #include "mesher/generate.hpp"
 #include "sample.hpp"
@@ -123,6 +124,7 @@ Pslg graph_of(const std::string& input) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   std::vector<std::string> inputs(argv + 1, argv + argc);
   std::string cgal;
   if (inputs.size() >= 2 && inputs[0] == "--cgal") {

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "mesher/domain_mesh.hpp"
 #include "mesher/generate_plc.hpp"
 #include "sample.hpp"
@@ -167,6 +168,7 @@ class Surface {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   if (!bench::has_tetgen()) {
     std::fprintf(stderr, "svr_plc_bench: tetgen is not installed: without it\n");
   }

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "geometry/input_point.hpp"
 #include "sample.hpp"
 
@@ -145,6 +146,7 @@ void bench_wall(Input in, int steps, const std::string& prefix) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   std::string file, prefix;
   int steps = 1000;
   for (int i = 1; i < argc; ++i) {

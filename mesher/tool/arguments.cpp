@@ -148,6 +148,8 @@ void settle_input(MeshArguments& args) {
     args.domain.pop_back();
   }
   if (args.input.empty()) throw CLI::RequiredError("INPUT");
+  args.source = args.input;
+  args.input = readable(args.source, args.format);
 }
 
 // INPUT is not `required` to CLI11, as settle_input() may find it later; to people it is.
@@ -175,6 +177,10 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
       ->option_text("TEXT REQUIRED");
   command.parse_complete_callback([&args] { settle_input(args); });
   command.formatter(std::make_shared<UsageOfInput>());
+  command
+      .add_option("--format", args.format,
+                  "That of INPUT, by an extension as above; for pipes, and for files without one")
+      ->type_name("EXTENSION");
   command.add_flag("--surface", args.surface,
                    "In space: the faces of .off, .obj, .ply, .stl, .vtu or .vtk are polygons, and\n"
                    "edges lines");
@@ -300,6 +306,10 @@ InputOf<D> as_meshed(InputOf<D> input, const MeshArguments& args) {
   return input;
 }
 
+mesher::CoincidingPoints coinciding(const MeshArguments& args) {
+  return args.repair ? mesher::CoincidingPoints::kept : mesher::CoincidingPoints::refused;
+}
+
 }  // namespace
 
 template <>
@@ -310,12 +320,16 @@ Input read_input<2>(const MeshArguments& args) {
   if (args.no_flat) {
     throw Error(ErrorCode::bad_option, "--no-flat is for space", {args.input});
   }
-  return as_meshed<2>(Input(args.input), args);
+  Input input(args.input, coinciding(args));
+  drop_copies();
+  return as_meshed<2>(std::move(input), args);
 }
 
 template <>
 SpaceInput read_input<3>(const MeshArguments& args) {
-  return as_meshed<3>(SpaceInput(args.input, faces(args)), args);
+  SpaceInput input(args.input, faces(args), coinciding(args));
+  drop_copies();
+  return as_meshed<3>(std::move(input), args);
 }
 
 mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input) {

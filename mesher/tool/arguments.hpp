@@ -14,7 +14,9 @@
 namespace tool {
 
 struct MeshArguments {
-  std::string input;
+  std::string input;   // where it is read
+  std::string source;  // as it was called
+  std::string format;  // empty: as its extension says
   std::vector<std::string> outputs;
   std::string dimension;  // empty: that of the input
   std::string rho;        // empty: the default of the dimension
@@ -91,7 +93,8 @@ template <int D = 2>
 template <class Files>
 void protect_inputs(const MeshArguments& args, const auto& input, Files& files) {
   files.protect(args.input);
-  files.protect(input.point_file());
+  files.protect(args.source);
+  files.protect(with_own_paths(input.point_file()));
   if (!args.sizes.empty()) files.protect(args.sizes);
 }
 

@@ -13,6 +13,7 @@
 #include "mesher/io.hpp"
 #include "mesher/pslg.hpp"
 #include "mesher/space_check.hpp"
+#include "pipe.hpp"
 #include "references.hpp"
 
 namespace tool {
@@ -21,6 +22,7 @@ namespace {
 struct CheckArguments {
   std::string mesh;
   std::string input;
+  std::string format, input_format;  // empty: as extensions say
   std::string rho;
   std::string boundary = "auto";
   std::string max_area, max_volume;
@@ -50,31 +52,14 @@ void print_notes(const std::vector<mesher::Note>& notes) {
   }
 }
 
-bool has_lines(const mesher::Pslg& graph) {
-  return !graph.segments.empty() || !graph.polylines.empty();
-}
-
-// What the boundary must be: as asked for, else lines if there are any.
-mesher::BoundaryRule boundary_rule(const CheckArguments& args, const mesher::MeshData& mesh,
-                                   const mesher::Pslg& graph) {
+// What the boundary must be: as asked for, else as the mesh looks.
+template <int D, class File>
+mesher::BoundaryRule boundary_rule(const CheckArguments& args, const mesher::MeshDataOf<D>& mesh,
+                                   const File* input) {
   if (args.boundary == "box") return mesher::BoundaryRule::box;
   if (args.boundary == "lines") return mesher::BoundaryRule::lines;
   if (args.boundary == "any") return mesher::BoundaryRule::any;
-  const bool lines = !mesh.features.edges.empty() || has_lines(graph);
-  return lines ? mesher::BoundaryRule::lines : mesher::BoundaryRule::box;
-}
-
-// Likewise in space: polygons if there are any.
-mesher::BoundaryRule boundary_rule(const CheckArguments& args, const mesher::MeshDataOf<3>& mesh,
-                                   const mesher::PlcFile* complex) {
-  if (args.boundary == "box") return mesher::BoundaryRule::box;
-  if (args.boundary == "lines") return mesher::BoundaryRule::lines;
-  if (args.boundary == "any") return mesher::BoundaryRule::any;
-  const auto& faces = mesh.features.faces;
-  const bool polygons = std::any_of(faces.begin(), faces.end(),
-                                    [](const auto& f) { return f.polygon.has_value(); }) ||
-                        (complex != nullptr && !complex->plc.facets.empty());
-  return polygons ? mesher::BoundaryRule::lines : mesher::BoundaryRule::box;
+  return mesher::boundary_rule(mesh, input);
 }
 
 template <int D>
@@ -101,7 +86,7 @@ Judged judge(const CheckArguments& args, mesher::MeshDataOf<2>& mesh) {
   if (!args.input.empty()) options.graph = &graph;
   if (!args.rho.empty()) options.rho = option_rho(args.rho);
   if (!args.max_area.empty()) options.max_area = option_positive("--max-area", args.max_area);
-  options.boundary = boundary_rule(args, mesh, graph.pslg);
+  options.boundary = boundary_rule<2>(args, mesh, options.graph);
   options.constrained = args.constrained;
   Judged judged{mesher::check_mesh(mesh, options), mesh.notes, counts_of(mesh)};
   judged.notes.insert(judged.notes.end(), graph.notes.begin(), graph.notes.end());
@@ -130,7 +115,7 @@ Judged judge(const CheckArguments& args, mesher::MeshDataOf<3>& mesh) {
   if (!args.max_volume.empty()) {
     options.max_volume = option_positive("--max-volume", args.max_volume);
   }
-  options.boundary = boundary_rule(args, mesh, options.complex);
+  options.boundary = boundary_rule<3>(args, mesh, options.complex);
   options.ties = args.ties;
   options.near_delaunay = args.near;
   Judged judged{mesher::check_mesh(mesh, options), mesh.notes, counts_of(mesh)};
@@ -140,10 +125,13 @@ Judged judge(const CheckArguments& args, mesher::MeshDataOf<3>& mesh) {
   return judged;
 }
 
-void run_check(const CheckArguments& args) {
+void run_check(CheckArguments args) {
+  const std::string called = args.mesh;
+  args.mesh = readable(args.mesh, args.format);
+  args.input = readable(args.input, args.input_format);
   mesher::AnyMesh any = mesher::read_any_mesh(args.mesh);
   const Judged judged = std::visit([&](auto& mesh) { return judge(args, mesh); }, any);
-  std::printf("%s: %s\n", args.mesh.c_str(), judged.counts.c_str());
+  std::printf("%s: %s\n", called.c_str(), judged.counts.c_str());
   print_notes(judged.notes);
   print_findings(judged.findings);
   for (const auto& finding : judged.findings) {
@@ -169,6 +157,12 @@ void add_check(CLI::App& app) {
                     "edges: .poly, .geojson, .obj, .vtu, .node, .xyz or .csv; for tetrahedra\n"
                     "complexes, whose polygons must be unions of faces: .poly or .smesh; points:\n"
                     "all formats that 'mesh' reads");
+  check
+      ->add_option("--format", args->format,
+                   "That of MESH, by an extension as above; for pipes, and for files without one")
+      ->type_name("EXTENSION");
+  check->add_option("--input-format", args->input_format, "Likewise that of --input")
+      ->type_name("EXTENSION");
   check->add_flag("--surface", args->surface,
                   "The faces of .off, .obj, .ply or .stl are polygons, as for 'mesh'");
   check->add_flag("--merge", args->merge, "Likewise, made one as by 'mesh'");
@@ -179,7 +173,8 @@ void add_check(CLI::App& app) {
       ->add_option(
           "--boundary", args->boundary,
           "What bounds the mesh: box, lines (or the box; for tetrahedra: polygons, or the\n"
-          "box), any (for tetrahedra: any convex body); auto: lines if there are any, else box")
+          "box), any (for tetrahedra: any convex body); auto: box if MESH fills one that lines (for\n"
+          "tetrahedra: polygons) do not bound, or if there are none, else lines")
       ->check(CLI::IsMember({"auto", "box", "lines", "any"}))
       ->capture_default_str();
   check->add_flag("--constrained", args->constrained,

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "pipe.hpp"
+
 namespace tool {
 namespace {
 
@@ -122,7 +124,8 @@ bool same_line(const Place& a, const Place& b) { return a.file == b.file && a.li
 }  // namespace
 
 std::string text_of(const Place& place) {
-  return place.line > 0 ? place.file + ":" + std::to_string(place.line) : place.file;
+  const std::string file = with_own_paths(place.file);
+  return place.line > 0 ? file + ":" + std::to_string(place.line) : file;
 }
 
 Place Standing::place(Featured kind, FeatureId id) const {
@@ -160,7 +163,8 @@ std::string Standing::warning_text(const mesher::SeedName& seed, const std::stri
 
 // --- In the plane ----------------------------------------------------------------------------
 
-Input::Input(const std::string& path) : Standing(path), file_(mesher::read_pslg(path)) {}
+Input::Input(const std::string& path, mesher::CoincidingPoints coinciding)
+    : Standing(path), file_(mesher::read_pslg(path, coinciding)) {}
 
 std::vector<mesher::InputPoint<2>> Input::points() const {
   std::vector<mesher::InputPoint<2>> points;

@@ -13,8 +13,10 @@
 #include "mesher/io.hpp"
 #include "mesher/plc.hpp"
 #include "mesher/pslg.hpp"
+#include "mesher/read_for_repair.hpp"
 #include "mesher/repair.hpp"
 #include "mesher/space_repair.hpp"
+#include "pipe.hpp"
 
 namespace tool {
 
@@ -24,7 +26,7 @@ namespace tool {
 /// Where features stand that have come from a file or from a script since.
 class Standing {
  public:
-  explicit Standing(std::string path) : path_(std::move(path)) {}
+  explicit Standing(const std::string& path) : path_(with_own_paths(path)) {}
   virtual ~Standing() = default;
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
@@ -87,7 +89,7 @@ decltype(auto) locating(const Standing& input, Make&& make) {
 class Input final : public Standing {
  public:
   /// Throws: Error, as read_pslg.
-  explicit Input(const std::string& path);
+  explicit Input(const std::string& path, mesher::CoincidingPoints coinciding = {});
 
   [[nodiscard]] const mesher::Pslg& graph() const noexcept { return file_.pslg; }
   [[nodiscard]] const mesher::PslgFile& file() const noexcept { return file_; }
@@ -132,7 +134,8 @@ class SpaceInput final : public Standing {
  public:
   /// Throws: Error, as read_points, or as read_plc where faces are polygons; Error(bad_option) if
   /// they are to be, but the format has none.
-  explicit SpaceInput(const std::string& path, Faces faces = Faces::unless_points);
+  explicit SpaceInput(const std::string& path, Faces faces = Faces::unless_points,
+                      mesher::CoincidingPoints coinciding = {});
 
   /// As the file has it.
   [[nodiscard]] const mesher::Plc& graph() const noexcept { return file_.plc; }

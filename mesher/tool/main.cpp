@@ -49,7 +49,7 @@ void add_commands(CLI::App& app, std::string_view called) {
 }
 
 int fail(ExitCode code, const std::string& message) {
-  std::cerr << message << std::endl;
+  std::cerr << tool::with_own_paths(message) << std::endl;
   return static_cast<int>(code);
 }
 

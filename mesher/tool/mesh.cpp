@@ -46,7 +46,7 @@ Result<D> mesh(const MeshArguments& args, const InputOf<D>& input,
   if (!is_silent) look_at_angles(input, all, options, run);
   start = mesher::now();
   result.mesh =
-      mesher::domain_mesh(without_flat(args, std::move(all)), input.graph(), extent(args));
+      mesher::domain_mesh(without_flat(args, std::move(all), options.rho), input.graph(), extent(args));
   run.seconds_total += mesher::now() - start;
   if (!is_silent) measure(result.mesh, options.rho, run);
   return result;

@@ -10,13 +10,15 @@
 
 namespace tool {
 
-inline mesher::Mesh<2> without_flat(const MeshArguments&, mesher::Mesh<2> all) { return all; }
-/// Says how many stay.
-inline mesher::Mesh<3> without_flat(const MeshArguments& args, mesher::Mesh<3> all) {
+inline mesher::Mesh<2> without_flat(const MeshArguments&, mesher::Mesh<2> all, double) {
+  return all;
+}
+/// None above `rho` comes. Says how many stay.
+inline mesher::Mesh<3> without_flat(const MeshArguments& args, mesher::Mesh<3> all, double rho) {
   if (!args.no_flat) return all;
-  mesher::Unflattened result = mesher::without_flat_tetrahedra(std::move(all));
+  mesher::Unflattened result = mesher::without_flat_tetrahedra(std::move(all), rho);
   if (result.left > 0 && !args.quiet) {
-    std::fprintf(stderr, "%s: note: %zu flat tetrahedra stay\n", args.input.c_str(), result.left);
+    std::fprintf(stderr, "%s: note: %zu flat tetrahedra stay\n", args.source.c_str(), result.left);
   }
   return std::move(result.mesh);
 }
@@ -26,7 +28,7 @@ template <int D, class Target>
 mesher::DomainMeshOf<D> kept_of(const MeshArguments& args, const Target& target) {
   if constexpr (D == 3) {
     if (args.no_flat) {
-      return mesher::domain_mesh(without_flat(args, target.mesh()), target.input(), extent(args));
+      return mesher::domain_mesh(without_flat(args, target.mesh(), target.options().rho), target.input(), extent(args));
     }
   }
   return target.domain_mesh();

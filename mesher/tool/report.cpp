@@ -316,6 +316,15 @@ void print_run(const SpaceInput& input, const SpaceRun& run) {
   print_row("time", format("%.3f s", run.seconds_total));
 }
 
+namespace {
+
+void warn_of_no_mesh(const Standing& input, const char* features) {
+  std::fprintf(stderr, "%s: warning: the mesh is empty: all that %s enclose is in holes\n",
+               input.path().c_str(), features);
+}
+
+}  // namespace
+
 void print_remarks(const MeshArguments& args, const Input& input, const mesher::DomainMesh& mesh) {
   print_notes(input.notes());
   if (args.region_areas && !input.has_region_limits()) {
@@ -326,6 +335,7 @@ void print_remarks(const MeshArguments& args, const Input& input, const mesher::
   for (const auto& fault : mesh.faults) {
     std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
   }
+  if (mesh.kept.simplices.empty()) warn_of_no_mesh(input, "lines");
 }
 
 void print_remarks(const MeshArguments& args, const SpaceInput& input, const Kept<3>& mesh) {
@@ -342,6 +352,7 @@ void print_remarks(const MeshArguments& args, const SpaceInput& input, const Kep
   for (const auto& fault : mesh.faults) {
     std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
   }
+  if (mesh.kept.simplices.empty()) warn_of_no_mesh(input, "polygons");
 }
 
 namespace {

@@ -41,9 +41,9 @@ PlcFile points_alone(mesher::PointFile<3> points) {
   return file;
 }
 
-PlcFile read(const std::string& path, Faces faces) {
+PlcFile read(const std::string& path, Faces faces, mesher::CoincidingPoints coinciding) {
   if (faces == Faces::unless_points && !is_of_complexes(path)) {
-    return points_alone(mesher::read_points<3>(path));
+    return points_alone(mesher::read_points<3>(path, coinciding));
   }
   if (!is_of_complexes(path) && !is_of_surfaces(path) && !is_of_grids(path)) {
     throw Error(
@@ -66,9 +66,9 @@ Place place_among(const Parts& parts, FeatureId id, IdOf&& id_of, PlaceOf&& plac
 
 }  // namespace
 
-SpaceInput::SpaceInput(const std::string& path, Faces faces)
+SpaceInput::SpaceInput(const std::string& path, Faces faces, mesher::CoincidingPoints coinciding)
     : Standing(path),
-      file_(read(path, faces)),
+      file_(read(path, faces, coinciding)),
       is_complex_(faces != Faces::unless_points || is_of_complexes(path)) {
   if (faces != Faces::merged) return;
   // Facets that are left keep their places, by their ids.

@@ -71,6 +71,7 @@ InputOf<D> unrepaired(const TraceArguments& args) {
 template <int D>
 void run_trace(const TraceArguments& args) {
   InputOf<D> input = unrepaired<D>(args);
+  drop_copies();
   const auto options = mesh_options(args, input);
   require_writable(args, input);
   Progress progress(args.quiet);

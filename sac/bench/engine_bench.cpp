@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "bench_support.hpp"
 #include "sac/sac.hpp"
 
@@ -192,6 +193,7 @@ void bench_write_among_readers(std::size_t n) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   const std::size_t n = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000000;
   bench_calls(n);
   bench_list_map(n);

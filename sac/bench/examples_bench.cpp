@@ -45,6 +45,7 @@
 #include "../examples/mergesort.hpp"
 #include "../examples/quickhull.hpp"
 #include "../examples/quicksort.hpp"
+#include "bench_help.hpp"
 #include "bench_support.hpp"
 #include "plain_lists.hpp"
 
@@ -469,6 +470,7 @@ const Application kApplications[] = {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   const std::string name = argc > 1 ? argv[1] : "all";
   bool known = false;
   for (const Application& app : kApplications) {

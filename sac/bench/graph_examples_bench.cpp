@@ -14,6 +14,7 @@
 #include "../examples/connected_components.hpp"
 #include "../examples/expression_tree.hpp"
 #include "../examples/tree_contraction.hpp"
+#include "bench_help.hpp"
 #include "measure_example.hpp"
 #include "sac/sac.hpp"
 
@@ -398,6 +399,7 @@ struct Connect {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   const bench::Selection selection(argc, argv);
   selection.run<Expression>(1000000, 20000);
   selection.run<Contraction<false>>(100000, 2000);

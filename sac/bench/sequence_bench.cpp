@@ -28,6 +28,7 @@
 #include "../examples/list_reverse.hpp"
 #include "../examples/list_sum.hpp"
 #include "../examples/mergesort.hpp"
+#include "bench_help.hpp"
 #include "bench_support.hpp"
 #include "sac/sac.hpp"
 
@@ -257,6 +258,7 @@ const Operation kOperations[] = {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   const std::string name = argc > 1 ? argv[1] : "all";
   bool known = false;
   for (const Operation& operation : kOperations) {

@@ -13,6 +13,7 @@
 #include "../examples/spell_check.hpp"
 #include "../examples/spreadsheet.hpp"
 #include "../examples/string_hash.hpp"
+#include "bench_help.hpp"
 #include "measure_example.hpp"
 #include "sac/sac.hpp"
 
@@ -251,6 +252,7 @@ struct Sheet {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   const bench::Selection selection(argc, argv);
   selection.run<Spelling<false>>(100000, 20000);
   selection.run<Spelling<true>>(100000, 10);

@@ -35,9 +35,10 @@
 #include <utility>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "sac/arena.hpp"
-#include "sac/label.hpp"
 #include "sac/internal/timeline.hpp"
+#include "sac/label.hpp"
 
 namespace {
 
@@ -224,6 +225,7 @@ void bench_compare_and_erase(Report& report, std::size_t n) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   const std::size_t n = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000000;
   Report report(n);
   for (int round = 0; round < 5; ++round) {

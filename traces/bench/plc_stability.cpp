@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "ground.hpp"
 #include "mesher/generate.hpp"
 #include "plots.hpp"
@@ -117,6 +118,7 @@ void over_size(std::vector<Plot>& plots, int across, int edits) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   std::vector<int> across;
   int edits = 20;
   std::string out = "build/plc_stability";

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "ground.hpp"
 #include "mesher/generate.hpp"
 #include "plots.hpp"
@@ -100,6 +101,7 @@ Plot over_count(Ground& ground, int edits) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   std::vector<std::size_t> sizes;
   int edits = 20;
   std::string out = "build/space_stability";

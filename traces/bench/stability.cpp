@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "../../mesher/bench/random_line.hpp"
+#include "bench_help.hpp"
 #include "ground.hpp"
 #include "mesher/domain_mesh.hpp"
 #include "mesher/generate.hpp"
@@ -120,6 +121,7 @@ Plot over_length(int kind, Ground& ground, int edits) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   std::vector<std::size_t> sizes;
   int edits = 20;
   bool alone = false;

@@ -27,6 +27,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "sac/sac.hpp"
 #include "traces/audit.hpp"
 #include "traces/distance.hpp"
@@ -160,6 +161,7 @@ void bench_list(std::uint64_t calls) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   const std::uint64_t calls = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1'000'000;
   bench_tree(calls);
   bench_list(calls);

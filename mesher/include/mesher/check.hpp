@@ -13,7 +13,8 @@
 //   or else
 //   (5') overlap: no two triangles overlap. The edges with one triangle, each with its triangle on
 //       the left, wind round every place once or not at all, and meet at vertices alone. With (1)
-//       to (4) this is exact: as many triangles cover a place as those edges wind round it;
+//       to (4) this is exact: as many triangles cover a place as those edges wind round it. A mesh
+//       may have no triangles if the input has holes, as all that lines enclose may be in them;
 //   (6') boundary, if asked: the edges with one triangle are on lines or sides of the bounding box;
 //   (7) delaunay: no edge has the opposite corner of one triangle inside the other's circumcircle;
 //       edges on lines are left to conforming, if there are lines;
@@ -31,12 +32,13 @@
 //   (c) conforming: (7) of the edges on lines;
 //   (d) regions: triangles on both sides of an edge that is on no line have the same region; where
 //       seeds are given, that of one of the seeds inside; no triangle holds the seed of a hole,
-//       unless the mesh is to fill a box. A seed on a line stands for nothing;
+//       unless the mesh is to fill a box. A seed on a line stands for nothing, and so does one of a
+//       region beside that of a hole;
 //   (e) area, if asked: no triangle is larger than a limit;
 //   (f) markers, if the input has some and the mesh does: a vertex that is a point with a marker
 //       has that one; every other, and every edge, has the marker of one of the lines with a marker
-//       that it is on, or, on none, 0, or 1 on the mesh's boundary. Those of edges are looked at
-//       where any edge has one.
+//       that it is on, be the line in the mesh or outside, or, on none, 0, or 1 on the mesh's
+//       boundary. Those of edges are looked at where any edge has one.
 #pragma once
 
 #include <cstdint>
@@ -77,6 +79,12 @@ enum class BoundaryRule : std::uint8_t {
   lines,  ///< edges on lines, or sides of the bounding box
   any,    ///< any polygons
 };
+
+/// The rule for a mesh of which nobody says how far it should go. `box` if there are no lines, or if
+/// it fills its bounding box and a corner of that is no point of `graph`, so that lines do not
+/// enclose it; else `lines`.
+/// Cost: O(m log m).
+[[nodiscard]] BoundaryRule boundary_rule(const MeshData& mesh, const PslgFile* graph);
 
 /// What to hold a mesh against.
 struct CheckOptions {

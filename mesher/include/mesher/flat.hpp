@@ -13,11 +13,14 @@
 //   (1) vertices, edges on lines, and what is in which polygon are the same; where a flat
 //       tetrahedron lies in a polygon, two of the polygon's faces are exchanged for two others;
 //   (2) all tetrahedra are positively oriented, and fill the same space;
-//   (3) a new one is Delaunay but for what the flat one deviated from its plane;
+//   (3) a new one is Delaunay but for rounding (kNearSphere, space_check.hpp), and none has a
+//       circumradius above a bound times its shortest edge; where that cannot be had, the flat one
+//       stays;
 //   (4) the result is a function of the mesh.
 #pragma once
 
 #include <cstddef>
+#include <limits>
 
 #include "mesher/mesh.hpp"
 
@@ -34,7 +37,8 @@ struct Unflattened {
 
 /// Requires: a mesh of an update or a static run, or one like it: canonical, its tetrahedra
 /// positively oriented. Cost: O(m), and O(m log m) a round if there are flat ones: one round for
-/// each that lies on another.
-[[nodiscard]] Unflattened without_flat_tetrahedra(Mesh<3> mesh);
+/// each that lies on another. `rho`: the bound of (3), that of the mesh.
+[[nodiscard]] Unflattened without_flat_tetrahedra(
+    Mesh<3> mesh, double rho = std::numeric_limits<double>::infinity());
 
 }  // namespace mesher

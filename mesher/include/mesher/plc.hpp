@@ -3,7 +3,7 @@
 //
 // Example:
 //   const mesher::PlcFile part = mesher::read_plc("part.poly");
-//   for (const auto& polygon : part.plc.polygons) ... polygon.loops[0] ...
+//   for (const auto& facet : part.plc.facets) ... facet.polygon.loops[0] ...
 //   mesher::write_plc(part.plc, "part.smesh");
 //
 // Guarantees of `read_plc`:

@@ -39,17 +39,20 @@
 //       its, or if they name none, of those with corners on its plane whose Voronoi edge crosses
 //       it (on the boundary, whose middle is in it). Their corners are on it, but for rounding and
 //       its own corners' deviation; each of their edges is of two of them, or of one and on an edge
-//       of the polygon; and their areas add up to its own, but for 10^-9. One of which no corner is
-//       a vertex may be outside;
+//       of the polygon; and their areas add up to its own, but for 10^-9 and the rounding of
+//       vertices on its border. Where MESH has what polygons enclose, parts of a polygon, between
+//       edges that it declares, may be outside: beside such an edge there is then a face, or no
+//       tetrahedron;
 //   (d) markers, where complex and mesh have some: vertices have that of their point, or else of a
-//       segment or polygon that they are on, edges that of their segment, or else of such a
+//       segment or polygon that they are on, be it in the mesh or outside, edges that of their segment, or else of such a
 //       polygon, faces that of their polygon; what is on none has none, or on the boundary perhaps
 //       1;
 //   (e) regions: tetrahedra on both sides of a face in no polygon have the same region; where seeds
 //       are given, that of one of the seeds inside; no tetrahedron holds the seed of a hole, unless
-//       the mesh is to fill a box. A seed on a polygon stands for nothing.
+//       the mesh is to fill a box. A seed on a polygon stands for nothing, and so does one of a
+//       region beside that of a hole.
 // If the mesh need not be convex, (5) is that faces of one tetrahedron are on the box or in
-// polygons; then (6) looks at a place in each part that hangs together, and beside each part of the
+// polygons, and there may be none if the complex has holes; then (6) looks at a place in each part that hangs together, and beside each part of the
 // boundary: as (c) says, and as polygons do not cross, the boundary has no crossings.
 #pragma once
 
@@ -83,6 +86,10 @@ struct SpaceQuality {
 /// How many tetrahedra have a circumradius above rho times their shortest edge, by more than its
 /// rounding, and 10^-9 of it. Cost: O(m).
 [[nodiscard]] std::size_t count_above(const Mesh<3>& mesh, double rho);
+
+/// The rule for a mesh of which nobody says how far it should go, as that in the plane, by
+/// polygons.
+[[nodiscard]] BoundaryRule boundary_rule(const MeshDataOf<3>& mesh, const PlcFile* complex);
 
 /// What to hold a mesh of tetrahedra against.
 struct SpaceCheckOptions {

@@ -51,6 +51,9 @@ class Checker {
   bool tiles_box() { return check("hull", &Checker::hull) && check("euler", &Checker::euler); }
 
   bool tiles_domain() {
+    if (mesh_.simplices.empty() && options_.graph != nullptr && !options_.graph->pslg.holes.empty()) {
+      return findings_.add("overlap", good("no triangles: lines enclose nothing but holes"));
+    }
     if (!findings_.add("overlap", detail::check_overlap(checked_))) return false;
     if (options_.boundary == BoundaryRule::lines) check("boundary", &Checker::boundary);
     return true;
@@ -229,6 +232,22 @@ class Checker {
 };
 
 }  // namespace
+
+BoundaryRule boundary_rule(const MeshData& mesh, const PslgFile* graph) {
+  const bool has_lines =
+      !mesh.features.edges.empty() || (graph != nullptr && (!graph->pslg.segments.empty() ||
+                                                            !graph->pslg.polylines.empty()));
+  if (!has_lines) return BoundaryRule::box;
+  if (graph == nullptr || mesh.simplices.empty()) return BoundaryRule::lines;
+  const detail::CheckedMesh checked(mesh);
+  const Box<2> box = checked.bounding_box();
+  const std::vector<HalfEdge> border = checked.border();
+  const bool fills = std::all_of(border.begin(), border.end(), [&](const HalfEdge& e) {
+    return detail::is_on_side<2>(box, {mesh.vertices[e.from], mesh.vertices[e.to]});
+  });
+  return fills && !detail::has_corners<2>(box, graph->pslg.points) ? BoundaryRule::box
+                                                                   : BoundaryRule::lines;
+}
 
 std::vector<Finding> check_mesh(const Mesh<2>& mesh, const CheckOptions& options) {
   return Checker(mesh, options).run();

@@ -55,7 +55,7 @@ ComplexCheck::ComplexCheck(const Mesh<3>& mesh, const SpaceCheckOptions& options
 std::size_t ComplexCheck::line(FeatureId a, FeatureId b, const std::string& name) {
   const std::array<FeatureId, 2> ends{std::min(a, b), std::max(a, b)};
   const auto [it, is_new] = line_of_.try_emplace(ends, lines_.size());
-  if (is_new) lines_.push_back({name, ends, places_.at(ends[0]), places_.at(ends[1]), {}});
+  if (is_new) lines_.push_back({name, ends, places_.at(ends[0]), places_.at(ends[1])});
   return it->second;
 }
 
@@ -119,6 +119,7 @@ Verdict ComplexCheck::find_segments(const HalfFaces& faces) {
     outside += way.runs.empty() ? 1 : 0;
     cut += way.runs.empty() || way.is_whole ? 0 : 1;
     l.runs = std::move(way.runs);
+    l.alone = std::move(way.alone);
   }
   if (!verdict.holds) return verdict;
   return Verdict::good(std::to_string(lines_.size() - outside) +

@@ -43,7 +43,8 @@ class ComplexCheck {
     std::array<FeatureId, 2> ends;
     Point<3> from, to;
     std::vector<std::vector<std::uint32_t>>
-        runs;  // of vertices that edges join; one if it is whole
+        runs{};  // of vertices that edges join; one if it is whole
+    std::vector<std::uint32_t> alone{};  // vertices on it, but on no edge of it
   };
   using Ends = std::array<std::uint32_t, 2>;  // low, high
   struct Surface {
@@ -66,7 +67,9 @@ class ComplexCheck {
   Verdict find_polygons(const HalfFaces& faces);
   void add_named_tiles();
   void add_crossed_tiles(const HalfFaces& faces);
-  [[nodiscard]] std::optional<std::string> trouble_of(const Surface& surface) const;
+  [[nodiscard]] std::optional<std::string> trouble_of(const Surface& surface);
+  [[nodiscard]] double outline_of(const Surface& surface) const;
+  [[nodiscard]] bool is_open(const Ends& edge, const Point<3>& towards);
   [[nodiscard]] bool is_outside(const Point<3>& p) const;
   void name_vertices();
   [[nodiscard]] bool is_short(std::uint32_t a, std::uint32_t b) const;
@@ -82,6 +85,7 @@ class ComplexCheck {
   std::map<std::array<FeatureId, 2>, std::size_t> line_of_;  // by ends, ascending
   std::vector<Surface> surfaces_;
   std::set<Face> tiles_;
+  std::map<Ends, std::vector<std::uint32_t>> around_;  // tetrahedra, by edges of polygons
   std::map<std::uint32_t, Featured> featured_;
   Verdict segments_, polygons_;
 };

@@ -55,6 +55,7 @@ class MarkerCheck {
   }
   void add(const LinePath& path) {
     const Marked* const line = &lines_.at(path.line);
+    for (const std::uint32_t v : path.alone) at_vertex_[v].push_back(line);
     for (std::size_t i = 0; i < path.vertices.size(); ++i) {
       at_vertex_[path.vertices[i]].push_back(line);
       if (i > 0) at_edge_[std::minmax(path.vertices[i - 1], path.vertices[i])].push_back(line);

@@ -1,7 +1,10 @@
 // What the checks of meshes of triangles and of tetrahedra share. D is 2 or 3.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,5 +54,29 @@ template <int D>
 template <int D>
 [[nodiscard]] Verdict check_kinds(const Mesh<D>& mesh, const PointFile<D>* input,
                                   const std::vector<FeatureId>& origins);
+
+/// Whether all places are on one side of a box.
+template <int D>
+[[nodiscard]] bool is_on_side(const Box<D>& box, const std::array<Point<D>, D>& places) {
+  for (std::size_t i = 0; i < D; ++i) {
+    for (const double side : {box.lo[i], box.hi[i]}) {
+      const auto is_there = [&](const Point<D>& p) { return p[i] == side; };
+      if (std::all_of(places.begin(), places.end(), is_there)) return true;
+    }
+  }
+  return false;
+}
+/// Whether each corner of a box is one of the points, which have a place `at`.
+template <int D, class Points>
+[[nodiscard]] bool has_corners(const Box<D>& box, const Points& points) {
+  std::set<Point<D>> corners;
+  for (unsigned c = 0; c < 1u << D; ++c) {
+    Point<D> corner;
+    for (unsigned i = 0; i < D; ++i) corner[i] = (c >> i & 1) != 0 ? box.hi[i] : box.lo[i];
+    corners.insert(corner);
+  }
+  for (const auto& p : points) corners.erase(p.at);
+  return corners.empty();
+}
 
 }  // namespace mesher::detail

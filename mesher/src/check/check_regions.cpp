@@ -42,10 +42,16 @@ Verdict check_seeds(const CheckedMesh& mesh, const LineEdges& on_lines, const Ps
                     const std::vector<double>& regions, UnionFind& parts) {
   std::map<std::uint32_t, std::set<double>> seeded;
   std::vector<std::pair<const Pslg::Region*, std::uint32_t>> found;
+  std::set<std::uint32_t> in_holes;  // parts, in which no region's seed stands for anything
+  for (const Pslg::Hole& hole : graph.holes) {
+    const auto triangle = triangle_of(hole.seed, mesh, on_lines);
+    if (triangle) in_holes.insert(parts.find(static_cast<std::uint32_t>(*triangle)));
+  }
   for (const Pslg::Region& region : graph.regions) {
     const auto seeded_triangle = triangle_of(region.seed, mesh, on_lines);
     if (!seeded_triangle) continue;
     const auto triangle = static_cast<std::uint32_t>(*seeded_triangle);
+    if (in_holes.count(parts.find(triangle)) > 0) continue;
     seeded[parts.find(triangle)].insert(region.attribute);
     found.emplace_back(&region, triangle);
   }

@@ -34,14 +34,13 @@ class Outside {
  public:
   Outside(const CheckedMesh& mesh, const LineWalk<2>& walk, BoundaryRule rule)
       : mesh_(mesh), walk_(walk), rule_(rule) {
-    if (rule != BoundaryRule::box) border_ = mesh.border();
+    border_ = mesh.border();
   }
   // Of a boundary that is not judged a piece between two vertices may be lost.
   [[nodiscard]] bool operator()(const Point<2>& p, const Point<2>& q) const {
     if (rule_ == BoundaryRule::any && walk_.vertex_at(p) && walk_.vertex_at(q)) return false;
-    if (border_.empty() || mesh_.triangle_at({p[0] / 2 + q[0] / 2, p[1] / 2 + q[1] / 2})) {
-      return false;
-    }
+    if (rule_ == BoundaryRule::box) return false;
+    if (mesh_.triangle_at({p[0] / 2 + q[0] / 2, p[1] / 2 + q[1] / 2})) return false;
     return std::none_of(border_.begin(), border_.end(), [&](const HalfEdge& e) {
       return goes_through(p, q, {mesh_.at(e.from), mesh_.at(e.to)});
     });
@@ -51,7 +50,7 @@ class Outside {
   const CheckedMesh& mesh_;
   const LineWalk<2>& walk_;
   BoundaryRule rule_;
-  std::vector<HalfEdge> border_;  // none: nothing is outside
+  std::vector<HalfEdge> border_;
 };
 
 std::vector<LinePath> pieces_of(const Pslg& graph) {
@@ -117,6 +116,7 @@ PathsVerdict check_segments(const CheckedMesh& mesh, const CheckOptions& options
       edges += run.size() - 1;
       all.paths.push_back({piece.line, piece.from, piece.to, std::move(run)});
     }
+    if (!all.paths.empty()) all.paths.back().alone = std::move(way.alone);
   }
   if (all.verdict.holds && !all.paths.empty() && options.features != nullptr) {
     all.verdict = check_names(mesh, *options.features, all.paths);

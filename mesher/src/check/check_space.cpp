@@ -114,7 +114,12 @@ class SpaceChecker {
   }
 
   Verdict hull() {
-    if (border_.empty()) return bad("no tetrahedra");
+    if (border_.empty()) {
+      const bool may_be_empty = options_.boundary == BoundaryRule::lines &&
+                                options_.complex != nullptr && !options_.complex->plc.holes.empty();
+      return may_be_empty ? good("no tetrahedra: polygons enclose nothing but holes")
+                          : bad("no tetrahedra");
+    }
     for (const HalfFace& half : border_) {
       if (on_box(half)) continue;
       if (options_.boundary == BoundaryRule::lines) {
@@ -277,8 +282,10 @@ class SpaceChecker {
   std::optional<std::string> seed_trouble(const std::vector<double>& regions,
                                           detail::UnionFind& parts, bool known) const {
     const Plc& plc = options_.complex->plc;
+    std::set<std::uint32_t> in_holes;  // parts, in which no region's seed stands for anything
     for (const auto& hole : plc.holes) {
       const auto t = seeded_by(hole.seed);
+      if (t) in_holes.insert(parts.find(*t));
       if (!t || options_.boundary != BoundaryRule::lines) continue;
       return simplex(*t) + " holds the seed of hole " +
              std::to_string(static_cast<std::int64_t>(hole.id)) + " at " +
@@ -288,7 +295,7 @@ class SpaceChecker {
     std::vector<std::pair<const Plc::Region*, std::uint32_t>> found;
     for (const auto& region : plc.regions) {
       const auto t = seeded_by(region.seed);
-      if (!t) continue;
+      if (!t || in_holes.count(parts.find(*t)) > 0) continue;
       seeded[parts.find(*t)].insert(region.attribute);
       found.emplace_back(&region, *t);
     }
@@ -398,12 +405,7 @@ class SpaceChecker {
 
   [[nodiscard]] bool on_box(const HalfFace& half) const {
     const auto [a, b, c] = half.face;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (const double side : {box_.lo[i], box_.hi[i]}) {
-        if (at(a)[i] == side && at(b)[i] == side && at(c)[i] == side) return true;
-      }
-    }
-    return false;
+    return detail::is_on_side<3>(box_, {at(a), at(b), at(c)});
   }
   // A vertex on the outer side of a face's plane.
   [[nodiscard]] std::optional<std::size_t> beyond(const HalfFace& half) const {
@@ -434,6 +436,23 @@ class SpaceChecker {
 };
 
 }  // namespace
+
+BoundaryRule boundary_rule(const MeshDataOf<3>& mesh, const PlcFile* complex) {
+  const auto& faces = mesh.features.faces;
+  const bool has_polygons =
+      (complex != nullptr && !complex->plc.facets.empty()) ||
+      std::any_of(faces.begin(), faces.end(), [](const auto& f) { return f.polygon.has_value(); });
+  if (!has_polygons) return BoundaryRule::box;
+  if (complex == nullptr || mesh.simplices.empty()) return BoundaryRule::lines;
+  const Box<3> box = detail::bounding_box<3>(mesh.vertices);
+  const std::vector<HalfFace> border = detail::HalfFaces(mesh.simplices).border();
+  const bool fills = std::all_of(border.begin(), border.end(), [&](const HalfFace& half) {
+    const auto [a, b, c] = half.face;
+    return detail::is_on_side<3>(box, {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+  });
+  return fills && !detail::has_corners<3>(box, complex->plc.points) ? BoundaryRule::box
+                                                                    : BoundaryRule::lines;
+}
 
 std::vector<Finding> check_mesh(const Mesh<3>& mesh, const SpaceCheckOptions& options) {
   return SpaceChecker(mesh, options).run();

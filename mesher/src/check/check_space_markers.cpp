@@ -36,6 +36,7 @@ class ComplexCheck::Markers {
       polygons_.push_back(marked(f.marker, "polygon", f.polygon.id, file.facets, i));
       for (const Face& tile : check.surfaces_[i].tiles) polygon_at_[tile] = i;
     }
+    add_alone();
     for (const HalfFace& half : faces.border()) {
       border_.insert(half.key());
       for (const std::uint32_t v : half.face) border_vertices_.insert(v);
@@ -83,6 +84,18 @@ class ComplexCheck::Markers {
     std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
     return both;
   }
+  // What is outside of the mesh but for vertices gives them markers as what is in it.
+  void add_alone() {
+    const auto& lines = check_.lines_;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      for (const std::uint32_t v : lines[i].alone) alone_[v].lines.push_back(i);
+    }
+    for (std::size_t i = 0; i < check_.surfaces_.size(); ++i) {
+      for (const std::size_t line : check_.surfaces_[i].lines) {
+        for (const std::uint32_t v : lines[line].alone) alone_[v].surfaces.push_back(i);
+      }
+    }
+  }
   void add_segments(const std::vector<std::size_t>& lines, Givers& givers) const {
     for (const std::size_t line : lines) {
       const auto segment = segments_.find(line);
@@ -100,6 +113,10 @@ class ComplexCheck::Markers {
       Givers givers;
       add_segments(at(v).lines, givers);
       add_polygons(at(v).surfaces, givers);
+      if (const auto alone = alone_.find(v); alone != alone_.end()) {
+        add_segments(alone->second.lines, givers);
+        add_polygons(alone->second.surfaces, givers);
+      }
       return marker_trouble(marker, givers, border_vertices_.contains(v), "segment or polygon");
     }
     if (point->second.marker == marker) return "";
@@ -127,6 +144,7 @@ class ComplexCheck::Markers {
 
   const ComplexCheck& check_;
   const MeshFeatures& features_;
+  std::map<std::uint32_t, Featured> alone_;  // by vertex: those of which it is on no edge
   std::map<Point<3>, Marked> points_;
   std::map<std::size_t, Marked> segments_;  // by their lines
   std::vector<Marked> polygons_;            // by their surfaces

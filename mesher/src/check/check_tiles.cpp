@@ -1,12 +1,16 @@
 // Whether polygons are unions of faces: of those that tile them.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "check/check_complex.hpp"
 #include "check/flat_polygon.hpp"
 #include "check/line_walk.hpp"
 #include "geometry/circumcentre.hpp"
 #include "geometry/cube_around.hpp"
+#include "geometry/space_vectors.hpp"
+#include "mesher/predicates.hpp"
 #include "records/reach_tree.hpp"
 #include "sets/make_set.hpp"
 #include "text/text.hpp"
@@ -15,7 +19,10 @@ namespace mesher::detail {
 
 namespace {
 
-constexpr double kArea = 1e-9;  // areas that differ by no more of them are equal
+// Areas that differ by no more of them are equal, but for the rounding of vertices on the border.
+constexpr double kArea = 1e-9;
+// Of the length of an edge: so near its middle a place beside it is in the polygon beside it.
+constexpr double kBeside = 0x1p-10;
 
 std::string name_of(const char* kind, FeatureId id) {
   return std::string(kind) + std::to_string(static_cast<std::int64_t>(id));
@@ -171,9 +178,9 @@ Verdict ComplexCheck::find_polygons(const HalfFaces& faces) {
     }
     make_set(surface.on);
     tiles += surface.tiles.size();
-    if (surface.tiles.empty() && is_outside(flat(*surface.polygon, places_).inner_place())) {
-      ++outside;
-    } else if (const auto trouble = trouble_of(surface); trouble && verdict.holds) {
+    const auto trouble = trouble_of(surface);
+    if (!trouble && surface.tiles.empty()) ++outside;
+    if (trouble && verdict.holds) {
       verdict = Verdict::bad(name_of("polygon ", surface.polygon->id) + ": " + *trouble);
     }
   }
@@ -188,40 +195,122 @@ Verdict ComplexCheck::find_polygons(const HalfFaces& faces) {
                        (outside > 0 ? ", " + std::to_string(outside) + " are outside" : ""));
 }
 
-// Why the tiles do not make up the polygon; nothing if they do.
-std::optional<std::string> ComplexCheck::trouble_of(const Surface& surface) const {
+// Whether the mesh has nothing at an edge on the way to a place. (The signs are of the planes through
+// the edge and another corner of a tetrahedron; on such a plane is in the mesh.)
+bool ComplexCheck::is_open(const Ends& edge, const Point<3>& towards) {
+  if (options_.boundary == BoundaryRule::box) return false;
+  if (around_.empty()) {
+    for (const Surface& surface : surfaces_) {
+      for (const Ends& e : surface.border) around_[e];
+      for (const Ends& e : surface.inner) around_[e];
+    }
+    for (std::uint32_t t = 0; t < mesh_.simplices.size(); ++t) {
+      const auto& s = mesh_.simplices[t];
+      for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t k = i + 1; k < 4; ++k) {
+          const auto found = around_.find(ends_of(s[i], s[k]));
+          if (found != around_.end()) found->second.push_back(t);
+        }
+      }
+    }
+  }
+  const auto side = [&](std::uint32_t v, const Point<3>& p) {
+    return predicates::orient3d(at(edge[0]), at(edge[1]), at(v), p);
+  };
+  return std::none_of(around_[edge].begin(), around_[edge].end(), [&](std::uint32_t t) {
+    std::vector<std::uint32_t> others;
+    for (const std::uint32_t v : mesh_.simplices[t]) {
+      if (v != edge[0] && v != edge[1]) others.push_back(v);
+    }
+    const auto [r, s] = std::pair(others[0], others[1]);
+    return side(r, towards) * side(r, at(s)) >= 0 && side(s, towards) * side(s, at(r)) >= 0;
+  });
+}
+
+// Why the tiles do not make up the polygon, or what of it is in the mesh; nothing if they do. Edges
+// cut it into parts, each of which is in the mesh or outside: so where no tile is beside an edge
+// there is nothing at all.
+std::optional<std::string> ComplexCheck::trouble_of(const Surface& surface) {
   const FlatPolygon f = flat(*surface.polygon, places_);
   const double tolerance = static_cast<double>(f.deviation()) + 4 * rounding_;
   long double area = 0;
-  std::map<Ends, int> sides;
+  std::map<Ends, std::vector<std::uint32_t>> opposite;  // corners of tiles, by their edges
   for (const auto& [a, b, c] : surface.tiles) {
     for (const std::uint32_t v : {a, b, c}) {
       if (std::abs(f.height(at(v))) <= tolerance) continue;
       return vertex_name(mesh_, v) + ", a corner of one of its faces, is " +
              text::to_text(static_cast<double>(f.height(at(v)))) + " off its plane";
     }
-    area += twice_area(at(a), at(b), at(c)) / 2;
-    for (const auto& e : {ends_of(a, b), ends_of(b, c), ends_of(c, a)}) ++sides[e];
+    area += f.area_of(at(a), at(b), at(c));
+    for (const auto& [p, q, other] : {std::tuple(a, b, c), {b, c, a}, {c, a, b}}) {
+      opposite[ends_of(p, q)].push_back(other);
+    }
   }
   const auto edge = [&](const Ends& e) {
     return "the edge from " + vertex_name(mesh_, e[0]) + " to " + vertex_name(mesh_, e[1]);
   };
+  const auto place_beside = [&](std::uint32_t from, std::uint32_t to) {
+    const auto far = f.beside(at(from), at(to));
+    Point<3> p;
+    for (std::size_t i = 0; i < 3; ++i) {
+      p[i] = static_cast<double>(far[i]);
+      if (std::abs(p[i]) < rounding_ * 0x1p-20) p[i] = 0;  // digits that no predicate can judge
+    }
+    return p;
+  };
+  const auto is_on_side = [&](const Ends& e, const Point<3>& p, std::uint32_t corner) {
+    const Point<3> along = minus(at(e[1]), at(e[0])), middle = scaled(0.5, plus(at(e[0]), at(e[1])));
+    const auto across = [&](const Point<3>& x) { return cross(along, minus(x, middle)); };
+    return dot(across(p), across(at(corner))) > 0;
+  };
+  // Whether there is a tile on each side of an edge that has some of the polygon, or nothing at all;
+  // the sides that have nothing are counted.
+  std::size_t open = 0;
+  const auto fits = [&](const Ends& e, bool both_sides) {
+    const auto& corners = opposite[e];
+    for (const auto& [from, to] : {std::pair(e[0], e[1]), {e[1], e[0]}}) {
+      const Point<3> p = place_beside(from, to);
+      const auto tiles = std::count_if(corners.begin(), corners.end(),
+                                       [&](std::uint32_t c) { return is_on_side(e, p, c); });
+      if (tiles > 1) return false;
+      if (tiles == 1) continue;
+      const Point<3> middle = scaled(0.5, plus(at(e[0]), at(e[1])));
+      const bool has_some =
+          both_sides || f.contains(FlatPolygon::wide(plus(middle, scaled(kBeside, minus(p, middle)))));
+      if (!has_some) continue;
+      if (!is_open(e, p)) return false;
+      ++open;
+    }
+    return true;
+  };
   for (const Ends& e : surface.border) {
-    if (sides[e] != 1)
-      return edge(e) + ", on its border, is of " + std::to_string(sides[e]) + " of its faces";
+    const std::size_t count = opposite[e].size();
+    if (count == 1 || (count == 0 && fits(e, false))) continue;
+    return edge(e) + ", on its border, is of " + std::to_string(count) + " of its faces";
   }
   for (const Ends& e : surface.inner) {
-    if (sides[e] != 2)
-      return edge(e) + ", which it declares, is of " + std::to_string(sides[e]) + " of its faces";
+    const std::size_t count = opposite[e].size();
+    if (count <= 2 && fits(e, true)) continue;
+    return edge(e) + ", which it declares, is of " + std::to_string(count) + " of its faces";
   }
-  for (const auto& [e, count] : sides) {
-    if (count == 2 || surface.border.count(e) != 0) continue;
-    return edge(e) + " is of " + std::to_string(count) + " of its faces, and not on its border";
+  for (const auto& [e, corners] : opposite) {
+    if (corners.size() == 2 || surface.border.count(e) != 0 || surface.inner.count(e) != 0) continue;
+    return edge(e) + " is of " + std::to_string(corners.size()) +
+           " of its faces, and not on its border";
   }
+  if (open > 0) return std::nullopt;
+  if (surface.tiles.empty() && is_outside(f.inner_place())) return std::nullopt;
   const long double whole = f.area();
-  if (std::abs(area - whole) <= kArea * whole) return std::nullopt;
+  if (std::abs(area - whole) <= kArea * whole + rounding_ * outline_of(surface)) return std::nullopt;
   return "its faces' area is " + text::to_text(static_cast<double>(area)) + ", its own " +
          text::to_text(static_cast<double>(whole));
+}
+
+// The length of what of the border is in the mesh.
+double ComplexCheck::outline_of(const Surface& surface) const {
+  double length = 0;
+  for (const auto& [a, b] : surface.border) length += std::sqrt(squared_distance(at(a), at(b)));
+  return length;
 }
 
 }  // namespace mesher::detail

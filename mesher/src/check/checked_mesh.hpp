@@ -67,6 +67,7 @@ struct LinePath {
   FeatureId line;
   Point<2> from, to;
   std::vector<std::uint32_t> vertices;  ///< from end to end
+  std::vector<std::uint32_t> alone{};   ///< on the line, but on no edge of it
 };
 
 /// What (b) says, and the paths as far as they were found.

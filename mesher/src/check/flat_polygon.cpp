@@ -70,6 +70,16 @@ bool FlatPolygon::contains(const Flat& p) const {
 }
 bool FlatPolygon::contains(const Place& p) const { return contains(in_frame(p)); }
 
+Real FlatPolygon::area_of(const Point<3>& a, const Point<3>& b, const Point<3>& c) const {
+  const Place o = wide(a);
+  return std::abs(dot(cross(minus(wide(b), o), minus(wide(c), o)), normal_)) / 2;
+}
+
+FlatPolygon::Place FlatPolygon::beside(const Point<3>& a, const Point<3>& b) const {
+  const Place middle = times(Real{1} / 2, plus(wide(a), wide(b)));
+  return plus(middle, cross(normal_, minus(wide(b), wide(a))));
+}
+
 // A loop adds what it goes around if it lies in an even number of others, else it takes it.
 Real FlatPolygon::area() const {
   Real sum = 0;

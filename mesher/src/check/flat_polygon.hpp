@@ -22,6 +22,11 @@ class FlatPolygon {
   /// Whether an odd number of loops goes around the foot of a place.
   [[nodiscard]] bool contains(const Place& p) const;
   [[nodiscard]] Real area() const;
+  /// Of a triangle, seen across the plane.
+  [[nodiscard]] Real area_of(const Point<3>& a, const Point<3>& b, const Point<3>& c) const;
+  /// A place as far from the middle of ab as these are from each other, on the left of ab as seen
+  /// from above, in the plane.
+  [[nodiscard]] Place beside(const Point<3>& a, const Point<3>& b) const;
   /// How far a corner is off the plane.
   [[nodiscard]] Real deviation() const noexcept { return deviation_; }
   /// Some place well inside.

@@ -82,10 +82,12 @@ class LineWalk {
     return found == vertex_.end() ? std::optional<std::uint32_t>() : found->second;
   }
 
-  /// What of a line is in the mesh: `runs` of vertices that edges join, one after the other; and
-  /// the trouble, if there is any.
+  /// What of a line is in the mesh: `runs` of vertices that edges join, one after the other, and
+  /// the vertices on it that are `alone`, with what is beside them outside; and the trouble, if
+  /// there is any.
   struct Way {
     std::vector<std::vector<std::uint32_t>> runs;
+    std::vector<std::uint32_t> alone;
     bool is_whole = false;  // one run from end to end
     std::optional<std::string> trouble;
   };
@@ -105,7 +107,11 @@ class LineWalk {
           run.push_back(*next);
         }
         here = run.back();
-        if (run.size() > 1) way.runs.push_back(std::move(run));
+        if (run.size() > 1) {
+          way.runs.push_back(std::move(run));
+        } else {
+          way.alone.push_back(*here);
+        }
         if (here == line.last) break;
       }
       next = next_beyond(line, here);

@@ -1,13 +1,16 @@
 // The static run: the program without the engine.
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <string>
 #include <unordered_map>
 
+#include "facade/asking.hpp"
 #include "geometry/input_point.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/predicates.hpp"
 #include "plane/lost_edge.hpp"
+#include "plane/require_planar.hpp"
 #include "program/checked_complex.hpp"
 #include "program/meter.hpp"
 #include "program/space_input.hpp"
@@ -100,13 +103,16 @@ std::vector<detail::SegmentHandle> add_segments(const std::vector<Segment>& segm
   return added;
 }
 
+// Throws: Error(cancelled) too.
+std::function<void()> asking(const RunControl& control) {
+  return detail::asking(control, Phase::quadtree, &detail::fail_cancelled);
+}
+
 void require_planar(World<2>& world, const std::vector<detail::SegmentHandle>& added,
-                    const InputNames& names) {
-  auto& store = world.segments.store();
-  for (const detail::SegmentHandle h : added) {
-    const auto conflict = detail::conflict_of(store[h], store, world.features);
-    if (conflict) detail::fail(*conflict, names);
-  }
+                    const InputNames& names, const RunControl& control) {
+  detail::PlanarityCheck(world.segments.store(), world.vertices.pool(), world.features,
+                         asking(control))
+      .require({added, {}}, names);
 }
 
 detail::OnFeatures on_features(const World<2>& world, const InputNames& names) {
@@ -245,7 +251,8 @@ class SpaceInputNames final : public detail::SpaceNames {
 // `handle_of(id)`: of a point, 0 if there is none.
 template <class HandleOf>
 void add_features(const std::vector<Segment>& segments, const std::vector<Polygon>& polygons,
-                  HandleOf&& handle_of, World<3>& world, SpaceInputNames& names) {
+                  HandleOf&& handle_of, World<3>& world, SpaceInputNames& names,
+                  const RunControl& control) {
   std::vector<detail::EdgeHandle> edges_come;
   std::vector<detail::PolygonHandle> polygons_come;
   for (const Segment& s : segments) {
@@ -267,7 +274,7 @@ void add_features(const std::vector<Segment>& segments, const std::vector<Polygo
     names.name(f, polygon.id);
     polygons_come.push_back(f.self);
   }
-  detail::require_fit(world, edges_come, polygons_come, names);
+  detail::require_fit(world, edges_come, polygons_come, names, asking(control));
 }
 
 }  // namespace
@@ -293,7 +300,8 @@ struct GraphRun : StaticRun<2> {
            const Options<2>& options, const std::vector<FeatureId>& ids, const RunControl& control)
       : StaticRun<2>(points, options, ids, control, segments.size()) {
     if (segments.empty()) return;
-    require_planar(world(), add_segments(segments, ids, handles(), world(), names()), names());
+    require_planar(world(), add_segments(segments, ids, handles(), world(), names()), names(),
+                   control);
   }
 };
 
@@ -328,14 +336,15 @@ namespace {
 // The segments and polygons put into a run.
 SpaceInputNames add_features(const std::vector<Segment>& segments,
                              const std::vector<Polygon>& polygons,
-                             const std::vector<FeatureId>& ids, StaticRun<3>& run) {
+                             const std::vector<FeatureId>& ids, StaticRun<3>& run,
+                             const RunControl& control) {
   const auto by_id = handles_by_id(run.handles(), ids);
   const auto handle_of = [&](FeatureId id) {
     const auto it = by_id.find(id);
     return it == by_id.end() ? VertexHandle{0} : it->second;
   };
   SpaceInputNames names(run.names());
-  add_features(segments, polygons, handle_of, run.world(), names);
+  add_features(segments, polygons, handle_of, run.world(), names, control);
   return names;
 }
 
@@ -346,7 +355,7 @@ struct detail::CheckedComplex::Run {
       const std::vector<mesher::Polygon>& polygons, const Options<3>& options,
       const std::vector<FeatureId>& ids, const RunControl& control)
       : run(points, options, ids, control, 0, Purpose::check),
-        names(add_features(segments, polygons, ids, run)) {}
+        names(add_features(segments, polygons, ids, run, control)) {}
 
   StaticRun<3> run;
   SpaceInputNames names;
@@ -371,7 +380,7 @@ void detail::require_complex(const std::vector<Point<3>>& points,
                              const Options<3>& options, const std::vector<FeatureId>& ids) {
   const RunControl control;
   StaticRun<3> run(points, options, ids, control, 0, Purpose::check);
-  static_cast<void>(add_features(segments, polygons, ids, run));
+  static_cast<void>(add_features(segments, polygons, ids, run, control));
 }
 
 Mesh<3> mesh_statically(const std::vector<Point<3>>& points, const std::vector<Segment>& segments,
@@ -382,7 +391,7 @@ Mesh<3> mesh_statically(const std::vector<Point<3>>& points, const std::vector<S
     throw Error(ErrorCode::bad_option, "segments and polygons need the rule radius-edge");
   }
   StaticRun<3> run(points, options, ids, control, 0);
-  const SpaceInputNames names = add_features(segments, polygons, ids, run);
+  const SpaceInputNames names = add_features(segments, polygons, ids, run, control);
   World<3>& world = run.world();
   world.feature_names = &names;
   run.refine();

@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "facade/asking.hpp"
 #include "facade/point_report.hpp"
 #include "program/meter.hpp"
 #include "program/timed_stats.hpp"
@@ -35,6 +36,9 @@ class Watch {
  private:
   sac::Engine& engine_;
 };
+
+// As the engine does, so that what was announced stays.
+[[noreturn]] void fail_stopped() { throw sac::Cancelled(); }
 
 }  // namespace
 
@@ -130,6 +134,7 @@ template <int D>
 Change<D> PointState<D>::first_run(PointEdits edits, const RunControl& control,
                                    const Accept& accept) {
   ids_.reserve(edits.size());
+  ask_ = asking(control, Phase::quadtree, &fail_stopped);
   for (const auto& edit : edits) add_first(edit);
   edits = PointEdits();  // the run needs the memory
   add_others_first();
@@ -255,6 +260,7 @@ Change<D> PointState<D>::propagate(const PointEdits& edits, const RunControl& co
     require_room(stats_.vertices + change.vertices_added.size() - change.vertices_removed.size());
     if (accept) accept(change);
   };
+  ask_ = asking(control, Phase::update, &fail_stopped);
   make(edits, arrived);
   // While it is under way, there may be vertices that come as well as those that go.
   world_->most_records = std::max(world_->most_vertices, pool().size() + world_->most_vertices);

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -64,6 +65,10 @@ class PointState {
   using Simplex = std::array<VertexHandle, D + 1>;
   using Log = typename VertexIndex<sac::Scope, D>::Log;
   using Ids = std::unordered_map<FeatureId, VertexHandle>;
+
+  /// Called while the input is looked at before a run. Throws: sac::Cancelled, or what
+  /// control.progress throws.
+  std::function<void()> ask_;
 
   // What else there is, turn by turn; nothing.
   virtual void add_others_first() {}

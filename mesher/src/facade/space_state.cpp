@@ -226,10 +226,11 @@ void SpaceState::require_unused(const PointEdits& edits) const {
 
 // What has come fits to what is there.
 void SpaceState::require_fits(const Ids& arrived) {
-  require_fit(*world_, news_.edges_come, news_.polygons_come, *this);
+  require_fit(*world_, news_.edges_come, news_.polygons_come, *this, ask_);
   std::vector<std::pair<FeatureId, VertexHandle>> points(arrived.begin(), arrived.end());
   std::sort(points.begin(), points.end());
   for (const auto& [id, h] : points) {
+    ask_();
     if (const auto conflict = conflict_of(pool()[h], store())) fail(*conflict, *this, store());
   }
 }

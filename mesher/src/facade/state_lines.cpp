@@ -4,6 +4,7 @@
 #include "facade/state.hpp"
 #include "geometry/input_point.hpp"
 #include "program/world_impl.hpp"
+#include "plane/require_planar.hpp"
 
 namespace mesher::detail {
 
@@ -139,15 +140,12 @@ void State::require_unused(const PointEdits& edits) const {
 
 // What has come fits to what is there.
 void State::require_planar(const Ids& arrived) {
-  for (const SegmentHandle h : news_.segments) {
-    const auto conflict = conflict_of(segments().pool()[h], segments().store(), features());
-    if (conflict) fail(*conflict, *this);
-  }
-  std::vector<std::pair<FeatureId, VertexHandle>> points(arrived.begin(), arrived.end());
-  std::sort(points.begin(), points.end());
-  for (const auto& [id, h] : points) {
-    if (const auto conflict = conflict_of(pool()[h], segments().store())) fail(*conflict, *this);
-  }
+  std::vector<std::pair<FeatureId, VertexHandle>> by_id(arrived.begin(), arrived.end());
+  std::sort(by_id.begin(), by_id.end());
+  std::vector<VertexHandle> points;
+  for (const auto& [id, h] : by_id) points.push_back(h);
+  PlanarityCheck(segments().store(), pool(), features(), ask_)
+      .require({news_.segments, points}, *this);
 }
 
 // --- Names -----------------------------------------------------------------------------------

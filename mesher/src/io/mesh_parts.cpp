@@ -25,7 +25,8 @@ MeshDataOf<D> MeshParts::take() {
 }
 
 AnyMesh MeshParts::finish() {
-  if (tetrahedra_.simplices.empty()) {
+  const bool is_empty = vertices_.empty() && triangles_.simplices.empty();
+  if (tetrahedra_.simplices.empty() && !(is_in_space && is_empty)) {
     height_.require_same();
     return take<2>();
   }

@@ -1,6 +1,6 @@
 // A mesh as it grows from a file whose format has room for both dimensions: vertices in space,
 // triangles and tetrahedra. Which dimension it is of shows when all is read: three if there are
-// tetrahedra, else two.
+// tetrahedra, or if there is nothing at all and the file says so, else two.
 #pragma once
 
 #include <algorithm>
@@ -90,6 +90,8 @@ class MeshParts {
   std::vector<std::int64_t> markers;
   std::vector<MeshEdge> edges;
   NoteCounter notes;
+  /// The file says that it is of space, be there tetrahedra or not.
+  bool is_in_space = false;
 
   /// Throws: Error(bad_dimension) if there are no tetrahedra and z is not the same everywhere.
   [[nodiscard]] AnyMesh finish();

@@ -80,7 +80,7 @@ class ObjReader {
     if (number >= 1 && number <= count) return static_cast<std::uint32_t>(number - 1);
     if (number <= -1 && number >= -count) return static_cast<std::uint32_t>(count + number);
     throw line.error(ErrorCode::bad_mesh,
-                     "no vertex " + std::string(line[i].substr(0, slash)) + ": there are " +
+                     "no vertex " + text::quoted(line[i].substr(0, slash)) + ": there are " +
                          std::to_string(count) + " so far",
                      i);
   }

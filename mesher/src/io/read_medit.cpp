@@ -58,7 +58,7 @@ class MeditReader {
     const std::string_view field = take("the number of " + std::string(list));
     const std::int64_t count = source_.integer(field);
     if (count >= 0) return count;
-    throw source_.error(ErrorCode::bad_header, "a count of " + std::string(field), field);
+    throw source_.error(ErrorCode::bad_header, "a count of " + text::quoted(field), field);
   }
   std::int64_t take_integer(std::string_view list) {
     return source_.integer(take("all " + std::string(list)));
@@ -82,6 +82,7 @@ class MeditReader {
   void read_dimension() {
     const std::string_view field = take("the dimension");
     dimension_ = source_.integer(field);
+    mesh_.is_in_space = dimension_ == 3;
     if (dimension_ == 2 || dimension_ == 3) return;
     throw source_.error(ErrorCode::bad_dimension, "expected the dimension 2 or 3", field);
   }

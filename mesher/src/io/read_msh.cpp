@@ -51,7 +51,7 @@ class MshReader {
   void expect(std::string_view word) {
     const std::string_view found = take();
     if (found == word) return;
-    throw source_.error(ErrorCode::bad_syntax, "expected " + std::string(word), found);
+    throw source_.error(ErrorCode::bad_syntax, "expected " + text::quoted(word), found);
   }
   // A number, and where it is: nowhere in a binary file.
   struct Number {
@@ -87,7 +87,7 @@ class MshReader {
     const std::string_view version = take();
     if (version != "4.1") {
       throw source_.error(ErrorCode::unsupported,
-                          "version " + std::string(version) + ": save as version 4.1", version);
+                          "version " + text::quoted(version) + ": save as version 4.1", version);
     }
     const std::string_view kind = take();
     binary_ = kind == "1";
@@ -135,7 +135,7 @@ class MshReader {
     const std::string end = "$End" + std::string(word.substr(1));
     const auto at = fields_.rest().find(end);
     if (at == std::string_view::npos) {
-      throw source_.error(ErrorCode::truncated, "the file ends before " + end, source_.end());
+      throw source_.error(ErrorCode::truncated, "the file ends before " + text::quoted(end), source_.end());
     }
     fields_ = text::Fields(fields_.rest().substr(at + end.size()));
   }
@@ -159,6 +159,7 @@ class MshReader {
 
   void read_entities() {
     const std::int64_t points = count(), curves = count(), surfaces = count(), volumes = count();
+    mesh_.is_in_space = volumes > 0;
     for (std::int64_t i = 0; i < points; ++i) {
       (void)integer();
       skip_reals(3);

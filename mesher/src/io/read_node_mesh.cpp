@@ -193,7 +193,7 @@ class NodeMesh {
     const auto t = none ? kNoTriangle : triangles_.at(FeatureId{id}, "triangle", line.place(i));
     if (t == expected) return;
     throw line.error(ErrorCode::bad_mesh,
-                     "triangle " + std::string(line[0]) + " does not have the neighbour " +
+                     "triangle " + text::quoted(line[0]) + " does not have the neighbour " +
                          std::string(line[i]) + " across from corner " + std::to_string(i),
                      i);
   }

@@ -20,7 +20,7 @@ Point<2> read_vertex(const text::Line& line) {
 
 Mesh<2>::Simplex read_face(const text::Line& line, std::size_t vertices) {
   if (line.integer(0) != 3) {
-    throw line.error(ErrorCode::bad_mesh, "a face of " + std::string(line[0]) + " corners", 0);
+    throw line.error(ErrorCode::bad_mesh, "a face of " + text::quoted(line[0]) + " corners", 0);
   }
   return read_corners<2>(line, 1, [&](std::size_t i) {
     return vertex_index(line.integer(i), vertices, 0, [&] { return line.place(i); });

@@ -14,6 +14,7 @@
 #include "geometry/place_hash.hpp"
 #include "io/read_node.hpp"
 #include "io/rows.hpp"
+#include "mesher/read_for_repair.hpp"
 #include "sac/label.hpp"
 #include "sets/counting_sort.hpp"
 #include "text/text.hpp"
@@ -143,17 +144,24 @@ void require_distinct_points(const PointFile<D>& rows) {
 }
 
 template <int D>
-PointFile<D> read_points(const std::string& path) {
+PointFile<D> read_points(const std::string& path, CoincidingPoints coinciding) {
   PointFile<D> rows = read_any<D>(path);
   require_indexable(rows.points.size(), path);
   require_distinct_ids(rows);
-  require_distinct_points(rows);
+  if (coinciding == CoincidingPoints::refused) require_distinct_points(rows);
   return rows;
 }
 
 template void require_distinct_ids<2>(const PointFile<2>&);
 template void require_distinct_points<2>(const PointFile<2>&);
+template <int D>
+PointFile<D> read_points(const std::string& path) {
+  return read_points<D>(path, CoincidingPoints::refused);
+}
+
 template PointFile<2> read_points<2>(const std::string&);
 template PointFile<3> read_points<3>(const std::string&);
+template PointFile<2> read_points<2>(const std::string&, CoincidingPoints);
+template PointFile<3> read_points<3>(const std::string&, CoincidingPoints);
 
 }  // namespace mesher

@@ -5,6 +5,7 @@
 
 #include "graph/require_ids.hpp"
 #include "io/read_node.hpp"
+#include "mesher/read_for_repair.hpp"
 #include "text/text.hpp"
 
 namespace mesher {
@@ -22,22 +23,22 @@ PslgFile points_alone(const std::string& path, const PointFile<2>& rows,
   return out;
 }
 
-PslgFile read_node_points(const std::string& path) {
+PslgFile read_node_points(const std::string& path, CoincidingPoints coinciding) {
   const NodeFile<2> nodes = read_node<2>(path, CoordinateRule::input);
   require_distinct_ids(nodes.rows);
-  require_distinct_points(nodes.rows);
+  if (coinciding == CoincidingPoints::refused) require_distinct_points(nodes.rows);
   return points_alone(path, nodes.rows, nodes.markers);
 }
 
-PslgFile read_any(const std::string& path) {
+PslgFile read_any(const std::string& path, CoincidingPoints coinciding) {
   const std::string extension = text::extension(path);
   if (extension == ".poly") return read_poly(path, PointsBeside::read);
   if (extension == ".geojson" || extension == ".json") return read_geojson(path);
   if (extension == ".obj") return read_obj_lines(path);
   if (extension == ".vtu") return read_vtu_lines(path);
-  if (extension == ".node") return read_node_points(path);
+  if (extension == ".node") return read_node_points(path, coinciding);
   if (extension == ".xyz" || extension == ".csv") {
-    return points_alone(path, read_points<2>(path), {});
+    return points_alone(path, read_points<2>(path, coinciding), {});
   }
   throw Error(ErrorCode::unknown_format,
               "points and lines are read from .poly, .geojson, .json, .obj, .vtu, .node, .xyz and "
@@ -48,10 +49,14 @@ PslgFile read_any(const std::string& path) {
 
 }  // namespace
 
-PslgFile read_pslg(const std::string& path) {
-  PslgFile file = read_any(path);
+PslgFile read_pslg(const std::string& path, CoincidingPoints coinciding) {
+  PslgFile file = read_any(path, coinciding);
   detail::require_ids(file);
   return file;
+}
+
+PslgFile read_pslg(const std::string& path) {
+  return read_pslg(path, CoincidingPoints::refused);
 }
 
 FeatureId PslgBuilder::add_point(const Point<2>& at, std::int64_t marker, FilePosition position) {

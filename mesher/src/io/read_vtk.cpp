@@ -112,7 +112,7 @@ class VtkReader {
   std::size_t take_count(const std::string& what) {
     const std::string_view field = take(what);
     const std::int64_t count = source_.integer(field);
-    if (count < 0) fail(ErrorCode::bad_header, "a count of " + std::string(field), field);
+    if (count < 0) fail(ErrorCode::bad_header, "a count of " + text::quoted(field), field);
     return static_cast<std::size_t>(count);
   }
   VtkNumber take_type() {
@@ -226,6 +226,7 @@ class VtkReader {
   void read_field() {
     const std::string_view name = take("a name");
     const std::size_t arrays = take_count("the number of arrays");
+    bool is_used = true;
     for (std::size_t i = 0; i < arrays; ++i) {
       VtkArray array;
       const std::string_view at = take("a name");
@@ -241,9 +242,15 @@ class VtkReader {
       }
       begin_numbers();
       for (std::size_t k = 0; k < count; ++k) read_numbers(array, array.components, type);
-      if (data_ != nullptr) data_->push_back(std::move(array));
+      if (data_ != nullptr) {
+        data_->push_back(std::move(array));
+      } else if (array.name == "dimension") {
+        grid_.is_in_space = array.is_integral && array.integers == std::vector<std::int64_t>{3};
+      } else {
+        is_used = false;
+      }
     }
-    if (data_ == nullptr) grid_.notes.add("fields of the file are not used", source_.place(name));
+    if (!is_used) grid_.notes.add("fields of the file are not used", source_.place(name));
   }
 
   void read_scalars() {

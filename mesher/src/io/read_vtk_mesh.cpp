@@ -20,6 +20,7 @@ class GridMesh {
     note_unused(grid_.cell_data,
                 {regions_, cell_markers_, lines_, has_line_, polygons_, has_polygon_}, grid_.notes);
     mesh_.notes = std::move(grid_.notes);
+    mesh_.is_in_space = grid_.is_in_space;
     return mesh_.finish();
   }
 

@@ -1,6 +1,7 @@
 // Reads unstructured grids of `.vtu` files (VTK XML).
 //
 //   VTKFile type byte_order header_type
+//     UnstructuredGrid / FieldData: an array "dimension", if it has no cells to tell
 //     UnstructuredGrid / Piece NumberOfPoints NumberOfCells
 //       PointData, CellData: DataArrays; Points: one; Cells: connectivity, offsets, types
 //     AppendedData encoding: '_' and blocks
@@ -37,6 +38,7 @@ class VtuReader {
   VtkGrid read() {
     read_root();
     const XmlElement& piece = the_piece();
+    read_dimension();
     read_arrays(piece.child("PointData"), grid_.point_data);
     read_arrays(piece.child("CellData"), grid_.cell_data);
     const XmlElement& points = require_child(piece, "Points");
@@ -79,6 +81,16 @@ class VtuReader {
     encoding_.wide_headers = value_of(root_, "header_type", "UInt32") == "UInt64";
   }
 
+  void read_dimension() {
+    const XmlElement* const data = require_child(root_, "UnstructuredGrid").child("FieldData");
+    if (data == nullptr) return;
+    for (const XmlElement& child : data->children) {
+      if (child.name != "DataArray" || value_of(child, "Name", "") != "dimension") continue;
+      const VtkArray array = read_array(child);
+      grid_.is_in_space = array.is_integral && array.integers == std::vector<std::int64_t>{3};
+    }
+  }
+
   const XmlElement& the_piece() const {
     const XmlElement& all = require_child(root_, "UnstructuredGrid");
     const XmlElement& piece = require_child(all, "Piece");
@@ -99,7 +111,7 @@ class VtuReader {
     if (said == nullptr) fail(ErrorCode::bad_header, "no " + std::string(name), piece);
     if (std::cmp_equal(source_.integer(*said), count)) return;
     throw source_.error(ErrorCode::wrong_count,
-                        std::string(name) + " is " + std::string(*said) + ", but there are " +
+                        std::string(name) + " is " + text::quoted(*said) + ", but there are " +
                             std::to_string(count),
                         *said);
   }

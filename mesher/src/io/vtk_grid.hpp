@@ -43,6 +43,8 @@ struct VtkGrid {
   VtkArray connectivity, offsets, types;  ///< integers; an offset is a cell's end
   std::vector<VtkArray> point_data, cell_data;
   NoteCounter notes;
+  /// Of a grid without cells: whether its field data say that its dimension is 3.
+  bool is_in_space = false;
 
   [[nodiscard]] std::size_t point_count() const { return points.size() / 3; }
   [[nodiscard]] std::size_t cell_count() const { return types.size(); }

@@ -40,7 +40,11 @@ void write_cell_data(const Mesh<D>& mesh, const MeshFeatures& features, TextFile
 template <int D>
 void write_vtk(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file) {
   const std::size_t cells = cell_count(mesh, features);
-  file << "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS "
+  file << "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\n";
+  if (D == 3 && mesh.simplices.empty()) {  // no cell tells the dimension
+    file << "FIELD FieldData 1\ndimension 1 1 int\n3\n";
+  }
+  file << "POINTS "
        << mesh.vertices.size() << " double\n";
   for (const Point<D>& p : mesh.vertices) {
     write_in_space(p, file);

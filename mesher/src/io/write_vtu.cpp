@@ -66,7 +66,12 @@ template <int D>
 void write_vtu(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file) {
   file << "<?xml version=\"1.0\"?>\n"
           "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-          "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\""
+          "header_type=\"UInt64\">\n<UnstructuredGrid>\n";
+  if (D == 3 && mesh.simplices.empty()) {  // no cell tells the dimension
+    file << "<FieldData>\n<DataArray type=\"Int32\" Name=\"dimension\" NumberOfTuples=\"1\" "
+            "format=\"ascii\">\n3\n</DataArray>\n</FieldData>\n";
+  }
+  file << "<Piece NumberOfPoints=\""
        << mesh.vertices.size() << "\" NumberOfCells=\"" << cell_count(mesh, features) << "\">\n";
   write_vertices(mesh, features, file);
   write_cells(mesh, features, file);

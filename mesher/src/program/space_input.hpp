@@ -71,23 +71,28 @@ const Polygon& add_polygon(World<S, 3>& world, FeatureId id, PolygonParts parts,
 inline constexpr std::size_t kMany = 32;
 
 /// Segments and polygons that have come, in this order, fit to all that is there.
-/// Throws: Error as of the first conflict.
+/// Throws: Error as of the first conflict; what `ask` throws, which is called in between.
 template <class S>
 void require_fit(World<S, 3>& world, const std::vector<EdgeHandle>& segments,
-                 const std::vector<PolygonHandle>& polygons, const SpaceNames& names) {
+                 const std::vector<PolygonHandle>& polygons, const SpaceNames& names,
+                 const std::function<void()>& ask) {
   FeatureStore& store = world.plc.store();
   // All have come, and many: most often they fit.
-  if (polygons.size() > kMany && polygons.size() == store.live_polygons() && all_fit(store)) return;
+  if (polygons.size() > kMany && polygons.size() == store.live_polygons() && all_fit(store, ask)) {
+    return;
+  }
   const auto require_none = [&](const std::optional<SpaceConflict>& conflict) {
     if (conflict) fail(*conflict, names, store);
   };
   std::unordered_set<EdgeHandle> seen;  // edges are of several polygons
   const auto look_at = [&](EdgeHandle e) {
     if (!seen.insert(e).second) return;
+    ask();
     require_none(conflict_of(store.edges()[e], store, world.features));
   };
   for (const EdgeHandle e : segments) look_at(e);
   for (const PolygonHandle h : polygons) {
+    ask();
     const Polygon& f = store.polygons()[h];
     for (const EdgeHandle e : f.all_edges) look_at(e);
     require_none(conflict_of(f, store, world.features));

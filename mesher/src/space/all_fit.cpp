@@ -50,8 +50,11 @@ class Pairs {
     });
   }
 
-  [[nodiscard]] bool fit() const {
+  [[nodiscard]] bool fit(const std::function<void()>& ask) const {
+    constexpr std::size_t kBetween = 256;
+    std::size_t pairs = 0;
     return !BoxTree<3>(boxes_).visit_pairs([&](std::uint32_t i, std::uint32_t j) {
+      if (pairs++ % kBetween == 0) ask();
       return i < j ? are_in_conflict(i, j) : are_in_conflict(j, i);
     });
   }
@@ -81,6 +84,8 @@ class Pairs {
 
 }  // namespace
 
-bool all_fit(const FeatureStore& store) { return Pairs(store).fit(); }
+bool all_fit(const FeatureStore& store, const std::function<void()>& ask) {
+  return Pairs(store).fit(ask);
+}
 
 }  // namespace mesher::detail

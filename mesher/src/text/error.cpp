@@ -1,6 +1,8 @@
 // The words and exit codes of errors, and the one line that a person reads.
 #include "mesher/error.hpp"
 
+#include "text/printable.hpp"
+
 namespace mesher {
 namespace {
 
@@ -97,7 +99,7 @@ CodeRow row(ErrorCode code) noexcept {
 
 std::string place_text(const Place& place) {
   if (place.file.empty()) return {};
-  std::string text = place.file + ":";
+  std::string text = text::printable(place.file) + ":";
   if (place.line > 0) text += std::to_string(place.line) + ":";
   if (place.line > 0 && place.column > 0) text += std::to_string(place.column) + ":";
   return text + " ";
@@ -111,9 +113,9 @@ ExitCode exit_code(ErrorCode code) noexcept { return row(code).exit; }
 
 Error::Error(ErrorCode code, std::string message, Place place, std::vector<FeatureId> ids)
     : std::runtime_error(place_text(place) + "error[" + std::string(code_name(code)) +
-                         "]: " + message),
+                         "]: " + text::printable(message)),
       code_(code),
-      message_(std::move(message)),
+      message_(text::printable(message)),
       place_(std::move(place)),
       ids_(std::move(ids)) {}
 

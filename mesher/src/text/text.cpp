@@ -118,13 +118,6 @@ std::string with_extension(const std::string& path, const std::string& extension
   return std::filesystem::path(path).replace_extension(extension).string();
 }
 
-std::string quoted(std::string_view text) {
-  constexpr std::size_t kLongest = 40;
-  std::string out = "'";
-  for (const char c : text.substr(0, kLongest)) out += c >= ' ' && c <= '~' ? c : '?';
-  return out + (text.size() > kLongest ? "...'" : "'");
-}
-
 std::string to_text(double value) {
   char digits[32];  // the longest shortest form has 24 characters
   const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;

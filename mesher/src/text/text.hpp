@@ -25,7 +25,7 @@ namespace mesher::text {
 /// `path` with `extension` in place of its own.
 [[nodiscard]] std::string with_extension(const std::string& path, const std::string& extension);
 
-/// `text` in quotes, cut to 40 bytes, with '?' for what cannot be printed.
+/// A part of a file in quotes, as it may be shown to people; see text/printable.hpp.
 [[nodiscard]] std::string quoted(std::string_view text);
 
 /// The shortest decimal that reads back as `value`.

@@ -8,7 +8,7 @@
 #include "mesher/error.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"
-#include "program/world.hpp"
+#include "rules/mesh_box.hpp"
 
 namespace {
 

@@ -59,7 +59,7 @@ struct Plc {
     store.polygons().for_each([&](const Polygon& f) {
       if (f.alive) keep_first(first, conflict_of(f, store, scene.point_tree()));
     });
-    REQUIRE(all_fit(store) == !first.has_value());
+    REQUIRE(all_fit(store, [] {}) == !first.has_value());
     return first;
   }
   std::string message() {

@@ -13,10 +13,13 @@
 #include <utility>
 #include <vector>
 
+#include "check/space_quality.hpp"
+#include "geometry/circumcentre.hpp"
 #include "geometry/space_vectors.hpp"
 #include "mesh/adjacency.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/predicates.hpp"
+#include "mesher/space_check.hpp"
 
 namespace mesher {
 namespace {
@@ -49,8 +52,9 @@ double thickness(const Mesh<3>& mesh, const Simplex& s) {
 // One pass over flat tetrahedra. Those beside one that is removed wait for the next round.
 class Round {
  public:
-  explicit Round(Mesh<3>& mesh)
+  Round(Mesh<3>& mesh, double rho)
       : mesh_(mesh),
+        rho_(rho),
         neighbours_(detail::adjacency(mesh.simplices, {}).neighbours),
         used_(mesh.simplices.size()) {
     for (const auto& edge : mesh.edges) lines_.insert({edge.low, edge.high});
@@ -83,7 +87,7 @@ class Round {
     const auto ring = ring_around(edge, t, s[i], s[j]);
     if (!ring) return false;
     const auto made = filling(edge, ring->corners);
-    if (!made) return false;
+    if (!made || !fits(ring->tetrahedra, *made)) return false;
     if (!exchange_faces({face_of(s[k], s[l], s[i]), face_of(s[k], s[l], s[j])},
                         {face_of(s[i], s[j], s[k]), face_of(s[i], s[j], s[l])})) {
       return false;
@@ -168,10 +172,55 @@ class Round {
     for (const std::uint32_t end : edge) {
       Simplex made{corners[0], corners[1], corners[2], end};
       if ((side < 0) == (end == edge[0])) std::swap(made[0], made[1]);
+      if (detail::is_above(detail::radius_edge(mesh_, made), rho_)) return {0, {}};
       filling.thinnest = std::min(filling.thinnest, thickness(mesh_, made));
       filling.made.push_back(detail::smallest_first(made));
     }
     return filling;
+  }
+  // Whether what is made in the place of others is Delaunay but for rounding, across the faces
+  // between two of it and across those to what is around it. What has changed there in this round
+  // is not known: then the next one looks at it.
+  [[nodiscard]] bool fits(const std::vector<std::uint32_t>& old,
+                          const std::vector<Simplex>& made) const {
+    std::map<Face, std::vector<Simplex>> beside;
+    const auto add = [&](const Simplex& s, const auto& is_wanted) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Face face = face_of(s[(i + 1) % 4], s[(i + 2) % 4], s[(i + 3) % 4]);
+        if (is_wanted(face)) beside[face].push_back(s);
+      }
+    };
+    for (const Simplex& s : made) add(s, [](const Face&) { return true; });
+    for (const std::uint32_t t : old) {
+      for (const std::uint32_t outer : neighbours_[t]) {
+        if (outer == kNoTriangle || std::find(old.begin(), old.end(), outer) != old.end()) continue;
+        if (used_[outer]) return false;
+        add(mesh_.simplices[outer], [&](const Face& face) {
+          const auto found = beside.find(face);
+          return found != beside.end() && found->second.size() == 1;
+        });
+      }
+    }
+    return std::all_of(beside.begin(), beside.end(), [&](const auto& entry) {
+      const auto& [face, both] = entry;
+      if (both.size() < 2) return true;
+      return !is_inside(both[0], opposite(both[1], face)) &&
+             !is_inside(both[1], opposite(both[0], face));
+    });
+  }
+  static std::uint32_t opposite(const Simplex& s, const Face& face) {
+    return *std::find_if(s.begin(), s.end(), [&](std::uint32_t v) {
+      return std::find(face.begin(), face.end(), v) == face.end();
+    });
+  }
+  // Farther inside of the sphere than rounding puts it.
+  [[nodiscard]] bool is_inside(const Simplex& s, std::uint32_t v) const {
+    const auto& p = mesh_.vertices;
+    const Point<3>&a = p[s[0]], &b = p[s[1]], &c = p[s[2]], &d = p[s[3]];
+    if (predicates::insphere(a, b, c, d, p[v]) <= 0) return false;
+    const detail::Circumcentre centre = detail::circumcentre(a, b, c, d);
+    const double far2 = detail::squared_distance(detail::minus(p[v], a), centre.q);
+    return std::sqrt(far2) < (1 - kNearSphere) * std::sqrt(centre.length2);
   }
   [[nodiscard]] int side_of(const Face& face, std::uint32_t v) const {
     const auto& p = mesh_.vertices;
@@ -221,6 +270,7 @@ class Round {
   static constexpr std::size_t kMostCorners = 8;
 
   Mesh<3>& mesh_;
+  double rho_;
   std::vector<Simplex> neighbours_;
   std::vector<bool> used_;  // its corners or neighbours are those of before this round
   std::vector<Simplex> made_;
@@ -239,10 +289,10 @@ std::vector<std::uint32_t> flat_ones(const Mesh<3>& mesh) {
 
 }  // namespace
 
-Unflattened without_flat_tetrahedra(Mesh<3> mesh) {
+Unflattened without_flat_tetrahedra(Mesh<3> mesh, double rho) {
   Unflattened result;
   for (std::vector<std::uint32_t> flat; !(flat = flat_ones(mesh)).empty();) {
-    const std::size_t removed = Round(mesh).run(flat);
+    const std::size_t removed = Round(mesh, rho).run(flat);
     result.removed += removed;
     if (removed > 0) continue;
     result.left = flat.size();
