@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "mesher/error.hpp"
 #include "mesher/predicates.hpp"
+#include "pipe.hpp"
 
 namespace {
 
