@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "mesher/error.hpp"
 #include "mesher/predicates.hpp"
+#include "pipe.hpp"
 #include "platform/process.hpp"
 
 namespace {

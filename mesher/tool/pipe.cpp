@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "mesher/error.hpp"
-#include "mesher/output_files.hpp"
+#include "mesher/io.hpp"
 
 namespace tool {
 namespace {

@@ -105,7 +105,6 @@ class Sweep {
   }
   void begin(std::uint32_t i) {
     const Segment& s = *segments_[i];
-    look_at(s.place_a);  // which may be no input point
     const auto [place, fits] = insert(s);
     if (!fits) return suspects_.push_back(&s);
     stands_[i] = place;

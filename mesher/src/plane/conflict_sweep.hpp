@@ -16,7 +16,8 @@
 namespace mesher::detail {
 
 /// Segments such that every conflict (segments/planarity.hpp) among `segments`, and of these with
-/// `points`, is one of some of them; none: there is no conflict. `ask` is called in between, and may
+/// `points`, is one of some of them; none: there is no conflict. Requires: the ends of segments are
+/// among the points. `ask` is called in between, and may
 /// throw. Cost: O(n log n), whatever the segments' lengths.
 [[nodiscard]] std::vector<const Segment*> suspects_among(
     const std::vector<const Segment*>& segments, const std::vector<const Vertex<2>*>& points,
