@@ -8,8 +8,9 @@
 // made, let go and run), W by weight, and microseconds of the process. Ours triangulates, too.
 // Against
 //   lg(L/s)  the point is put at a distance s, from L / 10 to L / 10^12, from a point of the input
-//            (500 points in the plane, 50 in space, there to L / 10^8)
-//   n        N points (default: 100 1000 10000; in space up to 1000, a tenth each), the point
+//            (500 points in the plane; 50 in space, there to L / 10^8 and of a quarter of the
+//            edits)
+//   n        N points (default: 100 1000 10000; in space a fifth of N up to 1000), the point
 //            anywhere; distances where N is at most 1000
 // PATH.svg (default: build/thesis_stability.svg) shows medians as lines and 99th percentiles as
 // ticks; one JSON line per place on the plot goes to standard output, and one per line on it: a fit
@@ -246,15 +247,16 @@ int main(int argc, char** argv) {
   Against spread{"lg(L/s)", "lg(L/s)", false, {}};
   spread.plots.push_back(over_spread<Figures<2>, 2>(random_points<2>(500), 12, edits));
   spread.plots.push_back(over_spread<Ours<2>, 2>(random_points<2>(500), 12, edits));
-  spread.plots.push_back(over_spread<Figures<3>, 3>(random_points<3>(50), 8, edits));
-  spread.plots.push_back(over_spread<Ours<3>, 3>(random_points<3>(50), 8, edits));
+  const int few = std::max(2, edits / 4);
+  spread.plots.push_back(over_spread<Figures<3>, 3>(random_points<3>(50), 8, few));
+  spread.plots.push_back(over_spread<Ours<3>, 3>(random_points<3>(50), 8, few));
   Against size{"n", "points", true, std::vector<Plot>(4)};
   for (const std::size_t n : sizes) {
     over_size<Figures<2>, 2>(n, edits, size.plots[0]);
     over_size<Ours<2>, 2>(n, edits, size.plots[1]);
-    if (n > 10000) continue;
-    over_size<Figures<3>, 3>(n / 10, edits, size.plots[2]);
-    over_size<Ours<3>, 3>(n / 10, edits, size.plots[3]);
+    if (n > 1000) continue;
+    over_size<Figures<3>, 3>(n / 5, few, size.plots[2]);
+    over_size<Ours<3>, 3>(n / 5, few, size.plots[3]);
   }
   return bench::draw("thesis_stability", kKinds, {spread, size}, out + ".svg");
 }

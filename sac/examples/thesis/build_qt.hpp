@@ -10,6 +10,8 @@
 // all that waits: what DeleteMin gives next are the cells just enqueued, one after the other, each
 // with what it enqueues in turn ("BUILDQT-DYN is a recursive function: the priority queue serves as
 // the stack"). They are calls of the call that enqueues them, the last thing that it does.
+// A call's own reading comes before its calls, so the loop's body is two functions: Split up to the
+// relocations, which are calls, and Enqueue behind them.
 //
 // Where the figures leave something open, or err:
 // - Line 5 has |P| > 2; a cell is crowded by two points, so >= 2.
