@@ -29,7 +29,8 @@ TEMPLATE_TEST_CASE_SIG("BuildQT and ChooseSteiners, run plainly, give what naive
 TEMPLATE_TEST_CASE_SIG(
     "BuildQT-Dyn and ChooseSteiners follow random edits: as from scratch, concise and monotone",
     "[Fig 4.4, 4.10, L 4.1.14, L 4.1.19]", ((int D), D), 1, 2, 3, 4) {
-  check_example<ThesisApp<D>>(D < 3 ? 12 : D == 3 ? 6 : 2, kSizes[D], D < 3 ? 10 : D == 3 ? 8 : 4);
+  constexpr int kSeeds[] = {0, 12, 6, 4, 2}, kSteps[] = {0, 10, 10, 6, 3};
+  check_example<ThesisApp<D>>(kSeeds[D], kSizes[D], kSteps[D]);
 }
 
 TEMPLATE_TEST_CASE_SIG("thesis programs under many random edits", "[.soak]", ((int D), D), 1, 2,
