@@ -40,14 +40,7 @@ using mesher::Point;
 namespace thesis = examples::thesis;
 
 constexpr double kRho = 2;
-<<<<<<< HEAD
-const std::vector<bench::Kind> kKinds{{"the figures, plane", "#c0392b"},
-                                      {"ours, plane", "#1b6ca8"},
-                                      {"the figures, space", "#e59866"},
-                                      {"ours, space", "#7fb3d5"}};
-=======
 const std::vector<bench::Kind> kKinds{{"the figures", "#c0392b"}, {"ours", "#1b6ca8"}};
->>>>>>> paper
 
 template <int D>
 mesher::Options<D> options() {
@@ -248,15 +241,6 @@ int main(int argc, char** argv) {
     if (std::strcmp(argv[i], "--out") == 0) out = argv[i + 1];
   }
   if (sizes.empty()) sizes = {100, 1000, 10000};
-<<<<<<< HEAD
-  Against spread{"lg(L/s)", "lg(L/s)", false, {}};
-  spread.plots.push_back(over_spread<Figures<2>, 2>(random_points<2>(500), 12, edits));
-  spread.plots.push_back(over_spread<Ours<2>, 2>(random_points<2>(500), 12, edits));
-  const int few = std::max(2, edits / 4);
-  spread.plots.push_back(over_spread<Figures<3>, 3>(random_points<3>(50), 8, few));
-  spread.plots.push_back(over_spread<Ours<3>, 3>(random_points<3>(50), 8, few));
-  Against size{"n", "points", true, std::vector<Plot>(4)};
-=======
   const int few = std::max(2, edits / 4);
   Against spread{"lg(L/s)", "lg(L/s), plane", false, {}};
   spread.plots.push_back(over_spread<Figures<2>, 2>(random_points<2>(500), 12, edits));
@@ -266,21 +250,13 @@ int main(int argc, char** argv) {
   space_spread.plots.push_back(over_spread<Ours<3>, 3>(random_points<3>(50), 8, few));
   Against size{"n", "points, plane", true, std::vector<Plot>(2)};
   Against space_size{"n, space", "points, space", true, std::vector<Plot>(2)};
->>>>>>> paper
   for (const std::size_t n : sizes) {
     over_size<Figures<2>, 2>(n, edits, size.plots[0]);
     over_size<Ours<2>, 2>(n, edits, size.plots[1]);
     if (n > 1000) continue;
-<<<<<<< HEAD
-    over_size<Figures<3>, 3>(n / 5, few, size.plots[2]);
-    over_size<Ours<3>, 3>(n / 5, few, size.plots[3]);
-  }
-  return bench::draw("thesis_stability", kKinds, {spread, size}, out + ".svg");
-=======
     over_size<Figures<3>, 3>(n / 5, few, space_size.plots[0]);
     over_size<Ours<3>, 3>(n / 5, few, space_size.plots[1]);
   }
   const std::vector<Against> all{spread, space_spread, size, space_size};
   return bench::draw("thesis_stability", kKinds, all, out + ".svg");
->>>>>>> paper
 }

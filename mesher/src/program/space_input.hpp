@@ -23,7 +23,8 @@ void require_complex(const std::vector<Point<3>>& points,
                      const std::vector<FeatureId>& ids);
 
 /// Throws: Error(unknown_id). `what`: "an end of segment"; `user`: its id.
-[[noreturn]] void fail_unknown_point(FeatureId point, const std::string& what, FeatureId user);
+[[noreturn]] void fail_unknown_point(FeatureId point, const std::string& what,
+                                     const mesher::Feature& user);
 
 /// What the polygon is by handles. `handle_of(id)`: 0 if there is no such point.
 /// Throws: Error(unknown_id).
@@ -31,7 +32,7 @@ template <class HandleOf>
 [[nodiscard]] PolygonParts parts_of(const mesher::Polygon& polygon, HandleOf&& handle_of) {
   const auto handle = [&](FeatureId id, const char* what) {
     const VertexHandle v = handle_of(id);
-    if (v == 0) fail_unknown_point(id, what, polygon.id);
+    if (v == 0) fail_unknown_point(id, what, polygon_named(polygon.id));
     return v;
   };
   PolygonParts parts;
