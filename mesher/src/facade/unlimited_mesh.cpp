@@ -76,7 +76,9 @@ class Retiled {
 
 template <int D>
 UnlimitedMesh<D>::UnlimitedMesh(const Options<D>& options, Extent extent, RegionAreas areas)
-    : extent_(extent), areas_(areas), mesher_(unlimited(options)), box_(mesh_box<D>(options)) {}
+    : extent_(extent), areas_(areas), mesher_(unlimited(options)), box_(mesh_box<D>(options)) {
+  mesher_.keep_slots(false);
+}
 
 template <int D>
 void UnlimitedMesh<D>::update(const Seeds& seeds, const RunControl& control, const Then& then) {
