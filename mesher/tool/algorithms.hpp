@@ -2,7 +2,7 @@
 #pragma once
 
 #include "arguments.hpp"
-#include "geometry/input_point.hpp"
+#include "input.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 

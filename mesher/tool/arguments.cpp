@@ -119,7 +119,8 @@ void require_inside(const InputOf<D>& input, const std::vector<mesher::InputPoin
                 "point " + std::to_string(static_cast<std::int64_t>(points[i].id)) + " at " +
                     to_text(points[i].at) + " is outside the domain " + to_text(domain.lo) +
                     " to " + to_text(domain.hi) + kDomainHint<D>,
-                input.place_of_point(i));
+                input.location_of_point(i), {mesher::point_named(points[i].id)},
+                {mesher::position_of(points[i].at)});
   }
 }
 
@@ -329,7 +330,7 @@ mesher::Options<3> mesh_options(const MeshArguments& args, const SpaceInput& inp
 template <int D>
 Error with_domain_hint(const Error& error) {
   if (error.code() != ErrorCode::outside_domain) return error;
-  return Error(error.code(), error.message() + kDomainHint<D>, error.place(), error.ids());
+  return error.with_message(error.message() + kDomainHint<D>);
 }
 template Error with_domain_hint<2>(const Error&);
 template Error with_domain_hint<3>(const Error&);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/input_point.hpp"
+#include "input.hpp"
 #include "mesher/domain_mesh.hpp"
 #include "mesher/mesh.hpp"
 #include "outputs.hpp"

@@ -9,7 +9,7 @@
 
 #include "arguments.hpp"
 #include "commands.hpp"
-#include "geometry/input_point.hpp"
+#include "input.hpp"
 #include "mesher/io.hpp"
 #include "mesher/pslg.hpp"
 #include "mesher/space_check.hpp"
@@ -46,7 +46,7 @@ void print_findings(const std::vector<mesher::Finding>& findings) {
 
 void print_notes(const std::vector<mesher::Note>& notes) {
   for (const auto& note : notes) {
-    std::printf("  %-12s%s: %s\n", "note", text_of(note.place).c_str(), note.text.c_str());
+    std::printf("  %-12s%s: %s\n", "note", text_of(note.location).c_str(), note.text.c_str());
   }
 }
 

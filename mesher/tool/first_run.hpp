@@ -1,7 +1,7 @@
 // The first mesh of an input, made with or without the engine.
 #pragma once
 
-#include "geometry/input_point.hpp"
+#include "input.hpp"
 #include "mesher/domain_mesh.hpp"
 #include "progress.hpp"
 #include "report.hpp"

@@ -18,9 +18,6 @@
 
 namespace tool {
 
-/// FILE:LINE, or FILE where the line is not known.
-[[nodiscard]] std::string text_of(const mesher::Place& place);
-
 /// Where features stand that have come from a file or from a script since.
 class Standing {
  public:
@@ -36,13 +33,13 @@ class Standing {
   template <int D>
   void follow(const std::vector<mesher::EditOf<D>>& edits) {
     for (const auto& edit : edits) {
-      edited_.insert_or_assign({mesher::featured(edit.kind), edit.id}, edit.place);
+      edited_.insert_or_assign(edit.feature(), edit.location);
       edits_limits_ = edits_limits_ || edit.max_measure.has_value();
     }
   }
 
   /// Where a feature stands; without a line if it is not there. Cost: O(n), for errors.
-  [[nodiscard]] mesher::Place place(mesher::Featured kind, mesher::FeatureId id) const;
+  [[nodiscard]] mesher::FileLocation location(const mesher::Feature& feature) const;
 
   /// The error with the place of the feature to blame, unless it has a line already, and those of
   /// the others in its message, and whether --repair would help. What is said of nothing that
@@ -61,15 +58,17 @@ class Standing {
 
  private:
   /// In the file; without a line if it is not there.
-  [[nodiscard]] virtual mesher::Place place_in_file(mesher::Featured kind,
-                                                    mesher::FeatureId id) const = 0;
+  [[nodiscard]] virtual mesher::FileLocation location_in_file(
+      const mesher::Feature& feature) const = 0;
+  /// Whether these are lines of which the first two have a point in common, or one line.
+  [[nodiscard]] virtual bool meet(const std::vector<mesher::Feature>&) const { return false; }
   /// What repair() joins: closer than this.
   [[nodiscard]] virtual std::string repair_reach() const = 0;
 
   std::string path_;
   bool offers_repair_ = false;
   bool edits_limits_ = false;
-  std::map<std::pair<mesher::Featured, mesher::FeatureId>, mesher::Place> edited_;
+  std::map<mesher::Feature, mesher::FileLocation> edited_;
 };
 
 /// The result of `make`, whose errors are said of where `input` has what they are about.
@@ -96,8 +95,8 @@ class Input final : public Standing {
   /// What was read beside path().
   [[nodiscard]] const std::string& point_file() const noexcept { return file_.point_file; }
   [[nodiscard]] std::vector<mesher::InputPoint<2>> points() const;
-  [[nodiscard]] mesher::Place place_of_point(std::size_t i) const {
-    return file_.place_of_point(i);
+  [[nodiscard]] mesher::FileLocation location_of_point(std::size_t i) const {
+    return file_.location_of_point(i);
   }
 
   /// Lines that cross, touch or overlap become a graph that can be meshed; repairs() says how.
@@ -112,8 +111,11 @@ class Input final : public Standing {
   [[nodiscard]] std::string warning(const mesher::SeedFault& fault) const;
 
  private:
-  [[nodiscard]] mesher::Place place_in_file(mesher::Featured kind,
-                                            mesher::FeatureId id) const override;
+  [[nodiscard]] mesher::FileLocation location_in_file(
+      const mesher::Feature& feature) const override {
+    return mesher::location_of(feature, file_);
+  }
+  [[nodiscard]] bool meet(const std::vector<mesher::Feature>& features) const override;
   [[nodiscard]] std::string repair_reach() const override { return "2^-44"; }
 
   mesher::PslgFile file_;
@@ -145,8 +147,8 @@ class SpaceInput final : public Standing {
 
   [[nodiscard]] const std::string& point_file() const noexcept { return file_.point_file; }
   [[nodiscard]] std::vector<mesher::InputPoint<3>> points() const;
-  [[nodiscard]] mesher::Place place_of_point(std::size_t i) const {
-    return file_.place_of_point(i);
+  [[nodiscard]] mesher::FileLocation location_of_point(std::size_t i) const {
+    return file_.location_of_point(i);
   }
 
   /// Segments and polygons that do not fit together become a complex that can be meshed; repairs()
@@ -163,8 +165,10 @@ class SpaceInput final : public Standing {
   [[nodiscard]] std::string warning(const mesher::SeedFaultOf<3>& fault) const;
 
  private:
-  [[nodiscard]] mesher::Place place_in_file(mesher::Featured kind,
-                                            mesher::FeatureId id) const override;
+  [[nodiscard]] mesher::FileLocation location_in_file(
+      const mesher::Feature& feature) const override {
+    return mesher::location_of(feature, file_);
+  }
   [[nodiscard]] std::string repair_reach() const override { return "2^-42"; }
 
   mesher::PlcFile file_;

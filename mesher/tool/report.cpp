@@ -105,7 +105,7 @@ Json json_of(const std::vector<mesher::GaveIn>& places) {
 
 void print_notes(const std::vector<mesher::Note>& notes) {
   for (const auto& note : notes) {
-    std::fprintf(stderr, "%s: note: %s\n", text_of(note.place).c_str(), note.text.c_str());
+    std::fprintf(stderr, "%s: note: %s\n", text_of(note.location).c_str(), note.text.c_str());
   }
 }
 

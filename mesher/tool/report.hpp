@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "arguments.hpp"
-#include "geometry/input_point.hpp"
+#include "input.hpp"
 #include "mesher/angles.hpp"
 #include "mesher/check.hpp"
 #include "mesher/domain_mesher.hpp"

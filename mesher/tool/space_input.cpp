@@ -2,16 +2,15 @@
 #include <algorithm>
 #include <string_view>
 
-#include "geometry/input_point.hpp"
+#include "input.hpp"
 
 namespace tool {
 namespace {
 
 using mesher::Error;
 using mesher::ErrorCode;
-using mesher::Featured;
 using mesher::FeatureId;
-using mesher::Place;
+using mesher::FileLocation;
 using mesher::Plc;
 using mesher::PlcFile;
 
@@ -34,7 +33,7 @@ PlcFile points_alone(mesher::PointFile<3> points) {
   file.file = file.point_file = points.file;
   for (std::size_t i = 0; i < points.ids.size(); ++i) {
     file.plc.points.push_back({points.ids[i], points.points[i], 0});
-    const Place place = points.place(i);
+    const FileLocation place = points.location(i);
     file.points.push_back({place.line, place.column});
   }
   file.notes = std::move(points.notes);
@@ -52,16 +51,6 @@ PlcFile read(const std::string& path, Faces faces) {
         {path});
   }
   return mesher::read_plc(path);
-}
-
-// Where the part with this id stands: parts[i] at positions(i).
-template <class Parts, class IdOf, class PlaceOf>
-Place place_among(const Parts& parts, FeatureId id, IdOf&& id_of, PlaceOf&& place_of,
-                  const std::string& file) {
-  const auto found =
-      std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return id_of(part) == id; });
-  return found == parts.end() ? Place{file}
-                              : place_of(static_cast<std::size_t>(found - parts.begin()));
 }
 
 }  // namespace
@@ -101,33 +90,6 @@ bool SpaceInput::has_region_limits() const {
   return edits_limits() || std::any_of(regions.begin(), regions.end(), [](const auto& region) {
            return region.max_volume.has_value();
          });
-}
-
-// --- Places ----------------------------------------------------------------------------------
-
-Place SpaceInput::place_in_file(Featured kind, FeatureId id) const {
-  const Plc& plc = file_.plc;
-  const auto own = [](const auto& part) { return part.id; };
-  const auto at = [&](const auto& parts, auto id_of, auto place_of) {
-    return place_among(
-        parts, id, id_of, [&](std::size_t i) { return (file_.*place_of)(i); }, file_.file);
-  };
-  switch (kind) {
-    case Featured::point:
-      return at(plc.points, own, &PlcFile::place_of_point);
-    case Featured::line:
-      return at(plc.segments, own, &PlcFile::place_of_segment);
-    case Featured::polygon:
-      return at(
-          plc.facets, [](const auto& f) { return f.polygon.id; }, &PlcFile::place_of_facet);
-    case Featured::hole:
-      return at(plc.holes, own, &PlcFile::place_of_hole);
-    case Featured::region:
-      return at(plc.regions, own, &PlcFile::place_of_region);
-    case Featured::nothing:
-      break;
-  }
-  return {file_.file};
 }
 
 std::string SpaceInput::warning(const mesher::SeedFaultOf<3>& fault) const {

@@ -25,21 +25,22 @@ class StaticLines : public StaticPoints<D> {
                        std::int64_t marker = 0) {
     if (edited_.contains(id)) {
       throw mesher::Error(mesher::ErrorCode::repeated_id,
-                          "there is a line " + this->id_text(id) + " already", {}, {id});
+                          "there is a line " + this->id_text(id) + " already", {},
+                          {mesher::line_named(id)});
     }
     const auto same = std::adjacent_find(points.begin(), points.end());
     if (same != points.end()) {
       throw mesher::Error(mesher::ErrorCode::zero_length,
                           "segment " + this->id_text(id) + " goes from point " +
                               this->id_text(*same) + " to itself",
-                          {}, {id, *same});
+                          {}, {mesher::line_named(id), mesher::point_named(*same)});
     }
     edited_.emplace(id, Line{points, marker});
   }
   void remove_segment(mesher::FeatureId id) {
     if (edited_.erase(id) > 0) return;
     throw mesher::Error(mesher::ErrorCode::unknown_id, "there is no line " + this->id_text(id), {},
-                        {id});
+                        {mesher::line_named(id)});
   }
   void discard_edits() {
     StaticPoints<D>::discard_edits();
@@ -59,7 +60,7 @@ class StaticLines : public StaticPoints<D> {
   void require_no_ends_go() const {
     for (const auto& [id, line] : edited_) {
       for (const mesher::FeatureId end : line.points) {
-        this->require_stays(end, "an end of segment", id);
+        this->require_stays(end, "an end of", mesher::line_named(id));
       }
     }
   }

@@ -22,7 +22,8 @@ class StaticPoints {
   void insert(mesher::FeatureId id, const mesher::Point<D>& point, std::int64_t marker = 0) {
     if (is_there(id)) {
       throw mesher::Error(mesher::ErrorCode::repeated_id,
-                          "there is a point " + id_text(id) + " already", {}, {id});
+                          "there is a point " + id_text(id) + " already", {},
+                          {mesher::point_named(id)});
     }
     require_inside(id, point);
     if (!was_there(id)) require_free(id, point);
@@ -54,11 +55,11 @@ class StaticPoints {
   /// Those that are announced to be there.
   [[nodiscard]] const Points& points() const { return edited_.points; }
   /// Throws: Error(point_in_use) if the point, which is `what` of `user`, goes.
-  void require_stays(mesher::FeatureId id, const char* what, mesher::FeatureId user) const {
+  void require_stays(mesher::FeatureId id, const char* what, const mesher::Feature& user) const {
     if (is_there(id) || !was_there(id)) return;
-    throw mesher::Error(
-        mesher::ErrorCode::point_in_use,
-        "point " + id_text(id) + " cannot go: it is " + what + " " + id_text(user), {}, {id, user});
+    throw mesher::Error(mesher::ErrorCode::point_in_use,
+                        "point " + id_text(id) + " cannot go: it is " + what + " " + text_of(user),
+                        {}, {mesher::point_named(id), user});
   }
   void keep_edits() { current_ = edited_; }
   static std::string id_text(mesher::FeatureId id) {
@@ -82,13 +83,14 @@ class StaticPoints {
   void require_known(mesher::FeatureId id) const {
     if (is_there(id)) return;
     throw mesher::Error(mesher::ErrorCode::unknown_id, "there is no point " + id_text(id), {},
-                        {id});
+                        {mesher::point_named(id)});
   }
   void require_inside(mesher::FeatureId id, const mesher::Point<D>& p) const {
     for (int i = 0; i < D; ++i) {
       if (p[i] >= domain_.lo[i] && p[i] <= domain_.hi[i]) continue;
       throw mesher::Error(mesher::ErrorCode::outside_domain,
-                          "point " + id_text(id) + " is outside the domain", {}, {id});
+                          "point " + id_text(id) + " is outside the domain", {},
+                          {mesher::point_named(id)}, {mesher::position_of(p)});
     }
   }
   void require_free(mesher::FeatureId id, const mesher::Point<D>& p) const {
@@ -96,7 +98,8 @@ class StaticPoints {
     if (other == edited_.ids.end()) return;
     throw mesher::Error(mesher::ErrorCode::duplicate_point,
                         "point " + id_text(id) + " would lie on point " + id_text(other->second),
-                        {}, {id, other->second});
+                        {}, {mesher::point_named(id), mesher::point_named(other->second)},
+                        {mesher::position_of(p)});
   }
 
   mesher::Box<D> domain_;

@@ -19,12 +19,13 @@ class StaticSeeds : public StaticLines<D> {
   void insert_seed(const mesher::SeedOf<D>& seed) {
     if (edited_.emplace(seed.name, seed).second) return;
     throw mesher::Error(mesher::ErrorCode::repeated_id,
-                        "there is a " + text_of(seed.name) + " already", {}, {seed.name.id});
+                        "there is a " + text_of(seed.name) + " already", {},
+                        {mesher::seed_named(seed.name)});
   }
   void remove_seed(const mesher::SeedName& name) {
     if (edited_.erase(name) > 0) return;
     throw mesher::Error(mesher::ErrorCode::unknown_id, "there is no " + text_of(name), {},
-                        {name.id});
+                        {mesher::seed_named(name)});
   }
   void discard_edits() {
     StaticLines<D>::discard_edits();

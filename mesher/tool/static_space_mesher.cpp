@@ -28,18 +28,20 @@ void for_each_point(const mesher::Polygon& polygon, Visit&& visit) {
 void StaticSpaceMesher::insert_polygon(const mesher::Polygon& polygon, std::int64_t marker) {
   if (edited_polygons_.emplace(polygon.id, mesher::Plc::Facet{polygon, marker}).second) return;
   throw Error(ErrorCode::repeated_id, "polygon " + id_text(polygon.id) + " is there already", {},
-              {polygon.id});
+              {mesher::polygon_named(polygon.id)});
 }
 
 void StaticSpaceMesher::remove_polygon(FeatureId id) {
   if (edited_polygons_.erase(id) > 0) return;
-  throw Error(ErrorCode::unknown_id, "polygon " + id_text(id) + " is not there", {}, {id});
+  throw Error(ErrorCode::unknown_id, "polygon " + id_text(id) + " is not there", {},
+              {mesher::polygon_named(id)});
 }
 
 void StaticSpaceMesher::require_no_corners_go() const {
   for (const auto& edited : edited_polygons_) {
-    for_each_point(edited.second.polygon,
-                   [&](FeatureId point) { require_stays(point, "on polygon", edited.first); });
+    for_each_point(edited.second.polygon, [&](FeatureId point) {
+      require_stays(point, "on", mesher::polygon_named(edited.first));
+    });
   }
 }
 

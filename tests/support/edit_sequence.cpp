@@ -368,7 +368,7 @@ std::optional<mesher::Change<2>> update(const Step& step, Mesher<2>& m, PointSet
   try {
     return m.update();
   } catch (const mesher::Error& error) {
-    if (error.code() != ErrorCode::too_close || error.ids().size() != 2) throw;
+    if (error.code() != ErrorCode::too_close || error.features().size() != 2) throw;
     points = before;
     return std::nullopt;
   }

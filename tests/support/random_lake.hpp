@@ -200,7 +200,7 @@ class LakeEditor {
     mesher::Edit edit;
     edit.kind = kind;
     edit.id = mesher::FeatureId{id};
-    edit.place = {"batch", static_cast<long>(edits_.size()) + 1, 1};
+    edit.location = {"batch", static_cast<long>(edits_.size()) + 1, 1};
     return edits_.emplace_back(std::move(edit));
   }
   Id point_at(Lake& lake, const mesher::Point<2>& p) {

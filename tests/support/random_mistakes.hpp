@@ -51,7 +51,7 @@ std::size_t refused_with_mistakes(const ScratchFolder& folder, const std::string
       read();
     } catch (const mesher::Error& error) {
       ++refused;
-      CHECK(error.place().file.substr(0, 1) == "/");
+      CHECK(error.location().file.substr(0, 1) == "/");
       CHECK(mesher::exit_code(error.code()) == mesher::ExitCode::format);
     }
   }

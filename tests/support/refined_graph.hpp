@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "feature_ids.hpp"
 #include "mesher/check.hpp"
 #include "mesher/domain_mesh.hpp"
 #include "random_pslg.hpp"
@@ -122,7 +123,7 @@ Refusal refusal(const mesher::Pslg& graph, const mesher::Options<2>& options,
   try {
     static_cast<void>(mesh_of<B>(graph, options, mesher::Extent::box, control));
   } catch (const mesher::Error& e) {
-    return {std::string(mesher::code_name(e.code())), e.what(), e.ids()};
+    return {std::string(mesher::code_name(e.code())), e.what(), support::ids_of(e)};
   }
   return {};
 }

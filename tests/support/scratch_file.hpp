@@ -64,8 +64,8 @@ mesher::Error error_of(Run run) {
 template <class Run>
 std::string failure_of(Run run) {
   const mesher::Error error = error_of(run);
-  return std::string(code_name(error.code())) + "@" + std::to_string(error.place().line) + ":" +
-         std::to_string(error.place().column);
+  return std::string(code_name(error.code())) + "@" + std::to_string(error.location().line) + ":" +
+         std::to_string(error.location().column);
 }
 
 }  // namespace support

@@ -49,15 +49,6 @@ enum class Extent : std::uint8_t {
   box,       ///< all
 };
 
-enum class SeedKind : std::uint8_t { hole, region };
-
-/// Holes and regions are numbered apart.
-struct SeedName {
-  SeedKind kind = SeedKind::region;
-  FeatureId id{};
-  friend auto operator<=>(const SeedName&, const SeedName&) = default;
-};
-
 /// "hole 3", "region 3".
 [[nodiscard]] std::string text_of(const SeedName& seed);
 

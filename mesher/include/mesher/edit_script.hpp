@@ -91,15 +91,15 @@ struct EditOf {
   SizeLimits<D> limits{};            ///< of limit
   std::optional<Box<D>> box{};       ///< likewise; nothing: everywhere
   std::string text;                  ///< the line without comment and outer blanks
-  Place place;
+  FileLocation location;
+
+  /// What it is an edit of; none: of limits.
+  [[nodiscard]] Feature feature() const;
 };
 using Edit = EditOf<2>;
 
-/// What has ids of its own; limits have none.
-enum class Featured : std::uint8_t { point, line, polygon, hole, region, nothing };
-
-/// What an edit is of.
-[[nodiscard]] Featured featured(EditKind kind);
+/// What an edit is of; none: of limits.
+[[nodiscard]] FeatureKind feature_kind(EditKind kind);
 
 /// Reads a script a batch at a time; a batch is one update. D is 2 or 3.
 template <int D>
@@ -116,7 +116,7 @@ class EditScriptOf {
  private:
   [[nodiscard]] bool read_line();
   [[nodiscard]] std::vector<EditOf<D>> read_block();
-  [[nodiscard]] Place here() const { return {path_, number_, 1}; }
+  [[nodiscard]] FileLocation here() const { return {path_, number_, 1}; }
 
   std::string path_;
   std::ifstream stream_;
@@ -181,7 +181,8 @@ void announce_polygon(const EditOf<D>& edit, Target& target) {
 template <int D, class Target>
 void announce_seed(const EditOf<D>& edit, Target& target) {
   if constexpr (requires { target.insert_seed(SeedOf<D>()); }) {
-    const SeedKind kind = featured(edit.kind) == Featured::hole ? SeedKind::hole : SeedKind::region;
+    const SeedKind kind =
+        feature_kind(edit.kind) == FeatureKind::hole ? SeedKind::hole : SeedKind::region;
     const SeedName name{kind, edit.id};
     if (edit.kind == EditKind::remove_hole || edit.kind == EditKind::remove_region) {
       return target.remove_seed(name);
@@ -208,9 +209,9 @@ template <int D, class Target>
 void announce(const EditOf<D>& edit, Target& target) {
   try {
     if (edit.kind == EditKind::limit) return announce_limit(edit, target);
-    if (featured(edit.kind) == Featured::line) return announce_line(edit, target);
-    if (featured(edit.kind) == Featured::polygon) return announce_polygon(edit, target);
-    if (featured(edit.kind) != Featured::point) return announce_seed(edit, target);
+    if (feature_kind(edit.kind) == FeatureKind::line) return announce_line(edit, target);
+    if (feature_kind(edit.kind) == FeatureKind::polygon) return announce_polygon(edit, target);
+    if (feature_kind(edit.kind) != FeatureKind::point) return announce_seed(edit, target);
     switch (edit.kind) {
       case EditKind::insert:
         if constexpr (requires { target.insert(edit.id, edit.point, edit.marker); }) {
@@ -224,7 +225,7 @@ void announce(const EditOf<D>& edit, Target& target) {
         return target.move(edit.id, edit.point);
     }
   } catch (const Error& error) {
-    throw error.at(edit.place);
+    throw error.at(edit.location);
   }
 }
 
@@ -240,7 +241,8 @@ template <int D>
 /// Where the edit stands that an error of update() is about: the last one of the feature to blame,
 /// else the last one. Requires: edits not empty.
 template <int D>
-[[nodiscard]] Place place_to_blame(const std::vector<EditOf<D>>& edits, const Error& error);
+[[nodiscard]] FileLocation location_to_blame(const std::vector<EditOf<D>>& edits,
+                                             const Error& error);
 
 /// Makes one batch one update of `target`.
 /// Throws: Error, with the place of the edit to blame; `target` is then as before the batch.
@@ -254,8 +256,8 @@ auto apply(std::vector<EditOf<D>> edits, Target& target) {
     return Update<D, Made>{std::move(edits), std::move(change), now() - start};
   } catch (const Error& error) {
     target.discard_edits();
-    if (error.place().line > 0 || error.code() == ErrorCode::cancelled || edits.empty()) throw;
-    throw error.at(place_to_blame(edits, error));
+    if (error.location().line > 0 || error.code() == ErrorCode::cancelled || edits.empty()) throw;
+    throw error.at(location_to_blame(edits, error));
   } catch (...) {
     target.discard_edits();
     throw;

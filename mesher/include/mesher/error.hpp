@@ -1,16 +1,20 @@
-// Errors of bad data: what the mesher refuses, with the ids, values and place in a file.
+// Errors of bad data: what the mesher refuses, with the features, places and location in a file.
 //
 // Bad data is found once, at the boundary (a reader, Mesher::insert, the command line), and thrown
-// as the one type `mesher::Error`. Programming mistakes are contract checks instead.
+// as the one type `mesher::Error`, whose parts are typed: nobody needs to read its
+// message. Programming mistakes are contract checks instead.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "mesher/mesh.hpp"
+#include "mesher/ids.hpp"
 
 namespace mesher {
 
@@ -65,12 +69,16 @@ enum class ExitCode : int {
 [[nodiscard]] std::string_view code_name(ErrorCode code) noexcept;
 [[nodiscard]] ExitCode exit_code(ErrorCode code) noexcept;
 
-/// A place in a file; line and column count from 1, and 0 means "not known".
-struct Place {
+/// Where something stands in a file; line and column count from 1, and 0 means "not known".
+struct FileLocation {
   std::string file;
   long line = 0;
   long column = 0;
+  friend bool operator==(const FileLocation&, const FileLocation&) = default;
 };
+
+/// FILE:LINE, or FILE where the line is not known.
+[[nodiscard]] std::string text_of(const FileLocation& location);
 
 /// Line and column in a file, from 1; 0 means "not known".
 struct FilePosition {
@@ -81,30 +89,62 @@ struct FilePosition {
 /// Something in a file that was understood and is not used.
 struct Note {
   std::string text;
-  Place place;  ///< the first such thing
+  FileLocation location;  ///< of the first such thing
 };
 
-/// Bad data. `what()` reads `FILE:LINE:COL: error[code]: message` (the place only where known).
+/// Coordinates in the geometry; in the plane z = 0.
+using Position = std::array<double, 3>;
+
+template <std::size_t N>
+[[nodiscard]] constexpr Position position_of(const std::array<double, N>& p) {
+  Position at{};
+  for (std::size_t i = 0; i < N; ++i) at[i] = p[i];
+  return at;
+}
+
+/// Bad data. `what()` reads `FILE:LINE:COL: error[code]: message` (the location only where known).
 class Error : public std::runtime_error {
  public:
-  Error(ErrorCode code, std::string message, Place place = {}, std::vector<FeatureId> ids = {});
+  Error(ErrorCode code, std::string message, FileLocation location = {},
+        std::vector<Feature> features = {}, std::vector<Position> places = {});
 
   [[nodiscard]] ErrorCode code() const noexcept { return code_; }
   [[nodiscard]] const std::string& message() const noexcept { return message_; }
-  [[nodiscard]] const Place& place() const noexcept { return place_; }
+  /// Where in a file it is.
+  [[nodiscard]] const FileLocation& location() const noexcept { return location_; }
   /// The features that it is about, where known; the one to blame first.
-  [[nodiscard]] const std::vector<FeatureId>& ids() const noexcept { return ids_; }
+  [[nodiscard]] const std::vector<Feature>& features() const noexcept { return features_; }
+  /// Where in the geometry it is, where known.
+  [[nodiscard]] const std::vector<Position>& places() const noexcept { return places_; }
+  /// Where features()[i] stands in a file, without a line if it does not; empty before located().
+  [[nodiscard]] const std::vector<FileLocation>& locations() const noexcept { return locations_; }
 
   /// The same error, said of a place in a file.
-  [[nodiscard]] Error at(Place place) const {
-    return Error(code_, message_, std::move(place), ids_);
+  [[nodiscard]] Error at(FileLocation location) const {
+    return changed(message_, std::move(location));
+  }
+  /// The same error, with locations().
+  [[nodiscard]] Error with_locations(std::vector<FileLocation> locations) const;
+  /// The same error, with other words.
+  [[nodiscard]] Error with_message(std::string message) const {
+    return changed(std::move(message), location_);
   }
 
  private:
+  [[nodiscard]] Error changed(std::string message, FileLocation location) const;
+
   ErrorCode code_;
   std::string message_;
-  Place place_;
-  std::vector<FeatureId> ids_;
+  FileLocation location_;
+  std::vector<Feature> features_;
+  std::vector<Position> places_;
+  std::vector<FileLocation> locations_;
 };
+
+/// The error with locations(): where its features stand, by `location_of`, which gives one without
+/// a line for what stands nowhere. location() becomes that of the first, unless it has a line
+/// already; the message names those that stand elsewhere.
+[[nodiscard]] Error located(const Error& error,
+                            const std::function<FileLocation(const Feature&)>& location_of);
 
 }  // namespace mesher

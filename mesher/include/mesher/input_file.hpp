@@ -41,13 +41,21 @@ struct FileParts {
   std::vector<FilePosition> points, segments, holes, regions;
   std::vector<Note> notes;
 
-  [[nodiscard]] Place place_of_point(std::size_t i) const { return at(point_file, points[i]); }
-  [[nodiscard]] Place place_of_segment(std::size_t i) const { return at(file, segments[i]); }
-  [[nodiscard]] Place place_of_hole(std::size_t i) const { return at(file, holes[i]); }
-  [[nodiscard]] Place place_of_region(std::size_t i) const { return at(file, regions[i]); }
+  [[nodiscard]] FileLocation location_of_point(std::size_t i) const {
+    return at(point_file, points[i]);
+  }
+  [[nodiscard]] FileLocation location_of_segment(std::size_t i) const {
+    return at(file, segments[i]);
+  }
+  [[nodiscard]] FileLocation location_of_hole(std::size_t i) const { return at(file, holes[i]); }
+  [[nodiscard]] FileLocation location_of_region(std::size_t i) const {
+    return at(file, regions[i]);
+  }
 
  protected:
-  static Place at(const std::string& file, FilePosition p) { return {file, p.line, p.column}; }
+  static FileLocation at(const std::string& file, FilePosition p) {
+    return {file, p.line, p.column};
+  }
 };
 
 }  // namespace mesher

@@ -43,7 +43,9 @@ struct PointFile {
   std::vector<long> lines;    ///< from 1; 0 where a file has no lines
   std::vector<Note> notes{};  ///< what the file holds that is not used
 
-  [[nodiscard]] Place place(std::size_t i) const { return {file, lines[i], lines[i] > 0 ? 1 : 0}; }
+  [[nodiscard]] FileLocation location(std::size_t i) const {
+    return {file, lines[i], lines[i] > 0 ? 1 : 0};
+  }
 };
 
 /// The dimension, 2 or 3, of the input that a file is:

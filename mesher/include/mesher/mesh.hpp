@@ -11,14 +11,13 @@
 #include <memory>
 #include <vector>
 
+#include "mesher/ids.hpp"
+
 namespace mesher {
 
 /// Coordinates, input length units, finite.
 template <int D>
 using Point = std::array<double, D>;
-
-/// The caller's name of an input feature.
-enum class FeatureId : std::int64_t {};
 
 /// A closed axis-aligned box: lo[i] <= hi[i].
 template <int D>

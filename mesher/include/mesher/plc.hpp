@@ -66,8 +66,14 @@ struct PlcFile : FileParts {
   Plc plc;
   std::vector<FilePosition> facets;
 
-  [[nodiscard]] Place place_of_facet(std::size_t i) const { return at(file, facets[i]); }
+  [[nodiscard]] FileLocation location_of_facet(std::size_t i) const { return at(file, facets[i]); }
 };
+
+/// Where a feature of the complex stands in its file; without a line if it does not. Cost: O(n).
+[[nodiscard]] FileLocation location_of(const Feature& feature, const PlcFile& file);
+
+/// The error with the locations of its features in the file: located() of these.
+[[nodiscard]] Error located(const Error& error, const PlcFile& file);
 
 /// Reads a complex, by the extension of `path`:
 ///

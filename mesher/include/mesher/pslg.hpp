@@ -79,8 +79,16 @@ struct PslgFile : FileParts {
   Pslg pslg;
   std::vector<FilePosition> polylines;
 
-  [[nodiscard]] Place place_of_polyline(std::size_t i) const { return at(file, polylines[i]); }
+  [[nodiscard]] FileLocation location_of_polyline(std::size_t i) const {
+    return at(file, polylines[i]);
+  }
 };
+
+/// Where a feature of the graph stands in its file; without a line if it does not. Cost: O(n).
+[[nodiscard]] FileLocation location_of(const Feature& feature, const PslgFile& file);
+
+/// The error with the locations of its features in the file: located() of these.
+[[nodiscard]] Error located(const Error& error, const PslgFile& file);
 
 /// Reads a graph, by the extension of `path`:
 ///

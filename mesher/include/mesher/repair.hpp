@@ -70,7 +70,7 @@ struct RepairNoteOf {
   std::vector<FeatureId> lines;
   std::vector<FeatureId> points;
   Point<D> at{};  ///< where, or where it begins
-  Place place;    ///< of the first line or polygon, if there is one, or of the first point
+  FileLocation location;  ///< of the first line or polygon, if there is one, or of the first point
   std::vector<FeatureId> polygons{};
   double deviation = 0;  ///< of a bent polygon: how far the farthest corner is off its plane
 

@@ -46,7 +46,8 @@ class RegionsOf<D>::Update {
   void remove_seeds(const std::vector<SeedName>& names) {
     for (const SeedName& name : names) {
       const std::uint32_t i = r_.seeds_.find(name);
-      if (i == kNone) throw Error(ErrorCode::unknown_id, "seed is not there", {}, {name.id});
+      if (i == kNone)
+        throw Error(ErrorCode::unknown_id, "seed is not there", {}, {seed_named(name)});
       touch(r_.seeds_[i].component);
       r_.seeds_.let_go(r_.tiles_, i);
       r_.seeds_.enter(r_.components_, i, kNone);
@@ -81,7 +82,7 @@ class RegionsOf<D>::Update {
     for (const Seed& seed : seeds) {
       check_seed(seed);
       if (r_.seeds_.find(seed.name) != kNone) {
-        throw Error(ErrorCode::repeated_id, "seed is there already", {}, {seed.name.id});
+        throw Error(ErrorCode::repeated_id, "seed is there already", {}, {seed_named(seed.name)});
       }
       const std::uint32_t i = r_.seeds_.add(seed);
       const Slot holder = r_.locate(seed.at);

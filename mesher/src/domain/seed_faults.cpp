@@ -43,10 +43,10 @@ template std::string describe(const SeedFaultOf<3>&);
 
 template <int D>
 Error error_of(const SeedFaultOf<D>& fault) {
-  std::vector<FeatureId> ids{fault.seed.id};
-  if (fault.other) ids.push_back(fault.other->id);
-  if (fault.line) ids.push_back(*fault.line);
-  return {ErrorCode::bad_seed, describe(fault), {}, std::move(ids)};
+  std::vector<Feature> features{seed_named(fault.seed)};
+  if (fault.other) features.push_back(seed_named(*fault.other));
+  if (fault.line) features.push_back(D == 2 ? line_named(*fault.line) : polygon_named(*fault.line));
+  return {ErrorCode::bad_seed, describe(fault), {}, std::move(features), {position_of(fault.at)}};
 }
 template Error error_of(const SeedFaultOf<2>&);
 template Error error_of(const SeedFaultOf<3>&);
@@ -56,7 +56,8 @@ namespace detail {
 template <int D>
 void check_seed(const SeedOf<D>& seed) {
   const auto refuse = [&](ErrorCode code, const std::string& what) {
-    throw Error(code, "the seed of " + text_of(seed.name) + " " + what, {}, {seed.name.id});
+    throw Error(code, "the seed of " + text_of(seed.name) + " " + what, {}, {seed_named(seed.name)},
+                {position_of(seed.at)});
   };
   for (const double x : seed.at) {
     if (!std::isfinite(x)) refuse(ErrorCode::not_finite, "has a coordinate that is not finite");
@@ -87,7 +88,7 @@ void check_seeds(const std::vector<SeedOf<D>>& seeds) {
   std::sort(names.begin(), names.end());
   const auto twice = std::adjacent_find(names.begin(), names.end());
   if (twice == names.end()) return;
-  throw Error(ErrorCode::repeated_id, text_of(*twice) + " has two seeds", {}, {twice->id});
+  throw Error(ErrorCode::repeated_id, text_of(*twice) + " has two seeds", {}, {seed_named(*twice)});
 }
 template void check_seeds(const std::vector<SeedOf<2>>&);
 template void check_seeds(const std::vector<SeedOf<3>>&);

@@ -103,7 +103,7 @@ void DomainState<D>::insert_seed(const SeedOf<D>& seed) {
   check_seed(seed);
   if (seeds_.find(seed.name) != nullptr) {
     throw Error(ErrorCode::repeated_id, text_of(seed.name) + " is there already", {},
-                {seed.name.id});
+                {seed_named(seed.name)}, {position_of(seed.at)});
   }
   seeds_.set(seed.name, seed);
   needs_follower_ = true;
@@ -113,7 +113,7 @@ template <int D>
 void DomainState<D>::remove_seed(const SeedName& name) {
   busy_.require_idle();
   if (seeds_.find(name) == nullptr) {
-    throw Error(ErrorCode::unknown_id, text_of(name) + " is not there", {}, {name.id});
+    throw Error(ErrorCode::unknown_id, text_of(name) + " is not there", {}, {seed_named(name)});
   }
   seeds_.set(name, std::nullopt);
 }

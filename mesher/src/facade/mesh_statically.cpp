@@ -252,7 +252,7 @@ void add_features(const std::vector<Segment>& segments, const std::vector<Polygo
     if (s.from == s.to) detail::fail_zero_length(s.id, s.from);
     const auto end = [&](FeatureId id) {
       const VertexHandle v = handle_of(id);
-      if (v == 0) detail::fail_unknown_point(id, "an end of segment", s.id);
+      if (v == 0) detail::fail_unknown_point(id, "an end of", line_named(s.id));
       return v;
     };
     const VertexHandle a = end(s.from), b = end(s.to);

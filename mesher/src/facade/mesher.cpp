@@ -81,7 +81,7 @@ auto Mesher<D>::Impl::place(FeatureId id) const -> typename Announced::Place {
 template <int D>
 void Mesher<D>::Impl::require_known(FeatureId id) const {
   if (place(id)) return;
-  throw Error(ErrorCode::unknown_id, "point " + text(id) + " is not there", {}, {id});
+  throw Error(ErrorCode::unknown_id, "point " + text(id) + " is not there", {}, {point_named(id)});
 }
 
 template <int D>
@@ -106,7 +106,8 @@ template <int D>
 void Mesher<D>::Impl::insert(FeatureId id, const Point<D>& p) {
   busy.require_idle();
   if (place(id)) {
-    throw Error(ErrorCode::repeated_id, "point " + text(id) + " is there already", {}, {id});
+    throw Error(ErrorCode::repeated_id, "point " + text(id) + " is there already", {},
+                {point_named(id)});
   }
   detail::check_point(p, options.domain, id);
   const auto was = state->place(id);
@@ -127,13 +128,15 @@ template <int D>
 void Mesher<D>::Impl::insert_line(FeatureId id, const detail::LinePoints& points) {
   busy.require_idle();
   if (options.rule != Rule::radius_edge) {
-    throw Error(ErrorCode::bad_option, "segments need the rule radius-edge", {}, {id});
+    throw Error(ErrorCode::bad_option, "segments need the rule radius-edge", {}, {line_named(id)});
   }
   if (points.size() < 2) {
-    throw Error(ErrorCode::bad_option, "line " + text(id) + " has fewer than two points", {}, {id});
+    throw Error(ErrorCode::bad_option, "line " + text(id) + " has fewer than two points", {},
+                {line_named(id)});
   }
   if (!line(id).empty()) {
-    throw Error(ErrorCode::repeated_id, "line " + text(id) + " is there already", {}, {id});
+    throw Error(ErrorCode::repeated_id, "line " + text(id) + " is there already", {},
+                {line_named(id)});
   }
   const auto same = std::adjacent_find(points.begin(), points.end());
   if (same != points.end()) detail::fail_zero_length(id, *same);
@@ -144,7 +147,7 @@ template <int D>
 void Mesher<D>::Impl::remove_line(FeatureId id) {
   busy.require_idle();
   if (line(id).empty()) {
-    throw Error(ErrorCode::unknown_id, "line " + text(id) + " is not there", {}, {id});
+    throw Error(ErrorCode::unknown_id, "line " + text(id) + " is not there", {}, {line_named(id)});
   }
   announced_lines.set(id, state->line(id), {});
 }
@@ -164,11 +167,12 @@ template <>
 void Mesher<3>::Impl::insert_polygon(const Polygon& polygon) {
   busy.require_idle();
   if (options.rule != Rule::radius_edge) {
-    throw Error(ErrorCode::bad_option, "polygons need the rule radius-edge", {}, {polygon.id});
+    throw Error(ErrorCode::bad_option, "polygons need the rule radius-edge", {},
+                {polygon_named(polygon.id)});
   }
   if (!this->polygon(polygon.id).loops.empty()) {
     throw Error(ErrorCode::repeated_id, "polygon " + text(polygon.id) + " is there already", {},
-                {polygon.id});
+                {polygon_named(polygon.id)});
   }
   detail::require_loops(polygon);
   announced_polygons.set(polygon.id, state->polygon_parts(polygon.id), polygon);
@@ -176,14 +180,15 @@ void Mesher<3>::Impl::insert_polygon(const Polygon& polygon) {
 template <int D>
 void Mesher<D>::Impl::insert_polygon(const Polygon& polygon) {
   busy.require_idle();
-  throw Error(ErrorCode::bad_option, "polygons are for space", {}, {polygon.id});
+  throw Error(ErrorCode::bad_option, "polygons are for space", {}, {polygon_named(polygon.id)});
 }
 
 template <int D>
 void Mesher<D>::Impl::remove_polygon(FeatureId id) {
   busy.require_idle();
   if (polygon(id).loops.empty()) {
-    throw Error(ErrorCode::unknown_id, "polygon " + text(id) + " is not there", {}, {id});
+    throw Error(ErrorCode::unknown_id, "polygon " + text(id) + " is not there", {},
+                {polygon_named(id)});
   }
   if constexpr (D == 3) announced_polygons.set(id, state->polygon_parts(id), {});
 }

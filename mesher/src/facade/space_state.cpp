@@ -34,10 +34,11 @@ void reserve_for(Map& map, const Map& more) {
   }
 }
 
-[[noreturn]] void fail_in_use(FeatureId point, const std::string& what, FeatureId user) {
+[[noreturn]] void fail_in_use(FeatureId point, const std::string& what,
+                              const mesher::Feature& user) {
   throw Error(ErrorCode::point_in_use,
-              "point " + text(point) + " cannot go: it is " + what + " " + text(user), {},
-              {point, user});
+              "point " + text(point) + " cannot go: it is " + what + " " + text_of(user), {},
+              {point_named(point), user});
 }
 
 }  // namespace
@@ -125,7 +126,7 @@ void SpaceState::take_polygon(FeatureId id) {
 void SpaceState::add_segment(const Part& part, const Ids& arrived) {
   const auto end = [&](FeatureId id) {
     const VertexHandle v = point_with(id, arrived);
-    if (v == 0) fail_unknown_point(id, "an end of segment", part.line);
+    if (v == 0) fail_unknown_point(id, "an end of", line_named(part.line));
     return v;
   };
   const VertexHandle a = end(part.from), b = end(part.to);
@@ -218,9 +219,9 @@ void SpaceState::require_unused(const PointEdits& edits) const {
     store().visit_edges_at(v, [&](const Edge& e) {
       if (const auto id = segment(e.self)) keep_least(*id);
     });
-    if (user) fail_in_use(edit.id, "an end of segment", *user);
+    if (user) fail_in_use(edit.id, "an end of", line_named(*user));
     for (const PolygonHandle h : polygons_at(v)) keep_least(polygon_names_.at(h));
-    if (user) fail_in_use(edit.id, "on polygon", *user);
+    if (user) fail_in_use(edit.id, "on", polygon_named(*user));
   }
 }
 

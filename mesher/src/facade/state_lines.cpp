@@ -19,7 +19,7 @@ void for_each_part(const LinePoints& points, Visit&& visit) {
 [[noreturn]] void fail_in_use(FeatureId point, FeatureId line) {
   throw Error(ErrorCode::point_in_use,
               "point " + text(point) + " cannot go: it is an end of segment " + text(line), {},
-              {point, line});
+              {point_named(point), line_named(line)});
 }
 
 }  // namespace

@@ -40,13 +40,13 @@ template <std::size_t N>
 void check_coordinates(const std::array<double, N>& p, FeatureId id) {
   for (const double x : p) {
     if (std::isfinite(x)) continue;
-    throw Error(ErrorCode::not_finite, named(p, id) + " is not finite", {}, {id});
+    throw Error(ErrorCode::not_finite, named(p, id) + " is not finite", {}, {point_named(id)});
   }
   for (const double x : p) {
     if (text::is_coordinate(x)) continue;
     throw Error(ErrorCode::magnitude,
                 named(p, id) + ": a coordinate must be 0 or of magnitude 2^-100 to 2^100", {},
-                {id});
+                {point_named(id)}, {position_of(p)});
   }
 }
 
@@ -57,7 +57,8 @@ void check_point(const std::array<double, N>& p, const Box<static_cast<int>(N)>&
   for (std::size_t i = 0; i < N; ++i) {
     if (p[i] >= domain.lo[i] && p[i] <= domain.hi[i]) continue;
     throw Error(ErrorCode::outside_domain,
-                named(p, id) + " lies outside the domain " + box_text(domain), {}, {id});
+                named(p, id) + " lies outside the domain " + box_text(domain), {},
+                {point_named(id)}, {position_of(p)});
   }
 }
 
@@ -68,12 +69,12 @@ void fail_too_near(const std::array<double, N>& p, FeatureId id, const std::arra
     throw Error(
         ErrorCode::duplicate_point,
         named(p, id) + " lies on point " + std::to_string(static_cast<std::int64_t>(other_id)), {},
-        {id, other_id});
+        {point_named(id), point_named(other_id)}, {position_of(p), position_of(other)});
   }
   throw Error(ErrorCode::too_close,
               named(p, id) + " is too close to " + named(other, other_id) +
                   ": they share a cell of 2^-50 of the meshing box's side",
-              {}, {id, other_id});
+              {}, {point_named(id), point_named(other_id)}, {position_of(p), position_of(other)});
 }
 
 template <std::size_t N>

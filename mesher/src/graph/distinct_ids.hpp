@@ -9,20 +9,20 @@
 
 namespace mesher {
 
-/// Ids with the places of what they name, to be checked.
+/// Features with where they stand, to be checked for ids that repeat.
 struct Named {
-  const char* what;  // "segment"
-  std::vector<FeatureId> ids;
-  std::vector<Place> places;
+  std::vector<Feature> features;
+  std::vector<FileLocation> locations;
 };
 
-/// Of parts that have an id. `place_of(i)`: where the i-th stood.
-template <class Part, class PlaceOf>
-[[nodiscard]] Named named(const char* what, const std::vector<Part>& parts, PlaceOf place_of) {
-  Named all{what, {}, {}};
+/// Of parts that have an id. `location_of(i)`: where the i-th stood.
+template <class Part, class LocationOf>
+[[nodiscard]] Named named(FeatureKind kind, const std::vector<Part>& parts,
+                          LocationOf location_of) {
+  Named all;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    all.ids.push_back(parts[i].id);
-    all.places.push_back(place_of(i));
+    all.features.push_back({kind, parts[i].id});
+    all.locations.push_back(location_of(i));
   }
   return all;
 }
@@ -33,9 +33,12 @@ void require_distinct(const Named& all);
 /// Of points, holes and regions of a Pslg or a Plc.
 template <class Input>
 void require_distinct_parts(const Input& input, const FileParts& f) {
-  require_distinct(named("point", input.points, [&](auto i) { return f.place_of_point(i); }));
-  require_distinct(named("hole", input.holes, [&](auto i) { return f.place_of_hole(i); }));
-  require_distinct(named("region", input.regions, [&](auto i) { return f.place_of_region(i); }));
+  require_distinct(
+      named(FeatureKind::point, input.points, [&](auto i) { return f.location_of_point(i); }));
+  require_distinct(
+      named(FeatureKind::hole, input.holes, [&](auto i) { return f.location_of_hole(i); }));
+  require_distinct(
+      named(FeatureKind::region, input.regions, [&](auto i) { return f.location_of_region(i); }));
 }
 
 }  // namespace mesher

@@ -14,17 +14,19 @@ std::string id_text(FeatureId id) { return std::to_string(static_cast<std::int64
 
 void require_distinct_ids(const PslgFile& f) {
   require_distinct_parts(f.pslg, f);
-  Named lines = named("segment", f.pslg.segments, [&](auto i) { return f.place_of_segment(i); });
+  Named lines =
+      named(FeatureKind::line, f.pslg.segments, [&](auto i) { return f.location_of_segment(i); });
   const Named more =
-      named("polyline", f.pslg.polylines, [&](auto i) { return f.place_of_polyline(i); });
-  lines.ids.insert(lines.ids.end(), more.ids.begin(), more.ids.end());
-  lines.places.insert(lines.places.end(), more.places.begin(), more.places.end());
+      named(FeatureKind::line, f.pslg.polylines, [&](auto i) { return f.location_of_polyline(i); });
+  lines.features.insert(lines.features.end(), more.features.begin(), more.features.end());
+  lines.locations.insert(lines.locations.end(), more.locations.begin(), more.locations.end());
   require_distinct(lines);
 }
 
 // Throws: Error(unknown_id) for a line along a point that is none of `sorted`.
 void require_known(const char* what, FeatureId line, const std::vector<FeatureId>& points,
-                   const std::vector<FeatureId>& sorted, const PslgFile& f, const Place& place) {
+                   const std::vector<FeatureId>& sorted, const PslgFile& f,
+                   const FileLocation& place) {
   const bool alone = sorted.empty() && f.point_file == f.file;
   for (const FeatureId id : points) {
     if (std::binary_search(sorted.begin(), sorted.end(), id)) continue;
@@ -32,7 +34,7 @@ void require_known(const char* what, FeatureId line, const std::vector<FeatureId
                 std::string(what) + " " + id_text(line) + " ends at point " + id_text(id) +
                     ", which is not there; there are " + std::to_string(sorted.size()) +
                     " points in " + f.point_file + (alone ? ", and no .node file beside it" : ""),
-                place, {line, id});
+                place, {line_named(line), point_named(id)});
   }
 }
 
@@ -44,15 +46,15 @@ void require_known_ends(const PslgFile& f) {
   std::sort(ids.begin(), ids.end());
   for (std::size_t i = 0; i < f.pslg.segments.size(); ++i) {
     const Pslg::Segment& s = f.pslg.segments[i];
-    require_known("segment", s.id, {s.from, s.to}, ids, f, f.place_of_segment(i));
+    require_known("segment", s.id, {s.from, s.to}, ids, f, f.location_of_segment(i));
   }
   for (std::size_t i = 0; i < f.pslg.polylines.size(); ++i) {
     const Pslg::Polyline& line = f.pslg.polylines[i];
-    require_known("polyline", line.id, line.points, ids, f, f.place_of_polyline(i));
+    require_known("polyline", line.id, line.points, ids, f, f.location_of_polyline(i));
     if (line.points.size() >= 2) continue;
     throw Error(ErrorCode::bad_syntax,
                 "polyline " + id_text(line.id) + " has fewer than two points",
-                f.place_of_polyline(i), {line.id});
+                f.location_of_polyline(i), {line_named(line.id)});
   }
 }
 

@@ -107,15 +107,15 @@ bool inserts(EditKind kind) {
 template <int D>
 std::vector<int> ranks(const std::vector<EditOf<D>>& edits) {
   std::map<FeatureId, bool> points;  // whether they come: by the first edit of each
-  std::map<std::pair<Featured, FeatureId>, bool> others;  // whether they have come so far
+  std::map<Feature, bool> others;    // whether they have come so far
   std::vector<int> all;
   for (const auto& edit : edits) {
-    const Featured of = featured(edit.kind);
-    if (of == Featured::line || of == Featured::polygon) {
-      bool& came = others[{of, edit.id}];
+    const FeatureKind of = feature_kind(edit.kind);
+    if (of == FeatureKind::line || of == FeatureKind::polygon) {
+      bool& came = others[edit.feature()];
       came = came || inserts(edit.kind);
       all.push_back(came ? 3 : 0);
-    } else if (of != Featured::point) {
+    } else if (of != FeatureKind::point) {
       all.push_back(4);
     } else {
       all.push_back(points.emplace(edit.id, inserts(edit.kind)).first->second ? 2 : 1);
@@ -156,7 +156,7 @@ std::size_t limit_fields(const text::Line& line) { return line[1] == "none" ? 2 
 // The background in the file that field 2 names; an error is said of that file, and of the line.
 template <int D>
 std::shared_ptr<const SizeField<D>> background_of(const text::Line& line) {
-  const Place place = line.place(2);
+  const FileLocation place = line.place(2);
   const auto path = std::filesystem::path(place.file).parent_path() / std::string(line[2]);
   try {
     return sampled_sizes<D>(read_sizes<D>(path.string()).samples);
@@ -164,7 +164,7 @@ std::shared_ptr<const SizeField<D>> background_of(const text::Line& line) {
     throw Error(
         error.code(),
         error.message() + " (named by " + place.file + ":" + std::to_string(place.line) + ")",
-        error.place(), error.ids());
+        error.location(), error.features(), error.places());
   }
 }
 
@@ -256,7 +256,7 @@ EditOf<D> parse(const text::Line& line) {
   EditOf<D> edit;
   edit.kind = form.kind;
   edit.text = line.trimmed();
-  edit.place = line.place(0);
+  edit.location = line.place(0);
   if (marked) edit.marker = line.integer(line.size() - 1);
   if (form.kind == EditKind::limit) return parse_limit<D>(line, edit), edit;
   edit.id = FeatureId{line.integer(1)};
@@ -294,54 +294,34 @@ bool is_word(const text::Line& line, std::string_view word) {
   throw line.error(ErrorCode::bad_edit, text::quoted(word) + " stands alone on its line", 1);
 }
 
-// Whether the i-th id of an error is that of an edit of this kind. A line may have the id of a
-// point, and a polygon that of both. Seeds are never to blame, limits only where no feature is.
-bool may_blame(ErrorCode code, std::size_t i, Featured of) {
-  const bool of_lines = of == Featured::line || of == Featured::polygon;
-  switch (code) {
-    case ErrorCode::point_on_segment:
-    case ErrorCode::point_on_polygon:
-      return i == 0 ? of == Featured::point : of_lines;
-    case ErrorCode::crossing_segments:
-    case ErrorCode::overlapping_segments:
-    case ErrorCode::segment_through_polygon:
-    case ErrorCode::segment_on_polygon:
-      return of_lines;
-    case ErrorCode::repeated_segment:
-      return of == Featured::line;
-    case ErrorCode::bad_polygon:
-    case ErrorCode::not_flat:
-    case ErrorCode::repeated_polygon:
-    case ErrorCode::crossing_polygons:
-    case ErrorCode::overlapping_polygons:
-      return of == Featured::polygon;
-    default:
-      return of_lines || of == Featured::point;
-  }
-}
-
 }  // namespace
 
-Featured featured(EditKind kind) {
+FeatureKind feature_kind(EditKind kind) {
   switch (kind) {
     case EditKind::insert:
     case EditKind::remove:
     case EditKind::move:
-      return Featured::point;
+      return FeatureKind::point;
     case EditKind::insert_hole:
     case EditKind::remove_hole:
-      return Featured::hole;
+      return FeatureKind::hole;
     case EditKind::insert_region:
     case EditKind::remove_region:
-      return Featured::region;
+      return FeatureKind::region;
     case EditKind::insert_polygon:
     case EditKind::remove_polygon:
-      return Featured::polygon;
+      return FeatureKind::polygon;
     case EditKind::limit:
-      return Featured::nothing;
+      return FeatureKind::none;
     default:
-      return Featured::line;
+      return FeatureKind::line;
   }
+}
+
+template <int D>
+Feature EditOf<D>::feature() const {
+  const FeatureKind of = feature_kind(kind);
+  return of == FeatureKind::none ? Feature() : Feature{of, id};
 }
 
 template <int D>
@@ -379,7 +359,7 @@ std::optional<std::vector<EditOf<D>>> EditScriptOf<D>::next() {
 
 template <int D>
 std::vector<EditOf<D>> EditScriptOf<D>::read_block() {
-  const Place begin = split(path_, number_, text_).place(0);
+  const FileLocation begin = split(path_, number_, text_).place(0);
   std::vector<EditOf<D>> edits;
   while (read_line()) {
     const text::Line line = split(path_, number_, text_);
@@ -407,15 +387,15 @@ std::vector<EditOf<D>> announcing_order(std::vector<EditOf<D>> edits) {
 }
 
 template <int D>
-Place place_to_blame(const std::vector<EditOf<D>>& edits, const Error& error) {
-  for (std::size_t i = 0; i < error.ids().size(); ++i) {
+FileLocation location_to_blame(const std::vector<EditOf<D>>& edits, const Error& error) {
+  for (const Feature& feature : error.features()) {
     const auto is_of = [&](const EditOf<D>& edit) {
-      return edit.id == error.ids()[i] && may_blame(error.code(), i, featured(edit.kind));
+      return edit.kind != EditKind::limit && edit.feature() == feature;
     };
     const auto last = std::find_if(edits.rbegin(), edits.rend(), is_of);
-    if (last != edits.rend()) return last->place;
+    if (last != edits.rend()) return last->location;
   }
-  return edits.back().place;
+  return edits.back().location;
 }
 
 template <int D>
@@ -430,13 +410,15 @@ double now() {
   return std::chrono::duration<double>(since_start).count();
 }
 
+template Feature EditOf<2>::feature() const;
+template Feature EditOf<3>::feature() const;
 template class EditScriptOf<2>;
 template class EditScriptOf<3>;
 template std::string text_of(const std::vector<EditOf<2>>&);
 template std::string text_of(const std::vector<EditOf<3>>&);
 template std::vector<EditOf<2>> announcing_order(std::vector<EditOf<2>>);
 template std::vector<EditOf<3>> announcing_order(std::vector<EditOf<3>>);
-template Place place_to_blame(const std::vector<EditOf<2>>&, const Error&);
-template Place place_to_blame(const std::vector<EditOf<3>>&, const Error&);
+template FileLocation location_to_blame(const std::vector<EditOf<2>>&, const Error&);
+template FileLocation location_to_blame(const std::vector<EditOf<3>>&, const Error&);
 
 }  // namespace mesher

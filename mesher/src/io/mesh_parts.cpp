@@ -32,7 +32,7 @@ AnyMesh MeshParts::finish() {
   return take<3>();
 }
 
-void detail::fail_other_height(double z, double first, const Place& place) {
+void detail::fail_other_height(double z, double first, const FileLocation& place) {
   throw Error(
       ErrorCode::bad_dimension,
       "z is not the same everywhere: " + text::to_text(z) + ", at first " + text::to_text(first),

@@ -18,7 +18,7 @@
 namespace mesher {
 
 namespace detail {
-[[noreturn]] void fail_other_height(double z, double first, const Place& place);
+[[noreturn]] void fail_other_height(double z, double first, const FileLocation& place);
 }  // namespace detail
 
 /// The value of a third coordinate, which must be the same everywhere in the plane.
@@ -37,7 +37,7 @@ class PlaneHeight {
 
  private:
   std::optional<double> first_;
-  std::optional<std::pair<double, Place>> other_;
+  std::optional<std::pair<double, FileLocation>> other_;
 };
 
 /// Whether all corners differ. N is small.

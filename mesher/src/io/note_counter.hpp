@@ -13,7 +13,7 @@ namespace mesher {
 class NoteCounter {
  public:
   /// One more thing of the kind `what`. Cost: O(kinds).
-  void add(const std::string& what, const Place& place) {
+  void add(const std::string& what, const FileLocation& place) {
     const auto is_it = [&](const Kind& kind) { return kind.what == what; };
     const auto found = std::find_if(kinds_.begin(), kinds_.end(), is_it);
     if (found != kinds_.end()) {
@@ -36,7 +36,7 @@ class NoteCounter {
  private:
   struct Kind {
     std::string what;
-    Place first;
+    FileLocation first;
     long count;
   };
   std::vector<Kind> kinds_;

@@ -89,7 +89,7 @@ template MeshDataOf<2> read_mesh<2>(const std::string&);
 template MeshDataOf<3> read_mesh<3>(const std::string&);
 
 void detail::fail_no_vertex(std::int64_t value, std::size_t count, std::int64_t first,
-                            const Place& place) {
+                            const FileLocation& place) {
   throw Error(ErrorCode::bad_mesh,
               "no vertex " + std::to_string(value) + ": there are " + std::to_string(count) +
                   ", from " + std::to_string(first),

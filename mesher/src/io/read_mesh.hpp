@@ -35,7 +35,7 @@ template <int D, class IndexOf>
 
 namespace detail {
 [[noreturn]] void fail_no_vertex(std::int64_t value, std::size_t count, std::int64_t first,
-                                 const Place& place);
+                                 const FileLocation& place);
 }  // namespace detail
 
 /// `value` as an index into `count` vertices that are numbered from `first`.

@@ -76,8 +76,8 @@ class MshReader {
   void skip_reals(std::int64_t n) {
     for (; n > 0; --n) (void)real();
   }
-  [[nodiscard]] Place place(const Number& n) const {
-    return binary_ ? Place{source_.file()} : source_.place(n.at);
+  [[nodiscard]] FileLocation place(const Number& n) const {
+    return binary_ ? FileLocation{source_.file()} : source_.place(n.at);
   }
   [[nodiscard]] Error error(ErrorCode code, const std::string& what, const Number& n) const {
     return binary_ ? bytes_.error(code, what) : source_.error(code, what, n.at);

@@ -94,7 +94,7 @@ class VertexColumns {
   std::vector<VertexKind> kinds_;
   std::vector<FeatureId> origins_;
   std::vector<std::int64_t> markers_;
-  Place first_;
+  FileLocation first_;
 };
 
 }  // namespace

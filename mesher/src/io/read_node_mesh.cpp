@@ -31,13 +31,13 @@ class IdTable {
     std::sort(rows_.begin(), rows_.end());
   }
   // Throws: Error(bad_mesh) if there is none of that id.
-  [[nodiscard]] std::uint32_t at(FeatureId id, const char* what, const Place& place) const {
+  [[nodiscard]] std::uint32_t at(FeatureId id, const char* what, const FileLocation& place) const {
     const auto row = std::lower_bound(rows_.begin(), rows_.end(), std::pair(id, std::size_t{0}));
     if (row != rows_.end() && row->first == id) return static_cast<std::uint32_t>(row->second);
     throw Error(
         ErrorCode::bad_mesh,
         std::string("no ") + what + " has the id " + std::to_string(static_cast<std::int64_t>(id)),
-        place, {id});
+        place);
   }
   // Field i of `line` as a vertex.
   [[nodiscard]] std::uint32_t vertex(const text::Line& line, std::size_t i) const {
@@ -86,7 +86,7 @@ class NodeMesh {
     mesh_.kinds = std::move(nodes.kinds);
     mesh_.features.origins = std::move(nodes.origins);
     mesh_.features.markers = std::move(nodes.markers);
-    for (const Note& note : nodes.notes) notes_.add(note.text, note.place);
+    for (const Note& note : nodes.notes) notes_.add(note.text, note.location);
   }
 
   void read_simplices(const std::string& path) {
@@ -160,7 +160,7 @@ class NodeMesh {
     }
     for (std::size_t i = 0; i < poly.pslg.segments.size(); ++i) {
       const Pslg::Segment& s = poly.pslg.segments[i];
-      const Place place = poly.place_of_segment(i);
+      const FileLocation place = poly.location_of_segment(i);
       MeshEdge edge = edge_of(vertices_.at(s.from, "vertex", place),
                               vertices_.at(s.to, "vertex", place), [&] { return place; });
       edge.marker = s.marker;

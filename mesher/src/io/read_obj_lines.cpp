@@ -7,13 +7,13 @@ namespace mesher {
 PslgFile read_obj_lines(const std::string& path) {
   const ObjFile obj = read_obj_file(path, CoordinateRule::input);
   PslgBuilder build(path);
-  for (const Note& note : obj.notes) build.note(note.text, note.place);
+  for (const Note& note : obj.notes) build.note(note.text, note.location);
   std::vector<FeatureId> ids;
   for (std::size_t i = 0; i < obj.vertices.size(); ++i) {
     ids.push_back(build.add_point(obj.vertices[i], 0, obj.positions[i]));
   }
   for (const ObjFile::Element& element : obj.elements) {
-    const Place place{path, element.position.line, element.position.column};
+    const FileLocation place{path, element.position.line, element.position.column};
     if (element.kind == 'f') {
       throw Error(ErrorCode::unsupported, "a face: only points (v, p) and lines (l) are input",
                   place);

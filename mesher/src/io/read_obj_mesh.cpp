@@ -11,7 +11,7 @@ AnyMesh read_obj_mesh(const std::string& path) {
   mesh.kinds.assign(mesh.vertices.size(), VertexKind::steiner);
   mesh.notes = std::move(obj.notes);
   for (const ObjFile::Element& element : obj.elements) {
-    const Place place{path, element.position.line, element.position.column};
+    const FileLocation place{path, element.position.line, element.position.column};
     const auto& v = element.vertices;
     if (element.kind == 'l') {
       for (std::size_t i = 1; i < v.size(); ++i) {

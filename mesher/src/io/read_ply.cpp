@@ -51,7 +51,7 @@ struct Element {
   std::string_view name;
   std::int64_t count = 0;
   std::vector<Property> properties;
-  Place place;
+  FileLocation place;
 
   // The property of this name; properties.size() if there is none.
   [[nodiscard]] std::size_t find(std::string_view wanted) const {
@@ -86,7 +86,8 @@ class PlyHeader {
   void next(const char* before) {
     do {
       if (!lines_.next()) {
-        const Place end = lines_.number() > 0 ? line_.place(line_.size()) : Place{path_};
+        const FileLocation end =
+            lines_.number() > 0 ? line_.place(line_.size()) : FileLocation{path_};
         throw Error(ErrorCode::truncated, std::string("the file ends before ") + before, end);
       }
       line_.split_blanks(lines_.number(), lines_.text());
@@ -192,7 +193,7 @@ class PlyReader {
       notes_.add("properties of vertices other than x, y and z are not used", element.place);
     }
     for (std::int64_t i = 0; i < element.count; ++i) {
-      Place place{source_.file()};
+      FileLocation place{source_.file()};
       Point<3> p{};
       for (std::size_t k = 0; k < element.properties.size(); ++k) {
         const double value = read_property(element, element.properties[k], i);

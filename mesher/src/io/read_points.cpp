@@ -108,7 +108,7 @@ PointFile<D> read_any(const std::string& path) {
 
 }  // namespace
 
-void add_vertex(PointFile<3>& rows, Point<3> point, const Place& place) {
+void add_vertex(PointFile<3>& rows, Point<3> point, const FileLocation& place) {
   for (double& x : point) {
     x += 0.0;  // no negative zero
     if (text::is_coordinate(x)) continue;
@@ -128,7 +128,7 @@ void require_distinct_ids(const PointFile<D>& rows) {
   throw Error(ErrorCode::repeated_id,
               "id " + id_text(rows.ids[repeat->later]) + " is given twice, first on line " +
                   std::to_string(rows.lines[repeat->earlier]),
-              rows.place(repeat->later));
+              rows.location(repeat->later), {point_named(rows.ids[repeat->later])});
 }
 
 template <int D>
@@ -139,7 +139,10 @@ void require_distinct_points(const PointFile<D>& rows) {
               "point " + id_text(rows.ids[repeat->later]) + " lies on point " +
                   id_text(rows.ids[repeat->earlier]) + line_text(rows, repeat->earlier) +
                   ", both at " + text::to_text<D>(rows.points[repeat->later]),
-              rows.place(repeat->later));
+              rows.location(repeat->later),
+              {point_named(rows.ids[repeat->later]), point_named(rows.ids[repeat->earlier])},
+              {position_of(rows.points[repeat->later])})
+      .with_locations({rows.location(repeat->later), rows.location(repeat->earlier)});
 }
 
 template <int D>

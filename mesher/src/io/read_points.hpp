@@ -62,6 +62,6 @@ void add_row(PointFile<D>& rows, const Point<D>& point, long line) {
 
 /// The same of a place whose coordinates have not been looked at; -0 becomes 0.
 /// Throws: Error(magnitude) of `place`.
-void add_vertex(PointFile<3>& rows, Point<3> point, const Place& place);
+void add_vertex(PointFile<3>& rows, Point<3> point, const FileLocation& place);
 
 }  // namespace mesher

@@ -35,7 +35,7 @@ class PslgBuilder {
                   FilePosition position);
 
   /// Notes that something is not used.
-  void note(const std::string& what, const Place& place) { notes_.add(what, place); }
+  void note(const std::string& what, const FileLocation& place) { notes_.add(what, place); }
 
   [[nodiscard]] PslgFile finish();
 

@@ -81,7 +81,7 @@ class SpacePolyReader {
       next_row(lines_, 1, facet.polygons.size(), polygons, "polygons of a facet");
       facet.polygons.push_back(read_corners().corners);
     }
-    std::vector<Place> places;
+    std::vector<FileLocation> places;
     while (std::cmp_less(facet.holes.size(), holes)) {
       const text::Line& row = next_row(lines_, 4, facet.holes.size(), holes, "holes of a facet");
       require_fields(row, 4, 4);
@@ -133,12 +133,12 @@ class SpacePolyReader {
     throw Error(ErrorCode::unknown_id,
                 "a corner is point " + id_text(id) + ", which is not there; there are " +
                     std::to_string(out_.plc.points.size()) + " points in " + out_.point_file,
-                line.place(i), {id});
+                line.place(i), {point_named(id)});
   }
 
   // A facet's first part has its number; others are numbered after all facets.
   void add(const FacetParts& facet, std::int64_t marker, FilePosition position,
-           const std::vector<Place>& holes) {
+           const std::vector<FileLocation>& holes) {
     const FacetPolygons all = polygons_of(facet, places_);
     if (!all.useless_holes.empty()) {
       throw Error(ErrorCode::bad_syntax, "a hole of a facet lies in none of its polygons",

@@ -23,7 +23,7 @@ class Corners {
  public:
   explicit Corners(const std::string& path) : out_{{path, {}, {}, {}}, {}} {}
 
-  void add(const Point<3>& at, const Place& place) {
+  void add(const Point<3>& at, const FileLocation& place) {
     const auto number = static_cast<std::uint32_t>(out_.rows.points.size());
     const auto [it, fresh] = number_at_.try_emplace(unsigned_zeros(at), number);
     if (fresh) add_vertex(out_.rows, at, place);

@@ -50,7 +50,7 @@ Surface surface_of(VtkGrid grid) {
   const VtkArray* const markers = VtkGrid::find_integers(grid.cell_data, "marker");
   const VtkArray* const ids = ids_of(grid, faces);
   for (const std::size_t i : faces) {
-    const Place& place = grid.connectivity.place;
+    const FileLocation& place = grid.connectivity.place;
     Surface::Face& face = surface.faces.emplace_back();
     face.corners = corners_of(grid, i);
     face.position = {place.line, place.column};

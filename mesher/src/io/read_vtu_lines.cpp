@@ -25,7 +25,7 @@ std::int64_t marker_of(const VtkArray* markers, std::size_t i) {
 
 void add_cell(const VtkGrid& grid, std::size_t i, std::int64_t marker,
               const std::vector<FeatureId>& ids, PslgBuilder& build) {
-  const Place& place = grid.connectivity.place;
+  const FileLocation& place = grid.connectivity.place;
   const VtkCell type = grid.type(i);
   if (type == VtkCell::vertex || type == VtkCell::poly_vertex) return;  // all points are input
   if (type != VtkCell::line && type != VtkCell::poly_line) {
@@ -56,7 +56,7 @@ PslgFile read_vtu_lines(const std::string& path) {
   note_unused(grid.point_data, {point_markers}, grid.notes);
   note_unused(grid.cell_data, {cell_markers}, grid.notes);
   PslgBuilder build(path);
-  for (const Note& note : grid.notes.notes()) build.note(note.text, note.place);
+  for (const Note& note : grid.notes.notes()) build.note(note.text, note.location);
   const FilePosition position{grid.points.place.line, grid.points.place.column};
   std::vector<FeatureId> ids;
   for (std::size_t i = 0; i < grid.point_count(); ++i) {

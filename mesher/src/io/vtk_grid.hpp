@@ -32,7 +32,7 @@ struct VtkArray {
   bool is_integral = false;
   std::vector<double> reals;           ///< empty where integral
   std::vector<std::int64_t> integers;  ///< empty where not
-  Place place;
+  FileLocation place;
 
   [[nodiscard]] std::size_t size() const { return is_integral ? integers.size() : reals.size(); }
 };

@@ -47,24 +47,23 @@ std::string meeting(const Segment& s, const std::set<SegmentHandle>& others,
 }
 
 // The leaf's line, then the first of the others.
-std::vector<FeatureId> lines_of(const Leaf& leaf, const std::set<SegmentHandle>& others,
-                                const Names& names) {
+std::vector<mesher::Feature> lines_of(const Leaf& leaf, const std::set<SegmentHandle>& others,
+                                      const Names& names) {
   constexpr std::size_t kMost = 4;
   std::vector<FeatureId> ids{names.line(leaf.piece.segment)};
   for (const SegmentHandle s : others) ids.push_back(names.line(s));
   std::sort(ids.begin() + 1, ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   ids.resize(std::min(ids.size(), kMost));
-  return ids;
+  std::vector<mesher::Feature> lines;
+  for (const FeatureId id : ids) lines.push_back(line_named(id));
+  return lines;
 }
 
-std::string list(const std::vector<FeatureId>& ids) {
-  if (ids.empty()) return "lines";
+std::string list(const std::vector<mesher::Feature>& lines) {
+  if (lines.empty()) return "lines";
   std::string text;
-  for (const FeatureId id : ids) {
-    text += text.empty() ? "segment " : ", segment ";
-    text += std::to_string(static_cast<std::int64_t>(id));
-  }
+  for (const mesher::Feature& line : lines) text += (text.empty() ? "" : ", ") + text_of(line);
   return text;
 }
 
@@ -72,14 +71,14 @@ std::string list(const std::vector<FeatureId>& ids) {
 
 Error lost_edge(const Leaf& leaf, const std::set<SegmentHandle>& others,
                 const SegmentPool& segments, const Names* names) {
-  std::vector<FeatureId> ids;
-  if (names != nullptr) ids = lines_of(leaf, others, *names);
-  std::string text = list(ids) + " meet ";
+  std::vector<mesher::Feature> lines;
+  if (names != nullptr) lines = lines_of(leaf, others, *names);
+  std::string text = list(lines) + " meet ";
   text += others.empty() ? "at angles " : meeting(*leaf.segment, others, segments);
   return Error(ErrorCode::too_close,
                text + "too small for double precision: no edge joins " + place_text(leaf.lo) +
                    " and " + place_text(leaf.hi),
-               {}, std::move(ids));
+               {}, std::move(lines), {position_of(leaf.lo), position_of(leaf.hi)});
 }
 
 void LostEdge::require_none(const VertexSearch<2>& vertices, const SegmentPool& segments,

@@ -27,20 +27,14 @@ std::size_t NearFeatures::count_within(double radius) const noexcept {
 }
 
 NamedFeatures NearFeatures::named(const Names& names) const {
-  std::vector<std::pair<bool, FeatureId>> features;  // segments of a polyline have one id
-  for (const Feature& f : all()) {
-    const bool line = f.segment != 0;
-    const std::pair feature(line, line ? names.line(f.segment) : names.point(f.point));
-    if (std::find(features.begin(), features.end(), feature) == features.end()) {
-      features.push_back(feature);
-    }
-  }
   NamedFeatures named;
-  for (const auto& [line, id] : features) {
-    named.text += named.text.empty() ? "" : ", ";
-    named.text += line ? "segment " : "point ";
-    named.text += std::to_string(static_cast<std::int64_t>(id));
-    named.ids.push_back(id);
+  auto& features = named.features;  // segments of a polyline have one id
+  for (const Feature& f : all()) {
+    const mesher::Feature feature =
+        f.segment != 0 ? line_named(names.line(f.segment)) : point_named(names.point(f.point));
+    if (std::find(features.begin(), features.end(), feature) != features.end()) continue;
+    named.text += (features.empty() ? "" : ", ") + text_of(feature);
+    features.push_back(feature);
   }
   if (named.text.empty()) named.text = "features";
   return named;

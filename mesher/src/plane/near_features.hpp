@@ -18,8 +18,8 @@ namespace mesher::detail {
 
 /// Features as a message names them.
 struct NamedFeatures {
-  std::string text;            ///< "point 3, segment 7"; "features" if they have no names
-  std::vector<FeatureId> ids;  ///< in this order
+  std::string text;  ///< "point 3, segment 7"; "features" if they have no names
+  std::vector<mesher::Feature> features;  ///< in this order
 };
 
 /// The three nearest features to a place, of those that it is shown; of equally near ones the first

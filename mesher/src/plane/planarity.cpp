@@ -88,58 +88,62 @@ void fail_repeated(FeatureId line, FeatureId other, const Segment& s) {
   throw Error(ErrorCode::repeated_segment,
               "segment " + text(line) + " is " + other_text(line, other) + " again, from " +
                   place_text(s.place_a) + " to " + place_text(s.place_b),
-              {}, {line, other});
+              {}, {line_named(line), line_named(other)},
+              {position_of(s.place_a), position_of(s.place_b)});
 }
 
 void fail_zero_length(FeatureId line, FeatureId point) {
   throw Error(ErrorCode::zero_length,
               "segment " + text(line) + " goes from point " + text(point) + " to itself", {},
-              {line, point});
+              {line_named(line), point_named(point)});
 }
 
 VertexHandle fail_no_end(FeatureId point, FeatureId line) {
   throw Error(ErrorCode::unknown_id,
               "point " + text(point) + ", an end of segment " + text(line) + ", is not there", {},
-              {point, line});
+              {point_named(point), line_named(line)});
 }
 
 Error too_close_to_segment(const PieceRef& piece, Witness witness, const Names* names,
                            const VertexPool<2>& points, const SegmentPool& segments) {
-  std::vector<FeatureId> ids;
+  std::vector<mesher::Feature> features;
   std::string segment = "a segment";
   std::string other = "another";
   if (names != nullptr) {
-    ids.push_back(names->line(piece.piece.segment));
-    segment = "segment " + text(ids[0]);
+    features.push_back(line_named(names->line(piece.piece.segment)));
+    segment = text_of(features[0]);
   }
   if (witness.point() != 0) {
-    if (names != nullptr) ids.push_back(names->point(witness.point()));
-    other = "point " + (names != nullptr ? text(ids.back()) + " " : std::string()) +
-            place_text(points[witness.point()].p);
+    other = "point ";
+    if (names != nullptr) {
+      features.push_back(point_named(names->point(witness.point())));
+      other = text_of(features.back()) + " ";
+    }
+    other += place_text(points[witness.point()].p);
   } else if (names != nullptr && witness.segment() != 0) {
-    ids.push_back(names->line(segments[witness.segment()].self));
-    other = "segment " + text(ids.back());
+    features.push_back(line_named(names->line(segments[witness.segment()].self)));
+    other = text_of(features.back());
   }
   return Error(ErrorCode::too_close,
                segment + " is too close to " + other + " near " + place_text(piece.lo()) +
                    " for double precision",
-               {}, std::move(ids));
+               {}, std::move(features), {position_of(piece.lo())});
 }
 
 Error too_close_vertices(const Vertex<2>& v, const Vertex<2>& w, const Names& names,
                          const Roles& roles) {
-  std::vector<FeatureId> ids;
+  std::vector<mesher::Feature> features;
   const auto feature = [&](const Vertex<2>& x) -> std::string {
-    if (x.input) return "point " + text(ids.emplace_back(names.point(x.self)));
+    if (x.input) return text_of(features.emplace_back(point_named(names.point(x.self))));
     if (!x.on_segment) return "a segment";
-    return "segment " + text(ids.emplace_back(names.line(roles[x.self].on)));
+    return text_of(features.emplace_back(line_named(names.line(roles[x.self].on))));
   };
   const std::string first = feature(v) + " needs a vertex at " + place_text(v.p);
   const std::string second = feature(w) + " one at " + place_text(w.p);
   return Error(ErrorCode::too_close,
                "features are too close to each other: " + first + ", " + second +
                    "; these share a cell of 2^-50 of the meshing box's side",
-               {}, std::move(ids));
+               {}, std::move(features), {position_of(v.p), position_of(w.p)});
 }
 
 namespace {
@@ -147,7 +151,7 @@ namespace {
 [[noreturn]] void fail_on_segment(FeatureId point, const Point<2>& p, FeatureId line) {
   throw Error(ErrorCode::point_on_segment,
               "point " + text(point) + " " + place_text(p) + " lies on segment " + text(line), {},
-              {point, line});
+              {point_named(point), line_named(line)}, {position_of(p)});
 }
 
 // An end of s on t is named as a point on a segment, whichever of the two is looked at first.
@@ -174,13 +178,15 @@ void fail(const Conflict& c, const Names& names) {
     throw Error(ErrorCode::crossing_segments,
                 "segment " + text(line) + " crosses " + other_text(line, other) + " at " +
                     place_text(crossing(*c.segment, *c.other)),
-                {}, {line, other});
+                {}, {line_named(line), line_named(other)},
+                {position_of(crossing(*c.segment, *c.other))});
   }
+  const Point<2> from = std::max(c.segment->place_a, c.other->place_a);
+  const Point<2> to = std::min(c.segment->place_b, c.other->place_b);
   throw Error(ErrorCode::overlapping_segments,
               "segment " + text(line) + " overlaps " + other_text(line, other) + " from " +
-                  place_text(std::max(c.segment->place_a, c.other->place_a)) + " to " +
-                  place_text(std::min(c.segment->place_b, c.other->place_b)),
-              {}, {line, other});
+                  place_text(from) + " to " + place_text(to),
+              {}, {line_named(line), line_named(other)}, {position_of(from), position_of(to)});
 }
 
 }  // namespace mesher::detail

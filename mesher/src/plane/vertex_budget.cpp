@@ -38,15 +38,15 @@ Error too_many_vertices(const VertexSearch<2>& vertices, const Names* names, std
 
 Error too_many_vertices(const std::map<FeatureId, std::size_t>& on_lines, std::size_t most) {
   std::string text = "more than " + std::to_string(most) + " vertices are needed";
-  std::vector<FeatureId> ids;
+  std::vector<mesher::Feature> lines;
   for (const auto& [count, id] : lines_by_vertices(on_lines)) {
-    text += (ids.empty() ? "; so far " : " and ") + std::to_string(count);
-    if (ids.empty()) text += " are";
-    text += " on segment " + std::to_string(static_cast<std::int64_t>(id));
-    ids.push_back(id);
-    if (ids.size() == 2) break;
+    text += (lines.empty() ? "; so far " : " and ") + std::to_string(count);
+    if (lines.empty()) text += " are";
+    lines.push_back(line_named(id));
+    text += " on " + text_of(lines.back());
+    if (lines.size() == 2) break;
   }
-  return Error(ErrorCode::too_many, text, {}, std::move(ids));
+  return Error(ErrorCode::too_many, text, {}, std::move(lines));
 }
 
 }  // namespace mesher::detail

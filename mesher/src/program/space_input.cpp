@@ -12,9 +12,10 @@ std::string text(FeatureId id) { return std::to_string(static_cast<std::int64_t>
 }  // namespace
 
 void require_loops(const mesher::Polygon& polygon) {
-  const auto fail = [&](const std::string& what, std::vector<FeatureId> ids) {
-    ids.insert(ids.begin(), polygon.id);
-    throw Error(ErrorCode::bad_polygon, "polygon " + text(polygon.id) + " " + what, {}, ids);
+  const auto fail = [&](const std::string& what, std::vector<mesher::Feature> features) {
+    features.insert(features.begin(), polygon_named(polygon.id));
+    throw Error(ErrorCode::bad_polygon, "polygon " + text(polygon.id) + " " + what, {},
+                std::move(features));
   };
   if (polygon.loops.empty()) fail("has no loop", {});
   for (const auto& loop : polygon.loops) {
@@ -23,7 +24,7 @@ void require_loops(const mesher::Polygon& polygon) {
     std::sort(sorted.begin(), sorted.end());
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice != sorted.end()) {
-      fail("has a loop that goes along point " + text(*twice) + " twice", {*twice});
+      fail("has a loop that goes along point " + text(*twice) + " twice", {point_named(*twice)});
     }
   }
   for (const auto& [a, b] : polygon.edges) {
@@ -31,14 +32,14 @@ void require_loops(const mesher::Polygon& polygon) {
     throw Error(
         ErrorCode::zero_length,
         "an edge in polygon " + text(polygon.id) + " goes from point " + text(a) + " to itself", {},
-        {polygon.id, a});
+        {polygon_named(polygon.id), point_named(a)});
   }
 }
 
-void fail_unknown_point(FeatureId point, const std::string& what, FeatureId user) {
+void fail_unknown_point(FeatureId point, const std::string& what, const mesher::Feature& user) {
   throw Error(ErrorCode::unknown_id,
-              "point " + text(point) + ", " + what + " " + text(user) + ", is not there", {},
-              {point, user});
+              "point " + text(point) + ", " + what + " " + text_of(user) + ", is not there", {},
+              {point_named(point), user});
 }
 
 void require_new(const Edge* there, FeatureId id, const SpaceNames& names) {
@@ -48,7 +49,8 @@ void require_new(const Edge* there, FeatureId id, const SpaceNames& names) {
               "segment " + text(id) + " is " +
                   (*other == id ? "itself" : "segment " + text(*other)) + " again, from " +
                   place_text(there->place_a) + " to " + place_text(there->place_b),
-              {}, {id, *other});
+              {}, {line_named(id), line_named(*other)},
+              {position_of(there->place_a), position_of(there->place_b)});
 }
 
 void require_new(const Polygon& record, FeatureId id, const SpaceNames& names) {
@@ -57,7 +59,7 @@ void require_new(const Polygon& record, FeatureId id, const SpaceNames& names) {
   throw Error(ErrorCode::repeated_polygon,
               "polygon " + text(id) + " is polygon " + text(other) +
                   " again; its first corner is at " + place_text(record.places.front()),
-              {}, {id, other});
+              {}, {polygon_named(id), polygon_named(other)}, {position_of(record.places.front())});
 }
 
 }  // namespace mesher::detail

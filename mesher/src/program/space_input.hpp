@@ -22,8 +22,9 @@ void require_complex(const std::vector<Point<3>>& points,
                      const std::vector<mesher::Polygon>& polygons, const Options<3>& options,
                      const std::vector<FeatureId>& ids);
 
-/// Throws: Error(unknown_id). `what`: "an end of segment"; `user`: its id.
-[[noreturn]] void fail_unknown_point(FeatureId point, const std::string& what, FeatureId user);
+/// Throws: Error(unknown_id). `what`: "an end of", of `user`.
+[[noreturn]] void fail_unknown_point(FeatureId point, const std::string& what,
+                                     const mesher::Feature& user);
 
 /// What the polygon is by handles. `handle_of(id)`: 0 if there is no such point.
 /// Throws: Error(unknown_id).
@@ -31,18 +32,18 @@ template <class HandleOf>
 [[nodiscard]] PolygonParts parts_of(const mesher::Polygon& polygon, HandleOf&& handle_of) {
   const auto handle = [&](FeatureId id, const char* what) {
     const VertexHandle v = handle_of(id);
-    if (v == 0) fail_unknown_point(id, what, polygon.id);
+    if (v == 0) fail_unknown_point(id, what, polygon_named(polygon.id));
     return v;
   };
   PolygonParts parts;
   for (const auto& loop : polygon.loops) {
     auto& corners = parts.loops.emplace_back();
-    for (const FeatureId id : loop) corners.push_back(handle(id, "a corner of polygon"));
+    for (const FeatureId id : loop) corners.push_back(handle(id, "a corner of"));
   }
   for (const auto& [a, b] : polygon.edges) {
-    parts.edges.emplace_back(handle(a, "in polygon"), handle(b, "in polygon"));
+    parts.edges.emplace_back(handle(a, "in"), handle(b, "in"));
   }
-  for (const FeatureId id : polygon.points) parts.points.push_back(handle(id, "in polygon"));
+  for (const FeatureId id : polygon.points) parts.points.push_back(handle(id, "in"));
   return parts;
 }
 

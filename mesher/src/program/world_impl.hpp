@@ -266,7 +266,7 @@ void World<S, 2>::fail_near(const Point<2>& p, double radius, const std::string&
   throw Error(ErrorCode::too_close,
               near.text + " are too close to each other for double precision near " +
                   place_text(p) + ": " + why,
-              {}, std::move(near.ids));
+              {}, std::move(near.features), {position_of(p)});
 }
 
 }  // namespace mesher::detail

@@ -57,7 +57,7 @@ template <int D>
       try {
         check_point(points[i].at, domain, points[i].id);
       } catch (const Error& error) {
-        throw error.at(file.place_of_point(i));
+        throw error.at(file.location_of_point(i));
       }
     }
   };

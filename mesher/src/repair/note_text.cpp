@@ -111,8 +111,8 @@ class Words {
 
 template <int D>
 std::string RepairNoteOf<D>::text(const std::string& prefix) const {
-  std::string text = place.file;
-  for (const long part : {place.line, place.column}) {
+  std::string text = location.file;
+  for (const long part : {location.line, location.column}) {
     if (!text.empty() && part > 0) text += ':' + std::to_string(part);
   }
   return (text.empty() ? text : text + ": ") + prefix + Words<D>(*this).deed();

@@ -71,7 +71,7 @@ void Redrawing::merge_points() {
   for (const std::size_t i : gone) {
     const Spot s = spots_[i];
     if (markers[s] == 0) markers[s] = points[i].marker;
-    note(RepairKind::merged_points, {}, {points[i].id, id(s)}, s, file_.place_of_point(i));
+    note(RepairKind::merged_points, {}, {points[i].id, id(s)}, s, file_.location_of_point(i));
   }
   auto& out = out_.file;
   for (std::size_t i = 0; i < points.size(); ++i) {

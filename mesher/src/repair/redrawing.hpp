@@ -35,7 +35,7 @@ class Redrawing {
     FeatureId id{};
     std::int64_t marker = 0;
     std::vector<double> attributes;
-    Place place;
+    FileLocation place;
     std::set<FeatureId> lines;
   };
 
@@ -44,11 +44,11 @@ class Redrawing {
   [[nodiscard]] FeatureId id(Spot s) {
     return is_new(s) ? news(s).id : file_.pslg.points[keepers_[s]].id;
   }
-  [[nodiscard]] Place place(const Line& line) const {
+  [[nodiscard]] FileLocation place(const Line& line) const {
     return {file_.file, line.position.line, line.position.column};
   }
   void note(RepairKind kind, std::vector<FeatureId> lines, std::vector<FeatureId> points, Spot at,
-            Place place) {
+            FileLocation place) {
     out_.notes.push_back(
         {kind, std::move(lines), std::move(points), drawing_.place(at), std::move(place)});
   }

@@ -96,7 +96,7 @@ std::vector<PolygonParts> settled(const Sheet& sheet, FeatureId polygon, double 
       "polygon " + id + ", which begins at " + place_text(at) +
           ", is too bent to be cut into triangles: its edges cross wherever it is seen from, "
           "and it has holes or many corners",
-      {}, {polygon});
+      {}, {polygon_named(polygon)}, {position_of(at)});
 }
 
 }  // namespace mesher::detail

@@ -87,7 +87,7 @@ void SpaceRedrawing::merge_points() {
                           {},
                           {points[i].id, ids_[v]},
                           drawing_.place(v),
-                          file_.place_of_point(i)});
+                          file_.location_of_point(i)});
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (stays(i)) add_point(drawn_.points[i], points[i].at, file_.points[i]);
@@ -127,7 +127,8 @@ void SpaceRedrawing::add_new_points() {
     RepairNoteOf<3> note{RepairKind::split_at_crossing, {}, {ids_[v]}, drawing_.place(v), {}};
     for (const std::size_t s : segments) note.lines.push_back(segment(s).id);
     for (const std::size_t f : facets) note.polygons.push_back(facet(f).polygon.id);
-    note.place = segments.empty() ? place_of_facet(facets[0]) : place_of_segment(segments[0]);
+    note.location =
+        segments.empty() ? location_of_facet(facets[0]) : location_of_segment(segments[0]);
     markers_[v] = segments.empty() ? facet(facets[0]).marker : segment(segments[0]).marker;
     out_.notes.push_back(std::move(note));
     add_point(v, drawing_.place(v), {});
@@ -188,7 +189,7 @@ void SpaceRedrawing::add_segment(FeatureId id, std::size_t s, const Ends& ends) 
 
 RepairNoteOf<3>& SpaceRedrawing::note_segment(RepairKind kind, std::size_t s, VertexHandle v,
                                               bool names_it) {
-  late_.push_back({kind, {segment(s).id}, {}, drawing_.place(v), place_of_segment(s)});
+  late_.push_back({kind, {segment(s).id}, {}, drawing_.place(v), location_of_segment(s)});
   if (names_it) late_.back().points.push_back(ids_[v]);
   return late_.back();
 }

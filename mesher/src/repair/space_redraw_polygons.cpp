@@ -112,7 +112,7 @@ void SpaceRedrawing::draw_polygons() {
 }
 
 RepairNoteOf<3>& SpaceRedrawing::note_polygon(RepairKind kind, std::size_t f, const Point<3>& at) {
-  late_.push_back({kind, {}, {}, at, place_of_facet(f), {facet(f).polygon.id}});
+  late_.push_back({kind, {}, {}, at, location_of_facet(f), {facet(f).polygon.id}});
   return late_.back();
 }
 

@@ -30,11 +30,11 @@ class SpaceRedrawing {
   [[nodiscard]] const Plc::Facet& facet(std::size_t f) const {
     return plc_.facets[drawn_.facets[f]];
   }
-  [[nodiscard]] Place place_of_segment(std::size_t s) const {
-    return file_.place_of_segment(drawn_.segments[s]);
+  [[nodiscard]] FileLocation location_of_segment(std::size_t s) const {
+    return file_.location_of_segment(drawn_.segments[s]);
   }
-  [[nodiscard]] Place place_of_facet(std::size_t f) const {
-    return file_.place_of_facet(drawn_.facets[f]);
+  [[nodiscard]] FileLocation location_of_facet(std::size_t f) const {
+    return file_.location_of_facet(drawn_.facets[f]);
   }
 
   void merge_points();

@@ -31,11 +31,12 @@ void require_ids(const PlcFile& file) {
   const Plc& plc = file.plc;
   require_distinct_parts(plc, file);
   require_distinct(
-      named("segment", plc.segments, [&](auto i) { return file.place_of_segment(i); }));
+      named(FeatureKind::line, plc.segments, [&](auto i) { return file.location_of_segment(i); }));
   std::vector<mesher::Polygon> polygons;
   std::unordered_map<FeatureId, bool> points;
   for (const auto& p : plc.points) points.emplace(p.id, true);
-  const auto require = [&](FeatureId id, const char* what, FeatureId user, const Place& place) {
+  const auto require = [&](FeatureId id, const char* what, const mesher::Feature& user,
+                           const FileLocation& place) {
     if (points.count(id) > 0) return;
     try {
       detail::fail_unknown_point(id, what, user);
@@ -45,22 +46,23 @@ void require_ids(const PlcFile& file) {
   };
   for (std::size_t i = 0; i < plc.segments.size(); ++i) {
     for (const FeatureId end : {plc.segments[i].from, plc.segments[i].to}) {
-      require(end, "an end of segment", plc.segments[i].id, file.place_of_segment(i));
+      require(end, "an end of", line_named(plc.segments[i].id), file.location_of_segment(i));
     }
   }
   for (std::size_t i = 0; i < plc.facets.size(); ++i) {
     const mesher::Polygon& f = plc.facets[i].polygon;
-    const Place place = file.place_of_facet(i);
+    const FileLocation place = file.location_of_facet(i);
     for (const auto& loop : f.loops) {
-      for (const FeatureId id : loop) require(id, "a corner of polygon", f.id, place);
+      for (const FeatureId id : loop) require(id, "a corner of", polygon_named(f.id), place);
     }
     for (const auto& [a, b] : f.edges) {
-      for (const FeatureId id : {a, b}) require(id, "in polygon", f.id, place);
+      for (const FeatureId id : {a, b}) require(id, "in", polygon_named(f.id), place);
     }
-    for (const FeatureId id : f.points) require(id, "in polygon", f.id, place);
+    for (const FeatureId id : f.points) require(id, "in", polygon_named(f.id), place);
     polygons.push_back({f.id, {}});
   }
-  require_distinct(named("polygon", polygons, [&](auto i) { return file.place_of_facet(i); }));
+  require_distinct(
+      named(FeatureKind::polygon, polygons, [&](auto i) { return file.location_of_facet(i); }));
 }
 
 template <class Parts, class IdOf>

@@ -26,7 +26,7 @@ std::vector<ByFeature> features_by_vertices(const VertexSearch<3>& vertices,
   vertices.pool().for_each([&](const Vertex<3>& v) {
     if (v.alive && v.on_segment) by_handle[vertices.role(v).on].push_back(v.p);
   });
-  std::map<std::pair<FeatureId, std::string>, Places> by_name;
+  std::map<std::pair<FeatureId, bool>, Places> by_name;  // whether it is a segment
   for (const auto& [on, places] : by_handle) {
     const Role role{{}, on};
     const EdgeHandle e = edge_of(role);
@@ -34,14 +34,15 @@ std::vector<ByFeature> features_by_vertices(const VertexSearch<3>& vertices,
     if (!(e != 0 ? store.edges()[e].alive : store.polygons()[f].alive)) continue;
     const Feature feature = e != 0 ? Feature(store.edges()[e]) : Feature(store.polygons()[f]);
     const bool is_segment = e != 0 && names.segment(e).has_value();
-    Places& all = by_name[{named(feature, names, store).id, is_segment ? "segment" : "polygon"}];
+    Places& all = by_name[{named(feature, names, store).feature.id, is_segment}];
     all.insert(all.end(), places.begin(), places.end());
   }
   std::vector<ByFeature> features;
   for (auto& [key, places] : by_name) {
     if (places.size() < 2) continue;
-    const std::string id = std::to_string(static_cast<std::int64_t>(key.first));
-    features.push_back({{key.second + ' ' + id, key.first}, std::move(places)});
+    const auto [id, is_segment] = key;
+    const mesher::Feature name = is_segment ? line_named(id) : polygon_named(id);
+    features.push_back({{text_of(name), name}, std::move(places)});
   }
   std::stable_sort(features.begin(), features.end(), [](const ByFeature& a, const ByFeature& b) {
     return a.second.size() > b.second.size();
@@ -88,19 +89,24 @@ Point<3> densest(Places places) {
 Error too_many_vertices(const VertexSearch<3>& vertices, const SpaceNames* names,
                         const FeatureStore& store, std::size_t most) {
   std::string text = "more than " + std::to_string(most) + " vertices are needed";
-  std::vector<FeatureId> ids;
+  std::vector<mesher::Feature> features;
   Places all;
   if (names != nullptr) {
     for (const auto& [name, places] : features_by_vertices(vertices, *names, store)) {
-      text += (ids.empty() ? "; so far " : " and ") + std::to_string(places.size());
-      text += (ids.empty() ? " are on " : " on ") + name.text;
-      ids.push_back(name.id);
+      text += (features.empty() ? "; so far " : " and ") + std::to_string(places.size());
+      text += (features.empty() ? " are on " : " on ") + name.text;
+      features.push_back(name.feature);
       all.insert(all.end(), places.begin(), places.end());
-      if (ids.size() == 2) break;
+      if (features.size() == 2) break;
     }
   }
-  if (!all.empty()) text += ", the closest to each other near " + place_text(densest(all));
-  return Error(ErrorCode::too_many, text, {}, std::move(ids));
+  std::vector<Position> places;
+  if (!all.empty()) {
+    const Point<3> at = densest(std::move(all));
+    text += ", the closest to each other near " + place_text(at);
+    places.push_back(at);
+  }
+  return Error(ErrorCode::too_many, text, {}, std::move(features), std::move(places));
 }
 
 }  // namespace mesher::detail

@@ -50,11 +50,11 @@ struct SpaceConflict {
 
 class SpaceNames;
 
-/// A feature as a message names it; `id` is that of the segment or polygon that it is, or belongs
-/// to: of several polygons with an edge the least.
+/// A feature as a message names it; `feature` is the segment or polygon that it is, or belongs to:
+/// of several polygons with an edge the least.
 struct NamedFeature {
   std::string text;
-  FeatureId id{};
+  mesher::Feature feature;
 };
 [[nodiscard]] NamedFeature named(const Feature& f, const SpaceNames& names,
                                  const FeatureStore& store);

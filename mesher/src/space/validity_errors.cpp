@@ -40,7 +40,7 @@ Words words_of(SpaceConflict::Kind kind) {
 }
 
 [[noreturn]] void fail_polygon(ErrorCode code, FeatureId id, const std::string& what) {
-  throw Error(code, "polygon " + id_text(id) + " " + what, {}, {id});
+  throw Error(code, "polygon " + id_text(id) + " " + what, {}, {polygon_named(id)});
 }
 
 void require_loops_inside(const Polygon& f, FeatureId id) {
@@ -87,21 +87,21 @@ void require_declared_inside(const Polygon& f, FeatureId id, const FeatureStore&
 
 NamedFeature named(const Feature& f, const SpaceNames& names, const FeatureStore& store) {
   if (f.kind() == Feature::Kind::point) {
-    const FeatureId id = names.point(f.handle());
-    return {"point " + id_text(id), id};
+    const mesher::Feature point = point_named(names.point(f.handle()));
+    return {text_of(point), point};
   }
   if (f.kind() == Feature::Kind::polygon) {
-    const FeatureId id = names.polygon(f.handle());
-    return {"polygon " + id_text(id), id};
+    const mesher::Feature polygon = polygon_named(names.polygon(f.handle()));
+    return {text_of(polygon), polygon};
   }
-  if (const auto id = names.segment(f.handle())) return {"segment " + id_text(*id), *id};
+  if (const auto id = names.segment(f.handle())) return {text_of(line_named(*id)), line_named(*id)};
   std::optional<FeatureId> least;
   store.polygons().for_each([&](const Polygon& g) {
     if (!g.alive || !g.has_edge(f.handle())) return;
     if (const FeatureId id = names.polygon(g.self); !least || id < *least) least = id;
   });
-  return {"an edge of polygon " + id_text(least.value_or(FeatureId{})),
-          least.value_or(FeatureId{})};
+  const mesher::Feature polygon = polygon_named(least.value_or(FeatureId{}));
+  return {"an edge of " + text_of(polygon), polygon};
 }
 
 void fail(const SpaceConflict& c, const SpaceNames& names, const FeatureStore& store) {
@@ -112,7 +112,7 @@ void fail(const SpaceConflict& c, const SpaceNames& names, const FeatureStore& s
   throw Error(words.code,
               one.text + words.verb + (itself ? "another of it" : other.text) + " at " +
                   place_text(c.at) + words.rest,
-              {}, {one.id, other.id});
+              {}, {one.feature, other.feature}, {position_of(c.at)});
 }
 
 void require_shape(const Polygon& f, FeatureId id, const FeatureStore& store) {

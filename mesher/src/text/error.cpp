@@ -1,6 +1,8 @@
 // The words and exit codes of errors, and the one line that a person reads.
 #include "mesher/error.hpp"
 
+#include <array>
+
 namespace mesher {
 namespace {
 
@@ -95,12 +97,17 @@ CodeRow row(ErrorCode code) noexcept {
   return {"unknown", ExitCode::bug};
 }
 
-std::string place_text(const Place& place) {
-  if (place.file.empty()) return {};
-  std::string text = place.file + ":";
-  if (place.line > 0) text += std::to_string(place.line) + ":";
-  if (place.line > 0 && place.column > 0) text += std::to_string(place.column) + ":";
+// "FILE:LINE:COL: ", as far as known.
+std::string prefix_of(const FileLocation& location) {
+  if (location.file.empty()) return {};
+  std::string text = location.file + ":";
+  if (location.line > 0) text += std::to_string(location.line) + ":";
+  if (location.line > 0 && location.column > 0) text += std::to_string(location.column) + ":";
   return text + " ";
+}
+
+bool same_line(const FileLocation& a, const FileLocation& b) {
+  return a.file == b.file && a.line == b.line;
 }
 
 }  // namespace
@@ -109,12 +116,57 @@ std::string_view code_name(ErrorCode code) noexcept { return row(code).name; }
 
 ExitCode exit_code(ErrorCode code) noexcept { return row(code).exit; }
 
-Error::Error(ErrorCode code, std::string message, Place place, std::vector<FeatureId> ids)
-    : std::runtime_error(place_text(place) + "error[" + std::string(code_name(code)) +
+std::string text_of(const FileLocation& location) {
+  return location.line > 0 ? location.file + ":" + std::to_string(location.line) : location.file;
+}
+
+std::string text_of(const Feature& feature) {
+  static constexpr std::array<const char*, 6> kNames{"",         "point ", "segment ",
+                                                     "polygon ", "hole ",  "region "};
+  if (feature.kind == FeatureKind::none) return {};
+  return kNames[static_cast<std::size_t>(feature.kind)] +
+         std::to_string(static_cast<std::int64_t>(feature.id));
+}
+
+Error::Error(ErrorCode code, std::string message, FileLocation location,
+             std::vector<Feature> features, std::vector<Position> places)
+    : std::runtime_error(prefix_of(location) + "error[" + std::string(code_name(code)) +
                          "]: " + message),
       code_(code),
       message_(std::move(message)),
-      place_(std::move(place)),
-      ids_(std::move(ids)) {}
+      location_(std::move(location)),
+      features_(std::move(features)),
+      places_(std::move(places)) {}
+
+Error Error::changed(std::string message, FileLocation location) const {
+  Error error(code_, std::move(message), std::move(location), features_, places_);
+  error.locations_ = locations_;
+  return error;
+}
+
+Error Error::with_locations(std::vector<FileLocation> locations) const {
+  Error error = *this;
+  error.locations_ = std::move(locations);
+  return error;
+}
+
+Error located(const Error& error, const std::function<FileLocation(const Feature&)>& location_of) {
+  FileLocation blamed = error.location();
+  std::vector<FileLocation> locations;
+  std::string others;
+  for (const Feature& feature : error.features()) {
+    const FileLocation& stands = locations.emplace_back(location_of(feature));
+    if (stands.line == 0 || same_line(stands, blamed)) continue;
+    if (blamed.line == 0) {
+      blamed = stands;
+    } else {
+      others += (others.empty() ? " (" : ", ") + text_of(feature) + ": " + text_of(stands);
+    }
+  }
+  if (!others.empty()) others += ")";
+  return error.with_message(error.message() + others)
+      .at(std::move(blamed))
+      .with_locations(std::move(locations));
+}
 
 }  // namespace mesher

@@ -60,7 +60,7 @@ class Line {
 
   /// Where field i begins, or the end of the last field.
   [[nodiscard]] FilePosition position(std::size_t i) const;
-  [[nodiscard]] Place place(std::size_t i) const {
+  [[nodiscard]] FileLocation place(std::size_t i) const {
     const FilePosition found = position(i);
     return {file_, found.line, found.column};
   }
@@ -130,7 +130,7 @@ class Source {
 
   /// Where a part of the content begins. Cost: O(log n); O(n) the first time.
   [[nodiscard]] FilePosition position(std::string_view at) const;
-  [[nodiscard]] Place place(std::string_view at) const {
+  [[nodiscard]] FileLocation place(std::string_view at) const {
     const FilePosition found = position(at);
     return {file_, found.line, found.column};
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "delaunay_case.hpp"
+#include "feature_ids.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/pslg.hpp"
 
@@ -219,7 +220,7 @@ TEMPLATE_TEST_CASE_SIG("numbers that are none, or out of range, are refused", "[
     try {
       static_cast<void>(mesher::delaunay<D>(points));
     } catch (const Error& e) {
-      CHECK(e.ids() == std::vector{mesher::FeatureId{8}});
+      CHECK(support::ids_of(e) == std::vector{mesher::FeatureId{8}});
       CHECK_THAT(e.what(), Catch::Contains("point 8"));
     }
   }

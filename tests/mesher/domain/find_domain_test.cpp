@@ -6,6 +6,7 @@
 #include <map>
 #include <queue>
 
+#include "feature_ids.hpp"
 #include "mesher/check.hpp"
 #include "mesher/domain.hpp"
 #include "mesher/generate.hpp"
@@ -153,7 +154,7 @@ TEST_CASE("seeds that have no region of their own are named, and change nothing"
   CHECK(kept(holed) == 0);
   const mesher::Error error = error_of(holed.faults[0]);
   CHECK(error.code() == mesher::ErrorCode::bad_seed);
-  CHECK(error.ids() == std::vector{FeatureId{9}, FeatureId{7}});
+  CHECK(support::ids_of(error) == std::vector{FeatureId{9}, FeatureId{7}});
 }
 
 TEST_CASE("where all is kept a region seed may be anywhere in it") {
@@ -181,7 +182,7 @@ TEST_CASE("seeds that are none are refused by name") {
   const WalledGrid grid(4);
   const auto refused = [&](const std::vector<Seed>& seeds) {
     const mesher::Error error = support::error_of([&] { domain_of(grid, {}, seeds); });
-    CHECK(error.ids() == std::vector{FeatureId{6}});
+    CHECK(support::ids_of(error) == std::vector{FeatureId{6}});
     return error.code();
   };
   using mesher::ErrorCode;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "edit_sequence.hpp"
+#include "feature_ids.hpp"
 #include "mesher/mesher.hpp"
 #include "scratch_file.hpp"
 
@@ -136,7 +137,7 @@ TEST_CASE("a batch whose points end at one place is refused with their ids, and 
   const auto refused = [&](ErrorCode code, std::vector<FeatureId> ids) {
     const mesher::Error error = error_of([&] { m.update(); });
     CHECK(error.code() == code);
-    CHECK(error.ids() == ids);
+    CHECK(support::ids_of(error) == ids);
     require_fresh(m, points);
     CHECK(m.update().calls.executed == 0);
   };
@@ -160,15 +161,15 @@ TEST_CASE("a batch whose points end at one place is refused with their ids, and 
 TEST_CASE("a new point needs a place that is free among those announced") {
   Mesher<2> m = with({{1, kA}});
   m.insert(k2, kB);
-  CHECK(error_of([&] { m.insert(k3, kB); }).ids() == std::vector{k3, k2});
-  CHECK(error_of([&] { m.insert(k3, kA); }).ids() == std::vector{k3, k1});
+  CHECK(support::ids_of(error_of([&] { m.insert(k3, kB); })) == std::vector{k3, k2});
+  CHECK(support::ids_of(error_of([&] { m.insert(k3, kA); })) == std::vector{k3, k1});
   CHECK(error_of([&] { m.insert(k2, kC); }).code() == ErrorCode::repeated_id);
   m.remove(k2);
   CHECK(error_of([&] { m.move(k2, kC); }).code() == ErrorCode::unknown_id);
   m.insert(k3, kB);
   m.remove(k1);
   m.insert(k4, kA);
-  CHECK(error_of([&] { m.remove(k1); }).ids() == std::vector{k1});
+  CHECK(support::ids_of(error_of([&] { m.remove(k1); })) == std::vector{k1});
   m.update();
   require_fresh(m, {{3, kB}, {4, kA}});
 }

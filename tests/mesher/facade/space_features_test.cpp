@@ -61,7 +61,7 @@ Refused refused(Mesher<3>& m) {
     CHECK(m.polygons() == polygons);
     CHECK(m.lines() == lines);
     m.check_invariants();
-    return {e.code(), e.ids(), e.message()};
+    return {e.code(), support::ids_of(e), e.message()};
   }
   FAIL("update() has not thrown");
   return {};

@@ -108,7 +108,7 @@ ErrorCode refusal(const std::string& name, const std::string& content) {
   try {
     (void)read(folder, name, content);
   } catch (const mesher::Error& error) {
-    CHECK(error.place().file.substr(0, 1) == "/");
+    CHECK(error.location().file.substr(0, 1) == "/");
     return error.code();
   }
   FAIL(name << " is read");

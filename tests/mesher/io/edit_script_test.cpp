@@ -97,9 +97,9 @@ TEST_CASE("an edit carries its id, its point and its place") {
   CHECK(edits[0].kind == Edit::Kind::move);
   CHECK(edits[0].id == FeatureId{-8});
   CHECK(edits[0].point == Point<2>{1, 2});
-  CHECK(edits[0].place.file == path);
-  CHECK(edits[0].place.line == 2);
-  CHECK(edits[0].place.column == 3);
+  CHECK(edits[0].location.file == path);
+  CHECK(edits[0].location.line == 2);
+  CHECK(edits[0].location.column == 3);
   CHECK(script.next().value()[0].kind == Edit::Kind::remove);
   CHECK_FALSE(script.next().has_value());
 }
@@ -242,9 +242,9 @@ TEST_CASE("an edit of a seed carries its place, attribute and limit; a limit of 
   CHECK_FALSE(next().max_measure.has_value());
   CHECK_FALSE(next().max_measure.has_value());
   const Edit hole = next();
-  CHECK(featured(hole.kind) == mesher::Featured::hole);
+  CHECK(hole.feature().kind == mesher::FeatureKind::hole);
   CHECK(hole.point == Point<2>{3, 4});
-  CHECK(featured(next().kind) == mesher::Featured::region);
+  CHECK(next().feature().kind == mesher::FeatureKind::region);
 }
 
 TEST_CASE("an edit of limits carries what they are and where") {

@@ -66,7 +66,7 @@ TEST_CASE("a .node file is read with comments, attributes, markers, any ids and 
   CHECK(file.points == std::vector<Point<2>>{{0.5, 1e-3}, {1, 2}, {-0.25, 0}});
   CHECK(file.lines == std::vector<long>{4, 5, 6});
   CHECK_FALSE(std::signbit(file.points[2][1]));
-  CHECK(file.place(1).line == 5);
+  CHECK(file.location(1).line == 5);
 }
 
 TEST_CASE("a .node header may stop after the count, and the count may be 0") {

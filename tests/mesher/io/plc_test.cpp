@@ -60,8 +60,8 @@ TEST_CASE("A .poly file says points, facets, segments, holes and regions, with t
   REQUIRE(f.plc.segments == std::vector<Plc::Segment>{{id(1), id(0), id(3), 6}});
   REQUIRE(f.plc.holes == std::vector<Plc::Hole>{{id(1), {0.1, 0.1, 0.1}}});
   REQUIRE(f.plc.regions == std::vector<Plc::Region>{{id(2), {0.2, 0.2, 0.2}, 9, 0.25}});
-  REQUIRE(f.place_of_facet(1).line == 13);
-  REQUIRE(f.place_of_segment(0).line == 11);
+  REQUIRE(f.location_of_facet(1).line == 13);
+  REQUIRE(f.location_of_segment(0).line == 11);
 }
 
 TEST_CASE("A .poly file without points takes those of the .node file beside it") {
@@ -70,7 +70,7 @@ TEST_CASE("A .poly file without points takes those of the .node file beside it")
   const PlcFile f = mesher::read_plc(folder.write("a.poly", "0 3 0 0\n1\n1\n3 10 11 12\n0\n"));
   REQUIRE(f.plc.points.size() == 3);
   REQUIRE(f.plc.facets[0].polygon.loops == Loops{ids({10, 11, 12})});
-  REQUIRE(f.place_of_point(0).file == f.point_file);
+  REQUIRE(f.location_of_point(0).file == f.point_file);
 }
 
 TEST_CASE("A .smesh file has one polygon on a line, which may go on") {
@@ -212,27 +212,27 @@ TEST_CASE("Surfaces are read with a polygon for each face") {
   const PlcFile off = read("a.off", "OFF\n5 2 0\n" + vertices + "4 0 1 2 3\n3 0 1 4 0.5 0.5\n");
   REQUIRE(off.plc.points.size() == 5);
   REQUIRE(loops_of(off) == faces);
-  REQUIRE(off.place_of_facet(1).line == 9);
+  REQUIRE(off.location_of_facet(1).line == 9);
   REQUIRE(off.notes.size() == 1);
   const PlcFile obj = read("a.obj",
                            "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1 2/2 3/3 4\nv 0 0 1\ng x\n"
                            "f -5 2 -1\n");
   REQUIRE(loops_of(obj) == faces);
-  REQUIRE(obj.place_of_facet(1).line == 8);
+  REQUIRE(obj.location_of_facet(1).line == 8);
   const std::string header =
       "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
       "property float z\nelement face 2\nproperty uchar red\n"
       "property list uchar int vertex_indices\nend_header\n";
   const PlcFile ply = read("a.ply", header + vertices + "9 4 0 1 2 3\n9 3 0 1 4\n");
   REQUIRE(loops_of(ply) == faces);
-  REQUIRE(ply.place_of_facet(1).line == 17);
+  REQUIRE(ply.location_of_facet(1).line == 17);
   const PlcFile stl = read("a.stl",
                            "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
                            "vertex 1 1 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
                            "vertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n"
                            "endsolid\n");
   REQUIRE(loops_of(stl) == Loops{ids({1, 2, 3}), ids({1, 2, 4})});
-  REQUIRE(stl.place_of_facet(1).line == 11);
+  REQUIRE(stl.location_of_facet(1).line == 11);
 }
 
 TEST_CASE("Faces of grids are polygons with their markers, and with their ids if all differ") {

@@ -122,13 +122,13 @@ TEST_CASE("a .poly file is read with markers, attributes, holes, regions, commen
   CHECK(pslg.regions == std::vector<Pslg::Region>{{id(0), {2, 2}, 17, 0.25},
                                                   {id(1), {3, 3}, -2.5, std::nullopt},
                                                   {id(2), {3, 1}, 4, std::nullopt}});
-  CHECK(file.place_of_point(1).line == 4);
-  CHECK(file.place_of_segment(1).line == 10);
-  CHECK(file.place_of_hole(0).line == 12);
-  CHECK(file.place_of_region(2).line == 16);
+  CHECK(file.location_of_point(1).line == 4);
+  CHECK(file.location_of_segment(1).line == 10);
+  CHECK(file.location_of_hole(0).line == 12);
+  CHECK(file.location_of_region(2).line == 16);
   REQUIRE(file.notes.size() == 1);
-  CHECK(file.notes[0].place.line == 16);
-  CHECK(file.notes[0].place.column == 7);
+  CHECK(file.notes[0].location.line == 16);
+  CHECK(file.notes[0].location.column == 7);
 }
 
 TEST_CASE("a .poly file without points takes those of the .node file beside it") {
@@ -136,10 +136,10 @@ TEST_CASE("a .poly file without points takes those of the .node file beside it")
   folder.write("a.node", "2 2 0 1\n7 1 2 3\n8 4 5 6\n");
   const auto file = mesher::read_pslg(folder.write("a.poly", "0 2 0 1\n1 0\n1 7 8\n0\n"));
   CHECK(file.pslg.points == std::vector<Pslg::Vertex>{{id(7), {1, 2}, 3}, {id(8), {4, 5}, 6}});
-  CHECK(file.place_of_point(1).file == folder.path("a.node"));
-  CHECK(file.place_of_segment(0).file == folder.path("a.poly"));
+  CHECK(file.location_of_point(1).file == folder.path("a.node"));
+  CHECK(file.location_of_segment(0).file == folder.path("a.poly"));
   folder.write("a.node", "2 2 0 1\n7 1 2 3\n8 4 x 6\n");
-  CHECK(error_of([&] { (void)mesher::read_pslg(folder.path("a.poly")); }).place().file ==
+  CHECK(error_of([&] { (void)mesher::read_pslg(folder.path("a.poly")); }).location().file ==
         folder.path("a.node"));
 }
 
@@ -154,7 +154,7 @@ TEST_CASE("markers of a .node file's points are read, and written at the vertice
                                               {id(2), {0.75, 0.25}, 0},
                                               {id(3), {0.5, 0.75}, -7},
                                               {id(4), {0.5, 0.25}, 12}});
-  CHECK(file.place_of_point(2).line == 4);
+  CHECK(file.location_of_point(2).line == 4);
   const mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}};
   const auto mesh = domain_mesh(mesh_statically(g, options), g, mesher::Extent::box).kept;
   mesher::write_mesh(mesh, folder.path("b.node"));
@@ -214,7 +214,7 @@ TEST_CASE("an end that is no point is an error with the ids of the segment and t
   const ScratchFolder folder;
   const auto path = folder.write("a.poly", "2 2 0 0\n1 0 0\n2 1 0\n1 0\n7 1 3\n0\n");
   const auto error = error_of([&] { (void)mesher::read_pslg(path); });
-  CHECK(error.ids() == ids({7, 3}));
+  CHECK(support::ids_of(error) == ids({7, 3}));
   CHECK(error.what() == path +
                             ":5:1: error[unknown_id]: segment 7 ends at point 3, which is not "
                             "there; there are 2 points in " +
@@ -264,7 +264,7 @@ TEST_CASE("an .obj file is read with lines of any length, and ids counted from e
         std::vector<Pslg::Vertex>{{id(1), {0, 0}, 0}, {id(2), {1, 0}, 0}, {id(3), {1, 1}, 0}});
   CHECK(file.pslg.segments == std::vector<Pslg::Segment>{{id(1), id(1), id(2), 0}});
   CHECK(file.pslg.polylines == std::vector<Pslg::Polyline>{{id(2), ids({1, 2, 3, 1}), 0}});
-  CHECK(file.place_of_polyline(0).line == 8);
+  CHECK(file.location_of_polyline(0).line == 8);
   CHECK(notes_of(file) == std::vector<std::string>{
                               "the statement 'mtllib' is not used", "the statement 'o' is not used",
                               "a weight or colour is not used", "a texture or normal is not used"});
@@ -344,7 +344,7 @@ TEST_CASE("every geometry of GeoJSON is read, single, as a feature or in a colle
                        ",\n{\"type\": \"Feature\", \"properties\": null, \"geometry\": null}]}");
   CHECK(points(all) == 3);
   CHECK(all.pslg.polylines.size() == 2);
-  CHECK(all.place_of_polyline(1).line == 2);
+  CHECK(all.location_of_polyline(1).line == 2);
   CHECK(notes_of(all) == std::vector<std::string>{"the member 'bbox' is not used",
                                                   "the property 'name' is not used (2 times)",
                                                   "a feature without geometry"});
@@ -366,7 +366,7 @@ TEST_CASE("a polygon of GeoJSON is closed lines, a region, and a hole for each i
   CHECK(file.pslg.regions[1].attribute == 2);
   CHECK(file.pslg.regions[0].max_area == 0.5);
   REQUIRE(file.pslg.holes.size() == 1);
-  CHECK(file.place_of_hole(0).line == 3);
+  CHECK(file.location_of_hole(0).line == 3);
   const auto within = [](const Point<2>& p, double lo, double hi) {
     return lo < p[0] && p[0] < hi && lo < p[1] && p[1] < hi;
   };
@@ -387,7 +387,7 @@ TEST_CASE("polygons of GeoJSON share borders: a piece is a line once, and each k
                                                            {id(2), ids({2, 5, 6, 3}), 0},
                                                            {id(3), ids({1, 7, 8, 5}), 0}});
   CHECK(file.pslg.segments.empty());
-  CHECK(file.place_of_polyline(2).line == 3);
+  CHECK(file.location_of_polyline(2).line == 3);
   REQUIRE(file.pslg.regions.size() == 3);
   CHECK(file.pslg.regions[2].seed[1] < 0);
   CHECK(notes_of(file) ==

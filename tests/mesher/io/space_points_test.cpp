@@ -184,7 +184,7 @@ TEST_CASE("what of a surface is not used is noted, with its place") {
   const auto notes_of = [](const NamedFile& file) {
     std::string all;
     for (const auto& note : read(file).notes) {
-      all += std::to_string(note.place.line) + ": " + note.text + "\n";
+      all += std::to_string(note.location.line) + ": " + note.text + "\n";
     }
     return all;
   };

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "feature_ids.hpp"
 #include "mesher/mesher.hpp"
 #include "pslg_judge.hpp"
 
@@ -137,7 +138,8 @@ TEST_CASE("Fans below double precision conform, or are refused by name and leave
           return PslgJudge(mesh, pslg).fault(kOptions);
         };
         const auto is_named = [&](const Error& error) {
-          const std::set<FeatureId> ids(error.ids().begin(), error.ids().end());
+          const auto named = support::ids_of(error);
+          const std::set<FeatureId> ids(named.begin(), named.end());
           return ids.size() >= 2 && std::all_of(ids.begin(), ids.end(), [&](FeatureId i) {
                    return i >= id(1) && i <= id(legs + 1);
                  });

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "feature_ids.hpp"
 #include "mesher/mesher.hpp"
 
 namespace {
@@ -33,7 +34,7 @@ mesher::Error refusal_of(Run&& run) {
 // The ids that it names.
 template <class Run>
 std::vector<FeatureId> named_by(Run&& run) {
-  return refusal_of(std::forward<Run>(run)).ids();
+  return support::ids_of(refusal_of(std::forward<Run>(run)));
 }
 
 // What is said of `segments`, of which points 1 and 2, and 3 and 4 are the ends.

@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "feature_ids.hpp"
 #include "graph/plc_builder.hpp"
 #include "mesher/domain_mesh.hpp"
 #include "mesher/mesher.hpp"
@@ -43,7 +44,8 @@ mesher::Error refusal_of(Run&& run) {
 
 void check_names(const mesher::Error& error, const Point<3>& at, const std::set<FeatureId>& ids) {
   REQUIRE(error.code() == ErrorCode::too_many);
-  CHECK(std::set<FeatureId>(error.ids().begin(), error.ids().end()) == ids);
+  const auto named = support::ids_of(error);
+  CHECK(std::set<FeatureId>(named.begin(), named.end()) == ids);
   const std::regex form(
       "more than 1000 vertices are needed; so far ([0-9]+) are on polygon [12] and "
       "([0-9]+) on polygon [12], the closest to each other near \\(([^,]*), ([^,]*), "
@@ -93,5 +95,5 @@ TEST_CASE("where no feature has vertices of its own none is named") {
   }
   const auto error = refusal_of([&] { (void)mesh_statically(plc, options_for(plc, 5)); });
   CHECK(error.message() == "more than 5 vertices are needed");
-  CHECK(error.ids().empty());
+  CHECK(error.features().empty());
 }

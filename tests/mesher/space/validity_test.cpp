@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "feature_ids.hpp"
 #include "feature_scene.hpp"
 #include "space/all_fit.hpp"
 #include "triangle_pairs.hpp"
@@ -344,7 +345,7 @@ TEST_CASE("What is no polygon is refused, with its id and the place") {
     try {
       require_shape(f, FeatureId{9}, plc.scene.store());
     } catch (const Error& error) {
-      REQUIRE(error.ids() == std::vector{FeatureId{9}});
+      REQUIRE(support::ids_of(error) == std::vector{FeatureId{9}});
       return std::string(code_name(error.code()));
     }
     return "";

@@ -1,4 +1,5 @@
 // What the mesher refuses, how it says so, and that nothing has changed afterwards.
+#include <algorithm>
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,7 +8,10 @@
 #include <string>
 
 #include "edit_sequence.hpp"
+#include "feature_ids.hpp"
 #include "mesher/check.hpp"
+#include "mesher/domain_mesher.hpp"
+#include "mesher/io.hpp"
 #include "mesher/mesher.hpp"
 #include "scratch_file.hpp"
 
@@ -187,7 +191,8 @@ TEST_CASE("an update that fails leaves mesh and points as before its edits") {
 TEST_CASE("where doubles do not suffice the features around are named, points and lines") {
   const auto ids = [](const Error& error) {
     CHECK(error.code() == ErrorCode::too_close);
-    return std::set<FeatureId>(error.ids().begin(), error.ids().end());
+    const auto ids = support::ids_of(error);
+    return std::set<FeatureId>(ids.begin(), ids.end());
   };
   Mesher<2> m = with(kFarAway, {kA, {kFar + 0.25, kFar}, {kFar + 0.75, kFar + 0.25}});
   m.insert(FeatureId{4}, kBesideA);
@@ -251,4 +256,127 @@ TEST_CASE("zero has no sign in a mesh") {
   for (const auto& p : mesh.vertices) {
     for (const double x : p) CHECK((x != 0 || !std::signbit(x)));
   }
+}
+
+namespace {
+
+using mesher::Feature;
+using mesher::line_named;
+using mesher::point_named;
+using mesher::polygon_named;
+
+constexpr Feature point(std::int64_t i) { return point_named(FeatureId{i}); }
+constexpr Feature line(std::int64_t i) { return line_named(FeatureId{i}); }
+constexpr Feature polygon(std::int64_t i) { return polygon_named(FeatureId{i}); }
+
+std::vector<Feature> sorted(std::vector<Feature> features) {
+  std::sort(features.begin(), features.end());
+  return features;
+}
+
+}  // namespace
+
+TEST_CASE("an error of edits in the plane says which kind its features are of, and where it is") {
+  mesher::DomainMesher m(kUnit);
+  std::int64_t id = 0;
+  for (const Point<2> p : {Point<2>{0.25, 0.25}, {0.75, 0.75}, {0.25, 0.75}, {0.75, 0.25}}) {
+    m.insert(FeatureId{++id}, p);
+  }
+  const Error outside = error_of([&] { m.insert(FeatureId{7}, {1.5, 0.5}); });
+  CHECK(outside.features() == std::vector{point(7)});
+  CHECK(outside.places() == std::vector<mesher::Position>{{1.5, 0.5, 0}});
+  CHECK(outside.locations().empty());
+
+  m.insert_segment(FeatureId{1}, FeatureId{1}, FeatureId{2});
+  m.update();
+  // Line 2 has the id of a point: only the kind tells which is meant.
+  m.insert_segment(FeatureId{2}, FeatureId{3}, FeatureId{4});
+  const Error crossing = error_of([&] { m.update(); });
+  CHECK(crossing.code() == ErrorCode::crossing_segments);
+  CHECK(sorted(crossing.features()) == std::vector{line(1), line(2)});
+  CHECK(crossing.places() == std::vector<mesher::Position>{{0.5, 0.5, 0}});
+
+  m.discard_edits();
+  m.insert(FeatureId{1000}, {0.375, 0.375});
+  const Error on = error_of([&] { m.update(); });
+  CHECK(on.code() == ErrorCode::point_on_segment);
+  CHECK(on.features() == std::vector{point(1000), line(1)});
+  CHECK(on.places() == std::vector<mesher::Position>{{0.375, 0.375, 0}});
+
+  m.discard_edits();
+  m.remove(FeatureId{2});
+  CHECK(error_of([&] { m.update(); }).features() == std::vector{point(2), line(1)});
+  m.discard_edits();
+  CHECK(error_of([&] { m.remove_segment(FeatureId{4}); }).features() == std::vector{line(4)});
+  const mesher::SeedName hole{mesher::SeedKind::hole, FeatureId{3}};
+  CHECK(error_of([&] { m.remove_seed(hole); }).features() ==
+        std::vector<Feature>{{mesher::FeatureKind::hole, FeatureId{3}}});
+}
+
+TEST_CASE("an error of edits in space names points, polygons and segments by kind") {
+  Mesher<3> m(Options<3>{.domain = {{0, 0, 0}, {1, 1, 1}}});
+  const std::vector<Point<3>> corners{
+      {0.25, 0.25, 0.5}, {0.75, 0.25, 0.5}, {0.5, 0.75, 0.5}, {0.5, 0.5, 0.25}, {0.5, 0.5, 0.75}};
+  std::int64_t id = 0;
+  for (const auto& p : corners) m.insert(FeatureId{++id}, p);
+  m.insert_polygon({.id = FeatureId{4}, .loops = {{FeatureId{1}, FeatureId{2}, FeatureId{3}}}});
+  m.insert_segment(FeatureId{4}, FeatureId{4}, FeatureId{5});
+  const Error through = error_of([&] { m.update(); });
+  CHECK(through.code() == ErrorCode::segment_through_polygon);
+  CHECK(through.features() == std::vector{line(4), polygon(4)});
+  REQUIRE(through.places().size() == 1);
+  for (std::size_t i = 0; i < 3; ++i) CHECK(std::abs(through.places()[0][i] - 0.5) < 1e-9);
+
+  m.discard_edits();
+  CHECK(error_of([&] { m.remove_polygon(FeatureId{9}); }).features() == std::vector{polygon(9)});
+  const Error loop = error_of([&] {
+    m.insert_polygon({.id = FeatureId{1}, .loops = {{FeatureId{1}, FeatureId{2}, FeatureId{1}}}});
+  });
+  CHECK(loop.code() == ErrorCode::bad_polygon);
+  CHECK(loop.features() == std::vector{polygon(1), point(1)});
+}
+
+TEST_CASE("an error about a file says where each of its features stands") {
+  const support::ScratchFolder folder;
+  const std::string path = folder.write(
+      "cross.poly", "4 2 0 0\n1 0 0\n2 1 1\n3 0 1\n4 1 0\n2 0\n1 1 2\n2 3 4\n1\n5 9 9\n");
+  const mesher::PslgFile file = mesher::read_pslg(path);
+  const Error error = error_of([&] {
+    (void)mesher::mesh_statically(file.pslg, Options<2>{.domain = {{-1, -1}, {2, 2}}});
+  });
+  CHECK(error.code() == ErrorCode::crossing_segments);
+  const Error found = mesher::located(error, file);
+  REQUIRE(found.features().size() == 2);
+  REQUIRE(found.locations().size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(found.locations()[i] == location_of(found.features()[i], file));
+    CHECK(found.locations()[i].file == path);
+    CHECK(found.locations()[i].line == (found.features()[i] == line(1) ? 7 : 8));
+  }
+  CHECK(found.location() == found.locations()[0]);
+  CHECK(found.places() == std::vector<mesher::Position>{{0.5, 0.5, 0}});
+  CHECK(location_of(point(3), file).line == 4);
+  CHECK(location_of({mesher::FeatureKind::hole, FeatureId{5}}, file).line == 10);
+  CHECK(location_of({mesher::FeatureKind::region, FeatureId{5}}, file).line == 0);
+  CHECK(location_of(point(9), file).line == 0);
+
+  // Two points in one place, in a file of points: said while it is read.
+  const std::string twice = folder.write("twice.xyz", "0 0 0\n1 0 0\n0 0 0\n");
+  const Error same = error_of([&] { (void)mesher::read_points<3>(twice); });
+  CHECK(same.features() == std::vector{point(3), point(1)});
+  REQUIRE(same.locations().size() == 2);
+  CHECK(same.locations()[0].line == 3);
+  CHECK(same.locations()[1].line == 1);
+  CHECK(same.places() == std::vector<mesher::Position>{{0, 0, 0}});
+}
+
+TEST_CASE("a feature is written as the field's word for its kind, and its id") {
+  CHECK(text_of(point(3)) == "point 3");
+  CHECK(text_of(line(-5)) == "segment -5");
+  CHECK(text_of(polygon(2)) == "polygon 2");
+  CHECK(text_of(Feature{mesher::FeatureKind::hole, FeatureId{1}}) == "hole 1");
+  CHECK(text_of(Feature{mesher::FeatureKind::region, FeatureId{4}}) == "region 4");
+  CHECK(text_of(Feature{}).empty());
+  CHECK(point(9) < line(1));  // by kind first
+  CHECK(line(1) != point(1));
 }
