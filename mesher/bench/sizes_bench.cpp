@@ -22,7 +22,7 @@
 
 #include "../../tests/support/sized_square.hpp"
 #include "bench_help.hpp"
-#include "geometry/input_point.hpp"
+#include "input.hpp"
 #include "mesher/error.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"

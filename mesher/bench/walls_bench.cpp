@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "bench_help.hpp"
-#include "geometry/input_point.hpp"
+#include "input.hpp"
 #include "sample.hpp"
 
 namespace {

@@ -9,33 +9,33 @@ namespace mesher {
 namespace {
 
 template <class Part>
-FeatureId id_of(const Part& part) {
+FeatureId id_of_part(const Part& part) {
   return part.id;
 }
-FeatureId id_of(const Plc::Facet& facet) { return facet.polygon.id; }
+FeatureId id_of_part(const Plc::Facet& facet) { return facet.polygon.id; }
 
 // Of the part with that id: parts[i] stands at (file.*location_of)(i).
 template <class File, class Part, class LocationOf>
-FileLocation find(const File& file, FeatureId id, const std::vector<Part>& parts,
-                  LocationOf location_of) {
-  const auto found =
-      std::find_if(parts.begin(), parts.end(), [&](const Part& part) { return id_of(part) == id; });
+FileLocation location_among(const File& file, FeatureId id, const std::vector<Part>& parts,
+                            LocationOf location_of) {
+  const auto found = std::find_if(parts.begin(), parts.end(),
+                                  [&](const Part& part) { return id_of_part(part) == id; });
   if (found == parts.end()) return {file.file};
   return (file.*location_of)(static_cast<std::size_t>(found - parts.begin()));
 }
 
 // Of what graphs and complexes have in common.
 template <class File, class Graph>
-FileLocation find_common(const Feature& f, const File& file, const Graph& graph) {
+FileLocation location_in_both(const Feature& f, const File& file, const Graph& graph) {
   switch (f.kind) {
     case FeatureKind::point:
-      return find(file, f.id, graph.points, &File::location_of_point);
+      return location_among(file, f.id, graph.points, &File::location_of_point);
     case FeatureKind::line:
-      return find(file, f.id, graph.segments, &File::location_of_segment);
+      return location_among(file, f.id, graph.segments, &File::location_of_segment);
     case FeatureKind::hole:
-      return find(file, f.id, graph.holes, &File::location_of_hole);
+      return location_among(file, f.id, graph.holes, &File::location_of_hole);
     case FeatureKind::region:
-      return find(file, f.id, graph.regions, &File::location_of_region);
+      return location_among(file, f.id, graph.regions, &File::location_of_region);
     case FeatureKind::polygon:
     case FeatureKind::none:
       break;
@@ -46,14 +46,14 @@ FileLocation find_common(const Feature& f, const File& file, const Graph& graph)
 }  // namespace
 
 FileLocation location_of(const Feature& feature, const PslgFile& file) {
-  const FileLocation found = find_common(feature, file, file.pslg);
+  const FileLocation found = location_in_both(feature, file, file.pslg);
   if (feature.kind != FeatureKind::line || found.line > 0) return found;
-  return find(file, feature.id, file.pslg.polylines, &PslgFile::location_of_polyline);
+  return location_among(file, feature.id, file.pslg.polylines, &PslgFile::location_of_polyline);
 }
 
 FileLocation location_of(const Feature& feature, const PlcFile& file) {
-  if (feature.kind != FeatureKind::polygon) return find_common(feature, file, file.plc);
-  return find(file, feature.id, file.plc.facets, &PlcFile::location_of_facet);
+  if (feature.kind != FeatureKind::polygon) return location_in_both(feature, file, file.plc);
+  return location_among(file, feature.id, file.plc.facets, &PlcFile::location_of_facet);
 }
 
 Error located(const Error& error, const PslgFile& file) {

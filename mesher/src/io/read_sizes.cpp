@@ -68,7 +68,7 @@ void require_positive(const Rows<D>& rows) {
       std::find_if(rows.sizes.begin(), rows.sizes.end(), [](double h) { return h <= 0; });
   if (bad == rows.sizes.end()) return;
   throw Error(ErrorCode::bad_number, "a size of " + text::to_text(*bad) + ": sizes are above 0",
-              rows.places.place(static_cast<std::size_t>(bad - rows.sizes.begin())));
+              rows.places.location(static_cast<std::size_t>(bad - rows.sizes.begin())));
 }
 
 }  // namespace

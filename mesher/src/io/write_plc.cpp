@@ -158,7 +158,7 @@ void require_single_loops(const Plc& plc) {
     throw Error(ErrorCode::unsupported,
                 ".smesh has no place for what polygon " + std::to_string(id) +
                     " has beside one loop; .poly has",
-                {}, {polygon.id});
+                {}, {polygon_named(polygon.id)});
   }
 }
 

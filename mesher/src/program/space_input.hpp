@@ -22,7 +22,7 @@ void require_complex(const std::vector<Point<3>>& points,
                      const std::vector<mesher::Polygon>& polygons, const Options<3>& options,
                      const std::vector<FeatureId>& ids);
 
-/// Throws: Error(unknown_id). `what`: "an end of segment"; `user`: its id.
+/// Throws: Error(unknown_id). `what`: "an end of", of `user`.
 [[noreturn]] void fail_unknown_point(FeatureId point, const std::string& what,
                                      const mesher::Feature& user);
 
@@ -38,12 +38,12 @@ template <class HandleOf>
   PolygonParts parts;
   for (const auto& loop : polygon.loops) {
     auto& corners = parts.loops.emplace_back();
-    for (const FeatureId id : loop) corners.push_back(handle(id, "a corner of polygon"));
+    for (const FeatureId id : loop) corners.push_back(handle(id, "a corner of"));
   }
   for (const auto& [a, b] : polygon.edges) {
-    parts.edges.emplace_back(handle(a, "in polygon"), handle(b, "in polygon"));
+    parts.edges.emplace_back(handle(a, "in"), handle(b, "in"));
   }
-  for (const FeatureId id : polygon.points) parts.points.push_back(handle(id, "in polygon"));
+  for (const FeatureId id : polygon.points) parts.points.push_back(handle(id, "in"));
   return parts;
 }
 
