@@ -98,7 +98,7 @@ using Position = std::array<double, 3>;
 template <std::size_t N>
 [[nodiscard]] constexpr Position position_of(const std::array<double, N>& p) {
   Position at{};
-  for (std::size_t i = 0; i < N; ++i) at[i] = p[i];
+  for (std::size_t i = 0; i < N && i < at.size(); ++i) at[i] = p[i];
   return at;
 }
 
