@@ -25,6 +25,7 @@ ROOMS = {  # from the ground up
     "index": "the quadtree and the vertices in it",
     "sizes": "limits of size and the lattices that suit them",
     "rules": "which vertex to insert, in which bucket; the box that suits a rule",
+    "live": "a mesh in slots that follows changes",
     "domain": "regions of a triangulation, and how they follow its changes",
     "plane": "features of the input in the plane: segments, their pieces, what crowds them",
     "space": "features of the input in space: edges and polygons",

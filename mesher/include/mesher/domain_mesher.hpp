@@ -40,10 +40,18 @@
 
 namespace mesher {
 
+/// The slots of what DomainChangeOf says is kept now, and what was, in the order there. What went
+/// from the mesh is among the latter with the slot that it had.
+struct KeptSlots {
+  std::vector<Slot> added, removed;
+  friend bool operator==(const KeptSlots&, const KeptSlots&) = default;
+};
+
 /// What an update did to the mesh, and to the domain.
 template <int D>
 struct DomainUpdateOf : Change<D> {
   DomainChangeOf<D> domain;
+  KeptSlots kept;  ///< empty unless slots are kept
 };
 using DomainUpdate = DomainUpdateOf<2>;
 
@@ -95,6 +103,10 @@ class DomainMesherOf {
 
   /// The mesh of the last update() in the box, without features. Cost: O(m log m).
   [[nodiscard]] Mesh<D> mesh() const;
+  /// The same in arrays by slot, as a Mesher's.
+  [[nodiscard]] LiveMesh<D> live() const;
+  void keep_slots(bool keep);
+  [[nodiscard]] bool keeps_slots() const noexcept;
   /// The part that is wanted, with features: mesher::domain_mesh of mesh() and input().
   [[nodiscard]] DomainMeshOf<D> domain_mesh() const;
   /// The graph of the last update(), ascending by id; a line of two points is a segment. In space
@@ -105,6 +117,9 @@ class DomainMesherOf {
   /// Requires: a triangle of the mesh, from any corner. Cost: O(1) for vertices of bounded degree.
   [[nodiscard]] RegionLabel label(const typename DomainChangeOf<D>::Corners& triangle) const;
   [[nodiscard]] bool keeps(const typename DomainChangeOf<D>::Corners& triangle) const;
+  /// The same by its slot. Requires: live().is_simplex(simplex).
+  [[nodiscard]] RegionLabel label(Slot simplex) const;
+  [[nodiscard]] bool keeps(Slot simplex) const;
   /// Of the last update(); without the segments' ids. Cost: O(seeds).
   [[nodiscard]] std::vector<SeedFaultOf<D>> faults() const;
 

@@ -29,6 +29,7 @@
 #include "mesher/angles.hpp"
 #include "mesher/error.hpp"
 #include "mesher/guard.hpp"
+#include "mesher/live_mesh.hpp"
 #include "mesher/mesh.hpp"
 
 namespace sac {
@@ -86,6 +87,7 @@ struct PolygonFace {
 template <int D>
 struct Change {
   std::vector<Point<D>> vertices_added;
+  std::vector<VertexKind> kinds_added;  ///< of vertices_added, one each
   std::vector<Point<D>> vertices_removed;
   std::vector<KindChange<D>> kinds_changed;
   std::vector<std::array<Point<D>, D + 1>> simplices_added;
@@ -98,6 +100,7 @@ struct Change {
   AngleNews angles;   ///< what small angles of the input did to what has come
   GuardReport guard;  ///< in space: which new simplices stay poor beside features (guard.hpp)
   CallCounts calls;
+  SlotChange slots;  ///< the same by slots; empty unless the mesher keeps them: Mesher::live()
 };
 
 /// What a run is at: the three parts of a first or static run, in this order, or an update.
@@ -230,6 +233,16 @@ class Mesher {
   /// before the first. Cost: O(m log m).
   [[nodiscard]] Mesh<D> mesh() const;
 
+  /// The mesh of the last update() in arrays by slot, numbers that last: see live_mesh.hpp. Empty
+  /// before the first. The first call begins to keep slots. Cost: O(1); where slots begin, that of
+  /// mesh().
+  [[nodiscard]] LiveMesh<D> live() const;
+  /// Whether slots are kept, and Change::slots filled: not by default, since they cost memory and a
+  /// part of each update. They begin with the numbers of mesh().
+  /// Cost: that of mesh() to begin.
+  void keep_slots(bool keep);
+  [[nodiscard]] bool keeps_slots() const noexcept;
+
   /// The points, lines and polygons of the last update(), ascending by id. Cost: O(n log n).
   [[nodiscard]] std::vector<InputPoint<D>> points() const;
   [[nodiscard]] std::vector<InputLine> lines() const;
@@ -257,6 +270,8 @@ class Mesher {
  private:
   friend class detail::DomainState<D>;  // which keeps the limits of regions up to date
   void announce_to(Mesher& other) const;
+  // In the mesh of the last update, while another runs. Requires: keeps_slots().
+  [[nodiscard]] Slot last_slot(const std::array<Point<D>, D + 1>& simplex) const;
   void limit_regions(std::shared_ptr<const RegionLimits<D>> regions,
                      const std::vector<Box<D>>& where);
   [[nodiscard]] bool has_limits() const;

@@ -87,6 +87,12 @@ DomainUpdateOf<D> DomainMesherOf<D>::update(const RunControl& control) { return 
 template <int D>
 Mesh<D> DomainMesherOf<D>::mesh() const { return impl_->mesher().mesh(); }
 template <int D>
+LiveMesh<D> DomainMesherOf<D>::live() const { return impl_->mesher().live(); }
+template <int D>
+void DomainMesherOf<D>::keep_slots(bool keep) { impl_->keep_slots(keep); }
+template <int D>
+bool DomainMesherOf<D>::keeps_slots() const noexcept { return impl_->mesher().keeps_slots(); }
+template <int D>
 DomainMeshOf<D> DomainMesherOf<D>::domain_mesh() const {
   return mesher::domain_mesh(mesh(), input(), impl_->extent());
 }
@@ -100,6 +106,14 @@ RegionLabel DomainMesherOf<D>::label(const typename DomainChangeOf<D>::Corners& 
 template <int D>
 bool DomainMesherOf<D>::keeps(const typename DomainChangeOf<D>::Corners& triangle) const {
   return !impl_->follower() || impl_->follower()->keeps(triangle);
+}
+template <int D>
+RegionLabel DomainMesherOf<D>::label(Slot simplex) const {
+  return label(impl_->corners(simplex));
+}
+template <int D>
+bool DomainMesherOf<D>::keeps(Slot simplex) const {
+  return keeps(impl_->corners(simplex));
 }
 template <int D>
 std::vector<SeedFaultOf<D>> DomainMesherOf<D>::faults() const {

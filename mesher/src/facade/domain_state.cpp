@@ -131,6 +131,12 @@ void DomainState<D>::limit(const Box<D>& box, const SizeLimits<D>& limits) {
 }
 
 template <int D>
+void DomainState<D>::keep_slots(bool keep) {
+  busy_.require_idle();
+  mesher_.keep_slots(keep);
+}
+
+template <int D>
 void DomainState<D>::discard_edits() noexcept {
   mesher_.discard_edits();
   point_markers_.discard();
@@ -166,21 +172,59 @@ void DomainState<D>::commit() noexcept {
 
 // The first run. The follower is there only if the run is accepted: nothing throws after it.
 template <int D>
-DomainChangeOf<D> DomainState<D>::begin(const Change<D>& change) {
+void DomainState<D>::begin(const Change<D>& change, DomainUpdateOf<D>& update) {
   DomainFollowerOf<D> first(mesh_of(change), walls_of(change), all_of(seeds_), extent_);
   DomainChangeOf<D> domain;
   for (const auto& triangle : change.simplices_added) {
     if (first.keeps(triangle)) domain.kept_added.push_back(triangle);
   }
+  update.kept = kept_slots(change, domain);
+  update.domain = std::move(domain);
   follower_.emplace(std::move(first));
-  return domain;
 }
 
 template <int D>
-DomainChangeOf<D> DomainState<D>::follow(const Change<D>& change) {
-  if (!follower_ && needs_follower_) return begin(change);
-  if (!follower_) return {change.simplices_added, change.simplices_removed, {}, 0};
-  return follower_->update(change, domain_edits<D>(change, seeds_));
+void DomainState<D>::follow(const Change<D>& change, DomainUpdateOf<D>& update) {
+  if (!follower_ && needs_follower_) return begin(change, update);
+  if (!follower_) {
+    update.domain = {change.simplices_added, change.simplices_removed, {}, 0};
+    update.kept = {change.slots.simplices_added, change.slots.simplices_removed};
+    return;
+  }
+  update.domain = follower_->update(
+      change, domain_edits<D>(change, seeds_),
+      [&](const DomainChangeOf<D>& domain) { update.kept = kept_slots(change, domain); });
+}
+
+// What is kept is in the same order as what comes or goes; the rest was there before and stays.
+template <int D>
+KeptSlots DomainState<D>::kept_slots(const Change<D>& change,
+                                     const DomainChangeOf<D>& domain) const {
+  if (!mesher_.keeps_slots()) return {};
+  const auto slots = [&](const auto& kept, const auto& listed, const std::vector<Slot>& those) {
+    std::vector<Slot> all;
+    all.reserve(kept.size());
+    std::size_t i = 0;
+    for (const auto& corners : kept) {
+      while (i < listed.size() && listed[i] < corners) ++i;
+      const bool is_listed = i < listed.size() && listed[i] == corners;
+      all.push_back(is_listed ? those[i] : mesher_.last_slot(corners));
+    }
+    return all;
+  };
+  return {slots(domain.kept_added, change.simplices_added, change.slots.simplices_added),
+          slots(domain.kept_removed, change.simplices_removed, change.slots.simplices_removed)};
+}
+
+template <int D>
+auto DomainState<D>::corners(Slot simplex) const -> typename DomainChangeOf<D>::Corners {
+  const LiveMesh<D> live = mesher_.live();
+  SAC_EXPECTS(live.is_simplex(simplex));
+  typename DomainChangeOf<D>::Corners corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    corners[i] = live.points()[live.simplices()[simplex][i]];
+  }
+  return corners;
 }
 
 // Whether it matters what lines, or polygons, enclose.
@@ -225,7 +269,7 @@ DomainUpdateOf<D> DomainState<D>::run(const RunControl& control) {
   DomainUpdateOf<D> update;
   const auto run_limited = [&] {
     static_cast<Change<D>&>(update) =
-        mesher_.update(control, [&](const Change<D>& change) { update.domain = follow(change); });
+        mesher_.update(control, [&](const Change<D>& change) { follow(change, update); });
   };
   if (unlimited_ || needs_unlimited()) {
     run_with_unlimited(control, run_limited);

@@ -35,6 +35,7 @@ class DomainState {
   void remove_seed(const SeedName& name);
   void limit(const SizeLimits<D>& limits);
   void limit(const Box<D>& box, const SizeLimits<D>& limits);
+  void keep_slots(bool keep);
   void discard_edits() noexcept;
   [[nodiscard]] bool is_idle() const noexcept { return busy_.is_idle(); }
   DomainUpdateOf<D> update(const RunControl& control);
@@ -43,6 +44,8 @@ class DomainState {
   [[nodiscard]] bool contains_seed(const SeedName& name) const {
     return seeds_.find(name) != nullptr;
   }
+  /// Requires: the slot of a simplex.
+  [[nodiscard]] typename DomainChangeOf<D>::Corners corners(Slot simplex) const;
   [[nodiscard]] const Mesher<D>& mesher() const noexcept { return mesher_; }
   [[nodiscard]] Extent extent() const noexcept { return extent_; }
   /// Nobody as long as there are points alone.
@@ -60,8 +63,9 @@ class DomainState {
   void make_unlimited(const RunControl& control);
   void run_with_unlimited(const RunControl& control, const std::function<void()>& run_limited);
   [[nodiscard]] DomainUpdateOf<D> run(const RunControl& control);
-  [[nodiscard]] DomainChangeOf<D> begin(const Change<D>& change);
-  [[nodiscard]] DomainChangeOf<D> follow(const Change<D>& change);
+  void begin(const Change<D>& change, DomainUpdateOf<D>& update);
+  void follow(const Change<D>& change, DomainUpdateOf<D>& update);
+  [[nodiscard]] KeptSlots kept_slots(const Change<D>& change, const DomainChangeOf<D>& domain) const;
 
   Mesher<D> mesher_;
   Extent extent_;

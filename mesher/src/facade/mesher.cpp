@@ -10,6 +10,7 @@
 #include "facade/space_state.hpp"
 #include "facade/state.hpp"
 #include "geometry/input_point.hpp"
+#include "live/live_arrays.hpp"
 #include "mesher/predicates.hpp"
 #include "program/meter.hpp"
 #include "program/space_input.hpp"
@@ -54,9 +55,11 @@ struct Mesher<D>::Impl {
   [[nodiscard]] Options<D> announced_options() const;
   void commit_limits() noexcept;
   void discard_edits() noexcept;
-  Change<D> first_run(State& fresh, const RunControl& control, const Accept& accept);
-  Change<D> propagate(const RunControl& control, const Accept& accept);
-  Change<D> run(const RunControl& control, const Accept& accept);
+  using LastWord = typename State::Accept;
+  Change<D> first_run(State& fresh, const RunControl& control, const LastWord& accept);
+  Change<D> propagate(const RunControl& control, const LastWord& accept);
+  Change<D> run(const RunControl& control, const LastWord& accept);
+  Change<D> run_with_slots(const RunControl& control, const Accept& accept);
   Change<D> update(const RunControl& control, const Accept& accept);
 
   Options<D> options;            // with the limits of the last update
@@ -66,6 +69,7 @@ struct Mesher<D>::Impl {
   detail::AnnouncedLines announced_lines;
   detail::AnnouncedPolygons announced_polygons;  // in space
   detail::AnnouncedLimits<D> announced_limits;
+  std::unique_ptr<detail::LiveArrays<D>> live;  // null: slots are not kept
   detail::Busy busy;
   bool moved = false;  // a place was taken that was not looked at
 };
@@ -223,22 +227,22 @@ void Mesher<D>::Impl::discard_edits() noexcept {
 
 template <>
 Change<2> Mesher<2>::Impl::first_run(State& fresh, const RunControl& control,
-                                     const Accept& accept) {
+                                     const LastWord& accept) {
   return fresh.first_run(announced.sorted(), announced_lines.sorted(), control, accept);
 }
 template <>
-Change<2> Mesher<2>::Impl::propagate(const RunControl& control, const Accept& accept) {
+Change<2> Mesher<2>::Impl::propagate(const RunControl& control, const LastWord& accept) {
   return state->propagate(announced.sorted(), announced_lines.sorted(),
                           announced_limits.edit(options), control, accept);
 }
 template <>
 Change<3> Mesher<3>::Impl::first_run(State& fresh, const RunControl& control,
-                                     const Accept& accept) {
+                                     const LastWord& accept) {
   return fresh.first_run(announced.sorted(),
                          {announced_lines.sorted(), announced_polygons.sorted()}, control, accept);
 }
 template <>
-Change<3> Mesher<3>::Impl::propagate(const RunControl& control, const Accept& accept) {
+Change<3> Mesher<3>::Impl::propagate(const RunControl& control, const LastWord& accept) {
   return state->propagate(announced.sorted(),
                           {announced_lines.sorted(), announced_polygons.sorted(),
                            announced_limits.edit(options)},
@@ -246,7 +250,7 @@ Change<3> Mesher<3>::Impl::propagate(const RunControl& control, const Accept& ac
 }
 
 template <int D>
-Change<D> Mesher<D>::Impl::run(const RunControl& control, const Accept& accept) {
+Change<D> Mesher<D>::Impl::run(const RunControl& control, const LastWord& accept) {
   if (moved) require_apart(announced.sorted());
   if (state->ran()) return propagate(control, accept);
   auto fresh = std::make_unique<State>(announced_options());
@@ -256,11 +260,27 @@ Change<D> Mesher<D>::Impl::run(const RunControl& control, const Accept& accept) 
 }
 
 template <int D>
+Change<D> Mesher<D>::Impl::run_with_slots(const RunControl& control, const Accept& accept) {
+  const LastWord last_word = [&](Change<D>& change) {
+    if (live) change.slots = live->plan(change);
+    if (accept) accept(change);
+  };
+  try {
+    Change<D> change = run(control, last_word);
+    if (live) live->keep();
+    return change;
+  } catch (...) {
+    if (live) live->drop();
+    throw;
+  }
+}
+
+template <int D>
 Change<D> Mesher<D>::Impl::update(const RunControl& control, const Accept& accept) {
   const detail::Busy::Run running(busy);
   detail::require_unstopped(control);
   try {
-    Change<D> change = run(control, accept);
+    Change<D> change = run_with_slots(control, accept);
     commit_limits();
     discard_edits();
     return change;
@@ -421,6 +441,33 @@ Mesh<D> Mesher<D>::mesh() const {
 }
 
 template <int D>
+LiveMesh<D> Mesher<D>::live() const {
+  impl_->busy.require_idle();
+  if (!impl_->live) impl_->live = std::make_unique<detail::LiveArrays<D>>(mesh());
+  return LiveMesh<D>(*impl_->live);
+}
+
+template <int D>
+void Mesher<D>::keep_slots(bool keep) {
+  if (keep) {
+    static_cast<void>(live());
+  } else {
+    impl_->busy.require_idle();
+    impl_->live.reset();
+  }
+}
+
+template <int D>
+bool Mesher<D>::keeps_slots() const noexcept {
+  return impl_->live != nullptr;
+}
+
+template <int D>
+Slot Mesher<D>::last_slot(const std::array<Point<D>, D + 1>& simplex) const {
+  return impl_->live->find_simplex(simplex);
+}
+
+template <int D>
 std::vector<InputPoint<D>> Mesher<D>::points() const {
   impl_->busy.require_idle();
   return impl_->state->points();
@@ -470,6 +517,9 @@ const sac::Engine& Mesher<D>::engine() const {
 template <int D>
 void Mesher<D>::check_invariants() const {
   if (impl_->state->ran()) impl_->state->check_invariants();
+  if (!impl_->live) return;
+  impl_->live->check_invariants();
+  SAC_INVARIANT(impl_->live->compact().mesh == mesh());
 }
 
 template class Mesher<2>;

@@ -62,15 +62,20 @@ MeshStats PointState<D>::stats() const {
 
 template <int D>
 void PointState<D>::report_vertices(const Log& log, Change<D>& change) const {
+  std::vector<std::pair<Point<D>, VertexKind>> come;
   for (const VertexHandle h : log.touched) {
     const Vertex<D>& v = pool()[h];
-    if (v.alive && !v.committed) change.vertices_added.push_back(v.p);
+    if (v.alive && !v.committed) come.emplace_back(v.p, v.kind());
     if (!v.alive && v.committed) change.vertices_removed.push_back(v.p);
     if (v.alive && v.committed && v.kind() != v.committed_kind) {
       change.kinds_changed.push_back({v.p, v.committed_kind, v.kind()});
     }
   }
-  std::sort(change.vertices_added.begin(), change.vertices_added.end());
+  std::sort(come.begin(), come.end());
+  for (const auto& [p, kind] : come) {
+    change.vertices_added.push_back(p);
+    change.kinds_added.push_back(kind);
+  }
   std::sort(change.vertices_removed.begin(), change.vertices_removed.end());
   std::sort(change.kinds_changed.begin(), change.kinds_changed.end(),
             [](const auto& a, const auto& b) { return a.vertex < b.vertex; });

@@ -111,6 +111,7 @@ template <int D>
 Change<D> PointState<D>::whole(const Mesh<D>& mesh) const {
   Change<D> change;
   change.vertices_added = mesh.vertices;
+  change.kinds_added = mesh.kinds;
   change.simplices_added.reserve(mesh.simplices.size());
   for (const auto& s : mesh.simplices) {
     auto& corners = change.simplices_added.emplace_back();

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -25,7 +26,8 @@ namespace mesher::detail {
 template <int D>
 class PointState {
  public:
-  using Accept = typename Mesher<D>::Accept;
+  /// A last word on a change, which may add to it; what it throws takes the update back.
+  using Accept = std::function<void(Change<D>&)>;
   using PointEdits = std::vector<typename Announced<D>::Edit>;  // in Morton order of where to
 
   /// Throws: Error(bad_option).
