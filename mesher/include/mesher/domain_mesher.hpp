@@ -51,7 +51,7 @@ struct KeptSlots {
 template <int D>
 struct DomainUpdateOf : Change<D> {
   DomainChangeOf<D> domain;
-  KeptSlots kept;  ///< empty if slots are not kept
+  KeptSlots kept;  ///< empty unless slots are kept
 };
 using DomainUpdate = DomainUpdateOf<2>;
 

@@ -2,7 +2,7 @@
 //
 // Example, a solver's field over edits:
 //   mesher::Mesher<2> m(options);
-//   ... m.insert(...), m.update() ...
+//   ... m.insert(...), m.update() ...        // live() below begins to keep slots
 //   std::vector<double> field(m.live().vertex_slots());
 //   m.insert(id, point);
 //   const mesher::Change<2> change = m.update();
@@ -17,7 +17,7 @@
 //   (4) what goes leaves its slot free from the next update on: until then the slot shows what was
 //       there. What comes takes the lowest free slots, in canonical order. So slots are a function
 //       of the meshes after each successful update: updates that fail or are stopped leave no trace.
-// The first run numbers all as mesh() does. To follow a change costs the change, whatever the mesh.
+// A mesher keeps slots from the first call of live() on; they begin as mesh() numbers. Cost: a change's.
 #pragma once
 
 #include <array>

@@ -100,7 +100,7 @@ struct Change {
   AngleNews angles;   ///< what small angles of the input did to what has come
   GuardReport guard;  ///< in space: which new simplices stay poor beside features (guard.hpp)
   CallCounts calls;
-  SlotChange slots;  ///< the same by slots of Mesher::live(); empty if they are not kept
+  SlotChange slots;  ///< the same by slots; empty unless the mesher keeps them: Mesher::live()
 };
 
 /// What a run is at: the three parts of a first or static run, in this order, or an update.
@@ -234,11 +234,12 @@ class Mesher {
   [[nodiscard]] Mesh<D> mesh() const;
 
   /// The mesh of the last update() in arrays by slot, numbers that last: see live_mesh.hpp. Empty
-  /// before the first. Requires: keeps_slots(). Cost: O(1).
+  /// before the first. The first call begins to keep slots. Cost: O(1); where slots begin, that of
+  /// mesh().
   [[nodiscard]] LiveMesh<D> live() const;
-  /// Whether live() and Change::slots are kept: by default they are. Not to keep them saves some
-  /// percent of an update, and their memory; asked for again, they begin as after a first run.
-  /// Cost: O(m log m) to begin.
+  /// Whether slots are kept, and Change::slots filled: not by default, since they cost memory and a
+  /// part of each update. They begin with the numbers of mesh().
+  /// Cost: that of mesh() to begin.
   void keep_slots(bool keep);
   [[nodiscard]] bool keeps_slots() const noexcept;
 

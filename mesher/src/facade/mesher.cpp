@@ -69,7 +69,7 @@ struct Mesher<D>::Impl {
   detail::AnnouncedLines announced_lines;
   detail::AnnouncedPolygons announced_polygons;  // in space
   detail::AnnouncedLimits<D> announced_limits;
-  std::unique_ptr<detail::LiveArrays<D>> live = std::make_unique<detail::LiveArrays<D>>();
+  std::unique_ptr<detail::LiveArrays<D>> live;  // null: slots are not kept
   detail::Busy busy;
   bool moved = false;  // a place was taken that was not looked at
 };
@@ -448,17 +448,18 @@ Mesh<D> Mesher<D>::mesh() const {
 template <int D>
 LiveMesh<D> Mesher<D>::live() const {
   impl_->busy.require_idle();
-  SAC_EXPECTS(keeps_slots());
+  if (!impl_->live) impl_->live = std::make_unique<detail::LiveArrays<D>>(mesh());
   return LiveMesh<D>(*impl_->live);
 }
 
 template <int D>
 void Mesher<D>::keep_slots(bool keep) {
-  impl_->busy.require_idle();
-  if (!keep) impl_->live.reset();
-  if (!keep || impl_->live) return;
-  using Arrays = detail::LiveArrays<D>;
-  impl_->live = impl_->state->ran() ? std::make_unique<Arrays>(mesh()) : std::make_unique<Arrays>();
+  if (keep) {
+    static_cast<void>(live());
+  } else {
+    impl_->busy.require_idle();
+    impl_->live.reset();
+  }
 }
 
 template <int D>

@@ -73,7 +73,8 @@ auto PointState<D>::obstacle(const Point<D>& p) const -> std::optional<Named> {
 template <int D>
 void PointState<D>::make_room(const Ids& arrived) {
   const std::size_t most = ids_.size() + arrived.size();
-  if (most > ids_.max_load_factor() * static_cast<float>(ids_.bucket_count())) {
+  // One without any needs more, though its load would do.
+  if (most >= ids_.max_load_factor() * static_cast<float>(ids_.bucket_count())) {
     ids_.reserve(2 * most + 16);
   }
   VertexHandle last = 0;

@@ -29,7 +29,8 @@ const Value* find_in(const std::unordered_map<FeatureId, Value>& all, FeatureId 
 template <class Map>
 void reserve_for(Map& map, const Map& more) {
   const std::size_t most = map.size() + more.size();
-  if (static_cast<float>(most) > map.max_load_factor() * static_cast<float>(map.bucket_count())) {
+  // One without any needs more, though its load would do.
+  if (static_cast<float>(most) >= map.max_load_factor() * static_cast<float>(map.bucket_count())) {
     map.reserve(2 * most + 16);  // never less than there is: that would move all
   }
 }

@@ -157,7 +157,8 @@ void State::make_room_for_others() {
   }
   const std::size_t most = line_points_.size() + news_.line_points.size();
   const auto buckets = static_cast<float>(line_points_.bucket_count());
-  if (static_cast<float>(most) > line_points_.max_load_factor() * buckets) {
+  // One without any needs more, though its load would do.
+  if (static_cast<float>(most) >= line_points_.max_load_factor() * buckets) {
     line_points_.reserve(2 * most + 16);  // never less than there is: that would move all
   }
   SegmentHandle last = 0;

@@ -12,8 +12,8 @@
 
 namespace mesher::detail {
 
-std::vector<Edge> corners_of(const std::vector<MeshEdge>& walls) {
-  std::vector<Edge> ends;
+std::vector<SideEnds> corners_of(const std::vector<MeshEdge>& walls) {
+  std::vector<SideEnds> ends;
   ends.reserve(walls.size());
   for (const MeshEdge& wall : walls) ends.push_back({wall.low, wall.high});
   return ends;
@@ -26,12 +26,12 @@ std::vector<Face> corners_of(const std::vector<MeshFace>& walls) {
   return corners;
 }
 
-Adjacency adjacency(const std::vector<Corners>& triangles, const std::vector<Edge>& walls) {
+Adjacency adjacency(const std::vector<Corners>& triangles, const std::vector<SideEnds>& walls) {
   const Sides sides(triangles);
   Joined next = joined(sides);
   SAC_EXPECTS(next.in_pairs);
   Adjacency result{std::move(next.neighbours), std::vector<std::uint8_t>(triangles.size())};
-  for (const Edge& wall : walls) {
+  for (const SideEnds& wall : walls) {
     const auto both = sides.of({std::min(wall[0], wall[1]), std::max(wall[0], wall[1])});
     if (both.empty()) {
       throw Error(ErrorCode::bad_mesh, "no edge joins vertices " + std::to_string(wall[0] + 1) +

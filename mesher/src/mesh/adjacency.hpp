@@ -27,13 +27,13 @@ struct AdjacencyOf {
 using Adjacency = AdjacencyOf<2>;
 
 /// The corners of walls.
-[[nodiscard]] std::vector<Edge> corners_of(const std::vector<MeshEdge>& walls);
+[[nodiscard]] std::vector<SideEnds> corners_of(const std::vector<MeshEdge>& walls);
 [[nodiscard]] std::vector<Face> corners_of(const std::vector<MeshFace>& walls);
 
 /// Requires: no edge borders more than two triangles. Throws: Error(bad_mesh) for a wall that is no
 /// edge. Cost: O(m log d) for vertices of degree d.
 [[nodiscard]] Adjacency adjacency(const std::vector<Corners>& triangles,
-                                  const std::vector<Edge>& walls);
+                                  const std::vector<SideEnds>& walls);
 /// The same in space; walls by their corners, ascending. Cost: O(m log m).
 [[nodiscard]] AdjacencyOf<3> adjacency(const std::vector<Mesh<3>::Simplex>& tetrahedra,
                                        const std::vector<Face>& walls);

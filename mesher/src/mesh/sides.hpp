@@ -12,7 +12,7 @@
 namespace mesher::detail {
 
 using Corners = std::array<std::uint32_t, 3>;  // counterclockwise
-using Edge = std::array<std::uint32_t, 2>;     // of vertices
+using SideEnds = std::array<std::uint32_t, 2>;     // of vertices
 
 [[nodiscard]] constexpr int next_corner(int i) noexcept { return i == 2 ? 0 : i + 1; }
 [[nodiscard]] constexpr int previous_corner(int i) noexcept { return i == 0 ? 2 : i - 1; }
@@ -52,7 +52,7 @@ class Sides {
     return std::span(sides_).subspan(start_[low], start_[low + 1] - start_[low]);
   }
   /// The sides of an edge, its lower end first; none if there is no such edge.
-  [[nodiscard]] std::span<const Side> of(const Edge& edge) const {
+  [[nodiscard]] std::span<const Side> of(const SideEnds& edge) const {
     if (edge[0] >= vertices()) return {};
     const auto all = at(edge[0]);
     const auto first = std::lower_bound(all.begin(), all.end(), edge[1],
@@ -63,7 +63,7 @@ class Sides {
   }
 
  private:
-  static Edge ends_of(const Corners& t, int corner) {
+  static SideEnds ends_of(const Corners& t, int corner) {
     const auto [low, high] = std::minmax(t[next_corner(corner)], t[previous_corner(corner)]);
     return {low, high};
   }
@@ -79,7 +79,7 @@ class Sides {
     sides_.resize(3 * triangles.size());
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
       for (int i = 0; i < 3; ++i) {
-        const Edge ends = ends_of(triangles[t], i);
+        const SideEnds ends = ends_of(triangles[t], i);
         sides_[next[ends[0]]++] = {ends[1], t, i};
       }
     }

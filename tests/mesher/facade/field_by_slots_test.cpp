@@ -11,6 +11,7 @@ using support::id;
 
 TEST_CASE("a solver's field by slots has the values that vertices had before an edit") {
   mesher::Mesher<2> m(mesher::Options<2>{.domain = {{0, 0}, {1, 1}}});
+  m.keep_slots(true);
   example::Heat heat{m, {}};
   mesher::SplitMix64 random(1);
   for (int i = 0; i < 40; ++i) {

@@ -20,6 +20,7 @@ struct Square {
   Shown<2> before;
 
   Square() {
+    m.keep_slots(true);
     m.insert(id(1), {4, 4});
     m.insert(id(2), {12, 4});
     m.insert(id(3), {12, 12});
@@ -47,6 +48,7 @@ struct Square {
 struct Fresh {
   Mesher<2> m{Options<2>{.domain = {{0, 0}, {1, 1}}}};
   Shown<2> before;
+  Fresh() { m.keep_slots(true); }
   void announce() {
     m.insert(id(1), {0.25, 0.5});
     m.insert(id(2), {0.75, 0.375});

@@ -61,6 +61,7 @@ TEST_CASE("after random edits of points the arrays are the mesh, and the change 
     const auto sequence = support::random_sequence(family, {}, 24, 40, 11);
     INFO(support::name(family));
     Mesher<2> m(sequence.options);
+    m.keep_slots(true);
     SlotTwin<2> twin;
     support::PointSet points;
     for (const auto& step : sequence.steps) {
@@ -83,6 +84,7 @@ TEST_CASE("after random batches in the plane slots follow the mesh and what is k
   LakeEditor editor(seed);
   const auto extent = seed % 3 == 0 ? mesher::Extent::box : mesher::Extent::enclosed;
   mesher::DomainMesher m(LakeEditor::options(), extent);
+  m.keep_slots(true);
   support::Lake lake;
   const auto box = mesher::detail::mesh_box(LakeEditor::options());
   SlotTwin<2> twin;
@@ -114,6 +116,7 @@ TEST_CASE("after random edits in space slots follow the mesh, its edges and face
   const std::uint64_t seed = GENERATE(1, 2, 3);
   CAPTURE(seed);
   Mesher<3> m(Options<3>{.domain = {{0, 0, 0}, {2, 2, 2}}});
+  m.keep_slots(true);
   support::SpaceParcels<Mesher<3>> parcels(m, seed);
   SlotTwin<3> twin;
   int refused = 0;
@@ -138,6 +141,7 @@ TEST_CASE("in space slots follow what polygons enclose") {
   const std::uint64_t seed = GENERATE(1, 2);
   CAPTURE(seed);
   mesher::DomainMesherOf<3> m(Options<3>{.domain = {{0, 0, 0}, {2, 2, 2}}});
+  m.keep_slots(true);
   support::SpaceParcels<mesher::DomainMesherOf<3>> parcels(m, seed);
   SlotTwin<3> twin;
   KeptTwin<3> kept;
@@ -159,6 +163,8 @@ TEST_CASE(
   CAPTURE(seed);
   LakeEditor editor(seed), mistakes(seed + 100);
   mesher::DomainMesher straight(LakeEditor::options()), stumbling(LakeEditor::options());
+  straight.keep_slots(true);
+  stumbling.keep_slots(true);
   const auto box = mesher::detail::mesh_box(LakeEditor::options());
   support::Lake lake;
   int failed = 0, stopped = 0;
@@ -190,7 +196,9 @@ TEST_CASE(
 TEST_CASE(
     "slots begin with the numbers of mesh(), and begin so again when they are asked for again") {
   Mesher<2> m(Options<2>{.domain = {{0, 0}, {1, 1}}});
+  CHECK_FALSE(m.keeps_slots());
   CHECK(m.live().vertex_slots() == 0);
+  CHECK(m.keeps_slots());
   CHECK(m.live().find({0.25, 0.5}) == mesher::kNoSlot);
   m.insert(id(1), {0.25, 0.5});
   m.insert(id(2), {0.75, 0.5});
@@ -219,6 +227,7 @@ TEST_CASE(
 
 TEST_CASE("a last word that refuses the change leaves the slots of the last update") {
   Mesher<2> m(Options<2>{.domain = {{0, 0}, {1, 1}}});
+  m.keep_slots(true);
   m.insert(id(1), {0.25, 0.5});
   const auto refuse = [](const Change<2>& change) {
     CHECK(change.slots.vertices_added.size() == change.vertices_added.size());

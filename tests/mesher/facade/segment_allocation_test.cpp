@@ -102,3 +102,21 @@ struct Hub {
 TEST_CASE("a hub that moves and a polyline that comes survive any one allocation that fails") {
   support::check_failing_updates<Hub>();
 }
+
+namespace {
+
+// Nothing but two points and a line: the first of all.
+struct FirstLine {
+  Mesher<2> m{kOptions};
+  Mesh<2> before;
+  void announce() {
+    m.insert({id(1), id(2)}, {{4, 8}, {12, 8.5}});
+    m.insert_segment(id(1), id(1), id(2));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a first run with one line survives any one allocation that fails") {
+  support::check_failing_updates<FirstLine>();
+}
