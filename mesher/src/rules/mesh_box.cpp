@@ -6,6 +6,7 @@
 #include <string>
 
 #include "geometry/box.hpp"
+#include "geometry/power_of_two.hpp"
 #include "rules/insertion_rule.hpp"
 #include "text/text.hpp"
 
@@ -38,13 +39,6 @@ void check(const MeshBox<D>& box) {
       refuse("the box around the domain exceeds 2^101");
     }
   }
-}
-
-// The least power of two >= x > 0.
-double power_of_two_from(double x) {
-  int exponent;
-  const double mantissa = std::frexp(x, &exponent);
-  return std::ldexp(1.0, mantissa == 0.5 ? exponent - 1 : exponent);
 }
 
 // The distance from the domain to the nearest side of the box.

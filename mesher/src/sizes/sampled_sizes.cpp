@@ -6,6 +6,7 @@
 #include "geometry/box.hpp"
 #include "geometry/input_point.hpp"
 #include "geometry/plane_vectors.hpp"
+#include "geometry/power_of_two.hpp"
 #include "geometry/space_vectors.hpp"
 #include "mesher/delaunay.hpp"
 #include "mesher/error.hpp"
@@ -73,7 +74,7 @@ Box<D> cube_around(const std::vector<SizeSampleOf<D>>& samples) {
     largest = std::max({largest, std::abs(box.lo[i]), std::abs(box.hi[i])});
     extent = std::max(extent, box.hi[i] - box.lo[i]);
   }
-  const double half = std::exp2(std::ceil(std::log2(std::max(extent, largest * 0x1p-20)))) * 2;
+  const double half = 2 * detail::power_of_two_from(std::max(extent, largest * 0x1p-20));
   Box<D> cube;
   for (std::size_t i = 0; i < D; ++i) {
     const double middle = box.lo[i] + (box.hi[i] - box.lo[i]) / 2;
