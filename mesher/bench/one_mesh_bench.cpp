@@ -1,5 +1,5 @@
-// A static run of gap-balls, which makes the mesh that `edit` keeps, beside refine and svr, from file
-// to file; and beside the same run of another `mesher`, and whether its mesh is the same.
+// A static run of gap-balls, which makes the mesh that `edit` keeps, beside refine and svr, from
+// file to file; and beside the same run of another `mesher`, and whether its mesh is the same.
 //
 //   one_mesh_bench [--old MESHER] [--rounds N, default 5] [FILE]...
 //
@@ -26,10 +26,11 @@ namespace {
 using mesher::PointKind;
 
 constexpr std::size_t kPoints = 100000;
-constexpr std::pair<const char*, PointKind> kKinds[] = {
-    {"uniform", PointKind::uniform}, {"gaussian", PointKind::gaussian},
-    {"clusters", PointKind::clusters}, {"grid", PointKind::grid},
-    {"line-circle", PointKind::line_circle}};
+constexpr std::pair<const char*, PointKind> kKinds[] = {{"uniform", PointKind::uniform},
+                                                        {"gaussian", PointKind::gaussian},
+                                                        {"clusters", PointKind::clusters},
+                                                        {"grid", PointKind::grid},
+                                                        {"line-circle", PointKind::line_circle}};
 
 struct Options {
   std::string tool, old;
@@ -84,7 +85,8 @@ void compare(const std::string& name, const std::string& input, const Options& o
   }
   std::printf("{\"bench\":\"one_mesh\",\"input\":\"%s\"", name.c_str());
   gap_balls.print(), refine.print(), svr.print();
-  if (refine.median() > 0) std::printf(",\"over_refine\":%.2f", gap_balls.median() / refine.median());
+  if (refine.median() > 0)
+    std::printf(",\"over_refine\":%.2f", gap_balls.median() / refine.median());
   if (!options.old.empty()) {
     old.print();
     const bool same = bytes_of(folder.file("new.node")) == bytes_of(folder.file("old.node")) &&

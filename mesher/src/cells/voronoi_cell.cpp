@@ -147,8 +147,8 @@ void VoronoiCell::adopt(const Vertex<2>& v, double radius, std::span<const Neigh
   if (!finite || reach2_ >= radius * radius * (1 - 0x1p-20)) clip(radius, finite);
 }
 
-// The circumcentre of a very flat triangle is infinitely far for doubles, or no number at all: where
-// corners are not all finite only find_cut() is right.
+// The circumcentre of a very flat triangle is infinitely far for doubles, or no number at all: if
+// corners are not all finite, only find_cut() is right.
 void VoronoiCell::clip(double radius, bool finite) {
   for (std::size_t i = 0; i < kClips; ++i) {
     aim(clip_place(v_->p, radius, i));

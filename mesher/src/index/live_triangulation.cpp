@@ -64,7 +64,8 @@ bool LiveTriangulation<D>::build(const VertexPool<D>& pool, const std::function<
   };
   try {
     // No two are in one place, and the box's corners are in no plane.
-    mesher::detail::build<D>(kernel_, order, [](std::uint32_t, std::uint32_t) {}, watch);
+    mesher::detail::build<D>(
+        kernel_, order, [](std::uint32_t, std::uint32_t) {}, watch);
   } catch (const TooMany&) {
     return false;
   }
@@ -116,7 +117,8 @@ void LiveTriangulation<D>::note_all() {
     for (std::size_t i = 0; i <= D; ++i) {
       around_[corners[i]].reach2 = std::max(around_[corners[i]].reach2, outer2);
       for (std::size_t k = 0; k < i; ++k) {
-        if (corners[i] != kInfinite && corners[k] != kInfinite) note_distance(corners[i], corners[k]);
+        if (corners[i] != kInfinite && corners[k] != kInfinite)
+          note_distance(corners[i], corners[k]);
       }
     }
   });
@@ -285,7 +287,8 @@ void LiveTriangulation<D>::for_each_neighbour(VertexHandle v, Visit&& visit) {
 // Proof. Doubles err by less than a factor of 1 + 2^-40 in squares: |vw|^2 is at most that times
 // |uv|^2. Since vw is no edge, some vertex z is in the ball with this diameter: |vz|^2 + |zw|^2 <=
 // |vw|^2, so z is nearer to v than w, and |zw|^2 <= |vw|^2 - |uv|^2 <= 2^-40 |uv|^2. As for the
-// search: on the way from w to v one passes from w's cell to that of a neighbour that is nearer to v.
+// search: on the way from w to v one passes from w's cell to that of a neighbour that is nearer to
+// v.
 template <int D>
 auto LiveTriangulation<D>::nearest(const Vertex<D>& v) -> Nearest {
   Nearest best = around_[v.self].nearest;

@@ -80,7 +80,8 @@ bool all_good(const CellOf<D>& cell, double radius) {
     }
     for (const auto& p : simplex) {
       for (const auto& q : simplex) {
-        if (p != q && cell.corner2(t) > kGood2 * mesher::detail::squared_distance(p, q)) return false;
+        if (p != q && cell.corner2(t) > kGood2 * mesher::detail::squared_distance(p, q))
+          return false;
       }
     }
     if (cell.corner2(t) >= radius * radius) return false;
@@ -135,8 +136,8 @@ TEMPLATE_TEST_CASE_SIG("cells read from the triangulation are those that searche
   CHECK(settled > 0);
 }
 
-TEMPLATE_TEST_CASE_SIG("the nearest vertex is that of doubles where a pair is very near", "[template]",
-                       ((int D), D), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the nearest vertex is that of doubles where a pair is very near",
+                       "[template]", ((int D), D), 2, 3) {
   // On a grid many are equally near; a pair is nearer than 2^-19 of that.
   std::vector<Point<D>> points;
   for (int i = 0; i < (D == 2 ? 36 : 216); ++i) {
