@@ -33,11 +33,14 @@ void PlainAgenda::drain(PlainScope& s) {
 }
 
 void PlainAgenda::run_class(PlainScope& s, Class& c) {
+  constexpr auto before = [](const Entry& a, const Entry& b) {
+    return a.order != b.order ? a.order < b.order : order(a, b) < 0;
+  };
   DueCalls<Entry> due;
-  due.begin(c.posts, &before);
+  due.begin(c.posts, before);
   Entry last{0, nullptr};
   while (!due.empty()) {
-    const Entry& first = due.first(&before);
+    const Entry& first = due.first(before);
     const Entry next = first;
     due.drop(first);
     const auto behind = last.record == nullptr ? std::strong_ordering::greater : order(next, last);
@@ -46,7 +49,7 @@ void PlainAgenda::run_class(PlainScope& s, Class& c) {
     last = next;
     next.record->kind->run(s, *next.record);
     s.run_tails();
-    for (const Entry& post : c.posts) due.add(post, &before);
+    for (const Entry& post : c.posts) due.add(post, before);
     c.posts.clear();
   }
 }

@@ -30,6 +30,9 @@ Point<2> clip_place(const Point<2>& v, double radius, std::size_t i) {
   return {v[0] + 2 * radius * kDirections[i][0], v[1] + 2 * radius * kDirections[i][1]};
 }
 
+// Of a squared length: beyond, products of two overflow.
+constexpr double kFar2 = 0x1p400;
+
 struct Corner {
   double x, y, length2, tolerance2;
 };
@@ -120,6 +123,47 @@ void VoronoiCell::cut_by_clip(double radius) {
   if (open2_ < radius * radius * (1 - 0x1p-20)) return;
   for (std::size_t i = 0; i < kClips; ++i) {
     if (cuts(clip_place(v_->p, radius, i)) && replaces_ < 0) cut(kVirtual | static_cast<Code>(i));
+  }
+}
+
+void VoronoiCell::adopt(const Vertex<2>& v, double radius, std::span<const Neighbour> ring) {
+  SAC_EXPECTS(radius > 0 && ring.size() >= 3);
+  v_ = &v;
+  resize(static_cast<int>(ring.size()));
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    place_[i] = ring[i].place;
+    ux_[i] = place_[i][0] - v.p[0];
+    uy_[i] = place_[i][1] - v.p[1];
+    handle_[i] = ring[i].code;
+    clip_[i] = 0;
+    is_open_[i] = 0;
+  }
+  bool finite = true;
+  for (int i = 0; i < size_; ++i) {
+    set_corner(i);
+    finite = finite && q2_[index(i)] < kFar2;
+  }
+  update_reach();
+  if (!finite || reach2_ >= radius * radius * (1 - 0x1p-20)) clip(radius, finite);
+}
+
+// The circumcentre of a very flat triangle is infinitely far for doubles, or no number at all: if
+// corners are not all finite, only find_cut() is right.
+void VoronoiCell::clip(double radius, bool finite) {
+  for (std::size_t i = 0; i < kClips; ++i) {
+    aim(clip_place(v_->p, radius, i));
+    if (finite && is_clear(largest_projection())) continue;
+    if (!find_cut() || replaces_ >= 0) continue;
+    insert_neighbour(run_first_, run_count_, kVirtual | static_cast<Code>(i));
+    update_reach();
+  }
+}
+
+void VoronoiCell::begin_among(const Vertex<2>& v, double radius,
+                              std::span<const Neighbour> neighbours) {
+  reset(v, radius);
+  for (const Neighbour& u : neighbours) {
+    if (cuts(u.place)) cut(u.code);
   }
 }
 

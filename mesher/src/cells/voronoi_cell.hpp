@@ -48,6 +48,18 @@ class VoronoiCell : public CornerReach<std::uint16_t> {
   void restore(const VertexPool<2>& pool, const Vertex<2>& v, double radius,
                std::span<const Code> codes, Left&& left, bool repair);
 
+  /// A neighbour in a Delaunay triangulation, which needs no link beside: the plane's are a ring.
+  struct Neighbour {
+    Code code;
+    Point<2> place;
+  };
+  struct Face {};
+  /// The cell of v among its neighbours in a Delaunay triangulation of all vertices, which it is
+  /// inside of: all of them, counterclockwise. No corner is open. Requires: radius > 0.
+  void adopt(const Vertex<2>& v, double radius, std::span<const Neighbour> ring);
+  /// The cell of v among these, in any order; all corners may be open. Requires: radius > 0.
+  void begin_among(const Vertex<2>& v, double radius, std::span<const Neighbour> neighbours);
+
   /// Whether w is nearer than v to some corner; of a virtual neighbour's place: whether it takes
   /// it.
   [[nodiscard]] bool cuts(const Point<2>& w) {
@@ -140,6 +152,7 @@ class VoronoiCell : public CornerReach<std::uint16_t> {
   void append(const VertexPool<2>& pool, double radius, Code code, bool open_before);
   [[nodiscard]] bool close_ring();
   void cut_by_clip(double radius);
+  void clip(double radius, bool finite);
   void close_known(std::span<const Code> codes);
   bool find_cut();
   bool exactly_nearer(int i, const Point<2>& w);

@@ -153,9 +153,34 @@ void VoronoiCell3::join_across() {
   for (int i = 0; i < neighbours_; ++i) SAC_ENSURES(unpaired_[index(i)].empty());
 }
 
+void VoronoiCell3::adopt(const Vertex<3>& v, double radius, std::span<const Neighbour> neighbours,
+                         std::span<const Face> faces) {
+  SAC_EXPECTS(radius > 0);
+  clear(v);
+  for (const Neighbour& u : neighbours) static_cast<void>(new_neighbour(u.code, u.place));
+  for (const Face& face : faces) set_face(new_face(), face, false);
+  update_reach();
+  if (!(reach2_ < radius * radius * (1 - 0x1p-20))) clip(radius);
+}
+
+// The nearest first: then few cut what the next ones take away again.
+void VoronoiCell3::begin_among(const Vertex<3>& v, double radius,
+                               std::span<Neighbour> neighbours) {
+  reset(v, radius);
+  std::sort(neighbours.begin(), neighbours.end(), [&](const Neighbour& a, const Neighbour& b) {
+    return squared_distance(a.place, v.p) < squared_distance(b.place, v.p);
+  });
+  for (const Neighbour& u : neighbours) {
+    if (cuts(u.place)) cut(u.code);
+  }
+}
+
 // A virtual neighbour is 2 radius away: no corner nearer than that is its.
 void VoronoiCell3::cut_by_clip(double radius) {
-  if (open2_ < radius * radius * (1 - 0x1p-20)) return;
+  if (open2_ >= radius * radius * (1 - 0x1p-20)) clip(radius);
+}
+
+void VoronoiCell3::clip(double radius) {
   for (std::size_t i = 0; i < kClips; ++i) {
     const Code code = kVirtual | static_cast<Code>(i);
     if (!has(code) && cuts(clip_place(v_->p, radius, i)) && replaces_ < 0) cut(code);

@@ -46,6 +46,22 @@ class VoronoiCell3 : public CornerReach<int> {
   void restore(const VertexPool<3>& pool, const Vertex<3>& v, double radius,
                std::span<const Code> record, Left&& left, bool repair);
 
+  struct Neighbour {
+    Code code;
+    Point<3> place;
+  };
+  struct Face {
+    std::array<int, 3> end;     // neighbours
+    std::array<int, 3> across;  // the triangle that does not have end[k]
+  };
+  /// The cell of v among its neighbours in a Delaunay triangulation of all vertices, which it is
+  /// inside of: all of them, with the triangles between them. No corner is open.
+  /// Requires: radius > 0; orient3d(v, a, b, c) > 0 of each face.
+  void adopt(const Vertex<3>& v, double radius, std::span<const Neighbour> neighbours,
+             std::span<const Face> faces);
+  /// The cell of v among these, in any order; all corners may be open. Requires: radius > 0.
+  void begin_among(const Vertex<3>& v, double radius, std::span<Neighbour> neighbours);
+
   /// Whether w is nearer than v to some corner; of a virtual neighbour's place: whether it takes
   /// it.
   [[nodiscard]] bool cuts(const Point<3>& w) {
@@ -129,10 +145,6 @@ class VoronoiCell3 : public CornerReach<int> {
   void check_invariants() const;
 
  private:
-  struct Face {
-    std::array<int, 3> end;     // neighbours
-    std::array<int, 3> across;  // the triangle that does not have end[k]
-  };
   // An edge of the disc that a cut takes, and the triangle that stays beyond it.
   struct Rim {
     int from, to;
@@ -157,6 +169,7 @@ class VoronoiCell3 : public CornerReach<int> {
   template <class Left>
   void cut_by_nearest(const VertexPool<3>& pool, std::span<const Code> codes, Left&& left);
   void cut_by_clip(double radius);
+  void clip(double radius);
   void close_known(const LinkRecord& record);
   void aim(const Point<3>& w) noexcept;
   [[nodiscard]] bool is_clear(double projection) const noexcept {

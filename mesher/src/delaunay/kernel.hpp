@@ -128,6 +128,10 @@ class DelaunayKernel {
   }
   [[nodiscard]] std::size_t places() const noexcept { return vertices_.size() - 1; }
   [[nodiscard]] bool is_ghost(std::uint32_t s) const noexcept;
+  /// A simplex with corner v. Requires: has(v).
+  [[nodiscard]] std::uint32_t simplex_at(std::uint32_t v) const noexcept {
+    return vertices_[v].simplex;
+  }
   /// The simplices with corner v, ghosts too. Requires: has(v). Cost: O(k) for k of them.
   [[nodiscard]] std::vector<std::uint32_t> star(std::uint32_t v) const;
   /// The finite vertices of v's star but v, ascending.

@@ -7,6 +7,7 @@
 
 #include "facade/asking.hpp"
 #include "geometry/input_point.hpp"
+#include "geometry/place_hash.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/predicates.hpp"
 #include "plane/lost_edge.hpp"
@@ -40,13 +41,12 @@ std::vector<VertexHandle> add_points(const std::vector<Point<D>>& points, const 
   for (const std::size_t i : detail::morton_order(points, world.box)) {
     const FeatureId id = id_of(i, ids);
     detail::check_point(points[i], options.domain, id);
-    if (const auto* other = features.obstacle(points[i])) {
+    auto& v = world.vertices.add_input(points[i], true);
+    if (const auto* other = features.insert_unless(v)) {
       const auto at = std::find(handles.begin(), handles.end(), other->self) - handles.begin();
       detail::fail_too_near(points[i], id, other->p, id_of(static_cast<std::size_t>(at), ids));
     }
-    auto& v = world.vertices.add_input(points[i], true);
     handles[i] = v.self;
-    features.insert_only(v);
   }
   return handles;
 }
@@ -115,31 +115,49 @@ void require_planar(World<2>& world, const std::vector<detail::SegmentHandle>& a
       .require({added, {}}, names);
 }
 
+// Where leaves end, by place.
+class LeafEnds {
+ public:
+  explicit LeafEnds(const World<2>& world) {
+    world.vertices.pool().for_each([&](const detail::Vertex<2>& v) {
+      if (v.input || v.on_segment) handles_.emplace(v.p, v.self);
+    });
+  }
+  [[nodiscard]] VertexHandle at(const Point<2>& p) const { return handles_.at(p); }
+
+ private:
+  struct Hash {
+    std::size_t operator()(const Point<2>& p) const noexcept { return detail::place_hash(p); }
+  };
+  std::unordered_map<Point<2>, VertexHandle, Hash> handles_;
+};
+
 detail::OnFeatures on_features(const World<2>& world, const InputNames& names) {
   detail::OnFeatures on;
-  const auto& tree = world.vertices.tree();
+  const LeafEnds ends(world);
   world.leaves.for_each([&](const detail::Leaf& leaf) {
-    on.edges.push_back(
-        {tree.find(leaf.lo)->self, tree.find(leaf.hi)->self, names.line(leaf.piece.segment)});
+    on.edges.push_back({ends.at(leaf.lo), ends.at(leaf.hi), names.line(leaf.piece.segment)});
   });
   return on;
 }
 
 // Of the leaves' edges, those that no triangle has are lost.
-void require_edges(const World<2>& world) {
+void require_edges(World<2>& world) {
   std::map<std::array<VertexHandle, 2>, const detail::Leaf*> leaves;
   const auto key = [](VertexHandle v, VertexHandle w) {
     return std::array{std::min(v, w), std::max(v, w)};
   };
-  const auto& tree = world.vertices.tree();
+  const LeafEnds ends(world);
   world.leaves.for_each([&](const detail::Leaf& leaf) {
-    leaves[key(tree.find(leaf.lo)->self, tree.find(leaf.hi)->self)] = &leaf;
+    leaves[key(ends.at(leaf.lo), ends.at(leaf.hi))] = &leaf;
   });
-  for (const auto& t : world.plain.simplices) {
+  world.for_each_simplex([&](const auto& t) {
     for (std::size_t i = 0; i < 3; ++i) leaves.erase(key(t[i], t[(i + 1) % 3]));
-  }
+  });
+  if (leaves.empty()) return;
+  world.vertices.fill_tree();
   detail::LostEdge lost;
-  for (const auto& [ends, leaf] : leaves) lost.look(*leaf, false);
+  for (const auto& [edge, leaf] : leaves) lost.look(*leaf, false);
   lost.require_none(world.vertices, world.segments.pool(), world.names);
 }
 
@@ -195,10 +213,17 @@ class StaticRun {
     }
   }
   [[nodiscard]] Mesh<D> mesh(const detail::OnFeatures& on, MeshStats* stats) {
-    std::vector<VertexHandle> vertices;
-    world_.vertices.pool().for_each([&](detail::Vertex<D>& v) { vertices.push_back(v.self); });
-    Mesh<D> mesh =
-        detail::canonical(world_.vertices.pool(), std::move(vertices), world_.plain.simplices, on);
+    std::vector<Point<D>> places;
+    std::vector<VertexKind> kinds;
+    places.reserve(world_.vertices.pool().size());
+    kinds.reserve(world_.vertices.pool().size());
+    world_.vertices.pool().for_each([&](const detail::Vertex<D>& v) {
+      SAC_EXPECTS(v.self == places.size() + 1);
+      places.push_back(v.p);
+      kinds.push_back(v.kind());
+    });
+    Mesh<D> mesh = detail::canonical<D>(places, kinds, 1, on,
+                                        [&](auto&& visit) { world_.for_each_simplex(visit); });
     if (stats != nullptr) *stats = detail::timed_stats(world_, mesh);
     return mesh;
   }
@@ -397,8 +422,10 @@ Mesh<3> mesh_statically(const std::vector<Point<3>>& points, const std::vector<S
   run.refine();
   const auto& vertices = world.vertices;
   const detail::PolygonsAt all = detail::polygons_at(world.plc.store());
+  std::vector<std::array<VertexHandle, 4>> simplices;
+  world.for_each_simplex([&](const auto& simplex) { simplices.push_back(simplex); });
   return run.mesh(
-      detail::on_features(world.plain.simplices,
+      detail::on_features(simplices,
                           {vertices.pool(), vertices.roles(), world.plc.store(), names, {&all}}),
       stats);
 }

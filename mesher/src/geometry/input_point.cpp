@@ -6,6 +6,7 @@
 #include <numeric>
 #include <string>
 
+#include "sets/counting_sort.hpp"
 #include "text/text.hpp"
 
 namespace mesher::detail {
@@ -88,9 +89,9 @@ std::vector<std::size_t> morton_order(const std::vector<std::array<double, N>>& 
   }
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return code[a] != code[b] ? code[a] < code[b] : a < b;
-  });
+  sort_spread(
+      order, [&](std::size_t i) { return code[i]; },
+      [&](std::size_t a, std::size_t b) { return code[a] != code[b] ? code[a] < code[b] : a < b; });
   return order;
 }
 

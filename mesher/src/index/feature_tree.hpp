@@ -46,11 +46,20 @@ class FeatureTree {
   template <class Changed>
   void erase(Vertex<D>& v, Changed&& changed) noexcept;
 
-  /// K(p) from the tree. Cost: O(K(p)).
+  /// K(p) from the tree. Cost: O(K(p)); of points in Morton order O(1) as a rule, if nothing is
+  /// inserted or erased meanwhile.
   [[nodiscard]] int crowded_level(const Vertex<D>& v) const;
 
   /// Adds a point without updating K: for many at once, each then asked for its crowded_level().
-  void insert_only(Vertex<D>& v);
+  /// Requires: obstacle(v.p) == nullptr.
+  void insert_only(Vertex<D>& v) {
+    const Vertex<D>* other = insert_unless(v);
+    SAC_ENSURES(other == nullptr);
+    static_cast<void>(other);
+  }
+  /// The same, unless there is an obstacle: returns it. Throws: std::bad_alloc, and then changes
+  /// nothing.
+  [[nodiscard]] const Vertex<D>* insert_unless(Vertex<D>& v);
 
   /// Calls visit(vertex) for the points in the closed box, until it returns true; returns whether
   /// it did. Points just outside may be visited, too. Cost: O(size of the tree in the box).
@@ -82,6 +91,26 @@ class FeatureTree {
   }();
   using Block = std::array<Node, kChildren>;
   using Around = std::array<Node, kBlock3>;
+  // Of the cells around one: in which of those around its parent each is, and as which child. By
+  // the half of the parent, along each axis, that it is in.
+  struct Descent {
+    std::uint8_t parent, child;
+  };
+  static constexpr std::array<std::array<Descent, kBlock3>, kChildren> kBelow = [] {
+    std::array<std::array<Descent, kBlock3>, kChildren> all{};
+    for (int half = 0; half < kChildren; ++half) {
+      for (int n = 0; n < kBlock3; ++n) {
+        int parent = 0, child = 0;
+        for (int i = 0, power = 1, rest = n; i < D; ++i, power *= 3, rest /= 3) {
+          const int at = 2 + (half >> i & 1) + rest % 3 - 1;  // in halves, from a parent before
+          parent += at / 2 * power;
+          child |= (at & 1) << i;
+        }
+        all[half][n] = {static_cast<std::uint8_t>(parent), static_cast<std::uint8_t>(child)};
+      }
+    }
+    return all;
+  }();
 
   [[nodiscard]] Fixed<D> fixed_of(Node point) const {
     return box_.fixed(vertices_[point & ~kPoint].p);
@@ -108,8 +137,18 @@ class FeatureTree {
   };
   [[nodiscard]] Below check_below(Node node, const Cell<D>& cell) const;
 
+  // The blocks around a place, by level, down to `deepest`; those of the cells that another place
+  // has in common with it are the same.
+  struct Path {
+    Fixed<D> at{};
+    int deepest = -1;  // -1: nothing
+    std::array<Around, kLevels + 1> around;
+  };
+  void forget_path() noexcept { path_.deepest = -1; }
+
   const MeshBox<D>& box_;
   const VertexPool<D>& vertices_;
+  mutable Path path_;  // of the last crowded_level()
   std::vector<Block> blocks_;
   std::vector<std::uint32_t> free_;
   Node root_ = 0;
@@ -131,23 +170,25 @@ template <int D>
 typename FeatureTree<D>::Around FeatureTree<D>::down(const Around& around, const Fixed<D>& f,
                                                      int level) const {
   Around next{};
-  for (int n = 0; n < kBlock3; ++n) {
-    std::array<std::int64_t, D> cell;
-    int parent = 0;
-    int child = 0;
-    for (int i = 0, power = 1, rest = n; i < D; ++i, power *= 3, rest /= 3) {
-      const auto own = static_cast<std::int64_t>(f[i] >> (kLevels - 1 - level));
-      cell[i] = own + rest % 3 - 1;
-      parent += static_cast<int>((cell[i] >> 1) - (own >> 1) + 1) * power;
-      child |= static_cast<int>(cell[i] & 1) << i;
-    }
-    const Node above = around[parent];
+  std::array<std::int64_t, D> own;
+  std::size_t half = 0;  // of f, in its cell, a bit an axis
+  for (std::size_t i = 0; i < D; ++i) {
+    own[i] = static_cast<std::int64_t>(f[i] >> (kLevels - 1 - level));
+    half |= static_cast<std::size_t>(own[i] & 1) << i;
+  }
+  for (std::size_t n = 0; n < kBlock3; ++n) {
+    const Descent& below = kBelow[half][n];
+    const Node above = around[below.parent];
     if (above == 0) continue;
-    if ((above & kPoint) != 0) {
-      if (inside(above, cell, level + 1)) next[n] = above;
-    } else {
-      next[n] = blocks_[above][child];
+    if ((above & kPoint) == 0) {
+      next[n] = blocks_[above][below.child];
+      continue;
     }
+    std::array<std::int64_t, D> cell;
+    for (std::size_t i = 0, rest = n; i < D; ++i, rest /= 3) {
+      cell[i] = own[i] + static_cast<std::int64_t>(rest % 3) - 1;
+    }
+    if (inside(above, cell, level + 1)) next[n] = above;
   }
   return next;
 }
@@ -155,14 +196,18 @@ typename FeatureTree<D>::Around FeatureTree<D>::down(const Around& around, const
 template <int D>
 int FeatureTree<D>::crowded_level(const Vertex<D>& v) const {
   const Fixed<D> f = box_.fixed(v.p);
-  Around around = start();
+  int known = std::min(path_.deepest, MeshBox<D>::common_level(f, path_.at));
+  if (known < 0) path_.around[0] = start(), known = 0;
+  path_.at = f;
   for (int level = 0;; ++level) {
+    if (level > known) path_.around[level] = down(path_.around[level - 1], f, level - 1);
+    path_.deepest = std::max(known, level);
+    const Around& around = path_.around[level];
     bool alone = around[kBlock3 / 2] == (kPoint | v.self);
     for (int n = 0; alone && n < kBlock3; ++n) alone = n == kBlock3 / 2 || around[n] == 0;
     if (alone) return level - 1;
     if (level == kLevels)
       return kLevels - 1;  // neighbours in the finest cells: cannot be told apart
-    around = down(around, f, level);
   }
 }
 
@@ -240,6 +285,7 @@ bool FeatureTree<D>::visit_in(const Box<D>& area, Visit&& visit) const {
 template <int D>
 void FeatureTree<D>::replace(const Vertex<D>& v, const Vertex<D>& w) noexcept {
   const Fixed<D> f = box_.fixed(v.p);
+  forget_path();
   Node* link = &root_;
   for (int level = 0; (*link & kPoint) == 0; ++level) {
     link = &blocks_[*link][MeshBox<D>::child_of(f, level)];
@@ -269,9 +315,9 @@ typename FeatureTree<D>::Node FeatureTree<D>::new_block() noexcept {
 }
 
 template <int D>
-void FeatureTree<D>::insert_only(Vertex<D>& v) {
-  SAC_EXPECTS(obstacle(v.p) == nullptr);
+const Vertex<D>* FeatureTree<D>::insert_unless(Vertex<D>& v) {
   reserve_blocks(kLevels);
+  forget_path();
   const Fixed<D> f = box_.fixed(v.p);
   Node block = 0;  // where the link to the current node is stored; 0: in root_
   int child = 0;
@@ -280,6 +326,7 @@ void FeatureTree<D>::insert_only(Vertex<D>& v) {
   while (link() != 0) {
     if ((link() & kPoint) != 0) {
       const Node other = link();
+      if (fixed_of(other) == f) return &vertices_[other & ~kPoint];
       const Node fresh = new_block();
       blocks_[fresh][MeshBox<D>::child_of(fixed_of(other), level)] = other;
       link() = fresh;
@@ -289,6 +336,7 @@ void FeatureTree<D>::insert_only(Vertex<D>& v) {
   }
   link() = kPoint | v.self;
   ++size_;
+  return nullptr;
 }
 
 template <int D>
@@ -308,6 +356,7 @@ template <int D>
 template <class Changed>
 void FeatureTree<D>::erase(Vertex<D>& v, Changed&& changed) noexcept {
   const Fixed<D> f = box_.fixed(v.p);
+  forget_path();
   std::array<VertexHandle, std::size_t{kBlock3} * (kLevels + 1)> affected;
   std::size_t count = 0;
   visit_lonely(f, v.self, [&](VertexHandle h, int level) {

@@ -13,6 +13,7 @@ VertexRef<D> VertexIndex<sac::Scope, D>::insert(sac::Scope& s, const Point<D>& p
   if (const auto* edge = s.recall<BirthEdge>(id_, kBirth, same)) return {&pool_[edge->vertex]};
   Vertex<D>& v = record_at(s, p);
   produce(s, v);
+  join(v);
   return {&v};
 }
 
@@ -22,6 +23,7 @@ VertexRef<D> VertexIndex<sac::Scope, D>::insert(sac::Scope& s, const Point<D>& p
   if (const auto* edge = recall_on_segment(s, p, role)) return {&pool_[edge->vertex]};
   Vertex<D>& v = record_at(s, p);
   produce_on_segment(s, v, role);
+  join(v);
   return {&v};
 }
 
@@ -207,6 +209,22 @@ void VertexIndex<sac::Scope, D>::vanished(const Vertex<D>& v, const sac::Window&
   });
 }
 
+// --- Reading, in a first run -----------------------------------------------------------------
+
+template <int D>
+void VertexIndex<sac::Scope, D>::begin_questions() {
+  live_.reset();
+  if (!may_read() || !pool_.is_dense()) return;
+  bool all = true;
+  pool_.for_each([&](const Vertex<D>& v) { all = all && (v.alive || v.input); });
+  if (all) live_ = LiveTriangulation<D>::of(pool_, 0, [] {});
+}
+
+template <int D>
+void VertexIndex<sac::Scope, D>::join(const Vertex<D>& v) {
+  if (reads() && !live_->insert(v)) fail_coincident(v.p);
+}
+
 // --- Observations ----------------------------------------------------------------------------
 
 // `last`: what the running call saw last time, if it asked the same.
@@ -215,6 +233,10 @@ template <class Seen>
 CellLoan<D> VertexIndex<sac::Scope, D>::look(const Vertex<D>& v, double radius,
                                              const Observation* last, Seen&& seen) {
   CellLoan<D> cell = borrow_cell();
+  if (reads()) {
+    live_->read(*cell, v, radius);
+    return cell;
+  }
   const bool repairs = last != nullptr && observers_.knows_arrivals(*last);
   bool known = true;
   if (repairs) {
@@ -339,7 +361,8 @@ CellLoan<D> VertexIndex<sac::Scope, D>::voronoi_cell(sac::Scope& s, VertexRef<D>
 template <int D>
 double VertexIndex<sac::Scope, D>::nearest2(sac::Scope& s, VertexRef<D> v) {
   const sac::Call& self = s.self();
-  const auto n = nearest_around(*v, [&](VertexHandle u) { return born_before(pool_[u], self); });
+  const auto seen = [&](VertexHandle u) { return born_before(pool_[u], self); };
+  const auto n = reads() ? live_->nearest(*v) : nearest_around(*v, seen);
   s.weigh(take_visited());
   record_nearest(s, *v, Reach<D>::around(std::sqrt(n.distance2) * (1 + 0x1p-40) / box_.side),
                  n.handle);

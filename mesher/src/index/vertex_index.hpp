@@ -28,11 +28,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "index/change_log.hpp"
 #include "index/first_stars.hpp"
+#include "index/live_triangulation.hpp"
 #include "index/observers.hpp"
 #include "index/vertex_search.hpp"
 #include "sac/sac.hpp"
@@ -42,6 +47,7 @@ namespace mesher::detail {
 template <class S, int D = 2>
 class VertexIndex;
 
+// While it has a triangulation, that answers; the quadtree is filled only where it is searched.
 template <int D>
 class VertexIndex<sac::PlainScope, D> : public VertexSearch<D> {
   using Base = VertexSearch<D>;
@@ -49,15 +55,33 @@ class VertexIndex<sac::PlainScope, D> : public VertexSearch<D> {
  public:
   using Base::Base;
 
-  VertexRef<D> insert(sac::PlainScope&, const Point<D>& p) {
-    if (Base::tree_.find(p) != nullptr) Base::fail_coincident(p);
-    Vertex<D>& v = Base::add(p);
-    v.alive = true;
+  /// From here on cells are asked for. `good2`, `step`: as for LiveTriangulation.
+  void begin_questions(double good2, const std::function<void()>& step) {
+    live_ = LiveTriangulation<D>::of(Base::pool_, good2, step);
+    if (live_ == nullptr) fill_tree();
+  }
+  /// Whether the quadtree is searched.
+  [[nodiscard]] bool searches() const noexcept { return live_ == nullptr; }
+  /// Puts all vertices into the quadtree, if they are not in it.
+  void fill_tree() {
+    if (std::exchange(in_tree_, true)) return;
+    Base::pool_.for_each([&](Vertex<D>& v) { Base::tree_.insert(v); });
+  }
+
+  Vertex<D>& add_input(const Point<D>& p, bool) {
+    Vertex<D>& v = create(p);
+    v.input = true;
+    return v;
+  }
+  VertexRef<D> add_boundary(const Point<D>& p) {
+    Vertex<D>& v = create(p);
+    Base::mark_boundary(v);
     return {&v};
   }
+
+  VertexRef<D> insert(sac::PlainScope&, const Point<D>& p) { return insert_apart(p, Role()); }
   VertexRef<D> insert(sac::PlainScope&, const Point<D>& p, const Role& role) {
-    if (Base::tree_.find(p) != nullptr) Base::fail_coincident(p);
-    return insert_new(p, role);
+    return insert_apart(p, role);
   }
   VertexRef<D> insert_early(sac::PlainScope&, const Point<D>& p) { return insert_new(p, Role()); }
   VertexRef<D> insert_early(sac::PlainScope&, const Point<D>& p, const Role& role) {
@@ -65,22 +89,50 @@ class VertexIndex<sac::PlainScope, D> : public VertexSearch<D> {
   }
   void insert(sac::PlainScope&, VertexRef<D> v) { v->alive = true; }
   CellLoan<D> voronoi_cell(sac::PlainScope&, VertexRef<D> v, double radius) {
-    return Base::cut_around(*v, radius, [](VertexHandle) { return true; });
+    if (searches()) {
+      fill_tree();
+      return Base::cut_around(*v, radius, [](VertexHandle) { return true; });
+    }
+    CellLoan<D> cell = Base::borrow_cell();
+    live_->read(*cell, *v, radius);
+    return cell;
+  }
+  /// Whether v's cell up to R is known to be all of its star, of good simplices.
+  [[nodiscard]] bool is_settled(VertexRef<D> v, double radius) {
+    return !searches() && live_->is_settled(*v, radius);
   }
   void note_asked(double) noexcept {}
   double nearest2(sac::PlainScope&, VertexRef<D> v) {
+    if (!searches()) return live_->nearest(*v).distance2;
+    fill_tree();
     return Base::nearest_around(*v, [](VertexHandle) { return true; }).distance2;
   }
   CellLoan<D> star(sac::PlainScope& s, VertexRef<D> v) { return voronoi_cell(s, v, Base::whole()); }
+  /// Of all vertices, from begin_questions() on; null if the quadtree is searched.
+  [[nodiscard]] const LiveTriangulation<D>* triangulation() const noexcept { return live_.get(); }
 
  private:
+  Vertex<D>& create(const Point<D>& p) { return in_tree_ ? Base::add(p) : Base::pool_.create(p); }
+  VertexRef<D> insert_apart(const Point<D>& p, const Role& role) {
+    if (searches()) {
+      fill_tree();
+      if (Base::tree_.find(p) != nullptr) Base::fail_coincident(p);
+      return insert_new(p, role);
+    }
+    const VertexRef<D> v = insert_new(p, role);
+    if (!live_->insert(*v)) Base::fail_coincident(p);
+    return v;
+  }
   VertexRef<D> insert_new(const Point<D>& p, const Role& role) {
-    Vertex<D>& v = Base::add(p);
+    Vertex<D>& v = create(p);
     v.alive = true;
     if (role.on != 0) Base::roles_.reserve(v.self);
     Base::set_role(v, role);
     return {&v};
   }
+
+  std::unique_ptr<LiveTriangulation<D>> live_;
+  bool in_tree_ = false;
 };
 
 template <int D>
@@ -103,6 +155,11 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
         log_(pool_, engine.arena()),
         id_(engine.add_structure(*this)) {}
 
+  /// In a first run: cells are asked for from here on. All records are, or will be, vertices.
+  void begin_questions();
+  /// Whether the quadtree is searched: in updates.
+  [[nodiscard]] static constexpr bool searches() noexcept { return true; }
+
   VertexRef<D> insert(sac::Scope& s, const Point<D>& p);
   VertexRef<D> insert(sac::Scope& s, const Point<D>& p, const Role& role);
   /// In a first run without a look for a vertex at p: the quadtree is one leaf then. Features are
@@ -122,14 +179,14 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   double nearest2(sac::Scope& s, VertexRef<D> v);
   CellLoan<D> star(sac::Scope& s, VertexRef<D> v);
   /// In a first run run() asks for stars of vertices that are all there already: they are made at
-  /// once. (Not where weights are recorded: they are those of searches.)
+  /// once, if there is no triangulation.
   template <class Run>
   void with_first_stars(Run&& run) {
-    if (engine_.appending() && !engine_.records_weights()) first_stars_.emplace(pool_);
+    if (!reads() && may_read()) first_stars_.emplace(pool_);
     const struct Forget {
-      std::optional<FirstStars<D>>& stars;
-      ~Forget() { stars.reset(); }
-    } forget{first_stars_};
+      VertexIndex& index;
+      ~Forget() { index.first_stars_.reset(), index.live_.reset(); }
+    } forget{*this};
     run();
   }
 
@@ -234,6 +291,14 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   [[nodiscard]] bool born_before(const Vertex<D>& u, const sac::Call& call) const noexcept {
     return u.boundary || presences_.seen_by(u.presence, call);
   }
+  /// Whether a first run need not search. (Where weights are recorded it does: they are those of
+  /// searches.)
+  [[nodiscard]] bool may_read() const noexcept {
+    return engine_.appending() && !engine_.records_weights();
+  }
+  /// Whether cells are read from the triangulation. A first run that has failed leaves one.
+  [[nodiscard]] bool reads() const noexcept { return live_ != nullptr && engine_.appending(); }
+  void join(const Vertex<D>& v);
   [[nodiscard]] Vertex<D>& record_at(sac::Scope& s, const Point<D>& p);
   const BirthOnSegmentEdge* recall_on_segment(sac::Scope& s, const Point<D>& p, const Role& role);
   void produce_on_segment(sac::Scope& s, Vertex<D>& v, const Role& role);
@@ -290,7 +355,8 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   std::uint8_t id_;
   std::vector<std::uint32_t> codes_;          // the cell being recorded, written down
   CellSeen* last_cell_ = nullptr;             // the last one recorded
-  std::optional<FirstStars<D>> first_stars_;  // while a first run triangulates
+  std::unique_ptr<LiveTriangulation<D>> live_;  // in a first run
+  std::optional<FirstStars<D>> first_stars_;    // while a first run triangulates
   std::vector<VertexHandle> gone_;            // the neighbours being replaced
 };
 

@@ -18,6 +18,7 @@
 
 #include "cells/cell_of.hpp"
 #include "index/cell_pool.hpp"
+#include "index/live_triangulation.hpp"
 #include "index/quadtree.hpp"
 #include "records/roles.hpp"
 #include "records/vertex.hpp"
@@ -91,8 +92,7 @@ class VertexSearch {
   /// A vertex of the boundary grid: there from the start, for good.
   VertexRef<D> add_boundary(const Point<D>& p) {
     Vertex<D>& v = add(p);
-    v.alive = v.boundary = v.committed = true;
-    v.committed_kind = VertexKind::boundary;
+    mark_boundary(v);
     return {&v};
   }
 
@@ -110,6 +110,11 @@ class VertexSearch {
       throw;
     }
     return v;
+  }
+
+  static void mark_boundary(Vertex<D>& v) noexcept {
+    v.alive = v.boundary = v.committed = true;
+    v.committed_kind = VertexKind::boundary;
   }
 
   /// The cell of v among all vertices u for which seen(u); u is a handle.
@@ -217,10 +222,7 @@ class VertexSearch {
   /// q, too, hence in the diametral ball of an edge of the grid. No vertex ever is [L 4.4.1].
   [[nodiscard]] Reach<D> concern(const Cell& cell) const noexcept;
 
-  struct Nearest {
-    VertexHandle handle;
-    double distance2;
-  };
+  using Nearest = typename LiveTriangulation<D>::Nearest;
   template <class Seen>
   Nearest nearest_around(const Vertex<D>& v, Seen&& seen) const {
     Nearest best{0, 4 * box_.side * box_.side};

@@ -51,7 +51,7 @@ void Locate::operator()(S& s, VertexRef<D> p) const {
   const Fixed<D> f = w.box.fixed(p->p);
   const int level = w.features.level(s, *p);
   w.vertices.insert(s, p);
-  if (level >= kCoarser) {
+  if (level >= kCoarser && w.vertices.searches()) {
     const Cell<D> c = MeshBox<D>::cell(f, level - kCoarser);
     w.quadtree.template post<split>(s, split_key(c), c);
   }
@@ -64,6 +64,7 @@ void Locate::operator()(S& s, VertexRef<D> p) const {
 template <class S, int D>
 void Split::operator()(S& s, Cell<D> c) const {
   auto& w = s.template environment<World<S, D>>();
+  if (!w.vertices.searches()) return;
   w.subdivision.split(s, c);
   if (c.level == 0) return;
   MeshBox<D>::for_each_parent_around(c, [&](const Cell<D>& larger) {

@@ -53,6 +53,7 @@ void ComputeNN::operator()(S& s, VertexRef<D> v, int b) const {
 template <class S, int D>
 void Complete::operator()(S& s, VertexRef<D> v, int b) const {
   auto& w = s.template environment<World<S, D>>();
+  if (is_settled(s, w, v, b)) return;
   const CellLoan<D> gaps = w.vertices.voronoi_cell(s, v, w.buckets().clip_radius(b));
   Staying<S, D> stays(w, *gaps);
   bool cuts = disencroach(s, w, stays, v, b);

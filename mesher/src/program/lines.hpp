@@ -41,4 +41,28 @@ Outcome yields(S&, World<S, D>&, Staying<S, D>&, const typename InsertionRule<D>
   return Outcome::stands;
 }
 
+/// Whether lines or polygons may concern Complete(v, b).
+template <class S>
+bool has_lines_at(const World<S, 2>& w, VertexRef<2> v) {
+  return v->on_segment && w.leaves.any();
+}
+template <class S>
+bool has_lines_at(const World<S, 3>& w, VertexRef<3>) {
+  return w.has_features();
+}
+template <class S, int D>
+bool has_lines_at(const World<S, D>&, VertexRef<D>) {
+  return false;
+}
+/// Whether Complete(v, b) has nothing to do, as is seen without v's cell. A traced call looks at the
+/// cell.
+template <class S, int D>
+bool is_settled(S&, World<S, D>& w, VertexRef<D> v, int b) {
+  if constexpr (S::kTraced) {
+    return false;
+  } else {
+    return !has_lines_at(w, v) && w.vertices.is_settled(v, w.buckets().clip_radius(b));
+  }
+}
+
 }  // namespace mesher::detail

@@ -22,7 +22,7 @@
 
 namespace mesher::detail {
 
-/// The simplices of a static run, and who watches it.
+/// The simplices of a static run without a triangulation of its own, and who watches it.
 template <int D>
 struct PlainOutput {
   std::vector<std::array<VertexHandle, D + 1>> simplices;
@@ -82,8 +82,17 @@ struct PointWorld {
   void post_nearest_in(S& s, VertexRef<D> v, int b);
   void post_complete(S& s, VertexRef<D> v, int b);
   void post_star(S& s, VertexRef<D> v);
-  /// The stars of all vertices that were posted; in a static run the simplices of all.
+  /// From here on vertices' neighbours are asked for. All that are not inserted by ChooseSteiners
+  /// have records; in an update that does not matter.
+  void begin_questions(S& s);
+  /// The stars of all vertices that were posted; in a static run all simplices.
   void triangulate(S& s);
+  /// In a static run: calls visit(corners) for each simplex. Requires: triangulated.
+  template <class Visit>
+  requires(!S::kTraced) void for_each_simplex(Visit&& visit) const {
+    if (const auto* all = vertices.triangulation()) return all->for_each_simplex(visit);
+    for (const auto& simplex : plain.simplices) visit(simplex);
+  }
   /// Throws: Error(too_many) if there are more vertices than there may be.
   void require_room(S& s) const {
     if (vertices.pool().size() > most_records) fail_too_many(s);

@@ -115,6 +115,7 @@ struct Refine {
     const auto now = [] { return std::chrono::steady_clock::now(); };
     w.marks[0] = now();
     drain_lines(s, w);
+    w.begin_questions(s);
     w.quadtree.drain(s);
     w.marks[1] = now();
     w.steiner.drain(s);

@@ -115,9 +115,20 @@ void PointWorld<S, D>::post_star(S& s, VertexRef<D> v) {
 }
 
 template <class S, int D>
+void PointWorld<S, D>::begin_questions(S&) {
+  if constexpr (S::kTraced) {
+    vertices.begin_questions();
+  } else {
+    vertices.begin_questions(limits.any() ? 0 : rule->surely_good2(), [&] { plain.tick(); });
+  }
+}
+
+template <class S, int D>
 void PointWorld<S, D>::triangulate(S& s) {
   if constexpr (S::kTraced) {
     vertices.with_first_stars([&] { stars.drain(s); });
+  } else if (vertices.triangulation() != nullptr) {  // it is done
+    vertices.pool().for_each([&](const Vertex<D>&) { plain.tick(); });
   } else if constexpr (D <= 3) {
     triangulate_at_once(vertices.pool(), plain);
   } else {

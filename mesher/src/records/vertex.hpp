@@ -106,6 +106,8 @@ class VertexPool {
     }
   }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// Whether handles are 1 .. size(), and the next record's is the next one.
+  [[nodiscard]] bool is_dense() const noexcept { return size_ + 1 == next_; }
   [[nodiscard]] std::size_t bytes() const noexcept {
     return chunks_.size() * kChunk * sizeof(Vertex<D>);
   }

@@ -52,6 +52,10 @@ class InsertionRule {
   [[nodiscard]] virtual std::optional<int> next_bucket(const CellOf<D>& cell, int b,
                                                        const EdgeFilter<D>* filter) const = 0;
 
+  /// A simplex with a circumradius, squared, below this times its shortest edge, squared, asks for
+  /// nothing unless it is too large, even if both are off by 2^-20. 0: one cannot say.
+  [[nodiscard]] virtual double surely_good2() const noexcept { return 0; }
+
   [[nodiscard]] const Buckets<D>& buckets() const noexcept { return buckets_; }
   [[nodiscard]] const Promise& promise() const noexcept { return promise_; }
 
@@ -60,6 +64,7 @@ class InsertionRule {
   [[nodiscard]] bool exceeds(double radius2, double edge2) const noexcept {
     return radius2 > rho2_ * edge2;
   }
+  [[nodiscard]] double rho2() const noexcept { return rho2_; }
   [[nodiscard]] bool is_centre(const CellOf<D>& cell, int corner) const;
   /// `growth2`: to be farther, p must be from all vertices by more than this times length2.
   [[nodiscard]] NewPoint new_point(const CellOf<D>& cell, const Point<D>& p, double length2,

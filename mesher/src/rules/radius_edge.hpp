@@ -33,6 +33,9 @@ class RadiusEdge final : public InsertionRule<D> {
                                                    const EdgeFilter<D>* filter) const override;
   [[nodiscard]] std::optional<int> next_bucket(const CellOf<D>& cell, int b,
                                                const EdgeFilter<D>* filter) const override;
+  [[nodiscard]] double surely_good2() const noexcept override {
+    return Base::rho2() * (1 - 0x1p-18);
+  }
 
  private:
   // The edge p q of a poor simplex, in the plane on the left of p -> q; or of a large one.

@@ -19,7 +19,9 @@ class DueCalls {
   template <class Before>
   void begin(std::vector<Entry>& posted, Before&& before) {
     std::vector<Entry> batch = posted;  // sorting may fail half way
-    std::sort(batch.begin(), batch.end(), before);
+    if (!std::is_sorted(batch.begin(), batch.end(), before)) {
+      std::sort(batch.begin(), batch.end(), before);
+    }
     batch_ = std::move(batch);
     next_ = 0;
     posted.clear();

@@ -92,7 +92,6 @@ class PlainAgenda {
       [](Record& r) { std::destroy_at(&arguments_of<Arguments>(r)); }};
 
   static std::strong_ordering order(const Entry& a, const Entry& b);
-  static bool before(const Entry& a, const Entry& b) { return order(a, b) < 0; }
 
   template <auto F, class... Kept, class... Args>
   void add(const Key& key, Args&&... args) {
