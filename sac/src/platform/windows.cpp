@@ -16,9 +16,7 @@ void* reserve(std::size_t bytes, std::size_t alignment) noexcept {
   return nullptr;
 }
 
-void release(void* block, std::size_t, std::size_t) noexcept {
-  VirtualFree(block, 0, MEM_RELEASE);
-}
+void release(void* block, std::size_t, std::size_t) noexcept { VirtualFree(block, 0, MEM_RELEASE); }
 
 bool commit(void* from, std::size_t bytes) noexcept {
   return VirtualAlloc(from, bytes, MEM_COMMIT, PAGE_READWRITE) != nullptr;
