@@ -53,16 +53,16 @@ inline std::string fault(const mesher::Mesh<2>& mesh, const mesher::Pslg& graph,
   return "";
 }
 
-inline mesher::FeatureId id(std::size_t i) {
+inline mesher::FeatureId id_at(std::size_t i) {
   return mesher::FeatureId{static_cast<std::int64_t>(i + 1)};
 }
 
 inline mesher::Pslg graph_of(const std::vector<mesher::Point<2>>& points,
                              const std::vector<std::pair<std::size_t, std::size_t>>& segments) {
   mesher::Pslg graph;
-  for (const mesher::Point<2>& p : points) graph.points.push_back({id(graph.points.size()), p, 0});
+  for (const mesher::Point<2>& p : points) graph.points.push_back({id_at(graph.points.size()), p, 0});
   for (const auto& [a, b] : segments) {
-    graph.segments.push_back({id(graph.segments.size()), id(a), id(b), 0});
+    graph.segments.push_back({id_at(graph.segments.size()), id_at(a), id_at(b), 0});
   }
   return graph;
 }

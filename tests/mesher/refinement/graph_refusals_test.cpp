@@ -20,7 +20,7 @@ using support::By;
 using support::fault;
 using support::frame;
 using support::graph_of;
-using support::id;
+using support::id_at;
 using support::mesh_of;
 using support::options_for;
 using support::refusal;
@@ -72,12 +72,12 @@ TEMPLATE_TEST_CASE_SIG("graphs that cannot be meshed are refused, by name", "", 
     return refusal<B>(bad, options_for(graph));
   };
   const auto add = [](Pslg& g, std::size_t a, std::size_t b) {
-    g.segments.push_back({FeatureId{77}, id(a), id(b), 0});
+    g.segments.push_back({FeatureId{77}, id_at(a), id_at(b), 0});
   };
   const Refusal crossing = edited([&](Pslg& g) { add(g, 0, 2); });
   CHECK(crossing.code == "point_on_segment");
   CHECK(crossing.ids.size() == 2);
-  CHECK(edited([&](Pslg& g) { add(g, 3, 4), add(g, 0, 7), g.segments.back().id = id(77); }).code ==
+  CHECK(edited([&](Pslg& g) { add(g, 3, 4), add(g, 0, 7), g.segments.back().id = id_at(77); }).code ==
         "crossing_segments");
   CHECK(edited([&](Pslg& g) { add(g, 0, 1); }).code == "repeated_segment");
   CHECK(edited([&](Pslg& g) { add(g, 0, 99); }).code == "unknown_id");

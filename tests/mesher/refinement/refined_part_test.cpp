@@ -20,7 +20,7 @@ using support::By;
 using support::fault;
 using support::frame;
 using support::graph_of;
-using support::id;
+using support::id_at;
 using support::mesh_of;
 using support::options_for;
 using support::random_graph;
@@ -106,7 +106,7 @@ TEMPLATE_TEST_CASE_SIG("of a graph what is not wanted is not refined: the outsid
     graph.points.push_back({FeatureId{100 + i}, {0.5 + 1e-4 * std::pow(1.1, i), 0.5}, 0});
   }
   const Mesh<2> filled = mesh_of<B>(graph, options_for(graph), Extent::enclosed);
-  graph.holes.push_back({id(0), {0.45, 0.55}});
+  graph.holes.push_back({id_at(0), {0.45, 0.55}});
   const Mesh<2> holed = mesh_of<B>(graph, options_for(graph), Extent::enclosed);
   CHECK(holed.vertices.size() < filled.vertices.size());
   CHECK(fault(holed, graph, Extent::enclosed) == "");

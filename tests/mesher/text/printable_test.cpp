@@ -31,5 +31,5 @@ TEST_CASE("an error shows nothing else, whatever its message was made of") {
   const mesher::Error error(mesher::ErrorCode::bad_syntax, "expected \x1B]0;x\a", {"a\x1B.msh", 2, 1});
   CHECK(std::string(error.what()) ==
         "a\\x1b.msh:2:1: error[bad_syntax]: expected \\x1b]0;x\\x07");
-  CHECK(error.place().file == "a\x1B.msh");
+  CHECK(error.location().file == "a\x1B.msh");
 }
