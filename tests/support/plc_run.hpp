@@ -65,10 +65,15 @@ class PlcRun {
   }
   [[nodiscard]] World& world() noexcept { return world_; }
   [[nodiscard]] ComplexMesh mesh();
-  [[nodiscard]] SpaceResult result() const { return space_result(world_, world_.plain.simplices); }
+  [[nodiscard]] SpaceResult result() const { return space_result(world_, simplices()); }
 
  private:
   void add(const Complex& complex);
+  [[nodiscard]] std::vector<std::array<mesher::detail::VertexHandle, 4>> simplices() const {
+    std::vector<std::array<mesher::detail::VertexHandle, 4>> all;
+    world_.for_each_simplex([&](const auto& t) { all.push_back(t); });
+    return all;
+  }
   std::size_t number(mesher::detail::VertexHandle h) const { return numbers_.at(h); }
 
   mesher::detail::MeshBox<3> box_;
@@ -110,7 +115,7 @@ inline ComplexMesh PlcRun::mesh() {
     numbers_[v.self] = mesh.vertices.size();
     mesh.vertices.push_back(v.p);
   });
-  for (const auto& t : world_.plain.simplices) {
+  for (const auto& t : simplices()) {
     mesh.tetrahedra.push_back({number(t[0]), number(t[1]), number(t[2]), number(t[3])});
   }
   const auto standing = [&](const Vertex& v) { return Standing{v, world_.vertices.role(v)}; };
@@ -140,7 +145,7 @@ inline ComplexMesh PlcRun::mesh() {
     });
   }
   const SmallAngles angles(all);
-  for (const auto& t : world_.plain.simplices) {
+  for (const auto& t : simplices()) {
     for (const VertexHandle a : t) {
       for (const VertexHandle b : t) {
         if (!(pool[a].p < pool[b].p) || !angles.keeps(standing(pool[a]), standing(pool[b]))) {

@@ -82,7 +82,6 @@ class MeditReader {
   void read_dimension() {
     const std::string_view field = take("the dimension");
     dimension_ = source_.integer(field);
-    mesh_.is_in_space = dimension_ == 3;
     if (dimension_ == 2 || dimension_ == 3) return;
     throw source_.error(ErrorCode::bad_dimension, "expected the dimension 2 or 3", field);
   }
