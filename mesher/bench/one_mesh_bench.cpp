@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "from_files.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/io.hpp"
@@ -111,7 +112,8 @@ void compare_families(const Options& options) {
 
 }  // namespace
 
-int main(int, char** argv) {
+int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   Options options{.tool = bench::tool_beside(argv[0]), .old = {}};
   std::vector<std::string> files;
   for (char** word = argv + 1; *word != nullptr; ++word) {

@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench_help.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"
 #include "sample.hpp"
@@ -161,6 +162,7 @@ void run(std::string_view what) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   const std::vector<std::string_view> defaults{"10000", "100000", "1000000", "3d:10000",
                                                "3d:100000"};
   const std::vector<std::string_view> given(argv + 1, argv + argc);

@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "../../sac/examples/thesis/mesh.hpp"
+#include "bench_help.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/mesher.hpp"
 #include "plots.hpp"
@@ -232,6 +233,7 @@ void over_size(std::size_t n, int edits, Plot& plot) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::shows_help(argc, argv)) return 0;
   std::vector<std::size_t> sizes;
   int edits = 20;
   std::string out = "build/thesis_stability";
