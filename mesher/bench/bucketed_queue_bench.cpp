@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "bench_help.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "refinement/bucketed_queue.hpp"
 #include "sample.hpp"
 

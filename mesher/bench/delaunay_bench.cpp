@@ -27,9 +27,10 @@
 #include <vector>
 
 #include "bench_help.hpp"
+#include "io/point_file.hpp"
 #include "mesher/delaunay.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/io.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/read.hpp"
 #include "sample.hpp"
 
 namespace {

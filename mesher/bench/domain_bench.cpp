@@ -20,21 +20,21 @@
 
 #include "bench_help.hpp"
 #include "domain/regions.hpp"
+#include "facade/box_mesher.hpp"
 #include "mesher/domain.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "mesher/extra/generate.hpp"
 #include "sample.hpp"
 
 namespace {
 
-using mesher::FeatureId;
 using mesher::Mesh;
 using mesher::MeshEdge;
 using mesher::Point;
+using mesher::PointId;
 using mesher::detail::Corners;
-using mesher::detail::Edge;
 using mesher::detail::Regions;
 using mesher::detail::RegionsChange;
+using Edge = mesher::detail::SideOf<2>;
 using Clock = std::chrono::steady_clock;
 
 template <class Run>
@@ -110,9 +110,9 @@ struct Numbers {
   std::vector<Point<2>> places;
 };
 
-void insert_points(mesher::Mesher<2>& m, std::size_t n) {
+void insert_points(mesher::BoxMesher<2>& m, std::size_t n) {
   const auto points = mesher::generate_points<2>(mesher::PointKind::uniform, n, 1);
-  for (std::size_t i = 0; i < n; ++i) m.insert(FeatureId{static_cast<std::int64_t>(i)}, points[i]);
+  for (std::size_t i = 0; i < n; ++i) m.insert(PointId{static_cast<std::int64_t>(i)}, points[i]);
   m.update();
 }
 
@@ -122,9 +122,9 @@ std::vector<MeshEdge> mesh_edges(const std::vector<Edge>& walls) {
   return edges;
 }
 
-void print_find(const mesher::MeshData& whole, const std::vector<mesher::Seed>& seeds,
+void print_find(const mesher::MeshData<2>& whole, const std::vector<mesher::Seed<2>>& seeds,
                 const Regions& regions, double seconds_regions, std::size_t n) {
-  mesher::Domain domain;
+  mesher::Domain<2> domain;
   const double find = seconds_of(
       [&] { domain = find_domain(whole, whole.features.edges, seeds, mesher::Extent::enclosed); });
   std::size_t kept = 0;
@@ -137,10 +137,10 @@ void print_find(const mesher::MeshData& whole, const std::vector<mesher::Seed>& 
 }
 
 // Points in the lake, far from its walls.
-void print_inside(mesher::Mesher<2>& m, Numbers& numbers, Regions& regions, std::size_t n) {
+void print_inside(mesher::BoxMesher<2>& m, Numbers& numbers, Regions& regions, std::size_t n) {
   Sample inside;
   mesher::SplitMix64 random(2);
-  const FeatureId id{-1};
+  const PointId id{-1};
   for (int i = 0; i < 1000; ++i) {
     m.insert(id, {0.65 + 0.1 * random.unit(), 0.45 + 0.1 * random.unit()});
     inside.update(regions, numbers.change(m.update()));
@@ -163,17 +163,16 @@ void print_door(Regions& regions, const Edge& door, std::size_t n) {
 }
 
 void run(std::size_t n) {
-  mesher::Mesher<2> m(mesher::Options<2>{.domain = {{0, 0}, {1, 1}}});
+  mesher::BoxMesher<2> m(mesher::Options<2>{.domain = {{0, 0}, {1, 1}}});
   insert_points(m, n);
-  mesher::MeshData whole(m.mesh());
+  mesher::MeshData<2> whole(m.mesh());
   Numbers numbers(whole);
   std::vector<Edge> walls = ring(whole, 0.4);
   const std::vector<Edge> room = ring(whole, 0.02);
   walls.insert(walls.end(), room.begin(), room.end());
   whole.features.edges = mesh_edges(walls);
-  const std::vector<mesher::Seed> seeds{
-      {{mesher::SeedKind::region, FeatureId{2}}, {0.501, 0.502}, 1, {}},
-      {{mesher::SeedKind::region, FeatureId{1}}, {0.7, 0.6}, 2, {}}};
+  const std::vector<mesher::Seed<2>> seeds{mesher::region_seed<2>(2, {0.501, 0.502}, 1),
+                                           mesher::region_seed<2>(1, {0.7, 0.6}, 2)};
   std::unique_ptr<Regions> regions;
   const double seconds = seconds_of([&] {
     regions = std::make_unique<Regions>(whole.simplices, walls, seeds,

@@ -25,9 +25,10 @@
 #include "bench_help.hpp"
 #include "chart.hpp"
 #include "from_files.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/refine.hpp"
-#include "mesher/svr.hpp"
+#include "io/point_file.hpp"
+#include "mesher/extra/generate.hpp"
+#include "refinement/refine.hpp"
+#include "refinement/svr.hpp"
 #include "sample.hpp"
 
 namespace {

@@ -14,6 +14,7 @@
 
 #include "bench_help.hpp"
 #include "from_files.hpp"
+#include "io/point_file.hpp"
 
 namespace {
 

@@ -9,27 +9,29 @@
 #include <utility>
 #include <vector>
 
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
-#include "mesher/pslg.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/mesh_statically.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/graph.hpp"
+#include "mesher/read.hpp"
 #include "sample.hpp"
 
 namespace bench {
 
-using mesher::FeatureId;
 using mesher::Point;
+using mesher::PointId;
 
 /// An input, as both meshers take it.
 struct Input {
   std::string name;
   std::vector<Point<2>> points;
-  std::vector<FeatureId> ids;
+  std::vector<PointId> ids;
   std::vector<mesher::Segment> segments;
   mesher::Options<2> options;
   double length = 0;  // of what is edited
 
-  Input(std::string called, const mesher::Pslg& given) : name(std::move(called)) {
-    const mesher::Pslg pslg = mesher::without_polylines(given);
+  Input(std::string called, const mesher::Graph<2>& given) : name(std::move(called)) {
+    const mesher::Graph<2> pslg = mesher::without_polylines(given);
     for (const auto& v : pslg.points) points.push_back(v.at), ids.push_back(v.id);
     for (const auto& s : pslg.segments) segments.push_back({s.id, s.from, s.to});
     options.domain = mesher::snapped_domain<2>(points);
@@ -46,11 +48,11 @@ inline Input random_segments(std::size_t n) {
   return Input(std::to_string(n), mesher::generate_pslg({mesher::PslgKind::segments, n}));
 }
 inline Input file_input(const std::string& path) {
-  return Input(std::filesystem::path(path).stem().string(), mesher::read_pslg(path).pslg);
+  return Input(std::filesystem::path(path).stem().string(), mesher::read<2>(path).graph);
 }
 
-inline mesher::Mesher<2> first_run(const Input& in) {
-  mesher::Mesher<2> m(in.options);
+inline mesher::BoxMesher<2> first_run(const Input& in) {
+  mesher::BoxMesher<2> m(in.options);
   m.insert(in.ids, in.points);
   for (const auto& s : in.segments) m.insert_segment(s.id, s.from, s.to);
   m.update();

@@ -19,13 +19,14 @@
 #include <vector>
 
 #include "bench_help.hpp"
-#include "mesher/mesher.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/mesh_statically.hpp"
 #include "sample.hpp"
 
 namespace {
 
-using mesher::FeatureId;
 using mesher::Point;
+using mesher::PointId;
 // splitmix64: the same points everywhere.
 struct Random {
   std::uint64_t state;
@@ -49,7 +50,7 @@ struct Sample {
   double executed = 0, edges = 0, vertices = 0, simplices = 0;
 
   template <int D, class Edit>
-  void update(mesher::Mesher<D>& m, Edit edit) {
+  void update(mesher::BoxMesher<D>& m, Edit edit) {
     mesher::Change<D> change;
     microseconds.push_back(1e6 * bench::seconds_of([&] {
                              edit();
@@ -102,14 +103,14 @@ void print_first_run(const mesher::MeshStats& s, std::size_t n, int dimension, d
 }
 
 template <int D>
-void bench_updates(mesher::Mesher<D>& m, std::vector<FeatureId> ids, Random& random) {
+void bench_updates(mesher::BoxMesher<D>& m, std::vector<PointId> ids, Random& random) {
   const std::size_t n = ids.size();
   Sample insert;
   Sample remove;
   for (std::size_t k = 0; k < 2000; ++k) {
-    const FeatureId id{static_cast<std::int64_t>(n + k)};
+    const PointId id{static_cast<std::int64_t>(n + k)};
     const Point<D> p = random.point<D>();
-    const FeatureId gone = ids[k % n];
+    const PointId gone = ids[k % n];
     insert.update(m, [&] { m.insert(id, p); });
     remove.update(m, [&] { m.remove(gone); });
     ids[k % n] = id;
@@ -125,13 +126,13 @@ void bench_points(std::size_t n, std::optional<double> rho = {}) {
   options.domain.hi.fill(1);
   if (rho) options.rho = *rho;
   std::vector<Point<D>> points(n);
-  std::vector<FeatureId> ids(n);
+  std::vector<PointId> ids(n);
   for (std::size_t i = 0; i < n; ++i) {
     points[i] = random.point<D>();
-    ids[i] = FeatureId{static_cast<std::int64_t>(i)};
+    ids[i] = PointId{static_cast<std::int64_t>(i)};
   }
   const double static_total = print_static<D>(points, options);
-  mesher::Mesher<D> m(options);
+  mesher::BoxMesher<D> m(options);
   const double total = bench::seconds_of([&] {
     m.insert(ids, points);
     m.update();

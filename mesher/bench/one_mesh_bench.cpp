@@ -19,8 +19,8 @@
 
 #include "bench_help.hpp"
 #include "from_files.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/io.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/write.hpp"
 
 namespace {
 

@@ -14,34 +14,36 @@
 #include <vector>
 
 #include "bench_help.hpp"
-#include "mesher/domain_mesh.hpp"
-#include "mesher/generate_plc.hpp"
+#include "facade/graph_runs.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/read.hpp"
 #include "sample.hpp"
 #include "tetgen.hpp"
 
 namespace {
 
-using mesher::Plc;
+using mesher::Graph;
 using mesher::PlcKind;
 
 constexpr int kRounds = 3;
 
-mesher::Options<3> options_of(const Plc& plc) {
+mesher::Options<3> options_of(const Graph<3>& plc) {
   return {.domain = mesher::snapped_domain<3>(mesher::places_of(plc))};
 }
 
-std::size_t vertices_inside(const Plc& plc) {
+std::size_t vertices_inside(const Graph<3>& plc) {
   auto mesh = mesher::mesh_statically(plc, options_of(plc));
-  return mesher::domain_mesh(std::move(mesh), plc, mesher::Extent::enclosed).kept.vertices.size();
+  return mesher::domain_mesh(std::move(mesh), plc, mesher::Extent::enclosed).mesh.vertices.size();
 }
 
-void bench_plc(const std::string& name, const Plc& plc) {
+void bench_plc(const std::string& name, const Graph<3>& plc) {
   std::vector<double> statics, firsts, theirs;
   std::size_t all = 0, their_vertices = 0;
   for (int round = 0; round < kRounds; ++round) {
     statics.push_back(bench::seconds_of(
         [&] { all = mesher::mesh_statically(plc, options_of(plc)).vertices.size(); }));
-    mesher::Mesher<3> m(options_of(plc));
+    mesher::BoxMesher<3> m(options_of(plc));
     mesher::announce(plc, m);
     firsts.push_back(bench::seconds_of([&] { m.update(); }));
     const auto tetgen = bench::run_tetgen(plc);
@@ -79,7 +81,7 @@ int main(int argc, char** argv) {
   if (!bench::has_tetgen())
     std::fprintf(stderr, "plc_bench: tetgen is not installed: without it\n");
   for (int i = 1; i < argc; ++i) {
-    bench_plc(std::filesystem::path(argv[i]).stem().string(), mesher::read_plc(argv[i]).plc);
+    bench_plc(std::filesystem::path(argv[i]).stem().string(), mesher::read<3>(argv[i]).graph);
   }
   if (argc > 1) return 0;
   const auto& names = mesher::plc_kind_names();

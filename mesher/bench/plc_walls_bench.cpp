@@ -20,17 +20,19 @@
 #include <vector>
 
 #include "bench_help.hpp"
-#include "mesher/domain_mesh.hpp"
-#include "mesher/generate.hpp"
+#include "facade/graph_runs.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/meshing.hpp"
 #include "sample.hpp"
 #include "tetgen.hpp"
 
 namespace {
 
-using mesher::FeatureId;
-using mesher::Mesher;
-using mesher::Plc;
+using mesher::BoxMesher;
+using mesher::Graph;
 using mesher::Point;
+using mesher::PointId;
+using mesher::PolygonId;
 
 constexpr int kSamples = 10;
 
@@ -40,18 +42,18 @@ class Story {
   Story(std::string name, int steps, const mesher::Box<3>& domain)
       : name_(std::move(name)), steps_(steps), options_{.domain = domain}, m_(options_) {}
 
-  FeatureId point(const Point<3>& at) {
-    plc_.points.push_back({FeatureId{static_cast<std::int64_t>(plc_.points.size()) + 1}, at});
+  PointId point(const Point<3>& at) {
+    plc_.points.push_back({PointId{static_cast<std::int64_t>(plc_.points.size()) + 1}, at});
     m_.insert(plc_.points.back().id, at);
     return plc_.points.back().id;
   }
-  void move(FeatureId id, const Point<3>& to) {
+  void move(PointId id, const Point<3>& to) {
     plc_.points[static_cast<std::size_t>(id) - 1].at = to;
     m_.move(id, to);
   }
-  void polygon(const std::vector<FeatureId>& corners) {
-    auto& f = plc_.facets.emplace_back().polygon;
-    f.id = FeatureId{static_cast<std::int64_t>(plc_.facets.size())};
+  void polygon(const std::vector<PointId>& corners) {
+    auto& f = plc_.polygons.emplace_back();
+    f.id = PolygonId{static_cast<std::int64_t>(plc_.polygons.size())};
     f.loops = {corners};
     m_.insert_polygon(f);
   }
@@ -104,8 +106,8 @@ class Story {
   std::string name_;
   int steps_;
   mesher::Options<3> options_;
-  Mesher<3> m_;
-  Plc plc_;
+  BoxMesher<3> m_;
+  Graph<3> plc_;
   bench::Sample updates_;
   double first_s_ = 0, remesh_s_ = 0;
   std::vector<double> theirs_;
@@ -115,7 +117,7 @@ class Story {
 // --- A crack ---------------------------------------------------------------------------------
 
 void add_block(Story& story) {
-  std::vector<FeatureId> at;
+  std::vector<PointId> at;
   for (int i = 0; i < 8; ++i) {
     at.push_back(story.point({double(i & 1), double(i >> 1 & 1), double(i >> 2 & 1)}));
   }
@@ -136,9 +138,9 @@ void bench_crack() {
     if (std::abs(p[2] - 0.5) > kStep) story.point({0.02 + 0.96 * p[0], 0.02 + 0.96 * p[1], p[2]});
   }
   mesher::SplitMix64 random(3);
-  std::map<std::pair<int, int>, FeatureId> corners;
+  std::map<std::pair<int, int>, PointId> corners;
   const auto corner = [&](int column, int row) {
-    const auto [it, fresh] = corners.try_emplace({column, row}, FeatureId{});
+    const auto [it, fresh] = corners.try_emplace({column, row}, PointId{});
     if (fresh) {
       it->second = story.point({0.1 + kStep * (column + 0.5 * (row & 1)), 0.25 + kStep * row,
                                 0.5 + kStep / 2 * (random.unit() - 0.5)});
@@ -148,8 +150,8 @@ void bench_crack() {
   story.begin();
   for (int i = 0; i < kSteps; ++i) {
     const int column = i / 2 / kRows, row = i / 2 % kRows, side = i % 2, odd = row & 1;
-    const FeatureId a = corner(column, row), b = corner(column + 1, row);
-    const FeatureId c = corner(column, row + 1), d = corner(column + 1, row + 1);
+    const PointId a = corner(column, row), b = corner(column + 1, row);
+    const PointId c = corner(column, row + 1), d = corner(column + 1, row + 1);
     if (odd == 0) {
       story.polygon(side == 0 ? std::vector{a, b, c} : std::vector{b, d, c});
     } else {
@@ -166,8 +168,7 @@ constexpr int kCorners = 16;
 double angle_at(int i) { return 6.283185307179586 * i / kCorners; }
 
 // Two round ends with sides between them; ends.first and ends.second have the corners of each.
-void add_prism(Story& story,
-               const std::pair<std::vector<FeatureId>, std::vector<FeatureId>>& ends) {
+void add_prism(Story& story, const std::pair<std::vector<PointId>, std::vector<PointId>>& ends) {
   story.polygon(ends.first);
   story.polygon(ends.second);
   for (std::size_t i = 0; i < kCorners; ++i) {
@@ -186,7 +187,7 @@ Point<3> on_plate(int i, bool upper, double turned) {
 void bench_valve() {
   constexpr int kSteps = 100;
   Story story("valve", kSteps, {{-1, -1, -1}, {1, 1, 1}});
-  std::pair<std::vector<FeatureId>, std::vector<FeatureId>> pipe, plate;
+  std::pair<std::vector<PointId>, std::vector<PointId>> pipe, plate;
   for (int i = 0; i < kCorners; ++i) {
     const double y = 0.5 * std::cos(angle_at(i)), z = 0.5 * std::sin(angle_at(i));
     pipe.first.push_back(story.point({-1, y, z}));

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "bench_help.hpp"
-#include "mesher/ball_predicates.hpp"
 #include "mesher/predicates.hpp"
 
 namespace {

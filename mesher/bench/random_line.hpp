@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/mesh.hpp"
 
 namespace bench {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/mesher.hpp"
+#include "facade/box_mesher.hpp"
 
 namespace bench {
 
@@ -31,7 +31,7 @@ class Sample {
  public:
   /// Times m.update().
   template <int D>
-  mesher::Change<D> update(mesher::Mesher<D>& m) {
+  mesher::Change<D> update(mesher::BoxMesher<D>& m) {
     mesher::Change<D> change;
     const double seconds = seconds_of([&] { change = m.update(); });
     microseconds_.push_back(1e6 * seconds);

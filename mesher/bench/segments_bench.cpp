@@ -24,8 +24,9 @@ namespace {
 
 using bench::Input;
 using bench::Sample;
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Point;
+using mesher::PointId;
 
 double print_static(const Input& in) {
   mesher::MeshStats stats;
@@ -40,7 +41,7 @@ double print_static(const Input& in) {
   return run;
 }
 
-void print_first_run(const Input& in, const mesher::Mesher<2>& m, double static_seconds) {
+void print_first_run(const Input& in, const mesher::BoxMesher<2>& m, double static_seconds) {
   const mesher::MeshStats s = m.stats();
   const double run = s.seconds_quadtree + s.seconds_steiner + s.seconds_triangulate;
   std::printf(
@@ -55,17 +56,21 @@ void print_first_run(const Input& in, const mesher::Mesher<2>& m, double static_
 /// Random lines that come and go.
 class Editor {
  public:
-  Editor(const Input& in, mesher::Mesher<2>& m) : in_(in), m_(m), random_(in.points.size()) {}
+  Editor(const Input& in, mesher::BoxMesher<2>& m) : in_(in), m_(m), random_(in.points.size()) {}
 
   /// A line of `points` points (1: the point alone) comes in one update and goes in another.
   void edit(int points, Sample& come, Sample& go) {
-    const std::vector<FeatureId> line = insert(points, come);
-    if (points > 1) m_.remove_segment(line.front());
-    for (const FeatureId id : line) m_.remove(id);
+    const std::vector<PointId> line = insert(points, come);
+    if (points > 1) m_.remove_line(line_of(line));
+    for (const PointId id : line) m_.remove(id);
     go.update(m_);
   }
 
  private:
+  /// It has the number of its first point.
+  static LineId line_of(const std::vector<PointId>& points) {
+    return LineId{static_cast<std::int64_t>(points.front())};
+  }
   Point<2> somewhere() {
     Point<2> p;
     const auto& [lo, hi] = in_.options.domain;
@@ -79,16 +84,16 @@ class Editor {
     return bench::random_line(from, at, points - 1, length, random_);
   }
   // Where the mesher refuses it (it crosses something, or leaves the domain), another is tried.
-  std::vector<FeatureId> insert(int points, Sample& come) {
+  std::vector<PointId> insert(int points, Sample& come) {
     for (;;) {
-      std::vector<FeatureId> ids;
+      std::vector<PointId> ids;
       Sample tried = come;
       try {
         for (const Point<2>& p : line(points)) {
-          ids.push_back(FeatureId{next_id_++});
+          ids.push_back(PointId{next_id_++});
           m_.insert(ids.back(), p);
         }
-        if (points > 1) m_.insert_polyline(ids.front(), ids);
+        if (points > 1) m_.insert_polyline(line_of(ids), ids);
         tried.update(m_);
       } catch (const mesher::Error&) {
         m_.discard_edits();
@@ -100,14 +105,14 @@ class Editor {
   }
 
   const Input& in_;
-  mesher::Mesher<2>& m_;
+  mesher::BoxMesher<2>& m_;
   mesher::SplitMix64 random_;
   std::int64_t next_id_ = 1'000'000'000;
 };
 
 void bench_input(const Input& in, int edits) {
   const double static_seconds = print_static(in);
-  mesher::Mesher<2> m = bench::first_run(in);
+  mesher::BoxMesher<2> m = bench::first_run(in);
   print_first_run(in, m, static_seconds);
   Editor editor(in, m);
   struct Kind {

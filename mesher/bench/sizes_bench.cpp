@@ -22,17 +22,19 @@
 
 #include "../../tests/support/sized_square.hpp"
 #include "bench_help.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/mesh_statically.hpp"
 #include "input.hpp"
 #include "mesher/error.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace {
 
 using bench::quantile;
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Options;
 using mesher::Point;
+using mesher::PointId;
 using support::SizedSquare;
 using support::SizesInSquare;
 using Clock = std::chrono::steady_clock;
@@ -95,7 +97,7 @@ struct Edits {
   }
 };
 
-void update(mesher::Mesher<2>& m, Edits& edits) {
+void update(mesher::BoxMesher<2>& m, Edits& edits) {
   const auto start = Clock::now();
   const auto change = m.update();
   edits.microseconds.push_back(1e6 * seconds_since(start));
@@ -105,8 +107,9 @@ void update(mesher::Mesher<2>& m, Edits& edits) {
 }
 
 // A point, or a segment three spacings long, at random places; not those that meet the features.
-Edits random_edits(mesher::Mesher<2>& m, double length) {
-  constexpr FeatureId kFrom{1000}, kTo{1001}, kLine{1000};
+Edits random_edits(mesher::BoxMesher<2>& m, double length) {
+  constexpr PointId kFrom{1000}, kTo{1001};
+  constexpr LineId kLine{1000};
   mesher::SplitMix64 random(7);
   Edits edits;
   while (edits.vertices.size() < 100) {
@@ -121,7 +124,7 @@ Edits random_edits(mesher::Mesher<2>& m, double length) {
     } catch (const mesher::Error&) {
       continue;
     }
-    if (length > 0) m.remove_segment(kLine), m.remove(kTo);
+    if (length > 0) m.remove_line(kLine), m.remove(kTo);
     m.remove(kFrom);
     update(m, edits);
   }
@@ -154,7 +157,7 @@ class Disc final : public mesher::SizeField<2> {
   double radius_, h_;
 };
 
-void print_discs(const Case& c, mesher::Mesher<2>& m, double radius) {
+void print_discs(const Case& c, mesher::BoxMesher<2>& m, double radius) {
   mesher::SplitMix64 random(11);
   Edits edits;
   std::vector<double> inside;
@@ -189,9 +192,9 @@ void print_discs(const Case& c, mesher::Mesher<2>& m, double radius) {
 }
 
 void print_edits(const Case& c) {
-  mesher::Mesher<2> m(c.options);
+  mesher::BoxMesher<2> m(c.options);
   std::int64_t next = 1;
-  for (const Point<2>& p : SizedSquare::points()) m.insert(FeatureId{next++}, p);
+  for (const Point<2>& p : SizedSquare::points()) m.insert(PointId{next++}, p);
   for (const auto& s : SizedSquare::segments()) m.insert_segment(s.id, s.from, s.to);
   m.update();
   random_edits(m, 0).print("point", c);
@@ -206,7 +209,8 @@ void print_file(const char* path, double area) {
   const auto start = Clock::now();
   const auto mesh = mesh_statically(in.points, in.segments, in.options, in.ids);
   std::printf(
-      "{\"bench\":\"sizes\",\"figure\":\"static\",\"file\":\"%s\",\"max_measure\":%g,\"vertices\":%zu,"
+      "{\"bench\":\"sizes\",\"figure\":\"static\",\"file\":\"%s\",\"max_measure\":%g,\"vertices\":%"
+      "zu,"
       "\"seconds\":%.4f}\n",
       path, area, mesh.vertices.size(), seconds_since(start));
 }

@@ -6,10 +6,12 @@
 // JSON line per figure, times of the process in microseconds:
 //   update   the median of single insertions, and of single removals, of a mesher that keeps slots
 //            and of one that does not, of the same points, in turn; the ratio of their sums
-//   read     the median to follow a change by slots (a field by vertex slot gets values for what has
+//   read     the median to follow a change by slots (a field by vertex slot gets values for what
+//   has
 //            come, and the corners of new simplices are summed); mesh() and compact(), which any
 //            other numbering needs
-//   memory   bytes of the arrays, by vertex, and beside the trace; seconds of the first run with and
+//   memory   bytes of the arrays, by vertex, and beside the trace; seconds of the first run with
+//   and
 //            without slots
 #include <cstdint>
 #include <cstdio>
@@ -18,15 +20,15 @@
 #include <vector>
 
 #include "bench_help.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "facade/box_mesher.hpp"
+#include "mesher/extra/generate.hpp"
 #include "sample.hpp"
 
 namespace {
 
-using mesher::FeatureId;
-using mesher::Mesher;
+using mesher::BoxMesher;
 using mesher::Point;
+using mesher::PointId;
 using mesher::Slot;
 
 template <int D>
@@ -45,7 +47,7 @@ mesher::Options<D> unit_box() {
 
 template <int D>
 struct Run {
-  Mesher<D> m{unit_box<D>()};
+  BoxMesher<D> m{unit_box<D>()};
   double first_seconds = 0;
   std::vector<double> inserts, removes;
 
@@ -59,7 +61,7 @@ struct Run {
   // Places that are taken are passed over.
   bool insert(std::int64_t id, const Point<D>& p) {
     try {
-      m.insert(FeatureId{id}, p);
+      m.insert(PointId{id}, p);
       return true;
     } catch (const mesher::Error&) {
       return false;
@@ -87,8 +89,9 @@ struct Solver {
 
   void follow(const mesher::LiveMesh<D>& live, const mesher::SlotChange& change) {
     times.push_back(1e6 * bench::seconds_of([&] {
-      for (int again = 0; again < kTimes; ++again) read(live, change);
-    }) / kTimes);
+                      for (int again = 0; again < kTimes; ++again) read(live, change);
+                    }) /
+                    kTimes);
   }
 
  private:
@@ -121,34 +124,36 @@ void run(std::size_t n) {
     };
     read(first, first.update(first.inserts));
     read(second, second.update(second.inserts));
-    first.m.remove(FeatureId{id});
-    second.m.remove(FeatureId{id});
+    first.m.remove(PointId{id});
+    second.m.remove(PointId{id});
     read(second, second.update(second.removes));
     read(first, first.update(first.removes));
   }
-  const double ratio = (sum(with.inserts) + sum(with.removes)) /
-                       (sum(without.inserts) + sum(without.removes));
-  std::printf("{\"bench\":\"slots\",\"figure\":\"update\",\"dimension\":%d,\"n\":%zu,"
-              "\"insert_us\":%.1f,\"insert_without_us\":%.1f,\"remove_us\":%.1f,"
-              "\"remove_without_us\":%.1f,\"ratio\":%.4f}\n",
-              D, n, bench::quantile(with.inserts, 0.5), bench::quantile(without.inserts, 0.5),
-              bench::quantile(with.removes, 0.5), bench::quantile(without.removes, 0.5), ratio);
+  const double ratio =
+      (sum(with.inserts) + sum(with.removes)) / (sum(without.inserts) + sum(without.removes));
+  std::printf(
+      "{\"bench\":\"slots\",\"figure\":\"update\",\"dimension\":%d,\"n\":%zu,"
+      "\"insert_us\":%.1f,\"insert_without_us\":%.1f,\"remove_us\":%.1f,"
+      "\"remove_without_us\":%.1f,\"ratio\":%.4f}\n",
+      D, n, bench::quantile(with.inserts, 0.5), bench::quantile(without.inserts, 0.5),
+      bench::quantile(with.removes, 0.5), bench::quantile(without.removes, 0.5), ratio);
   const double mesh_us = 1e6 * bench::seconds_of([&] { static_cast<void>(with.m.mesh()); });
   const double compact_us =
       1e6 * bench::seconds_of([&] { static_cast<void>(with.m.live().compact()); });
-  std::printf("{\"bench\":\"slots\",\"figure\":\"read\",\"dimension\":%d,\"n\":%zu,"
-              "\"read_us\":%.3f,\"p99_us\":%.3f,\"mesh_us\":%.0f,\"compact_us\":%.0f,"
-              "\"check\":%llu}\n",
-              D, n, bench::quantile(solver.times, 0.5), bench::quantile(solver.times, 0.99),
-              mesh_us, compact_us, static_cast<unsigned long long>(solver.corners % 1000));
+  std::printf(
+      "{\"bench\":\"slots\",\"figure\":\"read\",\"dimension\":%d,\"n\":%zu,"
+      "\"read_us\":%.3f,\"p99_us\":%.3f,\"mesh_us\":%.0f,\"compact_us\":%.0f,"
+      "\"check\":%llu}\n",
+      D, n, bench::quantile(solver.times, 0.5), bench::quantile(solver.times, 0.99), mesh_us,
+      compact_us, static_cast<unsigned long long>(solver.corners % 1000));
   const auto stats = with.m.stats();
   const auto bytes = static_cast<double>(with.m.live().bytes());
-  std::printf("{\"bench\":\"slots\",\"figure\":\"memory\",\"dimension\":%d,\"n\":%zu,"
-              "\"bytes_per_vertex\":%.1f,\"of_trace\":%.4f,\"first_run_s\":%.3f,"
-              "\"first_run_without_s\":%.3f}\n",
-              D, n, bytes / static_cast<double>(stats.vertices),
-              bytes / static_cast<double>(stats.trace_bytes), with.first_seconds,
-              without.first_seconds);
+  std::printf(
+      "{\"bench\":\"slots\",\"figure\":\"memory\",\"dimension\":%d,\"n\":%zu,"
+      "\"bytes_per_vertex\":%.1f,\"of_trace\":%.4f,\"first_run_s\":%.3f,"
+      "\"first_run_without_s\":%.3f}\n",
+      D, n, bytes / static_cast<double>(stats.vertices),
+      bytes / static_cast<double>(stats.trace_bytes), with.first_seconds, without.first_seconds);
   std::fflush(stdout);
 }
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "bench_help.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/io.hpp"
-#include "mesher/mesher.hpp"
+#include "facade/mesh_statically.hpp"
+#include "io/point_file.hpp"
+#include "mesher/extra/generate.hpp"
 #include "sample.hpp"
 #include "tetgen.hpp"
 

@@ -14,16 +14,17 @@
 #include <vector>
 
 #include "bench_help.hpp"
-#include "mesher/domain_mesh.hpp"
-#include "mesher/generate_plc.hpp"
+#include "facade/graph_runs.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/meshing.hpp"
 #include "sample.hpp"
 #include "tetgen.hpp"
 
 namespace {
 
 using mesher::Extent;
+using mesher::Graph;
 using mesher::Mesh;
-using mesher::Plc;
 using mesher::PlcKind;
 
 constexpr int kRounds = 3;
@@ -47,11 +48,11 @@ std::vector<double> volumes(const Mesh<3>& mesh) {
   return all;
 }
 
-Mesh<3> inside(const Plc& plc, Mesh<3> mesh) {
-  return mesher::domain_mesh(std::move(mesh), plc, Extent::enclosed).kept;
+Mesh<3> inside(const Graph<3>& plc, Mesh<3> mesh) {
+  return mesher::domain_mesh(std::move(mesh), plc, Extent::enclosed).mesh;
 }
 
-void bench_volume(const char* name, const Plc& plc, double part, double volume) {
+void bench_volume(const char* name, const Graph<3>& plc, double part, double volume) {
   mesher::Options<3> options{.domain = mesher::snapped_domain<3>(mesher::places_of(plc))};
   std::vector<double> ours, theirs;
   std::size_t their_vertices = 0;
@@ -85,7 +86,7 @@ void bench_volume(const char* name, const Plc& plc, double part, double volume) 
   std::fflush(stdout);
 }
 
-void bench_plc(const char* name, const Plc& plc) {
+void bench_plc(const char* name, const Graph<3>& plc) {
   const mesher::Options<3> free{.domain = mesher::snapped_domain<3>(mesher::places_of(plc))};
   double enclosed = 0;
   for (const double v : volumes(inside(plc, mesher::mesh_statically(plc, free)))) enclosed += v;

@@ -24,7 +24,8 @@
 #include <vector>
 
 #include "bench_help.hpp"
-#include "mesher/svr.hpp"
+#include "io/point_file.hpp"
+#include "refinement/svr.hpp"
 #include "sample.hpp"
 #include "tetgen.hpp"
 

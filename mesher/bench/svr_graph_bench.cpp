@@ -19,31 +19,35 @@
 #include <vector>
 
 #include "bench_help.hpp"
-#include "mesher/domain_mesh.hpp"
-#include "mesher/generate.hpp"
+#include "facade/graph_runs.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/read.hpp"
 #include "sample.hpp"
 #include "tetgen.hpp"
 
 namespace {
 
 using mesher::Extent;
-using mesher::FeatureId;
+using mesher::Graph;
 using mesher::Mesh;
-using mesher::Pslg;
+using mesher::PointId;
 
 constexpr int kRounds = 3;
 
-mesher::Options<2> options_of(const Pslg& graph) {
+mesher::Options<2> options_of(const Graph<2>& graph) {
   return {.domain = mesher::snapped_domain<2>(places_of(graph))};
 }
 
-Mesh<2> by_gap_balls(const Pslg& graph) { return mesh_statically(graph, options_of(graph)); }
-Mesh<2> by_svr(const Pslg& graph) { return svr(graph, options_of(graph), Extent::enclosed); }
-Mesh<2> by_refine(const Pslg& graph) { return refine(graph, options_of(graph), Extent::enclosed); }
+Mesh<2> by_gap_balls(const Graph<2>& graph) { return mesh_statically(graph, options_of(graph)); }
+Mesh<2> by_svr(const Graph<2>& graph) { return svr(graph, options_of(graph), Extent::enclosed); }
+Mesh<2> by_refine(const Graph<2>& graph) {
+  return refine(graph, options_of(graph), Extent::enclosed);
+}
 
 struct Algorithm {
   const char* name;
-  Mesh<2> (*make)(const Pslg&);
+  Mesh<2> (*make)(const Graph<2>&);
   std::vector<double> seconds{};
   std::size_t vertices = 0, all = 0;
 };
@@ -66,7 +70,7 @@ std::optional<bench::Figures> run_cgal(const std::string& program, const std::st
   return pclose(out) == 0 ? found : std::nullopt;
 }
 
-void print(const std::string& name, const Pslg& graph, const Algorithm& a,
+void print(const std::string& name, const Graph<2>& graph, const Algorithm& a,
            const std::optional<bench::Figures>& cgal) {
   const double seconds = bench::quantile(a.seconds, 0.5);
   std::printf(
@@ -81,11 +85,11 @@ void print(const std::string& name, const Pslg& graph, const Algorithm& a,
   std::fflush(stdout);
 }
 
-void bench_graph(const std::string& name, const Pslg& graph, const std::string& cgal_program) {
+void bench_graph(const std::string& name, const Graph<2>& graph, const std::string& cgal_program) {
   Algorithm algorithms[] = {{"gap-balls", by_gap_balls}, {"svr", by_svr}, {"refine", by_refine}};
   const bench::TemporaryFolder folder;
   const std::string file = folder.file("input.poly");
-  if (!cgal_program.empty()) write_pslg(mesher::without_polylines(graph), file);
+  if (!cgal_program.empty()) write_graph(mesher::without_polylines(graph), file);
   std::optional<bench::Figures> cgal;
   std::vector<double> theirs;
   for (int round = 0; round < kRounds; ++round) {
@@ -93,7 +97,7 @@ void bench_graph(const std::string& name, const Pslg& graph, const std::string& 
       Mesh<2> mesh;
       a.seconds.push_back(bench::seconds_of([&] { mesh = a.make(graph); }));
       a.all = mesh.vertices.size();
-      a.vertices = domain_mesh(std::move(mesh), graph, Extent::enclosed).kept.vertices.size();
+      a.vertices = domain_mesh(std::move(mesh), graph, Extent::enclosed).mesh.vertices.size();
     }
     if (!cgal_program.empty()) cgal = run_cgal(cgal_program, file);
     if (cgal) theirs.push_back(cgal->seconds);
@@ -102,15 +106,15 @@ void bench_graph(const std::string& name, const Pslg& graph, const std::string& 
   for (const Algorithm& a : algorithms) print(name, graph, a, cgal);
 }
 
-Pslg uniform(std::size_t n) {
-  Pslg graph;
+Graph<2> uniform(std::size_t n) {
+  Graph<2> graph;
   for (const auto& p : mesher::generate_points<2>(mesher::PointKind::uniform, n, 1)) {
-    graph.points.push_back({FeatureId{static_cast<std::int64_t>(graph.points.size() + 1)}, p, 0});
+    graph.points.push_back({PointId{static_cast<std::int64_t>(graph.points.size() + 1)}, p, 0});
   }
   return graph;
 }
 
-Pslg graph_of(const std::string& input) {
+Graph<2> graph_of(const std::string& input) {
   const auto count = [&] {
     return std::strtoull(input.c_str() + input.find(':') + 1, nullptr, 10);
   };
@@ -118,7 +122,7 @@ Pslg graph_of(const std::string& input) {
   if (input.rfind("lines:", 0) == 0) {
     return mesher::generate_pslg({mesher::PslgKind::segments, count()});
   }
-  return mesher::read_pslg(input).pslg;
+  return mesher::read<2>(input).graph;
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 // One JSON line an input and algorithm: `vertices` in what the polygons enclose, `all_vertices`
 // with those between that and the box, of what is refined alone; `seconds` of the process for that,
 // and with it the domain taken out, `seconds_with_domain`; the worst radius-edge ratio that there
-// ever was, and the largest degree. Where the Debian package tetgen (1.5) is installed, its vertices
-// and the seconds that it says it ran, without files; its options are -pq2.0O0/0NEF. All in turns,
-// kRounds times; seconds are medians.
+// ever was, and the largest degree. Where the Debian package tetgen (1.5) is installed, its
+// vertices and the seconds that it says it ran, without files; its options are -pq2.0O0/0NEF. All
+// in turns, kRounds times; seconds are medians.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -18,44 +18,47 @@
 #include <vector>
 
 #include "bench_help.hpp"
-#include "mesher/domain_mesh.hpp"
-#include "mesher/generate_plc.hpp"
+#include "facade/graph_runs.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/read.hpp"
 #include "sample.hpp"
 #include "tetgen.hpp"
 
 namespace {
 
 using mesher::Extent;
-using mesher::FeatureId;
+using mesher::Graph;
 using mesher::Mesh;
-using mesher::Plc;
 using mesher::Point;
+using mesher::PointId;
+using mesher::PolygonId;
 
 constexpr int kRounds = 3;
 
-mesher::Options<3> options_of(const Plc& plc) {
+mesher::Options<3> options_of(const Graph<3>& plc) {
   return {.domain = mesher::snapped_domain<3>(mesher::places_of(plc))};
 }
 
-Mesh<3> by_svr(const Plc& plc, mesher::RefineStats* figures) {
+Mesh<3> by_svr(const Graph<3>& plc, mesher::RefineStats* figures) {
   mesher::SvrStats all;
   Mesh<3> mesh =
       mesher::svr(plc, options_of(plc), Extent::enclosed, {}, figures == nullptr ? nullptr : &all);
   if (figures != nullptr) *figures = all;
   return mesh;
 }
-Mesh<3> by_refine(const Plc& plc, mesher::RefineStats* figures) {
+Mesh<3> by_refine(const Graph<3>& plc, mesher::RefineStats* figures) {
   return mesher::refine(plc, options_of(plc), Extent::enclosed, {}, figures);
 }
 
 struct Algorithm {
   const char* name;
-  Mesh<3> (*make)(const Plc&, mesher::RefineStats*);
+  Mesh<3> (*make)(const Graph<3>&, mesher::RefineStats*);
   std::vector<double> seconds{}, with_domain{};
   std::size_t vertices = 0, all = 0;
 };
 
-void bench_plc(const std::string& name, const Plc& plc) {
+void bench_plc(const std::string& name, const Graph<3>& plc) {
   Algorithm algorithms[] = {{"svr", by_svr}, {"refine", by_refine}};
   std::vector<double> theirs;
   std::size_t their_vertices = 0;
@@ -65,7 +68,7 @@ void bench_plc(const std::string& name, const Plc& plc) {
       a.seconds.push_back(bench::seconds_of([&] { mesh = a.make(plc, nullptr); }));
       a.all = mesh.vertices.size();
       const double domain = bench::seconds_of([&] {
-        a.vertices = domain_mesh(std::move(mesh), plc, Extent::enclosed).kept.vertices.size();
+        a.vertices = domain_mesh(std::move(mesh), plc, Extent::enclosed).mesh.vertices.size();
       });
       a.with_domain.push_back(a.seconds.back() + domain);
     }
@@ -125,16 +128,17 @@ class Surface {
       faces = std::move(finer);
     }
     for (const auto& face : faces) {
-      mesher::Polygon polygon{.id = id(plc_.facets.size()), .loops = {{}}};
+      mesher::Polygon polygon{.id = polygon_id(plc_.polygons.size()), .loops = {{}}};
       for (const std::size_t i : face) polygon.loops[0].push_back(id(i));
-      plc_.facets.push_back({polygon, 0});
+      plc_.polygons.push_back(polygon);
     }
     for (auto& p : plc_.points) bend(p.at);
   }
-  [[nodiscard]] const Plc& plc() const noexcept { return plc_; }
+  [[nodiscard]] const Graph<3>& plc() const noexcept { return plc_; }
 
  private:
-  static FeatureId id(std::size_t i) { return FeatureId{static_cast<std::int64_t>(i + 1)}; }
+  static PointId id(std::size_t i) { return PointId{static_cast<std::int64_t>(i + 1)}; }
+  static PolygonId polygon_id(std::size_t i) { return PolygonId{static_cast<std::int64_t>(i + 1)}; }
   std::size_t add(const Point<3>& p) {
     const double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
     plc_.points.push_back(
@@ -161,7 +165,7 @@ class Surface {
     for (double& x : p) x *= r;
   }
 
-  Plc plc_;
+  Graph<3> plc_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> middles_;
 };
 
@@ -173,7 +177,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "svr_plc_bench: tetgen is not installed: without it\n");
   }
   for (int i = 1; i < argc; ++i) {
-    bench_plc(std::filesystem::path(argv[i]).stem().string(), mesher::read_plc(argv[i]).plc);
+    bench_plc(std::filesystem::path(argv[i]).stem().string(), mesher::read<3>(argv[i]).graph);
   }
   if (argc > 1) return 0;
   for (const std::string& name : mesher::plc_kind_names()) {
@@ -183,6 +187,6 @@ int main(int argc, char** argv) {
   bench_plc("pump 64", mesher::generate_plc({mesher::PlcKind::pump, 64.0}));
   for (const int levels : {5, 6}) {
     const Surface surface(levels);
-    bench_plc("surface " + std::to_string(surface.plc().facets.size()), surface.plc());
+    bench_plc("surface " + std::to_string(surface.plc().polygons.size()), surface.plc());
   }
 }

@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "mesher/generate.hpp"
-#include "mesher/io.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/graph.hpp"
 #include "mesher/mesh.hpp"
-#include "mesher/plc.hpp"
+#include "mesher/write.hpp"
 
 namespace bench {
 
@@ -112,9 +112,10 @@ inline std::optional<Figures> run_tetgen(const std::vector<Point<3>>& points) {
 }
 
 /// What the polygons enclose.
-inline std::optional<Figures> run_tetgen(const mesher::Plc& plc, const std::string& more = "") {
+inline std::optional<Figures> run_tetgen(const mesher::Graph<3>& plc,
+                                         const std::string& more = "") {
   const TemporaryFolder folder;
-  mesher::write_plc(plc, folder.file("complex.poly"));
+  mesher::write_graph(plc, folder.file("complex.poly"));
   return run_tetgen(folder.file("complex.poly"), more);
 }
 

@@ -17,14 +17,16 @@
 
 #include "bench_help.hpp"
 #include "input.hpp"
+#include "mesher/write.hpp"
 #include "sample.hpp"
 
 namespace {
 
 using bench::Input;
 using bench::Sample;
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Point;
+using mesher::PointId;
 
 void print(const Sample& updates, const Input& in, const char* figure, double remesh) {
   const auto steps = static_cast<double>(updates.size());
@@ -36,30 +38,31 @@ void print(const Sample& updates, const Input& in, const char* figure, double re
 
 void write(const Input& in, const std::string& prefix, const char* figure) {
   if (prefix.empty()) return;
-  mesher::Pslg pslg;
+  mesher::Graph<2> pslg;
   for (std::size_t i = 0; i < in.points.size(); ++i) {
     pslg.points.push_back({in.ids[i], in.points[i]});
   }
   for (const auto& s : in.segments) pslg.segments.push_back({s.id, s.from, s.to});
-  mesher::write_pslg(pslg, prefix + figure + ".poly");
+  mesher::write_graph(pslg, prefix + figure + ".poly");
 }
 
 constexpr std::int64_t kWall = 1'000'000'000;
-FeatureId wall_id(int i) { return FeatureId{kWall + i}; }
+PointId wall_id(int i) { return PointId{kWall + i}; }
+LineId line_id(int i) { return LineId{kWall + i}; }
 
 // --- A crack ---------------------------------------------------------------------------------
 
 Input plate() {
-  mesher::Pslg pslg;
+  mesher::Graph<2> pslg;
   std::int64_t id = 1;
   const std::vector<Point<2>> corners{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  for (const Point<2>& p : corners) pslg.points.push_back({FeatureId{id++}, p});
+  for (const Point<2>& p : corners) pslg.points.push_back({PointId{id++}, p});
   for (std::int64_t i = 1; i <= 4; ++i) {
-    pslg.segments.push_back({FeatureId{i}, FeatureId{i}, FeatureId{i % 4 + 1}});
+    pslg.segments.push_back({LineId{i}, PointId{i}, PointId{i % 4 + 1}});
   }
   for (const Point<2>& p : mesher::generate_points<2>(mesher::PointKind::uniform, 10000, 1)) {
     const Point<2> inside{0.01 + 0.98 * p[0], 0.01 + 0.98 * p[1]};
-    if (std::abs(inside[1] - 0.5) > 0.02) pslg.points.push_back({FeatureId{id++}, inside});
+    if (std::abs(inside[1] - 0.5) > 0.02) pslg.points.push_back({PointId{id++}, inside});
   }
   return Input("plate", pslg);
 }
@@ -67,7 +70,7 @@ Input plate() {
 void bench_crack(int steps, const std::string& prefix) {
   Input in = plate();
   double remesh = bench::static_seconds(in) / 2;
-  mesher::Mesher<2> m = bench::first_run(in);
+  mesher::BoxMesher<2> m = bench::first_run(in);
   mesher::SplitMix64 random(7);
   Sample updates;
   for (int i = 0; i <= steps; ++i) {
@@ -75,8 +78,8 @@ void bench_crack(int steps, const std::string& prefix) {
     in.points.push_back(tip), in.ids.push_back(wall_id(i));
     m.insert(wall_id(i), tip);
     if (i > 0) {
-      in.segments.push_back({wall_id(i), wall_id(i - 1), wall_id(i)});
-      m.insert_segment(wall_id(i), wall_id(i - 1), wall_id(i));
+      in.segments.push_back({line_id(i), wall_id(i - 1), wall_id(i)});
+      m.insert_segment(line_id(i), wall_id(i - 1), wall_id(i));
     }
     updates.update(m);
   }
@@ -88,14 +91,14 @@ void bench_crack(int steps, const std::string& prefix) {
 // --- A wall ----------------------------------------------------------------------------------
 
 Input lake() {
-  mesher::Pslg pslg;
+  mesher::Graph<2> pslg;
   constexpr int kShore = 4000;
   for (int i = 0; i < kShore; ++i) {
     const double t = 6.283185307179586 * i / kShore;
     const double r = 0.4 + 0.05 * std::sin(5 * t) + 0.01 * std::sin(67 * t);
-    const FeatureId id{i + 1};
+    const PointId id{i + 1};
     pslg.points.push_back({id, {r * std::cos(t), r * std::sin(t)}});
-    pslg.segments.push_back({id, id, FeatureId{(i + 1) % kShore + 1}});
+    pslg.segments.push_back({LineId{i + 1}, id, PointId{(i + 1) % kShore + 1}});
   }
   return Input("lake", pslg);
 }
@@ -125,10 +128,10 @@ void bench_wall(Input in, int steps, const std::string& prefix) {
     return Point<2>{middle[0] + step * (i - kPoints / 2.0),
                     middle[1] + clear * y + step * (i % 2) * 0.3};
   };
-  mesher::Mesher<2> m = bench::first_run(in);
-  std::vector<FeatureId> wall;
+  mesher::BoxMesher<2> m = bench::first_run(in);
+  std::vector<PointId> wall;
   for (int i = 0; i < kPoints; ++i) m.insert(wall_id(i), place(i, 0)), wall.push_back(wall_id(i));
-  m.insert_polyline(wall_id(0), wall);
+  m.insert_polyline(line_id(0), wall);
   m.update();
   Sample updates;
   for (int time = 1; time <= steps; ++time) {
@@ -137,7 +140,7 @@ void bench_wall(Input in, int steps, const std::string& prefix) {
   }
   double remesh = bench::static_seconds(in) / 2;
   for (int i = 0; i < kPoints; ++i) in.points.push_back(place(i, steps)), in.ids.push_back(wall[i]);
-  for (int i = 1; i < kPoints; ++i) in.segments.push_back({wall[i], wall[i - 1], wall[i]});
+  for (int i = 1; i < kPoints; ++i) in.segments.push_back({line_id(i), wall[i - 1], wall[i]});
   remesh += bench::static_seconds(in) / 2;
   print(updates, in, "wall", remesh);
   write(in, prefix, "wall");

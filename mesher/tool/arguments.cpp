@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "mesher/domain_mesh.hpp"
+#include "mesher/meshing.hpp"
 #include "mesher/sizes.hpp"
 
 namespace tool {
@@ -104,40 +104,41 @@ void add_limits(const MeshArguments& args, mesher::Options<D>& options) {
 }
 
 template <int D>
-std::vector<mesher::Point<D>> places_of(const std::vector<mesher::InputPoint<D>>& points) {
-  std::vector<mesher::Point<D>> places;
-  for (const auto& point : points) places.push_back(point.at);
-  return places;
-}
-
-template <int D>
-void require_inside(const InputOf<D>& input, const std::vector<mesher::InputPoint<D>>& points,
-                    const mesher::Box<D>& domain) {
+void require_inside(const Input<D>& input, const mesher::Box<D>& domain) {
+  const auto& points = input.graph().points;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (contains<D>(domain, points[i].at)) continue;
     throw Error(ErrorCode::outside_domain,
-                "point " + std::to_string(static_cast<std::int64_t>(points[i].id)) + " at " +
-                    to_text(points[i].at) + " is outside the domain " + to_text(domain.lo) +
-                    " to " + to_text(domain.hi) + kDomainHint<D>,
-                input.location_of_point(i), {mesher::point_named(points[i].id)},
-                {mesher::position_of(points[i].at)});
+                text_of(points[i].id) + " at " + to_text(points[i].at) + " is outside the domain " +
+                    to_text(domain.lo) + " to " + to_text(domain.hi) + kDomainHint<D>,
+                input.location_of_point(i), {points[i].id}, {mesher::position_of(points[i].at)});
   }
 }
 
+mesher::Algorithm algorithm_of(const MeshArguments& args) {
+  using mesher::Algorithm;
+  for (const Algorithm a : {Algorithm::refine, Algorithm::svr, Algorithm::gap_balls}) {
+    if (args.algorithm == name_of(a)) return a;
+  }
+  return args.is_static ? Algorithm::gap_balls : Algorithm::automatic;
+}
+
 template <int D>
-mesher::Options<D> options_of(const MeshArguments& args, const InputOf<D>& input) {
+mesher::Options<D> options_of(const MeshArguments& args, const Input<D>& input) {
   require_own_measure<D>(args);
   mesher::Options<D> options;
   if (!args.rho.empty()) options.rho = option_rho(args.rho, kMostRho);
   options.rule =
       args.rule == "radius-edge" ? mesher::Rule::radius_edge : mesher::Rule::voronoi_aspect;
-  const auto points = input.points();
-  options.domain = args.domain.empty() ? mesher::snapped_domain<D>(places_of<D>(points))
+  options.domain = args.domain.empty() ? mesher::snapped_domain<D>(places_of(input.graph()))
                                        : domain_of<D>(args.domain);
+  options.extent = args.box ? mesher::Extent::box : mesher::Extent::enclosed;
+  if (args.region_areas) options.region_areas = mesher::RegionAreas::limits;
+  options.algorithm = algorithm_of(args);
   if (!args.max_vertices.empty()) {
     options.max_vertices = option_count("--max-vertices", args.max_vertices);
   }
-  require_inside<D>(input, points, options.domain);
+  require_inside<D>(input, options.domain);
   add_limits(args, options);
   return options;
 }
@@ -160,11 +161,6 @@ class UsageOfInput : public CLI::Formatter {
     return make_option_name(option, true);
   }
 };
-
-bool has_points_alone(const std::string& path) {
-  const std::string extension = mesher::format_of(path);
-  return extension == ".node" || extension == ".xyz" || extension == ".csv";
-}
 
 }  // namespace
 
@@ -214,8 +210,7 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
           "No triangle with its centroid in the domain is larger, of those that are wanted\n"
           "(default: no limit)")
       ->type_name("A");
-  command
-      .add_option("--max-volume", args.max_volume, "The same of tetrahedra, in space")
+  command.add_option("--max-volume", args.max_volume, "The same of tetrahedra, in space")
       ->type_name("V");
   command
       .add_option("--max-size", args.max_size,
@@ -224,9 +219,10 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
       ->excludes("--max-area")
       ->excludes("--max-volume");
   command
-      .add_option("--sizes", args.sizes,
-                  "A background of such H: .node with one value a point, or .csv with x,y,h (in space\n"
-                  "x,y,z,h); linear between its points")
+      .add_option(
+          "--sizes", args.sizes,
+          "A background of such H: .node with one value a point, or .csv with x,y,h (in space\n"
+          "x,y,z,h); linear between its points")
       ->type_name("FILE");
   command
       .add_option("--max-vertices", args.max_vertices,
@@ -256,7 +252,8 @@ void add_mesh_options(CLI::App& command, MeshArguments& args) {
       "--no-flat", args.no_flat,
       "In space: flat tetrahedra are taken out; what comes instead is Delaunay but for\n"
       "rounding ('check --near')");
-  command.add_flag("--static", args.is_static, "gap-balls without the engine; its mesh is the same");
+  command.add_flag("--static", args.is_static,
+                   "gap-balls without the engine; its mesh is the same");
   command.add_option("--stats", args.stats, "Figures as JSON")->type_name("FILE");
   command.add_flag("--quiet", args.quiet, "Print nothing but errors");
 }
@@ -292,7 +289,7 @@ int dimension_of(const MeshArguments& args) {
 namespace {
 
 template <int D>
-InputOf<D> as_meshed(InputOf<D> input, const MeshArguments& args) {
+Input<D> as_meshed(Input<D> input, const MeshArguments& args) {
   if (!args.repair) {
     input.offer_repair();
     return input;
@@ -313,33 +310,27 @@ mesher::CoincidingPoints coinciding(const MeshArguments& args) {
 
 }  // namespace
 
-template <>
-Input read_input<2>(const MeshArguments& args) {
-  if (faces(args) != Faces::unless_points) {
+template <int D>
+Input<D> read_input(const MeshArguments& args) {
+  if (D == 2 && faces(args) != Faces::unless_points) {
     throw Error(ErrorCode::bad_option, "--surface and --merge are for space", {args.input});
   }
-  if (args.no_flat) {
+  if (D == 2 && args.no_flat) {
     throw Error(ErrorCode::bad_option, "--no-flat is for space", {args.input});
   }
-  Input input(args.input, coinciding(args));
+  Input<D> input(args.input, faces(args), coinciding(args));
   drop_copies();
-  return as_meshed<2>(std::move(input), args);
+  return as_meshed<D>(std::move(input), args);
 }
+template Input<2> read_input<2>(const MeshArguments&);
+template Input<3> read_input<3>(const MeshArguments&);
 
-template <>
-SpaceInput read_input<3>(const MeshArguments& args) {
-  SpaceInput input(args.input, faces(args), coinciding(args));
-  drop_copies();
-  return as_meshed<3>(std::move(input), args);
+template <int D>
+mesher::Options<D> mesh_options(const MeshArguments& args, const Input<D>& input) {
+  return options_of<D>(args, input);
 }
-
-mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input) {
-  return options_of<2>(args, input);
-}
-
-mesher::Options<3> mesh_options(const MeshArguments& args, const SpaceInput& input) {
-  return options_of<3>(args, input);
-}
+template mesher::Options<2> mesh_options(const MeshArguments&, const Input<2>&);
+template mesher::Options<3> mesh_options(const MeshArguments&, const Input<3>&);
 
 template <int D>
 Error with_domain_hint(const Error& error) {
@@ -349,17 +340,14 @@ Error with_domain_hint(const Error& error) {
 template Error with_domain_hint<2>(const Error&);
 template Error with_domain_hint<3>(const Error&);
 
-void open_outputs(const MeshArguments& args, const Input& input, Outputs& outputs) {
+template <int D>
+void open_outputs(const MeshArguments& args, const Input<D>& input, Outputs<D>& outputs) {
   protect_inputs(args, input, outputs);
   const auto content =
-      has_points_alone(args.input) ? mesher::MeshFiles::plain : mesher::MeshFiles::features;
+      input.has_features() ? mesher::MeshFiles::features : mesher::MeshFiles::plain;
   for (const auto& path : args.outputs) outputs.open_mesh(path, content);
 }
-
-void open_outputs(const MeshArguments& args, const SpaceInput& input, SpaceOutputs& outputs) {
-  protect_inputs(args, input, outputs);
-  const auto content = input.is_complex() ? mesher::MeshFiles::features : mesher::MeshFiles::plain;
-  for (const auto& path : args.outputs) outputs.open_mesh(path, content);
-}
+template void open_outputs(const MeshArguments&, const Input<2>&, Outputs<2>&);
+template void open_outputs(const MeshArguments&, const Input<3>&, Outputs<3>&);
 
 }  // namespace tool

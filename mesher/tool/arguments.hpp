@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "input.hpp"
-#include "mesher/domain_mesh.hpp"
 #include "mesher/mesh.hpp"
+#include "mesher/meshing.hpp"
 #include "outputs.hpp"
 
 namespace tool {
@@ -29,7 +29,7 @@ struct MeshArguments {
   bool repair = false;
   bool box = false;
   bool is_static = false;
-  bool no_flat = false;  // in space
+  bool no_flat = false;            // in space
   std::string algorithm = "auto";  // of `mesh` alone
   std::string stats;
   bool quiet = false;
@@ -66,24 +66,15 @@ void add_mesh_options(CLI::App& command, MeshArguments& args);
 [[nodiscard]] int dimension_of(const MeshArguments& args);
 
 /// The input as it is to be meshed: repaired, if that is asked for. D is 2 or 3.
-/// Throws: Error, as read_pslg and mesher::repair, or as SpaceInput.
+/// Throws: Error, as Input and mesher::repair.
 template <int D = 2>
-[[nodiscard]] InputOf<D> read_input(const MeshArguments& args);
+[[nodiscard]] Input<D> read_input(const MeshArguments& args);
 
 /// What to mesh: the domain as given, or around the input.
 /// Throws: Error(bad_option), also for options that mean nothing in space; Error(outside_domain)
 /// with the line of the first point outside, naming --domain; as read_sizes.
-[[nodiscard]] mesher::Options<2> mesh_options(const MeshArguments& args, const Input& input);
-[[nodiscard]] mesher::Options<3> mesh_options(const MeshArguments& args, const SpaceInput& input);
-
-/// Which part of the mesh is written.
-[[nodiscard]] inline mesher::Extent extent(const MeshArguments& args) {
-  return args.box ? mesher::Extent::box : mesher::Extent::enclosed;
-}
-
-[[nodiscard]] inline mesher::RegionAreas region_areas(const MeshArguments& args) {
-  return args.region_areas ? mesher::RegionAreas::limits : mesher::RegionAreas::ignored;
-}
+template <int D>
+[[nodiscard]] mesher::Options<D> mesh_options(const MeshArguments& args, const Input<D>& input);
 
 /// The same error with a hint to --domain, if it is one of a point outside.
 template <int D = 2>
@@ -98,10 +89,10 @@ void protect_inputs(const MeshArguments& args, const auto& input, Files& files) 
   if (!args.sizes.empty()) files.protect(args.sizes);
 }
 
-/// Opens the mesh outputs: those of `.node` with all files, if INPUT is of a format that has lines.
+/// Opens the mesh outputs: those of `.node` with all files, if INPUT is of a format that has lines,
+/// or polygons that are meshed.
 /// Throws: Error (unknown_format, cannot_write, bad_option).
-void open_outputs(const MeshArguments& args, const Input& input, Outputs& outputs);
-/// In space. Throws: likewise.
-void open_outputs(const MeshArguments& args, const SpaceInput& input, SpaceOutputs& outputs);
+template <int D>
+void open_outputs(const MeshArguments& args, const Input<D>& input, Outputs<D>& outputs);
 
 }  // namespace tool

@@ -10,9 +10,9 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "input.hpp"
-#include "mesher/io.hpp"
-#include "mesher/pslg.hpp"
-#include "mesher/space_check.hpp"
+#include "mesher/graph.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 #include "pipe.hpp"
 #include "references.hpp"
 
@@ -54,7 +54,7 @@ void print_notes(const std::vector<mesher::Note>& notes) {
 
 // What the boundary must be: as asked for, else as the mesh looks.
 template <int D, class File>
-mesher::BoundaryRule boundary_rule(const CheckArguments& args, const mesher::MeshDataOf<D>& mesh,
+mesher::BoundaryRule boundary_rule(const CheckArguments& args, const mesher::MeshData<D>& mesh,
                                    const File* input) {
   if (args.boundary == "box") return mesher::BoundaryRule::box;
   if (args.boundary == "lines") return mesher::BoundaryRule::lines;
@@ -63,7 +63,7 @@ mesher::BoundaryRule boundary_rule(const CheckArguments& args, const mesher::Mes
 }
 
 template <int D>
-std::string counts_of(const mesher::MeshDataOf<D>& mesh) {
+std::string counts_of(const mesher::MeshData<D>& mesh) {
   return std::to_string(mesh.vertices.size()) + " vertices, " +
          std::to_string(mesh.simplices.size()) + (D == 2 ? " triangles" : " tetrahedra");
 }
@@ -73,19 +73,19 @@ std::string counts_of(const mesher::MeshDataOf<D>& mesh) {
                       {args.mesh});
 }
 
-Judged judge(const CheckArguments& args, mesher::MeshDataOf<2>& mesh) {
+Judged judge(const CheckArguments& args, mesher::MeshData<2>& mesh) {
   if (args.ties) refuse(args, "--ties", "tetrahedra");
   if (!args.max_volume.empty()) refuse(args, "--max-volume", "tetrahedra");
   if (args.near) refuse(args, "--near", "tetrahedra");
   if (args.surface || args.merge) refuse(args, args.merge ? "--merge" : "--surface", "tetrahedra");
-  mesher::PslgFile graph;
-  if (!args.input.empty()) graph = mesher::read_pslg(args.input);
+  mesher::GraphFile<2> graph;
+  if (!args.input.empty()) graph = mesher::read<2>(args.input);
   forget_counted_values(args.mesh, mesh, graph);
-  mesher::CheckOptions options;
+  mesher::CheckOptions<2> options;
   options.features = &mesh.features;
   if (!args.input.empty()) options.graph = &graph;
   if (!args.rho.empty()) options.rho = option_rho(args.rho);
-  if (!args.max_area.empty()) options.max_area = option_positive("--max-area", args.max_area);
+  if (!args.max_area.empty()) options.max_measure = option_positive("--max-area", args.max_area);
   options.boundary = boundary_rule<2>(args, mesh, options.graph);
   options.constrained = args.constrained;
   Judged judged{mesher::check_mesh(mesh, options), mesh.notes, counts_of(mesh)};
@@ -93,29 +93,26 @@ Judged judge(const CheckArguments& args, mesher::MeshDataOf<2>& mesh) {
   return judged;
 }
 
-Judged judge(const CheckArguments& args, mesher::MeshDataOf<3>& mesh) {
+Judged judge(const CheckArguments& args, mesher::MeshData<3>& mesh) {
   if (args.constrained) refuse(args, "--constrained", "triangles");
   if (!args.max_area.empty()) refuse(args, "--max-area", "triangles");
-  std::optional<SpaceInput> input;
-  mesher::PointFile<3> points;
-  mesher::PlcFile complex;
+  std::optional<Input<3>> input;
+  mesher::GraphFile<3> complex;
   if (!args.input.empty()) {
     input.emplace(args.input, args.merge     ? Faces::merged
                               : args.surface ? Faces::polygons
                                              : Faces::unless_points);
-    points = points_of(input->file());
     complex = input->file();
     forget_counted_values(args.mesh, mesh, complex);
   }
-  mesher::SpaceCheckOptions options;
+  mesher::CheckOptions<3> options;
   options.features = &mesh.features;
-  if (input) options.input = &points;
-  if (input && input->is_complex()) options.complex = &complex;
+  if (input) options.graph = &complex;
   if (!args.rho.empty()) options.rho = option_rho(args.rho);
   if (!args.max_volume.empty()) {
-    options.max_volume = option_positive("--max-volume", args.max_volume);
+    options.max_measure = option_positive("--max-volume", args.max_volume);
   }
-  options.boundary = boundary_rule<3>(args, mesh, options.complex);
+  options.boundary = boundary_rule<3>(args, mesh, options.graph);
   options.ties = args.ties;
   options.near_delaunay = args.near;
   Judged judged{mesher::check_mesh(mesh, options), mesh.notes, counts_of(mesh)};
@@ -173,7 +170,8 @@ void add_check(CLI::App& app) {
       ->add_option(
           "--boundary", args->boundary,
           "What bounds the mesh: box, lines (or the box; for tetrahedra: polygons, or the\n"
-          "box), any (for tetrahedra: any convex body); auto: box if MESH fills one that lines (for\n"
+          "box), any (for tetrahedra: any convex body); auto: box if MESH fills one that lines "
+          "(for\n"
           "tetrahedra: polygons) do not bound, or if there are none, else lines")
       ->check(CLI::IsMember({"auto", "box", "lines", "any"}))
       ->capture_default_str();

@@ -7,14 +7,13 @@
 #include "commands.hpp"
 #include "figures.hpp"
 #include "first_run.hpp"
-#include "mesher/angles.hpp"
-#include "mesher/domain_mesher.hpp"
-#include "mesher/edit_script.hpp"
+#include "mesher/extra/edit_script.hpp"
+#include "mesher/mesher.hpp"
+#include "mesher/reports.hpp"
 #include "no_flat.hpp"
 #include "outputs.hpp"
 #include "report.hpp"
 #include "static_mesher.hpp"
-#include "static_space_mesher.hpp"
 
 namespace tool {
 namespace {
@@ -26,14 +25,14 @@ struct EditArguments : MeshArguments {
 // What the updates of a script leave besides the mesh.
 template <int D>
 struct Followed {
-  std::vector<double> seconds;                    // of each update
-  typename OutputsOf<D>::Simplices last_changed;  // what the last one brought
+  std::vector<double> seconds;                  // of each update
+  typename Outputs<D>::Simplices last_changed;  // what the last one brought
 };
 
 template <int D, class Target>
-Followed<D> apply_script(const EditArguments& args, InputOf<D>& input, Target& target,
+Followed<D> apply_script(const EditArguments& args, Input<D>& input, Target& target,
                          Figures& figures, Progress& progress) {
-  mesher::EditScriptOf<D> script(args.script);
+  mesher::EditScript<D> script(args.script);
   Followed<D> followed;
   Watched watched(target, progress);
   try {
@@ -53,16 +52,16 @@ Followed<D> apply_script(const EditArguments& args, InputOf<D>& input, Target& t
 
 template <class Target>
 void look_at_angles(const Target& target, Run& run) {
-  run.angles = mesher::angle_report(target.mesh(), target.options());
+  run.angles = mesher::angle_report(target.box_mesh(), target.options());
 }
 template <class Target>
 void look_at_angles(const Target& target, SpaceRun& run) {
-  run.guard = mesher::guard_report(target.mesh(), target.input(), target.options().rho);
+  run.guard = mesher::guard_report(target.box_mesh(), target.input(), target.options().rho);
 }
 
 template <int D, class Target>
-void run_edit_on(Target target, const EditArguments& args, InputOf<D> input) {
-  OutputsOf<D> outputs;
+void run_edit_on(Target target, const EditArguments& args, Input<D> input) {
+  Outputs<D> outputs;
   outputs.protect(args.script);
   open_outputs(args, input, outputs);
   Figures figures(args.stats, outputs);
@@ -86,30 +85,17 @@ void run_edit_on(Target target, const EditArguments& args, InputOf<D> input) {
   print_outputs(targets);
 }
 
-void run_edit_in_plane(const EditArguments& args) {
-  Input input = read_input<2>(args);
+template <int D>
+void run_edit_in(const EditArguments& args) {
+  Input<D> input = read_input<D>(args);
   const auto options = mesh_options(args, input);
-  if (args.is_static) {
-    return run_edit_on<2>(StaticMesher(options, extent(args), region_areas(args)), args,
-                          std::move(input));
-  }
-  auto mesher = mesher_for<mesher::DomainMesher>(input, options, extent(args), region_areas(args));
-  run_edit_on<2>(std::move(mesher), args, std::move(input));
-}
-
-void run_edit_in_space(const EditArguments& args) {
-  SpaceInput input = read_input<3>(args);
-  const auto options = mesh_options(args, input);
-  if (args.is_static) {
-    return run_edit_on<3>(StaticSpaceMesher(options, extent(args), region_areas(args)), args,
-                          std::move(input));
-  }
-  auto mesher = mesher_for<mesher::DomainMesherOf<3>>(input, options, extent(args), region_areas(args));
-  run_edit_on<3>(std::move(mesher), args, std::move(input));
+  if (args.is_static) return run_edit_on<D>(StaticMesher<D>(options), args, std::move(input));
+  auto mesher = locating(input, [&] { return mesher::Mesher<D>(options); });
+  run_edit_on<D>(std::move(mesher), args, std::move(input));
 }
 
 void run_edit(const EditArguments& args) {
-  dimension_of(args) == 3 ? run_edit_in_space(args) : run_edit_in_plane(args);
+  dimension_of(args) == 3 ? run_edit_in<3>(args) : run_edit_in<2>(args);
 }
 
 }  // namespace

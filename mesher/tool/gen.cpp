@@ -10,9 +10,9 @@
 
 #include "arguments.hpp"
 #include "commands.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/generate_plc.hpp"
-#include "mesher/pslg.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/graph.hpp"
+#include "mesher/write.hpp"
 #include "outputs.hpp"
 
 namespace tool {
@@ -90,7 +90,7 @@ void refuse_option(const std::string& given, const std::string& message) {
   if (!given.empty()) throw Error(ErrorCode::bad_option, message);
 }
 
-void gen_points(const GenArguments& args, Outputs& outputs) {
+void gen_points(const GenArguments& args, CommandFiles& outputs) {
   require_extension(args, {".node"}, "points are written to .node");
   refuse_option(args.angle, "--angle is for fan and bundle");
   refuse_option(args.size, "--size is for complexes");
@@ -98,19 +98,19 @@ void gen_points(const GenArguments& args, Outputs& outputs) {
   args.dimension.value_or(2) == 2 ? write_points<2>(args, file) : write_points<3>(args, file);
 }
 
-void gen_lines(const GenArguments& args, Outputs& outputs) {
+void gen_lines(const GenArguments& args, CommandFiles& outputs) {
   require_extension(args, {".poly", ".obj"}, "points and lines are written to .poly and .obj");
   refuse_option(args.size, "--size is for complexes");
   if (args.dimension.value_or(2) != 2) {
     throw Error(ErrorCode::bad_option, "--dimension: lines are in the plane");
   }
-  const mesher::Pslg pslg = mesher::generate_pslg(family_of(args));
+  const mesher::Graph<2> pslg = mesher::generate_pslg(family_of(args));
   mesher::TextFile& file = outputs.open(args.output);
   const bool is_poly = std::filesystem::path(args.output).extension() == ".poly";
   is_poly ? mesher::write_poly(pslg, file) : mesher::write_obj(pslg, file);
 }
 
-void gen_complex(const GenArguments& args, Outputs& outputs) {
+void gen_complex(const GenArguments& args, CommandFiles& outputs) {
   require_extension(args, {".poly", ".smesh"}, "complexes are written to .poly and .smesh");
   refuse_option(args.angle, "--angle is for fan and bundle; complexes have --size");
   if (args.n) throw Error(ErrorCode::bad_option, "--n is for points and lines");
@@ -119,7 +119,7 @@ void gen_complex(const GenArguments& args, Outputs& outputs) {
   }
   mesher::PlcFamily family{mesher::plc_kind(args.kind).value(), {}, seed_of(args)};
   if (!args.size.empty()) family.size = option_number("--size", args.size);
-  const mesher::Plc plc = mesher::generate_plc(family);
+  const mesher::Graph<3> plc = mesher::generate_plc(family);
   const bool is_poly = std::filesystem::path(args.output).extension() == ".poly";
   if (!is_poly) mesher::require_single_loops(plc);
   mesher::TextFile& file = outputs.open(args.output);
@@ -127,7 +127,7 @@ void gen_complex(const GenArguments& args, Outputs& outputs) {
 }
 
 void run_gen(const GenArguments& args) {
-  Outputs outputs;
+  CommandFiles outputs;
   if (mesher::point_kind(args.kind)) {
     gen_points(args, outputs);
   } else if (mesher::pslg_kind(args.kind)) {

@@ -1,9 +1,13 @@
 // Inputs, and where their features stand, for errors.
+#include "input.hpp"
+
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
-#include "input.hpp"
+#include "mesher/write.hpp"
 #include "pipe.hpp"
+#include "sac/check.hpp"
 
 namespace tool {
 namespace {
@@ -40,6 +44,17 @@ std::string repair_hint(const Error& error, const std::string& reach) {
   }
 }
 
+bool is_one_of(std::string_view format, std::initializer_list<std::string_view> formats) {
+  return std::find(formats.begin(), formats.end(), format) != formats.end();
+}
+bool is_complex(const std::string& path) {
+  return is_one_of(mesher::format_of(path), {".poly", ".smesh"});
+}
+// Which may have faces.
+bool is_surface(const std::string& path) {
+  return is_one_of(mesher::format_of(path), {".off", ".obj", ".ply", ".stl"});
+}
+
 }  // namespace
 
 FileLocation Standing::location(const Feature& feature) const {
@@ -63,36 +78,71 @@ Error Standing::located(const Error& error) const {
   return mends ? found.with_message(found.message() + repair_hint(error, repair_reach())) : found;
 }
 
-std::string Standing::warning_text(const mesher::SeedName& seed, const std::string& what) const {
-  return text_of(location(seed_named(seed))) + ": warning: " + what;
+std::string Standing::warning_text(const mesher::SeedId& seed, const std::string& what) const {
+  return text_of(location(seed)) + ": warning: " + what;
 }
 
-// --- In the plane ----------------------------------------------------------------------------
+// --- A dimension's ---------------------------------------------------------------------------
 
-Input::Input(const std::string& path, mesher::CoincidingPoints coinciding)
-    : Standing(path), file_(mesher::read_pslg(path, coinciding)) {}
-
-std::vector<mesher::InputPoint<2>> Input::points() const {
-  std::vector<mesher::InputPoint<2>> points;
-  for (const auto& point : file_.pslg.points) points.push_back({point.id, point.at});
-  return points;
+// Polygons that are left keep their places, by their ids.
+template <>
+void Input<3>::merge_polygons() {
+  const mesher::GraphFile<3> all = file_;
+  file_.graph = mesher::with_merged_polygons(all.graph);
+  std::map<mesher::PolygonId, mesher::FilePosition> places;
+  for (std::size_t i = 0; i < all.polygons.size(); ++i) {
+    places.emplace(all.graph.polygons[i].id, all.polygons[i]);
+  }
+  file_.polygons.clear();
+  for (const auto& f : file_.graph.polygons) file_.polygons.push_back(places.at(f.id));
 }
 
-void Input::repair(const std::optional<mesher::Box<2>>& domain) {
-  mesher::Repaired repaired = mesher::repair(file_, domain);
+template <>
+Input<2>::Input(const std::string& path, Faces faces, mesher::CoincidingPoints coinciding)
+    : Standing(path), file_(mesher::read<2>(path, {.coinciding = coinciding})) {
+  SAC_EXPECTS(faces == Faces::unless_points);
+  has_features_ = !is_one_of(mesher::format_of(path), {".node", ".xyz", ".csv"});
+}
+
+template <>
+Input<3>::Input(const std::string& path, Faces faces, mesher::CoincidingPoints coinciding)
+    : Standing(path) {
+  has_features_ = faces != Faces::unless_points || is_complex(path);
+  if (has_features_ && !is_complex(path) && !is_surface(path) &&
+      !is_one_of(mesher::format_of(path), {".vtu", ".vtk"})) {
+    throw Error(
+        ErrorCode::bad_option,
+        "--surface is for .off, .obj, .ply, .stl, .vtu and .vtk: this format has no polygons",
+        {path});
+  }
+  file_ = mesher::read<3>(path, {.coinciding = coinciding, .points_alone = !has_features_});
+  if (faces == Faces::merged) merge_polygons();
+}
+
+template <int D>
+bool Input<D>::leaves_faces() const noexcept {
+  return D == 3 && !has_features_ && is_surface(path());
+}
+
+template <int D>
+void Input<D>::repair(const std::optional<mesher::Box<D>>& domain) {
+  mesher::Repaired<D> repaired = mesher::repair(file_, domain);
   file_ = std::move(repaired.file);
   repairs_ = std::move(repaired.notes);
 }
 
-bool Input::meet(const std::vector<Feature>& features) const {
-  std::vector<std::vector<mesher::FeatureId>> lines;
+// Of lines in the plane.
+template <int D>
+bool Input<D>::meet(const std::vector<Feature>& features) const {
+  std::vector<std::vector<mesher::PointId>> lines;
   for (const Feature& f : features) {
-    if (f.kind != mesher::FeatureKind::line) return false;
-    for (const auto& s : file_.pslg.segments) {
-      if (s.id == f.id) lines.push_back({s.from, s.to});
+    const auto id = f.line();
+    if (D == 3 || !id) return false;
+    for (const auto& s : file_.graph.segments) {
+      if (s.id == *id) lines.push_back({s.from, s.to});
     }
-    for (const auto& line : file_.pslg.polylines) {
-      if (line.id == f.id) lines.push_back(line.points);
+    for (const auto& line : file_.graph.polylines) {
+      if (line.id == *id) lines.push_back(line.points);
     }
   }
   if (lines.size() < 2) return !lines.empty();
@@ -100,15 +150,15 @@ bool Input::meet(const std::vector<Feature>& features) const {
          lines[0].end();
 }
 
-bool Input::has_region_limits() const {
-  const auto& regions = file_.pslg.regions;
-  return edits_limits() || std::any_of(regions.begin(), regions.end(), [](const auto& region) {
-           return region.max_area.has_value();
+template <int D>
+bool Input<D>::has_region_limits() const {
+  const auto& seeds = file_.graph.seeds;
+  return edits_limits() || std::any_of(seeds.begin(), seeds.end(), [](const auto& seed) {
+           return seed.max_measure.has_value();
          });
 }
 
-std::string Input::warning(const mesher::SeedFault& fault) const {
-  return warning_text(fault.seed, describe(fault));
-}
+template class Input<2>;
+template class Input<3>;
 
 }  // namespace tool

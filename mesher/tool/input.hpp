@@ -4,18 +4,14 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "mesher/domain.hpp"
-#include "mesher/edit_script.hpp"
-#include "mesher/io.hpp"
-#include "mesher/plc.hpp"
-#include "mesher/pslg.hpp"
-#include "mesher/read_for_repair.hpp"
+#include "mesher/extra/edit_script.hpp"
+#include "mesher/graph.hpp"
+#include "mesher/read.hpp"
 #include "mesher/repair.hpp"
-#include "mesher/space_repair.hpp"
 #include "pipe.hpp"
 
 namespace tool {
@@ -33,7 +29,7 @@ class Standing {
 
   /// From now on, what `edits` bring stands where they do.
   template <int D>
-  void follow(const std::vector<mesher::EditOf<D>>& edits) {
+  void follow(const std::vector<mesher::Edit<D>>& edits) {
     for (const auto& edit : edits) {
       edited_.insert_or_assign(edit.feature(), edit.location);
       edits_limits_ = edits_limits_ || edit.max_measure.has_value();
@@ -53,8 +49,7 @@ class Standing {
   Standing(Standing&&) = default;
 
   /// `PLACE: warning: WHAT` of a seed.
-  [[nodiscard]] std::string warning_text(const mesher::SeedName& seed,
-                                         const std::string& what) const;
+  [[nodiscard]] std::string warning_text(const mesher::SeedId& seed, const std::string& what) const;
   /// Whether edits have brought a region with a largest area, or volume.
   [[nodiscard]] bool edits_limits() const noexcept { return edits_limits_; }
 
@@ -84,46 +79,6 @@ decltype(auto) locating(const Standing& input, Make&& make) {
   }
 }
 
-/// Points and lines in the plane.
-class Input final : public Standing {
- public:
-  /// Throws: Error, as read_pslg.
-  explicit Input(const std::string& path, mesher::CoincidingPoints coinciding = {});
-
-  [[nodiscard]] const mesher::Pslg& graph() const noexcept { return file_.pslg; }
-  [[nodiscard]] const mesher::PslgFile& file() const noexcept { return file_; }
-  [[nodiscard]] const std::vector<mesher::Note>& notes() const noexcept { return file_.notes; }
-
-  /// What was read beside path().
-  [[nodiscard]] const std::string& point_file() const noexcept { return file_.point_file; }
-  [[nodiscard]] std::vector<mesher::InputPoint<2>> points() const;
-  [[nodiscard]] mesher::FileLocation location_of_point(std::size_t i) const {
-    return file_.location_of_point(i);
-  }
-
-  /// Lines that cross, touch or overlap become a graph that can be meshed; repairs() says how.
-  /// Throws: Error, as mesher::repair.
-  void repair(const std::optional<mesher::Box<2>>& domain);
-  [[nodiscard]] const std::vector<mesher::RepairNote>& repairs() const noexcept { return repairs_; }
-
-  /// Whether a region of the file, or one that edits have brought, has a largest area.
-  [[nodiscard]] bool has_region_limits() const;
-
-  /// `PLACE: warning: WHAT` for a seed that has no region of its own.
-  [[nodiscard]] std::string warning(const mesher::SeedFault& fault) const;
-
- private:
-  [[nodiscard]] mesher::FileLocation location_in_file(
-      const mesher::Feature& feature) const override {
-    return mesher::location_of(feature, file_);
-  }
-  [[nodiscard]] bool meet(const std::vector<mesher::Feature>& features) const override;
-  [[nodiscard]] std::string repair_reach() const override { return "2^-44"; }
-
-  mesher::PslgFile file_;
-  std::vector<mesher::RepairNote> repairs_;
-};
-
 /// What faces of a file in space are.
 enum class Faces : std::uint8_t {
   unless_points,  ///< polygons of formats of complexes (.poly, .smesh); of others nothing
@@ -131,59 +86,57 @@ enum class Faces : std::uint8_t {
   merged,  ///< polygons; those of one plane that are side by side are one
 };
 
-/// Points, segments and polygons in space.
-class SpaceInput final : public Standing {
+/// A graph of a file. D is 2 or 3.
+template <int D>
+class Input final : public Standing {
  public:
-  /// Throws: Error, as read_points, or as read_plc where faces are polygons; Error(bad_option) if
-  /// they are to be, but the format has none.
-  explicit SpaceInput(const std::string& path, Faces faces = Faces::unless_points,
-                      mesher::CoincidingPoints coinciding = {});
+  /// Throws: Error, as mesher::read; Error(bad_option) if faces are to be polygons, but the format
+  /// has none. In the plane there are no faces.
+  explicit Input(const std::string& path, Faces faces = Faces::unless_points,
+                 mesher::CoincidingPoints coinciding = {});
 
   /// As the file has it.
-  [[nodiscard]] const mesher::Plc& graph() const noexcept { return file_.plc; }
-  [[nodiscard]] const mesher::PlcFile& file() const noexcept { return file_; }
+  [[nodiscard]] const mesher::Graph<D>& graph() const noexcept { return file_.graph; }
+  [[nodiscard]] const mesher::GraphFile<D>& file() const noexcept { return file_; }
   [[nodiscard]] const std::vector<mesher::Note>& notes() const noexcept { return file_.notes; }
-  /// Whether segments and polygons are meshed, if there are any.
-  [[nodiscard]] bool is_complex() const noexcept { return is_complex_; }
+  /// Whether lines and polygons are meshed, if there are any.
+  [[nodiscard]] bool has_features() const noexcept { return has_features_; }
   /// Whether the file may have faces that are not meshed.
   [[nodiscard]] bool leaves_faces() const noexcept;
 
+  /// What was read beside path().
   [[nodiscard]] const std::string& point_file() const noexcept { return file_.point_file; }
-  [[nodiscard]] std::vector<mesher::InputPoint<3>> points() const;
   [[nodiscard]] mesher::FileLocation location_of_point(std::size_t i) const {
     return file_.location_of_point(i);
   }
 
-  /// Segments and polygons that do not fit together become a complex that can be meshed; repairs()
-  /// says how. Throws: Error, as mesher::repair.
-  void repair(const std::optional<mesher::Box<3>>& domain);
-  [[nodiscard]] const std::vector<mesher::RepairNoteOf<3>>& repairs() const noexcept {
+  /// What crosses, touches or overlaps becomes a graph that can be meshed; repairs() says how.
+  /// Throws: Error, as mesher::repair.
+  void repair(const std::optional<mesher::Box<D>>& domain);
+  [[nodiscard]] const std::vector<mesher::RepairNote<D>>& repairs() const noexcept {
     return repairs_;
   }
 
-  /// Whether a region of the file, or one that edits have brought, has a largest volume.
+  /// Whether a region of the file, or one that edits have brought, has a largest area, or volume.
   [[nodiscard]] bool has_region_limits() const;
 
   /// `PLACE: warning: WHAT` for a seed that has no region of its own.
-  [[nodiscard]] std::string warning(const mesher::SeedFaultOf<3>& fault) const;
+  [[nodiscard]] std::string warning(const mesher::SeedFault<D>& fault) const {
+    return warning_text(fault.seed, describe(fault));
+  }
 
  private:
   [[nodiscard]] mesher::FileLocation location_in_file(
       const mesher::Feature& feature) const override {
     return mesher::location_of(feature, file_);
   }
-  [[nodiscard]] std::string repair_reach() const override { return "2^-42"; }
+  [[nodiscard]] bool meet(const std::vector<mesher::Feature>& features) const override;
+  [[nodiscard]] std::string repair_reach() const override { return D == 2 ? "2^-44" : "2^-42"; }
+  void merge_polygons();
 
-  mesher::PlcFile file_;
-  bool is_complex_ = false;
-  std::vector<mesher::RepairNoteOf<3>> repairs_;
+  mesher::GraphFile<D> file_;
+  bool has_features_ = true;
+  std::vector<mesher::RepairNote<D>> repairs_;
 };
-
-/// The points of a complex, as of a file of points: what checks of points take.
-[[nodiscard]] mesher::PointFile<3> points_of(const mesher::PlcFile& file);
-
-/// The input of a dimension.
-template <int D>
-using InputOf = std::conditional_t<D == 2, Input, SpaceInput>;
 
 }  // namespace tool

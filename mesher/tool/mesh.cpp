@@ -1,17 +1,19 @@
 // mesher mesh: a mesh of a file of points and lines, or of a complex in space.
+#include <cstdio>
 #include <memory>
+#include <string>
 #include <utility>
 
-#include "algorithms.hpp"
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "figures.hpp"
-#include "mesher/angles.hpp"
-#include "mesher/mesher.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/reports.hpp"
 #include "mesher/sizes.hpp"
 #include "no_flat.hpp"
 #include "outputs.hpp"
 #include "platform/process.hpp"
+#include "progress.hpp"
 #include "report.hpp"
 
 namespace tool {
@@ -23,58 +25,65 @@ struct Result {
   RunOf<D> run;
 };
 
-void look_at_angles(const Input&, const mesher::Mesh<2>& all, const mesher::Options<2>& options,
+void look_at_angles(const Input<2>&, const mesher::Mesh<2>& all, const mesher::Options<2>& options,
                     Run& run) {
   if (all.edges.empty()) return;
   run.angles = mesher::angle_report(all, options);
 }
-void look_at_angles(const SpaceInput& input, const mesher::Mesh<3>& all,
+void look_at_angles(const Input<3>& input, const mesher::Mesh<3>& all,
                     const mesher::Options<3>& options, SpaceRun& run) {
   run.guard = mesher::guard_report(all, input.graph(), options.rho);
 }
 
+// The mesh of the box; `run` is told by which algorithm, and what happened.
+template <int D>
+mesher::Mesh<D> box_mesh(const MeshArguments& args, const Input<D>& input,
+                         const mesher::Options<D>& options, AnyRun& run, Progress& progress) {
+  mesher::RunReport report;
+  mesher::Mesh<D> mesh = locating(input, [&] {
+    const StopPolitely stop;
+    return mesher::box_mesh(input.graph(), options, &report, progress.control(),
+                            !args.stats.empty());
+  });
+  if (report.gave_up) {
+    progress.erase();
+    const std::string tried(name_of(report.tried));
+    const mesher::Error error = input.located(*report.gave_up);
+    if (!args.quiet)
+      std::fprintf(stderr, "%s: %s; now by gap-balls\n", tried.c_str(), error.what());
+  }
+  run.algorithm = name_of(report.algorithm);
+  run.stats = report.stats;
+  run.refinement = report.refinement;
+  return mesh;
+}
+
 // What is said of a mesh is looked at only where it is said.
 template <int D>
-Result<D> mesh(const MeshArguments& args, const InputOf<D>& input,
-               const mesher::Options<D>& options, Progress& progress) {
+Result<D> mesh(const MeshArguments& args, const Input<D>& input, const mesher::Options<D>& options,
+               Progress& progress) {
   const bool is_silent = args.quiet && args.stats.empty();
   Result<D> result;
   auto& run = result.run;
   double start = mesher::now();
-  mesher::Mesh<D> all = mesh_by_algorithm<D>(args, input, options, run, progress);
+  mesher::Mesh<D> all = box_mesh<D>(args, input, options, run, progress);
   run.seconds_total = mesher::now() - start;
   if (!is_silent) look_at_angles(input, all, options, run);
   start = mesher::now();
-  result.mesh =
-      mesher::domain_mesh(without_flat(args, std::move(all), options.rho), input.graph(), extent(args));
+  result.mesh = mesher::domain_mesh(without_flat(args, std::move(all), options.rho), input.graph(),
+                                    options.extent);
   run.seconds_total += mesher::now() - start;
   if (!is_silent) measure(result.mesh, options.rho, run);
   return result;
 }
 
-bool has_walls(const mesher::Pslg& graph) { return !segments_of(graph).empty(); }
-bool has_walls(const mesher::Plc& complex) { return !complex.facets.empty(); }
-
-// Limits count in what is wanted.
-template <int D>
-void limit_regions(const MeshArguments& args, const InputOf<D>& input,
-                   mesher::Options<D>& options) {
-  const bool limited = options.max_measure != 0 || options.sizes != nullptr;
-  const bool enclosing = !args.box && has_walls(input.graph());
-  if (!args.region_areas && !(limited && enclosing)) return;
-  options.region_limits = locating(input, [&] {
-    return mesher::region_limits(input.graph(), options, extent(args), region_areas(args));
-  });
-}
-
 template <int D>
 void run_mesh_in(const MeshArguments& args) {
   const auto input = read_input<D>(args);
-  auto options = mesh_options(args, input);
-  OutputsOf<D> outputs;
+  const auto options = mesh_options(args, input);
+  Outputs<D> outputs;
   open_outputs(args, input, outputs);
   Figures figures(args.stats, outputs);
-  limit_regions<D>(args, input, options);
   Progress progress(args.quiet, D);
   const Result<D> result = mesh<D>(args, input, options, progress);
   if (figures.wanted()) figures << json_of(result.run).dump(2) << "\n";
@@ -126,8 +135,10 @@ void add_mesh(CLI::App& app) {
           "from a lattice, so that edits move little. Several together: the smallest counts.\n"
           "In space the same holds of polygons: every one is a union of faces, and what they\n"
           "enclose is written. .poly and .smesh have segments and polygons; of surfaces and grids\n"
-          "the points are meshed, and with --surface the faces of .off, .obj, .ply, .stl, .vtu and\n"
-          ".vtk. An .svg is cut open, green in polygons, and bluer where radius-edge ratios are worse.\n"
+          "the points are meshed, and with --surface the faces of .off, .obj, .ply, .stl, .vtu "
+          "and\n"
+          ".vtk. An .svg is cut open, green in polygons, and bluer where radius-edge ratios are "
+          "worse.\n"
           "--stats: one JSON object; - for standard output.\n") +
       kQualityHelp +
       "\nExamples:\n"

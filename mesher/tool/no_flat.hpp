@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "arguments.hpp"
-#include "mesher/domain_mesh.hpp"
-#include "mesher/flat.hpp"
+#include "mesher/improve.hpp"
+#include "mesher/meshing.hpp"
 
 namespace tool {
 
@@ -23,12 +23,13 @@ inline mesher::Mesh<3> without_flat(const MeshArguments& args, mesher::Mesh<3> a
   return std::move(result.mesh);
 }
 
-/// What a mesher has made, a DomainMesher or one like it.
+/// What a mesher has made, a Mesher or one like it.
 template <int D, class Target>
-mesher::DomainMeshOf<D> kept_of(const MeshArguments& args, const Target& target) {
+mesher::DomainMesh<D> kept_of(const MeshArguments& args, const Target& target) {
   if constexpr (D == 3) {
     if (args.no_flat) {
-      return mesher::domain_mesh(without_flat(args, target.mesh(), target.options().rho), target.input(), extent(args));
+      return mesher::domain_mesh(without_flat(args, target.box_mesh(), target.options().rho),
+                                 target.input(), target.options().extent);
     }
   }
   return target.domain_mesh();

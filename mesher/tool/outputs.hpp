@@ -4,13 +4,11 @@
 
 #include <array>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "cancel.hpp"
-#include "mesher/domain_mesh.hpp"
-#include "mesher/io.hpp"
-#include "mesher/space_files.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/write.hpp"
 
 namespace tool {
 
@@ -46,39 +44,21 @@ class CommandFiles {
   mesher::OutputFiles files_;
 };
 
-/// With meshes in the plane.
+/// With meshes. D is 2 or 3.
+template <int D>
 class Outputs : public CommandFiles {
  public:
   /// Opens a mesh output, by extension. Throws: Error (unknown_format, cannot_write, bad_option).
   void open_mesh(const std::string& path, mesher::MeshFiles content = mesher::MeshFiles::plain);
 
-  /// Writes what is kept to all mesh outputs; `coloured`: triangles that pictures show as changed.
+  /// Writes what is kept to all mesh outputs; `coloured`: simplices that pictures show as changed.
   /// Throws: Error (cannot_write, cancelled).
-  using Simplices = std::vector<std::array<mesher::Point<2>, 3>>;
-  void write(const mesher::DomainMesh& mesh, const Simplices& coloured = {});
+  using Simplices = std::vector<std::array<mesher::Point<D>, D + 1>>;
+  void write(const mesher::DomainMesh<D>& mesh, const Simplices& coloured = {});
 
  private:
-  void draw(const mesher::DomainMesh& mesh, const Simplices& coloured);
-
-  std::vector<mesher::MeshWriter> writers_;
+  std::vector<mesher::MeshWriter<D>> writers_;
   std::vector<mesher::TextFile*> pictures_;
 };
-
-/// With meshes in space.
-class SpaceOutputs : public CommandFiles {
- public:
-  /// As those of Outputs.
-  void open_mesh(const std::string& path, mesher::MeshFiles content = mesher::MeshFiles::plain);
-  using Simplices = std::vector<std::array<mesher::Point<3>, 4>>;
-  void write(const mesher::DomainMeshOf<3>& mesh, const Simplices& coloured = {});
-
- private:
-  std::vector<mesher::SpaceMeshWriter> writers_;
-  std::vector<mesher::TextFile*> pictures_;
-};
-
-/// The outputs of a dimension.
-template <int D>
-using OutputsOf = std::conditional_t<D == 2, Outputs, SpaceOutputs>;
 
 }  // namespace tool

@@ -13,7 +13,8 @@
 #include <vector>
 
 #include "mesher/error.hpp"
-#include "mesher/io.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 
 namespace tool {
 namespace {

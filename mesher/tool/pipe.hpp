@@ -9,9 +9,9 @@
 namespace tool {
 
 /// A path at which readers find what is at `path`: itself, unless that is a pipe or another device,
-/// or `format` (an extension: "poly" or ".poly"; "": none) is another one than its own. Files of the
-/// same name beside it are found as well.
-/// Throws: Error (cannot_read; unknown_format for a pipe without an extension and a format).
+/// or `format` (an extension: "poly" or ".poly"; "": none) is another one than its own. Files of
+/// the same name beside it are found as well. Throws: Error (cannot_read; unknown_format for a pipe
+/// without an extension and a format).
 [[nodiscard]] std::string readable(const std::string& path, const std::string& format);
 
 /// The text with paths that readable() has given replaced by those that it was asked for.

@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "mesher/edit_script.hpp"
+#include "mesher/extra/edit_script.hpp"
 #include "platform/process.hpp"
 
 namespace tool {

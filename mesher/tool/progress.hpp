@@ -39,13 +39,13 @@ class Progress {
 
 /// Whether a mesher takes holes and regions.
 template <class Target>
-concept TakesSeeds = requires(Target& t, const mesher::SeedName& name) {
+concept TakesSeeds = requires(Target& t, const mesher::SeedId& name) {
   t.remove_seed(name);
 };
 
 /// Whether it takes polygons.
 template <class Target>
-concept TakesPolygons = requires(Target& t, mesher::FeatureId id) {
+concept TakesPolygons = requires(Target& t, mesher::PolygonId id) {
   t.remove_polygon(id);
 };
 
@@ -56,35 +56,35 @@ class Watched {
   Watched(Target& target, Progress& progress) : target_(target), progress_(progress) {}
 
   // With a marker, if the mesher takes one.
-  void insert(mesher::FeatureId id, const auto& p, auto... marker) requires requires(Target& t) {
+  void insert(mesher::PointId id, const auto& p, auto... marker) requires requires(Target& t) {
     t.insert(id, p, marker...);
   }
   { target_.insert(id, p, marker...); }
-  void remove(mesher::FeatureId id) { target_.remove(id); }
-  void move(mesher::FeatureId id, const auto& p) { target_.move(id, p); }
-  void insert_segment(mesher::FeatureId id, mesher::FeatureId from, mesher::FeatureId to,
+  void remove(mesher::PointId id) { target_.remove(id); }
+  void move(mesher::PointId id, const auto& p) { target_.move(id, p); }
+  void insert_segment(mesher::LineId id, mesher::PointId from, mesher::PointId to,
                       auto... marker) requires requires(Target& t) {
     t.insert_segment(id, from, to, marker...);
   }
   { target_.insert_segment(id, from, to, marker...); }
-  void insert_polyline(mesher::FeatureId id, const std::vector<mesher::FeatureId>& points,
+  void insert_polyline(mesher::LineId id, const std::vector<mesher::PointId>& points,
                        auto... marker) requires requires(Target& t) {
     t.insert_polyline(id, points, marker...);
   }
   { target_.insert_polyline(id, points, marker...); }
-  void remove_segment(mesher::FeatureId id) requires requires(Target& t) { t.remove_segment(id); }
-  { target_.remove_segment(id); }
+  void remove_line(mesher::LineId id) requires requires(Target& t) { t.remove_line(id); }
+  { target_.remove_line(id); }
   void insert_polygon(const mesher::Polygon& polygon) requires TakesPolygons<Target> {
     target_.insert_polygon(polygon);
   }
-  void remove_polygon(mesher::FeatureId id) requires TakesPolygons<Target> {
+  void remove_polygon(mesher::PolygonId id) requires TakesPolygons<Target> {
     target_.remove_polygon(id);
   }
   template <int D>
-  void insert_seed(const mesher::SeedOf<D>& seed) requires TakesSeeds<Target> {
+  void insert_seed(const mesher::Seed<D>& seed) requires TakesSeeds<Target> {
     target_.insert_seed(seed);
   }
-  void remove_seed(const mesher::SeedName& name) requires TakesSeeds<Target> {
+  void remove_seed(const mesher::SeedId& name) requires TakesSeeds<Target> {
     target_.remove_seed(name);
   }
   void limit(const auto& limits) { target_.limit(limits); }

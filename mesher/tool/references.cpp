@@ -5,11 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "mesher/write.hpp"
+
 namespace tool {
 namespace {
-
-using mesher::MeshData;
-using mesher::Pslg;
 
 // 0 stays 0, and is what there is without any.
 bool is_reference(double value) {
@@ -33,43 +32,30 @@ void note(const std::string& path, const char* what, std::vector<mesher::Note>& 
   notes.push_back({std::string(what) + " are not compared: .mesh counts those of INPUT", {path}});
 }
 
-template <class Regions>
-bool are_attributes(const Regions& regions) {
-  return are_references(regions, [](const auto& region) { return region.attribute; });
-}
-
 }  // namespace
 
-void forget_counted_values(const std::string& path, MeshData& mesh, mesher::PslgFile& graph) {
+template <int D>
+void forget_counted_values(const std::string& path, mesher::MeshData<D>& mesh,
+                           mesher::GraphFile<D>& file) {
   if (mesher::format_of(path) != ".mesh") return;
-  Pslg& pslg = graph.pslg;
+  mesher::Graph<D>& graph = file.graph;
   const auto marker = [](const auto& part) { return part.marker; };
-  if (!are_references(pslg.points, marker) || !are_references(pslg.segments, marker) ||
-      !are_references(pslg.polylines, marker)) {
+  bool are_whole = are_references(graph.points, marker) && are_references(graph.segments, marker) &&
+                   are_references(graph.polylines, marker);
+  if constexpr (D == 3) are_whole = are_whole && are_references(graph.polygons, marker);
+  if (!are_whole) {
     forget_markers(mesh.features);
     note(path, "markers", mesh.notes);
   }
-  if (!are_attributes(pslg.regions)) {
-    pslg.regions.clear();
-    graph.regions.clear();
-    note(path, "attributes of regions", mesh.notes);
-  }
-}
-
-void forget_counted_values(const std::string& path, mesher::MeshDataOf<3>& mesh,
-                           mesher::PlcFile& complex) {
-  if (mesher::format_of(path) != ".mesh") return;
-  const mesher::Plc& plc = complex.plc;
-  const auto marker = [](const auto& part) { return part.marker; };
-  if (!are_references(plc.points, marker) || !are_references(plc.segments, marker) ||
-      !are_references(plc.facets, marker)) {
-    forget_markers(mesh.features);
-    note(path, "markers", mesh.notes);
-  }
-  if (are_attributes(plc.regions)) return;
-  complex.plc.regions.clear();
-  complex.regions.clear();
+  if (are_references(graph.regions(), [](const auto& region) { return region.attribute; })) return;
+  graph.seeds = graph.holes();
+  file.seeds.clear();
   note(path, "attributes of regions", mesh.notes);
 }
+
+template void forget_counted_values(const std::string&, mesher::MeshData<2>&,
+                                    mesher::GraphFile<2>&);
+template void forget_counted_values(const std::string&, mesher::MeshData<3>&,
+                                    mesher::GraphFile<3>&);
 
 }  // namespace tool

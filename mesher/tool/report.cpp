@@ -85,10 +85,10 @@ Json json_of(const std::vector<mesher::ShrunkVertex>& vertices) {
   return all;
 }
 
-Json json_of(const std::vector<mesher::GaveIn>& places) {
+Json json_of(const std::vector<mesher::PoorBeside>& places) {
   Json all = Json::array();
   for (const auto& place : places) {
-    all.push_back({{place.is_polygon ? "polygon" : "segment", place.feature},
+    all.push_back({{place.feature.polygon() ? "polygon" : "segment", place.feature.number},
                    {"at", place.at},
                    {"tetrahedra", place.tetrahedra},
                    {"max_radius_edge", place.max_radius_edge}});
@@ -117,10 +117,10 @@ namespace {
 
 template <int D>
 void count_kept(const Kept<D>& mesh, AnyRun& run) {
-  run.vertices = mesh.kept.vertices.size();
-  run.simplices = mesh.kept.simplices.size();
+  run.vertices = mesh.mesh.vertices.size();
+  run.simplices = mesh.mesh.simplices.size();
   run.faults = mesh.faults.size();
-  const auto& kinds = mesh.kept.kinds;
+  const auto& kinds = mesh.mesh.kinds;
   run.points =
       static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), mesher::VertexKind::input));
   for (const auto& region : mesh.regions) {
@@ -131,9 +131,9 @@ void count_kept(const Kept<D>& mesh, AnyRun& run) {
 
 }  // namespace
 
-void measure(const mesher::DomainMesh& mesh, double rho, Run& run) {
-  run.quality = mesher::quality(mesh.kept);
-  measure_bound(rho, mesh.kept, run);
+void measure(const Kept<2>& mesh, double rho, Run& run) {
+  run.quality = mesher::quality(mesh.mesh);
+  measure_bound(rho, mesh.mesh, run);
   count_kept(mesh, run);
 }
 
@@ -195,8 +195,8 @@ Json json_of_change(const Step& update) {
 }  // namespace
 
 void measure(const Kept<3>& mesh, double rho, SpaceRun& run) {
-  run.quality = mesher::quality(mesh.kept);
-  if (run.quality.max_radius_edge > rho) run.above_rho = mesher::count_above(mesh.kept, rho);
+  run.quality = mesher::quality(mesh.mesh);
+  if (run.quality.max_radius_edge > rho) run.above_rho = mesher::count_above(mesh.mesh, rho);
   count_kept(mesh, run);
 }
 
@@ -274,8 +274,8 @@ void print_domain(const AnyRun& run, std::size_t points) {
 
 }  // namespace
 
-void print_run(const Input& input, const Run& run) {
-  const mesher::Pslg& graph = input.graph();
+void print_run(const Input<2>& input, const Run& run) {
+  const mesher::Graph<2>& graph = input.graph();
   std::printf("%s: %s", input.path().c_str(), counted(graph.points.size(), "point").c_str());
   const std::size_t lines = graph.segments.size() + graph.polylines.size();
   if (lines > 0) std::printf(", %s", counted(lines, "line").c_str());
@@ -289,14 +289,15 @@ void print_run(const Input& input, const Run& run) {
   print_row("time", format("%.3f s", run.seconds_total));
 }
 
-void print_run(const SpaceInput& input, const SpaceRun& run) {
-  const mesher::Plc& graph = input.graph();
+void print_run(const Input<3>& input, const SpaceRun& run) {
+  const mesher::Graph<3>& graph = input.graph();
   std::printf("%s: %s in space", input.path().c_str(),
               counted(graph.points.size(), "point").c_str());
   if (!graph.segments.empty()) {
     std::printf(", %s", counted(graph.segments.size(), "segment").c_str());
   }
-  if (!graph.facets.empty()) std::printf(", %s", counted(graph.facets.size(), "polygon").c_str());
+  if (!graph.polygons.empty())
+    std::printf(", %s", counted(graph.polygons.size(), "polygon").c_str());
   std::printf("\n");
   print_row("vertices", of_all(run.vertices, run.stats.vertices));
   print_row("tetrahedra", of_all(run.simplices, run.stats.simplices));
@@ -325,7 +326,7 @@ void warn_of_no_mesh(const Standing& input, const char* features) {
 
 }  // namespace
 
-void print_remarks(const MeshArguments& args, const Input& input, const mesher::DomainMesh& mesh) {
+void print_remarks(const MeshArguments& args, const Input<2>& input, const Kept<2>& mesh) {
   print_notes(input.notes());
   if (args.region_areas && !input.has_region_limits()) {
     std::fprintf(stderr, "%s: note: --region-areas is not used: no region has a largest area\n",
@@ -335,10 +336,10 @@ void print_remarks(const MeshArguments& args, const Input& input, const mesher::
   for (const auto& fault : mesh.faults) {
     std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
   }
-  if (mesh.kept.simplices.empty()) warn_of_no_mesh(input, "lines");
+  if (mesh.mesh.simplices.empty()) warn_of_no_mesh(input, "lines");
 }
 
-void print_remarks(const MeshArguments& args, const SpaceInput& input, const Kept<3>& mesh) {
+void print_remarks(const MeshArguments& args, const Input<3>& input, const Kept<3>& mesh) {
   print_notes(input.notes());
   if (args.region_areas && !input.has_region_limits()) {
     std::fprintf(stderr, "%s: note: --region-volumes is not used: no region has a largest volume\n",
@@ -352,7 +353,7 @@ void print_remarks(const MeshArguments& args, const SpaceInput& input, const Kep
   for (const auto& fault : mesh.faults) {
     std::fprintf(stderr, "%s\n", input.warning(fault).c_str());
   }
-  if (mesh.kept.simplices.empty()) warn_of_no_mesh(input, "polygons");
+  if (mesh.mesh.simplices.empty()) warn_of_no_mesh(input, "polygons");
 }
 
 namespace {
@@ -384,14 +385,14 @@ void print_updates(std::vector<double> seconds) {
   print_row("  longest", milliseconds(seconds.back()));
 }
 
-void print_after(const mesher::DomainMesh& mesh) {
-  print_row("after them", std::to_string(mesh.kept.vertices.size()) + " vertices, " +
-                              std::to_string(mesh.kept.simplices.size()) + " triangles");
+void print_after(const Kept<2>& mesh) {
+  print_row("after them", std::to_string(mesh.mesh.vertices.size()) + " vertices, " +
+                              std::to_string(mesh.mesh.simplices.size()) + " triangles");
 }
 
 void print_after(const Kept<3>& mesh) {
-  print_row("after them", std::to_string(mesh.kept.vertices.size()) + " vertices, " +
-                              std::to_string(mesh.kept.simplices.size()) + " tetrahedra");
+  print_row("after them", std::to_string(mesh.mesh.vertices.size()) + " vertices, " +
+                              std::to_string(mesh.mesh.simplices.size()) + " tetrahedra");
 }
 
 void print_outputs(const std::vector<std::string>& paths) {

@@ -9,13 +9,11 @@
 
 #include "arguments.hpp"
 #include "input.hpp"
-#include "mesher/angles.hpp"
 #include "mesher/check.hpp"
-#include "mesher/domain_mesher.hpp"
-#include "mesher/edit_script.hpp"
-#include "mesher/guard.hpp"
-#include "mesher/space_check.hpp"
-#include "mesher/svr.hpp"
+#include "mesher/extra/edit_script.hpp"
+#include "mesher/mesher.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/reports.hpp"
 
 namespace tool {
 
@@ -24,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 /// What is wanted of a mesh: what lines, or in space polygons, enclose.
 template <int D>
-using Kept = mesher::DomainMeshOf<D>;
+using Kept = mesher::DomainMesh<D>;
 
 /// The first run of a mesh, or a run from scratch.
 struct AnyRun {
@@ -56,12 +54,12 @@ template <int D>
 using RunOf = std::conditional_t<D == 2, Run, SpaceRun>;
 
 /// An update of a script by a mesher that knows of domains.
-using DomainStep = mesher::Update<2, mesher::DomainUpdate>;
+using DomainStep = mesher::Update<2, mesher::DomainUpdate<2>>;
 /// The same in space.
-using SpaceStep = mesher::Update<3, mesher::DomainUpdateOf<3>>;
+using SpaceStep = mesher::Update<3, mesher::DomainUpdate<3>>;
 
 /// Sizes and quality of what is kept.
-void measure(const mesher::DomainMesh& mesh, double rho, Run& run);
+void measure(const Kept<2>& mesh, double rho, Run& run);
 void measure(const Kept<3>& mesh, double rho, SpaceRun& run);
 
 /// Figures of a run, as --stats writes them, with the process's peak memory.
@@ -73,13 +71,13 @@ void measure(const Kept<3>& mesh, double rho, SpaceRun& run);
 [[nodiscard]] Json json_of(const SpaceStep& update);
 
 /// Prints size, quality and time of a run on standard output.
-void print_run(const Input& input, const Run& run);
-void print_run(const SpaceInput& input, const SpaceRun& run);
+void print_run(const Input<2>& input, const Run& run);
+void print_run(const Input<3>& input, const SpaceRun& run);
 
 /// Prints on standard error what of the input, or of what was asked for, is not used or was
 /// repaired, and which seeds have no region of their own.
-void print_remarks(const MeshArguments& args, const Input& input, const mesher::DomainMesh& mesh);
-void print_remarks(const MeshArguments& args, const SpaceInput& input, const Kept<3>& mesh);
+void print_remarks(const MeshArguments& args, const Input<2>& input, const Kept<2>& mesh);
+void print_remarks(const MeshArguments& args, const Input<3>& input, const Kept<3>& mesh);
 
 /// Prints what small angles do to a mesh, and in space where the guard gave in, if that was looked
 /// at.
@@ -91,7 +89,7 @@ void print_angles(const SpaceRun& run);
 void print_updates(std::vector<double> seconds);
 
 /// Prints how large the mesh is that updates have left.
-void print_after(const mesher::DomainMesh& mesh);
+void print_after(const Kept<2>& mesh);
 void print_after(const Kept<3>& mesh);
 
 /// Prints the names of the files written.

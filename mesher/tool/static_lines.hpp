@@ -17,30 +17,29 @@ class StaticLines : public StaticPoints<D> {
 
   /// As those of Mesher. Throws: Error (repeated_id, unknown_id, zero_length), and then changes
   /// nothing.
-  void insert_segment(mesher::FeatureId id, mesher::FeatureId from, mesher::FeatureId to,
+  void insert_segment(mesher::LineId id, mesher::PointId from, mesher::PointId to,
                       std::int64_t marker = 0) {
     insert_polyline(id, {from, to}, marker);
   }
-  void insert_polyline(mesher::FeatureId id, const std::vector<mesher::FeatureId>& points,
+  void insert_polyline(mesher::LineId id, const std::vector<mesher::PointId>& points,
                        std::int64_t marker = 0) {
     if (edited_.contains(id)) {
       throw mesher::Error(mesher::ErrorCode::repeated_id,
-                          "there is a line " + this->id_text(id) + " already", {},
-                          {mesher::line_named(id)});
+                          "there is a line " + this->id_text(id) + " already", {}, {id});
     }
     const auto same = std::adjacent_find(points.begin(), points.end());
     if (same != points.end()) {
       throw mesher::Error(mesher::ErrorCode::zero_length,
                           "segment " + this->id_text(id) + " goes from point " +
                               this->id_text(*same) + " to itself",
-                          {}, {mesher::line_named(id), mesher::point_named(*same)});
+                          {}, {id, *same});
     }
     edited_.emplace(id, Line{points, marker});
   }
-  void remove_segment(mesher::FeatureId id) {
+  void remove_line(mesher::LineId id) {
     if (edited_.erase(id) > 0) return;
     throw mesher::Error(mesher::ErrorCode::unknown_id, "there is no line " + this->id_text(id), {},
-                        {mesher::line_named(id)});
+                        {id});
   }
   void discard_edits() {
     StaticPoints<D>::discard_edits();
@@ -49,18 +48,18 @@ class StaticLines : public StaticPoints<D> {
 
  protected:
   struct Line {
-    std::vector<mesher::FeatureId> points;
+    std::vector<mesher::PointId> points;
     std::int64_t marker = 0;
   };
-  using Lines = std::map<mesher::FeatureId, Line>;
+  using Lines = std::map<mesher::LineId, Line>;
 
   /// Those that are announced to be there.
   [[nodiscard]] const Lines& lines() const { return edited_; }
   /// Throws: Error(point_in_use) if a line ends at a point that goes.
   void require_no_ends_go() const {
     for (const auto& [id, line] : edited_) {
-      for (const mesher::FeatureId end : line.points) {
-        this->require_stays(end, "an end of", mesher::line_named(id));
+      for (const mesher::PointId end : line.points) {
+        this->require_stays(end, "an end of", id);
       }
     }
   }

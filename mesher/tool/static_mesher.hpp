@@ -1,55 +1,62 @@
-// A mesher without the engine: it makes the mesh anew at every update, by mesh_statically.
+// A mesher without the engine: it makes the mesh anew at every update, by mesher::box_mesh.
 //
-// It has the part of DomainMesher's interface that commands use, with the same errors, so that
+// It has the part of Mesher's interface that commands use, with the same errors, so that
 // `edit --static` runs the same command on other work.
 #pragma once
 
 #include <cstdint>
 #include <map>
-#include <vector>
 
-#include "mesher/domain_mesher.hpp"
+#include "mesher/mesher.hpp"
 #include "mesher/sizes.hpp"
 #include "static_seeds.hpp"
 
 namespace tool {
 
-class StaticMesher : public StaticSeeds<2> {
+template <int D>
+class StaticMesher : public StaticSeeds<D> {
  public:
-  StaticMesher(const mesher::Options<2>& options, mesher::Extent extent, mesher::RegionAreas areas)
-      : StaticSeeds(options.domain),
-        options_(options),
-        edited_options_(options),
-        extent_(extent),
-        areas_(areas) {}
+  explicit StaticMesher(mesher::Options<D> options);
 
-  /// As those of DomainMesher.
-  void limit(const mesher::SizeLimits<2>& limits) { set_limits(edited_options_, limits); }
-  void limit(const mesher::Box<2>& box, const mesher::SizeLimits<2>& limits) {
+  /// As those of Mesher.
+  using StaticSeeds<D>::insert;
+  void insert(const mesher::Graph<D>& graph);
+  void limit(const mesher::SizeLimits<D>& limits) { set_limits(edited_options_, limits); }
+  void limit(const mesher::Box<D>& box, const mesher::SizeLimits<D>& limits) {
     set_limits(edited_options_, box, limits);
   }
+
+  /// As those of Mesher, but that what is wrong with a polygon alone is left to update().
+  /// Throws: Error (repeated_id, unknown_id), and then changes nothing.
+  void insert_polygon(const mesher::Polygon& polygon) requires(D == 3);
+  void remove_polygon(mesher::PolygonId id) requires(D == 3);
   void discard_edits() {
-    StaticSeeds::discard_edits();
+    StaticSeeds<D>::discard_edits();
+    edited_polygons_ = current_polygons_;
     edited_options_ = options_;
   }
 
-  /// As that of DomainMesher, but that edits that fail stay announced, and that `relabelled` is not
-  /// found. Cost: a mesh from scratch; counts of calls are 0.
-  mesher::DomainUpdate update(const mesher::RunControl& control = {});
+  /// As that of Mesher, but that edits that fail stay announced, and that `relabelled`, in space
+  /// also edges and faces, are not found. Cost: a mesh from scratch; counts of calls are 0.
+  mesher::DomainUpdate<D> update(const mesher::RunControl& control = {});
 
-  [[nodiscard]] const mesher::Mesh<2>& mesh() const { return mesh_; }
-  [[nodiscard]] const mesher::DomainMesh& domain_mesh() const { return domain_; }
-  [[nodiscard]] const mesher::Options<2>& options() const { return options_; }
+  [[nodiscard]] const mesher::Mesh<D>& box_mesh() const { return mesh_; }
+  [[nodiscard]] const mesher::DomainMesh<D>& domain_mesh() const { return domain_; }
+  /// With the edits that are announced.
+  [[nodiscard]] mesher::Graph<D> input() const;
+  [[nodiscard]] const mesher::Options<D>& options() const { return options_; }
   [[nodiscard]] const mesher::MeshStats& stats() const { return stats_; }
 
  private:
-  [[nodiscard]] mesher::Pslg graph() const;
+  using Polygons = std::map<mesher::PolygonId, mesher::Polygon>;
+  void require_no_corners_go() const;
+  void report(const mesher::Mesh<D>& after, const mesher::Graph<D>& input,
+              mesher::DomainUpdate<D>& update) const;
 
-  mesher::Options<2> options_, edited_options_;  // they differ in the limits of size
-  mesher::Extent extent_;
-  mesher::RegionAreas areas_;
-  mesher::Mesh<2> mesh_;
-  mesher::DomainMesh domain_;
+  mesher::Options<D> options_, edited_options_;  // they differ in the limits of size
+  Polygons current_polygons_, edited_polygons_;  // in space
+  mesher::Mesh<D> mesh_;
+  mesher::DomainMesh<D> domain_;
   mesher::MeshStats stats_;
 };
 

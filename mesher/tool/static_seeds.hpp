@@ -4,7 +4,7 @@
 #include <map>
 
 #include "mesh_difference.hpp"
-#include "mesher/domain_mesher.hpp"
+#include "mesher/mesher.hpp"
 #include "static_lines.hpp"
 
 namespace tool {
@@ -14,18 +14,16 @@ class StaticSeeds : public StaticLines<D> {
  public:
   using StaticLines<D>::StaticLines;
 
-  /// As those of DomainMesher.
+  /// As those of Mesher.
   /// Throws: Error (repeated_id, unknown_id), and then changes nothing.
-  void insert_seed(const mesher::SeedOf<D>& seed) {
-    if (edited_.emplace(seed.name, seed).second) return;
+  void insert_seed(const mesher::Seed<D>& seed) {
+    if (edited_.emplace(seed.id, seed).second) return;
     throw mesher::Error(mesher::ErrorCode::repeated_id,
-                        "there is a " + text_of(seed.name) + " already", {},
-                        {mesher::seed_named(seed.name)});
+                        "there is a " + text_of(seed.id) + " already", {}, {seed.id});
   }
-  void remove_seed(const mesher::SeedName& name) {
+  void remove_seed(const mesher::SeedId& name) {
     if (edited_.erase(name) > 0) return;
-    throw mesher::Error(mesher::ErrorCode::unknown_id, "there is no " + text_of(name), {},
-                        {mesher::seed_named(name)});
+    throw mesher::Error(mesher::ErrorCode::unknown_id, "there is no " + text_of(name), {}, {name});
   }
   void discard_edits() {
     StaticLines<D>::discard_edits();
@@ -34,8 +32,8 @@ class StaticSeeds : public StaticLines<D> {
 
  protected:
   /// Adds those that are announced to be there.
-  void add_seeds(mesher::GraphOf<D>& graph) const {
-    for (const auto& [name, seed] : edited_) mesher::add_seed(graph, seed);
+  void add_seeds(mesher::Graph<D>& graph) const {
+    for (const auto& [name, seed] : edited_) graph.seeds.push_back(seed);
   }
   void keep_edits() {
     StaticLines<D>::keep_edits();
@@ -43,23 +41,13 @@ class StaticSeeds : public StaticLines<D> {
   }
 
  private:
-  std::map<mesher::SeedName, mesher::SeedOf<D>> current_, edited_;
+  std::map<mesher::SeedId, mesher::Seed<D>> current_, edited_;
 };
-
-/// Whether it matters to limits of size what lines, or polygons, enclose.
-template <int D>
-[[nodiscard]] bool needs_regions(const mesher::Options<D>& options, mesher::Extent extent,
-                                 mesher::RegionAreas areas) {
-  if (areas == mesher::RegionAreas::limits) return true;
-  const bool limited =
-      options.max_measure != 0 || options.sizes != nullptr || !options.box_limits.empty();
-  return extent == mesher::Extent::enclosed && limited;
-}
 
 /// What an update did to what is kept; `relabelled` is not found.
 template <int D>
-[[nodiscard]] mesher::DomainChangeOf<D> change_of_kept(const mesher::Mesh<D>& before,
-                                                       const mesher::Mesh<D>& after) {
+[[nodiscard]] mesher::DomainChange<D> change_of_kept(const mesher::Mesh<D>& before,
+                                                     const mesher::Mesh<D>& after) {
   const auto was = simplices_of(before), is = simplices_of(after);
   return {difference(is, was), difference(was, is), {}, 0};
 }

@@ -7,7 +7,7 @@
 #include "cancel.hpp"
 #include "commands.hpp"
 #include "first_run.hpp"
-#include "mesher/edit_script.hpp"
+#include "mesher/extra/edit_script.hpp"
 #include "mesher/mesher.hpp"
 #include "traces/recorder.hpp"
 #include "traces/trace_file.hpp"
@@ -30,9 +30,9 @@ void require_writable(const TraceArguments& args, const auto& input) {
 }
 
 template <int D>
-void follow_script(const TraceArguments& args, InputOf<D>& input, mesher::Mesher<D>& mesher,
+void follow_script(const TraceArguments& args, Input<D>& input, mesher::Mesher<D>& mesher,
                    Progress& progress) {
-  mesher::EditScriptOf<D> script(args.script);
+  mesher::EditScript<D> script(args.script);
   std::size_t updates = 0;
   Watched watched(mesher, progress);
   try {
@@ -60,22 +60,14 @@ traces::Recording record(const sac::Engine& engine, const std::string& path, tra
 }
 
 template <int D>
-InputOf<D> unrepaired(const TraceArguments& args) {
-  if constexpr (D == 2) {
-    return Input(args.input);
-  } else {
-    return SpaceInput(args.input, faces(args));
-  }
-}
-
-template <int D>
 void run_trace(const TraceArguments& args) {
-  InputOf<D> input = unrepaired<D>(args);
+  Input<D> input(args.input, faces(args));
   drop_copies();
-  const auto options = mesh_options(args, input);
+  auto options = mesh_options(args, input);
+  options.extent = mesher::Extent::box;
   require_writable(args, input);
   Progress progress(args.quiet);
-  auto mesher = mesher_for<mesher::Mesher<D>>(input, options);
+  auto mesher = locating(input, [&] { return mesher::Mesher<D>(options); });
   insert_all(input, mesher, progress);
   if (!args.script.empty()) follow_script<D>(args, input, mesher, progress);
   const traces::Recording recording =

@@ -217,8 +217,7 @@ struct DistanceApp {
   static constexpr int kLists = 2;
   static constexpr auto program = distance;
   static std::vector<std::vector<Point>> inputs(std::size_t n) {
-    return {random_points(shape, n / 2, 0, 1),
-            random_points(shape, n - n / 2, 1 << 22, 1u << 30)};
+    return {random_points(shape, n / 2, 0, 1), random_points(shape, n - n / 2, 1 << 22, 1u << 30)};
   }
 };
 

@@ -90,8 +90,8 @@ class SequenceForm {
   void run() { host_.template run<App::program>(sequence_.list()); }
   void take_out(std::size_t i) { sequence_.erase(ids_[i]); }
   void put_back(std::size_t i) {
-    ids_[i] = i == 0 ? sequence_.push_front(values_[0])
-                     : sequence_.insert_after(ids_[i - 1], values_[i]);
+    ids_[i] =
+        i == 0 ? sequence_.push_front(values_[0]) : sequence_.insert_after(ids_[i - 1], values_[i]);
   }
   [[nodiscard]] Host& host() { return host_; }
 
@@ -136,18 +136,16 @@ struct ReverseApp : ToList {
 };
 struct SortApp : ToList {
   static constexpr auto example = examples::mergesort;
-  static constexpr Program<decltype([](auto& s, auto in) {
-    return sac::sort<std::less<>{}>(s, in);
-  })>
+  static constexpr Program<decltype(
+      [](auto& s, auto in) { return sac::sort<std::less<>{}>(s, in); })>
       program{};
 };
 struct ReduceApp {
   template <class S>
   using ExampleResult = examples::Sum::Value;
   static constexpr auto example = examples::sum_list;
-  static constexpr Program<decltype([](auto& s, auto in) {
-    return sac::reduce<std::plus<>{}>(s, in, examples::Sum::Value{0});
-  })>
+  static constexpr Program<decltype(
+      [](auto& s, auto in) { return sac::reduce<std::plus<>{}>(s, in, examples::Sum::Value{0}); })>
       program{};
 };
 
@@ -191,10 +189,11 @@ Figures measure(const char* operation, const char* form, std::size_t n) {
   }
   f.from_scratch = median(traced);
   f.plain = median(plain);
-  std::printf("{\"bench\":\"sequence\",\"operation\":\"%s\",\"n\":%zu,\"form\":\"%s\","
-              "\"from_scratch_ms\":%.2f,\"static_ms\":%.2f,\"update_us\":%.2f,\"work\":%.2f,"
-              "\"bytes\":%.1f}\n",
-              operation, n, form, f.from_scratch, f.plain, f.update, f.work, f.bytes);
+  std::printf(
+      "{\"bench\":\"sequence\",\"operation\":\"%s\",\"n\":%zu,\"form\":\"%s\","
+      "\"from_scratch_ms\":%.2f,\"static_ms\":%.2f,\"update_us\":%.2f,\"work\":%.2f,"
+      "\"bytes\":%.1f}\n",
+      operation, n, form, f.from_scratch, f.plain, f.update, f.work, f.bytes);
   std::fflush(stdout);
   return f;
 }
@@ -203,11 +202,12 @@ template <class App>
 void bench_operation(const char* operation, std::size_t n) {
   const Figures a = measure<SequenceForm, App>(operation, "sequence", n);
   const Figures b = measure<ExampleForm, App>(operation, "example", n);
-  std::printf("{\"bench\":\"sequence\",\"operation\":\"%s\",\"n\":%zu,\"form\":\"ratio\","
-              "\"from_scratch\":%.2f,\"static\":%.2f,\"update\":%.2f,\"work\":%.2f,"
-              "\"bytes\":%.2f}\n",
-              operation, n, a.from_scratch / b.from_scratch, a.plain / b.plain,
-              a.update / b.update, a.work / b.work, a.bytes / b.bytes);
+  std::printf(
+      "{\"bench\":\"sequence\",\"operation\":\"%s\",\"n\":%zu,\"form\":\"ratio\","
+      "\"from_scratch\":%.2f,\"static\":%.2f,\"update\":%.2f,\"work\":%.2f,"
+      "\"bytes\":%.2f}\n",
+      operation, n, a.from_scratch / b.from_scratch, a.plain / b.plain, a.update / b.update,
+      a.work / b.work, a.bytes / b.bytes);
 }
 
 void bench_edits(const char* operation, std::size_t n) {
@@ -234,9 +234,10 @@ void bench_edits(const char* operation, std::size_t n) {
     sequence.erase(old);
   });
   const double set = each([&](int i) { sequence.set(ids[random.below(n)], -i - 1); });
-  std::printf("{\"bench\":\"sequence\",\"operation\":\"%s\",\"n\":%zu,\"push_back_ns\":%.0f,"
-              "\"insert_erase_ns\":%.0f,\"set_ns\":%.0f,\"input_bytes\":%.1f}\n",
-              operation, n, push, exchange, set, bytes);
+  std::printf(
+      "{\"bench\":\"sequence\",\"operation\":\"%s\",\"n\":%zu,\"push_back_ns\":%.0f,"
+      "\"insert_erase_ns\":%.0f,\"set_ns\":%.0f,\"input_bytes\":%.1f}\n",
+      operation, n, push, exchange, set, bytes);
   std::fflush(stdout);
 }
 

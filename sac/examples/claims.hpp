@@ -6,6 +6,7 @@
 //
 // Cost: a claim O(log) of the keys and of the claims of the key; one that comes or goes makes at
 // most one other call run again. An object of this type outlives the trace.
+// clang-format off
 #pragma once
 
 #include <algorithm>

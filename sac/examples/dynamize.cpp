@@ -1,6 +1,7 @@
 // The snippets of sac/docs/dynamize.md as one program; check() throws where a snippet is not true.
 //
 // tests/sac/dynamize_snippets_test.cpp runs it, and compares text and output with the document.
+// clang-format off
 #include <algorithm>
 #include <bit>
 #include <cstdint>

@@ -1,6 +1,7 @@
 // The snippets of sac/docs/errors.md as one program; check() throws where a snippet is not true.
 //
 // tests/sac/errors_snippets_test.cpp runs it, and compares text and output with the document.
+// clang-format off
 #include <new>
 #include <ostream>
 #include <stdexcept>

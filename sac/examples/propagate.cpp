@@ -1,6 +1,7 @@
 // The program of sac/docs/propagate.md: an auction, one bid of which is raised.
 //
 // tests/sac/propagate_snippets_test.cpp runs it, and compares text and output with the document.
+// clang-format off
 #include <ostream>
 #include <stdexcept>
 #include <string>

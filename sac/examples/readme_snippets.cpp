@@ -1,7 +1,8 @@
-// The snippets of sac/README.md, docs/sequences.md and docs/events.md as one program; check() throws
-// where a snippet is not true.
+// The snippets of sac/README.md, docs/sequences.md and docs/events.md as one program; check()
+// throws where a snippet is not true.
 //
 // tests/sac/readme_snippets_test.cpp runs it, and compares it with them line by line.
+// clang-format off
 #include <functional>
 #include <stdexcept>
 #include <string>

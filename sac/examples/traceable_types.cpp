@@ -2,6 +2,7 @@
 //
 // With the header, it is the code of docs/traceable_types.md; tests/sac/traceable_types_test.cpp
 // runs it and compares them line by line.
+// clang-format off
 #include <stdexcept>
 #include <string>
 

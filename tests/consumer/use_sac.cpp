@@ -1,6 +1,5 @@
 // The first example of the engine, as a user compiles it.
 #include <cstdio>
-
 #include <sac/sac.hpp>
 
 void add(sac::Scope& s, sac::Mod<int> a, sac::Mod<int> b, sac::Mod<int> out) {

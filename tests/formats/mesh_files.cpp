@@ -8,21 +8,24 @@
 // lines `v BITS BITS` (a vertex, its doubles' bits in hexadecimal), `t A B C REGION` (a triangle),
 // `e A B MARKER` (an edge on a line), numbered from 0. `dump` writes the like of FILE to TRUTH.
 #include <bit>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
 #include <string>
 
 #include "file_program.hpp"
-#include "mesher/io.hpp"
-#include "mesher/mesher.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 #include "random_mesh.hpp"
 
 namespace {
 
 using mesher::MeshData;
 
-void write_truth(const MeshData& mesh, const std::string& path) {
+void write_truth(const MeshData<2>& mesh, const std::string& path) {
   std::ofstream file(path);
   file << std::hex << std::setfill('0');
   for (const auto& [x, y] : mesh.vertices) {
@@ -40,17 +43,20 @@ void write_truth(const MeshData& mesh, const std::string& path) {
   }
 }
 
-void write(const MeshData& mesh, const std::string& stem) {
+void write(const MeshData<2>& mesh, const std::string& stem) {
   write_truth(mesh, stem + ".truth");
   for (const char* extension : {".node", ".vtu", ".vtk", ".msh", ".mesh", ".off", ".obj"}) {
     mesher::write_mesh(mesh, stem + extension);
   }
 }
 
-MeshData mesh_of_points() {
-  const auto points = mesher::generate_points<2>(mesher::PointKind::clusters, 500, 1);
-  return MeshData(
-      mesher::mesh_statically<2>(points, {.domain = mesher::snapped_domain<2>(points)}));
+MeshData<2> mesh_of_points() {
+  mesher::Graph<2> graph;
+  std::int64_t id = 0;
+  for (const auto& p : mesher::generate_points<2>(mesher::PointKind::clusters, 500, 1)) {
+    graph.points.push_back({mesher::PointId{++id}, p});
+  }
+  return MeshData<2>(mesher::box_mesh<2>(graph, {.algorithm = mesher::Algorithm::gap_balls}));
 }
 
 void write_all(const std::string& folder) {

@@ -4,8 +4,6 @@
 // what a file of others is to us.
 //   space_files write FOLDER
 //   space_files dump FILE TRUTH        of FILE.surface.vtu its points and polygons
-#include "mesher/space_files.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -15,11 +13,10 @@
 #include <vector>
 
 #include "file_program.hpp"
-#include "mesher/domain_mesh.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/generate_plc.hpp"
-#include "mesher/io.hpp"
-#include "mesher/mesher.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 
 namespace {
 
@@ -33,7 +30,7 @@ void write_part(Corners corners, std::int64_t value, std::ofstream& truth) {
   truth << '\n';
 }
 
-void write_parts(const mesher::MeshDataOf<3>& mesh, std::ofstream& truth) {
+void write_parts(const mesher::MeshData<3>& mesh, std::ofstream& truth) {
   const auto& f = mesh.features;
   for (std::size_t i = 0; i < f.regions.size(); ++i) {
     write_part(mesh.simplices[i], static_cast<std::int64_t>(f.regions[i]), truth);
@@ -42,7 +39,7 @@ void write_parts(const mesher::MeshDataOf<3>& mesh, std::ofstream& truth) {
   for (const auto& e : f.edges) write_part(std::array{e.low, e.high}, e.marker, truth);
 }
 
-void write_truth(const mesher::MeshDataOf<3>& mesh, const std::string& path) {
+void write_truth(const mesher::MeshData<3>& mesh, const std::string& path) {
   std::ofstream truth(path);
   for (const auto& p : mesh.vertices) {
     truth << 'v';
@@ -56,23 +53,23 @@ void write_truth(const mesher::MeshDataOf<3>& mesh, const std::string& path) {
 }
 
 // Of points and polygons, by numbers of points from 0 on.
-void write_surface(const mesher::Plc& plc, const std::string& path) {
+void write_surface(const mesher::Graph<3>& plc, const std::string& path) {
   std::ofstream truth(path);
-  std::map<mesher::FeatureId, std::uint32_t> number;
+  std::map<mesher::PointId, std::uint32_t> number;
   for (const auto& p : plc.points) {
     number.emplace(p.id, static_cast<std::uint32_t>(number.size()));
     truth << 'v';
     for (const double x : p.at) truth << ' ' << std::bit_cast<std::uint64_t>(x);
     truth << '\n';
   }
-  for (const auto& f : plc.facets) {
+  for (const auto& f : plc.polygons) {
     std::vector<std::uint32_t> corners;
-    for (const auto id : f.polygon.loops[0]) corners.push_back(number.at(id));
+    for (const auto id : f.loops[0]) corners.push_back(number.at(id));
     write_part(corners, f.marker, truth);
   }
 }
 
-void write(const std::string& stem, const mesher::MeshDataOf<3>& mesh) {
+void write(const std::string& stem, const mesher::MeshData<3>& mesh) {
   for (const char* extension : {".node", ".vtu", ".vtk", ".msh", ".mesh", ".off", ".obj", ".stl"}) {
     mesher::write_mesh(mesh, stem + extension);
   }
@@ -80,24 +77,27 @@ void write(const std::string& stem, const mesher::MeshDataOf<3>& mesh) {
 }
 
 void write(const std::string& stem, const std::vector<Point<3>>& points) {
-  const mesher::Options<3> options{.domain = mesher::snapped_domain<3>(points)};
-  write(stem, mesher::MeshDataOf<3>(mesher::mesh_statically<3>(points, options)));
+  mesher::Graph<3> graph;
+  std::int64_t id = 0;
+  for (const Point<3>& p : points) graph.points.push_back({mesher::PointId{++id}, p});
+  const mesher::Options<3> options{.algorithm = mesher::Algorithm::gap_balls};
+  write(stem, mesher::MeshData<3>(mesher::box_mesh(graph, options)));
 }
 
 // A cube in a cube, with two regions, and a marker for each side; one side's edges are segments.
 void write_complex(const std::string& stem, mesher::Extent extent) {
-  mesher::Plc plc = mesher::generate_plc({mesher::PlcKind::nested, 0.2});
+  mesher::Graph<3> plc = mesher::generate_plc({mesher::PlcKind::nested, 0.2});
   std::int64_t marker = 10;
-  for (auto& facet : plc.facets) facet.marker = ++marker;
-  const auto& side = plc.facets[2].polygon.loops[0];
+  for (auto& facet : plc.polygons) facet.marker = ++marker;
+  const auto& side = plc.polygons[2].loops[0];
   for (std::size_t i = 0; i < side.size(); ++i) {
     const auto id = static_cast<std::int64_t>(i) + 1;
-    plc.segments.push_back({mesher::FeatureId{id}, side[i], side[(i + 1) % side.size()], 90 + id});
+    plc.segments.push_back({mesher::LineId{id}, side[i], side[(i + 1) % side.size()], 90 + id});
   }
-  plc.regions.push_back({mesher::FeatureId{1}, {0.1, 0.1, 0.1}, 3, {}});
-  plc.regions.push_back({mesher::FeatureId{2}, {0.5, 0.5, 0.5}, 8, {}});
-  const mesher::Options<3> options{.domain = mesher::snapped_domain<3>(places_of(plc))};
-  write(stem, mesher::domain_mesh(mesher::mesh_statically(plc, options), plc, extent).kept);
+  plc.seeds.push_back(mesher::region_seed<3>(1, {0.1, 0.1, 0.1}, 3));
+  plc.seeds.push_back(mesher::region_seed<3>(2, {0.5, 0.5, 0.5}, 8));
+  const mesher::Options<3> options{.extent = extent, .algorithm = mesher::Algorithm::gap_balls};
+  write(stem, mesher::mesh(plc, options).mesh);
 }
 
 void write_all(const std::string& folder) {
@@ -117,7 +117,7 @@ void write_all(const std::string& folder) {
 int main(int argc, char** argv) {
   return formats::file_program(argc, argv, write_all, [](const char* mesh, const char* truth) {
     const std::string path = mesh;
-    path.ends_with(".surface.vtu") ? write_surface(mesher::read_plc(path).plc, truth)
+    path.ends_with(".surface.vtu") ? write_surface(mesher::read<3>(path).graph, truth)
                                    : write_truth(mesher::read_mesh<3>(path), truth);
   });
 }

@@ -29,9 +29,15 @@ void mutate(Bytes& bytes, const Bytes& other, support::Random& random) {
   for (int times = 1 + random(4); times > 0 && !bytes.empty(); --times) {
     const auto at = bytes.begin() + random(static_cast<int>(bytes.size()));
     switch (random(4)) {
-      case 0: bytes.erase(at); break;
-      case 1: bytes.insert(at, *at); break;
-      case 2: *at = static_cast<std::uint8_t>(random(256)); break;
+      case 0:
+        bytes.erase(at);
+        break;
+      case 1:
+        bytes.insert(at, *at);
+        break;
+      case 2:
+        *at = static_cast<std::uint8_t>(random(256));
+        break;
       default:
         if (other.empty()) break;
         const int from = random(static_cast<int>(other.size()));

@@ -3,7 +3,8 @@
 #include <fstream>
 
 #include "edit_sequence.hpp"
-#include "mesher/io.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 #include "scratch_file.hpp"
 
 namespace {

@@ -13,13 +13,16 @@
 #include <string>
 #include <vector>
 
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace {
 
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Point;
+using mesher::PointId;
+using mesher::PolygonId;
 
 std::size_t resident_bytes() {
   std::ifstream file("/proc/self/statm");
@@ -62,19 +65,19 @@ void soak(std::size_t n, std::size_t edits) {
   mesher::SplitMix64 random(5);
   const auto point = [&] { return Point<2>{random.unit(), random.unit()}; };
   const mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}};
-  mesher::Mesher<2> m(options);
+  mesher::BoxMesher<2> m(options);
   std::vector<Point<2>> points(n);
   for (std::size_t i = 0; i < n; ++i) {
     points[i] = point();
-    m.insert(FeatureId{static_cast<std::int64_t>(i)}, points[i]);
+    m.insert(AnyId{static_cast<std::int64_t>(i)}, points[i]);
   }
   m.update();
   std::vector<double> trace, resident;
   for (std::size_t k = 0; k < edits; ++k) {
     const std::size_t i = random.below(n);
     points[i] = point();
-    m.remove(FeatureId{static_cast<std::int64_t>(i)});
-    m.insert(FeatureId{static_cast<std::int64_t>(i)}, points[i]);
+    m.remove(AnyId{static_cast<std::int64_t>(i)});
+    m.insert(AnyId{static_cast<std::int64_t>(i)}, points[i]);
     m.update();
     if (k % (edits / 200) != 0) continue;
     const auto stats = m.stats();  // the mesh's own size goes up and down with the points
@@ -88,9 +91,8 @@ void soak(std::size_t n, std::size_t edits) {
               << mean(resident, t * tenth, (t + 1) * tenth) << std::endl;
   }
   const auto mesh = m.mesh();
-  mesher::Mesher<2> fresh(options);
-  for (std::size_t i = 0; i < n; ++i)
-    fresh.insert(FeatureId{static_cast<std::int64_t>(i)}, points[i]);
+  mesher::BoxMesher<2> fresh(options);
+  for (std::size_t i = 0; i < n; ++i) fresh.insert(AnyId{static_cast<std::int64_t>(i)}, points[i]);
   fresh.update();
   std::cout << "n " << n << " edits " << edits << ": vertices " << mesh.vertices.size()
             << ", fresh " << fresh.stats().vertices << "; trace " << m.stats().trace_bytes

@@ -7,19 +7,23 @@
 #include <string>
 #include <vector>
 
-#include "mesher/mesher.hpp"
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
 #include "space_points.hpp"
 
 namespace {
 
+using mesher::BoxMesher;
 using mesher::Change;
 using mesher::Error;
 using mesher::ErrorCode;
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Mesh;
-using mesher::Mesher;
 using mesher::Options;
 using mesher::Point;
+using mesher::PointId;
+using mesher::PolygonId;
 using mesher::Rule;
 using mesher::SplitMix64;
 using support::SpaceFamily;
@@ -60,12 +64,12 @@ class Editor {
   Editor(SpaceFamily family, std::size_t n, SplitMix64& random)
       : family_(family), n_(n), random_(random) {}
 
-  void edit(Mesher<3>& mesher, PointSet& points) {
+  void edit(BoxMesher<3>& mesher, PointSet& points) {
     const std::uint64_t kind = random_.below(8);
     if (points.empty() || kind < 3) return insert(mesher, points);
     const auto it = std::next(points.begin(), static_cast<long>(random_.below(points.size())));
     if (kind < 6) {
-      mesher.remove(FeatureId{it->first});
+      mesher.remove(AnyId{it->first});
       points.erase(it);
     } else {
       move(mesher, *it, points);
@@ -83,13 +87,13 @@ class Editor {
     for (double& x : p) x = std::clamp(x + step * (random_.unit() - 0.5), 0.0, 1.0);
     return p;
   }
-  void insert(Mesher<3>& mesher, PointSet& points) {
+  void insert(BoxMesher<3>& mesher, PointSet& points) {
     const Point<3> p = place(points);
     const std::int64_t id = ++last_;
-    if (attempt([&] { mesher.insert(FeatureId{id}, p); })) points[id] = p;
+    if (attempt([&] { mesher.insert(AnyId{id}, p); })) points[id] = p;
   }
   // Where points have moved, update() judges; so places that it would refuse are left out here.
-  void move(Mesher<3>& mesher, const PointSet::value_type& point, PointSet& points) {
+  void move(BoxMesher<3>& mesher, const PointSet::value_type& point, PointSet& points) {
     const std::int64_t id = point.first;
     const Point<3> p = place(points);
     const bool is_free = std::none_of(points.begin(), points.end(), [&](const auto& other) {
@@ -97,7 +101,7 @@ class Editor {
       return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) < 0x1p-40;
     });
     if (!is_free) return;
-    mesher.move(FeatureId{id}, p);
+    mesher.move(AnyId{id}, p);
     points[id] = p;
   }
   template <class F>
@@ -119,7 +123,7 @@ class Editor {
   std::int64_t last_ = 1000;
 };
 
-void check(const Mesher<3>& mesher, const Change<3>& change, const PointSet& points,
+void check(const BoxMesher<3>& mesher, const Change<3>& change, const PointSet& points,
            const Options<3>& options, Parts& parts) {
   const Mesh<3> mesh = mesher.mesh();
   REQUIRE(mesh == mesher::mesh_statically<3>(places(points), options));
@@ -133,11 +137,11 @@ void run(SpaceFamily family, const Options<3>& options, std::size_t n, int edits
   INFO(name(family) << ", rho " << options.rho << ", rule " << static_cast<int>(options.rule)
                     << ", " << n << " points, seed " << seed);
   SplitMix64 random(seed);
-  Mesher<3> mesher(options);
+  BoxMesher<3> mesher(options);
   PointSet points;
   for (const auto& p : support::space_points(family, n, seed)) {
     const auto id = static_cast<std::int64_t>(points.size());
-    mesher.insert(FeatureId{id}, p);
+    mesher.insert(AnyId{id}, p);
     points[id] = p;
   }
   Parts parts;
@@ -152,7 +156,7 @@ void run(SpaceFamily family, const Options<3>& options, std::size_t n, int edits
     if (i == edits / 2)
       CHECK(support::space_verdict(mesher.mesh(), places(points), options.rho) == "");
   }
-  for (const auto& [id, p] : points) mesher.remove(FeatureId{id});
+  for (const auto& [id, p] : points) mesher.remove(AnyId{id});
   check(mesher, mesher.update(), {}, options, parts);
   mesher.check_invariants();
 }
@@ -175,23 +179,23 @@ TEST_CASE("in space, the same for other bounds and for the paper's rule") {
 }
 
 TEST_CASE("in space, what is refused leaves the mesh") {
-  Mesher<3> mesher(options());
-  mesher.insert(FeatureId{1}, {0.5, 0.5, 0.5});
-  mesher.insert(FeatureId{2}, {0.25, 0.5, 0.5});
+  BoxMesher<3> mesher(options());
+  mesher.insert(AnyId{1}, {0.5, 0.5, 0.5});
+  mesher.insert(AnyId{2}, {0.25, 0.5, 0.5});
   mesher.update();
   const Mesh<3> before = mesher.mesh();
-  CHECK_THROWS_AS(mesher.insert(FeatureId{1}, {0, 0, 0}), Error);
-  CHECK_THROWS_AS(mesher.insert(FeatureId{3}, {0, 0, 2}), Error);
-  CHECK_THROWS_AS(mesher.insert(FeatureId{3}, {0.5, 0.5, 0.5}), Error);
-  CHECK_THROWS_AS(mesher.insert_segment(FeatureId{1}, FeatureId{1}, FeatureId{1}), Error);
-  CHECK_THROWS_AS(mesher.remove_polygon(FeatureId{1}), Error);
-  CHECK_THROWS_AS(mesher.remove_segment(FeatureId{1}), Error);
+  CHECK_THROWS_AS(mesher.insert(AnyId{1}, {0, 0, 0}), Error);
+  CHECK_THROWS_AS(mesher.insert(AnyId{3}, {0, 0, 2}), Error);
+  CHECK_THROWS_AS(mesher.insert(AnyId{3}, {0.5, 0.5, 0.5}), Error);
+  CHECK_THROWS_AS(mesher.insert_segment(LineId{1}, AnyId{1}, AnyId{1}), Error);
+  CHECK_THROWS_AS(mesher.remove_polygon(PolygonId{1}), Error);
+  CHECK_THROWS_AS(mesher.remove_line(LineId{1}), Error);
   CHECK(mesher.lines().empty());
-  mesher.move(FeatureId{1}, {0.25, 0.5, 0.5});
+  mesher.move(AnyId{1}, {0.25, 0.5, 0.5});
   CHECK_THROWS_AS(mesher.update(), Error);
   CHECK(mesher.mesh() == before);
-  mesher.move(FeatureId{1}, {0.25, 0.5, 0.5});  // both swap
-  mesher.move(FeatureId{2}, {0.5, 0.5, 0.5});
+  mesher.move(AnyId{1}, {0.25, 0.5, 0.5});  // both swap
+  mesher.move(AnyId{2}, {0.5, 0.5, 0.5});
   mesher.update();
   CHECK(mesher.mesh() == before);
   mesher.check_invariants();

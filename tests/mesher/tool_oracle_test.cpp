@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "mesher/generate.hpp"
-#include "mesher/pslg.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/graph.hpp"
+#include "mesher/write.hpp"
 #include "random_lake.hpp"
 #include "rules/mesh_box.hpp"
 #include "scratch_file.hpp"
@@ -25,11 +26,11 @@ std::string number(double x) {
   std::snprintf(text, sizeof text, " %.17g", x);
   return text;
 }
-std::string number(mesher::FeatureId id) {
+std::string number(mesher::PointId id) {
   return " " + std::to_string(static_cast<std::int64_t>(id));
 }
 
-std::string limit_line(const Edit& edit) {
+std::string limit_line(const Edit<2>& edit) {
   const double area = edit.limits.max_measure;
   std::string line = area == 0 ? "limit none" : "limit area" + number(area);
   if (!edit.box) return line + "\n";
@@ -37,8 +38,8 @@ std::string limit_line(const Edit& edit) {
   return line + " in" + number(lo[0]) + number(lo[1]) + number(hi[0]) + number(hi[1]) + "\n";
 }
 
-std::string line_of(const Edit& edit) {
-  using Kind = Edit::Kind;
+std::string line_of(const Edit<2>& edit) {
+  using Kind = Edit<2>::Kind;
   if (edit.kind == Kind::limit) return limit_line(edit);
   static const std::map<Kind, std::string> words{{Kind::insert, "+point"},
                                                  {Kind::remove, "-point"},
@@ -51,7 +52,7 @@ std::string line_of(const Edit& edit) {
                                                  {Kind::insert_region, "+region"},
                                                  {Kind::remove_region, "-region"}};
   const std::string& word = words.at(edit.kind);
-  std::string line = word + number(edit.id);
+  std::string line = word + number(edit.number);
   for (const auto id : edit.points) line += number(id);
   const bool placed = word == "+point" || word == "move" || word == "+hole" || word == "+region";
   if (placed) line += number(edit.point[0]) + number(edit.point[1]);
@@ -59,13 +60,13 @@ std::string line_of(const Edit& edit) {
   return line + "\n";
 }
 
-Edit everywhere(const mesher::Options<2>& options) {
-  Edit edit;
+Edit<2> everywhere(const mesher::Options<2>& options) {
+  Edit<2> edit;
   edit.limits = {options.max_measure, options.sizes};
   return edit;
 }
-Edit within(const mesher::BoxLimits<2>& limits) {
-  Edit edit;
+Edit<2> within(const mesher::BoxLimits<2>& limits) {
+  Edit<2> edit;
   edit.limits = limits.limits;
   edit.box = limits.box;
   return edit;
@@ -84,7 +85,7 @@ struct History {
       const auto batch = editor.batch(next);
       if (!next.is_valid(box)) continue;
       script += "begin\n";
-      for (const Edit& edit : batch) script += line_of(edit);
+      for (const Edit<2>& edit : batch) script += line_of(edit);
       script += "commit\n";
       lake = next;
     }
@@ -104,7 +105,7 @@ TEST_CASE("edits of any kind by a script leave the files of the edited input, by
   const ScratchFolder folder;
   folder.write("edits.txt", history.script);
   folder.write("before.poly", "0 2 0 0\n0\n0\n");
-  write_pslg(history.lake.graph(), folder.path("after.poly"));
+  write_graph(history.lake.graph(), folder.path("after.poly"));
   // Pieces of polylines have other ids in after.poly: formats without ids of lines are compared.
   const auto run = [&](const std::string& arguments, const std::string& out) {
     const std::string command = tool + " " + arguments + extent +

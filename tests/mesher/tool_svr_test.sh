@@ -96,3 +96,22 @@ for algorithm in svr refine; do
   refuse 1 'svr/twice.node:4:1: error[duplicate_point]: point 3 lies on point 1 of line 2' mesh \
     svr/twice.node --algorithm $algorithm -o out/x.node
 done
+
+echo "== --no-flat: none above rho comes, and none that is not Delaunay but for rounding"
+expect 0 '' mesh "$data/flat_above_rho.poly" --algorithm refine --no-flat --quiet -o svr/flat.vtu
+expect 0 'quality     ok' check svr/flat.vtu --input "$data/flat_above_rho.poly" --rho 2 --near
+expect 0 '' mesh "$data/flat_not_delaunay.poly" --box --algorithm svr --rho 2.53969 --no-flat \
+  --quiet -o svr/flat.vtu
+expect 0 'delaunay    ok' check svr/flat.vtu --input "$data/flat_not_delaunay.poly" --boundary box \
+  --rho 2.53969 --near
+
+echo "== an INPUT that can be read once alone, and bytes that are no text"
+mkfifo svr/pipe.poly
+cat "$data/great_lakes.poly" >svr/pipe.poly &
+expect 0 'vertices' mesh svr/pipe.poly -o svr/piped.vtu
+wait
+expect 0 '' mesh "$data/great_lakes.poly" --quiet -o svr/unpiped.vtu
+same svr/piped.vtu svr/unpiped.vtu
+printf '$MeshFormat\n4.1 0 8\n$EndMeshFormat\n\033[31m\001\002 nonsense\n' >svr/bytes.msh
+said=$("$tool" check svr/bytes.msh 2>&1)
+[[ $said == *'error['* && $said != *$'\033'* && $said != *$'\001'* ]] || fail "raw bytes: $said"

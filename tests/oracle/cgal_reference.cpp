@@ -112,8 +112,8 @@ class EditableMesh {
     const double half = 3 * std::max(box.xmax() - box.xmin(), box.ymax() - box.ymin());
     const double x = (box.xmin() + box.xmax()) / 2;
     const double y = (box.ymin() + box.ymax()) / 2;
-    const Point corners[] = {{x - half, y - half}, {x + half, y - half},
-                             {x + half, y + half}, {x - half, y + half}};
+    const Point corners[] = {
+        {x - half, y - half}, {x + half, y - half}, {x + half, y + half}, {x - half, y + half}};
     for (int i = 0; i < 4; ++i) mesh_.insert_constraint(corners[i], corners[(i + 1) % 4]);
   }
 
@@ -160,9 +160,8 @@ class Line {
 
 void bench_delaunay(const Input& input) {
   CGAL::Delaunay_triangulation_2<Kernel> triangulation;
-  const double seconds = time_of([&] {
-    triangulation.insert(input.points.begin(), input.points.end());
-  });
+  const double seconds =
+      time_of([&] { triangulation.insert(input.points.begin(), input.points.end()); });
   Line("delaunay", input).field("seconds", seconds);
 }
 
@@ -173,8 +172,11 @@ void bench_edits(const Input& input, double rho, const Settings& settings, Edita
   std::vector<double> times;
   std::vector<Mesh::Vertex_handle> inserted;
   const auto report = [&](const char* figure) {
-    Line(figure, input).field("rho", rho).field("edits", times.size())
-        .field("seconds_median", quantile(times, 0.5)).field("seconds_p99", quantile(times, 0.99))
+    Line(figure, input)
+        .field("rho", rho)
+        .field("edits", times.size())
+        .field("seconds_median", quantile(times, 0.5))
+        .field("seconds_p99", quantile(times, 0.99))
         .field("vertices_after", mesh.size());
     times.clear();
   };
@@ -240,11 +242,16 @@ Settings parse(int argc, char** argv) {
     }
     if (i + 1 == argc) throw std::runtime_error(word + " needs a value");
     const std::string value = argv[++i];
-    if (word == "--n") settings.sizes.push_back(std::stoull(value));
-    else if (word == "--rho") settings.rhos.push_back(std::stod(value));
-    else if (word == "--edits") settings.edits = std::stoull(value);
-    else if (word == "--seed") settings.seed = std::stoull(value);
-    else throw std::runtime_error("unknown option " + word);
+    if (word == "--n")
+      settings.sizes.push_back(std::stoull(value));
+    else if (word == "--rho")
+      settings.rhos.push_back(std::stod(value));
+    else if (word == "--edits")
+      settings.edits = std::stoull(value);
+    else if (word == "--seed")
+      settings.seed = std::stoull(value);
+    else
+      throw std::runtime_error("unknown option " + word);
   }
   if (settings.rhos.empty()) settings.rhos = {1.4142135623730951};
   if (settings.sizes.empty()) settings.sizes = {10000, 100000};

@@ -524,10 +524,14 @@ struct Claims {
 };
 
 namespace even {
-void claim(Scope& s, int i) { s.write(s.environment<Claims>().even[static_cast<std::size_t>(i)], 1); }
+void claim(Scope& s, int i) {
+  s.write(s.environment<Claims>().even[static_cast<std::size_t>(i)], 1);
+}
 }  // namespace even
 namespace odd {
-void claim(Scope& s, int i) { s.write(s.environment<Claims>().odd[static_cast<std::size_t>(i)], 1); }
+void claim(Scope& s, int i) {
+  s.write(s.environment<Claims>().odd[static_cast<std::size_t>(i)], 1);
+}
 }  // namespace odd
 
 void post_claims(Scope& s, int i) {

@@ -16,7 +16,8 @@ using sac::Handle;
 using sac::Mod;
 using sac::Scope;
 
-// Numbers under keys. A call that asks for a key sees the sum of what calls up to itself have added.
+// Numbers under keys. A call that asks for a key sees the sum of what calls up to itself have
+// added.
 class Sums final : public sac::Structure {
  public:
   // Whom an addition concerns: those who would see another sum; all, to be asked; all.
@@ -110,11 +111,13 @@ void add_behind_child(Scope& s) {
 }
 
 constexpr auto kRefused =
-    "add_behind_child() has done something behind its own child ask_for_1(), which should have seen "
+    "add_behind_child() has done something behind its own child ask_for_1(), which should have "
+    "seen "
     "it";
 
-TEST_CASE("what a call does behind a child that should have seen it is refused, whatever the "
-          "structure lets pass") {
+TEST_CASE(
+    "what a call does behind a child that should have seen it is refused, whatever the "
+    "structure lets pass") {
   for (const auto care : {Sums::Care::exact, Sums::Care::doubtful, Sums::Care::nervous}) {
     Engine e;
     Sums sums(e, care);
@@ -133,7 +136,8 @@ TEST_CASE("what a call does behind a child that should have seen it is refused, 
   }
 }
 
-TEST_CASE("what does not concern a child may be done behind it, unless the structure says otherwise") {
+TEST_CASE(
+    "what does not concern a child may be done behind it, unless the structure says otherwise") {
   for (const auto care : {Sums::Care::exact, Sums::Care::doubtful, Sums::Care::nervous}) {
     Engine e;
     Sums sums(e, care);

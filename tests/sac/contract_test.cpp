@@ -83,8 +83,10 @@ void post_behind_drain(Scope& s) {
 
 TEST_CASE("a post behind one's own drain is refused, direct or through a wrapper") {
   World w(0);
-  CHECK_THROWS_WITH((w.e.run<post_behind_drain<false>>()), Catch::StartsWith("posting into the past"));
-  CHECK_THROWS_WITH((w.e.run<post_behind_drain<true>>()), Catch::StartsWith("posting into the past"));
+  CHECK_THROWS_WITH((w.e.run<post_behind_drain<false>>()),
+                    Catch::StartsWith("posting into the past"));
+  CHECK_THROWS_WITH((w.e.run<post_behind_drain<true>>()),
+                    Catch::StartsWith("posting into the past"));
   w.e.check_invariants();
 }
 
@@ -162,7 +164,8 @@ TEST_CASE("a drain moves to an earlier call and to a later one; a second one is 
   CHECK(change<drain_moves>(0, 1) == "out 7");
   CHECK(change<drain_moves>(1, 0) == "out 7");
   CHECK(change<drain_comes_before>(0, 1) == "out 0");
-  CHECK(change<drain_twice_if>(0, 1).starts_with("refused: drain(): agenda 'work' is drained twice"));
+  CHECK(
+      change<drain_twice_if>(0, 1).starts_with("refused: drain(): agenda 'work' is drained twice"));
 }
 
 int read_m(Scope& s) { return s.read(world(s).m); }
@@ -401,7 +404,8 @@ void go_on_after_failure(Scope& s) {
 
 TEST_CASE("a call that catches what its child threw may not make another") {
   World w(1);
-  CHECK_THROWS_WITH(w.e.run<go_on_after_failure>(), Catch::StartsWith("go_on_after_failure() has caught"));
+  CHECK_THROWS_WITH(w.e.run<go_on_after_failure>(),
+                    Catch::StartsWith("go_on_after_failure() has caught"));
   World x(0);
   x.e.run<go_on_after_failure>();
   x.e.set(x.in, 1);
@@ -579,7 +583,9 @@ TEST_CASE("agendas are released, and as many as are alive have room") {
 int fibonacci(Scope& s, int n) {
   return n < 2 ? n : (s.call<fibonacci>(n - 1) + s.call<fibonacci>(n - 2)) % 1000;
 }
-void fibonacci_of(Scope& s, Mod<int> n, Mod<int> out) { s.write(out, s.call<fibonacci>(s.read(n))); }
+void fibonacci_of(Scope& s, Mod<int> n, Mod<int> out) {
+  s.write(out, s.call<fibonacci>(s.read(n)));
+}
 
 TEST_CASE("calls with equal labels are found by their place") {
   Engine e;

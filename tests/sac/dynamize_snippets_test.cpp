@@ -1,9 +1,8 @@
 // sac/docs/dynamize.md tells the truth: its snippets are those of sac/examples/dynamize.cpp, which
 // holds, and the output that it shows is what that prints.
-#include "../../sac/examples/dynamize.cpp"
-
 #include <sstream>
 
+#include "../../sac/examples/dynamize.cpp"
 #include "snippets.hpp"
 
 TEST_CASE("what the steps of dynamizing print is what the document shows") {

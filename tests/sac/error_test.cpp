@@ -200,8 +200,7 @@ TEST_CASE("modifiables that are null or in no memory of the engine") {
   CHECK(error_of([&] { e.run<copy>(in, null); }) ==
         "copy(" + at(in.head()) + ", @0) writes a modifiable that is null");
   CHECK(error_of([&] { e.set(null, 1); }) == "set: the modifiable is null");
-  CHECK(error_of([&] { static_cast<void>(e.get(null)); }) ==
-        "get: the modifiable is null");
+  CHECK(error_of([&] { static_cast<void>(e.get(null)); }) == "get: the modifiable is null");
   const sac::Cell<int> stray{};
   CHECK(error_of([&] { e.set(stray, 1); }) == "set: the cell is not in memory of this engine");
   CHECK(error_of([&] { static_cast<void>(e.get(stray)); }) ==
@@ -426,8 +425,8 @@ void above(Scope& s, Mod<int> on, Mod<int> in, Mod<int> out) {
 TEST_CASE("a call that catches what its child throws is told that this does not do") {
   Engine e;
   const auto on = e.input(1), in = e.input(-1), out = e.cell<int>();
-  const std::string message = call("lenient", in, out) + " has caught what " +
-                              call("refuse", in) + " threw: exceptions of calls must pass";
+  const std::string message = call("lenient", in, out) + " has caught what " + call("refuse", in) +
+                              " threw: exceptions of calls must pass";
   CHECK(error_of([&] { e.run<above>(on, in, out); }) == message);
   CHECK(e.live_calls() == 0);
 
@@ -449,8 +448,8 @@ TEST_CASE("a call that catches what its child throws is told that this does not 
   e.set(on, 1);
   log.clear();
   CHECK(error_of([&] { e.propagate(); }) == message);
-  CHECK(log.explain("above").find("was set back when " + call("lenient", in, out) +
-                                  " failed (" + message + ")") != std::string::npos);
+  CHECK(log.explain("above").find("was set back when " + call("lenient", in, out) + " failed (" +
+                                  message + ")") != std::string::npos);
   CHECK(e.live_calls() == 1);
   e.check_invariants();
 }
@@ -514,16 +513,15 @@ TEST_CASE("what has been released is read still, or written: the release is take
 
   e.run<fill>(which, number);
   e.release(number);
-  CHECK(error_of([&] { e.propagate(); }) ==
-        "release: fill(" + at(which.head()) + ", " + at(number.head()) + ") reads modifiable " +
-            at(number.head()) + ", which has been released");
+  CHECK(error_of([&] { e.propagate(); }) == "release: fill(" + at(which.head()) + ", " +
+                                                at(number.head()) + ") reads modifiable " +
+                                                at(number.head()) + ", which has been released");
 
   // Nobody reads `first`, but it is written.
   e.run<look_at>(number, out);  // out gets a second version
   e.release(out);
-  CHECK(error_of([&] { e.propagate(); }) ==
-        "release: " + reader() + " writes modifiable " + at(out.head()) +
-            ", which has been released");
+  CHECK(error_of([&] { e.propagate(); }) == "release: " + reader() + " writes modifiable " +
+                                                at(out.head()) + ", which has been released");
   auto& other = e.make<Box>();
   e.set(other.second, 9);
   const auto third = e.input(&other);

@@ -1,9 +1,8 @@
 // sac/docs/errors.md tells the truth: its snippets are those of sac/examples/errors.cpp, which
 // holds, and the output that it shows is what that prints.
-#include "../../sac/examples/errors.cpp"
-
 #include <sstream>
 
+#include "../../sac/examples/errors.cpp"
 #include "snippets.hpp"
 
 TEST_CASE("what the snippets on errors print is what the document shows") {

@@ -459,8 +459,7 @@ TEST_CASE("a run that fails is discarded") {
   CHECK(w.news() == Lines{"run_started", "created refuse(@, @)", "executed refuse(@, @)",
                           "failed refuse(@, @): negative", "invalidated refuse(@, @)",
                           "roll_back_started: negative", "discarded refuse(@, @)", "finished"});
-  CHECK(w.why("refuse") ==
-        "refuse(@, @) was discarded because refuse(@, @) failed (negative).\n");
+  CHECK(w.why("refuse") == "refuse(@, @) was discarded because refuse(@, @) failed (negative).\n");
 }
 
 // --- A structure of the client's -----------------------------------------------------------------

@@ -1,9 +1,8 @@
 // sac/docs/propagate.md tells the truth: its snippets are those of sac/examples/propagate.cpp,
 // which holds, and the traces and the log that it shows are what that prints.
-#include "../../sac/examples/propagate.cpp"
-
 #include <sstream>
 
+#include "../../sac/examples/propagate.cpp"
 #include "snippets.hpp"
 
 TEST_CASE("what the program of a propagation prints is what the document shows") {

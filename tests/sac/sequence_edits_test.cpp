@@ -284,11 +284,10 @@ struct Failing {
   // What can be seen: the sequence, results, calls in order, number of edges.
   [[nodiscard]] std::string state() const {
     std::ostringstream text;
-    text << text_of(sequence) << "; " << text_of(engine, engine.get(out)) << "; "
-         << engine.get(sum) << "; ";
-    engine.walk([&](const sac::Call& c, std::size_t depth) {
-      text << depth << c.function().name << ' ';
-    });
+    text << text_of(sequence) << "; " << text_of(engine, engine.get(out)) << "; " << engine.get(sum)
+         << "; ";
+    engine.walk(
+        [&](const sac::Call& c, std::size_t depth) { text << depth << c.function().name << ' '; });
     text << engine.live_calls() << ' ' << engine.live_edges();
     return text.str();
   }
@@ -334,11 +333,16 @@ FragileEdit random_edit(Random& random, const sac::Sequence<Fragile>& sequence) 
   std::advance(at, random(static_cast<int>(sequence.size())));
   const ElementId id = at->id();
   switch (random(5)) {
-    case 0: return [=](auto& s) { s.push_back(value); };
-    case 1: return [=](auto& s) { s.insert_before(id, value); };
-    case 2: return [=](auto& s) { s.insert_after(id, value); };
-    case 3: return [=](auto& s) { s.set(id, value); };
-    default: return [=](auto& s) { s.erase(id); };
+    case 0:
+      return [=](auto& s) { s.push_back(value); };
+    case 1:
+      return [=](auto& s) { s.insert_before(id, value); };
+    case 2:
+      return [=](auto& s) { s.insert_after(id, value); };
+    case 3:
+      return [=](auto& s) { s.set(id, value); };
+    default:
+      return [=](auto& s) { s.erase(id); };
   }
 }
 

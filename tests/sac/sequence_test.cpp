@@ -48,13 +48,23 @@ struct Input {
       items.insert(place, {ElementId{next_id++}, e.value});
     };
     switch (e.kind) {
-      case Edit::push_back: return insert(items.end());
-      case Edit::push_front: return insert(items.begin());
-      case Edit::before: return insert(find(e.at));
-      case Edit::after: return insert(std::next(find(e.at)));
-      case Edit::erase: items.erase(find(e.at)); return;
-      case Edit::set: find(e.at)->value = e.value; return;
-      case Edit::bias: bias = e.value; return;
+      case Edit::push_back:
+        return insert(items.end());
+      case Edit::push_front:
+        return insert(items.begin());
+      case Edit::before:
+        return insert(find(e.at));
+      case Edit::after:
+        return insert(std::next(find(e.at)));
+      case Edit::erase:
+        items.erase(find(e.at));
+        return;
+      case Edit::set:
+        find(e.at)->value = e.value;
+        return;
+      case Edit::bias:
+        bias = e.value;
+        return;
     }
   }
 };
@@ -90,13 +100,26 @@ std::optional<Edit> inverse(Input input, const Edit& e) {
 template <class Sequence>
 void edit_sequence(Sequence& sequence, const Edit& e) {
   switch (e.kind) {
-    case Edit::push_back: sequence.push_back(e.value); return;
-    case Edit::push_front: sequence.push_front(e.value); return;
-    case Edit::before: sequence.insert_before(e.at, e.value); return;
-    case Edit::after: sequence.insert_after(e.at, e.value); return;
-    case Edit::erase: sequence.erase(e.at); return;
-    case Edit::set: sequence.set(e.at, e.value); return;
-    case Edit::bias: return;  // not its matter
+    case Edit::push_back:
+      sequence.push_back(e.value);
+      return;
+    case Edit::push_front:
+      sequence.push_front(e.value);
+      return;
+    case Edit::before:
+      sequence.insert_before(e.at, e.value);
+      return;
+    case Edit::after:
+      sequence.insert_after(e.at, e.value);
+      return;
+    case Edit::erase:
+      sequence.erase(e.at);
+      return;
+    case Edit::set:
+      sequence.set(e.at, e.value);
+      return;
+    case Edit::bias:
+      return;  // not its matter
   }
 }
 
@@ -261,9 +284,8 @@ struct SortInScope {
   static constexpr bool kMonotone = false;  // another bias is another order
   static auto make(auto& s, auto in) { return sac::sort<LessWithBias{}>(s, in); }
   static Items oracle(Items items, int bias) {
-    items.sort([&](const Item& a, const Item& b) {
-      return (a.value + bias) % 7 < (b.value + bias) % 7;
-    });
+    items.sort(
+        [&](const Item& a, const Item& b) { return (a.value + bias) % 7 < (b.value + bias) % 7; });
     return items;
   }
 };
@@ -331,9 +353,13 @@ struct Reductions {
     const int other = sac::fetch(s, sac::map_reduce<AddBias{}, AddWithBias{}>(s, in, 1));
     const std::size_t count = sac::fetch(s, sac::size(s, in));
     const auto* found = sac::fetch(s, sac::find_if<AboveBias{}>(s, in));
-    Numbers numbers{composed.a, composed.b, static_cast<std::uint64_t>(sum),
-                    static_cast<std::uint64_t>(twice_sum), static_cast<std::uint64_t>(biased),
-                    static_cast<std::uint64_t>(other), count};
+    Numbers numbers{composed.a,
+                    composed.b,
+                    static_cast<std::uint64_t>(sum),
+                    static_cast<std::uint64_t>(twice_sum),
+                    static_cast<std::uint64_t>(biased),
+                    static_cast<std::uint64_t>(other),
+                    count};
     numbers.push_back(found == nullptr ? 0 : found->id().value);
     return numbers;
   }
@@ -350,9 +376,14 @@ struct Reductions {
       other += i.value + (i.value % 3 == 0 ? 0 : bias) + bias;
       if (found == 0 && i.value % 6 > bias) found = i.id.value;
     }
-    return {composed.a, composed.b, static_cast<std::uint64_t>(sum),
-            static_cast<std::uint64_t>(twice_sum), static_cast<std::uint64_t>(biased),
-            static_cast<std::uint64_t>(other), items.size(), found};
+    return {composed.a,
+            composed.b,
+            static_cast<std::uint64_t>(sum),
+            static_cast<std::uint64_t>(twice_sum),
+            static_cast<std::uint64_t>(biased),
+            static_cast<std::uint64_t>(other),
+            items.size(),
+            found};
   }
 };
 struct DigestOfAll {
@@ -441,7 +472,9 @@ struct App {
 };
 
 template <class P>
-concept NotMonotone = requires { P::kMonotone; };
+concept NotMonotone = requires {
+  P::kMonotone;
+};
 
 // Random edits; after every propagation all that example_harness.hpp knows is checked.
 template <class P>
@@ -480,8 +513,8 @@ void check_program(std::uint64_t seed, int size, int steps) {
 
 }  // namespace
 
-#define LIST_PROGRAMS                                                                         \
-  MapOfValue, MapInScope, MapWithIds, Filter, FilterInScope, Reverse, Sort, SortInScope,      \
+#define LIST_PROGRAMS                                                                    \
+  MapOfValue, MapInScope, MapWithIds, Filter, FilterInScope, Reverse, Sort, SortInScope, \
       SortFilterMap, SortOfSort, ManyOfOne, Reductions, DigestOfAll
 
 TEMPLATE_TEST_CASE("operations on a sequence follow random edits as if run from scratch", "",

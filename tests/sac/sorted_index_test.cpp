@@ -1,4 +1,6 @@
 // The sorted index beside std::set.
+#include "sac/internal/sorted_index.hpp"
+
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <set>
@@ -6,7 +8,6 @@
 #include <vector>
 
 #include "failing_new.hpp"
-#include "sac/internal/sorted_index.hpp"
 #include "sac/sac.hpp"
 
 namespace {
@@ -23,8 +24,7 @@ struct Random {
 };
 
 // The entries of both, and what they say of `probe`.
-void require_equal(const Index& index, const std::set<std::uint32_t>& oracle,
-                   std::uint32_t probe) {
+void require_equal(const Index& index, const std::set<std::uint32_t>& oracle, std::uint32_t probe) {
   REQUIRE(index.size() == oracle.size());
   REQUIRE(index.empty() == oracle.empty());
   if (oracle.empty()) return;
@@ -62,7 +62,7 @@ TEST_CASE("a sorted index holds what a std::set holds, wherever entries come and
                                     ? *oracle.rbegin() + 1 + random(3)
                                     : random(1000000);
         if (oracle.insert(e).second) {
-          where == Where::back && random(2) == 0 ? index.append(e) : index.insert(e, less);
+          where == Where::back&& random(2) == 0 ? index.append(e) : index.insert(e, less);
         }
       } else if (where == Where::front) {
         REQUIRE(index.pop_first() == *oracle.begin());

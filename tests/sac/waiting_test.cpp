@@ -34,14 +34,18 @@ struct World {
   std::vector<Mod<int>> marks;
 };
 
-void mark(Scope& s, int i) { s.write(s.environment<World>().marks[static_cast<std::size_t>(i)], 1); }
+void mark(Scope& s, int i) {
+  s.write(s.environment<World>().marks[static_cast<std::size_t>(i)], 1);
+}
 void post_if(Scope& s, int i) {
   auto& w = s.environment<World>();
   const int what = s.read(w.input(i));
   const int target = what == 2 ? i / 2 : i;
   if (what != 0) w.agenda.post<mark>(s, {.bucket = target % 3}, target);
 }
-void clear(Scope& s, int i) { s.write(s.environment<World>().marks[static_cast<std::size_t>(i)], 0); }
+void clear(Scope& s, int i) {
+  s.write(s.environment<World>().marks[static_cast<std::size_t>(i)], 0);
+}
 void drain_if(Scope& s) {
   auto& w = s.environment<World>();
   if (s.read(w.drains) != 0) w.agenda.drain(s);

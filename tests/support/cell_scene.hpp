@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cells/cell_of.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "records/vertex.hpp"
 
 template <int D>

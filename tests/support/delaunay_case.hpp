@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "mesher/delaunay.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/predicates.hpp"
 #include "scratch_file.hpp"
 #include "test_paths.hpp"

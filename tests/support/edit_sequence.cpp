@@ -11,12 +11,15 @@
 #include <stdexcept>
 #include <utility>
 
+#include "facade/box_mesher.hpp"
+#include "facade/mesh_statically.hpp"
+
 namespace support {
 
+using mesher::BoxMesher;
 using mesher::ErrorCode;
-using mesher::FeatureId;
 using mesher::Mesh;
-using mesher::Mesher;
+using mesher::PointId;
 using mesher::PointKind;
 using mesher::SplitMix64;
 using mesher::VertexKind;
@@ -336,7 +339,7 @@ void check_input(const Mesh<2>& mesh, const PointSet& points) {
   }
 }
 
-void check_counts(const mesher::Change<2>& change, const Mesher<2>& m, const Mesh<2>& mesh) {
+void check_counts(const mesher::Change<2>& change, const BoxMesher<2>& m, const Mesh<2>& mesh) {
   // A point inserted and removed in one batch makes a call that never runs.
   require(change.calls.executed + change.calls.discarded >= change.calls.created,
           "created calls were neither executed nor discarded");
@@ -361,7 +364,7 @@ std::vector<mesher::KindChange<2>> kind_changes(const Mesh<2>& before, const Mes
 }
 
 // Announces a step; where points have moved too near to others the step is taken back.
-std::optional<mesher::Change<2>> update(const Step& step, Mesher<2>& m, PointSet& points) {
+std::optional<mesher::Change<2>> update(const Step& step, BoxMesher<2>& m, PointSet& points) {
   const PointSet before = points;
   for (const Edit& edit : step) perform(edit, m, points);
   require(m.size() == points.size(), "another number of points is announced");
@@ -374,7 +377,7 @@ std::optional<mesher::Change<2>> update(const Step& step, Mesher<2>& m, PointSet
   }
 }
 
-void check_step(const Step& step, Mesher<2>& m, PointSet& points, Parts& parts,
+void check_step(const Step& step, BoxMesher<2>& m, PointSet& points, Parts& parts,
                 const Sequence& sequence, const Checks& checks, std::size_t number) {
   const Mesh<2> before = m.mesh();
   const auto made = update(step, m, points);
@@ -392,8 +395,8 @@ void check_step(const Step& step, Mesher<2>& m, PointSet& points, Parts& parts,
   check_counts(change, m, mesh);
   m.check_invariants();
   if (checks.fresh_every > 0 && number % static_cast<std::size_t>(checks.fresh_every) == 0) {
-    Mesher<2> fresh(sequence.options);
-    for (const auto& [id, p] : points) fresh.insert(FeatureId{id}, p);
+    BoxMesher<2> fresh(sequence.options);
+    for (const auto& [id, p] : points) fresh.insert(PointId{id}, p);
     fresh.update();
     compare(mesh, fresh.mesh(), "a new mesher");
   }
@@ -405,7 +408,7 @@ void check_step(const Step& step, Mesher<2>& m, PointSet& points, Parts& parts,
 std::string first_failure(const Sequence& sequence, const Checks& checks) {
   std::size_t number = 0;
   try {
-    Mesher<2> m(sequence.options);
+    BoxMesher<2> m(sequence.options);
     PointSet points;
     Parts parts;
     for (const Step& step : sequence.steps) {

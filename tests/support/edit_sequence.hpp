@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/mesher.hpp"
 
 namespace support {
@@ -68,15 +68,15 @@ inline constexpr Family kFamilies[] = {
 [[nodiscard]] std::string describe(const Sequence& sequence);
 
 struct Checks {
-  int fresh_every = 10;  ///< compare with a new Mesher after so many steps; 0: never
+  int fresh_every = 10;  ///< compare with a new BoxMesher after so many steps; 0: never
   /// Called with the mesh after every step.
   std::function<void(const mesher::Mesh<2>&, const PointSet&)> each;
 };
 
-/// What fails first when the sequence is applied to a Mesher, "" if nothing does. After every step:
-/// the mesh is that of a static run and, at times, of a new Mesher; the change turns the old mesh
-/// into the new one, and says nothing twice; the mesher's invariants hold; each input point is a
-/// vertex, bit for bit.
+/// What fails first when the sequence is applied to a BoxMesher, "" if nothing does. After every
+/// step: the mesh is that of a static run and, at times, of a new BoxMesher; the change turns the
+/// old mesh into the new one, and says nothing twice; the mesher's invariants hold; each input
+/// point is a vertex, bit for bit.
 [[nodiscard]] std::string first_failure(const Sequence& sequence, const Checks& checks = {});
 
 /// A sequence with fewer steps for which `fails` holds still.
@@ -97,7 +97,7 @@ template <class Target>
 void perform(const Edit& edit, Target& target, PointSet& points) {
   PointSet next = points;
   if (!perform(edit, next)) return;
-  const mesher::FeatureId id{edit.id};
+  const mesher::PointId id{edit.id};
   try {
     switch (edit.kind) {
       case Edit::Kind::insert:

@@ -7,8 +7,8 @@
 #include <set>
 #include <vector>
 
-#include "program/build_qt.hpp"
 #include "geometry/grid.hpp"
+#include "program/build_qt.hpp"
 
 namespace support {
 

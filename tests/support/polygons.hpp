@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "space/polygon_shape.hpp"
 
 namespace support {

@@ -13,15 +13,16 @@ namespace support {
 namespace {
 
 constexpr std::array<std::string_view, Op::kKinds> kOpNames{
-    "read input", "read cell", "read coarse", "read link", "read list", "write cell",
-    "rewrite cell", "write coarse", "link", "ask", "call", "pass", "box", "post", "stripe",
-    "relink", "tail", "tail box", "read maybe", "catch maybe", "write maybe", "write input",
-    "catch write", "claim", "count", "total", "mark", "post side", "drain", "drain call",
-    "tail drain", "post early", "keyed", "real", "catch real", "fail", "catch own", "catch call",
-    "misuse", "catch misuse", "late read", "late write"};
+    "read input",   "read cell",    "read coarse", "read link",    "read list",   "write cell",
+    "rewrite cell", "write coarse", "link",        "ask",          "call",        "pass",
+    "box",          "post",         "stripe",      "relink",       "tail",        "tail box",
+    "read maybe",   "catch maybe",  "write maybe", "write input",  "catch write", "claim",
+    "count",        "total",        "mark",        "post side",    "drain",       "drain call",
+    "tail drain",   "post early",   "keyed",       "real",         "catch real",  "fail",
+    "catch own",    "catch call",   "misuse",      "catch misuse", "late read",   "late write"};
 constexpr std::array<std::string_view, Step::kKinds> kStepNames{
-    "set", "post", "retract", "insert", "remove", "weigh", "propagate", "undo", "run", "shrink",
-    "fuse", "client", "heap", "arena", "cancel", "starve"};
+    "set", "post",   "retract", "insert", "remove", "weigh", "propagate", "undo",
+    "run", "shrink", "fuse",    "client", "heap",   "arena", "cancel",    "starve"};
 
 // Among the kinds of ops, as bytes: what ends a node, and what ends the program.
 constexpr int kNextNode = Op::read_maybe;
@@ -59,8 +60,7 @@ std::vector<std::vector<Op>> decode_nodes(Bytes& bytes) {
     }
     const int target = bytes.next();
     const int condition = bytes.next();
-    nodes.back().push_back(
-        {kind_of(kind), target, 2 + condition % 3, 1 + condition / 3 % 2});
+    nodes.back().push_back({kind_of(kind), target, 2 + condition % 3, 1 + condition / 3 % 2});
   }
   return nodes;
 }
@@ -69,11 +69,16 @@ void add_random_failure(Random& random, std::vector<Step>& steps) {
   const auto add = [&](Step::Kind kind, int most) { steps.push_back({kind, random(most), 0}); };
   switch (random(6)) {
     case 0:
-    case 1: return add(Step::fuse, 12);
-    case 2: return add(Step::client, 200);
-    case 3: return add(Step::heap, 60);
-    case 4: return add(Step::arena, 40);
-    default: return add(Step::cancel, 12);
+    case 1:
+      return add(Step::fuse, 12);
+    case 2:
+      return add(Step::client, 200);
+    case 3:
+      return add(Step::heap, 60);
+    case 4:
+      return add(Step::arena, 40);
+    default:
+      return add(Step::cancel, 12);
   }
 }
 
@@ -205,8 +210,8 @@ Case focused_case(std::uint64_t seed, unsigned features) {
       c.program.sprinkle(random, n, kPlain[random(static_cast<int>(std::size(kPlain)))]);
     }
     for (int i = kinds.empty() ? 0 : random(n < 3 ? 4 : 3); i > 0; --i) {
-      c.program.sprinkle(random, n, kinds[static_cast<std::size_t>(
-                                        random(static_cast<int>(kinds.size())))]);
+      c.program.sprinkle(random, n,
+                         kinds[static_cast<std::size_t>(random(static_cast<int>(kinds.size())))]);
     }
   }
   c.fragile = random(8) == 0;

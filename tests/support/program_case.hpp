@@ -15,8 +15,8 @@ namespace support {
 struct Step {
   enum Kind : std::uint8_t {
     // edits,
-    set,     // input a gets b
-    post,    // node a, on an agenda that b chooses
+    set,   // input a gets b
+    post,  // node a, on an agenda that b chooses
     retract,
     insert,  // an element of weight b at a of the list
     remove,  // element a; it is released
@@ -24,7 +24,7 @@ struct Step {
     // what ends them,
     propagate,
     undo,
-    run,     // `late` with a, after the edits are propagated
+    run,  // `late` with a, after the edits are propagated
     shrink,
     // and what shall fail, once, before the edits are propagated
     fuse,    // call a of the program

@@ -103,8 +103,8 @@ void Traced<V>::edit(const Step& step, Outside& outside) {
 
 /// What a plain run says.
 struct Verdict {
-  bool sure = true;     // false: it cannot say
-  bool refused = false;  // a traced run must fail
+  bool sure = true;         // false: it cannot say
+  bool refused = false;     // a traced run must fail
   std::vector<int> values;  // what the program leaves, if it need not
 };
 
@@ -266,8 +266,7 @@ class Session {
     for (int i = 0; i < kStarts; ++i) {
       t_.world.executions.clear();
       const Scratch scratch = from_scratch(now_);
-      const std::string refusal =
-          refusal_of([&] { t_.engine.template run<random_root<V>>(); });
+      const std::string refusal = refusal_of([&] { t_.engine.template run<random_root<V>>(); });
       tally_.clear();
       require_equal(refusal, scratch.refusal);
       wanted_ = now_;
@@ -282,18 +281,33 @@ class Session {
 
   void take(const Step& step) {
     switch (step.kind) {
-      case Step::propagate: return flush();
-      case Step::undo: return undo();
-      case Step::run: return run_late(step.a % 32);
+      case Step::propagate:
+        return flush();
+      case Step::undo:
+        return undo();
+      case Step::run:
+        return run_late(step.a % 32);
       case Step::shrink:
         if (attempt([&] { t_.engine.shrink(); }) != Outcome::done) t_.check_invariants();
         return;
-      case Step::fuse: failures_.fuse = step.a; break;
-      case Step::client: failures_.client = count_of(step); break;
-      case Step::heap: failures_.heap = count_of(step); break;
-      case Step::arena: failures_.arena = count_of(step); break;
-      case Step::cancel: failures_.cancel = step.a; break;
-      case Step::starve: failures_.starve = true; break;
+      case Step::fuse:
+        failures_.fuse = step.a;
+        break;
+      case Step::client:
+        failures_.client = count_of(step);
+        break;
+      case Step::heap:
+        failures_.heap = count_of(step);
+        break;
+      case Step::arena:
+        failures_.arena = count_of(step);
+        break;
+      case Step::cancel:
+        failures_.cancel = step.a;
+        break;
+      case Step::starve:
+        failures_.starve = true;
+        break;
       default:
         edited_ = true;
         if (attempt([&] { t_.edit(step, wanted_); }) != Outcome::done) recover();
@@ -403,9 +417,13 @@ class Session {
     const Scratch scratch = from_scratch(wanted_);
     sac::Counts counts;
     switch (attempt([&] { counts = t_.engine.propagate(); })) {
-      case Outcome::refused: require_refusal(scratch); [[fallthrough]];
-      case Outcome::failed: return recover();
-      case Outcome::done: break;
+      case Outcome::refused:
+        require_refusal(scratch);
+        [[fallthrough]];
+      case Outcome::failed:
+        return recover();
+      case Outcome::done:
+        break;
     }
     if (case_.observe && !tally_.agrees(counts)) wrong("events are not what was counted");
     tally_.clear();
@@ -440,9 +458,13 @@ class Session {
     more.late.push_back(n);
     const Scratch scratch = from_scratch(more);
     switch (attempt([&] { t_.engine.template run<late<V>>(n); })) {
-      case Outcome::refused: require_refusal(scratch); [[fallthrough]];
-      case Outcome::failed: return recover();
-      case Outcome::done: break;
+      case Outcome::refused:
+        require_refusal(scratch);
+        [[fallthrough]];
+      case Outcome::failed:
+        return recover();
+      case Outcome::done:
+        break;
     }
     failures_ = {};
     t_.engine.arena().fail_after(0);

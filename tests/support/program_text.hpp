@@ -34,43 +34,77 @@ inline constexpr unsigned kFeatures = Feature::kAll;
 struct Op {
   enum Kind : std::uint8_t {
     // reads and writes,
-    read_input, read_cell, read_coarse, read_link, read_list,
-    write_cell, rewrite_cell, write_coarse,
+    read_input,
+    read_cell,
+    read_coarse,
+    read_link,
+    read_list,
+    write_cell,
+    rewrite_cell,
+    write_coarse,
     // allocates and writes,
     link,
     // calls,
-    ask, call, pass, box, post, stripe, relink,
+    ask,
+    call,
+    pass,
+    box,
+    post,
+    stripe,
+    relink,
     // tail calls,
-    tail, tail_box,
+    tail,
+    tail_box,
     // reads and writes cells that nobody may have written, or inputs,
-    read_maybe, catch_maybe, write_maybe, write_input, catch_write,
+    read_maybe,
+    catch_maybe,
+    write_maybe,
+    write_input,
+    catch_write,
     // asks and tells structures,
-    claim, count, total,
+    claim,
+    count,
+    total,
     // posts on side agendas and drains them,
-    mark, post_side, drain, drain_call, tail_drain, post_early,
+    mark,
+    post_side,
+    drain,
+    drain_call,
+    tail_drain,
+    post_early,
     // posts badly,
-    keyed, real, catch_real,
+    keyed,
+    real,
+    catch_real,
     // fails,
-    fail, catch_own, catch_call, misuse, catch_misuse,
+    fail,
+    catch_own,
+    catch_call,
+    misuse,
+    catch_misuse,
     // reads and writes behind calls
-    late_read, late_write
+    late_read,
+    late_write
   };
   static constexpr int kKinds = late_write + 1;
 
   Kind kind;
-  int target;     // input, cell, node ..., below targets()
-  int modulus;    // happens if (what was read) % modulus < threshold
+  int target;   // input, cell, node ..., below targets()
+  int modulus;  // happens if (what was read) % modulus < threshold
   int threshold;
 
   /// Ops of a node come in the order of their phases: reads and writes, allocation, calls, a tail
   /// call. There is one of the last phase at most.
   [[nodiscard]] int phase() const {
     switch (kind) {
-      case link: return 1;
+      case link:
+        return 1;
       case tail:
       case tail_box:
-      case tail_drain: return 3;
-      default: return kind < link || (kind >= read_maybe && kind <= total) ? 0 : 2;
+      case tail_drain:
+        return 3;
+      default:
+        return kind < link || (kind >= read_maybe && kind <= total) ? 0 : 2;
     }
   }
   /// The feature that it belongs to; 0: none.
@@ -95,8 +129,8 @@ struct RandomProgram {
   static constexpr int kMaybes = 3;  // cells that only some nodes write
   static constexpr int kKeys = 3;    // of a structure
   static constexpr int kCounters = 2;
-  static constexpr int kSides = 2;   // agendas that nodes drain
-  static constexpr int kWraps = 4;   // ways to drain in a call
+  static constexpr int kSides = 2;  // agendas that nodes drain
+  static constexpr int kWraps = 4;  // ways to drain in a call
   static constexpr int kMisuses = 6;
   static constexpr int kLeastNodes = 4;
   static constexpr int kMostNodes = 14;
@@ -110,40 +144,59 @@ struct RandomProgram {
   [[nodiscard]] int targets(Op::Kind kind, int node) const {
     const int behind = size() - 1 - node;
     switch (kind) {
-      case Op::read_input: return kInputs;
+      case Op::read_input:
+        return kInputs;
       case Op::read_coarse:
-      case Op::write_coarse: return kCoarse;
+      case Op::write_coarse:
+        return kCoarse;
       case Op::read_link:
       case Op::link:
-      case Op::relink: return kLinks;
-      case Op::read_list: return 4;         // so many elements
-      case Op::stripe: return 12 * kCells;  // length and cell
+      case Op::relink:
+        return kLinks;
+      case Op::read_list:
+        return 4;  // so many elements
+      case Op::stripe:
+        return 12 * kCells;  // length and cell
       case Op::call:
       case Op::post:
       case Op::tail:
       case Op::post_early:
-      case Op::catch_call: return behind;
-      case Op::post_side: return kSides * behind;
+      case Op::catch_call:
+        return behind;
+      case Op::post_side:
+        return kSides * behind;
       case Op::read_maybe:
       case Op::catch_maybe:
-      case Op::write_maybe: return kMaybes;
+      case Op::write_maybe:
+        return kMaybes;
       case Op::write_input:
-      case Op::catch_write: return kInputs;
-      case Op::claim: return kKeys;
+      case Op::catch_write:
+        return kInputs;
+      case Op::claim:
+        return kKeys;
       case Op::count:
-      case Op::total: return kCounters * kKeys;
+      case Op::total:
+        return kCounters * kKeys;
       case Op::mark:
-      case Op::keyed: return kSides * kCells;
+      case Op::keyed:
+        return kSides * kCells;
       case Op::real:
-      case Op::catch_real: return kSides * kCells;
-      case Op::drain: return kSides;
-      case Op::drain_call: return kSides * kWraps;
-      case Op::tail_drain: return kSides;
+      case Op::catch_real:
+        return kSides * kCells;
+      case Op::drain:
+        return kSides;
+      case Op::drain_call:
+        return kSides * kWraps;
+      case Op::tail_drain:
+        return kSides;
       case Op::fail:
-      case Op::catch_own: return 1;
+      case Op::catch_own:
+        return 1;
       case Op::misuse:
-      case Op::catch_misuse: return kMisuses;
-      default: return kCells;
+      case Op::catch_misuse:
+        return kMisuses;
+      default:
+        return kCells;
     }
   }
 

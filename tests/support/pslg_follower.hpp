@@ -94,10 +94,10 @@ class PslgFollower {
   // The trace is that of a run from scratch.
   [[nodiscard]] std::string other_trace() const {
     TracedWorld fresh(options_, false);
-    for (const auto& [id, p] : pslg_.points) fresh.insert(mesher::FeatureId{id}, p);
+    for (const auto& [id, p] : pslg_.points) fresh.insert(mesher::PointId{id}, p);
     for (const auto& [ends, id] : pslg_.segments) {
-      fresh.insert_segment(mesher::FeatureId{id}, mesher::FeatureId{ends.first},
-                           mesher::FeatureId{ends.second});
+      fresh.insert_segment(mesher::LineId{id}, mesher::PointId{ends.first},
+                           mesher::PointId{ends.second});
     }
     fresh.run();
     const auto size = [](const TracedWorld& w) {

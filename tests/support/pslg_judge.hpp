@@ -24,7 +24,7 @@ class PslgJudge {
   PslgJudge(const mesher::Mesh<2>& mesh, const Pslg& pslg) : mesh_(mesh), pslg_(pslg) {
     for (const auto& [id, p] : pslg.points) points_[p] = id;
     for (const auto& e : mesh.edges) {
-      by_line_[static_cast<std::int64_t>(e.line)].push_back({e.low, e.high});
+      by_line_[e.feature.number].push_back({e.low, e.high});
     }
     for (const auto& [ends, line] : pslg.segments) {
       for (const auto& e : by_line_[line]) {

@@ -9,40 +9,34 @@
 #include <string>
 #include <vector>
 
-#include "mesher/domain_mesh.hpp"
-#include "mesher/edit_script.hpp"
+#include "mesher/extra/edit_script.hpp"
+#include "mesher/meshing.hpp"
 #include "mesher/sizes.hpp"
 #include "random_pslg.hpp"
 
 namespace support {
 
-/// The naive twin of a DomainMesher's input.
+/// The naive twin of a Mesher's input.
 struct Lake {
   std::map<std::int64_t, mesher::Point<2>> points;
   std::map<std::int64_t, std::vector<std::int64_t>> lines;
-  std::map<mesher::SeedName, mesher::Seed> seeds;
+  std::map<mesher::SeedId, mesher::Seed<2>> seeds;
   mesher::Options<2> options{.domain = {{0, 0}, {16, 16}}};  // the limits of size
 
-  /// As DomainMesher::input().
-  [[nodiscard]] mesher::Pslg graph() const {
-    mesher::Pslg graph;
-    for (const auto& [id, p] : points) graph.points.push_back({mesher::FeatureId{id}, p, 0});
+  /// As Mesher::input().
+  [[nodiscard]] mesher::Graph<2> graph() const {
+    mesher::Graph<2> graph;
+    for (const auto& [id, p] : points) graph.points.push_back({mesher::PointId{id}, p, 0});
     for (const auto& [id, along] : lines) {
-      std::vector<mesher::FeatureId> ids;
-      for (const std::int64_t i : along) ids.push_back(mesher::FeatureId{i});
+      std::vector<mesher::PointId> ids;
+      for (const std::int64_t i : along) ids.push_back(mesher::PointId{i});
       if (ids.size() == 2) {
-        graph.segments.push_back({mesher::FeatureId{id}, ids[0], ids[1], 0});
+        graph.segments.push_back({mesher::LineId{id}, ids[0], ids[1], 0});
       } else {
-        graph.polylines.push_back({mesher::FeatureId{id}, ids, 0});
+        graph.polylines.push_back({mesher::LineId{id}, ids, 0});
       }
     }
-    for (const auto& [name, s] : seeds) {
-      if (name.kind == mesher::SeedKind::hole) {
-        graph.holes.push_back({name.id, s.at});
-      } else {
-        graph.regions.push_back({name.id, s.at, s.attribute, s.max_measure});
-      }
-    }
+    for (const auto& [name, s] : seeds) graph.seeds.push_back(s);
     return graph;
   }
 
@@ -72,7 +66,7 @@ class LakeEditor {
   static mesher::Options<2> options() { return Lake().options; }
 
   /// Edits that turn `lake` into what it is afterwards, valid or not.
-  std::vector<mesher::Edit> batch(Lake& lake) {
+  std::vector<mesher::Edit<2>> batch(Lake& lake) {
     edits_.clear();
     first_new_ = next_;
     const std::uint64_t count = below(3) == 0 ? 2 + below(4) : 1;
@@ -81,7 +75,7 @@ class LakeEditor {
   }
 
  private:
-  using Kind = mesher::Edit::Kind;
+  using Kind = mesher::Edit<2>::Kind;
   using Id = std::int64_t;
 
   void edit(Lake& lake) {
@@ -154,7 +148,7 @@ class LakeEditor {
     lake.lines[next_line_] = along;
     const bool segment = along.size() == 2 && below(2) == 0;
     auto& edit = push(segment ? Kind::insert_segment : Kind::insert_polyline, next_line_++);
-    for (const Id id : along) edit.points.push_back(mesher::FeatureId{id});
+    for (const Id id : along) edit.points.push_back(mesher::PointId{id});
   }
   void remove_line(Lake& lake) {
     if (lake.lines.empty()) return;
@@ -164,14 +158,14 @@ class LakeEditor {
   }
   void add_seed(Lake& lake) {
     const bool hole = below(2) == 0;
-    const mesher::SeedName name{hole ? mesher::SeedKind::hole : mesher::SeedKind::region,
-                                mesher::FeatureId{static_cast<Id>(below(4))}};
+    const mesher::SeedId name{hole ? mesher::SeedKind::hole : mesher::SeedKind::region,
+                              static_cast<Id>(below(4))};
     if (lake.seeds.contains(name)) remove_seed(lake, name);
-    mesher::Seed seed{name, place(), 0, {}};
+    mesher::Seed<2> seed{name, place(), 0, {}};
     if (!hole) seed.attribute = static_cast<double>(below(5));
     if (!hole && below(2) == 0) seed.max_measure = 0.5;
     lake.seeds[name] = seed;
-    auto& edit = push(hole ? Kind::insert_hole : Kind::insert_region, static_cast<Id>(name.id));
+    auto& edit = push(hole ? Kind::insert_hole : Kind::insert_region, name.number);
     edit.point = seed.at;
     edit.attribute = seed.attribute;
     edit.max_measure = seed.max_measure;
@@ -180,10 +174,10 @@ class LakeEditor {
     if (lake.seeds.empty()) return;
     remove_seed(lake, some(lake.seeds));
   }
-  void remove_seed(Lake& lake, const mesher::SeedName& name) {
+  void remove_seed(Lake& lake, const mesher::SeedId& name) {
     lake.seeds.erase(name);
     const bool hole = name.kind == mesher::SeedKind::hole;
-    push(hole ? Kind::remove_hole : Kind::remove_region, static_cast<Id>(name.id));
+    push(hole ? Kind::remove_hole : Kind::remove_region, name.number);
   }
 
   // Coarse, that meshes from scratch take no time.
@@ -196,10 +190,10 @@ class LakeEditor {
     set_limits(lake.options, *edit.box, edit.limits);
   }
 
-  mesher::Edit& push(Kind kind, Id id) {
-    mesher::Edit edit;
+  mesher::Edit<2>& push(Kind kind, Id id) {
+    mesher::Edit<2> edit;
     edit.kind = kind;
-    edit.id = mesher::FeatureId{id};
+    edit.number = id;
     edit.location = {"batch", static_cast<long>(edits_.size()) + 1, 1};
     return edits_.emplace_back(std::move(edit));
   }
@@ -223,7 +217,7 @@ class LakeEditor {
   double unit() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
 
   std::mt19937_64 random_;
-  std::vector<mesher::Edit> edits_;
+  std::vector<mesher::Edit<2>> edits_;
   Id next_ = 1, next_line_ = 1, first_new_ = 1;
 };
 

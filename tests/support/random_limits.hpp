@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "facade/announced_limits.hpp"
-#include "mesher/generate.hpp"
+#include "facade/pending_limits.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/sizes.hpp"
 
 namespace support {
@@ -47,7 +47,7 @@ class RandomLimits {
     const auto sloped = [](const mesher::Point<2>& p) {
       return 0.7 + 0.3 * std::hypot(p[0] - 7, p[1] - 9);
     };
-    std::vector<mesher::SizeSample> samples;
+    std::vector<mesher::SizeSample<2>> samples;
     for (int i = 0; i < 30; ++i) {
       samples.push_back({{16 * random_.unit(), 16 * random_.unit()}, 0.8 + 3 * random_.unit()});
     }

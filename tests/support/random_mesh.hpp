@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "mesher/generate.hpp"
-#include "mesher/mesh_data.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/mesh.hpp"
 
 namespace support {
 
@@ -19,11 +19,12 @@ struct MeshValues {
 
 /// A valid mesh of (n+1)^2 vertices; its edges are of the mesh, no array is all 0. Requires: n
 /// >= 1.
-[[nodiscard]] inline mesher::MeshData random_mesh(std::uint32_t n, mesher::SplitMix64& random,
-                                                  MeshValues values = {}) {
-  using mesher::FeatureId;
+[[nodiscard]] inline mesher::MeshData<2> random_mesh(std::uint32_t n, mesher::SplitMix64& random,
+                                                     MeshValues values = {}) {
+  using mesher::LineId;
+  using mesher::PointId;
   using mesher::VertexKind;
-  mesher::MeshData mesh;
+  mesher::MeshData<2> mesh;
   const double scale = std::ldexp(1.0, static_cast<int>(random.below(60)) - 30);
   const auto integer = [&] { return static_cast<std::int64_t>(random.bits()) >> random.below(64); };
   const auto marker = [&] {
@@ -34,9 +35,10 @@ struct MeshValues {
     for (std::uint32_t y = 0; y <= n; ++y) {
       mesh.vertices.push_back({scale * (x + random.unit() / 4), -scale * (y + random.unit() / 4)});
       mesh.kinds.push_back(static_cast<VertexKind>(random.below(4)));
-      const bool has_origin =
-          mesh.kinds.back() == VertexKind::input || mesh.kinds.back() == VertexKind::segment;
-      mesh.features.origins.push_back(FeatureId{has_origin ? integer() : 0});
+      mesher::Feature origin;
+      if (mesh.kinds.back() == VertexKind::input) origin = PointId{integer()};
+      if (mesh.kinds.back() == VertexKind::segment) origin = LineId{integer()};
+      mesh.features.origins.push_back(origin);
       mesh.features.markers.push_back(random.below(3) == 0 ? marker() : 0);
     }
   }
@@ -56,12 +58,12 @@ struct MeshValues {
     mesher::MeshEdge edge;
     edge.low = low;
     edge.high = high;
-    if (random.below(4) != 0) edge.line = FeatureId{integer()};
+    if (random.below(4) != 0) edge.line = LineId{integer()};
     edge.marker = edge.line && random.below(2) == 0 ? 0 : marker();
     mesh.features.edges.push_back(edge);
   }
   mesh.kinds[0] = VertexKind::input;
-  mesh.features.origins[0] = FeatureId{7};
+  mesh.features.origins[0] = PointId{7};
   mesh.features.markers[0] = marker();
   return mesh;
 }

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "mesher/error.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "scratch_file.hpp"
 
 namespace support {

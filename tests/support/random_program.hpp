@@ -364,8 +364,8 @@ void Node<V>::operator()(S& s, int id, V argument) const {
                                                              1 + sum % 2);
         break;
       case Op::total:
-        sum += w.counters[index(op.target / w.program->kKeys)]->total(s,
-                                                                      op.target % w.program->kKeys);
+        sum +=
+            w.counters[index(op.target / w.program->kKeys)]->total(s, op.target % w.program->kKeys);
         break;
       case Op::mark: {
         const int to = op.target / w.program->kSides;
@@ -399,10 +399,9 @@ void Node<V>::operator()(S& s, int id, V argument) const {
         break;
       case Op::keyed: {
         const int to = op.target / w.program->kSides;
-        w.template post<keyed<V>>(s, w.side(op.target % w.program->kSides), {kKeyedLabel, to, 0},
-                                  {.bucket = sum % 3, .phase = kKeyedLabel,
-                                   .order = static_cast<std::uint64_t>(to)},
-                                  to);
+        w.template post<keyed<V>>(
+            s, w.side(op.target % w.program->kSides), {kKeyedLabel, to, 0},
+            {.bucket = sum % 3, .phase = kKeyedLabel, .order = static_cast<std::uint64_t>(to)}, to);
         break;
       }
       case Op::real:

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "facade/mesh_statically.hpp"
 #include "geometry/grid.hpp"
 #include "geometry/segment_tests.hpp"
 #include "mesher/mesher.hpp"
@@ -122,7 +123,7 @@ class PslgEditor {
   void add_point(Pslg& pslg, const mesher::detail::MeshBox<2>& box, Target& target) {
     const mesher::Point<2> p = place(pslg);
     if (!in_domain(p) || !pslg.accepts(p, box)) return;
-    target.insert(mesher::FeatureId{next_}, p);
+    target.insert(mesher::PointId{next_}, p);
     pslg.points[next_++] = p;
   }
   /// A segment that is halved, if it is split, at a free vertex of the mesh.
@@ -137,7 +138,7 @@ class PslgEditor {
     const std::int64_t id = next_;
     for (const auto& p : {a, b}) {
       if (!in_domain(p) || !pslg.accepts(p, box)) return;
-      target.insert(mesher::FeatureId{next_}, p);
+      target.insert(mesher::PointId{next_}, p);
       pslg.points[next_++] = p;
     }
     add_segment({id, id + 1}, pslg, target);
@@ -155,7 +156,7 @@ class PslgEditor {
     const mesher::Point<2> p{o[0] + c * leg[0] - d * leg[1], o[1] + d * leg[0] + c * leg[1]};
     if (!in_domain(p) || !pslg.accepts(p, box)) return;
     const std::int64_t id = next_;
-    target.insert(mesher::FeatureId{next_}, p);
+    target.insert(mesher::PointId{next_}, p);
     pslg.points[next_++] = p;
     add_segment({apex, id}, pslg, target);
   }
@@ -164,7 +165,7 @@ class PslgEditor {
     if (pslg.points.empty()) return;
     const std::int64_t id = some_point(pslg);
     if (pslg.in_use(id)) return;
-    target.remove(mesher::FeatureId{id});
+    target.remove(mesher::PointId{id});
     pslg.points.erase(id);
   }
   template <class Target>
@@ -181,15 +182,15 @@ class PslgEditor {
   void add_segment(Pslg::Ends ends, Pslg& pslg, Target& target) {
     if (ends.first > ends.second) std::swap(ends.first, ends.second);
     if (!pslg.accepts(ends)) return;
-    target.insert_segment(mesher::FeatureId{next_}, mesher::FeatureId{ends.first},
-                          mesher::FeatureId{ends.second});
+    target.insert_segment(mesher::LineId{next_}, mesher::PointId{ends.first},
+                          mesher::PointId{ends.second});
     pslg.segments[ends] = next_++;
   }
   template <class Target>
   void remove_segment(Pslg& pslg, Target& target) {
     if (pslg.segments.empty()) return;
     const Pslg::Ends ends = some_segment(pslg);
-    target.remove_segment(mesher::FeatureId{ends.first}, mesher::FeatureId{ends.second});
+    target.remove_segment(mesher::PointId{ends.first}, mesher::PointId{ends.second});
     pslg.segments.erase(ends);
   }
 
@@ -255,16 +256,16 @@ class PslgEditor {
 /// Edits that were made elsewhere, to be made again.
 class Recorded {
  public:
-  void insert(mesher::FeatureId id, const mesher::Point<2>& p) {
+  void insert(mesher::PointId id, const mesher::Point<2>& p) {
     edits_.push_back([=](TracedWorld& t) { t.insert(id, p); });
   }
-  void remove(mesher::FeatureId id) {
+  void remove(mesher::PointId id) {
     edits_.push_back([=](TracedWorld& t) { t.remove(id); });
   }
-  void insert_segment(mesher::FeatureId id, mesher::FeatureId a, mesher::FeatureId b) {
+  void insert_segment(mesher::LineId id, mesher::PointId a, mesher::PointId b) {
     edits_.push_back([=](TracedWorld& t) { t.insert_segment(id, a, b); });
   }
-  void remove_segment(mesher::FeatureId a, mesher::FeatureId b) {
+  void remove_segment(mesher::PointId a, mesher::PointId b) {
     edits_.push_back([=](TracedWorld& t) { t.remove_segment(a, b); });
   }
   void replay(TracedWorld& target) const {
@@ -281,15 +282,15 @@ class Recorded {
                                                  const mesher::Options<2>& options,
                                                  std::uint64_t most = ~std::uint64_t{0}) {
   std::vector<mesher::Point<2>> points;
-  std::vector<mesher::FeatureId> ids;
+  std::vector<mesher::PointId> ids;
   std::vector<mesher::Segment> segments;
   for (const auto& [id, p] : pslg.points) {
     points.push_back(p);
-    ids.push_back(mesher::FeatureId{id});
+    ids.push_back(mesher::PointId{id});
   }
   for (const auto& [ends, id] : pslg.segments) {
     segments.push_back(
-        {mesher::FeatureId{id}, mesher::FeatureId{ends.first}, mesher::FeatureId{ends.second}});
+        {mesher::LineId{id}, mesher::PointId{ends.first}, mesher::PointId{ends.second}});
   }
   mesher::RunControl control;
   control.progress = [most](const mesher::Progress& p) { return p.done < most; };

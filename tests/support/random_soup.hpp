@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "mesher/generate.hpp"
-#include "mesher/plc.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/graph.hpp"
 #include "polygons.hpp"
 
 namespace support {
@@ -29,11 +29,11 @@ class RandomSoup {
     scale_ = scale;
     for (std::size_t i = 0; i < parts; ++i) add_part();
   }
-  [[nodiscard]] const mesher::Plc& plc() const { return plc_; }
+  [[nodiscard]] const mesher::Graph<3>& plc() const { return plc_; }
 
  private:
   using P = mesher::Point<3>;
-  using Id = mesher::FeatureId;
+  using Id = mesher::PointId;
 
   double off() {
     if (random_.below(2) == 0) return 0;
@@ -85,8 +85,9 @@ class RandomSoup {
     return all;
   }
   void add_polygon(std::vector<Id> loop) {
-    const Id id{static_cast<std::int64_t>(plc_.facets.size()) + 1};
-    plc_.facets.push_back({{id, {std::move(loop)}}, static_cast<std::int64_t>(random_.below(4))});
+    const mesher::PolygonId id{static_cast<std::int64_t>(plc_.polygons.size()) + 1};
+    plc_.polygons.push_back(
+        {id, {std::move(loop)}, {}, {}, static_cast<std::int64_t>(random_.below(4))});
   }
   void add_part() {
     for (double& x : middle_) x = random_.unit();
@@ -96,7 +97,7 @@ class RandomSoup {
         return;
       case 1: {
         const auto ends = points(2);
-        const Id id{static_cast<std::int64_t>(plc_.segments.size()) + 1};
+        const mesher::LineId id{static_cast<std::int64_t>(plc_.segments.size()) + 1};
         plc_.segments.push_back(
             {id, ends[0], ends[1], static_cast<std::int64_t>(random_.below(4))});
         return;
@@ -122,7 +123,7 @@ class RandomSoup {
   Motion motion_;
   P middle_{};
   std::vector<P> places_;
-  mesher::Plc plc_;
+  mesher::Graph<3> plc_;
 };
 
 }  // namespace support

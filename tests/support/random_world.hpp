@@ -34,9 +34,9 @@ struct Refusal : std::runtime_error {
 /// What the outside gives to a program.
 struct Outside {
   std::vector<int> inputs = std::vector<int>(RandomProgram::kInputs, 1);
-  std::multiset<int> posts;  // nodes, with argument 9; on side agendas: + 16, + 32
+  std::multiset<int> posts;         // nodes, with argument 9; on side agendas: + 16, + 32
   std::vector<int> items{1, 2, 3};  // weights in the list
-  std::vector<int> late;     // runs at the end
+  std::vector<int> late;            // runs at the end
 };
 
 /// Two numbers are the same if their halves are: what is read of it may be that only.
@@ -104,13 +104,13 @@ struct RandomWorld {
   std::vector<Item<S, V>*> items;  // the outside's list, in order
   Mod<const Item<S, V>*> head;
   Mod<const Image<S, V>*> list;
-  std::vector<Mod<V>> maybes;  // not written before the nodes run
+  std::vector<Mod<V>> maybes;                    // not written before the nodes run
   std::vector<typename S::AgendaType*> agendas;  // early, late, and those at the side
   std::unique_ptr<examples::Claims<int, S>> claims;
   std::vector<std::unique_ptr<Counter<S>>> counters;
-  Judge judge;  // of a plain run
+  Judge judge;                            // of a plain run
   std::set<std::vector<int>> executions;  // what nodes that have run to their end have seen
-  int fuse = -1;  // calls left until one throws; -1: none does
+  int fuse = -1;                          // calls left until one throws; -1: none does
   int calls_left = std::numeric_limits<int>::max();  // until it is too long
 
   void burn() {
@@ -161,12 +161,18 @@ struct RandomWorld {
     if constexpr (S::kTraced) {
       sac::Engine& engine = s.engine();
       switch (how) {
-        case 0: return static_cast<void>(engine.input(V(1)));
-        case 1: return static_cast<void>(engine.template cell<V>());
-        case 2: return static_cast<void>(engine.template make<Box<S, V>>());
-        case 3: return engine.set(inputs[0], V(6));
-        case 4: return engine.release(maybes[0]);
-        default: return static_cast<void>(engine.make_agenda("made by a node"));
+        case 0:
+          return static_cast<void>(engine.input(V(1)));
+        case 1:
+          return static_cast<void>(engine.template cell<V>());
+        case 2:
+          return static_cast<void>(engine.template make<Box<S, V>>());
+        case 3:
+          return engine.set(inputs[0], V(6));
+        case 4:
+          return engine.release(maybes[0]);
+        default:
+          return static_cast<void>(engine.make_agenda("made by a node"));
       }
     } else {
       static_cast<void>(how);

@@ -10,9 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "any_id.hpp"
+#include "facade/graph_runs.hpp"
 #include "feature_ids.hpp"
 #include "mesher/check.hpp"
-#include "mesher/domain_mesh.hpp"
+#include "mesher/meshing.hpp"
 #include "random_pslg.hpp"
 #include "rules/mesh_box.hpp"
 
@@ -21,7 +23,7 @@ namespace support {
 enum class By { svr, refine };
 
 template <By B>
-mesher::Mesh<2> mesh_of(const mesher::Pslg& graph, const mesher::Options<2>& options,
+mesher::Mesh<2> mesh_of(const mesher::Graph<2>& graph, const mesher::Options<2>& options,
                         mesher::Extent extent = mesher::Extent::box,
                         const mesher::RunControl& control = {}) {
   if constexpr (B == By::svr) {
@@ -31,18 +33,18 @@ mesher::Mesh<2> mesh_of(const mesher::Pslg& graph, const mesher::Options<2>& opt
   }
 }
 
-inline mesher::Options<2> options_for(const mesher::Pslg& graph) {
+inline mesher::Options<2> options_for(const mesher::Graph<2>& graph) {
   return {.domain = mesher::snapped_domain<2>(places_of(graph)), .max_vertices = 100000};
 }
 
 // What is wrong with a mesh of the graph, less what of it is not wanted.
-inline std::string fault(const mesher::Mesh<2>& mesh, const mesher::Pslg& graph,
+inline std::string fault(const mesher::Mesh<2>& mesh, const mesher::Graph<2>& graph,
                          mesher::Extent extent) {
-  mesher::PslgFile file;
-  file.pslg = graph;
+  mesher::GraphFile<2> file;
+  file.graph = graph;
   file.points.resize(graph.points.size());
-  const auto kept = domain_mesh(mesh, graph, extent).kept;
-  mesher::CheckOptions options;
+  const auto kept = domain_mesh(mesh, graph, extent).mesh;
+  mesher::CheckOptions<2> options;
   options.rho = 1.4142;
   options.graph = &file;
   options.features = &kept.features;
@@ -53,14 +55,14 @@ inline std::string fault(const mesher::Mesh<2>& mesh, const mesher::Pslg& graph,
   return "";
 }
 
-inline mesher::FeatureId id_at(std::size_t i) {
-  return mesher::FeatureId{static_cast<std::int64_t>(i + 1)};
-}
+inline AnyId id_at(std::size_t i) { return AnyId{static_cast<std::int64_t>(i + 1)}; }
 
-inline mesher::Pslg graph_of(const std::vector<mesher::Point<2>>& points,
-                             const std::vector<std::pair<std::size_t, std::size_t>>& segments) {
-  mesher::Pslg graph;
-  for (const mesher::Point<2>& p : points) graph.points.push_back({id_at(graph.points.size()), p, 0});
+inline mesher::Graph<2> graph_of(const std::vector<mesher::Point<2>>& points,
+                                 const std::vector<std::pair<std::size_t, std::size_t>>& segments) {
+  mesher::Graph<2> graph;
+  for (const mesher::Point<2>& p : points) {
+    graph.points.push_back({id_at(graph.points.size()), p, 0});
+  }
   for (const auto& [a, b] : segments) {
     graph.segments.push_back({id_at(graph.segments.size()), id_at(a), id_at(b), 0});
   }
@@ -68,7 +70,7 @@ inline mesher::Pslg graph_of(const std::vector<mesher::Point<2>>& points,
 }
 
 // A square of side 1, and one of side 1/4 in the middle.
-inline mesher::Pslg frame() {
+inline mesher::Graph<2> frame() {
   return graph_of(
       {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {.375, .375}, {.625, .375}, {.625, .625}, {.375, .625}},
       {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}});
@@ -102,12 +104,12 @@ inline Pslg random_graph(PslgEditor::Family family, std::uint64_t seed, int edit
   return graph;
 }
 
-inline mesher::Pslg graph_of(const Pslg& random) {
-  mesher::Pslg graph;
-  for (const auto& [id, p] : random.points) graph.points.push_back({mesher::FeatureId{id}, p, 0});
+inline mesher::Graph<2> graph_of(const Pslg& random) {
+  mesher::Graph<2> graph;
+  for (const auto& [id, p] : random.points) graph.points.push_back({mesher::PointId{id}, p, 0});
   for (const auto& [ends, id] : random.segments) {
     graph.segments.push_back(
-        {mesher::FeatureId{id}, mesher::FeatureId{ends.first}, mesher::FeatureId{ends.second}, 0});
+        {mesher::LineId{id}, mesher::PointId{ends.first}, mesher::PointId{ends.second}, 0});
   }
   return graph;
 }
@@ -115,10 +117,10 @@ inline mesher::Pslg graph_of(const Pslg& random) {
 // The error of a run: its code, its text, and the ids that it names.
 struct Refusal {
   std::string code, text;
-  std::vector<mesher::FeatureId> ids;
+  Ids ids;
 };
 template <By B>
-Refusal refusal(const mesher::Pslg& graph, const mesher::Options<2>& options,
+Refusal refusal(const mesher::Graph<2>& graph, const mesher::Options<2>& options,
                 const mesher::RunControl& control = {}) {
   try {
     static_cast<void>(mesh_of<B>(graph, options, mesher::Extent::box, control));

@@ -8,37 +8,37 @@
 #include <string>
 #include <vector>
 
+#include "facade/box_mesher.hpp"
 #include "graph/plc_builder.hpp"
-#include "mesher/mesher.hpp"
-#include "mesher/space_repair.hpp"
+#include "mesher/repair.hpp"
 #include "space/polygon_shape.hpp"
 
 namespace support {
 
 using Places = mesher::detail::PlcBuilder::Places;
 
-inline mesher::Box<3> domain_of(const mesher::Plc& plc) {
+inline mesher::Box<3> domain_of(const mesher::Graph<3>& plc) {
   std::vector<mesher::Point<3>> places;
   for (const auto& p : plc.points) places.push_back(p.at);
   return mesher::snapped_domain<3>(places);
 }
 
-inline mesher::RepairedPlc repaired(const mesher::Plc& plc) {
+inline mesher::Repaired<3> repaired(const mesher::Graph<3>& plc) {
   const auto domain = domain_of(plc);
-  mesher::RepairedPlc result = mesher::repair(plc, domain);
-  const mesher::Plc& out = result.file.plc;
-  mesher::Mesher<3> m({.domain = domain, .max_vertices = 200000});
+  mesher::Repaired<3> result = mesher::repair(plc, domain);
+  const mesher::Graph<3>& out = result.file.graph;
+  mesher::BoxMesher<3> m({.domain = domain, .max_vertices = 200000});
   for (const auto& p : out.points) m.insert(p.id, p.at);
   for (const auto& s : out.segments) m.insert_segment(s.id, s.from, s.to);
-  for (const auto& f : out.facets) m.insert_polygon(f.polygon);
+  for (const auto& f : out.polygons) m.insert_polygon(f);
   m.update();
-  const mesher::RepairedPlc again = mesher::repair(result.file, domain);
-  REQUIRE(again.file.plc == out);
+  const mesher::Repaired<3> again = mesher::repair(result.file, domain);
+  REQUIRE(again.file.graph == out);
   REQUIRE(again.notes.empty());
   return result;
 }
 
-inline std::vector<std::string> notes_of(const mesher::RepairedPlc& r) {
+inline std::vector<std::string> notes_of(const mesher::Repaired<3>& r) {
   std::vector<std::string> texts;
   for (const auto& note : r.notes) texts.push_back(note.text());
   return texts;
@@ -49,13 +49,13 @@ inline Places square(double x, double y, double z, double side = 1) {
 }
 
 /// Of all polygons, less their holes.
-inline double area(const mesher::Plc& plc) {
-  std::map<mesher::FeatureId, mesher::Point<3>> at;
+inline double area(const mesher::Graph<3>& plc) {
+  std::map<mesher::PointId, mesher::Point<3>> at;
   for (const auto& p : plc.points) at[p.id] = p.at;
   double sum = 0;
-  for (const auto& f : plc.facets) {
+  for (const auto& f : plc.polygons) {
     double sign = 1;
-    for (const auto& loop : f.polygon.loops) {
+    for (const auto& loop : f.loops) {
       Places places;
       for (const auto v : loop) places.push_back(at.at(v));
       sum += sign * std::sqrt(mesher::detail::squared(mesher::detail::twice_area(places))) / 2;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/graph.hpp"
 #include "mesher/mesh.hpp"
 #include "mesher/sizes.hpp"
 
@@ -38,7 +39,7 @@ struct SizedSquare {
     for (const auto& [a, b] : std::vector<std::pair<int, int>>{
              {1, 2}, {2, 3}, {3, 4}, {4, 1}, {6, 7}, {9, 10}, {12, 13}}) {
       const auto id = static_cast<std::int64_t>(all.size() + 1);
-      all.push_back({mesher::FeatureId{id}, mesher::FeatureId{a}, mesher::FeatureId{b}});
+      all.push_back({mesher::LineId{id}, mesher::PointId{a}, mesher::PointId{b}});
     }
     return all;
   }

@@ -36,7 +36,9 @@ class SlotsOf {
       REQUIRE(slots.emplace(in[i], in_slots[i]).second);
     }
   }
-  [[nodiscard]] bool is_free(mesher::Slot s) const { return free_.contains(s) || left_.contains(s); }
+  [[nodiscard]] bool is_free(mesher::Slot s) const {
+    return free_.contains(s) || left_.contains(s);
+  }
   /// Free slots included.
   [[nodiscard]] std::size_t end() const { return end_; }
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/sizes.hpp"
 
 namespace support {
@@ -69,7 +69,7 @@ class SpaceLimits {
     }
     return box;
   }
-  /// Announces others, everywhere or in a box. M: a DomainMesherOf<3>.
+  /// Announces others, everywhere or in a box. M: a Mesher<3>.
   template <class M>
   void edit(M& m) {
     random_.below(3) == 0 ? m.limit(limits()) : m.limit(box(), limits());

@@ -5,15 +5,16 @@
 #include <optional>
 #include <vector>
 
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
 #include "mesher/error.hpp"
-#include "mesher/mesher.hpp"
 #include "random_complex.hpp"
 
 namespace support {
 
 /// What edits there are is up to the seed: parts come and go, with their points or without, one for
-/// another, or get other ids; single features go and come; points of them move. M: a Mesher<3>, or
-/// another with its edits.
+/// another, or get other ids; single features go and come; points of them move. M: a
+/// BoxMesher<3>, or another with its edits.
 template <class M>
 class SpaceParcels {
  public:
@@ -72,11 +73,11 @@ class SpaceParcels {
   };
   struct Parcel {
     Complex complex;
-    std::vector<mesher::FeatureId> points;
+    std::vector<mesher::PointId> points;
     std::vector<Feature> features;
   };
 
-  mesher::FeatureId fresh() { return mesher::FeatureId{++last_}; }
+  AnyId fresh() { return AnyId{++last_}; }
   mesher::Point<3> corner_of(const Parcel& parcel) const {
     const auto i = static_cast<std::size_t>(&parcel - parcels_.data());
     return {static_cast<double>(i % kAcross), static_cast<double>(i / kAcross % kAcross),
@@ -95,16 +96,17 @@ class SpaceParcels {
   }
   void erase(Parcel& parcel) {
     erase_features(parcel);
-    for (const mesher::FeatureId id : parcel.points) m_.remove(id);
+    for (const mesher::PointId id : parcel.points) m_.remove(id);
     parcel.points.clear();
   }
   void turn(Feature& f) {
-    const mesher::FeatureId id = f.polygon.id;
+    const mesher::PolygonId polygon = f.polygon.id;
+    const mesher::LineId line{static_cast<std::int64_t>(polygon)};
     const auto& loop = f.polygon.loops[0];
     if (f.there) {
-      f.is_polygon() ? m_.remove_polygon(id) : m_.remove_segment(id);
+      f.is_polygon() ? m_.remove_polygon(polygon) : m_.remove_line(line);
     } else {
-      f.is_polygon() ? m_.insert_polygon(f.polygon) : m_.insert_segment(id, loop[0], loop[1]);
+      f.is_polygon() ? m_.insert_polygon(f.polygon) : m_.insert_segment(line, loop[0], loop[1]);
     }
     f.there = !f.there;
   }

@@ -38,7 +38,7 @@ inline SpaceParts parts_of(const mesher::Mesh<3>& mesh) {
   SpaceParts parts;
   const auto& at = mesh.vertices;
   for (const auto& e : mesh.edges) {
-    parts.edges.insert({at[e.low], at[e.high], e.line, e.of_polygon});
+    parts.edges.insert({at[e.low], at[e.high], e.feature});
   }
   for (const auto& f : mesh.faces) {
     parts.faces.insert({{at[f.corners[0]], at[f.corners[1]], at[f.corners[2]]}, f.polygon});

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/mesh.hpp"
 #include "scratch_file.hpp"
 #include "test_paths.hpp"

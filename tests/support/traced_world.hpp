@@ -37,7 +37,7 @@ class TracedWorld {
   TracedWorld& operator=(const TracedWorld&) = delete;
   ~TracedWorld() { engine_.reset(); }  // before what its calls refer to
 
-  void insert(mesher::FeatureId id, const mesher::Point<2>& p) {
+  void insert(mesher::PointId id, const mesher::Point<2>& p) {
     if (const Vertex* other = world_->features.point_at(p)) {
       mesher::detail::fail_too_near(p, id, other->p, {});
     }
@@ -52,7 +52,7 @@ class TracedWorld {
     world_->quadtree.post_from_outside<mesher::detail::locate>(
         mesher::detail::locate_key(box_.fixed(p)), Ref{&v});
   }
-  void remove(mesher::FeatureId id) {
+  void remove(mesher::PointId id) {
     Vertex& v = *inputs_.at(id);
     inputs_.erase(id);
     world_->vertices.touch(v);
@@ -64,7 +64,7 @@ class TracedWorld {
     world_->features.erase(v);
     world_->quadtree.retract_from_outside<mesher::detail::locate>(Ref{&v});
   }
-  void move(mesher::FeatureId id, const mesher::Point<2>& p) {
+  void move(mesher::PointId id, const mesher::Point<2>& p) {
     const Vertex* other = world_->features.point_at(p);
     if (other != nullptr && other != inputs_.at(id)) {
       mesher::detail::fail_too_near(p, id, other->p, {});
@@ -74,13 +74,13 @@ class TracedWorld {
     insert(id, p);
   }
   /// Between two points that are there.
-  void insert_segment(mesher::FeatureId id, mesher::FeatureId a, mesher::FeatureId b) {
+  void insert_segment(mesher::LineId id, mesher::PointId a, mesher::PointId b) {
     const auto all = world_->segments.insert(inputs_.at(a)->self, inputs_.at(b)->self);
     lines_[all.piece.segment] = id;
     world_->splits.post_from_outside<mesher::detail::split_segment>(
         mesher::detail::split_segment_key(box_, all), all);
   }
-  void remove_segment(mesher::FeatureId a, mesher::FeatureId b) {
+  void remove_segment(mesher::PointId a, mesher::PointId b) {
     const auto all = world_->segments.erase(inputs_.at(a)->self, inputs_.at(b)->self);
     world_->splits.retract_from_outside<mesher::detail::split_segment>(all);
   }
@@ -105,7 +105,7 @@ class TracedWorld {
   [[nodiscard]] World& world() noexcept { return *world_; }
   [[nodiscard]] const sac::Engine& engine() const noexcept { return *engine_; }
   [[nodiscard]] const mesher::detail::MeshBox<2>& box() const noexcept { return box_; }
-  [[nodiscard]] const std::map<mesher::FeatureId, Vertex*>& inputs() const { return inputs_; }
+  [[nodiscard]] const std::map<mesher::PointId, Vertex*>& inputs() const { return inputs_; }
 
  private:
   void commit() {
@@ -118,8 +118,8 @@ class TracedWorld {
   mesher::Options<2> options_;
   std::unique_ptr<sac::Engine> engine_ = std::make_unique<sac::Engine>();
   std::unique_ptr<World> world_;
-  std::map<mesher::FeatureId, Vertex*> inputs_;
-  std::map<mesher::detail::SegmentHandle, mesher::FeatureId> lines_;
+  std::map<mesher::PointId, Vertex*> inputs_;
+  std::map<mesher::detail::SegmentHandle, mesher::LineId> lines_;
 };
 
 inline mesher::Mesh<2> TracedWorld::mesh() const {

@@ -74,7 +74,7 @@ class WalledGrid {
     return m;
   }
   [[nodiscard]] static std::vector<mesher::MeshEdge> as_walls(
-      const std::vector<Edge>& edges, mesher::FeatureId line = mesher::FeatureId{1},
+      const std::vector<Edge>& edges, mesher::LineId line = mesher::LineId{1},
       std::int64_t marker = 0) {
     std::vector<mesher::MeshEdge> walls;
     for (const Edge& e : std::set<Edge>(edges.begin(), edges.end())) {
@@ -88,12 +88,12 @@ class WalledGrid {
   int n_;
 };
 
-[[nodiscard]] inline mesher::Seed hole(std::int64_t id, double x, double y) {
-  return {{mesher::SeedKind::hole, mesher::FeatureId{id}}, {x, y}, 0, {}};
+[[nodiscard]] inline mesher::Seed<2> hole(std::int64_t id, double x, double y) {
+  return mesher::hole_seed<2>(id, {x, y});
 }
-[[nodiscard]] inline mesher::Seed region(std::int64_t id, double x, double y,
-                                         double attribute = 0) {
-  return {{mesher::SeedKind::region, mesher::FeatureId{id}}, {x, y}, attribute, {}};
+[[nodiscard]] inline mesher::Seed<2> region(std::int64_t id, double x, double y,
+                                            double attribute = 0) {
+  return mesher::region_seed<2>(id, {x, y}, attribute);
 }
 
 }  // namespace support

@@ -21,7 +21,7 @@ using Places3 = std::array<Point<2>, 3>;  // of a triangle's corners, from the s
 class WalledMesh {
  public:
   using Walls = std::set<Places2>;
-  using Seeds = std::map<mesher::SeedName, mesher::Seed>;
+  using Seeds = std::map<mesher::SeedId, mesher::Seed<2>>;
   using Labels = std::map<Places3, mesher::RegionLabel>;
 
   /// What shall be. Walls that are no edges of the mesh are left out.
@@ -96,7 +96,7 @@ class WalledMesh {
   void begin() {
     std::vector<Corners> triangles;
     std::vector<Edge> walls;
-    std::vector<mesher::Seed> seeds;
+    std::vector<mesher::Seed<2>> seeds;
     for (const auto& t : triangles_) triangles.push_back(number(t));
     for (const auto& e : walls_) walls.push_back({number(e[0]), number(e[1])});
     for (const auto& [name, seed] : seeds_) seeds.push_back(seed);
@@ -153,7 +153,7 @@ class WalledMesh {
     }
     std::vector<mesher::MeshEdge> walls;
     for (const auto& e : walls_) walls.push_back({index.at(e[0]), index.at(e[1]), {}, 0});
-    std::vector<mesher::Seed> seeds;
+    std::vector<mesher::Seed<2>> seeds;
     for (const auto& [name, seed] : seeds_) seeds.push_back(seed);
     const auto domain = find_domain(mesh, walls, seeds, mesher::Extent::enclosed);
     check_names(mesh, domain);
@@ -167,7 +167,7 @@ class WalledMesh {
   }
 
   // The list of regions is the same, with smallest triangles and attributes.
-  void check_names(const mesher::Mesh<2>& mesh, const mesher::Domain& domain) const {
+  void check_names(const mesher::Mesh<2>& mesh, const mesher::Domain<2>& domain) const {
     const auto named = regions_->regions();
     REQUIRE(named.size() == domain.regions.size());
     for (std::size_t r = 0; r < named.size(); ++r) {

@@ -1,12 +1,13 @@
-// The mesher under edits of complexes in space, by its traces: a propagated trace is that of a fresh
-// run, the work is within twice the distance, and the audits have nothing to say.
+// The mesher under edits of complexes in space, by its traces: a propagated trace is that of a
+// fresh run, the work is within twice the distance, and the audits have nothing to say.
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "mesher/mesher.hpp"
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
 #include "random_complex.hpp"
 #include "traces/audit.hpp"
 #include "traces/distance.hpp"
@@ -14,12 +15,11 @@
 
 namespace {
 
-using mesher::FeatureId;
-using mesher::Mesher;
+using mesher::BoxMesher;
 using mesher::Point;
 using support::Complex;
 
-constexpr int kAcross = 2;  // parts; each in a unit cube
+constexpr int kAcross = 2;           // parts; each in a unit cube
 constexpr std::int64_t kIds = 1000;  // of a part
 
 // Parts, by the cubes that they are in, and a mesher that follows them.
@@ -30,7 +30,7 @@ class Followed {
   [[nodiscard]] bool has(int cube) const { return parts_.count(cube) != 0; }
   [[nodiscard]] traces::Trace trace() const { return traces::Recorder(mesher_.engine()).trace(); }
   [[nodiscard]] traces::Trace fresh_trace() const {
-    Mesher<3> fresh(options());
+    BoxMesher<3> fresh(options());
     for (const auto& [cube, part] : parts_) put(fresh, cube, part);
     fresh.update();
     return traces::Recorder(fresh.engine()).trace();
@@ -44,7 +44,7 @@ class Followed {
     const Complex& part = parts_.at(cube);
     for (std::size_t i = 0; i < part.faces.size(); ++i) mesher_.remove_polygon(id(cube, i));
     for (std::size_t i = 0; i < part.segments.size(); ++i) {
-      mesher_.remove_segment(id(cube, kIds / 2 + i));
+      mesher_.remove_line(id(cube, kIds / 2 + i));
     }
     for (std::size_t i = 0; i < part.points.size(); ++i) mesher_.remove(id(cube, i));
     parts_.erase(cube);
@@ -59,10 +59,10 @@ class Followed {
   static mesher::Options<3> options() {
     return {.domain = {{0, 0, 0}, {kAcross, kAcross, kAcross}}};
   }
-  static FeatureId id(int cube, std::size_t i) {
-    return FeatureId{cube * kIds + static_cast<std::int64_t>(i) + 1};
+  static AnyId id(int cube, std::size_t i) {
+    return AnyId{cube * kIds + static_cast<std::int64_t>(i) + 1};
   }
-  static void put(Mesher<3>& m, int cube, const Complex& part) {
+  static void put(BoxMesher<3>& m, int cube, const Complex& part) {
     for (std::size_t i = 0; i < part.points.size(); ++i) m.insert(id(cube, i), part.points[i]);
     for (std::size_t i = 0; i < part.segments.size(); ++i) {
       const auto& [a, b] = part.segments[i];
@@ -79,7 +79,7 @@ class Followed {
     }
   }
 
-  Mesher<3> mesher_;
+  BoxMesher<3> mesher_;
   std::map<int, Complex> parts_;
 };
 

@@ -9,47 +9,46 @@
 #include <string>
 #include <vector>
 
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "facade/box_mesher.hpp"
+#include "mesher/extra/generate.hpp"
 #include "traces/audit.hpp"
 #include "traces/distance.hpp"
 #include "traces/recorder.hpp"
 
 namespace {
 
-using mesher::FeatureId;
-using mesher::Mesher;
+using mesher::BoxMesher;
+using mesher::LineId;
 using mesher::Point;
-
-FeatureId id(std::int64_t i) { return FeatureId{i}; }
+using mesher::PointId;
 
 // What is there, by id, and a mesher that follows it.
 class Followed {
  public:
-  explicit Followed(const mesher::Pslg& pslg) {
+  explicit Followed(const mesher::Graph<2>& pslg) {
     for (const auto& v : pslg.points) points_[v.id] = v.at;
     for (const auto& s : pslg.segments) lines_[s.id] = {s.from, s.to};
     fill(mesher_);
     mesher_.update();
   }
 
-  Mesher<2>& mesher() { return mesher_; }
+  BoxMesher<2>& mesher() { return mesher_; }
   [[nodiscard]] traces::Trace trace() const { return traces::Recorder(mesher_.engine()).trace(); }
   [[nodiscard]] traces::Trace fresh_trace() const {
-    Mesher<2> fresh(mesher_.options());
+    BoxMesher<2> fresh(mesher_.options());
     fill(fresh);
     fresh.update();
     return traces::Recorder(fresh.engine()).trace();
   }
 
-  void insert(FeatureId p, const Point<2>& at) { mesher_.insert(p, at), points_[p] = at; }
-  void remove(FeatureId p) { mesher_.remove(p), points_.erase(p); }
-  void move(FeatureId p, const Point<2>& at) { mesher_.move(p, at), points_[p] = at; }
-  void insert_line(FeatureId l, const std::vector<FeatureId>& along) {
+  void insert(PointId p, const Point<2>& at) { mesher_.insert(p, at), points_[p] = at; }
+  void remove(PointId p) { mesher_.remove(p), points_.erase(p); }
+  void move(PointId p, const Point<2>& at) { mesher_.move(p, at), points_[p] = at; }
+  void insert_line(LineId l, const std::vector<PointId>& along) {
     mesher_.insert_polyline(l, along), lines_[l] = along;
   }
-  void remove_line(FeatureId l) { mesher_.remove_segment(l), lines_.erase(l); }
-  [[nodiscard]] const Point<2>& at(FeatureId p) const { return points_.at(p); }
+  void remove_line(LineId l) { mesher_.remove_line(l), lines_.erase(l); }
+  [[nodiscard]] const Point<2>& at(PointId p) const { return points_.at(p); }
 
   // Makes the edits and updates; false, with all as before, if that is refused.
   bool update(const std::function<void()>& edits, mesher::CallCounts& calls) {
@@ -68,14 +67,14 @@ class Followed {
   }
 
  private:
-  void fill(Mesher<2>& m) const {
+  void fill(BoxMesher<2>& m) const {
     for (const auto& [p, at] : points_) m.insert(p, at);
     for (const auto& [l, along] : lines_) m.insert_polyline(l, along);
   }
 
-  Mesher<2> mesher_{{.domain = {{0, 0}, {1, 1}}}};
-  std::map<FeatureId, Point<2>> points_;
-  std::map<FeatureId, std::vector<FeatureId>> lines_;
+  BoxMesher<2> mesher_{{.domain = {{0, 0}, {1, 1}}}};
+  std::map<PointId, Point<2>> points_;
+  std::map<LineId, std::vector<PointId>> lines_;
 };
 
 // A line of `n` points from somewhere on, each at most `step` from the one before.
@@ -85,31 +84,35 @@ class RandomLines {
 
   void come(int n, double step) {
     Point<2> p{random_.unit(), random_.unit()};
-    std::vector<FeatureId> along;
+    std::vector<PointId> along;
     for (int i = 0; i < n; ++i) {
-      along.push_back(id(next_++));
+      along.push_back(PointId{next_++});
       f_.insert(along.back(), p);
       p = near(p, step);
     }
-    if (n > 1) f_.insert_line(along.front(), along);
+    if (n > 1) f_.insert_line(line_of(along), along);
     announced_ = along;
   }
   void accept() { there_.push_back(announced_); }
   void go() {
     std::swap(there_[random_.below(there_.size())], there_.back());
-    if (there_.back().size() > 1) f_.remove_line(there_.back().front());
-    for (const FeatureId p : there_.back()) f_.remove(p);
+    if (there_.back().size() > 1) f_.remove_line(line_of(there_.back()));
+    for (const PointId p : there_.back()) f_.remove(p);
   }
   void gone() { there_.pop_back(); }
   void move_one(double step) {
     const auto& along = there_[random_.below(there_.size())];
-    const FeatureId p = along[random_.below(along.size())];
+    const PointId p = along[random_.below(along.size())];
     f_.move(p, near(f_.at(p), step));
   }
   [[nodiscard]] bool any() const { return !there_.empty(); }
   [[nodiscard]] std::uint64_t below(std::uint64_t n) { return random_.below(n); }
 
  private:
+  // It has the number of its first point.
+  static LineId line_of(const std::vector<PointId>& along) {
+    return LineId{static_cast<std::int64_t>(along.front())};
+  }
   Point<2> near(const Point<2>& p, double step) {
     const auto moved = [&](double x) {
       return std::clamp(x + step * (2 * random_.unit() - 1), 0.0, 1.0);
@@ -120,8 +123,8 @@ class RandomLines {
   Followed& f_;
   mesher::SplitMix64 random_;
   std::int64_t next_ = 1'000'000;
-  std::vector<FeatureId> announced_;
-  std::vector<std::vector<FeatureId>> there_;
+  std::vector<PointId> announced_;
+  std::vector<std::vector<PointId>> there_;
 };
 
 // The functions of which the traces have different calls, and how many.

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cstdint>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "traces/audit.hpp"
 #include "traces/stability.hpp"
 

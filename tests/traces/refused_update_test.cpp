@@ -2,20 +2,20 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
-#include "mesher/mesher.hpp"
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
 #include "traces/distance.hpp"
 #include "traces/recorder.hpp"
 
 namespace {
 
 using mesher::ErrorCode;
-using mesher::FeatureId;
 
-FeatureId id(std::int64_t i) { return FeatureId{i}; }
+AnyId id(std::int64_t i) { return AnyId{i}; }
 
 // A square with a point in it.
-mesher::Mesher<2> square() {
-  mesher::Mesher<2> m({.domain = {{0, 0}, {1, 1}}});
+mesher::BoxMesher<2> square() {
+  mesher::BoxMesher<2> m({.domain = {{0, 0}, {1, 1}}});
   m.insert({id(1), id(2), id(3), id(4), id(5)},
            {{0.125, 0.125}, {0.875, 0.125}, {0.875, 0.875}, {0.125, 0.875}, {0.5, 0.375}});
   m.insert_polyline(id(1), {id(1), id(2), id(3), id(4), id(1)});
@@ -27,12 +27,12 @@ struct Footprint {
   std::uint64_t calls, edges;
   friend bool operator==(const Footprint&, const Footprint&) = default;
 };
-Footprint footprint(const mesher::Mesher<2>& m) {
+Footprint footprint(const mesher::BoxMesher<2>& m) {
   return {m.engine().live_calls(), m.engine().live_edges()};
 }
 
 // Twice, since the engine may keep some room for edits.
-void refuse(mesher::Mesher<2>& m, ErrorCode code, const std::function<void()>& announce) {
+void refuse(mesher::BoxMesher<2>& m, ErrorCode code, const std::function<void()>& announce) {
   const Footprint before = footprint(m);
   const traces::Trace trace = traces::Recorder(m.engine()).trace();
   std::size_t bytes = 0;
@@ -55,7 +55,7 @@ void refuse(mesher::Mesher<2>& m, ErrorCode code, const std::function<void()>& a
 }  // namespace
 
 TEST_CASE("A refused batch leaves the calls, the memory and the trace that there were") {
-  mesher::Mesher<2> m = square();
+  mesher::BoxMesher<2> m = square();
   const std::size_t bytes = m.engine().bytes();
   refuse(m, ErrorCode::crossing_segments, [&] {
     m.insert(id(6), {0.25, 0.25});
@@ -72,7 +72,7 @@ TEST_CASE("A refused batch leaves the calls, the memory and the trace that there
     m.insert_segment(id(2), id(6), id(2));
   });
   refuse(m, ErrorCode::unknown_id, [&] {
-    m.remove_segment(id(1));
+    m.remove_line(id(1));
     m.insert_segment(id(2), id(1), id(9));
   });
   refuse(m, ErrorCode::too_close, [&] { m.insert(id(6), {0.5, 0.125 + 0x1p-50}); });

@@ -86,9 +86,14 @@ class Subject final : public traces::Subject {
     } else {
       const ElementId id = std::next(sequence.begin(), static_cast<int>(place))->id();
       switch (random_() % 4) {
-        case 0: sequence.insert_before(id, value()); break;
-        case 1: sequence.set(id, value()); break;
-        default: sequence.erase(id);
+        case 0:
+          sequence.insert_before(id, value());
+          break;
+        case 1:
+          sequence.set(id, value());
+          break;
+        default:
+          sequence.erase(id);
       }
     }
     return {run_.engine.propagate(), {}};

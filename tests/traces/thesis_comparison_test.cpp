@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "facade/mesh_statically.hpp"
 #include "mesher/delaunay.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "mesher/extra/generate.hpp"
 #include "naive_quadtree.hpp"
 #include "thesis/mesh.hpp"
 

@@ -118,8 +118,8 @@ TEST_CASE("Counts in a file are refused, never believed") {
   CHECK(code(name + "C" + zero + zero + "\x01") == "corrupt");              // no such function
   CHECK(code(name + "C" + zero + zero + zero + hash + huge) == "corrupt");  // length of text
   CHECK(code(name + "C\x04" + zero + zero + hash + zero + huge + "\x02") == "corrupt");  // weight
-  CHECK(code(name + "X" + hash + zero) == "corrupt");                       // an edge of no call
-  CHECK(code("E\x05") == "corrupt");                                        // number of calls
+  CHECK(code(name + "X" + hash + zero) == "corrupt");  // an edge of no call
+  CHECK(code("E\x05") == "corrupt");                   // number of calls
   CHECK(code("?") == "corrupt");
 }
 

@@ -43,9 +43,9 @@ struct LeastFirst : QuicksortApp {
   }
 };
 
-using Hard = std::tuple<QuickhullApp<point_in_square>, DiameterApp<point_in_square>,
-                        DistanceApp<1 << 27>, QuickhullApp<point_on_curve>,
-                        QuickhullApp<point_in_corner>, LeastFirst>;
+using Hard =
+    std::tuple<QuickhullApp<point_in_square>, DiameterApp<point_in_square>, DistanceApp<1 << 27>,
+               QuickhullApp<point_on_curve>, QuickhullApp<point_in_corner>, LeastFirst>;
 using Examples = decltype(std::tuple_cat(apps::All(), Hard()));
 
 // Far above what is seen, some 600, and far below the sizes of the inputs.

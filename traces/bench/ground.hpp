@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "../../mesher/bench/sample.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "facade/box_mesher.hpp"
+#include "mesher/extra/generate.hpp"
 #include "traces/distance.hpp"
 #include "traces/recorder.hpp"
 
@@ -32,7 +32,7 @@ struct EditCosts {
 template <int D>
 class Ground {
  public:
-  Ground(const std::vector<mesher::Point<D>>& points, const std::vector<mesher::FeatureId>& ids,
+  Ground(const std::vector<mesher::Point<D>>& points, const std::vector<mesher::PointId>& ids,
          const std::vector<mesher::Segment>& segments = {},
          const std::vector<mesher::Polygon>& polygons = {})
       : mesher_(unit_box()), points_(points), joins_(D == 2 || !segments.empty()) {
@@ -65,8 +65,10 @@ class Ground {
 
  private:
   static constexpr std::int64_t kFirst = 1'000'000'000;
-  static mesher::FeatureId id(std::size_t i) {
-    return mesher::FeatureId{kFirst + static_cast<std::int64_t>(i)};
+  static constexpr mesher::LineId kLine{kFirst};
+  static constexpr mesher::PolygonId kPolygon{kFirst};
+  static mesher::PointId id(std::size_t i) {
+    return mesher::PointId{kFirst + static_cast<std::int64_t>(i)};
   }
 
   [[nodiscard]] bool has_polygon(std::size_t points) const {
@@ -83,16 +85,16 @@ class Ground {
   }
 
   bool come(const std::vector<mesher::Point<D>>& line, EditCosts& costs) {
-    std::vector<mesher::FeatureId> ids;
+    std::vector<mesher::PointId> ids;
     try {
       for (std::size_t i = 0; i < line.size(); ++i) {
         ids.push_back(id(i));
         mesher_.insert(ids.back(), line[i]);
       }
-      if (has_line(line.size())) mesher_.insert_polyline(ids.front(), ids);
+      if (has_line(line.size())) mesher_.insert_polyline(kLine, ids);
       if constexpr (D == 3) {
         mesher::Polygon polygon;
-        polygon.id = ids.front(), polygon.loops = {ids};
+        polygon.id = kPolygon, polygon.loops = {ids};
         if (has_polygon(line.size())) mesher_.insert_polygon(polygon);
       }
       const auto edges = update(costs.come).edges_added.size();
@@ -105,9 +107,9 @@ class Ground {
     }
   }
   void go(std::size_t points, Cost& cost) {
-    if (has_line(points)) mesher_.remove_segment(id(0));
+    if (has_line(points)) mesher_.remove_line(kLine);
     if constexpr (D == 3) {
-      if (has_polygon(points)) mesher_.remove_polygon(id(0));
+      if (has_polygon(points)) mesher_.remove_polygon(kPolygon);
     }
     for (std::size_t i = 0; i < points; ++i) mesher_.remove(id(i));
     update(cost);
@@ -122,7 +124,7 @@ class Ground {
     return change;
   }
 
-  mesher::Mesher<D> mesher_;
+  mesher::BoxMesher<D> mesher_;
   std::vector<mesher::Point<D>> points_;
   bool joins_;
   std::optional<traces::Trace> base_;  // without an edit
@@ -131,9 +133,8 @@ class Ground {
 /// `n` points anywhere.
 template <int D>
 [[nodiscard]] Ground<D> scattered(std::size_t n) {
-  std::vector<mesher::FeatureId> ids;
-  for (std::size_t i = 1; i <= n; ++i)
-    ids.push_back(mesher::FeatureId{static_cast<std::int64_t>(i)});
+  std::vector<mesher::PointId> ids;
+  for (std::size_t i = 1; i <= n; ++i) ids.push_back(mesher::PointId{static_cast<std::int64_t>(i)});
   return Ground<D>(mesher::generate_points<D>(mesher::PointKind::uniform, n, 5), ids);
 }
 

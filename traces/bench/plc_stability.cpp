@@ -22,15 +22,17 @@
 
 #include "bench_help.hpp"
 #include "ground.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "plots.hpp"
 
 namespace {
 
 using bench::Against;
 using bench::Plot;
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Point;
+using mesher::PointId;
+using mesher::PolygonId;
 using Ground = bench::Ground<3>;
 
 const std::vector<bench::Kind> kKinds{
@@ -47,25 +49,24 @@ Point<3> within(const Point<3>& lo, double side, mesher::SplitMix64& random) {
 Ground features(int across) {
   mesher::SplitMix64 random(5);
   std::vector<Point<3>> points;
-  std::vector<FeatureId> ids;
+  std::vector<PointId> ids;
   std::vector<mesher::Segment> segments;
   std::vector<mesher::Polygon> polygons;
   const double side = 1.0 / across;
   for (int cell = 0; cell < across * across * across; ++cell) {
     const Point<3> lo{(cell % across + 0.1) * side, (cell / across % across + 0.1) * side,
                       (cell / across / across + 0.1) * side};
-    std::vector<FeatureId> corners;
+    std::vector<PointId> corners;
     for (int k = 0; k < 2 + cell % 2; ++k) {
       points.push_back(within(lo, 0.8 * side, random));
-      ids.push_back(FeatureId{static_cast<std::int64_t>(points.size())});
+      ids.push_back(PointId{static_cast<std::int64_t>(points.size())});
       corners.push_back(ids.back());
     }
-    const FeatureId id{cell + 1};
     if (cell % 2 == 0) {
-      segments.push_back({id, corners[0], corners[1]});
+      segments.push_back({LineId{cell + 1}, corners[0], corners[1]});
     } else {
       mesher::Polygon polygon;
-      polygon.id = id, polygon.loops = {corners};
+      polygon.id = PolygonId{cell + 1}, polygon.loops = {corners};
       polygons.push_back(polygon);
     }
   }

@@ -21,7 +21,7 @@
 
 #include "bench_help.hpp"
 #include "ground.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "plots.hpp"
 
 namespace {

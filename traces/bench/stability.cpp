@@ -25,8 +25,8 @@
 #include "../../mesher/bench/random_line.hpp"
 #include "bench_help.hpp"
 #include "ground.hpp"
-#include "mesher/domain_mesh.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/graph.hpp"
 #include "plots.hpp"
 
 namespace {
@@ -34,8 +34,8 @@ namespace {
 using bench::Against;
 using bench::Plot;
 using Ground = bench::Ground<2>;
-using mesher::FeatureId;
 using mesher::Point;
+using mesher::PointId;
 
 const std::vector<bench::Kind> kKinds{
     {"point", "#1b6ca8"}, {"segment", "#c0392b"}, {"polyline", "#2e8b57"}};
@@ -52,7 +52,7 @@ std::vector<Point<2>> random_edit(int kind, const Point<2>& from, double h,
 Ground segments(std::size_t n) {
   const auto pslg = mesher::generate_pslg({mesher::PslgKind::segments, n});
   std::vector<Point<2>> points;
-  std::vector<FeatureId> ids;
+  std::vector<PointId> ids;
   for (const auto& v : pslg.points) points.push_back(v.at), ids.push_back(v.id);
   return Ground(points, ids, mesher::segments_of(pslg));
 }

@@ -28,8 +28,9 @@
 
 #include "../../sac/examples/thesis/mesh.hpp"
 #include "bench_help.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/mesh_statically.hpp"
+#include "mesher/extra/generate.hpp"
 #include "plots.hpp"
 
 namespace {
@@ -83,7 +84,7 @@ template <int D>
 class Ours {
  public:
   explicit Ours(const std::vector<Point<D>>& points) : mesher_(options<D>()) {
-    std::vector<mesher::FeatureId> ids;
+    std::vector<mesher::PointId> ids;
     for (std::size_t i = 1; i <= points.size(); ++i) ids.push_back(id(i));
     mesher_.insert(ids, points);
     const double seconds = bench::seconds_of([&] { mesher_.update(); });
@@ -112,11 +113,9 @@ class Ours {
   }
 
  private:
-  static mesher::FeatureId id(std::size_t i) {
-    return mesher::FeatureId{static_cast<std::int64_t>(i)};
-  }
-  static constexpr mesher::FeatureId kEdited{1'000'000'000};
-  mesher::Mesher<D> mesher_;
+  static mesher::PointId id(std::size_t i) { return mesher::PointId{static_cast<std::int64_t>(i)}; }
+  static constexpr mesher::PointId kEdited{1'000'000'000};
+  mesher::BoxMesher<D> mesher_;
 };
 
 template <int D>

@@ -11,8 +11,8 @@
 namespace tool {
 namespace {
 
-using mesher::FeatureId;
 using mesher::Point;
+using mesher::PointId;
 
 template <int D>
 double distance2(const Point<D>& a, const Point<D>& b) {
@@ -42,9 +42,9 @@ double least_distance2(std::vector<Point<D>> points) {
 constexpr int kFirstScale = 3;
 constexpr std::uint64_t kScales = 40;
 
-std::vector<FeatureId> first_ids(std::size_t count) {
-  std::vector<FeatureId> ids;
-  for (std::size_t i = 1; i <= count; ++i) ids.push_back(FeatureId{static_cast<std::int64_t>(i)});
+std::vector<PointId> first_ids(std::size_t count) {
+  std::vector<PointId> ids;
+  for (std::size_t i = 1; i <= count; ++i) ids.push_back(PointId{static_cast<std::int64_t>(i)});
   return ids;
 }
 
@@ -63,9 +63,11 @@ MeshSubject<D>::MeshSubject(const mesher::Options<D>& options, std::vector<Point
 template <int D>
 mesher::Mesher<D> MeshSubject<D>::meshed(const mesher::Options<D>& options,
                                          const std::vector<Point<D>>& points,
-                                         const std::vector<FeatureId>& ids) {
-  mesher::Mesher<D> mesher(options);
-  mesher.insert(ids, points);
+                                         const std::vector<PointId>& ids) {
+  mesher::Options<D> of_box = options;
+  of_box.extent = mesher::Extent::box;
+  mesher::Mesher<D> mesher(of_box);
+  for (std::size_t i = 0; i < ids.size(); ++i) mesher.insert(ids[i], points[i]);
   mesher.update();
   return mesher;
 }
@@ -113,11 +115,11 @@ Point<D> MeshSubject<D>::insert() {
   for (;;) {
     const Point<D> p = somewhere();
     try {
-      mesher_.insert(FeatureId{next_id_}, p);
+      mesher_.insert(PointId{next_id_}, p);
     } catch (const mesher::Error&) {
       continue;
     }
-    ids_.push_back(FeatureId{next_id_++});
+    ids_.push_back(PointId{next_id_++});
     points_.push_back(p);
     return p;
   }

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/mesher.hpp"
 #include "traces/stability.hpp"
 
@@ -36,7 +36,7 @@ class MeshSubject final : public traces::Subject {
  private:
   [[nodiscard]] static mesher::Mesher<D> meshed(const mesher::Options<D>& options,
                                                 const std::vector<mesher::Point<D>>& points,
-                                                const std::vector<mesher::FeatureId>& ids);
+                                                const std::vector<mesher::PointId>& ids);
   [[nodiscard]] mesher::Point<D> somewhere();
   [[nodiscard]] double side() const;
   mesher::Point<D> insert();
@@ -44,7 +44,7 @@ class MeshSubject final : public traces::Subject {
 
   mesher::Options<D> options_;
   std::vector<mesher::Point<D>> points_;
-  std::vector<mesher::FeatureId> ids_;
+  std::vector<mesher::PointId> ids_;
   std::int64_t next_id_;
   mesher::SplitMix64 random_;
   mesher::Mesher<D> mesher_;

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "mesher/output_files.hpp"
+#include "mesher/write.hpp"
 
 namespace tool {
 namespace {

@@ -16,7 +16,7 @@
 #include "example_subject.hpp"
 #include "mesh_subject.hpp"
 #include "mesher/error.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace tool {
 namespace {

@@ -54,7 +54,8 @@ struct Delaunay {
 };
 
 /// The Delaunay triangulation. `points`: n x D; coordinates 0 or of magnitude 2^-100 to 2^100.
-/// Throws: Error (not_finite, magnitude, naming the point by its place in `points`, from 1; too_many
+/// Throws: Error (not_finite, magnitude, naming the point by its place in `points`, from 1;
+/// too_many
 ///         beyond 2^30 simplices or 2^32 - 2 points).
 /// Cost: expected O(n log n) in the plane, and in space for points like those of a volume or a
 ///       smooth surface; O(n^2) in space at worst, as so many simplices may be Delaunay. Memory at

@@ -5,8 +5,8 @@
 // flood that does not cross segments [rules A6].
 //
 // Example:
-//   const Domain domain = find_domain(whole, whole.features.edges, seeds, Extent::enclosed);
-//   for (const SeedFault& fault : domain.faults) std::cerr << describe(fault) << '\n';
+//   const Domain<2> domain = find_domain(whole, whole.features.edges, seeds, Extent::enclosed);
+//   for (const SeedFault<2>& fault : domain.faults) std::cerr << describe(fault) << '\n';
 //   write_mesh(extract(whole, domain).mesh, "lake.vtu");
 //
 // A *wall* is an edge of the mesh that is a part of a segment. A *region* is what triangles reach
@@ -36,38 +36,17 @@
 #include <vector>
 
 #include "mesher/error.hpp"
+#include "mesher/graph.hpp"
 #include "mesher/mesh.hpp"
-#include "mesher/mesh_data.hpp"
 
 namespace mesher {
 
 enum class Zone : std::uint8_t { outside, hole, inside };
 
-/// Which part of the mesh is wanted.
-enum class Extent : std::uint8_t {
-  enclosed,  ///< what segments enclose, less holes; all if they enclose nothing
-  box,       ///< all
-};
-
-/// "hole 3", "region 3".
-[[nodiscard]] std::string text_of(const SeedName& seed);
-
-/// A place that stands for the region around it. D is 2 or 3.
-template <int D>
-struct SeedOf {
-  SeedName name;
-  Point<D> at{};                   ///< finite; 0 or of magnitude 2^-100 to 2^100
-  double attribute = 0;            ///< of a region; finite
-  std::optional<double> max_measure;  ///< of a region's triangles, input units squared, > 0; in space
-                                   ///< of its tetrahedra, input units cubed
-  friend bool operator==(const SeedOf&, const SeedOf&) = default;
-};
-using Seed = SeedOf<2>;
-
 /// What a simplex is part of.
 struct RegionLabel {
   Zone zone = Zone::outside;
-  std::optional<FeatureId> seed;  ///< the hole of a hole, else the region seed if there is one
+  std::optional<SeedId> seed;  ///< the hole of a hole, else the region seed if there is one
   friend bool operator==(const RegionLabel&, const RegionLabel&) = default;
 };
 
@@ -82,39 +61,38 @@ struct Region {
 
 /// A seed that has no region of its own.
 template <int D>
-struct SeedFaultOf {
+struct SeedFault {
   enum class Kind : std::uint8_t {
     outside,     ///< outside of what is kept; of the box, perhaps
     on_segment,  ///< on a wall
     shared,      ///< in the region of `other`
   };
   Kind kind = Kind::outside;
-  SeedName seed;
+  SeedId seed;
   Point<D> at{};
-  std::optional<SeedName> other;  ///< the seed that counts
-  std::optional<FeatureId> line;  ///< the least id of a segment that it is on, where known; in
-                                  ///< space of a polygon
-  friend bool operator==(const SeedFaultOf&, const SeedFaultOf&) = default;
+  std::optional<SeedId> other;  ///< the seed that counts
+  /// The least line that it is on, in space the least polygon; none if not known.
+  Feature wall{};
+  friend bool operator==(const SeedFault&, const SeedFault&) = default;
 };
-using SeedFault = SeedFaultOf<2>;
 
 /// One sentence with ids and place.
 template <int D>
-[[nodiscard]] std::string describe(const SeedFaultOf<D>& fault);
+[[nodiscard]] std::string describe(const SeedFault<D>& fault);
 /// The same as an error of code bad_seed, for those who refuse such input.
 template <int D>
-[[nodiscard]] Error error_of(const SeedFaultOf<D>& fault);
+[[nodiscard]] Error error_of(const SeedFault<D>& fault);
 
 inline constexpr std::uint32_t kNoRegion = UINT32_MAX;
 
 /// The regions of a mesh.
 template <int D>
-struct DomainOf {
+struct Domain {
   std::vector<std::array<std::uint32_t, D + 1>> neighbours;  ///< across from each corner;
                                                              ///< kNoTriangle
   std::vector<std::uint32_t> region_of;  ///< one per simplex: number in `regions`
   std::vector<Region> regions;           ///< ascending by their smallest simplex
-  std::vector<SeedFaultOf<D>> faults;    ///< ascending by seed
+  std::vector<SeedFault<D>> faults;      ///< ascending by seed
   bool keeps_all = true;                 ///< the box is wanted, or nothing enclosed
 
   [[nodiscard]] bool keeps(const Region& region) const {
@@ -124,7 +102,6 @@ struct DomainOf {
     return keeps(regions[region_of[simplex]]);
   }
 };
-using Domain = DomainOf<2>;
 
 /// What simplices are parted by: an edge on a line, or in space a face in a polygon.
 template <int D>
@@ -137,8 +114,8 @@ using WallOf = std::conditional_t<D == 2, MeshEdge, MeshFace>;
 /// Cost: O(m log d) for vertices of degree d (in space O(m log m)), and for each seed O(simplices
 /// above and below it).
 template <int D>
-[[nodiscard]] DomainOf<D> find_domain(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls,
-                                      const std::vector<SeedOf<D>>& seeds, Extent extent);
+[[nodiscard]] Domain<D> find_domain(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls,
+                                    const std::vector<Seed<D>>& seeds, Extent extent);
 
 /// An edge with the regions beside it: numbers in Domain::regions, or kNoRegion.
 struct SidedEdge : MeshEdge {
@@ -155,17 +132,16 @@ inline constexpr std::int64_t kBoundaryMarker = 1;
 /// `domain`: found with these walls. Cost: O(m + w log w).
 [[nodiscard]] std::vector<SidedEdge> sided_edges(const Mesh<2>& mesh,
                                                  const std::vector<MeshEdge>& walls,
-                                                 const Domain& domain);
+                                                 const Domain<2>& domain);
 
 /// A part of a mesh as a mesh of its own, and where its parts were.
 template <int D>
-struct ExtractOf {
-  MeshDataOf<D> mesh;
+struct Extract {
+  MeshData<D> mesh;
   std::vector<std::array<std::uint32_t, D + 1>> neighbours;  ///< across from each corner
   std::vector<std::uint32_t> vertices;   ///< one per vertex: its number in the whole, ascending
   std::vector<std::uint32_t> triangles;  ///< or tetrahedra; likewise
 };
-using Extract = ExtractOf<2>;
 
 /// What `domain` keeps of `whole`, with vertices and triangles in the order of the whole: canonical
 /// if that is. Vertices without a triangle go. Edges are those of sided_edges with a kept side. As
@@ -176,6 +152,6 @@ using Extract = ExtractOf<2>;
 /// a vertex on no segment with a marker gets that of a polygon that it is on (the least).
 /// `domain`: found with whole.features.edges, or .faces. Cost: O(m + w log w); in space O(m log w).
 template <int D>
-[[nodiscard]] ExtractOf<D> extract(const MeshDataOf<D>& whole, const DomainOf<D>& domain);
+[[nodiscard]] Extract<D> extract(const MeshData<D>& whole, const Domain<D>& domain);
 
 }  // namespace mesher

@@ -20,42 +20,42 @@ namespace mesher {
 
 /// What is wrong; `code_name` gives the word printed in `error[...]`.
 enum class ErrorCode : std::uint8_t {
-  duplicate_point,    ///< two input points with equal coordinates
-  outside_domain,     ///< a point outside the meshing domain
-  not_finite,         ///< NaN or infinity
-  magnitude,          ///< a coordinate that is neither 0 nor within 2^-100 .. 2^100
-  unknown_id,         ///< an id of a point or line that is not there
-  repeated_id,        ///< an id given twice
-  wrong_count,        ///< a header that disagrees with what follows
-  truncated,          ///< the file ends too early
-  bad_number,         ///< not a number, or trailing junk
-  bad_header,         ///< a header that cannot be read
-  bad_edit,           ///< an edit that cannot be parsed
-  unbalanced_commit,  ///< begin without commit, or the reverse
-  bad_dimension,      ///< the dimension is not the one asked for
-  bad_syntax,         ///< a text that its format does not allow
-  unsupported,        ///< what a format allows and we do not read
-  bad_mesh,           ///< a mesh file that is not a mesh (index out of range, ...)
-  bad_quality,        ///< `check`: a mesh that does not keep its promise
-  unknown_format,     ///< an extension that no reader or writer knows
-  cannot_read,        ///< the file cannot be opened or read
-  cannot_write,       ///< the file cannot be written
-  bad_option,         ///< an option whose value makes no sense
-  too_close,          ///< features nearer than the domain's resolution
-  crossing_segments,  ///< two segments with a point in common that is no end of both
-  point_on_segment,   ///< an input point between the ends of a segment
+  duplicate_point,       ///< two input points with equal coordinates
+  outside_domain,        ///< a point outside the meshing domain
+  not_finite,            ///< NaN or infinity
+  magnitude,             ///< a coordinate that is neither 0 nor within 2^-100 .. 2^100
+  unknown_id,            ///< an id of a point or line that is not there
+  repeated_id,           ///< an id given twice
+  wrong_count,           ///< a header that disagrees with what follows
+  truncated,             ///< the file ends too early
+  bad_number,            ///< not a number, or trailing junk
+  bad_header,            ///< a header that cannot be read
+  bad_edit,              ///< an edit that cannot be parsed
+  unbalanced_commit,     ///< begin without commit, or the reverse
+  bad_dimension,         ///< the dimension is not the one asked for
+  bad_syntax,            ///< a text that its format does not allow
+  unsupported,           ///< what a format allows and we do not read
+  bad_mesh,              ///< a mesh file that is not a mesh (index out of range, ...)
+  bad_quality,           ///< `check`: a mesh that does not keep its promise
+  unknown_format,        ///< an extension that no reader or writer knows
+  cannot_read,           ///< the file cannot be opened or read
+  cannot_write,          ///< the file cannot be written
+  bad_option,            ///< an option whose value makes no sense
+  too_close,             ///< features nearer than the domain's resolution
+  crossing_segments,     ///< two segments with a point in common that is no end of both
+  point_on_segment,      ///< an input point between the ends of a segment
   overlapping_segments,  ///< two segments with more than a point in common
-  zero_length,        ///< a segment from a point to itself
-  repeated_segment,   ///< two segments between the same points
-  point_in_use,       ///< the removal of a point that is an end of a segment
-  too_many,           ///< more vertices or memory than a run can hold
-  cancelled,          ///< stopped by the user
-  bad_seed,           ///< a hole's or region's seed that has no region of its own
-  bad_polygon,        ///< loops without an area, that repeat a corner, or do not lie in the first
-  not_flat,           ///< a polygon whose corners lie in no plane
-  repeated_polygon,   ///< two polygons with the same loops
-  point_on_polygon,   ///< an input point in a polygon that does not declare it
-  segment_on_polygon,       ///< an edge in a polygon that does not declare it
+  zero_length,           ///< a segment from a point to itself
+  repeated_segment,      ///< two segments between the same points
+  point_in_use,          ///< the removal of a point that is an end of a segment
+  too_many,              ///< more vertices or memory than a run can hold
+  cancelled,             ///< stopped by the user
+  bad_seed,              ///< a hole's or region's seed that has no region of its own
+  bad_polygon,         ///< loops without an area, that repeat a corner, or do not lie in the first
+  not_flat,            ///< a polygon whose corners lie in no plane
+  repeated_polygon,    ///< two polygons with the same loops
+  point_on_polygon,    ///< an input point in a polygon that does not declare it
+  segment_on_polygon,  ///< an edge in a polygon that does not declare it
   segment_through_polygon,  ///< a segment and a polygon with a place in common that is no point
   crossing_polygons,        ///< two polygons with a place in common that is on no common edge
   overlapping_polygons,     ///< two polygons in a plane, with an area in common
@@ -63,7 +63,13 @@ enum class ErrorCode : std::uint8_t {
 
 /// What a process exits with.
 enum class ExitCode : int {
-  ok = 0, geometry = 1, usage = 2, format = 3, limit = 4, cancelled = 5, bug = 70
+  ok = 0,
+  geometry = 1,
+  usage = 2,
+  format = 3,
+  limit = 4,
+  cancelled = 5,
+  bug = 70
 };
 
 [[nodiscard]] std::string_view code_name(ErrorCode code) noexcept;

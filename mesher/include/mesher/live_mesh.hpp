@@ -16,8 +16,10 @@
 //   (3) Change::slots names all that came and went, once, in the order of Change's own lists;
 //   (4) what goes leaves its slot free from the next update on: until then the slot shows what was
 //       there. What comes takes the lowest free slots, in canonical order. So slots are a function
-//       of the meshes after each successful update: updates that fail or are stopped leave no trace.
-// A mesher keeps slots from the first call of live() on; they begin as mesh() numbers. Cost: a change's.
+//       of the meshes after each successful update: updates that fail or are stopped leave no
+//       trace.
+// A mesher keeps slots from the first call of live() on; they begin as mesh() numbers. Cost: a
+// change's.
 #pragma once
 
 #include <array>
@@ -39,8 +41,8 @@ class LiveArrays;
 using Slot = std::uint32_t;
 inline constexpr Slot kNoSlot = UINT32_MAX;
 
-/// A change of a mesh by slots. Each list is in the order of the list of that name in Change, and as
-/// long. What was removed is still to be seen in its slot, until the next update.
+/// A change of a mesh by slots. Each list is in the order of the list of that name in Change, and
+/// as long. What was removed is still to be seen in its slot, until the next update.
 struct SlotChange {
   struct Kind {
     Slot vertex = kNoSlot;
@@ -55,8 +57,8 @@ struct SlotChange {
   friend bool operator==(const SlotChange&, const SlotChange&) = default;
 };
 
-/// The live mesh of a mesher: a view, which shows the mesh of the last update() as long as the mesher
-/// is there. Spans hold until the next update().
+/// The live mesh of a mesher: a view, which shows the mesh of the last update() as long as the
+/// mesher is there. Spans hold until the next update().
 template <int D>
 class LiveMesh {
  public:
@@ -71,8 +73,8 @@ class LiveMesh {
   /// By vertex slot. A free slot shows its last vertex.
   [[nodiscard]] std::span<const Point<D>> points() const noexcept;
   [[nodiscard]] std::span<const VertexKind> kinds() const noexcept;
-  /// By simplex slot, vertex slots: the lexicographically smallest corner first, positively oriented,
-  /// as in Change.
+  /// By simplex slot, vertex slots: the lexicographically smallest corner first, positively
+  /// oriented, as in Change.
   [[nodiscard]] std::span<const Simplex> simplices() const noexcept;
   /// By simplex slot: across from each corner the simplex there; kNoSlot at the boundary.
   [[nodiscard]] std::span<const Simplex> neighbours() const noexcept;

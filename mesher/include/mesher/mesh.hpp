@@ -9,8 +9,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
+#include "mesher/error.hpp"
 #include "mesher/ids.hpp"
 
 namespace mesher {
@@ -41,23 +46,6 @@ enum class VertexKind : std::uint8_t {
   segment = 3,  ///< between the ends of a line of the input; in space also on a polygon
 };
 
-/// A line of the input between two of its points. Several may share an id: a polyline.
-struct Segment {
-  FeatureId id{};
-  FeatureId from{}, to{};  ///< points
-  friend bool operator==(const Segment&, const Segment&) = default;
-};
-
-/// A flat piece of surface between loops of points. A place is in it if an odd number of loops go
-/// around it; the first loop goes around all others.
-struct Polygon {
-  FeatureId id{};
-  std::vector<std::vector<FeatureId>> loops;      ///< points, three or more, either way around
-  std::vector<std::array<FeatureId, 2>> edges{};  ///< between points, declared to lie inside
-  std::vector<FeatureId> points{};                ///< declared to lie inside
-  friend bool operator==(const Polygon&, const Polygon&) = default;
-};
-
 template <int D>
 class SizeField;
 
@@ -85,14 +73,39 @@ struct AllBoxLimits : std::vector<BoxLimits<D>> {
   AllBoxLimits() noexcept {}
 };
 
-/// Where limits of size count, and those of regions: see region_limits in domain_mesh.hpp.
+/// Where limits of size count, and those of regions: see Options::region_limits.
 template <int D>
 class RegionLimits;
+
+/// Which part of the mesh is wanted.
+enum class Extent : std::uint8_t {
+  enclosed,  ///< what lines enclose, in space polygons, less holes; all if they enclose nothing
+  box,       ///< all of the domain, and of the box around it
+};
+
+/// How a mesh is made. Each gives another mesh.
+enum class Algorithm : std::uint8_t {
+  automatic,  ///< the fastest of these that knows what is asked for
+  refine,     ///< Delaunay refinement, from the triangulation of all points [Fig 2.1]
+  svr,        ///< sparse Voronoi refinement [Ch 2, 3]
+  gap_balls,  ///< the mesh that a Mesher keeps under edits [Ch 4]
+};
+
+/// Whether the largest areas, or volumes, of regions are limits of size.
+enum class RegionAreas : std::uint8_t { ignored, limits };
+
+namespace detail {
+/// What the plane has none of: nothing can be assigned to it.
+struct InSpaceAlone {
+  friend bool operator==(const InSpaceAlone&, const InSpaceAlone&) = default;
+};
+}  // namespace detail
 
 /// What to mesh, and how well.
 template <int D>
 struct Options {
-  Box<D> domain{};      ///< where input points may lie; must not be empty
+  /// Where input points may lie. For mesh() it may be left out: snapped_domain of the points.
+  Box<D> domain{};
   double rho = D == 2 ? 1.4142 : 2;  ///< bound of circumradius over shortest edge; in (1.01, 100]
   Rule rule = Rule::radius_edge;
   /// The largest area of a triangle, or volume of a tetrahedron, with its centroid in the domain;
@@ -102,8 +115,23 @@ struct Options {
   AllBoxLimits<D> box_limits{};  ///< instead of these; the last box with a place counts
   std::shared_ptr<const RegionLimits<D>> region_limits{};  ///< null: limits count everywhere
   std::size_t max_vertices = 0;  ///< more are refused with Error(too_many); 0: no limit
-  bool record_weights = false;  ///< keeps what calls do inside, for those who study the trace
+  bool record_weights = false;   ///< keeps what calls do inside, for those who study the trace
+  Extent extent = Extent::enclosed;
+  RegionAreas region_areas = RegionAreas::ignored;
+  Algorithm algorithm = Algorithm::automatic;  ///< of mesh(); a Mesher is gap_balls always
+  /// Degrees; above 0 it stands for rho = 1 / (2 sin(min_angle)): no angle of a triangle (in space
+  /// of a tetrahedron's faces) is smaller. At most 29.6.
+  double min_angle = 0;
+  /// Degrees; reserved: bad_option unless 0. In space alone.
+  std::conditional_t<D == 3, double, detail::InSpaceAlone> min_dihedral{};
 };
+
+/// What bounds on the radius-edge ratio allow for.
+inline constexpr double kLargestMinAngle = 29.6;
+
+/// Options::rho, or the bound that min_angle stands for.
+template <int D>
+[[nodiscard]] double radius_edge_bound(const Options<D>& options);
 
 /// A triangulation of the meshing box.
 /// Vertices are in lexicographic order of coordinates. A simplex lists D+1 vertex indices,
@@ -114,14 +142,13 @@ struct Mesh {
   /// An edge on a line of the input, or in space on an edge of its polygons; low < high.
   struct Edge {
     std::uint32_t low = 0, high = 0;
-    FeatureId line{};
-    bool of_polygon = false;  ///< no segment has it: `line` is the least polygon that does
+    Feature feature{};  ///< the line; the least polygon that has the edge if no line does
     friend auto operator<=>(const Edge&, const Edge&) = default;
   };
   /// A face in a polygon of the input; corners ascend.
   struct Face {
     std::array<std::uint32_t, 3> corners{};
-    FeatureId polygon{};
+    PolygonId polygon{};
     friend auto operator<=>(const Face&, const Face&) = default;
   };
   std::vector<Point<D>> vertices;
@@ -137,5 +164,68 @@ struct Mesh {
 /// and after most edits share it. `points`: n x D, finite; n = 0 gives the unit box.
 template <int D>
 [[nodiscard]] Box<D> snapped_domain(const std::vector<Point<D>>& points);
+
+/// An edge of a mesh that lies on a line of the input, or on the boundary; low < high.
+struct MeshEdge {
+  std::uint32_t low = 0, high = 0;  ///< vertices
+  std::optional<LineId> line{};     ///< the segment or polyline; nothing if none or not known
+  std::int64_t marker = 0;          ///< of the line, or of the boundary
+  friend bool operator==(const MeshEdge&, const MeshEdge&) = default;
+};
+
+/// A face of a mesh of tetrahedra that lies in a polygon of the input, or on the boundary.
+/// Corners: the smallest first; on the boundary counterclockwise seen from outside, else ascending.
+struct MeshFace {
+  std::array<std::uint32_t, 3> corners{};  ///< vertices
+  std::optional<PolygonId> polygon{};      ///< nothing if none or not known
+  std::int64_t marker = 0;                 ///< of the polygon, or of the boundary
+
+  /// The corners, ascending: the same for both sides.
+  [[nodiscard]] std::array<std::uint32_t, 3> key() const {
+    const auto [a, b, c] = corners;
+    return b < c ? corners : std::array<std::uint32_t, 3>{a, c, b};
+  }
+  friend bool operator==(const MeshFace&, const MeshFace&) = default;
+};
+
+/// What is known of a mesh beside its simplices; an array that is empty says nothing.
+struct MeshFeatures {
+  /// One per vertex: the point that it is, or the line that it lies on, or in space the polygon if
+  /// it is on no line; none for other kinds.
+  std::vector<Feature> origins;
+  std::vector<std::int64_t> markers;  ///< one per vertex; 0: none
+  std::vector<double> regions;        ///< one per simplex: its region's attribute, finite
+  std::vector<MeshEdge> edges;        ///< ascending by (low, high), none twice
+  std::vector<MeshFace> faces;        ///< in space; ascending by key(), none twice
+
+  [[nodiscard]] bool empty() const {
+    return origins.empty() && markers.empty() && regions.empty() && edges.empty() && faces.empty();
+  }
+  friend bool operator==(const MeshFeatures&, const MeshFeatures&) = default;
+};
+
+/// A mesh of a file or for one.
+template <int D>
+struct MeshData : Mesh<D> {
+  MeshFeatures features;
+  std::vector<Note> notes;  ///< what the file holds that is not used
+
+  MeshData() = default;
+  explicit MeshData(Mesh<D> mesh, MeshFeatures of = {})
+      : Mesh<D>(std::move(mesh)), features(std::move(of)) {}
+};
+
+/// A mesh of a file that may hold either.
+using AnyMesh = std::variant<MeshData<2>, MeshData<3>>;
+
+/// A neighbour that is not there.
+inline constexpr std::uint32_t kNoTriangle = UINT32_MAX;
+
+/// For each triangle the triangle across from each of its corners, or kNoTriangle.
+/// Requires: no edge borders more than two triangles. Cost: O(m log d) for vertices of degree d.
+[[nodiscard]] std::vector<std::array<std::uint32_t, 3>> neighbours(const Mesh<2>& mesh);
+
+/// The edges of all triangles, (low, high) ascending. Cost: O(m log d).
+[[nodiscard]] std::vector<std::array<std::uint32_t, 2>> edges(const Mesh<2>& mesh);
 
 }  // namespace mesher

@@ -1,21 +1,38 @@
-// A quality Delaunay mesh that follows its input [Hudson, Ch 4].
+// A quality Delaunay mesh that follows its input under edits [Hudson, Ch 4].
 //
 // Example:
-//   mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}};
-//   mesher::Mesher<2> m(options);
-//   m.insert(mesher::FeatureId{1}, {0.25, 0.5});
-//   m.update();                                  // first run
-//   m.insert(mesher::FeatureId{2}, {0.26, 0.5});
-//   auto change = m.update();                    // work near the new point only
+//   mesher::Mesher<2> lake({.domain = {{0, 0}, {1, 1}}});
+//   lake.insert(mesher::read<2>("lake.poly").graph);
+//   lake.update();                                     // first run
+//   lake.move(mesher::PointId{17}, {0.25, 0.5});
+//   lake.insert_hole(2, {0.3, 0.7});
+//   const auto change = lake.update();                 // work near the edits
+//   ... change.domain.kept_added, change.domain.kept_removed ...
+//   mesher::write_mesh(lake.mesh(), "lake.vtu");
 //
 // Guarantees, after every update():
-//   (1) every input point is a vertex, bit for bit;
-//   (2) the triangulation is Delaunay, ties decided by coordinates alone;
-//   (3) no triangle has circumradius / shortest edge > rho;
-//   (4) the mesh is a function of the set of input points and the options alone: not of the order
-//       of edits, the ids, or the machine;
-//   (5) what throws, for whatever reason, leaves the mesh of the last update.
+//   (1) every input point is a vertex, bit for bit; every line is a union of edges, every polygon a
+//       union of faces, but for what lies outside of a mesh of what is enclosed;
+//   (2) the triangulation of the box is Delaunay, ties decided by coordinates alone;
+//   (3) no simplex has circumradius / shortest edge > rho, but at small angles of the input, and in
+//       space where rho is below 2 beside features that are close (reports.hpp);
+//   (4) mesh and regions are a function of the input and the options alone: not of the order of
+//       edits, the ids, or the machine;
+//   (5) what throws, for whatever reason, leaves mesh, regions, seeds and markers of the last
+//       update: all edits of a batch come together or not at all.
 // Between updates edits are only announced: mesh() is the mesh of the last update().
+//
+// Cost of an update: O(log L/s) calls per edited point [Theorem 4.3.8], and with regions (words as
+// in domain.hpp) that of a region where lines join or part regions, or where a seed gives one
+// another label. The first line (in space polygon) or seed that comes to a mesh of points alone
+// costs all its simplices, once.
+//
+// Limits of size count in what is wanted alone: where lines enclose something, in what they
+// enclose. So where there are limits, a second mesh, without, follows the input to tell what that
+// is; an update costs that of both, and where a region becomes or ceases to be wanted, or gets
+// another largest area, the vertices in it; where lines at which limits begin or end are edited,
+// the vertices in the simplices of the second mesh that this changes. A seed that changes nothing
+// but its area costs a look at all simplices of the second mesh.
 #pragma once
 
 #include <array>
@@ -23,25 +40,22 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <stop_token>
+#include <optional>
 #include <vector>
 
-#include "mesher/angles.hpp"
+#include "mesher/domain.hpp"
 #include "mesher/error.hpp"
-#include "mesher/guard.hpp"
+#include "mesher/graph.hpp"
 #include "mesher/live_mesh.hpp"
 #include "mesher/mesh.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/reports.hpp"
 
 namespace sac {
 class Engine;
 }
 
 namespace mesher {
-
-namespace detail {
-template <int D>
-class DomainState;
-}
 
 /// Work done by one run or update, counted in calls of traced functions.
 struct CallCounts {
@@ -68,8 +82,7 @@ struct KindChange {
 template <int D>
 struct LineEdge {
   Point<D> low{}, high{};
-  FeatureId line{};
-  bool of_polygon = false;  ///< as in Mesh::Edge
+  Feature feature{};  ///< as in Mesh::Edge
   friend auto operator<=>(const LineEdge&, const LineEdge&) = default;
 };
 
@@ -77,7 +90,7 @@ struct LineEdge {
 template <int D>
 struct PolygonFace {
   std::array<Point<D>, 3> corners{};
-  FeatureId polygon{};
+  PolygonId polygon{};
   friend auto operator<=>(const PolygonFace&, const PolygonFace&) = default;
 };
 
@@ -98,65 +111,45 @@ struct Change {
   std::vector<PolygonFace<D>> faces_added;  ///< of Mesh::faces, likewise; in the plane none
   std::vector<PolygonFace<D>> faces_removed;
   AngleNews angles;   ///< what small angles of the input did to what has come
-  GuardReport guard;  ///< in space: which new simplices stay poor beside features (guard.hpp)
+  GuardReport guard;  ///< in space: which new simplices stay poor beside features (reports.hpp)
   CallCounts calls;
   SlotChange slots;  ///< the same by slots; empty unless the mesher keeps them: Mesher::live()
 };
 
-/// What a run is at: the three parts of a first or static run, in this order, or an update.
-enum class Phase : std::uint8_t { quadtree, steiner, triangulate, update };
-
-/// How far a run is, in calls of traced functions.
-struct Progress {
-  Phase phase = Phase::quadtree;
-  std::uint64_t done = 0;  ///< calls of this phase that have run
-  std::uint64_t of = 0;    ///< as many are known to be needed, which may grow; 0: not known
-};
-
-/// How to watch a run or an update, and how to stop it.
-struct RunControl {
-  /// Called every kCallsBetween calls (some thousand times a second); false stops. What it throws
-  /// stops as well, and leaves update(). It must not use the mesher, which refuses edits, another
-  /// update and to show its mesh by sac::UsageError.
-  std::function<bool(const Progress&)> progress{};
-  /// A request to stop, from any thread.
-  std::stop_token stop{};
-
-  static constexpr std::uint64_t kCallsBetween = 256;
-};
-
-/// A point of the input.
+/// Triangles by their corners, as in Change, in lexicographic order.
 template <int D>
-struct InputPoint {
-  FeatureId id{};
-  Point<D> at{};
-  friend bool operator==(const InputPoint&, const InputPoint&) = default;
+struct DomainChange {
+  using Corners = std::array<Point<D>, D + 1>;
+  struct Relabelled {
+    Corners corners{};
+    RegionLabel before, after;
+    friend bool operator==(const Relabelled&, const Relabelled&) = default;
+  };
+  std::vector<Corners> kept_added;     ///< kept now, and not before
+  std::vector<Corners> kept_removed;   ///< kept before, and not now
+  std::vector<Relabelled> relabelled;  ///< of the mesh before and after, kept or not
+  std::uint64_t visited = 0;           ///< triangles looked at beyond the change itself
 };
 
-/// A line of the input: segments from point to point.
-struct InputLine {
-  FeatureId id{};
-  std::vector<FeatureId> points;  ///< two or more
-  friend bool operator==(const InputLine&, const InputLine&) = default;
+/// The slots of what DomainChange says is kept now, and what was, in the order there. What went
+/// from the mesh is among the latter with the slot that it had.
+struct KeptSlots {
+  std::vector<Slot> added, removed;
+  friend bool operator==(const KeptSlots&, const KeptSlots&) = default;
 };
 
-/// How large a mesh and its trace are; times of the first run.
-struct MeshStats {
-  std::size_t vertices = 0;
-  std::size_t simplices = 0;
-  double seconds_quadtree = 0;
-  double seconds_steiner = 0;
-  double seconds_triangulate = 0;
-  std::uint64_t calls = 0;        ///< live calls; 0 for a static mesh
-  std::uint64_t edges = 0;        ///< live edges; 0 for a static mesh
-  std::uint64_t trace_bytes = 0;  ///< memory of trace and indices
+/// What an update did to the mesh, and to the domain.
+template <int D>
+struct DomainUpdate : Change<D> {
+  DomainChange<D> domain;
+  KeptSlots kept;  ///< empty unless slots are kept
 };
 
-/// A mesh maintained under insertion and removal of features.
+/// A mesh maintained under insertion and removal of features. D is 2 or 3.
 template <int D>
 class Mesher {
  public:
-  /// Throws: Error(bad_option) for an empty or non-finite domain or rho out of range.
+  /// Throws: Error(bad_option) for an empty or non-finite domain, and for what no mesh can have.
   explicit Mesher(const Options<D>& options);
   Mesher(Mesher&&) noexcept;
   Mesher& operator=(Mesher&&) noexcept;
@@ -164,39 +157,55 @@ class Mesher {
 
   /// Announces a point that is not there; the mesh follows at the next update().
   /// Its place must be free: no point that is announced to be there may share its finest cell.
+  /// `marker`: what its vertex gets in mesh(); the point keeps it when it moves.
   /// Throws: Error (repeated_id, duplicate_point, too_close, outside_domain, not_finite,
   /// magnitude). Cost: O(log n).
-  void insert(FeatureId id, const Point<D>& point);
-  /// All of ids[i] at points[i], or none. Requires: ids.size() == points.size().
-  void insert(const std::vector<FeatureId>& ids, const std::vector<Point<D>>& points);
+  void insert(PointId id, const Point<D>& point, std::int64_t marker = 0);
+  /// Announces all of a graph. Throws: Error as the functions for its parts do, and then nothing of
+  /// it is announced that was not before; edits announced before it are taken back as well.
+  void insert(const Graph<D>& graph);
   /// Announces that a point goes. Throws: Error(unknown_id). Cost: O(1).
-  void remove(FeatureId id);
+  void remove(PointId id);
   /// Announces that a point moves; remove() and then insert() of one id is a move too. Its new
   /// place need not be free yet: where points have moved, update() judges the places that all of
   /// them end at, so that points swap places and moves chain in any order.
   /// Throws: Error (unknown_id, outside_domain, not_finite, magnitude). Cost: O(1).
-  void move(FeatureId id, const Point<D>& point);
+  void move(PointId id, const Point<D>& point);
 
   /// Announces a segment between two points that shall be there; the next update() judges it, as
   /// part of all that is announced then. Lines, segments and polylines, have ids of their own.
   /// Throws: Error (repeated_id; zero_length: from one point to itself; bad_option unless
   /// options().rule is radius_edge). Cost: O(1).
-  void insert_segment(FeatureId id, FeatureId from, FeatureId to);
+  void insert_segment(LineId id, PointId from, PointId to, std::int64_t marker = 0);
   /// Announces segments from point to point under one id. `points`: two or more; the first may be
   /// the last again. Throws: likewise, and Error(bad_option) for fewer. Cost: O(points).
-  void insert_polyline(FeatureId id, const std::vector<FeatureId>& points);
-  /// Announces that a line goes, with all its segments. Throws: Error(unknown_id).
-  void remove_segment(FeatureId id);
-  void remove_polyline(FeatureId id) { remove_segment(id); }
+  void insert_polyline(LineId id, const std::vector<PointId>& points, std::int64_t marker = 0);
+  /// Announces that a segment or polyline goes. Throws: Error(unknown_id).
+  void remove_line(LineId id);
 
-  /// Announces a polygon in space between points that shall be there; likewise. It brings its edges,
-  /// and those that it declares to lie inside; they may be segments, or edges of others, too.
-  /// Polygons have ids of their own. Throws: Error (repeated_id; bad_polygon: a loop of fewer than
-  /// three points, or twice along one; zero_length: an edge from a point to itself; bad_option in
-  /// the plane). Cost: O(points log points).
-  void insert_polygon(const Polygon& polygon);
+  /// Announces a polygon between points that shall be there; likewise. It brings its edges, and
+  /// those that it declares to lie inside; they may be segments, or edges of others, too.
+  /// Throws: Error (repeated_id; bad_polygon: a loop of fewer than three points, or twice along
+  /// one; zero_length: an edge from a point to itself). Cost: O(points log points).
+  void insert_polygon(const Polygon& polygon) requires(D == 3);
   /// Announces that it goes, with the edges that nobody else has. Throws: Error(unknown_id).
-  void remove_polygon(FeatureId id);
+  void remove_polygon(PolygonId id) requires(D == 3);
+
+  /// Announces a seed that shall be there. It may be anywhere: one without a region of its own is
+  /// one of faults(). A seed that is removed and inserted in one batch moves.
+  /// Throws: Error (repeated_id, and as find_domain). Cost: O(log s).
+  void insert_seed(const Seed<D>& seed);
+  void insert_hole(std::int64_t number, const Point<D>& at) {
+    insert_seed(hole_seed<D>(number, at));
+  }
+  void insert_region(std::int64_t number, const Point<D>& at, double attribute,
+                     std::optional<double> max_measure = {}) {
+    insert_seed(region_seed<D>(number, at, attribute, max_measure));
+  }
+  /// Announces that a seed goes. Throws: Error(unknown_id). Cost: O(log s).
+  void remove_seed(const SeedId& id);
+  void remove_hole(std::int64_t number) { remove_seed(hole_id(number)); }
+  void remove_region(std::int64_t number) { remove_seed(region_id(number)); }
 
   /// Announces limits of size in place of all that there were; none by default.
   /// Throws: Error(bad_option), as a mesher with these limits. Cost: O(1).
@@ -210,102 +219,69 @@ class Mesher {
   /// Cost: O(edits).
   void discard_edits() noexcept;
 
-  /// Brings the mesh up to date with the edits announced since the last call, as one batch, or
-  /// leaves the mesh as it was.
+  /// Brings mesh and regions up to date with the edits announced since the last call, as one batch,
+  /// or leaves them as they were.
   /// Throws: Error(cancelled) if `control` has stopped it: the edits stay announced, for another
   /// update() or discard_edits(). Error (duplicate_point, too_close: points that have moved onto
   /// others, or places too near to each other for the vertices that they need; crossing_segments,
   /// point_on_segment, overlapping_segments, repeated_segment; point_in_use: an end of a segment is
   /// removed; unknown_id: a segment's end is not there; of polygons bad_polygon, not_flat,
   /// repeated_polygon, point_on_polygon, segment_on_polygon, segment_through_polygon,
-  /// crossing_polygons, overlapping_polygons), std::bad_alloc, or
-  /// what control.progress throws: the edits are taken back as well.
-  /// Cost: O(log L/s) calls per edited point [Theorem 4.3.8], each O(log L/s), the first time per
-  /// vertex; per vertex that was or is on lines that come, go or have a point that moves, and where
-  /// limits of size are edited; stopped or failed, as much again to take back what was done.
-  Change<D> update(const RunControl& control = {});
-  /// The same, with a last word on the change before it is final: what `accept` throws leaves
-  /// update(), and the mesh stays as it was. It must not use the mesher.
-  using Accept = std::function<void(const Change<D>&)>;
-  Change<D> update(const RunControl& control, const Accept& accept);
+  /// crossing_polygons, overlapping_polygons), std::bad_alloc, or what control.progress throws: the
+  /// edits are taken back as well.
+  DomainUpdate<D> update(const RunControl& control = {});
 
-  /// The mesh of the last update() in canonical form, whatever has been announced since; empty
-  /// before the first. Cost: O(m log m).
-  [[nodiscard]] Mesh<D> mesh() const;
+  /// What is wanted of the mesh of the last update(), with features, whatever has been announced
+  /// since, in canonical form: mesher::mesh(input(), options()). Empty before the first. Cost: O(m
+  /// log m).
+  [[nodiscard]] MeshData<D> mesh() const { return domain_mesh().mesh; }
+  /// The same with its regions.
+  [[nodiscard]] DomainMesh<D> domain_mesh() const;
+  /// The mesh of all of the box, without features. Cost: O(m log m).
+  [[nodiscard]] Mesh<D> box_mesh() const;
 
-  /// The mesh of the last update() in arrays by slot, numbers that last: see live_mesh.hpp. Empty
-  /// before the first. The first call begins to keep slots. Cost: O(1); where slots begin, that of
-  /// mesh().
+  /// The mesh of the box in arrays by slot, numbers that last: see live_mesh.hpp; keeps(slot) tells
+  /// what is wanted. Empty before the first update(). The first call begins to keep slots, which
+  /// cost memory and a part of each update. Cost: O(1); where slots begin, that of box_mesh().
   [[nodiscard]] LiveMesh<D> live() const;
-  /// Whether slots are kept, and Change::slots filled: not by default, since they cost memory and a
-  /// part of each update. They begin with the numbers of mesh().
-  /// Cost: that of mesh() to begin.
+  /// Whether slots are kept, and Change::slots filled.
   void keep_slots(bool keep);
   [[nodiscard]] bool keeps_slots() const noexcept;
 
-  /// The points, lines and polygons of the last update(), ascending by id. Cost: O(n log n).
-  [[nodiscard]] std::vector<InputPoint<D>> points() const;
-  [[nodiscard]] std::vector<InputLine> lines() const;
-  [[nodiscard]] std::vector<Polygon> polygons() const;
+  /// The graph of the last update(), ascending by id; a line of two points is a segment.
+  /// Cost: O(n log n).
+  [[nodiscard]] Graph<D> input() const;
 
-  /// Number of input points that are announced to be there.
-  [[nodiscard]] std::size_t size() const;
-  /// Whether the line is announced to be there.
-  [[nodiscard]] bool contains_line(FeatureId id) const;
-  /// Whether the polygon is.
-  [[nodiscard]] bool contains_polygon(FeatureId id) const;
-  /// Whether the point is announced to be there.
-  [[nodiscard]] bool contains(FeatureId id) const;
-  /// Of the last update(); times of the first. Cost: O(1).
+  /// Requires: a simplex of the mesh, from any corner. Cost: O(1) for vertices of bounded degree.
+  [[nodiscard]] RegionLabel label(const typename DomainChange<D>::Corners& simplex) const;
+  [[nodiscard]] bool keeps(const typename DomainChange<D>::Corners& simplex) const;
+  /// The same by its slot. Requires: live().is_simplex(simplex).
+  [[nodiscard]] RegionLabel label(Slot simplex) const;
+  [[nodiscard]] bool keeps(Slot simplex) const;
+  /// Of the last update(); without the lines' ids. Cost: O(seeds).
+  [[nodiscard]] std::vector<SeedFault<D>> faults() const;
+
+  /// Whether it is announced to be there.
+  [[nodiscard]] bool contains(PointId id) const;
+  [[nodiscard]] bool contains(LineId id) const;
+  [[nodiscard]] bool contains(PolygonId id) const requires(D == 3);
+  [[nodiscard]] bool contains(const SeedId& id) const;
+
+  /// Of box_mesh(); calls, edges and bytes of the second mesh, too, if there is one.
+  /// Cost: O(1); with a second mesh, O(its simplices).
   [[nodiscard]] MeshStats stats() const;
-  /// With the limits of size of the last update().
+  /// As given, but with rho in place of min_angle, Algorithm::gap_balls, and the limits of the last
+  /// update: mesh(input(), options()) gives mesh().
   [[nodiscard]] const Options<D>& options() const;
-
-  /// The engine, for those who look at its trace. The first update() puts another in its place.
+  /// The engine of box_mesh(), whose trace can be recorded.
   [[nodiscard]] const sac::Engine& engine() const;
 
-  /// Throws std::logic_error naming the broken invariant. Cost: O(trace).
+  /// Throws std::logic_error naming the broken invariant. Cost: O(trace + m log m).
   void check_invariants() const;
 
  private:
-  friend class detail::DomainState<D>;  // which keeps the limits of regions up to date
-  void announce_to(Mesher& other) const;
-  // In the mesh of the last update, while another runs. Requires: keeps_slots().
-  [[nodiscard]] Slot last_slot(const std::array<Point<D>, D + 1>& simplex) const;
-  void limit_regions(std::shared_ptr<const RegionLimits<D>> regions,
-                     const std::vector<Box<D>>& where);
-  [[nodiscard]] bool has_limits() const;
-
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// The same algorithms without the engine: the mesh that Mesher would have after inserting
-/// `points`, bit for bit. `points`: n x D; `ids`: as many, only used in errors (empty: 1..n).
-/// Requires: ids.empty() || ids.size() == points.size().
-/// Throws: Error (bad_option, cancelled, and as Mesher::insert and update), std::bad_alloc, what
-/// control.progress throws.
-template <int D>
-[[nodiscard]] Mesh<D> mesh_statically(const std::vector<Point<D>>& points,
-                                      const Options<D>& options,
-                                      const std::vector<FeatureId>& ids = {},
-                                      MeshStats* stats = nullptr, const RunControl& control = {});
-
-/// The same with segments between the points, named by their ids: every segment is a union of edges
-/// of the mesh. Throws also: Error(bad_option) unless options.rule is radius_edge;
-/// Error(unknown_id).
-[[nodiscard]] Mesh<2> mesh_statically(const std::vector<Point<2>>& points,
-                                      const std::vector<Segment>& segments,
-                                      const Options<2>& options,
-                                      const std::vector<FeatureId>& ids = {},
-                                      MeshStats* stats = nullptr, const RunControl& control = {});
-
-/// The same in space, with polygons.
-[[nodiscard]] Mesh<3> mesh_statically(const std::vector<Point<3>>& points,
-                                      const std::vector<Segment>& segments,
-                                      const std::vector<Polygon>& polygons,
-                                      const Options<3>& options,
-                                      const std::vector<FeatureId>& ids = {},
-                                      MeshStats* stats = nullptr, const RunControl& control = {});
 
 }  // namespace mesher

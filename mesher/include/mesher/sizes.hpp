@@ -1,8 +1,8 @@
 // How large simplices may be, as a function of place.
 //
 // A size h at p allows a simplex with its centroid at p the measure of a regular one with edges of
-// length h: a triangle the area sqrt(3) / 4 h^2, a tetrahedron the volume h^3 / (6 sqrt(2)). Where a
-// size is infinite there is no limit.
+// length h: a triangle the area sqrt(3) / 4 h^2, a tetrahedron the volume h^3 / (6 sqrt(2)). Where
+// a size is infinite there is no limit.
 //
 // Example: fine around the origin, and coarser with the distance.
 //   options.sizes = std::make_shared<mesher::SlopedSizes<2>>(
@@ -21,7 +21,6 @@
 #include <vector>
 
 #include "mesher/mesh.hpp"
-#include "mesher/pslg.hpp"
 
 namespace mesher {
 
@@ -72,6 +71,15 @@ class SlopedSizes final : public SizeField<D> {
   double slope_, least_;
 };
 
+/// The size that a background asks for at a place. h: an edge's length, input units, > 0.
+/// D is 2 or 3.
+template <int D>
+struct SizeSample {
+  Point<D> at{};
+  double h = 0;
+  friend bool operator==(const SizeSample&, const SizeSample&) = default;
+};
+
 /// What a background says between its samples: linear on the simplices of their Delaunay
 /// triangulation. Around them it goes on to a square (a cube) four times as wide, and from there as
 /// it is on its side; at its corners the size is that of the nearest sample. So samples may all be
@@ -81,7 +89,7 @@ class SlopedSizes final : public SizeField<D> {
 /// Cost: as delaunay(); of a look at a place, O(log n) where simplices are not long and thin.
 template <int D = 2>
 [[nodiscard]] std::shared_ptr<const SizeField<D>> sampled_sizes(
-    const std::vector<std::type_identity_t<SizeSampleOf<D>>>& samples);
+    const std::vector<std::type_identity_t<SizeSample<D>>>& samples);
 
 /// What Mesher::limit makes of options: these limits everywhere, or in a box. D is 2 or 3.
 template <int D>

@@ -164,8 +164,7 @@ void VoronoiCell3::adopt(const Vertex<3>& v, double radius, std::span<const Neig
 }
 
 // The nearest first: then few cut what the next ones take away again.
-void VoronoiCell3::begin_among(const Vertex<3>& v, double radius,
-                               std::span<Neighbour> neighbours) {
+void VoronoiCell3::begin_among(const Vertex<3>& v, double radius, std::span<Neighbour> neighbours) {
   reset(v, radius);
   std::sort(neighbours.begin(), neighbours.end(), [&](const Neighbour& a, const Neighbour& b) {
     return squared_distance(a.place, v.p) < squared_distance(b.place, v.p);

@@ -4,11 +4,10 @@
 // were next to it: the side of any other would have to cross the lost one's plane, and then was
 // next to it. So its triangles are taken from the link, and the hole is filled by ears: three in a
 // row whose ball no other of the rim is in.
-#include "cells/voronoi_cell3.hpp"
-
 #include <algorithm>
 #include <cstddef>
 
+#include "cells/voronoi_cell3.hpp"
 #include "geometry/circumcentre.hpp"
 #include "geometry/space_vectors.hpp"
 #include "mesher/predicates.hpp"

@@ -9,10 +9,11 @@
 #include "check/mesh_lines.hpp"
 #include "check/shrunk_vertices.hpp"
 #include "geometry/input_point.hpp"
-#include "mesher/angles.hpp"
 #include "mesher/check.hpp"
+#include "mesher/reports.hpp"
 #include "rules/mesh_box.hpp"
 #include "sizes/limits.hpp"
+#include "text/id_text.hpp"
 #include "text/text.hpp"
 
 namespace mesher {
@@ -69,7 +70,7 @@ class Report {
   SmallAngle& angle(std::uint32_t s, std::uint32_t t, std::uint32_t apex) {
     const auto [it, is_new] = angles_.try_emplace({apex, std::min(s, t), std::max(s, t)});
     if (is_new) {
-      const FeatureId one = lines_.segments()[s].line, other = lines_.segments()[t].line;
+      const LineId one = lines_.segments()[s].line, other = lines_.segments()[t].line;
       it->second.at = mesh_.vertices[apex];
       it->second.lines = {std::min(one, other), std::max(one, other)};
       it->second.degrees = lines_.degrees(s, t, apex);
@@ -123,8 +124,6 @@ std::string number(double x) {
   std::snprintf(text, sizeof text, "%.4g", x);
   return text;
 }
-
-std::string id_text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
 }  // namespace
 

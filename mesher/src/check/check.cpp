@@ -17,7 +17,7 @@ using detail::Verdict;
 
 class Checker {
  public:
-  Checker(const Mesh<2>& mesh, const CheckOptions& options)
+  Checker(const Mesh<2>& mesh, const CheckOptions<2>& options)
       : mesh_(mesh), options_(options), checked_(mesh) {}
 
   std::vector<Finding> run() {
@@ -30,13 +30,13 @@ class Checker {
         is_mesh && (options_.boundary == BoundaryRule::box ? tiles_box() : tiles_domain());
     if (tiles) check("delaunay", &Checker::delaunay);
     if (tiles && has_lines() && !options_.constrained) check("conforming", &Checker::conforming);
-    if (options_.input != nullptr || options_.graph != nullptr) check("input", &Checker::input);
+    if (options_.graph != nullptr) check("input", &Checker::input);
     if (tiles && has_lines()) check("regions", &Checker::regions);
     if (tiles && has_paths_ && detail::tells_markers(options_)) {
       findings_.add("markers", detail::check_markers(checked_, paths_, options_));
     }
     if (tiles && options_.rho) check("quality", &Checker::quality);
-    if (tiles && options_.max_area) check("area", &Checker::area);
+    if (tiles && options_.max_measure) check("area", &Checker::area);
     return findings_.take();
   }
 
@@ -51,7 +51,8 @@ class Checker {
   bool tiles_box() { return check("hull", &Checker::hull) && check("euler", &Checker::euler); }
 
   bool tiles_domain() {
-    if (mesh_.simplices.empty() && options_.graph != nullptr && !options_.graph->pslg.holes.empty()) {
+    if (mesh_.simplices.empty() && options_.graph != nullptr &&
+        !options_.graph->graph.holes().empty()) {
       return findings_.add("overlap", good("no triangles: lines enclose nothing but holes"));
     }
     if (!findings_.add("overlap", detail::check_overlap(checked_))) return false;
@@ -167,22 +168,11 @@ class Checker {
     return good(std::to_string(inner) + " inner edges");
   }
 
-  [[nodiscard]] std::vector<detail::InputPoint<2>> input_points() const {
-    std::vector<detail::InputPoint<2>> all;
-    if (options_.input != nullptr) all = detail::input_points(*options_.input);
-    if (const PslgFile* const graph = options_.graph) {
-      for (std::size_t i = 0; i < graph->pslg.points.size(); ++i) {
-        const auto& point = graph->pslg.points[i];
-        all.push_back({point.at, point.id, graph->points[i].line});
-      }
-    }
-    return all;
-  }
-
   Verdict input() {
-    return detail::check_input<2>(mesh_, input_points(), [&](const Point<2>& p) {
-      return options_.boundary != BoundaryRule::box && !checked_.triangle_at(p);
-    });
+    return detail::check_input<2>(
+        mesh_, detail::input_points(*options_.graph), [&](const Point<2>& p) {
+          return options_.boundary != BoundaryRule::box && !checked_.triangle_at(p);
+        });
   }
 
   Verdict regions() { return detail::check_regions(checked_, on_lines_, options_); }
@@ -202,9 +192,9 @@ class Checker {
       const Point<2>&p = at(a), &q = at(b), &r = at(c);
       const double area = ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
       largest = std::max(largest, area);
-      if (area <= *options_.max_area * (1 + kRounding)) continue;
+      if (area <= *options_.max_measure * (1 + kRounding)) continue;
       return bad(checked_.triangle(i) + " has the area " + text::to_text(area) + ", above " +
-                 text::to_text(*options_.max_area));
+                 text::to_text(*options_.max_measure));
     }
     return good("areas at most " + text::to_text(largest));
   }
@@ -221,7 +211,7 @@ class Checker {
   [[nodiscard]] const Point<2>& at(std::size_t v) const { return checked_.at(v); }
 
   const Mesh<2>& mesh_;
-  const CheckOptions& options_;
+  const CheckOptions<2>& options_;
   detail::CheckedMesh checked_;
   detail::Findings findings_;
   std::vector<HalfEdge> border_;  // of edges with one triangle
@@ -233,10 +223,10 @@ class Checker {
 
 }  // namespace
 
-BoundaryRule boundary_rule(const MeshData& mesh, const PslgFile* graph) {
+BoundaryRule boundary_rule(const MeshData<2>& mesh, const GraphFile<2>* graph) {
   const bool has_lines =
-      !mesh.features.edges.empty() || (graph != nullptr && (!graph->pslg.segments.empty() ||
-                                                            !graph->pslg.polylines.empty()));
+      !mesh.features.edges.empty() ||
+      (graph != nullptr && (!graph->graph.segments.empty() || !graph->graph.polylines.empty()));
   if (!has_lines) return BoundaryRule::box;
   if (graph == nullptr || mesh.simplices.empty()) return BoundaryRule::lines;
   const detail::CheckedMesh checked(mesh);
@@ -245,11 +235,11 @@ BoundaryRule boundary_rule(const MeshData& mesh, const PslgFile* graph) {
   const bool fills = std::all_of(border.begin(), border.end(), [&](const HalfEdge& e) {
     return detail::is_on_side<2>(box, {mesh.vertices[e.from], mesh.vertices[e.to]});
   });
-  return fills && !detail::has_corners<2>(box, graph->pslg.points) ? BoundaryRule::box
-                                                                   : BoundaryRule::lines;
+  return fills && !detail::has_corners<2>(box, graph->graph.points) ? BoundaryRule::box
+                                                                    : BoundaryRule::lines;
 }
 
-std::vector<Finding> check_mesh(const Mesh<2>& mesh, const CheckOptions& options) {
+std::vector<Finding> check_mesh(const Mesh<2>& mesh, const CheckOptions<2>& options) {
   return Checker(mesh, options).run();
 }
 

@@ -12,7 +12,7 @@ namespace mesher::detail {
 
 namespace {
 
-std::string name_of(const char* kind, FeatureId id) {
+std::string name_of(const char* kind, auto id) {
   return std::string(kind) + std::to_string(static_cast<std::int64_t>(id));
 }
 
@@ -36,14 +36,14 @@ std::optional<std::uint32_t> tetrahedron_at(const Mesh<3>& mesh, const Point<3>&
   return first;
 }
 
-ComplexCheck::ComplexCheck(const Mesh<3>& mesh, const SpaceCheckOptions& options,
+ComplexCheck::ComplexCheck(const Mesh<3>& mesh, const CheckOptions<3>& options,
                            const HalfFaces& faces)
     : mesh_(mesh),
       options_(options),
       rounding_(rounding_of(mesh)),
       segments_(Verdict::good("")),
       polygons_(Verdict::good("")) {
-  for (const auto& p : options.complex->plc.points) places_[p.id] = p.at;
+  for (const auto& p : options.graph->graph.points) places_[p.id] = p.at;
   add_lines();
   segments_ = find_segments(faces);
   polygons_ = find_polygons(faces);
@@ -52,31 +52,31 @@ ComplexCheck::ComplexCheck(const Mesh<3>& mesh, const SpaceCheckOptions& options
 
 // --- Segments --------------------------------------------------------------------------------
 
-std::size_t ComplexCheck::line(FeatureId a, FeatureId b, const std::string& name) {
-  const std::array<FeatureId, 2> ends{std::min(a, b), std::max(a, b)};
+std::size_t ComplexCheck::line(PointId a, PointId b, const std::string& name) {
+  const std::array<PointId, 2> ends{std::min(a, b), std::max(a, b)};
   const auto [it, is_new] = line_of_.try_emplace(ends, lines_.size());
   if (is_new) lines_.push_back({name, ends, places_.at(ends[0]), places_.at(ends[1])});
   return it->second;
 }
 
 void ComplexCheck::add_lines() {
-  const Plc& plc = options_.complex->plc;
-  for (const auto& s : plc.segments) line(s.from, s.to, name_of("segment ", s.id));
-  for (const auto& f : plc.facets) {
+  const Graph<3>& plc = options_.graph->graph;
+  for (const auto& s : segments_of(plc)) line(s.from, s.to, name_of("segment ", s.id));
+  for (const auto& f : plc.polygons) {
     Surface& surface = surfaces_.emplace_back();
-    surface.polygon = &f.polygon;
-    const std::string name = "an edge of " + name_of("polygon ", f.polygon.id);
-    for (const auto& loop : f.polygon.loops) {
+    surface.polygon = &f;
+    const std::string name = "an edge of " + name_of("polygon ", f.id);
+    for (const auto& loop : f.loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
         surface.lines.push_back(line(loop[i], loop[(i + 1) % loop.size()], name));
       }
       surface.points.insert(loop.begin(), loop.end());
     }
-    for (const auto& [a, b] : f.polygon.edges) {
+    for (const auto& [a, b] : f.edges) {
       surface.lines.push_back(line(a, b, name));
       surface.points.insert({a, b});
     }
-    surface.points.insert(f.polygon.points.begin(), f.polygon.points.end());
+    surface.points.insert(f.points.begin(), f.points.end());
   }
 }
 

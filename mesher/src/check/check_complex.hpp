@@ -1,5 +1,5 @@
 // What of a mesh of tetrahedra are parts of the segments and polygons of a complex, found from the
-// places of vertices and verified; see (b) to (d) of space_check.hpp.
+// places of vertices and verified; see (b) to (d) of check.hpp.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 #include "check/verdict.hpp"
 #include "mesh/half_faces.hpp"
-#include "mesher/space_check.hpp"
+#include "mesher/check.hpp"
 
 namespace mesher::detail {
 
@@ -21,8 +21,8 @@ namespace mesher::detail {
 
 class ComplexCheck {
  public:
-  /// `options.complex` is given. All must outlive this. Requires: (1) to (4) hold.
-  ComplexCheck(const Mesh<3>& mesh, const SpaceCheckOptions& options, const HalfFaces& faces);
+  /// `options.graph` is given. All must outlive this. Requires: (1) to (4) hold.
+  ComplexCheck(const Mesh<3>& mesh, const CheckOptions<3>& options, const HalfFaces& faces);
 
   [[nodiscard]] const Verdict& segments() const { return segments_; }
   [[nodiscard]] const Verdict& polygons() const { return polygons_; }
@@ -40,10 +40,10 @@ class ComplexCheck {
   // An edge of the complex, called by its segment, or else by the polygon that has it.
   struct Line {
     std::string name;
-    std::array<FeatureId, 2> ends;
+    std::array<PointId, 2> ends;
     Point<3> from, to;
     std::vector<std::vector<std::uint32_t>>
-        runs{};  // of vertices that edges join; one if it is whole
+        runs{};                          // of vertices that edges join; one if it is whole
     std::vector<std::uint32_t> alone{};  // vertices on it, but on no edge of it
   };
   using Ends = std::array<std::uint32_t, 2>;  // low, high
@@ -51,7 +51,7 @@ class ComplexCheck {
     const Polygon* polygon;
     std::vector<std::size_t> lines;
     std::set<Ends> border, inner;   // the edges that loops, and declared edges, are unions of
-    std::set<FeatureId> points;     // all that it names
+    std::set<PointId> points;       // all that it names
     std::vector<std::uint32_t> on;  // vertices on it, ascending
     std::vector<Face> tiles;
   };
@@ -61,9 +61,9 @@ class ComplexCheck {
   };
 
   void add_lines();
-  std::size_t line(FeatureId a, FeatureId b, const std::string& name);
+  std::size_t line(PointId a, PointId b, const std::string& name);
   Verdict find_segments(const HalfFaces& faces);
-  void add_edges(Surface& surface, const std::vector<FeatureId>& ends, std::set<Ends>& edges);
+  void add_edges(Surface& surface, const std::vector<PointId>& ends, std::set<Ends>& edges);
   Verdict find_polygons(const HalfFaces& faces);
   void add_named_tiles();
   void add_crossed_tiles(const HalfFaces& faces);
@@ -78,11 +78,11 @@ class ComplexCheck {
   [[nodiscard]] const Point<3>& at(std::uint32_t v) const { return mesh_.vertices[v]; }
 
   const Mesh<3>& mesh_;
-  const SpaceCheckOptions& options_;
+  const CheckOptions<3>& options_;
   double rounding_;
-  std::map<FeatureId, Point<3>> places_;
+  std::map<PointId, Point<3>> places_;
   std::vector<Line> lines_;
-  std::map<std::array<FeatureId, 2>, std::size_t> line_of_;  // by ends, ascending
+  std::map<std::array<PointId, 2>, std::size_t> line_of_;  // by ends, ascending
   std::vector<Surface> surfaces_;
   std::set<Face> tiles_;
   std::map<Ends, std::vector<std::uint32_t>> around_;  // tetrahedra, by edges of polygons

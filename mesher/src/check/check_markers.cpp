@@ -12,14 +12,14 @@ namespace {
 class MarkerCheck {
  public:
   MarkerCheck(const CheckedMesh& mesh, const std::vector<LinePath>& paths,
-              const CheckOptions& options)
+              const CheckOptions<2>& options)
       : mesh_(mesh), features_(*options.features), graph_(*options.graph) {
     for (std::size_t i = 0; i < graph_.points.size(); ++i) {
-      const auto& p = graph_.pslg.points[i];
+      const auto& p = graph_.graph.points[i];
       if (p.marker != 0) points_[p.at] = marked(p.marker, "point", p.id, graph_.points, i);
     }
-    add(graph_.pslg.segments, graph_.segments);
-    add(graph_.pslg.polylines, graph_.polylines);
+    add(graph_.graph.segments, graph_.segments);
+    add(graph_.graph.polylines, graph_.polylines);
     for (const LinePath& path : paths) add(path);
     for (const HalfEdge& e : mesh.border()) {
       border_.insert(e.edge());
@@ -95,9 +95,9 @@ class MarkerCheck {
 
   const CheckedMesh& mesh_;
   const MeshFeatures& features_;
-  const PslgFile& graph_;
+  const GraphFile<2>& graph_;
   std::map<Point<2>, Marked> points_;
-  std::map<FeatureId, Marked> lines_;
+  std::map<LineId, Marked> lines_;
   std::map<std::uint32_t, Givers> at_vertex_;
   std::map<Edge, Givers> at_edge_;
   std::set<Edge> border_;
@@ -106,16 +106,16 @@ class MarkerCheck {
 
 }  // namespace
 
-bool tells_markers(const CheckOptions& options) {
+bool tells_markers(const CheckOptions<2>& options) {
   if (options.graph == nullptr || options.features == nullptr) return false;
-  const Pslg& graph = options.graph->pslg;
+  const Graph<2>& graph = options.graph->graph;
   const bool asked =
       has_marker(graph.points) || has_marker(graph.segments) || has_marker(graph.polylines);
   return asked && (!options.features->markers.empty() || has_marker(options.features->edges));
 }
 
 Verdict check_markers(const CheckedMesh& mesh, const std::vector<LinePath>& paths,
-                      const CheckOptions& options) {
+                      const CheckOptions<2>& options) {
   return MarkerCheck(mesh, paths, options).run();
 }
 

@@ -11,6 +11,7 @@
 #include "geometry/exact_sign.hpp"
 #include "mesh/simplex_name.hpp"
 #include "mesher/predicates.hpp"
+#include "text/id_text.hpp"
 #include "text/text.hpp"
 
 namespace mesher::detail {
@@ -27,8 +28,6 @@ bool on_box(const Box<D>& box, const Point<D>& p) {
   }
   return false;
 }
-
-std::string id_text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
 int orientation(const Mesh<2>& mesh, const Mesh<2>::Simplex& t) {
   const auto& v = mesh.vertices;
@@ -111,27 +110,28 @@ Verdict check_orientation(const Mesh<D>& mesh) {
 }
 
 template <int D>
-std::string input_name(const InputPoint<D>& point) {
-  return "input point " + id_text(point.id) + " at " + text::to_text<D>(point.at) + " (line " +
-         std::to_string(point.line) + ")";
+std::string input_name(const CheckedPoint<D>& point) {
+  return "input point " + id_text(point.id) + " at " + text::to_text<D>(point.at) +
+         (point.line > 0 ? " (line " + std::to_string(point.line) + ")" : "");
 }
 
 template <int D>
-std::vector<InputPoint<D>> input_points(const PointFile<D>& file) {
-  std::vector<InputPoint<D>> points;
-  for (std::size_t i = 0; i < file.points.size(); ++i) {
-    points.push_back({file.points[i], file.ids[i], file.lines[i]});
+std::vector<CheckedPoint<D>> input_points(const GraphFile<D>& file) {
+  std::vector<CheckedPoint<D>> points;
+  for (std::size_t i = 0; i < file.graph.points.size(); ++i) {
+    const long line = i < file.points.size() ? file.points[i].line : 0;
+    points.push_back({file.graph.points[i].at, file.graph.points[i].id, line});
   }
   return points;
 }
 
 template <int D>
-Verdict check_input(const Mesh<D>& mesh, const std::vector<InputPoint<D>>& points,
+Verdict check_input(const Mesh<D>& mesh, const std::vector<CheckedPoint<D>>& points,
                     const std::function<bool(const Point<D>&)>& is_outside) {
   std::vector<Point<D>> sorted = mesh.vertices;
   std::sort(sorted.begin(), sorted.end());
   std::size_t outside = 0;
-  for (const InputPoint<D>& point : points) {
+  for (const CheckedPoint<D>& point : points) {
     if (std::binary_search(sorted.begin(), sorted.end(), point.at)) continue;
     if (!is_outside(point.at)) return Verdict::bad(input_name(point) + " is no vertex");
     ++outside;
@@ -141,11 +141,11 @@ Verdict check_input(const Mesh<D>& mesh, const std::vector<InputPoint<D>>& point
 }
 
 template <int D>
-Verdict check_kinds(const Mesh<D>& mesh, const PointFile<D>* input,
-                    const std::vector<FeatureId>& origins) {
-  std::map<Point<D>, FeatureId> named;
-  for (std::size_t i = 0; input != nullptr && i < input->ids.size(); ++i) {
-    named[input->points[i]] = input->ids[i];
+Verdict check_kinds(const Mesh<D>& mesh, const GraphFile<D>* input,
+                    const std::vector<mesher::Feature>& origins) {
+  std::map<Point<D>, PointId> named;
+  if (input != nullptr) {
+    for (const auto& p : input->graph.points) named[p.at] = p.id;
   }
   const Box<D> box = bounding_box<D>(mesh.vertices);
   for (std::size_t v = 0; v < mesh.kinds.size(); ++v) {
@@ -160,9 +160,9 @@ Verdict check_kinds(const Mesh<D>& mesh, const PointFile<D>* input,
     const auto point = named.find(mesh.vertices[v]);
     if (is_input && point == named.end()) return bad(" is said to be an input point, but is none");
     if (!is_input && point != named.end()) return bad(" is an input point, but not said to be");
-    if (is_input && !origins.empty() && origins[v] != point->second) {
-      return bad(" is said to be input point " + id_text(origins[v]) + ", but is input point " +
-                 id_text(point->second));
+    if (is_input && !origins.empty() && origins[v] != mesher::Feature(point->second)) {
+      return bad(" is said to be input point " + std::to_string(origins[v].number) +
+                 ", but is input point " + id_text(point->second));
     }
   }
   return Verdict::good("as the vertices' places are");
@@ -173,20 +173,22 @@ template std::string simplex_name<2>(const Mesh<2>&, std::size_t);
 template Verdict check_coordinates<2>(const Mesh<2>&);
 template Verdict check_vertices<2>(const Mesh<2>&);
 template Verdict check_orientation<2>(const Mesh<2>&);
-template std::string input_name<2>(const InputPoint<2>&);
-template std::vector<InputPoint<2>> input_points<2>(const PointFile<2>&);
-template Verdict check_input<2>(const Mesh<2>&, const std::vector<InputPoint<2>>&,
+template std::string input_name<2>(const CheckedPoint<2>&);
+template std::vector<CheckedPoint<2>> input_points<2>(const GraphFile<2>&);
+template Verdict check_input<2>(const Mesh<2>&, const std::vector<CheckedPoint<2>>&,
                                 const std::function<bool(const Point<2>&)>&);
-template Verdict check_kinds<2>(const Mesh<2>&, const PointFile<2>*, const std::vector<FeatureId>&);
+template Verdict check_kinds<2>(const Mesh<2>&, const GraphFile<2>*,
+                                const std::vector<mesher::Feature>&);
 template std::string vertex_name<3>(const Mesh<3>&, std::size_t);
 template std::string simplex_name<3>(const Mesh<3>&, std::size_t);
 template Verdict check_coordinates<3>(const Mesh<3>&);
 template Verdict check_vertices<3>(const Mesh<3>&);
 template Verdict check_orientation<3>(const Mesh<3>&);
-template std::string input_name<3>(const InputPoint<3>&);
-template std::vector<InputPoint<3>> input_points<3>(const PointFile<3>&);
-template Verdict check_input<3>(const Mesh<3>&, const std::vector<InputPoint<3>>&,
+template std::string input_name<3>(const CheckedPoint<3>&);
+template std::vector<CheckedPoint<3>> input_points<3>(const GraphFile<3>&);
+template Verdict check_input<3>(const Mesh<3>&, const std::vector<CheckedPoint<3>>&,
                                 const std::function<bool(const Point<3>&)>&);
-template Verdict check_kinds<3>(const Mesh<3>&, const PointFile<3>*, const std::vector<FeatureId>&);
+template Verdict check_kinds<3>(const Mesh<3>&, const GraphFile<3>*,
+                                const std::vector<mesher::Feature>&);
 
 }  // namespace mesher::detail

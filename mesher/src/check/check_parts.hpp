@@ -31,29 +31,29 @@ template <int D>
 template <int D>
 [[nodiscard]] Verdict check_orientation(const Mesh<D>& mesh);
 
-/// A point that is to be a vertex, and the line of its file.
+/// A point that is to be a vertex, and the line of its file; 0 if it is of none.
 template <int D>
-struct InputPoint {
+struct CheckedPoint {
   Point<D> at;
-  FeatureId id;
+  PointId id;
   long line;
 };
 /// "input point 7 at (0, 1) (line 8)"
 template <int D>
-[[nodiscard]] std::string input_name(const InputPoint<D>& point);
+[[nodiscard]] std::string input_name(const CheckedPoint<D>& point);
 template <int D>
-[[nodiscard]] std::vector<InputPoint<D>> input_points(const PointFile<D>& file);
+[[nodiscard]] std::vector<CheckedPoint<D>> input_points(const GraphFile<D>& file);
 
 /// Whether all points are vertices, bit for bit, but those that may be outside and are.
 template <int D>
-[[nodiscard]] Verdict check_input(const Mesh<D>& mesh, const std::vector<InputPoint<D>>& points,
+[[nodiscard]] Verdict check_input(const Mesh<D>& mesh, const std::vector<CheckedPoint<D>>& points,
                                   const std::function<bool(const Point<D>&)>& is_outside);
 
 /// Whether vertices of the kind `boundary` are on the bounding box and, if there is an input, those
 /// of the kind `input` are its points, under the ids that `origins` (one per vertex, or none) has.
 template <int D>
-[[nodiscard]] Verdict check_kinds(const Mesh<D>& mesh, const PointFile<D>* input,
-                                  const std::vector<FeatureId>& origins);
+[[nodiscard]] Verdict check_kinds(const Mesh<D>& mesh, const GraphFile<D>* input,
+                                  const std::vector<mesher::Feature>& origins);
 
 /// Whether all places are on one side of a box.
 template <int D>

@@ -27,28 +27,28 @@ std::optional<std::size_t> triangle_of(const Point<2>& seed, const CheckedMesh& 
   return mesh.triangle_at(seed);
 }
 
-Verdict check_holes(const CheckedMesh& mesh, const LineEdges& on_lines, const Pslg& graph) {
-  for (const Pslg::Hole& hole : graph.holes) {
-    const auto triangle = triangle_of(hole.seed, mesh, on_lines);
+Verdict check_holes(const CheckedMesh& mesh, const LineEdges& on_lines, const Graph<2>& graph) {
+  for (const Seed<2>& hole : graph.holes()) {
+    const auto triangle = triangle_of(hole.at, mesh, on_lines);
     if (!triangle) continue;
-    return Verdict::bad(mesh.triangle(*triangle) + " holds the seed of hole " +
-                        std::to_string(static_cast<std::int64_t>(hole.id)) + " at " +
-                        text::to_text<2>(hole.seed));
+    return Verdict::bad(mesh.triangle(*triangle) + " holds the seed of " + text_of(hole.id) +
+                        " at " + text::to_text<2>(hole.at));
   }
   return Verdict::good("");
 }
 
-Verdict check_seeds(const CheckedMesh& mesh, const LineEdges& on_lines, const Pslg& graph,
+Verdict check_seeds(const CheckedMesh& mesh, const LineEdges& on_lines, const Graph<2>& graph,
                     const std::vector<double>& regions, UnionFind& parts) {
   std::map<std::uint32_t, std::set<double>> seeded;
-  std::vector<std::pair<const Pslg::Region*, std::uint32_t>> found;
+  std::vector<std::pair<const Seed<2>*, std::uint32_t>> found;
   std::set<std::uint32_t> in_holes;  // parts, in which no region's seed stands for anything
-  for (const Pslg::Hole& hole : graph.holes) {
-    const auto triangle = triangle_of(hole.seed, mesh, on_lines);
+  for (const Seed<2>& hole : graph.holes()) {
+    const auto triangle = triangle_of(hole.at, mesh, on_lines);
     if (triangle) in_holes.insert(parts.find(static_cast<std::uint32_t>(*triangle)));
   }
-  for (const Pslg::Region& region : graph.regions) {
-    const auto seeded_triangle = triangle_of(region.seed, mesh, on_lines);
+  for (const Seed<2>& region : graph.seeds) {
+    if (region.id.kind != SeedKind::region) continue;
+    const auto seeded_triangle = triangle_of(region.at, mesh, on_lines);
     if (!seeded_triangle) continue;
     const auto triangle = static_cast<std::uint32_t>(*seeded_triangle);
     if (in_holes.count(parts.find(triangle)) > 0) continue;
@@ -59,7 +59,7 @@ Verdict check_seeds(const CheckedMesh& mesh, const LineEdges& on_lines, const Ps
     if (seeded[parts.find(triangle)].count(regions[triangle]) > 0) continue;
     return Verdict::bad(mesh.triangle(triangle) + " has the region " +
                         text::to_text(regions[triangle]) + ", the seed in it at " +
-                        text::to_text<2>(region->seed) + " " + text::to_text(region->attribute));
+                        text::to_text<2>(region->at) + " " + text::to_text(region->attribute));
   }
   return Verdict::good("");
 }
@@ -67,7 +67,7 @@ Verdict check_seeds(const CheckedMesh& mesh, const LineEdges& on_lines, const Ps
 }  // namespace
 
 Verdict check_regions(const CheckedMesh& mesh, const LineEdges& on_lines,
-                      const CheckOptions& options) {
+                      const CheckOptions<2>& options) {
   const std::size_t n = mesh.mesh().simplices.size();
   const bool known = options.features != nullptr && !options.features->regions.empty();
   const std::vector<double> regions = known ? options.features->regions : std::vector<double>(n);
@@ -83,7 +83,7 @@ Verdict check_regions(const CheckedMesh& mesh, const LineEdges& on_lines,
                         ", which is on no line");
   }
   if (options.graph != nullptr) {
-    const Pslg& graph = options.graph->pslg;
+    const Graph<2>& graph = options.graph->graph;
     if (options.boundary != BoundaryRule::box) {
       const Verdict holes = check_holes(mesh, on_lines, graph);
       if (!holes.holds) return holes;

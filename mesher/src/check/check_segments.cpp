@@ -19,7 +19,7 @@ LineWalk<2> walk_of(const CheckedMesh& mesh) {
   return walk;
 }
 
-using LinesOfEdges = std::map<std::pair<std::uint32_t, std::uint32_t>, FeatureId>;
+using LinesOfEdges = std::map<std::pair<std::uint32_t, std::uint32_t>, LineId>;
 LinesOfEdges lines_of(const MeshFeatures* features) {
   LinesOfEdges lines;
   if (features == nullptr) return lines;
@@ -53,14 +53,14 @@ class Outside {
   std::vector<HalfEdge> border_;
 };
 
-std::vector<LinePath> pieces_of(const Pslg& graph) {
-  std::map<FeatureId, Point<2>> place;
-  for (const Pslg::Vertex& p : graph.points) place[p.id] = p.at;
+std::vector<LinePath> pieces_of(const Graph<2>& graph) {
+  std::map<PointId, Point<2>> place;
+  for (const GraphPoint<2>& p : graph.points) place[p.id] = p.at;
   std::vector<LinePath> pieces;
-  for (const Pslg::Segment& s : graph.segments) {
+  for (const mesher::Segment& s : graph.segments) {
     pieces.push_back({s.id, place.at(s.from), place.at(s.to), {}});
   }
-  for (const Pslg::Polyline& line : graph.polylines) {
+  for (const mesher::Polyline& line : graph.polylines) {
     for (std::size_t i = 1; i < line.points.size(); ++i) {
       pieces.push_back({line.id, place.at(line.points[i - 1]), place.at(line.points[i]), {}});
     }
@@ -71,7 +71,7 @@ std::vector<LinePath> pieces_of(const Pslg& graph) {
 // Each edge that names a line is on it.
 Verdict check_names(const CheckedMesh& mesh, const MeshFeatures& features,
                     const std::vector<LinePath>& paths) {
-  using Named = std::tuple<std::uint32_t, std::uint32_t, FeatureId>;
+  using Named = std::tuple<std::uint32_t, std::uint32_t, LineId>;
   std::vector<Named> on;
   for (const LinePath& path : paths) {
     for (std::size_t i = 1; i < path.vertices.size(); ++i) {
@@ -92,13 +92,13 @@ Verdict check_names(const CheckedMesh& mesh, const MeshFeatures& features,
 
 }  // namespace
 
-PathsVerdict check_segments(const CheckedMesh& mesh, const CheckOptions& options) {
+PathsVerdict check_segments(const CheckedMesh& mesh, const CheckOptions<2>& options) {
   const LineWalk<2> walk = walk_of(mesh);
   const LinesOfEdges lines = lines_of(options.features);
   const Outside outside(mesh, walk, options.boundary);
   PathsVerdict all{Verdict::good(""), {}};
   std::size_t segments = 0, edges = 0, left_out = 0, cut = 0;
-  for (const LinePath& piece : pieces_of(options.graph->pslg)) {
+  for (const LinePath& piece : pieces_of(options.graph->graph)) {
     const auto is_known = [&](std::uint32_t a, std::uint32_t b) {
       const auto found = lines.find(std::minmax(a, b));
       return found != lines.end() && found->second == piece.line;

@@ -60,7 +60,7 @@ bool ComplexCheck::is_short(std::uint32_t a, std::uint32_t b) const {
 bool ComplexCheck::share_shell(std::uint32_t a, std::uint32_t b) const {
   const Featured &p = featured_.at(a), &q = featured_.at(b);
   if (!q.lines.empty()) return false;
-  const auto has = [&](FeatureId point) {
+  const auto has = [&](PointId point) {
     return std::any_of(p.lines.begin(), p.lines.end(),
                        [&](std::size_t l) {
                          return lines_[l].ends[0] == point || lines_[l].ends[1] == point;
@@ -69,7 +69,7 @@ bool ComplexCheck::share_shell(std::uint32_t a, std::uint32_t b) const {
                        [&](std::size_t f) { return surfaces_[f].points.count(point) != 0; });
   };
   for (const std::size_t f : q.surfaces) {
-    for (const FeatureId point : surfaces_[f].points) {
+    for (const PointId point : surfaces_[f].points) {
       const Point<3>& o = places_.at(point);
       const double x = std::sqrt(squared_distance(at(a), o)),
                    y = std::sqrt(squared_distance(at(b), o));
@@ -88,17 +88,17 @@ bool ComplexCheck::is_wide(std::uint32_t a, std::uint32_t b) const {
     return length2 < std::min(distance2(at(a), from, to), distance2(at(b), from, to));
   };
   const auto points_of = [&](std::size_t l) {
-    return std::set<FeatureId>(lines_[l].ends.begin(), lines_[l].ends.end());
+    return std::set<PointId>(lines_[l].ends.begin(), lines_[l].ends.end());
   };
   // Of two features by their points and lines.
-  const auto look_at = [&](const std::set<FeatureId>& f, const std::vector<std::size_t>& of_f,
-                           const std::set<FeatureId>& g, const std::vector<std::size_t>& of_g) {
+  const auto look_at = [&](const std::set<PointId>& f, const std::vector<std::size_t>& of_f,
+                           const std::set<PointId>& g, const std::vector<std::size_t>& of_g) {
     for (const std::size_t l : of_f) {
       const bool both = std::find(of_g.begin(), of_g.end(), l) != of_g.end();
       if (both && is_far(lines_[l].from, lines_[l].to)) return true;
     }
     if (intersects(of_f, of_g)) return false;
-    return std::any_of(f.begin(), f.end(), [&](FeatureId point) {
+    return std::any_of(f.begin(), f.end(), [&](PointId point) {
       return g.count(point) != 0 && is_far(places_.at(point), places_.at(point));
     });
   };
@@ -115,8 +115,8 @@ bool ComplexCheck::is_wide(std::uint32_t a, std::uint32_t b) const {
     }
     return false;
   };
-  return for_each(p, q, [&](const std::set<FeatureId>& f, const std::vector<std::size_t>& of_f) {
-    return for_each(q, p, [&](const std::set<FeatureId>& g, const std::vector<std::size_t>& of_g) {
+  return for_each(p, q, [&](const std::set<PointId>& f, const std::vector<std::size_t>& of_f) {
+    return for_each(q, p, [&](const std::set<PointId>& g, const std::vector<std::size_t>& of_g) {
       return look_at(f, of_f, g, of_g);
     });
   });

@@ -1,4 +1,4 @@
-// Verifies a mesh of tetrahedra from its vertices, and the points it is of; see space_check.hpp.
+// Verifies a mesh of tetrahedra from its vertices, and the points it is of; see check.hpp.
 #include <algorithm>
 #include <climits>
 #include <cmath>
@@ -8,15 +8,15 @@
 
 #include "check/check_complex.hpp"
 #include "check/check_parts.hpp"
-#include "check/gave_in.hpp"
+#include "check/poor_beside.hpp"
 #include "check/space_quality.hpp"
 #include "geometry/box.hpp"
 #include "geometry/circumcentre.hpp"
 #include "geometry/exact_sign.hpp"
 #include "geometry/space_vectors.hpp"
 #include "mesh/half_faces.hpp"
+#include "mesher/check.hpp"
 #include "mesher/predicates.hpp"
-#include "mesher/space_check.hpp"
 #include "sets/union_find.hpp"
 #include "text/text.hpp"
 
@@ -33,7 +33,7 @@ using predicates::detail::kCoordinateBits;
 
 class SpaceChecker {
  public:
-  SpaceChecker(const Mesh<3>& mesh, const SpaceCheckOptions& options)
+  SpaceChecker(const Mesh<3>& mesh, const CheckOptions<3>& options)
       : mesh_(mesh), options_(options), box_(detail::bounding_box<3>(mesh.vertices)) {}
 
   std::vector<Finding> run() {
@@ -45,12 +45,12 @@ class SpaceChecker {
     if (tiles && check("delaunay", &SpaceChecker::delaunay) && options_.ties) {
       check("ties", &SpaceChecker::ties);
     }
-    if (options_.input != nullptr) check("input", &SpaceChecker::input);
+    if (options_.graph != nullptr) check("input", &SpaceChecker::input);
     if (has_kinds()) check("kinds", &SpaceChecker::kinds);
     if (tiles && has_parts()) check_features();
     if (tiles && options_.rho) check("quality", &SpaceChecker::quality);
-    if (tiles && options_.max_volume) {
-      findings_.add("volume", detail::check_volumes(mesh_, *options_.max_volume));
+    if (tiles && options_.max_measure) {
+      findings_.add("volume", detail::check_volumes(mesh_, *options_.max_measure));
     }
     return findings_.take();
   }
@@ -82,7 +82,8 @@ class SpaceChecker {
 
   // Whether it has been looked at; its verdicts come later.
   bool find_complex() {
-    if (options_.complex != nullptr) complex_.emplace(mesh_, options_, *half_faces_);
+    if (options_.graph != nullptr && !is_bare(options_.graph->graph))
+      complex_.emplace(mesh_, options_, *half_faces_);
     return true;
   }
   [[nodiscard]] bool has_parts() const {
@@ -116,7 +117,7 @@ class SpaceChecker {
   Verdict hull() {
     if (border_.empty()) {
       const bool may_be_empty = options_.boundary == BoundaryRule::lines &&
-                                options_.complex != nullptr && !options_.complex->plc.holes.empty();
+                                options_.graph != nullptr && !options_.graph->graph.holes().empty();
       return may_be_empty ? good("no tetrahedra: polygons enclose nothing but holes")
                           : bad("no tetrahedra");
     }
@@ -216,7 +217,7 @@ class SpaceChecker {
 
   Verdict input() {
     return detail::check_input<3>(
-        mesh_, detail::input_points(*options_.input), [&](const Point<3>& p) {
+        mesh_, detail::input_points(*options_.graph), [&](const Point<3>& p) {
           return options_.boundary == BoundaryRule::lines && !detail::tetrahedron_at(mesh_, p);
         });
   }
@@ -281,20 +282,20 @@ class SpaceChecker {
 
   std::optional<std::string> seed_trouble(const std::vector<double>& regions,
                                           detail::UnionFind& parts, bool known) const {
-    const Plc& plc = options_.complex->plc;
+    const Graph<3>& plc = options_.graph->graph;
     std::set<std::uint32_t> in_holes;  // parts, in which no region's seed stands for anything
-    for (const auto& hole : plc.holes) {
-      const auto t = seeded_by(hole.seed);
+    for (const auto& hole : plc.holes()) {
+      const auto t = seeded_by(hole.at);
       if (t) in_holes.insert(parts.find(*t));
       if (!t || options_.boundary != BoundaryRule::lines) continue;
-      return simplex(*t) + " holds the seed of hole " +
-             std::to_string(static_cast<std::int64_t>(hole.id)) + " at " +
-             text::to_text<3>(hole.seed);
+      return simplex(*t) + " holds the seed of " + text_of(hole.id) + " at " +
+             text::to_text<3>(hole.at);
     }
     std::map<std::uint32_t, std::set<double>> seeded;
-    std::vector<std::pair<const Plc::Region*, std::uint32_t>> found;
-    for (const auto& region : plc.regions) {
-      const auto t = seeded_by(region.seed);
+    std::vector<std::pair<const Seed<3>*, std::uint32_t>> found;
+    for (const auto& region : plc.seeds) {
+      if (region.id.kind != SeedKind::region) continue;
+      const auto t = seeded_by(region.at);
       if (!t || in_holes.count(parts.find(*t)) > 0) continue;
       seeded[parts.find(*t)].insert(region.attribute);
       found.emplace_back(&region, *t);
@@ -302,7 +303,7 @@ class SpaceChecker {
     for (const auto& [region, t] : found) {
       if (!known || seeded[parts.find(t)].count(regions[t]) > 0) continue;
       return simplex(t) + " has the region " + text::to_text(regions[t]) + ", the seed in it at " +
-             text::to_text<3>(region->seed) + " " + text::to_text(region->attribute);
+             text::to_text<3>(region->at) + " " + text::to_text(region->attribute);
     }
     return std::nullopt;
   }
@@ -314,13 +315,13 @@ class SpaceChecker {
 
   Verdict kinds() {
     return detail::check_kinds(
-        mesh_, options_.input,
+        mesh_, options_.graph,
         options_.features == nullptr ? kNoOrigins : options_.features->origins);
   }
 
   Verdict quality() {
     std::size_t excused = 0;
-    std::optional<detail::LonelyEdges> lonely;  // made where it is asked for
+    std::optional<detail::IsolatedEdges> isolated;  // made where it is asked for
     detail::GuardCounts gave_in;
     for (std::size_t i = 0; i < mesh_.simplices.size(); ++i) {
       const auto ratio = detail::radius_edge(mesh_, mesh_.simplices[i]);
@@ -330,11 +331,11 @@ class SpaceChecker {
         continue;
       }
       if (complex_ && *options_.rho < kGuarded) {
-        if (!lonely) lonely.emplace(options_.complex->plc);
+        if (!isolated) isolated.emplace(options_.graph->graph);
         const auto& [a, b, c, d] = mesh_.simplices[i];
         const auto edges = detail::GuardCounts::shortest_edges({at(a), at(b), at(c), at(d)});
         if (gave_in.look(edges, ratio.ratio,
-                         [&](const auto& p, const auto& q) { return lonely->find(p, q); })) {
+                         [&](const auto& p, const auto& q) { return isolated->find(p, q); })) {
           continue;
         }
       }
@@ -425,9 +426,9 @@ class SpaceChecker {
     return "the face of " + vertex(a) + ", " + vertex(b) + " and " + vertex(c);
   }
 
-  inline static const std::vector<FeatureId> kNoOrigins;
+  inline static const std::vector<Feature> kNoOrigins;
   const Mesh<3>& mesh_;
-  const SpaceCheckOptions& options_;
+  const CheckOptions<3>& options_;
   Box<3> box_;
   std::optional<detail::HalfFaces> half_faces_;
   std::vector<HalfFace> border_;                 // of faces of one tetrahedron
@@ -437,10 +438,10 @@ class SpaceChecker {
 
 }  // namespace
 
-BoundaryRule boundary_rule(const MeshDataOf<3>& mesh, const PlcFile* complex) {
+BoundaryRule boundary_rule(const MeshData<3>& mesh, const GraphFile<3>* complex) {
   const auto& faces = mesh.features.faces;
   const bool has_polygons =
-      (complex != nullptr && !complex->plc.facets.empty()) ||
+      (complex != nullptr && !complex->graph.polygons.empty()) ||
       std::any_of(faces.begin(), faces.end(), [](const auto& f) { return f.polygon.has_value(); });
   if (!has_polygons) return BoundaryRule::box;
   if (complex == nullptr || mesh.simplices.empty()) return BoundaryRule::lines;
@@ -450,11 +451,11 @@ BoundaryRule boundary_rule(const MeshDataOf<3>& mesh, const PlcFile* complex) {
     const auto [a, b, c] = half.face;
     return detail::is_on_side<3>(box, {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
   });
-  return fills && !detail::has_corners<3>(box, complex->plc.points) ? BoundaryRule::box
-                                                                    : BoundaryRule::lines;
+  return fills && !detail::has_corners<3>(box, complex->graph.points) ? BoundaryRule::box
+                                                                      : BoundaryRule::lines;
 }
 
-std::vector<Finding> check_mesh(const Mesh<3>& mesh, const SpaceCheckOptions& options) {
+std::vector<Finding> check_mesh(const Mesh<3>& mesh, const CheckOptions<3>& options) {
   return SpaceChecker(mesh, options).run();
 }
 

@@ -1,9 +1,10 @@
-// Whether vertices, edges and faces have the markers of the complex's points, segments and polygons.
+// Whether vertices, edges and faces have the markers of the complex's points, segments and
+// polygons.
 //
 // As meshes of this tool have them: a vertex has its point's; else, as any mesh may choose, that of
 // a segment or polygon that it is on. An edge has its segment's, or else that of a polygon that it
-// is on; a face its polygon's. What the mesh does not list has none to compare, and none is compared
-// where the mesh has no markers of its kind at all.
+// is on; a face its polygon's. What the mesh does not list has none to compare, and none is
+// compared where the mesh has no markers of its kind at all.
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -19,21 +20,30 @@ class ComplexCheck::Markers {
  public:
   Markers(const ComplexCheck& check, const HalfFaces& faces)
       : check_(check), features_(*check.options_.features) {
-    const PlcFile& file = *check.options_.complex;
-    const Plc& plc = file.plc;
+    const GraphFile<3>& file = *check.options_.graph;
+    const Graph<3>& plc = file.graph;
     for (std::size_t i = 0; i < plc.points.size(); ++i) {
       const auto& p = plc.points[i];
       if (p.marker != 0) points_[p.at] = marked(p.marker, "point", p.id, file.points, i);
     }
+    const auto add_piece = [&](PointId from, PointId to, const Marked& line) {
+      const auto ends = std::minmax(from, to);
+      segments_.emplace(check.line_of_.at({ends.first, ends.second}), line);
+    };
     for (std::size_t i = 0; i < plc.segments.size(); ++i) {
       const auto& s = plc.segments[i];
-      const auto ends = std::minmax(s.from, s.to);
-      segments_.emplace(check.line_of_.at({ends.first, ends.second}),
-                        marked(s.marker, "segment", s.id, file.segments, i));
+      add_piece(s.from, s.to, marked(s.marker, "segment", s.id, file.segments, i));
     }
-    for (std::size_t i = 0; i < plc.facets.size(); ++i) {
-      const auto& f = plc.facets[i];
-      polygons_.push_back(marked(f.marker, "polygon", f.polygon.id, file.facets, i));
+    for (std::size_t i = 0; i < plc.polylines.size(); ++i) {
+      const auto& l = plc.polylines[i];
+      for (std::size_t k = 1; k < l.points.size(); ++k) {
+        add_piece(l.points[k - 1], l.points[k],
+                  marked(l.marker, "polyline", l.id, file.polylines, i));
+      }
+    }
+    for (std::size_t i = 0; i < plc.polygons.size(); ++i) {
+      const auto& f = plc.polygons[i];
+      polygons_.push_back(marked(f.marker, "polygon", f.id, file.polygons, i));
       for (const Face& tile : check.surfaces_[i].tiles) polygon_at_[tile] = i;
     }
     add_alone();
@@ -154,9 +164,10 @@ class ComplexCheck::Markers {
 };
 
 bool ComplexCheck::tells_markers() const {
-  const Plc& plc = options_.complex->plc;
+  const Graph<3>& plc = options_.graph->graph;
   const MeshFeatures* f = options_.features;
-  const bool asked = has_marker(plc.points) || has_marker(plc.segments) || has_marker(plc.facets);
+  const bool asked = has_marker(plc.points) || has_marker(plc.segments) ||
+                     has_marker(plc.polylines) || has_marker(plc.polygons);
   return asked && f != nullptr &&
          (!f->markers.empty() || has_marker(f->edges) || has_marker(f->faces));
 }

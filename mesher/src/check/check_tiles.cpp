@@ -24,15 +24,15 @@ constexpr double kArea = 1e-9;
 // Of the length of an edge: so near its middle a place beside it is in the polygon beside it.
 constexpr double kBeside = 0x1p-10;
 
-std::string name_of(const char* kind, FeatureId id) {
+std::string name_of(const char* kind, auto id) {
   return std::string(kind) + std::to_string(static_cast<std::int64_t>(id));
 }
 
-FlatPolygon flat(const Polygon& polygon, const std::map<FeatureId, Point<3>>& places) {
+FlatPolygon flat(const Polygon& polygon, const std::map<PointId, Point<3>>& places) {
   std::vector<std::vector<Point<3>>> loops;
   for (const auto& loop : polygon.loops) {
     auto& corners = loops.emplace_back();
-    for (const FeatureId id : loop) corners.push_back(places.at(id));
+    for (const PointId id : loop) corners.push_back(places.at(id));
   }
   return FlatPolygon(loops);
 }
@@ -43,7 +43,7 @@ std::array<std::uint32_t, 2> ends_of(std::uint32_t a, std::uint32_t b) {
 
 }  // namespace
 
-void ComplexCheck::add_edges(Surface& surface, const std::vector<FeatureId>& ends,
+void ComplexCheck::add_edges(Surface& surface, const std::vector<PointId>& ends,
                              std::set<Ends>& edges) {
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     for (const auto& run : lines_[line(ends[i], ends[i + 1], "")].runs) {
@@ -54,7 +54,7 @@ void ComplexCheck::add_edges(Surface& surface, const std::vector<FeatureId>& end
 }
 
 void ComplexCheck::add_named_tiles() {
-  std::map<FeatureId, std::size_t> number;
+  std::map<PolygonId, std::size_t> number;
   for (std::size_t i = 0; i < surfaces_.size(); ++i) number[surfaces_[i].polygon->id] = i;
   for (const MeshFace& f : options_.features->faces) {
     if (!f.polygon) continue;
@@ -110,10 +110,10 @@ class FacesBeside {
 };
 
 // What the corners of a polygon are in, and places that are off it by no more than this.
-Box<3> box_of(const Polygon& polygon, const std::map<FeatureId, Point<3>>& places, double by) {
+Box<3> box_of(const Polygon& polygon, const std::map<PointId, Point<3>>& places, double by) {
   std::vector<Point<3>> corners;
   for (const auto& loop : polygon.loops) {
-    for (const FeatureId id : loop) corners.push_back(places.at(id));
+    for (const PointId id : loop) corners.push_back(places.at(id));
   }
   Box<3> box = bounding_box<3>(corners);
   for (int i = 0; i < 3; ++i) box.lo[i] -= by, box.hi[i] += by;
@@ -195,8 +195,8 @@ Verdict ComplexCheck::find_polygons(const HalfFaces& faces) {
                        (outside > 0 ? ", " + std::to_string(outside) + " are outside" : ""));
 }
 
-// Whether the mesh has nothing at an edge on the way to a place. (The signs are of the planes through
-// the edge and another corner of a tetrahedron; on such a plane is in the mesh.)
+// Whether the mesh has nothing at an edge on the way to a place. (The signs are of the planes
+// through the edge and another corner of a tetrahedron; on such a plane is in the mesh.)
 bool ComplexCheck::is_open(const Ends& edge, const Point<3>& towards) {
   if (options_.boundary == BoundaryRule::box) return false;
   if (around_.empty()) {
@@ -259,12 +259,13 @@ std::optional<std::string> ComplexCheck::trouble_of(const Surface& surface) {
     return p;
   };
   const auto is_on_side = [&](const Ends& e, const Point<3>& p, std::uint32_t corner) {
-    const Point<3> along = minus(at(e[1]), at(e[0])), middle = scaled(0.5, plus(at(e[0]), at(e[1])));
+    const Point<3> along = minus(at(e[1]), at(e[0])),
+                   middle = scaled(0.5, plus(at(e[0]), at(e[1])));
     const auto across = [&](const Point<3>& x) { return cross(along, minus(x, middle)); };
     return dot(across(p), across(at(corner))) > 0;
   };
-  // Whether there is a tile on each side of an edge that has some of the polygon, or nothing at all;
-  // the sides that have nothing are counted.
+  // Whether there is a tile on each side of an edge that has some of the polygon, or nothing at
+  // all; the sides that have nothing are counted.
   std::size_t open = 0;
   const auto fits = [&](const Ends& e, bool both_sides) {
     const auto& corners = opposite[e];
@@ -276,7 +277,8 @@ std::optional<std::string> ComplexCheck::trouble_of(const Surface& surface) {
       if (tiles == 1) continue;
       const Point<3> middle = scaled(0.5, plus(at(e[0]), at(e[1])));
       const bool has_some =
-          both_sides || f.contains(FlatPolygon::wide(plus(middle, scaled(kBeside, minus(p, middle)))));
+          both_sides ||
+          f.contains(FlatPolygon::wide(plus(middle, scaled(kBeside, minus(p, middle)))));
       if (!has_some) continue;
       if (!is_open(e, p)) return false;
       ++open;
@@ -294,14 +296,16 @@ std::optional<std::string> ComplexCheck::trouble_of(const Surface& surface) {
     return edge(e) + ", which it declares, is of " + std::to_string(count) + " of its faces";
   }
   for (const auto& [e, corners] : opposite) {
-    if (corners.size() == 2 || surface.border.count(e) != 0 || surface.inner.count(e) != 0) continue;
+    if (corners.size() == 2 || surface.border.count(e) != 0 || surface.inner.count(e) != 0)
+      continue;
     return edge(e) + " is of " + std::to_string(corners.size()) +
            " of its faces, and not on its border";
   }
   if (open > 0) return std::nullopt;
   if (surface.tiles.empty() && is_outside(f.inner_place())) return std::nullopt;
   const long double whole = f.area();
-  if (std::abs(area - whole) <= kArea * whole + rounding_ * outline_of(surface)) return std::nullopt;
+  if (std::abs(area - whole) <= kArea * whole + rounding_ * outline_of(surface))
+    return std::nullopt;
   return "its faces' area is " + text::to_text(static_cast<double>(area)) + ", its own " +
          text::to_text(static_cast<double>(whole));
 }

@@ -64,7 +64,7 @@ using LineEdges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 /// A segment of the input, or a piece of a polyline, and the vertices that make it up.
 struct LinePath {
-  FeatureId line;
+  LineId line;
   Point<2> from, to;
   std::vector<std::uint32_t> vertices;  ///< from end to end
   std::vector<std::uint32_t> alone{};   ///< on the line, but on no edge of it
@@ -76,7 +76,7 @@ struct PathsVerdict {
   std::vector<LinePath> paths;
 };
 /// Lines may lie outside of what is meshed, unless the mesh fills a box.
-[[nodiscard]] PathsVerdict check_segments(const CheckedMesh& mesh, const CheckOptions& options);
+[[nodiscard]] PathsVerdict check_segments(const CheckedMesh& mesh, const CheckOptions<2>& options);
 
 /// The lines that a mesh itself tells of: its edges on lines, ascending, joined where two of one
 /// line go straight on. Several segments in a row may be one path.
@@ -85,13 +85,13 @@ struct PathsVerdict {
 
 /// (d)
 [[nodiscard]] Verdict check_regions(const CheckedMesh& mesh, const LineEdges& on_lines,
-                                    const CheckOptions& options);
+                                    const CheckOptions<2>& options);
 
 /// Whether (f) is asked: the input has markers, and the mesh does.
-[[nodiscard]] bool tells_markers(const CheckOptions& options);
+[[nodiscard]] bool tells_markers(const CheckOptions<2>& options);
 /// (f), with the paths of all lines. Requires: tells_markers(options).
 [[nodiscard]] Verdict check_markers(const CheckedMesh& mesh, const std::vector<LinePath>& paths,
-                                    const CheckOptions& options);
+                                    const CheckOptions<2>& options);
 
 /// (9), with triangles excused whose shortest edge joins two of `paths` that leave one point at
 /// under 60 degrees.

@@ -46,7 +46,7 @@ class Drawing {
   }
 
   LinePath follow(std::uint32_t from, std::size_t e) {
-    LinePath path{edges_[e].line.value_or(FeatureId{}), mesh_.at(from), {}, {from}};
+    LinePath path{edges_[e].line.value_or(LineId{}), mesh_.at(from), {}, {from}};
     for (std::uint32_t v = from;;) {
       used_[e] = true;
       v = other(e, v);

@@ -9,7 +9,7 @@
 
 #include "geometry/segment_tests.hpp"
 #include "geometry/small_angle.hpp"
-#include "mesher/angles.hpp"
+#include "mesher/reports.hpp"
 #include "sizes/limits.hpp"
 
 namespace mesher::detail {

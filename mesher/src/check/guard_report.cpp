@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "check/check_complex.hpp"
-#include "check/gave_in.hpp"
+#include "check/poor_beside.hpp"
 #include "check/space_quality.hpp"
-#include "mesher/plc.hpp"
+#include "mesher/graph.hpp"
 #include "text/text.hpp"
 
 namespace mesher {
@@ -13,17 +13,18 @@ namespace {
 
 // `counts(corners)`: whether a tetrahedron is one to be looked at.
 template <class Counts>
-GuardReport report_of(const Mesh<3>& mesh, const Plc& complex, double rho, Counts&& counts) {
-  const bool has_lines = !complex.segments.empty() || !complex.facets.empty();
+GuardReport report_of(const Mesh<3>& mesh, const Graph<3>& complex, double rho, Counts&& counts) {
+  const bool has_lines =
+      !complex.segments.empty() || !complex.polylines.empty() || !complex.polygons.empty();
   if (rho >= kGuarded || !has_lines) return {};
-  PlcFile file;
-  file.plc = complex;
-  SpaceCheckOptions options;
-  options.complex = &file;
+  GraphFile<3> file;
+  file.graph = complex;
+  CheckOptions<3> options;
+  options.graph = &file;
   options.rho = rho;
   const detail::HalfFaces faces(mesh.simplices);
   const detail::ComplexCheck parts(mesh, options, faces);
-  const detail::LonelyEdges lonely(complex);
+  const detail::IsolatedEdges isolated(complex);
   detail::GuardCounts found;
   for (const auto& s : mesh.simplices) {
     const auto& v = mesh.vertices;
@@ -31,18 +32,18 @@ GuardReport report_of(const Mesh<3>& mesh, const Plc& complex, double rho, Count
     const detail::RadiusEdge ratio = detail::radius_edge(mesh, s);
     if (!detail::is_above(ratio, rho) || !counts(corners) || parts.excuses(s)) continue;
     found.look(detail::GuardCounts::shortest_edges(corners), ratio.ratio,
-               [&](const auto& p, const auto& q) { return lonely.find(p, q); });
+               [&](const auto& p, const auto& q) { return isolated.find(p, q); });
   }
   return found.report();
 }
 
 }  // namespace
 
-GuardReport guard_report(const Mesh<3>& mesh, const Plc& complex, double rho) {
+GuardReport guard_report(const Mesh<3>& mesh, const Graph<3>& complex, double rho) {
   return report_of(mesh, complex, rho, [](const auto&) { return true; });
 }
 
-GuardReport guard_news(const Mesh<3>& mesh, const Plc& complex, double rho,
+GuardReport guard_news(const Mesh<3>& mesh, const Graph<3>& complex, double rho,
                        const std::vector<std::array<Point<3>, 4>>& tetrahedra) {
   return report_of(mesh, complex, rho, [&](const auto& corners) {
     return std::binary_search(tetrahedra.begin(), tetrahedra.end(), corners);
@@ -51,12 +52,10 @@ GuardReport guard_news(const Mesh<3>& mesh, const Plc& complex, double rho,
 
 std::string GuardReport::text() const {
   std::string all;
-  for (const GaveIn& place : places) {
-    all += (place.is_polygon ? "polygon " : "segment ") +
-           std::to_string(static_cast<std::int64_t>(place.feature)) + ": " +
-           std::to_string(place.tetrahedra) + " tetrahedra stay poor beside it, up to " +
-           text::to_text(place.max_radius_edge) + ", the first at " + text::to_text<3>(place.at) +
-           '\n';
+  for (const PoorBeside& place : places) {
+    all += text_of(place.feature) + ": " + std::to_string(place.tetrahedra) +
+           " tetrahedra stay poor beside it, up to " + text::to_text(place.max_radius_edge) +
+           ", the first at " + text::to_text<3>(place.at) + '\n';
   }
   return all;
 }

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "mesher/domain.hpp"
-#include "mesher/input_file.hpp"
+#include "mesher/graph.hpp"
+#include "text/id_text.hpp"
 
 namespace mesher::detail {
 
@@ -20,9 +21,9 @@ struct Marked {
 using Givers = std::vector<const Marked*>;
 
 /// The i-th, of those that stand at `positions`, where these are known.
-[[nodiscard]] inline Marked marked(std::int64_t marker, const char* what, FeatureId id,
+[[nodiscard]] inline Marked marked(std::int64_t marker, const char* what, auto id,
                                    const std::vector<FilePosition>& positions, std::size_t i) {
-  std::string name = std::string(what) + " " + std::to_string(static_cast<std::int64_t>(id));
+  std::string name = std::string(what) + " " + id_text(id);
   if (i < positions.size()) name += " (line " + std::to_string(positions[i].line) + ")";
   return {marker, std::move(name)};
 }

@@ -50,7 +50,7 @@ void MeshLines::follow(std::uint32_t from, std::uint32_t edge) {
     through_[at] = segment;
     edge = edges_[first_[at]] == edge ? edges_[first_[at] + 1] : edges_[first_[at]];
   }
-  segments_.push_back({from, at, mesh_.edges[edge].line, distance(from, at)});
+  segments_.push_back({from, at, LineId{mesh_.edges[edge].feature.number}, distance(from, at)});
   ending_at_[from].push_back(segment);
   ending_at_[at].push_back(segment);
 }
@@ -76,7 +76,8 @@ std::vector<MeshLines::Wedge> MeshLines::wedges_across(std::uint32_t p, std::uin
   const bool both_inside = through_[p] != kNone && through_[q] != kNone;
   for_each_leg(p, [&](std::uint32_t s, std::uint32_t apex, double from_p) {
     for_each_leg(q, [&](std::uint32_t t, std::uint32_t other, double from_q) {
-      const double tolerance = kEqualEdges * (from_p + from_q) + distance_rounding(mesh_.vertices[apex]);
+      const double tolerance =
+          kEqualEdges * (from_p + from_q) + distance_rounding(mesh_.vertices[apex]);
       if (s == t || apex != other || std::abs(from_p - from_q) > tolerance) return;
       const double angle = degrees(s, t, apex);
       if (angle >= kSmall) return;

@@ -10,7 +10,7 @@ namespace mesher::detail {
 
 struct MeshSegment {
   std::uint32_t a = 0, b = 0;  // its ends, input points
-  FeatureId line{};
+  LineId line{};
   double length = 0;
 };
 

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "geometry/segment_tests.hpp"
-#include "mesher/angles.hpp"
+#include "mesher/reports.hpp"
 #include "sets/make_set.hpp"
 
 namespace mesher::detail {

@@ -43,7 +43,7 @@ class MeshInput {
   [[nodiscard]] std::array<std::uint32_t, 2> ends(std::uint32_t s) const {
     return {lines_.segments()[s].a, lines_.segments()[s].b};
   }
-  [[nodiscard]] FeatureId line(std::uint32_t s) const { return lines_.segments()[s].line; }
+  [[nodiscard]] LineId line(std::uint32_t s) const { return lines_.segments()[s].line; }
   template <class Visit>
   void for_each_ending_at(std::uint32_t v, Visit&& visit) const {
     for (const std::uint32_t s : lines_.ending_at(v)) visit(s);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "check/mesh_lines.hpp"
-#include "mesher/angles.hpp"
+#include "mesher/reports.hpp"
 
 namespace mesher::detail {
 

@@ -10,7 +10,7 @@
 #include "geometry/circumcentre.hpp"
 #include "geometry/space_vectors.hpp"
 #include "geometry/wide_lanes.hpp"
-#include "mesher/space_check.hpp"
+#include "mesher/check.hpp"
 #include "text/text.hpp"
 
 namespace mesher {

@@ -15,7 +15,7 @@ template <int D>
 void check_places(std::span<const Point<D>> points) {
   if (points.size() >= kNone) throw Error(ErrorCode::too_many, "more than 2^32 - 2 points");
   for (std::size_t i = 0; i < points.size(); ++i) {
-    check_coordinates(points[i], FeatureId{static_cast<std::int64_t>(i + 1)});
+    check_coordinates(points[i], PointId{static_cast<std::int64_t>(i + 1)});
   }
 }
 

@@ -32,7 +32,7 @@ class DynamicDelaunay<D>::State {
   }
 
   Inserted insert(const Point<D>& p) {
-    detail::check_coordinates(p, FeatureId{static_cast<std::int64_t>(size_ + 1)});
+    detail::check_coordinates(p, PointId{static_cast<std::int64_t>(size_ + 1)});
     if (const auto at = flat_.vertices.find(p); at != flat_.vertices.end()) {
       return {at->second - 1, false};
     }

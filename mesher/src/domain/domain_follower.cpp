@@ -1,5 +1,5 @@
 // Regions by places: vertices get numbers as they come, which are used again when they have gone.
-#include "mesher/domain_follower.hpp"
+#include "domain/domain_follower.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -81,10 +81,10 @@ class Numbering {
 }  // namespace
 
 template <int D>
-struct DomainFollowerOf<D>::Impl {
+struct DomainFollower<D>::Impl {
   using Corners = detail::CornersOf<D>;
-  Impl(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls,
-       const std::vector<SeedOf<D>>& seeds, Extent wanted)
+  Impl(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls, const std::vector<Seed<D>>& seeds,
+       Extent wanted)
       : numbers(mesh.vertices),
         regions(mesh.simplices, detail::corners_of(walls), seeds,
                 [this](std::uint32_t v) { return numbers.place(v); }),
@@ -102,21 +102,22 @@ struct DomainFollowerOf<D>::Impl {
     for (const auto& t : all) numbered.push_back(number(t));
     return numbered;
   }
-  [[nodiscard]] typename DomainChange::Corners places(const Corners& t) const {
-    typename DomainChange::Corners corners;
+  [[nodiscard]] typename DomainChange<D>::Corners places(const Corners& t) const {
+    typename DomainChange<D>::Corners corners;
     for (std::size_t i = 0; i < t.size(); ++i) corners[i] = numbers.place(t[i]);
     return detail::smallest_first(corners);
   }
 
-  [[nodiscard]] std::vector<typename DomainChange::Corners> places(const std::vector<Corners>& all) const {
-    std::vector<typename DomainChange::Corners> placed;
+  [[nodiscard]] std::vector<typename DomainChange<D>::Corners> places(
+      const std::vector<Corners>& all) const {
+    std::vector<typename DomainChange<D>::Corners> placed;
     for (const Corners& t : all) placed.push_back(places(t));
     std::sort(placed.begin(), placed.end());
     return placed;
   }
-  [[nodiscard]] DomainChange report(const detail::RegionsDifferenceOf<D>& difference) const {
+  [[nodiscard]] DomainChange<D> report(const detail::RegionsDifferenceOf<D>& difference) const {
     const auto kept = kept_difference(regions, difference, extent);
-    DomainChange change{places(kept.added), places(kept.removed), {}, difference.visited};
+    DomainChange<D> change{places(kept.added), places(kept.removed), {}, difference.visited};
     for (const auto& t : difference.relabelled) {
       change.relabelled.push_back({places(t.corners), t.before, t.after});
     }
@@ -125,12 +126,13 @@ struct DomainFollowerOf<D>::Impl {
     return change;
   }
 
-  DomainChange update(const Change<D>& change, const DomainEdits& edits, const Accept& accept) {
+  DomainChange<D> update(const Change<D>& change, const DomainEdits<D>& edits,
+                         const Accept& accept) {
     const auto difference = regions.update(
         {number(change.simplices_removed), number(change.simplices_added), number(edits.walls_out),
          number(edits.walls_in), edits.seeds_out, edits.seeds_in});
     try {
-      DomainChange domain = report(difference);
+      DomainChange<D> domain = report(difference);
       if (accept) accept(domain);
       return domain;
     } catch (...) {
@@ -145,29 +147,29 @@ struct DomainFollowerOf<D>::Impl {
 };
 
 template <int D>
-DomainFollowerOf<D>::DomainFollowerOf(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls,
-                                      const std::vector<SeedOf<D>>& seeds, Extent extent)
+DomainFollower<D>::DomainFollower(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls,
+                                  const std::vector<Seed<D>>& seeds, Extent extent)
     : impl_(std::make_unique<Impl>(mesh, walls, seeds, extent)) {}
 template <int D>
-DomainFollowerOf<D>::DomainFollowerOf(DomainFollowerOf&&) noexcept = default;
+DomainFollower<D>::DomainFollower(DomainFollower&&) noexcept = default;
 template <int D>
-DomainFollowerOf<D>& DomainFollowerOf<D>::operator=(DomainFollowerOf&&) noexcept = default;
+DomainFollower<D>& DomainFollower<D>::operator=(DomainFollower&&) noexcept = default;
 template <int D>
-DomainFollowerOf<D>::~DomainFollowerOf() = default;
+DomainFollower<D>::~DomainFollower() = default;
 
 template <int D>
-auto DomainFollowerOf<D>::update(const Change<D>& change, const DomainEdits& edits)
-    -> DomainChange {
+auto DomainFollower<D>::update(const Change<D>& change, const DomainEdits<D>& edits)
+    -> DomainChange<D> {
   return update(change, edits, {});
 }
 
 template <int D>
-auto DomainFollowerOf<D>::update(const Change<D>& change, const DomainEdits& edits,
-                                 const Accept& accept) -> DomainChange {
+auto DomainFollower<D>::update(const Change<D>& change, const DomainEdits<D>& edits,
+                               const Accept& accept) -> DomainChange<D> {
   Numbering<D>& numbers = impl_->numbers;
   numbers.add(change.vertices_added, change.vertices_removed.size());
   try {
-    DomainChange result = impl_->update(change, edits, accept);
+    DomainChange<D> result = impl_->update(change, edits, accept);
     numbers.forget(change.vertices_removed);
     return result;
   } catch (...) {
@@ -177,26 +179,26 @@ auto DomainFollowerOf<D>::update(const Change<D>& change, const DomainEdits& edi
 }
 
 template <int D>
-RegionLabel DomainFollowerOf<D>::label(const typename DomainChange::Corners& triangle) const {
+RegionLabel DomainFollower<D>::label(const typename DomainChange<D>::Corners& triangle) const {
   return impl_->regions.label(impl_->number(triangle));
 }
 
 template <int D>
-bool DomainFollowerOf<D>::keeps(const typename DomainChange::Corners& triangle) const {
+bool DomainFollower<D>::keeps(const typename DomainChange<D>::Corners& triangle) const {
   return impl_->regions.keeps(label(triangle), impl_->extent);
 }
 
 template <int D>
-std::vector<SeedFaultOf<D>> DomainFollowerOf<D>::faults() const {
+std::vector<SeedFault<D>> DomainFollower<D>::faults() const {
   return impl_->regions.faults(impl_->extent);
 }
 
 template <int D>
-void DomainFollowerOf<D>::check_invariants() const {
+void DomainFollower<D>::check_invariants() const {
   impl_->regions.check_invariants();
 }
 
-template class DomainFollowerOf<2>;
-template class DomainFollowerOf<3>;
+template class DomainFollower<2>;
+template class DomainFollower<3>;
 
 }  // namespace mesher

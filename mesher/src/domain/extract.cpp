@@ -18,8 +18,7 @@ void keep_least(std::int64_t& least, std::int64_t marker) {
 template <int D>
 class Extractor {
  public:
-  Extractor(const MeshDataOf<D>& whole, const DomainOf<D>& domain)
-      : whole_(whole), domain_(domain) {
+  Extractor(const MeshData<D>& whole, const Domain<D>& domain) : whole_(whole), domain_(domain) {
     choose();
     copy_vertices();
     copy_simplices();
@@ -101,9 +100,9 @@ class Extractor {
 
   static std::array<std::uint32_t, 2> ends_of(const MeshEdge& e) { return {e.low, e.high}; }
 
-  const MeshDataOf<D>& whole_;
-  const DomainOf<D>& domain_;
-  ExtractOf<D> part_;
+  const MeshData<D>& whole_;
+  const Domain<D>& domain_;
+  Extract<D> part_;
   std::vector<std::uint32_t> new_vertex_, new_simplex_;
 };
 
@@ -111,7 +110,7 @@ class PlaneExtractor : Extractor<2> {
  public:
   using Extractor::Extractor;
 
-  Extract run() {
+  Extract<2> run() {
     mark(whole_.features.edges, ends_of);
     for (const SidedEdge& edge : sided_edges(whole_, whole_.features.edges, domain_)) {
       if (edge.left == kNoRegion && edge.right == kNoRegion) continue;
@@ -129,7 +128,7 @@ class SpaceExtractor : Extractor<3> {
  public:
   using Extractor::Extractor;
 
-  ExtractOf<3> run() {
+  Extract<3> run() {
     mark(whole_.features.edges, ends_of);
     mark(whole_.features.faces, [](const MeshFace& f) { return f.corners; });
     copy_edges();
@@ -199,11 +198,11 @@ class SpaceExtractor : Extractor<3> {
 }  // namespace
 
 template <>
-Extract extract(const MeshData& whole, const Domain& domain) {
+Extract<2> extract(const MeshData<2>& whole, const Domain<2>& domain) {
   return PlaneExtractor(whole, domain).run();
 }
 template <>
-ExtractOf<3> extract(const MeshDataOf<3>& whole, const DomainOf<3>& domain) {
+Extract<3> extract(const MeshData<3>& whole, const Domain<3>& domain) {
   return SpaceExtractor(whole, domain).run();
 }
 

@@ -13,16 +13,14 @@ namespace {
 template <int D>
 class Finder {
  public:
-  using Seed = SeedOf<D>;
-  using SeedFault = SeedFaultOf<D>;
-
-  Finder(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls, const std::vector<Seed>& seeds)
+  Finder(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls,
+         const std::vector<Seed<D>>& seeds)
       : mesh_(mesh),
         walls_(walls),
         seeds_(seeds),
         adjacency_(detail::adjacency(mesh.simplices, detail::corners_of(walls))) {}
 
-  DomainOf<D> run(Extent extent) {
+  Domain<D> run(Extent extent) {
     domain_.region_of = detail::flood<D>(adjacency_);
     count_simplices();
     place_seeds();
@@ -51,7 +49,7 @@ class Finder {
 
   void place_seeds() {
     std::vector<Point<D>> places;
-    for (const Seed& seed : seeds_) places.push_back(seed.at);
+    for (const Seed<D>& seed : seeds_) places.push_back(seed.at);
     holders_.resize(seeds_.size());
     detail::for_each_holding<D>(
         places, mesh_.simplices.size(), [&](std::size_t t) { return corners(t); },
@@ -62,7 +60,7 @@ class Finder {
     for (std::size_t i = 0; i < seeds_.size(); ++i) {
       const bool placed = !holders_[i].empty() && !is_on_wall(i);
       region_.push_back(placed ? domain_.region_of[holders_[i].front().simplex] : kNoRegion);
-      if (placed) counting_[region_[i]].add(seeds_[i].name);
+      if (placed) counting_[region_[i]].add(seeds_[i].id);
     }
   }
 
@@ -72,9 +70,9 @@ class Finder {
       encloses_ = encloses_ || !open_[r];
     }
     for (std::size_t i = 0; i < seeds_.size(); ++i) {
-      if (region_[i] == kNoRegion || seeds_[i].name.kind == SeedKind::hole) continue;
+      if (region_[i] == kNoRegion || seeds_[i].id.kind == SeedKind::hole) continue;
       Region& region = domain_.regions[region_[i]];
-      if (detail::counting_seed(region.label) != seeds_[i].name) continue;
+      if (detail::counting_seed(region.label) != seeds_[i].id) continue;
       region.attribute = seeds_[i].attribute;
       region.max_measure = seeds_[i].max_measure;
     }
@@ -85,16 +83,16 @@ class Finder {
       if (const auto fault = fault_of(i)) domain_.faults.push_back(*fault);
     }
     std::sort(domain_.faults.begin(), domain_.faults.end(),
-              [](const SeedFault& a, const SeedFault& b) { return a.seed < b.seed; });
+              [](const SeedFault<D>& a, const SeedFault<D>& b) { return a.seed < b.seed; });
   }
 
-  [[nodiscard]] std::optional<SeedFault> fault_of(std::size_t i) const {
-    const Seed& seed = seeds_[i];
+  [[nodiscard]] std::optional<SeedFault<D>> fault_of(std::size_t i) const {
+    const Seed<D>& seed = seeds_[i];
     if (holders_[i].empty()) {
-      return SeedFault{SeedFault::Kind::outside, seed.name, seed.at, {}, {}};
+      return SeedFault<D>{SeedFault<D>::Kind::outside, seed.id, seed.at, {}, {}};
     }
     if (region_[i] == kNoRegion) {
-      return SeedFault{SeedFault::Kind::on_segment, seed.name, seed.at, {}, line_at(i)};
+      return SeedFault<D>{SeedFault<D>::Kind::on_segment, seed.id, seed.at, {}, wall_at(i)};
     }
     return detail::fault_in(seed, domain_.regions[region_[i]].label, domain_.keeps_all);
   }
@@ -127,8 +125,10 @@ class Finder {
     return found;
   }
 
-  static std::optional<FeatureId> name(const MeshEdge& wall) { return wall.line; }
-  static std::optional<FeatureId> name(const MeshFace& wall) { return wall.polygon; }
+  static Feature name(const MeshEdge& wall) { return wall.line ? Feature(*wall.line) : Feature(); }
+  static Feature name(const MeshFace& wall) {
+    return wall.polygon ? Feature(*wall.polygon) : Feature();
+  }
   // The corners of a side, ascending.
   [[nodiscard]] std::array<std::uint32_t, D> side_of(std::uint32_t t, int across) const {
     std::array<std::uint32_t, D> side;
@@ -141,14 +141,15 @@ class Finder {
   }
 
   // Cost: O(walls); there is a fault to speak of.
-  [[nodiscard]] std::optional<FeatureId> line_at(std::size_t seed) const {
-    std::optional<FeatureId> least;
+  [[nodiscard]] Feature wall_at(std::size_t seed) const {
+    Feature least;
     const auto all = detail::corners_of(walls_);
     for_each_side_at(seed, [&](std::uint32_t t, int side) {
       const auto corners = side_of(t, side);
       for (std::size_t i = 0; i < walls_.size(); ++i) {
-        const auto id = name(walls_[i]);
-        if (id && all[i] == corners && (!least || *id < *least)) least = id;
+        const Feature id = name(walls_[i]);
+        if (id == Feature() || all[i] != corners) continue;
+        if (least == Feature() || id < least) least = id;
       }
     });
     return least;
@@ -161,9 +162,9 @@ class Finder {
   };
   const Mesh<D>& mesh_;
   const std::vector<WallOf<D>>& walls_;
-  const std::vector<Seed>& seeds_;
+  const std::vector<Seed<D>>& seeds_;
   detail::AdjacencyOf<D> adjacency_;
-  DomainOf<D> domain_;
+  Domain<D> domain_;
   std::vector<bool> open_;                    // one per region
   std::vector<detail::Counting> counting_;    // likewise
   std::vector<std::vector<Holder>> holders_;  // one per seed; ascending
@@ -174,15 +175,15 @@ class Finder {
 }  // namespace
 
 template <int D>
-DomainOf<D> find_domain(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls,
-                        const std::vector<SeedOf<D>>& seeds, Extent extent) {
+Domain<D> find_domain(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls,
+                      const std::vector<Seed<D>>& seeds, Extent extent) {
   detail::check_seeds(seeds);
   return Finder<D>(mesh, walls, seeds).run(extent);
 }
 
-template Domain find_domain(const Mesh<2>&, const std::vector<MeshEdge>&, const std::vector<Seed>&,
-                            Extent);
-template DomainOf<3> find_domain(const Mesh<3>&, const std::vector<MeshFace>&,
-                                 const std::vector<SeedOf<3>>&, Extent);
+template Domain<2> find_domain(const Mesh<2>&, const std::vector<MeshEdge>&,
+                               const std::vector<Seed<2>>&, Extent);
+template Domain<3> find_domain(const Mesh<3>&, const std::vector<MeshFace>&,
+                               const std::vector<Seed<3>>&, Extent);
 
 }  // namespace mesher

@@ -50,7 +50,7 @@ std::span<const Member> Clusters<D>::members(std::uint32_t component, std::uint3
 
 template <int D>
 Parting<D>::Parting(const TilesOf<D>& tiles, const Clusters<D>& clusters, Marks& marks,
-                 std::uint32_t component, std::span<const std::uint32_t> starts)
+                    std::uint32_t component, std::span<const std::uint32_t> starts)
     : tiles_(tiles),
       clusters_(clusters),
       marks_(marks),

@@ -66,8 +66,8 @@ template <int D>
 class Parting {
  public:
   /// `starts`: the clusters to start from, each with a member of the region.
-  Parting(const TilesOf<D>& tiles, const Clusters<D>& clusters, Marks& marks, std::uint32_t component,
-          std::span<const std::uint32_t> starts);
+  Parting(const TilesOf<D>& tiles, const Clusters<D>& clusters, Marks& marks,
+          std::uint32_t component, std::span<const std::uint32_t> starts);
 
   void run();
 

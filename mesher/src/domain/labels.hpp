@@ -11,17 +11,17 @@ namespace mesher::detail {
 
 /// Throws: Error (not_finite, magnitude, bad_number for a limit that is not > 0).
 template <int D>
-void check_seed(const SeedOf<D>& seed);
+void check_seed(const Seed<D>& seed);
 /// The same of each. Throws also: Error(repeated_id) for two of one name. Cost: O(s log s).
 template <int D>
-void check_seeds(const std::vector<SeedOf<D>>& seeds);
+void check_seeds(const std::vector<Seed<D>>& seeds);
 
 /// The seeds of one region that count, as they are met in any order.
 class Counting {
  public:
-  void add(const SeedName& seed) {
+  void add(const SeedId& seed) {
     auto& least = seed.kind == SeedKind::hole ? hole_ : region_;
-    if (!least || seed.id < *least) least = seed.id;
+    if (!least || seed < *least) least = seed;
   }
   [[nodiscard]] RegionLabel label(bool open) const {
     if (open) return {Zone::outside, region_};
@@ -30,7 +30,7 @@ class Counting {
   }
 
  private:
-  std::optional<FeatureId> hole_, region_;
+  std::optional<SeedId> hole_, region_;
 };
 
 /// Whether all is kept, where anything is enclosed or not.
@@ -42,23 +42,21 @@ class Counting {
 }
 
 /// The seed that a label is of.
-[[nodiscard]] inline std::optional<SeedName> counting_seed(const RegionLabel& label) {
-  if (!label.seed) return std::nullopt;
-  return SeedName{label.zone == Zone::hole ? SeedKind::hole : SeedKind::region, *label.seed};
+[[nodiscard]] inline std::optional<SeedId> counting_seed(const RegionLabel& label) {
+  return label.seed;
 }
 
 /// The fault of a seed in a region with this label; nothing if it has the region to itself.
 template <int D>
-[[nodiscard]] std::optional<SeedFaultOf<D>> fault_in(const SeedOf<D>& seed,
-                                                     const RegionLabel& label, bool keeps_all) {
-  using SeedFault = SeedFaultOf<D>;
-  const bool hole = seed.name.kind == SeedKind::hole;
+[[nodiscard]] std::optional<SeedFault<D>> fault_in(const Seed<D>& seed, const RegionLabel& label,
+                                                   bool keeps_all) {
+  const bool hole = seed.id.kind == SeedKind::hole;
   if (label.zone == Zone::outside && (hole || !keeps_all)) {
-    return SeedFault{SeedFault::Kind::outside, seed.name, seed.at, {}, {}};
+    return SeedFault<D>{SeedFault<D>::Kind::outside, seed.id, seed.at, {}, {}};
   }
   const auto counts = counting_seed(label);
-  if (counts == seed.name) return std::nullopt;
-  return SeedFault{SeedFault::Kind::shared, seed.name, seed.at, counts, {}};
+  if (counts == seed.id) return std::nullopt;
+  return SeedFault<D>{SeedFault<D>::Kind::shared, seed.id, seed.at, counts, {}};
 }
 
 }  // namespace mesher::detail

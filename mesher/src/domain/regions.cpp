@@ -15,7 +15,7 @@ namespace mesher::detail {
 
 template <int D>
 RegionsOf<D>::RegionsOf(const std::vector<Corners>& triangles, const std::vector<Wall>& walls,
-                        const std::vector<Seed>& seeds, Places places)
+                        const std::vector<Seed<D>>& seeds, Places places)
     : places_(std::move(places)), tiles_(triangles, walls) {
   flood_all(triangles);
   place_all(seeds);
@@ -54,10 +54,10 @@ void RegionsOf<D>::flood_all(const std::vector<Corners>& triangles) {
 }
 
 template <int D>
-void RegionsOf<D>::place_all(const std::vector<Seed>& seeds) {
+void RegionsOf<D>::place_all(const std::vector<Seed<D>>& seeds) {
   check_seeds(seeds);
   std::vector<Point<D>> places;
-  for (const Seed& seed : seeds) places.push_back(seed.at);
+  for (const Seed<D>& seed : seeds) places.push_back(seed.at);
   const auto holders = first_holding<D>(
       places, tiles_.slots(), [&](Slot s) { return corners_of(s); }, kNone);
   for (std::size_t k = 0; k < seeds.size(); ++k) {
@@ -136,7 +136,7 @@ std::uint32_t RegionsOf<D>::component_at(const Point<D>& p, Slot first) const {
 template <int D>
 RegionLabel RegionsOf<D>::label_of(const Component& component) const {
   Counting counting;
-  seeds_.for_each_inside(component, [&](std::uint32_t i) { counting.add(seeds_[i].seed.name); });
+  seeds_.for_each_inside(component, [&](std::uint32_t i) { counting.add(seeds_[i].seed.id); });
   return counting.label(component.exits > 0);
 }
 
@@ -153,17 +153,16 @@ bool RegionsOf<D>::keeps(const RegionLabel& label, Extent extent) const noexcept
 }
 
 template <int D>
-std::vector<SeedFaultOf<D>> RegionsOf<D>::faults(Extent extent) const {
-  using SeedFault = SeedFaultOf<D>;
+std::vector<SeedFault<D>> RegionsOf<D>::faults(Extent extent) const {
   const bool all_kept = keeps_all(extent, encloses());
-  std::vector<SeedFault> all;
+  std::vector<SeedFault<D>> all;
   seeds_.for_each([&](std::uint32_t i) {
     const auto& record = seeds_[i];
-    const Seed& seed = record.seed;
+    const Seed<D>& seed = record.seed;
     if (record.slot == kNone) {
-      all.push_back({SeedFault::Kind::outside, seed.name, seed.at, {}, {}});
+      all.push_back({SeedFault<D>::Kind::outside, seed.id, seed.at, {}, {}});
     } else if (record.component == kNone) {
-      all.push_back({SeedFault::Kind::on_segment, seed.name, seed.at, {}, {}});
+      all.push_back({SeedFault<D>::Kind::on_segment, seed.id, seed.at, {}, {}});
     } else if (const auto fault = fault_in(seed, components_[record.component].label, all_kept)) {
       all.push_back(*fault);
     }
@@ -200,7 +199,7 @@ std::vector<NamedRegion<D>> RegionsOf<D>::regions() const {
     region.label = label(c);
     const auto counts = counting_seed(region.label);
     if (!counts || counts->kind == SeedKind::hole) continue;
-    const Seed& seed = seeds_[seeds_.find(*counts)].seed;
+    const Seed<D>& seed = seeds_[seeds_.find(*counts)].seed;
     region.attribute = seed.attribute;
     region.max_measure = seed.max_measure;
   }

@@ -37,8 +37,8 @@ template <int D>
 struct RegionsChangeOf {
   std::vector<CornersOf<D>> triangles_out, triangles_in;
   std::vector<SideOf<D>> walls_out, walls_in;
-  std::vector<SeedName> seeds_out;
-  std::vector<SeedOf<D>> seeds_in;
+  std::vector<SeedId> seeds_out;
+  std::vector<Seed<D>> seeds_in;
 };
 using RegionsChange = RegionsChangeOf<2>;
 
@@ -87,7 +87,6 @@ class RegionsOf {
  public:
   using Corners = CornersOf<D>;
   using Wall = SideOf<D>;
-  using Seed = SeedOf<D>;
   using RegionsChange = RegionsChangeOf<D>;
   using RegionsDifference = RegionsDifferenceOf<D>;
   /// Where a vertex is; asked of vertices of triangles that are there.
@@ -96,7 +95,7 @@ class RegionsOf {
   /// Throws: Error as find_domain.
   /// Cost: O(m), and as find_domain for the seeds.
   RegionsOf(const std::vector<Corners>& triangles, const std::vector<Wall>& walls,
-            const std::vector<Seed>& seeds, Places places);
+            const std::vector<Seed<D>>& seeds, Places places);
 
   /// Requires: triangles and walls that go are there, those that come are not; what comes covers
   /// what goes; every wall is an edge afterwards.
@@ -111,7 +110,7 @@ class RegionsOf {
   [[nodiscard]] bool encloses() const noexcept { return closed_[0] > 0; }
   [[nodiscard]] bool keeps(const RegionLabel& label, Extent extent) const noexcept;
   /// As find_domain's, but without the segments' ids. Cost: O(seeds).
-  [[nodiscard]] std::vector<SeedFaultOf<D>> faults(Extent extent) const;
+  [[nodiscard]] std::vector<SeedFault<D>> faults(Extent extent) const;
   /// Ascending by their smallest triangles. Cost: O(m).
   [[nodiscard]] std::vector<NamedRegion<D>> regions() const;
   /// Calls visit(corners, label) for every triangle, in no order that means anything.
@@ -131,7 +130,7 @@ class RegionsOf {
   class Update;
 
   void flood_all(const std::vector<Corners>& triangles);
-  void place_all(const std::vector<Seed>& seeds);
+  void place_all(const std::vector<Seed<D>>& seeds);
   void keep() noexcept;
   [[nodiscard]] std::array<Point<D>, D + 1> corners_of(Slot s) const;
   [[nodiscard]] Slot locate(const Point<D>& p) const;

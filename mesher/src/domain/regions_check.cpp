@@ -55,10 +55,10 @@ void RegionsOf<D>::check_invariants() const {
   tiles_.check_invariants();
   seeds_.check_invariants(tiles_, components_);
   const Snapshot<D> now = snapshot<D>(tiles_, places_);
-  std::vector<Seed> seeds;
+  std::vector<Seed<D>> seeds;
   seeds_.for_each([&](std::uint32_t i) { seeds.push_back(seeds_[i].seed); });
   for (const Extent extent : {Extent::enclosed, Extent::box}) {
-    const DomainOf<D> domain = find_domain<D>(now.mesh, now.walls, seeds, extent);
+    const Domain<D> domain = find_domain<D>(now.mesh, now.walls, seeds, extent);
     SAC_INVARIANT(faults(extent) == domain.faults);
     std::map<std::uint32_t, std::uint32_t> names;  // components by the regions found
     std::uint32_t closed = 0;

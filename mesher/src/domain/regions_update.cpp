@@ -43,11 +43,11 @@ class RegionsOf<D>::Update {
 
   // --- Seeds ---------------------------------------------------------------------------------
 
-  void remove_seeds(const std::vector<SeedName>& names) {
-    for (const SeedName& name : names) {
+  void remove_seeds(const std::vector<SeedId>& names) {
+    for (const SeedId& name : names) {
       const std::uint32_t i = r_.seeds_.find(name);
       if (i == kNone)
-        throw Error(ErrorCode::unknown_id, "seed is not there", {}, {seed_named(name)});
+        throw Error(ErrorCode::unknown_id, "seed is not there", {}, {mesher::Feature(name)});
       touch(r_.seeds_[i].component);
       r_.seeds_.let_go(r_.tiles_, i);
       r_.seeds_.enter(r_.components_, i, kNone);
@@ -78,11 +78,12 @@ class RegionsOf<D>::Update {
     disturbed_ = dropped_;
   }
 
-  void add_seeds(const std::vector<Seed>& seeds) {
-    for (const Seed& seed : seeds) {
+  void add_seeds(const std::vector<Seed<D>>& seeds) {
+    for (const Seed<D>& seed : seeds) {
       check_seed(seed);
-      if (r_.seeds_.find(seed.name) != kNone) {
-        throw Error(ErrorCode::repeated_id, "seed is there already", {}, {seed_named(seed.name)});
+      if (r_.seeds_.find(seed.id) != kNone) {
+        throw Error(ErrorCode::repeated_id, "seed is there already", {},
+                    {mesher::Feature(seed.id)});
       }
       const std::uint32_t i = r_.seeds_.add(seed);
       const Slot holder = r_.locate(seed.at);

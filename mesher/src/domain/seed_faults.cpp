@@ -10,16 +10,14 @@ namespace mesher {
 namespace {
 
 template <int D>
-std::string reason(const SeedFaultOf<D>& fault) {
-  using SeedFault = SeedFaultOf<D>;
+std::string reason(const SeedFault<D>& fault) {
   const std::string wall = D == 2 ? "segment" : "polygon";
   switch (fault.kind) {
-    case SeedFault::Kind::outside:
+    case SeedFault<D>::Kind::outside:
       return "is outside of what the " + wall + "s enclose";
-    case SeedFault::Kind::on_segment:
-      if (!fault.line) return "is on a " + wall;
-      return "is on " + wall + " " + std::to_string(static_cast<std::int64_t>(*fault.line));
-    case SeedFault::Kind::shared:
+    case SeedFault<D>::Kind::on_segment:
+      return "is on " + (fault.wall == Feature() ? "a " + wall : text_of(fault.wall));
+    case SeedFault<D>::Kind::shared:
       return "is in one region with " + text_of(*fault.other) + ", which counts";
   }
   return {};
@@ -27,37 +25,32 @@ std::string reason(const SeedFaultOf<D>& fault) {
 
 }  // namespace
 
-std::string text_of(const SeedName& seed) {
-  return (seed.kind == SeedKind::hole ? "hole " : "region ") +
-         std::to_string(static_cast<std::int64_t>(seed.id));
-}
-
 template <int D>
-std::string describe(const SeedFaultOf<D>& fault) {
+std::string describe(const SeedFault<D>& fault) {
   return "the seed of " + text_of(fault.seed) + " at " + text::to_text<D>(fault.at) + " " +
          reason(fault);
 }
 
-template std::string describe(const SeedFaultOf<2>&);
-template std::string describe(const SeedFaultOf<3>&);
+template std::string describe(const SeedFault<2>&);
+template std::string describe(const SeedFault<3>&);
 
 template <int D>
-Error error_of(const SeedFaultOf<D>& fault) {
-  std::vector<Feature> features{seed_named(fault.seed)};
-  if (fault.other) features.push_back(seed_named(*fault.other));
-  if (fault.line) features.push_back(D == 2 ? line_named(*fault.line) : polygon_named(*fault.line));
+Error error_of(const SeedFault<D>& fault) {
+  std::vector<Feature> features{mesher::Feature(fault.seed)};
+  if (fault.other) features.push_back(mesher::Feature(*fault.other));
+  if (fault.wall != Feature()) features.push_back(fault.wall);
   return {ErrorCode::bad_seed, describe(fault), {}, std::move(features), {position_of(fault.at)}};
 }
-template Error error_of(const SeedFaultOf<2>&);
-template Error error_of(const SeedFaultOf<3>&);
+template Error error_of(const SeedFault<2>&);
+template Error error_of(const SeedFault<3>&);
 
 namespace detail {
 
 template <int D>
-void check_seed(const SeedOf<D>& seed) {
+void check_seed(const Seed<D>& seed) {
   const auto refuse = [&](ErrorCode code, const std::string& what) {
-    throw Error(code, "the seed of " + text_of(seed.name) + " " + what, {}, {seed_named(seed.name)},
-                {position_of(seed.at)});
+    throw Error(code, "the seed of " + text_of(seed.id) + " " + what, {},
+                {mesher::Feature(seed.id)}, {position_of(seed.at)});
   };
   for (const double x : seed.at) {
     if (!std::isfinite(x)) refuse(ErrorCode::not_finite, "has a coordinate that is not finite");
@@ -75,23 +68,24 @@ void check_seed(const SeedOf<D>& seed) {
   }
 }
 
-template void check_seed(const SeedOf<2>&);
-template void check_seed(const SeedOf<3>&);
+template void check_seed(const Seed<2>&);
+template void check_seed(const Seed<3>&);
 
 template <int D>
-void check_seeds(const std::vector<SeedOf<D>>& seeds) {
-  std::vector<SeedName> names;
-  for (const SeedOf<D>& seed : seeds) {
+void check_seeds(const std::vector<Seed<D>>& seeds) {
+  std::vector<SeedId> names;
+  for (const Seed<D>& seed : seeds) {
     check_seed(seed);
-    names.push_back(seed.name);
+    names.push_back(seed.id);
   }
   std::sort(names.begin(), names.end());
   const auto twice = std::adjacent_find(names.begin(), names.end());
   if (twice == names.end()) return;
-  throw Error(ErrorCode::repeated_id, text_of(*twice) + " has two seeds", {}, {seed_named(*twice)});
+  throw Error(ErrorCode::repeated_id, text_of(*twice) + " has two seeds", {},
+              {mesher::Feature(*twice)});
 }
-template void check_seeds(const std::vector<SeedOf<2>>&);
-template void check_seeds(const std::vector<SeedOf<3>>&);
+template void check_seeds(const std::vector<Seed<2>>&);
+template void check_seeds(const std::vector<Seed<3>>&);
 
 }  // namespace detail
 }  // namespace mesher

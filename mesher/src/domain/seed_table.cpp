@@ -8,13 +8,13 @@
 namespace mesher::detail {
 
 template <int D>
-std::uint32_t SeedTableOf<D>::find(const SeedName& name) const noexcept {
+std::uint32_t SeedTableOf<D>::find(const SeedId& name) const noexcept {
   const auto it = names_.find(name);
   return it != names_.end() ? it->second : kNone;
 }
 
 template <int D>
-std::uint32_t SeedTableOf<D>::add(const Seed& seed) {
+std::uint32_t SeedTableOf<D>::add(const Seed<D>& seed) {
   Record record;
   record.seed = seed;
   std::uint32_t i = free_[0];
@@ -25,14 +25,14 @@ std::uint32_t SeedTableOf<D>::add(const Seed& seed) {
     free_.edit(0) = records_[i].next_held;
     records_.edit(i) = record;
   }
-  name_edits_.push_back({seed.name});
-  names_.emplace(seed.name, i);
+  name_edits_.push_back({seed.id});
+  names_.emplace(seed.id, i);
   return i;
 }
 
 template <int D>
 void SeedTableOf<D>::remove(std::uint32_t i) {
-  const SeedName name = records_[i].seed.name;
+  const SeedId name = records_[i].seed.id;
   name_edits_.push_back({name});
   name_edits_.back().removed = names_.extract(name);
   Record empty;
@@ -121,7 +121,7 @@ template <int D>
 void SeedTableOf<D>::check_invariants(const Tiles& tiles, const Components& components) const {
   std::size_t held = 0, inside = 0, placed = 0, placed_inside = 0;
   for (const auto& [name, i] : names_) {
-    SAC_INVARIANT(records_[i].seed.name == name);
+    SAC_INVARIANT(records_[i].seed.id == name);
     placed += records_[i].slot != kNone;
     placed_inside += records_[i].component != kNone;
   }

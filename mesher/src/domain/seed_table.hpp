@@ -13,11 +13,10 @@ namespace mesher::detail {
 template <int D>
 class SeedTableOf {
  public:
-  using Seed = SeedOf<D>;
   using Tile = TileOf<D>;
   using Tiles = TilesOf<D>;
   struct Record {
-    Seed seed{};
+    Seed<D> seed{};
     Slot slot = kNone;                // that holds it; kNone: not in the triangulation
     std::uint32_t component = kNone;  // kNone on a wall, too
     // In the list of the triangle; next_held of a free record: the next free one.
@@ -29,7 +28,7 @@ class SeedTableOf {
 
   [[nodiscard]] const Record& operator[](std::uint32_t i) const noexcept { return records_[i]; }
   /// kNone if there is no such seed.
-  [[nodiscard]] std::uint32_t find(const SeedName& name) const noexcept;
+  [[nodiscard]] std::uint32_t find(const SeedId& name) const noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return names_.size(); }
   /// Calls visit(number) for every seed, ascending by name.
   template <class Visit>
@@ -52,7 +51,7 @@ class SeedTableOf {
   }
 
   /// Requires: no such seed. Cost: O(log seeds).
-  std::uint32_t add(const Seed& seed);
+  std::uint32_t add(const Seed<D>& seed);
   /// Requires: it is held nowhere and in no region. Cost: O(log seeds).
   void remove(std::uint32_t i);
 
@@ -70,9 +69,9 @@ class SeedTableOf {
   void check_invariants(const Tiles& tiles, const Components& components) const;
 
  private:
-  using Names = std::map<SeedName, std::uint32_t>;
+  using Names = std::map<SeedId, std::uint32_t>;
   struct NameEdit {
-    SeedName name;
+    SeedId name;
     Names::node_type removed{};  // empty: the name was added
   };
 

@@ -13,7 +13,7 @@ bool before(const MeshEdge& a, const MeshEdge& b) {
 
 class Sider {
  public:
-  Sider(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls, const Domain& domain)
+  Sider(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls, const Domain<2>& domain)
       : mesh_(mesh), walls_(walls), domain_(domain) {
     std::sort(walls_.begin(), walls_.end(), before);
   }
@@ -55,14 +55,14 @@ class Sider {
 
   const Mesh<2>& mesh_;
   std::vector<MeshEdge> walls_;
-  const Domain& domain_;
+  const Domain<2>& domain_;
   std::vector<SidedEdge> edges_;
 };
 
 }  // namespace
 
 std::vector<SidedEdge> sided_edges(const Mesh<2>& mesh, const std::vector<MeshEdge>& walls,
-                                   const Domain& domain) {
+                                   const Domain<2>& domain) {
   return Sider(mesh, walls, domain).run();
 }
 

@@ -37,7 +37,7 @@ struct TileOf {
   CornersOf<D> corners = no_corners<D>();     // all kNone: the slot is free
   CornersOf<D> neighbours = no_corners<D>();  // slots, across from each corner; free: [0] next
   std::uint32_t component = kNone;
-  std::uint32_t walls : D + 1 = 0;         // bit i: side i
+  std::uint32_t walls : D + 1 = 0;        // bit i: side i
   std::uint32_t seed : 31 - D = kNoSeed;  // the first of those held here
 
   static constexpr std::uint32_t kNoSeed = (1u << (31 - D)) - 1;
@@ -90,10 +90,10 @@ struct SeamsOf {
     Slot survivor;
     friend auto operator<=>(const Bond&, const Bond&) = default;
   };
-  std::vector<TileOf<D>> removed;   // as they were
-  std::vector<Slot> added;     // in the order given
-  std::vector<Slot> frontier;  // survivors beside a change, ascending, each once
-  std::vector<Bond> bonds;     // ascending
+  std::vector<TileOf<D>> removed;  // as they were
+  std::vector<Slot> added;         // in the order given
+  std::vector<Slot> frontier;      // survivors beside a change, ascending, each once
+  std::vector<Bond> bonds;         // ascending
   std::vector<SideOf<D>> toggled;  // edges whose wall came or went
   struct Exits {
     Slot survivor;

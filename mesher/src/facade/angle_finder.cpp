@@ -43,7 +43,7 @@ class WorldInput {
   [[nodiscard]] std::array<VertexHandle, 2> ends(SegmentHandle s) const {
     return {segment(s).a, segment(s).b};
   }
-  [[nodiscard]] FeatureId line(SegmentHandle s) const { return world_.names->line(s); }
+  [[nodiscard]] LineId line(SegmentHandle s) const { return world_.names->line(s); }
   template <class Visit>
   void for_each_ending_at(VertexHandle v, Visit&& visit) const {
     world_.segments.store().visit_at(v, [&](const Segment& s) { visit(s.self); });

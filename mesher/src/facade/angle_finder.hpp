@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "mesher/angles.hpp"
+#include "mesher/reports.hpp"
 #include "program/world.hpp"
 
 namespace mesher::detail {

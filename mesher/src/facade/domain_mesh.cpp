@@ -1,21 +1,21 @@
 // Joins a graph and its mesh: which vertex and edge is whose, and the part that is wanted.
-#include "mesher/domain_mesh.hpp"
-
 #include <algorithm>
 #include <unordered_map>
 #include <utility>
 
+#include "facade/graph_runs.hpp"
 #include "sac/check.hpp"
 
 namespace mesher {
 namespace {
 
-using Markers = std::unordered_map<FeatureId, std::int64_t>;
+template <class Id>
+using Markers = std::unordered_map<Id, std::int64_t>;
 
 // Calls visit(vertex, point) for each point, which is a vertex: both go by place.
 template <int D, class Visit>
-void for_each_input(const Mesh<D>& mesh, const std::vector<MarkedPoint<D>>& all, Visit&& visit) {
-  std::vector<const MarkedPoint<D>*> points;
+void for_each_input(const Mesh<D>& mesh, const std::vector<GraphPoint<D>>& all, Visit&& visit) {
+  std::vector<const GraphPoint<D>*> points;
   points.reserve(all.size());
   for (const auto& p : all) points.push_back(&p);
   std::sort(points.begin(), points.end(), [](auto* a, auto* b) { return a->at < b->at; });
@@ -27,8 +27,9 @@ void for_each_input(const Mesh<D>& mesh, const std::vector<MarkedPoint<D>>& all,
   }
 }
 
-Markers line_markers(const Pslg& graph) {
-  Markers markers;
+template <int D>
+Markers<LineId> line_markers(const Graph<D>& graph) {
+  Markers<LineId> markers;
   for (const auto& s : graph.segments) markers.emplace(s.id, s.marker);
   for (const auto& l : graph.polylines) markers.emplace(l.id, l.marker);
   return markers;
@@ -36,39 +37,18 @@ Markers line_markers(const Pslg& graph) {
 
 // There is one region, the box, and it is not enclosed.
 template <int D>
-DomainMeshOf<D> bare(Mesh<D> mesh) {
-  DomainMeshOf<D> all;
+DomainMesh<D> bare(Mesh<D> mesh) {
+  DomainMesh<D> all;
   all.regions.push_back({{}, 0, mesh.simplices.size(), 0, {}});
-  all.kept = MeshDataOf<D>(std::move(mesh));
+  all.mesh = MeshData<D>(std::move(mesh));
   return all;
-}
-
-template <class Points>
-bool has_no_markers(const Points& points) {
-  return std::all_of(points.begin(), points.end(), [](const auto& p) { return p.marker == 0; });
-}
-
-template <class Points>
-auto places(const Points& points) {
-  std::vector<std::decay_t<decltype(points.front().at)>> all;
-  all.reserve(points.size());
-  for (const auto& p : points) all.push_back(p.at);
-  return all;
-}
-
-template <class Points>
-std::vector<FeatureId> ids_of(const Points& points) {
-  std::vector<FeatureId> ids;
-  ids.reserve(points.size());
-  for (const auto& p : points) ids.push_back(p.id);
-  return ids;
 }
 
 // Points with their names and markers.
 template <int D>
-void add_points(const std::vector<MarkedPoint<D>>& points, MeshDataOf<D>& data) {
+void add_points(const std::vector<GraphPoint<D>>& points, MeshData<D>& data) {
   auto& features = data.features;
-  for_each_input<D>(data, points, [&](std::uint32_t v, const MarkedPoint<D>& p) {
+  for_each_input<D>(data, points, [&](std::uint32_t v, const GraphPoint<D>& p) {
     features.origins[v] = p.id;
     features.markers[v] = p.marker;
   });
@@ -76,91 +56,93 @@ void add_points(const std::vector<MarkedPoint<D>>& points, MeshDataOf<D>& data) 
 
 }  // namespace
 
-bool is_bare(const Pslg& graph) {
-  return graph.segments.empty() && graph.polylines.empty() && graph.holes.empty() &&
-         graph.regions.empty() && has_no_markers(graph.points);
-}
-bool is_bare(const Plc& complex) {
-  return complex.segments.empty() && complex.facets.empty() && complex.holes.empty() &&
-         complex.regions.empty() && has_no_markers(complex.points);
-}
+namespace {
 
-std::vector<Point<2>> places_of(const Pslg& graph) { return places(graph.points); }
-std::vector<Point<3>> places_of(const Plc& complex) { return places(complex.points); }
-
-std::vector<Segment> segments_of(const Pslg& graph) {
-  std::vector<Segment> all;
-  for (const auto& s : graph.segments) all.push_back({s.id, s.from, s.to});
-  for (const auto& l : graph.polylines) {
-    for (std::size_t i = 1; i < l.points.size(); ++i) {
-      all.push_back({l.id, l.points[i - 1], l.points[i]});
-    }
-  }
-  return all;
+template <int D>
+std::vector<PointId> ids_of(const Graph<D>& graph) {
+  std::vector<PointId> ids;
+  ids.reserve(graph.points.size());
+  for (const auto& p : graph.points) ids.push_back(p.id);
+  return ids;
 }
 
-std::vector<Seed> seeds_of(const Pslg& graph) {
-  std::vector<Seed> seeds;
-  for (const auto& h : graph.holes) seeds.push_back({{SeedKind::hole, h.id}, h.seed, 0, {}});
-  for (const auto& r : graph.regions) {
-    seeds.push_back({{SeedKind::region, r.id}, r.seed, r.attribute, r.max_area});
-  }
-  return seeds;
+template <int D>
+RefinedExtent<D> refined(const Graph<D>& graph, Extent extent) {
+  RefinedExtent<D> refined{.only_enclosed = extent == Extent::enclosed};
+  for (const auto& hole : graph.holes()) refined.holes.push_back(hole.at);
+  return refined;
 }
 
-void add_seed(Pslg& graph, const Seed& seed) {
-  if (seed.name.kind == SeedKind::hole) {
-    graph.holes.push_back({seed.name.id, seed.at});
+// run(places, features..., ids): with the segments of a graph, and in space its polygons.
+template <int D, class Run>
+Mesh<D> with_parts(const Graph<D>& graph, Run&& run) {
+  if constexpr (D == 2) {
+    return run(places_of(graph), segments_of(graph));
   } else {
-    graph.regions.push_back({seed.name.id, seed.at, seed.attribute, seed.max_measure});
+    return run(places_of(graph), segments_of(graph), graph.polygons);
   }
 }
 
-void add_seed(Plc& complex, const SeedOf<3>& seed) {
-  if (seed.name.kind == SeedKind::hole) {
-    complex.holes.push_back({seed.name.id, seed.at});
-  } else {
-    complex.regions.push_back({seed.name.id, seed.at, seed.attribute, seed.max_measure});
-  }
-}
+}  // namespace
 
-Mesh<2> mesh_statically(const Pslg& graph, const Options<2>& options, MeshStats* stats,
+template <int D>
+Mesh<D> mesh_statically(const Graph<D>& graph, const Options<D>& options, MeshStats* stats,
                         const RunControl& control) {
-  const std::vector<FeatureId> ids = ids_of(graph.points);
-  const std::vector<Segment> segments = segments_of(graph);
-  if (segments.empty()) return mesh_statically<2>(places_of(graph), options, ids, stats, control);
-  return mesh_statically(places_of(graph), segments, options, ids, stats, control);
+  const std::vector<PointId> ids = ids_of(graph);
+  if (!has_features(graph))
+    return mesh_statically<D>(places_of(graph), options, ids, stats, control);
+  return with_parts(graph, [&](const auto&... parts) {
+    return mesh_statically(parts..., options, ids, stats, control);
+  });
 }
 
-MeshData with_features(Mesh<2> mesh, const Pslg& graph) {
-  MeshData data(std::move(mesh));
+template <int D>
+Mesh<D> refine(const Graph<D>& graph, const Options<D>& options, Extent extent,
+               const RefineSettings& settings, RefineStats* stats, const RunControl& control) {
+  const std::vector<PointId> ids = ids_of(graph);
+  if (!has_features(graph)) {
+    return refine<D>(places_of(graph), options, settings, ids, stats, control);
+  }
+  return with_parts(graph, [&](const auto&... parts) {
+    return refine(parts..., options, refined(graph, extent), settings, ids, stats, control);
+  });
+}
+
+template <int D>
+Mesh<D> svr(const Graph<D>& graph, const Options<D>& options, Extent extent,
+            const SvrSettings& settings, SvrStats* stats, const RunControl& control) {
+  const std::vector<PointId> ids = ids_of(graph);
+  if (!has_features(graph)) {
+    return svr<D>(places_of(graph), options, settings, ids, stats, control);
+  }
+  return with_parts(graph, [&](const auto&... parts) {
+    return svr(parts..., options, refined(graph, extent), settings, ids, stats, control);
+  });
+}
+
+MeshData<2> with_features(Mesh<2> mesh, const Graph<2>& graph) {
+  MeshData<2> data(std::move(mesh));
   auto& features = data.features;
   features.origins.resize(data.vertices.size());
   features.markers.resize(data.vertices.size());
-  const Markers markers = line_markers(graph);
+  const Markers<LineId> markers = line_markers(graph);
   for (const auto& e : data.edges) {
-    features.edges.push_back({e.low, e.high, e.line, markers.at(e.line)});
+    const LineId line{e.feature.number};
+    features.edges.push_back({e.low, e.high, line, markers.at(line)});
     for (const std::uint32_t v : {e.low, e.high}) {
-      if (data.kinds[v] == VertexKind::segment) features.origins[v] = e.line;
+      if (data.kinds[v] == VertexKind::segment) features.origins[v] = line;
     }
   }
   add_points<2>(graph.points, data);
   return data;
 }
 
-DomainMesh domain_mesh(Mesh<2> mesh, const Pslg& graph, Extent extent) {
-  if (is_bare(graph)) return bare(std::move(mesh));
-  const MeshData whole = with_features(std::move(mesh), graph);
-  Domain domain = find_domain(whole, whole.features.edges, seeds_of(graph), extent);
-  return {extract(whole, domain).mesh, std::move(domain.regions), std::move(domain.faults),
-          domain.keeps_all};
-}
-
 // --- In space --------------------------------------------------------------------------------
 
 namespace {
 
-std::int64_t marker_of(const Markers& markers, FeatureId id) {
+template <class Id>
+std::int64_t marker_of(const Markers<Id>& markers, Id id) {
   const auto it = markers.find(id);
   return it == markers.end() ? 0 : it->second;
 }
@@ -190,82 +172,15 @@ void mark_edges(MeshFeatures& features) {
 
 }  // namespace
 
-std::vector<Segment> segments_of(const Plc& complex) {
-  std::vector<Segment> all;
-  for (const auto& s : complex.segments) all.push_back({s.id, s.from, s.to});
-  return all;
-}
-
-std::vector<Polygon> polygons_of(const Plc& complex) {
-  std::vector<Polygon> all;
-  for (const auto& f : complex.facets) all.push_back(f.polygon);
-  return all;
-}
-
-std::vector<SeedOf<3>> seeds_of(const Plc& complex) {
-  std::vector<SeedOf<3>> seeds;
-  for (const auto& h : complex.holes) seeds.push_back({{SeedKind::hole, h.id}, h.seed, 0, {}});
-  for (const auto& r : complex.regions) {
-    seeds.push_back({{SeedKind::region, r.id}, r.seed, r.attribute, r.max_volume});
-  }
-  return seeds;
-}
-
-Mesh<3> mesh_statically(const Plc& complex, const Options<3>& options, MeshStats* stats,
-                        const RunControl& control) {
-  const std::vector<FeatureId> ids = ids_of(complex.points);
-  const auto segments = segments_of(complex);
-  const auto polygons = polygons_of(complex);
-  if (segments.empty() && polygons.empty()) {
-    return mesh_statically<3>(places_of(complex), options, ids, stats, control);
-  }
-  return mesh_statically(places_of(complex), segments, polygons, options, ids, stats, control);
-}
-
-namespace {
-
-template <int D>
-RefinedExtentOf<D> refined(const GraphOf<D>& graph, Extent extent) {
-  RefinedExtentOf<D> refined{.only_enclosed = extent == Extent::enclosed};
-  for (const auto& hole : graph.holes) refined.holes.push_back(hole.seed);
-  return refined;
-}
-
-}  // namespace
-
-Mesh<2> refine(const Pslg& graph, const Options<2>& options, Extent extent,
-               const RefineSettings& settings, RefineStats* stats, const RunControl& control) {
-  return refine(places_of(graph), segments_of(graph), options, refined<2>(graph, extent), settings,
-                ids_of(graph.points), stats, control);
-}
-
-Mesh<2> svr(const Pslg& graph, const Options<2>& options, Extent extent,
-            const SvrSettings& settings, SvrStats* stats, const RunControl& control) {
-  return svr(places_of(graph), segments_of(graph), options, refined<2>(graph, extent), settings,
-             ids_of(graph.points), stats, control);
-}
-
-Mesh<3> refine(const Plc& complex, const Options<3>& options, Extent extent,
-               const RefineSettings& settings, RefineStats* stats, const RunControl& control) {
-  return refine(places_of(complex), segments_of(complex), polygons_of(complex), options,
-                refined<3>(complex, extent), settings, ids_of(complex.points), stats, control);
-}
-
-Mesh<3> svr(const Plc& complex, const Options<3>& options, Extent extent,
-            const SvrSettings& settings, SvrStats* stats, const RunControl& control) {
-  return svr(places_of(complex), segments_of(complex), polygons_of(complex), options,
-             refined<3>(complex, extent), settings, ids_of(complex.points), stats, control);
-}
-
-MeshDataOf<3> with_features(Mesh<3> mesh, const Plc& complex) {
-  MeshDataOf<3> data(std::move(mesh));
+MeshData<3> with_features(Mesh<3> mesh, const Graph<3>& complex) {
+  MeshData<3> data(std::move(mesh));
   auto& features = data.features;
   features.origins.resize(data.vertices.size());
   features.markers.resize(data.vertices.size());
-  Markers of_segments, of_polygons;
-  for (const auto& s : complex.segments) of_segments.emplace(s.id, s.marker);
-  for (const auto& f : complex.facets) of_polygons.emplace(f.polygon.id, f.marker);
-  const auto name = [&](std::uint32_t v, FeatureId id) {
+  const Markers<LineId> of_lines = line_markers(complex);
+  Markers<PolygonId> of_polygons;
+  for (const auto& f : complex.polygons) of_polygons.emplace(f.id, f.marker);
+  const auto name = [&](std::uint32_t v, const Feature& id) {
     if (data.kinds[v] == VertexKind::segment) features.origins[v] = id;
   };
   for (const auto& f : data.faces) {
@@ -273,23 +188,43 @@ MeshDataOf<3> with_features(Mesh<3> mesh, const Plc& complex) {
     for (const std::uint32_t v : f.corners) name(v, f.polygon);
   }
   for (const auto& e : data.edges) {
-    const auto line = e.of_polygon ? std::optional<FeatureId>() : e.line;
-    const std::int64_t marker = e.of_polygon ? 0 : marker_of(of_segments, e.line);
+    const std::optional<LineId> line = e.feature.line();
+    const std::int64_t marker = line ? marker_of(of_lines, *line) : 0;
     features.edges.push_back({e.low, e.high, line, marker});
-    name(e.low, e.line);
-    name(e.high, e.line);
+    name(e.low, e.feature);
+    name(e.high, e.feature);
   }
   mark_edges(features);
   add_points<3>(complex.points, data);
   return data;
 }
 
-DomainMeshOf<3> domain_mesh(Mesh<3> mesh, const Plc& complex, Extent extent) {
-  if (is_bare(complex)) return bare(std::move(mesh));
-  const MeshDataOf<3> whole = with_features(std::move(mesh), complex);
-  DomainOf<3> domain = find_domain(whole, whole.features.faces, seeds_of(complex), extent);
+template <int D>
+DomainMesh<D> domain_mesh(Mesh<D> mesh, const Graph<D>& graph, Extent extent) {
+  if (is_bare(graph)) return bare(std::move(mesh));
+  const MeshData<D> whole = with_features(std::move(mesh), graph);
+  Domain<D> domain = [&] {
+    if constexpr (D == 2) {
+      return find_domain(whole, whole.features.edges, graph.seeds, extent);
+    } else {
+      return find_domain(whole, whole.features.faces, graph.seeds, extent);
+    }
+  }();
   return {extract(whole, domain).mesh, std::move(domain.regions), std::move(domain.faults),
           domain.keeps_all};
 }
+
+#define MESHER_INSTANTIATE(D)                                                                     \
+  template Mesh<D> mesh_statically(const Graph<D>&, const Options<D>&, MeshStats*,                \
+                                   const RunControl&);                                            \
+  template Mesh<D> refine(const Graph<D>&, const Options<D>&, Extent, const RefineSettings&,      \
+                          RefineStats*, const RunControl&);                                       \
+  template Mesh<D> svr(const Graph<D>&, const Options<D>&, Extent, const SvrSettings&, SvrStats*, \
+                       const RunControl&);                                                        \
+  template DomainMesh<D> domain_mesh(Mesh<D>, const Graph<D>&, Extent)
+
+MESHER_INSTANTIATE(2);
+MESHER_INSTANTIATE(3);
+#undef MESHER_INSTANTIATE
 
 }  // namespace mesher

@@ -6,15 +6,14 @@
 #include <utility>
 
 #include "domain/labels.hpp"
+#include "facade/graph_runs.hpp"
 
 namespace mesher::detail {
 namespace {
 
-using Markers = DomainState<2>::Markers;
-
 // Sets a marker, 0 for none, and makes the edit; or does neither.
-template <class Make>
-void mark(Markers& markers, FeatureId id, std::int64_t marker, Make make) {
+template <class Id, class Make>
+void mark(EditedTable<Id, std::int64_t>& markers, Id id, std::int64_t marker, Make make) {
   if (marker == 0 && markers.find(id) == nullptr) return make();
   const auto before = markers.edit_of(id);
   markers.set(id, marker == 0 ? std::nullopt : std::optional(marker));
@@ -26,94 +25,93 @@ void mark(Markers& markers, FeatureId id, std::int64_t marker, Make make) {
   }
 }
 
-std::int64_t marker_of(const Markers& markers, FeatureId id) {
+template <class Id>
+std::int64_t marker_of(const EditedTable<Id, std::int64_t>& markers, Id id) {
   const auto it = markers.committed().find(id);
   return it == markers.committed().end() ? 0 : it->second;
 }
 
-void add_line(Pslg& graph, InputLine line, std::int64_t marker) {
+template <int D>
+void add_line(Graph<D>& graph, Polyline line) {
   if (line.points.size() == 2) {
-    graph.segments.push_back({line.id, line.points[0], line.points[1], marker});
+    graph.segments.push_back({line.id, line.points[0], line.points[1], line.marker});
   } else {
-    graph.polylines.push_back({line.id, std::move(line.points), marker});
-  }
-}
-void add_line(Plc& complex, const InputLine& line, std::int64_t marker) {
-  for (std::size_t i = 1; i < line.points.size(); ++i) {
-    complex.segments.push_back({line.id, line.points[i - 1], line.points[i], marker});
+    graph.polylines.push_back(std::move(line));
   }
 }
 
 }  // namespace
 
 template <int D>
-DomainState<D>::DomainState(const Options<D>& options, Extent extent, RegionAreas areas)
-    : mesher_(options), extent_(extent), areas_(areas) {}
+DomainState<D>::DomainState(const Options<D>& options)
+    : mesher_(options), extent_(options.extent), areas_(options.region_areas) {}
 
 // --- Edits -----------------------------------------------------------------------------------
 
 template <int D>
-void DomainState<D>::insert(FeatureId id, const Point<D>& point, std::int64_t marker) {
+void DomainState<D>::insert(PointId id, const Point<D>& point, std::int64_t marker) {
   busy_.require_idle();
   mark(point_markers_, id, marker, [&] { mesher_.insert(id, point); });
 }
 
 template <int D>
-void DomainState<D>::remove(FeatureId id) {
+void DomainState<D>::remove(PointId id) {
   busy_.require_idle();
   mark(point_markers_, id, 0, [&] { mesher_.remove(id); });
 }
 
 template <int D>
-void DomainState<D>::move(FeatureId id, const Point<D>& point) {
+void DomainState<D>::move(PointId id, const Point<D>& point) {
   busy_.require_idle();
   mesher_.move(id, point);
 }
 
 template <int D>
-void DomainState<D>::insert_line(FeatureId id, const std::vector<FeatureId>& points,
-                              std::int64_t marker) {
+void DomainState<D>::insert_line(LineId id, const std::vector<PointId>& points,
+                                 std::int64_t marker) {
   busy_.require_idle();
   mark(line_markers_, id, marker, [&] { mesher_.insert_polyline(id, points); });
   needs_follower_ = needs_follower_ || D == 2;  // in space lines enclose nothing
 }
 
 template <int D>
-void DomainState<D>::remove_line(FeatureId id) {
+void DomainState<D>::remove_line(LineId id) {
   busy_.require_idle();
-  mark(line_markers_, id, 0, [&] { mesher_.remove_segment(id); });
+  mark(line_markers_, id, 0, [&] { mesher_.remove_line(id); });
 }
 
 template <int D>
-void DomainState<D>::insert_polygon(const mesher::Polygon& polygon, std::int64_t marker) {
+void DomainState<D>::insert_polygon(mesher::Polygon polygon) {
   busy_.require_idle();
+  const std::int64_t marker = std::exchange(polygon.marker, 0);  // which the mesh does not know
   mark(polygon_markers_, polygon.id, marker, [&] { mesher_.insert_polygon(polygon); });
   needs_follower_ = true;
 }
 
 template <int D>
-void DomainState<D>::remove_polygon(FeatureId id) {
+void DomainState<D>::remove_polygon(PolygonId id) {
   busy_.require_idle();
   mark(polygon_markers_, id, 0, [&] { mesher_.remove_polygon(id); });
 }
 
 template <int D>
-void DomainState<D>::insert_seed(const SeedOf<D>& seed) {
+void DomainState<D>::insert_seed(const Seed<D>& seed) {
   busy_.require_idle();
   check_seed(seed);
-  if (seeds_.find(seed.name) != nullptr) {
-    throw Error(ErrorCode::repeated_id, text_of(seed.name) + " is there already", {},
-                {seed_named(seed.name)}, {position_of(seed.at)});
+  if (seeds_.find(seed.id) != nullptr) {
+    throw Error(ErrorCode::repeated_id, text_of(seed.id) + " is there already", {},
+                {mesher::Feature(seed.id)}, {position_of(seed.at)});
   }
-  seeds_.set(seed.name, seed);
+  seeds_.set(seed.id, seed);
   needs_follower_ = true;
 }
 
 template <int D>
-void DomainState<D>::remove_seed(const SeedName& name) {
+void DomainState<D>::remove_seed(const SeedId& name) {
   busy_.require_idle();
   if (seeds_.find(name) == nullptr) {
-    throw Error(ErrorCode::unknown_id, text_of(name) + " is not there", {}, {seed_named(name)});
+    throw Error(ErrorCode::unknown_id, text_of(name) + " is not there", {},
+                {mesher::Feature(name)});
   }
   seeds_.set(name, std::nullopt);
 }
@@ -156,7 +154,7 @@ void DomainState<D>::prepare() {
   polygon_markers_.prepare();
   seeds_.prepare();
   if (needs_follower_ && ran_ && !follower_) {
-    follower_.emplace(mesher_.mesh(), std::vector<WallOf<D>>(), std::vector<SeedOf<D>>(), extent_);
+    follower_.emplace(mesher_.mesh(), std::vector<WallOf<D>>(), std::vector<Seed<D>>(), extent_);
   }
 }
 
@@ -172,9 +170,9 @@ void DomainState<D>::commit() noexcept {
 
 // The first run. The follower is there only if the run is accepted: nothing throws after it.
 template <int D>
-void DomainState<D>::begin(const Change<D>& change, DomainUpdateOf<D>& update) {
-  DomainFollowerOf<D> first(mesh_of(change), walls_of(change), all_of(seeds_), extent_);
-  DomainChangeOf<D> domain;
+void DomainState<D>::begin(const Change<D>& change, DomainUpdate<D>& update) {
+  DomainFollower<D> first(mesh_of(change), walls_of(change), all_of(seeds_), extent_);
+  DomainChange<D> domain;
   for (const auto& triangle : change.simplices_added) {
     if (first.keeps(triangle)) domain.kept_added.push_back(triangle);
   }
@@ -184,7 +182,7 @@ void DomainState<D>::begin(const Change<D>& change, DomainUpdateOf<D>& update) {
 }
 
 template <int D>
-void DomainState<D>::follow(const Change<D>& change, DomainUpdateOf<D>& update) {
+void DomainState<D>::follow(const Change<D>& change, DomainUpdate<D>& update) {
   if (!follower_ && needs_follower_) return begin(change, update);
   if (!follower_) {
     update.domain = {change.simplices_added, change.simplices_removed, {}, 0};
@@ -193,13 +191,12 @@ void DomainState<D>::follow(const Change<D>& change, DomainUpdateOf<D>& update) 
   }
   update.domain = follower_->update(
       change, domain_edits<D>(change, seeds_),
-      [&](const DomainChangeOf<D>& domain) { update.kept = kept_slots(change, domain); });
+      [&](const DomainChange<D>& domain) { update.kept = kept_slots(change, domain); });
 }
 
 // What is kept is in the same order as what comes or goes; the rest was there before and stays.
 template <int D>
-KeptSlots DomainState<D>::kept_slots(const Change<D>& change,
-                                     const DomainChangeOf<D>& domain) const {
+KeptSlots DomainState<D>::kept_slots(const Change<D>& change, const DomainChange<D>& domain) const {
   if (!mesher_.keeps_slots()) return {};
   const auto slots = [&](const auto& kept, const auto& listed, const std::vector<Slot>& those) {
     std::vector<Slot> all;
@@ -217,10 +214,10 @@ KeptSlots DomainState<D>::kept_slots(const Change<D>& change,
 }
 
 template <int D>
-auto DomainState<D>::corners(Slot simplex) const -> typename DomainChangeOf<D>::Corners {
+auto DomainState<D>::corners(Slot simplex) const -> typename DomainChange<D>::Corners {
   const LiveMesh<D> live = mesher_.live();
   SAC_EXPECTS(live.is_simplex(simplex));
-  typename DomainChangeOf<D>::Corners corners;
+  typename DomainChange<D>::Corners corners;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     corners[i] = live.points()[live.simplices()[simplex][i]];
   }
@@ -233,15 +230,15 @@ bool DomainState<D>::needs_unlimited() const {
   if (!follower_ && !needs_follower_) return false;  // no line, no seed
   if (extent_ == Extent::enclosed && mesher_.has_limits()) return true;
   if (areas_ == RegionAreas::ignored) return false;
-  const std::vector<SeedOf<D>> seeds = all_of(seeds_);
+  const std::vector<Seed<D>> seeds = all_of(seeds_);
   return std::any_of(seeds.begin(), seeds.end(),
-                     [](const SeedOf<D>& seed) { return seed.max_measure.has_value(); });
+                     [](const Seed<D>& seed) { return seed.max_measure.has_value(); });
 }
 
 // It begins with what the last update left.
 template <int D>
 void DomainState<D>::make_unlimited(const RunControl& control) {
-  auto made = std::make_unique<UnlimitedMesh<D>>(mesher_.options(), extent_, areas_);
+  auto made = std::make_unique<UnsizedMesh<D>>(mesher_.options(), extent_, areas_);
   if (ran_) {
     EditedSeedsOf<D> seeds;
     for (const auto& [name, seed] : seeds_.committed()) seeds.set(name, seed);
@@ -265,8 +262,8 @@ void DomainState<D>::run_with_unlimited(const RunControl& control,
 }
 
 template <int D>
-DomainUpdateOf<D> DomainState<D>::run(const RunControl& control) {
-  DomainUpdateOf<D> update;
+DomainUpdate<D> DomainState<D>::run(const RunControl& control) {
+  DomainUpdate<D> update;
   const auto run_limited = [&] {
     static_cast<Change<D>&>(update) =
         mesher_.update(control, [&](const Change<D>& change) { follow(change, update); });
@@ -280,9 +277,9 @@ DomainUpdateOf<D> DomainState<D>::run(const RunControl& control) {
 }
 
 template <int D>
-DomainUpdateOf<D> DomainState<D>::update(const RunControl& control) {
-  const Busy::Run running(busy_);
-  DomainUpdateOf<D> update;
+DomainUpdate<D> DomainState<D>::update(const RunControl& control) {
+  const ReentryGuard::Run running(busy_);
+  DomainUpdate<D> update;
   try {
     prepare();
     update = run(control);
@@ -298,22 +295,22 @@ DomainUpdateOf<D> DomainState<D>::update(const RunControl& control) {
 }
 
 template <int D>
-GraphOf<D> DomainState<D>::input() const {
-  GraphOf<D> graph;
+Graph<D> DomainState<D>::input() const {
+  Graph<D> graph;
   for (const auto& p : mesher_.points()) {
     graph.points.push_back({p.id, p.at, marker_of(point_markers_, p.id)});
   }
   for (auto& line : mesher_.lines()) {
-    const std::int64_t marker = marker_of(line_markers_, line.id);
-    add_line(graph, std::move(line), marker);
+    line.marker = marker_of(line_markers_, line.id);
+    add_line(graph, std::move(line));
   }
   if constexpr (D == 3) {
     for (auto& polygon : mesher_.polygons()) {
-      const std::int64_t marker = marker_of(polygon_markers_, polygon.id);
-      graph.facets.push_back({std::move(polygon), marker});
+      polygon.marker = marker_of(polygon_markers_, polygon.id);
+      graph.polygons.push_back(std::move(polygon));
     }
   }
-  for (const auto& [name, seed] : seeds_.committed()) add_seed(graph, seed);
+  for (const auto& [name, seed] : seeds_.committed()) graph.seeds.push_back(seed);
   return graph;
 }
 

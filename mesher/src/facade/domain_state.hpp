@@ -1,4 +1,4 @@
-// What a DomainMesher is made of: a mesher, a follower of its domain, and what both do not know of
+// What a Mesher is made of: a mesher, a follower of its domain, and what both do not know of
 // the input. The follower has its say on a change while the mesher can still take it back.
 #pragma once
 
@@ -7,54 +7,55 @@
 #include <optional>
 #include <vector>
 
-#include "facade/busy.hpp"
+#include "facade/box_mesher.hpp"
 #include "facade/edited_table.hpp"
 #include "facade/followed.hpp"
-#include "facade/unlimited_mesh.hpp"
-#include "mesher/domain_mesher.hpp"
+#include "facade/reentry_guard.hpp"
+#include "facade/unsized_mesh.hpp"
 
 namespace mesher::detail {
 
 template <int D>
 class DomainState {
  public:
-  using Markers = EditedTable<FeatureId, std::int64_t>;
+  template <class Id>
+  using Markers = EditedTable<Id, std::int64_t>;
 
   /// Throws: Error(bad_option).
-  DomainState(const Options<D>& options, Extent extent, RegionAreas areas);
+  explicit DomainState(const Options<D>& options);
 
   // Edits are refused while an update runs, whichever of the meshers it is at.
-  void insert(FeatureId id, const Point<D>& point, std::int64_t marker);
-  void remove(FeatureId id);
-  void move(FeatureId id, const Point<D>& point);
-  void insert_line(FeatureId id, const std::vector<FeatureId>& points, std::int64_t marker);
-  void remove_line(FeatureId id);
-  void insert_polygon(const mesher::Polygon& polygon, std::int64_t marker);
-  void remove_polygon(FeatureId id);
-  void insert_seed(const SeedOf<D>& seed);
-  void remove_seed(const SeedName& name);
+  void insert(PointId id, const Point<D>& point, std::int64_t marker);
+  void remove(PointId id);
+  void move(PointId id, const Point<D>& point);
+  void insert_line(LineId id, const std::vector<PointId>& points, std::int64_t marker);
+  void remove_line(LineId id);
+  void insert_polygon(mesher::Polygon polygon);
+  void remove_polygon(PolygonId id);
+  void insert_seed(const Seed<D>& seed);
+  void remove_seed(const SeedId& name);
   void limit(const SizeLimits<D>& limits);
   void limit(const Box<D>& box, const SizeLimits<D>& limits);
   void keep_slots(bool keep);
   void discard_edits() noexcept;
   [[nodiscard]] bool is_idle() const noexcept { return busy_.is_idle(); }
-  DomainUpdateOf<D> update(const RunControl& control);
+  DomainUpdate<D> update(const RunControl& control);
 
-  [[nodiscard]] GraphOf<D> input() const;
-  [[nodiscard]] bool contains_seed(const SeedName& name) const {
+  [[nodiscard]] Graph<D> input() const;
+  [[nodiscard]] bool contains_seed(const SeedId& name) const {
     return seeds_.find(name) != nullptr;
   }
   /// Requires: the slot of a simplex.
-  [[nodiscard]] typename DomainChangeOf<D>::Corners corners(Slot simplex) const;
-  [[nodiscard]] const Mesher<D>& mesher() const noexcept { return mesher_; }
+  [[nodiscard]] typename DomainChange<D>::Corners corners(Slot simplex) const;
+  [[nodiscard]] const BoxMesher<D>& mesher() const noexcept { return mesher_; }
   [[nodiscard]] Extent extent() const noexcept { return extent_; }
   /// Nobody as long as there are points alone.
-  [[nodiscard]] const std::optional<DomainFollowerOf<D>>& follower() const noexcept {
+  [[nodiscard]] const std::optional<DomainFollower<D>>& follower() const noexcept {
     return follower_;
   }
 
   /// Nobody as long as it does not matter to limits of size what lines, or polygons, enclose.
-  [[nodiscard]] const UnlimitedMesh<D>* unlimited() const noexcept { return unlimited_.get(); }
+  [[nodiscard]] const UnsizedMesh<D>* unlimited() const noexcept { return unlimited_.get(); }
 
  private:
   void prepare();
@@ -62,19 +63,21 @@ class DomainState {
   [[nodiscard]] bool needs_unlimited() const;
   void make_unlimited(const RunControl& control);
   void run_with_unlimited(const RunControl& control, const std::function<void()>& run_limited);
-  [[nodiscard]] DomainUpdateOf<D> run(const RunControl& control);
-  void begin(const Change<D>& change, DomainUpdateOf<D>& update);
-  void follow(const Change<D>& change, DomainUpdateOf<D>& update);
-  [[nodiscard]] KeptSlots kept_slots(const Change<D>& change, const DomainChangeOf<D>& domain) const;
+  [[nodiscard]] DomainUpdate<D> run(const RunControl& control);
+  void begin(const Change<D>& change, DomainUpdate<D>& update);
+  void follow(const Change<D>& change, DomainUpdate<D>& update);
+  [[nodiscard]] KeptSlots kept_slots(const Change<D>& change, const DomainChange<D>& domain) const;
 
-  Mesher<D> mesher_;
+  BoxMesher<D> mesher_;
   Extent extent_;
   RegionAreas areas_;
-  Markers point_markers_, line_markers_, polygon_markers_;
+  Markers<PointId> point_markers_;
+  Markers<LineId> line_markers_;
+  Markers<PolygonId> polygon_markers_;
   EditedSeedsOf<D> seeds_;
-  std::optional<DomainFollowerOf<D>> follower_;  // from the first line (polygon) or seed on
-  std::unique_ptr<UnlimitedMesh<D>> unlimited_;  // from the first limits on that it matters to
-  Busy busy_;
+  std::optional<DomainFollower<D>> follower_;  // from the first line (polygon) or seed on
+  std::unique_ptr<UnsizedMesh<D>> unlimited_;  // from the first limits on that it matters to
+  ReentryGuard busy_;
   bool needs_follower_ = false;  // there are edits to follow
   bool ran_ = false;
 };

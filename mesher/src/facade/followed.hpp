@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "domain/domain_follower.hpp"
 #include "facade/edited_table.hpp"
-#include "mesher/domain_follower.hpp"
 
 namespace mesher::detail {
 
@@ -35,7 +35,7 @@ template <int D>
   std::vector<MeshEdge> walls;
   for (const auto& e : change.edges_added) {
     const auto& all = change.vertices_added;
-    walls.push_back({index_of(all, e.low), index_of(all, e.high), e.line, 0});
+    walls.push_back({index_of(all, e.low), index_of(all, e.high), e.feature.line(), 0});
   }
   return walls;
 }
@@ -51,39 +51,39 @@ template <int D>
 }
 
 template <int D>
-using EditedSeedsOf = EditedTable<SeedName, SeedOf<D>>;
+using EditedSeedsOf = EditedTable<SeedId, Seed<D>>;
 using EditedSeeds = EditedSeedsOf<2>;
 
 /// All seeds that shall be.
-template <class Seed>
-[[nodiscard]] std::vector<Seed> all_of(const EditedTable<SeedName, Seed>& seeds) {
-  std::vector<Seed> all;
+template <int D>
+[[nodiscard]] std::vector<Seed<D>> all_of(const EditedTable<SeedId, Seed<D>>& seeds) {
+  std::vector<Seed<D>> all;
   for (const auto& [name, seed] : seeds.committed()) {
-    if (const Seed* now = seeds.find(name)) all.push_back(*now);
+    if (const Seed<D>* now = seeds.find(name)) all.push_back(*now);
   }
-  seeds.for_each_edit([&](const SeedName&, const Seed* was, const Seed* is) {
+  seeds.for_each_edit([&](const SeedId&, const Seed<D>* was, const Seed<D>* is) {
     if (was == nullptr && is != nullptr) all.push_back(*is);
   });
   return all;
 }
 
-[[nodiscard]] inline std::vector<DomainEdits::Wall> ends_of(const std::vector<LineEdge<2>>& edges) {
-  std::vector<DomainEdits::Wall> walls;
+[[nodiscard]] inline std::vector<DomainEdits<2>::Wall> ends_of(
+    const std::vector<mesher::LineEdge<2>>& edges) {
+  std::vector<DomainEdits<2>::Wall> walls;
   for (const auto& e : edges) walls.push_back({e.low, e.high});
   return walls;
 }
-[[nodiscard]] inline std::vector<DomainEditsOf<3>::Wall> ends_of(
-    const std::vector<PolygonFace<3>>& faces) {
-  std::vector<DomainEditsOf<3>::Wall> walls;
+[[nodiscard]] inline std::vector<DomainEdits<3>::Wall> ends_of(
+    const std::vector<mesher::PolygonFace<3>>& faces) {
+  std::vector<DomainEdits<3>::Wall> walls;
   for (const auto& f : faces) walls.push_back(f.corners);
   return walls;
 }
 
 /// What comes and goes besides triangles.
 template <int D>
-[[nodiscard]] DomainEditsOf<D> domain_edits(const Change<D>& change,
-                                            const EditedSeedsOf<D>& seeds) {
-  DomainEditsOf<D> edits;
+[[nodiscard]] DomainEdits<D> domain_edits(const Change<D>& change, const EditedSeedsOf<D>& seeds) {
+  DomainEdits<D> edits;
   if constexpr (D == 2) {
     edits.walls_out = ends_of(change.edges_removed);
     edits.walls_in = ends_of(change.edges_added);
@@ -91,7 +91,7 @@ template <int D>
     edits.walls_out = ends_of(change.faces_removed);
     edits.walls_in = ends_of(change.faces_added);
   }
-  seeds.for_each_edit([&](const SeedName& name, const SeedOf<D>* was, const SeedOf<D>* is) {
+  seeds.for_each_edit([&](const SeedId& name, const Seed<D>* was, const Seed<D>* is) {
     if (was != nullptr) edits.seeds_out.push_back(name);
     if (is != nullptr) edits.seeds_in.push_back(*is);
   });

@@ -5,17 +5,17 @@
 #include <unordered_set>
 #include <vector>
 
-#include "facade/announced_lines.hpp"
+#include "facade/pending_lines.hpp"
 #include "records/segment.hpp"
 
 namespace mesher::detail {
 
 struct LineNews {
-  using Lines = std::unordered_map<FeatureId, LinePoints>;
+  using Lines = std::unordered_map<LineId, LinePoints>;
 
-  std::unordered_map<VertexHandle, FeatureId> points;
-  std::unordered_map<SegmentHandle, FeatureId> lines;  // of segments
-  std::vector<SegmentHandle> segments;                 // in the order in which they came
+  std::unordered_map<VertexHandle, PointId> points;
+  std::unordered_map<SegmentHandle, LineId> lines;  // of segments
+  std::vector<SegmentHandle> segments;              // in the order in which they came
   Lines line_points;
   std::unordered_set<SegmentHandle> taken;  // segments that went; some have come again
 

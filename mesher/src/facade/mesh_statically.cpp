@@ -28,18 +28,18 @@ template <int D>
 using World = detail::World<sac::PlainScope, D>;
 using detail::VertexHandle;
 
-FeatureId id_of(std::size_t i, const std::vector<FeatureId>& ids) {
-  return ids.empty() ? FeatureId{static_cast<std::int64_t>(i + 1)} : ids[i];
+PointId id_of(std::size_t i, const std::vector<PointId>& ids) {
+  return ids.empty() ? PointId{static_cast<std::int64_t>(i + 1)} : ids[i];
 }
 
 // The handles of the points, in their order.
 template <int D>
 std::vector<VertexHandle> add_points(const std::vector<Point<D>>& points, const Options<D>& options,
-                                     const std::vector<FeatureId>& ids, World<D>& world) {
+                                     const std::vector<PointId>& ids, World<D>& world) {
   auto& features = world.features.tree();
   std::vector<VertexHandle> handles(points.size());
   for (const std::size_t i : detail::morton_order(points, world.box)) {
-    const FeatureId id = id_of(i, ids);
+    const PointId id = id_of(i, ids);
     detail::check_point(points[i], options.domain, id);
     auto& v = world.vertices.add_input(points[i], true);
     if (const auto* other = features.insert_unless(v)) {
@@ -54,7 +54,7 @@ std::vector<VertexHandle> add_points(const std::vector<Point<D>>& points, const 
 // What the features are called, by their handles.
 class InputNames final : public detail::Names {
  public:
-  InputNames(const std::vector<VertexHandle>& handles, const std::vector<FeatureId>& ids,
+  InputNames(const std::vector<VertexHandle>& handles, const std::vector<PointId>& ids,
              std::size_t segments)
       : lines_(segments + 1) {
     for (std::size_t i = 0; i < handles.size(); ++i) {
@@ -62,31 +62,32 @@ class InputNames final : public detail::Names {
       points_[handles[i]] = id_of(i, ids);
     }
   }
-  void name(detail::SegmentHandle s, FeatureId id) { lines_[s] = id; }
-  [[nodiscard]] FeatureId point(VertexHandle v) const override { return points_[v]; }
-  [[nodiscard]] FeatureId line(detail::SegmentHandle s) const override { return lines_[s]; }
+  void name(detail::SegmentHandle s, LineId id) { lines_[s] = id; }
+  [[nodiscard]] PointId point(VertexHandle v) const override { return points_[v]; }
+  [[nodiscard]] LineId line(detail::SegmentHandle s) const override { return lines_[s]; }
 
  private:
-  std::vector<FeatureId> points_, lines_;
+  std::vector<PointId> points_;
+  std::vector<LineId> lines_;
 };
 
-std::unordered_map<FeatureId, VertexHandle> handles_by_id(const std::vector<VertexHandle>& handles,
-                                                          const std::vector<FeatureId>& ids) {
-  std::unordered_map<FeatureId, VertexHandle> by_id;
+std::unordered_map<PointId, VertexHandle> handles_by_id(const std::vector<VertexHandle>& handles,
+                                                        const std::vector<PointId>& ids) {
+  std::unordered_map<PointId, VertexHandle> by_id;
   for (std::size_t i = 0; i < handles.size(); ++i) by_id.emplace(id_of(i, ids), handles[i]);
   return by_id;
 }
 
 // The segments' handles, in their order.
 std::vector<detail::SegmentHandle> add_segments(const std::vector<Segment>& segments,
-                                                const std::vector<FeatureId>& ids,
+                                                const std::vector<PointId>& ids,
                                                 const std::vector<VertexHandle>& handles,
                                                 World<2>& world, InputNames& names) {
   const auto by_id = handles_by_id(handles, ids);
   std::vector<detail::SegmentHandle> added;
   for (const Segment& s : segments) {
     if (s.from == s.to) detail::fail_zero_length(s.id, s.from);
-    const auto end = [&](FeatureId id) {
+    const auto end = [&](PointId id) {
       const auto it = by_id.find(id);
       return it != by_id.end() ? it->second : detail::fail_no_end(id, s.id);
     };
@@ -148,9 +149,8 @@ void require_edges(World<2>& world) {
     return std::array{std::min(v, w), std::max(v, w)};
   };
   const LeafEnds ends(world);
-  world.leaves.for_each([&](const detail::Leaf& leaf) {
-    leaves[key(ends.at(leaf.lo), ends.at(leaf.hi))] = &leaf;
-  });
+  world.leaves.for_each(
+      [&](const detail::Leaf& leaf) { leaves[key(ends.at(leaf.lo), ends.at(leaf.hi))] = &leaf; });
   world.for_each_simplex([&](const auto& t) {
     for (std::size_t i = 0; i < 3; ++i) leaves.erase(key(t[i], t[(i + 1) % 3]));
   });
@@ -189,7 +189,7 @@ template <int D>
 class StaticRun {
  public:
   StaticRun(const std::vector<Point<D>>& points, const Options<D>& options,
-            const std::vector<FeatureId>& ids, const RunControl& control, std::size_t segments,
+            const std::vector<PointId>& ids, const RunControl& control, std::size_t segments,
             Purpose purpose = Purpose::mesh)
       : control_(control),
         box_((begin(points, ids, control), detail::mesh_box(options))),
@@ -229,7 +229,7 @@ class StaticRun {
   }
 
  private:
-  static void begin(const std::vector<Point<D>>& points, const std::vector<FeatureId>& ids,
+  static void begin(const std::vector<Point<D>>& points, const std::vector<PointId>& ids,
                     const RunControl& control) {
     SAC_EXPECTS(ids.empty() || ids.size() == points.size());
     predicates::self_test();
@@ -256,21 +256,21 @@ class StaticRun {
 class SpaceInputNames final : public detail::SpaceNames {
  public:
   explicit SpaceInputNames(const InputNames& points) : points_(points) {}
-  void name(const detail::Edge& e, FeatureId id) { segments_[e.self] = id; }
-  void name(const detail::Polygon& f, FeatureId id) { polygons_[f.self] = id; }
-  [[nodiscard]] FeatureId point(VertexHandle v) const override { return points_.point(v); }
-  [[nodiscard]] std::optional<FeatureId> segment(detail::EdgeHandle e) const override {
+  void name(const detail::Edge& e, LineId id) { segments_[e.self] = id; }
+  void name(const detail::Polygon& f, PolygonId id) { polygons_[f.self] = id; }
+  [[nodiscard]] PointId point(VertexHandle v) const override { return points_.point(v); }
+  [[nodiscard]] std::optional<LineId> segment(detail::EdgeHandle e) const override {
     const auto it = segments_.find(e);
     return it == segments_.end() ? std::nullopt : std::optional(it->second);
   }
-  [[nodiscard]] FeatureId polygon(detail::PolygonHandle f) const override {
+  [[nodiscard]] PolygonId polygon(detail::PolygonHandle f) const override {
     return polygons_.at(f);
   }
 
  private:
   const InputNames& points_;
-  std::unordered_map<detail::EdgeHandle, FeatureId> segments_;
-  std::unordered_map<detail::PolygonHandle, FeatureId> polygons_;
+  std::unordered_map<detail::EdgeHandle, LineId> segments_;
+  std::unordered_map<detail::PolygonHandle, PolygonId> polygons_;
 };
 
 // `handle_of(id)`: of a point, 0 if there is none.
@@ -282,9 +282,9 @@ void add_features(const std::vector<Segment>& segments, const std::vector<Polygo
   std::vector<detail::PolygonHandle> polygons_come;
   for (const Segment& s : segments) {
     if (s.from == s.to) detail::fail_zero_length(s.id, s.from);
-    const auto end = [&](FeatureId id) {
+    const auto end = [&](PointId id) {
       const VertexHandle v = handle_of(id);
-      if (v == 0) detail::fail_unknown_point(id, "an end of", line_named(s.id));
+      if (v == 0) detail::fail_unknown_point(id, "an end of", mesher::Feature(s.id));
       return v;
     };
     const VertexHandle a = end(s.from), b = end(s.to);
@@ -306,7 +306,7 @@ void add_features(const std::vector<Segment>& segments, const std::vector<Polygo
 
 template <int D>
 Mesh<D> mesh_statically(const std::vector<Point<D>>& points, const Options<D>& options,
-                        const std::vector<FeatureId>& ids, MeshStats* stats,
+                        const std::vector<PointId>& ids, MeshStats* stats,
                         const RunControl& control) {
   StaticRun<D> run(points, options, ids, control, 0);
   run.refine();
@@ -314,15 +314,15 @@ Mesh<D> mesh_statically(const std::vector<Point<D>>& points, const Options<D>& o
 }
 
 template Mesh<2> mesh_statically<2>(const std::vector<Point<2>>&, const Options<2>&,
-                                    const std::vector<FeatureId>&, MeshStats*, const RunControl&);
+                                    const std::vector<PointId>&, MeshStats*, const RunControl&);
 template Mesh<3> mesh_statically<3>(const std::vector<Point<3>>&, const Options<3>&,
-                                    const std::vector<FeatureId>&, MeshStats*, const RunControl&);
+                                    const std::vector<PointId>&, MeshStats*, const RunControl&);
 
 namespace {
 
 struct GraphRun : StaticRun<2> {
   GraphRun(const std::vector<Point<2>>& points, const std::vector<Segment>& segments,
-           const Options<2>& options, const std::vector<FeatureId>& ids, const RunControl& control)
+           const Options<2>& options, const std::vector<PointId>& ids, const RunControl& control)
       : StaticRun<2>(points, options, ids, control, segments.size()) {
     if (segments.empty()) return;
     require_planar(world(), add_segments(segments, ids, handles(), world(), names()), names(),
@@ -338,14 +338,14 @@ struct detail::CheckedGraph::Run : GraphRun {
 
 detail::CheckedGraph::CheckedGraph(const std::vector<Point<2>>& points,
                                    const std::vector<mesher::Segment>& segments,
-                                   const Options<2>& options, const std::vector<FeatureId>& ids,
+                                   const Options<2>& options, const std::vector<PointId>& ids,
                                    const RunControl& control)
     : run_(std::make_unique<Run>(points, segments, options, ids, control)) {}
 detail::CheckedGraph::~CheckedGraph() = default;
 World<2>& detail::CheckedGraph::store() const { return run_->world(); }
 
 Mesh<2> mesh_statically(const std::vector<Point<2>>& points, const std::vector<Segment>& segments,
-                        const Options<2>& options, const std::vector<FeatureId>& ids,
+                        const Options<2>& options, const std::vector<PointId>& ids,
                         MeshStats* stats, const RunControl& control) {
   if (options.rule != Rule::radius_edge) {
     throw Error(ErrorCode::bad_option, "segments need the rule radius-edge");
@@ -360,11 +360,10 @@ namespace {
 
 // The segments and polygons put into a run.
 SpaceInputNames add_features(const std::vector<Segment>& segments,
-                             const std::vector<Polygon>& polygons,
-                             const std::vector<FeatureId>& ids, StaticRun<3>& run,
-                             const RunControl& control) {
+                             const std::vector<Polygon>& polygons, const std::vector<PointId>& ids,
+                             StaticRun<3>& run, const RunControl& control) {
   const auto by_id = handles_by_id(run.handles(), ids);
-  const auto handle_of = [&](FeatureId id) {
+  const auto handle_of = [&](PointId id) {
     const auto it = by_id.find(id);
     return it == by_id.end() ? VertexHandle{0} : it->second;
   };
@@ -378,7 +377,7 @@ SpaceInputNames add_features(const std::vector<Segment>& segments,
 struct detail::CheckedComplex::Run {
   Run(const std::vector<Point<3>>& points, const std::vector<mesher::Segment>& segments,
       const std::vector<mesher::Polygon>& polygons, const Options<3>& options,
-      const std::vector<FeatureId>& ids, const RunControl& control)
+      const std::vector<PointId>& ids, const RunControl& control)
       : run(points, options, ids, control, 0, Purpose::check),
         names(add_features(segments, polygons, ids, run, control)) {}
 
@@ -389,7 +388,7 @@ struct detail::CheckedComplex::Run {
 detail::CheckedComplex::CheckedComplex(const std::vector<Point<3>>& points,
                                        const std::vector<mesher::Segment>& segments,
                                        const std::vector<mesher::Polygon>& polygons,
-                                       const Options<3>& options, const std::vector<FeatureId>& ids,
+                                       const Options<3>& options, const std::vector<PointId>& ids,
                                        const RunControl& control)
     : run_(std::make_unique<Run>(points, segments, polygons, options, ids, control)) {}
 detail::CheckedComplex::~CheckedComplex() = default;
@@ -402,7 +401,7 @@ const detail::SpaceNames& detail::CheckedComplex::names() const { return run_->n
 void detail::require_complex(const std::vector<Point<3>>& points,
                              const std::vector<mesher::Segment>& segments,
                              const std::vector<mesher::Polygon>& polygons,
-                             const Options<3>& options, const std::vector<FeatureId>& ids) {
+                             const Options<3>& options, const std::vector<PointId>& ids) {
   const RunControl control;
   StaticRun<3> run(points, options, ids, control, 0, Purpose::check);
   static_cast<void>(add_features(segments, polygons, ids, run, control));
@@ -410,7 +409,7 @@ void detail::require_complex(const std::vector<Point<3>>& points,
 
 Mesh<3> mesh_statically(const std::vector<Point<3>>& points, const std::vector<Segment>& segments,
                         const std::vector<Polygon>& polygons, const Options<3>& options,
-                        const std::vector<FeatureId>& ids, MeshStats* stats,
+                        const std::vector<PointId>& ids, MeshStats* stats,
                         const RunControl& control) {
   if (options.rule != Rule::radius_edge) {
     throw Error(ErrorCode::bad_option, "segments and polygons need the rule radius-edge");

@@ -1,306 +1,35 @@
-// The facade: announced edits on one side, the state that updates work on at the other.
+// The facade of a mesh with its regions.
 #include "mesher/mesher.hpp"
 
-#include <algorithm>
-#include <string>
-
-#include "facade/announced.hpp"
-#include "facade/announced_limits.hpp"
-#include "facade/busy.hpp"
-#include "facade/space_state.hpp"
-#include "facade/state.hpp"
-#include "geometry/input_point.hpp"
-#include "live/live_arrays.hpp"
-#include "mesher/predicates.hpp"
-#include "program/meter.hpp"
-#include "program/space_input.hpp"
+#include "facade/domain_state.hpp"
+#include "facade/graph_runs.hpp"
+#include "facade/settled.hpp"
 
 namespace mesher {
 
 namespace {
 
-std::string text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
-
-// Zero has no sign.
-template <std::size_t N>
-std::array<double, N> unsigned_zero(std::array<double, N> p) {
-  for (double& x : p) x += 0.0;
-  return p;
+template <int D>
+Options<D> kept_by_mesher(const Options<D>& options) {
+  Options<D> all = detail::settled(options);
+  if (all.algorithm != Algorithm::automatic && all.algorithm != Algorithm::gap_balls) {
+    throw Error(ErrorCode::bad_option, "the mesh that follows edits is that of gap-balls, not " +
+                                           std::string(name_of(all.algorithm)));
+  }
+  all.algorithm = Algorithm::gap_balls;
+  return all;
 }
 
 }  // namespace
 
 template <int D>
-struct Mesher<D>::Impl {
-  using Announced = detail::Announced<D>;
-  using State = std::conditional_t<D == 2, detail::State, detail::SpaceState>;
-
-  explicit Impl(const Options<D>& o)
-      : options(o), state(std::make_unique<State>(o)), box(state->box()), announced(box) {
-    predicates::self_test();
-  }
-
-  [[nodiscard]] typename Announced::Place place(FeatureId id) const;
-  void require_known(FeatureId id) const;
-  void require_free(FeatureId id, const Point<D>& p) const;
-  void require_apart(const std::vector<typename Announced::Edit>& edits) const;
-  void insert(FeatureId id, const Point<D>& p);
-  [[nodiscard]] const detail::LinePoints& line(FeatureId id) const;
-  void insert_line(FeatureId id, const detail::LinePoints& points);
-  void remove_line(FeatureId id);
-  [[nodiscard]] const Polygon& polygon(FeatureId id) const;
-  void insert_polygon(const Polygon& polygon);
-  void remove_polygon(FeatureId id);
-  void limit(detail::AllLimits<D> limits, const std::vector<Box<D>>& where);
-  [[nodiscard]] Options<D> announced_options() const;
-  void commit_limits() noexcept;
-  void discard_edits() noexcept;
-  using LastWord = typename State::Accept;
-  Change<D> first_run(State& fresh, const RunControl& control, const LastWord& accept);
-  Change<D> propagate(const RunControl& control, const LastWord& accept);
-  Change<D> run(const RunControl& control, const LastWord& accept);
-  Change<D> run_with_slots(const RunControl& control, const Accept& accept);
-  Change<D> update(const RunControl& control, const Accept& accept);
-
-  Options<D> options;            // with the limits of the last update
-  std::unique_ptr<State> state;  // of the last update
-  detail::MeshBox<D> box;
-  Announced announced;
-  detail::AnnouncedLines announced_lines;
-  detail::AnnouncedPolygons announced_polygons;  // in space
-  detail::AnnouncedLimits<D> announced_limits;
-  std::unique_ptr<detail::LiveArrays<D>> live;  // null: slots are not kept
-  detail::Busy busy;
-  bool moved = false;  // a place was taken that was not looked at
+struct Mesher<D>::Impl : detail::DomainState<D> {
+  using detail::DomainState<D>::DomainState;
 };
 
-// --- Edits -----------------------------------------------------------------------------------
-
 template <int D>
-auto Mesher<D>::Impl::place(FeatureId id) const -> typename Announced::Place {
-  const auto* edit = announced.find(id);
-  return edit != nullptr ? edit->to : state->place(id);
-}
-
-template <int D>
-void Mesher<D>::Impl::require_known(FeatureId id) const {
-  if (place(id)) return;
-  throw Error(ErrorCode::unknown_id, "point " + text(id) + " is not there", {}, {point_named(id)});
-}
-
-template <int D>
-void Mesher<D>::Impl::require_free(FeatureId id, const Point<D>& p) const {
-  if (const auto* other = announced.arrival_near(p, id)) {
-    detail::fail_too_near(p, id, *other->to, other->id);
-  }
-  const auto there = state->obstacle(p);
-  if (!there || there->id == id || announced.find(there->id) != nullptr) return;
-  detail::fail_too_near(p, id, there->p, there->id);
-}
-
-// The announced places, as they are when all edits are made.
-template <int D>
-void Mesher<D>::Impl::require_apart(const std::vector<typename Announced::Edit>& edits) const {
-  for (const auto& edit : edits) {
-    if (edit.to) require_free(edit.id, *edit.to);
-  }
-}
-
-template <int D>
-void Mesher<D>::Impl::insert(FeatureId id, const Point<D>& p) {
-  busy.require_idle();
-  if (place(id)) {
-    throw Error(ErrorCode::repeated_id, "point " + text(id) + " is there already", {},
-                {point_named(id)});
-  }
-  detail::check_point(p, options.domain, id);
-  const auto was = state->place(id);
-  if (!was) require_free(id, p);
-  moved |= was.has_value();
-  announced.set(id, was, unsigned_zero(p));
-}
-
-// --- Lines and polygons ----------------------------------------------------------------------
-
-template <int D>
-const detail::LinePoints& Mesher<D>::Impl::line(FeatureId id) const {
-  const auto* edit = announced_lines.find(id);
-  return edit != nullptr ? edit->to : state->line(id);
-}
-
-template <int D>
-void Mesher<D>::Impl::insert_line(FeatureId id, const detail::LinePoints& points) {
-  busy.require_idle();
-  if (options.rule != Rule::radius_edge) {
-    throw Error(ErrorCode::bad_option, "segments need the rule radius-edge", {}, {line_named(id)});
-  }
-  if (points.size() < 2) {
-    throw Error(ErrorCode::bad_option, "line " + text(id) + " has fewer than two points", {},
-                {line_named(id)});
-  }
-  if (!line(id).empty()) {
-    throw Error(ErrorCode::repeated_id, "line " + text(id) + " is there already", {},
-                {line_named(id)});
-  }
-  const auto same = std::adjacent_find(points.begin(), points.end());
-  if (same != points.end()) detail::fail_zero_length(id, *same);
-  announced_lines.set(id, state->line(id), points);
-}
-
-template <int D>
-void Mesher<D>::Impl::remove_line(FeatureId id) {
-  busy.require_idle();
-  if (line(id).empty()) {
-    throw Error(ErrorCode::unknown_id, "line " + text(id) + " is not there", {}, {line_named(id)});
-  }
-  announced_lines.set(id, state->line(id), {});
-}
-
-template <>
-const Polygon& Mesher<3>::Impl::polygon(FeatureId id) const {
-  const auto* edit = announced_polygons.find(id);
-  return edit != nullptr ? edit->to : state->polygon_parts(id);
-}
-template <int D>
-const Polygon& Mesher<D>::Impl::polygon(FeatureId) const {
-  static const Polygon none;
-  return none;
-}
-
-template <>
-void Mesher<3>::Impl::insert_polygon(const Polygon& polygon) {
-  busy.require_idle();
-  if (options.rule != Rule::radius_edge) {
-    throw Error(ErrorCode::bad_option, "polygons need the rule radius-edge", {},
-                {polygon_named(polygon.id)});
-  }
-  if (!this->polygon(polygon.id).loops.empty()) {
-    throw Error(ErrorCode::repeated_id, "polygon " + text(polygon.id) + " is there already", {},
-                {polygon_named(polygon.id)});
-  }
-  detail::require_loops(polygon);
-  announced_polygons.set(polygon.id, state->polygon_parts(polygon.id), polygon);
-}
-template <int D>
-void Mesher<D>::Impl::insert_polygon(const Polygon& polygon) {
-  busy.require_idle();
-  throw Error(ErrorCode::bad_option, "polygons are for space", {}, {polygon_named(polygon.id)});
-}
-
-template <int D>
-void Mesher<D>::Impl::remove_polygon(FeatureId id) {
-  busy.require_idle();
-  if (polygon(id).loops.empty()) {
-    throw Error(ErrorCode::unknown_id, "polygon " + text(id) + " is not there", {},
-                {polygon_named(id)});
-  }
-  if constexpr (D == 3) announced_polygons.set(id, state->polygon_parts(id), {});
-}
-
-// --- Limits ----------------------------------------------------------------------------------
-
-// Limits that make no sense are refused at once.
-template <int D>
-void Mesher<D>::Impl::limit(detail::AllLimits<D> limits, const std::vector<Box<D>>& where) {
-  busy.require_idle();
-  Options<D> all = options;
-  detail::AllLimits<D>(limits).apply_to(all);
-  static_cast<void>(detail::Limits<D>(all, box));
-  announced_limits.set(std::move(limits), where, options);
-}
-
-template <int D>
-Options<D> Mesher<D>::Impl::announced_options() const {
-  return announced_limits.applied_to(options);
-}
-
-template <int D>
-void Mesher<D>::Impl::commit_limits() noexcept {
-  announced_limits.commit(options);
-}
-
-template <int D>
-void Mesher<D>::Impl::discard_edits() noexcept {
-  announced_limits.clear();
-  announced_lines.clear();
-  announced_polygons.clear();
-  announced.clear();
-  moved = false;
-}
-
-// --- Updates ---------------------------------------------------------------------------------
-
-template <>
-Change<2> Mesher<2>::Impl::first_run(State& fresh, const RunControl& control,
-                                     const LastWord& accept) {
-  return fresh.first_run(announced.sorted(), announced_lines.sorted(), control, accept);
-}
-template <>
-Change<2> Mesher<2>::Impl::propagate(const RunControl& control, const LastWord& accept) {
-  return state->propagate(announced.sorted(), announced_lines.sorted(),
-                          announced_limits.edit(options), control, accept);
-}
-template <>
-Change<3> Mesher<3>::Impl::first_run(State& fresh, const RunControl& control,
-                                     const LastWord& accept) {
-  return fresh.first_run(announced.sorted(),
-                         {announced_lines.sorted(), announced_polygons.sorted()}, control, accept);
-}
-template <>
-Change<3> Mesher<3>::Impl::propagate(const RunControl& control, const LastWord& accept) {
-  return state->propagate(announced.sorted(),
-                          {announced_lines.sorted(), announced_polygons.sorted(),
-                           announced_limits.edit(options)},
-                          control, accept);
-}
-
-template <int D>
-Change<D> Mesher<D>::Impl::run(const RunControl& control, const LastWord& accept) {
-  if (moved) require_apart(announced.sorted());
-  if (state->ran()) return propagate(control, accept);
-  auto fresh = std::make_unique<State>(announced_options());
-  Change<D> change = first_run(*fresh, control, accept);
-  state = std::move(fresh);
-  return change;
-}
-
-template <int D>
-Change<D> Mesher<D>::Impl::run_with_slots(const RunControl& control, const Accept& accept) {
-  const LastWord last_word = [&](Change<D>& change) {
-    if (live) change.slots = live->plan(change);
-    if (accept) accept(change);
-  };
-  try {
-    Change<D> change = run(control, last_word);
-    if (live) live->keep();
-    return change;
-  } catch (...) {
-    if (live) live->drop();
-    throw;
-  }
-}
-
-template <int D>
-Change<D> Mesher<D>::Impl::update(const RunControl& control, const Accept& accept) {
-  const detail::Busy::Run running(busy);
-  detail::require_unstopped(control);
-  try {
-    Change<D> change = run_with_slots(control, accept);
-    commit_limits();
-    discard_edits();
-    return change;
-  } catch (const sac::Cancelled&) {
-    detail::fail_cancelled();
-  } catch (...) {
-    discard_edits();
-    throw;
-  }
-}
-
-// --- The facade ------------------------------------------------------------------------------
-
-template <int D>
-Mesher<D>::Mesher(const Options<D>& options) : impl_(std::make_unique<Impl>(options)) {}
+Mesher<D>::Mesher(const Options<D>& options)
+    : impl_(std::make_unique<Impl>(kept_by_mesher(options))) {}
 template <int D>
 Mesher<D>::Mesher(Mesher&&) noexcept = default;
 template <int D>
@@ -309,222 +38,162 @@ template <int D>
 Mesher<D>::~Mesher() = default;
 
 template <int D>
-void Mesher<D>::insert(FeatureId id, const Point<D>& point) {
-  impl_->insert(id, point);
+void Mesher<D>::insert(PointId id, const Point<D>& point, std::int64_t marker) {
+  impl_->insert(id, point, marker);
 }
-
 template <int D>
-void Mesher<D>::insert(const std::vector<FeatureId>& ids, const std::vector<Point<D>>& points) {
-  SAC_EXPECTS(ids.size() == points.size());
-  std::size_t done = 0;
+void Mesher<D>::insert(const Graph<D>& graph) {
+  if (!impl_->is_idle()) throw sac::UsageError("a mesher is edited while it updates");
   try {
-    for (; done < ids.size(); ++done) impl_->insert(ids[done], points[done]);
+    announce(graph, *this);
   } catch (...) {
-    while (done-- > 0) impl_->announced.set(ids[done], impl_->state->place(ids[done]), {});
+    impl_->discard_edits();
     throw;
   }
 }
-
 template <int D>
-void Mesher<D>::remove(FeatureId id) {
-  impl_->busy.require_idle();
-  impl_->require_known(id);
-  impl_->announced.set(id, impl_->state->place(id), {});
+void Mesher<D>::remove(PointId id) {
+  impl_->remove(id);
+}
+template <int D>
+void Mesher<D>::move(PointId id, const Point<D>& point) {
+  impl_->move(id, point);
 }
 
 template <int D>
-void Mesher<D>::move(FeatureId id, const Point<D>& point) {
-  impl_->busy.require_idle();
-  impl_->require_known(id);
-  detail::check_point(point, impl_->options.domain, id);
-  impl_->moved = true;
-  impl_->announced.set(id, impl_->state->place(id), unsigned_zero(point));
+void Mesher<D>::insert_segment(LineId id, PointId from, PointId to, std::int64_t marker) {
+  impl_->insert_line(id, {from, to}, marker);
 }
-
 template <int D>
-void Mesher<D>::insert_segment(FeatureId id, FeatureId from, FeatureId to) {
-  impl_->insert_line(id, {from, to});
+void Mesher<D>::insert_polyline(LineId id, const std::vector<PointId>& points,
+                                std::int64_t marker) {
+  impl_->insert_line(id, points, marker);
 }
-
 template <int D>
-void Mesher<D>::insert_polyline(FeatureId id, const std::vector<FeatureId>& points) {
-  impl_->insert_line(id, points);
-}
-
-template <int D>
-void Mesher<D>::remove_segment(FeatureId id) {
+void Mesher<D>::remove_line(LineId id) {
   impl_->remove_line(id);
 }
 
 template <int D>
-void Mesher<D>::insert_polygon(const Polygon& polygon) {
+void Mesher<D>::insert_polygon(const Polygon& polygon) requires(D == 3) {
   impl_->insert_polygon(polygon);
 }
-
 template <int D>
-void Mesher<D>::remove_polygon(FeatureId id) {
+void Mesher<D>::remove_polygon(PolygonId id) requires(D == 3) {
   impl_->remove_polygon(id);
 }
 
 template <int D>
+void Mesher<D>::insert_seed(const Seed<D>& seed) {
+  impl_->insert_seed(seed);
+}
+template <int D>
+void Mesher<D>::remove_seed(const SeedId& name) {
+  impl_->remove_seed(name);
+}
+
+template <int D>
 void Mesher<D>::limit(const SizeLimits<D>& limits) {
-  const auto all = impl_->announced_limits.as_announced(impl_->options);
-  impl_->limit({limits, {}, all.regions}, {impl_->options.domain});
+  impl_->limit(limits);
 }
 template <int D>
 void Mesher<D>::limit(const Box<D>& box, const SizeLimits<D>& limits) {
-  auto all = impl_->announced_limits.as_announced(impl_->options);
-  all.set_within(box, limits);
-  impl_->limit(std::move(all), {box});
-}
-template <int D>
-void Mesher<D>::limit_regions(std::shared_ptr<const RegionLimits<D>> regions,
-                              const std::vector<Box<D>>& where) {
-  auto all = impl_->announced_limits.as_announced(impl_->options);
-  all.regions = std::move(regions);
-  impl_->limit(std::move(all), where);
-}
-template <int D>
-bool Mesher<D>::has_limits() const {
-  return impl_->announced_limits.as_announced(impl_->options).any();
-}
-
-// In the other: lines go first, and points before others come to their places.
-template <int D>
-void Mesher<D>::announce_to(Mesher& other) const {
-  const auto lines = impl_->announced_lines.sorted();
-  const auto polygons = impl_->announced_polygons.sorted();
-  for (const auto& edit : polygons) {
-    if (!edit.was.loops.empty()) other.remove_polygon(edit.id);
-  }
-  for (const auto& edit : lines) {
-    if (!edit.was.empty()) other.remove_segment(edit.id);
-  }
-  for (const auto& edit : impl_->announced.sorted()) {  // those that go are the first
-    if (edit.was) edit.to ? other.move(edit.id, *edit.to) : other.remove(edit.id);
-  }
-  for (const auto& edit : impl_->announced.sorted()) {
-    if (!edit.was) other.insert(edit.id, *edit.to);
-  }
-  for (const auto& edit : lines) {
-    if (!edit.to.empty()) other.insert_polyline(edit.id, edit.to);
-  }
-  for (const auto& edit : polygons) {
-    if (!edit.to.loops.empty()) other.insert_polygon(edit.to);
-  }
-}
-
-template <int D>
-bool Mesher<D>::contains_line(FeatureId id) const {
-  return !impl_->line(id).empty();
-}
-
-template <int D>
-bool Mesher<D>::contains_polygon(FeatureId id) const {
-  return !impl_->polygon(id).loops.empty();
+  impl_->limit(box, limits);
 }
 
 template <int D>
 void Mesher<D>::discard_edits() noexcept {
-  if (impl_->busy.is_idle()) impl_->discard_edits();
+  if (impl_->is_idle()) impl_->discard_edits();
+}
+template <int D>
+DomainUpdate<D> Mesher<D>::update(const RunControl& control) {
+  return impl_->update(control);
 }
 
 template <int D>
-Change<D> Mesher<D>::update(const RunControl& control) {
-  return impl_->update(control, {});
+Mesh<D> Mesher<D>::box_mesh() const {
+  return impl_->mesher().mesh();
 }
-
-template <int D>
-Change<D> Mesher<D>::update(const RunControl& control, const Accept& accept) {
-  return impl_->update(control, accept);
-}
-
-template <int D>
-Mesh<D> Mesher<D>::mesh() const {
-  impl_->busy.require_idle();
-  return impl_->state->ran() ? impl_->state->mesh() : Mesh<D>();
-}
-
 template <int D>
 LiveMesh<D> Mesher<D>::live() const {
-  impl_->busy.require_idle();
-  if (!impl_->live) impl_->live = std::make_unique<detail::LiveArrays<D>>(mesh());
-  return LiveMesh<D>(*impl_->live);
+  return impl_->mesher().live();
 }
-
 template <int D>
 void Mesher<D>::keep_slots(bool keep) {
-  if (keep) {
-    static_cast<void>(live());
-  } else {
-    impl_->busy.require_idle();
-    impl_->live.reset();
-  }
+  impl_->keep_slots(keep);
 }
-
 template <int D>
 bool Mesher<D>::keeps_slots() const noexcept {
-  return impl_->live != nullptr;
+  return impl_->mesher().keeps_slots();
+}
+template <int D>
+DomainMesh<D> Mesher<D>::domain_mesh() const {
+  return mesher::domain_mesh(box_mesh(), input(), impl_->extent());
+}
+template <int D>
+Graph<D> Mesher<D>::input() const {
+  return impl_->input();
 }
 
 template <int D>
-Slot Mesher<D>::last_slot(const std::array<Point<D>, D + 1>& simplex) const {
-  return impl_->live->find_simplex(simplex);
+RegionLabel Mesher<D>::label(const typename DomainChange<D>::Corners& triangle) const {
+  return impl_->follower() ? impl_->follower()->label(triangle) : RegionLabel();
+}
+template <int D>
+bool Mesher<D>::keeps(const typename DomainChange<D>::Corners& triangle) const {
+  return !impl_->follower() || impl_->follower()->keeps(triangle);
+}
+template <int D>
+RegionLabel Mesher<D>::label(Slot simplex) const {
+  return label(impl_->corners(simplex));
+}
+template <int D>
+bool Mesher<D>::keeps(Slot simplex) const {
+  return keeps(impl_->corners(simplex));
+}
+template <int D>
+std::vector<SeedFault<D>> Mesher<D>::faults() const {
+  return impl_->follower() ? impl_->follower()->faults() : std::vector<SeedFault<D>>();
 }
 
 template <int D>
-std::vector<InputPoint<D>> Mesher<D>::points() const {
-  impl_->busy.require_idle();
-  return impl_->state->points();
+bool Mesher<D>::contains(PointId id) const {
+  return impl_->mesher().contains(id);
 }
-
 template <int D>
-std::vector<InputLine> Mesher<D>::lines() const {
-  impl_->busy.require_idle();
-  return impl_->state->lines();
+bool Mesher<D>::contains(LineId id) const {
+  return impl_->mesher().contains_line(id);
 }
-
 template <int D>
-std::vector<Polygon> Mesher<D>::polygons() const {
-  impl_->busy.require_idle();
-  if constexpr (D == 3) {
-    return impl_->state->polygons();
-  } else {
-    return {};
-  }
+bool Mesher<D>::contains(PolygonId id) const requires(D == 3) {
+  return impl_->mesher().contains_polygon(id);
 }
-
 template <int D>
-std::size_t Mesher<D>::size() const {
-  return impl_->state->size() + static_cast<std::size_t>(impl_->announced.growth());
-}
-
-template <int D>
-bool Mesher<D>::contains(FeatureId id) const {
-  return impl_->place(id).has_value();
+bool Mesher<D>::contains(const SeedId& id) const {
+  return impl_->contains_seed(id);
 }
 
 template <int D>
 MeshStats Mesher<D>::stats() const {
-  return impl_->state->stats();
+  MeshStats stats = impl_->mesher().stats();
+  if (impl_->unlimited()) impl_->unlimited()->add_to(stats);
+  return stats;
 }
-
 template <int D>
 const Options<D>& Mesher<D>::options() const {
-  return impl_->options;
+  return impl_->mesher().options();
 }
 
 template <int D>
 const sac::Engine& Mesher<D>::engine() const {
-  return impl_->state->engine();
+  return impl_->mesher().engine();
 }
 
 template <int D>
 void Mesher<D>::check_invariants() const {
-  if (impl_->state->ran()) impl_->state->check_invariants();
-  if (!impl_->live) return;
-  impl_->live->check_invariants();
-  SAC_INVARIANT(impl_->live->compact().mesh == mesh());
+  impl_->mesher().check_invariants();
+  if (impl_->follower()) impl_->follower()->check_invariants();
+  if (impl_->unlimited()) impl_->unlimited()->check_invariants();
 }
 
 template class Mesher<2>;

@@ -36,8 +36,8 @@ auto PointState<D>::simplices() const -> std::vector<Simplex> {
 }
 
 template <int D>
-std::vector<InputPoint<D>> PointState<D>::points() const {
-  std::vector<InputPoint<D>> all;
+std::vector<GraphPoint<D>> PointState<D>::points() const {
+  std::vector<GraphPoint<D>> all;
   all.reserve(ids_.size());
   for (const auto& [id, h] : ids_) all.push_back({id, pool()[h].p});
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });

@@ -58,9 +58,9 @@ PointState<D>::~PointState() {
 // --- Points ----------------------------------------------------------------------------------
 
 template <int D>
-auto PointState<D>::place(FeatureId id) const -> typename Announced<D>::Place {
+auto PointState<D>::place(PointId id) const -> typename Pending<D>::Place {
   const auto it = ids_.find(id);
-  return it == ids_.end() ? typename Announced<D>::Place() : pool()[it->second].p;
+  return it == ids_.end() ? typename Pending<D>::Place() : pool()[it->second].p;
 }
 
 template <int D>
@@ -93,7 +93,7 @@ void PointState<D>::rename(const PointEdits& edits, Ids& arrived) noexcept {
 // --- The first run ---------------------------------------------------------------------------
 
 template <int D>
-void PointState<D>::add_first(const typename Announced<D>::Edit& edit) {
+void PointState<D>::add_first(const typename Pending<D>::Edit& edit) {
   Vertex<D>& v = vertices().add_input(*edit.to, true);
   features().insert_first(v);
   ids_.emplace(edit.id, v.self);
@@ -123,7 +123,7 @@ Change<D> PointState<D>::whole(const Mesh<D>& mesh) const {
   }
   const auto& at = mesh.vertices;
   for (const auto& e : mesh.edges) {
-    change.edges_added.push_back({at[e.low], at[e.high], e.line, e.of_polygon});
+    change.edges_added.push_back({at[e.low], at[e.high], e.feature});
   }
   for (const auto& f : mesh.faces) {
     const auto& [a, b, c] = f.corners;

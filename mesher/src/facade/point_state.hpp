@@ -16,7 +16,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "facade/announced.hpp"
+#include "facade/pending.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/mesher.hpp"
 #include "program/world.hpp"
@@ -28,7 +28,7 @@ class PointState {
  public:
   /// A last word on a change, which may add to it; what it throws takes the update back.
   using Accept = std::function<void(Change<D>&)>;
-  using PointEdits = std::vector<typename Announced<D>::Edit>;  // in Morton order of where to
+  using PointEdits = std::vector<typename Pending<D>::Edit>;  // in Morton order of where to
 
   /// Throws: Error(bad_option).
   explicit PointState(const Options<D>& options);
@@ -50,22 +50,22 @@ class PointState {
 
   [[nodiscard]] std::size_t size() const noexcept { return ids_.size(); }
   /// Where the point is; nothing if it is not there.
-  [[nodiscard]] typename Announced<D>::Place place(FeatureId id) const;
+  [[nodiscard]] typename Pending<D>::Place place(PointId id) const;
   /// The point in the same finest cell as `p`; nothing if there is none.
   struct Named {
-    FeatureId id;
+    PointId id;
     Point<D> p;
   };
   [[nodiscard]] std::optional<Named> obstacle(const Point<D>& p) const;
   /// Ascending by id.
-  [[nodiscard]] std::vector<InputPoint<D>> points() const;
+  [[nodiscard]] std::vector<GraphPoint<D>> points() const;
 
   void check_invariants() const;
 
  protected:
   using Simplex = std::array<VertexHandle, D + 1>;
   using Log = typename VertexIndex<sac::Scope, D>::Log;
-  using Ids = std::unordered_map<FeatureId, VertexHandle>;
+  using Ids = std::unordered_map<PointId, VertexHandle>;
 
   /// Called while the input is looked at before a run. Throws: sac::Cancelled, or what
   /// control.progress throws.
@@ -75,7 +75,7 @@ class PointState {
   virtual void add_others_first() {}
   /// Takes and adds points, with make_points(), and the others. `arrived`: the points that come.
   virtual void make_edits(const PointEdits& edits, Ids& arrived) { make_points(edits, arrived); }
-  virtual void point_comes(VertexHandle, FeatureId) {}
+  virtual void point_comes(VertexHandle, PointId) {}
   /// So that rename_others() cannot fail.
   virtual void make_room_for_others() {}
   /// Throws: Error if what is there is not what the input asks for, after a first run; after an
@@ -107,10 +107,10 @@ class PointState {
   std::unique_ptr<sac::Engine> engine_;
   std::unique_ptr<World<sac::Scope, D>> world_;
   Ids ids_;
-  std::vector<FeatureId> names_;  // by handle, of the vertices that are input points
+  std::vector<PointId> names_;  // by handle, of the vertices that are input points
 
  private:
-  void add_first(const typename Announced<D>::Edit& edit);
+  void add_first(const typename Pending<D>::Edit& edit);
   void post_all();
   void make(const PointEdits& edits, Ids& arrived);
   Vertex<D>& claim(const Point<D>& p);

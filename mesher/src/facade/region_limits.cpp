@@ -5,9 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "facade/graph_runs.hpp"
 #include "geometry/box.hpp"
-#include "mesher/domain_mesh.hpp"
 #include "mesher/mesher.hpp"
+#include "mesher/meshing.hpp"
 #include "rules/mesh_box.hpp"
 #include "sac/check.hpp"
 #include "sizes/all_limits.hpp"
@@ -110,7 +111,7 @@ auto RegionLimits<D>::erase(const Corners& simplex) -> Limit {
 template <int D>
 template <class Enter, class Visit>
 void RegionLimits<D>::visit(const Node& node, const Point<D>& lo, double side, Enter& enter,
-                         Visit& visit_entry) const {
+                            Visit& visit_entry) const {
   const double around = 0.26 * side;  // with some rounding
   Box<D> box;
   for (std::size_t i = 0; i < D; ++i) {
@@ -137,7 +138,9 @@ std::size_t RegionLimits<D>::bytes_below(const Node& node) {
   return bytes;
 }
 template <int D>
-std::size_t RegionLimits<D>::bytes() const { return root_ == nullptr ? 0 : bytes_below(*root_); }
+std::size_t RegionLimits<D>::bytes() const {
+  return root_ == nullptr ? 0 : bytes_below(*root_);
+}
 
 template <int D>
 auto RegionLimits<D>::at(const Point<D>& p) const -> Limit {
@@ -179,17 +182,10 @@ template class RegionLimits<3>;
 
 // --- From scratch ----------------------------------------------------------------------------
 
-namespace {
-
-[[nodiscard]] std::optional<double> limit_said_of(const Pslg::Region& region) { return region.max_area; }
-[[nodiscard]] std::optional<double> limit_said_of(const Plc::Region& region) {
-  return region.max_volume;
-}
-
 template <int D>
-std::shared_ptr<const RegionLimits<D>> limits_in(const GraphOf<D>& graph,
-                                                 const Options<D>& options, Extent extent,
-                                                 RegionAreas areas) {
+std::shared_ptr<const RegionLimits<D>> region_limits(const Graph<D>& graph,
+                                                     const Options<D>& options, Extent extent,
+                                                     RegionAreas areas) {
   Options<D> unlimited = options;
   detail::AllLimits<D>().apply_to(unlimited);
   const auto whole = with_features(mesh_statically(graph, unlimited), graph);
@@ -197,11 +193,11 @@ std::shared_ptr<const RegionLimits<D>> limits_in(const GraphOf<D>& graph,
     if constexpr (D == 2) return whole.features.edges;
     if constexpr (D == 3) return whole.features.faces;
   }();
-  const auto domain = find_domain(whole, walls, seeds_of(graph), extent);
+  const auto domain = find_domain(whole, walls, graph.seeds, extent);
   const auto limits = std::make_shared<RegionLimits<D>>(detail::mesh_box(options));
   std::vector<double> all;
-  for (const auto& region : graph.regions) {
-    if (areas == RegionAreas::limits && limit_said_of(region)) all.push_back(*limit_said_of(region));
+  for (const auto& region : graph.regions()) {
+    if (areas == RegionAreas::limits && region.max_measure) all.push_back(*region.max_measure);
   }
   for (std::size_t t = 0; t < whole.simplices.size(); ++t) {
     const Region& region = domain.regions[domain.region_of[t]];
@@ -215,16 +211,9 @@ std::shared_ptr<const RegionLimits<D>> limits_in(const GraphOf<D>& graph,
   return limits;
 }
 
-}  // namespace
-
-std::shared_ptr<const RegionLimits<2>> region_limits(const Pslg& graph, const Options<2>& options,
-                                                     Extent extent, RegionAreas areas) {
-  return limits_in<2>(graph, options, extent, areas);
-}
-std::shared_ptr<const RegionLimits<3>> region_limits(const Plc& complex,
-                                                     const Options<3>& options, Extent extent,
-                                                     RegionAreas areas) {
-  return limits_in<3>(complex, options, extent, areas);
-}
+template std::shared_ptr<const RegionLimits<2>> region_limits(const Graph<2>&, const Options<2>&,
+                                                              Extent, RegionAreas);
+template std::shared_ptr<const RegionLimits<3>> region_limits(const Graph<3>&, const Options<3>&,
+                                                              Extent, RegionAreas);
 
 }  // namespace mesher

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "check/gave_in.hpp"
+#include "check/poor_beside.hpp"
 #include "check/space_quality.hpp"
 #include "facade/space_state.hpp"
 #include "program/world_impl.hpp"
@@ -17,7 +17,7 @@ namespace mesher::detail {
 
 namespace {
 
-using Beside = LonelyEdges::Beside;
+using Beside = IsolatedEdges::Beside;
 using World3 = World<sac::Scope, 3>;
 
 // An edge of the mesh, and the features that it may be beside.
@@ -38,12 +38,13 @@ class EdgeBeside {
     const auto standing = [&](const Vertex<3>& v) { return Standing{v, world_.vertices.role(v)}; };
     return SmallAngles(near_).keeps(standing(p_), standing(q_));
   }
-  /// `name(f)`: of an edge or polygon. The one beside which it is lonely, as LonelyEdges has it.
+  /// `name(f)`: of an edge or polygon. The one beside which it is isolated, as IsolatedEdges has
+  /// it.
   template <class Name>
-  [[nodiscard]] std::optional<Beside> lonely(Name&& name) const {
+  [[nodiscard]] std::optional<Beside> isolated(Name&& name) const {
     NearestBeside beside;
     const auto look = [&](const auto& f, bool is_polygon, const ShortEdge& e) {
-      if (!world_.plc.is_lonely(e)) return;
+      if (!world_.plc.is_isolated(e)) return;
       beside.show(std::sqrt(distance2_to(middle_, f)), is_polygon, name(f, polygons_));
     };
     for (const Edge* e : find_near<Edge>(middle_, reach_, near_.store())) {
@@ -66,12 +67,12 @@ class EdgeBeside {
 }  // namespace
 
 Beside SpaceState::name_of(const Edge& e, const std::vector<const Polygon*>& near) const {
-  if (const auto id = segment(e.self)) return {*id, false};
+  if (const auto id = segment(e.self)) return *id;
   Beside least;
   for (const Polygon* f : near) {
     if (!f->has_edge(e.self)) continue;
-    const FeatureId id = polygon(f->self);
-    if (!least.is_polygon || id < least.feature) least = {id, true};
+    const Beside id = polygon(f->self);
+    if (least == Beside() || id < least) least = id;
   }
   return least;
 }
@@ -82,7 +83,7 @@ void SpaceState::find_angles(const std::vector<Simplex>& come, Change<3>& change
     if constexpr (std::is_same_v<std::decay_t<decltype(f)>, Edge>) {
       return name_of(f, near);
     } else {
-      return Beside{polygon(f.self), true};
+      return Beside(polygon(f.self));
     }
   };
   GuardCounts counts;
@@ -96,7 +97,7 @@ void SpaceState::find_angles(const std::vector<Simplex>& come, Change<3>& change
     });
     if (kept) continue;
     counts.look(edges, ratio.ratio, [&](const auto& p, const auto& q) {
-      return EdgeBeside(*world_, p, q).lonely(name);
+      return EdgeBeside(*world_, p, q).isolated(name);
     });
   }
   change.guard = counts.report();

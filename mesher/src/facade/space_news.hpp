@@ -5,7 +5,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "facade/announced_lines.hpp"
+#include "facade/pending_lines.hpp"
 #include "space/known_parts.hpp"
 #include "space/polygons_at.hpp"
 
@@ -18,18 +18,18 @@ struct NamedPolygon {
 };
 
 struct SpaceNews {
-  using Lines = std::unordered_map<FeatureId, LinePoints>;
-  using Polygons = std::unordered_map<FeatureId, NamedPolygon>;
+  using Lines = std::unordered_map<LineId, LinePoints>;
+  using Polygons = std::unordered_map<PolygonId, NamedPolygon>;
 
-  std::unordered_map<VertexHandle, FeatureId> points;
-  std::unordered_map<EdgeHandle, FeatureId> segments;
-  std::unordered_map<PolygonHandle, FeatureId> polygons;
+  std::unordered_map<VertexHandle, PointId> points;
+  std::unordered_map<EdgeHandle, LineId> segments;
+  std::unordered_map<PolygonHandle, PolygonId> polygons;
   Lines line_points;
   Polygons named_polygons;
   std::vector<EdgeHandle> edges_come;  // of segments; in the order in which they came
   std::vector<PolygonHandle> polygons_come;
   std::unordered_set<EdgeHandle> segments_taken;  // some have come again
-  std::vector<FeatureId> polygons_taken;
+  std::vector<PolygonId> polygons_taken;
   PolygonsAt polygons_at;  // of those that come
   KnownParts::News parts;
 

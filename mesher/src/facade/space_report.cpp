@@ -37,7 +37,7 @@ LineEdges placed(const std::vector<LineEdge>& edges, const VertexPool<3>& pool) 
   LineEdges all;
   for (const LineEdge& e : edges) {
     const auto& [low, high] = std::minmax(pool[e.from].p, pool[e.to].p);
-    all.push_back({low, high, e.line, e.of_polygon});
+    all.push_back({low, high, e.name});
   }
   return all;
 }
@@ -105,7 +105,7 @@ std::vector<VertexHandle> SpaceState::disturbed(const Log& log) const {
   for (const EdgeHandle e : news_.segments_taken) list_on(edges[e], all);
   for (const EdgeHandle e : news_.edges_come) list_on(edges[e], all);
   const auto& polygons = store().polygons();
-  for (const FeatureId id : news_.polygons_taken) {
+  for (const PolygonId id : news_.polygons_taken) {
     const Polygon& f = polygons[named_polygons_.at(id).record];
     std::vector<VertexHandle> on;
     list_on(f, on);
@@ -126,7 +126,8 @@ OnFeatures SpaceState::parts_at(const std::vector<VertexHandle>& at) const {
     const Vertex<3>& v = pool()[h];
     if (!v.alive || !is_on_feature(v.kind())) continue;
     const auto is_first = [&](VertexHandle w) {  // of the corners at which its star is looked at
-      return w > h || !is_on_feature(pool()[w].kind()) || !std::binary_search(at.begin(), at.end(), w);
+      return w > h || !is_on_feature(pool()[w].kind()) ||
+             !std::binary_search(at.begin(), at.end(), w);
     };
     for_each_simplex_at(v, vertices().ring(v), is_first,
                         [&](const Simplex& s) { simplices.push_back(s); });

@@ -7,20 +7,19 @@
 #include "program/space_input.hpp"
 #include "program/world_impl.hpp"
 #include "space/parts_in_mesh.hpp"
+#include "text/id_text.hpp"
 
 namespace mesher::detail {
 
 namespace {
-
-std::string text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
 template <class Visit>
 void for_each_part(const LinePoints& points, Visit&& visit) {
   for (std::size_t i = 1; i < points.size(); ++i) visit(points[i - 1], points[i]);
 }
 
-template <class Value>
-const Value* find_in(const std::unordered_map<FeatureId, Value>& all, FeatureId id) {
+template <class Id, class Value>
+const Value* find_in(const std::unordered_map<Id, Value>& all, Id id) {
   const auto it = all.find(id);
   return it == all.end() ? nullptr : &it->second;
 }
@@ -35,31 +34,30 @@ void reserve_for(Map& map, const Map& more) {
   }
 }
 
-[[noreturn]] void fail_in_use(FeatureId point, const std::string& what,
-                              const mesher::Feature& user) {
+[[noreturn]] void fail_in_use(PointId point, const std::string& what, const mesher::Feature& user) {
   throw Error(ErrorCode::point_in_use,
-              "point " + text(point) + " cannot go: it is " + what + " " + text_of(user), {},
-              {point_named(point), user});
+              "point " + id_text(point) + " cannot go: it is " + what + " " + text_of(user), {},
+              {mesher::Feature(point), user});
 }
 
 }  // namespace
 
 // --- What is there ---------------------------------------------------------------------------
 
-const LinePoints& SpaceState::line(FeatureId id) const {
+const LinePoints& SpaceState::line(LineId id) const {
   static const LinePoints none;
   const LinePoints* found = find_in(line_points_, id);
   return found == nullptr ? none : *found;
 }
 
-const mesher::Polygon& SpaceState::polygon_parts(FeatureId id) const {
+const mesher::Polygon& SpaceState::polygon_parts(PolygonId id) const {
   static const mesher::Polygon none;
   const NamedPolygon* found = find_in(named_polygons_, id);
   return found == nullptr ? none : found->polygon;
 }
 
-std::vector<InputLine> SpaceState::lines() const {
-  std::vector<InputLine> all;
+std::vector<Polyline> SpaceState::lines() const {
+  std::vector<Polyline> all;
   for (const auto& [id, points] : line_points_) all.push_back({id, points});
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return all;
@@ -72,19 +70,19 @@ std::vector<mesher::Polygon> SpaceState::polygons() const {
   return all;
 }
 
-FeatureId SpaceState::point(VertexHandle v) const {
+PointId SpaceState::point(VertexHandle v) const {
   const auto it = news_.points.find(v);
   return it == news_.points.end() ? names_[v] : it->second;
 }
 
-std::optional<FeatureId> SpaceState::segment(EdgeHandle e) const {
+std::optional<LineId> SpaceState::segment(EdgeHandle e) const {
   if (const auto it = news_.segments.find(e); it != news_.segments.end()) return it->second;
   const auto it = segment_names_.find(e);
   if (it == segment_names_.end() || news_.segments_taken.count(e) > 0) return std::nullopt;
   return it->second;
 }
 
-FeatureId SpaceState::polygon(PolygonHandle f) const {
+PolygonId SpaceState::polygon(PolygonHandle f) const {
   if (const auto it = news_.polygons.find(f); it != news_.polygons.end()) return it->second;
   return polygon_names_.at(f);
 }
@@ -100,14 +98,14 @@ std::vector<PolygonHandle> SpaceState::polygons_at(VertexHandle point) const {
 
 OnFeatures SpaceState::on_features(const std::vector<Simplex>& simplices) const {
   if (store().live_edges() == 0) return {};
-  return detail::on_features(simplices, {pool(), vertices().roles(), store(), *this,
-                                         {&polygons_at_, &news_.polygons_at}});
+  return detail::on_features(
+      simplices, {pool(), vertices().roles(), store(), *this, {&polygons_at_, &news_.polygons_at}});
 }
 
 // --- Single features -------------------------------------------------------------------------
 
 // The point with this id when all points have come and gone; 0 if there is none.
-VertexHandle SpaceState::point_with(FeatureId id, const Ids& arrived) const {
+VertexHandle SpaceState::point_with(PointId id, const Ids& arrived) const {
   if (const auto it = arrived.find(id); it != arrived.end()) return it->second;
   const auto it = ids_.find(id);
   if (it == ids_.end()) return 0;
@@ -119,15 +117,15 @@ void SpaceState::take_segment(const Edge& e) {
   world_->erase_edge(e);
 }
 
-void SpaceState::take_polygon(FeatureId id) {
+void SpaceState::take_polygon(PolygonId id) {
   news_.polygons_taken.push_back(id);
   world_->erase_polygon(store().polygons()[named_polygons_.at(id).record]);
 }
 
 void SpaceState::add_segment(const Part& part, const Ids& arrived) {
-  const auto end = [&](FeatureId id) {
+  const auto end = [&](PointId id) {
     const VertexHandle v = point_with(id, arrived);
-    if (v == 0) fail_unknown_point(id, "an end of", line_named(part.line));
+    if (v == 0) fail_unknown_point(id, "an end of", mesher::Feature(part.line));
     return v;
   };
   const VertexHandle a = end(part.from), b = end(part.to);
@@ -137,7 +135,7 @@ void SpaceState::add_segment(const Part& part, const Ids& arrived) {
 }
 
 void SpaceState::add_polygon(const mesher::Polygon& polygon, const Ids& arrived) {
-  PolygonParts parts = parts_of(polygon, [&](FeatureId id) { return point_with(id, arrived); });
+  PolygonParts parts = parts_of(polygon, [&](PointId id) { return point_with(id, arrived); });
   const Polygon& record = detail::add_polygon(*world_, polygon.id, std::move(parts), *this);
   news_.polygons[record.self] = polygon.id;
   news_.polygons_come.push_back(record.self);
@@ -175,10 +173,10 @@ void SpaceState::add_parts(const Parts& parts, const Ids& arrived) {
 SpaceState::Parts SpaceState::take_parts(const PointEdits& points) {
   Parts parts;
   for (const auto& edit : edits_.lines) {
-    for_each_part(edit.was, [&](FeatureId a, FeatureId b) {
+    for_each_part(edit.was, [&](PointId a, PointId b) {
       take_segment(*store().find_edge(ids_.at(a), ids_.at(b)));
     });
-    for_each_part(edit.to, [&](FeatureId a, FeatureId b) {
+    for_each_part(edit.to, [&](PointId a, PointId b) {
       parts.segments.push_back({edit.id, a, b});
     });
   }
@@ -202,7 +200,7 @@ void SpaceState::take_at(VertexHandle v, Parts& parts) {
     take_segment(*e);
   }
   for (const PolygonHandle h : polygons_at(v)) {
-    const FeatureId id = polygon_names_.at(h);
+    const PolygonId id = polygon_names_.at(h);
     parts.polygons.push_back(named_polygons_.at(id).polygon);
     take_polygon(id);
   }
@@ -213,23 +211,24 @@ void SpaceState::require_unused(const PointEdits& edits) const {
   for (const auto& edit : edits) {
     if (!edit.was || edit.to) continue;
     const VertexHandle v = ids_.at(edit.id);
-    std::optional<FeatureId> user;
-    const auto keep_least = [&](FeatureId id) {
-      if (!user || id < *user) user = id;
-    };
+    std::optional<LineId> line;
     store().visit_edges_at(v, [&](const Edge& e) {
-      if (const auto id = segment(e.self)) keep_least(*id);
+      if (const auto id = segment(e.self); id && (!line || *id < *line)) line = id;
     });
-    if (user) fail_in_use(edit.id, "an end of", line_named(*user));
-    for (const PolygonHandle h : polygons_at(v)) keep_least(polygon_names_.at(h));
-    if (user) fail_in_use(edit.id, "on", polygon_named(*user));
+    if (line) fail_in_use(edit.id, "an end of", *line);
+    std::optional<PolygonId> polygon;
+    for (const PolygonHandle h : polygons_at(v)) {
+      const PolygonId id = polygon_names_.at(h);
+      if (!polygon || id < *polygon) polygon = id;
+    }
+    if (polygon) fail_in_use(edit.id, "on", *polygon);
   }
 }
 
 // What has come fits to what is there.
 void SpaceState::require_fits(const Ids& arrived) {
   require_fit(*world_, news_.edges_come, news_.polygons_come, *this, ask_);
-  std::vector<std::pair<FeatureId, VertexHandle>> points(arrived.begin(), arrived.end());
+  std::vector<std::pair<PointId, VertexHandle>> points(arrived.begin(), arrived.end());
   std::sort(points.begin(), points.end());
   for (const auto& [id, h] : points) {
     ask_();
@@ -255,12 +254,12 @@ void SpaceState::rename_others() noexcept {
   line_points_.merge(news_.line_points);
   for (const EdgeHandle e : news_.segments_taken) segment_names_.erase(e);
   segment_names_.merge(news_.segments);
-  for (const FeatureId id : news_.polygons_taken) {
+  for (const PolygonId id : news_.polygons_taken) {
     const PolygonHandle record = named_polygons_.at(id).record;
     polygon_names_.erase(record);
     polygons_at_.erase(store().polygons()[record]);
   }
-  for (const FeatureId id : news_.polygons_taken) named_polygons_.erase(id);
+  for (const PolygonId id : news_.polygons_taken) named_polygons_.erase(id);
   named_polygons_.merge(news_.named_polygons);
   polygon_names_.merge(news_.polygons);
   polygons_at_.merge(news_.polygons_at);

@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "check/lonely_edges.hpp"
-#include "facade/announced_limits.hpp"
+#include "check/isolated_edges.hpp"
+#include "facade/pending_limits.hpp"
 #include "facade/point_state.hpp"
 #include "facade/space_news.hpp"
 #include "space/validity.hpp"
@@ -15,8 +15,8 @@ namespace mesher::detail {
 
 class SpaceState final : public PointState<3>, private SpaceNames {
  public:
-  using LineEdits = std::vector<AnnouncedLines::Edit>;        // by id
-  using PolygonEdits = std::vector<AnnouncedPolygons::Edit>;  // by id
+  using LineEdits = std::vector<PendingLines::Edit>;        // by id
+  using PolygonEdits = std::vector<PendingPolygons::Edit>;  // by id
   struct Edits {
     LineEdits lines;
     PolygonEdits polygons;
@@ -39,18 +39,18 @@ class SpaceState final : public PointState<3>, private SpaceNames {
   }
 
   /// The points that a line goes along; empty if it is not there.
-  [[nodiscard]] const LinePoints& line(FeatureId id) const;
+  [[nodiscard]] const LinePoints& line(LineId id) const;
   /// Without loops if it is not there.
-  [[nodiscard]] const mesher::Polygon& polygon_parts(FeatureId id) const;
+  [[nodiscard]] const mesher::Polygon& polygon_parts(PolygonId id) const;
   /// Ascending by id.
-  [[nodiscard]] std::vector<InputLine> lines() const;
+  [[nodiscard]] std::vector<Polyline> lines() const;
   [[nodiscard]] std::vector<mesher::Polygon> polygons() const;
 
  private:
   // A segment of a line, by its ends.
   struct Part {
-    FeatureId line{};
-    FeatureId from{}, to{};
+    LineId line{};
+    PointId from{}, to{};
   };
   struct Parts {
     std::vector<Part> segments;
@@ -59,7 +59,7 @@ class SpaceState final : public PointState<3>, private SpaceNames {
 
   void add_others_first() override;
   void make_edits(const PointEdits& edits, Ids& arrived) override;
-  void point_comes(VertexHandle v, FeatureId id) override { news_.points[v] = id; }
+  void point_comes(VertexHandle v, PointId id) override { news_.points[v] = id; }
   void make_room_for_others() override;
   void rename_others() noexcept override;
   void forget_news() noexcept override;
@@ -76,13 +76,13 @@ class SpaceState final : public PointState<3>, private SpaceNames {
   [[nodiscard]] Parts take_parts(const PointEdits& points);
   void take_at(VertexHandle point, Parts& parts);
   void take_segment(const Edge& e);
-  void take_polygon(FeatureId id);
+  void take_polygon(PolygonId id);
   void add_parts(const Parts& parts, const Ids& arrived);
   void add_segment(const Part& part, const Ids& arrived);
   void add_polygon(const mesher::Polygon& polygon, const Ids& arrived);
   void require_unused(const PointEdits& edits) const;
   void require_fits(const Ids& arrived);
-  [[nodiscard]] VertexHandle point_with(FeatureId id, const Ids& arrived) const;
+  [[nodiscard]] VertexHandle point_with(PointId id, const Ids& arrived) const;
   [[nodiscard]] std::vector<PolygonHandle> polygons_at(VertexHandle point) const;
   [[nodiscard]] std::vector<VertexHandle> disturbed(const Log& log) const;
   void list_neighbours(VertexHandle v, std::vector<VertexHandle>& all) const;
@@ -91,17 +91,17 @@ class SpaceState final : public PointState<3>, private SpaceNames {
   void list_inside(const Polygon& f, std::vector<VertexHandle>& all) const;
   [[nodiscard]] OnFeatures parts_at(const std::vector<VertexHandle>& at) const;
 
-  [[nodiscard]] FeatureId point(VertexHandle v) const override;
-  [[nodiscard]] std::optional<FeatureId> segment(EdgeHandle e) const override;
-  [[nodiscard]] FeatureId polygon(PolygonHandle f) const override;
+  [[nodiscard]] PointId point(VertexHandle v) const override;
+  [[nodiscard]] std::optional<LineId> segment(EdgeHandle e) const override;
+  [[nodiscard]] PolygonId polygon(PolygonHandle f) const override;
 
-  [[nodiscard]] LonelyEdges::Beside name_of(const Edge& e,
-                                            const std::vector<const Polygon*>& near) const;
+  [[nodiscard]] IsolatedEdges::Beside name_of(const Edge& e,
+                                              const std::vector<const Polygon*>& near) const;
   FeatureStore& store() const noexcept { return world_->plc.store(); }
 
   double rho_;
-  std::unordered_map<EdgeHandle, FeatureId> segment_names_;
-  std::unordered_map<PolygonHandle, FeatureId> polygon_names_;
+  std::unordered_map<EdgeHandle, LineId> segment_names_;
+  std::unordered_map<PolygonHandle, PolygonId> polygon_names_;
   SpaceNews::Lines line_points_;
   SpaceNews::Polygons named_polygons_;
   PolygonsAt polygons_at_;

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "facade/announced_limits.hpp"
-#include "facade/announced_lines.hpp"
 #include "facade/line_news.hpp"
+#include "facade/pending_limits.hpp"
+#include "facade/pending_lines.hpp"
 #include "facade/point_state.hpp"
 #include "plane/planarity.hpp"
 
@@ -15,7 +15,7 @@ namespace mesher::detail {
 
 class State final : public PointState<2>, private Names {
  public:
-  using LineEdits = std::vector<AnnouncedLines::Edit>;  // by id
+  using LineEdits = std::vector<PendingLines::Edit>;  // by id
 
   /// Throws: Error(bad_option).
   explicit State(const Options<2>& options) : PointState(options), rho_(options.rho) {
@@ -27,28 +27,29 @@ class State final : public PointState<2>, private Names {
     line_edits_ = std::move(lines);
     return PointState::first_run(std::move(points), control, accept);
   }
-  Change<2> propagate(const PointEdits& points, LineEdits lines, std::optional<LimitsEdit<2>> limits,
-                      const RunControl& control, const Accept& accept) {
+  Change<2> propagate(const PointEdits& points, LineEdits lines,
+                      std::optional<LimitsEdit<2>> limits, const RunControl& control,
+                      const Accept& accept) {
     line_edits_ = std::move(lines);
     limits_edit_ = std::move(limits);
     return PointState::propagate(points, control, accept);
   }
 
   /// The points that a line goes along; empty if it is not there.
-  [[nodiscard]] const LinePoints& line(FeatureId id) const;
+  [[nodiscard]] const LinePoints& line(LineId id) const;
   /// Ascending by id.
-  [[nodiscard]] std::vector<InputLine> lines() const;
+  [[nodiscard]] std::vector<Polyline> lines() const;
 
  private:
   // A segment of a line, by its ends.
   struct Part {
-    FeatureId line{};
-    FeatureId from{}, to{};
+    LineId line{};
+    PointId from{}, to{};
   };
 
   void add_others_first() override;
   void make_edits(const PointEdits& edits, Ids& arrived) override;
-  void point_comes(VertexHandle v, FeatureId id) override { news_.points[v] = id; }
+  void point_comes(VertexHandle v, PointId id) override { news_.points[v] = id; }
   void make_room_for_others() override;
   void require_others() const override;
   void require_others(const Log& log) const override;
@@ -66,9 +67,9 @@ class State final : public PointState<2>, private Names {
   void take_part(VertexHandle from, VertexHandle to);
   void require_planar(const Ids& arrived);
   void require_unused(const PointEdits& edits) const;
-  [[nodiscard]] FeatureId point(VertexHandle v) const override;
-  [[nodiscard]] FeatureId line(SegmentHandle s) const override;
-  [[nodiscard]] VertexHandle end_of(FeatureId id, const Ids& arrived) const;
+  [[nodiscard]] PointId point(VertexHandle v) const override;
+  [[nodiscard]] LineId line(SegmentHandle s) const override;
+  [[nodiscard]] VertexHandle end_of(PointId id, const Ids& arrived) const;
   [[nodiscard]] bool is_edge(const Leaf& leaf) const;
   void report_renamed(std::vector<mesher::LineEdge<2>>& gone,
                       std::vector<mesher::LineEdge<2>>& come) const;
@@ -77,7 +78,7 @@ class State final : public PointState<2>, private Names {
   const auto& segments() const noexcept { return world_->segments; }
 
   double rho_;
-  std::vector<FeatureId> lines_;  // by handle, of the segments
+  std::vector<LineId> lines_;  // by handle, of the segments
   LineNews::Lines line_points_;
   // What an update brings, until it is done.
   LineEdits line_edits_;

@@ -3,40 +3,39 @@
 
 #include "facade/state.hpp"
 #include "geometry/input_point.hpp"
-#include "program/world_impl.hpp"
 #include "plane/require_planar.hpp"
+#include "program/world_impl.hpp"
+#include "text/id_text.hpp"
 
 namespace mesher::detail {
 
 namespace {
-
-std::string text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
 template <class Visit>
 void for_each_part(const LinePoints& points, Visit&& visit) {
   for (std::size_t i = 1; i < points.size(); ++i) visit(points[i - 1], points[i]);
 }
 
-[[noreturn]] void fail_in_use(FeatureId point, FeatureId line) {
+[[noreturn]] void fail_in_use(PointId point, LineId line) {
   throw Error(ErrorCode::point_in_use,
-              "point " + text(point) + " cannot go: it is an end of segment " + text(line), {},
-              {point_named(point), line_named(line)});
+              "point " + id_text(point) + " cannot go: it is an end of segment " + id_text(line),
+              {}, {mesher::Feature(point), mesher::Feature(line)});
 }
 
 }  // namespace
 
-const LinePoints& State::line(FeatureId id) const {
+const LinePoints& State::line(LineId id) const {
   static const LinePoints none;
   const auto it = line_points_.find(id);
   return it == line_points_.end() ? none : it->second;
 }
 
-FeatureId State::point(VertexHandle v) const {
+PointId State::point(VertexHandle v) const {
   const auto it = news_.points.find(v);
   return it == news_.points.end() ? names_[v] : it->second;
 }
 
-FeatureId State::line(SegmentHandle s) const {
+LineId State::line(SegmentHandle s) const {
   const auto it = news_.lines.find(s);
   return it == news_.lines.end() ? lines_[s] : it->second;
 }
@@ -44,7 +43,7 @@ FeatureId State::line(SegmentHandle s) const {
 // --- Single segments -------------------------------------------------------------------------
 
 // The point with this id when all points have come and gone; 0 if there is none.
-VertexHandle State::end_of(FeatureId id, const Ids& arrived) const {
+VertexHandle State::end_of(PointId id, const Ids& arrived) const {
   if (const auto it = arrived.find(id); it != arrived.end()) return it->second;
   const auto it = ids_.find(id);
   if (it == ids_.end()) return 0;
@@ -52,7 +51,7 @@ VertexHandle State::end_of(FeatureId id, const Ids& arrived) const {
 }
 
 void State::add_part(const Part& part, const Ids& arrived) {
-  const auto end = [&](FeatureId id) {
+  const auto end = [&](PointId id) {
     const VertexHandle v = end_of(id, arrived);
     return v != 0 ? v : fail_no_end(id, part.line);
   };
@@ -110,8 +109,8 @@ std::size_t State::other_bytes() const { return world_->segments.bytes() + world
 std::vector<State::Part> State::take_lines(const PointEdits& points) {
   std::vector<Part> parts;
   for (const auto& edit : line_edits_) {
-    for_each_part(edit.was, [&](FeatureId a, FeatureId b) { take_part(ids_.at(a), ids_.at(b)); });
-    for_each_part(edit.to, [&](FeatureId a, FeatureId b) { parts.push_back({edit.id, a, b}); });
+    for_each_part(edit.was, [&](PointId a, PointId b) { take_part(ids_.at(a), ids_.at(b)); });
+    for_each_part(edit.to, [&](PointId a, PointId b) { parts.push_back({edit.id, a, b}); });
   }
   for (const auto& edit : points) {
     if (!edit.was || !edit.to) continue;
@@ -130,7 +129,7 @@ std::vector<State::Part> State::take_lines(const PointEdits& points) {
 void State::require_unused(const PointEdits& edits) const {
   for (const auto& edit : edits) {
     if (!edit.was || edit.to) continue;
-    std::optional<FeatureId> user;
+    std::optional<LineId> user;
     segments().store().visit_at(ids_.at(edit.id), [&](const Segment& s) {
       if (!user || lines_[s.self] < *user) user = lines_[s.self];
     });
@@ -140,7 +139,7 @@ void State::require_unused(const PointEdits& edits) const {
 
 // What has come fits to what is there.
 void State::require_planar(const Ids& arrived) {
-  std::vector<std::pair<FeatureId, VertexHandle>> by_id(arrived.begin(), arrived.end());
+  std::vector<std::pair<PointId, VertexHandle>> by_id(arrived.begin(), arrived.end());
   std::sort(by_id.begin(), by_id.end());
   std::vector<VertexHandle> points;
   for (const auto& [id, h] : by_id) points.push_back(h);

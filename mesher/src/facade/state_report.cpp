@@ -19,8 +19,8 @@ OnFeatures State::on_features(const std::vector<Simplex>&) const {
   return all;
 }
 
-std::vector<InputLine> State::lines() const {
-  std::vector<InputLine> all;
+std::vector<Polyline> State::lines() const {
+  std::vector<Polyline> all;
   all.reserve(line_points_.size());
   for (const auto& [id, points] : line_points_) all.push_back({id, points});
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });

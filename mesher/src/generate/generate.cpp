@@ -1,5 +1,5 @@
 // Families of points, computed the same on every machine.
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,10 +1,9 @@
 // Families of complexes: boxes with things in them.
-#include "mesher/generate_plc.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "generate/plc_parts.hpp"
+#include "mesher/extra/generate.hpp"
 #include "text/text.hpp"
 
 namespace mesher {
@@ -53,7 +52,7 @@ std::optional<PlcKind> plc_kind(std::string_view name) {
   return static_cast<PlcKind>(found - names.begin());
 }
 
-Plc generate_plc(const PlcFamily& family) {
+Graph<3> generate_plc(const PlcFamily& family) {
   Builder b;
   const PlcKind kind = family.kind;
   const auto below = [&](double limit, double preset) {

@@ -7,7 +7,7 @@
 #include "generate/on_circle.hpp"
 #include "geometry/plane_vectors.hpp"
 #include "geometry/segment_tests.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/predicates.hpp"
 
 namespace mesher {
@@ -235,30 +235,32 @@ class Drawer {
   Plane plane_;
 };
 
-FeatureId id_of(std::size_t number) { return FeatureId{static_cast<std::int64_t>(number) + 1}; }
+PointId id_of(std::size_t number) { return PointId{static_cast<std::int64_t>(number) + 1}; }
+
+LineId line_of(std::size_t number) { return LineId{static_cast<std::int64_t>(number) + 1}; }
 
 // All pieces are segments but those of `lines`, whose pieces come in their order.
-Pslg pslg_of(const Plane& plane, const std::vector<std::vector<Number>>& lines = {}) {
-  Pslg pslg;
+Graph<2> pslg_of(const Plane& plane, const std::vector<std::vector<Number>>& lines = {}) {
+  Graph<2> pslg;
   for (std::size_t i = 0; i < plane.points().size(); ++i) {
     pslg.points.push_back({id_of(i), plane.points()[i], 0});
   }
   std::size_t number = 0;
   if (lines.empty()) {
     for (const Piece& s : plane.pieces()) {
-      pslg.segments.push_back({id_of(number++), id_of(s.a), id_of(s.b), 0});
+      pslg.segments.push_back({line_of(number++), id_of(s.a), id_of(s.b), 0});
     }
   }
   for (const auto& line : lines) {
     if (line.size() < 2) continue;
-    std::vector<FeatureId> points;
+    std::vector<PointId> points;
     for (const Number i : line) points.push_back(id_of(i));
-    pslg.polylines.push_back({id_of(number++), std::move(points), 0});
+    pslg.polylines.push_back({line_of(number++), std::move(points), 0});
   }
   return pslg;
 }
 
-Pslg polylines(Drawer& draw, std::size_t n, double reach) {
+Graph<2> polylines(Drawer& draw, std::size_t n, double reach) {
   std::vector<std::vector<Number>> lines;
   std::size_t pieces = 0;
   for (std::size_t tries = kTriesPerThing * n; pieces < n && tries > 0; --tries) {
@@ -270,7 +272,7 @@ Pslg polylines(Drawer& draw, std::size_t n, double reach) {
 }
 
 // Gaps between the lines are 0.1 to 1.1 times their mean, so no two lines meet.
-Pslg corridors(Drawer& draw, std::size_t n) {
+Graph<2> corridors(Drawer& draw, std::size_t n) {
   const double gap = 0.8 / static_cast<double>(std::max<std::size_t>(n, 1));
   double y = 0.05;
   for (std::size_t i = 0; i < n; ++i) {
@@ -283,7 +285,7 @@ Pslg corridors(Drawer& draw, std::size_t n) {
   return pslg_of(draw.plane());
 }
 
-Pslg zigzag(Drawer& draw, std::size_t n) {
+Graph<2> zigzag(Drawer& draw, std::size_t n) {
   std::vector<Number> line;
   for (std::size_t i = 0; n > 0 && i <= n; ++i) {
     const double x = 0.1 + 0.8 * static_cast<double>(i) / static_cast<double>(n);
@@ -293,7 +295,7 @@ Pslg zigzag(Drawer& draw, std::size_t n) {
   return pslg_of(draw.plane(), {line});
 }
 
-Pslg fan(Drawer& draw, std::size_t n, double degrees) {
+Graph<2> fan(Drawer& draw, std::size_t n, double degrees) {
   constexpr double kFirst = 0.03;  // turns: no leg lies along an axis
   const Number centre = draw.add({0.5, 0.5});
   for (std::size_t i = 0; i < n; ++i) {
@@ -303,7 +305,7 @@ Pslg fan(Drawer& draw, std::size_t n, double degrees) {
   return pslg_of(draw.plane());
 }
 
-Pslg bundle(Drawer& draw, std::size_t n, double degrees) {
+Graph<2> bundle(Drawer& draw, std::size_t n, double degrees) {
   const Number centre = draw.add({0.1, 0.1});
   draw.draw(n, [&] {
     constexpr double kFirst = 0.08;  // turns
@@ -328,7 +330,7 @@ std::optional<PslgKind> pslg_kind(std::string_view name) {
   return static_cast<PslgKind>(found - names.begin());
 }
 
-Pslg generate_pslg(const PslgFamily& family) {
+Graph<2> generate_pslg(const PslgFamily& family) {
   const std::size_t n = family.n;
   const double count = static_cast<double>(std::max<std::size_t>(n, 1));
   const double reach = 1 / std::sqrt(2 * count);

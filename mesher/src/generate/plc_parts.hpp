@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "graph/plc_builder.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace mesher::plc_parts {
 

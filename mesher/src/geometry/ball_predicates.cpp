@@ -3,11 +3,10 @@
 // Differences get a limb more than exact_sign() found them to need, so that no sum of their
 // products overflows: in W + 1 limbs they are below 2^(64 (W + 1) - 66), and a polynomial here has
 // fewer than 2^60 monomials with its factors.
-#include "mesher/ball_predicates.hpp"
-
 #include <stdexcept>
 
 #include "geometry/exact_sign.hpp"
+#include "mesher/predicates.hpp"
 
 namespace mesher::predicates::detail {
 

@@ -23,8 +23,8 @@ class BoxTree {
     for (const std::uint32_t i : order_) sorted_.push_back(boxes[i]);
   }
 
-  /// Calls visit(i, j) for every pair of boxes that meet, once and in either order, until it returns
-  /// true; returns whether it did. Cost: O(n log n + pairs) for boxes that few others meet.
+  /// Calls visit(i, j) for every pair of boxes that meet, once and in either order, until it
+  /// returns true; returns whether it did. Cost: O(n log n + pairs) for boxes that few others meet.
   template <class Visit>
   [[nodiscard]] bool visit_pairs(Visit&& visit) const {
     std::vector<std::uint32_t> open;
@@ -52,8 +52,8 @@ class BoxTree {
   static constexpr std::uint32_t kMost = 6;
   struct Node {
     Box<D> box;
-    std::uint32_t begin, end;     // of sorted_
-    std::uint32_t right = 0;      // the left one is the next node; 0: a leaf
+    std::uint32_t begin, end;  // of sorted_
+    std::uint32_t right = 0;   // the left one is the next node; 0: a leaf
   };
 
   [[nodiscard]] static bool meet(const Box<D>& a, const Box<D>& b) noexcept {

@@ -14,7 +14,7 @@ namespace mesher::detail {
 namespace {
 
 template <std::size_t N>
-std::string named(const std::array<double, N>& p, FeatureId id) {
+std::string named(const std::array<double, N>& p, PointId id) {
   return "point " + std::to_string(static_cast<std::int64_t>(id)) + " " + place_text(p);
 }
 
@@ -38,44 +38,45 @@ std::string place_text(const std::array<double, N>& p) {
 }
 
 template <std::size_t N>
-void check_coordinates(const std::array<double, N>& p, FeatureId id) {
+void check_coordinates(const std::array<double, N>& p, PointId id) {
   for (const double x : p) {
     if (std::isfinite(x)) continue;
-    throw Error(ErrorCode::not_finite, named(p, id) + " is not finite", {}, {point_named(id)});
+    throw Error(ErrorCode::not_finite, named(p, id) + " is not finite", {}, {mesher::Feature(id)});
   }
   for (const double x : p) {
     if (text::is_coordinate(x)) continue;
     throw Error(ErrorCode::magnitude,
                 named(p, id) + ": a coordinate must be 0 or of magnitude 2^-100 to 2^100", {},
-                {point_named(id)}, {position_of(p)});
+                {mesher::Feature(id)}, {position_of(p)});
   }
 }
 
 template <std::size_t N>
 void check_point(const std::array<double, N>& p, const Box<static_cast<int>(N)>& domain,
-                 FeatureId id) {
+                 PointId id) {
   check_coordinates(p, id);
   for (std::size_t i = 0; i < N; ++i) {
     if (p[i] >= domain.lo[i] && p[i] <= domain.hi[i]) continue;
     throw Error(ErrorCode::outside_domain,
                 named(p, id) + " lies outside the domain " + box_text(domain), {},
-                {point_named(id)}, {position_of(p)});
+                {mesher::Feature(id)}, {position_of(p)});
   }
 }
 
 template <std::size_t N>
-void fail_too_near(const std::array<double, N>& p, FeatureId id, const std::array<double, N>& other,
-                   FeatureId other_id) {
+void fail_too_near(const std::array<double, N>& p, PointId id, const std::array<double, N>& other,
+                   PointId other_id) {
   if (p == other) {
     throw Error(
         ErrorCode::duplicate_point,
         named(p, id) + " lies on point " + std::to_string(static_cast<std::int64_t>(other_id)), {},
-        {point_named(id), point_named(other_id)}, {position_of(p), position_of(other)});
+        {mesher::Feature(id), mesher::Feature(other_id)}, {position_of(p), position_of(other)});
   }
   throw Error(ErrorCode::too_close,
               named(p, id) + " is too close to " + named(other, other_id) +
                   ": they share a cell of 2^-50 of the meshing box's side",
-              {}, {point_named(id), point_named(other_id)}, {position_of(p), position_of(other)});
+              {}, {mesher::Feature(id), mesher::Feature(other_id)},
+              {position_of(p), position_of(other)});
 }
 
 template <std::size_t N>
@@ -96,16 +97,16 @@ std::vector<std::size_t> morton_order(const std::vector<std::array<double, N>>& 
 }
 
 template std::string place_text(const Point<2>&);
-template void check_coordinates(const Point<2>&, FeatureId);
-template void check_point(const Point<2>&, const Box<2>&, FeatureId);
-template void fail_too_near(const Point<2>&, FeatureId, const Point<2>&, FeatureId);
+template void check_coordinates(const Point<2>&, PointId);
+template void check_point(const Point<2>&, const Box<2>&, PointId);
+template void fail_too_near(const Point<2>&, PointId, const Point<2>&, PointId);
 template std::vector<std::size_t> morton_order(const std::vector<Point<2>>&, const MeshBox<2>&);
 template std::string place_text(const Point<3>&);
-template void check_coordinates(const Point<3>&, FeatureId);
-template void check_point(const Point<3>&, const Box<3>&, FeatureId);
-template void fail_too_near(const Point<3>&, FeatureId, const Point<3>&, FeatureId);
+template void check_coordinates(const Point<3>&, PointId);
+template void check_point(const Point<3>&, const Box<3>&, PointId);
+template void fail_too_near(const Point<3>&, PointId, const Point<3>&, PointId);
 template std::vector<std::size_t> morton_order(const std::vector<Point<3>>&, const MeshBox<3>&);
 template std::string place_text(const Point<4>&);
-template void fail_too_near(const Point<4>&, FeatureId, const Point<4>&, FeatureId);
+template void fail_too_near(const Point<4>&, PointId, const Point<4>&, PointId);
 
 }  // namespace mesher::detail

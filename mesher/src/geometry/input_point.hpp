@@ -17,17 +17,17 @@ template <std::size_t N>
 
 /// Throws: Error (not_finite, magnitude).
 template <std::size_t N>
-void check_coordinates(const std::array<double, N>& p, FeatureId id);
+void check_coordinates(const std::array<double, N>& p, PointId id);
 
 /// Throws: Error (not_finite, magnitude, outside_domain).
 template <std::size_t N>
 void check_point(const std::array<double, N>& p, const Box<static_cast<int>(N)>& domain,
-                 FeatureId id);
+                 PointId id);
 
 /// Throws: Error(duplicate_point) for equal points, else Error(too_close).
 template <std::size_t N>
-[[noreturn]] void fail_too_near(const std::array<double, N>& p, FeatureId id,
-                                const std::array<double, N>& other, FeatureId other_id);
+[[noreturn]] void fail_too_near(const std::array<double, N>& p, PointId id,
+                                const std::array<double, N>& other, PointId other_id);
 
 /// The indices of `points` in Morton order, equal places in the order given.
 template <std::size_t N>

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesher/error.hpp"
-#include "mesher/input_file.hpp"
+#include "mesher/graph.hpp"
 
 namespace mesher {
 
@@ -17,11 +17,10 @@ struct Named {
 
 /// Of parts that have an id. `location_of(i)`: where the i-th stood.
 template <class Part, class LocationOf>
-[[nodiscard]] Named named(FeatureKind kind, const std::vector<Part>& parts,
-                          LocationOf location_of) {
+[[nodiscard]] Named named(const std::vector<Part>& parts, LocationOf location_of) {
   Named all;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    all.features.push_back({kind, parts[i].id});
+    all.features.push_back(parts[i].id);
     all.locations.push_back(location_of(i));
   }
   return all;
@@ -30,15 +29,14 @@ template <class Part, class LocationOf>
 /// Throws: Error(repeated_id) for the first part whose id an earlier one has. Cost: O(n log n).
 void require_distinct(const Named& all);
 
-/// Of points, holes and regions of a Pslg or a Plc.
-template <class Input>
-void require_distinct_parts(const Input& input, const FileParts& f) {
-  require_distinct(
-      named(FeatureKind::point, input.points, [&](auto i) { return f.location_of_point(i); }));
-  require_distinct(
-      named(FeatureKind::hole, input.holes, [&](auto i) { return f.location_of_hole(i); }));
-  require_distinct(
-      named(FeatureKind::region, input.regions, [&](auto i) { return f.location_of_region(i); }));
+/// Of all parts of a graph, lines aside.
+template <int D>
+void require_distinct_parts(const Graph<D>& graph, const GraphFile<D>& f) {
+  require_distinct(named(graph.points, [&](auto i) { return f.location_of_point(i); }));
+  if constexpr (D == 3) {
+    require_distinct(named(graph.polygons, [&](auto i) { return f.location_of_polygon(i); }));
+  }
+  require_distinct(named(graph.seeds, [&](auto i) { return f.location_of_seed(i); }));
 }
 
 }  // namespace mesher

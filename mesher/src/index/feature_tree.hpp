@@ -129,7 +129,7 @@ class FeatureTree {
     return a;
   }
   template <class Visit>
-  void visit_lonely(const Fixed<D>& f, VertexHandle self, Visit&& visit) const;
+  void visit_isolated(const Fixed<D>& f, VertexHandle self, Visit&& visit) const;
   void reserve_blocks(std::size_t more);
   Node new_block() noexcept;
   struct Below {
@@ -214,7 +214,7 @@ int FeatureTree<D>::crowded_level(const Vertex<D>& v) const {
 // Calls visit(f, level) for the lone points in the blocks around f, coarse to fine.
 template <int D>
 template <class Visit>
-void FeatureTree<D>::visit_lonely(const Fixed<D>& f, VertexHandle self, Visit&& visit) const {
+void FeatureTree<D>::visit_isolated(const Fixed<D>& f, VertexHandle self, Visit&& visit) const {
   Around around = start();
   for (int level = 0; level <= kLevels; ++level) {
     bool others = false;
@@ -344,7 +344,7 @@ template <class Changed>
 void FeatureTree<D>::insert(Vertex<D>& v, Changed&& changed) {
   insert_only(v);
   v.level = static_cast<std::int16_t>(crowded_level(v));
-  visit_lonely(box_.fixed(v.p), v.self, [&](VertexHandle h, int level) {
+  visit_isolated(box_.fixed(v.p), v.self, [&](VertexHandle h, int level) {
     Vertex<D>& f = vertices_[h];
     if (f.level >= level) return;
     f.level = static_cast<std::int16_t>(level);
@@ -359,7 +359,7 @@ void FeatureTree<D>::erase(Vertex<D>& v, Changed&& changed) noexcept {
   forget_path();
   std::array<VertexHandle, std::size_t{kBlock3} * (kLevels + 1)> affected;
   std::size_t count = 0;
-  visit_lonely(f, v.self, [&](VertexHandle h, int level) {
+  visit_isolated(f, v.self, [&](VertexHandle h, int level) {
     if (vertices_[h].level == level) affected[count++] = h;
   });
   std::array<Node, kLevels + 1> path{};

@@ -1,4 +1,5 @@
-// The quadtree as a place to look vertices up: its class, and the bodies of its functions by subject.
+// The quadtree as a place to look vertices up: its class, and the bodies of its functions by
+// subject.
 #pragma once
 
 #include "index/quadtree_cells.hpp"    // IWYU pragma: export

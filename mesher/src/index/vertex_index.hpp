@@ -353,11 +353,11 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   Observers<D> observers_;
   ChangeLog<D> log_;
   std::uint8_t id_;
-  std::vector<std::uint32_t> codes_;          // the cell being recorded, written down
-  CellSeen* last_cell_ = nullptr;             // the last one recorded
+  std::vector<std::uint32_t> codes_;            // the cell being recorded, written down
+  CellSeen* last_cell_ = nullptr;               // the last one recorded
   std::unique_ptr<LiveTriangulation<D>> live_;  // in a first run
   std::optional<FirstStars<D>> first_stars_;    // while a first run triangulates
-  std::vector<VertexHandle> gone_;            // the neighbours being replaced
+  std::vector<VertexHandle> gone_;              // the neighbours being replaced
 };
 
 }  // namespace mesher::detail

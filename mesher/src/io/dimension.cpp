@@ -5,7 +5,8 @@
 
 #include "io/read_points.hpp"
 #include "io/vtk_grid.hpp"
-#include "mesher/io.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 #include "text/text.hpp"
 
 namespace mesher {

@@ -1,5 +1,5 @@
 // Reads scripts of edits line by line.
-#include "mesher/edit_script.hpp"
+#include "mesher/extra/edit_script.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +10,7 @@
 #include <map>
 #include <span>
 
+#include "mesher/read.hpp"
 #include "mesher/sizes.hpp"
 #include "text/text.hpp"
 
@@ -105,9 +106,9 @@ bool inserts(EditKind kind) {
 // When edits of a batch are announced, by rank: 0 of lines and polygons that go, 1 of points that
 // are there, 2 of points that come, 3 of lines and polygons that come, 4 of seeds and limits.
 template <int D>
-std::vector<int> ranks(const std::vector<EditOf<D>>& edits) {
-  std::map<FeatureId, bool> points;  // whether they come: by the first edit of each
-  std::map<Feature, bool> others;    // whether they have come so far
+std::vector<int> ranks(const std::vector<Edit<D>>& edits) {
+  std::map<std::int64_t, bool> points;  // whether they come: by the first edit of each
+  std::map<Feature, bool> others;       // whether they have come so far
   std::vector<int> all;
   for (const auto& edit : edits) {
     const FeatureKind of = feature_kind(edit.kind);
@@ -118,7 +119,7 @@ std::vector<int> ranks(const std::vector<EditOf<D>>& edits) {
     } else if (of != FeatureKind::point) {
       all.push_back(4);
     } else {
-      all.push_back(points.emplace(edit.id, inserts(edit.kind)).first->second ? 2 : 1);
+      all.push_back(points.emplace(edit.number, inserts(edit.kind)).first->second ? 2 : 1);
     }
   }
   return all;
@@ -198,21 +199,21 @@ Box<D> limit_box(const text::Line& line, std::size_t first) {
 }
 
 // The fields from `i` up to the next that is a word of +polygon; `i` is that one's then.
-std::vector<FeatureId> points_from(const text::Line& line, std::size_t& i) {
-  std::vector<FeatureId> points;
+std::vector<PointId> points_from(const text::Line& line, std::size_t& i) {
+  std::vector<PointId> points;
   for (; i < line.size() && line[i] != "/" && line[i] != "on" && line[i] != "along"; ++i) {
-    points.push_back(FeatureId{line.integer(i)});
+    points.push_back(PointId{line.integer(i)});
   }
   return points;
 }
 
 Polygon parse_polygon(const text::Line& line) {
-  Polygon polygon{.id = FeatureId{line.integer(1)}, .loops = {}};
+  Polygon polygon{.id = PolygonId{line.integer(1)}, .loops = {}};
   std::size_t i = 2;
   polygon.loops.push_back(points_from(line, i));
   while (i < line.size()) {
     const std::size_t word = i++;
-    const std::vector<FeatureId> points = points_from(line, i);
+    const std::vector<PointId> points = points_from(line, i);
     if (line[word] == "/") {
       polygon.loops.push_back(points);
     } else if (line[word] == "on") {
@@ -235,7 +236,7 @@ bool is_limit(std::string_view kind) {
 }
 
 template <int D>
-void parse_limit(const text::Line& line, EditOf<D>& edit) {
+void parse_limit(const text::Line& line, Edit<D>& edit) {
   const auto refuse = [&](std::size_t i) {
     throw line.error(ErrorCode::bad_edit, "expected '" + std::string(kLimitUsage<D>) + "'", i);
   };
@@ -248,18 +249,18 @@ void parse_limit(const text::Line& line, EditOf<D>& edit) {
 }
 
 template <int D>
-EditOf<D> parse(const text::Line& line) {
+Edit<D> parse(const text::Line& line) {
   const Form& form = form_of<D>(line);
   const bool marked = D == 2 && has_marker(line, form);
   const std::size_t size = line.size() - (marked ? 2 : 0);
   require_fields(line, size, form);
-  EditOf<D> edit;
+  Edit<D> edit;
   edit.kind = form.kind;
   edit.text = line.trimmed();
   edit.location = line.place(0);
   if (marked) edit.marker = line.integer(line.size() - 1);
   if (form.kind == EditKind::limit) return parse_limit<D>(line, edit), edit;
-  edit.id = FeatureId{line.integer(1)};
+  edit.number = line.integer(1);
   if (takes_place(form.kind)) {
     edit.point = place_of<D>(line, 2);
     if (form.kind == EditKind::insert_region) {
@@ -270,7 +271,7 @@ EditOf<D> parse(const text::Line& line) {
     edit.polygon = parse_polygon(line);
   } else {
     for (std::size_t i = 2; i < size; ++i) {
-      edit.points.push_back(FeatureId{line.integer(i)});
+      edit.points.push_back(PointId{line.integer(i)});
     }
   }
   return edit;
@@ -319,13 +320,13 @@ FeatureKind feature_kind(EditKind kind) {
 }
 
 template <int D>
-Feature EditOf<D>::feature() const {
+Feature Edit<D>::feature() const {
   const FeatureKind of = feature_kind(kind);
-  return of == FeatureKind::none ? Feature() : Feature{of, id};
+  return of == FeatureKind::none ? Feature() : Feature(of, number);
 }
 
 template <int D>
-EditScriptOf<D>::EditScriptOf(const std::string& path) : path_(path) {
+EditScript<D>::EditScript(const std::string& path) : path_(path) {
   std::error_code error;
   errno = std::filesystem::is_directory(path, error) ? EISDIR : 0;
   if (errno == 0) stream_.open(path, std::ios::binary);
@@ -336,7 +337,7 @@ EditScriptOf<D>::EditScriptOf(const std::string& path) : path_(path) {
 
 // Goes to the next line that holds anything.
 template <int D>
-bool EditScriptOf<D>::read_line() {
+bool EditScript<D>::read_line() {
   while (std::getline(stream_, text_)) {
     if (++number_ == 1) text_ = without_mark(text_);
     if (!text_.empty() && text_.back() == '\r') text_.pop_back();
@@ -347,20 +348,20 @@ bool EditScriptOf<D>::read_line() {
 }
 
 template <int D>
-std::optional<std::vector<EditOf<D>>> EditScriptOf<D>::next() {
+std::optional<std::vector<Edit<D>>> EditScript<D>::next() {
   if (!read_line()) return std::nullopt;
   const text::Line line = split(path_, number_, text_);
   if (is_word(line, "commit")) {
     throw line.error(ErrorCode::unbalanced_commit, "commit without begin", 0);
   }
   if (is_word(line, "begin")) return read_block();
-  return std::vector<EditOf<D>>{parse<D>(line)};
+  return std::vector<Edit<D>>{parse<D>(line)};
 }
 
 template <int D>
-std::vector<EditOf<D>> EditScriptOf<D>::read_block() {
+std::vector<Edit<D>> EditScript<D>::read_block() {
   const FileLocation begin = split(path_, number_, text_).place(0);
-  std::vector<EditOf<D>> edits;
+  std::vector<Edit<D>> edits;
   while (read_line()) {
     const text::Line line = split(path_, number_, text_);
     if (is_word(line, "commit")) return edits;
@@ -374,9 +375,9 @@ std::vector<EditOf<D>> EditScriptOf<D>::read_block() {
 }
 
 template <int D>
-std::vector<EditOf<D>> announcing_order(std::vector<EditOf<D>> edits) {
+std::vector<Edit<D>> announcing_order(std::vector<Edit<D>> edits) {
   const std::vector<int> rank = ranks(edits);
-  std::vector<EditOf<D>> ordered;
+  std::vector<Edit<D>> ordered;
   ordered.reserve(edits.size());
   for (int r = 0; r < 5; ++r) {
     for (std::size_t i = 0; i < edits.size(); ++i) {
@@ -387,9 +388,9 @@ std::vector<EditOf<D>> announcing_order(std::vector<EditOf<D>> edits) {
 }
 
 template <int D>
-FileLocation location_to_blame(const std::vector<EditOf<D>>& edits, const Error& error) {
+FileLocation location_to_blame(const std::vector<Edit<D>>& edits, const Error& error) {
   for (const Feature& feature : error.features()) {
-    const auto is_of = [&](const EditOf<D>& edit) {
+    const auto is_of = [&](const Edit<D>& edit) {
       return edit.kind != EditKind::limit && edit.feature() == feature;
     };
     const auto last = std::find_if(edits.rbegin(), edits.rend(), is_of);
@@ -399,7 +400,7 @@ FileLocation location_to_blame(const std::vector<EditOf<D>>& edits, const Error&
 }
 
 template <int D>
-std::string text_of(const std::vector<EditOf<D>>& edits) {
+std::string text_of(const std::vector<Edit<D>>& edits) {
   std::string all;
   for (const auto& edit : edits) all += (all.empty() ? "" : "; ") + edit.text;
   return all;
@@ -410,15 +411,15 @@ double now() {
   return std::chrono::duration<double>(since_start).count();
 }
 
-template Feature EditOf<2>::feature() const;
-template Feature EditOf<3>::feature() const;
-template class EditScriptOf<2>;
-template class EditScriptOf<3>;
-template std::string text_of(const std::vector<EditOf<2>>&);
-template std::string text_of(const std::vector<EditOf<3>>&);
-template std::vector<EditOf<2>> announcing_order(std::vector<EditOf<2>>);
-template std::vector<EditOf<3>> announcing_order(std::vector<EditOf<3>>);
-template FileLocation location_to_blame(const std::vector<EditOf<2>>&, const Error&);
-template FileLocation location_to_blame(const std::vector<EditOf<3>>&, const Error&);
+template Feature Edit<2>::feature() const;
+template Feature Edit<3>::feature() const;
+template class EditScript<2>;
+template class EditScript<3>;
+template std::string text_of(const std::vector<Edit<2>>&);
+template std::string text_of(const std::vector<Edit<3>>&);
+template std::vector<Edit<2>> announcing_order(std::vector<Edit<2>>);
+template std::vector<Edit<3>> announcing_order(std::vector<Edit<3>>);
+template FileLocation location_to_blame(const std::vector<Edit<2>>&, const Error&);
+template FileLocation location_to_blame(const std::vector<Edit<3>>&, const Error&);
 
 }  // namespace mesher

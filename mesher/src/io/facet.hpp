@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesher/plc.hpp"
+#include "mesher/graph.hpp"
 
 namespace mesher {
 

@@ -6,8 +6,8 @@
 namespace mesher {
 
 template <int D>
-MeshDataOf<D> MeshParts::take() {
-  MeshDataOf<D> mesh;
+MeshData<D> MeshParts::take() {
+  MeshData<D> mesh;
   mesh.vertices.reserve(vertices_.size());
   for (const Point<3>& p : vertices_) {
     std::copy_n(p.begin(), D, mesh.vertices.emplace_back().begin());

@@ -13,7 +13,7 @@
 
 #include "io/note_counter.hpp"
 #include "mesh/simplex_name.hpp"
-#include "mesher/mesh_data.hpp"
+#include "mesher/mesh.hpp"
 
 namespace mesher {
 
@@ -69,12 +69,12 @@ class MeshParts {
   }
   /// Likewise; what a triangle is if there are tetrahedra: a face.
   void add_triangle(const Mesh<2>::Simplex& corners, double region, std::int64_t marker,
-                    std::optional<FeatureId> polygon = {}) {
+                    std::optional<PolygonId> polygon = {}) {
     add<2>(corners, region);
     faces_.push_back(face_of(corners, marker, polygon));
   }
   [[nodiscard]] static MeshFace face_of(Mesh<2>::Simplex corners, std::int64_t marker,
-                                        std::optional<FeatureId> polygon = {}) {
+                                        std::optional<PolygonId> polygon = {}) {
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     return {corners, polygon, marker};
   }
@@ -86,7 +86,7 @@ class MeshParts {
 
   /// One per vertex, or none.
   std::vector<VertexKind> kinds;
-  std::vector<FeatureId> origins;
+  std::vector<Feature> origins;  // by number: the kind shows when all is read
   std::vector<std::int64_t> markers;
   std::vector<MeshEdge> edges;
   NoteCounter notes;
@@ -111,7 +111,7 @@ class MeshParts {
     }
   }
   template <int D>
-  [[nodiscard]] MeshDataOf<D> take();
+  [[nodiscard]] MeshData<D> take();
 
   std::string file_;
   std::vector<Point<3>> vertices_;

@@ -17,7 +17,7 @@ namespace mesher {
 namespace {
 
 constexpr std::string_view kNotedWords[] = {"vt", "vn",     "vp",     "g",  "o",
-                                       "s",  "usemtl", "mtllib", "mg", "lod"};
+                                            "s",  "usemtl", "mtllib", "mg", "lod"};
 
 class ObjReader {
  public:

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "io/read_node.hpp"
 #include "mesher/error.hpp"
 #include "mesher/mesh.hpp"
-#include "io/read_node.hpp"
 
 namespace mesher {
 

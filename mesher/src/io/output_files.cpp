@@ -1,6 +1,4 @@
 // Output files that appear whole or not at all: temporaries, then renames.
-#include "mesher/output_files.hpp"
-
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -8,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "mesher/write.hpp"
 #include "platform/files.hpp"
 #include "text/digits.hpp"
 

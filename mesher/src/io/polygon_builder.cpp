@@ -7,7 +7,7 @@ namespace mesher {
 
 void PolygonBuilder::add_line(const Ring& places, std::int64_t marker,
                               const FilePosition& position) {
-  std::vector<FeatureId> points;
+  std::vector<PointId> points;
   for (const Point<2>& place : places) {
     points.push_back(build_.point_at(place, marker, position));
     if (points.size() > 1) lines_.push_back({places[points.size() - 2], place});

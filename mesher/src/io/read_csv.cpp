@@ -48,7 +48,8 @@ std::size_t find_column(const text::Line& header, std::string_view name) {
 template <int D>
 using ColumnNames = std::array<std::string_view, D>;
 
-const std::vector<ColumnNames<2>> kPlaneColumns{{"x", "y"}, {"lon", "lat"}, {"longitude", "latitude"}};
+const std::vector<ColumnNames<2>> kPlaneColumns{
+    {"x", "y"}, {"lon", "lat"}, {"longitude", "latitude"}};
 const std::vector<ColumnNames<3>> kSpaceColumns{{"x", "y", "z"}};
 const std::vector<ColumnNames<3>> kSizes{
     {"x", "y", "h"}, {"lon", "lat", "h"}, {"longitude", "latitude", "h"}};

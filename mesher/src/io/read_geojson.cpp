@@ -25,7 +25,7 @@ class GeoJsonReader {
   explicit GeoJsonReader(const text::Source& source)
       : source_(source), build_(source.file()), polygons_(build_, source.file()) {}
 
-  PslgFile read() {
+  GraphFile<2> read() {
     read_object(read_json(source_), Properties());
     polygons_.add_seeds();
     return build_.finish();
@@ -202,7 +202,7 @@ class GeoJsonReader {
 
 }  // namespace
 
-PslgFile read_geojson(const std::string& path) {
+GraphFile<2> read_geojson(const std::string& path) {
   const text::Source source(path);
   return GeoJsonReader(source).read();
 }

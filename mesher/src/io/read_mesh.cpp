@@ -60,10 +60,35 @@ void clear_if_zero(std::vector<T>& values) {
   if (std::all_of(values.begin(), values.end(), [](T v) { return v == T{}; })) values.clear();
 }
 
-void tidy(MeshFeatures& features, const std::string& path) {
+// What of its kind each origin is: files have numbers alone. In space a vertex between the ends of
+// a line is on an edge that names it; others of that kind are in polygons.
+template <int D>
+void name_origins(MeshData<D>& mesh) {
+  auto& origins = mesh.features.origins;
+  std::vector<bool> on_line(D == 3 ? origins.size() : 0);
+  if (D == 3) {
+    for (const MeshEdge& e : mesh.features.edges) {
+      for (const std::uint32_t v : {e.low, e.high}) {
+        if (e.line && v < origins.size() && origins[v].number == Feature(*e.line).number) {
+          on_line[v] = true;
+        }
+      }
+    }
+  }
+  for (std::size_t v = 0; v < origins.size(); ++v) {
+    if (mesh.kinds[v] == VertexKind::input) origins[v].kind = FeatureKind::point;
+    if (mesh.kinds[v] != VertexKind::segment) continue;
+    origins[v].kind = D == 2 || on_line[v] ? FeatureKind::line : FeatureKind::polygon;
+  }
+}
+
+template <int D>
+void tidy(MeshData<D>& mesh, const std::string& path) {
+  auto& features = mesh.features;
   sort_edges(features.edges, path);
   sort_faces(features.faces, path);
   clear_if_zero(features.origins);
+  name_origins(mesh);
   clear_if_zero(features.markers);
   clear_if_zero(features.regions);
 }
@@ -72,21 +97,21 @@ void tidy(MeshFeatures& features, const std::string& path) {
 
 AnyMesh read_any_mesh(const std::string& path) {
   AnyMesh any = reader_of(path)(path);
-  std::visit([&](auto& mesh) { tidy(mesh.features, path); }, any);
+  std::visit([&](auto& mesh) { tidy(mesh, path); }, any);
   return any;
 }
 
 template <int D>
-MeshDataOf<D> read_mesh(const std::string& path) {
+MeshData<D> read_mesh(const std::string& path) {
   AnyMesh any = read_any_mesh(path);
-  if (auto* const mesh = std::get_if<MeshDataOf<D>>(&any)) return std::move(*mesh);
+  if (auto* const mesh = std::get_if<MeshData<D>>(&any)) return std::move(*mesh);
   throw Error(ErrorCode::bad_dimension,
               "a mesh of " + std::string(kSimplicesName<5 - D>) + ", expected " + kSimplicesName<D>,
               {path});
 }
 
-template MeshDataOf<2> read_mesh<2>(const std::string&);
-template MeshDataOf<3> read_mesh<3>(const std::string&);
+template MeshData<2> read_mesh<2>(const std::string&);
+template MeshData<3> read_mesh<3>(const std::string&);
 
 void detail::fail_no_vertex(std::int64_t value, std::size_t count, std::int64_t first,
                             const FileLocation& place) {

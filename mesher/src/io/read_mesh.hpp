@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "io/mesh_parts.hpp"
-#include "mesher/io.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 #include "text/text.hpp"
 
 namespace mesher {

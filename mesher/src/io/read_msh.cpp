@@ -135,7 +135,8 @@ class MshReader {
     const std::string end = "$End" + std::string(word.substr(1));
     const auto at = fields_.rest().find(end);
     if (at == std::string_view::npos) {
-      throw source_.error(ErrorCode::truncated, "the file ends before " + text::quoted(end), source_.end());
+      throw source_.error(ErrorCode::truncated, "the file ends before " + text::quoted(end),
+                          source_.end());
     }
     fields_ = text::Fields(fields_.rest().substr(at + end.size()));
   }

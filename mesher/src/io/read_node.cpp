@@ -77,7 +77,7 @@ class VertexColumns {
     if (kind.size() != 1 || kind[0] < '0' || kind[0] > '3') return false;
     if (origin.find_first_not_of("-0123456789") != std::string_view::npos) return false;
     kinds_.push_back(static_cast<VertexKind>(kind[0] - '0'));
-    origins_.push_back(FeatureId{line.integer(line.size() - 2)});
+    origins_.emplace_back(FeatureKind::none, line.integer(line.size() - 2));
     return true;
   }
 
@@ -92,7 +92,7 @@ class VertexColumns {
   std::size_t attributes_;
   bool ours_;  // as far as the rows have shown
   std::vector<VertexKind> kinds_;
-  std::vector<FeatureId> origins_;
+  std::vector<Feature> origins_;
   std::vector<std::int64_t> markers_;
   FileLocation first_;
 };
@@ -158,7 +158,7 @@ NodeFile<D> read_node(const std::string& path, CoordinateRule rule) {
                        0);
     }
     require_node_fields(lines, header);
-    nodes.rows.ids.push_back(FeatureId{line.integer(0)});
+    nodes.rows.ids.push_back(PointId{line.integer(0)});
     nodes.rows.points.push_back(read_node_point<D>(line, rule));
     nodes.rows.lines.push_back(line.number());
     if (rule == CoordinateRule::finite) {

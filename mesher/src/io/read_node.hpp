@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/io.hpp"
+#include "io/point_file.hpp"
 #include "text/text.hpp"
 
 namespace mesher {
@@ -46,9 +46,9 @@ template <int D>
 
 template <int D>
 struct NodeFile {
-  PointFile<D> rows;               ///< ids and points may repeat
-  std::vector<VertexKind> kinds;   ///< from a file as write_mesh writes it, else all steiner
-  std::vector<FeatureId> origins;  ///< from such a file, else empty
+  PointFile<D> rows;              ///< ids and points may repeat
+  std::vector<VertexKind> kinds;  ///< from a file as write_mesh writes it, else all steiner
+  std::vector<Feature> origins;   ///< from such a file, else empty; numbers without kind
   /// One per row, if the file has them; for CoordinateRule::finite if they say more.
   std::vector<std::int64_t> markers;
   std::vector<Note> notes;

@@ -26,12 +26,12 @@ namespace {
 class IdTable {
  public:
   IdTable() = default;
-  explicit IdTable(const std::vector<FeatureId>& ids) {
+  explicit IdTable(const std::vector<PointId>& ids) {
     for (std::size_t i = 0; i < ids.size(); ++i) rows_.emplace_back(ids[i], i);
     std::sort(rows_.begin(), rows_.end());
   }
   // Throws: Error(bad_mesh) if there is none of that id.
-  [[nodiscard]] std::uint32_t at(FeatureId id, const char* what, const FileLocation& place) const {
+  [[nodiscard]] std::uint32_t at(PointId id, const char* what, const FileLocation& place) const {
     const auto row = std::lower_bound(rows_.begin(), rows_.end(), std::pair(id, std::size_t{0}));
     if (row != rows_.end() && row->first == id) return static_cast<std::uint32_t>(row->second);
     throw Error(
@@ -41,11 +41,11 @@ class IdTable {
   }
   // Field i of `line` as a vertex.
   [[nodiscard]] std::uint32_t vertex(const text::Line& line, std::size_t i) const {
-    return at(FeatureId{line.integer(i)}, "vertex", line.place(i));
+    return at(PointId{line.integer(i)}, "vertex", line.place(i));
   }
 
  private:
-  std::vector<std::pair<FeatureId, std::size_t>> rows_;
+  std::vector<std::pair<PointId, std::size_t>> rows_;
 };
 
 template <int D>
@@ -53,7 +53,7 @@ class NodeMesh {
  public:
   explicit NodeMesh(const std::string& path) : path_(path) {}
 
-  MeshDataOf<D> read() {
+  MeshData<D> read() {
     read_vertices(beside(".node"));
     read_simplices(beside(".ele"));
     if (std::filesystem::exists(beside(".edge"))) read_edges(beside(".edge"));
@@ -103,11 +103,11 @@ class NodeMesh {
     }
     const std::int64_t attributes = header.size() > 2 ? read_count(header, 2) : 0;
     if (attributes > 1) notes_.add("attributes but the first are not used", header.place(2));
-    std::vector<FeatureId> ids;
+    std::vector<PointId> ids;
     const std::size_t fields = 1 + kCorners + (attributes > 0 ? 1 : 0);
     while (std::cmp_less(ids.size(), count)) {
       const text::Line& line = next_row(lines, fields, ids.size(), count, kSimplicesName<D>);
-      ids.push_back(FeatureId{line.integer(0)});
+      ids.push_back(PointId{line.integer(0)});
       mesh_.simplices.push_back(
           read_corners<D>(line, 1, [&](std::size_t i) { return vertices_.vertex(line, i); }));
       if (attributes > 0) mesh_.features.regions.push_back(line.finite(1 + kCorners));
@@ -126,7 +126,7 @@ class NodeMesh {
       MeshEdge edge = edge_of(vertices_.vertex(line, 1), vertices_.vertex(line, 2),
                               [&] { return line.place(1); });
       if (line.size() > 3) edge.marker = line.integer(3);
-      if (line.size() > 4) edge.line = FeatureId{line.integer(4)};
+      if (line.size() > 4) edge.line = LineId{line.integer(4)};
       if (edge.marker == 0 && !edge.line) continue;
       if (!edges_.try_emplace({edge.low, edge.high}, edge).second) {
         throw line.error(ErrorCode::bad_mesh, "an edge that is given twice", 1);
@@ -145,7 +145,7 @@ class NodeMesh {
       const auto corners =
           read_corners<2>(line, 1, [&](std::size_t i) { return vertices_.vertex(line, i); });
       MeshFace face = MeshParts::face_of(corners, line.size() > 4 ? line.integer(4) : 0);
-      if (line.size() > 5) face.polygon = FeatureId{line.integer(5)};
+      if (line.size() > 5) face.polygon = PolygonId{line.integer(5)};
       if (face.marker != 0 || face.polygon) mesh_.features.faces.push_back(face);
     }
     require_end(lines, "faces");
@@ -153,13 +153,13 @@ class NodeMesh {
 
   // A .poly file with points of its own is an input, not a part of this mesh.
   void read_segments(const std::string& path) {
-    const PslgFile poly = read_poly(path, PointsBeside::ignore);
-    if (!poly.pslg.points.empty()) {
+    const GraphFile<2> poly = read_poly(path, PointsBeside::ignore);
+    if (!poly.graph.points.empty()) {
       notes_.add("a .poly file with points of its own is no part of the mesh", {path});
       return;
     }
-    for (std::size_t i = 0; i < poly.pslg.segments.size(); ++i) {
-      const Pslg::Segment& s = poly.pslg.segments[i];
+    for (std::size_t i = 0; i < poly.graph.segments.size(); ++i) {
+      const mesher::Segment& s = poly.graph.segments[i];
       const FileLocation place = poly.location_of_segment(i);
       MeshEdge edge = edge_of(vertices_.at(s.from, "vertex", place),
                               vertices_.at(s.to, "vertex", place), [&] { return place; });
@@ -181,7 +181,7 @@ class NodeMesh {
     const auto expected = neighbours(mesh_);
     for (std::size_t done = 0; std::cmp_less(done, count); ++done) {
       const text::Line& line = next_row(lines, 4, done, count, "triangles");
-      const auto t = triangles_.at(FeatureId{line.integer(0)}, "triangle", line.place(0));
+      const auto t = triangles_.at(PointId{line.integer(0)}, "triangle", line.place(0));
       for (std::size_t i = 0; i < 3; ++i) require_neighbour(line, i + 1, expected[t][i]);
     }
     require_end(lines, "triangles");
@@ -190,7 +190,7 @@ class NodeMesh {
   void require_neighbour(const text::Line& line, std::size_t i, std::uint32_t expected) const {
     const std::int64_t id = line.integer(i);
     const bool none = id == -1;
-    const auto t = none ? kNoTriangle : triangles_.at(FeatureId{id}, "triangle", line.place(i));
+    const auto t = none ? kNoTriangle : triangles_.at(PointId{id}, "triangle", line.place(i));
     if (t == expected) return;
     throw line.error(ErrorCode::bad_mesh,
                      "triangle " + text::quoted(line[0]) + " does not have the neighbour " +
@@ -199,7 +199,7 @@ class NodeMesh {
   }
 
   std::string path_;
-  MeshDataOf<D> mesh_;
+  MeshData<D> mesh_;
   IdTable vertices_, triangles_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, MeshEdge> edges_;
   NoteCounter notes_;

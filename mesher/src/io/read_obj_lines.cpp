@@ -4,11 +4,11 @@
 
 namespace mesher {
 
-PslgFile read_obj_lines(const std::string& path) {
+GraphFile<2> read_obj_lines(const std::string& path) {
   const ObjFile obj = read_obj_file(path, CoordinateRule::input);
   PslgBuilder build(path);
   for (const Note& note : obj.notes) build.note(note.text, note.location);
-  std::vector<FeatureId> ids;
+  std::vector<PointId> ids;
   for (std::size_t i = 0; i < obj.vertices.size(); ++i) {
     ids.push_back(build.add_point(obj.vertices[i], 0, obj.positions[i]));
   }
@@ -19,7 +19,7 @@ PslgFile read_obj_lines(const std::string& path) {
                   place);
     }
     if (element.kind == 'p') continue;  // its vertices are points anyway
-    std::vector<FeatureId> points;
+    std::vector<PointId> points;
     for (const std::uint32_t v : element.vertices) points.push_back(ids[v]);
     build.add_line(std::move(points), 0, element.position);
   }

@@ -6,7 +6,7 @@ namespace mesher {
 
 AnyMesh read_obj_mesh(const std::string& path) {
   ObjFile obj = read_obj_file(path, CoordinateRule::finite);
-  MeshData mesh;
+  MeshData<2> mesh;
   mesh.vertices = std::move(obj.vertices);
   mesh.kinds.assign(mesh.vertices.size(), VertexKind::steiner);
   mesh.notes = std::move(obj.notes);

@@ -38,7 +38,7 @@ AnyMesh read_off(const std::string& path) {
   }
   const text::Line& counts = next_row(lines, 2, 0, 1, "lines of counts");
   const std::int64_t vertices = read_count(counts, 0), faces = read_count(counts, 1);
-  MeshData mesh;
+  MeshData<2> mesh;
   while (std::cmp_less(mesh.vertices.size(), vertices)) {
     mesh.vertices.push_back(
         read_vertex(next_row(lines, 3, mesh.vertices.size(), vertices, "vertices")));

@@ -1,14 +1,14 @@
-// The readers of single formats behind read_plc.
+// The readers of single formats behind read<3>.
 #pragma once
 
 #include <string>
 
-#include "mesher/plc.hpp"
+#include "mesher/graph.hpp"
 
 namespace mesher {
 
-/// Throws: Error as read_plc, but ids of points, holes and regions may repeat.
-[[nodiscard]] PlcFile read_space_poly(const std::string& path);
-[[nodiscard]] PlcFile read_smesh(const std::string& path);
+/// Throws: Error as read(), but ids of points, holes and regions may repeat.
+[[nodiscard]] GraphFile<3> read_space_poly(const std::string& path);
+[[nodiscard]] GraphFile<3> read_smesh(const std::string& path);
 
 }  // namespace mesher

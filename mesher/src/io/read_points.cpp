@@ -14,15 +14,16 @@
 #include "geometry/place_hash.hpp"
 #include "io/read_node.hpp"
 #include "io/rows.hpp"
-#include "mesher/read_for_repair.hpp"
+#include "mesher/read.hpp"
 #include "sac/label.hpp"
 #include "sets/counting_sort.hpp"
+#include "text/id_text.hpp"
 #include "text/text.hpp"
 
 namespace mesher {
 namespace {
 
-std::uint64_t hash_of(FeatureId id) { return sac::mix(static_cast<std::uint64_t>(id)); }
+std::uint64_t hash_of(PointId id) { return sac::mix(static_cast<std::uint64_t>(id)); }
 template <std::size_t N>
 std::uint64_t hash_of(const std::array<double, N>& p) {
   return detail::place_hash(p);
@@ -62,8 +63,6 @@ std::optional<Repeat> first_repeat(const std::vector<Key>& keys) {
   }
   return first;
 }
-
-std::string id_text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
 // Where there are lines.
 template <int D>
@@ -129,20 +128,21 @@ void require_distinct_ids(const PointFile<D>& rows) {
   throw Error(ErrorCode::repeated_id,
               "id " + id_text(rows.ids[repeat->later]) + " is given twice, first on line " +
                   std::to_string(rows.lines[repeat->earlier]),
-              rows.location(repeat->later), {point_named(rows.ids[repeat->later])});
+              rows.location(repeat->later), {mesher::Feature(rows.ids[repeat->later])});
 }
 
 template <int D>
 void require_distinct_points(const PointFile<D>& rows) {
   const auto repeat = first_repeat(rows.points);
   if (!repeat) return;
-  throw Error(ErrorCode::duplicate_point,
-              "point " + id_text(rows.ids[repeat->later]) + " lies on point " +
-                  id_text(rows.ids[repeat->earlier]) + line_text(rows, repeat->earlier) +
-                  ", both at " + text::to_text<D>(rows.points[repeat->later]),
-              rows.location(repeat->later),
-              {point_named(rows.ids[repeat->later]), point_named(rows.ids[repeat->earlier])},
-              {position_of(rows.points[repeat->later])})
+  throw Error(
+      ErrorCode::duplicate_point,
+      "point " + id_text(rows.ids[repeat->later]) + " lies on point " +
+          id_text(rows.ids[repeat->earlier]) + line_text(rows, repeat->earlier) + ", both at " +
+          text::to_text<D>(rows.points[repeat->later]),
+      rows.location(repeat->later),
+      {mesher::Feature(rows.ids[repeat->later]), mesher::Feature(rows.ids[repeat->earlier])},
+      {position_of(rows.points[repeat->later])})
       .with_locations({rows.location(repeat->later), rows.location(repeat->earlier)});
 }
 
@@ -157,13 +157,6 @@ PointFile<D> read_points(const std::string& path, CoincidingPoints coinciding) {
 
 template void require_distinct_ids<2>(const PointFile<2>&);
 template void require_distinct_points<2>(const PointFile<2>&);
-template <int D>
-PointFile<D> read_points(const std::string& path) {
-  return read_points<D>(path, CoincidingPoints::refused);
-}
-
-template PointFile<2> read_points<2>(const std::string&);
-template PointFile<3> read_points<3>(const std::string&);
 template PointFile<2> read_points<2>(const std::string&, CoincidingPoints);
 template PointFile<3> read_points<3>(const std::string&, CoincidingPoints);
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/io.hpp"
+#include "io/point_file.hpp"
 
 namespace mesher {
 
@@ -34,7 +34,7 @@ struct Surface {
     std::vector<std::uint32_t> corners;
     FilePosition position;
     std::int64_t marker = 0;
-    std::optional<FeatureId> id{};  ///< of all faces or of none
+    std::optional<PolygonId> id{};  ///< of all faces or of none
   };
   PointFile<3> rows;
   std::vector<Face> faces;
@@ -43,8 +43,8 @@ struct Surface {
 [[nodiscard]] Surface read_obj_surface(const std::string& path);
 [[nodiscard]] Surface read_ply_surface(const std::string& path);
 [[nodiscard]] Surface read_stl_surface(const std::string& path);
-/// Of a grid's triangles, quadrilaterals and polygons, with cell data `marker`; `polygon` are ids, if
-/// all faces have one, and no two the same.
+/// Of a grid's triangles, quadrilaterals and polygons, with cell data `marker`; `polygon` are ids,
+/// if all faces have one, and no two the same.
 [[nodiscard]] Surface read_vtu_surface(const std::string& path);
 [[nodiscard]] Surface read_vtk_surface(const std::string& path);
 
@@ -56,7 +56,7 @@ template <int D>
 template <int D>
 void add_row(PointFile<D>& rows, const Point<D>& point, long line) {
   rows.points.push_back(point);
-  rows.ids.push_back(FeatureId{static_cast<std::int64_t>(rows.points.size())});
+  rows.ids.push_back(PointId{static_cast<std::int64_t>(rows.points.size())});
   rows.lines.push_back(line);
 }
 

@@ -23,11 +23,11 @@ class PolyReader {
     out_.file = out_.point_file = path;
   }
 
-  PslgFile read() {
-    read_point_table(lines_, beside_, out_.pslg, out_);
+  GraphFile<2> read() {
+    read_point_table(lines_, beside_, out_.graph, out_);
     read_segments();
-    read_hole_table(lines_, out_.pslg, out_);
-    read_region_table(lines_, out_.pslg, out_, notes_);
+    read_hole_table(lines_, out_.graph, out_);
+    read_region_table(lines_, out_.graph, out_, notes_);
     out_.notes = notes_.notes();
     return std::move(out_);
   }
@@ -42,13 +42,13 @@ class PolyReader {
       const text::Line& line = next_row(lines_, fields, out_.segments.size(), count, "segments");
       require_fields(line, fields, fields);
       const std::int64_t marker = fields == 4 ? line.integer(3) : 0;
-      out_.pslg.segments.push_back({FeatureId{line.integer(0)}, FeatureId{line.integer(1)},
-                                    FeatureId{line.integer(2)}, marker});
+      out_.graph.segments.push_back(
+          {LineId{line.integer(0)}, PointId{line.integer(1)}, PointId{line.integer(2)}, marker});
       out_.segments.push_back(line.position(0));
     }
   }
 
-  PslgFile out_;
+  GraphFile<2> out_;
   text::FieldLines lines_;
   PointsBeside beside_;
   NoteCounter notes_;
@@ -56,7 +56,7 @@ class PolyReader {
 
 }  // namespace
 
-PslgFile read_poly(const std::string& path, PointsBeside beside) {
+GraphFile<2> read_poly(const std::string& path, PointsBeside beside) {
   const std::string content = text::read_file(path);
   return PolyReader(path, content, beside).read();
 }

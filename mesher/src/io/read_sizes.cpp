@@ -5,7 +5,8 @@
 #include "io/read_node.hpp"
 #include "io/read_points.hpp"
 #include "io/rows.hpp"
-#include "mesher/pslg.hpp"
+#include "mesher/graph.hpp"
+#include "mesher/read.hpp"
 #include "text/text.hpp"
 
 namespace mesher {
@@ -32,7 +33,7 @@ Rows<D> read_node_sizes(const std::string& path) {
   while (std::cmp_less(rows.sizes.size(), header.count)) {
     const text::Line& line = next_row(lines, 1, rows.sizes.size(), header.count, "sizes");
     require_node_fields(lines, header);
-    rows.places.ids.push_back(FeatureId{line.integer(0)});
+    rows.places.ids.push_back(PointId{line.integer(0)});
     rows.places.points.push_back(read_node_point<D>(line, CoordinateRule::input));
     rows.places.lines.push_back(line.number());
     rows.sizes.push_back(line.coordinate(1 + D));
@@ -74,19 +75,19 @@ void require_positive(const Rows<D>& rows) {
 }  // namespace
 
 template <int D>
-SizeFileOf<D> read_sizes(const std::string& path) {
+SizeFile<D> read_sizes(const std::string& path) {
   const Rows<D> rows = read_any_sizes<D>(path);
   require_distinct_ids(rows.places);
   require_distinct_points(rows.places);
   require_positive(rows);
-  SizeFileOf<D> file{path, {}, {}};
+  SizeFile<D> file{path, {}, {}};
   for (std::size_t i = 0; i < rows.sizes.size(); ++i) {
     file.samples.push_back({rows.places.points[i], rows.sizes[i]});
     file.positions.push_back({rows.places.lines[i], 1});
   }
   return file;
 }
-template SizeFileOf<2> read_sizes<2>(const std::string&);
-template SizeFileOf<3> read_sizes<3>(const std::string&);
+template SizeFile<2> read_sizes<2>(const std::string&);
+template SizeFile<3> read_sizes<3>(const std::string&);
 
 }  // namespace mesher

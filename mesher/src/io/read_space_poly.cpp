@@ -18,11 +18,10 @@
 #include "io/facet.hpp"
 #include "io/poly_tables.hpp"
 #include "io/read_plc.hpp"
+#include "text/id_text.hpp"
 
 namespace mesher {
 namespace {
-
-std::string id_text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
 class SpacePolyReader {
  public:
@@ -33,23 +32,23 @@ class SpacePolyReader {
     out_.file = out_.point_file = path;
   }
 
-  PlcFile read() {
+  GraphFile<3> read() {
     read_points();
     read_facets();
     number_segments();
-    read_hole_table(lines_, out_.plc, out_);
-    read_region_table(lines_, out_.plc, out_, notes_);
+    read_hole_table(lines_, out_.graph, out_);
+    read_region_table(lines_, out_.graph, out_, notes_);
     out_.notes = notes_.notes();
     return std::move(out_);
   }
 
  private:
   void read_points() {
-    read_point_table(lines_, PointsBeside::read, out_.plc, out_);
-    require_indexable(out_.plc.points.size(), out_.point_file);
-    for (std::uint32_t i = 0; i < out_.plc.points.size(); ++i) {
-      number_of_.try_emplace(out_.plc.points[i].id, i);
-      places_.push_back(out_.plc.points[i].at);
+    read_point_table(lines_, PointsBeside::read, out_.graph, out_);
+    require_indexable(out_.graph.points.size(), out_.point_file);
+    for (std::uint32_t i = 0; i < out_.graph.points.size(); ++i) {
+      number_of_.try_emplace(out_.graph.points[i].id, i);
+      places_.push_back(out_.graph.points[i].at);
     }
   }
 
@@ -61,12 +60,12 @@ class SpacePolyReader {
     for (std::int64_t i = 0; i < count; ++i) {
       const text::Line& line = next_row(lines_, 1, static_cast<std::size_t>(i), count, "facets");
       const FilePosition position = line.position(0);
-      facet_ = FeatureId{i + 1};
+      facet_ = PolygonId{i + 1};
       format_ == Format::poly ? read_facet(line, position) : read_single(position);
     }
     std::int64_t last = count;
     for (auto& [facet, position] : parts_behind_) {
-      facet_ = FeatureId{++last};
+      facet_ = PolygonId{++last};
       add_facet(std::move(facet), position);
     }
   }
@@ -127,13 +126,13 @@ class SpacePolyReader {
   }
 
   std::uint32_t corner(const text::Line& line, std::size_t i) {
-    const FeatureId id{line.integer(i)};
+    const PointId id{line.integer(i)};
     const auto found = number_of_.find(id);
     if (found != number_of_.end()) return found->second;
     throw Error(ErrorCode::unknown_id,
                 "a corner is point " + id_text(id) + ", which is not there; there are " +
-                    std::to_string(out_.plc.points.size()) + " points in " + out_.point_file,
-                line.place(i), {point_named(id)});
+                    std::to_string(out_.graph.points.size()) + " points in " + out_.point_file,
+                line.place(i), {mesher::Feature(id)});
   }
 
   // A facet's first part has its number; others are numbered after all facets.
@@ -145,11 +144,12 @@ class SpacePolyReader {
                   holes[all.useless_holes.front()]);
     }
     for (const auto& [a, b] : all.segments) {
-      out_.plc.segments.push_back({{}, id(a), id(b), marker});
+      out_.graph.segments.push_back({{}, id(a), id(b), marker});
       out_.segments.push_back(position);
     }
     for (std::size_t i = 0; i < all.parts.size(); ++i) {
-      Plc::Facet part{polygon(all.parts[i]), marker};
+      Polygon part = polygon(all.parts[i]);
+      part.marker = marker;
       if (i == 0) {
         add_facet(std::move(part), position);
       } else {
@@ -158,13 +158,13 @@ class SpacePolyReader {
     }
   }
 
-  void add_facet(Plc::Facet&& facet, FilePosition position) {
-    facet.polygon.id = facet_;
-    out_.plc.facets.push_back(std::move(facet));
-    out_.facets.push_back(position);
+  void add_facet(mesher::Polygon&& facet, FilePosition position) {
+    facet.id = facet_;
+    out_.graph.polygons.push_back(std::move(facet));
+    out_.polygons.push_back(position);
   }
 
-  [[nodiscard]] FeatureId id(std::uint32_t point) const { return out_.plc.points[point].id; }
+  [[nodiscard]] PointId id(std::uint32_t point) const { return out_.graph.points[point].id; }
 
   [[nodiscard]] Polygon polygon(const FacetPolygons::Part& part) const {
     Polygon polygon;
@@ -179,31 +179,31 @@ class SpacePolyReader {
 
   void number_segments() {
     std::int64_t count = 0;
-    for (Plc::Segment& s : out_.plc.segments) s.id = FeatureId{++count};
+    for (mesher::Segment& s : out_.graph.segments) s.id = LineId{++count};
   }
 
-  PlcFile out_;
+  GraphFile<3> out_;
   text::FieldLines lines_;
   Format format_;
   bool marked_ = false;
-  FeatureId facet_{};  // its number
-  std::unordered_map<FeatureId, std::uint32_t> number_of_;
+  PolygonId facet_{};  // its number
+  std::unordered_map<PointId, std::uint32_t> number_of_;
   std::vector<Point<3>> places_;
-  std::vector<std::pair<Plc::Facet, FilePosition>> parts_behind_;
+  std::vector<std::pair<mesher::Polygon, FilePosition>> parts_behind_;
   NoteCounter notes_;
 };
 
-PlcFile read_tetgen(const std::string& path, SpacePolyReader::Format format) {
+GraphFile<3> read_tetgen(const std::string& path, SpacePolyReader::Format format) {
   const std::string content = text::read_file(path);
   return SpacePolyReader(path, content, format).read();
 }
 
 }  // namespace
 
-PlcFile read_space_poly(const std::string& path) {
+GraphFile<3> read_space_poly(const std::string& path) {
   return read_tetgen(path, SpacePolyReader::Format::poly);
 }
-PlcFile read_smesh(const std::string& path) {
+GraphFile<3> read_smesh(const std::string& path) {
   return read_tetgen(path, SpacePolyReader::Format::smesh);
 }
 

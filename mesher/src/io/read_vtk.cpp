@@ -26,13 +26,14 @@ struct VtkNumber {
 };
 
 // VTK writes its vtkIdType as int.
-constexpr VtkNumber kVtkNumbers[] = {{"bit", true, false, 0},      {"unsigned_char", true, false, 1},
-                                 {"char", true, true, 1},      {"unsigned_short", true, false, 2},
-                                 {"short", true, true, 2},     {"unsigned_int", true, false, 4},
-                                 {"int", true, true, 4},       {"unsigned_long", true, false, 8},
-                                 {"long", true, true, 8},      {"vtktypeint64", true, true, 8},
-                                 {"vtkidtype", true, true, 4}, {"vtkIdType", true, true, 4},
-                                 {"float", false, true, 4},    {"double", false, true, 8}};
+constexpr VtkNumber kVtkNumbers[] = {
+    {"bit", true, false, 0},      {"unsigned_char", true, false, 1},
+    {"char", true, true, 1},      {"unsigned_short", true, false, 2},
+    {"short", true, true, 2},     {"unsigned_int", true, false, 4},
+    {"int", true, true, 4},       {"unsigned_long", true, false, 8},
+    {"long", true, true, 8},      {"vtktypeint64", true, true, 8},
+    {"vtkidtype", true, true, 4}, {"vtkIdType", true, true, 4},
+    {"float", false, true, 4},    {"double", false, true, 8}};
 constexpr VtkNumber kVtkInt = {"int", true, true, 4};  // of cells where no type is said
 
 class VtkReader {

@@ -37,7 +37,7 @@ class GridMesh {
     }
     origins_ = VtkGrid::find_integers(grid_.point_data, "origin");
     if (origins_ != nullptr) {
-      for (const auto id : origins_->integers) mesh_.origins.push_back(FeatureId{id});
+      for (const auto id : origins_->integers) mesh_.origins.emplace_back(FeatureKind::none, id);
     }
     markers_ = VtkGrid::find_integers(grid_.point_data, "marker");
     if (markers_ != nullptr) mesh_.markers = markers_->integers;
@@ -95,7 +95,7 @@ class GridMesh {
                   grid_.connectivity.place);
     }
     if constexpr (D == 2) {
-      mesh_.add_triangle(corners, region(i), marker(i), id(polygons_, has_polygon_, i));
+      mesh_.add_triangle(corners, region(i), marker(i), id<PolygonId>(polygons_, has_polygon_, i));
     } else {
       mesh_.add<D>(corners, region(i));
     }
@@ -111,11 +111,11 @@ class GridMesh {
     return cell_markers_ == nullptr ? 0 : cell_markers_->integers[cell];
   }
   // Of `ids`, if there are any and `has_id` does not say that this cell has none.
-  static std::optional<FeatureId> id(const VtkArray* ids, const VtkArray* has_id,
-                                     std::size_t cell) {
+  template <class Id>
+  static std::optional<Id> id(const VtkArray* ids, const VtkArray* has_id, std::size_t cell) {
     const bool has_one = has_id == nullptr || has_id->integers[cell] != 0;
     if (ids == nullptr || !has_one) return std::nullopt;
-    return FeatureId{ids->integers[cell]};
+    return Id{ids->integers[cell]};
   }
 
   void add_line(std::size_t i, const std::vector<std::uint32_t>& v) {
@@ -126,7 +126,7 @@ class GridMesh {
     for (std::size_t k = 1; k < v.size(); ++k) {
       MeshEdge edge = edge_of(v[k - 1], v[k], [&] { return grid_.connectivity.place; });
       edge.marker = marker(i);
-      edge.line = id(lines_, has_line_, i);
+      edge.line = id<LineId>(lines_, has_line_, i);
       mesh_.edges.push_back(edge);
     }
   }

@@ -55,7 +55,7 @@ Surface surface_of(VtkGrid grid) {
     face.corners = corners_of(grid, i);
     face.position = {place.line, place.column};
     if (markers != nullptr) face.marker = markers->integers[i];
-    if (ids != nullptr) face.id = FeatureId{ids->integers[i]};
+    if (ids != nullptr) face.id = PolygonId{ids->integers[i]};
   }
   note_unused(grid.point_data, {}, grid.notes);
   note_unused(grid.cell_data, {markers, ids, VtkGrid::find(grid.cell_data, "has_polygon")},

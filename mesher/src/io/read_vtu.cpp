@@ -24,10 +24,10 @@ struct VtuNumber {
   bool is_integral, is_signed;
 };
 constexpr VtuNumber kVtuNumbers[] = {{"Float64", 8, false, true}, {"Float32", 4, false, true},
-                                 {"Int64", 8, true, true},    {"UInt64", 8, true, false},
-                                 {"Int32", 4, true, true},    {"UInt32", 4, true, false},
-                                 {"Int16", 2, true, true},    {"UInt16", 2, true, false},
-                                 {"Int8", 1, true, true},     {"UInt8", 1, true, false}};
+                                     {"Int64", 8, true, true},    {"UInt64", 8, true, false},
+                                     {"Int32", 4, true, true},    {"UInt32", 4, true, false},
+                                     {"Int16", 2, true, true},    {"UInt16", 2, true, false},
+                                     {"Int8", 1, true, true},     {"UInt8", 1, true, false}};
 
 class VtuReader {
  public:

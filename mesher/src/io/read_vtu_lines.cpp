@@ -24,7 +24,7 @@ std::int64_t marker_of(const VtkArray* markers, std::size_t i) {
 }
 
 void add_cell(const VtkGrid& grid, std::size_t i, std::int64_t marker,
-              const std::vector<FeatureId>& ids, PslgBuilder& build) {
+              const std::vector<PointId>& ids, PslgBuilder& build) {
   const FileLocation& place = grid.connectivity.place;
   const VtkCell type = grid.type(i);
   if (type == VtkCell::vertex || type == VtkCell::poly_vertex) return;  // all points are input
@@ -35,7 +35,7 @@ void add_cell(const VtkGrid& grid, std::size_t i, std::int64_t marker,
                     ": only vertices (1, 2) and lines (3, 4) are input",
                 grid.types.place);
   }
-  std::vector<FeatureId> points;
+  std::vector<PointId> points;
   for (const std::uint32_t v : grid.cell(i)) points.push_back(ids[v]);
   if (points.size() < 2 || (type == VtkCell::line && points.size() > 2)) {
     throw Error(
@@ -48,7 +48,7 @@ void add_cell(const VtkGrid& grid, std::size_t i, std::int64_t marker,
 
 }  // namespace
 
-PslgFile read_vtu_lines(const std::string& path) {
+GraphFile<2> read_vtu_lines(const std::string& path) {
   VtkGrid grid = read_vtu(path);
   require_plane(grid);
   const VtkArray* const point_markers = VtkGrid::find_integers(grid.point_data, "marker");
@@ -58,7 +58,7 @@ PslgFile read_vtu_lines(const std::string& path) {
   PslgBuilder build(path);
   for (const Note& note : grid.notes.notes()) build.note(note.text, note.location);
   const FilePosition position{grid.points.place.line, grid.points.place.column};
-  std::vector<FeatureId> ids;
+  std::vector<PointId> ids;
   for (std::size_t i = 0; i < grid.point_count(); ++i) {
     ids.push_back(build.add_point(input_point(grid, i), marker_of(point_markers, i), position));
   }

@@ -10,7 +10,7 @@
 
 #include "geometry/box.hpp"
 #include "mesher/mesh.hpp"
-#include "mesher/output_files.hpp"
+#include "mesher/write.hpp"
 
 namespace mesher::svg {
 

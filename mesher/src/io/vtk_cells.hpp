@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/vtk_grid.hpp"
-#include "mesher/mesh_data.hpp"
+#include "mesher/mesh.hpp"
 
 namespace mesher {
 
@@ -15,7 +15,11 @@ inline constexpr int kVtkLine = static_cast<int>(VtkCell::line);
 inline constexpr int kVtkTriangle = static_cast<int>(VtkCell::triangle);
 inline constexpr int kVtkTetrahedron = static_cast<int>(VtkCell::tetrahedron);
 
-/// Ids or kinds as integers.
+[[nodiscard]] inline std::vector<std::int64_t> as_integers(const std::vector<Feature>& origins) {
+  std::vector<std::int64_t> integers;
+  for (const Feature& origin : origins) integers.push_back(origin.number);
+  return integers;
+}
 template <class T>
 [[nodiscard]] std::vector<std::int64_t> as_integers(const std::vector<T>& values) {
   std::vector<std::int64_t> integers;
@@ -43,13 +47,13 @@ struct CellData {
     for (std::size_t i = 0; i < faces; ++i) {
       const MeshFace& f = features.faces[i];
       markers[simplices + i] = f.marker;
-      polygons[simplices + i] = static_cast<std::int64_t>(f.polygon.value_or(FeatureId{0}));
+      polygons[simplices + i] = static_cast<std::int64_t>(f.polygon.value_or(PolygonId{0}));
       has_polygon[simplices + i] = f.polygon ? 1 : 0;
     }
     for (std::size_t i = 0; i < features.edges.size(); ++i) {
       const MeshEdge& e = features.edges[i];
       markers[simplices + faces + i] = e.marker;
-      lines[simplices + faces + i] = static_cast<std::int64_t>(e.line.value_or(FeatureId{0}));
+      lines[simplices + faces + i] = static_cast<std::int64_t>(e.line.value_or(LineId{0}));
       has_line[simplices + faces + i] = e.line ? 1 : 0;
     }
   }

@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "mesher/io.hpp"
-#include "mesher/svg.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 #include "text/text.hpp"
 
 namespace mesher {
@@ -24,18 +24,18 @@ constexpr std::pair<std::string_view, Write> kSingleFiles[] = {
        write_svg(mesh, features, svg_view(mesh), file);
      }}};
 
-MeshWriter open_node(OutputFiles& files, const std::string& path, MeshFiles content) {
+MeshWriter<2> open_node(OutputFiles& files, const std::string& path, MeshFiles content) {
   TextFile& node = files.open(path);
   TextFile& ele = files.open(text::with_extension(path, ".ele"));
   const auto write = [&node, &ele](const Mesh<2>& mesh, const MeshFeatures& features) {
     write_node(mesh, features, node);
     write_ele(mesh, features, ele);
   };
-  if (content == MeshFiles::plain) return MeshWriter(write);
+  if (content == MeshFiles::plain) return MeshWriter<2>(write);
   TextFile& edge = files.open(text::with_extension(path, ".edge"));
   TextFile& poly = files.open(text::with_extension(path, ".poly"));
   TextFile& neigh = files.open(text::with_extension(path, ".neigh"));
-  return MeshWriter(
+  return MeshWriter<2>(
       [write, &edge, &poly, &neigh](const Mesh<2>& mesh, const MeshFeatures& features) {
         write(mesh, features);
         write_edge(mesh, features, edge);
@@ -46,13 +46,14 @@ MeshWriter open_node(OutputFiles& files, const std::string& path, MeshFiles cont
 
 }  // namespace
 
-MeshWriter open_mesh(OutputFiles& files, const std::string& path, MeshFiles content) {
+template <>
+MeshWriter<2> open_mesh<2>(OutputFiles& files, const std::string& path, MeshFiles content) {
   const std::string extension = text::extension(path);
   if (extension == ".node") return open_node(files, path, content);
   for (const auto& [known, write] : kSingleFiles) {
     if (extension != known) continue;
     TextFile& file = files.open(path);
-    return MeshWriter([write = write, &file](const Mesh<2>& mesh, const MeshFeatures& features) {
+    return MeshWriter<2>([write = write, &file](const Mesh<2>& mesh, const MeshFeatures& features) {
       write(mesh, features, file);
     });
   }
@@ -67,14 +68,14 @@ std::string format_of(const std::string& path) { return text::extension(path); }
 
 void write_mesh(const Mesh<2>& mesh, const std::string& path) {
   OutputFiles files;
-  open_mesh(files, path)(mesh);
+  open_mesh<2>(files, path)(mesh);
   files.commit();
 }
 
-void write_mesh(const MeshData& mesh, const std::string& path) {
+void write_mesh(const MeshData<2>& mesh, const std::string& path) {
   OutputFiles files;
   const bool plain = mesh.features.empty();
-  open_mesh(files, path, plain ? MeshFiles::plain : MeshFiles::features)(mesh, mesh.features);
+  open_mesh<2>(files, path, plain ? MeshFiles::plain : MeshFiles::features)(mesh, mesh.features);
   files.commit();
 }
 

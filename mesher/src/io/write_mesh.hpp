@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "mesher/mesh_data.hpp"
-#include "mesher/output_files.hpp"
+#include "mesher/mesh.hpp"
+#include "mesher/write.hpp"
 #include "sets/make_set.hpp"
 
 namespace mesher {

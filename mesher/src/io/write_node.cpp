@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "io/write_mesh.hpp"
-#include "mesher/io.hpp"
-#include "mesher/space_files.hpp"
+#include "mesh/boundary_faces.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 #include "text/digits.hpp"
 
 namespace mesher {
@@ -18,7 +19,7 @@ void write_vertex_features(const Mesh<D>& mesh, const MeshFeatures& features, st
                            TextFile& file) {
   const bool has_origins = !features.origins.empty(), has_markers = !features.markers.empty();
   file << ' ' << static_cast<int>(mesh.kinds[i]);
-  file << ' ' << (has_origins ? static_cast<std::int64_t>(features.origins[i]) : 0);
+  file << ' ' << (has_origins ? features.origins[i].number : 0);
   file << ' ' << (has_markers ? features.markers[i] : 0) << '\n';
 }
 

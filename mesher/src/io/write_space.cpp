@@ -4,8 +4,7 @@
 
 #include "io/write_mesh.hpp"
 #include "io/write_surface.hpp"
-#include "mesher/space_files.hpp"
-#include "mesher/space_svg.hpp"
+#include "mesher/write.hpp"
 #include "text/text.hpp"
 
 namespace mesher {
@@ -28,16 +27,16 @@ constexpr std::pair<std::string_view, Write> kSingleFiles[] = {
     {".obj", write_boundary<write_surface_obj>},
     {".stl", write_boundary<write_surface_stl>},
     {".svg", [](const Mesh<3>& mesh, const MeshFeatures& features, TextFile& file) {
-       write_svg(mesh, features, space_view(mesh), file);
+       write_svg(mesh, features, svg_view(mesh), file);
      }}};
 
-SpaceMeshWriter open_node(OutputFiles& files, const std::string& path, MeshFiles content) {
+MeshWriter<3> open_node(OutputFiles& files, const std::string& path, MeshFiles content) {
   TextFile& node = files.open(path);
   TextFile& ele = files.open(text::with_extension(path, ".ele"));
   TextFile& face = files.open(text::with_extension(path, ".face"));
   TextFile* const edge =
       content == MeshFiles::plain ? nullptr : &files.open(text::with_extension(path, ".edge"));
-  return SpaceMeshWriter(
+  return MeshWriter<3>(
       [&node, &ele, &face, edge](const Mesh<3>& mesh, const MeshFeatures& features) {
         write_node(mesh, features, node);
         write_ele(mesh, features, ele);
@@ -48,16 +47,16 @@ SpaceMeshWriter open_node(OutputFiles& files, const std::string& path, MeshFiles
 
 }  // namespace
 
-SpaceMeshWriter open_space_mesh(OutputFiles& files, const std::string& path, MeshFiles content) {
+template <>
+MeshWriter<3> open_mesh<3>(OutputFiles& files, const std::string& path, MeshFiles content) {
   const std::string extension = text::extension(path);
   if (extension == ".node") return open_node(files, path, content);
   for (const auto& [known, write] : kSingleFiles) {
     if (extension != known) continue;
     TextFile& file = files.open(path);
-    return SpaceMeshWriter(
-        [write = write, &file](const Mesh<3>& mesh, const MeshFeatures& features) {
-          write(mesh, features, file);
-        });
+    return MeshWriter<3>([write = write, &file](const Mesh<3>& mesh, const MeshFeatures& features) {
+      write(mesh, features, file);
+    });
   }
   throw Error(ErrorCode::unknown_format,
               "meshes of tetrahedra are written to .node (with .ele and .face), .vtu, .vtk, .msh "
@@ -68,14 +67,14 @@ SpaceMeshWriter open_space_mesh(OutputFiles& files, const std::string& path, Mes
 
 void write_mesh(const Mesh<3>& mesh, const std::string& path) {
   OutputFiles files;
-  open_space_mesh(files, path)(mesh);
+  open_mesh<3>(files, path)(mesh);
   files.commit();
 }
 
-void write_mesh(const MeshDataOf<3>& mesh, const std::string& path) {
+void write_mesh(const MeshData<3>& mesh, const std::string& path) {
   OutputFiles files;
   const bool plain = mesh.features.empty();
-  open_space_mesh(files, path, plain ? MeshFiles::plain : MeshFiles::features)(mesh, mesh.features);
+  open_mesh<3>(files, path, plain ? MeshFiles::plain : MeshFiles::features)(mesh, mesh.features);
   files.commit();
 }
 

@@ -10,7 +10,7 @@
 #include "geometry/space_vectors.hpp"
 #include "io/svg_canvas.hpp"
 #include "mesh/half_faces.hpp"
-#include "mesher/space_svg.hpp"
+#include "mesher/write.hpp"
 
 namespace mesher {
 namespace {
@@ -117,7 +117,7 @@ class Parts {
 // The faces of what is left that are turned to the viewer, those behind first.
 class Scene {
  public:
-  Scene(const Mesh<3>& mesh, const Parts& parts, const SpaceView& view) : mesh_(mesh) {
+  Scene(const Mesh<3>& mesh, const Parts& parts, const SvgView<3>& view) : mesh_(mesh) {
     coloured_ = view.coloured;
     std::sort(coloured_.begin(), coloured_.end());
     std::vector<Simplex> left;
@@ -316,22 +316,20 @@ class Drawing {
 
 }  // namespace
 
-SpaceView space_view(const Mesh<3>& mesh) { return {svg::window_of<3>(mesh), {}}; }
-
 namespace {
 
-void draw(const Mesh<3>& mesh, const Parts& parts, const SpaceView& view, TextFile& file) {
+void draw(const Mesh<3>& mesh, const Parts& parts, const SvgView<3>& view, TextFile& file) {
   const Scene scene(mesh, parts, view);
   Drawing(scene.faces(), mesh, parts, view.window, file).draw();
 }
 
 }  // namespace
 
-void write_svg(const Mesh<3>& mesh, const SpaceView& view, TextFile& file) {
+void write_svg(const Mesh<3>& mesh, const SvgView<3>& view, TextFile& file) {
   draw(mesh, Parts(mesh), view, file);
 }
 
-void write_svg(const Mesh<3>& mesh, const MeshFeatures& features, const SpaceView& view,
+void write_svg(const Mesh<3>& mesh, const MeshFeatures& features, const SvgView<3>& view,
                TextFile& file) {
   draw(mesh, features.empty() ? Parts(mesh) : Parts(features), view, file);
 }

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "geometry/space_vectors.hpp"
-#include "mesher/space_files.hpp"
+#include "mesh/boundary_faces.hpp"
+#include "mesher/write.hpp"
 
 namespace mesher {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mesher/mesh.hpp"
-#include "mesher/output_files.hpp"
+#include "mesher/write.hpp"
 
 namespace mesher {
 

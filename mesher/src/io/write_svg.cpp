@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "io/svg_canvas.hpp"
-#include "mesher/svg.hpp"
+#include "mesher/write.hpp"
 
 namespace mesher {
 namespace {
@@ -118,13 +118,18 @@ void draw_input(const Mesh<2>& mesh, const std::vector<Edge>& edges, Canvas& can
 
 }  // namespace
 
-SvgView svg_view(const Mesh<2>& mesh) { return {svg::window_of<2>(mesh), {}}; }
+template <int D>
+SvgView<D> svg_view(const Mesh<D>& mesh) {
+  return {svg::window_of<D>(mesh), {}};
+}
+template SvgView<2> svg_view(const Mesh<2>&);
+template SvgView<3> svg_view(const Mesh<3>&);
 
-void write_svg(const Mesh<2>& mesh, const SvgView& view, TextFile& file) {
+void write_svg(const Mesh<2>& mesh, const SvgView<2>& view, TextFile& file) {
   write_svg(mesh, MeshFeatures(), view, file);
 }
 
-void write_svg(const Mesh<2>& mesh, const MeshFeatures& features, const SvgView& view,
+void write_svg(const Mesh<2>& mesh, const MeshFeatures& features, const SvgView<2>& view,
                TextFile& file) {
   Canvas canvas(view.window, file);
   canvas.begin();

@@ -44,8 +44,7 @@ void write_vtk(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file
   if (D == 3 && mesh.simplices.empty()) {  // no cell tells the dimension
     file << "FIELD FieldData 1\ndimension 1 1 int\n3\n";
   }
-  file << "POINTS "
-       << mesh.vertices.size() << " double\n";
+  file << "POINTS " << mesh.vertices.size() << " double\n";
   for (const Point<D>& p : mesh.vertices) {
     write_in_space(p, file);
     file << '\n';

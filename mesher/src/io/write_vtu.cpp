@@ -71,8 +71,8 @@ void write_vtu(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file
     file << "<FieldData>\n<DataArray type=\"Int32\" Name=\"dimension\" NumberOfTuples=\"1\" "
             "format=\"ascii\">\n3\n</DataArray>\n</FieldData>\n";
   }
-  file << "<Piece NumberOfPoints=\""
-       << mesh.vertices.size() << "\" NumberOfCells=\"" << cell_count(mesh, features) << "\">\n";
+  file << "<Piece NumberOfPoints=\"" << mesh.vertices.size() << "\" NumberOfCells=\""
+       << cell_count(mesh, features) << "\">\n";
   write_vertices(mesh, features, file);
   write_cells(mesh, features, file);
   file << "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";

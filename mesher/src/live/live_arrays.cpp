@@ -166,7 +166,7 @@ class LiveArrays<D>::Planner {
     return slots;
   }
   [[nodiscard]] Edge slots_of(const mesher::LineEdge<D>& e) const {
-    return {slot_of(e.low), slot_of(e.high), e.line, e.of_polygon};
+    return {slot_of(e.low), slot_of(e.high), e.feature};
   }
   [[nodiscard]] Face slots_of(const mesher::PolygonFace<D>& f) const {
     return {slots_of(f.corners), f.polygon};

@@ -81,7 +81,7 @@ class LiveArrays {
  private:
   using Side = std::array<Slot, D>;
   struct OpenSide {
-    Side corners{};  // ascending
+    Side corners{};          // ascending
     Slot simplex = kNoSlot;  // what comes: its number in the change
     std::uint32_t side = 0;
     bool comes = false;

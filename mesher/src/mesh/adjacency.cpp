@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "mesher/error.hpp"
-#include "mesher/mesh_data.hpp"
+#include "mesher/mesh.hpp"
 #include "sac/check.hpp"
 #include "sets/make_set.hpp"
 

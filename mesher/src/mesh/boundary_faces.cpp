@@ -3,6 +3,8 @@
 // Three faces of a tetrahedron have its smallest corner, and the tetrahedra with the same one
 // follow each other in a mesh; only the fourth face is kept for where its own smallest corner
 // comes. At one vertex few faces meet, so a table of bits tells which of them come once.
+#include "mesh/boundary_faces.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -12,7 +14,6 @@
 
 #include "mesh/canonical.hpp"
 #include "mesh/half_faces.hpp"
-#include "mesher/space_files.hpp"
 
 namespace mesher {
 

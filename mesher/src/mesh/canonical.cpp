@@ -60,7 +60,7 @@ void add_parts(Mesh<D>& mesh, const OnFeatures& on, const std::vector<std::uint3
   mesh.edges.reserve(on.edges.size());
   for (const LineEdge& e : on.edges) {
     const auto [low, high] = std::minmax(index[e.from], index[e.to]);
-    mesh.edges.push_back({low, high, e.line, e.of_polygon});
+    mesh.edges.push_back({low, high, e.name});
   }
   std::sort(mesh.edges.begin(), mesh.edges.end());
   mesh.faces.reserve(on.faces.size());

@@ -17,15 +17,14 @@ namespace mesher::detail {
 /// An edge on a line of the input, by handles.
 struct LineEdge {
   VertexHandle from, to;
-  FeatureId line;
-  bool of_polygon = false;
-  std::uint32_t feature = 0;  // in space: the record of the edge of the input
+  mesher::Feature name;      // as in Mesh::Edge
+  std::uint32_t record = 0;  // in space: of the edge of the input
   friend auto operator<=>(const LineEdge&, const LineEdge&) = default;
 };
 /// A face in a polygon of the input.
 struct PolygonFace {
   std::array<VertexHandle, 3> corners;
-  FeatureId polygon;
+  PolygonId polygon;
   friend auto operator<=>(const PolygonFace&, const PolygonFace&) = default;
 };
 /// What of a mesh is part of the input's features; in any order.

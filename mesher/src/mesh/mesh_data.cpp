@@ -1,7 +1,6 @@
 // What follows from the triangles of a mesh: its edges, and who is next to whom.
-#include "mesher/mesh_data.hpp"
-
 #include "mesh/sides.hpp"
+#include "mesher/mesh.hpp"
 
 namespace mesher {
 

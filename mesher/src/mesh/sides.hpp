@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
-#include "mesher/mesh_data.hpp"
+#include "mesher/mesh.hpp"
 
 namespace mesher::detail {
 
-using Corners = std::array<std::uint32_t, 3>;  // counterclockwise
-using SideEnds = std::array<std::uint32_t, 2>;     // of vertices
+using Corners = std::array<std::uint32_t, 3>;   // counterclockwise
+using SideEnds = std::array<std::uint32_t, 2>;  // of vertices
 
 [[nodiscard]] constexpr int next_corner(int i) noexcept { return i == 2 ? 0 : i + 1; }
 [[nodiscard]] constexpr int previous_corner(int i) noexcept { return i == 0 ? 2 : i - 1; }

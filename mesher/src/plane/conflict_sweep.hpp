@@ -1,10 +1,10 @@
 // What is in conflict in the plane, found for all segments and points at once.
 //
 // A line sweeps from left to right (of places with equal x from below) over the segments, which it
-// keeps in the order in which it meets them [Shamos and Hoey, Geometric intersection problems, 1976].
-// Two that are in conflict are neighbours in this order before it comes to where they meet. One of
-// the two is then a suspect, and is left out, so that the order stays one; likewise a segment on
-// which there is a point that is no end of it. Exact.
+// keeps in the order in which it meets them [Shamos and Hoey, Geometric intersection problems,
+// 1976]. Two that are in conflict are neighbours in this order before it comes to where they meet.
+// One of the two is then a suspect, and is left out, so that the order stays one; likewise a
+// segment on which there is a point that is no end of it. Exact.
 #pragma once
 
 #include <functional>

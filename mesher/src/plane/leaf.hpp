@@ -58,9 +58,7 @@ struct Leaf {
   if (by_a != 0) return by_a;
   const auto by_b = a.segment->place_b <=> b.segment->place_b;
   if (by_b != 0) return by_b;
-  const auto labels = [](const Piece& p) {
-    return std::tuple(p.lo, p.hi, p.kind);
-  };
+  const auto labels = [](const Piece& p) { return std::tuple(p.lo, p.hi, p.kind); };
   return labels(a.piece) <=> labels(b.piece);
 }
 

@@ -50,13 +50,13 @@ std::string meeting(const Segment& s, const std::set<SegmentHandle>& others,
 std::vector<mesher::Feature> lines_of(const Leaf& leaf, const std::set<SegmentHandle>& others,
                                       const Names& names) {
   constexpr std::size_t kMost = 4;
-  std::vector<FeatureId> ids{names.line(leaf.piece.segment)};
+  std::vector<LineId> ids{names.line(leaf.piece.segment)};
   for (const SegmentHandle s : others) ids.push_back(names.line(s));
   std::sort(ids.begin() + 1, ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   ids.resize(std::min(ids.size(), kMost));
   std::vector<mesher::Feature> lines;
-  for (const FeatureId id : ids) lines.push_back(line_named(id));
+  for (const LineId id : ids) lines.push_back(mesher::Feature(id));
   return lines;
 }
 

@@ -30,8 +30,8 @@ NamedFeatures NearFeatures::named(const Names& names) const {
   NamedFeatures named;
   auto& features = named.features;  // segments of a polyline have one id
   for (const Feature& f : all()) {
-    const mesher::Feature feature =
-        f.segment != 0 ? line_named(names.line(f.segment)) : point_named(names.point(f.point));
+    const mesher::Feature feature = f.segment != 0 ? mesher::Feature(names.line(f.segment))
+                                                   : mesher::Feature(names.point(f.point));
     if (std::find(features.begin(), features.end(), feature) != features.end()) continue;
     named.text += (features.empty() ? "" : ", ") + text_of(feature);
     features.push_back(feature);

@@ -6,6 +6,7 @@
 
 #include "geometry/input_point.hpp"
 #include "geometry/segment_tests.hpp"
+#include "text/id_text.hpp"
 
 namespace mesher::detail {
 
@@ -28,11 +29,9 @@ bool overlap_beyond_end(const Segment& s, const Segment& t) {
   return overlap(s, t) && predicates::orient2d(s.place_a, s.place_b, other) == 0;
 }
 
-std::string text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
-
 // Pieces of a polyline have one id.
-std::string other_text(FeatureId line, FeatureId other) {
-  return line == other ? "itself" : "segment " + text(other);
+std::string other_text(LineId line, LineId other) {
+  return line == other ? "itself" : "segment " + id_text(other);
 }
 
 }  // namespace
@@ -84,24 +83,24 @@ Point<2> crossing(const Segment& s, const Segment& t) {
   return {s.place_a[0] + at * ux, s.place_a[1] + at * uy};
 }
 
-void fail_repeated(FeatureId line, FeatureId other, const Segment& s) {
+void fail_repeated(LineId line, LineId other, const Segment& s) {
   throw Error(ErrorCode::repeated_segment,
-              "segment " + text(line) + " is " + other_text(line, other) + " again, from " +
+              "segment " + id_text(line) + " is " + other_text(line, other) + " again, from " +
                   place_text(s.place_a) + " to " + place_text(s.place_b),
-              {}, {line_named(line), line_named(other)},
+              {}, {mesher::Feature(line), mesher::Feature(other)},
               {position_of(s.place_a), position_of(s.place_b)});
 }
 
-void fail_zero_length(FeatureId line, FeatureId point) {
+void fail_zero_length(LineId line, PointId point) {
   throw Error(ErrorCode::zero_length,
-              "segment " + text(line) + " goes from point " + text(point) + " to itself", {},
-              {line_named(line), point_named(point)});
+              "segment " + id_text(line) + " goes from point " + id_text(point) + " to itself", {},
+              {mesher::Feature(line), mesher::Feature(point)});
 }
 
-VertexHandle fail_no_end(FeatureId point, FeatureId line) {
+VertexHandle fail_no_end(PointId point, LineId line) {
   throw Error(ErrorCode::unknown_id,
-              "point " + text(point) + ", an end of segment " + text(line) + ", is not there", {},
-              {point_named(point), line_named(line)});
+              "point " + id_text(point) + ", an end of segment " + id_text(line) + ", is not there",
+              {}, {mesher::Feature(point), mesher::Feature(line)});
 }
 
 Error too_close_to_segment(const PieceRef& piece, Witness witness, const Names* names,
@@ -110,18 +109,18 @@ Error too_close_to_segment(const PieceRef& piece, Witness witness, const Names* 
   std::string segment = "a segment";
   std::string other = "another";
   if (names != nullptr) {
-    features.push_back(line_named(names->line(piece.piece.segment)));
+    features.push_back(mesher::Feature(names->line(piece.piece.segment)));
     segment = text_of(features[0]);
   }
   if (witness.point() != 0) {
     other = "point ";
     if (names != nullptr) {
-      features.push_back(point_named(names->point(witness.point())));
+      features.push_back(mesher::Feature(names->point(witness.point())));
       other = text_of(features.back()) + " ";
     }
     other += place_text(points[witness.point()].p);
   } else if (names != nullptr && witness.segment() != 0) {
-    features.push_back(line_named(names->line(segments[witness.segment()].self)));
+    features.push_back(mesher::Feature(names->line(segments[witness.segment()].self)));
     other = text_of(features.back());
   }
   return Error(ErrorCode::too_close,
@@ -134,9 +133,9 @@ Error too_close_vertices(const Vertex<2>& v, const Vertex<2>& w, const Names& na
                          const Roles& roles) {
   std::vector<mesher::Feature> features;
   const auto feature = [&](const Vertex<2>& x) -> std::string {
-    if (x.input) return text_of(features.emplace_back(point_named(names.point(x.self))));
+    if (x.input) return text_of(features.emplace_back(mesher::Feature(names.point(x.self))));
     if (!x.on_segment) return "a segment";
-    return text_of(features.emplace_back(line_named(names.line(roles[x.self].on))));
+    return text_of(features.emplace_back(mesher::Feature(names.line(roles[x.self].on))));
   };
   const std::string first = feature(v) + " needs a vertex at " + place_text(v.p);
   const std::string second = feature(w) + " one at " + place_text(w.p);
@@ -148,10 +147,10 @@ Error too_close_vertices(const Vertex<2>& v, const Vertex<2>& w, const Names& na
 
 namespace {
 
-[[noreturn]] void fail_on_segment(FeatureId point, const Point<2>& p, FeatureId line) {
+[[noreturn]] void fail_on_segment(PointId point, const Point<2>& p, LineId line) {
   throw Error(ErrorCode::point_on_segment,
-              "point " + text(point) + " " + place_text(p) + " lies on segment " + text(line), {},
-              {point_named(point), line_named(line)}, {position_of(p)});
+              "point " + id_text(point) + " " + place_text(p) + " lies on segment " + id_text(line),
+              {}, {mesher::Feature(point), mesher::Feature(line)}, {position_of(p)});
 }
 
 // An end of s on t is named as a point on a segment, whichever of the two is looked at first.
@@ -167,26 +166,27 @@ void fail_if_end_is_on(const Segment& s, const Segment& t, const Names& names) {
 }  // namespace
 
 void fail(const Conflict& c, const Names& names) {
-  const FeatureId line = names.line(c.segment->self);
+  const LineId line = names.line(c.segment->self);
   if (c.kind == Conflict::Kind::point_on_segment) {
     fail_on_segment(names.point(c.point->self), c.point->p, line);
   }
-  const FeatureId other = names.line(c.other->self);
+  const LineId other = names.line(c.other->self);
   if (c.kind == Conflict::Kind::crossing) {
     fail_if_end_is_on(*c.segment, *c.other, names);
     fail_if_end_is_on(*c.other, *c.segment, names);
     throw Error(ErrorCode::crossing_segments,
-                "segment " + text(line) + " crosses " + other_text(line, other) + " at " +
+                "segment " + id_text(line) + " crosses " + other_text(line, other) + " at " +
                     place_text(crossing(*c.segment, *c.other)),
-                {}, {line_named(line), line_named(other)},
+                {}, {mesher::Feature(line), mesher::Feature(other)},
                 {position_of(crossing(*c.segment, *c.other))});
   }
   const Point<2> from = std::max(c.segment->place_a, c.other->place_a);
   const Point<2> to = std::min(c.segment->place_b, c.other->place_b);
   throw Error(ErrorCode::overlapping_segments,
-              "segment " + text(line) + " overlaps " + other_text(line, other) + " from " +
+              "segment " + id_text(line) + " overlaps " + other_text(line, other) + " from " +
                   place_text(from) + " to " + place_text(to),
-              {}, {line_named(line), line_named(other)}, {position_of(from), position_of(to)});
+              {}, {mesher::Feature(line), mesher::Feature(other)},
+              {position_of(from), position_of(to)});
 }
 
 }  // namespace mesher::detail

@@ -14,8 +14,8 @@ namespace mesher::detail {
 /// What features are called.
 class Names {
  public:
-  [[nodiscard]] virtual FeatureId point(VertexHandle v) const = 0;
-  [[nodiscard]] virtual FeatureId line(SegmentHandle s) const = 0;
+  [[nodiscard]] virtual PointId point(VertexHandle v) const = 0;
+  [[nodiscard]] virtual LineId line(SegmentHandle s) const = 0;
 
  protected:
   ~Names() = default;
@@ -43,9 +43,9 @@ template <class S>
 [[noreturn]] void fail(const Conflict& conflict, const Names& names);
 
 /// Throws: Error, as the name says, with the ids of both.
-[[noreturn]] void fail_repeated(FeatureId line, FeatureId other, const Segment& s);
-[[noreturn]] void fail_zero_length(FeatureId line, FeatureId point);
-[[noreturn]] VertexHandle fail_no_end(FeatureId point, FeatureId line);  // unknown_id
+[[noreturn]] void fail_repeated(LineId line, LineId other, const Segment& s);
+[[noreturn]] void fail_zero_length(LineId line, PointId point);
+[[noreturn]] VertexHandle fail_no_end(PointId point, LineId line);  // unknown_id
 
 /// A segment and a feature that are too close to each other, near a piece that the feature crowds.
 [[nodiscard]] Error too_close_to_segment(const PieceRef& piece, Witness witness, const Names* names,

@@ -42,8 +42,7 @@ class PlanarityCheck {
   static constexpr std::size_t kBetween = 64;
 
   [[nodiscard]] std::optional<Conflict> first_of(const Arrivals& come) const {
-    const std::uint64_t most =
-        segments_.looked_at() + kSweep * (segments_.live() + points_.size());
+    const std::uint64_t most = segments_.looked_at() + kSweep * (segments_.live() + points_.size());
     std::size_t count = 0;
     const auto goes_on = [&] {
       if (count++ % kBetween == 0 || segments_.looked_at() - last_ > kBetween * kSweep) {

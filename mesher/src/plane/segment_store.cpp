@@ -135,7 +135,7 @@ void SegmentStoreOf<D>::free_tile(TileHandle t) noexcept {
 // A search of pq that has met the tile's disc, but is far from the tile.
 template <int D>
 bool SegmentStoreOf<D>::is_needless(const Tile& t, const Point<D>& p, const Point<D>& q,
-                               double slack) const noexcept {
+                                    double slack) const noexcept {
   double long_side = 0;
   for (int i = 0; i < D; ++i) long_side = std::max(long_side, std::abs(q[i] - p[i]));
   if (length(t) <= kLong * (long_side + 2 * slack) || length(t) < box_.side * 0x1p-40) return false;
@@ -169,8 +169,8 @@ void SegmentStoreOf<D>::halve(TileHandle t) {
 
 template <int D>
 std::size_t SegmentStoreOf<D>::bytes() const noexcept {
-  return pool_.bytes() + tiles_.capacity() * sizeof(Tile) + tree_.bytes() +
-         by_ends_.bytes() + at_.bucket_count() * 3 * sizeof(VertexHandle);
+  return pool_.bytes() + tiles_.capacity() * sizeof(Tile) + tree_.bytes() + by_ends_.bytes() +
+         at_.bucket_count() * 3 * sizeof(VertexHandle);
 }
 
 template <int D>

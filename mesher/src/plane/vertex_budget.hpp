@@ -14,6 +14,6 @@ namespace mesher::detail {
 [[nodiscard]] Error too_many_vertices(const VertexSearch<2>& vertices, const Names* names,
                                       std::size_t most);
 /// The same where the vertices on each line are counted.
-[[nodiscard]] Error too_many_vertices(const std::map<FeatureId, std::size_t>& on_lines,
+[[nodiscard]] Error too_many_vertices(const std::map<LineId, std::size_t>& on_lines,
                                       std::size_t most);
 }  // namespace mesher::detail

@@ -1,5 +1,5 @@
-// A graph in the plane, or a complex in space, that was found to be one: its features, and what they
-// are called.
+// A graph in the plane, or a complex in space, that was found to be one: its features, and what
+// they are called.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ class CheckedGraph {
  public:
   /// Throws: as mesh_statically of these.
   CheckedGraph(const std::vector<Point<2>>& points, const std::vector<mesher::Segment>& segments,
-               const Options<2>& options, const std::vector<FeatureId>& ids,
+               const Options<2>& options, const std::vector<PointId>& ids,
                const RunControl& control);
   ~CheckedGraph();
 
@@ -36,7 +36,7 @@ class CheckedComplex {
   /// Throws: as mesh_statically of these.
   CheckedComplex(const std::vector<Point<3>>& points, const std::vector<mesher::Segment>& segments,
                  const std::vector<mesher::Polygon>& polygons, const Options<3>& options,
-                 const std::vector<FeatureId>& ids, const RunControl& control);
+                 const std::vector<PointId>& ids, const RunControl& control);
   ~CheckedComplex();
 
   [[nodiscard]] const MeshBox<3>& box() const;

@@ -35,8 +35,9 @@ auto weighed(S& s, const FeatureStore& store, Look&& look) {
   return found;
 }
 
-// if the piece is crowded, or long for the lattice beside it: enqueue the halves that have some of the polygon. Else, if it is a half
-// and there is room: add its vertex, and enqueue that for BuildQT
+// if the piece is crowded, or long for the lattice beside it: enqueue the halves that have some of
+// the polygon. Else, if it is a half and there is room: add its vertex, and enqueue that for
+// BuildQT
 template <class S>
 void FillFacet::operator()(S& s, FacetPiece piece) const {
   auto& w = s.template environment<World<S, 3>>();

@@ -60,12 +60,14 @@ void FillPlans<sac::Scope, D>::retract(sac::Call&, sac::Edge& edge) noexcept {
 }
 
 template <int D>
-void FillPlans<sac::Scope, D>::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
+void FillPlans<sac::Scope, D>::label(const sac::Call&, const sac::Edge& edge,
+                                     sac::LabelSink& sink) const {
   sink.number(static_cast<const PlanEdge&>(edge).answer);
 }
 
 template <int D>
-void FillPlans<sac::Scope, D>::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
+void FillPlans<sac::Scope, D>::print(const sac::Call&, const sac::Edge& edge,
+                                     std::ostream& out) const {
   const CellPlan<D> plan = plan_of(limits_, box_, static_cast<const PlanEdge&>(edge).cell);
   if (plan.parts) {
     out << "is filled in parts";

@@ -2,7 +2,7 @@
 //
 //   crowded(s, piece)     whether a piece of an edge, or of a polygon, has to be split
 //   (observation)
-//   crowded(s, edge)      whether an edge of the mesh is not lonely (space/guard.hpp)
+//   crowded(s, edge)      whether an edge of the mesh is not isolated (space/guard.hpp)
 //   (observation)
 //   hemmed_in(s, piece)   whether a piece of a polygon is better off without a vertex
 //   (observation)
@@ -105,7 +105,7 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   }
 
   /// The guard's question, from outside (space/guard.hpp).
-  [[nodiscard]] bool is_lonely(const ShortEdge& e) {
+  [[nodiscard]] bool is_isolated(const ShortEdge& e) {
     return !has_two_parts(e, store_) && !guards_.witness(e);
   }
 

@@ -54,8 +54,8 @@ template <class S, int D>
 bool has_lines_at(const World<S, D>&, VertexRef<D>) {
   return false;
 }
-/// Whether Complete(v, b) has nothing to do, as is seen without v's cell. A traced call looks at the
-/// cell.
+/// Whether Complete(v, b) has nothing to do, as is seen without v's cell. A traced call looks at
+/// the cell.
 template <class S, int D>
 bool is_settled(S&, World<S, D>& w, VertexRef<D> v, int b) {
   if constexpr (S::kTraced) {

@@ -58,9 +58,9 @@ class Obstacles<S, 2> {
 template <class S>
 class Obstacles<S, 3> {
  public:
-  /// A place nearer than this to an edge or a polygon, in pitches, is not filled. Their vertices lie
-  /// so close (kLongestEdge, kWidestPiece) that a place farther from them than this has no feature
-  /// in its cell.
+  /// A place nearer than this to an edge or a polygon, in pitches, is not filled. Their vertices
+  /// lie so close (kLongestEdge, kWidestPiece) that a place farther from them than this has no
+  /// feature in its cell.
   static constexpr double kClearOfFeatures = 0.6;
   /// If no feature is nearer than this, in pitches, a vertex amid the lattice needs nothing: those
   /// around it are at most a pitch away, and not too near to a feature; and no vertex on a feature
@@ -91,9 +91,8 @@ class Obstacles<S, 3> {
     });
   }
   [[nodiscard]] bool has_feature(const Point<3>& p, double distance) const {
-    return store_.visit_near(p, p, distance * (1 + 0x1p-29), [&](const auto& f) {
-      return is_in_ball(p, distance * distance, f);
-    });
+    return store_.visit_near(p, p, distance * (1 + 0x1p-29),
+                             [&](const auto& f) { return is_in_ball(p, distance * distance, f); });
   }
   const Features<S, 3>& points_;
   FeatureStore& store_;

@@ -1,5 +1,6 @@
-// What the calls of the program share where there are points alone: the box, the rule, the features,
-// the vertices, the work queues. World (program/world.hpp) adds what else a dimension has.
+// What the calls of the program share where there are points alone: the box, the rule, the
+// features, the vertices, the work queues. World (program/world.hpp) adds what else a dimension
+// has.
 #pragma once
 
 #include <array>

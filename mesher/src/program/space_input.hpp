@@ -20,47 +20,47 @@ void require_loops(const mesher::Polygon& polygon);
 void require_complex(const std::vector<Point<3>>& points,
                      const std::vector<mesher::Segment>& segments,
                      const std::vector<mesher::Polygon>& polygons, const Options<3>& options,
-                     const std::vector<FeatureId>& ids);
+                     const std::vector<PointId>& ids);
 
 /// Throws: Error(unknown_id). `what`: "an end of", of `user`.
-[[noreturn]] void fail_unknown_point(FeatureId point, const std::string& what,
+[[noreturn]] void fail_unknown_point(PointId point, const std::string& what,
                                      const mesher::Feature& user);
 
 /// What the polygon is by handles. `handle_of(id)`: 0 if there is no such point.
 /// Throws: Error(unknown_id).
 template <class HandleOf>
 [[nodiscard]] PolygonParts parts_of(const mesher::Polygon& polygon, HandleOf&& handle_of) {
-  const auto handle = [&](FeatureId id, const char* what) {
+  const auto handle = [&](PointId id, const char* what) {
     const VertexHandle v = handle_of(id);
-    if (v == 0) fail_unknown_point(id, what, polygon_named(polygon.id));
+    if (v == 0) fail_unknown_point(id, what, mesher::Feature(polygon.id));
     return v;
   };
   PolygonParts parts;
   for (const auto& loop : polygon.loops) {
     auto& corners = parts.loops.emplace_back();
-    for (const FeatureId id : loop) corners.push_back(handle(id, "a corner of"));
+    for (const PointId id : loop) corners.push_back(handle(id, "a corner of"));
   }
   for (const auto& [a, b] : polygon.edges) {
     parts.edges.emplace_back(handle(a, "in"), handle(b, "in"));
   }
-  for (const FeatureId id : polygon.points) parts.points.push_back(handle(id, "in"));
+  for (const PointId id : polygon.points) parts.points.push_back(handle(id, "in"));
   return parts;
 }
 
 /// Throws: Error(repeated_segment), Error(repeated_polygon) if it is there under another id.
-void require_new(const Edge* there, FeatureId segment, const SpaceNames& names);
-void require_new(const Polygon& record, FeatureId polygon, const SpaceNames& names);
+void require_new(const Edge* there, LineId segment, const SpaceNames& names);
+void require_new(const Polygon& record, PolygonId polygon, const SpaceNames& names);
 
 /// The segment `id` between the points a and b; likewise.
 template <class S>
-const Edge& add_segment(World<S, 3>& world, FeatureId id, VertexHandle a, VertexHandle b,
+const Edge& add_segment(World<S, 3>& world, LineId id, VertexHandle a, VertexHandle b,
                         const SpaceNames& names) {
   require_new(world.plc.store().find_edge(a, b), id, names);
   return world.insert_edge(a, b);
 }
 /// Throws: Error(repeated_polygon), and as require_shape.
 template <class S>
-const Polygon& add_polygon(World<S, 3>& world, FeatureId id, PolygonParts parts,
+const Polygon& add_polygon(World<S, 3>& world, PolygonId id, PolygonParts parts,
                            const SpaceNames& names) {
   const Polygon& record = world.plc.store().record(parts);
   require_new(record, id, names);

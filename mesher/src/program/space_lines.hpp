@@ -35,7 +35,7 @@ class Staying<S, 3> final : public EdgeFilter<3> {
               any_ ? world.vertices.beside(cell) : 0) {}
   Staying(const Staying&) = delete;
   Staying& operator=(const Staying&) = delete;
-  /// Whoever observes the cell has asked as far as this call did.
+  /// Records the search radius with the cell's observation.
   ~Staying() {
     if (any_) world_.vertices.note_asked(near_.asked());
   }

@@ -25,8 +25,8 @@ inline constexpr SplitEdge split_edge{};
           .order = morton<3>(box.fixed(place_at(*piece.edge, piece.lo)))};
 }
 
-// if the piece is crowded, or long for the lattice beside it: split it in the middle, enqueue both halves, and the new vertex for
-// BuildQT
+// if the piece is crowded, or long for the lattice beside it: split it in the middle, enqueue both
+// halves, and the new vertex for BuildQT
 template <class S>
 void SplitEdge::operator()(S& s, EdgePiece piece) const {
   auto& w = s.template environment<World<S, 3>>();

@@ -15,13 +15,13 @@ namespace mesher::detail {
 /// some finest cells apart.
 inline constexpr double kShortestPiece = 0x1p-44;
 
-/// The lattice is kept out of the balls of leaves [rules A7.1]: the gap must not be larger than what
-/// a lattice's triangle leaves. The spacing is the least in the ball, not only on the piece: so the
-/// lattice's points that a leaf blocks have its ends near by.
+/// The lattice is kept out of the balls of leaves [rules A7.1]: the gap must not be larger than
+/// what a lattice's triangle leaves. The spacing is the least in the ball, not only on the piece:
+/// so the lattice's points that a leaf blocks have its ends near by.
 [[nodiscard]] inline bool is_long(const Limits<2>& limits, const PieceRef& piece) {
   constexpr double kLongest = 1.4;
   if (!limits.any()) return false;
-  const Point<2>a = piece.lo(), b = piece.hi();
+  const Point<2> a = piece.lo(), b = piece.hi();
   const double length = std::sqrt(squared_distance(a, b));
   const Point<2> middle{a[0] + (b[0] - a[0]) / 2, a[1] + (b[1] - a[1]) / 2};
   return limits.is_long(around(middle, length / 2), length, kLongest);

@@ -75,12 +75,11 @@ void Surroundings<sac::Scope, D>::changed(const FeatureExtent<D>& where) noexcep
   Box<D> near = around(where.p, where.slack);
   const Box<D> end = around(where.q, where.slack);
   grow(near, end.lo), grow(near, end.hi);
-  asks_.visit_near(where.p, where.q, where.slack,
-                   [&](sac::Handle h) {
-                     const AskEdge& ask = at(h);
-                     const bool beside = is_empty(common(ask.extent, near));
-                     if (!beside) engine_.doubt(engine_.call(ask.call));
-                   });
+  asks_.visit_near(where.p, where.q, where.slack, [&](sac::Handle h) {
+    const AskEdge& ask = at(h);
+    const bool beside = is_empty(common(ask.extent, near));
+    if (!beside) engine_.doubt(engine_.call(ask.call));
+  });
 }
 
 template <int D>
@@ -101,12 +100,14 @@ bool Surroundings<sac::Scope, D>::unchanged(sac::Call&, sac::Edge& edge) {
 }
 
 template <int D>
-void Surroundings<sac::Scope, D>::label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const {
+void Surroundings<sac::Scope, D>::label(const sac::Call&, const sac::Edge& edge,
+                                        sac::LabelSink& sink) const {
   sink.number(static_cast<const AskEdge&>(edge).answer);
 }
 
 template <int D>
-void Surroundings<sac::Scope, D>::print(const sac::Call&, const sac::Edge& edge, std::ostream& out) const {
+void Surroundings<sac::Scope, D>::print(const sac::Call&, const sac::Edge& edge,
+                                        std::ostream& out) const {
   const auto& ask = static_cast<const AskEdge&>(edge);
   const Candidates<D> candidates = plan_of(limits_, box_, ask.cell).candidates;
   const std::vector<Room> rooms = rooms_of(candidates, obstacles_);

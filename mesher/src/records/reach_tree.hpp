@@ -127,9 +127,8 @@ class ReachTree {
       }
       return true;
     };
-    return visit_where(
-        [&](const Point<D>& lo, double side, double) { return meets(lo, side); },
-        [&](const Point<D>& x, double) { return meets(x, 0); }, visit);
+    return visit_where([&](const Point<D>& lo, double side, double) { return meets(lo, side); },
+                       [&](const Point<D>& x, double) { return meets(x, 0); }, visit);
   }
   /// The same for the items whose boxes around their discs meet the box.
   template <class Visit>
@@ -327,7 +326,8 @@ void ReachTree<Item, D>::make_room() {
 }
 
 template <class Item, int D>
-typename ReachTree<Item, D>::Link ReachTree<Item, D>::new_node(const Fixed<D>& f, int level) noexcept {
+typename ReachTree<Item, D>::Link ReachTree<Item, D>::new_node(const Fixed<D>& f,
+                                                               int level) noexcept {
   Link n = free_nodes_;
   if (n != 0) {
     free_nodes_ = nodes_[n].child[0];
@@ -341,7 +341,7 @@ typename ReachTree<Item, D>::Link ReachTree<Item, D>::new_node(const Fixed<D>& f
 
 template <class Item, int D>
 typename ReachTree<Item, D>::Link ReachTree<Item, D>::new_entry(const Point<D>& place, float reach,
-                                                          const Item& item) noexcept {
+                                                                const Item& item) noexcept {
   Link e = free_entries_;
   if (e != 0) {
     free_entries_ = entries_[e].next;
@@ -397,7 +397,8 @@ void ReachTree<Item, D>::split(const Slot& s, int level) noexcept {
 
 // What is in the slot, and beside it the entry, which is at `f`, go below a node of this level.
 template <class Item, int D>
-void ReachTree<Item, D>::put_above(const Slot& s, int level, const Fixed<D>& f, Link entry) noexcept {
+void ReachTree<Item, D>::put_above(const Slot& s, int level, const Fixed<D>& f,
+                                   Link entry) noexcept {
   const Link old = at(s);
   const Fixed<D> corner = is_list(old) ? fixed_of(old) : nodes_[old].corner;
   const Link node = new_node(f, level);
@@ -512,7 +513,8 @@ void ReachTree<Item, D>::check_invariants() const {
 }
 
 template <class Item, int D>
-typename ReachTree<Item, D>::Below ReachTree<Item, D>::check_list(Link list, const Cell<D>& cell) const {
+typename ReachTree<Item, D>::Below ReachTree<Item, D>::check_list(Link list,
+                                                                  const Cell<D>& cell) const {
   Below below;
   for (Link e = list & ~kList; e != 0; e = entries_[e].next) {
     SAC_INVARIANT(MeshBox<D>::cell(fixed_of(e), cell.level) == cell);
@@ -525,7 +527,8 @@ typename ReachTree<Item, D>::Below ReachTree<Item, D>::check_list(Link list, con
 }
 
 template <class Item, int D>
-typename ReachTree<Item, D>::Below ReachTree<Item, D>::check_below(Link link, const Cell<D>& cell) const {
+typename ReachTree<Item, D>::Below ReachTree<Item, D>::check_below(Link link,
+                                                                   const Cell<D>& cell) const {
   if (link == 0) return {};
   if (is_list(link)) return check_list(link, cell);
   const Node& n = nodes_[link];

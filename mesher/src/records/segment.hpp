@@ -51,9 +51,7 @@ class Label {
   [[nodiscard]] static Label start() noexcept { return {0, false}; }
   [[nodiscard]] static Label end() noexcept { return {0, true}; }
 
-  [[nodiscard]] double distance() const noexcept {
-    return std::bit_cast<double>(bits_ << 1 >> 1);
-  }
+  [[nodiscard]] double distance() const noexcept { return std::bit_cast<double>(bits_ << 1 >> 1); }
   [[nodiscard]] bool from_b() const noexcept { return bits_ >> 63 != 0; }
   /// The distance from a (or b) on a segment of this length.
   [[nodiscard]] double from(bool end_b, double length) const noexcept {
@@ -183,9 +181,7 @@ struct PieceRef {
   friend std::partial_ordering operator<=>(const PieceRef& x, const PieceRef& y) {
     if (const auto c = x.segment->place_a <=> y.segment->place_a; c != 0) return c;
     if (const auto c = x.segment->place_b <=> y.segment->place_b; c != 0) return c;
-    const auto rest = [](const Piece& p) {
-      return std::tuple(p.lo, p.hi, p.kind);
-    };
+    const auto rest = [](const Piece& p) { return std::tuple(p.lo, p.hi, p.kind); };
     return rest(x.piece) <=> rest(y.piece);
   }
   friend std::uint64_t hash_value(const PieceRef& r) noexcept { return hash_value(r.piece); }

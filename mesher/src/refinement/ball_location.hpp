@@ -27,8 +27,7 @@ class BallLocation : public SimplexLists<D, BallLocation<D>> {
  public:
   using typename Base::Kernel;
 
-  explicit BallLocation(std::span<const Point<D>> points)
-      : Base(points), points_(points.size()) {}
+  explicit BallLocation(std::span<const Point<D>> points) : Base(points), points_(points.size()) {}
 
   template <class Visit>
   void start(const Kernel& kernel, std::uint32_t v, std::uint32_t except, Visit&& visit) {

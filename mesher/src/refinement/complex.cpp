@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "mesher/refine.hpp"
-#include "mesher/svr.hpp"
 #include "program/checked_complex.hpp"
 #include "refinement/delaunay_refinement.hpp"
 #include "refinement/from_points.hpp"
+#include "refinement/refine.hpp"
 #include "refinement/refinement.hpp"
+#include "refinement/svr.hpp"
 
 namespace mesher {
 
@@ -19,7 +19,7 @@ class EdgeNames {
   EdgeNames(const detail::FeatureStore& store, const detail::SpaceNames& names) : names_(names) {
     store.polygons().for_each([&](const detail::Polygon& f) {
       if (!f.alive) return;
-      const FeatureId id = names.polygon(f.self);
+      const PolygonId id = names.polygon(f.self);
       for (const detail::EdgeHandle e : f.all_edges) {
         const auto [it, is_new] = least_.try_emplace(e, id);
         if (!is_new && id < it->second) it->second = id;
@@ -28,13 +28,13 @@ class EdgeNames {
   }
   [[nodiscard]] detail::LineEdge operator()(const detail::Subedges::Piece& p) const {
     const auto [low, high] = std::minmax(p.a, p.b);
-    if (const auto id = names_.segment(p.edge)) return {low, high, *id, false, p.edge};
-    return {low, high, least_.at(p.edge), true, p.edge};
+    if (const auto id = names_.segment(p.edge)) return {low, high, *id, p.edge};
+    return {low, high, least_.at(p.edge), p.edge};
   }
 
  private:
   const detail::SpaceNames& names_;
-  std::unordered_map<detail::EdgeHandle, FeatureId> least_;
+  std::unordered_map<detail::EdgeHandle, PolygonId> least_;
 };
 
 detail::OnFeatures parts_of(const detail::Conformity& all, const detail::FeatureStore& store,
@@ -75,7 +75,7 @@ const auto& points_of(const detail::FeatureStore& store) { return store.points()
 
 // What an Algorithm makes of what was checked. `settings`: but for what is in the others.
 template <class Algorithm, int D, class Checked, class Stats>
-Mesh<D> run(const Checked& checked, const Options<D>& options, const RefinedExtentOf<D>& extent,
+Mesh<D> run(const Checked& checked, const Options<D>& options, const RefinedExtent<D>& extent,
             typename Algorithm::Settings settings, Stats* stats, const RunControl& control) {
   settings.store = &checked.store();
   settings.only_enclosed = extent.only_enclosed;
@@ -100,9 +100,9 @@ Mesh<D> run(const Checked& checked, const Options<D>& options, const RefinedExte
 }  // namespace
 
 Mesh<2> refine(const std::vector<Point<2>>& points, const std::vector<Segment>& segments,
-               const Options<2>& options, const RefinedExtentOf<2>& extent,
-               const RefineSettings& settings, const std::vector<FeatureId>& ids,
-               RefineStats* stats, const RunControl& control) {
+               const Options<2>& options, const RefinedExtent<2>& extent,
+               const RefineSettings& settings, const std::vector<PointId>& ids, RefineStats* stats,
+               const RunControl& control) {
   if (segments.empty()) return refine<2>(points, options, settings, ids, stats, control);
   require_simple(options, "refine");
   const detail::CheckedGraph graph(points, segments, options, ids, control);
@@ -111,9 +111,8 @@ Mesh<2> refine(const std::vector<Point<2>>& points, const std::vector<Segment>& 
 }
 
 Mesh<2> svr(const std::vector<Point<2>>& points, const std::vector<Segment>& segments,
-            const Options<2>& options, const RefinedExtentOf<2>& extent,
-            const SvrSettings& settings, const std::vector<FeatureId>& ids, SvrStats* stats,
-            const RunControl& control) {
+            const Options<2>& options, const RefinedExtent<2>& extent, const SvrSettings& settings,
+            const std::vector<PointId>& ids, SvrStats* stats, const RunControl& control) {
   if (segments.empty()) return svr<2>(points, options, settings, ids, stats, control);
   require_simple(options, "svr");
   detail::require_k(settings.k);
@@ -123,8 +122,8 @@ Mesh<2> svr(const std::vector<Point<2>>& points, const std::vector<Segment>& seg
 
 Mesh<3> refine(const std::vector<Point<3>>& points, const std::vector<Segment>& segments,
                const std::vector<Polygon>& polygons, const Options<3>& options,
-               const RefinedExtent& extent, const RefineSettings& settings,
-               const std::vector<FeatureId>& ids, RefineStats* stats, const RunControl& control) {
+               const RefinedExtent<3>& extent, const RefineSettings& settings,
+               const std::vector<PointId>& ids, RefineStats* stats, const RunControl& control) {
   require_simple(options, "refine");
   const detail::CheckedComplex complex(points, segments, polygons, options, ids, control);
   return run<detail::ComplexRefinement<3>>(complex, options, extent, {{}, settings.order}, stats,
@@ -133,8 +132,8 @@ Mesh<3> refine(const std::vector<Point<3>>& points, const std::vector<Segment>& 
 
 Mesh<3> svr(const std::vector<Point<3>>& points, const std::vector<Segment>& segments,
             const std::vector<Polygon>& polygons, const Options<3>& options,
-            const RefinedExtent& extent, const SvrSettings& settings,
-            const std::vector<FeatureId>& ids, SvrStats* stats, const RunControl& control) {
+            const RefinedExtent<3>& extent, const SvrSettings& settings,
+            const std::vector<PointId>& ids, SvrStats* stats, const RunControl& control) {
   require_simple(options, "svr");
   detail::require_k(settings.k);
   const detail::CheckedComplex complex(points, segments, polygons, options, ids, control);

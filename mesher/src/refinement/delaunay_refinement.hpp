@@ -13,9 +13,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "mesher/refine.hpp"
 #include "refinement/bucketed_queue.hpp"
 #include "refinement/conforming_mesh.hpp"
+#include "refinement/refine.hpp"
 #include "refinement/refined_mesh.hpp"
 #include "refinement/strict_queue.hpp"
 

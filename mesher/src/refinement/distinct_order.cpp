@@ -36,8 +36,7 @@ bool comes_before(const Fixed<D>& f, const Fixed<D>& g) {
 template <int D>
 class Order {
  public:
-  Order(const std::vector<Point<D>>& points, const std::vector<FeatureId>& ids,
-        const MeshBox<D>& box)
+  Order(const std::vector<Point<D>>& points, const std::vector<PointId>& ids, const MeshBox<D>& box)
       : points_(points), ids_(ids), box_(box) {}
 
   void check(const Box<D>& domain) const {
@@ -76,12 +75,12 @@ class Order {
     fail_too_near(points_[other], id(other), points_[one], id(one));
   }
   [[nodiscard]] Fixed<D> fixed(std::size_t i) const { return box_.fixed(points_[i]); }
-  [[nodiscard]] FeatureId id(std::size_t i) const {
-    return ids_.empty() ? FeatureId{static_cast<std::int64_t>(i + 1)} : ids_[i];
+  [[nodiscard]] PointId id(std::size_t i) const {
+    return ids_.empty() ? PointId{static_cast<std::int64_t>(i + 1)} : ids_[i];
   }
 
   const std::vector<Point<D>>& points_;
-  const std::vector<FeatureId>& ids_;
+  const std::vector<PointId>& ids_;
   const MeshBox<D>& box_;
 };
 
@@ -89,7 +88,7 @@ class Order {
 
 template <int D>
 std::vector<Point<D>> in_distinct_order(const std::vector<Point<D>>& points,
-                                        const std::vector<FeatureId>& ids, const Box<D>& domain,
+                                        const std::vector<PointId>& ids, const Box<D>& domain,
                                         const MeshBox<D>& box) {
   const Order<D> order(points, ids, box);
   order.check(domain);
@@ -97,10 +96,10 @@ std::vector<Point<D>> in_distinct_order(const std::vector<Point<D>>& points,
 }
 
 template std::vector<Point<2>> in_distinct_order<2>(const std::vector<Point<2>>&,
-                                                    const std::vector<FeatureId>&, const Box<2>&,
+                                                    const std::vector<PointId>&, const Box<2>&,
                                                     const MeshBox<2>&);
 template std::vector<Point<3>> in_distinct_order<3>(const std::vector<Point<3>>&,
-                                                    const std::vector<FeatureId>&, const Box<3>&,
+                                                    const std::vector<PointId>&, const Box<3>&,
                                                     const MeshBox<3>&);
 
 }  // namespace mesher::detail

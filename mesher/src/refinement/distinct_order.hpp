@@ -14,7 +14,7 @@ namespace mesher::detail {
 /// Cost: O(n log n).
 template <int D>
 [[nodiscard]] std::vector<Point<D>> in_distinct_order(const std::vector<Point<D>>& points,
-                                                      const std::vector<FeatureId>& ids,
+                                                      const std::vector<PointId>& ids,
                                                       const Box<D>& domain, const MeshBox<D>& box);
 
 }  // namespace mesher::detail

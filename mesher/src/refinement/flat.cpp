@@ -1,6 +1,4 @@
 // An edge of a flat tetrahedron goes, and those around it for others; see flat.hpp.
-#include "mesher/flat.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,8 +16,9 @@
 #include "geometry/space_vectors.hpp"
 #include "mesh/adjacency.hpp"
 #include "mesh/canonical.hpp"
+#include "mesher/check.hpp"
+#include "mesher/improve.hpp"
 #include "mesher/predicates.hpp"
-#include "mesher/space_check.hpp"
 
 namespace mesher {
 namespace {
@@ -248,8 +247,8 @@ class Round {
     return true;
   }
   // Of both faces; nothing if they differ.
-  [[nodiscard]] std::optional<FeatureId> polygon_of(const std::array<Face, 2>& faces) const {
-    std::array<FeatureId, 2> found{kNone, kNone};
+  [[nodiscard]] std::optional<PolygonId> polygon_of(const std::array<Face, 2>& faces) const {
+    std::array<PolygonId, 2> found{kNone, kNone};
     for (std::size_t i = 0; i < 2; ++i) {
       if (const auto it = polygons_.find(faces[i]); it != polygons_.end()) found[i] = it->second;
     }
@@ -265,7 +264,7 @@ class Round {
     for (const auto& [corners, polygon] : polygons_) mesh_.faces.push_back({corners, polygon});
   }
 
-  static constexpr FeatureId kNone{INT64_MIN};
+  static constexpr PolygonId kNone{INT64_MIN};
   // Ways to fill a ring grow as 4^corners.
   static constexpr std::size_t kMostCorners = 8;
 
@@ -276,7 +275,7 @@ class Round {
   std::vector<Simplex> made_;
   std::size_t removed_ = 0;
   std::set<Edge> lines_;
-  std::map<Face, FeatureId> polygons_;
+  std::map<Face, PolygonId> polygons_;
 };
 
 std::vector<std::uint32_t> flat_ones(const Mesh<3>& mesh) {

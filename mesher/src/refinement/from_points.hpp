@@ -108,7 +108,7 @@ template <class Algorithm, int D, class Take>
 template <template <int> class Algorithm, int D, class Stats>
 [[nodiscard]] Mesh<D> mesh_points(const std::vector<Point<D>>& points, const Options<D>& options,
                                   typename Algorithm<D>::Settings settings,
-                                  const std::vector<FeatureId>& ids, Stats* stats,
+                                  const std::vector<PointId>& ids, Stats* stats,
                                   const RunControl& control) {
   const MeshBox<D> box = mesh_box(options);
   set_common(settings, options, stats != nullptr, control);

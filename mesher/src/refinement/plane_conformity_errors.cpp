@@ -27,7 +27,7 @@ void PlaneConformity::fail_occupied(const Placed& place) const {
 }
 
 void PlaneConformity::fail_too_many(std::size_t most) const {
-  std::map<FeatureId, std::size_t> counts;
+  std::map<LineId, std::size_t> counts;
   for (const Known& v : vertices_) {
     if (v.role.on != 0) ++counts[store_.names->line(v.role.on)];
   }

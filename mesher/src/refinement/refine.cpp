@@ -1,5 +1,5 @@
 // From points to a mesh, by way of their triangulation.
-#include "mesher/refine.hpp"
+#include "refinement/refine.hpp"
 
 #include "refinement/delaunay_refinement.hpp"
 #include "refinement/from_points.hpp"
@@ -8,8 +8,8 @@ namespace mesher {
 
 template <int D>
 Mesh<D> refine(const std::vector<Point<D>>& points, const Options<D>& options,
-               const RefineSettings& settings, const std::vector<FeatureId>& ids,
-               RefineStats* stats, const RunControl& control) {
+               const RefineSettings& settings, const std::vector<PointId>& ids, RefineStats* stats,
+               const RunControl& control) {
   SAC_EXPECTS(ids.empty() || ids.size() == points.size());
   predicates::self_test();
   detail::require_unstopped(control);
@@ -23,8 +23,8 @@ Mesh<D> refine(const std::vector<Point<D>>& points, const Options<D>& options,
 }
 
 template Mesh<2> refine<2>(const std::vector<Point<2>>&, const Options<2>&, const RefineSettings&,
-                           const std::vector<FeatureId>&, RefineStats*, const RunControl&);
+                           const std::vector<PointId>&, RefineStats*, const RunControl&);
 template Mesh<3> refine<3>(const std::vector<Point<3>>&, const Options<3>&, const RefineSettings&,
-                           const std::vector<FeatureId>&, RefineStats*, const RunControl&);
+                           const std::vector<PointId>&, RefineStats*, const RunControl&);
 
 }  // namespace mesher

@@ -10,8 +10,8 @@
 
 #include "delaunay/kernel.hpp"
 #include "geometry/grid.hpp"
-#include "mesher/refine.hpp"
 #include "refinement/centres.hpp"
+#include "refinement/refine.hpp"
 
 namespace mesher::detail {
 

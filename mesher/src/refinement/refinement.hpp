@@ -19,10 +19,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "mesher/svr.hpp"
 #include "refinement/conforming_mesh.hpp"
 #include "refinement/location.hpp"
 #include "refinement/refined_mesh.hpp"
+#include "refinement/svr.hpp"
 #include "refinement/voronoi_lists.hpp"
 #include "refinement/voronoi_location.hpp"
 #include "refinement/work_queue.hpp"

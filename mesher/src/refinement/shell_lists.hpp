@@ -25,8 +25,7 @@ class ShellLists : public WaitingPoints<D> {
   using Base::places_, Base::left_, Base::looked_at_;
 
  public:
-  explicit ShellLists(std::span<const Point<D>> points)
-      : Base(points), listed_(points.size()) {}
+  explicit ShellLists(std::span<const Point<D>> points) : Base(points), listed_(points.size()) {}
 
   [[nodiscard]] bool is_crowded(std::uint32_t v) const noexcept { return outermost_[v] != kNone; }
   [[nodiscard]] std::uint32_t any(std::uint32_t v) const noexcept {

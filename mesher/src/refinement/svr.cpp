@@ -1,5 +1,5 @@
 // From points to a mesh.
-#include "mesher/svr.hpp"
+#include "refinement/svr.hpp"
 
 #include "refinement/ball_location.hpp"
 #include "refinement/from_points.hpp"
@@ -21,7 +21,7 @@ struct With {
 
 template <int D>
 Mesh<D> svr(const std::vector<Point<D>>& points, const Options<D>& options,
-            const SvrSettings& settings, const std::vector<FeatureId>& ids, SvrStats* stats,
+            const SvrSettings& settings, const std::vector<PointId>& ids, SvrStats* stats,
             const RunControl& control) {
   SAC_EXPECTS(ids.empty() || ids.size() == points.size());
   predicates::self_test();
@@ -47,8 +47,8 @@ Mesh<D> svr(const std::vector<Point<D>>& points, const Options<D>& options,
 }
 
 template Mesh<2> svr<2>(const std::vector<Point<2>>&, const Options<2>&, const SvrSettings&,
-                        const std::vector<FeatureId>&, SvrStats*, const RunControl&);
+                        const std::vector<PointId>&, SvrStats*, const RunControl&);
 template Mesh<3> svr<3>(const std::vector<Point<3>>&, const Options<3>&, const SvrSettings&,
-                        const std::vector<FeatureId>&, SvrStats*, const RunControl&);
+                        const std::vector<PointId>&, SvrStats*, const RunControl&);
 
 }  // namespace mesher

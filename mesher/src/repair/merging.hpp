@@ -12,31 +12,33 @@
 
 #include "geometry/grid.hpp"
 #include "geometry/input_point.hpp"
-#include "mesher/input_file.hpp"
+#include "mesher/graph.hpp"
 #include "rules/mesh_box.hpp"
 
 namespace mesher::detail {
 
 template <int D>
-[[nodiscard]] std::vector<Point<D>> places_of(const std::vector<MarkedPoint<D>>& points) {
+[[nodiscard]] std::vector<Point<D>> places_of(const std::vector<GraphPoint<D>>& points) {
   std::vector<Point<D>> places;
   for (const auto& point : points) places.push_back(point.at);
   return places;
 }
 
-/// `file` with a position for each part that both kinds of input have: an unknown one where it has
-/// none, as one that was made by hand.
-template <class Input>
-void add_positions(const Input& input, FileParts& file) {
-  file.points.resize(input.points.size());
-  file.segments.resize(input.segments.size());
-  file.holes.resize(input.holes.size());
-  file.regions.resize(input.regions.size());
+/// `file` with a position for each part: an unknown one where it has none, as one that was made by
+/// hand.
+template <int D>
+void add_positions(GraphFile<D>& file) {
+  const Graph<D>& graph = file.graph;
+  file.points.resize(graph.points.size());
+  file.segments.resize(graph.segments.size());
+  file.polylines.resize(graph.polylines.size());
+  if constexpr (D == 3) file.polygons.resize(graph.polygons.size());
+  file.seeds.resize(graph.seeds.size());
 }
 
 /// Throws: Error(wrong_count), if not each point has its attributes.
-template <class Input>
-void require_attributes(const Input& input) {
+template <int D>
+void require_attributes(const Graph<D>& input) {
   const std::size_t n = input.attributes_per_point, all = input.attributes.size();
   if (n == 0 ? all == 0 : all % n == 0 && all / n == input.points.size()) return;
   throw Error(ErrorCode::wrong_count, std::to_string(all) + " attributes are there, of " +
@@ -47,8 +49,9 @@ void require_attributes(const Input& input) {
 /// What can be repaired, and the box that it is repaired in. Throws: Error (not_finite, magnitude,
 /// outside_domain, bad_option).
 template <int D>
-[[nodiscard]] MeshBox<D> box_of_points(const std::vector<MarkedPoint<D>>& points,
-                                       const FileParts& file, const std::optional<Box<D>>& given) {
+[[nodiscard]] MeshBox<D> box_of_points(const std::vector<GraphPoint<D>>& points,
+                                       const GraphFile<D>& file,
+                                       const std::optional<Box<D>>& given) {
   Box<D> everywhere;
   everywhere.lo.fill(-0x1p101);
   everywhere.hi.fill(0x1p101);
@@ -82,7 +85,7 @@ template <int D>
 
 /// The points in the order of merging.
 template <int D>
-[[nodiscard]] std::vector<std::size_t> merging_order(const std::vector<MarkedPoint<D>>& points) {
+[[nodiscard]] std::vector<std::size_t> merging_order(const std::vector<GraphPoint<D>>& points) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
@@ -92,6 +95,10 @@ template <int D>
 }
 
 /// The next id after the last one, which it is then. Throws: Error(too_many).
-[[nodiscard]] FeatureId next_id(std::int64_t& last);
+[[nodiscard]] std::int64_t next_number(std::int64_t& last);
+template <class Id>
+[[nodiscard]] Id next_id(std::int64_t& last) {
+  return Id{next_number(last)};
+}
 
 }  // namespace mesher::detail

@@ -3,24 +3,25 @@
 
 #include "geometry/input_point.hpp"
 #include "mesher/repair.hpp"
+#include "text/id_text.hpp"
 #include "text/text.hpp"
 
 namespace mesher {
 
 namespace {
 
-std::string ids_text(const std::vector<FeatureId>& ids) {
+template <class Id>
+std::string ids_text(const std::vector<Id>& ids) {
   std::string text;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (i > 0) text += i + 1 == ids.size() ? " and " : ", ";
-    text += std::to_string(static_cast<std::int64_t>(ids[i]));
+    text += id_text(ids[i]);
   }
   return text;
 }
 
-std::string id_text(FeatureId id) { return ids_text({id}); }
-
-std::string counted(const std::string& what, const std::vector<FeatureId>& ids) {
+template <class Id>
+std::string counted(const std::string& what, const std::vector<Id>& ids) {
   return what + (ids.size() == 1 ? " " : "s ") + ids_text(ids);
 }
 
@@ -31,7 +32,7 @@ std::string some(const std::string& what, std::size_t n) {
 template <int D>
 class Words {
  public:
-  explicit Words(const RepairNoteOf<D>& note) : n_(note), at_(" at " + place_text(n_.at)) {}
+  explicit Words(const RepairNote<D>& note) : n_(note), at_(" at " + place_text(n_.at)) {}
 
   [[nodiscard]] std::string deed() const {
     switch (n_.kind) {
@@ -80,12 +81,14 @@ class Words {
            id_text(n_.points[0]) + " now";
   }
   [[nodiscard]] std::string overlap() const {
-    const bool is_line = n_.polygons.empty();
-    const auto& ids = is_line ? n_.lines : n_.polygons;
-    const std::string what = is_line ? kLine : "polygon";
-    const std::string from = is_line ? ", from " + place_text(n_.at) + " on" : at_;
+    return n_.polygons.empty() ? overlap(kLine, n_.lines, ", from " + place_text(n_.at) + " on")
+                               : overlap("polygon", n_.polygons, at_);
+  }
+  template <class Id>
+  [[nodiscard]] std::string overlap(const std::string& what, const std::vector<Id>& ids,
+                                    const std::string& from) const {
     if (ids[0] == ids[1]) {
-      return what + ' ' + id_text(ids[0]) + " covers itself" + from.substr(is_line);
+      return what + ' ' + id_text(ids[0]) + " covers itself" + from.substr(from[0] == ',' ? 1 : 0);
     }
     return what + ' ' + id_text(ids[0]) + " leaves to " + what + ' ' + id_text(ids[1]) +
            " what both cover" + from;
@@ -103,14 +106,14 @@ class Words {
                                    : ", the new ones have ids " + first + " to " + last;
   }
 
-  const RepairNoteOf<D>& n_;
+  const RepairNote<D>& n_;
   std::string at_;
 };
 
 }  // namespace
 
 template <int D>
-std::string RepairNoteOf<D>::text(const std::string& prefix) const {
+std::string RepairNote<D>::text(const std::string& prefix) const {
   std::string text = location.file;
   for (const long part : {location.line, location.column}) {
     if (!text.empty() && part > 0) text += ':' + std::to_string(part);
@@ -118,7 +121,7 @@ std::string RepairNoteOf<D>::text(const std::string& prefix) const {
   return (text.empty() ? text : text + ": ") + prefix + Words<D>(*this).deed();
 }
 
-template struct RepairNoteOf<2>;
-template struct RepairNoteOf<3>;
+template struct RepairNote<2>;
+template struct RepairNote<3>;
 
 }  // namespace mesher

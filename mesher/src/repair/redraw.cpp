@@ -10,30 +10,30 @@
 
 namespace mesher::detail {
 
-FeatureId next_id(std::int64_t& last) {
+std::int64_t next_number(std::int64_t& last) {
   if (last == std::numeric_limits<std::int64_t>::max()) {
     throw Error(ErrorCode::too_many, "no id is left for what a repair makes");
   }
-  return FeatureId{++last};
+  return ++last;
 }
 
 // The lines of a file, segments first.
-std::vector<Redrawing::Line> Redrawing::lines_of(const PslgFile& f) {
+std::vector<Redrawing::Line> Redrawing::lines_of(const GraphFile<2>& f) {
   std::vector<Line> lines;
-  for (std::size_t i = 0; i < f.pslg.segments.size(); ++i) {
-    const Pslg::Segment& s = f.pslg.segments[i];
+  for (std::size_t i = 0; i < f.graph.segments.size(); ++i) {
+    const mesher::Segment& s = f.graph.segments[i];
     lines.push_back({s.id, s.marker, {s.from, s.to}, f.segments[i], true, {}, false});
   }
-  for (std::size_t i = 0; i < f.pslg.polylines.size(); ++i) {
-    const Pslg::Polyline& line = f.pslg.polylines[i];
+  for (std::size_t i = 0; i < f.graph.polylines.size(); ++i) {
+    const mesher::Polyline& line = f.graph.polylines[i];
     const bool ring = line.points.front() == line.points.back();
     lines.push_back({line.id, line.marker, line.points, f.polylines[i], false, {}, ring});
   }
   return lines;
 }
 
-Redrawing::Redrawing(const PslgFile& file, const Drawing& drawing, const std::vector<Spot>& spots,
-                     const std::vector<std::size_t>& keepers)
+Redrawing::Redrawing(const GraphFile<2>& file, const Drawing& drawing,
+                     const std::vector<Spot>& spots, const std::vector<std::size_t>& keepers)
     : file_(file),
       drawing_(drawing),
       spots_(spots),
@@ -41,10 +41,10 @@ Redrawing::Redrawing(const PslgFile& file, const Drawing& drawing, const std::ve
       lines_(lines_of(file)),
       owners_(drawing.rods().size(), kNobody),
       news_(drawing.places().size() - keepers.size()) {
-  for (std::size_t i = 0; i < spots.size(); ++i) by_id_.emplace(file.pslg.points[i].id, i);
+  for (std::size_t i = 0; i < spots.size(); ++i) by_id_.emplace(file.graph.points[i].id, i);
 }
 
-Repaired Redrawing::redraw() {
+Repaired<2> Redrawing::redraw() {
   merge_points();
   draw_lines();
   add_new_points();
@@ -59,8 +59,8 @@ Repaired Redrawing::redraw() {
 // --- Points ----------------------------------------------------------------------------------
 
 void Redrawing::merge_points() {
-  const auto& points = file_.pslg.points;
-  const std::size_t n = file_.pslg.attributes_per_point;
+  const auto& points = file_.graph.points;
+  const std::size_t n = file_.graph.attributes_per_point;
   std::vector<std::int64_t> markers;
   for (const std::size_t k : keepers_) markers.push_back(points[k].marker);
   std::vector<std::size_t> gone;
@@ -76,17 +76,17 @@ void Redrawing::merge_points() {
   auto& out = out_.file;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (keepers_[spots_[i]] != i) continue;
-    out.pslg.points.push_back({points[i].id, points[i].at, markers[spots_[i]]});
+    out.graph.points.push_back({points[i].id, points[i].at, markers[spots_[i]]});
     out.points.push_back(file_.points[i]);
-    const auto first = file_.pslg.attributes.begin() + static_cast<std::ptrdiff_t>(i * n);
-    out.pslg.attributes.insert(out.pslg.attributes.end(), first,
-                               first + static_cast<std::ptrdiff_t>(n));
+    const auto first = file_.graph.attributes.begin() + static_cast<std::ptrdiff_t>(i * n);
+    out.graph.attributes.insert(out.graph.attributes.end(), first,
+                                first + static_cast<std::ptrdiff_t>(n));
   }
 }
 
 void Redrawing::add_new_points() {
   std::int64_t last = 0;
-  for (const auto& point : file_.pslg.points) {
+  for (const auto& point : file_.graph.points) {
     last = std::max(last, static_cast<std::int64_t>(point.id));
   }
   auto& out = out_.file;
@@ -94,11 +94,11 @@ void Redrawing::add_new_points() {
     NewPoint& point = news_[i];
     if (point.lines.empty()) continue;
     const auto s = static_cast<Spot>(keepers_.size() + i);
-    point.id = next_id(last);
-    out.pslg.points.push_back({point.id, drawing_.place(s), point.marker});
+    point.id = next_id<PointId>(last);
+    out.graph.points.push_back({point.id, drawing_.place(s), point.marker});
     out.points.push_back({});
-    out.pslg.attributes.insert(out.pslg.attributes.end(), point.attributes.begin(),
-                               point.attributes.end());
+    out.graph.attributes.insert(out.graph.attributes.end(), point.attributes.begin(),
+                                point.attributes.end());
     note(RepairKind::split_at_crossing, {point.lines.begin(), point.lines.end()}, {point.id}, s,
          point.place);
   }
@@ -106,17 +106,17 @@ void Redrawing::add_new_points() {
 
 // --- Lines -----------------------------------------------------------------------------------
 
-void Redrawing::add(FeatureId line_id, const Line& line, const std::vector<Spot>& run,
+void Redrawing::add(LineId line_id, const Line& line, const std::vector<Spot>& run,
                     bool as_segment) {
   auto& out = out_.file;
-  std::vector<FeatureId> points;
+  std::vector<PointId> points;
   for (const Spot s : run) points.push_back(id(s));
   if (as_segment) {
-    out.pslg.segments.push_back({line_id, points[0], points[1], line.marker});
+    out.graph.segments.push_back({line_id, points[0], points[1], line.marker});
     out.segments.push_back(line.position);
     return;
   }
-  out.pslg.polylines.push_back({line_id, std::move(points), line.marker});
+  out.graph.polylines.push_back({line_id, std::move(points), line.marker});
   out.polylines.push_back(line.position);
 }
 
@@ -132,7 +132,7 @@ void Redrawing::keep(const Line& line) {
 void Redrawing::rename_rest(const Line& line) {
   for (std::size_t i = 1; i < line.runs.size(); ++i) {
     const auto& run = line.runs[i];
-    const FeatureId fresh = next_id(last_line_);
+    const LineId fresh = next_id<LineId>(last_line_);
     add(fresh, line, run, run.size() == 2);
     note(RepairKind::renamed, {line.id, fresh}, {}, run[0], place(line));
   }
@@ -145,22 +145,21 @@ void Redrawing::copy_rest() {
   out.file = file_.file;
   out.point_file = file_.point_file;
   out.notes = file_.notes;
-  out.pslg.attributes_per_point = file_.pslg.attributes_per_point;
-  out.pslg.holes = file_.pslg.holes;
-  out.holes = file_.holes;
-  out.pslg.regions = file_.pslg.regions;
-  out.regions = file_.regions;
-  out.pslg.sizes = file_.pslg.sizes;
+  out.graph.attributes_per_point = file_.graph.attributes_per_point;
+  out.graph.seeds = file_.graph.seeds;
+  out.seeds = file_.seeds;
 }
 
 void Redrawing::sort_notes() {
-  std::sort(out_.notes.begin(), out_.notes.end(), [](const RepairNote& a, const RepairNote& b) {
-    return std::tie(a.kind, a.lines, a.points, a.at) < std::tie(b.kind, b.lines, b.points, b.at);
-  });
+  std::sort(out_.notes.begin(), out_.notes.end(),
+            [](const RepairNote<2>& a, const RepairNote<2>& b) {
+              return std::tie(a.kind, a.lines, a.points, a.at) <
+                     std::tie(b.kind, b.lines, b.points, b.at);
+            });
 }
 
-Repaired redraw(const PslgFile& file, const Drawing& drawing, const std::vector<Spot>& spots,
-                const std::vector<std::size_t>& keepers) {
+Repaired<2> redraw(const GraphFile<2>& file, const Drawing& drawing, const std::vector<Spot>& spots,
+                   const std::vector<std::size_t>& keepers) {
   return Redrawing(file, drawing, spots, keepers).redraw();
 }
 

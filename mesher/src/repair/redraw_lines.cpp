@@ -14,16 +14,16 @@ void Redrawing::lead_through(const Line& line, std::size_t from, std::size_t to,
   }
   NewPoint& point = news(s);
   if (point.lines.empty()) {
-    const Point<2>&a = file_.pslg.points[from].at, &b = file_.pslg.points[to].at;
+    const Point<2>&a = file_.graph.points[from].at, &b = file_.graph.points[to].at;
     const Point<2>& p = drawing_.place(s);
     const double x = b[0] - a[0], y = b[1] - a[1];
     const double along = ((p[0] - a[0]) * x + (p[1] - a[1]) * y) / (x * x + y * y);
     const double t = std::clamp(along, 0.0, 1.0);
     point.marker = line.marker;
     point.place = place(line);
-    const std::size_t n = file_.pslg.attributes_per_point;
+    const std::size_t n = file_.graph.attributes_per_point;
     for (std::size_t k = 0; k < n; ++k) {
-      const double u = file_.pslg.attributes[from * n + k], w = file_.pslg.attributes[to * n + k];
+      const double u = file_.graph.attributes[from * n + k], w = file_.graph.attributes[to * n + k];
       point.attributes.push_back(u * (1 - t) + w * t);
     }
   }
@@ -57,7 +57,7 @@ void Redrawing::draw(std::uint32_t l) {
       note(RepairKind::zero_length, {line.id}, {id(s)}, s, place(line));
       continue;
     }
-    const Point<2>&a = file_.pslg.points[from].at, &b = file_.pslg.points[to].at;
+    const Point<2>&a = file_.graph.points[from].at, &b = file_.graph.points[to].at;
     drawing_.walk(drawing_.find(s, spots_[to]), s, [&](Spot t) {
       if (t != spots_[to]) lead_through(line, from, to, t);
       out_.deviation = std::max(out_.deviation, distance2(drawing_.place(t), a, b));
@@ -86,7 +86,7 @@ void Redrawing::draw_lines() {
   for (const std::uint32_t l : order_) draw(l);
   for (const auto& [id, i] : by_id_) {  // of points, what merging has moved
     const Point<2>& p = drawing_.place(spots_[i]);
-    out_.deviation = std::max(out_.deviation, distance2(file_.pslg.points[i].at, p, p));
+    out_.deviation = std::max(out_.deviation, distance2(file_.graph.points[i].at, p, p));
   }
   out_.deviation = std::sqrt(out_.deviation);
 }

@@ -20,11 +20,11 @@ constexpr double kShare = 0x1p-44;
 constexpr double kUnits = 16;
 
 // Rods for all pieces of lines, in an order of their own.
-void draw_rods(const Pslg& pslg, const std::vector<Spot>& spots, Drawing& drawing) {
-  std::unordered_map<FeatureId, Spot> by_id;
+void draw_rods(const Graph<2>& pslg, const std::vector<Spot>& spots, Drawing& drawing) {
+  std::unordered_map<PointId, Spot> by_id;
   for (std::size_t i = 0; i < spots.size(); ++i) by_id.emplace(pslg.points[i].id, spots[i]);
   std::vector<std::pair<Spot, Spot>> rods;
-  const auto draw = [&](FeatureId from, FeatureId to) {
+  const auto draw = [&](PointId from, PointId to) {
     const auto& [s, t] = std::minmax(by_id.at(from), by_id.at(to));
     if (s != t) rods.emplace_back(s, t);
   };
@@ -36,10 +36,10 @@ void draw_rods(const Pslg& pslg, const std::vector<Spot>& spots, Drawing& drawin
   for (const auto& [s, t] : rods) drawing.rod(s, t);
 }
 
-Repaired repair_placed(const PslgFile& file, const std::optional<Box<2>>& given) {
+Repaired<2> repair_placed(const GraphFile<2>& file, const std::optional<Box<2>>& given) {
   detail::require_ids(file);
-  detail::require_attributes(file.pslg);
-  const auto& points = file.pslg.points;
+  detail::require_attributes(file.graph);
+  const auto& points = file.graph.points;
   if (points.empty()) return {file, {}, 0, 0};
   const detail::MeshBox<2> box = detail::box_of_points(points, file, given);
   Drawing drawing(box.lo, detail::tolerance_in(box, kShare, kUnits));
@@ -50,23 +50,22 @@ Repaired repair_placed(const PslgFile& file, const std::optional<Box<2>>& given)
     spots[i] = there ? *there : drawing.add_spot(points[i].at);
     if (!there) keepers.push_back(i);
   }
-  draw_rods(file.pslg, spots, drawing);
+  draw_rods(file.graph, spots, drawing);
   detail::arrange(drawing);
   return detail::redraw(file, drawing, spots, keepers);
 }
 
 }  // namespace
 
-Repaired repair(const PslgFile& file, const std::optional<Box<2>>& domain) {
-  PslgFile placed = file;
-  detail::add_positions(file.pslg, placed);
-  placed.polylines.resize(file.pslg.polylines.size());
+Repaired<2> repair(const GraphFile<2>& file, const std::optional<Box<2>>& domain) {
+  GraphFile<2> placed = file;
+  detail::add_positions(placed);
   return repair_placed(placed, domain);
 }
 
-Repaired repair(const Pslg& pslg, const std::optional<Box<2>>& domain) {
-  PslgFile file;
-  file.pslg = pslg;
+Repaired<2> repair(const Graph<2>& pslg, const std::optional<Box<2>>& domain) {
+  GraphFile<2> file;
+  file.graph = pslg;
   return repair(file, domain);
 }
 

@@ -80,7 +80,7 @@ std::optional<PolygonParts> polygon_of(PolygonParts parts, FeatureStore& store) 
   return is_flat(store.record(parts)) ? std::optional(parts) : std::nullopt;
 }
 
-std::vector<PolygonParts> settled(const Sheet& sheet, FeatureId polygon, double tolerance,
+std::vector<PolygonParts> settled(const Sheet& sheet, PolygonId polygon, double tolerance,
                                   FeatureStore& store) {
   PolygonParts parts = sheet.parts;
   tidy(parts);
@@ -96,7 +96,7 @@ std::vector<PolygonParts> settled(const Sheet& sheet, FeatureId polygon, double 
       "polygon " + id + ", which begins at " + place_text(at) +
           ", is too bent to be cut into triangles: its edges cross wherever it is seen from, "
           "and it has holes or many corners",
-      {}, {polygon_named(polygon)}, {position_of(at)});
+      {}, {mesher::Feature(polygon)}, {position_of(at)});
 }
 
 }  // namespace mesher::detail

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "geometry/input_point.hpp"
-#include "mesher/space_repair.hpp"
+#include "mesher/repair.hpp"
 #include "repair/crossing_place.hpp"
 #include "repair/drawing_search.hpp"
 #include "repair/rest_of.hpp"
@@ -36,7 +36,7 @@ struct Meeting {
 
 class Arranging {
  public:
-  Arranging(SpaceDrawing& drawing, const std::vector<FeatureId>& names)
+  Arranging(SpaceDrawing& drawing, const std::vector<PolygonId>& names)
       : drawing_(drawing), store_(drawing.store()), search_(drawing), names_(names) {}
 
   int arrange() {
@@ -281,14 +281,14 @@ class Arranging {
   SpaceDrawing& drawing_;
   FeatureStore& store_;
   DrawingSearch search_;
-  const std::vector<FeatureId>& names_;
+  const std::vector<PolygonId>& names_;
   Seen near_, crossing_, lying_, joining_, overlap_;
   Point<3> last_{};  // where something was done
 };
 
 }  // namespace
 
-int arrange(SpaceDrawing& drawing, const std::vector<FeatureId>& names) {
+int arrange(SpaceDrawing& drawing, const std::vector<PolygonId>& names) {
   return Arranging(drawing, names).arrange();
 }
 

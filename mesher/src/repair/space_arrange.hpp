@@ -12,6 +12,6 @@ namespace mesher::detail {
 /// cross, and leaves to the first of several what they cover together; until there is nothing to be
 /// done. `names`: of facets. Returns the number of rounds.
 /// Throws: Error(too_close) if kRepairRounds do not do; Error(not_flat).
-int arrange(SpaceDrawing& drawing, const std::vector<FeatureId>& names);
+int arrange(SpaceDrawing& drawing, const std::vector<PolygonId>& names);
 
 }  // namespace mesher::detail

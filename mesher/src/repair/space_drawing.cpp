@@ -226,7 +226,7 @@ void SpaceDrawing::put(std::size_t i) {
   sheet_of_.emplace(f.self, i);
 }
 
-bool SpaceDrawing::settle(const std::vector<FeatureId>& names) {
+bool SpaceDrawing::settle(const std::vector<PolygonId>& names) {
   bool any = false;
   const std::size_t count = sheets_.size();
   for (std::size_t i = 0; i < count; ++i) {

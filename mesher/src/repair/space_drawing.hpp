@@ -100,7 +100,7 @@ class SpaceDrawing {
   /// Puts sheets into the store: cut where their loops meet, or into triangles if they are bent.
   /// Of equal ones that of the first facet stays. Returns whether it did something.
   /// Throws: Error(not_flat) for a polygon that is too bent. `names`: of facets.
-  bool settle(const std::vector<FeatureId>& names);
+  bool settle(const std::vector<PolygonId>& names);
 
  private:
   using Chains = std::unordered_map<EdgeHandle, std::vector<VertexHandle>>;
@@ -135,7 +135,7 @@ class SpaceDrawing {
 /// What a polygon is cut into, so that each part is flat and its loops go around it, once; nothing
 /// if it has no area. sheet.parts: may have loops that meet, and points more than once.
 /// Throws: Error(not_flat), if it cannot be.
-[[nodiscard]] std::vector<PolygonParts> settled(const Sheet& sheet, FeatureId polygon,
+[[nodiscard]] std::vector<PolygonParts> settled(const Sheet& sheet, PolygonId polygon,
                                                 double tolerance, FeatureStore& store);
 
 }  // namespace mesher::detail

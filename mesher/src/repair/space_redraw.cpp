@@ -14,19 +14,24 @@
 namespace mesher::detail {
 
 PolygonParts drawn_parts(const mesher::Polygon& polygon,
-                         const std::unordered_map<FeatureId, VertexHandle>& handles) {
+                         const std::unordered_map<PointId, VertexHandle>& handles) {
   PolygonParts parts;
   for (const auto& loop : polygon.loops) {
     Loop& corners = parts.loops.emplace_back();
-    for (const FeatureId id : loop) corners.push_back(handles.at(id));
+    for (const PointId id : loop) corners.push_back(handles.at(id));
   }
   for (const auto& [a, b] : polygon.edges) parts.edges.emplace_back(handles.at(a), handles.at(b));
-  for (const FeatureId id : polygon.points) parts.points.push_back(handles.at(id));
+  for (const PointId id : polygon.points) parts.points.push_back(handles.at(id));
   return parts;
 }
 
-SpaceRedrawing::SpaceRedrawing(const PlcFile& file, const SpaceDrawing& drawing, const Drawn& drawn)
-    : file_(file), plc_(file.plc), drawing_(drawing), drawn_(drawn), sheets_(plc_.facets.size()) {
+SpaceRedrawing::SpaceRedrawing(const GraphFile<3>& file, const SpaceDrawing& drawing,
+                               const Drawn& drawn)
+    : file_(file),
+      plc_(file.graph),
+      drawing_(drawing),
+      drawn_(drawn),
+      sheets_(plc_.polygons.size()) {
   for (std::size_t i = 0; i < plc_.points.size(); ++i) {
     handles_.emplace(plc_.points[i].id, drawn.points[i]);
     places_.emplace(plc_.points[i].id, plc_.points[i].at);
@@ -43,7 +48,7 @@ SpaceRedrawing::SpaceRedrawing(const PlcFile& file, const SpaceDrawing& drawing,
   }
 }
 
-RepairedPlc SpaceRedrawing::redraw() {
+Repaired<3> SpaceRedrawing::redraw() {
   merge_points();
   add_new_points();
   draw_segments();
@@ -95,9 +100,9 @@ void SpaceRedrawing::merge_points() {
 }
 
 void SpaceRedrawing::add_point(VertexHandle v, const Point<3>& at, FilePosition position) {
-  out_.file.plc.points.push_back({ids_[v], at, markers_[v]});
+  out_.file.graph.points.push_back({ids_[v], at, markers_[v]});
   out_.file.points.push_back(position);
-  auto& all = out_.file.plc.attributes;
+  auto& all = out_.file.graph.attributes;
   all.insert(all.end(), attributes_[v].begin(), attributes_[v].end());
 }
 
@@ -121,14 +126,14 @@ void SpaceRedrawing::add_new_points() {
     interpolate(v);
     const auto it = users.find(v);
     if (it == users.end()) continue;
-    ids_[v] = next_id(last);
+    ids_[v] = next_id<PointId>(last);
     auto& [segments, facets] = it->second;
     make_set(segments);
-    RepairNoteOf<3> note{RepairKind::split_at_crossing, {}, {ids_[v]}, drawing_.place(v), {}};
+    RepairNote<3> note{RepairKind::split_at_crossing, {}, {ids_[v]}, drawing_.place(v), {}};
     for (const std::size_t s : segments) note.lines.push_back(segment(s).id);
-    for (const std::size_t f : facets) note.polygons.push_back(facet(f).polygon.id);
+    for (const std::size_t f : facets) note.polygons.push_back(facet(f).id);
     note.location =
-        segments.empty() ? location_of_facet(facets[0]) : location_of_segment(segments[0]);
+        segments.empty() ? location_of_polygon(facets[0]) : location_of_segment(segments[0]);
     markers_[v] = segments.empty() ? facet(facets[0]).marker : segment(segments[0]).marker;
     out_.notes.push_back(std::move(note));
     add_point(v, drawing_.place(v), {});
@@ -175,20 +180,20 @@ void SpaceRedrawing::draw_segments() {
   }
   for (std::size_t s = 0; s < pieces.size(); ++s) {
     for (std::size_t i = 1; i < pieces[s].size(); ++i) {
-      const FeatureId id = next_id(last);
+      const LineId id = next_id<LineId>(last);
       add_segment(id, s, pieces[s][i]);
       note_segment(RepairKind::renamed, s, pieces[s][i].first, false).lines.push_back(id);
     }
   }
 }
 
-void SpaceRedrawing::add_segment(FeatureId id, std::size_t s, const Ends& ends) {
-  out_.file.plc.segments.push_back({id, ids_[ends.first], ids_[ends.second], segment(s).marker});
+void SpaceRedrawing::add_segment(LineId id, std::size_t s, const Ends& ends) {
+  out_.file.graph.segments.push_back({id, ids_[ends.first], ids_[ends.second], segment(s).marker});
   out_.file.segments.push_back(file_.segments[drawn_.segments[s]]);
 }
 
-RepairNoteOf<3>& SpaceRedrawing::note_segment(RepairKind kind, std::size_t s, VertexHandle v,
-                                              bool names_it) {
+RepairNote<3>& SpaceRedrawing::note_segment(RepairKind kind, std::size_t s, VertexHandle v,
+                                            bool names_it) {
   late_.push_back({kind, {segment(s).id}, {}, drawing_.place(v), location_of_segment(s)});
   if (names_it) late_.back().points.push_back(ids_[v]);
   return late_.back();
@@ -206,14 +211,12 @@ void SpaceRedrawing::copy_rest() {
   out.file = file_.file;
   out.point_file = file_.point_file;
   out.notes = file_.notes;
-  out.plc.attributes_per_point = plc_.attributes_per_point;
-  out.plc.holes = plc_.holes;
-  out.holes = file_.holes;
-  out.plc.regions = plc_.regions;
-  out.regions = file_.regions;
+  out.graph.attributes_per_point = plc_.attributes_per_point;
+  out.graph.seeds = plc_.seeds;
+  out.seeds = file_.seeds;
 }
 
-RepairedPlc redraw(const PlcFile& file, const SpaceDrawing& drawing, const Drawn& drawn) {
+Repaired<3> redraw(const GraphFile<3>& file, const SpaceDrawing& drawing, const Drawn& drawn) {
   return SpaceRedrawing(file, drawing, drawn).redraw();
 }
 

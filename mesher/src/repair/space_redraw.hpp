@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "mesher/space_repair.hpp"
+#include "mesher/repair.hpp"
 #include "repair/space_drawing.hpp"
 
 namespace mesher::detail {
@@ -17,10 +17,10 @@ struct Drawn {
 
 /// The loops and what lies inside of a polygon, by handles. Requires: they are known.
 [[nodiscard]] PolygonParts drawn_parts(const mesher::Polygon& polygon,
-                                       const std::unordered_map<FeatureId, VertexHandle>& handles);
+                                       const std::unordered_map<PointId, VertexHandle>& handles);
 
 /// The complex of `file` as it is in the drawing, with notes of what is not as it was.
-[[nodiscard]] RepairedPlc redraw(const PlcFile& file, const SpaceDrawing& drawing,
+[[nodiscard]] Repaired<3> redraw(const GraphFile<3>& file, const SpaceDrawing& drawing,
                                  const Drawn& drawn);
 
 }  // namespace mesher::detail

@@ -32,7 +32,7 @@ bool is_same(const PolygonParts& a, const PolygonParts& b) {
 }
 
 const Point<3>& first_place(const mesher::Polygon& polygon,
-                            const std::unordered_map<FeatureId, Point<3>>& places) {
+                            const std::unordered_map<PointId, Point<3>>& places) {
   static constexpr Point<3> kNone{};
   for (const auto& loop : polygon.loops) {
     if (!loop.empty()) return places.at(loop[0]);
@@ -73,20 +73,21 @@ mesher::Polygon SpaceRedrawing::polygon_of(const Sheet& sheet) const {
 
 // As it came, if nothing has happened to it but that points are others.
 mesher::Polygon SpaceRedrawing::first_of(std::size_t f) const {
-  mesher::Polygon polygon = facet(f).polygon;
+  mesher::Polygon polygon = facet(f);
   const bool is_as_it_was = is_same(drawn_parts(polygon, handles_), sheets_[f][0]->parts);
   if (sheets_[f].size() > 1 || !is_as_it_was) return polygon_of(*sheets_[f][0]);
-  const auto rename = [&](FeatureId& id) { id = ids_[handles_.at(id)]; };
+  const auto rename = [&](PointId& id) { id = ids_[handles_.at(id)]; };
   for (auto& loop : polygon.loops) std::for_each(loop.begin(), loop.end(), rename);
   for (auto& e : polygon.edges) std::for_each(e.begin(), e.end(), rename);
   std::for_each(polygon.points.begin(), polygon.points.end(), rename);
   return polygon;
 }
 
-void SpaceRedrawing::add_polygon(FeatureId id, std::size_t f, const mesher::Polygon& polygon) {
-  out_.file.plc.facets.push_back({polygon, facet(f).marker});
-  out_.file.plc.facets.back().polygon.id = id;
-  out_.file.facets.push_back(file_.facets[drawn_.facets[f]]);
+void SpaceRedrawing::add_polygon(PolygonId id, std::size_t f, const mesher::Polygon& polygon) {
+  out_.file.graph.polygons.push_back(polygon);
+  out_.file.graph.polygons.back().marker = facet(f).marker;
+  out_.file.graph.polygons.back().id = id;
+  out_.file.polygons.push_back(file_.polygons[drawn_.facets[f]]);
 }
 
 void SpaceRedrawing::draw_polygons() {
@@ -94,16 +95,16 @@ void SpaceRedrawing::draw_polygons() {
   std::vector<std::size_t> rank(sheets_.size());
   for (std::size_t f = 0; f < sheets_.size(); ++f) {
     rank[drawn_.facets[f]] = f;
-    last = std::max(last, static_cast<std::int64_t>(facet(f).polygon.id));
+    last = std::max(last, static_cast<std::int64_t>(facet(f).id));
   }
   for (const std::size_t f : rank) {
-    if (!sheets_[f].empty()) add_polygon(facet(f).polygon.id, f, first_of(f));
+    if (!sheets_[f].empty()) add_polygon(facet(f).id, f, first_of(f));
   }
   for (std::size_t f = 0; f < sheets_.size(); ++f) {
     note_points_on(f);
     look_at_shape(f);
     for (std::size_t i = 1; i < sheets_[f].size(); ++i) {
-      const FeatureId id = next_id(last);
+      const PolygonId id = next_id<PolygonId>(last);
       add_polygon(id, f, polygon_of(*sheets_[f][i]));
       late_.back().polygons.push_back(id);
     }
@@ -111,14 +112,14 @@ void SpaceRedrawing::draw_polygons() {
   note_losses();
 }
 
-RepairNoteOf<3>& SpaceRedrawing::note_polygon(RepairKind kind, std::size_t f, const Point<3>& at) {
-  late_.push_back({kind, {}, {}, at, location_of_facet(f), {facet(f).polygon.id}});
+RepairNote<3>& SpaceRedrawing::note_polygon(RepairKind kind, std::size_t f, const Point<3>& at) {
+  late_.push_back({kind, {}, {}, at, location_of_polygon(f), {facet(f).id}});
   return late_.back();
 }
 
 void SpaceRedrawing::note_points_on(std::size_t f) {
   std::vector<VertexHandle> before;
-  add_points(drawn_parts(facet(f).polygon, handles_), before);
+  add_points(drawn_parts(facet(f), handles_), before);
   make_set(before);
   for (const VertexHandle v : points_of(f)) {
     if (is_new(v) || std::binary_search(before.begin(), before.end(), v)) continue;
@@ -128,13 +129,13 @@ void SpaceRedrawing::note_points_on(std::size_t f) {
 
 // Whether it was flat, and how far from where it was it is now. The last note is of its parts.
 void SpaceRedrawing::look_at_shape(std::size_t f) {
-  const mesher::Polygon& polygon = facet(f).polygon;
+  const mesher::Polygon& polygon = facet(f);
   Polygon shape;
   auto loops = polygon.loops;
   std::erase_if(loops, [](const auto& loop) { return loop.size() < 3; });
-  if (!loops.empty()) put_in_order(loops, [&](FeatureId v) { return places_.at(v); });
+  if (!loops.empty()) put_in_order(loops, [&](PointId v) { return places_.at(v); });
   for (const auto& loop : loops) {
-    for (const FeatureId v : loop) shape.places.push_back(places_.at(v));
+    for (const PointId v : loop) shape.places.push_back(places_.at(v));
     shape.loop_end.push_back(static_cast<std::uint32_t>(shape.places.size()));
   }
   const bool has_shape = !loops.empty() && find_shape(shape);
@@ -160,8 +161,8 @@ void SpaceRedrawing::note_losses() {
   auto losses = drawing_.losses();
   make_set(losses);
   for (const auto& [loser, taker] : losses) {
-    const Point<3> at = first_place(facet(loser).polygon, places_);
-    note_polygon(RepairKind::overlap, loser, at).polygons.push_back(facet(taker).polygon.id);
+    const Point<3> at = first_place(facet(loser), places_);
+    note_polygon(RepairKind::overlap, loser, at).polygons.push_back(facet(taker).id);
   }
 }
 

@@ -1,12 +1,11 @@
 // Merges points, makes the drawing fit together, and draws segments and polygons anew.
-#include "mesher/space_repair.hpp"
-
 #include <algorithm>
 #include <numeric>
 #include <unordered_map>
 
 #include "graph/distinct_ids.hpp"
 #include "mesher/mesher.hpp"
+#include "mesher/repair.hpp"
 #include "program/space_input.hpp"
 #include "repair/merging.hpp"
 #include "repair/space_arrange.hpp"
@@ -27,15 +26,13 @@ using detail::VertexHandle;
 constexpr double kSpaceShare = 0x1p-42;
 constexpr double kSpaceUnits = 64;
 
-void require_ids(const PlcFile& file) {
-  const Plc& plc = file.plc;
+void require_ids(const GraphFile<3>& file) {
+  const Graph<3>& plc = file.graph;
   require_distinct_parts(plc, file);
-  require_distinct(
-      named(FeatureKind::line, plc.segments, [&](auto i) { return file.location_of_segment(i); }));
-  std::vector<mesher::Polygon> polygons;
-  std::unordered_map<FeatureId, bool> points;
+  require_distinct(named(plc.segments, [&](auto i) { return file.location_of_segment(i); }));
+  std::unordered_map<PointId, bool> points;
   for (const auto& p : plc.points) points.emplace(p.id, true);
-  const auto require = [&](FeatureId id, const char* what, const mesher::Feature& user,
+  const auto require = [&](PointId id, const char* what, const mesher::Feature& user,
                            const FileLocation& place) {
     if (points.count(id) > 0) return;
     try {
@@ -45,24 +42,21 @@ void require_ids(const PlcFile& file) {
     }
   };
   for (std::size_t i = 0; i < plc.segments.size(); ++i) {
-    for (const FeatureId end : {plc.segments[i].from, plc.segments[i].to}) {
-      require(end, "an end of", line_named(plc.segments[i].id), file.location_of_segment(i));
+    for (const PointId end : {plc.segments[i].from, plc.segments[i].to}) {
+      require(end, "an end of", mesher::Feature(plc.segments[i].id), file.location_of_segment(i));
     }
   }
-  for (std::size_t i = 0; i < plc.facets.size(); ++i) {
-    const mesher::Polygon& f = plc.facets[i].polygon;
-    const FileLocation place = file.location_of_facet(i);
+  for (std::size_t i = 0; i < plc.polygons.size(); ++i) {
+    const mesher::Polygon& f = plc.polygons[i];
+    const FileLocation place = file.location_of_polygon(i);
     for (const auto& loop : f.loops) {
-      for (const FeatureId id : loop) require(id, "a corner of", polygon_named(f.id), place);
+      for (const PointId id : loop) require(id, "a corner of", mesher::Feature(f.id), place);
     }
     for (const auto& [a, b] : f.edges) {
-      for (const FeatureId id : {a, b}) require(id, "in", polygon_named(f.id), place);
+      for (const PointId id : {a, b}) require(id, "in", mesher::Feature(f.id), place);
     }
-    for (const FeatureId id : f.points) require(id, "in", polygon_named(f.id), place);
-    polygons.push_back({f.id, {}});
+    for (const PointId id : f.points) require(id, "in", mesher::Feature(f.id), place);
   }
-  require_distinct(
-      named(FeatureKind::polygon, polygons, [&](auto i) { return file.location_of_facet(i); }));
 }
 
 template <class Parts, class IdOf>
@@ -74,10 +68,10 @@ std::vector<std::size_t> ranked(const Parts& parts, IdOf&& id_of) {
   return order;
 }
 
-Drawn draw(const Plc& plc, SpaceDrawing& drawing) {
+Drawn draw(const Graph<3>& plc, SpaceDrawing& drawing) {
   Drawn drawn;
   drawn.points.resize(plc.points.size());
-  std::unordered_map<FeatureId, VertexHandle> handles;
+  std::unordered_map<PointId, VertexHandle> handles;
   for (const std::size_t i : detail::merging_order(plc.points)) {
     const auto near = drawing.points_near(plc.points[i].at);
     drawn.points[i] = near.empty() ? drawing.add_point(plc.points[i].at) : near[0];
@@ -88,12 +82,12 @@ Drawn draw(const Plc& plc, SpaceDrawing& drawing) {
   for (const std::size_t i : drawn.segments) {
     drawing.add_path({handles.at(plc.segments[i].from), handles.at(plc.segments[i].to)});
   }
-  drawn.facets = ranked(plc.facets, [](const auto& f) { return f.polygon.id; });
-  const auto is_moved = [&](FeatureId id) {
+  drawn.facets = ranked(plc.polygons, [](const auto& f) { return f.id; });
+  const auto is_moved = [&](PointId id) {
     return plc.points[drawn.keepers[handles.at(id) - std::size_t{1}]].id != id;
   };
   for (std::size_t rank = 0; rank < drawn.facets.size(); ++rank) {
-    const mesher::Polygon& f = plc.facets[drawn.facets[rank]].polygon;
+    const mesher::Polygon& f = plc.polygons[drawn.facets[rank]];
     const bool is_redrawn = std::any_of(f.loops.begin(), f.loops.end(), [&](const auto& loop) {
       return std::any_of(loop.begin(), loop.end(), is_moved);
     });
@@ -103,16 +97,12 @@ Drawn draw(const Plc& plc, SpaceDrawing& drawing) {
 }
 
 // What a Mesher says of it.
-void require_sound(const Plc& plc, const Options<3>& options) {
+void require_sound(const Graph<3>& plc, const Options<3>& options) {
   std::vector<Point<3>> points;
-  std::vector<FeatureId> ids;
+  std::vector<PointId> ids;
   for (const auto& p : plc.points) points.push_back(p.at), ids.push_back(p.id);
-  std::vector<Segment> segments;
-  for (const auto& s : plc.segments) segments.push_back({s.id, s.from, s.to});
-  std::vector<mesher::Polygon> polygons;
-  for (const auto& f : plc.facets) polygons.push_back(f.polygon);
   try {
-    detail::require_complex(points, segments, polygons, options, ids);
+    detail::require_complex(points, plc.segments, plc.polygons, options, ids);
   } catch (const Error& error) {
     throw Error(
         ErrorCode::too_close,
@@ -120,35 +110,45 @@ void require_sound(const Plc& plc, const Options<3>& options) {
   }
 }
 
-RepairedPlc repair_placed(const PlcFile& file, const std::optional<Box<3>>& given) {
+// Their pieces stand where they do.
+void take_polylines_apart(GraphFile<3>& file) {
+  for (std::size_t i = 0; i < file.graph.polylines.size(); ++i) {
+    const std::size_t points = file.graph.polylines[i].points.size();
+    file.segments.insert(file.segments.end(), points > 0 ? points - 1 : 0, file.polylines[i]);
+  }
+  file.polylines.clear();
+  file.graph = without_polylines(std::move(file.graph));
+}
+
+Repaired<3> repair_placed(const GraphFile<3>& file, const std::optional<Box<3>>& given) {
   require_ids(file);
-  detail::require_attributes(file.plc);
-  const Plc& plc = file.plc;
+  detail::require_attributes(file.graph);
+  const Graph<3>& plc = file.graph;
   if (plc.points.empty()) return {file, {}, 0, 0};
   const detail::MeshBox<3> box = detail::box_of_points(plc.points, file, given);
   SpaceDrawing drawing(box, detail::tolerance_in(box, kSpaceShare, kSpaceUnits));
   const Drawn drawn = draw(plc, drawing);
-  std::vector<FeatureId> names;
-  for (const std::size_t i : drawn.facets) names.push_back(plc.facets[i].polygon.id);
+  std::vector<PolygonId> names;
+  for (const std::size_t i : drawn.facets) names.push_back(plc.polygons[i].id);
   detail::arrange(drawing, names);
-  RepairedPlc repaired = detail::redraw(file, drawing, drawn);
+  Repaired<3> repaired = detail::redraw(file, drawing, drawn);
   const Box<3> domain = given ? *given : snapped_domain<3>(detail::places_of(plc.points));
-  require_sound(repaired.file.plc, {.domain = domain});
+  require_sound(repaired.file.graph, {.domain = domain});
   return repaired;
 }
 
 }  // namespace
 
-RepairedPlc repair(const PlcFile& file, const std::optional<Box<3>>& domain) {
-  PlcFile placed = file;
-  detail::add_positions(file.plc, placed);
-  placed.facets.resize(file.plc.facets.size());
+Repaired<3> repair(const GraphFile<3>& file, const std::optional<Box<3>>& domain) {
+  GraphFile<3> placed = file;
+  detail::add_positions(placed);
+  take_polylines_apart(placed);
   return repair_placed(placed, domain);
 }
 
-RepairedPlc repair(const Plc& plc, const std::optional<Box<3>>& domain) {
-  PlcFile file;
-  file.plc = plc;
+Repaired<3> repair(const Graph<3>& plc, const std::optional<Box<3>>& domain) {
+  GraphFile<3> file;
+  file.graph = plc;
   return repair(file, domain);
 }
 

@@ -166,8 +166,8 @@ bool RadiusEdge<3>::is_large(const VoronoiCell3& cell, int t) const {
   const Point<3>& u = cell.neighbour(ends[0]);
   const Point<3> uxw = cross(cell.neighbour(ends[1]), cell.neighbour(ends[2]));
   const double volume = std::abs(dot(u, uxw)) / 6;
-  const Point<3> middle = centroid(CornersOf<3>{cell.center().p, cell.place(ends[0]),
-                                                cell.place(ends[1]), cell.place(ends[2])});
+  const Point<3> middle = centroid(
+      CornersOf<3>{cell.center().p, cell.place(ends[0]), cell.place(ends[1]), cell.place(ends[2])});
   return volume > limits_->measure(middle) * kLargest;
 }
 

@@ -127,8 +127,7 @@ bool Search<D>::is_amid(const Lattice& lattice, const Node& q) {
 }
 
 template <int D>
-auto Search<D>::in_cell(const MeshBox<D>& box, const Cell<D>& c, const Box<D>& area)
-    -> Candidates {
+auto Search<D>::in_cell(const MeshBox<D>& box, const Cell<D>& c, const Box<D>& area) -> Candidates {
   Candidates found;
   limits_.visit_pitches(pitches_in(area), [&](double pitch) {
     const Lattice lattice(pitch);

@@ -30,9 +30,9 @@ using Candidates = std::vector<Candidate<D>>;
 /// What is to be done about a cell.
 template <int D>
 struct CellPlan {
-  bool parts = false;     // it is too large to be filled at once
+  bool parts = false;        // it is too large to be filled at once
   Candidates<D> candidates;  // else
-  Box<D> looked_at{};     // where the limits matter for this
+  Box<D> looked_at{};        // where the limits matter for this
 };
 /// Cost: O(1) looks at the limits, by the number of pitches beside it.
 template <int D>

@@ -28,9 +28,8 @@ class Facet : public Tile<D> {
         most_(*std::max_element(size.begin(), size.end())),
         first_(size[0]),
         slope_(gradient(at, size)) {
-    const bool finite = std::all_of(slope_.begin(), slope_.end(), [](double x) {
-      return std::isfinite(x);
-    });
+    const bool finite =
+        std::all_of(slope_.begin(), slope_.end(), [](double x) { return std::isfinite(x); });
     if (finite) return;
     slope_ = {};
     first_ = least_;

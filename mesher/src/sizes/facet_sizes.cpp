@@ -45,9 +45,8 @@ void FacetSizes<D>::build(std::size_t begin, std::size_t end) {
     const Box<D> extent = f.extent();
     return extent.lo[axis] + extent.hi[axis];
   };
-  std::nth_element(at(begin), at(middle), at(end), [&](const Facet<D>& a, const Facet<D>& b) {
-    return amid(a) < amid(b);
-  });
+  std::nth_element(at(begin), at(middle), at(end),
+                   [&](const Facet<D>& a, const Facet<D>& b) { return amid(a) < amid(b); });
   build(begin, middle);
   nodes_[me].right = nodes_.size();
   build(middle, end);

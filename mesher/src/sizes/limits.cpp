@@ -54,7 +54,6 @@ double largest_coordinate(const Box<D>& domain) {
   return most;
 }
 
-
 }  // namespace
 
 template <int D>

@@ -117,10 +117,10 @@ class Limits {
   double coordinates_;  // none in the domain is larger
   double widest_;       // spacings from this on have no lattice
   bool any_ = false;
-  std::vector<Part> parts_;                      // the first has all of the domain
+  std::vector<Part> parts_;                         // the first has all of the domain
   std::shared_ptr<const RegionLimits<D>> regions_;  // null: all of this counts everywhere
-  std::vector<double> plateaus_;                 // pitches, ascending
-  std::vector<Band> bands_;                      // ascending; empty if all is constant
+  std::vector<double> plateaus_;                    // pitches, ascending
+  std::vector<Band> bands_;                         // ascending; empty if all is constant
 };
 
 template <int D>

@@ -3,9 +3,9 @@
 // Simplices that are changed give another value, which shares all else with the one before: so an
 // update that is taken back has both.
 //
-// The simplices are in a quadtree (octree), each in the cell around its middle that is two to four times as
-// wide: what is in a cell lies within a quarter of its side around it. Nodes are copied when they
-// are written and another value has them, too.
+// The simplices are in a quadtree (octree), each in the cell around its middle that is two to four
+// times as wide: what is in a cell lies within a quarter of its side around it. Nodes are copied
+// when they are written and another value has them, too.
 //
 // What is said of places and boxes is a function of what simplices of one limit cover, not of the
 // simplices: all tests are exact.
@@ -32,9 +32,9 @@ class RegionLimits {
 
   /// What is said of a simplex.
   struct Limit {
-    bool counts = false;              ///< limits do here
-    double measure = kNone;           ///< the largest of the region; kNone without one
-    std::optional<FeatureId> region;  ///< whose that is
+    bool counts = false;           ///< limits do here
+    double measure = kNone;        ///< the largest of the region; kNone without one
+    std::optional<SeedId> region;  ///< whose that is
     friend bool operator==(const Limit&, const Limit&) = default;
     /// Whether as much is allowed.
     [[nodiscard]] bool as(const Limit& other) const noexcept {

@@ -55,7 +55,7 @@ class SampledSizes final : public detail::FacetSizes<D> {
 };
 
 template <int D>
-void check(const std::vector<SizeSampleOf<D>>& samples) {
+void check(const std::vector<SizeSample<D>>& samples) {
   if (samples.empty()) throw Error(ErrorCode::bad_option, "a background without samples");
   for (const auto& s : samples) {
     if (s.h > 0 && std::isfinite(s.h)) continue;
@@ -66,7 +66,7 @@ void check(const std::vector<SizeSampleOf<D>>& samples) {
 
 // A square or a cube, four times as wide as what the samples lie in; its side is a power of two.
 template <int D>
-Box<D> cube_around(const std::vector<SizeSampleOf<D>>& samples) {
+Box<D> cube_around(const std::vector<SizeSample<D>>& samples) {
   Box<D> box{samples.front().at, samples.front().at};
   for (const auto& s : samples) detail::grow(box, s.at);
   double largest = 0x1p-90, extent = 0;
@@ -85,7 +85,7 @@ Box<D> cube_around(const std::vector<SizeSampleOf<D>>& samples) {
 }
 
 template <int D>
-double nearest_size(const std::vector<SizeSampleOf<D>>& samples, const Point<D>& p) {
+double nearest_size(const std::vector<SizeSample<D>>& samples, const Point<D>& p) {
   const auto nearer = [&](const auto& s, const auto& t) {
     const double ds = detail::squared_distance(s.at, p), dt = detail::squared_distance(t.at, p);
     return ds != dt ? ds < dt : s.at < t.at;
@@ -95,9 +95,9 @@ double nearest_size(const std::vector<SizeSampleOf<D>>& samples, const Point<D>&
 
 // The corners of a box of samples, with the sizes of the samples nearest to them, and the samples.
 template <int D>
-std::vector<SizeSampleOf<D>> with_corners(const std::vector<SizeSampleOf<D>>& samples,
-                                          const Box<D>& box) {
-  std::vector<SizeSampleOf<D>> all;
+std::vector<SizeSample<D>> with_corners(const std::vector<SizeSample<D>>& samples,
+                                        const Box<D>& box) {
+  std::vector<SizeSample<D>> all;
   for (std::size_t c = 0; c < std::size_t{1} << D; ++c) {
     Point<D> p;
     for (std::size_t i = 0; i < D; ++i) p[i] = ((c >> i) & 1) != 0 ? box.hi[i] : box.lo[i];
@@ -110,7 +110,7 @@ std::vector<SizeSampleOf<D>> with_corners(const std::vector<SizeSampleOf<D>>& sa
 // Its corners by their coordinates, the last two in the order that leaves it positively oriented:
 // what is between them is the same to the last bit in whatever order samples are.
 template <int D>
-Facet<D> facet_of(std::array<SizeSampleOf<D>, D + 1> corners) {
+Facet<D> facet_of(std::array<SizeSample<D>, D + 1> corners) {
   const auto before = [](const auto& s, const auto& t) { return s.at < t.at; };
   bool turned = false;
   for (std::size_t i = 0; i <= D; ++i) {
@@ -131,7 +131,7 @@ Facet<D> facet_of(std::array<SizeSampleOf<D>, D + 1> corners) {
 
 template <int D>
 std::shared_ptr<const SizeField<D>> sampled_sizes(
-    const std::vector<std::type_identity_t<SizeSampleOf<D>>>& samples) {
+    const std::vector<std::type_identity_t<SizeSample<D>>>& samples) {
   check<D>(samples);
   const Box<D> cube = cube_around<D>(samples);
   const auto all = with_corners<D>(samples, cube);
@@ -139,20 +139,20 @@ std::shared_ptr<const SizeField<D>> sampled_sizes(
   for (const auto& s : all) places.push_back(s.at);
   const Delaunay<D> triangulation = delaunay<D>(places);
   if (!triangulation.duplicates.empty()) {
-    throw Error(ErrorCode::duplicate_point,
-                "two sizes at " +
-                    detail::place_text(places[triangulation.duplicates.front().point]));
+    throw Error(
+        ErrorCode::duplicate_point,
+        "two sizes at " + detail::place_text(places[triangulation.duplicates.front().point]));
   }
   std::vector<Facet<D>> facets;
   facets.reserve(triangulation.simplices.size());
   for (const auto& simplex : triangulation.simplices) {
-    std::array<SizeSampleOf<D>, D + 1> corners;
+    std::array<SizeSample<D>, D + 1> corners;
     for (std::size_t i = 0; i <= D; ++i) corners[i] = all[simplex[i]];
     facets.push_back(facet_of<D>(corners));
   }
   return std::make_shared<SampledSizes<D>>(cube, std::move(facets));
 }
-template std::shared_ptr<const SizeField<2>> sampled_sizes<2>(const std::vector<SizeSampleOf<2>>&);
-template std::shared_ptr<const SizeField<3>> sampled_sizes<3>(const std::vector<SizeSampleOf<3>>&);
+template std::shared_ptr<const SizeField<2>> sampled_sizes<2>(const std::vector<SizeSample<2>>&);
+template std::shared_ptr<const SizeField<3>> sampled_sizes<3>(const std::vector<SizeSample<3>>&);
 
 }  // namespace mesher

@@ -16,7 +16,8 @@
 //   find_in(cell)           those that may meet a cell; Complete asks these of the surroundings of
 //                           its cell, which it observes as it is
 //   common(f, g, x, store)  what two features share, of several the nearest to x: an edge, a point,
-//                           or nothing; a function of the two alone (both: space/feature_search.hpp)
+//                           or nothing; a function of the two alone (both:
+//                           space/feature_search.hpp)
 #pragma once
 
 #include <algorithm>

@@ -40,7 +40,7 @@ ShortEdge beside_new(const FeaturesBeside& near, const std::optional<Placed>& yi
 }
 
 bool has_two_parts(const ShortEdge& e, const FeatureStore& store) {
-  const double reach2 = kLonely * kLonely * e.length * e.length;
+  const double reach2 = kIsolated * kIsolated * e.length * e.length;
   std::vector<const Edge*> edges;
   std::vector<VertexHandle> points;
   const auto look_at = [&](VertexHandle v) {

@@ -3,17 +3,17 @@
 // A point that yields to a feature, or is near one, leads to edges that may be shorter than the
 // edge that asked for it: a foot is as near as half of the gap ball's radius, which is less than
 // the edge where rho < 2. Beside a feature that is alone, that never has to end: nothing there says
-// how short is short enough. So an edge asks for no such point if it is *lonely*: within kLonely
-// times its length there is no feature that this one has nothing in common with, and no two parts
-// of it (corners, ends, edges) that have nothing in common with each other.
+// how short is short enough. So an edge asks for no such point if it is *isolated*: within
+// kIsolated times its length there is no feature that this one has nothing in common with, and no
+// two parts of it (corners, ends, edges) that have nothing in common with each other.
 //
-// It ends: an edge e that asks is within kBesideEdge e of a feature, and not lonely; so two
-// features that have nothing in common are within (kBesideEdge + kLonely) e of each other. These
+// It ends: an edge e that asks is within kBesideEdge e of a feature, and not isolated; so two
+// features that have nothing in common are within (kBesideEdge + kIsolated) e of each other. These
 // have a least distance, and all vertices that tetrahedra ask for are at least a constant times
 // that apart. (That is no proof for what features ask of each other at small angles.)
 #pragma once
 
-#include "mesher/guard.hpp"
+#include "mesher/reports.hpp"
 #include "space/feature_search.hpp"
 #include "space/placed.hpp"
 
@@ -37,7 +37,7 @@ struct ShortEdge {
 class GuardBall : public PieceBall<ShortEdge> {
  public:
   explicit GuardBall(const ShortEdge& e)
-      : PieceBall(e, e.middle, kLonely * kLonely * e.length * e.length) {}
+      : PieceBall(e, e.middle, kIsolated * kIsolated * e.length * e.length) {}
   template <class F>
   [[nodiscard]] bool has(const F& f) const {
     const bool other =

@@ -10,7 +10,7 @@ namespace mesher::detail {
 
 namespace {
 
-constexpr FeatureId kLeast{std::numeric_limits<std::int64_t>::min()};
+constexpr PolygonId kLeast{std::numeric_limits<std::int64_t>::min()};
 
 LineEdge turned(LineEdge e) {
   std::swap(e.from, e.to);
@@ -41,7 +41,7 @@ KnownParts::KnownParts(const OnFeatures& parts) {
 
 template <class Visit>
 void KnownParts::visit_edges_at(VertexHandle v, Visit&& visit) const {
-  auto it = edges_.lower_bound({v, 0, kLeast, false, 0});
+  auto it = edges_.lower_bound({v, 0, {}, 0});
   for (; it != edges_.end() && it->from == v; ++it) visit(*it);
 }
 
@@ -54,7 +54,7 @@ void KnownParts::list_ends(std::uint32_t edge, VertexHandle start,
     reached.pop_back();
     all.push_back(v);
     visit_edges_at(v, [&](const LineEdge& e) {
-      if (e.feature == edge && seen.insert(e.to).second) reached.push_back(e.to);
+      if (e.record == edge && seen.insert(e.to).second) reached.push_back(e.to);
     });
   }
 }
@@ -64,7 +64,8 @@ KnownParts::News KnownParts::news(const std::vector<VertexHandle>& at,
   std::vector<LineEdge> edges_then, edges_now;
   std::vector<PolygonFace> faces_then, faces_now;
   for (const VertexHandle v : at) {
-    visit_edges_at(v, [&](const LineEdge& e) { edges_then.push_back(e.from < e.to ? e : turned(e)); });
+    visit_edges_at(v,
+                   [&](const LineEdge& e) { edges_then.push_back(e.from < e.to ? e : turned(e)); });
     auto it = faces_.lower_bound({{v, 0, 0}, kLeast});
     for (; it != faces_.end() && it->corners[0] == v; ++it) faces_then.push_back(*it);
   }

@@ -33,8 +33,8 @@ class KnownParts {
   /// Adds the ends of the parts of an edge to `all`, from `start`, one of them, on.
   /// Cost: O(log) for each.
   void list_ends(std::uint32_t edge, VertexHandle start, std::vector<VertexHandle>& all) const;
-  /// The difference at these vertices (ascending): `now` has all parts at them, and may have others.
-  /// Cost: O(parts log parts).
+  /// The difference at these vertices (ascending): `now` has all parts at them, and may have
+  /// others. Cost: O(parts log parts).
   [[nodiscard]] News news(const std::vector<VertexHandle>& at, const OnFeatures& now) const;
   /// Requires: `news` is of this.
   void apply(News& news) noexcept;

@@ -26,12 +26,14 @@ class Standings {
   explicit Standings(const Labelled& labelled) : labelled_(labelled) {}
 
   [[nodiscard]] Polygons with_edge(EdgeHandle e) {
-    return find(at_edge_, e, [&](const PolygonsAt& all, auto&& add) { all.visit_with_edge(e, add); });
+    return find(at_edge_, e,
+                [&](const PolygonsAt& all, auto&& add) { all.visit_with_edge(e, add); });
   }
   /// Those that v lies on.
   [[nodiscard]] Polygons polygons(VertexHandle v) {
     const Role role = labelled_.role(v);
-    if (const PolygonHandle f = polygon_of(role)) return {&labelled_.features.polygons()[f].self, 1};
+    if (const PolygonHandle f = polygon_of(role))
+      return {&labelled_.features.polygons()[f].self, 1};
     if (role.on != 0) return with_edge(role.on);
     if (!labelled_.vertices[v].input) return {};
     return find(at_point_, v,
@@ -150,13 +152,13 @@ class PartFinder {
   }
 
   [[nodiscard]] LineEdge named(VertexHandle low, VertexHandle high, EdgeHandle e) {
-    if (const auto id = labelled_.names.segment(e)) return {low, high, *id, false, e};
-    std::optional<FeatureId> least;
+    if (const auto id = labelled_.names.segment(e)) return {low, high, *id, e};
+    std::optional<PolygonId> least;
     for (const PolygonHandle f : standings_.with_edge(e)) {
-      const FeatureId id = labelled_.names.polygon(f);
+      const PolygonId id = labelled_.names.polygon(f);
       if (!least || id < *least) least = id;
     }
-    return {low, high, least.value_or(FeatureId{}), true, e};
+    return {low, high, least.value_or(PolygonId{}), e};
   }
 
   const Labelled& labelled_;

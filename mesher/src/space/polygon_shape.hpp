@@ -67,8 +67,8 @@ struct Deviation {
 [[nodiscard]] bool contains(const Polygon& f, const Point<2>& uv);
 [[nodiscard]] bool loop_contains(const Polygon& f, std::size_t loop, const Point<2>& uv);
 
-/// Where in the frame it is as far from the feet of all three, in any order. Requires: these are not
-/// on a line.
+/// Where in the frame it is as far from the feet of all three, in any order. Requires: these are
+/// not on a line.
 [[nodiscard]] Point<2> centre_in_frame(const Polygon& f, const std::array<Point<3>, 3>& places);
 
 /// The direction, in the plane, of length 1, into f across its edge from the i-th corner on.

@@ -26,7 +26,7 @@ std::vector<ByFeature> features_by_vertices(const VertexSearch<3>& vertices,
   vertices.pool().for_each([&](const Vertex<3>& v) {
     if (v.alive && v.on_segment) by_handle[vertices.role(v).on].push_back(v.p);
   });
-  std::map<std::pair<FeatureId, bool>, Places> by_name;  // whether it is a segment
+  std::map<std::pair<std::int64_t, bool>, Places> by_name;  // whether it is a segment
   for (const auto& [on, places] : by_handle) {
     const Role role{{}, on};
     const EdgeHandle e = edge_of(role);
@@ -34,14 +34,15 @@ std::vector<ByFeature> features_by_vertices(const VertexSearch<3>& vertices,
     if (!(e != 0 ? store.edges()[e].alive : store.polygons()[f].alive)) continue;
     const Feature feature = e != 0 ? Feature(store.edges()[e]) : Feature(store.polygons()[f]);
     const bool is_segment = e != 0 && names.segment(e).has_value();
-    Places& all = by_name[{named(feature, names, store).feature.id, is_segment}];
+    Places& all = by_name[{named(feature, names, store).feature.number, is_segment}];
     all.insert(all.end(), places.begin(), places.end());
   }
   std::vector<ByFeature> features;
   for (auto& [key, places] : by_name) {
     if (places.size() < 2) continue;
     const auto [id, is_segment] = key;
-    const mesher::Feature name = is_segment ? line_named(id) : polygon_named(id);
+    const mesher::Feature name =
+        is_segment ? mesher::Feature(LineId{id}) : mesher::Feature(PolygonId{id});
     features.push_back({{text_of(name), name}, std::move(places)});
   }
   std::stable_sort(features.begin(), features.end(), [](const ByFeature& a, const ByFeature& b) {

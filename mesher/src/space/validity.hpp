@@ -94,10 +94,10 @@ template <class S>
 /// What features in space are called.
 class SpaceNames {
  public:
-  [[nodiscard]] virtual FeatureId point(VertexHandle v) const = 0;
+  [[nodiscard]] virtual PointId point(VertexHandle v) const = 0;
   /// Nothing: no segment of the input.
-  [[nodiscard]] virtual std::optional<FeatureId> segment(EdgeHandle e) const = 0;
-  [[nodiscard]] virtual FeatureId polygon(PolygonHandle f) const = 0;
+  [[nodiscard]] virtual std::optional<LineId> segment(EdgeHandle e) const = 0;
+  [[nodiscard]] virtual PolygonId polygon(PolygonHandle f) const = 0;
 
  protected:
   ~SpaceNames() = default;
@@ -110,7 +110,7 @@ class SpaceNames {
 /// Throws: Error (bad_polygon, not_flat) if a polygon, whose corners are different in each loop, is
 /// none: if it has no area, is not flat, has a loop outside the first or twice the same edge, or if
 /// what it declares to lie in it does not.
-void require_shape(const Polygon& f, FeatureId id, const FeatureStore& store);
+void require_shape(const Polygon& f, PolygonId id, const FeatureStore& store);
 
 namespace validity {
 

@@ -5,13 +5,12 @@
 #include "geometry/input_point.hpp"
 #include "sets/make_set.hpp"
 #include "space/validity.hpp"
+#include "text/id_text.hpp"
 #include "text/text.hpp"
 
 namespace mesher::detail {
 
 namespace {
-
-std::string id_text(FeatureId id) { return std::to_string(static_cast<std::int64_t>(id)); }
 
 struct Words {
   ErrorCode code;
@@ -39,11 +38,11 @@ Words words_of(SpaceConflict::Kind kind) {
   return {ErrorCode::overlapping_polygons, " overlaps ", ""};
 }
 
-[[noreturn]] void fail_polygon(ErrorCode code, FeatureId id, const std::string& what) {
-  throw Error(code, "polygon " + id_text(id) + " " + what, {}, {polygon_named(id)});
+[[noreturn]] void fail_polygon(ErrorCode code, PolygonId id, const std::string& what) {
+  throw Error(code, "polygon " + id_text(id) + " " + what, {}, {mesher::Feature(id)});
 }
 
-void require_loops_inside(const Polygon& f, FeatureId id) {
+void require_loops_inside(const Polygon& f, PolygonId id) {
   for (std::size_t loop = 1; loop < f.loop_end.size(); ++loop) {
     const std::uint32_t i = f.loop_begin(loop);
     const Point<3> middle = scaled(0.5, plus(f.places[i], f.places[f.next(i)]));
@@ -53,7 +52,7 @@ void require_loops_inside(const Polygon& f, FeatureId id) {
   }
 }
 
-void require_edges_once(const Polygon& f, FeatureId id, const FeatureStore& store) {
+void require_edges_once(const Polygon& f, PolygonId id, const FeatureStore& store) {
   std::vector<EdgeHandle> edges = f.edges;
   std::sort(edges.begin(), edges.end());
   const auto twice = std::adjacent_find(edges.begin(), edges.end());
@@ -64,7 +63,7 @@ void require_edges_once(const Polygon& f, FeatureId id, const FeatureStore& stor
       "has the edge from " + place_text(e.place_a) + " to " + place_text(e.place_b) + " twice");
 }
 
-void require_declared_inside(const Polygon& f, FeatureId id, const FeatureStore& store) {
+void require_declared_inside(const Polygon& f, PolygonId id, const FeatureStore& store) {
   const auto require = [&](const Point<3>& x, const std::string& what, const Point<3>& at) {
     if (contains(f, x)) return;
     fail_polygon(ErrorCode::bad_polygon, id,
@@ -87,20 +86,21 @@ void require_declared_inside(const Polygon& f, FeatureId id, const FeatureStore&
 
 NamedFeature named(const Feature& f, const SpaceNames& names, const FeatureStore& store) {
   if (f.kind() == Feature::Kind::point) {
-    const mesher::Feature point = point_named(names.point(f.handle()));
+    const mesher::Feature point = mesher::Feature(names.point(f.handle()));
     return {text_of(point), point};
   }
   if (f.kind() == Feature::Kind::polygon) {
-    const mesher::Feature polygon = polygon_named(names.polygon(f.handle()));
+    const mesher::Feature polygon = mesher::Feature(names.polygon(f.handle()));
     return {text_of(polygon), polygon};
   }
-  if (const auto id = names.segment(f.handle())) return {text_of(line_named(*id)), line_named(*id)};
-  std::optional<FeatureId> least;
+  if (const auto id = names.segment(f.handle()))
+    return {text_of(mesher::Feature(*id)), mesher::Feature(*id)};
+  std::optional<PolygonId> least;
   store.polygons().for_each([&](const Polygon& g) {
     if (!g.alive || !g.has_edge(f.handle())) return;
-    if (const FeatureId id = names.polygon(g.self); !least || id < *least) least = id;
+    if (const PolygonId id = names.polygon(g.self); !least || id < *least) least = id;
   });
-  const mesher::Feature polygon = polygon_named(least.value_or(FeatureId{}));
+  const mesher::Feature polygon = mesher::Feature(least.value_or(PolygonId{}));
   return {"an edge of " + text_of(polygon), polygon};
 }
 
@@ -115,7 +115,7 @@ void fail(const SpaceConflict& c, const SpaceNames& names, const FeatureStore& s
               {}, {one.feature, other.feature}, {position_of(c.at)});
 }
 
-void require_shape(const Polygon& f, FeatureId id, const FeatureStore& store) {
+void require_shape(const Polygon& f, PolygonId id, const FeatureStore& store) {
   if (!has_area(f)) {
     fail_polygon(ErrorCode::bad_polygon, id,
                  "has no area; its first corner is at " + place_text(f.places.front()));

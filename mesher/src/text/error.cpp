@@ -126,8 +126,7 @@ std::string text_of(const Feature& feature) {
   static constexpr std::array<const char*, 6> kNames{"",         "point ", "segment ",
                                                      "polygon ", "hole ",  "region "};
   if (feature.kind == FeatureKind::none) return {};
-  return kNames[static_cast<std::size_t>(feature.kind)] +
-         std::to_string(static_cast<std::int64_t>(feature.id));
+  return kNames[static_cast<std::size_t>(feature.kind)] + std::to_string(feature.number);
 }
 
 Error::Error(ErrorCode code, std::string message, FileLocation location,

@@ -9,18 +9,19 @@
 
 #include "demo.hpp"
 #include "mesher/check.hpp"
-#include "mesher/edit_script.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/io.hpp"
+#include "mesher/extra/edit_script.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/mesher.hpp"
-#include "mesher/svg.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 
 namespace demo {
 namespace {
 
-using mesher::FeatureId;
 using mesher::Mesh;
 using mesher::Point;
+using mesher::PointId;
 
 constexpr int kUpdates = 1000;
 constexpr std::uint64_t kSeed = 2026;
@@ -28,9 +29,10 @@ constexpr std::uint64_t kSeed = 2026;
 /// The points that are in the mesh, and the edits that change both.
 class World {
  public:
-  World(const mesher::PointFile<2>& file, const mesher::Options<2>& options)
-      : ids_(file.ids), points_(file.points), mesher_(options), random_(kSeed) {
-    mesher_.insert(ids_, points_);
+  World(const mesher::Graph<2>& cities, const mesher::Options<2>& options)
+      : points_(mesher::places_of(cities)), mesher_(options), random_(kSeed) {
+    for (const auto& city : cities.points) ids_.push_back(city.id);
+    mesher_.insert(cities);
     mesher_.update();
     next_id_ = static_cast<std::int64_t>(*std::max_element(ids_.begin(), ids_.end())) + 1;
   }
@@ -46,7 +48,7 @@ class World {
         insert(removed_id_, removed_);
         break;
       case 2:
-        insert(FeatureId{next_id_++}, anywhere());
+        insert(PointId{next_id_++}, anywhere());
         break;
       case 3:
         move(random_.below(ids_.size()));
@@ -66,17 +68,17 @@ class World {
     const Point<2> q = *std::min_element(
         points_.begin(), points_.end(),
         [&](const Point<2>& a, const Point<2>& b) { return distance(a) < distance(b); });
-    insert(FeatureId{next_id_++}, {p[0] + (q[0] - p[0]) / 3, p[1] + (q[1] - p[1]) / 3});
+    insert(PointId{next_id_++}, {p[0] + (q[0] - p[0]) / 3, p[1] + (q[1] - p[1]) / 3});
     return mesher_.update();
   }
 
   [[nodiscard]] Mesh<2> mesh() const { return mesher_.mesh(); }
   [[nodiscard]] Mesh<2> mesh_from_scratch() const {
-    return mesher::mesh_statically<2>(points_, mesher_.options(), ids_);
+    return mesher::mesh(mesher_.input(), mesher_.options()).mesh;
   }
 
  private:
-  void insert(FeatureId id, const Point<2>& p) {
+  void insert(PointId id, const Point<2>& p) {
     mesher_.insert(id, p);
     ids_.push_back(id);
     points_.push_back(p);
@@ -101,18 +103,18 @@ class World {
     return p;
   }
 
-  std::vector<FeatureId> ids_;
+  std::vector<PointId> ids_;
   std::vector<Point<2>> points_;
   mesher::Mesher<2> mesher_;
   mesher::SplitMix64 random_;
   std::int64_t next_id_ = 0;
-  FeatureId removed_id_{};
+  PointId removed_id_{};
   Point<2> removed_{};
 };
 
 // The triangles that came or went, with as much again around them.
-mesher::SvgView view_of(const mesher::Change<2>& change) {
-  mesher::SvgView view{{change.vertices_added.front(), change.vertices_added.front()}, {}};
+mesher::SvgView<2> view_of(const mesher::Change<2>& change) {
+  mesher::SvgView<2> view{{change.vertices_added.front(), change.vertices_added.front()}, {}};
   auto& [lo, hi] = view.window;
   for (const auto* triangles : {&change.simplices_added, &change.simplices_removed}) {
     for (const auto& triangle : *triangles) {
@@ -129,7 +131,7 @@ mesher::SvgView view_of(const mesher::Change<2>& change) {
 }
 
 void draw(mesher::OutputFiles& files, const std::string& path, const Mesh<2>& mesh,
-          mesher::SvgView view, const std::vector<std::array<Point<2>, 3>>& coloured) {
+          mesher::SvgView<2> view, const std::vector<std::array<Point<2>, 3>>& coloured) {
   view.coloured = coloured;
   mesher::write_svg(mesh, view, files.open(path));
 }
@@ -143,13 +145,14 @@ void print_mesh(const Mesh<2>& mesh) {
 }  // namespace
 
 void show_cities(const std::string& path, const std::string& folder, mesher::OutputFiles& files) {
-  const auto file = mesher::read_points<2>(path);
-  if (file.points.empty()) throw mesher::Error(mesher::ErrorCode::bad_option, "no points", {path});
+  const mesher::Graph<2> cities = mesher::read<2>(path).graph;
+  if (cities.points.empty())
+    throw mesher::Error(mesher::ErrorCode::bad_option, "no points", {path});
   mesher::Options<2> options;
-  options.domain = mesher::snapped_domain<2>(file.points);
-  World world(file, options);
+  options.domain = mesher::snapped_domain<2>(places_of(cities));
+  World world(cities, options);
   const Mesh<2> first = world.mesh();
-  std::printf("%s: %zu points\n", path.c_str(), file.points.size());
+  std::printf("%s: %zu points\n", path.c_str(), cities.points.size());
   print_mesh(first);
   const double scratch = seconds_of([&] { (void)world.mesh_from_scratch(); });
   std::vector<double> seconds;
@@ -161,7 +164,7 @@ void show_cities(const std::string& path, const std::string& folder, mesher::Out
   const Mesh<2> after = world.mesh();
   if (after != world.mesh_from_scratch()) throw std::logic_error("the mesh differs from scratch");
   std::printf("  after all updates the mesh is that from scratch, bit for bit\n");
-  mesher::open_mesh(files, folder + "/cities.svg")(first);
+  mesher::open_mesh<2>(files, folder + "/cities.svg")(first);
   draw(files, folder + "/city_before.svg", before, view_of(change), change.simplices_removed);
   draw(files, folder + "/city_after.svg", after, view_of(change), change.simplices_added);
 }

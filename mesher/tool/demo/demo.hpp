@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesher/mesher.hpp"
-#include "mesher/output_files.hpp"
+#include "mesher/write.hpp"
 
 namespace demo {
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "demo.hpp"
-#include "mesher/edit_script.hpp"
 #include "mesher/error.hpp"
+#include "mesher/extra/edit_script.hpp"
 
 namespace demo {
 

@@ -38,10 +38,10 @@ namespace sac {
 
 /// When a posted call runs: by bucket, phase, colour, then order; ties by the call's arguments.
 struct Key {
-  int bucket = 0;            ///< -32768 .. 32767, smallest first
-  unsigned phase = 0;        ///< 0 .. 15
-  unsigned colour = 0;       ///< 0 .. 4095
-  std::uint64_t order = 0;   ///< canonical order of the label
+  int bucket = 0;           ///< -32768 .. 32767, smallest first
+  unsigned phase = 0;       ///< 0 .. 15
+  unsigned colour = 0;      ///< 0 .. 4095
+  std::uint64_t order = 0;  ///< canonical order of the label
 
   /// (bucket, phase, colour) as one number. Throws: UsageError if out of range.
   [[nodiscard]] std::uint32_t rank() const {
@@ -91,8 +91,8 @@ class Agenda final : public WorkQueue {
   Agenda(Engine& engine, std::string name);
   ~Agenda() override { engine_.remove_structure(id_); }
 
-  /// Asks for the call f(scope, args...) at `key`, on behalf of the running call. Throws: UsageError
-  /// as (3) and (4) say.
+  /// Asks for the call f(scope, args...) at `key`, on behalf of the running call. Throws:
+  /// UsageError as (3) and (4) say.
   template <auto F, class... Args>
   void post(Scope& s, const Key& key, Args... args) {
     core_.guarded([&] {
@@ -230,12 +230,12 @@ class Agenda final : public WorkQueue {
   std::string name_;
   std::uint8_t id_;
   State state_ = State::open;
-  std::vector<Handle> unposted_;  // calls that waited when they lost a post; some more than once
+  std::vector<Handle> unposted_;   // calls that waited when they lost a post; some more than once
   bool unposted_unknown_ = false;  // and others: memory was short
   std::map<std::uint32_t, std::vector<Entry>> waiting_;  // by rank
   DueCalls<Entry> due_;  // calls that wait, too: of the class that the drain runs
   Handle chained_ = 0;   // and these: since their drain has gone
-  Index placed_;        // what drain_call_ has run, or is to run
+  Index placed_;         // what drain_call_ has run, or is to run
   std::uint64_t waiting_calls_ = 0;
   Handle drain_call_ = 0;
   Handle running_ = 0;  // the posted call that the drain runs

@@ -145,8 +145,8 @@ class Arena {
 
  private:
   static constexpr std::size_t kSmall = 129;  // size classes of up to 128 granules: 1 KiB
-  // Memory never used before is written first, and what is only written the processor does not fetch
-  // by itself: a few cache lines ahead of what is handed out.
+  // Memory never used before is written first, and what is only written the processor does not
+  // fetch by itself: a few cache lines ahead of what is handed out.
   static constexpr Handle kFetchAhead = 512 / kGranule;
 
   struct Run {  // of free granules

@@ -59,7 +59,7 @@ struct Memory {
   std::size_t calls_and_edges_held = 0;
   std::size_t time_stamps = 0;  // groups; the stamps themselves lie in the calls
   std::size_t memo_table = 0;
-  std::size_t queue = 0;    // and what else a propagation needs
+  std::size_t queue = 0;  // and what else a propagation needs
   std::size_t agendas = 0;
   std::size_t versions = 0;  // order of modifiables that are written more than once
   std::size_t outside = 0;   // list of the outside's objects, and how to take edits back
@@ -134,8 +134,8 @@ class Engine {
   /// Throws: what the program throws, and Cancelled, with the edits undone.
   /// Cost: calls run again, plus O(log) of the queue for each.
   Counts propagate() { return propagate(nullptr); }
-  /// The same; when all is up to date, and while it can still be undone, last() looks at the result.
-  /// If it throws, the edits are undone as if the program had thrown.
+  /// The same; when all is up to date, and while it can still be undone, last() looks at the
+  /// result. If it throws, the edits are undone as if the program had thrown.
   Counts propagate(const std::function<void()>& last);
 
   /// A new work queue, owned by the engine.
@@ -166,8 +166,8 @@ class Engine {
   void set_audit(bool on) noexcept { core_.audit_ = on; }
   [[nodiscard]] const AuditReport& audit() const noexcept { return core_.report_; }
 
-  /// From now on the trace holds what calls say by Scope::weigh: 16 bytes each time. To be asked for
-  /// before the first run: calls that are there have no weight until they run again.
+  /// From now on the trace holds what calls say by Scope::weigh: 16 bytes each time. To be asked
+  /// for before the first run: calls that are there have no weight until they run again.
   void record_weights();
   [[nodiscard]] bool records_weights() const noexcept { return weights_ != nullptr; }
   /// What `call` has said by Scope::weigh, in all. Cost: O(its edges).
@@ -235,9 +235,11 @@ class Engine {
   /// `source` tells observers which modifiable it is about; 0: none.
   void doubt(Call& call, Handle source = 0) noexcept { core_.doubt(call, source); }
   /// `outer` did something behind children of its own (Edge::behind) that `inner`, which is new to
-  /// it, should have seen or not: if it has settled and `inner` lies in its interval, it runs again,
-  /// so that this is refused or not as in a first run.
-  void rerun_if_around(Call& outer, const Call& inner) noexcept { core_.rerun_if_around(outer, inner); }
+  /// it, should have seen or not: if it has settled and `inner` lies in its interval, it runs
+  /// again, so that this is refused or not as in a first run.
+  void rerun_if_around(Call& outer, const Call& inner) noexcept {
+    core_.rerun_if_around(outer, inner);
+  }
   [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
     return core_.precedes(a, b);
   }
@@ -327,7 +329,7 @@ class Engine {
   std::unique_ptr<Weights> weights_;  // null: not recorded
   std::vector<std::unique_ptr<Agenda>> agendas_;
   Registry<OutsideType> outside_types_;
-  std::vector<Handle> outside_;  // objects of the outside, by their heads
+  std::vector<Handle> outside_;   // objects of the outside, by their heads
   std::vector<Handle> released_;  // those to be freed when the edits are final
   std::vector<detail::Undo> rollback_;
 };

@@ -109,7 +109,7 @@ concept PrintsItself = requires(std::ostream& out, const T& value) {
 /// Pointers that a stream would print as an address.
 template <class T>
 inline constexpr bool kPointerToObject =
-    std::is_pointer_v<T> && std::is_convertible_v<T, const void*> && !PrintsItself<T>;
+    std::is_pointer_v<T>&& std::is_convertible_v<T, const void*> && !PrintsItself<T>;
 
 template <class T>
 concept Printable = requires(std::ostream& out, const T& value) {

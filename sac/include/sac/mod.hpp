@@ -5,9 +5,9 @@
 //
 // What is the same: a new value that is the same as the old one disturbs nobody. By default that is
 // ==, which must mean that one may stand for the other everywhere; for floating-point numbers it is
-// equality of their bits (so -0.0 is not 0.0, and a NaN is itself). A `Same` of one's own that takes
-// more for the same keeps whichever value was there first: then results are the same as those of a
-// run from scratch only in the sense of that Same. A roll-back restores the very values.
+// equality of their bits (so -0.0 is not 0.0, and a NaN is itself). A `Same` of one's own that
+// takes more for the same keeps whichever value was there first: then results are the same as those
+// of a run from scratch only in the sense of that Same. A roll-back restores the very values.
 //
 // Handles. A modifiable lives as long as what it lies in: until its release, or until no call makes
 // it any more. With SAC_CHECKS a handle knows its engine and its modifiable, and to use one that is
@@ -39,7 +39,8 @@ class Mod {
   /// The modifiable at a handle that is known to be one.
   explicit Mod(Handle head) : head_(head) {}
   /// Requires: the cell lies in an object that an engine made.
-  Mod(const Cell<T, Same>& cell) : head_(Arena::locate(&cell)), stamp_(cell.version_.stamp_in_arena()) {}
+  Mod(const Cell<T, Same>& cell)
+      : head_(Arena::locate(&cell)), stamp_(cell.version_.stamp_in_arena()) {}
   [[nodiscard]] Handle head() const noexcept { return head_; }
   [[nodiscard]] detail::Stamp stamp() const noexcept { return stamp_; }
   explicit operator bool() const noexcept { return head_ != 0; }
@@ -108,9 +109,10 @@ Mod<T, Same> Engine::input(T value) {
 
 template <class T, class Same>
 void Engine::set(Mod<T, Same> mod, std::type_identity_t<T> value) {
-  static_assert(std::is_copy_constructible_v<T>,
-                "set keeps a copy of the old value, to take the edit back: a value that only moves is "
-                "written by calls; hold it by a shared pointer");
+  static_assert(
+      std::is_copy_constructible_v<T>,
+      "set keeps a copy of the old value, to take the edit back: a value that only moves is "
+      "written by calls; hold it by a shared pointer");
   begin_edit("set");
   mods_->require_live(mod.head(), mod.stamp(), "set");
   if (!mods_->is_input(mod.head())) {
@@ -121,9 +123,8 @@ void Engine::set(Mod<T, Same> mod, std::type_identity_t<T> value) {
   }
   const T& old = mods_->template value<T>(mod.head());
   if (detail::same<Same>(old, value)) return;
-  on_rollback([this, head = mod.head(), old]() mutable {
-    mods_->change_input(head, std::move(old));
-  });
+  on_rollback(
+      [this, head = mod.head(), old]() mutable { mods_->change_input(head, std::move(old)); });
   mods_->change_input(mod.head(), std::move(value));
 }
 

@@ -33,10 +33,10 @@ struct Event {
 
   Kind kind;
   const Call* call = nullptr;
-  Handle source = 0;           // modifiable; 0: none, or something else than a modifiable
-  const Edge* seen = nullptr;  // of invalidated: the observation, if the structure said which
+  Handle source = 0;              // modifiable; 0: none, or something else than a modifiable
+  const Edge* seen = nullptr;     // of invalidated: the observation, if the structure said which
   const char* message = nullptr;  // of failed and roll_back_started: what the exception says
-  const Call* by = nullptr;    // the running call, or the poster; null: the outside
+  const Call* by = nullptr;       // the running call, or the poster; null: the outside
 };
 
 /// Gets an engine's events (Engine::set_observer). Calls and edges are good while it is told.

@@ -2,9 +2,9 @@
 //
 // A traced function is a free function or a captureless object F with
 //     void f(sac::Scope& s, Args... args)
-// that depends on nothing but its arguments and what it reads through `s`. What it does comes before
-// what its children do. If anything that it asks for throws, it fails: it may clean up, but not go
-// on as if that had not happened.
+// that depends on nothing but its arguments and what it reads through `s`. What it does comes
+// before what its children do. If anything that it asks for throws, it fails: it may clean up, but
+// not go on as if that had not happened.
 #pragma once
 
 #include <type_traits>
@@ -54,7 +54,8 @@ class Scope {
   /// Says that the running call does `n` steps, elements of a chunk that it looks at, say: what a
   /// count of calls does not show. A branch, unless weights are recorded (Engine::record_weights).
   void weigh(std::uint64_t n) {
-    if (core_.engine().records_weights()) [[unlikely]] record_weight(n);
+    if (core_.engine().records_weights()) [[unlikely]]
+      record_weight(n);
   }
 
   /// Makes a child call, or reuses an equal one ahead in the interval that runs again. If F returns
@@ -174,9 +175,8 @@ class Scope {
   E& attach(std::uint8_t structure, std::uint8_t kind, std::size_t extra) {
     static_assert(std::is_base_of_v<Edge, E> && std::is_trivially_destructible_v<E>);
     SAC_EXPECTS(sizeof(E) + extra < 0xffff * Arena::kGranule);
-    return core_.guarded([&]() -> E& {
-      return static_cast<E&>(core_.attach(structure, kind, sizeof(E) + extra));
-    });
+    return core_.guarded(
+        [&]() -> E& { return static_cast<E&>(core_.attach(structure, kind, sizeof(E) + extra)); });
   }
 
   Core& core_;

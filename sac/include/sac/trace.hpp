@@ -42,8 +42,8 @@ struct Function {
   const void* (*arguments)(const Call&) = nullptr;
   std::strong_ordering (*compare)(const Call&, const Call&) = nullptr;  // null unless posted
   std::uint32_t (*hash)(const Call&) noexcept = nullptr;
-  void (*print)(const Call&, std::ostream&) = nullptr;     // the arguments, for people
-  void (*label)(const Call&, LabelSink&) = nullptr;        // the arguments' names in all runs
+  void (*print)(const Call&, std::ostream&) = nullptr;         // the arguments, for people
+  void (*label)(const Call&, LabelSink&) = nullptr;            // the arguments' names in all runs
   void (*print_result)(const Call&, std::ostream&) = nullptr;  // null unless there is one
   void (*label_result)(const Call&, LabelSink&) = nullptr;     // null unless there is one
 };
@@ -73,13 +73,13 @@ struct Call : TimeNode {
   std::uint16_t function_number = 0;
   Life life : 2 = Life::placed;
   Validity validity : 2 = Validity::valid;
-  std::uint8_t round : 1 = 0;  // changes with each execution; edges of another are of last time
-  bool posted : 1 = false;     // runs from an agenda; a Slot lies behind the head
+  std::uint8_t round : 1 = 0;   // changes with each execution; edges of another are of last time
+  bool posted : 1 = false;      // runs from an agenda; a Slot lies behind the head
   std::uint8_t work_queue = 0;  // of a posted call: the number of its agenda as a structure
-  Handle end = 0;              // end stamp; 0: a leaf
+  Handle end = 0;               // end stamp; 0: a leaf
   union {
-    Handle edges = 0;     // what it did and saw, oldest first
-    Handle next_waiting;  // of a posted call that waits for another drain
+    Handle edges = 0;              // what it did and saw, oldest first
+    Handle next_waiting;           // of a posted call that waits for another drain
     std::uint32_t place_in_class;  // of one that waits for the first
   };
   std::uint32_t queue = 0;  // 1 + position in the propagation queue; 0: not there
@@ -123,7 +123,7 @@ struct Edge {
   std::uint8_t kind : 6 = 0;    // the structure's own
   std::uint8_t behind : 1 = 0;  // the call had had children when it was made or repeated
   std::uint8_t round : 1 = 0;   // the call's when it was made or repeated
-  std::uint16_t granules = 0;  // its size
+  std::uint16_t granules = 0;   // its size
 };
 static_assert(sizeof(Edge) == 8);
 

@@ -118,8 +118,8 @@ void Agenda::begin_drain(Scope& s) {
 
 // A post counts for a drain if it comes before. One of a running call's of last time does not count
 // until that repeats it. Who posts later, in a trace of last time, will be discarded, or must be
-// refused: it runs again. So does who encloses the drain and has posted behind some of its children:
-// if that was behind this one, it is refused; if not, the post counts.
+// refused: it runs again. So does who encloses the drain and has posted behind some of its
+// children: if that was behind this one, it is refused; if not, the post counts.
 void Agenda::set_later_posts_aside(const Call& drain) {
   for (const auto& [rank, entries] : waiting_) {
     for (const Entry& entry : entries) {

@@ -4,12 +4,15 @@
 namespace sac {
 
 Agenda::Agenda(Engine& engine, std::string name)
-    : engine_(engine), core_(engine.core()), name_(std::move(name)),
+    : engine_(engine),
+      core_(engine.core()),
+      name_(std::move(name)),
       id_(engine.add_structure(*this)) {}
 
 void Agenda::fail_irreflexive(const Function& function) {
-  throw UsageError("an argument of " + std::string(function.name) +
-                   " does not equal itself (a NaN?): a posted call with it has no place in the order");
+  throw UsageError(
+      "an argument of " + std::string(function.name) +
+      " does not equal itself (a NaN?): a posted call with it has no place in the order");
 }
 
 void Agenda::post_call(Scope& s, const Key& key, const Asked& asked) {
@@ -93,9 +96,12 @@ void Agenda::require_key(const Call& call, const Key& key) const {
 // Whether the turn of `posted` is still to come.
 bool Agenda::in_future(const Call& posted) const {
   switch (state_) {
-    case State::open: return true;
-    case State::draining: return running_ != 0 && before(*core_.at<Call>(running_), posted);
-    case State::drained: break;
+    case State::open:
+      return true;
+    case State::draining:
+      return running_ != 0 && before(*core_.at<Call>(running_), posted);
+    case State::drained:
+      break;
   }
   if (core_.lies_ahead(*core_.at<Call>(drain_call_))) return true;
   return posted.waiting() ? core_.is_ahead(stamp_before(posted)) : core_.lies_ahead(posted);
@@ -109,7 +115,8 @@ void Agenda::require_future(const Call& poster, const Call& posted) const {
 
 void Agenda::require_unused() const {
   if (waiting_calls_ == 0 && placed_.empty() && drain_call_ == 0) return;
-  throw UsageError("release: agenda '" + name_ + "' is in use: calls are posted on it, or one drains it");
+  throw UsageError("release: agenda '" + name_ +
+                   "' is in use: calls are posted on it, or one drains it");
 }
 
 // --- The outside -----------------------------------------------------------------------------
@@ -145,8 +152,7 @@ void Agenda::drop_outside(Handle post) noexcept {
 
 // One of the outside's posts of the call.
 Handle Agenda::require_posted(const Asked& asked) const {
-  const Handle h =
-      core_.find_posted(asked, [&](const Call& c) { return c.work_queue == id_; });
+  const Handle h = core_.find_posted(asked, [&](const Call& c) { return c.work_queue == id_; });
   Handle post = h != 0 ? Slot::of(*core_.at<Call>(h)).posts : 0;
   while (post != 0 && post_at(post).poster != 0) post = post_at(post).next_post;
   if (post != 0) return post;

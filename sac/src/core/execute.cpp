@@ -1,8 +1,8 @@
 // Executing a call: its body, its tail calls, settling, and the end of its interval.
 #include <exception>
 
-#include "sac/internal/core.hpp"
 #include "sac/engine.hpp"
+#include "sac/internal/core.hpp"
 #include "sac/scope.hpp"
 
 namespace sac {
@@ -34,12 +34,14 @@ void Core::run_body(Activation& a, Handle call) {
   c.round ^= 1;
   c.validity = Validity::valid;
   c.life = Life::running;
-  if (counts_.executed >= progress_at_) [[unlikely]] report_progress();
+  if (counts_.executed >= progress_at_) [[unlikely]]
+    report_progress();
   ++counts_.executed;
   note(Event::Kind::executed, &c);
   Scope scope(*this);
   c.function().execute(scope, c);
-  if (a.failed) [[unlikely]] fail_caught(a);
+  if (a.failed) [[unlikely]]
+    fail_caught(a);
   if (!queue_.empty()) require_children_unmoved(a);
   settle(a);
 }
@@ -82,9 +84,9 @@ void Core::settle(Activation& a) noexcept {
 // link itself that runs again.
 //
 // Then nothing that it could reuse lies behind its end. A link that is new in the trace had nothing
-// to take back, and what it has done behind its children was refused, so that it does not run again.
-// Else its call came from the queue: its interval goes up to its end, or, if it was a leaf, up to
-// the next stamp.
+// to take back, and what it has done behind its children was refused, so that it does not run
+// again. Else its call came from the queue: its interval goes up to its end, or, if it was a leaf,
+// up to the next stamp.
 Handle Core::next_link(Activation& a, Handle link) {
   const bool again = !appending() && settle_link(link);
   const Handle next = std::exchange(a.tail, 0);

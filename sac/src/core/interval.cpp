@@ -36,7 +36,8 @@ Handle Core::call_child(const Asked& asked) {
 
 Handle Core::call_tail(const Asked& asked) {
   Activation& caller = running();
-  if (caller.failed || caller.tail != 0) [[unlikely]] fail_call(caller, asked.function);
+  if (caller.failed || caller.tail != 0) [[unlikely]]
+    fail_call(caller, asked.function);
   need_end(caller);
   caller.tail = find_reusable(asked, true);
   caller.tail_state = Tail::reused;

@@ -45,7 +45,8 @@ void Core::defer(Call& call) noexcept {
 
 // Puts into the queue what waits and lies in `call`'s interval; 0: everywhere.
 void Core::take_deferred(Handle call) noexcept {
-  if (deferred_.empty()) [[likely]] return;
+  if (deferred_.empty()) [[likely]]
+    return;
   std::erase_if(deferred_, [&](Handle h) {
     Call& c = *at<Call>(h);
     if (c.life == Life::placed && call != 0 && h != call &&
@@ -60,13 +61,13 @@ void Core::take_deferred(Handle call) noexcept {
 // Whether the earliest call that waits is `call` or behind it, up to `end`.
 bool Core::next_is_up_to(Handle call, Handle end) const noexcept {
   const Call& first = *at<Call>(queue_.front());
-  return queue_.front() == call || (precedes(*at<Call>(call), first) &&
-                                    !precedes(*at<TimeNode>(end), first));
+  return queue_.front() == call ||
+         (precedes(*at<Call>(call), first) && !precedes(*at<TimeNode>(end), first));
 }
 
-// What fails may have been asked for too early: a call around it, which has acted behind some of its
-// children, waits to run again, and refuses what it did behind this one. So it is excused, but not
-// for ever: a call around it may wait again by what it does.
+// What fails may have been asked for too early: a call around it, which has acted behind some of
+// its children, waits to run again, and refuses what it did behind this one. So it is excused, but
+// not for ever: a call around it may wait again by what it does.
 void Core::run_from_queue(Handle call, Handle within) {
   constexpr std::uint8_t kMost = 16;
   try {

@@ -1,9 +1,8 @@
 // Modes of the core: entering, finishing, undoing; audit, sizes, invariants.
-#include "sac/internal/core.hpp"
-
 #include <algorithm>
 
 #include "sac/engine.hpp"
+#include "sac/internal/core.hpp"
 #include "sac/internal/platform.hpp"
 
 namespace sac {
@@ -16,8 +15,12 @@ std::size_t default_stack_limit() { return platform::stack_bytes() / 4 * 3; }
 }  // namespace
 
 Core::Core(Engine& engine)
-    : stack_limit_(default_stack_limit()), engine_(engine), timeline_(arena_),
-      memo_(arena_, timeline_), queue_(arena_, timeline_), now_(timeline_.front()) {}
+    : stack_limit_(default_stack_limit()),
+      engine_(engine),
+      timeline_(arena_),
+      memo_(arena_, timeline_),
+      queue_(arena_, timeline_),
+      now_(timeline_.front()) {}
 
 std::uint8_t Core::add_structure(Structure& structure) {
   auto free = std::find(structures_.begin(), structures_.end(), nullptr);

@@ -21,7 +21,7 @@ std::string Engine::describe_mod(Handle head) const {
   const std::string handle = '@' + std::to_string(head);
   const auto name = core_.names_.find(head);
   return name == core_.names_.end() ? "modifiable " + handle
-                              : "modifiable '" + name->second + "' (" + handle + ')';
+                                    : "modifiable '" + name->second + "' (" + handle + ')';
 }
 
 Memory Engine::memory() const noexcept {

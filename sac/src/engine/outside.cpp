@@ -8,7 +8,8 @@ Handle Engine::new_outside(const OutsideType& type) {
   if (outside_.size() == outside_.capacity()) outside_.reserve(2 * outside_.size() + 16);
   const std::uint16_t number = outside_types_.number(type);
   const Handle head = arena().allocate(type.bytes);
-  ::new (static_cast<void*>(outside_head(head))) OutsideHead{static_cast<std::uint32_t>(outside_.size()), number, false};
+  ::new (static_cast<void*>(outside_head(head)))
+      OutsideHead{static_cast<std::uint32_t>(outside_.size()), number, false};
   outside_.push_back(head);
   return head;
 }

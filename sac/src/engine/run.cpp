@@ -1,8 +1,7 @@
 // Runs, propagations, and taking them back.
-#include "sac/engine.hpp"
-
 #include "engine/weights.hpp"
 #include "sac/agenda.hpp"
+#include "sac/engine.hpp"
 #include "sac/mod.hpp"
 
 namespace sac {

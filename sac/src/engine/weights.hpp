@@ -16,7 +16,8 @@ class Weights final : public Structure {
   explicit Weights(Engine& engine) : id_(engine.add_structure(*this)) {}
 
   void add(Scope& s, std::uint64_t n) {
-    Weight* weight = s.recall<Weight>(id_, 0, [](const Weight&) { return true; }, kMostRecalled);
+    Weight* weight = s.recall<Weight>(
+        id_, 0, [](const Weight&) { return true; }, kMostRecalled);
     if (weight == nullptr) weight = &s.effect<Weight>(id_, 0);
     weight->steps = n;
   }

@@ -149,8 +149,8 @@ void ModStructure::check_invariants() const {
         SAC_INVARIANT(read.version != 0 && &engine_.call(read.call) == &call);
         SAC_INVARIANT(at(read.version)->written && !at(read.version)->past);
         const Handle self = engine_.arena().handle_of(&edge);
-        SAC_INVARIANT((read.prev != 0 ? reader(read.prev)->next_reader
-                                      : at(read.version)->readers) == self);
+        SAC_INVARIANT(
+            (read.prev != 0 ? reader(read.prev)->next_reader : at(read.version)->readers) == self);
         return;
       }
       const auto& write = static_cast<const WriteEdge&>(edge);

@@ -18,8 +18,9 @@ void ModStructure::check_live(Handle head, detail::Stamp stamp, const char* what
 
 void ModStructure::fail_null(const char* what) const {
   const Call* call = engine_.running_call();
-  throw UsageError(call != nullptr ? Engine::describe(*call) + ' ' + what + "s a modifiable that is null"
-                                   : std::string(what) + ": the modifiable is null");
+  throw UsageError(call != nullptr
+                       ? Engine::describe(*call) + ' ' + what + "s a modifiable that is null"
+                       : std::string(what) + ": the modifiable is null");
 }
 
 detail::Version& ModStructure::observe(Scope& scope, Handle head) {

@@ -14,7 +14,8 @@ void ModStructure::link_reader(ReadEdge& edge, Version& version) noexcept {
   edge.next_reader = version.readers;
   if (version.readers != 0) reader(version.readers)->prev = self;
   version.readers = self;
-  if (version.ordered) [[unlikely]] put_in_order(edge, version);
+  if (version.ordered) [[unlikely]]
+    put_in_order(edge, version);
 }
 
 void ModStructure::put_in_order(const ReadEdge& edge, Version& version) noexcept {

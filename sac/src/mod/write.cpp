@@ -63,7 +63,8 @@ bool ModStructure::has_passed_on(const WriteEdge& edge) const noexcept {
 
 // A version for the running call, without a value yet: to be given one at once. The edge comes
 // first: if anything fails behind it, it has no version to take back.
-detail::Version& ModStructure::new_version(Scope& scope, Handle head, const detail::ValueType& type) {
+detail::Version& ModStructure::new_version(Scope& scope, Handle head,
+                                           const detail::ValueType& type) {
   const std::uint16_t type_number = number(type);
   const Call& self = scope.self();
   auto& edge = scope.effect<WriteEdge>(id_, kWrite);
@@ -137,8 +138,8 @@ detail::Version* ModStructure::predecessor(Handle head, const Version& version) 
   return found != nullptr ? at(*found) : nullptr;
 }
 
-// Throws: UsageError if the running call's own children have read `version`, or what is before it if
-// it is hidden: then it may not change.
+// Throws: UsageError if the running call's own children have read `version`, or what is before it
+// if it is hidden: then it may not change.
 void ModStructure::require_unread(Scope& scope, Handle head, const Version* version) {
   if (version == nullptr || !engine_.has_had_children()) return;
   const Call& self = scope.self();

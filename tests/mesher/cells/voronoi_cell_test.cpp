@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cell_scene.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/predicates.hpp"
 
 namespace {

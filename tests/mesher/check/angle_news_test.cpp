@@ -2,33 +2,35 @@
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "mesher/angles.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/reports.hpp"
 #include "random_pslg.hpp"
 #include "rules/mesh_box.hpp"
 
 namespace {
 
+using mesher::BoxMesher;
 using mesher::Change;
-using mesher::FeatureId;
-using mesher::Mesher;
+using mesher::LineId;
 using mesher::Point;
+using mesher::PointId;
 using support::Pslg;
 using support::PslgEditor;
 
-FeatureId id(std::int64_t i) { return FeatureId{i}; }
+AnyId id(std::int64_t i) { return AnyId{i}; }
 
 // A mesher as a target of an editor, which knows segments by their ends.
 struct Target {
-  Mesher<2>& m;
-  std::map<std::pair<FeatureId, FeatureId>, FeatureId> lines{};
-  void insert(FeatureId point, const Point<2>& p) { m.insert(point, p); }
-  void remove(FeatureId point) { m.remove(point); }
-  void insert_segment(FeatureId line, FeatureId a, FeatureId b) {
+  BoxMesher<2>& m;
+  std::map<std::pair<PointId, PointId>, LineId> lines{};
+  void insert(PointId point, const Point<2>& p) { m.insert(point, p); }
+  void remove(PointId point) { m.remove(point); }
+  void insert_segment(LineId line, PointId a, PointId b) {
     m.insert_segment(lines[{a, b}] = line, b, a);
   }
-  void remove_segment(FeatureId a, FeatureId b) { m.remove_segment(lines.at({a, b})); }
+  void remove_segment(PointId a, PointId b) { m.remove_line(lines.at({a, b})); }
 };
 
 struct Seen {
@@ -41,7 +43,7 @@ void follow(PslgEditor::Family family, std::uint64_t seed, Seen& seen) {
   const mesher::detail::MeshBox<2> box = mesher::detail::mesh_box(options);
   PslgEditor editor(family, seed);
   Pslg pslg;
-  Mesher<2> m(options);
+  BoxMesher<2> m(options);
   Target target{m};
   for (int step = 0; step < 40; ++step) {
     editor.edit(pslg, box, target);
@@ -69,12 +71,12 @@ TEST_CASE("A change says which small angles forced its triangles, as the whole m
 
 // Trees meet at any angle; some of their ends make lengths shrink.
 TEST_CASE("A change reports the vertices at which lengths have shrunk, as the whole mesh does") {
-  const mesher::Pslg trees =
+  const mesher::Graph<2> trees =
       mesher::generate_pslg({.kind = mesher::PslgKind::trees, .n = 1000, .seed = 1});
-  const mesher::Pslg g = without_polylines(trees);
+  const mesher::Graph<2> g = without_polylines(trees);
   std::vector<Point<2>> points;
   for (const auto& p : g.points) points.push_back(p.at);
-  Mesher<2> m({.domain = mesher::snapped_domain<2>(points)});
+  BoxMesher<2> m({.domain = mesher::snapped_domain<2>(points)});
   for (const auto& p : g.points) m.insert(p.id, p.at);
   for (const auto& s : g.segments) m.insert_segment(s.id, s.from, s.to);
   const Change<2> first = m.update();
@@ -85,7 +87,7 @@ TEST_CASE("A change reports the vertices at which lengths have shrunk, as the wh
   for (const auto& angle : first.angles.forced) forced += angle.forced;
   CHECK(forced >= report.forced);
   std::size_t shrunk = 0;
-  const auto line = [&](FeatureId wanted) {
+  const auto line = [&](LineId wanted) {
     return *std::find_if(g.segments.begin(), g.segments.end(),
                          [&](const auto& s) { return s.id == wanted; });
   };
@@ -96,7 +98,7 @@ TEST_CASE("A change reports the vertices at which lengths have shrunk, as the wh
       CHECK(change.angles == mesher::angle_news(m.mesh(), m.options(), change.simplices_added));
       shrunk += change.angles.shrunk.size();
     };
-    m.remove_segment(s.id);
+    m.remove_line(s.id);
     check();
     m.insert_segment(s.id, s.from, s.to);
     check();
@@ -105,7 +107,7 @@ TEST_CASE("A change reports the vertices at which lengths have shrunk, as the wh
 }
 
 TEST_CASE("Of points alone there are no news") {
-  Mesher<2> m({.domain = {{0, 0}, {1, 1}}});
+  BoxMesher<2> m({.domain = {{0, 0}, {1, 1}}});
   m.insert(id(1), {0.3, 0.3});
   m.insert(id(2), {0.3, 0.300001});
   CHECK(m.update().angles == mesher::AngleNews());

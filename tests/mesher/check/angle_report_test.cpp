@@ -4,50 +4,53 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "any_id.hpp"
 #include "check/shrunk_vertices.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
 #include "geometry/segment_tests.hpp"
-#include "mesher/angles.hpp"
 #include "mesher/check.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/reports.hpp"
 
 namespace {
 
 using mesher::AngleReport;
-using mesher::FeatureId;
+using mesher::Graph;
+using mesher::LineId;
 using mesher::Mesh;
 using mesher::Point;
-using mesher::Pslg;
+using mesher::PointId;
 using mesher::PslgKind;
 using mesher::detail::MeshLines;
 
-FeatureId id(std::int64_t i) { return FeatureId{i}; }
+AnyId id(std::int64_t i) { return AnyId{i}; }
 
-mesher::Options<2> options_of(const Pslg& g) {
+mesher::Options<2> options_of(const Graph<2>& g) {
   std::vector<Point<2>> points;
   for (const auto& p : g.points) points.push_back(p.at);
   return {.domain = mesher::snapped_domain<2>(points)};
 }
 
-Mesh<2> mesh_of(const Pslg& graph) {
-  const Pslg g = without_polylines(graph);
+Mesh<2> mesh_of(const Graph<2>& graph) {
+  const Graph<2> g = without_polylines(graph);
   std::vector<Point<2>> points;
-  std::vector<FeatureId> ids;
+  std::vector<PointId> ids;
   std::vector<mesher::Segment> segments;
   for (const auto& p : g.points) points.push_back(p.at), ids.push_back(p.id);
   for (const auto& s : g.segments) segments.push_back({s.id, s.from, s.to});
   return mesher::mesh_statically(points, segments, options_of(g), ids);
 }
 
-AngleReport report_of(const Pslg& g) { return mesher::angle_report(mesh_of(g), options_of(g)); }
+AngleReport report_of(const Graph<2>& g) { return mesher::angle_report(mesh_of(g), options_of(g)); }
 
-Pslg generated(PslgKind kind, std::size_t n, std::uint64_t seed) {
+Graph<2> generated(PslgKind kind, std::size_t n, std::uint64_t seed) {
   return mesher::generate_pslg({.kind = kind, .n = n, .seed = seed});
 }
 
-Pslg wedge(double degrees, double ratio) {
+Graph<2> wedge(double degrees, double ratio) {
   const double turn = 0.3, angle = turn + degrees * 3.14159265358979323846 / 180;
-  Pslg g;
+  Graph<2> g;
   g.points = {{id(1), {0, 0}, 0},
               {id(2), {std::cos(turn), std::sin(turn)}, 0},
               {id(3), {ratio * std::cos(angle), ratio * std::sin(angle)}, 0}};
@@ -117,13 +120,13 @@ TEST_CASE("A wedge is reported with its angle, and what it forces") {
   for (const double degrees : {1.0, 0.1, 0.01, 0.001}) {
     for (const double ratio : {1.0, 0.7}) {
       INFO(degrees << " degrees, legs 1 : " << ratio);
-      const Pslg g = wedge(degrees, ratio);
+      const Graph<2> g = wedge(degrees, ratio);
       const Mesh<2> mesh = mesh_of(g);
       const AngleReport report = mesher::angle_report(mesh, options_of(g));
       REQUIRE(report.angles.size() == 1);
       const auto& angle = report.angles[0];
       CHECK(angle.at == Point<2>{0, 0});
-      CHECK(angle.lines == std::array{id(4), id(7)});
+      CHECK(angle.lines == std::array{LineId{4}, LineId{7}});
       CHECK(angle.degrees == Approx(degrees).epsilon(1e-9));
       CHECK(angle.forced == report.forced);
       CHECK(report.forced == poor_triangles(mesh, 1.4142));
@@ -171,7 +174,7 @@ TEST_CASE("Lengths that limits of size ask for have not shrunk") {
 }
 
 TEST_CASE("A fan has as many small angles as legs, and they force equally much") {
-  Pslg g = generated(PslgKind::fan, 30, 1);
+  Graph<2> g = generated(PslgKind::fan, 30, 1);
   const AngleReport report = report_of(g);
   REQUIRE(report.angles.size() == 30);
   for (const auto& angle : report.angles) {
@@ -186,7 +189,7 @@ TEST_CASE("All poor triangles are those that small angles force") {
   for (const auto kind : {PslgKind::trees, PslgKind::zigzag, PslgKind::bundle}) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       INFO("kind " << static_cast<int>(kind) << " seed " << seed);
-      const Pslg g = generated(kind, kind == PslgKind::bundle ? 12 : 80, seed);
+      const Graph<2> g = generated(kind, kind == PslgKind::bundle ? 12 : 80, seed);
       const Mesh<2> mesh = mesh_of(g);
       const AngleReport report = mesher::angle_report(mesh, options_of(g));
       CHECK(report.forced == poor_triangles(mesh, 1.4142));
@@ -201,7 +204,7 @@ TEST_CASE("All poor triangles are those that small angles force") {
 TEST_CASE("The guard finds the vertices at which lengths shrink, by the definition") {
   std::size_t found = 0;
   for (const auto kind : {PslgKind::trees, PslgKind::segments, PslgKind::fan, PslgKind::bundle}) {
-    const Pslg g = generated(kind, kind == PslgKind::bundle ? 5 : 12, 3);
+    const Graph<2> g = generated(kind, kind == PslgKind::bundle ? 5 : 12, 3);
     const Mesh<2> mesh = mesh_of(g);
     const MeshLines lines(mesh);
     const Naive naive(mesh, lines);
@@ -240,8 +243,8 @@ TEST_CASE("The guard names the small angles that make lengths shrink") {
 }
 
 TEST_CASE("A mesh that has followed edits has the report of a fresh one") {
-  const Pslg g = wedge(5, 0.7);
-  mesher::Mesher<2> m(options_of(g));
+  const Graph<2> g = wedge(5, 0.7);
+  mesher::BoxMesher<2> m(options_of(g));
   for (const auto& p : g.points) m.insert(p.id, p.at);
   for (const auto& s : g.segments) m.insert_segment(s.id, s.from, s.to);
   m.insert(id(9), {0.4, 0.2});

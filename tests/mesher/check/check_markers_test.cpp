@@ -1,48 +1,49 @@
 // The checker holds markers against those of the input's points and lines.
 #include <catch2/catch.hpp>
 
+#include "asked.hpp"
 #include "mesher/check.hpp"
 
 namespace {
 
 using mesher::BoundaryRule;
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::MeshData;
+using mesher::PointId;
 
 // The square (0,0) to (2,2) about the vertex 4, and the vertex 5 on the middle of its lowest side:
 //   3 - 2
 //   | 4 |     line 10 with the marker 7 is 0-5-1, line 11 with the marker 8 is 0-4,
 //   0 5 1     line 12 without one is 1-2-3-0; the point 0 has the marker 3.
-mesher::PslgFile graph() {
-  mesher::PslgFile file;
+mesher::GraphFile<2> graph() {
+  mesher::GraphFile<2> file;
   const mesher::Point<2> corners[] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}};
   for (std::int64_t i = 0; i < 5; ++i) {
-    file.pslg.points.push_back({FeatureId{i}, corners[i], i == 0 ? 3 : 0});
+    file.graph.points.push_back({PointId{i}, corners[i], i == 0 ? 3 : 0});
     file.points.push_back({2 + i, 1});
   }
-  file.pslg.segments = {{FeatureId{10}, FeatureId{0}, FeatureId{1}, 7},
-                        {FeatureId{11}, FeatureId{0}, FeatureId{4}, 8}};
+  file.graph.segments = {{LineId{10}, PointId{0}, PointId{1}, 7},
+                         {LineId{11}, PointId{0}, PointId{4}, 8}};
   file.segments = {{8, 1}, {9, 1}};
-  file.pslg.polylines = {{FeatureId{12}, {FeatureId{1}, FeatureId{2}, FeatureId{3}, FeatureId{0}}}};
+  file.graph.polylines = {{LineId{12}, {PointId{1}, PointId{2}, PointId{3}, PointId{0}}}};
   file.polylines = {{10, 1}};
   return file;
 }
 
-MeshData mesh() {
-  MeshData mesh;
+MeshData<2> mesh() {
+  MeshData<2> mesh;
   mesh.vertices = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}, {1, 0}};
   mesh.kinds.assign(6, mesher::VertexKind::steiner);
   mesh.simplices = {{0, 5, 4}, {5, 1, 4}, {1, 2, 4}, {2, 3, 4}, {0, 4, 3}};
   mesh.features.markers = {3, 7, 1, 1, 8, 7};
-  mesh.features.edges = {{0, 3, FeatureId{12}, 1}, {0, 4, FeatureId{11}, 8},
-                         {0, 5, FeatureId{10}, 7}, {1, 2, FeatureId{12}, 1},
-                         {1, 5, FeatureId{10}, 7}, {2, 3, FeatureId{12}, 1}};
+  mesh.features.edges = {{0, 3, LineId{12}, 1}, {0, 4, LineId{11}, 8}, {0, 5, LineId{10}, 7},
+                         {1, 2, LineId{12}, 1}, {1, 5, LineId{10}, 7}, {2, 3, LineId{12}, 1}};
   return mesh;
 }
 
-std::string said(const MeshData& mesh, const mesher::PslgFile& graph) {
-  const mesher::CheckOptions options{
-      .boundary = BoundaryRule::lines, .graph = &graph, .features = &mesh.features};
+std::string said(const MeshData<2>& mesh, const mesher::GraphFile<2>& graph) {
+  const support::Asked<2> options{
+      .graph = &graph, .boundary = BoundaryRule::lines, .features = &mesh.features};
   std::string all;
   for (const auto& finding : mesher::check_mesh(mesh, options)) {
     if (finding.property == "markers") all += finding.detail;
@@ -54,7 +55,7 @@ std::string said(const MeshData& mesh, const mesher::PslgFile& graph) {
 }  // namespace
 
 TEST_CASE("markers of the input's points and lines hold, and 1 or none on the rest of the border") {
-  MeshData m = mesh();
+  MeshData<2> m = mesh();
   CHECK(said(m, graph()) == "6 vertices and 6 edges have one");
   m.features.markers[2] = 0;
   m.features.edges[3].marker = 0;
@@ -62,7 +63,7 @@ TEST_CASE("markers of the input's points and lines hold, and 1 or none on the re
 }
 
 TEST_CASE("a wrong marker is told with the vertex or edge, and whose it should be") {
-  MeshData m = mesh();
+  MeshData<2> m = mesh();
   const auto file = graph();
   SECTION("of a point") {
     m.features.markers[0] = 7;
@@ -101,7 +102,7 @@ TEST_CASE("a wrong marker is told with the vertex or edge, and whose it should b
 }
 
 TEST_CASE("markers are looked at where the input has some and the mesh tells of them") {
-  MeshData m = mesh();
+  MeshData<2> m = mesh();
   SECTION("not those of edges that no edge has") {
     for (auto& e : m.features.edges) e.marker = 0;
     CHECK(said(m, graph()) == "6 vertices and 0 edges have one");
@@ -113,7 +114,7 @@ TEST_CASE("markers are looked at where the input has some and the mesh tells of 
   }
   SECTION("the input has none") {
     auto file = graph();
-    file.pslg.points[0].marker = file.pslg.segments[0].marker = file.pslg.segments[1].marker = 0;
+    file.graph.points[0].marker = file.graph.segments[0].marker = file.graph.segments[1].marker = 0;
     CHECK(said(m, file).empty());
   }
 }

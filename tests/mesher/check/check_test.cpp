@@ -4,7 +4,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "mesher/generate.hpp"
+#include "asked.hpp"
+#include "facade/graph_runs.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/mesh.hpp"
 #include "mesher/mesher.hpp"
 
@@ -25,7 +27,7 @@ Mesh<2> square() {
 }
 
 // The first property that does not hold, or "".
-std::string broken(const Mesh<2>& mesh, const mesher::CheckOptions& options = {}) {
+std::string broken(const Mesh<2>& mesh, const support::Asked<2>& options = {}) {
   for (const auto& finding : mesher::check_mesh(mesh, options)) {
     if (!finding.holds) return finding.property;
   }
@@ -114,10 +116,12 @@ TEST_CASE("an edge that is not Delaunay is found, cocircular points are not") {
 }
 
 TEST_CASE("an input point that is no vertex, to the last bit, is found") {
-  mesher::PointFile<2> input{"in.node", {mesher::FeatureId{7}}, {{1, 2}}, {2}};
-  CHECK(broken(square(), {.input = &input}) == "");
-  input.points[0][0] = std::nextafter(1, 2);
-  CHECK(broken(square(), {.input = &input}) == "input");
+  mesher::GraphFile<2> input;
+  input.graph.points = {{mesher::PointId{7}, {1, 2}}};
+  input.points = {{2, 1}};
+  CHECK(broken(square(), {.graph = &input}) == "");
+  input.graph.points[0].at[0] = std::nextafter(1, 2);
+  CHECK(broken(square(), {.graph = &input}) == "input");
 }
 
 TEST_CASE("a triangle above rho is found, be its corners on the hull or not") {
@@ -138,7 +142,7 @@ TEST_CASE("the worst triangles are over all triangles") {
   Mesh<2> outside = square();
   outside.kinds[2] = VertexKind::boundary;
   CHECK(mesher::quality(outside).min_angle_deg == quality.min_angle_deg);
-  CHECK(std::isnan(mesher::quality({}).min_angle_deg));
+  CHECK(std::isnan(mesher::quality(Mesh<2>{}).min_angle_deg));
   CHECK(mesher::radius_edge({0, 0}, {1, 0}, {0, 1}) == Approx(std::sqrt(0.5)));
 }
 
@@ -187,7 +191,7 @@ TEST_CASE("a mesh of points at the lower end of the range of coordinates passes 
   }
   const mesher::Options<2> options{.domain = mesher::snapped_domain<2>(points)};
   const auto mesh = mesher::mesh_statically<2>(points, options);
-  for (const auto& finding : mesher::check_mesh(mesh, {.rho = options.rho})) {
+  for (const auto& finding : mesher::check_mesh(mesh, support::Asked<2>{.rho = options.rho})) {
     INFO(finding.property << ": " << finding.detail);
     CHECK(finding.holds);
   }

@@ -6,38 +6,40 @@
 #include <functional>
 #include <string>
 
-#include "mesher/domain_mesh.hpp"
-#include "mesher/generate_plc.hpp"
-#include "mesher/space_check.hpp"
-#include "mesher/space_files.hpp"
+#include "facade/graph_runs.hpp"
+#include "mesh/boundary_faces.hpp"
+#include "mesher/check.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/write.hpp"
 
 namespace {
 
 using mesher::BoundaryRule;
 using mesher::Extent;
-using mesher::FeatureId;
 using mesher::Finding;
-using mesher::Mesh;
-using mesher::MeshDataOf;
+using mesher::Graph;
+using mesher::GraphFile;
+using mesher::LineId;
+using mesher::MeshData;
 using mesher::Options;
-using mesher::Plc;
-using mesher::PlcFile;
 using mesher::PlcKind;
+using mesher::PointId;
 
 struct Case {
-  PlcFile complex;
-  MeshDataOf<3> mesh;
+  GraphFile<3> complex;
+  MeshData<3> mesh;
 
-  explicit Case(const Plc& plc, Extent extent = Extent::enclosed) {
-    complex.plc = plc;
+  explicit Case(const Graph<3>& plc, Extent extent = Extent::enclosed) {
+    complex.graph = plc;
     const Options<3> options{.domain = mesher::snapped_domain<3>(places_of(plc)),
                              .max_vertices = 100000};
-    mesh = domain_mesh(mesh_statically(plc, options), plc, extent).kept;
+    mesh = domain_mesh(mesh_statically(plc, options), plc, extent).mesh;
   }
   std::vector<Finding> findings() const {
-    mesher::SpaceCheckOptions options;
+    mesher::CheckOptions<3> options;
     options.rho = 2;
-    options.complex = &complex;
+    options.graph = &complex;
     options.features = &mesh.features;
     options.boundary = BoundaryRule::lines;
     return check_mesh(mesh, options);
@@ -59,7 +61,7 @@ std::vector<std::string> faulty(const std::vector<Finding>& findings) {
 }
 
 // Names of polygons and of lines are for formats that have them.
-void forget_names(MeshDataOf<3>& mesh) {
+void forget_names(MeshData<3>& mesh) {
   for (auto& f : mesh.features.faces) f.polygon.reset();
   for (auto& e : mesh.features.edges) e.line.reset();
 }
@@ -71,7 +73,7 @@ TEST_CASE("meshes of all families hold, with what they enclose or all, named or 
     const auto kind = mesher::plc_kind(name);
     REQUIRE(kind);
     if (*kind == PlcKind::bricks || *kind == PlcKind::cloud) continue;  // large
-    const Plc plc = mesher::generate_plc({*kind});
+    const Graph<3> plc = mesher::generate_plc({*kind});
     for (const Extent extent : {Extent::enclosed, Extent::box}) {
       Case good(plc, extent);
       INFO(name);
@@ -83,8 +85,8 @@ TEST_CASE("meshes of all families hold, with what they enclose or all, named or 
 }
 
 TEST_CASE("what is wrong with edges, faces and regions is said with ids and places") {
-  Plc plc = mesher::generate_plc({PlcKind::cube_square});
-  plc.regions.push_back({FeatureId{1}, {0.1, 0.1, 0.1}, 3, {}});
+  Graph<3> plc = mesher::generate_plc({PlcKind::cube_square});
+  plc.seeds.push_back(mesher::region_seed<3>(1, {0.1, 0.1, 0.1}, 3));
   const Case good(plc);
   REQUIRE(first_fault(good.findings()) == "");
   struct Fault {
@@ -122,10 +124,10 @@ TEST_CASE("what is wrong with edges, faces and regions is said with ids and plac
        }},
       {"regions", ", which is in no polygon",
        [](Case& c) { c.mesh.features.regions[c.mesh.simplices.size() / 2] = 4; }},
-      {"regions", "the seed in it at ", [](Case& c) { c.complex.plc.regions[0].attribute = 5; }},
+      {"regions", "the seed in it at ", [](Case& c) { c.complex.graph.seeds[0].attribute = 5; }},
       {"regions", " holds the seed of hole 6 at ",
        [](Case& c) {
-         c.complex.plc.holes.push_back({FeatureId{6}, {0.3, 0.3, 0.3}});
+         c.complex.graph.seeds.push_back(mesher::hole_seed<3>(6, {0.3, 0.3, 0.3}));
        }},
   };
   for (const Fault& fault : faults) {
@@ -140,7 +142,7 @@ TEST_CASE("what is wrong with edges, faces and regions is said with ids and plac
 
 // Corners of cells are in a polygon's plane but for more than the rounding of places.
 TEST_CASE("vertices of polygons are in their planes, at decimal places too") {
-  Plc plc = mesher::generate_plc({PlcKind::pages});
+  Graph<3> plc = mesher::generate_plc({PlcKind::pages});
   for (auto& p : plc.points) {
     for (double& x : p.at) x = std::round(x * 1e9) / 1e9;
   }
@@ -148,16 +150,16 @@ TEST_CASE("vertices of polygons are in their planes, at decimal places too") {
 }
 
 TEST_CASE("a seed on a polygon, on its edge or at its corner stands for neither side") {
-  const Plc plc = mesher::generate_plc({PlcKind::cube_square});
+  const Graph<3> plc = mesher::generate_plc({PlcKind::cube_square});
   for (const mesher::Point<3>& seed : {mesher::Point<3>{0.5, 0.5, 0.5},
                                        {0.5, 0.5, 1},
                                        {0.5, 1, 1},
                                        {1, 1, 1},
                                        {0.375, 0.25, 0.5}}) {
-    Plc seeded = plc;
-    seeded.holes.push_back({FeatureId{1}, seed});
-    seeded.regions.push_back({FeatureId{1}, seed, 3, {}});
-    seeded.regions.push_back({FeatureId{2}, {0.1, 0.1, 0.1}, 4, {}});
+    Graph<3> seeded = plc;
+    seeded.seeds.push_back(mesher::hole_seed<3>(1, seed));
+    seeded.seeds.push_back(mesher::region_seed<3>(1, seed, 3));
+    seeded.seeds.push_back(mesher::region_seed<3>(2, {0.1, 0.1, 0.1}, 4));
     Case made(seeded);
     INFO(seed[0] << ' ' << seed[1] << ' ' << seed[2]);
     CHECK(first_fault(made.findings()) == "");
@@ -165,23 +167,23 @@ TEST_CASE("a seed on a polygon, on its edge or at its corner stands for neither 
 }
 
 TEST_CASE("a mesh of the points alone has no segments and polygons") {
-  Plc plc = mesher::generate_plc({PlcKind::plates});
-  Plc points = plc;
-  points.facets.clear();
+  Graph<3> plc = mesher::generate_plc({PlcKind::plates});
+  Graph<3> points = plc;
+  points.polygons.clear();
   Case bare(points);
-  bare.complex.plc = plc;
+  bare.complex.graph = plc;
   const auto names = faulty(bare.findings());
   CHECK(std::count(names.begin(), names.end(), "polygons") == 1);
   // A segment across the cube, past the corners of a square in its middle.
   plc = mesher::generate_plc({PlcKind::cube_square});
-  plc.facets.clear();
+  plc.polygons.clear();
   Case loose(plc);
-  plc.segments.push_back({FeatureId{5}, {}, {}, 0});
+  plc.segments.push_back({LineId{5}, {}, {}, 0});
   for (const auto& p : plc.points) {
     if (p.at == mesher::Point<3>{0, 0, 0}) plc.segments[0].from = p.id;
     if (p.at == mesher::Point<3>{1, 1, 1}) plc.segments[0].to = p.id;
   }
-  loose.complex.plc = plc;
+  loose.complex.graph = plc;
   const std::string said = first_fault(loose.findings());
   CHECK(said.starts_with("segments: segment 5 from "));
   CHECK(said.find("no edge on it goes on from vertex ") != std::string::npos);
@@ -189,28 +191,28 @@ TEST_CASE("a mesh of the points alone has no segments and polygons") {
 
 TEST_CASE("of a segment with an end outside of what is meshed the part inside must be there") {
   using mesher::Point;
-  Plc plc = mesher::generate_plc({PlcKind::cube});
+  Graph<3> plc = mesher::generate_plc({PlcKind::cube});
   const auto add = [&](std::int64_t id, const Point<3>& at) {
-    plc.points.push_back({FeatureId{id}, at, 0});
+    plc.points.push_back({PointId{id}, at, 0});
   };
   add(90, {0.5, 0.5, 0.5});
   add(91, {1, 0.5, 0.5});
-  for (auto& f : plc.facets) {
-    const auto is_at_side = [&](FeatureId id) {
+  for (auto& f : plc.polygons) {
+    const auto is_at_side = [&](PointId id) {
       return std::any_of(plc.points.begin(), plc.points.end(),
                          [&](const auto& p) { return p.id == id && p.at[0] == 1; });
     };
-    const auto& loop = f.polygon.loops[0];
+    const auto& loop = f.loops[0];
     if (!std::all_of(loop.begin(), loop.end(), is_at_side)) continue;
-    f.polygon.points.push_back(FeatureId{91});
+    f.points.push_back(PointId{91});
   }
-  plc.segments.push_back({FeatureId{7}, FeatureId{90}, FeatureId{91}, 0});
+  plc.segments.push_back({LineId{7}, PointId{90}, PointId{91}, 0});
   Case strut(plc);
   REQUIRE(first_fault(strut.findings()) == "");
-  strut.complex.plc.points.push_back({FeatureId{92}, {}, 0});
-  strut.complex.plc.segments[0].to = FeatureId{92};
+  strut.complex.graph.points.push_back({PointId{92}, {}, 0});
+  strut.complex.graph.segments[0].to = PointId{92};
   const auto said = [&](const Point<3>& end) {
-    strut.complex.plc.points.back().at = end;
+    strut.complex.graph.points.back().at = end;
     for (const Finding& f : strut.findings()) {
       if (f.property == "segments") return f.detail;
     }
@@ -221,16 +223,16 @@ TEST_CASE("of a segment with an end outside of what is meshed the part inside mu
     CHECK(said({9, 0.5, 0.5}).ends_with(" edges, 1 in part"));
     CHECK(said({1.25, 0.5, 0.7}).ends_with("its end at (1.25, 0.5, 0.7) is no vertex"));
     CHECK(said({9, 0.5, 0.7}).ends_with("its end at (9, 0.5, 0.7) is no vertex"));
-    std::swap(strut.complex.plc.segments[0].from, strut.complex.plc.segments[0].to);
+    std::swap(strut.complex.graph.segments[0].from, strut.complex.graph.segments[0].to);
   }
 }
 
 TEST_CASE("small angles excuse what they forbid, and nothing else") {
-  const Plc plc = mesher::generate_plc({PlcKind::wedge, 2});
+  const Graph<3> plc = mesher::generate_plc({PlcKind::wedge, 2});
   Case sharp(plc);
   REQUIRE(first_fault(sharp.findings()) == "");
   REQUIRE(count_above(sharp.mesh, 2) > 0);
-  mesher::SpaceCheckOptions options;  // the same mesh without its complex: nothing is excused
+  mesher::CheckOptions<3> options;  // the same mesh without its complex: nothing is excused
   options.rho = 2;
   options.features = &sharp.mesh.features;
   options.boundary = BoundaryRule::lines;
@@ -251,10 +253,11 @@ TEST_CASE("tetrahedra that overlap beyond the box are found") {
   }
   twice.mesh.simplices.push_back(s);
   twice.mesh.features = {};
-  mesher::SpaceCheckOptions options;
+  mesher::CheckOptions<3> options;
   options.boundary = BoundaryRule::lines;
   mesher::MeshFeatures features;
-  for (const auto& face : boundary_faces(twice.mesh)) features.faces.push_back({face, {}, 1});
+  for (const auto& face : mesher::boundary_faces(twice.mesh))
+    features.faces.push_back({face, {}, 1});
   std::sort(features.faces.begin(), features.faces.end(),
             [](const auto& a, const auto& b) { return a.key() < b.key(); });
   options.features = &features;

@@ -1,6 +1,4 @@
 // The checker of meshes of tetrahedra speaks for each property that a mesh can break.
-#include "mesher/space_check.hpp"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,7 +6,10 @@
 #include <set>
 #include <utility>
 
-#include "mesher/generate.hpp"
+#include "asked.hpp"
+#include "facade/graph_runs.hpp"
+#include "mesher/check.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/predicates.hpp"
 #include "space_points.hpp"
@@ -16,11 +17,12 @@
 namespace {
 
 using mesher::Finding;
+using mesher::GraphFile;
 using mesher::Mesh;
 using mesher::Point;
-using mesher::PointFile;
-using mesher::SpaceCheckOptions;
+using mesher::PointId;
 using mesher::VertexKind;
+using Asked = support::Asked<3>;
 
 // The cube of side 2 around its centre, vertex 8: each side has the diagonal that its greatest
 // corner is not on, as ties are decided.
@@ -40,9 +42,14 @@ Mesh<3> cube() {
   return mesh;
 }
 
-PointFile<3> centre() { return {"in.node", {mesher::FeatureId{7}}, {{1, 1, 1}}, {2}}; }
+GraphFile<3> centre() {
+  GraphFile<3> file;
+  file.graph.points = {{PointId{7}, {1, 1, 1}}};
+  file.points = {{2, 1}};
+  return file;
+}
 
-std::vector<Finding> broken_ones(const Mesh<3>& mesh, const SpaceCheckOptions& options = {}) {
+std::vector<Finding> broken_ones(const Mesh<3>& mesh, const Asked& options = {}) {
   auto findings = mesher::check_mesh(mesh, options);
   findings.erase(std::remove_if(findings.begin(), findings.end(),
                                 [](const Finding& finding) { return finding.holds; }),
@@ -51,13 +58,13 @@ std::vector<Finding> broken_ones(const Mesh<3>& mesh, const SpaceCheckOptions& o
 }
 
 // The first property that does not hold, or "".
-std::string broken(const Mesh<3>& mesh, const SpaceCheckOptions& options = {}) {
+std::string broken(const Mesh<3>& mesh, const Asked& options = {}) {
   const auto findings = broken_ones(mesh, options);
   return findings.empty() ? "" : findings.front().property;
 }
 
 // What is said of it.
-std::string complaint(const Mesh<3>& mesh, const SpaceCheckOptions& options = {}) {
+std::string complaint(const Mesh<3>& mesh, const Asked& options = {}) {
   const auto findings = broken_ones(mesh, options);
   return findings.empty() ? "" : findings.front().detail;
 }
@@ -102,8 +109,8 @@ bool flip(Mesh<3>& mesh, std::size_t from) {
 }  // namespace
 
 TEST_CASE("a good mesh of tetrahedra has every property") {
-  const PointFile<3> input = centre();
-  const SpaceCheckOptions all{.input = &input, .rho = 0.87, .ties = true};
+  const GraphFile<3> input = centre();
+  const Asked all{.graph = &input, .rho = 0.87, .ties = true};
   CHECK(complaint(cube(), all) == "");
   CHECK(mesher::check_mesh(cube(), all).size() == 11);
 }
@@ -111,12 +118,13 @@ TEST_CASE("a good mesh of tetrahedra has every property") {
 TEST_CASE("meshes of all families of points in space are what they should be, ties included") {
   for (const auto family : support::kSpaceFamilies) {
     const auto points = support::space_points(family, 120, 5);
-    PointFile<3> input{"in.node", {}, points, std::vector<long>(points.size(), 1)};
-    for (std::size_t i = 1; i <= points.size(); ++i) {
-      input.ids.push_back(mesher::FeatureId{static_cast<std::int64_t>(i)});
+    GraphFile<3> input;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      input.graph.points.push_back({PointId{static_cast<std::int64_t>(i + 1)}, points[i]});
+      input.points.push_back({1, 1});
     }
     INFO(support::name(family));
-    CHECK(complaint(meshed(points), {.input = &input, .rho = 2.0, .ties = true}) == "");
+    CHECK(complaint(meshed(points), {.graph = &input, .rho = 2.0, .ties = true}) == "");
   }
 }
 
@@ -274,32 +282,32 @@ TEST_CASE("a body that is no box passes if it is convex and may be any") {
 }
 
 TEST_CASE("an input point that is no vertex of the mesh in space, to the last bit, is found") {
-  PointFile<3> input = centre();
-  CHECK(broken(cube(), {.input = &input}) == "");
-  input.points[0][2] = std::nextafter(1, 2);
-  CHECK(complaint(cube(), {.input = &input}) ==
+  GraphFile<3> input = centre();
+  CHECK(broken(cube(), {.graph = &input}) == "");
+  input.graph.points[0].at[2] = std::nextafter(1, 2);
+  CHECK(complaint(cube(), {.graph = &input}) ==
         "input point 7 at (1, 1, 1.0000000000000002) (line 2) is no vertex");
 }
 
 TEST_CASE("kinds and origins that are not those of the input are found") {
-  const PointFile<3> input = centre();
+  const GraphFile<3> input = centre();
   Mesh<3> mesh = cube();
   mesh.kinds[8] = VertexKind::steiner;
-  CHECK(complaint(mesh, {.input = &input}) ==
+  CHECK(complaint(mesh, {.graph = &input}) ==
         "vertex 9 at (1, 1, 1) is an input point, but not said to be");
   mesh.kinds[8] = mesh.kinds[3] = VertexKind::input;
-  CHECK(complaint(mesh, {.input = &input}) ==
+  CHECK(complaint(mesh, {.graph = &input}) ==
         "vertex 4 at (2, 2, 0) is said to be an input point, but is none");
   mesh = cube();
   mesher::MeshFeatures features;
-  features.origins.assign(9, mesher::FeatureId{0});
-  features.origins[8] = mesher::FeatureId{7};
-  CHECK(broken(mesh, {.input = &input, .features = &features}) == "");
-  features.origins[8] = mesher::FeatureId{8};
-  CHECK(complaint(mesh, {.input = &input, .features = &features}) ==
+  features.origins.assign(9, mesher::Feature());
+  features.origins[8] = PointId{7};
+  CHECK(broken(mesh, {.graph = &input, .features = &features}) == "");
+  features.origins[8] = PointId{8};
+  CHECK(complaint(mesh, {.graph = &input, .features = &features}) ==
         "vertex 9 at (1, 1, 1) is said to be input point 8, but is input point 7");
   mesh.kinds.assign(9, VertexKind::steiner);  // of a file that tells no kinds
-  CHECK(broken(mesh, {.input = &input}) == "");
+  CHECK(broken(mesh, {.graph = &input}) == "");
 }
 
 TEST_CASE("a tetrahedron above rho is found, at the box as elsewhere") {

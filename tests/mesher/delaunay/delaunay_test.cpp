@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "delaunay_case.hpp"
+#include "facade/graph_runs.hpp"
 #include "feature_ids.hpp"
+#include "mesher/graph.hpp"
 #include "mesher/mesher.hpp"
-#include "mesher/pslg.hpp"
 
 namespace {
 
@@ -220,7 +221,7 @@ TEMPLATE_TEST_CASE_SIG("numbers that are none, or out of range, are refused", "[
     try {
       static_cast<void>(mesher::delaunay<D>(points));
     } catch (const Error& e) {
-      CHECK(support::ids_of(e) == std::vector{mesher::FeatureId{8}});
+      CHECK(support::ids_of(e) == support::ids({8}));
       CHECK_THAT(e.what(), Catch::Contains("point 8"));
     }
   }
@@ -260,7 +261,7 @@ TEST_CASE("a mesh with segments is the triangulation of its vertices") {
        {mesher::PslgKind::segments, mesher::PslgKind::trees, mesher::PslgKind::zigzag}) {
     const auto pslg = mesher::without_polylines(mesher::generate_pslg({kind, 300}));
     Points<2> points;
-    std::vector<mesher::FeatureId> ids;
+    std::vector<mesher::PointId> ids;
     std::vector<mesher::Segment> segments;
     for (const auto& v : pslg.points) points.push_back(v.at), ids.push_back(v.id);
     for (const auto& s : pslg.segments) segments.push_back({s.id, s.from, s.to});

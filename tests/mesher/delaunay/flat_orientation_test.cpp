@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "delaunay/kernel.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/predicates.hpp"
 
 namespace {

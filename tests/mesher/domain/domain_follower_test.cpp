@@ -1,26 +1,27 @@
 // A domain that follows a mesher by its changes is the one found in the mesh of the moment.
-#include "mesher/domain_follower.hpp"
+#include "domain/domain_follower.hpp"
 
 #include <catch2/catch.hpp>
 #include <map>
 #include <set>
 
+#include "facade/box_mesher.hpp"
 #include "failing_new.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "walled_mesh.hpp"
 
 namespace {
 
+using mesher::BoxMesher;
 using mesher::Domain;
 using mesher::DomainChange;
 using mesher::DomainEdits;
 using mesher::DomainFollower;
 using mesher::Extent;
-using mesher::FeatureId;
 using mesher::Mesh;
 using mesher::MeshEdge;
-using mesher::Mesher;
 using mesher::Point;
+using mesher::PointId;
 using mesher::Seed;
 using mesher::SplitMix64;
 using support::Places2;
@@ -31,7 +32,7 @@ using support::WalledMesh;
 class Twin {
  public:
   explicit Twin(std::uint64_t seed) : random_(seed) {
-    for (int i = 0; i < 30; ++i) m_.insert(FeatureId{i}, {random_.unit(), random_.unit()});
+    for (int i = 0; i < 30; ++i) m_.insert(PointId{i}, {random_.unit(), random_.unit()});
     m_.update();
     triangles_ = WalledMesh::triangles_of(m_.mesh());
     seeds_ = {support::region(1, 0.5, 0.5, 3), support::hole(2, 0.52, 0.41)};
@@ -43,14 +44,14 @@ class Twin {
     for (const auto& e : walls_) edges.push_back({index(mesh, e[0]), index(mesh, e[1]), {}, 0});
     return edges;
   }
-  [[nodiscard]] DomainFollower follower(Extent extent) const {
+  [[nodiscard]] DomainFollower<2> follower(Extent extent) const {
     return {m_.mesh(), walls(), seeds_, extent};
   }
 
   // Points come and go; rings of walls too, as far as they are edges.
-  std::pair<mesher::Change<2>, DomainEdits> edit() {
+  std::pair<mesher::Change<2>, DomainEdits<2>> edit() {
     for (int i = 0; i < 3; ++i) {
-      const FeatureId id{static_cast<std::int64_t>(random_.below(40))};
+      const PointId id{static_cast<std::int64_t>(random_.below(40))};
       if (m_.contains(id))
         m_.remove(id);
       else
@@ -59,7 +60,7 @@ class Twin {
     const auto change = m_.update();
     triangles_ = WalledMesh::triangles_of(m_.mesh());
     const WalledMesh::Walls next = ring();
-    DomainEdits edits;
+    DomainEdits<2> edits;
     for (const auto& e : walls_) {
       if (!next.contains(e)) edits.walls_out.push_back(e);
     }
@@ -70,10 +71,10 @@ class Twin {
     return {change, edits};
   }
 
-  [[nodiscard]] Domain domain(Extent extent) const {
+  [[nodiscard]] Domain<2> domain(Extent extent) const {
     return find_domain(m_.mesh(), walls(), seeds_, extent);
   }
-  [[nodiscard]] const Mesher<2>& mesher() const { return m_; }
+  [[nodiscard]] const BoxMesher<2>& mesher() const { return m_; }
 
  private:
   static std::uint32_t index(const Mesh<2>& mesh, const Point<2>& p) {
@@ -106,20 +107,20 @@ class Twin {
   }
 
   SplitMix64 random_;
-  Mesher<2> m_{mesher::Options<2>{.domain = {{0, 0}, {1, 1}}}};
+  BoxMesher<2> m_{mesher::Options<2>{.domain = {{0, 0}, {1, 1}}}};
   std::set<Places3> triangles_;
   WalledMesh::Walls walls_;
-  std::vector<Seed> seeds_;
+  std::vector<Seed<2>> seeds_;
 };
 
 // The kept triangles of the mesh of the moment.
 std::set<Places3> kept(const Twin& twin, Extent extent) {
   return WalledMesh::triangles_of(
-      extract(mesher::MeshData(twin.mesher().mesh()), twin.domain(extent)).mesh);
+      extract(mesher::MeshData<2>(twin.mesher().mesh()), twin.domain(extent)).mesh);
 }
 
-void require_equal(const DomainFollower& follower, const Twin& twin, Extent extent) {
-  const Domain domain = twin.domain(extent);
+void require_equal(const DomainFollower<2>& follower, const Twin& twin, Extent extent) {
+  const Domain<2> domain = twin.domain(extent);
   const Mesh<2> mesh = twin.mesher().mesh();
   REQUIRE(follower.faults() == domain.faults);
   for (std::uint32_t t = 0; t < mesh.simplices.size(); ++t) {
@@ -138,11 +139,11 @@ TEST_CASE("a domain follows the changes of a mesher, and says what they do to wh
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       INFO("seed " << seed);
       Twin twin(seed);
-      DomainFollower follower = twin.follower(extent);
+      DomainFollower<2> follower = twin.follower(extent);
       std::set<Places3> mine = kept(twin, extent);
       for (int step = 0; step < 25; ++step) {
         const auto [change, edits] = twin.edit();
-        const DomainChange domain_change = follower.update(change, edits);
+        const DomainChange<2> domain_change = follower.update(change, edits);
         for (const auto& t : domain_change.kept_removed) REQUIRE(mine.erase(t) == 1);
         for (const auto& t : domain_change.kept_added) REQUIRE(mine.insert(t).second);
         REQUIRE(mine == kept(twin, extent));
@@ -158,7 +159,7 @@ TEST_CASE("a domain that finds no memory to follow stays as it was, and follows 
   for (std::uint64_t k = 1;; k += 1 + k / 40) {
     INFO("allocation " << k);
     Twin twin(3);
-    DomainFollower follower = twin.follower(Extent::enclosed);
+    DomainFollower<2> follower = twin.follower(Extent::enclosed);
     for (int step = 0; step < 4; ++step) {
       const auto [change, edits] = twin.edit();
       follower.update(change, edits);

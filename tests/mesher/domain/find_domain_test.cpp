@@ -6,11 +6,11 @@
 #include <map>
 #include <queue>
 
+#include "facade/box_mesher.hpp"
 #include "feature_ids.hpp"
 #include "mesher/check.hpp"
 #include "mesher/domain.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/predicates.hpp"
 #include "scratch_file.hpp"
 #include "walled_grid.hpp"
@@ -19,11 +19,11 @@ namespace {
 
 using mesher::Domain;
 using mesher::Extent;
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Mesh;
 using mesher::MeshData;
 using mesher::MeshEdge;
-using mesher::Point;
+using mesher::PointId;
 using mesher::Region;
 using mesher::Seed;
 using mesher::SeedFault;
@@ -34,20 +34,20 @@ using support::hole;
 using support::region;
 using support::WalledGrid;
 
-Domain domain_of(const WalledGrid& grid, const std::vector<support::Edge>& walls,
-                 const std::vector<Seed>& seeds = {}, Extent extent = Extent::enclosed) {
+Domain<2> domain_of(const WalledGrid& grid, const std::vector<support::Edge>& walls,
+                    const std::vector<Seed<2>>& seeds = {}, Extent extent = Extent::enclosed) {
   return find_domain(grid.mesh(), WalledGrid::as_walls(walls), seeds, extent);
 }
 
-std::size_t kept(const Domain& domain) {
+std::size_t kept(const Domain<2>& domain) {
   std::size_t count = 0;
   for (std::uint32_t t = 0; t < domain.region_of.size(); ++t) count += domain.keeps(t);
   return count;
 }
 
-std::vector<std::string> words(const Domain& domain) {
+std::vector<std::string> words(const Domain<2>& domain) {
   std::vector<std::string> all;
-  for (const SeedFault& fault : domain.faults) all.push_back(describe(fault));
+  for (const SeedFault<2>& fault : domain.faults) all.push_back(describe(fault));
   return all;
 }
 
@@ -58,7 +58,7 @@ using Words = std::vector<std::string>;
 TEST_CASE("a closed ring of walls encloses what is inside; loose walls change nothing") {
   const WalledGrid grid(8);
   auto walls = grid.rectangle(2, 2, 5, 4);
-  const Domain domain = domain_of(grid, walls);
+  const Domain<2> domain = domain_of(grid, walls);
   CHECK(domain.regions.size() == 2);
   CHECK(kept(domain) == 2 * 6);
   WalledGrid::append(walls, grid.line(3, 3, 4, 3));  // inside
@@ -78,7 +78,7 @@ TEST_CASE("an input that encloses nothing keeps all, and so does the box") {
 
 TEST_CASE("walls on the boundary of the triangulation enclose all of it") {
   const WalledGrid grid(3);
-  const Domain domain = domain_of(grid, grid.rectangle(0, 0, 3, 3));
+  const Domain<2> domain = domain_of(grid, grid.rectangle(0, 0, 3, 3));
   REQUIRE(domain.regions.size() == 1);
   CHECK(domain.regions[0].label.zone == Zone::inside);
 }
@@ -88,10 +88,10 @@ TEST_CASE("a hole takes its region and nothing else; what is in a ring inside it
   auto walls = grid.rectangle(1, 1, 11, 11);
   WalledGrid::append(walls, grid.rectangle(3, 3, 9, 9));
   WalledGrid::append(walls, grid.rectangle(5, 5, 7, 7));
-  const Domain domain = domain_of(grid, walls, {hole(4, 3.5, 3.25)});
+  const Domain<2> domain = domain_of(grid, walls, {hole(4, 3.5, 3.25)});
   CHECK(domain.faults.empty());
   CHECK(kept(domain) == 2 * (100 - 36) + 2 * 4);
-  const Domain all_gone =
+  const Domain<2> all_gone =
       domain_of(grid, walls, {hole(1, 1.5, 1.25), hole(2, 3.5, 3.25), hole(3, 6, 6)});
   CHECK(all_gone.faults.empty());
   CHECK(kept(all_gone) == 0);
@@ -101,16 +101,16 @@ TEST_CASE("a region has the attribute and the limit of its seed, its triangles i
   const WalledGrid grid(8);
   auto walls = grid.rectangle(1, 1, 7, 7);
   WalledGrid::append(walls, grid.line(4, 1, 4, 7));
-  Seed right = region(9, 5.5, 5.25, -2.5);
+  Seed<2> right = region(9, 5.5, 5.25, -2.5);
   right.max_measure = 0.125;
-  const Domain domain = domain_of(grid, walls, {right});
+  const Domain<2> domain = domain_of(grid, walls, {right});
   REQUIRE(domain.regions.size() == 3);
   CHECK(domain.faults.empty());
   const Region& left = domain.regions[1];  // outside has the smallest triangle, left comes next
   CHECK(left.label == mesher::RegionLabel{Zone::inside, {}});
   CHECK(left.triangles == 36);
   CHECK(domain.regions[2] ==
-        Region{{Zone::inside, FeatureId{9}}, domain.regions[2].smallest, 36, -2.5, 0.125});
+        Region{{Zone::inside, mesher::region_id(9)}, domain.regions[2].smallest, 36, -2.5, 0.125});
   for (std::uint32_t r = 0; r < 3; ++r) {
     const auto first = std::find(domain.region_of.begin(), domain.region_of.end(), r);
     CHECK(domain.regions[r].smallest == first - domain.region_of.begin());
@@ -122,7 +122,7 @@ TEST_CASE("a seed on an edge or a vertex is in the region around it, and on a wa
   auto walls = grid.rectangle(2, 2, 6, 6);
   WalledGrid::append(walls, grid.line(4, 4, 5, 4));
   const auto label_at = [&](double x, double y) {
-    const Domain domain = domain_of(grid, walls, {region(1, x, y, 7)});
+    const Domain<2> domain = domain_of(grid, walls, {region(1, x, y, 7)});
     return std::pair(domain.regions[1].attribute, words(domain));
   };
   CHECK(label_at(3.5, 3.5) == std::pair(7.0, Words{}));  // on a diagonal
@@ -137,9 +137,9 @@ TEST_CASE("a seed on an edge or a vertex is in the region around it, and on a wa
 TEST_CASE("seeds that have no region of their own are named, and change nothing") {
   const WalledGrid grid(8);
   const auto walls = grid.rectangle(2, 2, 6, 6);
-  const Domain domain = domain_of(grid, walls,
-                                  {hole(1, 0.5, 0.25), hole(2, 20, 20), region(3, 1, 1),
-                                   region(8, 3, 3, 8), region(5, 4, 4, 5)});
+  const Domain<2> domain = domain_of(grid, walls,
+                                     {hole(1, 0.5, 0.25), hole(2, 20, 20), region(3, 1, 1),
+                                      region(8, 3, 3, 8), region(5, 4, 4, 5)});
   CHECK(words(domain) ==
         Words{"the seed of hole 1 at (0.5, 0.25) is outside of what the segments enclose",
               "the seed of hole 2 at (20, 20) is outside of what the segments enclose",
@@ -147,19 +147,19 @@ TEST_CASE("seeds that have no region of their own are named, and change nothing"
               "the seed of region 8 at (3, 3) is in one region with region 5, which counts"});
   CHECK(domain.regions[1].attribute == 5);
   CHECK(kept(domain) == 32);
-  const Domain holed = domain_of(grid, walls, {region(1, 3, 3), hole(7, 4, 4), hole(9, 5, 5)});
+  const Domain<2> holed = domain_of(grid, walls, {region(1, 3, 3), hole(7, 4, 4), hole(9, 5, 5)});
   CHECK(words(holed) ==
         Words{"the seed of hole 9 at (5, 5) is in one region with hole 7, which counts",
               "the seed of region 1 at (3, 3) is in one region with hole 7, which counts"});
   CHECK(kept(holed) == 0);
   const mesher::Error error = error_of(holed.faults[0]);
   CHECK(error.code() == mesher::ErrorCode::bad_seed);
-  CHECK(support::ids_of(error) == std::vector{FeatureId{9}, FeatureId{7}});
+  CHECK(support::ids_of(error) == support::ids({9, 7}));
 }
 
 TEST_CASE("where all is kept a region seed may be anywhere in it") {
   const WalledGrid grid(4);
-  const Domain domain = domain_of(grid, {}, {region(1, 1, 1, 3)});
+  const Domain<2> domain = domain_of(grid, {}, {region(1, 1, 1, 3)});
   CHECK(domain.faults.empty());
   CHECK(domain.regions[0].attribute == 3);
 }
@@ -171,7 +171,7 @@ TEST_CASE("a wall that is no edge of the mesh is refused") {
 }
 
 TEST_CASE("an empty mesh has no regions") {
-  const Domain domain = find_domain<2>({}, {}, {hole(1, 0, 0)}, Extent::enclosed);
+  const Domain<2> domain = find_domain<2>({}, {}, {hole(1, 0, 0)}, Extent::enclosed);
   CHECK(domain.regions.empty());
   CHECK(words(domain) ==
         Words{"the seed of hole 1 at (0, 0) is outside of what the segments enclose"});
@@ -180,9 +180,9 @@ TEST_CASE("an empty mesh has no regions") {
 
 TEST_CASE("seeds that are none are refused by name") {
   const WalledGrid grid(4);
-  const auto refused = [&](const std::vector<Seed>& seeds) {
+  const auto refused = [&](const std::vector<Seed<2>>& seeds) {
     const mesher::Error error = support::error_of([&] { domain_of(grid, {}, seeds); });
-    CHECK(support::ids_of(error) == std::vector{FeatureId{6}});
+    CHECK(support::ids_of(error) == support::ids({6}));
     return error.code();
   };
   using mesher::ErrorCode;
@@ -192,7 +192,7 @@ TEST_CASE("seeds that are none are refused by name") {
   CHECK(refused({hole(6, 1e300, 1)}) == ErrorCode::magnitude);
   CHECK(refused({region(6, 1, 1, inf)}) == ErrorCode::not_finite);
   CHECK(refused({region(6, 1, 1), hole(6, 2, 2), region(6, 3, 3)}) == ErrorCode::repeated_id);
-  Seed empty = region(6, 1, 1);
+  Seed<2> empty = region(6, 1, 1);
   empty.max_measure = 0;
   CHECK(refused({empty}) == ErrorCode::bad_number);
 }
@@ -259,7 +259,7 @@ TEST_CASE("regions are those of a flood over squares, for random walls between t
     INFO("seed " << seed);
     const RandomRooms rooms(seed);
     const Mesh<2> mesh = rooms.grid.mesh();
-    const Domain domain =
+    const Domain<2> domain =
         find_domain(mesh, WalledGrid::as_walls(rooms.walls), {}, Extent::enclosed);
     CHECK(domain.regions.size() == static_cast<std::size_t>(rooms.rooms));
     CHECK(domain.keeps_all == (rooms.open.size() == static_cast<std::size_t>(rooms.rooms)));
@@ -283,14 +283,14 @@ TEST_CASE("regions are those of a flood over squares, for random walls between t
 namespace {
 
 // The mesh of random points, with the border of a disc's triangles as walls.
-MeshData disc_in_box() {
-  mesher::Mesher<2> m(mesher::Options<2>{.domain = {{0, 0}, {1, 1}}});
+MeshData<2> disc_in_box() {
+  mesher::BoxMesher<2> m(mesher::Options<2>{.domain = {{0, 0}, {1, 1}}});
   const auto points = mesher::generate_points<2>(mesher::PointKind::uniform, 120, 3);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    m.insert(FeatureId{static_cast<std::int64_t>(i)}, points[i]);
+    m.insert(PointId{static_cast<std::int64_t>(i)}, points[i]);
   }
   m.update();
-  MeshData whole(m.mesh());
+  MeshData<2> whole(m.mesh());
   const auto inside = [&](std::uint32_t t) {
     double x = 0, y = 0;
     for (const auto v : whole.simplices[t]) {
@@ -305,7 +305,7 @@ MeshData disc_in_box() {
       if (!inside(t) || (next[t][i] != mesher::kNoTriangle && inside(next[t][i]))) continue;
       const auto [low, high] =
           std::minmax(whole.simplices[t][(i + 1) % 3], whole.simplices[t][(i + 2) % 3]);
-      whole.features.edges.push_back({low, high, FeatureId{77}, low % 2 == 0 ? 5 : 0});
+      whole.features.edges.push_back({low, high, LineId{77}, low % 2 == 0 ? 5 : 0});
     }
   }
   std::sort(whole.features.edges.begin(), whole.features.edges.end(),
@@ -327,12 +327,12 @@ double twice_area(const Mesh<2>& mesh) {
 }  // namespace
 
 TEST_CASE("what is kept is a canonical mesh with the edges, markers and neighbours that it needs") {
-  const MeshData whole = disc_in_box();
+  const MeshData<2> whole = disc_in_box();
   const auto seeds = std::vector{hole(1, 0.5, 0.5), region(2, 0.5, 0.8, 4.5)};
-  const Domain domain = find_domain(whole, whole.features.edges, seeds, Extent::enclosed);
+  const Domain<2> domain = find_domain(whole, whole.features.edges, seeds, Extent::enclosed);
   REQUIRE(domain.faults.empty());
-  const mesher::Extract part = extract(whole, domain);
-  const MeshData& mesh = part.mesh;
+  const mesher::Extract<2> part = extract(whole, domain);
+  const MeshData<2>& mesh = part.mesh;
 
   CHECK(std::is_sorted(mesh.vertices.begin(), mesh.vertices.end()));
   CHECK(std::is_sorted(mesh.simplices.begin(), mesh.simplices.end()));
@@ -364,7 +364,7 @@ TEST_CASE("what is kept is a canonical mesh with the edges, markers and neighbou
   CHECK(boundary == whole.features.edges.size());
   for (const MeshEdge& e : mesh.features.edges) {
     CHECK(sides.at({e.low, e.high}) == 1);
-    CHECK(e.line == FeatureId{77});
+    CHECK(e.line == LineId{77});
     CHECK(e.marker == (part.vertices[e.low] % 2 == 0 ? 5 : mesher::kBoundaryMarker));
   }
   std::vector<std::int64_t> least(whole.vertices.size(), 1000);
@@ -381,9 +381,9 @@ TEST_CASE("what is kept is a canonical mesh with the edges, markers and neighbou
 }
 
 TEST_CASE("all that is kept of a box is the box, with its boundary marked") {
-  const MeshData whole = disc_in_box();
-  const Domain domain = find_domain(whole, whole.features.edges, {}, Extent::box);
-  const MeshData all = extract(whole, domain).mesh;
+  const MeshData<2> whole = disc_in_box();
+  const Domain<2> domain = find_domain(whole, whole.features.edges, {}, Extent::box);
+  const MeshData<2> all = extract(whole, domain).mesh;
   CHECK(static_cast<const Mesh<2>&>(all) == static_cast<const Mesh<2>&>(whole));
   std::size_t marked = 0;
   for (const MeshEdge& e : all.features.edges)
@@ -396,9 +396,9 @@ TEST_CASE("all that is kept of a box is the box, with its boundary marked") {
 }
 
 TEST_CASE("an edge's sides are the regions left and right of it") {
-  const MeshData whole = disc_in_box();
+  const MeshData<2> whole = disc_in_box();
   for (const Extent extent : {Extent::enclosed, Extent::box}) {
-    const Domain domain = find_domain(whole, whole.features.edges, {}, extent);
+    const Domain<2> domain = find_domain(whole, whole.features.edges, {}, extent);
     const auto edges = sided_edges(whole, whole.features.edges, domain);
     CHECK(edges.size() >= whole.features.edges.size());
     std::map<std::pair<std::uint32_t, std::uint32_t>, SidedEdge> by_ends;
@@ -414,7 +414,7 @@ TEST_CASE("an edge's sides are the regions left and right of it") {
     }
   }
   // Around: the sum over the boundary of the kept part, each edge with the inside on its left.
-  const Domain domain = find_domain(whole, whole.features.edges, {}, Extent::enclosed);
+  const Domain<2> domain = find_domain(whole, whole.features.edges, {}, Extent::enclosed);
   double around = 0;
   for (const SidedEdge& e : sided_edges(whole, whole.features.edges, domain)) {
     if ((e.left == mesher::kNoRegion) == (e.right == mesher::kNoRegion)) continue;

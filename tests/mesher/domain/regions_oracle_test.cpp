@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "edit_sequence.hpp"
-#include "mesher/generate.hpp"
+#include "facade/box_mesher.hpp"
+#include "mesher/extra/generate.hpp"
 #include "walled_mesh.hpp"
 
 namespace {
 
-using mesher::FeatureId;
-using mesher::Mesher;
+using mesher::BoxMesher;
 using mesher::Options;
 using mesher::Point;
 using mesher::Seed;
@@ -140,16 +140,16 @@ class RandomEdits {
     }
   }
   void edit_seeds() {
-    const mesher::SeedName name{
+    const mesher::SeedId name{
         random_.below(3) == 0 ? mesher::SeedKind::hole : mesher::SeedKind::region,
-        FeatureId{static_cast<std::int64_t>(random_.below(8))}};
+        static_cast<std::int64_t>(random_.below(8))};
     if (seeds_.erase(name) > 0 && random_.below(2) == 0) return;
-    seeds_[name] = Seed{name, seed_place(), random_.unit(), random_.unit()};
+    seeds_[name] = Seed<2>{name, seed_place(), random_.unit(), random_.unit()};
   }
 
   SplitMix64 random_;
   Options<2> options_;
-  Mesher<2> mesher_;
+  BoxMesher<2> mesher_;
   support::Sequence points_;
   support::PointSet twin_;
   std::size_t next_ = 0;

@@ -14,11 +14,11 @@
 namespace {
 
 using mesher::Extent;
-using mesher::FeatureId;
+using mesher::hole_id;
+using mesher::region_id;
 using mesher::RegionLabel;
 using mesher::Seed;
-using mesher::SeedKind;
-using mesher::SeedName;
+using mesher::SeedId;
 using mesher::Zone;
 using mesher::detail::Regions;
 using mesher::detail::RegionsChange;
@@ -29,7 +29,7 @@ using support::region;
 using support::WalledGrid;
 
 Regions regions_of(const WalledGrid& grid, const std::vector<Edge>& walls,
-                   const std::vector<Seed>& seeds = {}) {
+                   const std::vector<Seed<2>>& seeds = {}) {
   return {grid.triangles(), walls, seeds, [grid](std::uint32_t v) { return grid.place(v); }};
 }
 
@@ -57,7 +57,7 @@ std::size_t count(const RegionsDifference& d, const RegionLabel& before, const R
 }
 
 constexpr RegionLabel kOutside{Zone::outside, {}}, kInside{Zone::inside, {}};
-RegionLabel inside(std::int64_t id) { return {Zone::inside, FeatureId{id}}; }
+RegionLabel inside(std::int64_t id) { return {Zone::inside, region_id(id)}; }
 
 }  // namespace
 
@@ -109,17 +109,17 @@ TEST_CASE("a seed that comes, moves or goes labels its region anew") {
   Regions regions = regions_of(grid, walls);
   RegionsChange come;
   come.seeds_in = {hole(1, 2, 2)};
-  const RegionLabel in_hole{Zone::hole, FeatureId{1}};
+  const RegionLabel in_hole{Zone::hole, hole_id(1)};
   CHECK(count(regions.update(come), kInside, in_hole) == 32);
   RegionsChange move;
-  move.seeds_out = {{SeedKind::hole, FeatureId{1}}};
+  move.seeds_out = {hole_id(1)};
   move.seeds_in = {hole(1, 7, 7)};
   const RegionsDifference moved = regions.update(move);
   CHECK(count(moved, in_hole, kInside) == 32);
   CHECK(count(moved, kInside, in_hole) == 18);
   CHECK(moved.relabelled.size() == 50);
   RegionsChange go;
-  go.seeds_out = {{SeedKind::hole, FeatureId{1}}};
+  go.seeds_out = {hole_id(1)};
   CHECK(count(regions.update(go), in_hole, kInside) == 18);
   regions.check_invariants();
 }
@@ -131,7 +131,7 @@ TEST_CASE("a seed on a vertex loses its region to a wall that comes there, and g
   for (const auto& wall : {grid.line(4, 4, 5, 4), grid.line(3, 4, 4, 4), grid.line(4, 4, 4, 5)}) {
     CHECK(count(regions.update(walls_in(wall)), inside(2), kInside) == 72);
     REQUIRE(regions.faults(Extent::enclosed).size() == 1);
-    CHECK(regions.faults(Extent::enclosed)[0].kind == mesher::SeedFault::Kind::on_segment);
+    CHECK(regions.faults(Extent::enclosed)[0].kind == mesher::SeedFault<2>::Kind::on_segment);
     CHECK(count(regions.update(walls_out(wall)), kInside, inside(2)) == 72);
     regions.check_invariants();
   }
@@ -227,7 +227,7 @@ TEST_CASE("seeds that come to another region together cost no more than when the
   const WalledGrid grid(6);
   const auto rooms = grid.rectangle(1, 1, 5, 5);
   const auto door = grid.line(2, 1, 2, 5);
-  std::vector<Seed> seeds;
+  std::vector<Seed<2>> seeds;
   for (int i = 0; i < 40000; ++i) seeds.push_back(region(i, 1.5 + 1e-6 * i, 1.75));
   std::vector<Edge> walls = rooms;
   WalledGrid::append(walls, door);
@@ -252,11 +252,11 @@ TEST_CASE("seeds that come to another region together cost no more than when the
 
 TEST_CASE("seeds that go together cost no more than when they came, and come back if taken back") {
   const WalledGrid grid(6);
-  std::vector<Seed> seeds;  // in one triangle
+  std::vector<Seed<2>> seeds;  // in one triangle
   RegionsChange all_out;
   for (int i = 0; i < 40000; ++i) {
     seeds.push_back(region(i, 1.5 + 1e-6 * i, 1.75));
-    all_out.seeds_out.push_back(seeds.back().name);
+    all_out.seeds_out.push_back(seeds.back().id);
   }
   const auto seconds = [](auto&& what) {
     const std::clock_t start = std::clock();
@@ -334,7 +334,7 @@ TEST_CASE("what a large update keeps to be taken back is given back by the next 
 namespace {
 
 // All that can be seen.
-using View = std::tuple<std::map<support::Corners, std::pair<Zone, std::optional<FeatureId>>>,
+using View = std::tuple<std::map<support::Corners, std::pair<Zone, std::optional<SeedId>>>,
                         std::vector<std::string>, std::size_t>;
 
 View view(const Regions& regions) {
@@ -366,7 +366,7 @@ struct Everything {
     change.walls_out = grid.line(5, 1, 5, 11);
     change.walls_in = grid.line(6, 1, 6, 11);
     WalledGrid::append(change.walls_in, grid.rectangle(2, 2, 4, 4));
-    change.seeds_out = {{SeedKind::hole, FeatureId{1}}, {SeedKind::region, FeatureId{2}}};
+    change.seeds_out = {hole_id(1), region_id(2)};
     change.seeds_in = {hole(1, 8, 8), region(7, 3, 3), region(8, 2, 10)};
   }
   [[nodiscard]] Regions regions() const {
@@ -441,7 +441,7 @@ TEST_CASE("a change that does not fit is refused, and changes nothing") {
   refused([&](auto& c) { c.triangles_out.pop_back(); });          // one too many comes
   refused([&](auto& c) { c.triangles_in.pop_back(); });           // a gap
   refused([&](auto& c) { c.triangles_out.push_back(grid.square(2, 2, true)[0]); });
-  refused([&](auto& c) { c.seeds_out.push_back({SeedKind::hole, FeatureId{2}}); });
+  refused([&](auto& c) { c.seeds_out.push_back(hole_id(2)); });
   refused([&](auto& c) { c.seeds_in.push_back(hole(1, 3, 3)); });
   refused([&](auto& c) { c.seeds_in.push_back(hole(4, 1e300, 3)); });
 }

@@ -4,31 +4,34 @@
 #include <cmath>
 #include <map>
 
+#include "facade/graph_runs.hpp"
 #include "geometry/circumcentre.hpp"
 #include "geometry/space_vectors.hpp"
-#include "mesher/domain_mesh.hpp"
-#include "mesher/generate_plc.hpp"
-#include "mesher/space_check.hpp"
-#include "mesher/space_files.hpp"
+#include "mesh/boundary_faces.hpp"
+#include "mesher/check.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/write.hpp"
 #include "plc_families.hpp"
 
 namespace {
 
-using mesher::DomainMeshOf;
+using mesher::DomainMesh;
 using mesher::Extent;
-using mesher::FeatureId;
+using mesher::Graph;
+using mesher::LineId;
 using mesher::Mesh;
 using mesher::Options;
-using mesher::Plc;
 using mesher::PlcKind;
 using mesher::Point;
-using mesher::SeedFaultOf;
-using mesher::SeedKind;
+using mesher::PointId;
+using mesher::PolygonId;
+using mesher::SeedFault;
 
-Options<3> options_for(const Plc& plc) {
+Options<3> options_for(const Graph<3>& plc) {
   return {.domain = mesher::snapped_domain<3>(places_of(plc))};
 }
-DomainMeshOf<3> domain_of(const Plc& plc, Extent extent = Extent::enclosed) {
+DomainMesh<3> domain_of(const Graph<3>& plc, Extent extent = Extent::enclosed) {
   return domain_mesh(mesh_statically(plc, options_for(plc)), plc, extent);
 }
 
@@ -51,45 +54,45 @@ TEST_CASE("what polygons enclose is kept, however it is turned; the box if that 
   };
   for (const auto& [kind, expected] :
        {Case{PlcKind::cube, 1}, {PlcKind::nested, 1}, {PlcKind::plates, 1}, {PlcKind::island, 1}}) {
-    const Plc plc = mesher::generate_plc({kind});
-    CHECK(volume(domain_of(plc).kept) == Approx(expected).epsilon(1e-12));
+    const Graph<3> plc = mesher::generate_plc({kind});
+    CHECK(volume(domain_of(plc).mesh) == Approx(expected).epsilon(1e-12));
     const auto all = domain_of(plc, Extent::box);
     CHECK(all.keeps_all);
-    CHECK(all.kept.simplices == mesh_statically(plc, options_for(plc)).simplices);
+    CHECK(all.mesh.simplices == mesh_statically(plc, options_for(plc)).simplices);
   }
   // Two open squares enclose nothing: all is kept.
-  Plc open = mesher::generate_plc({PlcKind::cube});
-  open.facets.pop_back();
+  Graph<3> open = mesher::generate_plc({PlcKind::cube});
+  open.polygons.pop_back();
   CHECK(domain_of(open).keeps_all);
 }
 
 TEST_CASE("holes and attributes are those of the seeds in them") {
-  Plc plc = mesher::generate_plc({PlcKind::nested, 0.25});
-  plc.regions.push_back({FeatureId{1}, {0.1, 0.1, 0.1}, 2.5, {}});
-  plc.regions.push_back({FeatureId{2}, {0.5, 0.5, 0.5}, -1, {}});
+  Graph<3> plc = mesher::generate_plc({PlcKind::nested, 0.25});
+  plc.seeds.push_back(mesher::region_seed<3>(1, {0.1, 0.1, 0.1}, 2.5));
+  plc.seeds.push_back(mesher::region_seed<3>(2, {0.5, 0.5, 0.5}, -1));
   const auto both = domain_of(plc);
   CHECK(both.faults.empty());
-  REQUIRE(both.kept.features.regions.size() == both.kept.simplices.size());
+  REQUIRE(both.mesh.features.regions.size() == both.mesh.simplices.size());
   double inner = 0;
-  for (std::size_t t = 0; t < both.kept.simplices.size(); ++t) {
-    const double region = both.kept.features.regions[t];
+  for (std::size_t t = 0; t < both.mesh.simplices.size(); ++t) {
+    const double region = both.mesh.features.regions[t];
     CHECK((region == 2.5 || region == -1));
-    Mesh<3> one = both.kept;
-    one.simplices = {both.kept.simplices[t]};
+    Mesh<3> one = both.mesh;
+    one.simplices = {both.mesh.simplices[t]};
     if (region == -1) inner += volume(one);
   }
   CHECK(inner == Approx(0.125).epsilon(1e-12));
 
-  plc.regions.pop_back();
-  plc.holes.push_back({FeatureId{9}, {0.5, 0.5, 0.5}});
+  plc.seeds.pop_back();
+  plc.seeds.push_back(mesher::hole_seed<3>(9, {0.5, 0.5, 0.5}));
   const auto hollow = domain_of(plc);
-  CHECK(volume(hollow.kept) == Approx(0.875).epsilon(1e-12));
+  CHECK(volume(hollow.mesh) == Approx(0.875).epsilon(1e-12));
   // Its boundary is both cubes' sides, seen from outside counterclockwise.
-  const auto& f = hollow.kept.features;
+  const auto& f = hollow.mesh.features;
   std::vector<std::array<std::uint32_t, 3>> boundary;
   for (const auto& face : f.faces) boundary.push_back(face.corners);
   std::sort(boundary.begin(), boundary.end());
-  CHECK(boundary == boundary_faces(hollow.kept));
+  CHECK(boundary == mesher::boundary_faces(hollow.mesh));
   for (const auto& face : f.faces) {
     CHECK(face.polygon.has_value());
     CHECK(face.marker == mesher::kBoundaryMarker);
@@ -97,30 +100,31 @@ TEST_CASE("holes and attributes are those of the seeds in them") {
 }
 
 TEST_CASE("seeds that stand for nothing are faults that say why") {
-  Plc plc = mesher::generate_plc({PlcKind::nested, 0.25});
-  plc.holes.push_back({FeatureId{1}, {7.0 / 8, 9.0 / 8, 0.5}});  // in no tetrahedron, or outside
-  plc.holes.push_back({FeatureId{2}, {0.25, 0.5, 0.5}});         // on the inner cube
-  plc.regions.push_back({FeatureId{3}, {0.1, 0.1, 0.1}, 1, {}});
-  plc.regions.push_back({FeatureId{4}, {0.9, 0.9, 0.9}, 2, {}});
+  Graph<3> plc = mesher::generate_plc({PlcKind::nested, 0.25});
+  plc.seeds.push_back(
+      mesher::hole_seed<3>(1, {7.0 / 8, 9.0 / 8, 0.5}));           // in no tetrahedron, or outside
+  plc.seeds.push_back(mesher::hole_seed<3>(2, {0.25, 0.5, 0.5}));  // on the inner cube
+  plc.seeds.push_back(mesher::region_seed<3>(3, {0.1, 0.1, 0.1}, 1));
+  plc.seeds.push_back(mesher::region_seed<3>(4, {0.9, 0.9, 0.9}, 2));
   const auto mesh = domain_of(plc);
   REQUIRE(mesh.faults.size() == 3);
-  using Kind = SeedFaultOf<3>::Kind;
+  using Kind = SeedFault<3>::Kind;
   CHECK(mesh.faults[0].kind == Kind::outside);
   CHECK(mesh.faults[1].kind == Kind::on_segment);
-  CHECK(mesh.faults[1].line.has_value());
+  CHECK(mesh.faults[1].wall.polygon().has_value());
   CHECK(describe(mesh.faults[1]).find("is on polygon ") != std::string::npos);
   CHECK(mesh.faults[2].kind == Kind::shared);
-  CHECK(mesh.faults[2].seed == mesher::SeedName{SeedKind::region, FeatureId{4}});
-  CHECK(volume(mesh.kept) == Approx(1).epsilon(1e-12));
+  CHECK(mesh.faults[2].seed == mesher::region_id(4));
+  CHECK(volume(mesh.mesh) == Approx(1).epsilon(1e-12));
 }
 
 TEST_CASE("the region of a tetrahedron is that of its circumcentre [rules C4]") {
   for (const double gap : {0.1, 0.25}) {
-    const Plc plc = mesher::generate_plc({PlcKind::nested, gap});
-    Plc seeded = plc;
-    seeded.regions.push_back({FeatureId{1}, {gap / 2, 0.5, 0.5}, 1, {}});
-    seeded.regions.push_back({FeatureId{2}, {0.5, 0.5, 0.5}, 2, {}});
-    const auto mesh = domain_of(seeded, Extent::box).kept;
+    const Graph<3> plc = mesher::generate_plc({PlcKind::nested, gap});
+    Graph<3> seeded = plc;
+    seeded.seeds.push_back(mesher::region_seed<3>(1, {gap / 2, 0.5, 0.5}, 1));
+    seeded.seeds.push_back(mesher::region_seed<3>(2, {0.5, 0.5, 0.5}, 2));
+    const auto mesh = domain_of(seeded, Extent::box).mesh;
     std::size_t counts[3] = {};
     for (std::size_t t = 0; t < mesh.simplices.size(); ++t) {
       const auto& [a, b, c, d] = mesh.simplices[t];
@@ -139,28 +143,28 @@ TEST_CASE("the region of a tetrahedron is that of its circumcentre [rules C4]") 
 }
 
 TEST_CASE("vertices, edges and faces have markers of their own, else of what they lie on") {
-  Plc plc = mesher::generate_plc({PlcKind::cube_square});
+  Graph<3> plc = mesher::generate_plc({PlcKind::cube_square});
   plc.points[0].marker = 70;
-  for (std::size_t i = 0; i < plc.facets.size(); ++i) {
-    plc.facets[i].marker = static_cast<std::int64_t>(i) + 10;
+  for (std::size_t i = 0; i < plc.polygons.size(); ++i) {
+    plc.polygons[i].marker = static_cast<std::int64_t>(i) + 10;
   }
-  plc.facets.back().marker = 0;  // the square, if it is the last
-  const auto& loop = plc.facets[0].polygon.loops[0];
-  plc.segments.push_back({FeatureId{5}, loop[0], loop[1], -3});
-  const auto mesh = domain_of(plc).kept;
-  std::map<FeatureId, std::int64_t> markers;
-  for (const auto& f : plc.facets) markers[f.polygon.id] = f.marker;
+  plc.polygons.back().marker = 0;  // the square, if it is the last
+  const auto& loop = plc.polygons[0].loops[0];
+  plc.segments.push_back({LineId{5}, loop[0], loop[1], -3});
+  const auto mesh = domain_of(plc).mesh;
+  std::map<PolygonId, std::int64_t> markers;
+  for (const auto& f : plc.polygons) markers[f.id] = f.marker;
   std::map<std::uint32_t, std::int64_t> of_segment;
   for (const auto& e : mesh.features.edges) {
     if (!e.line) continue;
-    CHECK(e.line == FeatureId{5});
+    CHECK(e.line == LineId{5});
     CHECK(e.marker == -3);
     of_segment[e.low] = of_segment[e.high] = -3;
   }
   CHECK(!of_segment.empty());
   for (const auto& f : mesh.features.faces) {
     REQUIRE(f.polygon.has_value());
-    const bool boundary = f.polygon != plc.facets.back().polygon.id;
+    const bool boundary = f.polygon != plc.polygons.back().id;
     CHECK(f.marker == markers.at(*f.polygon));
     for (const std::uint32_t v : f.corners) {
       if (boundary) CHECK(mesh.features.markers[v] != 0);
@@ -173,14 +177,14 @@ TEST_CASE("vertices, edges and faces have markers of their own, else of what the
 }
 
 TEST_CASE("points alone have no features, and all is kept") {
-  Plc plc;
+  Graph<3> plc;
   for (int i = 0; i < 8; ++i) {
-    plc.points.push_back({FeatureId{i}, {i * 0.125, (i * 3 % 8) * 0.125, (i * 5 % 8) * 0.125}, 0});
+    plc.points.push_back({PointId{i}, {i * 0.125, (i * 3 % 8) * 0.125, (i * 5 % 8) * 0.125}, 0});
   }
   const auto mesh = domain_of(plc);
   CHECK(mesh.keeps_all);
-  CHECK(mesh.kept.features.empty());
+  CHECK(mesh.mesh.features.empty());
   plc.points[3].marker = 4;
-  const auto marked = domain_of(plc).kept;
+  const auto marked = domain_of(plc).mesh;
   CHECK(std::count(marked.features.markers.begin(), marked.features.markers.end(), 4) == 1);
 }

@@ -5,17 +5,18 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
 #include "failing_new.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace {
 
-using mesher::FeatureId;
+using mesher::BoxMesher;
 using mesher::Mesh;
-using mesher::Mesher;
 using mesher::Options;
 using mesher::Point;
+using mesher::PointId;
 
 const Options<2> kUnit{.domain = {{0, 0}, {1, 1}}};
 
@@ -47,23 +48,23 @@ std::vector<Point<2>> some_points(std::size_t n, std::uint64_t seed) {
 struct Some {
   std::vector<Point<2>> points = some_points(60, 5);
   std::vector<Point<2>> near = some_points(20, 6);
-  Mesher<2> m{kUnit};
+  BoxMesher<2> m{kUnit};
   Mesh<2> before;
 
   Some() {
-    for (std::size_t i = 0; i < points.size(); ++i) m.insert(FeatureId(i), points[i]);
+    for (std::size_t i = 0; i < points.size(); ++i) m.insert(PointId(i), points[i]);
     m.update();
     before = m.mesh();
   }
   // Points go, and others swap places.
   void announce_swaps() {
-    for (std::size_t i = 0; i < 20; ++i) m.remove(FeatureId(i));
-    for (std::size_t i = 20; i < 40; ++i) m.move(FeatureId(i), points[59 - i]);
+    for (std::size_t i = 0; i < 20; ++i) m.remove(PointId(i));
+    for (std::size_t i = 20; i < 40; ++i) m.move(PointId(i), points[59 - i]);
   }
   void announce() {
     announce_swaps();
     for (std::size_t i = 0; i < near.size(); ++i) {
-      m.insert(FeatureId(100 + i), {0.3 + near[i][0] * 0.01, 0.4 + near[i][1] * 0.01});
+      m.insert(PointId(100 + i), {0.3 + near[i][0] * 0.01, 0.4 + near[i][1] * 0.01});
     }
   }
 };
@@ -74,18 +75,18 @@ TEST_CASE("an edit that finds no memory changes nothing") {
   Some s;
   const auto unchanged = [&] {
     CHECK(s.m.size() == 60);
-    CHECK_FALSE(s.m.contains(FeatureId{100}));
-    CHECK(s.m.contains(FeatureId{3}));
+    CHECK_FALSE(s.m.contains(PointId{100}));
+    CHECK(s.m.contains(PointId{3}));
     CHECK(s.m.mesh() == s.before);
     CHECK(s.m.update().calls.executed == 0);
   };
-  CHECK(sweep([&] { s.m.insert(FeatureId{100}, {0.3, 0.4}); }, unchanged) > 0);
+  CHECK(sweep([&] { s.m.insert(PointId{100}, {0.3, 0.4}); }, unchanged) > 0);
   s.m.discard_edits();
-  CHECK(sweep([&] { s.m.remove(FeatureId{3}); }, unchanged) > 0);
+  CHECK(sweep([&] { s.m.remove(PointId{3}); }, unchanged) > 0);
   s.m.discard_edits();
-  CHECK(sweep([&] { s.m.move(FeatureId{3}, {0.3, 0.4}); }, unchanged) > 0);
+  CHECK(sweep([&] { s.m.move(PointId{3}, {0.3, 0.4}); }, unchanged) > 0);
   s.m.discard_edits();
-  const std::vector<FeatureId> ids{FeatureId{100}, FeatureId{101}, FeatureId{102}};
+  const std::vector<PointId> ids{PointId{100}, PointId{101}, PointId{102}};
   CHECK(sweep([&] { s.m.insert(ids, {{0.3, 0.4}, {0.4, 0.3}, {0.5, 0.5}}); }, unchanged) > 0);
   s.m.discard_edits();
   CHECK(sweep([&] { (void)s.m.mesh(); }, unchanged) > 0);
@@ -93,9 +94,9 @@ TEST_CASE("an edit that finds no memory changes nothing") {
 
 TEST_CASE("a first update that finds no memory leaves an empty mesh") {
   const auto points = some_points(12, 5);
-  std::vector<FeatureId> ids;
-  for (std::size_t i = 0; i < points.size(); ++i) ids.push_back(FeatureId(i));
-  Mesher<2> m(kUnit);
+  std::vector<PointId> ids;
+  for (std::size_t i = 0; i < points.size(); ++i) ids.push_back(PointId(i));
+  BoxMesher<2> m(kUnit);
   const auto announced = [&] {
     if (m.size() == 0) m.insert(ids, points);
   };
@@ -114,10 +115,10 @@ namespace {
 
 // Edits that have nothing to do with those that failed, and back.
 void update_otherwise(Some& s) {
-  s.m.insert(FeatureId{500}, {0.77, 0.11});
+  s.m.insert(PointId{500}, {0.77, 0.11});
   s.m.update();
   s.m.check_invariants();
-  s.m.remove(FeatureId{500});
+  s.m.remove(PointId{500});
   s.m.update();
   REQUIRE(s.m.mesh() == s.before);
 }

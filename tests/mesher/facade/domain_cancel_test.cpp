@@ -3,16 +3,17 @@
 // stopped.
 #include <catch2/catch.hpp>
 
-#include "mesher/domain_mesher.hpp"
-#include "mesher/edit_script.hpp"
-#include "mesher/generate.hpp"
+#include "facade/graph_runs.hpp"
+#include "mesher/extra/edit_script.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/mesher.hpp"
 #include "random_lake.hpp"
 #include "rules/mesh_box.hpp"
 
 namespace {
 
 using mesher::DomainMesh;
-using mesher::DomainMesher;
+using mesher::Mesher;
 using mesher::RegionAreas;
 using support::Lake;
 using support::LakeEditor;
@@ -40,20 +41,25 @@ class Stopped {
   int stops = 0, late = 0, taken_back = 0;
 
  private:
+  static mesher::Options<2> options() {
+    mesher::Options<2> all = LakeEditor::options();
+    all.region_areas = RegionAreas::limits;
+    return all;
+  }
   // An update that is stopped when it has told how far it is for a while, if it is that long.
   void stop() {
     const std::uint64_t most = 1 + random_.below(4);
     std::uint64_t told = 0;
     const mesher::RunControl control{
         .progress = [&](const mesher::Progress&) { return ++told < most; }, .stop = {}};
-    const auto before = m_.mesh();
+    const auto before = m_.box_mesh();
     const std::size_t lines = m_.input().segments.size();
     try {
       m_.update(control);
       stopped_ = false;
     } catch (const mesher::Error& error) {
       REQUIRE(error.code() == mesher::ErrorCode::cancelled);
-      REQUIRE(m_.mesh() == before);
+      REQUIRE(m_.box_mesh() == before);
       REQUIRE(m_.input().segments.size() == lines);
       stopped_ = true;
       ++stops;
@@ -63,22 +69,22 @@ class Stopped {
 
   void check() {
     stopped_ = false;
-    const mesher::Pslg graph = lake_.graph();
+    const mesher::Graph<2> graph = lake_.graph();
     REQUIRE(m_.input() == graph);
     mesher::Options<2> options = lake_.options;
     options.region_limits =
         mesher::region_limits(graph, options, mesher::Extent::enclosed, RegionAreas::limits);
     const mesher::Mesh<2> mesh = mesher::mesh_statically(graph, options);
-    REQUIRE(m_.mesh() == mesh);
-    const DomainMesh scratch = mesher::domain_mesh(mesh, graph, mesher::Extent::enclosed);
-    const DomainMesh followed = m_.domain_mesh();
-    REQUIRE(followed.kept.features == scratch.kept.features);
+    REQUIRE(m_.box_mesh() == mesh);
+    const DomainMesh<2> scratch = mesher::domain_mesh(mesh, graph, mesher::Extent::enclosed);
+    const DomainMesh<2> followed = m_.domain_mesh();
+    REQUIRE(followed.mesh.features == scratch.mesh.features);
     REQUIRE(followed.regions == scratch.regions);
   }
 
   LakeEditor editor_;
   mesher::SplitMix64 random_;
-  DomainMesher m_{LakeEditor::options(), mesher::Extent::enclosed, RegionAreas::limits};
+  Mesher<2> m_{options()};
   Lake lake_;
   bool stopped_ = false;
 };

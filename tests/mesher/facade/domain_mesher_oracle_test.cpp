@@ -3,17 +3,18 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "mesher/domain_mesher.hpp"
-#include "mesher/edit_script.hpp"
+#include "facade/graph_runs.hpp"
+#include "mesher/extra/edit_script.hpp"
+#include "mesher/mesher.hpp"
 #include "random_lake.hpp"
 #include "rules/mesh_box.hpp"
 
 namespace {
 
 using mesher::DomainMesh;
-using mesher::DomainMesher;
 using mesher::Extent;
 using mesher::Mesh;
+using mesher::Mesher;
 using mesher::Point;
 using mesher::RegionAreas;
 using support::Lake;
@@ -28,9 +29,9 @@ Triangles triangles_of(const Mesh<2>& mesh) {
   return all;
 }
 
-void require_same(const DomainMesh& a, const DomainMesh& b) {
-  REQUIRE(static_cast<const Mesh<2>&>(a.kept) == static_cast<const Mesh<2>&>(b.kept));
-  REQUIRE(a.kept.features == b.kept.features);
+void require_same(const DomainMesh<2>& a, const DomainMesh<2>& b) {
+  REQUIRE(static_cast<const Mesh<2>&>(a.mesh) == static_cast<const Mesh<2>&>(b.mesh));
+  REQUIRE(a.mesh.features == b.mesh.features);
   REQUIRE(a.regions == b.regions);
   REQUIRE(a.faults == b.faults);
   REQUIRE(a.keeps_all == b.keeps_all);
@@ -46,10 +47,10 @@ void apply(const std::vector<std::array<Point<2>, 3>>& added,
 class Follower {
  public:
   Follower(Extent extent, RegionAreas areas)
-      : m_(LakeEditor::options(), extent, areas), extent_(extent), areas_(areas) {}
+      : m_(options(extent, areas)), extent_(extent), areas_(areas) {}
 
   // Makes the batch, which leads to `lake`; or finds that it fails, if it must.
-  void make(std::vector<mesher::Edit> batch, const Lake& lake, bool valid) {
+  void make(std::vector<mesher::Edit<2>> batch, const Lake& lake, bool valid) {
     if (!valid) return refuse(std::move(batch));
     const auto update = mesher::apply(std::move(batch), m_);
     apply(update.change.simplices_added, update.change.simplices_removed, whole_);
@@ -63,45 +64,50 @@ class Follower {
   int refused = 0, enclosing = 0, faulty = 0;
 
  private:
-  void refuse(std::vector<mesher::Edit> batch) {
+  static mesher::Options<2> options(Extent extent, RegionAreas areas) {
+    mesher::Options<2> all = LakeEditor::options();
+    all.extent = extent;
+    all.region_areas = areas;
+    return all;
+  }
+  void refuse(std::vector<mesher::Edit<2>> batch) {
     CHECK_THROWS_AS(mesher::apply(std::move(batch), m_), mesher::Error);
     ++refused;
     check();
   }
 
   void check() {
-    const mesher::Pslg graph = lake_.graph();
+    const mesher::Graph<2> graph = lake_.graph();
     REQUIRE(m_.input() == graph);
     REQUIRE(m_.options().max_measure == lake_.options.max_measure);
     REQUIRE(m_.options().box_limits == lake_.options.box_limits);
     mesher::Options<2> options = lake_.options;
     options.region_limits = mesher::region_limits(graph, options, extent_, areas_);
     const Mesh<2> mesh = mesher::mesh_statically(graph, options);
-    const DomainMesh scratch = mesher::domain_mesh(mesh, graph, extent_);
-    if (!whole_.empty()) REQUIRE(m_.mesh() == mesh);
+    const DomainMesh<2> scratch = mesher::domain_mesh(mesh, graph, extent_);
+    if (!whole_.empty()) REQUIRE(m_.box_mesh() == mesh);
     if (whole_.empty()) return;
     require_same(m_.domain_mesh(), scratch);
     REQUIRE(whole_ == triangles_of(mesh));
-    REQUIRE(kept_ == triangles_of(scratch.kept));
+    REQUIRE(kept_ == triangles_of(scratch.mesh));
     check_labels(mesh, graph);
     if (!scratch.keeps_all) ++enclosing;
     if (!scratch.faults.empty()) ++faulty;
   }
-  void check_labels(const Mesh<2>& mesh, const mesher::Pslg& graph) const {
+  void check_labels(const Mesh<2>& mesh, const mesher::Graph<2>& graph) const {
     const auto whole = mesher::with_features(mesh, graph);
-    auto domain =
-        mesher::find_domain(whole, whole.features.edges, mesher::seeds_of(graph), extent_);
+    auto domain = mesher::find_domain(whole, whole.features.edges, graph.seeds, extent_);
     for (std::uint32_t t = 0; t < mesh.simplices.size(); ++t) {
       const auto& [a, b, c] = mesh.simplices[t];
       const std::array corners{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
       REQUIRE(m_.label(corners) == domain.regions[domain.region_of[t]].label);
       REQUIRE(m_.keeps(corners) == domain.keeps(t));
     }
-    for (auto& fault : domain.faults) fault.line.reset();
+    for (auto& fault : domain.faults) fault.wall = {};
     REQUIRE(m_.faults() == domain.faults);
   }
 
-  DomainMesher m_;
+  Mesher<2> m_;
   Extent extent_;
   RegionAreas areas_;
   Lake lake_;

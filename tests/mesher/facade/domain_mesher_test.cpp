@@ -1,35 +1,33 @@
 // A mesher with its domain: announcing, failing, stopping, and memory that runs out.
-#include "mesher/domain_mesher.hpp"
-
 #include <catch2/catch.hpp>
 #include <stop_token>
 
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
 #include "failing_new.hpp"
 #include "failing_update.hpp"
+#include "mesher/mesher.hpp"
 #include "sac/check.hpp"
 #include "scratch_file.hpp"
 
 namespace {
 
 using mesher::DomainMesh;
-using mesher::DomainMesher;
 using mesher::DomainUpdate;
-using mesher::Error;
-using mesher::FeatureId;
+using mesher::Graph;
+using mesher::Mesher;
 using mesher::Point;
-using mesher::Pslg;
-using mesher::SeedKind;
-using mesher::Zone;
+using mesher::PointId;
 using support::fails;
 using support::failure_of;
 
 const mesher::Options<2> kOptions{.domain = {{0, 0}, {16, 16}}};
 
-FeatureId id(std::int64_t i) { return FeatureId{i}; }
+AnyId id(std::int64_t i) { return AnyId{i}; }
 
 // A square with a wall from side to side, a hole on one side and a region on the other.
 struct Parted {
-  DomainMesher m{kOptions};
+  Mesher<2> m{kOptions};
 
   Parted() {
     const std::vector<Point<2>> places{{2, 2}, {8, 2}, {14, 2}, {14, 14}, {8, 14}, {2, 14}, {5, 5}};
@@ -38,77 +36,77 @@ struct Parted {
     }
     m.insert_polyline(id(1), {id(1), id(2), id(3), id(4), id(5), id(6), id(1)}, 4);
     m.insert_segment(id(2), id(2), id(5), 5);
-    m.insert_hole(id(1), {4, 8});
-    m.insert_region(id(1), {12, 8}, 7, 0.5);
+    m.insert_hole(1, {4, 8});
+    m.insert_region(1, {12, 8}, 7, 0.5);
     m.update();
   }
   // Of everything something.
   void announce() {
     m.insert(id(9), {10, 3}, 6);
     m.insert_segment(id(3), id(9), id(4), 8);
-    m.remove_segment(id(2));
+    m.remove_line(id(2));
     m.move(id(7), {5, 5.5});
-    m.remove_hole(id(1));
-    m.insert_hole(id(2), {8, 9});
-    m.insert_region(id(2), {8, 8}, 9);
+    m.remove_hole(1);
+    m.insert_hole(2, {8, 9});
+    m.insert_region(2, {8, 8}, 9);
   }
 };
 
 struct Seen {
-  Pslg input;
+  Graph<2> input;
   mesher::Mesh<2> mesh;
-  mesher::MeshData kept;
-  std::vector<mesher::SeedFault> faults;
+  mesher::MeshData<2> kept;
+  std::vector<mesher::SeedFault<2>> faults;
 
-  explicit Seen(const DomainMesher& m)
-      : input(m.input()), mesh(m.mesh()), kept(m.domain_mesh().kept), faults(m.faults()) {}
+  explicit Seen(const Mesher<2>& m)
+      : input(m.input()), mesh(m.box_mesh()), kept(m.domain_mesh().mesh), faults(m.faults()) {}
   friend bool operator==(const Seen& a, const Seen& b) {
     return a.input == b.input && a.mesh == b.mesh && a.kept.features == b.kept.features &&
            static_cast<const mesher::Mesh<2>&>(a.kept) == b.kept && a.faults == b.faults;
   }
 };
 
-std::size_t triangles(const DomainMesher& m) { return m.domain_mesh().kept.simplices.size(); }
+std::size_t triangles(const Mesher<2>& m) { return m.domain_mesh().mesh.simplices.size(); }
 
 }  // namespace
 
 TEST_CASE(
     "a hole's part is left out, a region's has its attribute, and a wall that goes joins them") {
   Parted p;
-  const DomainMesh parted = p.m.domain_mesh();
+  const DomainMesh<2> parted = p.m.domain_mesh();
   REQUIRE(parted.regions.size() == 3);
-  for (const auto& v : parted.kept.vertices) CHECK(v[0] >= 8);
-  for (const double attribute : parted.kept.features.regions) CHECK(attribute == 7);
+  for (const auto& v : parted.mesh.vertices) CHECK(v[0] >= 8);
+  for (const double attribute : parted.mesh.features.regions) CHECK(attribute == 7);
   CHECK(parted.regions[2].max_measure == 0.5);
 
-  p.m.remove_segment(id(2));
-  const DomainUpdate joined = p.m.update();
+  p.m.remove_line(id(2));
+  const DomainUpdate<2> joined = p.m.update();
   CHECK(triangles(p.m) == 0);  // the hole's, all of it
   CHECK(joined.domain.kept_added.empty());
   REQUIRE(p.m.faults().size() == 1);
-  CHECK(p.m.faults()[0].other == mesher::SeedName{SeedKind::hole, id(1)});
+  CHECK(p.m.faults()[0].other == mesher::hole_id(1));
 
-  p.m.remove_hole(id(1));
-  const DomainUpdate filled = p.m.update();
+  p.m.remove_hole(1);
+  const DomainUpdate<2> filled = p.m.update();
   CHECK(filled.calls.executed == 0);
   CHECK(filled.domain.kept_added.size() == triangles(p.m));
   CHECK(filled.simplices_added.empty());
 }
 
 TEST_CASE("a mesh of points alone follows its first line, and its first seed") {
-  DomainMesher m(kOptions);
+  Mesher<2> m(kOptions);
   m.insert(id(1), {2, 2});
   m.insert(id(2), {14, 2});
   m.insert(id(3), {8, 14});
-  const DomainUpdate first = m.update();
+  const DomainUpdate<2> first = m.update();
   CHECK(first.domain.kept_added.size() == m.stats().simplices);
-  CHECK(m.domain_mesh().kept.features.empty());
-  m.insert_region(id(5), {8, 5}, 2);
-  const DomainUpdate labelled = m.update();
+  CHECK(m.domain_mesh().mesh.features.empty());
+  m.insert_region(5, {8, 5}, 2);
+  const DomainUpdate<2> labelled = m.update();
   CHECK(labelled.domain.relabelled.size() == m.stats().simplices);
   CHECK(m.faults().empty());
   m.insert_polyline(id(1), {id(1), id(2), id(3), id(1)});
-  const DomainUpdate enclosed = m.update();
+  const DomainUpdate<2> enclosed = m.update();
   CHECK(triangles(m) < m.stats().simplices);
   CHECK_FALSE(enclosed.domain.kept_removed.empty());
   m.check_invariants();
@@ -119,12 +117,12 @@ TEST_CASE(
   Parted p;
   const Seen before(p.m);
   p.announce();
-  CHECK(p.m.contains_seed({SeedKind::hole, id(2)}));
-  CHECK_FALSE(p.m.contains_seed({SeedKind::hole, id(1)}));
+  CHECK(p.m.contains(mesher::hole_id(2)));
+  CHECK_FALSE(p.m.contains(mesher::hole_id(1)));
   CHECK(Seen(p.m) == before);
   p.m.discard_edits();
-  CHECK(p.m.contains_seed({SeedKind::hole, id(1)}));
-  const DomainUpdate nothing = p.m.update();
+  CHECK(p.m.contains(mesher::hole_id(1)));
+  const DomainUpdate<2> nothing = p.m.update();
   CHECK(nothing.calls.executed == 0);
   CHECK(nothing.domain.kept_added.empty());
   CHECK(Seen(p.m) == before);
@@ -133,15 +131,15 @@ TEST_CASE(
 TEST_CASE("seeds that are not as they must be are refused, and nothing is announced") {
   Parted p;
   const Seen before(p.m);
-  CHECK(failure_of([&] { p.m.insert_hole(id(1), {3, 3}); }) == "repeated_id@0:0");
-  CHECK(failure_of([&] { p.m.insert_region(id(1), {3, 3}, 1); }) == "repeated_id@0:0");
-  CHECK(failure_of([&] { p.m.remove_hole(id(7)); }) == "unknown_id@0:0");
-  CHECK(failure_of([&] { p.m.remove_region(id(7)); }) == "unknown_id@0:0");
-  CHECK(failure_of([&] { p.m.insert_hole(id(2), {3, 1e31}); }) == "magnitude@0:0");
-  CHECK(failure_of([&] { p.m.insert_region(id(2), {3, 3}, 1, 0.0); }) == "bad_number@0:0");
-  p.m.remove_hole(id(1));
-  CHECK(failure_of([&] { p.m.remove_hole(id(1)); }) == "unknown_id@0:0");
-  p.m.insert_hole(id(1), {4, 8});  // back again
+  CHECK(failure_of([&] { p.m.insert_hole(1, {3, 3}); }) == "repeated_id@0:0");
+  CHECK(failure_of([&] { p.m.insert_region(1, {3, 3}, 1); }) == "repeated_id@0:0");
+  CHECK(failure_of([&] { p.m.remove_hole(7); }) == "unknown_id@0:0");
+  CHECK(failure_of([&] { p.m.remove_region(7); }) == "unknown_id@0:0");
+  CHECK(failure_of([&] { p.m.insert_hole(2, {3, 1e31}); }) == "magnitude@0:0");
+  CHECK(failure_of([&] { p.m.insert_region(2, {3, 3}, 1, 0.0); }) == "bad_number@0:0");
+  p.m.remove_hole(1);
+  CHECK(failure_of([&] { p.m.remove_hole(1); }) == "unknown_id@0:0");
+  p.m.insert_hole(1, {4, 8});  // back again
   CHECK(p.m.update().domain.visited == 0);
   CHECK(Seen(p.m) == before);
 }
@@ -154,21 +152,21 @@ TEST_CASE("an update that fails for a line takes back the seeds and markers of i
   p.m.insert_segment(id(6), id(3), id(6));  // across that
   CHECK(failure_of([&] { p.m.update(); }) == "crossing_segments@0:0");
   CHECK(Seen(p.m) == before);
-  CHECK_FALSE(p.m.contains_seed({SeedKind::hole, id(2)}));
+  CHECK_FALSE(p.m.contains(mesher::hole_id(2)));
   CHECK(p.m.update().domain.kept_added.empty());
   p.m.check_invariants();
 }
 
 TEST_CASE("a first update that fails leaves nothing, and another can be made") {
-  DomainMesher m(kOptions);
+  Mesher<2> m(kOptions);
   m.insert(id(1), {2, 2});
   m.insert(id(2), {14, 14});
   m.insert_segment(id(1), id(1), id(3));
-  m.insert_hole(id(1), {3, 3});
+  m.insert_hole(1, {3, 3});
   CHECK(failure_of([&] { m.update(); }) == "unknown_id@0:0");
-  CHECK(m.input() == Pslg());
+  CHECK(m.input() == Graph<2>());
   m.insert(id(1), {2, 2});
-  const DomainUpdate first = m.update();
+  const DomainUpdate<2> first = m.update();
   CHECK(first.domain.kept_added.size() == m.stats().simplices);
 }
 
@@ -192,14 +190,14 @@ TEST_CASE("a point keeps its marker when it moves, and has another when it goes 
   Parted p;
   p.m.move(id(7), {5, 6});
   p.m.update();
-  CHECK(p.m.input().points[6] == Pslg::Vertex{id(7), {5, 6}, 3});
+  CHECK(p.m.input().points[6] == mesher::GraphPoint<2>{id(7), {5, 6}, 3});
   p.m.remove(id(7));
   p.m.insert(id(7), {5, 7});
   p.m.update();
-  CHECK(p.m.input().points[6] == Pslg::Vertex{id(7), {5, 7}, 0});
+  CHECK(p.m.input().points[6] == mesher::GraphPoint<2>{id(7), {5, 7}, 0});
   CHECK(failure_of([&] { p.m.insert(id(1), {5, 8}, 9); }) == "repeated_id@0:0");
   CHECK(failure_of([&] { p.m.insert_segment(id(2), id(1), id(5), 9); }) == "repeated_id@0:0");
-  CHECK(failure_of([&] { p.m.remove_segment(id(9)); }) == "unknown_id@0:0");
+  CHECK(failure_of([&] { p.m.remove_line(id(9)); }) == "unknown_id@0:0");
   p.m.update();
   CHECK(p.m.input().points[0].marker == 3);
   CHECK(p.m.input().segments[0].marker == 5);
@@ -209,7 +207,7 @@ TEST_CASE("an update in which any one allocation fails leaves mesh and domain, a
   struct SeenParted : Parted {
     Seen before{m};
   };
-  const auto see = [](const DomainMesher& m) { return Seen(m); };
+  const auto see = [](const Mesher<2>& m) { return Seen(m); };
   CHECK(support::check_failing_updates<SeenParted>(see) > 200);
 }
 
@@ -225,9 +223,9 @@ TEST_CASE("an announcement that finds no memory announces nothing") {
         if (kind == 0) p.m.insert(id(9), {10, 3}, 6);
         if (kind == 1) p.m.insert_segment(id(3), id(7), id(6), 8);
         if (kind == 2) p.m.remove(id(7));
-        if (kind == 3) p.m.remove_segment(id(2));
-        if (kind == 4) p.m.insert_hole(id(2), {8, 9});
-        if (kind == 5) p.m.remove_hole(id(1));
+        if (kind == 3) p.m.remove_line(id(2));
+        if (kind == 4) p.m.insert_hole(2, {8, 9});
+        if (kind == 5) p.m.remove_hole(1);
       });
       if (!failed) continue;
       p.m.update();
@@ -237,7 +235,7 @@ TEST_CASE("an announcement that finds no memory announces nothing") {
 }
 
 TEST_CASE("the last word on a change: what it throws leaves the mesh as it was") {
-  mesher::Mesher<2> m(kOptions);
+  mesher::BoxMesher<2> m(kOptions);
   m.insert(id(1), {2, 2});
   const auto refuse = [](const mesher::Change<2>&) { throw 17; };
   CHECK_THROWS_AS(m.update({}, refuse), int);
@@ -278,10 +276,10 @@ TEST_CASE("a callback that uses a mesher with its domain is refused, and nothing
     CHECK_THROWS_AS(parted.m.move(id(7), {3, 3}), sac::UsageError);
     CHECK_THROWS_AS(parted.m.remove(id(7)), sac::UsageError);
     CHECK_THROWS_AS(parted.m.insert_segment(id(9999), id(7), id(3)), sac::UsageError);
-    CHECK_THROWS_AS(parted.m.remove_segment(id(3)), sac::UsageError);
+    CHECK_THROWS_AS(parted.m.remove_line(id(3)), sac::UsageError);
     CHECK_THROWS_AS(parted.m.limit(mesher::SizeLimits<2>()), sac::UsageError);
-    CHECK_THROWS_AS(parted.m.insert_hole(id(77), {3, 3}), sac::UsageError);
-    CHECK_THROWS_AS(parted.m.remove_hole(id(2)), sac::UsageError);
+    CHECK_THROWS_AS(parted.m.insert_hole(77, {3, 3}), sac::UsageError);
+    CHECK_THROWS_AS(parted.m.remove_hole(2), sac::UsageError);
     parted.m.discard_edits();  // does nothing
     ++refused;
     return true;
@@ -290,7 +288,7 @@ TEST_CASE("a callback that uses a mesher with its domain is refused, and nothing
   REQUIRE(refused > 0);
   twin.m.update();
   CHECK(parted.m.input() == twin.m.input());
-  CHECK(parted.m.mesh() == twin.m.mesh());
-  CHECK_FALSE(parted.m.contains(id(9999)));
+  CHECK(parted.m.box_mesh() == twin.m.box_mesh());
+  CHECK_FALSE(parted.m.contains(PointId{9999}));
   parted.m.check_invariants();
 }

@@ -6,19 +6,20 @@
 #include <string>
 
 #include "edit_sequence.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
 #include "feature_ids.hpp"
-#include "mesher/mesher.hpp"
 #include "scratch_file.hpp"
 
 namespace {
 
+using mesher::BoxMesher;
 using mesher::ErrorCode;
-using mesher::FeatureId;
 using mesher::KindChange;
 using mesher::Mesh;
-using mesher::Mesher;
 using mesher::Options;
 using mesher::Point;
+using mesher::PointId;
 using mesher::SplitMix64;
 using mesher::VertexKind;
 using support::error_of;
@@ -26,19 +27,19 @@ using support::PointSet;
 
 const Options<2> kUnit{.domain = {{0, 0}, {1, 1}}};
 const Point<2> kA{0.25, 0.5}, kB{0.5, 0.25}, kC{0.75, 0.75};
-constexpr FeatureId k1{1}, k2{2}, k3{3}, k4{4};
+constexpr PointId k1{1}, k2{2}, k3{3}, k4{4};
 
-Mesher<2> with(const PointSet& points) {
-  Mesher<2> m(kUnit);
-  for (const auto& [id, p] : points) m.insert(FeatureId{id}, p);
+BoxMesher<2> with(const PointSet& points) {
+  BoxMesher<2> m(kUnit);
+  for (const auto& [id, p] : points) m.insert(PointId{id}, p);
   m.update();
   return m;
 }
 
-void require_fresh(const Mesher<2>& m, const PointSet& points) {
+void require_fresh(const BoxMesher<2>& m, const PointSet& points) {
   REQUIRE(m.mesh() == support::static_mesh(points, kUnit));
   REQUIRE(m.size() == points.size());
-  for (const auto& entry : points) REQUIRE(m.contains(FeatureId{entry.first}));
+  for (const auto& entry : points) REQUIRE(m.contains(PointId{entry.first}));
   m.check_invariants();
 }
 
@@ -55,7 +56,7 @@ Point<2> steiner_vertex(const Mesh<2>& mesh) {
 }  // namespace
 
 TEST_CASE("the mesh is empty before the first update, and the last update's after edits") {
-  Mesher<2> m(kUnit);
+  BoxMesher<2> m(kUnit);
   CHECK(m.mesh() == Mesh<2>());
   m.insert(k1, kA);
   m.insert(k2, {kA[0] + 0.01, kA[1]});
@@ -77,7 +78,7 @@ TEST_CASE("the mesh is empty before the first update, and the last update's afte
 
 TEST_CASE("two points of one batch swap places, by moves or by removals and insertions") {
   const PointSet swapped{{1, kB}, {2, kA}, {3, kC}};
-  Mesher<2> m = with({{1, kA}, {2, kB}, {3, kC}});
+  BoxMesher<2> m = with({{1, kA}, {2, kB}, {3, kC}});
   const Mesh<2> before = m.mesh();
   SECTION("moves") {
     m.move(k1, kB);
@@ -106,7 +107,7 @@ TEST_CASE("two points of one batch swap places, by moves or by removals and inse
 }
 
 TEST_CASE("points move in chains and cycles, and a place that one leaves another takes") {
-  Mesher<2> m = with({{1, kA}, {2, kB}, {3, kC}});
+  BoxMesher<2> m = with({{1, kA}, {2, kB}, {3, kC}});
   m.move(k1, kB);
   m.move(k2, kC);
   m.move(k3, kA);
@@ -133,8 +134,8 @@ TEST_CASE("points move in chains and cycles, and a place that one leaves another
 
 TEST_CASE("a batch whose points end at one place is refused with their ids, and taken back") {
   const PointSet points{{1, kA}, {2, kB}, {3, kC}};
-  Mesher<2> m = with(points);
-  const auto refused = [&](ErrorCode code, std::vector<FeatureId> ids) {
+  BoxMesher<2> m = with(points);
+  const auto refused = [&](ErrorCode code, std::vector<PointId> ids) {
     const mesher::Error error = error_of([&] { m.update(); });
     CHECK(error.code() == code);
     CHECK(support::ids_of(error) == ids);
@@ -159,7 +160,7 @@ TEST_CASE("a batch whose points end at one place is refused with their ids, and 
 }
 
 TEST_CASE("a new point needs a place that is free among those announced") {
-  Mesher<2> m = with({{1, kA}});
+  BoxMesher<2> m = with({{1, kA}});
   m.insert(k2, kB);
   CHECK(support::ids_of(error_of([&] { m.insert(k3, kB); })) == std::vector{k3, k2});
   CHECK(support::ids_of(error_of([&] { m.insert(k3, kA); })) == std::vector{k3, k1});
@@ -179,7 +180,7 @@ TEST_CASE("random batches of moves within a few places give the mesh of a fresh 
     SplitMix64 random(seed);
     std::vector<Point<2>> places;
     for (int i = 0; i < 12; ++i) places.push_back({random.unit(), random.unit()});
-    Mesher<2> m(kUnit);
+    BoxMesher<2> m(kUnit);
     for (int step = 0; step < 30; ++step) {
       std::vector<std::size_t> order(places.size());
       std::iota(order.begin(), order.end(), std::size_t{0});
@@ -191,13 +192,13 @@ TEST_CASE("random batches of moves within a few places give the mesh of a fresh 
         if (random.below(4) != 0) points[id] = places[order[static_cast<std::size_t>(id)]];
       }
       for (std::int64_t id = 0; id < 8; ++id) {
-        if (m.contains(FeatureId{id}) && !points.contains(id)) m.remove(FeatureId{id});
+        if (m.contains(PointId{id}) && !points.contains(id)) m.remove(PointId{id});
       }
       for (const auto& [id, p] : points) {
-        if (m.contains(FeatureId{id})) m.move(FeatureId{id}, p);
+        if (m.contains(PointId{id})) m.move(PointId{id}, p);
       }
       for (const auto& [id, p] : points) {
-        if (!m.contains(FeatureId{id})) m.insert(FeatureId{id}, p);
+        if (!m.contains(PointId{id})) m.insert(PointId{id}, p);
       }
       CAPTURE(seed, step);
       m.update();
@@ -207,7 +208,7 @@ TEST_CASE("random batches of moves within a few places give the mesh of a fresh 
 }
 
 TEST_CASE("an input point that comes to a Steiner vertex, or leaves it, changes its kind alone") {
-  Mesher<2> m = with({{1, {0.25, 0.5}}, {2, {0.26, 0.5}}});
+  BoxMesher<2> m = with({{1, {0.25, 0.5}}, {2, {0.26, 0.5}}});
   const Mesh<2> before = m.mesh();
   const Point<2> p = steiner_vertex(before);
   m.insert(k3, p);
@@ -230,7 +231,7 @@ TEST_CASE("an input point that comes to a Steiner vertex, or leaves it, changes 
 TEST_CASE("fewer ids than points are refused") {
   const std::vector<Point<2>> points{{.1, .1}, {.2, .2}, {.3, .3}};
   CHECK_THROWS_AS(mesher::mesh_statically<2>(points, kUnit, {k1}), std::logic_error);
-  Mesher<2> m(kUnit);
+  BoxMesher<2> m(kUnit);
   CHECK_THROWS_AS(m.insert({k1}, points), std::logic_error);
   CHECK(m.size() == 0);
 }

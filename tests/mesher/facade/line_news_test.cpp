@@ -3,14 +3,16 @@
 
 #include <catch2/catch.hpp>
 
-using mesher::FeatureId;
+using mesher::LineId;
+using mesher::PointId;
 
 TEST_CASE("after a large update of lines its names are forgotten at the cost of a small one") {
   mesher::detail::LineNews news;
   const std::size_t none = news.buckets();
   for (std::uint32_t i = 1; i <= 1000; ++i) {
-    news.points[i] = news.lines[i] = FeatureId{i};
-    news.line_points[FeatureId{i}] = {FeatureId{1}, FeatureId{2}};
+    news.points[i] = PointId{i};
+    news.lines[i] = LineId{i};
+    news.line_points[LineId{i}] = {PointId{1}, PointId{2}};
     news.segments.push_back(i);
     news.taken.insert(i);
   }

@@ -2,21 +2,22 @@
 // the update that works afterwards gives those that it would have given at once.
 #include <catch2/catch.hpp>
 
+#include "facade/box_mesher.hpp"
 #include "failing_update.hpp"
 #include "feature_ids.hpp"
-#include "mesher/domain_mesher.hpp"
+#include "mesher/mesher.hpp"
 #include "slot_twin.hpp"
 
 namespace {
 
-using mesher::Mesher;
+using mesher::BoxMesher;
 using mesher::Options;
 using support::id;
 using support::Shown;
 
 // Slots are free, some of them since the last update.
 struct Square {
-  mesher::DomainMesher m{Options<2>{.domain = {{0, 0}, {16, 16}}}};
+  mesher::Mesher<2> m{Options<2>{.domain = {{0, 0}, {16, 16}}}};
   Shown<2> before;
 
   Square() {
@@ -40,13 +41,13 @@ struct Square {
     m.insert(id(9), {6, 4.03125});
     m.move(id(5), {8, 8.5});
     m.insert_segment(id(2), id(1), id(3));
-    m.insert_hole(id(1), {10, 6});
+    m.insert_hole(1, {10, 6});
   }
 };
 
 // From nothing.
 struct Fresh {
-  Mesher<2> m{Options<2>{.domain = {{0, 0}, {1, 1}}}};
+  BoxMesher<2> m{Options<2>{.domain = {{0, 0}, {1, 1}}}};
   Shown<2> before;
   Fresh() { m.keep_slots(true); }
   void announce() {

@@ -1,14 +1,15 @@
-// Slots: after every edit the arrays are mesh() with other numbers, what stays has its slot, and the
-// change names what came and went.
+// Slots: after every edit the arrays are mesh() with other numbers, what stays has its slot, and
+// the change names what came and went.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 #include <stdexcept>
 
 #include "edit_sequence.hpp"
+#include "facade/box_mesher.hpp"
 #include "feature_ids.hpp"
-#include "mesher/domain_mesher.hpp"
-#include "mesher/edit_script.hpp"
+#include "mesher/extra/edit_script.hpp"
+#include "mesher/mesher.hpp"
 #include "random_lake.hpp"
 #include "rules/mesh_box.hpp"
 #include "slot_twin.hpp"
@@ -16,8 +17,8 @@
 
 namespace {
 
+using mesher::BoxMesher;
 using mesher::Change;
-using mesher::Mesher;
 using mesher::Options;
 using mesher::Slot;
 using support::id;
@@ -29,11 +30,11 @@ using support::SlotTwin;
 template <int D>
 struct KeptTwin {
   std::set<Slot> kept;
-  void follow(const mesher::DomainUpdateOf<D>& update) {
+  void follow(const mesher::DomainUpdate<D>& update) {
     for (const Slot s : update.kept.removed) REQUIRE(kept.erase(s) == 1);
     for (const Slot s : update.kept.added) REQUIRE(kept.insert(s).second);
   }
-  void require(const mesher::DomainMesherOf<D>& m, const SlotTwin<D>& twin) const {
+  void require(const mesher::Mesher<D>& m, const SlotTwin<D>& twin) const {
     for (const auto& [corners, slot] : twin.simplices()) {
       REQUIRE(m.keeps(slot) == kept.contains(slot));
       REQUIRE(m.label(slot) == m.label(corners));
@@ -60,7 +61,7 @@ TEST_CASE("after random edits of points the arrays are the mesh, and the change 
   for (const auto family : support::kFamilies) {
     const auto sequence = support::random_sequence(family, {}, 24, 40, 11);
     INFO(support::name(family));
-    Mesher<2> m(sequence.options);
+    BoxMesher<2> m(sequence.options);
     m.keep_slots(true);
     SlotTwin<2> twin;
     support::PointSet points;
@@ -83,7 +84,9 @@ TEST_CASE("after random batches in the plane slots follow the mesh and what is k
   CAPTURE(seed);
   LakeEditor editor(seed);
   const auto extent = seed % 3 == 0 ? mesher::Extent::box : mesher::Extent::enclosed;
-  mesher::DomainMesher m(LakeEditor::options(), extent);
+  Options<2> options = LakeEditor::options();
+  options.extent = extent;
+  mesher::Mesher<2> m(options);
   m.keep_slots(true);
   support::Lake lake;
   const auto box = mesher::detail::mesh_box(LakeEditor::options());
@@ -105,7 +108,7 @@ TEST_CASE("after random batches in the plane slots follow the mesh and what is k
       REQUIRE(Shown<2>(m.live()) == before);
       ++refused;
     }
-    twin.require(m.live(), m.mesh());
+    twin.require(m.live(), m.box_mesh());
     kept.require(m, twin);
   }
   m.check_invariants();
@@ -115,9 +118,9 @@ TEST_CASE("after random batches in the plane slots follow the mesh and what is k
 TEST_CASE("after random edits in space slots follow the mesh, its edges and faces on features") {
   const std::uint64_t seed = GENERATE(1, 2, 3);
   CAPTURE(seed);
-  Mesher<3> m(Options<3>{.domain = {{0, 0, 0}, {2, 2, 2}}});
+  BoxMesher<3> m(Options<3>{.domain = {{0, 0, 0}, {2, 2, 2}}});
   m.keep_slots(true);
-  support::SpaceParcels<Mesher<3>> parcels(m, seed);
+  support::SpaceParcels<BoxMesher<3>> parcels(m, seed);
   SlotTwin<3> twin;
   int refused = 0;
   for (int round = 0; round < 20; ++round) {
@@ -140,29 +143,30 @@ TEST_CASE("after random edits in space slots follow the mesh, its edges and face
 TEST_CASE("in space slots follow what polygons enclose") {
   const std::uint64_t seed = GENERATE(1, 2);
   CAPTURE(seed);
-  mesher::DomainMesherOf<3> m(Options<3>{.domain = {{0, 0, 0}, {2, 2, 2}}});
+  mesher::Mesher<3> m(Options<3>{.domain = {{0, 0, 0}, {2, 2, 2}}});
   m.keep_slots(true);
-  support::SpaceParcels<mesher::DomainMesherOf<3>> parcels(m, seed);
+  support::SpaceParcels<mesher::Mesher<3>> parcels(m, seed);
   SlotTwin<3> twin;
   KeptTwin<3> kept;
   for (int round = 0; round < 12; ++round) {
     CAPTURE(round);
-    mesher::DomainUpdateOf<3> update;
+    mesher::DomainUpdate<3> update;
     const auto count = round == 0 ? 5 : 1 + parcels.below(3);
     if (!parcels.edit_and(count, [&] { update = m.update(); })) continue;
     twin.follow(update, m.live());
     kept.follow(update);
-    twin.require(m.live(), m.mesh());
+    twin.require(m.live(), m.box_mesh());
     kept.require(m, twin);
   }
 }
 
 TEST_CASE(
-    "slots are a function of the updates that succeeded: what fails or is stopped leaves no trace") {
+    "slots are a function of the updates that succeeded: what fails or is stopped leaves no "
+    "trace") {
   const std::uint64_t seed = GENERATE(1, 2, 3, 4);
   CAPTURE(seed);
   LakeEditor editor(seed), mistakes(seed + 100);
-  mesher::DomainMesher straight(LakeEditor::options()), stumbling(LakeEditor::options());
+  mesher::Mesher<2> straight(LakeEditor::options()), stumbling(LakeEditor::options());
   straight.keep_slots(true);
   stumbling.keep_slots(true);
   const auto box = mesher::detail::mesh_box(LakeEditor::options());
@@ -195,7 +199,7 @@ TEST_CASE(
 
 TEST_CASE(
     "slots begin with the numbers of mesh(), and begin so again when they are asked for again") {
-  Mesher<2> m(Options<2>{.domain = {{0, 0}, {1, 1}}});
+  BoxMesher<2> m(Options<2>{.domain = {{0, 0}, {1, 1}}});
   CHECK_FALSE(m.keeps_slots());
   CHECK(m.live().vertex_slots() == 0);
   CHECK(m.keeps_slots());
@@ -226,7 +230,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a last word that refuses the change leaves the slots of the last update") {
-  Mesher<2> m(Options<2>{.domain = {{0, 0}, {1, 1}}});
+  BoxMesher<2> m(Options<2>{.domain = {{0, 0}, {1, 1}}});
   m.keep_slots(true);
   m.insert(id(1), {0.25, 0.5});
   const auto refuse = [](const Change<2>& change) {

@@ -4,14 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace {
 
-using mesher::FeatureId;
 using mesher::Options;
 using mesher::Point;
+using mesher::PointId;
 using mesher::PointKind;
 
 template <int D>
@@ -25,9 +26,9 @@ Options<D> wide() {
 
 template <int D>
 mesher::Mesh<D> meshed(const std::vector<Point<D>>& points, const Options<D>& options) {
-  mesher::Mesher<D> m(options);
+  mesher::BoxMesher<D> m(options);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    m.insert(FeatureId{static_cast<std::int64_t>(i + 1)}, points[i]);
+    m.insert(PointId{static_cast<std::int64_t>(i + 1)}, points[i]);
   }
   m.update();
   m.check_invariants();  // each observation is what a search from nothing finds

@@ -6,10 +6,13 @@
 #include <cmath>
 #include <vector>
 
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
 #include "failing_update.hpp"
 #include "geometry/box.hpp"
-#include "mesher/domain_mesher.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/mesher.hpp"
 #include "mesher/sizes.hpp"
 #include "program/world.hpp"
 #include "rules/mesh_box.hpp"
@@ -17,18 +20,19 @@
 namespace {
 
 using mesher::Box;
-using mesher::DomainMesher;
 using mesher::Extent;
-using mesher::FeatureId;
 using mesher::Mesh;
+using mesher::Mesher;
 using mesher::Options;
 using mesher::Point;
 using mesher::RegionAreas;
 using RegionLimits = mesher::RegionLimits<2>;
 
-FeatureId id(std::int64_t i) { return FeatureId{i}; }
+AnyId id(std::int64_t i) { return AnyId{i}; }
 
-Options<2> options() { return {.domain = {{0, 0}, {16, 16}}}; }
+Options<2> options(Extent extent = Extent::enclosed, RegionAreas areas = RegionAreas::ignored) {
+  return {.domain = {{0, 0}, {16, 16}}, .extent = extent, .region_areas = areas};
+}
 
 // Two rooms with a wall between them, line 2, in a wide domain.
 template <class Target>
@@ -41,9 +45,9 @@ void announce_rooms(Target& m) {
   m.insert_segment(id(2), id(2), id(5));
 }
 
-Mesh<2> from_scratch(const DomainMesher& m, RegionAreas areas = RegionAreas::limits) {
+Mesh<2> from_scratch(const Mesher<2>& m, RegionAreas areas = RegionAreas::limits) {
   Options<2> o = m.options();
-  o.region_limits = mesher::region_limits(m.input(), o, m.extent(), areas);
+  o.region_limits = mesher::region_limits(m.input(), o, o.extent, areas);
   return mesher::mesh_statically(m.input(), o);
 }
 
@@ -54,8 +58,8 @@ long vertices_in(const Mesh<2>& mesh, const Box<2>& box) {
 }
 constexpr Box<2> kLeft{{4, 4}, {8, 8}}, kRight{{8, 4}, {12, 8}};
 
-double largest_kept(const DomainMesher& m) {
-  const auto kept = m.domain_mesh().kept;
+double largest_kept(const Mesher<2>& m) {
+  const auto kept = m.domain_mesh().mesh;
   double most = 0;
   for (const auto& t : kept.simplices) {
     const auto &p = kept.vertices[t[0]], &q = kept.vertices[t[1]], &r = kept.vertices[t[2]];
@@ -67,87 +71,87 @@ double largest_kept(const DomainMesher& m) {
 }  // namespace
 
 TEST_CASE("A limit counts in what lines enclose, and fills nothing around it") {
-  DomainMesher m(options());
+  Mesher<2> m(options());
   m.limit({.max_measure = 0.05});
   announce_rooms(m);
   m.update();
-  CHECK(m.mesh() == from_scratch(m, RegionAreas::ignored));
+  CHECK(m.box_mesh() == from_scratch(m, RegionAreas::ignored));
   CHECK(largest_kept(m) <= 0.05);
-  CHECK(vertices_in(m.mesh(), kLeft) + vertices_in(m.mesh(), kRight) > 300);
-  CHECK(m.mesh().vertices.size() < 1200);  // 16^2 / 0.05 / 2 would be 2560
-  DomainMesher all(options(), Extent::box);
+  CHECK(vertices_in(m.box_mesh(), kLeft) + vertices_in(m.box_mesh(), kRight) > 300);
+  CHECK(m.box_mesh().vertices.size() < 1200);  // 16^2 / 0.05 / 2 would be 2560
+  Mesher<2> all(options(Extent::box));
   all.limit({.max_measure = 0.05});
   announce_rooms(all);
   all.update();
-  CHECK(all.mesh().vertices.size() > 2500);
+  CHECK(all.box_mesh().vertices.size() > 2500);
 }
 
 TEST_CASE("What begins or ceases to be enclosed is filled or emptied") {
-  DomainMesher m(options());
+  Mesher<2> m(options());
   announce_rooms(m);
   m.update();
   m.limit({.max_measure = 0.1});
   m.update();
-  CHECK(m.mesh() == from_scratch(m));
-  const Mesh<2> closed = m.mesh();
-  m.insert_hole(id(1), {6, 6});
+  CHECK(m.box_mesh() == from_scratch(m));
+  const Mesh<2> closed = m.box_mesh();
+  m.insert_hole(1, {6, 6});
   m.update();
-  CHECK(vertices_in(m.mesh(), kLeft) < 30);
-  CHECK(m.mesh() == from_scratch(m));
-  m.remove_segment(id(2));  // now the hole is all
+  CHECK(vertices_in(m.box_mesh(), kLeft) < 30);
+  CHECK(m.box_mesh() == from_scratch(m));
+  m.remove_line(id(2));  // now the hole is all
   m.update();
-  CHECK(vertices_in(m.mesh(), kRight) < 60);
-  CHECK(m.mesh() == from_scratch(m));
+  CHECK(vertices_in(m.box_mesh(), kRight) < 60);
+  CHECK(m.box_mesh() == from_scratch(m));
   m.insert_segment(id(2), id(2), id(5));
-  m.remove_hole(id(1));
+  m.remove_hole(1);
   m.update();
-  CHECK(m.mesh() == closed);
-  m.remove_segment(id(1));  // nothing is enclosed: all of the domain is wanted
+  CHECK(m.box_mesh() == closed);
+  m.remove_line(id(1));  // nothing is enclosed: all of the domain is wanted
   m.update();
-  CHECK(m.mesh().vertices.size() > 1200);
-  CHECK(m.mesh() == from_scratch(m));
+  CHECK(m.box_mesh().vertices.size() > 1200);
+  CHECK(m.box_mesh() == from_scratch(m));
   m.check_invariants();
 }
 
 TEST_CASE("The area of a region follows its walls and its seed") {
-  DomainMesher m(options(), Extent::enclosed, RegionAreas::limits);
+  Mesher<2> m(options(Extent::enclosed, RegionAreas::limits));
   announce_rooms(m);
   m.update();
-  const Mesh<2> without = m.mesh();
-  m.insert_region(id(1), {6, 6}, 1, 0.05);
+  const Mesh<2> without = m.box_mesh();
+  m.insert_region(1, {6, 6}, 1, 0.05);
   m.update();
-  CHECK(m.mesh() == from_scratch(m));
-  const long left = vertices_in(m.mesh(), kLeft);
+  CHECK(m.box_mesh() == from_scratch(m));
+  const long left = vertices_in(m.box_mesh(), kLeft);
   CHECK(left > 150);
-  CHECK(vertices_in(m.mesh(), kRight) < 60);
-  m.remove_segment(id(2));
+  CHECK(vertices_in(m.box_mesh(), kRight) < 60);
+  m.remove_line(id(2));
   m.update();
-  CHECK(m.mesh() == from_scratch(m));
-  CHECK(vertices_in(m.mesh(), kRight) > 150);
-  m.remove_region(id(1));  // its area changes, and nothing else
-  m.insert_region(id(1), {6, 6}, 1, 0.5);
+  CHECK(m.box_mesh() == from_scratch(m));
+  CHECK(vertices_in(m.box_mesh(), kRight) > 150);
+  m.remove_region(1);  // its area changes, and nothing else
+  m.insert_region(1, {6, 6}, 1, 0.5);
   m.update();
-  CHECK(m.mesh() == from_scratch(m));
-  CHECK(vertices_in(m.mesh(), kLeft) < left / 2);
+  CHECK(m.box_mesh() == from_scratch(m));
+  CHECK(vertices_in(m.box_mesh(), kLeft) < left / 2);
   m.insert_segment(id(2), id(2), id(5));
-  m.remove_region(id(1));
+  m.remove_region(1);
   m.update();
-  CHECK(m.mesh() == without);
+  CHECK(m.box_mesh() == without);
   m.check_invariants();
 }
 
 TEST_CASE(
     "An update that is refused or stopped leaves the limits of regions, and can be repeated") {
-  DomainMesher m(options(), Extent::enclosed, RegionAreas::limits);
+  Mesher<2> m(options(Extent::enclosed, RegionAreas::limits));
   announce_rooms(m);
-  m.insert_region(id(1), {6, 6}, 1, 0.05);
+  m.insert_region(1, {6, 6}, 1, 0.05);
   m.update();
-  const Mesh<2> before = m.mesh();
-  m.remove_segment(id(2));
+  const Mesh<2> before = m.box_mesh();
+  m.remove_line(id(2));
   m.remove(id(1));
   CHECK_THROWS_AS(m.update(), mesher::Error);
-  CHECK(m.mesh() == before);
-  m.remove_segment(id(2));
+  CHECK(m.box_mesh() == before);
+  m.remove_line(id(2));
   mesher::RunControl control;
   std::uint64_t most = 0;
   control.progress = [&](const mesher::Progress& p) { return p.done < most; };
@@ -157,18 +161,18 @@ TEST_CASE(
       break;
     } catch (const mesher::Error& error) {
       REQUIRE(error.code() == mesher::ErrorCode::cancelled);
-      REQUIRE(m.mesh() == before);
+      REQUIRE(m.box_mesh() == before);
       most += 200;
     }
   }
   CHECK(most > 200);
-  CHECK(m.mesh() == from_scratch(m));
+  CHECK(m.box_mesh() == from_scratch(m));
   m.check_invariants();
   m.insert_segment(id(2), id(2), id(5));
   m.limit({.max_measure = 1});
   m.discard_edits();
   m.update();
-  CHECK(m.mesh() == from_scratch(m));
+  CHECK(m.box_mesh() == from_scratch(m));
 }
 
 TEST_CASE("Triangles come and go, and what is said of places and boxes is that of all triangles") {
@@ -223,25 +227,25 @@ namespace {
 
 // A wall goes, and rooms of which one has an area become one.
 struct Rooms {
-  DomainMesher m{options(), Extent::enclosed, RegionAreas::limits};
+  Mesher<2> m{options(Extent::enclosed, RegionAreas::limits)};
   Mesh<2> before;
 
   Rooms() {
     announce_rooms(m);
-    m.insert_region(id(1), {6, 6}, 1, 2);
+    m.insert_region(1, {6, 6}, 1, 2);
     m.update();
-    before = m.mesh();
+    before = m.box_mesh();
   }
-  void announce() { m.remove_segment(id(2)); }
+  void announce() { m.remove_line(id(2)); }
 };
 
 // The first limits, so that it begins to matter what is enclosed.
 struct Begun : Rooms {
   Begun() : Rooms() {
-    m = DomainMesher(options());
+    m = Mesher<2>(options());
     announce_rooms(m);
     m.update();
-    before = m.mesh();
+    before = m.box_mesh();
   }
   void announce() { m.limit({.max_measure = 2}); }
 };
@@ -257,15 +261,15 @@ TEST_CASE("the same where limits come to an enclosed domain") {
 }
 
 TEST_CASE("The second mesh, which tells what lines enclose, counts in the memory that is told") {
-  mesher::Mesher<2> alone(options());
+  mesher::BoxMesher<2> alone(options());
   announce_rooms(alone);
   alone.update();
   Options<2> limited = options();
   limited.max_measure = 4;
-  DomainMesher m(limited);
+  Mesher<2> m(limited);
   announce_rooms(m);
   m.update();
-  mesher::Mesher<2> in_rooms(m.options());  // with the limits in their regions
+  mesher::BoxMesher<2> in_rooms(m.options());  // with the limits in their regions
   announce_rooms(in_rooms);
   in_rooms.update();
   const auto both = m.stats(), first = in_rooms.stats(), second = alone.stats();

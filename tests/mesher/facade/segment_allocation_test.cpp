@@ -3,26 +3,25 @@
 #include <cmath>
 #include <vector>
 
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
 #include "failing_new.hpp"
 #include "failing_update.hpp"
-#include "mesher/mesher.hpp"
 
 namespace {
 
-using mesher::FeatureId;
+using mesher::BoxMesher;
 using mesher::Mesh;
-using mesher::Mesher;
 using mesher::Options;
-using mesher::Point;
 using support::fails;
 
 const Options<2> kOptions{.domain = {{0, 0}, {16, 16}}};
 
-FeatureId id(std::int64_t i) { return FeatureId{i}; }
+AnyId id(std::int64_t i) { return AnyId{i}; }
 
 // A frame with a wall in it, and points beside the wall.
 struct Walled {
-  Mesher<2> m{kOptions};
+  BoxMesher<2> m{kOptions};
   Mesh<2> before;
 
   Walled() {
@@ -40,7 +39,7 @@ struct Walled {
     m.move(id(6), {12, 9});
     m.remove(id(7));
     m.insert_segment(id(3), id(8), id(3));
-    m.remove_polyline(id(1));
+    m.remove_line(id(1));
     m.insert_polyline(id(4), {id(1), id(2), id(3), id(4), id(1)});
   }
 };
@@ -60,7 +59,7 @@ TEST_CASE("an announced line that finds no memory changes nothing") {
   w.m.discard_edits();
   burnt = true;
   for (std::uint64_t count = 1; burnt; ++count) {
-    if (fails(count, burnt, [&] { w.m.remove_segment(id(2)); })) CHECK(w.m.contains_line(id(2)));
+    if (fails(count, burnt, [&] { w.m.remove_line(id(2)); })) CHECK(w.m.contains_line(id(2)));
   }
   CHECK_FALSE(w.m.contains_line(id(2)));
 }
@@ -74,7 +73,7 @@ namespace {
 // A hub of twelve legs, one with a point beside it.
 struct Hub {
   static constexpr int kLegs = 12;
-  Mesher<2> m{kOptions};
+  BoxMesher<2> m{kOptions};
   Mesh<2> before;
 
   Hub() {
@@ -91,7 +90,7 @@ struct Hub {
   // The hub moves with all its legs, one of these goes, and a polyline comes and ends at another.
   void announce() {
     m.move(id(1), {8.25, 8.125});
-    m.remove_segment(id(3));
+    m.remove_line(id(3));
     m.insert({id(21), id(22), id(23), id(24)}, {{1, 2}, {1.5, 3}, {1, 4}, {2, 5}});
     m.insert_polyline(id(30), {id(20), id(21), id(22), id(23), id(24)});
   }
@@ -107,7 +106,7 @@ namespace {
 
 // Nothing but two points and a line: the first of all.
 struct FirstLine {
-  Mesher<2> m{kOptions};
+  BoxMesher<2> m{kOptions};
   Mesh<2> before;
   void announce() {
     m.insert({id(1), id(2)}, {{4, 8}, {12, 8.5}});

@@ -6,52 +6,55 @@
 #include <string>
 #include <vector>
 
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
 #include "feature_ids.hpp"
 #include "mesher/error.hpp"
-#include "mesher/mesher.hpp"
 #include "random_pslg.hpp"
 #include "rules/mesh_box.hpp"
 
 namespace {
 
+using mesher::BoxMesher;
 using mesher::Error;
 using mesher::ErrorCode;
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Mesh;
-using mesher::Mesher;
 using mesher::Options;
 using mesher::Point;
+using mesher::PointId;
 using support::Pslg;
 using support::PslgEditor;
 
-FeatureId id(std::int64_t i) { return FeatureId{i}; }
+AnyId id(std::int64_t i) { return AnyId{i}; }
 
 const Options<2> kOptions = PslgEditor::options();
 
 // A mesher as a target of an editor, which knows segments by their ends.
 class Target {
  public:
-  explicit Target(Mesher<2>& m) : m_(m) {}
-  void insert(FeatureId point, const Point<2>& p) { m_.insert(point, p); }
-  void remove(FeatureId point) { m_.remove(point); }
-  void insert_segment(FeatureId line, FeatureId a, FeatureId b) {
+  explicit Target(BoxMesher<2>& m) : m_(m) {}
+  void insert(PointId point, const Point<2>& p) { m_.insert(point, p); }
+  void remove(PointId point) { m_.remove(point); }
+  void insert_segment(LineId line, PointId a, PointId b) {
     lines_[{a, b}] = line;
     m_.insert_segment(line, b, a);
   }
-  void remove_segment(FeatureId a, FeatureId b) { m_.remove_segment(lines_.at({a, b})); }
+  void remove_segment(PointId a, PointId b) { m_.remove_line(lines_.at({a, b})); }
 
  private:
-  Mesher<2>& m_;
-  std::map<std::pair<FeatureId, FeatureId>, FeatureId> lines_;
+  BoxMesher<2>& m_;
+  std::map<std::pair<PointId, PointId>, LineId> lines_;
 };
 
 // What update() throws, and that the mesh stays.
 struct Refused {
   ErrorCode code{};
-  std::vector<FeatureId> ids;
+  support::Ids ids;
   std::string message;
 };
-Refused refused(Mesher<2>& m) {
+Refused refused(BoxMesher<2>& m) {
   const Mesh<2> before = m.mesh();
   try {
     m.update();
@@ -65,15 +68,15 @@ Refused refused(Mesher<2>& m) {
 }
 
 // A square with points at its corners, 1 to 4, and a fifth in the middle.
-Mesher<2> square() {
-  Mesher<2> m(kOptions);
+BoxMesher<2> square() {
+  BoxMesher<2> m(kOptions);
   m.insert({id(1), id(2), id(3), id(4), id(5)}, {{1, 1}, {5, 1}, {5, 5}, {1, 5}, {3, 3}});
   return m;
 }
 
-std::vector<FeatureId> lines_of(const Mesh<2>& mesh) {
-  std::vector<FeatureId> lines;
-  for (const auto& e : mesh.edges) lines.push_back(e.line);
+std::vector<LineId> lines_of(const Mesh<2>& mesh) {
+  std::vector<LineId> lines;
+  for (const auto& e : mesh.edges) lines.push_back(e.feature.line().value());
   std::sort(lines.begin(), lines.end());
   lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
   return lines;
@@ -88,7 +91,7 @@ TEST_CASE("after random edits of points and segments the mesh is that of a run f
       INFO("family " << static_cast<int>(family) << " seed " << seed);
       PslgEditor editor(family, seed);
       Pslg pslg;
-      Mesher<2> m(kOptions);
+      BoxMesher<2> m(kOptions);
       Target target(m);
       const auto box = mesher::detail::mesh_box(kOptions);
       for (std::uint64_t update = 0; update < 25; ++update) {
@@ -104,7 +107,7 @@ TEST_CASE("after random edits of points and segments the mesh is that of a run f
 }
 
 TEST_CASE("a point moves with its segments in one update") {
-  Mesher<2> m = square();
+  BoxMesher<2> m = square();
   m.insert_polyline(id(1), {id(1), id(2), id(3), id(4), id(1)});
   m.insert_segment(id(2), id(5), id(3));
   m.update();
@@ -124,7 +127,7 @@ TEST_CASE("a point moves with its segments in one update") {
 // The old segment and the new one are split alike, and their pieces near the end that stays are cut
 // in one bucket: for a while there are two of each.
 TEST_CASE("a segment whose end moves along it has pieces where the old one had the same") {
-  Mesher<2> m({.domain = {{0, 0}, {16, 16}}});
+  BoxMesher<2> m({.domain = {{0, 0}, {16, 16}}});
   m.insert({id(3), id(5), id(7), id(8), id(9), id(10)},
            {{10, 16}, {9, 12}, {1, 1}, {9, 1}, {9, 9}, {1, 9}});
   m.insert_polyline(id(9), {id(5), id(3)});
@@ -145,15 +148,15 @@ TEST_CASE("a segment whose end moves along it has pieces where the old one had t
 }
 
 TEST_CASE("a polyline comes and goes under one id") {
-  Mesher<2> m = square();
+  BoxMesher<2> m = square();
   m.update();
   const Mesh<2> points = m.mesh();
   m.insert_polyline(id(7), {id(1), id(2), id(3), id(4), id(1)});
   CHECK(m.contains_line(id(7)));
   const auto change = m.update();
-  CHECK(lines_of(m.mesh()) == std::vector{id(7)});
+  CHECK(lines_of(m.mesh()) == std::vector{LineId{7}});
   CHECK(change.edges_added.size() == m.mesh().edges.size());
-  m.remove_polyline(id(7));
+  m.remove_line(id(7));
   CHECK_FALSE(m.contains_line(id(7)));
   CHECK(m.update().edges_removed == change.edges_added);
   CHECK(m.mesh() == points);
@@ -161,34 +164,34 @@ TEST_CASE("a polyline comes and goes under one id") {
 }
 
 TEST_CASE("a line that goes and comes back in one update changes nothing") {
-  Mesher<2> m = square();
+  BoxMesher<2> m = square();
   m.insert_segment(id(1), id(1), id(3));
   m.remove(id(5));
   m.update();
-  m.remove_segment(id(1));
+  m.remove_line(id(1));
   m.insert_segment(id(1), id(1), id(3));
   CHECK(m.update().calls.executed == 0);
 }
 
 TEST_CASE("a segment that gets another id keeps its edges, which are said to be another line's") {
-  Mesher<2> m = square();
+  BoxMesher<2> m = square();
   m.insert_segment(id(1), id(1), id(2));
   m.update();
   const auto vertices = m.mesh().vertices;
-  m.remove_segment(id(1));
+  m.remove_line(id(1));
   m.insert_segment(id(9), id(2), id(1));
   const auto change = m.update();
   CHECK(m.mesh().vertices == vertices);
-  CHECK(lines_of(m.mesh()) == std::vector{id(9)});
+  CHECK(lines_of(m.mesh()) == std::vector{LineId{9}});
   REQUIRE(change.edges_added.size() == m.mesh().edges.size());
   REQUIRE(change.edges_removed.size() == change.edges_added.size());
-  CHECK(change.edges_added[0].line == id(9));
-  CHECK(change.edges_removed[0].line == id(1));
+  CHECK(change.edges_added[0].feature == LineId{9});
+  CHECK(change.edges_removed[0].feature == LineId{1});
 }
 
 TEST_CASE("points come to where segments have vertices, or into their finest cells, as those go") {
   for (const double beside : {0.0, 4e-16}) {
-    Mesher<2> m(kOptions);
+    BoxMesher<2> m(kOptions);
     m.insert({id(1), id(2), id(3)}, {{1, 1}, {8, 4}, {4, 2.6}});
     m.insert_segment(id(1), id(1), id(2));
     m.update();
@@ -198,7 +201,7 @@ TEST_CASE("points come to where segments have vertices, or into their finest cel
       if (mesh.kinds[i] == mesher::VertexKind::segment) on_segment.push_back(mesh.vertices[i]);
     }
     REQUIRE(on_segment.size() > 3);
-    m.remove_segment(id(1));
+    m.remove_line(id(1));
     Pslg pslg;
     pslg.points = {{1, {1, 1}}, {2, {8, 4}}, {3, {4, 2.6}}};
     for (std::size_t i = 0; i < on_segment.size(); ++i) {
@@ -222,9 +225,9 @@ TEST_CASE("points come to where segments have vertices, or into their finest cel
 
 TEST_CASE("segments that do not make a planar graph are refused with both ids and the place") {
   struct Bad {
-    std::function<void(Mesher<2>&)> edit;
+    std::function<void(BoxMesher<2>&)> edit;
     ErrorCode code;
-    std::vector<FeatureId> ids;
+    support::Ids ids;
     std::string says;
   };
   const std::vector<Bad> bad = {
@@ -236,7 +239,7 @@ TEST_CASE("segments that do not make a planar graph are refused with both ids an
        ErrorCode::overlapping_segments,
        {id(12), id(11)},
        "from (1, 1) to (3, 3)"},
-      {[](auto& m) { m.remove_segment(id(11)), m.insert_segment(id(12), id(1), id(3)); },
+      {[](auto& m) { m.remove_line(id(11)), m.insert_segment(id(12), id(1), id(3)); },
        ErrorCode::point_on_segment,
        {id(5), id(12)},
        "point 5 (3, 3)"},
@@ -255,7 +258,7 @@ TEST_CASE("segments that do not make a planar graph are refused with both ids an
        {id(8), id(10)},
        "(3, 1)"},
       {[](auto& m) {
-         m.remove_segment(id(10));
+         m.remove_line(id(10));
          m.insert({id(8), id(9), id(20), id(21)}, {{3, 0.5}, {3, 1.5}, {4, 1}, {3, 1}});
          m.insert_segment(id(12), id(20), id(21)), m.insert_segment(id(14), id(8), id(9));
        },
@@ -322,7 +325,7 @@ TEST_CASE("segments that do not make a planar graph are refused with both ids an
   };
   for (std::size_t i = 0; i < bad.size(); ++i) {
     INFO("case " << i);
-    Mesher<2> m = square();
+    BoxMesher<2> m = square();
     m.insert({id(6), id(7)}, {{6, 0.5}, {6, 5.5}});
     m.insert_segment(id(10), id(1), id(2));
     m.insert_segment(id(11), id(1), id(5));
@@ -341,7 +344,7 @@ TEST_CASE("segments that do not make a planar graph are refused with both ids an
 }
 
 TEST_CASE("a first run and a static run refuse what an update refuses") {
-  Mesher<2> m = square();
+  BoxMesher<2> m = square();
   m.insert_segment(id(1), id(1), id(3));
   CHECK(refused(m).code == ErrorCode::point_on_segment);
   const std::vector<Point<2>> points{{1, 1}, {5, 1}, {5, 5}, {1, 5}};
@@ -360,7 +363,7 @@ TEST_CASE("a first run and a static run refuse what an update refuses") {
 }
 
 TEST_CASE("lines are announced by ids that are free, and taken back by ids that are there") {
-  Mesher<2> m = square();
+  BoxMesher<2> m = square();
   const auto code = [&](auto&& edit) {
     try {
       edit();
@@ -373,14 +376,14 @@ TEST_CASE("lines are announced by ids that are free, and taken back by ids that 
   CHECK(code([&] { m.insert_segment(id(1), id(2), id(3)); }) == ErrorCode::repeated_id);
   CHECK(code([&] { m.insert_segment(id(2), id(3), id(3)); }) == ErrorCode::zero_length);
   CHECK(code([&] { m.insert_polyline(id(2), {id(3)}); }) == ErrorCode::bad_option);
-  CHECK(code([&] { m.remove_segment(id(2)); }) == ErrorCode::unknown_id);
+  CHECK(code([&] { m.remove_line(id(2)); }) == ErrorCode::unknown_id);
   m.discard_edits();
   CHECK_FALSE(m.contains_line(id(1)));
 }
 
 TEST_CASE(
     "a point nearly on a segment is refused with the ids of both, if doubles do not suffice") {
-  Mesher<2> m(kOptions);
+  BoxMesher<2> m(kOptions);
   m.insert({id(1), id(2)}, {{1, 1}, {8, 4}});
   m.insert_segment(id(1), id(1), id(2));
   m.update();
@@ -394,7 +397,7 @@ TEST_CASE("features whose vertices share a finest cell are refused with the ids 
   // Two legs at 2^-45, and a point near their apex that asks for vertices on both.
   const Options<2> options{.domain = {{0, 0}, {1, 1}}};
   const std::vector<Point<2>> points{{0, 0}, {1, 0.3}, {1, 0.3 + 0x1p-43}, {0, 0x1p-8}};
-  Mesher<2> m(options);
+  BoxMesher<2> m(options);
   m.insert({id(11), id(12), id(13), id(14)}, points);
   m.insert_segment(id(1), id(11), id(12));
   m.update();

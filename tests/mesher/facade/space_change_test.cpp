@@ -4,18 +4,18 @@
 
 #include "failing_new.hpp"
 #include "feature_ids.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "space_parcels.hpp"
 #include "space_parts.hpp"
 
 namespace {
 
+using mesher::BoxMesher;
 using mesher::Change;
-using mesher::FeatureId;
-using mesher::Mesher;
+using mesher::LineId;
 using mesher::Options;
-using mesher::Point;
 using mesher::Polygon;
+using mesher::PolygonId;
 using support::id;
 using support::ids;
 using support::parts_of;
@@ -25,7 +25,7 @@ const Options<3> kOptions{.domain = {{0, 0, 0}, {2, 2, 2}}};
 
 // Two squares side by side, of points 1 to 6, and 7 and 8 inside the first; 9 above.
 struct Scene {
-  Mesher<3> m{kOptions};
+  BoxMesher<3> m{kOptions};
   SpaceParts parts;
   Scene() {
     m.insert(ids({1, 2, 3, 4, 5, 6, 7, 8, 9}), {{0.25, 0.25, 1},
@@ -55,8 +55,8 @@ struct Scene {
 TEST_CASE("After random edits the parts of features are the old ones with the update's change") {
   const std::uint64_t seed = GENERATE(1, 2, 3, 4, 5, 6);
   CAPTURE(seed);
-  Mesher<3> m(kOptions);
-  support::SpaceParcels<Mesher<3>> parcels(m, seed);
+  BoxMesher<3> m(kOptions);
+  support::SpaceParcels<BoxMesher<3>> parcels(m, seed);
   SpaceParts parts;
   int refused = 0;
   for (int round = 0; round < 40; ++round) {
@@ -84,7 +84,7 @@ TEST_CASE(
   const Change<3> came = s.update();
   CHECK(came.faces_removed.empty());
   std::size_t renamed = 0;
-  for (const auto& e : came.edges_removed) renamed += e.line == id(2) && e.of_polygon ? 1 : 0;
+  for (const auto& e : came.edges_removed) renamed += e.feature == PolygonId{2} ? 1 : 0;
   CHECK(renamed > 0);
   CHECK(renamed == came.edges_removed.size());
   s.m.remove_polygon(id(1));
@@ -104,11 +104,11 @@ TEST_CASE("A segment along a polygon's edge takes its parts, and leaves them") {
   CHECK(came.faces_added.empty());
   REQUIRE(!came.edges_added.empty());
   CHECK(came.edges_added.size() == came.edges_removed.size());
-  for (const auto& e : came.edges_added) CHECK((e.line == id(9) && !e.of_polygon));
+  for (const auto& e : came.edges_added) CHECK(e.feature == LineId{9});
   s.m.remove_polygon(id(1));
   s.m.remove_polygon(id(2));
-  for (const auto& e : s.update().edges_removed) CHECK(e.of_polygon);
-  s.m.remove_segment(id(9));
+  for (const auto& e : s.update().edges_removed) CHECK(e.feature.polygon());
+  s.m.remove_line(id(9));
   CHECK(s.update().edges_removed == came.edges_added);
   CHECK(s.parts == SpaceParts());
 }
@@ -153,17 +153,17 @@ TEST_CASE("The same edge of the mesh may pass from one line to another on it") {
   s.m.insert(id(10), {1.25, 0.25, 0.5});
   s.m.insert_segment(id(1), id(1), id(2));
   s.update();
-  s.m.remove_segment(id(1));
+  s.m.remove_line(id(1));
   s.m.insert_segment(id(2), id(1), id(2));
   s.m.insert_segment(id(3), id(2), id(10));
   s.update();
   // Of the segment from 1 to 5 places are midpoints of those from 1 to 2, which goes.
-  s.m.remove_segment(id(2));
-  s.m.remove_segment(id(3));
+  s.m.remove_line(id(2));
+  s.m.remove_line(id(3));
   s.m.remove(id(2));
   s.m.insert_segment(id(4), id(1), id(5));
   s.update();
-  s.m.remove_segment(id(4));
+  s.m.remove_line(id(4));
   s.m.insert(id(2), {0.75, 0.25, 1});
   s.m.insert_polygon(s.first());
   s.update();
@@ -215,7 +215,7 @@ TEST_CASE("An update of a polygon whose parts find no memory leaves the parts th
     if (!support::fails(count, burnt, [&] { change = s.m.update(); })) {
       s.parts.follow(change);
       if (burnt) {  // somebody could do without
-        s.m.remove_segment(id(9));
+        s.m.remove_line(id(9));
         s.m.remove_polygon(id(2));
         s.m.insert_polygon(s.first());
         s.update();

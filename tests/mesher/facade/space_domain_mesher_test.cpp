@@ -4,31 +4,32 @@
 #include <map>
 #include <set>
 
+#include "any_id.hpp"
+#include "facade/graph_runs.hpp"
 #include "failing_new.hpp"
-#include "mesher/domain_mesher.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/mesher.hpp"
 #include "space_parcels.hpp"
 
 namespace {
 
-using mesher::DomainOf;
+using mesher::Domain;
 using mesher::Extent;
-using mesher::FeatureId;
+using mesher::Graph;
 using mesher::Mesh;
 using mesher::Options;
-using mesher::Plc;
 using mesher::Point;
+using mesher::PolygonId;
 using mesher::RegionLabel;
+using mesher::SeedId;
 using mesher::SeedKind;
-using mesher::SeedName;
-using mesher::SeedOf;
 using mesher::SplitMix64;
 using mesher::Zone;
-using Mesher = mesher::DomainMesherOf<3>;
-using Update = mesher::DomainUpdateOf<3>;
-using Corners = mesher::DomainChangeOf<3>::Corners;
+using Mesher = mesher::Mesher<3>;
+using Update = mesher::DomainUpdate<3>;
+using Corners = mesher::DomainChange<3>::Corners;
 
-FeatureId id(std::int64_t i) { return FeatureId{i}; }
+AnyId id(std::int64_t i) { return AnyId{i}; }
 
 const Options<3> kOptions{.domain = {{0, 0, 0}, {2, 2, 2}}};
 
@@ -50,7 +51,7 @@ struct Follower {
   }
 };
 
-std::map<Corners, RegionLabel> labels_of(const Mesh<3>& mesh, const DomainOf<3>& domain) {
+std::map<Corners, RegionLabel> labels_of(const Mesh<3>& mesh, const Domain<3>& domain) {
   std::map<Corners, RegionLabel> labels;
   const auto corners = corners_of(mesh);
   for (std::size_t t = 0; t < corners.size(); ++t) {
@@ -59,18 +60,18 @@ std::map<Corners, RegionLabel> labels_of(const Mesh<3>& mesh, const DomainOf<3>&
   return labels;
 }
 
-DomainOf<3> domain_of(const Mesh<3>& mesh, const Plc& plc, Extent extent) {
+Domain<3> domain_of(const Mesh<3>& mesh, const Graph<3>& plc, Extent extent) {
   std::vector<mesher::MeshFace> walls;
   for (const auto& f : mesh.faces) walls.push_back({f.corners, f.polygon, 0});
-  return find_domain<3>(mesh, walls, seeds_of(plc), extent);
+  return find_domain<3>(mesh, walls, plc.seeds, extent);
 }
 
 // All is that of a run from scratch, and the changes led there.
 void require_fresh(const Mesher& m, const Follower& follower) {
-  const Plc plc = m.input();
+  const Graph<3> plc = m.input();
   const Mesh<3> mesh = mesh_statically(plc, m.options());
-  REQUIRE(m.mesh() == mesh);
-  const DomainOf<3> domain = domain_of(mesh, plc, m.extent());
+  REQUIRE(m.box_mesh() == mesh);
+  const Domain<3> domain = domain_of(mesh, plc, m.options().extent);
   std::set<Corners> kept;
   for (const auto& [corners, label] : labels_of(mesh, domain)) {
     REQUIRE(m.label(corners) == label);
@@ -80,7 +81,7 @@ void require_fresh(const Mesher& m, const Follower& follower) {
   }
   REQUIRE(follower.kept == kept);
   auto faults = domain.faults;
-  for (auto& fault : faults) fault.line.reset();
+  for (auto& fault : faults) fault.wall = {};
   REQUIRE(m.faults() == faults);
 }
 
@@ -89,9 +90,9 @@ class Seeds {
  public:
   Seeds(Mesher& m, std::uint64_t seed) : m_(m), random_(seed) {}
   void edit() {
-    const SeedName name{random_.below(2) == 0 ? SeedKind::hole : SeedKind::region,
-                        id(1 + static_cast<std::int64_t>(random_.below(4)))};
-    const bool there = m_.contains_seed(name);
+    const SeedId name{random_.below(2) == 0 ? SeedKind::hole : SeedKind::region,
+                      1 + static_cast<std::int64_t>(random_.below(4))};
+    const bool there = m_.contains(name);
     if (there) m_.remove_seed(name);
     if (there && random_.below(2) == 0) return;
     m_.insert_seed({name, place(), static_cast<double>(random_.below(5)), {}});
@@ -99,7 +100,7 @@ class Seeds {
 
  private:
   Point<3> place() {
-    const Mesh<3> mesh = m_.mesh();
+    const Mesh<3> mesh = m_.box_mesh();
     if (mesh.simplices.empty() || random_.below(6) == 0) {
       return {2 * random_.unit(), 3 * random_.unit(), random_.unit()};
     }
@@ -125,19 +126,22 @@ void insert_box(Mesher& m, std::int64_t first, double lo, double hi) {
   constexpr std::int64_t kSides[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                          {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
   for (std::int64_t f = 0; f < 6; ++f) {
-    mesher::Polygon side{id(first + f), {{}}};
+    mesher::Polygon side{.id = id(first + f), .loops = {{}}, .marker = 10 + f};
     for (const auto i : kSides[f]) side.loops[0].push_back(id(first + i));
-    m.insert_polygon(side, 10 + f);
+    m.insert_polygon(side);
   }
 }
 
 }  // namespace
 
-TEST_CASE("After random edits of polygons and seeds in space all regions are those of a fresh run") {
+TEST_CASE(
+    "After random edits of polygons and seeds in space all regions are those of a fresh run") {
   const std::uint64_t seed = GENERATE(1, 2, 3, 4, 5, 6);
   const Extent extent = seed % 3 == 0 ? Extent::box : Extent::enclosed;
   CAPTURE(seed);
-  Mesher m(kOptions, extent);
+  Options<3> options = kOptions;
+  options.extent = extent;
+  Mesher m(options);
   support::SpaceParcels<Mesher> parcels(m, seed);
   Seeds seeds(m, seed);
   Follower follower;
@@ -152,7 +156,7 @@ TEST_CASE("After random edits of polygons and seeds in space all regions are tho
     const auto count = round == 0 ? parcels.below(2) * 6 : parcels.below(3);
     if (parcels.edit_and(count, change)) follower.follow(update);
     require_fresh(m, follower);
-    enclosing += follower.kept.size() < m.mesh().simplices.size() ? 1 : 0;
+    enclosing += follower.kept.size() < m.box_mesh().simplices.size() ? 1 : 0;
     if (round % 6 == 0) m.check_invariants();
   }
   if (extent == Extent::enclosed) CHECK(enclosing > 5);
@@ -163,8 +167,8 @@ TEST_CASE("A shell in a box: a lid that goes joins regions, and one that comes p
   Follower follower;
   insert_box(m, 1, 0.25, 1.75);
   insert_box(m, 11, 0.75, 1.25);
-  m.insert_hole(id(1), {1, 1, 1});
-  m.insert_region(id(2), {0.5, 0.5, 0.5}, 7);
+  m.insert_hole(1, {1, 1, 1});
+  m.insert_region(2, {0.5, 0.5, 0.5}, 7);
   follower.follow(m.update());
   require_fresh(m, follower);
   CHECK(m.faults().empty());
@@ -175,15 +179,15 @@ TEST_CASE("A shell in a box: a lid that goes joins regions, and one that comes p
   require_fresh(m, follower);
   CHECK(follower.kept.empty());
   REQUIRE(m.faults().size() == 1);
-  CHECK(m.faults()[0].seed == SeedName{SeedKind::region, id(2)});
-  m.remove_hole(id(1));
+  CHECK(m.faults()[0].seed == mesher::region_id(2));
+  m.remove_hole(1);
   follower.follow(m.update());
   require_fresh(m, follower);
   CHECK(follower.kept.size() > shell);
   m.remove_polygon(id(1));  // and the outer one: nothing is enclosed, all is kept
   follower.follow(m.update());
   require_fresh(m, follower);
-  CHECK(follower.kept.size() == m.mesh().simplices.size());
+  CHECK(follower.kept.size() == m.box_mesh().simplices.size());
 }
 
 TEST_CASE("Markers of points, segments and polygons are in the domain's mesh, and stay in moves") {
@@ -195,21 +199,22 @@ TEST_CASE("Markers of points, segments and polygons are in the domain's mesh, an
   m.move(id(20), {1, 1.125, 1});
   m.update();
   const auto domain = m.domain_mesh();
-  CHECK(domain.kept.features.faces.size() > 11);
-  for (const auto& f : domain.kept.features.faces) {
+  CHECK(domain.mesh.features.faces.size() > 11);
+  for (const auto& f : domain.mesh.features.faces) {
     REQUIRE(f.polygon);
     CHECK(f.marker == 9 + static_cast<std::int64_t>(*f.polygon));
   }
   std::size_t on_segment = 0;
-  for (const auto& e : domain.kept.features.edges) on_segment += e.marker == 77 ? 1 : 0;
+  for (const auto& e : domain.mesh.features.edges) on_segment += e.marker == 77 ? 1 : 0;
   CHECK(on_segment > 0);
-  const auto& vertices = domain.kept.vertices;
+  const auto& vertices = domain.mesh.vertices;
   const Point<3> place{1, 1.125, 1};
   const auto at = std::lower_bound(vertices.begin(), vertices.end(), place) - vertices.begin();
-  CHECK(domain.kept.features.markers[static_cast<std::size_t>(at)] == 5);
-  const Plc plc = m.input();
-  CHECK(domain.kept == domain_mesh(mesh_statically(plc, m.options()), plc, m.extent()).kept);
-  CHECK(m.contains_polygon(id(1)));
+  CHECK(domain.mesh.features.markers[static_cast<std::size_t>(at)] == 5);
+  const Graph<3> plc = m.input();
+  CHECK(domain.mesh ==
+        domain_mesh(mesh_statically(plc, m.options()), plc, m.options().extent).mesh);
+  CHECK(m.contains(PolygonId{1}));
 }
 
 // The wall between the halves is far from the edits; neither half is looked at.
@@ -221,16 +226,16 @@ TEST_CASE("An edit inside a large region in space does not look at the region") 
     const auto x = [&] { return 0.2 + 1.6 * random.unit(); };
     m.insert(id(i), {x(), x(), x()});
   }
-  m.insert_region(id(1), {1, 1, 1}, 3);
+  m.insert_region(1, {1, 1, 1}, 3);
   m.update();
-  REQUIRE(m.mesh().simplices.size() > 5000);
+  REQUIRE(m.box_mesh().simplices.size() > 5000);
   std::uint64_t visited = 0;
   for (std::int64_t i = 100; i < 120; ++i) {
     m.remove(id(i));
     visited += m.update().domain.visited;
   }
   CHECK(visited == 0);
-  m.remove_region(id(1));
+  m.remove_region(1);
   CHECK(m.update().domain.relabelled.size() > 1000);
 }
 
@@ -239,14 +244,14 @@ TEST_CASE("What fails leaves mesh, regions and seeds in space, and it works agai
   Follower follower;
   insert_box(m, 1, 0.25, 1.75);
   insert_box(m, 11, 0.75, 1.25);
-  m.insert_region(id(2), {0.5, 0.5, 0.5}, 7);
+  m.insert_region(2, {0.5, 0.5, 0.5}, 7);
   follower.follow(m.update());
-  CHECK_THROWS_AS(m.insert_region(id(2), {1, 1, 1}, 7), mesher::Error);
-  CHECK_THROWS_AS(m.remove_hole(id(9)), mesher::Error);
+  CHECK_THROWS_AS(m.insert_region(2, {1, 1, 1}, 7), mesher::Error);
+  CHECK_THROWS_AS(m.remove_hole(9), mesher::Error);
   m.insert(id(50), {1, 1, 1.75});  // on a polygon
-  m.insert_hole(id(1), {1, 1, 1});
+  m.insert_hole(1, {1, 1, 1});
   CHECK_THROWS_AS(m.update(), mesher::Error);
-  CHECK_FALSE(m.contains_seed({SeedKind::hole, id(1)}));
+  CHECK_FALSE(m.contains(mesher::hole_id(1)));
   require_fresh(m, follower);
   bool burnt = true;
   int failures = 0;
@@ -254,7 +259,7 @@ TEST_CASE("What fails leaves mesh, regions and seeds in space, and it works agai
     CAPTURE(count);
     Update update;
     const bool failed = support::fails(count, burnt, [&] {
-      m.insert_hole(id(1), {1, 1, 1});
+      m.insert_hole(1, {1, 1, 1});
       m.remove_polygon(id(1));
       update = m.update();
     });
@@ -267,8 +272,8 @@ TEST_CASE("What fails leaves mesh, regions and seeds in space, and it works agai
     }
     follower.follow(update);
     if (!burnt) break;
-    m.remove_hole(id(1));  // somebody could do without
-    m.insert_polygon({id(1), {{id(1), id(2), id(4), id(3)}}}, 10);
+    m.remove_hole(1);  // somebody could do without
+    m.insert_polygon({id(1), {{id(1), id(2), id(4), id(3)}}, {}, {}, 10});
     follower.follow(m.update());
   }
   CHECK(failures > 30);

@@ -3,31 +3,32 @@
 #include <stdexcept>
 #include <vector>
 
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
 #include "failing_new.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace {
 
+using mesher::BoxMesher;
 using mesher::Change;
-using mesher::FeatureId;
 using mesher::Mesh;
-using mesher::Mesher;
+using mesher::PointId;
 
 // A few points, and a batch in which one comes, one goes and one moves.
 struct Cloud {
   Cloud() {
     std::int64_t id = 1;
     for (const auto& p : mesher::generate_points<3>(mesher::PointKind::uniform, 6, 5)) {
-      m.insert(FeatureId{id++}, p);
+      m.insert(PointId{id++}, p);
     }
     m.update();
     before = m.mesh();
   }
   void announce() {
-    m.insert(FeatureId{99}, {0.3125, 0.4375, 0.53125});
-    m.remove(FeatureId{2});
-    m.move(FeatureId{3}, {0.75, 0.25, 0.375});
+    m.insert(PointId{99}, {0.3125, 0.4375, 0.53125});
+    m.remove(PointId{2});
+    m.move(PointId{3}, {0.75, 0.25, 0.375});
   }
   void check_kept() {
     m.check_invariants();
@@ -42,7 +43,7 @@ struct Cloud {
     REQUIRE_FALSE(m.mesh() == before);
   }
 
-  Mesher<3> m{{.domain = {{0, 0, 0}, {1, 1, 1}}}};
+  BoxMesher<3> m{{.domain = {{0, 0, 0}, {1, 1, 1}}}};
   Mesh<3> before;
 };
 

@@ -4,43 +4,45 @@
 #include <fstream>
 #include <vector>
 
-#include "mesher/generate_plc.hpp"
-#include "mesher/mesher.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/read.hpp"
 
 namespace {
 
-using mesher::FeatureId;
+using mesher::BoxMesher;
+using mesher::Graph;
 using mesher::Mesh;
-using mesher::Mesher;
 using mesher::Options;
-using mesher::Plc;
 using mesher::PlcKind;
 using mesher::Point;
+using mesher::PointId;
 
 // A complex as static runs take it.
 struct Input {
-  std::vector<FeatureId> ids;
+  std::vector<PointId> ids;
   std::vector<Point<3>> points;
   std::vector<mesher::Segment> segments;
   std::vector<mesher::Polygon> polygons;
 
-  explicit Input(const Plc& plc) {
+  explicit Input(const Graph<3>& plc) {
     for (const auto& v : plc.points) {
       ids.push_back(v.id);
       points.push_back(v.at);
     }
     for (const auto& s : plc.segments) segments.push_back({s.id, s.from, s.to});
-    for (const auto& f : plc.facets) polygons.push_back(f.polygon);
+    for (const auto& f : plc.polygons) polygons.push_back(f);
   }
   [[nodiscard]] Mesh<3> mesh(const Options<3>& options) const {
     return mesh_statically(points, segments, polygons, options, ids);
   }
 };
 
-void require_followed(const Plc& plc) {
+void require_followed(const Graph<3>& plc) {
   Input input(plc);
   const Options<3> options{.domain = mesher::snapped_domain<3>(input.points)};
-  Mesher<3> m(options);
+  BoxMesher<3> m(options);
   m.insert(input.ids, input.points);
   for (const auto& s : input.segments) m.insert_segment(s.id, s.from, s.to);
   for (const auto& f : input.polygons) m.insert_polygon(f);
@@ -73,5 +75,5 @@ TEST_CASE("Families of complexes are followed as a polygon goes and comes again"
 
 TEST_CASE("TetGen's example is followed as a polygon goes and comes again") {
   const char* path = "/usr/share/doc/tetgen/examples/example.poly";
-  if (std::ifstream(path)) require_followed(mesher::read_plc(path).plc);
+  if (std::ifstream(path)) require_followed(mesher::read<3>(path).graph);
 }

@@ -7,31 +7,33 @@
 #include <string>
 #include <vector>
 
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
 #include "failing_new.hpp"
 #include "feature_ids.hpp"
 #include "mesher/error.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace {
 
+using mesher::BoxMesher;
 using mesher::Error;
 using mesher::ErrorCode;
-using mesher::FeatureId;
 using mesher::Mesh;
-using mesher::Mesher;
 using mesher::Options;
 using mesher::Point;
+using mesher::PointId;
 using mesher::Polygon;
+using mesher::PolygonId;
 using support::id;
 using support::ids;
 
 const Options<3> kOptions{.domain = {{0, 0, 0}, {1, 1, 1}}};
 
 // A square on the floor with points 1 to 4 at its corners, 5 over it, 6 under it, 7 beside it; as
-// polygon 1. Point 8 is in its plane and inside, where announced.
+// polygon 1. Point 8 is in its plane and inside, where pending.
 struct Scene {
-  Mesher<3> m{kOptions};
+  BoxMesher<3> m{kOptions};
   Scene() {
     m.insert(ids({1, 2, 3, 4, 5, 6, 7}), {{0.25, 0.25, 0.5},
                                           {0.75, 0.25, 0.5},
@@ -47,10 +49,10 @@ struct Scene {
 // What update() throws, and that mesh and features stay.
 struct Refused {
   ErrorCode code{};
-  std::vector<FeatureId> ids;
+  support::Ids ids;
   std::string message;
 };
-Refused refused(Mesher<3>& m) {
+Refused refused(BoxMesher<3>& m) {
   const Mesh<3> before = m.mesh();
   const auto polygons = m.polygons();
   const auto lines = m.lines();
@@ -68,18 +70,18 @@ Refused refused(Mesher<3>& m) {
 }
 
 // The mesh of a mesher of its own with the same input.
-Mesh<3> mesh_of_input(const Mesher<3>& m) {
-  Mesher<3> fresh(m.options());
-  for (const auto& [point, at] : m.points()) fresh.insert(point, at);
+Mesh<3> mesh_of_input(const BoxMesher<3>& m) {
+  BoxMesher<3> fresh(m.options());
+  for (const auto& [point, at, marker] : m.points()) fresh.insert(point, at);
   for (const auto& line : m.lines()) fresh.insert_polyline(line.id, line.points);
   for (const Polygon& polygon : m.polygons()) fresh.insert_polygon(polygon);
   fresh.update();
   return fresh.mesh();
 }
-Mesh<3> static_mesh(const Mesher<3>& m) {
-  std::vector<FeatureId> names;
+Mesh<3> static_mesh(const BoxMesher<3>& m) {
+  std::vector<PointId> names;
   std::vector<Point<3>> points;
-  for (const auto& [point, at] : m.points()) {
+  for (const auto& [point, at, marker] : m.points()) {
     names.push_back(point);
     points.push_back(at);
   }
@@ -96,9 +98,9 @@ Mesh<3> static_mesh(const Mesher<3>& m) {
 
 TEST_CASE("What does not fit together in space is refused with both ids, and nothing is lost") {
   struct Case {
-    std::function<void(Mesher<3>&)> edit;
+    std::function<void(BoxMesher<3>&)> edit;
     ErrorCode code;
-    std::vector<FeatureId> ids;
+    support::Ids ids;
   };
   const Case cases[] = {
       {[](auto& m) { m.insert_segment(id(9), id(5), id(6)); }, ErrorCode::segment_through_polygon,
@@ -187,7 +189,7 @@ TEST_CASE("What the ids alone say of a polygon is refused when it is announced")
   scene.m.remove_polygon(id(1));
   CHECK_FALSE(scene.m.contains_polygon(id(1)));
   CHECK_THROWS_AS(scene.m.remove_polygon(id(1)), Error);
-  Mesher<2> plane(Options<2>{.domain = {{0, 0}, {1, 1}}});
+  BoxMesher<2> plane(Options<2>{.domain = {{0, 0}, {1, 1}}});
   CHECK_THROWS_AS(plane.insert_polygon({id(1), {ids({1, 2, 3})}}), Error);
 }
 
@@ -204,7 +206,7 @@ TEST_CASE("A polygon takes the edges that nobody else has") {
   CHECK(scene.m.mesh() == mesh_of_input(scene.m));
   scene.m.remove(id(3));
   CHECK(refused(scene.m).ids == ids({3, 3}));  // the segment stays
-  scene.m.remove_segment(id(3));
+  scene.m.remove_line(id(3));
   scene.m.remove(id(3));
   scene.m.update();
   CHECK(scene.m.mesh() == mesh_of_input(scene.m));
@@ -267,7 +269,7 @@ TEST_CASE("A feature that goes and comes again, or changes its id, leaves the me
   scene.m.update();
   Mesh<3> renamed = before;
   for (auto& face : renamed.faces) face.polygon = id(5);
-  for (auto& edge : renamed.edges) edge.line = id(5);
+  for (auto& edge : renamed.edges) edge.feature = PolygonId{5};
   CHECK(renamed != before);
   CHECK(scene.m.mesh() == renamed);
   scene.m.insert_segment(id(9), id(5), id(6));
@@ -283,7 +285,7 @@ TEST_CASE(
   const std::uint64_t seed = GENERATE(1, 2, 3);
   CAPTURE(seed);
   mesher::SplitMix64 random(seed);
-  Mesher<3> m(kOptions);
+  BoxMesher<3> m(kOptions);
   std::map<std::int64_t, Point<3>> points;
   std::int64_t last = 0;
   const auto place = [&]() -> Point<3> {
@@ -316,7 +318,7 @@ TEST_CASE(
         m.insert_polygon({id(++last), {{some(), some(), some()}}});
         break;
       case 5:
-        if (!lines.empty()) m.remove_segment(lines[random.below(lines.size())].id);
+        if (!lines.empty()) m.remove_line(lines[random.below(lines.size())].id);
         break;
       default:
         if (!polygons.empty()) m.remove_polygon(polygons[random.below(polygons.size())].id);
@@ -339,7 +341,8 @@ TEST_CASE(
       continue;
     }
     points.clear();
-    for (const auto& [point, at] : m.points()) points[static_cast<std::int64_t>(point)] = at;
+    for (const auto& [point, at, marker] : m.points())
+      points[static_cast<std::int64_t>(point)] = at;
     REQUIRE(mesh_of_input(m) == static_mesh(m));
     REQUIRE(m.mesh() == static_mesh(m));
     if (round % 10 == 0) m.check_invariants();
@@ -357,8 +360,8 @@ TEST_CASE("An update of features in which an allocation fails leaves all, and wo
     scene.m.update();
     return scene;
   };
-  const auto announce = [](Mesher<3>& m) {
-    m.remove_segment(id(9));
+  const auto announce = [](BoxMesher<3>& m) {
+    m.remove_line(id(9));
     m.insert_polygon({id(2), {ids({1, 2, 5})}});
     m.insert(id(8), {0.9375, 0.875, 0.75});
     m.insert_segment(id(3), id(8), id(7));

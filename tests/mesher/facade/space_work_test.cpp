@@ -3,27 +3,27 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "facade/box_mesher.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace {
 
-using mesher::FeatureId;
+using mesher::PointId;
+using mesher::PolygonId;
 
 constexpr int kSquares = 12;
 
 // A cloud, and the corners of a bent strip of squares in it: those of a pair are i and i + 1.
-std::int64_t insert_points(mesher::Mesher<3>& m) {
+std::int64_t insert_points(mesher::BoxMesher<3>& m) {
   mesher::SplitMix64 random(5);
   std::int64_t id = 1;
   for (int i = 0; i < 300; ++i) {
-    m.insert(FeatureId{id++}, {random.unit(), random.unit(), random.unit()});
+    m.insert(PointId{id++}, {random.unit(), random.unit(), random.unit()});
   }
   const std::int64_t first = id;
   for (int i = 0; i <= kSquares; ++i) {
     for (int j = 0; j < 2; ++j) {
-      m.insert(FeatureId{id++},
-               {0.2 + 0.05 * i, 0.4 + 0.05 * j, 0.5 + 0.01 * ((7 * i + 3 * j) % 5)});
+      m.insert(PointId{id++}, {0.2 + 0.05 * i, 0.4 + 0.05 * j, 0.5 + 0.01 * ((7 * i + 3 * j) % 5)});
     }
   }
   return first;
@@ -33,14 +33,14 @@ std::int64_t insert_points(mesher::Mesher<3>& m) {
 
 TEST_CASE("a triangle concerns the calls that have asked for features as far as it is away") {
   mesher::Options<3> options{.domain = {{0, 0, 0}, {1, 1, 1}}};
-  mesher::Mesher<3> m(options);
+  mesher::BoxMesher<3> m(options);
   const std::int64_t first = insert_points(m);
   m.update();
   std::uint64_t calls = 0;
   for (std::int64_t i = 0; i < 2 * kSquares; ++i) {
     const std::int64_t corner = first + i;
     m.insert_polygon(
-        {FeatureId{1000 + i}, {{FeatureId{corner}, FeatureId{corner + 1}, FeatureId{corner + 2}}}});
+        {PolygonId{1000 + i}, {{PointId{corner}, PointId{corner + 1}, PointId{corner + 2}}}});
     calls += m.update().calls.executed;
   }
   CHECK(calls < 600 * 2 * kSquares);  // 840 each, were all told whose cells' surroundings it is in

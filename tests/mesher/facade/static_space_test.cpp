@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "facade/graph_runs.hpp"
 #include "mesher/mesher.hpp"
 #include "space_points.hpp"
 
@@ -12,7 +13,6 @@ namespace {
 
 using mesher::Error;
 using mesher::ErrorCode;
-using mesher::FeatureId;
 using mesher::Mesh;
 using mesher::Options;
 using mesher::Point;

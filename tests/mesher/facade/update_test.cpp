@@ -6,20 +6,22 @@
 #include <thread>
 #include <vector>
 
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
+#include "mesher/extra/generate.hpp"
 #include "sac/check.hpp"
 #include "scratch_file.hpp"
 
 namespace {
 
+using mesher::BoxMesher;
 using mesher::ErrorCode;
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Mesh;
-using mesher::Mesher;
 using mesher::Options;
 using mesher::Phase;
 using mesher::Point;
+using mesher::PointId;
 using mesher::Progress;
 using mesher::RunControl;
 using support::error_of;
@@ -30,16 +32,16 @@ std::vector<Point<2>> some_points(std::size_t n) {
   return mesher::generate_points<2>(mesher::PointKind::uniform, n, 3);
 }
 
-void announce(Mesher<2>& m, const std::vector<Point<2>>& points) {
-  std::vector<FeatureId> ids;
-  for (std::size_t i = 0; i < points.size(); ++i) ids.push_back(FeatureId(i + 1));
+void announce(BoxMesher<2>& m, const std::vector<Point<2>>& points) {
+  std::vector<PointId> ids;
+  for (std::size_t i = 0; i < points.size(); ++i) ids.push_back(PointId(i + 1));
   m.insert(ids, points);
 }
 
 // Moves the first `n` points a little.
-void shake(Mesher<2>& m, const std::vector<Point<2>>& points, std::size_t n) {
+void shake(BoxMesher<2>& m, const std::vector<Point<2>>& points, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
-    m.move(FeatureId(i + 1), {points[i][0] * 0.999, points[i][1]});
+    m.move(PointId(i + 1), {points[i][0] * 0.999, points[i][1]});
   }
 }
 
@@ -76,7 +78,7 @@ RunControl stopping_at(int n) {
 TEST_CASE("a first run and a static run report their three phases in order, an update its calls") {
   const auto points = some_points(2000);
   Log log;
-  Mesher<2> m(kUnit);
+  BoxMesher<2> m(kUnit);
   announce(m, points);
   m.update(log.control());
   require_three_phases(log.all, points.size(), m.stats().vertices);
@@ -100,7 +102,7 @@ TEST_CASE("a first run that is stopped leaves a mesher whose points wait for the
   const auto points = some_points(1000);
   const Mesh<2> expected = mesher::mesh_statically<2>(points, kUnit);
   for (const int n : {1, 2, 5, 15}) {
-    Mesher<2> m(kUnit);
+    BoxMesher<2> m(kUnit);
     announce(m, points);
     CHECK(error_of([&] { m.update(stopping_at(n)); }).code() == ErrorCode::cancelled);
     CHECK(m.mesh() == Mesh<2>());
@@ -116,14 +118,14 @@ TEST_CASE("a first run that is stopped leaves a mesher whose points wait for the
 
 TEST_CASE("an update that is stopped leaves the old mesh, and its edits to be made or taken back") {
   const auto points = some_points(1000);
-  Mesher<2> m(kUnit);
+  BoxMesher<2> m(kUnit);
   announce(m, points);
   m.update();
   const Mesh<2> before = m.mesh();
   for (const int n : {1, 2, 3, 4, 5}) {
     CAPTURE(n);
     shake(m, points, 50);
-    m.remove(FeatureId{900});
+    m.remove(PointId{900});
     CHECK(error_of([&] { m.update(stopping_at(n)); }).code() == ErrorCode::cancelled);
     CHECK(m.mesh() == before);
     CHECK(m.size() == points.size() - 1);
@@ -134,7 +136,7 @@ TEST_CASE("an update that is stopped leaves the old mesh, and its edits to be ma
   }
   shake(m, points, 50);
   CHECK(error_of([&] { m.update(stopping_at(2)); }).code() == ErrorCode::cancelled);
-  m.move(FeatureId{1}, points[0]);
+  m.move(PointId{1}, points[0]);
   m.update();
   auto moved = points;
   for (std::size_t i = 1; i < 50; ++i) moved[i][0] *= 0.999;
@@ -144,7 +146,7 @@ TEST_CASE("an update that is stopped leaves the old mesh, and its edits to be ma
 
 TEST_CASE("another thread stops a run by its token, and one that is stopped before does nothing") {
   const auto points = some_points(200000);
-  Mesher<2> m(kUnit);
+  BoxMesher<2> m(kUnit);
   announce(m, points);
   std::stop_source source;
   std::atomic<bool> running = false;
@@ -169,7 +171,7 @@ TEST_CASE("another thread stops a run by its token, and one that is stopped befo
 
 TEST_CASE("what the callback throws leaves update(), and the edits are taken back") {
   const auto points = some_points(500);
-  Mesher<2> m(kUnit);
+  BoxMesher<2> m(kUnit);
   announce(m, points);
   m.update();
   const Mesh<2> before = m.mesh();
@@ -188,8 +190,8 @@ TEST_CASE("what the callback throws leaves update(), and the edits are taken bac
 
 TEST_CASE("a callback that uses the mesher is refused, and the update goes on") {
   const auto points = some_points(400);
-  Mesher<2> m(kUnit), twin(kUnit);
-  for (Mesher<2>* each : {&m, &twin}) {
+  BoxMesher<2> m(kUnit), twin(kUnit);
+  for (BoxMesher<2>* each : {&m, &twin}) {
     announce(*each, points);
     each->update();
     shake(*each, points, 100);
@@ -205,11 +207,11 @@ TEST_CASE("a callback that uses the mesher is refused, and the update goes on") 
   };
   const auto use_all = [&] {
     refuses([&] { m.update(); });
-    refuses([&] { m.insert(FeatureId{1000}, {0.5, 0.5}); });
-    refuses([&] { m.move(FeatureId{1}, {0.5, 0.5}); });
-    refuses([&] { m.remove(FeatureId{1}); });
-    refuses([&] { m.insert_segment(FeatureId{1}, FeatureId{1}, FeatureId{2}); });
-    refuses([&] { m.remove_segment(FeatureId{1}); });
+    refuses([&] { m.insert(PointId{1000}, {0.5, 0.5}); });
+    refuses([&] { m.move(PointId{1}, {0.5, 0.5}); });
+    refuses([&] { m.remove(PointId{1}); });
+    refuses([&] { m.insert_segment(LineId{1}, PointId{1}, PointId{2}); });
+    refuses([&] { m.remove_line(LineId{1}); });
     refuses([&] { static_cast<void>(m.mesh()); });
     refuses([&] { static_cast<void>(m.points()); });
     m.discard_edits();  // does nothing
@@ -221,6 +223,6 @@ TEST_CASE("a callback that uses the mesher is refused, and the update goes on") 
   twin.update();
   CHECK(m.mesh() == twin.mesh());
   m.check_invariants();
-  m.insert(FeatureId{1000}, {0.5, 0.5});
+  m.insert(PointId{1000}, {0.5, 0.5});
   m.update();
 }

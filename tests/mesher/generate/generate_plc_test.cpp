@@ -1,51 +1,54 @@
 // Families of complexes: what they are, and that their parts fit together.
-#include "mesher/generate_plc.hpp"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
 
 #include "feature_scene.hpp"
 #include "graph/plc_builder.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 #include "scratch_file.hpp"
 #include "space/validity.hpp"
 
 namespace {
 
-using mesher::FeatureId;
 using mesher::generate_plc;
-using mesher::Plc;
+using mesher::Graph;
+using mesher::LineId;
 using mesher::PlcFamily;
 using mesher::PlcKind;
 using mesher::Point;
+using mesher::PointId;
+using mesher::PolygonId;
 using namespace mesher::detail;
 
 struct SameNames : SpaceNames {
-  FeatureId point(VertexHandle v) const override { return FeatureId{v}; }
-  std::optional<FeatureId> segment(EdgeHandle) const override { return std::nullopt; }
-  FeatureId polygon(PolygonHandle f) const override { return FeatureId{f}; }
+  PointId point(VertexHandle v) const override { return PointId{v}; }
+  std::optional<LineId> segment(EdgeHandle) const override { return std::nullopt; }
+  PolygonId polygon(PolygonHandle f) const override { return PolygonId{f}; }
 };
 
 // Puts all into a store; throws the first error.
-void require_fits(const Plc& plc) {
+void require_fits(const Graph<3>& plc) {
   sac::PlainScope scope;
   support::FeatureScene<sac::PlainScope> scene(1, scope);
   FeatureStore& store = scene.features().store();
-  std::map<FeatureId, VertexHandle> handles;
+  std::map<PointId, VertexHandle> handles;
   for (const auto& v : plc.points) {
     const auto* added = scene.add_point(v.at);
     REQUIRE(added != nullptr);
     handles[v.id] = added->self;
   }
   for (const auto& s : plc.segments) scene.features().insert(handles.at(s.from), handles.at(s.to));
-  for (const auto& [polygon, marker] : plc.facets) {
+  for (const auto& polygon : plc.polygons) {
     PolygonParts parts;
     for (const auto& loop : polygon.loops) {
       auto& corners = parts.loops.emplace_back();
-      for (const FeatureId id : loop) corners.push_back(handles.at(id));
+      for (const PointId id : loop) corners.push_back(handles.at(id));
     }
     for (const auto& [a, b] : polygon.edges) parts.edges.emplace_back(handles.at(a), handles.at(b));
-    for (const FeatureId id : polygon.points) parts.points.push_back(handles.at(id));
+    for (const PointId id : polygon.points) parts.points.push_back(handles.at(id));
     require_shape(store.record(parts), polygon.id, store);
     scene.features().insert(parts);
   }
@@ -66,7 +69,7 @@ TEST_CASE("Of every family of complexes the parts fit together") {
     const auto kind = static_cast<PlcKind>(i);
     CAPTURE(mesher::plc_kind_names()[i]);
     REQUIRE(mesher::plc_kind(mesher::plc_kind_names()[i]) == kind);
-    const Plc plc = generate_plc({kind, {}, 3});
+    const Graph<3> plc = generate_plc({kind, {}, 3});
     REQUIRE(plc.points.size() >= 8);
     REQUIRE_NOTHROW(require_fits(plc));
     REQUIRE(plc == generate_plc({kind, {}, 3}));
@@ -97,19 +100,20 @@ TEST_CASE("The least sizes of complexes are written and read back, and smaller o
         PlcKind::plates, PlcKind::wedge, PlcKind::pages, PlcKind::spike, PlcKind::vee,
         PlcKind::leaning, PlcKind::tetrahedron, PlcKind::bricks, PlcKind::tee, PlcKind::island}) {
     CAPTURE(mesher::plc_kind_names()[static_cast<std::size_t>(kind)]);
-    const Plc plc = generate_plc({kind, 1e-12});
-    for (const auto& [polygon, marker] : plc.facets) {
+    const Graph<3> plc = generate_plc({kind, 1e-12});
+    for (const auto& polygon : plc.polygons) {
       for (auto loop : polygon.loops) {
         std::sort(loop.begin(), loop.end());
         REQUIRE(std::adjacent_find(loop.begin(), loop.end()) == loop.end());
       }
     }
     const std::string path = folder.path("a.poly");
-    write_plc(plc, path);
-    REQUIRE(mesher::read_plc(path).plc.points == plc.points);
+    write_graph(plc, path);
+    REQUIRE(mesher::read<3>(path).graph.points == plc.points);
     for (const double less : {1e-13, 1e-40}) {
-      REQUIRE(support::error_of([&] { static_cast<void>(generate_plc({kind, less})); }).code() ==
-              mesher::ErrorCode::bad_option);
+      REQUIRE(support::error_of([&] {
+                static_cast<void>(generate_plc({kind, less}));
+              }).code() == mesher::ErrorCode::bad_option);
     }
   }
 }
@@ -127,24 +131,25 @@ TEST_CASE("A size that a complex cannot have is refused") {
 TEST_CASE("A generated complex is written and read back equal") {
   const support::ScratchFolder folder;
   for (const PlcKind kind : {PlcKind::dumbbell, PlcKind::pump, PlcKind::tee, PlcKind::island}) {
-    const Plc plc = generate_plc({kind});
+    const Graph<3> plc = generate_plc({kind});
     const std::string path = folder.path("a.poly");
-    write_plc(plc, path);
-    REQUIRE(mesher::read_plc(path).plc == plc);
+    write_graph(plc, path);
+    REQUIRE(mesher::read<3>(path).graph == plc);
   }
 }
 
 namespace {
 
 // The complex with every polygon of one loop, convex, cut into triangles from its first corner.
-Plc triangulated(const Plc& plc) {
-  Plc out = plc;
-  out.facets.clear();
-  for (const auto& [polygon, marker] : plc.facets) {
+Graph<3> triangulated(const Graph<3>& plc) {
+  Graph<3> out = plc;
+  out.polygons.clear();
+  for (const auto& polygon : plc.polygons) {
     const auto& loop = polygon.loops.at(0);
     for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-      const auto id = static_cast<std::int64_t>(out.facets.size()) + 1;
-      out.facets.push_back({{FeatureId{id}, {{loop[0], loop[i], loop[i + 1]}}}, marker});
+      const auto id = static_cast<std::int64_t>(out.polygons.size()) + 1;
+      out.polygons.push_back(
+          {PolygonId{id}, {{loop[0], loop[i], loop[i + 1]}}, {}, {}, polygon.marker});
     }
   }
   return out;
@@ -155,22 +160,21 @@ Plc triangulated(const Plc& plc) {
 TEST_CASE("Triangles of one plane are merged to the polygons that they were cut from") {
   for (const PlcKind kind : {PlcKind::cube, PlcKind::nested, PlcKind::faults, PlcKind::bricks}) {
     CAPTURE(mesher::plc_kind_names()[static_cast<std::size_t>(kind)]);
-    const Plc plc = generate_plc({kind});
-    const Plc merged = with_merged_facets(triangulated(plc));
-    REQUIRE(merged.facets.size() == plc.facets.size());
-    for (std::size_t i = 0; i < plc.facets.size(); ++i) {
-      auto expected = plc.facets[i].polygon.loops.at(0),
-           loop = merged.facets[i].polygon.loops.at(0);
+    const Graph<3> plc = generate_plc({kind});
+    const Graph<3> merged = with_merged_polygons(triangulated(plc));
+    REQUIRE(merged.polygons.size() == plc.polygons.size());
+    for (std::size_t i = 0; i < plc.polygons.size(); ++i) {
+      auto expected = plc.polygons[i].loops.at(0), loop = merged.polygons[i].loops.at(0);
       std::sort(expected.begin(), expected.end());
       std::sort(loop.begin(), loop.end());
       REQUIRE(loop == expected);
-      REQUIRE(merged.facets[i].polygon.loops.size() == 1);
-      REQUIRE(merged.facets[i].polygon.edges.empty());
+      REQUIRE(merged.polygons[i].loops.size() == 1);
+      REQUIRE(merged.polygons[i].edges.empty());
     }
     REQUIRE_NOTHROW(require_fits(merged));
   }
-  const Plc shells = generate_plc({PlcKind::shells});
-  REQUIRE(with_merged_facets(shells) == shells);
+  const Graph<3> shells = generate_plc({PlcKind::shells});
+  REQUIRE(with_merged_polygons(shells) == shells);
 }
 
 TEST_CASE("A merge keeps holes, markers, and what others need of an edge or a point") {
@@ -182,18 +186,18 @@ TEST_CASE("A merge keeps holes, markers, and what others need of an edge or a po
     if (i != 4) square(i % 3, i / 3);
   }
   b.polygon({{{0, 1, 0}, {1, 1, 0}, {1, 1, 1}}});  // stands on an edge that else would go
-  Plc plc = b.finish();
-  const Plc merged = with_merged_facets(plc);
-  REQUIRE(merged.facets.size() == 2);
-  const mesher::Polygon& ring = merged.facets[0].polygon;
+  Graph<3> plc = b.finish();
+  const Graph<3> merged = with_merged_polygons(plc);
+  REQUIRE(merged.polygons.size() == 2);
+  const mesher::Polygon& ring = merged.polygons[0];
   REQUIRE(ring.loops.size() == 2);
   REQUIRE(ring.loops[0].size() == 12);
   REQUIRE(ring.loops[1].size() == 4);
   REQUIRE(ring.edges.size() == 1);
   REQUIRE(ring.points.empty());
   REQUIRE_NOTHROW(require_fits(merged));
-  plc.facets[3].marker = 1;  // the square on the left in the middle
-  REQUIRE(with_merged_facets(plc).facets.size() == 3);
+  plc.polygons[3].marker = 1;  // the square on the left in the middle
+  REQUIRE(with_merged_polygons(plc).polygons.size() == 3);
 }
 
 TEST_CASE("Points within merged triangles lie on the polygon") {
@@ -201,9 +205,9 @@ TEST_CASE("Points within merged triangles lie on the polygon") {
   const Point<3> middle{0.5, 0.5, 0};
   const Point<3> corners[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   for (int i = 0; i < 4; ++i) b.polygon({{corners[i], corners[(i + 1) % 4], middle}});
-  const Plc merged = with_merged_facets(b.plc());
-  REQUIRE(merged.facets.size() == 1);
-  REQUIRE(merged.facets[0].polygon.points == std::vector{FeatureId{3}});
+  const Graph<3> merged = with_merged_polygons(b.plc());
+  REQUIRE(merged.polygons.size() == 1);
+  REQUIRE(merged.polygons[0].points == std::vector{PointId{3}});
   REQUIRE_NOTHROW(require_fits(merged));
 }
 
@@ -212,5 +216,5 @@ TEST_CASE("Triangles that are nearly in one plane are not merged") {
   const Point<3> up{1, 1, 1e-6};
   b.polygon({{{0, 0, 0}, {1, 0, 0}, up}});
   b.polygon({{{0, 0, 0}, {0, 1, 0}, up}});
-  REQUIRE(with_merged_facets(b.plc()) == b.plc());
+  REQUIRE(with_merged_polygons(b.plc()) == b.plc());
 }

@@ -5,29 +5,29 @@
 #include <cmath>
 #include <map>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/predicates.hpp"
 
 namespace {
 
-using mesher::FeatureId;
+using mesher::Graph;
 using mesher::Point;
-using mesher::Pslg;
+using mesher::PointId;
 using mesher::PslgKind;
 using mesher::predicates::orient2d;
 
 struct Line {
-  FeatureId from, to;
+  PointId from, to;
   Point<2> a, b;
 };
 
-std::map<FeatureId, Point<2>> places_of(const Pslg& pslg) {
-  std::map<FeatureId, Point<2>> places;
+std::map<PointId, Point<2>> places_of(const Graph<2>& pslg) {
+  std::map<PointId, Point<2>> places;
   for (const auto& p : pslg.points) places[p.id] = p.at;
   return places;
 }
 
-std::vector<Line> lines_of(const Pslg& pslg) {
+std::vector<Line> lines_of(const Graph<2>& pslg) {
   const auto places = places_of(pslg);
   std::vector<Line> lines;
   for (const auto& s : mesher::without_polylines(pslg).segments) {
@@ -42,7 +42,7 @@ bool is_on(const Point<2>& p, const Line& s) {
 
 // More than a shared end.
 bool meet(const Line& s, const Line& t) {
-  const auto is_end = [](FeatureId p, const Line& of) { return p == of.from || p == of.to; };
+  const auto is_end = [](PointId p, const Line& of) { return p == of.from || p == of.to; };
   for (const auto& [line, other] : {std::pair(s, t), std::pair(t, s)}) {
     if (!is_end(line.from, other) && is_on(line.a, other)) return true;
     if (!is_end(line.to, other) && is_on(line.b, other)) return true;
@@ -52,7 +52,7 @@ bool meet(const Line& s, const Line& t) {
          orient2d(t.a, t.b, s.a) * orient2d(t.a, t.b, s.b) < 0;
 }
 
-void require_clean(const Pslg& pslg) {
+void require_clean(const Graph<2>& pslg) {
   const auto lines = lines_of(pslg);
   const auto places = places_of(pslg);
   REQUIRE(places.size() == pslg.points.size());
@@ -73,7 +73,7 @@ TEST_CASE("no family has lines that meet but at ends they share, or points on li
   const std::size_t n = GENERATE(0, 1, 2, 30, 200);
   INFO(name << ", n " << n << ", seed " << seed);
   const mesher::PslgFamily family{mesher::pslg_kind(name).value(), n, seed, {}};
-  const Pslg pslg = mesher::generate_pslg(family);
+  const Graph<2> pslg = mesher::generate_pslg(family);
   require_clean(pslg);
   CHECK(pslg == mesher::generate_pslg(family));
   CHECK(lines_of(pslg).size() >= n * 9 / 10);
@@ -110,7 +110,7 @@ TEST_CASE("the legs of a fan are as far apart as asked") {
 TEST_CASE("the families are the same bits on every machine") {
   std::uint64_t digest = 0;
   for (const std::string& name : mesher::pslg_kind_names()) {
-    const Pslg pslg = mesher::generate_pslg({mesher::pslg_kind(name).value(), 50, 1, {}});
+    const Graph<2> pslg = mesher::generate_pslg({mesher::pslg_kind(name).value(), 50, 1, {}});
     for (const auto& p : pslg.points) {
       for (const double x : p.at) {
         digest = mesher::SplitMix64(digest ^ std::bit_cast<std::uint64_t>(x)).bits();

@@ -1,7 +1,5 @@
 // Predicates of shrunken balls against integers of any size, whose centres come from linear
 // equations; near the sphere, on it, at every scale.
-#include "mesher/ball_predicates.hpp"
-
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <catch2/catch.hpp>
@@ -11,6 +9,8 @@
 #include <set>
 #include <stdexcept>
 #include <vector>
+
+#include "mesher/predicates.hpp"
 
 namespace {
 

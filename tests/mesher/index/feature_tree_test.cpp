@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace {
 

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "failing_new.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "traced_world.hpp"
 
 namespace {
 
-using mesher::FeatureId;
 using mesher::Options;
 using mesher::Point;
+using mesher::PointId;
 using mesher::SplitMix64;
 using support::TracedWorld;
 
@@ -44,7 +44,7 @@ sac::Engine& engine_of(TracedWorld& world) { return const_cast<sac::Engine&>(wor
 std::unique_ptr<TracedWorld> world_of_points() {
   auto world = std::make_unique<TracedWorld>(Options<2>{.domain = {{0, 0}, {1, 1}}});
   SplitMix64 random(5);
-  for (int i = 0; i < kPoints; ++i) world->insert(FeatureId{i}, {random.unit(), random.unit()});
+  for (int i = 0; i < kPoints; ++i) world->insert(PointId{i}, {random.unit(), random.unit()});
   world->update();
   return world;
 }
@@ -53,10 +53,10 @@ std::unique_ptr<TracedWorld> world_of_points() {
 void edit(TracedWorld& world) {
   SplitMix64 random(6);
   for (int i = 0; i < kEdits; ++i) {
-    auto* gone = world.inputs().at(FeatureId{i});
-    world.remove(FeatureId{i});
+    auto* gone = world.inputs().at(PointId{i});
+    world.remove(PointId{i});
     engine_of(world).on_rollback([gone] { gone->input = true; });
-    const FeatureId id{100 + i};
+    const PointId id{100 + i};
     world.insert(id, {random.unit() * 0.01 + 0.3, random.unit() * 0.01 + 0.4});
     engine_of(world).on_rollback([come = world.inputs().at(id)] { come->input = false; });
   }
@@ -85,7 +85,7 @@ std::uint64_t sweep(Arm&& arm, Disarm&& disarm) {
     if (!failed) return k;
     REQUIRE(world->engine().live_calls() == calls);
     REQUIRE(stars_of(*world) == before);
-    world->insert(FeatureId{500}, {0.77, 0.11});
+    world->insert(PointId{500}, {0.77, 0.11});
     world->update();
     world->world().vertices.check_invariants();
   }

@@ -8,7 +8,7 @@
 
 #include "delaunay_case.hpp"
 #include "index/vertex_index.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "sac/sac.hpp"
 
 namespace {

@@ -5,14 +5,14 @@
 #include <set>
 #include <vector>
 
+#include "facade/box_mesher.hpp"
 #include "index/quadtree.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace {
 
-using mesher::FeatureId;
 using mesher::Point;
+using mesher::PointId;
 using mesher::SplitMix64;
 using mesher::detail::MeshBox;
 using mesher::detail::VertexHandle;
@@ -125,10 +125,10 @@ TEST_CASE("a box with more cells and vertices than a search may look at is left 
 
 TEST_CASE("what an update looks at beside a far finer part of the mesh does not grow with that") {
   const auto work_beside = [](std::size_t n) {
-    mesher::Mesher<2> m({.domain = {{0, 0}, {1, 1}}, .record_weights = true});
+    mesher::BoxMesher<2> m({.domain = {{0, 0}, {1, 1}}, .record_weights = true});
     std::int64_t id = 1;
     for (const Point<2>& p : mesher::generate_points<2>(mesher::PointKind::uniform, n, 3)) {
-      m.insert(FeatureId{id++}, {0.5 + p[0] / 1024, 0.5 + p[1] / 1024});
+      m.insert(PointId{id++}, {0.5 + p[0] / 1024, 0.5 + p[1] / 1024});
     }
     m.update();
     std::uint64_t weight = 0, calls = 0;
@@ -138,9 +138,9 @@ TEST_CASE("what an update looks at beside a far finer part of the mesh does not 
     };
     SplitMix64 random(5);
     for (int i = 0; i < 40; ++i) {
-      m.insert(FeatureId{id}, {random.unit(), random.unit()});
+      m.insert(PointId{id}, {random.unit(), random.unit()});
       update();
-      m.remove(FeatureId{id++});
+      m.remove(PointId{id++});
       update();
     }
     return static_cast<double>(weight) / static_cast<double>(calls);

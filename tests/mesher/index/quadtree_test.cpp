@@ -144,8 +144,8 @@ TEST_CASE("a search meets every vertex within its radius, in trees of any depth"
       for (const auto* v : all) {
         const auto reach = v->reach.box();
         const double x = (p[0] - v->p[0]) / 4, y = (p[1] - v->p[1]) / 4;
-        REQUIRE(met.contains(v->self) == (x >= reach.lo[0] && x <= reach.hi[0] &&
-                                          y >= reach.lo[1] && y <= reach.hi[1]));
+        REQUIRE(met.contains(v->self) ==
+                (x >= reach.lo[0] && x <= reach.hi[0] && y >= reach.lo[1] && y <= reach.hi[1]));
       }
       auto& v = *all[random.below(all.size())];
       v.reach = {};

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "edit_sequence.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "traced_world.hpp"
 
 TEST_CASE("a Steiner vertex that was an input point forgets the call that located it") {
@@ -21,7 +21,7 @@ TEST_CASE("a Steiner vertex that was an input point forgets the call that locate
     if (mesh.kinds[i] != mesher::VertexKind::steiner) continue;
     if (p[0] < 0 || p[0] > 1 || p[1] < 0 || p[1] > 1) continue;
     ++looked;
-    const mesher::FeatureId fresh{id};
+    const mesher::PointId fresh{id};
     world.insert(fresh, p);
     world.update();
     auto& record = *world.inputs().at(fresh);
@@ -47,7 +47,7 @@ TEST_CASE("a vertex of the boundary grid reaches no farther than the triangles a
   SECTION("with points") {
     std::int64_t id = 1;
     for (const auto& p : mesher::generate_points<2>(mesher::PointKind::uniform, 40, 3)) {
-      world.insert(mesher::FeatureId{id++}, p);
+      world.insert(mesher::PointId{id++}, p);
     }
     world.update();
   }

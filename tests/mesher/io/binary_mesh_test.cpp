@@ -5,8 +5,9 @@
 #include <string>
 
 #include "bytes.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/io.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 #include "scratch_file.hpp"
 
 namespace {
@@ -99,7 +100,7 @@ std::vector<File> files() {
           {"big.msh", msh_file(true)}};
 }
 
-MeshData read(const ScratchFolder& folder, const std::string& name, const std::string& content) {
+MeshData<2> read(const ScratchFolder& folder, const std::string& name, const std::string& content) {
   return mesher::read_mesh(folder.write(name, content));
 }
 
@@ -127,7 +128,7 @@ TEST_CASE("binary .vtk and .msh are read, numbers to the last bit") {
   const ScratchFolder folder;
   for (const File& file : files()) {
     INFO(file.name);
-    const MeshData mesh = read(folder, file.name, file.content);
+    const MeshData<2> mesh = read(folder, file.name, file.content);
     CHECK(mesh.vertices ==
           std::vector<mesher::Point<2>>{{0, 0}, {1 / 3.0, 0}, {0, -1e-300}, {1, 1}});
     CHECK(mesh.simplices == std::vector<mesher::Mesh<2>::Simplex>{{0, 1, 2}, {1, 3, 2}});

@@ -1,5 +1,5 @@
 // Scripts of edits: what is read, what is refused and where, and what a bad line leaves behind.
-#include "mesher/edit_script.hpp"
+#include "mesher/extra/edit_script.hpp"
 
 #include <catch2/catch.hpp>
 #include <map>
@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "mesher/domain_mesher.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
 #include "mesher/sizes.hpp"
 #include "scratch_file.hpp"
 
@@ -16,22 +17,23 @@ namespace {
 using mesher::Edit;
 using mesher::Error;
 using mesher::ErrorCode;
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Point;
+using mesher::PointId;
 using support::failure_of;
 using support::ScratchFolder;
 
 // Has the editing half of a mesher's interface, and logs what reaches it.
 class Table {
  public:
-  void insert(FeatureId id, const Point<2>& p) {
+  void insert(PointId id, const Point<2>& p) {
     if (edited_.contains(id)) throw Error(ErrorCode::repeated_id, "there");
     edited_[id] = p;
   }
-  void remove(FeatureId id) {
+  void remove(PointId id) {
     if (edited_.erase(id) == 0) throw Error(ErrorCode::unknown_id, "not there");
   }
-  void move(FeatureId id, const Point<2>& p) {
+  void move(PointId id, const Point<2>& p) {
     remove(id);
     insert(id, p);
   }
@@ -43,18 +45,18 @@ class Table {
     return {};
   }
 
-  std::map<FeatureId, Point<2>> points;
+  std::map<PointId, Point<2>> points;
   int updates = 0;
   bool fail_update = false;
 
  private:
-  std::map<FeatureId, Point<2>> edited_;
+  std::map<PointId, Point<2>> edited_;
 };
 
 // Applies a script; the texts of the updates.
 std::vector<std::string> apply(const std::string& content, Table& table) {
   const ScratchFolder folder;
-  mesher::EditScript script(folder.write("edits.txt", content));
+  mesher::EditScript<2> script(folder.write("edits.txt", content));
   std::vector<std::string> texts;
   mesher::apply(script, table, [&](const mesher::Update<2>& u) { texts.push_back(u.text()); });
   return texts;
@@ -84,23 +86,23 @@ TEST_CASE("each edit is an update of its own, and those of a block are one") {
       table);
   CHECK(texts == std::vector<std::string>{"+point 1 0.5 -2e-1", "+point 2 +1 2; -point 1", "",
                                           "move 2 3 -0"});
-  CHECK(table.points == std::map<FeatureId, Point<2>>{{FeatureId{2}, {3, 0}}});
+  CHECK(table.points == std::map<PointId, Point<2>>{{PointId{2}, {3, 0}}});
   CHECK(table.updates == 4);
 }
 
 TEST_CASE("an edit carries its id, its point and its place") {
   const ScratchFolder folder;
   const auto path = folder.write("edits.txt", "\n  move -8 1 2\n-point 3\n");
-  mesher::EditScript script(path);
+  mesher::EditScript<2> script(path);
   const auto edits = script.next().value();
   REQUIRE(edits.size() == 1);
-  CHECK(edits[0].kind == Edit::Kind::move);
-  CHECK(edits[0].id == FeatureId{-8});
+  CHECK(edits[0].kind == Edit<2>::Kind::move);
+  CHECK(edits[0].number == -8);
   CHECK(edits[0].point == Point<2>{1, 2});
   CHECK(edits[0].location.file == path);
   CHECK(edits[0].location.line == 2);
   CHECK(edits[0].location.column == 3);
-  CHECK(script.next().value()[0].kind == Edit::Kind::remove);
+  CHECK(script.next().value()[0].kind == Edit<2>::Kind::remove);
   CHECK_FALSE(script.next().has_value());
 }
 
@@ -163,7 +165,7 @@ TEST_CASE("a bad line is refused with its place and leaves the edits before it a
   Table table;
   const std::string script = "+point 1 0 0\n" + std::string(refused.content) + "-point 1\n";
   CHECK(failure_of([&] { apply(script, table); }) == refused.failure);
-  CHECK(table.points == std::map<FeatureId, Point<2>>{{FeatureId{1}, {0, 0}}});
+  CHECK(table.points == std::map<PointId, Point<2>>{{PointId{1}, {0, 0}}});
   table.update();  // nothing of the bad line or its block is left waiting
   CHECK(table.points.size() == 1);
 }
@@ -178,26 +180,26 @@ TEST_CASE("an update that fails is said of the last edit of its batch") {
 
 TEST_CASE("lines are edited: points may go before their lines, and come after them, in a block") {
   const ScratchFolder folder;
-  mesher::Mesher<2> m({.domain = {{0, 0}, {1, 1}}});
-  mesher::EditScript script(folder.write("edits.txt",
-                                         "begin\n"
-                                         "+segment 1 1 2\n"
-                                         "+polyline 2 2 3 4 2\n"
-                                         "+point 1 0.1 0.1\n"
-                                         "+point 2 0.4 0.1\n"
-                                         "+point 3 0.9 0.1\n"
-                                         "+point 4 0.6 0.8\n"
-                                         "commit\n"
-                                         "begin\n"
-                                         "-point 1\n"
-                                         "-segment 1\n"
-                                         "commit\n"
-                                         "-polyline 2\n"));
+  mesher::BoxMesher<2> m({.domain = {{0, 0}, {1, 1}}});
+  mesher::EditScript<2> script(folder.write("edits.txt",
+                                            "begin\n"
+                                            "+segment 1 1 2\n"
+                                            "+polyline 2 2 3 4 2\n"
+                                            "+point 1 0.1 0.1\n"
+                                            "+point 2 0.4 0.1\n"
+                                            "+point 3 0.9 0.1\n"
+                                            "+point 4 0.6 0.8\n"
+                                            "commit\n"
+                                            "begin\n"
+                                            "-point 1\n"
+                                            "-segment 1\n"
+                                            "commit\n"
+                                            "-polyline 2\n"));
   std::vector<std::size_t> lines;
   mesher::apply(script, m, [&](const mesher::Update<2>& u) {
-    std::set<FeatureId> ids;
+    std::set<mesher::Feature> ids;
     const auto mesh = m.mesh();
-    for (const auto& e : mesh.edges) ids.insert(e.line);
+    for (const auto& e : mesh.edges) ids.insert(e.feature);
     lines.push_back(ids.size());
     CHECK(u.change.edges_removed.empty() == (lines.size() == 1));
   });
@@ -206,20 +208,20 @@ TEST_CASE("lines are edited: points may go before their lines, and come after th
 
 TEST_CASE("a line that cannot come is said of its own edit, not of that of a point of its id") {
   const ScratchFolder folder;
-  mesher::Mesher<2> m({.domain = {{0, 0}, {1, 1}}});
-  mesher::EditScript script(folder.write("edits.txt",
-                                         "begin\n"
-                                         "+point 1 0.1 0.1\n"
-                                         "+point 2 0.9 0.9\n"
-                                         "+point 3 0.1 0.9\n"
-                                         "+point 4 0.9 0.1\n"
-                                         "+segment 1 1 2\n"
-                                         "commit\n"
-                                         "begin\n"
-                                         "+segment 2 3 4\n"
-                                         "+point 5 0.5 0.1\n"
-                                         "move 2 0.9 0.8\n"
-                                         "commit\n"));
+  mesher::BoxMesher<2> m({.domain = {{0, 0}, {1, 1}}});
+  mesher::EditScript<2> script(folder.write("edits.txt",
+                                            "begin\n"
+                                            "+point 1 0.1 0.1\n"
+                                            "+point 2 0.9 0.9\n"
+                                            "+point 3 0.1 0.9\n"
+                                            "+point 4 0.9 0.1\n"
+                                            "+segment 1 1 2\n"
+                                            "commit\n"
+                                            "begin\n"
+                                            "+segment 2 3 4\n"
+                                            "+point 5 0.5 0.1\n"
+                                            "move 2 0.9 0.8\n"
+                                            "commit\n"));
   CHECK(failure_of([&] { mesher::apply(script, m, [](const mesher::Update<2>&) {}); }) ==
         "crossing_segments@9:1");
   CHECK(m.mesh().edges.size() > 0);
@@ -227,21 +229,21 @@ TEST_CASE("a line that cannot come is said of its own edit, not of that of a poi
 
 TEST_CASE("an edit of a seed carries its place, attribute and limit; a limit of 0 is none") {
   const ScratchFolder folder;
-  mesher::EditScript script(folder.write("edits.txt",
-                                         "+region 7 1 -2 0.5 0.25\n"
-                                         "+region 7 1 2 -3\n"
-                                         "+region 7 1 2 3 -1\n"
-                                         "+hole 7 3 4\n"
-                                         "-region 7\n"));
+  mesher::EditScript<2> script(folder.write("edits.txt",
+                                            "+region 7 1 -2 0.5 0.25\n"
+                                            "+region 7 1 2 -3\n"
+                                            "+region 7 1 2 3 -1\n"
+                                            "+hole 7 3 4\n"
+                                            "-region 7\n"));
   const auto next = [&] { return script.next().value().at(0); };
-  const Edit whole = next();
-  CHECK(whole.kind == Edit::Kind::insert_region);
+  const Edit<2> whole = next();
+  CHECK(whole.kind == Edit<2>::Kind::insert_region);
   CHECK(whole.point == Point<2>{1, -2});
   CHECK(whole.attribute == 0.5);
   CHECK(whole.max_measure == 0.25);
   CHECK_FALSE(next().max_measure.has_value());
   CHECK_FALSE(next().max_measure.has_value());
-  const Edit hole = next();
+  const Edit<2> hole = next();
   CHECK(hole.feature().kind == mesher::FeatureKind::hole);
   CHECK(hole.point == Point<2>{3, 4});
   CHECK(next().feature().kind == mesher::FeatureKind::region);
@@ -250,21 +252,21 @@ TEST_CASE("an edit of a seed carries its place, attribute and limit; a limit of 
 TEST_CASE("an edit of limits carries what they are and where") {
   const ScratchFolder folder;
   folder.write("h.csv", "x,y,h\n0,0,0.5\n1,0,0.5\n0,1,0.25\n");
-  mesher::EditScript script(folder.write("edits.txt",
-                                         "limit area 0.5\n"
-                                         "limit size 2 in 0 -1 4 5\n"
-                                         "limit sizes h.csv in 0 0 1 1\n"
-                                         "limit none\n"
-                                         "limit sizes absent.csv\n"));
+  mesher::EditScript<2> script(folder.write("edits.txt",
+                                            "limit area 0.5\n"
+                                            "limit size 2 in 0 -1 4 5\n"
+                                            "limit sizes h.csv in 0 0 1 1\n"
+                                            "limit none\n"
+                                            "limit sizes absent.csv\n"));
   const auto next = [&] { return script.next().value().at(0); };
-  const Edit everywhere = next();
-  CHECK(everywhere.kind == Edit::Kind::limit);
+  const Edit<2> everywhere = next();
+  CHECK(everywhere.kind == Edit<2>::Kind::limit);
   CHECK(everywhere.limits == mesher::SizeLimits<2>{.max_measure = 0.5});
   CHECK_FALSE(everywhere.box.has_value());
-  const Edit inside = next();
+  const Edit<2> inside = next();
   CHECK(inside.limits.max_measure == Approx(std::sqrt(3.0)));
   CHECK(inside.box == mesher::Box<2>{{0, -1}, {4, 5}});
-  const Edit background = next();
+  const Edit<2> background = next();
   CHECK(background.limits.max_measure == 0);
   REQUIRE(background.limits.sizes != nullptr);
   CHECK(background.limits.sizes->at({0, 1}) == 0.25);
@@ -274,38 +276,38 @@ TEST_CASE("an edit of limits carries what they are and where") {
 
 TEST_CASE("seeds of a block move, whatever comes between; they are never to blame for a line") {
   const ScratchFolder folder;
-  mesher::DomainMesher m({.domain = {{0, 0}, {1, 1}}});
-  mesher::EditScript script(folder.write("edits.txt",
-                                         "begin\n"
-                                         "+polyline 1 1 2 3 1\n"
-                                         "+hole 1 .5 .5\n"
-                                         "+point 1 0.1 0.1\n"
-                                         "+point 2 0.9 0.1\n"
-                                         "+point 3 0.5 0.9\n"
-                                         "commit\n"
-                                         "begin\n"
-                                         "-hole 1\n"
-                                         "+point 4 .25 .75\n"
-                                         "+hole 1 .5 .25\n"
-                                         "commit\n"
-                                         "begin\n"
-                                         "-point 1\n"
-                                         "+hole 2 .5 .75\n"
-                                         "-hole 1\n"
-                                         "commit\n"));
-  std::vector<mesher::DomainUpdate> updates;
+  mesher::Mesher<2> m({.domain = {{0, 0}, {1, 1}}});
+  mesher::EditScript<2> script(folder.write("edits.txt",
+                                            "begin\n"
+                                            "+polyline 1 1 2 3 1\n"
+                                            "+hole 1 .5 .5\n"
+                                            "+point 1 0.1 0.1\n"
+                                            "+point 2 0.9 0.1\n"
+                                            "+point 3 0.5 0.9\n"
+                                            "commit\n"
+                                            "begin\n"
+                                            "-hole 1\n"
+                                            "+point 4 .25 .75\n"
+                                            "+hole 1 .5 .25\n"
+                                            "commit\n"
+                                            "begin\n"
+                                            "-point 1\n"
+                                            "+hole 2 .5 .75\n"
+                                            "-hole 1\n"
+                                            "commit\n"));
+  std::vector<mesher::DomainUpdate<2>> updates;
   CHECK(failure_of([&] {
           mesher::apply(script, m, [&](const auto& u) { updates.push_back(u.change); });
         }) == "point_in_use@14:1");
   REQUIRE(updates.size() == 2);
-  CHECK(m.input().holes == std::vector<mesher::Pslg::Hole>{{FeatureId{1}, {.5, .25}}});
-  CHECK(m.domain_mesh().kept.simplices.empty());
+  CHECK(m.input().holes() == std::vector{mesher::hole_seed<2>(1, {.5, .25})});
+  CHECK(m.domain_mesh().mesh.simplices.empty());
 }
 
 TEST_CASE("a block may take a place before it frees it") {
   const ScratchFolder folder;
-  mesher::Mesher<2> m({.domain = {{0, 0}, {1, 1}}});
-  mesher::EditScript script(
+  mesher::BoxMesher<2> m({.domain = {{0, 0}, {1, 1}}});
+  mesher::EditScript<2> script(
       folder.write("edits.txt",
                    "begin\n+point 1 .25 .5\n+point 2 .5 .25\ncommit\n"
                    "begin\n+point 3 .25 .5\nmove 2 .25 .75\n+point 4 .5 .25\n-point 1\ncommit\n"));
@@ -318,8 +320,8 @@ TEST_CASE("a block may take a place before it frees it") {
 
 TEST_CASE("an update that fails because of a point is said of that point's last edit") {
   const ScratchFolder folder;
-  mesher::Mesher<2> m({.domain = {{0, 0}, {1, 1}}});
-  mesher::EditScript script(
+  mesher::BoxMesher<2> m({.domain = {{0, 0}, {1, 1}}});
+  mesher::EditScript<2> script(
       folder.write("edits.txt",
                    "begin\n+point 1 .25 .5\n+point 2 .5 .25\ncommit\n"
                    "begin\nmove 2 .1 .1\n  move 2 .25 .5\n+point 3 .75 .75\ncommit\n"));
@@ -329,25 +331,25 @@ TEST_CASE("an update that fails because of a point is said of that point's last 
 
 TEST_CASE("a script that is not there, or is a folder, cannot be read") {
   const ScratchFolder folder;
-  CHECK(failure_of([&] { mesher::EditScript script(folder.path("none.txt")); }) ==
+  CHECK(failure_of([&] { mesher::EditScript<2> script(folder.path("none.txt")); }) ==
         "cannot_read@0:0");
-  CHECK(failure_of([&] { mesher::EditScript script(folder.path("")); }) == "cannot_read@0:0");
+  CHECK(failure_of([&] { mesher::EditScript<2> script(folder.path("")); }) == "cannot_read@0:0");
 }
 
 TEST_CASE("Scripts give markers to points and lines, which the mesh then has") {
   const ScratchFolder folder;
-  mesher::EditScript script(folder.write("edits.txt",
-                                         "begin\n"
-                                         "+point 1 1 1 marker 7\n+point 2 9 1\n+point 3 9 9\n"
-                                         "+point 4 1 9\n"
-                                         "+segment 1 1 2 marker -3\n"
-                                         "+polyline 2 2 3 4 1 marker 11\n"
-                                         "commit\n"
-                                         "-segment 1\n"
-                                         "+segment 1 2 1\n"));
-  mesher::DomainMesher m({.domain = {{0, 0}, {10, 10}}});
+  mesher::EditScript<2> script(folder.write("edits.txt",
+                                            "begin\n"
+                                            "+point 1 1 1 marker 7\n+point 2 9 1\n+point 3 9 9\n"
+                                            "+point 4 1 9\n"
+                                            "+segment 1 1 2 marker -3\n"
+                                            "+polyline 2 2 3 4 1 marker 11\n"
+                                            "commit\n"
+                                            "-segment 1\n"
+                                            "+segment 1 2 1\n"));
+  mesher::Mesher<2> m({.domain = {{0, 0}, {10, 10}}});
   const auto markers = [&] {
-    const mesher::MeshData kept = m.domain_mesh().kept;
+    const mesher::MeshData<2> kept = m.domain_mesh().mesh;
     std::map<Point<2>, std::int64_t> of;
     for (std::size_t v = 0; v < kept.vertices.size(); ++v) {
       of[kept.vertices[v]] = kept.features.markers[v];
@@ -372,7 +374,7 @@ TEST_CASE("Scripts give markers to points and lines, which the mesh then has") {
   CHECK(again.at({9, 1}) == 11);
   CHECK(unmarked.at(1) == std::set<std::int64_t>{1});  // what is on the boundary and has none
   const auto refused = [&](const std::string& text) {
-    mesher::EditScript one(folder.write("bad.txt", text));
+    mesher::EditScript<2> one(folder.write("bad.txt", text));
     return failure_of([&] { (void)one.next(); });
   };
   CHECK(refused("+segment 1 2 3 marker 0.5\n") == "bad_number@1:23");
@@ -390,28 +392,28 @@ TEST_CASE("a script may begin with a byte order mark") {
 
 TEST_CASE("a script in space has points with three coordinates") {
   const ScratchFolder folder;
-  mesher::Mesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
-  mesher::EditScriptOf<3> script(folder.write("edits.txt",
-                                              "+point 1 .5 .25 .125  # a point\n"
-                                              "begin\n+point 2 .5 .5 .5\nmove 1 .25 .25 1\ncommit\n"
-                                              "-point 2\n"));
+  mesher::BoxMesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
+  mesher::EditScript<3> script(folder.write("edits.txt",
+                                            "+point 1 .5 .25 .125  # a point\n"
+                                            "begin\n+point 2 .5 .5 .5\nmove 1 .25 .25 1\ncommit\n"
+                                            "-point 2\n"));
   std::vector<std::string> texts;
   mesher::apply(script, m, [&](const mesher::Update<3>& u) { texts.push_back(u.text()); });
   CHECK(texts == std::vector<std::string>{"+point 1 .5 .25 .125",
                                           "+point 2 .5 .5 .5; move 1 .25 .25 1", "-point 2"});
-  CHECK(m.points() == std::vector{mesher::InputPoint<3>{FeatureId{1}, {.25, .25, 1}}});
+  CHECK(m.points() == std::vector{mesher::GraphPoint<3>{PointId{1}, {.25, .25, 1}}});
   CHECK(m.mesh() == mesher::mesh_statically<3>({{.25, .25, 1}}, m.options()));
 }
 
 TEST_CASE("a script in space has segments, and polygons with holes and what lies inside") {
   const ScratchFolder folder;
   const auto list = [](std::initializer_list<std::int64_t> values) {
-    std::vector<FeatureId> all;
-    for (const auto v : values) all.push_back(FeatureId{v});
+    std::vector<PointId> all;
+    for (const auto v : values) all.push_back(PointId{v});
     return all;
   };
-  mesher::Mesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
-  mesher::EditScriptOf<3> script(folder.write(
+  mesher::BoxMesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
+  mesher::EditScript<3> script(folder.write(
       "edits.txt",
       "begin\n"
       "+polygon 1 1 2 3 4 / 5 6 7 on 8 10 along 8 9 9 10  # before its points\n"
@@ -427,44 +429,44 @@ TEST_CASE("a script in space has segments, and polygons with holes and what lies
     if (++updates > 1) return;
     REQUIRE(m.polygons().size() == 2);
     const mesher::Polygon f = m.polygons()[0];
-    CHECK(f.loops == std::vector<std::vector<FeatureId>>{list({1, 2, 3, 4}), list({5, 6, 7})});
+    CHECK(f.loops == std::vector<std::vector<PointId>>{list({1, 2, 3, 4}), list({5, 6, 7})});
     CHECK(f.points == list({8, 10}));
-    CHECK(f.edges == std::vector<std::array<FeatureId, 2>>{{FeatureId{8}, FeatureId{9}},
-                                                           {FeatureId{9}, FeatureId{10}}});
+    CHECK(f.edges ==
+          std::vector<std::array<PointId, 2>>{{PointId{8}, PointId{9}}, {PointId{9}, PointId{10}}});
   });
   CHECK(updates == 2);
   CHECK(m.polygons().size() == 1);
-  CHECK(m.lines() == std::vector{mesher::InputLine{FeatureId{3}, list({5, 12, 7})}});
+  CHECK(m.lines() == std::vector{mesher::Polyline{LineId{3}, list({5, 12, 7})}});
 }
 
 TEST_CASE("a script in space has seeds, whose errors are said of their lines") {
   const ScratchFolder folder;
-  mesher::DomainMesherOf<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
-  mesher::EditScriptOf<3> script(folder.write("edits.txt",
-                                              "begin\n+hole 1 .25 .5 .75\n"
-                                              "+region 1 .5 .5 .125 -2 0.5\n"
-                                              "+region 2 .5 .25 .5 3 -1\n+point 1 0 0 .5\ncommit\n"
-                                              "begin\n-region 1\n-hole 1\n"
-                                              "+region 1 .5 .5 .5 4\ncommit\n"
-                                              "+region 2 0 0 0 1\n"));
-  std::vector<mesher::Plc> inputs;
+  mesher::Mesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
+  mesher::EditScript<3> script(folder.write("edits.txt",
+                                            "begin\n+hole 1 .25 .5 .75\n"
+                                            "+region 1 .5 .5 .125 -2 0.5\n"
+                                            "+region 2 .5 .25 .5 3 -1\n+point 1 0 0 .5\ncommit\n"
+                                            "begin\n-region 1\n-hole 1\n"
+                                            "+region 1 .5 .5 .5 4\ncommit\n"
+                                            "+region 2 0 0 0 1\n"));
+  std::vector<mesher::Graph<3>> inputs;
   CHECK(failure_of([&] {
           mesher::apply(script, m, [&](const auto&) { inputs.push_back(m.input()); });
         }) == "repeated_id@12:1");
   REQUIRE(inputs.size() == 2);
-  using Region = mesher::Plc::Region;
-  CHECK(inputs[0].holes == std::vector<mesher::Plc::Hole>{{FeatureId{1}, {.25, .5, .75}}});
-  CHECK(inputs[0].regions == std::vector<Region>{{FeatureId{1}, {.5, .5, .125}, -2, 0.5},
-                                                 {FeatureId{2}, {.5, .25, .5}, 3, {}}});
-  CHECK(inputs[1].holes.empty());
-  CHECK(inputs[1].regions.at(0) == Region{FeatureId{1}, {.5, .5, .5}, 4, {}});
+  using mesher::region_seed;
+  CHECK(inputs[0].holes() == std::vector{mesher::hole_seed<3>(1, {.25, .5, .75})});
+  CHECK(inputs[0].regions() == std::vector{region_seed<3>(1, {.5, .5, .125}, -2, 0.5),
+                                           region_seed<3>(2, {.5, .25, .5}, 3)});
+  CHECK(inputs[1].holes().empty());
+  CHECK(inputs[1].regions().at(0) == region_seed<3>(1, {.5, .5, .5}, 4));
 }
 
 TEST_CASE("an error of an update in space is said of the edit of the feature to blame") {
   const ScratchFolder folder;
   const auto failure = [&](const std::string& last) {
-    mesher::Mesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
-    mesher::EditScriptOf<3> script(
+    mesher::BoxMesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
+    mesher::EditScript<3> script(
         folder.write("edits.txt",
                      "begin\n+point 1 0 0 0\n+point 2 1 0 0\n+point 3 0 1 0\n"
                      "+point 4 .25 .25 -0\n+point 5 .25 .5 .5\ncommit\n" +
@@ -521,7 +523,7 @@ TEST_CASE("bad lines of a script in space are refused with the code and the plac
   }));
   CAPTURE(refused.content);
   const ScratchFolder folder;
-  mesher::Mesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
-  mesher::EditScriptOf<3> script(folder.write("edits.txt", refused.content));
+  mesher::BoxMesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
+  mesher::EditScript<3> script(folder.write("edits.txt", refused.content));
   CHECK(failure_of([&] { mesher::apply(script, m, [](const auto&) {}); }) == refused.failure);
 }

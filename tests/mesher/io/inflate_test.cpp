@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace {
 

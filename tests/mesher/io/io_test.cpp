@@ -1,7 +1,5 @@
 // Readers and writers: what is accepted, what is refused and where, and that what is written reads
 // back bit for bit.
-#include "mesher/io.hpp"
-
 #include <sys/stat.h>
 
 #include <bit>
@@ -15,13 +13,14 @@
 #include <vector>
 
 #include "feature_ids.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/svg.hpp"
+#include "io/point_file.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 #include "scratch_file.hpp"
 
 namespace {
 
-using mesher::FeatureId;
 using mesher::Mesh;
 using mesher::Point;
 using mesher::VertexKind;
@@ -397,7 +396,7 @@ TEST_CASE("outputs that cannot work are refused before anything is written") {
   CHECK(open("folder") == "cannot_write@0:0");
   CHECK(open("folder/../out.txt") == "bad_option@0:0");
   CHECK(open("in.txt") == "bad_option@0:0");
-  CHECK(failure_of([&] { (void)mesher::open_mesh(files, folder.path("m.stl")); }) ==
+  CHECK(failure_of([&] { (void)mesher::open_mesh<2>(files, folder.path("m.stl")); }) ==
         "unknown_format@0:0");
   CHECK(files.targets().size() == 1);
 }

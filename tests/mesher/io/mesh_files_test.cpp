@@ -5,15 +5,15 @@
 #include <catch2/catch.hpp>
 #include <cstring>
 
-#include "mesher/io.hpp"
-#include "mesher/svg.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 #include "random_mesh.hpp"
 #include "random_mistakes.hpp"
 #include "scratch_file.hpp"
 
 namespace {
 
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::MeshData;
 using mesher::VertexKind;
 using support::failure_of;
@@ -25,12 +25,12 @@ bool same_bits(const std::vector<mesher::Point<2>>& a, const std::vector<mesher:
          (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
 }
 
-MeshData back(const ScratchFolder& folder, const MeshData& mesh, const std::string& name) {
+MeshData<2> back(const ScratchFolder& folder, const MeshData<2>& mesh, const std::string& name) {
   mesher::write_mesh(mesh, folder.path(name));
   return mesher::read_mesh(folder.path(name));
 }
 
-MeshData read(const std::string& name, const std::string& content) {
+MeshData<2> read(const std::string& name, const std::string& content) {
   const ScratchFolder folder;
   return mesher::read_mesh(folder.write(name, content));
 }
@@ -69,11 +69,11 @@ TEST_CASE("random meshes with features read back equal from .node, .vtu and .vtk
   const std::uint64_t seed = GENERATE(1, 2, 3, 4);
   mesher::SplitMix64 random(seed);
   for (int round = 0; round < 15; ++round) {
-    const MeshData mesh =
+    const MeshData<2> mesh =
         support::random_mesh(1 + static_cast<std::uint32_t>(random.below(6)), random);
     for (const std::string name : {"m.node", "m.vtu", "m.vtk"}) {
       INFO("seed " << seed << ", round " << round << ", " << name);
-      const MeshData copy = back(folder, mesh, name);
+      const MeshData<2> copy = back(folder, mesh, name);
       REQUIRE(same_bits(copy.vertices, mesh.vertices));
       REQUIRE(copy == mesh);
       REQUIRE(copy.features == mesh.features);
@@ -86,11 +86,11 @@ TEST_CASE("random meshes read back from .msh and .mesh but for kinds, origins an
   const ScratchFolder folder;
   mesher::SplitMix64 random(5);
   for (int round = 0; round < 30; ++round) {
-    MeshData mesh = support::random_mesh(1 + static_cast<std::uint32_t>(random.below(6)), random,
-                                         {.any_region = false, .any_marker = false});
+    MeshData<2> mesh = support::random_mesh(1 + static_cast<std::uint32_t>(random.below(6)), random,
+                                            {.any_region = false, .any_marker = false});
     INFO("round " << round);
     for (const std::string name : {"m.msh", "m.mesh"}) {
-      MeshData copy = back(folder, mesh, name);
+      MeshData<2> copy = back(folder, mesh, name);
       REQUIRE(same_bits(copy.vertices, mesh.vertices));
       REQUIRE(copy.features.edges == without_lines(mesh.features.edges));
       REQUIRE(copy.features.markers ==
@@ -111,8 +111,8 @@ TEST_CASE("random meshes read back from .msh and .mesh but for kinds, origins an
 TEST_CASE("regions and markers of any value read back from .msh by their names") {
   const ScratchFolder folder;
   mesher::SplitMix64 random(6);
-  const MeshData mesh = support::random_mesh(5, random);
-  const MeshData copy = back(folder, mesh, "m.msh");
+  const MeshData<2> mesh = support::random_mesh(5, random);
+  const MeshData<2> copy = back(folder, mesh, "m.msh");
   CHECK(copy.features.edges == without_lines(mesh.features.edges));
   auto expected = mesh.features.regions, found = copy.features.regions;
   std::sort(expected.begin(), expected.end());
@@ -123,8 +123,8 @@ TEST_CASE("regions and markers of any value read back from .msh by their names")
 TEST_CASE("random meshes read back from .obj and .off: triangles, and lines of .obj") {
   const ScratchFolder folder;
   mesher::SplitMix64 random(7);
-  const MeshData mesh = support::random_mesh(6, random);
-  MeshData obj = back(folder, mesh, "m.obj");
+  const MeshData<2> mesh = support::random_mesh(6, random);
+  MeshData<2> obj = back(folder, mesh, "m.obj");
   CHECK(same_bits(obj.vertices, mesh.vertices));
   CHECK(obj.simplices == mesh.simplices);
   REQUIRE(obj.features.edges.size() == mesh.features.edges.size());
@@ -132,7 +132,7 @@ TEST_CASE("random meshes read back from .obj and .off: triangles, and lines of .
     CHECK(obj.features.edges[i].low == mesh.features.edges[i].low);
     CHECK(obj.features.edges[i].high == mesh.features.edges[i].high);
   }
-  MeshData off = back(folder, mesh, "m.off");
+  MeshData<2> off = back(folder, mesh, "m.off");
   CHECK(same_bits(off.vertices, mesh.vertices));
   CHECK(off.simplices == mesh.simplices);
 }
@@ -140,7 +140,7 @@ TEST_CASE("random meshes read back from .obj and .off: triangles, and lines of .
 TEST_CASE("coordinates of every magnitude read back bit for bit from all formats") {
   const ScratchFolder folder;
   mesher::SplitMix64 random(8);
-  MeshData mesh = support::random_mesh(1, random);
+  MeshData<2> mesh = support::random_mesh(1, random);
   for (int i = 0; i < 5000; ++i) {
     const double x = std::bit_cast<double>(random.bits());
     mesh.vertices.push_back({std::isfinite(x) ? x : -0.0, std::ldexp(random.unit(), -1060)});
@@ -158,7 +158,7 @@ TEST_CASE("an empty mesh is written and read in every format") {
   const ScratchFolder folder;
   for (const std::string name : {"m.node", "m.vtu", "m.vtk", "m.msh", "m.mesh", "m.off", "m.obj"}) {
     INFO(name);
-    const MeshData copy = back(folder, MeshData(), name);
+    const MeshData<2> copy = back(folder, MeshData<2>(), name);
     CHECK(copy == mesher::Mesh<2>());
     CHECK(copy.features.empty());
   }
@@ -167,7 +167,7 @@ TEST_CASE("an empty mesh is written and read in every format") {
 TEST_CASE("a mesh with features is five files of Triangle's, a plain one two") {
   const ScratchFolder folder;
   mesher::SplitMix64 random(9);
-  const MeshData mesh = support::random_mesh(2, random);
+  const MeshData<2> mesh = support::random_mesh(2, random);
   mesher::write_mesh(mesh, folder.path("m.node"));
   CHECK(folder.count() == 5);
   CHECK(folder.read("m.poly").substr(0, 8) == "0 2 0 1\n");
@@ -178,7 +178,7 @@ TEST_CASE("a mesh with features is five files of Triangle's, a plain one two") {
 
 TEST_CASE("neighbours are across from the corners, and their file must agree") {
   const ScratchFolder folder;
-  MeshData mesh;
+  MeshData<2> mesh;
   mesh.vertices = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
   mesh.kinds.assign(4, VertexKind::steiner);
   mesh.simplices = {{0, 1, 2}, {1, 3, 2}};
@@ -198,7 +198,7 @@ TEST_CASE("files of Triangle are read: 0-based, attributes, markers, segments, s
   folder.write("m.ele", "2 3 2\n0 0 1 2 5 1\n1 1 3 2 6 1\n");
   folder.write("m.edge", "5 1\n0 0 1 1\n1 1 2 0\n2 2 0 1\n3 1 3 4\n4 3 2 1\n");
   folder.write("m.poly", "0 2 0 1\n2 1\n0 0 1 1\n1 2 1 0\n0\n");
-  const MeshData mesh = mesher::read_mesh(folder.path("m.ele"));
+  const MeshData<2> mesh = mesher::read_mesh(folder.path("m.ele"));
   CHECK(mesh.features.markers == std::vector<std::int64_t>{1, 1, 1, 7});
   CHECK(mesh.features.regions == std::vector<double>{5, 6});
   using Edges = std::vector<std::array<std::int64_t, 3>>;
@@ -285,7 +285,7 @@ TEST_CASE("binary data of .vtu are read: base64 and raw, inline and appended, ei
               "\n</AppendedData>\n";
     }
     INFO("form " << static_cast<int>(form) << "\n" << text);
-    const MeshData mesh = read("m.vtu", text + "</VTKFile>\n");
+    const MeshData<2> mesh = read("m.vtu", text + "</VTKFile>\n");
     CHECK(mesh.vertices == std::vector<mesher::Point<2>>{{0, 0}, {1.0 / 3, 0}, {0, -1e-300}});
     CHECK(mesh.simplices == std::vector<mesher::Mesh<2>::Simplex>{{0, 1, 2}});
     CHECK(mesh.features.regions == std::vector<double>{1.5});
@@ -293,18 +293,18 @@ TEST_CASE("binary data of .vtu are read: base64 and raw, inline and appended, ei
 }
 
 TEST_CASE("files of Gmsh are read: entities with groups, nodes in blocks, points as elements") {
-  const MeshData mesh = read("m.msh",
-                             "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
-                             "$PhysicalNames\n2\n1 3 \"the wall\"\n2 7 \"inner part\"\n"
-                             "$EndPhysicalNames\n"
-                             "$Entities\n1 1 1 0\n1 0 0 0 0\n"
-                             "4 0 0 0 1 0 0 1 3 2 1 -1\n"
-                             "6 0 0 0 1 1 0 1 7 1 4\n$EndEntities\n"
-                             "$Nodes\n2 3 2 9\n0 1 0 1\n9\n0 0 0.5\n"
-                             "2 6 1 2\n2\n4\n1 0 0.5 0.1 0.2\n0 1 0.5 0.3 0.4\n$EndNodes\n"
-                             "$Elements\n3 3 1 3\n0 1 15 1\n1 9\n1 4 1 1\n2 9 2\n"
-                             "2 6 2 1\n3 9 2 4\n$EndElements\n"
-                             "$Periodic\n0\n$EndPeriodic\n");
+  const MeshData<2> mesh = read("m.msh",
+                                "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+                                "$PhysicalNames\n2\n1 3 \"the wall\"\n2 7 \"inner part\"\n"
+                                "$EndPhysicalNames\n"
+                                "$Entities\n1 1 1 0\n1 0 0 0 0\n"
+                                "4 0 0 0 1 0 0 1 3 2 1 -1\n"
+                                "6 0 0 0 1 1 0 1 7 1 4\n$EndEntities\n"
+                                "$Nodes\n2 3 2 9\n0 1 0 1\n9\n0 0 0.5\n"
+                                "2 6 1 2\n2\n4\n1 0 0.5 0.1 0.2\n0 1 0.5 0.3 0.4\n$EndNodes\n"
+                                "$Elements\n3 3 1 3\n0 1 15 1\n1 9\n1 4 1 1\n2 9 2\n"
+                                "2 6 2 1\n3 9 2 4\n$EndElements\n"
+                                "$Periodic\n0\n$EndPeriodic\n");
   CHECK(mesh.vertices == std::vector<mesher::Point<2>>{{0, 0}, {1, 0}, {0, 1}});
   CHECK(mesh.simplices == std::vector<mesher::Mesh<2>::Simplex>{{0, 1, 2}});
   CHECK(mesh.features.regions == std::vector<double>{7});
@@ -314,13 +314,13 @@ TEST_CASE("files of Gmsh are read: entities with groups, nodes in blocks, points
 }
 
 TEST_CASE("legacy VTK of version 5 and scalars are read") {
-  const MeshData mesh = read("m.vtk",
-                             "# vtk DataFile Version 5.1\nany title # here\nASCII\n"
-                             "DATASET UNSTRUCTURED_GRID\nPOINTS 3 float\n0 0 1 1 0 1\n0 1 1\n"
-                             "METADATA\nINFORMATION 0\n\n"
-                             "CELLS 3 5\nOFFSETS vtktypeint64\n0 3 5\n"
-                             "CONNECTIVITY vtktypeint64\n0 1 2 1 2\nCELL_TYPES 2\n5\n3\n"
-                             "CELL_DATA 2\nSCALARS region int 1\nLOOKUP_TABLE default\n4 0\n");
+  const MeshData<2> mesh = read("m.vtk",
+                                "# vtk DataFile Version 5.1\nany title # here\nASCII\n"
+                                "DATASET UNSTRUCTURED_GRID\nPOINTS 3 float\n0 0 1 1 0 1\n0 1 1\n"
+                                "METADATA\nINFORMATION 0\n\n"
+                                "CELLS 3 5\nOFFSETS vtktypeint64\n0 3 5\n"
+                                "CONNECTIVITY vtktypeint64\n0 1 2 1 2\nCELL_TYPES 2\n5\n3\n"
+                                "CELL_DATA 2\nSCALARS region int 1\nLOOKUP_TABLE default\n4 0\n");
   CHECK(mesh.simplices == std::vector<mesher::Mesh<2>::Simplex>{{0, 1, 2}});
   CHECK(mesh.features.regions == std::vector<double>{4});
   REQUIRE(mesh.features.edges.size() == 1);
@@ -437,12 +437,12 @@ TEST_CASE("a bad .edge file beside a mesh is refused with the place of the mista
 
 TEST_CASE("a picture shows regions in their colours and edges on lines above the others") {
   const ScratchFolder folder;
-  MeshData mesh;
+  MeshData<2> mesh;
   mesh.vertices = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
   mesh.kinds.assign(4, VertexKind::steiner);
   mesh.simplices = {{0, 1, 2}, {1, 3, 2}};
   mesh.features.regions = {1, 2};
-  mesh.features.edges = {{1, 2, FeatureId{4}, 0}};
+  mesh.features.edges = {{1, 2, LineId{4}, 0}};
   mesher::write_mesh(mesh, folder.path("m.svg"));
   const std::string text = folder.read("m.svg");
   const auto at = [&](const std::string& part) { return text.find(part); };
@@ -456,7 +456,7 @@ TEST_CASE("files with random mistakes are read or refused with a place, never an
   const ScratchFolder folder;
   const std::uint64_t seed = GENERATE(1, 2, 3);
   mesher::SplitMix64 random(seed);
-  const MeshData mesh = support::random_mesh(2, random);
+  const MeshData<2> mesh = support::random_mesh(2, random);
   const std::string shape =
       "{\"type\": \"Polygon\", \"coordinates\": "
       "[[[0,0],[9,0],[9,9],[0,0]],[[2,1],[4,1],[4,2],[2,1]]]}";
@@ -476,7 +476,7 @@ TEST_CASE("files with random mistakes are read or refused with a place, never an
     INFO("seed " << seed);
     support::refused_with_mistakes(folder, name, random, [&] {
       if (name.substr(0, 5) == "shape") {
-        (void)mesher::read_pslg(folder.path(name));
+        (void)mesher::read<2>(folder.path(name));
       } else {
         const bool is_part = name == "mesh.edge" || name == "mesh.poly" || name == "mesh.neigh";
         (void)mesher::read_mesh(folder.path(is_part ? "mesh.node" : name));

@@ -1,34 +1,38 @@
 // Complexes in space: what each format says, what is refused and where, and that what is written
 // reads back equal.
-#include "mesher/plc.hpp"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <fstream>
 
 #include "feature_ids.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/graph.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 #include "random_mistakes.hpp"
 #include "scratch_file.hpp"
 
 namespace {
 
-using mesher::FeatureId;
-using mesher::Plc;
-using mesher::PlcFile;
+using mesher::Graph;
+using mesher::GraphFile;
+using mesher::hole_seed;
 using mesher::Point;
+using mesher::PointId;
+using mesher::PolygonId;
+using mesher::region_seed;
 using support::error_of;
 using support::failure_of;
 using support::id;
 using support::ids;
 using support::ScratchFolder;
 
-using Loops = std::vector<std::vector<FeatureId>>;
+using Loops = std::vector<std::vector<PointId>>;
 
-PlcFile read(const std::string& name, const std::string& content) {
+GraphFile<3> read(const std::string& name, const std::string& content) {
   const ScratchFolder folder;
-  return mesher::read_plc(folder.write(name, content));
+  return mesher::read<3>(folder.write(name, content));
 }
 
 // A square of 4 x 4 in the plane of z = 1, points from 1 on: its corners, two nested squares in it,
@@ -39,82 +43,83 @@ const std::string kSquares =
 
 std::string facet(const std::string& text) { return kSquares + "1 1\n" + text + "0\n"; }
 
-Plc read_facet(const std::string& text) { return read("a.poly", facet(text)).plc; }
+Graph<3> read_facet(const std::string& text) { return read("a.poly", facet(text)).graph; }
 
 }  // namespace
 
 TEST_CASE("A .poly file says points, facets, segments, holes and regions, with their places") {
-  const PlcFile f = read("cube.poly",
-                         "# a corner\n4 3 1 1\n0 0 0 0 0.5 7\n1 1 0 0 1.5 0\n2 0 1 0 2 0\n"
-                         "3 0 0 1 3 0\n3 1\n1 0 5\n3 0 1\n 2\n1 0 6\n2 0 3\n1\n3 1 2 3\n"
-                         "1\n1 0.1 0.1 0.1\n1\n2 0.2 0.2 0.2 9 0.25\n");
-  REQUIRE(f.plc.points.size() == 4);
-  REQUIRE(f.plc.points[0] == Plc::Vertex{id(0), {0, 0, 0}, 7});
-  REQUIRE(f.plc.attributes == std::vector<double>{0.5, 1.5, 2, 3});
-  REQUIRE(f.plc.facets.size() == 2);
-  REQUIRE(f.plc.facets[0].polygon.id == id(1));
-  REQUIRE(f.plc.facets[0].polygon.loops == Loops{ids({0, 1, 2})});
-  REQUIRE(f.plc.facets[0].marker == 5);
-  REQUIRE(f.plc.facets[1].polygon.id == id(3));
-  REQUIRE(f.plc.facets[1].marker == 0);
-  REQUIRE(f.plc.segments == std::vector<Plc::Segment>{{id(1), id(0), id(3), 6}});
-  REQUIRE(f.plc.holes == std::vector<Plc::Hole>{{id(1), {0.1, 0.1, 0.1}}});
-  REQUIRE(f.plc.regions == std::vector<Plc::Region>{{id(2), {0.2, 0.2, 0.2}, 9, 0.25}});
-  REQUIRE(f.location_of_facet(1).line == 13);
+  const GraphFile<3> f = read("cube.poly",
+                              "# a corner\n4 3 1 1\n0 0 0 0 0.5 7\n1 1 0 0 1.5 0\n2 0 1 0 2 0\n"
+                              "3 0 0 1 3 0\n3 1\n1 0 5\n3 0 1\n 2\n1 0 6\n2 0 3\n1\n3 1 2 3\n"
+                              "1\n1 0.1 0.1 0.1\n1\n2 0.2 0.2 0.2 9 0.25\n");
+  REQUIRE(f.graph.points.size() == 4);
+  REQUIRE(f.graph.points[0] == mesher::GraphPoint<3>{id(0), {0, 0, 0}, 7});
+  REQUIRE(f.graph.attributes == std::vector<double>{0.5, 1.5, 2, 3});
+  REQUIRE(f.graph.polygons.size() == 2);
+  REQUIRE(f.graph.polygons[0].id == id(1));
+  REQUIRE(f.graph.polygons[0].loops == Loops{ids({0, 1, 2})});
+  REQUIRE(f.graph.polygons[0].marker == 5);
+  REQUIRE(f.graph.polygons[1].id == id(3));
+  REQUIRE(f.graph.polygons[1].marker == 0);
+  REQUIRE(f.graph.segments == std::vector<mesher::Segment>{{id(1), id(0), id(3), 6}});
+  REQUIRE(f.graph.holes() == std::vector{hole_seed<3>(1, {0.1, 0.1, 0.1})});
+  REQUIRE(f.graph.regions() == std::vector{region_seed<3>(2, {0.2, 0.2, 0.2}, 9, 0.25)});
+  REQUIRE(f.location_of_polygon(1).line == 13);
   REQUIRE(f.location_of_segment(0).line == 11);
 }
 
 TEST_CASE("A .poly file without points takes those of the .node file beside it") {
   const ScratchFolder folder;
   folder.write("a.node", "3 3\n10 0 0 0\n11 1 0 0\n12 0 1 0\n");
-  const PlcFile f = mesher::read_plc(folder.write("a.poly", "0 3 0 0\n1\n1\n3 10 11 12\n0\n"));
-  REQUIRE(f.plc.points.size() == 3);
-  REQUIRE(f.plc.facets[0].polygon.loops == Loops{ids({10, 11, 12})});
+  const GraphFile<3> f = mesher::read<3>(folder.write("a.poly", "0 3 0 0\n1\n1\n3 10 11 12\n0\n"));
+  REQUIRE(f.graph.points.size() == 3);
+  REQUIRE(f.graph.polygons[0].loops == Loops{ids({10, 11, 12})});
   REQUIRE(f.location_of_point(0).file == f.point_file);
 }
 
 TEST_CASE("A .smesh file has one polygon on a line, which may go on") {
-  const PlcFile f = read("a.smesh", kSquares + "2 1\n4 1 2\n 3 4 8\n3 5 6 7\n0\n");
-  REQUIRE(f.plc.facets.size() == 2);
-  REQUIRE(f.plc.facets[0].polygon.loops == Loops{ids({1, 2, 3, 4})});
-  REQUIRE(f.plc.facets[0].marker == 8);
-  REQUIRE(f.plc.facets[1].marker == 0);
+  const GraphFile<3> f = read("a.smesh", kSquares + "2 1\n4 1 2\n 3 4 8\n3 5 6 7\n0\n");
+  REQUIRE(f.graph.polygons.size() == 2);
+  REQUIRE(f.graph.polygons[0].loops == Loops{ids({1, 2, 3, 4})});
+  REQUIRE(f.graph.polygons[0].marker == 8);
+  REQUIRE(f.graph.polygons[1].marker == 0);
 }
 
 TEST_CASE(
     "A polygon in a facet is a hole where a hole's seed is in it, else its edges lie inside") {
-  const Plc hole = read_facet("2 1\n4 1 2 3 4\n4 5 6 7 8\n1 2 2 1\n");
-  REQUIRE(hole.facets.size() == 1);
-  REQUIRE(hole.facets[0].polygon.loops == Loops{ids({1, 2, 3, 4}), ids({5, 6, 7, 8})});
-  const Plc inner = read_facet("2 0\n4 1 2 3 4\n4 5 6 7 8\n");
-  REQUIRE(inner.facets[0].polygon.loops.size() == 1);
-  REQUIRE(inner.facets[0].polygon.edges.size() == 4);
+  const Graph<3> hole = read_facet("2 1\n4 1 2 3 4\n4 5 6 7 8\n1 2 2 1\n");
+  REQUIRE(hole.polygons.size() == 1);
+  REQUIRE(hole.polygons[0].loops == Loops{ids({1, 2, 3, 4}), ids({5, 6, 7, 8})});
+  const Graph<3> inner = read_facet("2 0\n4 1 2 3 4\n4 5 6 7 8\n");
+  REQUIRE(inner.polygons[0].loops.size() == 1);
+  REQUIRE(inner.polygons[0].edges.size() == 4);
 }
 
 TEST_CASE("A polygon in a hole of a facet is filled, whatever the order") {
-  const Plc plc = read_facet("3 1\n4 9 10 11 12\n4 5 6 7 8\n4 1 2 3 4\n1 1.25 2 1\n");
-  REQUIRE(plc.facets.size() == 1);
-  REQUIRE(plc.facets[0].polygon.loops ==
+  const Graph<3> plc = read_facet("3 1\n4 9 10 11 12\n4 5 6 7 8\n4 1 2 3 4\n1 1.25 2 1\n");
+  REQUIRE(plc.polygons.size() == 1);
+  REQUIRE(plc.polygons[0].loops ==
           Loops{ids({1, 2, 3, 4}), ids({5, 6, 7, 8}), ids({9, 10, 11, 12})});
 }
 
 TEST_CASE("A facet's polygons of one and of two corners are points and edges inside") {
-  const Plc plc = read_facet("3 0\n4 1 2 3 4\n2 13 14\n1 9\n");
-  REQUIRE(plc.facets[0].polygon.edges == std::vector<std::array<FeatureId, 2>>{{id(13), id(14)}});
-  REQUIRE(plc.facets[0].polygon.points == ids({9}));
-  const Plc alone = read_facet("2 0\n2 13 14\n2 9 10\n");
-  REQUIRE(alone.facets.empty());
+  const Graph<3> plc = read_facet("3 0\n4 1 2 3 4\n2 13 14\n1 9\n");
+  REQUIRE(plc.polygons[0].edges == std::vector<std::array<PointId, 2>>{{id(13), id(14)}});
+  REQUIRE(plc.polygons[0].points == ids({9}));
+  const Graph<3> alone = read_facet("2 0\n2 13 14\n2 9 10\n");
+  REQUIRE(alone.polygons.empty());
   REQUIRE(alone.segments.size() == 2);
 }
 
 TEST_CASE("Parts of a facet that lie apart are polygons of their own") {
-  const Plc plc = read_facet("3 1\n3 1 2 5\n3 8 3 4\n2 13 14\n1 1 0.25 1\n");
-  REQUIRE(plc.facets.size() == 1);
+  const Graph<3> plc = read_facet("3 1\n3 1 2 5\n3 8 3 4\n2 13 14\n1 1 0.25 1\n");
+  REQUIRE(plc.polygons.size() == 1);
   REQUIRE(plc.segments.size() == 4);  // the empty triangle's edges, and one that lies in no part
-  const Plc two = read("a.poly", kSquares + "2\n2 0\n3 1 2 5\n3 8 3 4\n1 0\n3 9 10 11\n0\n").plc;
-  REQUIRE(two.facets.size() == 3);
-  REQUIRE(two.facets[1].polygon.id == id(2));
-  REQUIRE(two.facets[2].polygon.id == id(3));
+  const Graph<3> two =
+      read("a.poly", kSquares + "2\n2 0\n3 1 2 5\n3 8 3 4\n1 0\n3 9 10 11\n0\n").graph;
+  REQUIRE(two.polygons.size() == 3);
+  REQUIRE(two.polygons[1].id == id(2));
+  REQUIRE(two.polygons[2].id == id(3));
 }
 
 TEST_CASE("What a .poly file in space may not say is refused where it stands") {
@@ -159,21 +164,21 @@ TEST_CASE("No memory is set aside on the word of a header of a complex") {
 }
 
 TEST_CASE("What is written as .poly reads back equal: loops, holes, islands, edges and points") {
-  Plc plc = read_facet("3 1 4\n4 1 2 3 4\n4 5 6 7 8\n4 9 10 11 12\n1 1.25 2 1\n");
+  Graph<3> plc = read_facet("3 1 4\n4 1 2 3 4\n4 5 6 7 8\n4 9 10 11 12\n1 1.25 2 1\n");
   plc.segments = {{id(1), id(1), id(7), 3}};
-  plc.facets[0].polygon.edges = {{id(13), id(14)}};
-  plc.facets[0].polygon.points = ids({10});
-  plc.holes = {{id(4), {0.1, 0.2, 0.3}}};
-  plc.regions = {{id(5), {1, 2, 3}, 0.5, std::nullopt}, {id(6), {3, 2, 1}, 0.25, 1e-3}};
+  plc.polygons[0].edges = {{id(13), id(14)}};
+  plc.polygons[0].points = ids({10});
+  plc.seeds = {hole_seed<3>(4, {0.1, 0.2, 0.3}), region_seed<3>(5, {1, 2, 3}, 0.5),
+               region_seed<3>(6, {3, 2, 1}, 0.25, 1e-3)};
   const ScratchFolder folder;
   const std::string path = folder.path("a.poly");
-  write_plc(plc, path);
-  REQUIRE(mesher::read_plc(path).plc == plc);
-  REQUIRE(error_of([&] { write_plc(plc, folder.path("a.smesh")); }).code() ==
+  write_graph(plc, path);
+  REQUIRE(mesher::read<3>(path).graph == plc);
+  REQUIRE(error_of([&] { write_graph(plc, folder.path("a.smesh")); }).code() ==
           mesher::ErrorCode::unsupported);
-  plc.facets[0].polygon = {id(1), {ids({1, 2, 3, 4})}};
-  write_plc(plc, folder.path("a.smesh"));
-  REQUIRE(mesher::read_plc(folder.path("a.smesh")).plc == plc);
+  plc.polygons[0] = {id(1), {ids({1, 2, 3, 4})}, {}, {}, plc.polygons[0].marker};
+  write_graph(plc, folder.path("a.smesh"));
+  REQUIRE(mesher::read<3>(folder.path("a.smesh")).graph == plc);
 }
 
 TEST_CASE("A complex with random mistakes is read or refused, with its place") {
@@ -182,57 +187,60 @@ TEST_CASE("A complex with random mistakes is read or refused, with its place") {
   const std::string good =
       facet("3 1 4\n4 1 2 3 4\n4 5 6 7 8\n4 9 10 11 12\n1 1.25 2 1\n") + "1\n2 1 2 3 9 0.5\n";
   folder.write("a.poly", good);
-  const auto poly = [&] { static_cast<void>(mesher::read_plc(folder.path("a.poly"))); };
+  const auto poly = [&] { static_cast<void>(mesher::read<3>(folder.path("a.poly"))); };
   REQUIRE(support::refused_with_mistakes(folder, "a.poly", random, poly) > 50);
   folder.write("a.smesh", kSquares + "2 1\n4 1 2\n 3 4 8\n3 5 6 7\n0\n");
-  const auto smesh = [&] { static_cast<void>(mesher::read_plc(folder.path("a.smesh"))); };
+  const auto smesh = [&] { static_cast<void>(mesher::read<3>(folder.path("a.smesh"))); };
   REQUIRE(support::refused_with_mistakes(folder, "a.smesh", random, smesh) > 50);
 }
 
 TEST_CASE("TetGen's example is read as its facets are") {
   const char* path = "/usr/share/doc/tetgen/examples/example.poly";
   if (!std::ifstream(path)) return;
-  const Plc plc = mesher::read_plc(path).plc;
+  const Graph<3> plc = mesher::read<3>(path).graph;
   REQUIRE(plc.points.size() == 28);
-  REQUIRE(plc.facets.size() == 23);
-  REQUIRE(plc.facets[2].polygon.loops.size() == 2);
+  REQUIRE(plc.polygons.size() == 23);
+  REQUIRE(plc.polygons[2].loops.size() == 2);
   const ScratchFolder folder;
-  write_plc(plc, folder.path("a.poly"));
-  REQUIRE(mesher::read_plc(folder.path("a.poly")).plc == plc);
+  write_graph(plc, folder.path("a.poly"));
+  REQUIRE(mesher::read<3>(folder.path("a.poly")).graph == plc);
 }
 
 TEST_CASE("Surfaces are read with a polygon for each face") {
   const Loops faces{ids({1, 2, 3, 4}), ids({1, 2, 5})};
-  const auto loops_of = [](const PlcFile& f) {
+  const auto loops_of = [](const GraphFile<3>& f) {
     Loops loops;
-    for (const auto& facet : f.plc.facets) loops.push_back(facet.polygon.loops.at(0));
+    for (const auto& facet : f.graph.polygons) loops.push_back(facet.loops.at(0));
     return loops;
   };
   const std::string vertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n";
-  const PlcFile off = read("a.off", "OFF\n5 2 0\n" + vertices + "4 0 1 2 3\n3 0 1 4 0.5 0.5\n");
-  REQUIRE(off.plc.points.size() == 5);
+  const GraphFile<3> off =
+      read("a.off", "OFF\n5 2 0\n" + vertices + "4 0 1 2 3\n3 0 1 4 0.5 0.5\n");
+  REQUIRE(off.graph.points.size() == 5);
   REQUIRE(loops_of(off) == faces);
-  REQUIRE(off.location_of_facet(1).line == 9);
+  REQUIRE(off.location_of_polygon(1).line == 9);
   REQUIRE(off.notes.size() == 1);
-  const PlcFile obj = read("a.obj",
-                           "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1 2/2 3/3 4\nv 0 0 1\ng x\n"
-                           "f -5 2 -1\n");
+  const GraphFile<3> obj =
+      read("a.obj",
+           "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1 2/2 3/3 4\nv 0 0 1\ng x\n"
+           "f -5 2 -1\n");
   REQUIRE(loops_of(obj) == faces);
-  REQUIRE(obj.location_of_facet(1).line == 8);
+  REQUIRE(obj.location_of_polygon(1).line == 8);
   const std::string header =
       "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
       "property float z\nelement face 2\nproperty uchar red\n"
       "property list uchar int vertex_indices\nend_header\n";
-  const PlcFile ply = read("a.ply", header + vertices + "9 4 0 1 2 3\n9 3 0 1 4\n");
+  const GraphFile<3> ply = read("a.ply", header + vertices + "9 4 0 1 2 3\n9 3 0 1 4\n");
   REQUIRE(loops_of(ply) == faces);
-  REQUIRE(ply.location_of_facet(1).line == 17);
-  const PlcFile stl = read("a.stl",
-                           "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
-                           "vertex 1 1 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
-                           "vertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n"
-                           "endsolid\n");
+  REQUIRE(ply.location_of_polygon(1).line == 17);
+  const GraphFile<3> stl =
+      read("a.stl",
+           "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+           "vertex 1 1 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
+           "vertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n"
+           "endsolid\n");
   REQUIRE(loops_of(stl) == Loops{ids({1, 2, 3}), ids({1, 2, 4})});
-  REQUIRE(stl.location_of_facet(1).line == 11);
+  REQUIRE(stl.location_of_polygon(1).line == 11);
 }
 
 TEST_CASE("Faces of grids are polygons with their markers, and with their ids if all differ") {
@@ -251,17 +259,17 @@ TEST_CASE("Faces of grids are polygons with their markers, and with their ids if
            ints("polygon", polygons) + "</CellData></Piece></UnstructuredGrid></VTKFile>\n";
   };
   const auto facets_of = [&](const std::string& polygons) {
-    return read("a.vtu", vtu(polygons)).plc.facets;
+    return read("a.vtu", vtu(polygons)).graph.polygons;
   };
   const auto named = facets_of("12 11 10 0"), numbered = facets_of("12 11 12 0");
   REQUIRE(named.size() == 3);
-  CHECK(named[1].polygon.loops == Loops{ids({1, 2, 3, 4})});
-  CHECK(named[2].polygon.loops == Loops{ids({2, 3, 5})});
+  CHECK(named[1].loops == Loops{ids({1, 2, 3, 4})});
+  CHECK(named[2].loops == Loops{ids({2, 3, 5})});
   for (std::size_t i = 0; i < 3; ++i) {
     const auto n = static_cast<std::int64_t>(i);
     CHECK(named[i].marker == 7 + n);
-    CHECK(named[i].polygon.id == FeatureId{12 - n});
-    CHECK(numbered[i].polygon.id == FeatureId{1 + n});
+    CHECK(named[i].id == PolygonId{12 - n});
+    CHECK(numbered[i].id == PolygonId{1 + n});
   }
   CHECK(read("a.vtu", vtu("1 2 3 0")).notes.size() == 1);
   std::string bad = vtu("1 2 3 0");

@@ -1,7 +1,5 @@
 // Writing meshes of tetrahedra: the faces of their boundary, and what is refused.
 // (What the files hold is compared by readers of others: tests/formats/compare_space.py.)
-#include "mesher/space_files.hpp"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -10,9 +8,13 @@
 #include <random>
 #include <set>
 
-#include "mesher/io.hpp"
+#include "facade/graph_runs.hpp"
+#include "io/point_file.hpp"
+#include "mesh/boundary_faces.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/predicates.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 #include "scratch_file.hpp"
 #include "space_points.hpp"
 

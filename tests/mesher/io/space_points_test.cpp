@@ -6,16 +6,18 @@
 #include <vector>
 
 #include "bytes.hpp"
-#include "mesher/io.hpp"
+#include "facade/graph_runs.hpp"
+#include "io/point_file.hpp"
 #include "mesher/mesher.hpp"
-#include "mesher/space_files.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 #include "scratch_file.hpp"
 
 namespace {
 
-using mesher::FeatureId;
 using mesher::Point;
 using mesher::PointFile;
+using mesher::PointId;
 using support::Bytes;
 using support::failure_of;
 using support::ScratchFolder;
@@ -165,7 +167,7 @@ TEST_CASE("the vertices of surfaces and grids in space are read as points 1..n")
     CAPTURE(file.name, file.content);
     const auto points = read(file);
     CHECK(points.points == kCorners);
-    CHECK(points.ids == std::vector{FeatureId{1}, FeatureId{2}, FeatureId{3}, FeatureId{4}});
+    CHECK(points.ids == std::vector{PointId{1}, PointId{2}, PointId{3}, PointId{4}});
     CHECK_FALSE(std::signbit(points.points[3][0]));
   }
 }

@@ -5,23 +5,27 @@
 #include <cstring>
 
 #include "bytes.hpp"
-#include "mesher/io.hpp"
+#include "facade/graph_runs.hpp"
+#include "mesh/boundary_faces.hpp"
+#include "mesher/check.hpp"
 #include "mesher/mesher.hpp"
-#include "mesher/space_check.hpp"
-#include "mesher/space_files.hpp"
+#include "mesher/read.hpp"
+#include "mesher/write.hpp"
 #include "random_mistakes.hpp"
 #include "scratch_file.hpp"
 #include "space_points.hpp"
 
 namespace {
 
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Point;
+using mesher::PointId;
+using mesher::PolygonId;
 using mesher::VertexKind;
 using support::Bytes;
 using support::failure_of;
 using support::ScratchFolder;
-using SpaceMesh = mesher::MeshDataOf<3>;
+using SpaceMesh = mesher::MeshData<3>;
 
 SpaceMesh read(const std::string& name, const std::string& content) {
   const ScratchFolder folder;
@@ -85,7 +89,7 @@ TEST_CASE("TetGen's files are read, numbered from any number on, with regions") 
   folder.write("k.ele", "1 4\n1 9 8 7 6\n");
   const SpaceMesh named = mesher::read_mesh<3>(folder.path("k.node"));
   CHECK(named.kinds[0] == VertexKind::input);
-  CHECK(named.features.origins[0] == FeatureId{17});
+  CHECK(named.features.origins[0] == PointId{17});
   CHECK(named.features.markers[2] == 5);
 }
 
@@ -153,7 +157,7 @@ TEST_CASE("a file with tetrahedra is a mesh in space, whose triangles and edges 
   REQUIRE(mesh.features.edges.size() == 1);
   CHECK(mesh.features.edges[0] == mesher::MeshEdge{0, 1, {}, -2});
   REQUIRE(mesh.features.faces.size() == 1);
-  CHECK(mesh.features.faces[0] == mesher::MeshFace{{0, 2, 1}, mesher::FeatureId{9}, 7});
+  CHECK(mesh.features.faces[0] == mesher::MeshFace{{0, 2, 1}, PolygonId{9}, 7});
   CHECK(mesh.features.faces[0].key() == std::array<std::uint32_t, 3>{0, 1, 2});
   CHECK(mesh.notes.empty());
   CHECK_THROWS_WITH(
@@ -170,8 +174,8 @@ TEST_CASE(".face and .edge are read beside .node and .ele") {
   const auto mesh = mesher::read_mesh<3>(folder.write("m.ele", "1 4 1\n1 1 2 4 3 2.5\n"));
   const auto& f = mesh.features;
   CHECK(f.faces ==
-        std::vector<mesher::MeshFace>{{{0, 1, 2}, mesher::FeatureId{8}, 5}, {{1, 3, 2}, {}, -1}});
-  CHECK(f.edges == std::vector<mesher::MeshEdge>{{0, 1, {}, 4}, {2, 3, mesher::FeatureId{6}, 0}});
+        std::vector<mesher::MeshFace>{{{0, 1, 2}, PolygonId{8}, 5}, {{1, 3, 2}, {}, -1}});
+  CHECK(f.edges == std::vector<mesher::MeshEdge>{{0, 1, {}, 4}, {2, 3, LineId{6}, 0}});
   CHECK(f.regions == std::vector<double>{2.5});
   folder.write("m.face", "2 1\n1 1 2 3 5\n2 3 2 1 5\n");
   CHECK_THROWS_AS(mesher::read_mesh<3>(folder.path("m.ele")), mesher::Error);
@@ -184,7 +188,7 @@ TEST_CASE("any mesh is of the dimension of its file, and the other one is refuse
   folder.write("p.node", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n");
   folder.write("p.ele", "1 3\n1 1 2 3\n");
   CHECK(std::holds_alternative<SpaceMesh>(mesher::read_any_mesh(folder.path("s.ele"))));
-  CHECK(std::holds_alternative<mesher::MeshData>(mesher::read_any_mesh(folder.path("p.ele"))));
+  CHECK(std::holds_alternative<mesher::MeshData<2>>(mesher::read_any_mesh(folder.path("p.ele"))));
   CHECK(failure_of([&] { (void)mesher::read_mesh<2>(folder.path("s.node")); }) ==
         "bad_dimension@0:0");
   CHECK(failure_of([&] { (void)mesher::read_mesh<3>(folder.path("p.node")); }) ==
@@ -242,8 +246,11 @@ TEST_CASE("files of tetrahedra with random mistakes are read and judged or refus
   }
   const auto judge = [](const auto& read) {
     if constexpr (std::is_same_v<decltype(read), const SpaceMesh&>) {
-      (void)mesher::check_mesh(read,
-                               {.rho = 2.0, .boundary = mesher::BoundaryRule::any, .ties = true});
+      mesher::CheckOptions<3> options;
+      options.rho = 2.0;
+      options.boundary = mesher::BoundaryRule::any;
+      options.ties = true;
+      (void)mesher::check_mesh(read, options);
     }
   };
   std::size_t refused = 0;

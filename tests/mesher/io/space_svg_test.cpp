@@ -1,6 +1,4 @@
 // Pictures of meshes of tetrahedra: what is shown, in which order, in which colour.
-#include "mesher/space_svg.hpp"
-
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -10,9 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "facade/graph_runs.hpp"
 #include "geometry/box.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/mesher.hpp"
+#include "mesher/write.hpp"
 #include "scratch_file.hpp"
 #include "space_points.hpp"
 
@@ -26,7 +26,7 @@ Mesh<3> mesh_of(support::SpaceFamily family, std::size_t n) {
   return mesher::mesh_statically<3>(points, {.domain = mesher::snapped_domain<3>(points)});
 }
 
-std::string picture(const Mesh<3>& mesh, const mesher::SpaceView& view) {
+std::string picture(const Mesh<3>& mesh, const mesher::SvgView<3>& view) {
   const support::ScratchFolder folder;
   mesher::OutputFiles files;
   mesher::write_svg(mesh, view, files.open(folder.path("a.svg")));
@@ -151,7 +151,7 @@ TEST_CASE("what is drawn last at a place of a picture in space is what is neares
         support::SpaceFamily::line_and_circle, support::SpaceFamily::clusters}) {
     INFO(support::name(family));
     const Mesh<3> mesh = mesh_of(family, 300);
-    auto view = mesher::space_view(mesh);
+    auto view = mesher::svg_view(mesh);
     for (std::size_t i = 0; i < 3; ++i) {  // with large tetrahedra around small ones
       view.window.lo[i] -= 1;
       view.window.hi[i] += 1;
@@ -183,7 +183,7 @@ TEST_CASE("a picture in space shows faces that are turned to the viewer, within 
        {support::SpaceFamily::uniform, support::SpaceFamily::grid, support::SpaceFamily::spread}) {
     INFO(support::name(family));
     const Mesh<3> mesh = mesh_of(family, 60);
-    const std::string svg = picture(mesh, mesher::space_view(mesh));
+    const std::string svg = picture(mesh, mesher::svg_view(mesh));
     std::smatch frame;
     REQUIRE(std::regex_search(svg, frame, std::regex("viewBox=\"0 0 (\\S+) (\\S+)\"")));
     const double width = std::stod(frame[1]), height = std::stod(frame[2]);
@@ -195,27 +195,27 @@ TEST_CASE("a picture in space shows faces that are turned to the viewer, within 
       for (const auto& [x, y] : t) CHECK((x >= 0 && x <= width && y >= 0 && y <= height));
     }
     CHECK(svg.find("#c0392b") != std::string::npos);  // an input point
-    CHECK(svg == picture(mesh, mesher::space_view(mesh)));
+    CHECK(svg == picture(mesh, mesher::svg_view(mesh)));
   }
 }
 
 TEST_CASE("a picture in space has nothing in front of its cut, and empty meshes have pictures") {
   const Mesh<3> mesh = mesh_of(support::SpaceFamily::uniform, 60);
-  auto view = mesher::space_view(mesh);
+  auto view = mesher::svg_view(mesh);
   // All of the mesh: the box's front is cut away.
   view.window = {mesh.vertices.front(), mesh.vertices.back()};
   const auto all = triangles_of(picture(mesh, view));
   view.window.hi[1] = view.window.lo[1];
   CHECK(triangles_of(picture(mesh, view)).empty());
   CHECK(all.size() > 100);
-  const std::string none = picture({}, mesher::space_view({}));
+  const std::string none = picture({}, mesher::svg_view<3>({}));
   CHECK(none.find("</svg>") != std::string::npos);
   CHECK(triangles_of(none).empty());
 }
 
 TEST_CASE("tetrahedra that an update brought are orange in a picture") {
   const Mesh<3> mesh = mesh_of(support::SpaceFamily::uniform, 60);
-  auto view = mesher::space_view(mesh);
+  auto view = mesher::svg_view(mesh);
   const std::regex kOrange("fill=\"#[c-f][0-9a-f][89a][0-9a-f][345][0-9a-f]\"");
   CHECK_FALSE(std::regex_search(picture(mesh, view), kOrange));
   for (const auto& s : mesh.simplices) {

@@ -86,7 +86,8 @@ TEST_CASE("records come to the lowest slots that are free, and are found there")
   for (int i = 0; i < 200; ++i) twin.step();
 }
 
-TEST_CASE("a slot that is left is used again from the next plan on, and shows its record until then") {
+TEST_CASE(
+    "a slot that is left is used again from the next plan on, and shows its record until then") {
   Table table;
   table.plan({10, 11, 12}, {});
   table.keep();

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "facade/box_mesher.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace {
 
-using mesher::FeatureId;
 using mesher::Point;
+using mesher::PointId;
 
 struct Graph {
   std::vector<Point<2>> points;
@@ -24,8 +24,8 @@ struct Graph {
       points.push_back({p[0] - turn * p[1], p[1] + turn * p[0]});
     }
     for (std::int64_t j = 0; j < 4; ++j) {
-      segments.push_back({FeatureId{first + j + 1}, FeatureId{first + j + 1},
-                          FeatureId{first + (j + 1) % 4 + 1}});
+      segments.push_back({mesher::LineId{first + j + 1}, PointId{first + j + 1},
+                          PointId{first + (j + 1) % 4 + 1}});
     }
   }
 };
@@ -46,9 +46,9 @@ Watched update(const Graph& graph, long most) {
   mesher::Options<2> options;
   options.domain = mesher::snapped_domain<2>(graph.points);
   options.max_vertices = 4 * graph.points.size();
-  mesher::Mesher<2> m(options);
+  mesher::BoxMesher<2> m(options);
   for (std::size_t i = 0; i < graph.points.size(); ++i) {
-    m.insert(FeatureId{static_cast<std::int64_t>(i) + 1}, graph.points[i]);
+    m.insert(PointId{static_cast<std::int64_t>(i) + 1}, graph.points[i]);
   }
   for (const auto& s : graph.segments) m.insert_segment(s.id, s.from, s.to);
   Watched watched;
@@ -82,7 +82,7 @@ TEST_CASE("a segment that crosses one of many nested squares is found, whichever
         graph.points.push_back({x - turn * y, y + turn * x});
       };
       at(600, square - 0.25), at(600, square + 0.25);
-      graph.segments.push_back({FeatureId{9999}, FeatureId{last + 1}, FeatureId{last + 2}});
+      graph.segments.push_back({mesher::LineId{9999}, PointId{last + 1}, PointId{last + 2}});
       const Watched watched = update(graph, 1000000);
       CAPTURE(turn, square, watched.message);
       CHECK(watched.error == mesher::ErrorCode::crossing_segments);

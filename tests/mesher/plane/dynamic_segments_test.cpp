@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
+#include "any_id.hpp"
 #include "pslg_follower.hpp"
 
 namespace {
@@ -36,10 +37,10 @@ TEST_CASE("A triangle between two equal legs stays as long as both are there") {
   const mesher::Options<2> options = PslgEditor::options();
   TracedWorld world(options);
   Pslg pslg;
-  const auto id = [](int i) { return mesher::FeatureId{i}; };
+  const auto id = [](int i) { return AnyId{i}; };
   const double angle = 0.25;  // not so small that the legs are split beforehand
   pslg.points = {{1, {4, 4}}, {2, {9, 4}}, {3, {4 + 5 * std::cos(angle), 4 + 5 * std::sin(angle)}}};
-  for (const auto& [i, p] : pslg.points) world.insert(mesher::FeatureId{i}, p);
+  for (const auto& [i, p] : pslg.points) world.insert(mesher::PointId{i}, p);
   const auto update = [&] {
     world.update();
     REQUIRE(world.mesh() == static_mesh(pslg, options));

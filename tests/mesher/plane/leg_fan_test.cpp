@@ -5,13 +5,14 @@
 #include <cmath>
 #include <vector>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "traced_world.hpp"
 
 namespace {
 
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Point;
+using mesher::PointId;
 using mesher::SplitMix64;
 using mesher::detail::LegFan;
 using mesher::detail::LegFans;
@@ -102,17 +103,17 @@ TEST_CASE("an edit of one of many segments at a point looks at a bounded number 
   const int n = 300;
   support::TracedWorld world({.domain = {{0, 0}, {16, 16}}});
   const auto end = [&](double length) { return around({8, 8}, 7 * 360.0 / n, length); };
-  world.insert(FeatureId{0}, {8, 8});
+  world.insert(PointId{0}, {8, 8});
   for (int i = 1; i <= n; ++i) {
-    world.insert(FeatureId{i}, around({8, 8}, i * 360.0 / n, 6));
-    world.insert_segment(FeatureId{i}, FeatureId{0}, FeatureId{i});
+    world.insert(PointId{i}, around({8, 8}, i * 360.0 / n, 6));
+    world.insert_segment(LineId{i}, PointId{0}, PointId{i});
   }
   world.update();
   const auto& store = world.world().segments.store();
   const auto move = [&](double length) {
-    world.remove_segment(FeatureId{0}, FeatureId{7});
-    world.move(FeatureId{7}, end(length));
-    world.insert_segment(FeatureId{7}, FeatureId{0}, FeatureId{7});
+    world.remove_segment(PointId{0}, PointId{7});
+    world.move(PointId{7}, end(length));
+    world.insert_segment(LineId{7}, PointId{0}, PointId{7});
     world.update();
   };
   move(5.9999);

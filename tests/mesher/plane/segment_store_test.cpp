@@ -9,7 +9,7 @@
 
 #include "failing_new.hpp"
 #include "geometry/space_distances.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <deque>
 #include <vector>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "plane/crowding.hpp"
 #include "plane/input_segments.hpp"
 

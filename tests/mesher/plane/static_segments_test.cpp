@@ -12,18 +12,19 @@
 
 namespace {
 
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Point;
+using mesher::PointId;
 using support::Pslg;
 using support::PslgEditor;
 using support::PslgJudge;
 
 // Edits that change only the graph.
 struct Nobody {
-  void insert(FeatureId, const Point<2>&) {}
-  void remove(FeatureId) {}
-  void insert_segment(FeatureId, FeatureId, FeatureId) {}
-  void remove_segment(FeatureId, FeatureId) {}
+  void insert(PointId, const Point<2>&) {}
+  void remove(PointId) {}
+  void insert_segment(LineId, PointId, PointId) {}
+  void remove_segment(PointId, PointId) {}
 };
 
 Pslg random_pslg(PslgEditor::Family family, int edits, std::uint64_t seed) {
@@ -75,14 +76,14 @@ TEST_CASE("The mesh does not depend on ids, on their order, nor on which end com
     std::vector<std::pair<std::int64_t, Point<2>>> points(pslg.points.begin(), pslg.points.end());
     std::shuffle(points.begin(), points.end(), random);
     std::vector<Point<2>> places;
-    std::vector<FeatureId> ids;
+    std::vector<PointId> ids;
     for (const auto& [id, p] : points) {
       places.push_back(p);
-      ids.push_back(FeatureId{-id});
+      ids.push_back(PointId{-id});
     }
     std::vector<mesher::Segment> segments;
     for (const auto& [ends, id] : pslg.segments) {
-      segments.push_back({FeatureId{id}, FeatureId{-ends.second}, FeatureId{-ends.first}});
+      segments.push_back({LineId{id}, PointId{-ends.second}, PointId{-ends.first}});
     }
     std::shuffle(segments.begin(), segments.end(), random);
     CHECK(mesher::mesh_statically(places, segments, options, ids) == expected);

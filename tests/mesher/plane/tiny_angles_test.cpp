@@ -7,23 +7,23 @@
 #include <set>
 #include <string>
 
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
 #include "feature_ids.hpp"
-#include "mesher/mesher.hpp"
 #include "pslg_judge.hpp"
 
 namespace {
 
+using mesher::BoxMesher;
 using mesher::Error;
 using mesher::ErrorCode;
-using mesher::FeatureId;
 using mesher::Mesh;
-using mesher::Mesher;
 using mesher::Options;
 using mesher::Point;
 using support::Pslg;
 using support::PslgJudge;
 
-FeatureId id(std::int64_t i) { return FeatureId{i}; }
+AnyId id(std::int64_t i) { return AnyId{i}; }
 
 const Options<2> kOptions{.domain = {{-2, -2}, {2, 2}}, .max_vertices = 5000};
 
@@ -45,8 +45,8 @@ Pslg fan(double degrees, double turn, const std::vector<double>& lengths, Point<
 }
 
 // The mesh by one update a leg.
-Mesher<2> follow(const Pslg& pslg, const Options<2>& options) {
-  Mesher<2> m(options);
+BoxMesher<2> follow(const Pslg& pslg, const Options<2>& options) {
+  BoxMesher<2> m(options);
   for (const auto& [i, p] : pslg.points) m.insert(id(i), p);
   m.update();
   for (const auto& [ends, line] : pslg.segments) {
@@ -84,7 +84,7 @@ TEST_CASE("Wedges below double precision need vertices as the logarithm of their
         const Mesh<2> mesh = static_mesh(pslg, kOptions);
         CHECK(PslgJudge(mesh, pslg).fault(kOptions) == "");
         CHECK(inner_vertices(mesh) <= row.at_one_degree + decades * row.each_decade);
-        const Mesher<2> m = follow(pslg, kOptions);
+        const BoxMesher<2> m = follow(pslg, kOptions);
         CHECK(m.mesh() == mesh);
         m.check_invariants();
       }
@@ -102,14 +102,14 @@ TEST_CASE("A wedge below double precision follows edits of its legs and of point
     const double angle = std::pow(10, uniform(-10, -6));
     const Point<2> apex{uniform(-0.5, 0.5), uniform(-0.5, 0.5)};
     Pslg pslg = fan(angle, uniform(0, 6.28), {1, seed % 2 == 0 ? 1 : uniform(0.4, 1)}, apex);
-    Mesher<2> m = follow(pslg, kOptions);
+    BoxMesher<2> m = follow(pslg, kOptions);
     for (std::int64_t step = 0; step < 14; ++step) {
       const std::int64_t leg = step / 2 % 2 + 1;
       if (random() % 3 != 0) {
         pslg.points[10 + step] = {uniform(-2, 2), uniform(-2, 2)};
         m.insert(id(10 + step), pslg.points[10 + step]);
       } else if (pslg.segments.erase({1, leg + 1}) == 1) {
-        m.remove_segment(id(leg));
+        m.remove_line(id(leg));
       } else {
         pslg.segments[{1, leg + 1}] = leg;
         m.insert_segment(id(leg), id(1), id(leg + 1));
@@ -138,10 +138,10 @@ TEST_CASE("Fans below double precision conform, or are refused by name and leave
           return PslgJudge(mesh, pslg).fault(kOptions);
         };
         const auto is_named = [&](const Error& error) {
-          const auto named = support::ids_of(error);
-          const std::set<FeatureId> ids(named.begin(), named.end());
-          return ids.size() >= 2 && std::all_of(ids.begin(), ids.end(), [&](FeatureId i) {
-                   return i >= id(1) && i <= id(legs + 1);
+          std::set<std::int64_t> ids;
+          for (const mesher::Feature& f : error.features()) ids.insert(f.number);
+          return ids.size() >= 2 && std::all_of(ids.begin(), ids.end(), [&](std::int64_t i) {
+                   return i >= 1 && i <= legs + 1;
                  });
         };
         bool is_meshed = true;
@@ -159,7 +159,7 @@ TEST_CASE("Fans below double precision conform, or are refused by name and leave
           ++refused;
           is_meshed = false;
         }
-        Mesher<2> m(kOptions);
+        BoxMesher<2> m(kOptions);
         for (const auto& [i, p] : pslg.points) m.insert(id(i), p);
         m.update();
         const Mesh<2> before = m.mesh();

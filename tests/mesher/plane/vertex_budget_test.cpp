@@ -7,16 +7,18 @@
 #include <utility>
 #include <vector>
 
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
 #include "feature_ids.hpp"
-#include "mesher/mesher.hpp"
 
 namespace {
 
 using mesher::ErrorCode;
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Point;
 
-FeatureId id(int i) { return FeatureId{i}; }
+AnyId id(int i) { return AnyId{i}; }
 
 // What `run` throws, of too many vertices.
 template <class Run>
@@ -33,7 +35,7 @@ mesher::Error refusal_of(Run&& run) {
 
 // The ids that it names.
 template <class Run>
-std::vector<FeatureId> named_by(Run&& run) {
+std::vector<LineId> named_by(Run&& run) {
   return support::ids_of(refusal_of(std::forward<Run>(run)));
 }
 
@@ -49,14 +51,14 @@ std::string said_of(const std::vector<mesher::Segment>& segments, std::size_t mo
 TEST_CASE(
     "A bundle that needs more vertices than there may be is refused by name, and the mesh stays") {
   const mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}, .max_vertices = 3000};
-  mesher::Mesher<2> m(options);
+  mesher::BoxMesher<2> m(options);
   m.insert({id(1), id(2), id(3), id(4)}, {{0.1, 0.5}, {0.9, 0.5}, {0.1, 0.50001}, {0.9, 0.50002}});
   m.insert_segment(id(10), id(1), id(2));
   m.update();
   const auto before = m.mesh();
   m.insert_segment(id(11), id(3), id(4));
   const auto named = named_by([&] { m.update(); });
-  CHECK(std::set<FeatureId>(named.begin(), named.end()) == std::set{id(10), id(11)});
+  CHECK(std::set(named.begin(), named.end()) == std::set{LineId{10}, LineId{11}});
   CHECK(m.mesh() == before);
   m.check_invariants();
   m.insert(id(5), {0.3, 0.3});
@@ -83,7 +85,7 @@ TEST_CASE("A mesh may have just as many vertices as it needs, and not one less")
   mesher::Options<2> options{.domain = {{0, 0}, {1, 1}}};
   const auto mesh = mesher::mesh_statically(points, segments, options);
   const auto dynamic = [&] {
-    mesher::Mesher<2> m(options);
+    mesher::BoxMesher<2> m(options);
     for (int i = 0; i < 4; ++i) m.insert(id(i + 1), points[static_cast<std::size_t>(i)]);
     m.insert_segment(id(1), id(1), id(2));
     m.update();

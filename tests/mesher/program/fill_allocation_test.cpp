@@ -2,17 +2,17 @@
 // area.
 #include <catch2/catch.hpp>
 
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
 #include "failing_update.hpp"
-#include "mesher/mesher.hpp"
 
 namespace {
 
-using mesher::FeatureId;
+using mesher::BoxMesher;
 using mesher::Mesh;
-using mesher::Mesher;
 using mesher::Options;
 
-FeatureId id(std::int64_t i) { return FeatureId{i}; }
+AnyId id(std::int64_t i) { return AnyId{i}; }
 
 Options<2> options() {
   Options<2> o{.domain = {{0, 0}, {16, 16}}};
@@ -23,7 +23,7 @@ Options<2> options() {
 // A wall in a room that is filled. A point comes on a place that is filled, another near the wall,
 // which moves.
 struct Filled {
-  Mesher<2> m{options()};
+  BoxMesher<2> m{options()};
   Mesh<2> before;
 
   Filled() {
@@ -49,7 +49,7 @@ struct Filled {
 
 // From no limit to one, with a box that has another.
 struct Limited {
-  Mesher<2> m{Options<2>{.domain = {{0, 0}, {16, 16}}}};
+  BoxMesher<2> m{Options<2>{.domain = {{0, 0}, {16, 16}}}};
   Mesh<2> before;
 
   Limited() {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/sizes.hpp"
 #include "pslg_follower.hpp"
 
@@ -47,7 +47,7 @@ TEST_CASE("The same with sizes that vary: by a slope, in steps, by a background"
   const auto sloped = [](const mesher::Point<2>& p) {
     return 0.7 + 0.3 * std::hypot(p[0] - 7, p[1] - 9);
   };
-  std::vector<mesher::SizeSample> samples;
+  std::vector<mesher::SizeSample<2>> samples;
   mesher::SplitMix64 random(9);
   for (int i = 0; i < 30; ++i) {
     samples.push_back({{16 * random.unit(), 16 * random.unit()}, 0.8 + 3 * random.unit()});

@@ -2,19 +2,21 @@
 // it was, and the next update works.
 #include <catch2/catch.hpp>
 
+#include "any_id.hpp"
+#include "facade/graph_runs.hpp"
 #include "failing_new.hpp"
-#include "mesher/domain_mesher.hpp"
 #include "mesher/error.hpp"
+#include "mesher/mesher.hpp"
 #include "mesher/sizes.hpp"
 
 namespace {
 
-using mesher::FeatureId;
 using mesher::Mesh;
+using mesher::Options;
 using mesher::Point;
-using Mesher = mesher::DomainMesherOf<3>;
+using Mesher = mesher::Mesher<3>;
 
-constexpr FeatureId id(std::int64_t i) { return FeatureId{i}; }
+constexpr AnyId id(std::int64_t i) { return AnyId{i}; }
 
 // A room with a wall. Its limit becomes another in a box and varies in one beside; a point comes in
 // what is filled, and the wall goes.
@@ -28,7 +30,7 @@ struct Room {
     m.insert_polygon({.id = id(1), .loops = {{id(1), id(2), id(3), id(4)}}});
     m.limit({.max_measure = 0.1});
     m.update();
-    before = m.mesh();
+    before = m.box_mesh();
     limits = m.options().box_limits;
   }
   void announce() {
@@ -40,18 +42,18 @@ struct Room {
   }
   void check_kept() {
     m.check_invariants();
-    REQUIRE(m.mesh() == before);
+    REQUIRE(m.box_mesh() == before);
     REQUIRE(m.options().box_limits == limits);
-    REQUIRE(m.input().facets.size() == 1);
+    REQUIRE(m.input().polygons.size() == 1);
   }
   void check_works() {
     m.update();
     m.check_invariants();
-    REQUIRE(m.mesh() == mesh_statically(m.input(), m.options()));
-    REQUIRE(m.mesh().vertices.size() > before.vertices.size());
+    REQUIRE(m.box_mesh() == mesh_statically(m.input(), m.options()));
+    REQUIRE(m.box_mesh().vertices.size() > before.vertices.size());
   }
 
-  Mesher m{{.domain = {{0, 0, 0}, {2, 2, 2}}}, mesher::Extent::box};
+  Mesher m{Options<3>{.domain = {{0, 0, 0}, {2, 2, 2}}, .extent = mesher::Extent::box}};
   Mesh<3> before;
   mesher::AllBoxLimits<3> limits;
 };

@@ -12,8 +12,9 @@
 
 namespace {
 
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Point;
+using mesher::PointId;
 using mesher::detail::MeshBox;
 using mesher::detail::PieceRef;
 using mesher::detail::Vertex;
@@ -72,14 +73,14 @@ class TracedSplits {
   TracedSplits() { engine_->run<split_all>(); }
   ~TracedSplits() { engine_.reset(); }
 
-  void insert(FeatureId id, const Point<2>& p) {
+  void insert(PointId id, const Point<2>& p) {
     Vertex<2>& v = world_->vertices.add_input(p, false);
     world_->vertices.touch(v);
     engine_->on_rollback([&v] { v.input = false; });
     points_[id] = &v;
     world_->features.insert(v);
   }
-  void remove(FeatureId id) {
+  void remove(PointId id) {
     Vertex<2>& v = *points_.at(id);
     points_.erase(id);
     world_->vertices.touch(v);
@@ -87,12 +88,12 @@ class TracedSplits {
     v.input = false;
     world_->features.erase(v);
   }
-  void insert_segment(FeatureId, FeatureId a, FeatureId b) {
+  void insert_segment(LineId, PointId a, PointId b) {
     const PieceRef all = world_->segments.insert(points_.at(a)->self, points_.at(b)->self);
     world_->splits.post_from_outside<mesher::detail::split_segment>(
         mesher::detail::split_segment_key(box_, all), all);
   }
-  void remove_segment(FeatureId a, FeatureId b) {
+  void remove_segment(PointId a, PointId b) {
     world_->splits.retract_from_outside<mesher::detail::split_segment>(
         world_->segments.erase(points_.at(a)->self, points_.at(b)->self));
   }
@@ -125,15 +126,15 @@ class TracedSplits {
   std::unique_ptr<sac::Engine> engine_ = std::make_unique<sac::Engine>();
   std::unique_ptr<World<sac::Scope>> world_ =
       std::make_unique<World<sac::Scope>>(PslgEditor::options(), box_, *engine_);
-  std::map<FeatureId, Vertex<2>*> points_, updated_;
+  std::map<PointId, Vertex<2>*> points_, updated_;
 };
 
 // Edits that only change the Pslg.
 struct Nobody {
-  void insert(FeatureId, const Point<2>&) {}
-  void remove(FeatureId) {}
-  void insert_segment(FeatureId, FeatureId, FeatureId) {}
-  void remove_segment(FeatureId, FeatureId) {}
+  void insert(PointId, const Point<2>&) {}
+  void remove(PointId) {}
+  void insert_segment(LineId, PointId, PointId) {}
+  void remove_segment(PointId, PointId) {}
 };
 
 constexpr PslgEditor::Family kFamilies[] = {PslgEditor::Family::uniform,

@@ -122,7 +122,8 @@ TEST_CASE("an area holds what lies in it, in the cell and in all cells above") {
 }
 
 // Clusters of clusters: cells of all levels, with queries that look far beyond them and not at all.
-TEST_CASE("queries in the smallest of cells are found by where they look, and few cells are asked") {
+TEST_CASE(
+    "queries in the smallest of cells are found by where they look, and few cells are asked") {
   const MeshBox<2> box{.lo = {-16, -16}, .side = 32};
   SplitMix64 random(13);
   INFO("seed 13");

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "failing_new.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace {
 

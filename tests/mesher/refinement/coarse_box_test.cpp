@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "mesher/generate.hpp"
-#include "mesher/generate_plc.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/mesher.hpp"
 #include "refined_complex.hpp"
 #include "refinement/from_points.hpp"
@@ -95,19 +94,19 @@ TEMPLATE_TEST_CASE_SIG("bounds stronger than the default have the whole box from
 
 TEMPLATE_TEST_CASE_SIG("a small complex that encloses what is refined has the coarsest box", "",
                        ((support::By B), B), support::By::svr, support::By::refine) {
-  const auto boundary_of = [](const mesher::Plc& plc, mesher::Extent extent) {
+  const auto boundary_of = [](const mesher::Graph<3>& plc, mesher::Extent extent) {
     return on_boundary<3>(support::mesh_of<B>(plc, support::options_for(plc), extent));
   };
-  const auto grid_of = [](const mesher::Plc& plc, int steps) {
+  const auto grid_of = [](const mesher::Graph<3>& plc, int steps) {
     return of_grid<3>(mesher::detail::mesh_box(support::options_for(plc)), steps);
   };
   const auto cube = mesher::generate_plc({mesher::PlcKind::cube});
   CHECK(boundary_of(cube, mesher::Extent::enclosed) == grid_of(cube, 2));
   CHECK(boundary_of(cube, mesher::Extent::box) == grid_of(cube, 4));
 
-  mesher::Plc open = mesher::generate_plc({mesher::PlcKind::cloud, 50});
+  mesher::Graph<3> open = mesher::generate_plc({mesher::PlcKind::cloud, 50});
   CHECK(boundary_of(open, mesher::Extent::enclosed) == grid_of(open, 2));
-  open.facets.pop_back();
+  open.polygons.pop_back();
   CHECK(boundary_of(open, mesher::Extent::enclosed) == grid_of(open, 4));
   const auto cloud = mesher::generate_plc({mesher::PlcKind::cloud, 1200});
   CHECK(boundary_of(cloud, mesher::Extent::enclosed) == grid_of(cloud, 4));

@@ -9,23 +9,24 @@
 #include <string>
 #include <vector>
 
+#include "facade/graph_runs.hpp"
 #include "failing_new.hpp"
-#include "mesher/domain_mesh.hpp"
-#include "mesher/generate_plc.hpp"
-#include "mesher/space_check.hpp"
-#include "mesher/space_files.hpp"
+#include "mesher/check.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/write.hpp"
 #include "random_complex.hpp"
 #include "refined_complex.hpp"
 
 namespace {
 
 using mesher::Extent;
-using mesher::FeatureId;
+using mesher::Graph;
 using mesher::Mesh;
 using mesher::Options;
-using mesher::Plc;
 using mesher::PlcKind;
 using mesher::Point;
+using mesher::PointId;
 using support::By;
 using support::fault;
 using support::id;
@@ -34,33 +35,31 @@ using support::options_for;
 using support::plc_of;
 
 // With other ids, and all in another order.
-Plc shuffled(const Plc& plc) {
+Graph<3> shuffled(const Graph<3>& plc) {
   std::mt19937_64 random(7);
-  Plc other = plc;
-  const auto renamed = [](FeatureId& id) {
-    id = FeatureId{1000 - 3 * static_cast<std::int64_t>(id)};
-  };
+  Graph<3> other = plc;
+  const auto renamed = [](PointId& id) { id = PointId{1000 - 3 * static_cast<std::int64_t>(id)}; };
   std::shuffle(other.points.begin(), other.points.end(), random);
-  std::shuffle(other.facets.begin(), other.facets.end(), random);
+  std::shuffle(other.polygons.begin(), other.polygons.end(), random);
   std::shuffle(other.segments.begin(), other.segments.end(), random);
   for (auto& p : other.points) renamed(p.id);
   for (auto& s : other.segments) {
     std::swap(s.from, s.to);
     renamed(s.from), renamed(s.to);
   }
-  for (auto& f : other.facets) {
-    for (auto& loop : f.polygon.loops) {
+  for (auto& f : other.polygons) {
+    for (auto& loop : f.loops) {
       std::rotate(loop.begin(), loop.begin() + 1, loop.end());
       for (auto& corner : loop) renamed(corner);
     }
-    for (auto& edge : f.polygon.edges) renamed(edge[0]), renamed(edge[1]);
-    for (auto& point : f.polygon.points) renamed(point);
+    for (auto& edge : f.edges) renamed(edge[0]), renamed(edge[1]);
+    for (auto& point : f.points) renamed(point);
   }
   return other;
 }
 
 // About the axes, by any angles.
-void turn(Plc& plc, std::mt19937_64& random) {
+void turn(Graph<3>& plc, std::mt19937_64& random) {
   for (std::size_t k = 0; k < 3; ++k) {
     const double angle = std::uniform_real_distribution<double>(0, 6)(random);
     const auto turn_one = [&](Point<3>& p) {
@@ -69,7 +68,7 @@ void turn(Plc& plc, std::mt19937_64& random) {
       p[(k + 1) % 3] = std::sin(angle) * x + std::cos(angle) * y;
     };
     for (auto& point : plc.points) turn_one(point.at);
-    for (auto& hole : plc.holes) turn_one(hole.seed);
+    for (auto& seed : plc.seeds) turn_one(seed.at);
   }
 }
 
@@ -133,7 +132,7 @@ TEMPLATE_TEST_CASE_SIG("complexes of all families are in their meshes, and these
     for (const Extent extent : {Extent::enclosed, Extent::box}) {
       if (*kind == PlcKind::bricks && extent == Extent::box) continue;  // large
       INFO(name << (extent == Extent::box ? " in the box" : ""));
-      const Plc plc = mesher::generate_plc({*kind});
+      const Graph<3> plc = mesher::generate_plc({*kind});
       CHECK(fault(mesh_of<B>(plc, options_for(plc), extent), plc, extent) == "");
     }
   }
@@ -149,7 +148,7 @@ TEMPLATE_TEST_CASE_SIG("so it is of complexes in no frame of the axes, near each
   };
   for (const auto& [name, parameter] : kFamilies) {
     INFO(name << ' ' << parameter);
-    const Plc plc = plc_of(turned(support::complex_of(name, parameter)));
+    const Graph<3> plc = plc_of(turned(support::complex_of(name, parameter)));
     CHECK(fault(mesh_of<B>(plc, options_for(plc)), plc, Extent::box) == "");
   }
 }
@@ -161,7 +160,7 @@ TEMPLATE_TEST_CASE_SIG("so it is at random corners, however sharp", "", ((By B),
     for (int kind = 0; kind < support::RandomComplex::kKinds; ++kind) {
       for (int n = 0; n < 8; ++n) {
         INFO("seed " << seed << ", kind " << kind << ", " << n);
-        const Plc plc = plc_of(random.part({0, 0, 0}, kind));
+        const Graph<3> plc = plc_of(random.part({0, 0, 0}, kind));
         const Options<3> options{.domain = {{0, 0, 0}, {1, 1, 1}}, .max_vertices = 20000};
         CHECK(fault(mesh_of<B>(plc, options), plc, Extent::box) == "");
       }
@@ -175,7 +174,7 @@ TEMPLATE_TEST_CASE_SIG("so it is of many random complexes", "[soak]", ((By B), B
   for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
     INFO("seed " << seed);
     const Scattered parts(seed);
-    const Plc plc = plc_of(parts.all);
+    const Graph<3> plc = plc_of(parts.all);
     const Options<3> options{.domain = parts.domain(), .max_vertices = 60000};
     try {
       const std::string said = fault(mesh_of<B>(plc, options), plc, Extent::box, parts.rho());
@@ -198,7 +197,7 @@ int refused_in_walls(std::uint64_t first_seed, std::uint64_t last_seed) {
     INFO("seed " << seed);
     Scattered parts(seed);
     parts.add_walls(std::ldexp(1.0, -static_cast<int>(seed % 8)));
-    const Plc plc = plc_of(parts.all);
+    const Graph<3> plc = plc_of(parts.all);
     Options<3> options = options_for(plc);
     options.max_vertices = 60000;
     try {
@@ -227,7 +226,7 @@ TEMPLATE_TEST_CASE_SIG("a mesh of a complex depends on no order, and on no ids",
                        By::svr, By::refine) {
   for (const char* name : {"lhole", "wedge", "vee", "fan"}) {
     INFO(name);
-    const Plc plc = plc_of(turned(support::complex_of(name, name[0] == 'l' ? 0 : 5)));
+    const Graph<3> plc = plc_of(turned(support::complex_of(name, name[0] == 'l' ? 0 : 5)));
     const Mesh<3> mesh = mesh_of<B>(plc, options_for(plc), Extent::enclosed);
     CHECK(mesh_of<B>(shuffled(plc), options_for(plc), Extent::enclosed) == mesh);
   }
@@ -235,7 +234,7 @@ TEMPLATE_TEST_CASE_SIG("a mesh of a complex depends on no order, and on no ids",
 
 TEMPLATE_TEST_CASE_SIG("what is not wanted is not refined: the outside, and holes", "", ((By B), B),
                        By::svr, By::refine) {
-  Plc plc = mesher::generate_plc({PlcKind::nested, 0.02});
+  Graph<3> plc = mesher::generate_plc({PlcKind::nested, 0.02});
   const Options<3> options = options_for(plc);
   const Mesh<3> all = mesh_of<B>(plc, options),
                 enclosed = mesh_of<B>(plc, options, Extent::enclosed);
@@ -243,18 +242,18 @@ TEMPLATE_TEST_CASE_SIG("what is not wanted is not refined: the outside, and hole
   CHECK(poor_ones(enclosed) > 0);
   CHECK(enclosed.vertices.size() < all.vertices.size());
   const Point<3> middle{0.5, 0.5, 0.5};
-  plc.holes.push_back({id(0), middle});
+  plc.seeds.push_back(mesher::hole_seed<3>(0, middle));
   const Mesh<3> shell = mesh_of<B>(plc, options, Extent::enclosed);
   CHECK(shell.vertices.size() < enclosed.vertices.size());
   CHECK(fault(shell, plc, Extent::enclosed) == "");
   for (const Point<3>& p : {Point<3>{0.5, 0.5, 0.02}, Point<3>{0.5, 0.02, 0.02},
                             Point<3>{0.02, 0.02, 0.02}, Point<3>{50, 50, 50}}) {
-    plc.holes[0].seed = p;  // on a polygon, on its edge, on its corner, in no region
+    plc.seeds.back().at = p;  // on a polygon, on its edge, on its corner, in no region
     CHECK(mesh_of<B>(plc, options, Extent::enclosed) == enclosed);
   }
   // Nothing is enclosed: then all is wanted.
   plc = mesher::generate_plc({PlcKind::vee});
-  plc.facets.clear();
+  plc.polygons.clear();
   CHECK(mesh_of<B>(plc, options_for(plc), Extent::enclosed) == mesh_of<B>(plc, options_for(plc)));
 }
 
@@ -263,7 +262,7 @@ TEMPLATE_TEST_CASE_SIG("wherever a hole on a turned polygon counts to, what is k
                        ((By B), B), By::svr, By::refine) {
   std::mt19937_64 random(11);
   for (int i = 0; i < 12; ++i) {
-    Plc plc = mesher::generate_plc({PlcKind::nested, 0.4});
+    Graph<3> plc = mesher::generate_plc({PlcKind::nested, 0.4});
     const auto add = [&](const Point<3>& p) {
       plc.points.push_back({id(plc.points.size()), p, 0});
     };
@@ -271,7 +270,7 @@ TEMPLATE_TEST_CASE_SIG("wherever a hole on a turned polygon counts to, what is k
       add({0.41 + 0.001 * k * k, 0.5, 0.5});
       add({0.1 + 0.002 * k * k, 0.1, 0.1});
     }
-    plc.holes.push_back({id(0), {0.5, 0.5, 0.4}});
+    plc.seeds.push_back(mesher::hole_seed<3>(0, {0.5, 0.5, 0.4}));
     turn(plc, random);
     INFO("turn " << i);
     CHECK(fault(mesh_of<B>(plc, options_for(plc), Extent::enclosed), plc, Extent::enclosed) == "");
@@ -279,8 +278,8 @@ TEMPLATE_TEST_CASE_SIG("wherever a hole on a turned polygon counts to, what is k
 }
 
 TEMPLATE_TEST_CASE_SIG("what cannot be meshed is refused", "", ((By B), B), By::svr, By::refine) {
-  const Plc plc = mesher::generate_plc({PlcKind::cube_square});
-  const auto refusal = [&](const Plc& bad, auto&& change) {
+  const Graph<3> plc = mesher::generate_plc({PlcKind::cube_square});
+  const auto refusal = [&](const Graph<3>& bad, auto&& change) {
     Options<3> options = options_for(plc);
     change(options);
     try {
@@ -295,11 +294,11 @@ TEMPLATE_TEST_CASE_SIG("what cannot be meshed is refused", "", ((By B), B), By::
   CHECK(refusal(plc, [](auto& o) { o.max_measure = 1; }) == "bad_option");
   CHECK(refusal(plc, [](auto& o) { o.rule = mesher::Rule::voronoi_aspect; }) == "bad_option");
   CHECK(refusal(plc, [](auto& o) { o.max_vertices = 110; }) == "too_many");
-  Plc bad = plc;
+  Graph<3> bad = plc;
   bad.points[0].at[0] += 0.1;
   CHECK(refusal(bad, same) == "not_flat");
   bad = plc;
-  bad.facets[0].polygon.loops[0][0] = FeatureId{99};
+  bad.polygons[0].loops[0][0] = PointId{99};
   CHECK(refusal(bad, same) == "unknown_id");
   std::stop_source stop;
   stop.request_stop();
@@ -310,7 +309,7 @@ TEMPLATE_TEST_CASE_SIG("what cannot be meshed is refused", "", ((By B), B), By::
 
 TEMPLATE_TEST_CASE_SIG("without memory a mesh of a complex fails, and nothing is lost", "",
                        ((By B), B), By::svr, By::refine) {
-  const Plc plc = mesher::generate_plc({PlcKind::dumbbell});
+  const Graph<3> plc = mesher::generate_plc({PlcKind::dumbbell});
   const Options<3> options = options_for(plc);
   const Mesh<3> mesh = mesh_of<B>(plc, options);
   bool burnt = true;
@@ -325,7 +324,7 @@ TEMPLATE_TEST_CASE_SIG("without memory a mesh of a complex fails, and nothing is
 }
 
 TEST_CASE("what happened in a run on a complex is told") {
-  const Plc plc = mesher::generate_plc({PlcKind::cloud, 200});
+  const Graph<3> plc = mesher::generate_plc({PlcKind::cloud, 200});
   mesher::SvrStats svr;
   const Mesh<3> mesh = mesher::svr(plc, options_for(plc), Extent::box, {}, &svr);
   CHECK(svr.vertices == mesh.vertices.size());

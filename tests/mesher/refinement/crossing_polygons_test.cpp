@@ -6,12 +6,12 @@
 #include <random>
 #include <vector>
 
-#include "mesher/space_repair.hpp"
+#include "mesher/repair.hpp"
 #include "refined_complex.hpp"
 
 namespace {
 
-using mesher::Plc;
+using mesher::Graph;
 using support::By;
 using Triangle = std::array<std::array<int, 3>, 3>;  // in quarters
 
@@ -54,7 +54,7 @@ std::vector<Triangle> random_triangles(std::mt19937_64& random) {
   return all;
 }
 
-Plc repaired(const std::vector<Triangle>& triangles, double unit) {
+Graph<3> repaired(const std::vector<Triangle>& triangles, double unit) {
   support::Complex all;
   for (const Triangle& t : triangles) {
     std::vector<std::size_t> loop;
@@ -64,12 +64,12 @@ Plc repaired(const std::vector<Triangle>& triangles, double unit) {
     }
     all.faces.push_back({{loop}, {}});
   }
-  return mesher::repair(support::plc_of(all)).file.plc;
+  return mesher::repair(support::plc_of(all)).file.graph;
 }
 
 // Without quality: check excuses fewer of those that small angles leave.
 template <By B>
-void require_meshed(const Plc& plc) {
+void require_meshed(const Graph<3>& plc) {
   const auto mesh = support::mesh_of<B>(plc, support::options_for(plc));
   CHECK(support::fault(mesh, plc, mesher::Extent::box, std::nullopt) == "");
 }
@@ -84,7 +84,7 @@ TEMPLATE_TEST_CASE_SIG("three polygons that cross in one point are in the mesh",
   int refused = 0;
   for (int i = 0; i < 120; ++i) {
     INFO("input " << i);
-    const Plc plc = repaired(random_triangles(random), i % 3 == 0 ? 0x1p-12 : 0.25);
+    const Graph<3> plc = repaired(random_triangles(random), i % 3 == 0 ? 0x1p-12 : 0.25);
     try {
       require_meshed<B>(plc);
     } catch (const mesher::Error& e) {

@@ -1,24 +1,23 @@
 // Flat tetrahedra are taken out, and all else of the mesh still holds.
-#include "mesher/flat.hpp"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "facade/graph_runs.hpp"
+#include "mesher/check.hpp"
 #include "mesher/delaunay.hpp"
-#include "mesher/domain_mesh.hpp"
-#include "mesher/generate_plc.hpp"
-#include "mesher/space_check.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/improve.hpp"
+#include "mesher/meshing.hpp"
 
 namespace {
 
-using mesher::FeatureId;
 using mesher::Finding;
+using mesher::Graph;
 using mesher::Mesh;
 using mesher::Options;
-using mesher::Plc;
 using mesher::PlcKind;
 using mesher::Point;
 
@@ -35,14 +34,13 @@ Point<3> turned(const Point<3>& p) {
   return q;
 }
 
-Plc turned(Plc plc) {
+Graph<3> turned(Graph<3> plc) {
   for (auto& point : plc.points) point.at = turned(point.at);
-  for (auto& hole : plc.holes) hole.seed = turned(hole.seed);
-  for (auto& region : plc.regions) region.seed = turned(region.seed);
+  for (auto& seed : plc.seeds) seed.at = turned(seed.at);
   return plc;
 }
 
-Mesh<3> mesh_of(const Plc& plc) {
+Mesh<3> mesh_of(const Graph<3>& plc) {
   return mesh_statically(plc, {.domain = mesher::snapped_domain<3>(places_of(plc))});
 }
 
@@ -54,13 +52,13 @@ std::string first_fault(const std::vector<Finding>& findings) {
 }
 
 // Tetrahedra, features, regions, and that they are Delaunay but for rounding.
-std::string fault(const Mesh<3>& mesh, const Plc& plc) {
-  mesher::PlcFile complex;
-  complex.plc = plc;
-  const auto kept = domain_mesh(mesh, plc, mesher::Extent::box).kept;
-  mesher::SpaceCheckOptions options;
+std::string fault(const Mesh<3>& mesh, const Graph<3>& plc) {
+  mesher::GraphFile<3> complex;
+  complex.graph = plc;
+  const auto kept = domain_mesh(mesh, plc, mesher::Extent::box).mesh;
+  mesher::CheckOptions<3> options;
   options.rho = 2;
-  options.complex = &complex;
+  options.graph = &complex;
   options.features = &kept.features;
   options.boundary = mesher::BoundaryRule::box;
   options.near_delaunay = true;
@@ -93,7 +91,7 @@ TEST_CASE("families, plain and turned, lose their flat tetrahedra, and hold") {
     const auto kind = *mesher::plc_kind(name);
     if (kind == PlcKind::bricks || kind == PlcKind::cloud || kind == PlcKind::faults) continue;
     for (const bool turn : {false, true}) {
-      const Plc plain = mesher::generate_plc({kind}), plc = turn ? turned(plain) : plain;
+      const Graph<3> plain = mesher::generate_plc({kind}), plc = turn ? turned(plain) : plain;
       const Mesh<3> before = mesh_of(plc);
       const mesher::Unflattened after = mesher::without_flat_tetrahedra(before);
       INFO(name << (turn ? " turned" : ""));
@@ -121,7 +119,7 @@ TEST_CASE("stacks of flat tetrahedra go one by one") {
     INFO(corners << " corners");
     CHECK(after.left == 0);
     CHECK(after.mesh.simplices.size() == 2 * (corners - 2));
-    mesher::SpaceCheckOptions options;
+    mesher::CheckOptions<3> options;
     options.boundary = mesher::BoundaryRule::any;
     options.near_delaunay = true;
     CHECK(first_fault(check_mesh(after.mesh, options)) == "");
@@ -133,7 +131,7 @@ TEST_CASE("a flat tetrahedron whose edges are all needed stays") {
   REQUIRE(mesher::without_flat_tetrahedra(mesh).removed > 0);
   for (std::uint32_t a = 0; a < mesh.vertices.size(); ++a) {
     for (std::uint32_t b = a + 1; b < mesh.vertices.size(); ++b) {
-      mesh.edges.push_back({a, b, FeatureId{1}});
+      mesh.edges.push_back({a, b, mesher::LineId{1}});
     }
   }
   const mesher::Unflattened after = mesher::without_flat_tetrahedra(mesh);

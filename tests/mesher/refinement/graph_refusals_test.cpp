@@ -5,16 +5,15 @@
 #include <string>
 
 #include "failing_new.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "refined_graph.hpp"
 
 namespace {
 
 using mesher::Extent;
-using mesher::FeatureId;
+using mesher::Graph;
 using mesher::Mesh;
 using mesher::Options;
-using mesher::Pslg;
 using mesher::PslgKind;
 using support::By;
 using support::fault;
@@ -30,13 +29,13 @@ using support::Refusal;
 
 TEMPLATE_TEST_CASE_SIG("at angles below double precision it ends, or names who is to blame", "",
                        ((By B), B), By::svr, By::refine) {
-  const Pslg two = mesher::generate_pslg({PslgKind::fan, 2, 1, 1e-8});
+  const Graph<2> two = mesher::generate_pslg({PslgKind::fan, 2, 1, 1e-8});
   CHECK(fault(mesh_of<B>(two, options_for(two)), two, Extent::box) == "");
   int fine = 0, lost = 0;
   for (double angle = 1e-5; angle > 1e-10; angle *= 0.37) {
     for (const std::size_t legs : {2u, 3u, 6u, 12u}) {
       INFO(legs << " legs at " << angle);
-      const Pslg graph = mesher::generate_pslg({PslgKind::fan, legs, 1, angle});
+      const Graph<2> graph = mesher::generate_pslg({PslgKind::fan, legs, 1, angle});
       const Refusal refused = refusal<B>(graph, options_for(graph));
       if (refused.code.empty()) {
         ++fine;
@@ -55,7 +54,7 @@ TEMPLATE_TEST_CASE_SIG("at angles below double precision it ends, or names who i
 
 TEMPLATE_TEST_CASE_SIG("graphs that cannot be meshed are refused, by name", "", ((By B), B),
                        By::svr, By::refine) {
-  const Pslg graph = frame();
+  const Graph<2> graph = frame();
   const auto changed = [&](auto&& change) {
     Options<2> options = options_for(graph);
     change(options);
@@ -67,22 +66,23 @@ TEMPLATE_TEST_CASE_SIG("graphs that cannot be meshed are refused, by name", "", 
   CHECK(changed([](auto& o) { o.rule = mesher::Rule::voronoi_aspect; }) == "bad_option");
   CHECK(changed([](auto& o) { o.domain = {{0, 0}, {0.5, 1}}; }) == "outside_domain");
   const auto edited = [&](auto&& edit) {
-    Pslg bad = graph;
+    Graph<2> bad = graph;
     edit(bad);
     return refusal<B>(bad, options_for(graph));
   };
-  const auto add = [](Pslg& g, std::size_t a, std::size_t b) {
-    g.segments.push_back({FeatureId{77}, id_at(a), id_at(b), 0});
+  const auto add = [](Graph<2>& g, std::size_t a, std::size_t b) {
+    g.segments.push_back({mesher::LineId{77}, id_at(a), id_at(b), 0});
   };
-  const Refusal crossing = edited([&](Pslg& g) { add(g, 0, 2); });
+  const Refusal crossing = edited([&](Graph<2>& g) { add(g, 0, 2); });
   CHECK(crossing.code == "point_on_segment");
   CHECK(crossing.ids.size() == 2);
-  CHECK(edited([&](Pslg& g) { add(g, 3, 4), add(g, 0, 7), g.segments.back().id = id_at(77); }).code ==
-        "crossing_segments");
-  CHECK(edited([&](Pslg& g) { add(g, 0, 1); }).code == "repeated_segment");
-  CHECK(edited([&](Pslg& g) { add(g, 0, 99); }).code == "unknown_id");
-  CHECK(edited([&](Pslg& g) { add(g, 3, 3); }).code == "zero_length");
-  const Pslg bundle = mesher::generate_pslg({PslgKind::bundle, 8, 1, 1.0});
+  CHECK(edited([&](Graph<2>& g) {
+          add(g, 3, 4), add(g, 0, 7), g.segments.back().id = id_at(77);
+        }).code == "crossing_segments");
+  CHECK(edited([&](Graph<2>& g) { add(g, 0, 1); }).code == "repeated_segment");
+  CHECK(edited([&](Graph<2>& g) { add(g, 0, 99); }).code == "unknown_id");
+  CHECK(edited([&](Graph<2>& g) { add(g, 3, 3); }).code == "zero_length");
+  const Graph<2> bundle = mesher::generate_pslg({PslgKind::bundle, 8, 1, 1.0});
   Options<2> few = options_for(bundle);
   few.max_vertices = 300;
   const Refusal too_many = refusal<B>(bundle, few);
@@ -95,14 +95,14 @@ TEMPLATE_TEST_CASE_SIG("graphs that cannot be meshed are refused, by name", "", 
   int reports = 0;
   const mesher::RunControl third{.progress = [&](const auto&) { return ++reports < 3; },
                                  .stop = {}};
-  const Pslg many = mesher::generate_pslg({PslgKind::segments, 500});
+  const Graph<2> many = mesher::generate_pslg({PslgKind::segments, 500});
   CHECK(refusal<B>(many, options_for(many), third).code == "cancelled");
   CHECK(reports == 3);
 }
 
 TEMPLATE_TEST_CASE_SIG("without memory a mesh of a graph fails, and nothing is lost", "",
                        ((By B), B), By::svr, By::refine) {
-  const Pslg graph = frame();
+  const Graph<2> graph = frame();
   const Options<2> options = options_for(graph);
   const Mesh<2> mesh = mesh_of<B>(graph, options, Extent::enclosed);
   bool burnt = true;
@@ -118,7 +118,7 @@ TEMPLATE_TEST_CASE_SIG("without memory a mesh of a graph fails, and nothing is l
 }
 
 TEST_CASE("what happened in a run on a graph is told") {
-  const Pslg graph = mesher::generate_pslg({PslgKind::segments, 200});
+  const Graph<2> graph = mesher::generate_pslg({PslgKind::segments, 200});
   mesher::SvrStats svr;
   const Mesh<2> mesh = mesher::svr(graph, options_for(graph), Extent::box, {}, &svr);
   CHECK(svr.vertices == mesh.vertices.size());

@@ -5,16 +5,16 @@
 #include <random>
 #include <string>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "pslg_judge.hpp"
 #include "refined_graph.hpp"
 
 namespace {
 
 using mesher::Extent;
+using mesher::Graph;
 using mesher::Mesh;
 using mesher::Options;
-using mesher::Pslg;
 using mesher::PslgKind;
 using support::By;
 using support::fault;
@@ -30,7 +30,7 @@ constexpr Family kFamilies[] = {Family::uniform, Family::lattice, Family::beside
                                 Family::wedge};
 
 // `said`, if the mesh by gap-balls is as wrong about the same line; else nothing.
-std::string cut_line(const Pslg& graph, const Options<2>& options, const std::string& said) {
+std::string cut_line(const Graph<2>& graph, const Options<2>& options, const std::string& said) {
   const std::string of_other =
       fault(mesher::mesh_statically(graph, options), graph, Extent::enclosed);
   const auto line = [](const std::string& text) { return text.substr(0, text.find(" from ")); };
@@ -46,7 +46,7 @@ TEMPLATE_TEST_CASE_SIG("random graphs are in their meshes, and these of quality"
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
       INFO("family " << static_cast<int>(family) << ", seed " << seed);
       const support::Pslg random = random_graph(family, seed, seed % 2 == 0 ? 40 : 150);
-      const Pslg graph = graph_of(random);
+      const Graph<2> graph = graph_of(random);
       const Options<2> options = random_options();
       if (family == Family::beside && refusal<B>(graph, options).code == "too_many") continue;
       const Mesh<2> all = mesh_of<B>(graph, options);
@@ -67,7 +67,7 @@ TEMPLATE_TEST_CASE_SIG(
     INFO("seed " << seed);
     std::mt19937_64 random(seed);
     const int edits = 20 + static_cast<int>(random() % 200);
-    Pslg graph = graph_of(random_graph(kFamilies[seed % 5], seed, edits));
+    Graph<2> graph = graph_of(random_graph(kFamilies[seed % 5], seed, edits));
     const double scale = std::ldexp(1.0, static_cast<int>(random() % 60) - 30);
     const double offset = random() % 2 == 0 ? 0 : 1024 * static_cast<double>(random() % 2 + 1);
     for (auto& p : graph.points) {
@@ -100,7 +100,7 @@ TEMPLATE_TEST_CASE_SIG("so it is of all families of graphs", "", ((By B), B), By
     INFO(name);
     // Nearly parallel lines ask for many vertices.
     const bool many = name == "corridors" || name == "zigzag" || name == "bundle";
-    const Pslg graph = mesher::generate_pslg({*mesher::pslg_kind(name), many ? 20u : 300u});
+    const Graph<2> graph = mesher::generate_pslg({*mesher::pslg_kind(name), many ? 20u : 300u});
     for (const Extent extent : {Extent::box, Extent::enclosed}) {
       CHECK(fault(mesh_of<B>(graph, options_for(graph), extent), graph, extent) == "");
     }
@@ -113,7 +113,7 @@ TEMPLATE_TEST_CASE_SIG("segments that meet at small angles end", "", ((By B), B)
     for (const std::size_t legs : {2u, 3u, 6u}) {
       for (const PslgKind kind : {PslgKind::fan, PslgKind::bundle}) {
         INFO(angle << " degrees, " << legs << " legs, kind " << static_cast<int>(kind));
-        const Pslg graph = mesher::generate_pslg({kind, legs, 1, angle});
+        const Graph<2> graph = mesher::generate_pslg({kind, legs, 1, angle});
         const Mesh<2> mesh = mesh_of<B>(graph, options_for(graph));
         CHECK(fault(mesh, graph, Extent::box) == "");
         CHECK(mesh.vertices.size() < 2000);

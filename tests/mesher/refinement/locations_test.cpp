@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/predicates.hpp"
 #include "refinement/ball_location.hpp"
 #include "refinement/shell_lists.hpp"

@@ -1,11 +1,11 @@
 // Traditional refinement: what it alone has. (Its meshes: refinements_test.cpp.)
-#include "mesher/refine.hpp"
+#include "refinement/refine.hpp"
 
 #include <catch2/catch.hpp>
 #include <vector>
 
 #include "mesher/delaunay.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 
 namespace {
 

@@ -10,9 +10,9 @@
 #include "delaunay_case.hpp"
 #include "failing_new.hpp"
 #include "mesher/delaunay.hpp"
-#include "mesher/refine.hpp"
-#include "mesher/svr.hpp"
 #include "refined_case.hpp"
+#include "refinement/refine.hpp"
+#include "refinement/svr.hpp"
 #include "space_points.hpp"
 
 namespace {
@@ -50,7 +50,7 @@ constexpr mesher::PointLocation location(By by) {
 
 template <int D, By B>
 Mesh<D> mesh_of(const std::vector<Point<D>>& points, const Options<D>& options,
-                const std::vector<mesher::FeatureId>& ids = {},
+                const std::vector<mesher::PointId>& ids = {},
                 const mesher::RunControl& control = {}) {
   if (B == By::svr || location(B) != mesher::PointLocation::voronoi) {
     return mesher::svr<D>(points, options, {.location = location(B)}, ids, nullptr, control);
@@ -210,9 +210,9 @@ TEMPLATE_TEST_CASE_SIG("a refinement refuses what gap balls refuse, by name", ""
   rule.rule = mesher::Rule::voronoi_aspect;
   CHECK(refusal<3, B>({}, rule) == ErrorCode::bad_option);
   try {
-    static_cast<void>(
-        mesh_of<2, B>({{0.5, 0.5}, {0.25, 0.25}, {0.25, 0.25}}, {.domain = {{0, 0}, {1, 1}}},
-                      {mesher::FeatureId{7}, mesher::FeatureId{9}, mesher::FeatureId{8}}));
+    static_cast<void>(mesh_of<2, B>({{0.5, 0.5}, {0.25, 0.25}, {0.25, 0.25}},
+                                    {.domain = {{0, 0}, {1, 1}}},
+                                    {mesher::PointId{7}, mesher::PointId{9}, mesher::PointId{8}}));
     FAIL("not refused");
   } catch (const Error& e) {
     CHECK(std::string(e.what()).find("point 8 (0.25, 0.25) lies on point 9") != std::string::npos);

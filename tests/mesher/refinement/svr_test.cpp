@@ -1,12 +1,12 @@
 // Sparse Voronoi refinement: what it alone has. (Its meshes: refinements_test.cpp.)
-#include "mesher/svr.hpp"
+#include "refinement/svr.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>
 #include <vector>
 
 #include "mesher/delaunay.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "refined_case.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "refinement/work_queue.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/predicates.hpp"
 
 namespace {

@@ -8,30 +8,32 @@
 #include <random>
 #include <set>
 
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
 #include "geometry/segment_tests.hpp"
-#include "mesher/mesher.hpp"
 #include "repair/box_search.hpp"
 
 namespace {
 
-using mesher::FeatureId;
+using mesher::Graph;
+using mesher::LineId;
 using mesher::Point;
-using mesher::Pslg;
+using mesher::PointId;
 using mesher::repair;
 using mesher::Repaired;
 using mesher::RepairKind;
 using Exact = boost::multiprecision::int1024_t;
 
-FeatureId id(std::int64_t i) { return FeatureId{i}; }
+AnyId id(std::int64_t i) { return AnyId{i}; }
 
 using Piece = std::array<Point<2>, 2>;
 struct Pieces {
   std::vector<Piece> pieces;
-  std::vector<FeatureId> lines;
+  std::vector<LineId> lines;
 };
 
-Pieces pieces_of(const Pslg& g) {
-  std::map<FeatureId, Point<2>> at;
+Pieces pieces_of(const Graph<2>& g) {
+  std::map<PointId, Point<2>> at;
   for (const auto& p : g.points) at[p.id] = p.at;
   Pieces all;
   for (const auto& s : g.segments) {
@@ -80,7 +82,7 @@ bool exactly_meet(const Piece& s, const Piece& t) {
          exact_orientation(t[0], t[1], s[0]) * exact_orientation(t[0], t[1], s[1]) < 0;
 }
 
-void require_planar(const Pslg& g) {
+void require_planar(const Graph<2>& g) {
   const auto pieces = pieces_of(g).pieces;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     REQUIRE(pieces[i][0] != pieces[i][1]);
@@ -116,15 +118,16 @@ void require_covered(const std::vector<Piece>& these, const std::vector<Piece>& 
   REQUIRE(farthest <= most);
 }
 
-void require_distinct_ids(const Pslg& g) {
-  std::set<FeatureId> points, lines;
+void require_distinct_ids(const Graph<2>& g) {
+  std::set<PointId> points;
+  std::set<LineId> lines;
   for (const auto& p : g.points) REQUIRE(points.insert(p.id).second);
   for (const auto& s : g.segments) REQUIRE(lines.insert(s.id).second);
   for (const auto& line : g.polylines) REQUIRE(lines.insert(line.id).second);
 }
 
 // Without the order of its elements.
-Pslg sorted(Pslg g) {
+Graph<2> sorted(Graph<2> g) {
   const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
   std::sort(g.points.begin(), g.points.end(), by_id);
   std::sort(g.segments.begin(), g.segments.end(), by_id);
@@ -133,26 +136,26 @@ Pslg sorted(Pslg g) {
 }
 
 // A mesher takes it as it is.
-void require_meshable(const Pslg& g) {
+void require_meshable(const Graph<2>& g) {
   std::vector<Point<2>> points;
-  std::vector<FeatureId> ids;
+  std::vector<PointId> ids;
   for (const auto& p : g.points) points.push_back(p.at), ids.push_back(p.id);
-  mesher::Mesher<2> m({.domain = mesher::snapped_domain<2>(points), .max_vertices = 100000});
+  mesher::BoxMesher<2> m({.domain = mesher::snapped_domain<2>(points), .max_vertices = 100000});
   m.insert(ids, points);
   for (const auto& s : g.segments) m.insert_segment(s.id, s.from, s.to);
   for (const auto& line : g.polylines) m.insert_polyline(line.id, line.points);
   m.update();
 }
 
-double coordinate_unit(const Pslg& g) {
+double coordinate_unit(const Graph<2>& g) {
   double most = 0;
   for (const auto& p : g.points) most = std::max({most, std::abs(p.at[0]), std::abs(p.at[1])});
   return std::nextafter(most, 1e300) - most;
 }
 
 // What holds of every repaired graph.
-void require_repaired(const Pslg& g, const Repaired& repaired) {
-  const Pslg& now = repaired.file.pslg;
+void require_repaired(const Graph<2>& g, const Repaired<2>& repaired) {
+  const Graph<2>& now = repaired.file.graph;
   require_planar(now);
   require_distinct_ids(now);
   INFO(repaired.deviation / repaired.tolerance << " tolerances");
@@ -162,8 +165,8 @@ void require_repaired(const Pslg& g, const Repaired& repaired) {
   for (const auto& p : now.points) left.push_back({p.at, p.at});  // of what has no length
   require_covered(pieces_of(g).pieces, left, most);
   require_covered(pieces_of(now).pieces, pieces_of(g).pieces, most);
-  const Repaired again = repair(now);
-  REQUIRE(again.file.pslg == now);
+  const Repaired<2> again = repair(now);
+  REQUIRE(again.file.graph == now);
   REQUIRE(again.notes.empty());
   REQUIRE(again.deviation == 0);
 }
@@ -173,8 +176,8 @@ class Nasty {
  public:
   explicit Nasty(std::uint64_t seed) : random_(seed) {}
 
-  Pslg lattice(std::int64_t width, std::size_t points, std::size_t lines) {
-    Pslg g;
+  Graph<2> lattice(std::int64_t width, std::size_t points, std::size_t lines) {
+    Graph<2> g;
     for (std::size_t i = 0; i < points; ++i) {
       const Point<2> p{static_cast<double>(below(width)), static_cast<double>(below(width))};
       g.points.push_back({id(10 + static_cast<std::int64_t>(i)), p, 0});
@@ -186,14 +189,14 @@ class Nasty {
         g.segments.push_back({line, some(g), some(g), marker});
         continue;
       }
-      std::vector<FeatureId> along;
+      std::vector<PointId> along;
       for (std::int64_t k = 2 + below(4); k > 0; --k) along.push_back(some(g));
       if (below(2) == 0) along.push_back(along.front());
       g.polylines.push_back({line, along, marker});
     }
     return g;
   }
-  void shuffle(Pslg& g) {
+  void shuffle(Graph<2>& g) {
     std::shuffle(g.points.begin(), g.points.end(), random_);
     std::shuffle(g.segments.begin(), g.segments.end(), random_);
     std::shuffle(g.polylines.begin(), g.polylines.end(), random_);
@@ -204,19 +207,19 @@ class Nasty {
   double unit() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
 
  private:
-  FeatureId some(const Pslg& g) {
+  PointId some(const Graph<2>& g) {
     return g.points[static_cast<std::size_t>(below(static_cast<std::int64_t>(g.points.size())))].id;
   }
   std::mt19937_64 random_;
 };
 
-Pslg moved(Pslg g, double scale, double by) {
+Graph<2> moved(Graph<2> g, double scale, double by) {
   for (auto& p : g.points) p.at = {p.at[0] * scale + by, p.at[1] * scale + by / 2};
   return g;
 }
 
-Pslg two_crossing() {
-  Pslg g;
+Graph<2> two_crossing() {
+  Graph<2> g;
   g.points = {{id(1), {0, 0}, 0}, {id(2), {4, 4}, 0}, {id(3), {0, 4}, 0}, {id(4), {4, 0}, 0}};
   g.segments = {{id(7), id(1), id(2), 5}, {id(8), id(3), id(4), 6}};
   return g;
@@ -229,21 +232,21 @@ TEST_CASE("random lines on small lattices become planar, near what they were, fo
     INFO("seed " << seed);
     Nasty nasty(seed);
     const auto size = static_cast<std::size_t>(4 + nasty.below(20));
-    const Pslg g = nasty.lattice(2 + nasty.below(8), size, size);
-    const Repaired repaired = repair(g);
+    const Graph<2> g = nasty.lattice(2 + nasty.below(8), size, size);
+    const Repaired<2> repaired = repair(g);
     require_repaired(g, repaired);
-    require_meshable(repaired.file.pslg);
+    require_meshable(repaired.file.graph);
   }
 }
 
 TEST_CASE("a repair takes scales and places from one end of the range to the other") {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     Nasty nasty(seed);
-    const Pslg g = nasty.lattice(7, 14, 14);
+    const Graph<2> g = nasty.lattice(7, 14, 14);
     for (const double scale : {0x1p-90, 1e-20, 1 / 3.0, 1e20, 0x1p70}) {
       for (const double by : {0.0, 1.0, 1e3, 1e7}) {
         INFO("seed " << seed << " scale " << scale << " by " << by);
-        const Pslg there = moved(g, scale, by * scale);
+        const Graph<2> there = moved(g, scale, by * scale);
         require_repaired(there, repair(there));
       }
     }
@@ -254,11 +257,11 @@ TEST_CASE("what a repair makes depends on places and ids, not on the order of th
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     INFO("seed " << seed);
     Nasty nasty(seed);
-    Pslg g = moved(nasty.lattice(6, 16, 16), 1 / 3.0, 0.1);
-    const Repaired repaired = repair(g);
+    Graph<2> g = moved(nasty.lattice(6, 16, 16), 1 / 3.0, 0.1);
+    const Repaired<2> repaired = repair(g);
     nasty.shuffle(g);
-    const Repaired other = repair(g);
-    REQUIRE(sorted(other.file.pslg) == sorted(repaired.file.pslg));
+    const Repaired<2> other = repair(g);
+    REQUIRE(sorted(other.file.graph) == sorted(repaired.file.graph));
     REQUIRE(other.notes.size() == repaired.notes.size());
     for (std::size_t i = 0; i < other.notes.size(); ++i) {
       REQUIRE(other.notes[i].text() == repaired.notes[i].text());
@@ -270,7 +273,7 @@ TEST_CASE("long lines at tiny angles and bundles through one place end") {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     INFO("seed " << seed);
     Nasty nasty(seed);
-    Pslg g;
+    Graph<2> g;
     const double spread = std::pow(10, -15 * nasty.unit());
     for (std::int64_t i = 0; i < 24; ++i) {
       const bool bundle = seed % 2 == 0;
@@ -292,7 +295,7 @@ TEST_CASE("hubs through which many lines lead, and other lines, become planar in
     const std::int64_t hubs = 1 + nasty.below(3);
     std::vector<Point<2>> at;
     for (std::int64_t i = 0; i < hubs; ++i) at.push_back({nasty.unit(), nasty.unit()});
-    Pslg g;
+    Graph<2> g;
     for (std::int64_t i = 0; i < 70; ++i) {
       const Point<2>& hub = at[static_cast<std::size_t>(i % hubs)];
       const double angle = 3.14 * spread * nasty.unit();
@@ -303,16 +306,16 @@ TEST_CASE("hubs through which many lines lead, and other lines, become planar in
       g.points.push_back({id(2 * i + 1), b, 0});
       g.segments.push_back({id(i), id(2 * i), id(2 * i + 1), 0});
     }
-    const Repaired repaired = repair(g);
+    const Repaired<2> repaired = repair(g);
     require_repaired(g, repaired);
     nasty.shuffle(g);
-    REQUIRE(sorted(repair(g).file.pslg) == sorted(repaired.file.pslg));
+    REQUIRE(sorted(repair(g).file.graph) == sorted(repaired.file.graph));
   }
 }
 
 TEST_CASE("of lines through one place each is looked at a few times, and one point is made") {
   const std::int64_t n = 2000;
-  Pslg g;
+  Graph<2> g;
   mesher::detail::Drawing drawing({-4, -4}, 0x1p-41);
   for (std::int64_t i = 0; i < n; ++i) {
     const double angle = 3.141592653589793 * (static_cast<double>(i) + 0.5) / n;
@@ -329,20 +332,20 @@ TEST_CASE("of lines through one place each is looked at a few times, and one poi
     return true;
   });
   CHECK(looks <= 8 * n);
-  const Repaired repaired = repair(g);
-  CHECK(repaired.file.pslg.points.size() == 2 * n + 1);
+  const Repaired<2> repaired = repair(g);
+  CHECK(repaired.file.graph.points.size() == 2 * n + 1);
   CHECK(repaired.notes.size() == 1);
   CHECK(repaired.deviation <= repaired.tolerance);
 }
 
 TEST_CASE("a crossing gets a point, and both lines keep id and marker") {
-  const Repaired repaired = repair(two_crossing());
-  const Pslg& g = repaired.file.pslg;
+  const Repaired<2> repaired = repair(two_crossing());
+  const Graph<2>& g = repaired.file.graph;
   CHECK(g.segments.empty());
   REQUIRE(g.points.size() == 5);
-  CHECK(g.points[4] == Pslg::Vertex{id(5), {2, 2}, 5});
-  CHECK(g.polylines == std::vector<Pslg::Polyline>{{id(7), {id(1), id(5), id(2)}, 5},
-                                                   {id(8), {id(3), id(5), id(4)}, 6}});
+  CHECK(g.points[4] == mesher::GraphPoint<2>{id(5), {2, 2}, 5});
+  CHECK(g.polylines == std::vector<mesher::Polyline>{{id(7), {id(1), id(5), id(2)}, 5},
+                                                     {id(8), {id(3), id(5), id(4)}, 6}});
   CHECK(repaired.deviation == 0);
   REQUIRE(repaired.notes.size() == 1);
   CHECK(repaired.notes[0].kind == RepairKind::split_at_crossing);
@@ -354,7 +357,7 @@ TEST_CASE("crossings that are doubles are found to the last bit") {
   for (int k = 0; k < 300; ++k) {
     // Two lines through a place with few bits.
     const Point<2> at{nasty.below(1000) / 64.0, nasty.below(1000) / 64.0};
-    Pslg g;
+    Graph<2> g;
     for (std::int64_t i = 0; i < 2; ++i) {
       const double x = 1 + static_cast<double>(nasty.below(900));
       const double y = 1 + static_cast<double>(nasty.below(900)) * (i == 0 ? 1.0 : -1.0);
@@ -364,35 +367,35 @@ TEST_CASE("crossings that are doubles are found to the last bit") {
       g.points.push_back({id(2 * i + 1), {at[0] - w * x, at[1] - w * y}, 0});
       g.segments.push_back({id(i), id(2 * i), id(2 * i + 1), 0});
     }
-    const Pslg now = repair(g).file.pslg;
+    const Graph<2> now = repair(g).file.graph;
     REQUIRE(now.points.size() == 5);
     REQUIRE(now.points[4].at == at);
   }
 }
 
 TEST_CASE("a point on a line becomes a point of it") {
-  Pslg g;
+  Graph<2> g;
   g.points = {{id(1), {0, 0}, 0}, {id(2), {6, 3}, 0}, {id(3), {2, 1}, 0}, {id(4), {2, 5}, 0}};
   g.segments = {{id(1), id(1), id(2), 0}, {id(2), id(4), id(3), 0}};
-  const Repaired repaired = repair(g);
-  CHECK(repaired.file.pslg.segments == std::vector<Pslg::Segment>{{id(2), id(4), id(3), 0}});
-  CHECK(repaired.file.pslg.polylines ==
-        std::vector<Pslg::Polyline>{{id(1), {id(1), id(3), id(2)}, 0}});
+  const Repaired<2> repaired = repair(g);
+  CHECK(repaired.file.graph.segments == std::vector<mesher::Segment>{{id(2), id(4), id(3), 0}});
+  CHECK(repaired.file.graph.polylines ==
+        std::vector<mesher::Polyline>{{id(1), {id(1), id(3), id(2)}, 0}});
   REQUIRE(repaired.notes.size() == 1);
   CHECK(repaired.notes[0].text() == "line 1 is split at point 3 (2, 1)");
 }
 
 TEST_CASE("of points in one place the one of the smallest id stays, with a marker of the others") {
-  Pslg g;
+  Graph<2> g;
   g.points = {{id(9), {1, 1}, 0}, {id(4), {1, 1}, 0}, {id(5), {1, 1}, 7}, {id(6), {3, 1}, 0}};
   g.attributes_per_point = 1;
   g.attributes = {90, 40, 50, 60};
   g.segments = {{id(1), id(9), id(6), 0}, {id(2), id(9), id(5), 0}};
-  const Repaired repaired = repair(g);
-  const Pslg& now = repaired.file.pslg;
-  CHECK(now.points == std::vector<Pslg::Vertex>{{id(4), {1, 1}, 7}, {id(6), {3, 1}, 0}});
+  const Repaired<2> repaired = repair(g);
+  const Graph<2>& now = repaired.file.graph;
+  CHECK(now.points == std::vector<mesher::GraphPoint<2>>{{id(4), {1, 1}, 7}, {id(6), {3, 1}, 0}});
   CHECK(now.attributes == std::vector<double>{40, 60});
-  CHECK(now.segments == std::vector<Pslg::Segment>{{id(1), id(4), id(6), 0}});
+  CHECK(now.segments == std::vector<mesher::Segment>{{id(1), id(4), id(6), 0}});
   std::vector<std::string> notes;
   for (const auto& note : repaired.notes) notes.push_back(note.text());
   CHECK(notes ==
@@ -403,25 +406,25 @@ TEST_CASE("of points in one place the one of the smallest id stays, with a marke
 
 TEST_CASE("points merge that a mesher would refuse as too close") {
   const double near = 0x1p-49 * 8;  // of a box of side 8
-  Pslg g;
+  Graph<2> g;
   g.points = {{id(2), {1, 1}, 0}, {id(1), {1 + near, 1}, 0}, {id(3), {0, 0}, 0}};
   g.points.push_back({id(4), {2, 2}, 0});
-  const Repaired repaired = repair(g, mesher::Box<2>{{0, 0}, {2, 2}});
-  REQUIRE(repaired.file.pslg.points.size() == 3);
-  CHECK(repaired.file.pslg.points[0].id == id(2));
+  const Repaired<2> repaired = repair(g, mesher::Box<2>{{0, 0}, {2, 2}});
+  REQUIRE(repaired.file.graph.points.size() == 3);
+  CHECK(repaired.file.graph.points[0].id == id(2));
   CHECK(repaired.deviation == near);
-  CHECK(repaired.notes[0].points == std::vector{id(1), id(2)});
+  CHECK(repaired.notes[0].points == std::vector{PointId{1}, PointId{2}});
 }
 
 TEST_CASE("what two lines cover is the line's of the smaller id, and a gap ends a name") {
-  Pslg g;
+  Graph<2> g;
   for (std::int64_t i = 0; i < 6; ++i) g.points.push_back({id(i), {static_cast<double>(i), 0}, 0});
   g.segments = {{id(3), id(0), id(5), 8}, {id(1), id(2), id(3), 0}};
-  const Repaired repaired = repair(g);
-  const Pslg& now = repaired.file.pslg;
-  CHECK(now.segments == std::vector<Pslg::Segment>{{id(1), id(2), id(3), 0}});
-  CHECK(now.polylines == std::vector<Pslg::Polyline>{{id(3), {id(0), id(1), id(2)}, 8},
-                                                     {id(4), {id(3), id(4), id(5)}, 8}});
+  const Repaired<2> repaired = repair(g);
+  const Graph<2>& now = repaired.file.graph;
+  CHECK(now.segments == std::vector<mesher::Segment>{{id(1), id(2), id(3), 0}});
+  CHECK(now.polylines == std::vector<mesher::Polyline>{{id(3), {id(0), id(1), id(2)}, 8},
+                                                       {id(4), {id(3), id(4), id(5)}, 8}});
   std::vector<std::string> notes;
   for (const auto& note : repaired.notes) {
     if (note.kind != RepairKind::split_at_point) notes.push_back(note.text());
@@ -432,32 +435,32 @@ TEST_CASE("what two lines cover is the line's of the smaller id, and a gap ends 
 }
 
 TEST_CASE("a ring with a gap is one line from the gap's end to its begin") {
-  Pslg g;
+  Graph<2> g;
   g.points = {{id(1), {0, 0}, 0}, {id(2), {4, 0}, 0}, {id(3), {4, 4}, 0}, {id(4), {0, 4}, 0}};
   g.polylines = {{id(5), {id(1), id(2), id(3), id(4), id(1)}, 2}};
   g.segments = {{id(1), id(2), id(3), 0}, {id(2), id(3), id(2), 0}};
-  const Pslg now = repair(g).file.pslg;
-  CHECK(now.segments == std::vector<Pslg::Segment>{{id(1), id(2), id(3), 0}});
-  CHECK(now.polylines == std::vector<Pslg::Polyline>{{id(5), {id(3), id(4), id(1), id(2)}, 2}});
+  const Graph<2> now = repair(g).file.graph;
+  CHECK(now.segments == std::vector<mesher::Segment>{{id(1), id(2), id(3), 0}});
+  CHECK(now.polylines == std::vector<mesher::Polyline>{{id(5), {id(3), id(4), id(1), id(2)}, 2}});
 }
 
 TEST_CASE("new points have attributes that are linear along the first line through them") {
-  Pslg g = two_crossing();
+  Graph<2> g = two_crossing();
   g.attributes_per_point = 2;
   g.attributes = {0, 1, 8, 3, 100, 100, 100, 100};
-  const Pslg now = repair(g).file.pslg;
+  const Graph<2> now = repair(g).file.graph;
   REQUIRE(now.attributes.size() == 10);
   CHECK(now.attributes[8] == 4);
   CHECK(now.attributes[9] == 2);
 }
 
 TEST_CASE("notes say where in a file a line stood, new points have no position") {
-  mesher::PslgFile file;
-  file.pslg = two_crossing();
+  mesher::GraphFile<2> file;
+  file.graph = two_crossing();
   file.file = file.point_file = "roads.poly";
   file.points = {{2, 1}, {3, 1}, {4, 1}, {5, 1}};
   file.segments = {{7, 1}, {8, 1}};
-  const Repaired repaired = repair(file);
+  const Repaired<2> repaired = repair(file);
   CHECK(repaired.notes.at(0).text() ==
         "roads.poly:7:1: lines 7 and 8 cross at (2, 2), point 5 now");
   CHECK(repaired.file.points.size() == 5);
@@ -467,8 +470,8 @@ TEST_CASE("notes say where in a file a line stood, new points have no position")
 }
 
 TEST_CASE("what cannot be repaired is an error with its place") {
-  Pslg g = two_crossing();
-  const auto code = [](const Pslg& bad, const std::optional<mesher::Box<2>>& domain = {}) {
+  Graph<2> g = two_crossing();
+  const auto code = [](const Graph<2>& bad, const std::optional<mesher::Box<2>>& domain = {}) {
     try {
       (void)repair(bad, domain);
     } catch (const mesher::Error& e) {
@@ -495,30 +498,29 @@ TEST_CASE("what cannot be repaired is an error with its place") {
 }
 
 TEST_CASE("nothing, points alone and a planar graph come back as they are") {
-  CHECK(repair(Pslg()).file.pslg == Pslg());
-  Pslg g;
+  CHECK(repair(Graph<2>()).file.graph == Graph<2>());
+  Graph<2> g;
   g.points = {{id(3), {1, 2}, 4}};
-  CHECK(repair(g).file.pslg == g);
+  CHECK(repair(g).file.graph == g);
   g.points.push_back({id(2), {5, 2}, 0});
   g.segments = {{id(1), id(3), id(2), 0}};
-  g.holes = {{id(1), {2, 2}}};
-  g.regions = {{id(1), {3, 3}, 2.5, 0.1}};
-  const Repaired repaired = repair(g);
-  CHECK(repaired.file.pslg == g);
+  g.seeds = {mesher::hole_seed<2>(1, {2, 2}), mesher::region_seed<2>(1, {3, 3}, 2.5, 0.1)};
+  const Repaired<2> repaired = repair(g);
+  CHECK(repaired.file.graph == g);
   CHECK(repaired.notes.empty());
 }
 
 TEST_CASE("a graph that was made by hand, without positions, is repaired in its file as well") {
-  mesher::PslgFile file;
-  file.pslg = two_crossing();
-  file.pslg.polylines = {{id(50), {id(1), id(4), id(3)}, 0}};
-  file.pslg.holes = {{id(1), {2, 2}}};
-  const Repaired repaired = repair(file);
-  CHECK(repaired.file.pslg == repair(file.pslg).file.pslg);
+  mesher::GraphFile<2> file;
+  file.graph = two_crossing();
+  file.graph.polylines = {{id(50), {id(1), id(4), id(3)}, 0}};
+  file.graph.seeds = {mesher::hole_seed<2>(1, {2, 2})};
+  const Repaired<2> repaired = repair(file);
+  CHECK(repaired.file.graph == repair(file.graph).file.graph);
   CHECK(!repaired.notes.empty());
-  CHECK(repaired.file.points.size() == repaired.file.pslg.points.size());
-  CHECK(repaired.file.holes.size() == 1);
-  file.pslg.attributes = {1};
+  CHECK(repaired.file.points.size() == repaired.file.graph.points.size());
+  CHECK(repaired.file.seeds.size() == 1);
+  file.graph.attributes = {1};
   CHECK_THROWS_WITH(repair(file),
                     "error[wrong_count]: 1 attributes are there, of 4 points with 0 each");
 }

@@ -7,9 +7,9 @@
 
 namespace {
 
-using mesher::Plc;
+using mesher::Graph;
 using mesher::Point;
-using mesher::RepairedPlc;
+using mesher::Repaired;
 using mesher::RepairKind;
 using mesher::detail::PlcBuilder;
 using support::area;
@@ -25,27 +25,27 @@ TEST_CASE("what polygons of one plane cover belongs to the first; the others are
   b.polygon({square(1, 1, 0, 1)});
   b.polygon({square(0, 0, 0, 3)});
   b.polygon({square(2.5, -1, 0, 2)});
-  Plc plc = b.finish();
-  const RepairedPlc r = repaired(plc);
-  const auto& out = r.file.plc;
-  REQUIRE(out.facets.size() == 3);
-  REQUIRE(out.facets[1].polygon.loops.size() == 2);
+  Graph<3> plc = b.finish();
+  const Repaired<3> r = repaired(plc);
+  const auto& out = r.file.graph;
+  REQUIRE(out.polygons.size() == 3);
+  REQUIRE(out.polygons[1].loops.size() == 2);
   REQUIRE(area(out) == Approx(9 + 4 - 0.5));
   // The other way around the small one goes, and what is inside the large one stays declared.
-  std::swap(plc.facets[0].polygon.id, plc.facets[1].polygon.id);
-  const auto& other = repaired(plc).file.plc;
-  REQUIRE(other.facets.size() == 2);
+  std::swap(plc.polygons[0].id, plc.polygons[1].id);
+  const auto& other = repaired(plc).file.graph;
+  REQUIRE(other.polygons.size() == 2);
   REQUIRE(area(other) == Approx(12.5));
-  REQUIRE(other.facets[0].polygon.edges.size() >= 4);
+  REQUIRE(other.polygons[0].edges.size() >= 4);
 }
 
 TEST_CASE("a polygon that is cut in two by another one goes on under a new id") {
   PlcBuilder b;
   b.polygon({square(1, -1, 0, 3)});
   b.polygon({{{0, 0, 0}, {6, 0, 0}, {6, 1, 0}, {0, 1, 0}}});
-  const RepairedPlc r = repaired(b.finish());
-  REQUIRE(r.file.plc.facets.size() == 3);
-  REQUIRE(area(r.file.plc) == Approx(9 + 3));
+  const Repaired<3> r = repaired(b.finish());
+  REQUIRE(r.file.graph.polygons.size() == 3);
+  REQUIRE(area(r.file.graph) == Approx(9 + 3));
   REQUIRE(std::count_if(r.notes.begin(), r.notes.end(), [](const auto& note) {
             return note.kind == RepairKind::overlap && note.polygons == ids({2, 1});
           }) == 1);
@@ -54,8 +54,8 @@ TEST_CASE("a polygon that is cut in two by another one goes on under a new id") 
 TEST_CASE("loops that cross themselves, touch, go there and back, or lie outside are cut") {
   PlcBuilder bow;
   bow.polygon({{{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 2, 0}}});
-  const auto& tie = repaired(bow.finish()).file.plc;
-  REQUIRE(tie.facets.size() == 2);
+  const auto& tie = repaired(bow.finish()).file.graph;
+  REQUIRE(tie.polygons.size() == 2);
   REQUIRE(tie.points.size() == 5);
   REQUIRE(area(tie) == Approx(2));
 
@@ -70,21 +70,21 @@ TEST_CASE("loops that cross themselves, touch, go there and back, or lie outside
                 {2, 2, 0},
                 {2, 1, 0},
                 {1, 1, 0}}});
-  const auto& keyhole = repaired(key.finish()).file.plc;
-  REQUIRE(keyhole.facets.size() == 1);
-  REQUIRE(keyhole.facets[0].polygon.loops.size() == 2);
+  const auto& keyhole = repaired(key.finish()).file.graph;
+  REQUIRE(keyhole.polygons.size() == 1);
+  REQUIRE(keyhole.polygons[0].loops.size() == 2);
   REQUIRE(area(keyhole) == Approx(15));
 
   PlcBuilder apart;
   apart.polygon({square(0, 0, 0), square(3, 0, 0)});
-  REQUIRE(repaired(apart.finish()).file.plc.facets.size() == 2);
+  REQUIRE(repaired(apart.finish()).file.graph.polygons.size() == 2);
 
   PlcBuilder twice;
   twice.polygon({square(0, 0, 0)});
-  Plc plc = twice.finish();
-  plc.facets.push_back(plc.facets[0]);
-  plc.facets[1].polygon.id = id(8);
-  std::reverse(plc.facets[1].polygon.loops[0].begin(), plc.facets[1].polygon.loops[0].end());
-  plc.facets.push_back({{id(9), {ids({1, 2})}}});
-  REQUIRE(repaired(plc).file.plc.facets.size() == 1);
+  Graph<3> plc = twice.finish();
+  plc.polygons.push_back(plc.polygons[0]);
+  plc.polygons[1].id = id(8);
+  std::reverse(plc.polygons[1].loops[0].begin(), plc.polygons[1].loops[0].end());
+  plc.polygons.push_back({id(9), {ids({1, 2})}});
+  REQUIRE(repaired(plc).file.graph.polygons.size() == 1);
 }

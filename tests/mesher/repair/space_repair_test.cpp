@@ -1,18 +1,17 @@
 // Repaired complexes: what each rule does.
-#include "mesher/space_repair.hpp"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "feature_ids.hpp"
+#include "mesher/repair.hpp"
 #include "repaired_complex.hpp"
 
 namespace {
 
 using mesher::Error;
-using mesher::Plc;
+using mesher::Graph;
 using mesher::Point;
-using mesher::RepairedPlc;
+using mesher::Repaired;
 using mesher::RepairKind;
 using mesher::detail::PlcBuilder;
 using support::area;
@@ -25,39 +24,39 @@ using support::square;
 }  // namespace
 
 TEST_CASE("a complex without faults comes back as it is, in its order, and so does none") {
-  Plc plc;
+  Graph<3> plc;
   plc.points = {{id(9), {0, 0, 0}, 3}, {id(2), {4, 0, 0}}, {id(5), {4, 4, 0}}, {id(1), {0, 4, 0}},
                 {id(7), {1, 1, 0}},    {id(8), {2, 1, 0}}, {id(3), {3, 3, 0}}, {id(4), {1, 1, 2}}};
   plc.attributes_per_point = 1;
   plc.attributes = {1, 2, 3, 4, 5, 6, 7, 8};
-  plc.facets = {{{id(6), {ids({5, 1, 9, 2})}, {{id(8), id(7)}}, ids({3})}, 4}};
+  plc.polygons = {{id(6), {ids({5, 1, 9, 2})}, {{id(8), id(7)}}, ids({3}), 4}};
   plc.segments = {{id(3), id(7), id(4), 1}, {id(1), id(8), id(4), 2}};
-  plc.holes = {{id(1), {1, 2, 3}}};
-  const RepairedPlc r = repaired(plc);
-  REQUIRE(r.file.plc == plc);
+  plc.seeds = {mesher::hole_seed<3>(1, {1, 2, 3})};
+  const Repaired<3> r = repaired(plc);
+  REQUIRE(r.file.graph == plc);
   REQUIRE(r.notes.empty());
   REQUIRE(r.deviation == 0);
-  REQUIRE(mesher::repair(Plc{}).file.plc == Plc{});
+  REQUIRE(mesher::repair(Graph<3>{}).file.graph == Graph<3>{});
 }
 
 TEST_CASE("a bent quadrilateral becomes two triangles, of which the first keeps the id") {
   PlcBuilder b;
   b.polygon({{{0, 0, 0}, {2, 0, 0}, {2, 2, 0.5}, {0, 2, 0}}});
-  Plc plc = b.finish();
-  plc.facets[0].marker = 7;
-  const RepairedPlc r = repaired(plc);
-  REQUIRE(r.file.plc.facets.size() == 2);
-  REQUIRE(r.file.plc.facets[0].polygon.id == id(1));
-  REQUIRE(r.file.plc.facets[1].polygon.id == id(2));
-  for (const auto& f : r.file.plc.facets) {
-    REQUIRE(f.polygon.loops[0].size() == 3);
+  Graph<3> plc = b.finish();
+  plc.polygons[0].marker = 7;
+  const Repaired<3> r = repaired(plc);
+  REQUIRE(r.file.graph.polygons.size() == 2);
+  REQUIRE(r.file.graph.polygons[0].id == id(1));
+  REQUIRE(r.file.graph.polygons[1].id == id(2));
+  for (const auto& f : r.file.graph.polygons) {
+    REQUIRE(f.loops[0].size() == 3);
     REQUIRE(f.marker == 7);
   }
   REQUIRE(r.notes.size() == 1);
   REQUIRE(r.notes[0].kind == RepairKind::bent_polygon);
   REQUIRE(r.notes[0].polygons == ids({1, 2}));
   REQUIRE(r.notes[0].deviation > 0.1);
-  REQUIRE(r.file.plc.points == plc.points);
+  REQUIRE(r.file.graph.points == plc.points);
 }
 
 TEST_CASE("a bent polygon keeps its hole, the edge and the point that lie in it") {
@@ -65,20 +64,19 @@ TEST_CASE("a bent polygon keeps its hole, the edge and the point that lie in it"
   b.polygon(
       {{{0, 0, 0}, {6, 0, 0}, {6, 6, 1}, {0, 6, 0}}, {{1, 1, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}}},
       {{Point<3>{4, 1, 0}, Point<3>{5, 2, 0}}});
-  Plc plc = b.finish();
+  Graph<3> plc = b.finish();
   plc.points.push_back({id(99), {1, 4, 0}});
-  plc.facets[0].polygon.points = {id(99)};
-  const RepairedPlc r = repaired(plc);
-  REQUIRE(r.file.plc.points == plc.points);
-  REQUIRE(area(r.file.plc) == Approx(35).epsilon(0.05));
+  plc.polygons[0].points = {id(99)};
+  const Repaired<3> r = repaired(plc);
+  REQUIRE(r.file.graph.points == plc.points);
+  REQUIRE(area(r.file.graph) == Approx(35).epsilon(0.05));
   bool has_edge = false, has_point = false;
-  for (const auto& f : r.file.plc.facets) {
-    const auto& loop = f.polygon.loops[0];
-    const auto on = [&](mesher::FeatureId v) {
+  for (const auto& f : r.file.graph.polygons) {
+    const auto& loop = f.loops[0];
+    const auto on = [&](mesher::PointId v) {
       return std::find(loop.begin(), loop.end(), v) != loop.end();
     };
-    has_edge = has_edge ||
-               (on(plc.facets[0].polygon.edges[0][0]) && on(plc.facets[0].polygon.edges[0][1]));
+    has_edge = has_edge || (on(plc.polygons[0].edges[0][0]) && on(plc.polygons[0].edges[0][1]));
     has_point = has_point || on(id(99));
   }
   REQUIRE(has_edge);
@@ -88,25 +86,25 @@ TEST_CASE("a bent polygon keeps its hole, the edge and the point that lie in it"
 TEST_CASE("a polygon whose edges cross from every side is cut into triangles between its corners") {
   PlcBuilder b;
   b.polygon({{{0, 0, 0}, {1, 1, 1}, {1, 0, 0.1}, {0.1, 1, 0.9}}});
-  const RepairedPlc r = repaired(b.finish());
-  REQUIRE(r.file.plc.facets.size() == 2);
-  REQUIRE(r.file.plc.points.size() == 4);
+  const Repaired<3> r = repaired(b.finish());
+  REQUIRE(r.file.graph.polygons.size() == 2);
+  REQUIRE(r.file.graph.points.size() == 4);
 }
 
 TEST_CASE("points in one place are one, also for polygons, which may lose all of their area") {
   PlcBuilder b;
   b.polygon({square(0, 0, 0)});
   b.polygon({{{0, 0, 0}, {1, 0, 0}, {0.5, 1e-16, 0}}});
-  Plc plc = b.finish();
+  Graph<3> plc = b.finish();
   plc.points.push_back({id(50), {1, 1, 1e-16}, 6});
   plc.points.push_back({id(51), {1, 2, 0}});
-  plc.segments = {{id(4), id(50), id(51)}, {id(5), id(50), plc.facets[0].polygon.loops[0][2]}};
-  const RepairedPlc r = repaired(plc);
-  const auto& out = r.file.plc;
+  plc.segments = {{id(4), id(50), id(51)}, {id(5), id(50), plc.polygons[0].loops[0][2]}};
+  const Repaired<3> r = repaired(plc);
+  const auto& out = r.file.graph;
   REQUIRE(out.segments.size() == 1);
-  REQUIRE(out.segments[0].from == plc.facets[0].polygon.loops[0][2]);
-  REQUIRE(out.facets.size() == 1);
-  REQUIRE(out.facets[0].polygon.loops[0].size() == 5);
+  REQUIRE(out.segments[0].from == plc.polygons[0].loops[0][2]);
+  REQUIRE(out.polygons.size() == 1);
+  REQUIRE(out.polygons[0].loops[0].size() == 5);
   REQUIRE(notes_of(r) == std::vector<std::string>{
                              "point 50 is point 3 at (1, 1, 0)",
                              "segment 5: a piece without length is dropped, at point 3 (1, 1, 0)",
@@ -120,18 +118,18 @@ TEST_CASE("segments are split at points and where they cross, and go on under ne
   PlcBuilder b;
   b.segment({0, 0, 0}, {4, 4, 4});
   b.segment({0, 4, 2}, {4, 0, 2});
-  Plc plc = b.finish();
+  Graph<3> plc = b.finish();
   plc.points.push_back({id(9), {1, 1, 1}});
   plc.segments[0].marker = 5;
   plc.segments[1].marker = 8;
   plc.attributes_per_point = 1;
   plc.attributes = {0, 4, 10, 20, 100};
-  const auto& out = repaired(plc).file.plc;
+  const auto& out = repaired(plc).file.graph;
   REQUIRE(out.segments.size() == 5);
-  REQUIRE(out.segments[0] == mesher::MarkedSegment{id(1), id(1), id(9), 5});
-  REQUIRE(out.segments[2] == mesher::MarkedSegment{id(3), id(9), id(10), 5});
-  REQUIRE(out.segments[4] == mesher::MarkedSegment{id(5), id(10), id(4), 8});
-  REQUIRE(out.points.back() == mesher::MarkedPoint<3>{id(10), {2, 2, 2}, 5});
+  REQUIRE(out.segments[0] == mesher::Segment{id(1), id(1), id(9), 5});
+  REQUIRE(out.segments[2] == mesher::Segment{id(3), id(9), id(10), 5});
+  REQUIRE(out.segments[4] == mesher::Segment{id(5), id(10), id(4), 8});
+  REQUIRE(out.points.back() == mesher::GraphPoint<3>{id(10), {2, 2, 2}, 5});
 }
 
 TEST_CASE("what goes through a polygon, or lies on it, is declared to") {
@@ -139,14 +137,14 @@ TEST_CASE("what goes through a polygon, or lies on it, is declared to") {
   b.polygon({square(0, 0, 0, 4)});
   b.segment({1, 1, -1}, {1, 1, 1});
   b.segment({2, 3, 0}, {3, 3, 0});
-  Plc plc = b.finish();
+  Graph<3> plc = b.finish();
   plc.points.push_back({id(90), {3, 1, 0}});
-  const RepairedPlc r = repaired(plc);
-  const auto& f = r.file.plc.facets[0].polygon;
+  const Repaired<3> r = repaired(plc);
+  const auto& f = r.file.graph.polygons[0];
   REQUIRE(f.edges.size() == 1);
   REQUIRE(f.points == ids({91, 90}));
-  REQUIRE(r.file.plc.points.back().at == Point<3>{1, 1, 0});
-  REQUIRE(r.file.plc.segments.size() == 3);
+  REQUIRE(r.file.graph.points.back().at == Point<3>{1, 1, 0});
+  REQUIRE(r.file.graph.segments.size() == 3);
   REQUIRE(notes_of(r) ==
           std::vector<std::string>{"polygon 1 has point 7 (2, 3, 0) on it",
                                    "polygon 1 has point 8 (3, 3, 0) on it",
@@ -159,27 +157,27 @@ TEST_CASE("polygons that cross have the edges along their line, also across each
   PlcBuilder b;
   b.polygon({square(0, 0, 0, 4)});
   b.polygon({{{1, 2, -1}, {6, 2, -1}, {6, 2, 1}, {1, 2, 1}}});
-  const auto& out = repaired(b.finish()).file.plc;
-  REQUIRE(out.facets.size() == 2);
-  REQUIRE(out.facets[0].polygon.edges.size() == 1);
-  REQUIRE(out.facets[0].polygon.edges == out.facets[1].polygon.edges);
+  const auto& out = repaired(b.finish()).file.graph;
+  REQUIRE(out.polygons.size() == 2);
+  REQUIRE(out.polygons[0].edges.size() == 1);
+  REQUIRE(out.polygons[0].edges == out.polygons[1].edges);
   REQUIRE(area(out) == Approx(26));
 }
 
 TEST_CASE("a polygon that is thinner than doubles tell, but not than the tolerance, stays flat") {
   PlcBuilder b;
   b.polygon({{{0.1, 0.2, 0.3}, {0.9, 0.8, 0.7}, {0.5, 0.5 + 1e-9, 0.5}}});
-  REQUIRE(repair(b.finish()).file.plc.facets.size() == 1);
+  REQUIRE(repair(b.finish()).file.graph.polygons.size() == 1);
 }
 
 TEST_CASE("what cannot be repaired in space is an error with its place") {
-  mesher::PlcFile file;
+  mesher::GraphFile<3> file;
   file.file = file.point_file = "x.poly";
-  file.plc.points = {{id(1), {0, 0, 0}}, {id(2), {1, 0, 0}}};
+  file.graph.points = {{id(1), {0, 0, 0}}, {id(2), {1, 0, 0}}};
   file.points = {{2, 1}, {3, 1}};
-  file.plc.segments = {{id(4), id(1), id(7)}};
+  file.graph.segments = {{id(4), id(1), id(7)}};
   file.segments = {{5, 1}};
-  const auto said = [&](const mesher::PlcFile& f, std::optional<mesher::Box<3>> domain = {}) {
+  const auto said = [&](const mesher::GraphFile<3>& f, std::optional<mesher::Box<3>> domain = {}) {
     try {
       static_cast<void>(repair(f, domain));
     } catch (const Error& error) {
@@ -189,18 +187,18 @@ TEST_CASE("what cannot be repaired in space is an error with its place") {
   };
   REQUIRE(said(file) ==
           "x.poly:5:1: error[unknown_id]: point 7, an end of segment 4, is not there");
-  file.plc.segments[0].to = id(2);
+  file.graph.segments[0].to = id(2);
   REQUIRE(said(file).empty());
   REQUIRE(said(file, mesher::Box<3>{{-1, -1, -1}, {0.5, 1, 1}}).find("x.poly:3:1") == 0);
-  file.plc.facets = {{{id(3), {ids({1, 2, 5})}}}};
-  file.facets = {{7, 1}};
+  file.graph.polygons = {{id(3), {ids({1, 2, 5})}}};
+  file.polygons = {{7, 1}};
   REQUIRE(said(file) ==
           "x.poly:7:1: error[unknown_id]: point 5, a corner of polygon 3, is not there");
-  file.plc.facets = {{{id(3), {}}}, {{id(3), {}}}};
-  file.facets = {{7, 1}, {8, 1}};
+  file.graph.polygons = {{id(3), {}}, {id(3), {}}};
+  file.polygons = {{7, 1}, {8, 1}};
   REQUIRE(said(file).find("x.poly:8:1: error[repeated_id]") == 0);
-  file.plc.facets = {};
-  file.plc.points[1].at[1] = std::numeric_limits<double>::infinity();
+  file.graph.polygons = {};
+  file.graph.points[1].at[1] = std::numeric_limits<double>::infinity();
   REQUIRE(said(file).find("x.poly:3:1: error[not_finite]") == 0);
 }
 
@@ -208,23 +206,23 @@ TEST_CASE("a complex that was made by hand, without positions, is repaired in it
   PlcBuilder b;
   b.polygon({square(0, 0, 0, 4)});
   b.polygon({{{1, 2, -1}, {6, 2, -1}, {6, 2, 1}, {1, 2, 1}}});
-  mesher::PlcFile file;
-  file.plc = b.finish();
-  file.plc.points.push_back({id(70), {1, 1, 0}});
-  file.plc.points.push_back({id(71), {1, 1, 3}});
-  file.plc.points.push_back({id(72), {1, 1, 0}});
-  file.plc.segments = {{id(1), id(70), id(71)}, {id(2), id(72), id(71)}};
-  file.plc.holes = {{id(1), {2, 3, 1}}};
-  const RepairedPlc r = repair(file);
-  REQUIRE(r.file.plc == repair(file.plc).file.plc);
+  mesher::GraphFile<3> file;
+  file.graph = b.finish();
+  file.graph.points.push_back({id(70), {1, 1, 0}});
+  file.graph.points.push_back({id(71), {1, 1, 3}});
+  file.graph.points.push_back({id(72), {1, 1, 0}});
+  file.graph.segments = {{id(1), id(70), id(71)}, {id(2), id(72), id(71)}};
+  file.graph.seeds = {mesher::hole_seed<3>(1, {2, 3, 1})};
+  const Repaired<3> r = repair(file);
+  REQUIRE(r.file.graph == repair(file.graph).file.graph);
   REQUIRE(!r.notes.empty());
-  REQUIRE(r.file.points.size() == r.file.plc.points.size());
-  REQUIRE(r.file.segments.size() == r.file.plc.segments.size());
-  REQUIRE(r.file.facets.size() == r.file.plc.facets.size());
-  REQUIRE(r.file.holes.size() == 1);
-  file.facets = {{7, 1}};  // of the first alone
-  REQUIRE(repair(file).file.plc == r.file.plc);
-  file.plc.attributes_per_point = 2;
+  REQUIRE(r.file.points.size() == r.file.graph.points.size());
+  REQUIRE(r.file.segments.size() == r.file.graph.segments.size());
+  REQUIRE(r.file.polygons.size() == r.file.graph.polygons.size());
+  REQUIRE(r.file.seeds.size() == 1);
+  file.polygons = {{7, 1}};  // of the first alone
+  REQUIRE(repair(file).file.graph == r.file.graph);
+  file.graph.attributes_per_point = 2;
   REQUIRE_THROWS_WITH(repair(file),
                       "error[wrong_count]: 0 attributes are there, of 11 points with 2 each");
 }

@@ -4,16 +4,17 @@
 #include <map>
 #include <random>
 
+#include "facade/graph_runs.hpp"
 #include "mesher/mesher.hpp"
-#include "mesher/space_repair.hpp"
+#include "mesher/repair.hpp"
 #include "random_soup.hpp"
 #include "repaired_complex.hpp"
 
 namespace {
 
-using mesher::Plc;
+using mesher::Graph;
 using mesher::Point;
-using mesher::RepairedPlc;
+using mesher::Repaired;
 using support::area;
 using support::domain_of;
 using support::RandomSoup;
@@ -23,25 +24,25 @@ using Shape = mesher::detail::Polygon;
 constexpr double kScales[] = {1, 1e-9, 1e9};
 
 // Without the order of elements, and of corners around a loop.
-Plc sorted(Plc g) {
+Graph<3> sorted(Graph<3> g) {
   const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
   std::sort(g.points.begin(), g.points.end(), by_id);
   std::sort(g.segments.begin(), g.segments.end(), by_id);
-  std::sort(g.facets.begin(), g.facets.end(),
-            [](const auto& a, const auto& b) { return a.polygon.id < b.polygon.id; });
-  for (auto& f : g.facets) {
-    mesher::detail::put_in_order(f.polygon.loops, [](mesher::FeatureId v) { return v; });
+  std::sort(g.polygons.begin(), g.polygons.end(),
+            [](const auto& a, const auto& b) { return a.id < b.id; });
+  for (auto& f : g.polygons) {
+    mesher::detail::put_in_order(f.loops, [](mesher::PointId v) { return v; });
   }
   return g;
 }
 
-Plc shuffled(Plc g, std::uint64_t seed) {
+Graph<3> shuffled(Graph<3> g, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::shuffle(g.points.begin(), g.points.end(), random);
   std::shuffle(g.segments.begin(), g.segments.end(), random);
-  std::shuffle(g.facets.begin(), g.facets.end(), random);
-  for (auto& f : g.facets) {
-    auto& loop = f.polygon.loops[0];
+  std::shuffle(g.polygons.begin(), g.polygons.end(), random);
+  for (auto& f : g.polygons) {
+    auto& loop = f.loops[0];
     if (random() % 2 == 0) std::reverse(loop.begin(), loop.end());
     std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(random() % loop.size()),
                 loop.end());
@@ -54,13 +55,13 @@ struct Covered {
   std::vector<Shape> shapes;
   std::vector<std::array<Point<3>, 2>> segments;
 };
-Covered covered(const Plc& plc) {
-  std::map<mesher::FeatureId, Point<3>> at;
+Covered covered(const Graph<3>& plc) {
+  std::map<mesher::PointId, Point<3>> at;
   for (const auto& p : plc.points) REQUIRE(at.emplace(p.id, p.at).second);
   Covered all;
-  for (const auto& f : plc.facets) {
+  for (const auto& f : plc.polygons) {
     support::Loops loops;
-    for (const auto& loop : f.polygon.loops) {
+    for (const auto& loop : f.loops) {
       auto& places = loops.emplace_back();
       for (const auto v : loop) places.push_back(at.at(v));
     }
@@ -107,12 +108,12 @@ void require_covered(const Covered& these, const Covered& those, double most,
   }
 }
 
-void require_points_kept(const Plc& before, const RepairedPlc& r) {
-  std::map<mesher::FeatureId, Plc::Vertex> at;
+void require_points_kept(const Graph<3>& before, const Repaired<3>& r) {
+  std::map<mesher::PointId, mesher::GraphPoint<3>> at;
   for (const auto& p : before.points) at.emplace(p.id, p);
   std::int64_t last = 0;
   for (const auto& p : before.points) last = std::max(last, static_cast<std::int64_t>(p.id));
-  for (const auto& p : r.file.plc.points) {
+  for (const auto& p : r.file.graph.points) {
     const auto it = at.find(p.id);
     if (it == at.end()) {
       REQUIRE(static_cast<std::int64_t>(p.id) > last);
@@ -124,10 +125,10 @@ void require_points_kept(const Plc& before, const RepairedPlc& r) {
 
 // Whether it could be: what is nearly parallel may be too close.
 bool try_soup(std::uint64_t seed, SoupKind kind, std::size_t parts, double scale) {
-  const Plc plc = RandomSoup(seed, kind, parts, scale).plc();
+  const Graph<3> plc = RandomSoup(seed, kind, parts, scale).plc();
   CAPTURE(seed, int(kind), parts, scale);
   const auto domain = domain_of(plc);
-  RepairedPlc r;
+  Repaired<3> r;
   try {
     r = repair(plc, domain);  // asks a mesher's own tests
   } catch (const mesher::Error& error) {
@@ -135,14 +136,14 @@ bool try_soup(std::uint64_t seed, SoupKind kind, std::size_t parts, double scale
     return false;
   }
   require_points_kept(plc, r);
-  const RepairedPlc again = repair(r.file, domain);
-  REQUIRE(again.file.plc == r.file.plc);
+  const Repaired<3> again = repair(r.file, domain);
+  REQUIRE(again.file.graph == r.file.graph);
   REQUIRE(again.notes.empty());
-  REQUIRE(sorted(repair(shuffled(plc, seed), domain).file.plc) == sorted(r.file.plc));
+  REQUIRE(sorted(repair(shuffled(plc, seed), domain).file.graph) == sorted(r.file.graph));
   REQUIRE(r.deviation <= 16 * r.tolerance);
   if (kind == SoupKind::flat) {
     mesher::SplitMix64 random(seed);
-    const Covered before = covered(plc), after = covered(r.file.plc);
+    const Covered before = covered(plc), after = covered(r.file.graph);
     const double most = 16 * r.tolerance;
     require_covered(before, after, most, random);
     require_covered(after, before, most, random);
@@ -188,23 +189,21 @@ TEST_CASE("large ones are repaired in the same way") {
 
 TEST_CASE("where polygons cross and do not overlap, no area goes and none comes") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Plc plc = RandomSoup(seed, SoupKind::flat, 20, 1).plc();
-    REQUIRE(area(repair(plc).file.plc) == Approx(area(plc)).epsilon(1e-9));
+    const Graph<3> plc = RandomSoup(seed, SoupKind::flat, 20, 1).plc();
+    REQUIRE(area(repair(plc).file.graph) == Approx(area(plc)).epsilon(1e-9));
   }
 }
 
 TEST_CASE("repaired complexes of the lattice are meshed") {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    const Plc plc = repair(RandomSoup(2 * seed + 1, SoupKind::lattice, 4, 1).plc()).file.plc;
+    const Graph<3> plc = repair(RandomSoup(2 * seed + 1, SoupKind::lattice, 4, 1).plc()).file.graph;
     CAPTURE(seed);
     std::vector<Point<3>> points;
-    std::vector<mesher::FeatureId> ids;
+    std::vector<mesher::PointId> ids;
     for (const auto& p : plc.points) points.push_back(p.at), ids.push_back(p.id);
     std::vector<mesher::Segment> segments;
     for (const auto& s : plc.segments) segments.push_back({s.id, s.from, s.to});
-    std::vector<mesher::Polygon> polygons;
-    for (const auto& f : plc.facets) polygons.push_back(f.polygon);
-    const auto mesh = mesh_statically(points, segments, polygons,
+    const auto mesh = mesh_statically(points, segments, plc.polygons,
                                       {.domain = domain_of(plc), .max_vertices = 100000}, ids);
     REQUIRE(mesh.vertices.size() >= points.size());
   }

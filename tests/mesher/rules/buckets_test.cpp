@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "program/world.hpp"
 #include "rules/insertion_rule.hpp"
 #include "rules/mesh_box.hpp"

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <memory>
 
+#include "facade/mesh_statically.hpp"
 #include "mesher/check.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "program/world_impl.hpp"
 #include "rules/mesh_box.hpp"
 
@@ -155,7 +156,7 @@ TEST_CASE("a new point's nearest vertex is rho lengths away, and what the rule s
     }
     const int b = rule->buckets().bucket(nearest2);
     const auto cell = search.cut_around(*all[0], rule->buckets().clip_radius(b),
-                                   [](VertexHandle) { return true; });
+                                        [](VertexHandle) { return true; });
     const auto point = rule->next_point(*cell, b, nullptr);
     if (!point.has_value()) continue;
     ++found;
@@ -183,7 +184,9 @@ TEST_CASE("a lone point, whose events run in the last buckets, is meshed for eve
       for (const auto& p : points) {
         INFO("rho " << rho << " point " << p[0] << ' ' << p[1]);
         const auto mesh = mesher::mesh_statically<2>({p}, options(rho, rule));
-        for (const auto& finding : mesher::check_mesh(mesh, {.input = nullptr, .rho = rho})) {
+        mesher::CheckOptions<2> asked;
+        asked.rho = rho;
+        for (const auto& finding : mesher::check_mesh(mesh, asked)) {
           INFO(finding.property << ": " << finding.detail);
           CHECK(finding.holds);
         }

@@ -1,14 +1,16 @@
 // The meshing box: where it may lie, and the grid on its sides, which no vertex encroaches.
+#include "rules/mesh_box.hpp"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 #include <set>
 
+#include "facade/graph_runs.hpp"
 #include "mesher/check.hpp"
 #include "mesher/error.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/mesher.hpp"
-#include "rules/mesh_box.hpp"
 
 namespace {
 
@@ -161,7 +163,9 @@ TEST_CASE("triangles with all corners on the boundary are as good as the others"
       for (const auto& points : {std::vector<Point<2>>{}, std::vector<Point<2>>{{0.25, 0.625}}}) {
         INFO(text(o) << ", points " << points.size());
         const Mesh<2> mesh = mesher::mesh_statically<2>(points, o);
-        for (const auto& finding : mesher::check_mesh(mesh, {.input = nullptr, .rho = rho})) {
+        mesher::CheckOptions<2> asked;
+        asked.rho = rho;
+        for (const auto& finding : mesher::check_mesh(mesh, asked)) {
           INFO(finding.property << ": " << finding.detail);
           CHECK(finding.holds);
         }
@@ -183,16 +187,17 @@ TEST_CASE("a domain whose box is beyond the predicates' range is refused, one wi
   CHECK(refusal({.domain = {{0x1p100, 0}, {0x1p100, 1}}}) == ErrorCode::bad_option);
   SplitMix64 random(41);
   for (const double x : {0x1p98, 0x1p-101}) {
-    mesher::PointFile<2> input;
+    mesher::GraphFile<2> input;
     for (int i = 0; i < 30; ++i) {
       const Point<2> p{x * (2 * random.unit() - 1), x * (2 * random.unit() - 1)};
       if (std::abs(p[0]) < 0x1p-100 || std::abs(p[1]) < 0x1p-100) continue;
-      input.ids.push_back(mesher::FeatureId{i});
-      input.points.push_back(p);
-      input.lines.push_back(0);
+      input.graph.points.push_back({mesher::PointId{i}, p});
     }
-    const Mesh<2> mesh = mesher::mesh_statically<2>(input.points, around(x));
-    for (const auto& finding : mesher::check_mesh(mesh, {.input = &input, .rho = 1.4142})) {
+    const Mesh<2> mesh = mesher::mesh_statically<2>(places_of(input.graph), around(x));
+    mesher::CheckOptions<2> asked;
+    asked.graph = &input;
+    asked.rho = 1.4142;
+    for (const auto& finding : mesher::check_mesh(mesh, asked)) {
       INFO("domain " << x << ", " << finding.property << ": " << finding.detail);
       CHECK(finding.holds);
     }

@@ -3,9 +3,10 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include "mesher/generate.hpp"
+#include "facade/graph_runs.hpp"
+#include "mesher/check.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/mesher.hpp"
-#include "mesher/space_check.hpp"
 
 namespace {
 
@@ -24,7 +25,10 @@ void check(const Case& c) {
   INFO(static_cast<int>(c.kind) << ", " << c.n << " points: " << mesh.vertices.size()
                                 << " vertices, the model's " << c.model);
   CHECK(static_cast<double>(mesh.vertices.size()) <= 1.02 * static_cast<double>(c.model));
-  for (const auto& finding : mesher::check_mesh(mesh, {.rho = options.rho, .ties = true})) {
+  mesher::CheckOptions<3> asked;
+  asked.rho = options.rho;
+  asked.ties = true;
+  for (const auto& finding : mesher::check_mesh(mesh, asked)) {
     INFO(finding.property << ": " << finding.detail);
     CHECK(finding.holds);
   }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "facade/mesh_statically.hpp"
 #include "mesher/predicates.hpp"
 #include "program/world_impl.hpp"
 #include "rules/mesh_box.hpp"
@@ -18,8 +19,8 @@ using mesher::Point;
 using mesher::Rule;
 using mesher::detail::EdgeFilter;
 using mesher::detail::InsertionRule;
-using mesher::detail::MeshBox;
 using mesher::detail::Limits;
+using mesher::detail::MeshBox;
 using mesher::detail::VertexRef;
 using mesher::detail::VoronoiCell3;
 using World = mesher::detail::World<sac::PlainScope, 3>;

@@ -10,7 +10,7 @@
 #include "geometry/space_vectors.hpp"
 #include "mesher/delaunay.hpp"
 #include "mesher/error.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/sizes.hpp"
 #include "sizes/tile.hpp"
 
@@ -20,7 +20,7 @@ using mesher::Point;
 using mesher::SplitMix64;
 
 template <int D>
-using Samples = std::vector<mesher::SizeSampleOf<D>>;
+using Samples = std::vector<mesher::SizeSample<D>>;
 
 template <int D>
 Point<D> random_point(SplitMix64& random, double lo, double hi) {
@@ -186,8 +186,8 @@ TEMPLATE_TEST_CASE_SIG("A background is linear between its samples, and has thei
   for (const double unit : {1.0, 1 / 49.0, 1e-9, 1e9}) check_linear<D>(unit);
 }
 
-TEMPLATE_TEST_CASE_SIG("It is what the simplices of their triangulation say, in whatever order",
-                       "", ((int D), D), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("It is what the simplices of their triangulation say, in whatever order", "",
+                       ((int D), D), 2, 3) {
   check_like_naive<D>();
 }
 
@@ -241,7 +241,8 @@ TEMPLATE_TEST_CASE_SIG("Sizes of any magnitude are bounds of what is between the
   Samples<D> samples;
   SplitMix64 random(9);
   for (const auto& p : places<D>(7, 40, 1)) {
-    samples.push_back({p, std::ldexp(1 + random.unit(), 1000 - static_cast<int>(random.below(2020)))});
+    samples.push_back(
+        {p, std::ldexp(1 + random.unit(), 1000 - static_cast<int>(random.below(2020)))});
   }
   const auto field = mesher::sampled_sizes<D>(samples);
   for (int i = 0; i < 300; ++i) {

@@ -4,7 +4,9 @@
 #include <limits>
 #include <memory>
 
-#include "mesher/domain_mesher.hpp"
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
 #include "mesher/error.hpp"
 #include "mesher/sizes.hpp"
 #include "random_limits.hpp"
@@ -12,11 +14,10 @@
 namespace {
 
 using mesher::Box;
+using mesher::BoxMesher;
 using mesher::Error;
 using mesher::ErrorCode;
-using mesher::FeatureId;
 using mesher::Mesh;
-using mesher::Mesher;
 using mesher::Options;
 using mesher::Point;
 using mesher::Segment;
@@ -25,7 +26,7 @@ using mesher::SizeLimits;
 constexpr Box<2> kDomain{{0, 0}, {16, 16}};
 constexpr Box<2> kMiddle{{5, 5}, {9, 9}};
 
-FeatureId id(std::int64_t i) { return FeatureId{i}; }
+AnyId id(std::int64_t i) { return AnyId{i}; }
 
 std::vector<Point<2>> points(double scale = 1) {
   std::vector<Point<2>> all{{2, 8}, {13, 8.5}, {8, 3}, {6.5, 6}};
@@ -47,7 +48,7 @@ Mesh<2> from_scratch(const Options<2>& options, double scale = 1) {
 }
 
 struct Room {
-  Mesher<2> m{Options<2>{.domain = kDomain}};
+  BoxMesher<2> m{Options<2>{.domain = kDomain}};
   Room() {
     announce(m);
     m.update();
@@ -91,7 +92,7 @@ TEST_CASE("A limit comes, changes in a box, and goes again, with the next update
 }
 
 TEST_CASE("Limits are announced with other edits, and before the first update, too") {
-  Mesher<2> m({.domain = kDomain});
+  BoxMesher<2> m({.domain = kDomain});
   announce(m);
   m.limit({.max_measure = 1});
   m.limit(kMiddle, {.max_measure = 0.1});
@@ -151,7 +152,7 @@ TEST_CASE("Limits that make no sense are refused when they are announced, and ch
   room.m.update();
   CHECK(room.m.options().box_limits.empty());
   CHECK(room.m.mesh() == from_scratch(room.m.options()));
-  Mesher<2> other({.domain = kDomain, .rule = mesher::Rule::voronoi_aspect});
+  BoxMesher<2> other({.domain = kDomain, .rule = mesher::Rule::voronoi_aspect});
   CHECK(code([&] { other.limit({.max_measure = 1}); }) == ErrorCode::bad_option);
   other.limit(SizeLimits<2>());
 }
@@ -193,7 +194,7 @@ TEST_CASE("An update that is refused, stopped or discarded leaves the mesh and t
 }
 
 TEST_CASE("A limit that needs more vertices than there may be is refused") {
-  Mesher<2> m({.domain = kDomain, .max_vertices = 500});
+  BoxMesher<2> m({.domain = kDomain, .max_vertices = 500});
   announce(m);
   m.update();
   const Mesh<2> before = m.mesh();
@@ -205,7 +206,7 @@ TEST_CASE("A limit that needs more vertices than there may be is refused") {
 
 TEST_CASE("At scales of 2^-60 and 2^60 limits are edited as at 1") {
   for (const double scale : {0x1p-60, 0x1p60}) {
-    Mesher<2> m({.domain = scaled(kDomain, scale)});
+    BoxMesher<2> m({.domain = scaled(kDomain, scale)});
     announce(m, scale);
     m.update();
     const double unit = scale * scale;
@@ -213,7 +214,7 @@ TEST_CASE("At scales of 2^-60 and 2^60 limits are edited as at 1") {
     m.limit(scaled(kMiddle, scale), {.max_measure = 0.05 * unit});
     m.update();
     CHECK(m.mesh() == from_scratch(m.options(), scale));
-    Mesher<2> one({.domain = kDomain});
+    BoxMesher<2> one({.domain = kDomain});
     announce(one);
     one.limit({.max_measure = 0.5});
     one.limit(kMiddle, {.max_measure = 0.05});
@@ -242,13 +243,13 @@ TEST_CASE("Many boxes over each other are forgotten where later ones cover them"
   CHECK(room.m.mesh() == from_scratch(room.m.options()));
 }
 
-TEST_CASE("A DomainMesher's limits are edited as those of a Mesher") {
-  mesher::DomainMesher m({.domain = kDomain});
+TEST_CASE("A Mesher's limits are edited as those of a BoxMesher") {
+  mesher::Mesher<2> m(Options<2>{.domain = kDomain});
   announce(m);
   m.update();
   m.limit({.max_measure = 1});
   m.limit(kMiddle, {.max_measure = 0.1});
   m.update();
-  CHECK(m.mesh() == from_scratch(m.options()));
+  CHECK(m.box_mesh() == from_scratch(m.options()));
   m.check_invariants();
 }

@@ -7,17 +7,18 @@
 #include <memory>
 #include <set>
 
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
 #include "geometry/centroid.hpp"
 #include "geometry/plane_vectors.hpp"
 #include "mesher/error.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/mesher.hpp"
+#include "mesher/extra/generate.hpp"
 #include "sized_square.hpp"
 
 namespace {
 
+using mesher::BoxMesher;
 using mesher::Mesh;
-using mesher::Mesher;
 using mesher::Options;
 using mesher::Point;
 using support::SizedSquare;
@@ -49,7 +50,8 @@ double largest(const Mesh<2>& mesh, Limit&& limit) {
   for (const auto& t : mesh.simplices) {
     const Point<2>&p = mesh.vertices[t[0]], &q = mesh.vertices[t[1]], &r = mesh.vertices[t[2]];
     const double area = ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
-    most = std::max(most, area / limit(mesher::detail::centroid(mesher::detail::CornersOf<2>{p, q, r})));
+    most = std::max(most,
+                    area / limit(mesher::detail::centroid(mesher::detail::CornersOf<2>{p, q, r})));
   }
   return most;
 }
@@ -144,9 +146,9 @@ TEST_CASE("A limit that makes no sense is refused") {
 TEST_CASE("A point or a segment changes as few vertices where 16 times as many are filled") {
   for (const char kind : {'p', 's'}) {
     for (const double area : {1e-4, 1e-4 / 16}) {
-      Mesher<2> m(limited(area));
+      BoxMesher<2> m(limited(area));
       std::int64_t next = 1;
-      for (const auto& p : SizedSquare::points()) m.insert(mesher::FeatureId{next++}, p);
+      for (const auto& p : SizedSquare::points()) m.insert(mesher::PointId{next++}, p);
       for (const auto& s : SizedSquare::segments()) m.insert_segment(s.id, s.from, s.to);
       m.update();
       mesher::SplitMix64 random(5);
@@ -157,20 +159,19 @@ TEST_CASE("A point or a segment changes as few vertices where 16 times as many a
         const double angle = 7 * random.unit();
         const Point<2> q{p[0] + length * std::cos(angle), p[1] + length * std::sin(angle)};
         if (SizedSquare::beyond(p) > -0.05 || SizedSquare::beyond(q) > -0.05) continue;
-        m.insert(mesher::FeatureId{1000}, p);
-        if (kind == 's') m.insert(mesher::FeatureId{1001}, q);
+        m.insert(mesher::PointId{1000}, p);
+        if (kind == 's') m.insert(mesher::PointId{1001}, q);
         if (kind == 's')
-          m.insert_segment(mesher::FeatureId{1000}, mesher::FeatureId{1000},
-                           mesher::FeatureId{1001});
+          m.insert_segment(mesher::LineId{1000}, mesher::PointId{1000}, mesher::PointId{1001});
         try {
           const auto change = m.update();
           changed.push_back(change.vertices_added.size() + change.vertices_removed.size());
         } catch (const mesher::Error&) {
           continue;  // it meets a segment
         }
-        m.remove(mesher::FeatureId{1000});
-        if (kind == 's') m.remove(mesher::FeatureId{1001});
-        if (kind == 's') m.remove_segment(mesher::FeatureId{1000});
+        m.remove(mesher::PointId{1000});
+        if (kind == 's') m.remove(mesher::PointId{1001});
+        if (kind == 's') m.remove_line(mesher::LineId{1000});
         m.update();
       }
       std::nth_element(changed.begin(), changed.begin() + 12, changed.end());

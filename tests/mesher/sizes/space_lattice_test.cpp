@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geometry/space_vectors.hpp"
-#include "mesher/generate.hpp"
+#include "mesher/extra/generate.hpp"
 #include "mesher/predicates.hpp"
 #include "sizes/lattice.hpp"
 #include "sizes/tile.hpp"
@@ -74,8 +74,7 @@ TEST_CASE("The tetrahedra at a node of the lattice are Delaunay, alike, and fill
     volume += std::abs(v);
     std::size_t inside = 0, on = 0;
     lattice.visit_in({{-2, -6, -2}, {5, 3, 7}}, [&](const Lattice<3>::Node& n) {
-      const int sign =
-          mesher::predicates::insphere(c[0], c[1], c[2], c[3], lattice.place(n));
+      const int sign = mesher::predicates::insphere(c[0], c[1], c[2], c[3], lattice.place(n));
       inside += sign > 0 ? 1 : 0;
       on += sign == 0 ? 1 : 0;
       return false;

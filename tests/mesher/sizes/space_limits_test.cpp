@@ -1,33 +1,37 @@
-// Limits of size in space: nothing is larger, and under edits of complexes, of limits and of regions
-// the mesh is that of a run from scratch.
+// Limits of size in space: nothing is larger, and under edits of complexes, of limits and of
+// regions the mesh is that of a run from scratch.
+#include "space_limits.hpp"
+
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
 
+#include "facade/graph_runs.hpp"
 #include "geometry/centroid.hpp"
 #include "geometry/space_vectors.hpp"
-#include "mesher/domain_mesher.hpp"
+#include "mesher/check.hpp"
 #include "mesher/error.hpp"
-#include "mesher/space_check.hpp"
+#include "mesher/mesher.hpp"
 #include "program/obstacles.hpp"
 #include "program/world.hpp"
 #include "rules/mesh_box.hpp"
 #include "sizes/limits.hpp"
-#include "space_limits.hpp"
 #include "space_parcels.hpp"
 
 namespace {
 
 using mesher::Extent;
-using mesher::FeatureId;
+using mesher::Graph;
+using mesher::LineId;
 using mesher::Mesh;
 using mesher::Options;
-using mesher::Plc;
 using mesher::Point;
+using mesher::PointId;
+using mesher::PolygonId;
 using mesher::RegionAreas;
-using Mesher = mesher::DomainMesherOf<3>;
+using Mesher = mesher::Mesher<3>;
 
 const Options<3> kOptions{.domain = {{0, 0, 0}, {2, 2, 2}}, .max_vertices = 200000};
 
@@ -50,13 +54,16 @@ Options<3> fresh_options(const Mesher& m, RegionAreas areas) {
   Options<3> options = m.options();
   options.region_limits = nullptr;
   const bool regions = m.options().region_limits != nullptr;
-  if (regions) options.region_limits = region_limits(m.input(), options, m.extent(), areas);
+  if (regions) options.region_limits = region_limits(m.input(), options, options.extent, areas);
   return options;
 }
 
 // Edits of complexes and of limits, and of seeds if regions have limits of their own.
 void follow(std::uint64_t seed, Extent extent, RegionAreas areas, int updates) {
-  Mesher m(kOptions, extent, areas);
+  Options<3> with_extent = kOptions;
+  with_extent.extent = extent;
+  with_extent.region_areas = areas;
+  Mesher m(with_extent);
   support::SpaceParcels<Mesher> parcels(m, seed);
   support::SpaceLimits limits(seed);
   mesher::SplitMix64 random(seed);
@@ -69,12 +76,12 @@ void follow(std::uint64_t seed, Extent extent, RegionAreas areas, int updates) {
       if (areas == RegionAreas::limits && random.below(2) == 0) {
         const Point<3> at{2 * random.unit(), 2 * random.unit(), 2 * random.unit()};
         const double volume = random.below(2) == 0 ? 0.002 : 0.0004;
-        m.insert_region(FeatureId{++last_seed}, at, 1, volume);
+        m.insert_region(++last_seed, at, 1, volume);
       }
       m.update();
     });
     const Options<3> options = fresh_options(m, areas);
-    const Mesh<3> mesh = m.mesh();
+    const Mesh<3> mesh = m.box_mesh();
     if (!done && mesh.vertices.empty()) return;
     REQUIRE(mesh == mesh_statically(m.input(), options));
     REQUIRE(count_large(mesh, options) == 0);
@@ -112,33 +119,36 @@ TEST_CASE("A point amid a lattice in space changes few vertices, however fine th
   for (const double volume : {1e-3, 1e-4}) {
     Options<3> options = kOptions;
     options.max_measure = volume;
-    Mesher m(options, Extent::box);
+    options.extent = Extent::box;
+    Mesher m(options);
     m.update();
-    const std::size_t all = m.mesh().vertices.size();
+    const std::size_t all = m.box_mesh().vertices.size();
     CHECK(all > 1 / volume);  // 8 / (6 volume) and the box
-    m.insert(FeatureId{1}, {1.01, 0.93, 1.07});
+    m.insert(PointId{1}, {1.01, 0.93, 1.07});
     const auto change = m.update();
     CHECK(change.vertices_added.size() + change.vertices_removed.size() < 40);
-    CHECK(m.mesh() == mesh_statically(m.input(), options));  // also where it takes a place's room
+    CHECK(m.box_mesh() ==
+          mesh_statically(m.input(), options));  // also where it takes a place's room
   }
 }
 
 // In a sheet there is no centroid and no place of a lattice: nothing else splits.
-TEST_CASE("Edges and polygons are as fine as the lattice where they meet a limit, if it is a sheet") {
+TEST_CASE(
+    "Edges and polygons are as fine as the lattice where they meet a limit, if it is a sheet") {
   const double spacing = 0.2;
-  Mesher m({.domain = {{0, 0, 0}, {4, 4, 4}}}, Extent::box);
-  m.insert(FeatureId{1}, {0.5, 1.9, 3.1});
-  m.insert(FeatureId{2}, {3.5, 2.2, 2.9});
-  m.insert_segment(FeatureId{1}, FeatureId{1}, FeatureId{2});
-  m.insert(FeatureId{3}, {0.5, 0.5, 1});
-  m.insert(FeatureId{4}, {3.5, 0.5, 1});
-  m.insert(FeatureId{5}, {3.5, 3.5, 1});
-  m.insert(FeatureId{6}, {0.5, 3.5, 1});
-  m.insert_polygon({.id = FeatureId{1},
-                    .loops = {{FeatureId{3}, FeatureId{4}, FeatureId{5}, FeatureId{6}}}});
+  Mesher m(Options<3>{.domain = {{0, 0, 0}, {4, 4, 4}}, .extent = Extent::box});
+  m.insert(PointId{1}, {0.5, 1.9, 3.1});
+  m.insert(PointId{2}, {3.5, 2.2, 2.9});
+  m.insert_segment(LineId{1}, PointId{1}, PointId{2});
+  m.insert(PointId{3}, {0.5, 0.5, 1});
+  m.insert(PointId{4}, {3.5, 0.5, 1});
+  m.insert(PointId{5}, {3.5, 3.5, 1});
+  m.insert(PointId{6}, {0.5, 3.5, 1});
+  m.insert_polygon(
+      {.id = PolygonId{1}, .loops = {{PointId{3}, PointId{4}, PointId{5}, PointId{6}}}});
   m.limit({{2.03, 0, 0}, {2.03, 4, 4}}, {.max_measure = spacing * spacing * spacing / 12});
   m.update();
-  const Mesh<3> mesh = m.mesh();
+  const Mesh<3> mesh = m.box_mesh();
   // The longest of those that meet the sheet.
   const auto longest = [&](const auto& parts) {
     double longest2 = 0;
@@ -148,7 +158,8 @@ TEST_CASE("Edges and polygons are as fine as the lattice where they meet a limit
       for (const auto v : part) {
         for (const auto w : part) {
           if (!left || !right) continue;
-          const double length2 = mesher::detail::squared_distance(mesh.vertices[v], mesh.vertices[w]);
+          const double length2 =
+              mesher::detail::squared_distance(mesh.vertices[v], mesh.vertices[w]);
           longest2 = std::max(longest2, length2);
         }
       }
@@ -165,10 +176,12 @@ TEST_CASE("Edges and polygons are as fine as the lattice where they meet a limit
 }
 
 TEST_CASE("Limits in space that make no sense are refused, and change nothing") {
-  Mesher m(kOptions, Extent::box);
+  Options<3> options = kOptions;
+  options.extent = Extent::box;
+  Mesher m(options);
   m.limit({.max_measure = 0.01});
   m.update();
-  const Mesh<3> before = m.mesh();
+  const Mesh<3> before = m.box_mesh();
   const auto refused = [&](const mesher::Box<3>& box, double volume) {
     try {
       m.limit(box, {.max_measure = volume});
@@ -182,6 +195,6 @@ TEST_CASE("Limits in space that make no sense are refused, and change nothing") 
   CHECK(refused(kOptions.domain, 1e-60));
   CHECK(refused({{1, 1, 1}, {0, 2, 2}}, 1));
   m.update();
-  CHECK(m.mesh() == before);
+  CHECK(m.box_mesh() == before);
   CHECK(m.options().max_measure == 0.01);
 }

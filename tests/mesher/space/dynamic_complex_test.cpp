@@ -131,9 +131,9 @@ TEST_CASE("so it is below rho = 2, where the guard looks farther than cells [rul
   }
 }
 
-// A tetrahedron of which 555 edges are lonely, and short segments 5 to 15 lengths from these: the
+// A tetrahedron of which 555 edges are isolated, and short segments 5 to 15 lengths from these: the
 // calls that look at the edges' cells do not look so far.
-TEST_CASE("what comes far from a lonely edge, where no cell looks, ends its loneliness") {
+TEST_CASE("what comes far from a isolated edge, where no cell looks, ends its loneliness") {
   mesher::Options<3> options;
   options.rho = 1.42;
   options.domain = {{0, 0, 0}, {1, 1, 1}};

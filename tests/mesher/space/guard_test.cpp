@@ -1,7 +1,5 @@
-// Below rho = 2: refinement of complexes ends, and what stays poor is beside lonely features, by a
-// judge that has the input alone.
-#include "mesher/guard.hpp"
-
+// Below rho = 2: refinement of complexes ends, and what stays poor is beside isolated features, by
+// a judge that has the input alone.
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -9,34 +7,37 @@
 #include <string>
 #include <vector>
 
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
 #include "graph/plc_builder.hpp"
-#include "mesher/domain_mesh.hpp"
-#include "mesher/generate.hpp"
-#include "mesher/generate_plc.hpp"
-#include "mesher/mesher.hpp"
-#include "mesher/space_check.hpp"
+#include "mesher/check.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/reports.hpp"
 #include "random_complex.hpp"
 
 namespace {
 
-using mesher::FeatureId;
+using mesher::Graph;
+using mesher::GraphFile;
+using mesher::LineId;
 using mesher::Mesh;
 using mesher::Options;
-using mesher::Plc;
-using mesher::PlcFile;
 using mesher::PlcKind;
 using mesher::Point;
+using mesher::PointId;
+using mesher::PolygonId;
 
-Options<3> options_for(const Plc& plc, double rho, std::size_t most) {
+Options<3> options_for(const Graph<3>& plc, double rho, std::size_t most) {
   return {.domain = mesher::snapped_domain<3>(places_of(plc)), .rho = rho, .max_vertices = most};
 }
 
 // What is wrong with a mesh, to which its complex is all that is known; nothing if nothing is.
-std::string fault(const Mesh<3>& mesh, const Plc& plc, double rho) {
-  PlcFile complex;
-  complex.plc = plc;
-  mesher::SpaceCheckOptions options;
-  options.complex = &complex;
+std::string fault(const Mesh<3>& mesh, const Graph<3>& plc, double rho) {
+  GraphFile<3> complex;
+  complex.graph = plc;
+  mesher::CheckOptions<3> options;
+  options.graph = &complex;
   options.rho = rho;
   for (const auto& finding : check_mesh(mesh, options)) {
     if (!finding.holds) return finding.property + ": " + finding.detail;
@@ -64,19 +65,19 @@ class Grid {
   void edit() {
     const std::size_t i = random_.below(parts_.size());
     if (!parts_[i]) return put(i);
-    for (const auto& f : parts_[i]->facets) m_.remove_polygon(f.polygon.id);
-    for (const auto& s : parts_[i]->segments) m_.remove_segment(s.id);
+    for (const auto& f : parts_[i]->polygons) m_.remove_polygon(f.id);
+    for (const auto& s : parts_[i]->segments) m_.remove_line(s.id);
     for (const auto& p : parts_[i]->points) m_.remove(p.id);
     parts_[i].reset();
   }
-  mesher::Mesher<3>& mesher() { return m_; }
-  [[nodiscard]] Plc all() const {
-    Plc all;
+  mesher::BoxMesher<3>& mesher() { return m_; }
+  [[nodiscard]] Graph<3> all() const {
+    Graph<3> all;
     for (const auto& part : parts_) {
       if (!part) continue;
       all.points.insert(all.points.end(), part->points.begin(), part->points.end());
       all.segments.insert(all.segments.end(), part->segments.begin(), part->segments.end());
-      all.facets.insert(all.facets.end(), part->facets.begin(), part->facets.end());
+      all.polygons.insert(all.polygons.end(), part->polygons.begin(), part->polygons.end());
     }
     return all;
   }
@@ -86,31 +87,31 @@ class Grid {
     const auto at = [&](std::size_t bit) { return static_cast<double>(i >> bit & 1); };
     const auto complex =
         random_.part({at(0), at(1), at(2)}, 5 + static_cast<int>(random_.below(3)));
-    Plc& part = parts_[i].emplace();
-    for (const auto& p : complex.points) part.points.push_back({FeatureId{++last_}, p});
+    Graph<3>& part = parts_[i].emplace();
+    for (const auto& p : complex.points) part.points.push_back({PointId{++last_}, p});
     const auto id = [&](std::size_t k) { return part.points[k].id; };
     for (const auto& s : complex.segments) {
-      part.segments.push_back({FeatureId{++last_}, id(s[0]), id(s[1])});
+      part.segments.push_back({LineId{++last_}, id(s[0]), id(s[1])});
     }
     for (const auto& f : complex.faces) {
       mesher::Polygon polygon;
-      polygon.id = FeatureId{++last_};
+      polygon.id = PolygonId{++last_};
       for (const auto& loop : f.loops) {
         auto& corners = polygon.loops.emplace_back();
         for (const std::size_t k : loop) corners.push_back(id(k));
       }
-      part.facets.push_back({polygon, 0});
+      part.polygons.push_back(polygon);
     }
     announce(part, m_);
   }
 
   support::RandomComplex random_;
-  mesher::Mesher<3> m_;
-  std::array<std::optional<Plc>, 8> parts_;
+  mesher::BoxMesher<3> m_;
+  std::array<std::optional<Graph<3>>, 8> parts_;
   std::int64_t last_ = 0;
 };
 
-Plc plc_of(const support::Complex& complex) {
+Graph<3> plc_of(const support::Complex& complex) {
   mesher::detail::PlcBuilder b;
   for (const Point<3>& p : complex.points) b.point(p);
   for (const auto& s : complex.segments) b.segment(complex.points[s[0]], complex.points[s[1]]);
@@ -128,7 +129,7 @@ Plc plc_of(const support::Complex& complex) {
 }  // namespace
 
 TEST_CASE(
-    "below rho = 2 refinement of families ends, and what stays poor is beside lonely features") {
+    "below rho = 2 refinement of families ends, and what stays poor is beside isolated features") {
   struct Family {
     PlcKind kind;
     double rho;
@@ -146,7 +147,7 @@ TEST_CASE(
                                         {PlcKind::leaning, 1.7, 900},
                                         {PlcKind::nested, 1.7, 1500}}) {
     INFO(name(kind) << ", rho " << rho);
-    const Plc plc = mesher::generate_plc({kind});
+    const Graph<3> plc = mesher::generate_plc({kind});
     const Mesh<3> mesh = mesh_statically(plc, options_for(plc, rho, most));
     REQUIRE(fault(mesh, plc, rho) == "");
     const mesher::GuardReport report = mesher::guard_report(mesh, plc, rho);
@@ -162,7 +163,7 @@ TEST_CASE("below rho = 2 refinement ends at random corners") {
     for (int kind = 2; kind < support::RandomComplex::kKinds; ++kind) {
       for (const double rho : {1.7, 1.42, 1.3}) {
         INFO("seed " << seed << ", kind " << kind << ", rho " << rho);
-        const Plc plc = plc_of(random.part({0, 0, 0}, kind));
+        const Graph<3> plc = plc_of(random.part({0, 0, 0}, kind));
         const Mesh<3> mesh = mesh_statically(plc, options_for(plc, rho, 30000));
         CHECK(fault(mesh, plc, rho) == "");
       }
@@ -170,8 +171,8 @@ TEST_CASE("below rho = 2 refinement ends at random corners") {
   }
 }
 
-TEST_CASE("nothing is poor beside features that are not lonely, or where rho is not guarded") {
-  const Plc plc = mesher::generate_plc({PlcKind::nested});
+TEST_CASE("nothing is poor beside features that are not isolated, or where rho is not guarded") {
+  const Graph<3> plc = mesher::generate_plc({PlcKind::nested});
   const Mesh<3> mesh = mesh_statically(plc, options_for(plc, 2, 10000));
   CHECK(fault(mesh, plc, 2) == "");
   CHECK(fault(mesh, plc, 1.42) != "");
@@ -182,7 +183,7 @@ TEST_CASE("nothing is poor beside features that are not lonely, or where rho is 
 TEST_CASE("a feature alone is refined to the size of its parts, however far others are") {
   mesher::detail::PlcBuilder b;
   b.polygon({{{0, 0, 0}, {1, 0, 0}, {1, 0.02, 0}, {0, 0.02, 0}}});
-  const Plc plc = b.finish();
+  const Graph<3> plc = b.finish();
   const Mesh<3> mesh = mesh_statically(plc, options_for(plc, 1.7, 10000));
   CHECK(fault(mesh, plc, 1.7) == "");
   CHECK(mesher::guard_report(mesh, plc, 1.7).tetrahedra == 0);
@@ -190,17 +191,15 @@ TEST_CASE("a feature alone is refined to the size of its parts, however far othe
 }
 
 TEST_CASE("the guard says beside which feature it gave in, and where") {
-  const Plc plc = mesher::generate_plc({PlcKind::vee});
+  const Graph<3> plc = mesher::generate_plc({PlcKind::vee});
   const Mesh<3> mesh = mesh_statically(plc, options_for(plc, 1.42, 10000));
   const mesher::GuardReport report = mesher::guard_report(mesh, plc, 1.42);
   REQUIRE(!report.places.empty());
   std::size_t all = 0;
-  for (const mesher::GaveIn& place : report.places) {
-    const auto is = [&](const auto& f) { return f == place.feature; };
-    CHECK((place.is_polygon ? std::any_of(plc.facets.begin(), plc.facets.end(),
-                                          [&](const auto& f) { return is(f.polygon.id); })
-                            : std::any_of(plc.segments.begin(), plc.segments.end(),
-                                          [&](const auto& s) { return is(s.id); })));
+  for (const mesher::PoorBeside& place : report.places) {
+    const auto is = [&](const auto& f) { return place.feature == mesher::Feature(f.id); };
+    CHECK((std::any_of(plc.polygons.begin(), plc.polygons.end(), is) ||
+           std::any_of(plc.segments.begin(), plc.segments.end(), is)));
     CHECK(place.max_radius_edge > 1.42);
     all += place.tetrahedra;
   }
@@ -210,9 +209,9 @@ TEST_CASE("the guard says beside which feature it gave in, and where") {
 
 TEST_CASE("edits below rho = 2 leave a fresh run's mesh, and say where the guard gave in") {
   const double rho = 1.42;
-  Plc plc = mesher::generate_plc({PlcKind::vee});
+  Graph<3> plc = mesher::generate_plc({PlcKind::vee});
   const Options<3> options = options_for(plc, rho, 10000);
-  mesher::Mesher<3> m(options);
+  mesher::BoxMesher<3> m(options);
   announce(plc, m);
   const auto first = m.update();
   CHECK(first.guard == mesher::guard_report(m.mesh(), plc, rho));
@@ -230,7 +229,7 @@ TEST_CASE("edits below rho = 2 leave a fresh run's mesh, and say where the guard
       for (std::size_t i = 0; i < 3; ++i) {
         p[i] = number(options.domain.lo[i], options.domain.hi[i]);
       }
-      plc.points.push_back({FeatureId{100 + update}, p});
+      plc.points.push_back({PointId{100 + update}, p});
       m.insert(plc.points.back().id, p);
     }
     const auto change = m.update();
@@ -267,8 +266,8 @@ void follow(Visit&& visit) {
 TEST_CASE("after edits of polygons a change says it, too, but for what angles excuse") {
   std::size_t all = 0, excused = 0;
   follow([&](const mesher::GuardReport& said, const mesher::GuardReport& news) {
-    for (const mesher::GaveIn& place : news.places) {
-      CHECK(std::any_of(said.places.begin(), said.places.end(), [&](const mesher::GaveIn& p) {
+    for (const mesher::PoorBeside& place : news.places) {
+      CHECK(std::any_of(said.places.begin(), said.places.end(), [&](const mesher::PoorBeside& p) {
         return p.feature == place.feature && p.tetrahedra >= place.tetrahedra;
       }));
     }

@@ -7,25 +7,31 @@
 #include <map>
 #include <set>
 
+#include "any_id.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
 #include "geometry/space_vectors.hpp"
-#include "mesher/domain_mesh.hpp"
-#include "mesher/generate_plc.hpp"
+#include "mesher/extra/generate.hpp"
+#include "mesher/meshing.hpp"
 #include "plc_families.hpp"
 
 namespace {
 
-using mesher::FeatureId;
+using mesher::Feature;
+using mesher::Graph;
+using mesher::LineId;
 using mesher::Mesh;
 using mesher::Options;
-using mesher::Plc;
 using mesher::Point;
+using mesher::PointId;
+using mesher::PolygonId;
 using support::Complex;
 
-FeatureId id(std::size_t i) { return FeatureId{static_cast<std::int64_t>(i)}; }
+AnyId id(std::size_t i) { return AnyId{static_cast<std::int64_t>(i)}; }
 
 // Segments are numbered from 1, polygons from 1001.
-Plc plc_of(const Complex& complex) {
-  Plc plc;
+Graph<3> plc_of(const Complex& complex) {
+  Graph<3> plc;
   for (std::size_t i = 0; i < complex.points.size(); ++i) {
     plc.points.push_back({id(i + 1), complex.points[i], 0});
   }
@@ -40,7 +46,7 @@ Plc plc_of(const Complex& complex) {
       for (const std::size_t p : loop) ids.push_back(id(p + 1));
     }
     for (const std::size_t p : complex.faces[i].on) polygon.points.push_back(id(p + 1));
-    plc.facets.push_back({polygon, 0});
+    plc.polygons.push_back(std::move(polygon));
   }
   return plc;
 }
@@ -55,20 +61,20 @@ double area(const std::vector<Point<3>>& loop) {
 }
 
 struct Reference {
-  std::map<FeatureId, Point<3>> places;
-  explicit Reference(const Plc& plc) {
+  std::map<PointId, Point<3>> places;
+  explicit Reference(const Graph<3>& plc) {
     for (const auto& p : plc.points) places[p.id] = p.at;
   }
   double area_of(const mesher::Polygon& polygon) const {
     double sum = 0;
     for (std::size_t l = 0; l < polygon.loops.size(); ++l) {
       std::vector<Point<3>> loop;
-      for (const FeatureId p : polygon.loops[l]) loop.push_back(places.at(p));
+      for (const PointId p : polygon.loops[l]) loop.push_back(places.at(p));
       sum += l == 0 ? area(loop) : -area(loop);
     }
     return sum;
   }
-  double length(FeatureId a, FeatureId b) const {
+  double length(PointId a, PointId b) const {
     return std::sqrt(mesher::detail::squared_distance(places.at(a), places.at(b)));
   }
 };
@@ -77,7 +83,7 @@ using Ends = std::array<std::uint32_t, 2>;
 
 // The lengths of lines' edges and the areas of polygons' faces are those of the complex, faces of a
 // polygon meet in pairs but on its border, and all are parts of tetrahedra.
-void require_parts(const Mesh<3>& mesh, const Plc& plc) {
+void require_parts(const Mesh<3>& mesh, const Graph<3>& plc) {
   const Reference reference(plc);
   std::set<Ends> edges;
   std::set<std::array<std::uint32_t, 3>> faces;
@@ -88,16 +94,17 @@ void require_parts(const Mesh<3>& mesh, const Plc& plc) {
     }
     faces.insert({{s[0], s[1], s[2]}, {s[0], s[1], s[3]}, {s[0], s[2], s[3]}, {s[1], s[2], s[3]}});
   }
-  std::map<FeatureId, double> lengths, areas;
+  std::map<LineId, double> lengths;
+  std::map<PolygonId, double> areas;
   std::set<Ends> on_edges;
   for (const auto& e : mesh.edges) {
     REQUIRE(edges.count({e.low, e.high}) == 1);
     REQUIRE(on_edges.insert({e.low, e.high}).second);
     const double length =
         std::sqrt(mesher::detail::squared_distance(mesh.vertices[e.low], mesh.vertices[e.high]));
-    if (!e.of_polygon) lengths[e.line] += length;
+    if (const auto line = e.feature.line()) lengths[*line] += length;
   }
-  std::map<std::pair<FeatureId, Ends>, int> sides;
+  std::map<std::pair<PolygonId, Ends>, int> sides;
   for (const auto& f : mesh.faces) {
     const auto [a, b, c] = f.corners;
     REQUIRE(faces.count(f.corners) == 1);
@@ -111,13 +118,13 @@ void require_parts(const Mesh<3>& mesh, const Plc& plc) {
     CHECK(lengths[s.id] == Approx(reference.length(s.from, s.to)).epsilon(1e-12));
   }
   CHECK(lengths.size() == plc.segments.size());
-  for (const auto& f : plc.facets) {
-    CHECK(areas[f.polygon.id] == Approx(reference.area_of(f.polygon)).epsilon(1e-11));
+  for (const auto& f : plc.polygons) {
+    CHECK(areas[f.id] == Approx(reference.area_of(f)).epsilon(1e-11));
   }
-  CHECK(areas.size() == plc.facets.size());
+  CHECK(areas.size() == plc.polygons.size());
 }
 
-Options<3> options_for(const Plc& plc) {
+Options<3> options_for(const Graph<3>& plc) {
   return {.domain = mesher::snapped_domain<3>(places_of(plc)), .max_vertices = 100000};
 }
 
@@ -133,7 +140,7 @@ TEST_CASE("edges add up to their segments, faces to their polygons, along axes a
       INFO(name << ' ' << parameter << (is_turned ? ", turned" : ""));
       Complex complex = support::complex_of(name, parameter);
       if (is_turned) complex = turned(std::move(complex));
-      const Plc plc = plc_of(complex);
+      const Graph<3> plc = plc_of(complex);
       require_parts(mesh_statically(plc, options_for(plc)), plc);
     }
   }
@@ -141,37 +148,35 @@ TEST_CASE("edges add up to their segments, faces to their polygons, along axes a
 
 TEST_CASE("so do those that a mesher tells of, which are the static run's") {
   for (const auto kind : {mesher::PlcKind::island, mesher::PlcKind::tee, mesher::PlcKind::pump}) {
-    const Plc plc = mesher::generate_plc({kind});
+    const Graph<3> plc = mesher::generate_plc({kind});
     const Options<3> options = options_for(plc);
-    mesher::Mesher<3> m(options);
+    mesher::BoxMesher<3> m(options);
     announce(plc, m);
     m.update();
     const Mesh<3> mesh = m.mesh();
     CHECK(mesh == mesh_statically(plc, options));
     CHECK(!mesh.faces.empty());
-    for (const auto& f : plc.facets) {
+    for (const auto& f : plc.polygons) {
       CHECK(std::count_if(mesh.faces.begin(), mesh.faces.end(),
-                          [&](const auto& x) { return x.polygon == f.polygon.id; }) > 0);
+                          [&](const auto& x) { return x.polygon == f.id; }) > 0);
     }
   }
 }
 
 TEST_CASE("an edge is called by its segment, else by the least polygon that has it") {
-  Plc plc;
+  Graph<3> plc;
   const Point<3> places[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (std::size_t i = 0; i < 4; ++i) plc.points.push_back({id(i + 1), places[i], 0});
-  plc.facets.push_back({{id(7), {{id(1), id(2), id(3)}}}, 0});
-  plc.facets.push_back({{id(3), {{id(1), id(2), id(4)}}}, 0});
+  plc.polygons.push_back({id(7), {{id(1), id(2), id(3)}}});
+  plc.polygons.push_back({id(3), {{id(1), id(2), id(4)}}});
   plc.segments.push_back({id(9), id(3), id(1), 0});
   const Options<3> options{.domain = {{0, 0, 0}, {1, 1, 1}}};
   const auto names = [&] {
     const Mesh<3> mesh = mesh_statically(plc, options);
-    std::map<Point<3>, std::pair<FeatureId, bool>> by_middle;
+    std::map<Point<3>, Feature> by_middle;
     for (const auto& e : mesh.edges) {
       for (const std::uint32_t v : {e.low, e.high}) {
-        if (mesh.kinds[v] == mesher::VertexKind::segment) {
-          by_middle[mesh.vertices[v]] = {e.line, e.of_polygon};
-        }
+        if (mesh.kinds[v] == mesher::VertexKind::segment) by_middle[mesh.vertices[v]] = e.feature;
       }
     }
     return by_middle;
@@ -181,7 +186,7 @@ TEST_CASE("an edge is called by its segment, else by the least polygon that has 
     INFO(p[0] << ' ' << p[1] << ' ' << p[2]);
     const bool on_x = p[1] == 0 && p[2] == 0, on_y = p[0] == 0 && p[2] == 0;
     const bool of_7 = p[2] == 0 && !on_x && !on_y;
-    CHECK(name == std::pair(on_y ? id(9) : of_7 ? id(7) : id(3), !on_y));
+    CHECK(name == (on_y ? Feature(LineId{9}) : PolygonId{of_7 ? 7 : 3}));
   }
   CHECK(!all.empty());
 }

@@ -16,20 +16,22 @@ namespace {
 using namespace mesher::detail;
 using mesher::Error;
 using mesher::ErrorCode;
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Point;
+using mesher::PointId;
+using mesher::PolygonId;
 using support::Motion;
 using support::TrianglePair;
 
 // Names are handles.
 struct HandleNames : SpaceNames {
-  FeatureId point(VertexHandle v) const override { return FeatureId{v}; }
-  std::optional<FeatureId> segment(EdgeHandle e) const override {
+  PointId point(VertexHandle v) const override { return PointId{v}; }
+  std::optional<LineId> segment(EdgeHandle e) const override {
     const auto it = segments.find(e);
     return it == segments.end() ? std::nullopt : std::optional(it->second);
   }
-  FeatureId polygon(PolygonHandle f) const override { return FeatureId{f}; }
-  std::map<EdgeHandle, FeatureId> segments;
+  PolygonId polygon(PolygonHandle f) const override { return PolygonId{f}; }
+  std::map<EdgeHandle, LineId> segments;
 };
 
 struct Plc {
@@ -43,7 +45,7 @@ struct Plc {
   }
   const Edge& segment(VertexHandle a, VertexHandle b, std::int64_t id = 1) {
     const Edge& e = scene.features().insert(a, b);
-    names.segments[e.self] = FeatureId{id};
+    names.segments[e.self] = LineId{id};
     return e;
   }
   const Polygon& polygon(PolygonParts parts) { return scene.features().insert(std::move(parts)); }
@@ -343,9 +345,9 @@ TEST_CASE("What is no polygon is refused, with its id and the place") {
   const auto code = [&](PolygonParts parts) -> std::string {
     Polygon& f = plc.scene.features().store().record(std::move(parts));
     try {
-      require_shape(f, FeatureId{9}, plc.scene.store());
+      require_shape(f, PolygonId{9}, plc.scene.store());
     } catch (const Error& error) {
-      REQUIRE(support::ids_of(error) == std::vector{FeatureId{9}});
+      REQUIRE(support::ids_of(error) == support::ids({9}));
       return std::string(code_name(error.code()));
     }
     return "";

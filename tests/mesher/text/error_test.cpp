@@ -8,22 +8,26 @@
 #include <string>
 
 #include "edit_sequence.hpp"
+#include "facade/box_mesher.hpp"
+#include "facade/graph_runs.hpp"
 #include "feature_ids.hpp"
+#include "io/point_file.hpp"
 #include "mesher/check.hpp"
-#include "mesher/domain_mesher.hpp"
-#include "mesher/io.hpp"
 #include "mesher/mesher.hpp"
+#include "mesher/read.hpp"
 #include "scratch_file.hpp"
 
 namespace {
 
+using mesher::BoxMesher;
 using mesher::Error;
 using mesher::ErrorCode;
-using mesher::FeatureId;
+using mesher::LineId;
 using mesher::Mesh;
-using mesher::Mesher;
 using mesher::Options;
 using mesher::Point;
+using mesher::PointId;
+using mesher::PolygonId;
 using support::error_of;
 
 const Options<2> kUnit{.domain = {{0, 0}, {1, 1}}};
@@ -37,7 +41,7 @@ const Point<2> kBesideA{kFar + 0.5 + kStep, kFar + 0.5};
 
 // The error's code and words, after a look that the mesher is as before.
 template <class Run>
-std::string refused(Mesher<2>& m, Run run) {
+std::string refused(BoxMesher<2>& m, Run run) {
   const Mesh<2> before = m.mesh();
   const std::size_t size = m.size();
   const Error error = error_of(run);
@@ -51,10 +55,10 @@ std::string refused(Mesher<2>& m, Run run) {
   return std::string(code_name(error.code())) + ": " + error.message();
 }
 
-Mesher<2> with(const Options<2>& options, const std::vector<Point<2>>& points) {
-  Mesher<2> m(options);
+BoxMesher<2> with(const Options<2>& options, const std::vector<Point<2>>& points) {
+  BoxMesher<2> m(options);
   std::int64_t id = 1;
-  for (const auto& p : points) m.insert(FeatureId{id++}, p);
+  for (const auto& p : points) m.insert(PointId{id++}, p);
   m.update();
   return m;
 }
@@ -62,13 +66,13 @@ Mesher<2> with(const Options<2>& options, const std::vector<Point<2>>& points) {
 }  // namespace
 
 TEST_CASE("an edit that is refused names ids and values and changes nothing") {
-  Mesher<2> m = with(kUnit, {{0.25, 0.5}, {0.5, 0.25}});
+  BoxMesher<2> m = with(kUnit, {{0.25, 0.5}, {0.5, 0.25}});
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
-  const auto insert = [&](Point<2> p) { return refused(m, [&] { m.insert(FeatureId{7}, p); }); };
+  const auto insert = [&](Point<2> p) { return refused(m, [&] { m.insert(PointId{7}, p); }); };
   const auto move = [&](Point<2> p) {  // whether a place is free when all have moved, update() says
     return refused(m, [&] {
-      m.move(FeatureId{2}, p);
+      m.move(PointId{2}, p);
       m.update();
     });
   };
@@ -88,17 +92,15 @@ TEST_CASE("an edit that is refused names ids and values and changes nothing") {
   CHECK(insert({0, -infinity}).starts_with("not_finite: point 7 (0, -inf)"));
   CHECK(insert({1e-40, 0.5}).starts_with("magnitude: point 7 (1e-40, 0.5)"));
   CHECK(refused(m, [&] {
-          m.insert(FeatureId{1}, {0.75, 0.75});
+          m.insert(PointId{1}, {0.75, 0.75});
         }) == "repeated_id: point 1 is there already");
-  CHECK(refused(m, [&] { m.remove(FeatureId{9}); }) == "unknown_id: point 9 is not there");
-  CHECK(refused(m, [&] {
-          m.move(FeatureId{9}, {0.5, 0.5});
-        }) == "unknown_id: point 9 is not there");
+  CHECK(refused(m, [&] { m.remove(PointId{9}); }) == "unknown_id: point 9 is not there");
+  CHECK(refused(m, [&] { m.move(PointId{9}, {0.5, 0.5}); }) == "unknown_id: point 9 is not there");
 }
 
 TEST_CASE("of many points to insert, all are or none is") {
-  Mesher<2> m = with(kUnit, {{0.25, 0.5}});
-  const std::vector<FeatureId> ids{FeatureId{2}, FeatureId{3}, FeatureId{4}};
+  BoxMesher<2> m = with(kUnit, {{0.25, 0.5}});
+  const std::vector<PointId> ids{PointId{2}, PointId{3}, PointId{4}};
   CHECK(error_of([&] {
           m.insert(ids, {{0.1, 0.1}, {0.9, 0.9}, {0.25, 0.5}});
         }).code() == ErrorCode::duplicate_point);
@@ -106,10 +108,10 @@ TEST_CASE("of many points to insert, all are or none is") {
           m.insert(ids, {{0.1, 0.1}, {0.9, 0.9}, {2, 2}});
         }).code() == ErrorCode::outside_domain);
   CHECK(error_of([&] {
-          m.insert({FeatureId{2}, FeatureId{2}}, {{0.1, 0.1}, {0.9, 0.9}});
+          m.insert({PointId{2}, PointId{2}}, {{0.1, 0.1}, {0.9, 0.9}});
         }).code() == ErrorCode::repeated_id);
   CHECK(m.size() == 1);
-  CHECK_FALSE(m.contains(FeatureId{2}));
+  CHECK_FALSE(m.contains(PointId{2}));
   m.update();
   CHECK(m.mesh() == mesher::mesh_statically<2>({{0.25, 0.5}}, kUnit));
   m.check_invariants();
@@ -117,7 +119,7 @@ TEST_CASE("of many points to insert, all are or none is") {
 
 TEST_CASE("options that make no sense are refused") {
   const auto code = [](Options<2> options) {
-    return error_of([&] { Mesher<2> m(options); }).code();
+    return error_of([&] { BoxMesher<2> m(options); }).code();
   };
   CHECK(code({.domain = {{0, 0}, {0, 0}}}) == ErrorCode::bad_option);
   CHECK(code({.domain = {{1, 0}, {0, 1}}}) == ErrorCode::bad_option);
@@ -128,25 +130,25 @@ TEST_CASE("options that make no sense are refused") {
 }
 
 TEST_CASE("edits taken back leave the mesh, and edits after them work") {
-  Mesher<2> m = with(kUnit, {{0.25, 0.5}, {0.5, 0.25}});
+  BoxMesher<2> m = with(kUnit, {{0.25, 0.5}, {0.5, 0.25}});
   const Mesh<2> before = m.mesh();
-  m.insert(FeatureId{3}, {0.75, 0.75});
-  m.remove(FeatureId{1});
-  m.move(FeatureId{2}, {0.1, 0.1});
+  m.insert(PointId{3}, {0.75, 0.75});
+  m.remove(PointId{1});
+  m.move(PointId{2}, {0.1, 0.1});
   m.discard_edits();
   CHECK(m.size() == 2);
   CHECK(m.mesh() == before);
-  m.insert(FeatureId{3}, {0.75, 0.75});
+  m.insert(PointId{3}, {0.75, 0.75});
   m.update();
   CHECK(m.mesh() == mesher::mesh_statically<2>({{0.25, 0.5}, {0.5, 0.25}, {0.75, 0.75}}, kUnit));
-  m.remove(FeatureId{3});
+  m.remove(PointId{3});
   m.update();
   CHECK(m.mesh() == before);
   m.check_invariants();
 }
 
 TEST_CASE("an update that fails leaves mesh and points as before its edits") {
-  Mesher<2> m = with(kFarAway, {kA, {kFar + 0.25, kFar}, {kFar + 0.75, kFar + 0.25}});
+  BoxMesher<2> m = with(kFarAway, {kA, {kFar + 0.25, kFar}, {kFar + 0.75, kFar + 0.25}});
   const Mesh<2> before = m.mesh();
   const auto fails = [&](auto edits) {
     edits();
@@ -159,29 +161,29 @@ TEST_CASE("an update that fails leaves mesh and points as before its edits") {
     m.check_invariants();
   };
   SECTION("an insertion") {
-    fails([&] { m.insert(FeatureId{4}, kBesideA); });
+    fails([&] { m.insert(PointId{4}, kBesideA); });
   }
   SECTION("a removal and an insertion: what the removal discarded comes back") {
     fails([&] {
-      m.remove(FeatureId{2});
-      m.insert(FeatureId{4}, kBesideA);
+      m.remove(PointId{2});
+      m.insert(PointId{4}, kBesideA);
     });
   }
   SECTION("a move") {
-    fails([&] { m.move(FeatureId{2}, kBesideA); });
+    fails([&] { m.move(PointId{2}, kBesideA); });
   }
   SECTION("a removed point inserted again, and a good insertion") {
     fails([&] {
-      m.remove(FeatureId{3});
-      m.insert(FeatureId{5}, {kFar + 0.75, kFar + 0.25});
-      m.insert(FeatureId{4}, kBesideA);
-      m.insert(FeatureId{6}, {kFar + 1, kFar + 1});
-      m.remove(FeatureId{2});
+      m.remove(PointId{3});
+      m.insert(PointId{5}, {kFar + 0.75, kFar + 0.25});
+      m.insert(PointId{4}, kBesideA);
+      m.insert(PointId{6}, {kFar + 1, kFar + 1});
+      m.remove(PointId{2});
     });
   }
   // It goes on from there.
-  m.insert(FeatureId{4}, {kFar + 0.5, kFar + 0.875});
-  m.remove(FeatureId{2});
+  m.insert(PointId{4}, {kFar + 0.5, kFar + 0.875});
+  m.remove(PointId{2});
   m.update();
   CHECK(m.mesh() == mesher::mesh_statically<2>(
                         {kA, {kFar + 0.75, kFar + 0.25}, {kFar + 0.5, kFar + 0.875}}, kFarAway));
@@ -191,37 +193,38 @@ TEST_CASE("an update that fails leaves mesh and points as before its edits") {
 TEST_CASE("where doubles do not suffice the features around are named, points and lines") {
   const auto ids = [](const Error& error) {
     CHECK(error.code() == ErrorCode::too_close);
-    const auto ids = support::ids_of(error);
-    return std::set<FeatureId>(ids.begin(), ids.end());
+    std::set<std::int64_t> ids;
+    for (const mesher::Feature& f : error.features()) ids.insert(f.number);
+    return ids;
   };
-  Mesher<2> m = with(kFarAway, {kA, {kFar + 0.25, kFar}, {kFar + 0.75, kFar + 0.25}});
-  m.insert(FeatureId{4}, kBesideA);
-  CHECK(ids(error_of([&] { m.update(); })) == std::set{FeatureId{1}, FeatureId{4}});
+  BoxMesher<2> m = with(kFarAway, {kA, {kFar + 0.25, kFar}, {kFar + 0.75, kFar + 0.25}});
+  m.insert(PointId{4}, kBesideA);
+  CHECK(ids(error_of([&] { m.update(); })) == std::set<std::int64_t>{1, 4});
   CHECK(ids(error_of([&] {
           (void)mesher::mesh_statically<2>({{kFar, kFar}, kBesideA, kA}, kFarAway,
-                                           {FeatureId{7}, FeatureId{8}, FeatureId{9}});
-        })) == std::set{FeatureId{8}, FeatureId{9}});
+                                           {PointId{7}, PointId{8}, PointId{9}});
+        })) == std::set<std::int64_t>{8, 9});
   Options<2> options = kFarAway;
   options.rho = 1.05;
   for (int step = 0; step < 5; ++step) {
     const Point<2> beside{kA[0] + step * kStep, kA[1] + (1 + step) * kStep};
     const Error error = error_of([&] {
       (void)mesher::mesh_statically({{kFar, kFar + 0.5}, {kFar + 1, kFar + 0.5}, beside},
-                                    {{FeatureId{5}, FeatureId{1}, FeatureId{2}}}, options);
+                                    {{LineId{5}, PointId{1}, PointId{2}}}, options);
     });
-    CHECK(ids(error) == std::set{FeatureId{3}, FeatureId{5}});
+    CHECK(ids(error) == std::set<std::int64_t>{3, 5});
     CHECK(error.message().find("segment 5") != std::string::npos);
     CHECK(error.message().find("point 3") != std::string::npos);
   }
 }
 
 TEST_CASE("a first update that fails leaves a mesher without points") {
-  Mesher<2> m(kFarAway);
-  m.insert(FeatureId{1}, kA);
-  m.insert(FeatureId{2}, kBesideA);
+  BoxMesher<2> m(kFarAway);
+  m.insert(PointId{1}, kA);
+  m.insert(PointId{2}, kBesideA);
   CHECK(error_of([&] { m.update(); }).code() == ErrorCode::too_close);
   CHECK(m.size() == 0);
-  m.insert(FeatureId{1}, kA);
+  m.insert(PointId{1}, kA);
   m.update();
   CHECK(m.mesh() == mesher::mesh_statically<2>({kA}, kFarAway));
 }
@@ -248,8 +251,8 @@ TEST_CASE("refinement ends with an error where doubles are too sparse for it, fo
 TEST_CASE("zero has no sign in a mesh") {
   const Options<2> options{.domain = {{-1, -1}, {1, 1}}};
   const Mesh<2> expected = mesher::mesh_statically<2>({{0.0, 0.0}, {0.5, 0.0}}, options);
-  Mesher<2> m = with(options, {{-0.0, -0.0}, {0.5, -0.0}});
-  m.move(FeatureId{1}, {0.0, -0.0});
+  BoxMesher<2> m = with(options, {{-0.0, -0.0}, {0.5, -0.0}});
+  m.move(PointId{1}, {0.0, -0.0});
   m.update();
   const Mesh<2> mesh = m.mesh();
   CHECK(mesh == expected);
@@ -261,13 +264,10 @@ TEST_CASE("zero has no sign in a mesh") {
 namespace {
 
 using mesher::Feature;
-using mesher::line_named;
-using mesher::point_named;
-using mesher::polygon_named;
 
-constexpr Feature point(std::int64_t i) { return point_named(FeatureId{i}); }
-constexpr Feature line(std::int64_t i) { return line_named(FeatureId{i}); }
-constexpr Feature polygon(std::int64_t i) { return polygon_named(FeatureId{i}); }
+constexpr Feature point(std::int64_t i) { return PointId{i}; }
+constexpr Feature line(std::int64_t i) { return LineId{i}; }
+constexpr Feature polygon(std::int64_t i) { return PolygonId{i}; }
 
 std::vector<Feature> sorted(std::vector<Feature> features) {
   std::sort(features.begin(), features.end());
@@ -277,50 +277,49 @@ std::vector<Feature> sorted(std::vector<Feature> features) {
 }  // namespace
 
 TEST_CASE("an error of edits in the plane says which kind its features are of, and where it is") {
-  mesher::DomainMesher m(kUnit);
+  mesher::Mesher<2> m(kUnit);
   std::int64_t id = 0;
   for (const Point<2> p : {Point<2>{0.25, 0.25}, {0.75, 0.75}, {0.25, 0.75}, {0.75, 0.25}}) {
-    m.insert(FeatureId{++id}, p);
+    m.insert(PointId{++id}, p);
   }
-  const Error outside = error_of([&] { m.insert(FeatureId{7}, {1.5, 0.5}); });
+  const Error outside = error_of([&] { m.insert(PointId{7}, {1.5, 0.5}); });
   CHECK(outside.features() == std::vector{point(7)});
   CHECK(outside.places() == std::vector<mesher::Position>{{1.5, 0.5, 0}});
   CHECK(outside.locations().empty());
 
-  m.insert_segment(FeatureId{1}, FeatureId{1}, FeatureId{2});
+  m.insert_segment(LineId{1}, PointId{1}, PointId{2});
   m.update();
   // Line 2 has the id of a point: only the kind tells which is meant.
-  m.insert_segment(FeatureId{2}, FeatureId{3}, FeatureId{4});
+  m.insert_segment(LineId{2}, PointId{3}, PointId{4});
   const Error crossing = error_of([&] { m.update(); });
   CHECK(crossing.code() == ErrorCode::crossing_segments);
   CHECK(sorted(crossing.features()) == std::vector{line(1), line(2)});
   CHECK(crossing.places() == std::vector<mesher::Position>{{0.5, 0.5, 0}});
 
   m.discard_edits();
-  m.insert(FeatureId{1000}, {0.375, 0.375});
+  m.insert(PointId{1000}, {0.375, 0.375});
   const Error on = error_of([&] { m.update(); });
   CHECK(on.code() == ErrorCode::point_on_segment);
   CHECK(on.features() == std::vector{point(1000), line(1)});
   CHECK(on.places() == std::vector<mesher::Position>{{0.375, 0.375, 0}});
 
   m.discard_edits();
-  m.remove(FeatureId{2});
+  m.remove(PointId{2});
   CHECK(error_of([&] { m.update(); }).features() == std::vector{point(2), line(1)});
   m.discard_edits();
-  CHECK(error_of([&] { m.remove_segment(FeatureId{4}); }).features() == std::vector{line(4)});
-  const mesher::SeedName hole{mesher::SeedKind::hole, FeatureId{3}};
-  CHECK(error_of([&] { m.remove_seed(hole); }).features() ==
-        std::vector<Feature>{{mesher::FeatureKind::hole, FeatureId{3}}});
+  CHECK(error_of([&] { m.remove_line(LineId{4}); }).features() == std::vector{line(4)});
+  const mesher::SeedId hole = mesher::hole_id(3);
+  CHECK(error_of([&] { m.remove_seed(hole); }).features() == std::vector<Feature>{hole});
 }
 
 TEST_CASE("an error of edits in space names points, polygons and segments by kind") {
-  Mesher<3> m(Options<3>{.domain = {{0, 0, 0}, {1, 1, 1}}});
+  BoxMesher<3> m(Options<3>{.domain = {{0, 0, 0}, {1, 1, 1}}});
   const std::vector<Point<3>> corners{
       {0.25, 0.25, 0.5}, {0.75, 0.25, 0.5}, {0.5, 0.75, 0.5}, {0.5, 0.5, 0.25}, {0.5, 0.5, 0.75}};
   std::int64_t id = 0;
-  for (const auto& p : corners) m.insert(FeatureId{++id}, p);
-  m.insert_polygon({.id = FeatureId{4}, .loops = {{FeatureId{1}, FeatureId{2}, FeatureId{3}}}});
-  m.insert_segment(FeatureId{4}, FeatureId{4}, FeatureId{5});
+  for (const auto& p : corners) m.insert(PointId{++id}, p);
+  m.insert_polygon({.id = PolygonId{4}, .loops = {{PointId{1}, PointId{2}, PointId{3}}}});
+  m.insert_segment(LineId{4}, PointId{4}, PointId{5});
   const Error through = error_of([&] { m.update(); });
   CHECK(through.code() == ErrorCode::segment_through_polygon);
   CHECK(through.features() == std::vector{line(4), polygon(4)});
@@ -328,9 +327,9 @@ TEST_CASE("an error of edits in space names points, polygons and segments by kin
   for (std::size_t i = 0; i < 3; ++i) CHECK(std::abs(through.places()[0][i] - 0.5) < 1e-9);
 
   m.discard_edits();
-  CHECK(error_of([&] { m.remove_polygon(FeatureId{9}); }).features() == std::vector{polygon(9)});
+  CHECK(error_of([&] { m.remove_polygon(PolygonId{9}); }).features() == std::vector{polygon(9)});
   const Error loop = error_of([&] {
-    m.insert_polygon({.id = FeatureId{1}, .loops = {{FeatureId{1}, FeatureId{2}, FeatureId{1}}}});
+    m.insert_polygon({.id = PolygonId{1}, .loops = {{PointId{1}, PointId{2}, PointId{1}}}});
   });
   CHECK(loop.code() == ErrorCode::bad_polygon);
   CHECK(loop.features() == std::vector{polygon(1), point(1)});
@@ -340,9 +339,9 @@ TEST_CASE("an error about a file says where each of its features stands") {
   const support::ScratchFolder folder;
   const std::string path = folder.write(
       "cross.poly", "4 2 0 0\n1 0 0\n2 1 1\n3 0 1\n4 1 0\n2 0\n1 1 2\n2 3 4\n1\n5 9 9\n");
-  const mesher::PslgFile file = mesher::read_pslg(path);
+  const mesher::GraphFile<2> file = mesher::read<2>(path);
   const Error error = error_of([&] {
-    (void)mesher::mesh_statically(file.pslg, Options<2>{.domain = {{-1, -1}, {2, 2}}});
+    (void)mesher::mesh_statically(file.graph, Options<2>{.domain = {{-1, -1}, {2, 2}}});
   });
   CHECK(error.code() == ErrorCode::crossing_segments);
   const Error found = mesher::located(error, file);
@@ -356,8 +355,8 @@ TEST_CASE("an error about a file says where each of its features stands") {
   CHECK(found.location() == found.locations()[0]);
   CHECK(found.places() == std::vector<mesher::Position>{{0.5, 0.5, 0}});
   CHECK(location_of(point(3), file).line == 4);
-  CHECK(location_of({mesher::FeatureKind::hole, FeatureId{5}}, file).line == 10);
-  CHECK(location_of({mesher::FeatureKind::region, FeatureId{5}}, file).line == 0);
+  CHECK(location_of(mesher::hole_id(5), file).line == 10);
+  CHECK(location_of(mesher::region_id(5), file).line == 0);
   CHECK(location_of(point(9), file).line == 0);
 
   // Two points in one place, in a file of points: said while it is read.
@@ -374,8 +373,8 @@ TEST_CASE("a feature is written as the field's word for its kind, and its id") {
   CHECK(text_of(point(3)) == "point 3");
   CHECK(text_of(line(-5)) == "segment -5");
   CHECK(text_of(polygon(2)) == "polygon 2");
-  CHECK(text_of(Feature{mesher::FeatureKind::hole, FeatureId{1}}) == "hole 1");
-  CHECK(text_of(Feature{mesher::FeatureKind::region, FeatureId{4}}) == "region 4");
+  CHECK(text_of(Feature(mesher::hole_id(1))) == "hole 1");
+  CHECK(text_of(Feature(mesher::region_id(4))) == "region 4");
   CHECK(text_of(Feature{}).empty());
   CHECK(point(9) < line(1));  // by kind first
   CHECK(line(1) != point(1));

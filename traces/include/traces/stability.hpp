@@ -49,7 +49,7 @@ struct StabilityRow {
   std::uint64_t distance = 0;         ///< D: before and after the edit
   std::uint64_t weight_distance = 0;  ///< D by weight (traces/distance.hpp)
   std::uint64_t heaviest = 0;         ///< weight of a call of only one of the two, the greatest
-  sac::Counts counts;          ///< of the propagation
+  sac::Counts counts;                 ///< of the propagation
   std::uint64_t drift = 0;  ///< of the propagated trace and a fresh one: 0 if the engine is right
 
   /// W: calls made, let go and run.

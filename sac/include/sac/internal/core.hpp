@@ -20,8 +20,8 @@
 #include <utility>
 #include <vector>
 
-#include "sac/check.hpp"
 #include "sac/arena.hpp"
+#include "sac/check.hpp"
 #include "sac/internal/memo_table.hpp"
 #include "sac/internal/originals.hpp"
 #include "sac/internal/propagation_queue.hpp"
@@ -120,11 +120,12 @@ class Core {
     Activation& a = running();
     const Handle h = arena_.allocate(bytes);
     Edge& edge = *at<Edge>(h);
-    edge = {.structure = structure,
-            .kind = static_cast<std::uint8_t>(kind & 0x3f),
-            .behind = now_ != a.self,
-            .round = a.call->round,
-            .granules = static_cast<std::uint16_t>((bytes + Arena::kGranule - 1) / Arena::kGranule)};
+    edge = {
+        .structure = structure,
+        .kind = static_cast<std::uint8_t>(kind & 0x3f),
+        .behind = now_ != a.self,
+        .round = a.call->round,
+        .granules = static_cast<std::uint16_t>((bytes + Arena::kGranule - 1) / Arena::kGranule)};
     append_edge(a, h);
     ++counts_.edges_made;
     return edge;
@@ -147,11 +148,13 @@ class Core {
   void result_changed(Handle caller) noexcept;
   void add_weight(std::uint64_t n) noexcept { counts_.weight += n; }
   [[nodiscard]] void* environment() const {
-    if (environment_ == nullptr) [[unlikely]] fail_no_environment();
+    if (environment_ == nullptr) [[unlikely]]
+      fail_no_environment();
     return environment_;
   }
   void require_own(const void* object, const char* what) const {
-    if (!arena_.contains(object)) [[unlikely]] fail_foreign(what);
+    if (!arena_.contains(object)) [[unlikely]]
+      fail_foreign(what);
   }
   [[noreturn]] void fail_foreign(const char* what) const;
   /// `what`, after the running call if there is one.
@@ -167,9 +170,9 @@ class Core {
   void doubt(Call& call, Handle source) noexcept {
     ask_again(call, Validity::doubtful, nullptr, source);
   }
-  /// `outer` did something behind children of its own, which `inner` is told of, or should have been
-  /// told of, as a first run would say: if it has settled and encloses `inner`, it runs again, and
-  /// says so.
+  /// `outer` did something behind children of its own, which `inner` is told of, or should have
+  /// been told of, as a first run would say: if it has settled and encloses `inner`, it runs again,
+  /// and says so.
   void rerun_if_around(Call& outer, const Call& inner) noexcept {
     if (!appending() && !outer.running() && encloses(outer, inner)) defer(outer);
   }
@@ -199,7 +202,8 @@ class Core {
   [[nodiscard]] const Call& parent_of(const Call& call) const noexcept;
   /// Tells an observer, if there is one, what has happened, by the running call.
   void note(Event::Kind kind, const Call* call = nullptr, Handle source = 0) noexcept {
-    if (observer_ == nullptr) [[likely]] return;
+    if (observer_ == nullptr) [[likely]]
+      return;
     observer_->on({.kind = kind, .call = call, .source = source, .by = running_call()});
   }
   [[nodiscard]] Originals& originals() noexcept { return originals_; }
@@ -248,8 +252,10 @@ class Core {
            timeline_.precedes(*at<TimeNode>(now_), *at<TimeNode>(stamp));
   }
   /// Whether `call` lies behind time stamp `from` and before `end` (0: the end of the trace).
-  [[nodiscard]] bool lies_between(const TimeNode& from, const Call& call, Handle end) const noexcept {
-    return timeline_.precedes(from, call) && (end == 0 || timeline_.precedes(call, *at<TimeNode>(end)));
+  [[nodiscard]] bool lies_between(const TimeNode& from, const Call& call,
+                                  Handle end) const noexcept {
+    return timeline_.precedes(from, call) &&
+           (end == 0 || timeline_.precedes(call, *at<TimeNode>(end)));
   }
   [[nodiscard]] std::uint16_t number_of(const Function& function) {
     const std::uint16_t number = functions_.number(function);
@@ -322,7 +328,8 @@ class Core {
   };
 
   [[nodiscard]] Activation& running() const {
-    if (current_ != nullptr) [[likely]] return *current_;
+    if (current_ != nullptr) [[likely]]
+      return *current_;
     fail_not_running();
   }
   [[noreturn]] void fail_not_running() const;
@@ -402,11 +409,11 @@ class Core {
   std::vector<std::pair<Handle, Handle>> suspects_;
   Activation* current_ = nullptr;
   std::uintptr_t stack_end_ = 0;  // no call is made when the native stack has grown down to here
-  Handle now_ = 0;  // the last time stamp that is settled or running
+  Handle now_ = 0;                // the last time stamp that is settled or running
   Mode mode_ = Mode::idle;
   bool broken_ = false;
-  bool stopped_ = false;  // the progress function has said so, or failed
-  std::uint8_t excused_ = 0;  // failures that may have come too early
+  bool stopped_ = false;                           // the progress function has said so, or failed
+  std::uint8_t excused_ = 0;                       // failures that may have come too early
   std::uint64_t progress_at_ = ~std::uint64_t{0};  // number of bodies run at the next report
   Counts counts_;
   std::uint64_t live_calls_ = 0;
@@ -426,7 +433,8 @@ Edge* Core::recall(Matches&& matches, std::size_t most) {
   if (a.old_edges == 0) return nullptr;
   const auto search = [&](Handle previous, Handle end) -> Edge* {
     Handle* link = previous != 0 ? &at<Edge>(previous)->next : &a.old_edges;
-    for (; *link != end && *link != 0 && most > 0; previous = *link, link = &at<Edge>(*link)->next) {
+    for (; *link != end && *link != 0 && most > 0;
+         previous = *link, link = &at<Edge>(*link)->next) {
       Edge& edge = *at<Edge>(*link);
       --most;
       if (!matches(edge)) continue;

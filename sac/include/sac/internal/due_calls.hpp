@@ -35,8 +35,8 @@ class DueCalls {
   /// Requires: not empty.
   template <class Before>
   [[nodiscard]] const Entry& first(Before&& before) const {
-    const bool is_late = next_ == batch_.size() ||
-                         (!late_.empty() && before(late_.first(), batch_[next_]));
+    const bool is_late =
+        next_ == batch_.size() || (!late_.empty() && before(late_.first(), batch_[next_]));
     return is_late ? late_.first() : batch_[next_];
   }
   /// Requires: `first` is what first() gave, and nothing has come since.

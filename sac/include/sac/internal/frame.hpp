@@ -136,9 +136,10 @@ template <auto F, class... Args>
 struct Called {
   using R = ResultOf<F, Args...>;
   static constexpr auto name = &function_name<F>;
-  using FrameType =
-      std::conditional_t<std::is_void_v<R>, Frame<Nothing, Nothing, Args...>,
-                         Frame<ResultHead, Result<std::conditional_t<std::is_void_v<R>, char, std::decay_t<R>>>, Args...>>;
+  using FrameType = std::conditional_t<
+      std::is_void_v<R>, Frame<Nothing, Nothing, Args...>,
+      Frame<ResultHead, Result<std::conditional_t<std::is_void_v<R>, char, std::decay_t<R>>>,
+            Args...>>;
   template <class AnyFrame>
   static void execute_in(Scope& scope, Call& call);
   static constexpr Function function = [] {

@@ -5,8 +5,8 @@
 // themselves are touched only where a hash matches, and the table grows by one pass from front to
 // back. 10 to 17 bytes a call.
 //
-// In a first run nobody searches: insert_soon() only notes the entry. All that wait are put into the
-// table together, while the places of the next are fetched into the cache.
+// In a first run nobody searches: insert_soon() only notes the entry. All that wait are put into
+// the table together, while the places of the next are fetched into the cache.
 //
 // Calls discarded in the propagation under way stay findable until it ends, so that a program which
 // asks for them again (not monotone) can be told.
@@ -75,10 +75,11 @@ class MemoTable {
   /// One that `fits(call)` and lies between the time stamps `from` and `to`; 0: the end.
   template <class Fits>
   [[nodiscard]] Handle find_between(std::uint32_t hash, Handle from, Handle to, Fits&& fits) {
-    const auto lies_before = [&](Handle h) { return to == 0 || timeline_.precedes(*at(h), *at(to)); };
+    const auto lies_before = [&](Handle h) {
+      return to == 0 || timeline_.precedes(*at(h), *at(to));
+    };
     const Handle found = find(hash, [&](const Call& c) {
-      return fits(c) && timeline_.precedes(*at(from), c) &&
-             lies_before(arena_.handle_of(&c));
+      return fits(c) && timeline_.precedes(*at(from), c) && lies_before(arena_.handle_of(&c));
     });
     if (found != 0) return found;
     const Crowd* crowd = crowd_of(hash);
@@ -132,7 +133,8 @@ class MemoTable {
   };
   [[nodiscard]] Order order() const noexcept { return {*this}; }
   [[nodiscard]] const Crowd* crowd_of(std::uint32_t hash) const {
-    if (crowds_.empty()) [[likely]] return nullptr;
+    if (crowds_.empty()) [[likely]]
+      return nullptr;
     const auto it = crowds_.find(hash);
     return it != crowds_.end() ? &it->second : nullptr;
   }

@@ -57,13 +57,13 @@ struct Version {
   };
   std::uint16_t type = 0;
   bool written : 1 = false;
-  bool outside : 1 = false;       // an input
-  bool apart : 1 = false;         // not where the modifiable's handle points
-  bool past : 1 = false;          // apart, and gone: kept for those who have seen it
-  bool ordered : 1 = false;       // its readers are in reader_orders_ as well
-  std::uint8_t round : 1 = 0;     // the writer's when it wrote or repeated it
-  bool behind : 1 = false;        // its writer had had children
-  bool read_behind : 1 = false;   // so had one of its readers
+  bool outside : 1 = false;      // an input
+  bool apart : 1 = false;        // not where the modifiable's handle points
+  bool past : 1 = false;         // apart, and gone: kept for those who have seen it
+  bool ordered : 1 = false;      // its readers are in reader_orders_ as well
+  std::uint8_t round : 1 = 0;    // the writer's when it wrote or repeated it
+  bool behind : 1 = false;       // its writer had had children
+  bool read_behind : 1 = false;  // so had one of its readers
   [[no_unique_address]] Stamp stamp;
 
   /// The stamp of a version that lies in place, given on first use.
@@ -169,7 +169,8 @@ class ModStructure final : public Structure {
   /// gone; in any build if it is null.
   void require_live(Handle head, detail::Stamp stamp, const char* what) const {
     if (kChecked) check_live(head, stamp, what);
-    if (head == 0) [[unlikely]] fail_null(what);
+    if (head == 0) [[unlikely]]
+      fail_null(what);
   }
   [[nodiscard]] detail::Version* version(Handle head) const noexcept { return at(head); }
   [[nodiscard]] bool is_input(Handle head) const noexcept { return at(head)->outside; }
@@ -299,7 +300,8 @@ class ModStructure final : public Structure {
     const Version& first = *at(head);
     if (first.history == 0 && first.written) [[likely]] {
       const Call& w = writer(first);
-      if (!w.running() && engine_.precedes(w, call)) [[likely]] return at(head);
+      if (!w.running() && engine_.precedes(w, call)) [[likely]]
+        return at(head);
     }
     return seen_among(call, head);
   }
@@ -322,10 +324,11 @@ class ModStructure final : public Structure {
   void appeared(const Call& self, Handle head, Version& version, Version& previous,
                 bool same) noexcept;
   void require_unread(Scope& scope, Handle head, const Version* version);
-  // `version` is news to the reader. Has a call around the reader written it, behind children of its
-  // own: behind the reader?
+  // `version` is news to the reader. Has a call around the reader written it, behind children of
+  // its own: behind the reader?
   void rerun_writer_around(const ReadEdge& edge, const Version& version) noexcept {
-    if (!version.behind) [[likely]] return;
+    if (!version.behind) [[likely]]
+      return;
     engine_.rerun_if_around(engine_.call(version.writer), engine_.call(edge.call));
   }
   void rerun_readers_around(const Call& writer, const Version& previous);
@@ -368,8 +371,8 @@ void ModStructure::write(Scope& scope, Handle head, T value) {
   using Typed = detail::TypedVersion<T>;
   bool restored = false;
   if constexpr (detail::kKeepsOriginals<T, Same>) {
-    const T* original = engine_.undoing() ? engine_.originals()->template find<T>(scope.self(), head)
-                                          : nullptr;
+    const T* original =
+        engine_.undoing() ? engine_.originals()->template find<T>(scope.self(), head) : nullptr;
     restored = original != nullptr && detail::same<Same>(*original, value);
     if (restored) value = *original;
   }

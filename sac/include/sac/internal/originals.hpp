@@ -48,7 +48,7 @@ class Originals {
 
  private:
   struct Item {
-    const Call* call;  // it may be dead, but is not freed before the propagation has ended
+    const Call* call;      // it may be dead, but is not freed before the propagation has ended
     std::uint64_t number;  // in the order in which they were kept
     std::shared_ptr<void> value;
   };

@@ -64,7 +64,7 @@ class PlainAgenda {
   struct Class {
     std::vector<Entry> posts;
     std::vector<std::unique_ptr<std::byte[]>> blocks;
-    std::size_t used = kBlock;  // of the last one
+    std::size_t used = kBlock;                             // of the last one
     std::vector<std::unique_ptr<Record, Destroy>> owners;  // of arguments that need destroying
 
     void* allocate(std::size_t bytes);

@@ -2,8 +2,8 @@
 //
 // A run of calls that came in order, consumed from its front, and a binary heap of the others. So
 // the edits of a large batch, sorted once, and calls that invalidate the one behind them, cost O(1)
-// each; the heap holds what comes in between. A queued call knows its position, so it can leave when
-// it is discarded.
+// each; the heap holds what comes in between. A queued call knows its position, so it can leave
+// when it is discarded.
 #pragma once
 
 #include <algorithm>

@@ -21,9 +21,7 @@ class Registry {
       if (items_[slot] == &item) return slot;
     }
   }
-  [[nodiscard]] const T& operator[](std::uint16_t number) const noexcept {
-    return *items_[number];
-  }
+  [[nodiscard]] const T& operator[](std::uint16_t number) const noexcept { return *items_[number]; }
   [[nodiscard]] const T* const* data() const noexcept { return items_.data(); }
   [[nodiscard]] std::size_t size() const noexcept { return items_.size(); }
 

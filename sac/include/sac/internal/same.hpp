@@ -29,7 +29,8 @@ template <class... T>
 bool identical(const std::tuple<T...>& a, const std::tuple<T...>& b) {
   return [&]<std::size_t... i>(std::index_sequence<i...>) {
     return (identical(std::get<i>(a), std::get<i>(b)) && ...);
-  }(std::index_sequence_for<T...>());
+  }
+  (std::index_sequence_for<T...>());
 }
 
 /// Whether each argument equals itself, as a NaN does not.
@@ -44,11 +45,13 @@ std::strong_ordering compare_argument(const T& a, const T& b) {
     return std::strong_order(a, b);
   } else if constexpr (std::three_way_comparable<T>) {
     const auto order = a <=> b;
-    return order < 0 ? std::strong_ordering::less
-                     : order > 0 ? std::strong_ordering::greater : std::strong_ordering::equal;
+    return order < 0   ? std::strong_ordering::less
+           : order > 0 ? std::strong_ordering::greater
+                       : std::strong_ordering::equal;
   } else {
-    return a < b ? std::strong_ordering::less
-                 : b < a ? std::strong_ordering::greater : std::strong_ordering::equal;
+    return a < b   ? std::strong_ordering::less
+           : b < a ? std::strong_ordering::greater
+                   : std::strong_ordering::equal;
   }
 }
 [[noreturn]] void fail_unordered(std::string_view function);
@@ -61,7 +64,8 @@ std::strong_ordering compare_arguments(std::string_view function, const std::tup
   std::strong_ordering order = std::strong_ordering::equal;
   [&]<std::size_t... i>(std::index_sequence<i...>) {
     (void)((order = compare_argument(std::get<i>(a), std::get<i>(b)), order == 0) && ...);
-  }(std::index_sequence_for<T...>());
+  }
+  (std::index_sequence_for<T...>());
   if (order == 0 && !identical(a, b)) fail_unordered(function);
   return order;
 }

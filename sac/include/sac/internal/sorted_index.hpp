@@ -144,7 +144,7 @@ class SortedIndex {
   }
 
  private:
-  static constexpr std::uint32_t kFirst = 4;      // entries of a new index
+  static constexpr std::uint32_t kFirst = 4;  // entries of a new index
   static constexpr std::uint32_t kCapacity = 32;
   static constexpr std::uint32_t kFill = 28;   // appending leaves room for the edits to come
   static constexpr std::uint32_t kMerge = 20;  // neighbours of so few in all become one
@@ -165,7 +165,9 @@ class SortedIndex {
   static Entry* entries(Node* leaf) noexcept {
     return reinterpret_cast<Entry*>(reinterpret_cast<std::byte*>(leaf) + kEntries);
   }
-  static const Entry* entries(const Node* leaf) noexcept { return entries(const_cast<Node*>(leaf)); }
+  static const Entry* entries(const Node* leaf) noexcept {
+    return entries(const_cast<Node*>(leaf));
+  }
 
   struct Step {
     Inner* node;
@@ -316,7 +318,8 @@ class SortedIndex {
       child = right;
     }
     Inner* const root = spares.take();
-    const Entry first_of_all = height_ == 0 ? entries(root_)[0] : static_cast<Inner*>(root_)->firsts[0];
+    const Entry first_of_all =
+        height_ == 0 ? entries(root_)[0] : static_cast<Inner*>(root_)->firsts[0];
     insert_child(*root, 0, first_of_all, root_);
     insert_child(*root, 1, first, child);
     root_ = root;
@@ -361,11 +364,12 @@ class SortedIndex {
       return remove_child(path);
     }
     if (i == 0) first_changed(path, begin[0]);
-    if (path.depth > 0) join_neighbours(path, [](Node* left, Node* right) {
-      std::copy(entries(right), entries(right) + right->count, entries(left) + left->count);
-      left->count += right->count;
-      free_leaf(right);
-    });
+    if (path.depth > 0)
+      join_neighbours(path, [](Node* left, Node* right) {
+        std::copy(entries(right), entries(right) + right->count, entries(left) + left->count);
+        left->count += right->count;
+        free_leaf(right);
+      });
   }
 
   // The node that `path` leads to is gone.

@@ -14,8 +14,8 @@ class Undo {
  public:
   /// Throws: what moving `f` throws; std::bad_alloc if it is large.
   template <class F>
-    requires(!std::is_same_v<F, Undo>)
-  explicit Undo(F f) : Undo(std::in_place, small(std::move(f))) {}
+  requires(!std::is_same_v<F, Undo>) explicit Undo(F f)
+      : Undo(std::in_place, small(std::move(f))) {}
   Undo(Undo&& other) noexcept : kind_(other.kind_) { kind_->move(room_, other.room_); }
   Undo& operator=(Undo&&) = delete;
   ~Undo() { kind_->destroy(room_); }
@@ -37,8 +37,9 @@ class Undo {
   }
   static constexpr std::size_t kRoom = 32;
   template <class F>
-  static constexpr bool kFits = sizeof(F) <= kRoom && alignof(F) <= alignof(std::max_align_t) &&
-                                std::is_nothrow_move_constructible_v<F>;
+  static constexpr bool kFits =
+      sizeof(F) <= kRoom &&
+      alignof(F) <= alignof(std::max_align_t) && std::is_nothrow_move_constructible_v<F>;
   struct Kind {
     void (*call)(void*);
     void (*move)(void* to, void* from) noexcept;

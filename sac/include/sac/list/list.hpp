@@ -153,9 +153,7 @@ class List {
   }
 
   friend bool operator==(const List&, const List&) = default;
-  friend std::uint64_t hash_value(const List& list) noexcept {
-    return hash_argument(list.header_);
-  }
+  friend std::uint64_t hash_value(const List& list) noexcept { return hash_argument(list.header_); }
   friend void label_bytes(LabelSink& sink, const List& list) { sink.address(list.header_); }
   friend void print_argument(std::ostream& out, const List& list, const void* neighbour) {
     sac::print_argument(out, list.header_, neighbour);
@@ -178,7 +176,9 @@ template <class T>
 
 /// Whether f sees the value of an element and nothing else: then its result is fixed as well.
 template <auto f, class T>
-inline constexpr bool kOfValueAlone = requires(const T& value) { f(value); };
+inline constexpr bool kOfValueAlone = requires(const T& value) {
+  f(value);
+};
 
 /// f of an element: f(value), f(scope, value) or f(scope, id, value).
 template <auto f, class S, class T>

@@ -89,8 +89,7 @@ struct Contract {
       next = behind;
     }
     using G = Group<Rule, S>;
-    const G* const behind =
-        next == nullptr ? nullptr : &s.template tail_make<G, Contract{}>(next);
+    const G* const behind = next == nullptr ? nullptr : &s.template tail_make<G, Contract{}>(next);
     s.write(self.state, {std::move(value), behind});
   }
 
@@ -197,9 +196,7 @@ struct FindRule {
   static constexpr std::string_view kName = kOperationName<"find_if", p>;
   static constexpr std::string_view kGroupName = kOperationName<"find_if_group", p>;
   static constexpr std::string_view kLevelName = kOperationName<"find_if_level", p>;
-  static Value of(S& s, const ListNode<T, S>& node) {
-    return apply<p>(s, node) ? &node : nullptr;
-  }
+  static Value of(S& s, const ListNode<T, S>& node) { return apply<p>(s, node) ? &node : nullptr; }
   static Value join(S&, Value a, Value b) { return a != nullptr ? a : b; }
 };
 

@@ -95,7 +95,9 @@ class Sequence {
   };
 
   /// Throws: UsageError if the engine runs; std::bad_alloc.
-  explicit Sequence(Host& host) : host_(host) { create([] {}); }
+  explicit Sequence(Host& host) : host_(host) {
+    create([] {});
+  }
   Sequence(Host& host, std::initializer_list<T> values) : host_(host) {
     create([&] {
       for (const T& value : values) push_back(value);
@@ -103,8 +105,9 @@ class Sequence {
   }
   /// With these values, and ids from 1.
   template <std::ranges::input_range Range>
-  requires std::convertible_to<std::ranges::range_reference_t<Range>, T>
-  Sequence(Host& host, Range&& values) : host_(host) {
+  requires std::convertible_to<std::ranges::range_reference_t<Range>, T> Sequence(Host& host,
+                                                                                  Range&& values)
+      : host_(host) {
     create([&] {
       for (auto&& value : values) push_back(std::forward<decltype(value)>(value));
     });

@@ -59,7 +59,7 @@ struct SortedChunk {
       label_arguments(sink, std::tie(s.left, s.right, s.from_right));
     }
   };
-  const Node* boundary = nullptr;  // null: what comes before the first boundary
+  const Node* boundary = nullptr;                // null: what comes before the first boundary
   typename S::template CellType<Source> source;  // where it comes from, unless known from the key
   typename S::template CellType<State> state;
 };
@@ -178,9 +178,8 @@ struct SortGroup {
     });
     const auto* const chunks = &cut(s, first, elements);
     s.write(self.state,
-            {chunks, next == nullptr
-                         ? nullptr
-                         : &s.template tail_make<Sorted<Node, S>, SortGroup{}>(next)});
+            {chunks, next == nullptr ? nullptr
+                                     : &s.template tail_make<Sorted<Node, S>, SortGroup{}>(next)});
   }
 
  private:
@@ -221,9 +220,8 @@ struct MergeGroup {
       next = member.next;
     }
     s.write(self.state,
-            {chunks, next == nullptr
-                         ? nullptr
-                         : &s.template tail_make<Sorted<Node, S>, MergeGroup{}>(next)});
+            {chunks, next == nullptr ? nullptr
+                                     : &s.template tail_make<Sorted<Node, S>, MergeGroup{}>(next)});
   }
 };
 

@@ -1,0 +1,20 @@
+// All of the library but generators and scripts of edits (mesher/extra/).
+#pragma once
+
+#include "mesher/check.hpp"
+#include "mesher/delaunay.hpp"
+#include "mesher/domain.hpp"
+#include "mesher/error.hpp"
+#include "mesher/graph.hpp"
+#include "mesher/ids.hpp"
+#include "mesher/improve.hpp"
+#include "mesher/live_mesh.hpp"
+#include "mesher/mesh.hpp"
+#include "mesher/mesher.hpp"
+#include "mesher/meshing.hpp"
+#include "mesher/predicates.hpp"
+#include "mesher/read.hpp"
+#include "mesher/repair.hpp"
+#include "mesher/reports.hpp"
+#include "mesher/sizes.hpp"
+#include "mesher/write.hpp"

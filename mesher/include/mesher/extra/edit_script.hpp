@@ -1,0 +1,273 @@
+// Scripts of edits: a file of lines that change the input of a mesh.
+//
+//   # comment
+//   +point ID x y        a new point
+//   -point ID            a point less
+//   move ID x y          a point somewhere else
+//   +segment ID A B      a new segment between two points
+//   -segment ID          a segment less
+//   +polyline ID P...    new segments from point to point, under one id; closed if the last point
+//                        is the first
+//   -polyline ID         all of them less
+//                        +point, +segment and +polyline may end with `marker M`, an integer
+//   +hole ID x y         what the lines enclose around the place is no part of the domain
+//   -hole ID             a hole less
+//   +region ID x y ATTRIBUTE [MAX_AREA]
+//                        what the lines enclose around the place has this attribute and limit
+//   -region ID           a region less
+//   limit area A         no triangle with its centroid in the domain is larger
+//   limit size H         the same by the edges H of an equilateral triangle of that area
+//   limit sizes FILE     a background of such H (read_sizes); FILE stands beside the script
+//   limit none           triangles may be of any size
+//   limit ... in XMIN YMIN XMAX YMAX
+//                        the same in this box; elsewhere limits stay
+//   begin                the edits up to `commit` are one update;
+//   commit               outside, each edit is an update of its own
+//
+// Points have ids of their own, and so have lines (segments and polylines), holes, and regions. A
+// block is judged by where its points end: it may take a place before it frees it, and remove a
+// point before its segments.
+//
+// In space points have a third coordinate, `+point ID x y z`; there are edits of segments and
+// polylines, without markers, and
+//
+//   +polygon ID P P P... [/ P P P...]... [on P...] [along A B [A B]...]
+//                        a new polygon: the loop of points around it, then those of holes; points
+//                        and edges that it declares to lie inside
+//   -polygon ID          a polygon less, with the edges that nobody else has
+//   limit volume V       no tetrahedron with its centroid in the domain is larger; or `size H`, the
+//                        edges of one, `sizes FILE`, `none`; `in XMIN YMIN ZMIN XMAX YMAX ZMAX`
+//
+// and no others. Polygons have ids of their own.
+//
+// Example:
+//   mesher::EditScript script("edits.txt");
+//   mesher::apply(script, m, [](const mesher::Update<2>& u) { ... u.change ... });
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesher/domain.hpp"
+#include "mesher/error.hpp"
+#include "mesher/mesh.hpp"
+#include "mesher/mesher.hpp"
+
+namespace mesher {
+
+enum class EditKind : std::uint8_t {
+  insert,
+  remove,
+  move,
+  insert_segment,
+  remove_segment,
+  insert_polyline,
+  remove_polyline,
+  insert_hole,
+  remove_hole,
+  insert_region,
+  remove_region,
+  limit,
+  insert_polygon,
+  remove_polygon,
+};
+
+/// One edit of one point, line, polygon or seed, or of limits.
+template <int D>
+struct Edit {
+  using Kind = EditKind;
+  Kind kind = Kind::insert;
+  std::int64_t number = 0;              ///< of the feature
+  Point<D> point{};                     ///< of insert and move, and of a new seed
+  std::vector<PointId> points{};        ///< of a new segment or polyline
+  Polygon polygon{};                    ///< a new polygon
+  std::int64_t marker = 0;              ///< of a new point or line; 0: none
+  double attribute = 0;                 ///< of a new region
+  std::optional<double> max_measure{};  ///< likewise
+  SizeLimits<D> limits{};               ///< of limit
+  std::optional<Box<D>> box{};          ///< likewise; nothing: everywhere
+  std::string text;                     ///< the line without comment and outer blanks
+  FileLocation location;
+
+  /// What it is an edit of; none: of limits.
+  [[nodiscard]] Feature feature() const;
+};
+
+/// What an edit is of; none: of limits.
+[[nodiscard]] FeatureKind feature_kind(EditKind kind);
+
+/// Reads a script a batch at a time; a batch is one update. D is 2 or 3.
+template <int D>
+class EditScript {
+ public:
+  /// Throws: Error(cannot_read).
+  explicit EditScript(const std::string& path);
+
+  /// The next edit, or the edits of the next block; nothing at the end of the script. A line
+  /// is read only when it is asked for.
+  /// Throws: Error (bad_edit, bad_number, not_finite, magnitude, unbalanced_commit, cannot_read).
+  [[nodiscard]] std::optional<std::vector<Edit<D>>> next();
+
+ private:
+  [[nodiscard]] bool read_line();
+  [[nodiscard]] std::vector<Edit<D>> read_block();
+  [[nodiscard]] FileLocation here() const { return {path_, number_, 1}; }
+
+  std::string path_;
+  std::ifstream stream_;
+  std::string text_;  // the current line
+  long number_ = 0;
+};
+
+/// The edits' lines, with "; " between them.
+template <int D>
+[[nodiscard]] std::string text_of(const std::vector<Edit<D>>& edits);
+
+/// What one update of a script did. `Made`: what the target's update() returns.
+template <int D, class Made = Change<D>>
+struct Update {
+  std::vector<Edit<D>> edits;
+  Made change;
+  double seconds = 0;  ///< of wall-clock time: the edits and the update
+
+  [[nodiscard]] std::string text() const { return text_of(edits); }
+};
+
+/// Announces `edit` of a line to a mesher, or to anything with its functions for lines, which may
+/// take a marker.
+/// Throws: Error as those; Error(bad_edit) if the target has points only.
+template <int D, class Target>
+void announce_line(const Edit<D>& edit, Target& target) {
+  if constexpr (requires { target.remove_line(LineId()); }) {
+    const LineId id{edit.number};
+    switch (edit.kind) {
+      case EditKind::insert_segment:
+        if constexpr (requires { target.insert_segment(id, PointId(), PointId(), edit.marker); }) {
+          return target.insert_segment(id, edit.points[0], edit.points[1], edit.marker);
+        } else {
+          return target.insert_segment(id, edit.points[0], edit.points[1]);
+        }
+      case EditKind::insert_polyline:
+        if constexpr (requires { target.insert_polyline(id, edit.points, edit.marker); }) {
+          return target.insert_polyline(id, edit.points, edit.marker);
+        } else {
+          return target.insert_polyline(id, edit.points);
+        }
+      default:
+        return target.remove_line(id);
+    }
+  } else {
+    throw Error(ErrorCode::bad_edit, "only points can be edited here");
+  }
+}
+
+/// The same of a polygon.
+template <int D, class Target>
+void announce_polygon(const Edit<D>& edit, Target& target) {
+  if constexpr (requires { target.insert_polygon(edit.polygon); }) {
+    if (edit.kind == EditKind::remove_polygon) return target.remove_polygon(PolygonId{edit.number});
+    target.insert_polygon(edit.polygon);
+  } else {
+    throw Error(ErrorCode::bad_edit, "polygons cannot be edited here");
+  }
+}
+
+/// The same of a seed and a Mesher, or anything with its functions for seeds.
+template <int D, class Target>
+void announce_seed(const Edit<D>& edit, Target& target) {
+  if constexpr (requires { target.insert_seed(Seed<D>()); }) {
+    const SeedKind kind =
+        feature_kind(edit.kind) == FeatureKind::hole ? SeedKind::hole : SeedKind::region;
+    const SeedId name{kind, edit.number};
+    if (edit.kind == EditKind::remove_hole || edit.kind == EditKind::remove_region) {
+      return target.remove_seed(name);
+    }
+    target.insert_seed(Seed<D>{name, edit.point, edit.attribute, edit.max_measure});
+  } else {
+    throw Error(ErrorCode::bad_edit, "holes and regions cannot be edited here");
+  }
+}
+
+/// The same of limits of size.
+template <int D, class Target>
+void announce_limit(const Edit<D>& edit, Target& target) {
+  if constexpr (requires { target.limit(edit.limits); }) {
+    return edit.box ? target.limit(*edit.box, edit.limits) : target.limit(edit.limits);
+  } else {
+    throw Error(ErrorCode::bad_edit, "limits cannot be edited here");
+  }
+}
+
+/// Announces `edit` to a mesher, or to anything with its insert, remove and move, and perhaps its
+/// functions for lines, seeds and limits. Throws: Error as those, said of the edit's place.
+template <int D, class Target>
+void announce(const Edit<D>& edit, Target& target) {
+  try {
+    if (edit.kind == EditKind::limit) return announce_limit(edit, target);
+    if (feature_kind(edit.kind) == FeatureKind::line) return announce_line(edit, target);
+    if (feature_kind(edit.kind) == FeatureKind::polygon) return announce_polygon(edit, target);
+    if (feature_kind(edit.kind) != FeatureKind::point) return announce_seed(edit, target);
+    switch (edit.kind) {
+      case EditKind::insert:
+        if constexpr (requires { target.insert(PointId{edit.number}, edit.point, edit.marker); }) {
+          return target.insert(PointId{edit.number}, edit.point, edit.marker);
+        } else {
+          return target.insert(PointId{edit.number}, edit.point);
+        }
+      case EditKind::remove:
+        return target.remove(PointId{edit.number});
+      default:
+        return target.move(PointId{edit.number}, edit.point);
+    }
+  } catch (const Error& error) {
+    throw error.at(edit.location);
+  }
+}
+
+/// Seconds of wall-clock time since some fixed moment.
+[[nodiscard]] double now();
+
+/// The order in which a batch is announced: lines and polygons that go; points, those that are
+/// there before those that the batch inserts, so that places are free before they are taken; lines
+/// and polygons that come; seeds and limits. Else as they stand.
+template <int D>
+[[nodiscard]] std::vector<Edit<D>> announcing_order(std::vector<Edit<D>> edits);
+
+/// Where the edit stands that an error of update() is about: the last one of the feature to blame,
+/// else the last one. Requires: edits not empty.
+template <int D>
+[[nodiscard]] FileLocation location_to_blame(const std::vector<Edit<D>>& edits, const Error& error);
+
+/// Makes one batch one update of `target`.
+/// Throws: Error, with the place of the edit to blame; `target` is then as before the batch.
+template <int D, class Target>
+auto apply(std::vector<Edit<D>> edits, Target& target) {
+  using Made = decltype(target.update());
+  const double start = now();
+  try {
+    for (const auto& edit : announcing_order(edits)) announce(edit, target);
+    Made change = target.update();
+    return Update<D, Made>{std::move(edits), std::move(change), now() - start};
+  } catch (const Error& error) {
+    target.discard_edits();
+    if (error.location().line > 0 || error.code() == ErrorCode::cancelled || edits.empty()) throw;
+    throw error.at(location_to_blame(edits, error));
+  } catch (...) {
+    target.discard_edits();
+    throw;
+  }
+}
+
+/// Applies a whole script, calling `each(update)` after every update.
+/// Throws: Error at the first bad line; what came before it stays applied, and of the block it
+/// stands in, nothing.
+template <int D, class Target, class Each>
+void apply(EditScript<D>& script, Target& target, Each each) {
+  while (auto edits = script.next()) each(apply(std::move(*edits), target));
+}
+
+}  // namespace mesher

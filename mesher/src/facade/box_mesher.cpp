@@ -1,0 +1,535 @@
+// The facade: announced edits on one side, the state that updates work on at the other.
+#include "facade/box_mesher.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "facade/pending.hpp"
+#include "facade/pending_limits.hpp"
+#include "facade/reentry_guard.hpp"
+#include "facade/space_state.hpp"
+#include "facade/state.hpp"
+#include "geometry/input_point.hpp"
+#include "live/live_arrays.hpp"
+#include "mesher/predicates.hpp"
+#include "program/meter.hpp"
+#include "program/space_input.hpp"
+#include "text/id_text.hpp"
+
+namespace mesher {
+
+namespace {
+
+// Zero has no sign.
+template <std::size_t N>
+std::array<double, N> unsigned_zero(std::array<double, N> p) {
+  for (double& x : p) x += 0.0;
+  return p;
+}
+
+}  // namespace
+
+template <int D>
+struct BoxMesher<D>::Impl {
+  using Pending = detail::Pending<D>;
+  using State = std::conditional_t<D == 2, detail::State, detail::SpaceState>;
+
+  explicit Impl(const Options<D>& o)
+      : options(o), state(std::make_unique<State>(o)), box(state->box()), pending(box) {
+    predicates::self_test();
+  }
+
+  [[nodiscard]] typename Pending::Place place(PointId id) const;
+  void require_known(PointId id) const;
+  void require_free(PointId id, const Point<D>& p) const;
+  void require_apart(const std::vector<typename Pending::Edit>& edits) const;
+  void insert(PointId id, const Point<D>& p);
+  [[nodiscard]] const detail::LinePoints& line(LineId id) const;
+  void insert_line(LineId id, const detail::LinePoints& points);
+  void remove_line(LineId id);
+  [[nodiscard]] const Polygon& polygon(PolygonId id) const;
+  void insert_polygon(const Polygon& polygon);
+  void remove_polygon(PolygonId id);
+  void limit(detail::AllLimits<D> limits, const std::vector<Box<D>>& where);
+  [[nodiscard]] Options<D> pending_options() const;
+  void commit_limits() noexcept;
+  void discard_edits() noexcept;
+  using LastWord = typename State::Accept;
+  Change<D> first_run(State& fresh, const RunControl& control, const LastWord& accept);
+  Change<D> propagate(const RunControl& control, const LastWord& accept);
+  Change<D> run(const RunControl& control, const LastWord& accept);
+  Change<D> run_with_slots(const RunControl& control, const Accept& accept);
+  Change<D> update(const RunControl& control, const Accept& accept);
+
+  Options<D> options;            // with the limits of the last update
+  std::unique_ptr<State> state;  // of the last update
+  detail::MeshBox<D> box;
+  Pending pending;
+  detail::PendingLines pending_lines;
+  detail::PendingPolygons pending_polygons;  // in space
+  detail::PendingLimits<D> pending_limits;
+  std::unique_ptr<detail::LiveArrays<D>> live;  // null: slots are not kept
+  detail::ReentryGuard busy;
+  bool moved = false;  // a place was taken that was not looked at
+};
+
+// --- Edits -----------------------------------------------------------------------------------
+
+template <int D>
+auto BoxMesher<D>::Impl::place(PointId id) const -> typename Pending::Place {
+  const auto* edit = pending.find(id);
+  return edit != nullptr ? edit->to : state->place(id);
+}
+
+template <int D>
+void BoxMesher<D>::Impl::require_known(PointId id) const {
+  if (place(id)) return;
+  throw Error(ErrorCode::unknown_id, "point " + id_text(id) + " is not there", {},
+              {mesher::Feature(id)});
+}
+
+template <int D>
+void BoxMesher<D>::Impl::require_free(PointId id, const Point<D>& p) const {
+  if (const auto* other = pending.arrival_near(p, id)) {
+    detail::fail_too_near(p, id, *other->to, other->id);
+  }
+  const auto there = state->obstacle(p);
+  if (!there || there->id == id || pending.find(there->id) != nullptr) return;
+  detail::fail_too_near(p, id, there->p, there->id);
+}
+
+// The announced places, as they are when all edits are made.
+template <int D>
+void BoxMesher<D>::Impl::require_apart(const std::vector<typename Pending::Edit>& edits) const {
+  for (const auto& edit : edits) {
+    if (edit.to) require_free(edit.id, *edit.to);
+  }
+}
+
+template <int D>
+void BoxMesher<D>::Impl::insert(PointId id, const Point<D>& p) {
+  busy.require_idle();
+  if (place(id)) {
+    throw Error(ErrorCode::repeated_id, "point " + id_text(id) + " is there already", {},
+                {mesher::Feature(id)});
+  }
+  detail::check_point(p, options.domain, id);
+  const auto was = state->place(id);
+  if (!was) require_free(id, p);
+  moved |= was.has_value();
+  pending.set(id, was, unsigned_zero(p));
+}
+
+// --- Lines and polygons ----------------------------------------------------------------------
+
+template <int D>
+const detail::LinePoints& BoxMesher<D>::Impl::line(LineId id) const {
+  const auto* edit = pending_lines.find(id);
+  return edit != nullptr ? edit->to : state->line(id);
+}
+
+template <int D>
+void BoxMesher<D>::Impl::insert_line(LineId id, const detail::LinePoints& points) {
+  busy.require_idle();
+  if (options.rule != Rule::radius_edge) {
+    throw Error(ErrorCode::bad_option, "segments need the rule radius-edge", {},
+                {mesher::Feature(id)});
+  }
+  if (points.size() < 2) {
+    throw Error(ErrorCode::bad_option, "line " + id_text(id) + " has fewer than two points", {},
+                {mesher::Feature(id)});
+  }
+  if (!line(id).empty()) {
+    throw Error(ErrorCode::repeated_id, "line " + id_text(id) + " is there already", {},
+                {mesher::Feature(id)});
+  }
+  const auto same = std::adjacent_find(points.begin(), points.end());
+  if (same != points.end()) detail::fail_zero_length(id, *same);
+  pending_lines.set(id, state->line(id), points);
+}
+
+template <int D>
+void BoxMesher<D>::Impl::remove_line(LineId id) {
+  busy.require_idle();
+  if (line(id).empty()) {
+    throw Error(ErrorCode::unknown_id, "line " + id_text(id) + " is not there", {},
+                {mesher::Feature(id)});
+  }
+  pending_lines.set(id, state->line(id), {});
+}
+
+template <>
+const Polygon& BoxMesher<3>::Impl::polygon(PolygonId id) const {
+  const auto* edit = pending_polygons.find(id);
+  return edit != nullptr ? edit->to : state->polygon_parts(id);
+}
+template <int D>
+const Polygon& BoxMesher<D>::Impl::polygon(PolygonId) const {
+  static const Polygon none;
+  return none;
+}
+
+template <>
+void BoxMesher<3>::Impl::insert_polygon(const Polygon& polygon) {
+  busy.require_idle();
+  if (options.rule != Rule::radius_edge) {
+    throw Error(ErrorCode::bad_option, "polygons need the rule radius-edge", {},
+                {mesher::Feature(polygon.id)});
+  }
+  if (!this->polygon(polygon.id).loops.empty()) {
+    throw Error(ErrorCode::repeated_id, "polygon " + id_text(polygon.id) + " is there already", {},
+                {mesher::Feature(polygon.id)});
+  }
+  detail::require_loops(polygon);
+  pending_polygons.set(polygon.id, state->polygon_parts(polygon.id), polygon);
+}
+template <int D>
+void BoxMesher<D>::Impl::insert_polygon(const Polygon& polygon) {
+  busy.require_idle();
+  throw Error(ErrorCode::bad_option, "polygons are for space", {}, {mesher::Feature(polygon.id)});
+}
+
+template <int D>
+void BoxMesher<D>::Impl::remove_polygon(PolygonId id) {
+  busy.require_idle();
+  if (polygon(id).loops.empty()) {
+    throw Error(ErrorCode::unknown_id, "polygon " + id_text(id) + " is not there", {},
+                {mesher::Feature(id)});
+  }
+  if constexpr (D == 3) pending_polygons.set(id, state->polygon_parts(id), {});
+}
+
+// --- Limits ----------------------------------------------------------------------------------
+
+// Limits that make no sense are refused at once.
+template <int D>
+void BoxMesher<D>::Impl::limit(detail::AllLimits<D> limits, const std::vector<Box<D>>& where) {
+  busy.require_idle();
+  Options<D> all = options;
+  detail::AllLimits<D>(limits).apply_to(all);
+  static_cast<void>(detail::Limits<D>(all, box));
+  pending_limits.set(std::move(limits), where, options);
+}
+
+template <int D>
+Options<D> BoxMesher<D>::Impl::pending_options() const {
+  return pending_limits.applied_to(options);
+}
+
+template <int D>
+void BoxMesher<D>::Impl::commit_limits() noexcept {
+  pending_limits.commit(options);
+}
+
+template <int D>
+void BoxMesher<D>::Impl::discard_edits() noexcept {
+  pending_limits.clear();
+  pending_lines.clear();
+  pending_polygons.clear();
+  pending.clear();
+  moved = false;
+}
+
+// --- Updates ---------------------------------------------------------------------------------
+
+template <>
+Change<2> BoxMesher<2>::Impl::first_run(State& fresh, const RunControl& control,
+                                        const LastWord& accept) {
+  return fresh.first_run(pending.sorted(), pending_lines.sorted(), control, accept);
+}
+template <>
+Change<2> BoxMesher<2>::Impl::propagate(const RunControl& control, const LastWord& accept) {
+  return state->propagate(pending.sorted(), pending_lines.sorted(), pending_limits.edit(options),
+                          control, accept);
+}
+template <>
+Change<3> BoxMesher<3>::Impl::first_run(State& fresh, const RunControl& control,
+                                        const LastWord& accept) {
+  return fresh.first_run(pending.sorted(), {pending_lines.sorted(), pending_polygons.sorted()},
+                         control, accept);
+}
+template <>
+Change<3> BoxMesher<3>::Impl::propagate(const RunControl& control, const LastWord& accept) {
+  return state->propagate(
+      pending.sorted(),
+      {pending_lines.sorted(), pending_polygons.sorted(), pending_limits.edit(options)}, control,
+      accept);
+}
+
+template <int D>
+Change<D> BoxMesher<D>::Impl::run(const RunControl& control, const LastWord& accept) {
+  if (moved) require_apart(pending.sorted());
+  if (state->ran()) return propagate(control, accept);
+  auto fresh = std::make_unique<State>(pending_options());
+  Change<D> change = first_run(*fresh, control, accept);
+  state = std::move(fresh);
+  return change;
+}
+
+template <int D>
+Change<D> BoxMesher<D>::Impl::run_with_slots(const RunControl& control, const Accept& accept) {
+  const LastWord last_word = [&](Change<D>& change) {
+    if (live) change.slots = live->plan(change);
+    if (accept) accept(change);
+  };
+  try {
+    Change<D> change = run(control, last_word);
+    if (live) live->keep();
+    return change;
+  } catch (...) {
+    if (live) live->drop();
+    throw;
+  }
+}
+
+template <int D>
+Change<D> BoxMesher<D>::Impl::update(const RunControl& control, const Accept& accept) {
+  const detail::ReentryGuard::Run running(busy);
+  detail::require_unstopped(control);
+  try {
+    Change<D> change = run_with_slots(control, accept);
+    commit_limits();
+    discard_edits();
+    return change;
+  } catch (const sac::Cancelled&) {
+    detail::fail_cancelled();
+  } catch (...) {
+    discard_edits();
+    throw;
+  }
+}
+
+// --- The facade ------------------------------------------------------------------------------
+
+template <int D>
+BoxMesher<D>::BoxMesher(const Options<D>& options) : impl_(std::make_unique<Impl>(options)) {}
+template <int D>
+BoxMesher<D>::BoxMesher(BoxMesher&&) noexcept = default;
+template <int D>
+BoxMesher<D>& BoxMesher<D>::operator=(BoxMesher&&) noexcept = default;
+template <int D>
+BoxMesher<D>::~BoxMesher() = default;
+
+template <int D>
+void BoxMesher<D>::insert(PointId id, const Point<D>& point) {
+  impl_->insert(id, point);
+}
+
+template <int D>
+void BoxMesher<D>::insert(const std::vector<PointId>& ids, const std::vector<Point<D>>& points) {
+  SAC_EXPECTS(ids.size() == points.size());
+  std::size_t done = 0;
+  try {
+    for (; done < ids.size(); ++done) impl_->insert(ids[done], points[done]);
+  } catch (...) {
+    while (done-- > 0) impl_->pending.set(ids[done], impl_->state->place(ids[done]), {});
+    throw;
+  }
+}
+
+template <int D>
+void BoxMesher<D>::remove(PointId id) {
+  impl_->busy.require_idle();
+  impl_->require_known(id);
+  impl_->pending.set(id, impl_->state->place(id), {});
+}
+
+template <int D>
+void BoxMesher<D>::move(PointId id, const Point<D>& point) {
+  impl_->busy.require_idle();
+  impl_->require_known(id);
+  detail::check_point(point, impl_->options.domain, id);
+  impl_->moved = true;
+  impl_->pending.set(id, impl_->state->place(id), unsigned_zero(point));
+}
+
+template <int D>
+void BoxMesher<D>::insert_segment(LineId id, PointId from, PointId to) {
+  impl_->insert_line(id, {from, to});
+}
+
+template <int D>
+void BoxMesher<D>::insert_polyline(LineId id, const std::vector<PointId>& points) {
+  impl_->insert_line(id, points);
+}
+
+template <int D>
+void BoxMesher<D>::remove_line(LineId id) {
+  impl_->remove_line(id);
+}
+
+template <int D>
+void BoxMesher<D>::insert_polygon(const Polygon& polygon) {
+  impl_->insert_polygon(polygon);
+}
+
+template <int D>
+void BoxMesher<D>::remove_polygon(PolygonId id) {
+  impl_->remove_polygon(id);
+}
+
+template <int D>
+void BoxMesher<D>::limit(const SizeLimits<D>& limits) {
+  const auto all = impl_->pending_limits.as_pending(impl_->options);
+  impl_->limit({limits, {}, all.regions}, {impl_->options.domain});
+}
+template <int D>
+void BoxMesher<D>::limit(const Box<D>& box, const SizeLimits<D>& limits) {
+  auto all = impl_->pending_limits.as_pending(impl_->options);
+  all.set_within(box, limits);
+  impl_->limit(std::move(all), {box});
+}
+template <int D>
+void BoxMesher<D>::limit_regions(std::shared_ptr<const RegionLimits<D>> regions,
+                                 const std::vector<Box<D>>& where) {
+  auto all = impl_->pending_limits.as_pending(impl_->options);
+  all.regions = std::move(regions);
+  impl_->limit(std::move(all), where);
+}
+template <int D>
+bool BoxMesher<D>::has_limits() const {
+  return impl_->pending_limits.as_pending(impl_->options).any();
+}
+
+// In the other: lines go first, and points before others come to their places.
+template <int D>
+void BoxMesher<D>::announce_to(BoxMesher& other) const {
+  const auto lines = impl_->pending_lines.sorted();
+  const auto polygons = impl_->pending_polygons.sorted();
+  for (const auto& edit : polygons) {
+    if (!edit.was.loops.empty()) other.remove_polygon(edit.id);
+  }
+  for (const auto& edit : lines) {
+    if (!edit.was.empty()) other.remove_line(edit.id);
+  }
+  for (const auto& edit : impl_->pending.sorted()) {  // those that go are the first
+    if (edit.was) edit.to ? other.move(edit.id, *edit.to) : other.remove(edit.id);
+  }
+  for (const auto& edit : impl_->pending.sorted()) {
+    if (!edit.was) other.insert(edit.id, *edit.to);
+  }
+  for (const auto& edit : lines) {
+    if (!edit.to.empty()) other.insert_polyline(edit.id, edit.to);
+  }
+  for (const auto& edit : polygons) {
+    if (!edit.to.loops.empty()) other.insert_polygon(edit.to);
+  }
+}
+
+template <int D>
+bool BoxMesher<D>::contains_line(LineId id) const {
+  return !impl_->line(id).empty();
+}
+
+template <int D>
+bool BoxMesher<D>::contains_polygon(PolygonId id) const {
+  return !impl_->polygon(id).loops.empty();
+}
+
+template <int D>
+void BoxMesher<D>::discard_edits() noexcept {
+  if (impl_->busy.is_idle()) impl_->discard_edits();
+}
+
+template <int D>
+Change<D> BoxMesher<D>::update(const RunControl& control) {
+  return impl_->update(control, {});
+}
+
+template <int D>
+Change<D> BoxMesher<D>::update(const RunControl& control, const Accept& accept) {
+  return impl_->update(control, accept);
+}
+
+template <int D>
+Mesh<D> BoxMesher<D>::mesh() const {
+  impl_->busy.require_idle();
+  return impl_->state->ran() ? impl_->state->mesh() : Mesh<D>();
+}
+
+template <int D>
+LiveMesh<D> BoxMesher<D>::live() const {
+  impl_->busy.require_idle();
+  if (!impl_->live) impl_->live = std::make_unique<detail::LiveArrays<D>>(mesh());
+  return LiveMesh<D>(*impl_->live);
+}
+
+template <int D>
+void BoxMesher<D>::keep_slots(bool keep) {
+  if (keep) {
+    static_cast<void>(live());
+  } else {
+    impl_->busy.require_idle();
+    impl_->live.reset();
+  }
+}
+
+template <int D>
+bool BoxMesher<D>::keeps_slots() const noexcept {
+  return impl_->live != nullptr;
+}
+
+template <int D>
+Slot BoxMesher<D>::last_slot(const std::array<Point<D>, D + 1>& simplex) const {
+  return impl_->live->find_simplex(simplex);
+}
+
+template <int D>
+std::vector<GraphPoint<D>> BoxMesher<D>::points() const {
+  impl_->busy.require_idle();
+  return impl_->state->points();
+}
+
+template <int D>
+std::vector<Polyline> BoxMesher<D>::lines() const {
+  impl_->busy.require_idle();
+  return impl_->state->lines();
+}
+
+template <int D>
+std::vector<Polygon> BoxMesher<D>::polygons() const {
+  impl_->busy.require_idle();
+  if constexpr (D == 3) {
+    return impl_->state->polygons();
+  } else {
+    return {};
+  }
+}
+
+template <int D>
+std::size_t BoxMesher<D>::size() const {
+  return impl_->state->size() + static_cast<std::size_t>(impl_->pending.growth());
+}
+
+template <int D>
+bool BoxMesher<D>::contains(PointId id) const {
+  return impl_->place(id).has_value();
+}
+
+template <int D>
+MeshStats BoxMesher<D>::stats() const {
+  return impl_->state->stats();
+}
+
+template <int D>
+const Options<D>& BoxMesher<D>::options() const {
+  return impl_->options;
+}
+
+template <int D>
+const sac::Engine& BoxMesher<D>::engine() const {
+  return impl_->state->engine();
+}
+
+template <int D>
+void BoxMesher<D>::check_invariants() const {
+  if (impl_->state->ran()) impl_->state->check_invariants();
+  if (!impl_->live) return;
+  impl_->live->check_invariants();
+  SAC_INVARIANT(impl_->live->compact().mesh == mesh());
+}
+
+template class BoxMesher<2>;
+template class BoxMesher<3>;
+
+}  // namespace mesher

@@ -1,0 +1,155 @@
+// mesh(): which algorithm, and where limits of size count.
+#include "mesher/meshing.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "facade/graph_runs.hpp"
+#include "facade/settled.hpp"
+
+namespace mesher {
+
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+// What may enclose something.
+template <int D>
+bool has_walls(const Graph<D>& graph) {
+  if constexpr (D == 3) return !graph.polygons.empty();
+  return has_features(graph);
+}
+
+template <int D>
+bool has_limits(const Options<D>& o) {
+  return o.max_measure != 0 || o.sizes != nullptr || !o.box_limits.empty();
+}
+
+template <int D>
+bool limits_regions(const Graph<D>& graph, const Options<D>& o) {
+  if (o.region_areas == RegionAreas::limits) return true;
+  return has_limits(o) && o.extent == Extent::enclosed && has_walls(graph);
+}
+
+// The fastest that knows what is asked for. In the plane refine takes as long as svr, for fewer
+// vertices; in space the triangulation of all points may be large.
+template <int D>
+Algorithm fastest(const Graph<D>& graph, const Options<D>& o) {
+  const bool low = has_features(graph) && o.rho < Options<D>{}.rho;
+  if (has_limits(o) || o.region_limits != nullptr || low || o.rule != Rule::radius_edge) {
+    return Algorithm::gap_balls;
+  }
+  if (D == 2 || (!has_features(graph) && are_evenly_spread<D>(places_of(graph))))
+    return Algorithm::refine;
+  return Algorithm::svr;
+}
+
+template <int D>
+Mesh<D> run(Algorithm algorithm, const Graph<D>& graph, const Options<D>& options,
+            RunReport& report, const RunControl& control, bool refinement) {
+  report.algorithm = algorithm;
+  report.refinement.reset();
+  if (algorithm == Algorithm::gap_balls) {
+    return mesh_statically(graph, options, &report.stats, control);
+  }
+  SvrStats stats;
+  SvrStats* const wanted = refinement ? &stats : nullptr;
+  Mesh<D> mesh = algorithm == Algorithm::svr
+                     ? svr(graph, options, options.extent, {}, wanted, control)
+                     : refine(graph, options, options.extent, {}, wanted, control);
+  report.stats.vertices = mesh.vertices.size();
+  report.stats.simplices = mesh.simplices.size();
+  if (refinement) report.refinement = stats;
+  return mesh;
+}
+
+template <int D>
+Mesh<D> run_fastest(const Graph<D>& graph, const Options<D>& options, RunReport& report,
+                    const RunControl& control, bool refinement) {
+  const Algorithm algorithm = fastest(graph, options);
+  if (algorithm == Algorithm::gap_balls) {
+    return run(algorithm, graph, options, report, control, refinement);
+  }
+  try {
+    return run(algorithm, graph, options, report, control, refinement);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::too_close && error.code() != ErrorCode::too_many) throw;
+    report.tried = algorithm;
+    report.gave_up = error;
+  }
+  return run(Algorithm::gap_balls, graph, options, report, control, refinement);
+}
+
+}  // namespace
+
+std::string_view name_of(Algorithm algorithm) noexcept {
+  switch (algorithm) {
+    case Algorithm::refine:
+      return "refine";
+    case Algorithm::svr:
+      return "svr";
+    case Algorithm::gap_balls:
+      return "gap-balls";
+    case Algorithm::automatic:
+      break;
+  }
+  return "auto";
+}
+
+template <int D>
+double radius_edge_bound(const Options<D>& options) {
+  return options.min_angle > 0 ? 1 / (2 * std::sin(options.min_angle * kRadians)) : options.rho;
+}
+
+template <int D>
+Options<D> detail::settled(Options<D> options) {
+  if (!(options.min_angle >= 0 && options.min_angle <= kLargestMinAngle)) {
+    throw Error(ErrorCode::bad_option, "min_angle must be 0, for none, or up to 29.6 degrees");
+  }
+  if constexpr (D == 3) {
+    if (options.min_dihedral != 0) {
+      throw Error(ErrorCode::bad_option, "min_dihedral is reserved: there is no such bound yet");
+    }
+  }
+  options.rho = radius_edge_bound(options);
+  options.min_angle = 0;
+  return options;
+}
+
+template <int D>
+Mesh<D> box_mesh(const Graph<D>& graph, const Options<D>& options, RunReport* report,
+                 const RunControl& control, bool refinement) {
+  Options<D> settled = detail::settled(options);
+  if (settled.domain == Box<D>{}) settled.domain = snapped_domain<D>(places_of(graph));
+  if (settled.region_limits == nullptr && limits_regions(graph, settled)) {
+    settled.region_limits = region_limits(graph, settled, settled.extent, settled.region_areas);
+  }
+  RunReport made;
+  Mesh<D> mesh = settled.algorithm == Algorithm::automatic
+                     ? run_fastest(graph, settled, made, control, refinement)
+                     : run(settled.algorithm, graph, settled, made, control, refinement);
+  if (report != nullptr) *report = std::move(made);
+  return mesh;
+}
+
+template <int D>
+Meshed<D> mesh(const Graph<D>& graph, const Options<D>& options, const RunControl& control) {
+  Meshed<D> made;
+  Mesh<D> all = box_mesh(graph, options, &made.report, control);
+  static_cast<DomainMesh<D>&>(made) = domain_mesh(std::move(all), graph, options.extent);
+  return made;
+}
+
+#define MESHER_INSTANTIATE(D)                                                                  \
+  template double radius_edge_bound(const Options<D>&);                                        \
+  template Options<D> detail::settled(Options<D>);                                             \
+  template Mesh<D> box_mesh(const Graph<D>&, const Options<D>&, RunReport*, const RunControl&, \
+                            bool);                                                             \
+  template Meshed<D> mesh(const Graph<D>&, const Options<D>&, const RunControl&)
+
+MESHER_INSTANTIATE(2);
+MESHER_INSTANTIATE(3);
+#undef MESHER_INSTANTIATE
+
+}  // namespace mesher
