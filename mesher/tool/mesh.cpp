@@ -114,7 +114,7 @@ void add_mesh(CLI::App& app) {
   mesh->add_option(
           "--algorithm", args->algorithm,
           "svr: sparse Voronoi refinement; refine: Delaunay refinement, from the triangulation\n"
-          "of all points; gap-balls: the mesh that `edit` keeps, in 3 to 10 times the time, also\n"
+          "of all points; gap-balls: the mesh that `edit` keeps, in 1.4 to 2 times the time, also\n"
           "with limits of size. auto: refine in the plane and of points that lie evenly in space,\n"
           "else svr; gap-balls with limits of size, --static, another rule, or a --rho below its\n"
           "default if there are lines or polygons, or if the other one finds features too close")

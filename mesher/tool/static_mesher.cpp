@@ -71,8 +71,9 @@ void StaticMesher<D>::remove_polygon(PolygonId id) requires(D == 3) {
 
 template <int D>
 void StaticMesher<D>::require_no_corners_go() const {
-  for (const auto& [id, polygon] : edited_polygons_) {
-    for_each_point(polygon, [&](PointId point) { this->require_stays(point, "on", id); });
+  for (const auto& edited : edited_polygons_) {
+    for_each_point(edited.second,
+                   [&](PointId point) { this->require_stays(point, "on", edited.first); });
   }
 }
 
