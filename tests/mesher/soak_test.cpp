@@ -19,10 +19,7 @@
 
 namespace {
 
-using mesher::LineId;
 using mesher::Point;
-using mesher::PointId;
-using mesher::PolygonId;
 
 std::size_t resident_bytes() {
   std::ifstream file("/proc/self/statm");

@@ -22,7 +22,6 @@ using mesher::LineId;
 using mesher::Mesh;
 using mesher::Options;
 using mesher::Point;
-using mesher::PointId;
 using mesher::PolygonId;
 using mesher::Rule;
 using mesher::SplitMix64;

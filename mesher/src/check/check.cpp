@@ -6,6 +6,7 @@
 
 #include "check/check_parts.hpp"
 #include "check/checked_mesh.hpp"
+#include "graph/has_features.hpp"
 #include "mesher/predicates.hpp"
 #include "text/text.hpp"
 
@@ -225,8 +226,7 @@ class Checker {
 
 BoundaryRule boundary_rule(const MeshData<2>& mesh, const GraphFile<2>* graph) {
   const bool has_lines =
-      !mesh.features.edges.empty() ||
-      (graph != nullptr && (!graph->graph.segments.empty() || !graph->graph.polylines.empty()));
+      !mesh.features.edges.empty() || (graph != nullptr && has_features(graph->graph));
   if (!has_lines) return BoundaryRule::box;
   if (graph == nullptr || mesh.simplices.empty()) return BoundaryRule::lines;
   const detail::CheckedMesh checked(mesh);

@@ -12,10 +12,6 @@ namespace mesher::detail {
 
 namespace {
 
-std::string name_of(const char* kind, auto id) {
-  return std::string(kind) + std::to_string(static_cast<std::int64_t>(id));
-}
-
 std::array<std::uint32_t, 2> ends_of(std::uint32_t a, std::uint32_t b) {
   return {std::min(a, b), std::max(a, b)};
 }
@@ -61,11 +57,11 @@ std::size_t ComplexCheck::line(PointId a, PointId b, const std::string& name) {
 
 void ComplexCheck::add_lines() {
   const Graph<3>& plc = options_.graph->graph;
-  for (const auto& s : segments_of(plc)) line(s.from, s.to, name_of("segment ", s.id));
+  for (const auto& s : segments_of(plc)) line(s.from, s.to, text_of(s.id));
   for (const auto& f : plc.polygons) {
     Surface& surface = surfaces_.emplace_back();
     surface.polygon = &f;
-    const std::string name = "an edge of " + name_of("polygon ", f.id);
+    const std::string name = "an edge of " + text_of(f.id);
     for (const auto& loop : f.loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
         surface.lines.push_back(line(loop[i], loop[(i + 1) % loop.size()], name));

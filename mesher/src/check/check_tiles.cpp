@@ -24,10 +24,6 @@ constexpr double kArea = 1e-9;
 // Of the length of an edge: so near its middle a place beside it is in the polygon beside it.
 constexpr double kBeside = 0x1p-10;
 
-std::string name_of(const char* kind, auto id) {
-  return std::string(kind) + std::to_string(static_cast<std::int64_t>(id));
-}
-
 FlatPolygon flat(const Polygon& polygon, const std::map<PointId, Point<3>>& places) {
   std::vector<std::vector<Point<3>>> loops;
   for (const auto& loop : polygon.loops) {
@@ -181,7 +177,7 @@ Verdict ComplexCheck::find_polygons(const HalfFaces& faces) {
     const auto trouble = trouble_of(surface);
     if (!trouble && surface.tiles.empty()) ++outside;
     if (trouble && verdict.holds) {
-      verdict = Verdict::bad(name_of("polygon ", surface.polygon->id) + ": " + *trouble);
+      verdict = Verdict::bad(text_of(surface.polygon->id) + ": " + *trouble);
     }
   }
   for (const Face& tile : tiles_) {

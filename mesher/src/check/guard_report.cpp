@@ -4,6 +4,7 @@
 #include "check/check_complex.hpp"
 #include "check/poor_beside.hpp"
 #include "check/space_quality.hpp"
+#include "graph/has_features.hpp"
 #include "mesher/graph.hpp"
 #include "text/text.hpp"
 
@@ -14,9 +15,7 @@ namespace {
 // `counts(corners)`: whether a tetrahedron is one to be looked at.
 template <class Counts>
 GuardReport report_of(const Mesh<3>& mesh, const Graph<3>& complex, double rho, Counts&& counts) {
-  const bool has_lines =
-      !complex.segments.empty() || !complex.polylines.empty() || !complex.polygons.empty();
-  if (rho >= kGuarded || !has_lines) return {};
+  if (rho >= kGuarded || !has_features(complex)) return {};
   GraphFile<3> file;
   file.graph = complex;
   CheckOptions<3> options;

@@ -23,12 +23,6 @@ bool meet(const std::vector<PointId>& a, const std::vector<PointId>& b) {
                      [&](PointId x) { return std::binary_search(b.begin(), b.end(), x); });
 }
 
-std::vector<Point<3>> places_of(const Graph<3>& complex) {
-  std::vector<Point<3>> places;
-  for (const auto& p : complex.points) places.push_back(p.at);
-  return places;
-}
-
 }  // namespace
 
 IsolatedEdges::IsolatedEdges(const Graph<3>& complex)

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "facade/graph_runs.hpp"
+#include "graph/distinct_ids.hpp"
 #include "sac/check.hpp"
 
 namespace mesher {
@@ -59,14 +60,6 @@ void add_points(const std::vector<GraphPoint<D>>& points, MeshData<D>& data) {
 namespace {
 
 template <int D>
-std::vector<PointId> ids_of(const Graph<D>& graph) {
-  std::vector<PointId> ids;
-  ids.reserve(graph.points.size());
-  for (const auto& p : graph.points) ids.push_back(p.id);
-  return ids;
-}
-
-template <int D>
 RefinedExtent<D> refined(const Graph<D>& graph, Extent extent) {
   RefinedExtent<D> refined{.only_enclosed = extent == Extent::enclosed};
   for (const auto& hole : graph.holes()) refined.holes.push_back(hole.at);
@@ -88,7 +81,7 @@ Mesh<D> with_parts(const Graph<D>& graph, Run&& run) {
 template <int D>
 Mesh<D> mesh_statically(const Graph<D>& graph, const Options<D>& options, MeshStats* stats,
                         const RunControl& control) {
-  const std::vector<PointId> ids = ids_of(graph);
+  const std::vector<PointId> ids = detail::ids_of(graph.points);
   if (!has_features(graph))
     return mesh_statically<D>(places_of(graph), options, ids, stats, control);
   return with_parts(graph, [&](const auto&... parts) {
@@ -99,7 +92,7 @@ Mesh<D> mesh_statically(const Graph<D>& graph, const Options<D>& options, MeshSt
 template <int D>
 Mesh<D> refine(const Graph<D>& graph, const Options<D>& options, Extent extent,
                const RefineSettings& settings, RefineStats* stats, const RunControl& control) {
-  const std::vector<PointId> ids = ids_of(graph);
+  const std::vector<PointId> ids = detail::ids_of(graph.points);
   if (!has_features(graph)) {
     return refine<D>(places_of(graph), options, settings, ids, stats, control);
   }
@@ -111,7 +104,7 @@ Mesh<D> refine(const Graph<D>& graph, const Options<D>& options, Extent extent,
 template <int D>
 Mesh<D> svr(const Graph<D>& graph, const Options<D>& options, Extent extent,
             const SvrSettings& settings, SvrStats* stats, const RunControl& control) {
-  const std::vector<PointId> ids = ids_of(graph);
+  const std::vector<PointId> ids = detail::ids_of(graph.points);
   if (!has_features(graph)) {
     return svr<D>(places_of(graph), options, settings, ids, stats, control);
   }

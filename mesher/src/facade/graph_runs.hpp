@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "facade/mesh_statically.hpp"
+#include "graph/has_features.hpp"
 #include "mesher/domain.hpp"
 #include "mesher/graph.hpp"
 #include "mesher/meshing.hpp"
@@ -12,15 +13,6 @@
 #include "refinement/svr.hpp"
 
 namespace mesher {
-
-/// Whether there are lines or polygons.
-template <int D>
-[[nodiscard]] bool has_features(const Graph<D>& graph) {
-  if constexpr (D == 3) {
-    if (!graph.polygons.empty()) return true;
-  }
-  return !graph.segments.empty() || !graph.polylines.empty();
-}
 
 /// The mesh of a graph's points and lines in the box. Throws: as mesh_statically of these.
 template <int D>

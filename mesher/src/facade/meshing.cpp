@@ -7,6 +7,8 @@
 
 #include "facade/graph_runs.hpp"
 #include "facade/settled.hpp"
+#include "geometry/input_point.hpp"
+#include "graph/require_ids.hpp"
 
 namespace mesher {
 
@@ -40,9 +42,8 @@ Algorithm fastest(const Graph<D>& graph, const Options<D>& o) {
   if (has_limits(o) || o.region_limits != nullptr || low || o.rule != Rule::radius_edge) {
     return Algorithm::gap_balls;
   }
-  if (D == 2 || (!has_features(graph) && are_evenly_spread<D>(places_of(graph))))
-    return Algorithm::refine;
-  return Algorithm::svr;
+  const bool refines = D == 2 || (!has_features(graph) && are_evenly_spread<D>(places_of(graph)));
+  return refines ? Algorithm::refine : Algorithm::svr;
 }
 
 template <int D>
@@ -121,10 +122,15 @@ template <int D>
 Mesh<D> box_mesh(const Graph<D>& graph, const Options<D>& options, RunReport* report,
                  const RunControl& control, bool refinement) {
   Options<D> settled = detail::settled(options);
-  if (settled.domain == Box<D>{}) settled.domain = snapped_domain<D>(places_of(graph));
-  if (settled.region_limits == nullptr && limits_regions(graph, settled)) {
-    settled.region_limits = region_limits(graph, settled, settled.extent, settled.region_areas);
+  detail::require_ids(graph);
+  if (settled.domain == Box<D>{}) {
+    for (const auto& p : graph.points) detail::check_coordinates(p.at, p.id);
+    settled.domain = snapped_domain<D>(places_of(graph));
   }
+  settled.region_limits =  // those of another graph, which a Mesher's options have, do not count
+      limits_regions(graph, settled)
+          ? region_limits(graph, settled, settled.extent, settled.region_areas)
+          : nullptr;
   RunReport made;
   Mesh<D> mesh = settled.algorithm == Algorithm::automatic
                      ? run_fastest(graph, settled, made, control, refinement)

@@ -1,42 +1,57 @@
-// Refusing ids that a file gives twice.
+// Refusing ids that are given twice.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mesher/error.hpp"
 #include "mesher/graph.hpp"
 
-namespace mesher {
+namespace mesher::detail {
 
-/// Features with where they stand, to be checked for ids that repeat.
-struct Named {
-  std::vector<Feature> features;
-  std::vector<FileLocation> locations;
-};
-
-/// Of parts that have an id. `location_of(i)`: where the i-th stood.
-template <class Part, class LocationOf>
-[[nodiscard]] Named named(const std::vector<Part>& parts, LocationOf location_of) {
-  Named all;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    all.features.push_back(parts[i].id);
-    all.locations.push_back(location_of(i));
-  }
-  return all;
+template <class Part>
+[[nodiscard]] auto ids_of(const std::vector<Part>& parts) {
+  std::vector<decltype(Part::id)> ids;
+  ids.reserve(parts.size());
+  for (const Part& part : parts) ids.push_back(part.id);
+  return ids;
 }
 
-/// Throws: Error(repeated_id) for the first part whose id an earlier one has. Cost: O(n log n).
-void require_distinct(const Named& all);
-
-/// Of all parts of a graph, lines aside.
-template <int D>
-void require_distinct_parts(const Graph<D>& graph, const GraphFile<D>& f) {
-  require_distinct(named(graph.points, [&](auto i) { return f.location_of_point(i); }));
-  if constexpr (D == 3) {
-    require_distinct(named(graph.polygons, [&](auto i) { return f.location_of_polygon(i); }));
+/// The numbers of two ids that are equal, of which the later one is the first to repeat an earlier
+/// one; nothing if all differ. Cost: O(n) where they ascend, else O(n log n).
+template <class Id>
+[[nodiscard]] std::optional<std::array<std::size_t, 2>> repeated(const std::vector<Id>& ids) {
+  if (std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) == ids.end()) return {};
+  std::vector<std::size_t> order(ids.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t k) { return ids[i] < ids[k]; });
+  std::optional<std::array<std::size_t, 2>> first;
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    if (ids[order[k - 1]] != ids[order[k]]) continue;
+    if (!first || order[k] < (*first)[1]) first = {order[k - 1], order[k]};
   }
-  require_distinct(named(graph.seeds, [&](auto i) { return f.location_of_seed(i); }));
+  return first;
 }
 
-}  // namespace mesher
+/// Throws: Error(repeated_id) for the first id that an earlier one is. `location_of(i)`: where the
+/// i-th stands, without a line if that is not known. Cost: as repeated().
+template <class Id, class LocationOf>
+void require_distinct(const std::vector<Id>& ids, LocationOf location_of) {
+  const auto pair = repeated(ids);
+  if (!pair) return;
+  const auto [earlier, later] = *pair;
+  const long line = location_of(earlier).line;
+  throw Error(ErrorCode::repeated_id,
+              text_of(ids[later]) + " is given twice" +
+                  (line > 0 ? ", first on line " + std::to_string(line) : ""),
+              location_of(later), {ids[later]});
+}
+
+}  // namespace mesher::detail

@@ -101,14 +101,14 @@ GraphFile<3> read_in_space(const std::string& path, const ReadOptions& options) 
 template <>
 GraphFile<2> read<2>(const std::string& path, const ReadOptions& options) {
   GraphFile<2> file = read_in_plane(path, options);
-  detail::require_ids(file);
+  detail::require_ids(file.graph, &file);
   return file;
 }
 
 template <>
 GraphFile<3> read<3>(const std::string& path, const ReadOptions& options) {
   GraphFile<3> file = read_in_space(path, options);
-  detail::require_ids(file);
+  detail::require_ids(file.graph, &file);
   return file;
 }
 

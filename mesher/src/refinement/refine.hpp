@@ -3,10 +3,9 @@
 //
 //   const auto mesh = mesher::refine<2>(points, {.domain = mesher::snapped_domain<2>(points)});
 //
-// Of the mesh holds what holds of that of svr (mesher/svr.hpp); it is another one. Where the
-// triangulation of the points is small, as of points that lie evenly (are_evenly_spread), it is
-// made about as soon or sooner; where that is large, much later, and it takes the memory of that
-// triangulation.
+// Same guarantees as svr(); a different mesh. Where the triangulation of the points is small, as of
+// points that lie evenly (are_evenly_spread), it is made as soon or sooner; where that is large,
+// much later, and it takes the memory of that triangulation.
 #pragma once
 
 #include <cstddef>

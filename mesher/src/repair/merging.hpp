@@ -17,13 +17,6 @@
 
 namespace mesher::detail {
 
-template <int D>
-[[nodiscard]] std::vector<Point<D>> places_of(const std::vector<GraphPoint<D>>& points) {
-  std::vector<Point<D>> places;
-  for (const auto& point : points) places.push_back(point.at);
-  return places;
-}
-
 /// `file` with a position for each part: an unknown one where it has none, as one that was made by
 /// hand.
 template <int D>
@@ -49,9 +42,9 @@ void require_attributes(const Graph<D>& input) {
 /// What can be repaired, and the box that it is repaired in. Throws: Error (not_finite, magnitude,
 /// outside_domain, bad_option).
 template <int D>
-[[nodiscard]] MeshBox<D> box_of_points(const std::vector<GraphPoint<D>>& points,
-                                       const GraphFile<D>& file,
+[[nodiscard]] MeshBox<D> box_of_points(const GraphFile<D>& file,
                                        const std::optional<Box<D>>& given) {
+  const auto& points = file.graph.points;
   Box<D> everywhere;
   everywhere.lo.fill(-0x1p101);
   everywhere.hi.fill(0x1p101);
@@ -65,7 +58,7 @@ template <int D>
     }
   };
   require_in(everywhere);
-  const Box<D> domain = given ? *given : snapped_domain<D>(places_of(points));
+  const Box<D> domain = given ? *given : snapped_domain<D>(places_of(file.graph));
   const MeshBox<D> box = mesh_box(Options<D>{.domain = domain});
   require_in(domain);
   return box;

@@ -37,11 +37,11 @@ void draw_rods(const Graph<2>& pslg, const std::vector<Spot>& spots, Drawing& dr
 }
 
 Repaired<2> repair_placed(const GraphFile<2>& file, const std::optional<Box<2>>& given) {
-  detail::require_ids(file);
+  detail::require_ids(file.graph, &file);
   detail::require_attributes(file.graph);
   const auto& points = file.graph.points;
   if (points.empty()) return {file, {}, 0, 0};
-  const detail::MeshBox<2> box = detail::box_of_points(points, file, given);
+  const detail::MeshBox<2> box = detail::box_of_points(file, given);
   Drawing drawing(box.lo, detail::tolerance_in(box, kShare, kUnits));
   std::vector<Spot> spots(points.size());
   std::vector<std::size_t> keepers;

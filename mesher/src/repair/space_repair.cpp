@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "graph/distinct_ids.hpp"
+#include "graph/require_ids.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/repair.hpp"
 #include "program/space_input.hpp"
@@ -28,8 +29,7 @@ constexpr double kSpaceUnits = 64;
 
 void require_ids(const GraphFile<3>& file) {
   const Graph<3>& plc = file.graph;
-  require_distinct_parts(plc, file);
-  require_distinct(named(plc.segments, [&](auto i) { return file.location_of_segment(i); }));
+  detail::require_distinct_ids(plc, &file);
   std::unordered_map<PointId, bool> points;
   for (const auto& p : plc.points) points.emplace(p.id, true);
   const auto require = [&](PointId id, const char* what, const mesher::Feature& user,
@@ -98,11 +98,9 @@ Drawn draw(const Graph<3>& plc, SpaceDrawing& drawing) {
 
 // What a Mesher says of it.
 void require_sound(const Graph<3>& plc, const Options<3>& options) {
-  std::vector<Point<3>> points;
-  std::vector<PointId> ids;
-  for (const auto& p : plc.points) points.push_back(p.at), ids.push_back(p.id);
   try {
-    detail::require_complex(points, plc.segments, plc.polygons, options, ids);
+    detail::require_complex(places_of(plc), plc.segments, plc.polygons, options,
+                            detail::ids_of(plc.points));
   } catch (const Error& error) {
     throw Error(
         ErrorCode::too_close,
@@ -125,14 +123,14 @@ Repaired<3> repair_placed(const GraphFile<3>& file, const std::optional<Box<3>>&
   detail::require_attributes(file.graph);
   const Graph<3>& plc = file.graph;
   if (plc.points.empty()) return {file, {}, 0, 0};
-  const detail::MeshBox<3> box = detail::box_of_points(plc.points, file, given);
+  const detail::MeshBox<3> box = detail::box_of_points(file, given);
   SpaceDrawing drawing(box, detail::tolerance_in(box, kSpaceShare, kSpaceUnits));
   const Drawn drawn = draw(plc, drawing);
   std::vector<PolygonId> names;
   for (const std::size_t i : drawn.facets) names.push_back(plc.polygons[i].id);
   detail::arrange(drawing, names);
   Repaired<3> repaired = detail::redraw(file, drawing, drawn);
-  const Box<3> domain = given ? *given : snapped_domain<3>(detail::places_of(plc.points));
+  const Box<3> domain = given ? *given : snapped_domain<3>(places_of(plc));
   require_sound(repaired.file.graph, {.domain = domain});
   return repaired;
 }

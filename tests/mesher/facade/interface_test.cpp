@@ -3,6 +3,7 @@
 #include <concepts>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <type_traits>
 
 #include "handle_an_error.hpp"
@@ -241,6 +242,80 @@ TEST_CASE("features say which kind they are") {
   CHECK(Feature(hole_id(2)).seed() == hole_id(2));
   CHECK(text_of(region_id(4)) == "region 4");
   CHECK(text_of(Feature()) == "");
+}
+
+template <int D>
+void require_refused(const Graph<D>& graph, ErrorCode code, const Feature& to_blame) {
+  for (const Algorithm a :
+       {Algorithm::automatic, Algorithm::refine, Algorithm::svr, Algorithm::gap_balls}) {
+    INFO(name_of(a) << ", " << code_name(code));
+    try {
+      static_cast<void>(mesh(graph, {.algorithm = a}));
+      FAIL_CHECK("nothing is refused");
+    } catch (const Error& error) {
+      CHECK(error.code() == code);
+      REQUIRE_FALSE(error.features().empty());
+      CHECK(error.features()[0] == to_blame);
+    }
+  }
+}
+
+TEST_CASE("mesh() refuses graphs whose ids or places are wrong, by every algorithm") {
+  Graph<2> graph = square();
+  graph.points.push_back({PointId{2}, {0.5, 0.7}});
+  require_refused(graph, ErrorCode::repeated_id, PointId{2});
+  graph = square();
+  graph.segments.push_back({LineId{1}, PointId{10}, PointId{2}});  // the polyline's
+  require_refused(graph, ErrorCode::repeated_id, LineId{1});
+  graph = square();
+  graph.polylines.push_back({LineId{9}, {PointId{10}}});
+  require_refused(graph, ErrorCode::bad_option, LineId{9});
+  graph = square();
+  graph.segments.push_back({LineId{9}, PointId{10}, PointId{77}});
+  require_refused(graph, ErrorCode::unknown_id, LineId{9});
+  graph = square();
+  graph.seeds.push_back(region_seed<2>(1, {0.5, 0.2}));
+  require_refused(graph, ErrorCode::repeated_id, region_id(1));
+  graph = square();
+  graph.points.push_back({PointId{9}, {1e200, 0}});
+  require_refused(graph, ErrorCode::magnitude, PointId{9});
+  graph.points.back().at[0] = std::numeric_limits<double>::quiet_NaN();
+  require_refused(graph, ErrorCode::not_finite, PointId{9});
+  Graph<3> complex = box();
+  complex.polygons.push_back(complex.polygons[2]);
+  require_refused(complex, ErrorCode::repeated_id, PolygonId{2});
+}
+
+TEST_CASE("a Mesher's options do for another graph: its limits in regions are its own") {
+  Graph<2> graph = square();
+  graph.seeds[0].max_measure = 0.01;
+  Mesher<2> m({.domain = {{0, 0}, {2, 2}}, .region_areas = RegionAreas::limits});
+  m.insert(graph);
+  m.update();
+  Graph<2> other = graph;
+  for (auto& p : other.points) p.at = {p.at[0] / 2 + 1.2, p.at[1] / 2 + 1.2};
+  other.seeds[0].at = {1.25, 1.25};
+  Options<2> fresh{.domain = {{0, 0}, {2, 2}}, .region_areas = RegionAreas::limits};
+  fresh.algorithm = Algorithm::gap_balls;
+  CHECK(mesh(other, m.options()).mesh == mesh(other, fresh).mesh);
+  m.remove_line(LineId{1});  // now nothing is enclosed
+  m.update();
+  CHECK(m.mesh() == mesh(m.input(), m.options()).mesh);
+}
+
+TEST_CASE("a polygon that comes back under another marker changes that alone") {
+  Mesher<3> m({.domain = {{0, 0, 0}, {1, 1, 1}}});
+  m.insert(box());
+  m.update();
+  Polygon side = box().polygons[0];
+  side.marker = 77;
+  m.remove_polygon(side.id);
+  m.insert_polygon(side);
+  const auto change = m.update();
+  CHECK(change.simplices_added.empty());
+  CHECK(change.faces_added.empty());
+  CHECK(m.input().polygons[0] == side);
+  CHECK(m.mesh().features == mesh(m.input(), m.options()).mesh.features);
 }
 
 TEST_CASE("features of a graph that is of no file stand nowhere") {
