@@ -128,6 +128,7 @@ mesher::Options<D> options_of(const MeshArguments& args, const Input<D>& input) 
   require_own_measure<D>(args);
   mesher::Options<D> options;
   if (!args.rho.empty()) options.rho = option_rho(args.rho, kMostRho);
+  if (!args.min_angle.empty()) options.rho = option_min_angle(args.min_angle);
   options.rule =
       args.rule == "radius-edge" ? mesher::Rule::radius_edge : mesher::Rule::voronoi_aspect;
   options.domain = args.domain.empty() ? mesher::snapped_domain<D>(places_of(input.graph()))
@@ -191,9 +192,15 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
           "not\n"
           "the same everywhere; of .xyz and .csv, not 0 everywhere)")
       ->check(CLI::IsMember({"2", "3"}));
-  command.add_option("--rho", args.rho,
-                     "Bound of circumradius over shortest edge, above 1.01 and up to 100\n"
-                     "(default: 1.4142; in space 2)");
+  CLI::Option* const rho =
+      command.add_option("--rho", args.rho,
+                         "Bound of circumradius over shortest edge, above 1.01 and up to 100\n"
+                         "(default: 1.4142; in space 2)");
+  command
+      .add_option("--min-angle", args.min_angle,
+                  "Instead, in degrees: no angle is smaller (in space, of faces); up to 29.6. It\n"
+                  "stands for --rho 1 / (2 sin(D)); 28 works for most inputs in the plane")
+      ->excludes(rho);
   command.add_option("--rule", args.rule, "Where to insert: radius-edge or voronoi-aspect")
       ->check(CLI::IsMember({"radius-edge", "voronoi-aspect"}))
       ->capture_default_str();
@@ -278,6 +285,14 @@ double option_rho(const std::string& text, double most) {
   if (rho > kLeastRho && rho <= most) return rho;
   throw Error(ErrorCode::bad_option, "--rho " + text + ": must be above " + to_text(kLeastRho) +
                                          (most < INFINITY ? " and at most " + to_text(most) : ""));
+}
+
+double option_min_angle(const std::string& text) {
+  const double angle = option_number("--min-angle", text);
+  const double rho = mesher::radius_edge_bound(mesher::Options<2>{.min_angle = angle});
+  if (angle > 0 && angle <= mesher::kLargestMinAngle && rho <= kMostRho) return rho;
+  throw Error(ErrorCode::bad_option, "--min-angle " + text + ": must be above 0.29 and at most " +
+                                         to_text(mesher::kLargestMinAngle));
 }
 
 int dimension_of(const MeshArguments& args) {

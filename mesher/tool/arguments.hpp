@@ -20,6 +20,7 @@ struct MeshArguments {
   std::vector<std::string> outputs;
   std::string dimension;  // empty: that of the input
   std::string rho;        // empty: the default of the dimension
+  std::string min_angle;  // degrees, in place of rho
   std::string rule = "radius-edge";
   std::vector<std::string> domain;  // the lower corner, the upper corner; or nothing
   std::string max_area, max_volume, max_size, sizes;
@@ -55,6 +56,9 @@ void add_mesh_options(CLI::App& command, MeshArguments& args);
 
 /// The value of --rho, at most `most`. Throws: Error(bad_option).
 [[nodiscard]] double option_rho(const std::string& text, double most = INFINITY);
+
+/// The rho that --min-angle stands for. Throws: Error(bad_option).
+[[nodiscard]] double option_min_angle(const std::string& text);
 
 /// What faces of INPUT in space are.
 [[nodiscard]] inline Faces faces(const MeshArguments& args) {

@@ -63,6 +63,15 @@ refuse 2 'error[bad_option]' paint
 refuse 2 'error[bad_option]' mesh
 refuse 2 'error[bad_option]' mesh uniform.node --colour red
 
+echo "== --min-angle stands for --rho"
+expect 0 '' mesh uniform.node --min-angle 28 --quiet -o angle.node
+expect 0 'quality     ok' check angle.node --input uniform.node --rho 1.06503
+expect 0 '' mesh uniform.node --min-angle 30e-1 --quiet -o angle.node
+refuse 2 '--min-angle 29.7: must be above 0.29 and at most 29.6' mesh uniform.node --min-angle 29.7 \
+  -o out/x.node
+refuse 2 '--min-angle 0: must be' mesh uniform.node --min-angle 0 -o out/x.node
+refuse 2 '--min-angle' mesh uniform.node --min-angle 20 --rho 2 -o out/x.node
+
 echo "== mesh and check"
 for kind in uniform gaussian clusters grid line-circle spiral; do
   expect 0 'vertices' mesh "$kind.node" -o "$kind.mesh.node" -o "$kind.off" -o "$kind.vtu" \
