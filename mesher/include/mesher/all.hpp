@@ -1,4 +1,4 @@
-// All of the library but generators and scripts of edits (mesher/extra/).
+// The whole library except generators and edit scripts (mesher/extra/).
 #pragma once
 
 #include "mesher/check.hpp"

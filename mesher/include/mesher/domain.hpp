@@ -1,31 +1,34 @@
-// What segments enclose, or in space polygons: regions of a triangulation, holes, and the part of a
-// mesh that is wanted.
+// Regions of a triangulation that segments (in space polygons) enclose, holes, and the part of a
+// mesh that is kept.
 //
-// Everything is refined in the box; which triangles belong to the domain is found afterwards by a
-// flood that does not cross segments [rules A6].
+// The mesher refines the whole box; a flood that does not cross segments then finds the triangles
+// of the domain [rules A6].
 //
 // Example:
 //   const Domain<2> domain = find_domain(whole, whole.features.edges, seeds, Extent::enclosed);
 //   for (const SeedFault<2>& fault : domain.faults) std::cerr << describe(fault) << '\n';
 //   write_mesh(extract(whole, domain).mesh, "lake.vtu");
 //
-// A *wall* is an edge of the mesh that is a part of a segment. A *region* is what triangles reach
-// from each other across edges that are no walls. It is *open* if it reaches the boundary of the
-// triangulation at an edge that is no wall, else *closed*. In space read tetrahedra, faces and
-// polygons for triangles, edges and segments.
+// A *wall* is an edge of the mesh that is a part of a segment. A *region* is a largest set of
+// triangles that are connected across edges that are no walls. It is *open* if it reaches the
+// boundary of the triangulation at an edge that is no wall, else *closed*. In space read
+// tetrahedra, faces and polygons for triangles, edges and segments.
 //
 // Guarantees:
-//   (1) an open region is outside. A closed one with a hole's seed in it is a hole, any other is
-//       inside. So loose segments change nothing, and a hole is as large as its region;
-//   (2) what is kept is the inside. Where no region is closed, or the whole box is wanted, all is
-//       kept, holes too;
-//   (3) a region's attribute and limit are those of its region seed, inside or outside;
-//   (4) a seed is in a region if the region's closed triangles hold it and it is on no wall: on an
-//       edge or a vertex it is in the one region around. That is decided by exact signs;
-//   (5) of several seeds in a region one counts: a hole's, then the least id; the others are
-//       faults. A seed on a wall or in a region that is not kept is a fault, and changes nothing;
-//   (6) everything is a function of the sets of triangles, walls and seeds. A region has the name
-//       of its seed; one without is known by its smallest triangle.
+//   (1) an open region is outside. A closed region that contains a hole's seed is a hole; every
+//       other closed region is inside. So loose segments change nothing, and a hole is as large as
+//       its region;
+//   (2) the inside is kept. If no region is closed, or the whole box is wanted, everything is kept,
+//       holes included;
+//   (3) a region has the attribute and the limit of its region seed, whether it is inside or
+//       outside;
+//   (4) a seed is in a region if the region's closed triangles contain it and it is on no wall: a
+//       seed on an edge or a vertex is in the one region around it. Exact signs decide;
+//   (5) of several seeds in a region one counts: a hole's seed first, then the least id; the others
+//       are faults. A seed on a wall or in a region that is not kept is a fault, and changes
+//       nothing;
+//   (6) everything is a function of the sets of triangles, walls and seeds. A region is named by
+//       its seed; a region without a seed is identified by its smallest triangle.
 #pragma once
 
 #include <compare>
@@ -43,10 +46,10 @@ namespace mesher {
 
 enum class Zone : std::uint8_t { outside, hole, inside };
 
-/// What a simplex is part of.
+/// The zone and seed of the region that a simplex is in.
 struct RegionLabel {
   Zone zone = Zone::outside;
-  std::optional<SeedId> seed;  ///< the hole of a hole, else the region seed if there is one
+  std::optional<SeedId> seed;  ///< in a hole its seed, else the region seed if there is one
   friend bool operator==(const RegionLabel&, const RegionLabel&) = default;
 };
 
@@ -63,7 +66,7 @@ struct Region {
 template <int D>
 struct SeedFault {
   enum class Kind : std::uint8_t {
-    outside,     ///< outside of what is kept; of the box, perhaps
+    outside,     ///< outside the part that is kept, possibly outside the box
     on_segment,  ///< on a wall
     shared,      ///< in the region of `other`
   };
@@ -71,15 +74,15 @@ struct SeedFault {
   SeedId seed;
   Point<D> at{};
   std::optional<SeedId> other;  ///< the seed that counts
-  /// The least line that it is on, in space the least polygon; none if not known.
+  /// The line with the least id that the seed is on, in space the polygon; none if not known.
   Feature wall{};
   friend bool operator==(const SeedFault&, const SeedFault&) = default;
 };
 
-/// One sentence with ids and place.
+/// One sentence with the ids and the position.
 template <int D>
 [[nodiscard]] std::string describe(const SeedFault<D>& fault);
-/// The same as an error of code bad_seed, for those who refuse such input.
+/// The fault as an error of code bad_seed, for callers that refuse such input.
 template <int D>
 [[nodiscard]] Error error_of(const SeedFault<D>& fault);
 
@@ -93,7 +96,7 @@ struct Domain {
   std::vector<std::uint32_t> region_of;  ///< one per simplex: number in `regions`
   std::vector<Region> regions;           ///< ascending by their smallest simplex
   std::vector<SeedFault<D>> faults;      ///< ascending by seed
-  bool keeps_all = true;                 ///< the box is wanted, or nothing enclosed
+  bool keeps_all = true;                 ///< the box is wanted, or nothing is enclosed
 
   [[nodiscard]] bool keeps(const Region& region) const {
     return keeps_all || region.label.zone == Zone::inside;
@@ -103,14 +106,14 @@ struct Domain {
   }
 };
 
-/// What simplices are parted by: an edge on a line, or in space a face in a polygon.
+/// A part of the border between regions: an edge on a line, or in space a face in a polygon.
 template <int D>
 using WallOf = std::conditional_t<D == 2, MeshEdge, MeshFace>;
 
 /// Finds the regions. `walls`: edges (or faces) of the mesh, in any order. D is 2 or 3.
 /// Requires: simplices are positively oriented; no edge (or face) borders more than two.
-/// Throws: Error: bad_mesh for a wall that is no edge of the mesh; repeated_id for two seeds of one
-/// name; not_finite, magnitude, bad_number for a seed that is not as described.
+/// Throws: Error: bad_mesh for a wall that is no edge of the mesh; repeated_id for two seeds with
+/// one id; not_finite, magnitude, bad_number for a seed with a bad position, attribute or limit.
 /// Cost: O(m log d) for vertices of degree d (in space O(m log m)), and for each seed O(simplices
 /// above and below it).
 template <int D>
@@ -124,17 +127,18 @@ struct SidedEdge : MeshEdge {
   friend bool operator==(const SidedEdge&, const SidedEdge&) = default;
 };
 
-/// Triangle's marker of what is on the boundary and has none.
+/// The marker of boundary parts without a marker of their own, as in Triangle.
 inline constexpr std::int64_t kBoundaryMarker = 1;
 
-/// The walls, and the edges with what is kept on one side only, ascending by (low, high). The
-/// latter have kBoundaryMarker where they have no other. A triangle that is not kept is no side.
+/// The walls, and the edges between a kept region and none, ascending by (low, high). An edge of
+/// the second kind has kBoundaryMarker if it has no other marker. A side whose triangle is not kept
+/// is kNoRegion.
 /// `domain`: found with these walls. Cost: O(m + w log w).
 [[nodiscard]] std::vector<SidedEdge> sided_edges(const Mesh<2>& mesh,
                                                  const std::vector<MeshEdge>& walls,
                                                  const Domain<2>& domain);
 
-/// A part of a mesh as a mesh of its own, and where its parts were.
+/// A part of a mesh as a mesh of its own, with the numbers that its parts had in the whole.
 template <int D>
 struct Extract {
   MeshData<D> mesh;
@@ -143,13 +147,15 @@ struct Extract {
   std::vector<std::uint32_t> triangles;  ///< or tetrahedra; likewise
 };
 
-/// What `domain` keeps of `whole`, with vertices and triangles in the order of the whole: canonical
-/// if that is. Vertices without a triangle go. Edges are those of sided_edges with a kept side. As
-/// Triangle does, a vertex without a marker gets that of a segment that it is on (the least), else
-/// kBoundaryMarker on the boundary. Attributes of regions are filled in if there is a region seed.
-/// In space faces are the walls with a kept side and the boundary of what is kept, which has
-/// kBoundaryMarker where it has no other; edges are those of the whole that a kept tetrahedron has;
-/// a vertex on no segment with a marker gets that of a polygon that it is on (the least).
+/// Extracts the part of `whole` that `domain` keeps. Vertices and triangles keep the order of the
+/// whole, so the result is canonical if the whole is. Vertices without a triangle are dropped. The
+/// edges are those of sided_edges with a kept side. As in Triangle, a vertex without a marker gets
+/// that of a segment that it is on (the least), else kBoundaryMarker on the boundary. Attributes of
+/// regions are filled in if there is a region seed.
+/// In space the faces are the walls with a kept side and the boundary of the kept part; boundary
+/// faces without another marker have kBoundaryMarker. The edges are those of the whole that a kept
+/// tetrahedron has; a vertex on no segment with a marker gets that of a polygon that it is on (the
+/// least).
 /// `domain`: found with whole.features.edges, or .faces. Cost: O(m + w log w); in space O(m log w).
 template <int D>
 [[nodiscard]] Extract<D> extract(const MeshData<D>& whole, const Domain<D>& domain);

@@ -1,8 +1,8 @@
-// Errors of bad data: what the mesher refuses, with the features, places and location in a file.
+// Errors about bad data, with the features, positions and file location they concern.
 //
 // Bad data is found once, at the boundary (a reader, Mesher::insert, the command line), and thrown
-// as the one type `mesher::Error`, whose parts are typed: nobody needs to read its
-// message. Programming mistakes are contract checks instead.
+// as the one type `mesher::Error`. Its parts are typed, so programs never need to parse its
+// message. Programming mistakes fail contract checks instead.
 #pragma once
 
 #include <array>
@@ -18,13 +18,13 @@
 
 namespace mesher {
 
-/// What is wrong; `code_name` gives the word printed in `error[...]`.
+/// The kind of mistake; `code_name` gives the word printed in `error[...]`.
 enum class ErrorCode : std::uint8_t {
   duplicate_point,       ///< two input points with equal coordinates
   outside_domain,        ///< a point outside the meshing domain
   not_finite,            ///< NaN or infinity
   magnitude,             ///< a coordinate that is neither 0 nor within 2^-100 .. 2^100
-  unknown_id,            ///< an id of a point or line that is not there
+  unknown_id,            ///< an id that no point or line has
   repeated_id,           ///< an id given twice
   wrong_count,           ///< a header that disagrees with what follows
   truncated,             ///< the file ends too early
@@ -33,35 +33,36 @@ enum class ErrorCode : std::uint8_t {
   bad_edit,              ///< an edit that cannot be parsed
   unbalanced_commit,     ///< begin without commit, or the reverse
   bad_dimension,         ///< the dimension is not the one asked for
-  bad_syntax,            ///< a text that its format does not allow
-  unsupported,           ///< what a format allows and we do not read
+  bad_syntax,            ///< text that the format does not allow
+  unsupported,           ///< data that the format allows and this library does not read
   bad_mesh,              ///< a mesh file that is not a mesh (index out of range, ...)
-  bad_quality,           ///< `check`: a mesh that does not keep its promise
+  bad_quality,           ///< `check`: a mesh without a property that it must have
   unknown_format,        ///< an extension that no reader or writer knows
   cannot_read,           ///< the file cannot be opened or read
   cannot_write,          ///< the file cannot be written
-  bad_option,            ///< an option whose value makes no sense
+  bad_option,            ///< an option with an invalid value
   too_close,             ///< features nearer than the domain's resolution
-  crossing_segments,     ///< two segments with a point in common that is no end of both
-  point_on_segment,      ///< an input point between the ends of a segment
-  overlapping_segments,  ///< two segments with more than a point in common
+  crossing_segments,     ///< two segments that meet at a point which is not an end of both
+  point_on_segment,      ///< an input point in the interior of a segment
+  overlapping_segments,  ///< two segments that share more than a point
   zero_length,           ///< a segment from a point to itself
   repeated_segment,      ///< two segments between the same points
-  point_in_use,          ///< the removal of a point that is an end of a segment
+  point_in_use,          ///< removal of a point that is an end of a segment
   too_many,              ///< more vertices or memory than a run can hold
   cancelled,             ///< stopped by the user
-  bad_seed,              ///< a hole's or region's seed that has no region of its own
-  bad_polygon,         ///< loops without an area, that repeat a corner, or do not lie in the first
-  not_flat,            ///< a polygon whose corners lie in no plane
-  repeated_polygon,    ///< two polygons with the same loops
-  point_on_polygon,    ///< an input point in a polygon that does not declare it
-  segment_on_polygon,  ///< an edge in a polygon that does not declare it
-  segment_through_polygon,  ///< a segment and a polygon with a place in common that is no point
-  crossing_polygons,        ///< two polygons with a place in common that is on no common edge
-  overlapping_polygons,     ///< two polygons in a plane, with an area in common
+  bad_seed,              ///< a hole's or region's seed without a region of its own
+  bad_polygon,  ///< loops that enclose no area, repeat a corner, or are not inside the first loop
+  not_flat,     ///< a polygon whose corners are not in one plane
+  repeated_polygon,         ///< two polygons with the same loops
+  point_on_polygon,         ///< an input point in a polygon that does not declare it
+  segment_on_polygon,       ///< an edge in a polygon that does not declare it
+  segment_through_polygon,  ///< a segment and a polygon that meet at a position which is no input
+                            ///< point
+  crossing_polygons,        ///< two polygons that meet at a position which is on no common edge
+  overlapping_polygons,     ///< two polygons in one plane that share an area
 };
 
-/// What a process exits with.
+/// The exit code of a process.
 enum class ExitCode : int {
   ok = 0,
   geometry = 1,
@@ -75,7 +76,7 @@ enum class ExitCode : int {
 [[nodiscard]] std::string_view code_name(ErrorCode code) noexcept;
 [[nodiscard]] ExitCode exit_code(ErrorCode code) noexcept;
 
-/// Where something stands in a file; line and column count from 1, and 0 means "not known".
+/// A location in a file; line and column count from 1, and 0 means "not known".
 struct FileLocation {
   std::string file;
   long line = 0;
@@ -92,13 +93,13 @@ struct FilePosition {
   long column = 0;
 };
 
-/// Something in a file that was understood and is not used.
+/// Data in a file that was understood but is not used.
 struct Note {
   std::string text;
-  FileLocation location;  ///< of the first such thing
+  FileLocation location;  ///< of the first such datum
 };
 
-/// Coordinates in the geometry; in the plane z = 0.
+/// Coordinates; in the plane z = 0.
 using Position = std::array<double, 3>;
 
 template <std::size_t N>
@@ -116,22 +117,23 @@ class Error : public std::runtime_error {
 
   [[nodiscard]] ErrorCode code() const noexcept { return code_; }
   [[nodiscard]] const std::string& message() const noexcept { return message_; }
-  /// Where in a file it is.
+  /// The location in a file.
   [[nodiscard]] const FileLocation& location() const noexcept { return location_; }
-  /// The features that it is about, where known; the one to blame first.
+  /// The features concerned, where known; the one at fault first.
   [[nodiscard]] const std::vector<Feature>& features() const noexcept { return features_; }
-  /// Where in the geometry it is, where known.
+  /// The positions concerned, where known.
   [[nodiscard]] const std::vector<Position>& places() const noexcept { return places_; }
-  /// Where features()[i] stands in a file, without a line if it does not; empty before located().
+  /// The location of features()[i] in a file, without a line if the file does not contain it; empty
+  /// unless with_locations() or located() set it.
   [[nodiscard]] const std::vector<FileLocation>& locations() const noexcept { return locations_; }
 
-  /// The same error, said of a place in a file.
+  /// The same error with another file location.
   [[nodiscard]] Error at(FileLocation location) const {
     return changed(message_, std::move(location));
   }
-  /// The same error, with locations().
+  /// The same error with these locations().
   [[nodiscard]] Error with_locations(std::vector<FileLocation> locations) const;
-  /// The same error, with other words.
+  /// The same error with another message.
   [[nodiscard]] Error with_message(std::string message) const {
     return changed(std::move(message), location_);
   }
@@ -147,9 +149,9 @@ class Error : public std::runtime_error {
   std::vector<FileLocation> locations_;
 };
 
-/// The error with locations(): where its features stand, by `location_of`, which gives one without
-/// a line for what stands nowhere. location() becomes that of the first, unless it has a line
-/// already; the message names those that stand elsewhere.
+/// The error with locations() filled in by `location_of`, which returns a location without a line
+/// for a feature that is in no file. location() becomes that of the first feature, unless it
+/// already has a line; the message names the locations of the other features.
 [[nodiscard]] Error located(const Error& error,
                             const std::function<FileLocation(const Feature&)>& location_of);
 

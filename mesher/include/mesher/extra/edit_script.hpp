@@ -1,44 +1,45 @@
-// Scripts of edits: a file of lines that change the input of a mesh.
+// Edit scripts: text files whose lines edit the input of a mesh.
 //
 //   # comment
-//   +point ID x y        a new point
-//   -point ID            a point less
-//   move ID x y          a point somewhere else
-//   +segment ID A B      a new segment between two points
-//   -segment ID          a segment less
-//   +polyline ID P...    new segments from point to point, under one id; closed if the last point
+//   +point ID x y        adds a point
+//   -point ID            removes a point
+//   move ID x y          moves a point
+//   +segment ID A B      adds a segment between two points
+//   -segment ID          removes a segment
+//   +polyline ID P...    adds segments from point to point, under one id; closed if the last point
 //                        is the first
-//   -polyline ID         all of them less
+//   -polyline ID         removes all of them
 //                        +point, +segment and +polyline may end with `marker M`, an integer
-//   +hole ID x y         what the lines enclose around the place is no part of the domain
-//   -hole ID             a hole less
+//   +hole ID x y         excludes the region around (x, y) that the lines enclose from the domain
+//   -hole ID             removes a hole
 //   +region ID x y ATTRIBUTE [MAX_AREA]
-//                        what the lines enclose around the place has this attribute and limit
-//   -region ID           a region less
-//   limit area A         no triangle with its centroid in the domain is larger
-//   limit size H         the same by the edges H of an equilateral triangle of that area
-//   limit sizes FILE     a background of such H (read_sizes); FILE stands beside the script
+//                        gives that region this attribute and limit
+//   -region ID           removes a region
+//   limit area A         no triangle with its centroid in the domain is larger than A
+//   limit size H         the same for the area of an equilateral triangle with edges H
+//   limit sizes FILE     a background of such H (read_sizes); FILE is beside the script
 //   limit none           triangles may be of any size
 //   limit ... in XMIN YMIN XMAX YMAX
 //                        the same in this box; elsewhere limits stay
 //   begin                the edits up to `commit` are one update;
 //   commit               outside, each edit is an update of its own
 //
-// Points have ids of their own, and so have lines (segments and polylines), holes, and regions. A
-// block is judged by where its points end: it may take a place before it frees it, and remove a
-// point before its segments.
+// Points, lines (segments and polylines), holes and regions are numbered separately. A block is
+// judged by the final positions of its points: it may use a position before it frees it, and remove
+// a point before its segments.
 //
 // In space points have a third coordinate, `+point ID x y z`; there are edits of segments and
 // polylines, without markers, and
 //
 //   +polygon ID P P P... [/ P P P...]... [on P...] [along A B [A B]...]
-//                        a new polygon: the loop of points around it, then those of holes; points
+//                        adds a polygon: its outer loop of points, then the loops of holes; points
 //                        and edges that it declares to lie inside
-//   -polygon ID          a polygon less, with the edges that nobody else has
-//   limit volume V       no tetrahedron with its centroid in the domain is larger; or `size H`, the
-//                        edges of one, `sizes FILE`, `none`; `in XMIN YMIN ZMIN XMAX YMAX ZMAX`
+//   -polygon ID          removes a polygon, with the edges that no other feature has
+//   limit volume V       no tetrahedron with its centroid in the domain is larger than V; or
+//                        `size H` (edges of a regular one), `sizes FILE`, `none`;
+//                        `in XMIN YMIN ZMIN XMAX YMAX ZMAX`
 //
-// and no others. Polygons have ids of their own.
+// and no others. Polygons are numbered separately.
 //
 // Example:
 //   mesher::EditScript script("edits.txt");
@@ -93,22 +94,22 @@ struct Edit {
   std::string text;                     ///< the line without comment and outer blanks
   FileLocation location;
 
-  /// What it is an edit of; none: of limits.
+  /// The feature that this edits; none for an edit of limits.
   [[nodiscard]] Feature feature() const;
 };
 
-/// What an edit is of; none: of limits.
+/// The kind of feature that an edit changes; none for an edit of limits.
 [[nodiscard]] FeatureKind feature_kind(EditKind kind);
 
-/// Reads a script a batch at a time; a batch is one update. D is 2 or 3.
+/// Reads a script batch by batch; each batch is one update. D is 2 or 3.
 template <int D>
 class EditScript {
  public:
   /// Throws: Error(cannot_read).
   explicit EditScript(const std::string& path);
 
-  /// The next edit, or the edits of the next block; nothing at the end of the script. A line
-  /// is read only when it is asked for.
+  /// The next edit, or the edits of the next block; nothing at the end of the script. Reads no line
+  /// before it is needed.
   /// Throws: Error (bad_edit, bad_number, not_finite, magnitude, unbalanced_commit, cannot_read).
   [[nodiscard]] std::optional<std::vector<Edit<D>>> next();
 
@@ -123,11 +124,11 @@ class EditScript {
   long number_ = 0;
 };
 
-/// The edits' lines, with "; " between them.
+/// The lines of the edits, joined by "; ".
 template <int D>
 [[nodiscard]] std::string text_of(const std::vector<Edit<D>>& edits);
 
-/// What one update of a script did. `Made`: what the target's update() returns.
+/// One update of a script and its result. `Made`: the type that the target's update() returns.
 template <int D, class Made = Change<D>>
 struct Update {
   std::vector<Edit<D>> edits;
@@ -137,9 +138,9 @@ struct Update {
   [[nodiscard]] std::string text() const { return text_of(edits); }
 };
 
-/// Announces `edit` of a line to a mesher, or to anything with its functions for lines, which may
-/// take a marker.
-/// Throws: Error as those; Error(bad_edit) if the target has points only.
+/// Announces an edit of a line to a mesher, or to any target with the same functions for lines
+/// (with or without a marker).
+/// Throws: Error as those functions; Error(bad_edit) if the target has points only.
 template <int D, class Target>
 void announce_line(const Edit<D>& edit, Target& target) {
   if constexpr (requires { target.remove_line(LineId()); }) {
@@ -165,7 +166,7 @@ void announce_line(const Edit<D>& edit, Target& target) {
   }
 }
 
-/// The same of a polygon.
+/// Announces an edit of a polygon in the same way.
 template <int D, class Target>
 void announce_polygon(const Edit<D>& edit, Target& target) {
   if constexpr (requires { target.insert_polygon(edit.polygon); }) {
@@ -176,7 +177,7 @@ void announce_polygon(const Edit<D>& edit, Target& target) {
   }
 }
 
-/// The same of a seed and a Mesher, or anything with its functions for seeds.
+/// Announces an edit of a seed in the same way.
 template <int D, class Target>
 void announce_seed(const Edit<D>& edit, Target& target) {
   if constexpr (requires { target.insert_seed(Seed<D>()); }) {
@@ -192,7 +193,7 @@ void announce_seed(const Edit<D>& edit, Target& target) {
   }
 }
 
-/// The same of limits of size.
+/// Announces an edit of limits of size in the same way.
 template <int D, class Target>
 void announce_limit(const Edit<D>& edit, Target& target) {
   if constexpr (requires { target.limit(edit.limits); }) {
@@ -202,8 +203,9 @@ void announce_limit(const Edit<D>& edit, Target& target) {
   }
 }
 
-/// Announces `edit` to a mesher, or to anything with its insert, remove and move, and perhaps its
-/// functions for lines, seeds and limits. Throws: Error as those, said of the edit's place.
+/// Announces an edit to a mesher, or to any target with the same functions insert, remove and move,
+/// and possibly those for lines, seeds and limits. Throws: Error as those functions, with the
+/// location of the edit.
 template <int D, class Target>
 void announce(const Edit<D>& edit, Target& target) {
   try {
@@ -231,19 +233,21 @@ void announce(const Edit<D>& edit, Target& target) {
 /// Seconds of wall-clock time since some fixed moment.
 [[nodiscard]] double now();
 
-/// The order in which a batch is announced: lines and polygons that go; points, those that are
-/// there before those that the batch inserts, so that places are free before they are taken; lines
-/// and polygons that come; seeds and limits. Else as they stand.
+/// The edits of a batch in the order in which they are announced: first removals of lines and
+/// polygons; then edits of points, with those of existing points before insertions, so that
+/// positions are free before they are used; then insertions of lines and polygons; then seeds and
+/// limits. Otherwise the order stays.
 template <int D>
 [[nodiscard]] std::vector<Edit<D>> announcing_order(std::vector<Edit<D>> edits);
 
-/// Where the edit stands that an error of update() is about: the last one of the feature to blame,
-/// else the last one. Requires: edits not empty.
+/// The location of the edit that caused an error of update(): the last edit of the error's first
+/// feature, or else the last edit. Requires: edits not empty.
 template <int D>
 [[nodiscard]] FileLocation location_to_blame(const std::vector<Edit<D>>& edits, const Error& error);
 
-/// Makes one batch one update of `target`.
-/// Throws: Error, with the place of the edit to blame; `target` is then as before the batch.
+/// Applies one batch to `target` as one update.
+/// Throws: Error, with the location of the edit that caused it; `target` is then as before the
+/// batch.
 template <int D, class Target>
 auto apply(std::vector<Edit<D>> edits, Target& target) {
   using Made = decltype(target.update());
@@ -263,8 +267,8 @@ auto apply(std::vector<Edit<D>> edits, Target& target) {
 }
 
 /// Applies a whole script, calling `each(update)` after every update.
-/// Throws: Error at the first bad line; what came before it stays applied, and of the block it
-/// stands in, nothing.
+/// Throws: Error at the first bad line; earlier updates stay applied, and nothing of the block with
+/// the bad line is applied.
 template <int D, class Target, class Each>
 void apply(EditScript<D>& script, Target& target, Each each) {
   while (auto edits = script.next()) each(apply(std::move(*edits), target));
