@@ -1,18 +1,17 @@
-// What is meshed: points, and in the plane what lines between them, in space what polygons enclose.
+// The input of a mesh: points, and in the plane the lines between them, in space also polygons.
 //
-// In the plane this is a planar straight-line graph (PSLG), in space a piecewise linear complex
-// (PLC). A graph is plain data: the reader of a file fills it (read.hpp), or a program does.
+// In the plane a graph is a planar straight-line graph (PSLG), in space a piecewise linear complex
+// (PLC). A graph is plain data; a file reader (read.hpp) or a program fills it.
 //
-// Example: a square with a hole.
-//   mesher::Graph<2> graph;
+// Example: a triangle that is a region.
 //   using mesher::PointId, mesher::LineId;
+//   mesher::Graph<2> graph;
 //   graph.points = {{PointId{1}, {0, 0}}, {PointId{2}, {1, 0}}, {PointId{3}, {1, 1}}};
 //   graph.polylines = {{LineId{1}, {PointId{1}, PointId{2}, PointId{3}, PointId{1}}}};
-//   graph.seeds = {mesher::region_seed<2>(1, {0.6, 0.3}, 7.0)};    // its triangles have attribute
-//   7
+//   graph.seeds = {mesher::region_seed<2>(1, {0.6, 0.3}, 7.0)};  // its triangles have attribute 7
 //
-// Geometry is judged where a graph is meshed, not here. Coordinates are 0 or of magnitude 2^-100 to
-// 2^100.
+// mesh() and Mesher judge the geometry; the types here do not. Coordinates are 0 or of magnitude
+// 2^-100 to 2^100.
 #pragma once
 
 #include <array>
@@ -53,8 +52,8 @@ struct Polyline {
   friend bool operator==(const Polyline&, const Polyline&) = default;
 };
 
-/// A flat piece of surface between loops of points. A place is in it if an odd number of loops go
-/// around it; the first loop goes around all others.
+/// A flat piece of surface bounded by loops of points. A position in its plane is inside if an odd
+/// number of loops go around it; the first loop goes around all others.
 struct Polygon {
   PolygonId id{};
   std::vector<std::vector<PointId>> loops{};    ///< three points or more, either way around
@@ -64,13 +63,14 @@ struct Polygon {
   friend bool operator==(const Polygon&, const Polygon&) = default;
 };
 
-/// A place that stands for what is enclosed around it: a hole, which is not meshed, or a region.
+/// A position that marks the region around it, either as a hole, which is not meshed, or to give it
+/// an attribute and a limit.
 template <int D>
 struct Seed {
   SeedId id{};
   Point<D> at{};
-  double attribute = 0;  ///< of a region; finite
-  /// Of a region: the largest area of a triangle, or volume of a tetrahedron; > 0.
+  double attribute = 0;  ///< for a region; finite
+  /// For a region: the largest area of a triangle, or volume of a tetrahedron; > 0.
   std::optional<double> max_measure{};
   friend bool operator==(const Seed&, const Seed&) = default;
 };
@@ -99,8 +99,8 @@ struct GraphSurfaces<2> {
 };
 }  // namespace detail
 
-/// The input of a mesh; in space with `polygons`, too. Ids are distinct: of points, of lines
-/// (segments and polylines share one numbering), of polygons, of seeds. D is 2 or 3.
+/// The input of a mesh; in space also with `polygons`. Ids are distinct among points, among lines
+/// (segments and polylines share one numbering), among polygons, and among seeds. D is 2 or 3.
 template <int D>
 struct Graph : detail::GraphSurfaces<D> {
   std::vector<GraphPoint<D>> points;
@@ -124,15 +124,15 @@ struct Graph : detail::GraphSurfaces<D> {
   }
 };
 
-/// A graph of a file, with where its parts stood: one position for each element of the array of
-/// that name, none if the graph is not of a file.
+/// A graph read from a file, with the positions of its parts in the file: one for each element of
+/// the array with the same name, none if the graph is from no file.
 template <int D>
 struct GraphFile {
   Graph<D> graph;
   std::string file;
   std::string point_file;  ///< `file`, or the .node file beside it
   std::vector<FilePosition> points, segments, polylines, polygons, seeds;
-  std::vector<Note> notes;  ///< what the file holds that is not used
+  std::vector<Note> notes;  ///< data in the file that is not used
 
   [[nodiscard]] FileLocation location_of_point(std::size_t i) const {
     return at(point_file, points[i]);
@@ -154,32 +154,36 @@ struct GraphFile {
   }
 };
 
-/// Where a feature of the graph stands in its file; without a line if it does not. Cost: O(n).
+/// The location of a feature in the file; without a line if the file does not contain it. Cost:
+/// O(n).
 template <int D>
 [[nodiscard]] FileLocation location_of(const Feature& feature, const GraphFile<D>& file);
 
-/// The error with the locations of its features in the file: located() of these.
+/// The error with the locations of its features in the file.
 template <int D>
 [[nodiscard]] Error located(const Error& error, const GraphFile<D>& file);
 
-/// Points without lines, polygons, seeds and markers: a mesh of it has no features.
+/// Whether the graph is points without lines, polygons, seeds and markers: its mesh has no
+/// features.
 template <int D>
 [[nodiscard]] bool is_bare(const Graph<D>& graph);
 
+/// The coordinates of the points, in their order.
 template <int D>
 [[nodiscard]] std::vector<Point<D>> places_of(const Graph<D>& graph);
 
-/// Segments with their ids, then the pieces of polylines with theirs.
+/// The segments, then the pieces of polylines; each piece has the id of its polyline.
 template <int D>
 [[nodiscard]] std::vector<Segment> segments_of(const Graph<D>& graph);
 
-/// The graph with each polyline taken apart into segments, numbered after the last line.
+/// The graph with each polyline split into segments, numbered after the last line.
 template <int D>
 [[nodiscard]] Graph<D> without_polylines(Graph<D> graph);
 
-/// The complex with polygons of one plane that are side by side made one, under the least of their
-/// ids, if their markers are the same. An edge goes if nobody else has it, else it lies inside, as
-/// points do that are then on no loop. Requires: what polygons and segments name is a point.
+/// The complex with adjacent polygons of one plane and one marker merged, under the least of their
+/// ids. An edge between merged polygons disappears if no other feature has it; otherwise it is
+/// declared to lie inside, as are points that are then on no loop. Requires: polygons and segments
+/// name existing points.
 /// Cost: O(n log n).
 [[nodiscard]] Graph<3> with_merged_polygons(const Graph<3>& graph);
 

@@ -1,8 +1,8 @@
-// Names of the input's features.
+// Ids of the features of the input.
 //
-// The caller gives ids. Those of points, of lines (segments and polylines together), of polygons,
-// of holes and of regions are numbered apart: point 3 and line 3 may both be there. Each has a type
-// of its own, so that the compiler tells them apart. A `Feature` is any of them.
+// The caller chooses ids. Points, lines (segments and polylines together), polygons, holes and
+// regions are numbered separately: point 3 and line 3 may both exist. Each kind has an id type of
+// its own, so the compiler tells them apart. A `Feature` holds an id of any kind.
 //
 // Example:
 //   catch (const Error& error) {
@@ -19,16 +19,16 @@
 
 namespace mesher {
 
-/// A point of the input.
+/// The id of a point.
 enum class PointId : std::int64_t {};
-/// A segment or a polyline of the input.
+/// The id of a segment or a polyline.
 enum class LineId : std::int64_t {};
-/// A polygon of the input.
+/// The id of a polygon.
 enum class PolygonId : std::int64_t {};
 
 enum class SeedKind : std::uint8_t { hole, region };
 
-/// A hole or a region of the input. The two are numbered apart.
+/// The id of a hole or a region. Holes and regions are numbered separately.
 struct SeedId {
   SeedKind kind = SeedKind::region;
   std::int64_t number = 0;
@@ -38,10 +38,10 @@ struct SeedId {
 [[nodiscard]] constexpr SeedId hole_id(std::int64_t number) { return {SeedKind::hole, number}; }
 [[nodiscard]] constexpr SeedId region_id(std::int64_t number) { return {SeedKind::region, number}; }
 
-/// A line is a segment or a polyline.
+/// The kind of a feature. A line is a segment or a polyline.
 enum class FeatureKind : std::uint8_t { none, point, line, polygon, hole, region };
 
-/// The name of a feature of any kind. In order: by kind, then by number.
+/// The id of a feature of any kind. Ordered by kind, then by number.
 struct Feature {
   FeatureKind kind = FeatureKind::none;
   std::int64_t number = 0;
@@ -72,7 +72,7 @@ struct Feature {
   friend auto operator<=>(const Feature&, const Feature&) = default;
 };
 
-/// "point 3", "segment 5" (of a polyline, too), "polygon 2", "hole 1", "region 4"; of none "".
+/// "point 3", "segment 5" (also for a polyline), "polygon 2", "hole 1", "region 4"; "" for none.
 [[nodiscard]] std::string text_of(const Feature& feature);
 
 }  // namespace mesher

@@ -1,7 +1,7 @@
-// The plain values that go into the mesher and come out of it: points, boxes, options, meshes.
+// Plain values: points, boxes, options, meshes.
 //
-// A `Mesh` is canonical: it depends on the set of vertices and simplices alone, so two meshes of
-// the same input compare equal however they were reached.
+// A `Mesh` is canonical: it depends only on the sets of vertices and simplices, so two meshes of
+// the same input compare equal, whatever edits led to them.
 #pragma once
 
 #include <array>
@@ -32,18 +32,18 @@ struct Box {
   friend bool operator==(const Box&, const Box&) = default;
 };
 
-/// Which point to insert into a poor region.
+/// The rule that chooses a new vertex where the mesh is poor.
 enum class Rule : std::uint8_t {
   radius_edge,  ///< off-centre of a simplex whose circumradius exceeds rho times its shortest edge
   voronoi_aspect,  ///< the paper's rule [Def 4.2.3]: no gap ball larger than rho * NN(v)
 };
 
-/// Where a vertex comes from.
+/// The origin of a vertex.
 enum class VertexKind : std::uint8_t {
-  steiner = 0,
+  steiner = 0,   ///< added by the mesher
   boundary = 1,  ///< on the boundary grid
   input = 2,
-  segment = 3,  ///< between the ends of a line of the input; in space also on a polygon
+  segment = 3,  ///< in the interior of a line of the input; in space also on a polygon
 };
 
 template <int D>
@@ -52,7 +52,7 @@ class SizeField;
 /// Limits of size: areas of triangles, volumes of tetrahedra; in input units, squared or cubed.
 template <int D>
 struct SizeLimits {
-  double max_measure = 0;  ///< of a simplex with its centroid where this holds; 0: no limit
+  double max_measure = 0;  ///< of a simplex with its centroid where these limits hold; 0: no limit
   std::shared_ptr<const SizeField<D>> sizes{};  ///< limits that vary, see sizes.hpp; null: none
   friend bool operator==(const SizeLimits&, const SizeLimits&) = default;
 };
@@ -65,46 +65,48 @@ struct BoxLimits {
   friend bool operator==(const BoxLimits&, const BoxLimits&) = default;
 };
 
-/// The last box with a place counts. (A class of its own: g++ 12 fails on a vector in Options where
-/// these are the default of a member.)
+/// Limits of size in boxes: at each position, the last box that contains it counts. (A class of its
+/// own: g++ 12 fails on a vector in Options where these are the default of a member.)
 template <int D>
 struct AllBoxLimits : std::vector<BoxLimits<D>> {
   using std::vector<BoxLimits<D>>::vector;
   AllBoxLimits() noexcept {}
 };
 
-/// Where limits of size count, and those of regions: see Options::region_limits.
+/// Where limits of size count, and the limits of regions: see Options::region_limits.
 template <int D>
 class RegionLimits;
 
-/// Which part of the mesh is wanted.
+/// The part of the mesh that is wanted.
 enum class Extent : std::uint8_t {
-  enclosed,  ///< what lines enclose, in space polygons, less holes; all if they enclose nothing
-  box,       ///< all of the domain, and of the box around it
+  enclosed,  ///< what lines (in space polygons) enclose, without the holes; everything if they
+             ///< enclose nothing
+  box,       ///< the whole box around the domain
 };
 
-/// How a mesh is made. Each gives another mesh.
+/// The algorithm that makes a mesh. Each makes a different mesh.
 enum class Algorithm : std::uint8_t {
-  automatic,  ///< the fastest of these that knows what is asked for
+  automatic,  ///< the fastest of the others that supports the options and the input
   refine,     ///< Delaunay refinement, from the triangulation of all points [Fig 2.1]
   svr,        ///< sparse Voronoi refinement [Ch 2, 3]
   gap_balls,  ///< the mesh that a Mesher keeps under edits [Ch 4]
 };
 
-/// Whether the largest areas, or volumes, of regions are limits of size.
+/// Whether the max_measure of a region is a limit of size.
 enum class RegionAreas : std::uint8_t { ignored, limits };
 
 namespace detail {
-/// What the plane has none of: nothing can be assigned to it.
+/// The type of an option that only space has: in the plane nothing can be assigned to it.
 struct InSpaceAlone {
   friend bool operator==(const InSpaceAlone&, const InSpaceAlone&) = default;
 };
 }  // namespace detail
 
-/// What to mesh, and how well.
+/// Options of mesh() and Mesher.
 template <int D>
 struct Options {
-  /// Where input points may lie. For mesh() it may be left out: snapped_domain of the points.
+  /// The box in which input points may lie. mesh() uses snapped_domain of the points if it is left
+  /// out.
   Box<D> domain{};
   double rho = D == 2 ? 1.4142 : 2;  ///< bound of circumradius over shortest edge; in (1.01, 100]
   Rule rule = Rule::radius_edge;
@@ -112,24 +114,25 @@ struct Options {
   /// 0: no limit.
   double max_measure = 0;
   std::shared_ptr<const SizeField<D>> sizes{};  ///< limits that vary, see sizes.hpp; null: none
-  AllBoxLimits<D> box_limits{};  ///< instead of these; the last box with a place counts
+  /// Override the limits above in boxes; the last box that contains a position counts.
+  AllBoxLimits<D> box_limits{};
   std::shared_ptr<const RegionLimits<D>> region_limits{};  ///< null: limits count everywhere
-  std::size_t max_vertices = 0;  ///< more are refused with Error(too_many); 0: no limit
-  bool record_weights = false;   ///< keeps what calls do inside, for those who study the trace
+  std::size_t max_vertices = 0;  ///< more cause Error(too_many); 0: no limit
+  bool record_weights = false;   ///< counts the steps inside calls, for studies of the trace
   Extent extent = Extent::enclosed;
   RegionAreas region_areas = RegionAreas::ignored;
-  Algorithm algorithm = Algorithm::automatic;  ///< of mesh(); a Mesher is gap_balls always
-  /// Degrees; above 0 it stands for rho = 1 / (2 sin(min_angle)): no angle of a triangle (in space
-  /// of a tetrahedron's faces) is smaller. At most 29.6.
+  Algorithm algorithm = Algorithm::automatic;  ///< for mesh(); a Mesher always uses gap_balls
+  /// In degrees, at most 29.6. A value above 0 replaces rho by 1 / (2 sin(min_angle)): no angle of
+  /// a triangle (in space: of a face of a tetrahedron) is smaller.
   double min_angle = 0;
-  /// Degrees; reserved: bad_option unless 0. In space alone.
+  /// In degrees, in space only. Reserved: must be 0, else Error(bad_option).
   std::conditional_t<D == 3, double, detail::InSpaceAlone> min_dihedral{};
 };
 
-/// What bounds on the radius-edge ratio allow for.
+/// The largest min_angle, in degrees, that bounds on the radius-edge ratio allow.
 inline constexpr double kLargestMinAngle = 29.6;
 
-/// Options::rho, or the bound that min_angle stands for.
+/// The bound on the radius-edge ratio: 1 / (2 sin(min_angle)) if min_angle is above 0, else rho.
 template <int D>
 [[nodiscard]] double radius_edge_bound(const Options<D>& options);
 
@@ -142,7 +145,7 @@ struct Mesh {
   /// An edge on a line of the input, or in space on an edge of its polygons; low < high.
   struct Edge {
     std::uint32_t low = 0, high = 0;
-    Feature feature{};  ///< the line; the least polygon that has the edge if no line does
+    Feature feature{};  ///< the line; if no line has the edge, the polygon with the least id
     friend auto operator<=>(const Edge&, const Edge&) = default;
   };
   /// A face in a polygon of the input; corners ascend.
@@ -154,14 +157,14 @@ struct Mesh {
   std::vector<Point<D>> vertices;
   std::vector<VertexKind> kinds;  ///< one per vertex
   std::vector<Simplex> simplices;
-  std::vector<Edge> edges;  ///< those on lines, in lexicographic order
-  std::vector<Face> faces;  ///< those in polygons, likewise; in the plane none
+  std::vector<Edge> edges;  ///< edges on lines, in lexicographic order
+  std::vector<Face> faces;  ///< faces in polygons, in lexicographic order; none in the plane
   friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 
-/// The domain used when none is given: the bounding box of `points`, each side moved outward to a
-/// multiple of a power of two (an eighth to a quarter of the longest side), so that meshes before
-/// and after most edits share it. `points`: n x D, finite; n = 0 gives the unit box.
+/// The default domain: the bounding box of `points`, each side moved outward to a multiple of a
+/// power of two (an eighth to a quarter of the longest side), so that meshes before and after most
+/// edits share it. `points`: n x D, finite; n = 0 gives the unit box.
 template <int D>
 [[nodiscard]] Box<D> snapped_domain(const std::vector<Point<D>>& points);
 
@@ -180,7 +183,7 @@ struct MeshFace {
   std::optional<PolygonId> polygon{};      ///< nothing if none or not known
   std::int64_t marker = 0;                 ///< of the polygon, or of the boundary
 
-  /// The corners, ascending: the same for both sides.
+  /// The corners in ascending order: the same key for both sides.
   [[nodiscard]] std::array<std::uint32_t, 3> key() const {
     const auto [a, b, c] = corners;
     return b < c ? corners : std::array<std::uint32_t, 3>{a, c, b};
@@ -188,15 +191,15 @@ struct MeshFace {
   friend bool operator==(const MeshFace&, const MeshFace&) = default;
 };
 
-/// What is known of a mesh beside its simplices; an array that is empty says nothing.
+/// Features of a mesh. An empty array means: not known.
 struct MeshFeatures {
-  /// One per vertex: the point that it is, or the line that it lies on, or in space the polygon if
-  /// it is on no line; none for other kinds.
+  /// One per vertex: its input point, or the line that it lies on, or in space the polygon if it is
+  /// on no line; none for vertices of other kinds.
   std::vector<Feature> origins;
   std::vector<std::int64_t> markers;  ///< one per vertex; 0: none
-  std::vector<double> regions;        ///< one per simplex: its region's attribute, finite
-  std::vector<MeshEdge> edges;        ///< ascending by (low, high), none twice
-  std::vector<MeshFace> faces;        ///< in space; ascending by key(), none twice
+  std::vector<double> regions;        ///< one per simplex: the attribute of its region, finite
+  std::vector<MeshEdge> edges;        ///< ascending by (low, high), without duplicates
+  std::vector<MeshFace> faces;        ///< in space; ascending by key(), without duplicates
 
   [[nodiscard]] bool empty() const {
     return origins.empty() && markers.empty() && regions.empty() && edges.empty() && faces.empty();
@@ -204,24 +207,24 @@ struct MeshFeatures {
   friend bool operator==(const MeshFeatures&, const MeshFeatures&) = default;
 };
 
-/// A mesh of a file or for one.
+/// A mesh with its features, read from a file or made to be written to one.
 template <int D>
 struct MeshData : Mesh<D> {
   MeshFeatures features;
-  std::vector<Note> notes;  ///< what the file holds that is not used
+  std::vector<Note> notes;  ///< data in the file that is not used
 
   MeshData() = default;
   explicit MeshData(Mesh<D> mesh, MeshFeatures of = {})
       : Mesh<D>(std::move(mesh)), features(std::move(of)) {}
 };
 
-/// A mesh of a file that may hold either.
+/// A mesh of a file with either dimension.
 using AnyMesh = std::variant<MeshData<2>, MeshData<3>>;
 
-/// A neighbour that is not there.
+/// No neighbour: the edge is on the boundary.
 inline constexpr std::uint32_t kNoTriangle = UINT32_MAX;
 
-/// For each triangle the triangle across from each of its corners, or kNoTriangle.
+/// For each triangle, the triangles across from its corners, or kNoTriangle.
 /// Requires: no edge borders more than two triangles. Cost: O(m log d) for vertices of degree d.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> neighbours(const Mesh<2>& mesh);
 

@@ -11,28 +11,29 @@
 //   mesher::write_mesh(lake.mesh(), "lake.vtu");
 //
 // Guarantees, after every update():
-//   (1) every input point is a vertex, bit for bit; every line is a union of edges, every polygon a
-//       union of faces, but for what lies outside of a mesh of what is enclosed;
-//   (2) the triangulation of the box is Delaunay, ties decided by coordinates alone;
-//   (3) no simplex has circumradius / shortest edge > rho, but at small angles of the input, and in
-//       space where rho is below 2 beside features that are close (reports.hpp);
+//   (1) every input point is a vertex, bit for bit; every line is a union of edges, and every
+//       polygon a union of faces, except for parts outside the mesh if it holds only what is
+//       enclosed;
+//   (2) the triangulation of the box is Delaunay, with ties decided by coordinates alone;
+//   (3) no simplex has circumradius / shortest edge > rho, except at small angles of the input, and
+//       in space, if rho is below 2, beside close features (reports.hpp);
 //   (4) mesh and regions are a function of the input and the options alone: not of the order of
 //       edits, the ids, or the machine;
-//   (5) what throws, for whatever reason, leaves mesh, regions, seeds and markers of the last
-//       update: all edits of a batch come together or not at all.
-// Between updates edits are only announced: mesh() is the mesh of the last update().
+//   (5) a function that throws, for whatever reason, leaves mesh, regions, seeds and markers as
+//       after the last update: all edits of a batch are applied, or none.
+// Edits are only announced between updates: mesh() is the mesh of the last update().
 //
-// Cost of an update: O(log L/s) calls per edited point [Theorem 4.3.8], and with regions (words as
-// in domain.hpp) that of a region where lines join or part regions, or where a seed gives one
-// another label. The first line (in space polygon) or seed that comes to a mesh of points alone
-// costs all its simplices, once.
+// Cost of an update: O(log L/s) calls per edited point [Theorem 4.3.8]. If there are regions (terms
+// as in domain.hpp), also the size of each region that lines join or split, or to which a seed
+// gives another label. The first line (in space polygon) or seed in a mesh of points alone costs
+// all its simplices, once.
 //
-// Limits of size count in what is wanted alone: where lines enclose something, in what they
-// enclose. So where there are limits, a second mesh, without, follows the input to tell what that
-// is; an update costs that of both, and where a region becomes or ceases to be wanted, or gets
-// another largest area, the vertices in it; where lines at which limits begin or end are edited,
-// the vertices in the simplices of the second mesh that this changes. A seed that changes nothing
-// but its area costs a look at all simplices of the second mesh.
+// Limits of size count only in the wanted part: if lines enclose something, in what they enclose.
+// So if there are limits, a second mesh without limits follows the input to find that part. An
+// update then costs the sum for both meshes; the vertices in each region that becomes or ceases to
+// be wanted, or gets another largest area; and, if lines at which limits begin or end are edited,
+// the vertices in the simplices of the second mesh that this changes. A seed that changes only its
+// area costs a visit of all simplices of the second mesh.
 #pragma once
 
 #include <array>
@@ -60,15 +61,15 @@ namespace mesher {
 /// Work done by one run or update, counted in calls of traced functions.
 struct CallCounts {
   std::uint64_t executed = 0;  ///< calls whose body ran (new ones included)
-  std::uint64_t reused = 0;    ///< calls that were asked for again and kept
+  std::uint64_t reused = 0;    ///< calls that were requested again and kept
   std::uint64_t created = 0;
   std::uint64_t discarded = 0;
   std::uint64_t edges = 0;   ///< edges (reads, writes, posts) made or removed
-  std::uint64_t weight = 0;  ///< steps inside of calls; 0 unless Options::record_weights
+  std::uint64_t weight = 0;  ///< steps inside calls; 0 unless Options::record_weights
 };
 
-/// A vertex that an update has kept, and that is now another kind: an input point came to a place
-/// where there was a Steiner vertex, or left one where the mesh needs a vertex all the same.
+/// A vertex that an update kept with another kind: an input point was added at the position of a
+/// Steiner vertex, or was removed from a position where the mesh still needs a vertex.
 template <int D>
 struct KindChange {
   Point<D> vertex{};
@@ -105,18 +106,19 @@ struct Change {
   std::vector<KindChange<D>> kinds_changed;
   std::vector<std::array<Point<D>, D + 1>> simplices_added;
   std::vector<std::array<Point<D>, D + 1>> simplices_removed;
-  std::vector<LineEdge<D>> edges_added;  ///< of Mesh::edges; one that stays with another line's
-                                         ///< id is in both lists
+  /// Of Mesh::edges; an edge that now has another line's id is in both lists.
+  std::vector<LineEdge<D>> edges_added;
   std::vector<LineEdge<D>> edges_removed;
-  std::vector<PolygonFace<D>> faces_added;  ///< of Mesh::faces, likewise; in the plane none
+  std::vector<PolygonFace<D>> faces_added;  ///< of Mesh::faces, likewise; none in the plane
   std::vector<PolygonFace<D>> faces_removed;
-  AngleNews angles;   ///< what small angles of the input did to what has come
-  GuardReport guard;  ///< in space: which new simplices stay poor beside features (reports.hpp)
+  AngleNews angles;   ///< effects of small angles on new triangles
+  GuardReport guard;  ///< in space: new simplices that stay poor beside features (reports.hpp)
   CallCounts calls;
-  SlotChange slots;  ///< the same by slots; empty unless the mesher keeps them: Mesher::live()
+  SlotChange slots;  ///< the same change by slots; empty unless slots are kept: Mesher::live()
 };
 
-/// Triangles by their corners, as in Change, in lexicographic order.
+/// The change of the domain in an update. Triangles (in space tetrahedra) are given by their
+/// corners, as in Change, in lexicographic order.
 template <int D>
 struct DomainChange {
   using Corners = std::array<Point<D>, D + 1>;
@@ -127,72 +129,76 @@ struct DomainChange {
   };
   std::vector<Corners> kept_added;     ///< kept now, and not before
   std::vector<Corners> kept_removed;   ///< kept before, and not now
-  std::vector<Relabelled> relabelled;  ///< of the mesh before and after, kept or not
-  std::uint64_t visited = 0;           ///< triangles looked at beyond the change itself
+  std::vector<Relabelled> relabelled;  ///< in the mesh before and after, kept or not
+  std::uint64_t visited = 0;           ///< triangles visited beyond the change itself
 };
 
-/// The slots of what DomainChange says is kept now, and what was, in the order there. What went
-/// from the mesh is among the latter with the slot that it had.
+/// The slots of DomainChange::kept_added and kept_removed, in their order. A simplex that left the
+/// mesh is in `removed` with its former slot.
 struct KeptSlots {
   std::vector<Slot> added, removed;
   friend bool operator==(const KeptSlots&, const KeptSlots&) = default;
 };
 
-/// What an update did to the mesh, and to the domain.
+/// The changes of an update to the mesh and to the domain.
 template <int D>
 struct DomainUpdate : Change<D> {
   DomainChange<D> domain;
   KeptSlots kept;  ///< empty unless slots are kept
 };
 
-/// A mesh maintained under insertion and removal of features. D is 2 or 3.
+/// A mesh that follows edits of its input. D is 2 or 3.
 template <int D>
 class Mesher {
  public:
-  /// Throws: Error(bad_option) for an empty or non-finite domain, and for what no mesh can have.
+  /// Throws: Error(bad_option) for an empty or non-finite domain, and for options that no mesh can
+  /// satisfy.
   explicit Mesher(const Options<D>& options);
   Mesher(Mesher&&) noexcept;
   Mesher& operator=(Mesher&&) noexcept;
   ~Mesher();
 
-  /// Announces a point that is not there; the mesh follows at the next update().
-  /// Its place must be free: no point that is announced to be there may share its finest cell.
-  /// `marker`: what its vertex gets in mesh(); the point keeps it when it moves.
+  /// Announces a new point; the mesh follows at the next update(). Its position must be free: no
+  /// other point that exists after the edits announced so far may be in its finest cell. `marker`:
+  /// the marker of its vertex in mesh(); the point keeps it when it moves.
   /// Throws: Error (repeated_id, duplicate_point, too_close, outside_domain, not_finite,
   /// magnitude). Cost: O(log n).
   void insert(PointId id, const Point<D>& point, std::int64_t marker = 0);
-  /// Announces all of a graph. Throws: Error as the functions for its parts do, and then nothing of
-  /// it is announced that was not before; edits announced before it are taken back as well.
+  /// Announces all features of a graph. Throws: Error as the functions for its parts. In that case
+  /// all edits announced since the last update() are discarded, including those before this call.
   void insert(const Graph<D>& graph);
-  /// Announces that a point goes. Throws: Error(unknown_id). Cost: O(1).
+  /// Announces the removal of a point. Throws: Error(unknown_id). Cost: O(1).
   void remove(PointId id);
   /// Announces that a point moves; remove() and then insert() of one id is a move too. Its new
-  /// place need not be free yet: where points have moved, update() judges the places that all of
-  /// them end at, so that points swap places and moves chain in any order.
+  /// position need not be free yet: update() judges the final positions of all moved points, so
+  /// points can swap positions, and moves can chain in any order.
   /// Throws: Error (unknown_id, outside_domain, not_finite, magnitude). Cost: O(1).
   void move(PointId id, const Point<D>& point);
 
-  /// Announces a segment between two points that shall be there; the next update() judges it, as
-  /// part of all that is announced then. Lines, segments and polylines, have ids of their own.
-  /// Throws: Error (repeated_id; zero_length: from one point to itself; bad_option unless
+  /// Announces a new segment between two points; the next update() judges it together with
+  /// everything announced by then. Lines, i.e. segments and polylines, have ids of their own.
+  /// Throws: Error (repeated_id; zero_length: from a point to itself; bad_option unless
   /// options().rule is radius_edge). Cost: O(1).
   void insert_segment(LineId id, PointId from, PointId to, std::int64_t marker = 0);
-  /// Announces segments from point to point under one id. `points`: two or more; the first may be
-  /// the last again. Throws: likewise, and Error(bad_option) for fewer. Cost: O(points).
+  /// Announces new segments from point to point under one id. `points`: two or more; the last may
+  /// be the first again. Throws: as insert_segment, and Error(bad_option) for fewer points. Cost:
+  /// O(points).
   void insert_polyline(LineId id, const std::vector<PointId>& points, std::int64_t marker = 0);
-  /// Announces that a segment or polyline goes. Throws: Error(unknown_id).
+  /// Announces the removal of a segment or polyline. Throws: Error(unknown_id).
   void remove_line(LineId id);
 
-  /// Announces a polygon between points that shall be there; likewise. It brings its edges, and
-  /// those that it declares to lie inside; they may be segments, or edges of others, too.
-  /// Throws: Error (repeated_id; bad_polygon: a loop of fewer than three points, or twice along
-  /// one; zero_length: an edge from a point to itself). Cost: O(points log points).
+  /// Announces a new polygon between points; the next update() judges it. Its edges become edges of
+  /// the input, and so do edges that it declares to lie inside; they may also be segments, or edges
+  /// of other polygons.
+  /// Throws: Error (repeated_id; bad_polygon: a loop of fewer than three points, or with one edge
+  /// twice; zero_length: an edge from a point to itself). Cost: O(points log points).
   void insert_polygon(const Polygon& polygon) requires(D == 3);
-  /// Announces that it goes, with the edges that nobody else has. Throws: Error(unknown_id).
+  /// Announces the removal of a polygon, with the edges that no other feature has. Throws:
+  /// Error(unknown_id).
   void remove_polygon(PolygonId id) requires(D == 3);
 
-  /// Announces a seed that shall be there. It may be anywhere: one without a region of its own is
-  /// one of faults(). A seed that is removed and inserted in one batch moves.
+  /// Announces a new seed. It may be anywhere: a seed without a region of its own is listed in
+  /// faults(). A seed that is removed and inserted in one batch moves.
   /// Throws: Error (repeated_id, and as find_domain). Cost: O(log s).
   void insert_seed(const Seed<D>& seed);
   void insert_hole(std::int64_t number, const Point<D>& at) {
@@ -202,49 +208,53 @@ class Mesher {
                      std::optional<double> max_measure = {}) {
     insert_seed(region_seed<D>(number, at, attribute, max_measure));
   }
-  /// Announces that a seed goes. Throws: Error(unknown_id). Cost: O(log s).
+  /// Announces the removal of a seed. Throws: Error(unknown_id). Cost: O(log s).
   void remove_seed(const SeedId& id);
   void remove_hole(std::int64_t number) { remove_seed(hole_id(number)); }
   void remove_region(std::int64_t number) { remove_seed(region_id(number)); }
 
-  /// Announces limits of size in place of all that there were; none by default.
+  /// Announces limits of size that replace all earlier ones. A mesher starts with those of its
+  /// options; by default there are none.
   /// Throws: Error(bad_option), as a mesher with these limits. Cost: O(1).
   void limit(const SizeLimits<D>& limits);
-  /// The same in a closed box; elsewhere they stay, and are not looked at. options().box_limits say
-  /// so afterwards: a box is forgotten where later ones have all of it, or it says what holds
-  /// behind it. Cost: O(boxes); as much for each look at the limits in an update.
+  /// Announces limits of size in a closed box; elsewhere the limits stay and are not re-examined.
+  /// options().box_limits then holds them; a box is dropped if a later box contains it, or if it
+  /// repeats the limits that already hold there.
+  /// Cost: O(boxes); each evaluation of the limits in an update costs as much.
   void limit(const Box<D>& box, const SizeLimits<D>& limits);
 
-  /// Takes back every edit announced since the last update(); nothing while an update runs.
+  /// Discards all edits announced since the last update(); does nothing while an update runs.
   /// Cost: O(edits).
   void discard_edits() noexcept;
 
-  /// Brings mesh and regions up to date with the edits announced since the last call, as one batch,
-  /// or leaves them as they were.
-  /// Throws: Error(cancelled) if `control` has stopped it: the edits stay announced, for another
-  /// update() or discard_edits(). Error (duplicate_point, too_close: points that have moved onto
-  /// others, or places too near to each other for the vertices that they need; crossing_segments,
-  /// point_on_segment, overlapping_segments, repeated_segment; point_in_use: an end of a segment is
-  /// removed; unknown_id: a segment's end is not there; of polygons bad_polygon, not_flat,
-  /// repeated_polygon, point_on_polygon, segment_on_polygon, segment_through_polygon,
-  /// crossing_polygons, overlapping_polygons), std::bad_alloc, or what control.progress throws: the
-  /// edits are taken back as well.
+  /// Applies the edits announced since the last call to mesh and regions, as one batch, or leaves
+  /// both as they were.
+  /// Throws: Error(cancelled) if `control` stops it: the edits stay announced, for another update()
+  /// or discard_edits().
+  /// Otherwise the edits are discarded, and it throws Error (duplicate_point, too_close: points
+  /// that have moved onto others, or are too close together for the vertices that they need;
+  /// crossing_segments, point_on_segment, overlapping_segments, repeated_segment; point_in_use:
+  /// removal of a point that is an end of a segment; unknown_id: an end of a segment does not
+  /// exist; for polygons bad_polygon, not_flat, repeated_polygon, point_on_polygon,
+  /// segment_on_polygon, segment_through_polygon, crossing_polygons, overlapping_polygons),
+  /// std::bad_alloc, or an exception of control.progress.
   DomainUpdate<D> update(const RunControl& control = {});
 
-  /// What is wanted of the mesh of the last update(), with features, whatever has been announced
-  /// since, in canonical form: mesher::mesh(input(), options()). Empty before the first. Cost: O(m
-  /// log m).
+  /// The wanted part of the mesh of the last update(), with features, in canonical form: equal to
+  /// mesher::mesh(input(), options()). Edits announced since do not count. Empty before the first
+  /// update. Cost: O(m log m).
   [[nodiscard]] MeshData<D> mesh() const { return domain_mesh().mesh; }
-  /// The same with its regions.
+  /// mesh() with its regions and the faults of seeds.
   [[nodiscard]] DomainMesh<D> domain_mesh() const;
-  /// The mesh of all of the box, without features. Cost: O(m log m).
+  /// The mesh of the whole box, without features. Cost: O(m log m).
   [[nodiscard]] Mesh<D> box_mesh() const;
 
-  /// The mesh of the box in arrays by slot, numbers that last: see live_mesh.hpp; keeps(slot) tells
-  /// what is wanted. Empty before the first update(). The first call begins to keep slots, which
-  /// cost memory and a part of each update. Cost: O(1); where slots begin, that of box_mesh().
+  /// The mesh of the box in arrays by slot: see live_mesh.hpp. keeps(slot) tells whether a simplex
+  /// is wanted. Empty before the first update(). The mesher keeps slots from the first call on,
+  /// which costs memory and a part of each update. Cost: O(1); of the first call, that of
+  /// box_mesh().
   [[nodiscard]] LiveMesh<D> live() const;
-  /// Whether slots are kept, and Change::slots filled.
+  /// Turns slots, and with them Change::slots, on or off.
   void keep_slots(bool keep);
   [[nodiscard]] bool keeps_slots() const noexcept;
 
@@ -252,31 +262,34 @@ class Mesher {
   /// Cost: O(n log n).
   [[nodiscard]] Graph<D> input() const;
 
-  /// Requires: a simplex of the mesh, from any corner. Cost: O(1) for vertices of bounded degree.
+  /// The region label of a simplex, and whether it is wanted. Requires: a simplex of the mesh,
+  /// starting at any corner. Cost: O(1) for vertices of bounded degree.
   [[nodiscard]] RegionLabel label(const typename DomainChange<D>::Corners& simplex) const;
   [[nodiscard]] bool keeps(const typename DomainChange<D>::Corners& simplex) const;
-  /// The same by its slot. Requires: live().is_simplex(simplex).
+  /// The same for a slot. Requires: live().is_simplex(simplex).
   [[nodiscard]] RegionLabel label(Slot simplex) const;
   [[nodiscard]] bool keeps(Slot simplex) const;
-  /// Of the last update(); without the lines' ids. Cost: O(seeds).
+  /// The faults of seeds in the last update(), without the ids of lines. Cost: O(seeds).
   [[nodiscard]] std::vector<SeedFault<D>> faults() const;
 
-  /// Whether it is announced to be there.
+  /// Whether the feature exists, counting announced edits.
   [[nodiscard]] bool contains(PointId id) const;
   [[nodiscard]] bool contains(LineId id) const;
   [[nodiscard]] bool contains(PolygonId id) const requires(D == 3);
   [[nodiscard]] bool contains(const SeedId& id) const;
 
-  /// Of box_mesh(); calls, edges and bytes of the second mesh, too, if there is one.
+  /// Sizes of box_mesh() and its trace, including calls, edges and bytes of the second mesh if
+  /// there is one.
   /// Cost: O(1); with a second mesh, O(its simplices).
   [[nodiscard]] MeshStats stats() const;
-  /// As given, but with rho in place of min_angle, Algorithm::gap_balls, and the limits of the last
-  /// update: mesh(input(), options()) gives mesh().
+  /// The options as given, with these changes: rho replaces min_angle, the algorithm is gap_balls,
+  /// and limits are those of the last update. mesh(input(), options()) equals mesh().
   [[nodiscard]] const Options<D>& options() const;
-  /// The engine of box_mesh(), whose trace can be recorded.
+  /// The engine that maintains box_mesh(); its trace can be recorded.
   [[nodiscard]] const sac::Engine& engine() const;
 
-  /// Throws std::logic_error naming the broken invariant. Cost: O(trace + m log m).
+  /// Checks all invariants. Throws: std::logic_error naming a broken invariant. Cost: O(trace + m
+  /// log m).
   void check_invariants() const;
 
  private:

@@ -9,20 +9,20 @@
 //   insphere(a,b,c,d,e)  minus the sign of that of rows  px-ex  py-ey  pz-ez  and their squares'
 //                        sum, p = a, b, c, d
 //
-// What holds of every function here:
+// Guarantees of every function here:
 //  (1) The sign is that of the real (or symbolically perturbed) number, never of a rounding.
 //  (2) Swapping two points flips the sign.
 //  (3) Scaling all coordinates by a power of two, or moving them without rounding, keeps it.
 //  (4) Nothing is allocated or shared: any thread may call, and equal calls give equal results.
 //
-// Requires (of every coordinate): 0, or of magnitude 2^-160 to 2^101: the range of inputs, 2^-100
-// to 2^100, with room for the vertices that a mesher puts between them. Points that spread over
-// more bits than the exact evaluation holds (253; never points of one mesh) throw
-// std::domain_error; other breaches may go unnoticed.
+// Requires (of every coordinate): 0, or of magnitude 2^-160 to 2^101. This is the range of inputs,
+// 2^-100 to 2^100, with room for the vertices that a mesher puts between them. Points that spread
+// over more bits than the exact evaluation holds (253; never points of one mesh) throw
+// std::domain_error; other violations may go unnoticed.
 //
-// The idea: a floating-point filter, inline, decides all but near-degenerate calls by an a priori
-// bound of its own error; what is left is computed in integers just wide enough for the points at
-// hand (src/geometry/exact_sign.hpp).
+// The idea: an inline floating-point filter decides all but near-degenerate calls by an a priori
+// bound of its own error; the remaining calls are computed in integers just wide enough for the
+// given points (src/geometry/exact_sign.hpp).
 #pragma once
 
 #include <cfloat>
@@ -48,7 +48,7 @@ namespace detail {
 /// 2^-212 and 2^102, and a product of four between 2^-848 and 2^408; sums of those stay under
 /// 2^412, their error bounds above 2^-900: all normal. Only insphere has products of five, its last
 /// ones, which may be as small as 2^-1060: see kUnderflow. So the filters work at every scale, and
-/// nobody need move or scale coordinates first.
+/// callers need not translate or scale coordinates first.
 inline constexpr double kUnitRoundoff = 0x1p-53;
 
 /// Both filters compute X, a sum of n monomials, as det = fl(X~), where X~ is exact but for the
@@ -192,10 +192,10 @@ struct Sized {
 /// eps(q) if p is lexicographically greater than q. In short: the greatest of the four is outside
 /// the circle of the others.
 ///
-/// The rule sees only the order of coordinates, so neither the order in which points come, nor
-/// other points, nor a translation changes an answer. The Delaunay triangulation of any finite set
-/// not on one line exists by it and is unique: the triangles abc with every other point outside are
-/// a triangulation of the convex hull, each point a vertex.
+/// The rule depends only on the order of coordinates, so neither the order of the points, nor other
+/// points, nor a translation changes a result. The Delaunay triangulation of any finite set not on
+/// one line exists by it and is unique: the triangles abc with every other point outside are a
+/// triangulation of the convex hull, each point a vertex.
 ///   Proof. Rank the points 1..m in lexicographic order; let h_t(p) = |p|^2 + t^(m - rank(p) + 1).
 /// The determinant D(t) of the rows px, py, h_t(p), 1 of four points is a polynomial in t: D(0) is
 /// the in-circle determinant, the other coefficients are the cofactors of the heights (orientations
@@ -203,11 +203,11 @@ struct Sized {
 /// D(0) = 0 and not all four are on a line, they are on a circle, which meets a line at most twice:
 /// no cofactor is 0, and the greatest point's decides for small t > 0. That is the sign returned.
 ///   There are finitely many quadruples, so one t is small enough for all of them, and also to keep
-/// every point below the hull of the other lifted points, as it is strictly for t = 0. All answers
-/// are then those of one set of points in space, each on its lower hull, and no four coplanar but
-/// in a vertical plane. So the facets of the lower hull are triangles and project to a
+/// every point below the hull of the other lifted points, as it is strictly for t = 0. All results
+/// are then those of one set of points in space, each on its lower hull, and no four coplanar
+/// except in a vertical plane. So the facets of the lower hull are triangles and project to a
 /// triangulation; a triangle is a facet just if all other points are above its plane, which is what
-/// "outside" says. It refines the Delaunay subdivision, since a nonzero D(0) keeps its sign.
+/// "outside" means. It refines the Delaunay subdivision, since a nonzero D(0) keeps its sign.
 ///   Requires: a, b, c, d distinct and not all on one line (so for abc not on a line and d another
 ///   point, in any order of the four).
 [[nodiscard]] inline int incircle_perturbed(const Point<2>& a, const Point<2>& b, const Point<2>& c,
@@ -245,9 +245,9 @@ struct Sized {
   return sign != 0 ? sign : detail::cospherical_tie(a, b, c, d, e);
 }
 
-/// Refuses a build or a machine state whose double arithmetic is not IEEE, rounded to nearest, each
-/// operation by itself (no contraction, reassociation or excess precision). Call it at start.
-/// Throws: std::logic_error, saying what was found.
+/// Tests that double arithmetic is IEEE, rounded to nearest, each operation by itself (no
+/// contraction, reassociation or excess precision). Call it at start. Throws: std::logic_error that
+/// names the deviation.
 void self_test();
 
 }  // namespace mesher::predicates
@@ -255,22 +255,22 @@ void self_test();
 // Exact signs for shrunken balls of simplices: whether p is in B(c, k r), where c is the
 // circumcentre of a segment, triangle or tetrahedron, in the plane or in space, r its circumradius,
 // and k a factor. The circumball of a simplex of lower dimension is the smallest one with its
-// corners on the sphere [Hudson, 2.2]. Of full dimension and k = 1 these are incircle and insphere;
-// the others are those that [3.3] finds nowhere.
+// corners on the sphere [Hudson, 2.2]. For simplices of full dimension and k = 1 these are incircle
+// and insphere; [3.3] found no implementation of the others.
 //
 //   in_shrunken_ball(a, b, p, k)        of the segment ab
 //   in_shrunken_ball(a, b, c, p, k)     of the triangle abc
 //   in_shrunken_ball(a, b, c, d, p, k)  of the tetrahedron abcd, in space
 //
-// Returns: +1 if p is strictly inside, 0 if it is on the sphere, -1 if it is outside: of the real
-// numbers, never of a rounding. In whatever order corners come.
+// Returns: +1 if p is strictly inside, 0 if it is on the sphere, -1 if it is outside, for the real
+// numbers, never for a rounding. The order of the corners has no influence.
 //
-// Requires: coordinates as in predicates.hpp, and likewise points that spread over 253 bits at the
-// most, or std::domain_error is thrown; k is 0, or 2^-10 to 1; corners are not on a line (of a
-// tetrahedron: in a plane). Both ends of a segment may be one point: a ball without inside.
+// Requires: coordinates as above; points that spread over more than 253 bits throw
+// std::domain_error; k is 0, or 2^-10 to 1; corners are not on a line (for a tetrahedron: not in a
+// plane). Both ends of a segment may be one point: a ball without interior.
 //
-// How. Centres are quotients; multiplied by their denominators the conditions are polynomials in
-// differences of coordinates, of degree 2 for segments, 6 for triangles and 8 for tetrahedra:
+// Method: centres are quotients; multiplied by their denominators, the conditions are polynomials
+// in differences of coordinates, of degree 2 for segments, 6 for triangles and 8 for tetrahedra:
 //   segment      k^2 |b - a|^2 - |(a - p) + (b - p)|^2
 // and with e = b - a, f = c - a, g = d - a, w = p - a
 //   triangle     4 (w.Q - |n|^2 |w|^2) - (1 - k^2) |e|^2 |f|^2 |f - e|^2
@@ -279,15 +279,15 @@ void self_test();
 //   tetrahedron  4 t (w.Q - t |w|^2) - (1 - k^2) |Q|^2
 //                for t = e.(f x g), Q = |e|^2 (f x g) + |f|^2 (g x e) + |g|^2 (e x f), as the
 //                centre is a + Q / (2 t).
-// A filter decides all but near-degenerate calls, the rest integers just wide enough.
+// A filter decides all but near-degenerate calls; integers just wide enough decide the rest.
 namespace mesher::predicates {
 
 namespace detail {
 
-/// Bounds of the filters' errors, in units of u = 2^-53; each is more than twice what follows. A
-/// difference has 1u, a square of a vector 5u, 1 - k^2 = (1 - k)(1 + k) 3u, all relative. Of sums
-/// that may cancel, errors are counted in the sums of absolute values, which for a cross product
-/// are, as a vector, at most sqrt(2) times the product of both lengths.
+/// Error bounds of the filters, in units of u = 2^-53; each is more than twice the error derived
+/// here. A difference has 1u, a square of a vector 5u, 1 - k^2 = (1 - k)(1 + k) 3u, all relative.
+/// Errors of sums that may cancel are relative to the sums of absolute values, which for a cross
+/// product are, as a vector, at most sqrt(2) times the product of both lengths.
 ///   segment: 7u e^2 for the first term. An entry of u + v, u = a - p, v = b - p, has 2u of |u| +
 ///     |v|, the square 7u of (|u| + |v|)^2. As this and e^2 are at most 2 (u^2 + v^2), both terms
 ///     have 28u, their difference 4u more: 32u (u^2 + v^2).
@@ -303,8 +303,8 @@ inline constexpr double kSegmentBallBound = 72 * kUnitRoundoff;
 inline constexpr double kTriangleBallBound = 640 * kUnitRoundoff;
 inline constexpr double kTetrahedronBallBound = 1152 * kUnitRoundoff;
 /// Products of up to five differences are multiples of 2^-1060, so not rounded where they are not
-/// normal. Those of six or eight are products of two such, times 1 - k^2 or 4 at the most: what
-/// they lose, 2^-1075 each, and what the bound loses, is below this.
+/// normal. Those of six or eight are products of two such, times at most 1 - k^2 or 4: their
+/// rounding errors, 2^-1075 each, and that of the bound, are below this.
 inline constexpr double kBallUnderflow = 0x1p-1060;
 
 /// The sign of `value` if it is beyond the bound, else 0.
@@ -312,7 +312,7 @@ inline constexpr double kBallUnderflow = 0x1p-1060;
   return std::abs(value) > bound ? sign(value) : 0;
 }
 
-/// a - b. (Points are arrays of doubles; space.hpp is not public.)
+/// a - b.
 template <std::size_t D>
 [[nodiscard]] inline std::array<double, D> difference(const std::array<double, D>& a,
                                                       const std::array<double, D>& b) noexcept {
@@ -341,7 +341,7 @@ template <int D>
   return sign_beyond(value, kSegmentBallBound * (product(u, u) + product(v, v)));
 }
 
-/// In the plane as if in space.
+/// For triangles; in the plane computed as in space.
 [[nodiscard]] inline int in_shrunken_ball_filter(const Point<3>& a, const Point<3>& b,
                                                  const Point<3>& c, const Point<3>& p,
                                                  double k) noexcept {
@@ -389,7 +389,7 @@ template <int D>
 
 }  // namespace detail
 
-/// Of the segment ab. D is 2 or 3.
+/// The sign for the ball of the segment ab. D is 2 or 3.
 template <std::size_t D>
 [[nodiscard]] int in_shrunken_ball(const std::array<double, D>& a, const std::array<double, D>& b,
                                    const std::array<double, D>& p, double k) {
@@ -397,7 +397,7 @@ template <std::size_t D>
   return sign != 0 ? sign : detail::in_shrunken_ball_exact<D>(a, b, p, k);
 }
 
-/// Of the triangle abc. D is 2 or 3.
+/// The sign for the ball of the triangle abc. D is 2 or 3.
 template <std::size_t D>
 [[nodiscard]] int in_shrunken_ball(const std::array<double, D>& a, const std::array<double, D>& b,
                                    const std::array<double, D>& c, const std::array<double, D>& p,
@@ -406,7 +406,7 @@ template <std::size_t D>
   return sign != 0 ? sign : detail::in_shrunken_ball_exact<D>(a, b, c, p, k);
 }
 
-/// Of the tetrahedron abcd.
+/// The sign for the ball of the tetrahedron abcd.
 [[nodiscard]] inline int in_shrunken_ball(const Point<3>& a, const Point<3>& b, const Point<3>& c,
                                           const Point<3>& d, const Point<3>& p, double k) {
   const int sign = detail::in_shrunken_ball_filter(a, b, c, d, p, k);
