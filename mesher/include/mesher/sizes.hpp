@@ -1,17 +1,17 @@
-// How large simplices may be, as a function of place.
+// Sizes of simplices as functions of position.
 //
-// A size h at p allows a simplex with its centroid at p the measure of a regular one with edges of
-// length h: a triangle the area sqrt(3) / 4 h^2, a tetrahedron the volume h^3 / (6 sqrt(2)). Where
-// a size is infinite there is no limit.
+// A size h at p limits a simplex with its centroid at p to the measure of a regular one with edges
+// of length h: for a triangle the area sqrt(3) / 4 h^2, for a tetrahedron the volume h^3 / (6
+// sqrt(2)). Where a size is infinite there is no limit.
 //
 // Example: fine around the origin, and coarser with the distance.
 //   options.sizes = std::make_shared<mesher::SlopedSizes<2>>(
 //       [](const mesher::Point<2>& p) { return 0.01 + 0.1 * std::hypot(p[0], p[1]); },
 //       0.1, 0.01);
 //
-// The mesh is a function of the field, of its sizes and of its bounds: near bounds make an even
-// mesh. A field that breaks its own bounds gets no simplex that is too large, but a mesh that is
-// less even and moves more under edits.
+// The mesh is a function of the field: of its sizes and its bounds. Tight bounds make an even mesh.
+// With a field that violates its own bounds no simplex is too large, but the mesh is less even and
+// changes more under edits.
 #pragma once
 
 #include <functional>
@@ -29,33 +29,33 @@ inline constexpr double kAreaOfSize = 0.43301270189221932;
 /// The volume of a regular tetrahedron with edges of length 1.
 inline constexpr double kVolumeOfSize = 0.11785113019775793;
 
-/// What a size allows. D is 2 or 3.
+/// The largest measure that a size h allows. D is 2 or 3.
 template <int D>
 [[nodiscard]] constexpr double measure_of_size(double h) noexcept {
   return D == 2 ? kAreaOfSize * h * h : kVolumeOfSize * h * h * h;
 }
 
-/// Sizes between two bounds.
+/// Bounds of sizes.
 struct SizeRange {
   double least = 0;
   double most = 0;
-  bool even = false;  ///< all finite ones are known to be plateaus, see below
+  bool even = false;  ///< all finite sizes are known to be plateaus, see SizeField::plateaus
 };
 
-/// A function of place. It must give the same answers for as long as a mesh refers to it.
+/// A size for each position. It must return the same values for as long as a mesh refers to it.
 template <int D>
 class SizeField {
  public:
   virtual ~SizeField() = default;
   /// The size at p: > 0, perhaps infinite.
   [[nodiscard]] virtual double at(const Point<D>& p) const = 0;
-  /// Bounds of the sizes in a box; 0 < least. Near each other for a small box.
+  /// Bounds of the sizes in a box; 0 < least. Close to each other for a small box.
   [[nodiscard]] virtual SizeRange range(const Box<D>& box) const = 0;
-  /// All finite sizes, if they are few: each then gets the lattice that suits it. Else nothing.
+  /// All finite sizes, if they are few: each then gets a lattice of its own. Otherwise empty.
   [[nodiscard]] virtual std::vector<double> plateaus() const { return {}; }
 };
 
-/// A function whose values at p and q differ by at most `slope` |pq|.
+/// Sizes given by a function whose values at p and q differ by at most `slope` |pq|.
 template <int D = 2>
 class SlopedSizes final : public SizeField<D> {
  public:
@@ -71,8 +71,7 @@ class SlopedSizes final : public SizeField<D> {
   double slope_, least_;
 };
 
-/// The size that a background asks for at a place. h: an edge's length, input units, > 0.
-/// D is 2 or 3.
+/// The size of a background at a position. h: length of an edge, input units, > 0. D is 2 or 3.
 template <int D>
 struct SizeSample {
   Point<D> at{};
@@ -80,18 +79,18 @@ struct SizeSample {
   friend bool operator==(const SizeSample&, const SizeSample&) = default;
 };
 
-/// What a background says between its samples: linear on the simplices of their Delaunay
-/// triangulation. Around them it goes on to a square (a cube) four times as wide, and from there as
-/// it is on its side; at its corners the size is that of the nearest sample. So samples may all be
-/// on a plane or a line, or be one. D is 2 or 3.
+/// A background of sizes: linear on the simplices of the Delaunay triangulation of its samples.
+/// Around them it is extended to a square (a cube) four times as wide, and constant from its sides
+/// outward; at its corners the size is that of the nearest sample. So the samples may all be on a
+/// plane or a line, and a single sample is enough. D is 2 or 3.
 /// Throws: Error (bad_option: no samples, or a size that is not above 0; duplicate_point; as
-///         delaunay()).
-/// Cost: as delaunay(); of a look at a place, O(log n) where simplices are not long and thin.
+/// delaunay()).
+/// Cost: as delaunay(); for each evaluation O(log n) where simplices are not long and thin.
 template <int D = 2>
 [[nodiscard]] std::shared_ptr<const SizeField<D>> sampled_sizes(
     const std::vector<std::type_identity_t<SizeSample<D>>>& samples);
 
-/// What Mesher::limit makes of options: these limits everywhere, or in a box. D is 2 or 3.
+/// Sets limits everywhere, or in a box, as Mesher::limit does. D is 2 or 3.
 template <int D>
 void set_limits(Options<D>& options, const SizeLimits<D>& limits);
 template <int D>
