@@ -1,24 +1,24 @@
-// Agenda: a work queue whose order is a function of the calls' labels alone.
+// Agenda: a work queue whose order is a function of the labels of its calls alone.
 //
 // `while Q not empty: w = DeleteMin(Q); ...` written with an agenda is monotone by construction
-// [Def 1.4.3]: two runs make their common calls in the same order; and concise by construction:
-// equal posts merge into one call.
+// [Def 1.4.3], since two runs make their common calls in the same order, and concise by
+// construction, since equal posts merge into one call.
 //
 //   agenda.post<visit>(s, sac::Key{.bucket = level}, node);   // an effect of the posting call
 //   agenda.drain(s);                                          // runs everything in key order
 //
-// (1) A call lives while somebody posts it. One that nobody posts any more is dying: it waits in
-//     the propagation queue and is discarded when its turn comes, unless posted again before.
+// (1) A call lives while it is posted. A call that is no longer posted is dying: it waits in the
+//     propagation queue and is discarded when its turn comes, unless it is posted again before.
 // (2) In a first run calls get their time stamps as they run; a call posted during propagation gets
-//     its place between its neighbours at once.
-// (3) Posting a call whose turn is over when it is posted is an error that names both: one that
-//     comes before the posted call that runs, or any behind the drain.
-// (4) The key is a function of the label: another one for the same call is an error. So is an
-//     argument that does not equal itself, as a NaN: it has no place in an order.
-// (5) Cost of a post: O(1) expected in a first run and when repeated; O(log) of the calls of the
-//     agenda otherwise.
-// (6) An agenda is drained by one call. When that call leaves the trace, or an earlier one drains
-//     the agenda instead, what is still posted waits for the new drain.
+//     its position between its neighbours at once.
+// (3) Posting a call whose turn is over is an error that names both calls: the posted call must not
+//     come before the posted call that runs, and must not be posted behind the drain.
+// (4) The key is a function of the label: another key for the same call is an error. So is an
+//     argument that does not equal itself, such as a NaN, since it has no position in an order.
+// (5) Cost of a post: O(1) expected in a first run and when repeated; otherwise O(log of the calls
+//     of the agenda).
+// (6) One call drains an agenda. If that call leaves the trace, or an earlier call drains the
+//     agenda instead, the calls that are still posted wait for the new drain.
 #pragma once
 
 #include <compare>
@@ -36,7 +36,8 @@
 
 namespace sac {
 
-/// When a posted call runs: by bucket, phase, colour, then order; ties by the call's arguments.
+/// The order in which posted calls run: by bucket, phase, colour, then order; ties by the arguments
+/// of the call.
 struct Key {
   int bucket = 0;           ///< -32768 .. 32767, smallest first
   unsigned phase = 0;       ///< 0 .. 15
@@ -85,14 +86,15 @@ struct Posted {
 
 }  // namespace detail
 
+/// A work queue of calls, run in the order of their keys.
 class Agenda final : public WorkQueue {
  public:
   /// Use Engine::make_agenda.
   Agenda(Engine& engine, std::string name);
   ~Agenda() override { engine_.remove_structure(id_); }
 
-  /// Asks for the call f(scope, args...) at `key`, on behalf of the running call. Throws:
-  /// UsageError as (3) and (4) say.
+  /// Posts the call f(scope, args...) at `key`, as an effect of the running call. Throws:
+  /// UsageError for the errors of (3) and (4).
   template <auto F, class... Args>
   void post(Scope& s, const Key& key, Args... args) {
     core_.guarded([&] {
@@ -101,7 +103,7 @@ class Agenda final : public WorkQueue {
     });
   }
 
-  /// Asks for a call on behalf of the outside: an input, as Engine::set is.
+  /// Posts a call from outside: an input, like Engine::set.
   template <auto F, class... Args>
   void post_from_outside(const Key& key, Args... args) {
     engine_.begin_edit("post_from_outside");
@@ -114,7 +116,7 @@ class Agenda final : public WorkQueue {
       throw;
     }
   }
-  /// Takes one post_from_outside back. Throws: UsageError if there is none.
+  /// Undoes one post_from_outside. Throws: UsageError if there is none.
   template <auto F, class... Args>
   void retract_from_outside(Args... args) {
     engine_.begin_edit("retract_from_outside");
@@ -124,16 +126,16 @@ class Agenda final : public WorkQueue {
     drop_outside(post);
   }
 
-  /// Runs what was posted, in order, as children of the running call. Once per agenda.
+  /// Runs the posted calls, in order, as children of the running call. Once per agenda.
   void drain(Scope& s);
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
-  /// The same for the agenda that was made as the same one of another engine.
+  /// The number of the agenda, equal for agendas that two engines make in the same order.
   [[nodiscard]] std::uint64_t number() const noexcept { return id_; }
   [[nodiscard]] std::size_t bytes() const noexcept;
-  /// Calls that are posted and have no place in the trace.
+  /// The number of posted calls that are not in the trace.
   [[nodiscard]] std::uint64_t waiting_calls() const noexcept { return waiting_calls_; }
-  /// Throws: UsageError if a call drains the agenda, or something is posted on it.
+  /// Throws: UsageError if a call drains the agenda, or a call is posted on it.
   void require_unused() const;
 
   void retract(Call& call, Edge& edge) noexcept override;
@@ -144,9 +146,9 @@ class Agenda final : public WorkQueue {
 
  private:
   enum class State : std::uint8_t {
-    open,      // what is posted waits
-    draining,  // drain_call_ runs what is posted
-    drained    // what is posted gets its place among what drain_call_ has run
+    open,      // posted calls wait
+    draining,  // drain_call_ runs the posted calls
+    drained    // a posted call gets its position among those that drain_call_ has run
   };
   struct Entry {
     std::uint64_t order = 0;
@@ -154,10 +156,11 @@ class Agenda final : public WorkQueue {
     Handle call = 0;
   };
   using Index = SortedIndex<Entry>;
-  // Posts of a call that count are chained; one that does not, for now, is its own predecessor.
+  // The posts of a call that count are chained; a post that does not count now is its own
+  // predecessor.
   struct PostEdge : Edge {
     Handle target;
-    Handle poster;  // 0: the outside, whose posts are in no call's list
+    Handle poster;  // 0: from outside; such posts are in no call's list
     Handle next_post;
     Handle previous_post;
   };
@@ -166,8 +169,8 @@ class Agenda final : public WorkQueue {
   static constexpr std::uint8_t kPost = 0;
   static constexpr std::uint8_t kDrain = 1;
 
-  // Outside edits and their inverses go by label: a call discarded in a propagation that fails is
-  // another one after the roll-back.
+  // Edits from outside and their inverses use labels: a call discarded in a failed propagation is
+  // a different object after the roll-back.
   template <auto F, class... P, class... Args>
   static auto label_as(detail::Types<P...>, Args&&... args) {
     auto label = detail::make_label<detail::Posted<F, P...>>(std::forward<Args>(args)...);
@@ -230,12 +233,12 @@ class Agenda final : public WorkQueue {
   std::string name_;
   std::uint8_t id_;
   State state_ = State::open;
-  std::vector<Handle> unposted_;   // calls that waited when they lost a post; some more than once
-  bool unposted_unknown_ = false;  // and others: memory was short
+  std::vector<Handle> unposted_;  // calls that waited when they lost a post; possibly several times
+  bool unposted_unknown_ = false;  // whether others are missing, for lack of memory
   std::map<std::uint32_t, std::vector<Entry>> waiting_;  // by rank
-  DueCalls<Entry> due_;  // calls that wait, too: of the class that the drain runs
-  Handle chained_ = 0;   // and these: since their drain has gone
-  Index placed_;         // what drain_call_ has run, or is to run
+  DueCalls<Entry> due_;  // waiting calls of the class that the drain runs
+  Handle chained_ = 0;   // waiting calls whose drain has left the trace
+  Index placed_;         // calls that drain_call_ has run, or will run
   std::uint64_t waiting_calls_ = 0;
   Handle drain_call_ = 0;
   Handle running_ = 0;  // the posted call that the drain runs

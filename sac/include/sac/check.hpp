@@ -1,8 +1,8 @@
-// Contract checks, classified by whose fault a failure is.
+// Contract checks, classified by who is at fault.
 //
-// SAC_EXPECTS   the caller's: throws UsageError.
-// SAC_ENSURES   ours: throws InvariantError, in builds with SAC_CHECKS.
-// SAC_INVARIANT a structure's predicate inside check_invariants(): throws InvariantError.
+// SAC_EXPECTS   the caller: throws UsageError.
+// SAC_ENSURES   this library: throws InvariantError, in builds with SAC_CHECKS.
+// SAC_INVARIANT a predicate of a structure in check_invariants(): throws InvariantError.
 #pragma once
 
 #include <stdexcept>
@@ -10,19 +10,20 @@
 
 namespace sac {
 
-/// The client used the library against its contract; the message names calls and mods involved.
+/// The client violated the contract of the library; the message names the calls and modifiables
+/// involved.
 class UsageError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
 };
 
-/// The progress callback asked for the end.
+/// The progress callback stopped the run.
 class Cancelled : public std::runtime_error {
  public:
   Cancelled() : std::runtime_error("cancelled by the progress callback") {}
 };
 
-/// A structure of the library is not what it promises to be: our bug.
+/// An invariant of the library is broken: a bug of the library.
 class InvariantError : public std::logic_error {
  public:
   using std::logic_error::logic_error;

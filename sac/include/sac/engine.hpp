@@ -1,28 +1,29 @@
-// The engine: runs programs, keeps their traces, and brings the traces up to date.
+// The engine: runs programs, keeps their traces, and updates the traces after edits.
 //
-// Three primitives carry everything changeable (mods, agendas, users' own types; structure.hpp):
+// Three primitives are the basis of everything changeable (modifiables, agendas, users' own types;
+// structure.hpp):
 //   observe     the running call depends on something      Scope::observe
 //   effect      the running call did something             Scope::effect
 //   invalidate  a call's observation may have changed      Engine::invalidate
 //
 // Guarantees:
-// (1) After propagate() everything observable is what a run from scratch would leave.
-// (2) Invalidated calls run in trace order; whatever precedes the running call is settled.
-// (3) A call that runs again reuses children with equal labels that lie ahead of it in its own
-//     interval, subtrees included, without running them; what it passes over is discarded. What
-//     is invalid in a reused subtree runs before its new parent goes on. (A tail call that ends
-//     the interval is reused by a tail call only: its end stamp is the interval's.)
-// (4) What a first run refuses, a propagation refuses. If client code throws in propagate(), the
-//     edits of the batch are undone and propagated, and every value is what it was; if that fails
+// (1) After propagate(), everything observable is as after a run from scratch.
+// (2) Invalidated calls run in trace order; everything that precedes the running call is settled.
+// (3) A call that runs again reuses children with equal labels that lie ahead in its own interval,
+//     with their subtrees, without running them; it discards the children that it passes over.
+//     Invalid calls in a reused subtree run before the new parent goes on. (A tail call that ends
+//     the interval can be reused only by a tail call: its end stamp is that of the interval.)
+// (4) A propagation refuses whatever a first run refuses. If client code throws in propagate(), the
+//     edits of the batch are undone and propagated, and every value is as before; if that fails
 //     too, the engine refuses all further work.
-// (5) Memory of discarded calls is freed when the propagation ends, not before.
+// (5) The memory of discarded calls is freed at the end of the propagation, not before.
 //
-// An engine is used by one thread at a time; engines share nothing. The outside's operations are
-// refused while it runs: a traced function reads and writes through its scope.
+// One thread at a time may use an engine; engines share no state. While an engine runs it refuses
+// the operations for use from outside: a traced function reads and writes through its scope.
 //
-// Limits: 32 GiB of calls and edges; 255 structures, agendas included; 65535 functions and types of
-// values. An engine takes 32 GiB of address space, which a process has for
-// some 4000 of them; where that is limited (ulimit -v), it makes do with less, down to 64 MiB.
+// Limits: 32 GiB of calls and edges; 255 structures, including agendas; 65535 functions and types
+// of values. An engine reserves 32 GiB of address space; a process has room for about 4000 of them.
+// Where address space is limited (ulimit -v) it reserves less, down to 64 MiB.
 #pragma once
 
 #include <cstddef>
@@ -52,17 +53,17 @@ class Agenda;
 class ModStructure;
 class Weights;
 
-/// Memory of an engine in bytes. `live` is in use; `held` is what the engine has taken from the
-/// system, freed blocks that wait to be used again included.
+/// Memory of an engine in bytes. `live` is in use; `held` is all memory that the engine has taken
+/// from the system, including freed blocks kept for reuse.
 struct Memory {
   std::size_t calls_and_edges_live = 0;
   std::size_t calls_and_edges_held = 0;
-  std::size_t time_stamps = 0;  // groups; the stamps themselves lie in the calls
+  std::size_t time_stamps = 0;  // groups; the stamps themselves are part of the calls
   std::size_t memo_table = 0;
-  std::size_t queue = 0;  // and what else a propagation needs
+  std::size_t queue = 0;  // and other memory of a propagation
   std::size_t agendas = 0;
   std::size_t versions = 0;  // order of modifiables that are written more than once
-  std::size_t outside = 0;   // list of the outside's objects, and how to take edits back
+  std::size_t outside = 0;   // list of the objects made from outside, and the undo records of edits
   [[nodiscard]] std::size_t live() const noexcept {
     return calls_and_edges_live + time_stamps + memo_table + queue + agendas + versions + outside;
   }
@@ -71,7 +72,7 @@ struct Memory {
   }
 };
 
-/// The calls of one function: how many, and the bytes of their frames and edges.
+/// The number of calls of one function, and the bytes of their frames and edges.
 struct FunctionProfile {
   std::string_view name;
   std::uint64_t calls = 0;
@@ -80,6 +81,7 @@ struct FunctionProfile {
   std::uint64_t edge_bytes = 0;
 };
 
+/// Runs a program and keeps its trace up to date under edits.
 class Engine {
  public:
   Engine();
@@ -89,26 +91,27 @@ class Engine {
 
   // --- The client's side -------------------------------------------------------------------
 
-  /// A new modifiable with a value, to be changed by set().
+  /// Makes a modifiable with a value, which set() changes.
   template <class T, class Same = std::equal_to<>>
   [[nodiscard]] Mod<T, Same> input(T value);
-  /// A new modifiable for the program to write.
+  /// Makes a modifiable that the program writes.
   template <class T, class Same = std::equal_to<>>
   [[nodiscard]] Mod<T, Same> cell();
-  /// A new object of the outside, with cells as members that set() may make inputs: a node of an
-  /// input list, say.
+  /// Makes an object from outside, with cells as members that set() may turn into inputs: for
+  /// example, a node of an input list.
   template <class T>
   [[nodiscard]] T& make();
-  /// Frees what input(), cell() or make() gave, at the end of the next propagation or run: an edit.
-  /// That fails with UsageError if a call still reads or writes a modifiable in it; no call may use
-  /// it in another way, nor wait on an agenda to do so.
+  /// Frees a result of input(), cell() or make() at the end of the next propagation or run; this is
+  /// an edit. That propagation or run fails with UsageError if a call still reads or writes a
+  /// modifiable in the object. No call may use the object in another way, nor wait on an agenda to
+  /// do so.
   template <class T>
   void release(T& object);
   template <class T, class Same>
   void release(Mod<T, Same> mod);
 
-  /// Changes an input, or makes one of a cell that nobody has written. A value that is the same
-  /// changes nothing. Throws: UsageError if the program writes it. Cost: O(readers).
+  /// Sets an input to a value, or turns an unwritten cell into an input. The same value as before
+  /// changes nothing. Throws: UsageError if the program writes the modifiable. Cost: O(readers).
   template <class T, class Same>
   void set(Mod<T, Same> mod, std::type_identity_t<T> value);
   template <class T, class Same>
@@ -119,76 +122,78 @@ class Engine {
   template <class T, class Same>
   [[nodiscard]] const T& get(const Cell<T, Same>& cell) const;
 
-  /// What messages shall call a modifiable.
+  /// Sets the name of a modifiable in messages.
   template <class T, class Same>
   void name(Mod<T, Same> mod, std::string name) {
     core_.names_[mod.head()] = std::move(name);
   }
 
   /// Runs f(scope, args...) at the end of the trace. Edits made before can no longer be undone.
-  /// Throws: what the program throws, with everything it did taken back.
+  /// Throws: exceptions of the program, after undoing all of its effects.
   template <auto F, class... Args>
   Counts run(Args... args);
 
-  /// Brings the trace up to date with the edits since the last call.
-  /// Throws: what the program throws, and Cancelled, with the edits undone.
-  /// Cost: calls run again, plus O(log) of the queue for each.
+  /// Updates the trace after the edits since the last call.
+  /// Throws: exceptions of the program, and Cancelled; the edits are then undone.
+  /// Cost: the calls that run again, plus O(log of the queue) for each.
   Counts propagate() { return propagate(nullptr); }
-  /// The same; when all is up to date, and while it can still be undone, last() looks at the
-  /// result. If it throws, the edits are undone as if the program had thrown.
+  /// The same, but calls last() when everything is up to date and can still be undone. If last()
+  /// throws, the edits are undone as if the program had thrown.
   Counts propagate(const std::function<void()>& last);
 
-  /// A new work queue, owned by the engine.
+  /// Makes a work queue, owned by the engine.
   [[nodiscard]] Agenda& make_agenda(std::string name);
-  /// Ends a work queue. Throws: UsageError if a call drains it or something is posted on it.
+  /// Frees a work queue. Throws: UsageError if a call drains it or a call is posted on it.
   void release(Agenda& agenda);
 
-  /// An object that the program's calls reach through Scope::environment: the same for the life of
-  /// the trace, and not itself a dependence (what in it changes must be a mod or a structure).
+  /// Sets the object that calls reach through Scope::environment. It must stay the same for the
+  /// life of the trace, and is not itself a dependence: its changeable parts must be modifiables or
+  /// structures.
   void set_environment(void* environment) noexcept { core_.environment_ = environment; }
 
   /// Calls `report` before the first of every `every` calls that run; if it returns false, the run
-  /// or propagation ends with Cancelled, and the engine is as before it. Null: nobody is told.
-  /// Not called while edits are undone.
+  /// or propagation ends with Cancelled, and the engine is as before it. Null: no reports. Not
+  /// called while edits are undone.
   void set_progress(std::function<bool(const Progress&)> report, std::uint64_t every = 1024);
 
-  /// Tells `observer` of all that happens; null: nobody. See EventLog.
+  /// Reports all events to `observer`; null: to none. See EventLog.
   void set_observer(Observer* observer) noexcept { core_.observer_ = observer; }
   [[nodiscard]] Observer* observer() const noexcept { return core_.observer_; }
 
-  /// How much native stack calls inside of calls may take, in bytes, counted from run() or
-  /// propagate(); beyond, UsageError. At first 3/4 of the process's limit (RLIMIT_STACK; 2 MiB if
-  /// it has none): to be set for threads that have less, and if the client's own frames need more.
-  /// A roll-back may take an eighth more.
+  /// Limits the native stack of nested calls, in bytes, counted from run() or propagate(); calls
+  /// beyond the limit throw UsageError. The default is 3/4 of the process's limit (RLIMIT_STACK; 2
+  /// MiB if there is none). Set it for threads with less stack, and if the client's own frames need
+  /// more. A roll-back may use an eighth more.
   void set_stack_limit(std::size_t bytes) noexcept { core_.stack_limit_ = bytes; }
 
-  /// Watches for calls that break conciseness or monotonicity; costs a table look-up a call.
+  /// Turns on the audit, which detects calls that break conciseness or monotonicity. Cost: a table
+  /// look-up for each call.
   void set_audit(bool on) noexcept { core_.audit_ = on; }
   [[nodiscard]] const AuditReport& audit() const noexcept { return core_.report_; }
 
-  /// From now on the trace holds what calls say by Scope::weigh: 16 bytes each time. To be asked
-  /// for before the first run: calls that are there have no weight until they run again.
+  /// Records the weights that calls report by Scope::weigh from now on; 16 bytes for each report.
+  /// Call it before the first run: existing calls have no weight until they run again.
   void record_weights();
   [[nodiscard]] bool records_weights() const noexcept { return weights_ != nullptr; }
-  /// What `call` has said by Scope::weigh, in all. Cost: O(its edges).
+  /// The sum of the weights that `call` reported by Scope::weigh. Cost: O(its edges).
   [[nodiscard]] std::uint64_t weight_of(const Call& call) const noexcept;
 
   [[nodiscard]] std::uint64_t live_calls() const noexcept { return core_.live_calls(); }
   [[nodiscard]] std::uint64_t live_edges() const noexcept { return core_.live_edges(); }
-  /// Memory that the trace uses: memory().live(). Cost: O(modifiables with several writers).
+  /// The memory that the trace uses: memory().live(). Cost: O(modifiables with several writers).
   [[nodiscard]] std::size_t bytes() const noexcept { return memory().live(); }
   [[nodiscard]] Memory memory() const noexcept;
   /// Calls and bytes by function, the largest first. Cost: O(trace).
   [[nodiscard]] std::vector<FunctionProfile> profile() const;
-  /// Gives memory that is not in use back to the system. Throws: UsageError if the engine runs.
-  /// Cost: O(free blocks) and the size of the tables.
+  /// Returns unused memory to the system. Throws: UsageError if the engine runs. Cost: O(free
+  /// blocks) and the size of the tables.
   void shrink();
-  /// From now on the trace may hold so many bytes of calls and edges; beyond, std::bad_alloc.
-  /// Edits are undone without a limit.
+  /// Limits the bytes of calls and edges that the trace may hold; beyond the limit it throws
+  /// std::bad_alloc. Undoing edits is not limited.
   void set_memory_limit(std::size_t bytes) noexcept { arena().set_limit(bytes); }
   [[nodiscard]] bool idle() const noexcept { return core_.idle(); }
 
-  /// Calls visit(call, depth) for every call that has a place, in pre-order.
+  /// Calls visit(call, depth) for every placed call, in pre-order.
   template <class Visit>
   void walk(Visit&& visit) const {
     core_.walk(std::forward<Visit>(visit));
@@ -196,47 +201,47 @@ class Engine {
 
   /// `name(arguments)`.
   [[nodiscard]] static std::string describe(const Call& call);
-  /// What messages call a modifiable: `modifiable 'price' (@7)`.
+  /// The name of a modifiable in messages: `modifiable 'price' (@7)`.
   [[nodiscard]] std::string describe_mod(Handle head) const;
 
   /// Checks the trace, and every structure. Throws: InvariantError. Cost: O(trace).
   void check_invariants() const;
 
   // --- For structures ----------------------------------------------------------------------
-  //
-  // This and Scope are all that modifiables and agendas use, and all that a type of one's own needs
-  // (docs/traceable_types.md).
+  // // Modifiables and agendas use only these functions and Scope, and your own types need no
+  // others (docs/traceable_types.md).
 
-  /// Gives a structure the number that its edges carry. The structure outlives the trace, or until
-  /// remove_structure(). Throws: UsageError beyond 255.
+  /// Registers a structure and returns the number that its edges carry. The structure must outlive
+  /// the trace, or live until remove_structure(). Throws: UsageError beyond 255.
   std::uint8_t add_structure(Structure& structure) { return core_.add_structure(structure); }
-  /// Requires: no call has an edge of the structure.
+  /// Unregisters a structure. Requires: no call has an edge of it.
   void remove_structure(std::uint8_t number) noexcept { core_.remove_structure(number); }
 
-  /// Before an outside edit: refuses if the engine runs or is broken. `what` names it.
+  /// Call it before an edit from outside. Throws: UsageError if the engine runs or is broken.
+  /// `what` names the edit.
   void begin_edit(const char* what = "edit") const {
     core_.require_usable();
     core_.require_idle(what);
   }
-  /// How to take the edit back if the next propagation fails. Cleared when it succeeds.
-  /// `undo`: to be called without arguments. Throws: std::bad_alloc.
+  /// Registers how to undo an edit if the next propagation fails; cleared when it succeeds. `undo`:
+  /// a function without arguments. Throws: std::bad_alloc.
   void on_rollback(auto undo) { rollback_.emplace_back(std::move(undo)); }
-  /// Makes the edits of body(): all of them, or none if it throws.
+  /// Runs body(), which makes edits; if it throws, none of them remains.
   template <class Body>
   void edit_together(Body&& body);
-  /// Forgets all edits since the last propagation by undoing them, newest first.
-  /// Throws: what the client's arguments throw when compared; the engine is broken then.
+  /// Undoes all edits since the last propagation, newest first. Throws: exceptions of the client's
+  /// comparisons of arguments; the engine is then broken.
   void undo_edits();
 
-  /// The call's observation may have changed: it will run again. `seen` tells observers which: the
-  /// edge that says what it saw.
+  /// Marks a call whose observation may have changed: it will run again. `seen` names the
+  /// observation for observers: its edge.
   void invalidate(Call& call, const Edge* seen = nullptr) noexcept { core_.invalidate(call, seen); }
-  /// It will run again if, when its turn comes, Structure::unchanged says no of one of its edges.
-  /// `source` tells observers which modifiable it is about; 0: none.
+  /// Puts a call in doubt: it will run again if, when its turn comes, Structure::unchanged returns
+  /// false for one of its edges. `source` names the modifiable for observers; 0: none.
   void doubt(Call& call, Handle source = 0) noexcept { core_.doubt(call, source); }
-  /// `outer` did something behind children of its own (Edge::behind) that `inner`, which is new to
-  /// it, should have seen or not: if it has settled and `inner` lies in its interval, it runs
-  /// again, so that this is refused or not as in a first run.
+  /// Call it if `outer` had an effect after it had children (Edge::behind) that concerns `inner`, a
+  /// new child: if `outer` has settled and `inner` is in its interval, `outer` runs again, so that
+  /// the effect is refused or not as in a first run.
   void rerun_if_around(Call& outer, const Call& inner) noexcept {
     core_.rerun_if_around(outer, inner);
   }
@@ -247,7 +252,7 @@ class Engine {
   [[nodiscard]] bool lies_between(const Call& from, const Call& call, Handle end) const noexcept {
     return core_.lies_between(from, call, end);
   }
-  /// Whether `call` is still to come: it lies behind all that the running call has done.
+  /// Whether `call` lies ahead: behind everything that the running call has done.
   [[nodiscard]] bool lies_ahead(const Call& call) const noexcept { return core_.lies_ahead(call); }
   /// Whether the running call has had children in this execution.
   [[nodiscard]] bool has_had_children() const noexcept { return core_.has_had_children(); }
@@ -255,18 +260,18 @@ class Engine {
   [[nodiscard]] Handle handle_of(const Call& call) const noexcept {
     return arena().handle_of(&call);
   }
-  /// True while a first run appends to the trace: every call there is precedes the running one.
+  /// True while a first run appends to the trace: every existing call precedes the running one.
   [[nodiscard]] bool appending() const noexcept { return core_.appending(); }
-  /// True while a propagation that failed is taken back.
+  /// True while a failed propagation is undone.
   [[nodiscard]] bool undoing() const noexcept { return core_.undoing(); }
   /// True if no call waits to run again.
   [[nodiscard]] bool settled() const noexcept { return core_.settled(); }
-  /// Tells an observer, if there is one, what has happened, by the running call.
+  /// Reports an event, caused by the running call, to the observer if there is one.
   void note(Event::Kind kind, const Call* call = nullptr, Handle source = 0) noexcept {
     core_.note(kind, call, source);
   }
-  /// Where to keep what a propagation replaces and recomputing would not bring back; null: there
-  /// is no need.
+  /// The store for values that a propagation replaces and that recomputing would not restore; null:
+  /// not needed.
   [[nodiscard]] Originals* originals() noexcept {
     return idle() || appending() ? nullptr : &core_.originals();
   }
@@ -274,20 +279,20 @@ class Engine {
   [[nodiscard]] const Structure& structure_of(const Edge& edge) const noexcept {
     return core_.structure(edge.structure);
   }
-  /// Calls visit(edge) for what `call` did and saw, in its order.
+  /// Calls visit(edge) for the effects and observations of `call`, in their order.
   template <class Visit>
   void for_each_edge(const Call& call, Visit&& visit) const {
     for (Handle e = call.edges; e != 0; e = core_.at<Edge>(e)->next) {
       visit(static_cast<const Edge&>(*core_.at<Edge>(e)));
     }
   }
-  /// Whether a call that has a place lies at `h`, where anything may lie.
+  /// Whether a placed call is at `h`; any handle is allowed.
   [[nodiscard]] bool is_live_call(Handle h) const noexcept { return core_.is_live_call(h); }
   [[nodiscard]] Arena& arena() noexcept { return core_.arena(); }
   [[nodiscard]] const Arena& arena() const noexcept { return core_.arena(); }
   /// The call whose body runs; null: none.
   [[nodiscard]] const Call* running_call() const noexcept { return core_.running_call(); }
-  /// `what`, after the running call if there is one: the beginning of a message.
+  /// The beginning of a message: the running call, if there is one, then `what`.
   [[nodiscard]] std::string context(const char* what) const { return core_.context(what); }
 
   // --- Internal: for the library's own headers -----------------------------------------------
@@ -297,7 +302,7 @@ class Engine {
   void add_weight(Scope& s, std::uint64_t n);
 
  private:
-  // An object of the outside in memory: head, object.
+  // // An object made from outside in memory: head, object.
   struct OutsideHead {
     std::uint32_t position;  // in outside_
     std::uint16_t type;
@@ -329,7 +334,7 @@ class Engine {
   std::unique_ptr<Weights> weights_;  // null: not recorded
   std::vector<std::unique_ptr<Agenda>> agendas_;
   Registry<OutsideType> outside_types_;
-  std::vector<Handle> outside_;   // objects of the outside, by their heads
+  std::vector<Handle> outside_;   // objects made from outside, by their heads
   std::vector<Handle> released_;  // those to be freed when the edits are final
   std::vector<detail::Undo> rollback_;
 };

@@ -1,4 +1,4 @@
-// Why did it run again? A log of what an engine does, with its causes.
+// A log of the events of an engine, which explains why a call ran again.
 //
 //   sac::EventLog log(engine);
 //   engine.set(price, 12);
@@ -9,9 +9,9 @@
 //     written by add(@1, @2, @3), which ran again because modifiable 'price' (@1) was set from
 //     outside.
 //
-// The log is the engine's observer while it lives. Labels and names are written down when the
-// engine tells of them, because discarded calls are freed. An event takes 16 bytes, and the label
-// of a call is kept once. The engine does what it does without a log; it only takes longer.
+// The log is the observer of the engine while it exists. It stores labels and names when events
+// happen, because discarded calls are freed. An event takes 16 bytes, and the label of a call is
+// stored once. The log does not change the behaviour of the engine, only its speed.
 #pragma once
 
 #include <array>
@@ -30,37 +30,38 @@ namespace sac {
 /// The word for a kind of event: "executed".
 [[nodiscard]] std::string_view word(Event::Kind kind);
 
+/// An observer that logs events and explains them.
 class EventLog final : public Observer {
  public:
-  /// Becomes the observer of `engine`, which outlives the log.
+  /// Becomes the observer of `engine`. Requires: the engine outlives the log.
   explicit EventLog(Engine& engine);
   ~EventLog();
   EventLog(const EventLog&) = delete;
   EventLog& operator=(const EventLog&) = delete;
 
-  /// Why the call of this label did last what it did (ran, was kept, was discarded), back to an
-  /// edit from outside or to the run that made it: lines that end with a newline. If no call has
-  /// this label, of those of this function, or else of those that have it in their label, the one
-  /// that the log speaks of last.
-  /// Cost: O(size()).
+  /// Explains the last event of the call with this label (it ran, was kept, or was discarded), back
+  /// to an edit from outside or to the run that made it. If no call has this label, it explains the
+  /// most recently logged call of the function with this name, or else with this text in its label.
+  /// Returns lines that end with a newline. Cost: O(size()).
   [[nodiscard]] std::string explain(std::string_view label) const;
   [[nodiscard]] std::string explain(const Call& call) const;
 
-  /// How many events of this kind there were, in all and for the calls of one function.
+  /// The number of events of this kind, in total and for the calls of one function.
   [[nodiscard]] std::uint64_t count(Event::Kind kind) const noexcept;
   [[nodiscard]] std::uint64_t count(Event::Kind kind, std::string_view function) const;
-  /// A line for each function, by name: `leaf: created 3, executed 5`. Events without a call stand
-  /// under `outside`.
+  /// Prints a line for each function, by name: `leaf: created 3, executed 5`. Events without a call
+  /// are counted under `outside`.
   void print_counts(std::ostream& out) const;
 
-  /// Every event on a line, oldest first: `created leaf(@3, @5) by grow(@1)`.
+  /// Prints every event on a line, oldest first: `created leaf(@3, @5) by grow(@1)`.
   void print(std::ostream& out) const;
   /// The line of one event, without a newline. Requires: i < size().
   [[nodiscard]] std::string line(std::size_t i) const;
   [[nodiscard]] std::size_t size() const noexcept { return entries_.size(); }
-  /// Events that could not be written down: memory was short, or printing an argument threw.
+  /// The number of events that could not be logged: memory was short, or printing an argument
+  /// threw.
   [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
-  /// Forgets everything.
+  /// Removes all events.
   void clear();
 
   void on(const Event& event) noexcept override;
@@ -74,7 +75,7 @@ class EventLog final : public Observer {
     Event::Kind kind;
     CallId call;
     CallId by;
-    TextId what;  // the modifiable, or what was seen, or how it failed
+    TextId what;  // the modifiable, the observation, or the failure
   };
   struct KnownCall {
     std::string label;
@@ -95,8 +96,8 @@ class EventLog final : public Observer {
   [[nodiscard]] std::size_t last_before(std::size_t end, Matches&& matches) const;
   [[nodiscard]] std::string failure_before(std::size_t i) const;
 
-  // An explanation goes from cause to cause: what happened to one call, and to one modifiable, is
-  // looked up, so that all steps together do not read the log more than a few times.
+  // An explanation goes from cause to cause. The index finds the events of one call, and of one
+  // modifiable, so that all steps together read the log only a few times.
   class Index;
   [[nodiscard]] std::string explain_last(CallId call) const;
   [[nodiscard]] std::string explain_deed(const Index& index, std::size_t deed) const;
@@ -110,7 +111,7 @@ class EventLog final : public Observer {
   std::vector<Entry> entries_;
   std::vector<KnownCall> calls_;  // by id
   std::vector<std::string> texts_;
-  std::unordered_map<const Call*, CallId> ids_;  // an address may be another call's later
+  std::unordered_map<const Call*, CallId> ids_;  // an address may later be that of another call
   std::unordered_map<std::string, TextId> text_ids_;
   std::unordered_map<std::string_view, Counts> counts_;  // by function; "": no call
   std::uint64_t lost_ = 0;

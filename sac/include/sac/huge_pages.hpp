@@ -1,5 +1,5 @@
-// Huge pages for tables that are read at random places: most of these reads miss the cache, and
-// with small pages the address translation as well.
+// Huge pages for tables with random access: most reads miss the cache, and with small pages also
+// the address translation.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace sac {
 /// Asks the system for huge pages; a hint, whose failure is harmless.
 void advise_huge_pages(void* block, std::size_t bytes) noexcept;
 
-/// An allocator of large blocks on huge pages, and of others as usual.
+/// An allocator that puts large blocks on huge pages, and other blocks on normal memory.
 template <class T>
 class HugePages {
  public:

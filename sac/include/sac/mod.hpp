@@ -1,18 +1,20 @@
 // Modifiables: memory whose readers run again when it changes.
 //
-// A modifiable is one version of its value per call that writes it, in trace order; a read sees the
-// last one before it. How versions and readers are kept is in internal/mod_structure.hpp.
+// A modifiable has one version of its value for each call that writes it, in trace order; a read
+// sees the last version before it. internal/mod_structure.hpp describes how versions and readers
+// are kept.
 //
-// What is the same: a new value that is the same as the old one disturbs nobody. By default that is
-// ==, which must mean that one may stand for the other everywhere; for floating-point numbers it is
-// equality of their bits (so -0.0 is not 0.0, and a NaN is itself). A `Same` of one's own that
-// takes more for the same keeps whichever value was there first: then results are the same as those
-// of a run from scratch only in the sense of that Same. A roll-back restores the very values.
+// Equality: writing a value that is the same as the old one invalidates no reader. The default
+// comparison is ==, which must mean that either value may replace the other everywhere; for
+// floating-point numbers it is equality of their bits (so -0.0 is not 0.0, and a NaN equals
+// itself). With a coarser `Same` of your own, a modifiable keeps whichever of two same values came
+// first: results then equal those of a run from scratch only up to that Same. A roll-back restores
+// the exact values.
 //
-// Handles. A modifiable lives as long as what it lies in: until its release, or until no call makes
-// it any more. With SAC_CHECKS a handle knows its engine and its modifiable, and to use one that is
-// of another engine or gone is a UsageError. Without, it is not noticed: such a handle reads and
-// changes whatever lies there.
+// Handles: a modifiable lives as long as the object that contains it: until its release, or until
+// no call makes it any more. With SAC_CHECKS a handle knows its engine and its modifiable, and the
+// use of a handle of another engine, or of a modifiable that no longer exists, throws UsageError.
+// Without SAC_CHECKS such a use is not detected: it reads and changes whatever is at that address.
 //
 // Example (imperative): call A writes 1, call B reads 1, call C writes 2, call D reads 2.
 #pragma once
@@ -31,14 +33,14 @@
 
 namespace sac {
 
-/// A handle of a modifiable holding a T; 4 bytes (8 with SAC_CHECKS), copied freely.
+/// A handle of a modifiable that holds a T; 4 bytes (8 with SAC_CHECKS), cheap to copy.
 template <class T, class Same>
 class Mod {
  public:
   Mod() = default;
-  /// The modifiable at a handle that is known to be one.
+  /// The modifiable at a handle. Requires: the handle is that of such a modifiable.
   explicit Mod(Handle head) : head_(head) {}
-  /// Requires: the cell lies in an object that an engine made.
+  /// The modifiable of a cell. Requires: the cell is part of an object that an engine made.
   Mod(const Cell<T, Same>& cell)
       : head_(Arena::locate(&cell)), stamp_(cell.version_.stamp_in_arena()) {}
   [[nodiscard]] Handle head() const noexcept { return head_; }
@@ -54,7 +56,7 @@ class Mod {
   [[no_unique_address]] detail::Stamp stamp_;
 };
 
-/// A modifiable as a member of an object that an engine made. Neither copied nor moved.
+/// A modifiable as a member of an object that an engine made. It cannot be copied or moved.
 template <class T, class Same>
 class alignas(Arena::kGranule) Cell {
  public:

@@ -1,4 +1,4 @@
-// The engine: include this, and event_log.hpp to ask why a call ran.
+// The whole engine, except event_log.hpp, which explains why a call ran.
 #pragma once
 
 #include "sac/agenda.hpp"

@@ -1,10 +1,10 @@
-// What a traced function sees of the engine: its first argument.
+// The interface of the engine for traced functions: their first argument.
 //
 // A traced function is a free function or a captureless object F with
 //     void f(sac::Scope& s, Args... args)
-// that depends on nothing but its arguments and what it reads through `s`. What it does comes
-// before what its children do. If anything that it asks for throws, it fails: it may clean up, but
-// not go on as if that had not happened.
+// that depends only on its arguments and on what it reads through `s`. Its own effects come before
+// those of its children. If an operation of the scope throws, the call fails: the function may
+// clean up, but it must not go on as if nothing had happened.
 #pragma once
 
 #include <type_traits>
@@ -18,6 +18,7 @@ namespace sac {
 
 class Agenda;
 
+/// The interface of the engine for traced functions.
 class Scope {
  public:
   template <class T, class Same = std::equal_to<>>
@@ -35,72 +36,76 @@ class Scope {
   [[nodiscard]] T& environment() const {
     return *static_cast<T*>(core_.environment());
   }
-  /// The running call. Throws: UsageError if none runs: the scope was kept for too long.
+  /// The running call. Throws: UsageError if none runs, i.e. the scope is used after its call.
   [[nodiscard]] Call& self() { return core_.self(); }
 
-  /// The value of `mod` at this point of the trace, recording the dependence.
-  /// Throws: UsageError if no earlier call has written it.
+  /// Reads the value of `mod` at this point of the trace, and records the dependence. Throws:
+  /// UsageError if no earlier call has written it.
   template <class T, class Same>
   const T& read(Mod<T, Same> mod);
   template <class T, class Same>
   const T& read(const Cell<T, Same>& cell);
 
-  /// Gives `mod` a value from here on; one that is the same disturbs nobody.
+  /// Gives `mod` a value from this point of the trace on. The same value as before invalidates no
+  /// reader.
   template <class T, class Same>
   void write(Mod<T, Same> mod, std::type_identity_t<T> value);
   template <class T, class Same>
   void write(const Cell<T, Same>& cell, std::type_identity_t<T> value);
 
-  /// Says that the running call does `n` steps, elements of a chunk that it looks at, say: what a
-  /// count of calls does not show. A branch, unless weights are recorded (Engine::record_weights).
+  /// Reports that the running call does `n` steps (for example, visits n elements of a chunk),
+  /// which a count of calls does not show. Cost: a branch, unless weights are recorded
+  /// (Engine::record_weights).
   void weigh(std::uint64_t n) {
     if (core_.engine().records_weights()) [[unlikely]]
       record_weight(n);
   }
 
   /// Makes a child call, or reuses an equal one ahead in the interval that runs again. If F returns
-  /// something, so does call(): by reference, good while the caller runs. The caller depends on it.
+  /// a value, call() returns a reference to it, valid while the caller runs, and the caller depends
+  /// on the value.
   template <auto F, class... Args>
   decltype(auto) call(Args... args) {
     return call_as<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
   }
 
-  /// As call(), as the last thing that the function does: runs after it, without native recursion.
-  /// A result is not returned.
+  /// Makes a child call as the last operation of the function: it runs after the function, without
+  /// native recursion. F must return nothing.
   template <auto F, class... Args>
   void tail(Args... args) {
     tail_as<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
   }
 
-  /// Keyed allocation: a default-constructed T that keeps its address while some run asks for
-  /// (T, key) again within the interval that runs again, whichever call asks.
+  /// Keyed allocation: a default-constructed T that keeps its address as long as (T, key) is
+  /// requested again within the interval that runs again, by whichever call.
   template <class T, class... Key>
   T& make(Key... key) {
     return object<detail::Made<T, detail::Kept<Key>...>>(false, std::move(key)...);
   }
-  /// Keyed allocation of a T that F(scope, object, key...) works on: an object and the call that
-  /// fills it in one. The label is that of F(key...).
+  /// Keyed allocation of a T, which the call F(scope, object, key...) fills. The label is that of
+  /// F(key...).
   template <class T, auto F, class... Key>
   T& make(Key... key) {
     return built<T, F>(detail::parameters<F, true, Key...>(), false, std::move(key)...);
   }
-  /// As make(), but F runs as a tail call: the object is there at once, and empty. After it the
-  /// function may still read and write, but not call.
+  /// As make(), but F runs as a tail call: the object is returned at once, still empty. Afterwards
+  /// the function may still read and write, but not call.
   template <class T, auto F, class... Key>
   T& tail_make(Key... key) {
     return built<T, F>(detail::parameters<F, true, Key...>(), true, std::move(key)...);
   }
 
-  /// A keyed modifiable for the program to write.
+  /// Keyed allocation of a modifiable that the program writes.
   template <class T, class Same = std::equal_to<>, class... Key>
   Mod<T, Same> cell(Key... key);
 
   // --- For structures
 
-  /// Repeats something of last time: moves the first edge E of `structure` for which
-  /// `matches(const E&)` into this execution and returns it; null if there is none. The search goes
-  /// on where the last one ended: what is repeated in order is found at once. It looks at `most`
-  /// edges: without that bound, a call that repeats n things in another order takes O(n^2).
+  /// Repeats an edge of the last execution: moves the first edge E of `structure` for which
+  /// `matches(const E&)` into this execution and returns it; null if there is none. The search
+  /// starts where the last one ended, so edges repeated in order are found at once. It visits at
+  /// most `most` edges: without that bound, a call that repeats n edges in another order takes
+  /// O(n^2).
   template <class E, class Matches>
   E* recall(std::uint8_t structure, std::uint8_t kind, Matches&& matches,
             std::size_t most = ~std::size_t{0}) {
@@ -111,21 +116,20 @@ class Scope {
     return static_cast<E*>(core_.recall(fits, most));
   }
 
-  /// Records that this call depends on something in `structure`; `E`, and `extra` bytes behind it,
-  /// say on what. `kind` is below 64.
+  /// Records that this call depends on something in `structure`, which `E` and `extra` bytes behind
+  /// it describe. `kind` is below 64.
   template <class E>
   E& observe(std::uint8_t structure, std::uint8_t kind, std::size_t extra = 0) {
     return attach<E>(structure, kind, extra);
   }
-  /// Records that this call did something to `structure`; `E`, and `extra` bytes behind it, say
-  /// what.
+  /// Records an effect of this call on `structure`, which `E` and `extra` bytes behind it describe.
   template <class E>
   E& effect(std::uint8_t structure, std::uint8_t kind, std::size_t extra = 0) {
     return attach<E>(structure, kind, extra);
   }
 
-  /// Runs body(), an operation of a structure: if it throws, the running call fails, even if it
-  /// goes on to catch that. Else it would not depend on what has failed.
+  /// Runs body(), an operation of a structure. If it throws, the running call fails, even if it
+  /// catches the exception: otherwise the call would not depend on the failed operation.
   template <class Body>
   decltype(auto) guarded(Body&& body) {
     return core_.guarded(std::forward<Body>(body));
