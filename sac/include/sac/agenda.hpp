@@ -11,8 +11,8 @@
 //     propagation queue and is discarded when its turn comes, unless it is posted again before.
 // (2) In a first run calls get their time stamps as they run; a call posted during propagation gets
 //     its position between its neighbours at once.
-// (3) Posting a call whose turn is over is an error that names both calls: the posted call must not
-//     come before the posted call that runs, and must not be posted behind the drain.
+// (3) Posting a call whose turn is over is an error that names the poster and the posted call: a
+//     call that comes before the running call of the agenda, or any call posted behind the drain.
 // (4) The key is a function of the label: another key for the same call is an error. So is an
 //     argument that does not equal itself, such as a NaN, since it has no position in an order.
 // (5) Cost of a post: O(1) expected in a first run and when repeated; otherwise O(log of the calls

@@ -1,15 +1,15 @@
 // Pooled memory for calls and edges, addressed by 32-bit handles.
 //
-// One range of address space is reserved per arena, aligned to its own size; memory is committed as
-// it is needed and never moves. A handle counts 8-byte granules from the start of the range; 0 is
-// "nothing". Freed blocks go to a free list of their exact size and are handed out again, last
-// freed first. The alignment makes the handle of an object, and the arena that it lies in, known
-// from its address alone.
+// An arena reserves one range of address space, aligned to its own size; memory is committed when
+// needed and never moves. A handle counts 8-byte granules from the start of the range; 0 is null.
+// Freed blocks go to a free list for their exact size and are reused, last freed first. Because of
+// the alignment, the address of an object alone gives its handle and its arena.
 //
 // Guarantees:
-// (1) A block's address is fixed from allocate() to release().
-// (2) allocate() and release() take O(1) (blocks above 1 KiB: O(log of distinct sizes)).
-// (3) A program that allocates and frees the same sizes over and over keeps its memory flat.
+// (1) The address of a block is fixed from allocate() to release().
+// (2) allocate() and release() take O(1) (blocks above 1 KiB: O(log of the number of distinct
+//     sizes)).
+// (3) The memory of a program that allocates and frees the same sizes over and over does not grow.
 #pragma once
 
 #include <algorithm>
@@ -28,28 +28,29 @@ struct Function;
 /// A 32-bit handle of an object in an arena; 0 is null.
 using Handle = std::uint32_t;
 
+/// The memory of an engine.
 class Arena {
  public:
   static constexpr std::size_t kGranule = 8;
-  /// Address space of an arena: 2^32 handles at the most.
+  /// Address space of an arena: at most 2^32 handles.
   static constexpr std::size_t kReserve = std::size_t{1} << platform::kReserveBits;
   static_assert(kReserve / kGranule <= std::size_t{1} << 32);
 
-  /// What lies at the start of the range, for objects that know nothing but their own address.
+  /// Data at the start of the range, for objects that know only their own address.
   struct Header {
     const Function* const* functions = nullptr;  // by number
     bool ending = false;                         // the engine is being destroyed
     std::uint32_t stamps = 0;                    // given by next_stamp()
   };
 
-  /// Reserves the address range, or where that is limited a smaller one. Throws: std::bad_alloc if
-  /// there is none of 64 MiB.
+  /// Reserves the address range, or a smaller one if address space is limited. Throws:
+  /// std::bad_alloc if 64 MiB are not available.
   Arena();
   ~Arena();
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
 
-  /// `bytes` of memory aligned to 8. Throws: std::bad_alloc. Cost: O(1).
+  /// Allocates `bytes` of memory aligned to 8. Throws: std::bad_alloc. Cost: O(1).
   [[nodiscard]] Handle allocate(std::size_t bytes) {
     const std::size_t granules = granules_for(bytes);
     if (--until_failure_ == 0) fail();
@@ -69,7 +70,7 @@ class Arena {
     return allocate_slowly(granules);
   }
 
-  /// Gives back a block of `bytes`. Requires: allocate(bytes) returned `handle`.
+  /// Frees a block of `bytes`. Requires: allocate(bytes) returned `handle`.
   void release(Handle handle, std::size_t bytes) noexcept {
     const std::size_t granules = granules_for(bytes);
     used_ -= granules;
@@ -92,7 +93,7 @@ class Arena {
   }
   [[nodiscard]] Header& header() const noexcept { return *reinterpret_cast<Header*>(base_); }
 
-  /// The handle of an object that lies in some arena.
+  /// The handle of an object in some arena.
   [[nodiscard]] static Handle locate(const void* object) noexcept {
     return static_cast<Handle>((reinterpret_cast<std::uintptr_t>(object) & (kReserve - 1)) /
                                kGranule);
@@ -100,53 +101,53 @@ class Arena {
   [[nodiscard]] static bool same_arena(const void* a, const void* b) noexcept {
     return (reinterpret_cast<std::uintptr_t>(a) ^ reinterpret_cast<std::uintptr_t>(b)) < kReserve;
   }
-  /// The header of the arena that `object` lies in.
+  /// The header of the arena of `object`.
   [[nodiscard]] static Header& header_of(const void* object) noexcept {
     return *reinterpret_cast<Header*>(reinterpret_cast<std::uintptr_t>(object) & ~(kReserve - 1));
   }
-  /// The object of this handle in the arena that `neighbour` lies in.
+  /// The object with this handle in the arena of `neighbour`.
   template <class T>
   [[nodiscard]] static T* in_arena_of(const void* neighbour, Handle handle) noexcept {
     return reinterpret_cast<T*>((reinterpret_cast<std::uintptr_t>(neighbour) & ~(kReserve - 1)) +
                                 handle * kGranule);
   }
 
-  /// A number for an object that lies in some arena: no other object has it while kMostStamps are
-  /// numbered, nor one of another arena.
+  /// A number for an object in some arena: unique among all arenas, until kMostStamps further
+  /// objects of its arena are numbered.
   [[nodiscard]] static std::uint32_t next_stamp(const void* object) noexcept {
     std::uint32_t& stamps = header_of(object).stamps;
     stamps = stamps % kMostStamps + 1;
     return number_of(object) * (kMostStamps + 1) + stamps;
   }
-  /// Whether next_stamp() of an object in the arena that `object` lies in may have given `stamp`.
+  /// Whether next_stamp() for an object in the arena of `object` may have returned `stamp`.
   [[nodiscard]] static bool is_stamp_of(std::uint32_t stamp, const void* object) noexcept {
     return stamp / (kMostStamps + 1) == number_of(object);
   }
 
-  /// Memory of live blocks.
+  /// Bytes of live blocks.
   [[nodiscard]] std::size_t bytes_used() const noexcept { return used_ * kGranule; }
-  /// Memory taken from the system: live blocks, and freed ones that wait to be used again.
+  /// Bytes taken from the system: live blocks, and freed blocks kept for reuse.
   [[nodiscard]] std::size_t bytes_held() const noexcept { return (next_ - spare_) * kGranule; }
 
-  /// From now on allocate() fails rather than hold more than `bytes`.
+  /// Limits the bytes held: allocate() fails beyond the limit.
   void set_limit(std::size_t bytes) noexcept {
     limit_ = bytes;
     usable_ = std::min(limit_, committed_);
   }
   [[nodiscard]] std::size_t limit() const noexcept { return limit_; }
-  /// The `count`-th allocation from now fails, once; 0: none. For tests.
+  /// Makes the `count`-th allocation from now fail, once; 0: none. For tests.
   void fail_after(std::uint64_t count) noexcept { until_failure_ = count; }
 
-  /// Gives freed memory back to the system, if it takes any, where whole pages of it are free.
-  /// Cost: O(f log f) for f free blocks. Throws: std::bad_alloc, and then changes nothing.
+  /// Returns whole free pages to the system, if it accepts them. Cost: O(f log f) for f free
+  /// blocks. Throws: std::bad_alloc, after which nothing is changed.
   void shrink();
 
   void check_invariants() const;
 
  private:
   static constexpr std::size_t kSmall = 129;  // size classes of up to 128 granules: 1 KiB
-  // Memory never used before is written first, and what is only written the processor does not
-  // fetch by itself: a few cache lines ahead of what is handed out.
+  // New memory is written before it is read, and the processor does not prefetch memory that is
+  // only written. So allocate() prefetches a few cache lines ahead.
   static constexpr Handle kFetchAhead = 512 / kGranule;
 
   struct Run {  // of free granules

@@ -1,20 +1,20 @@
-// What a call is called: names of functions, and hash, order and print of arguments.
+// Labels of calls: names of functions; hash, order and print of arguments.
 //
 // The label of a call is (function, arguments). An argument type needs ==; a hash is found by
 // `hash_value(const T&)` (argument-dependent) or std::hash; order (agendas only) by <=>; print by
 // `print_argument(std::ostream&, const T&, const void* neighbour)` (argument-dependent) or
-// operator<<, else only the type's size is shown.
+// operator<<; otherwise only the size of the type is shown.
 //
-// To compare traces of different runs a label needs a name that is the same in all of them, which
-// neither the hash nor the print of a handle is. label_arguments() gives that name to a LabelSink.
-// An argument's name is the first of these that applies:
-//   (1) what `label_bytes(LabelSink&, const T&)` (argument-dependent) says;
+// To compare traces of different runs, a label needs a name that is the same in all runs. Hashes
+// and prints of handles are not. label_arguments() gives this name to a LabelSink. The name of an
+// argument is the first of these that applies:
+//   (1) the output of `label_bytes(LabelSink&, const T&)` (argument-dependent);
 //   (2) the value of a number, an enumerator or a string;
-//   (3) the object that a pointer points to, which the sink must know by name;
-//   (4) what operator<< prints, with all digits; hence (1) is needed for a type of one's own that
-//       prints a handle or an address;
+//   (3) the object that a pointer points to, whose name the sink must know;
+//   (4) the output of operator<<, with all digits; a type of your own that prints a handle or an
+//       address therefore needs (1);
 //   (5) the names of the elements of a tuple or range;
-//   (6) nothing: the sink is told so.
+//   (6) none: the sink is told so.
 #pragma once
 
 #include <array>
@@ -55,7 +55,7 @@ template <class T>
 concept HashedByStd = requires(const T& value) {
   { std::hash<T>{}(value) } -> std::convertible_to<std::size_t>;
 };
-/// Equal values have equal bytes, and no others.
+/// Types whose values are equal exactly if their bytes are equal.
 template <class T>
 concept HashedByBytes =
     std::is_trivially_copyable_v<T> && std::has_unique_object_representations_v<T>;
@@ -68,7 +68,7 @@ template <class T>
   } else if constexpr (std::is_same_v<T, Agenda*>) {
     return value->number();
   } else if constexpr (std::is_pointer_v<T>) {
-    // By its place in an arena, so that engines with equal traces have equal hashes.
+    // By its offset in an arena, so that engines with equal traces have equal hashes.
     return reinterpret_cast<std::uintptr_t>(value) & (Arena::kReserve - 1);
   } else if constexpr (HashedByStd<T>) {
     return std::hash<T>{}(value);
@@ -85,7 +85,7 @@ template <class T>
   }
 }
 
-/// Whether hashing a T again needs no client code: then its calls do not store their hash.
+/// Whether hashing a T needs no client code: calls with such arguments do not store their hash.
 template <class T>
 inline constexpr bool kCheapHash =
     std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_pointer_v<T>;
@@ -106,7 +106,7 @@ concept PrintsItself = requires(std::ostream& out, const T& value) {
   operator<<(out, value);  // a function, not a member of the stream
 };
 
-/// Pointers that a stream would print as an address.
+/// Whether T is a pointer that a stream would print as an address.
 template <class T>
 inline constexpr bool kPointerToObject =
     std::is_pointer_v<T>&& std::is_convertible_v<T, const void*> && !PrintsItself<T>;
@@ -116,7 +116,8 @@ concept Printable = requires(std::ostream& out, const T& value) {
   out << value;
 };
 
-/// `neighbour`: any object in the engine's arena; pointers into it are printed as @handle.
+/// Prints an argument for people. `neighbour`: any object in the engine's arena; pointers into that
+/// arena are printed as @handle.
 template <class T>
 void print_argument(std::ostream& out, const T& value, const void* neighbour = nullptr) {
   if constexpr (std::is_same_v<T, Agenda*>) {
@@ -136,7 +137,8 @@ void print_argument(std::ostream& out, const T& value, const void* neighbour = n
   }
 }
 
-/// Takes the name of an argument: equal names in equal order for equal arguments of any two runs.
+/// Receives the names of arguments: equal arguments of any two runs give equal names in equal
+/// order.
 class LabelSink {
  public:
   virtual void number(std::uint64_t value) = 0;
@@ -145,10 +147,10 @@ class LabelSink {
   virtual void handle(std::uint32_t handle) = 0;
   /// An object anywhere; null: none.
   virtual void address(const void* object) = 0;
-  /// Text of unknown length: what is printed to print_begin() until print_end().
+  /// Text of unknown length: everything printed to the stream of print_begin() before print_end().
   virtual std::ostream& print_begin() = 0;
   virtual void print_end() = 0;
-  /// The argument has no name; `hash` tells it from others in this run.
+  /// The argument has no name; `hash` distinguishes it from others in this run.
   virtual void nameless(std::uint64_t hash) = 0;
 
  protected:
@@ -160,7 +162,7 @@ void label_bytes(LabelSink& sink, const Mod<T, Same>& mod) {
   sink.handle(mod.head());
 }
 
-// A template, so that agendas need not be known here.
+// A template, since Agenda is incomplete here.
 template <std::same_as<Agenda> A>
 void label_bytes(LabelSink& sink, A* const& agenda) {
   sink.text(agenda->name());
@@ -232,7 +234,7 @@ void print_arguments(std::ostream& out, const std::tuple<Args...>& args,
       args);
 }
 
-/// The arguments' names in all runs.
+/// Gives the names of the arguments, which are the same in all runs, to `sink`.
 template <class... Args>
 void label_arguments(LabelSink& sink, const std::tuple<Args...>& args) {
   std::apply([&](const auto&... a) { (detail::name_argument(sink, a), ...); }, args);
@@ -240,7 +242,7 @@ void label_arguments(LabelSink& sink, const std::tuple<Args...>& args) {
 
 namespace detail {
 
-// The compiler's spelling of F, cut out of the name of this very function.
+// The compiler's spelling of F, cut out of the name of this function.
 template <auto F>
 [[nodiscard]] constexpr std::string_view spelled() {
   std::string_view s = __PRETTY_FUNCTION__;
@@ -311,8 +313,8 @@ template <auto F>
   }
 }
 
-/// What tells functions of one name apart, and one function with arguments of different types, in
-/// one order for every run of a build. Args: the std::tuple of the arguments.
+/// A text that distinguishes functions of one name, and one function with different argument types;
+/// its order is the same in every run of a build. Args: the std::tuple of the arguments.
 template <auto F, class Args>
 [[nodiscard]] constexpr std::string_view identity() {
   return __PRETTY_FUNCTION__;

@@ -1,10 +1,10 @@
-// Plain execution: the same program text, run without recording anything.
+// Plain execution: runs the same program text without a trace.
 //
 // A program written as `template <class S> void operator()(S& s, ...)` runs on sac::Scope (traced)
-// or on sac::PlainScope (not traced); the compiler chooses. Modifiables are plain memory here, a
-// call is a function call, a tail call a loop, and keyed allocation takes the next free bytes.
+// or on sac::PlainScope (not traced); the compiler chooses. Here modifiables are plain memory, a
+// call is a function call, a tail call is a loop, and keyed allocation takes the next free bytes.
 //
-// Nothing is freed before the scope is: it is one run.
+// All memory is freed with the scope, which is meant for one run.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ namespace sac {
 template <class T, class Same>
 class PlainMod;
 
-/// A modifiable of a plain run, as a member of an object. Neither copied nor moved.
+/// A modifiable of a plain run, as a member of an object. It cannot be copied or moved.
 template <class T, class Same = std::equal_to<>>
 class PlainCell {
  public:
@@ -70,7 +70,7 @@ class PlainScope {
     for (auto it = owned_.rbegin(); it != owned_.rend(); ++it) it->destroy(it->object);
   }
 
-  /// Throws: UsageError if the modifiable has no value yet.
+  /// Reads a modifiable. Throws: UsageError if it has no value yet.
   template <class T, class Same>
   const T& read(PlainMod<T, Same> mod) {
     if (!mod.place().has_value()) throw UsageError("read of a modifiable that nobody has written");
@@ -108,7 +108,7 @@ class PlainScope {
     set_tail([](PlainScope& s, const Args&... stored) { F(s, stored...); }, std::move(args)...);
   }
 
-  /// A default-constructed T.
+  /// /// Makes a default-constructed T.
   template <class T, class... Key>
   T& make(Key...) {
     T& object = *::new (allocate(sizeof(T), alignof(T))) T();
@@ -117,7 +117,7 @@ class PlainScope {
     }
     return object;
   }
-  /// A T that F(scope, object, key...) has worked on.
+  /// Makes a T and fills it by F(scope, object, key...).
   template <class T, auto F, class... Key>
   T& make(Key... key) {
     require_no_tail();
@@ -126,7 +126,7 @@ class PlainScope {
     run_tails();
     return object;
   }
-  /// A T that F(scope, object, key...) works on when the running function is done.
+  /// Makes a T; F(scope, object, key...) fills it after the running function.
   template <class T, auto F, class... Key>
   T& tail_make(Key... key) {
     T& object = make<T>();
@@ -145,7 +145,7 @@ class PlainScope {
     return *static_cast<T*>(environment_);
   }
 
-  /// The client's side, as that of sac::Engine.
+  /// The functions of sac::Engine for clients.
   template <class T, class Same = std::equal_to<>>
   PlainMod<T, Same> input(T value) {
     const PlainMod<T, Same> mod = cell<T, Same>();

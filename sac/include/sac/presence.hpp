@@ -1,9 +1,9 @@
-// A presence: a thing is there while some call produces it, from its earliest producer on.
+// A presence: a thing exists while some call produces it, from its earliest producer on.
 //
-// For structures whose effects say "this is there": members of a set, nodes of a graph. Several
-// calls may produce one thing; a call sees it if one before it does. So all that counts is the
-// earliest producer, the *birth*, and when it changes only the calls between the old birth and the
-// new one see something else: the Window.
+// For structures whose effects mean that a thing exists: members of a set, nodes of a graph.
+// Several calls may produce one thing; a call sees it if a producer precedes the call. So only the
+// earliest producer, the *birth*, matters. When it changes, only the calls between the old birth
+// and the new one see a difference: the Window.
 //
 //   struct Members : sac::Structure {                       // presences_(engine), id_
 //     void add(sac::Scope& s, Thing& thing) {
@@ -20,9 +20,9 @@
 //     ...                       // tell: invalidates the observers of thing that are in the window
 //   };
 //
-// What a call produces itself it does not see: it knows. Calls are asked about in their own name; a
-// structure whose calls produce things and then have children must hide from these what has not
-// been repeated yet.
+// A call does not see a thing by its own production. Queries are made in the name of a call; a
+// structure whose calls produce things and then have children must hide from the children the
+// things that the call has not repeated yet.
 #pragma once
 
 #include <optional>
@@ -32,16 +32,17 @@
 
 namespace sac {
 
-/// The effect of producing something; a structure derives its own edge from it, to say what.
+/// The effect of producing a thing; a structure derives its own edge from it, which names the
+/// thing.
 struct ProducerEdge : Edge {
-  Handle call = 0;  // who produces
+  Handle call = 0;  // the producer
   Handle next = 0;  // another producer of the same thing
 };
 
-/// What a structure keeps for each thing. Eight bytes; all zero: nobody produces it.
+/// The record that a structure keeps for each thing. Eight bytes; all zero: no call produces it.
 class Presence {
  public:
-  /// Whether somebody produces it.
+  /// Whether some call produces it.
   [[nodiscard]] bool there() const noexcept { return birth_ != 0; }
   /// The earliest producer; 0 if there is none.
   [[nodiscard]] Handle birth() const noexcept { return birth_; }
@@ -52,7 +53,7 @@ class Presence {
   Handle birth_ = 0;
 };
 
-/// The calls behind `after`, up to and with `last` (null: all behind).
+/// The calls behind `after`, up to and including `last` (null: all calls behind).
 struct Window {
   const Call* after;
   const Call* last;
@@ -62,7 +63,7 @@ struct Window {
   }
 };
 
-/// The presences of an engine's things.
+/// The operations on the presences of an engine.
 class Presences {
  public:
   explicit Presences(Engine& engine) noexcept : engine_(engine) {}
@@ -73,15 +74,15 @@ class Presences {
     return engine_.appending() || engine_.precedes(engine_.call(p.birth_), call);
   }
 
-  /// `call` produces the thing: `edge` is its fresh effect. Returns who sees the thing now and did
-  /// not before; nothing if that is nobody. Cost: O(1).
+  /// Records that `call` produces the thing: `edge` is its new effect. Returns the calls that see
+  /// the thing now and did not before; nothing if there are none. Cost: O(1).
   [[nodiscard]] std::optional<Window> produced(Presence& p, ProducerEdge& edge,
                                                const Call& call) noexcept;
-  /// The effect is taken back. Returns who saw the thing and does no longer.
+  /// Records that the effect is undone. Returns the calls that saw the thing and no longer do.
   /// Requires: produced(p, edge, ...) before. Cost: O(producers).
   [[nodiscard]] std::optional<Window> retracted(Presence& p, ProducerEdge& edge) noexcept;
 
-  /// Throws InvariantError if p's birth is not its earliest producer. Cost: O(producers).
+  /// Throws: InvariantError if p's birth is not its earliest producer. Cost: O(producers).
   void check_invariants(const Presence& p) const;
 
  private:
@@ -103,7 +104,7 @@ inline std::optional<Window> Presences::produced(Presence& p, ProducerEdge& edge
       old == 0 || (!engine_.appending() && engine_.precedes(call, engine_.call(old)));
   if (!earlier) return std::nullopt;
   p.birth_ = edge.call;
-  if (engine_.appending()) return std::nullopt;  // nobody is behind
+  if (engine_.appending()) return std::nullopt;  // no call is behind
   return Window{&call, old == 0 ? nullptr : &engine_.call(old)};
 }
 

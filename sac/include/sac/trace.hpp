@@ -4,12 +4,12 @@
 // the calls whose stamps lie inside. A leaf has no end stamp: its interval is itself. Calls made
 // by tail share the end stamp of the call that they continue.
 //
-// Everything a call did or saw is an edge in its list, in the order of execution. An edge belongs
-// to a `Structure` (structure.hpp), which knows how to take it back; the engine keeps the lists.
+// Every effect and observation of a call is an edge in its list, in the order of execution. An edge
+// belongs to a `Structure` (structure.hpp), which can undo it; the engine keeps the lists.
 //
-// A call in memory is its head, 32 bytes, then what its function asks for and others do not pay
-// for: the slot of a posted call, the result, the arguments, the keyed object, the hash if client
-// code computes it.
+// A call in memory is its head, 32 bytes, followed by the parts that its function needs: the slot
+// of a posted call, the result, the arguments, the keyed object, and the hash if client code
+// computes it.
 #pragma once
 
 #include <compare>
@@ -27,25 +27,25 @@ namespace sac {
 class Scope;
 struct Call;
 
-/// What the engine knows of a traced function; one constant object per function and signature.
-/// `arguments` is the tuple that a call keeps.
+/// The description of a traced function for the engine; one constant object per function and
+/// signature. `arguments` is the tuple that a call keeps.
 struct Function {
-  std::string_view name;            // for people; others may have it, too
-  std::string_view identity = {};   // all that the compiler says of it; empty unless posted
-  std::uint32_t frame_bytes = 0;    // the call with all that lies behind it
-  std::uint32_t object_offset = 0;  // of the keyed object; 0: there is none
-  bool posted = false;              // runs from an agenda
-  bool has_result = false;          // a ResultHead lies behind the head
+  std::string_view name;                     // for people; not unique
+  std::string_view identity = {};            // the compiler's full name; empty unless posted
+  std::uint32_t frame_bytes = 0;             // of the call with everything behind its head
+  std::uint32_t object_offset = 0;           // of the keyed object; 0: none
+  bool posted = false;                       // runs from an agenda
+  bool has_result = false;                   // a ResultHead lies behind the head
   void (*execute)(Scope&, Call&) = nullptr;  // null: a keyed object without a body
-  void (*destroy)(Call&) = nullptr;          // null where nothing needs destroying
+  void (*destroy)(Call&) = nullptr;          // null: nothing needs destroying
   bool (*equal)(const Call&, const void* arguments) = nullptr;
   const void* (*arguments)(const Call&) = nullptr;
   std::strong_ordering (*compare)(const Call&, const Call&) = nullptr;  // null unless posted
   std::uint32_t (*hash)(const Call&) noexcept = nullptr;
   void (*print)(const Call&, std::ostream&) = nullptr;         // the arguments, for people
-  void (*label)(const Call&, LabelSink&) = nullptr;            // the arguments' names in all runs
-  void (*print_result)(const Call&, std::ostream&) = nullptr;  // null unless there is one
-  void (*label_result)(const Call&, LabelSink&) = nullptr;     // null unless there is one
+  void (*label)(const Call&, LabelSink&) = nullptr;            // names of the arguments in all runs
+  void (*print_result)(const Call&, std::ostream&) = nullptr;  // null: no result
+  void (*label_result)(const Call&, LabelSink&) = nullptr;     // null: no result
 };
 
 /// The order of posted functions whose calls have equal keys.
@@ -53,9 +53,9 @@ struct Function {
   return a.name != b.name ? a.name <=> b.name : a.identity <=> b.identity;
 }
 
-/// Where a call is in its life (docs/propagate.md has the diagram).
+/// The state of a call (docs/propagate.md has the diagram).
 enum class Life : std::uint8_t {
-  waiting,  // has no place yet: it waits on an agenda, or it is a tail call to be run
+  waiting,  // not placed: it waits on an agenda, or is a tail call to be run
   placed,   // in the trace
   running,  // in the trace, and its body runs
   dead      // has left the trace; freed when the propagation ends
@@ -73,16 +73,17 @@ struct Call : TimeNode {
   std::uint16_t function_number = 0;
   Life life : 2 = Life::placed;
   Validity validity : 2 = Validity::valid;
-  std::uint8_t round : 1 = 0;   // changes with each execution; edges of another are of last time
+  std::uint8_t round : 1 =
+      0;  // changes with each execution; edges of the other round are of the last one
   bool posted : 1 = false;      // runs from an agenda; a Slot lies behind the head
   std::uint8_t work_queue = 0;  // of a posted call: the number of its agenda as a structure
   Handle end = 0;               // end stamp; 0: a leaf
   union {
-    Handle edges = 0;              // what it did and saw, oldest first
+    Handle edges = 0;              // effects and observations, oldest first
     Handle next_waiting;           // of a posted call that waits for another drain
-    std::uint32_t place_in_class;  // of one that waits for the first
+    std::uint32_t place_in_class;  // of a posted call that waits for the first drain
   };
-  std::uint32_t queue = 0;  // 1 + position in the propagation queue; 0: not there
+  std::uint32_t queue = 0;  // 1 + position in the propagation queue; 0: not in it
 
   [[nodiscard]] bool running() const noexcept { return life == Life::running; }
   [[nodiscard]] bool waiting() const noexcept { return life == Life::waiting; }
@@ -95,7 +96,7 @@ struct Call : TimeNode {
 };
 static_assert(sizeof(Call) == 32 && alignof(Call) == 4);
 
-/// Behind the head of a posted call: where it stands on its agenda, and who asks for it.
+/// Behind the head of a posted call: its position on its agenda, and its posts.
 struct Slot {
   std::uint64_t order = 0;
   std::uint32_t rank = 0;
@@ -108,9 +109,9 @@ struct Slot {
 };
 static_assert(sizeof(Slot) == 16);
 
-/// Behind the head of a call whose function returns something.
+/// Behind the head of a call whose function returns a value.
 struct ResultHead {
-  Handle caller = 0;  // who depends on the result
+  Handle caller = 0;  // the call that depends on the result
   [[nodiscard]] static ResultHead& of(Call& call) noexcept {
     return *reinterpret_cast<ResultHead*>(&call + 1);
   }
@@ -120,14 +121,14 @@ struct ResultHead {
 struct Edge {
   Handle next = 0;  // next edge of the same call
   std::uint8_t structure = 0;
-  std::uint8_t kind : 6 = 0;    // the structure's own
-  std::uint8_t behind : 1 = 0;  // the call had had children when it was made or repeated
-  std::uint8_t round : 1 = 0;   // the call's when it was made or repeated
+  std::uint8_t kind : 6 = 0;    // meaning defined by the structure
+  std::uint8_t behind : 1 = 0;  // made or repeated after the call had children
+  std::uint8_t round : 1 = 0;   // the call's round when it was made or repeated
   std::uint16_t granules = 0;   // its size
 };
 static_assert(sizeof(Edge) == 8);
 
-/// Whether `call` runs, did `edge` last time, and has not repeated it yet.
+/// Whether `call` runs, and `edge` is of its last execution and not yet repeated.
 [[nodiscard]] inline bool unrepeated(const Call& call, const Edge& edge) noexcept {
   return call.running() && edge.round != call.round;
 }

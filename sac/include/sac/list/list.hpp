@@ -1,13 +1,13 @@
-// Lists of elements with ids: what a Sequence is to a program, and what the operations on lists
-// (list_operations.hpp, list_reduce.hpp, list_sort.hpp) take and give.
+// Lists of elements with ids: the form in which programs see a Sequence, and the arguments and
+// results of the operations on lists (list/operations.hpp, list/reduce.hpp, list/sort.hpp).
 //
-// A list is its header: the node before the first. The links are modifiables. What a node holds, an
-// element, is fixed: an element that gets another value gets another node. So a pointer to a node
-// stands for id and value as the key of a call.
+// A list is given by its header, the node before the first. The links are modifiables. The content
+// of a node, an element, is fixed: an element that gets another value gets another node. So as the
+// key of a call, a pointer to a node stands for id and value.
 //
-// An element keeps its id from the sequence through all operations; the ids of a list are all
-// different. Operations that divide lists at random flip their coins with the id [Aca05, §8.1]: not
-// with the place, which insertions move, nor with addresses, which differ from run to run.
+// An element keeps its id from the sequence through all operations; the ids in a list are distinct.
+// Operations that divide lists at random flip their coins by the id [Aca05, §8.1]: not by the
+// position, which insertions change, nor by addresses, which differ between runs.
 //
 //   for (const auto& e : list.view(engine)) use(e.id(), e.value());      // from outside
 //   for (auto* e = s.read(list.header()->next); e; e = s.read(e->next))  // in a traced function
@@ -30,7 +30,7 @@
 
 namespace sac {
 
-/// Names an element of a sequence; 0 names none.
+/// The id of an element of a sequence; 0 is none.
 struct ElementId {
   std::uint64_t value = 0;
   friend auto operator<=>(const ElementId&, const ElementId&) = default;
@@ -52,12 +52,13 @@ class Element {
   ~Element() { drop(); }
 
   [[nodiscard]] bool holds() const noexcept { return id_.value != 0; }
-  /// 0: it holds nothing.
+  /// The id; 0 if it holds nothing.
   [[nodiscard]] ElementId id() const noexcept { return id_; }
-  /// Requires: holds().
+  /// The value. Requires: holds().
   [[nodiscard]] const T& value() const noexcept { return value_; }
 
-  /// Requires: id is not 0. Throws: what making a T throws; then the element holds nothing.
+  /// Stores an id and a value. Requires: id is not 0. Throws: exceptions of T's constructor; the
+  /// element then holds nothing.
   template <class Value>
   void hold(ElementId id, Value&& value) {
     drop();
@@ -132,21 +133,21 @@ class ListView {
   const Node& header_;
 };
 
-/// A list, by its header: 8 bytes, copied freely; an argument of calls and a value of modifiables.
-/// It is good while the sequence or the call that made it lives.
+/// A list, given by its header: 8 bytes, cheap to copy; it can be an argument of calls and a value
+/// of modifiables. It is valid while the sequence or the call that made it exists.
 template <class T, class S = Scope>
 class List {
  public:
   using Value = T;
   using Node = ListNode<T, S>;
 
-  /// No list.
+  /// Null: no list.
   List() = default;
   explicit List(const Node& header) noexcept : header_(&header) {}
 
   [[nodiscard]] const Node* header() const noexcept { return header_; }
   explicit operator bool() const noexcept { return header_ != nullptr; }
-  /// The elements, for the host while it does not run. Requires: a list.
+  /// The elements, read from outside while the host does not run. Requires: the list is not null.
   template <class Host>
   [[nodiscard]] ListView<Host, Node> view(Host& host) const {
     return {host, *header_};
@@ -163,24 +164,24 @@ class List {
   const Node* header_ = nullptr;
 };
 
-// --- What the operations share ---------------------------------------------------------------
+// --- Shared by the operations ----------------------------------------------------------------
 
 namespace detail {
 
-/// How often the coin of an element fell on heads in a row: k with probability 1/2^(k+1). A
-/// header's always does.
+/// The number of heads in a row of the coin of an element: k with probability 1/2^(k+1); for a
+/// header, always heads.
 template <class T>
 [[nodiscard]] int heads(const Element<T>& e) noexcept {
   return e.holds() ? std::countr_zero(mix(e.id().value)) : 1000;
 }
 
-/// Whether f sees the value of an element and nothing else: then its result is fixed as well.
+/// Whether f takes only the value of an element: its result is then fixed as well.
 template <auto f, class T>
 inline constexpr bool kOfValueAlone = requires(const T& value) {
   f(value);
 };
 
-/// f of an element: f(value), f(scope, value) or f(scope, id, value).
+/// Applies f to an element: f(value), f(scope, value) or f(scope, id, value).
 template <auto f, class S, class T>
 decltype(auto) apply(S& s, const Element<T>& e) {
   if constexpr (kOfValueAlone<f, T>) {
@@ -192,7 +193,7 @@ decltype(auto) apply(S& s, const Element<T>& e) {
   }
 }
 
-/// op of two values: op(a, b) or op(scope, a, b).
+/// Applies op to two values: op(a, b) or op(scope, a, b).
 template <auto op, class S, class A, class B>
 decltype(auto) apply_two(S& s, const A& a, const B& b) {
   if constexpr (requires { op(a, b); }) {
@@ -210,8 +211,8 @@ struct FixedText {
   }
 };
 
-// `operation f`, composed by the compiler: the name of the operation with these functions. As
-// compilers spell template arguments differently, these are left out.
+// `operation f`: the name of the operation with these functions, composed at compile time. It omits
+// template arguments, which compilers spell differently.
 template <FixedText Operation, auto... f>
 struct OperationName {
   template <auto g>

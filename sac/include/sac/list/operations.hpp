@@ -3,21 +3,22 @@
 //   auto images = sac::map<image>(s, sac::filter<is_kept>(s, list));
 //
 // f and p are functions without state, of (value), (scope, value) or (scope, id, value). They may
-// read and write modifiables and make child calls; not tail calls. What an operation gives is
-// complete when it returns, and is up to date after every propagation.
+// read and write modifiables and make child calls, but no tail calls. The result of an operation is
+// complete when it returns, and up to date after every propagation.
 //
-// Cost, in calls. From scratch: one an element; map by an f that takes a scope: two. An edit makes
-// the call before its place run again, and that of the element new or go; a new value does both:
-//   for_each, map, reverse   2 executed at most, 1 created, 1 discarded
-//   map in a scope           3 executed at most, 2 created, 2 discarded
+// Cost, in calls. From scratch: one for each element; map with an f that takes a scope: two. An
+// edit makes the call before its position run again, and creates or discards that of the element;
+// setting a value does both:
+//   for_each, map, reverse   at most 2 executed, 1 created, 1 discarded
+//   map in a scope           at most 3 executed, 2 created, 2 discarded
 //   filter                   as map, and one created and discarded for each element passed over
-//                            behind a kept one that comes or goes: O(1) expected if a constant part
-//                            is kept
+//                            behind a kept element that is inserted or erased: O(1) expected if a
+//                            constant fraction is kept
 // When a modifiable changes that f reads through its scope, the calls that have read it run again.
 //
-// Labels. The calls of an operation are named by it, its functions, and the nodes of its list: `map
-// image`. The same operation on the same list twice makes calls of equal labels; use the result of
-// the first.
+// Labels. The label of a call has the operation, its functions, and the nodes of its list: `map
+// image`. The same operation on the same list twice makes calls with equal labels; use the result
+// of the first.
 #pragma once
 
 #include <string_view>
@@ -45,8 +46,8 @@ struct ForEach {
 
 // --- map -------------------------------------------------------------------------------------
 
-// The image of a node, keyed by it, and those behind. Its value is a function of the key: once is
-// enough.
+// Makes the image of a node, keyed by the node, and those behind. Its value is a function of the
+// key, so it is computed once.
 template <auto f>
 struct Map {
   static constexpr std::string_view kName = kOperationName<"map", f>;
@@ -59,8 +60,8 @@ struct Map {
   }
 };
 
-// Where f takes a scope, the image of an element may change while its node does not: a node of the
-// result is keyed by what it holds, and linked by another call.
+// If f takes a scope, the image of an element may change while its node does not: a node of the
+// result is keyed by its content, and another call links it.
 template <auto f>
 struct Image {
   static constexpr std::string_view kName = kOperationName<"image", f>;
@@ -98,7 +99,7 @@ struct MapInScope {
 template <auto p>
 struct FilterBehind;
 
-// The copy of a node that is kept, and those behind.
+// Makes the copy of a kept node, and those behind.
 template <auto p>
 struct Filter {
   static constexpr std::string_view kName = kOperationName<"filter", p>;
@@ -109,7 +110,7 @@ struct Filter {
   }
 };
 
-// Links `kept` to the copy of the first node behind `at` that is kept.
+// Links `kept` to the copy of the first kept node behind `at`.
 template <auto p>
 struct FilterBehind {
   static constexpr std::string_view kName = kOperationName<"filter_behind", p>;
@@ -128,8 +129,8 @@ struct FilterBehind {
 
 // --- reverse ---------------------------------------------------------------------------------
 
-// The copy of a node; the caller links it to the node before, and the last one is the first of
-// `header`.
+// Makes the copy of a node; the caller links it to the node before, and the last copy is the first
+// of `header`.
 struct ReverseNode {
   static constexpr std::string_view kName = "reverse_node";
   template <class S, class T>
@@ -162,8 +163,8 @@ void for_each(S& s, List<T, S> list) {
   s.template call<detail::ForEach<f>{}>(list.header());
 }
 
-/// The list of f of every element. If f takes a scope, what it returns must be hashable, as an
-/// argument. An f of the value alone is called once for an element.
+/// The list of the results of f for every element. If f takes a scope, its result must be hashable,
+/// as an argument. An f of the value alone is called once for each element.
 template <auto f, class S, class T>
 [[nodiscard]] auto map(S& s, List<T, S> list) {
   using U = std::decay_t<decltype(detail::apply<f>(s, *list.header()))>;
@@ -175,13 +176,13 @@ template <auto f, class S, class T>
   }
 }
 
-/// The list of those elements for which p holds.
+/// The list of the elements for which p holds.
 template <auto p, class S, class T>
 [[nodiscard]] List<T, S> filter(S& s, List<T, S> list) {
   return List<T, S>(s.template make<ListNode<T, S>, detail::Filter<p>{}>(list.header()));
 }
 
-/// The list backwards.
+/// The reversed list.
 template <class S, class T>
 [[nodiscard]] List<T, S> reverse(S& s, List<T, S> list) {
   return List<T, S>(s.template make<ListNode<T, S>, detail::Reverse{}>(list.header()));

@@ -1,19 +1,19 @@
-// One value of a list, by random contraction: reduce, map_reduce, size, find_if; fetch.
+// Computes one value from a list, by random contraction: reduce, map_reduce, size, find_if; fetch.
 //
-// A level above the list, there is a group for every element of height 1 or more, which is one in
-// eight; it stands for that element and those of height 0 behind it, up to the next group. Groups
-// are contracted in the same way, with heights less by one, until one group is left. Heights come
-// from the elements' ids, so an edit changes O(1) groups a level, expected, and O(log n) in all;
-// where a group's value comes out as before, that is the end of it. A group is an object keyed by
-// its first member.
+// On the level above the list, there is a group for every element of height 1 or more, which is one
+// in eight; it represents that element and those of height 0 behind it, up to the next group.
+// Groups are contracted in the same way, with heights reduced by one, until one group is left.
+// Heights come from the ids of elements, so an edit changes O(1) expected groups on each level, and
+// O(log n) in all; propagation stops at a group whose value does not change. A group is an object
+// keyed by its first member.
 //
-// From scratch O(n). An insertion, an erasure or another value O(log n) expected, and functions are
-// called for the eight members, expected, of each group. Source: [Aca05, §8.2.3], with groups of 8
-// in the mean instead of 2.
+// From scratch O(n). An insertion, an erasure or another value costs O(log n) expected, and calls
+// the functions for the members of each group, eight expected. Source: [Aca05, §8.2.3], with groups
+// of 8 on average instead of 2.
 //
-// Functions may take a scope as their first argument (list_operations.hpp), and read through it.
-// The result is a modifiable that a child of the caller has written: for the calls behind. What the
-// caller itself wants to know it fetches, and runs again when that changes:
+// Functions may take a scope as their first argument (list/operations.hpp), and read through it.
+// The result is a modifiable that a child of the caller has written, so only later calls can read
+// it. The caller itself can fetch the value, and runs again when it changes:
 //
 //   s.write(total, sac::fetch(s, sac::reduce<std::plus<>{}>(s, list, 0)));
 #pragma once
@@ -32,7 +32,7 @@ namespace sac {
 
 namespace detail {
 
-// A Rule says what is computed:
+// A Rule defines the computation:
 //   using Value; static constexpr std::string_view kName, kGroupName, kLevelName;
 //   static Value of(S&, const ListNode<T, S>&);
 //   static Value join(S&, const Value&, const Value&);  // associative
@@ -55,10 +55,10 @@ struct Group {
   typename S::template CellType<State> state;
 };
 
-// Log of the mean number of members of a group.
+// Logarithm of the mean number of members of a group.
 inline constexpr int kHeightBits = 3;
 
-// The number of levels above its own that a member reaches; a header reaches all.
+// The number of levels above its own that a member reaches; a header reaches all of them.
 template <class T, class S>
 [[nodiscard]] int height_of(const ListNode<T, S>& node) noexcept {
   return heads(node) / kHeightBits;
@@ -210,14 +210,14 @@ struct Fetch {
 
 }  // namespace detail
 
-/// The value of a modifiable that a child of this call has written, which read() cannot give: the
-/// effects of children lie behind their parent. The caller depends on it.
+/// The value of a modifiable that a child of this call has written. read() cannot return it, since
+/// the effects of children come after their parent. The caller depends on it.
 template <class S, class M>
 [[nodiscard]] decltype(auto) fetch(S& s, M mod) {
   return s.template call<detail::Fetch{}>(mod);
 }
 
-/// A modifiable with op(init, op(x1, op(x2, ...))), brackets anywhere; `init` if the list is empty.
+/// A modifiable with op(init, op(x1, op(x2, ...))), with any brackets; `init` if the list is empty.
 /// The elements are converted to the type of `init`, which must be hashable, as an argument.
 /// Requires: op is associative.
 template <auto op, class S, class T, class V>
@@ -225,7 +225,7 @@ template <auto op, class S, class T, class V>
   return detail::reduce_by<detail::ReduceRule<op, V>>(s, list, std::move(init));
 }
 
-/// As reduce(), of f of the elements instead of these.
+/// As reduce(), of the results of f for the elements.
 template <auto f, auto op, class S, class T, class V>
 [[nodiscard]] auto map_reduce(S& s, List<T, S> list, V init) {
   return detail::reduce_by<detail::MapReduceRule<f, op, V>>(s, list, std::move(init));

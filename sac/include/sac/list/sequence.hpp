@@ -1,4 +1,4 @@
-// A list of the client: edited anywhere from outside, worked on by traced functions.
+// A list that the client edits at any position from outside, and that traced functions process.
 //
 //   sac::Engine e;
 //   sac::Sequence<int> numbers(e, {3, 1, 2});
@@ -10,15 +10,16 @@
 //   for (const auto& element : e.get(result).view(e)) ...
 //
 // Guarantees:
-// (1) An element has an id for life, which set() does not change. Ids count up; none comes twice.
-// (2) An edit is made or, if it throws, leaves everything as before. Edits are undone by
-//     Engine::undo_edits, and when a propagation fails.
+// (1) An element has one id as long as it exists, which set() does not change. Ids count up and are
+//     never reused.
+// (2) An edit that throws leaves everything as before. Engine::undo_edits and failed propagations
+//     undo edits.
 // (3) An edit takes O(1) expected and invalidates the calls that have read one link.
-// (4) What an erased element held is destroyed at the end of the next propagation; from then on
-//     memory is used again.
+// (4) The value of an erased element is destroyed at the end of the next propagation, and its
+//     memory is then reused.
 //
-// The same on a PlainScope, for programs that are generic over the scope; there edits come before
-// the run, and nothing is freed.
+// A Sequence on a PlainScope is for programs that are generic over the scope; there all edits
+// precede the run, and nothing is freed.
 #pragma once
 
 #include <bit>
@@ -41,8 +42,8 @@ namespace sac {
 
 namespace detail {
 
-// A hash table of entries by id, chained through the entries: taking out and putting back cannot
-// fail.
+// A hash table of entries by id, chained through the entries, so that erasing and reinserting
+// cannot fail.
 template <class Entry>
 class EntryTable {
  public:
@@ -80,21 +81,22 @@ class EntryTable {
 
 }  // namespace detail
 
-/// Requires: T is copied without a trace of it; alignment 8 at most. Its edits are propagated or
-/// undone before it ends; its nodes live as long as the host.
+/// A list of T that can be edited. Requires: copies of T are equal to their original; alignment of
+/// T at most 8. Edits must be propagated or undone before the sequence is destroyed; its nodes live
+/// as long as the host.
 template <class T, class Host = Engine>
 class Sequence {
  public:
   using S = ScopeOf<Host>;
   using Node = ListNode<T, S>;
 
-  /// An element as it is saved.
+  /// An element, for saving and loading a sequence.
   struct Saved {
     ElementId id;
     T value;
   };
 
-  /// Throws: UsageError if the engine runs; std::bad_alloc.
+  /// An empty sequence. Throws: UsageError if the engine runs; std::bad_alloc.
   explicit Sequence(Host& host) : host_(host) {
     create([] {});
   }
@@ -103,7 +105,7 @@ class Sequence {
       for (const T& value : values) push_back(value);
     });
   }
-  /// With these values, and ids from 1.
+  /// A sequence of these values, with ids from 1.
   template <std::ranges::input_range Range>
   requires std::convertible_to<std::ranges::range_reference_t<Range>, T> Sequence(Host& host,
                                                                                   Range&& values)
@@ -112,8 +114,8 @@ class Sequence {
       for (auto&& value : values) push_back(std::forward<decltype(value)>(value));
     });
   }
-  /// With these elements; new ones get ids above the greatest. Throws: UsageError if an id is 0 or
-  /// comes twice.
+  /// A sequence of these elements; new elements get ids above the greatest. Throws: UsageError if
+  /// an id is 0 or occurs twice.
   Sequence(Host& host, const std::vector<Saved>& elements) : host_(host) {
     create([&] {
       for (const Saved& saved : elements) {
@@ -132,8 +134,8 @@ class Sequence {
   [[nodiscard]] List<T, S> list() const noexcept { return List<T, S>(*header_); }
 
   // --- Edits -------------------------------------------------------------------------------
-  // Throws, all: UsageError if there is no such element or the engine runs; std::bad_alloc; what
-  // copying a T throws.
+  // All of them throw: UsageError if there is no such element or the engine runs; std::bad_alloc;
+  // exceptions of copying a T.
 
   ElementId push_back(T value) { return insert_new(*header_->before, std::move(value)); }
   ElementId push_front(T value) { return insert_new(*header_, std::move(value)); }
@@ -144,7 +146,7 @@ class Sequence {
     return insert_new(entry(place), std::move(value));
   }
   void erase(ElementId id) { erase_entry(entry(id)); }
-  /// Gives the element another value; one that is the same changes nothing (mod.hpp says what is).
+  /// Sets the value of an element; the same value changes nothing (equality as in mod.hpp).
   void set(ElementId id, T value) {
     Entry& old = entry(id);
     if constexpr (std::equality_comparable<T>) {
@@ -156,21 +158,21 @@ class Sequence {
     });
   }
 
-  // --- Looking at it -----------------------------------------------------------------------
+  // --- Queries -----------------------------------------------------------------------------
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
   [[nodiscard]] bool contains(ElementId id) const noexcept { return table_.find(id) != nullptr; }
-  /// The element's value; good until the element is erased or set. Throws: UsageError.
+  /// The value of an element; valid until the element is erased or set. Throws: UsageError.
   [[nodiscard]] const T& at(ElementId id) const { return entry(id).value(); }
-  /// Neighbours and ends; 0: there is none. Throw: UsageError.
+  /// Neighbours and ends; 0 if there is none. Throws: UsageError.
   [[nodiscard]] ElementId before(ElementId id) const { return entry(id).before->id(); }
   [[nodiscard]] ElementId after(ElementId id) const { return entry(id).after->id(); }
   [[nodiscard]] ElementId first() const noexcept { return header_->after->id(); }
   [[nodiscard]] ElementId last() const noexcept { return header_->before->id(); }
 
   class iterator;
-  /// Nodes, each with id() and value(). An edit invalidates the iterators to what it removes.
+  /// Nodes, each with id() and value(). An edit invalidates the iterators to nodes that it removes.
   [[nodiscard]] iterator begin() const noexcept { return iterator(header_->after); }
   [[nodiscard]] iterator end() const noexcept { return iterator(header_); }
 
@@ -178,8 +180,8 @@ class Sequence {
   void check_invariants() const;
 
  private:
-  // A node, between its neighbours; the header closes the circle. One that is not in use has its
-  // successor in `after`; one that has been erased keeps its neighbours, for undoing.
+  // A node with its neighbours; the header closes the circle. An unused entry has its successor in
+  // `after`; an erased entry keeps its neighbours, for undoing.
   struct Entry : Node {
     Entry* before = this;
     Entry* after = this;
@@ -191,7 +193,7 @@ class Sequence {
     if (Entry* e = table_.find(id)) return *e;
     throw UsageError("sequence: there is no element " + text(id));
   }
-  // What programs see behind `e`.
+  // The node that programs see behind `e`.
   [[nodiscard]] const Node* link_behind(const Entry& e) const noexcept {
     return e.after == header_ ? nullptr : e.after;
   }
@@ -224,7 +226,7 @@ class Sequence {
     return id;
   }
 
-  // An entry that is not in use; it remains the first of those.
+  // An unused entry; it remains the first of them.
   Entry& unused_entry() {
     if (unused_ == nullptr) {
       unused_ = &host_.template make<Entry>();

@@ -1,24 +1,24 @@
-// Sorting a list, stably.
+// Sorts a list, stably.
 //
-// Mergesort. What is merged with what is decided by coins flipped with the elements' ids, as in a
-// skip list: a group of the lowest level begins with an element that has kGroupBits heads in a row,
-// and is sorted at once; a group of the level above begins with a group whose first element has one
-// more, and merges its members, from left to right.
+// Mergesort. Coins flipped by the ids of elements decide what is merged with what, as in a skip
+// list: a group of the lowest level begins with an element that has kGroupBits heads in a row, and
+// is sorted at once; a group of a higher level begins with a group whose first element has one
+// more, and merges its members from left to right.
 //
 // Sorted lists are lists of chunks. A chunk goes from one *boundary* to the next; boundaries are
-// elements with kChunkBits heads in a row, so where a list is cut depends on its elements alone. A
+// elements with kChunkBits heads in a row, so the cuts of a list depend only on its elements. One
 // step of a merge makes the chunk that begins with the later boundary of two chunks and ends at the
-// next boundary of either list. A chunk is an object keyed by its boundary and by what is merged
-// in; the two chunks that it is made of are told to it in a modifiable. Keyed by them, chunks would
-// be new up to the last merge wherever a boundary comes or goes below.
+// next boundary of either list. A chunk is an object keyed by its boundary and by the list that is
+// merged in; a modifiable names the two chunks that it is made of. If chunks were keyed by those,
+// they would be new up to the last merge whenever a boundary below is inserted or erased.
 //
-// Of equal elements that of the left list comes first; that makes it stable. So where a list is cut
-// at a boundary depends on the side that the boundary comes from.
+// Of equal elements the one of the left list comes first, which makes the sort stable. So the cut
+// of a list at a boundary depends on the side that the boundary comes from.
 //
 // From scratch O(n log n). An inserted or deleted element is in one chunk of each of O(log n)
 // lists; the two or three steps that read the chunk run again. With probability 1/k it begins or
 // ends a group of k elements, and the group is merged again: O(log n) calls expected.
-// Source: [Aca05, §8.3.2], there with a pass for each level of dividing, and without chunks.
+// Source: [Aca05, §8.3.2], which has a pass for each level of dividing, and no chunks.
 #pragma once
 
 #include <algorithm>
@@ -35,11 +35,11 @@ namespace sac {
 
 namespace detail {
 
-// Logs of the mean number of elements of a chunk, and of those that are sorted at once.
+// Logarithms of the mean number of elements of a chunk, and of a group that is sorted at once.
 inline constexpr int kChunkBits = 4;
 inline constexpr int kGroupBits = kChunkBits + 2;
 
-// A chunk of a sorted list. Elements are nodes of the list that is sorted.
+// A chunk of a sorted list. Elements are nodes of the unsorted list.
 template <class Node, class S>
 struct SortedChunk {
   struct State {
@@ -59,8 +59,8 @@ struct SortedChunk {
       label_arguments(sink, std::tie(s.left, s.right, s.from_right));
     }
   };
-  const Node* boundary = nullptr;                // null: what comes before the first boundary
-  typename S::template CellType<Source> source;  // where it comes from, unless known from the key
+  const Node* boundary = nullptr;                // null: the chunk before the first boundary
+  typename S::template CellType<Source> source;  // its two chunks, unless known from the key
   typename S::template CellType<State> state;
 };
 
@@ -82,7 +82,7 @@ struct Sorted {
 
 // --- Merging two lists -----------------------------------------------------------------------
 
-// Fills `self` with what two chunks share from its boundary on, and makes the chunks behind.
+// Fills `self` with the elements of two chunks from its boundary on, and makes the chunks behind.
 template <auto less>
 struct MergedChunk {
   static constexpr std::string_view kName = kOperationName<"sort_chunk", less>;
@@ -279,8 +279,8 @@ struct Sort {
 
 }  // namespace detail
 
-/// The list sorted: less(a, b) or less(scope, a, b) says whether a comes before b; equal elements
-/// stay in their order. Requires: less is a strict weak order.
+/// The sorted list: less(a, b) or less(scope, a, b) is true if a comes before b; equal elements
+/// keep their order. Requires: less is a strict weak order.
 template <auto less, class S, class T>
 [[nodiscard]] List<T, S> sort(S& s, List<T, S> list) {
   return List<T, S>(s.template make<ListNode<T, S>, detail::Sort<less>{}>(list.header()));
