@@ -1,7 +1,7 @@
 // 128-bit hashes of labels: equal labels have equal hashes in every run, on every machine.
 //
-// Two lanes of 64 bits take the same words through different mixers; with 10^7 labels a chance
-// collision has probability 10^-24. Not meant to withstand an adversary.
+// Two lanes of 64 bits hash the same words by different mixers; with 10^7 labels a collision has
+// probability 10^-24. The hash does not resist an adversary.
 #pragma once
 
 #include <compare>
@@ -20,7 +20,7 @@ struct LabelHash {
 class LabelHasher {
  public:
   void word(std::uint64_t value) noexcept;
-  /// Length and bytes, so that ("a", "bc") differs from ("ab", "c").
+  /// Hashes length and bytes, so that ("a", "bc") differs from ("ab", "c").
   void text(std::string_view value) noexcept;
   void hash(const LabelHash& value) noexcept;
   [[nodiscard]] LabelHash result() const noexcept { return {high_, low_}; }

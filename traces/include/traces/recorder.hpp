@@ -1,18 +1,18 @@
-// Recording: the calls of a live engine, into a trace file or into memory.
+// Records the calls of a live engine into a trace file or into memory.
 //
-// A call's label is (function, arguments, values read, results of children) [Def 1.4.1]. Its hash
-// is made of their names in the sense of sac/label.hpp, so that equal labels of two runs have equal
-// hashes; what was read is named by the structure that it was read from (sac::Structure::label).
-// Handles and addresses differ from run to run; an object behind one has a name
-// (1) if name() was called for it, or for the object that it lies in: inputs and cells made
+// The label of a call is (function, arguments, values read, results of children) [Def 1.4.1]. Its
+// hash is made of their names in the sense of sac/label.hpp, so that equal labels of two runs have
+// equal hashes; the structure from which a value was read names it (sac::Structure::label). Handles
+// and addresses differ between runs; the object behind one has a name
+// (1) if name() was called for it, or for the object that contains it: inputs and cells made from
 //     outside, objects of the environment;
-// (2) else, if it lies in an object made by keyed allocation: the label of that call, that is the
+// (2) else, if it is in an object made by keyed allocation: the label of that allocation, i.e. the
 //     key, and the offset in the object;
-// (3) else it has none. The hash then depends on the handle and is good within this engine only;
+// (3) else it has none. The hash then depends on the handle and is valid only within this engine;
 //     the call is marked in the file and counted.
 //
-// Two kinds of labels are confused when traces of two runs are compared: functions of one name, and
-// keyed allocations of types of one name with equal keys. Within one trace they are told apart.
+// A comparison of two runs cannot distinguish two functions with one name, nor keyed allocations of
+// types with one name and equal keys. Within one trace they are distinguished.
 //
 // Example
 //   traces::Recorder recorder(engine);
@@ -35,37 +35,41 @@
 
 namespace traces {
 
+/// The result of Recorder::record().
 struct Recording {
   std::uint64_t calls = 0;
   std::uint64_t unnamed = 0;  // calls whose label contains an object without a name
 };
 
+/// Whether to record the edges of calls.
 enum class Edges : bool { no, yes };
 
+/// Records traces of an engine.
 class Recorder {
  public:
-  /// `engine` outlives the recorder.
+  /// Requires: `engine` outlives the recorder.
   explicit Recorder(const sac::Engine& engine) : engine_(engine) {}
 
-  /// From now on `mod` is called `key` in labels; a key is made of numbers and strings.
+  /// Names `mod` in labels by `key`; a key consists of numbers and strings.
   /// Requires: no other object has this key.
   template <class T, class... Key>
   void name(sac::Mod<T> mod, const Key&... key) {
     handles_[mod.head()] = hash_of_key(key...);
   }
-  /// As above, for an object that traced functions take or read by pointer; what lies in it is
-  /// named by it and the place in it.
+  /// Names an object that traced functions take or read by pointer; parts of it are named by its
+  /// name and their offset.
   template <class T, class... Key>
   void name(const T* object, const Key&... key) {
     addresses_[reinterpret_cast<const std::byte*>(object)] = {sizeof(T), hash_of_key(key...)};
   }
 
-  /// Writes the trace as it is. `edges`: with what each call read and did, as text.
+  /// Writes the current trace to a file. `edges`: whether to add the reads and effects of each
+  /// call, as text.
   /// Throws: FileError; UsageError if the engine runs.
-  /// Cost: O(n log n); memory 20 bytes for each keyed allocation, and 24 a call if any call has a
-  /// result.
+  /// Cost: O(n log n); memory 20 bytes for each keyed allocation, and 24 bytes for each call if any
+  /// call has a result.
   Recording record(const std::string& path, Edges edges = Edges::no) const;
-  /// The trace as it is, as load_trace() would read it from a file.
+  /// The current trace, as load_trace() would read it from a file.
   /// Throws: UsageError if the engine runs.  Cost: as record(), without printing arguments.
   [[nodiscard]] Trace trace() const;
 

@@ -1,9 +1,10 @@
-// Stability: what random edits change in a program's trace, beside what propagating them costs.
+// Stability: compares the change of a program's trace under random edits with the cost of
+// propagating them.
 //
-// Theorem 1.4.4 says of a concise and monotone program that the work W of change propagation is
-// within a constant factor of the distance D between the traces of runs from scratch before and
-// after the edit. What D itself is depends on the program: a table of D beside the figures of the
-// input (its size, its spread) shows it.
+// By Theorem 1.4.4, the work W of change propagation in a concise and monotone program is within a
+// constant factor of the distance D between the traces of runs from scratch before and after the
+// edit. D itself depends on the program: a table of D beside the figures of the input (its size,
+// its spread) shows how.
 //
 // Example
 //   class Sorting : public traces::Subject { ... };
@@ -22,6 +23,7 @@
 
 namespace traces {
 
+/// A named number.
 struct Figure {
   std::string name;
   double value = 0;
@@ -35,30 +37,32 @@ class Subject {
   /// Makes the next random edit and propagates it.
   struct Edit {
     sac::Counts work;
-    std::vector<Figure> figures;  // of edit and input, in the same order each time
+    std::vector<Figure> figures;  // of the edit and the input, always in the same order
   };
   virtual Edit edit() = 0;
-  /// The trace of now, with names for what it refers to.
+  /// The current trace, with names for the objects that it refers to.
   [[nodiscard]] virtual Trace trace() const = 0;
-  /// The trace of a run from scratch on the input of now.
+  /// The trace of a run from scratch on the current input.
   [[nodiscard]] virtual Trace fresh_trace() const = 0;
 };
 
+/// The measurements of one edit.
 struct StabilityRow {
   std::vector<Figure> figures;
   std::uint64_t distance = 0;         ///< D: before and after the edit
   std::uint64_t weight_distance = 0;  ///< D by weight (traces/distance.hpp)
-  std::uint64_t heaviest = 0;         ///< weight of a call of only one of the two, the greatest
+  std::uint64_t heaviest = 0;         ///< greatest weight of a call that only one of the two has
   sac::Counts counts;                 ///< of the propagation
-  std::uint64_t drift = 0;  ///< of the propagated trace and a fresh one: 0 if the engine is right
+  std::uint64_t drift =
+      0;  ///< distance of the propagated trace and a fresh one: 0 if the engine is correct
 
-  /// W: calls made, let go and run.
+  /// W: the calls created, discarded and executed.
   [[nodiscard]] std::uint64_t work() const noexcept {
     return counts.created + counts.discarded + counts.executed;
   }
-  /// W by weight: W, and what the bodies that ran said they did inside.
+  /// W by weight: W plus the weights that the executed bodies reported.
   [[nodiscard]] std::uint64_t weight_work() const noexcept { return work() + counts.weight; }
-  /// W / D; where nothing changed, W.
+  /// W / D; W if nothing changed.
   [[nodiscard]] double ratio() const noexcept { return quotient(work(), distance); }
   [[nodiscard]] double weight_ratio() const noexcept {
     return quotient(weight_work(), weight_distance);
@@ -70,16 +74,17 @@ struct StabilityRow {
   }
 };
 
+/// Options of stability().
 struct StabilityOptions {
-  /// Compares with runs from scratch; otherwise propagated traces are taken for theirs, and drift
-  /// is not looked for.
+  /// Whether to compare with runs from scratch; otherwise propagated traces replace theirs, and
+  /// drift is not measured.
   bool fresh = true;
-  /// Called with each row as soon as it is there.
+  /// Called with each row as soon as it is measured.
   std::function<void(const StabilityRow&)> each;
 };
 
-/// A row for each of `edits` edits. Throws: std::invalid_argument for a trace with calls that have
-/// no name, and what the program throws.
+/// Measures `edits` edits and returns a row for each. Throws: std::invalid_argument for a trace
+/// that has calls without a name, and exceptions of the program.
 /// Cost: for each edit two recordings and two distances, and a run from scratch if `fresh`.
 std::vector<StabilityRow> stability(Subject& subject, std::uint64_t edits,
                                     const StabilityOptions& options = {});

@@ -1,5 +1,5 @@
-// A trace in memory: hashes of labels and depths in pre-order. 24 bytes a call; texts stay in the
-// file.
+// A trace in memory: hashes of labels and depths in pre-order, 24 bytes for each call; texts stay
+// in the file.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 namespace traces {
 
+/// The calls of a trace.
 struct Trace {
   struct Call {
     LabelHash hash;
@@ -18,19 +19,20 @@ struct Trace {
     std::uint32_t tail : 1 = 0;    // continues its parent: see CallRecord
   };
   std::vector<Call> calls;             // in pre-order
-  std::vector<std::uint64_t> weights;  // what calls said by Scope::weigh; empty: nothing
+  std::vector<std::uint64_t> weights;  // reported by Scope::weigh; empty: none
   std::vector<std::string> functions;  // names by index; two functions may have one name
-  std::uint64_t unnamed = 0;           // calls whose hash is good within their run only
+  std::uint64_t unnamed = 0;           // calls whose hash is valid only within their run
 
-  /// The weight of the call with this number: 1 for itself, and what it said it did inside.
+  /// The weight of the call with this number: 1 plus the weight that it reported.
   [[nodiscard]] std::uint64_t weight_of(std::uint32_t call) const noexcept {
     return weights.empty() ? 1 : 1 + weights[call];
   }
-  /// Adds a call and what it said; memory for that is taken once a call has said something.
+  /// Adds a call and its reported weight; memory for weights is allocated only after a call has
+  /// reported one.
   void add(const Call& call, std::uint64_t said);
 };
 
-/// Throws: FileError.
+/// Loads a trace from a file. Throws: FileError.
 [[nodiscard]] Trace load_trace(const std::string& path);
 
 /// The labels of some calls, as text, with their edges if they were recorded. `calls`: numbers in
@@ -40,8 +42,8 @@ struct Trace {
 
 /// Calls of two traces paired by label.
 struct Pair {
-  std::uint32_t a;  // number of the call in the one
-  std::uint32_t b;  // and in the other
+  std::uint32_t a;  // number of the call in the first trace
+  std::uint32_t b;  // and in the second
 };
 
 /// Calls that only one of two traces has, by number, ascending.
@@ -54,7 +56,7 @@ struct Difference {
 /// the k-th in the other. In the order of `a`.  Cost: O(n log n).
 [[nodiscard]] std::vector<Pair> common_calls(const Trace& a, const Trace& b);
 
-/// What common_calls() leaves unpaired.  Cost: O(n log n).
+/// The calls that common_calls() leaves unpaired.  Cost: O(n log n).
 [[nodiscard]] Difference difference(const Trace& a, const Trace& b);
 
 }  // namespace traces

@@ -7,24 +7,24 @@
 //   function  'F'  name                        its index is the number of functions before it
 //   call      'C'  flags  depth  function index  hash  arguments  [weight]
 //             flags, 1 byte: bit 0: the label contains an object without a name (recorder.hpp), so
-//             the hash is good within this run only; bit 1: a tail call; bit 2: a weight follows,
-//             what the call said by sac::Scope::weigh; else it is 0. The hash is 16 bytes, high
-//             half first
-//   edge      'X'  hash  what it is
-//             of the call before, in the order of execution, if edges were asked for: what the call
-//             read or did, or its result. The hash is that of what an observation saw, in words of
-//             its label; 0 of other edges
+//             the hash is valid only within this run; bit 1: a tail call; bit 2: a weight follows,
+//             which the call reported by sac::Scope::weigh; else it is 0. The hash is 16 bytes,
+//             high half first
+//   edge      'X'  hash  text
+//             of the call before, in the order of execution, if edges were requested: a read, an
+//             effect, or the result. The hash is that of the observed value, hashed like a part of
+//             a label; 0 for other edges
 //   end       'E'  number of calls  checksum    8 bytes: FNV-1a of all bytes before it
 //
-// `parts` says what a call's hash covers: bit 0 the function, bit 1 its arguments, bit 2 the values
-// it read, bit 3 the results of its children [Def 1.4.1]. This version writes 15: all of them. The
-// texts are for people; only hashes are compared.
+// `parts` lists the parts that a call's hash covers: bit 0 the function, bit 1 its arguments, bit 2
+// the values it read, bit 3 the results of its children [Def 1.4.1]. This version writes 15: all of
+// them. The texts are for people; only hashes are compared.
 //
 // Guarantees:
-// (1) Writing and reading take O(1) memory beside the names of functions.
-// (2) A writer that has not finished leaves no file, and an older one as it was.
-// (3) A reader refuses a file that was cut or changed anywhere, at the latest at its end.
-// (4) A reader allocates for bytes that it has read, never for a count that the file states.
+// (1) Writing and reading take O(1) memory in addition to the names of functions.
+// (2) A writer that has not finished leaves no file; an existing file stays as it was.
+// (3) A reader refuses a truncated or changed file, at the latest at its end.
+// (4) A reader allocates memory only for bytes that it has read, never for a count in the file.
 #pragma once
 
 #include <cstdint>
@@ -40,17 +40,17 @@ namespace traces {
 
 inline constexpr std::uint8_t kVersion = 4;
 inline constexpr std::uint8_t kParts = 15;  // function, arguments, values read, results of children
-/// Longer texts are cut by the writer and refused by the reader.
+/// The writer cuts longer texts; the reader refuses them.
 inline constexpr std::size_t kLongestText = 4096;
 
-/// A file cannot be written, or is not a trace; what() is `FILE:byte N: error[code]: what`.
+/// A file that cannot be written, or is not a trace; what() is `FILE:byte N: error[code]: what`.
 class FileError : public std::runtime_error {
  public:
   /// `code`: io, not_a_trace, version, truncated, corrupt.
   FileError(const std::string& path, std::uint64_t offset, std::string code,
             const std::string& what);
   [[nodiscard]] const std::string& code() const noexcept { return code_; }
-  /// Where in the file, in bytes from its start.
+  /// The position in the file, in bytes from its start.
   [[nodiscard]] std::uint64_t offset() const noexcept { return offset_; }
 
  private:
@@ -58,37 +58,40 @@ class FileError : public std::runtime_error {
   std::uint64_t offset_;
 };
 
+/// An edge in a file.
 struct EdgeRecord {
-  LabelHash hash;    // of what an observation saw; else 0
+  LabelHash hash;    // of the observed value; 0 for other edges
   std::string text;  // as printed
 };
 
+/// A call in a file.
 struct CallRecord {
   std::uint32_t depth = 0;     // at most one more than that of the call before, and < 2^31
   std::uint32_t function = 0;  // index
   LabelHash hash;
-  bool named = true;                   // all in the label has a name that is the same in every run
+  bool named = true;                   // every part of the label has a name for all runs
   std::string arguments;               // as printed
   bool tail = false;                   // a tail call: runs after its parent, as its last child
-  std::vector<EdgeRecord> edges = {};  // none unless they were asked for
-  std::uint64_t weight = 0;            // what it said by sac::Scope::weigh, if that was recorded
+  std::vector<EdgeRecord> edges = {};  // none unless requested
+  std::uint64_t weight = 0;            // reported by sac::Scope::weigh, if recorded
 };
 
-/// Where a writer writes until it has finished.
+/// The path to which a writer writes until it has finished.
 [[nodiscard]] std::string temporary_of(const std::string& path);
 
+/// Writes a trace file.
 class TraceWriter {
  public:
-  /// Throws: FileError.
+  /// Opens the file. Throws: FileError.
   explicit TraceWriter(std::string path);
   TraceWriter(TraceWriter&&) noexcept;
   ~TraceWriter();
 
-  /// The index of a new function.
+  /// Adds a function and returns its index.
   std::uint32_t add_function(std::string_view name);
-  /// Throws: FileError. Requires: call.function < number of functions added
+  /// Adds a call. Throws: FileError. Requires: call.function < number of added functions.
   void add_call(const CallRecord& call);
-  /// Puts the file in its place; last thing to do. Throws: FileError.
+  /// Completes the file and renames it to its path; the last call. Throws: FileError.
   void finish();
 
  private:
@@ -99,6 +102,7 @@ class TraceWriter {
   std::int64_t depth_ = -1;
 };
 
+/// Reads a trace file.
 class TraceReader {
  public:
   /// Reads the header. Throws: FileError.
@@ -106,7 +110,7 @@ class TraceReader {
   TraceReader(TraceReader&&) noexcept;
   ~TraceReader();
 
-  /// The next call, valid until the one after it is asked for; null at the end. Throws: FileError.
+  /// The next call, valid until the following call of next(); null at the end. Throws: FileError.
   const CallRecord* next();
   /// The functions met so far, by index.
   [[nodiscard]] const std::vector<std::string>& functions() const noexcept { return functions_; }
@@ -126,9 +130,9 @@ class TraceReader {
   bool at_end_ = false;
 };
 
-/// `name(arguments)` on one line: bytes that do not print are shown as '?'.
+/// `name(arguments)` on one line: unprintable bytes are shown as '?'.
 [[nodiscard]] std::string label_text(std::string_view name, std::string_view arguments);
-/// The text of an edge, likewise.
+/// The text of an edge on one line, likewise.
 [[nodiscard]] std::string edge_text(const EdgeRecord& edge);
 
 }  // namespace traces
