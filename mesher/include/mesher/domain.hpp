@@ -18,7 +18,8 @@
 //   (1) an open region is outside. A closed region that contains a hole's seed is a hole; every
 //       other closed region is inside. So loose segments change nothing, and a hole is as large as
 //       its region;
-//   (2) the inside is kept. If no region is closed, or the whole box is wanted, everything is kept,
+//   (2) the inside is kept. If no region is closed, or the whole box is requested, everything is
+//   kept,
 //       holes included;
 //   (3) a region has the attribute and the limit of its region seed, whether it is inside or
 //       outside;
@@ -96,7 +97,7 @@ struct Domain {
   std::vector<std::uint32_t> region_of;  ///< one per simplex: number in `regions`
   std::vector<Region> regions;           ///< ascending by their smallest simplex
   std::vector<SeedFault<D>> faults;      ///< ascending by seed
-  bool keeps_all = true;                 ///< the box is wanted, or nothing is enclosed
+  bool keeps_all = true;                 ///< the box is requested, or nothing is enclosed
 
   [[nodiscard]] bool keeps(const Region& region) const {
     return keeps_all || region.label.zone == Zone::inside;

@@ -77,7 +77,7 @@ struct AllBoxLimits : std::vector<BoxLimits<D>> {
 template <int D>
 class RegionLimits;
 
-/// The part of the mesh that is wanted.
+/// The part of the mesh that is kept.
 enum class Extent : std::uint8_t {
   enclosed,  ///< what lines (in space polygons) enclose, without the holes; everything if they
              ///< enclose nothing

@@ -28,10 +28,10 @@
 // gives another label. The first line (in space polygon) or seed in a mesh of points alone costs
 // all its simplices, once.
 //
-// Limits of size count only in the wanted part: if lines enclose something, in what they enclose.
+// Limits of size count only in the kept part: if lines enclose something, in what they enclose.
 // So if there are limits, a second mesh without limits follows the input to find that part. An
 // update then costs the sum for both meshes; the vertices in each region that becomes or ceases to
-// be wanted, or gets another largest area; and, if lines at which limits begin or end are edited,
+// be kept, or gets another largest area; and, if lines at which limits begin or end are edited,
 // the vertices in the simplices of the second mesh that this changes. A seed that changes only its
 // area costs a visit of all simplices of the second mesh.
 #pragma once
@@ -240,7 +240,7 @@ class Mesher {
   /// std::bad_alloc, or an exception of control.progress.
   DomainUpdate<D> update(const RunControl& control = {});
 
-  /// The wanted part of the mesh of the last update(), with features, in canonical form: equal to
+  /// The kept part of the mesh of the last update(), with features, in canonical form: equal to
   /// mesher::mesh(input(), options()). Edits announced since do not count. Empty before the first
   /// update. Cost: O(m log m).
   [[nodiscard]] MeshData<D> mesh() const { return domain_mesh().mesh; }
@@ -250,7 +250,7 @@ class Mesher {
   [[nodiscard]] Mesh<D> box_mesh() const;
 
   /// The mesh of the box in arrays by slot: see live_mesh.hpp. keeps(slot) tells whether a simplex
-  /// is wanted. Empty before the first update(). The mesher keeps slots from the first call on,
+  /// is kept. Empty before the first update(). The mesher keeps slots from the first call on,
   /// which costs memory and a part of each update. Cost: O(1); of the first call, that of
   /// box_mesh().
   [[nodiscard]] LiveMesh<D> live() const;
@@ -262,7 +262,7 @@ class Mesher {
   /// Cost: O(n log n).
   [[nodiscard]] Graph<D> input() const;
 
-  /// The region label of a simplex, and whether it is wanted. Requires: a simplex of the mesh,
+  /// The region label of a simplex, and whether it is kept. Requires: a simplex of the mesh,
   /// starting at any corner. Cost: O(1) for vertices of bounded degree.
   [[nodiscard]] RegionLabel label(const typename DomainChange<D>::Corners& simplex) const;
   [[nodiscard]] bool keeps(const typename DomainChange<D>::Corners& simplex) const;

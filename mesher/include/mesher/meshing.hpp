@@ -78,7 +78,7 @@ struct SvrStats : RefineStats {
   std::uint64_t looked_at_to_find = 0, looked_at_to_move = 0;
 };
 
-/// The wanted part of a mesh, with regions and faults of seeds.
+/// The kept part of a mesh, with regions and faults of seeds.
 template <int D>
 struct DomainMesh {
   MeshData<D> mesh;                  ///< as from `extract`; without features if the graph is bare
@@ -122,7 +122,7 @@ template <int D>
 [[nodiscard]] Mesh<D> box_mesh(const Graph<D>& graph, const Options<D>& options,
                                RunReport* report = nullptr, const RunControl& control = {},
                                bool refinement = false);
-/// The second step of mesh(): extracts the wanted part of the box's mesh.
+/// The second step of mesh(): extracts the kept part of the box's mesh.
 /// Requires: `mesh` is the box_mesh of `graph`. Throws: Error as find_domain.
 /// Cost: O(m + n log n), and that of find_domain and extract.
 template <int D>
