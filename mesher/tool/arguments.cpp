@@ -169,98 +169,104 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
   command
       .add_option(
           "INPUT", args.input,
-          "Points and lines: .poly, .geojson, .json, .obj or .vtu; points: .node, .xyz or .csv;\n"
-          "in space points, segments and polygons: .poly or .smesh; points: these three, and the\n"
-          "vertices of .off, .obj, .ply, .stl, .vtu or .vtk")
+          "Points and lines: .poly, .geojson, .json, .obj or .vtu. Points: .node, .xyz or .csv.\n"
+          "In space points, segments and polygons: .poly or .smesh; points: .node, .xyz or\n"
+          ".csv, and the vertices of .off, .obj, .ply, .stl, .vtu or .vtk")
       ->option_text("TEXT REQUIRED");
   command.parse_complete_callback([&args] { settle_input(args); });
   command.formatter(std::make_shared<UsageOfInput>());
   command
-      .add_option("--format", args.format,
-                  "That of INPUT, by an extension as above; for pipes, and for files without one")
+      .add_option(
+          "--format", args.format,
+          "The format of INPUT, given as an extension; for pipes and files without extension")
       ->type_name("EXTENSION");
-  command.add_flag("--surface", args.surface,
-                   "In space: the faces of .off, .obj, .ply, .stl, .vtu or .vtk are polygons, and\n"
-                   "edges lines");
-  command.add_flag("--merge", args.merge,
-                   "The same, and polygons of one plane that are side by side are one, if their\n"
-                   "markers are the same; also of .poly and .smesh");
+  command.add_flag(
+      "--surface", args.surface,
+      "In space: mesh the faces of .off, .obj, .ply, .stl, .vtu or .vtk as polygons, and\n"
+      "their edges as lines");
+  command.add_flag(
+      "--merge", args.merge,
+      "As --surface, and merge adjacent polygons of one plane that have the same marker; also\n"
+      "for .poly and .smesh");
   command
       .add_option(
           "--dimension,--dim", args.dimension,
-          "2: the plane; 3: space (default: 3 if a .node or .poly file says so, or z is there and "
-          "not\n"
-          "the same everywhere; of .xyz and .csv, not 0 everywhere)")
+          "2: the plane; 3: space (default: 3 if a .node or .poly file says so, or if z is\n"
+          "present and not the same everywhere; for .xyz and .csv, not 0 everywhere)")
       ->check(CLI::IsMember({"2", "3"}));
   CLI::Option* const rho =
       command.add_option("--rho", args.rho,
-                         "Bound of circumradius over shortest edge, above 1.01 and up to 100\n"
+                         "Bound of circumradius over shortest edge, above 1.01 and at most 100\n"
                          "(default: 1.4142; in space 2)");
   command
-      .add_option("--min-angle", args.min_angle,
-                  "Instead, in degrees: no angle is smaller (in space, of faces); up to 29.6. It\n"
-                  "stands for --rho 1 / (2 sin(D)); 28 works for most inputs in the plane")
+      .add_option(
+          "--min-angle", args.min_angle,
+          "Instead of --rho, in degrees, at most 29.6: no angle is smaller (in space, of faces);\n"
+          "sets rho = 1 / (2 sin(D)). 28 works for most inputs in the plane")
       ->excludes(rho);
-  command.add_option("--rule", args.rule, "Where to insert: radius-edge or voronoi-aspect")
+  command
+      .add_option("--rule", args.rule, "The rule for new vertices: radius-edge or voronoi-aspect")
       ->check(CLI::IsMember({"radius-edge", "voronoi-aspect"}))
       ->capture_default_str();
   command
       .add_option("--domain", args.domain,
-                  "Where points may lie (default: the box of INPUT, moved outward to a\n"
-                  "power-of-two grid)")
+                  "The box in which points may lie (default: the bounding box of INPUT, moved\n"
+                  "outward to a power-of-two grid)")
       ->option_text("XMIN YMIN [ZMIN] XMAX YMAX [ZMAX]")
       ->expected(4, 6)
       ->allow_extra_args(false);
   command
-      .add_option(
-          "--max-area", args.max_area,
-          "No triangle with its centroid in the domain is larger, of those that are wanted\n"
-          "(default: no limit)")
+      .add_option("--max-area", args.max_area,
+                  "No kept triangle with its centroid in the domain is larger (default: no limit)")
       ->type_name("A");
-  command.add_option("--max-volume", args.max_volume, "The same of tetrahedra, in space")
+  command.add_option("--max-volume", args.max_volume, "The same for tetrahedra, in space")
       ->type_name("V");
   command
-      .add_option("--max-size", args.max_size,
-                  "The same by the edges H of a regular triangle, or tetrahedron, as large as that")
+      .add_option(
+          "--max-size", args.max_size,
+          "The same limit, given as the edge H of a regular triangle, or tetrahedron, of that size")
       ->type_name("H")
       ->excludes("--max-area")
       ->excludes("--max-volume");
   command
       .add_option(
           "--sizes", args.sizes,
-          "A background of such H: .node with one value a point, or .csv with x,y,h (in space\n"
+          "A background of such H: .node with one value per point, or .csv with x,y,h (in space\n"
           "x,y,z,h); linear between its points")
       ->type_name("FILE");
   command
-      .add_option("--max-vertices", args.max_vertices,
-                  "More are an error, which names the lines that need most (default: no limit)")
+      .add_option(
+          "--max-vertices", args.max_vertices,
+          "More vertices are an error, which names the lines that need most (default: no limit)")
       ->type_name("N");
 }
 
 void add_mesh_options(CLI::App& command, MeshArguments& args) {
   add_program_options(command, args);
   command
-      .add_option("-o", args.outputs,
-                  "A mesh: .node (with .ele, in space also .face, and .edge for segments and\n"
-                  "polygons), .vtu, .vtk, .msh, .mesh, .off, .obj\n"
-                  "or .svg; in space .off, .obj and .stl have its boundary; may be repeated")
+      .add_option(
+          "-o", args.outputs,
+          "Output: .node (with .ele, in space also .face, and .edge for segments and polygons),\n"
+          ".vtu, .vtk, .msh, .mesh, .off, .obj or .svg; in space .off, .obj and .stl hold the\n"
+          "boundary; may be repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
-  command.add_flag("--repair", args.repair,
-                   "Lines (in space also polygons) that cross or touch get common points there,\n"
-                   "points in one place are one, what several cover is that of the smallest id,\n"
-                   "polygons that are not flat become triangles; each is reported");
+  command.add_flag(
+      "--repair", args.repair,
+      "Repair INPUT: lines (in space also polygons) that cross or touch get common points\n"
+      "there, points at one position become one, what several cover belongs to the smallest\n"
+      "id, polygons that are not flat become triangles; each change is reported");
   command.add_flag("--region-areas,--region-volumes", args.region_areas,
-                   "The largest areas, or volumes, of regions are limits of size");
+                   "Apply the largest areas, or volumes, of regions as limits of size");
   command.add_flag(
       "--box", args.box,
-      "All of the box, not only what lines (in space polygons) enclose less the holes");
+      "Output the whole box, not only what lines (in space polygons) enclose without holes");
   command.add_flag(
       "--no-flat", args.no_flat,
-      "In space: flat tetrahedra are taken out; what comes instead is Delaunay but for\n"
+      "In space: remove flat tetrahedra; the tetrahedra that replace them are Delaunay up to\n"
       "rounding ('check --near')");
   command.add_flag("--static", args.is_static,
-                   "gap-balls without the engine; its mesh is the same");
+                   "Run gap-balls without the engine; the mesh is the same");
   command.add_option("--stats", args.stats, "Figures as JSON")->type_name("FILE");
   command.add_flag("--quiet", args.quiet, "Print nothing but errors");
 }

@@ -38,8 +38,8 @@ struct MeshArguments {
 
 /// What the help says of the quality figures.
 inline constexpr const char* kQualityHelp =
-    "Its vertices and simplices are those of the box; kept are those written, and\n"
-    "min_angle_deg and max_radius_edge are theirs; null if there is none.";
+    "Its 'vertices' and 'simplices' count the box, 'kept' the output; min_angle_deg and\n"
+    "max_radius_edge are those of the output, null if it is empty.";
 
 /// Adds what says which mesh it is: INPUT, --rho, --rule, --domain, limits of size, --max-vertices.
 /// `args` must outlive `command`.

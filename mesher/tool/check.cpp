@@ -142,64 +142,62 @@ void run_check(CheckArguments args) {
 
 void add_check(CLI::App& app) {
   const auto args = std::make_shared<CheckArguments>();
-  CLI::App* check = app.add_subcommand("check", "Verifies a mesh, whoever made it.");
+  CLI::App* check = app.add_subcommand("check", "Verifies a mesh of this or another program.");
   check
       ->add_option(
           "MESH", args->mesh,
           "A mesh of triangles or tetrahedra: .node with .ele beside it, .vtu, .vtk, .msh\n"
           "or .mesh; of triangles also .off or .obj")
       ->required();
-  check->add_option("--input", args->input,
-                    "Points that must be vertices, bit for bit, and lines that must be unions of\n"
-                    "edges: .poly, .geojson, .obj, .vtu, .node, .xyz or .csv; for tetrahedra\n"
-                    "complexes, whose polygons must be unions of faces: .poly or .smesh; points:\n"
-                    "all formats that 'mesh' reads");
+  check->add_option(
+      "--input", args->input,
+      "Points that must be vertices, bit for bit, and lines that must be unions of edges:\n"
+      ".poly, .geojson, .obj, .vtu, .node, .xyz or .csv. For tetrahedra complexes, whose\n"
+      "polygons must be unions of faces: .poly or .smesh; points: all formats of 'mesh'");
   check
       ->add_option("--format", args->format,
-                   "That of MESH, by an extension as above; for pipes, and for files without one")
+                   "The format of MESH, given as an extension; for pipes and files without one")
       ->type_name("EXTENSION");
-  check->add_option("--input-format", args->input_format, "Likewise that of --input")
+  check->add_option("--input-format", args->input_format, "The format of --input, likewise")
       ->type_name("EXTENSION");
   check->add_flag("--surface", args->surface,
                   "The faces of .off, .obj, .ply or .stl are polygons, as for 'mesh'");
-  check->add_flag("--merge", args->merge, "Likewise, made one as by 'mesh'");
+  check->add_flag("--merge", args->merge, "As --surface, with polygons merged as by 'mesh'");
   check->add_option("--rho", args->rho, "Bound of circumradius over shortest edge");
   check->add_option("--max-area", args->max_area, "Bound of the area of triangles");
   check->add_option("--max-volume", args->max_volume, "Bound of the volume of tetrahedra");
   check
       ->add_option(
           "--boundary", args->boundary,
-          "What bounds the mesh: box, lines (or the box; for tetrahedra: polygons, or the\n"
-          "box), any (for tetrahedra: any convex body); auto: box if MESH fills one that lines "
-          "(for\n"
-          "tetrahedra: polygons) do not bound, or if there are none, else lines")
+          "The boundary of the mesh: box, lines (or the box; for tetrahedra: polygons, or the\n"
+          "box), any (for tetrahedra: any convex body); auto: box if there are no lines (for\n"
+          "tetrahedra: polygons), or if MESH fills a box that they do not bound, else lines")
       ->check(CLI::IsMember({"auto", "box", "lines", "any"}))
       ->capture_default_str();
   check->add_flag("--constrained", args->constrained,
-                  "Edges on lines need not be Delaunay: a constrained triangulation will do");
+                  "Edges on lines need not be Delaunay, as in a constrained triangulation");
   check->add_flag(
       "--ties", args->ties,
-      "Where more points are on one sphere, the choice must be that of their coordinates,\n"
-      "as in all meshes of this tool");
+      "Of points on one sphere, the tetrahedra must be those chosen by coordinates, as in\n"
+      "all meshes of this tool");
   check->add_flag("--near", args->near,
                   "Tetrahedra need not be Delaunay by less than 10^-6 of their radius, as after\n"
                   "'mesh --no-flat'");
   check->footer(
-      "Checks that the triangles do not overlap and fill a box, or what lines enclose; that the\n"
-      "triangulation is Delaunay (by exact arithmetic), first off lines, then on them\n"
+      "Checks that the triangles do not overlap and fill a box, or what lines enclose; that\n"
+      "the triangulation is Delaunay (by exact arithmetic), first off lines, then on them\n"
       "(conforming); that each point of --input is a vertex and each line a union of edges;\n"
-      "that regions end at lines and are those of their seeds; that markers, where --input has\n"
+      "that regions end at lines and are those of their seeds; that markers, if --input has\n"
       "some, are those of its points and lines; and that no triangle has a radius-edge ratio\n"
-      "above --rho, but at small angles between lines: of --input, or MESH.\n"
-      "Of tetrahedra: that they fill a box, or what polygons enclose, without gap or overlap, are\n"
-      "Delaunay, have the points of --input as vertices (with their kinds and ids, where MESH "
-      "tells\n"
-      "them), and are within --rho, those at the box too, but at small angles of --input; that "
-      "each\n"
-      "segment of --input is a union of edges, and each polygon one of faces, with its area; that\n"
-      "markers, where --input has some, are those of its points, segments and polygons; and that\n"
-      "regions end at polygons and are those of their seeds.\n"
-      "It says what fails first, and where. Exit code 0 if all that holds, 1 if not.\n"
+      "above --rho, except at small angles between lines of --input, or else of MESH.\n"
+      "For tetrahedra: that they fill a box, or what polygons enclose, without gap or\n"
+      "overlap, are Delaunay, have the points of --input as vertices (with their kinds and\n"
+      "ids, if MESH has them), and are within --rho, also outside the domain, except at\n"
+      "small angles of --input; that each segment of --input is a union of edges, and each\n"
+      "polygon a union of faces with its area; that markers, if --input has some, are those\n"
+      "of its points, segments and polygons; and that regions end at polygons and are those\n"
+      "of their seeds.\n"
+      "Prints the first property that fails, and where. Exit code 0 if all hold, 1 if not.\n"
       "Examples:\n"
       "  mesher check mesh.node --input points.node --rho 1.4142\n"
       "  mesher check lake.1.node --input lake.poly --rho 1.4142 --max-area 0.01\n"

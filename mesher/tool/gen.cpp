@@ -153,26 +153,27 @@ void add_gen(CLI::App& app) {
          "island")
       ->required()
       ->check(CLI::IsMember(kinds()));
-  gen->add_option("--n", args->n, "How many points; of lines, how many segments")
+  gen->add_option("--n", args->n, "The number of points; for lines, of segments")
       ->check(CLI::Range(std::uint64_t{0}, kMostPoints));
-  gen->add_option("--dimension,--dim", args->dimension, "2: the plane; 3: space [2 of points]")
+  gen->add_option("--dimension,--dim", args->dimension, "2: the plane; 3: space [2 for points]")
       ->check(CLI::IsMember({2, 3}));
-  gen->add_option("--seed", args->seed, "Other random ones for another seed")
+  gen->add_option("--seed", args->seed, "The seed of the random numbers")
       ->type_name("UINT")
       ->capture_default_str();
-  gen->add_option("--angle", args->angle, "Degrees: of fan, between neighbours; of bundle, in all")
+  gen->add_option("--angle", args->angle,
+                  "In degrees: for fan between neighbours, for bundle in total")
       ->type_name("DEGREES");
   gen->add_option("--size", args->size,
-                  "Of a complex: a gap, an angle in degrees, a side, or how many")
+                  "For a complex: a gap, an angle in degrees, a side, or a number of parts")
       ->type_name("NUMBER");
   gen->add_option("-o", args->output,
-                  "A .node file; of lines, a .poly or .obj file; of complexes, .poly or .smesh")
+                  "A .node file; for lines, a .poly or .obj file; for complexes, .poly or .smesh")
       ->required()
       ->type_name("FILE");
   gen->footer(
-      "The points are distinct and the same on every machine. Lines do not cross and meet at ends\n"
-      "alone; where there is no room, there are fewer. grid, line-circle, spiral, spread and fan\n"
-      "have no randomness. Of spread, distances differ by a factor of 10^12.\n"
+      "The points are distinct and the same on every machine. Lines do not cross and meet\n"
+      "only at ends; if there is no room, there are fewer. grid, line-circle, spiral, spread\n"
+      "and fan have no randomness. In spread, distances differ by a factor of 10^12.\n"
       "Examples:\n"
       "  mesher gen gaussian --n 100000 --seed 7 -o g.node\n"
       "  mesher gen line-circle --n 2000 --dimension 3 -o lc.node\n"

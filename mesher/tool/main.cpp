@@ -26,8 +26,8 @@ constexpr const char* kHelpFooter =
     "  mesher check after.1.node --rho 1.4142\n"
     "  mesher gen uniform --n 10000 -o points.node\n"
     "  mesher trace points.node --script edits.txt -o after.trace\n"
-    "'mesher COMMAND --help' says more.\n"
-    "Exit codes: 0 ok, 1 geometry, 2 usage, 3 format, 4 limit, 5 cancelled, 70 a bug of ours.";
+    "'mesher COMMAND --help' describes a command.\n"
+    "Exit codes: 0 ok, 1 geometry, 2 usage, 3 format, 4 limit, 5 cancelled, 70 a bug.";
 
 struct Command {
   std::string_view name;
@@ -56,9 +56,8 @@ int fail(ExitCode code, const std::string& message) {
 
 int run(int argc, char** argv) {
   CLI::App app{
-      "Quality Delaunay meshes of points and lines in the plane, and of points in space, and "
-      "their\n"
-      "updates.",
+      "Makes quality Delaunay meshes of points and lines in the plane, and of points, lines\n"
+      "and polygons in space, and updates them under edits.",
       "mesher"};
   app.footer(kHelpFooter);
   app.set_version_flag("--version", "mesher " MESHER_VERSION);

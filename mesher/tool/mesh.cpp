@@ -114,31 +114,31 @@ void add_mesh(CLI::App& app) {
   mesh->add_option(
           "--algorithm", args->algorithm,
           "svr: sparse Voronoi refinement; refine: Delaunay refinement, from the triangulation\n"
-          "of all points; gap-balls: the mesh that `edit` keeps, in 1.4 to 2 times the time, also\n"
-          "with limits of size. auto: refine in the plane and of points that lie evenly in space,\n"
-          "else svr; gap-balls with limits of size, --static, another rule, or a --rho below its\n"
-          "default if there are lines or polygons, or if the other one finds features too close")
+          "of all points; gap-balls: the mesh that `edit` maintains, in 1.4 to 2 times the time,\n"
+          "also with limits of size. auto: refine in the plane and for evenly spread points in\n"
+          "space, else svr; gap-balls with limits of size, --static, another rule, or a --rho\n"
+          "below its default if there are lines or polygons, or if the first choice finds\n"
+          "features too close")
       ->check(CLI::IsMember({"auto", "gap-balls", "svr", "refine"}))
       ->capture_default_str();
   mesh->footer(
       std::string(
-          "Every line is a union of edges. Where lines enclose something, what they enclose is\n"
-          "written, less the holes, with the attributes of regions and the markers of points and\n"
-          "lines; else, or with --box, all of the box. A seed without a region of its own is\n"
-          "warned of.\n"
-          "With INPUT of a format that has lines, a .node output has .edge, .poly and .neigh\n"
-          "beside .ele.\n"
-          "The mesh is a function of INPUT, the domain, --rho, --rule, --algorithm and the limits\n"
-          "of size alone: its files are the same bytes each time, with --static or without. Files\n"
-          "appear when all is done, or not at all.\n"
-          "Limits of size hold in what is written, less what is beyond the domain, and are filled\n"
-          "from a lattice, so that edits move little. Several together: the smallest counts.\n"
-          "In space the same holds of polygons: every one is a union of faces, and what they\n"
-          "enclose is written. .poly and .smesh have segments and polygons; of surfaces and grids\n"
-          "the points are meshed, and with --surface the faces of .off, .obj, .ply, .stl, .vtu "
-          "and\n"
-          ".vtk. An .svg is cut open, green in polygons, and bluer where radius-edge ratios are "
-          "worse.\n"
+          "Every line is a union of edges. If lines enclose something, the output is what they\n"
+          "enclose, without the holes, with the attributes of regions and the markers of points\n"
+          "and lines; else, or with --box, it is the whole box. A seed without a region of its\n"
+          "own causes a warning.\n"
+          "If the format of INPUT has lines, a .node output has .edge, .poly and .neigh beside\n"
+          ".ele.\n"
+          "The mesh is a function only of INPUT, the domain, --rho, --rule, --algorithm and the\n"
+          "limits of size: its files are the same bytes each time, with --static or without.\n"
+          "Files appear when all is done, or not at all.\n"
+          "Limits of size hold in the output inside the domain. They are met by vertices of a\n"
+          "lattice, so that edits change few vertices. The smallest of several limits counts.\n"
+          "In space the same holds for polygons: every one is a union of faces, and the output\n"
+          "is what they enclose. .poly and .smesh have segments and polygons; of surfaces and\n"
+          "grids the points are meshed, and with --surface the faces of .off, .obj, .ply, .stl,\n"
+          ".vtu and .vtk. An .svg is a cutaway view: polygons are green, and tetrahedra bluer\n"
+          "where radius-edge ratios are worse.\n"
           "--stats: one JSON object; - for standard output.\n") +
       kQualityHelp +
       "\nExamples:\n"

@@ -86,16 +86,16 @@ void add_trace(CLI::App& app) {
   CLI::App* trace =
       app.add_subcommand("trace", "Records the engine's trace of a mesh and its updates.");
   add_program_options(*trace, *args);
-  trace->add_option("--script", args->script, "Edits to follow first")->type_name("EDITS");
+  trace->add_option("--script", args->script, "Edits to apply before recording")
+      ->type_name("EDITS");
   trace->add_option("-o", args->trace, "The recording")->required()->type_name("FILE.trace");
-  trace->add_flag("--edges", args->edges, "With what each call saw and did, as text");
+  trace->add_flag("--edges", args->edges, "Add the observations and effects of each call, as text");
   trace->add_flag("--quiet", args->quiet, "Print nothing but errors");
   trace->footer(
-      "The tool 'traces' compares, audits and draws recordings. With --script the trace is the "
-      "one\n"
-      "that the updates leave: the same as that of a fresh mesh of the edited input in the same\n"
-      "domain, which by default is that of INPUT. Limits of size count in all of the domain,\n"
-      "whatever lines enclose.\n"
+      "The tool 'traces' compares, audits and draws recordings. With --script the trace is\n"
+      "that after the updates: the same as that of a fresh mesh of the edited input in the\n"
+      "same domain, which by default is that of INPUT. Limits of size count in the whole\n"
+      "domain, whatever lines enclose.\n"
       "Examples:\n"
       "  mesher trace points.node -o before.trace\n"
       "  mesher trace points.node --script edits.txt -o after.trace\n"

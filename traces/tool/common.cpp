@@ -22,7 +22,7 @@ void add_random_edits(CLI::App& sub, std::uint64_t& edits, std::uint64_t& seed,
       ->check(is_count, "")
       ->type_name("K")
       ->capture_default_str();
-  sub.add_option("--seed", seed, "Of input and edits")
+  sub.add_option("--seed", seed, "The seed of input and edits")
       ->check(is_count, "")
       ->type_name("S")
       ->capture_default_str();

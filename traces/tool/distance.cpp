@@ -68,9 +68,9 @@ void add_distance(CLI::App& app) {
   sub->add_option("B", args->b, "Another trace file")->required();
   sub->add_flag("--json", args->json, "One JSON object instead of a table");
   sub->footer(
-      "A call weighs 1 and what it has said that it did inside, if that was recorded. By weight,\n"
-      "the distance is what the calls weigh that only one of the traces has; heaviest is one of\n"
-      "them.");
+      "A call weighs 1 plus the steps that it reported, if these were recorded. By weight,\n"
+      "the distance is the sum of the weights of calls that only one trace has; heaviest is\n"
+      "the greatest of these weights.");
   sub->callback([args] { distance(*args); });
 }
 

@@ -50,14 +50,14 @@ void add_example(CLI::App& app) {
       ->required()
       ->check(is_example, "");
   sub->add_option("-o", args->output, "The trace")->required()->type_name("FILE.trace");
-  sub->add_option("--n", args->n, "Elements of the input, about; 0 to 100000")
+  sub->add_option("--n", args->n, "About how many elements the input has; 0 to 100000")
       ->check(CLI::Range(0, 100'000), "")
       ->type_name("N")
       ->capture_default_str();
   add_random_edits(*sub, args->edits, args->seed, "Random edits, each propagated");
-  sub->add_flag("--edges", args->with_edges, "With what each call read and did");
+  sub->add_flag("--edges", args->with_edges, "Add the reads and effects of each call");
   sub->footer(
-      "Runs of one seed make the same edits: what the fifth edit changes is\n"
+      "Runs with one seed make the same edits. To draw the change of the fifth edit:\n"
       "  traces example quicksort --edits 4 -o before.trace\n"
       "  traces example quicksort --edits 5 -o after.trace\n"
       "  traces render before.trace after.trace -o edit.svg");

@@ -13,17 +13,17 @@ using tool::Exit;
 
 constexpr const char* kHelpFooter =
     "Examples:\n"
-    "  mesher trace points.node -o a.trace     records what these commands read\n"
-    "  traces example quicksort -o q.trace     so does this, of an example of the engine\n"
-    "  traces show a.trace --limit 20          the first calls, one a line: depth and label\n"
-    "  traces distance a.trace b.trace         calls that only one of two runs makes\n"
+    "  mesher trace points.node -o a.trace     records a trace for these commands\n"
+    "  traces example quicksort -o q.trace     records a trace of an example of the engine\n"
+    "  traces show a.trace --limit 20          the first calls, one per line: depth and label\n"
+    "  traces distance a.trace b.trace         counts the calls of only one of two runs\n"
     "  traces distance a.trace b.trace --json\n"
     "  traces audit a.trace                    is the program concise?\n"
     "  traces audit a.trace b.trace            and monotone?\n"
-    "  traces render a.trace b.trace -o c.svg  both runs, and what they differ in\n"
-    "  traces stability --n 1000 --edits 100   what random edits of meshes change and cost\n"
-    "Exit codes: 0 ok, 1 something was found, 2 usage, 3 a file is no trace or cannot be used,\n"
-    "4 out of memory, 70 a bug of ours.";
+    "  traces render a.trace b.trace -o c.svg  draws both runs, and their difference\n"
+    "  traces stability --n 1000 --edits 100   changes and costs of random edits of meshes\n"
+    "Exit codes: 0 ok, 1 a finding, 2 usage, 3 a file is no trace or cannot be used,\n"
+    "4 out of memory, 70 a bug.";
 
 int run(int argc, char** argv) {
   CLI::App app{"Compares, audits and draws recorded traces of self-adjusting programs.", "traces"};

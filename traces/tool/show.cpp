@@ -35,7 +35,7 @@ void add_show(CLI::App& app) {
   const auto args = std::make_shared<Arguments>();
   CLI::App* sub = app.add_subcommand("show", "Prints the calls in pre-order: depth and label");
   sub->add_option("A", args->a, "A trace file")->required();
-  sub->add_option("--limit", args->limit, "At most so many calls")
+  sub->add_option("--limit", args->limit, "The largest number of calls to print")
       ->type_name("N")
       ->check(is_count, "");
   sub->callback([args] { show(*args); });

@@ -185,7 +185,7 @@ bool run(const Arguments& args) {
 void add_stability(CLI::App& app, int& exit_code) {
   const auto args = std::make_shared<Arguments>();
   CLI::App* sub = app.add_subcommand(
-      "stability", "Edits random inputs, and tables what each edit changes and costs");
+      "stability", "Edits random inputs, and tabulates the changes and costs of each edit");
   sub->add_option("--example", args->example,
                   "An example of the engine (traces example --help); without it, the mesher")
       ->check(is_example, "")
@@ -195,7 +195,7 @@ void add_stability(CLI::App& app, int& exit_code) {
       ->type_name("N")
       ->allow_extra_args(false)
       ->capture_default_str();
-  add_random_edits(*sub, args->edits, args->seed, "Of each size");
+  add_random_edits(*sub, args->edits, args->seed, "Edits for each size");
   sub->add_option("--kind", args->kind, "uniform, gaussian, clusters, grid, line-circle or spiral")
       ->check(
           [](const std::string& name) {
@@ -203,7 +203,7 @@ void add_stability(CLI::App& app, int& exit_code) {
           },
           "")
       ->capture_default_str();
-  sub->add_option("--dimension", args->dimension, "Of the points: 2 or 3")
+  sub->add_option("--dimension", args->dimension, "The dimension of the points: 2 or 3")
       ->check(CLI::IsMember({2, 3}), "")
       ->type_name("D")
       ->capture_default_str();
@@ -211,23 +211,20 @@ void add_stability(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"radius-edge", "voronoi-aspect"}), "")
       ->capture_default_str();
   sub->add_option("--rho", args->rho,
-                  "Bound of circumradius over shortest edge, above 1.01; by default 1.4142 in the "
-                  "plane\nand 2 in space")
+                  "Bound of circumradius over shortest edge, above 1.01; by default 1.4142 in\n"
+                  "the plane and 2 in space")
       ->check(CLI::Range(1.0101, 1e6), "")
       ->type_name("RHO");
   sub->add_flag("--trust", args->trust,
-                "Take propagated traces for those of runs from scratch: faster");
-  sub->add_flag("--json", args->json, "A JSON object a line for each edit");
+                "Use propagated traces in place of those of runs from scratch: faster");
+  sub->add_flag("--json", args->json, "A JSON object for each edit, one per line");
   sub->footer(
-      "An edit of a mesh inserts or removes a point. A line says: points, vertices of the mesh, "
-      "lg(L/s),\n"
-      "lg(L/d), the distance of the traces, and the work of the propagation. L is the domain's\n"
-      "side, s the least distance of two points, d that from the edited point to its nearest.\n"
-      "Of an example it says distance and work. By weight (w.dist, w.work, w.ratio) a call counts "
-      "1\n"
-      "and what it has said that it does inside; heaviest is the weight of one that comes or "
-      "goes,\n"
-      "the greatest.\n"
+      "An edit of a mesh inserts or removes a point. A line has: points, vertices of the\n"
+      "mesh, lg(L/s), lg(L/d), the distance of the traces, and the work of the propagation.\n"
+      "L is the side of the domain, s the least distance of two points, d the distance from\n"
+      "the edited point to its nearest neighbour. For an example a line has distance and\n"
+      "work. By weight (w.dist, w.work, w.ratio) a call counts 1 plus the steps that it\n"
+      "reports; heaviest is the greatest weight of a created or discarded call.\n"
       "Exit code 1 if a propagated trace is not that of a run from scratch.\n"
       "Examples:\n"
       "  traces stability --n 1000 --n 10000 --edits 100\n"
