@@ -99,8 +99,8 @@ std::string readable(const std::string& path, const std::string& format) {
       format.empty() ? own : mesher::format_of(format[0] == '.' ? "x" + format : "x." + format);
   if (is_file && extension == own) return path;
   if (extension.empty()) {
-    throw Error(ErrorCode::unknown_format,
-                "a pipe without an extension: --format says which one it would have", {path});
+    throw Error(ErrorCode::unknown_format, "a pipe has no extension: give its format by --format",
+                {path});
   }
   const std::string content = is_file ? "" : all_of(path);
   const std::string folder = new_folder(path);

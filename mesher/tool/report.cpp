@@ -308,10 +308,9 @@ void print_run(const Input<3>& input, const SpaceRun& run) {
                            format("%g degrees", mesher::kSliverDegrees));
   print_row("largest radius-edge", format("%.4f", run.quality.max_radius_edge));
   if (run.above_rho > 0) {
-    print_row(
-        "above rho",
-        std::to_string(run.above_rho) + ", at small angles of the input" +
-            (run.guard && run.guard->tetrahedra > 0 ? ", or beside features that are alone" : ""));
+    print_row("above rho",
+              std::to_string(run.above_rho) + ", at small angles of the input" +
+                  (run.guard && run.guard->tetrahedra > 0 ? ", or left poor beside features" : ""));
   }
   if (!run.algorithm.empty()) print_row("algorithm", run.algorithm);
   print_row("time", format("%.3f s", run.seconds_total));

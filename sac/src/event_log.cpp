@@ -316,7 +316,7 @@ EventLog::Reason EventLog::reason_of(const Index& index, std::size_t deed) const
     case Kind::created:
       return why_created(index, deed);
     case Kind::confirmed:
-      return {"did not run again: it would have read what it has read"};
+      return {"did not run again: it would have read the same values"};
     case Kind::reused:
       return {"was kept", "asked for again by ", e.by, index.last_deed(e.by, deed)};
     default:

@@ -276,7 +276,7 @@ echo "== complexes: below rho = 2 the guard says where it gave in, and check exc
 expect 0 ' tetrahedra stay poor beside it, up to ' mesh vee.poly --rho 1.42 --box -o guard.node \
   --stats guard.json
 grep -q '"gave_in"' guard.json || fail 'no "gave_in" in --stats'
-expect 0 ' beside features that are alone' check guard.node --input vee.poly --rho 1.42
+expect 0 ' left poor beside features' check guard.node --input vee.poly --rho 1.42
 expect 1 'error[bad_quality]: quality: ' check guard.node --input vee.poly --rho 1.3
 printf '+point 900 .5 .5 .9\n-point 900\n+point 901 .1 .2 .2\n' >guard.txt
 for engine in '' --static; do

@@ -140,7 +140,7 @@ TEST_CASE("a call that would read what it has read does not run again") {
   CHECK(w.news() == Lines{"edited modifiable 'a'", "invalidated copy(x, @, @) at modifiable 'a'",
                           "edited modifiable 'a'", "propagation_started", "confirmed copy(x, @, @)",
                           "finished"});
-  CHECK(w.why("copy") == "copy(x, @, @) did not run again: it would have read what it has read.\n");
+  CHECK(w.why("copy") == "copy(x, @, @) did not run again: it would have read the same values.\n");
   w.e.set(a, 3);
   w.e.propagate();
   CHECK(w.why("copy") == "copy(x, @, @) ran again because modifiable 'a' was set from outside.\n");

@@ -350,7 +350,7 @@ class SpaceChecker {
                 text::to_text(worst.max_dihedral_deg) + " degrees, " +
                 std::to_string(worst.slivers) + " slivers below " + text::to_text(kSliverDegrees) +
                 (excused > 0 ? ", " + std::to_string(excused) + " above rho at small angles" : "") +
-                (left > 0 ? ", " + std::to_string(left) + " beside features that are alone" : ""));
+                (left > 0 ? ", " + std::to_string(left) + " left poor beside features" : ""));
   }
 
   // Across the face of half-faces i and i + 1: where the corner of the second is of the sphere of

@@ -214,8 +214,8 @@ void require_single_loops(const Graph<3>& plc) {
   for (const Polygon& polygon : plc.polygons) {
     if (polygon.loops.size() == 1 && polygon.edges.empty() && polygon.points.empty()) continue;
     throw Error(ErrorCode::unsupported,
-                ".smesh has no place for what polygon " + id_text(polygon.id) +
-                    " has beside one loop; .poly has",
+                ".smesh cannot store more than one loop of polygon " + id_text(polygon.id) +
+                    ", nor edges or points inside it; .poly can",
                 {}, {mesher::Feature(polygon.id)});
   }
 }
