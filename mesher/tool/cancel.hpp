@@ -1,8 +1,8 @@
-// Stopping by signal: the process ends with exit code 5 and leaves no temporary file. A run that is
-// watched is asked to stop and unwinds; in all other work, and the second time, the process ends
-// there and then.
+// Stopping by signal: the process ends with exit code 5 and leaves no temporary file. A watched run
+// is requested to stop and unwinds; during other work, and at the second signal, the process ends
+// at once.
 //
-// What a signal does is a matter of the process, so this is the tool's one piece of global state.
+// Signal handlers belong to the process, so this is the only global state of the tool.
 #pragma once
 
 #include <string>

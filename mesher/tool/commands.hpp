@@ -1,5 +1,5 @@
 // The subcommands. Each adds itself, with its options, help and examples, to the command line, and
-// runs when it is parsed. What goes wrong leaves as mesher::Error.
+// runs when it is parsed. Failures leave as mesher::Error.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// Where --stats goes: a file, or standard output for "-".
+// The destination of --stats: a file, or standard output for "-".
 #pragma once
 
 #include <string>

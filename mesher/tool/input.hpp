@@ -1,4 +1,4 @@
-// What is meshed, and where each part of it stands: in INPUT, or in the script that brought it.
+// The input, and the location of each part: in INPUT, or in the script that added it.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// The option --no-flat: what is written has no flat tetrahedra.
+// The option --no-flat: the output has no flat tetrahedra.
 #pragma once
 
 #include <cstdio>

@@ -1,7 +1,8 @@
 // Inputs that come through pipes, or under a name that does not tell their format.
 //
-// Readers look at a file several times, and choose a format by the extension of its path. What can
-// be read once, or has no extension, gets a copy (what is a file, a link) in a folder of its own.
+// Readers look at a file several times, and choose a format by the extension of its path. An input
+// that can be read only once, or has no extension, gets a copy (a file gets a link) in a folder of
+// its own.
 #pragma once
 
 #include <string>

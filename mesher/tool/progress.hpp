@@ -1,5 +1,5 @@
-// A line on standard error that says how far a command is, for people who wait: only on a terminal,
-// and only once it has taken two seconds. It is erased at the end.
+// A line on standard error that shows the progress of a command: only on a terminal, and only after
+// two seconds. It is erased at the end.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What the commands report: figures as JSON, and a short table for people.
+// The reports of the commands: figures as JSON, and a short table for people.
 #pragma once
 
 #include <nlohmann/json.hpp>

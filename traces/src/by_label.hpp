@@ -1,4 +1,4 @@
-// The calls of a trace sorted by label: equal labels lie together.
+// The calls of a trace sorted by label: calls with equal labels are adjacent.
 #pragma once
 
 #include <cstdint>

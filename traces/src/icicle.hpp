@@ -1,8 +1,8 @@
-// Where the bars of an icicle lie: rows by depth, widths by calls, thin bars drawn together.
+// The positions of the bars of an icicle: rows by depth, widths by calls, thin bars drawn together.
 //
-// A view says which calls are shown and how wide each is: `whole` shows all, each of width 1;
-// `changed` shows the calls of a list, each of width 1, their ancestors, and for each stretch of
-// other siblings between them one fold of a width of its own.
+// A view defines the shown calls and their widths: `whole` shows all, each of width 1; `changed`
+// shows the calls of a list, each of width 1, their ancestors, and for each stretch of other
+// siblings between them one fold of a width of its own.
 #pragma once
 
 #include <cstdint>

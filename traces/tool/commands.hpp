@@ -1,5 +1,5 @@
 // The subcommands. Each adds itself, with its options and help, to the command line, and runs when
-// it is parsed; what goes wrong leaves as an exception that main.cpp knows.
+// it is parsed; failures leave as exceptions that main.cpp handles.
 #pragma once
 
 #include <CLI/CLI.hpp>

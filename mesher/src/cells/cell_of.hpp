@@ -1,5 +1,5 @@
-// The clipped Voronoi cell of each dimension: the plane's and space's own, else the one for any.
-// All have the same verbs.
+// The type of the clipped Voronoi cell for each dimension: special ones for the plane and for
+// space, else the general one. All have the same functions.
 #pragma once
 
 #include "cells/voronoi_cell.hpp"

@@ -1,5 +1,5 @@
-// How far the corners of a clipped Voronoi cell are from its vertex v, and which of them are open:
-// what the cells of the plane and of space have in common.
+// The distances of the corners of a clipped Voronoi cell from its vertex v, and which corners are
+// open: the common part of the cells of the plane and of space.
 #pragma once
 
 #include <algorithm>

@@ -1,11 +1,11 @@
-// A vertex's link in space as it is written down: its neighbours and the triangles between them.
+// The record of a vertex's link in space: its neighbours and the triangles between them.
 //
 //   m  the m neighbours, ascending  the triangles, ascending
 //
 // A neighbour is a handle, or a virtual one. A triangle names neighbours by their positions, the
-// least first, in the order of its orientation: three of ten bits in a word, or, where there are
-// more neighbours than that tells apart, three of 21 bits in two words. So there is one record of a
-// link, and records may be compared.
+// least first, in the order of its orientation: three of ten bits in a word, or, if there are too
+// many neighbours for that, three of 21 bits in two words. So there is one record of a link, and
+// records may be compared.
 #pragma once
 
 #include <algorithm>

@@ -3,20 +3,20 @@
 // The clip is eight virtual vertices at distance 2R around v: the cell is that of v among the real
 // and the virtual vertices. A corner of the cell is the centre of a gap ball; a corner between two
 // real neighbours u_i, u_{i+1} at distance r from v is a Delaunay triangle of circumradius r.
-// A corner next to a virtual neighbour says that the star is hidden there beyond R.
+// At a corner next to a virtual neighbour the star is hidden beyond R.
 //
 // Notation: neighbours u_0 .. u_{m-1} counterclockwise, corner q_i between u_i and u_{i+1}, all
-// relative to v. cut(w) takes away the corners nearer to w than to v. Whether q_i is nearer is the
+// relative to v. cut(w) removes the corners nearer to w than to v. Whether q_i is nearer is the
 // sign of incircle(v, u_i, u_{i+1}, w): computed from q_i with an error bound, exactly (ties by
 // coordinates) where that does not decide. So the result depends on the set of vertices alone, not
 // on the order of cuts.
 //
-// Repair. A cell that is known for one set of vertices is brought to another: restore() takes the
-// neighbours that are left, cut() the vertices that are new, and what went leaves *open* corners,
-// whose gap balls must be searched for those who come instead. A corner between two neighbours that
-// were next to each other before is closed: its gap ball is empty but for the new vertices. So is
-// one that a cut makes on the edge between two closed corners, since its ball is in the union of
-// theirs. A cell that starts from the clip has open corners only.
+// Repair. A cell known for one set of vertices is updated to another set: restore() takes the
+// remaining neighbours, cut() the new vertices, and removed neighbours leave *open* corners, whose
+// gap balls must be searched for their successors. A corner between two neighbours that were next
+// to each other before is closed: its gap ball is empty but for the new vertices. So is one that a
+// cut makes on the edge between two closed corners, since its ball is in the union of theirs. A
+// cell that starts from the clip has open corners only.
 #pragma once
 
 #include <algorithm>

@@ -1,17 +1,17 @@
 // The Voronoi cell of a vertex v in space, clipped, and with it v's gap balls and Delaunay star
 // [Def 4.2.1], as its dual [rules B1].
 //
-// The clip is six virtual vertices at distance 2R around v, as VoronoiCell's in the plane, whose
-// text says what the cell, its corners, cuts, ties and repair are. Here the neighbours u of v are
-// the vertices of a triangulated sphere, v's link: a triangle (a, b, c), with v, is a Delaunay
-// tetrahedron, whose circumcentre is a corner of the cell.
+// The clip is six virtual vertices at distance 2R around v, as for VoronoiCell in the plane;
+// voronoi_cell.hpp explains the cell, its corners, cuts, ties and repair. Here the neighbours u of
+// v are the vertices of a triangulated sphere, v's link: a triangle (a, b, c), with v, is a
+// Delaunay tetrahedron, whose circumcentre is a corner of the cell.
 //
-// cut(w) takes the corners nearer to w than to v. They are connected, and so are the others (the
+// cut(w) removes the corners nearer to w than to v. They are connected, and so are the others (the
 // cell is a convex polyhedron, cut by a plane): their triangles make a disc, whose rim is joined to
 // w instead. Each triangle knows those across its edges.
 //
-// Neighbours and triangles have numbers, which change with cuts: what they say, as sets, depends on
-// the set of vertices alone. A neighbour's number may be unused.
+// Neighbours and triangles have numbers, which change with cuts; as sets they depend on the set of
+// vertices alone. A neighbour's number may be unused.
 #pragma once
 
 #include <algorithm>

@@ -1,20 +1,19 @@
 // The Voronoi cell of a vertex v in D dimensions, clipped, and with it v's gap balls and Delaunay
-// star [Def 4.2.1], as its dual: VoronoiCell3's text says what the cell, its corners, cuts, ties
-// and repair are, and this class has the same verbs. It is for dimensions beyond space: one text
-// for all, and no haste.
+// star [Def 4.2.1], as its dual. voronoi_cell3.hpp explains the cell, its corners, cuts, ties and
+// repair; this class has the same functions. It is for dimensions above 3: general, not fast.
 //
 // v's link is a triangulated sphere of simplices of D neighbours: with v each is a Delaunay
 // simplex, whose circumcentre is a corner of the cell. The clip are 2 D virtual neighbours at
 // distance 2R along directions at right angles, so the cell is in a cube around the ball of radius
 // R.
 //
-// cut(w) takes the corners nearer to w than to v, decided exactly, ties by coordinates; the rim of
-// what is taken is joined to w instead. A cell that is repaired is cut anew from its neighbours
-// that are left, and those of its corners that it had before are closed.
+// cut(w) removes the corners nearer to w than to v, decided exactly, ties by coordinates; the rim
+// of the removed part is joined to w. A repaired cell is cut anew from its remaining neighbours;
+// corners that it had before are closed.
 //
-// Written down: the number of neighbours, their codes, ascending, and D positions among them for
-// each simplex of the link: ascending, but that the last two are swapped where that is needed for
-// v to be positively oriented before them; simplices ascend.
+// A record has: the number of neighbours, their codes, ascending, and D positions among them for
+// each simplex of the link: ascending, but that the last two are swapped where that is needed for v
+// to be positively oriented before them; simplices ascend.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a cell says of itself: searches, extents, records, checks. Part of voronoi_cell_any.cpp.
+// Queries of a cell: searches, extents, records, checks. Part of voronoi_cell_any.cpp.
 #pragma once
 
 #include "cells/voronoi_cell_any.hpp"

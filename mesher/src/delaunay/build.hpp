@@ -1,4 +1,4 @@
-// A triangulation of many places of a kernel, from nothing.
+// Triangulates many positions of a kernel from scratch.
 #pragma once
 
 #include <algorithm>

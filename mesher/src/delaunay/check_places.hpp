@@ -1,4 +1,4 @@
-// Which points a triangulation takes.
+// Checks that points are allowed in a triangulation.
 #pragma once
 
 #include <cstddef>

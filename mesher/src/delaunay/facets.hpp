@@ -1,4 +1,4 @@
-// The corners of a simplex, and its facets, as its other simplex sees them the other way round.
+// The corners of a simplex, and its facets in the orientation of the simplex across.
 #pragma once
 
 #include <array>

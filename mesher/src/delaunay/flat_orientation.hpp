@@ -1,4 +1,4 @@
-// Which side of a facet a place is on, where it is in the facet's plane or nearly so.
+// The side of a facet on which a position is, for positions in the plane of the facet or nearly so.
 #pragma once
 
 #include <algorithm>

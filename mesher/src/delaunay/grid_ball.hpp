@@ -1,5 +1,5 @@
-// Points on one sphere of a grid, as most are there that are near it: on which side of it a point
-// is then, its tie broken.
+// In-ball tests on grids, where most points near a sphere are exactly on it: the side of the
+// sphere, with ties broken.
 //
 // With p as the origin a corner at r is as far from the centre e as p is if r (r - 2e) is 0. The
 // centre is the one that is kept with the simplex: of a grid's cells it is not rounded. Nor is

@@ -1,4 +1,5 @@
-// The hole that a vertex leaves, and which simplices of its neighbours' own triangulation fill it.
+// The hole left by a removed vertex, and the simplices of its neighbours' own triangulation that
+// fill it.
 #pragma once
 
 #include <algorithm>

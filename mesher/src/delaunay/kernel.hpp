@@ -1,4 +1,4 @@
-// Delaunay triangulations in the plane and in space, a vertex at a time.
+// Delaunay triangulations in the plane and in space, changed one vertex at a time.
 //
 // Representation. Simplices (simplex_store.hpp), by `Layout` with their balls or without
 // (simplex_layout.hpp), and places. The convex hull is closed by ghosts: a ghost is a hull facet
@@ -23,9 +23,9 @@
 // (Bowyer, Watson), new ones in their place. Removal: the triangulation of the neighbours alone
 // (another kernel) holds all that fills the hole.
 //
-// A refiner looks at a hole before it fills it, or not: dig(), then fill() or undo_dig().
+// A refiner can inspect a hole before it fills it or gives up: dig(), then fill() or undo_dig().
 //
-// Strong guarantee: what throws leaves everything as it was.
+// Strong guarantee: a function that throws leaves everything as it was.
 #pragma once
 
 #include <array>

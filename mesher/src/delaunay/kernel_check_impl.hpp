@@ -1,4 +1,4 @@
-// What a triangulation promises, tested exactly.
+// Exact tests of the invariants of a triangulation.
 //
 // Neighbours and orientation are those of a closed surface (in the plane) around which the hull's
 // ghosts close; no vertex across a facet conflicts with the simplex there: that is Delaunay, and

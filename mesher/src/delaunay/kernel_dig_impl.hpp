@@ -1,4 +1,4 @@
-// Which simplices a point conflicts with.
+// Finds the simplices that a point conflicts with.
 #pragma once
 
 #include <algorithm>

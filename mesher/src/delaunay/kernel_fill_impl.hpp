@@ -1,4 +1,4 @@
-// New simplices in the place of those that a point conflicts with.
+// Makes the simplices that replace those that a point conflicts with.
 #pragma once
 
 #include <algorithm>

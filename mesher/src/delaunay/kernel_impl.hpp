@@ -1,4 +1,4 @@
-// Places, the first simplex, the walk to where a point is.
+// Coordinates, the first simplex, the walk to the simplex that contains a point.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The balls of new simplices.
+// Computes the balls of new simplices.
 #pragma once
 
 #include "delaunay/facets.hpp"

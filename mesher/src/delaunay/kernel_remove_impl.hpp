@@ -1,7 +1,7 @@
 // Removal of a vertex.
 //
-// What takes the place of its star has corners in the link alone, and each simplex of it is
-// Delaunay among all other points, so among the link's. It is therefore the part of the link's own
+// The simplices that replace its star have corners only in the link, and each of them is Delaunay
+// among all other points, so among the link's. It is therefore the part of the link's own
 // triangulation that the border of the star encloses, ghosts included. If the link is in one plane
 // (on one line), the vertex was a tip of the hull, and only ghosts take the place of its simplices.
 // Within the hull, and where the link is small, as it nearly always is, that part is made facet by

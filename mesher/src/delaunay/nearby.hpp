@@ -1,4 +1,4 @@
-// Some vertex near a place, for walks to start from.
+// Finds a vertex near a position, to start walks from.
 //
 // Grids over a cube, each twice as fine as the one before, the last with about a cell a vertex. A
 // cell names a vertex in it, in the finest grid the last that was put there; a place is looked up

@@ -1,4 +1,4 @@
-// The ball around a simplex, kept with it: is a point in it?
+// The circumball of a simplex, stored with it for in-ball tests.
 //
 // The centre is rounded, and its error unknown but bounded; so two squared lengths are kept, the
 // ball's radius less all errors and more them. A point nearer than the one is in the ball, farther

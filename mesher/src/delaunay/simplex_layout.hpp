@@ -1,9 +1,9 @@
-// How the simplices of a triangulation lie in memory.
+// The layout of the simplices of a triangulation in memory.
 //
-// ArrayLayout: corners and neighbours in an array each, which are handed out as they are.
-// BallLayout: all that an insertion asks of a simplex in one place, and the ball around it: whether
-// a point is in it is one distance, but for points within rounding of the sphere. In space that is
-// one cache line of 64 bytes [rules D1].
+// ArrayLayout: one array of corners and one of neighbours, which become the result. BallLayout: all
+// data of a simplex that an insertion needs in one record, with its ball: an in-ball test is one
+// distance, except for points within rounding of the sphere. In space a record is one cache line of
+// 64 bytes [rules D1].
 //   (The other design was a second store for the refiner. An insertion is the same in both but for
 // this test and for what is kept of a new simplex, so the kernel takes the layout as a parameter.
 // For a triangulation alone the arrays are better: an insertion makes 20 simplices and tests 40, a

@@ -1,4 +1,4 @@
-// The regions of a triangulation as records, and marks on triangles for those who look for them.
+// The regions of a triangulation as records, and marks on triangles for searches.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The regions of a mesh that is edited, from its changes: what an update does to labels, and to the
-// part of the mesh that is kept.
+// Follows the regions of an edited mesh from its changes: the effect of an update on labels, and on
+// the kept part of the mesh.
 //
 // Example:
 //   DomainFollower lake(m.mesh(), walls, seeds, Extent::enclosed);
@@ -12,7 +12,7 @@
 //   (1) labels and faults are those of find_domain on the mesh, walls and seeds of the moment;
 //   (2) the change is exact: no triangle is missing, none is named twice, all are in canonical
 //       order;
-//   (3) what throws leaves all as it was.
+//   (3) a function that throws leaves everything as it was.
 // Cost of an update by c triangles and walls: O(c log c), however large the regions are around it.
 // Where regions are joined, and the triangles of all of them but the largest; where one is parted,
 // the triangles of all its parts but the largest, times their number; where a wall might part one

@@ -1,4 +1,5 @@
-// What a change leaves of one region: its survivors, parted where they cannot reach each other.
+// The fragments that a change leaves of one region: its survivors, divided where they are no longer
+// connected.
 //
 // Words: *survivors* and *frontier* as in tiles.hpp. A *cluster* is a set of triangles of the
 // frontier and new ones that reach each other among themselves. A *fragment* of a region is a set

@@ -1,4 +1,4 @@
-// Records whose changes can be taken back.
+// Records whose changes can be undone.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What seeds may be; which seed of a region counts, what that makes of the region, what is kept,
-// and which seeds are at fault.
+// Rules for seeds: valid seeds, the seed of a region that counts, the label that it gives the
+// region, the kept regions, and the seeds at fault.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// The regions of a triangulation that is changed, and the exact difference of labels.
+// The regions of a changing triangulation, and the exact difference of labels.
 //
 // Example:
 //   Regions regions(triangles, walls, seeds, places);
@@ -9,7 +9,7 @@
 //   (1) labels and faults are those of find_domain on the same triangles, walls and seeds, however
 //       they were reached;
 //   (2) the difference names every triangle that came, went, or has another label than before;
-//   (3) what throws leaves all as it was; what did not can be taken back once.
+//   (3) an update that throws leaves everything as it was; one that succeeds can be undone once.
 //
 // Cost of an update by c triangles and walls, with s seeds in what it touches:
 //   - O(c log c) and O(s), if no region is parted, joined or labelled anew, however large it is;

@@ -1,5 +1,5 @@
-// Regions after a change of the triangulation: fragments and new triangles that reach each other
-// are one region, which keeps the number of its largest part that was not looked at.
+// Regions after a change of the triangulation: fragments and new triangles that are connected are
+// one region, which keeps the number of its largest part that was not visited.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The seeds of a triangulation that is changed: where each is, and which are in a region.
+// The seeds of a changing triangulation: the triangle of each, and the seeds of each region.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// A triangulation that is changed: its triangles in slots, with their neighbours and walls.
-// In space read tetrahedra and faces for triangles and edges.
+// A changing triangulation: its triangles in slots, with their neighbours and walls. In space read
+// tetrahedra and faces for triangles and edges.
 //
 // Vertices are numbers of the caller's. No table of edges is kept: a triangle is found by walking
 // around one of its corners from the one triangle that the corner remembers.

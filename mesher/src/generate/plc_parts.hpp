@@ -1,4 +1,4 @@
-// The things that families of complexes consist of, put into one that is in the making.
+// Parts of the families of complexes, added to a complex under construction.
 #pragma once
 
 #include <map>

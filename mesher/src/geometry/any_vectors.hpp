@@ -1,4 +1,4 @@
-// Vectors in more than three dimensions, which the plane's and space's files do not have.
+// Vectors in more than three dimensions.
 #pragma once
 
 #include <array>

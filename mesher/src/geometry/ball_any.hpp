@@ -1,4 +1,4 @@
-// Balls through D + 1 points in any dimension: their centres, and who is inside, exactly.
+// Balls through D + 1 points in any dimension: their centres, and exact in-ball tests.
 //
 // For few dimensions, and few calls, since a filter decides nearly all. In the integers of
 // exact_sign.hpp, with B as there: a determinant of K differences is below K! B^K, a lift below D

@@ -1,4 +1,4 @@
-// Many boxes that do not change: which pairs meet.
+// Finds the pairs of boxes that meet, in a fixed set of boxes.
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,9 @@
 // The centre of the sphere through four points, relative to one of them [rules B2].
 //
-// In doubles where these are good for it. Where |a||b||c| exceeds 10^7 times their determinant the
-// four points are nearly in a plane, and cancellation may leave nothing: then the centre is a
-// quotient of exact integers, rounded once. So a centre has a small and known error always.
+// It is computed in doubles if these are precise enough. If |a||b||c| exceeds 10^7 times their
+// determinant, the four points are nearly in a plane, and cancellation may leave no correct digit:
+// then the centre is a quotient of exact integers, rounded once. So a centre always has a small and
+// known error.
 #pragma once
 
 #include "mesher/mesh.hpp"

@@ -1,4 +1,4 @@
-// The box of a tree of places that are known at once.
+// The box of a tree of positions that are all known at the start.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What rounded coordinates leave of distances.
+// The error of distances between rounded coordinates.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What the predicates' exact sides share: determinants of coordinate differences, in integers.
+// The common part of exact predicates: determinants of coordinate differences, in integers.
 //
 // The coordinates given are multiples of some 2^low, so their determinants are integers in a power
 // of that unit. How many bits they need is read off the doubles, and the narrowest width is taken:

@@ -1,8 +1,8 @@
 // Signed integers of a fixed number of 64-bit limbs, and doubles turned into them without rounding.
 //
-// Just what a determinant needs: difference, sum, product, sign. Two's complement, lowest limb
-// first. A sum wraps; a product has the limbs of both factors and is always exact. Callers prove
-// that their sums fit.
+// It has only the operations of determinants: difference, sum, product, sign. Two's complement,
+// lowest limb first. A sum wraps; a product has the limbs of both factors and is always exact.
+// Callers prove that their sums fit.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Checking input points at the boundary, and putting them into spatial order. N is the dimension.
+// Checks input points at the boundary, and sorts them into spatial order. N is the dimension.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Two doubles in one register: every machine that we know has instructions for that. Rounding is
-// that of doubles.
+// Two doubles in one register, for which all supported machines have instructions. Rounding is that
+// of doubles.
 #pragma once
 
 #include <cstddef>

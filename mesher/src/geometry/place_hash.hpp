@@ -1,4 +1,4 @@
-// A hash of a place.
+// A hash of coordinates.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // Segments and points in the plane: whether they meet (exactly), and how far apart they are.
 //
-// Distances are squared and rounded, each a function of the coordinates given. What must not err
-// asks segments_meet or on_segment.
+// Distances are squared and rounded, each a function of the coordinates given. Use segments_meet or
+// on_segment where the result must be exact.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Angles between directions in the plane, and which of them are small.
+// Angles between directions in the plane, and a test whether they are small.
 #pragma once
 
 #include <cmath>

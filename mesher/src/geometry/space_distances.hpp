@@ -1,4 +1,4 @@
-// How far points and segments in space are apart.
+// Distances of points and segments in space.
 //
 // Distances are squared and rounded, each a function of the coordinates given.
 #pragma once

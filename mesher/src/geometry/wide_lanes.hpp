@@ -1,7 +1,7 @@
-// For loops over lanes of doubles: compiled also for machines with registers of four, and chosen
-// when the program starts, which glibc can. The results are the same bits: operations are not
-// fused. (Not by clang: its version 14 gives what chooses another name, which other files do not
-// find.)
+// For loops over lanes of doubles: they are also compiled for machines with registers of four
+// doubles, and glibc chooses the version when the program starts. The results are the same bits:
+// operations are not fused. (Not with clang: its version 14 gives the resolver another name, which
+// other files do not find.)
 #pragma once
 
 #include <cstddef>  // says whether the C library is glibc

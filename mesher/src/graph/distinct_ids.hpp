@@ -1,4 +1,4 @@
-// Refusing ids that are given twice.
+// Refuses duplicate ids.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a graph is asked before its geometry is.
+// Queries of a graph that do not depend on its geometry.
 #pragma once
 
 #include "mesher/graph.hpp"

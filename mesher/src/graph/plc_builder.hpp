@@ -1,4 +1,5 @@
-// A complex in the making: points by their places, polygons and segments numbered from 1.
+// A complex under construction: points found by their coordinates, polygons and segments numbered
+// from 1.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Whether the parts of a graph have ids of their own, and its lines end at points.
+// Checks that the ids of a graph are distinct, and that its lines end at existing points.
 #pragma once
 
 #include "mesher/graph.hpp"

@@ -1,4 +1,5 @@
-// Voronoi cells to work on, lent: a cell keeps its columns' memory for the next one.
+// Voronoi cells on loan for computations: a returned cell keeps the memory of its columns for the
+// next use.
 #pragma once
 
 #include <memory>

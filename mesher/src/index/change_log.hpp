@@ -1,8 +1,8 @@
-// What has changed since the last update: vertices, and stars.
+// The vertices and stars that have changed since the last update.
 //
-// Everything is linked through records that are there already, so that taking back, which must not
-// fail, can note what it takes. A star that goes hands its ring over; one ring a vertex is kept,
-// the star's at the end of the last update.
+// Everything is linked through existing records, so that undoing, which must not fail, can log its
+// changes. A removed star hands its ring over; one ring is kept for each vertex, that of the star
+// at the end of the last update.
 #pragma once
 
 #include <array>

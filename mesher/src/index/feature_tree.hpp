@@ -2,7 +2,7 @@
 //
 // A cell of level k is crowded for the point p in it if the block of 3^D cells of level k around it
 // holds another point. K(p) is the deepest such level, -1 if there is none. Crowding is monotone
-// [L 4.1.1]: p is crowded at every level up to K(p). So BuildQT asks one question a point: K(p).
+// [L 4.1.1]: p is crowded at every level up to K(p). So BuildQT makes one query per point: K(p).
 //
 // The tree splits a cell while it holds two points; a node is one 32-bit word (empty, one point, or
 // a block of children). A walk from the root that keeps the 3^D nodes around a point finds K(p);

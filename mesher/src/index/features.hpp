@@ -1,9 +1,9 @@
 // The features' points: input points, and the vertices at which long segments are split. For each
 // point, the deepest level at which it is crowded; and the input points near a place.
 //
-// What is not to be in one finest cell may be there for a while, as an update goes on: a point
-// comes beside a vertex that its coming will take away. One of them stands for all; whoever asks
-// for the level of one when they should be apart is told that they are too close.
+// During an update two points may temporarily be in one finest cell, for example a new point beside
+// a vertex that it will replace. One of them represents all; a query for the level of one that
+// should be apart throws too_close.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // The stars of a first run, from one triangulation of all vertices [rules B5].
 //
-// A search for a star from nothing costs ten times what a vertex costs in bulk. Both give the same
-// star, since ties are decided by coordinates alone.
+// A search for a star from scratch costs ten times as much as a vertex of a triangulation in bulk.
+// Both give the same star, since ties are decided by coordinates alone.
 #pragma once
 
 #include <algorithm>

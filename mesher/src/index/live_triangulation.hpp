@@ -1,4 +1,4 @@
-// The Delaunay triangulation of the vertices that there are, while a run from nothing goes on.
+// The Delaunay triangulation of the current vertices during a run from scratch.
 //
 // A vertex's star there is its Voronoi cell, so that nothing has to be searched for: a cell is read
 // off and clipped. Ties are decided by coordinates in both, so it is the cell that a search finds,
@@ -7,7 +7,7 @@
 // A run begins with all its points. Far parts of them may have as many simplices as pairs of points
 // [rules B3]: then of() gives none, and cells are searched for.
 //
-// Vertices are called by their handles, and these count from 1 without a gap.
+// Vertices are named by their handles, which count from 1 without a gap.
 #pragma once
 
 #include <array>

@@ -1,10 +1,11 @@
-// Who has looked where: the observations of vertices, found by place and reach.
+// The observations of vertices, found by position and reach.
 //
-// An observation is centred at a vertex and says where a vertex may be that concerns it: its reach,
-// a box. A vertex keeps a list of those centred at it and a box around theirs; the quadtree keeps
-// one around those below each cell. So those that a place concerns are found from the root down.
-// (This is not a structure of its own in `sac`: the cells with their bounds are those in which
-// vertices are looked up, and a second tree of the same cells would cost as much memory again.)
+// An observation is centred at a vertex; its reach is a box that contains every vertex that can
+// concern it. A vertex keeps a list of the observations centred at it and a box around their
+// reaches; the quadtree keeps one around those below each cell. So the observations that a position
+// concerns are found from the root down. (This is not a structure of its own in `sac`: the cells
+// with their bounds are those in which vertices are looked up, and a second tree of the same cells
+// would cost as much memory again.)
 //
 // An observation that says who v's neighbours were is also where its call starts from when it runs
 // again. Then it must know which vertices came since: those are noted with it, its *arrivals*.

@@ -1,5 +1,4 @@
-// The quadtree as a place to look vertices up: its class, and the bodies of its functions by
-// subject.
+// The quadtree for finding vertices: its class, and the bodies of its functions by subject.
 #pragma once
 
 #include "index/quadtree_cells.hpp"    // IWYU pragma: export

@@ -1,5 +1,5 @@
-// The quadtree's cells: marked as split and the marks taken back, children given and taken, and the
-// vertices in the buckets of the leaves.
+// The cells of the quadtree: marking and unmarking them as split, adding and removing children, and
+// the vertices in the buckets of the leaves.
 #pragma once
 
 #include <algorithm>

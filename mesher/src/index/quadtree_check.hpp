@@ -1,4 +1,4 @@
-// All of the quadtree: its invariant, and its leaves.
+// Functions on the whole quadtree: its invariant, and its leaves.
 #pragma once
 
 #include <algorithm>

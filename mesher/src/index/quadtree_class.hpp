@@ -1,4 +1,4 @@
-// The quadtree as a place to look vertices up.
+// The quadtree for finding vertices.
 //
 // The cells are those that BuildQT marks as split: a cell is *wanted* while it, or a cell inside
 // it, is marked, and has children then. Answers do not depend on the subdivision, only their cost

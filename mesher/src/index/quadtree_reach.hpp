@@ -1,5 +1,5 @@
-// Which vertices' queries reach a place: each cell knows the area in which those below it look. It
-// grows with a query and is tightened with every visit.
+// Finds the vertices whose queries reach a position: each cell knows the area of the queries below
+// it. It grows with a query and is tightened with every visit.
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,8 @@
-// Which cells of the quadtree are split, as a traceable data type.
+// The split cells of the quadtree, as a traceable data type.
 //
 //   split(s, cell)   the running call marks a cell as split   (effect)
 //
-// Nobody observes it: what searches answer does not depend on the subdivision.
+// No call observes it: the results of searches do not depend on the subdivision.
 #pragma once
 
 #include "index/quadtree.hpp"

@@ -1,4 +1,4 @@
-// Looking vertices up: what the index answers, without a history.
+// Searches for vertices: the queries of the index, without a history.
 //
 // A cell is searched near its centre first, in the leaves that a gap ball can still enter
 // [L 4.3.3]. It need not start from nothing:

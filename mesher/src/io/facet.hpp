@@ -1,7 +1,7 @@
 // Facets of TetGen's `.poly` files as polygons.
 //
-// A facet is given as polygons in its plane and holes that empty what they lie in. What is filled
-// is bounded by loops; other polygons lie inside.
+// A facet is given as polygons in its plane and holes, each of which empties the area around it.
+// Loops bound the filled area; other polygons lie inside.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Decompression of zlib's format (RFC 1950, 1951), as `.vtu` files have it.
+// Decompresses zlib's format (RFC 1950, 1951) in `.vtu` files.
 #pragma once
 
 #include <cstddef>

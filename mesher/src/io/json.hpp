@@ -1,5 +1,5 @@
-// JSON texts as trees whose values know where they stand. The JSON library reads; what is kept is
-// what a reader of geometry asks for.
+// JSON texts as trees whose values have their location in the file. The JSON library reads; the
+// tree keeps only what a reader of geometry needs.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
-// A mesh as it grows from a file whose format has room for both dimensions: vertices in space,
-// triangles and tetrahedra. Which dimension it is of shows when all is read: three if there are
-// tetrahedra, or if there is nothing at all and the file says so, else two.
+// A mesh under construction from a file whose format supports both dimensions: vertices in space,
+// triangles and tetrahedra. Its dimension is known when all is read: three if there are tetrahedra,
+// or if the mesh is empty and the file says so, else two.
 #pragma once
 
 #include <algorithm>

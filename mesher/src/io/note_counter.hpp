@@ -1,5 +1,4 @@
-// Notes on what a file holds that is not used: one for each kind of thing, with how many there
-// were.
+// Notes on unused data in a file: one for each kind of data, with its count.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Polygons in the making: their rings become lines, each piece once; then a seed for each region
-// and hole.
+// Polygons under construction: their rings become lines, each piece once; then each region and hole
+// gets a seed.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Places just inside rings: where a flood that lines stop would begin.
+// Positions just inside rings, from which a flood stopped by lines would start.
 #pragma once
 
 #include <cstddef>

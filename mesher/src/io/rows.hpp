@@ -1,4 +1,4 @@
-// Tables of a file that goes by lines: a header with a count, then as many rows.
+// Tables of a line-based file: a header with a count, then that many rows.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What pictures of meshes have in common: their scale, how wide lines and dots are, and numbers.
+// The common part of pictures of meshes: their scale, the widths of lines and dots, and numbers.
 #pragma once
 
 #include <algorithm>

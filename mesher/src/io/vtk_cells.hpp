@@ -1,5 +1,5 @@
-// What both of VTK's formats say of the cells of a mesh: the simplices, in space then the faces in
-// polygons, then the edges on lines.
+// The cells of a mesh in both of VTK's formats: the simplices, in space then the faces in polygons,
+// then the edges on lines.
 #pragma once
 
 #include <array>

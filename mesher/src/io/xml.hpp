@@ -1,4 +1,5 @@
-// XML texts as trees whose parts know where they stand: as much of XML as VTK's files use.
+// XML texts as trees whose parts have their location in the file: the subset of XML that VTK's
+// files use.
 //
 // Elements, attributes, comments, declarations. Entities are left as they are written. What is
 // between the tags of an element without children is its text. Of an AppendedData element with raw

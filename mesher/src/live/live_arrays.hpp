@@ -1,9 +1,10 @@
-// The arrays of a live mesh, and how they follow its changes.
+// The arrays of a live mesh, and their updates.
 //
 //   SlotChange slots = arrays.plan(change);  ... arrays.keep();  // or drop()
 //
-// A plan reads the arrays of the last update and changes none of them. Neighbours of what comes are
-// found by the sides that are left: those of what comes, and those of what stays beside what goes.
+// A plan reads the arrays of the last update and changes none of them. Neighbours of new simplices
+// are found by unmatched sides: those of new simplices, and those of remaining simplices beside
+// removed ones.
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
 // Records in slots, and the slot of each record.
 //
-// An update is planned, and then kept or dropped. The plan has all that may fail: nothing is to be
-// seen of it before keep(). What comes takes the lowest free slots, ascending; a slot that is left
-// is free from the next plan on.
+// An update is planned, and then kept or dropped. All operations that may fail are in the plan, and
+// nothing of it is visible before keep(). New records take the lowest free slots, ascending; the
+// slot of a removed record is free from the next plan on.
 //
 // Slots are found by hashing, linear probing, in a table of slots alone: 6 to 12 bytes a record.
 #pragma once

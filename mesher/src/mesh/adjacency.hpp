@@ -1,4 +1,4 @@
-// Who is next to whom in a set of triangles or tetrahedra, and which of their sides are walls.
+// The neighbours in a set of triangles or tetrahedra, and their sides that are walls.
 //
 // A side of a triangle is an edge, of a tetrahedron a face; it is across from a corner.
 #pragma once

@@ -1,4 +1,4 @@
-// The faces of tetrahedra by the triangles that they lie on: who is next to whom.
+// The faces of tetrahedra grouped by triangle, which gives the neighbours.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Where places lie among triangles or tetrahedra, by exact signs.
+// Locates positions among triangles or tetrahedra, by exact signs.
 #pragma once
 
 #include <algorithm>

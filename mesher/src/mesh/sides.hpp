@@ -1,4 +1,4 @@
-// The sides of triangles by the edges that they lie on: who is next to whom.
+// The sides of triangles grouped by edge, which gives the neighbours.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What people call simplices.
+// Names of simplices, for people.
 #pragma once
 
 namespace mesher {

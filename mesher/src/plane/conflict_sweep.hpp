@@ -1,4 +1,4 @@
-// What is in conflict in the plane, found for all segments and points at once.
+// Finds all conflicts in the plane, for all segments and points at once.
 //
 // A line sweeps from left to right (of places with equal x from below) over the segments, which it
 // keeps in the order in which it meets them [Shamos and Hoey, Geometric intersection problems,

@@ -1,11 +1,10 @@
-// Whether a piece of a segment is crowded [rules A2]: whether it has to be split before anything is
-// refined.
+// Decides whether a piece of a segment is crowded [rules A2], i.e. must be split before refinement.
 //
 // A piece is crowded if
 //   (1) a segment without a common end meets the open ball that has the piece as its diameter,
 //   (2) an input point that is no end of its segment is in that ball, closed, or
 //   (3) such a segment or point is nearer to the piece than an eighth of its length.
-// That is a function of the input alone, found out beside the piece.
+// This is a function of the input alone, found near the piece.
 //
 //   crowded(s, piece)   (observation)
 //
@@ -13,7 +12,7 @@
 // a feature changes the answers of the pieces nearby that had none, one that takes a feature those
 // whose witness it was and that have no other; and only a changed answer runs a call again.
 //
-// So it is in the plane; what pieces are, and what crowds them, are a parameter.
+// This is the case of the plane; pieces, and the test whether they are crowded, are a parameter.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Observations of crowding, and edits that change them: instantiated where a kind of pieces is.
+// Observations of crowding, and edits that change them; instantiated for each kind of pieces.
 #pragma once
 
 #include "plane/crowding.hpp"

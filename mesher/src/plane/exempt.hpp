@@ -1,12 +1,12 @@
-// Which poor triangles stay [rules A5.2; Miller, Pav, Walkington]: those on an edge that joins
-// equal labels of two segments at under 60 degrees.
+// The poor triangles that are left [rules A5.2; Miller, Pav, Walkington]: those on an edge that
+// joins equal labels of two segments at under 60 degrees.
 //
 // Such an edge is as short as the angle makes it, and a vertex beside it would ask for a next edge
 // of the shells to be split. An end of the edge may be the far end of a leg: then the triangle
 // stays only on the side of the apex, since the other side is not between the segments.
 //
-// What it depends on is the roles of p and q, and the segments at them where they are input points:
-// who sees a vertex sees these (vertex_index.hpp).
+// It depends on the roles of p and q, and on the segments at them if they are input points: a call
+// that observes a vertex observes these (vertex_index.hpp).
 #pragma once
 
 #include <vector>

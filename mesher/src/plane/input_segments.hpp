@@ -1,4 +1,4 @@
-// The input's segments, and what calls ask about them; outside edits.
+// The segments of the input, the queries of calls about them, and edits from outside.
 //
 //   crowded(s, piece)   whether a piece has to be split before anything is refined  (observation)
 //   halves(s, piece)    what it is split into, and where                            (observation)

@@ -1,4 +1,4 @@
-// Which pieces of segments are leaves, as a traceable data type.
+// The pieces of segments that are leaves, as a traceable data type.
 //
 //   begin(s, piece)    from the running call on the piece is a leaf                  (effect)
 //   end(s, leaf)       from the running call on it is none: it has been cut          (effect)
@@ -6,12 +6,12 @@
 //                      a vertex to be; in the order of LeafRef
 //   around(s, v)       the same for a vertex v on a segment, without that segment's  (observation)
 //
-// A piece is a leaf for a call if that sees its beginning and not its end: two presences. When one
-// changes, the calls that see the change, and that the other presence does not hide it from, have
-// another answer if they asked about a place in the ball.
+// A piece is a leaf for a call that sees its beginning and not its end: two presences. When one
+// changes, the answer changes for the calls that see the change, if the other presence does not
+// hide it and they queried a position in the ball.
 //
-// Few answers are written down, since most questions leave another mark (the saving is an edge for
-// every vertex):
+// Few answers are recorded, since most queries leave another record (this saves an edge for every
+// vertex):
 //   - x is inserted iff no leaf's ball has it: its birth is the observation of the empty answer;
 //   - the calls that look at the cell of a vertex on a segment are those that ask about it;
 //   - x whose answer is not empty is not inserted: such asks are kept in a tree of their own.

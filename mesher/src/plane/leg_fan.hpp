@@ -1,4 +1,4 @@
-// The segments at a point of many, by direction: how long those are that leave beside one of them.
+// The segments at a point with many of them, by direction: finds the longest near one of them.
 //
 // A zone [rules A1] asks for the longest segment within an angle. Looking at all costs their
 // number, for each of them after an edit of one; here it is the logarithm. Answers are those of

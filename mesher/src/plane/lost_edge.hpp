@@ -1,4 +1,4 @@
-// Leaves that are no edges of the mesh: what remains of angles below double precision.
+// Finds leaves that are no edges of the mesh, as at angles below double precision.
 //
 // A leaf whose closed ball has no vertex is an edge of the Delaunay triangulation. A vertex that is
 // outside by its label may be inside by its rounded coordinates (leaf.hpp), which costs the edge

@@ -1,4 +1,5 @@
-// Who is meant when doubles do not suffice somewhere: the input's features nearest to a place.
+// The features of the input nearest to a position, to name in errors about positions where doubles
+// are too coarse.
 #pragma once
 
 #include <array>

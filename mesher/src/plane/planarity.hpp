@@ -1,4 +1,4 @@
-// What makes an input no planar graph: found beside the feature that brings it, and named.
+// Finds and names the faults that make an input not planar, near the feature that causes them.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Whether what has come fits to what is there, in the plane.
+// Checks in the plane that new features fit the existing ones.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The input's segments: found by their ends, at an end, and by what is near.
+// The segments of the input: found by their ends, at an end, and near a position.
 //
 // To be found by place, each live segment is covered by *tiles*: parts of it, each with a disc in a
 // ReachTree. It starts as one tile; a search that meets the disc of a tile much longer than what it

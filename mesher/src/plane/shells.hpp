@@ -1,4 +1,4 @@
-// Where a piece of a segment is split [rules A1].
+// The position at which a piece of a segment is split [rules A1].
 //
 // At the roundest number, a multiple of the largest power of two, in the middle third of the piece,
 // measured along the segment from the end that is its *origin*. Beside the origin these are powers

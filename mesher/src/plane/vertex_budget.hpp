@@ -1,4 +1,4 @@
-// What is said when a mesh needs more vertices than it may have: where they are.
+// The error for a mesh that needs more vertices than allowed: it names where they are.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// All that the mesher asks of the operating system beyond std::filesystem. This folder has one file
-// for each system; CMake chooses (SAC_PLATFORM).
+// The functions of the operating system that the mesher uses beyond std::filesystem. This folder
+// has one file for each system; CMake chooses (SAC_PLATFORM).
 #pragma once
 
 #include <cstdio>

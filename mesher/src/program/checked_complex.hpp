@@ -1,5 +1,4 @@
-// A graph in the plane, or a complex in space, that was found to be one: its features, and what
-// they are called.
+// A validated graph in the plane, or complex in space: its features, and their ids.
 #pragma once
 
 #include <memory>

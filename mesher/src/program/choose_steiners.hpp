@@ -1,7 +1,7 @@
 // ChooseSteiners [Fig 4.7, 4.10, 5.6]: the Steiner points, bucket by bucket.
 //
 // The work queue is an agenda keyed (length bucket, ComputeNN before Complete before Cut, colour,
-// place). What a vertex is found to need, and where the new vertices go, is the InsertionRule's.
+// place). InsertionRule decides whether a vertex needs new vertices, and their positions.
 #pragma once
 
 #include <algorithm>

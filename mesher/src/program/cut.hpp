@@ -1,7 +1,7 @@
-// Cut [Fig 5.2, 6.2]: a leaf that is in the way is split where the shells say.
+// Cut [Fig 5.2, 6.2]: splits a leaf that is in the way, at the position given by the shells.
 //
-// All who need a leaf cut in bucket b post the same call, which runs at the bucket's end: so calls
-// of one bucket do not meet through segments.
+// All calls that need a leaf cut in bucket b post the same call, which runs at the end of the
+// bucket: so calls of one bucket do not affect each other through segments.
 #pragma once
 
 #include "program/split_segments.hpp"

@@ -1,9 +1,9 @@
-// Fill [rules A7.4]: where simplices must not be large, vertices come from a lattice before
-// anything is refined.
+// Fill [rules A7.4]: where simplices must not be large, it inserts vertices of a lattice before
+// refinement.
 //
-// Which places are candidates is a function of space. Whether one is taken depends on the features
-// beside it, in the plane also on the leaves around it, on no other candidate: an edit changes what
-// it is near.
+// The candidates are a function of space. Whether one is inserted depends on the features near it,
+// in the plane also on the leaves around it, and on no other candidate: an edit changes only
+// candidates near it.
 #pragma once
 
 #include "program/build_qt.hpp"

@@ -1,5 +1,5 @@
 // Disencroach a polygon [Fig 6.4; rules C]: where other features are near, a polygon gets vertices
-// from a lattice of its own before anything is refined.
+// of a lattice of its own before refinement.
 //
 // Departure: not the corners of the polygon's Voronoi diagram that are far from their vertices, one
 // by one. Whether a piece is crowded, and whether there is room for its vertex, are functions of

@@ -1,4 +1,5 @@
-// What cells are filled with, as a traceable data type: the limits of size are edited from outside.
+// The plans for filling cells, as a traceable data type: the limits of size are edited from
+// outside.
 //
 //   plan(s, c)   what is to be done about the cell c                       (observation)
 //

@@ -1,4 +1,4 @@
-// What fills where simplices must not be large: asked for, and edited from outside.
+// Filling where simplices must not be large: the queries of calls, and edits from outside.
 #pragma once
 
 #include <memory>

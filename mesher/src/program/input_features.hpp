@@ -1,4 +1,4 @@
-// The input's edges and polygons, and what calls ask about them; outside edits.
+// The edges and polygons of the input, the queries of calls about them, and edits from outside.
 //
 //   crowded(s, piece)     whether a piece of an edge, or of a polygon, has to be split
 //   (observation)
@@ -7,8 +7,8 @@
 //   hemmed_in(s, piece)   whether a piece of a polygon is better off without a vertex
 //   (observation)
 //
-// Who looks at cells reads what is beside them (find_near) without an observation but that of the
-// cell: a feature that comes or goes looks for the cells that it is beside.
+// A call that observes a cell reads the features near it (find_near) with no further observation:
+// an added or removed feature finds the cells that it is near.
 #pragma once
 
 #include "index/vertex_index.hpp"

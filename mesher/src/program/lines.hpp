@@ -1,4 +1,4 @@
-// What ChooseSteiners asks of segments, and in space of edges and polygons.
+// The queries of ChooseSteiners about segments, and in space about edges and polygons.
 #pragma once
 
 #include <cstdint>

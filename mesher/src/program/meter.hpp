@@ -1,4 +1,4 @@
-// Telling the caller how far a run is, and stopping it when asked to.
+// Reports the progress of a run to the caller, and stops it on request.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What leaves no room to places that may be filled: features of the input, and in the plane the
-// vertices at which segments are split.
+// Obstacles to candidates: features of the input, and in the plane the vertices at which segments
+// are split.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,5 @@
-// What the calls of the program share where there are points alone: the box, the rule, the
-// features, the vertices, the work queues. World (program/world.hpp) adds what else a dimension
-// has.
+// The data that the calls of the program share for points alone: the box, the rule, the features,
+// the vertices, the work queues. World (program/world.hpp) adds the other features of a dimension.
 #pragma once
 
 #include <array>

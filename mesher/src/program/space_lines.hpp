@@ -1,10 +1,10 @@
-// What ChooseSteiners asks of edges and polygons in space [Fig 6.2, 6.3; rules C].
+// The queries of ChooseSteiners about edges and polygons in space [Fig 6.2, 6.3; rules C].
 //
 // No edge or face of the mesh is remembered: an edge of the input is a union of the mesh's edges,
 // and a polygon of its faces, once no vertex that is not on it has a cell that meets it. So
-// Complete(v) asks the features of the input near v, and that is a function of v's cell and these:
-// who has looked at v's cell is told when a feature as near as it has asked comes or goes
-// (VertexIndex::feature_changed).
+// Complete(v) queries the features of the input near v, a function of v's cell and these features:
+// calls that have observed v's cell are notified when a feature within their search radius is added
+// or removed (VertexIndex::feature_changed).
 #pragma once
 
 #include <algorithm>

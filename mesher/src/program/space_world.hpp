@@ -1,5 +1,5 @@
-// What the mesher's calls share in space: besides what points need, the edges and polygons of the
-// input.
+// The data that the mesher's calls share in space: that for points, and the edges and polygons of
+// the input.
 #pragma once
 
 #include "program/filling.hpp"

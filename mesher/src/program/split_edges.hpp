@@ -1,9 +1,9 @@
-// SplitSegments in space [Fig 6.4; rules C]: edges of the input are split before anything is
-// refined, until no feature crowds a piece.
+// SplitSegments in space [Fig 6.4; rules C]: splits edges of the input before refinement, until no
+// feature crowds a piece.
 //
 // As in the plane (program/split_segments.hpp) what crowds a piece is a function of the input
-// alone. A piece that is not crowded is nothing: that an edge is a union of the mesh's edges is for
-// Complete to see, which asks the edge itself [rules C3].
+// alone. A piece that is not crowded needs no record: Complete makes an edge a union of the mesh's
+// edges, and queries the edge itself [rules C3].
 #pragma once
 
 #include "program/build_qt.hpp"

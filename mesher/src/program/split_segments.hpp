@@ -1,5 +1,5 @@
-// SplitSegments [Fig 5.5, 6.4; rules A2]: segments are split before anything is refined, until no
-// feature crowds a piece.
+// SplitSegments [Fig 5.5, 6.4; rules A2]: splits segments before refinement, until no feature
+// crowds a piece.
 //
 // Departure: what crowds a piece is a function of the input alone (plane/crowding.hpp), so a
 // call on a piece depends on no other, and its order is only that a piece comes before its halves.

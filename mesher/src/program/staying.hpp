@@ -1,4 +1,4 @@
-// Which poor triangles Complete leaves alone: exempt ones [rules A5.2], and in this call those that
+// The poor triangles that Complete leaves: exempt ones [rules A5.2], and in this call those that
 // have yielded to leaves.
 #pragma once
 

@@ -1,9 +1,9 @@
-// How much room features leave to places that may be filled.
+// The room that features leave for candidates.
 //
 //   rooms(s, c, candidates)   for each candidate in the cell c, see Room   (observation)
 //
-// Whoever asks comes behind all splits. So an answer changes only before its call's turn: by an
-// edit from outside, or in the plane by a split of a segment that comes or goes.
+// All calls that query it come after all splits. So an answer changes only before its call's turn:
+// by an edit from outside, or in the plane by an added or removed split of a segment.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How large a mesh is, and how long the parts of the run took that made it.
+// The size of a mesh, and the times of the parts of the run that made it.
 #pragma once
 
 #include <chrono>

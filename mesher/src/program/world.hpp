@@ -1,12 +1,13 @@
-// What the mesher's calls share: the box, the rule, the features, the vertices, the work queues.
+// The data that the mesher's calls share: the box, the rule, the features, the vertices, the work
+// queues.
 //
 // The program (S is sac::Scope, or sac::PlainScope for a static run; D is the dimension):
 //   refine = SplitSegments; Fill; BuildQT; ChooseSteiners; Triangulate
 // Each part drains its agenda; a part posts on its own agenda and on those of later parts.
 //
-// PointWorld is what points need. World is that with what else there is in a dimension: segments in
-// the plane, edges and polygons in space, and in both limits of size; beyond that nothing. What the
-// program asks of those is answered in program/lines.hpp.
+// PointWorld has the data for points. World adds the other features of a dimension: segments in the
+// plane, edges and polygons in space, and in both limits of size; in higher dimensions nothing.
+// program/lines.hpp answers the queries of the program about them.
 #pragma once
 
 #include <chrono>

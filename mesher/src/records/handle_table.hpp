@@ -1,4 +1,4 @@
-// Handles of records, found by what the records are: the keys are in the records alone.
+// Finds handles of records by the content of the records, which alone hold the keys.
 #pragma once
 
 #include <tsl/robin_set.h>

@@ -1,4 +1,4 @@
-// How far queries look: from a vertex, and from the cells that vertices lie in.
+// The reach of queries: from a vertex, and from the cells that contain vertices.
 //
 // Both are boxes, rounded outward. A vertex has a Reach, four bytes: a power of two as the unit, in
 // sides of the mesh's box, and the sides of its box in units. Coarser units are multiples of finer

@@ -1,12 +1,12 @@
-// Items that have a place and reach some way from it: discs, found by what they meet.
+// Items with a position and a radius, i.e. discs, found by the objects that they meet.
 //
 // A trie over Morton cells. Each block keeps the largest reach below each of its four children, so
 // a search enters only what may reach it; one large disc among small ones costs its own path.
 // Blocks that would have one child are left out, and up to kMost items lie in a list, so that
 // memory is linear in the items wherever they lie.
 //
-// It is an accelerator: a search visits all that it is asked for and few others, in no particular
-// order. The caller tests exactly, and sorts.
+// It is an accelerator: a search visits all requested items and few others, in no particular order.
+// The caller tests exactly, and sorts.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-// What vertices on segments are: which place of which segment [rules, identity of vertices].
+// Roles of vertices on segments: the segment, and the position on it [rules, identity of vertices].
 //
-// Few vertices have a role, so roles lie beside the vertices' records, and only where there are
-// any.
+// Few vertices have a role, so roles are stored apart from the vertices' records, and only if there
+// are any.
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
 // Vertices: their records, references to them, and the pool they live in.
 //
-// A record's identity is its coordinates: whoever inserts a point with these coordinates gets this
-// record, so calls about it are recognised again. A record is alive while somebody produces it; it
-// is freed at the end of an update, so that handles hold throughout one.
+// A record is identified by its coordinates: every call that inserts a point with these coordinates
+// gets this record, so calls about it are recognised again. A record is alive while some call
+// produces it; it is freed at the end of an update, so that handles are valid throughout one.
 #pragma once
 
 #include <bit>

@@ -1,5 +1,5 @@
-// Lengths in buckets, and for each bucket how far Complete looks and which vertices are
-// independent.
+// Buckets of lengths, with the search radius of Complete and the independent vertices for each
+// bucket.
 //
 // Bucket i holds the lengths in [rho^i l_0, rho^(i+1) l_0). In bucket [l, rho l) Complete sees the
 // part of a Voronoi cell within the clip, gamma rho l; the squares of the colouring [Fig 4.9] are

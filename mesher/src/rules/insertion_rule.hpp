@@ -1,4 +1,4 @@
-// Which point to insert, and when to look again: the rule behind Complete.
+// The rule behind Complete: the next point to insert, and the bucket of the next visit.
 //
 // A rule looks at v's Voronoi cell, clipped as its bucket says. A vertex inserted for a length of
 // bucket i has its nearest neighbour in a later bucket [L 4.3.1]; its event runs later than the one

@@ -1,4 +1,4 @@
-// What two ascending sets have in common.
+// The common items of two ascending sets.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Sorting by counting: in linear time what is spread evenly over its range.
+// Counting sort: linear time for items spread evenly over their range.
 #pragma once
 
 #include <algorithm>

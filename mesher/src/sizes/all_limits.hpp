@@ -1,4 +1,4 @@
-// All that Options say of limits of size, and how that changes in a box.
+// The limits of size in Options, and their change in a box.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-// Which places are filled where simplices must not be large [rules A7]: a function of space.
+// The candidates for filling where simplices must not be large [rules A7]: a function of space.
 //
-// The vertices come from a lattice first: were too large a simplex but one more reason to insert,
-// the mesh would be one advancing front, and an edit would move all of it.
+// Vertices of a lattice come first: if a too large simplex were just one more reason to insert a
+// vertex, the mesh would be one advancing front, and an edit would change all of it.
 //
 // A point of a lattice is a *candidate* if its pitch is that of the lattice, and no candidate of a
 // smaller pitch is within half of it.

@@ -1,7 +1,7 @@
-// A simplex of a background: sizes at its corners, and what is linear between them.
+// A simplex of a background: sizes at its corners, interpolated linearly.
 //
-// Simplices in space may be flat but for rounding, so the gradient is found in twice the precision;
-// of one that is flatter yet, the least size is that of all of it.
+// Simplices in space may be flat up to rounding, so the gradient is computed in twice the
+// precision; for even flatter simplices the least size is used everywhere.
 #pragma once
 
 #include <algorithm>

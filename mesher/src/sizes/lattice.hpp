@@ -1,5 +1,5 @@
-// The lattices that places are filled from where simplices must not be large [rules A7.2]: L(t), t
-// its *pitch*, from the origin of coordinates.
+// The lattices of vertices for filling where simplices must not be large [rules A7.2]: L(t), with
+// *pitch* t, from the origin of coordinates.
 //
 // In the plane the points (t (i + 1/2 (j odd)), 7/8 t j): triangles of area 7/16 t^2, nearly
 // equilateral. In space the body-centred points t (i, j, k) / 2, all of i, j, k odd or all even:

@@ -1,4 +1,4 @@
-// How large simplices may be, and the lattices that suit that [rules A7]: functions of space.
+// The limits of size of simplices, and the matching lattices [rules A7]: functions of space.
 //
 // A simplex whose centroid is in the domain has at most the measure (area, volume) of the limit
 // there. A limit asks for a *spacing*, that of the lattice whose simplices have this measure.
@@ -9,7 +9,7 @@
 //
 // Where regions are given, limits count in some, and these may have measures of their own.
 //
-// All that is said of a place, or of a box, depends on the limits there alone: limits that change
+// All results for a position, or for a box, depend only on the limits there: limits that change
 // elsewhere do not matter.
 #pragma once
 

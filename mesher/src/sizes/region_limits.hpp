@@ -1,7 +1,8 @@
-// Where limits of size count, and those of regions, by the simplices of a mesh: a value.
+// The area where limits of size count, and the limits of regions, given by the simplices of a mesh:
+// a value type.
 //
-// Simplices that are changed give another value, which shares all else with the one before: so an
-// update that is taken back has both.
+// Changed simplices give another value, which shares everything else with the one before: so both
+// exist while an update can be undone.
 //
 // The simplices are in a quadtree (octree), each in the cell around its middle that is two to four
 // times as wide: what is in a cell lies within a quarter of its side around it. Nodes are copied

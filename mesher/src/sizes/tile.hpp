@@ -1,4 +1,4 @@
-// A simplex that says something of its places: what it has, exactly.
+// A simplex as a set of positions: exact tests of what it contains.
 #pragma once
 
 #include <algorithm>

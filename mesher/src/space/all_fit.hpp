@@ -1,4 +1,4 @@
-// Whether all features of a complex fit together, asked at once.
+// Checks that all features of a complex fit together, all at once.
 #pragma once
 
 #include <functional>

@@ -1,7 +1,7 @@
-// Dyadic numbers: which one to take of those in a span.
+// Dyadic numbers: chooses one in an interval.
 //
-// A coarse place is likely to be asked for again, by others and after an edit: so it is a function
-// of little.
+// A coarse position is likely to be needed again, by other calls and after an edit, since it
+// depends on little.
 #pragma once
 
 #include <bit>

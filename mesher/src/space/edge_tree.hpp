@@ -1,5 +1,5 @@
-// The edges of a polygon, or what lies on it, in the plane of its frame: a tree of boxes, for what
-// is near a place and what is around it.
+// The edges of a polygon, or the features on it, in the plane of its frame: a tree of boxes, to
+// find edges near a position and to test whether it is inside.
 //
 // Edges come in chains: each of a chain begins where the one before it ends; a loop is a chain that
 // ends where it begins. A node has edges that follow each other in one chain, or some whole chains,

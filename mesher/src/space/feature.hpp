@@ -1,4 +1,4 @@
-// Features in space: edges and polygons, and the places on them that vertices stand for.
+// Features in space: edges and polygons, and the positions of vertices on them.
 //
 // An *edge* is a straight line between two input points, whoever uses it: a segment of the input,
 // or polygons that have it in a loop or declare it to lie inside. A *polygon* lies in a plane and

@@ -1,4 +1,4 @@
-// What is asked of the input's features, found beside a place: functions of the input alone.
+// Queries about the features of the input near a position: functions of the input alone.
 #pragma once
 
 #include "cells/voronoi_cell3.hpp"

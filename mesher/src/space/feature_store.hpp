@@ -1,7 +1,8 @@
-// The input's edges and polygons: their records, who uses which edge, and what is near.
+// The edges and polygons of the input: their records, the users of each edge, and searches near a
+// position.
 //
-// An edge is there while somebody uses it: a segment of the input, or polygons, of which it is an
-// edge or inside. Who listens is told of edges and polygons that come and go.
+// An edge exists while a feature uses it: a segment of the input, or polygons that have it as an
+// edge or inside. Listeners are notified of added and removed edges and polygons.
 #pragma once
 
 #include <cstddef>

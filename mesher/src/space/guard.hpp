@@ -1,16 +1,17 @@
-// The guard: where refinement may not end, poor tetrahedra stay [rules C].
+// The guard: leaves tetrahedra poor where refinement might not terminate [rules C].
 //
 // A point that yields to a feature, or is near one, leads to edges that may be shorter than the
 // edge that asked for it: a foot is as near as half of the gap ball's radius, which is less than
-// the edge where rho < 2. Beside a feature that is alone, that never has to end: nothing there says
-// how short is short enough. So an edge asks for no such point if it is *isolated*: within
-// kIsolated times its length there is no feature that this one has nothing in common with, and no
-// two parts of it (corners, ends, edges) that have nothing in common with each other.
+// the edge where rho < 2. Beside an isolated feature this need not terminate: no other feature
+// there bounds the lengths from below. So an edge requests no such point if it is *isolated*:
+// within kIsolated times its length every feature has a point in common with this one, and so have
+// any two parts of it (corners, ends, edges) with each other.
 //
-// It ends: an edge e that asks is within kBesideEdge e of a feature, and not isolated; so two
-// features that have nothing in common are within (kBesideEdge + kIsolated) e of each other. These
-// have a least distance, and all vertices that tetrahedra ask for are at least a constant times
-// that apart. (That is no proof for what features ask of each other at small angles.)
+// Termination: an edge e that requests a point is within kBesideEdge e of a feature, and not
+// isolated; so two features without a common point are within (kBesideEdge + kIsolated) e of each
+// other. These have a least distance, and all vertices that tetrahedra request are at least a
+// constant times that apart. (This does not prove termination for the effects of features on each
+// other at small angles.)
 #pragma once
 
 #include "mesher/reports.hpp"

@@ -1,8 +1,8 @@
-// The parts of features that a mesh has, kept from update to update, so that an update can tell
-// which have come and gone by a look at the vertices that it has touched.
+// The parts of features in a mesh, kept from update to update, so that an update finds the added
+// and removed parts by visiting only the vertices that it has touched.
 //
-// A part is found from each end of an edge, and from the first corner of a face. What an update
-// brings is made ready before it is final; to make it so needs no memory.
+// A part is found from each end of an edge, and from the first corner of a face. The changes of an
+// update are prepared before it is final; completing them needs no memory.
 #pragma once
 
 #include <set>

@@ -1,8 +1,8 @@
 // Which edges and faces of a mesh are parts of the input's edges and polygons.
 //
-// What lies on a feature is told by labels. A face with its three corners on a polygon is a part of
-// it if its Voronoi edge, which joins the centres on both of its sides, crosses the polygon [rules
-// C3]: a plane's slice of a Voronoi diagram is the dual of a triangulation, so these faces are one,
+// Labels tell what lies on a feature. A face with its three corners on a polygon is a part of it if
+// its Voronoi edge, which joins the centres on both of its sides, crosses the polygon [rules C3]: a
+// plane's slice of a Voronoi diagram is the dual of a triangulation, so these faces are one,
 // whatever the rest of the mesh is like there. On which side of the plane a centre is, is found
 // once for a tetrahedron; so tetrahedra that are flat but for rounding are on one side, and do no
 // harm.

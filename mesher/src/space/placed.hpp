@@ -1,4 +1,4 @@
-// Where a new vertex is to go, and what on: its role says the lowest feature that it lies on.
+// The position of a new vertex, and its role: the feature of lowest dimension that it lies on.
 //
 // A vertex on an edge has the edge's handle and a label in its role; one on a polygon the polygon's
 // handle, marked, and if it is a copy (space/small_angles.hpp) its distance from what it was turned

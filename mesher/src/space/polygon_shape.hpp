@@ -1,11 +1,11 @@
-// What follows from a polygon's corners: its plane, what is inside, and how far things are from it.
+// Properties of a polygon computed from its corners: its plane, inside tests, and distances to it.
 //
 // The plane is that of Newell's normal of the outer loop, taken from its smallest corner on; so it
 // is a function of the corners alone [rules C2]. Corners may be off it by rounding, and somewhat
-// more: what is not is_flat is refused by those who make polygons.
+// more: functions that make polygons refuse those that are not is_flat.
 //
-// Ball tests are closed with a slack, so that what is not found to touch is clear of touching
-// [rules C5].
+// Ball tests are closed with a slack, so that objects not found to touch are clearly apart [rules
+// C5].
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Which polygons have an edge, or a point, of the input: an index that others can be merged into,
-// and out of which they can be taken, without memory.
+// Finds the polygons that have an edge, or a point, of the input: an index into which others can be
+// merged, and from which they can be removed, without allocating memory.
 #pragma once
 
 #include <set>

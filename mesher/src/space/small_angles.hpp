@@ -1,10 +1,10 @@
-// Where features meet at small angles [rules C]: copies instead of projections, and tetrahedra that
-// stay poor.
+// Rules for features that meet at small angles [rules C]: copies instead of projections, and
+// tetrahedra that are left poor.
 //
-// A vertex v on f, too near g, and f and g share h, an edge or a point: projections between them
-// would approach h for ever. Instead v is *copied*: turned about h on to g, which is not near f for
-// that. And an edge from f to g that is shorter than both ends' distances from h is as short as
-// the angle makes it: a tetrahedron that is poor by it stays.
+// Let v be a vertex on f, too near g, where f and g share h, an edge or a point: projections
+// between them would approach h for ever. Instead v is *copied*: turned about h on to g, which is
+// not near f for that. And an edge from f to g that is shorter than both ends' distances from h is
+// as short as the angle makes it: a tetrahedron that is poor by it stays.
 #pragma once
 
 #include <optional>

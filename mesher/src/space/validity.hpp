@@ -1,5 +1,5 @@
-// What makes an input no piecewise linear complex: found beside the feature that brings it, and
-// named.
+// Finds and names the faults that make an input no piecewise linear complex, near the feature that
+// causes them.
 //
 // Features may have corners, ends and edges in common, and what a polygon declares to lie in it;
 // nothing else. Corners of a polygon are hardly ever coplanar in doubles, so tests go by labels

@@ -1,7 +1,8 @@
-// Where a point goes that is too near features of lower dimension [Fig 6.2c; rules C, k = 1/2].
+// The new position of a point that is too near features of lower dimension [Fig 6.2c; rules C, k =
+// 1/2].
 //
-// The answer is a function of the point, its ball, and the features of the input: no vertex is
-// asked, so an edit elsewhere on a feature does not matter.
+// It is a function of the point, its ball, and the features of the input. It depends on no vertex,
+// so an edit elsewhere on a feature does not matter.
 #pragma once
 
 #include <optional>

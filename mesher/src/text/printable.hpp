@@ -1,4 +1,4 @@
-// Text of files and arguments as it may be shown to people.
+// Makes text of files and arguments printable.
 #pragma once
 
 #include <string>

@@ -1,9 +1,9 @@
 // Reading text files: lines, fields with their columns, and numbers that are checked.
 //
-// Most readers walk a file line by line with `Line`, which knows its place; so each error carries
-// file, line and column without the reader's help. Formats that do not go by lines are read from a
-// `Source`, which finds the place of any part of its text. Numbers are parsed by std::from_chars
-// (no locale); a leading '+' is accepted.
+// Most readers walk a file line by line with `Line`, which knows its location; so each error
+// carries file, line and column without the reader's help. Formats that are not line-based are read
+// from a `Source`, which finds the location of any part of its text. Numbers are parsed by
+// std::from_chars (no locale); a leading '+' is accepted.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// All that the tool asks of the operating system. This folder has one file for each system; CMake
-// chooses (SAC_PLATFORM).
+// The functions of the operating system that the tool uses. This folder has one file for each
+// system; CMake chooses (SAC_PLATFORM).
 #pragma once
 
 #include <cstdint>

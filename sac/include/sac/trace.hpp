@@ -73,8 +73,7 @@ struct Call : TimeNode {
   std::uint16_t function_number = 0;
   Life life : 2 = Life::placed;
   Validity validity : 2 = Validity::valid;
-  std::uint8_t round : 1 =
-      0;  // changes with each execution; edges of the other round are of the last one
+  std::uint8_t round : 1 = 0;   // changes with each execution; old edges have the other bit
   bool posted : 1 = false;      // runs from an agenda; a Slot lies behind the head
   std::uint8_t work_queue = 0;  // of a posted call: the number of its agenda as a structure
   Handle end = 0;               // end stamp; 0: a leaf

@@ -1,7 +1,7 @@
-// Weights: what calls say that they have done inside, kept in the trace.
+// Weights: the steps that calls report, kept in the trace.
 //
-// A structure that nobody observes. Each Scope::weigh is an effect whose edge holds the number; a
-// call that runs again writes over those of last time.
+// A structure without observations. Each Scope::weigh is an effect whose edge holds the number; a
+// call that runs again overwrites those of its last execution.
 #pragma once
 
 #include <cstdint>

@@ -53,8 +53,8 @@ struct StabilityRow {
   std::uint64_t weight_distance = 0;  ///< D by weight (traces/distance.hpp)
   std::uint64_t heaviest = 0;         ///< greatest weight of a call that only one of the two has
   sac::Counts counts;                 ///< of the propagation
-  std::uint64_t drift =
-      0;  ///< distance of the propagated trace and a fresh one: 0 if the engine is correct
+  /// Distance of the propagated trace and a fresh one: 0 if the engine is correct.
+  std::uint64_t drift = 0;
 
   /// W: the calls created, discarded and executed.
   [[nodiscard]] std::uint64_t work() const noexcept {

@@ -1,14 +1,14 @@
 // The core: executes calls, keeps their trace, reuses and discards, and propagates.
 //
-// What lies around it, and through which of its members:
-//   Engine      the client's side: modes, counts, roll-back, introspection
-//   Scope       what a running call asks for: call_child, call_tail, recall, attach, guarded
+// The parts around it, and the members that they use:
+// //   Engine      the functions for clients: modes, counts, roll-back, introspection
+// //   Scope       operations of a running call: call_child, call_tail, recall, attach, guarded
 //   structures  Engine's public part "For structures": precedes, invalidate, doubt, ...
 //   Agenda      calls that are made before they run: "For work queues" below
 //
-// The loop is short: a call that must run again is popped from the queue (earliest first), its body
-// is run, children that it asks for again are reused, what it did not repeat is taken back, and
-// children that it did not ask for are discarded. docs/propagate.md walks through one propagation.
+// The loop is short: pop a call that must run again from the queue (earliest first), run its body,
+// reuse the children that it requests again, undo the effects that it did not repeat, and discard
+// the children that it did not request. docs/propagate.md walks through one propagation.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// What a drain runs of one class (bucket, phase, colour): what was posted before, in order, merged
-// with what these calls post into it.
+// The calls of one class (bucket, phase, colour) that a drain runs: those posted before, in order,
+// merged with those that these calls post into the class.
 #pragma once
 
 #include <algorithm>

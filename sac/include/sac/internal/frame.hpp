@@ -1,4 +1,5 @@
-// A call in memory behind its head, and what the engine is told of its function.
+// The parts of a call behind its head in memory, and the description of its function for the
+// engine.
 #pragma once
 
 #include <concepts>

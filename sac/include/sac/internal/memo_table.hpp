@@ -5,11 +5,11 @@
 // themselves are touched only where a hash matches, and the table grows by one pass from front to
 // back. 10 to 17 bytes a call.
 //
-// In a first run nobody searches: insert_soon() only notes the entry. All that wait are put into
-// the table together, while the places of the next are fetched into the cache.
+// A first run does not search: insert_soon() only lists the entry. All listed entries are put into
+// the table together, while the next ones are prefetched into the cache.
 //
-// Calls discarded in the propagation under way stay findable until it ends, so that a program which
-// asks for them again (not monotone) can be told.
+// Calls discarded in the current propagation stay in the table until it ends, so that the audit can
+// report a program that requests them again (not monotone).
 //
 // Where many calls have one hash (a program that is not concise), those that have a place leave the
 // array for a crowd, which is kept in trace order: the one to reuse is the first that lies ahead.

@@ -1,4 +1,4 @@
-// The untyped half of modifiables: versions, readers, and who must run again.
+// The untyped half of modifiables: versions, readers, and the calls that must run again.
 //
 // The version of the only writer lies in place, where the modifiable's handle points, and a read
 // checks one number more than a plain load would. With more writers a `History` keeps the versions
@@ -6,8 +6,8 @@
 // two others takes over the readers behind it. Where it had to pass many others to find them, the
 // readers of that version are kept in order from then on.
 //
-// A value that is replaced stays for those who have seen it, as a past version, until it is their
-// turn: they are in doubt, and run again only if they would read another one.
+// A replaced value is kept as a past version for the calls that have seen it, until their turn:
+// they are in doubt, and run again only if they would read another value.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,10 @@
-// What values were before a propagation, for types of which the program keeps one value for
-// another (a Same that is not ==).
+// The values before a propagation, for types whose equality is coarser than == (a Same of their
+// own).
 //
 // Undoing such a propagation by running it backwards would not bring the values back: a call that
-// computes 0.9 again keeps the 1.5 that is there, if these are the same to it. So what was there is
-// kept here until the propagation has succeeded, and a call that writes something that is the same
-// as what its call had written puts that back.
+// computes 0.9 again keeps the current 1.5 if the two are the same to it. So the original values
+// are kept here until the propagation has succeeded, and a call that writes a value that is the
+// same as its original restores the original.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // The types in which the arguments of a traced function are kept: those of its parameters, so that
-// a call has one label however its arguments are written (1 or 1L, a literal or a std::string). Of
-// a function that is a template or overloaded, and of keys, those of the arguments; but characters
-// are kept as a std::string.
+// a call has one label however its arguments are written (1 or 1L, a literal or a std::string). For
+// a function that is a template or overloaded, and for keys, the types of the arguments are kept;
+// character strings become std::string.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,9 @@
-// All that the engine asks of the operating system. sac/src/platform has one file for each system;
-// CMake chooses (the option PLATFORM), and the rest of the library knows none of them.
+// The functions of the operating system that the engine uses. sac/src/platform has one file for
+// each system; CMake chooses it (SAC_PLATFORM), and the rest of the library depends on none of
+// them.
 //
 // An arena takes addresses first and memory later: reserve(), then commit() from the front as it
-// grows. discard() gives pages back whose content nobody wants.
+// grows. discard() returns pages whose content is no longer needed.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What is the same: values of modifiables, results and arguments.
+// Equality of values of modifiables, results and arguments.
 #pragma once
 
 #include <bit>

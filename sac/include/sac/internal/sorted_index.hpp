@@ -2,14 +2,14 @@
 // version, the calls of one label. A B+-tree whose single leaf, while entries are few, is a small
 // array that grows by doubling.
 //
-// Entries are plain data; in what order they come, the caller says with every search:
-// `before(a, b)`. It is asked about entries that are there, and the one searched for. If it throws,
-// or memory runs out, nothing has changed.
+// Entries are plain data; the caller gives their order with every search: `before(a, b)`. It is
+// called for existing entries and the one searched for. If it throws, or memory runs out, nothing
+// is changed.
 //
 // Guarantees:
 // (1) insert, erase, and searches take O(log n) comparisons and moves, wherever the entry lies.
-// (2) append takes O(1) amortised, and asks nothing.
-// (3) Memory follows the number of entries: neighbours with few between them become one.
+// (2) append takes O(1) amortised, and calls no comparison.
+// (3) Memory is proportional to the number of entries: neighbours with few entries are merged.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Order-maintenance list: who comes first in the trace, in constant time.
+// Order-maintenance list: compares positions in the trace in constant time.
 //
 // A node is four 32-bit words at the head of the object it stamps. Nodes sit in groups; a node's
 // label orders it within its group, a group's 64-bit label orders the groups [Dietz, Sleator 1987;

@@ -1,5 +1,5 @@
-// How to take an edit back: a function without arguments that may only move. Small ones need no
-// memory of their own, as std::function's would: an edit of a modifiable keeps its old value so.
+// How to undo an edit: a move-only function without arguments. Small ones need no memory of their
+// own, unlike std::function: the undo of an edit of a modifiable holds the old value in this way.
 #pragma once
 
 #include <cstddef>
