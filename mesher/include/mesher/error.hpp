@@ -32,7 +32,7 @@ enum class ErrorCode : std::uint8_t {
   bad_header,            ///< a header that cannot be read
   bad_edit,              ///< an edit that cannot be parsed
   unbalanced_commit,     ///< begin without commit, or the reverse
-  bad_dimension,         ///< the dimension is not the one asked for
+  bad_dimension,         ///< the dimension is not the requested one
   bad_syntax,            ///< text that the format does not allow
   unsupported,           ///< data that the format allows and this library does not read
   bad_mesh,              ///< a mesh file that is not a mesh (index out of range, ...)

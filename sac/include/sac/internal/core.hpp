@@ -34,19 +34,19 @@ namespace sac {
 
 class Engine;
 
-/// The work of one run or propagation, with that of the edits before it.
+/// The work of one run or propagation, including the edits before it.
 struct Counts {
   std::uint64_t executed = 0;       ///< bodies run
-  std::uint64_t reused = 0;         ///< calls asked for again and kept without running
+  std::uint64_t reused = 0;         ///< calls requested again and kept without running
   std::uint64_t created = 0;        ///< calls that are new in the trace
   std::uint64_t discarded = 0;      ///< calls that left the trace
   std::uint64_t edges_made = 0;     ///< reads, writes, posts, ... recorded
-  std::uint64_t edges_removed = 0;  ///< reads, writes, posts, ... taken back
-  std::uint64_t confirmed = 0;      ///< calls not run: they would read what they have read
-  std::uint64_t weight = 0;         ///< what bodies said by Scope::weigh, if weights are recorded
+  std::uint64_t edges_removed = 0;  ///< reads, writes, posts, ... undone
+  std::uint64_t confirmed = 0;      ///< calls not run: they would read the same values
+  std::uint64_t weight = 0;         ///< steps reported by Scope::weigh, if weights are recorded
 };
 
-/// What the detectors saw; both empty for a program that is concise and monotone.
+/// The findings of the audit; both counts are 0 for a concise and monotone program.
 struct AuditReport {
   std::uint64_t duplicates = 0;  ///< pairs of live calls with equal labels [Def 1.4.2]
   std::uint64_t reordered = 0;   ///< calls discarded and made anew in one propagation [Def 1.4.3]
@@ -54,13 +54,13 @@ struct AuditReport {
   std::string first_reordered;   ///< label of the first such call
 };
 
-/// What a progress callback is told, at a call that is about to run.
+/// The argument of a progress callback, before a call runs.
 struct Progress {
   std::uint64_t executed = 0;  // bodies run so far
-  std::uint64_t queued = 0;    // calls known to wait
+  std::uint64_t queued = 0;    // calls waiting in the queue
 };
 
-/// A call that is asked for. `arguments` is the tuple to be kept, good while it is asked for.
+/// A requested call. `arguments` is the tuple to be kept, valid during the request.
 struct Asked {
   const Function& function;
   const void* arguments;
