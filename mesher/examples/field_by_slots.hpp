@@ -1,5 +1,5 @@
-// A solver's field over edits of the mesh of a box (Extent::box): values by vertex slot stay where
-// they are; what comes gets a first value, and nobody looks at the rest of the mesh.
+// A solver's field under edits of the mesh of a box (Extent::box): values by vertex slot stay where
+// they are; new vertices get a first value, and the rest of the mesh is not visited.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// An error by what it is about: nobody reads its message.
+// Handles an error by its typed parts, without parsing its message.
 #pragma once
 
 #include <string>

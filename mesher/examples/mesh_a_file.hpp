@@ -1,4 +1,4 @@
-// A mesh of a file, with triangles as good as is asked for.
+// Meshes a file with a bound on the smallest angle.
 #pragma once
 
 #include <cstdio>

@@ -1,9 +1,9 @@
 // A function of every value of an array.
 //
-// One call for each place, all of them children of one; nothing depends on the order. A change of k
-// values runs k calls again.
+// One call for each element, all of them children of one call; nothing depends on the order. A
+// change of k values runs k calls again.
 //
-// From scratch O(n); k changes O(k log k), for the queue that puts them in order.
+// From scratch O(n); k changes O(k log k), because of the queue that orders them.
 #pragma once
 
 #include <cstdint>

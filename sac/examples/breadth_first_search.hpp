@@ -6,12 +6,11 @@
 //
 // Source: Moore, *The shortest path through a maze* (1959); the queue as [§1.5] of Hudson's
 // *Dynamic Mesh Refinement*.
-// Cost of an update: O(degree) for each vertex whose level changes, and no update could do with
-// less than one step for each, since the levels are the output; an edge at the source may change
-// all of them.
+// Cost of an update: O(degree) for each vertex whose level changes, and every update needs at least
+// one step for each, since the levels are the output; an edge at the source may change all of them.
 // Stable because: calls are named by vertex and level, and the agenda orders them by level. A
-// vertex of an undirected graph has three calls at most: its own level, and two later ones that
-// its neighbours ask for in vain.
+// vertex of an undirected graph has three calls at most: its own level, and two later ones that its
+// neighbours ask for in vain.
 #pragma once
 
 #include <algorithm>

@@ -1,15 +1,15 @@
-// Rotating calipers: what two convex hulls have in opposite directions.
+// Rotating calipers: computes a value from the corners of two convex hulls in opposite directions.
 //
 // A line that turns clockwise by half a turn touches one hull in a corner p, and the parallel line
-// on the other side of the other hull touches that one in q. The pairs (p, q) are met in order by a
-// merge of the edges of the two hulls by direction. A pair is an object keyed by its corners, and a
-// member of a contraction (contraction.hpp), which folds what the pairs are worth.
+// on the other side of the other hull touches that one in q. A merge of the edges of the two hulls
+// by direction visits the pairs (p, q) in order. A pair is an object keyed by its corners, and a
+// member of a contraction (contraction.hpp), which folds the values of the pairs.
 //
-// From scratch O(corners); where a corner comes or goes, O(1) pairs and O(log corners) folds.
+// From scratch O(corners); an added or removed corner costs O(1) pairs and O(log corners) folds.
 // Source: Shamos 1978; Toussaint 1983.
 //
-// Op: Value, join; of(p, p2, q, q2), the worth of a pair, p2 and q2 being the next corners (p or q
-// itself at the end of the half turn).
+// Op: Value, join; of(p, p2, q, q2), the value of a pair, where p2 and q2 are the next corners (p
+// or q itself at the end of the half turn).
 #pragma once
 
 #include "quickhull.hpp"

@@ -1,10 +1,10 @@
 // Lists of chunks: several elements to a node, cut so that edits stay local.
 //
 // A chunk is a stretch of a list from one *boundary* to the next; boundaries are elements chosen by
-// coins flipped with their ids, one in 16. Wherever an element goes in the course of a program, it
-// is a boundary or it is not; so the chunks of a list depend on its elements alone, and an
-// insertion changes one chunk, or divides one. A step of a program takes a chunk instead of an
-// element: still O(1) work expected, at a sixteenth of the calls.
+// coins flipped with their ids, one in 16. In all lists of a program an element is either always a
+// boundary or never; so the chunks of a list depend only on its elements, and an insertion changes
+// one chunk, or divides one. A step of a program processes a chunk instead of an element: still
+// O(1) work expected, at a sixteenth of the calls.
 //
 // A list is its header: the chunk of the elements before the first boundary.
 // Source: the chunky decomposition of Pugh and Teitelbaum (POPL 1989).

@@ -1,5 +1,5 @@
-// Connected components of a graph whose edges come and go: union-find over the edges in an order
-// drawn by lot.
+// Connected components of a graph whose edges are added and removed: union-find over the edges in
+// random order.
 //
 // Idea: every edge is a call on an agenda: it walks from its ends to their roots and, if these
 // differ, hangs the one with the lower lot under the other. A root's parent is a modifiable,

@@ -1,13 +1,13 @@
 // Folding a list with an associative operation, by random contraction.
 //
-// A level above the list, there is a group for every element of height 1 or more, which is one in
-// eight; it stands for that element and those of height 0 behind it, up to the next group. Groups
-// are contracted in the same way, with heights less by one, until one group is left. Heights come
-// from the elements' ids, so an edit changes O(1) groups a level, expected, and O(log n) in all;
-// where a group's fold comes out as before, that is the end of it. A group is an object keyed by
-// its first member.
+// On the level above the list, there is a group for every element of height 1 or more, which is one
+// in eight; it represents that element and those of height 0 behind it, up to the next group.
+// Groups are contracted in the same way, with heights reduced by one, until one group is left.
+// Heights come from the ids of elements, so an edit changes O(1) expected groups on each level, and
+// O(log n) in all; propagation stops at a group whose fold does not change. A group is an object
+// keyed by its first member.
 //
-// From scratch O(n). Source: [Aca05], with groups of 8 in the mean instead of 2.
+// From scratch O(n). Source: [Aca05], with groups of 8 on average instead of 2.
 //
 // Op is a type with    using Value = ...;   static Value join(const Value&, const Value&);
 //                      static Value of(const Element&);   for lists of nodes

@@ -3,7 +3,7 @@
 // Two points farthest apart are corners of the hull that parallel lines touch; the pairs of such
 // corners are those of half a turn of the calipers around the hull, from its leftmost corner.
 //
-// Cost: that of quickhull.hpp, and where a corner comes or goes O(log corners).
+// Cost: that of quickhull.hpp, and O(log corners) for an added or removed corner.
 // Source: Shamos 1978; a benchmark of Acar and others (PLDI 2006).
 #pragma once
 

@@ -1,11 +1,11 @@
 // The distance of the convex hulls of two sets of points.
 //
-// Two points of the hulls that are nearest lie on parallel lines that touch the hulls from the
-// sides that face each other, one of them in a corner. Such corners are met as pairs by a full turn
-// of the calipers around both hulls: two half turns, from left to right and back.
+// Two nearest points of the hulls lie on parallel lines that touch the hulls from the sides that
+// face each other, one of them in a corner. A full turn of the calipers around both hulls visits
+// such pairs of corners: two half turns, from left to right and back.
 //
 // Requires: a line separates the two sets; points of both have different ids.
-// Cost: that of quickhull.hpp, and where a corner comes or goes O(log corners).
+// Cost: that of quickhull.hpp, and O(log corners) for an added or removed corner.
 // Source: Toussaint 1983; a benchmark of Acar and others (PLDI 2006).
 #pragma once
 

@@ -1,15 +1,15 @@
 // The value of an expression tree whose numbers, operators and subtrees change.
 //
-// Idea: each operator has a call that asks for the values of its operands, and behind it one that
-// combines them. A new number runs again the combinations on the path to the root, up to the first
-// value that stays what it was; nobody asks again.
+// Idea: each operator has a call that requests the values of its operands, and after it one that
+// combines them. A new number re-runs the combinations on the path to the root, up to the first
+// unchanged value; the requests are not repeated.
 //
 // Source: the benchmark `exptrees` of Hammer, Acar, Chen, *CEAL: a C-based language for
 // self-adjusting computation* (PLDI 2009).
-// Cost of an update: O(depth), besides what is new. Native recursion is as deep as the tree: for
-// balanced trees; tree_contraction.hpp is for others.
-// Stable because: two calls an operator, named by it, the left operand's before the right one's.
-// Not monotone under moves: a subtree put elsewhere is computed anew.
+// Cost of an update: O(depth), plus the new part. Native recursion is as deep as the tree: for
+// balanced trees; tree_contraction.hpp is for others. Stable because: two calls an operator, named
+// by it, the left operand's before the right one's. Not monotone under moves: a subtree put
+// elsewhere is computed anew.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Vertices and edges of a forest, and what they carry of those that were contracted into them.
+// Vertices and edges of a forest, with the values of those that were contracted into them.
 //
 // Nothing in here is traced; tree_contraction.hpp is the program.
 #pragma once

@@ -1,4 +1,4 @@
-// Linked lists with modifiable links, and what else the list examples share.
+// Linked lists with modifiable links, and other common parts of the list examples.
 //
 // A list is its header: the node before the first. So that an edit is always at the link of some
 // node, and a program need not treat the beginning apart. Elements have ids of their own, all

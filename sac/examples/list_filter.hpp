@@ -1,12 +1,12 @@
-// Those elements of a list for which a predicate holds.
+// The elements of a list for which a predicate holds.
 //
 // Each node of the result is an object keyed by the node it is a copy of. Its body looks for the
 // next element that is kept; elements that are not are passed over by one call each, (kept, node),
 // which depends on the kept node before it only.
 //
-// From scratch O(n). An insertion or deletion costs O(1) calls, and one for each element that is
-// passed over behind a kept one that comes or goes: O(1) expected where a constant part of the
-// elements is kept. Source: [Aca05], where calls carry the destination of the next node.
+// From scratch O(n). An insertion or deletion costs O(1) calls, and one for each element passed
+// over behind a kept element that is inserted or deleted: O(1) expected if a constant fraction of
+// the elements is kept. Source: [Aca05], where calls carry the destination of the next node.
 #pragma once
 
 #include "list.hpp"

@@ -2,7 +2,7 @@
 //
 // Each node of the result is an object keyed by the node that it is the image of; its body reads
 // one link and writes one. An inserted element so costs two calls: its own, and that of the node
-// before it, whose link has changed. Everything behind is asked for with the same key and reused.
+// before it, whose link has changed. Everything behind is requested with the same key and reused.
 //
 // From scratch O(n); an insertion or deletion O(1). Source: [Aca05].
 #pragma once

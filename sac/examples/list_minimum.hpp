@@ -1,7 +1,7 @@
 // The least element of a list: contraction.hpp with min.
 //
 // From scratch O(n); an insertion or deletion O(log n) expected, and mostly O(1): an element that
-// is not the least of its group changes the group's members and nothing above.
+// is not the least of its group changes only the members of the group.
 #pragma once
 
 #include <algorithm>

@@ -1,9 +1,8 @@
-// A list backwards.
+// Reverses a list.
 //
-// A node of the result is an object keyed by its original. It is linked to the node before it by
-// the call for that node, which is in hand there: so no call has the rest of the result, which
-// changes at an insertion, among its arguments. [Aca05] passes it along, and makes one call
-// more anew.
+// A node of the result is an object keyed by its original. The call for the node before it links
+// it, since that call has both nodes: so no call has the rest of the result, which changes at an
+// insertion, as an argument. [Aca05] passes it along, and makes one more call anew.
 //
 // From scratch O(n); an insertion or deletion O(1).
 #pragma once

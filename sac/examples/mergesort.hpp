@@ -1,21 +1,21 @@
 // Mergesort of a list.
 //
-// What is merged with what is decided by coins flipped with the elements' ids, as in a skip list: a
-// group of the lowest level begins with an element that has kGroupBits heads in a row, and is
-// sorted at once; a group of the level above begins with a group whose first element has one more,
-// and merges its members. So dividing costs O(n) in all, and an insertion changes the members of
-// O(1) groups, small ones with high probability.
+// Coins flipped by the ids of elements decide what is merged with what, as in a skip list: a group
+// of the lowest level begins with an element that has kGroupBits heads in a row, and is sorted at
+// once; a group of a higher level begins with a group whose first element has one more, and merges
+// its members. So dividing costs O(n) in all, and an insertion changes the members of O(1) groups,
+// small ones with high probability.
 //
 // Sorted lists are lists of chunks. A step of a merge makes the chunk that begins with the greater
 // boundary of two chunks and ends at the next boundary of either list. A chunk is an object keyed
-// by its boundary and by what is merged in; the two chunks that it is made of are told to it in a
-// modifiable. Keyed by them, chunks would be new up to the last merge wherever a boundary comes or
-// goes below: for each, twice as many a level.
+// by its boundary and by the list that is merged in; a modifiable names the two chunks that it is
+// made of. If chunks were keyed by those, they would be new up to the last merge whenever a
+// boundary below is added or removed: for each, twice as many on each level.
 //
 // From scratch O(n log n). An inserted or deleted element is in one chunk of each of O(log n)
 // lists; the two or three steps that read the chunk run again. With probability 1/k it begins or
 // ends a group of k elements, and the group is merged again: O(log n) calls expected.
-// Source: [Aca05], there with a pass for each level of dividing, and without chunks.
+// Source: [Aca05], which has a pass for each level of dividing, and no chunks.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Points with whole coordinates, so that no test of position rounds.
+// Points with integer coordinates, so that geometric tests are exact.
 #pragma once
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 //
 // The points are cut into chunks (chunk.hpp). The leftmost and the rightmost point divide the hull;
 // the points outside of a line from a to b are filtered chunk by chunk; the farthest of them, found
-// by contraction (contraction.hpp), is on the hull and gives two lines that go on in the same way.
-// A part of the hull is a call (points, node before, node after): so nothing is appended. Few
-// points are done at once.
+// by contraction (contraction.hpp), is on the hull and gives two lines that are processed in the
+// same way. A part of the hull is a call (points, node before, node after): so nothing is appended.
+// Few points are done at once.
 //
 // Points equally far from a line lie on an edge of the hull; the first by coordinates is one of its
 // ends. So the hull has corners only, and depends on the set of points alone.

@@ -1,8 +1,8 @@
 // Quicksort of a list.
 //
 // The list is cut into chunks (chunk.hpp). The pivot is the median of the first three boundaries;
-// two filters make the lists of what is less and of what is greater, as objects keyed by the chunk
-// that they come from and the pivot. Sorting a part is a call (part, node before, node after): the
+// two filters make the lists of smaller and of greater elements, as objects keyed by the pivot and
+// the chunk that they come from. Sorting a part is a call (part, node before, node after): the
 // nodes are those of pivots, so nothing is appended, and an insertion into one part leaves the
 // labels of all others as they are. A list with fewer boundaries is sorted at once. A part that is
 // small beside the one it comes from may begin with many marks: if no boundary is among the first

@@ -4,10 +4,10 @@
 // entry from the word, each inner node merges the nearest of its two halves.
 //
 // Source: the distance is that of Wagner, Fischer, *The string-to-string correction problem*
-// (1974). Cost of an update: for one entry, one distance and O(log n) merges, up to the first that
-// stays what it was. For the word, n distances: all of them read it, and its trace is another one;
-// the merges run again where a distance among the nearest changed. Stable because: a call is named
-// by its range of entries, and every range is halved alike.
+// (1974). Cost of an update: for one entry, one distance and O(log n) merges, up to the first with
+// an unchanged result. For the word, n distances, since all of them read it; the merges run again
+// where a distance among the nearest changed. Stable because: a call is named by its range of
+// entries, and every range is halved alike.
 #pragma once
 
 #include <algorithm>

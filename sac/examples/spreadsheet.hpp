@@ -1,10 +1,10 @@
 // A spreadsheet: cells hold numbers and formulas, given as text, that may refer to any other cell.
 //
-// Idea: nobody knows the order of evaluation before the formulas are there, so it is computed, by
-// levels: a cell has level k if all cells it refers to have lower ones, and one has k - 1. A queue
-// hands out the levels; a cell that gets one is evaluated in that level, and asks for those that
-// refer to it to be looked at in the next. Cells on a cycle, and those that refer to them, never
-// get a level: their value stays what it was at first, the fault "cycle".
+// Idea: the order of evaluation depends on the formulas, so it is computed, by levels: a cell has
+// level k if all cells it refers to have lower levels, and one has k - 1. A queue assigns the
+// levels; a cell that gets one is evaluated in that level, and posts the cells that refer to it for
+// the next. Cells on a cycle, and those that refer to them, never get a level: they keep their
+// initial value, the error "cycle".
 //
 // Source: topological order by Kahn (1962).
 // Cost of an update: a new number, the formulas that see it, up to values that stay what they were;

@@ -1,9 +1,11 @@
-// A hash of a long string under edits anywhere: a tree of chunks whose boundaries the content sets.
+// A hash of a long string under edits at any position: a tree of chunks whose boundaries the
+// content determines.
 //
 // Idea: a list of items with hashes is cut into chunks at its valleys, where hashes stop falling
-// and start to rise; each chunk is an item of a shorter list, cut in turn, until one is left. What
-// is a boundary depends on the items around it alone, so an edit changes O(1) expected chunks of
-// each list. A chunk has three items on the average, and two at least but for the last.
+// and start to rise; each chunk is an item of a shorter list, cut in turn, until one is left.
+// Whether an item is a boundary depends only on the items around it, so an edit changes O(1)
+// expected chunks of each list. A chunk has three items on average, and at least two except for the
+// last.
 //
 // Source: locally consistent parsing, Mehlhorn, Sundar, Uhrig, *Maintaining dynamic sequences under
 // equality tests in polylogarithmic time* (1997), with valleys of hashes for their coin tossing,

@@ -1,9 +1,9 @@
 // Sum and diameter of every tree of a forest under links and cuts, by tree contraction.
 //
 // Idea: in rounds, a leaf is raked into its neighbour, and a vertex with two neighbours gives way
-// to an edge between them if its coin says so; what is left carries the sums and distances of what
-// is gone, and the last vertex of a tree has the tree's. A constant share of the vertices goes in
-// each round, so it takes O(log n) expected rounds and O(n) calls.
+// to an edge between them if its coin says so; the remaining vertices and edges carry the sums and
+// distances of the contracted ones, and the last vertex of a tree has those of the tree. Each round
+// removes a constant fraction of the vertices, so it takes O(log n) expected rounds and O(n) calls.
 //
 // Source: Miller, Reif, *Parallel tree contraction* (FOCS 1985); made dynamic as in Acar, Blelloch,
 // Harper, Vittes, Woo, *Dynamizing static algorithms* (SODA 2004). Departure: the coin is a number,

@@ -1,4 +1,5 @@
-// Points, and the cells of a quadtree of D dimensions: names, and the geometry that names decide.
+// Points, and the cells of a quadtree of D dimensions: their names, and the geometry that follows
+// from the names.
 //
 // The root is [0, L]^D, L a power of two; a cell of level k has side L / 2^k and integer
 // coordinates in units of its side, so that every bound of a cell is an exact double. A cell holds

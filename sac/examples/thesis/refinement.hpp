@@ -1,10 +1,9 @@
-// What the thesis's programs share, on a scope S in D dimensions: the quadtree, the map P from its
-// cells to points, the work queues, and the reading of them, so that build_qt.hpp and
+// The data that the thesis's programs share, on a scope S in D dimensions: the quadtree, the map P
+// from its cells to points, the work queues, and functions that read them, so that build_qt.hpp and
 // choose_steiners.hpp read like their figures.
 //
-// A cell of the tree is named by its level and coordinates (cells.hpp), and what is known of it
-// lies in rows of that name (rows.hpp): so a call that splits a cell for another reason does not
-// move it.
+// A cell of the tree is named by its level and coordinates (cells.hpp), and its data is in rows of
+// that name (rows.hpp): so a call that splits a cell for another reason does not move it.
 #pragma once
 
 #include <algorithm>
