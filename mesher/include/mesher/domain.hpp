@@ -131,10 +131,9 @@ struct SidedEdge : MeshEdge {
 /// The marker of boundary parts without a marker of their own, as in Triangle.
 inline constexpr std::int64_t kBoundaryMarker = 1;
 
-/// The walls, and the edges between a kept region and none, ascending by (low, high). An edge of
-/// the second kind has kBoundaryMarker if it has no other marker. A side whose triangle is not kept
-/// is kNoRegion.
-/// `domain`: found with these walls. Cost: O(m + w log w).
+/// The walls, and the edges with a kept region on one side only, ascending by (low, high). An edge
+/// of the second kind has kBoundaryMarker if it has no other marker. A side whose triangle is not
+/// kept is kNoRegion. `domain`: found with these walls. Cost: O(m + w log w).
 [[nodiscard]] std::vector<SidedEdge> sided_edges(const Mesh<2>& mesh,
                                                  const std::vector<MeshEdge>& walls,
                                                  const Domain<2>& domain);
