@@ -36,7 +36,7 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   Staying(const Staying&) = delete;
   Staying& operator=(const Staying&) = delete;
   /// Records the search radius with the cell's observation.
-  ~Staying() {
+  ~Staying() override {
     if (any_) world_.vertices.note_asked(near_.asked());
   }
 

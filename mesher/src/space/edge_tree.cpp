@@ -163,7 +163,7 @@ void EdgeTree::build(const std::vector<Ends>& edges, const std::vector<std::uint
     }
   }
   if (count_ <= kLeaf) return;
-  Builder(*this, edges, chain_end);
+  const Builder builder(*this, edges, chain_end);
   nodes_.shrink_to_fit();
 }
 

@@ -43,7 +43,7 @@ std::vector<ByFeature> features_by_vertices(const VertexSearch<3>& vertices,
     const auto [id, is_segment] = key;
     const mesher::Feature name =
         is_segment ? mesher::Feature(LineId{id}) : mesher::Feature(PolygonId{id});
-    features.push_back({{text_of(name), name}, std::move(places)});
+    features.emplace_back(NamedFeature{text_of(name), name}, std::move(places));
   }
   std::stable_sort(features.begin(), features.end(), [](const ByFeature& a, const ByFeature& b) {
     return a.second.size() > b.second.size();
@@ -81,7 +81,11 @@ std::pair<Point<3>, Places> densest_half(Places places) {
 Point<3> densest(Places places) {
   constexpr std::size_t kFew = 8;
   Point<3> at = places[0];
-  while (places.size() > kFew) std::tie(at, places) = densest_half(std::move(places));
+  while (places.size() > kFew) {
+    auto half = densest_half(std::move(places));
+    at = half.first;
+    places = std::move(half.second);
+  }
   return at;
 }
 
