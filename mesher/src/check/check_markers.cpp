@@ -14,7 +14,7 @@ class MarkerCheck {
   MarkerCheck(const CheckedMesh& mesh, const std::vector<LinePath>& paths,
               const CheckOptions<2>& options)
       : mesh_(mesh), features_(*options.features), graph_(*options.graph) {
-    for (std::size_t i = 0; i < graph_.points.size(); ++i) {
+    for (std::size_t i = 0; i < graph_.graph.points.size(); ++i) {
       const auto& p = graph_.graph.points[i];
       if (p.marker != 0) points_[p.at] = marked(p.marker, "point", p.id, graph_.points, i);
     }
