@@ -5,7 +5,10 @@
 #include <utility>
 
 #include "check/check_parts.hpp"
+#include "check/check_regions.hpp"
 #include "check/checked_mesh.hpp"
+#include "check/marked.hpp"
+#include "geometry/segment_tests.hpp"
 #include "graph/has_features.hpp"
 #include "mesher/predicates.hpp"
 #include "text/text.hpp"
@@ -31,7 +34,7 @@ class Checker {
         is_mesh && (options_.boundary == BoundaryRule::box ? tiles_box() : tiles_domain());
     if (tiles) check("delaunay", &Checker::delaunay);
     if (tiles && has_lines() && !options_.constrained) check("conforming", &Checker::conforming);
-    if (options_.graph != nullptr) check("input", &Checker::input);
+    if (options_.graph != nullptr) findings_.add("input", detail::check_input(checked_, options_));
     if (tiles && has_lines()) check("regions", &Checker::regions);
     if (tiles && has_paths_ && detail::tells_markers(options_)) {
       findings_.add("markers", detail::check_markers(checked_, paths_, options_));
@@ -62,17 +65,16 @@ class Checker {
   }
 
   Verdict edges() {
-    const auto& half_edges = checked_.half_edges();
-    for (std::size_t i = 0; i < half_edges.size(); i += checked_.partners(i)) {
+    const detail::HalfEdges& all = checked_.sides();
+    for (std::size_t i = 0; i < all.size(); i += all.partners(i)) {
       ++edges_;
-      if (checked_.partners(i) > 2) {
-        return bad(checked_.edge(half_edges[i]) + " borders more than two triangles");
-      }
-      if (checked_.partners(i) == 2 && half_edges[i].from == half_edges[i + 1].from) {
-        return bad(checked_.edge(half_edges[i]) + " has both its triangles on one side");
+      if (all.partners(i) > 2)
+        return bad(checked_.side(all[i]) + " borders more than two triangles");
+      if (all.partners(i) == 2 && all[i].from == all[i + 1].from) {
+        return bad(checked_.side(all[i]) + " has both its triangles on one side");
       }
     }
-    border_ = checked_.border();
+    border_ = all.border();
     return good(std::to_string(edges_) + " edges, " + std::to_string(border_.size()) +
                 " on the hull");
   }
@@ -104,7 +106,7 @@ class Checker {
 
   Verdict lines() {
     for (const MeshEdge& e : options_.features->edges) {
-      if (checked_.has_edge(e.low, e.high)) continue;
+      if (checked_.sides().has_edge(e.low, e.high)) continue;
       return bad(checked_.edge(e.low, e.high) + " is listed, but is no edge of a triangle");
     }
     return good(std::to_string(options_.features->edges.size()) + " edges on lines");
@@ -117,7 +119,7 @@ class Checker {
     const Box<2> box = checked_.bounding_box();
     for (const auto& e : border_) {
       if (along_box(box, at(e.from), at(e.to))) continue;
-      return bad(checked_.edge(e) + " is not along a side of the box");
+      return bad(checked_.side(e) + " is not along a side of the box");
     }
     std::sort(border_.begin(), border_.end(),
               [](const HalfEdge& a, const HalfEdge& b) { return a.from < b.from; });
@@ -141,7 +143,7 @@ class Checker {
     const Box<2> box = checked_.bounding_box();
     for (const auto& e : border_) {
       if (detail::contains(on_lines_, e) || along_box(box, at(e.from), at(e.to))) continue;
-      return bad(checked_.edge(e) + " has one triangle, but is on no line and no side of the box");
+      return bad(checked_.side(e) + " has one triangle, but is on no line and no side of the box");
     }
     return good(std::to_string(border_.size()) + " edges of the boundary on lines");
   }
@@ -155,28 +157,30 @@ class Checker {
 
   template <class IsMeant>
   Verdict locally_delaunay(IsMeant is_meant) const {
-    const auto& half_edges = checked_.half_edges();
+    const detail::HalfEdges& half_edges = checked_.sides();
     long long inner = 0;
-    for (std::size_t i = 0; i < half_edges.size(); i += checked_.partners(i)) {
-      if (checked_.partners(i) != 2 || !is_meant(half_edges[i])) continue;
+    for (std::size_t i = 0; i < half_edges.size(); i += half_edges.partners(i)) {
+      if (half_edges.partners(i) != 2 || !is_meant(half_edges[i])) continue;
       ++inner;
       const HalfEdge& e = half_edges[i];
       const auto other = half_edges[i + 1].opposite;
       if (predicates::incircle(at(e.from), at(e.to), at(e.opposite), at(other)) <= 0) continue;
       return bad(checked_.vertex(other) + " is inside the circumcircle of " +
-                 checked_.triangle(e.triangle) + " across " + checked_.edge(e));
+                 checked_.simplex(e.triangle) + " across " + checked_.side(e));
     }
     return good(std::to_string(inner) + " inner edges");
   }
 
-  Verdict input() {
-    return detail::check_input<2>(
-        mesh_, detail::input_points(*options_.graph), [&](const Point<2>& p) {
-          return options_.boundary != BoundaryRule::box && !checked_.triangle_at(p);
-        });
+  Verdict regions() {
+    const auto is_on_line = [&](const HalfEdge& e) { return detail::contains(on_lines_, e); };
+    const auto seeded_by = [&](const Point<2>& seed) {
+      const bool on_line = std::any_of(on_lines_.begin(), on_lines_.end(), [&](const auto& e) {
+        return detail::on_segment(seed, at(e.first), at(e.second));
+      });
+      return on_line ? std::nullopt : checked_.simplex_at(seed);
+    };
+    return detail::RegionCheck(checked_, options_, is_on_line, seeded_by).run();
   }
-
-  Verdict regions() { return detail::check_regions(checked_, on_lines_, options_); }
   // Small angles are those between the input's lines, or, without an input, between the mesh's own.
   Verdict quality() {
     if (options_.graph == nullptr && options_.features != nullptr) {
@@ -194,7 +198,7 @@ class Checker {
       const double area = ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
       largest = std::max(largest, area);
       if (area <= *options_.max_measure * (1 + kRounding)) continue;
-      return bad(checked_.triangle(i) + " has the area " + text::to_text(area) + ", above " +
+      return bad(checked_.simplex(i) + " has the area " + text::to_text(area) + ", above " +
                  text::to_text(*options_.max_measure));
     }
     return good("areas at most " + text::to_text(largest));
@@ -213,7 +217,7 @@ class Checker {
 
   const Mesh<2>& mesh_;
   const CheckOptions<2>& options_;
-  detail::CheckedMesh checked_;
+  detail::CheckedMesh<2> checked_;
   detail::Findings findings_;
   std::vector<HalfEdge> border_;  // of edges with one triangle
   detail::LineEdges on_lines_;
@@ -229,14 +233,7 @@ BoundaryRule boundary_rule(const MeshData<2>& mesh, const GraphFile<2>* graph) {
       !mesh.features.edges.empty() || (graph != nullptr && has_features(graph->graph));
   if (!has_lines) return BoundaryRule::box;
   if (graph == nullptr || mesh.simplices.empty()) return BoundaryRule::lines;
-  const detail::CheckedMesh checked(mesh);
-  const Box<2> box = checked.bounding_box();
-  const std::vector<HalfEdge> border = checked.border();
-  const bool fills = std::all_of(border.begin(), border.end(), [&](const HalfEdge& e) {
-    return detail::is_on_side<2>(box, {mesh.vertices[e.from], mesh.vertices[e.to]});
-  });
-  return fills && !detail::has_corners<2>(box, graph->graph.points) ? BoundaryRule::box
-                                                                    : BoundaryRule::lines;
+  return detail::rule_of(detail::CheckedMesh<2>(mesh), graph->graph);
 }
 
 std::vector<Finding> check_mesh(const Mesh<2>& mesh, const CheckOptions<2>& options) {

@@ -5,44 +5,20 @@
 #include <utility>
 
 #include "check/line_walk.hpp"
-#include "mesh/locate.hpp"
 #include "text/text.hpp"
 
 namespace mesher::detail {
 
-namespace {
-
-std::array<std::uint32_t, 2> ends_of(std::uint32_t a, std::uint32_t b) {
-  return {std::min(a, b), std::max(a, b)};
-}
-
-}  // namespace
-
-std::optional<std::uint32_t> tetrahedron_at(const Mesh<3>& mesh, const Point<3>& p) {
-  std::optional<std::uint32_t> first;
-  const auto corners = [&](std::size_t t) {
-    const auto& [a, b, c, d] = mesh.simplices[t];
-    const auto& v = mesh.vertices;
-    return std::array<Point<3>, 4>{v[a], v[b], v[c], v[d]};
-  };
-  for_each_holding<3>({p}, mesh.simplices.size(), corners,
-                      [&](std::uint32_t, std::uint32_t t, unsigned) {
-                        if (!first) first = t;
-                      });
-  return first;
-}
-
-ComplexCheck::ComplexCheck(const Mesh<3>& mesh, const CheckOptions<3>& options,
-                           const HalfFaces& faces)
+ComplexCheck::ComplexCheck(const CheckedMesh<3>& mesh, const CheckOptions<3>& options)
     : mesh_(mesh),
       options_(options),
-      rounding_(rounding_of(mesh)),
+      rounding_(rounding_of(mesh.mesh())),
       segments_(Verdict::good("")),
       polygons_(Verdict::good("")) {
   for (const auto& p : options.graph->graph.points) places_[p.id] = p.at;
   add_lines();
-  segments_ = find_segments(faces);
-  polygons_ = find_polygons(faces);
+  segments_ = find_segments();
+  polygons_ = find_polygons();
   name_vertices();
 }
 
@@ -77,14 +53,14 @@ void ComplexCheck::add_lines() {
 }
 
 bool ComplexCheck::is_outside(const Point<3>& p) const {
-  return options_.boundary != BoundaryRule::box && !tetrahedron_at(mesh_, p);
+  return options_.boundary != BoundaryRule::box && !mesh_.simplex_at(p);
 }
 
-Verdict ComplexCheck::find_segments(const HalfFaces& faces) {
-  LineWalk<3> walk(mesh_);
+Verdict ComplexCheck::find_segments() {
+  LineWalk<3> walk(mesh_.mesh());
   std::set<Ends> edges, known;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const auto [a, b, c] = faces[i].face;
+  for (std::size_t i = 0; i < mesh_.sides().size(); ++i) {
+    const auto [a, b, c] = mesh_.sides()[i].face;
     for (const auto& e : {ends_of(a, b), ends_of(b, c), ends_of(c, a)}) edges.insert(e);
   }
   for (const auto& [a, b] : edges) walk.add_edge(a, b);
@@ -94,33 +70,16 @@ Verdict ComplexCheck::find_segments(const HalfFaces& faces) {
   const auto is_known = [&](std::uint32_t a, std::uint32_t b) {
     return known.count(ends_of(a, b)) != 0;
   };
-  const std::vector<HalfFace> border = faces.border();
-  const auto is_outside_between = [&](const Point<3>& p, const Point<3>& q) {
-    return is_outside(scaled(0.5, plus(p, q))) &&
-           std::none_of(border.begin(), border.end(), [&](const HalfFace& half) {
-             const auto [a, b, c] = half.face;
-             return goes_through(p, q, {at(a), at(b), at(c)});
-           });
-  };
-  Verdict verdict = Verdict::good("");
-  std::size_t parts = 0, outside = 0, cut = 0;
+  const Outside<3> outside(mesh_, walk, options_.boundary);
+  WalkedLines<3> all;
   for (Line& l : lines_) {
-    auto way = walk.find(l.from, l.to, is_known, is_outside_between);
-    if (way.trouble && verdict.holds) {
-      verdict = Verdict::bad(l.name + " from " + text::to_text<3>(l.from) + " to " +
-                             text::to_text<3>(l.to) + ": " + *way.trouble);
-    }
+    auto way = walk.find(l.from, l.to, is_known, outside);
+    all.add(l.name, l.from, l.to, way);
     if (way.trouble) continue;
-    for (const auto& run : way.runs) parts += run.size() - 1;
-    outside += way.runs.empty() ? 1 : 0;
-    cut += way.runs.empty() || way.is_whole ? 0 : 1;
     l.runs = std::move(way.runs);
     l.alone = std::move(way.alone);
   }
-  if (!verdict.holds) return verdict;
-  return Verdict::good(std::to_string(lines_.size() - outside) +
-                       " segments and edges of polygons are unions of " + std::to_string(parts) +
-                       " edges" + outside_text(outside, cut));
+  return all.verdict("segments and edges of polygons");
 }
 
 }  // namespace mesher::detail

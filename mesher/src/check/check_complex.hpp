@@ -10,28 +10,21 @@
 #include <string>
 #include <vector>
 
-#include "check/verdict.hpp"
-#include "mesh/half_faces.hpp"
-#include "mesher/check.hpp"
+#include "check/checked_mesh.hpp"
 
 namespace mesher::detail {
-
-/// The first tetrahedron that holds a place; nothing outside.
-[[nodiscard]] std::optional<std::uint32_t> tetrahedron_at(const Mesh<3>& mesh, const Point<3>& p);
 
 class ComplexCheck {
  public:
   /// `options.graph` is given. All must outlive this. Requires: (1) to (4) hold.
-  ComplexCheck(const Mesh<3>& mesh, const CheckOptions<3>& options, const HalfFaces& faces);
+  ComplexCheck(const CheckedMesh<3>& mesh, const CheckOptions<3>& options);
 
   [[nodiscard]] const Verdict& segments() const { return segments_; }
   [[nodiscard]] const Verdict& polygons() const { return polygons_; }
   /// Of the faces that polygons are unions of: by its corners, ascending.
   [[nodiscard]] bool is_in_polygon(const Face& key) const { return tiles_.count(key) != 0; }
-  /// Whether both the complex and the mesh have markers.
-  [[nodiscard]] bool tells_markers() const;
-  /// Requires: that; segments() and polygons() hold. `faces`: those given first.
-  [[nodiscard]] Verdict markers(const HalfFaces& faces) const;
+  /// Requires: tells_markers(options) (marked.hpp); segments() and polygons() hold.
+  [[nodiscard]] Verdict markers() const;
   /// Whether a poor tetrahedron is one of small angles of the complex.
   [[nodiscard]] bool excuses(const Mesh<3>::Simplex& s) const;
 
@@ -47,6 +40,9 @@ class ComplexCheck {
     std::vector<std::uint32_t> alone{};  // vertices on it, but on no edge of it
   };
   using Ends = std::array<std::uint32_t, 2>;  // low, high
+  [[nodiscard]] static Ends ends_of(std::uint32_t a, std::uint32_t b) {
+    return {std::min(a, b), std::max(a, b)};
+  }
   struct Surface {
     const Polygon* polygon;
     std::vector<std::size_t> lines;
@@ -62,11 +58,11 @@ class ComplexCheck {
 
   void add_lines();
   std::size_t line(PointId a, PointId b, const std::string& name);
-  Verdict find_segments(const HalfFaces& faces);
+  Verdict find_segments();
   void add_edges(Surface& surface, const std::vector<PointId>& ends, std::set<Ends>& edges);
-  Verdict find_polygons(const HalfFaces& faces);
+  Verdict find_polygons();
   void add_named_tiles();
-  void add_crossed_tiles(const HalfFaces& faces);
+  void add_crossed_tiles();
   [[nodiscard]] std::optional<std::string> trouble_of(const Surface& surface);
   [[nodiscard]] double outline_of(const Surface& surface) const;
   [[nodiscard]] bool is_open(const Ends& edge, const Point<3>& towards);
@@ -75,9 +71,9 @@ class ComplexCheck {
   [[nodiscard]] bool is_short(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] bool is_wide(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] bool share_shell(std::uint32_t a, std::uint32_t b) const;
-  [[nodiscard]] const Point<3>& at(std::uint32_t v) const { return mesh_.vertices[v]; }
+  [[nodiscard]] const Point<3>& at(std::uint32_t v) const { return mesh_.at(v); }
 
-  const Mesh<3>& mesh_;
+  const CheckedMesh<3>& mesh_;
   const CheckOptions<3>& options_;
   double rounding_;
   std::map<PointId, Point<3>> places_;

@@ -11,17 +11,13 @@ namespace {
 
 class MarkerCheck {
  public:
-  MarkerCheck(const CheckedMesh& mesh, const std::vector<LinePath>& paths,
+  MarkerCheck(const CheckedMesh<2>& mesh, const std::vector<LinePath>& paths,
               const CheckOptions<2>& options)
-      : mesh_(mesh), features_(*options.features), graph_(*options.graph) {
-    for (std::size_t i = 0; i < graph_.points.size(); ++i) {
-      const auto& p = graph_.graph.points[i];
-      if (p.marker != 0) points_[p.at] = marked(p.marker, "point", p.id, graph_.points, i);
-    }
-    add(graph_.graph.segments, graph_.segments);
-    add(graph_.graph.polylines, graph_.polylines);
+      : mesh_(mesh), features_(*options.features), points_(*options.graph) {
+    add(options.graph->graph.segments, options.graph->segments);
+    add(options.graph->graph.polylines, options.graph->polylines);
     for (const LinePath& path : paths) add(path);
-    for (const HalfEdge& e : mesh.border()) {
+    for (const HalfEdge& e : mesh.sides().border()) {
       border_.insert(e.edge());
       border_vertices_.insert({e.from, e.to});
     }
@@ -64,15 +60,10 @@ class MarkerCheck {
 
   [[nodiscard]] std::string trouble_at(std::uint32_t v) const {
     const std::int64_t marker = features_.markers[v];
-    const auto point = points_.find(mesh_.at(v));
-    if (point == points_.end()) {
-      const auto lines = at_vertex_.find(v);
-      return marker_trouble(marker, lines == at_vertex_.end() ? Givers() : lines->second,
-                            border_vertices_.contains(v), "line");
-    }
-    if (point->second.marker == marker) return "";
-    return " has the marker " + std::to_string(marker) + ", but is " + point->second.name +
-           ", which has " + std::to_string(point->second.marker);
+    if (const auto trouble = points_.trouble(marker, mesh_.at(v))) return *trouble;
+    const auto lines = at_vertex_.find(v);
+    return marker_trouble(marker, lines == at_vertex_.end() ? Givers() : lines->second,
+                          border_vertices_.contains(v), "line");
   }
 
   [[nodiscard]] std::string trouble_at(const Edge& edge, std::int64_t marker) const {
@@ -93,10 +84,9 @@ class MarkerCheck {
     return markers;
   }
 
-  const CheckedMesh& mesh_;
+  const CheckedMesh<2>& mesh_;
   const MeshFeatures& features_;
-  const GraphFile<2>& graph_;
-  std::map<Point<2>, Marked> points_;
+  MarkedPoints<2> points_;
   std::map<LineId, Marked> lines_;
   std::map<std::uint32_t, Givers> at_vertex_;
   std::map<Edge, Givers> at_edge_;
@@ -106,15 +96,7 @@ class MarkerCheck {
 
 }  // namespace
 
-bool tells_markers(const CheckOptions<2>& options) {
-  if (options.graph == nullptr || options.features == nullptr) return false;
-  const Graph<2>& graph = options.graph->graph;
-  const bool asked =
-      has_marker(graph.points) || has_marker(graph.segments) || has_marker(graph.polylines);
-  return asked && (!options.features->markers.empty() || has_marker(options.features->edges));
-}
-
-Verdict check_markers(const CheckedMesh& mesh, const std::vector<LinePath>& paths,
+Verdict check_markers(const CheckedMesh<2>& mesh, const std::vector<LinePath>& paths,
                       const CheckOptions<2>& options) {
   return MarkerCheck(mesh, paths, options).run();
 }

@@ -23,8 +23,8 @@ struct SweptEdge {
 
 class Sweep {
  public:
-  explicit Sweep(const CheckedMesh& mesh) : mesh_(mesh), status_(Below{this}) {
-    for (const HalfEdge& e : mesh.border()) {
+  explicit Sweep(const CheckedMesh<2>& mesh) : mesh_(mesh), status_(Below{this}) {
+    for (const HalfEdge& e : mesh.sides().border()) {
       const bool forward = at(e.from) < at(e.to);
       edges_.push_back({forward ? e.from : e.to, forward ? e.to : e.from, forward});
     }
@@ -128,7 +128,7 @@ class Sweep {
     return opens != inside;
   }
 
-  const CheckedMesh& mesh_;
+  const CheckedMesh<2>& mesh_;
   std::vector<SweptEdge> edges_;
   Status status_;
   std::vector<Status::iterator> place_;  // of the edges in status_
@@ -139,7 +139,7 @@ class Sweep {
 
 }  // namespace
 
-Verdict check_overlap(const CheckedMesh& mesh) {
+Verdict check_overlap(const CheckedMesh<2>& mesh) {
   if (mesh.mesh().simplices.empty()) return Verdict::bad("no triangles");
   return Sweep(mesh).run();
 }

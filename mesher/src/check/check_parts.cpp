@@ -1,4 +1,4 @@
-// Coordinates, vertices, orientations and input points, in the plane and in space.
+// Coordinates, vertices, orientations and kinds, in the plane and in space.
 #include "check/check_parts.hpp"
 
 #include <algorithm>
@@ -110,37 +110,6 @@ Verdict check_orientation(const Mesh<D>& mesh) {
 }
 
 template <int D>
-std::string input_name(const CheckedPoint<D>& point) {
-  return "input point " + id_text(point.id) + " at " + text::to_text<D>(point.at) +
-         (point.line > 0 ? " (line " + std::to_string(point.line) + ")" : "");
-}
-
-template <int D>
-std::vector<CheckedPoint<D>> input_points(const GraphFile<D>& file) {
-  std::vector<CheckedPoint<D>> points;
-  for (std::size_t i = 0; i < file.graph.points.size(); ++i) {
-    const long line = i < file.points.size() ? file.points[i].line : 0;
-    points.push_back({file.graph.points[i].at, file.graph.points[i].id, line});
-  }
-  return points;
-}
-
-template <int D>
-Verdict check_input(const Mesh<D>& mesh, const std::vector<CheckedPoint<D>>& points,
-                    const std::function<bool(const Point<D>&)>& is_outside) {
-  std::vector<Point<D>> sorted = mesh.vertices;
-  std::sort(sorted.begin(), sorted.end());
-  std::size_t outside = 0;
-  for (const CheckedPoint<D>& point : points) {
-    if (std::binary_search(sorted.begin(), sorted.end(), point.at)) continue;
-    if (!is_outside(point.at)) return Verdict::bad(input_name(point) + " is no vertex");
-    ++outside;
-  }
-  return Verdict::good(std::to_string(points.size() - outside) + " points are vertices" +
-                       (outside > 0 ? ", " + std::to_string(outside) + " are outside" : ""));
-}
-
-template <int D>
 Verdict check_kinds(const Mesh<D>& mesh, const GraphFile<D>* input,
                     const std::vector<mesher::Feature>& origins) {
   std::map<Point<D>, PointId> named;
@@ -173,10 +142,6 @@ template std::string simplex_name<2>(const Mesh<2>&, std::size_t);
 template Verdict check_coordinates<2>(const Mesh<2>&);
 template Verdict check_vertices<2>(const Mesh<2>&);
 template Verdict check_orientation<2>(const Mesh<2>&);
-template std::string input_name<2>(const CheckedPoint<2>&);
-template std::vector<CheckedPoint<2>> input_points<2>(const GraphFile<2>&);
-template Verdict check_input<2>(const Mesh<2>&, const std::vector<CheckedPoint<2>>&,
-                                const std::function<bool(const Point<2>&)>&);
 template Verdict check_kinds<2>(const Mesh<2>&, const GraphFile<2>*,
                                 const std::vector<mesher::Feature>&);
 template std::string vertex_name<3>(const Mesh<3>&, std::size_t);
@@ -184,10 +149,6 @@ template std::string simplex_name<3>(const Mesh<3>&, std::size_t);
 template Verdict check_coordinates<3>(const Mesh<3>&);
 template Verdict check_vertices<3>(const Mesh<3>&);
 template Verdict check_orientation<3>(const Mesh<3>&);
-template std::string input_name<3>(const CheckedPoint<3>&);
-template std::vector<CheckedPoint<3>> input_points<3>(const GraphFile<3>&);
-template Verdict check_input<3>(const Mesh<3>&, const std::vector<CheckedPoint<3>>&,
-                                const std::function<bool(const Point<3>&)>&);
 template Verdict check_kinds<3>(const Mesh<3>&, const GraphFile<3>*,
                                 const std::vector<mesher::Feature>&);
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -30,24 +29,6 @@ template <int D>
 /// Whether all simplices are positively oriented.
 template <int D>
 [[nodiscard]] Verdict check_orientation(const Mesh<D>& mesh);
-
-/// A point that is to be a vertex, and the line of its file; 0 if it is of none.
-template <int D>
-struct CheckedPoint {
-  Point<D> at;
-  PointId id;
-  long line;
-};
-/// "input point 7 at (0, 1) (line 8)"
-template <int D>
-[[nodiscard]] std::string input_name(const CheckedPoint<D>& point);
-template <int D>
-[[nodiscard]] std::vector<CheckedPoint<D>> input_points(const GraphFile<D>& file);
-
-/// Whether all points are vertices, bit for bit, but those that may be outside and are.
-template <int D>
-[[nodiscard]] Verdict check_input(const Mesh<D>& mesh, const std::vector<CheckedPoint<D>>& points,
-                                  const std::function<bool(const Point<D>&)>& is_outside);
 
 /// Whether vertices of the kind `boundary` are on the bounding box and, if there is an input, those
 /// of the kind `input` are its points, under the ids that `origins` (one per vertex, or none) has.

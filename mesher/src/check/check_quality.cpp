@@ -21,7 +21,7 @@ double distance(const Point<2>& a, const Point<2>& b) {
 
 class SmallAngles {
  public:
-  SmallAngles(const CheckedMesh& mesh, const std::vector<LinePath>& paths)
+  SmallAngles(const CheckedMesh<2>& mesh, const std::vector<LinePath>& paths)
       : mesh_(mesh), paths_(paths) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
       for (const std::uint32_t v : paths[i].vertices) through_[v].push_back(i);
@@ -62,12 +62,12 @@ class SmallAngles {
     return dot > 0.5 * distance(o, a) * distance(o, b);
   }
 
-  const CheckedMesh& mesh_;
+  const CheckedMesh<2>& mesh_;
   const std::vector<LinePath>& paths_;
   std::map<std::uint32_t, std::vector<std::size_t>> through_;
 };
 
-std::pair<std::uint32_t, std::uint32_t> shortest_edge(const CheckedMesh& mesh,
+std::pair<std::uint32_t, std::uint32_t> shortest_edge(const CheckedMesh<2>& mesh,
                                                       const Mesh<2>::Simplex& t) {
   std::pair best(t[0], t[1]);
   for (const auto& edge : {std::pair(t[1], t[2]), std::pair(t[2], t[0])}) {
@@ -79,7 +79,7 @@ std::pair<std::uint32_t, std::uint32_t> shortest_edge(const CheckedMesh& mesh,
 
 }  // namespace
 
-Verdict check_quality(const CheckedMesh& mesh, double rho, const std::vector<LinePath>& paths) {
+Verdict check_quality(const CheckedMesh<2>& mesh, double rho, const std::vector<LinePath>& paths) {
   const SmallAngles angles(mesh, paths);
   double worst = 0;
   std::size_t excused = 0;
@@ -90,7 +90,7 @@ Verdict check_quality(const CheckedMesh& mesh, double rho, const std::vector<Lin
     if (ratio > rho * (1 + kRounding)) {
       const auto [p, q] = shortest_edge(mesh, t);
       if (!angles.excuse(p, q)) {
-        return Verdict::bad(mesh.triangle(i) + " has radius-edge " + text::to_text(ratio) +
+        return Verdict::bad(mesh.simplex(i) + " has radius-edge " + text::to_text(ratio) +
                             ", above rho " + text::to_text(rho) + "; its shortest edge is from " +
                             mesh.vertex(p) + " to " + mesh.vertex(q));
       }

@@ -8,6 +8,8 @@
 
 #include "check/check_complex.hpp"
 #include "check/check_parts.hpp"
+#include "check/check_regions.hpp"
+#include "check/marked.hpp"
 #include "check/poor_beside.hpp"
 #include "check/space_quality.hpp"
 #include "geometry/box.hpp"
@@ -24,9 +26,7 @@ namespace mesher {
 namespace {
 
 using detail::HalfFace;
-using detail::simplex_name;
 using detail::Verdict;
-using detail::vertex_name;
 using predicates::orient3d;
 using predicates::detail::BitRange;
 using predicates::detail::kCoordinateBits;
@@ -34,7 +34,7 @@ using predicates::detail::kCoordinateBits;
 class SpaceChecker {
  public:
   SpaceChecker(const Mesh<3>& mesh, const CheckOptions<3>& options)
-      : mesh_(mesh), options_(options), box_(detail::bounding_box<3>(mesh.vertices)) {}
+      : mesh_(mesh), options_(options), checked_(mesh), box_(checked_.bounding_box()) {}
 
   std::vector<Finding> run() {
     const bool tiles = findings_.add("coordinates", detail::check_coordinates(mesh_)) &&
@@ -45,7 +45,7 @@ class SpaceChecker {
     if (tiles && check("delaunay", &SpaceChecker::delaunay) && options_.ties) {
       check("ties", &SpaceChecker::ties);
     }
-    if (options_.graph != nullptr) check("input", &SpaceChecker::input);
+    if (options_.graph != nullptr) findings_.add("input", detail::check_input(checked_, options_));
     if (has_kinds()) check("kinds", &SpaceChecker::kinds);
     if (tiles && has_parts()) check_features();
     if (tiles && options_.rho) check("quality", &SpaceChecker::quality);
@@ -64,18 +64,17 @@ class SpaceChecker {
   }
 
   Verdict faces() {
-    half_faces_.emplace(mesh_.simplices);
     std::size_t count = 0;
-    for (std::size_t i = 0, n = 0; i < half_faces_->size(); i += n, ++count) {
-      n = half_faces_->partners(i);
-      const HalfFace& half = (*half_faces_)[i];
+    for (std::size_t i = 0, n = 0; i < sides().size(); i += n, ++count) {
+      n = sides().partners(i);
+      const HalfFace& half = sides()[i];
       if (n > 2) return bad(face(half) + " is of more than two tetrahedra");
-      if (n == 2 && !half.faces_away_from((*half_faces_)[i + 1])) {
+      if (n == 2 && !half.faces_away_from(sides()[i + 1])) {
         return bad(face(half) + " has two tetrahedra on one side: " + simplex(half.tetrahedron) +
-                   ", and " + simplex((*half_faces_)[i + 1].tetrahedron));
+                   ", and " + simplex(sides()[i + 1].tetrahedron));
       }
     }
-    border_ = half_faces_->border();
+    border_ = sides().border();
     return good(std::to_string(count) + " faces, " + std::to_string(border_.size()) +
                 " on the hull");
   }
@@ -83,7 +82,7 @@ class SpaceChecker {
   // Whether it has been looked at; its verdicts come later.
   bool find_complex() {
     if (options_.graph != nullptr && !is_bare(options_.graph->graph))
-      complex_.emplace(mesh_, options_, *half_faces_);
+      complex_.emplace(checked_, options_);
     return true;
   }
   [[nodiscard]] bool has_parts() const {
@@ -96,8 +95,8 @@ class SpaceChecker {
     if (complex_) {
       const bool segments = findings_.add("segments", complex_->segments());
       const bool polygons = findings_.add("polygons", complex_->polygons());
-      if (segments && polygons && complex_->tells_markers()) {
-        findings_.add("markers", complex_->markers(*half_faces_));
+      if (segments && polygons && detail::tells_markers(options_)) {
+        findings_.add("markers", complex_->markers());
       }
     }
     check("regions", &SpaceChecker::regions);
@@ -167,9 +166,9 @@ class SpaceChecker {
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
     if (options_.boundary != BoundaryRule::lines) return {all};
     detail::UnionFind bodies(mesh_.simplices.size()), surfaces(border_.size());
-    for (std::size_t i = 0; i < half_faces_->size(); i += half_faces_->partners(i)) {
-      if (half_faces_->partners(i) != 2) continue;
-      bodies.unite((*half_faces_)[i].tetrahedron, (*half_faces_)[i + 1].tetrahedron);
+    for (std::size_t i = 0; i < sides().size(); i += sides().partners(i)) {
+      if (sides().partners(i) != 2) continue;
+      bodies.unite(sides()[i].tetrahedron, sides()[i + 1].tetrahedron);
     }
     std::map<std::array<std::uint32_t, 2>, std::uint32_t> first;  // face of the boundary, by edge
     for (std::uint32_t i = 0; i < border_.size(); ++i) {
@@ -192,8 +191,8 @@ class SpaceChecker {
 
   Verdict delaunay() {
     std::size_t inner = 0, ties = 0, near = 0;
-    for (std::size_t i = 0; i < half_faces_->size(); i += half_faces_->partners(i)) {
-      if (half_faces_->partners(i) != 2) continue;
+    for (std::size_t i = 0; i < sides().size(); i += sides().partners(i)) {
+      if (sides().partners(i) != 2) continue;
       ++inner;
       const int side = in_sphere(i, predicates::insphere);
       if (side == 0) ++ties;
@@ -206,8 +205,8 @@ class SpaceChecker {
   }
 
   Verdict ties() {
-    for (std::size_t i = 0; i < half_faces_->size(); i += half_faces_->partners(i)) {
-      if (half_faces_->partners(i) != 2 || in_sphere(i, predicates::insphere_perturbed) < 0) {
+    for (std::size_t i = 0; i < sides().size(); i += sides().partners(i)) {
+      if (sides().partners(i) != 2 || in_sphere(i, predicates::insphere_perturbed) < 0) {
         continue;
       }
       return bad(inside_sphere(i, ", by the order of coordinates, counts as inside"));
@@ -215,24 +214,17 @@ class SpaceChecker {
     return good("decided by the order of coordinates");
   }
 
-  Verdict input() {
-    return detail::check_input<3>(
-        mesh_, detail::input_points(*options_.graph), [&](const Point<3>& p) {
-          return options_.boundary == BoundaryRule::lines && !detail::tetrahedron_at(mesh_, p);
-        });
-  }
-
   Verdict parts() {
     std::set<std::array<std::uint32_t, 2>> edges;
     std::set<detail::Face> faces;
-    for (std::size_t i = 0; i < half_faces_->size(); i += half_faces_->partners(i)) {
-      const auto [a, b, c] = (*half_faces_)[i].key();
+    for (std::size_t i = 0; i < sides().size(); i += sides().partners(i)) {
+      const auto [a, b, c] = sides()[i].key();
       faces.insert({a, b, c});
       edges.insert({{a, b}, {a, c}, {b, c}});
     }
     for (const MeshEdge& e : options_.features->edges) {
       if (edges.count({e.low, e.high}) != 0) continue;
-      return bad("no tetrahedron has the edge from " + vertex(e.low) + " to " + vertex(e.high));
+      return bad("no tetrahedron has " + checked_.edge(e.low, e.high));
     }
     for (const MeshFace& f : options_.features->faces) {
       if (faces.count(f.key()) == 0) return bad("no tetrahedron has " + face(f.key()));
@@ -242,70 +234,26 @@ class SpaceChecker {
   }
 
   Verdict regions() {
-    const auto* f = options_.features;
-    const bool known = f != nullptr && !f->regions.empty();
-    const std::vector<double> regions =
-        known ? f->regions : std::vector<double>(mesh_.simplices.size());
-    detail::UnionFind parts(mesh_.simplices.size());  // that hang together across no polygon
-    for (std::size_t i = 0; i < half_faces_->size(); i += half_faces_->partners(i)) {
-      const HalfFace& half = (*half_faces_)[i];
-      if (half_faces_->partners(i) != 2 || is_in_polygon(half.key())) continue;
-      const std::uint32_t a = half.tetrahedron, b = (*half_faces_)[i + 1].tetrahedron;
-      parts.unite(a, b);
-      if (regions[a] == regions[b]) continue;
-      return bad("the regions " + text::to_text(regions[a]) + " and " + text::to_text(regions[b]) +
-                 " meet at " + face(half) + ", which is in no polygon");
-    }
-    if (complex_) {
-      if (const auto trouble = seed_trouble(regions, parts, known)) return bad(*trouble);
-    }
-    const std::set<double> distinct(regions.begin(), regions.end());
-    return good(std::to_string(distinct.size()) + " regions, none across a face in no polygon");
+    const auto is_in = [&](const HalfFace& half) { return is_in_polygon(half.key()); };
+    const auto seeded_by = [&](const Point<3>& seed) { return this->seeded_by(seed); };
+    return detail::RegionCheck(checked_, options_, is_in, seeded_by).run();
   }
 
   // The tetrahedron that a seed stands for; nothing if it is outside, or on a polygon, where it
   // stands for neither side.
-  [[nodiscard]] std::optional<std::uint32_t> seeded_by(const Point<3>& seed) const {
+  [[nodiscard]] std::optional<std::size_t> seeded_by(const Point<3>& seed) const {
     const auto is_on_polygon = [&](const detail::Face& f) {
       const HalfFace half{f, 0, 0};
       return orient3d(at(f[0]), at(f[1]), at(f[2]), seed) == 0 && is_in_polygon(half.key());
     };
-    std::optional<std::uint32_t> first;
-    for (std::uint32_t t = 0; t < mesh_.simplices.size(); ++t) {
+    std::optional<std::size_t> first;
+    for (std::size_t t = 0; t < mesh_.simplices.size(); ++t) {
       if (!covers(t, seed)) continue;
       const auto faces = detail::faces_of(mesh_.simplices[t]);
       if (std::any_of(faces.begin(), faces.end(), is_on_polygon)) return std::nullopt;
       if (!first) first = t;
     }
     return first;
-  }
-
-  std::optional<std::string> seed_trouble(const std::vector<double>& regions,
-                                          detail::UnionFind& parts, bool known) const {
-    const Graph<3>& plc = options_.graph->graph;
-    std::set<std::uint32_t> in_holes;  // parts, in which no region's seed stands for anything
-    for (const auto& hole : plc.holes()) {
-      const auto t = seeded_by(hole.at);
-      if (t) in_holes.insert(parts.find(*t));
-      if (!t || options_.boundary != BoundaryRule::lines) continue;
-      return simplex(*t) + " holds the seed of " + text_of(hole.id) + " at " +
-             text::to_text<3>(hole.at);
-    }
-    std::map<std::uint32_t, std::set<double>> seeded;
-    std::vector<std::pair<const Seed<3>*, std::uint32_t>> found;
-    for (const auto& region : plc.seeds) {
-      if (region.id.kind != SeedKind::region) continue;
-      const auto t = seeded_by(region.at);
-      if (!t || in_holes.count(parts.find(*t)) > 0) continue;
-      seeded[parts.find(*t)].insert(region.attribute);
-      found.emplace_back(&region, *t);
-    }
-    for (const auto& [region, t] : found) {
-      if (!known || seeded[parts.find(t)].count(regions[t]) > 0) continue;
-      return simplex(t) + " has the region " + text::to_text(regions[t]) + ", the seed in it at " +
-             text::to_text<3>(region->at) + " " + text::to_text(region->attribute);
-    }
-    return std::nullopt;
   }
 
   [[nodiscard]] bool has_kinds() const {
@@ -357,20 +305,20 @@ class SpaceChecker {
   // the first's tetrahedron.
   template <class Predicate>
   [[nodiscard]] int in_sphere(std::size_t i, Predicate predicate) const {
-    const auto& [a, b, c, d] = mesh_.simplices[(*half_faces_)[i].tetrahedron];
-    return predicate(at(a), at(b), at(c), at(d), at((*half_faces_)[i + 1].opposite));
+    const auto& [a, b, c, d] = mesh_.simplices[sides()[i].tetrahedron];
+    return predicate(at(a), at(b), at(c), at(d), at(sides()[i + 1].opposite));
   }
   // Of a corner inside.
   [[nodiscard]] bool is_near_sphere(std::size_t i) const {
-    const auto& [a, b, c, d] = mesh_.simplices[(*half_faces_)[i].tetrahedron];
+    const auto& [a, b, c, d] = mesh_.simplices[sides()[i].tetrahedron];
     const detail::Circumcentre centre = detail::circumcentre(at(a), at(b), at(c), at(d));
-    const Point<3> to = detail::minus(at((*half_faces_)[i + 1].opposite), at(a));
+    const Point<3> to = detail::minus(at(sides()[i + 1].opposite), at(a));
     const double far2 = detail::squared_distance(to, centre.q);
     return std::sqrt(far2) >= (1 - kNearSphere) * std::sqrt(centre.length2);
   }
   [[nodiscard]] std::string inside_sphere(std::size_t i, const char* what) const {
-    return vertex((*half_faces_)[i + 1].opposite) + what + " the sphere of " +
-           simplex((*half_faces_)[i].tetrahedron) + " across " + face((*half_faces_)[i]);
+    return vertex(sides()[i + 1].opposite) + what + " the sphere of " +
+           simplex(sides()[i].tetrahedron) + " across " + face(sides()[i]);
   }
 
   // A place strictly inside one of some tetrahedra, and that tetrahedron.
@@ -405,8 +353,7 @@ class SpaceChecker {
   }
 
   [[nodiscard]] bool on_box(const HalfFace& half) const {
-    const auto [a, b, c] = half.face;
-    return detail::is_on_side<3>(box_, {at(a), at(b), at(c)});
+    return detail::is_on_side<3>(box_, checked_.places_of(half.face));
   }
   // A vertex on the outer side of a face's plane.
   [[nodiscard]] std::optional<std::size_t> beyond(const HalfFace& half) const {
@@ -418,19 +365,17 @@ class SpaceChecker {
   }
 
   [[nodiscard]] const Point<3>& at(std::size_t v) const { return mesh_.vertices[v]; }
-  [[nodiscard]] std::string vertex(std::size_t v) const { return vertex_name(mesh_, v); }
-  [[nodiscard]] std::string simplex(std::size_t i) const { return simplex_name(mesh_, i); }
-  [[nodiscard]] std::string face(const HalfFace& half) const { return face(half.key()); }
-  [[nodiscard]] std::string face(const detail::Face& key) const {
-    const auto [a, b, c] = key;
-    return "the face of " + vertex(a) + ", " + vertex(b) + " and " + vertex(c);
-  }
+  [[nodiscard]] std::string vertex(std::size_t v) const { return checked_.vertex(v); }
+  [[nodiscard]] std::string simplex(std::size_t i) const { return checked_.simplex(i); }
+  [[nodiscard]] std::string face(const HalfFace& half) const { return checked_.side(half); }
+  [[nodiscard]] std::string face(const detail::Face& key) const { return checked_.face(key); }
+  [[nodiscard]] const detail::HalfFaces& sides() const { return checked_.sides(); }
 
   inline static const std::vector<Feature> kNoOrigins;
   const Mesh<3>& mesh_;
   const CheckOptions<3>& options_;
+  detail::CheckedMesh<3> checked_;
   Box<3> box_;
-  std::optional<detail::HalfFaces> half_faces_;
   std::vector<HalfFace> border_;                 // of faces of one tetrahedron
   std::optional<detail::ComplexCheck> complex_;  // if one is given
   detail::Findings findings_;
@@ -445,14 +390,7 @@ BoundaryRule boundary_rule(const MeshData<3>& mesh, const GraphFile<3>* complex)
       std::any_of(faces.begin(), faces.end(), [](const auto& f) { return f.polygon.has_value(); });
   if (!has_polygons) return BoundaryRule::box;
   if (complex == nullptr || mesh.simplices.empty()) return BoundaryRule::lines;
-  const Box<3> box = detail::bounding_box<3>(mesh.vertices);
-  const std::vector<HalfFace> border = detail::HalfFaces(mesh.simplices).border();
-  const bool fills = std::all_of(border.begin(), border.end(), [&](const HalfFace& half) {
-    const auto [a, b, c] = half.face;
-    return detail::is_on_side<3>(box, {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
-  });
-  return fills && !detail::has_corners<3>(box, complex->graph.points) ? BoundaryRule::box
-                                                                      : BoundaryRule::lines;
+  return detail::rule_of(detail::CheckedMesh<3>(mesh), complex->graph);
 }
 
 std::vector<Finding> check_mesh(const Mesh<3>& mesh, const CheckOptions<3>& options) {

@@ -11,21 +11,16 @@
 #include <set>
 
 #include "check/check_complex.hpp"
-#include "check/check_parts.hpp"
 #include "check/marked.hpp"
 
 namespace mesher::detail {
 
 class ComplexCheck::Markers {
  public:
-  Markers(const ComplexCheck& check, const HalfFaces& faces)
-      : check_(check), features_(*check.options_.features) {
+  explicit Markers(const ComplexCheck& check)
+      : check_(check), features_(*check.options_.features), points_(*check.options_.graph) {
     const GraphFile<3>& file = *check.options_.graph;
     const Graph<3>& plc = file.graph;
-    for (std::size_t i = 0; i < plc.points.size(); ++i) {
-      const auto& p = plc.points[i];
-      if (p.marker != 0) points_[p.at] = marked(p.marker, "point", p.id, file.points, i);
-    }
     const auto add_piece = [&](PointId from, PointId to, const Marked& line) {
       const auto ends = std::minmax(from, to);
       segments_.emplace(check.line_of_.at({ends.first, ends.second}), line);
@@ -47,7 +42,7 @@ class ComplexCheck::Markers {
       for (const Face& tile : check.surfaces_[i].tiles) polygon_at_[tile] = i;
     }
     add_alone();
-    for (const HalfFace& half : faces.border()) {
+    for (const HalfFace& half : check.mesh_.sides().border()) {
       border_.insert(half.key());
       for (const std::uint32_t v : half.face) border_vertices_.insert(v);
     }
@@ -57,21 +52,20 @@ class ComplexCheck::Markers {
     std::size_t vertices = 0;
     for (std::uint32_t v = 0; v < features_.markers.size(); ++v) {
       const std::string trouble = trouble_at(v);
-      if (!trouble.empty()) return Verdict::bad(name(v) + trouble);
+      if (!trouble.empty()) return Verdict::bad(check_.mesh_.vertex(v) + trouble);
       vertices += features_.markers[v] != 0 ? 1 : 0;
     }
     const auto& edges = features_.edges;
     for (const MeshEdge& e : edges) {
       const std::string trouble = has_marker(edges) ? trouble_of(e) : "";
       if (trouble.empty()) continue;
-      return Verdict::bad("the edge from " + name(e.low) + " to " + name(e.high) + trouble);
+      return Verdict::bad(check_.mesh_.edge(e.low, e.high) + trouble);
     }
     const auto& faces = features_.faces;
     for (const MeshFace& f : faces) {
       const std::string trouble = has_marker(faces) ? trouble_of(f) : "";
       if (trouble.empty()) continue;
-      const auto [a, b, c] = f.key();
-      return Verdict::bad("the face of " + name(a) + ", " + name(b) + " and " + name(c) + trouble);
+      return Verdict::bad(check_.mesh_.face(f.key()) + trouble);
     }
     return Verdict::good(std::to_string(vertices) + " vertices, " + count(edges) + " edges and " +
                          count(faces) + " faces have one");
@@ -82,7 +76,6 @@ class ComplexCheck::Markers {
     return std::to_string(std::count_if(parts.begin(), parts.end(),
                                         [](const auto& part) { return part.marker != 0; }));
   }
-  [[nodiscard]] std::string name(std::uint32_t v) const { return vertex_name(check_.mesh_, v); }
   [[nodiscard]] const Featured& at(std::uint32_t v) const {
     static const Featured nothing;
     const auto it = check_.featured_.find(v);
@@ -118,20 +111,15 @@ class ComplexCheck::Markers {
 
   [[nodiscard]] std::string trouble_at(std::uint32_t v) const {
     const std::int64_t marker = features_.markers[v];
-    const auto point = points_.find(check_.at(v));
-    if (point == points_.end()) {
-      Givers givers;
-      add_segments(at(v).lines, givers);
-      add_polygons(at(v).surfaces, givers);
-      if (const auto alone = alone_.find(v); alone != alone_.end()) {
-        add_segments(alone->second.lines, givers);
-        add_polygons(alone->second.surfaces, givers);
-      }
-      return marker_trouble(marker, givers, border_vertices_.contains(v), "segment or polygon");
+    if (const auto trouble = points_.trouble(marker, check_.at(v))) return *trouble;
+    Givers givers;
+    add_segments(at(v).lines, givers);
+    add_polygons(at(v).surfaces, givers);
+    if (const auto alone = alone_.find(v); alone != alone_.end()) {
+      add_segments(alone->second.lines, givers);
+      add_polygons(alone->second.surfaces, givers);
     }
-    if (point->second.marker == marker) return "";
-    return " has the marker " + std::to_string(marker) + ", but is " + point->second.name +
-           ", which has " + std::to_string(point->second.marker);
+    return marker_trouble(marker, givers, border_vertices_.contains(v), "segment or polygon");
   }
   // Of an edge on no edge of the complex nothing is known.
   [[nodiscard]] std::string trouble_of(const MeshEdge& e) const {
@@ -154,24 +142,15 @@ class ComplexCheck::Markers {
 
   const ComplexCheck& check_;
   const MeshFeatures& features_;
+  MarkedPoints<3> points_;
   std::map<std::uint32_t, Featured> alone_;  // by vertex: those of which it is on no edge
-  std::map<Point<3>, Marked> points_;
-  std::map<std::size_t, Marked> segments_;  // by their lines
-  std::vector<Marked> polygons_;            // by their surfaces
+  std::map<std::size_t, Marked> segments_;   // by their lines
+  std::vector<Marked> polygons_;             // by their surfaces
   std::map<Face, std::size_t> polygon_at_;
   std::set<Face> border_;
   std::set<std::uint32_t> border_vertices_;
 };
 
-bool ComplexCheck::tells_markers() const {
-  const Graph<3>& plc = options_.graph->graph;
-  const MeshFeatures* f = options_.features;
-  const bool asked = has_marker(plc.points) || has_marker(plc.segments) ||
-                     has_marker(plc.polylines) || has_marker(plc.polygons);
-  return asked && f != nullptr &&
-         (!f->markers.empty() || has_marker(f->edges) || has_marker(f->faces));
-}
-
-Verdict ComplexCheck::markers(const HalfFaces& faces) const { return Markers(*this, faces).run(); }
+Verdict ComplexCheck::markers() const { return Markers(*this).run(); }
 
 }  // namespace mesher::detail

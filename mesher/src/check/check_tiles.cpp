@@ -33,10 +33,6 @@ FlatPolygon flat(const Polygon& polygon, const std::map<PointId, Point<3>>& plac
   return FlatPolygon(loops);
 }
 
-std::array<std::uint32_t, 2> ends_of(std::uint32_t a, std::uint32_t b) {
-  return {std::min(a, b), std::max(a, b)};
-}
-
 }  // namespace
 
 void ComplexCheck::add_edges(Surface& surface, const std::vector<PointId>& ends,
@@ -120,9 +116,10 @@ Box<3> box_of(const Polygon& polygon, const std::map<PointId, Point<3>>& places,
 
 // Of faces beside the polygon with their corners on its plane, those whose Voronoi edge crosses it;
 // on the boundary, where that is a ray, those with their middle in it.
-void ComplexCheck::add_crossed_tiles(const HalfFaces& faces) {
+void ComplexCheck::add_crossed_tiles() {
+  const HalfFaces& faces = mesh_.sides();
   const auto centre = [&](std::uint32_t t) {
-    const auto& [a, b, c, d] = mesh_.simplices[t];
+    const auto& [a, b, c, d] = mesh_.mesh().simplices[t];
     const Circumcentre o = circumcentre(at(a), at(b), at(c), at(d));
     return FlatPolygon::wide(plus(at(a), o.q));
   };
@@ -139,7 +136,7 @@ void ComplexCheck::add_crossed_tiles(const HalfFaces& faces) {
     return f.contains(
         {p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])});
   };
-  FacesBeside beside(mesh_, faces);
+  FacesBeside beside(mesh_.mesh(), faces);
   for (Surface& surface : surfaces_) {
     const FlatPolygon f = flat(*surface.polygon, places_);
     const double tolerance = static_cast<double>(f.deviation()) + 4 * rounding_;
@@ -150,7 +147,8 @@ void ComplexCheck::add_crossed_tiles(const HalfFaces& faces) {
   }
 }
 
-Verdict ComplexCheck::find_polygons(const HalfFaces& faces) {
+Verdict ComplexCheck::find_polygons() {
+  const HalfFaces& faces = mesh_.sides();
   const auto* features = options_.features;
   const bool named =
       features != nullptr && std::any_of(features->faces.begin(), features->faces.end(),
@@ -162,7 +160,7 @@ Verdict ComplexCheck::find_polygons(const HalfFaces& faces) {
     }
     for (const auto& [a, b] : surface.polygon->edges) add_edges(surface, {a, b}, surface.inner);
   }
-  named ? add_named_tiles() : add_crossed_tiles(faces);
+  named ? add_named_tiles() : add_crossed_tiles();
   std::set<Face> there;
   for (std::size_t i = 0; i < faces.size(); i += faces.partners(i)) there.insert(faces[i].key());
   std::size_t tiles = 0, outside = 0;
@@ -182,8 +180,7 @@ Verdict ComplexCheck::find_polygons(const HalfFaces& faces) {
   }
   for (const Face& tile : tiles_) {
     if (!verdict.holds || there.count(tile) != 0) continue;
-    verdict = Verdict::bad("no tetrahedron has the face of " + vertex_name(mesh_, tile[0]) + ", " +
-                           vertex_name(mesh_, tile[1]) + " and " + vertex_name(mesh_, tile[2]));
+    verdict = Verdict::bad("no tetrahedron has " + mesh_.face(tile));
   }
   if (!verdict.holds) return verdict;
   return Verdict::good(std::to_string(surfaces_.size() - outside) + " polygons are unions of " +
@@ -200,8 +197,9 @@ bool ComplexCheck::is_open(const Ends& edge, const Point<3>& towards) {
       for (const Ends& e : surface.border) around_[e];
       for (const Ends& e : surface.inner) around_[e];
     }
-    for (std::uint32_t t = 0; t < mesh_.simplices.size(); ++t) {
-      const auto& s = mesh_.simplices[t];
+    const auto& simplices = mesh_.mesh().simplices;
+    for (std::uint32_t t = 0; t < simplices.size(); ++t) {
+      const auto& s = simplices[t];
       for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t k = i + 1; k < 4; ++k) {
           const auto found = around_.find(ends_of(s[i], s[k]));
@@ -215,7 +213,7 @@ bool ComplexCheck::is_open(const Ends& edge, const Point<3>& towards) {
   };
   return std::none_of(around_[edge].begin(), around_[edge].end(), [&](std::uint32_t t) {
     std::vector<std::uint32_t> others;
-    for (const std::uint32_t v : mesh_.simplices[t]) {
+    for (const std::uint32_t v : mesh_.mesh().simplices[t]) {
       if (v != edge[0] && v != edge[1]) others.push_back(v);
     }
     const auto [r, s] = std::pair(others[0], others[1]);
@@ -234,7 +232,7 @@ std::optional<std::string> ComplexCheck::trouble_of(const Surface& surface) {
   for (const auto& [a, b, c] : surface.tiles) {
     for (const std::uint32_t v : {a, b, c}) {
       if (std::abs(f.height(at(v))) <= tolerance) continue;
-      return vertex_name(mesh_, v) + ", a corner of one of its faces, is " +
+      return mesh_.vertex(v) + ", a corner of one of its faces, is " +
              text::to_text(static_cast<double>(f.height(at(v)))) + " off its plane";
     }
     area += f.area_of(at(a), at(b), at(c));
@@ -242,9 +240,7 @@ std::optional<std::string> ComplexCheck::trouble_of(const Surface& surface) {
       opposite[ends_of(p, q)].push_back(other);
     }
   }
-  const auto edge = [&](const Ends& e) {
-    return "the edge from " + vertex_name(mesh_, e[0]) + " to " + vertex_name(mesh_, e[1]);
-  };
+  const auto edge = [&](const Ends& e) { return mesh_.edge(e[0], e[1]); };
   const auto place_beside = [&](std::uint32_t from, std::uint32_t to) {
     const auto far = f.beside(at(from), at(to));
     Point<3> p;

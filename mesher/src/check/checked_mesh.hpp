@@ -1,14 +1,20 @@
-// What the single checks of a mesh share: its sides, by edge, and how parts are named to people.
+// What the single checks of a mesh share: its sides, which are edges of triangles and faces of
+// tetrahedra, and how parts are named to people. D is 2 or 3.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "check/check_parts.hpp"
 #include "check/verdict.hpp"
+#include "geometry/box.hpp"
+#include "mesh/half_faces.hpp"
 #include "mesher/check.hpp"
 
 namespace mesher::detail {
@@ -23,34 +29,90 @@ struct HalfEdge {
   [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> edge() const { return {low(), high()}; }
 };
 
-/// A mesh with its half-edges by edge. Requires: corners name vertices.
-class CheckedMesh {
+/// The half-edges of one edge are neighbours, edges ascend by (low, high).
+class HalfEdges {
  public:
-  explicit CheckedMesh(const Mesh<2>& mesh);
+  explicit HalfEdges(const std::vector<Mesh<2>::Simplex>& triangles);
 
-  [[nodiscard]] const Mesh<2>& mesh() const { return mesh_; }
-  [[nodiscard]] const Point<2>& at(std::size_t v) const { return mesh_.vertices[v]; }
-  /// The half-edges of one edge are neighbours, edges ascend by (low, high).
-  [[nodiscard]] const std::vector<HalfEdge>& half_edges() const { return half_edges_; }
+  [[nodiscard]] std::size_t size() const { return all_.size(); }
+  [[nodiscard]] const HalfEdge& operator[](std::size_t i) const { return all_[i]; }
   /// How many half-edges from i on are of i's edge.
   [[nodiscard]] std::size_t partners(std::size_t i) const;
   [[nodiscard]] bool has_edge(std::uint32_t low, std::uint32_t high) const;
-  /// The half-edges that have no partner. Requires: no edge has more than two triangles.
+  /// The half-edges that have no partner.
   [[nodiscard]] std::vector<HalfEdge> border() const;
-  [[nodiscard]] Box<2> bounding_box() const;
-  /// The first triangle that holds p, its sides included. Cost: O(m).
-  [[nodiscard]] std::optional<std::size_t> triangle_at(const Point<2>& p) const;
-
-  /// "vertex 5 at (0, 1)", counted from 1, and the like.
-  [[nodiscard]] std::string vertex(std::size_t v) const;
-  [[nodiscard]] std::string edge(const HalfEdge& e) const;
-  [[nodiscard]] std::string edge(std::uint32_t from, std::uint32_t to) const;
-  [[nodiscard]] std::string triangle(std::size_t i) const;
 
  private:
-  const Mesh<2>& mesh_;
-  std::vector<HalfEdge> half_edges_;
+  std::vector<HalfEdge> all_;
 };
+
+template <int D>
+using HalfSide = std::conditional_t<D == 2, HalfEdge, HalfFace>;
+template <int D>
+using HalfSides = std::conditional_t<D == 2, HalfEdges, HalfFaces>;
+
+[[nodiscard]] inline std::array<std::uint32_t, 2> corners_of(const HalfEdge& e) {
+  return {e.from, e.to};
+}
+[[nodiscard]] inline std::array<std::uint32_t, 3> corners_of(const HalfFace& f) { return f.face; }
+[[nodiscard]] inline std::size_t simplex_of(const HalfEdge& e) { return e.triangle; }
+[[nodiscard]] inline std::size_t simplex_of(const HalfFace& f) { return f.tetrahedron; }
+
+/// A mesh with its half-sides by side. Requires: corners name vertices.
+template <int D>
+class CheckedMesh {
+ public:
+  explicit CheckedMesh(const Mesh<D>& mesh) : mesh_(mesh), sides_(mesh.simplices) {}
+
+  [[nodiscard]] const Mesh<D>& mesh() const { return mesh_; }
+  [[nodiscard]] const Point<D>& at(std::size_t v) const { return mesh_.vertices[v]; }
+  [[nodiscard]] const HalfSides<D>& sides() const { return sides_; }
+  template <std::size_t N>
+  [[nodiscard]] std::array<Point<D>, N> places_of(const std::array<std::uint32_t, N>& all) const {
+    std::array<Point<D>, N> places;
+    for (std::size_t i = 0; i < N; ++i) places[i] = at(all[i]);
+    return places;
+  }
+  [[nodiscard]] Box<D> bounding_box() const { return detail::bounding_box<D>(mesh_.vertices); }
+  /// The first simplex that holds p, its boundary included. Cost: O(m).
+  [[nodiscard]] std::optional<std::size_t> simplex_at(const Point<D>& p) const;
+
+  /// "vertex 5 at (0, 1)", counted from 1, and the like.
+  [[nodiscard]] std::string vertex(std::size_t v) const { return vertex_name(mesh_, v); }
+  [[nodiscard]] std::string edge(std::uint32_t from, std::uint32_t to) const {
+    return "the edge from " + vertex(from) + " to " + vertex(to);
+  }
+  [[nodiscard]] std::string side(const HalfEdge& e) const { return edge(e.from, e.to); }
+  [[nodiscard]] std::string side(const HalfFace& f) const { return face(f.key()); }
+  [[nodiscard]] std::string face(const Face& key) const {
+    const auto [a, b, c] = key;
+    return "the face of " + vertex(a) + ", " + vertex(b) + " and " + vertex(c);
+  }
+  [[nodiscard]] std::string simplex(std::size_t i) const { return simplex_name(mesh_, i); }
+
+ private:
+  const Mesh<D>& mesh_;
+  HalfSides<D> sides_;
+};
+
+/// `box` if the mesh fills its bounding box, of which a corner is no point of the graph; else
+/// `lines`.
+template <int D>
+[[nodiscard]] BoundaryRule rule_of(const CheckedMesh<D>& mesh, const Graph<D>& graph);
+
+/// Whether the mesh need not have what lines, or polygons, do not enclose. (In space `any` is a
+/// convex body, that of all.)
+template <int D>
+[[nodiscard]] bool may_leave_out(const CheckOptions<D>& options) {
+  return D == 2 ? options.boundary != BoundaryRule::box : options.boundary == BoundaryRule::lines;
+}
+
+/// Whether all points of the input are vertices, bit for bit, but those that may be outside and
+/// are. Requires: options.graph.
+template <int D>
+[[nodiscard]] Verdict check_input(const CheckedMesh<D>& mesh, const CheckOptions<D>& options);
+
+// --- Of triangles ----------------------------------------------------------------------------
 
 /// Edges on lines of the input, as pairs (low, high), ascending.
 using LineEdges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -60,7 +122,7 @@ using LineEdges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 }
 
 /// (5') Requires: (1) to (4).
-[[nodiscard]] Verdict check_overlap(const CheckedMesh& mesh);
+[[nodiscard]] Verdict check_overlap(const CheckedMesh<2>& mesh);
 
 /// A segment of the input, or a piece of a polyline, and the vertices that make it up.
 struct LinePath {
@@ -76,26 +138,21 @@ struct PathsVerdict {
   std::vector<LinePath> paths;
 };
 /// Lines may lie outside of what is meshed, unless the mesh fills a box.
-[[nodiscard]] PathsVerdict check_segments(const CheckedMesh& mesh, const CheckOptions<2>& options);
+[[nodiscard]] PathsVerdict check_segments(const CheckedMesh<2>& mesh,
+                                          const CheckOptions<2>& options);
 
 /// The lines that a mesh itself tells of: its edges on lines, ascending, joined where two of one
 /// line go straight on. Several segments in a row may be one path.
-[[nodiscard]] std::vector<LinePath> drawn_paths(const CheckedMesh& mesh,
+[[nodiscard]] std::vector<LinePath> drawn_paths(const CheckedMesh<2>& mesh,
                                                 const std::vector<MeshEdge>& edges);
 
-/// (d)
-[[nodiscard]] Verdict check_regions(const CheckedMesh& mesh, const LineEdges& on_lines,
-                                    const CheckOptions<2>& options);
-
-/// Whether (f) is asked: the input has markers, and the mesh does.
-[[nodiscard]] bool tells_markers(const CheckOptions<2>& options);
-/// (f), with the paths of all lines. Requires: tells_markers(options).
-[[nodiscard]] Verdict check_markers(const CheckedMesh& mesh, const std::vector<LinePath>& paths,
+/// (f), with the paths of all lines. Requires: tells_markers(options) (marked.hpp).
+[[nodiscard]] Verdict check_markers(const CheckedMesh<2>& mesh, const std::vector<LinePath>& paths,
                                     const CheckOptions<2>& options);
 
 /// (9), with triangles excused whose shortest edge joins two of `paths` that leave one point at
 /// under 60 degrees.
-[[nodiscard]] Verdict check_quality(const CheckedMesh& mesh, double rho,
+[[nodiscard]] Verdict check_quality(const CheckedMesh<2>& mesh, double rho,
                                     const std::vector<LinePath>& paths);
 
 }  // namespace mesher::detail

@@ -11,7 +11,7 @@ constexpr double kStraight = 1e-6;  // sine of what may be rounding in a file
 
 class Drawing {
  public:
-  Drawing(const CheckedMesh& mesh, const std::vector<MeshEdge>& edges)
+  Drawing(const CheckedMesh<2>& mesh, const std::vector<MeshEdge>& edges)
       : mesh_(mesh), edges_(edges), at_(mesh.mesh().vertices.size()), used_(edges.size()) {
     for (std::size_t e = 0; e < edges.size(); ++e) {
       at_[edges[e].low].push_back(e);
@@ -57,7 +57,7 @@ class Drawing {
     }
   }
 
-  const CheckedMesh& mesh_;
+  const CheckedMesh<2>& mesh_;
   const std::vector<MeshEdge>& edges_;
   std::vector<std::vector<std::size_t>> at_;  // the edges at each vertex
   std::vector<bool> used_;
@@ -65,7 +65,7 @@ class Drawing {
 
 }  // namespace
 
-std::vector<LinePath> drawn_paths(const CheckedMesh& mesh, const std::vector<MeshEdge>& edges) {
+std::vector<LinePath> drawn_paths(const CheckedMesh<2>& mesh, const std::vector<MeshEdge>& edges) {
   return Drawing(mesh, edges).paths();
 }
 

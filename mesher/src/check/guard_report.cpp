@@ -21,8 +21,8 @@ GuardReport report_of(const Mesh<3>& mesh, const Graph<3>& complex, double rho, 
   CheckOptions<3> options;
   options.graph = &file;
   options.rho = rho;
-  const detail::HalfFaces faces(mesh.simplices);
-  const detail::ComplexCheck parts(mesh, options, faces);
+  const detail::CheckedMesh<3> checked(mesh);
+  const detail::ComplexCheck parts(checked, options);
   const detail::IsolatedEdges isolated(complex);
   detail::GuardCounts found;
   for (const auto& s : mesh.simplices) {

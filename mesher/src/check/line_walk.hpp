@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "check/check_parts.hpp"
+#include "check/checked_mesh.hpp"
 #include "geometry/box.hpp"
 #include "geometry/space_vectors.hpp"
 #include "mesher/predicates.hpp"
@@ -56,12 +57,6 @@ template <int D>
       std::minmax({predicates::orient3d(p, q, a, b), predicates::orient3d(p, q, b, c),
                    predicates::orient3d(p, q, c, a)});
   return least >= 0 || most <= 0;
-}
-
-/// ", 3 are outside, 1 in part"
-[[nodiscard]] inline std::string outside_text(std::size_t all, std::size_t in_part) {
-  return (all > 0 ? ", " + std::to_string(all) + " are outside" : "") +
-         (in_part > 0 ? ", " + std::to_string(in_part) + " in part" : "");
 }
 
 template <int D>
@@ -189,6 +184,63 @@ class LineWalk {
   std::map<Point<D>, std::uint32_t> vertex_;
   std::vector<std::vector<std::uint32_t>> neighbours_;
   double tolerance_;
+};
+
+/// Whether all between two places is outside of the mesh, and may be. In the plane, of a boundary
+/// that is not judged, no piece between two vertices may be lost.
+template <int D>
+class Outside {
+ public:
+  /// Both must outlive this.
+  Outside(const CheckedMesh<D>& mesh, const LineWalk<D>& walk, BoundaryRule rule)
+      : mesh_(mesh), walk_(walk), rule_(rule), border_(mesh.sides().border()) {}
+
+  [[nodiscard]] bool operator()(const Point<D>& p, const Point<D>& q) const {
+    if (rule_ == BoundaryRule::box) return false;
+    if (D == 2 && rule_ == BoundaryRule::any && walk_.vertex_at(p) && walk_.vertex_at(q)) {
+      return false;
+    }
+    Point<D> middle;
+    for (int i = 0; i < D; ++i) middle[i] = p[i] / 2 + q[i] / 2;
+    if (mesh_.simplex_at(middle)) return false;
+    return std::none_of(border_.begin(), border_.end(), [&](const HalfSide<D>& side) {
+      return goes_through(p, q, mesh_.places_of(corners_of(side)));
+    });
+  }
+
+ private:
+  const CheckedMesh<D>& mesh_;
+  const LineWalk<D>& walk_;
+  BoundaryRule rule_;
+  std::vector<HalfSide<D>> border_;
+};
+
+/// What is said of all lines together.
+template <int D>
+class WalkedLines {
+ public:
+  void add(const std::string& name, const Point<D>& from, const Point<D>& to,
+           const typename LineWalk<D>::Way& way) {
+    if (way.trouble && !trouble_) {
+      trouble_ = name + " from " + text::to_text<D>(from) + " to " + text::to_text<D>(to) + ": " +
+                 *way.trouble;
+    }
+    (way.runs.empty() ? outside_ : there_) += 1;
+    in_part_ += way.runs.empty() || way.is_whole ? 0 : 1;
+    for (const auto& run : way.runs) edges_ += run.size() - 1;
+  }
+  /// `what`: the lines are.
+  [[nodiscard]] Verdict verdict(const std::string& what) const {
+    if (trouble_) return Verdict::bad(*trouble_);
+    return Verdict::good(std::to_string(there_) + ' ' + what + " are unions of " +
+                         std::to_string(edges_) + " edges" +
+                         (outside_ > 0 ? ", " + std::to_string(outside_) + " are outside" : "") +
+                         (in_part_ > 0 ? ", " + std::to_string(in_part_) + " in part" : ""));
+  }
+
+ private:
+  std::optional<std::string> trouble_;  // the first
+  std::size_t there_ = 0, edges_ = 0, outside_ = 0, in_part_ = 0;
 };
 
 }  // namespace mesher::detail

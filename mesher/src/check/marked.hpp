@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "mesher/check.hpp"
 #include "mesher/domain.hpp"
 #include "mesher/graph.hpp"
 #include "text/id_text.hpp"
@@ -50,5 +53,41 @@ using Givers = std::vector<const Marked*>;
 [[nodiscard]] bool has_marker(const auto& parts) {
   return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.marker != 0; });
 }
+
+/// Whether markers are asked for: the input has some, and the mesh does.
+template <int D>
+[[nodiscard]] bool tells_markers(const CheckOptions<D>& options) {
+  if (options.graph == nullptr || options.features == nullptr) return false;
+  const Graph<D>& graph = options.graph->graph;
+  bool asked =
+      has_marker(graph.points) || has_marker(graph.segments) || has_marker(graph.polylines);
+  if constexpr (D == 3) asked = asked || has_marker(graph.polygons);
+  const MeshFeatures& f = *options.features;
+  return asked && (!f.markers.empty() || has_marker(f.edges) || (D == 3 && has_marker(f.faces)));
+}
+
+/// The points of the input that have markers, by their places.
+template <int D>
+class MarkedPoints {
+ public:
+  explicit MarkedPoints(const GraphFile<D>& file) {
+    for (std::size_t i = 0; i < file.graph.points.size(); ++i) {
+      const GraphPoint<D>& p = file.graph.points[i];
+      if (p.marker != 0) points_[p.at] = marked(p.marker, "point", p.id, file.points, i);
+    }
+  }
+  /// What is wrong with the marker of a vertex that is one of them, "" if nothing is; nothing if it
+  /// is none.
+  [[nodiscard]] std::optional<std::string> trouble(std::int64_t marker, const Point<D>& at) const {
+    const auto point = points_.find(at);
+    if (point == points_.end()) return std::nullopt;
+    if (point->second.marker == marker) return "";
+    return " has the marker " + std::to_string(marker) + ", but is " + point->second.name +
+           ", which has " + std::to_string(point->second.marker);
+  }
+
+ private:
+  std::map<Point<D>, Marked> points_;
+};
 
 }  // namespace mesher::detail

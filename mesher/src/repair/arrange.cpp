@@ -18,17 +18,17 @@ namespace {
 // Where rods are to be led, in a canonical order.
 using Leads = std::map<std::uint32_t, std::vector<Spot>>;
 
-News everything_until_now(const Drawing& drawing) {
+News everything_until_now(const Drawing<2>& drawing) {
   return {static_cast<Spot>(drawing.places().size()),
           static_cast<std::uint32_t>(drawing.rods().size())};
 }
 
-void split_all(Drawing& drawing, const Leads& leads) {
+void split_all(Drawing<2>& drawing, const Leads& leads) {
   for (const auto& [rod, through] : leads) drawing.split(rod, through);
 }
 
 // Leads rods through points near them. `news`: what has not been looked at; brought up to date.
-bool lead_through_near(Drawing& drawing, News& news) {
+bool lead_through_near(Drawing<2>& drawing, News& news) {
   const News seen = everything_until_now(drawing);
   Leads leads;
   BoxSearch(drawing).rods_and_spots(news, [&](std::uint32_t r, Spot s) {
@@ -45,7 +45,7 @@ struct Crossing {
   friend auto operator<=>(const Crossing&, const Crossing&) = default;
 };
 
-std::vector<Crossing> crossings(const Drawing& drawing, const News& news) {
+std::vector<Crossing> crossings(const Drawing<2>& drawing, const News& news) {
   std::vector<Crossing> found;
   BoxSearch(drawing).rods_and_rods(news, [&](std::uint32_t r, std::uint32_t t, const Box<2>& box) {
     const Rod &x = drawing.rods()[r], &y = drawing.rods()[t];
@@ -66,7 +66,7 @@ std::vector<Crossing> crossings(const Drawing& drawing, const News& news) {
 }
 
 // The point at which two rods are to meet.
-Spot meeting(Drawing& drawing, const Crossing& crossing) {
+Spot meeting(Drawing<2>& drawing, const Crossing& crossing) {
   const auto leads = [&](std::uint32_t rod, Spot s) {
     const Rod& r = drawing.rods()[rod];
     return r.has(s) || drawing.may_lead(r, s);
@@ -85,7 +85,7 @@ Spot meeting(Drawing& drawing, const Crossing& crossing) {
 }
 
 // Leads rods that cross through a point there. `news` as above.
-bool lead_through_crossings(Drawing& drawing, News& news) {
+bool lead_through_crossings(Drawing<2>& drawing, News& news) {
   const News seen = everything_until_now(drawing);
   Leads leads;
   for (const Crossing& crossing : crossings(drawing, news)) {
@@ -101,7 +101,7 @@ bool lead_through_crossings(Drawing& drawing, News& news) {
 
 }  // namespace
 
-int arrange(Drawing& drawing) {
+int arrange(Drawing<2>& drawing) {
   News near_news, crossing_news;
   for (int round = 0; round <= kRepairRounds; ++round) {
     bool changed = false;

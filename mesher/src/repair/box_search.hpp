@@ -29,7 +29,8 @@ struct News {
 
 class BoxSearch {
  public:
-  explicit BoxSearch(const Drawing& drawing) : drawing_(drawing), slack_(2 * drawing.tolerance()) {}
+  explicit BoxSearch(const Drawing<2>& drawing)
+      : drawing_(drawing), slack_(2 * drawing.tolerance()) {}
 
   /// Calls visit(rod, spot) for each rod that is whole and each point that may be as close to it as
   /// the tolerance, one of them new; and for others.
@@ -102,7 +103,7 @@ class BoxSearch {
     return contains({{box.lo[0] - r, box.lo[1] - r}, {box.hi[0] + r, box.hi[1] + r}}, knot.at);
   }
 
-  const Drawing& drawing_;
+  const Drawing<2>& drawing_;
   double slack_;
 };
 

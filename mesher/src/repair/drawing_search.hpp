@@ -13,10 +13,10 @@ namespace mesher::detail {
 
 class DrawingSearch {
  public:
-  explicit DrawingSearch(SpaceDrawing& drawing) : drawing_(drawing), store_(drawing.store()) {}
+  explicit DrawingSearch(Drawing<3>& drawing) : drawing_(drawing), store_(drawing.store()) {}
 
   [[nodiscard]] VertexHandle last_point() const {
-    return static_cast<VertexHandle>(drawing_.points());
+    return static_cast<VertexHandle>(drawing_.places().size());
   }
   [[nodiscard]] EdgeHandle last_edge() const {
     return static_cast<EdgeHandle>(store_.edges().size());
@@ -65,7 +65,7 @@ class DrawingSearch {
   }
 
  private:
-  SpaceDrawing& drawing_;
+  Drawing<3>& drawing_;
   FeatureStore& store_;
 };
 

@@ -1,72 +1,224 @@
-// Merges points, makes the drawing planar, and draws the lines anew.
+// Merges points, makes the drawing fit together, and draws lines and polygons anew.
 #include "mesher/repair.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <unordered_set>
 
+#include "geometry/input_point.hpp"
+#include "graph/distinct_ids.hpp"
 #include "graph/require_ids.hpp"
+#include "mesher/mesher.hpp"
+#include "program/space_input.hpp"
 #include "repair/arrange.hpp"
-#include "repair/merging.hpp"
 #include "repair/redraw.hpp"
+#include "rules/mesh_box.hpp"
 
 namespace mesher {
 
 namespace {
 
 using detail::Drawing;
-using detail::Spot;
+using detail::Drawn;
 
-// A segment can be 2^-46 of the box's side from a point (program/split_segments.hpp).
-constexpr double kShare = 0x1p-44;
-constexpr double kUnits = 16;
+// In the plane a segment can be 2^-46 of the box's side from a point (program/split_segments.hpp).
+// In space a gap has to be as wide as a few of the shortest pieces, and a triangle as high as its
+// area needs that has its corners in a box of a quarter of the side (space/polygon_shape.cpp: 2^-40
+// of the reach's square).
+template <int D>
+constexpr double kShare = D == 2 ? 0x1p-44 : 0x1p-42;
+template <int D>
+constexpr double kUnits = D == 2 ? 16 : 64;
+
+// --- What can be repaired, and where -----------------------------------------------------------
+
+// `file` with a position for each part: an unknown one where it has none, as one that was made by
+// hand.
+template <int D>
+void add_positions(GraphFile<D>& file) {
+  const Graph<D>& graph = file.graph;
+  file.points.resize(graph.points.size());
+  file.segments.resize(graph.segments.size());
+  file.polylines.resize(graph.polylines.size());
+  if constexpr (D == 3) file.polygons.resize(graph.polygons.size());
+  file.seeds.resize(graph.seeds.size());
+}
+
+// Throws: Error(wrong_count), if not each point has its attributes.
+template <int D>
+void require_attributes(const Graph<D>& input) {
+  const std::size_t n = input.attributes_per_point, all = input.attributes.size();
+  if (n == 0 ? all == 0 : all % n == 0 && all / n == input.points.size()) return;
+  throw Error(ErrorCode::wrong_count, std::to_string(all) + " attributes are there, of " +
+                                          std::to_string(input.points.size()) + " points with " +
+                                          std::to_string(n) + " each");
+}
+
+// What can be repaired, and the box that it is repaired in. Throws: Error (not_finite, magnitude,
+// outside_domain, bad_option).
+template <int D>
+detail::MeshBox<D> box_of_points(const GraphFile<D>& file, const std::optional<Box<D>>& given) {
+  const auto& points = file.graph.points;
+  Box<D> everywhere;
+  everywhere.lo.fill(-0x1p101);
+  everywhere.hi.fill(0x1p101);
+  const auto require_in = [&](const Box<D>& domain) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      try {
+        detail::check_point(points[i].at, domain, points[i].id);
+      } catch (const Error& error) {
+        throw error.at(file.location_of_point(i));
+      }
+    }
+  };
+  require_in(everywhere);
+  const Box<D> domain = given ? *given : snapped_domain<D>(places_of(file.graph));
+  const detail::MeshBox<D> box = detail::mesh_box(Options<D>{.domain = domain});
+  require_in(domain);
+  return box;
+}
+
+// What is as close is made to touch: a share of the box's side, and some units in the last place
+// of the largest coordinate: places near the box's corners are rounded to these.
+template <int D>
+double tolerance_in(const detail::MeshBox<D>& box) {
+  double largest = 0;
+  for (int i = 0; i < D; ++i) {
+    largest = std::max({largest, std::abs(box.lo[i]), std::abs(box.hi(i))});
+  }
+  const double unit = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
+  return std::max(box.side * kShare<D>, kUnits<D> * unit);
+}
+
+void require_parts(const GraphFile<2>& file) { detail::require_ids(file.graph, &file); }
+
+void require_parts(const GraphFile<3>& file) {
+  const Graph<3>& plc = file.graph;
+  detail::require_distinct_ids(plc, &file);
+  std::unordered_set<PointId> points;
+  for (const auto& p : plc.points) points.insert(p.id);
+  const auto require = [&](PointId id, const char* what, const mesher::Feature& user,
+                           const FileLocation& place) {
+    if (points.count(id) > 0) return;
+    try {
+      detail::fail_unknown_point(id, what, user);
+    } catch (const Error& error) {
+      throw error.at(place);
+    }
+  };
+  for (std::size_t i = 0; i < plc.segments.size(); ++i) {
+    for (const PointId end : {plc.segments[i].from, plc.segments[i].to}) {
+      require(end, "an end of", mesher::Feature(plc.segments[i].id), file.location_of_segment(i));
+    }
+  }
+  for (std::size_t i = 0; i < plc.polygons.size(); ++i) {
+    const mesher::Polygon& f = plc.polygons[i];
+    const FileLocation place = file.location_of_polygon(i);
+    for (const auto& loop : f.loops) {
+      for (const PointId id : loop) require(id, "a corner of", mesher::Feature(f.id), place);
+    }
+    for (const auto& [a, b] : f.edges) {
+      for (const PointId id : {a, b}) require(id, "in", mesher::Feature(f.id), place);
+    }
+    for (const PointId id : f.points) require(id, "in", mesher::Feature(f.id), place);
+  }
+}
+
+// In space lines are segments. Their pieces stand where they do.
+void prepare(GraphFile<2>&) {}
+void prepare(GraphFile<3>& file) {
+  for (std::size_t i = 0; i < file.graph.polylines.size(); ++i) {
+    const std::size_t points = file.graph.polylines[i].points.size();
+    file.segments.insert(file.segments.end(), points > 0 ? points - 1 : 0, file.polylines[i]);
+  }
+  file.polylines.clear();
+  file.graph = without_polylines(std::move(file.graph));
+}
+
+// --- What is drawn, until it fits together ---------------------------------------------------
 
 // Rods for all pieces of lines, in an order of their own.
-void draw_rods(const Graph<2>& pslg, const std::vector<Spot>& spots, Drawing& drawing) {
-  std::unordered_map<PointId, Spot> by_id;
-  for (std::size_t i = 0; i < spots.size(); ++i) by_id.emplace(pslg.points[i].id, spots[i]);
-  std::vector<std::pair<Spot, Spot>> rods;
-  const auto draw = [&](PointId from, PointId to) {
-    const auto& [s, t] = std::minmax(by_id.at(from), by_id.at(to));
-    if (s != t) rods.emplace_back(s, t);
-  };
-  for (const auto& s : pslg.segments) draw(s.from, s.to);
-  for (const auto& line : pslg.polylines) {
-    for (std::size_t i = 1; i < line.points.size(); ++i) draw(line.points[i - 1], line.points[i]);
+void arrange(const Graph<2>& pslg, const Drawn<2>& drawn, Drawing<2>& drawing) {
+  std::vector<detail::Ends> rods;
+  for (const Segment& s : segments_of(pslg)) {
+    const detail::Ends ends = detail::in_order(drawn.spot(s.from), drawn.spot(s.to));
+    if (ends.first != ends.second) rods.push_back(ends);
   }
   std::sort(rods.begin(), rods.end());
   for (const auto& [s, t] : rods) drawing.rod(s, t);
+  detail::arrange(drawing);
 }
 
-Repaired<2> repair_placed(const GraphFile<2>& file, const std::optional<Box<2>>& given) {
-  detail::require_ids(file.graph, &file);
-  detail::require_attributes(file.graph);
-  const auto& points = file.graph.points;
-  if (points.empty()) return {file, {}, 0, 0};
-  const detail::MeshBox<2> box = detail::box_of_points(file, given);
-  Drawing drawing(box.lo, detail::tolerance_in(box, kShare, kUnits));
-  std::vector<Spot> spots(points.size());
-  std::vector<std::size_t> keepers;
-  for (const std::size_t i : detail::merging_order(points)) {
-    const auto there = drawing.spot_near(points[i].at);
-    spots[i] = there ? *there : drawing.add_spot(points[i].at);
-    if (!there) keepers.push_back(i);
+// Paths and sheets by rank of ids.
+void arrange(const Graph<3>& plc, const Drawn<3>& drawn, Drawing<3>& drawing) {
+  for (const std::size_t i : detail::ranked(plc.segments)) {
+    drawing.add_path({drawn.spot(plc.segments[i].from), drawn.spot(plc.segments[i].to)});
   }
-  draw_rods(file.graph, spots, drawing);
-  detail::arrange(drawing);
-  return detail::redraw(file, drawing, spots, keepers);
+  const auto is_moved = [&](PointId id) { return !drawn.stays(drawn.by_id.at(id)); };
+  std::vector<PolygonId> names;
+  for (const std::size_t i : detail::ranked(plc.polygons)) {
+    const mesher::Polygon& f = plc.polygons[i];
+    const bool is_redrawn = std::any_of(f.loops.begin(), f.loops.end(), [&](const auto& loop) {
+      return std::any_of(loop.begin(), loop.end(), is_moved);
+    });
+    drawing.add_sheet(names.size(), detail::drawn_parts(f, drawn), is_redrawn);
+    names.push_back(f.id);
+  }
+  detail::arrange(drawing, names);
+}
+
+// What a Mesher says of it.
+void require_sound(const Graph<3>& plc, const Box<3>& domain) {
+  try {
+    detail::require_complex(places_of(plc), plc.segments, plc.polygons, {.domain = domain},
+                            detail::ids_of(plc.points));
+  } catch (const Error& error) {
+    throw Error(
+        ErrorCode::too_close,
+        "what is there is too close to each other to be repaired: after it, " + error.message());
+  }
+}
+
+template <int D>
+Repaired<D> repair_file(GraphFile<D> file, const std::optional<Box<D>>& given) {
+  add_positions(file);
+  prepare(file);
+  require_parts(file);
+  require_attributes(file.graph);
+  if (file.graph.points.empty()) return {file, {}, 0, 0};
+  const detail::MeshBox<D> box = box_of_points(file, given);
+  Drawing<D> drawing(box, tolerance_in(box));
+  const Drawn<D> drawn = detail::draw_points(file.graph.points, drawing);
+  arrange(file.graph, drawn, drawing);
+  Repaired<D> repaired = detail::redraw(file, drawing, drawn);
+  if constexpr (D == 3) {  // in the plane arrange() leaves nothing to be found
+    require_sound(repaired.file.graph, given ? *given : snapped_domain<D>(places_of(file.graph)));
+  }
+  return repaired;
+}
+
+template <int D>
+GraphFile<D> file_of(const Graph<D>& graph) {
+  GraphFile<D> file;
+  file.graph = graph;
+  return file;
 }
 
 }  // namespace
 
 Repaired<2> repair(const GraphFile<2>& file, const std::optional<Box<2>>& domain) {
-  GraphFile<2> placed = file;
-  detail::add_positions(placed);
-  return repair_placed(placed, domain);
+  return repair_file(file, domain);
 }
-
+Repaired<3> repair(const GraphFile<3>& file, const std::optional<Box<3>>& domain) {
+  return repair_file(file, domain);
+}
 Repaired<2> repair(const Graph<2>& pslg, const std::optional<Box<2>>& domain) {
-  GraphFile<2> file;
-  file.graph = pslg;
-  return repair(file, domain);
+  return repair(file_of(pslg), domain);
+}
+Repaired<3> repair(const Graph<3>& plc, const std::optional<Box<3>>& domain) {
+  return repair(file_of(plc), domain);
 }
 
 }  // namespace mesher

@@ -1,6 +1,4 @@
 // The rules, each with what has come since it was last asked.
-#include "repair/space_arrange.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -8,6 +6,7 @@
 
 #include "geometry/input_point.hpp"
 #include "mesher/repair.hpp"
+#include "repair/arrange.hpp"
 #include "repair/crossing_place.hpp"
 #include "repair/drawing_search.hpp"
 #include "repair/rest_of.hpp"
@@ -17,7 +16,7 @@ namespace mesher::detail {
 
 namespace {
 
-using Change = SpaceDrawing::Change;
+using Change = Drawing<3>::Change;
 
 // What may be new to a rule: handles from these on.
 struct Seen {
@@ -36,7 +35,7 @@ struct Meeting {
 
 class Arranging {
  public:
-  Arranging(SpaceDrawing& drawing, const std::vector<PolygonId>& names)
+  Arranging(Drawing<3>& drawing, const std::vector<PolygonId>& names)
       : drawing_(drawing), store_(drawing.store()), search_(drawing), names_(names) {}
 
   int arrange() {
@@ -123,13 +122,13 @@ class Arranging {
   template <class Serves>
   VertexHandle meeting_point(const Point<3>& at, const Edge& e, Serves&& serves) {
     last_ = at;
-    const std::vector<VertexHandle> near = drawing_.points_near(at);
+    const std::vector<VertexHandle> near = drawing_.spots_near(at);
     for (const VertexHandle v : near) {
       if (serves(v)) return v;
     }
     if (!near.empty()) fail_crowded(at);
     const VertexHandle v =
-        drawing_.add_point({allowed(at[0]), allowed(at[1]), allowed(at[2])}, {e.a, e.b});
+        drawing_.add_spot({allowed(at[0]), allowed(at[1]), allowed(at[2])}, {e.a, e.b});
     if (!serves(v)) fail_crowded(at);
     return v;
   }
@@ -278,7 +277,7 @@ class Arranging {
     return drawing_.sheet_of(h).is_cut_up || (f.points.size() == 3 && f.corners.size() == 3);
   }
 
-  SpaceDrawing& drawing_;
+  Drawing<3>& drawing_;
   FeatureStore& store_;
   DrawingSearch search_;
   const std::vector<PolygonId>& names_;
@@ -288,7 +287,7 @@ class Arranging {
 
 }  // namespace
 
-int arrange(SpaceDrawing& drawing, const std::vector<PolygonId>& names) {
+int arrange(Drawing<3>& drawing, const std::vector<PolygonId>& names) {
   return Arranging(drawing, names).arrange();
 }
 

@@ -1,47 +1,28 @@
 // Edges are led; sheets are taken out of the store, and put into it again.
 #include "repair/space_drawing.hpp"
 
-#include <algorithm>
-
 #include "mesher/error.hpp"
-#include "sets/make_set.hpp"
 
 namespace mesher::detail {
 
-SpaceDrawing::SpaceDrawing(const MeshBox<3>& box, double tolerance)
-    : tolerance_(tolerance),
-      box_(box),
-      grid_(box.lo, 2 * tolerance),
-      tree_(box_, pool_, scope_),
-      store_(box_, pool_) {}
+Drawing<3>::Drawing(const MeshBox<3>& box, double tolerance)
+    : DrawnPoints(box.lo, tolerance), box_(box), tree_(box_, pool_, scope_), store_(box_, pool_) {}
 
 // --- Points and edges ------------------------------------------------------------------------
 
-VertexHandle SpaceDrawing::add_point(const Point<3>& p, const Ends& on) {
+VertexHandle Drawing<3>::add_spot(const Point<3>& p, const Ends& on) {
   Vertex<3>& v = pool_.create(p);
   v.input = true;
-  grid_.add(p);
   on_.push_back(on);
-  SAC_ENSURES(v.self == points());
+  const Spot s = add_place(p);
+  SAC_ENSURES(v.self == s);
   tree_.tree().insert_only(v);
-  return v.self;
-}
-
-std::vector<VertexHandle> SpaceDrawing::points_near(const Point<3>& p) const {
-  std::vector<VertexHandle> near = grid_.all_near(p);
-  for (VertexHandle& v : near) ++v;
-  return near;
-}
-
-bool SpaceDrawing::may_lead(const Edge& e, VertexHandle v) const {
-  const double whole = squared_distance(e.place_a, e.place_b);
-  return !e.has_end(v) && squared_distance(e.place_a, place(v)) < whole &&
-         squared_distance(place(v), e.place_b) < whole;
+  return s;
 }
 
 // Of all sheets and paths, some more than once.
 template <class Visit>
-void SpaceDrawing::visit_edges(Visit&& visit) const {
+void Drawing<3>::visit_edges(Visit&& visit) const {
   for (const Sheet& sheet : sheets_) {
     for (const Loop& loop : sheet.parts.loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) visit(loop[i], loop[(i + 1) % loop.size()]);
@@ -53,7 +34,7 @@ void SpaceDrawing::visit_edges(Visit&& visit) const {
   }
 }
 
-void SpaceDrawing::use_edges() {
+void Drawing<3>::use_edges() {
   std::vector<bool> wanted(used_.size());
   visit_edges([&](VertexHandle s, VertexHandle t) {
     if (s == t) return;
@@ -79,36 +60,16 @@ void SpaceDrawing::use_edges() {
 
 // --- Changes ---------------------------------------------------------------------------------
 
-// From end to end; what would make a part as long as the whole is left to the next round.
-std::vector<VertexHandle> SpaceDrawing::chain(const Edge& e,
-                                              std::vector<VertexHandle> through) const {
-  const Point<3> along = minus(e.place_b, e.place_a);
-  const auto at = [&](VertexHandle v) {
-    return std::pair(dot(minus(place(v), e.place_a), along), place(v));
-  };
-  make_set(through);
-  std::sort(through.begin(), through.end(),
-            [&](VertexHandle v, VertexHandle w) { return at(v) < at(w); });
-  std::vector<VertexHandle> chain{e.a};
-  const double whole = squared_distance(e.place_a, e.place_b);
-  for (const VertexHandle v : through) {
-    if (squared_distance(place(chain.back()), place(v)) < whole) chain.push_back(v);
-  }
-  chain.push_back(e.b);
-  return chain;
-}
-
 // Null if it stays as it is.
-const std::vector<VertexHandle>* SpaceDrawing::chain_of(VertexHandle s, VertexHandle t,
-                                                        const Chains& chains) const {
+const std::vector<VertexHandle>* Drawing<3>::chain_of(VertexHandle s, VertexHandle t,
+                                                      const Chains& chains) const {
   if (s == t) return nullptr;
   const Edge* e = store_.find_edge(s, t);
   const auto it = e == nullptr ? chains.end() : chains.find(e->self);
   return it == chains.end() ? nullptr : &it->second;
 }
 
-bool SpaceDrawing::lead(std::vector<VertexHandle>& line, bool is_closed,
-                        const Chains& chains) const {
+bool Drawing<3>::lead(std::vector<VertexHandle>& line, bool is_closed, const Chains& chains) const {
   std::vector<VertexHandle> led;
   bool is_changed = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -127,7 +88,7 @@ bool SpaceDrawing::lead(std::vector<VertexHandle>& line, bool is_closed,
   return is_changed;
 }
 
-bool SpaceDrawing::lead(std::vector<Ends>& edges, const Chains& chains) const {
+bool Drawing<3>::lead(std::vector<Ends>& edges, const Chains& chains) const {
   std::vector<Ends> led;
   bool is_changed = false;
   for (const auto& [s, t] : edges) {
@@ -143,7 +104,7 @@ bool SpaceDrawing::lead(std::vector<Ends>& edges, const Chains& chains) const {
   return is_changed;
 }
 
-void SpaceDrawing::apply(const Change& change) {
+void Drawing<3>::apply(const Change& change) {
   for (const auto& [f, declared] : change.declared) {
     const std::size_t i = sheet_of_.at(f);
     PolygonParts& parts = sheets_[i].parts;
@@ -154,7 +115,8 @@ void SpaceDrawing::apply(const Change& change) {
   if (change.leads.empty()) return;
   Chains chains;
   for (const auto& [h, through] : change.leads) {
-    chains.emplace(h, chain(store_.edges()[h], through));
+    const Edge& e = store_.edges()[h];
+    chains.emplace(h, chain(e.a, e.b, through));
   }
   std::vector<std::size_t> changed;
   for (std::size_t i = 0; i < sheets_.size(); ++i) {
@@ -169,20 +131,20 @@ void SpaceDrawing::apply(const Change& change) {
   for (const std::size_t i : changed) take(i);  // edges go with them
 }
 
-bool SpaceDrawing::can_settle(PolygonHandle f, std::vector<Loop> loops) {
+bool Drawing<3>::can_settle(PolygonHandle f, std::vector<Loop> loops) {
   Sheet rest = sheet_of(f);
   rest.parts.loops = std::move(loops);
   rest.is_redrawn = true;
   try {
-    static_cast<void>(settled(rest, {}, tolerance_, store_));
+    static_cast<void>(settled(rest, {}, tolerance(), store_));
   } catch (const Error&) {
     return false;
   }
   return true;
 }
 
-void SpaceDrawing::take_away(PolygonHandle f, std::vector<Loop> loops,
-                             const std::vector<std::size_t>& to) {
+void Drawing<3>::take_away(PolygonHandle f, std::vector<Loop> loops,
+                           const std::vector<std::size_t>& to) {
   const std::size_t i = sheet_of_.at(f);
   for (const std::size_t facet : to) losses_.emplace_back(sheets_[i].facet, facet);
   take(i);
@@ -190,7 +152,7 @@ void SpaceDrawing::take_away(PolygonHandle f, std::vector<Loop> loops,
   sheets_[i].is_redrawn = true;
 }
 
-void SpaceDrawing::cut_up(PolygonHandle f) {
+void Drawing<3>::cut_up(PolygonHandle f) {
   const std::size_t i = sheet_of_.at(f);
   take(i);
   sheets_[i].is_cut_up = true;
@@ -198,7 +160,7 @@ void SpaceDrawing::cut_up(PolygonHandle f) {
 
 // --- Sheets ----------------------------------------------------------------------------------
 
-void SpaceDrawing::take(std::size_t i) {
+void Drawing<3>::take(std::size_t i) {
   Sheet& sheet = sheets_[i];
   if (sheet.record == 0) return;
   sheet_of_.erase(sheet.record);
@@ -208,7 +170,7 @@ void SpaceDrawing::take(std::size_t i) {
 }
 
 // Of equal ones that of the first facet stays.
-void SpaceDrawing::put(std::size_t i) {
+void Drawing<3>::put(std::size_t i) {
   Polygon& f = store_.record(sheets_[i].parts);
   if (f.alive) {
     const std::size_t other = sheet_of_.at(f.self);
@@ -226,14 +188,14 @@ void SpaceDrawing::put(std::size_t i) {
   sheet_of_.emplace(f.self, i);
 }
 
-bool SpaceDrawing::settle(const std::vector<PolygonId>& names) {
+bool Drawing<3>::settle(const std::vector<PolygonId>& names) {
   bool any = false;
   const std::size_t count = sheets_.size();
   for (std::size_t i = 0; i < count; ++i) {
     if (sheets_[i].record != 0 || sheets_[i].is_gone()) continue;
     any = true;
     const std::size_t facet = sheets_[i].facet;
-    std::vector<PolygonParts> pieces = settled(sheets_[i], names[facet], tolerance_, store_);
+    std::vector<PolygonParts> pieces = settled(sheets_[i], names[facet], tolerance(), store_);
     const bool is_cut_up = sheets_[i].is_cut_up;
     sheets_[i].parts = {};
     for (std::size_t k = 0; k < pieces.size(); ++k) {

@@ -6,24 +6,17 @@
 // by place, and judged by the same functions as in a mesher.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "index/features.hpp"
-#include "repair/place_grid.hpp"
+#include "repair/drawn_points.hpp"
 #include "space/feature_store.hpp"
 
 namespace mesher::detail {
-
-using Ends = std::pair<VertexHandle, VertexHandle>;
-[[nodiscard]] inline Ends in_order(VertexHandle a, VertexHandle b) {
-  return {std::min(a, b), std::max(a, b)};
-}
 
 /// Part of a polygon: flat, but for what is_flat lets be.
 struct Sheet {
@@ -39,7 +32,8 @@ struct Sheet {
 /// A line of the input: from point to point along edges.
 using Path = std::vector<VertexHandle>;
 
-class SpaceDrawing {
+template <>
+class Drawing<3> : public DrawnPoints<3> {
  public:
   /// What is to be done to edges, and declared to lie in live polygons.
   struct Change {
@@ -49,15 +43,12 @@ class SpaceDrawing {
     [[nodiscard]] bool any() const noexcept { return !leads.empty() || !declared.empty(); }
   };
 
-  SpaceDrawing(const MeshBox<3>& box, double tolerance);
-  SpaceDrawing(const SpaceDrawing&) = delete;
-  SpaceDrawing& operator=(const SpaceDrawing&) = delete;
+  /// Points will be farther apart than twice the tolerance.
+  Drawing(const MeshBox<3>& box, double tolerance);
+  Drawing(const Drawing&) = delete;
+  Drawing& operator=(const Drawing&) = delete;
 
-  /// What is as close is made to touch; points are farther apart than twice that.
-  [[nodiscard]] double tolerance() const noexcept { return tolerance_; }
-  [[nodiscard]] std::size_t points() const noexcept { return grid_.places().size(); }
   [[nodiscard]] const Vertex<3>& point(VertexHandle v) const { return pool_[v]; }
-  [[nodiscard]] const Point<3>& place(VertexHandle v) const { return pool_[v].p; }
   [[nodiscard]] FeatureStore& store() noexcept { return store_; }
   [[nodiscard]] const FeatureStore& store() const noexcept { return store_; }
   [[nodiscard]] const Features<sac::PlainScope, 3>& points_tree() const noexcept { return tree_; }
@@ -72,18 +63,18 @@ class SpaceDrawing {
 
   /// Points get the handles 1, 2, ... `on`: the ends of an edge that it is on, if it is new.
   /// Requires: none is within twice the tolerance.
-  VertexHandle add_point(const Point<3>& p, const Ends& on = {});
-  [[nodiscard]] const Ends& was_on(VertexHandle v) const { return on_[v - std::size_t{1}]; }
-  /// The points within twice the tolerance, the nearest first.
-  [[nodiscard]] std::vector<VertexHandle> points_near(const Point<3>& p) const;
+  VertexHandle add_spot(const Point<3>& p, const Ends& on = {});
+  [[nodiscard]] const Ends& was_on(VertexHandle v) const { return on_[v - kFirst]; }
   void add_path(Path path) { paths_.push_back(std::move(path)); }
   /// In the order of facets.
   void add_sheet(std::size_t facet, PolygonParts parts, bool is_redrawn) {
     sheets_.push_back({facet, std::move(parts), 0, is_redrawn, false});
   }
 
-  /// Whether e may be led through a point: both parts will be shorter than it.
-  [[nodiscard]] bool may_lead(const Edge& e, VertexHandle v) const;
+  /// Whether e may be led through a point.
+  [[nodiscard]] bool may_lead(const Edge& e, VertexHandle v) const {
+    return DrawnPoints::may_lead(e.a, e.b, v);
+  }
 
   /// Makes the edges live that sheets and paths have, and no others.
   void use_edges();
@@ -107,8 +98,6 @@ class SpaceDrawing {
 
   void take(std::size_t sheet);
   void put(std::size_t sheet);
-  [[nodiscard]] std::vector<VertexHandle> chain(const Edge& e,
-                                                std::vector<VertexHandle> through) const;
   [[nodiscard]] const std::vector<VertexHandle>* chain_of(VertexHandle s, VertexHandle t,
                                                           const Chains& chains) const;
   bool lead(std::vector<VertexHandle>& line, bool is_closed, const Chains& chains) const;
@@ -116,9 +105,7 @@ class SpaceDrawing {
   template <class Visit>
   void visit_edges(Visit&& visit) const;
 
-  double tolerance_;
   MeshBox<3> box_;
-  PlaceGrid<3> grid_;
   std::vector<Ends> on_;
   VertexPool<3> pool_;
   sac::PlainScope scope_;

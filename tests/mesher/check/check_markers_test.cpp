@@ -62,6 +62,15 @@ TEST_CASE("markers of the input's points and lines hold, and 1 or none on the re
   CHECK(said(m, graph()) == "5 vertices and 5 edges have one");
 }
 
+TEST_CASE("the points of a graph that is of no file give their markers, too") {
+  MeshData<2> m = mesh();
+  mesher::GraphFile<2> program;
+  program.graph = graph().graph;
+  CHECK(said(m, program) == "6 vertices and 6 edges have one");
+  m.features.markers[0] = 7;
+  CHECK(said(m, program) == "vertex 1 at (0, 0) has the marker 7, but is point 0, which has 3");
+}
+
 TEST_CASE("a wrong marker is told with the vertex or edge, and whose it should be") {
   MeshData<2> m = mesh();
   const auto file = graph();

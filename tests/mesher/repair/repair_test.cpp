@@ -316,7 +316,7 @@ TEST_CASE("hubs through which many lines lead, and other lines, become planar in
 TEST_CASE("of lines through one place each is looked at a few times, and one point is made") {
   const std::int64_t n = 2000;
   Graph<2> g;
-  mesher::detail::Drawing drawing({-4, -4}, 0x1p-41);
+  mesher::detail::Drawing<2> drawing({.lo = {-4, -4}}, 0x1p-41);
   for (std::int64_t i = 0; i < n; ++i) {
     const double angle = 3.141592653589793 * (static_cast<double>(i) + 0.5) / n;
     const double x = std::cos(angle), y = std::sin(angle);
