@@ -178,7 +178,7 @@ class Mesher {
   /// Announces a new segment between two points; the next update() judges it together with
   /// everything announced by then. Lines, i.e. segments and polylines, have ids of their own.
   /// Throws: Error (repeated_id; zero_length: from a point to itself; bad_option unless
-  /// options().rule is radius_edge). Cost: O(1).
+  /// options().rule is radius_edge). Cost: O(log n).
   void insert_segment(LineId id, PointId from, PointId to, std::int64_t marker = 0);
   /// Announces new segments from point to point under one id. `points`: two or more; the last may
   /// be the first again. Throws: as insert_segment, and Error(bad_option) for fewer points. Cost:
