@@ -135,6 +135,8 @@ class SegmentPoolOf {
     }
   }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// No handle in use is larger.
+  [[nodiscard]] SegmentHandle last() const noexcept { return next_ - 1; }
   [[nodiscard]] std::size_t bytes() const noexcept {
     return chunks_.size() * kChunk * sizeof(Segment);
   }

@@ -2,7 +2,6 @@
 #include "refinement/conformity.hpp"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "delaunay/facets.hpp"
@@ -18,7 +17,7 @@ Error too_close_near(const Point<3>& x) {
 }
 
 Conformity::Conformity(FeatureStore& store, Kernel& kernel)
-    : store_(store), kernel_(kernel), vertices_(1), enclosed_(kernel) {
+    : LineConformity(store.segments(), kernel), store_(store) {
   by_rank_.push_back(nullptr);
   store_.polygons().for_each([&](const Polygon& f) {
     if (f.alive) by_rank_.push_back(&f);
@@ -54,12 +53,11 @@ auto Conformity::lists(KeysOf&& keys_of) const -> Lists {
 }
 
 auto Conformity::known(const Role& role, VertexHandle point) const -> Known {
-  Known known{role, point, edge_of(role) != 0, role.on != 0};
+  Known known = known_by_edges(role, point);
   if (point != 0) {
-    known.on_edge = store_.visit_edges_at(point, [](const Edge&) { return true; });
     known.on_polygon = !at_point_[point].empty();
-  } else if (known.on_edge) {
-    known.on_polygon = !at_edge_[role.on].empty();
+  } else {
+    known.on_polygon = known.on_edge ? !at_edge_[role.on].empty() : role.on != 0;
   }
   return known;
 }
@@ -76,32 +74,14 @@ bool Conformity::is_on(std::uint32_t v, Rank f) const noexcept {
   return std::binary_search(all.begin(), all.end(), f);
 }
 
-void Conformity::set_vertex(std::uint32_t v, const Role& role, VertexHandle point) {
-  vertices_[v] = known(role, point);
-}
-
 void Conformity::start() {
-  std::vector<std::uint32_t> vertex_of;
-  for (std::uint32_t v = 1; v < vertices_.size(); ++v) {
-    const VertexHandle point = vertices_[v].point;
-    if (point == 0) continue;
-    if (vertex_of.size() <= point) vertex_of.resize(point + 1, kNone);
-    vertex_of[point] = v;
-  }
-  std::vector<const Edge*> edges;
-  EdgeHandle most = 0;
-  store_.edges().for_each([&](const Edge& e) {
-    if (e.alive) edges.push_back(&e), most = std::max(most, e.self);
-  });
-  std::sort(edges.begin(), edges.end(), [](const Edge* e, const Edge* t) {
-    return std::tie(e->place_a, e->place_b) < std::tie(t->place_a, t->place_b);
-  });
-  std::vector<std::vector<std::uint32_t>> between(most + std::size_t{1});
+  std::vector<std::vector<std::uint32_t>> between(store_.edges().last() + std::size_t{1});
   for (std::uint32_t v = 1; v < vertices_.size(); ++v) {
     if (const EdgeHandle e = edge_of(vertices_[v].role)) between[e].push_back(v);
   }
-  for (const Edge* e : edges) add_pieces(*e, vertex_of[e->a], vertex_of[e->b], between[e->self]);
-  for (std::uint32_t i = 0; i < pieces_.size(); ++i) look_at_piece(i);
+  start_pieces([&](const Edge& e, std::uint32_t a, std::uint32_t b) {
+    add_pieces(e, a, b, between[e.self]);
+  });
 }
 
 // --- Insertions ------------------------------------------------------------------------------
@@ -131,32 +111,6 @@ auto Conformity::next() -> std::optional<Wanted> {
     }
     return std::nullopt;
   }
-}
-
-/// Calls visit(piece) for the pieces whose edges are in the hole that is dug, some repeatedly.
-template <class Visit>
-void Conformity::visit_pieces_dug(Visit&& visit) const {
-  for (const std::uint32_t s : kernel_.doomed()) {
-    const auto& corners = kernel_.simplices().corners(s);
-    for (std::size_t i = 0; i < 4; ++i) {
-      if (!vertices_[corners[i]].on_edge) continue;
-      for (std::size_t k = 0; k < i; ++k) {
-        if (!vertices_[corners[k]].on_edge) continue;
-        const std::uint32_t piece = pieces_.find(corners[i], corners[k]);
-        if (piece != kNone) visit(piece);
-      }
-    }
-  }
-}
-
-bool Conformity::yields_to_edges(std::uint32_t v) {
-  bool yields = false;
-  visit_pieces_dug([&](std::uint32_t piece) {
-    if (!is_in_ball(piece, place(v))) return;
-    want_piece(piece, kNone);
-    yields = true;
-  });
-  return yields;
 }
 
 bool Conformity::yields(std::uint32_t v) {
@@ -195,7 +149,7 @@ void Conformity::visit_crossings_of(std::uint32_t s, Visit&& visit) const {
 void Conformity::before_fill(std::uint32_t v) {
   dug_pieces_.clear();
   visit_pieces_dug([&](std::uint32_t piece) {
-    if (is_in_ball(piece, place(v))) {
+    if (encroaches(piece, v)) {
       want_piece(piece, v);
     } else if (piece != splitting_) {
       dug_pieces_.push_back(piece);

@@ -23,11 +23,9 @@
 #include <span>
 #include <vector>
 
-#include "delaunay/kernel.hpp"
 #include "mesher/error.hpp"
 #include "refinement/crossings.hpp"
-#include "refinement/enclosed.hpp"
-#include "refinement/subedges.hpp"
+#include "refinement/line_conformity.hpp"
 #include "space/feature_store.hpp"
 #include "space/placed.hpp"
 
@@ -36,34 +34,19 @@ namespace mesher::detail {
 /// What is thrown where vertices on features come too close to each other.
 [[nodiscard]] Error too_close_near(const Point<3>& x);
 
-class Conformity {
+class Conformity : public LineConformity<3, Conformity> {
  public:
-  using Kernel = DelaunayKernel<3, BallLayout<3>>;
   using Store = FeatureStore;
-  using Placed = detail::Placed;
 
   Conformity(FeatureStore& store, Kernel& kernel);
 
-  /// What the next place of the kernel is: its role, and the input point's handle, or 0.
-  void add_vertex(const Role& role, VertexHandle point) { vertices_.push_back(known(role, point)); }
-  /// The same of a vertex that is there. Requires: start() was not called.
-  void set_vertex(std::uint32_t v, const Role& role, VertexHandle point);
-  void drop_vertex() noexcept { vertices_.pop_back(); }
   /// Finds the pieces. Requires: all input points are vertices.
   void start();
-  /// Finds what polygons enclose, less what holes are in that are not within `near` of polygons;
-  /// whether that is anything. Requires: as is_outside().
-  bool find_regions(std::span<const Point<3>> holes, double near);
 
   /// Where the centre x of an empty ball goes instead, on a feature; nothing: none is near. By the
   /// input alone: before start(). Cost: O(log L/s), and what is near.
   [[nodiscard]] std::optional<Placed> yield(const Point<3>& x, double radius) const;
 
-  /// A vertex that is needed, and a vertex near it.
-  struct Wanted {
-    Placed place;
-    std::uint32_t beside;
-  };
   /// Nothing: all conforms. Throws: Error (too_close: a piece is too short to be split).
   [[nodiscard]] std::optional<Wanted> next();
   /// Throws: Error (too_close: another vertex is there).
@@ -77,33 +60,20 @@ class Conformity {
   [[nodiscard]] bool keeps(std::uint32_t v, std::uint32_t w) const;
 
   // --- Of a vertex that is dug
-  /// Whether it encroaches on pieces: these are wanted then.
-  [[nodiscard]] bool yields_to_edges(std::uint32_t v);
-  /// The same of pieces and of tiles.
+  /// Whether it encroaches on pieces, or on tiles: these are wanted then.
   [[nodiscard]] bool yields(std::uint32_t v);
   /// Before the hole is filled.
   void before_fill(std::uint32_t v);
   /// Afterwards.
   void after_fill(std::uint32_t v);
 
-  /// Whether no polygons enclose s, or it is in a hole. Requires: next() has returned nothing, and
-  /// nothing was inserted since; find_regions(). Cost: amortized O(1) for each that was made.
-  [[nodiscard]] bool is_outside(std::uint32_t s) {
-    return enclosed_.is_outside(s, [&](auto t, auto i) { return is_wall(t, i); });
-  }
-
   [[nodiscard]] const Polygon& polygon_of(const Crossings::Crossing& tile) const noexcept {
     return polygon(tile.polygon);
   }
-  [[nodiscard]] const Subedges& pieces() const noexcept { return pieces_; }
   [[nodiscard]] const Crossings& crossings() const noexcept { return crossings_; }
 
  private:
-  struct Known {
-    Role role;
-    VertexHandle point;
-    bool on_edge, on_polygon;
-  };
+  friend LineConformity;
   enum class Side : std::uint8_t { unknown, none, below, above };
   // Polygons are called by their place in canonical order, from 1 on.
   using Rank = std::uint32_t;
@@ -124,13 +94,10 @@ class Conformity {
   [[nodiscard]] Polygons polygons(std::uint32_t v) const noexcept;
   [[nodiscard]] bool is_on(std::uint32_t v, Rank f) const noexcept;
   [[nodiscard]] const Polygon& polygon(Rank f) const noexcept { return *by_rank_[f]; }
-  [[nodiscard]] const Point<3>& place(std::uint32_t v) const noexcept { return kernel_.place(v); }
 
-  [[nodiscard]] bool is_in_ball(std::uint32_t piece, const Point<3>& p) const noexcept;
+  [[nodiscard]] bool encroaches(std::uint32_t piece, std::uint32_t v) const noexcept;
   void add_pieces(const Edge& e, std::uint32_t a, std::uint32_t b,
                   std::vector<std::uint32_t>& between);
-  void look_at_piece(std::uint32_t piece);
-  void want_piece(std::uint32_t piece, std::uint32_t by);
   [[nodiscard]] std::uint32_t piece_at(EdgeHandle handle, const Label& at) const;
   [[nodiscard]] Wanted split_piece(std::uint32_t piece) const;
   template <class Visit>
@@ -164,22 +131,32 @@ class Conformity {
   void visit_crossings_of(std::uint32_t s, Visit&& visit) const;
 
   FeatureStore& store_;
-  Kernel& kernel_;
-  std::vector<Known> vertices_;  // by vertex, from infinity on
   std::vector<const Polygon*> by_rank_;
   std::vector<Rank> rank_;  // by handle
   Lists at_edge_, at_point_;
-  Subedges pieces_;
   Crossings crossings_;
-  std::vector<std::uint32_t> wanted_pieces_, wanted_crossings_;
+  std::vector<std::uint32_t> wanted_crossings_;
   std::size_t foreign_ = 0;                // crossings that are no tiles
   bool has_polygons_ = false;              // their crossings are known
-  std::uint32_t splitting_ = kNone;        // the piece that next() has split
   std::vector<std::uint32_t> dug_pieces_;  // scratch
   std::vector<Rank> touched_;              // scratch: whose crossings an insertion may change
-  std::vector<std::uint32_t> star_;        // scratch
   std::vector<Side> sides_;                // scratch: by simplex, unknown between calls
-  Enclosed<3> enclosed_;
 };
+
+/// Calls visit(piece) for the pieces whose edges are in the hole that is dug, some repeatedly.
+template <class Visit>
+void Conformity::visit_pieces_dug(Visit&& visit) const {
+  for (const std::uint32_t s : kernel_.doomed()) {
+    const auto& corners = kernel_.simplices().corners(s);
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (!vertices_[corners[i]].on_edge) continue;
+      for (std::size_t k = 0; k < i; ++k) {
+        if (!vertices_[corners[k]].on_edge) continue;
+        const std::uint32_t piece = pieces_.find(corners[i], corners[k]);
+        if (piece != kNone) visit(piece);
+      }
+    }
+  }
+}
 
 }  // namespace mesher::detail

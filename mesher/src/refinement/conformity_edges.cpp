@@ -1,7 +1,6 @@
 // Pieces of edges, and small angles.
 #include <algorithm>
 
-#include "refinement/at_edge.hpp"
 #include "refinement/conformity.hpp"
 #include "refinement/conformity_balls.hpp"
 #include "space/small_angles.hpp"
@@ -24,21 +23,10 @@ void Conformity::add_pieces(const Edge& e, std::uint32_t a, std::uint32_t b,
   pieces_.add(piece);
 }
 
-bool Conformity::is_in_ball(std::uint32_t piece, const Point<3>& p) const noexcept {
+bool Conformity::encroaches(std::uint32_t piece, std::uint32_t v) const noexcept {
   const Point<3>&a = place(pieces_[piece].a), &b = place(pieces_[piece].b);
-  const Point<3> to_a = minus(a, p), to_b = minus(b, p);
+  const Point<3> to_a = minus(a, place(v)), to_b = minus(b, place(v));
   return dot(to_a, to_b) < (kOpen - 1) * squared_distance(a, b);
-}
-
-void Conformity::look_at_piece(std::uint32_t piece) {
-  const Subedges::Piece& p = pieces_[piece];
-  const AtEdge at = look_at_edge(kernel_, p.a, p.b, star_,
-                                 [&](std::uint32_t w) { return is_in_ball(piece, place(w)); });
-  if (!at.is_there || at.by != kNone) want_piece(piece, at.by);
-}
-
-void Conformity::want_piece(std::uint32_t piece, std::uint32_t by) {
-  if (pieces_.set_encroached(piece, by)) wanted_pieces_.push_back(piece);
 }
 
 /// Where features meet at a small angle at a copy of what is in the ball, else about in the middle.

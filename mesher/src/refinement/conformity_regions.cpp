@@ -7,10 +7,6 @@
 
 namespace mesher::detail {
 
-bool Conformity::find_regions(std::span<const Point<3>> holes, double near) {
-  return enclosed_.find(holes, near, [&](auto s, auto i) { return is_wall(s, i); });
-}
-
 bool Conformity::is_wall(std::uint32_t s, std::uint32_t i) const {
   const Facet facet = facet_across<3>(kernel_.simplices().corners(s), i);
   return all_on_polygons(facet) && crossings_.find(face_across(facet)) != kNone;

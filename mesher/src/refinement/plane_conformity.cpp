@@ -2,24 +2,12 @@
 #include "refinement/plane_conformity.hpp"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
-#include "delaunay/facets.hpp"
 #include "geometry/diametral_ball.hpp"
 #include "program/split_segments.hpp"
-#include "refinement/at_edge.hpp"
 
 namespace mesher::detail {
-
-PlaneConformity::PlaneConformity(Store& store, Kernel& kernel)
-    : store_(store), kernel_(kernel), vertices_(1), enclosed_(kernel) {}
-
-auto PlaneConformity::known(const Role& role, VertexHandle point) const -> Known {
-  const bool is_end =
-      point != 0 && store_.segments.store().visit_at(point, [](const Segment&) { return true; });
-  return {role, point, role.on != 0 || is_end};
-}
 
 // --- Pieces ----------------------------------------------------------------------------------
 
@@ -34,27 +22,14 @@ Halves PlaneConformity::halves(const PieceRef& piece) const {
 }
 
 void PlaneConformity::start() {
-  std::vector<std::uint32_t> vertex_of;
   for (std::uint32_t v = 1; v < vertices_.size(); ++v) {
-    const auto& [role, point, on_edge] = vertices_[v];
-    if (role.on != 0) between_.push_back({role, v});
-    if (point == 0) continue;
-    if (vertex_of.size() <= point) vertex_of.resize(point + 1, kNone);
-    vertex_of[point] = v;
+    if (const Role& role = vertices_[v].role; role.on != 0) between_.push_back({role, v});
   }
   std::sort(between_.begin(), between_.end(),
             [](const Between& x, const Between& y) { return is_before(x, y.role); });
-  std::vector<const Segment*> segments;
-  store_.segments.pool().for_each([&](const Segment& s) {
-    if (s.alive) segments.push_back(&s);
+  start_pieces([&](const Segment& s, std::uint32_t a, std::uint32_t b) {
+    pieces_.add({a, b, Label::start(), Label::end(), s.self});
   });
-  std::sort(segments.begin(), segments.end(), [](const Segment* s, const Segment* t) {
-    return std::tie(s->place_a, s->place_b) < std::tie(t->place_a, t->place_b);
-  });
-  for (const Segment* s : segments) {
-    pieces_.add({vertex_of[s->a], vertex_of[s->b], Label::start(), Label::end(), s->self});
-  }
-  for (std::uint32_t i = 0; i < pieces_.size(); ++i) look_at_piece(i);
 }
 
 /// The vertex that there was at the start; kNone: there was none.
@@ -63,6 +38,8 @@ std::uint32_t PlaneConformity::vertex_at(const Role& role) const {
   return at == between_.end() || at->role != role ? kNone : at->v;
 }
 
+/// A vertex of its segment between its ends is apart: the piece is no edge then, however that
+/// vertex was rounded, since a circle past it would have half of the box inside.
 auto PlaneConformity::relation_to(std::uint32_t piece, std::uint32_t v) const -> Relation {
   const Subedges::Piece& p = pieces_[piece];
   const Role& role = vertices_[v].role;
@@ -90,25 +67,10 @@ Leaf PlaneConformity::leaf(std::uint32_t piece) const {
   return leaf;
 }
 
-/// A piece with a vertex of its segment between its ends is no edge, however that vertex was
-/// rounded: a circle past it would have half of the box inside.
-void PlaneConformity::look_at_piece(std::uint32_t piece) {
-  const Subedges::Piece& p = pieces_[piece];
-  const AtEdge at = look_at_edge(kernel_, p.a, p.b, star_, [&](std::uint32_t w) {
-    return relation(piece, w) == Relation::in_ball;
-  });
-  if (!at.is_there) require_edge(piece);
-  if (!at.is_there || at.by != kNone) want_piece(piece, at.by);
-}
-
-void PlaneConformity::want_piece(std::uint32_t piece, std::uint32_t by) {
-  if (pieces_.set_encroached(piece, by)) wanted_.push_back(piece);
-}
-
 auto PlaneConformity::next() -> std::optional<Wanted> {
-  while (!wanted_.empty()) {
-    const std::uint32_t piece = wanted_.back();
-    wanted_.pop_back();
+  while (!wanted_pieces_.empty()) {
+    const std::uint32_t piece = wanted_pieces_.back();
+    wanted_pieces_.pop_back();
     const PieceRef all = ref(piece);
     if (all.length() < store_.box.side * kShortestPiece) store_.fail_too_short(all);
     const Halves parts = halves(all);
@@ -144,32 +106,6 @@ bool PlaneConformity::keeps(std::uint32_t v, std::uint32_t w) const {
 
 // --- Insertions ------------------------------------------------------------------------------
 
-/// Calls visit(piece) for those that are edges of what is dug away.
-template <class Visit>
-void PlaneConformity::visit_pieces_dug(Visit&& visit) const {
-  if (pieces_.size() == 0) return;
-  for (const std::uint32_t s : kernel_.doomed()) {
-    const auto& corners = kernel_.simplices().corners(s);
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      const auto [a, b] = facet_across<2>(corners, i);
-      if (!vertices_[a].on_edge || !vertices_[b].on_edge) continue;
-      const std::uint32_t across = kernel_.simplices().across(s)[i] >> 2;
-      if (kernel_.is_doomed(across) && across < s) continue;
-      if (const std::uint32_t piece = pieces_.find(a, b); piece != kNone) visit(piece);
-    }
-  }
-}
-
-bool PlaneConformity::yields_to_edges(std::uint32_t v) {
-  bool yields = false;
-  visit_pieces_dug([&](std::uint32_t piece) {
-    if (relation(piece, v) != Relation::in_ball) return;
-    want_piece(piece, v);
-    yields = true;
-  });
-  return yields;
-}
-
 void PlaneConformity::before_fill(std::uint32_t v) {
   beside_.clear();
   visit_pieces_dug([&](std::uint32_t piece) {
@@ -186,6 +122,11 @@ void PlaneConformity::after_fill(std::uint32_t v) {
   if (splitting_ != kNone) split_piece(std::exchange(splitting_, kNone), v);
   for (const std::uint32_t piece : beside_) look_at_piece(piece);
   enclosed_.forget_made();
+}
+
+bool PlaneConformity::is_wall(std::uint32_t s, std::uint32_t i) const {
+  const auto [a, b] = facet_across<2>(kernel_.simplices().corners(s), i);
+  return vertices_[a].on_edge && vertices_[b].on_edge && pieces_.find(a, b) != kNone;
 }
 
 }  // namespace mesher::detail

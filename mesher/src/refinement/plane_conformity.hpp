@@ -15,52 +15,30 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
-#include "delaunay/kernel.hpp"
+#include "delaunay/facets.hpp"
 #include "plane/exempt.hpp"
 #include "program/world.hpp"
-#include "refinement/enclosed.hpp"
-#include "refinement/subedges.hpp"
+#include "refinement/line_conformity.hpp"
 
 namespace mesher::detail {
 
-class PlaneConformity {
+class PlaneConformity : public LineConformity<2, PlaneConformity> {
  public:
-  using Kernel = DelaunayKernel<2, BallLayout<2>>;
   /// The points, and the segments between them.
   using Store = World<sac::PlainScope, 2>;
-  /// A place, and its role: none off segments.
-  struct Placed {
-    Point<2> p{};
-    Role role;
-  };
 
-  PlaneConformity(Store& store, Kernel& kernel);
+  PlaneConformity(Store& store, Kernel& kernel)
+      : LineConformity(store.segments.store(), kernel), store_(store) {}
 
-  /// What the next place of the kernel is: its role, and the input point's handle, or 0.
-  void add_vertex(const Role& role, VertexHandle point) { vertices_.push_back(known(role, point)); }
-  /// The same of a vertex that is there. Requires: start() was not called.
-  void set_vertex(std::uint32_t v, const Role& role, VertexHandle point) {
-    vertices_[v] = known(role, point);
-  }
-  void drop_vertex() noexcept { vertices_.pop_back(); }
   /// Finds the pieces. Requires: all input points are vertices.
   void start();
-  /// Finds what segments enclose, less what holes are in that are not within `near` of segments;
-  /// whether that is anything. Requires: as is_outside().
-  bool find_regions(std::span<const Point<2>> holes, double near);
 
   /// Where the centre x of an empty ball goes instead, on a segment; nothing: none is near. By the
   /// input alone: before start(). Cost: O(log L/s), and what is near.
   [[nodiscard]] std::optional<Placed> yield(const Point<2>& x, double radius) const;
 
-  /// A vertex that is needed, and a vertex near it.
-  struct Wanted {
-    Placed place;
-    std::uint32_t beside;
-  };
   /// Nothing: all conforms. Throws: Error (too_close: a piece is too short to be split).
   [[nodiscard]] std::optional<Wanted> next();
   /// Throws: Error (too_close: another vertex is there).
@@ -73,28 +51,14 @@ class PlaneConformity {
   [[nodiscard]] bool keeps(std::uint32_t v, std::uint32_t w) const;
 
   // --- Of a vertex that is dug
-  /// Whether it encroaches on pieces: these are wanted then.
-  [[nodiscard]] bool yields_to_edges(std::uint32_t v);
   [[nodiscard]] bool yields(std::uint32_t v) { return yields_to_edges(v); }
   /// Before the hole is filled.
   void before_fill(std::uint32_t v);
   /// Afterwards.
   void after_fill(std::uint32_t v);
 
-  /// Whether no segments enclose s, or it is in a hole. Requires: next() has returned nothing, and
-  /// nothing was inserted since; find_regions(). Cost: amortized O(1) for each that was made.
-  [[nodiscard]] bool is_outside(std::uint32_t s) {
-    return enclosed_.is_outside(s, [&](auto t, auto i) { return is_wall(t, i); });
-  }
-
-  [[nodiscard]] const Subedges& pieces() const noexcept { return pieces_; }
-
  private:
-  struct Known {
-    Role role;
-    VertexHandle point;
-    bool on_edge;
-  };
+  friend LineConformity;
   // A vertex on a segment that there was at the start.
   struct Between {
     Role role;
@@ -110,39 +74,50 @@ class PlaneConformity {
     beside,  // outside of the ball by its label, in it by its rounded place
   };
 
-  [[nodiscard]] Known known(const Role& role, VertexHandle point) const;
-  [[nodiscard]] Point<2> place(std::uint32_t v) const noexcept { return kernel_.place(v); }
+  [[nodiscard]] Known known(const Role& role, VertexHandle point) const {
+    return known_by_edges(role, point);
+  }
   [[nodiscard]] PieceRef ref(std::uint32_t piece) const noexcept;
   [[nodiscard]] Halves halves(const PieceRef& piece) const;
   [[nodiscard]] std::optional<Placed> place_near(const Segment& s, double from_a,
                                                  double radius) const;
   [[nodiscard]] Relation relation(std::uint32_t piece, std::uint32_t v);
   [[nodiscard]] Relation relation_to(std::uint32_t piece, std::uint32_t v) const;
+  [[nodiscard]] bool encroaches(std::uint32_t piece, std::uint32_t v) {
+    return relation(piece, v) == Relation::in_ball;
+  }
   /// Then its ball may hold vertices, so that one outside of it may cost its edge.
   [[nodiscard]] bool is_overruled(std::uint32_t piece) const {
     return piece < overruled_.size() && overruled_[piece];
   }
   [[nodiscard]] std::uint32_t vertex_at(const Role& role) const;
-  void look_at_piece(std::uint32_t piece);
   [[nodiscard]] Leaf leaf(std::uint32_t piece) const;
   void require_edge(std::uint32_t piece) const;
-  void want_piece(std::uint32_t piece, std::uint32_t by);
   void split_piece(std::uint32_t piece, std::uint32_t at);
   template <class Visit>
   void visit_pieces_dug(Visit&& visit) const;
   [[nodiscard]] bool is_wall(std::uint32_t s, std::uint32_t i) const;
 
   Store& store_;
-  Kernel& kernel_;
-  std::vector<Known> vertices_;   // by vertex, from infinity on
-  std::vector<Between> between_;  // by segment and label
-  Subedges pieces_;
-  std::vector<std::uint32_t> wanted_;
-  std::uint32_t splitting_ = kNone;    // the piece that next() has split
+  std::vector<Between> between_;       // by segment and label
   std::vector<std::uint32_t> beside_;  // pieces that an insertion may have cost their edges
   std::vector<bool> overruled_;        // by piece: of a vertex beside it, or a part of such a one
-  std::vector<std::uint32_t> star_;    // scratch
-  Enclosed<2> enclosed_;
 };
+
+/// Calls visit(piece) for those that are edges of what is dug away.
+template <class Visit>
+void PlaneConformity::visit_pieces_dug(Visit&& visit) const {
+  if (pieces_.size() == 0) return;
+  for (const std::uint32_t s : kernel_.doomed()) {
+    const auto& corners = kernel_.simplices().corners(s);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const auto [a, b] = facet_across<2>(corners, i);
+      if (!vertices_[a].on_edge || !vertices_[b].on_edge) continue;
+      const std::uint32_t across = kernel_.simplices().across(s)[i] >> 2;
+      if (kernel_.is_doomed(across) && across < s) continue;
+      if (const std::uint32_t piece = pieces_.find(a, b); piece != kNone) visit(piece);
+    }
+  }
+}
 
 }  // namespace mesher::detail

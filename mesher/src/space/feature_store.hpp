@@ -48,6 +48,7 @@ class FeatureStore {
   FeatureStore& operator=(const FeatureStore&) = delete;
   void set_listener(FeatureEvents* listener) noexcept { listener_ = listener; }
 
+  [[nodiscard]] const SegmentStoreOf<3>& segments() const noexcept { return edges_; }
   [[nodiscard]] const EdgePool& edges() const noexcept { return edges_.pool(); }
   [[nodiscard]] const PolygonPool& polygons() const noexcept { return polygons_; }
   [[nodiscard]] const VertexPool<3>& points() const noexcept { return points_; }

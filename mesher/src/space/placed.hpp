@@ -25,11 +25,13 @@ inline constexpr SegmentHandle kOnPolygon = 0x80000000u;
   return (role.on & kOnPolygon) != 0 ? role.on & ~kOnPolygon : 0;
 }
 
-/// A place, and its role: none in space.
-struct Placed {
-  Point<3> p{};
+/// A place, and its role: none off features.
+template <int D>
+struct PlacedIn {
+  Point<D> p{};
   Role role;
 };
+using Placed = PlacedIn<3>;
 [[nodiscard]] inline Placed placed_on(const Edge& e, const Label& at) {
   return {place_at(e, at), role_on(e, at)};
 }
