@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <string>
 
-#include "facade/pending.hpp"
-#include "facade/pending_limits.hpp"
+#include "facade/plane_state.hpp"
 #include "facade/reentry_guard.hpp"
 #include "facade/space_state.hpp"
-#include "facade/state.hpp"
 #include "geometry/input_point.hpp"
 #include "live/live_arrays.hpp"
 #include "mesher/predicates.hpp"
@@ -32,7 +30,7 @@ std::array<double, N> unsigned_zero(std::array<double, N> p) {
 template <int D>
 struct BoxMesher<D>::Impl {
   using Pending = detail::Pending<D>;
-  using State = std::conditional_t<D == 2, detail::State, detail::SpaceState>;
+  using State = std::conditional_t<D == 2, detail::PlaneState, detail::SpaceState>;
 
   explicit Impl(const Options<D>& o)
       : options(o), state(std::make_unique<State>(o)), box(state->box()), pending(box) {
@@ -44,19 +42,16 @@ struct BoxMesher<D>::Impl {
   void require_free(PointId id, const Point<D>& p) const;
   void require_apart(const std::vector<typename Pending::Edit>& edits) const;
   void insert(PointId id, const Point<D>& p);
-  [[nodiscard]] const detail::LinePoints& line(LineId id) const;
   void insert_line(LineId id, const detail::LinePoints& points);
   void remove_line(LineId id);
-  [[nodiscard]] const Polygon& polygon(PolygonId id) const;
   void insert_polygon(const Polygon& polygon);
   void remove_polygon(PolygonId id);
   void limit(detail::AllLimits<D> limits, const std::vector<Box<D>>& where);
   [[nodiscard]] Options<D> pending_options() const;
-  void commit_limits() noexcept;
+  void prepare_edits();
+  void commit_edits() noexcept;
   void discard_edits() noexcept;
   using LastWord = typename State::Accept;
-  Change<D> first_run(State& fresh, const RunControl& control, const LastWord& accept);
-  Change<D> propagate(const RunControl& control, const LastWord& accept);
   Change<D> run(const RunControl& control, const LastWord& accept);
   Change<D> run_with_slots(const RunControl& control, const Accept& accept);
   Change<D> update(const RunControl& control, const Accept& accept);
@@ -65,8 +60,8 @@ struct BoxMesher<D>::Impl {
   std::unique_ptr<State> state;  // of the last update
   detail::MeshBox<D> box;
   Pending pending;
-  detail::PendingLines pending_lines;
-  detail::PendingPolygons pending_polygons;  // in space
+  detail::StagedLines lines;
+  detail::StagedPolygons polygons;  // in space
   detail::PendingLimits<D> pending_limits;
   std::unique_ptr<detail::LiveArrays<D>> live;  // null: slots are not kept
   detail::ReentryGuard busy;
@@ -123,12 +118,6 @@ void BoxMesher<D>::Impl::insert(PointId id, const Point<D>& p) {
 // --- Lines and polygons ----------------------------------------------------------------------
 
 template <int D>
-const detail::LinePoints& BoxMesher<D>::Impl::line(LineId id) const {
-  const auto* edit = pending_lines.find(id);
-  return edit != nullptr ? edit->to : state->line(id);
-}
-
-template <int D>
 void BoxMesher<D>::Impl::insert_line(LineId id, const detail::LinePoints& points) {
   busy.require_idle();
   if (options.rule != Rule::radius_edge) {
@@ -139,64 +128,50 @@ void BoxMesher<D>::Impl::insert_line(LineId id, const detail::LinePoints& points
     throw Error(ErrorCode::bad_option, "line " + id_text(id) + " has fewer than two points", {},
                 {mesher::Feature(id)});
   }
-  if (!line(id).empty()) {
+  if (lines.find(id) != nullptr) {
     throw Error(ErrorCode::repeated_id, "line " + id_text(id) + " is there already", {},
                 {mesher::Feature(id)});
   }
   const auto same = std::adjacent_find(points.begin(), points.end());
   if (same != points.end()) detail::fail_zero_length(id, *same);
-  pending_lines.set(id, state->line(id), points);
+  lines.set(id, points);
 }
 
 template <int D>
 void BoxMesher<D>::Impl::remove_line(LineId id) {
   busy.require_idle();
-  if (line(id).empty()) {
+  if (lines.find(id) == nullptr) {
     throw Error(ErrorCode::unknown_id, "line " + id_text(id) + " is not there", {},
                 {mesher::Feature(id)});
   }
-  pending_lines.set(id, state->line(id), {});
+  lines.set(id, std::nullopt);
 }
 
-template <>
-const Polygon& BoxMesher<3>::Impl::polygon(PolygonId id) const {
-  const auto* edit = pending_polygons.find(id);
-  return edit != nullptr ? edit->to : state->polygon_parts(id);
-}
-template <int D>
-const Polygon& BoxMesher<D>::Impl::polygon(PolygonId) const {
-  static const Polygon none;
-  return none;
-}
-
-template <>
-void BoxMesher<3>::Impl::insert_polygon(const Polygon& polygon) {
-  busy.require_idle();
-  if (options.rule != Rule::radius_edge) {
-    throw Error(ErrorCode::bad_option, "polygons need the rule radius-edge", {},
-                {mesher::Feature(polygon.id)});
-  }
-  if (!this->polygon(polygon.id).loops.empty()) {
-    throw Error(ErrorCode::repeated_id, "polygon " + id_text(polygon.id) + " is there already", {},
-                {mesher::Feature(polygon.id)});
-  }
-  detail::require_loops(polygon);
-  pending_polygons.set(polygon.id, state->polygon_parts(polygon.id), polygon);
-}
 template <int D>
 void BoxMesher<D>::Impl::insert_polygon(const Polygon& polygon) {
   busy.require_idle();
-  throw Error(ErrorCode::bad_option, "polygons are for space", {}, {mesher::Feature(polygon.id)});
+  const auto refuse = [&](ErrorCode code, const std::string& why) {
+    throw Error(code, why, {}, {mesher::Feature(polygon.id)});
+  };
+  if (D == 2) refuse(ErrorCode::bad_option, "polygons are for space");
+  if (options.rule != Rule::radius_edge) {
+    refuse(ErrorCode::bad_option, "polygons need the rule radius-edge");
+  }
+  if (polygons.find(polygon.id) != nullptr) {
+    refuse(ErrorCode::repeated_id, "polygon " + id_text(polygon.id) + " is there already");
+  }
+  detail::require_loops(polygon);
+  polygons.set(polygon.id, polygon);
 }
 
 template <int D>
 void BoxMesher<D>::Impl::remove_polygon(PolygonId id) {
   busy.require_idle();
-  if (polygon(id).loops.empty()) {
+  if (polygons.find(id) == nullptr) {
     throw Error(ErrorCode::unknown_id, "polygon " + id_text(id) + " is not there", {},
                 {mesher::Feature(id)});
   }
-  if constexpr (D == 3) pending_polygons.set(id, state->polygon_parts(id), {});
+  polygons.set(id, std::nullopt);
 }
 
 // --- Limits ----------------------------------------------------------------------------------
@@ -216,52 +191,41 @@ Options<D> BoxMesher<D>::Impl::pending_options() const {
   return pending_limits.applied_to(options);
 }
 
+// --- Updates ---------------------------------------------------------------------------------
+
+// So that commit_edits() needs no memory.
 template <int D>
-void BoxMesher<D>::Impl::commit_limits() noexcept {
+void BoxMesher<D>::Impl::prepare_edits() {
+  lines.prepare();
+  polygons.prepare();
+}
+
+template <int D>
+void BoxMesher<D>::Impl::commit_edits() noexcept {
   pending_limits.commit(options);
+  lines.commit();
+  polygons.commit();
+  discard_edits();
 }
 
 template <int D>
 void BoxMesher<D>::Impl::discard_edits() noexcept {
   pending_limits.clear();
-  pending_lines.clear();
-  pending_polygons.clear();
+  lines.discard();
+  polygons.discard();
   pending.clear();
   moved = false;
-}
-
-// --- Updates ---------------------------------------------------------------------------------
-
-template <>
-Change<2> BoxMesher<2>::Impl::first_run(State& fresh, const RunControl& control,
-                                        const LastWord& accept) {
-  return fresh.first_run(pending.sorted(), pending_lines.sorted(), control, accept);
-}
-template <>
-Change<2> BoxMesher<2>::Impl::propagate(const RunControl& control, const LastWord& accept) {
-  return state->propagate(pending.sorted(), pending_lines.sorted(), pending_limits.edit(options),
-                          control, accept);
-}
-template <>
-Change<3> BoxMesher<3>::Impl::first_run(State& fresh, const RunControl& control,
-                                        const LastWord& accept) {
-  return fresh.first_run(pending.sorted(), {pending_lines.sorted(), pending_polygons.sorted()},
-                         control, accept);
-}
-template <>
-Change<3> BoxMesher<3>::Impl::propagate(const RunControl& control, const LastWord& accept) {
-  return state->propagate(
-      pending.sorted(),
-      {pending_lines.sorted(), pending_polygons.sorted(), pending_limits.edit(options)}, control,
-      accept);
 }
 
 template <int D>
 Change<D> BoxMesher<D>::Impl::run(const RunControl& control, const LastWord& accept) {
   if (moved) require_apart(pending.sorted());
-  if (state->ran()) return propagate(control, accept);
+  if (state->ran()) {
+    return state->propagate({pending.sorted(), lines, polygons, pending_limits.edit(options)},
+                            control, accept);
+  }
   auto fresh = std::make_unique<State>(pending_options());
-  Change<D> change = first_run(*fresh, control, accept);
+  Change<D> change = fresh->first_run({pending.sorted(), lines, polygons}, control, accept);
   state = std::move(fresh);
   return change;
 }
@@ -287,9 +251,9 @@ Change<D> BoxMesher<D>::Impl::update(const RunControl& control, const Accept& ac
   const detail::ReentryGuard::Run running(busy);
   detail::require_unstopped(control);
   try {
+    prepare_edits();
     Change<D> change = run_with_slots(control, accept);
-    commit_limits();
-    discard_edits();
+    commit_edits();
     return change;
   } catch (const sac::Cancelled&) {
     detail::fail_cancelled();
@@ -394,36 +358,36 @@ bool BoxMesher<D>::has_limits() const {
 // In the other: lines go first, and points before others come to their places.
 template <int D>
 void BoxMesher<D>::announce_to(BoxMesher& other) const {
-  const auto lines = impl_->pending_lines.sorted();
-  const auto polygons = impl_->pending_polygons.sorted();
-  for (const auto& edit : polygons) {
-    if (!edit.was.loops.empty()) other.remove_polygon(edit.id);
-  }
-  for (const auto& edit : lines) {
-    if (!edit.was.empty()) other.remove_line(edit.id);
-  }
+  const auto& lines = impl_->lines;
+  const auto& polygons = impl_->polygons;
+  polygons.for_each_edit([&](PolygonId id, const Polygon* was, const Polygon*) {
+    if (was != nullptr) other.remove_polygon(id);
+  });
+  lines.for_each_edit([&](LineId id, const detail::LinePoints* was, const detail::LinePoints*) {
+    if (was != nullptr) other.remove_line(id);
+  });
   for (const auto& edit : impl_->pending.sorted()) {  // those that go are the first
     if (edit.was) edit.to ? other.move(edit.id, *edit.to) : other.remove(edit.id);
   }
   for (const auto& edit : impl_->pending.sorted()) {
     if (!edit.was) other.insert(edit.id, *edit.to);
   }
-  for (const auto& edit : lines) {
-    if (!edit.to.empty()) other.insert_polyline(edit.id, edit.to);
-  }
-  for (const auto& edit : polygons) {
-    if (!edit.to.loops.empty()) other.insert_polygon(edit.to);
-  }
+  lines.for_each_edit([&](LineId id, const detail::LinePoints*, const detail::LinePoints* is) {
+    if (is != nullptr) other.insert_polyline(id, *is);
+  });
+  polygons.for_each_edit([&](PolygonId, const Polygon*, const Polygon* is) {
+    if (is != nullptr) other.insert_polygon(*is);
+  });
 }
 
 template <int D>
 bool BoxMesher<D>::contains_line(LineId id) const {
-  return !impl_->line(id).empty();
+  return impl_->lines.find(id) != nullptr;
 }
 
 template <int D>
 bool BoxMesher<D>::contains_polygon(PolygonId id) const {
-  return !impl_->polygon(id).loops.empty();
+  return impl_->polygons.find(id) != nullptr;
 }
 
 template <int D>
@@ -483,17 +447,17 @@ std::vector<GraphPoint<D>> BoxMesher<D>::points() const {
 template <int D>
 std::vector<Polyline> BoxMesher<D>::lines() const {
   impl_->busy.require_idle();
-  return impl_->state->lines();
+  std::vector<Polyline> all;
+  for (const auto& [id, points] : impl_->lines.committed()) all.push_back({id, points});
+  return all;
 }
 
 template <int D>
 std::vector<Polygon> BoxMesher<D>::polygons() const {
   impl_->busy.require_idle();
-  if constexpr (D == 3) {
-    return impl_->state->polygons();
-  } else {
-    return {};
-  }
+  std::vector<Polygon> all;
+  for (const auto& [id, polygon] : impl_->polygons.committed()) all.push_back(polygon);
+  return all;
 }
 
 template <int D>

@@ -68,7 +68,7 @@ class BoxMesher {
   /// Announces a segment between two points that shall be there; the next update() judges it, as
   /// part of all that is announced then. Lines, segments and polylines, have ids of their own.
   /// Throws: Error (repeated_id; zero_length: from one point to itself; bad_option unless
-  /// options().rule is radius_edge). Cost: O(1).
+  /// options().rule is radius_edge). Cost: O(log n).
   void insert_segment(LineId id, PointId from, PointId to);
   /// Announces segments from point to point under one id. `points`: two or more; the first may be
   /// the last again. Throws: likewise, and Error(bad_option) for fewer. Cost: O(points).

@@ -13,7 +13,7 @@ namespace {
 
 // Sets a marker, 0 for none, and makes the edit; or does neither.
 template <class Id, class Make>
-void mark(EditedTable<Id, std::int64_t>& markers, Id id, std::int64_t marker, Make make) {
+void mark(Staged<Id, std::int64_t>& markers, Id id, std::int64_t marker, Make make) {
   if (marker == 0 && markers.find(id) == nullptr) return make();
   const auto before = markers.edit_of(id);
   markers.set(id, marker == 0 ? std::nullopt : std::optional(marker));
@@ -26,7 +26,7 @@ void mark(EditedTable<Id, std::int64_t>& markers, Id id, std::int64_t marker, Ma
 }
 
 template <class Id>
-std::int64_t marker_of(const EditedTable<Id, std::int64_t>& markers, Id id) {
+std::int64_t marker_of(const Staged<Id, std::int64_t>& markers, Id id) {
   const auto it = markers.committed().find(id);
   return it == markers.committed().end() ? 0 : it->second;
 }

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "facade/box_mesher.hpp"
-#include "facade/edited_table.hpp"
 #include "facade/followed.hpp"
 #include "facade/reentry_guard.hpp"
+#include "facade/staged.hpp"
 #include "facade/unsized_mesh.hpp"
 
 namespace mesher::detail {
@@ -19,7 +19,7 @@ template <int D>
 class DomainState {
  public:
   template <class Id>
-  using Markers = EditedTable<Id, std::int64_t>;
+  using Markers = Staged<Id, std::int64_t>;
 
   /// Throws: Error(bad_option).
   explicit DomainState(const Options<D>& options);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "domain/domain_follower.hpp"
-#include "facade/edited_table.hpp"
+#include "facade/staged.hpp"
 
 namespace mesher::detail {
 
@@ -51,12 +51,12 @@ template <int D>
 }
 
 template <int D>
-using EditedSeedsOf = EditedTable<SeedId, Seed<D>>;
+using EditedSeedsOf = Staged<SeedId, Seed<D>>;
 using EditedSeeds = EditedSeedsOf<2>;
 
 /// All seeds that shall be.
 template <int D>
-[[nodiscard]] std::vector<Seed<D>> all_of(const EditedTable<SeedId, Seed<D>>& seeds) {
+[[nodiscard]] std::vector<Seed<D>> all_of(const Staged<SeedId, Seed<D>>& seeds) {
   std::vector<Seed<D>> all;
   for (const auto& [name, seed] : seeds.committed()) {
     if (const Seed<D>* now = seeds.find(name)) all.push_back(*now);

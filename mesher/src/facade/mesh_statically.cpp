@@ -14,6 +14,7 @@
 #include "plane/require_planar.hpp"
 #include "program/checked_complex.hpp"
 #include "program/meter.hpp"
+#include "program/plane_input.hpp"
 #include "program/space_input.hpp"
 #include "program/timed_stats.hpp"
 #include "program/world_impl.hpp"
@@ -62,7 +63,7 @@ class InputNames final : public detail::Names {
       points_[handles[i]] = id_of(i, ids);
     }
   }
-  void name(detail::SegmentHandle s, LineId id) { lines_[s] = id; }
+  void name(const detail::Segment& s, LineId id) { lines_[s.self] = id; }
   [[nodiscard]] PointId point(VertexHandle v) const override { return points_[v]; }
   [[nodiscard]] LineId line(detail::SegmentHandle s) const override { return lines_[s]; }
 
@@ -71,35 +72,37 @@ class InputNames final : public detail::Names {
   std::vector<LineId> lines_;
 };
 
-std::unordered_map<PointId, VertexHandle> handles_by_id(const std::vector<VertexHandle>& handles,
-                                                        const std::vector<PointId>& ids) {
-  std::unordered_map<PointId, VertexHandle> by_id;
-  for (std::size_t i = 0; i < handles.size(); ++i) by_id.emplace(id_of(i, ids), handles[i]);
-  return by_id;
-}
+// Of a point by its id; 0 if there is none.
+class HandlesById {
+ public:
+  HandlesById(const std::vector<VertexHandle>& handles, const std::vector<PointId>& ids) {
+    for (std::size_t i = 0; i < handles.size(); ++i) by_id_.emplace(id_of(i, ids), handles[i]);
+  }
+  [[nodiscard]] VertexHandle operator()(PointId id) const {
+    const auto it = by_id_.find(id);
+    return it == by_id_.end() ? VertexHandle{0} : it->second;
+  }
 
-// The segments' handles, in their order.
+ private:
+  std::unordered_map<PointId, VertexHandle> by_id_;
+};
+
+// The segments' handles, in their order. `names`: InputNames, or SpaceInputNames.
+template <int D, class AnyNames>
 std::vector<detail::SegmentHandle> add_segments(const std::vector<Segment>& segments,
-                                                const std::vector<PointId>& ids,
-                                                const std::vector<VertexHandle>& handles,
-                                                World<2>& world, InputNames& names) {
-  const auto by_id = handles_by_id(handles, ids);
+                                                const HandlesById& handle_of, World<D>& world,
+                                                AnyNames& names) {
   std::vector<detail::SegmentHandle> added;
   for (const Segment& s : segments) {
     if (s.from == s.to) detail::fail_zero_length(s.id, s.from);
     const auto end = [&](PointId id) {
-      const auto it = by_id.find(id);
-      return it != by_id.end() ? it->second : detail::fail_no_end(id, s.id);
+      const VertexHandle v = handle_of(id);
+      return v != 0 ? v : detail::fail_no_end(id, s.id);
     };
     const VertexHandle a = end(s.from), b = end(s.to);
-    if (const auto* same = world.segments.store().find(a, b)) {
-      detail::fail_repeated(s.id, names.line(same->self), *same);
-    }
-    const detail::PieceRef all = world.segments.insert(a, b);
-    added.push_back(all.piece.segment);
-    names.name(added.back(), s.id);
-    world.splits.post_from_outside<detail::split_segment>(detail::split_segment_key(world.box, all),
-                                                          all);
+    const auto& record = detail::add_segment(world, s.id, a, b, names);
+    names.name(record, s.id);
+    added.push_back(record.self);
   }
   return added;
 }
@@ -273,35 +276,6 @@ class SpaceInputNames final : public detail::SpaceNames {
   std::unordered_map<detail::PolygonHandle, PolygonId> polygons_;
 };
 
-// `handle_of(id)`: of a point, 0 if there is none.
-template <class HandleOf>
-void add_features(const std::vector<Segment>& segments, const std::vector<Polygon>& polygons,
-                  HandleOf&& handle_of, World<3>& world, SpaceInputNames& names,
-                  const RunControl& control) {
-  std::vector<detail::EdgeHandle> edges_come;
-  std::vector<detail::PolygonHandle> polygons_come;
-  for (const Segment& s : segments) {
-    if (s.from == s.to) detail::fail_zero_length(s.id, s.from);
-    const auto end = [&](PointId id) {
-      const VertexHandle v = handle_of(id);
-      if (v == 0) detail::fail_unknown_point(id, "an end of", mesher::Feature(s.id));
-      return v;
-    };
-    const VertexHandle a = end(s.from), b = end(s.to);
-    const detail::Edge& e = detail::add_segment(world, s.id, a, b, names);
-    names.name(e, s.id);
-    edges_come.push_back(e.self);
-  }
-  for (const Polygon& polygon : polygons) {
-    detail::require_loops(polygon);
-    const detail::Polygon& f =
-        detail::add_polygon(world, polygon.id, detail::parts_of(polygon, handle_of), names);
-    names.name(f, polygon.id);
-    polygons_come.push_back(f.self);
-  }
-  detail::require_fit(world, edges_come, polygons_come, names, asking(control));
-}
-
 }  // namespace
 
 template <int D>
@@ -325,7 +299,8 @@ struct GraphRun : StaticRun<2> {
            const Options<2>& options, const std::vector<PointId>& ids, const RunControl& control)
       : StaticRun<2>(points, options, ids, control, segments.size()) {
     if (segments.empty()) return;
-    require_planar(world(), add_segments(segments, ids, handles(), world(), names()), names(),
+    const HandlesById handle_of(handles(), ids);
+    require_planar(world(), add_segments<2>(segments, handle_of, world(), names()), names(),
                    control);
   }
 };
@@ -362,13 +337,18 @@ namespace {
 SpaceInputNames add_features(const std::vector<Segment>& segments,
                              const std::vector<Polygon>& polygons, const std::vector<PointId>& ids,
                              StaticRun<3>& run, const RunControl& control) {
-  const auto by_id = handles_by_id(run.handles(), ids);
-  const auto handle_of = [&](PointId id) {
-    const auto it = by_id.find(id);
-    return it == by_id.end() ? VertexHandle{0} : it->second;
-  };
+  const HandlesById handle_of(run.handles(), ids);
   SpaceInputNames names(run.names());
-  add_features(segments, polygons, handle_of, run.world(), names, control);
+  const auto edges_come = add_segments<3>(segments, handle_of, run.world(), names);
+  std::vector<detail::PolygonHandle> polygons_come;
+  for (const Polygon& polygon : polygons) {
+    detail::require_loops(polygon);
+    const detail::Polygon& f =
+        detail::add_polygon(run.world(), polygon.id, detail::parts_of(polygon, handle_of), names);
+    names.name(f, polygon.id);
+    polygons_come.push_back(f.self);
+  }
+  detail::require_fit(run.world(), edges_come, polygons_come, names, asking(control));
   return names;
 }
 

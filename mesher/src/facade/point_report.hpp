@@ -56,7 +56,7 @@ MeshStats PointState<D>::stats() const {
   s.calls = engine_->live_calls();
   s.edges = engine_->live_edges();
   s.trace_bytes = engine_->bytes() + pool().bytes() + vertices().tree().bytes() +
-                  vertices().roles().bytes() + world_->features.bytes() + other_bytes();
+                  vertices().roles().bytes() + world_->features.bytes() + feature_bytes();
   return s;
 }
 
@@ -135,7 +135,7 @@ void PointState<D>::check_invariants() const {
   }
   SAC_INVARIANT(stats_.vertices == live_vertices().size());
   SAC_INVARIANT(stats_.simplices == simplices().size());
-  check_others();
+  check_features();
 }
 
 }  // namespace mesher::detail

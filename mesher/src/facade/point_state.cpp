@@ -7,6 +7,7 @@
 
 #include "facade/asking.hpp"
 #include "facade/point_report.hpp"
+#include "facade/room.hpp"
 #include "program/meter.hpp"
 #include "program/timed_stats.hpp"
 #include "program/world_impl.hpp"
@@ -69,25 +70,52 @@ auto PointState<D>::obstacle(const Point<D>& p) const -> std::optional<Named> {
   return v == nullptr ? std::optional<Named>() : Named{names_[v->self], v->p};
 }
 
-// So that rename() cannot fail.
 template <int D>
-void PointState<D>::make_room(const Ids& arrived) {
-  const std::size_t most = ids_.size() + arrived.size();
-  // One without any needs more, though its load would do.
-  if (most >= ids_.max_load_factor() * static_cast<float>(ids_.bucket_count())) {
-    ids_.reserve(2 * most + 16);
-  }
-  VertexHandle last = 0;
-  for (const auto& [id, handle] : arrived) last = std::max(last, handle);
-  if (last >= names_.capacity()) names_.reserve(2 * std::size_t{last} + 16);
-  if (last >= names_.size()) names_.resize(std::size_t{last} + 1);
+PointId PointState<D>::name(VertexHandle v) const {
+  const auto it = arrived_names_.find(v);
+  return it == arrived_names_.end() ? names_[v] : it->second;
 }
 
 template <int D>
-void PointState<D>::rename(const PointEdits& edits, Ids& arrived) noexcept {
+VertexHandle PointState<D>::point_with(PointId id) const {
+  if (const auto it = arrived_.find(id); it != arrived_.end()) return it->second;
+  const auto it = ids_.find(id);
+  if (it == ids_.end()) return 0;
+  return pool()[it->second].input && name(it->second) == id ? it->second : 0;
+}
+
+template <int D>
+std::vector<VertexHandle> PointState<D>::arrivals() const {
+  std::vector<std::pair<PointId, VertexHandle>> by_id(arrived_.begin(), arrived_.end());
+  std::sort(by_id.begin(), by_id.end());
+  std::vector<VertexHandle> points;
+  points.reserve(by_id.size());
+  for (const auto& [id, h] : by_id) points.push_back(h);
+  return points;
+}
+
+// So that rename() cannot fail.
+template <int D>
+void PointState<D>::make_room() {
+  make_room_for(ids_, arrived_);
+  VertexHandle last = 0;
+  for (const auto& [id, handle] : arrived_) last = std::max(last, handle);
+  make_place(names_, last);
+}
+
+template <int D>
+void PointState<D>::rename(const PointEdits<D>& edits) noexcept {
   for (const auto& edit : edits) ids_.erase(edit.id);
-  for (const auto& [id, handle] : arrived) names_[handle] = id;
-  ids_.merge(arrived);
+  for (const auto& [id, handle] : arrived_) names_[handle] = id;
+  ids_.merge(arrived_);
+}
+
+// Tables that were large once are given back: to clear them again takes time in their size.
+template <int D>
+void PointState<D>::forget() noexcept {
+  arrived_ = Ids();  // not {}, an empty list, for which a table keeps its size
+  arrived_names_ = decltype(arrived_names_)();
+  discard_news();
 }
 
 // --- The first run ---------------------------------------------------------------------------
@@ -133,13 +161,13 @@ Change<D> PointState<D>::whole(const Mesh<D>& mesh) const {
 }
 
 template <int D>
-Change<D> PointState<D>::first_run(PointEdits edits, const RunControl& control,
+Change<D> PointState<D>::first_run(Edits<D> edits, const RunControl& control,
                                    const Accept& accept) {
-  ids_.reserve(edits.size());
+  ids_.reserve(edits.points.size());
   ask_ = asking(control, Phase::quadtree, &fail_stopped);
-  for (const auto& edit : edits) add_first(edit);
-  edits = PointEdits();  // the run needs the memory
-  add_others_first();
+  for (const auto& edit : edits.points) add_first(edit);
+  edits.points = PointEdits<D>();  // the run needs the memory
+  add_features_first(edits);
   post_all();
   RunMeter<sac::Scope, D> phases(*world_, control, ids_.size());
   const auto meter = [&](const sac::Progress& p) { return phases(p.executed); };
@@ -147,7 +175,7 @@ Change<D> PointState<D>::first_run(PointEdits edits, const RunControl& control,
   const CallCounts calls = call_counts(engine_->template run<refine<D>>());
   commit();
   require_room(pool().size());
-  require_others();
+  require_features();
   ran_ = true;
   const std::vector<Simplex> come = simplices();
   const OnFeatures parts = on_features(come);
@@ -165,7 +193,7 @@ Change<D> PointState<D>::first_run(PointEdits edits, const RunControl& control,
 
 template <int D>
 void PointState<D>::commit() noexcept {
-  commit_others();  // which refer to vertices
+  free_features();  // which refer to vertices
   vertices().commit();
 }
 
@@ -200,26 +228,25 @@ void PointState<D>::take(Vertex<D>& v) {
 }
 
 template <int D>
-void PointState<D>::make_points(const PointEdits& edits, Ids& arrived) {
+void PointState<D>::make_points(const PointEdits<D>& edits) {
   for (const auto& edit : edits) {
     if (edit.was) take(pool()[ids_.at(edit.id)]);
   }
   for (const auto& edit : edits) {
     if (!edit.to) continue;
     const VertexHandle v = add(*edit.to).self;
-    arrived.emplace(edit.id, v);
-    point_comes(v, edit.id);
+    arrived_.emplace(edit.id, v);
+    arrived_names_[v] = edit.id;
   }
 }
 
 template <int D>
-void PointState<D>::make(const PointEdits& edits, Ids& arrived) {
-  const auto all = [&] { make_edits(edits, arrived); };
+void PointState<D>::make(const Edits<D>& edits) {
   try {
-    engine_->edit_together(all);
+    engine_->edit_together([&] { make_edits(edits); });
   } catch (...) {
     settle();
-    forget_news();
+    forget();
     throw;
   }
 }
@@ -244,26 +271,25 @@ void PointState<D>::require_room(std::size_t now) const {
 }
 
 template <int D>
-Change<D> PointState<D>::propagate(const PointEdits& edits, const RunControl& control,
+Change<D> PointState<D>::propagate(const Edits<D>& edits, const RunControl& control,
                                    const Accept& accept) {
   const auto meter = [&](const sac::Progress& p) {
     return detail::report(control, {Phase::update, p.executed, p.executed + p.queued});
   };
   Change<D> change;
-  Ids arrived;
   const std::function<void()> report = [&] {  // what needs memory, while all can be undone
-    make_room(arrived);
-    make_room_for_others();
+    make_room();
+    prepare_names();
     Log log = vertices().log();
-    require_others(log);
+    require_features(log);
     report_vertices(log, change);
-    report_others(log, change);
+    report_features(log, change);
     find_angles(report_stars(std::move(log), change), change);
     require_room(stats_.vertices + change.vertices_added.size() - change.vertices_removed.size());
     if (accept) accept(change);
   };
   ask_ = asking(control, Phase::update, &fail_stopped);
-  make(edits, arrived);
+  make(edits);
   // While it is under way, there may be vertices that come as well as those that go.
   world_->most_records = std::max(world_->most_vertices, pool().size() + world_->most_vertices);
   try {
@@ -271,12 +297,12 @@ Change<D> PointState<D>::propagate(const PointEdits& edits, const RunControl& co
     change.calls = call_counts(engine_->propagate(report));
   } catch (...) {
     commit();
-    forget_news();
+    forget();
     throw;
   }
-  rename(edits, arrived);
-  rename_others();
-  forget_news();
+  rename(edits.points);
+  commit_names();
+  forget();
   commit();
   stats_.vertices += change.vertices_added.size() - change.vertices_removed.size();
   stats_.simplices += change.simplices_added.size() - change.simplices_removed.size();

@@ -5,8 +5,8 @@
 // A run that throws leaves a state that is good for nothing but its end; a propagation that throws
 // leaves the state as it was.
 //
-// These are the points; what else an input has in some dimension is added by a class derived from
-// this, which is asked at the turns of an update (State: the plane's lines).
+// These are the points; other features of an input are added by classes derived from this, which
+// are asked at the turns of an update (LineState: lines, PlaneState and SpaceState).
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "facade/pending.hpp"
+#include "facade/edits.hpp"
 #include "mesh/canonical.hpp"
 #include "mesher/mesher.hpp"
 #include "program/world.hpp"
@@ -28,7 +28,6 @@ class PointState {
  public:
   /// A last word on a change, which may add to it; what it throws takes the update back.
   using Accept = std::function<void(Change<D>&)>;
-  using PointEdits = std::vector<typename Pending<D>::Edit>;  // in Morton order of where to
 
   /// Throws: Error(bad_option).
   explicit PointState(const Options<D>& options);
@@ -36,11 +35,12 @@ class PointState {
   PointState& operator=(const PointState&) = delete;
   virtual ~PointState();
 
-  /// Inserts the points and runs the program. Requires: no run yet; edits insert.
-  Change<D> first_run(PointEdits edits, const RunControl& control, const Accept& accept);
-  /// Makes the edits, those of what goes first, and propagates them. Requires: a run.
+  /// Inserts the features and runs the program. Requires: no run yet; edits insert, and leave
+  /// limits as they are.
+  Change<D> first_run(Edits<D> edits, const RunControl& control, const Accept& accept);
+  /// Makes the edits and propagates them. Requires: a run.
   /// `accept`: asked when all can still be undone.
-  Change<D> propagate(const PointEdits& edits, const RunControl& control, const Accept& accept);
+  Change<D> propagate(const Edits<D>& edits, const RunControl& control, const Accept& accept);
 
   [[nodiscard]] bool ran() const noexcept { return ran_; }
   [[nodiscard]] Mesh<D> mesh() const;
@@ -67,35 +67,41 @@ class PointState {
   using Log = typename VertexIndex<sac::Scope, D>::Log;
   using Ids = std::unordered_map<PointId, VertexHandle>;
 
-  /// Called while the input is looked at before a run. Throws: sac::Cancelled, or what
-  /// control.progress throws.
-  std::function<void()> ask_;
-
-  // What else there is, turn by turn; nothing.
-  virtual void add_others_first() {}
-  /// Takes and adds points, with make_points(), and the others. `arrived`: the points that come.
-  virtual void make_edits(const PointEdits& edits, Ids& arrived) { make_points(edits, arrived); }
-  virtual void point_comes(VertexHandle, PointId) {}
-  /// So that rename_others() cannot fail.
-  virtual void make_room_for_others() {}
+  // --- The turns at which other features have their say
+  /// Adds them to the points, and names them.
+  virtual void add_features_first(const Edits<D>& edits) = 0;
+  /// Makes all edits, those of points by make_points().
+  virtual void make_edits(const Edits<D>& edits) = 0;
   /// Throws: Error if what is there is not what the input asks for, after a first run; after an
   /// update.
-  virtual void require_others() const {}
-  virtual void require_others(const Log&) const {}
+  virtual void require_features() const {}
+  virtual void require_features(const Log&) const {}
   /// What is on features in the mesh of the first run.
   virtual void remember(const OnFeatures&) {}
-  virtual void report_others(const Log&, Change<D>&) {}
+  virtual void report_features(const Log& log, Change<D>& change) = 0;
   /// `come`: simplices of the mesh that were not there before.
-  virtual void find_angles(const std::vector<Simplex>&, Change<D>&) const {}
-  virtual void rename_others() noexcept {}
-  virtual void forget_news() noexcept {}
-  virtual void commit_others() noexcept {}
+  virtual void find_angles(const std::vector<Simplex>& come, Change<D>& change) const = 0;
+  /// So that commit_names() cannot fail.
+  virtual void prepare_names() = 0;
+  virtual void commit_names() noexcept = 0;
+  /// Forgets what an update has brought.
+  virtual void discard_news() noexcept = 0;
+  /// Frees the records of those that have gone.
+  virtual void free_features() noexcept = 0;
   /// Of the mesh with these simplices.
-  [[nodiscard]] virtual OnFeatures on_features(const std::vector<Simplex>&) const { return {}; }
-  [[nodiscard]] virtual std::size_t other_bytes() const { return 0; }
-  virtual void check_others() const {}
+  [[nodiscard]] virtual OnFeatures on_features(const std::vector<Simplex>& simplices) const = 0;
+  [[nodiscard]] virtual std::size_t feature_bytes() const = 0;
+  virtual void check_features() const {}
 
-  void make_points(const PointEdits& edits, Ids& arrived);
+  // --- What these need of points
+  /// Takes and adds points.
+  void make_points(const PointEdits<D>& edits);
+  /// What a point is called when the update is done.
+  [[nodiscard]] PointId name(VertexHandle v) const;
+  /// The point with this id when all points have come and gone; 0 if there is none.
+  [[nodiscard]] VertexHandle point_with(PointId id) const;
+  /// Points that have come, ascending by id.
+  [[nodiscard]] std::vector<VertexHandle> arrivals() const;
   [[nodiscard]] std::vector<Simplex> simplices() const;
 
   auto& vertices() noexcept { return world_->vertices; }
@@ -108,18 +114,22 @@ class PointState {
   std::unique_ptr<World<sac::Scope, D>> world_;
   Ids ids_;
   std::vector<PointId> names_;  // by handle, of the vertices that are input points
+  /// Called while the input is looked at before a run. Throws: sac::Cancelled, or what
+  /// control.progress throws.
+  std::function<void()> ask_;
 
  private:
   void add_first(const typename Pending<D>::Edit& edit);
   void post_all();
-  void make(const PointEdits& edits, Ids& arrived);
+  void make(const Edits<D>& edits);
   Vertex<D>& claim(const Point<D>& p);
   Vertex<D>& add(const Point<D>& p);
   void take(Vertex<D>& v);
   void commit() noexcept;
   void settle() noexcept;
-  void make_room(const Ids& arrived);
-  void rename(const PointEdits& edits, Ids& arrived) noexcept;
+  void make_room();
+  void rename(const PointEdits<D>& edits) noexcept;
+  void forget() noexcept;
   void require_room(std::size_t vertices) const;
   [[nodiscard]] std::vector<VertexHandle> live_vertices() const;
   [[nodiscard]] Change<D> whole(const Mesh<D>& mesh) const;
@@ -130,6 +140,9 @@ class PointState {
 
   bool ran_ = false;
   MeshStats stats_;
+  // What an update brings, until it is done.
+  Ids arrived_;
+  std::unordered_map<VertexHandle, PointId> arrived_names_;
 };
 
 }  // namespace mesher::detail

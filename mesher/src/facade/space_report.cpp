@@ -7,7 +7,6 @@
 // come or gone, and the corners are those that the feature had, or have become its own; or a
 // feature is called otherwise, and the corners are all of its vertices.
 #include <algorithm>
-#include <iterator>
 #include <set>
 
 #include "facade/space_state.hpp"
@@ -24,20 +23,10 @@ namespace {
 using LineEdges = std::vector<mesher::LineEdge<3>>;
 using PolygonFaces = std::vector<mesher::PolygonFace<3>>;
 
-// By places: a vertex may have gone, and another have come to its place.
-template <class T>
-void report(std::vector<T> in, std::vector<T> out, std::vector<T>& added, std::vector<T>& removed) {
-  std::sort(in.begin(), in.end());
-  std::sort(out.begin(), out.end());
-  std::set_difference(in.begin(), in.end(), out.begin(), out.end(), std::back_inserter(added));
-  std::set_difference(out.begin(), out.end(), in.begin(), in.end(), std::back_inserter(removed));
-}
-
 LineEdges placed(const std::vector<LineEdge>& edges, const VertexPool<3>& pool) {
   LineEdges all;
   for (const LineEdge& e : edges) {
-    const auto& [low, high] = std::minmax(pool[e.from].p, pool[e.to].p);
-    all.push_back({low, high, e.name});
+    all.push_back(edge_between(pool[e.from].p, pool[e.to].p, e.name));
   }
   return all;
 }
@@ -102,17 +91,17 @@ std::vector<VertexHandle> SpaceState::disturbed(const Log& log) const {
     }
   }
   const auto& edges = store().edges();
-  for (const EdgeHandle e : news_.segments_taken) list_on(edges[e], all);
-  for (const EdgeHandle e : news_.edges_come) list_on(edges[e], all);
+  for (const EdgeHandle e : segment_names_.taken()) list_on(edges[e], all);
+  for (const EdgeHandle e : segment_names_.added()) list_on(edges[e], all);
   const auto& polygons = store().polygons();
-  for (const PolygonId id : news_.polygons_taken) {
-    const Polygon& f = polygons[named_polygons_.at(id).record];
+  for (const PolygonHandle h : polygon_names_.taken()) {
+    const Polygon& f = polygons[h];
     std::vector<VertexHandle> on;
     list_on(f, on);
     if (f.alive) list_inside(f, on);  // it has another id now
     all.insert(all.end(), on.begin(), on.end());
   }
-  for (const PolygonHandle f : news_.polygons_come) list_on(polygons[f], all);
+  for (const PolygonHandle f : polygon_names_.added()) list_on(polygons[f], all);
   make_set(all);
   return all;
 }
@@ -135,20 +124,21 @@ OnFeatures SpaceState::parts_at(const std::vector<VertexHandle>& at) const {
   return on_features(simplices);
 }
 
-void SpaceState::report_others(const Log& log, Change<3>& change) {
+// By places: a vertex may have gone, and another have come to its place.
+void SpaceState::report_features(const Log& log, Change<3>& change) {
   if (store().live_edges() == 0 && parts_.empty()) return;
   const std::vector<VertexHandle> at = disturbed(log);
-  news_.parts = parts_.news(at, parts_at(at));
-  const KnownParts::News& news = news_.parts;
-  report(placed(news.edges_in, pool()), placed(news.edges_out, pool()), change.edges_added,
-         change.edges_removed);
-  report(placed(news.faces_in, pool()), placed(news.faces_out, pool()), change.faces_added,
-         change.faces_removed);
+  part_news_ = parts_.news(at, parts_at(at));
+  const KnownParts::News& news = part_news_;
+  report_difference(placed(news.edges_in, pool()), placed(news.edges_out, pool()),
+                    change.edges_added, change.edges_removed);
+  report_difference(placed(news.faces_in, pool()), placed(news.faces_out, pool()),
+                    change.faces_added, change.faces_removed);
 }
 
-void SpaceState::check_others() const {
+void SpaceState::check_features() const {
   world_->plc.check_invariants();
-  SAC_INVARIANT(polygons_at_ == detail::polygons_at(store()));
+  SAC_INVARIANT(polygon_names_.at() == detail::polygons_at(store()));
   SAC_INVARIANT(parts_ == KnownParts(on_features(simplices())));
 }
 

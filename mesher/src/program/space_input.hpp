@@ -58,6 +58,7 @@ const Edge& add_segment(World<S, 3>& world, LineId id, VertexHandle a, VertexHan
   require_new(world.plc.store().find_edge(a, b), id, names);
   return world.insert_edge(a, b);
 }
+inline void erase_segment(World<sac::Scope, 3>& world, const Edge& e) { world.erase_edge(e); }
 /// Throws: Error(repeated_polygon), and as require_shape.
 template <class S>
 const Polygon& add_polygon(World<S, 3>& world, PolygonId id, PolygonParts parts,

@@ -1,15 +1,16 @@
-// A table by key with the edits announced since the last update; only the difference is kept.
+// Values by key as the last update left them, with the edits announced since.
 //
-//   table.set(key, value);  ... table.prepare(); ... table.commit();  // or discard()
+//   staged.set(key, value);  ... staged.prepare(); ... staged.commit();  // or discard()
 #pragma once
 
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace mesher::detail {
 
 template <class Key, class Value>
-class EditedTable {
+class Staged {
  public:
   using Entry = std::optional<Value>;  // nothing: it is not there
 
@@ -23,7 +24,7 @@ class EditedTable {
   [[nodiscard]] const std::map<Key, Value>& committed() const noexcept { return committed_; }
 
   /// Throws: std::bad_alloc, and then changes nothing.
-  void set(const Key& key, const Entry& to) { edits_.insert_or_assign(key, to); }
+  void set(const Key& key, Entry to) { edits_.insert_or_assign(key, std::move(to)); }
 
   /// What set() said of a key last, to go back to.
   [[nodiscard]] std::optional<Entry> edit_of(const Key& key) const {
@@ -53,7 +54,7 @@ class EditedTable {
   void prepare() {
     fresh_.clear();
     for (const auto& [key, to] : edits_) {
-      if (to) fresh_.emplace(key, *to);
+      if (to) fresh_.emplace_hint(fresh_.end(), key, *to);
     }
   }
   /// Requires: prepare(), and no change since.
