@@ -10,8 +10,8 @@
 //   for (mesher::Slot v : change.slots.vertices_added) field[v] = start(m.live().points()[v]);
 //
 // Guarantees, after every update():
-//   (1) the arrays hold the same points, kinds, simplices, and edges and faces of features as
-//       mesh(), with other numbers;
+//   (1) the arrays hold the same points, kinds, simplices, and edges and faces on features as
+//       box_mesh(), with other numbers;
 //   (2) a vertex, simplex, edge or face that stays has the slot that it had;
 //   (3) Change::slots names everything that was added or removed, once, in the order of the lists
 //       of Change;
@@ -19,7 +19,8 @@
 //       element. A new element takes the lowest free slot, in canonical order. So slots are a
 //       function of the meshes after each successful update: updates that fail or are stopped have
 //       no influence.
-// A mesher keeps slots from the first call of live() on; they start with the numbers of mesh().
+// A mesher keeps slots from the first call of live() on; they start with the numbers of
+// box_mesh().
 // Cost: proportional to the change.
 #pragma once
 

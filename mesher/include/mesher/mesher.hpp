@@ -246,7 +246,8 @@ class Mesher {
   [[nodiscard]] MeshData<D> mesh() const { return domain_mesh().mesh; }
   /// mesh() with its regions and the faults of seeds.
   [[nodiscard]] DomainMesh<D> domain_mesh() const;
-  /// The mesh of the whole box, without features. Cost: O(m log m).
+  /// The mesh of the whole box, kept or not, with the edges and faces on features but without
+  /// markers and regions. Cost: O(m log m).
   [[nodiscard]] Mesh<D> box_mesh() const;
 
   /// The mesh of the box in arrays by slot: see live_mesh.hpp. keeps(slot) tells whether a simplex

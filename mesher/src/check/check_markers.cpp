@@ -76,9 +76,7 @@ class MarkerCheck {
   // the file does not tell them.
   [[nodiscard]] std::map<Edge, std::int64_t> markers_of_edges() const {
     std::map<Edge, std::int64_t> markers;
-    const bool told = std::any_of(features_.edges.begin(), features_.edges.end(),
-                                  [](const MeshEdge& e) { return e.marker != 0; });
-    if (!told) return markers;
+    if (!has_marker(features_.edges)) return markers;
     for (const auto& [edge, lines] : at_edge_) markers[edge] = 0;
     for (const MeshEdge& e : features_.edges) markers[{e.low, e.high}] = e.marker;
     return markers;

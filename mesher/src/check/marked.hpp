@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "graph/has_features.hpp"
 #include "mesher/check.hpp"
 #include "mesher/domain.hpp"
 #include "mesher/graph.hpp"
@@ -48,10 +49,6 @@ using Givers = std::vector<const Marked*>;
   }
   if (marker == 0 || (at_border && marker == kBoundaryMarker)) return "";
   return has + ", but is on no " + what + (at_border ? " with that one" : " with one");
-}
-
-[[nodiscard]] bool has_marker(const auto& parts) {
-  return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.marker != 0; });
 }
 
 /// Whether markers are asked for: the input has some, and the mesh does.

@@ -1,4 +1,4 @@
-// The facade of a mesh with its regions.
+// The facade of a mesh that follows edits, with its regions.
 #include "mesher/mesher.hpp"
 
 #include "facade/domain_state.hpp"
@@ -13,7 +13,7 @@ template <int D>
 Options<D> kept_by_mesher(const Options<D>& options) {
   Options<D> all = detail::settled(options);
   if (all.algorithm != Algorithm::automatic && all.algorithm != Algorithm::gap_balls) {
-    throw Error(ErrorCode::bad_option, "the mesh that follows edits is that of gap-balls, not " +
+    throw Error(ErrorCode::bad_option, "a mesh that follows edits is that of gap-balls, not of " +
                                            std::string(name_of(all.algorithm)));
   }
   all.algorithm = Algorithm::gap_balls;

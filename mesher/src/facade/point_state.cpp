@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "facade/asking.hpp"
+#include "facade/make_room.hpp"
 #include "facade/point_report.hpp"
-#include "facade/room.hpp"
 #include "program/meter.hpp"
 #include "program/timed_stats.hpp"
 #include "program/world_impl.hpp"

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "facade/room.hpp"
+#include "facade/make_room.hpp"
 #include "mesher/ids.hpp"
 #include "space/polygons_at.hpp"
 

@@ -9,7 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "facade/room.hpp"
+#include "facade/make_room.hpp"
 #include "mesher/ids.hpp"
 #include "records/segment.hpp"
 

@@ -4,13 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "graph/has_features.hpp"
+
 namespace mesher {
 namespace {
-
-template <class Part>
-bool has_marker(const std::vector<Part>& parts) {
-  return std::any_of(parts.begin(), parts.end(), [](const Part& p) { return p.marker != 0; });
-}
 
 // Of the part with that id: parts[i] stands in `file` at positions[i], or nowhere if it has none.
 template <class Id, class Part>
@@ -27,11 +24,7 @@ FileLocation location_among(const std::string& file, const Id& id, const std::ve
 
 template <int D>
 bool is_bare(const Graph<D>& graph) {
-  if constexpr (D == 3) {
-    if (!graph.polygons.empty()) return false;
-  }
-  return graph.segments.empty() && graph.polylines.empty() && graph.seeds.empty() &&
-         !has_marker(graph.points);
+  return !has_features(graph) && graph.seeds.empty() && !has_marker(graph.points);
 }
 
 template <int D>

@@ -1,6 +1,8 @@
 // Queries of a graph that do not depend on its geometry.
 #pragma once
 
+#include <algorithm>
+
 #include "mesher/graph.hpp"
 
 namespace mesher {
@@ -12,6 +14,11 @@ template <int D>
     if (!graph.polygons.empty()) return true;
   }
   return !graph.segments.empty() || !graph.polylines.empty();
+}
+
+/// Whether a part of a list (points, lines, polygons, or edges and faces of a mesh) has a marker.
+[[nodiscard]] bool has_marker(const auto& parts) {
+  return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.marker != 0; });
 }
 
 }  // namespace mesher

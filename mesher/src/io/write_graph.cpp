@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "graph/has_features.hpp"
 #include "mesher/graph.hpp"
 #include "mesher/write.hpp"
 #include "space/polygon_shape.hpp"
@@ -26,14 +27,9 @@ TextFile& operator<<(TextFile& file, const std::array<double, N>& p) {
   return file;
 }
 
-template <class Part>
-bool any_marked(const std::vector<Part>& parts) {
-  return std::any_of(parts.begin(), parts.end(), [](const Part& p) { return p.marker != 0; });
-}
-
 template <int D>
 void write_points(const Graph<D>& graph, TextFile& file) {
-  const bool marked = any_marked(graph.points);
+  const bool marked = has_marker(graph.points);
   file << graph.points.size() << ' ' << D << ' ' << graph.attributes_per_point
        << (marked ? " 1\n" : " 0\n");
   for (std::size_t i = 0; i < graph.points.size(); ++i) {
@@ -47,7 +43,7 @@ void write_points(const Graph<D>& graph, TextFile& file) {
 }
 
 void write_segments(const std::vector<Segment>& segments, TextFile& file) {
-  const bool marked = any_marked(segments);
+  const bool marked = has_marker(segments);
   file << segments.size() << (marked ? " 1\n" : " 0\n");
   for (const Segment& s : segments) {
     file << s.id << ' ' << s.from << ' ' << s.to;
@@ -98,7 +94,7 @@ class ComplexWriter {
 
  private:
   void write_header() {
-    marked_ = any_marked(plc_.polygons) || any_marked(plc_.segments);
+    marked_ = has_marker(plc_.polygons) || has_marker(plc_.segments);
     file_ << plc_.polygons.size() + plc_.segments.size() << (marked_ ? " 1\n" : " 0\n");
   }
   void write_marker(std::int64_t marker) {
