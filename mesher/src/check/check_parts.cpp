@@ -29,13 +29,14 @@ bool on_box(const Box<D>& box, const Point<D>& p) {
   return false;
 }
 
-int orientation(const Mesh<2>& mesh, const Mesh<2>::Simplex& t) {
+template <int D>
+int orientation(const Mesh<D>& mesh, const typename Mesh<D>::Simplex& t) {
   const auto& v = mesh.vertices;
-  return predicates::orient2d(v[t[0]], v[t[1]], v[t[2]]);
-}
-int orientation(const Mesh<3>& mesh, const Mesh<3>::Simplex& t) {
-  const auto& v = mesh.vertices;
-  return predicates::orient3d(v[t[0]], v[t[1]], v[t[2]], v[t[3]]);
+  if constexpr (D == 2) {
+    return predicates::orient2d(v[t[0]], v[t[1]], v[t[2]]);
+  } else {
+    return predicates::orient3d(v[t[0]], v[t[1]], v[t[2]], v[t[3]]);
+  }
 }
 
 }  // namespace
@@ -144,6 +145,7 @@ template Verdict check_vertices<2>(const Mesh<2>&);
 template Verdict check_orientation<2>(const Mesh<2>&);
 template Verdict check_kinds<2>(const Mesh<2>&, const GraphFile<2>*,
                                 const std::vector<mesher::Feature>&);
+#ifndef MESHER_PLANE_ONLY
 template std::string vertex_name<3>(const Mesh<3>&, std::size_t);
 template std::string simplex_name<3>(const Mesh<3>&, std::size_t);
 template Verdict check_coordinates<3>(const Mesh<3>&);
@@ -151,5 +153,6 @@ template Verdict check_vertices<3>(const Mesh<3>&);
 template Verdict check_orientation<3>(const Mesh<3>&);
 template Verdict check_kinds<3>(const Mesh<3>&, const GraphFile<3>*,
                                 const std::vector<mesher::Feature>&);
+#endif
 
 }  // namespace mesher::detail

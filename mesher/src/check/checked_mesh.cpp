@@ -92,10 +92,12 @@ Verdict check_input(const CheckedMesh<D>& mesh, const CheckOptions<D>& options) 
 }
 
 template class CheckedMesh<2>;
-template class CheckedMesh<3>;
 template BoundaryRule rule_of(const CheckedMesh<2>&, const Graph<2>&);
-template BoundaryRule rule_of(const CheckedMesh<3>&, const Graph<3>&);
 template Verdict check_input(const CheckedMesh<2>&, const CheckOptions<2>&);
+#ifndef MESHER_PLANE_ONLY
+template class CheckedMesh<3>;
+template BoundaryRule rule_of(const CheckedMesh<3>&, const Graph<3>&);
 template Verdict check_input(const CheckedMesh<3>&, const CheckOptions<3>&);
+#endif
 
 }  // namespace mesher::detail

@@ -26,6 +26,8 @@ Delaunay<D> delaunay(std::span<const Point<D>> points) {
 }
 
 template Delaunay<2> delaunay<2>(std::span<const Point<2>>);
+#ifndef MESHER_PLANE_ONLY
 template Delaunay<3> delaunay<3>(std::span<const Point<3>>);
+#endif
 
 }  // namespace mesher

@@ -249,6 +249,8 @@ void DynamicDelaunay<D>::check_invariants() const {
 }
 
 template class DynamicDelaunay<2>;
+#ifndef MESHER_PLANE_ONLY
 template class DynamicDelaunay<3>;
+#endif
 
 }  // namespace mesher

@@ -10,6 +10,8 @@
 namespace mesher::detail {
 
 template class DelaunayKernel<2>;
+#ifndef MESHER_PLANE_ONLY
 template class DelaunayKernel<3>;
+#endif
 
 }  // namespace mesher::detail

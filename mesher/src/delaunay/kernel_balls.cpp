@@ -9,6 +9,8 @@
 namespace mesher::detail {
 
 template class DelaunayKernel<2, BallLayout<2>>;
+#ifndef MESHER_PLANE_ONLY
 template class DelaunayKernel<3, BallLayout<3>>;
+#endif
 
 }  // namespace mesher::detail

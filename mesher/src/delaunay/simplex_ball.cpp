@@ -125,6 +125,8 @@ void BallBatch<D>::set_centre(std::size_t k, const Point<D>& q) noexcept {
 }
 
 template class BallBatch<2>;
+#ifndef MESHER_PLANE_ONLY
 template class BallBatch<3>;
+#endif
 
 }  // namespace mesher::detail

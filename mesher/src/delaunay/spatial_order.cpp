@@ -135,6 +135,8 @@ std::vector<std::uint32_t> spatial_order(std::span<const Point<D>> points) {
 }
 
 template std::vector<std::uint32_t> spatial_order<2>(std::span<const Point<2>>);
+#ifndef MESHER_PLANE_ONLY
 template std::vector<std::uint32_t> spatial_order<3>(std::span<const Point<3>>);
+#endif
 
 }  // namespace mesher::detail

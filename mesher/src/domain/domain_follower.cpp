@@ -199,6 +199,8 @@ void DomainFollower<D>::check_invariants() const {
 }
 
 template class DomainFollower<2>;
+#ifndef MESHER_PLANE_ONLY
 template class DomainFollower<3>;
+#endif
 
 }  // namespace mesher

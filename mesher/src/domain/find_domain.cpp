@@ -183,7 +183,9 @@ Domain<D> find_domain(const Mesh<D>& mesh, const std::vector<WallOf<D>>& walls,
 
 template Domain<2> find_domain(const Mesh<2>&, const std::vector<MeshEdge>&,
                                const std::vector<Seed<2>>&, Extent);
+#ifndef MESHER_PLANE_ONLY
 template Domain<3> find_domain(const Mesh<3>&, const std::vector<MeshFace>&,
                                const std::vector<Seed<3>>&, Extent);
+#endif
 
 }  // namespace mesher

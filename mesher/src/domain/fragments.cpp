@@ -146,8 +146,10 @@ std::uint32_t Parting<D>::listed_with(Slot s) {
 }
 
 template class Clusters<2>;
-template class Clusters<3>;
 template class Parting<2>;
+#ifndef MESHER_PLANE_ONLY
+template class Clusters<3>;
 template class Parting<3>;
+#endif
 
 }  // namespace mesher::detail

@@ -71,7 +71,9 @@ KeptDifference<D> kept_difference(const RegionsOf<D>& regions,
 }
 template KeptDifference<2> kept_difference(const RegionsOf<2>&, const RegionsDifferenceOf<2>&,
                                            Extent);
+#ifndef MESHER_PLANE_ONLY
 template KeptDifference<3> kept_difference(const RegionsOf<3>&, const RegionsDifferenceOf<3>&,
                                            Extent);
+#endif
 
 }  // namespace mesher::detail

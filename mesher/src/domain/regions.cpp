@@ -207,6 +207,8 @@ std::vector<NamedRegion<D>> RegionsOf<D>::regions() const {
 }
 
 template class RegionsOf<2>;
+#ifndef MESHER_PLANE_ONLY
 template class RegionsOf<3>;
+#endif
 
 }  // namespace mesher::detail

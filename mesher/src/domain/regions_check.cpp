@@ -16,8 +16,14 @@ struct Snapshot {
   std::vector<Slot> slots;  // one per triangle
 };
 
-MeshEdge wall_at(const SideOf<2>& ends) { return {ends[0], ends[1], {}, 0}; }
-MeshFace wall_at(const SideOf<3>& corners) { return {corners, {}, 0}; }
+template <int D>
+WallOf<D> wall_at(const SideOf<D>& corners) {
+  if constexpr (D == 2) {
+    return {corners[0], corners[1], {}, 0};
+  } else {
+    return {corners, {}, 0};
+  }
+}
 
 template <int D>
 SideOf<D> side_of(const CornersOf<D>& corners, std::size_t across) {
@@ -42,7 +48,7 @@ Snapshot<D> snapshot(const TilesOf<D>& tiles, const typename RegionsOf<D>::Place
       const std::uint32_t v = t.corners[i];
       if (now.mesh.vertices.size() <= v) now.mesh.vertices.resize(v + std::size_t{1});
       now.mesh.vertices[v] = places(v);
-      if (t.is_wall(static_cast<int>(i))) now.walls.push_back(wall_at(side_of<D>(t.corners, i)));
+      if (t.is_wall(static_cast<int>(i))) now.walls.push_back(wall_at<D>(side_of<D>(t.corners, i)));
     }
   }
   return now;
@@ -82,6 +88,8 @@ void RegionsOf<D>::check_invariants() const {
 }
 
 template void RegionsOf<2>::check_invariants() const;
+#ifndef MESHER_PLANE_ONLY
 template void RegionsOf<3>::check_invariants() const;
+#endif
 
 }  // namespace mesher::detail

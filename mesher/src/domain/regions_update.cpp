@@ -234,6 +234,8 @@ auto RegionsOf<D>::update(const RegionsChange& change) -> RegionsDifference {
 }
 
 template RegionsDifferenceOf<2> RegionsOf<2>::update(const RegionsChangeOf<2>&);
+#ifndef MESHER_PLANE_ONLY
 template RegionsDifferenceOf<3> RegionsOf<3>::update(const RegionsChangeOf<3>&);
+#endif
 
 }  // namespace mesher::detail

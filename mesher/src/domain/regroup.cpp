@@ -242,6 +242,8 @@ Regrouped regroup(TilesOf<D>& tiles, Components& components, Marks& marks,
   return Regroup<D>(tiles, components, marks, seams).run();
 }
 template Regrouped regroup(TilesOf<2>&, Components&, Marks&, const SeamsOf<2>&);
+#ifndef MESHER_PLANE_ONLY
 template Regrouped regroup(TilesOf<3>&, Components&, Marks&, const SeamsOf<3>&);
+#endif
 
 }  // namespace mesher::detail

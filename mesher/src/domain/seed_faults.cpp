@@ -32,7 +32,9 @@ std::string describe(const SeedFault<D>& fault) {
 }
 
 template std::string describe(const SeedFault<2>&);
+#ifndef MESHER_PLANE_ONLY
 template std::string describe(const SeedFault<3>&);
+#endif
 
 template <int D>
 Error error_of(const SeedFault<D>& fault) {
@@ -42,7 +44,9 @@ Error error_of(const SeedFault<D>& fault) {
   return {ErrorCode::bad_seed, describe(fault), {}, std::move(features), {position_of(fault.at)}};
 }
 template Error error_of(const SeedFault<2>&);
+#ifndef MESHER_PLANE_ONLY
 template Error error_of(const SeedFault<3>&);
+#endif
 
 namespace detail {
 
@@ -69,7 +73,9 @@ void check_seed(const Seed<D>& seed) {
 }
 
 template void check_seed(const Seed<2>&);
+#ifndef MESHER_PLANE_ONLY
 template void check_seed(const Seed<3>&);
+#endif
 
 template <int D>
 void check_seeds(const std::vector<Seed<D>>& seeds) {
@@ -85,7 +91,9 @@ void check_seeds(const std::vector<Seed<D>>& seeds) {
               {mesher::Feature(*twice)});
 }
 template void check_seeds(const std::vector<Seed<2>>&);
+#ifndef MESHER_PLANE_ONLY
 template void check_seeds(const std::vector<Seed<3>>&);
+#endif
 
 }  // namespace detail
 }  // namespace mesher

@@ -146,6 +146,8 @@ void SeedTableOf<D>::check_invariants(const Tiles& tiles, const Components& comp
 }
 
 template class SeedTableOf<2>;
+#ifndef MESHER_PLANE_ONLY
 template class SeedTableOf<3>;
+#endif
 
 }  // namespace mesher::detail

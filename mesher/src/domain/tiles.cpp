@@ -362,6 +362,8 @@ auto TilesOf<D>::change(std::span<const Corners> out, std::span<const Corners> i
 }
 
 template class TilesOf<2>;
+#ifndef MESHER_PLANE_ONLY
 template class TilesOf<3>;
+#endif
 
 }  // namespace mesher::detail

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <string>
 
-#include "facade/plane_state.hpp"
 #include "facade/reentry_guard.hpp"
-#include "facade/space_state.hpp"
+#include "facade/state.hpp"
 #include "geometry/input_point.hpp"
 #include "live/live_arrays.hpp"
 #include "mesher/predicates.hpp"
@@ -30,7 +29,7 @@ std::array<double, N> unsigned_zero(std::array<double, N> p) {
 template <int D>
 struct BoxMesher<D>::Impl {
   using Pending = detail::Pending<D>;
-  using State = std::conditional_t<D == 2, detail::PlaneState, detail::SpaceState>;
+  using State = detail::State<D>;
 
   explicit Impl(const Options<D>& o)
       : options(o), state(std::make_unique<State>(o)), box(state->box()), pending(box) {
@@ -153,14 +152,13 @@ void BoxMesher<D>::Impl::insert_polygon(const Polygon& polygon) {
   const auto refuse = [&](ErrorCode code, const std::string& why) {
     throw Error(code, why, {}, {mesher::Feature(polygon.id)});
   };
-  if (D == 2) refuse(ErrorCode::bad_option, "polygons are for space");
   if (options.rule != Rule::radius_edge) {
     refuse(ErrorCode::bad_option, "polygons need the rule radius-edge");
   }
   if (polygons.find(polygon.id) != nullptr) {
     refuse(ErrorCode::repeated_id, "polygon " + id_text(polygon.id) + " is there already");
   }
-  detail::require_loops(polygon);
+  if constexpr (D == 3) detail::require_loops(polygon);
   polygons.set(polygon.id, polygon);
 }
 
@@ -494,6 +492,8 @@ void BoxMesher<D>::check_invariants() const {
 }
 
 template class BoxMesher<2>;
+#ifndef MESHER_PLANE_ONLY
 template class BoxMesher<3>;
+#endif
 
 }  // namespace mesher

@@ -132,6 +132,7 @@ MeshData<2> with_features(Mesh<2> mesh, const Graph<2>& graph) {
 
 // --- In space --------------------------------------------------------------------------------
 
+#ifndef MESHER_PLANE_ONLY
 namespace {
 
 template <class Id>
@@ -191,6 +192,7 @@ MeshData<3> with_features(Mesh<3> mesh, const Graph<3>& complex) {
   add_points<3>(complex.points, data);
   return data;
 }
+#endif
 
 template <int D>
 DomainMesh<D> domain_mesh(Mesh<D> mesh, const Graph<D>& graph, Extent extent) {
@@ -217,7 +219,9 @@ DomainMesh<D> domain_mesh(Mesh<D> mesh, const Graph<D>& graph, Extent extent) {
   template DomainMesh<D> domain_mesh(Mesh<D>, const Graph<D>&, Extent)
 
 MESHER_INSTANTIATE(2);
+#ifndef MESHER_PLANE_ONLY
 MESHER_INSTANTIATE(3);
+#endif
 #undef MESHER_INSTANTIATE
 
 }  // namespace mesher

@@ -315,6 +315,8 @@ Graph<D> DomainState<D>::input() const {
 }
 
 template class DomainState<2>;
+#ifndef MESHER_PLANE_ONLY
 template class DomainState<3>;
+#endif
 
 }  // namespace mesher::detail

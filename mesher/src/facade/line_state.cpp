@@ -129,6 +129,8 @@ void LineState<D>::discard_news() noexcept {
 }
 
 template class LineState<2>;
+#ifndef MESHER_PLANE_ONLY
 template class LineState<3>;
+#endif
 
 }  // namespace mesher::detail

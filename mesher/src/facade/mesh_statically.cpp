@@ -255,6 +255,7 @@ class StaticRun {
 
 // --- In space --------------------------------------------------------------------------------
 
+#ifndef MESHER_PLANE_ONLY
 // What features are called, in a run that adds them once.
 class SpaceInputNames final : public detail::SpaceNames {
  public:
@@ -275,6 +276,7 @@ class SpaceInputNames final : public detail::SpaceNames {
   std::unordered_map<detail::EdgeHandle, LineId> segments_;
   std::unordered_map<detail::PolygonHandle, PolygonId> polygons_;
 };
+#endif
 
 }  // namespace
 
@@ -289,8 +291,10 @@ Mesh<D> mesh_statically(const std::vector<Point<D>>& points, const Options<D>& o
 
 template Mesh<2> mesh_statically<2>(const std::vector<Point<2>>&, const Options<2>&,
                                     const std::vector<PointId>&, MeshStats*, const RunControl&);
+#ifndef MESHER_PLANE_ONLY
 template Mesh<3> mesh_statically<3>(const std::vector<Point<3>>&, const Options<3>&,
                                     const std::vector<PointId>&, MeshStats*, const RunControl&);
+#endif
 
 namespace {
 
@@ -331,6 +335,7 @@ Mesh<2> mesh_statically(const std::vector<Point<2>>& points, const std::vector<S
   return run.mesh(on_features(run.world(), run.names()), stats);
 }
 
+#ifndef MESHER_PLANE_ONLY
 namespace {
 
 // The segments and polygons put into a run.
@@ -408,5 +413,7 @@ Mesh<3> mesh_statically(const std::vector<Point<3>>& points, const std::vector<S
                           {vertices.pool(), vertices.roles(), world.plc.store(), names, {&all}}),
       stats);
 }
+
+#endif
 
 }  // namespace mesher

@@ -197,6 +197,8 @@ void Mesher<D>::check_invariants() const {
 }
 
 template class Mesher<2>;
+#ifndef MESHER_PLANE_ONLY
 template class Mesher<3>;
+#endif
 
 }  // namespace mesher

@@ -155,7 +155,9 @@ Meshed<D> mesh(const Graph<D>& graph, const Options<D>& options, const RunContro
   template Meshed<D> mesh(const Graph<D>&, const Options<D>&, const RunControl&)
 
 MESHER_INSTANTIATE(2);
+#ifndef MESHER_PLANE_ONLY
 MESHER_INSTANTIATE(3);
+#endif
 #undef MESHER_INSTANTIATE
 
 }  // namespace mesher

@@ -81,6 +81,8 @@ void Pending<D>::clear() noexcept {
 }
 
 template class Pending<2>;
+#ifndef MESHER_PLANE_ONLY
 template class Pending<3>;
+#endif
 
 }  // namespace mesher::detail

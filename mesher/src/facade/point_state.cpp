@@ -310,6 +310,8 @@ Change<D> PointState<D>::propagate(const Edits<D>& edits, const RunControl& cont
 }
 
 template class PointState<2>;
+#ifndef MESHER_PLANE_ONLY
 template class PointState<3>;
+#endif
 
 }  // namespace mesher::detail

@@ -178,7 +178,9 @@ auto RegionLimits<D>::range(const Box<D>& box) const -> Range {
 }
 
 template class RegionLimits<2>;
+#ifndef MESHER_PLANE_ONLY
 template class RegionLimits<3>;
+#endif
 
 // --- From scratch ----------------------------------------------------------------------------
 
@@ -213,7 +215,9 @@ std::shared_ptr<const RegionLimits<D>> region_limits(const Graph<D>& graph,
 
 template std::shared_ptr<const RegionLimits<2>> region_limits(const Graph<2>&, const Options<2>&,
                                                               Extent, RegionAreas);
+#ifndef MESHER_PLANE_ONLY
 template std::shared_ptr<const RegionLimits<3>> region_limits(const Graph<3>&, const Options<3>&,
                                                               Extent, RegionAreas);
+#endif
 
 }  // namespace mesher

@@ -184,6 +184,8 @@ void UnsizedMesh<D>::check_invariants() const {
 }
 
 template class UnsizedMesh<2>;
+#ifndef MESHER_PLANE_ONLY
 template class UnsizedMesh<3>;
+#endif
 
 }  // namespace mesher::detail

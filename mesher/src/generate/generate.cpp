@@ -259,6 +259,8 @@ std::vector<Point<2>> generate_quadratic(std::size_t n) {
 }
 
 template std::vector<Point<2>> generate_points<2>(PointKind, std::size_t, std::uint64_t);
+#ifndef MESHER_PLANE_ONLY
 template std::vector<Point<3>> generate_points<3>(PointKind, std::size_t, std::uint64_t);
+#endif
 
 }  // namespace mesher

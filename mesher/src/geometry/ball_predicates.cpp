@@ -132,10 +132,12 @@ int in_shrunken_ball_exact(const Point<3>& a, const Point<3>& b, const Point<3>&
 }
 
 template int in_shrunken_ball_exact<2>(const Point<2>&, const Point<2>&, const Point<2>&, double);
-template int in_shrunken_ball_exact<3>(const Point<3>&, const Point<3>&, const Point<3>&, double);
 template int in_shrunken_ball_exact<2>(const Point<2>&, const Point<2>&, const Point<2>&,
                                        const Point<2>&, double);
+#ifndef MESHER_PLANE_ONLY
+template int in_shrunken_ball_exact<3>(const Point<3>&, const Point<3>&, const Point<3>&, double);
 template int in_shrunken_ball_exact<3>(const Point<3>&, const Point<3>&, const Point<3>&,
                                        const Point<3>&, double);
+#endif
 
 }  // namespace mesher::predicates::detail

@@ -101,6 +101,7 @@ template void check_coordinates(const Point<2>&, PointId);
 template void check_point(const Point<2>&, const Box<2>&, PointId);
 template void fail_too_near(const Point<2>&, PointId, const Point<2>&, PointId);
 template std::vector<std::size_t> morton_order(const std::vector<Point<2>>&, const MeshBox<2>&);
+#ifndef MESHER_PLANE_ONLY
 template std::string place_text(const Point<3>&);
 template void check_coordinates(const Point<3>&, PointId);
 template void check_point(const Point<3>&, const Box<3>&, PointId);
@@ -108,5 +109,6 @@ template void fail_too_near(const Point<3>&, PointId, const Point<3>&, PointId);
 template std::vector<std::size_t> morton_order(const std::vector<Point<3>>&, const MeshBox<3>&);
 template std::string place_text(const Point<4>&);
 template void fail_too_near(const Point<4>&, PointId, const Point<4>&, PointId);
+#endif
 
 }  // namespace mesher::detail

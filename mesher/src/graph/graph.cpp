@@ -93,7 +93,9 @@ Error located(const Error& error, const GraphFile<D>& file) {
   template Error located(const Error&, const GraphFile<D>&)
 
 MESHER_INSTANTIATE(2);
+#ifndef MESHER_PLANE_ONLY
 MESHER_INSTANTIATE(3);
+#endif
 #undef MESHER_INSTANTIATE
 
 }  // namespace mesher

@@ -88,8 +88,10 @@ void detail::require_ids(const Graph<D>& graph, const GraphFile<D>* file) {
 }
 
 template void detail::require_distinct_ids(const Graph<2>&, const GraphFile<2>*);
-template void detail::require_distinct_ids(const Graph<3>&, const GraphFile<3>*);
 template void detail::require_ids(const Graph<2>&, const GraphFile<2>*);
+#ifndef MESHER_PLANE_ONLY
+template void detail::require_distinct_ids(const Graph<3>&, const GraphFile<3>*);
 template void detail::require_ids(const Graph<3>&, const GraphFile<3>*);
+#endif
 
 }  // namespace mesher

@@ -224,12 +224,14 @@ void Features<sac::Scope, D>::check_invariants() const {
 }
 
 template void refuse_close<2>(const Vertex<2>&, const Vertex<2>&);
-template void refuse_close<3>(const Vertex<3>&, const Vertex<3>&);
 template class Features<sac::PlainScope, 2>;
+template class Features<sac::Scope, 2>;
+#ifndef MESHER_PLANE_ONLY
+template void refuse_close<3>(const Vertex<3>&, const Vertex<3>&);
 template class Features<sac::PlainScope, 3>;
 template class Features<sac::PlainScope, 4>;
-template class Features<sac::Scope, 2>;
 template class Features<sac::Scope, 3>;
 template class Features<sac::Scope, 4>;
+#endif
 
 }  // namespace mesher::detail

@@ -178,6 +178,7 @@ void LiveTriangulation<2>::look_around(VertexHandle v) {
   } while (s != first);
 }
 
+#ifndef MESHER_PLANE_ONLY
 template <>
 void LiveTriangulation<3>::look_around(VertexHandle v) {
   if (center_ == v) return;
@@ -203,6 +204,7 @@ void LiveTriangulation<3>::look_around(VertexHandle v) {
     }
   }
 }
+#endif
 
 // Ghosts are not good.
 template <int D>
@@ -236,6 +238,7 @@ void LiveTriangulation<2>::read_star(VoronoiCell& cell, const Vertex<2>& v, doub
   cell.adopt(v, radius, ring_);
 }
 
+#ifndef MESHER_PLANE_ONLY
 template <>
 void LiveTriangulation<3>::read_star(VoronoiCell3& cell, const Vertex<3>& v, double radius) {
   ring_.clear();
@@ -261,6 +264,7 @@ void LiveTriangulation<3>::read_star(VoronoiCell3& cell, const Vertex<3>& v, dou
   }
   cell.adopt(v, radius, ring_, faces_);
 }
+#endif
 
 // Calls visit(u) for each neighbour of v once.
 template <int D>
@@ -307,6 +311,8 @@ auto LiveTriangulation<D>::nearest(const Vertex<D>& v) -> Nearest {
 }
 
 template class LiveTriangulation<2>;
+#ifndef MESHER_PLANE_ONLY
 template class LiveTriangulation<3>;
+#endif
 
 }  // namespace mesher::detail

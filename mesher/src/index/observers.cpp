@@ -68,7 +68,9 @@ void Observers<D>::check_invariants(const Vertex<D>& v) const {
 }
 
 template class Observers<2>;
+#ifndef MESHER_PLANE_ONLY
 template class Observers<3>;
 template class Observers<4>;
+#endif
 
 }  // namespace mesher::detail

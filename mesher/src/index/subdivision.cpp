@@ -19,7 +19,9 @@ void Subdivision<sac::Scope, D>::retract(sac::Call&, sac::Edge& edge) noexcept {
 }
 
 template class Subdivision<sac::Scope, 2>;
+#ifndef MESHER_PLANE_ONLY
 template class Subdivision<sac::Scope, 3>;
 template class Subdivision<sac::Scope, 4>;
+#endif
 
 }  // namespace mesher::detail

@@ -625,7 +625,9 @@ void VertexIndex<sac::Scope, D>::check_observation(const Vertex<D>& v, const Obs
 }
 
 template class VertexIndex<sac::Scope, 2>;
+#ifndef MESHER_PLANE_ONLY
 template class VertexIndex<sac::Scope, 3>;
 template class VertexIndex<sac::Scope, 4>;
+#endif
 
 }  // namespace mesher::detail

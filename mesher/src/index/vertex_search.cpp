@@ -38,7 +38,9 @@ void VertexSearch<D>::fail_coincident(const Point<D>& p) const {
 }
 
 template class VertexSearch<2>;
+#ifndef MESHER_PLANE_ONLY
 template class VertexSearch<3>;
 template class VertexSearch<4>;
+#endif
 
 }  // namespace mesher::detail

@@ -412,14 +412,16 @@ double now() {
 }
 
 template Feature Edit<2>::feature() const;
-template Feature Edit<3>::feature() const;
 template class EditScript<2>;
-template class EditScript<3>;
 template std::string text_of(const std::vector<Edit<2>>&);
-template std::string text_of(const std::vector<Edit<3>>&);
 template std::vector<Edit<2>> announcing_order(std::vector<Edit<2>>);
-template std::vector<Edit<3>> announcing_order(std::vector<Edit<3>>);
 template FileLocation location_to_blame(const std::vector<Edit<2>>&, const Error&);
+#ifndef MESHER_PLANE_ONLY
+template Feature Edit<3>::feature() const;
+template class EditScript<3>;
+template std::string text_of(const std::vector<Edit<3>>&);
+template std::vector<Edit<3>> announcing_order(std::vector<Edit<3>>);
 template FileLocation location_to_blame(const std::vector<Edit<3>>&, const Error&);
+#endif
 
 }  // namespace mesher

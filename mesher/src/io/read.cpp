@@ -35,6 +35,7 @@ GraphFile<D> read_node_points(const std::string& path, CoincidingPoints coincidi
   return points_alone<D>(nodes.rows, nodes.markers);
 }
 
+#ifndef MESHER_PLANE_ONLY
 // A surface's faces as polygons; `line`: of a point, 0 where a file has no lines.
 GraphFile<3> plc_of(Surface surface) {
   GraphFile<3> out;
@@ -57,6 +58,8 @@ GraphFile<3> plc_of(Surface surface) {
   return out;
 }
 
+#endif
+
 GraphFile<2> read_in_plane(const std::string& path, const ReadOptions& options) {
   const std::string extension = text::extension(path);
   if (extension == ".poly") return read_poly(path, PointsBeside::read);
@@ -74,6 +77,7 @@ GraphFile<2> read_in_plane(const std::string& path, const ReadOptions& options) 
               {path});
 }
 
+#ifndef MESHER_PLANE_ONLY
 GraphFile<3> read_in_space(const std::string& path, const ReadOptions& options) {
   const std::string extension = text::extension(path);
   if (extension == ".poly") return read_space_poly(path);
@@ -95,6 +99,7 @@ GraphFile<3> read_in_space(const std::string& path, const ReadOptions& options) 
           text::quoted(extension),
       {path});
 }
+#endif
 
 }  // namespace
 
@@ -105,6 +110,7 @@ GraphFile<2> read<2>(const std::string& path, const ReadOptions& options) {
   return file;
 }
 
+#ifndef MESHER_PLANE_ONLY
 template <>
 GraphFile<3> read<3>(const std::string& path, const ReadOptions& options) {
   GraphFile<3> file = read_in_space(path, options);
@@ -116,5 +122,6 @@ AnyGraph read_any(const std::string& path, const ReadOptions& options) {
   if (dimension_of(path) == 3) return read<3>(path, options);
   return read<2>(path, options);
 }
+#endif
 
 }  // namespace mesher

@@ -111,7 +111,9 @@ MeshData<D> read_mesh(const std::string& path) {
 }
 
 template MeshData<2> read_mesh<2>(const std::string&);
+#ifndef MESHER_PLANE_ONLY
 template MeshData<3> read_mesh<3>(const std::string&);
+#endif
 
 void detail::fail_no_vertex(std::int64_t value, std::size_t count, std::int64_t first,
                             const FileLocation& place) {

@@ -178,6 +178,8 @@ NodeFile<D> read_node(const std::string& path, CoordinateRule rule) {
 }
 
 template NodeFile<2> read_node<2>(const std::string&, CoordinateRule);
+#ifndef MESHER_PLANE_ONLY
 template NodeFile<3> read_node<3>(const std::string&, CoordinateRule);
+#endif
 
 }  // namespace mesher

@@ -85,12 +85,14 @@ PointReaders<D> readers() {
   return {{".node", read_node_rows<D>}, {".xyz", read_xyz<D>}, {".csv", read_csv<D>}};
 }
 
+#ifndef MESHER_PLANE_ONLY
 template <>
 PointReaders<3> readers() {
   return {{".node", read_node_rows<3>}, {".xyz", read_xyz<3>},     {".csv", read_csv<3>},
           {".off", read_off_points},    {".obj", read_obj_points}, {".ply", read_ply_points},
           {".stl", read_stl_points},    {".vtu", read_vtu_points}, {".vtk", read_vtk_points}};
 }
+#endif
 
 template <int D>
 PointFile<D> read_any(const std::string& path) {
@@ -158,6 +160,8 @@ PointFile<D> read_points(const std::string& path, CoincidingPoints coinciding) {
 template void require_distinct_ids<2>(const PointFile<2>&);
 template void require_distinct_points<2>(const PointFile<2>&);
 template PointFile<2> read_points<2>(const std::string&, CoincidingPoints);
+#ifndef MESHER_PLANE_ONLY
 template PointFile<3> read_points<3>(const std::string&, CoincidingPoints);
+#endif
 
 }  // namespace mesher

@@ -88,6 +88,8 @@ SizeFile<D> read_sizes(const std::string& path) {
   return file;
 }
 template SizeFile<2> read_sizes<2>(const std::string&);
+#ifndef MESHER_PLANE_ONLY
 template SizeFile<3> read_sizes<3>(const std::string&);
+#endif
 
 }  // namespace mesher

@@ -35,6 +35,8 @@ PointFile<D> read_xyz(const std::string& path) {
 }
 
 template PointFile<2> read_xyz<2>(const std::string&);
+#ifndef MESHER_PLANE_ONLY
 template PointFile<3> read_xyz<3>(const std::string&);
+#endif
 
 }  // namespace mesher

@@ -47,6 +47,8 @@ void write_medit(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& fi
 }
 
 template void write_medit(const Mesh<2>&, const MeshFeatures&, TextFile&);
+#ifndef MESHER_PLANE_ONLY
 template void write_medit(const Mesh<3>&, const MeshFeatures&, TextFile&);
+#endif
 
 }  // namespace mesher

@@ -212,6 +212,8 @@ void write_msh(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file
 }
 
 template void write_msh(const Mesh<2>&, const MeshFeatures&, TextFile&);
+#ifndef MESHER_PLANE_ONLY
 template void write_msh(const Mesh<3>&, const MeshFeatures&, TextFile&);
+#endif
 
 }  // namespace mesher

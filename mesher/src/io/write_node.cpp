@@ -55,7 +55,9 @@ void write_node(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& fil
 }
 
 template void write_node(const Mesh<2>&, const MeshFeatures&, TextFile&);
+#ifndef MESHER_PLANE_ONLY
 template void write_node(const Mesh<3>&, const MeshFeatures&, TextFile&);
+#endif
 
 template <int D>
 void write_ele(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file) {
@@ -70,7 +72,9 @@ void write_ele(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file
 }
 
 template void write_ele(const Mesh<2>&, const MeshFeatures&, TextFile&);
+#ifndef MESHER_PLANE_ONLY
 template void write_ele(const Mesh<3>&, const MeshFeatures&, TextFile&);
+#endif
 
 void write_face(const Mesh<3>& mesh, const MeshFeatures& features, TextFile& file) {
   std::vector<MeshFace> faces = features.faces;
@@ -148,6 +152,8 @@ void write_points(const std::vector<Point<D>>& points, TextFile& file) {
 }
 
 template void write_points<2>(const std::vector<Point<2>>&, TextFile&);
+#ifndef MESHER_PLANE_ONLY
 template void write_points<3>(const std::vector<Point<3>>&, TextFile&);
+#endif
 
 }  // namespace mesher

@@ -123,7 +123,9 @@ SvgView<D> svg_view(const Mesh<D>& mesh) {
   return {svg::window_of<D>(mesh), {}};
 }
 template SvgView<2> svg_view(const Mesh<2>&);
+#ifndef MESHER_PLANE_ONLY
 template SvgView<3> svg_view(const Mesh<3>&);
+#endif
 
 void write_svg(const Mesh<2>& mesh, const SvgView<2>& view, TextFile& file) {
   write_svg(mesh, MeshFeatures(), view, file);

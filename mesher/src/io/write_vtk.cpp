@@ -64,6 +64,8 @@ void write_vtk(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file
 }
 
 template void write_vtk(const Mesh<2>&, const MeshFeatures&, TextFile&);
+#ifndef MESHER_PLANE_ONLY
 template void write_vtk(const Mesh<3>&, const MeshFeatures&, TextFile&);
+#endif
 
 }  // namespace mesher

@@ -79,6 +79,8 @@ void write_vtu(const Mesh<D>& mesh, const MeshFeatures& features, TextFile& file
 }
 
 template void write_vtu(const Mesh<2>&, const MeshFeatures&, TextFile&);
+#ifndef MESHER_PLANE_ONLY
 template void write_vtu(const Mesh<3>&, const MeshFeatures&, TextFile&);
+#endif
 
 }  // namespace mesher

@@ -372,6 +372,8 @@ void LiveArrays<D>::check_invariants() const {
 }
 
 template class LiveArrays<2>;
+#ifndef MESHER_PLANE_ONLY
 template class LiveArrays<3>;
+#endif
 
 }  // namespace mesher::detail

@@ -79,6 +79,8 @@ std::size_t LiveMesh<D>::bytes() const noexcept {
 }
 
 template class LiveMesh<2>;
+#ifndef MESHER_PLANE_ONLY
 template class LiveMesh<3>;
+#endif
 
 }  // namespace mesher

@@ -106,6 +106,8 @@ std::vector<std::uint32_t> flood(const AdjacencyOf<D>& adjacency) {
 }
 
 template std::vector<std::uint32_t> flood<2>(const AdjacencyOf<2>&);
+#ifndef MESHER_PLANE_ONLY
 template std::vector<std::uint32_t> flood<3>(const AdjacencyOf<3>&);
+#endif
 
 }  // namespace mesher::detail

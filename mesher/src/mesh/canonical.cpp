@@ -10,37 +10,42 @@ namespace mesher::detail {
 namespace {
 
 template <int D>
-struct Placed {
+struct PlacedVertex {
   Point<D> p;
   std::uint32_t handle;
 };
 
 // By coordinates from `axis` on; the earlier ones are equal. Requires: as many `spare`.
 template <int D>
-void sort_places(std::span<Placed<D>> placed, std::span<Placed<D>> spare, std::size_t axis = 0) {
+void sort_places(std::span<PlacedVertex<D>> placed, std::span<PlacedVertex<D>> spare,
+                 std::size_t axis = 0) {
   const auto by_comparing = [&] {
-    std::sort(placed.begin(), placed.end(), [axis](const Placed<D>& a, const Placed<D>& b) {
-      return a.p[axis] != b.p[axis] ? a.p[axis] < b.p[axis] : a.p < b.p;
-    });
+    std::sort(placed.begin(), placed.end(),
+              [axis](const PlacedVertex<D>& a, const PlacedVertex<D>& b) {
+                return a.p[axis] != b.p[axis] ? a.p[axis] < b.p[axis] : a.p < b.p;
+              });
   };
   if (placed.size() < kFewToSort || axis + 1 == D) return by_comparing();
   const auto ends = std::minmax_element(
       placed.begin(), placed.end(),
-      [axis](const Placed<D>& a, const Placed<D>& b) { return a.p[axis] < b.p[axis]; });
+      [axis](const PlacedVertex<D>& a, const PlacedVertex<D>& b) { return a.p[axis] < b.p[axis]; });
   const double lo = ends.first->p[axis], width = ends.second->p[axis] - lo;
   if (width == 0) return sort_places<D>(placed, spare, axis + 1);
   const double scale = 0x1p62 / width;
   if (!std::isfinite(scale)) return by_comparing();
   spread_by_key(
       placed, spare,
-      [&](const Placed<D>& v) { return static_cast<std::uint64_t>((v.p[axis] - lo) * scale); },
+      [&](const PlacedVertex<D>& v) {
+        return static_cast<std::uint64_t>((v.p[axis] - lo) * scale);
+      },
       [axis](auto part, auto rest) { sort_places<D>(part, rest, axis); });
 }
 
 // A mesh of vertices alone, and where they went, by handle.
 template <int D, class KindOf>
-Mesh<D> sorted(std::vector<Placed<D>> placed, KindOf&& kind_of, std::vector<std::uint32_t>& index) {
-  std::vector<Placed<D>> spare(placed.size());
+Mesh<D> sorted(std::vector<PlacedVertex<D>> placed, KindOf&& kind_of,
+               std::vector<std::uint32_t>& index) {
+  std::vector<PlacedVertex<D>> spare(placed.size());
   sort_places<D>(placed, spare);
   Mesh<D> mesh;
   mesh.vertices.reserve(placed.size());
@@ -76,7 +81,7 @@ void add_parts(Mesh<D>& mesh, const OnFeatures& on, const std::vector<std::uint3
 template <int D>
 Mesh<D> sorted_vertices(std::span<const Point<D>> places, std::span<const VertexKind> kinds,
                         std::uint32_t first, std::vector<std::uint32_t>& index) {
-  std::vector<Placed<D>> placed;
+  std::vector<PlacedVertex<D>> placed;
   placed.reserve(places.size());
   for (const Point<D>& p : places) {
     placed.push_back({p, first + static_cast<std::uint32_t>(placed.size())});
@@ -90,7 +95,7 @@ template <std::size_t N>
 Mesh<N - 1> canonical(const VertexPool<N - 1>& pool, std::vector<VertexHandle> vertices,
                       const std::vector<std::array<VertexHandle, N>>& simplices,
                       const OnFeatures& on) {
-  std::vector<Placed<N - 1>> placed;
+  std::vector<PlacedVertex<N - 1>> placed;
   placed.reserve(vertices.size());
   for (const VertexHandle h : vertices) placed.push_back({pool[h].p, h});
   std::vector<std::uint32_t> index(
@@ -106,13 +111,15 @@ Mesh<N - 1> canonical(const VertexPool<N - 1>& pool, std::vector<VertexHandle> v
 
 template Mesh<2> sorted_vertices<2>(std::span<const Point<2>>, std::span<const VertexKind>,
                                     std::uint32_t, std::vector<std::uint32_t>&);
-template Mesh<3> sorted_vertices<3>(std::span<const Point<3>>, std::span<const VertexKind>,
-                                    std::uint32_t, std::vector<std::uint32_t>&);
 template void add_parts(Mesh<2>&, const OnFeatures&, const std::vector<std::uint32_t>&);
-template void add_parts(Mesh<3>&, const OnFeatures&, const std::vector<std::uint32_t>&);
 template Mesh<2> canonical(const VertexPool<2>&, std::vector<VertexHandle>,
                            const std::vector<std::array<VertexHandle, 3>>&, const OnFeatures&);
+#ifndef MESHER_PLANE_ONLY
+template Mesh<3> sorted_vertices<3>(std::span<const Point<3>>, std::span<const VertexKind>,
+                                    std::uint32_t, std::vector<std::uint32_t>&);
+template void add_parts(Mesh<3>&, const OnFeatures&, const std::vector<std::uint32_t>&);
 template Mesh<3> canonical(const VertexPool<3>&, std::vector<VertexHandle>,
                            const std::vector<std::array<VertexHandle, 4>>&, const OnFeatures&);
+#endif
 
 }  // namespace mesher::detail

@@ -50,6 +50,8 @@ Box<D> snapped_domain(const std::vector<Point<D>>& points) {
 }
 
 template Box<2> snapped_domain<2>(const std::vector<Point<2>>&);
+#ifndef MESHER_PLANE_ONLY
 template Box<3> snapped_domain<3>(const std::vector<Point<3>>&);
+#endif
 
 }  // namespace mesher

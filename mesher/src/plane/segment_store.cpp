@@ -204,6 +204,8 @@ void SegmentStoreOf<D>::check_invariants() const {
 }
 
 template class SegmentStoreOf<2>;
+#ifndef MESHER_PLANE_ONLY
 template class SegmentStoreOf<3>;
+#endif
 
 }  // namespace mesher::detail

@@ -87,6 +87,8 @@ void FillPlans<sac::Scope, D>::check_invariants() const {
 }
 
 template class FillPlans<sac::Scope, 2>;
+#ifndef MESHER_PLANE_ONLY
 template class FillPlans<sac::Scope, 3>;
+#endif
 
 }  // namespace mesher::detail

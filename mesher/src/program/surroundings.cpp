@@ -126,8 +126,10 @@ void Surroundings<sac::Scope, D>::check_invariants() const {
 }
 
 template class Surroundings<sac::PlainScope, 2>;
-template class Surroundings<sac::PlainScope, 3>;
 template class Surroundings<sac::Scope, 2>;
+#ifndef MESHER_PLANE_ONLY
+template class Surroundings<sac::PlainScope, 3>;
 template class Surroundings<sac::Scope, 3>;
+#endif
 
 }  // namespace mesher::detail

@@ -71,6 +71,8 @@ bool are_evenly_spread(const std::vector<Point<D>>& points) {
 }
 
 template bool are_evenly_spread<2>(const std::vector<Point<2>>&);
+#ifndef MESHER_PLANE_ONLY
 template bool are_evenly_spread<3>(const std::vector<Point<3>>&);
+#endif
 
 }  // namespace mesher

@@ -100,6 +100,8 @@ void Centres<D>::require_apart(const Kernel& kernel, std::uint32_t s,
 }
 
 template class Centres<2>;
+#ifndef MESHER_PLANE_ONLY
 template class Centres<3>;
+#endif
 
 }  // namespace mesher::detail

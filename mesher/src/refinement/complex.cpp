@@ -13,6 +13,7 @@ namespace mesher {
 
 namespace {
 
+#ifndef MESHER_PLANE_ONLY
 // What edges are called: as in the meshes of mesh_statically.
 class EdgeNames {
  public:
@@ -50,6 +51,9 @@ detail::OnFeatures parts_of(const detail::Conformity& all, const detail::Feature
   return on;
 }
 
+const auto& points_of(const detail::FeatureStore& store) { return store.points(); }
+#endif
+
 detail::OnFeatures parts_of(const detail::PlaneConformity& all,
                             const detail::PlaneConformity::Store&, const detail::Names& names) {
   detail::OnFeatures on;
@@ -71,7 +75,6 @@ void require_simple(const Options<D>& options, const std::string& name) {
 }
 
 const auto& points_of(const detail::PlaneConformity::Store& store) { return store.vertices.pool(); }
-const auto& points_of(const detail::FeatureStore& store) { return store.points(); }
 
 // What an Algorithm makes of what was checked. `settings`: but for what is in the others.
 template <class Algorithm, int D, class Checked, class Stats>
@@ -120,6 +123,7 @@ Mesh<2> svr(const std::vector<Point<2>>& points, const std::vector<Segment>& seg
   return run<detail::ComplexSvr<2>>(graph, options, extent, {{}, settings.k}, stats, control);
 }
 
+#ifndef MESHER_PLANE_ONLY
 Mesh<3> refine(const std::vector<Point<3>>& points, const std::vector<Segment>& segments,
                const std::vector<Polygon>& polygons, const Options<3>& options,
                const RefinedExtent<3>& extent, const RefineSettings& settings,
@@ -139,5 +143,6 @@ Mesh<3> svr(const std::vector<Point<3>>& points, const std::vector<Segment>& seg
   const detail::CheckedComplex complex(points, segments, polygons, options, ids, control);
   return run<detail::ComplexSvr<3>>(complex, options, extent, {{}, settings.k}, stats, control);
 }
+#endif
 
 }  // namespace mesher

@@ -87,6 +87,8 @@ bool ConformingMesh<D>::stays(std::uint32_t s) const {
 }
 
 template class ConformingMesh<2>;
+#ifndef MESHER_PLANE_ONLY
 template class ConformingMesh<3>;
+#endif
 
 }  // namespace mesher::detail

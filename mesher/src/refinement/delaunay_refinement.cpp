@@ -124,10 +124,12 @@ RefineStats DelaunayRefinement<D, Queue, Mesh>::stats() const {
 }
 
 template class DelaunayRefinement<2, PowersOfTwo>;
-template class DelaunayRefinement<3, PowersOfTwo>;
 template class DelaunayRefinement<2, StrictQueue>;
-template class DelaunayRefinement<3, StrictQueue>;
 template class DelaunayRefinement<2, PowersOfTwo, ConformingMesh<2>>;
+#ifndef MESHER_PLANE_ONLY
+template class DelaunayRefinement<3, PowersOfTwo>;
+template class DelaunayRefinement<3, StrictQueue>;
 template class DelaunayRefinement<3, PowersOfTwo, ConformingMesh<3>>;
+#endif
 
 }  // namespace mesher::detail

@@ -98,8 +98,10 @@ std::vector<Point<D>> in_distinct_order(const std::vector<Point<D>>& points,
 template std::vector<Point<2>> in_distinct_order<2>(const std::vector<Point<2>>&,
                                                     const std::vector<PointId>&, const Box<2>&,
                                                     const MeshBox<2>&);
+#ifndef MESHER_PLANE_ONLY
 template std::vector<Point<3>> in_distinct_order<3>(const std::vector<Point<3>>&,
                                                     const std::vector<PointId>&, const Box<3>&,
                                                     const MeshBox<3>&);
+#endif
 
 }  // namespace mesher::detail

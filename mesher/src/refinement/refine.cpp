@@ -24,7 +24,9 @@ Mesh<D> refine(const std::vector<Point<D>>& points, const Options<D>& options,
 
 template Mesh<2> refine<2>(const std::vector<Point<2>>&, const Options<2>&, const RefineSettings&,
                            const std::vector<PointId>&, RefineStats*, const RunControl&);
+#ifndef MESHER_PLANE_ONLY
 template Mesh<3> refine<3>(const std::vector<Point<3>>&, const Options<3>&, const RefineSettings&,
                            const std::vector<PointId>&, RefineStats*, const RunControl&);
+#endif
 
 }  // namespace mesher

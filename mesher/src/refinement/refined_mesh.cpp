@@ -69,6 +69,8 @@ void RefinedMesh<D>::set_figures(RefineStats& stats) const {
 }
 
 template class RefinedMesh<2>;
+#ifndef MESHER_PLANE_ONLY
 template class RefinedMesh<3>;
+#endif
 
 }  // namespace mesher::detail

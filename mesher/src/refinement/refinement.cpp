@@ -323,14 +323,16 @@ SvrStats Refinement<D, Mesh, Location>::stats() const {
 }
 
 template class Refinement<2, RefinedMesh<2>>;
-template class Refinement<3, RefinedMesh<3>>;
 template class Refinement<2, RefinedMesh<2>, VoronoiLocation<2, ShellLists<2>>>;
-template class Refinement<3, RefinedMesh<3>, VoronoiLocation<3, ShellLists<3>>>;
 template class Refinement<2, RefinedMesh<2>, SimplexLocation<2>>;
-template class Refinement<3, RefinedMesh<3>, SimplexLocation<3>>;
 template class Refinement<2, RefinedMesh<2>, BallLocation<2>>;
-template class Refinement<3, RefinedMesh<3>, BallLocation<3>>;
 template class Refinement<2, ConformingMesh<2>>;
+#ifndef MESHER_PLANE_ONLY
+template class Refinement<3, RefinedMesh<3>>;
+template class Refinement<3, RefinedMesh<3>, VoronoiLocation<3, ShellLists<3>>>;
+template class Refinement<3, RefinedMesh<3>, SimplexLocation<3>>;
+template class Refinement<3, RefinedMesh<3>, BallLocation<3>>;
 template class Refinement<3, ConformingMesh<3>>;
+#endif
 
 }  // namespace mesher::detail

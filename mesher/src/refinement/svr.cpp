@@ -48,7 +48,9 @@ Mesh<D> svr(const std::vector<Point<D>>& points, const Options<D>& options,
 
 template Mesh<2> svr<2>(const std::vector<Point<2>>&, const Options<2>&, const SvrSettings&,
                         const std::vector<PointId>&, SvrStats*, const RunControl&);
+#ifndef MESHER_PLANE_ONLY
 template Mesh<3> svr<3>(const std::vector<Point<3>>&, const Options<3>&, const SvrSettings&,
                         const std::vector<PointId>&, SvrStats*, const RunControl&);
+#endif
 
 }  // namespace mesher

@@ -61,7 +61,9 @@ unsigned Buckets<D>::colour(const Fixed<D>& f, int b) const {
 }
 
 template class Buckets<2>;
+#ifndef MESHER_PLANE_ONLY
 template class Buckets<3>;
 template class Buckets<4>;
+#endif
 
 }  // namespace mesher::detail

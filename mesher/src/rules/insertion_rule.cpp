@@ -99,19 +99,21 @@ Promise promise(Rule rule, double rho) {
 }
 
 template class InsertionRule<2>;
-template class InsertionRule<3>;
-template class InsertionRule<4>;
 template std::unique_ptr<const InsertionRule<2>> insertion_rule<2>(const Options<2>&,
                                                                    const MeshBox<2>&,
                                                                    const LimitsOf<2>&);
+template Promise promise<2>(Rule, double);
+#ifndef MESHER_PLANE_ONLY
+template class InsertionRule<3>;
+template class InsertionRule<4>;
 template std::unique_ptr<const InsertionRule<3>> insertion_rule<3>(const Options<3>&,
                                                                    const MeshBox<3>&,
                                                                    const LimitsOf<3>&);
 template std::unique_ptr<const InsertionRule<4>> insertion_rule<4>(const Options<4>&,
                                                                    const MeshBox<4>&,
                                                                    const LimitsOf<4>&);
-template Promise promise<2>(Rule, double);
 template Promise promise<3>(Rule, double);
 template Promise promise<4>(Rule, double);
+#endif
 
 }  // namespace mesher::detail

@@ -90,7 +90,9 @@ MeshBox<D> mesh_box(const Options<D>& options) {
 }
 
 template MeshBox<2> mesh_box<2>(const Options<2>&);
+#ifndef MESHER_PLANE_ONLY
 template MeshBox<3> mesh_box<3>(const Options<3>&);
 template MeshBox<4> mesh_box<4>(const Options<4>&);
+#endif
 
 }  // namespace mesher::detail

@@ -158,6 +158,7 @@ bool RadiusEdge<D>::is_good(const CellOf<D>& cell, int t) const {
   return !Base::exceeds(cell.corner2(t), shortest2);
 }
 
+#ifndef MESHER_PLANE_ONLY
 // Whether the tetrahedron of corner t, all visible, is larger than the limit at its centroid, which
 // is computed alike by all of its corners.
 template <>
@@ -170,6 +171,7 @@ bool RadiusEdge<3>::is_large(const VoronoiCell3& cell, int t) const {
       CornersOf<3>{cell.center().p, cell.place(ends[0]), cell.place(ends[1]), cell.place(ends[2])});
   return volume > limits_->measure(middle) * kLargest;
 }
+#endif
 
 // Beyond space there are no limits.
 template <int D>
@@ -267,7 +269,9 @@ std::optional<int> RadiusEdge<D>::next_bucket(const CellOf<D>& cell, int b,
 }
 
 template class RadiusEdge<2>;
+#ifndef MESHER_PLANE_ONLY
 template class RadiusEdge<3>;
 template class RadiusEdge<4>;
+#endif
 
 }  // namespace mesher::detail

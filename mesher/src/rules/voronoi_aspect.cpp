@@ -48,7 +48,9 @@ auto VoronoiAspect<D>::next_point(const CellOf<D>& cell, int, const EdgeFilter<D
 }
 
 template class VoronoiAspect<2>;
+#ifndef MESHER_PLANE_ONLY
 template class VoronoiAspect<3>;
 template class VoronoiAspect<4>;
+#endif
 
 }  // namespace mesher::detail

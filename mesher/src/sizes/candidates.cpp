@@ -158,6 +158,8 @@ CellPlan<D> plan_of(const Limits<D>& limits, const MeshBox<D>& box, const Cell<D
   return plan;
 }
 template CellPlan<2> plan_of(const Limits<2>&, const MeshBox<2>&, const Cell<2>&);
+#ifndef MESHER_PLANE_ONLY
 template CellPlan<3> plan_of(const Limits<3>&, const MeshBox<3>&, const Cell<3>&);
+#endif
 
 }  // namespace mesher::detail

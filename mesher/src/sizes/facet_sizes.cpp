@@ -99,6 +99,8 @@ SizeRange FacetSizes<D>::range(const Box<D>& box) const {
 }
 
 template class FacetSizes<2>;
+#ifndef MESHER_PLANE_ONLY
 template class FacetSizes<3>;
+#endif
 
 }  // namespace mesher::detail

@@ -16,11 +16,14 @@ namespace mesher::detail {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::bad_option, what); }
+[[noreturn]] void refuse_limit(const std::string& what) {
+  throw Error(ErrorCode::bad_option, what);
+}
 
 [[noreturn]] void fail_too_small(double spacing, double coordinates) {
-  refuse("a spacing of " + text::to_text(spacing) +
-         " is too small for double precision at coordinates up to " + text::to_text(coordinates));
+  refuse_limit("a spacing of " + text::to_text(spacing) +
+               " is too small for double precision at coordinates up to " +
+               text::to_text(coordinates));
 }
 
 // Not so if a side is not a number.
@@ -71,15 +74,15 @@ Limits<D>::Limits(const Options<D>& options, const MeshBox<D>& box)
   const auto limits = [](const Part& p) { return p.measure != kNone || p.sizes != nullptr; };
   const bool asked = any_ || std::any_of(parts_.begin(), parts_.end(), limits);
   if (asked && options.rule != Rule::radius_edge) {
-    refuse("limits of size need the rule radius-edge");
+    refuse_limit("limits of size need the rule radius-edge");
   }
   make_set(plateaus_);
 }
 
 template <int D>
 void Limits<D>::add_part(const Box<D>& box, const SizeLimits<D>& limits) {
-  if (!is_ordered(box)) refuse("a box of limits is empty");
-  if (!(limits.max_measure >= 0)) refuse("max_measure must be above 0");
+  if (!is_ordered(box)) refuse_limit("a box of limits is empty");
+  if (!(limits.max_measure >= 0)) refuse_limit("max_measure must be above 0");
   const double measure = limits.max_measure != 0 ? limits.max_measure : kNone;
   parts_.push_back({box, measure, add_plateau(spacing(measure)), limits.sizes});
   if (limits.sizes == nullptr) return;
@@ -140,7 +143,7 @@ template <int D>
 auto Limits<D>::look(const Part& part, const Point<D>& p) const -> Look {
   if (part.sizes == nullptr) return {part.measure, part.pitch};
   const double h = part.sizes->at(p);
-  if (!(h > 0)) refuse("the size at " + place_text(p) + " is not above 0");
+  if (!(h > 0)) refuse_limit("the size at " + place_text(p) + " is not above 0");
   const double measure = measure_of_size<D>(h);
   if (part.measure <= measure) return {part.measure, part.pitch};
   return {measure, 0, part.has_plateaus};
@@ -229,6 +232,8 @@ auto Limits<D>::pitches_in(const Box<D>& box) const -> Pitches {
 }
 
 template class Limits<2>;
+#ifndef MESHER_PLANE_ONLY
 template class Limits<3>;
+#endif
 
 }  // namespace mesher::detail

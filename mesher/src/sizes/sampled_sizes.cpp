@@ -24,7 +24,9 @@ SizeRange SlopedSizes<D>::range(const Box<D>& box) const {
   return {std::max(here - change, least_), here + change};
 }
 template class SlopedSizes<2>;
+#ifndef MESHER_PLANE_ONLY
 template class SlopedSizes<3>;
+#endif
 
 namespace {
 
@@ -153,6 +155,8 @@ std::shared_ptr<const SizeField<D>> sampled_sizes(
   return std::make_shared<SampledSizes<D>>(cube, std::move(facets));
 }
 template std::shared_ptr<const SizeField<2>> sampled_sizes<2>(const std::vector<SizeSample<2>>&);
+#ifndef MESHER_PLANE_ONLY
 template std::shared_ptr<const SizeField<3>> sampled_sizes<3>(const std::vector<SizeSample<3>>&);
+#endif
 
 }  // namespace mesher

@@ -19,8 +19,10 @@ void set_limits(Options<D>& options, const std::type_identity_t<Box<D>>& box,
 }
 
 template void set_limits(Options<2>&, const SizeLimits<2>&);
-template void set_limits(Options<3>&, const SizeLimits<3>&);
 template void set_limits(Options<2>&, const Box<2>&, const SizeLimits<2>&);
+#ifndef MESHER_PLANE_ONLY
+template void set_limits(Options<3>&, const SizeLimits<3>&);
 template void set_limits(Options<3>&, const Box<3>&, const SizeLimits<3>&);
+#endif
 
 }  // namespace mesher
