@@ -28,11 +28,10 @@ class Claims final : public sac::Structure {
   explicit Claims(sac::Engine& engine) : engine_(engine), id_(engine.add_structure(*this)) {}
 
   /// Claims `key` for the running call. Returns whether nobody has claimed it before.
-  /// Throws: UsageError if a child of the call has; std::bad_alloc.
+  /// Throws: std::bad_alloc.
   bool claim(sac::Scope& s, const Key& key);
 
   void retract(sac::Call& call, sac::Edge& edge) noexcept override;
-  void hide(sac::Call& call, sac::Edge& edge, sac::Handle end) noexcept override;
   void label(const sac::Call& call, const sac::Edge& edge, sac::LabelSink& sink) const override;
   void print(const sac::Call& call, const sac::Edge& edge, std::ostream& out) const override;
 
@@ -44,7 +43,7 @@ class Claims final : public sac::Structure {
 
   // What a call did, and what it was told.
   struct Claim : sac::Edge {
-    sac::Handle call;
+    sac::Handle place;
     bool first;                        // what it was told
     bool entered;                      // false: memory ran out before it was among the claimants
     typename Claimants::iterator key;  // where, if it was
@@ -53,10 +52,11 @@ class Claims final : public sac::Structure {
 
   Claim& enter(sac::Scope& s, const Key& key);
   void put_behind_repeated(const Claim& claim) noexcept;
-  void require_before_children(const Claim& claim) const;
   void tell(const std::vector<Claim*>& claims) noexcept;
   [[nodiscard]] bool is_first(const Claim& claim) const;
-  [[nodiscard]] sac::Call& call_of(const Claim& claim) const { return engine_.call(claim.call); }
+  [[nodiscard]] bool is_old(const Claim& claim) const {
+    return sac::is_old(engine_.call_at(claim.place), claim);
+  }
 
   sac::Engine& engine_;
   std::uint8_t id_;
@@ -69,7 +69,6 @@ bool Claims<Key, S>::claim(sac::Scope& s, const Key& key) {
   Claim* claim = s.recall<Claim>(id_, kClaim, same);
   if (claim == nullptr) claim = &s.guarded([&]() -> Claim& { return enter(s, key); });
   put_behind_repeated(*claim);
-  s.guarded([&] { require_before_children(*claim); });
   claim->first = is_first(*claim);
   tell(claim->key->second);
   return claim->first;
@@ -80,13 +79,14 @@ bool Claims<Key, S>::claim(sac::Scope& s, const Key& key) {
 template <class Key, class S>
 auto Claims<Key, S>::enter(sac::Scope& s, const Key& key) -> Claim& {
   Claim& claim = s.effect<Claim>(id_, kClaim);
-  claim.call = engine_.handle_of(s.self());
+  claim.place = s.place();
   claim.entered = false;
   const auto at = claimants_.try_emplace(key).first;
   auto& claims = at->second;
   const auto place = std::upper_bound(
-      claims.begin(), claims.end(), &claim,
-      [&](const Claim* a, const Claim* b) { return engine_.precedes(call_of(*a), call_of(*b)); });
+      claims.begin(), claims.end(), &claim, [&](const Claim* a, const Claim* b) {
+        return engine_.precedes(engine_.time(a->place), engine_.time(b->place));
+      });
   try {
     claims.insert(place, &claim);
   } catch (...) {
@@ -95,38 +95,22 @@ auto Claims<Key, S>::enter(sac::Scope& s, const Key& key) -> Claim& {
   }
   claim.key = at;
   claim.entered = true;
-  // A call around this one has claimed the key behind children of its own: behind this one?
-  for (const Claim* c : claims) {
-    if (c->behind) engine_.rerun_if_around(call_of(*c), s.self());
-  }
   return claim;
 }
 
-// Of several claims of one call, those of this execution come first, in its order: which of last
+// Of several claims at one place, those of this execution come first, in its order: which of last
 // time's is found again is not.
 template <class Key, class S>
 void Claims<Key, S>::put_behind_repeated(const Claim& claim) noexcept {
   auto& claims = claim.key->second;
   const auto self = std::find(claims.begin(), claims.end(), &claim);
   auto place = self;
-  while (place != claims.begin() && (*std::prev(place))->call == claim.call) --place;
+  while (place != claims.begin() && (*std::prev(place))->place == claim.place) --place;
   const auto comes_before = [&](const Claim* c) {
-    return c->call == claim.call && (c == &claim || !sac::unrepeated(call_of(*c), *c));
+    return c->place == claim.place && (c == &claim || !is_old(*c));
   };
   while (place != claims.end() && comes_before(*place)) ++place;
   place > self ? std::rotate(self, self + 1, place) : std::rotate(place, self, self + 1);
-}
-
-// What a call does is at the place of the call: before what its children do.
-template <class Key, class S>
-void Claims<Key, S>::require_before_children(const Claim& claim) const {
-  const auto& claims = claim.key->second;
-  const auto next = std::upper_bound(
-      claims.begin(), claims.end(), &claim,
-      [&](const Claim* a, const Claim* b) { return engine_.precedes(call_of(*a), call_of(*b)); });
-  if (next == claims.end() || engine_.lies_ahead(call_of(**next))) return;
-  throw sac::UsageError(engine_.describe(call_of(claim)) + " claims what its own child " +
-                        engine_.describe(call_of(**next)) + " has claimed");
 }
 
 // What a running call has claimed last time, and not again, is not there.
@@ -134,7 +118,7 @@ template <class Key, class S>
 bool Claims<Key, S>::is_first(const Claim& claim) const {
   for (const Claim* c : claim.key->second) {
     if (c == &claim) return true;
-    if (!sac::unrepeated(call_of(*c), *c)) return false;
+    if (!is_old(*c)) return false;
   }
   return false;
 }
@@ -145,9 +129,8 @@ template <class Key, class S>
 void Claims<Key, S>::tell(const std::vector<Claim*>& claims) noexcept {
   int there = 0;
   for (std::size_t i = 0; i < claims.size() && there < 2; ++i) {
-    sac::Call& call = call_of(*claims[i]);
-    if (sac::unrepeated(call, *claims[i])) continue;
-    if (claims[i]->first != (there == 0)) engine_.invalidate(call);
+    if (is_old(*claims[i])) continue;
+    if (claims[i]->first != (there == 0)) engine_.invalidate(claims[i]->place);
     ++there;
   }
 }
@@ -160,20 +143,6 @@ void Claims<Key, S>::retract(sac::Call&, sac::Edge& edge) noexcept {
   claims.erase(std::find(claims.begin(), claims.end(), &claim));
   tell(claims);
   if (claims.empty()) claimants_.erase(claim.key);
-}
-
-// The next claim behind it may be the first now, for a child.
-template <class Key, class S>
-void Claims<Key, S>::hide(sac::Call& call, sac::Edge& edge, sac::Handle end) noexcept {
-  auto& claim = static_cast<Claim&>(edge);
-  if (!claim.entered) return;
-  const auto& claims = claim.key->second;
-  const auto next = std::find_if(
-      std::find(claims.begin(), claims.end(), &claim), claims.end(),
-      [&](const Claim* c) { return !sac::unrepeated(call_of(*c), *c); });
-  if (next != claims.end() && engine_.lies_between(call, call_of(**next), end)) {
-    engine_.invalidate(call_of(**next));
-  }
 }
 
 template <class Key, class S>
@@ -195,7 +164,8 @@ void Claims<Key, S>::check_invariants() const {
     SAC_INVARIANT(!claims.empty());
     for (std::size_t i = 0; i < claims.size(); ++i) {
       SAC_INVARIANT(claims[i]->key->first == key && claims[i]->first == (i == 0));
-      SAC_INVARIANT(i == 0 || !engine_.precedes(call_of(*claims[i]), call_of(*claims[i - 1])));
+      SAC_INVARIANT(i == 0 || !engine_.precedes(engine_.time(claims[i]->place),
+                                                   engine_.time(claims[i - 1]->place)));
     }
   }
 }

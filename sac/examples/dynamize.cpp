@@ -340,32 +340,33 @@ void measure_tasks(std::ostream& print, std::string_view name) {
   print_audit(print, e.audit());
 }
 
-void one(sac::Scope& s, sac::Mod<int> out) { s.write(out, 1); }
-
-void read_behind_child(sac::Scope& s, sac::Mod<int> x, sac::Mod<int> out) {
-  s.call<one>(x);
-  s.write(out, s.read(x));
+void square(sac::Scope& s, sac::Mod<int> in, sac::Mod<int> out) {
+  const int x = s.read(in);
+  s.write(out, x * x);
 }
 
-void copy(sac::Scope& s, sac::Mod<int> x, sac::Mod<int> out) { s.write(out, s.read(x)); }
-
-void read_in_child(sac::Scope& s, sac::Mod<int> x, sac::Mod<int> out) {
-  s.call<one>(x);
-  s.tail<copy>(x, out);
-}
-
-void reads_behind_children() {
-  sac::Engine e;
-  const auto x = e.cell<int>(), out = e.cell<int>();
-  bool refused = false;
-  try {
-    e.run<read_behind_child>(x, out);
-  } catch (const sac::UsageError&) {
-    refused = true;
+void sum_of_squares(sac::Scope& s, sac::Mod<int> out) {
+  const auto& inputs = s.environment<std::vector<sac::Mod<int>>>();
+  int sum = 0;
+  for (int i = 0; i < static_cast<int>(inputs.size()); ++i) {
+    const auto squared = s.cell<int>(i);
+    s.call<square>(inputs[i], squared);
+    sum += s.read(squared);
   }
-  check(refused);
-  e.run<read_in_child>(x, out);
-  check(e.get(out) == 1);
+  s.write(out, sum);
+}
+
+void results_of_children() {
+  sac::Engine e;
+  std::vector<sac::Mod<int>> inputs{e.input(1), e.input(2), e.input(3)};
+  e.set_environment(&inputs);
+  const auto out = e.cell<int>();
+  e.run<sum_of_squares>(out);
+  check(e.get(out) == 14);
+  e.set(inputs[1], 5);
+  check(e.propagate().executed == 2 && e.get(out) == 35);
+  e.set(inputs[1], -5);
+  check(e.propagate().executed == 1);
 }
 
 /// Prints what the document shows.
@@ -382,7 +383,7 @@ void run_all(std::ostream& print) {
         << "mark_all: W = " << work_of_marks<mark_all>() << '\n';
   measure_tasks<serve_sorted>(print, "serve_sorted");
   measure_tasks<serve_all>(print, "serve_all");
-  reads_behind_children();
+  results_of_children();
 }
 
 }  // namespace dynamize

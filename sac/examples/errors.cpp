@@ -44,9 +44,9 @@ void throwing(std::ostream& print) {
 
 void one(sac::Scope& s, sac::Mod<int> x) { s.write(x, 1); }
 
-void child_first(sac::Scope& s, sac::Mod<int> x, sac::Mod<int> out) {
-  s.call<one>(x);
+void read_first(sac::Scope& s, sac::Mod<int> x, sac::Mod<int> out) {
   s.write(out, s.read(x));
+  s.call<one>(x);
 }
 
 void mistake(std::ostream& print) {
@@ -54,7 +54,7 @@ void mistake(std::ostream& print) {
   const auto x = e.cell<int>(), out = e.cell<int>();
   e.name(x, "counter");
   try {
-    e.run<child_first>(x, out);
+    e.run<read_first>(x, out);
   } catch (const sac::UsageError& error) {
     print << error.what() << '\n';
   }

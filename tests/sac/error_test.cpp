@@ -152,28 +152,6 @@ TEST_CASE("a call that comes to read what a later call writes") {
   e.check_invariants();
 }
 
-void read_after_child(Scope& s, Mod<int> in, Mod<int> m, Mod<int> out) {
-  s.call<copy>(in, m);
-  s.write(out, s.read(m));
-}
-void write_after_child(Scope& s, Mod<int> in, Mod<int> m, Mod<int> out) {
-  s.write(m, s.read(in));
-  s.call<copy>(m, out);
-  s.write(m, s.read(in) + 1);
-}
-
-TEST_CASE("reading what an own child has written, and writing what one has read") {
-  Engine e;
-  const auto in = e.input(1), out = e.cell<int>();
-  const auto m = named(e, e.cell<int>(), "m");
-  CHECK(error_of([&] { e.run<read_after_child>(in, m, out); }) ==
-        call("read_after_child", in, m, out) + " reads " + text("m", m) + " after its own child " +
-            call("copy", in, m) + " has written it");
-  CHECK(error_of([&] { e.run<write_after_child>(in, m, out); }) ==
-        call("write_after_child", in, m, out) + " writes " + text("m", m) +
-            " after its own child " + call("copy", m, out) + " has read it");
-}
-
 // --- Writing -------------------------------------------------------------------------------------
 
 TEST_CASE("writing an input, and setting what the program writes") {

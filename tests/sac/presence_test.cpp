@@ -21,22 +21,22 @@ class Thing : public sac::Structure {
     const auto any = [](const Producing&) { return true; };
     if (s.recall<Producing>(id_, kProducing, any) != nullptr) return;
     auto& edge = s.effect<Producing>(id_, kProducing);
-    tell(presences_.produced(presence_, edge, s.self()));
+    tell(presences_.produced(presence_, edge, s.place()));
   }
   bool is_there(sac::Scope& s) {
     const auto any = [](const Asking&) { return true; };
     if (s.recall<Asking>(id_, kAsking, any) == nullptr) {
       auto& edge = s.observe<Asking>(id_, kAsking);
-      edge.call = engine_.handle_of(s.self());
-      asking_.push_back(edge.call);
+      edge.place = s.place();
+      asking_.push_back(edge.place);
     }
-    return presences_.seen_by(presence_, s.self());
+    return presences_.seen_at(presence_, s.place());
   }
   void retract(sac::Call&, sac::Edge& edge) noexcept override {
     if (edge.kind == kProducing) {
       return tell(presences_.retracted(presence_, static_cast<Producing&>(edge)));
     }
-    asking_.erase(std::find(asking_.begin(), asking_.end(), static_cast<Asking&>(edge).call));
+    asking_.erase(std::find(asking_.begin(), asking_.end(), static_cast<Asking&>(edge).place));
   }
   [[nodiscard]] const sac::Presence& presence() const { return presence_; }
   void check_invariants() const override { presences_.check_invariants(presence_); }
@@ -46,13 +46,13 @@ class Thing : public sac::Structure {
   static constexpr std::uint8_t kAsking = 1;
   struct Producing : sac::ProducerEdge {};
   struct Asking : sac::Edge {
-    sac::Handle call;
+    sac::Handle place;
   };
 
   void tell(const std::optional<sac::Window>& window) noexcept {
     if (!window.has_value()) return;
     for (const sac::Handle h : asking_) {
-      if (window->contains(engine_, engine_.call(h))) engine_.invalidate(engine_.call(h));
+      if (window->contains(engine_, engine_.time(h))) engine_.invalidate(h);
     }
   }
 

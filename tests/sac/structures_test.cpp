@@ -79,14 +79,14 @@ TEST_CASE("the propagation queue pops calls in trace order, whatever was pushed 
     auto& call = *calls.arena.at<sac::Call>(order[i]);
     if (step % 500 == 499) queue.sort();
     if (random(3) == 0 && !queued.empty()) {
-      REQUIRE(queue.front() == order[*queued.begin()]);
-      REQUIRE(queue.pop() == order[*queued.begin()]);
+      REQUIRE(queue.front().call == order[*queued.begin()]);
+      REQUIRE(queue.pop().call == order[*queued.begin()]);
       queued.erase(queued.begin());
     } else if (call.queue != 0) {
       queue.erase(call);
       queued.erase(i);
     } else {
-      queue.push(order[i]);
+      queue.push({order[i], order[i]});
       queued.insert(i);
     }
     queue.check_invariants();

@@ -29,11 +29,16 @@ struct Fixture {
     state = sac::mix(state + 0x9e3779b97f4a7c15u);
     return state % n;
   }
+  static TimeNode::Kind kind_of(Handle node) {
+    constexpr TimeNode::Kind kKinds[] = {TimeNode::Kind::end, TimeNode::Kind::call,
+                                         TimeNode::Kind::segment};
+    return kKinds[node % 3];
+  }
   TimeNode& at(Handle h) { return *arena.at<TimeNode>(h); }
   Handle fresh() {
     const Handle node = arena.allocate(sizeof(TimeNode));
     ::new (arena.at<void>(node)) TimeNode;
-    if (node % 3 == 0) at(node).mark();
+    at(node).set_kind(kind_of(node));
     return node;
   }
   void insert(std::size_t i) { insert(i, fresh()); }
@@ -76,7 +81,7 @@ struct Fixture {
       same = same && node == expected &&
              (previous == nullptr || timeline.precedes(*previous, at(node))) &&
              (previous == nullptr || !timeline.precedes(at(node), *previous)) &&
-             (node == timeline.front() || at(node).marked() == (node % 3 == 0));
+             (node == timeline.front() || at(node).kind() == kind_of(node));
       previous = &at(node);
       node = at(node).next;
     }
@@ -97,13 +102,15 @@ struct Fixture {
   }
 };
 
-TEST_CASE("a group number has 31 bits and leaves the mark alone") {
+TEST_CASE("a group number has 30 bits and leaves the kind alone") {
   TimeNode n;
-  n.group_and_mark = 0x7ffffffeu;
-  CHECK_FALSE(n.marked());
-  n.mark();
-  CHECK(n.marked());
-  CHECK(n.group() == 0x7ffffffeu);
+  n.group_and_kind = 0x3ffffffeu;
+  CHECK(n.is_call());
+  for (const auto kind : {TimeNode::Kind::segment, TimeNode::Kind::end, TimeNode::Kind::call}) {
+    n.set_kind(kind);
+    CHECK(n.kind() == kind);
+    CHECK(n.group() == 0x3ffffffeu);
+  }
 }
 
 TEST_CASE("appending keeps the order") {

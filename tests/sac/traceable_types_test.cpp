@@ -198,7 +198,7 @@ void claim_late(sac::Scope& s) {
   s.environment<Claiming>().claims.claim(s, 5);
 }
 
-TEST_CASE("a second claim of a call is too late; a call claims before its children do") {
+TEST_CASE("a second claim of a call is too late; claims are in the order of the text") {
   sac::Engine e;
   Numbers claims(e);
   Claiming world{claims, e.input(5), {}};
@@ -218,7 +218,7 @@ TEST_CASE("a second claim of a call is too late; a call claims before its childr
   e.propagate();
   CHECK(got() == std::vector{true, false, false, false});
   claims.check_invariants();
-  CHECK_THROWS_AS(e.run<claim_late>(), sac::UsageError);
+  e.run<claim_late>();
   claims.check_invariants();
   e.check_invariants();
 }

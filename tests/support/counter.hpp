@@ -30,7 +30,7 @@ class Counter final : public sac::Structure {
       entry = &s.effect<Entry>(id_, kAdd);
       start(s, *entry, key, amount);
     }
-    if (std::exchange(entry->hidden, false) || fresh) tell(*entry, 0);
+    if (fresh) tell(*entry);
   }
 
   [[nodiscard]] int total(sac::Scope& s, int key) {
@@ -48,14 +48,7 @@ class Counter final : public sac::Structure {
     auto& entry = static_cast<Entry&>(edge);
     if (!entry.entered) return;
     std::erase(of(entry), &entry);
-    if (entry.kind == kAdd) tell(entry, 0);
-  }
-
-  void hide(sac::Call&, sac::Edge& edge, sac::Handle end) noexcept override {
-    auto& entry = static_cast<Entry&>(edge);
-    if (entry.kind != kAdd || !entry.entered || entry.hidden) return;
-    entry.hidden = true;
-    tell(entry, end);
+    if (entry.kind == kAdd) tell(entry);
   }
 
   void label(const sac::Call&, const sac::Edge& edge, sac::LabelSink& sink) const override {
@@ -68,7 +61,7 @@ class Counter final : public sac::Structure {
     for (const auto& entries : {&adds_, &totals_}) {
       for (const auto& [key, list] : *entries) {
         for (const Entry* entry : list) {
-          SAC_INVARIANT(entry->entered && entry->key == key && !entry->hidden);
+          SAC_INVARIANT(entry->entered && entry->key == key);
           SAC_INVARIANT(entry->kind == kAdd || entry->amount == sum_before(*entry));
         }
       }
@@ -77,11 +70,10 @@ class Counter final : public sac::Structure {
 
  private:
   struct Entry : sac::Edge {
-    sac::Handle call;
+    sac::Handle place;
     int key;
     int amount;    // added, or seen
     bool entered;  // false: memory ran out before it was in the list
-    bool hidden;   // those behind it have been told that it is not there
   };
   using Entries = std::map<int, std::vector<Entry*>>;
   static constexpr std::uint8_t kAdd = 0;
@@ -90,28 +82,28 @@ class Counter final : public sac::Structure {
   [[nodiscard]] std::vector<Entry*>& of(const Entry& entry) {
     return (entry.kind == kAdd ? adds_ : totals_)[entry.key];
   }
-  [[nodiscard]] const sac::Call& call_of(const Entry& entry) const {
-    return engine_.call(entry.call);
+  [[nodiscard]] bool precedes(const Entry& a, const Entry& b) const {
+    return engine_.precedes(engine_.time(a.place), engine_.time(b.place));
   }
 
   void start(sac::Scope& s, Entry& entry, int key, int amount) {
-    entry.call = engine_.handle_of(s.self());
+    entry.place = s.place();
     entry.key = key;
     entry.amount = amount;
-    entry.entered = entry.hidden = false;
+    entry.entered = false;
     of(entry).push_back(&entry);
     entry.entered = true;
   }
 
-  // What the call itself has added before it asked; not what it did last time.
+  // What the call itself has added at this place before it asked; not what it did last time.
   [[nodiscard]] int own_before(const Entry& total) const {
     int sum = 0;
     bool before = true;
-    engine_.for_each_edge(call_of(total), [&](const sac::Edge& edge) {
+    engine_.for_each_edge(engine_.call_at(total.place), [&](const sac::Edge& edge) {
       before = before && &edge != &total;
       if (!before || edge.structure != id_ || edge.kind != kAdd) return;
       const auto& add = static_cast<const Entry&>(edge);
-      if (add.key == total.key) sum += add.amount;
+      if (add.key == total.key && add.place == total.place) sum += add.amount;
     });
     return sum;
   }
@@ -121,19 +113,17 @@ class Counter final : public sac::Structure {
     const auto it = adds_.find(total.key);
     if (it == adds_.end()) return sum;
     for (const Entry* add : it->second) {
-      if (sac::unrepeated(call_of(*add), *add)) continue;
-      if (engine_.precedes(call_of(*add), call_of(total))) sum += add->amount;
+      if (precedes(*add, total)) sum += add->amount;
     }
     return sum;
   }
 
-  // Those that have seen it, up to `end`, are to run again.
-  void tell(const Entry& add, sac::Handle end) noexcept {
+  // Those that have seen it are to run again.
+  void tell(const Entry& add) noexcept {
     const auto it = totals_.find(add.key);
     if (it == totals_.end()) return;
     for (const Entry* total : it->second) {
-      sac::Call& call = engine_.call(total->call);
-      if (engine_.lies_between(call_of(add), call, end)) engine_.invalidate(call);
+      if (precedes(add, *total)) engine_.invalidate(total->place);
     }
   }
 

@@ -7,7 +7,6 @@
 // (4) What fails in a call fails the run, whether caught or not; but for what a body throws and
 //     catches itself.
 // (5) Traced functions do not use the client's side of the engine.
-// Reads and writes behind calls are beyond it: it is unsure of what is run from then on.
 #pragma once
 
 #include <compare>
@@ -32,7 +31,6 @@ struct PostedLabel {
 class Judge {
  public:
   [[nodiscard]] bool refused() const { return refused_; }
-  [[nodiscard]] bool sure() const { return sure_; }
 
   /// Throws: UsageError, as the engine would.
   [[noreturn]] void refuse() {
@@ -41,7 +39,6 @@ class Judge {
   }
   /// What was refused was caught: the run fails all the same.
   void resent() { refused_ = true; }
-  void be_unsure() { sure_ = false; }
 
   void post(std::size_t agenda, const PostedLabel& label, const sac::Key& key) {
     Queue& queue = at(agenda);
@@ -84,7 +81,6 @@ class Judge {
 
   std::vector<Queue> queues_;
   bool refused_ = false;
-  bool sure_ = true;
 };
 
 }  // namespace support

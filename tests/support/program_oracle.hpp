@@ -103,7 +103,6 @@ void Traced<V>::edit(const Step& step, Outside& outside) {
 
 /// What a plain run says.
 struct Verdict {
-  bool sure = true;         // false: it cannot say
   bool refused = false;     // a traced run must fail
   std::vector<int> values;  // what the program leaves, if it need not
 };
@@ -122,8 +121,8 @@ inline Verdict plain_verdict(const RandomProgram& program, const Outside& outsid
   } catch (const Refusal&) {
     threw = true;
   }
-  Verdict verdict{world.judge.sure(), threw || world.judge.refused(), {}};
-  if (verdict.sure && !verdict.refused) verdict.values = world.values(scope);
+  Verdict verdict{threw || world.judge.refused(), {}};
+  if (!verdict.refused) verdict.values = world.values(scope);
   return verdict;
 }
 
@@ -161,7 +160,6 @@ class Tally final : public sac::Observer {
 /// what it says of the rest of the trace, which a run from scratch does not have yet, and without
 /// callers, which need not run in a propagation.
 inline std::string essence(const std::string& message) {
-  if (message.find("its own child") != std::string::npos) return "after its own child";
   std::string text = message;
   if (text.find("is drained twice") != std::string::npos) text.erase(0, text.find("agenda '"));
   for (const char* rest : {"; of the first drain", ", which is written only by the later call",
@@ -240,7 +238,7 @@ class Session {
     scratch.fresh->world.calls_left = 8 * kMostCalls;
     scratch.refusal = refusal_of([&] { scratch.fresh->run(outside); });
     const bool refused = !scratch.refusal.empty();
-    if (scratch.verdict.sure && refused != scratch.verdict.refused) {
+    if (refused != scratch.verdict.refused) {
       wrong(refused ? "a first run must not refuse: " + scratch.refusal
                     : "a first run accepts what it must refuse");
     }
@@ -479,7 +477,7 @@ class Session {
     if (!scratch.fresh) wrong("accepted, but not from scratch: " + scratch.refusal);
     t_.check_invariants();
     state_ = t_.state();
-    if (scratch.verdict.sure && t_.world.values(t_.engine) != scratch.verdict.values) {
+    if (t_.world.values(t_.engine) != scratch.verdict.values) {
       wrong("values are not those of a plain run");
     }
     for (const auto& seen : t_.world.executions) {

@@ -23,7 +23,7 @@ struct Feature {
     keys = 8,        // keys that are no function of the label
     unequal = 16,    // posted arguments that do not equal themselves
     outside = 32,    // the client's side of the engine in a traced function
-    behind = 64      // reads and writes behind calls
+    behind = 64      // ops in any order: reads, writes, claims and posts behind calls as well
   };
   static constexpr unsigned kAll = 127;
 };
@@ -82,8 +82,9 @@ struct Op {
     catch_call,
     misuse,
     catch_misuse,
-    // reads and writes behind calls
-    late_read,
+    // calls what returns a value and goes on by a tail call,
+    answer,
+    // writes what an earlier op of the node has read
     late_write
   };
   static constexpr int kKinds = late_write + 1;
@@ -94,7 +95,8 @@ struct Op {
   int threshold;
 
   /// Ops of a node come in the order of their phases: reads and writes, allocation, calls, a tail
-  /// call. There is one of the last phase at most.
+  /// call. There is one of the last phase at most. In a program with ops of Feature::behind the first
+  /// three are one.
   [[nodiscard]] int phase() const {
     switch (kind) {
       case link:
@@ -245,12 +247,14 @@ struct RandomProgram {
 
   /// Targets that there are, phases in order, one op at most in the last phase.
   void make_valid() {
+    const bool in_any_order = has(Op::answer) || has(Op::late_write);
     for (int n = 0; n < size(); ++n) {
       auto& ops = node(n);
       std::erase_if(ops, [&](const Op& op) { return targets(op.kind, n) <= 0; });
       for (Op& op : ops) op.target %= targets(op.kind, n);
-      std::stable_sort(ops.begin(), ops.end(),
-                       [](const Op& a, const Op& b) { return a.phase() < b.phase(); });
+      std::stable_sort(ops.begin(), ops.end(), [&](const Op& a, const Op& b) {
+        return in_any_order ? a.phase() < 3 && b.phase() == 3 : a.phase() < b.phase();
+      });
       while (ops.size() > 1 && ops[ops.size() - 2].phase() == 3) ops.pop_back();
     }
   }

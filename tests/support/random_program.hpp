@@ -97,6 +97,36 @@ struct Fill {
 template <class V>
 inline constexpr Fill<V> fill{};
 
+// Returns what it reads, and goes on by a tail call, which writes.
+template <class V>
+struct Change {
+  static constexpr std::string_view kName = "change";
+  template <class S>
+  void operator()(S& s, V by, int cell) const {
+    auto& w = s.template environment<RandomWorld<S, V>>();
+    w.burn();
+    const auto to = w.cells[static_cast<std::size_t>(cell)];
+    s.write(to, V((int(s.read(to)) + int(by) + 1) % 5));
+    if (int(by) > 0) s.template tail<Change<V>{}>(V(int(by) - 1), cell);
+  }
+};
+template <class V>
+inline constexpr Change<V> change{};
+template <class V>
+struct Answer {
+  static constexpr std::string_view kName = "answer";
+  template <class S>
+  V operator()(S& s, V argument, int cell) const {
+    auto& w = s.template environment<RandomWorld<S, V>>();
+    w.burn();
+    const int read = int(s.read(w.cells[static_cast<std::size_t>(cell)]));
+    s.template tail<change<V>>(V((read + int(argument)) % 3), cell);
+    return V(read % 4);
+  }
+};
+template <class V>
+inline constexpr Answer<V> answer{};
+
 // Points the other link to the same box.
 template <class V>
 struct Relink {
@@ -442,12 +472,11 @@ void Node<V>::operator()(S& s, int id, V argument) const {
           ++sum;
         }
         break;
-      case Op::late_read:
-        w.judge.be_unsure();
-        sum += int(s.read(cell(op.target)));
+      case Op::answer:
+        sum += int(s.template call<answer<V>>(argument, op.target));
         break;
       case Op::late_write:
-        w.judge.be_unsure();
+        sum += int(s.read(cell(op.target)));
         s.write(cell(op.target), V((sum + id) % 5));
         break;
     }

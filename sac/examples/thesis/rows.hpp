@@ -99,7 +99,7 @@ class Rows<sac::Scope, Key, Item, Order> final : public sac::Structure {
     Place row;
   };
   struct Look : sac::Edge {
-    sac::Handle call;
+    sac::Handle place;
     List* list;
     Place saw;  // the end: no row
     Look* next;
@@ -113,7 +113,7 @@ class Rows<sac::Scope, Key, Item, Order> final : public sac::Structure {
   [[nodiscard]] List& list_of(const Key& key) { return lists_.try_emplace(key, key).first->second; }
   [[nodiscard]] std::optional<Item> look(sac::Scope& s, const Key& key, const Item* after);
   [[nodiscard]] Look& ask(sac::Scope& s, List& list, const Item* after);
-  [[nodiscard]] Place first_seen(List& list, const Item* after, const sac::Call& by) const;
+  [[nodiscard]] Place first_seen(List& list, const Item* after, sac::Handle by) const;
   [[nodiscard]] static Look*& looks_at(List& list, Place row) {
     return row == list.rows.end() ? list.ends : row->second.looks;
   }
@@ -142,7 +142,7 @@ void Rows<sac::Scope, Key, Item, Order>::put(sac::Scope& s, const Key& key, cons
     edge.list = &list;
     edge.row = row;
     if (!row->second.presence.there()) --gone_;
-    const auto window = presences_.produced(row->second.presence, edge, s.self());
+    const auto window = presences_.produced(row->second.presence, edge, s.place());
     if (window) came(list, row, *window);
   });
 }
@@ -153,7 +153,7 @@ std::optional<Item> Rows<sac::Scope, Key, Item, Order>::look(sac::Scope& s, cons
   return s.guarded([&]() -> std::optional<Item> {
     List& list = list_of(key);
     Look& look = ask(s, list, after);
-    join(look, first_seen(list, after, s.self()));
+    join(look, first_seen(list, after, look.place));
     if (look.saw == list.rows.end()) return std::nullopt;
     return look.saw->first;
   });
@@ -172,7 +172,7 @@ auto Rows<sac::Scope, Key, Item, Order>::ask(sac::Scope& s, List& list, const It
     return *old;
   }
   Look& look = s.observe<Look>(id_, kLook);
-  look.call = engine_.handle_of(s.self());
+  look.place = s.place();
   look.list = &list;
   look.from_first = after == nullptr;
   if (after != nullptr) look.after = *after;
@@ -181,9 +181,9 @@ auto Rows<sac::Scope, Key, Item, Order>::ask(sac::Scope& s, List& list, const It
 
 template <class Key, class Item, class Order>
 auto Rows<sac::Scope, Key, Item, Order>::first_seen(List& list, const Item* after,
-                                                    const sac::Call& by) const -> Place {
+                                                    sac::Handle by) const -> Place {
   Place row = after == nullptr ? list.rows.begin() : list.rows.upper_bound(*after);
-  while (row != list.rows.end() && !presences_.seen_by(row->second.presence, by)) ++row;
+  while (row != list.rows.end() && !presences_.seen_at(row->second.presence, by)) ++row;
   return row;
 }
 
@@ -209,20 +209,20 @@ void Rows<sac::Scope, Key, Item, Order>::came(List& list, Place row,
                                               const sac::Window& window) noexcept {
   for (Place at = std::next(row);; ++at) {
     for (Look* l = looks_at(list, at); l != nullptr; l = l->next) {
-      sac::Call& call = engine_.call(l->call);
       const bool past = l->from_first || list.rows.key_comp()(l->after, row->first);
-      if (past && window.contains(engine_, call)) engine_.invalidate(call, l);
+      if (past && window.contains(engine_, engine_.time(l->place))) {
+        engine_.invalidate(l->place, l);
+      }
     }
     if (at == list.rows.end()) return;
     const sac::Handle birth = at->second.presence.birth();
-    if (birth != 0 && !engine_.precedes(*window.after, engine_.call(birth))) return;
+    if (birth != 0 && !engine_.precedes(*window.after, engine_.time(birth))) return;
   }
 }
 template <class Key, class Item, class Order>
 void Rows<sac::Scope, Key, Item, Order>::went(Place row, const sac::Window& window) noexcept {
   for (Look* l = row->second.looks; l != nullptr; l = l->next) {
-    sac::Call& call = engine_.call(l->call);
-    if (window.contains(engine_, call)) engine_.invalidate(call, l);
+    if (window.contains(engine_, engine_.time(l->place))) engine_.invalidate(l->place, l);
   }
 }
 
@@ -285,7 +285,7 @@ void Rows<sac::Scope, Key, Item, Order>::check_invariants() const {
     for (const Look* l = looks; l != nullptr; l = l->next) {
       const Item* const after = l->from_first ? nullptr : &l->after;
       SAC_INVARIANT(l->saw == row);
-      SAC_INVARIANT(first_seen(*l->list, after, engine_.call(l->call)) == row);
+      SAC_INVARIANT(first_seen(*l->list, after, l->place) == row);
     }
   };
   for (const auto& [key, list] : lists_) {

@@ -139,7 +139,6 @@ class Agenda final : public WorkQueue {
   void require_unused() const;
 
   void retract(Call& call, Edge& edge) noexcept override;
-  void hide(Call& call, Edge& edge, Handle end) noexcept override;
   void left(Call& call, bool asked_for) noexcept override;
   void finished() noexcept override { drop_unposted(); }
   void check_invariants() const override;
@@ -160,7 +159,7 @@ class Agenda final : public WorkQueue {
   // predecessor.
   struct PostEdge : Edge {
     Handle target;
-    Handle poster;  // 0: from outside; such posts are in no call's list
+    Handle place;  // of the post; 0: from outside; such posts are in no call's list
     Handle next_post;
     Handle previous_post;
   };

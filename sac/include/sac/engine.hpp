@@ -233,29 +233,30 @@ class Engine {
   /// comparisons of arguments; the engine is then broken.
   void undo_edits();
 
-  /// Marks a call whose observation may have changed: it will run again. `seen` names the
-  /// observation for observers: its edge.
-  void invalidate(Call& call, const Edge* seen = nullptr) noexcept { core_.invalidate(call, seen); }
+  /// The observation of a call at this place (Scope::place) may have changed: the call will run
+  /// again. `seen` names the observation for observers: its edge.
+  void invalidate(Handle place, const Edge* seen = nullptr) noexcept {
+    core_.invalidate(place, seen);
+  }
+  /// The same for a call whose observations all precede its children.
+  void invalidate(const Call& call, const Edge* seen = nullptr) noexcept {
+    core_.invalidate(handle_of(call), seen);
+  }
   /// Puts a call in doubt: it will run again if, when its turn comes, Structure::unchanged returns
-  /// false for one of its edges. `source` names the modifiable for observers; 0: none.
-  void doubt(Call& call, Handle source = 0) noexcept { core_.doubt(call, source); }
-  /// Call it if `outer` had an effect after it had children (Edge::behind) that concerns `inner`, a
-  /// new child: if `outer` has settled and `inner` is in its interval, `outer` runs again, so that
-  /// the effect is refused or not as in a first run.
-  void rerun_if_around(Call& outer, const Call& inner) noexcept {
-    core_.rerun_if_around(outer, inner);
+  /// false for one of its edges from this place on. `source` names the modifiable for observers; 0:
+  /// none.
+  void doubt(Handle place, Handle source = 0) noexcept { core_.doubt(place, source); }
+  void doubt(const Call& call, Handle source = 0) noexcept { core_.doubt(handle_of(call), source); }
+  /// The call that has this place, and the place as a time stamp.
+  [[nodiscard]] Call& call_at(Handle place) const noexcept { return core_.call_at(place); }
+  [[nodiscard]] const TimeNode& time(Handle place) const noexcept {
+    return *core_.at<TimeNode>(place);
   }
   [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
     return core_.precedes(a, b);
   }
-  /// Whether `call` lies behind `from` and before the time stamp `end` (0: the end of the trace).
-  [[nodiscard]] bool lies_between(const Call& from, const Call& call, Handle end) const noexcept {
-    return core_.lies_between(from, call, end);
-  }
   /// Whether `call` lies ahead: behind everything that the running call has done.
   [[nodiscard]] bool lies_ahead(const Call& call) const noexcept { return core_.lies_ahead(call); }
-  /// Whether the running call has had children in this execution.
-  [[nodiscard]] bool has_had_children() const noexcept { return core_.has_had_children(); }
   [[nodiscard]] Call& call(Handle handle) const noexcept { return *core_.at<Call>(handle); }
   [[nodiscard]] Handle handle_of(const Call& call) const noexcept {
     return arena().handle_of(&call);
@@ -283,11 +284,12 @@ class Engine {
   template <class Visit>
   void for_each_edge(const Call& call, Visit&& visit) const {
     for (Handle e = call.edges; e != 0; e = core_.at<Edge>(e)->next) {
-      visit(static_cast<const Edge&>(*core_.at<Edge>(e)));
+      const Edge& edge = *core_.at<Edge>(e);
+      if (!edge.begins_segment) visit(edge);
     }
   }
-  /// Whether a placed call is at `h`; any handle is allowed.
-  [[nodiscard]] bool is_live_call(Handle h) const noexcept { return core_.is_live_call(h); }
+  /// Whether `h` is the place of a call in the trace; any handle is allowed.
+  [[nodiscard]] bool is_live_place(Handle h) const noexcept { return core_.is_live_place(h); }
   [[nodiscard]] Arena& arena() noexcept { return core_.arena(); }
   [[nodiscard]] const Arena& arena() const noexcept { return core_.arena(); }
   /// The call whose body runs; null: none.

@@ -35,7 +35,7 @@ namespace sac {
 /// The effect of producing a thing; a structure derives its own edge from it, which names the
 /// thing.
 struct ProducerEdge : Edge {
-  Handle call = 0;  // the producer
+  Handle place = 0;  // of the producer (Scope::place)
   Handle next = 0;  // another producer of the same thing
 };
 
@@ -53,13 +53,13 @@ class Presence {
   Handle birth_ = 0;
 };
 
-/// The calls behind `after`, up to and including `last` (null: all calls behind).
+/// The places behind `after`, up to and including `last` (null: all places behind).
 struct Window {
-  const Call* after;
-  const Call* last;
+  const TimeNode* after;
+  const TimeNode* last;
 
-  [[nodiscard]] bool contains(const Engine& engine, const Call& call) const noexcept {
-    return engine.precedes(*after, call) && (last == nullptr || !engine.precedes(*last, call));
+  [[nodiscard]] bool contains(const Engine& engine, const TimeNode& place) const noexcept {
+    return engine.precedes(*after, place) && (last == nullptr || !engine.precedes(*last, place));
   }
 };
 
@@ -68,17 +68,22 @@ class Presences {
  public:
   explicit Presences(Engine& engine) noexcept : engine_(engine) {}
 
-  /// Whether a producer precedes `call`. Cost: O(1).
-  [[nodiscard]] bool seen_by(const Presence& p, const Call& call) const noexcept {
-    if (!p.there() || p.birth_ == engine_.handle_of(call)) return false;
-    return engine_.appending() || engine_.precedes(engine_.call(p.birth_), call);
+  /// Whether a producer precedes `place`. Cost: O(1).
+  [[nodiscard]] bool seen_at(const Presence& p, Handle place) const noexcept {
+    if (!p.there() || p.birth_ == place) return false;
+    return engine_.appending() || engine_.precedes(engine_.time(p.birth_), engine_.time(place));
   }
 
-  /// Records that `call` produces the thing: `edge` is its new effect. Returns the calls that see
-  /// the thing now and did not before; nothing if there are none. Cost: O(1).
+  /// The same before the children of `call`.
+  [[nodiscard]] bool seen_by(const Presence& p, const Call& call) const noexcept {
+    return seen_at(p, engine_.handle_of(call));
+  }
+
+  /// Records that the thing is produced at `place`: `edge` is the new effect. Returns the places that
+  /// see the thing now and did not before; nothing if there are none. Cost: O(1).
   [[nodiscard]] std::optional<Window> produced(Presence& p, ProducerEdge& edge,
-                                               const Call& call) noexcept;
-  /// Records that the effect is undone. Returns the calls that saw the thing and no longer do.
+                                               Handle place) noexcept;
+  /// Records that the effect is undone. Returns the places that saw the thing and no longer do.
   /// Requires: produced(p, edge, ...) before. Cost: O(producers).
   [[nodiscard]] std::optional<Window> retracted(Presence& p, ProducerEdge& edge) noexcept;
 
@@ -95,17 +100,18 @@ class Presences {
 };
 
 inline std::optional<Window> Presences::produced(Presence& p, ProducerEdge& edge,
-                                                 const Call& call) noexcept {
-  edge.call = engine_.handle_of(call);
+                                                 Handle place) noexcept {
+  edge.place = place;
   edge.next = p.producers_;
   p.producers_ = engine_.arena().handle_of(&edge);
   const Handle old = p.birth_;
   const bool earlier =
-      old == 0 || (!engine_.appending() && engine_.precedes(call, engine_.call(old)));
+      old == 0 ||
+      (!engine_.appending() && engine_.precedes(engine_.time(place), engine_.time(old)));
   if (!earlier) return std::nullopt;
-  p.birth_ = edge.call;
-  if (engine_.appending()) return std::nullopt;  // no call is behind
-  return Window{&call, old == 0 ? nullptr : &engine_.call(old)};
+  p.birth_ = place;
+  if (engine_.appending()) return std::nullopt;  // nothing is behind
+  return Window{&engine_.time(place), old == 0 ? nullptr : &engine_.time(old)};
 }
 
 inline std::optional<Window> Presences::retracted(Presence& p, ProducerEdge& gone) noexcept {
@@ -114,17 +120,17 @@ inline std::optional<Window> Presences::retracted(Presence& p, ProducerEdge& gon
   while (*link != self) link = &edge(*link).next;
   *link = gone.next;
   const Handle old = p.birth_;
-  if (old != gone.call) return std::nullopt;
+  if (old != gone.place) return std::nullopt;
   p.birth_ = earliest(p);
   if (p.birth_ == old || engine_.appending()) return std::nullopt;
-  return Window{&engine_.call(old), p.birth_ == 0 ? nullptr : &engine_.call(p.birth_)};
+  return Window{&engine_.time(old), p.birth_ == 0 ? nullptr : &engine_.time(p.birth_)};
 }
 
 inline Handle Presences::earliest(const Presence& p) const noexcept {
   Handle first = 0;
   for (Handle h = p.producers_; h != 0; h = edge(h).next) {
-    const Handle call = edge(h).call;
-    if (first == 0 || engine_.precedes(engine_.call(call), engine_.call(first))) first = call;
+    const Handle place = edge(h).place;
+    if (first == 0 || engine_.precedes(engine_.time(place), engine_.time(first))) first = place;
   }
   return first;
 }
@@ -132,7 +138,7 @@ inline Handle Presences::earliest(const Presence& p) const noexcept {
 inline void Presences::check_invariants(const Presence& p) const {
   SAC_INVARIANT(p.birth_ == earliest(p));
   for (Handle h = p.producers_; h != 0; h = edge(h).next) {
-    SAC_INVARIANT(!engine_.call(edge(h).call).dead());
+    SAC_INVARIANT(!engine_.call_at(edge(h).place).dead());
   }
 }
 

@@ -2,8 +2,8 @@
 //
 // A traced function is a free function or a captureless object F with
 //     void f(sac::Scope& s, Args... args)
-// that depends only on its arguments and on what it reads through `s`. Its own effects come before
-// those of its children. If an operation of the scope throws, the call fails: the function may
+// that depends only on its arguments and on what it reads through `s`. What it reads, writes, calls
+// and posts happens in the order of its text. If an operation of the scope throws, the call fails: the function may
 // clean up, but it must not go on as if nothing had happened.
 #pragma once
 
@@ -89,7 +89,7 @@ class Scope {
     return built<T, F>(detail::parameters<F, true, Key...>(), false, std::move(key)...);
   }
   /// As make(), but F runs as a tail call: the object is returned at once, still empty. Afterwards
-  /// the function may still read and write, but not call.
+  /// the function may still read and write, but not call: F runs behind that.
   template <class T, auto F, class... Key>
   T& tail_make(Key... key) {
     return built<T, F>(detail::parameters<F, true, Key...>(), true, std::move(key)...);
@@ -101,8 +101,13 @@ class Scope {
 
   // --- For structures
 
-  /// Repeats an edge of the last execution: moves the first edge E of `structure` for which
-  /// `matches(const E&)` into this execution and returns it; null if there is none. The search
+  /// The running call's place in time, for a structure's records: it precedes what the call does
+  /// behind its next child. It is valid as long as the call has an edge that was made or repeated
+  /// there. Throws: std::bad_alloc.
+  [[nodiscard]] Handle place() { return core_.place(); }
+
+  /// Repeats an edge of the last execution: moves the first edge E of `structure` at the same place
+  /// for which `matches(const E&)` into this execution and returns it; null if there is none. The search
   /// starts where the last one ended, so edges repeated in order are found at once. It visits at
   /// most `most` edges: without that bound, a call that repeats n edges in another order takes
   /// O(n^2).
@@ -211,7 +216,7 @@ void Called<F, Args...>::execute_in(Scope& scope, Call& call) {
     }
     known.reset();
     known.emplace(std::move(result));
-    core.result_changed(frame.head.caller);
+    core.result_changed();
   }
 }
 

@@ -6,14 +6,11 @@
 // calls' observations may have changed (Engine::invalidate, Engine::doubt).
 //
 // Rules that the engine and a structure keep together:
-// (1) An observation at a call sees the effects of the calls before it in trace order, and the
-//     call's own effects of this execution.
-// (2) Effects of a running call's last execution that it has not repeated yet are hidden from the
-//     call itself, and from the calls in its interval, which may become its children again. Later
-//     calls still see them. If the call repeats an effect, every call sees it again; if not, the
-//     effect is undone when the call has settled.
-// (3) An effect that children of the same call should have seen comes too late: the engine reports
-//     an error as soon as one of them that has run is invalidated or would see something else.
+// (1) What a call does has a place in time (Scope::place): an observation sees the effects before it
+//     in the order of the text, its own call's included.
+// (2) When a call runs again, what it does not repeat at a place is undone before it goes on to its
+//     next child, or when it ends. Until then the effects of its last execution at this place
+//     (`is_old`) are not there for the call itself; nobody else runs.
 #pragma once
 
 #include <cstddef>
@@ -31,14 +28,6 @@ class Structure {
   /// Undoes `edge`: an observation is forgotten; an effect is reverted, and later observations of
   /// it are invalidated.
   virtual void retract(Call& call, Edge& edge) noexcept = 0;
-
-  /// Hides the effect `edge`, which the running `call` has not repeated, before `call` has
-  /// children: the structure invalidates or doubts the observations of the effect by calls behind
-  /// `call`, up to the time stamp `end` (0: the end of the trace). Observations made from now on
-  /// must skip it (rule 2); see `unrepeated`. For an observation there is nothing to do.
-  virtual void hide(Call& call, Edge& edge, Handle end) noexcept {
-    static_cast<void>(call), static_cast<void>(edge), static_cast<void>(end);
-  }
 
   /// Whether `call`, a call in doubt whose turn it is, would observe the same as `edge` records;
   /// the function may update the record. The engine calls it for every edge of the call; for an

@@ -7,6 +7,10 @@
 // Every effect and observation of a call is an edge in its list, in the order of execution. An edge
 // belongs to a `Structure` (structure.hpp), which can undo it; the engine keeps the lists.
 //
+// A call's children cut it into segments. The first one has the place of the call itself in time; a
+// later one in which the call has effects or observations has a time stamp of its own, right behind
+// the child before it.
+//
 // A call in memory is its head, 32 bytes, followed by the parts that its function needs: the slot
 // of a posted call, the result, the arguments, the keyed object, and the hash if client code
 // computes it.
@@ -120,16 +124,27 @@ struct ResultHead {
 struct Edge {
   Handle next = 0;  // next edge of the same call
   std::uint8_t structure = 0;
-  std::uint8_t kind : 6 = 0;    // meaning defined by the structure
-  std::uint8_t behind : 1 = 0;  // made or repeated after the call had children
-  std::uint8_t round : 1 = 0;   // the call's round when it was made or repeated
-  std::uint16_t granules = 0;   // its size
+  std::uint8_t kind : 6 = 0;           // meaning defined by the structure
+  std::uint8_t begins_segment : 1 = 0;  // of no structure: it lies in a Segment
+  std::uint8_t round : 1 = 0;          // the call's round when it was made or repeated
+  std::uint16_t granules = 0;          // its size
 };
 static_assert(sizeof(Edge) == 8);
 
-/// Whether `call` runs, and `edge` is of its last execution and not yet repeated.
-[[nodiscard]] inline bool unrepeated(const Call& call, const Edge& edge) noexcept {
+/// Whether `edge` of a call that runs is of its last execution and not yet repeated.
+[[nodiscard]] inline bool is_old(const Call& call, const Edge& edge) noexcept {
   return call.running() && edge.round != call.round;
 }
+
+/// What a call does behind a child of its own and before the next one: the time stamp of the edges
+/// that follow in the call's list.
+struct Segment : TimeNode {
+  Edge edge;  // in the call's list
+  Handle call = 0;
+  [[nodiscard]] static Segment& of(Edge& edge) noexcept {
+    return *reinterpret_cast<Segment*>(reinterpret_cast<std::byte*>(&edge) - sizeof(TimeNode));
+  }
+};
+static_assert(sizeof(Segment) == 28);
 
 }  // namespace sac

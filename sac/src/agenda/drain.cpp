@@ -101,7 +101,7 @@ void Agenda::begin_drain(Scope& s) {
     if (state_ != State::open && !engine_.lies_ahead(other)) {
       fail_drained_twice(core_.parent_of(s.self()));
     }
-    engine_.invalidate(other);
+    engine_.invalidate(drain_call_);
   }
   // The edge comes first: a drain without it would not be taken back.
   if (s.recall<Edge>(id_, kDrain, [](const Edge&) { return true; }) == nullptr) {
@@ -116,26 +116,16 @@ void Agenda::begin_drain(Scope& s) {
   if (!engine_.appending()) set_later_posts_aside(s.self());
 }
 
-// A post counts for a drain if it comes before. One of a running call's of last time does not count
-// until that repeats it. Who posts later, in a trace of last time, will be discarded, or must be
-// refused: it runs again. So does who encloses the drain and has posted behind some of its
-// children: if that was behind this one, it is refused; if not, the post counts.
+// A post counts for a drain if it comes before. Who posts later, in a trace of last time, will be
+// discarded, or must be refused: it runs again.
 void Agenda::set_later_posts_aside(const Call& drain) {
   for (const auto& [rank, entries] : waiting_) {
     for (const Entry& entry : entries) {
       for (Handle h = Slot::of(*core_.at<Call>(entry.call)).posts; h != 0;) {
         PostEdge& post = post_at(h);
         h = post.next_post;
-        if (post.poster == 0) continue;
-        Call& poster = *core_.at<Call>(post.poster);
-        if (poster.running()) {
-          if (!unrepeated(poster, post)) continue;
-        } else if (engine_.precedes(drain, poster)) {
-          engine_.invalidate(poster);
-        } else {
-          if (post.behind) engine_.rerun_if_around(poster, drain);
-          continue;
-        }
+        if (post.place == 0 || !engine_.precedes(drain, engine_.time(post.place))) continue;
+        engine_.invalidate(post.place);
         drop_post(post);
       }
     }

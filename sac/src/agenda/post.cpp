@@ -43,7 +43,7 @@ void Agenda::post_call(Scope& s, const Key& key, const Asked& asked) {
   if (edge == nullptr) {
     try {
       edge = &s.effect<PostEdge>(id_, kPost);
-      edge->poster = engine_.handle_of(poster);
+      edge->place = s.place();
     } catch (...) {
       lost_posts(posted);  // a call that waits and that nobody posts leaves at the end
       throw;
@@ -154,7 +154,7 @@ void Agenda::drop_outside(Handle post) noexcept {
 Handle Agenda::require_posted(const Asked& asked) const {
   const Handle h = core_.find_posted(asked, [&](const Call& c) { return c.work_queue == id_; });
   Handle post = h != 0 ? Slot::of(*core_.at<Call>(h)).posts : 0;
-  while (post != 0 && post_at(post).poster != 0) post = post_at(post).next_post;
+  while (post != 0 && post_at(post).place != 0) post = post_at(post).next_post;
   if (post != 0) return post;
   throw UsageError("retract_from_outside: no call " + std::string(asked.function.name) +
                    " with these arguments is posted on agenda '" + name_ + "'");
@@ -184,7 +184,7 @@ void Agenda::add_post(PostEdge& post, Handle target) noexcept {
 void Agenda::drop_post(PostEdge& post) noexcept {
   Call& call = *core_.at<Call>(post.target);
   if (engine_.observer() != nullptr) [[unlikely]] {
-    const Call* poster = post.poster != 0 ? core_.at<Call>(post.poster) : nullptr;
+    const Call* poster = post.place != 0 ? &core_.call_at(post.place) : nullptr;
     engine_.observer()->on({.kind = Event::Kind::unposted, .call = &call, .by = poster});
   }
   if (post.next_post != 0) post_at(post.next_post).previous_post = post.previous_post;
@@ -205,17 +205,6 @@ void Agenda::retract(Call& call, Edge& edge) noexcept {
   } else if (drain_call_ == engine_.handle_of(call)) {  // else another one has taken its place
     state_ = State::open;
     drain_call_ = 0;
-  }
-}
-
-// The children of `call` may drain the agenda, or have done so: what it has not repeated does not
-// count for them.
-void Agenda::hide(Call& call, Edge& edge, Handle end) noexcept {
-  if (edge.kind != kPost) return;
-  auto& post = static_cast<PostEdge&>(edge);
-  const Call& posted = *core_.at<Call>(post.target);
-  if (counts(post) && (posted.waiting() || engine_.lies_between(call, posted, end))) {
-    drop_post(post);
   }
 }
 

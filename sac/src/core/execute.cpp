@@ -14,9 +14,10 @@ void Core::execute(Handle call, Handle limit) {
   try {
     for (Handle link = call; link != 0;) {
       run_body(a, link);
-      link = a.tail_state == Tail::fresh ? next_link(a, link) : 0;
+      link = a.tail_state == Tail::fresh ? next_link(a) : 0;
     }
     if (a.end != 0) close(a);
+    if (a.returned != 0) tell_caller(a.returned);
   } catch (...) {
     abandon(a);
     throw;
@@ -27,10 +28,10 @@ void Core::execute(Handle call, Handle limit) {
 void Core::run_body(Activation& a, Handle call) {
   Call& c = *at<Call>(call);
   a.call = &c;
-  a.self = call;
+  a.self = a.place = call;
   a.old_edges = std::exchange(c.edges, 0);
   a.cursor = a.last_edge = a.failed_child = 0;
-  a.hidden = a.failed = false;
+  a.failed = false;
   c.round ^= 1;
   c.validity = Validity::valid;
   c.life = Life::running;
@@ -42,7 +43,6 @@ void Core::run_body(Activation& a, Handle call) {
   c.function().execute(scope, c);
   if (a.failed) [[unlikely]]
     fail_caught(a);
-  if (!queue_.empty()) require_children_unmoved(a);
   settle(a);
 }
 
@@ -55,20 +55,32 @@ void Core::fail_caught(const Activation& a) const {
                    ": exceptions of calls must pass");
 }
 
-// What a call does comes before its children. If it is done behind one that has run and should have
-// seen it, a run from scratch and an update would differ.
-void Core::require_children_unmoved(const Activation& a) {
-  while (!queue_.empty() && next_is_up_to(a.self, now_)) {
-    Call& child = *at<Call>(queue_.pop());
-    SAC_ENSURES(!unposted(child));
-    if (child.invalid() || !unchanged(child)) {
-      invalidate(child, nullptr);
-      throw UsageError(Engine::describe(*a.call) + " has done something behind its own child " +
-                       Engine::describe(child) +
-                       ", which should have seen it: what a call does comes before its children");
+// The running call does something behind a child. If it did so last time behind this one, the
+// segment goes on, with what has not been repeated yet.
+void Core::begin_segment(Activation& a) {
+  a.cursor = 0;
+  Handle segment = at<TimeNode>(now_)->next;
+  const bool known =
+      a.old_edges != 0 && segment == arena_.handle_of(&Segment::of(*at<Edge>(a.old_edges)));
+  if (known) {
+    a.old_edges = std::exchange(at<Edge>(a.old_edges)->next, 0);
+  } else {
+    segment = arena_.allocate(sizeof(Segment));
+    auto& fresh = *::new (at<void>(segment)) Segment;
+    fresh.set_kind(TimeNode::Kind::segment);
+    fresh.edge.begins_segment = true;
+    fresh.call = a.self;
+    try {
+      timeline_.insert_after(now_, segment);
+    } catch (...) {
+      arena_.release(segment, sizeof(Segment));
+      throw;
     }
-    child.validity = Validity::valid;
   }
+  Edge& edge = at<Segment>(segment)->edge;
+  edge.round = a.call->round;
+  append_edge(a, arena_.handle_of(&edge));
+  a.place = now_ = segment;
 }
 
 // The call has said all it has to say: what it did not repeat is taken back. It has not seen that
@@ -79,47 +91,21 @@ void Core::settle(Activation& a) noexcept {
   a.call->validity = Validity::valid;
 }
 
-// The new tail call that follows `link`, with its place. What `link` took back when it settled, and
-// its children may have seen, is brought up to date before. If a result changes by that, it is the
-// link itself that runs again.
-//
-// Then nothing that it could reuse lies behind its end. A link that is new in the trace had nothing
-// to take back, and what it has done behind its children was refused, so that it does not run
-// again. Else its call came from the queue: its interval goes up to its end, or, if it was a leaf,
-// up to the next stamp.
-Handle Core::next_link(Activation& a, Handle link) {
-  const bool again = !appending() && settle_link(link);
+// Who depends on the result runs again at the place where it has it: behind everything in `call`'s
+// interval.
+void Core::tell_caller(Handle call) noexcept {
+  Call& caller = *at<Call>(ResultHead::of(*at<Call>(call)).caller);
+  if (!caller.running()) note(Event::Kind::returned, &caller);
+  ask_again(caller, end_of(call), Validity::invalid, nullptr, 0);
+}
+
+// The new tail call that follows the link that has run.
+Handle Core::next_link(Activation& a) {
   const Handle next = std::exchange(a.tail, 0);
   a.tail_state = Tail::none;
-  if (again) {
-    drop_call(next);
-    if (!a.end_linked) link_end(a);  // what it does not repeat lies before
-    SAC_ENSURES(a.end == a.limit || at<TimeNode>(a.end)->next == a.limit);
-    return now_ = link;
-  }
   insert_call(next);
   at<Call>(next)->end = a.end;
   return next;
-}
-
-// Runs what is invalid from `link`, which has just run, up to now. Returns whether it is the link
-// itself that must run.
-bool Core::settle_link(Handle link) {
-  while (true) {
-    const Handle reached = now_;
-    take_deferred(link);
-    if (queue_.empty() || !next_is_up_to(link, reached)) return false;
-    const Handle h = queue_.pop();
-    if (h == link) return true;
-    const auto go_back = [&] { now_ = h == reached ? end_of(h) : reached; };
-    try {
-      run_from_queue(h, link);
-    } catch (...) {
-      go_back();
-      throw;
-    }
-    go_back();
-  }
 }
 
 // Ends the interval: a reused tail ends it, what was not reused is discarded.
@@ -156,7 +142,8 @@ void Core::abandon(Activation& a) noexcept {
       broken_ = true;
     }
   }
-  invalidate(*a.call, nullptr);
+  if (a.returned != 0) tell_caller(a.returned);
+  invalidate(a.self, nullptr);
   if (a.outer != nullptr) a.outer->failed_child = a.self;
   current_ = a.outer;
 }
@@ -167,16 +154,14 @@ void Core::need_end(Activation& a) {
   if (a.end == 0) {
     a.end = arena_.allocate(sizeof(TimeNode));
     ::new (at<void>(a.end)) TimeNode;
-    at<TimeNode>(a.end)->mark();
+    at<TimeNode>(a.end)->set_kind(TimeNode::Kind::end);
   }
   a.call->end = a.end;
 }
 
 void Core::report_progress() {
   progress_at_ += progress_every_;
-  stopped_ = true;  // unless it returns true
   if (!progress_({.executed = counts_.executed, .queued = queue_.size()})) throw Cancelled();
-  stopped_ = false;
 }
 
 void Core::note_failure(Event::Kind kind, const Call* call) noexcept {

@@ -12,14 +12,15 @@ Handle Core::call_child(const Asked& asked) {
   if (caller.failed || caller.tail != 0 || stack < stack_end_) [[unlikely]] {
     fail_call(caller, asked.function);
   }
-  if (caller.old_edges != 0 && !caller.hidden) hide_unrepeated(caller);
   need_end(caller);
   Handle child = find_reusable(asked, false);
   const bool fresh = child == 0;
   if (fresh) {
     child = new_call(asked);
     insert_call(child);
+    if (caller.old_edges != 0) settle_before(caller, *at<TimeNode>(child));
   } else {
+    if (caller.old_edges != 0) settle_before(caller, *at<TimeNode>(child));
     discard_between(now_, child);
     reuse(child);
   }
@@ -53,7 +54,9 @@ Handle Core::call_tail(const Asked& asked) {
 // next one is looked at first, which spares a look into the memo table.
 Handle Core::find_ahead(const Asked& asked, bool tail) {
   const Handle limit = current_->limit;
-  const Handle next = at<TimeNode>(now_)->next;
+  Handle next = at<TimeNode>(now_)->next;
+  if (at<TimeNode>(next)->kind() == TimeNode::Kind::segment) next = at<TimeNode>(next)->next;
+  if (next == limit) return 0;
   const bool may_share_end = tail && current_->end == limit;
   const std::uint16_t number = number_of(asked.function);
   const auto fits = [&](const Call& c) {
@@ -61,7 +64,7 @@ Handle Core::find_ahead(const Asked& asked, bool tail) {
            (c.end == 0 || c.end != limit || may_share_end) &&
            asked.function.equal(c, asked.arguments);
   };
-  if (!at<TimeNode>(next)->marked() && fits(*at<Call>(next))) return next;
+  if (at<TimeNode>(next)->is_call() && fits(*at<Call>(next))) return next;
   return memo_.find_between(asked.hash, now_, limit, fits);
 }
 
@@ -71,15 +74,10 @@ void Core::reuse(Handle child) noexcept {
   note(Event::Kind::reused, at<Call>(child));
 }
 
-// What a running call has not repeated before its first child is not there for its children, nor
-// for theirs, even if they are reused: what in the interval has seen it must ask again. A tail call
-// runs when its caller has settled.
-void Core::hide_unrepeated(Activation& a) noexcept {
-  a.hidden = true;
-  for (Handle e = a.old_edges; e != 0; e = at<Edge>(e)->next) {
-    Edge& edge = *at<Edge>(e);
-    structures_[edge.structure]->hide(*a.call, edge, a.limit);
-  }
+// What a call has not repeated before this child is no more: the child must not see it.
+void Core::settle_before(Activation& a, const TimeNode& child) noexcept {
+  a.cursor = 0;
+  a.old_edges = retract(*a.call, a.old_edges, &child);
 }
 
 void Core::fail_call(const Activation& caller, const Function& function) const {
@@ -100,7 +98,6 @@ void Core::fail_call(const Activation& caller, const Function& function) const {
 // fail.
 void Core::make_room(std::size_t calls) {
   queue_.reserve(calls);
-  deferred_.reserve(calls);
   graveyard_.reserve(calls);
   room_ = calls;
 }
@@ -216,14 +213,28 @@ void Core::free_call(Handle call) noexcept {
 void Core::discard_between(Handle from, Handle to) noexcept {
   for (Handle h = at<TimeNode>(from)->next; h != to;) {
     const Handle next = at<TimeNode>(h)->next;
-    if (at<TimeNode>(h)->marked()) {
-      timeline_.erase(h);
-      arena_.release(h, sizeof(TimeNode));
-    } else {
-      discard(h);
+    switch (at<TimeNode>(h)->kind()) {
+      case TimeNode::Kind::call:
+        discard(h);
+        break;
+      case TimeNode::Kind::end:
+        timeline_.erase(h);
+        arena_.release(h, sizeof(TimeNode));
+        break;
+      case TimeNode::Kind::segment:
+        pass(*at<Segment>(h));
+        break;
     }
     h = next;
   }
+}
+
+// A call that runs has made a child, and that goes on behind a segment of its caller's last
+// execution: time has passed it. (Segments of calls that are discarded go with them.)
+void Core::pass(const Segment& segment) noexcept {
+  Activation* a = current_;
+  while (a->self != segment.call) a = a->outer;
+  settle_before(*a, *at<TimeNode>(segment.next));
 }
 
 // A posted call that is still asked for goes back to its queue: only what ran it has left.
@@ -245,24 +256,44 @@ void Core::discard(Handle call) noexcept {
 }
 
 void Core::discard_subtree(Handle call) noexcept {
-  if (const Handle end = at<Call>(call)->end; end != 0) {
-    discard_between(call, end);
-    timeline_.erase(end);
-    arena_.release(end, sizeof(TimeNode));
+  Call& c = *at<Call>(call);
+  if (c.end != 0) {
+    retract_all(c, std::exchange(c.edges, 0));  // with its segments, which lie between its children
+    discard_between(call, c.end);
+    timeline_.erase(c.end);
+    arena_.release(c.end, sizeof(TimeNode));
   }
   discard(call);
 }
 
 // --- Edges -----------------------------------------------------------------------------------
 
-void Core::retract_all(Call& call, Handle edges) noexcept {
+// Takes back the edges from `edges` on, up to the first segment behind `until`, if there is one;
+// returns the edge where it stopped. A segment stays until its edges have gone: they lie at it.
+Handle Core::retract(Call& call, Handle edges, const TimeNode* until) noexcept {
+  Handle segment = 0;
+  const auto end_segment = [&] {
+    if (segment == 0) return;
+    timeline_.erase(segment);
+    arena_.release(segment, sizeof(Segment));
+  };
   while (edges != 0) {
     Edge& edge = *at<Edge>(edges);
+    if (edge.begins_segment) {
+      Segment& next = Segment::of(edge);
+      if (until != nullptr && precedes(*until, next)) break;
+      end_segment();
+      segment = arena_.handle_of(&next);
+      edges = edge.next;
+      continue;
+    }
     edges = edge.next;
     structures_[edge.structure]->retract(call, edge);
     ++counts_.edges_removed;
     arena_.release(arena_.handle_of(&edge), edge.granules * Arena::kGranule);
   }
+  end_segment();
+  return edges;
 }
 
 }  // namespace sac

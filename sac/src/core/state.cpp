@@ -71,8 +71,6 @@ void Core::enter(Mode mode) {
   require_idle(mode == Mode::running ? "run" : "propagate");
   if (room_ < live_calls_) make_room(live_calls_);
   mode_ = mode;
-  stopped_ = false;
-  excused_ = 0;
   const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
   stack_end_ = here > stack_limit_ ? here - stack_limit_ : 0;
   note(mode == Mode::running ? Event::Kind::run_started : Event::Kind::propagation_started);
@@ -99,9 +97,6 @@ void Core::begin_undoing() noexcept {
   current_ = nullptr;
   suspects_.clear();
   mode_ = Mode::undoing;
-  stopped_ = false;
-  excused_ = 0;
-  take_deferred(0);
   note_failure(Event::Kind::roll_back_started);
   progress_at_ = ~std::uint64_t{0};
   stack_end_ -= std::min(stack_end_, stack_limit_ / 8);  // to come as deep as what failed, and on
@@ -116,7 +111,6 @@ Counts Core::finish() noexcept {
   originals_.clear();
   purge();
   suspects_.clear();
-  deferred_.clear();
   mode_ = Mode::idle;
   return done;
 }
@@ -157,18 +151,28 @@ Core::Sizes Core::sizes() const noexcept {
 }
 
 // What is linked from both of its sides is in the list: what has left has no links.
-bool Core::is_live_call(Handle h) const noexcept {
+bool Core::is_stamped(Handle h, std::size_t bytes, TimeNode::Kind kind) const noexcept {
   const auto is_stamp = [&](Handle s) { return arena_.contains(s, sizeof(TimeNode)); };
-  if (!arena_.contains(h, sizeof(Call))) return false;
+  if (!arena_.contains(h, bytes)) return false;
   const TimeNode& node = *at<TimeNode>(h);
-  return !node.marked() && is_stamp(node.prev) && at<TimeNode>(node.prev)->next == h &&
+  return node.kind() == kind && is_stamp(node.prev) && at<TimeNode>(node.prev)->next == h &&
          (is_stamp(node.next) ? at<TimeNode>(node.next)->prev == h : h == timeline_.back());
+}
+
+bool Core::is_live_call(Handle h) const noexcept {
+  return is_stamped(h, sizeof(Call), TimeNode::Kind::call);
+}
+
+bool Core::is_live_place(Handle h) const noexcept {
+  if (is_live_call(h)) return true;
+  return is_stamped(h, sizeof(Segment), TimeNode::Kind::segment) &&
+         is_live_call(at<Segment>(h)->call);
 }
 
 const Call& Core::parent_of(const Call& call) const noexcept {
   for (Handle h = call.prev; h != timeline_.front(); h = at<TimeNode>(h)->prev) {
+    if (!at<TimeNode>(h)->is_call()) continue;
     const Call& c = *at<Call>(h);
-    if (c.marked()) continue;
     const bool open = c.end != 0 && (!linked(c.end) || precedes(call, *at<TimeNode>(c.end)));
     if (open) return c;
   }
@@ -180,7 +184,6 @@ void Core::shrink() {
   memo_.shrink();
   timeline_.shrink();
   queue_.shrink(live_calls_);
-  std::vector<Handle>().swap(deferred_);
   std::vector<Handle> graveyard;
   graveyard.reserve(live_calls_);
   graveyard_.swap(graveyard);
@@ -202,10 +205,18 @@ void Core::check_invariants(std::uint64_t waiting) const {
     SAC_INVARIANT(c.validity == Validity::valid || c.queue != 0);
     SAC_INVARIANT(c.end == 0 || precedes(c, *at<TimeNode>(c.end)));
     SAC_INVARIANT(memo_.contains(arena_.handle_of(&c), c.function().hash(c)));
+    const TimeNode* before = &c;
     for (Handle e = c.edges; e != 0; e = at<Edge>(e)->next) {
+      SAC_INVARIANT(at<Edge>(e)->round == c.round);
+      if (at<Edge>(e)->begins_segment) {
+        const Segment& segment = Segment::of(*at<Edge>(e));
+        SAC_INVARIANT(segment.call == arena_.handle_of(&c) && precedes(*before, segment));
+        SAC_INVARIANT(c.end != 0 && precedes(segment, *at<TimeNode>(c.end)));
+        before = &segment;
+        continue;
+      }
       ++edges;
       SAC_INVARIANT(at<Edge>(e)->structure < structures_.size());
-      SAC_INVARIANT(at<Edge>(e)->round == c.round);
     }
   });
   SAC_INVARIANT(calls == live_calls_ && edges == live_edges());

@@ -8,9 +8,9 @@
 namespace sac {
 
 void PropagationQueue::shrink(std::size_t count) {
-  std::vector<Handle> heap;
+  std::vector<Entry> heap;
   heap.reserve(std::max(count, heap_.size()));
-  std::vector<Handle> run = run_;
+  std::vector<Entry> run = run_;
   heap.assign(heap_.begin(), heap_.end());
   heap_.swap(heap);
   run_.swap(run);
@@ -18,21 +18,21 @@ void PropagationQueue::shrink(std::size_t count) {
   most_in_run_ = run_.size();
 }
 
-void PropagationQueue::push(Handle call) {
-  SAC_ENSURES(at(call)->queue == 0);
+void PropagationQueue::push(Entry entry) {
+  SAC_ENSURES(at(entry.call)->queue == 0);
   ++size_;
-  if (run_.size() < run_.capacity() && (run_.empty() || before(run_.back(), call))) {
-    return append_to_run(call);
+  if (run_.size() < run_.capacity() && (run_.empty() || before(run_.back(), entry))) {
+    return append_to_run(entry);
   }
-  heap_.push_back(call);
+  heap_.push_back(entry);
   most_in_heap_ = std::max(most_in_heap_, heap_.size());
-  put(heap_.size() - 1, call);
+  put(heap_.size() - 1, entry);
   sift_up(heap_.size() - 1);
 }
 
-Handle PropagationQueue::pop() {
-  const Handle first = front();
-  erase(*at(first));
+auto PropagationQueue::pop() -> Entry {
+  const Entry first = front();
+  erase(*at(first.call));
   return first;
 }
 
@@ -48,88 +48,90 @@ void PropagationQueue::erase(Call& call) noexcept {
 }
 
 void PropagationQueue::erase_from_run(std::size_t position) noexcept {
-  run_[position] = 0;
-  while (run_begin_ < run_.size() && run_[run_begin_] == 0) ++run_begin_;
+  run_[position] = {};
+  while (run_begin_ < run_.size() && run_[run_begin_].call == 0) ++run_begin_;
   if (run_begin_ == run_.size()) {
     run_.clear();
     run_begin_ = 0;
   }
-  while (!run_.empty() && run_.back() == 0) run_.pop_back();
+  while (!run_.empty() && run_.back().call == 0) run_.pop_back();
 }
 
 void PropagationQueue::erase_from_heap(std::size_t position) noexcept {
-  const Handle last = heap_.back();
+  const Entry last = heap_.back();
   heap_.pop_back();
   if (position == heap_.size()) return;
   put(position, last);
   sift_up(position);
-  sift_down(at(last)->queue - 1);
+  sift_down(at(last.call)->queue - 1);
 }
 
 void PropagationQueue::sort() noexcept {
   constexpr std::size_t kMany = 64;
   if (heap_.size() < kMany) return;
-  struct Entry {
+  struct Sorted {
     Timeline::Place place;
-    Handle call;
+    Entry entry;
   };
-  std::vector<Entry> entries;
+  std::vector<Sorted> entries;
   try {
     entries.reserve(size_);
     run_.reserve(size_);
   } catch (const std::bad_alloc&) {
     return;
   }
-  const auto take = [&](const std::vector<Handle>& part) {
-    for (const Handle h : part) {
-      if (h != 0) entries.push_back({timeline_.place(*at(h)), h});
+  const auto take = [&](const std::vector<Entry>& part) {
+    for (const Entry& e : part) {
+      if (e.call != 0) entries.push_back({timeline_.place(time(e.place)), e});
     }
   };
   take(heap_);
   take(run_);
   std::sort(entries.begin(), entries.end(),
-            [](const Entry& a, const Entry& b) { return a.place < b.place; });
+            [this](const Sorted& a, const Sorted& b) {
+              return a.place != b.place ? a.place < b.place : before(a.entry, b.entry);
+            });
   heap_.clear();
   run_.clear();
   run_begin_ = 0;
-  for (const Entry& e : entries) append_to_run(e.call);
+  for (const Sorted& e : entries) append_to_run(e.entry);
 }
 
 void PropagationQueue::sift_up(std::size_t position) noexcept {
-  const Handle call = heap_[position];
+  const Entry entry = heap_[position];
   for (; position > 0; position = (position - 1) / 2) {
-    const Handle parent = heap_[(position - 1) / 2];
-    if (!before(call, parent)) break;
+    const Entry parent = heap_[(position - 1) / 2];
+    if (!before(entry, parent)) break;
     put(position, parent);
   }
-  put(position, call);
+  put(position, entry);
 }
 
 void PropagationQueue::sift_down(std::size_t position) noexcept {
-  const Handle call = heap_[position];
+  const Entry entry = heap_[position];
   for (std::size_t child = 2 * position + 1; child < heap_.size(); child = 2 * position + 1) {
     if (child + 1 < heap_.size() && before(heap_[child + 1], heap_[child])) ++child;
-    if (!before(heap_[child], call)) break;
+    if (!before(heap_[child], entry)) break;
     put(position, heap_[child]);
     position = child;
   }
-  put(position, call);
+  put(position, entry);
 }
 
 void PropagationQueue::check_invariants() const {
   for (std::size_t i = 0; i < heap_.size(); ++i) {
-    SAC_INVARIANT(at(heap_[i])->queue == i + 1);
-    SAC_INVARIANT(!at(heap_[i])->dead());
+    SAC_INVARIANT(at(heap_[i].call)->queue == i + 1);
+    SAC_INVARIANT(!at(heap_[i].call)->dead());
     SAC_INVARIANT(i == 0 || !before(heap_[i], heap_[(i - 1) / 2]));
   }
-  SAC_INVARIANT(run_.empty() ? run_begin_ == 0 : run_[run_begin_] != 0 && run_.back() != 0);
+  SAC_INVARIANT(run_.empty() ? run_begin_ == 0 : run_[run_begin_].call != 0 && run_.back().call != 0);
   std::size_t in_run = 0;
-  Handle previous = 0;
+  Entry previous;
   for (std::size_t i = run_begin_; i < run_.size(); ++i) {
-    if (run_[i] == 0) continue;
-    SAC_INVARIANT(at(run_[i])->queue == (kInRun | (i + 1)));
-    SAC_INVARIANT(!at(run_[i])->dead());
-    SAC_INVARIANT(previous == 0 || before(previous, run_[i]));
+    if (run_[i].call == 0) continue;
+    SAC_INVARIANT(at(run_[i].call)->queue == (kInRun | (i + 1)));
+    SAC_INVARIANT(!at(run_[i].call)->dead());
+    SAC_INVARIANT(previous.call == 0 || before(previous, run_[i]));
     previous = run_[i];
     ++in_run;
   }

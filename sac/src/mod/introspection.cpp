@@ -37,10 +37,10 @@ ModStructure::Use ModStructure::use_of(Handle head) const noexcept {
     if (h >= histories_.size() || history(h).head != head) return {};
     return {&writer(*at(history(h).versions.first())), head, true};
   }
-  const auto has_edge = [&](Handle call, auto&& matches) {
-    if (!engine_.is_live_call(call)) return false;
+  const auto has_edge = [&](Handle place, auto&& matches) {
+    if (!engine_.is_live_place(place)) return false;
     bool found = false;
-    engine_.for_each_edge(engine_.call(call), [&](const Edge& edge) {
+    engine_.for_each_edge(engine_.call_at(place), [&](const Edge& edge) {
       found |= edge.structure == id_ && matches(edge);
     });
     return found;
@@ -50,12 +50,12 @@ ModStructure::Use ModStructure::use_of(Handle head) const noexcept {
     const auto is_it = [&](const Edge& edge) {
       return &edge == &read && edge.kind == kRead && read.version == head;
     };
-    if (has_edge(read.call, is_it)) return {&engine_.call(read.call), head, false};
+    if (has_edge(read.place, is_it)) return {&engine_.call_at(read.place), head, false};
   }
   const auto writes_it = [&](const Edge& edge) {
     return edge.kind == kWrite && static_cast<const WriteEdge&>(edge).version == head;
   };
-  if (has_edge(version.writer, writes_it)) return {&writer(version), head, true};
+  if (has_edge(version.place, writes_it)) return {&writer(version), head, true};
   return {};
 }
 
@@ -112,9 +112,9 @@ void ModStructure::check_version(Handle v, Handle previous, Handle next) const {
   std::size_t count = 0;
   for (Handle r = version.readers; r != 0; last = r, r = reader(r)->next_reader, ++count) {
     SAC_INVARIANT(reader(r)->version == v && reader(r)->prev == last);
-    const Call& call = engine_.call(reader(r)->call);
-    SAC_INVARIANT(&writer(version) == &call || engine_.precedes(writer(version), call));
-    SAC_INVARIANT(next == 0 || !engine_.precedes(writer(*at(next)), call));
+    const Handle place = reader(r)->place;
+    SAC_INVARIANT(version.place == place || precedes(version.place, place));
+    SAC_INVARIANT(next == 0 || !precedes(at(next)->place, place));
   }
   if (!version.ordered) return;
   const auto& readers = reader_orders_.at(v);
@@ -146,7 +146,7 @@ void ModStructure::check_invariants() const {
       if (edge.structure != id_) return;
       if (edge.kind == kRead) {
         const auto& read = static_cast<const ReadEdge&>(edge);
-        SAC_INVARIANT(read.version != 0 && &engine_.call(read.call) == &call);
+        SAC_INVARIANT(read.version != 0 && &engine_.call_at(read.place) == &call);
         SAC_INVARIANT(at(read.version)->written && !at(read.version)->past);
         const Handle self = engine_.arena().handle_of(&edge);
         SAC_INVARIANT(

@@ -8,7 +8,6 @@ namespace sac {
 
 void ModStructure::link_reader(ReadEdge& edge, Version& version) noexcept {
   const Handle self = engine_.arena().handle_of(&edge);
-  if (edge.behind) version.read_behind = true;
   edge.version = handle_of(version);
   edge.prev = 0;
   edge.next_reader = version.readers;
@@ -40,10 +39,8 @@ void ModStructure::unlink_reader(ReadEdge& edge) noexcept {
 }
 
 void ModStructure::move_reader(ReadEdge& edge, Version& to) noexcept {
-  const Handle writer = edge.version != 0 ? at(edge.version)->writer : 0;
   unlink_reader(edge);
   link_reader(edge, to);
-  if (to.writer != writer) rerun_writer_around(edge, to);
 }
 
 void ModStructure::order_readers(const Version& version) noexcept {
@@ -65,19 +62,10 @@ void ModStructure::forget_order(Version& version) noexcept {
   version.ordered = false;
 }
 
-// They stay with what they have seen.
-void ModStructure::doubt_readers(Handle head, const Version& version, const Call& behind,
-                                 Handle end) noexcept {
-  for_each_reader_behind(version, behind, end, [&](ReadEdge& edge) {
-    engine_.doubt(engine_.call(edge.call), head);
-    return true;
-  });
-}
-
 void ModStructure::orphan(ReadEdge& edge) noexcept {
   unlink_reader(edge);
   edge.version = 0;
-  engine_.invalidate(engine_.call(edge.call));
+  engine_.invalidate(edge.place);
 }
 
 }  // namespace sac

@@ -21,39 +21,31 @@ void ModStructure::unmake_input(Handle head) noexcept {
 
 // --- Writing ---------------------------------------------------------------------------------
 
-// The running call's own version: last time's, repeated; null if it has none.
+// The running call's own version at its place: last time's, repeated; null if it has none.
 detail::Version* ModStructure::own_version(Scope& scope, Handle head) {
+  const Handle place = scope.place();
   const Call& call = scope.self();
   Version* own = at(head);
   if (own->outside) {
     throw UsageError(Engine::describe(call) + " writes " + engine_.describe_mod(head) +
                      ", which is an input");
   }
-  own = versions_around(call, head).before;
-  if (own == nullptr || &writer(*own) != &call) return nullptr;
-  if (own->round == call.round) {
-    if (engine_.has_had_children()) own->behind = true;
-    return own;
-  }
-  // Children that have run meanwhile did not see it. If that is refused, it has not been repeated.
-  if (engine_.has_had_children() && at(head)->history != 0) {
-    require_unread(scope, head, predecessor(head, *own));
-  }
-  own->behind = repeat(scope, head, handle_of(*own)).behind;
+  own = versions_around(place, head).before;
+  if (own == nullptr || own->place != place) return nullptr;
+  if (own->round == call.round) return own;
+  repeat(scope, head, handle_of(*own));
   own->round = call.round;
-  if (!skips_.empty()) skips_.erase(handle_of(*own));
   return own;
 }
 
 // The edge of last time, or, if it is not found among so many, a new one: the version is that one's
 // from now on, and the old edge goes with the others (has_passed_on).
-WriteEdge& ModStructure::repeat(Scope& scope, Handle head, Handle version) {
+void ModStructure::repeat(Scope& scope, Handle head, Handle version) {
   const auto same = [&](const WriteEdge& edge) { return edge.version == version; };
-  if (WriteEdge* edge = scope.recall<WriteEdge>(id_, kWrite, same, kMostRecalled)) return *edge;
+  if (scope.recall<WriteEdge>(id_, kWrite, same, kMostRecalled) != nullptr) return;
   auto& edge = scope.effect<WriteEdge>(id_, kWrite);
   edge.head = head;
   edge.version = version;
-  return edge;
 }
 
 // Whether the version is another edge's: that of this execution. Requires: there is a version.
@@ -73,11 +65,9 @@ detail::Version& ModStructure::new_version(Scope& scope, Handle head,
   Version& first = *at(head);
   const bool is_only = is_untouched(first);
   Version& fresh = first.written ? new_apart(head, type) : first;
-  fresh.writer = engine_.handle_of(self);
+  fresh.place = scope.place();
   fresh.type = type_number;
   fresh.round = self.round;
-  fresh.behind = edge.behind;
-  fresh.read_behind = false;
   if (!is_only) enter_history(head, fresh, type);
   edge.version = handle_of(fresh);
   return fresh;
@@ -138,36 +128,8 @@ detail::Version* ModStructure::predecessor(Handle head, const Version& version) 
   return found != nullptr ? at(*found) : nullptr;
 }
 
-// Throws: UsageError if the running call's own children have read `version`, or what is before it
-// if it is hidden: then it may not change.
-void ModStructure::require_unread(Scope& scope, Handle head, const Version* version) {
-  if (version == nullptr || !engine_.has_had_children()) return;
-  const Call& self = scope.self();
-  const Call* child = nullptr;
-  for_each_reader_behind(*version, self, 0, [&](ReadEdge& edge) {
-    const Call& call = engine_.call(edge.call);
-    if (!engine_.lies_ahead(call)) child = &call;
-    return child == nullptr && !version->ordered;  // in order, the first decides
-  });
-  if (child == nullptr) {
-    if (hidden(*version)) require_unread(scope, head, shown(head, at(handle_of(*version))));
-    return;
-  }
-  throw UsageError(Engine::describe(self) + " writes " + engine_.describe_mod(head) +
-                   " after its own child " + Engine::describe(*child) + " has read it");
-}
-
-// `writer` gives a new value behind `previous`, which calls around it have read behind children of
-// their own: behind this one?
-void ModStructure::rerun_readers_around(const Call& writer, const Version& previous) {
-  if (engine_.appending()) return;
-  for (Handle r = previous.readers; r != 0; r = reader(r)->next_reader) {
-    if (reader(r)->behind) engine_.rerun_if_around(engine_.call(reader(r)->call), writer);
-  }
-}
-
 // Takes the value of `version` out, to be given another at once; its readers are in doubt, but for
-// the call `except`, which replaces it.
+// those at the place `except`, where it is replaced.
 void ModStructure::replace(Handle head, Version& version, Handle except) noexcept {
   version.outside ? engine_.note(Event::Kind::edited, nullptr, head)
                   : engine_.note(Event::Kind::changed, &writer(version), head);
@@ -175,21 +137,11 @@ void ModStructure::replace(Handle head, Version& version, Handle except) noexcep
 }
 
 // A new version has its value: takes over the readers of `previous` that are behind it if its value
-// is the same; else they are in doubt.
-void ModStructure::appeared(const Call& self, Handle head, Version& version, Version& previous,
-                            bool same) noexcept {
-  if (same) {
-    for_each_reader_behind(previous, self, 0, [&](ReadEdge& edge) {
-      move_reader(edge, version);
-      return true;
-    });
-  } else {
-    doubt_readers(head, previous, self, 0);
-  }
-  // Children of a running call read past what that call has not repeated.
-  if (!hidden(previous)) return;
-  const Version* const seen = shown(head, &previous);
-  if (seen != nullptr) doubt_readers(head, *seen, self, 0);
+// is the same; else they are in doubt, and stay with what they have seen.
+void ModStructure::appeared(Handle head, Version& version, Version& previous, bool same) noexcept {
+  for_each_reader_behind(previous, version.place, [&](ReadEdge& edge) {
+    same ? move_reader(edge, version) : engine_.doubt(edge.place, head);
+  });
 }
 
 // --- Taking back -----------------------------------------------------------------------------
@@ -206,20 +158,19 @@ void ModStructure::leave_past(Handle head, Version& version, Handle except) noex
   for (Handle r = version.readers; r != 0;) {
     ReadEdge& edge = *reader(r);
     r = edge.next_reader;
-    if (edge.call == except) continue;
+    if (edge.place == except) continue;
     if (past == nullptr) {
       try {
         past = &new_apart(head, type);
         past->past = true;
         past->type = version.type;
-        past->writer = version.writer;
       } catch (...) {
         orphan(edge);
         continue;
       }
     }
     move_reader(edge, *past);
-    engine_.doubt(engine_.call(edge.call), head);
+    engine_.doubt(edge.place, head);
   }
   if (past != nullptr) {
     type.move(version, *past);
@@ -241,7 +192,7 @@ void ModStructure::forget_version(Handle head, Version& version) noexcept {
     history(h).versions.erase(handle_of(version), order());
     drop_history(head);
   }
-  version.writer = 0;
+  version.place = 0;
   if (handle_of(version) == head) return;
   engine_.arena().release(handle_of(version), types_[version.type].bytes);
 }
@@ -251,10 +202,9 @@ void ModStructure::retract(Call& call, Edge& edge) noexcept {
   const auto& write = static_cast<const WriteEdge&>(edge);
   if (write.version == 0 || has_passed_on(write)) return;
   Version& version = *at(write.version);
-  if (!skips_.empty()) skips_.erase(write.version);
   Version* previous = predecessor(write.head, version);
   bool same = false;
-  if (previous != nullptr && !hidden(*previous)) {  // else its readers must ask anew
+  if (previous != nullptr) {
     try {
       same = types_[version.type].same(*previous, version);
     } catch (...) {  // client code that fails here makes the readers run again
@@ -267,14 +217,6 @@ void ModStructure::retract(Call& call, Edge& edge) noexcept {
   }
   leave_past(write.head, version, 0);
   forget_version(write.head, version);
-}
-
-void ModStructure::hide(Call& call, Edge& edge, Handle end) noexcept {
-  if (edge.kind != kWrite) return;
-  const auto& write = static_cast<const WriteEdge&>(edge);
-  if (write.version == 0 || has_passed_on(write)) return;
-  keep_skip(write.head, *at(write.version));
-  doubt_readers(write.head, *at(write.version), call, end);
 }
 
 }  // namespace sac

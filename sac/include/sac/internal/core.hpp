@@ -6,9 +6,10 @@
 //   structures  Engine's public part "For structures": precedes, invalidate, doubt, ...
 //   Agenda      calls that are made before they run: "For work queues" below
 //
-// The loop is short: pop a call that must run again from the queue (earliest first), run its body,
-// reuse the children that it requests again, undo the effects that it did not repeat, and discard
-// the children that it did not request. docs/propagate.md walks through one propagation.
+// The loop is short: pop a call that must run again from the queue (the one that is invalid at the
+// earliest place), run its body, reuse the children that it requests again, undo the effects that it
+// did not repeat before each of them, and discard the children that it did not request.
+// docs/propagate.md walks through one propagation.
 #pragma once
 
 #include <cstddef>
@@ -118,20 +119,28 @@ class Core {
   /// Gives the running call a new edge. Throws: std::bad_alloc.
   Edge& attach(std::uint8_t structure, std::uint8_t kind, std::size_t bytes) {
     Activation& a = running();
+    if (now_ != a.place) [[unlikely]]
+      begin_segment(a);
     const Handle h = arena_.allocate(bytes);
     Edge& edge = *at<Edge>(h);
     edge = {
         .structure = structure,
         .kind = static_cast<std::uint8_t>(kind & 0x3f),
-        .behind = now_ != a.self,
         .round = a.call->round,
         .granules = static_cast<std::uint16_t>((bytes + Arena::kGranule - 1) / Arena::kGranule)};
     append_edge(a, h);
     ++counts_.edges_made;
     return edge;
   }
-  /// Moves the first edge of last time that `matches` into this execution. The search goes on where
-  /// the last one ended, and ends after `most` edges.
+  /// The running call's place in time: that of its segment.
+  [[nodiscard]] Handle place() {
+    Activation& a = running();
+    if (now_ != a.place) [[unlikely]]
+      begin_segment(a);
+    return a.place;
+  }
+  /// Moves the first edge of last time, in the same segment, that `matches` into this execution. The
+  /// search goes on where the last one ended, and ends after `most` edges.
   template <class Matches>
   Edge* recall(Matches&& matches, std::size_t most = ~std::size_t{0});
   /// Runs body(). An exception fails the running call, even if that goes on to catch it: it would
@@ -145,7 +154,8 @@ class Core {
       throw;
     }
   }
-  void result_changed(Handle caller) noexcept;
+  /// The running call returns something else than last time.
+  void result_changed() noexcept { current_->returned = current_->self; }
   void add_weight(std::uint64_t n) noexcept { counts_.weight += n; }
   [[nodiscard]] void* environment() const {
     if (environment_ == nullptr) [[unlikely]]
@@ -164,17 +174,15 @@ class Core {
 
   std::uint8_t add_structure(Structure& structure);
   void remove_structure(std::uint8_t number) noexcept { structures_[number] = nullptr; }
-  void invalidate(Call& call, const Edge* seen) noexcept {
-    ask_again(call, Validity::invalid, seen, 0);
+  void invalidate(Handle place, const Edge* seen) noexcept {
+    ask_again(call_at(place), place, Validity::invalid, seen, 0);
   }
-  void doubt(Call& call, Handle source) noexcept {
-    ask_again(call, Validity::doubtful, nullptr, source);
+  void doubt(Handle place, Handle source) noexcept {
+    ask_again(call_at(place), place, Validity::doubtful, nullptr, source);
   }
-  /// `outer` did something behind children of its own, which `inner` is told of, or should have
-  /// been told of, as a first run would say: if it has settled and encloses `inner`, it runs again,
-  /// and says so.
-  void rerun_if_around(Call& outer, const Call& inner) noexcept {
-    if (!appending() && !outer.running() && encloses(outer, inner)) defer(outer);
+  /// The call that has this place: the place is its own stamp, or that of a segment.
+  [[nodiscard]] Call& call_at(Handle place) const noexcept {
+    return *at<Call>(at<TimeNode>(place)->is_call() ? place : at<Segment>(place)->call);
   }
   [[nodiscard]] bool precedes(const TimeNode& a, const TimeNode& b) const noexcept {
     return timeline_.precedes(a, b);
@@ -183,8 +191,6 @@ class Core {
   [[nodiscard]] bool lies_ahead(const Call& call) const noexcept {
     return timeline_.precedes(*at<TimeNode>(now_), call);
   }
-  /// Whether the running call has had children in this execution.
-  [[nodiscard]] bool has_had_children() const noexcept { return now_ != current_->self; }
   template <class T>
   [[nodiscard]] T* at(Handle h) const noexcept {
     return arena_.at<T>(h);
@@ -236,9 +242,7 @@ class Core {
   void set_waiting(Call& call) noexcept;
   void discard_subtree(Handle call) noexcept;
   /// A placed call that nobody posts any more goes when its turn comes.
-  void enqueue(Call& call) noexcept {
-    if (call.queue == 0) queue_.push(arena_.handle_of(&call));
-  }
+  void enqueue(Call& call) noexcept { enqueue(call, arena_.handle_of(&call)); }
   /// The running call will have children: it has an end.
   void need_end() { need_end(running()); }
   [[nodiscard]] Handle end_of(Handle call) const noexcept {
@@ -250,12 +254,6 @@ class Core {
   [[nodiscard]] bool is_ahead(Handle stamp) const noexcept {
     return stamp == now_ || !linked(stamp) ||
            timeline_.precedes(*at<TimeNode>(now_), *at<TimeNode>(stamp));
-  }
-  /// Whether `call` lies behind time stamp `from` and before `end` (0: the end of the trace).
-  [[nodiscard]] bool lies_between(const TimeNode& from, const Call& call,
-                                  Handle end) const noexcept {
-    return timeline_.precedes(from, call) &&
-           (end == 0 || timeline_.precedes(call, *at<TimeNode>(end)));
   }
   [[nodiscard]] std::uint16_t number_of(const Function& function) {
     const std::uint16_t number = functions_.number(function);
@@ -278,6 +276,8 @@ class Core {
   [[nodiscard]] const Registry<Function>& functions() const noexcept { return functions_; }
   /// Whether a call that is in the trace lies at `h`, where anything may lie.
   [[nodiscard]] bool is_live_call(Handle h) const noexcept;
+  /// The same for a place.
+  [[nodiscard]] bool is_live_place(Handle h) const noexcept;
   /// Calls visit(call, depth) for every placed call in pre-order.
   template <class Visit>
   void walk(Visit&& visit) const;
@@ -313,16 +313,17 @@ class Core {
   struct Activation {
     Call* call = nullptr;
     Handle self = 0;       // that call
+    Handle place = 0;      // of its segment
     Handle old_edges = 0;  // what the call did last time and has not repeated yet
     Handle cursor = 0;     // the old edge behind which the next one is looked for; 0: the first
     Handle last_edge = 0;
     Handle limit = 0;  // end of the interval in which calls may be reused; 0: end of the trace
     Handle end = 0;    // end stamp, once there are children
     Handle tail = 0;
+    Handle returned = 0;      // the call that has returned something else than last time
     Handle failed_child = 0;  // whose exception passes through the call's body
     Tail tail_state = Tail::none;
     bool end_linked = false;
-    bool hidden = false;  // what it has not repeated is hidden from its children
     bool failed = false;  // something that it asked for has thrown
     Activation* outer = nullptr;
   };
@@ -332,26 +333,24 @@ class Core {
       return *current_;
     fail_not_running();
   }
+  [[nodiscard]] bool is_stamped(Handle h, std::size_t bytes, TimeNode::Kind kind) const noexcept;
   [[noreturn]] void fail_not_running() const;
   [[noreturn]] void fail_no_environment() const;
   // An end stamp has no place until its call closes.
   [[nodiscard]] bool linked(Handle stamp) const noexcept { return at<TimeNode>(stamp)->prev != 0; }
-  // Whether `call` lies in the interval of `ancestor`, which may be open.
-  [[nodiscard]] bool encloses(const Call& ancestor, const Call& call) const noexcept {
-    return ancestor.end != 0 && timeline_.precedes(ancestor, call) &&
-           (!linked(ancestor.end) || timeline_.precedes(call, *at<TimeNode>(ancestor.end)));
-  }
-  void ask_again(Call& call, Validity validity, const Edge* seen, Handle source) noexcept;
+  void ask_again(Call& call, Handle place, Validity validity, const Edge* seen,
+                 Handle source) noexcept;
+  void enqueue(Call& call, Handle place) noexcept;
   void note_failure(Event::Kind kind, const Call* call = nullptr) noexcept;
 
   // execute.cpp
   void execute(Handle call, Handle limit);
   void run_body(Activation& a, Handle call);
   [[noreturn]] void fail_caught(const Activation& a) const;
-  void require_children_unmoved(const Activation& a);
+  void begin_segment(Activation& a);
   void settle(Activation& a) noexcept;
-  [[nodiscard]] Handle next_link(Activation& a, Handle link);
-  [[nodiscard]] bool settle_link(Handle link);
+  void tell_caller(Handle call) noexcept;
+  [[nodiscard]] Handle next_link(Activation& a);
   void close(Activation& a);
   void link_end(Activation& a);
   void abandon(Activation& a) noexcept;
@@ -360,16 +359,13 @@ class Core {
 
   // propagate.cpp
   void propagate_within(Handle call);
-  [[nodiscard]] bool next_is_up_to(Handle call, Handle end) const noexcept;
+  [[nodiscard]] bool next_is_within(Handle call) const noexcept;
   [[nodiscard]] static bool unposted(const Call& call) noexcept {
     return call.posted && Slot::of(call).posts == 0;
   }
-  void run_from_queue(Handle call, Handle within);
-  void run_from_queue(Call& call);
-  [[nodiscard]] bool around_waits(Handle call, Handle within) const noexcept;
-  void defer(Call& call) noexcept;
-  void take_deferred(Handle call) noexcept;
-  [[nodiscard]] bool unchanged(Call& call);
+  void run_from_queue(PropagationQueue::Entry entry);
+  [[nodiscard]] bool confirmed(Call& call, Handle place);
+  [[nodiscard]] bool unchanged(Call& call, Edge& edge);
   void settle_child(Handle child);
 
   // interval.cpp
@@ -379,7 +375,8 @@ class Core {
   }
   [[nodiscard]] Handle find_ahead(const Asked& asked, bool tail);
   void reuse(Handle child) noexcept;
-  void hide_unrepeated(Activation& a) noexcept;
+  void settle_before(Activation& a, const TimeNode& child) noexcept;
+  void pass(const Segment& segment) noexcept;
   [[noreturn]] void fail_call(const Activation& caller, const Function& function) const;
   void insert_call(Handle call);
   void make_room(std::size_t calls);
@@ -388,7 +385,10 @@ class Core {
   void free_call(Handle call) noexcept;
   void discard_between(Handle from, Handle to) noexcept;
   void discard(Handle call) noexcept;
-  void retract_all(Call& call, Handle edges) noexcept;
+  [[nodiscard]] Handle retract(Call& call, Handle edges, const TimeNode* until) noexcept;
+  void retract_all(Call& call, Handle edges) noexcept {
+    static_cast<void>(retract(call, edges, nullptr));
+  }
   void append_edge(Activation& a, Handle edge) noexcept {
     (a.last_edge != 0 ? at<Edge>(a.last_edge)->next : a.call->edges) = edge;
     a.last_edge = edge;
@@ -402,7 +402,6 @@ class Core {
   Registry<Function> functions_;
   std::vector<Structure*> structures_;
   Originals originals_;
-  std::vector<Handle> deferred_;  // invalid, and before the running call: not in the queue yet
   std::vector<Handle> graveyard_;
   std::size_t most_leaving_ = 0;  // so much of it has been in use
   std::size_t room_ = 0;          // for so many calls there is room in all three
@@ -412,8 +411,6 @@ class Core {
   Handle now_ = 0;                // the last time stamp that is settled or running
   Mode mode_ = Mode::idle;
   bool broken_ = false;
-  bool stopped_ = false;                           // the progress function has said so, or failed
-  std::uint8_t excused_ = 0;                       // failures that may have come too early
   std::uint64_t progress_at_ = ~std::uint64_t{0};  // number of bodies run at the next report
   Counts counts_;
   std::uint64_t live_calls_ = 0;
@@ -430,19 +427,21 @@ class WorkQueue : public Structure {
 template <class Matches>
 Edge* Core::recall(Matches&& matches, std::size_t most) {
   Activation& a = running();
+  if (now_ != a.place) [[unlikely]]
+    begin_segment(a);
   if (a.old_edges == 0) return nullptr;
   const auto search = [&](Handle previous, Handle end) -> Edge* {
     Handle* link = previous != 0 ? &at<Edge>(previous)->next : &a.old_edges;
     for (; *link != end && *link != 0 && most > 0;
          previous = *link, link = &at<Edge>(*link)->next) {
       Edge& edge = *at<Edge>(*link);
+      if (edge.begins_segment) break;
       --most;
       if (!matches(edge)) continue;
       const Handle handle = *link;
       *link = edge.next;
       edge.next = 0;
       edge.round = a.call->round;
-      edge.behind = now_ != a.self;
       append_edge(a, handle);
       a.cursor = previous;
       return &edge;
@@ -459,7 +458,7 @@ template <class Visit>
 void Core::walk(Visit&& visit) const {
   std::vector<Handle> open;  // end stamps of the intervals around the current call
   for (Handle h = at<TimeNode>(timeline_.front())->next; h != 0; h = at<TimeNode>(h)->next) {
-    if (at<TimeNode>(h)->marked()) {
+    if (!at<TimeNode>(h)->is_call()) {
       while (!open.empty() && open.back() == h) open.pop_back();
       continue;
     }

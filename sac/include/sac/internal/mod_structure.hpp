@@ -49,7 +49,7 @@ using Stamp = BasicStamp<kChecked>;
 
 // One value over a stretch of the trace: 16 bytes (20 with SAC_CHECKS), value behind it.
 struct Version {
-  Handle writer = 0;   // the call that wrote it; 0: the outside
+  Handle place = 0;    // where a call wrote it; 0: the outside
   Handle readers = 0;  // chain of ReadEdges
   union {
     std::uint32_t history = 0;  // in place: number of the History; 0: this is the only version
@@ -61,9 +61,7 @@ struct Version {
   bool apart : 1 = false;        // not where the modifiable's handle points
   bool past : 1 = false;         // apart, and gone: kept for those who have seen it
   bool ordered : 1 = false;      // its readers are in reader_orders_ as well
-  std::uint8_t round : 1 = 0;    // the writer's when it wrote or repeated it
-  bool behind : 1 = false;       // its writer had had children
-  bool read_behind : 1 = false;  // so had one of its readers
+  std::uint8_t round : 1 = 0;  // the writer's when it wrote or repeated it
   [[no_unique_address]] Stamp stamp;
 
   /// The stamp of a version that lies in place, given on first use.
@@ -99,8 +97,8 @@ struct History {
 
 struct ReadEdge : Edge {
   Handle version;  // what it saw; 0: that is gone, and the call is invalid
-  Handle call;
-  Handle prev;  // previous reader; 0: first
+  Handle place;  // of the call that read it
+  Handle prev;   // previous reader; 0: first
   Handle next_reader;
 };
 static_assert(sizeof(ReadEdge) == 24);
@@ -216,8 +214,6 @@ class ModStructure final : public Structure {
   // --- As a structure
 
   void retract(Call& call, Edge& edge) noexcept override;
-  void hide(Call& call, Edge& edge, Handle end) noexcept override;
-  void finished() noexcept override { skips_.clear(); }
   [[nodiscard]] bool unchanged(Call& call, Edge& edge) override;
   void label(const Call& call, const Edge& edge, LabelSink& sink) const override;
   void print(const Call& call, const Edge& edge, std::ostream& out) const override;
@@ -237,22 +233,23 @@ class ModStructure final : public Structure {
     return engine_.arena().handle_of(&version);
   }
   [[nodiscard]] const Call& writer(const Version& version) const noexcept {
-    return engine_.call(version.writer);
+    return engine_.call_at(version.place);
   }
-  // Orders versions by their writers; handle 0 stands for `probe`.
-  [[nodiscard]] auto order(const Call* probe = nullptr) const noexcept {
+  [[nodiscard]] bool precedes(Handle place, Handle other) const noexcept {
+    return engine_.precedes(engine_.time(place), engine_.time(other));
+  }
+  // Orders versions by their places; handle 0 stands for one at `probe`.
+  [[nodiscard]] auto order(Handle probe = 0) const noexcept {
     return [this, probe](Handle a, Handle b) {
-      const Call& x = a != 0 ? writer(*at(a)) : *probe;
-      const Call& y = b != 0 ? writer(*at(b)) : *probe;
-      return engine_.precedes(x, y);
+      return precedes(a != 0 ? at(a)->place : probe, b != 0 ? at(b)->place : probe);
     };
   }
-  // Orders readers by their calls; handle 0 stands for `probe`.
-  [[nodiscard]] auto reader_order(const Call* probe = nullptr) const noexcept {
+  // Orders readers by their places; handle 0 stands for one at `probe`.
+  [[nodiscard]] auto reader_order(Handle probe = 0) const noexcept {
     return [this, probe](Handle a, Handle b) {
-      const Call& x = a != 0 ? engine_.call(reader(a)->call) : *probe;
-      const Call& y = b != 0 ? engine_.call(reader(b)->call) : *probe;
-      return &x == &y ? a != 0 && b != 0 && a < b : engine_.precedes(x, y);
+      const Handle x = a != 0 ? reader(a)->place : probe;
+      const Handle y = b != 0 ? reader(b)->place : probe;
+      return x == y ? a != 0 && b != 0 && a < b : precedes(x, y);
     };
   }
   [[nodiscard]] detail::History& history(std::uint32_t number) noexcept {
@@ -270,68 +267,47 @@ class ModStructure final : public Structure {
   }
   // Null: there is none.
   struct Around {
-    Version* before;  // the last of earlier calls and of the call itself
-    Version* behind;  // the first of later calls
+    Version* before;  // the last one up to the place, and at it
+    Version* behind;  // the first one behind it
   };
-  [[nodiscard]] Around versions_around(const Call& call, Handle head) const noexcept {
+  [[nodiscard]] Around versions_around(Handle place, Handle head) const noexcept {
     Version* const first = at(head);
     if (first->history == 0) [[likely]] {
       if (!first->written) return {nullptr, nullptr};
-      const Call& w = writer(*first);
-      if (&w == &call || engine_.precedes(w, call)) return {first, nullptr};
+      if (first->place == place || precedes(first->place, place)) return {first, nullptr};
       return {nullptr, first};
     }
-    const auto place = history(first->history).versions.place_of(0, order(&call));
-    return {place.before != nullptr ? at(*place.before) : nullptr,
-            place.behind != nullptr ? at(*place.behind) : nullptr};
-  }
-  // Whether a running call wrote `version` last time and has not yet repeated it.
-  [[nodiscard]] bool hidden(const Version& version) const noexcept {
-    const Call& w = writer(version);
-    return w.running() && version.round != w.round;
+    const auto found = history(first->history).versions.place_of(0, order(place));
+    return {found.before != nullptr ? at(*found.before) : nullptr,
+            found.behind != nullptr ? at(*found.behind) : nullptr};
   }
   void check_live(Handle head, detail::Stamp stamp, const char* what) const;
   [[noreturn]] void fail_null(const char* what) const;
 
   // read.cpp
-  // The last version before `call`, or its own; null if there is none. What a running call wrote
-  // last time and has not repeated is not there for it, nor for the children that it makes.
-  [[nodiscard]] Version* seen_by(const Call& call, Handle head) const {
+  // The last version before the running call's `place`, or its own of this execution; null if there
+  // is none.
+  [[nodiscard]] Version* seen_at(Handle place, Handle head) const {
     const Version& first = *at(head);
-    if (first.history == 0 && first.written) [[likely]] {
-      const Call& w = writer(first);
-      if (!w.running() && engine_.precedes(w, call)) [[likely]]
-        return at(head);
+    if (first.history == 0 && first.written && precedes(first.place, place)) [[likely]] {
+      return at(head);
     }
-    return seen_among(call, head);
+    return seen_among(place, head);
   }
-  [[nodiscard]] Version* seen_among(const Call& call, Handle head) const;
-  [[nodiscard]] Version* visible_to(const Call& call, const Version& seen) const;
-  [[nodiscard]] Version* shown(Handle head, Version* version) const noexcept;
-  void keep_skip(Handle head, const Version& version) noexcept;
-  void require_ahead(const Call& reader, Handle head, const Version& next) const;
-  [[noreturn]] void fail_unwritten(const Call& reader, Handle head) const;
+  [[nodiscard]] Version* seen_among(Handle place, Handle head) const;
+  [[nodiscard]] Version* visible_at(Handle place, const Version& seen) const;
+  [[noreturn]] void fail_unwritten(Handle place, Handle head) const;
 
   // write.cpp
   Version* own_version(Scope& scope, Handle head);
-  detail::WriteEdge& repeat(Scope& scope, Handle head, Handle version);
+  void repeat(Scope& scope, Handle head, Handle version);
   [[nodiscard]] bool has_passed_on(const detail::WriteEdge& edge) const noexcept;
   [[nodiscard]] Version* predecessor(Handle head, const Version& version) const noexcept;
   Version& new_version(Scope& scope, Handle head, const detail::ValueType& type);
   Version& new_apart(Handle head, const detail::ValueType& type);
   void enter_history(Handle head, Version& version, const detail::ValueType& type);
   void replace(Handle head, Version& version, Handle except) noexcept;
-  void appeared(const Call& self, Handle head, Version& version, Version& previous,
-                bool same) noexcept;
-  void require_unread(Scope& scope, Handle head, const Version* version);
-  // `version` is news to the reader. Has a call around the reader written it, behind children of
-  // its own: behind the reader?
-  void rerun_writer_around(const ReadEdge& edge, const Version& version) noexcept {
-    if (!version.behind) [[likely]]
-      return;
-    engine_.rerun_if_around(engine_.call(version.writer), engine_.call(edge.call));
-  }
-  void rerun_readers_around(const Call& writer, const Version& previous);
+  void appeared(Handle head, Version& version, Version& previous, bool same) noexcept;
   [[nodiscard]] std::uint32_t new_history(Handle head);
   void drop_history(Handle head) noexcept;
   void leave_past(Handle head, Version& version, Handle except) noexcept;
@@ -343,13 +319,12 @@ class ModStructure final : public Structure {
   void put_in_order(const ReadEdge& edge, Version& version) noexcept;
   void unlink_reader(ReadEdge& edge) noexcept;
   void move_reader(ReadEdge& edge, Version& to) noexcept;
-  void doubt_readers(Handle head, const Version& version, const Call& behind, Handle end) noexcept;
   void orphan(ReadEdge& edge) noexcept;
-  // Visits the readers of `version` behind `call`, and before time stamp `end` unless that is 0, in
-  // any order, until `visit` returns false; it may unlink the one that it is given. Cost: O(log) a
-  // reader visited; the first time that many others are passed, O(log) for each of these.
+  // Visits the readers of `version` behind `place`, in any order; `visit` may unlink the one that it
+  // is given. Cost: O(log) a reader visited; the first time that many others are passed, O(log) for
+  // each of these.
   template <class Visit>
-  void for_each_reader_behind(const Version& version, const Call& call, Handle end, Visit&& visit);
+  void for_each_reader_behind(const Version& version, Handle place, Visit&& visit);
   void order_readers(const Version& version) noexcept;
   void forget_order(Version& version) noexcept;
 
@@ -363,7 +338,6 @@ class ModStructure final : public Structure {
   std::vector<detail::History> histories_;  // by number; the first is not used
   std::vector<std::uint32_t> free_histories_;
   std::unordered_map<Handle, SortedIndex<Handle>> reader_orders_;  // by version
-  std::unordered_map<Handle, Handle> skips_;  // hidden version: the last before it that is not
 };
 
 template <class T, class Same>
@@ -381,36 +355,27 @@ void ModStructure::write(Scope& scope, Handle head, T value) {
   if (!is_untouched(*at(head))) {
     if (auto* own = static_cast<Typed*>(own_version(scope, head))) {
       if (!restored && detail::same<Same>(own->value(), value)) return;
-      require_unread(scope, head, own);
-      replace(head, *own, engine_.handle_of(scope.self()));
+      replace(head, *own, own->place);
       return own->give(std::move(value));
     }
-    previous = static_cast<Typed*>(versions_around(scope.self(), head).before);
+    previous = static_cast<Typed*>(versions_around(scope.place(), head).before);
     same = previous != nullptr && detail::same<Same>(previous->value(), value);
-    require_unread(scope, head, previous);
-    if (previous != nullptr && previous->read_behind) rerun_readers_around(scope.self(), *previous);
   }
   auto& version = static_cast<Typed&>(
       new_version(scope, head, detail::kValueType<T, Same>));  // the last that may fail
   version.give(std::move(value));
   if (!same) engine_.note(Event::Kind::changed, &scope.self(), head);
-  if (previous != nullptr) appeared(scope.self(), head, version, *previous, same);
+  if (previous != nullptr) appeared(head, version, *previous, same);
 }
 
 template <class Visit>
-void ModStructure::for_each_reader_behind(const Version& version, const Call& call, Handle end,
-                                          Visit&& visit) {
-  const auto is_before_end = [&](const ReadEdge& edge) {
-    return end == 0 ||
-           engine_.precedes(engine_.call(edge.call), *engine_.arena().at<TimeNode>(end));
-  };
+void ModStructure::for_each_reader_behind(const Version& version, Handle place, Visit&& visit) {
   if (version.ordered) {
     const auto& readers = reader_orders_.find(handle_of(version))->second;
     const auto value = [](const Handle* h) { return h != nullptr ? *h : 0; };
-    Handle r = value(readers.place_of(0, reader_order(&call)).behind);
-    while (r != 0) {
+    for (Handle r = value(readers.place_of(0, reader_order(place)).behind); r != 0;) {
       const Handle next = value(readers.place_of(r, reader_order()).behind);
-      if (!is_before_end(*reader(r)) || !visit(*reader(r))) return;
+      visit(*reader(r));
       r = next;
     }
     return;
@@ -421,12 +386,12 @@ void ModStructure::for_each_reader_behind(const Version& version, const Call& ca
   for (Handle r = version.readers; r != 0;) {
     ReadEdge& edge = *reader(r);
     r = edge.next_reader;
-    if (!engine_.precedes(call, engine_.call(edge.call)) || !is_before_end(edge)) {
+    if (precedes(place, edge.place)) {
+      ++visited;
+      visit(edge);
+    } else {
       ++passed;
-      continue;
     }
-    ++visited;
-    if (!visit(edge)) return;
   }
   if (passed > kMany && passed / 8 > visited && !engine_.appending()) order_readers(version);
 }

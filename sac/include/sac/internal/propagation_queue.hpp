@@ -1,4 +1,7 @@
-// Invalidated calls in trace order; pops the earliest.
+// Invalidated calls in the order of the places where they are invalid; pops the earliest.
+//
+// A place is a time stamp: of the call itself, of one of its segments, or, if the call depends on
+// the result of a child, the last one of that child.
 //
 // A run of calls that came in order, consumed from its front, and a binary heap of the others. So
 // the edits of a large batch, sorted once, and calls that invalidate the one behind them, cost O(1)
@@ -17,6 +20,11 @@ namespace sac {
 
 class PropagationQueue {
  public:
+  struct Entry {
+    Handle call = 0;
+    Handle place = 0;
+  };
+
   PropagationQueue(Arena& arena, const Timeline& timeline) : arena_(arena), timeline_(timeline) {}
 
   [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
@@ -34,19 +42,24 @@ class PropagationQueue {
   void shrink(std::size_t count);
   /// What the calls that waited at one time took at most; room for more has not been touched.
   [[nodiscard]] std::size_t bytes() const noexcept {
-    return (most_in_heap_ + most_in_run_) * sizeof(Handle);
+    return (most_in_heap_ + most_in_run_) * sizeof(Entry);
   }
 
-  /// Requires: the call is not queued and has a place in the timeline. Cost: O(1) behind the last
-  /// of the run, else O(log size).
-  void push(Handle call);
-  /// The earliest call. Requires: not empty.
-  [[nodiscard]] Handle front() const noexcept {
+  /// Requires: the call is not queued, `place` is in the timeline. Cost: O(1) behind the last of the
+  /// run, else O(log size).
+  void push(Entry entry);
+  /// Where the call waits. Requires: it is queued.
+  [[nodiscard]] Handle place_of(const Call& call) const noexcept {
+    const std::uint32_t position = call.queue;
+    return ((position & kInRun) != 0 ? run_[(position & ~kInRun) - 1] : heap_[position - 1]).place;
+  }
+  /// The earliest one. Requires: not empty.
+  [[nodiscard]] Entry front() const noexcept {
     if (heap_.empty()) return run_[run_begin_];
     return run_.empty() || before(heap_.front(), run_[run_begin_]) ? heap_.front()
                                                                    : run_[run_begin_];
   }
-  [[nodiscard]] Handle pop();
+  [[nodiscard]] Entry pop();
   void erase(Call& call) noexcept;
 
   /// Makes one run of all, if the heap holds many and memory allows. Cost: O(size log size), with
@@ -60,16 +73,21 @@ class PropagationQueue {
   static constexpr std::uint32_t kInRun = std::uint32_t{1} << 31;
 
   [[nodiscard]] Call* at(Handle h) const noexcept { return arena_.at<Call>(h); }
-  [[nodiscard]] bool before(Handle a, Handle b) const noexcept {
-    return timeline_.precedes(*at(a), *at(b));
+  [[nodiscard]] const TimeNode& time(Handle place) const noexcept {
+    return *arena_.at<TimeNode>(place);
   }
-  void put(std::size_t position, Handle call) noexcept {
-    heap_[position] = call;
-    at(call)->queue = static_cast<std::uint32_t>(position + 1);
+  // At one place the call that has it comes before the one that depends on its result.
+  [[nodiscard]] bool before(const Entry& a, const Entry& b) const noexcept {
+    return a.place == b.place ? a.call == a.place && b.call != b.place
+                              : timeline_.precedes(time(a.place), time(b.place));
   }
-  void append_to_run(Handle call) noexcept {
-    run_.push_back(call);
-    at(call)->queue = kInRun | static_cast<std::uint32_t>(run_.size());
+  void put(std::size_t position, Entry entry) noexcept {
+    heap_[position] = entry;
+    at(entry.call)->queue = static_cast<std::uint32_t>(position + 1);
+  }
+  void append_to_run(Entry entry) noexcept {
+    run_.push_back(entry);
+    at(entry.call)->queue = kInRun | static_cast<std::uint32_t>(run_.size());
     most_in_run_ = std::max(most_in_run_, run_.size());
   }
   void erase_from_run(std::size_t position) noexcept;
@@ -79,8 +97,8 @@ class PropagationQueue {
 
   Arena& arena_;
   const Timeline& timeline_;
-  std::vector<Handle> heap_;
-  std::vector<Handle> run_;    // in order from run_begin_ on; 0: has left; the last is there
+  std::vector<Entry> heap_;
+  std::vector<Entry> run_;     // in order from run_begin_ on; 0: has left; the last is there
   std::size_t run_begin_ = 0;  // is there, unless the run is empty
   std::size_t size_ = 0;
   std::size_t most_in_heap_ = 0;  // since the last shrink()

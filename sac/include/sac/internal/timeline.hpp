@@ -29,13 +29,19 @@ namespace sac {
 struct TimeNode {
   Handle prev = 0;
   Handle next = 0;
-  std::uint32_t group_and_mark = 0;  // bit 31: the client's mark
+  std::uint32_t group_and_kind = 0;
   std::uint32_t label = 0;
 
-  [[nodiscard]] std::uint32_t group() const noexcept { return group_and_mark & 0x7fffffffu; }
-  /// One bit for the client; survives relabelling.
-  [[nodiscard]] bool marked() const noexcept { return (group_and_mark >> 31) != 0; }
-  void mark() noexcept { group_and_mark |= 0x80000000u; }
+  /// What carries the stamp; survives relabelling.
+  enum class Kind : std::uint32_t { call = 0, end = 1u << 30, segment = 2u << 30 };
+  static constexpr std::uint32_t kKinds = 3u << 30;
+
+  [[nodiscard]] std::uint32_t group() const noexcept { return group_and_kind & ~kKinds; }
+  [[nodiscard]] Kind kind() const noexcept { return static_cast<Kind>(group_and_kind & kKinds); }
+  [[nodiscard]] bool is_call() const noexcept { return kind() == Kind::call; }
+  void set_kind(Kind kind) noexcept {
+    group_and_kind = (group_and_kind & ~kKinds) | static_cast<std::uint32_t>(kind);
+  }
 };
 
 class Timeline {
@@ -100,7 +106,7 @@ class Timeline {
     std::uint32_t prev = kNone;
     std::uint32_t next = kNone;  // of a free group: the next free one
   };
-  static constexpr std::uint32_t kNone = 0x7fffffffu;
+  static constexpr std::uint32_t kNone = 0x3fffffffu;
   static constexpr std::uint32_t kLastLabel = 0xffffffffu;
   // Appending leaves gaps of 2^22: a group takes 1021 appended nodes, and each gap then 22
   // insertions by halves before anything is relabelled.
@@ -135,7 +141,7 @@ class Timeline {
     ++size_;
   }
   static void stamp(TimeNode& n, std::uint32_t group, std::uint32_t label) noexcept {
-    n.group_and_mark = (n.group_and_mark & 0x80000000u) | group;
+    n.group_and_kind = (n.group_and_kind & TimeNode::kKinds) | group;
     n.label = label;
   }
 
