@@ -16,18 +16,25 @@ void* PlainAgenda::Class::allocate(std::size_t bytes) {
 std::strong_ordering PlainAgenda::order(const Entry& a, const Entry& b) {
   if (a.order != b.order) return a.order <=> b.order;
   const Kind& kind = *a.record->kind;
-  if (&kind != b.record->kind) return order_by_name(kind, *b.record->kind);
+  if (&kind != b.record->kind) return order_of_functions(kind, *b.record->kind);
   return kind.order(*a.record, *b.record);
 }
 
 void PlainAgenda::drain(PlainScope& s) {
   if (running_) throw UsageError("an agenda is drained twice");
   running_ = true;
-  while (!classes_.empty()) {
-    rank_ = classes_.begin()->first;
-    run_class(s, classes_.begin()->second);
+  try {
+    while (!classes_.empty()) {
+      rank_ = classes_.begin()->first;
+      run_class(s, classes_.begin()->second);
+      cached_ = nullptr;
+      classes_.erase(classes_.begin());
+    }
+  } catch (...) {  // as of a traced run that fails, nothing waits any more
     cached_ = nullptr;
-    classes_.erase(classes_.begin());
+    classes_.clear();
+    running_ = false;
+    throw;
   }
   running_ = false;
 }

@@ -64,6 +64,22 @@ refused "$same" 'Bare g(sac::Scope&) { return {1}; } void f(sac::Scope& s) { s.c
 refused 'an argument of a call needs ==' 'void f(sac::Scope&, Bare) {}' 'e.run<f>(Bare{1});'
 refused 'an argument of a posted call needs <=> or <' 'void f(sac::Scope&, Equal) {}' \
   'agenda.post_from_outside<f>({}, Equal{1});'
+address='calls of one key run in the order of their arguments, and addresses have another order'
+refused "$address" 'void f(sac::Scope&, sac::Mod<int>) {}' \
+  'agenda.post_from_outside<f>({}, e.input(1));'
+refused "$address" 'void f(sac::Scope&, const int*) {}' \
+  'agenda.post_from_outside<f>({}, static_cast<const int*>(nullptr));'
+refused "$address" 'void f(sac::Scope&, std::vector<std::pair<int, sac::Mod<int>>>) {}
+  namespace std { template <> struct hash<std::vector<std::pair<int, sac::Mod<int>>>> {
+    std::size_t operator()(const auto&) const { return 0; } }; }' \
+  'agenda.post_from_outside<f>({}, std::vector<std::pair<int, sac::Mod<int>>>());'
+accepted 'struct Named { const int* p; int id;
+    bool operator==(const Named& o) const { return p == o.p && id == o.id; }
+    auto operator<=>(const Named& o) const { return id <=> o.id; }
+    friend std::uint64_t hash_value(const Named& n) { return n.id; } };
+  void f(sac::Scope&, Named) {}' 'agenda.post_from_outside<f>({}, Named{nullptr, 1});'
+refused 'a value with a Same of its own is copied' '' \
+  'static_cast<void>(e.input<std::unique_ptr<int>, AnySame>(nullptr));'
 refused 'a traced function has no state' 'struct F { void operator()(sac::Scope&, int) {} };' \
   'e.run<F{}>(1);'
 refused 'a traced function takes a Scope&' 'void f(int) {}' 'e.run<f>(1);'

@@ -375,25 +375,26 @@ TEST_CASE("posts make calls, their end makes calls go") {
         "outside.\n");
 }
 
-void visit_with_child(Scope& s, int n, Mod<int> in) { s.call<count_down>(in, n); }
+void visit_with_child(Scope& s, int n) { s.call<count_down>(s.environment<Mod<int>>(), n); }
 void drain(Scope& s, sac::Agenda* agenda) { agenda->drain(s); }
 
 TEST_CASE("posts from outside are edits; children go with the call that nobody posts") {
   Watched w;
   auto& agenda = w.e.make_agenda("work");
-  const auto in = w.input(0, "in");
-  agenda.post_from_outside<visit_with_child>(key(4), 0, in);
+  auto in = w.input(0, "in");
+  w.e.set_environment(&in);
+  agenda.post_from_outside<visit_with_child>(key(4), 0);
   w.e.run<drain>(&agenda);
   w.news();
-  CHECK(w.why("visit_with") == "visit_with_child(0, @) is new: posted from outside.\n");
-  agenda.retract_from_outside<visit_with_child>(0, in);
+  CHECK(w.why("visit_with") == "visit_with_child(0) is new: posted from outside.\n");
+  agenda.retract_from_outside<visit_with_child>(0);
   w.e.propagate();
-  CHECK(w.news() == Lines{"unposted visit_with_child(0, @)", "propagation_started",
-                          "dying visit_with_child(0, @)", "discarded count_down(@, 0)",
-                          "discarded visit_with_child(0, @)", "finished"});
-  CHECK(w.why("visit_with") == "visit_with_child(0, @) was discarded: nobody posts it any more.\n");
+  CHECK(w.news() == Lines{"unposted visit_with_child(0)", "propagation_started",
+                          "dying visit_with_child(0)", "discarded count_down(@, 0)",
+                          "discarded visit_with_child(0)", "finished"});
+  CHECK(w.why("visit_with") == "visit_with_child(0) was discarded: nobody posts it any more.\n");
   CHECK(w.why("count_down") ==
-        "count_down(@, 0) was discarded with visit_with_child(0, @), which nobody posts any "
+        "count_down(@, 0) was discarded with visit_with_child(0), which nobody posts any "
         "more.\n");
 }
 

@@ -1,4 +1,5 @@
-// A call means what its text says: what it reads, writes and posts behind a child happens behind it.
+// A call means what its text says: what it reads, writes and posts behind a child happens behind
+// it.
 #include <catch2/catch.hpp>
 #include <stdexcept>
 #include <string>

@@ -63,18 +63,40 @@ concept Ordered = std::three_way_comparable<T> || requires(const T& a, const T& 
   { a < b } -> std::convertible_to<bool>;
 };
 
+// Whether the order of T is that of addresses, which is not the same in every run: also of what
+// contains such a T and is ordered by its elements.
+template <class T>
+struct OrderedByAddress
+    : std::bool_constant<std::is_pointer_v<T> || (SmartPointer<T> && !std::ranges::range<T>)> {};
+template <class T, class Same>
+struct OrderedByAddress<Mod<T, Same>> : std::true_type {};
+template <class T>
+requires TupleLike<T> &&(!std::ranges::range<T>)struct OrderedByAddress<T>
+    : std::bool_constant<[]<std::size_t... i>(std::index_sequence<i...>) {
+        return (OrderedByAddress<std::remove_cv_t<std::tuple_element_t<i, T>>>::value || ...);
+      }(std::make_index_sequence<std::tuple_size_v<T>>())> {};
+template <class T>
+requires std::ranges::range<T>&& std::three_way_comparable<T>struct OrderedByAddress<T>
+    : OrderedByAddress<std::ranges::range_value_t<T>> {};
+template <class T>
+struct OrderedByAddress<std::optional<T>> : OrderedByAddress<T> {};
+
 // A posted call F(scope, args...), and its frame.
 template <auto F, class... Args>
 struct Posted {
   static_assert((Ordered<Args> && ...),
                 "an argument of a posted call needs <=> or <: calls of one key run in the order of "
                 "their arguments");
+  static_assert(!(OrderedByAddress<Args>::value || ...),
+                "calls of one key run in the order of their arguments, and addresses have another "
+                "order in every run: post a number that names the object, or a type of your own "
+                "whose <=> compares what the objects are");
   static_assert(std::is_void_v<ResultOf<F, Args...>>, "a posted call has nobody to return to");
   static constexpr auto name = &function_name<F>;
   using FrameType = Frame<Slot, Nothing, Args...>;
   static constexpr Function function = [] {
     Function f = describe_frame<FrameType, name>();
-    f.identity = identity<F, std::tuple<Args...>>();
+    f.identity = &identity<F, std::tuple<Args...>>;
     f.posted = true;
     f.execute = &Called<F, Args...>::template execute_in<FrameType>;
     f.compare = [](const Call& a, const Call& b) {
@@ -96,18 +118,18 @@ class Agenda final : public WorkQueue {
   /// Posts the call f(scope, args...) at `key`, as an effect of the running call. Throws:
   /// UsageError for the errors of (3) and (4).
   template <auto F, class... Args>
-  void post(Scope& s, const Key& key, Args... args) {
+  void post(Scope& s, const Key& key, Args&&... args) {
     core_.guarded([&] {
-      const auto label = label_as<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
+      const auto label = label_of<F>(std::forward<Args>(args)...);
       post_call(s, key, label.asked());
     });
   }
 
   /// Posts a call from outside: an input, like Engine::set.
   template <auto F, class... Args>
-  void post_from_outside(const Key& key, Args... args) {
+  void post_from_outside(const Key& key, Args&&... args) {
     engine_.begin_edit("post_from_outside");
-    const auto label = label_as<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
+    const auto label = label_of<F>(std::forward<Args>(args)...);
     const Handle post = outside_post(key, label.asked());
     try {
       engine_.on_rollback([this, label] { drop_outside(require_posted(label.asked())); });
@@ -118,9 +140,9 @@ class Agenda final : public WorkQueue {
   }
   /// Undoes one post_from_outside. Throws: UsageError if there is none.
   template <auto F, class... Args>
-  void retract_from_outside(Args... args) {
+  void retract_from_outside(Args&&... args) {
     engine_.begin_edit("retract_from_outside");
-    const auto label = label_as<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
+    const auto label = label_of<F>(std::forward<Args>(args)...);
     const Handle post = require_posted(label.asked());
     engine_.on_rollback([this, key = key_of(post), label] { outside_post(key, label.asked()); });
     drop_outside(post);
@@ -170,6 +192,11 @@ class Agenda final : public WorkQueue {
 
   // Edits from outside and their inverses use labels: a call discarded in a failed propagation is
   // a different object after the roll-back.
+  template <auto F, class... Args>
+  static auto label_of(Args&&... args) {
+    return label_as<F>(detail::parameters<F, false, detail::Arrived<Args>...>(),
+                       std::forward<Args>(args)...);
+  }
   template <auto F, class... P, class... Args>
   static auto label_as(detail::Types<P...>, Args&&... args) {
     auto label = detail::make_label<detail::Posted<F, P...>>(std::forward<Args>(args)...);

@@ -131,7 +131,7 @@ class Engine {
   /// Runs f(scope, args...) at the end of the trace. Edits made before can no longer be undone.
   /// Throws: exceptions of the program, after undoing all of its effects.
   template <auto F, class... Args>
-  Counts run(Args... args);
+  Counts run(Args&&... args);
 
   /// Updates the trace after the edits since the last call.
   /// Throws: exceptions of the program, and Cancelled; the edits are then undone.

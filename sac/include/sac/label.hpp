@@ -30,6 +30,7 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <typeinfo>
 
 #include "sac/arena.hpp"
 
@@ -88,7 +89,8 @@ template <class T>
 /// Whether hashing a T needs no client code: calls with such arguments do not store their hash.
 template <class T>
 inline constexpr bool kCheapHash =
-    std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_pointer_v<T>;
+    std::is_arithmetic_v<T> || std::is_enum_v<T> ||
+    (std::is_pointer_v<T> && !std::is_same_v<T, Agenda*>);
 template <class T, class Same>
 inline constexpr bool kCheapHash<Mod<T, Same>> = true;
 
@@ -208,11 +210,11 @@ void name_argument(LabelSink& sink, const T& value) {
   } else if constexpr (Printable<T>) {
     sink.print_begin() << value;
     sink.print_end();
-  } else if constexpr (TupleLike<T>) {
-    std::apply([&](const auto&... part) { (name_argument(sink, part), ...); }, value);
   } else if constexpr (std::ranges::sized_range<const T>) {
     sink.number(std::ranges::size(value));
     for (const auto& part : value) name_argument(sink, part);
+  } else if constexpr (TupleLike<T>) {
+    std::apply([&](const auto&... part) { (name_argument(sink, part), ...); }, value);
   } else if constexpr (HashedByValue<T> || HashedByStd<T> || HashedByBytes<T>) {
     sink.nameless(hash_argument(value));
   } else {
@@ -313,11 +315,25 @@ template <auto F>
   }
 }
 
-/// A text that distinguishes functions of one name, and one function with different argument types;
-/// its order is the same in every run of a build. Args: the std::tuple of the arguments.
+namespace detail {
 template <auto F, class Args>
-[[nodiscard]] constexpr std::string_view identity() {
-  return __PRETTY_FUNCTION__;
+struct FunctionType {};
+}  // namespace detail
+
+/// What distinguishes functions of one name, and one function with different argument types, in an
+/// order that is the same in every run of a build.
+struct Identity {
+  const char* type;  ///< as the compiler names it for the linker: it numbers lambdas
+  const char* file;  ///< that was compiled: functions of one name and type are local to theirs
+};
+/// Args: the std::tuple of the arguments.
+template <auto F, class Args>
+[[nodiscard]] Identity identity() {
+#ifdef __BASE_FILE__
+  return {typeid(detail::FunctionType<F, Args>).name(), __BASE_FILE__};
+#else
+  return {typeid(detail::FunctionType<F, Args>).name(), ""};
+#endif
 }
 
 /// The name of a keyed allocation of a T, for people and in labels: `make Node`.

@@ -180,8 +180,8 @@ void Scope::write(const Cell<T, Same>& cell, std::type_identity_t<T> value) {
 }
 
 template <class T, class Same, class... Key>
-Mod<T, Same> Scope::cell(Key... key) {
-  return make<Cell<T, Same>>(std::move(key)...);
+Mod<T, Same> Scope::cell(Key&&... key) {
+  return make<Cell<T, Same>>(std::forward<Key>(key)...);
 }
 
 }  // namespace sac

@@ -67,12 +67,14 @@ class PlainScope {
   PlainScope(const PlainScope&) = delete;
   PlainScope& operator=(const PlainScope&) = delete;
   ~PlainScope() {
+    drop_tail();
     for (auto it = owned_.rbegin(); it != owned_.rend(); ++it) it->destroy(it->object);
   }
 
-  /// Reads a modifiable. Throws: UsageError if it has no value yet.
+  /// Reads a modifiable. Throws: UsageError if it has no value yet, or is null.
   template <class T, class Same>
   const T& read(PlainMod<T, Same> mod) {
+    require_modifiable(mod);
     if (!mod.place().has_value()) throw UsageError("read of a modifiable that nobody has written");
     return *mod.place();
   }
@@ -82,6 +84,7 @@ class PlainScope {
   }
   template <class T, class Same>
   void write(PlainMod<T, Same> mod, std::type_identity_t<T> value) {
+    require_modifiable(mod);
     mod.place() = std::move(value);
   }
   template <class T, class Same>
@@ -91,26 +94,20 @@ class PlainScope {
 
   void weigh(std::uint64_t) noexcept {}
 
+  /// Calls F; returns what it returns, by value.
   template <auto F, class... Args>
-  std::invoke_result_t<decltype(F), PlainScope&, Args...> call(Args... args) {
-    require_no_tail();
-    if constexpr (std::is_void_v<std::invoke_result_t<decltype(F), PlainScope&, Args...>>) {
-      F(*this, args...);
-      run_tails();
-    } else {
-      auto result = F(*this, args...);
-      run_tails();
-      return result;
-    }
+  auto call(Args&&... args) {
+    return call_kept<F, Kept<Args>...>(std::forward<Args>(args)...);
   }
   template <auto F, class... Args>
-  void tail(Args... args) {
-    set_tail([](PlainScope& s, const Args&... stored) { F(s, stored...); }, std::move(args)...);
+  void tail(Args&&... args) {
+    set_tail([](PlainScope& s, const Kept<Args>&... stored) { F(s, stored...); },
+             Kept<Args>(std::forward<Args>(args))...);
   }
 
-  /// /// Makes a default-constructed T.
+  /// Makes a default-constructed T.
   template <class T, class... Key>
-  T& make(Key...) {
+  T& make(Key&&...) {
     T& object = *::new (allocate(sizeof(T), alignof(T))) T();
     if constexpr (!std::is_trivially_destructible_v<T>) {
       owned_.push_back({&object, [](void* o) { static_cast<T*>(o)->~T(); }});
@@ -119,23 +116,23 @@ class PlainScope {
   }
   /// Makes a T and fills it by F(scope, object, key...).
   template <class T, auto F, class... Key>
-  T& make(Key... key) {
+  T& make(Key&&... key) {
     require_no_tail();
     T& object = make<T>();
-    F(*this, object, key...);
+    fill<F, T, Kept<Key>...>(object, std::forward<Key>(key)...);
     run_tails();
     return object;
   }
   /// Makes a T; F(scope, object, key...) fills it after the running function.
   template <class T, auto F, class... Key>
-  T& tail_make(Key... key) {
+  T& tail_make(Key&&... key) {
     T& object = make<T>();
-    set_tail([](PlainScope& s, T* o, const Key&... stored) { F(s, *o, stored...); }, &object,
-             std::move(key)...);
+    set_tail([](PlainScope& s, T* o, const Kept<Key>&... stored) { F(s, *o, stored...); }, &object,
+             Kept<Key>(std::forward<Key>(key))...);
     return object;
   }
   template <class T, class Same = std::equal_to<>, class... Key>
-  PlainMod<T, Same> cell(Key...) {
+  PlainMod<T, Same> cell(Key&&...) {
     return make<PlainCell<T, Same>>();
   }
 
@@ -160,14 +157,20 @@ class PlainScope {
   decltype(auto) get(const M& mod) {
     return read(mod);
   }
+  /// If it throws, the next run begins anew; what has been written stays.
   template <auto F, class... Args>
-  void run(Args... args) {
-    call<F>(std::move(args)...);
+  void run(Args&&... args) {
+    try {
+      call<F>(std::forward<Args>(args)...);
+    } catch (...) {
+      drop_tail();
+      throw;
+    }
   }
   PlainAgenda& make_agenda(const char*) { return make<PlainAgenda>(); }
 
   void run_tails() {
-    while (tail_ != nullptr) std::exchange(tail_, nullptr)(*this);
+    while (tail_ != nullptr) std::exchange(tail_, nullptr)(*this, true);
   }
 
  private:
@@ -179,6 +182,42 @@ class PlainScope {
     void (*destroy)(void*);
   };
 
+  // As what an argument is passed on: a cell as its modifiable.
+  template <class T>
+  struct KeptAs {
+    using type = T;
+  };
+  template <class T, class Same>
+  struct KeptAs<PlainCell<T, Same>> {
+    using type = PlainMod<T, Same>;
+  };
+  template <class T>
+  using Kept = typename KeptAs<std::decay_t<T>>::type;
+
+  template <auto F, class... P>
+  auto call_kept(P... args) {
+    require_no_tail();
+    if constexpr (std::is_void_v<std::invoke_result_t<decltype(F), PlainScope&, P&...>>) {
+      F(*this, args...);
+      run_tails();
+    } else {
+      std::decay_t<std::invoke_result_t<decltype(F), PlainScope&, P&...>> result =
+          F(*this, args...);
+      run_tails();
+      return result;
+    }
+  }
+  template <auto F, class T, class... P>
+  void fill(T& object, P... key) {
+    F(*this, object, key...);
+  }
+  template <class T, class Same>
+  static void require_modifiable(PlainMod<T, Same> mod) {
+    if (!mod) throw UsageError("a modifiable that is null is read or written");
+  }
+  void drop_tail() {
+    if (tail_ != nullptr) std::exchange(tail_, nullptr)(*this, false);
+  }
   void require_no_tail() const {
     if (tail_ != nullptr) throw UsageError("call: a tail call must be the last thing done");
   }
@@ -189,10 +228,11 @@ class PlainScope {
     static_assert(sizeof(Tuple) <= kTailBytes && alignof(Tuple) <= 16);
     require_no_tail();
     ::new (static_cast<void*>(tail_args_)) Tuple(std::move(args)...);
-    tail_ = [](PlainScope& s) {
+    tail_ = [](PlainScope& s, bool runs) {
       Tuple* stored = std::launder(reinterpret_cast<Tuple*>(s.tail_args_));
       const Tuple mine(std::move(*stored));
       stored->~Tuple();
+      if (!runs) return;
       std::apply([&](const auto&... a) { Body{}(s, a...); }, mine);
     };
   }
@@ -208,7 +248,7 @@ class PlainScope {
   }
 
   void* environment_ = nullptr;
-  void (*tail_)(PlainScope&) = nullptr;
+  void (*tail_)(PlainScope&, bool runs) = nullptr;
   alignas(16) std::byte tail_args_[kTailBytes];
   std::vector<std::unique_ptr<std::byte[]>> blocks_;
   std::size_t block_bytes_ = 0;

@@ -11,7 +11,7 @@
 //       if (s.recall<Producing>(id_, kProducing, same) != nullptr) return;
 //       auto& edge = s.effect<Producing>(id_, kProducing);  // Producing : sac::ProducerEdge
 //       edge.thing = &thing;
-//       tell(thing, presences_.produced(thing.presence, edge, s.self()));
+//       tell(thing, presences_.produced(thing.presence, edge, s.place()));
 //     }
 //     void retract(sac::Call&, sac::Edge& edge) noexcept override {
 //       auto& e = static_cast<Producing&>(edge);
@@ -20,9 +20,7 @@
 //     ...                       // tell: invalidates the observers of thing that are in the window
 //   };
 //
-// A call does not see a thing by its own production. Queries are made in the name of a call; a
-// structure whose calls produce things and then have children must hide from the children the
-// things that the call has not repeated yet.
+// A place does not see a thing by its own production (Scope::place).
 #pragma once
 
 #include <optional>

@@ -65,39 +65,44 @@ class Scope {
   /// a value, call() returns a reference to it, valid while the caller runs, and the caller depends
   /// on the value.
   template <auto F, class... Args>
-  decltype(auto) call(Args... args) {
-    return call_as<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
+  decltype(auto) call(Args&&... args) {
+    return call_as<F>(detail::parameters<F, false, detail::Arrived<Args>...>(),
+                      std::forward<Args>(args)...);
   }
 
   /// Makes a child call as the last operation of the function: it runs after the function, without
   /// native recursion. F must return nothing.
   template <auto F, class... Args>
-  void tail(Args... args) {
-    tail_as<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
+  void tail(Args&&... args) {
+    tail_as<F>(detail::parameters<F, false, detail::Arrived<Args>...>(),
+               std::forward<Args>(args)...);
   }
 
   /// Keyed allocation: a default-constructed T that keeps its address as long as (T, key) is
   /// requested again within the interval that runs again, by whichever call.
   template <class T, class... Key>
-  T& make(Key... key) {
-    return object<detail::Made<T, detail::Kept<Key>...>>(false, std::move(key)...);
+  T& make(Key&&... key) {
+    return object<detail::Made<T, detail::Kept<detail::Arrived<Key>>...>>(
+        false, std::forward<Key>(key)...);
   }
   /// Keyed allocation of a T, which the call F(scope, object, key...) fills. The label is that of
   /// F(key...).
   template <class T, auto F, class... Key>
-  T& make(Key... key) {
-    return built<T, F>(detail::parameters<F, true, Key...>(), false, std::move(key)...);
+  T& make(Key&&... key) {
+    return built<T, F>(detail::parameters<F, true, detail::Arrived<Key>...>(), false,
+                       std::forward<Key>(key)...);
   }
   /// As make(), but F runs as a tail call: the object is returned at once, still empty. Afterwards
   /// the function may still read and write, but not call: F runs behind that.
   template <class T, auto F, class... Key>
-  T& tail_make(Key... key) {
-    return built<T, F>(detail::parameters<F, true, Key...>(), true, std::move(key)...);
+  T& tail_make(Key&&... key) {
+    return built<T, F>(detail::parameters<F, true, detail::Arrived<Key>...>(), true,
+                       std::forward<Key>(key)...);
   }
 
   /// Keyed allocation of a modifiable that the program writes.
   template <class T, class Same = std::equal_to<>, class... Key>
-  Mod<T, Same> cell(Key... key);
+  Mod<T, Same> cell(Key&&... key);
 
   // --- For structures
 
@@ -223,8 +228,9 @@ void Called<F, Args...>::execute_in(Scope& scope, Call& call) {
 }  // namespace detail
 
 template <auto F, class... Args>
-Counts Engine::run(Args... args) {
-  return run_as<F>(detail::parameters<F, false, Args...>(), std::move(args)...);
+Counts Engine::run(Args&&... args) {
+  return run_as<F>(detail::parameters<F, false, detail::Arrived<Args>...>(),
+                   std::forward<Args>(args)...);
 }
 
 template <auto F, class... P, class... Args>

@@ -35,7 +35,7 @@ struct Call;
 /// signature. `arguments` is the tuple that a call keeps.
 struct Function {
   std::string_view name;                     // for people; not unique
-  std::string_view identity = {};            // the compiler's full name; empty unless posted
+  Identity (*identity)() = nullptr;          // null unless posted
   std::uint32_t frame_bytes = 0;             // of the call with everything behind its head
   std::uint32_t object_offset = 0;           // of the keyed object; 0: none
   bool posted = false;                       // runs from an agenda
@@ -46,6 +46,7 @@ struct Function {
   const void* (*arguments)(const Call&) = nullptr;
   std::strong_ordering (*compare)(const Call&, const Call&) = nullptr;  // null unless posted
   std::uint32_t (*hash)(const Call&) noexcept = nullptr;
+  bool (*has_agenda)(const Call&, const Agenda&) = nullptr;    // among its arguments; null: none
   void (*print)(const Call&, std::ostream&) = nullptr;         // the arguments, for people
   void (*label)(const Call&, LabelSink&) = nullptr;            // names of the arguments in all runs
   void (*print_result)(const Call&, std::ostream&) = nullptr;  // null: no result
@@ -53,9 +54,7 @@ struct Function {
 };
 
 /// The order of posted functions whose calls have equal keys.
-[[nodiscard]] inline std::strong_ordering order_by_name(const Function& a, const Function& b) {
-  return a.name != b.name ? a.name <=> b.name : a.identity <=> b.identity;
-}
+[[nodiscard]] std::strong_ordering order_of_functions(const Function& a, const Function& b);
 
 /// The state of a call (docs/propagate.md has the diagram).
 enum class Life : std::uint8_t {

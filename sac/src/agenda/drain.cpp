@@ -1,9 +1,18 @@
 // Placing posted calls, and draining.
 #include <algorithm>
+#include <cstring>
 
 #include "sac/agenda.hpp"
 
 namespace sac {
+
+std::strong_ordering order_of_functions(const Function& a, const Function& b) {
+  if (a.name != b.name) return a.name <=> b.name;
+  const Identity x = a.identity();
+  const Identity y = b.identity();
+  const int by_type = std::strcmp(x.type, y.type);
+  return (by_type != 0 ? by_type : std::strcmp(x.file, y.file)) <=> 0;
+}
 
 bool Agenda::before(const Call& a, const Call& b) const {
   const Slot& x = Slot::of(a);
@@ -11,8 +20,7 @@ bool Agenda::before(const Call& a, const Call& b) const {
   if (x.rank != y.rank) return x.rank < y.rank;
   if (x.order != y.order) return x.order < y.order;
   if (a.function_number != b.function_number) {
-    const std::strong_ordering order = order_by_name(a.function(), b.function());
-    return order != 0 ? order < 0 : a.function_number < b.function_number;
+    return order_of_functions(a.function(), b.function()) < 0;
   }
   return a.function().compare(a, b) < 0;
 }

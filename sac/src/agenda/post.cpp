@@ -238,7 +238,13 @@ void Agenda::drop_unposted() noexcept {
     }
   }
   unposted_.clear();
-  if (any_chained) drop_chained_unposted();
+  if (!any_chained) return;
+  drop_chained_unposted();
+  if (state_ != State::open) return;
+  try {
+    adopt_chained();  // so that the next one is found at once
+  } catch (...) {  // they stay chained
+  }
 }
 
 // Takes a call that waits out of its class. Returns false if it is chained instead.

@@ -179,6 +179,19 @@ const Call& Core::parent_of(const Call& call) const noexcept {
   return call;
 }
 
+void Core::require_no_argument(const Agenda& agenda) const {
+  bool any = false;
+  for (std::size_t i = 0; i < functions_.size(); ++i) {
+    any = any || functions_[static_cast<std::uint16_t>(i)].has_agenda != nullptr;
+  }
+  if (!any) return;
+  for_each_call([&](const Call& c) {
+    const Function& f = c.function();
+    if (c.dead() || f.has_agenda == nullptr || !f.has_agenda(c, agenda)) return;
+    throw UsageError("release: the agenda is an argument of " + Engine::describe(c));
+  });
+}
+
 void Core::shrink() {
   arena_.shrink();
   memo_.shrink();

@@ -55,6 +55,7 @@ Agenda& Engine::make_agenda(std::string name) {
 void Engine::release(Agenda& agenda) {
   begin_edit("release");
   agenda.require_unused();
+  core_.require_no_argument(agenda);
   std::erase_if(agendas_, [&](const auto& other) { return other.get() == &agenda; });
 }
 

@@ -292,6 +292,8 @@ class Core {
       if (s != nullptr) visit(*s);
     }
   }
+  /// Throws: UsageError if a call has it as an argument. Cost: O(calls) if a function takes agendas.
+  void require_no_argument(const Agenda& agenda) const;
   void shrink();
   void check_invariants(std::uint64_t waiting) const;
 

@@ -97,6 +97,16 @@ std::uint32_t hash_frame(const Call& call) noexcept {
   }
 }
 
+template <class Arguments>
+inline constexpr bool kHasAgenda = false;
+template <class... Args>
+inline constexpr bool kHasAgenda<std::tuple<Args...>> = (std::is_same_v<Args, Agenda*> || ...);
+template <class T>
+bool is_agenda(const T& argument, const Agenda& agenda) {
+  if constexpr (std::is_same_v<T, Agenda*>) return argument == &agenda;
+  return false;
+}
+
 // Of a call with this frame, but for running it.
 template <class F, auto Name>
 constexpr Function describe_frame() {
@@ -113,6 +123,12 @@ constexpr Function describe_frame() {
   };
   f.arguments = [](const Call& call) -> const void* { return &F::of(call).args; };
   f.hash = &hash_frame<F, Name>;
+  if constexpr (kHasAgenda<typename F::Arguments>) {
+    f.has_agenda = [](const Call& call, const Agenda& agenda) {
+      return std::apply([&](const auto&... a) { return (is_agenda(a, agenda) || ...); },
+                        F::of(call).args);
+    };
+  }
   f.print = [](const Call& c, std::ostream& out) { print_arguments(out, F::of(c).args, &c); };
   f.label = [](const Call& c, LabelSink& sink) { label_arguments(sink, F::of(c).args); };
   return f;

@@ -1,16 +1,21 @@
 // The types in which the arguments of a traced function are kept: those of its parameters, so that
 // a call has one label however its arguments are written (1 or 1L, a literal or a std::string). For
 // a function that is a template or overloaded, and for keys, the types of the arguments are kept;
-// character strings become std::string.
+// character strings and std::string_view become std::string.
 #pragma once
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 namespace sac {
 
 class Scope;
+template <class T, class Same>
+class Mod;
+template <class T, class Same>
+class Cell;
 
 namespace detail {
 
@@ -23,7 +28,20 @@ inline constexpr bool kCString = std::is_same_v<T, char*> || std::is_same_v<T, c
 
 /// As what an argument of no declared type is kept.
 template <class T>
-using Kept = std::conditional_t<kCString<T>, std::string, T>;
+using Kept =
+    std::conditional_t<kCString<T> || std::is_same_v<T, std::string_view>, std::string, T>;
+
+/// As what an argument arrives: a cell as its modifiable.
+template <class T>
+struct ArrivedAs {
+  using type = T;
+};
+template <class T, class Same>
+struct ArrivedAs<Cell<T, Same>> {
+  using type = Mod<T, Same>;
+};
+template <class T>
+using Arrived = typename ArrivedAs<std::decay_t<T>>::type;
 
 // Of a function or member function that takes a scope first; void for others.
 template <class F>
@@ -76,7 +94,8 @@ constexpr auto kept_as(Types<P...>) {
     static_assert((std::is_convertible_v<Args, std::decay_t<P>> && ...),
                   "an argument is not of the type that the traced function takes");
   }
-  return Types<std::decay_t<P>...>();
+  return Types<std::conditional_t<std::is_same_v<std::decay_t<P>, std::string_view>, std::string,
+                                  std::decay_t<P>>...>();
 }
 
 /// Types<...>: as what arguments of the types `Args` are kept for a call of F. kObject: F takes an

@@ -28,12 +28,12 @@ class PlainAgenda {
   PlainAgenda& operator=(const PlainAgenda&) = delete;
 
   template <auto F, class... Args>
-  void post(PlainScope&, const Key& key, Args... args) {
-    add<F, detail::Kept<Args>...>(key, std::move(args)...);
+  void post(PlainScope&, const Key& key, Args&&... args) {
+    add<F, detail::Kept<std::decay_t<Args>>...>(key, std::forward<Args>(args)...);
   }
   template <auto F, class... Args>
-  void post_from_outside(const Key& key, Args... args) {
-    add<F, detail::Kept<Args>...>(key, std::move(args)...);
+  void post_from_outside(const Key& key, Args&&... args) {
+    add<F, detail::Kept<std::decay_t<Args>>...>(key, std::forward<Args>(args)...);
   }
   void drain(PlainScope& s);
 
@@ -81,7 +81,7 @@ class PlainAgenda {
   }
   template <auto F, class Arguments>
   static constexpr Kind kKind{
-      {.name = function_name<F>(), .identity = identity<F, Arguments>(), .posted = true},
+      {.name = function_name<F>(), .identity = &identity<F, Arguments>, .posted = true},
       [](PlainScope& s, const Record& r) {
         std::apply([&](const auto&... a) { F(s, a...); }, arguments_of<Arguments>(r));
       },

@@ -85,7 +85,14 @@ bool same(const T& a, const T& b) {
 
 /// Whether what is replaced is kept until a propagation has succeeded: see Originals.
 template <class T, class Same>
-inline constexpr bool kKeepsOriginals =
-    !std::is_same_v<Same, std::equal_to<>> && std::is_copy_constructible_v<T>;
+constexpr bool keeps_originals() {
+  constexpr bool kOwnSame = !std::is_same_v<Same, std::equal_to<>>;
+  static_assert(!kOwnSame || std::is_copy_constructible_v<T>,
+                "a value with a Same of its own is copied, so that a roll-back restores it: make it "
+                "copyable, or hold it by a shared pointer");
+  return kOwnSame;
+}
+template <class T, class Same>
+inline constexpr bool kKeepsOriginals = keeps_originals<T, Same>();
 
 }  // namespace sac::detail

@@ -115,12 +115,13 @@ class Sequence {
     });
   }
   /// A sequence of these elements; new elements get ids above the greatest. Throws: UsageError if
-  /// an id is 0 or occurs twice.
+  /// an id is 0, above 2^63, or occurs twice.
   Sequence(Host& host, const std::vector<Saved>& elements) : host_(host) {
     create([&] {
       for (const Saved& saved : elements) {
-        if (saved.id.value == 0 || contains(saved.id)) {
-          throw UsageError("sequence: an element's id is 0 or another's: " + text(saved.id));
+        if (saved.id.value == 0 || saved.id.value > kLastId || contains(saved.id)) {
+          throw UsageError("sequence: an element's id is 0, above 2^63, or another's: " +
+                           text(saved.id));
         }
         insert_behind(*header_->before, saved.id, saved.value);
         if (last_id_ < saved.id.value) last_id_ = saved.id.value;
@@ -279,6 +280,8 @@ class Sequence {
   Entry* unused_ = nullptr;  // from insertions that have been undone
   detail::EntryTable<Entry> table_;
   std::size_t size_ = 0;
+  static constexpr std::uint64_t kLastId = std::uint64_t{1} << 63;  // of saved elements: new ones
+                                                                    // have room behind it
   std::uint64_t last_id_ = 0;
 };
 
