@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, Op::kKinds> kOpNames{
     "read maybe",   "catch maybe",  "write maybe", "write input",  "catch write", "claim",
     "count",        "total",        "mark",        "post side",    "drain",       "drain call",
     "tail drain",   "post early",   "keyed",       "real",         "catch real",  "fail",
-    "catch own",    "catch call",   "misuse",      "catch misuse", "answer",   "late write"};
+    "catch own",    "catch call",   "misuse",      "catch misuse", "answer",      "late write"};
 constexpr std::array<std::string_view, Step::kKinds> kStepNames{
     "set", "post",   "retract", "insert", "remove", "weigh", "propagate", "undo",
     "run", "shrink", "fuse",    "client", "heap",   "arena", "cancel",    "starve"};

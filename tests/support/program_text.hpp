@@ -95,8 +95,8 @@ struct Op {
   int threshold;
 
   /// Ops of a node come in the order of their phases: reads and writes, allocation, calls, a tail
-  /// call. There is one of the last phase at most. In a program with ops of Feature::behind the first
-  /// three are one.
+  /// call. There is one of the last phase at most. In a program with ops of Feature::behind the
+  /// first three are one.
   [[nodiscard]] int phase() const {
     switch (kind) {
       case link:

@@ -152,6 +152,7 @@ void BoxMesher<D>::Impl::insert_polygon(const Polygon& polygon) {
   const auto refuse = [&](ErrorCode code, const std::string& why) {
     throw Error(code, why, {}, {mesher::Feature(polygon.id)});
   };
+  if (D == 2) refuse(ErrorCode::bad_option, "polygons are for space");
   if (options.rule != Rule::radius_edge) {
     refuse(ErrorCode::bad_option, "polygons need the rule radius-edge");
   }

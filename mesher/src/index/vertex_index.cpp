@@ -92,11 +92,13 @@ void VertexIndex<sac::Scope, D>::produced(sac::Scope& s, Vertex<D>& v, BirthEdge
   edge.vertex = v.self;
   const bool was_there = v.presence.there();
   if (!was_there) log_.came(v);
-  const auto window = presences_.produced(v.presence, edge, s.self());
+  const sac::Handle self = engine_.handle_of(s.self());
+  SAC_ENSURES(s.place() == self);  // calls of the program act before they call
+  const auto window = presences_.produced(v.presence, edge, self);
   v.alive = true;
   if (!was_there) {
     set_role(v, role);  // nobody has seen it
-  } else if (v.presence.birth() == engine_.handle_of(s.self())) {
+  } else if (v.presence.birth() == self) {
     take_role(v, role, s.self());
   }
   if (window.has_value()) appeared(v, *window);

@@ -56,7 +56,9 @@ void TracedLeaves::produce(sac::Scope& s, Leaf& leaf, std::uint8_t kind) {
   auto& edge = s.effect<LeafEdge>(id_, kind);
   edge.leaf = leaf.self;
   sac::Presence& presence = kind == kBegin ? leaf.begun : leaf.ended;
-  const auto window = presences_.produced(presence, edge, s.self());
+  const sac::Handle self = engine_.handle_of(s.self());
+  SAC_ENSURES(s.place() == self);  // calls of the program act before they call
+  const auto window = presences_.produced(presence, edge, self);
   if (window.has_value()) changed(leaf, kind, *window);
 }
 

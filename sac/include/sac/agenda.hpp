@@ -63,23 +63,31 @@ concept Ordered = std::three_way_comparable<T> || requires(const T& a, const T& 
   { a < b } -> std::convertible_to<bool>;
 };
 
-// Whether the order of T is that of addresses, which is not the same in every run: also of what
-// contains such a T and is ordered by its elements.
 template <class T>
-struct OrderedByAddress
-    : std::bool_constant<std::is_pointer_v<T> || (SmartPointer<T> && !std::ranges::range<T>)> {};
+inline constexpr bool kIsMod = false;
 template <class T, class Same>
-struct OrderedByAddress<Mod<T, Same>> : std::true_type {};
+inline constexpr bool kIsMod<Mod<T, Same>> = true;
+
+// Whether the order of T is that of addresses, or contains it: that is another one in every run.
 template <class T>
-requires TupleLike<T> &&(!std::ranges::range<T>)struct OrderedByAddress<T>
-    : std::bool_constant<[]<std::size_t... i>(std::index_sequence<i...>) {
-        return (OrderedByAddress<std::remove_cv_t<std::tuple_element_t<i, T>>>::value || ...);
-      }(std::make_index_sequence<std::tuple_size_v<T>>())> {};
-template <class T>
-requires std::ranges::range<T>&& std::three_way_comparable<T>struct OrderedByAddress<T>
-    : OrderedByAddress<std::ranges::range_value_t<T>> {};
-template <class T>
-struct OrderedByAddress<std::optional<T>> : OrderedByAddress<T> {};
+constexpr bool ordered_by_address() {
+  if constexpr (std::is_pointer_v<T> || kIsMod<T>) {
+    return true;
+  } else if constexpr (std::ranges::range<T>) {
+    using Element = std::ranges::range_value_t<T>;
+    if constexpr (!std::is_same_v<Element, T>) return ordered_by_address<Element>();
+  } else if constexpr (TupleLike<T>) {
+    return []<std::size_t... i>(std::index_sequence<i...>) {
+      return (ordered_by_address<std::remove_cv_t<std::tuple_element_t<i, T>>>() || ...);
+    }
+    (std::make_index_sequence<std::tuple_size_v<T>>());
+  } else if constexpr (requires(const T& value) { *value, value.has_value(); }) {
+    return ordered_by_address<std::decay_t<decltype(*std::declval<const T&>())>>();
+  } else {
+    return SmartPointer<T>;
+  }
+  return false;
+}
 
 // A posted call F(scope, args...), and its frame.
 template <auto F, class... Args>
@@ -87,7 +95,7 @@ struct Posted {
   static_assert((Ordered<Args> && ...),
                 "an argument of a posted call needs <=> or <: calls of one key run in the order of "
                 "their arguments");
-  static_assert(!(OrderedByAddress<Args>::value || ...),
+  static_assert(!(ordered_by_address<Args>() || ...),
                 "calls of one key run in the order of their arguments, and addresses have another "
                 "order in every run: post a number that names the object, or a type of your own "
                 "whose <=> compares what the objects are");

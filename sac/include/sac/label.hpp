@@ -88,9 +88,8 @@ template <class T>
 
 /// Whether hashing a T needs no client code: calls with such arguments do not store their hash.
 template <class T>
-inline constexpr bool kCheapHash =
-    std::is_arithmetic_v<T> || std::is_enum_v<T> ||
-    (std::is_pointer_v<T> && !std::is_same_v<T, Agenda*>);
+inline constexpr bool kCheapHash = std::is_arithmetic_v<T> || std::is_enum_v<T> ||
+                                   (std::is_pointer_v<T> && !std::is_same_v<T, Agenda*>);
 template <class T, class Same>
 inline constexpr bool kCheapHash<Mod<T, Same>> = true;
 

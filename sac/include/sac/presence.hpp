@@ -34,7 +34,7 @@ namespace sac {
 /// thing.
 struct ProducerEdge : Edge {
   Handle place = 0;  // of the producer (Scope::place)
-  Handle next = 0;  // another producer of the same thing
+  Handle next = 0;   // another producer of the same thing
 };
 
 /// The record that a structure keeps for each thing. Eight bytes; all zero: no call produces it.
@@ -77,8 +77,8 @@ class Presences {
     return seen_at(p, engine_.handle_of(call));
   }
 
-  /// Records that the thing is produced at `place`: `edge` is the new effect. Returns the places that
-  /// see the thing now and did not before; nothing if there are none. Cost: O(1).
+  /// Records that the thing is produced at `place`: `edge` is the new effect. Returns the places
+  /// that see the thing now and did not before; nothing if there are none. Cost: O(1).
   [[nodiscard]] std::optional<Window> produced(Presence& p, ProducerEdge& edge,
                                                Handle place) noexcept;
   /// Records that the effect is undone. Returns the places that saw the thing and no longer do.
@@ -103,9 +103,8 @@ inline std::optional<Window> Presences::produced(Presence& p, ProducerEdge& edge
   edge.next = p.producers_;
   p.producers_ = engine_.arena().handle_of(&edge);
   const Handle old = p.birth_;
-  const bool earlier =
-      old == 0 ||
-      (!engine_.appending() && engine_.precedes(engine_.time(place), engine_.time(old)));
+  const bool earlier = old == 0 || (!engine_.appending() &&
+                                    engine_.precedes(engine_.time(place), engine_.time(old)));
   if (!earlier) return std::nullopt;
   p.birth_ = place;
   if (engine_.appending()) return std::nullopt;  // nothing is behind

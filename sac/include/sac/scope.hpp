@@ -3,8 +3,8 @@
 // A traced function is a free function or a captureless object F with
 //     void f(sac::Scope& s, Args... args)
 // that depends only on its arguments and on what it reads through `s`. What it reads, writes, calls
-// and posts happens in the order of its text. If an operation of the scope throws, the call fails: the function may
-// clean up, but it must not go on as if nothing had happened.
+// and posts happens in the order of its text. If an operation of the scope throws, the call fails:
+// the function may clean up, but it must not go on as if nothing had happened.
 #pragma once
 
 #include <type_traits>
@@ -112,10 +112,10 @@ class Scope {
   [[nodiscard]] Handle place() { return core_.place(); }
 
   /// Repeats an edge of the last execution: moves the first edge E of `structure` at the same place
-  /// for which `matches(const E&)` into this execution and returns it; null if there is none. The search
-  /// starts where the last one ended, so edges repeated in order are found at once. It visits at
-  /// most `most` edges: without that bound, a call that repeats n edges in another order takes
-  /// O(n^2).
+  /// for which `matches(const E&)` into this execution and returns it; null if there is none. The
+  /// search starts where the last one ended, so edges repeated in order are found at once. It
+  /// visits at most `most` edges: without that bound, a call that repeats n edges in another order
+  /// takes O(n^2).
   template <class E, class Matches>
   E* recall(std::uint8_t structure, std::uint8_t kind, Matches&& matches,
             std::size_t most = ~std::size_t{0}) {

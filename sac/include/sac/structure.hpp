@@ -6,8 +6,8 @@
 // calls' observations may have changed (Engine::invalidate, Engine::doubt).
 //
 // Rules that the engine and a structure keep together:
-// (1) What a call does has a place in time (Scope::place): an observation sees the effects before it
-//     in the order of the text, its own call's included.
+// (1) What a call does has a place in time (Scope::place): an observation sees the effects before
+//     it in the order of the text, its own call's included.
 // (2) When a call runs again, what it does not repeat at a place is undone before it goes on to its
 //     next child, or when it ends. Until then the effects of its last execution at this place
 //     (`is_old`) are not there for the call itself; nobody else runs.

@@ -123,10 +123,10 @@ struct ResultHead {
 struct Edge {
   Handle next = 0;  // next edge of the same call
   std::uint8_t structure = 0;
-  std::uint8_t kind : 6 = 0;           // meaning defined by the structure
+  std::uint8_t kind : 6 = 0;            // meaning defined by the structure
   std::uint8_t begins_segment : 1 = 0;  // of no structure: it lies in a Segment
-  std::uint8_t round : 1 = 0;          // the call's round when it was made or repeated
-  std::uint16_t granules = 0;          // its size
+  std::uint8_t round : 1 = 0;           // the call's round when it was made or repeated
+  std::uint16_t granules = 0;           // its size
 };
 static_assert(sizeof(Edge) == 8);
 

@@ -243,7 +243,7 @@ void Agenda::drop_unposted() noexcept {
   if (state_ != State::open) return;
   try {
     adopt_chained();  // so that the next one is found at once
-  } catch (...) {  // they stay chained
+  } catch (...) {     // they stay chained
   }
 }
 

@@ -58,6 +58,10 @@ void Core::fail_caught(const Activation& a) const {
 // The running call does something behind a child. If it did so last time behind this one, the
 // segment goes on, with what has not been repeated yet.
 void Core::begin_segment(Activation& a) {
+  guarded([&] { enter_segment(a); });
+}
+
+void Core::enter_segment(Activation& a) {
   a.cursor = 0;
   Handle segment = at<TimeNode>(now_)->next;
   const bool known =

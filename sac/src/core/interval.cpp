@@ -211,8 +211,7 @@ void Core::free_call(Handle call) noexcept {
 }
 
 void Core::discard_between(Handle from, Handle to) noexcept {
-  for (Handle h = at<TimeNode>(from)->next; h != to;) {
-    const Handle next = at<TimeNode>(h)->next;
+  for (Handle h; (h = at<TimeNode>(from)->next) != to;) {
     switch (at<TimeNode>(h)->kind()) {
       case TimeNode::Kind::call:
         discard(h);
@@ -225,7 +224,6 @@ void Core::discard_between(Handle from, Handle to) noexcept {
         pass(*at<Segment>(h));
         break;
     }
-    h = next;
   }
 }
 

@@ -34,8 +34,8 @@ void Core::propagate_within(Handle call) {
   while (!queue_.empty() && (call == 0 || next_is_within(call))) run_from_queue(queue_.pop());
 }
 
-// Whether the earliest place in the queue lies in `call`'s interval. Who depends on the call's result
-// waits at its last stamp, and lies outside.
+// Whether the earliest place in the queue lies in `call`'s interval. Who depends on the call's
+// result waits at its last stamp, and lies outside.
 bool Core::next_is_within(Handle call) const noexcept {
   const PropagationQueue::Entry first = queue_.front();
   if (first.place == call) return first.call == call;

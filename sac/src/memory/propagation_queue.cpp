@@ -87,10 +87,9 @@ void PropagationQueue::sort() noexcept {
   };
   take(heap_);
   take(run_);
-  std::sort(entries.begin(), entries.end(),
-            [this](const Sorted& a, const Sorted& b) {
-              return a.place != b.place ? a.place < b.place : before(a.entry, b.entry);
-            });
+  std::sort(entries.begin(), entries.end(), [this](const Sorted& a, const Sorted& b) {
+    return a.place != b.place ? a.place < b.place : before(a.entry, b.entry);
+  });
   heap_.clear();
   run_.clear();
   run_begin_ = 0;
@@ -124,7 +123,8 @@ void PropagationQueue::check_invariants() const {
     SAC_INVARIANT(!at(heap_[i].call)->dead());
     SAC_INVARIANT(i == 0 || !before(heap_[i], heap_[(i - 1) / 2]));
   }
-  SAC_INVARIANT(run_.empty() ? run_begin_ == 0 : run_[run_begin_].call != 0 && run_.back().call != 0);
+  SAC_INVARIANT(run_.empty() ? run_begin_ == 0
+                             : run_[run_begin_].call != 0 && run_.back().call != 0);
   std::size_t in_run = 0;
   Entry previous;
   for (std::size_t i = run_begin_; i < run_.size(); ++i) {

@@ -75,8 +75,9 @@ detail::Version& ModStructure::last(Handle head) const {
   return *at(head);
 }
 
-// What a call would read at `place`, where it has read `seen`. Its own version of this place it would
-// see only where it has written it before; what it has read of others it has read before it wrote.
+// What a call would read at `place`, where it has read `seen`. Its own version of this place it
+// would see only where it has written it before; what it has read of others it has read before it
+// wrote.
 detail::Version* ModStructure::visible_at(Handle place, const Version& seen) const {
   if (!seen.past && !seen.outside && seen.place == place) return at(handle_of(seen));
   const Handle head = head_of(seen);

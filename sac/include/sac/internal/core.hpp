@@ -7,8 +7,8 @@
 //   Agenda      calls that are made before they run: "For work queues" below
 //
 // The loop is short: pop a call that must run again from the queue (the one that is invalid at the
-// earliest place), run its body, reuse the children that it requests again, undo the effects that it
-// did not repeat before each of them, and discard the children that it did not request.
+// earliest place), run its body, reuse the children that it requests again, undo the effects that
+// it did not repeat before each of them, and discard the children that it did not request.
 // docs/propagate.md walks through one propagation.
 #pragma once
 
@@ -139,8 +139,8 @@ class Core {
       begin_segment(a);
     return a.place;
   }
-  /// Moves the first edge of last time, in the same segment, that `matches` into this execution. The
-  /// search goes on where the last one ended, and ends after `most` edges.
+  /// Moves the first edge of last time, in the same segment, that `matches` into this execution.
+  /// The search goes on where the last one ended, and ends after `most` edges.
   template <class Matches>
   Edge* recall(Matches&& matches, std::size_t most = ~std::size_t{0});
   /// Runs body(). An exception fails the running call, even if that goes on to catch it: it would
@@ -292,7 +292,8 @@ class Core {
       if (s != nullptr) visit(*s);
     }
   }
-  /// Throws: UsageError if a call has it as an argument. Cost: O(calls) if a function takes agendas.
+  /// Throws: UsageError if a call has it as an argument. Cost: O(calls) if a function takes
+  /// agendas.
   void require_no_argument(const Agenda& agenda) const;
   void shrink();
   void check_invariants(std::uint64_t waiting) const;
@@ -350,6 +351,7 @@ class Core {
   void run_body(Activation& a, Handle call);
   [[noreturn]] void fail_caught(const Activation& a) const;
   void begin_segment(Activation& a);
+  void enter_segment(Activation& a);
   void settle(Activation& a) noexcept;
   void tell_caller(Handle call) noexcept;
   [[nodiscard]] Handle next_link(Activation& a);

@@ -57,10 +57,10 @@ struct Version {
   };
   std::uint16_t type = 0;
   bool written : 1 = false;
-  bool outside : 1 = false;      // an input
-  bool apart : 1 = false;        // not where the modifiable's handle points
-  bool past : 1 = false;         // apart, and gone: kept for those who have seen it
-  bool ordered : 1 = false;      // its readers are in reader_orders_ as well
+  bool outside : 1 = false;    // an input
+  bool apart : 1 = false;      // not where the modifiable's handle points
+  bool past : 1 = false;       // apart, and gone: kept for those who have seen it
+  bool ordered : 1 = false;    // its readers are in reader_orders_ as well
   std::uint8_t round : 1 = 0;  // the writer's when it wrote or repeated it
   [[no_unique_address]] Stamp stamp;
 
@@ -97,8 +97,8 @@ struct History {
 
 struct ReadEdge : Edge {
   Handle version;  // what it saw; 0: that is gone, and the call is invalid
-  Handle place;  // of the call that read it
-  Handle prev;   // previous reader; 0: first
+  Handle place;    // of the call that read it
+  Handle prev;     // previous reader; 0: first
   Handle next_reader;
 };
 static_assert(sizeof(ReadEdge) == 24);
@@ -320,9 +320,9 @@ class ModStructure final : public Structure {
   void unlink_reader(ReadEdge& edge) noexcept;
   void move_reader(ReadEdge& edge, Version& to) noexcept;
   void orphan(ReadEdge& edge) noexcept;
-  // Visits the readers of `version` behind `place`, in any order; `visit` may unlink the one that it
-  // is given. Cost: O(log) a reader visited; the first time that many others are passed, O(log) for
-  // each of these.
+  // Visits the readers of `version` behind `place`, in any order; `visit` may unlink the one that
+  // it is given. Cost: O(log) a reader visited; the first time that many others are passed, O(log)
+  // for each of these.
   template <class Visit>
   void for_each_reader_behind(const Version& version, Handle place, Visit&& visit);
   void order_readers(const Version& version) noexcept;

@@ -28,8 +28,7 @@ inline constexpr bool kCString = std::is_same_v<T, char*> || std::is_same_v<T, c
 
 /// As what an argument of no declared type is kept.
 template <class T>
-using Kept =
-    std::conditional_t<kCString<T> || std::is_same_v<T, std::string_view>, std::string, T>;
+using Kept = std::conditional_t<kCString<T> || std::is_same_v<T, std::string_view>, std::string, T>;
 
 /// As what an argument arrives: a cell as its modifiable.
 template <class T>

@@ -45,8 +45,8 @@ class PropagationQueue {
     return (most_in_heap_ + most_in_run_) * sizeof(Entry);
   }
 
-  /// Requires: the call is not queued, `place` is in the timeline. Cost: O(1) behind the last of the
-  /// run, else O(log size).
+  /// Requires: the call is not queued, `place` is in the timeline. Cost: O(1) behind the last of
+  /// the run, else O(log size).
   void push(Entry entry);
   /// Where the call waits. Requires: it is queued.
   [[nodiscard]] Handle place_of(const Call& call) const noexcept {

@@ -87,9 +87,10 @@ bool same(const T& a, const T& b) {
 template <class T, class Same>
 constexpr bool keeps_originals() {
   constexpr bool kOwnSame = !std::is_same_v<Same, std::equal_to<>>;
-  static_assert(!kOwnSame || std::is_copy_constructible_v<T>,
-                "a value with a Same of its own is copied, so that a roll-back restores it: make it "
-                "copyable, or hold it by a shared pointer");
+  static_assert(
+      !kOwnSame || std::is_copy_constructible_v<T>,
+      "a value with a Same of its own is copied, so that a roll-back restores it: make it "
+      "copyable, or hold it by a shared pointer");
   return kOwnSame;
 }
 template <class T, class Same>
