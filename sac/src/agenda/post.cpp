@@ -238,11 +238,10 @@ void Agenda::drop_unposted() noexcept {
     }
   }
   unposted_.clear();
-  if (!any_chained) return;
-  drop_chained_unposted();
+  if (any_chained) drop_chained_unposted();
   if (state_ != State::open) return;
   try {
-    adopt_chained();  // so that the next one is found at once
+    adopt_chained();  // so that each is found at once when nobody posts it any more
   } catch (...) {     // they stay chained
   }
 }
