@@ -106,6 +106,33 @@ TEST_CASE("a view of characters as a parameter keeps the characters") {
   CHECK(e.get(length) == 50);
 }
 
+struct Length {
+  template <class S, class M>
+  void operator()(S& s, std::string_view text, M length) const {
+    s.write(length, static_cast<int>(text.find_first_not_of('y') == text.npos ? text.size() : 0));
+  }
+};
+constexpr Length length_of{};
+struct LengthOfLocal {
+  template <class S, class M>
+  void operator()(S& s, M length) const {
+    const std::string local(60, 'y');
+    s.template tail<length_of>(std::string_view(local), length);
+  }
+};
+constexpr LengthOfLocal length_of_local{};
+
+TEST_CASE("a tail call keeps the characters of a view, plain and traced") {
+  Engine e;
+  PlainScope plain;
+  const auto traced_length = e.cell<int>();
+  const auto plain_length = plain.cell<int>();
+  e.run<length_of_local>(traced_length);
+  plain.run<length_of_local>(plain_length);
+  CHECK(e.get(traced_length) == 60);
+  CHECK(plain.get(plain_length) == 60);
+}
+
 using Big = std::array<char, 4096>;
 void take_big(Scope& s, const Big& big, Mod<int> out) { s.write(out, big[5]); }
 TEST_CASE("a large array is an argument like another") {

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "sac/check.hpp"
+#include "sac/internal/parameters.hpp"
 #include "sac/internal/plain_agenda.hpp"
 
 namespace sac {
@@ -52,6 +53,13 @@ class PlainMod {
  private:
   std::optional<T>* place_ = nullptr;
 };
+
+namespace detail {
+template <class T, class Same>
+struct ArrivedAs<PlainCell<T, Same>> {
+  using type = PlainMod<T, Same>;
+};
+}  // namespace detail
 
 /// The counterpart of sac::Scope that records nothing.
 class PlainScope {
@@ -97,7 +105,7 @@ class PlainScope {
   /// Calls F; returns what it returns, by value.
   template <auto F, class... Args>
   auto call(Args&&... args) {
-    return call_kept<F, Kept<Args>...>(std::forward<Args>(args)...);
+    return call_kept<F, detail::Arrived<Args>...>(std::forward<Args>(args)...);
   }
   template <auto F, class... Args>
   void tail(Args&&... args) {
@@ -119,7 +127,7 @@ class PlainScope {
   T& make(Key&&... key) {
     require_no_tail();
     T& object = make<T>();
-    fill<F, T, Kept<Key>...>(object, std::forward<Key>(key)...);
+    fill<F, T, detail::Arrived<Key>...>(object, std::forward<Key>(key)...);
     run_tails();
     return object;
   }
@@ -182,17 +190,9 @@ class PlainScope {
     void (*destroy)(void*);
   };
 
-  // As what an argument is passed on: a cell as its modifiable.
+  // As what an argument waits for a tail call.
   template <class T>
-  struct KeptAs {
-    using type = T;
-  };
-  template <class T, class Same>
-  struct KeptAs<PlainCell<T, Same>> {
-    using type = PlainMod<T, Same>;
-  };
-  template <class T>
-  using Kept = typename KeptAs<std::decay_t<T>>::type;
+  using Kept = detail::Kept<detail::Arrived<T>>;
 
   template <auto F, class... P>
   auto call_kept(P... args) {
