@@ -19,7 +19,8 @@ constexpr std::array<std::string_view, Op::kKinds> kOpNames{
     "read maybe",   "catch maybe",  "write maybe", "write input",  "catch write", "claim",
     "count",        "total",        "mark",        "post side",    "drain",       "drain call",
     "tail drain",   "post early",   "keyed",       "real",         "catch real",  "fail",
-    "catch own",    "catch call",   "misuse",      "catch misuse", "answer",      "late write"};
+    "catch own",    "catch call",   "misuse",      "catch misuse", "answer",      "late write",
+    "query",        "query any"};
 constexpr std::array<std::string_view, Step::kKinds> kStepNames{
     "set", "post",   "retract", "insert", "remove", "weigh", "propagate", "undo",
     "run", "shrink", "fuse",    "client", "heap",   "arena", "cancel",    "starve"};
@@ -121,6 +122,7 @@ void sprinkle_features(Random& random, RandomProgram& program, unsigned features
   if (features & Feature::unequal) put(2, {Op::real, Op::catch_real});
   if (features & Feature::outside) put(1, {Op::misuse, Op::catch_misuse});
   if (features & Feature::behind) put(3, {Op::answer, Op::late_write, Op::late_write});
+  if (features & Feature::queries) put(6, {Op::query, Op::query, Op::query, Op::query_any});
 }
 
 // Propagations with edits before them, and failures if they shall be; as many as `batches`.

@@ -23,9 +23,10 @@ struct Feature {
     keys = 8,        // keys that are no function of the label
     unequal = 16,    // posted arguments that do not equal themselves
     outside = 32,    // the client's side of the engine in a traced function
-    behind = 64      // ops in any order: reads, writes, claims and posts behind calls as well
+    behind = 64,     // ops in any order: reads, writes, claims and posts behind calls as well
+    queries = 128    // nodes that are asked for, in any order; some need their own results
   };
-  static constexpr unsigned kAll = 127;
+  static constexpr unsigned kAll = 255;
 };
 
 /// What programs from seeds and from bytes have.
@@ -85,9 +86,12 @@ struct Op {
     // calls what returns a value and goes on by a tail call,
     answer,
     // writes what an earlier op of the node has read
-    late_write
+    late_write,
+    // asks for a node behind this one, or for any
+    query,
+    query_any
   };
-  static constexpr int kKinds = late_write + 1;
+  static constexpr int kKinds = query_any + 1;
 
   Kind kind;
   int target;   // input, cell, node ..., below targets()
@@ -119,7 +123,8 @@ struct Op {
     if (kind == keyed) return Feature::keys;
     if (kind <= catch_real) return Feature::unequal;
     if (kind <= catch_call) return Feature::failures;
-    return kind <= catch_misuse ? Feature::outside : Feature::behind;
+    if (kind <= catch_misuse) return Feature::outside;
+    return kind <= late_write ? Feature::behind : Feature::queries;
   }
 };
 
@@ -164,7 +169,10 @@ struct RandomProgram {
       case Op::tail:
       case Op::post_early:
       case Op::catch_call:
+      case Op::query:
         return behind;
+      case Op::query_any:
+        return size();
       case Op::post_side:
         return kSides * behind;
       case Op::read_maybe:

@@ -282,6 +282,20 @@ struct Posted {
   }
 };
 
+// Does what a node does, once for all that ask; returns what a cell holds then.
+template <class V>
+struct Inquire {
+  static constexpr std::string_view kName = "inquire";
+  template <class S>
+  V operator()(S& s, int id, V argument) const {
+    auto& w = s.template environment<RandomWorld<S, V>>();
+    node<V>(s, id, argument);
+    return V(int(s.read(w.cells[static_cast<std::size_t>(id % w.program->kCells)])) % 4);
+  }
+};
+template <class V>
+inline constexpr Inquire<V> inquire{};
+
 template <class V>
 template <class S>
 void Node<V>::operator()(S& s, int id, V argument) const {
@@ -478,6 +492,12 @@ void Node<V>::operator()(S& s, int id, V argument) const {
       case Op::late_write:
         sum += int(s.read(cell(op.target)));
         s.write(cell(op.target), V((sum + id) % 5));
+        break;
+      case Op::query:
+        sum += int(s.template query<inquire<V>>(other, V(sum % 2)));
+        break;
+      case Op::query_any:
+        sum += int(s.template query<inquire<V>>(op.target, V(sum % 2)));
         break;
     }
   }

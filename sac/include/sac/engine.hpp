@@ -51,6 +51,7 @@ template <class T, class Same = std::equal_to<>>
 class Cell;
 class Agenda;
 class ModStructure;
+class Queries;
 class Weights;
 
 /// Memory of an engine in bytes. `live` is in use; `held` is all memory that the engine has taken
@@ -63,9 +64,11 @@ struct Memory {
   std::size_t queue = 0;  // and other memory of a propagation
   std::size_t agendas = 0;
   std::size_t versions = 0;  // order of modifiables that are written more than once
+  std::size_t queries = 0;   // their table
   std::size_t outside = 0;   // list of the objects made from outside, and the undo records of edits
   [[nodiscard]] std::size_t live() const noexcept {
-    return calls_and_edges_live + time_stamps + memo_table + queue + agendas + versions + outside;
+    return calls_and_edges_live + time_stamps + memo_table + queue + agendas + versions + queries +
+           outside;
   }
   [[nodiscard]] std::size_t held() const noexcept {
     return live() - calls_and_edges_live + calls_and_edges_held;
@@ -301,6 +304,18 @@ class Engine {
 
   [[nodiscard]] Core& core() noexcept { return core_; }
   [[nodiscard]] ModStructure& mods() noexcept { return *mods_; }
+  [[nodiscard]] Queries& queries() {
+    if (queries_ == nullptr) [[unlikely]]
+      make_queries();
+    return *queries_;
+  }
+  /// Makes an object in the engine's memory, also while the engine runs, and frees it.
+  template <class T, class... Args>
+  [[nodiscard]] T& make_inside(Args&&... args);
+  template <class T>
+  void free_inside(T& object) noexcept {
+    free_outside(arena().handle_of(reinterpret_cast<OutsideHead*>(&object) - 1));
+  }
   void add_weight(Scope& s, std::uint64_t n);
 
  private:
@@ -324,6 +339,8 @@ class Engine {
   void release_outside(void* object, const char* kind);
   void require_released_unused() const;
   void free_released() noexcept;
+  void free_outside(Handle h) noexcept;
+  void make_queries();
   void undo_edits_behind(std::size_t edits);
   void roll_back() noexcept;
   void forget_edits() noexcept;
@@ -333,6 +350,7 @@ class Engine {
 
   Core core_;
   std::unique_ptr<ModStructure> mods_;
+  std::unique_ptr<Queries> queries_;  // null: no call has asked for one
   std::unique_ptr<Weights> weights_;  // null: not recorded
   std::vector<std::unique_ptr<Agenda>> agendas_;
   Registry<OutsideType> outside_types_;

@@ -73,10 +73,15 @@ class alignas(Arena::kGranule) Cell {
 template <class T>
 T& Engine::make() {
   begin_edit("make");
+  return make_inside<T>();
+}
+
+template <class T, class... Args>
+T& Engine::make_inside(Args&&... args) {
   static_assert(alignof(T) <= 8, "objects in the arena are aligned to 8 bytes");
   const Handle head = new_outside(kOutsideType<T>);
   try {
-    return *::new (static_cast<void*>(outside_head(head) + 1)) T();
+    return *::new (static_cast<void*>(outside_head(head) + 1)) T(std::forward<Args>(args)...);
   } catch (...) {
     outside_.pop_back();
     arena().release(head, kOutsideType<T>.bytes);

@@ -21,6 +21,7 @@
 #include "sac/check.hpp"
 #include "sac/internal/parameters.hpp"
 #include "sac/internal/plain_agenda.hpp"
+#include "sac/internal/plain_queries.hpp"
 
 namespace sac {
 
@@ -49,6 +50,9 @@ class PlainMod {
   [[nodiscard]] std::optional<T>& place() const { return *place_; }
   explicit operator bool() const noexcept { return place_ != nullptr; }
   friend bool operator==(const PlainMod&, const PlainMod&) = default;
+  friend std::uint64_t hash_value(const PlainMod& mod) noexcept {
+    return reinterpret_cast<std::uintptr_t>(mod.place_);
+  }
 
  private:
   std::optional<T>* place_ = nullptr;
@@ -111,6 +115,20 @@ class PlainScope {
   void tail(Args&&... args) {
     set_tail([](PlainScope& s, const Kept<Args>&... stored) { F(s, stored...); },
              Kept<Args>(std::forward<Args>(args))...);
+  }
+
+  /// The value that F returns, computed once for each label (query.hpp).
+  template <auto F, class... Args>
+  decltype(auto) query(Args&&... args) {
+    const auto& value = queries_.answer<F>(
+        std::tuple<Kept<Args>...>(std::forward<Args>(args)...),
+        [this](const Kept<Args>&... kept) {
+          require_no_tail();
+          return F(*this, kept...);
+        },
+        [this] { run_tails(); });
+    using R = std::invoke_result_t<decltype(F), PlainScope&, const Kept<Args>&...>;
+    if constexpr (!std::is_void_v<R>) return value;
   }
 
   /// Makes a default-constructed T.
@@ -254,6 +272,7 @@ class PlainScope {
   std::size_t block_bytes_ = 0;
   std::size_t used_ = 0;
   std::vector<Owned> owned_;
+  PlainQueries queries_;
 };
 
 }  // namespace sac

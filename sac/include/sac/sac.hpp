@@ -11,4 +11,5 @@
 #include "sac/mod.hpp"
 #include "sac/plain.hpp"
 #include "sac/presence.hpp"
+#include "sac/query.hpp"
 #include "sac/scope.hpp"

@@ -78,6 +78,15 @@ class Scope {
                std::forward<Args>(args)...);
   }
 
+  /// The value that F(scope, args...) returns, computed once for all calls that ask for it
+  /// (query.hpp): by the first one in trace order. Returns a reference, valid while the caller
+  /// runs; nothing if F returns nothing. Throws: UsageError if F needs its own result.
+  template <auto F, class... Args>
+  decltype(auto) query(Args&&... args) {
+    return query_as<F>(detail::parameters<F, false, detail::Arrived<Args>...>(),
+                       std::forward<Args>(args)...);
+  }
+
   /// Keyed allocation: a default-constructed T that keeps its address as long as (T, key) is
   /// requested again within the interval that runs again, by whichever call.
   template <class T, class... Key>
@@ -161,6 +170,8 @@ class Scope {
     static_assert(!What::function.has_result, "a tail call has nobody to return to");
     tail_call<What>(std::forward<Args>(args)...);
   }
+  template <auto F, class... P, class... Args>
+  decltype(auto) query_as(detail::Types<P...>, Args&&... args);
   template <class T, auto F, class... P, class... Key>
   T& built(detail::Types<P...>, bool tail, Key&&... key) {
     return object<detail::Built<T, F, P...>>(tail, std::forward<Key>(key)...);

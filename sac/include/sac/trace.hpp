@@ -40,6 +40,7 @@ struct Function {
   std::uint32_t object_offset = 0;           // of the keyed object; 0: none
   bool posted = false;                       // runs from an agenda
   bool has_result = false;                   // a ResultHead lies behind the head
+  bool answers_query = false;                // computes a query
   void (*execute)(Scope&, Call&) = nullptr;  // null: a keyed object without a body
   void (*destroy)(Call&) = nullptr;          // null: nothing needs destroying
   bool (*equal)(const Call&, const void* arguments) = nullptr;

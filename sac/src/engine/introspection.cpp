@@ -5,6 +5,7 @@
 #include "sac/agenda.hpp"
 #include "sac/engine.hpp"
 #include "sac/mod.hpp"
+#include "sac/query.hpp"
 
 namespace sac {
 
@@ -34,6 +35,7 @@ Memory Engine::memory() const noexcept {
   m.queue = sizes.queue;
   for (const auto& agenda : agendas_) m.agendas += agenda->bytes();
   m.versions = mods_->bytes();
+  if (queries_ != nullptr) m.queries = queries_->bytes();
   m.outside = (outside_.capacity() + released_.capacity()) * sizeof(Handle) +
               rollback_.capacity() * sizeof(rollback_[0]);
   return m;

@@ -48,17 +48,19 @@ void Engine::require_released_unused() const {
 }
 
 void Engine::free_released() noexcept {
-  for (const Handle h : released_) {
-    OutsideHead& head = *outside_head(h);
-    const OutsideType& type = outside_types_[head.type];
-    outside_[head.position] = outside_.back();
-    outside_head(outside_.back())->position = head.position;
-    outside_.pop_back();
-    type.destroy(&head + 1);
-    core_.forget_names(h, type.bytes);
-    arena().release(h, type.bytes);
-  }
+  for (const Handle h : released_) free_outside(h);
   released_.clear();
+}
+
+void Engine::free_outside(Handle h) noexcept {
+  OutsideHead& head = *outside_head(h);
+  const OutsideType& type = outside_types_[head.type];
+  outside_[head.position] = outside_.back();
+  outside_head(outside_.back())->position = head.position;
+  outside_.pop_back();
+  type.destroy(&head + 1);
+  core_.forget_names(h, type.bytes);
+  arena().release(h, type.bytes);
 }
 
 }  // namespace sac

@@ -3,6 +3,7 @@
 #include "sac/agenda.hpp"
 #include "sac/engine.hpp"
 #include "sac/mod.hpp"
+#include "sac/query.hpp"
 
 namespace sac {
 
@@ -39,6 +40,8 @@ Engine::~Engine() {
     outside_types_[outside_head(h)->type].destroy(outside_head(h) + 1);
   }
 }
+
+void Engine::make_queries() { queries_ = std::make_unique<Queries>(*this); }
 
 Agenda& Engine::make_agenda(std::string name) {
   begin_edit("make_agenda");

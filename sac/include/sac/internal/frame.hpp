@@ -162,6 +162,7 @@ struct Called {
   static constexpr Function function = [] {
     Function f = describe_frame<FrameType, name>();
     f.execute = &execute_in<FrameType>;
+    f.answers_query = requires { decltype(F)::kAnswersQuery; };
     if constexpr (!std::is_void_v<R>) {
       f.has_result = true;
       f.print_result = [](const Call& c, std::ostream& out) {

@@ -161,6 +161,18 @@ class ModStructure final : public Structure {
   template <class T, class Same>
   void write(Scope& scope, Handle head, T value);
 
+  // --- For queries
+
+  /// Whether a call has written it before `place`. Cost: O(1), or O(log of its versions).
+  [[nodiscard]] bool is_written_before(Handle place, Handle head) const noexcept {
+    const Version* const last = versions_around(place, head).before;
+    return last != nullptr && (last->place != place || predecessor(head, *last) != nullptr);
+  }
+  /// Whether no call writes or reads it. Requires: nothing is in doubt.
+  [[nodiscard]] bool is_unused(Handle head) const noexcept {
+    return is_untouched(*at(head)) && at(head)->readers == 0;
+  }
+
   // --- For the outside
 
   /// Throws: UsageError, with SAC_CHECKS, if the handle is not of this engine or its modifiable is

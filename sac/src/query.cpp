@@ -1,0 +1,175 @@
+// Queries: the table of their labels, and requests that have found no value.
+#include "sac/query.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+namespace sac {
+
+using detail::FirstRequest;
+using detail::Query;
+
+Queries::Queries(Engine& engine) : engine_(engine), id_(engine.add_structure(*this)) {}
+
+// --- Requests --------------------------------------------------------------------------------
+
+void Queries::ask_first(Scope& s, Query& query) {
+  constexpr std::size_t kMostRecalled = 64;  // edges of last time that are looked at
+  const Handle asked = engine_.arena().handle_of(&query);
+  const auto same = [&](const FirstRequest& e) { return e.query == asked; };
+  const Handle place = s.place();
+  if (s.recall<FirstRequest>(id_, kFirst, same, kMostRecalled) == nullptr) {
+    auto& edge = s.observe<FirstRequest>(id_, kFirst);
+    edge.place = place;
+    edge.query = asked;
+    edge.previous = 0;
+    edge.next = query.first;
+    const Handle self = engine_.arena().handle_of(&edge);
+    if (query.first != 0) request(query.first).previous = self;
+    query.first = self;
+  }
+  // An earlier request has been answered since, unless this one is made for its answer, or the
+  // running call has caught what that has thrown: its next call will say so.
+  for (Handle h = query.first; h != 0; h = request(h).next) {
+    if (engine_.precedes(engine_.time(request(h).place), engine_.time(place))) {
+      require_no_cycle(s.self(), query);
+    }
+  }
+}
+
+void Queries::answered(Scope& s, const Query& query) {
+  if (engine_.appending()) return;
+  const TimeNode& here = engine_.time(s.place());
+  for (Handle h = query.first; h != 0; h = request(h).next) {
+    const FirstRequest& other = request(h);
+    if (engine_.precedes(here, engine_.time(other.place))) {
+      engine_.invalidate(other.place, &other);
+    }
+  }
+}
+
+void Queries::retract(Call&, Edge& edge) noexcept {
+  const auto& gone = static_cast<const FirstRequest&>(edge);
+  Query& query = at(gone.query);
+  (gone.previous != 0 ? request(gone.previous).next : query.first) = gone.next;
+  if (gone.next != 0) request(gone.next).previous = gone.previous;
+  suspect(query);
+}
+
+bool Queries::unchanged(Call&, Edge& edge) {
+  const auto& first = static_cast<const FirstRequest&>(edge);
+  return !engine_.mods().is_written_before(first.place, at(first.query).answer);
+}
+
+// Not all of the calls around the running one run themselves: in a propagation perhaps none does.
+void Queries::require_no_cycle(const Call& running, const Query& query) const {
+  std::ostringstream asked;
+  query.type->print(query, asked);
+  std::vector<std::string> names{asked.str()};
+  for (const Call* c = &running;;) {
+    if (c->function().answers_query) names.push_back(Engine::describe(*c));
+    const Call* around = &engine_.core().parent_of(*c);
+    if (around == c) break;
+    c = around;
+  }
+  std::reverse(names.begin(), names.end());
+  detail::require_no_cycle(names);
+}
+
+// A run from scratch fails at the first name that comes again. Which query of a cycle is asked for
+// first depends on the edit: the message begins with the least.
+void detail::require_no_cycle(const std::vector<std::string>& names) {
+  for (auto last = names.begin(); last != names.end(); ++last) {
+    const auto first = std::find(names.begin(), last, *last);
+    if (first == last) continue;
+    std::vector<std::string> cycle(first, last);
+    std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
+    std::string path;
+    for (const std::string& name : cycle) path += name + " asks for ";
+    throw UsageError("a query needs its own result: " + path + cycle.front());
+  }
+}
+
+// --- The table -------------------------------------------------------------------------------
+
+Query* Queries::find(const Query::Type& type, std::uint32_t hash, const void* args) {
+  if (table_.empty()) return nullptr;
+  for (Query* q = bucket(hash); q != nullptr; q = q->next) {
+    if (q->hash == hash && q->type == &type && type.equal(*q, args)) return q;
+  }
+  return nullptr;
+}
+
+// Makes room for one more.
+void Queries::reserve() {
+  if (size_ < table_.size()) return;
+  std::vector<Query*> old(table_.empty() ? 16 : 2 * table_.size());
+  old.swap(table_);
+  for (Query* q : old) {
+    while (q != nullptr) {
+      Query& query = *std::exchange(q, q->next);
+      query.next = std::exchange(bucket(query.hash), &query);
+    }
+  }
+}
+
+void Queries::enter(Query& query) noexcept {
+  query.next = std::exchange(bucket(query.hash), &query);
+  ++size_;
+  suspect(query);
+}
+
+void Queries::leave(Query& query) noexcept {
+  Query** link = &bucket(query.hash);
+  while (*link != &query) link = &(*link)->next;
+  *link = query.next;
+  --size_;
+}
+
+// To be looked at when the run or propagation has ended: a query that nobody is the first to ask
+// for has no value, and goes.
+void Queries::suspect(Query& query) noexcept {
+  if (query.suspected) return;
+  query.suspected = true;
+  query.next_unused = std::exchange(unused_, &query);
+}
+
+bool Queries::is_unused(const Query& query) const noexcept {
+  return query.first == 0 && engine_.mods().is_unused(query.answer);
+}
+
+void Queries::finished() noexcept {
+  while (unused_ != nullptr) {
+    Query& query = *std::exchange(unused_, unused_->next_unused);
+    query.suspected = false;
+    if (!is_unused(query)) continue;
+    leave(query);
+    query.type->destroy(engine_, query);
+  }
+}
+
+// --- For people, and checks --------------------------------------------------------------------
+
+void Queries::label(const Call&, const Edge&, LabelSink& sink) const { sink.text("asks first"); }
+
+void Queries::print(const Call&, const Edge& edge, std::ostream& out) const {
+  out << "is the first to ask for ";
+  const Query& query = at(static_cast<const FirstRequest&>(edge).query);
+  query.type->print(query, out);
+}
+
+void Queries::check_invariants() const {
+  SAC_INVARIANT(unused_ == nullptr);
+  std::size_t size = 0;
+  for (const Query* q : table_) {
+    for (; q != nullptr; q = q->next) {
+      ++size;
+      SAC_INVARIANT(!is_unused(*q));
+      SAC_INVARIANT(q->first != 0 && request(q->first).next == 0);
+      SAC_INVARIANT(!engine_.mods().is_written_before(request(q->first).place, q->answer));
+    }
+  }
+  SAC_INVARIANT(size == size_);
+}
+
+}  // namespace sac
