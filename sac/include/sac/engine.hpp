@@ -30,6 +30,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <ranges>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -53,6 +54,11 @@ class Agenda;
 class ModStructure;
 class Queries;
 class Weights;
+namespace detail {
+class Watches;
+template <class T, class Same>
+class TypedWatch;
+}  // namespace detail
 
 /// Memory of an engine in bytes. `live` is in use; `held` is all memory that the engine has taken
 /// from the system, including freed blocks kept for reuse.
@@ -125,10 +131,43 @@ class Engine {
   template <class T, class Same>
   [[nodiscard]] const T& get(const Cell<T, Same>& cell) const;
 
+  /// Whether the modifiable has a value at the end of the trace.
+  template <class T, class Same>
+  [[nodiscard]] bool has_value(Mod<T, Same> mod) const;
+
   /// Sets the name of a modifiable in messages.
   template <class T, class Same>
   void name(Mod<T, Same> mod, std::string name) {
     core_.names_[mod.head()] = std::move(name);
+  }
+  /// Names modifiables `name[0]`, `name[1]`, ...
+  template <std::ranges::input_range R>
+  void name(const R& mods, const std::string& name) {
+    std::size_t i = 0;
+    for (const auto& mod : mods) this->name(mod, name + '[' + std::to_string(i++) + ']');
+  }
+
+  /// From now on changed(mod) tells, after each run and propagation, whether that has given the
+  /// modifiable another value, or taken its value away. Throws: UsageError if the engine runs.
+  /// Cost: O(log of those watched) for each such change.
+  template <class T, class Same>
+  void watch(Mod<T, Same> mod);
+  /// Watches the modifiable, and calls f(value) after each run and propagation that has given it
+  /// another value, when everything is done: f may read, edit and propagate. What f throws, the
+  /// run or propagation throws, although it has been done. Several functions are called in the
+  /// order of on_change(); those of several modifiables in the order of their handles.
+  template <class T, class Same>
+  void on_change(Mod<T, Same> mod, std::type_identity_t<std::function<void(const T&)>> f);
+  /// Calls none of its functions any more.
+  template <class T, class Same>
+  void unwatch(Mod<T, Same> mod) noexcept {
+    unwatch(mod.head());
+  }
+  /// Whether the last run or propagation has changed a modifiable that is watched; one that failed
+  /// has changed nothing.
+  template <class T, class Same>
+  [[nodiscard]] bool changed(Mod<T, Same> mod) const noexcept {
+    return changed(mod.head());
   }
 
   /// Runs f(scope, args...) at the end of the trace. Edits made before can no longer be undone.
@@ -149,10 +188,13 @@ class Engine {
   /// Frees a work queue. Throws: UsageError if a call drains it or a call is posted on it.
   void release(Agenda& agenda);
 
-  /// Sets the object that calls reach through Scope::environment. It must stay the same for the
-  /// life of the trace, and is not itself a dependence: its changeable parts must be modifiables or
-  /// structures.
-  void set_environment(void* environment) noexcept { core_.environment_ = environment; }
+  /// Sets the object that calls reach through Scope::environment, which asks for the same type. It
+  /// must stay the same for the life of the trace, and is not itself a dependence: its changeable
+  /// parts must be modifiables or structures.
+  template <class T>
+  void set_environment(T* environment) noexcept {
+    core_.environment_ = {environment, &detail::kTypeName<T>};
+  }
 
   /// Calls `report` before the first of every `every` calls that run; if it returns false, the run
   /// or propagation ends with Cancelled, and the engine is as before it. Null: no reports. Not
@@ -302,6 +344,9 @@ class Engine {
 
   // --- Internal: for the library's own headers -----------------------------------------------
 
+  void touched(Handle head) noexcept;  // a watched modifiable
+  void forget_watches(Handle from, std::size_t bytes) noexcept;
+
   [[nodiscard]] Core& core() noexcept { return core_; }
   [[nodiscard]] ModStructure& mods() noexcept { return *mods_; }
   [[nodiscard]] Queries& queries() {
@@ -341,6 +386,13 @@ class Engine {
   void free_released() noexcept;
   void free_outside(Handle h) noexcept;
   void make_queries();
+  template <class T, class Same>
+  [[nodiscard]] detail::TypedWatch<T, Same>& watch_of(Mod<T, Same> mod);
+  [[nodiscard]] detail::Watches& watches();
+  void unwatch(Handle head) noexcept;
+  [[nodiscard]] bool changed(Handle head) const noexcept;
+  void report_changes();
+  void report_no_change() noexcept;
   void undo_edits_behind(std::size_t edits);
   void roll_back() noexcept;
   void forget_edits() noexcept;
@@ -350,8 +402,9 @@ class Engine {
 
   Core core_;
   std::unique_ptr<ModStructure> mods_;
-  std::unique_ptr<Queries> queries_;  // null: no call has asked for one
-  std::unique_ptr<Weights> weights_;  // null: not recorded
+  std::unique_ptr<detail::Watches> watches_;  // null: nothing is watched
+  std::unique_ptr<Queries> queries_;          // null: no call has asked for one
+  std::unique_ptr<Weights> weights_;          // null: not recorded
   std::vector<std::unique_ptr<Agenda>> agendas_;
   Registry<OutsideType> outside_types_;
   std::vector<Handle> outside_;   // objects made from outside, by their heads

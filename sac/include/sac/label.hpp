@@ -268,6 +268,10 @@ template <class T>
   return s;
 }
 
+// One object for each type, whose address stands for it within a library.
+template <class T>
+inline constexpr std::string_view kTypeName = spelled_type<T>();
+
 template <auto F>
 [[nodiscard]] constexpr std::string_view spelled_function() {
   if constexpr (std::is_class_v<std::remove_cv_t<decltype(F)>>) {

@@ -29,6 +29,7 @@
 
 #include "sac/engine.hpp"
 #include "sac/internal/mod_structure.hpp"
+#include "sac/internal/watches.hpp"
 #include "sac/scope.hpp"
 
 namespace sac {
@@ -145,13 +146,38 @@ template <class T, class Same>
 const T& Engine::get(Mod<T, Same> mod) const {
   core_.require_settled("get");
   mods_->require_live(mod.head(), mod.stamp(), "get");
-  return static_cast<detail::TypedVersion<T>&>(mods_->last(mod.head())).value();
+  return detail::value_of<T>(mods_->last(mod.head()));
 }
 
 template <class T, class Same>
 const T& Engine::get(const Cell<T, Same>& cell) const {
   core_.require_own(&cell, "get: the cell");
   return get(Mod<T, Same>(cell));
+}
+
+template <class T, class Same>
+bool Engine::has_value(Mod<T, Same> mod) const {
+  core_.require_settled("has_value");
+  mods_->require_live(mod.head(), mod.stamp(), "has_value");
+  return mods_->last_or_null(mod.head()) != nullptr;
+}
+
+template <class T, class Same>
+void Engine::watch(Mod<T, Same> mod) {
+  static_cast<void>(watch_of(mod));
+}
+
+template <class T, class Same>
+void Engine::on_change(Mod<T, Same> mod, std::type_identity_t<std::function<void(const T&)>> f) {
+  watch_of(mod).add(std::move(f));
+}
+
+template <class T, class Same>
+detail::TypedWatch<T, Same>& Engine::watch_of(Mod<T, Same> mod) {
+  static_assert(std::is_copy_constructible_v<T>, "the value of a watched modifiable is copied");
+  core_.require_idle("on_change");
+  mods_->require_live(mod.head(), mod.stamp(), "on_change");
+  return watches().template at<T, Same>(mod.head());
 }
 
 template <class T, class Same>

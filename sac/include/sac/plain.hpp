@@ -13,6 +13,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -162,9 +163,16 @@ class PlainScope {
     return make<PlainCell<T, Same>>();
   }
 
-  void set_environment(void* environment) noexcept { environment_ = environment; }
   template <class T>
-  [[nodiscard]] T& environment() const noexcept {
+  void set_environment(T* environment) noexcept {
+    environment_ = environment;
+    environment_type_ = &detail::kTypeName<T>;
+  }
+  /// Throws: UsageError if there is none, or it is of another type.
+  template <class T>
+  [[nodiscard]] T& environment() const {
+    using Type = std::remove_cv_t<T>;
+    if (environment_type_ != &detail::kTypeName<Type>) require_environment(detail::kTypeName<Type>);
     return *static_cast<T*>(environment_);
   }
 
@@ -178,6 +186,10 @@ class PlainScope {
   template <class M>
   void set(const M& mod, auto value) {
     write(mod, std::move(value));
+  }
+  template <class M>
+  [[nodiscard]] bool has_value(const M& mod) const {
+    return PlainMod(mod).place().has_value();
   }
   template <class M>
   decltype(auto) get(const M& mod) {
@@ -233,6 +245,10 @@ class PlainScope {
   static void require_modifiable(PlainMod<T, Same> mod) {
     if (!mod) throw UsageError("a modifiable that is null is read or written");
   }
+  void require_environment(std::string_view type) const {
+    if (environment_type_ != nullptr && *environment_type_ == type) return;
+    throw UsageError("there is no environment, or it is of another type");
+  }
   void drop_tail() {
     if (tail_ != nullptr) std::exchange(tail_, nullptr)(*this, false);
   }
@@ -266,6 +282,7 @@ class PlainScope {
   }
 
   void* environment_ = nullptr;
+  const std::string_view* environment_type_ = nullptr;
   void (*tail_)(PlainScope&, bool runs) = nullptr;
   alignas(16) std::byte tail_args_[kTailBytes];
   std::vector<std::unique_ptr<std::byte[]>> blocks_;

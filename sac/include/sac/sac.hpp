@@ -9,6 +9,7 @@
 #include "sac/list/sequence.hpp"
 #include "sac/list/sort.hpp"
 #include "sac/mod.hpp"
+#include "sac/output.hpp"
 #include "sac/plain.hpp"
 #include "sac/presence.hpp"
 #include "sac/query.hpp"

@@ -31,10 +31,11 @@ class Scope {
   explicit Scope(Core& core) : core_(core) {}
 
   [[nodiscard]] Engine& engine() noexcept { return core_.engine(); }
-  /// The object given to Engine::set_environment. Throws: UsageError if there is none.
+  /// The object given to Engine::set_environment. Throws: UsageError if there is none, or it is of
+  /// another type.
   template <class T>
   [[nodiscard]] T& environment() const {
-    return *static_cast<T*>(core_.environment());
+    return core_.environment<T>();
   }
   /// The running call. Throws: UsageError if none runs, i.e. the scope is used after its call.
   [[nodiscard]] Call& self() { return core_.self(); }

@@ -206,7 +206,9 @@ void Core::free_call(Handle call) noexcept {
   const Function& function = c.function();
   memo_.erase(call, function.hash(c));
   if (function.destroy != nullptr) function.destroy(c);
-  if (function.object_offset != 0 && !names_.empty()) forget_names(call, function.frame_bytes);
+  if (function.object_offset != 0 && (watching_ || !names_.empty())) {
+    forget_names(call, function.frame_bytes);
+  }
   arena_.release(call, function.frame_bytes);
 }
 

@@ -58,8 +58,15 @@ void Core::fail_not_running() const {
   throw UsageError("a scope is used while no traced function runs: it was kept for too long");
 }
 
-void Core::fail_no_environment() const {
-  throw UsageError(context("there is no environment: Engine::set_environment gives one"));
+// Shared libraries may each have a name of a type of their own.
+void Core::require_environment(std::string_view type) const {
+  if (environment_.object == nullptr) {
+    throw UsageError(context("there is no environment: Engine::set_environment gives one"));
+  }
+  if (*environment_.type == type) return;
+  throw UsageError(context(("the environment is of type " + std::string(*environment_.type) +
+                            ", not " + std::string(type))
+                               .c_str()));
 }
 
 void Core::fail_foreign(const char* what) const {
@@ -127,6 +134,7 @@ void Core::forget_names(Handle from, std::size_t bytes) noexcept {
   auto last = first;
   while (last != names_.end() && (last->first - from) * Arena::kGranule < bytes) ++last;
   names_.erase(first, last);
+  if (watching_) engine_.forget_watches(from, bytes);
 }
 
 // A pair of equal labels counts if both are alive at the end; a discarded call that was made again

@@ -97,10 +97,13 @@ Counts Engine::run_root(const Asked& asked) {
   } catch (...) {
     core_.forget_run(before);
     core_.finish();
+    report_no_change();
     throw;
   }
   free_released();
-  return core_.finish();
+  const Counts work = core_.finish();
+  report_changes();
+  return work;
 }
 
 Counts Engine::propagate(const std::function<void()>& last) {
@@ -122,7 +125,9 @@ Counts Engine::propagate(const std::function<void()>& last) {
   }
   forget_edits();
   free_released();
-  return core_.finish();
+  const Counts work = core_.finish();
+  report_changes();
+  return work;
 }
 
 void Engine::roll_back() noexcept {
@@ -137,6 +142,7 @@ void Engine::roll_back() noexcept {
   }
   forget_edits();
   core_.finish();
+  report_no_change();
 }
 
 // They can no longer be taken back. Of very many, as before a first run, the memory goes, too.

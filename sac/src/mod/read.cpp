@@ -65,14 +65,16 @@ void ModStructure::fail_unwritten(Handle place, Handle head) const {
                    Engine::describe(writer(*around.behind)));
 }
 
-detail::Version& ModStructure::last(Handle head) const {
+const detail::Version* ModStructure::last_or_null(Handle head) const noexcept {
   if (const std::uint32_t h = at(head)->history; h != 0 && !history(h).versions.empty()) {
-    return *at(history(h).versions.last());
+    return at(history(h).versions.last());
   }
-  if (!at(head)->written) {
-    throw UsageError(engine_.describe_mod(head) + " has no value: nobody has written it");
-  }
-  return *at(head);
+  return at(head)->written ? at(head) : nullptr;
+}
+
+const detail::Version& ModStructure::last(Handle head) const {
+  if (const Version* version = last_or_null(head)) return *version;
+  throw UsageError(engine_.describe_mod(head) + " has no value: nobody has written it");
 }
 
 // What a call would read at `place`, where it has read `seen`. Its own version of this place it

@@ -17,6 +17,7 @@ void ModStructure::unmake_input(Handle head) noexcept {
   Version& version = *at(head);
   types_[version.type].destroy(version);
   version.written = version.outside = false;
+  if (version.watched) engine_.touched(head);
 }
 
 // --- Writing ---------------------------------------------------------------------------------
@@ -131,8 +132,8 @@ detail::Version* ModStructure::predecessor(Handle head, const Version& version) 
 // Takes the value of `version` out, to be given another at once; its readers are in doubt, but for
 // those at the place `except`, where it is replaced.
 void ModStructure::replace(Handle head, Version& version, Handle except) noexcept {
-  version.outside ? engine_.note(Event::Kind::edited, nullptr, head)
-                  : engine_.note(Event::Kind::changed, &writer(version), head);
+  version.outside ? tell(Event::Kind::edited, nullptr, head)
+                  : tell(Event::Kind::changed, &writer(version), head);
   leave_past(head, version, except);
 }
 
@@ -210,7 +211,7 @@ void ModStructure::retract(Call& call, Edge& edge) noexcept {
     } catch (...) {  // client code that fails here makes the readers run again
     }
   }
-  if (!same) engine_.note(Event::Kind::reverted, &call, write.head);
+  if (!same) tell(Event::Kind::reverted, &call, write.head);
   if (same) {
     forget_order(version);
     while (version.readers != 0) move_reader(*reader(version.readers), *previous);

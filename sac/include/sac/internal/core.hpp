@@ -157,10 +157,12 @@ class Core {
   /// The running call returns something else than last time.
   void result_changed() noexcept { current_->returned = current_->self; }
   void add_weight(std::uint64_t n) noexcept { counts_.weight += n; }
-  [[nodiscard]] void* environment() const {
-    if (environment_ == nullptr) [[unlikely]]
-      fail_no_environment();
-    return environment_;
+  /// The environment, which is a T. Throws: UsageError if it is none.
+  template <class T>
+  [[nodiscard]] T& environment() const {
+    if (environment_.type != &detail::kTypeName<std::remove_cv_t<T>>) [[unlikely]]
+      require_environment(detail::kTypeName<std::remove_cv_t<T>>);
+    return *static_cast<T*>(environment_.object);
   }
   void require_own(const void* object, const char* what) const {
     if (!arena_.contains(object)) [[unlikely]]
@@ -302,11 +304,16 @@ class Core {
   std::function<bool(const Progress&)> progress_;
   std::uint64_t progress_every_ = 0;
   Observer* observer_ = nullptr;
-  void* environment_ = nullptr;
+  struct Environment {
+    void* object = nullptr;
+    const std::string_view* type = nullptr;  // its name, of which there is one object
+  };
+  Environment environment_;
   std::size_t stack_limit_;
   bool audit_ = false;
   AuditReport report_;
   std::map<Handle, std::string> names_;
+  bool watching_ = false;
   void forget_names(Handle from, std::size_t bytes) noexcept;
 
  private:
@@ -338,7 +345,7 @@ class Core {
   }
   [[nodiscard]] bool is_stamped(Handle h, std::size_t bytes, TimeNode::Kind kind) const noexcept;
   [[noreturn]] void fail_not_running() const;
-  [[noreturn]] void fail_no_environment() const;
+  void require_environment(std::string_view type) const;
   // An end stamp has no place until its call closes.
   [[nodiscard]] bool linked(Handle stamp) const noexcept { return at<TimeNode>(stamp)->prev != 0; }
   void ask_again(Call& call, Handle place, Validity validity, const Edge* seen,

@@ -61,6 +61,7 @@ struct Version {
   bool apart : 1 = false;      // not where the modifiable's handle points
   bool past : 1 = false;       // apart, and gone: kept for those who have seen it
   bool ordered : 1 = false;    // its readers are in reader_orders_ as well
+  bool watched : 1 = false;    // in place: the client wants to know of changes
   std::uint8_t round : 1 = 0;  // the writer's when it wrote or repeated it
   [[no_unique_address]] Stamp stamp;
 
@@ -161,6 +162,12 @@ class ModStructure final : public Structure {
   template <class T, class Same>
   void write(Scope& scope, Handle head, T value);
 
+  // --- For watches
+
+  /// The last version; null: nothing is written.
+  [[nodiscard]] const detail::Version* last_or_null(Handle head) const noexcept;
+  void set_watched(Handle head, bool on) noexcept { at(head)->watched = on; }
+
   // --- For queries
 
   /// Whether a call has written it before `place`. Cost: O(1), or O(log of its versions).
@@ -196,6 +203,7 @@ class ModStructure final : public Structure {
     version.type = type;
     version.outside = true;
     version.give(std::move(value));
+    if (version.watched) engine_.touched(head);
   }
   void unmake_input(Handle head) noexcept;
   template <class T>
@@ -205,7 +213,7 @@ class ModStructure final : public Structure {
     version.give(std::move(value));
   }
   /// The last version. Throws: UsageError if nothing is written.
-  [[nodiscard]] detail::Version& last(Handle head) const;
+  [[nodiscard]] const detail::Version& last(Handle head) const;
   /// The number of a type of values. Throws: std::bad_alloc.
   [[nodiscard]] std::uint16_t number(const detail::ValueType& type) { return types_.number(type); }
 
@@ -311,6 +319,11 @@ class ModStructure final : public Structure {
   [[noreturn]] void fail_unwritten(Handle place, Handle head) const;
 
   // write.cpp
+  void tell(Event::Kind kind, const Call* call, Handle head) noexcept {
+    if (at(head)->watched) [[unlikely]]
+      engine_.touched(head);
+    engine_.note(kind, call, head);
+  }
   Version* own_version(Scope& scope, Handle head);
   void repeat(Scope& scope, Handle head, Handle version);
   [[nodiscard]] bool has_passed_on(const detail::WriteEdge& edge) const noexcept;
@@ -376,7 +389,7 @@ void ModStructure::write(Scope& scope, Handle head, T value) {
   auto& version = static_cast<Typed&>(
       new_version(scope, head, detail::kValueType<T, Same>));  // the last that may fail
   version.give(std::move(value));
-  if (!same) engine_.note(Event::Kind::changed, &scope.self(), head);
+  if (!same) tell(Event::Kind::changed, &scope.self(), head);
   if (previous != nullptr) appeared(head, version, *previous, same);
 }
 

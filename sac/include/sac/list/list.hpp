@@ -175,21 +175,21 @@ template <class T>
   return e.holds() ? std::countr_zero(mix(e.id().value)) : 1000;
 }
 
-/// Whether f takes only the value of an element: its result is then fixed as well.
-template <auto f, class T>
-inline constexpr bool kOfValueAlone = requires(const T& value) {
-  f(value);
+/// Whether f takes only the value of an element, and the parameters: its result is then fixed.
+template <auto f, class T, class... P>
+inline constexpr bool kOfValueAlone = requires(const T& value, const P&... with) {
+  f(value, with...);
 };
 
-/// Applies f to an element: f(value), f(scope, value) or f(scope, id, value).
-template <auto f, class S, class T>
-decltype(auto) apply(S& s, const Element<T>& e) {
-  if constexpr (kOfValueAlone<f, T>) {
-    return f(e.value());
-  } else if constexpr (requires { f(s, e.value()); }) {
-    return f(s, e.value());
+/// Applies f to an element: f(value), f(scope, value) or f(scope, id, value), and the parameters.
+template <auto f, class S, class T, class... P>
+decltype(auto) apply(S& s, const Element<T>& e, const P&... with) {
+  if constexpr (kOfValueAlone<f, T, P...>) {
+    return f(e.value(), with...);
+  } else if constexpr (requires { f(s, e.value(), with...); }) {
+    return f(s, e.value(), with...);
   } else {
-    return f(s, e.id(), e.value());
+    return f(s, e.id(), e.value(), with...);
   }
 }
 

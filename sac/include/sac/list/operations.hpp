@@ -2,8 +2,11 @@
 //
 //   auto images = sac::map<image>(s, sac::filter<is_kept>(s, list));
 //
-// f and p are functions without state, of (value), (scope, value) or (scope, id, value). They may
-// read and write modifiables and make child calls, but no tail calls. The result of an operation is
+// f and p are functions without state, of (value), (scope, value) or (scope, id, value), and of the
+// parameters that the operation is given: sac::filter<is_below>(s, list, 10) keeps the elements for
+// which is_below(value, 10) holds. Parameters are arguments of all of its calls: with another one
+// the operation is made anew. What changes often is better read through the scope. f and p may read
+// and write modifiables and make child calls, but no tail calls. The result of an operation is
 // complete when it returns, and up to date after every propagation.
 //
 // Cost, in calls. From scratch: one for each element; map with an f that takes a scope: two. An
@@ -36,11 +39,11 @@ namespace detail {
 template <auto f>
 struct ForEach {
   static constexpr std::string_view kName = kOperationName<"for_each", f>;
-  template <class S, class T>
-  void operator()(S& s, const ListNode<T, S>* at) const {
+  template <class S, class T, class... P>
+  void operator()(S& s, const ListNode<T, S>* at, const P&... with) const {
     const auto* const next = s.read(at->next);
-    if (at->holds()) apply<f>(s, *at);
-    if (next != nullptr) s.template tail<ForEach{}>(next);
+    if (at->holds()) apply<f>(s, *at, with...);
+    if (next != nullptr) s.template tail<ForEach{}>(next, with...);
   }
 };
 
@@ -51,12 +54,13 @@ struct ForEach {
 template <auto f>
 struct Map {
   static constexpr std::string_view kName = kOperationName<"map", f>;
-  template <class S, class T, class U>
-  void operator()(S& s, ListNode<U, S>& self, const ListNode<T, S>* in) const {
-    if (in->holds() && !self.holds()) self.hold(in->id(), f(in->value()));
+  template <class S, class T, class U, class... P>
+  void operator()(S& s, ListNode<U, S>& self, const ListNode<T, S>* in, const P&... with) const {
+    if (in->holds() && !self.holds()) self.hold(in->id(), f(in->value(), with...));
     const auto* const next = s.read(in->next);
-    s.write(self.next,
-            next == nullptr ? nullptr : &s.template tail_make<ListNode<U, S>, Map{}>(next));
+    s.write(self.next, next == nullptr
+                           ? nullptr
+                           : &s.template tail_make<ListNode<U, S>, Map{}>(next, with...));
   }
 };
 
@@ -74,23 +78,24 @@ struct Image {
 template <auto f>
 struct MapBehind {
   static constexpr std::string_view kName = kOperationName<"map_behind", f>;
-  template <class S, class T, class U>
-  void operator()(S& s, const ListNode<T, S>* in, ListNode<U, S>* before) const {
+  template <class S, class T, class U, class... P>
+  void operator()(S& s, const ListNode<T, S>* in, ListNode<U, S>* before, const P&... with) const {
     const auto* const next = s.read(in->next);
     if (next == nullptr) return s.write(before->next, nullptr);
-    U value = apply<f>(s, *next);
+    U value = apply<f>(s, *next, with...);
     auto& image = s.template make<ListNode<U, S>, Image<f>{}>(next, std::move(value));
     s.write(before->next, &image);
-    s.template tail<MapBehind{}>(next, &image);
+    s.template tail<MapBehind{}>(next, &image, with...);
   }
 };
 
 template <auto f>
 struct MapInScope {
   static constexpr std::string_view kName = kOperationName<"map", f>;
-  template <class S, class T, class U>
-  void operator()(S& s, ListNode<U, S>& self, const ListNode<T, S>* header) const {
-    s.template tail<MapBehind<f>{}>(header, &self);
+  template <class S, class T, class U, class... P>
+  void operator()(S& s, ListNode<U, S>& self, const ListNode<T, S>* header,
+                  const P&... with) const {
+    s.template tail<MapBehind<f>{}>(header, &self, with...);
   }
 };
 
@@ -103,10 +108,10 @@ struct FilterBehind;
 template <auto p>
 struct Filter {
   static constexpr std::string_view kName = kOperationName<"filter", p>;
-  template <class S, class T>
-  void operator()(S& s, ListNode<T, S>& self, const ListNode<T, S>* in) const {
+  template <class S, class T, class... P>
+  void operator()(S& s, ListNode<T, S>& self, const ListNode<T, S>* in, const P&... with) const {
     if (in->holds() && !self.holds()) self.hold(in->id(), in->value());
-    FilterBehind<p>{}(s, &self, in);
+    FilterBehind<p>{}(s, &self, in, with...);
   }
 };
 
@@ -114,15 +119,15 @@ struct Filter {
 template <auto p>
 struct FilterBehind {
   static constexpr std::string_view kName = kOperationName<"filter_behind", p>;
-  template <class S, class T>
-  void operator()(S& s, ListNode<T, S>* kept, const ListNode<T, S>* at) const {
+  template <class S, class T, class... P>
+  void operator()(S& s, ListNode<T, S>* kept, const ListNode<T, S>* at, const P&... with) const {
     const auto* const next = s.read(at->next);
     if (next == nullptr) {
       s.write(kept->next, nullptr);
-    } else if (apply<p>(s, *next)) {
-      s.write(kept->next, &s.template tail_make<ListNode<T, S>, Filter<p>{}>(next));
+    } else if (apply<p>(s, *next, with...)) {
+      s.write(kept->next, &s.template tail_make<ListNode<T, S>, Filter<p>{}>(next, with...));
     } else {
-      s.template tail<FilterBehind{}>(kept, next);
+      s.template tail<FilterBehind{}>(kept, next, with...);
     }
   }
 };
@@ -158,28 +163,28 @@ struct Reverse {
 }  // namespace detail
 
 /// Calls f for every element, in order, each in a traced call of its own.
-template <auto f, class S, class T>
-void for_each(S& s, List<T, S> list) {
-  s.template call<detail::ForEach<f>{}>(list.header());
+template <auto f, class S, class T, class... P>
+void for_each(S& s, List<T, S> list, const P&... with) {
+  s.template call<detail::ForEach<f>{}>(list.header(), with...);
 }
 
 /// The list of the results of f for every element. If f takes a scope, its result must be hashable,
 /// as an argument. An f of the value alone is called once for each element.
-template <auto f, class S, class T>
-[[nodiscard]] auto map(S& s, List<T, S> list) {
-  using U = std::decay_t<decltype(detail::apply<f>(s, *list.header()))>;
+template <auto f, class S, class T, class... P>
+[[nodiscard]] auto map(S& s, List<T, S> list, const P&... with) {
+  using U = std::decay_t<decltype(detail::apply<f>(s, *list.header(), with...))>;
   using Node = ListNode<U, S>;
-  if constexpr (detail::kOfValueAlone<f, T>) {
-    return List<U, S>(s.template make<Node, detail::Map<f>{}>(list.header()));
+  if constexpr (detail::kOfValueAlone<f, T, P...>) {
+    return List<U, S>(s.template make<Node, detail::Map<f>{}>(list.header(), with...));
   } else {
-    return List<U, S>(s.template make<Node, detail::MapInScope<f>{}>(list.header()));
+    return List<U, S>(s.template make<Node, detail::MapInScope<f>{}>(list.header(), with...));
   }
 }
 
 /// The list of the elements for which p holds.
-template <auto p, class S, class T>
-[[nodiscard]] List<T, S> filter(S& s, List<T, S> list) {
-  return List<T, S>(s.template make<ListNode<T, S>, detail::Filter<p>{}>(list.header()));
+template <auto p, class S, class T, class... P>
+[[nodiscard]] List<T, S> filter(S& s, List<T, S> list, const P&... with) {
+  return List<T, S>(s.template make<ListNode<T, S>, detail::Filter<p>{}>(list.header(), with...));
 }
 
 /// The reversed list.
