@@ -10,7 +10,7 @@ using namespace apps;
 using namespace support;
 
 TEMPLATE_TEST_CASE("graph examples run plainly give what naive programs give", "", ExpressionApp,
-                   ForestApp, SearchApp, ComponentsApp) {
+                   ForestApp, SearchApp, ComponentsApp, CoreApp, SpanApp, BuildApp) {
   check_example_plain<TestType>(200, 60);
 }
 
@@ -34,12 +34,12 @@ TEST_CASE("two vertices that hang on contracted paths may be the farthest of the
 }
 
 TEMPLATE_TEST_CASE("graph examples under random edits", "", ExpressionApp, ForestApp, SearchApp,
-                   ComponentsApp) {
+                   ComponentsApp, CoreApp, SpanApp, BuildApp) {
   check_example<TestType>(60, 40, 30);
 }
 
 TEMPLATE_TEST_CASE("graph examples under many random edits", "[.soak]", ExpressionApp, ForestApp,
-                   SearchApp, ComponentsApp) {
+                   SearchApp, ComponentsApp, CoreApp, SpanApp, BuildApp) {
   check_example<TestType>(300, 150, 60);
 }
 

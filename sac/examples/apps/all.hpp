@@ -12,6 +12,6 @@ namespace apps {
 using All = std::tuple<ArrayApp, MapApp, FilterApp, ReverseApp, SumApp, MinimumApp, QuicksortApp,
                        MergesortApp, QuickhullApp<spread_point>, DiameterApp<spread_point>,
                        DistanceApp<1000>, ExpressionApp, ForestApp, SearchApp, ComponentsApp,
-                       SpellApp, StringApp, SheetApp>;
+                       CoreApp, SpanApp, BuildApp, SpellApp, StringApp, SheetApp>;
 
 }  // namespace apps

@@ -29,6 +29,12 @@
 
 namespace apps {
 
+/// Whether an update of the App moves calls (queries, to who asks first): it makes them anew.
+template <class App>
+inline constexpr bool kMovesCalls = requires {
+  App::kMovesCalls;
+};
+
 /// Random numbers: the same in every build, from a seed.
 class Random {
  public:

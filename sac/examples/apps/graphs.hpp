@@ -10,8 +10,11 @@
 #include <vector>
 
 #include "../breadth_first_search.hpp"
+#include "../build_graph.hpp"
 #include "../connected_components.hpp"
 #include "../expression_tree.hpp"
+#include "../k_core.hpp"
+#include "../spanning_forest.hpp"
 #include "../tree_contraction.hpp"
 #include "app.hpp"
 
@@ -468,6 +471,202 @@ struct ComponentsApp : GraphApp {
     Host& host_;
     examples::connected_components::Components<ScopeOf<Host>> graph_;
     std::set<std::pair<int, int>> there_;
+  };
+};
+
+// --- Fixed points ----------------------------------------------------------------------------
+
+// A graph example whose World has `graph_`, and computes `values_of(graph)`.
+template <class Host, class Graph>
+struct UndirectedWorld {
+  UndirectedWorld(Host& host, const GraphApp::Input& input)
+      : host_(host), graph_(host, static_cast<int>(input.edges.size())) {
+    for (std::size_t v = 0; v < input.edges.size(); ++v) host.set(graph_.edges[v], input.edges[v]);
+  }
+  void edit(const GraphApp::Edit& e) {
+    if (e.v == e.w) return;
+    for (const auto& [v, w] : {std::pair{e.v, e.w}, {e.w, e.v}}) {
+      const auto& edges = graph_.edges[static_cast<std::size_t>(v)];
+      host_.set(edges, GraphApp::toggled(host_.get(edges), w));
+    }
+  }
+
+  Host& host_;
+  Graph graph_;
+};
+
+struct CoreApp : GraphApp {
+  static constexpr const char* kName = "k-core";
+  // Takes away the vertices of less than k edges, for k = 1, 2, ...
+  static std::vector<int> oracle(const Input& input) {
+    const std::size_t n = input.edges.size();
+    std::vector<int> core(n, 0), degree;
+    for (const auto& edges : input.edges) degree.push_back(static_cast<int>(edges.size()));
+    std::vector<bool> gone(n, false);
+    std::size_t left = n;
+    for (int k = 1; left > 0; ++k) {
+      for (bool more = true; more;) {
+        more = false;
+        for (std::size_t v = 0; v < n; ++v) {
+          if (gone[v] || degree[v] >= k) continue;
+          gone[v] = more = true;
+          core[v] = k - 1;
+          --left;
+          for (const int w : input.edges[v]) --degree[static_cast<std::size_t>(w)];
+        }
+      }
+    }
+    return core;
+  }
+
+  template <class Host>
+  struct World : UndirectedWorld<Host, examples::k_core::Graph<ScopeOf<Host>>> {
+    World(Host& host, const Input& input)
+        : UndirectedWorld<Host, examples::k_core::Graph<ScopeOf<Host>>>(host, input) {
+      host.template run<examples::k_core::cores>();
+    }
+    std::vector<int> result() {
+      std::vector<int> all;
+      for (const auto& c : this->graph_.core) all.push_back(this->host_.get(c));
+      return all;
+    }
+    template <class Recorder>
+    void name(Recorder& recorder) const {
+      name_all(recorder, this->graph_.edges, "edges");
+      name_all(recorder, this->graph_.core, "core");
+    }
+  };
+};
+
+struct SpanApp : GraphApp {
+  static constexpr const char* kName = "spanning forest";
+  using Place = examples::spanning_forest::Place;
+  static std::vector<Place> oracle(const Input& input) {
+    std::vector<Place> places(input.edges.size(), Place{-1, 0, 0});
+    for (int root = 0; root < static_cast<int>(places.size()); ++root) {
+      if (places[static_cast<std::size_t>(root)].root >= 0) continue;
+      const std::vector<int> far = hops(input, root);
+      for (std::size_t v = 0; v < places.size(); ++v) {
+        if (far[v] == examples::breadth_first_search::kUnreached) continue;
+        places[v] = {root, far[v], static_cast<int>(v)};
+        for (const int w : input.edges[v]) {
+          if (far[static_cast<std::size_t>(w)] + 1 != far[v]) continue;
+          places[v].parent = w;
+          break;
+        }
+      }
+    }
+    return places;
+  }
+
+  template <class Host>
+  struct World : UndirectedWorld<Host, examples::spanning_forest::Graph<ScopeOf<Host>>> {
+    World(Host& host, const Input& input)
+        : UndirectedWorld<Host, examples::spanning_forest::Graph<ScopeOf<Host>>>(host, input) {
+      host.template run<examples::spanning_forest::span>();
+    }
+    std::vector<Place> result() {
+      std::vector<Place> all;
+      for (const auto& p : this->graph_.places) all.push_back(this->host_.get(p));
+      return all;
+    }
+    template <class Recorder>
+    void name(Recorder& recorder) const {
+      name_all(recorder, this->graph_.edges, "edges");
+      name_all(recorder, this->graph_.places, "place");
+    }
+  };
+};
+
+// --- Queries -----------------------------------------------------------------------------------
+
+struct BuildApp {
+  static constexpr const char* kName = "build graph";
+  static constexpr bool kMovesCalls = true;
+  struct Input {
+    std::vector<std::vector<int>> needs;  // targets of higher numbers, ascending
+    std::vector<int> sources;
+    std::vector<int> wanted;
+  };
+  struct Edit {
+    int v, w;    // v needs w, or does so no more; v == w: its source changes; w < 0: it is wanted,
+    int source;  // or no more
+  };
+  static Edit random_edit(Random& random, const Input& input) {
+    const int n = static_cast<int>(input.sources.size());
+    const int v = random(n), w = random(n);
+    if (random(3) == 0) return {v, v, random(1000)};
+    if (random(8) == 0) return {v, -1, 0};
+    return {std::min(v, w), std::max(v, w), random(1000)};
+  }
+  static Edit inverse(const Input& before, const Edit& edit) {
+    return {edit.v, edit.w, before.sources[static_cast<std::size_t>(edit.v)]};
+  }
+  static void apply(Input& input, const Edit& e) {
+    if (e.w < 0) {
+      input.wanted = GraphApp::toggled(input.wanted, e.v);
+    } else if (e.v == e.w) {
+      input.sources[static_cast<std::size_t>(e.v)] = e.source;
+    } else {
+      auto& needs = input.needs[static_cast<std::size_t>(e.v)];
+      needs = GraphApp::toggled(needs, e.w);
+    }
+  }
+  static Input random_input(Random& random, int size) {
+    const auto n = static_cast<std::size_t>(size + 1);
+    Input input{
+        .needs = std::vector<std::vector<int>>(n), .sources = std::vector<int>(n), .wanted = {0}};
+    for (int i = 0; i < 2 * size; ++i) apply(input, random_edit(random, input));
+    return input;
+  }
+  static std::vector<std::uint64_t> oracle(const Input& input) {
+    std::vector<std::uint64_t> built(input.sources.size());
+    for (std::size_t t = built.size(); t-- > 0;) {
+      built[t] = static_cast<std::uint64_t>(input.sources[t]);
+      for (const int n : input.needs[t]) {
+        built[t] = sac::mix(built[t] + built[static_cast<std::size_t>(n)]);
+      }
+    }
+    std::vector<std::uint64_t> wanted;
+    for (const int t : input.wanted) wanted.push_back(built[static_cast<std::size_t>(t)]);
+    return wanted;
+  }
+
+  template <class Host>
+  class World {
+   public:
+    World(Host& host, const Input& input)
+        : host_(host), project_(host, static_cast<int>(input.sources.size())) {
+      for (std::size_t t = 0; t < input.sources.size(); ++t) {
+        host.set(project_.sources[t], int{input.sources[t]});
+        host.set(project_.needs[t], input.needs[t]);
+      }
+      host.set(project_.wanted, input.wanted);
+      host.template run<examples::build_graph::build_all>();
+    }
+    void edit(const Edit& e) {
+      const auto v = static_cast<std::size_t>(e.v);
+      if (e.w < 0) {
+        host_.set(project_.wanted, GraphApp::toggled(host_.get(project_.wanted), e.v));
+      } else if (e.v == e.w) {
+        host_.set(project_.sources[v], int{e.source});
+      } else {
+        host_.set(project_.needs[v], GraphApp::toggled(host_.get(project_.needs[v]), e.w));
+      }
+    }
+    std::vector<std::uint64_t> result() { return host_.get(project_.built); }
+
+    template <class Recorder>
+    void name(Recorder& recorder) const {
+      name_all(recorder, project_.sources, "source");
+      name_all(recorder, project_.needs, "needs");
+      recorder.name(project_.wanted, "wanted");
+      recorder.name(project_.built, "built");
+    }
+
+   private:
+    Host& host_;
+    examples::build_graph::Project<ScopeOf<Host>> project_;
   };
 };
 

@@ -3,6 +3,7 @@
 
 #include "sac/agenda.hpp"
 #include "sac/engine.hpp"
+#include "sac/iterate.hpp"
 #include "sac/list/list.hpp"
 #include "sac/list/operations.hpp"
 #include "sac/list/reduce.hpp"

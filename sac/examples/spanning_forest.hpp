@@ -1,0 +1,80 @@
+// A spanning forest of a graph whose edges change: in each component a tree of shortest paths to
+// its least vertex.
+//
+// Idea: the place of a vertex, that is its root, its distance from that and its parent, is the
+// least that its neighbours offer: a fixed point (sac/iterate.hpp).
+//
+// Cost of an update: O(degree) for each vertex and round in which a neighbour's place differs. The
+// rounds are as many as the longest path that a root's number takes.
+#pragma once
+
+#include <algorithm>
+#include <compare>
+#include <ostream>
+#include <ranges>
+#include <string_view>
+#include <vector>
+
+#include "sac/iterate.hpp"
+#include "sac/sac.hpp"
+
+namespace examples::spanning_forest {
+
+/// The place of a vertex in the forest; a root is its own parent.
+struct Place {
+  int root;
+  int distance;
+  int parent;
+  friend auto operator<=>(const Place&, const Place&) = default;
+  friend std::ostream& operator<<(std::ostream& out, const Place& p) {
+    return out << "root " << p.root << ", distance " << p.distance << ", parent " << p.parent;
+  }
+};
+
+template <class S>
+struct Graph {
+  std::vector<typename S::template ModType<std::vector<int>>> edges;  // inputs: of each vertex
+  std::vector<typename S::template ModType<Place>> places;
+  typename S::AgendaType* rounds = nullptr;
+
+  template <class Host>
+  Graph(Host& host, int size) : rounds(&host.make_agenda("rounds")) {
+    for (int v = 0; v < size; ++v) {
+      edges.push_back(host.input(std::vector<int>{}));
+      places.push_back(host.template cell<Place>());
+    }
+    host.set_environment(this);
+  }
+  Graph(const Graph&) = delete;  // it is the environment
+  Graph& operator=(const Graph&) = delete;
+};
+
+struct Grow {
+  template <class S>
+  static auto& graph(S& s) {
+    return s.template environment<Graph<S>>();
+  }
+  static auto& rounds(auto& s) { return *graph(s).rounds; }
+  static auto value(auto& s, int v) { return graph(s).places[v]; }
+  static const std::vector<int>& dependents(auto& s, int v) { return s.read(graph(s).edges[v]); }
+  static Place first(auto&, int v) { return {v, 0, v}; }
+  static Place next(auto& s, int v) {
+    Place least = first(s, v);
+    for (const int w : dependents(s, v)) {
+      const Place& place = s.read(value(s, w));
+      least = std::min(least, Place{place.root, place.distance + 1, w});
+    }
+    return least;
+  }
+};
+
+struct Span {
+  static constexpr std::string_view kName = "span";
+  void operator()(auto& s) const {
+    const int n = static_cast<int>(Grow::graph(s).edges.size());
+    sac::iterate<Grow>(s, std::views::iota(0, n));
+  }
+};
+inline constexpr Span span{};
+
+}  // namespace examples::spanning_forest
