@@ -11,8 +11,11 @@
 #include <vector>
 
 #include "../examples/breadth_first_search.hpp"
+#include "../examples/build_graph.hpp"
 #include "../examples/connected_components.hpp"
 #include "../examples/expression_tree.hpp"
+#include "../examples/k_core.hpp"
+#include "../examples/spanning_forest.hpp"
 #include "../examples/tree_contraction.hpp"
 #include "bench_help.hpp"
 #include "measure_example.hpp"
@@ -396,6 +399,182 @@ struct Connect {
   };
 };
 
+// --- Fixed points on a random graph --------------------------------------------------------------
+
+struct CoreNumbers {
+  static constexpr const char* kName = "k_core";
+  using Graph = RandomGraph;
+  template <class S>
+  using World = k_core::Graph<S>;
+  static constexpr auto program = k_core::cores;
+  // Takes away a vertex of the least degree, again and again.
+  static std::uint64_t baseline(const GraphInput& graph) {
+    const std::size_t n = graph.edges.size();
+    std::vector<int> degree;
+    std::vector<std::vector<int>> of_degree;
+    for (std::size_t v = 0; v < n; ++v) {
+      const std::size_t d = graph.edges[v].size();
+      degree.push_back(static_cast<int>(d));
+      if (of_degree.size() <= d) of_degree.resize(d + 1);
+      of_degree[d].push_back(static_cast<int>(v));
+    }
+    std::vector<int> core(n, -1);
+    for (std::size_t k = 0; k < of_degree.size(); ++k) {
+      while (!of_degree[k].empty()) {
+        const auto v = static_cast<std::size_t>(of_degree[k].back());
+        of_degree[k].pop_back();
+        if (core[v] >= 0 || degree[v] != static_cast<int>(k)) continue;
+        core[v] = static_cast<int>(k);
+        for (const int w : graph.edges[v]) {
+          int& d = degree[static_cast<std::size_t>(w)];
+          if (core[static_cast<std::size_t>(w)] >= 0 || d <= static_cast<int>(k)) continue;
+          of_degree[static_cast<std::size_t>(--d)].push_back(w);
+        }
+      }
+    }
+    return hash_of(core);
+  }
+  template <class Host, class World>
+  static std::uint64_t result(Host& host, const World& graph) {
+    std::vector<int> core;
+    for (const auto& c : graph.core) core.push_back(host.get(c));
+    return hash_of(core);
+  }
+};
+
+struct Forest {
+  static constexpr const char* kName = "spanning_forest";
+  template <class S>
+  using World = spanning_forest::Graph<S>;
+  static constexpr auto program = spanning_forest::span;
+  // Breadth-first from each vertex that has not been reached; of each vertex root and parent.
+  static std::uint64_t baseline(const GraphInput& graph) {
+    const int n = static_cast<int>(graph.edges.size());
+    std::vector<int> root(graph.edges.size(), -1), far(graph.edges.size()), parent;
+    std::queue<int> queue;
+    for (int r = 0; r < n; ++r) {
+      if (root[static_cast<std::size_t>(r)] >= 0) continue;
+      root[static_cast<std::size_t>(r)] = r;
+      for (queue.push(r); !queue.empty(); queue.pop()) {
+        const auto v = static_cast<std::size_t>(queue.front());
+        for (const int w : graph.edges[v]) {
+          const auto to = static_cast<std::size_t>(w);
+          if (root[to] >= 0) continue;
+          root[to] = r;
+          far[to] = far[v] + 1;
+          queue.push(w);
+        }
+      }
+    }
+    for (std::size_t v = 0; v < root.size(); ++v) {
+      parent.push_back(static_cast<int>(v));
+      for (const int w : graph.edges[v]) {
+        if (far[static_cast<std::size_t>(w)] + 1 != far[v]) continue;
+        parent.back() = w;
+        break;
+      }
+    }
+    return hash_of(root) + hash_of(parent);
+  }
+  template <class Host, class World>
+  static std::uint64_t result(Host& host, const World& graph) {
+    std::vector<int> root, parent;
+    for (const auto& p : graph.places) {
+      root.push_back(host.get(p).root);
+      parent.push_back(host.get(p).parent);
+    }
+    return hash_of(root) + hash_of(parent);
+  }
+};
+
+template <class Example>
+struct FixedPoint {
+  static constexpr const char* kName = Example::kName;
+  struct Input : RandomGraph {
+    using RandomGraph::RandomGraph;
+    std::uint64_t baseline() const { return Example::baseline(*this); }
+  };
+  template <class Host>
+  struct World {
+    Host& host;
+    typename Example::template World<ScopeOf<Host>> graph;
+
+    World(Host& h, const Input& input) : host(h), graph(h, static_cast<int>(input.edges.size())) {
+      for (std::size_t v = 0; v < input.edges.size(); ++v) {
+        host.set(graph.edges[v], input.edges[v]);
+      }
+    }
+    void run() { host.template run<Example::program>(); }
+    std::uint64_t result() { return Example::result(host, graph); }
+    void edit(Input& input, IntRandom& random) {
+      const auto [v, w] = input.toggle(random);
+      for (const int u : {v, w}) {
+        host.set(graph.edges[static_cast<std::size_t>(u)],
+                 input.edges[static_cast<std::size_t>(u)]);
+      }
+    }
+  };
+};
+
+// --- Targets in a binary tree, each fourth also needs one at random; a source changes, or what a
+// target needs at random --------------------------------------------------------------------------
+
+template <bool kNeeds>
+struct Targets {
+  static constexpr const char* kName = kNeeds ? "build_graph_needs" : "build_graph_sources";
+  struct Input {
+    std::vector<int> sources;
+    std::vector<std::vector<int>> needs;
+
+    explicit Input(int n) : sources(static_cast<std::size_t>(n), 1) {
+      IntRandom random;
+      for (int t = 0; t < n; ++t) needs.push_back(needs_of(t, n, random));
+    }
+    static std::vector<int> needs_of(int t, int n, IntRandom& random) {
+      std::vector<int> some;
+      if (2 * t + 1 < n) some.push_back(2 * t + 1);
+      if (2 * t + 2 < n) some.push_back(2 * t + 2);
+      if (t + 1 < n && random(4) == 0) some.push_back(t + 1 + random(n - t - 1));
+      return some;
+    }
+    std::uint64_t baseline() const {
+      std::vector<std::uint64_t> built(sources.begin(), sources.end());
+      for (std::size_t t = built.size(); t-- > 0;) {
+        for (const int n : needs[t]) {
+          built[t] = sac::mix(built[t] + built[static_cast<std::size_t>(n)]);
+        }
+      }
+      return built[0];
+    }
+  };
+  template <class Host>
+  struct World {
+    Host& host;
+    build_graph::Project<ScopeOf<Host>> project;
+
+    World(Host& h, const Input& input) : host(h), project(h, static_cast<int>(input.needs.size())) {
+      for (std::size_t t = 0; t < input.needs.size(); ++t) {
+        host.set(project.sources[t], int{input.sources[t]});
+        host.set(project.needs[t], input.needs[t]);
+      }
+      host.set(project.wanted, {0});
+    }
+    void run() { host.template run<build_graph::build_all>(); }
+    std::uint64_t result() { return host.get(project.built)[0]; }
+    void edit(Input& input, IntRandom& random) {
+      const int n = static_cast<int>(input.needs.size());
+      const int t = random(n);
+      const auto i = static_cast<std::size_t>(t);
+      if (kNeeds) {
+        input.needs[i] = Input::needs_of(t, n, random);
+        host.set(project.needs[i], input.needs[i]);
+      } else {
+        host.set(project.sources[i], input.sources[i] = random(1000000));
+      }
+    }
+  };
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -408,4 +587,8 @@ int main(int argc, char** argv) {
   selection.run<Search<Grid>>(100000, 200);
   selection.run<Connect<RandomGraph>>(100000, 2000);
   selection.run<Connect<Grid>>(100000, 2000);
+  selection.run<FixedPoint<CoreNumbers>>(100000, 2000);
+  selection.run<FixedPoint<Forest>>(100000, 500);
+  selection.run<Targets<false>>(100000, 2000);
+  selection.run<Targets<true>>(100000, 2000);
 }

@@ -183,9 +183,13 @@ class PlainScope {
     mod.place() = std::move(value);
     return mod;
   }
-  template <class M>
-  void set(const M& mod, auto value) {
+  template <class T, class Same>
+  void set(PlainMod<T, Same> mod, std::type_identity_t<T> value) {
     write(mod, std::move(value));
+  }
+  template <class T, class Same>
+  void set(const PlainCell<T, Same>& cell, std::type_identity_t<T> value) {
+    write(cell, std::move(value));
   }
   template <class M>
   [[nodiscard]] bool has_value(const M& mod) const {
