@@ -27,6 +27,8 @@
 #include <functional>
 #include <ostream>
 #include <ranges>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -233,6 +235,17 @@ void print_arguments(std::ostream& out, const std::tuple<Args...>& args,
         ((out << separator, print_argument(out, a, neighbour), separator = ", "), ...);
       },
       args);
+}
+
+/// `name(a, b, c)`, for people.
+template <class... Args>
+[[nodiscard]] std::string describe_call(std::string_view name, const std::tuple<Args...>& args,
+                                        const void* neighbour = nullptr) {
+  std::ostringstream out;
+  out << name << '(';
+  print_arguments(out, args, neighbour);
+  out << ')';
+  return out.str();
 }
 
 /// Gives the names of the arguments, which are the same in all runs, to `sink`.

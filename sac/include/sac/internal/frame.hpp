@@ -6,6 +6,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -211,6 +212,10 @@ struct Label {
 
   [[nodiscard]] Asked asked() const {
     return {What::function, &args, hash, &What::FrameType::construct};
+  }
+  /// For people. `neighbour` as for print_argument.
+  [[nodiscard]] std::string describe(const void* neighbour) const {
+    return describe_call(What::function.name, args, neighbour);
   }
 };
 

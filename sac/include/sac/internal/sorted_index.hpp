@@ -46,9 +46,8 @@ class SortedIndex {
   /// Requires: not empty.
   [[nodiscard]] const Entry& first() const noexcept { return entries(root_)[0]; }
   [[nodiscard]] const Entry& last() const noexcept {
-    const Node* node = root_;
-    while (node->height > 0) node = children(node)[node->count - 1];
-    return entries(node)[node->count - 1];
+    const Node* const leaf = last_leaf();
+    return entries(leaf)[leaf->count - 1];
   }
 
   /// Adds an entry behind all others. Requires: it belongs there. Throws: std::bad_alloc.
@@ -127,6 +126,13 @@ class SortedIndex {
   /// The same for the first entries of all.
   [[nodiscard]] std::span<const Entry> front() const noexcept { return first_of(root_); }
 
+  /// The last n entries, if they lie together; else empty. Requires: not empty.
+  [[nodiscard]] std::span<const Entry> back(std::size_t n) const noexcept {
+    const Node* const leaf = last_leaf();
+    if (n > leaf->count) return {};
+    return rest(leaf, leaf->count - static_cast<std::uint32_t>(n));
+  }
+
   template <class Visit>
   void for_each(Visit&& visit) const {
     for_each_node(root_, [&](const Node* node) {
@@ -190,6 +196,11 @@ class SortedIndex {
     const Entry* const begin = entries(&node);
     return static_cast<std::uint32_t>(std::upper_bound(begin, begin + node.count, entry, before) -
                                       begin);
+  }
+  [[nodiscard]] const Node* last_leaf() const noexcept {
+    const Node* node = root_;
+    while (node->height > 0) node = children(node)[node->count - 1];
+    return node;
   }
   static std::span<const Entry> rest(const Node* leaf, std::uint32_t i) noexcept {
     return {entries(leaf) + i, entries(leaf) + leaf->count};
