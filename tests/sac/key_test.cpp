@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,8 @@ TEST_CASE("ranks are ordered as keys are, up to the ends of every width") {
     const std::uint64_t colours = std::uint64_t{1} << widths.colour;
     std::uint64_t previous = 0;
     for (const std::int64_t bucket : {-half, half - 1}) {
-      for (const std::uint64_t phase : {std::uint64_t{0}, phases - 1}) {
-        for (const std::uint64_t colour : {std::uint64_t{0}, colours - 1}) {
+      for (const std::uint64_t phase : std::set<std::uint64_t>{0, phases - 1}) {
+        for (const std::uint64_t colour : std::set<std::uint64_t>{0, colours - 1}) {
           const Key key{.bucket = static_cast<int>(bucket),
                         .phase = static_cast<unsigned>(phase),
                         .colour = static_cast<unsigned>(colour)};

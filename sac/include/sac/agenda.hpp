@@ -51,35 +51,32 @@ inline constexpr bool kIsMod<Mod<T, Same>> = true;
 
 // Whether the order of T is that of addresses, or contains it: that is another one in every run.
 template <class T>
-constexpr bool ordered_by_address() {
-  if constexpr (std::is_pointer_v<T> || kIsMod<T>) {
+struct IsOrderedByAddress : std::bool_constant<[] {
+  if constexpr (std::is_pointer_v<T> || kIsMod<T> || SmartPointer<T>) {
     return true;
-  } else if constexpr (std::ranges::range<T>) {
-    using Element = std::ranges::range_value_t<T>;
-    if constexpr (!std::is_same_v<Element, T>) return ordered_by_address<Element>();
-  } else if constexpr (TupleLike<T>) {
-    return []<std::size_t... i>(std::index_sequence<i...>) {
-      return (ordered_by_address<std::remove_cv_t<std::tuple_element_t<i, T>>>() || ...);
-    }
-    (std::make_index_sequence<std::tuple_size_v<T>>());
-  } else if constexpr (requires(const T& value) { *value, value.has_value(); }) {
-    return ordered_by_address<std::decay_t<decltype(*std::declval<const T&>())>>();
-  } else {
-    return SmartPointer<T>;
+  } else if constexpr (kContainsOthers<T>) {
+    return any_part<IsOrderedByAddress, T>();
   }
   return false;
-}
+}()> {};
+
+// What an argument of a posted call must be like, too; the compiler names T.
+template <class T>
+struct PostedArgument {
+  static_assert(Ordered<T>,
+                "an argument of a posted call needs <=> or <: calls of one key run in the order of "
+                "their arguments");
+  static_assert(!IsOrderedByAddress<T>::value,
+                "calls of one key run in the order of their arguments, and addresses have another "
+                "order in every run: post a number that names the object, or a type of your own "
+                "whose <=> compares what the objects are");
+  static constexpr bool kFits = true;
+};
 
 // A posted call F(scope, args...), and its frame.
 template <auto F, class... Args>
 struct Posted {
-  static_assert((Ordered<Args> && ...),
-                "an argument of a posted call needs <=> or <: calls of one key run in the order of "
-                "their arguments");
-  static_assert(!(ordered_by_address<Args>() || ...),
-                "calls of one key run in the order of their arguments, and addresses have another "
-                "order in every run: post a number that names the object, or a type of your own "
-                "whose <=> compares what the objects are");
+  static_assert((PostedArgument<Args>::kFits && ...));
   static_assert(std::is_void_v<ResultOf<F, Args...>>, "a posted call has nobody to return to");
   static constexpr auto name = &function_name<F>;
   using FrameType = Frame<Slot, Nothing, Args...>;
