@@ -195,7 +195,7 @@ void Agenda::sort_first_class() {
     throw;
   }
   classes_.erase(classes_.begin());
-  if (at_end) ahead_ = calls_.back(sorted.size());
+  if (at_end && !sorted.empty()) ahead_ = calls_.back(sorted.size());
 }
 
 void Agenda::run_next() {
@@ -233,12 +233,14 @@ void Agenda::check_invariants() const {
     }
     previous = &c;
   });
-  std::uint64_t waiting = 0;
+  std::uint64_t waiting = 0, unposted = 0, chained = 0;
   for_each_waiting([&](const Call& c) {
     ++waiting;
-    SAC_INVARIANT(Slot::of(c).posts != 0 && state_ != State::drained);
+    if (Slot::of(c).posts == 0) ++unposted;
   });
-  SAC_INVARIANT(waiting == waiting_calls_ && unposted_ == 0);
+  for (Handle h = unposted_; h != 0; h = core_.at<Call>(h)->next_unposted) ++chained;
+  SAC_INVARIANT(waiting == waiting_calls_ && unposted == chained);
+  SAC_INVARIANT(waiting == 0 || state_ != State::drained);
 }
 
 }  // namespace sac
