@@ -51,9 +51,9 @@ refused() {
   [[ $(grep -m1 'error' "$work/errors") == *"$message"* ]] || fail "the first error is not '$message':"
 }
 
-# names TYPE: what the compiler says before its first error, or in it, names this type.
+# names TYPE: what the compiler says with its first error, and on the way to it, names this type.
 names() {
-  sed '/error/q' "$work/errors" | grep -qF "$1" || fail "no '$1' up to the first error:"
+  grep -m1 -B40 -A8 'error' "$work/errors" | grep -qF "$1" || fail "no '$1' at the first error:"
 }
 
 accepted 'void f(sac::Scope& s, Equal a, sac::Mod<Equal> m) { s.write(m, a); }' \
@@ -116,7 +116,7 @@ refused "$address" 'void f(sac::Scope&, std::vector<std::pair<int, sac::Mod<int>
   'agenda.post_from_outside<f>({}, std::vector<std::pair<int, sac::Mod<int>>>());'
 refused "$address" 'void f(sac::Scope&, std::variant<int, const int*>) {}' \
   'agenda.post_from_outside<f>({}, std::variant<int, const int*>());'
-names 'const int*'
+names 'variant<int, const int'
 accepted 'struct Named { const int* p; int id;
     bool operator==(const Named& o) const { return p == o.p && id == o.id; }
     auto operator<=>(const Named& o) const { return id <=> o.id; }

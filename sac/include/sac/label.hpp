@@ -18,7 +18,7 @@
 //   (3) the object that a pointer points to, whose name the sink must know;
 //   (4) the output of operator<<, with all digits; a type of your own that prints a handle or an
 //       address therefore needs (1);
-//   (5) the names of its parts, as for hashes;
+//   (5) the names of its parts, as for hashes; but of an aggregate with hash_value, none;
 //   (6) none: the sink is told so.
 #pragma once
 
@@ -255,7 +255,7 @@ void name_argument(LabelSink& sink, const T& value) {
   } else if constexpr (Printable<T>) {
     sink.print_begin() << value;
     sink.print_end();
-  } else if constexpr (kHasParts<T>) {
+  } else if constexpr (kContainsOthers<T> || (kHasMembers<T> && !HashedByValue<T>)) {
     for_each_part(value, [&](const auto& part) { name_argument(sink, part); });
   } else if constexpr (HashedByValue<T> || HashedByStd<T> || HashedByBytes<T>) {
     sink.nameless(hash_argument(value));
