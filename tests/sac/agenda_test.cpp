@@ -83,13 +83,6 @@ TEST_CASE("posted calls run by bucket, then order, then arguments, whatever the 
   f.e.check_invariants();
 }
 
-TEST_CASE("a key out of range is an error") {
-  CHECK_THROWS_AS((Key{.bucket = 32768}.rank()), sac::UsageError);
-  CHECK_THROWS_AS((Key{.phase = 16}.rank()), sac::UsageError);
-  CHECK_THROWS_AS((Key{.colour = 4096}.rank()), sac::UsageError);
-  CHECK((Key{.bucket = -1, .phase = 15, .colour = 4095}.rank()) < Key{}.rank());
-}
-
 TEST_CASE("equal posts merge into one call, which lives while one of them does") {
   Fixture f({1, 2, 1, 3, 2});
   f.p.children = {{1, {7}}, {2, {7}}};

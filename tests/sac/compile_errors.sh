@@ -11,7 +11,14 @@ failures=0
 # compile DECLARATIONS STATEMENTS
 compile() {
   cat >"$work/program.cpp" <<END
+#include <array>
 #include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
 #include <sac/sac.hpp>
 struct Bare { int x; };
 struct Equal { int x; bool operator==(const Equal&) const = default; };
@@ -44,6 +51,11 @@ refused() {
   [[ $(grep -m1 'error' "$work/errors") == *"$message"* ]] || fail "the first error is not '$message':"
 }
 
+# names TYPE: what the compiler says with its first error, and on the way to it, names this type.
+names() {
+  grep -m1 -B40 -A8 'error' "$work/errors" | grep -qF "$1" || fail "no '$1' at the first error:"
+}
+
 accepted 'void f(sac::Scope& s, Equal a, sac::Mod<Equal> m) { s.write(m, a); }' \
   'e.run<f>(Equal{1}, e.cell<Equal>());'
 accepted 'void f(sac::Scope&, Ordered) {}' 'agenda.post_from_outside<f>({}, Ordered{1});'
@@ -56,14 +68,43 @@ accepted 'void f(sac::Scope&, const std::string&) {}' 'e.run<f>("text");'
 
 same='a value or result needs ==, or a Same of its own'
 refused "$same" '' 'static_cast<void>(e.input(Bare{1}));'
+names 'Bare'
 refused "$same" '' 'e.set(e.cell<Bare>(), Bare{1});'
 refused "$same" 'void f(sac::Scope& s, sac::Mod<Bare> m) { s.write(m, Bare{1}); }' \
   'e.run<f>(e.cell<Bare>());'
 refused "$same" 'Bare g(sac::Scope&) { return {1}; } void f(sac::Scope& s) { s.call<g>(); }' \
   'e.run<f>();'
-refused 'an argument of a call needs ==' 'void f(sac::Scope&, Bare) {}' 'e.run<f>(Bare{1});'
+needs_equality='an argument of a call needs =='
+refused "$needs_equality" 'void f(sac::Scope&, Bare) {}' 'e.run<f>(Bare{1});'
+names 'Bare'
+refused "$needs_equality" 'void f(sac::Scope&, std::vector<Bare>) {}' \
+  'e.run<f>(std::vector<Bare>());'
+names 'Bare'
+refused "$needs_equality" 'void f(sac::Scope&, std::optional<std::pair<int, Bare>>) {}' \
+  'e.run<f>(std::optional<std::pair<int, Bare>>());'
+names 'Bare'
+opaque='class Opaque { public: bool operator==(const Opaque&) const = default; private: double d; };'
+needs_hash='a type of arguments needs a hash: write'
+refused "$needs_hash" "$opaque void f(sac::Scope&, Opaque) {}" 'e.run<f>(Opaque());'
+names 'Opaque'
+refused "$needs_hash" "$opaque struct S { std::vector<Opaque> all;
+    bool operator==(const S&) const = default; }; void f(sac::Scope&, S) {}" 'e.run<f>(S());'
+names 'Opaque'
+refused "$needs_hash" 'struct Many { double a, b, c, d, e, f, g, h, i, j, k, l, m;
+    bool operator==(const Many&) const = default; }; void f(sac::Scope&, Many) {}' \
+  'e.run<f>(Many());'
+names 'Many'
+refused "$needs_hash" 'struct Base { double a; bool operator==(const Base&) const = default; };
+  struct Derived : Base { double b; bool operator==(const Derived&) const = default; };
+  void f(sac::Scope&, Derived) {}' 'e.run<f>(Derived());'
+names 'Derived'
+accepted 'struct Parts { std::vector<std::optional<std::pair<int, std::string>>> a; double b[2];
+    std::variant<int, double> c; bool operator==(const Parts&) const = default; };
+  void f(sac::Scope&, Parts, std::tuple<std::vector<int>, std::array<double, 2>>) {}' \
+  'e.run<f>(Parts(), std::tuple<std::vector<int>, std::array<double, 2>>());'
 refused 'an argument of a posted call needs <=> or <' 'void f(sac::Scope&, Equal) {}' \
   'agenda.post_from_outside<f>({}, Equal{1});'
+names 'Equal'
 address='calls of one key run in the order of their arguments, and addresses have another order'
 refused "$address" 'void f(sac::Scope&, sac::Mod<int>) {}' \
   'agenda.post_from_outside<f>({}, e.input(1));'
@@ -73,6 +114,9 @@ refused "$address" 'void f(sac::Scope&, std::vector<std::pair<int, sac::Mod<int>
   namespace std { template <> struct hash<std::vector<std::pair<int, sac::Mod<int>>>> {
     std::size_t operator()(const auto&) const { return 0; } }; }' \
   'agenda.post_from_outside<f>({}, std::vector<std::pair<int, sac::Mod<int>>>());'
+refused "$address" 'void f(sac::Scope&, std::variant<int, const int*>) {}' \
+  'agenda.post_from_outside<f>({}, std::variant<int, const int*>());'
+names 'variant<int, const int'
 accepted 'struct Named { const int* p; int id;
     bool operator==(const Named& o) const { return p == o.p && id == o.id; }
     auto operator<=>(const Named& o) const { return id <=> o.id; }

@@ -110,6 +110,48 @@ TEST_CASE("calls that wait are as before when memory runs out while posts go") {
   }
 }
 
+TEST_CASE("a post from outside that fails, or is taken back, leaves what waits as it was") {
+  for (std::uint64_t count = 1;; ++count) {
+    World w(9);
+    w.e.run<post_all>();
+    bool burnt = false;
+    const bool failed =
+        support::fails(count, burnt, [&] { w.agenda.post_from_outside<mark>({.bucket = 7}, 100); });
+    REQUIRE(failed == burnt);
+    w.e.check_invariants();
+    if (!failed) {
+      CHECK(w.agenda.waiting_calls() == 10);
+      w.agenda.retract_from_outside<mark>(100);
+      w.e.check_invariants();
+      CHECK(w.agenda.waiting_calls() == 10);  // until the next propagation
+    }
+    if (count % 2 == 0) {
+      w.e.propagate();
+      require_as_from_scratch(w);
+    }
+    w.e.set(w.drains, 1);
+    w.e.propagate();
+    require_as_from_scratch(w);
+    if (!failed) break;
+  }
+}
+
+// Calls of one class that a drain has left are merged with others that are posted afterwards.
+TEST_CASE("what a drain has left and what comes afterwards run in one order") {
+  World w(30);
+  w.e.run<post_all>();
+  for (int round = 0; round < 6; ++round) {
+    for (int i = 0; i < 30; ++i) w.e.set(w.input(i), (i + round) % 4 == 0 ? 0 : 1);
+    w.e.set(w.drains, 1);
+    w.e.propagate();
+    require_as_from_scratch(w);
+    for (int i = 0; i < 30; ++i) w.e.set(w.input(i), i % (round + 2) == 0 ? 0 : 1);
+    w.e.set(w.drains, 0);
+    w.e.propagate();
+    require_as_from_scratch(w);
+  }
+}
+
 TEST_CASE("an update does not look at all calls that wait") {
   World w(200'000);
   w.e.run<post_all>();

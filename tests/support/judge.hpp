@@ -42,7 +42,7 @@ class Judge {
 
   void post(std::size_t agenda, const PostedLabel& label, const sac::Key& key) {
     Queue& queue = at(agenda);
-    const Place place{key.rank(), key.order, label};
+    const Place place{sac::KeyWidths().rank(key), key.order, label};
     if (queue.drained || (queue.running && !(*queue.running < place))) refuse();
     const auto [known, fresh] = queue.keys.emplace(label, place);
     if (!fresh && known->second != place) refuse();

@@ -36,6 +36,9 @@ struct PlainOutput {
 };
 struct TracedOutput {};  // the stars' observations are the output
 
+/// Of all agendas: many buckets, three phases, a colour for each parity of coordinates.
+inline constexpr sac::KeyWidths kKeyWidths{.bucket = 26, .phase = 2, .colour = 4};
+
 template <class S, int D>
 struct PointWorld {
   using Agenda = typename S::AgendaType;
@@ -65,9 +68,9 @@ struct PointWorld {
         vertices(make_vertices(box, host)),
         subdivision(vertices.tree(), host),
         features(box, vertices.pool(), host),
-        quadtree(host.make_agenda("quadtree")),
-        steiner(host.make_agenda("steiner")),
-        stars(host.make_agenda("stars")),
+        quadtree(host.make_agenda("quadtree", kKeyWidths)),
+        steiner(host.make_agenda("steiner", kKeyWidths)),
+        stars(host.make_agenda("stars", kKeyWidths)),
         most_vertices(options.max_vertices != 0 ? options.max_vertices : ~std::size_t{0}),
         most_records(most_vertices) {
     add_boundary();

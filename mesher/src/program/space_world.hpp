@@ -34,8 +34,8 @@ struct World<S, 3> : PointWorld<S, 3> {
         plc(box, vertices.pool(), features, host),
         plans(box, limits, host),
         surroundings(box, limits, Obstacles<S, 3>(features, plc.store()), host),
-        splits(host.make_agenda("edges")),
-        fills(host.make_agenda("facets")),
+        splits(host.make_agenda("edges", kKeyWidths)),
+        fills(host.make_agenda("facets", kKeyWidths)),
         guarded(options.rho < kGuarded) {
     host.set_environment(this);
     if constexpr (S::kTraced) plc.set_listeners(vertices, surroundings);

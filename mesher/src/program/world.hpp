@@ -60,8 +60,8 @@ struct World<S, 2> : PointWorld<S, 2> {
         leaves(vertices, segments.pool(), host),
         plans(box, limits, host),
         surroundings(box, limits, Obstacles<S, 2>(features), host),
-        splits(host.make_agenda("segments")),
-        fills(host.make_agenda("fill")) {
+        splits(host.make_agenda("segments", kKeyWidths)),
+        fills(host.make_agenda("fill", kKeyWidths)) {
     host.set_environment(this);
     features.set_refusal([this](const Vertex<2>& v, const Vertex<2>& x) { fail_too_close(v, x); });
     vertices.set_refusal(

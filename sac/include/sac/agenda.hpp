@@ -25,36 +25,17 @@
 #include <concepts>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sac/engine.hpp"
-#include "sac/internal/due_calls.hpp"
 #include "sac/internal/sorted_index.hpp"
+#include "sac/key.hpp"
 #include "sac/scope.hpp"
 
 namespace sac {
-
-/// The order in which posted calls run: by bucket, phase, colour, then order; ties by the arguments
-/// of the call.
-struct Key {
-  int bucket = 0;           ///< -32768 .. 32767, smallest first
-  unsigned phase = 0;       ///< 0 .. 15
-  unsigned colour = 0;      ///< 0 .. 4095
-  std::uint64_t order = 0;  ///< canonical order of the label
-
-  /// (bucket, phase, colour) as one number. Throws: UsageError if out of range.
-  [[nodiscard]] std::uint32_t rank() const {
-    SAC_EXPECTS(bucket >= -32768 && bucket <= 32767 && phase < 16 && colour < 4096);
-    return static_cast<std::uint32_t>(bucket + 32768) << 16 | phase << 12 | colour;
-  }
-  /// The key of this rank and order.
-  [[nodiscard]] static Key of(std::uint32_t rank, std::uint64_t order) noexcept {
-    return {static_cast<int>(rank >> 16) - 32768, rank >> 12 & 15, rank & 4095, order};
-  }
-  friend bool operator==(const Key&, const Key&) = default;
-};
 
 namespace detail {
 
@@ -70,35 +51,32 @@ inline constexpr bool kIsMod<Mod<T, Same>> = true;
 
 // Whether the order of T is that of addresses, or contains it: that is another one in every run.
 template <class T>
-constexpr bool ordered_by_address() {
-  if constexpr (std::is_pointer_v<T> || kIsMod<T>) {
+struct IsOrderedByAddress : std::bool_constant<[] {
+  if constexpr (std::is_pointer_v<T> || kIsMod<T> || SmartPointer<T>) {
     return true;
-  } else if constexpr (std::ranges::range<T>) {
-    using Element = std::ranges::range_value_t<T>;
-    if constexpr (!std::is_same_v<Element, T>) return ordered_by_address<Element>();
-  } else if constexpr (TupleLike<T>) {
-    return []<std::size_t... i>(std::index_sequence<i...>) {
-      return (ordered_by_address<std::remove_cv_t<std::tuple_element_t<i, T>>>() || ...);
-    }
-    (std::make_index_sequence<std::tuple_size_v<T>>());
-  } else if constexpr (requires(const T& value) { *value, value.has_value(); }) {
-    return ordered_by_address<std::decay_t<decltype(*std::declval<const T&>())>>();
-  } else {
-    return SmartPointer<T>;
+  } else if constexpr (kContainsOthers<T>) {
+    return any_part<IsOrderedByAddress, T>();
   }
   return false;
-}
+}()> {};
+
+// What an argument of a posted call must be like, too; the compiler names T.
+template <class T>
+struct PostedArgument {
+  static_assert(Ordered<T>,
+                "an argument of a posted call needs <=> or <: calls of one key run in the order of "
+                "their arguments");
+  static_assert(!IsOrderedByAddress<T>::value,
+                "calls of one key run in the order of their arguments, and addresses have another "
+                "order in every run: post a number that names the object, or a type of your own "
+                "whose <=> compares what the objects are");
+  static constexpr bool kFits = true;
+};
 
 // A posted call F(scope, args...), and its frame.
 template <auto F, class... Args>
 struct Posted {
-  static_assert((Ordered<Args> && ...),
-                "an argument of a posted call needs <=> or <: calls of one key run in the order of "
-                "their arguments");
-  static_assert(!(ordered_by_address<Args>() || ...),
-                "calls of one key run in the order of their arguments, and addresses have another "
-                "order in every run: post a number that names the object, or a type of your own "
-                "whose <=> compares what the objects are");
+  static_assert((PostedArgument<Args>::kFits && ...));
   static_assert(std::is_void_v<ResultOf<F, Args...>>, "a posted call has nobody to return to");
   static constexpr auto name = &function_name<F>;
   using FrameType = Frame<Slot, Nothing, Args...>;
@@ -120,16 +98,16 @@ struct Posted {
 class Agenda final : public WorkQueue {
  public:
   /// Use Engine::make_agenda.
-  Agenda(Engine& engine, std::string name);
+  Agenda(Engine& engine, std::string name, const KeyWidths& widths);
   ~Agenda() override { engine_.remove_structure(id_); }
 
   /// Posts the call f(scope, args...) at `key`, as an effect of the running call. Throws:
-  /// UsageError for the errors of (3) and (4).
+  /// UsageError for the errors of (3) and (4), and for a key that does not fit the widths.
   template <auto F, class... Args>
   void post(Scope& s, const Key& key, Args&&... args) {
     core_.guarded([&] {
       const auto label = label_of<F>(std::forward<Args>(args)...);
-      post_call(s, key, label.asked());
+      post_call(s, turn_of(key, label), label.asked());
     });
   }
 
@@ -138,7 +116,7 @@ class Agenda final : public WorkQueue {
   void post_from_outside(const Key& key, Args&&... args) {
     engine_.begin_edit("post_from_outside");
     const auto label = label_of<F>(std::forward<Args>(args)...);
-    const Handle post = outside_post(key, label.asked());
+    const Handle post = outside_post(turn_of(key, label), label.asked());
     try {
       engine_.on_rollback([this, label] { drop_outside(require_posted(label.asked())); });
     } catch (...) {
@@ -152,7 +130,8 @@ class Agenda final : public WorkQueue {
     engine_.begin_edit("retract_from_outside");
     const auto label = label_of<F>(std::forward<Args>(args)...);
     const Handle post = require_posted(label.asked());
-    engine_.on_rollback([this, key = key_of(post), label] { outside_post(key, label.asked()); });
+    const Entry turn = entry_of(*core_.at<Call>(post_at(post).target));
+    engine_.on_rollback([this, turn, label] { outside_post(turn, label.asked()); });
     drop_outside(post);
   }
 
@@ -182,9 +161,8 @@ class Agenda final : public WorkQueue {
   struct Entry {
     std::uint64_t order = 0;
     std::uint32_t rank = 0;
-    Handle call = 0;
+    Handle call = 0;  // 0: a turn that no call has yet
   };
-  using Index = SortedIndex<Entry>;
   // The posts of a call that count are chained; a post that does not count now is its own
   // predecessor.
   struct PostEdge : Edge {
@@ -201,29 +179,36 @@ class Agenda final : public WorkQueue {
   // Edits from outside and their inverses use labels: a call discarded in a failed propagation is
   // a different object after the roll-back.
   template <auto F, class... Args>
-  static auto label_of(Args&&... args) {
+  auto label_of(Args&&... args) const {
     return label_as<F>(detail::parameters<F, false, detail::Arrived<Args>...>(),
                        std::forward<Args>(args)...);
   }
   template <auto F, class... P, class... Args>
-  static auto label_as(detail::Types<P...>, Args&&... args) {
+  auto label_as(detail::Types<P...>, Args&&... args) const {
     auto label = detail::make_label<detail::Posted<F, P...>>(std::forward<Args>(args)...);
-    if (!detail::reflexive(label.args)) fail_irreflexive(label.asked().function);
+    if (!detail::reflexive(label.args)) fail_irreflexive(label.describe(core_.at<void>(0)));
     return label;
   }
-  [[noreturn]] static void fail_irreflexive(const Function& function);
+  [[noreturn]] static void fail_irreflexive(const std::string& call);
+  template <class Label>
+  [[nodiscard]] Entry turn_of(const Key& key, const Label& label) const {
+    if (!widths_.fits(key)) [[unlikely]]
+      widths_.fail(key, label.describe(core_.at<void>(0)), name_);
+    return {key.order, widths_.rank(key)};
+  }
 
   // post.cpp
-  void post_call(Scope& s, const Key& key, const Asked& asked);
-  [[nodiscard]] Handle find_posted(const Key& key, const Asked& asked);
-  [[nodiscard]] static bool has_key(const Call& call, const Key& key);
-  Handle create(const Key& key, const Asked& asked);
+  void post_call(Scope& s, const Entry& turn, const Asked& asked);
+  template <class Check>
+  Handle posted_call(Handle known, const Entry& turn, const Asked& asked, Check&& check);
+  [[nodiscard]] Handle find_posted(const Entry& turn, const Asked& asked);
+  [[nodiscard]] static bool has_turn(const Call& call, const Entry& turn) noexcept;
+  Handle create(const Entry& turn, const Asked& asked);
   void add_waiting(Handle call);
-  Handle outside_post(const Key& key, const Asked& asked);
+  Handle outside_post(const Entry& turn, const Asked& asked);
   void drop_outside(Handle post) noexcept;
   [[nodiscard]] Handle require_posted(const Asked& asked) const;
-  [[nodiscard]] Key key_of(Handle post) const noexcept;
-  void require_key(const Call& call, const Key& key) const;
+  void require_turn(const Call& call, const Entry& turn) const;
   [[nodiscard]] bool in_future(const Call& posted) const;
   void require_future(const Call& poster, const Call& posted) const;
   [[nodiscard]] PostEdge& post_at(Handle h) const noexcept { return *core_.at<PostEdge>(h); }
@@ -232,12 +217,11 @@ class Agenda final : public WorkQueue {
   }
   void add_post(PostEdge& post, Handle target) noexcept;
   void drop_post(PostEdge& post) noexcept;
+  void chain_unposted(Call& call) noexcept;
+  void unchain(Call& call) noexcept;
   void drop_waiting(Handle call) noexcept;
-  void lost_posts(const Call& call) noexcept;
   void drop_unposted() noexcept;
-  bool take_from_class(const Call& call) noexcept;
-  void drop_unposted_of_all() noexcept;
-  void drop_chained_unposted() noexcept;
+  bool take_from_class(Call& call) noexcept;
 
   // drain.cpp
   [[nodiscard]] bool before(const Call& a, const Call& b) const;
@@ -253,26 +237,33 @@ class Agenda final : public WorkQueue {
   }
   [[nodiscard]] Handle stamp_before(const Call& call) const;
   void place(Handle call);
+  void put(const Entry& entry);
   void take_from_index(const Call& call) noexcept;
-  void chain(Call& call) noexcept;
-  void adopt_chained();
+  template <class Visit>
+  void for_each_waiting(Visit&& visit) const;
+  void discard_placed();
   void set_later_posts_aside(const Call& drain);
   [[noreturn]] void fail_drained_twice(const Call& caller) const;
   void begin_drain(Scope& s);
   void run_waiting(Scope& s);
-  void run_first();
+  [[nodiscard]] bool find_next();
+  [[nodiscard]] std::span<const Entry> entries_ahead() const;
+  void sort_first_class();
+  void run_next();
 
   Engine& engine_;
   Core& core_;
   std::string name_;
+  KeyWidths widths_;
   std::uint8_t id_;
   State state_ = State::open;
-  std::vector<Handle> unposted_;  // calls that waited when they lost a post; possibly several times
-  bool unposted_unknown_ = false;  // whether others are missing, for lack of memory
-  std::map<std::uint32_t, std::vector<Entry>> waiting_;  // by rank
-  DueCalls<Entry> due_;  // waiting calls of the class that the drain runs
-  Handle chained_ = 0;   // waiting calls whose drain has left the trace
-  Index placed_;         // calls that drain_call_ has run, or will run
+  // Calls in order: first those that have a place in the trace, then those that wait.
+  SortedIndex<Entry> calls_;
+  std::span<const Entry> ahead_;  // in calls_, behind running_; empty: not known
+  // Other calls that wait, by rank, in the order of their posts: they come into calls_ when the
+  // drain has come to their rank.
+  std::map<std::uint32_t, std::vector<Entry>> classes_;
+  Handle unposted_ = 0;  // calls that wait and that nobody posts now, chained
   std::uint64_t waiting_calls_ = 0;
   Handle drain_call_ = 0;
   Handle running_ = 0;  // the posted call that the drain runs

@@ -41,6 +41,7 @@
 #include "sac/internal/core.hpp"
 #include "sac/internal/parameters.hpp"
 #include "sac/internal/undo.hpp"
+#include "sac/key.hpp"
 #include "sac/label.hpp"
 #include "sac/structure.hpp"
 
@@ -183,8 +184,9 @@ class Engine {
   /// throws, the edits are undone as if the program had thrown.
   Counts propagate(const std::function<void()>& last);
 
-  /// Makes a work queue, owned by the engine.
-  [[nodiscard]] Agenda& make_agenda(std::string name);
+  /// Makes a work queue, owned by the engine. `widths` limits the keys of its calls. Throws:
+  /// UsageError if the widths are not possible.
+  [[nodiscard]] Agenda& make_agenda(std::string name, const KeyWidths& widths = {});
   /// Frees a work queue. Throws: UsageError if a call drains it or a call is posted on it.
   void release(Agenda& agenda);
 

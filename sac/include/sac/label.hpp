@@ -1,9 +1,14 @@
 // Labels of calls: names of functions; hash, order and print of arguments.
 //
-// The label of a call is (function, arguments). An argument type needs ==; a hash is found by
-// `hash_value(const T&)` (argument-dependent) or std::hash; order (agendas only) by <=>; print by
-// `print_argument(std::ostream&, const T&, const void* neighbour)` (argument-dependent) or
-// operator<<; otherwise only the size of the type is shown.
+// The label of a call is (function, arguments). An argument type needs ==; order (agendas only) is
+// by <=>; print by `print_argument(std::ostream&, const T&, const void* neighbour)`
+// (argument-dependent) or operator<<; otherwise only the size of the type is shown. The hash is the
+// first of these that applies; it is the same in every run, but for addresses of the outside:
+//   (1) `hash_value(const T&)` (argument-dependent), std::hash;
+//   (2) that of the elements of a pair, tuple, array, vector or other range, of the content of an
+//       optional or variant, or of the members, up to 12, of an aggregate without bases;
+//   (3) that of the bytes of a type without padding.
+// A type whose == takes values for equal that differ in a part needs (1).
 //
 // To compare traces of different runs, a label needs a name that is the same in all runs. Hashes
 // and prints of handles are not. label_arguments() gives this name to a LabelSink. The name of an
@@ -13,7 +18,7 @@
 //   (3) the object that a pointer points to, whose name the sink must know;
 //   (4) the output of operator<<, with all digits; a type of your own that prints a handle or an
 //       address therefore needs (1);
-//   (5) the names of the elements of a tuple or range;
+//   (5) the names of its parts, as for hashes; but of an aggregate with hash_value, none;
 //   (6) none: the sink is told so.
 #pragma once
 
@@ -27,12 +32,15 @@
 #include <functional>
 #include <ostream>
 #include <ranges>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <typeinfo>
 
 #include "sac/arena.hpp"
+#include "sac/internal/parts.hpp"
 
 namespace sac {
 
@@ -61,7 +69,53 @@ template <class T>
 concept HashedByBytes =
     std::is_trivially_copyable_v<T> && std::has_unique_object_representations_v<T>;
 
-/// Hashes by the first of: hash_value (argument-dependent), std::hash, bytes.
+namespace detail {
+
+// Whether the bytes of a T are known to be numbers: no addresses, nothing with a hash of its own.
+template <class T>
+struct IsNumbers : std::bool_constant<std::is_integral_v<T> || std::is_enum_v<T>> {};
+template <class T>
+struct IsNotNumbers : std::bool_constant<!IsNumbers<T>::value> {};
+template <class T>
+requires(std::is_class_v<T>&& HashedByBytes<T> && !HashedByValue<T> &&
+         !HashedByStd<T>) struct IsNumbers<T> : std::bool_constant<[] {
+  if constexpr (TupleLike<T> || kHasMembers<T>) return !any_part<IsNotNumbers, T>();
+  return false;
+}()> {
+};
+
+[[nodiscard]] inline std::uint64_t hash_bytes(const void* bytes, std::size_t size) noexcept {
+  std::uint64_t h = 0;
+  for (std::size_t i = 0; i < size; i += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, static_cast<const char*>(bytes) + i, size - i < 8 ? size - i : 8);
+    h = mix(h + word + 0x9e3779b97f4a7c15u);
+  }
+  return h;
+}
+
+}  // namespace detail
+
+template <class T>
+[[nodiscard]] std::uint64_t hash_argument(const T& value);
+
+namespace detail {
+
+template <class T>
+[[nodiscard]] std::uint64_t hash_parts(const T& value) {
+  std::uint64_t h = 0;
+  if constexpr (requires { value.hash_function(); }) {  // its order of elements means nothing
+    for (const auto& element : value) h += mix(hash_argument(element));
+  } else {
+    for_each_part(
+        value, [&](const auto& part) { h = mix(h + 0x9e3779b97f4a7c15u + hash_argument(part)); });
+  }
+  return h;
+}
+
+}  // namespace detail
+
+/// The hash of an argument, by the rules above.
 template <class T>
 [[nodiscard]] std::uint64_t hash_argument(const T& value) {
   if constexpr (HashedByValue<T>) {
@@ -71,18 +125,15 @@ template <class T>
   } else if constexpr (std::is_pointer_v<T>) {
     // By its offset in an arena, so that engines with equal traces have equal hashes.
     return reinterpret_cast<std::uintptr_t>(value) & (Arena::kReserve - 1);
-  } else if constexpr (HashedByStd<T>) {
+  } else if constexpr (HashedByStd<T> && !detail::kIsOptional<T> && !detail::kIsVariant<T>) {
     return std::hash<T>{}(value);
+  } else if constexpr (detail::kHasParts<T> && !detail::IsNumbers<T>::value) {
+    return detail::hash_parts(value);
   } else {
-    static_assert(HashedByBytes<T>, "a type of arguments needs hash_value(const T&) or std::hash");
-    std::uint64_t h = 0;
-    for (std::size_t i = 0; i < sizeof(T); i += 8) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, reinterpret_cast<const char*>(&value) + i,
-                  sizeof(T) - i < 8 ? sizeof(T) - i : 8);
-      h = mix(h + word + 0x9e3779b97f4a7c15u);
-    }
-    return h;
+    static_assert(HashedByBytes<T>,
+                  "a type of arguments needs a hash: write "
+                  "`friend std::uint64_t hash_value(const T&)` in its class, or std::hash");
+    return detail::hash_bytes(&value, sizeof(T));
   }
 }
 
@@ -182,11 +233,6 @@ concept SmartPointer = requires(const T& value) {
   { value.get() } -> std::convertible_to<const void*>;
 };
 
-template <class T>
-concept TupleLike = requires {
-  std::tuple_size<T>::value;
-};
-
 // -0.0 equals 0.0 and gets its name.
 inline std::uint64_t number_of(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }
 
@@ -209,11 +255,8 @@ void name_argument(LabelSink& sink, const T& value) {
   } else if constexpr (Printable<T>) {
     sink.print_begin() << value;
     sink.print_end();
-  } else if constexpr (std::ranges::sized_range<const T>) {
-    sink.number(std::ranges::size(value));
-    for (const auto& part : value) name_argument(sink, part);
-  } else if constexpr (TupleLike<T>) {
-    std::apply([&](const auto&... part) { (name_argument(sink, part), ...); }, value);
+  } else if constexpr (kContainsOthers<T> || (kHasMembers<T> && !HashedByValue<T>)) {
+    for_each_part(value, [&](const auto& part) { name_argument(sink, part); });
   } else if constexpr (HashedByValue<T> || HashedByStd<T> || HashedByBytes<T>) {
     sink.nameless(hash_argument(value));
   } else {
@@ -233,6 +276,17 @@ void print_arguments(std::ostream& out, const std::tuple<Args...>& args,
         ((out << separator, print_argument(out, a, neighbour), separator = ", "), ...);
       },
       args);
+}
+
+/// `name(a, b, c)`, for people.
+template <class... Args>
+[[nodiscard]] std::string describe_call(std::string_view name, const std::tuple<Args...>& args,
+                                        const void* neighbour = nullptr) {
+  std::ostringstream out;
+  out << name << '(';
+  print_arguments(out, args, neighbour);
+  out << ')';
+  return out.str();
 }
 
 /// Gives the names of the arguments, which are the same in all runs, to `sink`.

@@ -13,6 +13,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -209,7 +210,13 @@ class PlainScope {
       throw;
     }
   }
-  PlainAgenda& make_agenda(const char*) { return make<PlainAgenda>(); }
+  PlainAgenda& make_agenda(std::string name, const KeyWidths& widths = {}) {
+    widths.require_possible(name);
+    PlainAgenda& agenda = make<PlainAgenda>();
+    agenda.name_ = std::move(name);
+    agenda.widths_ = widths;
+    return agenda;
+  }
 
   void run_tails() {
     while (tail_ != nullptr) std::exchange(tail_, nullptr)(*this, true);

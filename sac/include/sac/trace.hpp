@@ -80,11 +80,13 @@ struct Call : TimeNode {
   std::uint8_t round : 1 = 0;   // changes with each execution; old edges have the other bit
   bool posted : 1 = false;      // runs from an agenda; a Slot lies behind the head
   std::uint8_t work_queue = 0;  // of a posted call: the number of its agenda as a structure
-  Handle end = 0;               // end stamp; 0: a leaf
   union {
-    Handle edges = 0;              // effects and observations, oldest first
-    Handle next_waiting;           // of a posted call that waits for another drain
-    std::uint32_t place_in_class;  // of a posted call that waits for the first drain
+    Handle end = 0;            // end stamp; 0: a leaf
+    Handle previous_unposted;  // of a call that waits on an agenda and that nobody posts now
+  };
+  union {
+    Handle edges = 0;      // effects and observations, oldest first
+    Handle next_unposted;  // as above
   };
   std::uint32_t queue = 0;  // 1 + position in the propagation queue; 0: not in it
 
@@ -99,7 +101,7 @@ struct Call : TimeNode {
 };
 static_assert(sizeof(Call) == 32 && alignof(Call) == 4);
 
-/// Behind the head of a posted call: its position on its agenda, and its posts.
+/// Behind the head of a posted call: its turn on its agenda, and its posts.
 struct Slot {
   std::uint64_t order = 0;
   std::uint32_t rank = 0;

@@ -28,53 +28,47 @@ bool Agenda::before(const Call& a, const Call& b) const {
 // --- Placing ---------------------------------------------------------------------------------
 
 // The time stamp behind which a call that waits has its place: the end of the one before it.
+// Requires: the agenda is drained.
 Handle Agenda::stamp_before(const Call& call) const {
-  const Entry* neighbour = placed_.predecessor(entry_of(call), order());
+  const Entry* neighbour = calls_.predecessor(entry_of(call), order());
   return neighbour != nullptr ? core_.end_of(neighbour->call) : drain_call_;
 }
 
 // Puts a call posted during propagation between its neighbours. All that a neighbour which still
 // runs has done so far lies before now; what it will do comes between now and the new call.
 void Agenda::place(Handle call) {
-  const Call& c = *core_.at<Call>(call);
+  Call& c = *core_.at<Call>(call);
   const Handle after = stamp_before(c);
-  placed_.insert(entry_of(c), order());
+  put(entry_of(c));
   try {
     core_.place(call, after);
   } catch (...) {
-    placed_.erase_if([&](const Entry& entry) { return entry.call == call; });
+    take_from_index(c);
     throw;
   }
+  unchain(c);
   --waiting_calls_;
 }
 
+void Agenda::put(const Entry& entry) {
+  calls_.insert(entry, order());
+  ahead_ = {};
+}
+
 void Agenda::take_from_index(const Call& call) noexcept {
+  ahead_ = {};
   try {
-    placed_.erase(entry_of(call), order());
+    calls_.erase(entry_of(call), order());
   } catch (...) {  // client code failed
-    placed_.erase_if([&](const Entry& entry) { return entry.call == engine_.handle_of(call); });
+    calls_.erase_if([&](const Entry& entry) { return entry.call == engine_.handle_of(call); });
   }
 }
 
-// A call whose drain is gone waits for another one.
+// A call whose drain is gone waits for another one, if it is still posted.
 void Agenda::left(Call& call, bool asked_for) noexcept {
-  take_from_index(call);
-  if (!asked_for) return;
+  if (!asked_for) return take_from_index(call);
   core_.set_waiting(call);
   ++waiting_calls_;
-  chain(call);
-}
-
-void Agenda::chain(Call& call) noexcept {
-  call.next_waiting = std::exchange(chained_, engine_.handle_of(call));
-}
-
-void Agenda::adopt_chained() {
-  while (chained_ != 0) {
-    const Handle next = core_.at<Call>(chained_)->next_waiting;
-    add_waiting(chained_);
-    chained_ = next;
-  }
 }
 
 // --- Draining --------------------------------------------------------------------------------
@@ -118,85 +112,135 @@ void Agenda::begin_drain(Scope& s) {
   state_ = State::open;
   drain_call_ = self;
   running_ = 0;
+  ahead_ = {};
   core_.need_end();
-  while (!placed_.empty()) core_.discard_subtree(placed_.first().call);
-  adopt_chained();
+  discard_placed();
   if (!engine_.appending()) set_later_posts_aside(s.self());
+}
+
+void Agenda::discard_placed() {
+  std::vector<Handle> placed;
+  calls_.for_each([&](const Entry& entry) {
+    if (!core_.at<Call>(entry.call)->waiting()) placed.push_back(entry.call);
+  });
+  for (const Handle h : placed) core_.discard_subtree(h);
+}
+
+template <class Visit>
+void Agenda::for_each_waiting(Visit&& visit) const {
+  const auto visit_waiting = [&](const Entry& entry) {
+    const Call& call = *core_.at<Call>(entry.call);
+    if (call.waiting()) visit(call);
+  };
+  calls_.for_each(visit_waiting);
+  for (const auto& [rank, entries] : classes_) {
+    std::for_each(entries.begin(), entries.end(), visit_waiting);
+  }
 }
 
 // A post counts for a drain if it comes before. Who posts later, in a trace of last time, will be
 // discarded, or must be refused: it runs again.
 void Agenda::set_later_posts_aside(const Call& drain) {
-  for (const auto& [rank, entries] : waiting_) {
-    for (const Entry& entry : entries) {
-      for (Handle h = Slot::of(*core_.at<Call>(entry.call)).posts; h != 0;) {
-        PostEdge& post = post_at(h);
-        h = post.next_post;
-        if (post.place == 0 || !engine_.precedes(drain, engine_.time(post.place))) continue;
-        engine_.invalidate(post.place);
-        drop_post(post);
-      }
+  for_each_waiting([&](const Call& call) {
+    for (Handle h = Slot::of(call).posts; h != 0;) {
+      PostEdge& post = post_at(h);
+      h = post.next_post;
+      if (post.place == 0 || !engine_.precedes(drain, engine_.time(post.place))) continue;
+      engine_.invalidate(post.place);
+      drop_post(post);
     }
-  }
+  });
 }
 
 void Agenda::run_waiting(Scope& s) {
   begin_drain(s);
   state_ = State::draining;
   try {
-    while (!waiting_.empty()) {
-      due_.begin(waiting_.begin()->second, order());
-      due_.for_each([&](const Entry& entry) { core_.at<Call>(entry.call)->edges = 0; });
-      waiting_.erase(waiting_.begin());
-      while (!due_.empty()) run_first();
-    }
+    while (find_next()) run_next();
   } catch (...) {  // what has not run waits for the drain to run again
-    due_.for_each([&](const Entry& entry) { chain(*core_.at<Call>(entry.call)); });
-    due_.clear();
     state_ = State::open;
     throw;
   }
   state_ = State::drained;
 }
 
-void Agenda::run_first() {
-  const Entry& first = due_.first(order());
-  const Entry entry = first;
-  const bool posted = Slot::of(*core_.at<Call>(entry.call)).posts != 0;
-  if (posted) {
-    placed_.append(entry);
-    try {
-      core_.place_now(entry.call);
-    } catch (...) {
-      placed_.erase_if([&](const Entry& other) { return other.call == entry.call; });
-      throw;
-    }
+// Finds out which call runs next: the first of ahead_. Returns false if none is left.
+bool Agenda::find_next() {
+  while (true) {
+    if (ahead_.empty()) ahead_ = entries_ahead();
+    if (classes_.empty()) return !ahead_.empty();
+    if (!ahead_.empty() && ahead_.front().rank < classes_.begin()->first) return true;
+    sort_first_class();
   }
-  due_.drop(first);
-  if (!posted) return drop_waiting(entry.call);  // posted, then taken back
+}
+
+std::span<const Agenda::Entry> Agenda::entries_ahead() const {
+  if (calls_.empty() || calls_.last().call == running_) return {};
+  return running_ != 0 ? calls_.behind(entry_of(*core_.at<Call>(running_)), order())
+                       : calls_.front();
+}
+
+// Puts the calls of the first class into calls_, or, if that fails, none.
+void Agenda::sort_first_class() {
+  std::vector<Entry> sorted = classes_.begin()->second;  // sorting may fail half way
+  if (!std::is_sorted(sorted.begin(), sorted.end(), order())) {
+    std::sort(sorted.begin(), sorted.end(), order());
+  }
+  const bool at_end = ahead_.empty();
+  std::size_t done = 0;
+  try {
+    for (; done < sorted.size(); ++done) at_end ? calls_.append(sorted[done]) : put(sorted[done]);
+  } catch (...) {
+    while (done > 0) take_from_index(*core_.at<Call>(sorted[--done].call));
+    throw;
+  }
+  classes_.erase(classes_.begin());
+  if (at_end && !sorted.empty()) ahead_ = calls_.back(sorted.size());
+}
+
+void Agenda::run_next() {
+  const Handle next = ahead_.front().call;
+  Call& call = *core_.at<Call>(next);
+  if (Slot::of(call).posts == 0) {  // posted, then taken back
+    take_from_index(call);
+    return drop_waiting(next);
+  }
+  core_.place_now(next);
+  ahead_ = ahead_.subspan(1);
   --waiting_calls_;
-  running_ = entry.call;
-  core_.run_placed(entry.call);
+  running_ = next;
+  core_.run_placed(next);
 }
 
 // --- Bookkeeping -----------------------------------------------------------------------------
 
 std::size_t Agenda::bytes() const noexcept {
-  std::size_t total = placed_.bytes() + unposted_.capacity() * sizeof(Handle);
-  for (const auto& [rank, entries] : waiting_) total += entries.capacity() * sizeof(Entry) + 64;
+  std::size_t total = calls_.bytes();
+  for (const auto& [rank, entries] : classes_) total += entries.capacity() * sizeof(Entry) + 64;
   return total;
 }
 
 void Agenda::check_invariants() const {
   const Call* previous = nullptr;
-  placed_.for_each([&](const Entry& entry) {
+  calls_.for_each([&](const Entry& entry) {
     const Call& c = *core_.at<Call>(entry.call);
-    SAC_INVARIANT(c.life == Life::placed);
-    SAC_INVARIANT(Slot::of(c).posts != 0 || c.queue != 0);  // or it is dying
     SAC_INVARIANT(Slot::of(c).rank == entry.rank && Slot::of(c).order == entry.order);
-    SAC_INVARIANT(previous == nullptr || (before(*previous, c) && engine_.precedes(*previous, c)));
+    SAC_INVARIANT(previous == nullptr || before(*previous, c));
+    if (!c.waiting()) {
+      SAC_INVARIANT(c.life == Life::placed);
+      SAC_INVARIANT(Slot::of(c).posts != 0 || c.queue != 0);  // or it is dying
+      SAC_INVARIANT(previous == nullptr || engine_.precedes(*previous, c));
+    }
     previous = &c;
   });
+  std::uint64_t waiting = 0, unposted = 0, chained = 0;
+  for_each_waiting([&](const Call& c) {
+    ++waiting;
+    if (Slot::of(c).posts == 0) ++unposted;
+  });
+  for (Handle h = unposted_; h != 0; h = core_.at<Call>(h)->next_unposted) ++chained;
+  SAC_INVARIANT(waiting == waiting_calls_ && unposted == chained);
+  SAC_INVARIANT(waiting == 0 || state_ != State::drained);
 }
 
 }  // namespace sac

@@ -3,91 +3,99 @@
 
 namespace sac {
 
-Agenda::Agenda(Engine& engine, std::string name)
-    : engine_(engine),
-      core_(engine.core()),
-      name_(std::move(name)),
-      id_(engine.add_structure(*this)) {}
+namespace {
 
-void Agenda::fail_irreflexive(const Function& function) {
-  throw UsageError(
-      "an argument of " + std::string(function.name) +
-      " does not equal itself (a NaN?): a posted call with it has no place in the order");
+// Of a call that waits in a class. It has no time stamp, and thus no use for the stamp's label.
+std::uint32_t& place_in_class(Call& call) noexcept { return call.label; }
+
+}  // namespace
+
+Agenda::Agenda(Engine& engine, std::string name, const KeyWidths& widths)
+    : engine_(engine), core_(engine.core()), name_(std::move(name)), widths_(widths) {
+  widths.require_possible(name_);
+  id_ = engine.add_structure(*this);
 }
 
-void Agenda::post_call(Scope& s, const Key& key, const Asked& asked) {
+void Agenda::fail_irreflexive(const std::string& call) {
+  throw UsageError("an argument of " + call +
+                   " does not equal itself (a NaN?): a posted call with it has no place in the "
+                   "order");
+}
+
+void Agenda::post_call(Scope& s, const Entry& turn, const Asked& asked) {
   const Call& poster = s.self();
-  const std::uint16_t number = core_.number_of(asked.function);
   const auto repeats = [&](const PostEdge& edge) {
     const Call& c = *core_.at<Call>(edge.target);
-    return c.function_number == number && asked.function.equal(c, asked.arguments) &&
-           (!core_.undoing() || has_key(c, key));
+    return &c.function() == &asked.function && asked.function.equal(c, asked.arguments) &&
+           (!core_.undoing() || has_turn(c, turn));
   };
   // Not found among so many, it is made anew: the old one goes with the others.
   constexpr std::size_t kMost = 64;
   PostEdge* edge = s.recall<PostEdge>(id_, kPost, repeats, kMost);
   const bool known = edge != nullptr && !core_.at<Call>(edge->target)->dead();
-  Handle h = known ? edge->target : find_posted(key, asked);
-  const bool fresh = h == 0;
-  if (fresh) h = create(key, asked);
-  Call& posted = *core_.at<Call>(h);
-  try {
-    require_key(posted, key);
-    require_future(poster, posted);
-    if (fresh) state_ == State::drained ? place(h) : add_waiting(h);
-  } catch (...) {
-    if (fresh) drop_waiting(h);
-    throw;
-  }
+  const Handle h = posted_call(known ? edge->target : find_posted(turn, asked), turn, asked,
+                               [&](const Call& posted) { require_future(poster, posted); });
   if (known && counts(*edge)) return;
   if (edge == nullptr) {
-    try {
-      edge = &s.effect<PostEdge>(id_, kPost);
-      edge->place = s.place();
-    } catch (...) {
-      lost_posts(posted);  // a call that waits and that nobody posts leaves at the end
-      throw;
-    }
+    edge = &s.effect<PostEdge>(id_, kPost);
+    edge->place = s.place();
   }
   add_post(*edge, h);
 }
 
-// The call of this label; in a roll-back only if it has this key: what the failed propagation has
+// The call that is posted: `known`, or, if that is 0, a new one. It may be refused by `check`.
+template <class Check>
+Handle Agenda::posted_call(Handle known, const Entry& turn, const Asked& asked, Check&& check) {
+  const Handle h = known != 0 ? known : create(turn, asked);
+  try {
+    if (known != 0) require_turn(*core_.at<Call>(h), turn);
+    check(*core_.at<Call>(h));
+    if (known == 0) state_ == State::drained ? place(h) : add_waiting(h);
+  } catch (...) {
+    if (known == 0) drop_waiting(h);
+    throw;
+  }
+  return h;
+}
+
+// The call of this label; in a roll-back only if it has this turn: what the failed propagation has
 // posted at another one is there until those who posted it are gone.
-Handle Agenda::find_posted(const Key& key, const Asked& asked) {
+Handle Agenda::find_posted(const Entry& turn, const Asked& asked) {
   return core_.find_posted(asked, [&](const Call& c) {
-    return c.work_queue == id_ && (!core_.undoing() || has_key(c, key));
+    return c.work_queue == id_ && (!core_.undoing() || has_turn(c, turn));
   });
 }
 
-bool Agenda::has_key(const Call& call, const Key& key) {
+bool Agenda::has_turn(const Call& call, const Entry& turn) noexcept {
   const Slot& slot = Slot::of(call);
-  return slot.rank == key.rank() && slot.order == key.order;
+  return slot.rank == turn.rank && slot.order == turn.order;
 }
 
-Handle Agenda::create(const Key& key, const Asked& asked) {
-  const std::uint32_t rank = key.rank();
+Handle Agenda::create(const Entry& turn, const Asked& asked) {
   const Handle h = core_.new_call(asked);
-  Slot::of(*core_.at<Call>(h)) = {.order = key.order, .rank = rank};
-  core_.at<Call>(h)->work_queue = id_;
+  Call& call = *core_.at<Call>(h);
+  Slot::of(call) = {.order = turn.order, .rank = turn.rank};
+  call.work_queue = id_;
   ++waiting_calls_;
+  chain_unposted(call);
   return h;
 }
 
 void Agenda::add_waiting(Handle call) {
-  const Entry entry = entry_of(*core_.at<Call>(call));
+  Call& c = *core_.at<Call>(call);
+  const Entry entry = entry_of(c);
   if (state_ == State::draining && entry.rank == Slot::of(*core_.at<Call>(running_)).rank) {
-    return due_.add(entry, order());
+    return put(entry);
   }
-  std::vector<Entry>& entries = waiting_[entry.rank];
+  std::vector<Entry>& entries = classes_[entry.rank];
   entries.push_back(entry);
-  core_.at<Call>(call)->place_in_class = static_cast<std::uint32_t>(entries.size() - 1);
+  place_in_class(c) = static_cast<std::uint32_t>(entries.size() - 1);
 }
 
 // --- What is refused -------------------------------------------------------------------------
 
-void Agenda::require_key(const Call& call, const Key& key) const {
-  if (has_key(call, key)) return;
+void Agenda::require_turn(const Call& call, const Entry& turn) const {
+  if (has_turn(call, turn)) return;
   throw UsageError("agenda '" + name_ + "': " + Engine::describe(call) +
                    " is posted at two keys: a key must be a function of the call's function and "
                    "arguments");
@@ -114,7 +122,7 @@ void Agenda::require_future(const Call& poster, const Call& posted) const {
 }
 
 void Agenda::require_unused() const {
-  if (waiting_calls_ == 0 && placed_.empty() && drain_call_ == 0) return;
+  if (waiting_calls_ == 0 && calls_.empty() && drain_call_ == 0) return;
   throw UsageError("release: agenda '" + name_ +
                    "' is in use: calls are posted on it, or one drains it");
 }
@@ -122,26 +130,17 @@ void Agenda::require_unused() const {
 // --- The outside -----------------------------------------------------------------------------
 
 // Returns the post, which is in no call's list.
-Handle Agenda::outside_post(const Key& key, const Asked& asked) {
-  Handle h = find_posted(key, asked);
-  if (h != 0) require_key(*core_.at<Call>(h), key);
+Handle Agenda::outside_post(const Entry& turn, const Asked& asked) {
   const Handle post = engine_.arena().allocate(sizeof(PostEdge));
   ::new (core_.at<void>(post)) PostEdge();
   try {
-    const bool fresh = h == 0;
-    if (fresh) h = create(key, asked);
-    try {
-      if (fresh) state_ == State::drained ? place(h) : add_waiting(h);
-    } catch (...) {
-      drop_waiting(h);
-      if (engine_.idle()) core_.purge();
-      throw;
-    }
+    const Handle known = find_posted(turn, asked);
+    add_post(post_at(post), posted_call(known, turn, asked, [](const Call&) {}));
   } catch (...) {
+    if (engine_.idle()) core_.purge();
     engine_.arena().release(post, sizeof(PostEdge));
     throw;
   }
-  add_post(post_at(post), h);
   return post;
 }
 
@@ -160,11 +159,6 @@ Handle Agenda::require_posted(const Asked& asked) const {
                    " with these arguments is posted on agenda '" + name_ + "'");
 }
 
-Key Agenda::key_of(Handle post) const noexcept {
-  const Slot& slot = Slot::of(*core_.at<Call>(post_at(post).target));
-  return Key::of(slot.rank, slot.order);
-}
-
 // --- Taking back -----------------------------------------------------------------------------
 
 // A post counts from now on.
@@ -176,7 +170,11 @@ void Agenda::add_post(PostEdge& post, Handle target) noexcept {
   post.target = target;
   post.previous_post = 0;
   post.next_post = first;
-  if (first != 0) post_at(first).previous_post = self;
+  if (first != 0) {
+    post_at(first).previous_post = self;
+  } else if (call.waiting()) {
+    unchain(call);
+  }
   first = self;
 }
 
@@ -191,11 +189,8 @@ void Agenda::drop_post(PostEdge& post) noexcept {
   (post.previous_post != 0 ? post_at(post.previous_post).next_post : Slot::of(call).posts) =
       post.next_post;
   post.previous_post = engine_.arena().handle_of(&post);
-  if (call.waiting()) {
-    lost_posts(call);
-  } else if (Slot::of(call).posts == 0 && !call.dead()) {
-    core_.enqueue(call);
-  }
+  if (Slot::of(call).posts != 0 || call.dead()) return;
+  call.waiting() ? chain_unposted(call) : core_.enqueue(call);
 }
 
 void Agenda::retract(Call& call, Edge& edge) noexcept {
@@ -208,83 +203,53 @@ void Agenda::retract(Call& call, Edge& edge) noexcept {
   }
 }
 
-// Requires: the call is in no list.
+// A call that waits and that nobody posts may be posted again; else it leaves when the propagation
+// ends, or when its turn comes.
+void Agenda::chain_unposted(Call& call) noexcept {
+  const Handle self = engine_.handle_of(call);
+  call.previous_unposted = 0;
+  call.next_unposted = unposted_;
+  if (unposted_ != 0) core_.at<Call>(unposted_)->previous_unposted = self;
+  unposted_ = self;
+}
+
+void Agenda::unchain(Call& call) noexcept {
+  const Handle previous = std::exchange(call.previous_unposted, 0);
+  const Handle next = std::exchange(call.next_unposted, 0);
+  if (next != 0) core_.at<Call>(next)->previous_unposted = previous;
+  (previous != 0 ? core_.at<Call>(previous)->next_unposted : unposted_) = next;
+}
+
+// Requires: nobody posts the call, and it is neither in calls_ nor in a class.
 void Agenda::drop_waiting(Handle call) noexcept {
+  Call& c = *core_.at<Call>(call);
+  unchain(c);
   --waiting_calls_;
-  engine_.note(Event::Kind::dying, core_.at<Call>(call));
+  engine_.note(Event::Kind::dying, &c);
   core_.drop_call(call);
 }
 
-// `call`, which waits, has lost a post: perhaps nobody posts it any more.
-void Agenda::lost_posts(const Call& call) noexcept {
-  try {
-    unposted_.push_back(engine_.handle_of(call));
-  } catch (const std::bad_alloc&) {
-    unposted_unknown_ = true;
-  }
-}
-
-// Waiting calls that nobody posts leave.
 void Agenda::drop_unposted() noexcept {
-  bool any_chained = unposted_unknown_;
-  if (std::exchange(unposted_unknown_, false)) drop_unposted_of_all();
-  for (const Handle h : unposted_) {
-    const Call& call = *core_.at<Call>(h);
-    if (!call.waiting() || Slot::of(call).posts != 0) continue;
-    if (take_from_class(call)) {
-      drop_waiting(h);
-    } else {
-      any_chained = true;
-    }
-  }
-  unposted_.clear();
-  if (any_chained) drop_chained_unposted();
-  if (state_ != State::open) return;
-  try {
-    adopt_chained();  // so that each is found at once when nobody posts it any more
-  } catch (...) {     // they stay chained
-  }
-}
-
-// Takes a call that waits out of its class. Returns false if it is chained instead.
-bool Agenda::take_from_class(const Call& call) noexcept {
-  const auto found = waiting_.find(Slot::of(call).rank);
-  if (found == waiting_.end()) return false;
-  std::vector<Entry>& entries = found->second;
-  const std::uint32_t i = call.place_in_class;
-  if (i >= entries.size() || entries[i].call != engine_.handle_of(call)) return false;
-  entries[i] = entries.back();
-  core_.at<Call>(entries[i].call)->place_in_class = i;
-  entries.pop_back();
-  if (entries.empty()) waiting_.erase(found);
-  return true;
-}
-
-void Agenda::drop_unposted_of_all() noexcept {
-  for (auto next = waiting_.begin(); next != waiting_.end();) {
-    const auto& entries = (next++)->second;
-    for (std::size_t i = entries.size(); i > 0; --i) {
-      const Handle h = entries[i - 1].call;
-      if (Slot::of(*core_.at<Call>(h)).posts != 0) continue;
-      const bool is_last = entries.size() == 1;
-      take_from_class(*core_.at<Call>(h));
-      drop_waiting(h);
-      if (is_last) break;  // the class is gone
-    }
-  }
-}
-
-void Agenda::drop_chained_unposted() noexcept {
-  for (Handle* link = &chained_; *link != 0;) {
-    const Handle h = *link;
-    Call& c = *core_.at<Call>(h);
-    if (Slot::of(c).posts != 0) {
-      link = &c.next_waiting;
-      continue;
-    }
-    *link = std::exchange(c.next_waiting, 0);
+  while (unposted_ != 0) {
+    const Handle h = unposted_;
+    Call& call = *core_.at<Call>(h);
+    if (!take_from_class(call)) take_from_index(call);
     drop_waiting(h);
   }
+}
+
+// Takes a call that waits out of its class. Returns false if it is in calls_ instead.
+bool Agenda::take_from_class(Call& call) noexcept {
+  const auto found = classes_.find(Slot::of(call).rank);
+  if (found == classes_.end()) return false;
+  std::vector<Entry>& entries = found->second;
+  const std::uint32_t i = place_in_class(call);
+  if (i >= entries.size() || entries[i].call != engine_.handle_of(call)) return false;
+  entries[i] = entries.back();
+  place_in_class(*core_.at<Call>(entries[i].call)) = i;
+  entries.pop_back();
+  if (entries.empty()) classes_.erase(found);
+  return true;
 }
 
 }  // namespace sac

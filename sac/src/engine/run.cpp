@@ -43,11 +43,11 @@ Engine::~Engine() {
 
 void Engine::make_queries() { queries_ = std::make_unique<Queries>(*this); }
 
-Agenda& Engine::make_agenda(std::string name) {
+Agenda& Engine::make_agenda(std::string name, const KeyWidths& widths) {
   begin_edit("make_agenda");
   agendas_.push_back(nullptr);
   try {
-    agendas_.back() = std::make_unique<Agenda>(*this, std::move(name));
+    agendas_.back() = std::make_unique<Agenda>(*this, std::move(name), widths);
   } catch (...) {
     agendas_.pop_back();
     throw;

@@ -1,5 +1,5 @@
-// The calls of one class (bucket, phase, colour) that a drain runs: those posted before, in order,
-// merged with those that these calls post into the class.
+// The calls of one class (bucket, phase, colour) that a plain drain runs: those posted before, in
+// order, merged with those that these calls post into the class.
 #pragma once
 
 #include <algorithm>

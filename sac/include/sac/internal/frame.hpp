@@ -6,6 +6,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -39,14 +40,35 @@ struct Object {
   alignas(Arena::kGranule) T value;
 };
 
+// Whether == of a T compiles: that of containers is declared for elements of any type.
+template <class T>
+constexpr bool has_equality();
+template <class T>
+struct LacksEquality : std::bool_constant<!has_equality<T>()> {};
+template <class T>
+constexpr bool has_equality() {
+  if constexpr (TupleLike<T> || kIsOptional<T> || kIsVariant<T> || kIsVector<T>) {
+    return std::equality_comparable<T> && !any_part<LacksEquality, T>();
+  }
+  return std::equality_comparable<T>;
+}
+
+// What an argument of a call must be like; a type of its own, so that the compiler names T.
+template <class T>
+struct Argument {
+  static_assert(alignof(T) <= 8, "arguments in the arena are aligned to 8 bytes");
+  static_assert(!kCString<T>,
+                "the characters behind a pointer may change or go: pass a std::string");
+  static_assert(has_equality<T>(),
+                "an argument of a call needs ==: calls are told apart by their arguments; write "
+                "`bool operator==(const T&) const = default`");
+  static constexpr bool kFits = true;
+};
+
 // `Head`: Nothing, the Slot of a posted call, or ResultHead. `Tail`: Nothing, Result or Object.
 template <class Head, class Tail, class... Args>
 struct Frame {
-  static_assert(((alignof(Args) <= 8) && ...), "arguments in the arena are aligned to 8 bytes");
-  static_assert(!(kCString<Args> || ...),
-                "the characters behind a pointer may change or go: pass a std::string");
-  static_assert((std::equality_comparable<Args> && ...),
-                "an argument of a call needs ==: calls are told apart by their arguments");
+  static_assert((Argument<Args>::kFits && ...));
   using Arguments = std::tuple<Args...>;
   Call call;
   [[no_unique_address]] Head head;
@@ -212,6 +234,10 @@ struct Label {
 
   [[nodiscard]] Asked asked() const {
     return {What::function, &args, hash, &What::FrameType::construct};
+  }
+  /// For people. `neighbour` as for print_argument.
+  [[nodiscard]] std::string describe(const void* neighbour) const {
+    return describe_call(What::function.name, args, neighbour);
   }
 };
 

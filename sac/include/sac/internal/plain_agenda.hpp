@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <new>
+#include <string>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -99,7 +100,11 @@ class PlainAgenda {
     using Typed = TypedRecord<Arguments>;
     static_assert(sizeof(Typed) <= kBlock && alignof(Typed) <= alignof(std::max_align_t));
     constexpr bool kOwned = !std::is_trivially_destructible_v<Arguments>;
-    Class& posted = class_of(key.rank());
+    if (!widths_.fits(key)) {
+      const Arguments arguments(std::forward<Args>(args)...);
+      widths_.fail(key, describe_call(function_name<F>(), arguments), name_);
+    }
+    Class& posted = class_of(widths_.rank(key));
     void* const memory = posted.allocate(sizeof(Typed));
     if constexpr (kOwned) posted.owners.emplace_back();
     auto* const record =
@@ -116,6 +121,9 @@ class PlainAgenda {
 
   void run_class(PlainScope& s, Class& c);
 
+  friend class PlainScope;
+  std::string name_;
+  KeyWidths widths_;
   std::map<std::uint32_t, Class> classes_;
   Class* cached_ = nullptr;
   std::uint32_t cached_rank_ = 0;
