@@ -113,9 +113,8 @@ class TracedMap final : public Structure,
                 "sums of floating-point numbers depend on the order in which they are made: add "
                 "integers, or put the parts under keys of their own and fold them");
   static_assert(std::is_nothrow_move_constructible_v<K>, "a key that may throw when it is moved");
-  static_assert(
-      std::is_nothrow_move_constructible_v<V> && std::is_nothrow_move_assignable_v<V>,
-      "a value that may throw when it is moved would be lost: hold it by a pointer");
+  static_assert(std::is_nothrow_move_constructible_v<V> && std::is_nothrow_move_assignable_v<V>,
+                "a value that may throw when it is moved would be lost: hold it by a pointer");
   static_assert(!ordered_by_address<K>(),
                 "the order of addresses is another one in every run: use a number that names the "
                 "object as the key");
@@ -180,8 +179,7 @@ class TracedMap final : public Structure,
     static constexpr auto kKinds = []<class... Q>(std::tuple<Q...>*) {
       return std::array<Kind, sizeof...(Q)>{
           Kind{&Query<Q>::unchanged, &Query<Q>::end, &Query<Q>::label, &Query<Q>::print}...};
-    }
-    (static_cast<All*>(nullptr));
+    }(static_cast<All*>(nullptr));
     return kKinds[edge.kind - 1u];
   }
 
@@ -323,9 +321,8 @@ void TracedMap<K, V, Group, M...>::enter(Contribution& c, const K& key, V&& valu
 
 // Gives it the entry of the key, with its value.
 template <class K, class V, class Group, class... M>
-void TracedMap<K, V, Group, M...>::give_entry(Contribution& c,
-                                              const typename Entries::Place& place, const K& key,
-                                              V&& value) {
+void TracedMap<K, V, Group, M...>::give_entry(Contribution& c, const typename Entries::Place& place,
+                                              const K& key, V&& value) {
   if constexpr (kSums) {
     V amount(value);
     if (place.found != 0) value = Group::plus(entries_.node(place.found).value, value);
@@ -335,7 +332,8 @@ void TracedMap<K, V, Group, M...>::give_entry(Contribution& c,
       c.amount.make(std::move(amount));
       return entries_.link(c.entry, place);
     }
-    c.entry == 0 ? void(c.amount.make(std::move(amount))) : void(c.amount.get() = std::move(amount));
+    c.entry == 0 ? void(c.amount.make(std::move(amount)))
+                 : void(c.amount.get() = std::move(amount));
   } else if (c.entry == 0 && place.found == 0) {
     c.entry = entries_.make(key, std::move(value));
     ++entries_.node(c.entry).users;
@@ -578,9 +576,8 @@ void TracedMap<K, V, Group, M...>::set(const K& key, V value) {
   engine_.begin_edit("set");
   if (const Contribution* c = outside(key)) {
     if (identical(value_of(*c), value)) return;
-    engine_.on_rollback([this, key, old = value_of(*c)]() mutable {
-      set_outside(key, std::move(old));
-    });
+    engine_.on_rollback(
+        [this, key, old = value_of(*c)]() mutable { set_outside(key, std::move(old)); });
     return set_outside(key, std::move(value));
   }
   set_outside(key, std::move(value));
@@ -602,9 +599,8 @@ void TracedMap<K, V, Group, M...>::erase(const K& key) {
     print_argument(text, key);
     throw UsageError(text.str());
   }
-  engine_.on_rollback([this, key, old = value_of(*c)]() mutable {
-    set_outside(key, std::move(old));
-  });
+  engine_.on_rollback(
+      [this, key, old = value_of(*c)]() mutable { set_outside(key, std::move(old)); });
   erase_outside(*c);
 }
 
@@ -801,24 +797,27 @@ struct MapWith<K, V, PlainScope, Group, OptionList<M...>> {
   using type = PlainMap<K, V, Group, M...>;
 };
 template <class K, class V, class Host, class Group, class... M, class O, class... Rest>
-requires std::is_same_v<O, Engine> || std::is_same_v<O, PlainScope> struct
-    MapWith<K, V, Host, Group, OptionList<M...>, O, Rest...>
+requires std::is_same_v<O, Engine> || std::is_same_v<O, PlainScope>
+struct MapWith<K, V, Host, Group, OptionList<M...>, O, Rest...>
     : MapWith<K, V, O, Group, OptionList<M...>, Rest...> {
 };
 template <class K, class V, class Host, class Group, class... M, class O, class... Rest>
-requires GroupOf<O, V> struct MapWith<K, V, Host, Group, OptionList<M...>, O, Rest...>
+requires GroupOf<O, V>
+struct MapWith<K, V, Host, Group, OptionList<M...>, O, Rest...>
     : MapWith<K, V, Host, O, OptionList<M...>, Rest...> {
 };
 template <class K, class V, class Host, class Group, class... M, class O, class... Rest>
-requires MonoidOf<O, K, V> struct MapWith<K, V, Host, Group, OptionList<M...>, O, Rest...>
+requires MonoidOf<O, K, V>
+struct MapWith<K, V, Host, Group, OptionList<M...>, O, Rest...>
     : MapWith<K, V, Host, Group, OptionList<M..., O>, Rest...> {
 };
 
 }  // namespace detail
 
 /// A map from keys to values. Options, in any order: a group, so that values are sums (Sum, or a
-/// type with static `plus(a, b)` and `minus(a, b)`); monoids of folds (types with `Value`, `none()`,
-/// `of(key, value)` and an associative `join(a, b)`); PlainScope as the host, for plain runs.
+/// type with static `plus(a, b)` and `minus(a, b)`); monoids of folds (types with `Value`,
+/// `none()`, `of(key, value)` and an associative `join(a, b)`); PlainScope as the host, for plain
+/// runs.
 template <class K, class V, class... Options>
 using Map = typename detail::MapWith<K, V, Engine, void, detail::OptionList<>, Options...>::type;
 

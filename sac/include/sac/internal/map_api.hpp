@@ -160,7 +160,8 @@ class MapApi {
   void for_each(S& s) {
     s.template call<ForKeys<f>{}>(MapRef<Self>{&self()});
   }
-  /// The entries as a list of pairs (list/operations.hpp), in order of the keys. Values need a hash.
+  /// The entries as a list of pairs (list/operations.hpp), in order of the keys. Values need a
+  /// hash.
   [[nodiscard]] List<Pair, S> list(S& s) {
     return List<Pair, S>(
         s.template make<ListNode<Pair, S>, ListOfMap<K, V>{}>(MapRef<Self>{&self()}));

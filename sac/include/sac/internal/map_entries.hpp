@@ -176,7 +176,7 @@ class MapEntries {
     const std::size_t from = rank([&](const K& key) { return span.is_below(key); });
     return to > from ? to - from : 0;
   }
-  [[nodiscard]] View nth(std::size_t r) const {
+  [[nodiscard]] View at_rank(std::size_t r) const {
     if (r >= size()) return {};
     for (Handle h = root_;;) {
       const TreapLinks& l = node(h).links;
@@ -188,8 +188,7 @@ class MapEntries {
   }
   template <class Visit>
   void for_each_in(const Span<K>& span, Visit&& visit) const {
-    for (Handle h = first(span); h != 0 && !span.is_above(node(h).key);
-         h = Links::next(*this, h)) {
+    for (Handle h = first(span); h != 0 && !span.is_above(node(h).key); h = Links::next(*this, h)) {
       visit(node(h).key, node(h).value);
     }
   }

@@ -228,7 +228,7 @@ struct QuestionsOf {
     using Answer = std::optional<Pair>;
     template <class Contents>
     Answer of(const Contents& c) const {
-      return c.nth(this->rank).copy();
+      return c.at_rank(this->rank).copy();
     }
     Span<K> span(const Answer& a) const {
       return a ? Span<K>::up_to(a->first) : Span<K>::everything();
@@ -241,7 +241,7 @@ struct QuestionsOf {
     Answer of(const Contents& c) const {
       Pairs pairs;
       for (std::size_t i = 0; i < this->rank && i < c.size(); ++i) {
-        pairs.push_back(*c.nth(i).copy());
+        pairs.push_back(*c.at_rank(i).copy());
       }
       return pairs;
     }
@@ -257,7 +257,7 @@ struct QuestionsOf {
     Answer of(const Contents& c) const {
       Pairs pairs;
       for (std::size_t i = 0; i < this->rank && i < c.size(); ++i) {
-        pairs.push_back(*c.nth(c.size() - 1 - i).copy());
+        pairs.push_back(*c.at_rank(c.size() - 1 - i).copy());
       }
       return pairs;
     }
@@ -298,13 +298,12 @@ struct QuestionsOf {
 
 /// All questions, in the order of their numbers.
 template <class K, class V, class... M>
-using Questions = std::tuple<
-    typename QuestionsOf<K, V>::Find, typename QuestionsOf<K, V>::Has,
-    typename QuestionsOf<K, V>::Count, typename QuestionsOf<K, V>::First,
-    typename QuestionsOf<K, V>::FirstKey, typename QuestionsOf<K, V>::Last,
-    typename QuestionsOf<K, V>::Nth, typename QuestionsOf<K, V>::Bottom,
-    typename QuestionsOf<K, V>::Top, typename QuestionsOf<K, V>::Range,
-    typename QuestionsOf<K, V>::template FoldOf<M>...>;
+using Questions = std::tuple<typename QuestionsOf<K, V>::Find, typename QuestionsOf<K, V>::Has,
+                             typename QuestionsOf<K, V>::Count, typename QuestionsOf<K, V>::First,
+                             typename QuestionsOf<K, V>::FirstKey, typename QuestionsOf<K, V>::Last,
+                             typename QuestionsOf<K, V>::Nth, typename QuestionsOf<K, V>::Bottom,
+                             typename QuestionsOf<K, V>::Top, typename QuestionsOf<K, V>::Range,
+                             typename QuestionsOf<K, V>::template FoldOf<M>...>;
 
 template <class T, class Tuple>
 inline constexpr std::size_t kIndexOf = 0;

@@ -115,15 +115,13 @@ class PlainMap final : public MapApi<PlainMap<K, V, Group, M...>, K, V, PlainSco
   }
   [[nodiscard]] std::size_t count_in(const Span<K>& span) const {
     const auto& order = in_order();
-    const auto from = std::partition_point(order.begin(), order.end(), [&](auto at) {
-      return span.is_below(at->first);
-    });
-    const auto to = std::partition_point(order.begin(), order.end(), [&](auto at) {
-      return !span.is_above(at->first);
-    });
+    const auto from = std::partition_point(order.begin(), order.end(),
+                                           [&](auto at) { return span.is_below(at->first); });
+    const auto to = std::partition_point(order.begin(), order.end(),
+                                         [&](auto at) { return !span.is_above(at->first); });
     return to > from ? static_cast<std::size_t>(to - from) : 0;
   }
-  [[nodiscard]] View nth(std::size_t r) const {
+  [[nodiscard]] View at_rank(std::size_t r) const {
     return r < size() ? view(in_order()[r]) : View{};
   }
   template <class Visit>
