@@ -797,9 +797,10 @@ struct MapWith<K, V, PlainScope, Group, OptionList<M...>> {
   using type = PlainMap<K, V, Group, M...>;
 };
 template <class K, class V, class Host, class Group, class... M, class O, class... Rest>
-requires std::is_same_v<O, Engine> || std::is_same_v<O, PlainScope>
+requires std::is_same_v<O, Engine> || std::is_same_v<O, Scope> || std::is_same_v<O, PlainScope>
 struct MapWith<K, V, Host, Group, OptionList<M...>, O, Rest...>
-    : MapWith<K, V, O, Group, OptionList<M...>, Rest...> {
+    : MapWith<K, V, std::conditional_t<std::is_same_v<O, PlainScope>, O, Engine>, Group,
+              OptionList<M...>, Rest...> {
 };
 template <class K, class V, class Host, class Group, class... M, class O, class... Rest>
 requires GroupOf<O, V>
@@ -816,8 +817,7 @@ struct MapWith<K, V, Host, Group, OptionList<M...>, O, Rest...>
 
 /// A map from keys to values. Options, in any order: a group, so that values are sums (Sum, or a
 /// type with static `plus(a, b)` and `minus(a, b)`); monoids of folds (types with `Value`,
-/// `none()`, `of(key, value)` and an associative `join(a, b)`); PlainScope as the host, for plain
-/// runs.
+/// `none()`, `of(key, value)` and an associative `join(a, b)`); a scope, Scope or PlainScope.
 template <class K, class V, class... Options>
 using Map = typename detail::MapWith<K, V, Engine, void, detail::OptionList<>, Options...>::type;
 
