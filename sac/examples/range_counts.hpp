@@ -52,7 +52,9 @@ struct CountPoints {
         count += static_cast<std::int64_t>(plane.points.count(s, within));
         continue;
       }
-      for (const auto& [place, x] : plane.points.range(s, within)) {
+      const auto points = plane.points.range(s, within);
+      s.weigh(points.size());
+      for (const auto& [place, x] : points) {
         count += x >= r.left && x < r.right;
       }
     }

@@ -191,7 +191,7 @@ class TracedMap final : public Structure,
       return *engine.arena().template at<Contribution>(h);
     }
     [[nodiscard]] static std::uint64_t priority(Handle h) noexcept { return mix(h); }
-    static void update(Contribution&) noexcept {}
+    static bool update(Contribution&) noexcept { return false; }
   };
   using Parts = Treap<Contributions>;
   // The queries of all calls, by the beginnings of their spans: an interval tree.
@@ -205,7 +205,8 @@ class TracedMap final : public Structure,
     }
     [[nodiscard]] const Span<K>& span(Handle h) const noexcept { return node(h).span.get(); }
     [[nodiscard]] static std::uint64_t priority(Handle h) noexcept { return mix(h); }
-    void update(Looker& l) const noexcept {
+    bool update(Looker& l) const noexcept {
+      const Handle reach = l.reach;
       try {
         l.reach = engine.arena().handle_of(&l);
         for (const Handle child : {l.links.left, l.links.right}) {
@@ -216,6 +217,7 @@ class TracedMap final : public Structure,
       } catch (...) {  // client code failed: all may end behind any key
         l.reach = 0;
       }
+      return l.reach != reach;
     }
     void link(Looker& l);
     void unlink(Looker& l) noexcept;

@@ -59,15 +59,15 @@ class MapEntries {
   using Links = Treap<MapEntries>;
   [[nodiscard]] Entry& node(Handle h) const noexcept { return *engine_.arena().at<Entry>(h); }
   [[nodiscard]] std::uint64_t priority(Handle h) const noexcept { return node(h).priority; }
-  void update(Entry& e) const noexcept {
-    e.size = 1;
-    e.latest = e.last;
+  bool update(Entry& e) const noexcept {
+    const std::uint32_t size = std::exchange(e.size, 1);
+    const Handle latest = std::exchange(e.latest, e.last);
     for (const Handle child : {e.links.left, e.links.right}) {
       if (child == 0) continue;
       e.size += node(child).size;
       if (comes_before(e.latest, node(child).latest)) e.latest = node(child).latest;
     }
-    forget_folds(e);
+    return forget_folds(e) || e.size != size || e.latest != latest;
   }
 
   /// Whether place a comes before place b. 0 is the place of the outside, before all.
@@ -127,7 +127,7 @@ class MapEntries {
   /// The value has.
   void value_changed(Handle h) noexcept {
     if constexpr (sizeof...(M) > 0) {
-      for (; h != 0; h = node(h).links.parent) forget_folds(node(h));
+      while (h != 0 && forget_folds(node(h))) h = node(h).links.parent;
     }
   }
 
@@ -238,8 +238,10 @@ class MapEntries {
   }
 
  private:
-  static void forget_folds(const Entry& e) noexcept {
-    std::apply([](auto&... fold) { (fold.reset(), ...); }, e.folds);
+  // Returns whether one was known: those above know it only then.
+  static bool forget_folds(const Entry& e) noexcept {
+    const auto forget = [](auto& fold) { return std::exchange(fold, std::nullopt).has_value(); };
+    return std::apply([&](auto&... fold) { return (false | ... | forget(fold)); }, e.folds);
   }
   [[nodiscard]] bool has_latest(Handle h, Handle latest) const noexcept {
     return h != 0 && node(h).latest == latest;

@@ -8,7 +8,7 @@
 //     using Node = ...;                                  // with a member `TreapLinks links`
 //     Node& node(Handle) const;
 //     std::uint64_t priority(Handle) const;              // of equal ones the left node is above
-//     void update(Node&) const noexcept;                 // from the children's
+//     bool update(Node&) const noexcept;                 // from the children's: has it changed?
 //   };
 #pragma once
 
@@ -51,12 +51,14 @@ struct Treap {
     const Handle parent = links(tree, h).parent;
     child_of(tree, root, parent, h) = 0;
     links(tree, h) = {};
-    refresh(tree, parent);
+    // All of them: of equals below, another one may stand for them now.
+    for (Handle up = parent; up != 0; up = links(tree, up).parent) tree.update(tree.node(up));
   }
 
-  /// What `h` knows has changed: it, and all above it, look again. 0: nothing.
+  /// What `h` may know has changed: it looks again, and those above it, as long as it has. 0:
+  /// nothing.
   static void refresh(const Tree& tree, Handle h) noexcept {
-    for (; h != 0; h = links(tree, h).parent) tree.update(tree.node(h));
+    while (h != 0 && tree.update(tree.node(h))) h = links(tree, h).parent;
   }
 
   /// The first and last node of the tree below `h`; 0 if h is 0.
