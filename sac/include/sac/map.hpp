@@ -192,6 +192,7 @@ class TracedMap final : public Structure,
     }
     [[nodiscard]] static std::uint64_t priority(Handle h) noexcept { return mix(h); }
     static bool update(Contribution&) noexcept { return false; }
+    [[nodiscard]] static bool names(const Contribution&, Handle) noexcept { return false; }
   };
   using Parts = Treap<Contributions>;
   // The queries of all calls, by the beginnings of their spans: an interval tree.
@@ -219,6 +220,7 @@ class TracedMap final : public Structure,
       }
       return l.reach != reach;
     }
+    [[nodiscard]] static bool names(const Looker& l, Handle h) noexcept { return l.reach == h; }
     void link(Looker& l);
     void unlink(Looker& l) noexcept;
     template <class Visit>
@@ -431,7 +433,7 @@ void TracedMap<K, V, Group, M...>::unlink(Contribution& c) noexcept {
   Parts::unlink(contributions(), e.contributions, handle_of(c));
   c.counts = false;
   if (c.place == 0) e.outside = 0;
-  if (e.contributions == 0) return;
+  if (e.contributions == 0 || c.place != e.last) return;
   const Handle last = part(Parts::last(contributions(), e.contributions)).place;
   if (last == e.last) return;
   e.last = last;
@@ -754,7 +756,17 @@ void TracedMap<K, V, Group, M...>::check_invariants() const {
   std::size_t count = 0;
   Handle previous = 0;
   for (Handle h = Links::first(lookers_, lookers_.root); h != 0; h = Links::next(lookers_, h)) {
-    SAC_INVARIANT(engine_.is_live_place(lookers_.node(h).place));
+    const Looker& l = lookers_.node(h);
+    SAC_INVARIANT(engine_.is_live_place(l.place) && l.linked);
+    Handle up = l.reach;  // a node of the tree below
+    while (up != 0 && up != h) up = lookers_.node(up).links.parent;
+    SAC_INVARIANT(l.reach == 0 || up == h);
+    SAC_INVARIANT(l.reach == 0 || !lookers_.span(l.reach).ends_before(l.span.get()));
+    for (const Handle child : {l.links.left, l.links.right}) {
+      if (child == 0 || l.reach == 0) continue;
+      const Handle other = lookers_.node(child).reach;
+      SAC_INVARIANT(other != 0 && !lookers_.span(l.reach).ends_before(lookers_.span(other)));
+    }
     SAC_INVARIANT(previous == 0 || !lookers_.span(h).begins_before(lookers_.span(previous)));
     previous = h;
     ++count;

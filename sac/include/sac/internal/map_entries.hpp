@@ -70,6 +70,8 @@ class MapEntries {
     return forget_folds(e) || e.size != size || e.latest != latest;
   }
 
+  [[nodiscard]] static bool names(const Entry&, Handle) noexcept { return false; }
+
   /// Whether place a comes before place b. 0 is the place of the outside, before all.
   [[nodiscard]] bool comes_before(Handle a, Handle b) const noexcept {
     if (a == b || b == 0) return false;

@@ -9,6 +9,7 @@
 //     Node& node(Handle) const;
 //     std::uint64_t priority(Handle) const;              // of equal ones the left node is above
 //     bool update(Node&) const noexcept;                 // from the children's: has it changed?
+//     bool names(const Node&, Handle) const noexcept;    // whether what a node knows is a node
 //   };
 #pragma once
 
@@ -44,6 +45,7 @@ struct Treap {
   }
 
   static void unlink(const Tree& tree, Handle& root, Handle h) noexcept {
+    const Handle above = links(tree, h).parent;
     for (TreapLinks& l = links(tree, h); l.left != 0 || l.right != 0;) {
       const bool left = l.right == 0 || (l.left != 0 && !goes_above(tree, l.right, l.left));
       rotate_up(tree, root, left ? l.left : l.right);
@@ -51,8 +53,13 @@ struct Treap {
     const Handle parent = links(tree, h).parent;
     child_of(tree, root, parent, h) = 0;
     links(tree, h) = {};
-    // All of them: of equals below, another one may stand for them now.
-    for (Handle up = parent; up != 0; up = links(tree, up).parent) tree.update(tree.node(up));
+    Handle up = parent;
+    for (; up != above; up = links(tree, up).parent) tree.update(tree.node(up));
+    // Those who name the node stand in a row from here on: each had it from the one below.
+    for (bool goes_on = true; up != 0 && goes_on; up = links(tree, up).parent) {
+      const bool names_it = tree.names(tree.node(up), h);
+      goes_on = tree.update(tree.node(up)) || names_it;
+    }
   }
 
   /// What `h` may know has changed: it looks again, and those above it, as long as it has. 0:
