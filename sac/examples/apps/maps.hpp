@@ -159,27 +159,34 @@ struct RangesApp {
     std::optional<RowEdit<Rectangle>> rectangle;
   };
 
-  static constexpr int kSide = 80;
-  static Point random_point(Random& random) { return {random(kSide), random(kSide)}; }
-  static Rectangle random_rectangle(Random& random) {
-    const int x = random(kSide), y = random(kSide);
+  // The plane grows with the input: a rectangle has a constant number of points.
+  static constexpr int kWidth = 80;
+  static int height(int size) { return size / 2 + 20; }
+  static Point random_point(Random& random, int size) {
+    return {random(kWidth), random(height(size))};
+  }
+  static Rectangle random_rectangle(Random& random, int size) {
+    const int x = random(kWidth), y = random(height(size));
     return {x, x + random(50), y, y + random(12)};
   }
   static int rectangles(int size) { return size / 2 + 1; }
   static Input random_input(Random& random, int size) {
-    return {size, random_table<Point>(random, size, 2 * size + 1, random_point),
-            random_table<Rectangle>(random, rectangles(size), rectangles(size), random_rectangle)};
+    const auto point = [&](Random& r) { return random_point(r, size); };
+    const auto rectangle = [&](Random& r) { return random_rectangle(r, size); };
+    return {size, random_table<Point>(random, size, 2 * size + 1, point),
+            random_table<Rectangle>(random, rectangles(size), rectangles(size), rectangle)};
   }
   static Edit random_edit(Random& random, const Input& input) {
     const bool goes = random(3) == 0;
+    Edit edit;
     if (random(4) == 0) {
-      return {{},
-              RowEdit<Rectangle>{random(rectangles(input.size)),
-                                 goes ? std::nullopt : std::optional(random_rectangle(random))}};
+      edit.rectangle = RowEdit<Rectangle>{random(rectangles(input.size)), {}};
+      if (!goes) edit.rectangle->row = random_rectangle(random, input.size);
+    } else {
+      edit.point = RowEdit<Point>{random(2 * input.size + 1), {}};
+      if (!goes) edit.point->row = random_point(random, input.size);
     }
-    return {RowEdit<Point>{random(2 * input.size + 1),
-                           goes ? std::nullopt : std::optional(random_point(random))},
-            {}};
+    return edit;
   }
   static Edit inverse(const Input& before, const Edit& edit) {
     if (edit.point) return {old_row(before.points, edit.point->key), {}};
