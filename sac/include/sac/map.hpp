@@ -801,7 +801,11 @@ template <class... T>
 struct OptionList {};
 
 template <class K, class V, class Host, class Group, class Folds, class... O>
-struct MapWith;
+struct MapWith {
+  static_assert(sizeof...(O) == 0,
+                "an option of a map is a scope, a group (static plus and minus), or the monoid of "
+                "a fold (Value, and static none, of and join)");
+};
 template <class K, class V, class Group, class... M>
 struct MapWith<K, V, Engine, Group, OptionList<M...>> {
   using type = TracedMap<K, V, Group, M...>;

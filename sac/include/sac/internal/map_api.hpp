@@ -148,7 +148,7 @@ class MapApi {
   }
   /// The entries in an interval joined by a monoid, one of those that the type of the map names.
   template <class Fold>
-  [[nodiscard]] typename Fold::Value fold(S& s, const Interval<K>& keys) {
+  [[nodiscard]] auto fold(S& s, const Interval<K>& keys) {
     static_assert((std::is_same_v<Fold, M> || ...),
                   "the type of a map names the monoids of its folds: Map<K, V, Fold>");
     return ask(s, typename Q::template FoldOf<Fold>{{span_of(keys)}});
