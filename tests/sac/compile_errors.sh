@@ -141,4 +141,14 @@ refused 'a value that may throw when it is moved would be lost' \
   'struct Throws { Throws(int); Throws(const Throws&); bool operator==(const Throws&) const; };' \
   'static_cast<void>(e.input(Throws(1)));'
 
+accepted '' 'sac::Map<int, long, sac::Sum> m(e, "m"); m.set(1, 2);'
+refused 'sums of floating-point numbers depend on the order' '' \
+  'sac::Map<int, double, sac::Sum> m(e, "m");'
+refused 'the order of addresses is another one in every run' '' \
+  'sac::Map<const int*, int> m(e, "m");'
+refused 'an option of a map is a scope, a group' '' 'sac::Map<int, int, Bare> m(e, "m");'
+refused 'the type of a map names the monoids of its folds' \
+  'void f(sac::Scope& s) { static_cast<void>(
+     s.environment<sac::Map<int, int>>().fold<AnySame>(s, {})); }' 'e.run<f>();'
+
 ((failures == 0))

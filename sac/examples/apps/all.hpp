@@ -5,6 +5,7 @@
 
 #include "graphs.hpp"
 #include "lists.hpp"
+#include "maps.hpp"
 #include "text.hpp"
 
 namespace apps {
@@ -12,6 +13,7 @@ namespace apps {
 using All = std::tuple<ArrayApp, MapApp, FilterApp, ReverseApp, SumApp, MinimumApp, QuicksortApp,
                        MergesortApp, QuickhullApp<spread_point>, DiameterApp<spread_point>,
                        DistanceApp<1000>, ExpressionApp, ForestApp, SearchApp, ComponentsApp,
-                       CoreApp, SpanApp, BuildApp, SpellApp, StringApp, SheetApp>;
+                       CoreApp, SpanApp, BuildApp, SpellApp, StringApp, SheetApp, ViewApp,
+                       RangesApp, DifferencesApp, LeadersApp>;
 
 }  // namespace apps

@@ -9,6 +9,7 @@
 #include "sac/list/reduce.hpp"
 #include "sac/list/sequence.hpp"
 #include "sac/list/sort.hpp"
+#include "sac/map.hpp"
 #include "sac/mod.hpp"
 #include "sac/output.hpp"
 #include "sac/plain.hpp"
