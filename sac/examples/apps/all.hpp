@@ -9,9 +9,10 @@
 
 namespace apps {
 
-using All = std::tuple<ArrayApp, MapApp, FilterApp, ReverseApp, SumApp, MinimumApp, QuicksortApp,
-                       MergesortApp, QuickhullApp<spread_point>, DiameterApp<spread_point>,
-                       DistanceApp<1000>, ExpressionApp, ForestApp, SearchApp, ComponentsApp,
-                       SpellApp, StringApp, SheetApp>;
+using All =
+    std::tuple<ArrayApp, MapApp, FilterApp, ReverseApp, SumApp, MinimumApp, QuicksortApp,
+               MergesortApp, QuicksortElementsApp, MergesortElementsApp, QuickhullApp<spread_point>,
+               DiameterApp<spread_point>, DistanceApp<1000>, ExpressionApp, ForestApp, SearchApp,
+               ComponentsApp, SpellApp, StringApp, SheetApp>;
 
 }  // namespace apps

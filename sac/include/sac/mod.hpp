@@ -154,7 +154,7 @@ const T& Scope::read(Mod<T, Same> mod) {
   return core_.guarded([&]() -> const T& {
     ModStructure& mods = engine().mods();
     mods.require_live(mod.head(), mod.stamp(), "read");
-    return static_cast<detail::TypedVersion<T>&>(mods.observe(*this, mod.head())).value();
+    return static_cast<detail::TypedVersion<T>&>(mods.observe(mod.head())).value();
   });
 }
 
@@ -169,7 +169,7 @@ void Scope::write(Mod<T, Same> mod, std::type_identity_t<T> value) {
   core_.guarded([&] {
     ModStructure& mods = engine().mods();
     mods.require_live(mod.head(), mod.stamp(), "write");
-    mods.template write<T, Same>(*this, mod.head(), std::move(value));
+    mods.template write<T, Same>(mod.head(), std::move(value));
   });
 }
 
