@@ -9,8 +9,9 @@ using namespace support;
 
 #define LIST_EXAMPLES                                                                      \
   ArrayApp, MapApp, FilterApp, ReverseApp, SumApp, MinimumApp, QuicksortApp, MergesortApp, \
-      QuickhullApp<any_point>, QuickhullApp<spread_point>, DiameterApp<any_point>,         \
-      DiameterApp<spread_point>, DistanceApp<8>, DistanceApp<1000>
+      QuicksortElementsApp, MergesortElementsApp, QuickhullApp<any_point>,                 \
+      QuickhullApp<spread_point>, DiameterApp<any_point>, DiameterApp<spread_point>,       \
+      DistanceApp<8>, DistanceApp<1000>
 
 TEMPLATE_TEST_CASE("list examples run plainly give what naive programs give", "", LIST_EXAMPLES) {
   check_example_plain<TestType>(100, 100);
@@ -57,4 +58,6 @@ TEST_CASE("hulls of 10^5 points are right after every edit", "[.soak]") {
 TEST_CASE("sorted lists of 10^5 elements are right after every edit", "[.soak]") {
   check_at_scale<QuicksortApp>(100'000, 500);
   check_at_scale<MergesortApp>(100'000, 500);
+  check_at_scale<QuicksortElementsApp>(100'000, 500);
+  check_at_scale<MergesortElementsApp>(100'000, 500);
 }

@@ -88,7 +88,7 @@ refuse_of "$mesher" 3 'bad.txt:1:1: error[unknown_id]' trace points.node --scrip
 
 echo "== example"
 for example in array-map list-map list-filter list-reverse list-sum list-minimum quicksort \
-  mergesort quickhull diameter distance expression-tree tree-contraction breadth-first-search \
+  mergesort quicksort-by-elements mergesort-by-elements quickhull diameter distance expression-tree tree-contraction breadth-first-search \
   connected-components spell-check string-hash spreadsheet; do
   expect 0 'ex4.trace: ' example $example --n 40 --edits 4 -o ex4.trace
   expect 0 'the last edit: ' example $example --n 40 --edits 5 -o ex5.trace

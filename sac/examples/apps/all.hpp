@@ -10,10 +10,11 @@
 
 namespace apps {
 
-using All = std::tuple<ArrayApp, MapApp, FilterApp, ReverseApp, SumApp, MinimumApp, QuicksortApp,
-                       MergesortApp, QuickhullApp<spread_point>, DiameterApp<spread_point>,
-                       DistanceApp<1000>, ExpressionApp, ForestApp, SearchApp, ComponentsApp,
-                       CoreApp, SpanApp, BuildApp, SpellApp, StringApp, SheetApp, ViewApp,
-                       RangesApp, DifferencesApp, LeadersApp>;
+using All =
+    std::tuple<ArrayApp, MapApp, FilterApp, ReverseApp, SumApp, MinimumApp, QuicksortApp,
+               MergesortApp, QuicksortElementsApp, MergesortElementsApp, QuickhullApp<spread_point>,
+               DiameterApp<spread_point>, DistanceApp<1000>, ExpressionApp, ForestApp, SearchApp,
+               ComponentsApp, CoreApp, SpanApp, BuildApp, SpellApp, StringApp, SheetApp, ViewApp,
+               RangesApp, DifferencesApp, LeadersApp>;
 
 }  // namespace apps

@@ -16,8 +16,10 @@
 #include "../list_reverse.hpp"
 #include "../list_sum.hpp"
 #include "../mergesort.hpp"
+#include "../mergesort_elements.hpp"
 #include "../quickhull.hpp"
 #include "../quicksort.hpp"
+#include "../quicksort_elements.hpp"
 #include "app.hpp"
 
 namespace apps {
@@ -235,6 +237,18 @@ struct MergesortApp : SortApp {
   static constexpr const char* kName = "mergesort";
   template <class Host>
   using World = ListToList<mergesort, false, Host>;
+};
+
+struct QuicksortElementsApp : SortApp {
+  static constexpr const char* kName = "quicksort by elements";
+  template <class Host>
+  using World = ListToList<quicksort_elements, false, Host>;
+};
+
+struct MergesortElementsApp : SortApp {
+  static constexpr const char* kName = "mergesort by elements";
+  template <class Host>
+  using World = ListToList<mergesort_elements, false, Host>;
 };
 
 // --- Arrays ----------------------------------------------------------------------------------

@@ -51,7 +51,7 @@ class Arena {
   Arena& operator=(const Arena&) = delete;
 
   /// Allocates `bytes` of memory aligned to 8. Throws: std::bad_alloc. Cost: O(1).
-  [[nodiscard]] Handle allocate(std::size_t bytes) {
+  [[nodiscard, gnu::always_inline]] Handle allocate(std::size_t bytes) {
     const std::size_t granules = granules_for(bytes);
     if (--until_failure_ == 0) fail();
     if (granules < kSmall && free_[granules] != 0) {
@@ -60,7 +60,7 @@ class Arena {
       used_ += granules;
       return head;
     }
-    if (granules < kSmall && spares_.empty() && (next_ + granules) * kGranule <= usable_) {
+    if (granules < kSmall && next_ + granules <= fresh_end_) {
       const auto fresh = static_cast<Handle>(next_);
       __builtin_prefetch(at<void>(fresh + kFetchAhead), 1);
       next_ += granules;
@@ -132,7 +132,7 @@ class Arena {
   /// Limits the bytes held: allocate() fails beyond the limit.
   void set_limit(std::size_t bytes) noexcept {
     limit_ = bytes;
-    usable_ = std::min(limit_, committed_);
+    open_fresh();
   }
   [[nodiscard]] std::size_t limit() const noexcept { return limit_; }
   /// Makes the `count`-th allocation from now fail, once; 0: none. For tests.
@@ -169,6 +169,9 @@ class Arena {
   }
   Handle allocate_slowly(std::size_t granules);
   void release_large(Handle handle, std::size_t granules) noexcept;
+  void open_fresh() noexcept {
+    fresh_end_ = spares_.empty() ? std::min(limit_, committed_) / kGranule : 0;
+  }
   void reserve();
   void commit(std::size_t bytes);
   [[noreturn]] void fail();
@@ -183,7 +186,7 @@ class Arena {
   std::size_t spare_ = 0;  // granules in spare runs
   std::size_t committed_ = 0;
   std::size_t limit_ = kReserve;
-  std::size_t usable_ = 0;  // committed, and within the limit
+  std::size_t fresh_end_ = 0;  // up to here next_ may go at once; 0: spare runs go first
   std::uint64_t until_failure_ = 0;
   std::array<Handle, kSmall> free_{};
   std::map<std::size_t, Handle> free_large_;

@@ -384,7 +384,10 @@ class Engine {
   }
   [[nodiscard]] Handle new_outside(const OutsideType& type);
   void release_outside(void* object, const char* kind);
-  void require_released_unused() const;
+  void require_released_unused() const {
+    if (!released_.empty()) require_unused();
+  }
+  void require_unused() const;
   void free_released() noexcept;
   void free_outside(Handle h) noexcept;
   void make_queries();

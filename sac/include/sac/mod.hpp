@@ -159,7 +159,7 @@ template <class T, class Same>
 bool Engine::has_value(Mod<T, Same> mod) const {
   core_.require_settled("has_value");
   mods_->require_live(mod.head(), mod.stamp(), "has_value");
-  return mods_->last_or_null(mod.head()) != nullptr;
+  return mods_->newest(mod.head()) != nullptr;
 }
 
 template <class T, class Same>
@@ -185,7 +185,7 @@ const T& Scope::read(Mod<T, Same> mod) {
   return core_.guarded([&]() -> const T& {
     ModStructure& mods = engine().mods();
     mods.require_live(mod.head(), mod.stamp(), "read");
-    return static_cast<detail::TypedVersion<T>&>(mods.observe(*this, mod.head())).value();
+    return static_cast<detail::TypedVersion<T>&>(mods.observe(mod.head())).value();
   });
 }
 
@@ -200,7 +200,7 @@ void Scope::write(Mod<T, Same> mod, std::type_identity_t<T> value) {
   core_.guarded([&] {
     ModStructure& mods = engine().mods();
     mods.require_live(mod.head(), mod.stamp(), "write");
-    mods.template write<T, Same>(*this, mod.head(), std::move(value));
+    mods.template write<T, Same>(mod.head(), std::move(value));
   });
 }
 

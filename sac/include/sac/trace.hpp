@@ -79,6 +79,7 @@ struct Call : TimeNode {
   Validity validity : 2 = Validity::valid;
   std::uint8_t round : 1 = 0;   // changes with each execution; old edges have the other bit
   bool posted : 1 = false;      // runs from an agenda; a Slot lies behind the head
+  std::uint8_t unused : 2 = 0;  // so that a new call's byte is written whole
   std::uint8_t work_queue = 0;  // of a posted call: the number of its agenda as a structure
   union {
     Handle end = 0;            // end stamp; 0: a leaf

@@ -30,7 +30,8 @@ void Core::run_body(Activation& a, Handle call) {
   a.call = &c;
   a.self = a.place = call;
   a.old_edges = std::exchange(c.edges, 0);
-  a.cursor = a.last_edge = a.failed_child = 0;
+  a.cursor = a.failed_child = 0;
+  a.link = &c.edges;
   a.failed = false;
   c.round ^= 1;
   c.validity = Validity::valid;
@@ -152,15 +153,11 @@ void Core::abandon(Activation& a) noexcept {
   current_ = a.outer;
 }
 
-// A call gets its end stamp with its first child. It is linked when the call closes, because the
-// calls that it may still reuse lie between.
-void Core::need_end(Activation& a) {
-  if (a.end == 0) {
-    a.end = arena_.allocate(sizeof(TimeNode));
-    ::new (at<void>(a.end)) TimeNode;
-    at<TimeNode>(a.end)->set_kind(TimeNode::Kind::end);
-  }
-  a.call->end = a.end;
+Handle Core::new_end() {
+  const Handle end = arena_.allocate(sizeof(TimeNode));
+  ::new (at<void>(end)) TimeNode;
+  at<TimeNode>(end)->set_kind(TimeNode::Kind::end);
+  return end;
 }
 
 void Core::report_progress() {

@@ -58,9 +58,9 @@ Handle Core::find_ahead(const Asked& asked, bool tail) {
   if (at<TimeNode>(next)->kind() == TimeNode::Kind::segment) next = at<TimeNode>(next)->next;
   if (next == limit) return 0;
   const bool may_share_end = tail && current_->end == limit;
-  const std::uint16_t number = number_of(asked.function);
+  const Function* const* const functions = functions_.data();
   const auto fits = [&](const Call& c) {
-    return c.function_number == number && c.life == Life::placed && !c.posted &&
+    return functions[c.function_number] == &asked.function && c.life == Life::placed && !c.posted &&
            (c.end == 0 || c.end != limit || may_share_end) &&
            asked.function.equal(c, asked.arguments);
   };

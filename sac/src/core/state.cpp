@@ -139,8 +139,7 @@ void Core::forget_names(Handle from, std::size_t bytes) noexcept {
 
 // A pair of equal labels counts if both are alive at the end; a discarded call that was made again
 // counts at once.
-void Core::check_audit() {
-  if (appending()) memo_.settle();
+void Core::check_suspects() {
   for (const auto& [fresh, other] : suspects_) {
     const Call& f = *at<Call>(fresh);
     if (f.dead()) continue;

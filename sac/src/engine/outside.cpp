@@ -36,7 +36,7 @@ void Engine::release_outside(void* object, const char* kind) {
   released_.push_back(head);
 }
 
-void Engine::require_released_unused() const {
+void Engine::require_unused() const {
   constexpr Handle kHead = sizeof(OutsideHead) / Arena::kGranule;
   for (const Handle h : released_) {
     const std::size_t bytes = outside_types_[outside_head(h)->type].bytes;

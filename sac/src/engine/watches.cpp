@@ -33,7 +33,7 @@ void Watches::report() {
   while (!touched_.empty()) {
     const Handle head = touched_.back();
     const std::shared_ptr<Watch>& watch = all_.find(head)->second;
-    if (watch->update(mods_.last_or_null(head))) {
+    if (watch->update(mods_.newest(head))) {
       changed_.push_back(head);
       called.push_back(watch);
     }

@@ -55,7 +55,7 @@ void Arena::commit(std::size_t bytes) {
   if (!platform::commit(base_ + committed_, target - committed_)) throw std::bad_alloc();
   if (committed_ >= kHugeFrom) platform::advise_huge_pages(base_ + committed_, target - committed_);
   committed_ = target;
-  usable_ = std::min(limit_, committed_);
+  open_fresh();
 }
 
 void Arena::fail() { throw std::bad_alloc(); }
@@ -78,7 +78,10 @@ Handle Arena::allocate_slowly(std::size_t granules) {
     run.first += static_cast<Handle>(granules);
     run.granules -= granules;
     spare_ -= granules;
-    if (run.granules == 0) spares_.pop_back();
+    if (run.granules == 0) {
+      spares_.pop_back();
+      open_fresh();
+    }
   } else {
     commit((next_ + granules) * kGranule);
     handle = static_cast<Handle>(next_);
@@ -161,6 +164,7 @@ void Arena::shrink() {
   }
   spares.shrink_to_fit();  // there are fewer of them than free runs
   spares_.swap(spares);
+  open_fresh();
   const std::size_t behind = (next_ * kGranule + page - 1) / page * page;
   if (behind < committed_) platform::discard(base_ + behind, committed_ - behind);
 }

@@ -2,12 +2,13 @@
 #include "sac/internal/memo_table.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "sac/check.hpp"
 
 namespace sac {
 
-void MemoTable::put(Entry entry) {
+void MemoTable::put_among(Entry entry) {
   if (!crowds_.empty() && belongs_in_crowd(*at(entry.call))) [[unlikely]] {
     if (const auto it = crowds_.find(entry.hash); it != crowds_.end()) {
       return it->second.insert(entry.call, order());
@@ -81,20 +82,21 @@ void MemoTable::settle() {
   if (5 * size_ > 4 * places_) resize(std::max(2 * size_, places_ + places_ / 2));
   std::size_t done = 0;
   try {
-    for (; done < waiting_.size(); ++done) {
-      if (done + kAhead < waiting_.size()) fetch(waiting_[done + kAhead]);
+    for (; done < waiting_count_; ++done) {
+      if (done + kAhead < waiting_count_) fetch(waiting_[done + kAhead]);
       put(waiting_[done]);
     }
   } catch (...) {
     waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(done));
+    waiting_count_ -= done;
     throw;
   }
-  waiting_.clear();
-  if (waiting_.capacity() > kFirst) Entries().swap(waiting_);
+  waiting_count_ = 0;
+  if (waiting_.size() > kFirst) Entries().swap(waiting_);
 }
 
 void MemoTable::forget_waiting() noexcept {
-  size_ -= waiting_.size();
+  size_ -= std::exchange(waiting_count_, 0);
   Entries().swap(waiting_);
 }
 
@@ -126,7 +128,7 @@ void MemoTable::take_out(std::size_t i) noexcept {
 }
 
 bool MemoTable::contains(Handle call, std::uint32_t hash) const noexcept {
-  for (const Entry& e : waiting_) {
+  for (const Entry& e : waiting()) {
     if (e.call == call) return e.hash == hash;
   }
   if (const std::size_t i = index_of(call, hash); i != kNowhere) return entries_[i].hash == hash;
@@ -163,7 +165,7 @@ void MemoTable::shrink() {
 }
 
 void MemoTable::check_invariants() const {
-  std::size_t count = waiting_.size();
+  std::size_t count = waiting_count_;
   std::uint32_t last = 0;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& e = entries_[i];

@@ -34,6 +34,22 @@ Timeline::Timeline(Arena& arena) : arena_(arena) {
   size_ = 1;
 }
 
+void Timeline::insert_between(Handle place, Handle node) {
+  TimeNode& before = *at(place);
+  const Handle next = before.next;
+  const std::uint32_t group = before.group();
+  if (next != 0 && at(next)->group() == group) {
+    const std::uint32_t gap = at(next)->label - before.label;
+    if (gap >= 2) return link(before, place, node, group, before.label + part(gap, place, next));
+  } else if (const std::uint32_t room = kLastLabel - before.label; room > 2 * kAppendStep) {
+    const bool run = next == 0 || place == latest_;
+    const std::uint32_t step = run ? kAppendStep : room / 2;
+    return link(before, place, node, group, before.label + step);
+  }
+  make_room_after(place);
+  insert_after(place, node);
+}
+
 void Timeline::erase(Handle node) noexcept {
   const TimeNode n = *at(node);
   const std::uint32_t group = n.group();

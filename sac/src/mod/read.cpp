@@ -23,28 +23,47 @@ void ModStructure::fail_null(const char* what) const {
                        : std::string(what) + ": the modifiable is null");
 }
 
-detail::Version& ModStructure::observe(Scope& scope, Handle head) {
-  const Handle place = scope.place();
+detail::Version& ModStructure::observe(Handle head) {
+  Core& core = engine_.core();
+  const Handle place = core.place();
   Version* version = at(head);
   if (!version->outside) [[likely]] {
     version = seen_at(place, head);
     if (version == nullptr) fail_unwritten(place, head);
   }
-  const Handle seen = handle_of(*version);
-  const auto of_this = [&](const ReadEdge& edge) {  // of this version, or another of the modifiable
+  if (core.may_recall()) {
+    if (ReadEdge* edge = recall_read(head, handle_of(*version))) {
+      if (edge->version != handle_of(*version)) move_reader(*edge, *version);
+      return *version;
+    }
+  }
+  auto& edge = static_cast<ReadEdge&>(core.attach_here(id_, kRead, sizeof(ReadEdge)));
+  edge.place = place;
+  link_reader(edge, *version);
+  return *version;
+}
+
+// The read of last time, of this version or another of the modifiable. Not found among so many, it
+// is made anew: the old one goes with the others.
+detail::ReadEdge* ModStructure::recall_read(Handle head, Handle seen) {
+  const auto of_this = [&](const Edge& e) {
+    if (e.structure != id_ || e.kind != kRead) return false;
+    const auto& edge = static_cast<const ReadEdge&>(e);
     return edge.version == seen || (edge.version != 0 && head_of(*at(edge.version)) == head);
   };
-  // Not found among so many, it is made anew: the old one goes with the others.
-  ReadEdge* edge = scope.recall<ReadEdge>(id_, kRead, of_this, kMostRecalled);
-  if (edge != nullptr && edge->version == seen) return *version;
-  if (edge == nullptr) {
-    edge = &scope.observe<ReadEdge>(id_, kRead);
-    edge->place = place;
-    link_reader(*edge, *version);
-  } else {
-    move_reader(*edge, *version);
+  Edge* const expected = engine_.core().expected();
+  if (expected != nullptr && of_this(*expected)) {
+    engine_.core().repeat_expected();
+    return static_cast<ReadEdge*>(expected);
   }
-  return *version;
+  return static_cast<ReadEdge*>(engine_.core().recall(of_this, kMostRecalled));
+}
+
+detail::Version* ModStructure::newest(Handle head) const noexcept {
+  if (const std::uint32_t h = at(head)->history; h != 0) {
+    return history(h).versions.empty() ? nullptr : at(history(h).versions.last());
+  }
+  return at(head)->written ? at(head) : nullptr;
 }
 
 // seen_at(), also where there are several versions, or one at this very place.
@@ -65,15 +84,8 @@ void ModStructure::fail_unwritten(Handle place, Handle head) const {
                    Engine::describe(writer(*around.behind)));
 }
 
-const detail::Version* ModStructure::last_or_null(Handle head) const noexcept {
-  if (const std::uint32_t h = at(head)->history; h != 0 && !history(h).versions.empty()) {
-    return at(history(h).versions.last());
-  }
-  return at(head)->written ? at(head) : nullptr;
-}
-
 const detail::Version& ModStructure::last(Handle head) const {
-  if (const Version* version = last_or_null(head)) return *version;
+  if (const Version* version = newest(head)) return *version;
   throw UsageError(engine_.describe_mod(head) + " has no value: nobody has written it");
 }
 

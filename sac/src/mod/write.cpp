@@ -23,28 +23,39 @@ void ModStructure::unmake_input(Handle head) noexcept {
 // --- Writing ---------------------------------------------------------------------------------
 
 // The running call's own version at its place: last time's, repeated; null if it has none.
-detail::Version* ModStructure::own_version(Scope& scope, Handle head) {
-  const Handle place = scope.place();
-  const Call& call = scope.self();
+detail::Version* ModStructure::own_version(Handle head) {
+  Core& core = engine_.core();
+  const Handle place = core.place();
   Version* own = at(head);
-  if (own->outside) {
-    throw UsageError(Engine::describe(call) + " writes " + engine_.describe_mod(head) +
-                     ", which is an input");
-  }
-  own = versions_around(place, head).before;
+  if (own->outside) [[unlikely]]
+    fail_input(head);
+  if (own->history != 0) own = versions_around(place, head).before;
   if (own == nullptr || own->place != place) return nullptr;
+  const Call& call = core.self();
   if (own->round == call.round) return own;
-  repeat(scope, head, handle_of(*own));
+  repeat(head, handle_of(*own));
   own->round = call.round;
   return own;
 }
 
+void ModStructure::fail_input(Handle head) const {
+  throw UsageError(Engine::describe(*engine_.running_call()) + " writes " +
+                   engine_.describe_mod(head) + ", which is an input");
+}
+
 // The edge of last time, or, if it is not found among so many, a new one: the version is that one's
 // from now on, and the old edge goes with the others (has_passed_on).
-void ModStructure::repeat(Scope& scope, Handle head, Handle version) {
-  const auto same = [&](const WriteEdge& edge) { return edge.version == version; };
-  if (scope.recall<WriteEdge>(id_, kWrite, same, kMostRecalled) != nullptr) return;
-  auto& edge = scope.effect<WriteEdge>(id_, kWrite);
+void ModStructure::repeat(Handle head, Handle version) {
+  Core& core = engine_.core();
+  const auto same = [&](const Edge& edge) {
+    return edge.structure == id_ && edge.kind == kWrite &&
+           static_cast<const WriteEdge&>(edge).version == version;
+  };
+  if (Edge* const expected = core.expected(); expected != nullptr && same(*expected)) {
+    return core.repeat_expected();
+  }
+  if (core.recall(same, kMostRecalled) != nullptr) return;
+  auto& edge = static_cast<WriteEdge&>(core.attach_here(id_, kWrite, sizeof(WriteEdge)));
   edge.head = head;
   edge.version = version;
 }
@@ -54,22 +65,35 @@ bool ModStructure::has_passed_on(const WriteEdge& edge) const noexcept {
   return at(edge.version)->round != edge.round;
 }
 
-// A version for the running call, without a value yet: to be given one at once. The edge comes
-// first: if anything fails behind it, it has no version to take back.
-detail::Version& ModStructure::new_version(Scope& scope, Handle head,
-                                           const detail::ValueType& type) {
+// The first version, without a value yet: to be given one at once.
+detail::Version& ModStructure::first_version(Handle head, const detail::ValueType& type) {
+  Core& core = engine_.core();
   const std::uint16_t type_number = number(type);
-  const Call& self = scope.self();
-  auto& edge = scope.effect<WriteEdge>(id_, kWrite);
+  const Handle place = core.place();
+  auto& edge = static_cast<WriteEdge&>(core.attach_here(id_, kWrite, sizeof(WriteEdge)));
+  edge.head = edge.version = head;
+  Version& first = *at(head);
+  first.place = place;
+  first.type = type_number;
+  first.round = edge.round;
+  return first;
+}
+
+// Another version for the running call, without a value yet: to be given one at once. The edge
+// comes first: if anything fails behind it, it has no version to take back.
+detail::Version& ModStructure::new_version(Handle head, const detail::ValueType& type) {
+  Core& core = engine_.core();
+  const std::uint16_t type_number = number(type);
+  const Handle place = core.place();
+  auto& edge = static_cast<WriteEdge&>(core.attach_here(id_, kWrite, sizeof(WriteEdge)));
   edge.head = head;
   edge.version = 0;
   Version& first = *at(head);
-  const bool is_only = is_untouched(first);
   Version& fresh = first.written ? new_apart(head, type) : first;
-  fresh.place = scope.place();
+  fresh.place = place;
   fresh.type = type_number;
-  fresh.round = self.round;
-  if (!is_only) enter_history(head, fresh, type);
+  fresh.round = edge.round;
+  enter_history(head, fresh, type);
   edge.version = handle_of(fresh);
   return fresh;
 }
@@ -125,8 +149,8 @@ void ModStructure::drop_history(Handle head) noexcept {
 detail::Version* ModStructure::predecessor(Handle head, const Version& version) const noexcept {
   const std::uint32_t h = at(head)->history;
   if (h == 0) return nullptr;
-  const Handle* found = history(h).versions.predecessor(handle_of(version), order());
-  return found != nullptr ? at(*found) : nullptr;
+  const Handle found = history(h).versions.predecessor(handle_of(version), order());
+  return found != 0 ? at(found) : nullptr;
 }
 
 // Takes the value of `version` out, to be given another at once; its readers are in doubt, but for
@@ -154,32 +178,60 @@ void ModStructure::leave_past(Handle head, Version& version, Handle except) noex
   if (type.keep != nullptr && engine_.originals() != nullptr && !version.outside) {
     type.keep(*engine_.originals(), writer(version), head, version);
   }
-  Version* past = nullptr;
   forget_order(version);
-  for (Handle r = version.readers; r != 0;) {
-    ReadEdge& edge = *reader(r);
-    r = edge.next_reader;
-    if (edge.place == except) continue;
-    if (past == nullptr) {
-      try {
-        past = &new_apart(head, type);
-        past->past = true;
-        past->type = version.type;
-      } catch (...) {
-        orphan(edge);
-        continue;
-      }
-    }
-    move_reader(edge, *past);
-    engine_.doubt(edge.place, head);
-  }
-  if (past != nullptr) {
+  if (Version* past = part_with_readers(head, version, except)) {
     type.move(version, *past);
     past->written = true;
   } else {
     type.destroy(version);
   }
   version.written = false;
+}
+
+// A past version, without a value yet, with the readers of `version`, who are in doubt from now on.
+// Those at the place `except` stay. Null: there are no others, or no memory.
+detail::Version* ModStructure::part_with_readers(Handle head, Version& version,
+                                                 Handle except) noexcept {
+  Handle r = version.readers;
+  while (r != 0 && reader(r)->place == except) r = reader(r)->next_reader;
+  if (r == 0) return nullptr;
+  Version* const past = new_past(head, version);
+  if (past == nullptr) {
+    orphan_readers(version, except);
+    return nullptr;
+  }
+  past->readers = std::exchange(version.readers, 0);
+  for (r = past->readers; r != 0;) {
+    ReadEdge& edge = *reader(r);
+    r = edge.next_reader;
+    edge.version = handle_of(*past);
+    if (edge.place == except) {
+      move_reader(edge, version);
+    } else {
+      engine_.doubt(edge.place, head);
+    }
+  }
+  return past;
+}
+
+void ModStructure::orphan_readers(const Version& version, Handle except) noexcept {
+  for (Handle r = version.readers; r != 0;) {
+    ReadEdge& edge = *reader(r);
+    r = edge.next_reader;
+    if (edge.place != except) orphan(edge);
+  }
+}
+
+// Null: there is no memory.
+detail::Version* ModStructure::new_past(Handle head, const Version& version) noexcept {
+  try {
+    Version& past = new_apart(head, types_[version.type]);
+    past.past = true;
+    past.type = version.type;
+    return &past;
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
 }
 
 void ModStructure::free_past(Version& version) noexcept {

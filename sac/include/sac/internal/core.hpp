@@ -104,7 +104,10 @@ class Core {
   [[nodiscard]] bool broken() const noexcept { return broken_; }
   /// Ends a run or propagation, failed or not. Returns its counts.
   Counts finish() noexcept;
-  void check_audit();
+  void check_audit() {
+    if (appending()) memo_.settle();
+    if (audit_) check_suspects();
+  }
   void purge() noexcept;
 
   // --- For the running call (Scope) ----------------------------------------------------------
@@ -121,6 +124,12 @@ class Core {
     Activation& a = running();
     if (now_ != a.place) [[unlikely]]
       begin_segment(a);
+    return attach_here(structure, kind, bytes);
+  }
+  /// The same, after place(), or after recall(), which have found no call in between.
+  [[gnu::always_inline]] Edge& attach_here(std::uint8_t structure, std::uint8_t kind,
+                                           std::size_t bytes) {
+    Activation& a = *current_;
     const Handle h = arena_.allocate(bytes);
     Edge& edge = *at<Edge>(h);
     edge = {
@@ -131,6 +140,19 @@ class Core {
     append_edge(a, h);
     ++counts_.edges_made;
     return edge;
+  }
+  /// Whether the running call has edges of its last execution that it has not repeated yet.
+  [[nodiscard]] bool may_recall() const noexcept { return current_->old_edges != 0; }
+  /// The one that comes next, if it lies in this segment; null if there is none. After place().
+  [[nodiscard]] Edge* expected() const noexcept {
+    const Activation& a = *current_;
+    const Handle next = a.cursor != 0 ? at<Edge>(a.cursor)->next : a.old_edges;
+    return next != 0 && !at<Edge>(next)->begins_segment ? at<Edge>(next) : nullptr;
+  }
+  /// Repeats it. Requires: there is one.
+  void repeat_expected() noexcept {
+    Activation& a = *current_;
+    take_old(a, a.cursor != 0 ? &at<Edge>(a.cursor)->next : &a.old_edges);
   }
   /// The running call's place in time: that of its segment.
   [[nodiscard]] Handle place() {
@@ -322,11 +344,11 @@ class Core {
   // One execution on the native stack: a call and the tail calls that continue it.
   struct Activation {
     Call* call = nullptr;
-    Handle self = 0;       // that call
-    Handle place = 0;      // of its segment
-    Handle old_edges = 0;  // what the call did last time and has not repeated yet
-    Handle cursor = 0;     // the old edge behind which the next one is looked for; 0: the first
-    Handle last_edge = 0;
+    Handle self = 0;         // that call
+    Handle place = 0;        // of its segment
+    Handle old_edges = 0;    // what the call did last time and has not repeated yet
+    Handle cursor = 0;       // the old edge behind which the next one is looked for; 0: the first
+    Handle* link = nullptr;  // where the next edge of this execution goes
     Handle limit = 0;  // end of the interval in which calls may be reused; 0: end of the trace
     Handle end = 0;    // end stamp, once there are children
     Handle tail = 0;
@@ -365,7 +387,13 @@ class Core {
   void close(Activation& a);
   void link_end(Activation& a);
   void abandon(Activation& a) noexcept;
-  void need_end(Activation& a);
+  // A call gets its end stamp with its first child. It is linked when the call closes, because the
+  // calls that it may still reuse lie between.
+  void need_end(Activation& a) {
+    if (a.end == 0) a.end = new_end();
+    a.call->end = a.end;
+  }
+  [[nodiscard]] Handle new_end();
   void report_progress();
 
   // propagate.cpp
@@ -392,6 +420,7 @@ class Core {
   void insert_call(Handle call);
   void make_room(std::size_t calls);
   void give_place(Handle call, Handle after);
+  void check_suspects();
   void suspect(Handle fresh, const Asked& asked);
   void free_call(Handle call) noexcept;
   void discard_between(Handle from, Handle to) noexcept;
@@ -400,9 +429,19 @@ class Core {
   void retract_all(Call& call, Handle edges) noexcept {
     static_cast<void>(retract(call, edges, nullptr));
   }
+  // Moves the old edge at `link` into this execution.
+  Edge* take_old(Activation& a, Handle* link) noexcept {
+    const Handle handle = *link;
+    Edge& edge = *at<Edge>(handle);
+    *link = edge.next;
+    edge.next = 0;
+    edge.round = a.call->round;
+    append_edge(a, handle);
+    return &edge;
+  }
   void append_edge(Activation& a, Handle edge) noexcept {
-    (a.last_edge != 0 ? at<Edge>(a.last_edge)->next : a.call->edges) = edge;
-    a.last_edge = edge;
+    *a.link = edge;
+    a.link = &at<Edge>(edge)->next;
   }
 
   Engine& engine_;
@@ -449,13 +488,8 @@ Edge* Core::recall(Matches&& matches, std::size_t most) {
       if (edge.begins_segment) break;
       --most;
       if (!matches(edge)) continue;
-      const Handle handle = *link;
-      *link = edge.next;
-      edge.next = 0;
-      edge.round = a.call->round;
-      append_edge(a, handle);
       a.cursor = previous;
-      return &edge;
+      return take_old(a, link);
     }
     return nullptr;
   };

@@ -15,8 +15,10 @@
 // array for a crowd, which is kept in trace order: the one to reuse is the first that lies ahead.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -47,8 +49,9 @@ class MemoTable {
   /// As insert(), but into the table by settle() or the next search. Throws: std::bad_alloc, and
   /// then changes nothing.
   void insert_soon(Handle call, std::uint32_t hash) {
-    waiting_.push_back({hash, call});
-    if (waiting_.size() <= kAhead) fetch(waiting_.back());
+    if (waiting_count_ == waiting_.size()) [[unlikely]]
+      make_room_to_wait();
+    waiting_[waiting_count_++] = {hash, call};
     ++size_;
   }
   /// Puts what waits into the table. Throws: std::bad_alloc, and then it waits on.
@@ -61,7 +64,7 @@ class MemoTable {
   /// A call of this hash that `fits(call)`; 0 if there is none. Of a crowd only the first is asked.
   template <class Fits>
   [[nodiscard]] Handle find(std::uint32_t hash, Fits&& fits) {
-    if (!waiting_.empty()) settle();
+    if (waiting_count_ != 0) settle();
     for (std::size_t i = place(hash);; ++i) {
       const Entry& e = entries_[i];
       if (e.call == 0 || e.hash > hash) break;
@@ -98,7 +101,7 @@ class MemoTable {
   /// Calls `visit(call)` for every call of the table.
   template <class Visit>
   void for_each(Visit&& visit) const {
-    for (const Entry& e : waiting_) visit(*at(e.call));
+    for (const Entry& e : waiting()) visit(*at(e.call));
     for (const Entry& e : entries_) {
       if (e.call != 0) visit(*at(e.call));
     }
@@ -145,6 +148,12 @@ class MemoTable {
   [[nodiscard]] std::size_t place(std::uint32_t hash) const noexcept {
     return static_cast<std::size_t>(std::uint64_t{hash} * places_ >> 32);
   }
+  [[nodiscard]] std::span<const Entry> waiting() const noexcept {
+    return {waiting_.data(), waiting_count_};
+  }
+  [[gnu::noinline]] void make_room_to_wait() {
+    waiting_.resize(std::max(kFirst, 2 * waiting_.size()));
+  }
   // At most 4 calls to 5 places.
   void make_room() {
     if (5 * (size_ + 1) > 4 * places_) resize(places_ + places_ / 2);
@@ -155,7 +164,15 @@ class MemoTable {
   static constexpr std::size_t kNowhere = ~std::size_t{0};
   [[nodiscard]] std::size_t index_of(Handle call, std::uint32_t hash) const noexcept;
   [[nodiscard]] bool holds(const Crowd& crowd, Handle call) const noexcept;
-  void put(Entry entry);
+  void put(Entry entry) {
+    Entry& home = entries_[place(entry.hash)];
+    if (home.call == 0 && crowds_.empty()) {
+      home = entry;
+    } else {
+      put_among(entry);
+    }
+  }
+  void put_among(Entry entry);
   void put_in_array(Entry entry);
   void make_crowd(std::uint32_t hash);
   void take_out(std::size_t i) noexcept;
@@ -164,8 +181,9 @@ class MemoTable {
   Arena& arena_;
   const Timeline& timeline_;
   using Entries = std::vector<Entry, HugePages<Entry>>;
-  Entries entries_;  // the places, and room for those pushed behind the last
-  Entries waiting_;
+  Entries entries_;                // the places, and room for those pushed behind the last
+  Entries waiting_;                // room for those that wait
+  std::size_t waiting_count_ = 0;  // so many of it wait
   std::unordered_map<std::uint32_t, Crowd> crowds_;  // by hash
   std::size_t places_;
   std::size_t size_ = 0;  // with those that wait, and the crowds

@@ -22,6 +22,7 @@
 
 #include "sac/engine.hpp"
 #include "sac/internal/sorted_index.hpp"
+#include "sac/internal/versions.hpp"
 #include "sac/scope.hpp"
 
 namespace sac {
@@ -63,6 +64,7 @@ struct Version {
   bool ordered : 1 = false;    // its readers are in reader_orders_ as well
   bool watched : 1 = false;    // in place: the client wants to know of changes
   std::uint8_t round : 1 = 0;  // the writer's when it wrote or repeated it
+  std::uint8_t unused : 1 = 0;
   [[no_unique_address]] Stamp stamp;
 
   /// The stamp of a version that lies in place, given on first use.
@@ -92,8 +94,8 @@ struct TypedVersion : Version {
 
 // The versions of a modifiable that more than one call writes, in trace order.
 struct History {
+  Versions versions;
   Handle head = 0;
-  SortedIndex<Handle> versions;
 };
 
 struct ReadEdge : Edge {
@@ -157,15 +159,15 @@ class ModStructure final : public Structure {
   // --- For calls
 
   /// The version that the running call sees, with the read recorded.
-  detail::Version& observe(Scope& scope, Handle head);
+  detail::Version& observe(Handle head);
   /// Writes `value` as the running call.
   template <class T, class Same>
-  void write(Scope& scope, Handle head, T value);
+  void write(Handle head, T value);
 
   // --- For watches
 
   /// The last version; null: nothing is written.
-  [[nodiscard]] const detail::Version* last_or_null(Handle head) const noexcept;
+  [[nodiscard]] detail::Version* newest(Handle head) const noexcept;
   void set_watched(Handle head, bool on) noexcept { at(head)->watched = on; }
 
   // --- For queries
@@ -298,8 +300,8 @@ class ModStructure final : public Structure {
       return {nullptr, first};
     }
     const auto found = history(first->history).versions.place_of(0, order(place));
-    return {found.before != nullptr ? at(*found.before) : nullptr,
-            found.behind != nullptr ? at(*found.behind) : nullptr};
+    return {found.before != 0 ? at(found.before) : nullptr,
+            found.behind != 0 ? at(found.behind) : nullptr};
   }
   void check_live(Handle head, detail::Stamp stamp, const char* what) const;
   [[noreturn]] void fail_null(const char* what) const;
@@ -309,11 +311,13 @@ class ModStructure final : public Structure {
   // is none.
   [[nodiscard]] Version* seen_at(Handle place, Handle head) const {
     const Version& first = *at(head);
-    if (first.history == 0 && first.written && precedes(first.place, place)) [[likely]] {
+    if (first.history == 0 && first.written &&
+        (engine_.appending() || precedes(first.place, place))) [[likely]] {
       return at(head);
     }
-    return seen_among(place, head);
+    return engine_.appending() ? newest(head) : seen_among(place, head);
   }
+  [[nodiscard]] ReadEdge* recall_read(Handle head, Handle seen);
   [[nodiscard]] Version* seen_among(Handle place, Handle head) const;
   [[nodiscard]] Version* visible_at(Handle place, const Version& seen) const;
   [[noreturn]] void fail_unwritten(Handle place, Handle head) const;
@@ -324,11 +328,13 @@ class ModStructure final : public Structure {
       engine_.touched(head);
     engine_.note(kind, call, head);
   }
-  Version* own_version(Scope& scope, Handle head);
-  void repeat(Scope& scope, Handle head, Handle version);
+  Version* own_version(Handle head);
+  [[noreturn]] void fail_input(Handle head) const;
+  void repeat(Handle head, Handle version);
   [[nodiscard]] bool has_passed_on(const detail::WriteEdge& edge) const noexcept;
   [[nodiscard]] Version* predecessor(Handle head, const Version& version) const noexcept;
-  Version& new_version(Scope& scope, Handle head, const detail::ValueType& type);
+  Version& first_version(Handle head, const detail::ValueType& type);
+  Version& new_version(Handle head, const detail::ValueType& type);
   Version& new_apart(Handle head, const detail::ValueType& type);
   void enter_history(Handle head, Version& version, const detail::ValueType& type);
   void replace(Handle head, Version& version, Handle except) noexcept;
@@ -336,6 +342,8 @@ class ModStructure final : public Structure {
   [[nodiscard]] std::uint32_t new_history(Handle head);
   void drop_history(Handle head) noexcept;
   void leave_past(Handle head, Version& version, Handle except) noexcept;
+  [[nodiscard]] Version* part_with_readers(Handle head, Version& version, Handle except) noexcept;
+  [[nodiscard]] Version* new_past(Handle head, const Version& version) noexcept;
   void forget_version(Handle head, Version& version) noexcept;
   void free_past(Version& version) noexcept;
 
@@ -345,6 +353,7 @@ class ModStructure final : public Structure {
   void unlink_reader(ReadEdge& edge) noexcept;
   void move_reader(ReadEdge& edge, Version& to) noexcept;
   void orphan(ReadEdge& edge) noexcept;
+  void orphan_readers(const Version& version, Handle except) noexcept;
   // Visits the readers of `version` behind `place`, in any order; `visit` may unlink the one that
   // it is given. Cost: O(log) a reader visited; the first time that many others are passed, O(log)
   // for each of these.
@@ -366,30 +375,32 @@ class ModStructure final : public Structure {
 };
 
 template <class T, class Same>
-void ModStructure::write(Scope& scope, Handle head, T value) {
+void ModStructure::write(Handle head, T value) {
   using Typed = detail::TypedVersion<T>;
   bool restored = false;
   if constexpr (detail::kKeepsOriginals<T, Same>) {
-    const T* original =
-        engine_.undoing() ? engine_.originals()->template find<T>(scope.self(), head) : nullptr;
+    const T* original = engine_.undoing()
+                            ? engine_.originals()->template find<T>(engine_.core().self(), head)
+                            : nullptr;
     restored = original != nullptr && detail::same<Same>(*original, value);
     if (restored) value = *original;
   }
-  Typed* previous = nullptr;
-  bool same = false;
-  if (!is_untouched(*at(head))) {
-    if (auto* own = static_cast<Typed*>(own_version(scope, head))) {
-      if (!restored && detail::same<Same>(own->value(), value)) return;
-      replace(head, *own, own->place);
-      return own->give(std::move(value));
-    }
-    previous = static_cast<Typed*>(versions_around(scope.place(), head).before);
-    same = previous != nullptr && detail::same<Same>(previous->value(), value);
+  const auto changed = [&] { tell(Event::Kind::changed, engine_.running_call(), head); };
+  if (is_untouched(*at(head))) {
+    static_cast<Typed&>(first_version(head, detail::kValueType<T, Same>)).give(std::move(value));
+    return changed();
   }
+  if (auto* own = static_cast<Typed*>(own_version(head))) {
+    if (!restored && detail::same<Same>(own->value(), value)) return;
+    replace(head, *own, own->place);
+    return own->give(std::move(value));
+  }
+  auto* previous = static_cast<Typed*>(versions_around(engine_.core().place(), head).before);
+  const bool same = previous != nullptr && detail::same<Same>(previous->value(), value);
   auto& version = static_cast<Typed&>(
-      new_version(scope, head, detail::kValueType<T, Same>));  // the last that may fail
+      new_version(head, detail::kValueType<T, Same>));  // the last that may fail
   version.give(std::move(value));
-  if (!same) tell(Event::Kind::changed, &scope.self(), head);
+  if (!same) changed();
   if (previous != nullptr) appeared(head, version, *previous, same);
 }
 

@@ -60,18 +60,11 @@ class Timeline {
   /// Cost: amortised O(1).
   void insert_after(Handle place, Handle node) {
     TimeNode& before = *at(place);
-    const Handle next = before.next;
-    const std::uint32_t group = before.group();
-    if (next != 0 && at(next)->group() == group) {
-      const std::uint32_t gap = at(next)->label - before.label;
-      if (gap >= 2) return link(before, place, node, group, before.label + part(gap, place, next));
-    } else if (const std::uint32_t room = kLastLabel - before.label; room > 2 * kAppendStep) {
-      const bool run = next == 0 || place == latest_;
-      const std::uint32_t step = run ? kAppendStep : room / 2;
-      return link(before, place, node, group, before.label + step);
+    if (before.next == 0 && kLastLabel - before.label > 2 * kAppendStep) {
+      append(before, place, node);
+    } else {
+      insert_between(place, node);
     }
-    make_room_after(place);
-    insert_after(place, node);
   }
 
   /// Takes `node` out, and clears its links. Requires: node != front(). Cost: O(1).
@@ -140,11 +133,20 @@ class Timeline {
     latest_ = node;
     ++size_;
   }
+  void append(TimeNode& last, Handle place, Handle node) noexcept {
+    TimeNode& n = *at(node);
+    n.prev = place;
+    n.next = 0;
+    stamp(n, last.group(), last.label + kAppendStep);
+    last.next = back_ = latest_ = node;
+    ++size_;
+  }
   static void stamp(TimeNode& n, std::uint32_t group, std::uint32_t label) noexcept {
     n.group_and_kind = (n.group_and_kind & TimeNode::kKinds) | group;
     n.label = label;
   }
 
+  void insert_between(Handle place, Handle node);
   struct Surroundings;
   [[nodiscard]] Surroundings look_around(Handle place) const noexcept;
   [[nodiscard]] bool in_group(Handle node, std::uint32_t group) const noexcept {

@@ -57,7 +57,7 @@ class Watches {
       return static_cast<TypedWatch<T, Same>&>(*known->second);
     }
     auto fresh = std::make_shared<TypedWatch<T, Same>>();
-    static_cast<void>(fresh->update(mods_.last_or_null(head)));
+    static_cast<void>(fresh->update(mods_.newest(head)));
     touched_.reserve(all_.size() + 1);
     all_.emplace(head, fresh);
     mods_.set_watched(head, true);
