@@ -75,9 +75,6 @@ Samples measure() {
   const pid_t child = fork();
   REQUIRE(child >= 0);
   if (child == 0) {
-    // Large blocks come fresh from the system, whatever earlier tests have freed: else room that is
-    // reserved and not used lies in memory that has been touched.
-    mallopt(M_MMAP_THRESHOLD, 1 << 17);
     try {
       samples = measure_here<Program>();
     } catch (...) {
