@@ -115,7 +115,7 @@ class TracedMap final : public Structure,
   static_assert(std::is_nothrow_move_constructible_v<K>, "a key that may throw when it is moved");
   static_assert(std::is_nothrow_move_constructible_v<V> && std::is_nothrow_move_assignable_v<V>,
                 "a value that may throw when it is moved would be lost: hold it by a pointer");
-  static_assert(!ordered_by_address<K>(),
+  static_assert(!IsOrderedByAddress<K>::value,
                 "the order of addresses is another one in every run: use a number that names the "
                 "object as the key");
   friend class MapApi<TracedMap, K, V, Scope, M...>;
