@@ -356,6 +356,12 @@ class Engine {
       make_queries();
     return *queries_;
   }
+  /// As set(), and back to no value, without a record of how to undo it. Requires: a set() of the
+  /// same type has gone before.
+  template <class T, class Same>
+  void set_unrecorded(const Cell<T, Same>& cell, std::type_identity_t<T> value);
+  template <class T, class Same>
+  void unset_unrecorded(const Cell<T, Same>& cell) noexcept;
   /// Makes an object in the engine's memory, also while the engine runs, and frees it.
   template <class T, class... Args>
   [[nodiscard]] T& make_inside(Args&&... args);

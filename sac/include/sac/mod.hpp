@@ -137,6 +137,19 @@ void Engine::set(Mod<T, Same> mod, std::type_identity_t<T> value) {
 }
 
 template <class T, class Same>
+void Engine::set_unrecorded(const Cell<T, Same>& cell, std::type_identity_t<T> value) {
+  const Handle head = Mod<T, Same>(cell).head();
+  if (mods_->is_input(head)) return mods_->change_input(head, std::move(value));
+  const std::uint16_t type = mods_->number(detail::kValueType<T, Same>);
+  mods_->make_input(head, type, std::move(value));
+}
+
+template <class T, class Same>
+void Engine::unset_unrecorded(const Cell<T, Same>& cell) noexcept {
+  mods_->unmake_input(Mod<T, Same>(cell).head());
+}
+
+template <class T, class Same>
 void Engine::set(const Cell<T, Same>& cell, std::type_identity_t<T> value) {
   core_.require_own(&cell, "set: the cell");
   set(Mod<T, Same>(cell), std::move(value));

@@ -241,15 +241,30 @@ class Sequence {
       table_.reserve(size_ + 1);
       Entry& e = unused_entry();
       e.hold(id, std::move(value));
-      on_rollback([this, &e] {
-        take_out(e);
-        e.after = std::exchange(unused_, &e);
-      });
+      on_rollback([this, &e] { undo_insertion(e); });
       unused_ = e.after;
       put_in(e, before);
-      host_.set(e.next, link_behind(e));
-      host_.set(before.next, static_cast<const Node*>(&e));
+      set_link(e, link_behind(e));
+      set_link(before, &e);
     });
+  }
+
+  // Sets a link of the header or of an entry; who does it has recorded how to undo it. One record
+  // for each insertion: many are made before a first run.
+  void set_link(const Entry& from, const Node* to) {
+    if constexpr (S::kTraced) {
+      host_.set_unrecorded(from.next, to);
+    } else {
+      host_.set(from.next, to);
+    }
+  }
+  void undo_insertion(Entry& e) {
+    if constexpr (S::kTraced) {
+      host_.set_unrecorded(e.before->next, link_behind(e));
+      host_.unset_unrecorded(e.next);
+    }
+    take_out(e);
+    e.after = std::exchange(unused_, &e);
   }
 
   void erase_entry(Entry& e) {
