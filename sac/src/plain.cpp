@@ -21,7 +21,7 @@ std::strong_ordering PlainAgenda::order(const Entry& a, const Entry& b) {
 }
 
 void PlainAgenda::drain(PlainScope& s) {
-  if (running_) throw UsageError("an agenda is drained twice");
+  if (running_ || drained_) throw UsageError("an agenda is drained twice");
   running_ = true;
   try {
     while (!classes_.empty()) {
@@ -37,6 +37,7 @@ void PlainAgenda::drain(PlainScope& s) {
     throw;
   }
   running_ = false;
+  drained_ = true;
 }
 
 void PlainAgenda::run_class(PlainScope& s, Class& c) {
@@ -56,7 +57,10 @@ void PlainAgenda::run_class(PlainScope& s, Class& c) {
     last = next;
     next.record->kind->run(s, *next.record);
     s.run_tails();
-    for (const Entry& post : c.posts) due.add(post, before);
+    for (const Entry& post : c.posts) {
+      if (order(post, last) <= 0) throw UsageError("posting into the past");
+      due.add(post, before);
+    }
     c.posts.clear();
   }
 }

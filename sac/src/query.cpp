@@ -65,29 +65,39 @@ bool Queries::unchanged(Call&, Edge& edge) {
 void Queries::require_no_cycle(const Call& running, const Query& query) const {
   std::ostringstream asked;
   query.type->print(query, asked);
-  std::vector<std::string> names{asked.str()};
+  std::vector<detail::QueryName> path{{&query, asked.str()}};
   for (const Call* c = &running;;) {
-    if (c->function().answers_query) names.push_back(Engine::describe(*c));
+    if (c->function().query != nullptr) {
+      path.push_back({c->function().query(*c), Engine::describe(*c)});
+    }
     const Call* around = &engine_.core().parent_of(*c);
     if (around == c) break;
     c = around;
   }
-  std::reverse(names.begin(), names.end());
-  detail::require_no_cycle(names);
+  std::reverse(path.begin(), path.end());
+  detail::require_no_cycle(path);
 }
 
-// A run from scratch fails at the first name that comes again. Which query of a cycle is asked for
-// first depends on the edit: the message begins with the least.
-void detail::require_no_cycle(const std::vector<std::string>& names) {
-  for (auto last = names.begin(); last != names.end(); ++last) {
-    const auto first = std::find(names.begin(), last, *last);
+// A run from scratch fails at the first query that comes again. Which query of a cycle is asked for
+// first depends on the edit: the message begins with the least name.
+void detail::require_no_cycle(const std::vector<QueryName>& path) {
+  const auto name_order = [](const QueryName& a, const QueryName& b) { return a.name < b.name; };
+  for (auto last = path.begin(); last != path.end(); ++last) {
+    const auto first = std::find_if(path.begin(), last,
+                                    [&](const QueryName& q) { return q.query == last->query; });
     if (first == last) continue;
-    std::vector<std::string> cycle(first, last);
-    std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
-    std::string path;
-    for (const std::string& name : cycle) path += name + " asks for ";
-    throw UsageError("a query needs its own result: " + path + cycle.front());
+    std::vector<QueryName> cycle(first, last);
+    std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end(), name_order),
+                cycle.end());
+    std::string text;
+    for (const QueryName& q : cycle) text += q.name + " asks for ";
+    throw UsageError("a query needs its own result: " + text + cycle.front().name);
   }
+}
+
+void detail::fail_unequal(std::string_view function) {
+  throw UsageError("an argument of the query " + std::string(function) +
+                   " does not equal itself: it could not be found again");
 }
 
 // --- The table -------------------------------------------------------------------------------

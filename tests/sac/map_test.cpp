@@ -823,4 +823,27 @@ TEST_CASE("outside edits are refused while the engine runs") {
   CHECK(w.map.size() == 0);
 }
 
+void put_one(sac::Scope& s, sac::Mod<int> in) {
+  s.environment<sac::Map<int, int>>().put(s, 1, s.read(in));
+}
+void look_at_one(sac::Scope& s, sac::Mod<int> out) {
+  s.write(out, s.environment<sac::Map<int, int>>().find(s, 1).value_or(-1));
+}
+
+TEST_CASE("between an edit and its propagation a map is not looked at; a run sees it as it is") {
+  sac::Engine e;
+  sac::Map<int, int> map(e, "map");
+  e.set_environment(&map);
+  const auto in = e.input(10);
+  const auto out = e.cell<int>();
+  e.run<put_one>(in);
+  map.set(1, 20);
+  CHECK_THROWS_WITH(map.find(1), Catch::Contains("between an edit and its propagation"));
+  e.undo_edits();
+  CHECK_THROWS_AS(map.size(), sac::UsageError);
+  e.run<look_at_one>(out);
+  CHECK(e.get(out) == 10);
+  CHECK(map.size() == 1);
+}
+
 }  // namespace

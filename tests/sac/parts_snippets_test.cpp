@@ -2,7 +2,6 @@
 // sac/examples/parts.cpp, which holds.
 #define SAC_PARTS_WITHOUT_MAIN
 #include "../../sac/examples/parts.cpp"
-
 #include "snippets.hpp"
 
 TEST_CASE("the snippets on queries, fixed points and changes hold") {

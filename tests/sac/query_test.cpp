@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -267,6 +268,62 @@ TEST_CASE("a first run and an update survive every failing allocation") {
     CHECK(t.host.queries().size() == (failed ? 4u : 6u));
   }
   CHECK(failures > 3);
+}
+
+struct Turn {
+  int x;
+  friend bool operator==(const Turn&, const Turn&) = default;
+};
+int turn(sac::Scope& s, Turn t) { return s.query<turn>(Turn{(t.x + 1) % 3}); }
+void start_turn(sac::Scope& s) { s.query<turn>(Turn{0}); }
+
+TEST_CASE("a cycle is told by the queries, not by their names") {
+  sac::Engine e;
+  try {
+    e.run<start_turn>();
+    FAIL("a cycle");
+  } catch (const sac::UsageError& error) {
+    const std::string text = error.what();
+    std::size_t asks = 0;
+    for (auto at = text.find("asks for"); at != text.npos; at = text.find("asks for", at + 1)) {
+      ++asks;
+    }
+    CHECK(asks == 3);
+  }
+}
+
+struct SumOf {
+  template <class S>
+  double operator()(S&, const std::vector<double>& all) const {
+    return all.empty() ? 0 : all[0];
+  }
+};
+struct AskSum {
+  template <class S>
+  void operator()(S& s, double x) const {
+    s.template query<SumOf{}>(std::vector{x});
+  }
+};
+inline constexpr AskSum ask_sum{};
+
+TEST_CASE("an argument of a query equals itself") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  sac::Engine e;
+  e.run<ask_sum>(1.0);
+  CHECK_THROWS_WITH(e.run<ask_sum>(nan), Catch::Contains("does not equal itself"));
+  sac::PlainScope plain;
+  CHECK_THROWS_WITH(plain.run<ask_sum>(nan), Catch::Contains("does not equal itself"));
+  e.check_invariants();
+}
+
+sac::Scope* kept_scope = nullptr;
+void keep_scope(sac::Scope& s) { kept_scope = &s; }
+
+TEST_CASE("a query through a scope that was kept leaves nothing") {
+  sac::Engine e;
+  e.run<keep_scope>();
+  CHECK_THROWS_AS(kept_scope->query<upto>(2u), sac::UsageError);
+  e.check_invariants();
 }
 
 }  // namespace

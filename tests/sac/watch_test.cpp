@@ -1,5 +1,6 @@
 // What the client is told of: watched modifiables, outputs as differences; names, environments.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <set>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "failing_new.hpp"
 #include "random.hpp"
 #include "sac/sac.hpp"
 
@@ -89,6 +91,70 @@ TEST_CASE("a function that is called may edit, propagate, and throw") {
   CHECK(d.e.get(d.out) == 1);
 }
 
+TEST_CASE("functions may watch and unwatch while they are called") {
+  Division d;
+  std::string log;
+  d.e.on_change(d.out, [&](int x) {
+    log += "a" + std::to_string(x);
+    for (int i = 0; i < 9; ++i) d.e.on_change(d.out, [&log](int y) { log += char('0' + y % 10); });
+  });
+  d.set(8, 2);
+  CHECK(log == "a4");
+  d.e.unwatch(d.out);
+  d.e.unwatch(d.out);
+  d.e.unwatch(sac::Mod<int>());
+  d.e.on_change(d.out, [&](int) { d.e.unwatch(d.out); });
+  d.e.on_change(d.out, [&](int) { log += '!'; });
+  d.set(9, 1);
+  CHECK(log == "a4");
+  CHECK_FALSE(d.e.changed(d.out));
+}
+
+TEST_CASE(
+    "a function that propagates keeps what it was given, and the others are told the newest") {
+  Division d;
+  std::vector<int> seen;
+  d.e.on_change(d.out, [&](const int& x) {
+    if (x == 1) d.set(2, 1);
+    if (x == 4) d.set(2, 0);
+    seen.push_back(x);
+  });
+  d.e.on_change(d.out, [&](int x) { seen.push_back(10 * x); });
+  d.set(1, 1);
+  CHECK(seen == std::vector{2, 20, 1});
+  seen.clear();
+  d.set(4, 1);
+  CHECK(seen == std::vector{4});
+  CHECK_FALSE(d.e.has_value(d.out));
+}
+
+TEST_CASE("whatever fails in finding out what has changed takes the change back") {
+  std::uint64_t failures = 0;
+  for (std::uint64_t count = 1;; ++count) {
+    Division d;
+    int told = 0;
+    d.e.on_change(d.out, [&](int) { ++told; });
+    d.e.watch(d.a);
+    d.e.set(d.a, 100);
+    bool burnt = false;
+    const bool failed = support::fails(count, burnt, [&] { d.e.propagate(); });
+    if (!failed && !burnt) break;
+    ++failures;
+    CHECK(d.e.get(d.out) == (failed ? 3 : 50));
+    CHECK(d.e.changed(d.out) != failed);
+    CHECK(d.e.changed(d.a) != failed);
+    CHECK(told == (failed ? 0 : 1));
+    d.e.check_invariants();
+  }
+  CHECK(failures > 2);
+}
+
+TEST_CASE("a modifiable is not watched while edits wait") {
+  Division d;
+  d.e.set(d.a, 4);
+  CHECK_THROWS_WITH(d.e.watch(d.out), Catch::Contains("propagate the edits first"));
+}
+
 struct Held {
   sac::Cell<int> value;
 };
@@ -134,7 +200,7 @@ void ask_int(sac::Scope& s, sac::Mod<int> out) { s.write(out, s.environment<int>
 TEST_CASE("an environment is asked for by its type") {
   sac::Engine e;
   World world;
-  const auto out = e.cell<int>();
+  const auto out = e.cell<int>(), out2 = e.cell<int>();
   CHECK_THROWS_WITH(e.run<ask_world>(out), Catch::Contains("there is no environment"));
   e.set_environment(&world);
   e.run<ask_world>(out);
@@ -145,6 +211,15 @@ TEST_CASE("an environment is asked for by its type") {
   plain.set_environment(&world);
   CHECK_THROWS_AS(plain.environment<int>(), sac::UsageError);
   CHECK(plain.environment<World>().x == 3);
+  const World fixed;
+  e.set_environment(&fixed);
+  e.run<ask_world>(out2);
+  CHECK(e.get(out2) == 3);
+  World* none = nullptr;
+  e.set_environment(none);
+  plain.set_environment(none);
+  CHECK_THROWS_WITH(e.run<ask_world>(e.cell<int>()), Catch::Contains("there is no environment"));
+  CHECK_THROWS_AS(plain.environment<World>(), sac::UsageError);
 }
 
 // --- Outputs -----------------------------------------------------------------------------------
@@ -220,6 +295,28 @@ TEST_CASE("a list is put out as differences") {
       e.check_invariants();
     }
   }
+}
+
+void emit_double(sac::Scope& s, sac::Mod<double> in) {
+  s.environment<sac::Output<double>>().emit(s, s.read(in));
+}
+void read_output(sac::Scope& s, sac::Mod<std::size_t> out) {
+  s.write(out, s.environment<sac::Output<double>>().values().size());
+}
+
+TEST_CASE("an output tells 0.0 from -0.0, is not read by calls, and may end before the engine") {
+  sac::Engine e;
+  const auto in = e.input(0.0);
+  { sac::Output<double> unused(e); }
+  sac::Output<double> out(e);
+  e.set_environment(&out);
+  e.run<emit_double>(in);
+  e.set(in, -0.0);
+  e.propagate();
+  REQUIRE(out.values().size() == 1);
+  CHECK(std::signbit(out.values()[0]));
+  CHECK((out.added().size() == 1 && out.removed().size() == 1));
+  CHECK_THROWS_AS(e.run<read_output>(e.cell<std::size_t>()), sac::UsageError);
 }
 
 void emit_or_fail(sac::Scope& s, sac::Mod<int> in) {

@@ -149,14 +149,16 @@ class Engine {
   }
 
   /// From now on changed(mod) tells, after each run and propagation, whether that has given the
-  /// modifiable another value, or taken its value away. Throws: UsageError if the engine runs.
-  /// Cost: O(log of those watched) for each such change.
+  /// modifiable another value, or taken its value away. Throws: UsageError if the engine runs,
+  /// or edits wait for a propagation; std::bad_alloc; what copying the value throws (here, and in
+  /// the run or propagation, which then fails). Cost: O(log of those watched) for each change.
   template <class T, class Same>
   void watch(Mod<T, Same> mod);
   /// Watches the modifiable, and calls f(value) after each run and propagation that has given it
-  /// another value, when everything is done: f may read, edit and propagate. What f throws, the
-  /// run or propagation throws, although it has been done. Several functions are called in the
-  /// order of on_change(); those of several modifiables in the order of their handles.
+  /// another value, when everything is done: f may read, edit, propagate, watch and unwatch. What
+  /// f throws, the run or propagation throws, although it has been done; the functions behind are
+  /// then not called. If f propagates and the value changes again, they are told of the new one
+  /// only. The order is that of on_change(), and of the handles of several modifiables.
   template <class T, class Same>
   void on_change(Mod<T, Same> mod, std::type_identity_t<std::function<void(const T&)>> f);
   /// Calls none of its functions any more.
@@ -195,7 +197,9 @@ class Engine {
   /// parts must be modifiables or structures.
   template <class T>
   void set_environment(T* environment) noexcept {
-    core_.environment_ = {environment, &detail::kTypeName<T>};
+    core_.environment_ = {
+        const_cast<std::remove_const_t<T>*>(environment),
+        environment != nullptr ? &detail::kTypeName<std::remove_const_t<T>> : nullptr};
   }
 
   /// Calls `report` before the first of every `every` calls that run; if it returns false, the run
@@ -402,8 +406,9 @@ class Engine {
   [[nodiscard]] detail::Watches& watches();
   void unwatch(Handle head) noexcept;
   [[nodiscard]] bool changed(Handle head) const noexcept;
-  void report_changes();
-  void report_no_change() noexcept;
+  void prepare_changes();
+  Counts finish_changes();
+  void forget_changes() noexcept;
   void undo_edits_behind(std::size_t edits);
   void roll_back() noexcept;
   void forget_edits() noexcept;

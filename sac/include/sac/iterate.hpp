@@ -14,7 +14,7 @@
 // has changed, in the order of <=>; a vertex sees what those before it have in the same round. At
 // the end the value of each vertex is the next one: a fixed point. It is the one that this order
 // reaches; where a rule has one fixed point above (or below) all first values, it is that. A rule
-// that never comes to rest ends when the rounds no longer fit into a Key.
+// that never comes to rest ends when the agenda has no bucket for the next round.
 //
 // An update runs, in each round, the vertices whose neighbours differ there from the last time.
 // Cost: a call for each vertex that is looked at in a round; O(log) of those in a post.
@@ -60,7 +60,7 @@ struct FirstValue {
 }  // namespace detail
 
 /// Computes the fixed point of a rule for a range of vertices, each in calls of its own. Throws:
-/// UsageError if it takes more rounds than a Key has buckets.
+/// UsageError if it takes more rounds than the agenda has buckets, from 0 on.
 template <class Rule, class S, class Vertices>
 void iterate(S& s, const Vertices& vertices) {
   for (const auto& v : vertices) s.template call<detail::FirstValue<Rule>{}>(v);

@@ -20,7 +20,8 @@
 // (4) Cost: O(log) of the entries and queries for each operation; top, bottom, range: for each
 //     entry that they return, too. A change at a key puts those calls in doubt whose spans contain
 //     the key; each computes its answer anew and compares it.
-// (5) Keys need <, ==, a hash and copies; values ==. Comparisons of keys, and the functions of a
+// (5) Keys need <, ==, a hash and copies; keys that are equal by < are one, and any may be shown;
+// values ==. Comparisons of keys, and the functions of a
 //     group, should not throw: an exception in the middle of an undo ends the program.
 //
 // A map must be destroyed before its engine, and not before the engine's last use.
@@ -84,7 +85,8 @@ class TracedMap final : public Structure,
   }
 
   // --- Queries of the outside
-  // Throw: UsageError unless the map is up to date.
+  // Throw: UsageError while the engine runs, and between an edit of a key at which calls have put
+  // something and its propagation.
 
   /// The value of a key; null: there is none. Valid until the map changes.
   [[nodiscard]] const V* find(const K& key) const { return settled().at(key).value; }
@@ -106,6 +108,7 @@ class TracedMap final : public Structure,
   bool unchanged(Call& call, Edge& edge) override;
   void label(const Call& call, const Edge& edge, LabelSink& sink) const override;
   void print(const Call& call, const Edge& edge, std::ostream& out) const override;
+  void finished() noexcept override { hides_calls_ = false; }
   void check_invariants() const override;
 
  private:
@@ -232,6 +235,9 @@ class TracedMap final : public Structure,
 
   [[nodiscard]] const Entries& settled() const {
     engine_.core().require_settled("a query of a map");
+    if (hides_calls_) {
+      throw UsageError("map '" + name_ + "': a query between an edit and its propagation");
+    }
     return entries_;
   }
   [[nodiscard]] Contributions contributions() const noexcept { return {engine_}; }
@@ -280,6 +286,7 @@ class TracedMap final : public Structure,
   Entries entries_;
   Lookers lookers_;
   std::size_t edges_ = 0;
+  bool hides_calls_ = false;  // an edit has set contributions of calls aside
 };
 
 // --- Contributing --------------------------------------------------------------------------------
@@ -458,6 +465,7 @@ Handle TracedMap<K, V, Group, M...>::one_behind(Handle entry, Handle now) const 
 template <class K, class V, class Group, class... M>
 void TracedMap<K, V, Group, M...>::set_aside(Contribution& c) noexcept {
   hide(c);
+  hides_calls_ = hides_calls_ || engine_.idle();
   if (!engine_.call_at(c.place).running()) engine_.invalidate(c.place, &c);
 }
 

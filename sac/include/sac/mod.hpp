@@ -189,6 +189,7 @@ template <class T, class Same>
 detail::TypedWatch<T, Same>& Engine::watch_of(Mod<T, Same> mod) {
   static_assert(std::is_copy_constructible_v<T>, "the value of a watched modifiable is copied");
   core_.require_idle("on_change");
+  if (!core_.settled()) throw UsageError("on_change: propagate the edits first");
   mods_->require_live(mod.head(), mod.stamp(), "on_change");
   return watches().template at<T, Same>(mod.head());
 }

@@ -1,18 +1,17 @@
 // What a program puts out, as differences: the elements that calls emit.
 //
 //   sac::Output<Triangle> out(engine);
-//   out.emit(s, triangle);               // in a traced function: as long as the call does so, it
-//   is
-//                                        // in the output
+//   out.emit(s, triangle);  // in a traced function; it is there as long as the call does so
+//
 //   e.propagate();
 //   for (const Triangle& t : out.removed()) ...
 //   for (const Triangle& t : out.added()) ...
 //
-// (1) The output is a multiset; its order is that of <. An element that is emitted twice is there
-//     twice.
+// (1) The output is a multiset; its order is that of <=> or <, of floating-point numbers
+//     std::strong_order. An element that is emitted twice is there twice.
 // (2) added() and removed() are the difference between before and after the last run or
 //     propagation: an element that goes and comes again is in neither. One that fails has none.
-// (3) Calls cannot read an output.
+// (3) Calls cannot read an output: that is a UsageError.
 // (4) Cost: O(log of the elements) an emission that comes or goes.
 #pragma once
 
@@ -34,21 +33,61 @@
 
 namespace sac {
 
-/// The elements that calls emit. T has < and ==, which do not throw. An object of this type
-/// outlives the trace.
+/// An element of a list that is put out, and its place.
+template <class T>
+struct Placed {
+  ElementId id;
+  ElementId before;  ///< the element before it; 0: it is the first
+  T value;
+  friend auto operator<=>(const Placed&, const Placed&) = default;
+  friend bool operator==(const Placed&, const Placed&) = default;
+};
+
+namespace detail {
+
+// The order of outputs, in which only what is the same is equal.
+struct OutputOrder {
+  template <class T>
+  bool operator()(const T& a, const T& b) const {
+    return compare_argument(a, b) < 0;
+  }
+  template <class T>
+  bool operator()(const Placed<T>& a, const Placed<T>& b) const {
+    if (a.id != b.id) return a.id < b.id;
+    if (a.before != b.before) return a.before < b.before;
+    return (*this)(a.value, b.value);
+  }
+};
+
+}  // namespace detail
+
+/// The elements that calls emit. T has <=> or <, which does not throw. An object of this type
+/// outlives the calls that emit to it.
 template <class T>
 class Output final : public Structure {
  public:
-  explicit Output(Engine& engine) : id_(engine.add_structure(*this)) {}
+  /// Throws: UsageError if the engine runs, or has too many structures.
+  explicit Output(Engine& engine) : engine_(engine) {
+    engine.begin_edit("a new output");
+    id_ = engine.add_structure(*this);
+  }
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+  ~Output() override {
+    if (emissions_ == 0) engine_.remove_structure(id_);
+  }
 
   /// Puts a value out, as an effect of the running call. Throws: std::bad_alloc, and what copying
   /// the value throws.
   void emit(Scope& s, const T& value) {
     s.guarded([&] {
-      const auto same = [&](const Emission& e) { return e.at != nullptr && e.at->first == value; };
+      const auto same = [&](const Emission& e) {
+        return e.at != nullptr && !Order()(e.at->first, value) && !Order()(value, e.at->first);
+      };
       if (s.recall<Emission>(id_, kEmission, same, kMostRecalled) != nullptr) return;
       auto& edge = s.effect<Emission>(id_, kEmission);
       edge.at = nullptr;
+      ++emissions_;
       begin();
       auto& at = *elements_.try_emplace(value).first;
       touch(at);
@@ -59,6 +98,7 @@ class Output final : public Structure {
 
   /// All elements, in order.
   [[nodiscard]] std::vector<T> values() const {
+    require_idle();
     std::vector<T> all;
     for (const auto& [value, element] : elements_) all.insert(all.end(), element.count, value);
     return all;
@@ -74,6 +114,7 @@ class Output final : public Structure {
 
   void retract(Call&, Edge& edge) noexcept override {
     auto& emission = static_cast<Emission&>(edge);
+    --emissions_;
     if (emission.at == nullptr) return;
     begin();
     touch(*emission.at);
@@ -98,6 +139,7 @@ class Output final : public Structure {
   }
 
  private:
+  using Order = detail::OutputOrder;
   struct Element;
   using Entry = std::pair<const T, Element>;
   struct Element {
@@ -112,6 +154,7 @@ class Output final : public Structure {
   static constexpr std::uint8_t kEmission = 0;
   static constexpr std::size_t kMostRecalled = 64;  // edges of last time that are looked at
 
+  void require_idle() const { engine_.core().require_settled("the output"); }
   // A run or propagation changes something.
   void begin() noexcept {
     if (!std::exchange(changing_, true)) settle();
@@ -131,19 +174,22 @@ class Output final : public Structure {
   }
   template <class Excess>
   [[nodiscard]] std::vector<T> difference(Excess excess) const {
+    require_idle();
     std::vector<const Entry*> entries;
     for (const Entry* e = touched_; e != nullptr; e = e->second.next_touched) {
       if (excess(e->second) > 0) entries.push_back(e);
     }
     std::sort(entries.begin(), entries.end(),
-              [](const Entry* a, const Entry* b) { return a->first < b->first; });
+              [](const Entry* a, const Entry* b) { return Order()(a->first, b->first); });
     std::vector<T> all;
     for (const Entry* e : entries) all.insert(all.end(), excess(e->second), e->first);
     return all;
   }
 
-  std::uint8_t id_;
-  std::map<T, Element> elements_;
+  Engine& engine_;
+  std::uint8_t id_ = 0;
+  std::size_t emissions_ = 0;
+  std::map<T, Element, Order> elements_;
   Entry* touched_ = nullptr;  // those that the last run or propagation has changed
   bool changing_ = false;     // it has changed one, and has not ended
 };
@@ -157,17 +203,7 @@ class PlainOutput {
   [[nodiscard]] std::vector<T> values() const { return {elements_.begin(), elements_.end()}; }
 
  private:
-  std::multiset<T> elements_;
-};
-
-/// An element of a list that is put out, and its place.
-template <class T>
-struct Placed {
-  ElementId id;
-  ElementId before;  ///< the element before it; 0: it is the first
-  T value;
-  friend auto operator<=>(const Placed&, const Placed&) = default;
-  friend bool operator==(const Placed&, const Placed&) = default;
+  std::multiset<T, detail::OutputOrder> elements_;
 };
 
 namespace detail {

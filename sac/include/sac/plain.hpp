@@ -166,8 +166,9 @@ class PlainScope {
 
   template <class T>
   void set_environment(T* environment) noexcept {
-    environment_ = environment;
-    environment_type_ = &detail::kTypeName<T>;
+    environment_ = const_cast<std::remove_const_t<T>*>(environment);
+    environment_type_ =
+        environment != nullptr ? &detail::kTypeName<std::remove_const_t<T>> : nullptr;
   }
   /// Throws: UsageError if there is none, or it is of another type.
   template <class T>

@@ -13,7 +13,8 @@
 // (3) If a call comes to ask earlier than the first one, or the first one asks no more, then the
 //     query is made anew where it is asked for first now, with the queries that it was the first to
 //     ask for. If its value is the same, no other call runs but the former first one.
-// (4) A query that needs its own result is a UsageError that names the cycle.
+// (4) A query that needs its own result is a UsageError that names the cycle; so is an argument
+//     that does not equal itself, such as a NaN in a vector.
 // (5) Cost: a first request that of a call, a modifiable and a table entry; another one that of a
 //     read. Nested queries take native stack, as nested calls do.
 #pragma once
@@ -120,11 +121,13 @@ class Queries final : public Structure {
   explicit Queries(Engine& engine);
   ~Queries() override { engine_.remove_structure(id_); }
 
-  /// The query of this label. Throws: std::bad_alloc, and what copying arguments throws.
+  /// The query of this label. Throws: std::bad_alloc, what copying arguments throws, and UsageError
+  /// if one does not equal itself.
   template <auto F, class... P>
   detail::TypedQuery<F, P...>& query(const std::tuple<P...>& args) {
     using Typed = detail::TypedQuery<F, P...>;
     const std::uint32_t hash = detail::label_hash<&function_name<F>>(args);
+    detail::require_equal_to_itself<F>(args);
     if (detail::Query* known = find(Typed::kType, hash, &args)) return static_cast<Typed&>(*known);
     reserve();
     auto& made = engine_.make_inside<Typed>(hash, args);
@@ -207,6 +210,7 @@ inline constexpr Answering<F, P...> kAnswering{};
 template <auto F, class... P, class... Args>
 decltype(auto) Scope::query_as(detail::Types<P...>, Args&&... args) {
   return core_.guarded([&]() -> decltype(auto) {
+    static_cast<void>(self());
     Queries& queries = engine().queries();
     auto& query =
         queries.query<F, P...>(std::tuple<P...>(static_cast<P>(std::forward<Args>(args))...));

@@ -34,15 +34,15 @@ struct Call;
 /// The description of a traced function for the engine; one constant object per function and
 /// signature. `arguments` is the tuple that a call keeps.
 struct Function {
-  std::string_view name;                     // for people; not unique
-  Identity (*identity)() = nullptr;          // null unless posted
-  std::uint32_t frame_bytes = 0;             // of the call with everything behind its head
-  std::uint32_t object_offset = 0;           // of the keyed object; 0: none
-  bool posted = false;                       // runs from an agenda
-  bool has_result = false;                   // a ResultHead lies behind the head
-  bool answers_query = false;                // computes a query
-  void (*execute)(Scope&, Call&) = nullptr;  // null: a keyed object without a body
-  void (*destroy)(Call&) = nullptr;          // null: nothing needs destroying
+  std::string_view name;                        // for people; not unique
+  Identity (*identity)() = nullptr;             // null unless posted
+  std::uint32_t frame_bytes = 0;                // of the call with everything behind its head
+  std::uint32_t object_offset = 0;              // of the keyed object; 0: none
+  bool posted = false;                          // runs from an agenda
+  bool has_result = false;                      // a ResultHead lies behind the head
+  const void* (*query)(const Call&) = nullptr;  // that it computes; null: none
+  void (*execute)(Scope&, Call&) = nullptr;     // null: a keyed object without a body
+  void (*destroy)(Call&) = nullptr;             // null: nothing needs destroying
   bool (*equal)(const Call&, const void* arguments) = nullptr;
   const void* (*arguments)(const Call&) = nullptr;
   std::strong_ordering (*compare)(const Call&, const Call&) = nullptr;  // null unless posted

@@ -85,7 +85,10 @@ void Engine::undo_edits_behind(std::size_t edits) {
 
 Counts Engine::run_root(const Asked& asked) {
   begin_edit("run");
-  if (!rollback_.empty() && !core_.settled()) throw UsageError("run: propagate the edits first");
+  if (!core_.settled()) {
+    if (!rollback_.empty()) throw UsageError("run: propagate the edits first");
+    propagate();  // what undone edits have left
+  }
   require_released_unused();
   core_.enter(Core::Mode::running);
   forget_edits();
@@ -94,16 +97,15 @@ Counts Engine::run_root(const Asked& asked) {
     core_.run_root(asked);
     require_released_unused();
     core_.check_audit();
+    prepare_changes();
   } catch (...) {
     core_.forget_run(before);
     core_.finish();
-    report_no_change();
+    forget_changes();
     throw;
   }
   free_released();
-  const Counts work = core_.finish();
-  report_changes();
-  return work;
+  return finish_changes();
 }
 
 Counts Engine::propagate(const std::function<void()>& last) {
@@ -112,12 +114,14 @@ Counts Engine::propagate(const std::function<void()>& last) {
     core_.enter(Core::Mode::propagating);
   } catch (...) {  // no memory to begin with
     undo_edits_behind(0);
+    forget_changes();
     throw;
   }
   try {
     core_.propagate();
     require_released_unused();
     core_.check_audit();
+    prepare_changes();
     if (last) last();
   } catch (...) {
     roll_back();
@@ -125,9 +129,7 @@ Counts Engine::propagate(const std::function<void()>& last) {
   }
   forget_edits();
   free_released();
-  const Counts work = core_.finish();
-  report_changes();
-  return work;
+  return finish_changes();
 }
 
 void Engine::roll_back() noexcept {
@@ -142,7 +144,7 @@ void Engine::roll_back() noexcept {
   }
   forget_edits();
   core_.finish();
-  report_no_change();
+  forget_changes();
 }
 
 // They can no longer be taken back. Of very many, as before a first run, the memory goes, too.

@@ -184,7 +184,11 @@ struct Called {
   static constexpr Function function = [] {
     Function f = describe_frame<FrameType, name>();
     f.execute = &execute_in<FrameType>;
-    f.answers_query = requires { decltype(F)::kAnswersQuery; };
+    if constexpr (requires { decltype(F)::kAnswersQuery; }) {
+      f.query = [](const Call& c) -> const void* {
+        return std::get<0>(FrameType::of(c).args).query;
+      };
+    }
     if constexpr (!std::is_void_v<R>) {
       f.has_result = true;
       f.print_result = [](const Call& c, std::ostream& out) {

@@ -21,7 +21,8 @@ namespace sac {
 
 class PlainScope;
 
-/// A work queue with the order of sac::Agenda; equal posts merge.
+/// A work queue with the order of sac::Agenda; equal posts merge. It refuses what that refuses, but
+/// for one call posted at two keys, which runs twice.
 class PlainAgenda {
  public:
   PlainAgenda() = default;
@@ -113,6 +114,7 @@ class PlainAgenda {
     posted.posts.push_back({key.order, record});
   }
   Class& class_of(std::uint32_t rank) {
+    if (drained_) throw UsageError("posting behind the drain");
     if (running_ && rank < rank_) throw UsageError("posting into the past");
     if (cached_ == nullptr || cached_rank_ != rank) cached_ = &classes_[rank];
     cached_rank_ = rank;
@@ -129,6 +131,7 @@ class PlainAgenda {
   std::uint32_t cached_rank_ = 0;
   std::uint32_t rank_ = 0;
   bool running_ = false;
+  bool drained_ = false;
 };
 
 }  // namespace sac

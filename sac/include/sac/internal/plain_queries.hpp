@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <unordered_map>
@@ -21,9 +22,20 @@
 namespace sac {
 
 namespace detail {
-/// `names`: of queries, each before the one that it asks for. Throws: UsageError if one is there
-/// twice; it names the cycle.
-void require_no_cycle(const std::vector<std::string>& names);
+// A query, by any address that is its own, and its name.
+struct QueryName {
+  const void* query;
+  std::string name;
+};
+/// `path`: queries, each before the one that it asks for. Throws: UsageError if one is there twice;
+/// it names the cycle.
+void require_no_cycle(const std::vector<QueryName>& path);
+[[noreturn]] void fail_unequal(std::string_view function);
+/// Throws: UsageError if an argument does not equal itself, as a NaN in a vector.
+template <auto F, class... P>
+void require_equal_to_itself(const std::tuple<P...>& args) {
+  if (!identical(args, args)) fail_unequal(function_name<F>());
+}
 }  // namespace detail
 
 class PlainQueries {
@@ -39,6 +51,7 @@ class PlainQueries {
     auto& table = tables_[&kTag<F, P...>];
     if (table == nullptr) table = std::make_unique<Known>();
     Known& known = static_cast<Known&>(*table);
+    detail::require_equal_to_itself<F>(args);
     const auto [found, is_new] = known.answers.try_emplace(args);
     std::optional<typename Value::type>& value = found->second;
     if (value.has_value()) return std::as_const(*value);
@@ -100,11 +113,12 @@ class PlainQueries {
     return out.str();
   }
   void fail_cycle(const Running& asked) const {
-    std::vector<std::string> names;
-    for (const Running* q = &asked; q != nullptr; q = q->asker)
-      names.push_back(q->name(q->arguments));
-    std::reverse(names.begin(), names.end());
-    detail::require_no_cycle(names);
+    std::vector<detail::QueryName> path;
+    for (const Running* q = &asked; q != nullptr; q = q->asker) {
+      path.push_back({q->arguments, q->name(q->arguments)});
+    }
+    std::reverse(path.begin(), path.end());
+    detail::require_no_cycle(path);
   }
 
   std::map<const void*, std::unique_ptr<AnyAnswers>> tables_;

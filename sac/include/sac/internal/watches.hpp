@@ -5,7 +5,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,32 +17,47 @@ class Watch {
  public:
   virtual ~Watch() = default;
   /// Looks at the value at the end of the trace; null: there is none. Returns whether it is another
-  /// one than before.
-  virtual bool update(const Version* last) = 0;
-  virtual void call() const = 0;
+  /// one than the value known; commit() makes it that. Throws: exceptions of the client's values.
+  virtual bool prepare(const Version* last) = 0;
+  virtual void commit() noexcept = 0;
+  /// Calls the functions, unless one of them changes the value again, or ends the watch.
+  virtual void call() = 0;
+
   bool touched = false;  // a call or the client has changed it
+  bool gone = false;     // nobody watches any more
 };
 
 template <class T, class Same>
 class TypedWatch final : public Watch {
  public:
-  bool update(const Version* last) override {
-    if (last == nullptr) return std::exchange(known_, std::nullopt).has_value();
+  bool prepare(const Version* last) override {
+    if (last == nullptr) {
+      next_ = nullptr;
+      return known_ != nullptr;
+    }
     const T& now = value_of<T>(*last);
-    if (known_.has_value() && same<Same>(*known_, now)) return false;
-    known_.reset();
-    known_.emplace(now);
+    if (known_ != nullptr && same<Same>(*known_, now)) return false;
+    next_ = std::make_shared<const T>(now);
     return true;
   }
-  void call() const override {
-    if (!known_.has_value()) return;
-    for (const auto& f : functions_) f(*known_);
+  void commit() noexcept override { known_ = std::move(next_); }
+  void call() override {
+    const std::shared_ptr<const T> told = known_;
+    if (told == nullptr) return;
+    const std::size_t there_are = functions_.size();
+    for (std::size_t i = 0; i < there_are && !gone && known_ == told; ++i) {
+      const auto function = functions_[i];
+      (*function)(*told);
+    }
   }
-  void add(std::function<void(const T&)> f) { functions_.push_back(std::move(f)); }
+  void add(std::function<void(const T&)> f) {
+    functions_.push_back(std::make_shared<const std::function<void(const T&)>>(std::move(f)));
+  }
 
  private:
-  std::optional<T> known_;
-  std::vector<std::function<void(const T&)>> functions_;
+  std::shared_ptr<const T> known_;
+  std::shared_ptr<const T> next_;
+  std::vector<std::shared_ptr<const std::function<void(const T&)>>> functions_;
 };
 
 class Watches {
@@ -57,26 +71,38 @@ class Watches {
       return static_cast<TypedWatch<T, Same>&>(*known->second);
     }
     auto fresh = std::make_shared<TypedWatch<T, Same>>();
-    static_cast<void>(fresh->update(mods_.newest(head)));
+    if (fresh->prepare(mods_.newest(head))) fresh->commit();
     touched_.reserve(all_.size() + 1);
     all_.emplace(head, fresh);
     mods_.set_watched(head, true);
     return *fresh;
   }
   void touch(Handle head) noexcept;
-  /// The modifiables in the `bytes` from `from` are gone, or no longer watched.
+  /// Nobody watches it any more. Does nothing if nobody does.
+  void drop(Handle head) noexcept;
+  /// The modifiables in the `bytes` from `from` are gone.
   void forget(Handle from, std::size_t bytes) noexcept;
-  /// After a run or propagation: finds out which have another value, and calls.
-  void report();
-  /// After one that failed.
-  void report_nothing() noexcept { changed_.clear(); }
-  [[nodiscard]] const std::vector<Handle>& changed() const noexcept { return changed_; }
+
+  /// At the end of a run or propagation, which can still fail: finds out which have another value.
+  /// Throws: std::bad_alloc, and what comparing and copying values throws.
+  void prepare();
+  /// It has not failed.
+  void commit() noexcept;
+  /// Calls the functions of those that have changed.
+  void call();
+  /// It has failed.
+  void clear() noexcept { changed_.clear(); }
+  [[nodiscard]] bool has_changed(Handle head) const noexcept;
 
  private:
+  using Changes = std::vector<std::pair<Handle, std::shared_ptr<Watch>>>;  // by handle
+
   ModStructure& mods_;
   std::map<Handle, std::shared_ptr<Watch>> all_;
   std::vector<Handle> touched_;
-  std::vector<Handle> changed_;
+  Changes prepared_;
+  Changes changed_;
+  Changes to_call_;  // the same
 };
 
 }  // namespace sac::detail

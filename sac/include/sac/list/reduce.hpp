@@ -210,8 +210,8 @@ struct Fetch {
 
 }  // namespace detail
 
-/// The value of a modifiable that a child of this call has written. read() cannot return it, since
-/// the effects of children come after their parent. The caller depends on it.
+/// The value of a modifiable that a child of this call has written, as a result of a child of its
+/// own: the caller needs no time stamp behind the child. It depends on the value, as by read().
 template <class S, class M>
 [[nodiscard]] decltype(auto) fetch(S& s, M mod) {
   return s.template call<detail::Fetch{}>(mod);
