@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <ranges>
 #include <string_view>
 #include <vector>
 
@@ -62,7 +61,7 @@ struct Cores {
   static constexpr std::string_view kName = "cores";
   void operator()(auto& s) const {
     const int n = static_cast<int>(Core::graph(s).edges.size());
-    sac::iterate<Core>(s, std::views::iota(0, n));
+    sac::iterate<Core>(s, n);
   }
 };
 inline constexpr Cores cores{};

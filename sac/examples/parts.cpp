@@ -5,7 +5,6 @@
 // clang-format off
 #include <algorithm>
 #include <map>
-#include <ranges>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -90,7 +89,7 @@ struct Distance {
 
 void distances(sac::Scope& s) {
   const int n = static_cast<int>(Distance::net(s).distances.size());
-  sac::iterate<Distance>(s, std::views::iota(0, n));
+  sac::iterate<Distance>(s, n);
 }
 
 void fixed_points() {

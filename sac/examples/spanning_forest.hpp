@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <compare>
 #include <ostream>
-#include <ranges>
 #include <string_view>
 #include <vector>
 
@@ -72,7 +71,7 @@ struct Span {
   static constexpr std::string_view kName = "span";
   void operator()(auto& s) const {
     const int n = static_cast<int>(Grow::graph(s).edges.size());
-    sac::iterate<Grow>(s, std::views::iota(0, n));
+    sac::iterate<Grow>(s, n);
   }
 };
 inline constexpr Span span{};

@@ -22,6 +22,7 @@
 #pragma once
 
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "sac/agenda.hpp"
@@ -59,11 +60,16 @@ struct FirstValue {
 
 }  // namespace detail
 
-/// Computes the fixed point of a rule for a range of vertices, each in calls of its own. Throws:
+/// Computes the fixed point of a rule for a range of vertices, or for the vertices 0 .. n - 1 if a
+/// number n is given, each in calls of its own. Throws:
 /// UsageError if it takes more rounds than the agenda has buckets, from 0 on.
 template <class Rule, class S, class Vertices>
 void iterate(S& s, const Vertices& vertices) {
-  for (const auto& v : vertices) s.template call<detail::FirstValue<Rule>{}>(v);
+  if constexpr (std::is_integral_v<Vertices>) {
+    for (Vertices v = 0; v < vertices; ++v) s.template call<detail::FirstValue<Rule>{}>(v);
+  } else {
+    for (const auto& v : vertices) s.template call<detail::FirstValue<Rule>{}>(v);
+  }
   Rule::rounds(s).drain(s);
 }
 
