@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -316,13 +317,14 @@ TEST_CASE("an argument of a query equals itself") {
   e.check_invariants();
 }
 
-sac::Scope* kept_scope = nullptr;
-void keep_scope(sac::Scope& s) { kept_scope = &s; }
+std::optional<sac::Scope> kept_scope;
+void keep_scope(sac::Scope& s) { kept_scope.emplace(s); }
 
 TEST_CASE("a query through a scope that was kept leaves nothing") {
   sac::Engine e;
   e.run<keep_scope>();
   CHECK_THROWS_AS(kept_scope->query<upto>(2u), sac::UsageError);
+  kept_scope.reset();
   e.check_invariants();
 }
 
