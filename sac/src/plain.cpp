@@ -51,9 +51,9 @@ void PlainAgenda::run_class(PlainScope& s, Class& c) {
     const Entry& first = due.first(before);
     const Entry next = first;
     due.drop(first);
-    const auto behind = last.record == nullptr ? std::strong_ordering::greater : order(next, last);
-    if (behind == 0 && last.record->kind == next.record->kind) continue;
-    if (behind < 0) throw UsageError("posting into the past");
+    const bool is_equal =
+        last.record != nullptr && last.record->kind == next.record->kind && order(next, last) == 0;
+    if (is_equal) continue;
     last = next;
     next.record->kind->run(s, *next.record);
     s.run_tails();

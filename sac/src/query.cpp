@@ -14,11 +14,10 @@ Queries::Queries(Engine& engine) : engine_(engine), id_(engine.add_structure(*th
 // --- Requests --------------------------------------------------------------------------------
 
 void Queries::ask_first(Scope& s, Query& query) {
-  constexpr std::size_t kMostRecalled = 64;  // edges of last time that are looked at
   const Handle asked = engine_.arena().handle_of(&query);
   const auto same = [&](const FirstRequest& e) { return e.query == asked; };
   const Handle place = s.place();
-  if (s.recall<FirstRequest>(id_, kFirst, same, kMostRecalled) == nullptr) {
+  if (s.recall<FirstRequest>(id_, kFirst, same, Scope::kMostRecalled) == nullptr) {
     auto& edge = s.observe<FirstRequest>(id_, kFirst);
     edge.place = place;
     edge.query = asked;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "failing_new.hpp"
+#include "failure_source.hpp"
 #include "fragile.hpp"
 #include "program_oracle.hpp"
 
@@ -17,33 +18,6 @@ namespace {
 using namespace support;
 
 using Program = Traced<Fragile>;
-
-// Where failures come from.
-struct Source {
-  const char* name;
-  void (*arm)(Program&, std::uint64_t count);
-};
-constexpr Source kSources[] = {
-    {"client", [](Program&, std::uint64_t count) { Fragile::fuse.left = count; }},
-    {"operator new", [](Program&, std::uint64_t count) { allocation_fuse.left = count; }},
-    {"arena", [](Program& p, std::uint64_t count) { p.engine.arena().fail_after(count); }},
-};
-
-// Whether `act` failed when the count-th event of the source does.
-bool fails(Program& p, const Source& source, std::uint64_t count,
-           const std::function<void()>& act) {
-  source.arm(p, count);
-  bool failed = false;
-  try {
-    act();
-  } catch (const ClientFailure&) {
-    failed = true;
-  } catch (const std::bad_alloc&) {
-    failed = true;
-  }
-  source.arm(p, 0);
-  return failed;
-}
 
 // Sets, and a post from outside, the retraction of one, or an edit of the list.
 std::vector<Step> random_edits(Random& random, int nodes, const Outside& outside) {
@@ -119,7 +93,7 @@ RandomProgram random_text(std::uint64_t seed, int nodes) {
 
 // Edits and propagates; each time with every failure of the source in turn. Returns their number.
 // Edits that the program refuses are undone.
-std::uint64_t check_failures(std::uint64_t seed, const Source& source, int batches) {
+std::uint64_t check_failures(std::uint64_t seed, const FailureSource& source, int batches) {
   CAPTURE(seed, source.name);
   Random random(seed ^ 0x5eed);
   const int nodes = 5 + random(6);
@@ -148,7 +122,7 @@ std::uint64_t check_failures(std::uint64_t seed, const Source& source, int batch
     for (std::uint64_t count = 1;; ++count) {
       CAPTURE(count);
       Outside wanted = outside;
-      const bool failed = fails(p, source, count, [&] { act(wanted); });
+      const bool failed = fails(p.engine, source, count, [&] { act(wanted); });
       if (!failed) {
         outside = wanted;
         break;
@@ -167,14 +141,14 @@ std::uint64_t check_failures(std::uint64_t seed, const Source& source, int batch
 
 TEST_CASE("a propagation that fails anywhere leaves the engine as before the edits") {
   std::uint64_t failures = 0;
-  for (const Source& source : kSources) {
+  for (const FailureSource& source : kFailureSources<Fragile>) {
     for (std::uint64_t seed = 0; seed < 150; ++seed) failures += check_failures(seed, source, 4);
   }
   CHECK(failures > 20000);
 }
 
 TEST_CASE("many propagations fail anywhere", "[.soak]") {
-  for (const Source& source : kSources) {
+  for (const FailureSource& source : kFailureSources<Fragile>) {
     for (std::uint64_t seed = 1000; seed < 2000; ++seed) check_failures(seed, source, 12);
   }
 }
@@ -184,7 +158,7 @@ TEST_CASE("a run that fails anywhere leaves nothing, and may be tried again") {
   outside.inputs = {2, 1, 3, 0};
   outside.posts = {4, 4, 6};
   std::uint64_t failures = 0;
-  for (const Source& source : kSources) {
+  for (const FailureSource& source : kFailureSources<Fragile>) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       CAPTURE(seed, source.name);
       const RandomProgram text(seed, 8);
@@ -194,7 +168,7 @@ TEST_CASE("a run that fails anywhere leaves nothing, and may be tried again") {
       p.engine.run<list_root<Fragile>>();
       const std::uint64_t edges = p.engine.live_edges();
       const auto run = [&] { p.engine.run<random_root<Fragile>>(); };
-      for (std::uint64_t count = 1; fails(p, source, count, run); ++count) {
+      for (std::uint64_t count = 1; fails(p.engine, source, count, run); ++count) {
         ++failures;
         REQUIRE(p.engine.live_edges() == edges);
         p.engine.check_invariants();
@@ -218,7 +192,7 @@ TEST_CASE("if the undoing of edits fails, the engine is broken and says so") {
     p.edit({Step::retract, 1, 0}, wanted);
     p.edit({Step::remove, 0, 0}, wanted);
     p.edit({Step::set, 2, 5}, wanted);
-    failed = fails(p, kSources[0], count, [&] { p.engine.undo_edits(); });
+    failed = fails(p.engine, kFailureSources<Fragile>[0], count, [&] { p.engine.undo_edits(); });
     if (failed) CHECK_THROWS_WITH(p.engine.propagate(), Catch::Contains("broken"));
   }
   CHECK(count > 2);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "failing_new.hpp"
+#include "failure_source.hpp"
 #include "fragile.hpp"
 #include "random.hpp"
 #include "sac/event_log.hpp"
@@ -20,7 +21,9 @@
 namespace {
 
 using support::ClientFailure;
+using support::FailureSource;
 using support::Fragile;
+using support::kFailureSources;
 using support::Random;
 
 template <class S>
@@ -387,34 +390,8 @@ TEST_CASE("many random programs on maps", "[.soak]") {
 
 // --- Failures ------------------------------------------------------------------------------------
 
-// Where failures come from.
-struct Source {
-  const char* name;
-  void (*arm)(Traced&, std::uint64_t count);
-};
-constexpr Source kSources[] = {
-    {"client", [](Traced&, std::uint64_t count) { Fragile::fuse.left = count; }},
-    {"operator new", [](Traced&, std::uint64_t count) { support::allocation_fuse.left = count; }},
-    {"arena", [](Traced& p, std::uint64_t count) { p.engine.arena().fail_after(count); }},
-};
-
-// Whether `act` failed when the count-th event of the source does.
-bool fails(Traced& p, const Source& source, std::uint64_t count, const std::function<void()>& act) {
-  source.arm(p, count);
-  bool failed = false;
-  try {
-    act();
-  } catch (const ClientFailure&) {
-    failed = true;
-  } catch (const std::bad_alloc&) {
-    failed = true;
-  }
-  source.arm(p, 0);
-  return failed;
-}
-
 // Edits and propagates; each time with every failure of the source in turn. Returns their number.
-std::uint64_t check_failures(std::uint64_t seed, const Source& source, int batches) {
+std::uint64_t check_failures(std::uint64_t seed, const FailureSource& source, int batches) {
   CAPTURE(seed, source.name);
   Random random(seed);
   const Text text = random_text(random);
@@ -454,7 +431,7 @@ std::uint64_t check_failures(std::uint64_t seed, const Source& source, int batch
     }
     p.engine.propagate();
     REQUIRE(p.state() == before);
-    for (std::uint64_t count = 1; fails(p, source, count, act); ++count) {
+    for (std::uint64_t count = 1; fails(p.engine, source, count, act); ++count) {
       CAPTURE(count);
       ++failures;
       require_undone();
@@ -468,7 +445,7 @@ std::uint64_t check_failures(std::uint64_t seed, const Source& source, int batch
 
 TEST_CASE("a propagation that fails anywhere leaves the maps as before the edits") {
   std::uint64_t failures = 0;
-  for (const Source& source : kSources) {
+  for (const FailureSource& source : kFailureSources<Fragile>) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) failures += check_failures(seed, source, 3);
   }
   CAPTURE(failures);
@@ -476,14 +453,14 @@ TEST_CASE("a propagation that fails anywhere leaves the maps as before the edits
 }
 
 TEST_CASE("many propagations on maps fail anywhere", "[.soak]") {
-  for (const Source& source : kSources) {
+  for (const FailureSource& source : kFailureSources<Fragile>) {
     for (std::uint64_t seed = 10000; seed < 20000; ++seed) check_failures(seed, source, 6);
   }
 }
 
 TEST_CASE("a first run that fails anywhere leaves maps with what the outside has set") {
   std::uint64_t failures = 0;
-  for (const Source& source : kSources) {
+  for (const FailureSource& source : kFailureSources<Fragile>) {
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
       CAPTURE(seed, source.name);
       Random random(seed);
@@ -493,7 +470,7 @@ TEST_CASE("a first run that fails anywhere leaves maps with what the outside has
       Traced p(text, outside), good(text, outside);
       if (refusal_of([&] { good.engine.run<start>(); })) continue;
       const auto run = [&] { p.engine.run<start>(); };
-      for (std::uint64_t count = 1; fails(p, source, count, run); ++count) {
+      for (std::uint64_t count = 1; fails(p.engine, source, count, run); ++count) {
         ++failures;
         REQUIRE(p.engine.live_edges() == 0);
         p.engine.check_invariants();

@@ -6,18 +6,21 @@
 #include <functional>
 #include <new>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "failing_new.hpp"
+#include "failure_source.hpp"
 #include "random.hpp"
 #include "sac/sac.hpp"
 
 namespace {
 
 using sac::ElementId;
+using support::ClientFailure;
+using support::FailureSource;
+using support::kFailureSources;
 using support::Random;
 
 template <class Sequence>
@@ -198,10 +201,6 @@ TEST_CASE("an edit of a sorted or reduced sequence is O(log n) calls") {
 
 // --- Failures ------------------------------------------------------------------------------------
 
-struct ClientFailure : std::runtime_error {
-  ClientFailure() : std::runtime_error("client code") {}
-};
-
 // A number whose copies are counted, and may fail.
 class Fragile {
  public:
@@ -297,33 +296,6 @@ struct Failing {
   }
 };
 
-struct Source {
-  const char* name;
-  void (*arm)(sac::Engine&, std::uint64_t count);
-};
-constexpr Source kSources[] = {
-    {"client", [](sac::Engine&, std::uint64_t count) { Fragile::fuse.left = count; }},
-    {"operator new",
-     [](sac::Engine&, std::uint64_t count) { support::allocation_fuse.left = count; }},
-    {"arena", [](sac::Engine& e, std::uint64_t count) { e.arena().fail_after(count); }},
-};
-
-// Whether `act` fails when the count-th event of the source does.
-template <class Act>
-bool fails(sac::Engine& engine, const Source& source, std::uint64_t count, Act&& act) {
-  source.arm(engine, count);
-  bool failed = false;
-  try {
-    act();
-  } catch (const ClientFailure&) {
-    failed = true;
-  } catch (const std::bad_alloc&) {
-    failed = true;
-  }
-  source.arm(engine, 0);
-  return failed;
-}
-
 using FragileEdit = std::function<void(sac::Sequence<Fragile>&)>;
 
 FragileEdit random_edit(Random& random, const sac::Sequence<Fragile>& sequence) {
@@ -348,7 +320,7 @@ FragileEdit random_edit(Random& random, const sac::Sequence<Fragile>& sequence) 
 
 TEST_CASE("an edit of a sequence that fails anywhere changes nothing") {
   std::uint64_t failures = 0;
-  for (const Source& source : kSources) {
+  for (const FailureSource& source : kFailureSources<Fragile>) {
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
       CAPTURE(source.name, seed);
       Random random(seed);
@@ -375,7 +347,7 @@ TEST_CASE("an edit of a sequence that fails anywhere changes nothing") {
 
 TEST_CASE("a propagation that fails anywhere takes the edits of the sequence back") {
   std::uint64_t failures = 0;
-  for (const Source& source : kSources) {
+  for (const FailureSource& source : kFailureSources<Fragile>) {
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
       CAPTURE(source.name, seed);
       Random random(seed);

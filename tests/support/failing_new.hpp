@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <new>
+#include <stdexcept>
 #include <utility>
 
 namespace support {
@@ -11,6 +12,11 @@ namespace support {
 struct Fuse {
   std::uint64_t left = 0;  ///< it fails when this reaches 0; 0: never
   bool burns() noexcept { return left != 0 && --left == 0; }
+};
+
+/// What client code throws when its fuse burns.
+struct ClientFailure : std::runtime_error {
+  ClientFailure() : std::runtime_error("client code") {}
 };
 
 extern Fuse allocation_fuse;  ///< burns with every operator new

@@ -4,17 +4,12 @@
 #include <compare>
 #include <cstdint>
 #include <ostream>
-#include <stdexcept>
 #include <string>
 
 #include "failing_new.hpp"
 #include "sac/label.hpp"
 
 namespace support {
-
-struct ClientFailure : std::runtime_error {
-  ClientFailure() : std::runtime_error("client code") {}
-};
 
 /// A number of 0 or more, kept as a text so that most of them own memory: copying, comparing,
 /// ordering, hashing it and making it may throw.

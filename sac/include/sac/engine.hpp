@@ -259,7 +259,7 @@ class Engine {
   void check_invariants() const;
 
   // --- For structures ----------------------------------------------------------------------
-  // // Modifiables and agendas use only these functions and Scope, and your own types need no
+  // Modifiables and agendas use only these functions and Scope, and your own types need no
   // others (docs/traceable_types.md).
 
   /// Registers a structure and returns the number that its edges carry. The structure must outlive
@@ -376,7 +376,7 @@ class Engine {
   void add_weight(Scope& s, std::uint64_t n);
 
  private:
-  // // An object made from outside in memory: head, object.
+  // An object made from outside in memory: head, object.
   struct OutsideHead {
     std::uint32_t position;  // in outside_
     std::uint16_t type;

@@ -166,7 +166,6 @@ class TracedMap final : public Structure,
   };
 
   static constexpr std::uint8_t kContribution = 0;
-  static constexpr std::size_t kMostRecalled = 64;
   using All = Questions<K, V, M...>;
   template <class Q>
   static constexpr auto kKind = static_cast<std::uint8_t>(1 + kIndexOf<Q, All>);
@@ -296,7 +295,7 @@ void TracedMap<K, V, Group, M...>::contribute(Scope& s, const K& key, V&& value)
   const auto same = [&](const Contribution& c) {
     return c.entry != 0 && same_key(entries_.node(c.entry).key, key);
   };
-  Contribution* c = s.recall<Contribution>(id_, kContribution, same, kMostRecalled);
+  Contribution* c = s.recall<Contribution>(id_, kContribution, same, Scope::kMostRecalled);
   if (c == nullptr) {
     c = &s.effect<Contribution>(id_, kContribution);
     c->place = s.place();
@@ -648,7 +647,7 @@ auto TracedMap<K, V, Group, M...>::ask(Scope& s, Q question) -> const typename Q
     const auto same = [&](const Query<Q>& q) {
       return q.made && q.body.get().question == question;
     };
-    Query<Q>* query = s.recall<Query<Q>>(id_, kKind<Q>, same, kMostRecalled);
+    Query<Q>* query = s.recall<Query<Q>>(id_, kKind<Q>, same, Scope::kMostRecalled);
     if (query == nullptr) {
       query = &s.observe<Query<Q>>(id_, kKind<Q>);
       query->place = s.place();

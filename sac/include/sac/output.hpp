@@ -84,7 +84,7 @@ class Output final : public Structure {
       const auto same = [&](const Emission& e) {
         return e.at != nullptr && !Order()(e.at->first, value) && !Order()(value, e.at->first);
       };
-      if (s.recall<Emission>(id_, kEmission, same, kMostRecalled) != nullptr) return;
+      if (s.recall<Emission>(id_, kEmission, same, Scope::kMostRecalled) != nullptr) return;
       auto& edge = s.effect<Emission>(id_, kEmission);
       edge.at = nullptr;
       ++emissions_;
@@ -152,7 +152,6 @@ class Output final : public Structure {
     Entry* at;  // null: memory ran out
   };
   static constexpr std::uint8_t kEmission = 0;
-  static constexpr std::size_t kMostRecalled = 64;  // edges of last time that are looked at
 
   void require_idle() const { engine_.core().require_settled("the output"); }
   // A run or propagation changes something.

@@ -121,6 +121,9 @@ class Scope {
   /// there. Throws: std::bad_alloc.
   [[nodiscard]] Handle place() { return core_.place(); }
 
+  /// How many edges of the last execution the library's own structures look at in recall().
+  static constexpr std::size_t kMostRecalled = 64;
+
   /// Repeats an edge of the last execution: moves the first edge E of `structure` at the same place
   /// for which `matches(const E&)` into this execution and returns it; null if there is none. The
   /// search starts where the last one ended, so edges repeated in order are found at once. It

@@ -17,7 +17,7 @@ class Weights final : public Structure {
 
   void add(Scope& s, std::uint64_t n) {
     Weight* weight = s.recall<Weight>(
-        id_, 0, [](const Weight&) { return true; }, kMostRecalled);
+        id_, 0, [](const Weight&) { return true; }, Scope::kMostRecalled);
     if (weight == nullptr) weight = &s.effect<Weight>(id_, 0);
     weight->steps = n;
   }
@@ -35,8 +35,6 @@ class Weights final : public Structure {
   struct Weight : Edge {
     std::uint64_t steps;
   };
-
-  static constexpr std::size_t kMostRecalled = 64;  // edges of last time that are looked at
 
   std::uint8_t id_;
 };

@@ -51,12 +51,7 @@ detail::ReadEdge* ModStructure::recall_read(Handle head, Handle seen) {
     const auto& edge = static_cast<const ReadEdge&>(e);
     return edge.version == seen || (edge.version != 0 && head_of(*at(edge.version)) == head);
   };
-  Edge* const expected = engine_.core().expected();
-  if (expected != nullptr && of_this(*expected)) {
-    engine_.core().repeat_expected();
-    return static_cast<ReadEdge*>(expected);
-  }
-  return static_cast<ReadEdge*>(engine_.core().recall(of_this, kMostRecalled));
+  return static_cast<ReadEdge*>(engine_.core().recall(of_this, Scope::kMostRecalled));
 }
 
 detail::Version* ModStructure::newest(Handle head) const noexcept {

@@ -51,10 +51,7 @@ void ModStructure::repeat(Handle head, Handle version) {
     return edge.structure == id_ && edge.kind == kWrite &&
            static_cast<const WriteEdge&>(edge).version == version;
   };
-  if (Edge* const expected = core.expected(); expected != nullptr && same(*expected)) {
-    return core.repeat_expected();
-  }
-  if (core.recall(same, kMostRecalled) != nullptr) return;
+  if (core.recall(same, Scope::kMostRecalled) != nullptr) return;
   auto& edge = static_cast<WriteEdge&>(core.attach_here(id_, kWrite, sizeof(WriteEdge)));
   edge.head = head;
   edge.version = version;

@@ -1,8 +1,8 @@
 // The core: executes calls, keeps their trace, reuses and discards, and propagates.
 //
 // The parts around it, and the members that they use:
-// //   Engine      the functions for clients: modes, counts, roll-back, introspection
-// //   Scope       operations of a running call: call_child, call_tail, recall, attach, guarded
+//   Engine      the functions for clients: modes, counts, roll-back, introspection
+//   Scope       operations of a running call: call_child, call_tail, recall, attach, guarded
 //   structures  Engine's public part "For structures": precedes, invalidate, doubt, ...
 //   Agenda      calls that are made before they run: "For work queues" below
 //
@@ -143,17 +143,6 @@ class Core {
   }
   /// Whether the running call has edges of its last execution that it has not repeated yet.
   [[nodiscard]] bool may_recall() const noexcept { return current_->old_edges != 0; }
-  /// The one that comes next, if it lies in this segment; null if there is none. After place().
-  [[nodiscard]] Edge* expected() const noexcept {
-    const Activation& a = *current_;
-    const Handle next = a.cursor != 0 ? at<Edge>(a.cursor)->next : a.old_edges;
-    return next != 0 && !at<Edge>(next)->begins_segment ? at<Edge>(next) : nullptr;
-  }
-  /// Repeats it. Requires: there is one.
-  void repeat_expected() noexcept {
-    Activation& a = *current_;
-    take_old(a, a.cursor != 0 ? &at<Edge>(a.cursor)->next : &a.old_edges);
-  }
   /// The running call's place in time: that of its segment.
   [[nodiscard]] Handle place() {
     Activation& a = running();

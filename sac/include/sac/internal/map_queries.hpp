@@ -234,38 +234,26 @@ struct QuestionsOf {
       return a ? Span<K>::up_to(a->first) : Span<K>::everything();
     }
   };
-  struct Bottom : OfRank {
-    static constexpr std::string_view kName = "bottom";
+  // The `rank` least entries, or the greatest.
+  template <bool kGreatest>
+  struct Extremes : OfRank {
+    static constexpr std::string_view kName = kGreatest ? "top" : "bottom";
     using Answer = Pairs;
     template <class Contents>
     Answer of(const Contents& c) const {
       Pairs pairs;
       for (std::size_t i = 0; i < this->rank && i < c.size(); ++i) {
-        pairs.push_back(*c.at_rank(i).copy());
+        pairs.push_back(*c.at_rank(kGreatest ? c.size() - 1 - i : i).copy());
       }
       return pairs;
     }
     Span<K> span(const Answer& a) const {
-      const bool full = !a.empty() && a.size() == this->rank;
-      return full ? Span<K>::up_to(a.back().first) : Span<K>::everything();
+      if (a.empty() || a.size() != this->rank) return Span<K>::everything();
+      return kGreatest ? Span<K>::from(a.back().first) : Span<K>::up_to(a.back().first);
     }
   };
-  struct Top : OfRank {
-    static constexpr std::string_view kName = "top";
-    using Answer = Pairs;
-    template <class Contents>
-    Answer of(const Contents& c) const {
-      Pairs pairs;
-      for (std::size_t i = 0; i < this->rank && i < c.size(); ++i) {
-        pairs.push_back(*c.at_rank(c.size() - 1 - i).copy());
-      }
-      return pairs;
-    }
-    Span<K> span(const Answer& a) const {
-      const bool full = !a.empty() && a.size() == this->rank;
-      return full ? Span<K>::from(a.back().first) : Span<K>::everything();
-    }
-  };
+  using Bottom = Extremes<false>;
+  using Top = Extremes<true>;
   struct Range : OfSpan {
     static constexpr std::string_view kName = "range";
     using Answer = Pairs;
@@ -330,19 +318,7 @@ concept MonoidOf = requires(const K& key, const V& value, const typename O::Valu
 // The priority of a key in canonical folds, a function of the key alone.
 template <class T>
 std::uint64_t hash_key(const T& key) {
-  if constexpr (HashedByValue<T> || HashedByStd<T>) {
-    return mix(hash_argument(key) + 0x9e3779b97f4a7c15u);
-  } else if constexpr (std::ranges::range<const T>) {
-    std::uint64_t h = 1;
-    for (const auto& part : key) h = mix(h + hash_key(part));
-    return h;
-  } else if constexpr (TupleLike<T>) {
-    std::uint64_t h = 2;
-    std::apply([&](const auto&... part) { ((h = mix(h + hash_key(part))), ...); }, key);
-    return h;
-  } else {
-    return mix(hash_argument(key) + 0x9e3779b97f4a7c15u);
-  }
+  return mix(hash_argument(key) + 0x9e3779b97f4a7c15u);
 }
 
 }  // namespace detail

@@ -245,7 +245,6 @@ class ModStructure final : public Structure {
  private:
   using Version = detail::Version;
   using ReadEdge = detail::ReadEdge;
-  static constexpr std::size_t kMostRecalled = 64;  // edges of last time that are looked at
 
   [[nodiscard]] Version* at(Handle h) const noexcept { return engine_.arena().at<Version>(h); }
   [[nodiscard]] ReadEdge* reader(Handle h) const noexcept {
