@@ -403,7 +403,6 @@ struct Connect {
 
 struct CoreNumbers {
   static constexpr const char* kName = "k_core";
-  using Graph = RandomGraph;
   template <class S>
   using World = k_core::Graph<S>;
   static constexpr auto program = k_core::cores;
@@ -437,7 +436,7 @@ struct CoreNumbers {
   template <class Host, class World>
   static std::uint64_t result(Host& host, const World& graph) {
     std::vector<int> core;
-    for (const auto& c : graph.core) core.push_back(host.get(c));
+    for (const auto& c : graph.values) core.push_back(host.get(c));
     return hash_of(core);
   }
 };
@@ -479,7 +478,7 @@ struct Forest {
   template <class Host, class World>
   static std::uint64_t result(Host& host, const World& graph) {
     std::vector<int> root, parent;
-    for (const auto& p : graph.places) {
+    for (const auto& p : graph.values) {
       root.push_back(host.get(p).root);
       parent.push_back(host.get(p).parent);
     }

@@ -15,37 +15,14 @@
 #include <string_view>
 #include <vector>
 
-#include "sac/iterate.hpp"
-#include "sac/sac.hpp"
+#include "vertex_values.hpp"
 
 namespace examples::k_core {
 
 template <class S>
-struct Graph {
-  std::vector<typename S::template ModType<std::vector<int>>> edges;  // inputs: of each vertex
-  std::vector<typename S::template ModType<int>> core;
-  typename S::AgendaType* rounds = nullptr;
+using Graph = VertexValues<S, int>;
 
-  template <class Host>
-  Graph(Host& host, int size) : rounds(&host.make_agenda("rounds")) {
-    for (int v = 0; v < size; ++v) {
-      edges.push_back(host.input(std::vector<int>{}));
-      core.push_back(host.template cell<int>());
-    }
-    host.set_environment(this);
-  }
-  Graph(const Graph&) = delete;  // it is the environment
-  Graph& operator=(const Graph&) = delete;
-};
-
-struct Core {
-  template <class S>
-  static auto& graph(S& s) {
-    return s.template environment<Graph<S>>();
-  }
-  static auto& rounds(auto& s) { return *graph(s).rounds; }
-  static auto value(auto& s, int v) { return graph(s).core[v]; }
-  static const std::vector<int>& dependents(auto& s, int v) { return s.read(graph(s).edges[v]); }
+struct Core : VertexRule<int> {
   static int first(auto& s, int v) { return static_cast<int>(dependents(s, v).size()); }
   static int next(auto& s, int v) {
     std::vector<int> cores;
@@ -59,10 +36,7 @@ struct Core {
 
 struct Cores {
   static constexpr std::string_view kName = "cores";
-  void operator()(auto& s) const {
-    const int n = static_cast<int>(Core::graph(s).edges.size());
-    sac::iterate<Core>(s, n);
-  }
+  void operator()(auto& s) const { iterate_all<Core>(s); }
 };
 inline constexpr Cores cores{};
 

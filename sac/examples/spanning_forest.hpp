@@ -12,10 +12,8 @@
 #include <compare>
 #include <ostream>
 #include <string_view>
-#include <vector>
 
-#include "sac/iterate.hpp"
-#include "sac/sac.hpp"
+#include "vertex_values.hpp"
 
 namespace examples::spanning_forest {
 
@@ -31,31 +29,9 @@ struct Place {
 };
 
 template <class S>
-struct Graph {
-  std::vector<typename S::template ModType<std::vector<int>>> edges;  // inputs: of each vertex
-  std::vector<typename S::template ModType<Place>> places;
-  typename S::AgendaType* rounds = nullptr;
+using Graph = VertexValues<S, Place>;
 
-  template <class Host>
-  Graph(Host& host, int size) : rounds(&host.make_agenda("rounds")) {
-    for (int v = 0; v < size; ++v) {
-      edges.push_back(host.input(std::vector<int>{}));
-      places.push_back(host.template cell<Place>());
-    }
-    host.set_environment(this);
-  }
-  Graph(const Graph&) = delete;  // it is the environment
-  Graph& operator=(const Graph&) = delete;
-};
-
-struct Grow {
-  template <class S>
-  static auto& graph(S& s) {
-    return s.template environment<Graph<S>>();
-  }
-  static auto& rounds(auto& s) { return *graph(s).rounds; }
-  static auto value(auto& s, int v) { return graph(s).places[v]; }
-  static const std::vector<int>& dependents(auto& s, int v) { return s.read(graph(s).edges[v]); }
+struct Grow : VertexRule<Place> {
   static Place first(auto&, int v) { return {v, 0, v}; }
   static Place next(auto& s, int v) {
     Place least = first(s, v);
@@ -69,10 +45,7 @@ struct Grow {
 
 struct Span {
   static constexpr std::string_view kName = "span";
-  void operator()(auto& s) const {
-    const int n = static_cast<int>(Grow::graph(s).edges.size());
-    sac::iterate<Grow>(s, n);
-  }
+  void operator()(auto& s) const { iterate_all<Grow>(s); }
 };
 inline constexpr Span span{};
 

@@ -476,12 +476,14 @@ struct ComponentsApp : GraphApp {
 
 // --- Fixed points ----------------------------------------------------------------------------
 
-// A graph example whose World has `graph_`, and computes `values_of(graph)`.
-template <class Host, class Graph>
-struct UndirectedWorld {
-  UndirectedWorld(Host& host, const GraphApp::Input& input)
+// The world of an example that computes `program` on a graph with values of type T.
+template <auto program, class T, class Host>
+class ValuesWorld {
+ public:
+  ValuesWorld(Host& host, const GraphApp::Input& input)
       : host_(host), graph_(host, static_cast<int>(input.edges.size())) {
     for (std::size_t v = 0; v < input.edges.size(); ++v) host.set(graph_.edges[v], input.edges[v]);
+    host.template run<program>();
   }
   void edit(const GraphApp::Edit& e) {
     if (e.v == e.w) return;
@@ -490,9 +492,21 @@ struct UndirectedWorld {
       host_.set(edges, GraphApp::toggled(host_.get(edges), w));
     }
   }
+  std::vector<T> result() {
+    std::vector<T> all;
+    for (const auto& value : graph_.values) all.push_back(host_.get(value));
+    return all;
+  }
 
+  template <class Recorder>
+  void name(Recorder& recorder) const {
+    name_all(recorder, graph_.edges, "edges");
+    name_all(recorder, graph_.values, "value");
+  }
+
+ private:
   Host& host_;
-  Graph graph_;
+  examples::VertexValues<ScopeOf<Host>, T> graph_;
 };
 
 struct CoreApp : GraphApp {
@@ -520,22 +534,7 @@ struct CoreApp : GraphApp {
   }
 
   template <class Host>
-  struct World : UndirectedWorld<Host, examples::k_core::Graph<ScopeOf<Host>>> {
-    World(Host& host, const Input& input)
-        : UndirectedWorld<Host, examples::k_core::Graph<ScopeOf<Host>>>(host, input) {
-      host.template run<examples::k_core::cores>();
-    }
-    std::vector<int> result() {
-      std::vector<int> all;
-      for (const auto& c : this->graph_.core) all.push_back(this->host_.get(c));
-      return all;
-    }
-    template <class Recorder>
-    void name(Recorder& recorder) const {
-      name_all(recorder, this->graph_.edges, "edges");
-      name_all(recorder, this->graph_.core, "core");
-    }
-  };
+  using World = ValuesWorld<examples::k_core::cores, int, Host>;
 };
 
 struct SpanApp : GraphApp {
@@ -560,22 +559,7 @@ struct SpanApp : GraphApp {
   }
 
   template <class Host>
-  struct World : UndirectedWorld<Host, examples::spanning_forest::Graph<ScopeOf<Host>>> {
-    World(Host& host, const Input& input)
-        : UndirectedWorld<Host, examples::spanning_forest::Graph<ScopeOf<Host>>>(host, input) {
-      host.template run<examples::spanning_forest::span>();
-    }
-    std::vector<Place> result() {
-      std::vector<Place> all;
-      for (const auto& p : this->graph_.places) all.push_back(this->host_.get(p));
-      return all;
-    }
-    template <class Recorder>
-    void name(Recorder& recorder) const {
-      name_all(recorder, this->graph_.edges, "edges");
-      name_all(recorder, this->graph_.places, "place");
-    }
-  };
+  using World = ValuesWorld<examples::spanning_forest::span, Place, Host>;
 };
 
 // --- Queries -----------------------------------------------------------------------------------
