@@ -139,7 +139,7 @@ class Engine {
   /// Sets the name of a modifiable in messages.
   template <class T, class Same>
   void name(Mod<T, Same> mod, std::string name) {
-    core_.names_[mod.head()] = std::move(name);
+    core_.settings.names[mod.head()] = std::move(name);
   }
   /// Names modifiables `name[0]`, `name[1]`, ...
   template <std::ranges::input_range R>
@@ -197,7 +197,7 @@ class Engine {
   /// parts must be modifiables or structures.
   template <class T>
   void set_environment(T* environment) noexcept {
-    core_.environment_ = {
+    core_.settings.environment = {
         const_cast<std::remove_const_t<T>*>(environment),
         environment != nullptr ? &detail::kTypeName<std::remove_const_t<T>> : nullptr};
   }
@@ -208,19 +208,19 @@ class Engine {
   void set_progress(std::function<bool(const Progress&)> report, std::uint64_t every = 1024);
 
   /// Reports all events to `observer`; null: to none. See EventLog.
-  void set_observer(Observer* observer) noexcept { core_.observer_ = observer; }
-  [[nodiscard]] Observer* observer() const noexcept { return core_.observer_; }
+  void set_observer(Observer* observer) noexcept { core_.settings.observer = observer; }
+  [[nodiscard]] Observer* observer() const noexcept { return core_.settings.observer; }
 
   /// Limits the native stack of nested calls, in bytes, counted from run() or propagate(); calls
   /// beyond the limit throw UsageError. The default is 3/4 of the process's limit (RLIMIT_STACK; 2
   /// MiB if there is none). Set it for threads with less stack, and if the client's own frames need
   /// more. A roll-back may use an eighth more.
-  void set_stack_limit(std::size_t bytes) noexcept { core_.stack_limit_ = bytes; }
+  void set_stack_limit(std::size_t bytes) noexcept { core_.settings.stack_limit = bytes; }
 
   /// Turns on the audit, which detects calls that break conciseness or monotonicity. Cost: a table
   /// look-up for each call.
-  void set_audit(bool on) noexcept { core_.audit_ = on; }
-  [[nodiscard]] const AuditReport& audit() const noexcept { return core_.report_; }
+  void set_audit(bool on) noexcept { core_.settings.audit = on; }
+  [[nodiscard]] const AuditReport& audit() const noexcept { return core_.report(); }
 
   /// Records the weights that calls report by Scope::weigh from now on; 16 bytes for each report.
   /// Call it before the first run: existing calls have no weight until they run again.

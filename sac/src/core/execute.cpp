@@ -161,20 +161,21 @@ Handle Core::new_end() {
 }
 
 void Core::report_progress() {
-  progress_at_ += progress_every_;
-  if (!progress_({.executed = counts_.executed, .queued = queue_.size()})) throw Cancelled();
+  progress_at_ += settings.progress_every;
+  if (!settings.progress({.executed = counts_.executed, .queued = queue_.size()}))
+    throw Cancelled();
 }
 
 void Core::note_failure(Event::Kind kind, const Call* call) noexcept {
-  if (observer_ == nullptr) return;
+  if (settings.observer == nullptr) return;
   Event event{.kind = kind, .call = call, .by = running_call()};
   try {
     throw;
   } catch (const std::exception& error) {
     event.message = error.what();
-    observer_->on(event);
+    settings.observer->on(event);
   } catch (...) {
-    observer_->on(event);
+    settings.observer->on(event);
   }
 }
 

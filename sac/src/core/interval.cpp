@@ -88,7 +88,7 @@ void Core::fail_call(const Activation& caller, const Function& function) const {
                      ", which must be the last");
   }
   throw UsageError(calls + " too deep: calls inside of calls have taken " +
-                   std::to_string(stack_limit_) +
+                   std::to_string(settings.stack_limit) +
                    " bytes of the native stack; use tail calls, or divide");
 }
 
@@ -122,7 +122,7 @@ Handle Core::new_call(const Asked& asked) {
     throw;
   }
   try {
-    if (audit_) suspect(h, asked);
+    if (settings.audit) suspect(h, asked);
     appending() ? memo_.insert_soon(h, asked.hash) : memo_.insert(h, asked.hash);
   } catch (...) {
     if (function.destroy != nullptr) function.destroy(c);
@@ -206,7 +206,7 @@ void Core::free_call(Handle call) noexcept {
   const Function& function = c.function();
   memo_.erase(call, function.hash(c));
   if (function.destroy != nullptr) function.destroy(c);
-  if (function.object_offset != 0 && (watching_ || !names_.empty())) {
+  if (function.object_offset != 0 && (settings.watching || !settings.names.empty())) {
     forget_names(call, function.frame_bytes);
   }
   arena_.release(call, function.frame_bytes);

@@ -8,12 +8,12 @@ void Core::ask_again(Call& call, Handle place, Validity validity, const Edge* se
                      Handle source) noexcept {
   if (call.validity < validity) call.validity = validity;
   if (call.life != Life::placed) return;
-  if (observer_ != nullptr) [[unlikely]] {
-    observer_->on({.kind = Event::Kind::invalidated,
-                   .call = &call,
-                   .source = source,
-                   .seen = seen,
-                   .by = running_call()});
+  if (settings.observer != nullptr) [[unlikely]] {
+    settings.observer->on({.kind = Event::Kind::invalidated,
+                           .call = &call,
+                           .source = source,
+                           .seen = seen,
+                           .by = running_call()});
   }
   enqueue(call, place);
 }

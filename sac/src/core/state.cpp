@@ -7,20 +7,15 @@
 
 namespace sac {
 
-namespace {
-
-// A quarter is left for what the client has on the stack already, and for the last call's own.
-std::size_t default_stack_limit() { return platform::stack_bytes() / 4 * 3; }
-
-}  // namespace
-
 Core::Core(Engine& engine)
-    : stack_limit_(default_stack_limit()),
-      engine_(engine),
+    : engine_(engine),
       timeline_(arena_),
       memo_(arena_, timeline_),
       queue_(arena_, timeline_),
-      now_(timeline_.front()) {}
+      now_(timeline_.front()) {
+  // A quarter is left for what the client has on the stack already, and for the last call's own.
+  settings.stack_limit = platform::stack_bytes() / 4 * 3;
+}
 
 std::uint8_t Core::add_structure(Structure& structure) {
   auto free = std::find(structures_.begin(), structures_.end(), nullptr);
@@ -60,12 +55,12 @@ void Core::fail_not_running() const {
 
 // Shared libraries may each have a name of a type of their own.
 void Core::require_environment(std::string_view type) const {
-  if (environment_.object == nullptr) {
+  if (settings.environment.object == nullptr) {
     throw UsageError(context("there is no environment: Engine::set_environment gives one"));
   }
-  if (*environment_.type == type) return;
-  throw UsageError(context(("the environment is of type " + std::string(*environment_.type) +
-                            ", not " + std::string(type))
+  if (*settings.environment.type == type) return;
+  throw UsageError(context(("the environment is of type " +
+                            std::string(*settings.environment.type) + ", not " + std::string(type))
                                .c_str()));
 }
 
@@ -79,9 +74,9 @@ void Core::enter(Mode mode) {
   if (room_ < live_calls_) make_room(live_calls_);
   mode_ = mode;
   const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
-  stack_end_ = here > stack_limit_ ? here - stack_limit_ : 0;
+  stack_end_ = here > settings.stack_limit ? here - settings.stack_limit : 0;
   note(mode == Mode::running ? Event::Kind::run_started : Event::Kind::propagation_started);
-  progress_at_ = progress_ ? counts_.executed : ~std::uint64_t{0};
+  progress_at_ = settings.progress ? counts_.executed : ~std::uint64_t{0};
 }
 
 void Core::run_root(const Asked& asked) {
@@ -106,7 +101,8 @@ void Core::begin_undoing() noexcept {
   mode_ = Mode::undoing;
   note_failure(Event::Kind::roll_back_started);
   progress_at_ = ~std::uint64_t{0};
-  stack_end_ -= std::min(stack_end_, stack_limit_ / 8);  // to come as deep as what failed, and on
+  stack_end_ -=
+      std::min(stack_end_, settings.stack_limit / 8);  // to come as deep as what failed, and on
 }
 
 Counts Core::finish() noexcept {
@@ -130,11 +126,11 @@ void Core::purge() noexcept {
 
 // The handles will be those of other modifiables.
 void Core::forget_names(Handle from, std::size_t bytes) noexcept {
-  const auto first = names_.lower_bound(from);
+  const auto first = settings.names.lower_bound(from);
   auto last = first;
-  while (last != names_.end() && (last->first - from) * Arena::kGranule < bytes) ++last;
-  names_.erase(first, last);
-  if (watching_) engine_.forget_watches(from, bytes);
+  while (last != settings.names.end() && (last->first - from) * Arena::kGranule < bytes) ++last;
+  settings.names.erase(first, last);
+  if (settings.watching) engine_.forget_watches(from, bytes);
 }
 
 // A pair of equal labels counts if both are alive at the end; a discarded call that was made again

@@ -20,9 +20,9 @@ std::string Engine::describe(const Call& call) {
 std::string Engine::describe_mod(Handle head) const {
   if (head == 0) return "a modifiable that is null";
   const std::string handle = '@' + std::to_string(head);
-  const auto name = core_.names_.find(head);
-  return name == core_.names_.end() ? "modifiable " + handle
-                                    : "modifiable '" + name->second + "' (" + handle + ')';
+  const auto name = core_.settings.names.find(head);
+  return name == core_.settings.names.end() ? "modifiable " + handle
+                                            : "modifiable '" + name->second + "' (" + handle + ')';
 }
 
 Memory Engine::memory() const noexcept {
@@ -75,8 +75,8 @@ void Engine::shrink() {
 void Engine::set_progress(std::function<bool(const Progress&)> report, std::uint64_t every) {
   core_.require_idle("set_progress");
   SAC_EXPECTS(every > 0);
-  core_.progress_ = std::move(report);
-  core_.progress_every_ = every;
+  core_.settings.progress = std::move(report);
+  core_.settings.progress_every = every;
 }
 
 void Engine::check_invariants() const {

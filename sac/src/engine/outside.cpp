@@ -22,7 +22,7 @@ void Engine::release_outside(void* object, const char* kind) {
   if (!known) throw UsageError(std::string("release: the outside has not made this ") + kind);
   if (outside_head(head)->released) {
     const Handle handle = arena().handle_of(object);
-    const std::string name = core_.names_.contains(handle)
+    const std::string name = core_.settings.names.contains(handle)
                                  ? describe_mod(handle)
                                  : std::string(kind) + " @" + std::to_string(handle);
     throw UsageError("release: " + name + " has been released already");

@@ -64,7 +64,7 @@ bool Watches::has_changed(Handle head) const noexcept {
 
 detail::Watches& Engine::watches() {
   if (watches_ == nullptr) watches_ = std::make_unique<detail::Watches>(*mods_);
-  core_.watching_ = true;
+  core_.settings.watching = true;
   return *watches_;
 }
 

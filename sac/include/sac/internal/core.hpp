@@ -69,6 +69,22 @@ struct Asked {
   void (*construct)(void* memory, const void* arguments, std::uint32_t hash);
 };
 
+/// What the client sets.
+struct Settings {
+  std::function<bool(const Progress&)> progress;
+  std::uint64_t progress_every = 0;
+  Observer* observer = nullptr;
+  struct Environment {
+    void* object = nullptr;
+    const std::string_view* type = nullptr;  // its name, of which there is one object
+  };
+  Environment environment;
+  std::size_t stack_limit = 0;
+  bool audit = false;
+  bool watching = false;
+  std::map<Handle, std::string> names;  // of modifiables
+};
+
 class Core {
  public:
   enum class Mode : std::uint8_t { idle, running, propagating, undoing };
@@ -104,9 +120,10 @@ class Core {
   [[nodiscard]] bool broken() const noexcept { return broken_; }
   /// Ends a run or propagation, failed or not. Returns its counts.
   Counts finish() noexcept;
+  [[nodiscard]] const AuditReport& report() const noexcept { return report_; }
   void check_audit() {
     if (appending()) memo_.settle();
-    if (audit_) check_suspects();
+    if (settings.audit) check_suspects();
   }
   void purge() noexcept;
 
@@ -121,9 +138,7 @@ class Core {
   Handle call_tail(const Asked& asked);
   /// Gives the running call a new edge. Throws: std::bad_alloc.
   Edge& attach(std::uint8_t structure, std::uint8_t kind, std::size_t bytes) {
-    Activation& a = running();
-    if (now_ != a.place) [[unlikely]]
-      begin_segment(a);
+    running_here();
     return attach_here(structure, kind, bytes);
   }
   /// The same, after place(), or after recall(), which have found no call in between.
@@ -144,12 +159,7 @@ class Core {
   /// Whether the running call has edges of its last execution that it has not repeated yet.
   [[nodiscard]] bool may_recall() const noexcept { return current_->old_edges != 0; }
   /// The running call's place in time: that of its segment.
-  [[nodiscard]] Handle place() {
-    Activation& a = running();
-    if (now_ != a.place) [[unlikely]]
-      begin_segment(a);
-    return a.place;
-  }
+  [[nodiscard]] Handle place() { return running_here().place; }
   /// Moves the first edge of last time, in the same segment, that `matches` into this execution.
   /// The search goes on where the last one ended, and ends after `most` edges.
   template <class Matches>
@@ -171,9 +181,9 @@ class Core {
   /// The environment, which is a T. Throws: UsageError if it is none.
   template <class T>
   [[nodiscard]] T& environment() const {
-    if (environment_.type != &detail::kTypeName<std::remove_cv_t<T>>) [[unlikely]]
+    if (settings.environment.type != &detail::kTypeName<std::remove_cv_t<T>>) [[unlikely]]
       require_environment(detail::kTypeName<std::remove_cv_t<T>>);
-    return *static_cast<T*>(environment_.object);
+    return *static_cast<T*>(settings.environment.object);
   }
   void require_own(const void* object, const char* what) const {
     if (!arena_.contains(object)) [[unlikely]]
@@ -221,9 +231,9 @@ class Core {
   [[nodiscard]] const Call& parent_of(const Call& call) const noexcept;
   /// Tells an observer, if there is one, what has happened, by the running call.
   void note(Event::Kind kind, const Call* call = nullptr, Handle source = 0) noexcept {
-    if (observer_ == nullptr) [[likely]]
+    if (settings.observer == nullptr) [[likely]]
       return;
-    observer_->on({.kind = kind, .call = call, .source = source, .by = running_call()});
+    settings.observer->on({.kind = kind, .call = call, .source = source, .by = running_call()});
   }
   [[nodiscard]] Originals& originals() noexcept { return originals_; }
 
@@ -311,20 +321,7 @@ class Core {
   void shrink();
   void check_invariants(std::uint64_t waiting) const;
 
-  // Settings of the engine.
-  std::function<bool(const Progress&)> progress_;
-  std::uint64_t progress_every_ = 0;
-  Observer* observer_ = nullptr;
-  struct Environment {
-    void* object = nullptr;
-    const std::string_view* type = nullptr;  // its name, of which there is one object
-  };
-  Environment environment_;
-  std::size_t stack_limit_;
-  bool audit_ = false;
-  AuditReport report_;
-  std::map<Handle, std::string> names_;
-  bool watching_ = false;
+  Settings settings;
   void forget_names(Handle from, std::size_t bytes) noexcept;
 
  private:
@@ -353,6 +350,13 @@ class Core {
     if (current_ != nullptr) [[likely]]
       return *current_;
     fail_not_running();
+  }
+  // What runs, in the segment in which it does the next thing.
+  Activation& running_here() {
+    Activation& a = running();
+    if (now_ != a.place) [[unlikely]]
+      begin_segment(a);
+    return a;
   }
   [[nodiscard]] bool is_stamped(Handle h, std::size_t bytes, TimeNode::Kind kind) const noexcept;
   [[noreturn]] void fail_not_running() const;
@@ -445,6 +449,7 @@ class Core {
   std::size_t most_leaving_ = 0;  // so much of it has been in use
   std::size_t room_ = 0;          // for so many calls there is room in all three
   std::vector<std::pair<Handle, Handle>> suspects_;
+  AuditReport report_;
   Activation* current_ = nullptr;
   std::uintptr_t stack_end_ = 0;  // no call is made when the native stack has grown down to here
   Handle now_ = 0;                // the last time stamp that is settled or running
@@ -465,9 +470,7 @@ class WorkQueue : public Structure {
 
 template <class Matches>
 Edge* Core::recall(Matches&& matches, std::size_t most) {
-  Activation& a = running();
-  if (now_ != a.place) [[unlikely]]
-    begin_segment(a);
+  Activation& a = running_here();
   if (a.old_edges == 0) return nullptr;
   const auto search = [&](Handle previous, Handle end) -> Edge* {
     Handle* link = previous != 0 ? &at<Edge>(previous)->next : &a.old_edges;
