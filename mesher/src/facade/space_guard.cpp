@@ -30,7 +30,7 @@ class EdgeBeside {
         middle_(scaled(0.5, plus(p, q))),
         length_(std::sqrt(squared_distance(p, q))),
         reach_(kBesideEdge * length_),
-        near_(world.plc.store(), middle_, reach_, reach_),
+        near_(world.plc.store(), middle_, reach_),
         polygons_(find_near<Polygon>(middle_, reach_, near_.store())) {}
 
   /// Whether small angles excuse it.

@@ -37,7 +37,7 @@ template <int D>
 struct NearestSeen : Observation<D> {
   std::uint32_t nearest;  // 0: none
 };
-/// What a call that sees a cell may have asked of features besides.
+/// What a call that sees a cell may have asked of features besides those that meet it.
 template <int D>
 struct FeaturesAsked {};
 template <>

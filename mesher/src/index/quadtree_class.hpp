@@ -117,11 +117,12 @@ class Quadtree {
   void visit_reaching(const Box<D>& area, Visit&& visit) const noexcept {
     reach_box_below(0, {offset(box_.lo, area.lo), offset(box_.lo, area.hi)}, 1, area, visit);
   }
-  /// Calls visit(v) for every vertex v with distance(v.p) at most `times` the farthest side of its
-  /// reach, and for some others. `distance`: of something from a place; visit must not throw.
-  template <class Distance, class Visit>
-  void visit_within(double times, Distance&& distance, Visit&& visit) const noexcept {
-    within_below(0, box_.lo, box_.side, times, distance, visit);
+  /// Calls visit(v) for every vertex v from which something is at most `times` the farthest side of
+  /// its reach away, and for some others. `beyond(x, r)`: only if it is farther than r from x;
+  /// visit must not throw.
+  template <class Beyond, class Visit>
+  void visit_within(double times, Beyond&& beyond, Visit&& visit) const noexcept {
+    within_below(0, box_.lo, box_.side, times, beyond, visit);
   }
   /// A query centred at `v` looks as far as v.reach: so do the cells around it.
   void raise_reach(const Vertex<D>& v) noexcept;
@@ -270,9 +271,9 @@ class Quadtree {
   }
   [[nodiscard]] Point<D> within_cell(const Point<D>& p, int level) const noexcept;
   [[nodiscard]] Area<D> area_around(const Point<D>& p, Reach<D> reach, int level) const noexcept;
-  template <class Distance, class Visit>
-  void within_below(NodeIndex n, const Point<D>& corner, double side, double times,
-                    Distance& distance, Visit& visit) const noexcept;
+  template <class Beyond, class Visit>
+  void within_below(NodeIndex n, const Point<D>& corner, double side, double times, Beyond& beyond,
+                    Visit& visit) const noexcept;
   template <class Visit>
   void reach_box_below(NodeIndex n, const Box<D>& u, double across, const Box<D>& area,
                        Visit& visit) const noexcept;

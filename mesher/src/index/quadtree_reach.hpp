@@ -137,22 +137,29 @@ void Quadtree<D>::reach_box_below(NodeIndex n, const Box<D>& u, double across, c
 }
 
 template <int D>
-template <class Distance, class Visit>
+template <class Beyond, class Visit>
 void Quadtree<D>::within_below(NodeIndex n, const Point<D>& corner, double side, double times,
-                               Distance& distance, Visit& visit) const noexcept {
+                               Beyond& beyond, Visit& visit) const noexcept {
   Point<D> middle = corner;
   for (double& x : middle) x += side / 2;
   const double half = std::sqrt(double{D}) / 2 * side + margin_;
-  if (distance(middle) > half + times * nodes_[n].area.farthest() * side) return;
+  if (beyond(middle, half + times * nodes_[n].area.farthest() * side)) return;
   const NodeIndex child = nodes_[n].open();
   if (child == 0) {
-    visit_leaf(n, [&](VertexHandle h, const Point<D>&) { visit(vertices_[h]); });
+    for (BucketIndex b = nodes_[n].head; b != 0; b = buckets_[b].next) {
+      const Bucket& bucket = buckets_[b];
+      expect_bucket(bucket.next);
+      for (std::uint32_t i = 0; i < bucket.count; ++i) {
+        const double most = times * bucket.reach[i].most() * box_.side;
+        if (!beyond(bucket.place[i], most)) visit(vertices_[bucket.handle[i]]);
+      }
+    }
     return;
   }
   for (int c = 0; c < kChildren; ++c) {
     Point<D> inner = corner;
     for (int i = 0; i < D; ++i) inner[i] += (c >> i & 1) * (side / 2);
-    within_below(child + static_cast<NodeIndex>(c), inner, side / 2, times, distance, visit);
+    within_below(child + static_cast<NodeIndex>(c), inner, side / 2, times, beyond, visit);
   }
 }
 

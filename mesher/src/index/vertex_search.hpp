@@ -247,6 +247,10 @@ class VertexSearch {
   }
 
   static constexpr double kBeside = 1.75;
+  // No corner of a cell is farther from its vertex.
+  [[nodiscard]] double corners_within(const Reach<D>& reach) const noexcept {
+    return reach.farthest() * box_.side / 1.5;
+  }
   [[nodiscard]] double beside(const Reach<D>& reach) const noexcept {
     return kBeside * reach.farthest() * box_.side;
   }

@@ -66,6 +66,11 @@ class SegmentStoreOf {
   template <class Outside, class Visit>
   bool visit_in(const Point<D>& p, double reach, Outside&& outside, Visit&& visit) noexcept;
 
+  /// Visits the segments within `within` of p, and some others, some repeatedly, near ones first
+  /// where that is easily told. `within` may become less meanwhile.
+  template <class Visit>
+  void visit_nearest(const Point<D>& p, const double& within, Visit&& visit) noexcept;
+
   /// How much searches, and visits to the segments at a point, have looked at so far.
   [[nodiscard]] std::uint64_t looked_at() const noexcept { return tree_.looked_at() + met_; }
 
@@ -172,6 +177,18 @@ bool SegmentStoreOf<D>::visit_in(const Point<D>& p, double reach, Outside&& outs
                                  Visit&& visit) noexcept {
   const auto search = [&](auto&& take) { return tree_.visit_unless(outside, take); };
   return visit_tiles(p, p, reach, search, visit);
+}
+
+template <int D>
+template <class Visit>
+void SegmentStoreOf<D>::visit_nearest(const Point<D>& p, const double& within,
+                                      Visit&& visit) noexcept {
+  const auto search = [&](auto&& take) {
+    tree_.visit_nearest(p, within, [&](TileHandle t) { static_cast<void>(take(t)); });
+    return false;
+  };
+  const auto visit_one = [&](const Segment& s) { return visit(s), false; };
+  visit_tiles(p, p, within, search, visit_one);
 }
 
 // search(take): what has been found of a search for what is within `slack` of pq.

@@ -162,9 +162,14 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
   void tell_others(const F& f) noexcept {
     if (cells_ == nullptr) return;
     surroundings_->changed(extent_of(f));
-    cells_->feature_changed([&](const Point<3>& x) {
+    const auto distance = [&](const Point<3>& x) {
       return std::sqrt(distance2_to(x, f)) * (1 - 0x1p-29) - 2 * thickness_of(f);
-    });
+    };
+    const auto beyond = [&](const Point<3>& x, double r) {
+      return is_clear_of(f, x, r) || (r < reach_of(f) && distance(x) > r);
+    };
+    const auto across = [&](const Point<3>& v, const Point<3>& u) { return is_across(f, v, u); };
+    cells_->feature_changed(beyond, distance, across);
   }
 
   sac::Engine& engine_;

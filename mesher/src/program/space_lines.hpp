@@ -31,8 +31,7 @@ class Staying<S, 3> final : public EdgeFilter<3> {
         cell_(cell),
         any_(world.has_features()),
         before_(world.plc.store().looked_at()),
-        near_(world.plc.store(), cell.center().p, any_ ? std::sqrt(cell.reach2()) : 0,
-              any_ ? world.vertices.beside(cell) : 0) {}
+        near_(world.plc.store(), cell.center().p, any_ ? world.vertices.beside(cell) : 0) {}
   Staying(const Staying&) = delete;
   Staying& operator=(const Staying&) = delete;
   /// Records the search radius with the cell's observation.

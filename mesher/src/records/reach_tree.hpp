@@ -106,8 +106,12 @@ class ReachTree {
   bool visit_at(const Point<D>& p, Visit&& visit) const {
     return visit_near(p, p, 0, visit);
   }
-  /// The same for the items but those that lie outside: outside(x, r) says so of all of the ball of
-  /// radius r around x.
+  /// Visits all items whose discs are within `within` of p, and few others, those of near blocks
+  /// first. `within` may become less meanwhile: what is farther then is left out.
+  template <class Visit>
+  void visit_nearest(const Point<D>& p, const double& within, Visit&& visit) const;
+  /// As visit_near() for the items but those that lie outside: outside(x, r) says so of all of the
+  /// ball of radius r around x.
   template <class Outside, class Visit>
   bool visit_unless(Outside&& outside, Visit&& visit) const {
     return visit_where(
@@ -234,6 +238,8 @@ class ReachTree {
 
   template <class Enter, class Take, class Visit>
   bool visit_where(Enter&& enter, Take&& take, Visit&& visit) const;
+  template <class Visit>
+  void visit_children(Link link, Visit&& visit) const;
   template <class Take, class Visit>
   bool visit_list(Link list, Take& take, Visit& visit) const;
   struct Below {
@@ -285,19 +291,61 @@ bool ReachTree<Item, D>::visit_where(Enter&& enter, Take&& take, Visit&& visit) 
       continue;
     }
     if (link == 0) continue;
-    const Node& n = nodes_[link];
-    ++looked_at_;
-    const double side = unit_ * static_cast<double>(std::uint64_t{1} << (kLevels - 1 - n.level));
-    for (int c = 0; c < kChildren; ++c) {
-      if (n.child[c] == 0) continue;
-      Point<D> lo;
-      for (int i = 0; i < D; ++i) {
-        lo[i] = box_.lo[i] + static_cast<double>(n.corner[i]) * unit_ + (c >> i & 1) * side;
-      }
+    visit_children(link, [&](const Point<D>& lo, double side, int c, const Node& n) {
       if (enter(lo, side, double{n.reach[c]})) stack[top++] = n.child[c];
-    }
+    });
   }
   return false;
+}
+
+template <class Item, int D>
+template <class Visit>
+void ReachTree<Item, D>::visit_nearest(const Point<D>& p, const double& within,
+                                       Visit&& visit) const {
+  struct Block {
+    double from;  // no disc in it is nearer
+    Link link;
+  };
+  const FromSegment<D> here(p, p);
+  std::array<Block, (kChildren - 1) * (kLevels + 1) + 1> stack;
+  int top = 0;
+  stack[top++] = {0, nodes_[0].child[0]};
+  const auto take = [&](const Point<D>& x, double reach) {
+    return here.distance(x) - reach - margin() <= within;
+  };
+  while (top > 0) {
+    const Block block = stack[--top];
+    if (block.link == 0 || block.from > within) continue;
+    if (is_list(block.link)) {
+      visit_list(block.link, take, visit);
+      continue;
+    }
+    const int first = top;
+    visit_children(block.link, [&](const Point<D>& lo, double side, int c, const Node& n) {
+      const Block child{here.distance(lo, side) - n.reach[c] - margin(), n.child[c]};
+      if (child.from > within) return;
+      int i = top++;
+      for (; i > first && stack[i - 1].from < child.from; --i) stack[i] = stack[i - 1];
+      stack[i] = child;
+    });
+  }
+}
+
+/// Calls visit(lo, side, c, node) for the blocks of its children.
+template <class Item, int D>
+template <class Visit>
+void ReachTree<Item, D>::visit_children(Link link, Visit&& visit) const {
+  const Node& n = nodes_[link];
+  ++looked_at_;
+  const double side = unit_ * static_cast<double>(std::uint64_t{1} << (kLevels - 1 - n.level));
+  for (int c = 0; c < kChildren; ++c) {
+    if (n.child[c] == 0) continue;
+    Point<D> lo;
+    for (int i = 0; i < D; ++i) {
+      lo[i] = box_.lo[i] + static_cast<double>(n.corner[i]) * unit_ + (c >> i & 1) * side;
+    }
+    visit(lo, side, c, n);
+  }
 }
 
 // The slots from the root to the one in which a place belongs: it is empty, holds a list, or a node

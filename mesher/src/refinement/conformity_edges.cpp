@@ -35,7 +35,7 @@ auto Conformity::split_piece(std::uint32_t piece) const -> Wanted {
   const Edge& e = store_.edges()[p.edge];
   if (p.by != kNone && vertices_[p.by].role.on != 0) {
     const Vertex<3> v = record(p.by);
-    const FeaturesBeside near(store_, place(p.a), 0, kEverywhere);
+    const FeaturesBeside near(store_, place(p.a), kEverywhere);
     const auto copy = SmallAngles(near).copy({v, vertices_[p.by].role}, e);
     if (copy && from_a(e, p.lo) < from_a(e, copy->role.label) &&
         from_a(e, copy->role.label) < from_a(e, p.hi)) {
@@ -63,7 +63,7 @@ Vertex<3> Conformity::record(std::uint32_t v) const {
 
 bool Conformity::keeps(std::uint32_t v, std::uint32_t w) const {
   if (vertices_[v].role.on == 0 || vertices_[w].role.on == 0) return false;
-  const FeaturesBeside near(store_, scaled(0.5, plus(place(v), place(w))), 0, kEverywhere);
+  const FeaturesBeside near(store_, scaled(0.5, plus(place(v), place(w))), kEverywhere);
   return SmallAngles(near).keeps({record(v), vertices_[v].role}, {record(w), vertices_[w].role});
 }
 

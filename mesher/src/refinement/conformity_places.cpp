@@ -22,7 +22,7 @@ Placed Conformity::place_for(const Crossings::Crossing& crossing) const {
   for (const std::uint32_t w : crossing.face) {
     if (vertices_[w].role.on == 0 || is_on(w, crossing.polygon)) continue;
     const Vertex<3> v = record(w);
-    const FeaturesBeside near(store_, crossing.at, 0, kEverywhere);
+    const FeaturesBeside near(store_, crossing.at, kEverywhere);
     const auto copy = SmallAngles(near).copy({v, vertices_[w].role}, f);
     if (copy && detail::polygon_of(copy->role) != 0 &&
         detail::is_in_ball(crossing.at, r2, copy->p)) {
@@ -65,7 +65,7 @@ bool Conformity::is_nearest(std::uint32_t v, const Point<3>& x) const {
 
 /// On f at x, which is in v's cell, or on an edge near x instead, if that takes some of the cell.
 Placed Conformity::place_near(const Polygon& f, const Point<3>& x, std::uint32_t v) const {
-  const FeaturesBeside near(store_, x, 0, kEverywhere);
+  const FeaturesBeside near(store_, x, kEverywhere);
   const auto on_edge = yield_to_edges(near, x, std::sqrt(squared_distance(x, place(v))));
   return on_edge && cuts_cell(v, on_edge->p) ? *on_edge : placed_on(f, x);
 }
@@ -82,7 +82,7 @@ bool Conformity::cuts_cell(std::uint32_t v, const Point<3>& x) const {
 }
 
 std::optional<Placed> Conformity::yield(const Point<3>& x, double radius) const {
-  return detail::yield(FeaturesBeside(store_, x, 0, kEverywhere), x, radius);
+  return detail::yield(FeaturesBeside(store_, x, kEverywhere), x, radius);
 }
 
 }  // namespace mesher::detail

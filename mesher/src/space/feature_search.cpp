@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "sets/common_items.hpp"
+#include "space/polygon_shape.hpp"
 
 namespace mesher::detail {
 
@@ -47,6 +48,24 @@ template <>
 bool is_before(const Polygon* a, const Polygon* b) {
   return order(*a, *b) < 0;
 }
+
+// What is nearest of those that are shown.
+template <class F>
+class NearestOne {
+ public:
+  explicit NearestOne(double most) : within_(most) {}
+  [[nodiscard]] const double& within() const noexcept { return within_; }
+  [[nodiscard]] bool is_too_far(double distance) const noexcept { return !(distance <= within_); }
+  void show(double distance, const F& f) noexcept {
+    if (found_ != nullptr && distance == within_ && !is_before(&f, found_)) return;
+    found_ = &f, within_ = distance;
+  }
+  [[nodiscard]] const F* found() const noexcept { return found_; }
+
+ private:
+  const F* found_ = nullptr;
+  double within_;
+};
 
 // Some are found repeatedly.
 template <class F>
@@ -156,6 +175,33 @@ std::vector<const Edge*> FeaturesBeside::edges(const Point<3>& x, double radius)
   auto edges = find_near<Edge>(x, radius, store_);
   std::erase_if(edges, [&](const Edge* e) { return !is_in_ball(place_, most_ * most_, *e); });
   return edges;
+}
+
+const Edge* FeaturesBeside::nearest_edge(const Point<3>& x, double most) const {
+  NearestOne<Edge> nearest(most * most);
+  double within = most;  // some more than the root of nearest.within()
+  store_.visit_nearest<Edge>(x, within, [&](const Edge& e) {
+    const double d2 = distance2_to(x, e);
+    if (nearest.is_too_far(d2) || !is_in_ball(place_, most_ * most_, e)) return;
+    nearest.show(d2, e);
+    within = std::sqrt(d2) * (1 + 0x1p-29);
+  });
+  ask(x, nearest.found() != nullptr ? within : most);
+  return nearest.found();
+}
+
+const Polygon* FeaturesBeside::nearest_under(const Point<3>& x, double most) const {
+  NearestOne<Polygon> nearest(most);
+  double within = most;
+  store_.visit_nearest<Polygon>(x, within, [&](const Polygon& f) {
+    const double height = std::abs(f.plane.height(x));
+    if (nearest.is_too_far(height) || !contains(f, f.plane.foot(x))) return;
+    if (!is_in_ball(place_, most_ * most_, f)) return;
+    nearest.show(height, f);
+    within = height * (1 + 0x1p-29);
+  });
+  ask(x, nearest.found() != nullptr ? within : most);
+  return nearest.found();
 }
 
 Feature common(const Edge& e, const Edge& t, const Point<3>& x, const FeatureStore& store) {

@@ -1,6 +1,9 @@
 // Queries about the features of the input near a position: functions of the input alone.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "cells/voronoi_cell3.hpp"
 #include "geometry/box.hpp"
 #include "index/features.hpp"
@@ -50,6 +53,41 @@ template <>
   return {f.middle, f.middle, f.reach + f.thickness};
 }
 
+/// Only if no place within `slack` of the convex hull of `places` is as near to v as to u.
+template <class Places>
+[[nodiscard]] bool is_across(const Places& places, const Point<3>& v, const Point<3>& u,
+                             double slack) {
+  const Point<3> to = minus(u, v);
+  const double u2 = squared(to), away = std::sqrt(u2) * slack;
+  return std::all_of(places.begin(), places.end(), [&](const Point<3>& p) {
+    const Point<3> x = minus(p, v);
+    const double beyond = dot(to, x) - u2 / 2 - away;
+    return beyond > 0x1p-10 * u2 + 0x1p-20 * std::sqrt(u2 * squared(x));
+  });
+}
+
+/// Around what place, and how far, a ball reaches that has all of a feature.
+[[nodiscard]] inline Point<3> middle_of(const Edge& e) {
+  return scaled(0.5, plus(e.place_a, e.place_b));
+}
+[[nodiscard]] inline Point<3> middle_of(const Polygon& f) { return f.middle; }
+[[nodiscard]] inline double reach_of(const Edge& e) { return 0.5 * e.length * (1 + 0x1p-20); }
+[[nodiscard]] inline double reach_of(const Polygon& f) { return f.reach + 3 * f.thickness; }
+/// Whether that ball is farther than r from x: then so is the feature, less twice its thickness.
+template <class F>
+[[nodiscard]] bool is_clear_of(const F& f, const Point<3>& x, double r) {
+  const double most = (r + reach_of(f)) * (1 + 0x1p-20);
+  return squared_distance(x, middle_of(f)) > most * most;
+}
+
+/// Only if no place of a feature is as near to v as to u.
+[[nodiscard]] inline bool is_across(const Edge& e, const Point<3>& v, const Point<3>& u) {
+  return is_across(std::array{e.place_a, e.place_b}, v, u, 0);
+}
+[[nodiscard]] inline bool is_across(const Polygon& f, const Point<3>& v, const Point<3>& u) {
+  return is_across(f.places, v, u, 2 * f.thickness);
+}
+
 /// How far a feature may be off a line or a plane.
 [[nodiscard]] inline double thickness_of(const Edge&) { return 0; }
 [[nodiscard]] inline double thickness_of(const Polygon& f) { return f.thickness; }
@@ -67,23 +105,28 @@ template <class F>
 /// features are there whose coming and going concerns it.
 class FeaturesBeside {
  public:
-  /// `reach`: of the cell, which asks within this at least; `most`: it asks nothing beyond.
-  FeaturesBeside(FeatureStore& store, const Point<3>& place, double reach, double most)
-      : store_(store), place_(place), most_(most), asked_(reach * (1 + 0x1p-20)) {}
+  /// `place`: of the cell's vertex; `most`: it asks nothing beyond.
+  FeaturesBeside(FeatureStore& store, const Point<3>& place, double most)
+      : store_(store), place_(place), most_(most) {}
 
   [[nodiscard]] FeatureStore& store() const noexcept { return store_; }
   [[nodiscard]] const Point<3>& place() const noexcept { return place_; }
-  /// Within what distance of the cell's vertex features have been asked for.
+  /// Within what distance of the cell's vertex features have been asked for. 0: they have not.
   [[nodiscard]] double asked() const noexcept { return asked_; }
   /// The polygons within `radius` of x, and others, in canonical order.
   [[nodiscard]] const std::vector<const Polygon*>& polygons(const Point<3>& x, double radius) const;
-  /// The polygons that have x, but for rounding (of which half of its distance is far more, unless
-  /// it is the cell's vertex), and others.
-  [[nodiscard]] const std::vector<const Polygon*>& polygons_at(const Point<3>& x) const {
-    return polygons(x, std::sqrt(squared_distance(x, place_)) / 2);
-  }
   /// The edges within `radius` of x, in canonical order.
   [[nodiscard]] std::vector<const Edge*> edges(const Point<3>& x, double radius) const;
+  /// The polygons that e lies on, in canonical order; x is a place of e.
+  [[nodiscard]] std::span<const PolygonHandle> polygons_at(const Edge& e, const Point<3>& x) const {
+    ask(x, 0);
+    return store_.polygons_at(e);
+  }
+  /// The edge nearest to x, at most `most` away; of equally near ones the first. Null: none.
+  /// Cost: O(log L/s), and what is as near.
+  [[nodiscard]] const Edge* nearest_edge(const Point<3>& x, double most) const;
+  /// The same of the polygons that have the foot of x.
+  [[nodiscard]] const Polygon* nearest_under(const Point<3>& x, double most) const;
 
  private:
   void ask(const Point<3>& x, double radius) const;
@@ -91,7 +134,7 @@ class FeaturesBeside {
   FeatureStore& store_;
   Point<3> place_;
   double most_;
-  mutable double asked_;
+  mutable double asked_ = 0;
   mutable double known_ = -1;  // within this polygons_ are all
   mutable std::vector<const Polygon*> polygons_;
 };

@@ -19,6 +19,7 @@ std::size_t FeatureStore::hash(const Key& key) noexcept {
 Edge& FeatureStore::record(VertexHandle a, VertexHandle b) {
   Edge& e = edges_.record(a, b);
   if (e.self >= users_.size()) users_.resize(e.self + std::size_t{1});
+  if (e.self >= at_edge_.size()) at_edge_.resize(users_.size());
   return e;
 }
 
@@ -122,8 +123,22 @@ void FeatureStore::leave(std::span<const EdgeHandle> edges) noexcept {
   for (const EdgeHandle e : edges) leave(edges_[e]);
 }
 
+void FeatureStore::make_room_at_edges(const Polygon& f) {
+  for (const EdgeHandle e : f.all_edges) at_edge_[e].reserve(at_edge_[e].size() + 1);
+}
+
+void FeatureStore::put_at_edges(const Polygon& f) noexcept {
+  for (const EdgeHandle e : f.all_edges) {
+    PolygonsAtEdge& all = at_edge_[e];
+    const auto at = std::find_if(all.begin(), all.end(),
+                                 [&](PolygonHandle h) { return order(f, polygons_[h]) < 0; });
+    all.insert(at, f.self);
+  }
+}
+
 void FeatureStore::put(Polygon& f) {
   SAC_EXPECTS(!f.alive);
+  make_room_at_edges(f);
   std::size_t used = 0;
   try {
     for (; used < f.all_edges.size(); ++used) use(edges_[f.all_edges[used]]);
@@ -132,6 +147,7 @@ void FeatureStore::put(Polygon& f) {
     leave(std::span(f.all_edges).first(used));
     throw;
   }
+  put_at_edges(f);
   touch(f);
   f.alive = true;
   if (listener_ != nullptr) listener_->came(f);
@@ -139,6 +155,9 @@ void FeatureStore::put(Polygon& f) {
 
 void FeatureStore::take(Polygon& f) noexcept {
   tree_.erase(f.middle, f.self);
+  for (const EdgeHandle e : f.all_edges) {
+    at_edge_[e].erase(std::find(at_edge_[e].begin(), at_edge_[e].end(), f.self));
+  }
   touch(f);
   f.alive = false;
   if (listener_ != nullptr) listener_->went(f);
@@ -159,21 +178,29 @@ void FeatureStore::commit() noexcept {
 }
 
 std::size_t FeatureStore::bytes() const noexcept {
-  return edges_.bytes() + users_.capacity() * sizeof(users_[0]) + polygons_.bytes() +
+  std::size_t lists = at_edge_.capacity() * sizeof(at_edge_[0]);
+  for (const auto& all : at_edge_) {
+    if (all.capacity() > 2) lists += all.capacity() * sizeof(all[0]);
+  }
+  return edges_.bytes() + users_.capacity() * sizeof(users_[0]) + lists + polygons_.bytes() +
          by_parts_.bytes() + tree_.bytes();
 }
 
 void FeatureStore::check_invariants() const {
   edges_.check_invariants();
   tree_.check_invariants();
-  std::vector<std::uint32_t> polygons_at(users_.size());
+  std::vector<std::size_t> count(users_.size());
   std::size_t records = 0, live = 0;
   polygons_.for_each([&](const Polygon& f) {
     ++records;
     SAC_INVARIANT(by_parts_.find(Key{&f}) == f.self && (f.alive || f.changed));
     if (!f.alive) return;
     ++live;
-    for (const EdgeHandle e : f.all_edges) ++polygons_at[e];
+    for (const EdgeHandle e : f.all_edges) {
+      ++count[e];
+      const auto all = polygons_at(edges()[e]);
+      SAC_INVARIANT(std::find(all.begin(), all.end(), f.self) != all.end());
+    }
     for (std::size_t i = 0; i < f.corners.size(); ++i) {
       SAC_INVARIANT(points_[f.corners[i]].p == f.places[i]);
       SAC_INVARIANT(f.has(f.corners[i]) && f.has_edge(f.edges[i]));
@@ -182,7 +209,11 @@ void FeatureStore::check_invariants() const {
   SAC_INVARIANT(records == by_parts_.size() && live == tree_.size());
   edges().for_each([&](const Edge& e) {
     SAC_INVARIANT((users(e) > 0) == e.alive);
-    SAC_INVARIANT(!e.alive || users(e) >= polygons_at[e.self]);
+    const auto all = polygons_at(e);
+    SAC_INVARIANT(all.size() == count[e.self] && users(e) >= all.size());
+    SAC_INVARIANT(std::is_sorted(all.begin(), all.end(), [&](PolygonHandle f, PolygonHandle g) {
+      return order(polygons_[f], polygons_[g]) < 0;
+    }));
   });
 }
 

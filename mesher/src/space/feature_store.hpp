@@ -5,6 +5,7 @@
 // edge or inside. Listeners are notified of added and removed edges and polygons.
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -118,6 +119,24 @@ class FeatureStore {
                               [&](PolygonHandle h) { return visit(std::as_const(polygons_[h])); });
   }
 
+  /// Visits the edges, or the polygons, within `within` of x, and some others, some repeatedly,
+  /// near ones first where that is easily told. `within` may become less meanwhile. visit must not
+  /// throw, nor search.
+  template <class F, class Visit>
+  void visit_nearest(const Point<3>& x, const double& within, Visit&& visit) noexcept {
+    if constexpr (std::is_same_v<F, Edge>) {
+      edges_.visit_nearest(x, within, visit);
+    } else {
+      tree_.visit_nearest(x, within, [&](PolygonHandle h) { visit(std::as_const(polygons_[h])); });
+    }
+  }
+
+  /// The live polygons that an edge lies on, in canonical order.
+  [[nodiscard]] std::span<const PolygonHandle> polygons_at(const Edge& e) const noexcept {
+    if (e.self >= at_edge_.size()) return {};
+    return {at_edge_[e.self].data(), at_edge_[e.self].size()};
+  }
+
   /// How much searches have looked at so far.
   [[nodiscard]] std::uint64_t looked_at() const noexcept {
     return edges_.looked_at() + tree_.looked_at() + parts_looked_at_;
@@ -142,10 +161,14 @@ class FeatureStore {
   void touch(Polygon& f) noexcept;
   void leave(std::span<const EdgeHandle> edges) noexcept;
   [[nodiscard]] Polygon shaped(PolygonParts& parts);
+  void make_room_at_edges(const Polygon& f);
+  void put_at_edges(const Polygon& f) noexcept;
 
   const VertexPool<3>& points_;
   SegmentStoreOf<3> edges_;
   std::vector<std::uint32_t> users_;  // by the handles of edges
+  using PolygonsAtEdge = boost::container::small_vector<PolygonHandle, 2>;
+  std::vector<PolygonsAtEdge> at_edge_;  // likewise: those that are live
   PolygonPool polygons_;
   HandleTable<FeatureStore> by_parts_;
   ReachTree<PolygonHandle, 3> tree_;

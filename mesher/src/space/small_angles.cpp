@@ -52,9 +52,9 @@ bool SmallAngles::visit_features_of(const Standing& v, Visit&& visit) const {
   const EdgeHandle e = edge_of(v.role);
   if (e == 0) return false;
   if (visit(Feature(store_.edges()[e]))) return true;
-  const auto& polygons = near_.polygons_at(v.v.p);
+  const auto polygons = near_.polygons_at(store_.edges()[e], v.v.p);
   return std::any_of(polygons.begin(), polygons.end(),
-                     [&](const Polygon* f) { return f->has_edge(e) && visit(Feature(*f)); });
+                     [&](PolygonHandle f) { return visit(Feature(store_.polygons()[f])); });
 }
 
 Feature SmallAngles::shared(const Feature& f, const Feature& g, const Point<3>& x) const {

@@ -21,7 +21,6 @@ bool is_on(const Polygon& f, const Point<3>& x) {
   return height_of(f, x) <= f.thickness && contains(f, x);
 }
 
-Point<3> middle_of(const Edge& e) { return scaled(0.5, plus(e.place_a, e.place_b)); }
 Point<3> middle_of(VertexHandle v, VertexHandle w, const FeatureStore& store) {
   return scaled(0.5, plus(store.points()[v].p, store.points()[w].p));
 }

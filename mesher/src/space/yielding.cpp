@@ -9,21 +9,6 @@
 
 namespace mesher::detail {
 
-namespace {
-
-const Polygon* nearest_below(const FeaturesBeside& near, const Point<3>& x, double within) {
-  const Polygon* nearest = nullptr;
-  for (const Polygon* f : near.polygons(x, within)) {
-    const double height = std::abs(f->plane.height(x));
-    if (height > within || (nearest != nullptr && height >= within)) continue;
-    if (!contains(*f, f->plane.foot(x))) continue;
-    nearest = f, within = height;
-  }
-  return nearest;
-}
-
-}  // namespace
-
 std::optional<Placed> place_in_ball(const Edge& e, const Point<3>& x, double radius) {
   const Point<3> along = minus(e.place_b, e.place_a), to = minus(x, e.place_a);
   const double length2 = squared(along);
@@ -38,20 +23,14 @@ std::optional<Placed> place_in_ball(const Edge& e, const Point<3>& x, double rad
 }
 
 std::optional<Placed> yield_to_edges(const FeaturesBeside& near, const Point<3>& x, double radius) {
-  const Edge* nearest = nullptr;
-  double within2 = kYields * kYields * radius * radius;
-  for (const Edge* e : near.edges(x, kYields * radius)) {
-    const double d2 = distance2(x, e->place_a, e->place_b);
-    if (d2 > within2 || (nearest != nullptr && d2 == within2)) continue;
-    nearest = e, within2 = d2;
-  }
+  const Edge* nearest = near.nearest_edge(x, kYields * radius);
   if (nearest == nullptr) return std::nullopt;
   return place_in_ball(*nearest, x, radius);
 }
 
 std::optional<Placed> yield(const FeaturesBeside& near, const Point<3>& x, double radius) {
   if (const auto on_edge = yield_to_edges(near, x, radius)) return on_edge;
-  const Polygon* f = nearest_below(near, x, kYields * radius);
+  const Polygon* f = near.nearest_under(x, kYields * radius);
   if (f == nullptr) return std::nullopt;
   const Point<3> foot = f->plane.foot(x);
   if (const auto on_edge = yield_to_edges(near, foot, (1 - kYields) * radius)) return on_edge;
