@@ -3,6 +3,8 @@
 //
 // tests/sac/readme_snippets_test.cpp runs it, and compares it with them line by line.
 // clang-format off
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -224,6 +226,39 @@ void parameters() {
   check(values(e, e.get(out)) == std::vector{62, 10, 45});
 }
 
+// --- Chunks and grids ------------------------------------------------------------------------
+
+struct CommonSubsequence {
+  using Across = int;  // by how much the length grows over a step down,
+  using Down = int;    // and over one to the right
+  static int left(int) { return 0; }
+  static int above(int) { return 0; }
+  static void block(sac::Scope&, int a, int b, int& left, int& above) {
+    const int length = a == b ? 1 : std::max(left, above);  // less that of the corner
+    const int below = length - left;
+    left = length - above;
+    above = below;
+  }
+  static int rise(int below) { return below; }
+};
+
+void compare(sac::Scope& s, sac::List<int> a, sac::List<int> b, sac::Mod<std::int64_t> length) {
+  const auto columns = sac::grid<CommonSubsequence>(s, a, b);
+  s.write(length, sac::fetch(s, sac::rise_of<CommonSubsequence>(s, columns)));
+}
+
+void grids() {
+  sac::Engine e;
+  sac::Sequence<int> a(e, {3, 1, 4, 1, 5, 9}), b(e, {1, 4, 1, 4, 2});
+  const auto length = e.cell<std::int64_t>();
+  e.run<compare>(a.list(), b.list(), length);
+  check(e.get(length) == 3);  // 1, 4, 1
+  a.insert_after(a.first(), 2);
+  b.push_front(3);
+  e.propagate();
+  check(e.get(length) == 4);
+}
+
 // --- Why did it run again? -------------------------------------------------------------------
 
 void why_again() {
@@ -248,6 +283,7 @@ void run_all() {
   without_a_trace();
   sequences();
   parameters();
+  grids();
   why_again();
 }
 

@@ -341,6 +341,93 @@ struct MapWithIds {
   }
 };
 
+// Lists of chunks have their elements' digests.
+std::uint64_t digest_of(const std::vector<int>& chunk) {
+  std::uint64_t digest = chunk.size();
+  for (const int x : chunk) digest = sac::mix(digest + static_cast<std::uint64_t>(x));
+  return digest;
+}
+template <int kMost>
+struct Chunks {
+  static constexpr const char* kName = "chunks";
+  static auto make(auto& s, auto in) { return sac::map<&digest_of>(s, sac::chunks(s, in, kMost)); }
+  static std::vector<std::pair<ElementId, std::vector<int>>> cut(const Items& items) {
+    const auto lot = [](const Item& i) { return sac::mix(~i.id.value); };
+    const std::vector<Item> all(items.begin(), items.end());
+    std::vector<std::pair<ElementId, std::vector<int>>> chunks;
+    for (std::size_t begin = 0; begin < all.size();) {
+      std::size_t end = all.size();
+      if (end - begin > kMost) {
+        end = begin + (kMost + 1) / 2;
+        for (std::size_t i = end; i <= begin + kMost; ++i) {
+          if (lot(all[i]) < lot(all[end])) end = i;
+        }
+      }
+      chunks.push_back({all[begin].id, {}});
+      for (; begin < end; ++begin) chunks.back().second.push_back(all[begin].value);
+    }
+    return chunks;
+  }
+  static auto oracle(const Items& items, int) {
+    std::list<std::pair<ElementId, std::uint64_t>> out;
+    for (const auto& [id, chunk] : cut(items)) out.emplace_back(id, digest_of(chunk));
+    return out;
+  }
+};
+
+// A grid whose borders tell all that precedes.
+struct Weave {
+  using Across = std::uint64_t;
+  using Down = std::pair<std::uint64_t, int>;
+  static Across left(const std::vector<int>& row) { return digest_of(row); }
+  static Down above(const std::vector<int>& column) { return {1, static_cast<int>(column.size())}; }
+  static void weave(const std::vector<int>& row, const std::vector<int>& column, int bias,
+                    Across& left, Down& above) {
+    left = sac::mix(left + 3 * above.first + digest_of(column));
+    above = {sac::mix(above.first ^ (left + digest_of(row))), above.second + bias};
+  }
+  static void block(auto& s, const std::vector<int>& row, const std::vector<int>& column,
+                    Across& left, Down& above) {
+    weave(row, column, column[0] % 4 == 0 ? bias_of(s) : 1, left, above);
+  }
+};
+struct OtherWeave : Weave {};
+struct WovenBelow {
+  static constexpr std::string_view kName = "woven_below";
+  std::uint64_t operator()(auto& s, const auto& column) const {
+    const auto& [digest, sum] = s.read(column.border);
+    return digest + static_cast<std::uint64_t>(sum);
+  }
+};
+struct Grid {
+  static constexpr const char* kName = "grid";
+  static auto make(auto& s, auto in) {
+    const auto rows = sac::chunks(s, sac::filter<&is_odd>(s, in), 20);
+    const auto columns = sac::chunks(s, in, 33);
+    static_cast<void>(sac::grid<OtherWeave>(s, rows, columns));  // does not disturb
+    return sac::map<WovenBelow{}>(s, sac::grid<Weave>(s, rows, columns));
+  }
+  static auto oracle(const Items& items, int bias) {
+    const auto rows = Chunks<20>::cut(Filter::oracle(items, bias));
+    const auto columns = Chunks<33>::cut(items);
+    std::vector<Weave::Down> below;
+    for (const auto& [id, column] : columns) below.push_back(Weave::above(column));
+    for (const auto& [id, row] : rows) {
+      Weave::Across left = Weave::left(row);
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        const auto& column = columns[i].second;
+        Weave::weave(row, column, column[0] % 4 == 0 ? bias : 1, left, below[i]);
+      }
+    }
+    std::list<std::pair<ElementId, std::uint64_t>> out;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      out.emplace_back(columns[i].first,
+                       below[i].first + static_cast<std::uint64_t>(below[i].second));
+    }
+    return out;
+  }
+};
+
 // From a list to numbers.
 struct Reductions {
   static constexpr const char* kName = "reductions";
@@ -515,7 +602,7 @@ void check_program(std::uint64_t seed, int size, int steps) {
 
 #define LIST_PROGRAMS                                                                    \
   MapOfValue, MapInScope, MapWithIds, Filter, FilterInScope, Reverse, Sort, SortInScope, \
-      SortFilterMap, SortOfSort, ManyOfOne, Reductions, DigestOfAll
+      SortFilterMap, SortOfSort, ManyOfOne, Chunks<1>, Chunks<7>, Grid, Reductions, DigestOfAll
 
 TEMPLATE_TEST_CASE("operations on a sequence follow random edits as if run from scratch", "",
                    LIST_PROGRAMS) {
@@ -532,4 +619,29 @@ TEMPLATE_TEST_CASE("operations on a sequence follow many random edits", "[.soak]
   for (std::uint64_t seed = 1000; seed < 2000; ++seed) {
     check_program<TestType>(seed, static_cast<int>(seed % 400), 20);
   }
+}
+
+namespace {
+
+void empty_chunks(sac::Scope& s, sac::List<int> list) {
+  static_cast<void>(sac::chunks(s, list, 0));
+}
+void negative_band(sac::Scope& s, sac::List<int> list) {
+  const auto chunks = sac::chunks(s, list, 2);
+  static_cast<void>(sac::grid<Weave>(s, chunks, chunks, -1));
+}
+void band_without_rise(sac::Scope& s, sac::List<int> list) {
+  const auto chunks = sac::chunks(s, list, 2);
+  static_cast<void>(sac::grid<Weave>(s, chunks, chunks, 9));
+}
+
+}  // namespace
+
+TEST_CASE("chunks without elements, and bands that a grid cannot have, are refused") {
+  sac::Engine engine;
+  sac::Sequence<int> numbers(engine, {1, 2, 3});
+  CHECK_THROWS_AS(engine.run<empty_chunks>(numbers.list()), sac::UsageError);
+  CHECK_THROWS_AS(engine.run<negative_band>(numbers.list()), sac::UsageError);
+  CHECK_THROWS_AS(engine.run<band_without_rise>(numbers.list()), sac::UsageError);
+  CHECK(engine.live_calls() == 0);
 }

@@ -4,6 +4,8 @@
 #include "sac/agenda.hpp"
 #include "sac/engine.hpp"
 #include "sac/iterate.hpp"
+#include "sac/list/chunks.hpp"
+#include "sac/list/grid.hpp"
 #include "sac/list/list.hpp"
 #include "sac/list/operations.hpp"
 #include "sac/list/reduce.hpp"
