@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "../examples/edit_distance.hpp"
 #include "../examples/spell_check.hpp"
 #include "../examples/spreadsheet.hpp"
 #include "../examples/string_hash.hpp"
@@ -164,6 +165,136 @@ struct StringHash {
   };
 };
 
+// --- Edit distance: two strings of n letters, the one with n / 250 changes made of the other -----
+
+// A letter of either is erased, or replaced; the next update takes that back.
+constexpr int kBand = 400;  // no distance is greater
+
+template <bool kBits>  // the baseline computes 64 distances at a time, or each alone
+struct EditDistance {
+  static constexpr const char* kName = kBits ? "edit_distance" : "edit_distance_by_letters";
+
+  struct Input {
+    std::vector<char> letters[2];
+    int changed = 0;      // string
+    int at = -1;          // a letter that differs from what it was; -1: none
+    bool is_out = false;  // it is erased
+    char old = 0;         // what it was
+
+    explicit Input(int n) {
+      IntRandom random;
+      for (int i = 0; i < n; ++i) letters[0].push_back(random_letter(random));
+      for (const char letter : letters[0]) {
+        const int kind = random(250) == 0 ? random(3) : 3;
+        if (kind != 0) letters[1].push_back(kind == 3 ? letter : random_letter(random));
+        if (kind == 1) letters[1].push_back(letter);
+      }
+    }
+    static char random_letter(IntRandom& random) { return static_cast<char>('a' + random(26)); }
+    std::vector<char> text(int string) const {
+      std::vector<char> all = letters[string];
+      if (is_out && changed == string) all.erase(all.begin() + at);
+      return all;
+    }
+    std::uint64_t baseline() const {
+      const auto a = text(0), b = text(1);
+      return static_cast<std::uint64_t>(kBits ? by_blocks(a, b) : by_letters(a, b));
+    }
+    // In a band around the diagonal.
+    static std::int64_t by_letters(const std::vector<char>& a, const std::vector<char>& b) {
+      constexpr int kFar = 1 << 29;
+      const int m = static_cast<int>(b.size());
+      std::vector<int> row(b.size() + 1, kFar);
+      for (int j = 0; j <= std::min(m, kBand); ++j) row[static_cast<std::size_t>(j)] = j;
+      for (int i = 1; i <= static_cast<int>(a.size()); ++i) {
+        const auto first = static_cast<std::size_t>(std::max(1, i - kBand));
+        const auto last = static_cast<std::size_t>(std::min(m, i + kBand));
+        const char letter = a[static_cast<std::size_t>(i - 1)];
+        int diagonal = std::exchange(row[first - 1], first == 1 ? i : kFar);
+        int left = row[first - 1];
+        for (std::size_t j = first; j <= last; ++j) {
+          const int replaced = diagonal + static_cast<int>(letter != b[j - 1]);
+          diagonal = row[j];
+          row[j] = left = std::min(replaced, 1 + std::min(diagonal, left));
+        }
+      }
+      return row.back();
+    }
+    static std::vector<std::vector<char>> cut(const std::vector<char>& text) {
+      std::vector<std::vector<char>> chunks;
+      for (std::size_t i = 0; i < text.size(); i += 64) {
+        const auto begin = text.begin() + static_cast<std::ptrdiff_t>(i);
+        chunks.emplace_back(begin, i + 64 < text.size() ? begin + 64 : text.end());
+      }
+      return chunks;
+    }
+    static std::int64_t by_blocks(const std::vector<char>& a, const std::vector<char>& b) {
+      constexpr std::size_t kWidth = kBand / 64 + 1;
+      const auto rows = cut(a), columns = cut(b);
+      std::vector<Differences> below;
+      for (const auto& column : columns) below.push_back(rising(column.size()));
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        Differences left = rising(rows[i].size());
+        const std::size_t end = std::min(columns.size(), i + kWidth + 1);
+        for (std::size_t j = i < kWidth ? 0 : i - kWidth; j < end; ++j) {
+          cross_block(rows[i], columns[j], left, below[j]);
+        }
+      }
+      auto distance = static_cast<std::int64_t>(a.size());
+      for (const Differences& d : below) distance += sum(d);
+      return distance;
+    }
+  };
+  template <class Host>
+  struct World {
+    using S = ScopeOf<Host>;
+    Host& host;
+    sac::Sequence<char, Host> strings[2];
+    std::vector<sac::ElementId> ids[2];  // of the letters
+    typename S::template ModType<std::int64_t> out;
+
+    World(Host& h, const Input& input)
+        : host(h),
+          strings{sac::Sequence<char, Host>(h, input.letters[0]),
+                  sac::Sequence<char, Host>(h, input.letters[1])},
+          out(h.template cell<std::int64_t>()) {
+      for (int i = 0; i < 2; ++i) {
+        for (const auto& letter : strings[i]) ids[i].push_back(letter.id());
+      }
+    }
+    void run() {
+      host.template run<edit_distance::edit_distance>(strings[0].list(), strings[1].list(), kBand,
+                                                      64, out);
+    }
+    std::uint64_t result() { return static_cast<std::uint64_t>(host.get(out)); }
+    void edit(Input& input, IntRandom& random) {
+      const bool is_back = input.at >= 0;
+      if (!is_back) {
+        input.changed = random(2);
+        input.at = 1 + random(static_cast<int>(input.letters[input.changed].size()) - 1);
+        input.is_out = random(2) == 0;
+      }
+      const auto at = static_cast<std::size_t>(input.at);
+      auto& string = strings[input.changed];
+      auto& letter = input.letters[input.changed][at];
+      auto& id = ids[input.changed][at];
+      if (!input.is_out) {
+        if (!is_back) input.old = letter;
+        letter = is_back ? input.old : Input::random_letter(random);
+        string.set(id, letter);
+      } else if (is_back) {
+        id = string.insert_after(ids[input.changed][at - 1], letter);
+      } else {
+        string.erase(id);
+      }
+      if (is_back) {
+        input.at = -1;
+        input.is_out = false;
+      }
+    }
+  };
+};
+
 // --- Spreadsheet: n cells ------------------------------------------------------------------------
 
 // Each row: A, B numbers, C = A * B, D = SUM(A:C), E = D - C; F sums up ten rows of E, G ten cells
@@ -257,6 +388,10 @@ int main(int argc, char** argv) {
   selection.run<Spelling<false>>(100000, 20000);
   selection.run<Spelling<true>>(100000, 10);
   selection.run<StringHash>(1000000, 20000);
+  selection.run<EditDistance<true>>(10000, 20000);
+  selection.run<EditDistance<true>>(100000, 20000);
+  selection.run<EditDistance<false>>(10000, 200);
+  selection.run<EditDistance<false>>(100000, 200);
   selection.run<Sheet<false>>(104000, 20000);
   selection.run<Sheet<true>>(104000, 20000);
 }

@@ -10,6 +10,7 @@
 
 #include "breadth_first_search.hpp"
 #include "connected_components.hpp"
+#include "edit_distance.hpp"
 #include "expression_tree.hpp"
 #include "random_program.hpp"
 #include "spell_check.hpp"
@@ -227,6 +228,40 @@ TEST_CASE("a letter put into a string or taken out changes O(log n) chunks of it
     const double mean = static_cast<double>(sum) / (2 * kEdits);
     CHECK(mean < 2.5 * log2_of(n));
     CHECK(engine.live_calls() < static_cast<std::uint64_t>(n));
+  }
+}
+
+TEST_CASE("a letter of two strings near to each other changes few blocks, however long they are") {
+  double of_shorter = 0;
+  for (const int n : {4000, 16000}) {
+    Random random(static_cast<std::uint64_t>(n));
+    std::vector<char> a;
+    for (int i = 0; i < n; ++i) a.push_back(static_cast<char>('a' + random(26)));
+    std::vector<char> b = a;
+    for (int i = 0; i < n / 50; ++i) b[static_cast<std::size_t>(random(n))] = 'x';
+    sac::Engine engine;
+    sac::Sequence<char> first(engine, a), second(engine, b);
+    const auto out = engine.cell<std::int64_t>();
+    constexpr int kBand = 500;
+    engine.run<edit_distance::edit_distance>(first.list(), second.list(), kBand, 64, out);
+    const std::int64_t distance = engine.get(out);
+    std::uint64_t sum = 0;
+    constexpr int kEdits = 100;
+    for (int i = 0; i < kEdits; ++i) {
+      auto& string = i % 2 == 0 ? first : second;
+      const sac::ElementId at = string.insert_after(
+          sac::ElementId{static_cast<std::uint64_t>(random(n) + 1)}, static_cast<char>('A'));
+      sum += work(engine.propagate());
+      CHECK(engine.get(out) == distance + 1);
+      string.erase(at);
+      sum += work(engine.propagate());
+      CHECK(engine.get(out) == distance);
+    }
+    const double mean = static_cast<double>(sum) / (2 * kEdits);
+    INFO(n << " letters: " << mean);
+    CHECK(mean < 150);  // a row or column of the band has some 25 blocks
+    if (n == 4000) of_shorter = mean;
+    CHECK(mean < 1.5 * of_shorter);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "../edit_distance.hpp"
 #include "../spell_check.hpp"
 #include "../spreadsheet.hpp"
 #include "../string_hash.hpp"
@@ -244,6 +245,124 @@ struct StringApp {
     std::vector<std::pair<Item*, int>> letters_;  // with their ids
     typename S::template ModType<const Item*> head_;
     typename S::template ModType<std::uint64_t> hash_;
+  };
+};
+
+// --- Edit distance -------------------------------------------------------------------------------
+
+// Of two strings with at first half of `size` letters each, the second a changed copy of the first;
+// with a band and chunks of at most kMost letters.
+template <int kBand, int kMost>
+struct EditDistanceApp {
+  static constexpr const char* kName =
+      kBand == sac::kNoBand ? "edit distance" : "edit distance, in a band";
+  struct Input {
+    StringApp::Input strings[2];
+  };
+  struct Edit {
+    int string;
+    StringApp::Edit edit;
+  };
+  static Input random_input(Random& random, int size) {
+    Input input{{StringApp::random_input(random, size / 2), {}}};
+    input.strings[1] = input.strings[0];
+    for (int i = 0; i < size / 16; ++i) {
+      StringApp::apply(input.strings[1], StringApp::random_edit(random, input.strings[1]));
+    }
+    return input;
+  }
+  static Edit random_edit(Random& random, const Input& input) {
+    const int string = random(2);
+    return {string, StringApp::random_edit(random, input.strings[string])};
+  }
+  static Edit inverse(const Input& before, const Edit& e) {
+    return {e.string, StringApp::inverse(before.strings[e.string], e.edit)};
+  }
+  static void apply(Input& input, const Edit& e) {
+    StringApp::apply(input.strings[e.string], e.edit);
+  }
+  static std::int64_t oracle(const Input& input) {
+    std::string words[2];
+    for (int i = 0; i < 2; ++i) {
+      for (const auto& l : input.strings[i].letters) words[i] += l.letter;
+    }
+    const int distance = examples::spell_check::edit_distance(words[0], words[1]);
+    if (distance <= kBand) return distance;
+    sac::PlainScope scope;
+    const std::int64_t in_band = World<sac::PlainScope>(scope, input).result();
+    return in_band < distance ? -1 : in_band;
+  }
+
+  template <class Host>
+  class World {
+   public:
+    using S = ScopeOf<Host>;
+    World(Host& host, const Input& input)
+        : strings_{String(host), String(host)},
+          host_(host),
+          distance_(host.template cell<std::int64_t>()) {
+      for (int i = 0; i < 2; ++i) {
+        int place = 0;
+        for (const auto& l : input.strings[i].letters) {
+          edit({i, {StringApp::Edit::insert, place++, l}});
+        }
+      }
+      host.template run<examples::edit_distance::edit_distance>(
+          strings_[0].list(), strings_[1].list(), kBand, kMost, distance_);
+    }
+    void edit(const Edit& e) { strings_[e.string].edit(e.edit); }
+    std::int64_t result() { return host_.get(distance_); }
+
+    template <class Recorder>
+    void name(Recorder& recorder) const {
+      recorder.name(distance_, "distance");
+      for (int i = 0; i < 2; ++i) strings_[i].name(recorder, i);
+    }
+
+   private:
+    // A list whose letters may come back with their ids, which those of a sac::Sequence do not.
+    class String {
+     public:
+      using Node = sac::ListNode<char, S>;
+      explicit String(Host& host) : host_(host), nodes_{&host.template make<Node>()} {
+        host.set(nodes_[0]->next, nullptr);
+      }
+      sac::List<char, S> list() const { return sac::List<char, S>(*nodes_[0]); }
+      void edit(const StringApp::Edit& e) {
+        const auto at = nodes_.begin() + e.place + 1;
+        if (e.kind == StringApp::Edit::replace && (*at)->value() == e.letter.letter) return;
+        const Node* behind = at == nodes_.end() ? nullptr : *at;
+        if (e.kind != StringApp::Edit::insert) {
+          Node& old = **at;
+          behind = host_.get(old.next);
+          nodes_.erase(at);
+          if constexpr (S::kTraced) host_.release(old);
+        }
+        Node* node = nullptr;
+        if (e.kind != StringApp::Edit::erase) {
+          node = &host_.template make<Node>();
+          node->hold(sac::ElementId{static_cast<std::uint64_t>(e.letter.id) + 1}, e.letter.letter);
+          host_.set(node->next, behind);
+          nodes_.insert(nodes_.begin() + e.place + 1, node);
+        }
+        host_.set(nodes_[static_cast<std::size_t>(e.place)]->next, node != nullptr ? node : behind);
+      }
+      template <class Recorder>
+      void name(Recorder& recorder, int string) const {
+        for (const Node* node : nodes_) {
+          recorder.name(node, "letter", string, node->id().value,
+                        node->holds() ? node->value() : 0);
+        }
+      }
+
+     private:
+      Host& host_;
+      std::vector<Node*> nodes_;  // the header first
+    };
+
+    String strings_[2];
+    Host& host_;
+    typename S::template ModType<std::int64_t> distance_;
   };
 };
 
