@@ -29,10 +29,10 @@ inline double quantile(std::vector<double> all, double q) {
 /// Updates of one kind.
 class Sample {
  public:
-  /// Times m.update().
-  template <int D>
-  mesher::Change<D> update(mesher::BoxMesher<D>& m) {
-    mesher::Change<D> change;
+  /// Times m.update(), of a mesher of either kind.
+  template <class Mesher>
+  auto update(Mesher& m) {
+    decltype(m.update()) change;
     const double seconds = seconds_of([&] { change = m.update(); });
     microseconds_.push_back(1e6 * seconds);
     executed_ += static_cast<double>(change.calls.executed);

@@ -132,7 +132,7 @@ inline ComplexMesh PlcRun::mesh() {
     });
   }
   constexpr double kEverywhere = std::numeric_limits<double>::infinity();
-  const FeaturesBeside all(world_.plc.store(), {}, kEverywhere, kEverywhere);
+  const FeaturesBeside all(world_.plc.store(), {}, kEverywhere);
   for (const Polygon* f : polygons_) {
     auto& face = mesh.faces.emplace_back();
     std::uint32_t begin = 0;

@@ -210,6 +210,8 @@ void FeatureStore::check_invariants() const {
   edges().for_each([&](const Edge& e) {
     SAC_INVARIANT((users(e) > 0) == e.alive);
     const auto all = polygons_at(e);
+    SAC_INVARIANT(e.alive || all.empty());
+    if (!e.alive) return;
     SAC_INVARIANT(all.size() == count[e.self] && users(e) >= all.size());
     SAC_INVARIANT(std::is_sorted(all.begin(), all.end(), [&](PolygonHandle f, PolygonHandle g) {
       return order(polygons_[f], polygons_[g]) < 0;

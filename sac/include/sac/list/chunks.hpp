@@ -11,10 +11,10 @@
 //     order are the list; of an empty list there are none.
 // (2) The id of a chunk is that of its first element. A chunk with other elements is another node,
 //     as in all lists.
-// (3) An edit changes its chunk, and with probability O(1 / most) a few behind. In calls: 2
-// executed,
-//     2 created and 2 discarded for each chunk that changes, and one executed for the chunk before,
-//     if it looked so far. From scratch two for each chunk. A call reads `most` links.
+// (3) An edit changes its chunk, and with probability O(1 / most) a few behind. In calls: two
+//     executed, two created and two discarded for each chunk that changes, and one executed for the
+//     chunk before, if it looked so far. From scratch two for each chunk. A call reads `most`
+//     links.
 //
 // Source: local minima as cuts, as in Bjørner, Blass, Gurevich, *Content-dependent chunking for
 // differential compression, the local maximum approach* (2010), of ids instead of contents.
