@@ -160,10 +160,10 @@ constexpr auto parts() {
     return Types<typename T::value_type>();
   } else if constexpr (kIsVariant<T>) {
     return alternatives(static_cast<const T*>(nullptr));
+  } else if constexpr (RangeOfOthers<T>) {  // also an array, of any length
+    return Types<std::ranges::range_value_t<const T>>();
   } else if constexpr (TupleLike<T>) {
     return decltype(std::apply(types_of, std::declval<const T&>()))();
-  } else if constexpr (RangeOfOthers<T>) {
-    return Types<std::ranges::range_value_t<const T>>();
   } else {
     return decltype(with_members(std::declval<const T&>(), types_of))();
   }
@@ -184,11 +184,11 @@ void for_each_part(const T& value, Visit&& visit) {
   } else if constexpr (kIsVariant<T>) {
     visit(value.index());
     if (!value.valueless_by_exception()) std::visit(visit_all, value);
+  } else if constexpr (RangeOfOthers<T>) {
+    if constexpr (!TupleLike<T>) visit(static_cast<std::size_t>(std::ranges::distance(value)));
+    for (const auto& part : value) visit(part);
   } else if constexpr (TupleLike<T>) {
     std::apply(visit_all, value);
-  } else if constexpr (RangeOfOthers<T>) {
-    visit(static_cast<std::size_t>(std::ranges::distance(value)));
-    for (const auto& part : value) visit(part);
   } else {
     with_members(value, visit_all);
   }
