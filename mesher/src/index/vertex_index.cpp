@@ -422,7 +422,11 @@ void VertexIndex<sac::Scope, D>::record_cell(sac::Scope& s, Vertex<D>& v, const 
   last_cell_->radius = radius;
   last_cell_->count = static_cast<std::uint32_t>(codes_.size());
   std::copy(codes_.begin(), codes_.end(), last_cell_->codes());
-  if constexpr (D == 3) last_cell_->features_within = 0;
+  if constexpr (D == 3) {
+    // A cell on a side of the box may go farther there than the corners that concern() looks at.
+    const double beside = v.boundary ? std::sqrt(cell.reach2()) * (1 + 0x1p-10) : 0;
+    last_cell_->features_within = in_sides(beside);
+  }
   fill(s, *last_cell_, v, reach);
 }
 

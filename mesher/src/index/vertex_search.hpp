@@ -247,7 +247,8 @@ class VertexSearch {
   }
 
   static constexpr double kBeside = 1.75;
-  // No corner of a cell is farther from its vertex.
+  // No corner of a cell is farther from its vertex, unless that is on a side of the box: somewhat
+  // more than by the 1.577 at beside().
   [[nodiscard]] double corners_within(const Reach<D>& reach) const noexcept {
     return reach.farthest() * box_.side / 1.5;
   }

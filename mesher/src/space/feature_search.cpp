@@ -2,6 +2,8 @@
 #include "space/feature_search.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <new>
 #include <tuple>
 
@@ -48,24 +50,6 @@ template <>
 bool is_before(const Polygon* a, const Polygon* b) {
   return order(*a, *b) < 0;
 }
-
-// What is nearest of those that are shown.
-template <class F>
-class NearestOne {
- public:
-  explicit NearestOne(double most) : within_(most) {}
-  [[nodiscard]] const double& within() const noexcept { return within_; }
-  [[nodiscard]] bool is_too_far(double distance) const noexcept { return !(distance <= within_); }
-  void show(double distance, const F& f) noexcept {
-    if (found_ != nullptr && distance == within_ && !is_before(&f, found_)) return;
-    found_ = &f, within_ = distance;
-  }
-  [[nodiscard]] const F* found() const noexcept { return found_; }
-
- private:
-  const F* found_ = nullptr;
-  double within_;
-};
 
 // Some are found repeatedly.
 template <class F>
@@ -177,31 +161,36 @@ std::vector<const Edge*> FeaturesBeside::edges(const Point<3>& x, double radius)
   return edges;
 }
 
-const Edge* FeaturesBeside::nearest_edge(const Point<3>& x, double most) const {
-  NearestOne<Edge> nearest(most * most);
-  double within = most;  // some more than the root of nearest.within()
-  store_.visit_nearest<Edge>(x, within, [&](const Edge& e) {
-    const double d2 = distance2_to(x, e);
-    if (nearest.is_too_far(d2) || !is_in_ball(place_, most_ * most_, e)) return;
-    nearest.show(d2, e);
-    within = std::sqrt(d2) * (1 + 0x1p-29);
+/// The one with the least measure, which may be `most_measure` at most; of equal ones the first.
+/// `measure(f, least)`: anything above `least` if it is above; `distance(measure)`: of f from x.
+template <class F, class Measure, class Distance>
+const F* FeaturesBeside::nearest(const Point<3>& x, double most, double most_measure,
+                                 Measure&& measure, Distance&& distance) const {
+  const F* found = nullptr;
+  double least = most_measure, within = most;
+  store_.visit_nearest<F>(x, within, [&](const F& f) {
+    const double m = measure(f, least);
+    if (!(m <= least) || !is_in_ball(place_, most_ * most_, f)) return;
+    if (found != nullptr && m == least && !is_before(&f, found)) return;
+    found = &f, least = m;
+    within = distance(m) * (1 + 0x1p-29);
   });
-  ask(x, nearest.found() != nullptr ? within : most);
-  return nearest.found();
+  ask(x, within);
+  return found;
+}
+
+const Edge* FeaturesBeside::nearest_edge(const Point<3>& x, double most) const {
+  return nearest<Edge>(
+      x, most, most * most, [&](const Edge& e, double) { return distance2_to(x, e); },
+      [](double d2) { return std::sqrt(d2); });
 }
 
 const Polygon* FeaturesBeside::nearest_under(const Point<3>& x, double most) const {
-  NearestOne<Polygon> nearest(most);
-  double within = most;
-  store_.visit_nearest<Polygon>(x, within, [&](const Polygon& f) {
-    const double height = std::abs(f.plane.height(x));
-    if (nearest.is_too_far(height) || !contains(f, f.plane.foot(x))) return;
-    if (!is_in_ball(place_, most_ * most_, f)) return;
-    nearest.show(height, f);
-    within = height * (1 + 0x1p-29);
-  });
-  ask(x, nearest.found() != nullptr ? within : most);
-  return nearest.found();
+  const auto height = [&](const Polygon& f, double least) {
+    const double h = std::abs(f.plane.height(x));
+    return h <= least && contains(f, f.plane.foot(x)) ? h : std::numeric_limits<double>::infinity();
+  };
+  return nearest<Polygon>(x, most, most, height, [](double h) { return h; });
 }
 
 Feature common(const Edge& e, const Edge& t, const Point<3>& x, const FeatureStore& store) {

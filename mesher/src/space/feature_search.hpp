@@ -1,6 +1,8 @@
 // Queries about the features of the input near a position: functions of the input alone.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -130,6 +132,9 @@ class FeaturesBeside {
 
  private:
   void ask(const Point<3>& x, double radius) const;
+  template <class F, class Measure, class Distance>
+  [[nodiscard]] const F* nearest(const Point<3>& x, double most, double most_measure,
+                                 Measure&& measure, Distance&& distance) const;
 
   FeatureStore& store_;
   Point<3> place_;
