@@ -250,10 +250,17 @@ class Quadtree {
   }
   template <class Visit>
   void visit_leaf(NodeIndex n, Visit&& visit) const {
+    visit_entries(n, [&](const Bucket& bucket, std::uint32_t i) {
+      visit(bucket.handle[i], bucket.place[i]);
+    });
+  }
+  // Calls visit(bucket, i) for the entries of a leaf.
+  template <class Visit>
+  void visit_entries(NodeIndex n, Visit&& visit) const {
     for (BucketIndex b = nodes_[n].head; b != 0; b = buckets_[b].next) {
       const Bucket& bucket = buckets_[b];
       expect_bucket(bucket.next);
-      for (std::uint32_t i = 0; i < bucket.count; ++i) visit(bucket.handle[i], bucket.place[i]);
+      for (std::uint32_t i = 0; i < bucket.count; ++i) visit(bucket, i);
     }
   }
   void reserve_buckets(std::size_t more);

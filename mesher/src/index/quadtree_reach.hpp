@@ -146,14 +146,10 @@ void Quadtree<D>::within_below(NodeIndex n, const Point<D>& corner, double side,
   if (beyond(middle, half + times * nodes_[n].area.farthest() * side)) return;
   const NodeIndex child = nodes_[n].open();
   if (child == 0) {
-    for (BucketIndex b = nodes_[n].head; b != 0; b = buckets_[b].next) {
-      const Bucket& bucket = buckets_[b];
-      expect_bucket(bucket.next);
-      for (std::uint32_t i = 0; i < bucket.count; ++i) {
-        const double most = times * bucket.reach[i].most() * box_.side;
-        if (!beyond(bucket.place[i], most)) visit(vertices_[bucket.handle[i]]);
-      }
-    }
+    visit_entries(n, [&](const Bucket& bucket, std::uint32_t i) {
+      const double most = times * bucket.reach[i].most() * box_.side;
+      if (!beyond(bucket.place[i], most)) visit(vertices_[bucket.handle[i]]);
+    });
     return;
   }
   for (int c = 0; c < kChildren; ++c) {

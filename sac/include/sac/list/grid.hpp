@@ -50,6 +50,7 @@
 #include <functional>
 #include <limits>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -71,26 +72,21 @@ struct GridLine {
 
 namespace detail {
 
-template <class Rule>
-struct GridRow {
-  using Border = typename Rule::Across;
-  static constexpr std::string_view kName = "grid_row";
-  static constexpr std::string_view kListName = "grid_rows";
-  static constexpr std::string_view kBehindName = "grid_rows_behind";
+// What the lines of a grid are: rows, or columns.
+template <class Rule, bool kRows>
+struct GridLines {
+  using Border = std::conditional_t<kRows, typename Rule::Across, typename Rule::Down>;
+  static constexpr std::string_view kName = kRows ? "grid_row" : "grid_column";
+  static constexpr std::string_view kListName = kRows ? "grid_rows" : "grid_columns";
+  static constexpr std::string_view kBehindName =
+      kRows ? "grid_rows_behind" : "grid_columns_behind";
   template <class T>
   static Border before_first(const T& value) {
-    return Rule::left(value);
-  }
-};
-template <class Rule>
-struct GridColumn {
-  using Border = typename Rule::Down;
-  static constexpr std::string_view kName = "grid_column";
-  static constexpr std::string_view kListName = "grid_columns";
-  static constexpr std::string_view kBehindName = "grid_columns_behind";
-  template <class T>
-  static Border before_first(const T& value) {
-    return Rule::above(value);
+    if constexpr (kRows) {
+      return Rule::left(value);
+    } else {
+      return Rule::above(value);
+    }
   }
 };
 
@@ -279,8 +275,8 @@ inline constexpr int kNoBand = std::numeric_limits<int>::max();
 template <class Rule, class S, class R, class C>
 [[nodiscard]] auto grid(S& s, List<R, S> rows, List<C, S> columns, std::int64_t band = kNoBand) {
   if (band < 0) throw UsageError("grid: a band is not negative");
-  const auto row_lines = detail::lines<detail::GridRow<Rule>>(s, rows);
-  const auto column_lines = detail::lines<detail::GridColumn<Rule>>(s, columns);
+  const auto row_lines = detail::lines<detail::GridLines<Rule, true>>(s, rows);
+  const auto column_lines = detail::lines<detail::GridLines<Rule, false>>(s, columns);
   if (band >= kNoBand) {
     s.template call<detail::RowsFrom<Rule>{}>(row_lines.header(), column_lines.header());
   } else if constexpr (requires(const typename Rule::Down& border) { Rule::rise(border); }) {
