@@ -187,7 +187,7 @@ void add_program_options(CLI::App& command, MeshArguments& args) {
   command.add_flag(
       "--merge", args.merge,
       "As --surface, and merge adjacent polygons of one plane that have the same marker; also\n"
-      "for .poly and .smesh");
+      "for .poly and .smesh. 'mesh --surface' merges them unless --no-merge is given");
   command
       .add_option(
           "--dimension,--dim", args.dimension,

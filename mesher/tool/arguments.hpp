@@ -26,7 +26,7 @@ struct MeshArguments {
   std::string max_area, max_volume, max_size, sizes;
   std::string max_vertices;
   bool region_areas = false;
-  bool surface = false, merge = false;
+  bool surface = false, merge = false, no_merge = false;
   bool repair = false;
   bool box = false;
   bool is_static = false;

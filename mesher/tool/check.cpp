@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <set>
 #include <variant>
 
 #include "arguments.hpp"
@@ -28,7 +29,7 @@ struct CheckArguments {
   std::string max_area, max_volume;
   bool constrained = false;
   bool ties = false, near = false;
-  bool surface = false, merge = false;
+  bool surface = false, merge = false, no_merge = false;
 };
 
 /// What was looked at, and what was found.
@@ -93,6 +94,18 @@ Judged judge(const CheckArguments& args, mesher::MeshData<2>& mesh) {
   return judged;
 }
 
+/// As 'mesh --surface' does; but of a mesh that was made without it the polygons stay as they are.
+void merge_unless_named(mesher::GraphFile<3>& file, const mesher::MeshData<3>& mesh) {
+  mesher::GraphFile<3> merged = with_merged_polygons(file);
+  std::set<mesher::PolygonId> there;
+  for (const mesher::Polygon& f : merged.graph.polygons) there.insert(f.id);
+  const auto& faces = mesh.features.faces;
+  const bool fits = std::all_of(faces.begin(), faces.end(), [&](const mesher::MeshFace& f) {
+    return !f.polygon || there.count(*f.polygon) != 0;
+  });
+  if (fits) file = std::move(merged);
+}
+
 Judged judge(const CheckArguments& args, mesher::MeshData<3>& mesh) {
   if (args.constrained) refuse(args, "--constrained", "triangles");
   if (!args.max_area.empty()) refuse(args, "--max-area", "triangles");
@@ -103,6 +116,9 @@ Judged judge(const CheckArguments& args, mesher::MeshData<3>& mesh) {
                               : args.surface ? Faces::polygons
                                              : Faces::unless_points);
     complex = input->file();
+    if (args.surface && !args.merge && !args.no_merge && !is_complex(args.input)) {
+      merge_unless_named(complex, mesh);
+    }
     forget_counted_values(args.mesh, mesh, complex);
   }
   mesher::CheckOptions<3> options;
@@ -163,6 +179,9 @@ void add_check(CLI::App& app) {
   check->add_flag("--surface", args->surface,
                   "The faces of .off, .obj, .ply or .stl are polygons, as for 'mesh'");
   check->add_flag("--merge", args->merge, "As --surface, with polygons merged as by 'mesh'");
+  check->add_flag("--no-merge", args->no_merge,
+                  "With --surface: as by 'mesh --surface --no-merge'; else that is seen by the\n"
+                  "polygons that the mesh names");
   check->add_option("--rho", args->rho, "Bound of circumradius over shortest edge");
   check->add_option("--max-area", args->max_area, "Bound of the area of triangles");
   check->add_option("--max-volume", args->max_volume, "Bound of the volume of tetrahedra");

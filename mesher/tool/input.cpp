@@ -47,15 +47,16 @@ std::string repair_hint(const Error& error, const std::string& reach) {
 bool is_one_of(std::string_view format, std::initializer_list<std::string_view> formats) {
   return std::find(formats.begin(), formats.end(), format) != formats.end();
 }
-bool is_complex(const std::string& path) {
-  return is_one_of(mesher::format_of(path), {".poly", ".smesh"});
-}
 // Which may have faces.
 bool is_surface(const std::string& path) {
   return is_one_of(mesher::format_of(path), {".off", ".obj", ".ply", ".stl"});
 }
 
 }  // namespace
+
+bool is_complex(const std::string& path) {
+  return is_one_of(mesher::format_of(path), {".poly", ".smesh"});
+}
 
 FileLocation Standing::location(const Feature& feature) const {
   const auto edited = edited_.find(feature);
@@ -84,17 +85,16 @@ std::string Standing::warning_text(const mesher::SeedId& seed, const std::string
 
 // --- A dimension's ---------------------------------------------------------------------------
 
-// Polygons that are left keep their places, by their ids.
-template <>
-void Input<3>::merge_polygons() {
-  const mesher::GraphFile<3> all = file_;
-  file_.graph = mesher::with_merged_polygons(all.graph);
+mesher::GraphFile<3> with_merged_polygons(const mesher::GraphFile<3>& all) {
+  mesher::GraphFile<3> merged = all;
+  merged.graph = mesher::with_merged_polygons(all.graph);
   std::map<mesher::PolygonId, mesher::FilePosition> places;
   for (std::size_t i = 0; i < all.polygons.size(); ++i) {
     places.emplace(all.graph.polygons[i].id, all.polygons[i]);
   }
-  file_.polygons.clear();
-  for (const auto& f : file_.graph.polygons) file_.polygons.push_back(places.at(f.id));
+  merged.polygons.clear();
+  for (const auto& f : merged.graph.polygons) merged.polygons.push_back(places.at(f.id));
+  return merged;
 }
 
 template <>
@@ -116,7 +116,7 @@ Input<3>::Input(const std::string& path, Faces faces, mesher::CoincidingPoints c
         {path});
   }
   file_ = mesher::read<3>(path, {.coinciding = coinciding, .points_alone = !has_features_});
-  if (faces == Faces::merged) merge_polygons();
+  if (faces == Faces::merged) file_ = with_merged_polygons(file_);
 }
 
 template <int D>

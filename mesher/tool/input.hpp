@@ -79,12 +79,18 @@ decltype(auto) locating(const Standing& input, Make&& make) {
   }
 }
 
+/// Whether it is of a format of complexes, whose polygons are always meshed.
+[[nodiscard]] bool is_complex(const std::string& path);
+
 /// What faces of a file in space are.
 enum class Faces : std::uint8_t {
   unless_points,  ///< polygons of formats of complexes (.poly, .smesh); of others nothing
   polygons,
   merged,  ///< polygons; those of one plane that are side by side are one
 };
+
+/// Those of one plane that are side by side are one; those that are left keep their positions.
+[[nodiscard]] mesher::GraphFile<3> with_merged_polygons(const mesher::GraphFile<3>& all);
 
 /// A graph of a file. D is 2 or 3.
 template <int D>
@@ -132,7 +138,6 @@ class Input final : public Standing {
   }
   [[nodiscard]] bool meet(const std::vector<mesher::Feature>& features) const override;
   [[nodiscard]] std::string repair_reach() const override { return D == 2 ? "2^-44" : "2^-42"; }
-  void merge_polygons();
 
   mesher::GraphFile<D> file_;
   bool has_features_ = true;

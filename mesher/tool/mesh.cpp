@@ -99,7 +99,8 @@ void run_mesh_in(const MeshArguments& args) {
   print_outputs(targets);
 }
 
-void run_mesh(const MeshArguments& args) {
+void run_mesh(MeshArguments args) {
+  args.merge = args.merge || (args.surface && !args.no_merge && !is_complex(args.input));
   if (args.algorithm != "gap-balls") platform::keep_freed_memory();
   dimension_of(args) == 3 ? run_mesh_in<3>(args) : run_mesh_in<2>(args);
 }
@@ -111,6 +112,8 @@ void add_mesh(CLI::App& app) {
   CLI::App* mesh =
       app.add_subcommand("mesh", "Meshes a file of points and lines, or of a complex in space.");
   add_mesh_options(*mesh, *args);
+  mesh->add_flag("--no-merge", args->no_merge,
+                 "With --surface: every face stays a polygon of its own");
   mesh->add_option(
           "--algorithm", args->algorithm,
           "svr: sparse Voronoi refinement; refine: Delaunay refinement, from the triangulation\n"
@@ -137,7 +140,8 @@ void add_mesh(CLI::App& app) {
           "In space the same holds for polygons: every one is a union of faces, and the output\n"
           "is what they enclose. .poly and .smesh have segments and polygons; of surfaces and\n"
           "grids the points are meshed, and with --surface the faces of .off, .obj, .ply, .stl,\n"
-          ".vtu and .vtk. An .svg is a cutaway view: polygons are green, and tetrahedra bluer\n"
+          ".vtu and .vtk, those of one plane merged. An .svg is a cutaway view: polygons are "
+          "green, and tetrahedra bluer\n"
           "where radius-edge ratios are worse.\n"
           "--stats: one JSON object; - for standard output.\n") +
       kQualityHelp +
@@ -150,7 +154,7 @@ void add_mesh(CLI::App& app) {
       "  mesher mesh scan.ply -o scan.vtu -o scan.svg\n"
       "  mesher mesh pump.poly -o pump.vtu -o pump.svg\n"
       "  mesher mesh pump.poly --max-volume 1e-4 -o pump.vtu\n"
-      "  mesher mesh part.stl --merge -o part.msh\n"
+      "  mesher mesh part.stl --surface -o part.msh\n"
       "  mesher mesh scan.ply --algorithm svr -o scan.vtu\n"
       "  mesher mesh lake.poly --algorithm refine -o lake.vtu\n"
       "  mesher mesh cities.csv --domain -180 -90 180 90 --rho 2 --static -o cities.vtu");

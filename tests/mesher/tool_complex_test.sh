@@ -136,7 +136,9 @@ expect 0 'regions     ok      3 regions' check all.vtu --input two.poly --rho 2
 
 echo "== complexes: faces of surfaces are polygons if that is asked for"
 expect 0 '' mesh hollow.poly --quiet -o hollow.off -o hollow.obj
-expect 0 ' points in space, ' mesh hollow.off --surface -o s.vtu
+expect 0 ' points in space, 12 polygons' mesh hollow.off --surface -o s.vtu
+expect 0 '12 polygons are unions of' check s.vtu --input hollow.off --surface --rho 2
+expect 0 ' points in space, ' mesh hollow.off --surface --no-merge -o s.vtu
 expect 0 'polygons    ok' check s.vtu --input hollow.off --surface --rho 2
 expect 0 ' polygons' mesh hollow.off --merge -o m.vtu
 expect 0 '12 polygons are unions of' check m.vtu --input hollow.off --merge --rho 2

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "check/checked_mesh.hpp"
+#include "check/flat_polygon.hpp"
 
 namespace mesher::detail {
 
@@ -49,6 +50,7 @@ class ComplexCheck {
     std::set<Ends> border, inner;   // the edges that loops, and declared edges, are unions of
     std::set<PointId> points;       // all that it names
     std::vector<std::uint32_t> on;  // vertices on it, ascending
+    std::map<std::uint32_t, std::vector<std::size_t>> lines_at;  // by vertices on them
     std::vector<Face> tiles;
   };
   struct Featured {  // what a vertex is on
@@ -62,7 +64,13 @@ class ComplexCheck {
   void add_edges(Surface& surface, const std::vector<PointId>& ends, std::set<Ends>& edges);
   Verdict find_polygons();
   void add_named_tiles();
-  void add_crossed_tiles();
+  void add_upper_tiles();
+  [[nodiscard]] bool cuts_edge(const Surface& surface, const Face& face) const;
+  [[nodiscard]] bool has_three_on_line(const Surface& surface,
+                                       const Mesh<3>::Simplex& corners) const;
+  [[nodiscard]] bool share_line(const Surface& surface,
+                                const std::vector<std::uint32_t>& vertices) const;
+  [[nodiscard]] bool is_above(const FlatPolygon& f, const Face& face, std::uint32_t t) const;
   [[nodiscard]] std::optional<std::string> trouble_of(const Surface& surface);
   [[nodiscard]] double outline_of(const Surface& surface) const;
   [[nodiscard]] bool is_open(const Ends& edge, const Point<3>& towards);

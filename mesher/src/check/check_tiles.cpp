@@ -7,7 +7,6 @@
 #include "check/check_complex.hpp"
 #include "check/flat_polygon.hpp"
 #include "check/line_walk.hpp"
-#include "geometry/circumcentre.hpp"
 #include "geometry/cube_around.hpp"
 #include "geometry/space_vectors.hpp"
 #include "mesher/predicates.hpp"
@@ -38,7 +37,9 @@ FlatPolygon flat(const Polygon& polygon, const std::map<PointId, Point<3>>& plac
 void ComplexCheck::add_edges(Surface& surface, const std::vector<PointId>& ends,
                              std::set<Ends>& edges) {
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    for (const auto& run : lines_[line(ends[i], ends[i + 1], "")].runs) {
+    const std::size_t l = line(ends[i], ends[i + 1], "");
+    for (const auto& run : lines_[l].runs) {
+      for (const std::uint32_t v : run) surface.lines_at[v].push_back(l);
       for (std::size_t k = 1; k < run.size(); ++k) edges.insert(ends_of(run[k - 1], run[k]));
       surface.on.insert(surface.on.end(), run.begin(), run.end());
     }
@@ -57,48 +58,40 @@ void ComplexCheck::add_named_tiles() {
 
 namespace {
 
-// Faces whose corners are all near a polygon, found by the place of their first.
-class FacesBeside {
+// Vertices of a mesh by their places, and which of them are on the polygon that is looked at.
+class VerticesOn {
  public:
-  FacesBeside(const Mesh<3>& mesh, const HalfFaces& faces)
-      : mesh_(mesh),
-        faces_(faces),
-        cube_(cube_around<3>(mesh.vertices)),
-        tree_(cube_),
-        near_(mesh.vertices.size()) {
-    for (std::uint32_t v = 0; v < near_.size(); ++v) tree_.insert(mesh.vertices[v], 0, v);
+  explicit VerticesOn(const Mesh<3>& mesh)
+      : mesh_(mesh), cube_(cube_around<3>(mesh.vertices)), tree_(cube_), on_(mesh.vertices.size()) {
+    for (std::uint32_t v = 0; v < on_.size(); ++v) tree_.insert(mesh.vertices[v], 0, v);
   }
 
-  FacesBeside(const FacesBeside&) = delete;
-  FacesBeside& operator=(const FacesBeside&) = delete;
+  VerticesOn(const VerticesOn&) = delete;
+  VerticesOn& operator=(const VerticesOn&) = delete;
 
-  /// Calls visit(i, n) for the faces in a box with all corners `tolerance` from the polygon's plane
-  /// at most: by their half-faces, n from the i-th on, ascending.
-  template <class Visit>
-  void visit(const FlatPolygon& f, const Box<3>& box, double tolerance, Visit&& visit) {
-    std::vector<std::uint32_t> found;
+  /// Those in a box, `tolerance` from the polygon's plane at most, that are inside or `known`.
+  void look_at(const FlatPolygon& f, const Box<3>& box, double tolerance,
+               const std::vector<std::uint32_t>& known) {
+    for (const std::uint32_t v : all_) on_[v] = false;
+    all_ = known;
     tree_.visit_in(box, [&](std::uint32_t v) {
-      if (std::abs(f.height(mesh_.vertices[v])) <= tolerance) found.push_back(v);
-    });
-    std::sort(found.begin(), found.end());
-    for (const std::uint32_t v : found) near_[v] = true;
-    for (const std::uint32_t v : found) {
-      for (std::size_t i = faces_.first_at(v), n = 0; i < faces_.size(); i += n) {
-        const auto [a, b, c] = faces_[i].face;
-        if (a != v) break;
-        n = faces_.partners(i);
-        if (near_[b] && near_[c]) visit(i, n);
+      const Point<3>& p = mesh_.vertices[v];
+      if (std::abs(f.height(p)) <= tolerance && f.contains(FlatPolygon::wide(p))) {
+        all_.push_back(v);
       }
-    }
-    for (const std::uint32_t v : found) near_[v] = false;
+    });
+    make_set(all_);
+    for (const std::uint32_t v : all_) on_[v] = true;
   }
+  [[nodiscard]] bool operator[](std::uint32_t v) const { return on_[v]; }
+  [[nodiscard]] const std::vector<std::uint32_t>& all() const noexcept { return all_; }
 
  private:
   const Mesh<3>& mesh_;
-  const HalfFaces& faces_;
   MeshBox<3> cube_;
   ReachTree<std::uint32_t, 3> tree_;
-  std::vector<bool> near_;
+  std::vector<bool> on_;
+  std::vector<std::uint32_t> all_;  // ascending
 };
 
 // What the corners of a polygon are in, and places that are off it by no more than this.
@@ -114,37 +107,83 @@ Box<3> box_of(const Polygon& polygon, const std::map<PointId, Point<3>>& places,
 
 }  // namespace
 
-// Of faces beside the polygon with their corners on its plane, those whose Voronoi edge crosses it;
-// on the boundary, where that is a ray, those with their middle in it.
-void ComplexCheck::add_crossed_tiles() {
+// Of faces with their corners on the polygon, and their middles, those above which is no
+// tetrahedron that is flat on it: so these are a surface, whatever is flat.
+void ComplexCheck::add_upper_tiles() {
   const HalfFaces& faces = mesh_.sides();
-  const auto centre = [&](std::uint32_t t) {
-    const auto& [a, b, c, d] = mesh_.mesh().simplices[t];
-    const Circumcentre o = circumcentre(at(a), at(b), at(c), at(d));
-    return FlatPolygon::wide(plus(at(a), o.q));
-  };
-  const auto is_tile = [&](const FlatPolygon& f, std::size_t i, std::size_t n) {
-    if (n == 1) {
-      const auto [a, b, c] = faces[i].face;
-      const Point<3> middle = scaled(1.0 / 3, plus(at(a), plus(at(b), at(c))));
-      return f.contains(FlatPolygon::wide(middle));
-    }
-    const auto p = centre(faces[i].tetrahedron), q = centre(faces[i + 1].tetrahedron);
-    const auto from = f.height(p), to = f.height(q);
-    if ((from > 0) == (to > 0)) return false;
-    const auto t = from / (from - to);
-    return f.contains(
-        {p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])});
-  };
-  FacesBeside beside(mesh_.mesh(), faces);
+  VerticesOn on(mesh_.mesh());
   for (Surface& surface : surfaces_) {
     const FlatPolygon f = flat(*surface.polygon, places_);
     const double tolerance = static_cast<double>(f.deviation()) + 4 * rounding_;
-    const Box<3> box = box_of(*surface.polygon, places_, tolerance);
-    beside.visit(f, box, tolerance, [&](std::size_t i, std::size_t n) {
-      if (is_tile(f, i, n)) surface.tiles.push_back(faces[i].key());
+    on.look_at(f, box_of(*surface.polygon, places_, tolerance), tolerance, surface.on);
+    for (const std::uint32_t v : on.all()) {
+      for (std::size_t i = faces.first_at(v), n = 0; i < faces.size(); i += n) {
+        const auto& [a, b, c] = faces[i].face;
+        if (a != v) break;
+        n = faces.partners(i);
+        if (!on[b] || !on[c] || cuts_edge(surface, faces[i].key())) continue;
+        const auto is_flat = [&](std::uint32_t t) {
+          const auto& corners = mesh_.mesh().simplices[t];
+          return std::all_of(corners.begin(), corners.end(),
+                             [&](std::uint32_t w) { return on[w]; }) &&
+                 !has_three_on_line(surface, corners);
+        };
+        const auto is_above = [&](std::uint32_t t) { return this->is_above(f, faces[i].key(), t); };
+        bool is_tile =
+            f.contains(FlatPolygon::wide(scaled(1.0 / 3, plus(at(a), plus(at(b), at(c))))));
+        for (std::size_t k = i; k < i + n && is_tile; ++k) {
+          is_tile = !(is_above(faces[k].tetrahedron) && is_flat(faces[k].tetrahedron));
+        }
+        if (is_tile) surface.tiles.push_back(faces[i].key());
+      }
+    }
+  }
+}
+
+// Whether two of its corners are on one edge of the polygon, but are not joined by a part of it.
+bool ComplexCheck::cuts_edge(const Surface& surface, const Face& face) const {
+  for (const auto& [v, w] : {std::pair(face[0], face[1]), {face[1], face[2]}, {face[0], face[2]}}) {
+    if (share_line(surface, {v, w}) && surface.border.count(ends_of(v, w)) == 0 &&
+        surface.inner.count(ends_of(v, w)) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool ComplexCheck::has_three_on_line(const Surface& surface,
+                                     const Mesh<3>::Simplex& corners) const {
+  const auto& [a, b, c, d] = corners;
+  return share_line(surface, {a, b, c}) || share_line(surface, {a, b, d}) ||
+         share_line(surface, {a, c, d}) || share_line(surface, {b, c, d});
+}
+
+// Whether an edge of the polygon has all of these vertices.
+bool ComplexCheck::share_line(const Surface& surface,
+                              const std::vector<std::uint32_t>& vertices) const {
+  const auto with = [&](std::uint32_t v) {
+    const auto it = surface.lines_at.find(v);
+    return it == surface.lines_at.end() ? std::vector<std::size_t>{} : it->second;
+  };
+  std::vector<std::size_t> common = with(vertices.front());
+  for (const std::uint32_t v : vertices) {
+    const std::vector<std::size_t> lines = with(v);
+    std::erase_if(common, [&](std::size_t line) {
+      return std::find(lines.begin(), lines.end(), line) == lines.end();
     });
   }
+  return !common.empty();
+}
+
+// Whether a tetrahedron with that face is on the side of it that the polygon's normal is on.
+bool ComplexCheck::is_above(const FlatPolygon& f, const Face& face, std::uint32_t t) const {
+  const auto& corners = mesh_.mesh().simplices[t];
+  const auto apex = std::find_if(corners.begin(), corners.end(), [&](std::uint32_t w) {
+    return std::find(face.begin(), face.end(), w) == face.end();
+  });
+  const auto& [a, b, c] = face;
+  const bool is_left = predicates::orient3d(at(a), at(b), at(c), at(*apex)) > 0;
+  return is_left == f.is_left(at(a), at(b), at(c));
 }
 
 Verdict ComplexCheck::find_polygons() {
@@ -160,7 +199,7 @@ Verdict ComplexCheck::find_polygons() {
     }
     for (const auto& [a, b] : surface.polygon->edges) add_edges(surface, {a, b}, surface.inner);
   }
-  named ? add_named_tiles() : add_crossed_tiles();
+  named ? add_named_tiles() : add_upper_tiles();
   std::set<Face> there;
   for (std::size_t i = 0; i < faces.size(); i += faces.partners(i)) there.insert(faces[i].key());
   std::size_t tiles = 0, outside = 0;

@@ -75,6 +75,11 @@ Real FlatPolygon::area_of(const Point<3>& a, const Point<3>& b, const Point<3>& 
   return std::abs(dot(cross(minus(wide(b), o), minus(wide(c), o)), normal_)) / 2;
 }
 
+bool FlatPolygon::is_left(const Point<3>& a, const Point<3>& b, const Point<3>& c) const {
+  const Place o = wide(a);
+  return dot(cross(minus(wide(b), o), minus(wide(c), o)), normal_) > 0;
+}
+
 FlatPolygon::Place FlatPolygon::beside(const Point<3>& a, const Point<3>& b) const {
   const Place middle = times(Real{1} / 2, plus(wide(a), wide(b)));
   return plus(middle, cross(normal_, minus(wide(b), wide(a))));

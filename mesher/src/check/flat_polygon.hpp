@@ -24,6 +24,8 @@ class FlatPolygon {
   [[nodiscard]] Real area() const;
   /// Of a triangle, seen across the plane.
   [[nodiscard]] Real area_of(const Point<3>& a, const Point<3>& b, const Point<3>& c) const;
+  /// Whether it is counterclockwise, seen from above.
+  [[nodiscard]] bool is_left(const Point<3>& a, const Point<3>& b, const Point<3>& c) const;
   /// A place as far from the middle of ab as these are from each other, on the left of ab as seen
   /// from above, in the plane.
   [[nodiscard]] Place beside(const Point<3>& a, const Point<3>& b) const;

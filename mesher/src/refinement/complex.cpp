@@ -45,7 +45,7 @@ detail::OnFeatures parts_of(const detail::Conformity& all, const detail::Feature
   for (std::uint32_t i = 0; i < all.pieces().size(); ++i) {
     on.edges.push_back(name(all.pieces()[i]));
   }
-  all.crossings().for_each([&](const detail::Crossings::Crossing& tile) {
+  all.tiles().for_each([&](const detail::Tiles::Tile& tile) {
     on.faces.push_back({tile.face, names.polygon(all.polygon_of(tile).self)});
   });
   return on;

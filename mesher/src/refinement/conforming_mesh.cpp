@@ -1,6 +1,8 @@
 // Vertices on features, and what is left alone.
 #include "refinement/conforming_mesh.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -11,6 +13,9 @@ namespace {
 // Of the box's side: within this of a wall rounding decides on which side of it a place is, or that
 // the wall is not quite flat (space/polygon_shape.hpp).
 constexpr double kNearWall = 0x1p-24;
+
+// Of the greatest coordinate: what is so near is computed in two ways from the same labels.
+constexpr double kRounding = 0x1p-48;
 
 }  // namespace
 
@@ -42,14 +47,26 @@ void ConformingMesh<D>::undo_place() {
   conformity_.drop_vertex();
 }
 
+/// Whether a vertex there is where one is wanted; if there is a choice, but for rounding.
+template <int D>
+bool ConformingMesh<D>::is_taken(const typename Conforms::Wanted& wanted, const Point<D>& there) {
+  const Point<D>& p = wanted.place.p;
+  if (!wanted.otherwise) return there == p;
+  double most = 0;
+  for (int i = 0; i < D; ++i) most = std::max(most, std::abs(p[i]));
+  return squared_distance(p, there) <= kRounding * kRounding * most * most;
+}
+
 template <int D>
 std::optional<std::uint32_t> ConformingMesh<D>::dig(const typename Conforms::Wanted& wanted) {
   const auto any = [](std::uint32_t) { return true; };
   const std::uint32_t from = kernel_.find_in_star(wanted.beside, star_, any);
   const std::uint32_t s = kernel_.walk(wanted.place.p, from);
   for (const std::uint32_t w : kernel_.simplices().corners(s)) {
-    if (w == kInfinite || kernel_.place(w) != wanted.place.p) continue;
-    conformity_.fail_occupied(wanted.place);
+    if (w == kInfinite || !is_taken(wanted, kernel_.place(w))) continue;
+    if (!wanted.otherwise) conformity_.fail_occupied(wanted.place);
+    conformity_.take_otherwise();
+    return dig({*wanted.otherwise, wanted.beside});
   }
   const std::uint32_t v = add_place(wanted.place, VertexKind::segment);
   kernel_.dig(v, s);
@@ -60,11 +77,24 @@ std::optional<std::uint32_t> ConformingMesh<D>::dig(const typename Conforms::Wan
 
 template <int D>
 bool ConformingMesh<D>::is_split(std::uint32_t s) {
+  return !(has_outside() && conformity_.is_outside(s)) && !stays(s);
+}
+
+template <int D>
+void ConformingMesh<D>::finish() {
+  if constexpr (D == 3) {
+    if (has_outside()) conformity_.put_flat_outside();
+  }
+}
+
+/// Whether what is outside is not wanted. Requires: as is_split().
+template <int D>
+bool ConformingMesh<D>::has_outside() {
   if (only_enclosed_ && !std::exchange(has_regions_, true)) {
     only_enclosed_ = conformity_.find_regions(holes_, kNearWall * this->box_.side);
     if (!only_enclosed_) this->require_box(kCoarseSteps);
   }
-  return !(only_enclosed_ && conformity_.is_outside(s)) && !stays(s);
+  return only_enclosed_;
 }
 
 /// Its shortest edge is as short as the angle of features makes it. In the plane the simplex is on

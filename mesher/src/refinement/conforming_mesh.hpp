@@ -44,11 +44,16 @@ class ConformingMesh : public RefinedMesh<D> {
   /// Whether a poor simplex is split: it is in what is wanted, and not poor by a small angle.
   /// Requires: conformity_.next() has returned nothing, and nothing was inserted since.
   [[nodiscard]] bool is_split(std::uint32_t s);
+  /// At the end. Requires: as is_split().
+  void finish();
 
   std::vector<VertexHandle> handles_;  // of points
   Conforms conformity_;
 
  private:
+  [[nodiscard]] static bool is_taken(const typename Conforms::Wanted& wanted,
+                                     const Point<D>& there);
+  [[nodiscard]] bool has_outside();
   [[nodiscard]] bool stays(std::uint32_t s) const;
 
   bool only_enclosed_, has_regions_ = false;

@@ -87,86 +87,69 @@ void Conformity::start() {
 // --- Insertions ------------------------------------------------------------------------------
 
 auto Conformity::next() -> std::optional<Wanted> {
-  for (;;) {
-    while (!wanted_pieces_.empty()) {
-      const std::uint32_t piece = wanted_pieces_.back();
-      if (pieces_[piece].encroached) {
-        splitting_ = piece;
-        return split_piece(piece);
-      }
-      wanted_pieces_.pop_back();
+  for (; !wanted_pieces_.empty(); wanted_pieces_.pop_back()) {
+    const std::uint32_t piece = wanted_pieces_.back();
+    if (!pieces_[piece].encroached) continue;
+    if (pieces_[piece].by_centre || !is_edge(piece)) {
+      splitting_ = piece;
+      return split_piece(piece);
     }
-    splitting_ = kNone;
-    if (!has_polygons_) start_polygons();
-    while (!wanted_crossings_.empty()) {
-      const std::uint32_t i = wanted_crossings_.back();
-      const Crossings::Crossing& crossing = crossings_[i];
-      if (crossing.alive) {
-        const Placed place = place_for(crossing);
-        if (const EdgeHandle e = edge_of(place.role)) splitting_ = piece_at(e, place.role.label);
-        return Wanted{place, crossing.face[0]};
-      }
-      crossings_.set_done(i);
-      wanted_crossings_.pop_back();
-    }
-    return std::nullopt;
+    pieces_.set_fine(piece);
   }
+  splitting_ = kNone;
+  if (!has_polygons_) start_polygons();
+  for (; !wanted_tiles_.empty(); wanted_tiles_.pop_back()) {
+    const std::uint32_t i = wanted_tiles_.back();
+    const Tiles::Tile& tile = tiles_[i];
+    if (tile.alive) {
+      const Polygon& f = polygon(tile.polygon);
+      return wanted(*place_for(tile, tile.from), tile.face[0],
+                    placed_on(f, f.plane.foot(middle_of(tile.face))));
+    }
+    tiles_.set_done(i);
+  }
+  if (const auto gap = next_gap()) {
+    return wanted(place_for(*gap), gap->u, placed_on(polygon(gap->polygon), gap->at));
+  }
+  return std::nullopt;
+}
+
+/// On an edge, that splits a piece.
+auto Conformity::wanted(const Placed& place, std::uint32_t beside, const Placed& otherwise)
+    -> Wanted {
+  if (const EdgeHandle e = edge_of(place.role)) splitting_ = piece_at(e, place.role.label);
+  if (otherwise.p == place.p) return {place, beside};
+  return {place, beside, otherwise};
 }
 
 bool Conformity::yields(std::uint32_t v) {
   if (yields_to_edges(v)) return true;
   bool yields = false;
   for (const std::uint32_t s : kernel_.doomed()) {
-    visit_crossings_of(s, [&](std::uint32_t i, std::uint32_t) {
-      const Crossings::Crossing& tile = crossings_[i];
-      const double r2 = squared_distance(tile.at, place(tile.face[0]));
-      if (!detail::is_in_ball(tile.at, r2, place(v))) return;
-      want_crossing(i, place(v));
+    visit_tiles_of(s, [&](std::uint32_t i, std::uint32_t) {
+      const Tiles::Tile& tile = tiles_[i];
+      const Point<3> centre = centre_of(tile.face, polygon(tile.polygon));
+      const double r2 = squared_distance(centre, place(tile.face[0]));
+      if (!detail::is_in_ball(centre, r2, place(v)) || !place_for(tile, place(v))) return;
+      want_tile(i, place(v));
       yields = true;
     });
   }
   return yields;
 }
 
-/// Calls visit(crossing, across) for the crossings of the faces of s.
-template <class Visit>
-void Conformity::visit_crossings_of(std::uint32_t s, Visit&& visit) const {
-  const auto& corners = kernel_.simplices().corners(s);
-  std::uint32_t on_polygons = 0;
-  for (const std::uint32_t w : corners) on_polygons += vertices_[w].on_polygon ? 1 : 0;
-  if (foreign_ == 0 && on_polygons < 3) return;
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    const Facet facet = facet_across<3>(corners, i);
-    if (foreign_ == 0 && on_polygons == 3 && vertices_[corners[i]].on_polygon) continue;
-    for (std::uint32_t c = crossings_.find(face_across(facet)); c != kNone;) {
-      const std::uint32_t next = crossings_[c].next;
-      visit(c, kernel_.simplices().across(s)[i] >> 2);
-      c = next;
-    }
-  }
-}
-
-void Conformity::before_fill(std::uint32_t v) {
+void Conformity::before_fill(std::uint32_t) {
   dug_pieces_.clear();
   visit_pieces_dug([&](std::uint32_t piece) {
-    if (encroaches(piece, v)) {
-      want_piece(piece, v);
-    } else if (piece != splitting_) {
-      dug_pieces_.push_back(piece);
-    }
+    if (piece != splitting_) dug_pieces_.push_back(piece);
   });
   make_set(dug_pieces_);
-  touched_.clear();
   if (!has_polygons_) return;
-  const Polygons on = polygons(v);
-  touched_.assign(on.begin(), on.end());
   for (const std::uint32_t s : kernel_.doomed()) {
-    visit_crossings_of(s, [&](std::uint32_t i, std::uint32_t across) {
-      touched_.push_back(crossings_[i].polygon);
+    visit_tiles_of(s, [&](std::uint32_t i, std::uint32_t across) {
       if (kernel_.is_doomed(across)) erase(i);
     });
   }
-  make_set(touched_);
 }
 
 /// Whether the edge of a piece is in a simplex that was made: of one that was dug, whether it is
@@ -191,7 +174,15 @@ void Conformity::after_fill(std::uint32_t v) {
     if (!is_made(piece)) want_piece(piece, v);
   }
   enclosed_.forget_made();
-  for (const Rank f : touched_) look_at_made(f);
+  if (!has_polygons_) return;
+  for (const std::uint32_t s : kernel_.made()) {
+    for (std::uint32_t i = 0; i < 4; ++i) look_at_facet(s, i);
+  }
+}
+
+bool Conformity::is_edge(std::uint32_t piece) {
+  const Subedges::Piece& p = pieces_[piece];
+  return look_at_edge(kernel_, p.a, p.b, star_, [](std::uint32_t) { return true; }).is_there;
 }
 
 }  // namespace mesher::detail

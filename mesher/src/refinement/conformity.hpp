@@ -1,21 +1,24 @@
 // Keeps the edges and polygons of a complex unions of edges and faces of the Delaunay triangulation
-// that a refinement makes [Fig 2.7, 2.8; rules C].
+// that a refinement makes [Fig 2.7, 2.8; rules F].
 //
-// An edge is cut into pieces. A piece with a vertex in its diametral ball is *encroached*, and is
-// split; one without is an edge of the triangulation. So the meshes M_f of edges are lists.
+// An edge is cut into pieces. A piece is split if it is no edge of the triangulation, or if the
+// centre of a poor tetrahedron would come into its diametral ball. (To split each piece that has a
+// vertex in its ball is three times as many vertices on surfaces: most are edges all the same.)
 //
-// A polygon has no mesh of its own. The Voronoi diagram cuts it into parts, and the corners of
-// these, the crossings, are kept by the faces that they are dual to (crossings.hpp). If no part is
-// of a vertex that is not on the polygon, the parts are the Voronoi diagram of those on it, and the
-// faces that cross are its Delaunay triangulation: M_f, read off M. A crossing that has another
-// vertex is *foreign*; the polygon gets a vertex there. Only what an insertion takes out can change
-// crossings: each part of the new vertex has a corner of a part that was there, since
-// its cell is convex and edges are not encroached; and that is nearer to it than to its own.
-//   (The other design gave each polygon a triangulation in its plane [2.3]. It has to be the same
-//   as that in space where points are on a circle, but for rounding, and it says no more.)
+// A polygon has no mesh of its own: it is covered by *tiles*, faces with their corners on it. Where
+// it is not, there is a *gap*: an edge of the triangulation pierces it there, and it gets a vertex
+// beside that, or where it is pierced. A gap is beside an edge of a tile, or a piece, since pieces
+// are edges, and edges cross no faces.
+//   (Two other designs. To give each polygon a triangulation in its plane [2.3]: it has to be the
+//   same as that in space where points are on a circle, but for rounding, and says no more. To
+//   have all of the Voronoi diagram's slice of the polygon belong to vertices on it: that asks for
+//   empty balls in the plane, which faces need not have, and it misses gaps where a tile's centre
+//   would be outside.)
 //
-// On which side of a polygon's plane a circumcentre is, is found once for a tetrahedron: so
-// faces between sides are closed surfaces, flat tetrahedra or not.
+// Where four vertices on a polygon are the corners of one tetrahedron, flat but for rounding, the
+// polygon's tiles are those of its faces that are on its upper side, at first the normal's. So
+// tiles are a surface, whatever is flat. In the end it is the side of what is enclosed, if that is
+// on one side alone: then what is flat is outside.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +26,11 @@
 #include <span>
 #include <vector>
 
+#include "delaunay/facets.hpp"
 #include "mesher/error.hpp"
-#include "refinement/crossings.hpp"
+#include "refinement/conformity_balls.hpp"
 #include "refinement/line_conformity.hpp"
+#include "refinement/tiles.hpp"
 #include "space/feature_store.hpp"
 #include "space/placed.hpp"
 
@@ -37,6 +42,7 @@ namespace mesher::detail {
 class Conformity : public LineConformity<3, Conformity> {
  public:
   using Store = FeatureStore;
+  static constexpr bool kEmptyBalls = false;
 
   Conformity(FeatureStore& store, Kernel& kernel);
 
@@ -55,6 +61,9 @@ class Conformity : public LineConformity<3, Conformity> {
   /// Throws: Error (too_close), unless the tiles of each polygon are all of it. Requires: next()
   /// has returned nothing.
   void require_whole() const;
+  /// Of polygons with what is enclosed on one side alone: that it has no tetrahedra that are flat
+  /// on them. Requires: as is_outside(), and nothing will be inserted. Cost: O(n) for n simplices.
+  void put_flat_outside();
 
   /// Whether a simplex stays that is poor by the edge vw: where features meet at a small angle.
   [[nodiscard]] bool keeps(std::uint32_t v, std::uint32_t w) const;
@@ -67,14 +76,13 @@ class Conformity : public LineConformity<3, Conformity> {
   /// Afterwards.
   void after_fill(std::uint32_t v);
 
-  [[nodiscard]] const Polygon& polygon_of(const Crossings::Crossing& tile) const noexcept {
+  [[nodiscard]] const Polygon& polygon_of(const Tiles::Tile& tile) const noexcept {
     return polygon(tile.polygon);
   }
-  [[nodiscard]] const Crossings& crossings() const noexcept { return crossings_; }
+  [[nodiscard]] const Tiles& tiles() const noexcept { return tiles_; }
 
  private:
   friend LineConformity;
-  enum class Side : std::uint8_t { unknown, none, below, above };
   // Polygons are called by their place in canonical order, from 1 on.
   using Rank = std::uint32_t;
   using Polygons = std::span<const Rank>;  // ascending
@@ -103,44 +111,73 @@ class Conformity : public LineConformity<3, Conformity> {
   template <class Visit>
   void visit_pieces_dug(Visit&& visit) const;
   [[nodiscard]] bool is_made(std::uint32_t piece) const;
+  [[nodiscard]] bool is_edge(std::uint32_t piece);
 
+  // --- Tiles
   void start_polygons();
-  void find_crossings(Rank f, std::vector<std::uint32_t> cells, std::vector<Rank>& seen_for);
   template <class Visit>
-  void look_at_faces(const std::vector<std::uint32_t>& all, bool with_borders, Rank f,
-                     Visit&& visit);
-  void look_at_made(Rank f);
-  std::uint32_t look_at_face(std::uint32_t s, std::uint32_t i, Rank f, bool crosses);
-  [[nodiscard]] Side side(std::uint32_t s, Rank f) const;
-  [[nodiscard]] bool all_on_polygons(const std::array<std::uint32_t, 3>& facet) const noexcept;
-  [[nodiscard]] bool is_above(std::uint32_t s, Rank f) const;
-  [[nodiscard]] Point<3> middle_of(const Face& face, const Polygon& f) const;
+  void visit_common_polygons(const Facet& facet, Visit&& visit) const;
+  void look_at_facet(std::uint32_t s, std::uint32_t i);
+  void look_at_all();
+  [[nodiscard]] bool is_tile(std::uint32_t s, std::uint32_t i, Rank f) const;
+  [[nodiscard]] bool is_above(std::uint32_t s, std::uint32_t i, Rank f) const;
+  [[nodiscard]] EdgeHandle common_edge(std::uint32_t v, std::uint32_t w) const;
+  [[nodiscard]] bool has_three_on_edge(const std::array<std::uint32_t, 4>& corners, Rank f) const;
+  [[nodiscard]] Point<3> middle_of(const Face& face) const;
+  [[nodiscard]] Point<3> centre_of(const Face& face, const Polygon& f) const;
+  [[nodiscard]] double area_of(const Face& face) const;
+  void want_tile(std::uint32_t tile, const Point<3>& from);
+  void erase(std::uint32_t tile);
+  template <class Visit>
+  void visit_tiles_of(std::uint32_t s, Visit&& visit) const;
   [[nodiscard]] bool is_wall(std::uint32_t s, std::uint32_t i) const;
-  [[nodiscard]] std::optional<Crossings::Crossing> crossing_of(const Face& face, std::uint32_t s,
-                                                               std::uint32_t t, Rank f) const;
-  void want_crossing(std::uint32_t crossing, const Point<3>& from);
-  [[nodiscard]] Placed place_for(const Crossings::Crossing& crossing) const;
+
+  // --- Gaps
+  // A side of an edge, in the plane of a polygon that it is on.
+  struct Side {
+    Rank polygon;
+    std::uint32_t a, b;
+    Point<3> towards;  // at right angles to ab
+  };
+  // A simplex in the way of a tile, and its edge uv that pierces the polygon.
+  struct Gap {
+    Rank polygon;
+    std::uint32_t simplex;
+    std::uint32_t u, v;
+    Point<3> at;
+  };
+  void note_loose(Rank f);
+  [[nodiscard]] bool is_covered(Rank f) const;
+  [[nodiscard]] bool is_towards(const Side& side, std::uint32_t v) const;
+  void find_open_sides(Rank f);
+  [[nodiscard]] std::optional<Gap> gap_at(const Side& side);
+  [[nodiscard]] std::optional<Gap> next_gap();
+
+  // --- Where polygons get vertices
+  [[nodiscard]] std::optional<Placed> place_for(const Tiles::Tile& tile,
+                                                const Point<3>& from) const;
+  [[nodiscard]] Placed place_for(const Gap& gap) const;
   [[nodiscard]] std::optional<Point<3>> foot_in(const Polygon& f, const Point<3>& x,
-                                                const Crossings::Crossing& crossing) const;
+                                                const Face& face, const Point<3>& centre) const;
   [[nodiscard]] bool is_nearest(std::uint32_t v, const Point<3>& x) const;
   [[nodiscard]] Placed place_near(const Polygon& f, const Point<3>& x, std::uint32_t v) const;
   [[nodiscard]] bool cuts_cell(std::uint32_t v, const Point<3>& x) const;
   [[nodiscard]] Vertex<3> record(std::uint32_t v) const;
-  void erase(std::uint32_t crossing);
-  template <class Visit>
-  void visit_crossings_of(std::uint32_t s, Visit&& visit) const;
+  [[nodiscard]] Wanted wanted(const Placed& place, std::uint32_t beside, const Placed& otherwise);
 
   FeatureStore& store_;
   std::vector<const Polygon*> by_rank_;
   std::vector<Rank> rank_;  // by handle
   Lists at_edge_, at_point_;
-  Crossings crossings_;
-  std::vector<std::uint32_t> wanted_crossings_;
-  std::size_t foreign_ = 0;                // crossings that are no tiles
-  bool has_polygons_ = false;              // their crossings are known
+  Tiles tiles_;
+  std::vector<std::uint32_t> wanted_tiles_;
+  std::vector<bool> is_turned_;            // by polygon: its upper side is not the normal's
+  std::vector<double> area_, covered_;     // of polygons; what tiles have of it
+  std::vector<Rank> loose_;                // polygons that have lost tiles
+  std::vector<bool> is_loose_;             // by polygon
+  std::vector<Side> open_;                 // sides of edges where tiles were missing
+  bool has_polygons_ = false;              // their tiles are known
   std::vector<std::uint32_t> dug_pieces_;  // scratch
-  std::vector<Rank> touched_;              // scratch: whose crossings an insertion may change
-  std::vector<Side> sides_;                // scratch: by simplex, unknown between calls
 };
 
 /// Calls visit(piece) for the pieces whose edges are in the hole that is dug, some repeatedly.
@@ -155,6 +192,23 @@ void Conformity::visit_pieces_dug(Visit&& visit) const {
         const std::uint32_t piece = pieces_.find(corners[i], corners[k]);
         if (piece != kNone) visit(piece);
       }
+    }
+  }
+}
+
+/// Calls visit(tile, across) for the tiles among the faces of s.
+template <class Visit>
+void Conformity::visit_tiles_of(std::uint32_t s, Visit&& visit) const {
+  const auto& corners = kernel_.simplices().corners(s);
+  std::uint32_t on_polygons = 0;
+  for (const std::uint32_t w : corners) on_polygons += vertices_[w].on_polygon ? 1 : 0;
+  if (on_polygons < 3) return;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    if (on_polygons == 3 && vertices_[corners[i]].on_polygon) continue;
+    for (std::uint32_t t = tiles_.find(face_across(facet_across<3>(corners, i))); t != kNone;) {
+      const std::uint32_t next = tiles_[t].next;
+      visit(t, kernel_.simplices().across(s)[i] >> 2);
+      t = next;
     }
   }
 }

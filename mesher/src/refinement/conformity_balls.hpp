@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "mesher/mesh.hpp"
-#include "refinement/crossings.hpp"
+#include "refinement/tiles.hpp"
 
 namespace mesher::detail {
 

@@ -33,7 +33,7 @@ bool Conformity::encroaches(std::uint32_t piece, std::uint32_t v) const noexcept
 auto Conformity::split_piece(std::uint32_t piece) const -> Wanted {
   const Subedges::Piece& p = pieces_[piece];
   const Edge& e = store_.edges()[p.edge];
-  if (p.by != kNone && vertices_[p.by].role.on != 0) {
+  if (p.by != kNone && vertices_[p.by].role.on != 0 && encroaches(piece, p.by)) {
     const Vertex<3> v = record(p.by);
     const FeaturesBeside near(store_, place(p.a), kEverywhere);
     const auto copy = SmallAngles(near).copy({v, vertices_[p.by].role}, e);

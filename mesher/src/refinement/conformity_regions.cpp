@@ -7,9 +7,36 @@
 
 namespace mesher::detail {
 
-bool Conformity::is_wall(std::uint32_t s, std::uint32_t i) const {
-  const Facet facet = facet_across<3>(kernel_.simplices().corners(s), i);
-  return all_on_polygons(facet) && crossings_.find(face_across(facet)) != kNone;
+namespace {
+
+/// The corner that is not one of the face's.
+std::size_t corner_across(const std::array<std::uint32_t, 4>& corners, const Face& face) {
+  for (std::size_t i = 0;; ++i) {
+    if (std::find(face.begin(), face.end(), corners[i]) == face.end()) return i;
+  }
+}
+
+}  // namespace
+
+void Conformity::put_flat_outside() {
+  enum : std::uint8_t { kEnclosedBelow = 1, kOther = 2 };
+  std::vector<std::uint8_t> seen(by_rank_.size());
+  const auto& simplices = kernel_.simplices();
+  for (std::uint32_t s = 0; s < simplices.places(); ++s) {
+    if (!simplices.alive(s)) continue;
+    visit_tiles_of(s, [&](std::uint32_t t, std::uint32_t other) {
+      const Rank f = tiles_[t].polygon;
+      const std::size_t i = corner_across(simplices.corners(s), tiles_[t].face);
+      if (is_above(s, static_cast<std::uint32_t>(i), f)) return;
+      seen[f] |= !is_outside(s) && is_outside(other) ? kEnclosedBelow : kOther;
+    });
+  }
+  bool any = false;
+  for (Rank f = 1; f < seen.size(); ++f) {
+    is_turned_[f] = seen[f] == kEnclosedBelow;
+    any = any || is_turned_[f];
+  }
+  if (any) look_at_all();
 }
 
 /// Of a polygon the tiles at each piece of its border are one, at other edges two.
@@ -23,7 +50,7 @@ void Conformity::require_whole() const {
   const auto add = [](std::vector<At>& to, Rank f, std::uint32_t a, std::uint32_t b) {
     to.push_back({f, std::min(a, b), std::max(a, b)});
   };
-  crossings_.for_each([&](const Crossings::Crossing& tile) {
+  tiles_.for_each([&](const Tiles::Tile& tile) {
     const auto& [a, b, c] = tile.face;
     add(there, tile.polygon, a, b), add(there, tile.polygon, b, c), add(there, tile.polygon, a, c);
   });

@@ -29,6 +29,7 @@ void DelaunayRefinement<D, Queue, Mesh>::run() {
     const Entry poor = queue_.delete_min();
     if (age_[poor.simplex] == poor.age) split(poor.simplex);
   }
+  if constexpr (kConforms) this->finish();
 }
 
 /// Else a vertex is inserted that is needed for it.

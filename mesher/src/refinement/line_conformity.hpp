@@ -8,10 +8,12 @@
 //   visit_pieces_dug(visit) the pieces whose edges are dug away
 //   require_edge(piece)     throws if a piece that is no edge never will be; not at all in space
 //   is_wall(s, i)           whether the facet across from corner i of s is one
+//   kEmptyBalls             whether a piece is split that has a vertex in its ball
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -31,10 +33,11 @@ class LineConformity {
  public:
   using Kernel = DelaunayKernel<D, BallLayout<D>>;
   using Placed = PlacedIn<D>;
-  /// A vertex that is needed, and a vertex near it.
+  /// A vertex that is needed, and a vertex near it. `otherwise`: on no line, if one is at `place`.
   struct Wanted {
     Placed place;
     std::uint32_t beside;
+    std::optional<Placed> otherwise{};
   };
 
   /// What the next place of the kernel is: its role, and the input point's handle, or 0.
@@ -46,13 +49,15 @@ class LineConformity {
     vertices_[v] = self().known(role, point);
   }
   void drop_vertex() noexcept { vertices_.pop_back(); }
+  /// What next() has returned comes elsewhere, on no line.
+  void take_otherwise() noexcept { splitting_ = kNone; }
 
   /// Of a vertex that is dug: whether it encroaches on pieces; these are wanted then.
   [[nodiscard]] bool yields_to_edges(std::uint32_t v) {
     bool yields = false;
     self().visit_pieces_dug([&](std::uint32_t piece) {
       if (!self().encroaches(piece, v)) return;
-      want_piece(piece, kNone);
+      want_piece(piece, kNone, true);
       yields = true;
     });
     return yields;
@@ -101,11 +106,12 @@ class LineConformity {
     const AtEdge at = look_at_edge(kernel_, p.a, p.b, star_,
                                    [&](std::uint32_t w) { return self().encroaches(piece, w); });
     if (!at.is_there) self().require_edge(piece);
-    if (!at.is_there || at.by != kNone) want_piece(piece, at.by);
+    if (!at.is_there || (Self::kEmptyBalls && at.by != kNone)) want_piece(piece, at.by);
   }
-  /// `by`: a vertex in its ball, if it is known and stays.
-  void want_piece(std::uint32_t piece, std::uint32_t by) {
-    if (pieces_.set_encroached(piece, by)) wanted_pieces_.push_back(piece);
+  /// `by`: a vertex in its ball or in its way, if it is known and stays. `by_centre`: it is split
+  /// even if it is an edge.
+  void want_piece(std::uint32_t piece, std::uint32_t by, bool by_centre = false) {
+    if (pieces_.set_encroached(piece, by, by_centre)) wanted_pieces_.push_back(piece);
   }
   void require_edge(std::uint32_t) const noexcept {}
 

@@ -28,6 +28,7 @@ class PlaneConformity : public LineConformity<2, PlaneConformity> {
  public:
   /// The points, and the segments between them.
   using Store = World<sac::PlainScope, 2>;
+  static constexpr bool kEmptyBalls = true;
 
   PlaneConformity(Store& store, Kernel& kernel)
       : LineConformity(store.segments.store(), kernel), store_(store) {}

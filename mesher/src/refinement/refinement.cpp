@@ -48,6 +48,7 @@ void Refinement<D, Mesh, Location>::run() {
       split(moderate);
     }
   }
+  if constexpr (kConforms) this->finish();
 }
 
 /// Once all points are vertices: else a vertex is inserted that is needed for it, or will be.

@@ -22,6 +22,7 @@ class Subedges {
     EdgeHandle edge;
     PieceKind kind = PieceKind::whole;  // in the plane: how it is split
     bool encroached = false;            // it is to be split
+    bool by_centre = false;             // even if it is an edge
     std::uint32_t by = kNone;           // a vertex in its ball, if it is known
     std::uint32_t next = kNone;         // of the same edge
   };
@@ -47,10 +48,11 @@ class Subedges {
   std::uint32_t split(std::uint32_t i, std::uint32_t m, const Label& at,
                       const std::array<PieceKind, 2>& kinds = {}) {
     Piece rest = all_[i];
-    rest.a = m, rest.lo = at, rest.kind = kinds[1], rest.encroached = false;
+    rest.a = m, rest.lo = at, rest.kind = kinds[1], rest.encroached = rest.by_centre = false;
     by_ends_.erase(key(all_[i].a, all_[i].b));
     all_[i].next = size();
-    all_[i].b = m, all_[i].hi = at, all_[i].kind = kinds[0], all_[i].encroached = false;
+    all_[i].b = m, all_[i].hi = at, all_[i].kind = kinds[0];
+    all_[i].encroached = all_[i].by_centre = false;
     by_ends_.insert_or_assign(key(all_[i].a, m), i);
     return push(rest);
   }
@@ -63,12 +65,14 @@ class Subedges {
     return i;
   }
   /// By a vertex, or kNone. Returns: whether it was not.
-  bool set_encroached(std::uint32_t i, std::uint32_t by) noexcept {
+  bool set_encroached(std::uint32_t i, std::uint32_t by, bool by_centre = false) noexcept {
+    all_[i].by_centre = all_[i].by_centre || by_centre;
     if (all_[i].encroached) return false;
     all_[i].encroached = true;
     all_[i].by = by;
     return true;
   }
+  void set_fine(std::uint32_t i) noexcept { all_[i].encroached = all_[i].by_centre = false; }
 
   [[nodiscard]] std::uint32_t size() const noexcept {
     return static_cast<std::uint32_t>(all_.size());

@@ -235,6 +235,9 @@ TEMPLATE_TEST_CASE_SIG("a mesh of a complex depends on no order, and on no ids",
 TEMPLATE_TEST_CASE_SIG("what is not wanted is not refined: the outside, and holes", "", ((By B), B),
                        By::svr, By::refine) {
   Graph<3> plc = mesher::generate_plc({PlcKind::nested, 0.02});
+  for (const double x : {0.3, 0.301}) {  // two points inside are near each other
+    plc.points.push_back({mesher::PointId{static_cast<std::uint32_t>(1000 * x)}, {x, 0.3, 0.3}});
+  }
   const Options<3> options = options_for(plc);
   const Mesh<3> all = mesh_of<B>(plc, options),
                 enclosed = mesh_of<B>(plc, options, Extent::enclosed);

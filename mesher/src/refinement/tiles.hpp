@@ -1,8 +1,4 @@
-// Where Voronoi edges cross polygons: the faces that these are dual to, by their corners.
-//
-// The Voronoi diagram cuts a polygon into parts, one for each cell that meets it. The parts'
-// corners are these crossings. The polygon is a union of faces if all three corners of each face
-// lie on it: then the faces are its tiles [rules C3].
+// The faces that polygons are unions of, by their corners and by polygons.
 #pragma once
 
 #include <tsl/robin_map.h>
@@ -10,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "delaunay/simplex_store.hpp"
@@ -27,32 +24,38 @@ using Face = std::array<std::uint32_t, 3>;
   return face;
 }
 
-class Crossings {
+class Tiles {
  public:
-  struct Crossing {
+  struct Tile {
     Face face{};
     std::uint32_t polygon = 0;
-    Point<3> at{};    // as far from all three corners
-    Point<3> from{};  // of a tile: what encroaches on it, if it waits
+    Point<3> from{};  // what encroaches on it, if it waits
     bool alive = false;
-    bool is_tile = false;        // all corners are on the polygon
-    bool waiting = false;        // in the queue of those that have to go
+    bool waiting = false;        // in the queue of those that are to be split
+    std::uint32_t place = 0;     // in the list of its polygon
     std::uint32_t next = kNone;  // of the same face; free ones: the next free one
   };
 
-  [[nodiscard]] const Crossing& operator[](std::uint32_t i) const noexcept { return all_[i]; }
+  /// For polygons 1 to `last`.
+  void make_room(std::uint32_t last) { of_.resize(last + std::size_t{1}); }
+
+  [[nodiscard]] const Tile& operator[](std::uint32_t i) const noexcept { return all_[i]; }
+  /// Of a polygon, in an order that a run decides.
+  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t polygon) const noexcept {
+    return of_[polygon];
+  }
   /// The first of a face; kNone: there is none.
   [[nodiscard]] std::uint32_t find(const Face& face) const {
     const auto it = first_.find(face);
     return it == first_.end() ? kNone : it->second;
   }
-  [[nodiscard]] std::uint32_t find(const Face& face, std::uint32_t f) const {
+  [[nodiscard]] std::uint32_t find(const Face& face, std::uint32_t polygon) const {
     std::uint32_t i = find(face);
-    while (i != kNone && all_[i].polygon != f) i = all_[i].next;
+    while (i != kNone && all_[i].polygon != polygon) i = all_[i].next;
     return i;
   }
   /// Requires: find(face, polygon) == kNone.
-  std::uint32_t add(Crossing crossing) {
+  std::uint32_t add(const Face& face, std::uint32_t polygon) {
     std::uint32_t i = free_;
     if (i == kNone) {
       i = static_cast<std::uint32_t>(all_.size());
@@ -60,11 +63,14 @@ class Crossings {
     } else {
       free_ = all_[i].next;
     }
-    const auto [it, is_new] = first_.try_emplace(crossing.face, i);
-    crossing.next = is_new ? kNone : it->second;
-    crossing.alive = true;
+    const auto [it, is_new] = first_.try_emplace(face, i);
+    all_[i] = {.face = face,
+               .polygon = polygon,
+               .alive = true,
+               .place = static_cast<std::uint32_t>(of_[polygon].size()),
+               .next = is_new ? kNone : it->second};
     it.value() = i;
-    all_[i] = crossing;
+    of_[polygon].push_back(i);
     return i;
   }
   void erase(std::uint32_t i) {
@@ -80,11 +86,13 @@ class Crossings {
       while (all_[before].next != i) before = all_[before].next;
       all_[before].next = all_[i].next;
     }
+    std::vector<std::uint32_t>& list = of_[all_[i].polygon];
+    list[all_[i].place] = list.back();
+    all_[list.back()].place = all_[i].place;
+    list.pop_back();
     all_[i].alive = false;
     if (!all_[i].waiting) release(i);
   }
-  /// Its Voronoi edge became shorter, and is in the polygon's plane.
-  void move(std::uint32_t i, const Point<3>& at) noexcept { all_[i].at = at; }
   void set_waiting(std::uint32_t i, const Point<3>& from) noexcept {
     all_[i].waiting = true;
     all_[i].from = from;
@@ -94,11 +102,11 @@ class Crossings {
     all_[i].waiting = false;
     if (!all_[i].alive) release(i);
   }
-  /// Calls visit(crossing) for each.
+  /// Calls visit(tile) for each.
   template <class Visit>
   void for_each(Visit&& visit) const {
-    for (const Crossing& crossing : all_) {
-      if (crossing.alive) visit(crossing);
+    for (const Tile& tile : all_) {
+      if (tile.alive) visit(tile);
     }
   }
 
@@ -113,7 +121,8 @@ class Crossings {
     free_ = i;
   }
 
-  std::vector<Crossing> all_;
+  std::vector<Tile> all_;
+  std::vector<std::vector<std::uint32_t>> of_;  // by polygon
   std::uint32_t free_ = kNone;
   tsl::robin_map<Face, std::uint32_t, Hash> first_;
 };
