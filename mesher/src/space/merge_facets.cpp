@@ -1,8 +1,11 @@
 // Facets of one plane, side by side, made one: where only these two have an edge, it goes.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
+#include <unordered_map>
 
 #include "mesher/graph.hpp"
 #include "sets/make_set.hpp"
@@ -27,22 +30,26 @@ class Merger {
  public:
   explicit Merger(const Graph<3>& plc) : plc_(plc), groups_(plc.polygons.size()) {
     for (const GraphPoint<3>& v : plc.points) places_.emplace(v.id, v.at);
-    for (const mesher::Polygon& f : plc.polygons) facets_.push_back(shaped(f.loops));
-    for (std::size_t f = 0; f < facets_.size(); ++f) {
-      for (std::uint32_t k = 0; k < facets_[f].edges.size(); ++k) {
-        users_[facets_[f].edges[k]].push_back({f, k});
+    for (std::size_t f = 0; f < plc.polygons.size(); ++f) {
+      std::uint32_t k = 0;
+      for (const auto& loop : plc.polygons[f].loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+          users_.push_back({ends(loop[i], loop[(i + 1) % loop.size()]), f, k++});
+        }
       }
-      for (const auto& [a, b] : plc.polygons[f].edges) ++others_[ends(a, b)];
+      for (const auto& [a, b] : plc.polygons[f].edges) others_.insert(ends(a, b));
     }
-    for (const mesher::Segment& s : plc.segments) ++others_[ends(s.from, s.to)];
+    for (const mesher::Segment& s : plc.segments) others_.insert(ends(s.from, s.to));
+    std::sort(users_.begin(), users_.end());
   }
 
   Graph<3> merge() {
-    for (const auto& [edge, users] : users_) {
-      if (goes(edge) && fit(users[0], users[1])) groups_.unite(users[0].facet, users[1].facet);
+    for (std::size_t i = 0; i + 1 < users_.size(); ++i) {
+      const User &a = users_[i], &b = users_[i + 1];
+      if (a.edge == b.edge && goes(a.edge) && fit(a, b)) groups_.unite(a.facet, b.facet);
     }
     std::map<std::size_t, std::vector<std::size_t>> members;  // the first is the least
-    for (std::size_t f = 0; f < facets_.size(); ++f) members[groups_.find(f)].push_back(f);
+    for (std::size_t f = 0; f < plc_.polygons.size(); ++f) members[groups_.find(f)].push_back(f);
     std::map<std::size_t, mesher::Polygon> merged;
     for (const auto& [group, facets] : members) {
       const auto one = facets.size() > 1 ? joined(facets) : std::nullopt;
@@ -58,9 +65,12 @@ class Merger {
   }
 
  private:
+  // A facet with an edge, the k-th of its shape.
   struct User {
+    Ends edge;
     std::size_t facet;
-    std::uint32_t edge;
+    std::uint32_t k;
+    auto operator<=>(const User&) const = default;
   };
 
   [[nodiscard]] Shaped shaped(const std::vector<std::vector<PointId>>& loops) const {
@@ -78,13 +88,43 @@ class Merger {
   }
   // Whether nothing but two facets has the edge.
   [[nodiscard]] bool goes(const Ends& edge) const {
-    return users_.at(edge).size() == 2 && others_.count(edge) == 0;
+    const auto [first, last] =
+        std::equal_range(users_.begin(), users_.end(), User{edge, 0, 0},
+                         [](const User& a, const User& b) { return a.edge < b.edge; });
+    return last - first == 2 && others_.count(edge) == 0;
   }
-  [[nodiscard]] bool fit(const User& a, const User& b) const {
-    const Shaped &f = facets_[a.facet], &g = facets_[b.facet];
-    return f.is_flat && g.is_flat &&
-           plc_.polygons[a.facet].marker == plc_.polygons[b.facet].marker && lies_in_plane(f, g) &&
-           lies_in_plane(g, f) && detail::dot(inward(f.shape, a.edge), inward(g.shape, b.edge)) < 0;
+  [[nodiscard]] bool fit(const User& a, const User& b) {
+    if (plc_.polygons[a.facet].marker != plc_.polygons[b.facet].marker || is_bend(a, b)) {
+      return false;
+    }
+    const Shaped &f = facet(a.facet), &g = facet(b.facet);
+    return f.is_flat && g.is_flat && lies_in_plane(f, g) && lies_in_plane(g, f) &&
+           detail::dot(inward(f.shape, a.k), inward(g.shape, b.k)) < 0;
+  }
+  // Whether two triangles are clearly in two planes: most are, and need no shapes.
+  [[nodiscard]] bool is_bend(const User& a, const User& b) const {
+    const auto &f = plc_.polygons[a.facet].loops, &g = plc_.polygons[b.facet].loops;
+    if (f.size() != 1 || f[0].size() != 3 || g.size() != 1 || g[0].size() != 3) return false;
+    const auto place = [&](const auto& loops, std::uint32_t i) -> const Point<3>& {
+      return places_.at(loops[0][i % 3]);
+    };
+    const Point<3>&p = place(f, a.k), &q = place(f, a.k + 1), &r = place(f, a.k + 2),
+          &s = place(g, b.k + 2);
+    const Point<3> across = detail::cross(detail::minus(q, p), detail::minus(r, p));
+    double most = 0, longest2 = 0;
+    for (const Point<3>* x : {&p, &q, &r, &s}) {
+      for (const double c : *x) most = std::max(most, std::abs(c));
+      longest2 = std::max(longest2, detail::squared_distance(*x, p));
+    }
+    const double height = std::abs(detail::dot(detail::minus(s, p), across));
+    const double tolerance = 4 * detail::kFlatness * std::sqrt(longest2) + 0x1p-40 * most;
+    return height > tolerance * std::sqrt(detail::squared(across));
+  }
+  // The shape of a facet that may be merged.
+  [[nodiscard]] const Shaped& facet(std::size_t f) {
+    const auto [it, is_new] = facets_.try_emplace(f);
+    if (is_new) it->second = shaped(plc_.polygons[f].loops);
+    return it->second;
   }
   static bool lies_in_plane(const Shaped& f, const Shaped& g) {
     return std::all_of(f.shape.places.begin(), f.shape.places.end(), [&](const Point<3>& p) {
@@ -94,15 +134,14 @@ class Merger {
   }
 
   // One facet of many; nothing if that is not flat.
-  [[nodiscard]] std::optional<mesher::Polygon> joined(
-      const std::vector<std::size_t>& facets) const {
+  [[nodiscard]] std::optional<mesher::Polygon> joined(const std::vector<std::size_t>& facets) {
     std::map<Ends, int> count;
     mesher::Polygon out = plc_.polygons[facets.front()];
     out = {out.id, {}, {}, {}, out.marker};
     std::vector<PointId> points;
     for (const std::size_t f : facets) {
-      for (const Ends& edge : facets_[f].edges) ++count[edge];
-      points.insert(points.end(), facets_[f].corners.begin(), facets_[f].corners.end());
+      for (const Ends& edge : facet(f).edges) ++count[edge];
+      points.insert(points.end(), facet(f).corners.begin(), facet(f).corners.end());
       const Polygon& polygon = plc_.polygons[f];
       out.edges.insert(out.edges.end(), polygon.edges.begin(), polygon.edges.end());
       points.insert(points.end(), polygon.points.begin(), polygon.points.end());
@@ -169,9 +208,9 @@ class Merger {
 
   const Graph<3>& plc_;
   std::map<PointId, Point<3>> places_;
-  std::vector<Shaped> facets_;
-  std::map<Ends, std::vector<User>> users_;
-  std::map<Ends, int> others_;  // edges that are segments, or lie in polygons
+  std::vector<User> users_;  // by edges
+  std::set<Ends> others_;    // edges that are segments, or lie in polygons
+  std::unordered_map<std::size_t, Shaped> facets_;
   detail::UnionFind groups_;
 };
 
