@@ -179,9 +179,12 @@ void add_check(CLI::App& app) {
   check->add_flag("--surface", args->surface,
                   "The faces of .off, .obj, .ply or .stl are polygons, as for 'mesh'");
   check->add_flag("--merge", args->merge, "As --surface, with polygons merged as by 'mesh'");
-  check->add_flag("--no-merge", args->no_merge,
-                  "With --surface: as by 'mesh --surface --no-merge'; else that is seen by the\n"
-                  "polygons that the mesh names");
+  check
+      ->add_flag("--no-merge", args->no_merge,
+                 "With --surface: as by 'mesh --surface --no-merge'; else that is seen by the\n"
+                 "polygons that the mesh names")
+      ->needs(check->get_option("--surface"))
+      ->excludes(check->get_option("--merge"));
   check->add_option("--rho", args->rho, "Bound of circumradius over shortest edge");
   check->add_option("--max-area", args->max_area, "Bound of the area of triangles");
   check->add_option("--max-volume", args->max_volume, "Bound of the volume of tetrahedra");

@@ -113,7 +113,9 @@ void add_mesh(CLI::App& app) {
       app.add_subcommand("mesh", "Meshes a file of points and lines, or of a complex in space.");
   add_mesh_options(*mesh, *args);
   mesh->add_flag("--no-merge", args->no_merge,
-                 "With --surface: every face stays a polygon of its own");
+                 "With --surface: every face stays a polygon of its own")
+      ->needs(mesh->get_option("--surface"))
+      ->excludes(mesh->get_option("--merge"));
   mesh->add_option(
           "--algorithm", args->algorithm,
           "svr: sparse Voronoi refinement; refine: Delaunay refinement, from the triangulation\n"
@@ -140,9 +142,8 @@ void add_mesh(CLI::App& app) {
           "In space the same holds for polygons: every one is a union of faces, and the output\n"
           "is what they enclose. .poly and .smesh have segments and polygons; of surfaces and\n"
           "grids the points are meshed, and with --surface the faces of .off, .obj, .ply, .stl,\n"
-          ".vtu and .vtk, those of one plane merged. An .svg is a cutaway view: polygons are "
-          "green, and tetrahedra bluer\n"
-          "where radius-edge ratios are worse.\n"
+          ".vtu and .vtk, those of one plane merged. An .svg is a cutaway view: polygons are\n"
+          "green, and tetrahedra bluer where radius-edge ratios are worse.\n"
           "--stats: one JSON object; - for standard output.\n") +
       kQualityHelp +
       "\nExamples:\n"

@@ -116,25 +116,28 @@ void ComplexCheck::add_upper_tiles() {
     const FlatPolygon f = flat(*surface.polygon, places_);
     const double tolerance = static_cast<double>(f.deviation()) + 4 * rounding_;
     on.look_at(f, box_of(*surface.polygon, places_, tolerance), tolerance, surface.on);
+    const auto is_flat = [&](std::uint32_t t) {
+      const auto& corners = mesh_.mesh().simplices[t];
+      return std::all_of(corners.begin(), corners.end(), [&](auto w) { return on[w]; }) &&
+             !has_three_on_line(surface, corners);
+    };
+    const auto is_tile = [&](std::size_t i, std::size_t n) {
+      const Face face = faces[i].key();
+      const auto& [a, b, c] = face;
+      if (!on[b] || !on[c] || cuts_edge(surface, face)) return false;
+      const Point<3> middle = scaled(1.0 / 3, plus(at(a), plus(at(b), at(c))));
+      if (!f.contains(FlatPolygon::wide(middle))) return false;
+      for (std::size_t k = i; k < i + n; ++k) {
+        const std::uint32_t t = faces[k].tetrahedron;
+        if (is_above(f, face, t) && is_flat(t)) return false;
+      }
+      return true;
+    };
     for (const std::uint32_t v : on.all()) {
       for (std::size_t i = faces.first_at(v), n = 0; i < faces.size(); i += n) {
-        const auto& [a, b, c] = faces[i].face;
-        if (a != v) break;
+        if (faces[i].key()[0] != v) break;
         n = faces.partners(i);
-        if (!on[b] || !on[c] || cuts_edge(surface, faces[i].key())) continue;
-        const auto is_flat = [&](std::uint32_t t) {
-          const auto& corners = mesh_.mesh().simplices[t];
-          return std::all_of(corners.begin(), corners.end(),
-                             [&](std::uint32_t w) { return on[w]; }) &&
-                 !has_three_on_line(surface, corners);
-        };
-        const auto is_above = [&](std::uint32_t t) { return this->is_above(f, faces[i].key(), t); };
-        bool is_tile =
-            f.contains(FlatPolygon::wide(scaled(1.0 / 3, plus(at(a), plus(at(b), at(c))))));
-        for (std::size_t k = i; k < i + n && is_tile; ++k) {
-          is_tile = !(is_above(faces[k].tetrahedron) && is_flat(faces[k].tetrahedron));
-        }
-        if (is_tile) surface.tiles.push_back(faces[i].key());
+        if (is_tile(i, n)) surface.tiles.push_back(faces[i].key());
       }
     }
   }

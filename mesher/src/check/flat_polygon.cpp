@@ -85,15 +85,17 @@ FlatPolygon::Place FlatPolygon::beside(const Point<3>& a, const Point<3>& b) con
   return plus(middle, cross(normal_, minus(wide(b), wide(a))));
 }
 
-// A loop adds what it goes around if it lies in an even number of others, else it takes it.
+// A loop adds what it goes around if it lies in an even number of others, else it takes it. Loops
+// may share corners, so the middle of a side is asked about.
 Real FlatPolygon::area() const {
   Real sum = 0;
   for (const auto& loop : loops_) {
+    const Flat middle{(loop[0][0] + loop[1][0]) / 2, (loop[0][1] + loop[1][1]) / 2};
     Real twice = 0;
     for_each_side(loop, [&](const Flat& a, const Flat& b) { twice += a[0] * b[1] - a[1] * b[0]; });
     bool adds = true;
     for (const auto& other : loops_) {
-      if (&other != &loop && goes_around(other, loop[0])) adds = !adds;
+      if (&other != &loop && goes_around(other, middle)) adds = !adds;
     }
     sum += (adds ? 1 : -1) * std::abs(twice) / 2;
   }

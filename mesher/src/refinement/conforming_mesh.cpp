@@ -1,10 +1,10 @@
 // Vertices on features, and what is left alone.
 #include "refinement/conforming_mesh.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
+
+#include "space/polygon_shape.hpp"
 
 namespace mesher::detail {
 
@@ -13,9 +13,6 @@ namespace {
 // Of the box's side: within this of a wall rounding decides on which side of it a place is, or that
 // the wall is not quite flat (space/polygon_shape.hpp).
 constexpr double kNearWall = 0x1p-24;
-
-// Of the greatest coordinate: what is so near is computed in two ways from the same labels.
-constexpr double kRounding = 0x1p-48;
 
 }  // namespace
 
@@ -47,14 +44,16 @@ void ConformingMesh<D>::undo_place() {
   conformity_.drop_vertex();
 }
 
-/// Whether a vertex there is where one is wanted; if there is a choice, but for rounding.
+/// Whether a vertex there is where one is wanted; if there is a choice, but for rounding: it may be
+/// computed in another way from the same labels.
 template <int D>
 bool ConformingMesh<D>::is_taken(const typename Conforms::Wanted& wanted, const Point<D>& there) {
   const Point<D>& p = wanted.place.p;
-  if (!wanted.otherwise) return there == p;
-  double most = 0;
-  for (int i = 0; i < D; ++i) most = std::max(most, std::abs(p[i]));
-  return squared_distance(p, there) <= kRounding * kRounding * most * most;
+  if constexpr (D == 3) {
+    const double near = resolution(p, 0);
+    if (wanted.otherwise) return squared_distance(p, there) <= near * near;
+  }
+  return there == p;
 }
 
 template <int D>

@@ -90,7 +90,7 @@ auto Conformity::next() -> std::optional<Wanted> {
   for (; !wanted_pieces_.empty(); wanted_pieces_.pop_back()) {
     const std::uint32_t piece = wanted_pieces_.back();
     if (!pieces_[piece].encroached) continue;
-    if (pieces_[piece].by_centre || !is_edge(piece)) {
+    if (pieces_[piece].by_centre || !at_piece(piece).is_there) {
       splitting_ = piece;
       return split_piece(piece);
     }
@@ -178,11 +178,6 @@ void Conformity::after_fill(std::uint32_t v) {
   for (const std::uint32_t s : kernel_.made()) {
     for (std::uint32_t i = 0; i < 4; ++i) look_at_facet(s, i);
   }
-}
-
-bool Conformity::is_edge(std::uint32_t piece) {
-  const Subedges::Piece& p = pieces_[piece];
-  return look_at_edge(kernel_, p.a, p.b, star_, [](std::uint32_t) { return true; }).is_there;
 }
 
 }  // namespace mesher::detail

@@ -3,7 +3,8 @@
 //
 // An edge is cut into pieces. A piece is split if it is no edge of the triangulation, or if the
 // centre of a poor tetrahedron would come into its diametral ball. (To split each piece that has a
-// vertex in its ball is three times as many vertices on surfaces: most are edges all the same.)
+// vertex in its ball is three to five times as many vertices on surfaces: most are edges all the
+// same.)
 //
 // A polygon has no mesh of its own: it is covered by *tiles*, faces with their corners on it. Where
 // it is not, there is a *gap*: an edge of the triangulation pierces it there, and it gets a vertex
@@ -111,7 +112,6 @@ class Conformity : public LineConformity<3, Conformity> {
   template <class Visit>
   void visit_pieces_dug(Visit&& visit) const;
   [[nodiscard]] bool is_made(std::uint32_t piece) const;
-  [[nodiscard]] bool is_edge(std::uint32_t piece);
 
   // --- Tiles
   void start_polygons();
@@ -160,7 +160,9 @@ class Conformity : public LineConformity<3, Conformity> {
   [[nodiscard]] std::optional<Point<3>> foot_in(const Polygon& f, const Point<3>& x,
                                                 const Face& face, const Point<3>& centre) const;
   [[nodiscard]] bool is_nearest(std::uint32_t v, const Point<3>& x) const;
-  [[nodiscard]] Placed place_near(const Polygon& f, const Point<3>& x, std::uint32_t v) const;
+  template <class Helps>
+  [[nodiscard]] Placed place_near(const Polygon& f, const Point<3>& x, double d2,
+                                  Helps&& helps) const;
   [[nodiscard]] bool cuts_cell(std::uint32_t v, const Point<3>& x) const;
   [[nodiscard]] Vertex<3> record(std::uint32_t v) const;
   [[nodiscard]] Wanted wanted(const Placed& place, std::uint32_t beside, const Placed& otherwise);

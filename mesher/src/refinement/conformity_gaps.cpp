@@ -153,35 +153,40 @@ std::optional<Placed> Conformity::place_for(const Tiles::Tile& tile, const Point
   return std::nullopt;
 }
 
+/// On f at x, or on an edge near x instead, if a vertex there helps, too. `d2`: the squared
+/// distance of x from the nearest vertex.
+template <class Helps>
+Placed Conformity::place_near(const Polygon& f, const Point<3>& x, double d2, Helps&& helps) const {
+  const auto on_edge = yield_to_edges(FeaturesBeside(store_, x, kEverywhere), x, std::sqrt(d2));
+  return on_edge && helps(on_edge->p) ? *on_edge : placed_on(f, x);
+}
+
 /// A copy of one of the vertices at the edge that pierces the polygon, or the foot of one, or else
 /// where that is; or on an edge that is near these.
 Placed Conformity::place_for(const Gap& gap) const {
   const Polygon& f = polygon(gap.polygon);
   const Point<3>& centre = kernel_.simplices().ball(gap.simplex).centre;
   const double r2 = squared_distance(centre, place(gap.u));
+  const auto is_in_ball = [&](const Point<3>& x) { return detail::is_in_ball(centre, r2, x); };
   const std::array<std::uint32_t, 2> across{gap.u, gap.v};
+  const FeaturesBeside near(store_, gap.at, kEverywhere);
   for (const std::uint32_t w : across) {
     if (vertices_[w].role.on == 0) continue;
     const Vertex<3> v = record(w);
-    const FeaturesBeside near(store_, gap.at, kEverywhere);
     const auto copy = SmallAngles(near).copy({v, vertices_[w].role}, f);
-    if (copy && detail::polygon_of(copy->role) != 0 && detail::is_in_ball(centre, r2, copy->p)) {
-      return *copy;
-    }
+    if (copy && detail::polygon_of(copy->role) != 0 && is_in_ball(copy->p)) return *copy;
   }
   for (const std::uint32_t w : across) {
     const Point<3> foot = f.plane.foot(place(w));
-    if (detail::is_in_ball(centre, r2, foot) && contains(f, foot) && is_nearest(w, foot)) {
-      return place_near(f, foot, w);
-    }
+    if (!is_in_ball(foot) || !contains(f, foot) || !is_nearest(w, foot)) continue;
+    return place_near(f, foot, squared_distance(foot, place(w)),
+                      [&](const Point<3>& x) { return cuts_cell(w, x); });
   }
   double nearest2 = std::numeric_limits<double>::infinity();
   for (const std::uint32_t w : kernel_.simplices().corners(gap.simplex)) {
     nearest2 = std::min(nearest2, squared_distance(gap.at, place(w)));
   }
-  const FeaturesBeside near(store_, gap.at, kEverywhere);
-  const auto on_edge = yield_to_edges(near, gap.at, std::sqrt(nearest2));
-  return on_edge && detail::is_in_ball(centre, r2, on_edge->p) ? *on_edge : placed_on(f, gap.at);
+  return place_near(f, gap.at, nearest2, is_in_ball);
 }
 
 /// The foot of x, if it is in f and in the face's ball, and x is nearer to it than the corners are.
@@ -208,13 +213,6 @@ bool Conformity::is_nearest(std::uint32_t v, const Point<3>& x) const {
     });
   };
   return kernel_.find_in_star(v, star, has_nearer) == kNone;
-}
-
-/// On f at x, which is in v's cell, or on an edge near x instead, if that takes some of the cell.
-Placed Conformity::place_near(const Polygon& f, const Point<3>& x, std::uint32_t v) const {
-  const FeaturesBeside near(store_, x, kEverywhere);
-  const auto on_edge = yield_to_edges(near, x, std::sqrt(squared_distance(x, place(v))));
-  return on_edge && cuts_cell(v, on_edge->p) ? *on_edge : placed_on(f, x);
 }
 
 /// Whether a vertex at x would be a neighbour of v.

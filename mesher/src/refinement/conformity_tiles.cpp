@@ -97,11 +97,7 @@ bool Conformity::is_above(std::uint32_t s, std::uint32_t i, Rank f) const {
 EdgeHandle Conformity::common_edge(std::uint32_t v, std::uint32_t w) const {
   const Known &a = vertices_[v], &b = vertices_[w];
   if (!a.on_edge || !b.on_edge) return 0;
-  const EdgeHandle e = edge_of(a.role), t = edge_of(b.role);
-  if (e != 0) return e == t || store_.edges()[e].has_end(b.point) ? e : 0;
-  if (t != 0) return store_.edges()[t].has_end(a.point) ? t : 0;
-  const Edge* both = store_.find_edge(a.point, b.point);
-  return both == nullptr ? 0 : both->self;
+  return store_.common_edge(edge_of(a.role), a.point, edge_of(b.role), b.point);
 }
 
 bool Conformity::has_three_on_edge(const std::array<std::uint32_t, 4>& corners, Rank f) const {

@@ -101,12 +101,17 @@ class LineConformity {
     for (const SegmentOf<D>* s : segments_in_order()) add(*s, vertex_of[s->a], vertex_of[s->b]);
     for (std::uint32_t i = 0; i < pieces_.size(); ++i) look_at_piece(i);
   }
-  void look_at_piece(std::uint32_t piece) {
+  /// What is around a piece; no vertex in its ball is looked for if that does not matter.
+  [[nodiscard]] AtEdge at_piece(std::uint32_t piece) {
     const Subedges::Piece& p = pieces_[piece];
-    const AtEdge at = look_at_edge(kernel_, p.a, p.b, star_,
-                                   [&](std::uint32_t w) { return self().encroaches(piece, w); });
+    return look_at_edge(kernel_, p.a, p.b, star_, [&](std::uint32_t w) {
+      return Self::kEmptyBalls && self().encroaches(piece, w);
+    });
+  }
+  void look_at_piece(std::uint32_t piece) {
+    const AtEdge at = at_piece(piece);
     if (!at.is_there) self().require_edge(piece);
-    if (!at.is_there || (Self::kEmptyBalls && at.by != kNone)) want_piece(piece, at.by);
+    if (!at.is_there || at.by != kNone) want_piece(piece, at.by);
   }
   /// `by`: a vertex in its ball or in its way, if it is known and stays. `by_centre`: it is split
   /// even if it is an edge.

@@ -62,6 +62,15 @@ class FeatureStore {
   [[nodiscard]] const Edge* find_edge(VertexHandle a, VertexHandle b) const {
     return edges_.find(a, b);
   }
+  /// The live edge that two vertices both lie on: each inside of an edge (e, t), or else (0)
+  /// perhaps an input point (v, w). 0: none. Cost: O(1).
+  [[nodiscard]] EdgeHandle common_edge(EdgeHandle e, VertexHandle v, EdgeHandle t,
+                                       VertexHandle w) const {
+    if (e != 0) return e == t || edges()[e].has_end(w) ? e : 0;
+    if (t != 0) return edges()[t].has_end(v) ? t : 0;
+    const Edge* both = find_edge(v, w);
+    return both == nullptr ? 0 : both->self;
+  }
   /// Calls visit(edge) for the live edges at a point, until it returns true.
   template <class Visit>
   bool visit_edges_at(VertexHandle point, Visit&& visit) const {

@@ -41,11 +41,8 @@ class Standings {
   }
   /// The edge that both lie on; 0 if there is none.
   [[nodiscard]] EdgeHandle common_edge(VertexHandle v, VertexHandle w) const {
-    const EdgeHandle e = edge_of(labelled_.role(v)), t = edge_of(labelled_.role(w));
-    if (e != 0) return e == t || has_end(e, w) ? e : 0;
-    if (t != 0) return has_end(t, v) ? t : 0;
-    const Edge* both = labelled_.features.find_edge(v, w);
-    return both == nullptr ? 0 : both->self;
+    return labelled_.features.common_edge(edge_of(labelled_.role(v)), v, edge_of(labelled_.role(w)),
+                                          w);
   }
 
  private:
@@ -63,9 +60,6 @@ class Standings {
     }
     make_set(found);
     return found;
-  }
-  [[nodiscard]] bool has_end(EdgeHandle e, VertexHandle v) const {
-    return labelled_.features.edges()[e].has_end(v);
   }
 
   const Labelled& labelled_;

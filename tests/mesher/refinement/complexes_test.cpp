@@ -232,6 +232,18 @@ TEMPLATE_TEST_CASE_SIG("a mesh of a complex depends on no order, and on no ids",
   }
 }
 
+// The corner that they share is on both loops: which is in the other, no test of it can tell.
+TEMPLATE_TEST_CASE_SIG("a hole may touch its polygon's border at a corner", "", ((By B), B),
+                       By::svr, By::refine) {
+  support::Complex plate;
+  plate.points = {{1, 1, 2}, {3, 1, 2}, {3, 3, 2}, {1, 3, 2}, {1.8, 1.4, 2}, {1.6, 1.9, 2}};
+  plate.faces.push_back({{{0, 1, 2, 3}, {0, 4, 5}}, {}});
+  for (const Graph<3>& plc : {plc_of(plate), plc_of(turned(plate))}) {
+    const Mesh<3> mesh = mesh_of<B>(plc, options_for(plc));
+    CHECK(fault(mesh, plc, Extent::box) == "");
+  }
+}
+
 TEMPLATE_TEST_CASE_SIG("what is not wanted is not refined: the outside, and holes", "", ((By B), B),
                        By::svr, By::refine) {
   Graph<3> plc = mesher::generate_plc({PlcKind::nested, 0.02});
