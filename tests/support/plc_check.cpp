@@ -1,5 +1,5 @@
-// The check, in long doubles: a face is of a polygon if the line between the circumcentres on both
-// of its sides crosses the polygon.
+// The check, in long doubles: no edge of the mesh pierces a polygon. A face is of a polygon if its
+// corners and its middle are on it, and what is above is not flat on it.
 #include "plc_check.hpp"
 
 #include <algorithm>
@@ -24,6 +24,9 @@ Vector cross(const Vector& a, const Vector& b) {
 Real length(const Vector& a) { return std::sqrt(dot(a, a)); }
 Vector wide(const Point<3>& p) { return {p[0], p[1], p[2]}; }
 
+// So near a plane rounding may have moved a vertex.
+constexpr Real kNoise = 1e-13L;
+
 class Frame {
  public:
   explicit Frame(const ComplexMesh::Face& f) : o_(wide(f.loops[0][0])) {
@@ -41,6 +44,7 @@ class Frame {
     }
   }
   Real height(const Vector& x) const { return dot(minus(x, o_), n_); }
+  Real along_normal(const Vector& x) const { return dot(x, n_); }
   bool contains(const Vector& x) const {
     const auto p = in(x);
     bool inside = false;
@@ -85,6 +89,7 @@ class Check {
   ComplexReport report() {
     find_sides();
     check_edges();
+    for (const auto& line : lines_) check_line(line);
     for (const auto& [face, sides] : sides_) check_face(face, sides);
     for (std::size_t f = 0; f < frames_.size(); ++f) {
       const Real whole = frames_[f].area();
@@ -130,20 +135,34 @@ class Check {
       }
     }
   }
-  void check_face(const Face& face, const std::vector<std::size_t>& sides) {
-    if (sides.size() != 2) return;
-    const Vector &a = centres_[sides[0]], &b = centres_[sides[1]];
+  void check_line(const std::array<std::size_t, 2>& line) {
+    const Vector p = place(line[0]), q = place(line[1]);
     for (std::size_t f = 0; f < frames_.size(); ++f) {
-      const Real from = frames_[f].height(a), to = frames_[f].height(b);
-      if ((from > 0) == (to > 0)) continue;
-      if (!frames_[f].contains(plus(a, times(from / (from - to), minus(b, a))))) continue;
       const auto& on = mesh_.faces[f].vertices;
-      if (!std::all_of(face.begin(), face.end(), [&](std::size_t v) { return on.count(v) != 0; })) {
-        ++report_.wrong_faces;
-        continue;
-      }
-      const Vector o = place(face[0]);
-      area_[f] += length(cross(minus(place(face[1]), o), minus(place(face[2]), o))) / 2;
+      const Real from = frames_[f].height(p), to = frames_[f].height(q);
+      if ((from > 0) == (to > 0) || std::min(std::abs(from), std::abs(to)) < kNoise) continue;
+      if (on.count(line[0]) != 0 || on.count(line[1]) != 0) continue;
+      const Vector x = plus(p, times(from / (from - to), minus(q, p)));
+      if (frames_[f].contains(x)) ++report_.wrong_edges;
+    }
+  }
+  void check_face(const Face& face, const std::vector<std::size_t>& sides) {
+    const Vector o = place(face[0]), a = place(face[1]), b = place(face[2]);
+    const Vector up = cross(minus(a, o), minus(b, o));
+    const Vector middle = times(Real(1) / 3, plus(o, plus(a, b)));
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+      const auto& on = mesh_.faces[f].vertices;
+      const auto is_on = [&](std::size_t v) { return on.count(v) != 0; };
+      if (!std::all_of(face.begin(), face.end(), is_on) || !frames_[f].contains(middle)) continue;
+      const bool flat_above = std::any_of(sides.begin(), sides.end(), [&](std::size_t t) {
+        const Corners& corners = mesh_.tetrahedra[t];
+        if (!std::all_of(corners.begin(), corners.end(), is_on)) return false;
+        const auto apex = std::find_if(corners.begin(), corners.end(), [&](std::size_t v) {
+          return std::find(face.begin(), face.end(), v) == face.end();
+        });
+        return (dot(up, minus(place(*apex), o)) > 0) == (frames_[f].along_normal(up) > 0);
+      });
+      if (!flat_above) area_[f] += length(up) / 2;
     }
   }
   bool is_flat(const Corners& t) const {

@@ -33,7 +33,7 @@ struct ComplexMesh {
 
 struct ComplexReport {
   long missing_edges = 0;  // of the mesh, between neighbours on an edge
-  long wrong_faces = 0;    // a face that crosses a polygon
+  long wrong_edges = 0;    // that pierce a polygon
   double area_error = 0;   // relative, the largest
   long poor = 0;           // tetrahedra off the exempt ones
   long exempt = 0;         // poor but exempt

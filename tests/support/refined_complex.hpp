@@ -17,7 +17,7 @@
 
 namespace support {
 
-enum class By { svr, refine };
+enum class By { svr, refine, gap_balls };
 
 template <By B>
 mesher::Mesh<3> mesh_of(const mesher::Graph<3>& plc, const mesher::Options<3>& options,
@@ -25,6 +25,8 @@ mesher::Mesh<3> mesh_of(const mesher::Graph<3>& plc, const mesher::Options<3>& o
                         const mesher::RunControl& control = {}) {
   if constexpr (B == By::svr) {
     return mesher::svr(plc, options, extent, {}, nullptr, control);
+  } else if constexpr (B == By::gap_balls) {
+    return mesher::mesh_statically(plc, options);
   } else {
     return mesher::refine(plc, options, extent, {}, nullptr, control);
   }

@@ -12,6 +12,7 @@
 #include "mesher/predicates.hpp"
 #include "records/reach_tree.hpp"
 #include "sets/make_set.hpp"
+#include "space/polygon_shape.hpp"
 #include "text/text.hpp"
 
 namespace mesher::detail {
@@ -23,12 +24,15 @@ constexpr double kArea = 1e-9;
 // Of the length of an edge: so near its middle a place beside it is in the polygon beside it.
 constexpr double kBeside = 0x1p-10;
 
-FlatPolygon flat(const Polygon& polygon, const std::map<PointId, Point<3>>& places) {
+// Loops begin where a polygon's normal is taken from (space/polygon_shape.hpp), so that its upper
+// side is that of a mesh.
+FlatPolygon flat(const mesher::Polygon& polygon, const std::map<PointId, Point<3>>& places) {
   std::vector<std::vector<Point<3>>> loops;
   for (const auto& loop : polygon.loops) {
     auto& corners = loops.emplace_back();
     for (const PointId id : loop) corners.push_back(places.at(id));
   }
+  put_in_order(loops, [](const Point<3>& p) -> const Point<3>& { return p; });
   return FlatPolygon(loops);
 }
 
@@ -95,7 +99,8 @@ class VerticesOn {
 };
 
 // What the corners of a polygon are in, and places that are off it by no more than this.
-Box<3> box_of(const Polygon& polygon, const std::map<PointId, Point<3>>& places, double by) {
+Box<3> box_of(const mesher::Polygon& polygon, const std::map<PointId, Point<3>>& places,
+              double by) {
   std::vector<Point<3>> corners;
   for (const auto& loop : polygon.loops) {
     for (const PointId id : loop) corners.push_back(places.at(id));

@@ -422,11 +422,7 @@ void VertexIndex<sac::Scope, D>::record_cell(sac::Scope& s, Vertex<D>& v, const 
   last_cell_->radius = radius;
   last_cell_->count = static_cast<std::uint32_t>(codes_.size());
   std::copy(codes_.begin(), codes_.end(), last_cell_->codes());
-  if constexpr (D == 3) {
-    // A cell on a side of the box may go farther there than the corners that concern() looks at.
-    const double beside = v.boundary ? std::sqrt(cell.reach2()) * (1 + 0x1p-10) : 0;
-    last_cell_->features_within = in_sides(beside);
-  }
+  if constexpr (D == 3) last_cell_->features_within = 0;
   fill(s, *last_cell_, v, reach);
 }
 
@@ -626,10 +622,6 @@ void VertexIndex<sac::Scope, D>::check_observation(const Vertex<D>& v, const Obs
   const auto last = observers_.seen(o);
   SAC_INVARIANT(std::equal(record.begin(), record.end(), last.begin(), last.end()));
   SAC_INVARIANT(o.reach == concern(*cell));
-  if constexpr (D == 3) {
-    const double within = corners_within(o.reach);
-    SAC_INVARIANT(v.boundary || cell->reach2() <= within * within);
-  }
 }
 
 template class VertexIndex<sac::Scope, 2>;

@@ -170,7 +170,7 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   void insert(sac::Scope& s, VertexRef<D> v);
   CellLoan<D> voronoi_cell(sac::Scope& s, VertexRef<D> v, double radius);
   /// In space: who has seen the last cell has asked for features within this of its vertex, but not
-  /// beyond VertexSearch::beside, and for those that meet the cell.
+  /// beyond VertexSearch::beside.
   void note_asked(double distance) noexcept {
     if constexpr (D == 3) {
       last_cell_->features_within = std::max(last_cell_->features_within, in_sides(distance));
@@ -228,11 +228,10 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   void limits_changed(const Box<D>& where) noexcept;
 
   /// Called by what makes a feature come or go: who has looked at a cell has asked which features
-  /// meet it, or are beside it. Of the feature: `distance(x)` from x; `beyond(x, r)` only if it is
-  /// farther than r from x, which is quicker to tell; `across(v, u)` only if no place of it is as
-  /// near to v as to u. None throws.
-  template <class Beyond, class Distance, class Across>
-  void feature_changed(Beyond&& beyond, Distance&& distance, Across&& across) noexcept {
+  /// are beside it. Of the feature: `distance(x)` from x; `beyond(x, r)` only if it is farther than
+  /// r from x, which is quicker to tell. None throws.
+  template <class Beyond, class Distance>
+  void feature_changed(Beyond&& beyond, Distance&& distance) noexcept {
     tree_.visit_within(Base::kBeside, beyond, [&](const Vertex<D>& center) {
       double away = -1;  // not known
       const auto is_within = [&](double r) {
@@ -243,10 +242,8 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
       observers_.find_at(center, [&](const Observation& o) {
         if (o.kind != kCell) return false;
         const auto& cell = static_cast<const CellSeen&>(o);
-        const bool concerned =
-            is_within(cell.features_within * box_.side) ||
-            (is_within(Base::corners_within(o.reach)) && !is_cut_off(cell, across));
-        if (concerned) engine_.invalidate(engine_.call(o.call), &o);
+        const double asked = std::min(cell.features_within * box_.side, Base::beside(o.reach));
+        if (is_within(asked)) engine_.invalidate(engine_.call(o.call), &o);
         return false;
       });
     });
@@ -267,7 +264,6 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   using Base::borrow_cell;
   using Base::box_;
   using Base::concern;
-  using Base::corners_within;
   using Base::cut_around;
   using Base::cut_by_candidates;
   using Base::fail_coincident;
@@ -318,14 +314,6 @@ class VertexIndex<sac::Scope, D> : public VertexSearch<D>, public sac::Structure
   [[nodiscard]] Role role_from(const sac::Call& producer, const Vertex<D>& v) const noexcept;
   void run_again(sac::Handle call, const sac::Window& window, const sac::Edge* seen) noexcept;
   void take_role(Vertex<D>& v, const Role& role, const sac::Call& producer) noexcept;
-  // Whether a plane of the cell keeps something off it: across(v, u).
-  template <class Across>
-  [[nodiscard]] bool is_cut_off(const CellSeen& o, Across& across) const noexcept {
-    const auto all = observers_.neighbours(o);
-    return std::any_of(all.begin(), all.end(), [&](std::uint32_t u) {
-      return u < CellOf<D>::kVirtual && across(pool_[o.center].p, pool_[u].p);
-    });
-  }
   [[nodiscard]] bool concerns(const Vertex<D>& v, const Vertex<D>& center,
                               const Observation& o) const noexcept;
   void appeared(const Vertex<D>& v, const sac::Window& window) noexcept;

@@ -69,7 +69,7 @@ class VertexSearch {
                     });
   }
 
-  /// Features that matter to v are within this of it: those that its cell may meet, or that points
+  /// Features that matter to v are within this of it: those that its star may meet, or that points
   /// in the balls of its corners yield to. A point x in the ball of a corner q, and a feature in
   /// the ball around x that is empty, are within 2.75 |q| of v (program/space_lines.hpp), and q's
   /// ball extends from v farther than 1.577 |q| along some axis.
@@ -247,11 +247,6 @@ class VertexSearch {
   }
 
   static constexpr double kBeside = 1.75;
-  // No corner of a cell is farther from its vertex, unless that is on a side of the box: somewhat
-  // more than by the 1.577 at beside().
-  [[nodiscard]] double corners_within(const Reach<D>& reach) const noexcept {
-    return reach.farthest() * box_.side / 1.5;
-  }
   [[nodiscard]] double beside(const Reach<D>& reach) const noexcept {
     return kBeside * reach.farthest() * box_.side;
   }

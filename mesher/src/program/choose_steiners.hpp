@@ -47,29 +47,50 @@ void ComputeNN::operator()(S& s, VertexRef<D> v, int b) const {
   w.post_complete(s, v, std::max(b, w.buckets().bucket(nearest2)));
 }
 
-// else if w is a Complete event on v: if v encroaches leaves, cut them [5.2b]. While there is a gap
-// ball b = B(x, r) to fill: if x is in the balls of leaves, cut them instead [5.2c]; else add x to
-// the vertices; add Complete(x), with key |xv|
+struct Filled {
+  bool inserts = false;  // vertices
+  bool waits = false;    // for leaves that are cut
+};
+
+// While there is a gap ball b = B(x, r) to fill: if x is in the balls of leaves, cut them instead
+// [5.2c]; else add x to the vertices; add Complete(x), with key |xv|
+template <class S, int D>
+Filled fill_gaps(S& s, World<S, D>& w, CellOf<D>& gaps, Staying<S, D>& stays, const Vertex<D>& v,
+                 int b) {
+  Filled filled;
+  while (const auto point = w.rule->next_point(gaps, b, stays.filter())) {
+    const Outcome outcome = yields(s, w, stays, *point, b);
+    if (outcome == Outcome::waits || outcome == Outcome::refused) {
+      stays.leave(gaps, point->from, point->to);
+      filled.waits = filled.waits || outcome == Outcome::waits;
+    }
+    filled.inserts = filled.inserts || outcome == Outcome::yielded;
+    if (outcome != Outcome::stands) continue;
+    const VertexRef<D> x = w.vertices.insert(s, point->p);
+    if (!point->farther || !gaps.cuts(x->p)) w.fail_useless(v, *x);
+    w.require_room(s);
+    gaps.cut(x->self);
+    filled.inserts = true;
+    w.post_complete(s, x, std::max(b + 1, w.buckets().bucket(point->nearest2)));
+    w.post_star(s, x);
+  }
+  return filled;
+}
+
+// else if w is a Complete event on v: if v encroaches leaves, cut them [5.2b]; in space, add
+// vertices to features that cross v's star. Then fill v's gap balls
 template <class S, int D>
 void Complete::operator()(S& s, VertexRef<D> v, int b) const {
   auto& w = s.template environment<World<S, D>>();
   if (is_settled(s, w, v, b)) return;
   const CellLoan<D> gaps = w.vertices.voronoi_cell(s, v, w.buckets().clip_radius(b));
   Staying<S, D> stays(w, *gaps);
-  bool cuts = disencroach(s, w, stays, v, b);
-  while (const auto point = w.rule->next_point(*gaps, b, stays.filter())) {
-    const Outcome outcome = yields(s, w, stays, *point, b);
-    if (outcome == Outcome::waits || outcome == Outcome::refused) {
-      stays.leave(*gaps, point->from, point->to);
-      cuts = cuts || outcome == Outcome::waits;
-    }
-    if (outcome != Outcome::stands) continue;
-    const VertexRef<D> x = w.vertices.insert(s, point->p);
-    if (!point->farther || !gaps->cuts(x->p)) w.fail_useless(*v, *x);
-    w.require_room(s);
-    gaps->cut(x->self);
-    w.post_complete(s, x, std::max(b + 1, w.buckets().bucket(point->nearest2)));
-    w.post_star(s, x);
+  bool cuts = disencroach(s, w, v, b);
+  conform(s, stays, b);
+  for (bool grows = true; grows;) {
+    const Filled filled = fill_gaps(s, w, *gaps, stays, *v, b);
+    cuts = cuts || filled.waits;
+    grows = filled.inserts && conform(s, stays, b);
   }
   const std::optional<int> later = cuts ? b + 1 : w.rule->next_bucket(*gaps, b, stays.filter());
   s.weigh(stays.looked_at());

@@ -168,8 +168,7 @@ class InputFeatures<sac::Scope> final : public PointListener<3>, private Feature
     const auto beyond = [&](const Point<3>& x, double r) {
       return is_clear_of(f, x, r) || (r < reach_of(f) && distance(x) > r);
     };
-    const auto across = [&](const Point<3>& v, const Point<3>& u) { return is_across(f, v, u); };
-    cells_->feature_changed(beyond, distance, across);
+    cells_->feature_changed(beyond, distance);
   }
 
   sac::Engine& engine_;

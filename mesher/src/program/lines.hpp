@@ -8,20 +8,24 @@
 
 namespace mesher::detail {
 
-/// Cuts the leaves that v, in its bucket, encroaches [5.2b]; returns whether there are any. In
-/// space inserts vertices on the features that the cell meets at once: none is left to be cut.
+/// Cuts the leaves that v, in its bucket, encroaches [5.2b]; returns whether there are any.
 template <class S>
-bool disencroach(S& s, World<S, 2>& w, Staying<S, 2>&, VertexRef<2> v, int b) {
+bool disencroach(S& s, World<S, 2>& w, VertexRef<2> v, int b) {
   return v->on_segment && w.post_cuts(s, w.leaves.around(s, v), b);
 }
-template <class S>
-bool disencroach(S& s, World<S, 3>&, Staying<S, 3>& beside, VertexRef<3>, int b) {
-  if (beside.any()) beside.disencroach(s, b);
+template <class S, int D>
+bool disencroach(S&, World<S, D>&, VertexRef<D>, int) {
   return false;
 }
 
+/// In space inserts vertices on the features that cross v's star at once: none is left to be cut.
+/// Returns whether it did.
+template <class S>
+bool conform(S& s, Staying<S, 3>& beside, int b) {
+  return beside.disencroach(s, b);
+}
 template <class S, int D>
-bool disencroach(S&, World<S, D>&, Staying<S, D>&, VertexRef<D>, int) {
+bool conform(S&, Staying<S, D>&, int) {
   return false;
 }
 
@@ -33,7 +37,9 @@ Outcome yields(S& s, World<S, 2>& w, Staying<S, 2>&, const InsertionRule<2>::New
 template <class S>
 Outcome yields(S& s, World<S, 3>&, Staying<S, 3>& beside, const InsertionRule<3>::NewPoint& x,
                int b) {
-  return beside.any() ? beside.yields(s, x, b) : Outcome::stands;
+  if (beside.any()) return beside.yields(s, x, b);
+  beside.note_new();
+  return Outcome::stands;
 }
 
 template <class S, int D>

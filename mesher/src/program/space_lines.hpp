@@ -1,8 +1,8 @@
-// The queries of ChooseSteiners about edges and polygons in space [Fig 6.2, 6.3; rules C].
+// The queries of ChooseSteiners about edges and polygons in space [Fig 6.2, 6.3; rules C, F].
 //
 // No edge or face of the mesh is remembered: an edge of the input is a union of the mesh's edges,
-// and a polygon of its faces, once no vertex that is not on it has a cell that meets it. So
-// Complete(v) queries the features of the input near v, a function of v's cell and these features:
+// and a polygon of its faces, once none crosses the star of a vertex (space/star_crossings.hpp). So
+// Complete(v) queries the features of the input near v, a function of v's star and these features:
 // calls that have observed v's cell are notified when a feature within their search radius is added
 // or removed (VertexIndex::feature_changed).
 #pragma once
@@ -10,14 +10,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "program/staying.hpp"
 #include "program/world.hpp"
-#include "space/encroachment.hpp"
 #include "space/guard.hpp"
 #include "space/small_angles.hpp"
+#include "space/star_crossings.hpp"
 #include "space/yielding.hpp"
 
 namespace mesher::detail {
@@ -34,12 +35,14 @@ class Staying<S, 3> final : public EdgeFilter<3> {
         near_(world.plc.store(), cell.center().p, any_ ? world.vertices.beside(cell) : 0) {}
   Staying(const Staying&) = delete;
   Staying& operator=(const Staying&) = delete;
-  /// Records the search radius with the cell's observation.
-  ~Staying() override {
-    if (any_) world_.vertices.note_asked(near_.asked());
-  }
+  /// Records the search radius with the cell's observation. Where there are no features that is
+  /// what it would be: of one that inserts nothing the star's; else it is not known, and the first
+  /// feature concerns whoever it might.
+  ~Staying() override { world_.vertices.note_asked(any_ ? near_.asked() : would_ask()); }
 
   [[nodiscard]] bool any() const noexcept { return any_; }
+  /// Where there are no features: a new point stands.
+  void note_new() noexcept { inserts_ = true; }
   /// This, for a rule; null where nothing can stay.
   [[nodiscard]] const EdgeFilter<3>* filter() const noexcept { return any_ ? this : nullptr; }
   /// The simplices at this edge stay.
@@ -54,11 +57,17 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   }
   [[nodiscard]] bool skips_large(const VoronoiCell3&, int, int) const override { return false; }
 
-  /// While the cell meets features that v is not on: vertices on these.
-  void disencroach(S& s, int b) {
-    if (!any_) return;
-    for (const Edge* e : find_in<Edge>(cell_, near_.store())) clear(s, *e, b);
-    for (const Polygon* f : find_in<Polygon>(cell_, near_.store())) clear(s, *f, b);
+  /// While features cross the star: vertices on them. Returns whether there were any.
+  bool disencroach(S& s, int b) {
+    bool inserts = false;
+    const auto role_of = [&](const Vertex<3>& v) { return world_.vertices.role(v); };
+    while (any_) {
+      const auto y = StarCrossings(cell_, world_.vertices.pool(), near_, role_of).place();
+      if (!y) break;
+      insert(s, *y, b);
+      inserts = true;
+    }
+    return inserts;
   }
 
   /// Whether x yields: a vertex is inserted instead, on a feature; or is refused.
@@ -71,6 +80,14 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   }
 
  private:
+  [[nodiscard]] double would_ask() const {
+    if (inserts_) return std::numeric_limits<double>::infinity();
+    double reach2 = 0;
+    for (int i = 0; i < cell_.size(); ++i) {
+      if (cell_.used(i) && cell_.real(i)) reach2 = std::max(reach2, squared(cell_.neighbour(i)));
+    }
+    return std::sqrt(reach2) * (1 + 0x1p-10);
+  }
   [[nodiscard]] Standing standing(const Vertex<3>& v) const { return {v, world_.vertices.role(v)}; }
   [[nodiscard]] SmallAngles angles() const { return SmallAngles(near_); }
   using Ends = std::array<VertexHandle, 2>;
@@ -83,32 +100,6 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   }
   void insert(S& s, const Placed& y, int b) {
     world_.insert_beside(s, cell_.center(), cell_, y, b);
-  }
-
-  // Each new vertex takes some of what the cell has of e.
-  void clear(S& s, const Edge& e, int b) {
-    const Standing v = standing(cell_.center());
-    if (is_on(v, e)) return;
-    while (const auto part = part_in(cell_, e)) {
-      auto y = angles().copy(v, e);
-      if (!y || !cell_.cuts(y->p)) {
-        const auto at = roundest(e, part->middle(0.5));
-        if (!at) world_.fail_useless(v.v, v.v);
-        y = placed_on(e, *at);
-      }
-      insert(s, *y, b);
-    }
-  }
-  void clear(S& s, const Polygon& f, int b) {
-    const Standing v = standing(cell_.center());
-    if (is_on(v, f)) return;
-    while (const auto x = place_in(cell_, f)) {
-      auto y = angles().copy(v, f);
-      if (!y || !cell_.cuts(y->p)) {
-        y = yield_to_edges(near_, *x, std::sqrt(squared_distance(*x, v.v.p)));
-      }
-      insert(s, y ? *y : placed_on(f, *x), b);
-    }
   }
 
   // By the guard (space/guard.hpp).
@@ -142,6 +133,7 @@ class Staying<S, 3> final : public EdgeFilter<3> {
   const std::uint64_t before_;
   const FeaturesBeside near_;
   std::vector<Ends> left_;
+  bool inserts_ = false;
 };
 
 }  // namespace mesher::detail

@@ -57,11 +57,13 @@ struct World<S, 3> : PointWorld<S, 3> {
   void post_fill(S& s, const FacetPiece& piece);
   /// fill() of what a cell consists of, which is split, too.
   void post_parts(S& s, const Cell<3>& c) { detail::post_parts(s, *this, c); }
-  /// Whether a piece is crowded, or long for the lattice beside it.
+  /// Whether a piece is long for the lattice beside it. (One that is crowded is split where
+  /// something crosses it, if at all; the query is how those who ask for limits here are found.)
   [[nodiscard]] bool divides(S& s, const EdgePiece& piece) {
-    const bool crowded = plc.crowded(s, piece);  // first: who asks is found by this
-    return crowded || limits.is_long(EdgeBall(piece).box(), piece.length(), kLongestEdge);
+    (void)plc.crowded(s, piece);
+    return limits.is_long(EdgeBall(piece).box(), piece.length(), kLongestEdge);
   }
+  /// Whether a piece is crowded, or long for the lattice beside it.
   [[nodiscard]] bool divides(S& s, const FacetPiece& piece) {
     const bool crowded = plc.crowded(s, piece);
     return crowded || limits.is_long(FacetBall(piece).box(), piece.longer_side(), kWidestPiece);

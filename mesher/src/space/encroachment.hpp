@@ -1,8 +1,7 @@
-// Where features meet a vertex's clipped Voronoi cell: then the mesh does not contain them yet.
+// Where features meet a vertex's clipped Voronoi cell [Fig 6.2]: if v is not on them, balls around
+// their pieces are not empty. That is asked of features that meet at small angles.
 //
-// An edge of the input is a union of edges of the mesh iff V(v) meets it for no v that is not on
-// it, and a polygon is a union of faces iff the same holds for it and its edges [rules C3]. Tests
-// are closed with slack, so that other signs are clear of zero [C5].
+// Tests are closed with slack, so that other signs are clear of zero [C5].
 #pragma once
 
 #include <optional>

@@ -81,34 +81,6 @@ class Found {
   bool failed_ = false;
 };
 
-// What is outside of a cell: of the ball around it, or beyond one of its planes. Wider than tests
-// of what is in it, by more than their slack and rounding.
-class Outside {
- public:
-  explicit Outside(const VoronoiCell3& cell)
-      : cell_(cell), reach_(std::sqrt(cell.reach2()) * (1 + 0x1p-10)) {}
-
-  [[nodiscard]] double reach() const noexcept { return reach_; }
-  /// Whether a ball is.
-  [[nodiscard]] bool has(const Point<3>& middle, double radius) const noexcept {
-    const Point<3> x = minus(middle, cell_.center().p);
-    const double most = reach_ + radius;
-    if (squared(x) > most * most) return true;
-    const double wide = radius + 0x1p-20 * most;
-    for (int i = 0; i < cell_.size(); ++i) {
-      if (!cell_.used(i)) continue;
-      const Point<3>& u = cell_.neighbour(i);
-      const double u2 = squared(u), beyond = dot(u, x) - u2 / 2 * (1 + 0x1p-10);
-      if (beyond > 0 && beyond * beyond > wide * wide * u2) return true;
-    }
-    return false;
-  }
-
- private:
-  const VoronoiCell3& cell_;
-  double reach_;
-};
-
 }  // namespace
 
 bool disjoint(const Polygon& f, const Polygon& g) {
@@ -125,22 +97,6 @@ std::vector<const F*> find_near(const Point<3>& place, double radius, FeatureSto
 }
 template std::vector<const Edge*> find_near(const Point<3>& place, double radius, FeatureStore&);
 template std::vector<const Polygon*> find_near(const Point<3>& place, double radius, FeatureStore&);
-
-template <class F>
-std::vector<const F*> find_in(const VoronoiCell3& cell, FeatureStore& store) {
-  const Outside outside(cell);
-  Found<F> found;
-  const auto is_outside = [&](const Point<3>& x, double radius) { return outside.has(x, radius); };
-  const auto take = [&](const F& f) noexcept { return found.take(f); };
-  if constexpr (std::is_same_v<F, Edge>) {
-    store.visit_edges_in(cell.center().p, outside.reach(), is_outside, take);
-  } else {
-    store.visit_polygons_in(is_outside, take);
-  }
-  return found.finish();
-}
-template std::vector<const Edge*> find_in(const VoronoiCell3&, FeatureStore&);
-template std::vector<const Polygon*> find_in(const VoronoiCell3&, FeatureStore&);
 
 void FeaturesBeside::ask(const Point<3>& x, double radius) const {
   const double within = (std::sqrt(squared_distance(x, place_)) + radius) * (1 + 0x1p-20);

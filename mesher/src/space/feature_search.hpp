@@ -55,19 +55,6 @@ template <>
   return {f.middle, f.middle, f.reach + f.thickness};
 }
 
-/// Only if no place within `slack` of the convex hull of `places` is as near to v as to u.
-template <class Places>
-[[nodiscard]] bool is_across(const Places& places, const Point<3>& v, const Point<3>& u,
-                             double slack) {
-  const Point<3> to = minus(u, v);
-  const double u2 = squared(to), away = std::sqrt(u2) * slack;
-  return std::all_of(places.begin(), places.end(), [&](const Point<3>& p) {
-    const Point<3> x = minus(p, v);
-    const double beyond = dot(to, x) - u2 / 2 - away;
-    return beyond > 0x1p-10 * u2 + 0x1p-20 * std::sqrt(u2 * squared(x));
-  });
-}
-
 /// Around what place, and how far, a ball reaches that has all of a feature.
 [[nodiscard]] inline Point<3> middle_of(const Edge& e) {
   return scaled(0.5, plus(e.place_a, e.place_b));
@@ -82,14 +69,6 @@ template <class F>
   return squared_distance(x, middle_of(f)) > most * most;
 }
 
-/// Only if no place of a feature is as near to v as to u.
-[[nodiscard]] inline bool is_across(const Edge& e, const Point<3>& v, const Point<3>& u) {
-  return is_across(std::array{e.place_a, e.place_b}, v, u, 0);
-}
-[[nodiscard]] inline bool is_across(const Polygon& f, const Point<3>& v, const Point<3>& u) {
-  return is_across(f.places, v, u, 2 * f.thickness);
-}
-
 /// How far a feature may be off a line or a plane.
 [[nodiscard]] inline double thickness_of(const Edge&) { return 0; }
 [[nodiscard]] inline double thickness_of(const Polygon& f) { return f.thickness; }
@@ -99,9 +78,6 @@ template <class F>
 template <class F>
 [[nodiscard]] std::vector<const F*> find_near(const Point<3>& place, double radius,
                                               FeatureStore& store);
-/// The edges, or polygons, that meet a cell, and few others, likewise.
-template <class F>
-[[nodiscard]] std::vector<const F*> find_in(const VoronoiCell3& cell, FeatureStore& store);
 
 /// What is asked of features by who observes a cell. How far is noted: the farther, the more
 /// features are there whose coming and going concerns it.
@@ -115,6 +91,8 @@ class FeaturesBeside {
   [[nodiscard]] const Point<3>& place() const noexcept { return place_; }
   /// Within what distance of the cell's vertex features have been asked for. 0: they have not.
   [[nodiscard]] double asked() const noexcept { return asked_; }
+  /// Notes that features within `radius` of the cell's vertex are asked for.
+  void ask_within(double radius) const { ask(place_, radius); }
   /// The polygons within `radius` of x, and others, in canonical order.
   [[nodiscard]] const std::vector<const Polygon*>& polygons(const Point<3>& x, double radius) const;
   /// The edges within `radius` of x, in canonical order.

@@ -1,4 +1,4 @@
-// Parts of features, simplex by simplex; what two simplices find is joined by sorting.
+// Parts of features, simplex by simplex.
 #include "space/parts_in_mesh.hpp"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "geometry/circumcentre.hpp"
+#include "mesher/predicates.hpp"
 #include "sets/make_set.hpp"
 #include "space/placed.hpp"
 
@@ -84,19 +84,11 @@ class PartFinder {
 
   [[nodiscard]] OnFeatures finish() {
     make_set(edges_);
+    make_set(faces_);
     OnFeatures all;
     for (const auto& [low, high, e] : edges_) all.edges.push_back(named(low, high, e));
-    std::sort(sides_.begin(), sides_.end());
-    for (std::size_t i = 1; i < sides_.size(); ++i) {
-      const auto& [f, corners, is_above] = sides_[i];
-      if (std::tie(f, corners) !=
-          std::tie(std::get<0>(sides_[i - 1]), std::get<1>(sides_[i - 1]))) {
-        continue;
-      }
-      const bool crosses = is_above != std::get<2>(sides_[i - 1]);
-      if (crosses && holds_centre(f, corners)) {
-        all.faces.push_back({corners, labelled_.names.polygon(f)});
-      }
+    for (const auto& [f, corners] : faces_) {
+      all.faces.push_back({corners, labelled_.names.polygon(f)});
     }
     return all;
   }
@@ -120,30 +112,27 @@ class PartFinder {
       return std::binary_search(all.begin(), all.end(), f);
     };
     for (const PolygonHandle f : on[a]) {
-      if (!has(on[b], f) || !has(on[c], f)) continue;
+      if (!has(on[b], f) || !has(on[c], f) || has(on[i], f) || !is_above(s, i, f)) continue;
       Corners corners{s[a], s[b], s[c]};
       std::sort(corners.begin(), corners.end());
-      sides_.emplace_back(f, corners, is_above(s, f));
+      if (holds_middle(f, corners)) faces_.emplace_back(f, corners);
     }
   }
 
-  // Whether the centre is on the normal's side of the plane: a function of the corners' places, in
-  // no order.
-  [[nodiscard]] bool is_above(const Simplex& s, PolygonHandle f) const {
-    std::array<Point<3>, 4> p;
-    for (std::size_t i = 0; i < 4; ++i) p[i] = labelled_.vertices[s[i]].p;
-    p = smallest_first(p);
-    const Plane& plane = labelled_.features.polygons()[f].plane;
-    const Circumcentre centre = circumcentre(p[0], p[1], p[2], p[3]);
-    return plane.height(p[0]) + dot(centre.q, plane.normal) > 0;
+  // Whether s is on the normal's side of its face across from corner i.
+  [[nodiscard]] bool is_above(const Simplex& s, std::size_t i, PolygonHandle f) const {
+    const Point<3>&apex = place(s[i]), &a = place(s[(i + 1) % 4]);
+    const Point<3>&b = place(s[(i + 2) % 4]), &c = place(s[(i + 3) % 4]);
+    const Point<3> up = cross(minus(b, a), minus(c, a));
+    const bool is_up = dot(up, labelled_.features.polygons()[f].plane.normal) > 0;
+    return (predicates::orient3d(a, b, c, apex) > 0) == is_up;
   }
-  // Whether the line of places as far from each corner meets f.
-  [[nodiscard]] bool holds_centre(PolygonHandle h, const Corners& corners) const {
-    const Polygon& f = labelled_.features.polygons()[h];
-    std::array<Point<3>, 3> p;
-    for (std::size_t i = 0; i < 3; ++i) p[i] = labelled_.vertices[corners[i]].p;
-    return contains(f, centre_in_frame(f, p));
+  [[nodiscard]] bool holds_middle(PolygonHandle f, const Corners& corners) const {
+    const auto& [a, b, c] = corners;
+    return contains(labelled_.features.polygons()[f],
+                    scaled(1.0 / 3, plus(place(a), plus(place(b), place(c)))));
   }
+  [[nodiscard]] const Point<3>& place(VertexHandle v) const { return labelled_.vertices[v].p; }
 
   [[nodiscard]] LineEdge named(VertexHandle low, VertexHandle high, EdgeHandle e) {
     if (const auto id = labelled_.names.segment(e)) return {low, high, *id, e};
@@ -158,7 +147,7 @@ class PartFinder {
   const Labelled& labelled_;
   Standings standings_;
   std::vector<std::tuple<VertexHandle, VertexHandle, EdgeHandle>> edges_;
-  std::vector<std::tuple<PolygonHandle, Corners, bool>> sides_;  // of faces with corners on one
+  std::vector<std::pair<PolygonHandle, Corners>> faces_;
 };
 
 }  // namespace

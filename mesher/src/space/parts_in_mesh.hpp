@@ -1,11 +1,9 @@
 // Which edges and faces of a mesh are parts of the input's edges and polygons.
 //
-// Labels tell what lies on a feature. A face with its three corners on a polygon is a part of it if
-// its Voronoi edge, which joins the centres on both of its sides, crosses the polygon [rules C3]: a
-// plane's slice of a Voronoi diagram is the dual of a triangulation, so these faces are one,
-// whatever the rest of the mesh is like there. On which side of the plane a centre is, is found
-// once for a tetrahedron; so tetrahedra that are flat but for rounding are on one side, and do no
-// harm.
+// Labels tell what lies on a feature. A face with its three corners and its middle on a polygon is
+// a part of it if the tetrahedron above it, on the normal's side, is not flat on the polygon: of
+// one with four corners on it, flat but for rounding, the faces on its upper side are parts. So
+// these make up the polygon, whatever is flat. Sides are by exact signs.
 #pragma once
 
 #include <array>

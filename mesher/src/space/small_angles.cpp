@@ -16,6 +16,11 @@ namespace {
 // cos(t) from there, and yields if cos(t) <= kYields sin(t), from 63.44 degrees on.
 constexpr double kTurned = 0.44;
 
+// The cosine of the angle at which polygons lean on each other, and how far beside the hinge, in
+// its lengths, a vertex may be.
+constexpr double kLeans = 0.7071;
+constexpr double kBesideHinge = 0x1p-30;
+
 // Where the foot of x on the line of e is, as a fraction.
 double foot_fraction(const Edge& e, const Point<3>& x) {
   const Point<3> along = minus(e.place_b, e.place_a);
@@ -116,6 +121,21 @@ auto SmallAngles::turned(const Standing& v, const Feature& g, Foot&& foot_on_g) 
     return true;
   });
   return found;
+}
+
+bool SmallAngles::leans(const Standing& v, const Polygon& g) const {
+  const Point<3> foot_on_g = g.plane.foot(v.v.p);
+  return visit_features_of(v, [&](const Feature& f) {
+    const Feature h = shared(f, Feature(g), v.v.p);
+    if (h.kind() != Feature::Kind::edge || h == f) return false;
+    const double at = foot_fraction(store_.edges()[h.handle()], v.v.p);
+    if (!(at > -kBesideHinge && at < 1 + kBesideHinge)) return false;
+    const Point<3> hinge = foot(h, v.v.p);
+    const Point<3> to = minus(foot_on_g, hinge), from = minus(v.v.p, hinge);
+    const double to2 = squared(to), from2 = squared(from);
+    return to2 > kLeans * kLeans * from2 && dot(to, from) > 0 &&
+           contains(g, plus(hinge, scaled(std::sqrt(from2 / to2), to)));
+  });
 }
 
 std::optional<Placed> SmallAngles::copy(const Standing& v, const Edge& g) const {

@@ -31,6 +31,9 @@ class SmallAngles {
   /// The copy of v on g, if they share something at a small angle and there is a place for it.
   [[nodiscard]] std::optional<Placed> copy(const Standing& v, const Edge& g) const;
   [[nodiscard]] std::optional<Placed> copy(const Standing& v, const Polygon& g) const;
+  /// Whether v is on a polygon that shares an edge with g, at 45 degrees at most, and would be on g
+  /// if turned about it.
+  [[nodiscard]] bool leans(const Standing& v, const Polygon& g) const;
 
   /// Whether a tetrahedron stays whose shortest edge is ab.
   [[nodiscard]] bool keeps(const Standing& a, const Standing& b) const;

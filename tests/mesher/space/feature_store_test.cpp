@@ -8,7 +8,6 @@
 #include "cell_scene.hpp"
 #include "failing_new.hpp"
 #include "feature_scene.hpp"
-#include "space/encroachment.hpp"
 
 namespace {
 
@@ -86,39 +85,6 @@ TEST_CASE("What is near, or crowds a piece, is found as by looking at all") {
   }
   REQUIRE(crowded > 5);
   REQUIRE(near_some > 50);
-}
-
-TEST_CASE("The edges that may meet a cell have all that do, and are few") {
-  const std::uint64_t seed = GENERATE(1, 2, 3, 4);
-  CAPTURE(seed);
-  Plain plain(seed);
-  Scene& scene = plain.scene;
-  for (int i = 0; i < 150; ++i) plain.add();
-  std::size_t met = 0, found = 0, all = 0;
-  for (int round = 0; round < 200; ++round) {
-    CellScene<3> cells;
-    cells.radius = scene.radius();
-    const Point<3> center = scene.place();
-    cells.add(center);
-    for (std::uint64_t i = scene.random().below(30); i-- > 0;) {
-      Point<3> p = center;
-      for (double& x : p) x += cells.radius * (scene.random().unit() - 0.5);
-      cells.add(p);
-    }
-    VoronoiCell3 cell;
-    cells.cut_by_all(cell);
-    const std::vector<const Edge*> edges = find_in<Edge>(cell, scene.features().store());
-    found += edges.size();
-    scene.store().edges().for_each([&](const Edge& e) {
-      if (!e.alive) return;
-      ++all;
-      if (!part_in(cell, e)) return;
-      ++met;
-      REQUIRE(std::find(edges.begin(), edges.end(), &e) != edges.end());
-    });
-  }
-  CHECK(met > 300);
-  CHECK(found < all / 4);
 }
 
 TEST_CASE("An edge is there while a segment or a polygon uses it") {

@@ -175,9 +175,8 @@ TEST_CASE("an edge is called by its segment, else by the least polygon that has 
     const Mesh<3> mesh = mesh_statically(plc, options);
     std::map<Point<3>, Feature> by_middle;
     for (const auto& e : mesh.edges) {
-      for (const std::uint32_t v : {e.low, e.high}) {
-        if (mesh.kinds[v] == mesher::VertexKind::segment) by_middle[mesh.vertices[v]] = e.feature;
-      }
+      const auto sum = mesher::detail::plus(mesh.vertices[e.low], mesh.vertices[e.high]);
+      by_middle[mesher::detail::scaled(0.5, sum)] = e.feature;
     }
     return by_middle;
   };
