@@ -64,7 +64,7 @@ class ComplexCheck {
   void add_edges(Surface& surface, const std::vector<PointId>& ends, std::set<Ends>& edges);
   Verdict find_polygons();
   void add_named_tiles();
-  void add_upper_tiles();
+  void add_tiles_beside_flat();
   [[nodiscard]] bool cuts_edge(const Surface& surface, const Face& face) const;
   [[nodiscard]] bool has_three_on_line(const Surface& surface,
                                        const Mesh<3>::Simplex& corners) const;

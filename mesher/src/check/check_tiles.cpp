@@ -1,5 +1,6 @@
 // Whether polygons are unions of faces: of those that tile them.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -12,7 +13,6 @@
 #include "mesher/predicates.hpp"
 #include "records/reach_tree.hpp"
 #include "sets/make_set.hpp"
-#include "space/polygon_shape.hpp"
 #include "text/text.hpp"
 
 namespace mesher::detail {
@@ -24,15 +24,12 @@ constexpr double kArea = 1e-9;
 // Of the length of an edge: so near its middle a place beside it is in the polygon beside it.
 constexpr double kBeside = 0x1p-10;
 
-// Loops begin where a polygon's normal is taken from (space/polygon_shape.hpp), so that its upper
-// side is that of a mesh.
 FlatPolygon flat(const mesher::Polygon& polygon, const std::map<PointId, Point<3>>& places) {
   std::vector<std::vector<Point<3>>> loops;
   for (const auto& loop : polygon.loops) {
     auto& corners = loops.emplace_back();
     for (const PointId id : loop) corners.push_back(places.at(id));
   }
-  put_in_order(loops, [](const Point<3>& p) -> const Point<3>& { return p; });
   return FlatPolygon(loops);
 }
 
@@ -112,10 +109,10 @@ Box<3> box_of(const mesher::Polygon& polygon, const std::map<PointId, Point<3>>&
 
 }  // namespace
 
-// Of faces with their corners on the polygon, and their middles, those above which is no
-// tetrahedron that is flat on it: so these are a surface, whatever is flat.
-void ComplexCheck::add_upper_tiles() {
-  const HalfFaces& faces = mesh_.sides();
+// Of faces with their corners on the polygon, and their middles, those on one side of which is no
+// tetrahedron that is flat on it: so these are a surface, whatever is flat. The side is one on
+// which no face that ends the mesh is left out, since nothing is behind that.
+void ComplexCheck::add_tiles_beside_flat() {
   VerticesOn on(mesh_.mesh());
   for (Surface& surface : surfaces_) {
     const FlatPolygon f = flat(*surface.polygon, places_);
@@ -126,25 +123,33 @@ void ComplexCheck::add_upper_tiles() {
       return std::all_of(corners.begin(), corners.end(), [&](auto w) { return on[w]; }) &&
              !has_three_on_line(surface, corners);
     };
-    const auto is_tile = [&](std::size_t i, std::size_t n) {
-      const Face face = faces[i].key();
+    const auto is_part = [&](const Face& face) {
       const auto& [a, b, c] = face;
       if (!on[b] || !on[c] || cuts_edge(surface, face)) return false;
       const Point<3> middle = scaled(1.0 / 3, plus(at(a), plus(at(b), at(c))));
-      if (!f.contains(FlatPolygon::wide(middle))) return false;
-      for (std::size_t k = i; k < i + n; ++k) {
-        const std::uint32_t t = faces[k].tetrahedron;
-        if (is_above(f, face, t) && is_flat(t)) return false;
-      }
-      return true;
+      return f.contains(FlatPolygon::wide(middle));
     };
+    const HalfFaces& faces = mesh_.sides();
+    std::array<std::vector<Face>, 2> tiles;  // with nothing flat below, above
+    std::array<bool, 2> has_gap{};
     for (const std::uint32_t v : on.all()) {
       for (std::size_t i = faces.first_at(v), n = 0; i < faces.size(); i += n) {
-        if (faces[i].key()[0] != v) break;
+        const Face face = faces[i].key();
+        if (face[0] != v) break;
         n = faces.partners(i);
-        if (is_tile(i, n)) surface.tiles.push_back(faces[i].key());
+        if (!is_part(face)) continue;
+        std::array<bool, 2> is_covered{};
+        for (std::size_t k = i; k < i + n; ++k) {
+          const std::uint32_t t = faces[k].tetrahedron;
+          if (is_flat(t)) is_covered[is_above(f, face, t) ? 1 : 0] = true;
+        }
+        for (std::size_t side = 0; side < 2; ++side) {
+          if (!is_covered[side]) tiles[side].push_back(face);
+          if (is_covered[side] && n == 1) has_gap[side] = true;
+        }
       }
     }
+    surface.tiles = std::move(tiles[has_gap[1] ? 0 : 1]);
   }
 }
 
@@ -207,7 +212,7 @@ Verdict ComplexCheck::find_polygons() {
     }
     for (const auto& [a, b] : surface.polygon->edges) add_edges(surface, {a, b}, surface.inner);
   }
-  named ? add_named_tiles() : add_upper_tiles();
+  named ? add_named_tiles() : add_tiles_beside_flat();
   std::set<Face> there;
   for (std::size_t i = 0; i < faces.size(); i += faces.partners(i)) there.insert(faces[i].key());
   std::size_t tiles = 0, outside = 0;

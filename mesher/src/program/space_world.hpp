@@ -53,6 +53,9 @@ struct World<S, 3> : PointWorld<S, 3> {
 
   /// Whether there are edges, and perhaps polygons.
   [[nodiscard]] bool has_features() const noexcept { return plc.store().live_edges() != 0; }
+  /// Edges are split only where there are limits: this asks for it, of those that there are.
+  void post_edges();
+  void retract_edges();
   void post_split(S& s, const EdgePiece& piece);
   void post_fill(S& s, const FacetPiece& piece);
   /// fill() of what a cell consists of, which is split, too.
@@ -77,6 +80,8 @@ struct World<S, 3> : PointWorld<S, 3> {
   [[noreturn]] void fail_too_fine(const Polygon& f, const Point<2>& at) const;
 
  private:
+  void post_edge(const Edge& e);
+  void retract_edge(const Edge& e);
   void edge_came(const Edge& e);
   void edge_goes(const Edge& e);
 };

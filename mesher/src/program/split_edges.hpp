@@ -1,9 +1,8 @@
 // SplitSegments in space [Fig 6.4; rules C]: splits edges of the input before refinement, until no
-// feature crowds a piece.
+// piece is long for the lattice beside it. Without limits of size it is not asked for.
 //
-// As in the plane (program/split_segments.hpp) what crowds a piece is a function of the input
-// alone. A piece that is not crowded needs no record: Complete makes an edge a union of the mesh's
-// edges, and queries the edge itself [rules C3].
+// What crowds a piece splits none: Complete makes an edge a union of the mesh's edges, where
+// something crosses it (space/star_crossings.hpp), and queries the edge itself [rules C3].
 #pragma once
 
 #include "program/build_qt.hpp"
@@ -25,7 +24,7 @@ inline constexpr SplitEdge split_edge{};
           .order = morton<3>(box.fixed(place_at(*piece.edge, piece.lo)))};
 }
 
-// if the piece is crowded, or long for the lattice beside it: split it in the middle, enqueue both
+// if the piece is long for the lattice beside it: split it in the middle, enqueue both
 // halves, and the new vertex for BuildQT
 template <class S>
 void SplitEdge::operator()(S& s, EdgePiece piece) const {

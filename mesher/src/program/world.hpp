@@ -72,6 +72,8 @@ struct World<S, 2> : PointWorld<S, 2> {
 
   /// Calls that may have asked about the limits there run again.
   void limits_changed(const Box<2>& where) noexcept;
+  void post_edges() const noexcept {}  // segments are always split
+  void retract_edges() const noexcept {}
   void post_split(S& s, const PieceRef& piece);
   /// fill() of what a cell consists of, which is split, too.
   void post_parts(S& s, const Cell<2>& c) { detail::post_parts(s, *this, c); }

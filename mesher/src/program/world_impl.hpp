@@ -35,10 +35,12 @@ template <class AnyWorld>
 void post_cells(AnyWorld& w) {
   using Whole = typename AnyWorld::AnyCell;
   w.fills.template post_from_outside<fill>(fill_key(Whole()), Whole());
+  w.post_edges();
 }
 template <class AnyWorld>
 void retract_cells(AnyWorld& w) {
   w.fills.template retract_from_outside<fill>(typename AnyWorld::AnyCell());
+  w.retract_edges();
 }
 
 template <class S, class AnyWorld, int D>
@@ -206,16 +208,38 @@ void World<S, 2>::fail_useless(const Vertex<2>& v, const Vertex<2>& x) {
 }
 
 template <class S>
-void World<S, 3>::edge_came(const Edge& e) {
+void World<S, 3>::post_edge(const Edge& e) {
   const EdgePiece all{&e};
-  if (plc.store().users(e) == 1) {
-    splits.template post_from_outside<split_edge>(split_edge_key(box, all), all);
-  }
+  splits.template post_from_outside<split_edge>(split_edge_key(box, all), all);
+}
+
+template <class S>
+void World<S, 3>::retract_edge(const Edge& e) {
+  splits.template retract_from_outside<split_edge>(EdgePiece{&e});
+}
+
+template <class S>
+void World<S, 3>::post_edges() {
+  plc.store().edges().for_each([&](const Edge& e) {
+    if (plc.store().users(e) != 0) post_edge(e);
+  });
+}
+
+template <class S>
+void World<S, 3>::retract_edges() {
+  plc.store().edges().for_each([&](const Edge& e) {
+    if (plc.store().users(e) != 0) retract_edge(e);
+  });
+}
+
+template <class S>
+void World<S, 3>::edge_came(const Edge& e) {
+  if (limits.any() && plc.store().users(e) == 1) post_edge(e);
 }
 
 template <class S>
 void World<S, 3>::edge_goes(const Edge& e) {
-  if (plc.store().users(e) == 0) splits.template retract_from_outside<split_edge>(EdgePiece{&e});
+  if (limits.any() && plc.store().users(e) == 0) retract_edge(e);
 }
 
 template <class S>

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
-#include <tuple>
 
 #include "sets/common_items.hpp"
 #include "space/polygon_shape.hpp"
@@ -40,46 +38,12 @@ class Nearest {
   Feature found_;
 };
 
-template <class F>
-bool is_before(const F* a, const F* b);
-template <>
-bool is_before(const Edge* a, const Edge* b) {
-  return std::tie(a->place_a, a->place_b) < std::tie(b->place_a, b->place_b);
-}
-template <>
-bool is_before(const Polygon* a, const Polygon* b) {
-  return order(*a, *b) < 0;
-}
-
 // Some are found repeatedly.
 template <class F>
 void put_in_canonical_order(std::vector<const F*>& all) {
-  std::sort(all.begin(), all.end(), is_before<F>);
+  std::sort(all.begin(), all.end(), [](const F* a, const F* b) { return comes_before(*a, *b); });
   all.erase(std::unique(all.begin(), all.end()), all.end());
 }
-
-// Takes what it is shown. Visitors must not throw: this one says so, and the search ends.
-template <class F>
-class Found {
- public:
-  bool take(const F& f) noexcept {
-    try {
-      all_.push_back(&f);
-    } catch (const std::bad_alloc&) {
-      failed_ = true;
-    }
-    return failed_;
-  }
-  [[nodiscard]] std::vector<const F*> finish() {
-    if (failed_) throw std::bad_alloc();
-    put_in_canonical_order(all_);
-    return std::move(all_);
-  }
-
- private:
-  std::vector<const F*> all_;
-  bool failed_ = false;
-};
 
 }  // namespace
 
@@ -89,11 +53,13 @@ bool disjoint(const Polygon& f, const Polygon& g) {
 
 template <class F>
 std::vector<const F*> find_near(const Point<3>& place, double radius, FeatureStore& store) {
-  Found<F> found;
+  FoundFeatures<F> found;
   store.visit_near<F>(place, place, radius * (1 + 0x1p-29), [&](const F& f) noexcept {
     return is_in_ball(place, radius * radius, f) && found.take(f);
   });
-  return found.finish();
+  auto all = std::move(found).all();
+  put_in_canonical_order(all);
+  return all;
 }
 template std::vector<const Edge*> find_near(const Point<3>& place, double radius, FeatureStore&);
 template std::vector<const Polygon*> find_near(const Point<3>& place, double radius, FeatureStore&);
@@ -127,7 +93,7 @@ const F* FeaturesBeside::nearest(const Point<3>& x, double most, double most_mea
   store_.visit_nearest<F>(x, within, [&](const F& f) {
     const double m = measure(f, least);
     if (!(m <= least) || !is_in_ball(place_, most_ * most_, f)) return;
-    if (found != nullptr && m == least && !is_before(&f, found)) return;
+    if (found != nullptr && m == least && !comes_before(f, *found)) return;
     found = &f, least = m;
     within = distance(m) * (1 + 0x1p-29);
   });

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "cells/voronoi_cell3.hpp"
@@ -55,6 +58,39 @@ template <>
   return {f.middle, f.middle, f.reach + f.thickness};
 }
 
+/// Canonical order: edges by the places of their ends, polygons by those of their corners.
+[[nodiscard]] inline bool comes_before(const Edge& e, const Edge& t) {
+  return std::tie(e.place_a, e.place_b) < std::tie(t.place_a, t.place_b);
+}
+[[nodiscard]] inline bool comes_before(const Polygon& f, const Polygon& g) {
+  return order(f, g) < 0;
+}
+
+/// Takes what a search shows it, some repeatedly. Visitors must not throw: this one says so, and
+/// the search ends.
+template <class F>
+class FoundFeatures {
+ public:
+  /// Whether the search ends.
+  bool take(const F& f) noexcept {
+    try {
+      all_.push_back(&f);
+    } catch (const std::bad_alloc&) {
+      failed_ = true;
+    }
+    return failed_;
+  }
+  /// Throws: std::bad_alloc.
+  [[nodiscard]] std::vector<const F*> all() && {
+    if (failed_) throw std::bad_alloc();
+    return std::move(all_);
+  }
+
+ private:
+  std::vector<const F*> all_;
+  bool failed_ = false;
+};
+
 /// Around what place, and how far, a ball reaches that has all of a feature.
 [[nodiscard]] inline Point<3> middle_of(const Edge& e) {
   return scaled(0.5, plus(e.place_a, e.place_b));
@@ -73,8 +109,8 @@ template <class F>
 [[nodiscard]] inline double thickness_of(const Edge&) { return 0; }
 [[nodiscard]] inline double thickness_of(const Polygon& f) { return f.thickness; }
 
-/// The edges, or polygons, within `radius` of a place, in canonical order: edges by the places of
-/// their ends, polygons by those of their corners. Cost: O(log L/s), and what is near.
+/// The edges, or polygons, within `radius` of a place, in canonical order. Cost: O(log L/s), and
+/// what is near.
 template <class F>
 [[nodiscard]] std::vector<const F*> find_near(const Point<3>& place, double radius,
                                               FeatureStore& store);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "geometry/input_point.hpp"
 #include "mesher/error.hpp"
@@ -20,11 +19,6 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 
 // A copy is made if no vertex is nearer to it than this times what it is a copy of.
 constexpr double kRoomForCopy = 0.25;
-
-bool comes_before(const Edge& e, const Edge& t) {
-  return std::tie(e.place_a, e.place_b) < std::tie(t.place_a, t.place_b);
-}
-bool comes_before(const Polygon& f, const Polygon& g) { return order(f, g) < 0; }
 
 }  // namespace
 
@@ -80,24 +74,15 @@ bool StarCrossings::meets(const Point<3>& middle, double radius) const noexcept 
 /// The edges, or polygons, that may meet the star; in no order, some repeatedly.
 template <class F>
 std::vector<const F*> StarCrossings::find() const {
-  std::vector<const F*> found;
-  bool failed = false;  // visitors must not throw
+  FoundFeatures<F> found;
   const auto is_outside = [&](const Point<3>& x, double radius) { return !meets(x, radius); };
-  const auto take = [&](const F& f) noexcept {
-    try {
-      found.push_back(&f);
-    } catch (const std::bad_alloc&) {
-      failed = true;
-    }
-    return failed;
-  };
+  const auto take = [&](const F& f) noexcept { return found.take(f); };
   if constexpr (std::is_same_v<F, Edge>) {
     near_.store().visit_edges_in(cell_.center().p, reach_ + rounding_, is_outside, take);
   } else {
     near_.store().visit_polygons_in(is_outside, take);
   }
-  if (failed) throw std::bad_alloc();
-  return found;
+  return std::move(found).all();
 }
 
 /// The first in canonical order for which is(f); null: there is none.

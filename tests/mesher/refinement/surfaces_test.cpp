@@ -152,6 +152,26 @@ TEMPLATE_TEST_CASE_SIG("what is flat on a polygon is outside", "", ((By B), B), 
   CHECK(flat(domain_mesh(mesh, plc, Extent::enclosed).mesh) == 0);
 }
 
+// Where the mesh ends at flat tetrahedra, their far faces are the polygon's; in a mirror these are
+// on the other side of it.
+TEMPLATE_TEST_CASE_SIG("a mesh without names is accepted, on whatever side flat tetrahedra are", "",
+                       ((By B), B), By::svr, By::refine, By::gap_balls) {
+  for (const double mirror : {1.0, -1.0}) {
+    Complex round = ball(8, 11, [](std::size_t, std::size_t) { return 1.0; });
+    for (Point<3>& p : round.points) p[0] *= mirror;
+    const Graph<3> plc = mesher::with_merged_polygons(support::plc_of(round));
+    const Mesh<3> all = support::mesh_of<B>(plc, support::options_for(plc), Extent::enclosed);
+    mesher::GraphFile<3> file;
+    file.graph = plc;
+    mesher::CheckOptions<3> options;
+    options.graph = &file;
+    options.boundary = mesher::BoundaryRule::lines;
+    for (const auto& f : check_mesh(domain_mesh(all, plc, Extent::enclosed).mesh, options)) {
+      CHECK((f.holds ? "" : f.property + ": " + f.detail) == "");
+    }
+  }
+}
+
 TEMPLATE_TEST_CASE_SIG("a mesh of a surface depends on no order", "", ((By B), B), By::svr,
                        By::refine, By::gap_balls) {
   std::mt19937_64 random(11);
