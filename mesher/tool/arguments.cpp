@@ -124,11 +124,23 @@ mesher::Algorithm algorithm_of(const MeshArguments& args) {
 }
 
 template <int D>
+void set_min_dihedral(const std::string& text, mesher::Options<D>& options) {
+  if constexpr (D == 3) {
+    options.min_dihedral = option_positive("--min-dihedral", text);
+    if (options.min_dihedral <= mesher::kLargestMinDihedral) return;
+    throw Error(ErrorCode::bad_option, "--min-dihedral " + text + ": must be at most " +
+                                           to_text(mesher::kLargestMinDihedral));
+  }
+  throw Error(ErrorCode::bad_option, "--min-dihedral " + text + ": triangles have no such angles");
+}
+
+template <int D>
 mesher::Options<D> options_of(const MeshArguments& args, const Input<D>& input) {
   require_own_measure<D>(args);
   mesher::Options<D> options;
   if (!args.rho.empty()) options.rho = option_rho(args.rho, kMostRho);
   if (!args.min_angle.empty()) options.rho = option_min_angle(args.min_angle);
+  if (!args.min_dihedral.empty()) set_min_dihedral(args.min_dihedral, options);
   options.rule =
       args.rule == "radius-edge" ? mesher::Rule::radius_edge : mesher::Rule::voronoi_aspect;
   options.domain = args.domain.empty() ? mesher::snapped_domain<D>(places_of(input.graph()))

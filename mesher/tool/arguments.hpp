@@ -18,9 +18,10 @@ struct MeshArguments {
   std::string source;  // as it was called
   std::string format;  // empty: as its extension says
   std::vector<std::string> outputs;
-  std::string dimension;  // empty: that of the input
-  std::string rho;        // empty: the default of the dimension
-  std::string min_angle;  // degrees, in place of rho
+  std::string dimension;     // empty: that of the input
+  std::string rho;           // empty: the default of the dimension
+  std::string min_angle;     // degrees, in place of rho
+  std::string min_dihedral;  // degrees, of `mesh` alone
   std::string rule = "radius-edge";
   std::vector<std::string> domain;  // the lower corner, the upper corner; or nothing
   std::string max_area, max_volume, max_size, sizes;

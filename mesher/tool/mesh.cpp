@@ -126,6 +126,12 @@ void add_mesh(CLI::App& app) {
           "features too close")
       ->check(CLI::IsMember({"auto", "gap-balls", "svr", "refine"}))
       ->capture_default_str();
+  mesh->add_option(
+          "--min-dihedral", args->min_dihedral,
+          "In space, in degrees, at most 20: tetrahedra with smaller dihedral angles are\n"
+          "split where that makes no others; 10 to 12 is what solvers want. Few remain, most\n"
+          "where features meet at small angles. For refine and svr, without limits of size")
+      ->type_name("D");
   mesh->footer(
       std::string(
           "Every line is a union of edges. If lines enclose something, the output is what they\n"

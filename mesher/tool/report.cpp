@@ -162,6 +162,8 @@ void add_algorithm(const AnyRun& run, Json& json) {
   events["worst_radius_edge"] = s.worst_radius_edge;
   events["largest_degree"] = s.largest_degree;
   events["on_sides"] = s.on_sides;
+  events["slivers_split"] = s.slivers_split;
+  events["slivers_left"] = s.slivers_left;
   if (run.algorithm != "svr") return;
   events["warped"] = s.warped;
   events["crowded"] = s.crowded;

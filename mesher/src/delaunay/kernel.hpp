@@ -92,6 +92,12 @@ class DelaunayKernel {
   /// Calls visit(w) for each vertex that v will have an edge with, infinity too. Requires: dug.
   template <class Visit>
   void for_each_in_link(Visit&& visit) const;
+  /// Calls visit(facet) for the facets, as D vertices, that simplices with v will have. Requires:
+  /// dug.
+  template <class Visit>
+  void for_each_facet_of_hole(Visit&& visit) const {
+    for (const Border& b : borders_) visit(facet_across<D>(b.corners, b.slot));
+  }
   void undo_dig() noexcept;
   /// Makes v a vertex. Requires: dug.
   void fill(std::uint32_t v) noexcept;

@@ -29,6 +29,12 @@ bool has_limits(const Options<D>& o) {
 }
 
 template <int D>
+bool bounds_dihedral_angles([[maybe_unused]] const Options<D>& o) {
+  if constexpr (D == 3) return o.min_dihedral != 0;
+  return false;
+}
+
+template <int D>
 bool limits_regions(const Graph<D>& graph, const Options<D>& o) {
   if (o.region_areas == RegionAreas::limits) return true;
   return has_limits(o) && o.extent == Extent::enclosed && has_walls(graph);
@@ -76,6 +82,7 @@ Mesh<D> run_fastest(const Graph<D>& graph, const Options<D>& options, RunReport&
     return run(algorithm, graph, options, report, control, refinement);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::too_close && error.code() != ErrorCode::too_many) throw;
+    if (bounds_dihedral_angles(options)) throw;
     report.tried = algorithm;
     report.gave_up = error;
   }
@@ -109,8 +116,8 @@ Options<D> detail::settled(Options<D> options) {
     throw Error(ErrorCode::bad_option, "min_angle must be 0, for none, or up to 29.6 degrees");
   }
   if constexpr (D == 3) {
-    if (options.min_dihedral != 0) {
-      throw Error(ErrorCode::bad_option, "min_dihedral is reserved: there is no such bound yet");
+    if (!(options.min_dihedral >= 0 && options.min_dihedral <= kLargestMinDihedral)) {
+      throw Error(ErrorCode::bad_option, "min_dihedral must be 0, for none, or up to 20 degrees");
     }
   }
   options.rho = radius_edge_bound(options);

@@ -124,12 +124,23 @@ Mesh<2> svr(const std::vector<Point<2>>& points, const std::vector<Segment>& seg
 }
 
 #ifndef MESHER_PLANE_ONLY
+namespace {
+
+// The check is that of gap-balls, which bounds no dihedral angles.
+Options<3> checked_options(Options<3> options) {
+  options.min_dihedral = 0;
+  return options;
+}
+
+}  // namespace
+
 Mesh<3> refine(const std::vector<Point<3>>& points, const std::vector<Segment>& segments,
                const std::vector<Polygon>& polygons, const Options<3>& options,
                const RefinedExtent<3>& extent, const RefineSettings& settings,
                const std::vector<PointId>& ids, RefineStats* stats, const RunControl& control) {
   require_simple(options, "refine");
-  const detail::CheckedComplex complex(points, segments, polygons, options, ids, control);
+  const detail::CheckedComplex complex(points, segments, polygons, checked_options(options), ids,
+                                       control);
   return run<detail::ComplexRefinement<3>>(complex, options, extent, {{}, settings.order}, stats,
                                            control);
 }
@@ -140,7 +151,8 @@ Mesh<3> svr(const std::vector<Point<3>>& points, const std::vector<Segment>& seg
             const std::vector<PointId>& ids, SvrStats* stats, const RunControl& control) {
   require_simple(options, "svr");
   detail::require_k(settings.k);
-  const detail::CheckedComplex complex(points, segments, polygons, options, ids, control);
+  const detail::CheckedComplex complex(points, segments, polygons, checked_options(options), ids,
+                                       control);
   return run<detail::ComplexSvr<3>>(complex, options, extent, {{}, settings.k}, stats, control);
 }
 #endif

@@ -39,8 +39,12 @@ std::uint32_t ConformingMesh<D>::add_place(const Placed& place, VertexKind kind,
 template <int D>
 void ConformingMesh<D>::undo_place() {
   kernel_.undo_dig();
-  kernel_.drop_place();
-  kinds_.pop_back();
+  drop_place();
+}
+
+template <int D>
+void ConformingMesh<D>::drop_place() {
+  Base::drop_place();
   conformity_.drop_vertex();
 }
 
@@ -77,6 +81,19 @@ std::optional<std::uint32_t> ConformingMesh<D>::dig(const typename Conforms::Wan
 template <int D>
 bool ConformingMesh<D>::is_split(std::uint32_t s) {
   return !(has_outside() && conformity_.is_outside(s)) && !stays(s);
+}
+
+template <int D>
+std::optional<std::uint32_t> ConformingMesh<D>::dig_sliver() {
+  if constexpr (D == 3) {
+    return Base::dig_sliver_if(
+        [&](std::uint32_t s) { return !(has_outside() && conformity_.is_outside(s)); },
+        [&](const Point<D>& p) {
+          return add_place({p, {}}, VertexKind::steiner);
+        },
+        [&] { drop_place(); }, [&](std::uint32_t) { return !conformity_.is_disturbed(); });
+  }
+  return std::nullopt;
 }
 
 template <int D>

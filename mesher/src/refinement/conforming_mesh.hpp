@@ -44,6 +44,8 @@ class ConformingMesh : public RefinedMesh<D> {
   /// Whether a poor simplex is split: it is in what is wanted, and not poor by a small angle.
   /// Requires: conformity_.next() has returned nothing, and nothing was inserted since.
   [[nodiscard]] bool is_split(std::uint32_t s);
+  /// As of points; what it does not change are pieces and tiles. Requires: as is_split().
+  [[nodiscard]] std::optional<std::uint32_t> dig_sliver();
   /// At the end. Requires: as is_split().
   void finish();
 
@@ -53,6 +55,7 @@ class ConformingMesh : public RefinedMesh<D> {
  private:
   [[nodiscard]] static bool is_taken(const typename Conforms::Wanted& wanted,
                                      const Point<D>& there);
+  void drop_place();
   [[nodiscard]] bool has_outside();
   [[nodiscard]] bool stays(std::uint32_t s) const;
 

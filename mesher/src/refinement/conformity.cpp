@@ -138,6 +138,29 @@ bool Conformity::yields(std::uint32_t v) {
   return yields;
 }
 
+bool Conformity::is_disturbed() const {
+  bool is_disturbed = false;
+  for (const std::uint32_t s : kernel_.doomed()) {
+    visit_tiles_of(s, [&](std::uint32_t, std::uint32_t across) {
+      is_disturbed = is_disturbed || kernel_.is_doomed(across);
+    });
+  }
+  const auto stays = [&](std::uint32_t piece) {
+    bool stays = false;
+    kernel_.for_each_facet_of_hole([&](const Facet& facet) {
+      const auto has = [&](std::uint32_t v) {
+        return std::find(facet.begin(), facet.end(), v) != facet.end();
+      };
+      stays = stays || (has(pieces_[piece].a) && has(pieces_[piece].b));
+    });
+    return stays;
+  };
+  if (!is_disturbed) {
+    visit_pieces_dug([&](std::uint32_t piece) { is_disturbed = is_disturbed || !stays(piece); });
+  }
+  return is_disturbed;
+}
+
 void Conformity::before_fill(std::uint32_t) {
   dug_pieces_.clear();
   visit_pieces_dug([&](std::uint32_t piece) {

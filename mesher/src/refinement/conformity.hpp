@@ -72,6 +72,8 @@ class Conformity : public LineConformity<3, Conformity> {
   // --- Of a vertex that is dug
   /// Whether it encroaches on pieces, or on tiles: these are wanted then.
   [[nodiscard]] bool yields(std::uint32_t v);
+  /// Whether pieces or tiles would no longer be there.
+  [[nodiscard]] bool is_disturbed() const;
   /// Before the hole is filled.
   void before_fill(std::uint32_t v);
   /// Afterwards.

@@ -25,9 +25,14 @@ void DelaunayRefinement<D, Queue, Mesh>::run() {
   for (std::size_t steps = 1;; ++steps) {
     this->watch(steps, kernel_.places());
     if (!conforms()) continue;
-    if (queue_.empty()) break;
-    const Entry poor = queue_.delete_min();
-    if (age_[poor.simplex] == poor.age) split(poor.simplex);
+    if (!queue_.empty()) {
+      const Entry poor = queue_.delete_min();
+      if (age_[poor.simplex] == poor.age) split(poor.simplex);
+    } else if (const auto v = this->dig_sliver()) {
+      fill(*v);
+    } else {
+      break;
+    }
   }
   if constexpr (kConforms) this->finish();
 }
@@ -73,7 +78,8 @@ std::uint32_t DelaunayRefinement<D, Queue, Mesh>::add(const Point<D>& p, VertexK
 
 template <int D, template <class> class Queue, class Mesh>
 void DelaunayRefinement<D, Queue, Mesh>::look_at(std::uint32_t s, const Shape& shape) {
-  if (this->is_poor(shape)) queue_.insert(key_of(shape), {s, age_[s]});
+  this->is_poor(shape) ? queue_.insert(key_of(shape), {s, age_[s]})
+                       : this->look_for_sliver(s, shape);
 }
 
 /// Where doubles end, all are alike.
@@ -107,13 +113,13 @@ void DelaunayRefinement<D, Queue, Mesh>::split(std::uint32_t s) {
 template <int D, template <class> class Queue, class Mesh>
 void DelaunayRefinement<D, Queue, Mesh>::fill(std::uint32_t v) {
   for (const std::uint32_t gone : kernel_.doomed()) ++age_[gone];
-  this->count_degrees(kernel_.doomed(), -1);
+  Base::before_fill(v);
   if constexpr (kConforms) this->conformity_.before_fill(v);
   kernel_.fill(v);
   age_.resize(kernel_.simplices().places());
   const auto& made = kernel_.made();
   for (std::size_t k = 0; k < made.size(); ++k) look_at(made[k], kernel_.shape_made(k));
-  this->count_made();
+  Base::after_fill();
   if constexpr (kConforms) this->conformity_.after_fill(v);
 }
 

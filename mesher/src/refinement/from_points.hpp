@@ -56,6 +56,7 @@ template <int D, class Settings>
 void set_common(Settings& settings, const Options<D>& options, bool follow_degrees,
                 const RunControl& control) {
   settings.rho = options.rho;
+  if constexpr (D == 3) settings.min_dihedral = options.min_dihedral;
   settings.most_vertices = options.max_vertices;
   settings.follow_degrees = follow_degrees;
   if (!watches(control)) return;

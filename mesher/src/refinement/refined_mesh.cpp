@@ -12,6 +12,15 @@ namespace {
 // Of a square: more than twice the error of a radius that the balls have, 2^-21 (simplex_ball.hpp).
 constexpr double kSurely = 1 - 0x1p-18;
 
+template <int D>
+auto slivers_in(const MeshBox<D>& box, double rho2, double min_dihedral) {
+  if constexpr (D == 3) {
+    return Slivers(box, rho2, min_dihedral);
+  } else {
+    return std::monostate();
+  }
+}
+
 }  // namespace
 
 template <int D>
@@ -19,6 +28,7 @@ RefinedMesh<D>::RefinedMesh(const MeshBox<D>& box, const Settings& settings, std
     : box_(box),
       rho2_(settings.rho * settings.rho * kSurely),
       centres_(box, settings.rho),
+      slivers_(slivers_in<D>(box, rho2_, settings.min_dihedral)),
       settings_(settings) {
   kernel_.reserve(points + points / 2 + 1024);
 }
@@ -66,6 +76,10 @@ void RefinedMesh<D>::set_figures(RefineStats& stats) const {
   stats.on_sides = on_sides_;
   stats.worst_radius_edge = std::sqrt(worst2_);
   stats.largest_degree = largest_degree_;
+  if constexpr (D == 3) {
+    stats.slivers_split = slivers_.split();
+    stats.slivers_left = slivers_.left();
+  }
 }
 
 template class RefinedMesh<2>;

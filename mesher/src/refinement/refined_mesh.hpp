@@ -5,13 +5,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "delaunay/kernel.hpp"
 #include "geometry/grid.hpp"
 #include "refinement/centres.hpp"
 #include "refinement/refine.hpp"
+#include "refinement/space_slivers.hpp"
 
 namespace mesher::detail {
 
@@ -39,6 +43,7 @@ class RefinedMesh {
 
   struct Settings {
     double rho = 2;
+    double min_dihedral = 0;        // in degrees, in space; 0: any
     std::size_t most_vertices = 0;  // 0: any number
     bool follow_degrees = false;
     int box_steps = 0;                         // along its edges; 0: the grid of gap balls
@@ -79,9 +84,38 @@ class RefinedMesh {
     if (shape.radius2 > worst2_ * shape.shortest2) worst2_ = shape.radius2 / shape.shortest2;
     return shape.radius2 > rho2_ * shape.shortest2;
   }
-  /// Before and after an insertion: of kernel_.doomed() and made().
-  void count_degrees(std::span<const std::uint32_t> simplices, int change);
-  void count_made() {
+  /// Of a simplex that is new, and not poor.
+  void look_for_sliver(std::uint32_t s, const Shape& shape) {
+    if constexpr (D == 3) {
+      if (slivers_.started()) slivers_.look_at(kernel_, kinds_, s, shape);
+    }
+  }
+  /// Digs a vertex that splits a sliver; nothing: there is none that one will split. Requires: no
+  /// simplex is poor.
+  [[nodiscard]] std::optional<std::uint32_t> dig_sliver() {
+    return dig_sliver_if([](std::uint32_t) { return true; },
+                         [&](const Point<D>& p) { return add_place(p, VertexKind::steiner); },
+                         [&] { drop_place(); }, [](std::uint32_t) { return true; });
+  }
+  /// The same, if is_split(sliver). `add(p)` and `drop()`: of a vertex; `fits(v)`: it may be where
+  /// it is dug.
+  template <class IsSplit, class Add, class Drop, class Fits>
+  [[nodiscard]] std::optional<std::uint32_t> dig_sliver_if(IsSplit&& is_split, Add&& add,
+                                                           Drop&& drop, Fits&& fits);
+  /// Forgets a place that is no vertex.
+  void drop_place() {
+    kernel_.drop_place();
+    kinds_.pop_back();
+  }
+  /// Of a vertex that is dug.
+  void before_fill([[maybe_unused]] std::uint32_t v) {
+    count_degrees(kernel_.doomed(), -1);
+    if constexpr (D == 3) {
+      if (slivers_.started()) slivers_.before_fill(kernel_, v);
+    }
+  }
+  /// Of what was made.
+  void after_fill() {
     made_ += kernel_.made().size();
     count_degrees(kernel_.made(), 1);
   }
@@ -101,6 +135,9 @@ class RefinedMesh {
  private:
   static constexpr std::size_t kBetweenWatches = 256;
 
+  void count_degrees(std::span<const std::uint32_t> simplices, int change);
+
+  std::conditional_t<D == 3, Slivers, std::monostate> slivers_;
   Settings settings_;
   double worst2_ = 0;  // radius-edge ratio, squared
   std::size_t made_ = 0, largest_degree_ = 0;
@@ -114,6 +151,23 @@ void RefinedMesh<D>::look_at_all(Look&& look) {
     count_degrees(std::span(&s, 1), 1);
     look(s, shape);
   });
+}
+
+template <int D>
+template <class IsSplit, class Add, class Drop, class Fits>
+std::optional<std::uint32_t> RefinedMesh<D>::dig_sliver_if(IsSplit&& is_split, Add&& add,
+                                                           Drop&& drop, Fits&& fits) {
+  if constexpr (D == 3) {
+    if (!slivers_.any()) return std::nullopt;
+    if (!slivers_.started()) slivers_.start(kernel_, kinds_);
+    for (std::uint32_t s; (s = slivers_.take()) != kNone;) {
+      if (!is_split(s)) continue;
+      const std::uint32_t v = add(kernel_.simplices().ball(s).centre);
+      if (slivers_.dig(kernel_, s, v, [&] { return fits(v); })) return v;
+      drop();
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace mesher::detail

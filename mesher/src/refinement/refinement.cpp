@@ -44,8 +44,14 @@ void Refinement<D, Mesh, Location>::run() {
     } else {
       skinny2_ = rho2_;  // no point is left
       const std::uint32_t moderate = queue_.take_moderate();
-      if (moderate == kNone) break;
-      split(moderate);
+      if (moderate != kNone) {
+        split(moderate);
+      } else if (const auto sliver = this->dig_sliver()) {
+        location_.add_vertex();
+        insert_dug(*sliver, {});
+      } else {
+        break;
+      }
     }
   }
   if constexpr (kConforms) this->finish();
@@ -115,7 +121,7 @@ void Refinement<D, Mesh, Location>::add_first_point() {
 
 template <int D, class Mesh, class Location>
 void Refinement<D, Mesh, Location>::look_at(std::uint32_t s, const Shape& shape) {
-  if (!this->is_poor(shape)) return;
+  if (!this->is_poor(shape)) return this->look_for_sliver(s, shape);
   const bool skinny = shape.radius2 > skinny2_ * shape.shortest2;
   queue_.add(s, skinny ? WorkQueue::Wait::skinny : WorkQueue::Wait::moderately_skinny);
 }
@@ -292,7 +298,7 @@ void Refinement<D, Mesh, Location>::insert_dug(std::uint32_t v, const Found& fou
   if constexpr (kConforms) {
     if (has_started_) this->conformity_.before_fill(v);
   }
-  this->count_degrees(kernel_.doomed(), -1);
+  Base::before_fill(v);
   const bool moves = location_.left() != 0;
   if (moves) {
     const std::uint32_t is_point = location_.take(kernel_, v);
@@ -307,7 +313,7 @@ void Refinement<D, Mesh, Location>::insert_dug(std::uint32_t v, const Found& fou
   queue_.make_room(kernel_.simplices().places());
   const auto& made = kernel_.made();
   for (std::size_t k = 0; k < made.size(); ++k) look_at(made[k], kernel_.shape_made(k));
-  this->count_made();
+  Base::after_fill();
   if constexpr (kConforms) {
     if (has_started_) this->conformity_.after_fill(v);
   }

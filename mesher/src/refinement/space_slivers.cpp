@@ -1,0 +1,229 @@
+// Dihedral angles, and places of a lattice.
+#include "refinement/space_slivers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+
+#include "delaunay/facets.hpp"
+#include "geometry/space_vectors.hpp"
+
+namespace mesher::detail {
+
+namespace {
+
+// How much of a sliver's radius, squared, a new vertex may be from its centre.
+constexpr double kOff2 = 0.6;
+// Nearer than this to a side of the box, in units of the side, nothing is inserted.
+constexpr double kOffSide = 0x1p-3;
+// How often slivers that have found no place are tried again.
+constexpr int kRounds = 3;
+
+/// A tetrahedron at p, with other corners relative to it.
+struct Angles {
+  double radius2 = 0, shortest2 = 0;
+  double worst = -1;  // the largest cosine of a dihedral angle, squared with its sign
+};
+
+Angles angles_of(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
+  const Point<3> a = minus(q, p), b = minus(r, p), c = minus(s, p);
+  std::array<Point<3>, 4> normal{Point<3>{}, cross(b, c), cross(c, a), cross(a, b)};
+  normal[0] = scaled(-1, plus(normal[1], plus(normal[2], normal[3])));
+  const double a2 = squared(a), b2 = squared(b), c2 = squared(c);
+  Angles angles;
+  angles.shortest2 = std::min(
+      {a2, b2, c2, squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
+  const Point<3> sum =
+      plus(scaled(a2, normal[1]), plus(scaled(b2, normal[2]), scaled(c2, normal[3])));
+  const double twice = 2 * dot(a, normal[1]);
+  angles.radius2 = squared(sum) / (twice * twice);
+  std::array<double, 4> length2;
+  for (std::size_t i = 0; i < 4; ++i) length2[i] = squared(normal[i]);
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const double d = -dot(normal[i], normal[k]);
+      angles.worst = std::max(angles.worst, d * std::abs(d) / (length2[i] * length2[k]));
+    }
+  }
+  return angles;
+}
+
+}  // namespace
+
+Slivers::Slivers(const MeshBox<3>& box, double rho2, double min_dihedral)
+    : box_(box),
+      rho2_(rho2),
+      most_(min_dihedral <= 10   ? 12
+            : min_dihedral <= 12 ? 16
+                                 : 24) {
+  const double cosine = std::cos(min_dihedral * (std::numbers::pi / 180));
+  worst_ = min_dihedral > 0 ? cosine * cosine : 1;
+}
+
+void Slivers::start(Kernel& kernel, const std::vector<VertexKind>& kinds) {
+  started_ = true;
+  floor2_.assign(kernel.places() + 1, std::numeric_limits<double>::infinity());
+  const auto& simplices = kernel.simplices();
+  for (std::uint32_t s = 0; s < simplices.places(); ++s) {
+    if (!simplices.alive(s) || kernel.is_ghost(s)) continue;
+    const auto& corners = simplices.corners(s);
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        const double d2 = squared_distance(kernel.place(corners[i]), kernel.place(corners[k]));
+        for (const std::uint32_t v : {corners[i], corners[k]}) {
+          floor2_[v] = std::min(floor2_[v], d2);
+        }
+      }
+    }
+  }
+  kernel.for_each_shape(
+      [&](std::uint32_t s, const Shape& shape) { look_at(kernel, kinds, s, shape); });
+}
+
+void Slivers::add(std::uint32_t s, double shortest2) {
+  wait_[s] = Wait::queued;
+  queue_.insert(
+      std::clamp(shortest2, std::numeric_limits<double>::min(), std::numeric_limits<double>::max()),
+      s);
+}
+
+void Slivers::look_at(const Kernel& kernel, const std::vector<VertexKind>& kinds, std::uint32_t s,
+                      const Shape& shape) {
+  wait_.resize(kernel.simplices().places(), Wait::none);
+  if (!(shape.radius2 <= rho2_ * shape.shortest2)) return;
+  const auto& corners = kernel.simplices().corners(s);
+  if (std::all_of(corners.begin(), corners.end(),
+                  [&](std::uint32_t v) { return kinds[v] == VertexKind::boundary; })) {
+    return;
+  }
+  if (score_of(kernel, s) > worst_) add(s, shape.shortest2);
+}
+
+double Slivers::score_of(const Kernel& kernel, std::uint32_t s) {
+  const auto& c = kernel.simplices().corners(s);
+  return angles_of(kernel.place(c[0]), kernel.place(c[1]), kernel.place(c[2]), kernel.place(c[3]))
+      .worst;
+}
+
+void Slivers::before_fill(const Kernel& kernel, std::uint32_t v) {
+  for (const std::uint32_t s : kernel.doomed()) {
+    if (s < wait_.size()) wait_[s] = Wait::none;
+  }
+  floor2_.resize(kernel.places() + 1);
+  if (fills_) {
+    floor2_[v] = new_floor2_;
+  } else {
+    double least = std::numeric_limits<double>::infinity();
+    kernel.for_each_in_link([&](std::uint32_t w) {
+      if (w != kInfinite) least = std::min(least, floor2_[w]);
+    });
+    floor2_[v] = std::max(least, nearest2(kernel, v));
+  }
+  fills_ = false;
+}
+
+std::uint32_t Slivers::take() {
+  if (queue_.empty() && split_ != split_before_ && rounds_ < kRounds) {
+    ++rounds_;
+    split_before_ = split_;
+    const std::vector<std::uint32_t> again = std::move(left_);
+    left_.clear();
+    for (const std::uint32_t s : again) {
+      if (wait_[s] == Wait::left) add(s, 1);
+    }
+  }
+  while (!queue_.empty()) {
+    const std::uint32_t s = queue_.delete_min();
+    if (wait_[s] != Wait::queued) continue;
+    wait_[s] = Wait::none;
+    return s;
+  }
+  return kNone;
+}
+
+std::size_t Slivers::left() const noexcept {
+  return static_cast<std::size_t>(std::count(wait_.begin(), wait_.end(), Wait::left));
+}
+
+double Slivers::least_floor2(const Kernel& kernel, std::uint32_t s) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t v : kernel.simplices().corners(s)) least = std::min(least, floor2_[v]);
+  return least;
+}
+
+/// The other slivers around the corner of s that is the least.
+void Slivers::find_beside(Kernel& kernel, std::uint32_t s) {
+  beside_.clear();
+  std::uint32_t owner = kNone;
+  for (const std::uint32_t v : kernel.simplices().corners(s)) {
+    if (owner == kNone || kernel.place(v) < kernel.place(owner)) owner = v;
+  }
+  static_cast<void>(kernel.find_in_star(owner, star_, [](std::uint32_t) { return false; }));
+  for (const std::uint32_t t : star_) {
+    if (t != s && wait_[t] != Wait::none) beside_.push_back(t);
+  }
+}
+
+/// Of the points of a body-centred lattice around the centre, spaced by a power of two of the box's
+/// side, at most half of the radius: those farthest from the corners, the farthest first.
+void Slivers::find_places(Kernel& kernel, std::uint32_t s) {
+  places_.clear();
+  find_beside(kernel, s);
+  const Point<3>& centre = kernel.simplices().ball(s).centre;
+  const auto& corners = kernel.simplices().corners(s);
+  const double radius2 = squared_distance(centre, kernel.place(corners[0]));
+  const double spacing = std::ldexp(
+      box_.side, static_cast<int>(std::floor(std::log2(std::sqrt(radius2) / 2 / box_.side))));
+  std::array<double, 3> nearest;
+  for (std::size_t i = 0; i < 3; ++i) {
+    nearest[i] = std::round((centre[i] - box_.lo[i]) / spacing);
+  }
+  const double margin = kOffSide * box_.side;
+  for (int k = 0; k < 54; ++k) {
+    const std::array<int, 3> step{k % 3 - 1, k / 3 % 3 - 1, k / 9 % 3 - 1};
+    Place place{0, std::numeric_limits<double>::infinity(), {}};
+    bool is_inside = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double at = nearest[i] + step[i] + (k < 27 ? 0 : 0.5);
+      place.at[i] = box_.lo[i] + spacing * at;
+      is_inside = is_inside && place.at[i] >= box_.lo[i] + margin &&
+                  place.at[i] <= box_.hi(static_cast<int>(i)) - margin;
+    }
+    if (!is_inside || squared_distance(place.at, centre) >= kOff2 * radius2) continue;
+    for (const std::uint32_t v : corners) {
+      place.nearest2 = std::min(place.nearest2, squared_distance(place.at, kernel.place(v)));
+    }
+    for (const std::uint32_t other : beside_) place.takes += kernel.conflicts(other, place.at);
+    places_.push_back(place);
+  }
+  std::sort(places_.begin(), places_.end(), [](const Place& p, const Place& q) {
+    if (p.takes != q.takes) return p.takes > q.takes;
+    return p.nearest2 != q.nearest2 ? p.nearest2 > q.nearest2 : p.at < q.at;
+  });
+  if (places_.size() > most_) places_.resize(most_);
+}
+
+/// The largest of the tetrahedra around v that will not be poor; what is not below `enough` may be
+/// less than that.
+double Slivers::score(const Kernel& kernel, std::uint32_t v, double enough) const {
+  double worst = -1;
+  kernel.for_each_facet_of_hole([&](const std::array<std::uint32_t, 3>& facet) {
+    if (worst >= enough) return;
+    const Angles angles = angles_of(kernel.place(v), kernel.place(facet[0]), kernel.place(facet[1]),
+                                    kernel.place(facet[2]));
+    if (angles.radius2 <= rho2_ * angles.shortest2) worst = std::max(worst, angles.worst);
+  });
+  return worst;
+}
+
+double Slivers::nearest2(const Kernel& kernel, std::uint32_t v) {
+  double least = std::numeric_limits<double>::infinity();
+  kernel.for_each_in_link([&](std::uint32_t w) {
+    if (w != kInfinite) least = std::min(least, squared_distance(kernel.place(w), kernel.place(v)));
+  });
+  return least;
+}
+
+}  // namespace mesher::detail
