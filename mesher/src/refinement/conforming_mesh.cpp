@@ -91,7 +91,12 @@ std::optional<std::uint32_t> ConformingMesh<D>::dig_sliver() {
         [&](const Point<D>& p) {
           return add_place({p, {}}, VertexKind::steiner);
         },
-        [&] { drop_place(); }, [&](std::uint32_t) { return !conformity_.is_disturbed(); });
+        [&] { drop_place(); }, [&] { return !conformity_.is_disturbed(); },
+        [&](std::uint32_t s, double least2) -> std::optional<std::uint32_t> {
+          if (this->is_poor(kernel_.measure(s))) return std::nullopt;
+          if (!conformity_.wants_piece_of(s, least2)) return std::nullopt;
+          return dig(*conformity_.next());
+        });
   }
   return std::nullopt;
 }

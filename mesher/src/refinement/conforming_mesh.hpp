@@ -44,7 +44,10 @@ class ConformingMesh : public RefinedMesh<D> {
   /// Whether a poor simplex is split: it is in what is wanted, and not poor by a small angle.
   /// Requires: conformity_.next() has returned nothing, and nothing was inserted since.
   [[nodiscard]] bool is_split(std::uint32_t s);
-  /// As of points; what it does not change are pieces and tiles. Requires: as is_split().
+  /// As of points, but pieces and tiles stay. Where they leave no place, the longest piece on the
+  /// sliver is split, if it is not shorter than the floors allow: often it is where polygons meet
+  /// at nearly 180 degrees. (Not of poor slivers: in a fan of polygons that goes on and on.)
+  /// Requires: as is_split().
   [[nodiscard]] std::optional<std::uint32_t> dig_sliver();
   /// At the end. Requires: as is_split().
   void finish();

@@ -155,9 +155,7 @@ bool Conformity::is_disturbed() const {
     });
     return stays;
   };
-  if (!is_disturbed) {
-    visit_pieces_dug([&](std::uint32_t piece) { is_disturbed = is_disturbed || !stays(piece); });
-  }
+  visit_pieces_dug([&](std::uint32_t piece) { is_disturbed = is_disturbed || !stays(piece); });
   return is_disturbed;
 }
 

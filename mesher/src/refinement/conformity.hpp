@@ -69,6 +69,10 @@ class Conformity : public LineConformity<3, Conformity> {
   /// Whether a simplex stays that is poor by the edge vw: where features meet at a small angle.
   [[nodiscard]] bool keeps(std::uint32_t v, std::uint32_t w) const;
 
+  /// Whether an edge of s is a piece, at least as long as this, squared: the longest is wanted
+  /// then.
+  [[nodiscard]] bool wants_piece_of(std::uint32_t s, double least2);
+
   // --- Of a vertex that is dug
   /// Whether it encroaches on pieces, or on tiles: these are wanted then.
   [[nodiscard]] bool yields(std::uint32_t v);

@@ -47,6 +47,22 @@ auto Conformity::split_piece(std::uint32_t piece) const -> Wanted {
   return {placed_on(e, *middle), p.a};
 }
 
+bool Conformity::wants_piece_of(std::uint32_t s, double least2) {
+  const auto& corners = kernel_.simplices().corners(s);
+  std::uint32_t longest = kNone;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const double length2 = squared_distance(place(corners[i]), place(corners[k]));
+      const std::uint32_t piece = length2 < least2 ? kNone : pieces_.find(corners[i], corners[k]);
+      if (piece == kNone) continue;
+      least2 = length2, longest = piece;
+    }
+  }
+  if (longest == kNone) return false;
+  want_piece(longest, kNone, true);
+  return true;
+}
+
 std::uint32_t Conformity::piece_at(EdgeHandle handle, const Label& at) const {
   const Edge& e = store_.edges()[handle];
   const double from = from_a(e, at);

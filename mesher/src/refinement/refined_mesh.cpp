@@ -13,9 +13,10 @@ namespace {
 constexpr double kSurely = 1 - 0x1p-18;
 
 template <int D>
-auto slivers_in(const MeshBox<D>& box, double rho2, double min_dihedral) {
+auto slivers_in([[maybe_unused]] const MeshBox<D>& box,
+                [[maybe_unused]] const typename RefinedMesh<D>::Settings& settings) {
   if constexpr (D == 3) {
-    return Slivers(box, rho2, min_dihedral);
+    return Slivers(box, settings.rho, settings.min_dihedral);
   } else {
     return std::monostate();
   }
@@ -28,7 +29,7 @@ RefinedMesh<D>::RefinedMesh(const MeshBox<D>& box, const Settings& settings, std
     : box_(box),
       rho2_(settings.rho * settings.rho * kSurely),
       centres_(box, settings.rho),
-      slivers_(slivers_in<D>(box, rho2_, settings.min_dihedral)),
+      slivers_(slivers_in<D>(box, settings)),
       settings_(settings) {
   kernel_.reserve(points + points / 2 + 1024);
 }

@@ -84,7 +84,7 @@ class RefinedMesh {
     if (shape.radius2 > worst2_ * shape.shortest2) worst2_ = shape.radius2 / shape.shortest2;
     return shape.radius2 > rho2_ * shape.shortest2;
   }
-  /// Of a simplex that is new, and not poor.
+  /// Of a simplex that is new.
   void look_for_sliver(std::uint32_t s, const Shape& shape) {
     if constexpr (D == 3) {
       if (slivers_.started()) slivers_.look_at(kernel_, kinds_, s, shape);
@@ -95,13 +95,16 @@ class RefinedMesh {
   [[nodiscard]] std::optional<std::uint32_t> dig_sliver() {
     return dig_sliver_if([](std::uint32_t) { return true; },
                          [&](const Point<D>& p) { return add_place(p, VertexKind::steiner); },
-                         [&] { drop_place(); }, [](std::uint32_t) { return true; });
+                         [&] { drop_place(); }, [] { return true; },
+                         [](std::uint32_t, double) { return std::nullopt; });
   }
-  /// The same, if is_split(sliver). `add(p)` and `drop()`: of a vertex; `fits(v)`: it may be where
-  /// it is dug.
-  template <class IsSplit, class Add, class Drop, class Fits>
+  /// The same, if is_split(sliver). `add(p)` and `drop()`: of a place; `fits()`: the vertex that is
+  /// dug may be where it is; `otherwise(sliver, floor2)`: digs another vertex, if none may, or
+  /// returns nothing.
+  template <class IsSplit, class Add, class Drop, class Fits, class Otherwise>
   [[nodiscard]] std::optional<std::uint32_t> dig_sliver_if(IsSplit&& is_split, Add&& add,
-                                                           Drop&& drop, Fits&& fits);
+                                                           Drop&& drop, Fits&& fits,
+                                                           Otherwise&& otherwise);
   /// Forgets a place that is no vertex.
   void drop_place() {
     kernel_.drop_place();
@@ -154,17 +157,20 @@ void RefinedMesh<D>::look_at_all(Look&& look) {
 }
 
 template <int D>
-template <class IsSplit, class Add, class Drop, class Fits>
+template <class IsSplit, class Add, class Drop, class Fits, class Otherwise>
 std::optional<std::uint32_t> RefinedMesh<D>::dig_sliver_if(IsSplit&& is_split, Add&& add,
-                                                           Drop&& drop, Fits&& fits) {
+                                                           Drop&& drop, Fits&& fits,
+                                                           Otherwise&& otherwise) {
   if constexpr (D == 3) {
     if (!slivers_.any()) return std::nullopt;
     if (!slivers_.started()) slivers_.start(kernel_, kinds_);
     for (std::uint32_t s; (s = slivers_.take()) != kNone;) {
       if (!is_split(s)) continue;
       const std::uint32_t v = add(kernel_.simplices().ball(s).centre);
-      if (slivers_.dig(kernel_, s, v, [&] { return fits(v); })) return v;
+      if (slivers_.dig(kernel_, s, v, fits)) return v;
       drop();
+      const std::optional<std::uint32_t> other = otherwise(s, slivers_.least_floor2(kernel_, s));
+      if (other) return other;
     }
   }
   return std::nullopt;

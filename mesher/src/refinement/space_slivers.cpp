@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <span>
+#include <utility>
 
 #include "delaunay/facets.hpp"
 #include "geometry/space_vectors.hpp"
@@ -21,40 +21,29 @@ constexpr double kOffSide = 0x1p-3;
 // How often slivers that have found no place are tried again.
 constexpr int kRounds = 3;
 
-/// A tetrahedron at p, with other corners relative to it.
-struct Angles {
-  double radius2 = 0, shortest2 = 0;
-  double worst = -1;  // the largest cosine of a dihedral angle, squared with its sign
-};
-
-Angles angles_of(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
+/// Of a tetrahedron at p: the largest cosine of a dihedral angle, squared with its sign.
+double score(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
   const Point<3> a = minus(q, p), b = minus(r, p), c = minus(s, p);
   std::array<Point<3>, 4> normal{Point<3>{}, cross(b, c), cross(c, a), cross(a, b)};
   normal[0] = scaled(-1, plus(normal[1], plus(normal[2], normal[3])));
-  const double a2 = squared(a), b2 = squared(b), c2 = squared(c);
-  Angles angles;
-  angles.shortest2 = std::min(
-      {a2, b2, c2, squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
-  const Point<3> sum =
-      plus(scaled(a2, normal[1]), plus(scaled(b2, normal[2]), scaled(c2, normal[3])));
-  const double twice = 2 * dot(a, normal[1]);
-  angles.radius2 = squared(sum) / (twice * twice);
   std::array<double, 4> length2;
   for (std::size_t i = 0; i < 4; ++i) length2[i] = squared(normal[i]);
+  double worst = -1;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       const double d = -dot(normal[i], normal[k]);
-      angles.worst = std::max(angles.worst, d * std::abs(d) / (length2[i] * length2[k]));
+      const double cosine2 = d * std::abs(d) / (length2[i] * length2[k]);
+      if (!(cosine2 <= worst)) worst = std::min(cosine2, 1.0);  // of what is flat it is no number
     }
   }
-  return angles;
+  return worst;
 }
 
 }  // namespace
 
-Slivers::Slivers(const MeshBox<3>& box, double rho2, double min_dihedral)
+Slivers::Slivers(const MeshBox<3>& box, double rho, double min_dihedral)
     : box_(box),
-      rho2_(rho2),
+      rho_(rho),
       most_(min_dihedral <= 10   ? 12
             : min_dihedral <= 12 ? 16
                                  : 24) {
@@ -92,7 +81,7 @@ void Slivers::add(std::uint32_t s, double shortest2) {
 void Slivers::look_at(const Kernel& kernel, const std::vector<VertexKind>& kinds, std::uint32_t s,
                       const Shape& shape) {
   wait_.resize(kernel.simplices().places(), Wait::none);
-  if (!(shape.radius2 <= rho2_ * shape.shortest2)) return;
+  if (kernel.is_ghost(s)) return;
   const auto& corners = kernel.simplices().corners(s);
   if (std::all_of(corners.begin(), corners.end(),
                   [&](std::uint32_t v) { return kinds[v] == VertexKind::boundary; })) {
@@ -103,8 +92,7 @@ void Slivers::look_at(const Kernel& kernel, const std::vector<VertexKind>& kinds
 
 double Slivers::score_of(const Kernel& kernel, std::uint32_t s) {
   const auto& c = kernel.simplices().corners(s);
-  return angles_of(kernel.place(c[0]), kernel.place(c[1]), kernel.place(c[2]), kernel.place(c[3]))
-      .worst;
+  return score(kernel.place(c[0]), kernel.place(c[1]), kernel.place(c[2]), kernel.place(c[3]));
 }
 
 void Slivers::before_fill(const Kernel& kernel, std::uint32_t v) {
@@ -112,8 +100,8 @@ void Slivers::before_fill(const Kernel& kernel, std::uint32_t v) {
     if (s < wait_.size()) wait_[s] = Wait::none;
   }
   floor2_.resize(kernel.places() + 1);
-  if (fills_) {
-    floor2_[v] = new_floor2_;
+  if (dug_floor2_ != 0) {
+    floor2_[v] = std::exchange(dug_floor2_, 0);
   } else {
     double least = std::numeric_limits<double>::infinity();
     kernel.for_each_in_link([&](std::uint32_t w) {
@@ -121,7 +109,6 @@ void Slivers::before_fill(const Kernel& kernel, std::uint32_t v) {
     });
     floor2_[v] = std::max(least, nearest2(kernel, v));
   }
-  fills_ = false;
 }
 
 std::uint32_t Slivers::take() {
@@ -166,16 +153,38 @@ void Slivers::find_beside(Kernel& kernel, std::uint32_t s) {
   }
 }
 
-/// Of the points of a body-centred lattice around the centre, spaced by a power of two of the box's
-/// side, at most half of the radius: those farthest from the corners, the farthest first.
+/// In which it gets a vertex: its own, of a poor one around the off-centre.
+auto Slivers::ball_to_split(const Kernel& kernel, std::uint32_t s) const -> Ball {
+  const auto& corners = kernel.simplices().corners(s);
+  const Point<3>& centre = kernel.simplices().ball(s).centre;
+  const double radius2 = squared_distance(centre, kernel.place(corners[0]));
+  double shortest2 = std::numeric_limits<double>::infinity();
+  Point<3> end{}, middle{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const Point<3>&p = kernel.place(corners[i]), &q = kernel.place(corners[k]);
+      const double length2 = squared_distance(p, q);
+      if (length2 >= shortest2) continue;
+      shortest2 = length2;
+      end = p, middle = scaled(0.5, plus(p, q));
+    }
+  }
+  const double away = std::sqrt(squared_distance(centre, middle));
+  const double most = rho_ * std::sqrt(shortest2);
+  if (radius2 <= most * most || away <= most) return {centre, radius2};
+  const Point<3> nearer = plus(middle, scaled(most / away, minus(centre, middle)));
+  return {nearer, squared_distance(nearer, end)};
+}
+
+/// Of the points of a body-centred lattice in its ball, spaced by a power of two of the box's side,
+/// at most half of the radius: those that take the most slivers first, of these those farthest from
+/// the corners.
 void Slivers::find_places(Kernel& kernel, std::uint32_t s) {
   places_.clear();
   find_beside(kernel, s);
-  const Point<3>& centre = kernel.simplices().ball(s).centre;
   const auto& corners = kernel.simplices().corners(s);
-  const double radius2 = squared_distance(centre, kernel.place(corners[0]));
-  const double spacing = std::ldexp(
-      box_.side, static_cast<int>(std::floor(std::log2(std::sqrt(radius2) / 2 / box_.side))));
+  const auto [centre, radius2] = ball_to_split(kernel, s);
+  const double spacing = std::scalbn(box_.side, std::ilogb(std::sqrt(radius2) / (2 * box_.side)));
   std::array<double, 3> nearest;
   for (std::size_t i = 0; i < 3; ++i) {
     nearest[i] = std::round((centre[i] - box_.lo[i]) / spacing);
@@ -195,7 +204,8 @@ void Slivers::find_places(Kernel& kernel, std::uint32_t s) {
     for (const std::uint32_t v : corners) {
       place.nearest2 = std::min(place.nearest2, squared_distance(place.at, kernel.place(v)));
     }
-    for (const std::uint32_t other : beside_) place.takes += kernel.conflicts(other, place.at);
+    for (const std::uint32_t other : beside_)
+      place.takes += kernel.conflicts(other, place.at) ? 1 : 0;
     places_.push_back(place);
   }
   std::sort(places_.begin(), places_.end(), [](const Place& p, const Place& q) {
@@ -205,15 +215,13 @@ void Slivers::find_places(Kernel& kernel, std::uint32_t s) {
   if (places_.size() > most_) places_.resize(most_);
 }
 
-/// The largest of the tetrahedra around v that will not be poor; what is not below `enough` may be
-/// less than that.
-double Slivers::score(const Kernel& kernel, std::uint32_t v, double enough) const {
+/// The worst of the tetrahedra around v; what is not below `enough` may be less than that.
+double Slivers::score_of_dug(const Kernel& kernel, std::uint32_t v, double enough) {
   double worst = -1;
   kernel.for_each_facet_of_hole([&](const std::array<std::uint32_t, 3>& facet) {
     if (worst >= enough) return;
-    const Angles angles = angles_of(kernel.place(v), kernel.place(facet[0]), kernel.place(facet[1]),
-                                    kernel.place(facet[2]));
-    if (angles.radius2 <= rho2_ * angles.shortest2) worst = std::max(worst, angles.worst);
+    worst = std::max(worst, score(kernel.place(v), kernel.place(facet[0]), kernel.place(facet[1]),
+                                  kernel.place(facet[2])));
   });
   return worst;
 }

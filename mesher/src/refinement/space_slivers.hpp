@@ -1,16 +1,25 @@
-// Tetrahedra that are not poor, but have a small dihedral angle, and where they are split
-// [Li, Teng 2001; rules E].
+// Tetrahedra with a small dihedral angle, and where they are split [Li, Teng 2001; rules E].
 //
 // A sliver has four corners about on a circle, so its radius-edge ratio is good. It gets a vertex
-// not at its centre, where the next sliver would be likely, but at a place beside it that leaves no
-// small angle among the new tetrahedra, of those on a lattice: that is a choice of places that do
-// not depend on what was there before, and none comes close to another.
+// not at its centre, where the next sliver would be likely, but beside that where no new
+// tetrahedron has a small angle, or where the smallest is as large as may be. The choice is among
+// points of a lattice, so that vertices that are inserted for different slivers do not come close.
 //
-// Each vertex has a floor: a new vertex is at least half the least floor of the sliver's corners
-// from all vertices, and takes it over; one for another reason takes over what it finds, or its
-// distance, if that is larger. So distances have a bound that does not fall, and the process ends.
+// Each vertex has a floor, at first its distance from the nearest one. A vertex that splits a
+// sliver is at least half the least floor of the sliver's corners from all others, and takes that
+// floor over; one that comes for another reason takes over the least floor around it, or its
+// distance, if that is larger. So no floor is less than the least at the beginning, and only as
+// many slivers are split as there is room for.
+//
+// Where features meet at small angles poor tetrahedra stay (ConformingMesh::is_split); these are
+// split, too, beside their off-centre. So what is left is what a wall or a floor protects.
+//   (To leave poor ones: half of the angles under 5 degrees on scanned surfaces stay. To keep new
+//   vertices away from walls, by the balls of tiles or by their height: more slivers stay, and no
+//   fewer vertices. Not to look at angles of new tetrahedra that are poor, since they will be
+//   split: more vertices.)
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -25,8 +34,8 @@ class Slivers {
  public:
   using Kernel = DelaunayKernel<3, BallLayout<3>>;
 
-  /// `min_dihedral`: in degrees; 0: there are no slivers. `rho2`: above it a tetrahedron is poor.
-  Slivers(const MeshBox<3>& box, double rho2, double min_dihedral);
+  /// `min_dihedral`: in degrees; 0: there are no slivers. `rho`: above it tetrahedra are poor.
+  Slivers(const MeshBox<3>& box, double rho, double min_dihedral);
 
   /// Whether there may be any.
   [[nodiscard]] bool any() const noexcept { return worst_ < 1; }
@@ -46,6 +55,8 @@ class Slivers {
   template <class Fits>
   [[nodiscard]] bool dig(Kernel& kernel, std::uint32_t s, std::uint32_t v, Fits&& fits);
 
+  /// The least floor of its corners, squared.
+  [[nodiscard]] double least_floor2(const Kernel& kernel, std::uint32_t s) const;
   /// Vertices for slivers so far, and slivers that have found no place for one.
   [[nodiscard]] std::size_t split() const noexcept { return split_; }
   [[nodiscard]] std::size_t left() const noexcept;
@@ -53,22 +64,32 @@ class Slivers {
  private:
   enum class Wait : std::uint8_t { none, queued, left };
   struct Place {
-    int takes;        // of the slivers around a vertex
-    double nearest2;  // to the corners of the sliver
+    int takes;        // of the slivers around the first corner of this one
+    double nearest2;  // to its corners
     Point<3> at;
   };
+  struct Ball {
+    Point<3> centre;
+    double radius2;
+  };
+  // Scores are the largest cosine of a dihedral angle, squared with its sign: less is better, and
+  // what is left to 1 is the sine of the smallest angle, squared.
+  static constexpr double kRefused = 2;
+  // A place that leaves a small angle is one with at least twice that sine. (With any that is
+  // larger: of scans up to a third more vertices, for as many small angles.)
+  static constexpr double kBetter2 = 4;
 
   void add(std::uint32_t s, double shortest2);
+  [[nodiscard]] Ball ball_to_split(const Kernel& kernel, std::uint32_t s) const;
   void find_places(Kernel& kernel, std::uint32_t s);
   void find_beside(Kernel& kernel, std::uint32_t s);
-  [[nodiscard]] double least_floor2(const Kernel& kernel, std::uint32_t s) const;
   [[nodiscard]] static double score_of(const Kernel& kernel, std::uint32_t s);
-  [[nodiscard]] double score(const Kernel& kernel, std::uint32_t v, double enough) const;
+  [[nodiscard]] static double score_of_dug(const Kernel& kernel, std::uint32_t v, double enough);
   [[nodiscard]] static double nearest2(const Kernel& kernel, std::uint32_t v);
 
   MeshBox<3> box_;
-  double rho2_;
-  double worst_;      // the largest cosine of a dihedral angle, squared with its sign
+  double rho_;
+  double worst_;      // no score of a good tetrahedron is larger
   std::size_t most_;  // places that are tried
   bool started_ = false;
   std::vector<Wait> wait_;      // by simplex
@@ -77,8 +98,7 @@ class Slivers {
   std::vector<std::uint32_t> left_;
   std::size_t split_ = 0, split_before_ = 0;  // now; when those left were tried again
   int rounds_ = 0;
-  bool fills_ = false;  // before_fill() is of what dig() has dug
-  double new_floor2_ = 0;
+  double dug_floor2_ = 0;  // of the vertex that dig() has dug; 0: none
   // Scratch.
   std::vector<Place> places_;
   std::vector<std::uint32_t> star_, beside_;
@@ -88,34 +108,30 @@ template <class Fits>
 bool Slivers::dig(Kernel& kernel, std::uint32_t s, std::uint32_t v, Fits&& fits) {
   const double floor2 = least_floor2(kernel, s);
   find_places(kernel, s);
-  const auto try_at = [&](const Point<3>& p, double enough) {
+  double best = std::max(1 - kBetter2 * (1 - score_of(kernel, s)), worst_);
+  const Point<3>* best_at = nullptr;
+  const auto dig_at = [&](const Point<3>& p) {
     kernel.set_place(v, p);
     kernel.dig(v, s);
-    const bool is_apart = nearest2(kernel, v) >= floor2 / 4;
-    return is_apart && fits() ? score(kernel, v, enough) : 1;
-  };
-  double best = score_of(kernel, s);
-  const Point<3>* best_at = nullptr;
-  const auto dug = [&] {
-    fills_ = true, new_floor2_ = floor2;
-    ++split_;
-    return true;
   };
   for (const Place& place : places_) {
     if (!kernel.conflicts(s, place.at)) continue;
-    const double its = try_at(place.at, best);
-    if (its <= worst_) return dug();
+    dig_at(place.at);
+    const bool may_be = nearest2(kernel, v) >= floor2 / 4 && fits();
+    const double score = may_be ? score_of_dug(kernel, v, best) : kRefused;
+    if (score <= best) best = score, best_at = &place.at;
+    if (best_at != nullptr && best <= worst_) break;
     kernel.undo_dig();
-    if (its < best) best = its, best_at = &place.at;
   }
-  if (best_at != nullptr) {
-    kernel.set_place(v, *best_at);
-    kernel.dig(v, s);
-    return dug();
+  if (best_at == nullptr) {
+    wait_[s] = Wait::left;
+    left_.push_back(s);
+    return false;
   }
-  wait_[s] = Wait::left;
-  left_.push_back(s);
-  return false;
+  if (best > worst_) dig_at(*best_at);
+  dug_floor2_ = floor2;
+  ++split_;
+  return true;
 }
 
 }  // namespace mesher::detail

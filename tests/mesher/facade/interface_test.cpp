@@ -170,12 +170,6 @@ TEST_CASE("min_angle stands for rho") {
         Approx(1.4619).epsilon(1e-4));
 }
 
-TEST_CASE("min_dihedral is reserved") {
-  Options<3> options;
-  options.min_dihedral = 5;
-  CHECK_THROWS_AS(mesh(box(), options), Error);
-}
-
 TEST_CASE("region areas are limits if asked for") {
   Graph<2> graph = square();
   graph.seeds[0].max_measure = 0.001;
