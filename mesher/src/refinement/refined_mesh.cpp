@@ -16,7 +16,7 @@ template <int D>
 auto slivers_in([[maybe_unused]] const MeshBox<D>& box,
                 [[maybe_unused]] const typename RefinedMesh<D>::Settings& settings) {
   if constexpr (D == 3) {
-    return Slivers(box, settings.rho, settings.min_dihedral);
+    return Slivers(box, settings.rho, settings.min_dihedral, settings.thorough);
   } else {
     return std::monostate();
   }

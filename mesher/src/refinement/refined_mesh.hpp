@@ -44,6 +44,7 @@ class RefinedMesh {
   struct Settings {
     double rho = 2;
     double min_dihedral = 0;        // in degrees, in space; 0: any
+    bool thorough = true;           // with slivers: see there
     std::size_t most_vertices = 0;  // 0: any number
     bool follow_degrees = false;
     int box_steps = 0;                         // along its edges; 0: the grid of gap balls

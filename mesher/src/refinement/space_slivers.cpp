@@ -41,9 +41,10 @@ double score(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Poin
 
 }  // namespace
 
-Slivers::Slivers(const MeshBox<3>& box, double rho, double min_dihedral)
+Slivers::Slivers(const MeshBox<3>& box, double rho, double min_dihedral, bool is_thorough)
     : box_(box),
       rho_(rho),
+      is_thorough_(is_thorough),
       most_(min_dihedral <= 10   ? 12
             : min_dihedral <= 12 ? 16
                                  : 24) {
@@ -212,7 +213,7 @@ void Slivers::find_places(Kernel& kernel, std::uint32_t s) {
     if (p.takes != q.takes) return p.takes > q.takes;
     return p.nearest2 != q.nearest2 ? p.nearest2 > q.nearest2 : p.at < q.at;
   });
-  if (places_.size() > most_) places_.resize(most_);
+  if ((rounds_ == 0 || !is_thorough_) && places_.size() > most_) places_.resize(most_);
 }
 
 /// The worst of the tetrahedra around v; what is not below `enough` may be less than that.

@@ -35,7 +35,8 @@ class Slivers {
   using Kernel = DelaunayKernel<3, BallLayout<3>>;
 
   /// `min_dihedral`: in degrees; 0: there are no slivers. `rho`: above it tetrahedra are poor.
-  Slivers(const MeshBox<3>& box, double rho, double min_dihedral);
+  /// `is_thorough`: any gain counts, and what is left is tried at all places: not beside features.
+  Slivers(const MeshBox<3>& box, double rho, double min_dihedral, bool is_thorough);
 
   /// Whether there may be any.
   [[nodiscard]] bool any() const noexcept { return worst_ < 1; }
@@ -75,8 +76,9 @@ class Slivers {
   // Scores are the largest cosine of a dihedral angle, squared with its sign: less is better, and
   // what is left to 1 is the sine of the smallest angle, squared.
   static constexpr double kRefused = 2;
-  // A place that leaves a small angle is one with at least twice that sine. (With any that is
-  // larger: of scans up to a third more vertices, for as many small angles.)
+  static constexpr double kLeast = 0x1p-30;  // that a score is better by
+  // Where features are, a place that leaves a small angle is better if its sine is twice as large.
+  // (With any that is larger: of scans up to a third more vertices, for as many small angles.)
   static constexpr double kBetter2 = 4;
 
   void add(std::uint32_t s, double shortest2);
@@ -89,6 +91,7 @@ class Slivers {
 
   MeshBox<3> box_;
   double rho_;
+  bool is_thorough_;
   double worst_;      // no score of a good tetrahedron is larger
   std::size_t most_;  // places that are tried
   bool started_ = false;
@@ -108,7 +111,8 @@ template <class Fits>
 bool Slivers::dig(Kernel& kernel, std::uint32_t s, std::uint32_t v, Fits&& fits) {
   const double floor2 = least_floor2(kernel, s);
   find_places(kernel, s);
-  double best = std::max(1 - kBetter2 * (1 - score_of(kernel, s)), worst_);
+  const double before = score_of(kernel, s);
+  double best = std::max(is_thorough_ ? before - kLeast : 1 - kBetter2 * (1 - before), worst_);
   const Point<3>* best_at = nullptr;
   const auto dig_at = [&](const Point<3>& p) {
     kernel.set_place(v, p);
