@@ -9,7 +9,7 @@
 
 /* Ends the program with the message of a failure. */
 static void require(lm_status status) {
-  lm_error error = {sizeof error};
+  lm_error error = {.size = sizeof error};
   if (status == LM_OK) return;
   lm_last_error(&error);
   fprintf(stderr, "%s: %s\n", error.name, error.message);
@@ -23,8 +23,8 @@ typedef struct {
 } field;
 
 static void follow(lm_handle live, lm_handle change, field* f) {
-  lm_change_info info = {sizeof info};
-  lm_array points = {sizeof points};
+  lm_change_info info = {.size = sizeof info};
+  lm_array points = {.size = sizeof points};
   size_t i;
   double worst = 0;
   require(lm_change_describe(change, &info));
@@ -55,10 +55,10 @@ int main(void) {
   const int64_t around[] = {0, 1, 2, 3, 0};
   double wall[] = {1, 1, 1, 2};
   int64_t ends[2];
-  lm_options options = {sizeof options};
-  lm_live_info info = {sizeof info};
+  lm_options options = {.size = sizeof options};
+  lm_live_info info = {.size = sizeof info};
   lm_handle live = 0, change = 0, mesh = 0;
-  lm_array added = {sizeof added}, cells = {sizeof cells}, angles = {sizeof angles};
+  lm_array added = {.size = sizeof added}, cells = {.size = sizeof cells}, angles = {.size = sizeof angles};
   field f = {NULL, 0};
   int step;
 

@@ -4,15 +4,15 @@
  *   const double corners[] = {0, 0, 1, 0, 1, 1, 0, 1};
  *   const int64_t around[] = {0, 1, 2, 3, 0};
  *   lm_handle graph = 0, mesh = 0;
- *   lm_options options = {sizeof options};
- *   lm_array cells = {sizeof cells};
+ *   lm_options options = {.size = sizeof options};
+ *   lm_array cells = {.size = sizeof cells};
  *   options.min_angle = 28;
  *   if (lm_graph_new(2, &graph) != LM_OK ||
  *       lm_graph_add_points(graph, 4, corners, NULL, NULL, NULL) != LM_OK ||
  *       lm_graph_add_polyline(graph, 5, around, NULL, 0, NULL) != LM_OK ||
  *       lm_mesh_make(graph, &options, NULL, &mesh) != LM_OK ||
  *       lm_mesh_array(mesh, LM_MESH_CELLS, &cells) != LM_OK) {
- *     lm_error error = {sizeof error};
+ *     lm_error error = {.size = sizeof error};
  *     lm_last_error(&error);
  *     fprintf(stderr, "%s\n", error.message);
  *   }
@@ -25,7 +25,7 @@
  *       calling thread. No C++ exception leaves a function.
  *   (2) A handle is a number. One that was freed, belongs to another kind of object, or is
  *       invented, is LM_BAD_HANDLE. 0 is never a handle.
- *   (3) Structs that the caller passes begin with their size: `lm_options o = {sizeof o};` sets
+ *   (3) Structs that the caller passes begin with their size: `lm_options o = {.size = sizeof o};` sets
  *       everything else to 0, which is the default. Smaller structs of older headers are accepted,
  *       larger ones if what is unknown is 0; else LM_BAD_SIZE.
  *   (4) A pointer that must not be NULL is LM_NULL_POINTER. An array of 0 elements may be NULL.
@@ -570,7 +570,8 @@ typedef enum lm_change_field {
   LM_CHANGE_FROM = 8,    /* by POINTS_ADDED, x (d + 1) U32: points before around a new point */
   LM_CHANGE_WEIGHTS = 9, /* likewise, F64: sum 1; all 0 (and LM_NONE) if there was no mesh */
   LM_CHANGE_POINTS_ADDED_AT = 10, /* by POINTS_ADDED, x d F64 */
-  LM_CHANGE_POINTS_REMOVED_AT = 11
+  LM_CHANGE_POINTS_REMOVED_AT = 11,
+  LM_CHANGE_KINDS_CHANGED = 12 /* points that stay with another kind */
 } lm_change_field;
 
 LM_API lm_status lm_change_describe(lm_handle change, lm_change_info* info);
