@@ -241,7 +241,7 @@ def integers(values: Any, columns: Optional[int], what: str) -> np.ndarray:
     a = np.asarray(values)
     if a.size == 0:
         a = a.astype(np.int64).reshape((0,) if columns is None else (0, columns))
-    if a.dtype.kind not in "iu" or (a.dtype == np.uint64 and a.size and a.max() > 2**63 - 1):
+    if a.dtype.kind not in "iu" or (a.dtype == np.uint64 and a.size and int(a.max()) > 2**63 - 1):
         raise TypeError(f"{what} must be an array of integers, not of {a.dtype}")
     a = np.ascontiguousarray(a, dtype=np.int64)
     if columns is not None and a.ndim == 1 and a.size == columns:

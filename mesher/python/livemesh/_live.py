@@ -181,6 +181,7 @@ class _Followed:
             self.memory = np.empty((len(raw) * 5 // 4 + 16,) + raw.shape[1:], raw.dtype)
             self.memory[:len(raw)] = raw
         else:
+            self.memory[self.rows:len(raw)] = raw[self.rows:]
             for change in changes:
                 self._follow(raw, change)
         self.rows = len(raw)
