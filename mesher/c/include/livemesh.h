@@ -25,9 +25,9 @@
  *       calling thread. No C++ exception leaves a function.
  *   (2) A handle is a number. One that was freed, belongs to another kind of object, or is
  *       invented, is LM_BAD_HANDLE. 0 is never a handle.
- *   (3) Structs that the caller passes begin with their size: `lm_options o = {.size = sizeof o};` sets
- *       everything else to 0, which is the default. Smaller structs of older headers are accepted,
- *       larger ones if what is unknown is 0; else LM_BAD_SIZE.
+ *   (3) Structs that the caller passes begin with their size: `lm_array a = {.size = sizeof a};`
+ *       sets everything else to 0, which is the default. Structs of older headers are accepted, and
+ *       of newer ones if what is unknown is 0; else LM_BAD_SIZE.
  *   (4) A pointer that must not be NULL is LM_NULL_POINTER. An array of 0 elements may be NULL.
  *   (5) Coordinates are n x d doubles, point by point, in input length units: finite, and 0 or of
  *       magnitude 2^-100 to 2^100. NaN and infinity are LM_NOT_FINITE.

@@ -55,8 +55,9 @@ lm_array ChangeIn<D>::array(std::int32_t field) {
     case LM_CHANGE_POINTS_REMOVED_AT:
       return rows_of(removed_at_);
     case LM_CHANGE_KINDS_CHANGED:
-      return member_of(std::span<const mesher::SlotChange::Kind>(slots_.kinds_changed),
-                       [](const auto& kind) -> auto& { return kind.vertex; });
+      return member_of(
+          std::span<const mesher::SlotChange::Kind>(slots_.kinds_changed),
+          [](const auto& kind) -> auto& { return kind.vertex; });
     default:
       fail_unknown_field(field);
   }

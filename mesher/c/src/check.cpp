@@ -33,7 +33,10 @@ template <int D>
 std::vector<mesher::Finding> findings(const mesher::MeshData<D>& mesh, const GraphObject* input,
                                       const lm_check_options& given) {
   mesher::CheckOptions<D> options;
-  if (input != nullptr) options.graph = &file_in<D>(*input);
+  if (input != nullptr) {
+    options.graph = &file_in<D>(*input);
+    require_points(options.graph->graph);
+  }
   if (given.rho != 0) options.rho = given.rho;
   if (given.max_measure != 0) options.max_measure = given.max_measure;
   if (!mesh.features.empty()) options.features = &mesh.features;

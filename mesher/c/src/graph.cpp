@@ -307,8 +307,10 @@ GraphFile<3> merged(const GraphFile<3>& all) {
   return file;
 }
 
-// Ends of segments and corners that are not there would be undefined behaviour later.
-void require_points(const Graph<3>& graph) {
+}  // namespace
+
+template <int D>
+void require_points(const Graph<D>& graph) {
   std::vector<PointId> ids;
   for (const auto& p : graph.points) ids.push_back(p.id);
   std::sort(ids.begin(), ids.end());
@@ -323,16 +325,18 @@ void require_points(const Graph<3>& graph) {
   for (const Polyline& l : graph.polylines) {
     for (const PointId id : l.points) require(id, l.id);
   }
-  for (const Polygon& f : graph.polygons) {
-    for (const auto& loop : f.loops) {
-      for (const PointId id : loop) require(id, f.id);
+  if constexpr (D == 3) {
+    for (const Polygon& f : graph.polygons) {
+      for (const auto& loop : f.loops) {
+        for (const PointId id : loop) require(id, f.id);
+      }
+      for (const auto& [from, to] : f.edges) require(from, f.id), require(to, f.id);
+      for (const PointId id : f.points) require(id, f.id);
     }
-    for (const auto& [from, to] : f.edges) require(from, f.id), require(to, f.id);
-    for (const PointId id : f.points) require(id, f.id);
   }
 }
-
-}  // namespace
+template void require_points(const Graph<2>&);
+template void require_points(const Graph<3>&);
 
 GraphObject::GraphObject(File all, std::vector<std::string> of_it)
     : file(std::move(all)), notes(std::move(of_it)) {
@@ -510,7 +514,12 @@ lm_status lm_graph_write(lm_handle graph, const char* path) {
   return guarded([&] {
     require_pointer(path, "path");
     const Reading<GraphObject> object(graph);
-    std::visit([&](const auto& file) { mesher::write_graph(file.graph, path); }, object->file);
+    std::visit(
+        [&](const auto& file) {
+          lm::require_points(file.graph);
+          mesher::write_graph(file.graph, path);
+        },
+        object->file);
   });
 }
 

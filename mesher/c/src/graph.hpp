@@ -49,6 +49,10 @@ template <int D>
   return *file;
 }
 
+/// Throws: Error(unknown_id) if a line or a polygon names a point that does not exist.
+template <int D>
+void require_points(const mesher::Graph<D>& graph);
+
 /// Runs body(); an Error that it throws gets the locations of its features in the graph's file.
 template <int D, class Body>
 auto with_locations(const mesher::GraphFile<D>& file, Body&& body) {

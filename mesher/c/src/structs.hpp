@@ -12,6 +12,15 @@ namespace lm {
 
 /// No struct of the interface will be larger: a size above is none.
 inline constexpr std::size_t kLargestStruct = 4096;
+/// The size of the struct in the first version of the interface: a smaller one cuts a member off.
+/// (A struct that grows later gets the size here that it has now.)
+template <class T>
+inline constexpr std::size_t kFirstSize = sizeof(T);
+
+template <class T>
+[[nodiscard]] bool is_size_of(std::size_t size) noexcept {
+  return kFirstSize<T> <= size && size <= kLargestStruct;
+}
 
 /// The struct as this library knows it; 0 where the caller's ends. What is not known must be 0.
 /// Throws: Failure (LM_NULL_POINTER, LM_BAD_SIZE).
@@ -19,8 +28,8 @@ template <class T>
 [[nodiscard]] T read_struct(const T* user, const char* what) {
   require_pointer(user, what);
   const std::size_t size = user->size;
-  if (size < sizeof(std::size_t) || size > kLargestStruct) {
-    throw Failure(LM_BAD_SIZE, std::string(what) + "->size is not the size of a struct");
+  if (!is_size_of<T>(size)) {
+    throw Failure(LM_BAD_SIZE, std::string(what) + "->size is not the size of the struct");
   }
   const auto* bytes = reinterpret_cast<const unsigned char*>(user);
   if (size > sizeof(T) &&
@@ -36,7 +45,7 @@ template <class T>
 template <class T>
 [[nodiscard]] bool write_struct(const T& known, T* user) noexcept {
   const std::size_t size = user->size;
-  if (size < sizeof(std::size_t) || size > kLargestStruct) return false;
+  if (!is_size_of<T>(size)) return false;
   auto* bytes = reinterpret_cast<unsigned char*>(user);
   const auto* from = reinterpret_cast<const unsigned char*>(&known);
   std::memcpy(bytes + sizeof(std::size_t), from + sizeof(std::size_t),
@@ -49,8 +58,8 @@ template <class T>
 template <class T>
 void require_struct(const T* user, const char* what) {
   require_pointer(user, what);
-  if (user->size < sizeof(std::size_t) || user->size > kLargestStruct) {
-    throw Failure(LM_BAD_SIZE, std::string(what) + "->size is not the size of a struct");
+  if (!is_size_of<T>(user->size)) {
+    throw Failure(LM_BAD_SIZE, std::string(what) + "->size is not the size of the struct");
   }
 }
 
