@@ -131,6 +131,7 @@ static lm_options* options(void) {
   if (once_in(4)) all.algorithm = small(4);
   if (once_in(12)) all.rule = small(2);
   all.region_limits = small(2);
+  all.no_flat = small(2);
   if (once_in(9)) {
     memset(boxes, 0, sizeof boxes);
     for (i = 0; i < 2; ++i) {

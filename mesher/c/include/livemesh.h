@@ -362,6 +362,9 @@ typedef struct lm_options {
   int32_t algorithm;     /* lm_algorithm */
   int32_t rule;          /* lm_rule */
   int32_t region_limits; /* whether the limits of regions count */
+  int32_t no_flat;       /* in space, for lm_mesh_make: whether flat tetrahedra are removed, where
+                            that is possible (mesher/improve.hpp) */
+  int32_t reserved;
   size_t box_limits_count;
   const lm_box_limits* box_limits;
 } lm_options;
@@ -433,7 +436,7 @@ typedef struct lm_check_options {
   double rho;         /* 0: quality is not checked */
   double max_measure; /* 0: likewise */
   int32_t boundary;   /* lm_boundary: where facets with one cell may be */
-  int32_t reserved;
+  int32_t near_delaunay; /* in space: whether Delaunay up to rounding is enough, as for no_flat */
 } lm_check_options;
 
 typedef struct lm_finding {

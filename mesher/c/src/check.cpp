@@ -40,6 +40,7 @@ std::vector<mesher::Finding> findings(const mesher::MeshData<D>& mesh, const Gra
   if (given.rho != 0) options.rho = given.rho;
   if (given.max_measure != 0) options.max_measure = given.max_measure;
   if (!mesh.features.empty()) options.features = &mesh.features;
+  if constexpr (D == 3) options.near_delaunay = given.near_delaunay != 0;
   options.boundary = given.boundary == LM_BOUNDARY_AUTOMATIC
                          ? mesher::boundary_rule(mesh, options.graph)
                          : rule_of(given.boundary);

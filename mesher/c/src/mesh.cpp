@@ -8,6 +8,7 @@
 #include "control.hpp"
 #include "graph.hpp"
 #include "mesher/domain.hpp"
+#include "mesher/improve.hpp"
 #include "mesher/read.hpp"
 #include "mesher/write.hpp"
 #include "options.hpp"
@@ -147,11 +148,29 @@ std::vector<Feature> origins_of(const std::vector<mesher::Point<D>>& vertices,
 
 // --- Making and reading ------------------------------------------------------------------------
 
+// As mesher::mesh(), and without flat tetrahedra if that is wanted.
+template <int D>
+mesher::Meshed<D> meshed(const mesher::Graph<D>& graph, const mesher::Options<D>& options,
+                         bool no_flat, const mesher::RunControl& control) {
+  if constexpr (D == 3) {
+    if (no_flat) {
+      mesher::Meshed<D> made;
+      mesher::Mesh<D> all = mesher::box_mesh(graph, options, &made.report, control);
+      all = mesher::without_flat_tetrahedra(std::move(all), radius_edge_bound(options)).mesh;
+      static_cast<mesher::DomainMesh<D>&>(made) =
+          mesher::domain_mesh(std::move(all), graph, options.extent);
+      return made;
+    }
+  }
+  return mesher::mesh(graph, options, control);
+}
+
 template <int D>
 lm_handle make(const GraphFile<D>& file, const lm_options* options, const lm_control* control) {
   const mesher::Options<D> all = options_of<D>(options);
+  const bool no_flat = options != nullptr && read_struct(options, "options").no_flat != 0;
   mesher::Meshed<D> made =
-      with_locations(file, [&] { return mesher::mesh(file.graph, all, control_of(control)); });
+      with_locations(file, [&] { return meshed(file.graph, all, no_flat, control_of(control)); });
   const mesher::Algorithm algorithm = made.report.algorithm;
   const bool tells = !made.mesh.features.origins.empty();
   auto object =

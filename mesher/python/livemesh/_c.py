@@ -70,7 +70,8 @@ class Options(Structure):
                 ("rho", c_double), ("min_angle", c_double), ("min_dihedral", c_double),
                 ("max_measure", c_double), ("sizes", c_uint64), ("max_vertices", c_uint64),
                 ("extent", c_int32), ("algorithm", c_int32), ("rule", c_int32),
-                ("region_limits", c_int32), ("box_limits_count", c_size_t),
+                ("region_limits", c_int32), ("no_flat", c_int32),
+                ("reserved", c_int32), ("box_limits_count", c_size_t),
                 ("box_limits", c_void_p)]
 
 
@@ -82,7 +83,7 @@ class MeshInfo(Structure):
 
 class CheckOptions(Structure):
     _fields_ = [("size", c_size_t), ("graph", c_uint64), ("rho", c_double),
-                ("max_measure", c_double), ("boundary", c_int32), ("reserved", c_int32)]
+                ("max_measure", c_double), ("boundary", c_int32), ("near_delaunay", c_int32)]
 
 
 class Finding(Structure):

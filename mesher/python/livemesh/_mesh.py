@@ -144,7 +144,7 @@ class Mesh:
         mesh, does it have all of the graph, no cell with circumradius over shortest edge above rho
         (0: not checked), none larger than max_measure (0: not checked)?"""
         options = _c.CheckOptions(ctypes.sizeof(_c.CheckOptions),
-                                  0 if graph is None else graph._handle.value, rho, max_measure)
+                                  0 if graph is None else graph._handle.value, rho, max_measure, 0, int(self.dimension == 3))
         count = c_size_t()
         value = _c.c_uint64()
         check(c.mesh_check(self._handle.value, byref(options), byref(value), byref(count)))
@@ -290,7 +290,7 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
          rho: Optional[float] = None, min_dihedral: Optional[float] = None,
          max_area: Optional[float] = None, max_volume: Optional[float] = None, size: Any = None,
          repair: bool = False, merge: bool = True, region_limits: bool = True,
-         extent: str = "enclosed", bounds: Any = None, algorithm: str = "automatic",
+         no_flat: bool = True, extent: str = "enclosed", bounds: Any = None, algorithm: str = "automatic",
          max_vertices: int = 0, progress: Optional[Callable[[_c.Progress], Any]] = None,
          timeout: Optional[float] = None) -> Mesh:
     """Meshes what lines (in space polygons) enclose; if they enclose nothing, a box around it.
@@ -303,7 +303,8 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
     min_angle: degrees, at most 29.6, 20.7 by default; or rho: bound of circumradius over shortest
     edge. max_area, max_volume: of a cell. size: the edge length of a cell: a number, a function of
     n x d arrays (sampled), (points, sizes), or `Sizes`. region_limits: whether the limits of regions
-    count. extent: "enclosed" or "box". bounds: 2 x d, the box in which points may lie. algorithm:
+    count. no_flat: in space, tetrahedra without volume, which Delaunay meshes have, are removed where
+    that is possible. extent: "enclosed" or "box". bounds: 2 x d, the box in which points may lie. algorithm:
     "automatic", "refine", "svr", "gap_balls". max_vertices: more are an error.
 
     repair: lines and polygons may cross, touch and overlap. progress: called with a `Progress`; the
@@ -330,6 +331,7 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
         options, sizes = options_of(graph.dimension, lo, hi, bounds, min_angle, rho, min_dihedral,
                                     max_area, max_volume, size, region_limits, max_vertices, extent,
                                     algorithm)
+        options.no_flat = int(no_flat)
         at_control, keep = _c.control(run, timeout)
         value = _c.c_uint64()
         status = c.mesh_make(graph._handle.value, byref(options), at_control, byref(value))
