@@ -14,6 +14,14 @@
 #define MOST 24   /* elements of an array */
 #define HANDLES 5 /* of a kind */
 
+/* A struct with room behind it: it may say that it is larger than it is known to be. */
+#define WITH_ROOM(type, name)  \
+  static union {               \
+    type all;                  \
+    unsigned char bytes[4096]; \
+  } name##_room;               \
+  type* const name = &name##_room.all
+
 static uint64_t state;
 static uint64_t any(void) { /* splitmix64 */
   uint64_t z = (state += 0x9e3779b97f4a7c15u);
@@ -103,35 +111,35 @@ static double size_at(const double* at, void* user) {
 }
 
 static lm_control* control(void) {
-  static lm_control all;
+  WITH_ROOM(lm_control, all);
   if (once_in(2)) return NULL;
-  memset(&all, 0, sizeof all);
-  all.size = size(sizeof all);
-  all.progress = once_in(2) ? watch : NULL;
-  all.interval = once_in(20) ? number() : 0;
-  all.timeout = once_in(10) ? number() : 2;
-  all.stop = once_in(8) ? handle(STOP) : 0;
-  return &all;
+  memset(&all_room, 0, sizeof all_room);
+  all->size = size(sizeof *all);
+  all->progress = once_in(2) ? watch : NULL;
+  all->interval = once_in(20) ? number() : 0;
+  all->timeout = once_in(10) ? number() : 2;
+  all->stop = once_in(8) ? handle(STOP) : 0;
+  return all;
 }
 static lm_options* options(void) {
-  static lm_options all;
-  static lm_box_limits boxes[2];
+  WITH_ROOM(lm_options, all);
+  static lm_box_limits boxes[128]; /* two, and room */
   int i;
   if (once_in(6)) return NULL;
-  memset(&all, 0, sizeof all);
-  all.size = size(sizeof all);
-  all.max_vertices = 3000; /* so that runs are short */
-  for (i = 0; i < 3 && !once_in(6); ++i) all.domain_hi[i] = once_in(20) ? number() : 1;
-  if (once_in(4)) all.min_angle = once_in(4) ? 100 * number() : 25;
-  if (once_in(9)) all.rho = 3 * number();
-  if (once_in(30)) all.min_dihedral = number();
-  if (once_in(4)) all.max_measure = once_in(9) ? number() : 0.02;
-  if (once_in(6)) all.sizes = handle(SIZES);
-  if (once_in(8)) all.extent = small(2);
-  if (once_in(4)) all.algorithm = small(4);
-  if (once_in(12)) all.rule = small(2);
-  all.region_limits = small(2);
-  all.no_flat = small(2);
+  memset(&all_room, 0, sizeof all_room);
+  all->size = size(sizeof *all);
+  all->max_vertices = 3000; /* so that runs are short */
+  for (i = 0; i < 3 && !once_in(6); ++i) all->domain_hi[i] = once_in(20) ? number() : 1;
+  if (once_in(4)) all->min_angle = once_in(4) ? 100 * number() : 25;
+  if (once_in(9)) all->rho = 3 * number();
+  if (once_in(30)) all->min_dihedral = number();
+  if (once_in(4)) all->max_measure = once_in(9) ? number() : 0.02;
+  if (once_in(6)) all->sizes = handle(SIZES);
+  if (once_in(8)) all->extent = small(2);
+  if (once_in(4)) all->algorithm = small(4);
+  if (once_in(12)) all->rule = small(2);
+  all->region_limits = small(2);
+  all->no_flat = small(2);
   if (once_in(9)) {
     memset(boxes, 0, sizeof boxes);
     for (i = 0; i < 2; ++i) {
@@ -140,28 +148,28 @@ static lm_options* options(void) {
       for (k = 0; k < 3; ++k) boxes[i].hi[k] = once_in(9) ? number() : 0.5;
       boxes[i].max_measure = once_in(9) ? number() : 0.05;
     }
-    all.box_limits = once_in(9) ? NULL : boxes;
-    all.box_limits_count = below(3);
+    all->box_limits = once_in(9) ? NULL : boxes;
+    all->box_limits_count = below(3);
   }
-  return &all;
+  return all;
 }
 static lm_polygon* polygon(void) {
-  static lm_polygon all;
+  WITH_ROOM(lm_polygon, all);
   static size_t loops[2];
   if (once_in(30)) return NULL;
-  memset(&all, 0, sizeof all);
-  all.size = size(sizeof all);
-  all.loops = below(3);
+  memset(&all_room, 0, sizeof all_room);
+  all->size = size(sizeof *all);
+  all->loops = below(3);
   loops[0] = below(8);
   loops[1] = 3;
-  all.loop_sizes = once_in(30) ? NULL : loops;
-  all.points = ids(0);
-  all.inner_edges = once_in(5);
-  all.edges = ids(1);
-  all.inner_points = once_in(5);
-  all.loose_points = ids(2);
-  all.marker = id();
-  return &all;
+  all->loop_sizes = once_in(30) ? NULL : loops;
+  all->points = ids(0);
+  all->inner_edges = once_in(5);
+  all->edges = ids(1);
+  all->inner_points = once_in(5);
+  all->loose_points = ids(2);
+  all->marker = id();
+  return all;
 }
 
 /* Reads what an array shows, so that a sanitizer sees it. */
@@ -179,12 +187,12 @@ static double read_all(const lm_array* a) {
 
 static double seen;
 static lm_status call(void) {
-  lm_array array;
+  WITH_ROOM(lm_array, array);
   int64_t first;
   double* field;
   lm_status status;
-  memset(&array, 0, sizeof array);
-  array.size = size(sizeof array);
+  memset(&array_room, 0, sizeof array_room);
+  array->size = size(sizeof *array);
   switch (below(52)) {
     case 0:
     case 1:
@@ -212,8 +220,8 @@ static lm_status call(void) {
       return lm_graph_add_regions(handle(GRAPH), below(3), numbers(), numbers(), numbers(), NULL,
                                   NULL);
     case 14:
-      status = lm_graph_array(handle(GRAPH), small(22), &array);
-      if (status == LM_OK && array.size >= sizeof array) seen += read_all(&array);
+      status = lm_graph_array(handle(GRAPH), small(22), array);
+      if (status == LM_OK && array->size >= sizeof *array) seen += read_all(array);
       return status;
     case 15:
       return lm_graph_read(path(), small(5), small(2), place(GRAPH));
@@ -236,30 +244,34 @@ static lm_status call(void) {
       return lm_mesh_make(handle(GRAPH), options(), control(), place(MESH));
     case 25:
     case 26:
-      status = lm_mesh_array(handle(MESH), small(19), &array);
-      if (status == LM_OK && array.size >= sizeof array) seen += read_all(&array);
+      status = lm_mesh_array(handle(MESH), small(19), array);
+      if (status == LM_OK && array->size >= sizeof *array) seen += read_all(array);
       return status;
     case 27:
-      status = lm_mesh_quality(handle(MESH), small(7), &array);
-      if (status == LM_OK && array.size >= sizeof array) seen += read_all(&array);
+      status = lm_mesh_quality(handle(MESH), small(7), array);
+      if (status == LM_OK && array->size >= sizeof *array) seen += read_all(array);
       return status;
     case 28:
       return lm_mesh_write(handle(MESH), path());
     case 29:
       return lm_mesh_read(path(), small(5), place(MESH));
     case 30: {
-      lm_check_options given = {.size = size(sizeof given)};
+      WITH_ROOM(lm_check_options, given);
+      memset(&given_room, 0, sizeof given_room);
+      given->size = size(sizeof *given);
       size_t n;
-      if (once_in(2)) given.graph = handle(GRAPH);
-      if (once_in(4)) given.rho = 2 * number();
-      given.boundary = small(5);
-      return lm_mesh_check(handle(MESH), once_in(5) ? NULL : &given, place(FINDINGS),
+      if (once_in(2)) given->graph = handle(GRAPH);
+      if (once_in(4)) given->rho = 2 * number();
+      given->boundary = small(5);
+      return lm_mesh_check(handle(MESH), once_in(5) ? NULL : given, place(FINDINGS),
                            once_in(2) ? &n : NULL);
     }
     case 31: {
-      lm_finding finding = {.size = size(sizeof finding)};
-      status = lm_finding_get(handle(FINDINGS), below(20), &finding);
-      if (status == LM_OK && finding.property != NULL) seen += (double)strlen(finding.property);
+      WITH_ROOM(lm_finding, finding);
+      memset(&finding_room, 0, sizeof finding_room);
+      finding->size = size(sizeof *finding);
+      status = lm_finding_get(handle(FINDINGS), below(20), finding);
+      if (status == LM_OK && finding->property != NULL) seen += (double)strlen(finding->property);
       return status;
     }
     case 32:
@@ -304,8 +316,8 @@ static lm_status call(void) {
       if (once_in(3))
         return once_in(2) ? lm_live_mesh(handle(LIVE), place(MESH))
                           : lm_live_graph(handle(LIVE), place(GRAPH));
-      status = lm_live_array(handle(LIVE), small(12), &array);
-      if (status == LM_OK && array.size >= sizeof array) seen += read_all(&array);
+      status = lm_live_array(handle(LIVE), small(12), array);
+      if (status == LM_OK && array->size >= sizeof *array) seen += read_all(array);
       return status;
     case 50:
       if (once_in(3)) {
@@ -320,14 +332,18 @@ static lm_status call(void) {
         free(field);
         return status;
       }
-      status = lm_change_array(handle(CHANGE), small(14), &array);
-      if (status == LM_OK && array.size >= sizeof array) seen += read_all(&array);
+      status = lm_change_array(handle(CHANGE), small(14), array);
+      if (status == LM_OK && array->size >= sizeof *array) seen += read_all(array);
       return status;
     default: {
       const char* text;
       size_t n;
-      lm_live_info live = {.size = size(sizeof live)};
-      lm_mesh_info mesh = {.size = size(sizeof mesh)};
+      WITH_ROOM(lm_live_info, live);
+      memset(&live_room, 0, sizeof live_room);
+      live->size = size(sizeof *live);
+      WITH_ROOM(lm_mesh_info, mesh);
+      memset(&mesh_room, 0, sizeof mesh_room);
+      mesh->size = size(sizeof *mesh);
       uint32_t slots[MOST];
       uint8_t exist[MOST];
       int32_t d;
@@ -337,9 +353,9 @@ static lm_status call(void) {
         case 1:
           return lm_text_get(any_handle(), below(9), &text);
         case 2:
-          return lm_live_describe(handle(LIVE), &live);
+          return lm_live_describe(handle(LIVE), live);
         case 3:
-          return lm_mesh_describe(handle(MESH), once_in(9) ? NULL : &mesh);
+          return lm_mesh_describe(handle(MESH), once_in(9) ? NULL : mesh);
         case 4:
           return lm_live_find(handle(LIVE), count_in_array(), numbers(), slots);
         case 5:
