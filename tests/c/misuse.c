@@ -417,5 +417,5 @@ int main(int argc, char** argv) {
   }
   for (i = 0; i < KINDS * HANDLES; ++i) lm_free(handles[i / HANDLES][i % HANDLES]);
   printf("%ld of %ld calls succeeded, %g\n", ok, calls_left, seen);
-  return !still_works() || internal > 0 || ok * 4 < calls_left;
+  return !still_works() || internal > 0 || ok * 8 < calls_left;
 }

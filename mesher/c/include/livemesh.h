@@ -407,7 +407,7 @@ typedef struct lm_mesh_info {
   size_t size;
   int32_t dimension;
   int32_t algorithm; /* that made it; LM_AUTOMATIC: read from a file */
-  uint64_t points, cells, facets, edges;
+  uint64_t points, cells;
   int32_t keeps_all; /* whether nothing was enclosed, or the whole box was requested */
   int32_t reserved;
 } lm_mesh_info;

@@ -148,6 +148,12 @@ std::vector<Feature> origins_of(const std::vector<mesher::Point<D>>& vertices,
 
 // --- Making and reading ------------------------------------------------------------------------
 
+template <int D>
+bool has_limits(const mesher::Graph<D>& graph) {
+  return std::any_of(graph.seeds.begin(), graph.seeds.end(),
+                     [](const auto& seed) { return seed.max_measure.has_value(); });
+}
+
 // As mesher::mesh(), and without flat tetrahedra if that is wanted.
 template <int D>
 mesher::Meshed<D> meshed(const mesher::Graph<D>& graph, const mesher::Options<D>& options,
@@ -167,7 +173,8 @@ mesher::Meshed<D> meshed(const mesher::Graph<D>& graph, const mesher::Options<D>
 
 template <int D>
 lm_handle make(const GraphFile<D>& file, const lm_options* options, const lm_control* control) {
-  const mesher::Options<D> all = options_of<D>(options);
+  mesher::Options<D> all = options_of<D>(options);
+  if (!has_limits(file.graph)) all.region_areas = mesher::RegionAreas::ignored;  // a faster way
   const bool no_flat = options != nullptr && read_struct(options, "options").no_flat != 0;
   mesher::Meshed<D> made =
       with_locations(file, [&] { return meshed(file.graph, all, no_flat, control_of(control)); });
@@ -339,8 +346,6 @@ lm_status lm_mesh_describe(lm_handle mesh, lm_mesh_info* info) {
       all.algorithm = static_cast<std::int32_t>(object.algorithm);
       all.points = in.data.vertices.size();
       all.cells = in.data.simplices.size();
-      all.facets = in.facets();
-      all.edges = in.edges();
       all.keeps_all = object.keeps_all;
       give_struct(all, info);
     });

@@ -32,8 +32,6 @@ class MeshIn {
   /// Throws: Failure(LM_BAD_ARGUMENT).
   [[nodiscard]] lm_array array(std::int32_t field);
   [[nodiscard]] lm_array quality(std::int32_t measure);
-  [[nodiscard]] std::size_t facets() { return facets_made().markers.size(); }
-  [[nodiscard]] std::size_t edges() { return edges_made().markers.size(); }
 
   const mesher::MeshData<D> data;
   std::vector<std::uint32_t> point_slots, cell_slots;  // of a live mesh

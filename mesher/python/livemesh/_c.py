@@ -8,7 +8,7 @@ from __future__ import annotations
 import ctypes
 import os
 import pathlib
-import signal
+import signal as _signals
 import sys
 import threading
 from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t
@@ -77,8 +77,7 @@ class Options(Structure):
 
 class MeshInfo(Structure):
     _fields_ = [("size", c_size_t), ("dimension", c_int32), ("algorithm", c_int32),
-                ("points", c_uint64), ("cells", c_uint64), ("facets", c_uint64),
-                ("edges", c_uint64), ("keeps_all", c_int32), ("reserved", c_int32)]
+                ("points", c_uint64), ("cells", c_uint64), ("keeps_all", c_int32), ("reserved", c_int32)]
 
 
 class CheckOptions(Structure):
@@ -240,6 +239,8 @@ def floats(values: Any, columns: Optional[int], what: str) -> np.ndarray:
 def integers(values: Any, columns: Optional[int], what: str) -> np.ndarray:
     """C-contiguous int64, likewise."""
     a = np.asarray(values)
+    if a.dtype == np.int64 and columns is None and a.ndim == 1 and a.flags.c_contiguous:
+        return a
     if a.size == 0:
         a = a.astype(np.int64).reshape((0,) if columns is None else (0, columns))
     if a.dtype.kind not in "iu" or (a.dtype == np.uint64 and a.size and int(a.max()) > 2**63 - 1):
@@ -257,7 +258,7 @@ def one_each(values: Any, n: int, what: str) -> Optional[np.ndarray]:
     """n integers, from one for all or one for each; None stays None."""
     if values is None:
         return None
-    a = np.asarray(values)
+    a = np.full(n, values) if isinstance(values, int) else np.asarray(values)
     if a.ndim == 0:
         a = np.full(n, a)
     a = integers(a, None, what)
@@ -267,7 +268,7 @@ def one_each(values: Any, n: int, what: str) -> Optional[np.ndarray]:
 
 
 def address(a: Optional[np.ndarray]) -> Optional[int]:
-    return None if a is None else a.ctypes.data
+    return None if a is None else a.__array_interface__["data"][0]
 
 
 def texts(handle: Handle) -> list[str]:
@@ -316,20 +317,20 @@ class Run:
         self.interrupt: Optional[tuple[int, Optional[FrameType]]] = None
 
     def __enter__(self) -> "Run":
-        self._outer = getattr(_active, "run", None)
+        self._outer = _active.run
         _active.run = self
         self._former = None
-        if self._outer is None and threading.current_thread() is _main_thread:
-            former = signal.getsignal(signal.SIGINT)
+        if self._outer is None and threading.get_ident() == _MAIN_THREAD:
+            former = _get_handler(_SIGINT)
             if callable(former):
                 self._former = former
-                signal.signal(signal.SIGINT, self._note)
+                _set_handler(_SIGINT, self._note)
         return self
 
     def __exit__(self, *_: Any) -> None:
         _active.run = self._outer
         if self._former is not None:
-            signal.signal(signal.SIGINT, self._former)
+            _set_handler(_SIGINT, self._former)
 
     def _note(self, number: int, frame: Optional[FrameType]) -> None:
         self.interrupt = (number, frame)
@@ -348,7 +349,12 @@ class _Active(threading.local):
 
 
 _active = _Active()
-_main_thread = threading.main_thread()
+_SIGINT = int(_signals.SIGINT)
+# The functions behind those of the module, which turn numbers into enumerators, for 10 us a run.
+_plain = sys.modules.get("_signal", _signals)
+_get_handler: Callable[[int], Any] = _plain.getsignal
+_set_handler: Callable[[int, Any], Any] = _plain.signal
+_MAIN_THREAD = threading.main_thread().ident
 
 
 @PROGRESS

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 import threading
 from contextlib import contextmanager
 from ctypes import byref, c_int64
@@ -48,6 +49,7 @@ class Change:
 
     def __init__(self) -> None:
         self._handle: Optional[Handle] = None
+        self._slots: Optional[int] = None
 
     def _array(self, field: int) -> np.ndarray:
         if self._handle is None:
@@ -126,7 +128,9 @@ class Change:
     @property
     def point_slots(self) -> int:
         """The length of arrays by point slot after the update."""
-        return int(self._info.point_slots)
+        if self._slots is None:
+            self._slots = int(self._info.point_slots)
+        return self._slots
 
     def transfer(self, u: Any) -> np.ndarray:
         """Carries a field by point slots, n or n x k (float64 or complex128), through the change:
@@ -135,11 +139,12 @@ class Change:
         Costs what changed: `u` is changed in place and returned if it has room, else a larger array
         is returned, with room for more, so write `u = c.transfer(u)`.
         """
-        kind = np.complex128 if np.iscomplexobj(u) else np.float64
-        before = np.ascontiguousarray(u, dtype=kind)
+        before = np.ascontiguousarray(u)
+        kind = np.complex128 if before.dtype.kind == "c" else np.float64
+        before = np.ascontiguousarray(before, dtype=kind)
         rows, slots = len(before), self.point_slots
         after = _with_rows(before, slots)
-        columns = int(np.prod(after.shape[1:], dtype=np.int64)) * (2 if kind is np.complex128 else 1)
+        columns = math.prod(after.shape[1:]) * (2 if kind is np.complex128 else 1)
         assert self._handle is not None
         if columns > 0:
             check(c.change_transfer(self._handle.value, columns, address(after), rows,
@@ -276,15 +281,17 @@ class LiveMesh:
     def _ids(self, ids: Any, n: int, what: str) -> Optional[np.ndarray]:
         if ids is None:
             return None
-        given = np.atleast_1d(np.asarray(ids))
-        return one_each(given, n, what)
+        return one_each([ids] if isinstance(ids, int) else np.atleast_1d(ids), n, what)
 
     def _named(self, function: Any, n: int, ids: Optional[np.ndarray],
                *arguments: Any) -> np.ndarray:
         """Adds n features; their ids."""
+        if ids is not None:
+            self._call(function, n, *arguments, None)
+            return ids
         first = c_int64()
         self._call(function, n, *arguments, byref(first))
-        return np.arange(first.value, first.value + n) if ids is None else ids
+        return np.arange(first.value, first.value + n)
 
     def add_points(self, points: Any, ids: Any = None, markers: Any = None) -> np.ndarray:
         """Announces points, n x d, input length units. Returns their ids, n int64."""
