@@ -5,6 +5,8 @@ import importlib.util
 import json
 import os
 import pathlib
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -60,6 +62,16 @@ class Documents(unittest.TestCase):
                 os.chdir(before)
         self.assertEqual(found.failed, 0)
         self.assertGreater(found.attempted, 10)
+
+    def test_readme_of_the_repository(self):
+        text = (PYTHON.parents[1] / "README.md").read_text(encoding="utf-8")
+        (block,) = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copy(DATA / "great_lakes.poly", os.path.join(folder, "lake.poly"))
+            process = subprocess.run([sys.executable, "-c", block], cwd=folder, text=True,
+                                     capture_output=True, timeout=100)
+            self.assertEqual((process.returncode, process.stderr), (0, ""))
+            self.assertTrue(os.path.exists(os.path.join(folder, "lake.vtu")))
 
 
 class Examples(unittest.TestCase):
