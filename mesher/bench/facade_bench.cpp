@@ -1,5 +1,5 @@
-// What other languages are compared with: the same work by C++ alone, as mesher/python/bench does it
-// by Python.
+// What other languages are compared with: the same work by C++ alone, as mesher/python/bench does
+// it by Python.
 //
 //   facade_bench [N]...
 //
@@ -55,8 +55,9 @@ void run(std::size_t n) {
   std::size_t vertices = 0;
   const double seconds =
       bench::seconds_of([&] { vertices = mesher::mesh(graph).mesh.vertices.size(); });
-  std::printf("{\"bench\":\"facade\",\"figure\":\"mesh\",\"n\":%zu,\"vertices\":%zu,\"seconds\":%.4f}\n",
-              n, vertices, seconds);
+  std::printf(
+      "{\"bench\":\"facade\",\"figure\":\"mesh\",\"n\":%zu,\"vertices\":%zu,\"seconds\":%.4f}\n", n,
+      vertices, seconds);
   std::vector<double> times = update_times(graph, random);
   std::sort(times.begin(), times.end());
   std::printf("{\"bench\":\"facade\",\"figure\":\"update\",\"n\":%zu,\"median_us\":%.1f}\n", n,

@@ -112,7 +112,8 @@ class Examples(unittest.TestCase):
                 json.dump({"type": "FeatureCollection", "features": features}, file)
             text = run("coasts.py", path, os.path.join(folder, "lakes.vtu"))
             self.assertIn("triangles", text)
-            self.assertEqual(set(lm.Mesh.read(os.path.join(folder, "lakes.vtu")).facet_markers), {4})
+            made = lm.Mesh.read(os.path.join(folder, "lakes.vtu"))
+            self.assertEqual(set(made.facet_markers), {4})
 
     def test_a_part_from_stl(self):
         self.assertIn("volume 12, 8 flat faces", run("part_from_stl.py"))

@@ -17,7 +17,8 @@ TRY = ("import livemesh as lm; m = lm.mesh([(0, 0), (1, 0), (0, 1)], min_angle=2
 
 
 def run(*command, **variables):
-    environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "LIVEMESH_LIBRARY")}
+    environment = {name: value for name, value in os.environ.items()
+                   if name not in ("PYTHONPATH", "LIVEMESH_LIBRARY")}
     environment.update(PIP_NO_INDEX="1", PIP_DISABLE_PIP_VERSION_CHECK="1", **variables)
     process = subprocess.run([str(c) for c in command], capture_output=True, text=True,
                              env=environment, cwd=tempfile.gettempdir())

@@ -1,5 +1,5 @@
-/* A heated wall moves through a room: the mesh follows, and the field by slots with it. Exits with 0
- * if every step is as it should be. */
+/* A heated wall moves through a room: the mesh follows, and the field by slots with it. Exits with
+ * 0 if every step is as it should be. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +16,8 @@ static void require(lm_status status) {
   exit(1);
 }
 
-/* A field by point slots: here x + 2 y, which linear interpolation carries through without error. */
+/* A field by point slots: here x + 2 y, which linear interpolation carries through without error.
+ */
 typedef struct {
   double* at;
   size_t rows;
@@ -58,7 +59,8 @@ int main(void) {
   lm_options options = {.size = sizeof options};
   lm_live_info info = {.size = sizeof info};
   lm_handle live = 0, change = 0, mesh = 0;
-  lm_array added = {.size = sizeof added}, cells = {.size = sizeof cells}, angles = {.size = sizeof angles};
+  lm_array added = {.size = sizeof added}, cells = {.size = sizeof cells},
+           angles = {.size = sizeof angles};
   field f = {NULL, 0};
   int step;
 

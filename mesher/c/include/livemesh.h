@@ -64,7 +64,7 @@
 extern "C" {
 #endif
 
-/* --- Versions ---------------------------------------------------------------------------------- */
+/* --- Versions --- */
 
 /* Grows if a program that was compiled with an older header cannot use the library. */
 #define LM_ABI_VERSION 1
@@ -72,7 +72,7 @@ LM_API uint32_t lm_abi_version(void);
 /* "0.2.0". */
 LM_API const char* lm_version(void);
 
-/* --- Handles and errors ------------------------------------------------------------------------ */
+/* --- Handles and errors --- */
 
 typedef uint64_t lm_handle;
 typedef int32_t lm_status; /* an lm_status_code */
@@ -154,11 +154,11 @@ typedef struct lm_error {
   size_t size;
   lm_status status;
   int32_t reserved;
-  const char* name;    /* lm_status_name(status) */
-  const char* message; /* a sentence for people */
-  const char* file;    /* "" unless the mistake is in a file */
-  int64_t line, column; /* from 1; 0: not known */
-  size_t features;      /* the features concerned, the one at fault first */
+  const char* name;             /* lm_status_name(status) */
+  const char* message;          /* a sentence for people */
+  const char* file;             /* "" unless the mistake is in a file */
+  int64_t line, column;         /* from 1; 0: not known */
+  size_t features;              /* the features concerned, the one at fault first */
   const int32_t* feature_kinds; /* lm_feature_kind */
   const int64_t* feature_ids;
   size_t places;    /* the positions concerned */
@@ -168,11 +168,12 @@ typedef struct lm_error {
 /* The last failure of the calling thread; LM_OK in `status` if there was none. */
 LM_API lm_status lm_last_error(lm_error* error);
 
-/* --- Arrays ------------------------------------------------------------------------------------ */
+/* --- Arrays --- */
 
 typedef enum lm_type { LM_F64 = 0, LM_I64 = 1, LM_U32 = 2, LM_U8 = 3 } lm_type;
 
-/* rows x columns elements: the element (i, j) is at data + i * stride + j * (size of an element). */
+/* rows x columns elements: the element (i, j) is at data + i * stride + j * (size of an element).
+ */
 typedef struct lm_array {
   size_t size;
   const void* data; /* NULL if there are no rows */
@@ -185,7 +186,7 @@ typedef struct lm_array {
 /* "No cell", "no point": among neighbours, and where a slot is not in use. */
 #define LM_NONE UINT32_MAX
 
-/* --- Watching and stopping --------------------------------------------------------------------- */
+/* --- Watching and stopping --- */
 
 typedef enum lm_phase {
   LM_PHASE_QUADTREE = 0,
@@ -219,7 +220,7 @@ LM_API lm_status lm_stop_new(lm_handle* stop);
 /* Runs that have it in their lm_control end with LM_CANCELLED, now and later. */
 LM_API lm_status lm_stop_request(lm_handle stop);
 
-/* --- Graphs: the input of a mesh --------------------------------------------------------------- */
+/* --- Graphs: the input of a mesh --- */
 
 /* An empty graph. In the plane it holds points, lines and seeds, in space also polygons. */
 LM_API lm_status lm_graph_new(int32_t dimension, lm_handle* graph);
@@ -311,7 +312,7 @@ LM_API lm_status lm_graph_repair(lm_handle graph, const double* domain, lm_handl
 /* In space: a graph whose polygons of one plane and one marker are merged where they meet. */
 LM_API lm_status lm_graph_merge(lm_handle graph, lm_handle* merged);
 
-/* --- Sizes ------------------------------------------------------------------------------------- */
+/* --- Sizes --- */
 
 /* The size at a position of d coordinates: the edge of the largest regular cell there; > 0, perhaps
  * infinite. Anything else is LM_BAD_OPTION of the run. Positions may be outside the domain. */
@@ -329,7 +330,7 @@ LM_API lm_status lm_sizes_read(const char* path, int32_t dimension, lm_handle* s
 /* The measure of a regular cell with edges of length h. */
 LM_API double lm_measure_of_size(int32_t dimension, double h);
 
-/* --- Meshes ------------------------------------------------------------------------------------ */
+/* --- Meshes --- */
 
 typedef enum lm_extent { LM_ENCLOSED = 0, LM_BOX = 1 } lm_extent;
 typedef enum lm_algorithm {
@@ -352,11 +353,11 @@ typedef struct lm_box_limits {
 typedef struct lm_options {
   size_t size;
   double domain_lo[3], domain_hi[3]; /* the box in which points may lie; all 0: around the input */
-  double rho;          /* bound of circumradius over shortest edge, above 1.01 */
-  double min_angle;    /* degrees, at most 29.6: in place of rho */
-  double min_dihedral; /* reserved: must be 0 */
-  double max_measure;  /* the largest measure of a cell */
-  lm_handle sizes;     /* sizes that vary */
+  double rho;                        /* bound of circumradius over shortest edge, above 1.01 */
+  double min_angle;                  /* degrees, at most 29.6: in place of rho */
+  double min_dihedral;               /* reserved: must be 0 */
+  double max_measure;                /* the largest measure of a cell */
+  lm_handle sizes;                   /* sizes that vary */
   uint64_t max_vertices;
   int32_t extent;        /* lm_extent: what lines (polygons) enclose, or all of the box */
   int32_t algorithm;     /* lm_algorithm */
@@ -374,17 +375,17 @@ LM_API lm_status lm_mesh_make(lm_handle graph, const lm_options* options, const 
                               lm_handle* mesh);
 
 typedef enum lm_mesh_field {
-  LM_MESH_POINTS = 0,        /* n x d F64, in lexicographic order */
-  LM_MESH_CELLS = 1,         /* m x (d + 1) U32, positively oriented */
-  LM_MESH_NEIGHBORS = 2,     /* m x (d + 1) U32: the cells across from the corners, or LM_NONE */
-  LM_MESH_POINT_KINDS = 3,   /* n U8: 0 Steiner, 1 on the boundary grid, 2 input, 3 on a line */
-  LM_MESH_POINT_MARKERS = 4, /* n I64; 0: none */
-  LM_MESH_POINT_FEATURES = 5,    /* n U8: lm_feature_kind that the point is or lies on */
-  LM_MESH_POINT_FEATURE_IDS = 6, /* n I64 */
-  LM_MESH_CELL_REGIONS = 7,      /* m F64: the attribute of the region; 0: none */
-  LM_MESH_FACETS = 8,            /* f x d U32, on lines (polygons) or on the boundary */
-  LM_MESH_FACET_MARKERS = 9,     /* f I64; 1 on the boundary, if it has no other */
-  LM_MESH_FACET_FEATURES = 10,   /* f U8: lm_feature_kind, LM_NO_FEATURE: not known */
+  LM_MESH_POINTS = 0,         /* n x d F64, in lexicographic order */
+  LM_MESH_CELLS = 1,          /* m x (d + 1) U32, positively oriented */
+  LM_MESH_NEIGHBORS = 2,      /* m x (d + 1) U32: the cells across from the corners, or LM_NONE */
+  LM_MESH_POINT_KINDS = 3,    /* n U8: 0 Steiner, 1 on the boundary grid, 2 input, 3 on a line */
+  LM_MESH_POINT_MARKERS = 4,  /* n I64; 0: none */
+  LM_MESH_POINT_FEATURES = 5, /* n U8: lm_feature_kind that the point is or lies on */
+  LM_MESH_POINT_FEATURE_IDS = 6,  /* n I64 */
+  LM_MESH_CELL_REGIONS = 7,       /* m F64: the attribute of the region; 0: none */
+  LM_MESH_FACETS = 8,             /* f x d U32, on lines (polygons) or on the boundary */
+  LM_MESH_FACET_MARKERS = 9,      /* f I64; 1 on the boundary, if it has no other */
+  LM_MESH_FACET_FEATURES = 10,    /* f U8: lm_feature_kind, LM_NO_FEATURE: not known */
   LM_MESH_FACET_FEATURE_IDS = 11, /* f I64 */
   LM_MESH_EDGES = 12,             /* e x 2 U32: on lines, as in the plane; in space beside facets */
   LM_MESH_EDGE_MARKERS = 13,
@@ -395,9 +396,9 @@ typedef enum lm_mesh_field {
 } lm_mesh_field;
 
 typedef enum lm_measure {
-  LM_CELL_MEASURE = 0,     /* area or volume */
+  LM_CELL_MEASURE = 0,      /* area or volume */
   LM_RADIUS_EDGE_RATIO = 1, /* circumradius over shortest edge */
-  LM_MIN_ANGLE = 2,        /* degrees; of a tetrahedron: of its faces */
+  LM_MIN_ANGLE = 2,         /* degrees; of a tetrahedron: of its faces */
   LM_MAX_ANGLE = 3,
   LM_MIN_DIHEDRAL = 4, /* degrees, in space */
   LM_MAX_DIHEDRAL = 5
@@ -416,8 +417,8 @@ LM_API lm_status lm_mesh_describe(lm_handle mesh, lm_mesh_info* info);
 LM_API lm_status lm_mesh_array(lm_handle mesh, int32_t field, lm_array* array);
 /* One F64 for each cell. measure: lm_measure. */
 LM_API lm_status lm_mesh_quality(lm_handle mesh, int32_t measure, lm_array* array);
-/* Writes .node (with .ele and others beside it), .vtu, .vtk, .msh, .mesh, .off, .obj, .svg, in space
- * also .stl: whole, or not at all. */
+/* Writes .node (with .ele and others beside it), .vtu, .vtk, .msh, .mesh, .off, .obj, .svg, in
+ * space also .stl: whole, or not at all. */
 LM_API lm_status lm_mesh_write(lm_handle mesh, const char* path);
 /* Reads .node or .ele, .vtu, .vtk, .msh, .mesh, .off, .obj. dimension: 2, 3, or 0: that of the
  * file. */
@@ -432,10 +433,10 @@ typedef enum lm_boundary {
 
 typedef struct lm_check_options {
   size_t size;
-  lm_handle graph;    /* the input; 0: not checked against it */
-  double rho;         /* 0: quality is not checked */
-  double max_measure; /* 0: likewise */
-  int32_t boundary;   /* lm_boundary: where facets with one cell may be */
+  lm_handle graph;       /* the input; 0: not checked against it */
+  double rho;            /* 0: quality is not checked */
+  double max_measure;    /* 0: likewise */
+  int32_t boundary;      /* lm_boundary: where facets with one cell may be */
   int32_t near_delaunay; /* in space: whether Delaunay up to rounding is enough, as for no_flat */
 } lm_check_options;
 
@@ -453,7 +454,7 @@ LM_API lm_status lm_mesh_check(lm_handle mesh, const lm_check_options* options, 
                                size_t* count);
 LM_API lm_status lm_finding_get(lm_handle findings, size_t i, lm_finding* finding);
 
-/* --- Live meshes ------------------------------------------------------------------------------- */
+/* --- Live meshes --- */
 
 /* A mesh that follows edits. Edits are announced, and judged together by lm_live_update(): all of
  * them are made, or none. options: with a domain; the algorithm is gap-balls. */
@@ -506,12 +507,12 @@ LM_API lm_status lm_live_undo(lm_handle live, const lm_control* control, lm_hand
 typedef struct lm_live_info {
   size_t size;
   int32_t dimension;
-  int32_t pending;         /* whether edits are announced */
-  uint64_t point_slots;    /* the lengths of arrays by slot, with free slots */
+  int32_t pending;      /* whether edits are announced */
+  uint64_t point_slots; /* the lengths of arrays by slot, with free slots */
   uint64_t cell_slots;
-  uint64_t points, cells;  /* in use, in the mesh of the box */
-  uint64_t updates;        /* that have been made */
-  uint64_t undoable;       /* that can be undone */
+  uint64_t points, cells; /* in use, in the mesh of the box */
+  uint64_t updates;       /* that have been made */
+  uint64_t undoable;      /* that can be undone */
   uint64_t trace_bytes;
   double domain_lo[3], domain_hi[3];
 } lm_live_info;
@@ -527,8 +528,8 @@ typedef enum lm_live_field {
   LM_LIVE_NEIGHBORS = 3,   /* m x (d + 1) U32: slots of cells across from corners, or LM_NONE */
   LM_LIVE_POINT_USED = 4,  /* n U8: 1 if the slot is in use */
   LM_LIVE_CELL_USED = 5,   /* m U8 */
-  LM_LIVE_CELL_KEPT = 6,   /* m U8: 1 if it is in use and lines (polygons) enclose it, as lm_extent */
-  LM_LIVE_FACETS = 7,      /* f x d U32: on lines (polygons) */
+  LM_LIVE_CELL_KEPT = 6, /* m U8: 1 if it is in use and lines (polygons) enclose it, as lm_extent */
+  LM_LIVE_FACETS = 7,    /* f x d U32: on lines (polygons) */
   LM_LIVE_FACET_FEATURES = 8,    /* f U8: lm_feature_kind */
   LM_LIVE_FACET_FEATURE_IDS = 9, /* f I64 */
   LM_LIVE_FACET_USED = 10        /* f U8 */
@@ -551,7 +552,7 @@ LM_API lm_status lm_live_mesh(lm_handle live, lm_handle* mesh);
 /* The graph of the last update. */
 LM_API lm_status lm_live_graph(lm_handle live, lm_handle* graph);
 
-/* --- Changes ----------------------------------------------------------------------------------- */
+/* --- Changes --- */
 
 typedef struct lm_change_info {
   size_t size;
@@ -587,7 +588,7 @@ LM_API lm_status lm_change_array(lm_handle change, int32_t field, lm_array* arra
 LM_API lm_status lm_change_transfer(lm_handle change, size_t columns, const double* before,
                                     size_t rows_before, double* after, size_t rows_after);
 
-/* --- Texts ------------------------------------------------------------------------------------- */
+/* --- Texts --- */
 
 /* What there is to tell of a graph (repairs, data in its file that is not used), a mesh or a live
  * mesh (seeds without a region of their own): sentences for people. */

@@ -73,11 +73,6 @@ void edit(lm_handle handle, Add&& add) {
   graph->change();
 }
 
-template <class File>
-inline constexpr int kDimension = 0;
-template <int D>
-inline constexpr int kDimension<GraphFile<D>> = D;
-
 template <int D>
 auto& polygons_of(GraphFile<D>& file) {
   if constexpr (D == 3) {

@@ -15,8 +15,8 @@ CORNER = 4  # the inner one, whose position is free
 
 
 def energy(d, sweeps=200):
-    """Of the harmonic function that is 0 at the left end and 1 at the upper one, on linear elements,
-    by conjugate gradients."""
+    """Of the harmonic function that is 0 at the left end and 1 at the upper one, on linear
+    elements, by conjugate gradients."""
     points, cells, _ = d.compact()
     x = points[cells]
     edges = x[:, [2, 0, 1]] - x[:, [1, 2, 0]]

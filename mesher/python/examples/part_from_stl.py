@@ -40,8 +40,8 @@ def main():
         if len(sys.argv) < 2:
             write_bracket(path)
         m = lm.mesh(path, max_volume=.02)
-    print(m, f"volume {m.quality('volume').sum():.6g}, {len(set(m.facet_ids))} flat faces, smallest "
-          f"dihedral angle {m.quality('min_dihedral').min():.1f} degrees")
+    print(m, f"volume {m.quality('volume').sum():.6g}, {len(set(m.facet_ids))} flat faces, "
+          f"smallest dihedral angle {m.quality('min_dihedral').min():.1f} degrees")
     if len(sys.argv) > 2:
         m.write(sys.argv[2])
     return m

@@ -6,8 +6,8 @@
 >>> bool(m.quality("min_angle").min() >= 28)
 True
 
-`mesh` makes a `Mesh` once; a `LiveMesh` follows edits. Lengths are in the units of the input, angles
-in degrees. Points and cells are numbered from 0.
+`mesh` makes a `Mesh` once; a `LiveMesh` follows edits. Lengths are in the units of the input,
+angles in degrees. Points and cells are numbered from 0.
 """
 from . import _c
 from ._c import Progress

@@ -17,6 +17,7 @@ from types import FrameType
 from typing import Any, Callable, Optional, Tuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ._errors import raise_error
 
@@ -77,7 +78,8 @@ class Options(Structure):
 
 class MeshInfo(Structure):
     _fields_ = [("size", c_size_t), ("dimension", c_int32), ("algorithm", c_int32),
-                ("points", c_uint64), ("cells", c_uint64), ("keeps_all", c_int32), ("reserved", c_int32)]
+                ("points", c_uint64), ("cells", c_uint64), ("keeps_all", c_int32),
+                ("reserved", c_int32)]
 
 
 class CheckOptions(Structure):
@@ -207,7 +209,7 @@ class _Memory:
         self.owner = owner
 
 
-def array(function: Callable[..., int], handle: Handle, field: int, owner: Any = None) -> np.ndarray:
+def array(function: Callable[..., int], handle: Handle, field: int) -> NDArray[Any]:
     """An array of the library's memory, without a copy, read-only; it keeps `handle` alive."""
     a = ArrayStruct(ctypes.sizeof(ArrayStruct))
     check(function(handle.value, field, byref(a)))
@@ -217,10 +219,10 @@ def array(function: Callable[..., int], handle: Handle, field: int, owner: Any =
         return np.empty(shape, code)
     strides = (a.stride,) if a.columns == 1 else (a.stride, int(code[2]))
     return np.asarray(_Memory({"version": 3, "shape": shape, "typestr": code,
-                               "data": (a.data, True), "strides": strides}, owner or handle))
+                               "data": (a.data, True), "strides": strides}, handle))
 
 
-def floats(values: Any, columns: Optional[int], what: str) -> np.ndarray:
+def floats(values: Any, columns: Optional[int], what: str) -> NDArray[np.float64]:
     """C-contiguous float64, n or n x columns. Raises: TypeError, ValueError."""
     try:
         a = np.ascontiguousarray(values, dtype=np.float64)
@@ -236,7 +238,7 @@ def floats(values: Any, columns: Optional[int], what: str) -> np.ndarray:
     return a
 
 
-def integers(values: Any, columns: Optional[int], what: str) -> np.ndarray:
+def integers(values: Any, columns: Optional[int], what: str) -> NDArray[np.int64]:
     """C-contiguous int64, likewise."""
     a = np.asarray(values)
     if a.dtype == np.int64 and columns is None and a.ndim == 1 and a.flags.c_contiguous:
@@ -254,7 +256,7 @@ def integers(values: Any, columns: Optional[int], what: str) -> np.ndarray:
     return a
 
 
-def one_each(values: Any, n: int, what: str) -> Optional[np.ndarray]:
+def one_each(values: Any, n: int, what: str) -> Optional[NDArray[Any]]:
     """n integers, from one for all or one for each; None stays None."""
     if values is None:
         return None
@@ -267,7 +269,7 @@ def one_each(values: Any, n: int, what: str) -> Optional[np.ndarray]:
     return a
 
 
-def address(a: Optional[np.ndarray]) -> Optional[int]:
+def address(a: Optional[NDArray[Any]]) -> Optional[int]:
     return None if a is None else a.__array_interface__["data"][0]
 
 
@@ -304,9 +306,9 @@ class Progress:
 class Run:
     """A call of the library that can be stopped: by a function, a timeout, or Ctrl-C.
 
-    An exception in a callback stops the run, and leaves it. Ctrl-C is noted by a handler that raises
-    nothing, for an exception must not begin in the middle of a callback; after the run, the former
-    handler gets it.
+    An exception in a callback stops the run, and leaves it. Ctrl-C is noted by a handler that
+    raises nothing, for an exception must not begin in the middle of a callback; after the run, the
+    former handler gets it.
     """
 
     __slots__ = ("progress", "error", "interrupt", "_former", "_outer")
@@ -357,8 +359,7 @@ _set_handler: Callable[[int, Any], Any] = _plain.signal
 _MAIN_THREAD = threading.main_thread().ident
 
 
-@PROGRESS
-def _watch(state: Any, _: Any) -> int:
+def _watch_run(state: Any, _: Any) -> int:
     run = _active.run
     if run is None or run.interrupt is not None or run.error is not None:
         return 1
@@ -373,6 +374,7 @@ def _watch(state: Any, _: Any) -> int:
         return 1
 
 
+_watch = PROGRESS(_watch_run)
 _INTERVAL = 0.02  # seconds between callbacks: an answer to Ctrl-C is soon enough, and GIL is free
 _WATCHED = Control(ctypes.sizeof(Control), _watch, None, _INTERVAL, 0.0, 0)
 _WATCHED_ADDRESS = ctypes.addressof(_WATCHED)
@@ -390,10 +392,9 @@ def control(run: Run, timeout: Optional[float]) -> tuple[int, Any]:
     return ctypes.addressof(made), made
 
 
-def size_callback(function: Callable[[np.ndarray], Any], dimension: int) -> Any:
+def size_callback(function: Callable[[NDArray[Any]], Any], dimension: int) -> Any:
     """A size function of one position at a time. What it raises stops the run."""
 
-    @SIZE
     def at(position: Any, _: Any) -> float:
         run = _active.run
         try:
@@ -405,4 +406,4 @@ def size_callback(function: Callable[[np.ndarray], Any], dimension: int) -> Any:
                 run.error = error
             return float("nan")
 
-    return at
+    return SIZE(at)

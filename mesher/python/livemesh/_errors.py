@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, List, NamedTuple, NoReturn, Sequence, Tuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 _KINDS = ("none", "point", "line", "polygon", "hole", "region")
 _FILE_CODES = frozenset(("wrong_count", "truncated", "bad_number", "bad_header", "bad_syntax",
@@ -31,16 +32,16 @@ class Error(Exception):
 class GeometryError(Error, ValueError):
     """Input that cannot be meshed.
 
-    code: a word, such as "crossing_segments"; features: the parts of the input concerned, the one at
-    fault first; at: k x d, their positions, where known; file and line: where they are in a file, or
-    "" and 0.
+    code: a word, such as "crossing_segments"; features: the parts of the input concerned, the one
+    at fault first; at: k x d, their positions, where known; file and line: where they are in a
+    file, or "" and 0.
     """
 
     def __init__(self, message: str, code: str = "", features: Sequence[Feature] = (),
                  at: Any = None, file: str = "", line: int = 0) -> None:
         super().__init__(message, code)
         self.features: List[Feature] = list(features)
-        self.at: np.ndarray = np.empty((0, 0)) if at is None else at
+        self.at: NDArray[Any] = np.empty((0, 0)) if at is None else at
         self.file = file
         self.line = line
 
@@ -58,7 +59,7 @@ class Busy(Error, RuntimeError):
 
 
 def raise_error(status: int, name: str, message: str, features: Sequence[Tuple[int, int]],
-                at: np.ndarray, file: str, line: int) -> NoReturn:
+                at: NDArray[Any], file: str, line: int) -> NoReturn:
     if name == "out_of_memory":
         raise MemoryError("out of memory in livemesh")
     if name == "cancelled":

@@ -9,6 +9,7 @@ from ctypes import byref, c_int32, c_int64
 from typing import Any, Optional, Sequence, Tuple, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _c
 from ._c import address, c, check, floats, integers, one_each
@@ -20,11 +21,11 @@ class Graph:
     """Points, and what is between them: in the plane lines, in space also polygons.
 
     points: n x 2 or n x 3, input length units; a point's number is its row. segments: s x 2 numbers
-    of points. polylines: sequences of numbers; closed if the last is the first. polygons (in space):
-    sequences of 3 or more numbers, or an array f x k; a polygon with holes is a sequence of such
-    loops, the outer one first. holes: h x d positions; what encloses them is not meshed. regions:
-    rows of a position, an attribute, and perhaps the largest area (volume) of a cell, 0 for none.
-    Markers are integers, one for all or one for each; 0 is none.
+    of points. polylines: sequences of numbers; closed if the last is the first. polygons (in
+    space): sequences of 3 or more numbers, or an array f x k; a polygon with holes is a sequence
+    of such loops, the outer one first. holes: h x d positions; what encloses them is not meshed.
+    regions: rows of a position, an attribute, and perhaps the largest area (volume) of a cell, 0
+    for none. Markers are integers, one for all or one for each; 0 is none.
 
     >>> g = Graph([(0, 0), (1, 0), (1, 1)], polylines=[[0, 1, 2, 0]], polyline_markers=7)
     >>> g.dimension, len(g.points)
@@ -123,63 +124,63 @@ class Graph:
 
     # --- Arrays: copies, since a graph may grow --------------------------------------------------
 
-    def _array(self, field: int) -> np.ndarray:
+    def _array(self, field: int) -> NDArray[Any]:
         return _c.array(c.graph_array, self._handle, field).copy()
 
     @property
-    def points(self) -> np.ndarray:
+    def points(self) -> NDArray[np.float64]:
         """n x d float64, input length units."""
         return self._array(0)
 
     @property
-    def point_ids(self) -> np.ndarray:
+    def point_ids(self) -> NDArray[np.int64]:
         """n int64."""
         return self._array(1)
 
     @property
-    def point_markers(self) -> np.ndarray:
+    def point_markers(self) -> NDArray[np.int64]:
         """n int64; 0: none."""
         return self._array(2)
 
     @property
-    def segments(self) -> np.ndarray:
+    def segments(self) -> NDArray[np.int64]:
         """s x 2 int64: ids of points."""
         return self._array(3).reshape(-1, 2)
 
     @property
-    def segment_markers(self) -> np.ndarray:
+    def segment_markers(self) -> NDArray[np.int64]:
         """s int64."""
         return self._array(5)
 
     @property
-    def polylines(self) -> list[np.ndarray]:
+    def polylines(self) -> list[NDArray[Any]]:
         """Arrays of ids of points."""
         return np.split(self._array(7), self._array(6)[1:-1]) if len(self._array(8)) else []
 
     @property
-    def polyline_markers(self) -> np.ndarray:
+    def polyline_markers(self) -> NDArray[np.int64]:
         """l int64."""
         return self._array(9)
 
     @property
-    def polygons(self) -> list[list[np.ndarray]]:
+    def polygons(self) -> list[list[NDArray[Any]]]:
         """For each polygon its loops, arrays of ids of points."""
         loops = np.split(self._array(12), self._array(11)[1:-1])
         ends = self._array(10)
         return [loops[ends[i]:ends[i + 1]] for i in range(len(ends) - 1)]
 
     @property
-    def polygon_markers(self) -> np.ndarray:
+    def polygon_markers(self) -> NDArray[np.int64]:
         """p int64."""
         return self._array(14)
 
     @property
-    def holes(self) -> np.ndarray:
+    def holes(self) -> NDArray[np.float64]:
         """h x d float64."""
         return self._array(15).reshape(-1, self.dimension)
 
     @property
-    def regions(self) -> np.ndarray:
+    def regions(self) -> NDArray[np.float64]:
         """r x (d + 2) float64: position, attribute, and limit (0: none)."""
         at = self._array(17).reshape(-1, self.dimension)
         return np.column_stack((at, self._array(19), self._array(20)))
@@ -188,7 +189,7 @@ class Graph:
         return f"<Graph: {len(self._array(1))} points in {self.dimension}D>"
 
 
-def split_regions(regions: Any, dimension: int) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+def split_regions(regions: Any, dimension: int) -> Tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
     """Positions, attributes and limits of rows that may leave out the latter two."""
     rows = [list(r) for r in regions]
     for r in rows:
@@ -226,8 +227,9 @@ def graph_of(source: Any, merge: bool = True, **parts: Any) -> Graph:
     elif hasattr(source, "__geo_interface__") or (isinstance(source, dict) and "type" in source):
         found = _geometry(getattr(source, "__geo_interface__", source))
     elif hasattr(source, "faces") and (hasattr(source, "points") or hasattr(source, "vertices")):
-        at = source.points if hasattr(source, "points") else source.vertices
-        found = _surface(at, source.faces, merge, given)
+        surface: Any = source
+        at = surface.points if hasattr(surface, "points") else surface.vertices
+        found = _surface(at, surface.faces, merge, given)
     elif isinstance(source, tuple) and len(source) == 2 and np.ndim(source[0]) == 2:
         found = _surface(source[0], source[1], merge, given)
     else:
@@ -259,7 +261,8 @@ def _plain(value: Any) -> Any:
 
 
 def _surface(points: Any, faces: Any, merge: bool, given: dict[str, Any]) -> Graph:
-    """points: n x 3; faces: f x k numbers, a list of them, or as VTK has them: k, then k numbers."""
+    """points: n x 3; faces: f x k numbers, a list of them, or as VTK has them: k, then k
+    numbers."""
     at = floats(points, 3, "points")
     corners: Any = faces if isinstance(faces, list) else np.asarray(faces)
     if isinstance(corners, np.ndarray) and corners.ndim == 1:

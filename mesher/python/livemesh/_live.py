@@ -5,11 +5,12 @@ import ctypes
 import math
 import threading
 from contextlib import contextmanager
-from ctypes import byref, c_int64
+from ctypes import byref, c_int64, c_uint64
 from types import TracebackType
 from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Type
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _c
 from ._c import Handle, address, c, check, floats, integers, one_each
@@ -33,86 +34,86 @@ _MOST_UNSEEN = 256  # changes that arrays have not followed yet; beyond, arrays 
 class Compact(NamedTuple):
     """A mesh without free slots: points n x d, cells m x (d + 1), slot_of n (by point)."""
 
-    points: np.ndarray
-    cells: np.ndarray
-    slot_of: np.ndarray
+    points: NDArray[np.float64]
+    cells: NDArray[np.uint32]
+    slot_of: NDArray[np.uint32]
 
 
 class Change:
-    """What an update did, in slots. Its arrays are the library's memory, read-only; they never change
-    and stay valid for as long as they are referenced.
+    """What an update did, in slots. Its arrays are the library's memory, read-only; they never
+    change and stay valid for as long as they are referenced.
 
     A slot is the number of a point or a cell for as long as it exists. Points are those of the mesh
-    of the box; `cells_added` and `cells_removed` are of the enclosed part, the lists that begin with
-    `all_` of the whole box. Inside a `with d.edit() as c`, `c` is empty.
+    of the box; `cells_added` and `cells_removed` are of the enclosed part, the lists that begin
+    with `all_` of the whole box. Inside a `with d.edit() as c`, `c` is empty.
     """
 
     def __init__(self) -> None:
         self._handle: Optional[Handle] = None
         self._slots: Optional[int] = None
 
-    def _array(self, field: int) -> np.ndarray:
+    def _array(self, field: int) -> NDArray[Any]:
         if self._handle is None:
             raise ValueError("the change is not there yet: the edits are not made")
         return _c.array(c.change_array, self._handle, field)
 
     @property
-    def points_added(self) -> np.ndarray:
+    def points_added(self) -> NDArray[np.uint32]:
         """k uint32."""
         return self._array(0)
 
     @property
-    def points_removed(self) -> np.ndarray:
+    def points_removed(self) -> NDArray[np.uint32]:
         """k uint32. Their slots become free at the next update."""
         return self._array(1)
 
     @property
-    def points_changed(self) -> np.ndarray:
+    def points_changed(self) -> NDArray[np.uint32]:
         """k uint32: points that stay, with another kind."""
         return self._array(12)
 
     @property
-    def all_cells_added(self) -> np.ndarray:
+    def all_cells_added(self) -> NDArray[np.uint32]:
         """k uint32, in the whole box."""
         return self._array(2)
 
     @property
-    def all_cells_removed(self) -> np.ndarray:
+    def all_cells_removed(self) -> NDArray[np.uint32]:
         """k uint32, in the whole box."""
         return self._array(3)
 
     @property
-    def cells_added(self) -> np.ndarray:
+    def cells_added(self) -> NDArray[np.uint32]:
         """k uint32: cells that are enclosed now, and were not there or not enclosed before."""
         return self._array(4)
 
     @property
-    def cells_removed(self) -> np.ndarray:
+    def cells_removed(self) -> NDArray[np.uint32]:
         """k uint32: cells that were enclosed before, and are not there or not enclosed now."""
         return self._array(5)
 
     @property
-    def facets_added(self) -> np.ndarray:
+    def facets_added(self) -> NDArray[np.uint32]:
         """k uint32: edges (in space faces) on lines (polygons)."""
         return self._array(6)
 
     @property
-    def facets_removed(self) -> np.ndarray:
+    def facets_removed(self) -> NDArray[np.uint32]:
         """k uint32."""
         return self._array(7)
 
     @property
-    def added_at(self) -> np.ndarray:
+    def added_at(self) -> NDArray[np.float64]:
         """k x d float64: the positions of points_added."""
         return self._array(10)
 
     @property
-    def removed_at(self) -> np.ndarray:
+    def removed_at(self) -> NDArray[np.float64]:
         """k x d float64: the positions that points_removed had."""
         return self._array(11)
 
     @property
-    def weights(self) -> Tuple[np.ndarray, np.ndarray]:
+    def weights(self) -> Tuple[NDArray[Any], NDArray[Any]]:
         """k x (d + 1) uint32 and float64: for each of points_added, the points of the mesh before
         around it and their weights, with sum 1. 2^32 - 1 and 0 if there was no mesh before."""
         return self._array(8), self._array(9)
@@ -132,7 +133,7 @@ class Change:
             self._slots = int(self._info.point_slots)
         return self._slots
 
-    def transfer(self, u: Any) -> np.ndarray:
+    def transfer(self, u: Any) -> NDArray[np.float64]:
         """Carries a field by point slots, n or n x k (float64 or complex128), through the change:
         points that stay keep their values, new ones get values interpolated in the mesh before.
 
@@ -154,11 +155,11 @@ class Change:
     def __repr__(self) -> str:
         if self._handle is None:
             return "<Change: not made yet>"
-        return (f"<Change: {len(self.points_added)} points and {len(self.cells_added)} cells added, "
-                f"{len(self.points_removed)} and {len(self.cells_removed)} removed>")
+        return (f"<Change: {len(self.points_added)} points and {len(self.cells_added)} cells "
+                f"added, {len(self.points_removed)} and {len(self.cells_removed)} removed>")
 
 
-def _with_rows(u: np.ndarray, rows: int) -> np.ndarray:
+def _with_rows(u: NDArray[Any], rows: int) -> NDArray[Any]:
     """`u` with at least so many rows: itself, more of the memory that it is the beginning of, or a
     copy with some room behind it."""
     if len(u) >= rows and u.flags.writeable:
@@ -178,10 +179,10 @@ class _Followed:
 
     def __init__(self, field: str) -> None:
         self.field = field
-        self.memory: Optional[np.ndarray] = None
+        self.memory: Optional[NDArray[Any]] = None
         self.rows = 0
 
-    def refresh(self, raw: np.ndarray, changes: Sequence[Change]) -> None:
+    def refresh(self, raw: NDArray[Any], changes: Sequence[Change]) -> None:
         if self.memory is None or len(self.memory) < len(raw):
             self.memory = np.empty((len(raw) * 5 // 4 + 16,) + raw.shape[1:], raw.dtype)
             self.memory[:len(raw)] = raw
@@ -191,7 +192,7 @@ class _Followed:
                 self._follow(raw, change)
         self.rows = len(raw)
 
-    def _follow(self, raw: np.ndarray, change: Change) -> None:
+    def _follow(self, raw: NDArray[Any], change: Change) -> None:
         assert self.memory is not None
         for name in _DIRTY[self.field]:
             slots = getattr(change, name)
@@ -201,7 +202,7 @@ class _Followed:
                 beside = beside[beside != _c.NONE]
                 self.memory[beside] = raw[beside]
 
-    def view(self) -> np.ndarray:
+    def view(self) -> NDArray[Any]:
         assert self.memory is not None
         shown = self.memory[:self.rows]
         shown.flags.writeable = False
@@ -214,14 +215,14 @@ class LiveMesh:
     bounds: 2 x d, the box in which points may lie, now and later. The other options are those of
     `mesh`. undo: how many updates can be undone.
 
-    Edits (`add_...`, `move`, `remove_...`) are announced; `update` makes all of them, or raises, and
-    none is made. Points, lines (segments and polylines), polygons, holes and regions have ids,
+    Edits (`add_...`, `move`, `remove_...`) are announced; `update` makes all of them, or raises,
+    and none is made. Points, lines (segments and polylines), polygons, holes and regions have ids,
     consecutive numbers by default. A mesh may be used by several threads in turn; a call while
     another one runs raises `Busy`.
 
     Arrays by slot (`points`, `cells`, ...) are copies that follow changes at their cost. What was
-    returned shows the state of its time or a later one, and never becomes invalid: ask again after an
-    update. Free slots show what they held last; `point_used` and `cell_used` tell them.
+    returned shows the state of its time or a later one, and never becomes invalid: ask again after
+    an update. Free slots show what they held last; `point_used` and `cell_used` tell them.
 
     >>> d = LiveMesh(bounds=((0, 0), (4, 4)), min_angle=28)
     >>> p = d.add_points([(0, 0), (4, 0), (4, 4), (0, 4), (1, 1), (2, 1)])
@@ -278,13 +279,13 @@ class LiveMesh:
 
     # --- Edits -----------------------------------------------------------------------------------
 
-    def _ids(self, ids: Any, n: int, what: str) -> Optional[np.ndarray]:
+    def _ids(self, ids: Any, n: int, what: str) -> Optional[NDArray[Any]]:
         if ids is None:
             return None
         return one_each([ids] if isinstance(ids, int) else np.atleast_1d(ids), n, what)
 
-    def _named(self, function: Any, n: int, ids: Optional[np.ndarray],
-               *arguments: Any) -> np.ndarray:
+    def _named(self, function: Any, n: int, ids: Optional[NDArray[Any]],
+               *arguments: Any) -> NDArray[Any]:
         """Adds n features; their ids."""
         if ids is not None:
             self._call(function, n, *arguments, None)
@@ -293,7 +294,7 @@ class LiveMesh:
         self._call(function, n, *arguments, byref(first))
         return np.arange(first.value, first.value + n)
 
-    def add_points(self, points: Any, ids: Any = None, markers: Any = None) -> np.ndarray:
+    def add_points(self, points: Any, ids: Any = None, markers: Any = None) -> NDArray[np.int64]:
         """Announces points, n x d, input length units. Returns their ids, n int64."""
         at = floats(points, self.dimension, "points")
         named = self._ids(ids, len(at), "ids")
@@ -315,7 +316,7 @@ class LiveMesh:
         """Announces that points go; no line may end at them."""
         self._remove(c.live_remove_points, ids)
 
-    def add_segments(self, ends: Any, ids: Any = None, markers: Any = None) -> np.ndarray:
+    def add_segments(self, ends: Any, ids: Any = None, markers: Any = None) -> NDArray[np.int64]:
         """Announces segments, n x 2 ids of points. Returns their ids, n int64."""
         pairs = integers(ends, 2, "ends")
         named = self._ids(ids, len(pairs), "ids")
@@ -354,7 +355,7 @@ class LiveMesh:
         """Announces that polygons go."""
         self._remove(c.live_remove_polygons, ids)
 
-    def add_holes(self, points: Any, ids: Any = None) -> np.ndarray:
+    def add_holes(self, points: Any, ids: Any = None) -> NDArray[Any]:
         """Announces holes: what lines (polygons) enclose around these positions, n x d, is not
         meshed. Returns their ids."""
         at = floats(points, self.dimension, "points")
@@ -365,9 +366,9 @@ class LiveMesh:
         """Announces that holes are filled."""
         self._remove(c.live_remove_holes, ids)
 
-    def add_regions(self, regions: Any, ids: Any = None) -> np.ndarray:
-        """Announces regions: rows of a position, an attribute, and perhaps the largest area (volume)
-        of a cell. Returns their ids."""
+    def add_regions(self, regions: Any, ids: Any = None) -> NDArray[Any]:
+        """Announces regions: rows of a position, an attribute, and perhaps the largest area
+        (volume) of a cell. Returns their ids."""
         at, attributes, limits = split_regions(regions, self.dimension)
         named = self._ids(ids, len(at), "ids")
         return self._named(c.live_add_regions, len(at), named, address(at), address(attributes),
@@ -378,13 +379,15 @@ class LiveMesh:
         self._remove(c.live_remove_regions, ids)
 
     def add(self, source: Any, **parts: Any) -> None:
-        """Announces all of what `mesh` takes, with its ids; a failure discards all announcements."""
+        """Announces all of what `mesh` takes, with its ids; a failure discards all
+        announcements."""
         graph = graph_of(source, **parts)
         self._call(c.live_add_graph, graph._handle.value)
 
     def limit(self, *, max_area: Optional[float] = None, max_volume: Optional[float] = None,
               size: Any = None, box: Any = None) -> None:
-        """Announces limits of size in place of all earlier ones; in a box, 2 x d, if it is given."""
+        """Announces limits of size in place of all earlier ones; in a box, 2 x d, if it is
+        given."""
         place = None if box is None else floats(box, self.dimension, "box")
         if place is not None and place.shape != (2, self.dimension):
             raise ValueError(f"box has the shape {place.shape}, not 2 x {self.dimension}")
@@ -405,7 +408,7 @@ class LiveMesh:
 
     def _run(self, function: Any, progress: Optional[Callable[[_c.Progress], Any]],
              timeout: Optional[float], change: Change) -> Change:
-        value = _c.c_uint64()
+        value = c_uint64()
         if not self._lock.acquire(blocking=False):
             raise Busy("the mesh is in use: by another thread, or by the call that called back",
                        "busy")
@@ -456,9 +459,9 @@ class LiveMesh:
 
     def edit(self, progress: Optional[Callable[[_c.Progress], Any]] = None,
              timeout: Optional[float] = None) -> "Edit":
-        """A batch: `with d.edit() as change:` makes the edits of its block at its end, all of them or
-        none. An exception in the block, or in the update, discards them. Raises: ValueError if edits
-        are announced already."""
+        """A batch: `with d.edit() as change:` makes the edits of its block at its end, all or
+        none. An exception in the block, or in the update, discards them. Raises: ValueError if
+        edits are announced already."""
         return Edit(self, progress, timeout)
 
     # --- What there is ---------------------------------------------------------------------------
@@ -474,7 +477,7 @@ class LiveMesh:
         """Whether edits are announced."""
         return bool(self._info.pending)
 
-    def _array(self, field: str) -> np.ndarray:
+    def _array(self, field: str) -> NDArray[Any]:
         with self._alone():
             wanted = self._arrays.get(field)
             if wanted is None:
@@ -488,64 +491,64 @@ class LiveMesh:
             return wanted.view()
 
     @property
-    def points(self) -> np.ndarray:
+    def points(self) -> NDArray[np.float64]:
         """n x d float64 by point slot, input length units."""
         return self._array("points")
 
     @property
-    def point_kinds(self) -> np.ndarray:
+    def point_kinds(self) -> NDArray[np.uint8]:
         """n uint8 by point slot, as in Mesh."""
         return self._array("point_kinds")
 
     @property
-    def cells(self) -> np.ndarray:
+    def cells(self) -> NDArray[np.uint32]:
         """m x (d + 1) uint32 by cell slot: slots of points, in the whole box."""
         return self._array("cells")
 
     @property
-    def neighbors(self) -> np.ndarray:
+    def neighbors(self) -> NDArray[np.uint32]:
         """m x (d + 1) uint32 by cell slot: slots of the cells across from the corners, or
         `NO_CELL`."""
         return self._array("neighbors")
 
     @property
-    def point_used(self) -> np.ndarray:
+    def point_used(self) -> NDArray[np.bool_]:
         """n bool by point slot: whether it is in use."""
         return self._array("point_used").view(bool)
 
     @property
-    def cell_used(self) -> np.ndarray:
+    def cell_used(self) -> NDArray[np.bool_]:
         """m bool by cell slot."""
         return self._array("cell_used").view(bool)
 
     @property
-    def cell_kept(self) -> np.ndarray:
+    def cell_kept(self) -> NDArray[np.bool_]:
         """m bool by cell slot: whether it is in use, and lines (polygons) enclose it."""
         return self._array("cell_kept").view(bool)
 
     @property
-    def facets(self) -> np.ndarray:
+    def facets(self) -> NDArray[np.uint32]:
         """f x d uint32 by facet slot: edges (in space faces) on lines (polygons)."""
         return self._array("facets")
 
     @property
-    def facet_ids(self) -> np.ndarray:
+    def facet_ids(self) -> NDArray[np.int64]:
         """f int64 by facet slot: the id of the line (polygon)."""
         return self._array("facet_ids")
 
     @property
-    def facet_used(self) -> np.ndarray:
+    def facet_used(self) -> NDArray[np.bool_]:
         """f bool by facet slot."""
         return self._array("facet_used").view(bool)
 
-    def regions_of(self, cells: Any) -> np.ndarray:
+    def regions_of(self, cells: Any) -> NDArray[np.float64]:
         """k float64: the attributes of the regions of cells, by slot; 0: none."""
         slots = np.ascontiguousarray(integers(cells, None, "cells"), dtype=np.uint32)
         found = np.empty(len(slots))
         self._call(c.live_regions, len(slots), address(slots), address(found))
         return found
 
-    def find(self, points: Any) -> np.ndarray:
+    def find(self, points: Any) -> NDArray[np.uint32]:
         """n uint32: the slots of the points at positions, n x d; 2^32 - 1 where there is none."""
         at = floats(points, self.dimension, "points")
         slots = np.empty(len(at), np.uint32)

@@ -4,10 +4,11 @@ from __future__ import annotations
 import ctypes
 import math
 import os
-from ctypes import byref, c_size_t
+from ctypes import byref, c_size_t, c_uint64
 from typing import Any, Callable, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _c
 from ._c import Handle, address, c, check
@@ -55,82 +56,82 @@ class Mesh:
         .off, .obj, .svg, in space also .stl: whole, or not at all."""
         check(c.mesh_write(self._handle.value, os.fsencode(path)), self.dimension)
 
-    def _array(self, field: int) -> np.ndarray:
+    def _array(self, field: int) -> NDArray[Any]:
         return _c.array(c.mesh_array, self._handle, field)
 
     @property
-    def points(self) -> np.ndarray:
+    def points(self) -> NDArray[np.float64]:
         """n x d float64, input length units, in lexicographic order."""
         return self._array(0)
 
     @property
-    def cells(self) -> np.ndarray:
+    def cells(self) -> NDArray[np.uint32]:
         """m x (d + 1) uint32: numbers of points, positively oriented."""
         return self._array(1)
 
     @property
-    def neighbors(self) -> np.ndarray:
+    def neighbors(self) -> NDArray[np.uint32]:
         """m x (d + 1) uint32: the cell across from each corner, `NO_CELL` (2^32 - 1) at the
         boundary."""
         return self._array(2)
 
     @property
-    def point_kinds(self) -> np.ndarray:
+    def point_kinds(self) -> NDArray[np.uint8]:
         """n uint8: 0 added by the mesher, 1 on the boundary grid, 2 of the input, 3 on a line."""
         return self._array(3)
 
     @property
-    def point_markers(self) -> np.ndarray:
+    def point_markers(self) -> NDArray[np.int64]:
         """n int64: the marker of the point, or of the line or polygon that it is on; 0: none."""
         return self._array(4)
 
     @property
-    def point_ids(self) -> np.ndarray:
+    def point_ids(self) -> NDArray[np.int64]:
         """n int64: the number of the input's point that it is; -1: none."""
         return np.where(self._array(5) == _INPUT_POINT, self._array(6), -1)
 
     @property
-    def cell_regions(self) -> np.ndarray:
+    def cell_regions(self) -> NDArray[np.float64]:
         """m float64: the attribute of the region; 0: none."""
         return self._array(7)
 
     @property
-    def facets(self) -> np.ndarray:
+    def facets(self) -> NDArray[np.uint32]:
         """f x d uint32: edges (in space faces) on lines (polygons) of the input, and on the
         boundary."""
         return self._array(8)
 
     @property
-    def facet_markers(self) -> np.ndarray:
+    def facet_markers(self) -> NDArray[np.int64]:
         """f int64: of the line (polygon); 1 on the boundary without another."""
         return self._array(9)
 
     @property
-    def facet_ids(self) -> np.ndarray:
+    def facet_ids(self) -> NDArray[np.int64]:
         """f int64: the number of the line (polygon); -1: not known."""
         return np.where(self._array(10) != 0, self._array(11), -1)
 
     @property
-    def edges(self) -> np.ndarray:
+    def edges(self) -> NDArray[np.uint32]:
         """e x 2 uint32: edges on lines; in the plane the facets."""
         return self._array(12)
 
     @property
-    def edge_markers(self) -> np.ndarray:
+    def edge_markers(self) -> NDArray[np.int64]:
         """e int64."""
         return self._array(13)
 
     @property
-    def point_slots(self) -> np.ndarray:
+    def point_slots(self) -> NDArray[np.uint32]:
         """n uint32: of a mesh from LiveMesh.mesh(), the slot of each point; else empty."""
         return self._array(16)
 
     @property
-    def cell_slots(self) -> np.ndarray:
+    def cell_slots(self) -> NDArray[np.uint32]:
         """m uint32: likewise of each cell."""
         return self._array(17)
 
-    def quality(self, measure: str = "min_angle") -> np.ndarray:
+    def quality(self, measure: str = "min_angle") -> NDArray[np.float64]:
         """m float64: one for each cell. measure: "min_angle", "max_angle" (degrees; of a
         tetrahedron those of its faces), "radius_edge" (circumradius over shortest edge), "area" or
         "volume", in space "min_dihedral", "max_dihedral" (degrees)."""
@@ -144,9 +145,10 @@ class Mesh:
         mesh, does it have all of the graph, no cell with circumradius over shortest edge above rho
         (0: not checked), none larger than max_measure (0: not checked)?"""
         options = _c.CheckOptions(ctypes.sizeof(_c.CheckOptions),
-                                  0 if graph is None else graph._handle.value, rho, max_measure, 0, int(self.dimension == 3))
+                                  0 if graph is None else graph._handle.value, rho, max_measure,
+                                  0, int(self.dimension == 3))
         count = c_size_t()
-        value = _c.c_uint64()
+        value = c_uint64()
         check(c.mesh_check(self._handle.value, byref(options), byref(value), byref(count)))
         found = Handle(value.value)
         finding = _c.Finding(ctypes.sizeof(_c.Finding))
@@ -172,18 +174,19 @@ class Mesh:
         self.names["cells"].update({name: int(v) for name, v in (cells or {}).items()})
         return self
 
-    def facets_named(self, name: str) -> np.ndarray:
+    def facets_named(self, name: str) -> NDArray[np.uint32]:
         """k x d uint32: the facets with that name."""
-        return self.facets[self.facet_markers == self.names["facets"][name]]
+        named: NDArray[np.uint32] = self.facets[self.facet_markers == self.names["facets"][name]]
+        return named
 
-    def cells_named(self, name: str) -> np.ndarray:
+    def cells_named(self, name: str) -> NDArray[Any]:
         """Numbers of the cells with that name."""
         return np.flatnonzero(self.cell_regions == self.names["cells"][name])
 
     def to_meshio(self) -> Any:
         """A meshio.Mesh: cells and facets, with the cell data "region" and "marker" and
         "gmsh:physical", and names as field data."""
-        import meshio
+        import meshio  # type: ignore[import]
 
         kinds = ("triangle", "line") if self.dimension == 2 else ("tetra", "triangle")
         blocks = [(kinds[0], self.cells), (kinds[1], self.facets)]
@@ -202,7 +205,7 @@ class Mesh:
     def to_pyvista(self) -> Any:
         """A pyvista.UnstructuredGrid of the cells, with the cell data "region" and the point data
         "marker"."""
-        import pyvista
+        import pyvista  # type: ignore[import]
 
         points = np.zeros((len(self.points), 3))
         points[:, :self.dimension] = self.points
@@ -217,7 +220,7 @@ class Mesh:
         tetrahedra by pyvista. Returns what they return."""
         if self.dimension == 3:
             return self.to_pyvista().plot(scalars=values, show_edges=True, **options)
-        import matplotlib.pyplot as pyplot
+        import matplotlib.pyplot as pyplot  # type: ignore[import]
 
         ax = ax or pyplot.gca()
         ax.set_aspect("equal")
@@ -251,7 +254,7 @@ def _index(value: str, names: Sequence[str], what: str) -> int:
     return names.index(value)
 
 
-def options_of(dimension: int, lo: np.ndarray, hi: np.ndarray, bounds: Any, min_angle: Any,
+def options_of(dimension: int, lo: NDArray[Any], hi: NDArray[Any], bounds: Any, min_angle: Any,
                rho: Any, min_dihedral: Any, max_area: Any, max_volume: Any, size: Any,
                region_limits: bool, max_vertices: int, extent: str,
                algorithm: str) -> tuple[_c.Options, Optional[Sizes]]:
@@ -290,22 +293,24 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
          rho: Optional[float] = None, min_dihedral: Optional[float] = None,
          max_area: Optional[float] = None, max_volume: Optional[float] = None, size: Any = None,
          repair: bool = False, merge: bool = True, region_limits: bool = True,
-         no_flat: bool = True, extent: str = "enclosed", bounds: Any = None, algorithm: str = "automatic",
+         no_flat: bool = True, extent: str = "enclosed", bounds: Any = None,
+         algorithm: str = "automatic",
          max_vertices: int = 0, progress: Optional[Callable[[_c.Progress], Any]] = None,
          timeout: Optional[float] = None) -> Mesh:
     """Meshes what lines (in space polygons) enclose; if they enclose nothing, a box around it.
 
-    source: points, n x 2 or n x 3, with segments, polylines, polygons, holes, regions and markers as
-    in `Graph`; or a Graph; the name of a file; anything with a `__geo_interface__` (shapely,
+    source: points, n x 2 or n x 3, with segments, polylines, polygons, holes, regions and markers
+    as in `Graph`; or a Graph; the name of a file; anything with a `__geo_interface__` (shapely,
     geopandas, a GeoJSON dict); or a surface: (points, faces), or an object with these (pyvista,
     trimesh). Faces of one plane are merged, unless merge is false.
 
     min_angle: degrees, at most 29.6, 20.7 by default; or rho: bound of circumradius over shortest
     edge. max_area, max_volume: of a cell. size: the edge length of a cell: a number, a function of
-    n x d arrays (sampled), (points, sizes), or `Sizes`. region_limits: whether the limits of regions
-    count. no_flat: in space, tetrahedra without volume, which Delaunay meshes have, are removed where
-    that is possible. extent: "enclosed" or "box". bounds: 2 x d, the box in which points may lie. algorithm:
-    "automatic", "refine", "svr", "gap_balls". max_vertices: more are an error.
+    n x d arrays (sampled), (points, sizes), or `Sizes`. region_limits: whether the limits of
+    regions count. no_flat: in space, tetrahedra without volume, which Delaunay meshes have, are
+    removed where that is possible. extent: "enclosed" or "box". bounds: 2 x d, the box in which
+    points may lie. algorithm: "automatic", "refine", "svr", "gap_balls". max_vertices: more are an
+    error.
 
     repair: lines and polygons may cross, touch and overlap. progress: called with a `Progress`; the
     run stops if it returns False. timeout: seconds. Ctrl-C stops it, too.
@@ -333,7 +338,7 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
                                     algorithm)
         options.no_flat = int(no_flat)
         at_control, keep = _c.control(run, timeout)
-        value = _c.c_uint64()
+        value = c_uint64()
         status = c.mesh_make(graph._handle.value, byref(options), at_control, byref(value))
         made = Handle(value.value) if status == 0 else None
         run.check(status, graph.dimension)

@@ -5,6 +5,7 @@ import os
 from typing import Any, Callable, Optional, Tuple, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _c
 from ._c import address, c, floats
@@ -37,20 +38,21 @@ class Sizes:
         return cls(_c.new(c.sizes_samples, dimension, len(at), address(at), address(h)), dimension)
 
     @classmethod
-    def function(cls, size: Callable[[np.ndarray], Any], slope: float, least: float,
+    def function(cls, size: Callable[[NDArray[Any]], Any], slope: float, least: float,
                  dimension: int) -> "Sizes":
         """A function of a 1 x d array that is called at every position where the mesher wants to
-        know: exact, and slow. It must always return the same, at least `least`, and change by at most
-        `slope` per unit of length."""
+        know: exact, and slow. It must always return the same, at least `least`, and change by at
+        most `slope` per unit of length."""
         callback = _c.size_callback(size, dimension)
         handle = _c.new(c.sizes_function, dimension, callback, None, slope, least)
         return cls(handle, dimension, callback)
 
     @classmethod
-    def sampled(cls, size: Callable[[np.ndarray], Any], lo: Any, hi: Any,
+    def sampled(cls, size: Callable[[NDArray[Any]], Any], lo: Any, hi: Any,
                 tolerance: float = 0.05) -> "Sizes":
         """Samples of a function of n x d arrays, dense where it is not linear: between them the
-        size is off by about `tolerance` of itself at most. lo, hi: corners of the box of interest."""
+        size is off by about `tolerance` of itself at most. lo, hi: corners of the box of
+        interest."""
         at, h = _sample(size, np.asarray(lo, float), np.asarray(hi, float), tolerance)
         return cls.samples(at, h)
 
@@ -60,15 +62,15 @@ class Sizes:
         return cls(_c.new(c.sizes_read, os.fsencode(path), dimension), dimension)
 
 
-def _evaluate(size: Callable[[np.ndarray], Any], at: np.ndarray) -> np.ndarray:
+def _evaluate(size: Callable[[NDArray[Any]], Any], at: NDArray[Any]) -> NDArray[Any]:
     h = np.broadcast_to(np.asarray(size(at), dtype=np.float64).reshape(-1), (len(at),))
     if not np.all((h > 0) & np.isfinite(h)):
         raise ValueError(f"the size at {at[np.argmin((h > 0) & np.isfinite(h))]} is not above 0")
     return h
 
 
-def _sample(size: Callable[[np.ndarray], Any], lo: np.ndarray, hi: np.ndarray,
-            tolerance: float) -> Tuple[np.ndarray, np.ndarray]:
+def _sample(size: Callable[[NDArray[Any]], Any], lo: NDArray[Any], hi: NDArray[Any],
+            tolerance: float) -> Tuple[NDArray[Any], NDArray[Any]]:
     """Halves cells of a grid until the middle of each is near the mean of its corners, or it is
     smaller than its size."""
     dimension, finest = len(lo), 1 << 20
@@ -95,7 +97,7 @@ def _sample(size: Callable[[np.ndarray], Any], lo: np.ndarray, hi: np.ndarray,
     return at, _evaluate(size, at)
 
 
-def sizes_of(size: Any, lo: np.ndarray, hi: np.ndarray) -> Tuple[float, Optional[Sizes]]:
+def sizes_of(size: Any, lo: NDArray[Any], hi: NDArray[Any]) -> Tuple[float, Optional[Sizes]]:
     """What `size=` of mesh() means: the largest measure of a cell (0: no limit), and sizes."""
     if size is None:
         return 0.0, None

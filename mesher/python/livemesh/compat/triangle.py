@@ -2,14 +2,15 @@
 
 The vertices of the input come first, in their order, as Triangle has them; the mesh is another one.
 Departures: without "q", triangles may be very thin but there may be new vertices; vertices without
-segments, and "c", are meshed to their convex hull. Boundary edges have the marker 1, as in Triangle.
-"""
+segments, and "c", are meshed to their convex hull. Boundary edges have the marker 1, as in
+Triangle. """
 from __future__ import annotations
 
 import re
 from typing import Any, Dict, Mapping, Optional, Tuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .._c import NONE
 from .._graph import Graph
@@ -31,11 +32,12 @@ def _parse(opts: str) -> Dict[str, str]:
     return given
 
 
-def _hull(points: np.ndarray) -> np.ndarray:
-    """The numbers of the points on the convex hull, counterclockwise, those on its sides included."""
+def _hull(points: NDArray[Any]) -> NDArray[Any]:
+    """The numbers of the points on the convex hull, counterclockwise, those on its sides
+    included."""
     order = np.lexsort((points[:, 1], points[:, 0]))
 
-    def half(numbers: np.ndarray) -> list[int]:
+    def half(numbers: NDArray[Any]) -> list[int]:
         chain: list[int] = []
         for i in numbers:
             while len(chain) > 1:
@@ -49,7 +51,7 @@ def _hull(points: np.ndarray) -> np.ndarray:
     return np.array(half(order) + half(order[::-1]))
 
 
-def _renumbered(m: Mesh, count: int) -> np.ndarray:
+def _renumbered(m: Mesh, count: int) -> NDArray[Any]:
     """For each point of the mesh its number with the input's first."""
     ids = m.point_ids
     number = np.where(ids >= 0, ids, 0)
@@ -58,7 +60,7 @@ def _renumbered(m: Mesh, count: int) -> np.ndarray:
     return number
 
 
-def triangulate(tri: Mapping[str, Any], opts: str = "") -> Dict[str, np.ndarray]:
+def triangulate(tri: Mapping[str, Any], opts: str = "") -> Dict[str, NDArray[Any]]:
     """tri: "vertices" n x 2, and perhaps "segments" s x 2, "holes" h x 2, "regions" r x 4 (x, y,
     attribute, area), "vertex_markers", "segment_markers".
 
@@ -101,8 +103,8 @@ def triangulate(tri: Mapping[str, Any], opts: str = "") -> Dict[str, np.ndarray]
     return _result(m, len(points), points, tri, switches)
 
 
-def _result(m: Mesh, count: int, points: np.ndarray, tri: Mapping[str, Any],
-            switches: Mapping[str, str]) -> Dict[str, np.ndarray]:
+def _result(m: Mesh, count: int, points: NDArray[Any], tri: Mapping[str, Any],
+            switches: Mapping[str, str]) -> Dict[str, NDArray[Any]]:
     number = _renumbered(m, count)
     inside = number[number < count]
     vertices = np.empty((max(count, int(number.max(initial=-1)) + 1), 2))
@@ -110,7 +112,7 @@ def _result(m: Mesh, count: int, points: np.ndarray, tri: Mapping[str, Any],
     vertices[number] = m.points
     markers = np.zeros((len(vertices), 1), np.int32)
     markers[number, 0] = m.point_markers
-    found: Dict[str, np.ndarray] = {
+    found: Dict[str, NDArray[Any]] = {
         "vertices": vertices, "vertex_markers": markers,
         "triangles": number[m.cells].astype(np.int32)}
     del inside
@@ -129,7 +131,7 @@ def _result(m: Mesh, count: int, points: np.ndarray, tri: Mapping[str, Any],
     return found
 
 
-def _edges(m: Mesh, number: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+def _edges(m: Mesh, number: NDArray[Any]) -> Tuple[NDArray[Any], NDArray[Any]]:
     sides = np.sort(m.cells[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2).astype(np.int64), axis=1)
     edges = np.unique(sides, axis=0)
     size = len(m.points)
