@@ -73,6 +73,17 @@ class Documents(unittest.TestCase):
             self.assertEqual((process.returncode, process.stderr), (0, ""))
             self.assertTrue(os.path.exists(os.path.join(folder, "lake.vtu")))
 
+    @unittest.skipUnless(shutil.which("stubtest"), "mypy is not there")
+    def test_types_are_those_of_the_program(self):
+        allowed = pathlib.Path(__file__).with_name("stubtest_allowlist.txt")
+        process = subprocess.run(["stubtest", "livemesh", "--allowlist", str(allowed),
+                                  "--ignore-unused-allowlist"], cwd=PYTHON, text=True,
+                                 capture_output=True, timeout=300)
+        self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
+        process = subprocess.run(["mypy", "--strict", "-p", "livemesh", "--cache-dir", os.devnull],
+                                 cwd=PYTHON, text=True, capture_output=True, timeout=300)
+        self.assertEqual(process.returncode, 0, process.stdout)
+
 
 class Examples(unittest.TestCase):
     @unittest.skipUnless(has("scipy"), "scipy is not there")

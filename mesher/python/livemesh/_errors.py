@@ -2,7 +2,8 @@
 MemoryError."""
 from __future__ import annotations
 
-from typing import Any, List, NamedTuple, NoReturn, Sequence, Tuple
+from collections.abc import Sequence
+from typing import Any, List, NamedTuple, NoReturn, Tuple
 
 import numpy as np
 from numpy.typing import NDArray

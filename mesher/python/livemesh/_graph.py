@@ -5,8 +5,9 @@ import ctypes
 import json
 import os
 import tempfile
+from collections.abc import Sequence
 from ctypes import byref, c_int32, c_int64
-from typing import Any, Optional, Sequence, Tuple, Union
+from typing import Any, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray

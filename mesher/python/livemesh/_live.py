@@ -4,10 +4,11 @@ from __future__ import annotations
 import ctypes
 import math
 import threading
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from ctypes import byref, c_int64, c_uint64
 from types import TracebackType
-from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Type
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Type
 
 import numpy as np
 from numpy.typing import NDArray
@@ -133,7 +134,7 @@ class Change:
             self._slots = int(self._info.point_slots)
         return self._slots
 
-    def transfer(self, u: Any) -> NDArray[np.float64]:
+    def transfer(self, u: Any) -> NDArray[Any]:
         """Carries a field by point slots, n or n x k (float64 or complex128), through the change:
         points that stay keep their values, new ones get values interpolated in the mesh before.
 

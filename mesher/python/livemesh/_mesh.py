@@ -4,8 +4,9 @@ from __future__ import annotations
 import ctypes
 import math
 import os
+from collections.abc import Callable, Mapping, Sequence
 from ctypes import byref, c_size_t, c_uint64
-from typing import Any, Callable, Mapping, NamedTuple, Optional, Sequence, Union
+from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
