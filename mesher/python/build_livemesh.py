@@ -23,6 +23,7 @@ LIBRARY = {"win32": "livemesh.dll", "darwin": "liblivemesh.dylib"}.get(sys.platf
                                                                        "liblivemesh.so")
 VERSION = re.search(r'^version = "(.*)"', (HERE / "pyproject.toml").read_text(), re.M).group(1)
 NAME = f"livemesh-{VERSION}"
+TAG = "py3-none-" + re.sub(r"\W", "_", sysconfig.get_platform())
 METADATA = f"""Metadata-Version: 2.1
 Name: livemesh
 Version: {VERSION}
@@ -47,22 +48,36 @@ def build_library(folder):
     return next(pathlib.Path(folder).rglob(LIBRARY)).resolve()
 
 
+def metadata():
+    return {"METADATA": (METADATA + (HERE / "README.md").read_text()).encode(),
+            "WHEEL": (f"Wheel-Version: 1.0\nGenerator: build_livemesh\nRoot-Is-Purelib: false\n"
+                      f"Tag: {TAG}\n").encode(),
+            "LICENSE": (ROOT / "LICENSE").read_bytes()}
+
+
 def write_wheel(folder, files):
     """files: contents by the path in the wheel."""
-    tag = "py3-none-" + re.sub(r"\W", "_", sysconfig.get_platform())
     info = NAME + ".dist-info/"
-    files = {**files, info + "METADATA": (METADATA + (HERE / "README.md").read_text()).encode(),
-             info + "WHEEL": (f"Wheel-Version: 1.0\nGenerator: build_livemesh\n"
-                              f"Root-Is-Purelib: false\nTag: {tag}\n").encode(),
-             info + "LICENSE": (ROOT / "LICENSE").read_bytes()}
+    files = {**files, **{info + name: data for name, data in metadata().items()}}
     record = "".join(
         f"{path},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).decode()[:43]}"
         f",{len(data)}\n" for path, data in files.items()) + f"{info}RECORD,,\n"
-    name = f"{NAME}-{tag}.whl"
+    name = f"{NAME}-{TAG}.whl"
     with zipfile.ZipFile(os.path.join(folder, name), "w", zipfile.ZIP_DEFLATED) as wheel:
         for path, data in {**files, info + "RECORD": record.encode()}.items():
             wheel.writestr(zipfile.ZipInfo(path, (1980, 1, 1, 0, 0, 0)), data)
     return name
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    folder = pathlib.Path(metadata_directory, NAME + ".dist-info")
+    folder.mkdir()
+    for name, data in metadata().items():
+        (folder / name).write_bytes(data)
+    return folder.name
+
+
+prepare_metadata_for_build_editable = prepare_metadata_for_build_wheel
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):

@@ -535,8 +535,8 @@ typedef enum lm_live_field {
   LM_LIVE_FACET_USED = 10        /* f U8 */
 } lm_live_field;
 
-/* Valid until the next update. Fields 4 to 6 and 8 to 10 are made at the first request, and then
- * cost a part of each update. */
+/* Valid until the next update. For rule (6) this counts as a change. Fields 4 to 6 and 8 to 10 are
+ * made at the first request, and then cost a part of each update. */
 LM_API lm_status lm_live_array(lm_handle live, int32_t field, lm_array* array);
 /* The attributes of the regions of n cells in use, by slot; 0: none. attributes: n. */
 LM_API lm_status lm_live_regions(lm_handle live, size_t n, const uint32_t* cells,
