@@ -492,9 +492,9 @@ LM_API lm_status lm_live_limit(lm_handle live, double max_measure, lm_handle siz
 /* Discards all announcements. */
 LM_API lm_status lm_live_discard(lm_handle live);
 
-/* Makes the announced edits. change: where to put a handle of the change, or NULL.
- * LM_CANCELLED leaves the edits announced: another update goes on with them. Any other failure
- * discards them. Both leave the mesh as it was. */
+/* Makes the announced edits. change: where to put a handle of the change, or NULL; 0 if the edits
+ * were made, but there is no memory to tell how. LM_CANCELLED leaves the edits announced: another
+ * update goes on with them. Any other failure discards them. Both leave the mesh as it was. */
 LM_API lm_status lm_live_update(lm_handle live, const lm_control* control, lm_handle* change);
 
 /* How many updates can be undone: the last `depth`; by default 0. Costs memory for the features

@@ -326,12 +326,15 @@ void add_graph(LiveIn<D>& in, const GraphObject& object) {
   in.next.region = std::max(in.next.region, object.next.region);
 }
 
-// The handle of a change, if it is wanted. The update is made, whatever happens here.
+// The handle of a change, if it is wanted, and 0 if there is no memory for it: the update is made.
 template <int D>
 void give_change(LiveIn<D>& in, DomainUpdate<D>&& update, lm_handle* change) {
   if (change == nullptr) return;
   *change = 0;
-  make_object<ChangeObject>(change, std::move(update), in.mesher.live());
+  try {
+    make_object<ChangeObject>(change, std::move(update), in.mesher.live());
+  } catch (const std::bad_alloc&) {
+  }
 }
 
 template <int D>

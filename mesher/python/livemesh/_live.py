@@ -423,6 +423,10 @@ class LiveMesh:
                         self._remember(change)
                 elif status:
                     run.check(status, self.dimension)
+                else:
+                    self._arrays.clear()
+                    self._unseen.clear()
+                    raise MemoryError("the edits were made; there is no memory for their change")
                 if run.error is not None or run.interrupt is not None:
                     run.check(0, self.dimension)
                 del keep
@@ -443,7 +447,8 @@ class LiveMesh:
 
         Raises: Cancelled, KeyboardInterrupt, or what `progress` raises: the mesh is as before, and
         the edits stay announced for another update or discard(). GeometryError, MemoryError: the
-        mesh is as before, and the edits are discarded.
+        mesh is as before, and the edits are discarded. A Ctrl-C that comes when the edits are made
+        leaves them made; `pending` tells.
         """
         return self._run(c.live_update, progress, timeout, Change())
 
