@@ -12,20 +12,24 @@ namespace mesher {
 namespace {
 
 double cross(const Point<2>& u, const Point<2>& v) { return u[0] * v[1] - u[1] * v[0]; }
+#ifndef MESHER_PLANE_ONLY
 double triple(const Point<3>& u, const Point<3>& v, const Point<3>& w) {
   return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) +
          u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
+#endif
 
 // Twice the area (six times the volume) between the origin and the side across from corner i, from
 // the side of the inside positive or not, the same for all i.
 double across(const std::array<Point<2>, 3>& t, std::size_t i) {
   return cross(t[(i + 1) % 3], t[(i + 2) % 3]);
 }
+#ifndef MESHER_PLANE_ONLY
 double across(const std::array<Point<3>, 4>& t, std::size_t i) {
   const double volume = triple(t[(i + 1) % 4], t[(i + 2) % 4], t[(i + 3) % 4]);
   return i % 2 == 0 ? volume : -volume;
 }
+#endif
 
 // Barycentric coordinates of p. Rounding may not take them out of 0 to 1.
 template <int D>
