@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The programs in the documents compile: every C++ block that includes something.
+"""The programs in the documents compile: every block of C++, or of C
+that is C++ too, that includes something.
 
     document_examples.py COMPILER ROOT INCLUDE_DIRECTORY... -- DOCUMENT...
 """
@@ -9,7 +10,7 @@ import subprocess
 import sys
 import tempfile
 
-BLOCK = re.compile(r"^```cpp\n(.*?)^```", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^```(?:cpp|c)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
 def programs(document):

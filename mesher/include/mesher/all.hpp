@@ -17,4 +17,5 @@
 #include "mesher/repair.hpp"
 #include "mesher/reports.hpp"
 #include "mesher/sizes.hpp"
+#include "mesher/transfer.hpp"
 #include "mesher/write.hpp"

@@ -262,6 +262,12 @@ class Mesher {
   /// The graph of the last update(), ascending by id; a line of two points is a segment.
   /// Cost: O(n log n).
   [[nodiscard]] Graph<D> input() const;
+  /// A feature of input(); nothing if it does not have it. Edits announced since do not count.
+  /// Cost: O(log n), and of its points.
+  [[nodiscard]] std::optional<GraphPoint<D>> point(PointId id) const;
+  [[nodiscard]] std::optional<Polyline> line(LineId id) const;  ///< of two points, if a segment
+  [[nodiscard]] std::optional<Polygon> polygon(PolygonId id) const requires(D == 3);
+  [[nodiscard]] std::optional<Seed<D>> seed(const SeedId& id) const;
 
   /// The region label of a simplex, and whether it is kept. Requires: a simplex of the mesh,
   /// starting at any corner. Cost: O(1) for vertices of bounded degree.

@@ -460,6 +460,28 @@ std::vector<Polygon> BoxMesher<D>::polygons() const {
 }
 
 template <int D>
+std::optional<GraphPoint<D>> BoxMesher<D>::point(PointId id) const {
+  impl_->busy.require_idle();
+  const auto at = impl_->state->place(id);
+  return at ? std::optional(GraphPoint<D>{id, *at}) : std::nullopt;
+}
+
+template <int D>
+std::optional<Polyline> BoxMesher<D>::line(LineId id) const {
+  impl_->busy.require_idle();
+  const auto it = impl_->lines.committed().find(id);
+  return it == impl_->lines.committed().end() ? std::nullopt
+                                              : std::optional(Polyline{id, it->second});
+}
+
+template <int D>
+std::optional<Polygon> BoxMesher<D>::polygon(PolygonId id) const {
+  impl_->busy.require_idle();
+  const auto it = impl_->polygons.committed().find(id);
+  return it == impl_->polygons.committed().end() ? std::nullopt : std::optional(it->second);
+}
+
+template <int D>
 std::size_t BoxMesher<D>::size() const {
   return impl_->state->size() + static_cast<std::size_t>(impl_->pending.growth());
 }

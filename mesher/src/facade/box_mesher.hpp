@@ -134,6 +134,10 @@ class BoxMesher {
   [[nodiscard]] std::vector<GraphPoint<D>> points() const;
   [[nodiscard]] std::vector<Polyline> lines() const;
   [[nodiscard]] std::vector<Polygon> polygons() const;
+  /// One of them, if it is there. Cost: O(log n), and of its points.
+  [[nodiscard]] std::optional<GraphPoint<D>> point(PointId id) const;
+  [[nodiscard]] std::optional<Polyline> line(LineId id) const;
+  [[nodiscard]] std::optional<Polygon> polygon(PolygonId id) const;
 
   /// Number of input points that are announced to be there.
   [[nodiscard]] std::size_t size() const;

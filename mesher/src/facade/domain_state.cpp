@@ -314,6 +314,33 @@ Graph<D> DomainState<D>::input() const {
   return graph;
 }
 
+template <int D>
+std::optional<GraphPoint<D>> DomainState<D>::point(PointId id) const {
+  std::optional<GraphPoint<D>> found = mesher_.point(id);
+  if (found) found->marker = marker_of(point_markers_, id);
+  return found;
+}
+
+template <int D>
+std::optional<Polyline> DomainState<D>::line(LineId id) const {
+  std::optional<Polyline> found = mesher_.line(id);
+  if (found) found->marker = marker_of(line_markers_, id);
+  return found;
+}
+
+template <int D>
+std::optional<mesher::Polygon> DomainState<D>::polygon(PolygonId id) const {
+  std::optional<mesher::Polygon> found = mesher_.polygon(id);
+  if (found) found->marker = marker_of(polygon_markers_, id);
+  return found;
+}
+
+template <int D>
+std::optional<Seed<D>> DomainState<D>::seed(const SeedId& name) const {
+  const auto it = seeds_.committed().find(name);
+  return it == seeds_.committed().end() ? std::nullopt : std::optional(it->second);
+}
+
 template class DomainState<2>;
 #ifndef MESHER_PLANE_ONLY
 template class DomainState<3>;

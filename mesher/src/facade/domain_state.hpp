@@ -42,6 +42,10 @@ class DomainState {
   DomainUpdate<D> update(const RunControl& control);
 
   [[nodiscard]] Graph<D> input() const;
+  [[nodiscard]] std::optional<GraphPoint<D>> point(PointId id) const;
+  [[nodiscard]] std::optional<Polyline> line(LineId id) const;
+  [[nodiscard]] std::optional<mesher::Polygon> polygon(PolygonId id) const;
+  [[nodiscard]] std::optional<Seed<D>> seed(const SeedId& name) const;
   [[nodiscard]] bool contains_seed(const SeedId& name) const {
     return seeds_.find(name) != nullptr;
   }

@@ -134,6 +134,22 @@ template <int D>
 Graph<D> Mesher<D>::input() const {
   return impl_->input();
 }
+template <int D>
+std::optional<GraphPoint<D>> Mesher<D>::point(PointId id) const {
+  return impl_->point(id);
+}
+template <int D>
+std::optional<Polyline> Mesher<D>::line(LineId id) const {
+  return impl_->line(id);
+}
+template <int D>
+std::optional<Polygon> Mesher<D>::polygon(PolygonId id) const requires(D == 3) {
+  return impl_->polygon(id);
+}
+template <int D>
+std::optional<Seed<D>> Mesher<D>::seed(const SeedId& id) const {
+  return impl_->seed(id);
+}
 
 template <int D>
 RegionLabel Mesher<D>::label(const typename DomainChange<D>::Corners& triangle) const {

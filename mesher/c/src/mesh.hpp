@@ -1,0 +1,85 @@
+// A mesh behind a handle. It never changes; what is asked of it later is made then, once.
+#pragma once
+
+#include <array>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "arrays.hpp"
+#include "handles.hpp"
+#include "mesher/meshing.hpp"
+
+namespace lm {
+
+/// Facets, or edges, in rows of numbers.
+struct FlatFacets {
+  std::vector<std::uint32_t> corners;
+  std::vector<std::int64_t> markers;
+  std::vector<std::uint8_t> features;  // lm_feature_kind
+  std::vector<std::int64_t> ids;
+};
+
+template <int D>
+class MeshIn {
+ public:
+  /// `points`: the input, to find its points among the vertices if the mesh does not tell.
+  MeshIn(mesher::MeshData<D> data, std::vector<mesher::GraphPoint<D>> points)
+      : data(std::move(data)), points_(std::move(points)) {}
+
+  /// Throws: Failure(LM_BAD_ARGUMENT).
+  [[nodiscard]] lm_array array(std::int32_t field);
+  [[nodiscard]] lm_array quality(std::int32_t measure);
+
+  const mesher::MeshData<D> data;
+  std::vector<std::uint32_t> point_slots, cell_slots;  // of a live mesh
+
+ private:
+  using Simplex = typename mesher::Mesh<D>::Simplex;
+  [[nodiscard]] const std::vector<Simplex>& neighbours();
+  [[nodiscard]] const FlatFacets& facets_made();
+  [[nodiscard]] const FlatFacets& edges_made();
+  [[nodiscard]] const std::vector<mesher::Feature>& origins();
+
+  std::vector<mesher::GraphPoint<D>> points_;
+  std::recursive_mutex making_;
+  std::optional<std::vector<Simplex>> neighbours_;
+  std::optional<FlatFacets> facets_, edges_;
+  std::optional<std::vector<mesher::Feature>> origins_;
+  std::optional<std::vector<std::int64_t>> no_markers_;
+  std::optional<std::vector<double>> no_regions_;
+  std::array<std::optional<std::vector<double>>, LM_MAX_DIHEDRAL + 1> qualities_;
+};
+
+struct MeshObject final : Object {
+  template <int D>
+  MeshObject(std::in_place_index_t<D - 2>, mesher::MeshData<D> data,
+             std::vector<mesher::GraphPoint<D>> points);
+
+  [[nodiscard]] const std::vector<std::string>* texts() override { return &notes; }
+
+  std::variant<std::unique_ptr<MeshIn<2>>, std::unique_ptr<MeshIn<3>>> mesh;
+  std::vector<std::string> notes;
+  mesher::Algorithm algorithm = mesher::Algorithm::automatic;
+  bool keeps_all = false;
+};
+
+template <int D>
+MeshObject::MeshObject(std::in_place_index_t<D - 2>, mesher::MeshData<D> data,
+                       std::vector<mesher::GraphPoint<D>> points)
+    : mesh(std::make_unique<MeshIn<D>>(std::move(data), std::move(points))) {}
+
+/// The object of the enclosed part of a mesh. `points`: as for MeshIn.
+template <int D>
+[[nodiscard]] std::shared_ptr<MeshObject> mesh_object(mesher::DomainMesh<D> made,
+                                                      std::vector<mesher::GraphPoint<D>> points) {
+  auto object = std::make_shared<MeshObject>(std::in_place_index<D - 2>, std::move(made.mesh),
+                                             std::move(points));
+  for (const auto& fault : made.faults) object->notes.push_back(describe(fault));
+  object->keeps_all = made.keeps_all;
+  return object;
+}
+
+}  // namespace lm
