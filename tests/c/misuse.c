@@ -65,6 +65,17 @@ static const double* numbers(void) {
   for (i = 0; i < sizeof numbers_memory / sizeof *numbers_memory; ++i) numbers_memory[i] = number();
   return numbers_memory;
 }
+/* A size, or what cannot be one. Tiny ones ask for more vertices than a test has time for. */
+static double measure(void) {
+  const double x = number();
+  return x > 0 && x < 1e-3 ? 1e-3 : x;
+}
+static const double* measures(void) {
+  static double memory[MOST];
+  size_t i;
+  for (i = 0; i < MOST; ++i) memory[i] = measure();
+  return memory;
+}
 static int64_t id(void) {
   if (once_in(40)) return (int64_t)any();
   if (once_in(80)) return INT64_MAX;
@@ -133,7 +144,7 @@ static lm_options* options(void) {
   if (once_in(4)) all->min_angle = once_in(4) ? 100 * number() : 25;
   if (once_in(9)) all->rho = 3 * number();
   if (once_in(30)) all->min_dihedral = number();
-  if (once_in(4)) all->max_measure = once_in(9) ? number() : 0.02;
+  if (once_in(4)) all->max_measure = once_in(9) ? measure() : 0.02;
   if (once_in(6)) all->sizes = handle(SIZES);
   if (once_in(8)) all->extent = small(2);
   if (once_in(4)) all->algorithm = small(4);
@@ -146,7 +157,7 @@ static lm_options* options(void) {
       int k;
       boxes[i].size = size(sizeof boxes[i]);
       for (k = 0; k < 3; ++k) boxes[i].hi[k] = once_in(9) ? number() : 0.5;
-      boxes[i].max_measure = once_in(9) ? number() : 0.05;
+      boxes[i].max_measure = once_in(9) ? measure() : 0.05;
     }
     all->box_limits = once_in(9) ? NULL : boxes;
     all->box_limits_count = below(3);
@@ -217,7 +228,7 @@ static lm_status call(void) {
     case 12:
       return lm_graph_add_holes(handle(GRAPH), below(3), numbers(), NULL, NULL);
     case 13:
-      return lm_graph_add_regions(handle(GRAPH), below(3), numbers(), numbers(), numbers(), NULL,
+      return lm_graph_add_regions(handle(GRAPH), below(3), numbers(), numbers(), measures(), NULL,
                                   NULL);
     case 14:
       status = lm_graph_array(handle(GRAPH), small(22), array);
@@ -232,10 +243,10 @@ static lm_status call(void) {
     case 18:
       return lm_graph_merge(handle(GRAPH), place(GRAPH));
     case 19:
-      return lm_sizes_samples(dimension(), below(9), numbers(), numbers(), place(SIZES));
+      return lm_sizes_samples(dimension(), below(9), numbers(), measures(), place(SIZES));
     case 20:
       return lm_sizes_function(dimension(), once_in(20) ? NULL : size_at, NULL, number(),
-                               0.1 * number(), place(SIZES));
+                               0.1 * measure(), place(SIZES));
     case 21:
       return lm_sizes_read(path(), dimension(), place(SIZES));
     case 22:
@@ -300,10 +311,10 @@ static lm_status call(void) {
     case 43:
       return once_in(2) ? lm_live_add_holes(handle(LIVE), below(3), numbers(), NULL, &first)
                         : lm_live_add_regions(handle(LIVE), below(2), numbers(), numbers(),
-                                              numbers(), NULL, NULL);
+                                              measures(), NULL, NULL);
     case 44:
       return once_in(2) ? lm_live_add_graph(handle(LIVE), handle(GRAPH))
-                        : lm_live_limit(handle(LIVE), number(), once_in(3) ? handle(SIZES) : 0,
+                        : lm_live_limit(handle(LIVE), measure(), once_in(3) ? handle(SIZES) : 0,
                                         once_in(2) ? numbers() : NULL);
     case 45:
       return once_in(9) ? lm_live_discard(handle(LIVE)) : lm_live_keep_undo(handle(LIVE), below(5));

@@ -326,7 +326,10 @@ class Processes(unittest.TestCase):
             d = lm.LiveMesh(bounds=((0, 0), (1, 1)))
             d.add_points([(.5, .5)])
             c = d.update()
-            threading.Thread(target=lambda: lm.mesh(np.random.rand(50000, 2)), daemon=True).start()
+            for algorithm in ("automatic", "gap_balls"):
+                threading.Thread(target=lambda: lm.mesh(np.random.rand(100000, 2), progress=print,
+                                                        algorithm=algorithm), daemon=True).start()
+            time.sleep(.1)
         """)
 
 

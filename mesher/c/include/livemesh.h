@@ -217,7 +217,8 @@ typedef struct lm_control {
 
 /* Something by which another thread stops runs. */
 LM_API lm_status lm_stop_new(lm_handle* stop);
-/* Runs that have it in their lm_control end with LM_CANCELLED, now and later. */
+/* Runs that have it in their lm_control end with LM_CANCELLED, now and later, and call nobody back.
+ */
 LM_API lm_status lm_stop_request(lm_handle stop);
 
 /* --- Graphs: the input of a mesh --- */

@@ -26,10 +26,14 @@ Clock::time_point after(Clock::time_point start, double seconds) {
 // Whether a run may go on.
 class Watch {
  public:
-  explicit Watch(const lm_control& control)
-      : control_(control), next_(Clock::now()), end_(after(next_, control.timeout)) {}
+  Watch(const lm_control& control, std::stop_token stop)
+      : control_(control),
+        stop_(std::move(stop)),
+        next_(Clock::now()),
+        end_(after(next_, control.timeout)) {}
 
   bool operator()(const mesher::Progress& progress) {
+    if (stop_.stop_requested()) return false;  // and calls nobody back
     const Clock::time_point now = Clock::now();
     if (control_.timeout > 0 && now >= end_) return false;
     if (control_.progress == nullptr || now < next_) return true;
@@ -41,6 +45,7 @@ class Watch {
 
  private:
   lm_control control_;
+  std::stop_token stop_;
   Clock::time_point next_, end_;
 };
 
@@ -53,13 +58,13 @@ mesher::RunControl control_of(const lm_control* user) {
     throw Failure(LM_BAD_ARGUMENT, "control->timeout and control->interval must be 0 or above");
   }
   mesher::RunControl run;
-  if (control.progress != nullptr || control.timeout > 0) run.progress = Watch(control);
   if (control.stop != 0) {
     run.stop = Reading<StopObject>(control.stop)->source.get_token();
     if (run.stop.stop_requested()) {
       throw mesher::Error(mesher::ErrorCode::cancelled, "stopped before it began");
     }
   }
+  if (control.progress != nullptr || control.timeout > 0) run.progress = Watch(control, run.stop);
   return run;
 }
 

@@ -5,12 +5,14 @@ for callbacks.
 """
 from __future__ import annotations
 
+import atexit
 import ctypes
 import os
 import pathlib
 import signal as _signals
 import sys
 import threading
+import time
 from collections.abc import Callable
 from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t
 from ctypes import c_uint32, c_uint64, c_void_p
@@ -322,6 +324,7 @@ class Run:
     def __enter__(self) -> "Run":
         self._outer = _active.run
         _active.run = self
+        _running.add(self)
         self._former = None
         if self._outer is None and threading.get_ident() == _MAIN_THREAD:
             former = _get_handler(_SIGINT)
@@ -332,6 +335,7 @@ class Run:
 
     def __exit__(self, *_: Any) -> None:
         _active.run = self._outer
+        _running.discard(self)
         if self._former is not None:
             _set_handler(_SIGINT, self._former)
 
@@ -352,6 +356,7 @@ class _Active(threading.local):
 
 
 _active = _Active()
+_running: set[Run] = set()
 _SIGINT = int(_signals.SIGINT)
 # The functions behind those of the module, which turn numbers into enumerators, for 10 us a run.
 _plain = sys.modules.get("_signal", _signals)
@@ -376,8 +381,20 @@ def _watch_run(state: Any, _: Any) -> int:
 
 
 _watch = PROGRESS(_watch_run)
+_end = new(c.stop_new)  # stops the runs of daemon threads when the interpreter ends
+
+
+@atexit.register
+def _stop_all() -> None:
+    """An interpreter that has ended cannot be called back: wait until nobody will."""
+    c.stop_request(_end.value)
+    until = time.monotonic() + 5
+    while _running and time.monotonic() < until:
+        time.sleep(.001)
+
+
 _INTERVAL = 0.02  # seconds between callbacks: an answer to Ctrl-C is soon enough, and GIL is free
-_WATCHED = Control(ctypes.sizeof(Control), _watch, None, _INTERVAL, 0.0, 0)
+_WATCHED = Control(ctypes.sizeof(Control), _watch, None, _INTERVAL, 0.0, _end.value)
 _WATCHED_ADDRESS = ctypes.addressof(_WATCHED)
 
 
@@ -389,7 +406,7 @@ def control(run: Run, timeout: Optional[float]) -> tuple[int, Any]:
         raise ValueError("timeout must be 0 or above")
     seconds = 0.0 if timeout is None else max(float(timeout), 1e-9)  # 0 is none to the library
     made = Control(ctypes.sizeof(Control), _watch, None, 0.0 if run.progress else _INTERVAL,
-                   seconds, 0)
+                   seconds, _end.value)
     return ctypes.addressof(made), made
 
 
