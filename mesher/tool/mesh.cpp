@@ -129,8 +129,8 @@ void add_mesh(CLI::App& app) {
   mesh->add_option(
           "--min-dihedral", args->min_dihedral,
           "In space, in degrees, at most 20: tetrahedra with smaller dihedral angles are\n"
-          "split where that makes no others; 10 to 12 is what solvers want. Few remain, most\n"
-          "where features meet at small angles. For refine and svr, without limits of size")
+          "split where that makes these larger; 10 to 12 is what solvers want. Few remain,\n"
+          "but where features meet at small angles. For refine and svr, without limits of size")
       ->type_name("D");
   mesh->footer(
       std::string(

@@ -125,9 +125,9 @@ struct Options {
   /// In degrees, at most 29.6. A value above 0 replaces rho by 1 / (2 sin(min_angle)): no angle of
   /// a triangle (in space: of a face of a tetrahedron) is smaller.
   double min_angle = 0;
-  /// In degrees, at most 20, in space only; 0: no bound. Tetrahedra that are not poor and have a
-  /// smaller dihedral angle are split where that makes no others [Li, Teng 2001]: few remain, most
-  /// where features meet at small angles. For refine and svr. Users of solvers ask for 10 to 12.
+  /// In degrees, at most 20, in space only; 0: no bound. Tetrahedra with a smaller dihedral angle
+  /// are split where that makes it larger [Li, Teng 2001]: few remain, but where features meet at
+  /// small angles. For refine and svr. Users of solvers ask for 10 to 12.
   std::conditional_t<D == 3, double, detail::InSpaceAlone> min_dihedral{};
 };
 

@@ -67,7 +67,7 @@ struct RefineStats {
   std::size_t on_sides = 0;        ///< new vertices that were moved onto a side of the box
   double worst_radius_edge = 0;    ///< of any simplex since refinement began
   std::size_t largest_degree = 0;  ///< the largest number of neighbours of a vertex since then
-  std::size_t slivers_split = 0;   ///< vertices inserted for Options::min_dihedral
+  std::size_t slivers_split = 0;   ///< by Options::min_dihedral; more vertices may follow
   std::size_t slivers_left = 0;    ///< tetrahedra below it that no vertex would have made better
 };
 

@@ -91,6 +91,7 @@ double DelaunayRefinement<D, Queue, Mesh>::key_of(const Shape& shape) const noex
 
 template <int D, template <class> class Queue, class Mesh>
 void DelaunayRefinement<D, Queue, Mesh>::split(std::uint32_t s) {
+  if (this->is_below_floor(s)) return;
   if constexpr (kConforms) {
     if (!this->is_split(s)) return;
   }

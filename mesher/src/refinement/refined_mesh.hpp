@@ -91,6 +91,14 @@ class RefinedMesh {
       if (slivers_.started()) slivers_.look_at(kernel_, kinds_, s, shape);
     }
   }
+  /// Whether a poor simplex stays since slivers were split: see there.
+  [[nodiscard]] bool is_below_floor(std::uint32_t s) {
+    if constexpr (D == 3) {
+      return slivers_.started() &&
+             slivers_.is_below_floor(kernel_, s, kernel_.measure(s).shortest2);
+    }
+    return false;
+  }
   /// Digs a vertex that splits a sliver; nothing: there is none that one will split. Requires: no
   /// simplex is poor.
   [[nodiscard]] std::optional<std::uint32_t> dig_sliver() {
@@ -141,6 +149,10 @@ class RefinedMesh {
 
   void count_degrees(std::span<const std::uint32_t> simplices, int change);
 
+  // To split a sliver takes as long as so many other steps, or longer.
+  static constexpr std::size_t kSliverTakes = 16;
+
+  std::size_t taken_ = 0;  // slivers
   std::conditional_t<D == 3, Slivers, std::monostate> slivers_;
   Settings settings_;
   double worst2_ = 0;  // radius-edge ratio, squared
@@ -165,7 +177,9 @@ std::optional<std::uint32_t> RefinedMesh<D>::dig_sliver_if(IsSplit&& is_split, A
   if constexpr (D == 3) {
     if (!slivers_.any()) return std::nullopt;
     if (!slivers_.started()) slivers_.start(kernel_, kinds_);
+    if (full_with() != 0) return std::nullopt;  // there is no room
     for (std::uint32_t s; (s = slivers_.take()) != kNone;) {
+      watch(kBetweenWatches / kSliverTakes * ++taken_, kernel_.places());
       if (!is_split(s)) continue;
       const std::uint32_t v = add(kernel_.simplices().ball(s).centre);
       if (slivers_.dig(kernel_, s, v, fits)) return v;

@@ -131,6 +131,7 @@ void Refinement<D, Mesh, Location>::look_at(std::uint32_t s, const Shape& shape)
 
 template <int D, class Mesh, class Location>
 void Refinement<D, Mesh, Location>::split(std::uint32_t s) {
+  if (this->is_below_floor(s)) return;
   if constexpr (kConforms) {
     if (has_started_ && !this->is_split(s)) return;
   }

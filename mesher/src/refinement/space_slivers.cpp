@@ -18,12 +18,18 @@ namespace {
 constexpr double kOff2 = 0.6;
 // Nearer than this to a side of the box, in units of the side, nothing is inserted.
 constexpr double kOffSide = 0x1p-3;
+// Of a floor, squared: what is shorter than an eighth of it comes of features that ask for each
+// other.
+constexpr double kBelow = 0x1p-6;
 // How often slivers that have found no place are tried again.
 constexpr int kRounds = 3;
 
-/// Of a tetrahedron at p: the largest cosine of a dihedral angle, squared with its sign.
-double score(const Point<3>& p, const Point<3>& q, const Point<3>& r, const Point<3>& s) {
-  const Point<3> a = minus(q, p), b = minus(r, p), c = minus(s, p);
+/// Of a tetrahedron: the largest cosine of a dihedral angle, squared with its sign; the same bits
+/// in whatever order its corners come.
+double score(std::array<const Point<3>*, 4> corners) {
+  std::sort(corners.begin(), corners.end(), [](auto* p, auto* q) { return *p < *q; });
+  const Point<3> a = minus(*corners[1], *corners[0]), b = minus(*corners[2], *corners[0]),
+                 c = minus(*corners[3], *corners[0]);
   std::array<Point<3>, 4> normal{Point<3>{}, cross(b, c), cross(c, a), cross(a, b)};
   normal[0] = scaled(-1, plus(normal[1], plus(normal[2], normal[3])));
   std::array<double, 4> length2;
@@ -93,7 +99,8 @@ void Slivers::look_at(const Kernel& kernel, const std::vector<VertexKind>& kinds
 
 double Slivers::score_of(const Kernel& kernel, std::uint32_t s) {
   const auto& c = kernel.simplices().corners(s);
-  return score(kernel.place(c[0]), kernel.place(c[1]), kernel.place(c[2]), kernel.place(c[3]));
+  return score(
+      {&kernel.place(c[0]), &kernel.place(c[1]), &kernel.place(c[2]), &kernel.place(c[3])});
 }
 
 void Slivers::before_fill(const Kernel& kernel, std::uint32_t v) {
@@ -133,6 +140,10 @@ std::uint32_t Slivers::take() {
 
 std::size_t Slivers::left() const noexcept {
   return static_cast<std::size_t>(std::count(wait_.begin(), wait_.end(), Wait::left));
+}
+
+bool Slivers::is_below_floor(const Kernel& kernel, std::uint32_t s, double shortest2) const {
+  return shortest2 < kBelow * least_floor2(kernel, s);
 }
 
 double Slivers::least_floor2(const Kernel& kernel, std::uint32_t s) const {
@@ -188,7 +199,8 @@ void Slivers::find_places(Kernel& kernel, std::uint32_t s) {
   const double spacing = std::scalbn(box_.side, std::ilogb(std::sqrt(radius2) / (2 * box_.side)));
   std::array<double, 3> nearest;
   for (std::size_t i = 0; i < 3; ++i) {
-    nearest[i] = std::round((centre[i] - box_.lo[i]) / spacing);
+    // What is halfway but for rounding goes down.
+    nearest[i] = std::ceil((centre[i] - box_.lo[i]) / spacing - (0.5 + 0x1p-20));
   }
   const double margin = kOffSide * box_.side;
   for (int k = 0; k < 54; ++k) {
@@ -221,8 +233,8 @@ double Slivers::score_of_dug(const Kernel& kernel, std::uint32_t v, double enoug
   double worst = -1;
   kernel.for_each_facet_of_hole([&](const std::array<std::uint32_t, 3>& facet) {
     if (worst >= enough) return;
-    worst = std::max(worst, score(kernel.place(v), kernel.place(facet[0]), kernel.place(facet[1]),
-                                  kernel.place(facet[2])));
+    worst = std::max(worst, score({&kernel.place(v), &kernel.place(facet[0]),
+                                   &kernel.place(facet[1]), &kernel.place(facet[2])}));
   });
   return worst;
 }

@@ -9,7 +9,9 @@
 // sliver is at least half the least floor of the sliver's corners from all others, and takes that
 // floor over; one that comes for another reason takes over the least floor around it, or its
 // distance, if that is larger. So no floor is less than the least at the beginning, and only as
-// many slivers are split as there is room for.
+// many slivers are split as there is room for. Vertices on features may come nearer, where a
+// sliver's vertex is between features at a small angle; a poor tetrahedron whose shortest edge is
+// below half of its floors stays, so that these do not ask for each other on and on.
 //
 // Where features meet at small angles poor tetrahedra stay (ConformingMesh::is_split); these are
 // split, too, beside their off-centre. So what is left is what a wall or a floor protects.
@@ -56,6 +58,9 @@ class Slivers {
   template <class Fits>
   [[nodiscard]] bool dig(Kernel& kernel, std::uint32_t s, std::uint32_t v, Fits&& fits);
 
+  /// Whether a poor simplex stays, by its shortest edge: features have made it, where they meet at
+  /// a small angle, and would go on and on. Requires: started().
+  [[nodiscard]] bool is_below_floor(const Kernel& kernel, std::uint32_t s, double shortest2) const;
   /// The least floor of its corners, squared.
   [[nodiscard]] double least_floor2(const Kernel& kernel, std::uint32_t s) const;
   /// Vertices for slivers so far, and slivers that have found no place for one.
