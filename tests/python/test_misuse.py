@@ -102,6 +102,55 @@ class Arguments(unittest.TestCase):
         self.assertEqual(c.free(value), 1)
 
 
+class Copies(unittest.TestCase):
+    def test_copies_share_what_is_never_changed(self):
+        run("""
+            import copy, dataclasses, pickle
+
+            @dataclasses.dataclass
+            class Case:
+                mesh: object
+
+            d = lm.LiveMesh(bounds=((0, 0), (1, 1)))
+            d.add_points([(.5, .5)])
+            square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+            made = (lm.mesh(square).name({"a": 1}), lm.Graph(square), d.update(),
+                    lm.Sizes.samples(square, [1, 1, 1, 1]),
+                    lm.Sizes.function(lambda _: 1., 1, .1, 2))
+            for m in made:
+                for of in (copy.copy, copy.deepcopy,
+                           lambda m: dataclasses.asdict(Case(m))["mesh"]):
+                    before = lm._c.c.objects()
+                    c = of(m)
+                    assert type(c) is type(m)
+                    assert lm._c.c.objects() == before
+                    del c
+                    assert lm._c.c.objects() == before
+                for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+                    try:
+                        pickle.dumps(m, protocol)
+                        sys.exit(2)
+                    except TypeError:
+                        pass
+            m = made[0]
+            p = m.points
+            c = copy.deepcopy(m)
+            c.name({"b": 2})
+            assert m.names["facets"] == {"a": 1}
+            del m, made
+            assert c.points.sum() == p.sum()
+            del c
+            assert p.sum() > 0
+            for of in (copy.copy, copy.deepcopy, pickle.dumps):
+                try:
+                    of(d)
+                    sys.exit(3)
+                except TypeError:
+                    pass
+            d.update()
+        """)
+
+
 class Callbacks(unittest.TestCase):
     def test_progress_stops(self):
         seen = []

@@ -17,7 +17,7 @@ from collections.abc import Callable
 from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t
 from ctypes import c_uint32, c_uint64, c_void_p
 from types import FrameType
-from typing import Any, Optional, Tuple
+from typing import Any, NoReturn, Optional, Tuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -179,12 +179,22 @@ _free = c.free
 
 
 class Handle:
-    """An object of the library; freed with the last reference to it."""
+    """An object of the library; freed with the last reference to it. Copies of what has it share
+    it, for it is not changed through them; nothing is pickled."""
 
     __slots__ = ("value", "__weakref__")
 
     def __init__(self, value: int) -> None:
         self.value = value
+
+    def __copy__(self) -> "Handle":
+        return self
+
+    def __deepcopy__(self, _: Any) -> "Handle":
+        return self
+
+    def __reduce_ex__(self, _: Any) -> NoReturn:
+        raise TypeError("objects of livemesh cannot be pickled; write them to a file")
 
     def __del__(self) -> None:
         _free(self.value)

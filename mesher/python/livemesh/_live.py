@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from ctypes import byref, c_int64, c_uint64
 from types import TracebackType
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Type
+from typing import Any, Dict, List, NamedTuple, NoReturn, Optional, Tuple, Type
 
 import numpy as np
 from numpy.typing import NDArray
@@ -256,6 +256,9 @@ class LiveMesh:
         self._lock = threading.Lock()
         self._arrays: Dict[str, _Followed] = {}
         self._unseen: List[Change] = []
+
+    def __reduce_ex__(self, _: Any) -> NoReturn:
+        raise TypeError("a LiveMesh cannot be copied or pickled; graph() and mesh() are copies")
 
     @contextmanager
     def _alone(self) -> Iterator[None]:

@@ -28,6 +28,12 @@ class Sizes:
         self._keep = keep  # a callback, for as long as the library may call it
         self.dimension = dimension
 
+    def __copy__(self) -> "Sizes":
+        return self
+
+    def __deepcopy__(self, _: Any) -> "Sizes":
+        return self
+
     @classmethod
     def samples(cls, points: Any, sizes: Any) -> "Sizes":
         """Linear between samples. points: n x d; sizes: n, above 0, input length units."""
