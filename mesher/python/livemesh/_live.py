@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from ctypes import byref, c_int64, c_uint64
 from types import TracebackType
-from typing import Any, Dict, List, NamedTuple, NoReturn, Optional, Tuple, Type
+from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, NoReturn, Optional, Tuple, Type
 
 import numpy as np
 from numpy.typing import NDArray
@@ -138,8 +138,8 @@ class Change:
         """Carries a field by point slots, n or n x k (float64 or complex128), through the change:
         points that stay keep their values, new ones get values interpolated in the mesh before.
 
-        Costs what changed: `u` is changed in place and returned if it has room, else a larger array
-        is returned, with room for more, so write `u = c.transfer(u)`.
+        Costs what changed: `u` is changed in place and returned if it is writeable and has room,
+        else a larger array is returned, with room for more, so write `u = c.transfer(u)`.
         """
         before = np.ascontiguousarray(u)
         kind = np.complex128 if before.dtype.kind == "c" else np.float64
@@ -160,19 +160,34 @@ class Change:
                 f"added, {len(self.points_removed)} and {len(self.cells_removed)} removed>")
 
 
+if TYPE_CHECKING:
+    _Array = NDArray[Any]
+else:
+    _Array = np.ndarray
+
+
+class _Room(_Array):
+    """The memory behind a result of _with_rows: nothing else is in it."""
+
+
+def _beginning(room: _Room, rows: int) -> NDArray[Any]:
+    return np.ndarray((rows,) + room.shape[1:], room.dtype, buffer=room)  # its base: `room`
+
+
 def _with_rows(u: NDArray[Any], rows: int) -> NDArray[Any]:
-    """`u` with at least so many rows: itself, more of the memory that it is the beginning of, or a
-    copy with some room behind it."""
-    if len(u) >= rows and u.flags.writeable:
-        return u
-    base = u.base
-    if (isinstance(base, np.ndarray) and base.dtype == u.dtype and base.shape[1:] == u.shape[1:]
-            and base.ctypes.data == u.ctypes.data and len(base) >= rows and base.flags.writeable
-            and base.flags.c_contiguous):
-        return base[:rows]
-    grown = np.empty((max(rows, len(u)) * 5 // 4 + 16,) + u.shape[1:], u.dtype)
-    grown[:len(u)] = u
-    return grown[:max(rows, len(u))]
+    """`u` with at least so many rows: itself, more of the room that was left behind it, or a copy
+    with some room behind it. A part of a larger array has no room, nor has what is read-only."""
+    if u.flags.writeable:
+        if len(u) >= rows:
+            return u
+        room = u.base
+        if (isinstance(room, _Room) and room.dtype == u.dtype and room.shape[1:] == u.shape[1:]
+                and address(room) == address(u) and len(room) >= rows):
+            return _beginning(room, rows)
+    wanted = max(rows, len(u))
+    room = _Room((wanted * 5 // 4 + 16,) + u.shape[1:], u.dtype)
+    room[:len(u)] = u
+    return _beginning(room, wanted)
 
 
 class _Followed:
