@@ -3,10 +3,12 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import textwrap
 import threading
 import time
 import unittest
+import warnings
 
 import numpy as np
 
@@ -57,6 +59,58 @@ class Arguments(unittest.TestCase):
         for i, mistake in enumerate(mistakes):
             with self.subTest(i), self.assertRaises((ValueError, TypeError, OverflowError)):
                 mistake()
+
+    def test_numbers_that_would_wrap(self):
+        d = lm.LiveMesh(bounds=((0, 0), (1, 1)))
+        p = d.add_points(SQUARE)
+        d.update()
+        space = lm.LiveMesh(bounds=((0, 0, 0), (1, 1, 1)))
+        space.add_points([(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+        space.update()
+        kept = int(np.flatnonzero(d.cell_used)[0])
+        complex_points = np.array(SQUARE) + 0j
+        mistakes = [lambda: d.regions_of([2**32 + kept]), lambda: d.regions_of([kept - 2**32]),
+                    lambda: lm.mesh(SQUARE, max_vertices=-1),
+                    lambda: lm.mesh(SQUARE, max_vertices=2**64 + 5),
+                    lambda: lm.LiveMesh(bounds=((0, 0), (1, 1)), max_vertices=-1),
+                    lambda: lm.LiveMesh(bounds=((0, 0), (1, 1)), undo=-1),
+                    lambda: lm.LiveMesh(bounds=((0, 0), (1, 1)), undo="3"),
+                    lambda: lm.LiveMesh(bounds=np.array(((0, 0), (1, 1 + 1j)))),
+                    lambda: lm.mesh(complex_points), lambda: d.add_points(complex_points),
+                    lambda: d.find(list(complex_points)), lambda: lm.mesh([("0", "1")]),
+                    lambda: lm.mesh(SQUARE, size=lambda at: at[:, 0] + 1 + 0j),
+                    lambda: lm.mesh(SQUARE, point_markers=2**64 + 5),
+                    lambda: lm.Graph(SQUARE, polylines=RING, polyline_markers=2**63),
+                    lambda: lm.Sizes.function(lambda _: 1., "x", .1, 2),
+                    lambda: lm.Sizes.function(lambda _: 1., 1, .1, "2")]
+        for wrong in (2**63, 2**64 + 5, -2**63 - 1, "x", 1.5, np.uint64(2**63)):
+            mistakes += [lambda w=wrong: d.add_polyline([0, 1], id=w),
+                         lambda w=wrong: d.add_polyline([0, 1], marker=w),
+                         lambda w=wrong: d.add_segment(0, 1, marker=w),
+                         lambda w=wrong: d.add_segment(0, 1, id=w),
+                         lambda w=wrong: space.add_polygon([0, 1, 2], marker=w),
+                         lambda w=wrong: space.add_polygon([0, 1, 2], id=w)]
+        with tempfile.TemporaryDirectory() as folder:
+            name = os.path.join(folder, "nul.vtu")
+            m = lm.mesh(SQUARE)
+            m.write(name)
+            for path in (name + "\0.node", name.encode() + b"\0.vtu"):
+                mistakes += [lambda p=path: m.write(p), lambda p=path: lm.Mesh.read(p),
+                             lambda p=path: lm.Graph.read(p), lambda p=path: lm.mesh(os.fsdecode(p)),
+                             lambda p=path: lm.Graph(SQUARE).write(p),
+                             lambda p=path: lm.Sizes.read(p, 2)]
+            for wrong in ("2", 2.0, 2**32 + 2, -1):
+                mistakes += [lambda w=wrong: lm.Graph.read(name, dimension=w),
+                             lambda w=wrong: lm.Mesh.read(name, dimension=w),
+                             lambda w=wrong: lm.Sizes.read(name, w)]
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                for i, mistake in enumerate(mistakes):
+                    with self.subTest(i), self.assertRaises((ValueError, TypeError)) as caught:
+                        mistake()
+                    self.assertNotIsInstance(caught.exception, lm.Error, i)
+        self.assertFalse(d.pending or space.pending)
+        self.assertEqual(d.add_polyline(p[:2], id=np.int32(7), marker=np.uint8(3)), 7)
 
     def test_values(self):
         for mistake, code in (

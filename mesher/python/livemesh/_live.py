@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import math
+import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -14,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _c
-from ._c import Handle, address, c, check, floats, integers, one_each
+from ._c import Handle, address, c, check, floats, integer, integers, numbers, one_each
 from ._errors import Busy
 from ._graph import Graph, graph_of, polygon_struct, split_regions
 from ._mesh import Mesh, options_of
@@ -256,7 +257,7 @@ class LiveMesh:
                  max_area: Optional[float] = None, max_volume: Optional[float] = None,
                  size: Any = None, region_limits: bool = True, extent: str = "enclosed",
                  max_vertices: int = 0, undo: int = 32) -> None:
-        box = np.asarray(bounds, dtype=np.float64)
+        box = numbers(bounds, "bounds")
         if box.ndim != 2 or box.shape not in ((2, 2), (2, 3)):
             raise ValueError(f"bounds has the shape {box.shape}, not 2 x 2 or 2 x 3")
         self.dimension = int(box.shape[1])
@@ -267,7 +268,7 @@ class LiveMesh:
         self._sizes: List[Optional[Sizes]] = [sizes]  # callbacks live as long as they may be called
         self._handle = _c.new(c.live_new, self.dimension, byref(options))
         self._value = self._handle.value
-        check(c.live_keep_undo(self._value, undo))
+        check(c.live_keep_undo(self._value, integer(undo, "undo", 0, sys.maxsize)))
         self._lock = threading.Lock()
         self._arrays: Dict[str, _Followed] = {}
         self._unseen: List[Change] = []
@@ -350,10 +351,10 @@ class LiveMesh:
     def add_polyline(self, points: Any, marker: int = 0, id: Optional[int] = None) -> int:
         """Announces a line through points, by ids; closed if the last is the first. Returns its id;
         lines and segments are numbered together."""
-        numbers = integers(points, None, "points")
-        added, wanted = c_int64(), c_int64(0 if id is None else id)
-        self._call(c.live_add_polyline, len(numbers), address(numbers),
-                   None if id is None else byref(wanted), marker, byref(added))
+        corners = integers(points, None, "points")
+        added, wanted = c_int64(), c_int64(0 if id is None else integer(id, "id"))
+        self._call(c.live_add_polyline, len(corners), address(corners),
+                   None if id is None else byref(wanted), integer(marker, "marker"), byref(added))
         return added.value
 
     def remove_lines(self, ids: Any) -> None:
@@ -363,8 +364,8 @@ class LiveMesh:
     def add_polygon(self, loops: Any, marker: int = 0, id: Optional[int] = None) -> int:
         """Announces a flat polygon in space: ids of points around it, or a sequence of such loops,
         the outer one first. Returns its id."""
-        keep, struct = polygon_struct(loops, marker)
-        added, wanted = c_int64(), c_int64(0 if id is None else id)
+        keep, struct = polygon_struct(loops, integer(marker, "marker"))
+        added, wanted = c_int64(), c_int64(0 if id is None else integer(id, "id"))
         self._call(c.live_add_polygon, byref(struct), None if id is None else byref(wanted),
                    byref(added))
         del keep
@@ -567,7 +568,10 @@ class LiveMesh:
 
     def regions_of(self, cells: Any) -> NDArray[np.float64]:
         """k float64: the attributes of the regions of cells, by slot; 0: none."""
-        slots = np.ascontiguousarray(integers(cells, None, "cells"), dtype=np.uint32)
+        wide = integers(cells, None, "cells")
+        if len(wide) and not 0 <= wide.min() <= wide.max() <= _c.NONE:
+            raise ValueError("cells has what is not a slot")
+        slots = np.ascontiguousarray(wide, dtype=np.uint32)
         found = np.empty(len(slots))
         self._call(c.live_regions, len(slots), address(slots), address(found))
         return found

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _c
-from ._c import Handle, address, c, check
+from ._c import Handle, c, check, dimension_of, integer, path_of
 from ._graph import Graph, graph_of
 from ._sizes import Sizes, sizes_of
 
@@ -50,12 +50,12 @@ class Mesh:
     @classmethod
     def read(cls, path: Union[str, "os.PathLike[str]"], dimension: int = 0) -> "Mesh":
         """The mesh in a file: .node or .ele, .vtu, .vtk, .msh, .mesh, .off, .obj."""
-        return cls(_c.new(c.mesh_read, os.fsencode(path), dimension))
+        return cls(_c.new(c.mesh_read, path_of(path), dimension_of(dimension)))
 
     def write(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes .node (with .ele and others beside it), .vtu, .vtk, .msh (version 4.1), .mesh,
         .off, .obj, .svg, in space also .stl: whole, or not at all."""
-        check(c.mesh_write(self._handle.value, os.fsencode(path)), self.dimension)
+        check(c.mesh_write(self._handle.value, path_of(path)), self.dimension)
 
     def _array(self, field: int) -> NDArray[Any]:
         return _c.array(c.mesh_array, self._handle, field)
@@ -280,7 +280,7 @@ def options_of(dimension: int, lo: NDArray[Any], hi: NDArray[Any], bounds: Any, 
     given = _at(max_area if dimension == 2 else max_volume, 0, "max_area or max_volume")
     options.max_measure = min(limit, given) if limit and given else limit or given
     options.sizes = 0 if sizes is None else sizes._handle.value
-    options.max_vertices = max_vertices
+    options.max_vertices = integer(max_vertices, "max_vertices", 0)
     options.region_limits = int(region_limits)
     options.extent = _index(extent, _EXTENTS, "extent")
     options.algorithm = _index(algorithm, _ALGORITHMS, "algorithm")

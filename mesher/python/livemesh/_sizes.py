@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _c
-from ._c import address, c, floats
+from ._c import address, c, dimension_of, floats, numbers, path_of
 
 _MOST_SAMPLES = 200_000
 
@@ -50,8 +50,9 @@ class Sizes:
         """A function of a 1 x d array that is called at every position where the mesher wants to
         know: exact, and slow. It must always return the same, at least `least`, and change by at
         most `slope` per unit of length."""
+        dimension = dimension_of(dimension)
         callback = _c.size_callback(size, dimension)
-        handle = _c.new(c.sizes_function, dimension, callback, None, slope, least)
+        handle = _c.new(c.sizes_function, dimension, callback, None, float(slope), float(least))
         return cls(handle, dimension, callback)
 
     @classmethod
@@ -60,17 +61,18 @@ class Sizes:
         """Samples of a function of n x d arrays, dense where it is not linear: between them the
         size is off by about `tolerance` of itself at most. lo, hi: corners of the box of
         interest."""
-        at, h = _sample(size, np.asarray(lo, float), np.asarray(hi, float), tolerance)
+        at, h = _sample(size, floats(lo, None, "lo"), floats(hi, None, "hi"), tolerance)
         return cls.samples(at, h)
 
     @classmethod
     def read(cls, path: Union[str, "os.PathLike[str]"], dimension: int) -> "Sizes":
         """Samples from a file: .node with one attribute, or .csv with x, y, (z,) h."""
-        return cls(_c.new(c.sizes_read, os.fsencode(path), dimension), dimension)
+        dimension = dimension_of(dimension)
+        return cls(_c.new(c.sizes_read, path_of(path), dimension), dimension)
 
 
 def _evaluate(size: Callable[[NDArray[Any]], Any], at: NDArray[Any]) -> NDArray[Any]:
-    h = np.broadcast_to(np.asarray(size(at), dtype=np.float64).reshape(-1), (len(at),))
+    h = np.broadcast_to(numbers(size(at), "a size").reshape(-1), (len(at),))
     if not np.all((h > 0) & np.isfinite(h)):
         raise ValueError(f"the size at {at[np.argmin((h > 0) & np.isfinite(h))]} is not above 0")
     return h
