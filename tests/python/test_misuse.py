@@ -224,6 +224,45 @@ class Callbacks(unittest.TestCase):
             lm.mesh(SQUARE, polylines=RING, max_area=1e-7, timeout=.2)
         self.assertLess(time.monotonic() - start, 5)
 
+    def test_timeout_counts_the_samples_of_a_size(self):
+        calls = []
+
+        def slow(at):
+            calls.append(len(at))
+            time.sleep(.1)
+            return .01 + np.abs(np.sin(20 * at[:, 0] * at[:, 1]))
+
+        start = time.monotonic()
+        with self.assertRaises(lm.Cancelled):
+            lm.mesh(SQUARE, polylines=RING, size=slow, timeout=.15)
+        self.assertLess(time.monotonic() - start, 5)
+        self.assertLessEqual(len(calls), 3)
+        calls.clear()
+        with self.assertRaises(lm.Cancelled):
+            lm.mesh(SQUARE, polylines=RING, size=slow, timeout=0)
+        with self.assertRaises(ValueError):
+            lm.mesh(SQUARE, polylines=RING, size=slow, timeout=-1)
+        self.assertEqual(calls, [])
+        with self.assertRaises(lm.Cancelled):  # what is left of it is for the run
+            lm.mesh(SQUARE, polylines=RING, max_area=1e-7, timeout=.5,
+                    size=lambda at: time.sleep(.1) or np.ones(len(at)))
+
+    def test_sizes_are_sampled_in_the_bounds(self):
+        seen = []
+
+        def size(at):
+            seen.append(at.copy())
+            return .05 + .2 * np.abs(at[:, 0])
+
+        m = lm.mesh(SQUARE, size=size, bounds=((-2, -3), (3, 4)), extent="box")
+        self.assertLessEqual(m.points[:, 0].min(), -2)
+        at = np.concatenate(seen)
+        self.assertLess(max(len(each) for each in seen), 20000)
+        np.testing.assert_array_equal(at.min(0), (-2, -3))
+        self.assertTrue((at.max(0) >= (3, 4)).all())
+        with self.assertRaises(lm.GeometryError):
+            lm.mesh(SQUARE, size=size, bounds=((0, 0), (np.nan, 1)))
+
     def test_exceptions_are_carried_over(self):
         class Mine(Exception):
             pass
@@ -365,6 +404,23 @@ class Processes(unittest.TestCase):
             assert time.monotonic() - start < 5
             assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
             lm.mesh(square)
+        """)
+        self.assertEqual(errors, "")
+
+    def test_ctrl_c_stops_the_sampling_of_a_size(self):
+        _, errors = run("""
+            calls = []
+            def size(at):
+                calls.append(1)
+                time.sleep(.3)
+                return .01 + np.abs(np.sin(20 * at[:, 0] * at[:, 1]))
+            threading.Timer(.4, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+            try:
+                lm.mesh([(0, 0), (1, 0), (1, 1), (0, 1)], polylines=[[0, 1, 2, 3, 0]], size=size)
+                sys.exit(2)
+            except KeyboardInterrupt:
+                pass
+            assert len(calls) <= 3, len(calls)
         """)
         self.assertEqual(errors, "")
 

@@ -441,13 +441,18 @@ _WATCHED = Control(ctypes.sizeof(Control), _watch, None, _INTERVAL, 0.0, _end.va
 _WATCHED_ADDRESS = ctypes.addressof(_WATCHED)
 
 
+def seconds_of(timeout: float) -> float:
+    """Raises: TypeError, ValueError."""
+    if not timeout >= 0:
+        raise ValueError("timeout must be 0 or above")
+    return float(timeout)
+
+
 def control(run: Run, timeout: Optional[float]) -> tuple[int, Any]:
     """The address of a control for this run, and what to keep meanwhile."""
     if timeout is None and run.progress is None:
         return _WATCHED_ADDRESS, _WATCHED
-    if timeout is not None and not timeout >= 0:
-        raise ValueError("timeout must be 0 or above")
-    seconds = 0.0 if timeout is None else max(float(timeout), 1e-9)  # 0 is none to the library
+    seconds = 0.0 if timeout is None else max(seconds_of(timeout), 1e-9)  # 0: none to the library
     made = Control(ctypes.sizeof(Control), _watch, None, 0.0 if run.progress else _INTERVAL,
                    seconds, _end.value)
     return ctypes.addressof(made), made
