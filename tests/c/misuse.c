@@ -401,11 +401,126 @@ static int still_works(void) {
          lm_free(graph) == LM_BAD_HANDLE;
 }
 
+/* The first rule that does not hold; NULL: all do. */
+#define HOLDS(condition) \
+  if (!(condition)) return #condition
+
+static const char* results_are_written_on_success_alone(lm_handle live) {
+  const uint32_t cells[] = {0, LM_NONE};
+  const double nowhere[] = {0, 0, NAN, 0}, far[] = {0, 0, 1, INFINITY};
+  double attributes[] = {-7, -7};
+  uint32_t slots[] = {77, 77};
+  HOLDS(lm_live_regions(live, 1, cells, attributes) == LM_OK && attributes[0] == 0);
+  attributes[0] = -7;
+  HOLDS(lm_live_regions(live, 2, cells, attributes) == LM_BAD_ARGUMENT);
+  HOLDS(attributes[0] == -7 && attributes[1] == -7);
+  HOLDS(lm_live_find(live, 2, nowhere, slots) == LM_NOT_FINITE);
+  HOLDS(lm_live_find(live, 2, far, slots) == LM_NOT_FINITE);
+  HOLDS(slots[0] == 77 && slots[1] == 77);
+  HOLDS(lm_live_find(live, 1, nowhere, slots) == LM_OK && slots[0] != LM_NONE);
+  return NULL;
+}
+
+static const char* texts_stay(lm_handle live) {
+  const double holes[] = {.05, .05, .05, .1, .05, .125, .05, .2, .05, .25};
+  const char *texts[5], *text;
+  char copies[5][200];
+  lm_handle change;
+  size_t n, i;
+  HOLDS(lm_live_add_holes(live, 5, holes, NULL, NULL) == LM_OK);
+  HOLDS(lm_live_update(live, NULL, NULL) == LM_OK);
+  HOLDS(lm_text_count(live, &n) == LM_OK && n == 5);
+  for (i = 0; i < 5; ++i) {
+    HOLDS(lm_text_get(live, i, &texts[i]) == LM_OK);
+    snprintf(copies[i], sizeof copies[i], "%s", texts[i]);
+  }
+  for (i = 0; i < 5; ++i) {
+    HOLDS(lm_text_get(live, i, &text) == LM_OK && text == texts[i]);
+    HOLDS(strcmp(texts[i], copies[i]) == 0);
+  }
+  HOLDS(lm_live_keep_undo(live, 1) == LM_OK);
+  HOLDS(lm_live_remove_holes(live, 3, (const int64_t[]){0, 1, 2}) == LM_OK);
+  HOLDS(lm_live_update(live, NULL, NULL) == LM_OK);
+  HOLDS(lm_text_count(live, &n) == LM_OK && n == 2);
+  HOLDS(lm_live_undo(live, NULL, &change) == LM_OK && lm_free(change) == LM_OK);
+  HOLDS(lm_text_count(live, &n) == LM_OK && n == 5);
+  return NULL;
+}
+
+static const char* undo_undoes_whole_updates(void) {
+  const double at[] = {.25, .25, .75, .75};
+  const int64_t ids[] = {0, 1};
+  uint8_t exist[] = {7, 7};
+  lm_handle live;
+  lm_options box = {.size = sizeof box, .domain_hi = {1, 1}};
+  HOLDS(lm_live_new(2, &box, &live) == LM_OK);
+  HOLDS(lm_live_add_points(live, 1, at, NULL, NULL, NULL) == LM_OK);
+  HOLDS(lm_live_keep_undo(live, 4) == LM_OK);
+  HOLDS(lm_live_add_points(live, 1, at + 2, NULL, NULL, NULL) == LM_OK);
+  HOLDS(lm_live_update(live, NULL, NULL) == LM_OK);
+  HOLDS(lm_live_contains(live, LM_POINT, 2, ids, exist) == LM_OK && exist[0] && exist[1]);
+  HOLDS(lm_live_undo(live, NULL, NULL) == LM_OK);
+  HOLDS(lm_live_contains(live, LM_POINT, 2, ids, exist) == LM_OK && !exist[0] && !exist[1]);
+  HOLDS(lm_live_undo(live, NULL, NULL) == LM_NOTHING_TO_UNDO);
+  HOLDS(lm_free(live) == LM_OK);
+  return NULL;
+}
+
+struct caller {
+  lm_handle graph, live;
+  lm_status reads, changes, uses;
+};
+static int look_at_caller(const lm_progress* progress, void* user) {
+  static const double at[] = {.5, .25};
+  struct caller* in = user;
+  lm_array array = {.size = sizeof array};
+  (void)progress;
+  in->reads = lm_graph_array(in->graph, LM_GRAPH_POINTS, &array);
+  in->changes = lm_graph_add_points(in->graph, 1, at, NULL, NULL, NULL);
+  in->uses = lm_live_find(in->live, 0, NULL, NULL);
+  return 0;
+}
+static const char* callbacks_read_graphs_alone(lm_handle graph, lm_handle live) {
+  struct caller in = {graph, live, LM_INTERNAL, LM_INTERNAL, LM_INTERNAL};
+  lm_control control = {.size = sizeof control, .progress = look_at_caller, .user = &in};
+  lm_options fine = {.size = sizeof fine, .max_measure = 1e-4};
+  lm_handle mesh;
+  HOLDS(lm_mesh_make(graph, &fine, &control, &mesh) == LM_OK && lm_free(mesh) == LM_OK);
+  HOLDS(in.reads == LM_OK && in.changes == LM_BUSY && in.uses == LM_OK);
+  HOLDS(lm_live_limit(live, 1e-4, 0, NULL) == LM_OK);
+  HOLDS(lm_live_update(live, &control, NULL) == LM_OK && in.uses == LM_BUSY);
+  return NULL;
+}
+
+static const char* broken_rule(void) {
+  static const double corners[] = {.25, .25, .75, .25, .5, .75, 0, 0};
+  static const int64_t around[] = {0, 1, 2, 0};
+  const char* broken;
+  lm_options box = {.size = sizeof box, .domain_hi = {1, 1}};
+  lm_handle graph, live;
+  HOLDS(lm_graph_new(2, &graph) == LM_OK);
+  HOLDS(lm_graph_add_points(graph, 4, corners, NULL, NULL, NULL) == LM_OK);
+  HOLDS(lm_graph_add_polyline(graph, 4, around, NULL, 0, NULL) == LM_OK);
+  HOLDS(lm_live_new(2, &box, &live) == LM_OK && lm_live_add_graph(live, graph) == LM_OK);
+  HOLDS(lm_live_update(live, NULL, NULL) == LM_OK);
+  broken = results_are_written_on_success_alone(live);
+  if (broken == NULL) broken = texts_stay(live);
+  if (broken == NULL) broken = undo_undoes_whole_updates();
+  if (broken == NULL) broken = callbacks_read_graphs_alone(graph, live);
+  HOLDS(lm_free(graph) == LM_OK && lm_free(live) == LM_OK);
+  return broken;
+}
+
 int main(int argc, char** argv) {
+  const char* broken = broken_rule();
   long internal = 0, ok = 0, calls_left, i;
   static long by_status[200];
   const uint64_t seed = argc > 1 ? strtoull(argv[1], NULL, 10) : 1;
   const char* scratch = getenv("TMPDIR");
+  if (broken != NULL) {
+    fprintf(stderr, "does not hold: %s\n", broken);
+    return 1;
+  }
   state = seed;
   folder = scratch != NULL ? scratch : "/tmp/livemesh-nowhere";
   calls_left = argc > 2 ? atol(argv[2]) : 20000;

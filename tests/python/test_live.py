@@ -111,6 +111,44 @@ class Live(unittest.TestCase):
         np.testing.assert_array_equal(d.find(points), slot_of)
         self.assertEqual(d.find([(.123, .456)])[0], lm.NO_CELL)
 
+    def test_transfer_writes_to_no_memory_but_that_of_the_field(self):
+        d, p, _ = room()
+        d.update()
+        n = len(d.points)
+        state = np.arange(2. * n)
+        u, v = state[:n], state[n:]
+        d.add_points([(.5 + .1 * i, 3) for i in range(9)])
+        change = d.update()
+        self.assertGreater(change.point_slots, n)
+        before = v.copy()
+        after = change.transfer(u)
+        np.testing.assert_array_equal(v, before)
+        self.assertFalse(np.shares_memory(after, state))
+        np.testing.assert_array_equal(after[:n], np.arange(n))
+        frozen = after.copy()
+        frozen.flags.writeable = False
+        for fixed in (d.points, frozen, d.points[:n]):
+            before = fixed.copy()
+            x = change.transfer(fixed)
+            self.assertFalse(np.shares_memory(x, fixed))
+            x[:] = -1
+            np.testing.assert_array_equal(fixed, before)
+            self.assertFalse(fixed.flags.writeable)
+
+    def test_transfer_grows_in_its_own_room(self):
+        d, p, _ = room()
+        u = d.update().transfer(np.zeros(0))
+        grown = 0
+        for i in range(8):
+            d.add_points([(.5 + .1 * i, 3)])
+            w = d.update().transfer(u)
+            self.assertIs(type(w), np.ndarray)
+            grown += len(w) > len(u) and np.shares_memory(w, u)
+            part = w[:len(w) // 2]
+            self.assertFalse(np.shares_memory(lm._live._with_rows(part, len(w)), w))
+            u = w
+        self.assertGreater(grown, 0)
+
     def test_transfer_keeps_values_and_interpolates(self):
         rng = np.random.default_rng(4)
         d, p, _ = room(max_area=.05)

@@ -3,10 +3,12 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import textwrap
 import threading
 import time
 import unittest
+import warnings
 
 import numpy as np
 
@@ -58,6 +60,58 @@ class Arguments(unittest.TestCase):
             with self.subTest(i), self.assertRaises((ValueError, TypeError, OverflowError)):
                 mistake()
 
+    def test_numbers_that_would_wrap(self):
+        d = lm.LiveMesh(bounds=((0, 0), (1, 1)))
+        p = d.add_points(SQUARE)
+        d.update()
+        space = lm.LiveMesh(bounds=((0, 0, 0), (1, 1, 1)))
+        space.add_points([(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+        space.update()
+        kept = int(np.flatnonzero(d.cell_used)[0])
+        complex_points = np.array(SQUARE) + 0j
+        mistakes = [lambda: d.regions_of([2**32 + kept]), lambda: d.regions_of([kept - 2**32]),
+                    lambda: lm.mesh(SQUARE, max_vertices=-1),
+                    lambda: lm.mesh(SQUARE, max_vertices=2**64 + 5),
+                    lambda: lm.LiveMesh(bounds=((0, 0), (1, 1)), max_vertices=-1),
+                    lambda: lm.LiveMesh(bounds=((0, 0), (1, 1)), undo=-1),
+                    lambda: lm.LiveMesh(bounds=((0, 0), (1, 1)), undo="3"),
+                    lambda: lm.LiveMesh(bounds=np.array(((0, 0), (1, 1 + 1j)))),
+                    lambda: lm.mesh(complex_points), lambda: d.add_points(complex_points),
+                    lambda: d.find(list(complex_points)), lambda: lm.mesh([("0", "1")]),
+                    lambda: lm.mesh(SQUARE, size=lambda at: at[:, 0] + 1 + 0j),
+                    lambda: lm.mesh(SQUARE, point_markers=2**64 + 5),
+                    lambda: lm.Graph(SQUARE, polylines=RING, polyline_markers=2**63),
+                    lambda: lm.Sizes.function(lambda _: 1., "x", .1, 2),
+                    lambda: lm.Sizes.function(lambda _: 1., 1, .1, "2")]
+        for wrong in (2**63, 2**64 + 5, -2**63 - 1, "x", 1.5, np.uint64(2**63)):
+            mistakes += [lambda w=wrong: d.add_polyline([0, 1], id=w),
+                         lambda w=wrong: d.add_polyline([0, 1], marker=w),
+                         lambda w=wrong: d.add_segment(0, 1, marker=w),
+                         lambda w=wrong: d.add_segment(0, 1, id=w),
+                         lambda w=wrong: space.add_polygon([0, 1, 2], marker=w),
+                         lambda w=wrong: space.add_polygon([0, 1, 2], id=w)]
+        with tempfile.TemporaryDirectory() as folder:
+            name = os.path.join(folder, "nul.vtu")
+            m = lm.mesh(SQUARE)
+            m.write(name)
+            for path in (name + "\0.node", name.encode() + b"\0.vtu"):
+                mistakes += [lambda p=path: m.write(p), lambda p=path: lm.Mesh.read(p),
+                             lambda p=path: lm.Graph.read(p), lambda p=path: lm.mesh(os.fsdecode(p)),
+                             lambda p=path: lm.Graph(SQUARE).write(p),
+                             lambda p=path: lm.Sizes.read(p, 2)]
+            for wrong in ("2", 2.0, 2**32 + 2, -1):
+                mistakes += [lambda w=wrong: lm.Graph.read(name, dimension=w),
+                             lambda w=wrong: lm.Mesh.read(name, dimension=w),
+                             lambda w=wrong: lm.Sizes.read(name, w)]
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                for i, mistake in enumerate(mistakes):
+                    with self.subTest(i), self.assertRaises((ValueError, TypeError)) as caught:
+                        mistake()
+                    self.assertNotIsInstance(caught.exception, lm.Error, i)
+        self.assertFalse(d.pending or space.pending)
+        self.assertEqual(d.add_polyline(p[:2], id=np.int32(7), marker=np.uint8(3)), 7)
+
     def test_values(self):
         for mistake, code in (
                 (lambda: lm.mesh([(0, 0), (np.nan, 1)]), "not_finite"),
@@ -102,6 +156,55 @@ class Arguments(unittest.TestCase):
         self.assertEqual(c.free(value), 1)
 
 
+class Copies(unittest.TestCase):
+    def test_copies_share_what_is_never_changed(self):
+        run("""
+            import copy, dataclasses, pickle
+
+            @dataclasses.dataclass
+            class Case:
+                mesh: object
+
+            d = lm.LiveMesh(bounds=((0, 0), (1, 1)))
+            d.add_points([(.5, .5)])
+            square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+            made = (lm.mesh(square).name({"a": 1}), lm.Graph(square), d.update(),
+                    lm.Sizes.samples(square, [1, 1, 1, 1]),
+                    lm.Sizes.function(lambda _: 1., 1, .1, 2))
+            for m in made:
+                for of in (copy.copy, copy.deepcopy,
+                           lambda m: dataclasses.asdict(Case(m))["mesh"]):
+                    before = lm._c.c.objects()
+                    c = of(m)
+                    assert type(c) is type(m)
+                    assert lm._c.c.objects() == before
+                    del c
+                    assert lm._c.c.objects() == before
+                for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+                    try:
+                        pickle.dumps(m, protocol)
+                        sys.exit(2)
+                    except TypeError:
+                        pass
+            m = made[0]
+            p = m.points
+            c = copy.deepcopy(m)
+            c.name({"b": 2})
+            assert m.names["facets"] == {"a": 1}
+            del m, made
+            assert c.points.sum() == p.sum()
+            del c
+            assert p.sum() > 0
+            for of in (copy.copy, copy.deepcopy, pickle.dumps):
+                try:
+                    of(d)
+                    sys.exit(3)
+                except TypeError:
+                    pass
+            d.update()
+        """)
+
+
 class Callbacks(unittest.TestCase):
     def test_progress_stops(self):
         seen = []
@@ -120,6 +223,45 @@ class Callbacks(unittest.TestCase):
         with self.assertRaises(lm.Cancelled):
             lm.mesh(SQUARE, polylines=RING, max_area=1e-7, timeout=.2)
         self.assertLess(time.monotonic() - start, 5)
+
+    def test_timeout_counts_the_samples_of_a_size(self):
+        calls = []
+
+        def slow(at):
+            calls.append(len(at))
+            time.sleep(.1)
+            return .01 + np.abs(np.sin(20 * at[:, 0] * at[:, 1]))
+
+        start = time.monotonic()
+        with self.assertRaises(lm.Cancelled):
+            lm.mesh(SQUARE, polylines=RING, size=slow, timeout=.15)
+        self.assertLess(time.monotonic() - start, 5)
+        self.assertLessEqual(len(calls), 3)
+        calls.clear()
+        with self.assertRaises(lm.Cancelled):
+            lm.mesh(SQUARE, polylines=RING, size=slow, timeout=0)
+        with self.assertRaises(ValueError):
+            lm.mesh(SQUARE, polylines=RING, size=slow, timeout=-1)
+        self.assertEqual(calls, [])
+        with self.assertRaises(lm.Cancelled):  # what is left of it is for the run
+            lm.mesh(SQUARE, polylines=RING, max_area=1e-7, timeout=.5,
+                    size=lambda at: time.sleep(.1) or np.ones(len(at)))
+
+    def test_sizes_are_sampled_in_the_bounds(self):
+        seen = []
+
+        def size(at):
+            seen.append(at.copy())
+            return .05 + .2 * np.abs(at[:, 0])
+
+        m = lm.mesh(SQUARE, size=size, bounds=((-2, -3), (3, 4)), extent="box")
+        self.assertLessEqual(m.points[:, 0].min(), -2)
+        at = np.concatenate(seen)
+        self.assertLess(max(len(each) for each in seen), 20000)
+        np.testing.assert_array_equal(at.min(0), (-2, -3))
+        self.assertTrue((at.max(0) >= (3, 4)).all())
+        with self.assertRaises(lm.GeometryError):
+            lm.mesh(SQUARE, size=size, bounds=((0, 0), (np.nan, 1)))
 
     def test_exceptions_are_carried_over(self):
         class Mine(Exception):
@@ -262,6 +404,23 @@ class Processes(unittest.TestCase):
             assert time.monotonic() - start < 5
             assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
             lm.mesh(square)
+        """)
+        self.assertEqual(errors, "")
+
+    def test_ctrl_c_stops_the_sampling_of_a_size(self):
+        _, errors = run("""
+            calls = []
+            def size(at):
+                calls.append(1)
+                time.sleep(.3)
+                return .01 + np.abs(np.sin(20 * at[:, 0] * at[:, 1]))
+            threading.Timer(.4, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+            try:
+                lm.mesh([(0, 0), (1, 0), (1, 1), (0, 1)], polylines=[[0, 1, 2, 3, 0]], size=size)
+                sys.exit(2)
+            except KeyboardInterrupt:
+                pass
+            assert len(calls) <= 3, len(calls)
         """)
         self.assertEqual(errors, "")
 

@@ -33,7 +33,8 @@
  *       magnitude 2^-100 to 2^100. NaN and infinity are LM_NOT_FINITE.
  *   (6) Different objects may be used in different threads. Several threads may read one object at
  *       a time. A call that would change an object in use, or use one that is changing, is LM_BUSY
- *       at once; so is a call of a callback for the object that is calling it.
+ *       at once. So it is in a callback: it may read the graph that is being meshed, but not change
+ *       it, and it cannot use the live mesh that is being updated.
  *   (7) What a function returns by pointer stays valid until its object is changed or freed;
  *       meshes, changes and findings never change.
  *
@@ -203,7 +204,7 @@ typedef struct lm_progress {
   uint64_t of;   /* steps known to be needed, which may grow; 0: not known */
 } lm_progress;
 
-/* Returns 0 to go on, anything else to stop. It must not use the object that calls it. */
+/* Returns 0 to go on, anything else to stop. See rule (6) for the object that calls it. */
 typedef int (*lm_progress_callback)(const lm_progress* progress, void* user);
 
 typedef struct lm_control {
@@ -542,7 +543,8 @@ LM_API lm_status lm_live_array(lm_handle live, int32_t field, lm_array* array);
 /* The attributes of the regions of n cells in use, by slot; 0: none. attributes: n. */
 LM_API lm_status lm_live_regions(lm_handle live, size_t n, const uint32_t* cells,
                                  double* attributes);
-/* The slots of the points at n positions, LM_NONE where there is none. at: n x d; slots: n. */
+/* The slots of the points at n positions, LM_NONE where there is none. at: n x d, finite; slots:
+ * n. */
 LM_API lm_status lm_live_find(lm_handle live, size_t n, const double* at, uint32_t* slots);
 /* Whether n features exist, announced edits included. kind: lm_feature_kind; exist: n. */
 LM_API lm_status lm_live_contains(lm_handle live, int32_t kind, size_t n, const int64_t* ids,

@@ -66,6 +66,7 @@ DomainUpdate<D> LiveIn<D>::run(const mesher::RunControl& control) {
   DomainUpdate<D> update = mesher.update(control);
   pending = false;
   ++updates_;
+  notes_.reset();
   follow(update);
   return update;
 }
@@ -187,6 +188,16 @@ lm_array LiveIn<D>::array(std::int32_t field) {
 }
 
 template <int D>
+const std::vector<std::string>& LiveIn<D>::notes() {
+  if (!notes_) {
+    std::vector<std::string> all;
+    for (const auto& fault : mesher.faults()) all.push_back(describe(fault));
+    notes_ = std::move(all);
+  }
+  return *notes_;
+}
+
+template <int D>
 lm_live_info LiveIn<D>::info() const {
   const mesher::LiveMesh<D> live = mesher.live();
   lm_live_info all{};
@@ -210,13 +221,7 @@ template class LiveIn<3>;
 
 const std::vector<std::string>* LiveObject::texts() {
   const std::lock_guard lock(making_);
-  notes_.clear();
-  std::visit(
-      [&](const auto& in) {
-        for (const auto& fault : in->mesher.faults()) notes_.push_back(describe(fault));
-      },
-      live);
-  return &notes_;
+  return std::visit([](const auto& in) { return &in->notes(); }, live);
 }
 
 namespace {
@@ -592,7 +597,9 @@ lm_status lm_live_regions(lm_handle live, size_t n, const uint32_t* cells, doubl
     require_array(attributes, n, "attributes");
     look(live, [&](const auto& in) {
       const auto view = in.mesher.live();
-      for (std::size_t i = 0; i < n; ++i) attributes[i] = region_at(in.mesher, view, cells[i]);
+      std::vector<double> found(n);  // all, before any is written
+      for (std::size_t i = 0; i < n; ++i) found[i] = region_at(in.mesher, view, cells[i]);
+      std::copy(found.begin(), found.end(), attributes);
     });
   });
 }
@@ -603,6 +610,9 @@ lm_status lm_live_find(lm_handle live, size_t n, const double* at, uint32_t* slo
     require_array(slots, n, "slots");
     look(live, [&]<int D>(const LiveIn<D>& in) {
       const auto view = in.mesher.live();
+      for (std::size_t i = 0; i < n * D; ++i) {
+        if (!std::isfinite(at[i])) throw Error(ErrorCode::not_finite, "a position is not finite");
+      }
       for (std::size_t i = 0; i < n; ++i) slots[i] = view.find(point_at<D>(at, i));
     });
   });

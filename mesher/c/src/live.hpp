@@ -59,6 +59,9 @@ class LiveIn {
   /// Throws: Failure(LM_BAD_ARGUMENT).
   [[nodiscard]] lm_array array(std::int32_t field);
   [[nodiscard]] lm_live_info info() const;
+  /// Faults of seeds: made at the first request after an update, and valid until the next one.
+  /// One thread at a time may ask.
+  [[nodiscard]] const std::vector<std::string>& notes();
 
   mesher::Mesher<D> mesher;
   Undo<D> undo_;
@@ -72,20 +75,20 @@ class LiveIn {
   std::uint64_t updates_ = 0;
   SlotsInUse points_, cells_, kept_, facets_;
   std::vector<std::uint8_t> polygons_;  // the kind of each facet in space
+  std::optional<std::vector<std::string>> notes_;
 };
 
 struct LiveObject final : Object {
   template <int D>
   explicit LiveObject(const mesher::Options<D>& options)
       : live(std::make_unique<LiveIn<D>>(options)) {}
-  /// Faults of seeds.
+  /// Faults of seeds. Several readers may ask at a time.
   [[nodiscard]] const std::vector<std::string>* texts() override;
 
   std::variant<std::unique_ptr<LiveIn<2>>, std::unique_ptr<LiveIn<3>>> live;
 
  private:
   std::mutex making_;
-  std::vector<std::string> notes_;
 };
 
 template <int D>

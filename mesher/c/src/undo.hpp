@@ -19,23 +19,20 @@ class Undo {
   void keep(std::size_t depth) {
     depth_ = depth;
     while (before_.size() > depth_) before_.pop_front();
-    if (depth_ == 0) forget_edits();
   }
   [[nodiscard]] std::size_t size() const noexcept { return before_.size(); }
 
-  /// An edit of this feature is announced.
-  void touch(const mesher::Feature& feature) {
-    if (depth_ > 0) touched_.push_back(feature);
-  }
+  /// An edit of this feature is announced. (Noted at any depth: keep() may come before the update.)
+  void touch(const mesher::Feature& feature) { touched_.push_back(feature); }
   void forget_edits() noexcept { touched_.clear(); }
 
   /// Before an update: what the edited features are. Throws: std::bad_alloc.
   void prepare(const mesher::Mesher<D>& mesher) {
+    prepared_.clear();
+    if (depth_ == 0 || touched_.empty()) return;
     std::vector<mesher::Feature> all = touched_;
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
-    prepared_.clear();
-    if (all.empty()) return;
     prepared_.emplace_back();
     for (const mesher::Feature& f : all) add(mesher, f, prepared_.back());
   }

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import atexit
 import ctypes
+import operator
 import os
 import pathlib
 import signal as _signals
@@ -17,7 +18,7 @@ from collections.abc import Callable
 from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t
 from ctypes import c_uint32, c_uint64, c_void_p
 from types import FrameType
-from typing import Any, Optional, Tuple
+from typing import Any, NoReturn, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -179,12 +180,22 @@ _free = c.free
 
 
 class Handle:
-    """An object of the library; freed with the last reference to it."""
+    """An object of the library; freed with the last reference to it. Copies of what has it share
+    it, for it is not changed through them; nothing is pickled."""
 
     __slots__ = ("value", "__weakref__")
 
     def __init__(self, value: int) -> None:
         self.value = value
+
+    def __copy__(self) -> "Handle":
+        return self
+
+    def __deepcopy__(self, _: Any) -> "Handle":
+        return self
+
+    def __reduce_ex__(self, _: Any) -> NoReturn:
+        raise TypeError("objects of livemesh cannot be pickled; write them to a file")
 
     def __del__(self) -> None:
         _free(self.value)
@@ -225,12 +236,20 @@ def array(function: Callable[..., int], handle: Handle, field: int) -> NDArray[A
                                "data": (a.data, True), "strides": strides}, handle))
 
 
-def floats(values: Any, columns: Optional[int], what: str) -> NDArray[np.float64]:
-    """C-contiguous float64, n or n x columns. Raises: TypeError, ValueError."""
+def numbers(values: Any, what: str) -> NDArray[np.float64]:
+    """C-contiguous float64 of any shape. Raises: TypeError."""
     try:
-        a = np.ascontiguousarray(values, dtype=np.float64)
+        a = np.asarray(values)
+        if a.dtype.kind in "biufO":
+            return np.ascontiguousarray(a, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise TypeError(f"{what} must be an array of numbers: {error}") from None
+    raise TypeError(f"{what} must be an array of real numbers, not of {a.dtype}")
+
+
+def floats(values: Any, columns: Optional[int], what: str) -> NDArray[np.float64]:
+    """C-contiguous float64, n or n x columns. Raises: TypeError, ValueError."""
+    a = numbers(values, what)
     if columns is not None and a.size == 0:
         a = a.reshape(0, columns)
     if columns is not None and a.ndim == 1 and a.size == columns:
@@ -259,11 +278,35 @@ def integers(values: Any, columns: Optional[int], what: str) -> NDArray[np.int64
     return a
 
 
+def integer(value: Any, what: str, least: int = -2**63, most: int = 2**63 - 1) -> int:
+    """A number that a parameter of the library can be: ctypes would take it modulo 2^64. Raises:
+    TypeError, ValueError."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{what} must be an integer, not {type(value).__name__}") from None
+    if not least <= number <= most:
+        raise ValueError(f"{what} is {number}, not one of {least} to {most}")
+    return number
+
+
+def dimension_of(value: Any) -> int:
+    return integer(value, "dimension", 0, 3)
+
+
+def path_of(path: Union[str, "os.PathLike[str]"]) -> bytes:
+    """The name of a file. Raises: TypeError, ValueError."""
+    name = os.fsencode(path)
+    if b"\0" in name:  # where it would end to the library
+        raise ValueError("the name of a file has a null character")
+    return name
+
+
 def one_each(values: Any, n: int, what: str) -> Optional[NDArray[Any]]:
     """n integers, from one for all or one for each; None stays None."""
     if values is None:
         return None
-    a = np.full(n, values) if isinstance(values, int) else np.asarray(values)
+    a = np.full(n, integer(values, what)) if isinstance(values, int) else np.asarray(values)
     if a.ndim == 0:
         a = np.full(n, a)
     a = integers(a, None, what)
@@ -398,13 +441,18 @@ _WATCHED = Control(ctypes.sizeof(Control), _watch, None, _INTERVAL, 0.0, _end.va
 _WATCHED_ADDRESS = ctypes.addressof(_WATCHED)
 
 
+def seconds_of(timeout: float) -> float:
+    """Raises: TypeError, ValueError."""
+    if not timeout >= 0:
+        raise ValueError("timeout must be 0 or above")
+    return float(timeout)
+
+
 def control(run: Run, timeout: Optional[float]) -> tuple[int, Any]:
     """The address of a control for this run, and what to keep meanwhile."""
     if timeout is None and run.progress is None:
         return _WATCHED_ADDRESS, _WATCHED
-    if timeout is not None and not timeout >= 0:
-        raise ValueError("timeout must be 0 or above")
-    seconds = 0.0 if timeout is None else max(float(timeout), 1e-9)  # 0 is none to the library
+    seconds = 0.0 if timeout is None else max(seconds_of(timeout), 1e-9)  # 0: none to the library
     made = Control(ctypes.sizeof(Control), _watch, None, 0.0 if run.progress else _INTERVAL,
                    seconds, _end.value)
     return ctypes.addressof(made), made

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _c
-from ._c import address, c, check, floats, integers, one_each
+from ._c import address, c, check, dimension_of, floats, integers, numbers, one_each, path_of
 
 _SURFACES = (".off", ".stl", ".ply", ".obj")
 
@@ -37,7 +37,7 @@ class Graph:
                  polylines: Optional[Sequence[Any]] = None, polyline_markers: Any = None,
                  polygons: Any = None, polygon_markers: Any = None, holes: Any = None,
                  regions: Any = None, point_markers: Any = None) -> None:
-        at = np.asarray(points, dtype=np.float64)
+        at = numbers(points, "points")
         if at.ndim != 2 or at.shape[1] not in (2, 3):
             raise ValueError(f"points has the shape {at.shape}, not n x 2 or n x 3")
         self.dimension = int(at.shape[1])
@@ -76,8 +76,8 @@ class Graph:
             return
         marks = one_each(markers, len(polylines), "polyline_markers")
         for i, line in enumerate(polylines):
-            numbers = integers(line, None, f"polylines[{i}]")
-            self._call(c.graph_add_polyline, len(numbers), address(numbers), None,
+            corners = integers(line, None, f"polylines[{i}]")
+            self._call(c.graph_add_polyline, len(corners), address(corners), None,
                        0 if marks is None else int(marks[i]), None)
 
     def _add_polygons(self, polygons: Any, markers: Any) -> None:
@@ -103,11 +103,11 @@ class Graph:
         """The graph in a file: .poly, .node, .geojson, .obj, .vtu, .xyz, .csv, in space also
         .smesh, .off, .ply, .stl, .vtk. dimension: 2, 3, or 0: that of the file. points_alone:
         whether only the vertices of a surface are read. Ids are those of the file."""
-        return cls._of(_c.new(c.graph_read, os.fsencode(path), dimension, int(points_alone)))
+        return cls._of(_c.new(c.graph_read, path_of(path), dimension_of(dimension), int(points_alone)))
 
     def write(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes .poly, in the plane also .obj, in space .smesh: whole, or not at all."""
-        self._call(c.graph_write, os.fsencode(path))
+        self._call(c.graph_write, path_of(path))
 
     def repaired(self) -> "Graph":
         """A graph whose lines and polygons meet only at common points, from one where they cross,

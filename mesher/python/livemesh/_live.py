@@ -3,18 +3,19 @@ from __future__ import annotations
 
 import ctypes
 import math
+import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from ctypes import byref, c_int64, c_uint64
 from types import TracebackType
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Type
+from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, NoReturn, Optional, Tuple, Type
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _c
-from ._c import Handle, address, c, check, floats, integers, one_each
+from ._c import Handle, address, c, check, floats, integer, integers, numbers, one_each
 from ._errors import Busy
 from ._graph import Graph, graph_of, polygon_struct, split_regions
 from ._mesh import Mesh, options_of
@@ -138,8 +139,8 @@ class Change:
         """Carries a field by point slots, n or n x k (float64 or complex128), through the change:
         points that stay keep their values, new ones get values interpolated in the mesh before.
 
-        Costs what changed: `u` is changed in place and returned if it has room, else a larger array
-        is returned, with room for more, so write `u = c.transfer(u)`.
+        Costs what changed: `u` is changed in place and returned if it is writeable and has room,
+        else a larger array is returned, with room for more, so write `u = c.transfer(u)`.
         """
         before = np.ascontiguousarray(u)
         kind = np.complex128 if before.dtype.kind == "c" else np.float64
@@ -160,19 +161,34 @@ class Change:
                 f"added, {len(self.points_removed)} and {len(self.cells_removed)} removed>")
 
 
+if TYPE_CHECKING:
+    _Array = NDArray[Any]
+else:
+    _Array = np.ndarray
+
+
+class _Room(_Array):
+    """The memory behind a result of _with_rows: nothing else is in it."""
+
+
+def _beginning(room: _Room, rows: int) -> NDArray[Any]:
+    return np.ndarray((rows,) + room.shape[1:], room.dtype, buffer=room)  # its base: `room`
+
+
 def _with_rows(u: NDArray[Any], rows: int) -> NDArray[Any]:
-    """`u` with at least so many rows: itself, more of the memory that it is the beginning of, or a
-    copy with some room behind it."""
-    if len(u) >= rows and u.flags.writeable:
-        return u
-    base = u.base
-    if (isinstance(base, np.ndarray) and base.dtype == u.dtype and base.shape[1:] == u.shape[1:]
-            and base.ctypes.data == u.ctypes.data and len(base) >= rows and base.flags.writeable
-            and base.flags.c_contiguous):
-        return base[:rows]
-    grown = np.empty((max(rows, len(u)) * 5 // 4 + 16,) + u.shape[1:], u.dtype)
-    grown[:len(u)] = u
-    return grown[:max(rows, len(u))]
+    """`u` with at least so many rows: itself, more of the room that was left behind it, or a copy
+    with some room behind it. A part of a larger array has no room, nor has what is read-only."""
+    if u.flags.writeable:
+        if len(u) >= rows:
+            return u
+        room = u.base
+        if (isinstance(room, _Room) and room.dtype == u.dtype and room.shape[1:] == u.shape[1:]
+                and address(room) == address(u) and len(room) >= rows):
+            return _beginning(room, rows)
+    wanted = max(rows, len(u))
+    room = _Room((wanted * 5 // 4 + 16,) + u.shape[1:], u.dtype)
+    room[:len(u)] = u
+    return _beginning(room, wanted)
 
 
 class _Followed:
@@ -241,7 +257,7 @@ class LiveMesh:
                  max_area: Optional[float] = None, max_volume: Optional[float] = None,
                  size: Any = None, region_limits: bool = True, extent: str = "enclosed",
                  max_vertices: int = 0, undo: int = 32) -> None:
-        box = np.asarray(bounds, dtype=np.float64)
+        box = numbers(bounds, "bounds")
         if box.ndim != 2 or box.shape not in ((2, 2), (2, 3)):
             raise ValueError(f"bounds has the shape {box.shape}, not 2 x 2 or 2 x 3")
         self.dimension = int(box.shape[1])
@@ -252,10 +268,13 @@ class LiveMesh:
         self._sizes: List[Optional[Sizes]] = [sizes]  # callbacks live as long as they may be called
         self._handle = _c.new(c.live_new, self.dimension, byref(options))
         self._value = self._handle.value
-        check(c.live_keep_undo(self._value, undo))
+        check(c.live_keep_undo(self._value, integer(undo, "undo", 0, sys.maxsize)))
         self._lock = threading.Lock()
         self._arrays: Dict[str, _Followed] = {}
         self._unseen: List[Change] = []
+
+    def __reduce_ex__(self, _: Any) -> NoReturn:
+        raise TypeError("a LiveMesh cannot be copied or pickled; graph() and mesh() are copies")
 
     @contextmanager
     def _alone(self) -> Iterator[None]:
@@ -332,10 +351,10 @@ class LiveMesh:
     def add_polyline(self, points: Any, marker: int = 0, id: Optional[int] = None) -> int:
         """Announces a line through points, by ids; closed if the last is the first. Returns its id;
         lines and segments are numbered together."""
-        numbers = integers(points, None, "points")
-        added, wanted = c_int64(), c_int64(0 if id is None else id)
-        self._call(c.live_add_polyline, len(numbers), address(numbers),
-                   None if id is None else byref(wanted), marker, byref(added))
+        corners = integers(points, None, "points")
+        added, wanted = c_int64(), c_int64(0 if id is None else integer(id, "id"))
+        self._call(c.live_add_polyline, len(corners), address(corners),
+                   None if id is None else byref(wanted), integer(marker, "marker"), byref(added))
         return added.value
 
     def remove_lines(self, ids: Any) -> None:
@@ -345,8 +364,8 @@ class LiveMesh:
     def add_polygon(self, loops: Any, marker: int = 0, id: Optional[int] = None) -> int:
         """Announces a flat polygon in space: ids of points around it, or a sequence of such loops,
         the outer one first. Returns its id."""
-        keep, struct = polygon_struct(loops, marker)
-        added, wanted = c_int64(), c_int64(0 if id is None else id)
+        keep, struct = polygon_struct(loops, integer(marker, "marker"))
+        added, wanted = c_int64(), c_int64(0 if id is None else integer(id, "id"))
         self._call(c.live_add_polygon, byref(struct), None if id is None else byref(wanted),
                    byref(added))
         del keep
@@ -549,7 +568,10 @@ class LiveMesh:
 
     def regions_of(self, cells: Any) -> NDArray[np.float64]:
         """k float64: the attributes of the regions of cells, by slot; 0: none."""
-        slots = np.ascontiguousarray(integers(cells, None, "cells"), dtype=np.uint32)
+        wide = integers(cells, None, "cells")
+        if len(wide) and not 0 <= wide.min() <= wide.max() <= _c.NONE:
+            raise ValueError("cells has what is not a slot")
+        slots = np.ascontiguousarray(wide, dtype=np.uint32)
         found = np.empty(len(slots))
         self._call(c.live_regions, len(slots), address(slots), address(found))
         return found

@@ -4,6 +4,7 @@ from __future__ import annotations
 import ctypes
 import math
 import os
+import time
 from collections.abc import Callable, Mapping, Sequence
 from ctypes import byref, c_size_t, c_uint64
 from typing import Any, NamedTuple, Optional, Union
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _c
-from ._c import Handle, address, c, check
+from ._c import Handle, c, check, dimension_of, integer, path_of
 from ._graph import Graph, graph_of
 from ._sizes import Sizes, sizes_of
 
@@ -50,12 +51,12 @@ class Mesh:
     @classmethod
     def read(cls, path: Union[str, "os.PathLike[str]"], dimension: int = 0) -> "Mesh":
         """The mesh in a file: .node or .ele, .vtu, .vtk, .msh, .mesh, .off, .obj."""
-        return cls(_c.new(c.mesh_read, os.fsencode(path), dimension))
+        return cls(_c.new(c.mesh_read, path_of(path), dimension_of(dimension)))
 
     def write(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes .node (with .ele and others beside it), .vtu, .vtk, .msh (version 4.1), .mesh,
         .off, .obj, .svg, in space also .stl: whole, or not at all."""
-        check(c.mesh_write(self._handle.value, os.fsencode(path)), self.dimension)
+        check(c.mesh_write(self._handle.value, path_of(path)), self.dimension)
 
     def _array(self, field: int) -> NDArray[Any]:
         return _c.array(c.mesh_array, self._handle, field)
@@ -257,9 +258,10 @@ def _index(value: str, names: Sequence[str], what: str) -> int:
 
 def options_of(dimension: int, lo: NDArray[Any], hi: NDArray[Any], bounds: Any, min_angle: Any,
                rho: Any, min_dihedral: Any, max_area: Any, max_volume: Any, size: Any,
-               region_limits: bool, max_vertices: int, extent: str,
-               algorithm: str) -> tuple[_c.Options, Optional[Sizes]]:
-    """Options for the C interface, and the sizes that they refer to."""
+               region_limits: bool, max_vertices: int, extent: str, algorithm: str,
+               deadline: float = math.inf) -> tuple[_c.Options, Optional[Sizes]]:
+    """Options for the C interface, and the sizes that they refer to. lo, hi: the box for which a
+    function is sampled, if there are no bounds. Raises: Cancelled at the deadline."""
     if dimension == 2 and (max_volume is not None or min_dihedral is not None):
         raise TypeError("max_volume and min_dihedral are for space; in the plane there is max_area")
     if dimension == 3 and max_area is not None:
@@ -271,16 +273,18 @@ def options_of(dimension: int, lo: NDArray[Any], hi: NDArray[Any], bounds: Any, 
             raise ValueError(f"bounds has the shape {box.shape}, not 2 x {dimension}")
         options.domain_lo[:dimension] = list(box[0])
         options.domain_hi[:dimension] = list(box[1])
+        if np.all(np.isfinite(box)) and np.all(box[0] < box[1]):  # else it is an error of the run
+            lo, hi = box
     options.min_angle = _at(min_angle, 0, "min_angle")
     options.rho = _at(rho, 0, "rho")
     options.min_dihedral = _at(min_dihedral, 0, "min_dihedral")
-    limit, sizes = sizes_of(size, lo, hi)
+    limit, sizes = sizes_of(size, lo, hi, deadline)
     if sizes is not None and sizes.dimension != dimension:
         raise ValueError(f"size is for {sizes.dimension} dimensions, not {dimension}")
     given = _at(max_area if dimension == 2 else max_volume, 0, "max_area or max_volume")
     options.max_measure = min(limit, given) if limit and given else limit or given
     options.sizes = 0 if sizes is None else sizes._handle.value
-    options.max_vertices = max_vertices
+    options.max_vertices = integer(max_vertices, "max_vertices", 0)
     options.region_limits = int(region_limits)
     options.extent = _index(extent, _EXTENTS, "extent")
     options.algorithm = _index(algorithm, _ALGORITHMS, "algorithm")
@@ -333,11 +337,15 @@ def mesh(source: Any, *, segments: Any = None, segment_markers: Any = None,
         at = graph.points
         if len(at):
             lo, hi = at.min(0), at.max(0)
+    deadline = math.inf if timeout is None else time.monotonic() + _c.seconds_of(timeout)
+    # Before the run: an exception, by Ctrl-C too, may leave a function of the program at any time.
+    options, sizes = options_of(graph.dimension, lo, hi, bounds, min_angle, rho, min_dihedral,
+                                max_area, max_volume, size, region_limits, max_vertices, extent,
+                                algorithm, deadline)
+    options.no_flat = int(no_flat)
+    if timeout is not None:
+        timeout = max(deadline - time.monotonic(), 0.)
     with _c.Run(progress) as run:
-        options, sizes = options_of(graph.dimension, lo, hi, bounds, min_angle, rho, min_dihedral,
-                                    max_area, max_volume, size, region_limits, max_vertices, extent,
-                                    algorithm)
-        options.no_flat = int(no_flat)
         at_control, keep = _c.control(run, timeout)
         value = c_uint64()
         status = c.mesh_make(graph._handle.value, byref(options), at_control, byref(value))

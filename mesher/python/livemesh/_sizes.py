@@ -1,7 +1,9 @@
 """Sizes that vary with position."""
 from __future__ import annotations
 
+import math
 import os
+import time
 from collections.abc import Callable
 from typing import Any, Optional, Tuple, Union
 
@@ -9,9 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _c
-from ._c import address, c, floats
+from ._c import address, c, dimension_of, floats, numbers, path_of
+from ._errors import Cancelled
 
 _MOST_SAMPLES = 200_000
+_MOST_AT_A_TIME = 1 << 14  # positions: the deadline is looked at between calls of a function
 
 
 class Sizes:
@@ -27,6 +31,12 @@ class Sizes:
         self._handle = handle
         self._keep = keep  # a callback, for as long as the library may call it
         self.dimension = dimension
+
+    def __copy__(self) -> "Sizes":
+        return self
+
+    def __deepcopy__(self, _: Any) -> "Sizes":
+        return self
 
     @classmethod
     def samples(cls, points: Any, sizes: Any) -> "Sizes":
@@ -44,8 +54,9 @@ class Sizes:
         """A function of a 1 x d array that is called at every position where the mesher wants to
         know: exact, and slow. It must always return the same, at least `least`, and change by at
         most `slope` per unit of length."""
+        dimension = dimension_of(dimension)
         callback = _c.size_callback(size, dimension)
-        handle = _c.new(c.sizes_function, dimension, callback, None, slope, least)
+        handle = _c.new(c.sizes_function, dimension, callback, None, float(slope), float(least))
         return cls(handle, dimension, callback)
 
     @classmethod
@@ -54,26 +65,37 @@ class Sizes:
         """Samples of a function of n x d arrays, dense where it is not linear: between them the
         size is off by about `tolerance` of itself at most. lo, hi: corners of the box of
         interest."""
-        at, h = _sample(size, np.asarray(lo, float), np.asarray(hi, float), tolerance)
-        return cls.samples(at, h)
+        return cls._sampled(size, floats(lo, None, "lo"), floats(hi, None, "hi"), tolerance)
+
+    @classmethod
+    def _sampled(cls, size: Callable[[NDArray[Any]], Any], lo: NDArray[Any], hi: NDArray[Any],
+                 tolerance: float = 0.05, deadline: float = math.inf) -> "Sizes":
+        return cls.samples(*_sample(size, lo, hi, tolerance, deadline))
 
     @classmethod
     def read(cls, path: Union[str, "os.PathLike[str]"], dimension: int) -> "Sizes":
         """Samples from a file: .node with one attribute, or .csv with x, y, (z,) h."""
-        return cls(_c.new(c.sizes_read, os.fsencode(path), dimension), dimension)
+        dimension = dimension_of(dimension)
+        return cls(_c.new(c.sizes_read, path_of(path), dimension), dimension)
 
 
-def _evaluate(size: Callable[[NDArray[Any]], Any], at: NDArray[Any]) -> NDArray[Any]:
-    h = np.broadcast_to(np.asarray(size(at), dtype=np.float64).reshape(-1), (len(at),))
+def _evaluate(size: Callable[[NDArray[Any]], Any], at: NDArray[Any],
+              deadline: float) -> NDArray[Any]:
+    h = np.empty(len(at))
+    for i in range(0, len(at), _MOST_AT_A_TIME):
+        if time.monotonic() >= deadline:
+            raise Cancelled("the timeout is over", "cancelled")
+        part = at[i:i + _MOST_AT_A_TIME]
+        h[i:i + len(part)] = numbers(size(part), "a size").reshape(-1)
     if not np.all((h > 0) & np.isfinite(h)):
         raise ValueError(f"the size at {at[np.argmin((h > 0) & np.isfinite(h))]} is not above 0")
     return h
 
 
 def _sample(size: Callable[[NDArray[Any]], Any], lo: NDArray[Any], hi: NDArray[Any],
-            tolerance: float) -> Tuple[NDArray[Any], NDArray[Any]]:
+            tolerance: float, deadline: float) -> Tuple[NDArray[Any], NDArray[Any]]:
     """Halves cells of a grid until the middle of each is near the mean of its corners, or it is
-    smaller than its size."""
+    smaller than its size. Raises: Cancelled at the deadline, by time.monotonic()."""
     dimension, finest = len(lo), 1 << 20
     side = float(np.max(hi - lo)) or 1.0
     step = finest // 8
@@ -87,25 +109,27 @@ def _sample(size: Callable[[NDArray[Any]], Any], lo: NDArray[Any], hi: NDArray[A
         nodes = np.unique(np.concatenate((nodes, around)), axis=0)
         if len(nodes) > _MOST_SAMPLES:
             break
-        of_cells = _evaluate(size, lo + around * (side / finest)).reshape(len(cells), -1)
-        middle = _evaluate(size, lo + (cells + step / 2) * (side / finest))
+        of_cells = _evaluate(size, lo + around * (side / finest), deadline).reshape(len(cells), -1)
+        middle = _evaluate(size, lo + (cells + step / 2) * (side / finest), deadline)
         bends = np.abs(middle - of_cells.mean(1)) > tolerance * middle
         bends |= np.ptp(of_cells, axis=1) > 8 * tolerance * of_cells.min(1)
         bends &= step * (side / finest) > of_cells.min(1) / 2
         step //= 2
         cells = (cells[bends][:, None, :] + corners * step).reshape(-1, dimension)
     at = lo + nodes * (side / finest)
-    return at, _evaluate(size, at)
+    return at, _evaluate(size, at, deadline)
 
 
-def sizes_of(size: Any, lo: NDArray[Any], hi: NDArray[Any]) -> Tuple[float, Optional[Sizes]]:
-    """What `size=` of mesh() means: the largest measure of a cell (0: no limit), and sizes."""
+def sizes_of(size: Any, lo: NDArray[Any], hi: NDArray[Any],
+             deadline: float = math.inf) -> Tuple[float, Optional[Sizes]]:
+    """What `size=` of mesh() means: the largest measure of a cell (0: no limit), and sizes. Raises:
+    Cancelled at the deadline, by time.monotonic()."""
     if size is None:
         return 0.0, None
     if isinstance(size, Sizes):
         return 0.0, size
     if callable(size):
-        return 0.0, Sizes.sampled(size, lo, hi)
+        return 0.0, Sizes._sampled(size, lo, hi, deadline=deadline)
     if isinstance(size, tuple) and len(size) == 2:
         return 0.0, Sizes.samples(*size)
     h = float(size)
