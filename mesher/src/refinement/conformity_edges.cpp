@@ -49,12 +49,16 @@ auto Conformity::split_piece(std::uint32_t piece) const -> Wanted {
 
 bool Conformity::wants_piece_of(std::uint32_t s, double least2) {
   const auto& corners = kernel_.simplices().corners(s);
+  const auto ends = [&](std::uint32_t piece) {
+    return std::minmax(place(pieces_[piece].a), place(pieces_[piece].b));
+  };
   std::uint32_t longest = kNone;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       const double length2 = squared_distance(place(corners[i]), place(corners[k]));
       const std::uint32_t piece = length2 < least2 ? kNone : pieces_.find(corners[i], corners[k]);
       if (piece == kNone) continue;
+      if (length2 == least2 && longest != kNone && ends(longest) < ends(piece)) continue;
       least2 = length2, longest = piece;
     }
   }

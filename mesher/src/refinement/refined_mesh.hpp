@@ -178,7 +178,7 @@ std::optional<std::uint32_t> RefinedMesh<D>::dig_sliver_if(IsSplit&& is_split, A
     if (!slivers_.any()) return std::nullopt;
     if (!slivers_.started()) slivers_.start(kernel_, kinds_);
     if (full_with() != 0) return std::nullopt;  // there is no room
-    for (std::uint32_t s; (s = slivers_.take()) != kNone;) {
+    for (std::uint32_t s; (s = slivers_.take(kernel_)) != kNone;) {
       watch(kBetweenWatches / kSliverTakes * ++taken_, kernel_.places());
       if (!is_split(s)) continue;
       const std::uint32_t v = add(kernel_.simplices().ball(s).centre);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "delaunay/facets.hpp"
+#include "geometry/circumcentre.hpp"
 #include "geometry/space_vectors.hpp"
 
 namespace mesher::detail {
@@ -78,11 +79,23 @@ void Slivers::start(Kernel& kernel, const std::vector<VertexKind>& kinds) {
       [&](std::uint32_t s, const Shape& shape) { look_at(kernel, kinds, s, shape); });
 }
 
-void Slivers::add(std::uint32_t s, double shortest2) {
+auto Slivers::entry_of(const Kernel& kernel, std::uint32_t s) -> Entry {
+  std::array<Point<3>, 4> corners;
+  for (std::size_t i = 0; i < 4; ++i) corners[i] = kernel.place(kernel.simplices().corners(s)[i]);
+  std::sort(corners.begin(), corners.end());
+  Entry entry{std::numeric_limits<double>::infinity(), corners[0], s};
+  for (std::size_t i = 1; i < 4; ++i) {
+    entry.sum = plus(entry.sum, corners[i]);
+    for (std::size_t k = 0; k < i; ++k) {
+      entry.shortest2 = std::min(entry.shortest2, squared_distance(corners[i], corners[k]));
+    }
+  }
+  return entry;
+}
+
+void Slivers::add(const Kernel& kernel, std::uint32_t s) {
   wait_[s] = Wait::queued;
-  queue_.insert(
-      std::clamp(shortest2, std::numeric_limits<double>::min(), std::numeric_limits<double>::max()),
-      s);
+  queue_.push(entry_of(kernel, s));
 }
 
 void Slivers::look_at(const Kernel& kernel, const std::vector<VertexKind>& kinds, std::uint32_t s,
@@ -94,7 +107,7 @@ void Slivers::look_at(const Kernel& kernel, const std::vector<VertexKind>& kinds
                   [&](std::uint32_t v) { return kinds[v] == VertexKind::boundary; })) {
     return;
   }
-  if (score_of(kernel, s) > worst_) add(s, shape.shortest2);
+  if (score_of(kernel, s) > worst_) add(kernel, s);
 }
 
 double Slivers::score_of(const Kernel& kernel, std::uint32_t s) {
@@ -119,19 +132,21 @@ void Slivers::before_fill(const Kernel& kernel, std::uint32_t v) {
   }
 }
 
-std::uint32_t Slivers::take() {
+std::uint32_t Slivers::take(const Kernel& kernel) {
   if (queue_.empty() && split_ != split_before_ && rounds_ < kRounds) {
     ++rounds_;
     split_before_ = split_;
     const std::vector<std::uint32_t> again = std::move(left_);
     left_.clear();
     for (const std::uint32_t s : again) {
-      if (wait_[s] == Wait::left) add(s, 1);
+      if (wait_[s] == Wait::left) add(kernel, s);
     }
   }
   while (!queue_.empty()) {
-    const std::uint32_t s = queue_.delete_min();
-    if (wait_[s] != Wait::queued) continue;
+    const Entry entry = queue_.top();
+    const std::uint32_t s = entry.simplex;
+    queue_.pop();
+    if (wait_[s] != Wait::queued || entry != entry_of(kernel, s)) continue;
     wait_[s] = Wait::none;
     return s;
   }
@@ -168,17 +183,24 @@ void Slivers::find_beside(Kernel& kernel, std::uint32_t s) {
 /// In which it gets a vertex: its own, of a poor one around the off-centre.
 auto Slivers::ball_to_split(const Kernel& kernel, std::uint32_t s) const -> Ball {
   const auto& corners = kernel.simplices().corners(s);
-  const Point<3>& centre = kernel.simplices().ball(s).centre;
-  const double radius2 = squared_distance(centre, kernel.place(corners[0]));
+  // Nearly in a plane doubles have no digits of its centre, other ones in each order of the
+  // corners.
+  std::array<std::size_t, 4> order{0, 1, 2, 3};
+  const auto at = [&](std::size_t i) -> const auto& { return kernel.place(corners[i]); };
+  std::sort(order.begin(), order.end(), [&](auto i, auto k) { return at(i) < at(k); });
+  const auto& [a, b, c] = kFacet<3>[order[0]];
+  const Point<3> q = circumcentre(at(order[0]), at(b), at(a), at(c)).q;
+  const Point<3> centre = plus(at(order[0]), q);
+  const double radius2 = squared(q);
   double shortest2 = std::numeric_limits<double>::infinity();
-  Point<3> end{}, middle{};
+  Point<3> end{}, middle{};  // of the shortest edge, of several the first by its places
   for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      const Point<3>&p = kernel.place(corners[i]), &q = kernel.place(corners[k]);
-      const double length2 = squared_distance(p, q);
+    for (std::size_t k = i + 1; k < 4; ++k) {
+      const Point<3>&p = at(order[i]), &r = at(order[k]);
+      const double length2 = squared_distance(p, r);
       if (length2 >= shortest2) continue;
       shortest2 = length2;
-      end = p, middle = scaled(0.5, plus(p, q));
+      end = p, middle = scaled(0.5, plus(p, r));
     }
   }
   const double away = std::sqrt(squared_distance(centre, middle));

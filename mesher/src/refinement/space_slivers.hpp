@@ -24,11 +24,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <queue>
 #include <vector>
 
 #include "delaunay/kernel.hpp"
 #include "geometry/grid.hpp"
-#include "refinement/bucketed_queue.hpp"
 
 namespace mesher::detail {
 
@@ -52,7 +52,7 @@ class Slivers {
   void before_fill(const Kernel& kernel, std::uint32_t v);
 
   /// The next sliver, or kNone: of short edges first.
-  [[nodiscard]] std::uint32_t take();
+  [[nodiscard]] std::uint32_t take(const Kernel& kernel);
   /// Digs v, which is no vertex yet, where it splits s best; false, and nothing dug: no place is
   /// better than none. `fits()`: whether v may be where it is dug.
   template <class Fits>
@@ -86,7 +86,20 @@ class Slivers {
   // (With any that is larger: of scans up to a third more vertices, for as many small angles.)
   static constexpr double kBetter2 = 4;
 
-  void add(std::uint32_t s, double shortest2);
+  // Numbers of simplices are accidental: slivers go by their places.
+  // An entry may be of a simplex that is gone.
+  struct Entry {
+    double shortest2;
+    Point<3> sum;  // of its corners
+    std::uint32_t simplex;
+    friend bool operator<(const Entry& a, const Entry& b) {  // the last goes first
+      return a.shortest2 != b.shortest2 ? a.shortest2 > b.shortest2 : b.sum < a.sum;
+    }
+    friend bool operator==(const Entry&, const Entry&) = default;
+  };
+
+  [[nodiscard]] static Entry entry_of(const Kernel& kernel, std::uint32_t s);
+  void add(const Kernel& kernel, std::uint32_t s);
   [[nodiscard]] Ball ball_to_split(const Kernel& kernel, std::uint32_t s) const;
   void find_places(Kernel& kernel, std::uint32_t s);
   void find_beside(Kernel& kernel, std::uint32_t s);
@@ -102,7 +115,7 @@ class Slivers {
   bool started_ = false;
   std::vector<Wait> wait_;      // by simplex
   std::vector<double> floor2_;  // by vertex
-  ComputedBuckets<std::uint32_t> queue_;
+  std::priority_queue<Entry> queue_;
   std::vector<std::uint32_t> left_;
   std::size_t split_ = 0, split_before_ = 0;  // now; when those left were tried again
   int rounds_ = 0;
