@@ -398,9 +398,11 @@ on_terminal() {
   timeout -s INT 3.5 script -qefc "$(printf '%q ' "$@")" /dev/null </dev/null
 }
 if command -v script >/dev/null; then
-  on_terminal "$tool" mesh large.node --rho 1.1 >said.txt 2>&1
+  # It takes more than the two seconds after which they are told.
+  expect 0 '' gen uniform --n 1000000 -o larger.node
+  on_terminal "$tool" mesh larger.node --algorithm gap-balls --rho 1.02 >said.txt 2>&1
   has said.txt '[1-3] of 3\): [0-9]'
-  on_terminal "$tool" mesh large.node --rho 1.1 --quiet >said.txt 2>&1
+  on_terminal "$tool" mesh larger.node --algorithm gap-balls --rho 1.02 --quiet >said.txt 2>&1
   if grep -q 'of 3)' said.txt; then fail "--quiet shows progress"; fi
   on_terminal "$tool" mesh uniform.node >said.txt 2>&1
   if grep -q 'of 3)' said.txt; then fail "a short run shows progress"; fi
