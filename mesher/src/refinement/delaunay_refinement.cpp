@@ -79,7 +79,7 @@ std::uint32_t DelaunayRefinement<D, Queue, Mesh>::add(const Point<D>& p, VertexK
 template <int D, template <class> class Queue, class Mesh>
 void DelaunayRefinement<D, Queue, Mesh>::look_at(std::uint32_t s, const Shape& shape) {
   if (this->is_poor(shape)) queue_.insert(key_of(shape), {s, age_[s]});
-  this->look_for_sliver(s, shape);
+  this->look_for_sliver(s);
 }
 
 /// Where doubles end, all are alike.

@@ -86,13 +86,13 @@ class RefinedMesh {
     return shape.radius2 > rho2_ * shape.shortest2;
   }
   /// Of a simplex that is new.
-  void look_for_sliver(std::uint32_t s, const Shape& shape) {
+  void look_for_sliver([[maybe_unused]] std::uint32_t s) {
     if constexpr (D == 3) {
-      if (slivers_.started()) slivers_.look_at(kernel_, kinds_, s, shape);
+      if (slivers_.started()) slivers_.look_at(kernel_, kinds_, s);
     }
   }
   /// Whether a poor simplex stays since slivers were split: see there.
-  [[nodiscard]] bool is_below_floor(std::uint32_t s) {
+  [[nodiscard]] bool is_below_floor([[maybe_unused]] std::uint32_t s) {
     if constexpr (D == 3) {
       return slivers_.started() &&
              slivers_.is_below_floor(kernel_, s, kernel_.measure(s).shortest2);

@@ -121,7 +121,7 @@ void Refinement<D, Mesh, Location>::add_first_point() {
 
 template <int D, class Mesh, class Location>
 void Refinement<D, Mesh, Location>::look_at(std::uint32_t s, const Shape& shape) {
-  this->look_for_sliver(s, shape);
+  this->look_for_sliver(s);
   if (!this->is_poor(shape)) return;
   const bool skinny = shape.radius2 > skinny2_ * shape.shortest2;
   queue_.add(s, skinny ? WorkQueue::Wait::skinny : WorkQueue::Wait::moderately_skinny);

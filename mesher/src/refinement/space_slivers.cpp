@@ -59,7 +59,7 @@ Slivers::Slivers(const MeshBox<3>& box, double rho, double min_dihedral, bool is
   worst_ = min_dihedral > 0 ? cosine * cosine : 1;
 }
 
-void Slivers::start(Kernel& kernel, const std::vector<VertexKind>& kinds) {
+void Slivers::start(const Kernel& kernel, const std::vector<VertexKind>& kinds) {
   started_ = true;
   floor2_.assign(kernel.places() + 1, std::numeric_limits<double>::infinity());
   const auto& simplices = kernel.simplices();
@@ -75,8 +75,9 @@ void Slivers::start(Kernel& kernel, const std::vector<VertexKind>& kinds) {
       }
     }
   }
-  kernel.for_each_shape(
-      [&](std::uint32_t s, const Shape& shape) { look_at(kernel, kinds, s, shape); });
+  for (std::uint32_t s = 0; s < simplices.places(); ++s) {
+    if (simplices.alive(s)) look_at(kernel, kinds, s);
+  }
 }
 
 auto Slivers::entry_of(const Kernel& kernel, std::uint32_t s) -> Entry {
@@ -98,8 +99,7 @@ void Slivers::add(const Kernel& kernel, std::uint32_t s) {
   queue_.push(entry_of(kernel, s));
 }
 
-void Slivers::look_at(const Kernel& kernel, const std::vector<VertexKind>& kinds, std::uint32_t s,
-                      const Shape& shape) {
+void Slivers::look_at(const Kernel& kernel, const std::vector<VertexKind>& kinds, std::uint32_t s) {
   wait_.resize(kernel.simplices().places(), Wait::none);
   if (kernel.is_ghost(s)) return;
   const auto& corners = kernel.simplices().corners(s);

@@ -44,10 +44,9 @@ class Slivers {
   [[nodiscard]] bool any() const noexcept { return worst_ < 1; }
   [[nodiscard]] bool started() const noexcept { return started_; }
   /// Finds all that there are. Cost: O(n) for n simplices.
-  void start(Kernel& kernel, const std::vector<VertexKind>& kinds);
+  void start(const Kernel& kernel, const std::vector<VertexKind>& kinds);
   /// Of a simplex that is new. Requires: started().
-  void look_at(const Kernel& kernel, const std::vector<VertexKind>& kinds, std::uint32_t s,
-               const Shape& shape);
+  void look_at(const Kernel& kernel, const std::vector<VertexKind>& kinds, std::uint32_t s);
   /// Of a vertex that is dug. Requires: started().
   void before_fill(const Kernel& kernel, std::uint32_t v);
 
