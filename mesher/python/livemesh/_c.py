@@ -247,17 +247,22 @@ def numbers(values: Any, what: str) -> NDArray[np.float64]:
     raise TypeError(f"{what} must be an array of real numbers, not of {a.dtype}")
 
 
-def floats(values: Any, columns: Optional[int], what: str) -> NDArray[np.float64]:
-    """C-contiguous float64, n or n x columns. Raises: TypeError, ValueError."""
-    a = numbers(values, what)
-    if columns is not None and a.size == 0:
-        a = a.reshape(0, columns)
+def _rows(a: NDArray[Any], columns: Optional[int], what: str) -> NDArray[Any]:
+    """n or n x columns; one row may come without its axis. Raises: ValueError."""
     if columns is not None and a.ndim == 1 and a.size == columns:
         a = a.reshape(1, columns)
     if a.ndim != (1 if columns is None else 2) or (columns is not None and a.shape[1] != columns):
         want = "n" if columns is None else f"n x {columns}"
         raise ValueError(f"{what} has the shape {a.shape}, not {want}")
     return a
+
+
+def floats(values: Any, columns: Optional[int], what: str) -> NDArray[np.float64]:
+    """C-contiguous float64, n or n x columns. Raises: TypeError, ValueError."""
+    a = numbers(values, what)
+    if columns is not None and a.size == 0:
+        a = a.reshape(0, columns)
+    return _rows(a, columns, what)
 
 
 def integers(values: Any, columns: Optional[int], what: str) -> NDArray[np.int64]:
@@ -270,12 +275,7 @@ def integers(values: Any, columns: Optional[int], what: str) -> NDArray[np.int64
     if a.dtype.kind not in "iu" or (a.dtype == np.uint64 and a.size and int(a.max()) > 2**63 - 1):
         raise TypeError(f"{what} must be an array of integers, not of {a.dtype}")
     a = np.ascontiguousarray(a, dtype=np.int64)
-    if columns is not None and a.ndim == 1 and a.size == columns:
-        a = a.reshape(1, columns)
-    if a.ndim != (1 if columns is None else 2) or (columns is not None and a.shape[1] != columns):
-        want = "n" if columns is None else f"n x {columns}"
-        raise ValueError(f"{what} has the shape {a.shape}, not {want}")
-    return a
+    return _rows(a, columns, what)
 
 
 def integer(value: Any, what: str, least: int = -2**63, most: int = 2**63 - 1) -> int:
